@@ -1,0 +1,96 @@
+//! The motion database as the runtime holds it: read once, shared by every agent.
+
+use glam::{Quat, Vec3};
+use serde::{Deserialize, Serialize};
+
+use crate::blend_space::BlendSpace;
+use crate::correspondence::Correspondence;
+use crate::parameters::Parameters;
+use crate::phase_map::PhaseMap;
+use crate::skeleton::{JOINT_COUNT, Skeleton};
+use crate::velocity_hull::VelocityHull;
+
+/// Uniform phases at which every cycle is stored.
+pub const PHASE_COUNT: usize = 64;
+
+/// Everything that the runtime knows of motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MotionDb {
+    /// The body that all examples are retargeted to.
+    pub skeleton: Skeleton,
+    /// Every clip that was read, sorted by file name and clip name.
+    pub sources: Vec<SourceRecord>,
+    /// Closed, phase-aligned cycles, sorted by name.
+    pub examples: Vec<MotionExample>,
+    /// Their poses.
+    pub rows: Rows,
+    /// The velocity sets of §4.1.
+    pub velocity_hull: VelocityHull,
+    /// Simplices in (v_f, ω_t, ω_s).
+    pub blend_space: BlendSpace,
+    /// Absent where there are fewer than two cycles with steps.
+    pub correspondence: Option<Correspondence>,
+}
+
+/// One closed cycle: one stride, right and left step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MotionExample {
+    /// Unique in the database: the clip's name, `_mirrored` appended to mirrors.
+    pub name: String,
+    /// Index into [`MotionDb::sources`].
+    pub source: u32,
+    /// Left and right were exchanged.
+    pub mirrored: bool,
+    /// The root's motion in one cycle, scaled to the database's skeleton.
+    pub parameters: Parameters,
+    /// Phase to time.
+    pub phase_map: PhaseMap,
+    /// Right toe-off, right heel strike, left toe-off, left heel strike, seconds from phase 0; none for a body that stands.
+    pub key_times_s: Option<[f32; 4]>,
+    /// Planted-foot slide of the cycle, cm/s, by the contacts of its rows.
+    pub planted_slide_cm_s: f32,
+    /// Share of the cycle that a foot is planted, mean of both.
+    pub planted_share: f32,
+}
+
+/// Poses of all examples at [`PHASE_COUNT`] uniform phases, flat: index (example · 64 + phase), then joint.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rows {
+    /// Local joint rotations, hemisphere-aligned over all rows of all examples, so that a blend is a weighted sum.
+    pub rotations: Vec<Quat>,
+    /// Pelvis joint in the root frame, metres.
+    pub pelvis_m: Vec<Vec3>,
+    /// Contact of each foot, `[left, right]`, 0 to 1.
+    pub contacts: Vec<[f32; 2]>,
+}
+
+impl Rows {
+    /// Rotations of one row.
+    pub fn rotations(&self, example: usize, phase: usize) -> &[Quat; JOINT_COUNT] {
+        let start = (example * PHASE_COUNT + phase) * JOINT_COUNT;
+        self.rotations[start..].first_chunk().expect("validated: every row is whole")
+    }
+}
+
+/// What was found in one source clip. Parameters are whole-clip means on the source's own skeleton (`definitions.md`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SourceRecord {
+    /// File name without folders.
+    pub file: String,
+    /// Clip within the file; empty where a file holds one unnamed clip.
+    pub clip: String,
+    /// v_f, m/s.
+    pub speed_mps: f32,
+    /// ω_t, rad/s.
+    pub turn_rate_rad_s: f32,
+    /// ω_s, m/s.
+    pub strafe_mps: f32,
+    /// `+X` … `-Z` in the source's axes.
+    pub up_axis: String,
+    /// Metres per unit of the source.
+    pub metres_per_unit: f32,
+    /// Frames a second.
+    pub frame_rate_hz: f32,
+    /// Whatever a user should know: lying headers, no steady cycle, snapped parameters.
+    pub warnings: Vec<String>,
+}

@@ -1,0 +1,81 @@
+//! A posed body and its forward kinematics.
+//!
+//! Two frames: the *root frame* sits on the ground under the ripple-free root trajectory, x along the facing; the *world* is where roots
+//! move. A pose is relative to its root; all that is left of the pelvis's path (sway, surge, bob, yaw) is in the pose.
+
+use glam::{Quat, Vec2, Vec3};
+use serde::{Deserialize, Serialize};
+
+use crate::skeleton::{JOINT_COUNT, Joint, Skeleton};
+
+/// Where a body stands: its disc's centre and its facing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Root {
+    /// On the ground, world, metres.
+    pub position_m: Vec2,
+    /// Counter-clockwise from world x, radians.
+    pub facing_rad: f32,
+}
+
+impl Root {
+    /// Unit vector along the facing.
+    pub fn forward(&self) -> Vec2 {
+        let (sin, cos) = libm::sincosf(self.facing_rad);
+        Vec2::new(cos, sin)
+    }
+
+    /// A point of the root frame in the world.
+    pub fn to_world(&self, point_m: Vec3) -> Vec3 {
+        let ground = self.position_m + self.forward().rotate(point_m.truncate());
+        ground.extend(point_m.z)
+    }
+}
+
+/// A pose in its root's frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pose {
+    /// The pelvis joint in the root frame: forward, left, height over the ground, metres.
+    pub pelvis_m: Vec3,
+    /// Rotation of each joint against its parent's; the pelvis's against the root frame, so it carries the pelvis's yaw.
+    pub rotations: [Quat; JOINT_COUNT],
+}
+
+/// Position and orientation of every joint in one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joints {
+    /// Metres.
+    pub positions_m: [Vec3; JOINT_COUNT],
+    /// Against the rest pose.
+    pub orientations: [Quat; JOINT_COUNT],
+}
+
+impl Pose {
+    /// Every joint in the root frame.
+    pub fn forward_kinematics(&self, skeleton: &Skeleton) -> Joints {
+        let mut joints = Joints { positions_m: [self.pelvis_m; JOINT_COUNT], orientations: self.rotations };
+        for joint in &Joint::ALL[1..] {
+            let index = joint.index();
+            let Some(parent) = joint.parent().map(Joint::index) else { continue };
+            joints.positions_m[index] = joints.positions_m[parent] + joints.orientations[parent] * skeleton.offsets_m[index];
+            joints.orientations[index] = joints.orientations[parent] * self.rotations[index];
+        }
+        joints
+    }
+}
+
+impl Joints {
+    /// A point given relative to a joint, in the frame of the joints.
+    pub fn point_m(&self, joint: Joint, offset_m: Vec3) -> Vec3 {
+        self.positions_m[joint.index()] + self.orientations[joint.index()] * offset_m
+    }
+
+    /// Heel, ball and toe tip on the sole of one foot.
+    pub fn sole_points_m(&self, skeleton: &Skeleton, side: usize) -> [Vec3; 3] {
+        let foot = &skeleton.feet[side];
+        [
+            self.point_m(Joint::FEET[side], foot.heel_m),
+            self.point_m(Joint::FEET[side], foot.ball_m),
+            self.point_m(Joint::TOES[side], foot.toe_tip_m),
+        ]
+    }
+}

@@ -1,0 +1,224 @@
+//! The canonical humanoid: 22 joints in one fixed order, so that a pose is an array and blending is arithmetic.
+//!
+//! Rest pose: standing at the origin, facing +x, left is +y, up is +z, arms straight out along ±y with palms down, feet flat on z = 0.
+//! Every joint's rest orientation is the identity, so a joint's offset is its parent's bone in body axes.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// Number of joints of the canonical humanoid.
+pub const JOINT_COUNT: usize = 22;
+
+/// A side of the body; indexes every `[left, right]` pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[repr(u8)]
+pub enum Side {
+    /// The body's left (+y in its own frame).
+    Left = 0,
+    /// The body's right (−y).
+    Right = 1,
+}
+
+impl Side {
+    /// Left, then right.
+    pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
+
+    /// 0 for left, 1 for right.
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// The other side.
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+
+    /// +1 for left, −1 for right: the sign of y, of turning, of strafing towards this side.
+    pub const fn sign(self) -> f32 {
+        match self {
+            Self::Left => 1.0,
+            Self::Right => -1.0,
+        }
+    }
+}
+
+/// A joint of the canonical humanoid. A parent always stands before its children.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[repr(u8)]
+#[expect(missing_docs, reason = "the names are the anatomy")]
+pub enum Joint {
+    Pelvis,
+    SpineLower,
+    SpineMiddle,
+    SpineUpper,
+    Neck,
+    Head,
+    LeftClavicle,
+    LeftUpperArm,
+    LeftForearm,
+    LeftHand,
+    RightClavicle,
+    RightUpperArm,
+    RightForearm,
+    RightHand,
+    LeftThigh,
+    LeftShank,
+    LeftFoot,
+    LeftToe,
+    RightThigh,
+    RightShank,
+    RightFoot,
+    RightToe,
+}
+
+impl Joint {
+    /// Every joint, in storage order.
+    pub const ALL: [Self; JOINT_COUNT] = [
+        Self::Pelvis,
+        Self::SpineLower,
+        Self::SpineMiddle,
+        Self::SpineUpper,
+        Self::Neck,
+        Self::Head,
+        Self::LeftClavicle,
+        Self::LeftUpperArm,
+        Self::LeftForearm,
+        Self::LeftHand,
+        Self::RightClavicle,
+        Self::RightUpperArm,
+        Self::RightForearm,
+        Self::RightHand,
+        Self::LeftThigh,
+        Self::LeftShank,
+        Self::LeftFoot,
+        Self::LeftToe,
+        Self::RightThigh,
+        Self::RightShank,
+        Self::RightFoot,
+        Self::RightToe,
+    ];
+    /// The hip joints, `[left, right]`.
+    pub const THIGHS: [Self; 2] = [Self::LeftThigh, Self::RightThigh];
+    /// The knees, `[left, right]`.
+    pub const SHANKS: [Self; 2] = [Self::LeftShank, Self::RightShank];
+    /// The ankles, `[left, right]`.
+    pub const FEET: [Self; 2] = [Self::LeftFoot, Self::RightFoot];
+    /// The balls of the feet, `[left, right]`.
+    pub const TOES: [Self; 2] = [Self::LeftToe, Self::RightToe];
+    /// The shoulders, `[left, right]`.
+    pub const UPPER_ARMS: [Self; 2] = [Self::LeftUpperArm, Self::RightUpperArm];
+
+    /// Position in storage order.
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// The joint this one hangs from; the pelvis has none.
+    pub const fn parent(self) -> Option<Self> {
+        match PARENTS[self as usize] {
+            NO_PARENT => None,
+            parent => Some(Self::ALL[parent as usize]),
+        }
+    }
+
+    /// The same joint of the other side; joints of the trunk and head are their own mirror.
+    pub const fn mirrored(self) -> Self {
+        let index = self as usize;
+        Self::ALL[match index {
+            0..=5 => index,
+            6..=9 | 14..=17 => index + 4,
+            _ => index - 4,
+        }]
+    }
+
+    /// The name in files, reports and pictures.
+    pub const fn name(self) -> &'static str {
+        NAMES[self as usize]
+    }
+}
+
+const NO_PARENT: u8 = u8::MAX;
+/// Parent of each joint by index; [`NO_PARENT`] for the pelvis.
+const PARENTS: [u8; JOINT_COUNT] = [NO_PARENT, 0, 1, 2, 3, 4, 3, 6, 7, 8, 3, 10, 11, 12, 0, 14, 15, 16, 0, 18, 19, 20];
+const NAMES: [&str; JOINT_COUNT] = [
+    "pelvis",
+    "spine_lower",
+    "spine_middle",
+    "spine_upper",
+    "neck",
+    "head",
+    "left_clavicle",
+    "left_upper_arm",
+    "left_forearm",
+    "left_hand",
+    "right_clavicle",
+    "right_upper_arm",
+    "right_forearm",
+    "right_hand",
+    "left_thigh",
+    "left_shank",
+    "left_foot",
+    "left_toe",
+    "right_thigh",
+    "right_shank",
+    "right_foot",
+    "right_toe",
+];
+
+/// Bones, girths, joint limits and soles of one body. Every vector is in the rest pose's body axes, metres.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Skeleton {
+    /// Joint position relative to its parent joint; the pelvis's is its height over the ground when standing, (0, 0, h).
+    pub offsets_m: [Vec3; JOINT_COUNT],
+    /// Far end of each joint's own segment, relative to the joint: the child's offset, or the fingertips, crown and toe tips.
+    pub segment_ends_m: [Vec3; JOINT_COUNT],
+    /// Radius of the capsule from each joint to its segment's end: the body that a picture draws and a collision test uses.
+    pub segment_radii_m: [f32; JOINT_COUNT],
+    /// Least and greatest rotation of each joint against its rest, as a rotation vector (axis × angle), radians, in body axes.
+    pub limits_rad: [[Vec3; 2]; JOINT_COUNT],
+    /// `[left, right]` soles.
+    pub feet: [Foot; 2],
+}
+
+/// The three points of a foot that touch the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Foot {
+    /// Relative to the foot joint (the ankle).
+    pub heel_m: Vec3,
+    /// Relative to the foot joint; under the toe joint.
+    pub ball_m: Vec3,
+    /// Relative to the toe joint.
+    pub toe_tip_m: Vec3,
+    /// The clips carried `…Sole` joints. Where they did not, the points above are estimated from the planted heights of the joints, and
+    /// slide is measured at the joints themselves (ankle, ball, end of toe).
+    pub measured_on_sole: bool,
+}
+
+impl Skeleton {
+    /// Thigh plus shank, mean of both sides.
+    pub fn leg_length_m(&self) -> f32 {
+        let leg = |side: usize| {
+            self.offsets_m[Joint::SHANKS[side].index()].length() + self.offsets_m[Joint::FEET[side].index()].length()
+        };
+        0.5 * (leg(0) + leg(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parents_stand_before_their_children_and_mirrors_come_in_pairs() {
+        for joint in Joint::ALL {
+            assert_eq!(joint.mirrored().mirrored(), joint);
+            if let Some(parent) = joint.parent() {
+                assert!(parent < joint);
+                assert_eq!(parent.mirrored(), joint.mirrored().parent().unwrap());
+            }
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! Pictures of recordings and databases: PNG and EXR sequences, plots.

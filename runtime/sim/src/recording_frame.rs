@@ -1,0 +1,61 @@
+//! What a recording keeps of each agent and frame (`definitions.md`, "Files": at most 200 bytes before compression).
+
+use glam::{Quat, Vec2, Vec3};
+use motiondb::pose::{Pose, Root};
+use motiondb::skeleton::JOINT_COUNT;
+
+use crate::plan::VelocitySet;
+
+/// One agent in one frame, decoded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AgentFrame {
+    /// The synthesised root.
+    pub root: Root,
+    /// v_pref, world, m/s.
+    pub preferred_mps: Vec2,
+    /// v, world, m/s: what was planned for the step that led here.
+    pub planned_mps: Vec2,
+    /// Phase of the body's cycle.
+    pub phase: f32,
+    /// Synthesis in force.
+    pub mode: Mode,
+    /// Blended contact Σ w·c of each foot, `[left, right]`; planted where ≥ ½.
+    pub contacts: [f32; 2],
+    /// Velocity set in force.
+    pub set: VelocitySet,
+    /// Contiguous time strafing, s.
+    pub strafing_s: f32,
+    /// Contiguous time stepping back, s.
+    pub stepping_back_s: f32,
+    /// Weight-averaged planted-foot slide of the source examples in use, cm/s.
+    pub examples_slide_cm_s: f32,
+    /// The final pose, after IK, in the root's frame.
+    pub pose: Pose,
+}
+
+/// Which synthesis made a pose (`FbCrowd` §3.4.1).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Mode {
+    /// Motion blending.
+    #[default]
+    Blending = 0,
+}
+
+impl Default for AgentFrame {
+    fn default() -> Self {
+        Self {
+            root: Root::default(),
+            preferred_mps: Vec2::ZERO,
+            planned_mps: Vec2::ZERO,
+            phase: 0.0,
+            mode: Mode::Blending,
+            contacts: [1.0; 2],
+            set: VelocitySet::Turning,
+            strafing_s: 0.0,
+            stepping_back_s: 0.0,
+            examples_slide_cm_s: 0.0,
+            pose: Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::IDENTITY; JOINT_COUNT] },
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! A clip on the canonical humanoid: metres, Z up, the performer's own proportions, still travelling through the world.
+
+use glam::{DQuat, DVec2, DVec3};
+use motiondb::motion_db::SourceRecord;
+use motiondb::skeleton::{JOINT_COUNT, Joint};
+
+/// A clip after import: canonical joints, metres, Z up, right-handed, f64.
+#[derive(Clone, Debug)]
+pub struct HumanClip {
+    /// The name an example made from it gets: the file's stem, with ` clip` appended where a file holds several.
+    pub name: String,
+    /// What was found in the source, whole-clip parameters included.
+    pub source: SourceRecord,
+    /// Frames a second, after any correction.
+    pub frame_rate_hz: f64,
+    /// The performer's bones.
+    pub body: HumanBody,
+    /// One pose a frame; a separate first frame (T-pose and jump) is already dropped.
+    pub frames: Vec<HumanPose>,
+    /// The clip treads on the spot: the ground speed (forward, left, in the body's frame, m/s) at which its stance feet stand still.
+    pub in_place_mps: Option<DVec2>,
+}
+
+/// Bones of one performer in the canonical rest pose (see [`motiondb::skeleton`]), metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HumanBody {
+    /// Joint relative to its parent; entry 0 is zero.
+    pub offsets_m: [DVec3; JOINT_COUNT],
+    /// Far ends of the leaf joints' segments (crown, fingertips, toe tips) and of the others (their child), relative to the joint.
+    pub segment_ends_m: [DVec3; JOINT_COUNT],
+    /// `[left, right]`: heel, ball (relative to the foot joint) and toe tip (relative to the toe joint) on the sole.
+    pub soles_m: [[DVec3; 3]; 2],
+    /// The clip carried `…Sole` joints; otherwise the soles are estimated from planted heights.
+    pub measured_on_sole: bool,
+}
+
+/// One frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HumanPose {
+    /// The pelvis joint (midpoint of the hips) in the world.
+    pub pelvis_m: DVec3,
+    /// Local rotations; the pelvis's against the world.
+    pub rotations: [DQuat; JOINT_COUNT],
+}
+
+/// Every joint in the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HumanJoints {
+    /// Metres.
+    pub positions_m: [DVec3; JOINT_COUNT],
+    /// Against the rest pose.
+    pub orientations: [DQuat; JOINT_COUNT],
+}
+
+impl HumanPose {
+    /// Every joint in the frame of the pelvis's position.
+    pub fn forward_kinematics(&self, body: &HumanBody) -> HumanJoints {
+        let mut joints = HumanJoints { positions_m: [self.pelvis_m; JOINT_COUNT], orientations: self.rotations };
+        for joint in &Joint::ALL[1..] {
+            let index = joint.index();
+            let Some(parent) = joint.parent().map(Joint::index) else { continue };
+            joints.positions_m[index] = joints.positions_m[parent] + joints.orientations[parent] * body.offsets_m[index];
+            joints.orientations[index] = joints.orientations[parent] * self.rotations[index];
+        }
+        joints
+    }
+}
+
+impl HumanJoints {
+    /// Heel, ball and toe tip on the sole of one foot.
+    pub fn sole_points_m(&self, body: &HumanBody, side: usize) -> [DVec3; 3] {
+        let (foot, toe) = (Joint::FEET[side].index(), Joint::TOES[side].index());
+        let [heel, ball, tip] = body.soles_m[side];
+        let on_foot = |offset: DVec3| self.positions_m[foot] + self.orientations[foot] * offset;
+        [on_foot(heel), on_foot(ball), self.positions_m[toe] + self.orientations[toe] * tip]
+    }
+
+    /// The facing of the definitions: mean of the left→right unit vectors of hip pair and shoulder pair, turned 90°, on the ground; radians.
+    pub fn facing_rad(&self) -> f64 {
+        let across = |pair: [Joint; 2]| {
+            (self.positions_m[pair[1].index()] - self.positions_m[pair[0].index()]).normalize_or_zero()
+        };
+        let right = across(Joint::THIGHS) + across(Joint::UPPER_ARMS);
+        libm::atan2(right.x, -right.y)
+    }
+
+    /// Midpoint of the hips.
+    pub fn hips_m(&self) -> DVec3 {
+        0.5 * (self.positions_m[Joint::THIGHS[0].index()] + self.positions_m[Joint::THIGHS[1].index()])
+    }
+}

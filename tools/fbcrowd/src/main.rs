@@ -1,0 +1,2 @@
+//! The command line over clips, databases, simulations and pictures.
+fn main() {}
