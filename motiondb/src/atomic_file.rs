@@ -18,7 +18,8 @@ impl AtomicFile {
     /// # Errors
     /// Where the folder cannot be written.
     pub fn create(target: &Path) -> io::Result<Self> {
-        let name = target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
+        let name =
+            target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
         let temporary = target.with_file_name(format!(".{}.{}.tmp", name.to_string_lossy(), std::process::id()));
         let writer = Some(BufWriter::new(File::create(&temporary)?));
         Ok(Self { writer, temporary, target: target.to_owned() })

@@ -7,15 +7,15 @@
 //! Conventions: metres, seconds, radians; x and y on the ground, z up, right-handed. A body's frame: x forward, y left. Angles are
 //! counter-clockwise seen from above. Pairs of sides are `[left, right]`.
 
-pub mod skeleton;
-pub mod pose;
+pub mod atomic_file;
+pub mod blend_space;
+pub mod container;
+pub mod correspondence;
+pub mod file;
+pub mod motion_db;
 pub mod parameters;
 pub mod phase_map;
-pub mod velocity_hull;
-pub mod blend_space;
-pub mod correspondence;
-pub mod motion_db;
+pub mod pose;
+pub mod skeleton;
 pub mod validate;
-pub mod atomic_file;
-pub mod container;
-pub mod file;
+pub mod velocity_hull;

@@ -59,7 +59,8 @@ impl HumanPose {
         for joint in &Joint::ALL[1..] {
             let index = joint.index();
             let Some(parent) = joint.parent().map(Joint::index) else { continue };
-            joints.positions_m[index] = joints.positions_m[parent] + joints.orientations[parent] * body.offsets_m[index];
+            joints.positions_m[index] =
+                joints.positions_m[parent] + joints.orientations[parent] * body.offsets_m[index];
             joints.orientations[index] = joints.orientations[parent] * self.rotations[index];
         }
         joints

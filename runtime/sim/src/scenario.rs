@@ -1,0 +1,76 @@
+//! A scenario, resolved: every agent explicit, nothing that names a path.
+
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+use crate::params::Params;
+
+/// What is simulated. A recording carries it whole.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scenario {
+    /// File stem of the scenario file, unless it sets `name`.
+    pub name: String,
+    /// Simulated time, s.
+    pub duration_s: f32,
+    /// Step, s.
+    pub dt_s: f32,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// In index order.
+    pub agents: Vec<AgentSpec>,
+    /// Simple polygons, corners counter-clockwise, world, metres; agents stay outside.
+    pub obstacles_m: Vec<Vec<Vec2>>,
+    /// Tunables.
+    pub params: Params,
+    /// The picture.
+    pub view: View,
+}
+
+/// One agent at its start.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AgentSpec {
+    /// World, metres.
+    pub position_m: Vec2,
+    /// World, radians; towards the first goal unless given.
+    pub facing_rad: f32,
+    /// Waypoints in order; the last one is the goal.
+    pub goals_m: Vec<Vec2>,
+    /// Radius of the bounding disc, m.
+    pub radius_m: f32,
+    /// Speed of v_pref, m/s.
+    pub preferred_speed_mps: f32,
+}
+
+/// How the top view frames the scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct View {
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// Frames a second of the sequence; the recording is sampled at it.
+    pub frame_rate_hz: f32,
+    /// Centre of the picture, world, metres; framed automatically where absent.
+    pub centre_m: Option<Vec2>,
+    /// Metres across the picture's width; framed automatically where absent.
+    pub width_m: Option<f32>,
+    /// Length of the trails, s; 0 draws none.
+    pub trail_s: f32,
+    /// Writes each agent's index beside it.
+    pub labels: bool,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            width: 1280,
+            height: 720,
+            frame_rate_hz: 30.0,
+            centre_m: None,
+            width_m: None,
+            trail_s: 2.0,
+            labels: false,
+        }
+    }
+}
