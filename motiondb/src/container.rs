@@ -1,1 +1,115 @@
-//! In progress.
+//! The envelope of a database file: magic, format version, payload length, checksum over header and payload.
+//!
+//! Layout, little-endian: magic (8 bytes), version (u32), payload length (u64), CRC-32 of the 20 bytes before it and the payload (u32),
+//! payload. Nothing is allocated or decoded before all four agree with the bytes that are there.
+
+/// Bytes before the payload.
+const HEADER_LENGTH: usize = 24;
+/// Bytes of the header that the checksum covers.
+const CHECKED_LENGTH: usize = 20;
+
+/// Why bytes are not a container of the wanted kind.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ContainerError {
+    /// Foreign content.
+    #[error("it does not begin with the mark of such a file")]
+    Magic,
+    /// Written by another version.
+    #[error("it has format version {found}; this program reads version {wanted}")]
+    Version {
+        /// In the file.
+        found: u32,
+        /// Ours.
+        wanted: u32,
+    },
+    /// Fewer or more bytes than the header promises.
+    #[error("it should hold {promised} bytes after its header, but holds {present}")]
+    Length {
+        /// By the header.
+        promised: u64,
+        /// In the file.
+        present: u64,
+    },
+    /// Altered bytes.
+    #[error("its checksum is {found:08x}, but its bytes give {computed:08x}")]
+    Checksum {
+        /// In the file.
+        found: u32,
+        /// Of the bytes.
+        computed: u32,
+    },
+}
+
+/// Wraps a payload.
+pub fn seal(magic: [u8; 8], version: u32, payload: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(HEADER_LENGTH + payload.len());
+    bytes.extend_from_slice(&magic);
+    bytes.extend_from_slice(&version.to_le_bytes());
+    bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
+    let checksum = checksum(&bytes, payload);
+    bytes.extend_from_slice(&checksum.to_le_bytes());
+    bytes.extend_from_slice(payload);
+    bytes
+}
+
+/// The payload of a container, and its checksum.
+///
+/// # Errors
+/// Whichever of magic, version, length and checksum disagrees first.
+pub fn open(magic: [u8; 8], version: u32, bytes: &[u8]) -> Result<(&[u8], u32), ContainerError> {
+    let Some((header, payload)) = bytes.split_first_chunk::<HEADER_LENGTH>() else {
+        return Err(if bytes.starts_with(&magic) {
+            ContainerError::Length { promised: HEADER_LENGTH as u64, present: bytes.len() as u64 }
+        } else {
+            ContainerError::Magic
+        });
+    };
+    if header[..8] != magic {
+        return Err(ContainerError::Magic);
+    }
+    let found = u32_at(header, 8);
+    if found != version {
+        return Err(ContainerError::Version { found, wanted: version });
+    }
+    let promised = u64::from(u32_at(header, 12)) | u64::from(u32_at(header, 16)) << 32;
+    let present = payload.len() as u64;
+    if promised != present {
+        return Err(ContainerError::Length { promised, present });
+    }
+    let (found, computed) = (u32_at(header, CHECKED_LENGTH), checksum(&header[..CHECKED_LENGTH], payload));
+    if found != computed {
+        return Err(ContainerError::Checksum { found, computed });
+    }
+    Ok((payload, computed))
+}
+
+fn u32_at(header: &[u8; HEADER_LENGTH], start: usize) -> u32 {
+    u32::from_le_bytes([header[start], header[start + 1], header[start + 2], header[start + 3]])
+}
+
+fn checksum(header: &[u8], payload: &[u8]) -> u32 {
+    let mut hasher = crc32fast::Hasher::new();
+    hasher.update(header);
+    hasher.update(payload);
+    hasher.finalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MAGIC: [u8; 8] = *b"FBTESTED";
+
+    #[test]
+    fn a_sealed_payload_opens_and_no_single_altered_byte_does() {
+        let payload = b"the quick brown fox";
+        let sealed = seal(MAGIC, 1, payload);
+        assert_eq!(open(MAGIC, 1, &sealed).unwrap().0, payload);
+        for position in 0..sealed.len() {
+            let mut altered = sealed.clone();
+            altered[position] ^= 0x40;
+            assert!(open(MAGIC, 1, &altered).is_err(), "byte {position}");
+            assert!(open(MAGIC, 1, &sealed[..position]).is_err(), "cut at {position}");
+        }
+    }
+}
