@@ -5,5 +5,8 @@ pub mod mcn;
 pub mod params;
 pub mod plan;
 pub mod recording;
+pub mod recording_chunk;
+pub mod recording_error;
 pub mod recording_frame;
+pub mod recording_packing;
 pub mod scenario;
