@@ -12,6 +12,9 @@ use crate::parameters::Parameters;
 pub const MAX_CORNERS: usize = 4;
 /// A share this far below zero is rounding, not outside.
 const INSIDE_TOLERANCE: f32 = 1e-5;
+/// A simplex with an edge this many times longer than its height is a sliver that rounding left of nothing. It is no place to blend in;
+/// the gap that it leaves is thinner than what the compiler's quantisation moves a point.
+const SLIVER: f32 = 1e4;
 
 /// A triangulation of the examples' parameters in as many dimensions as they span.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -70,7 +73,8 @@ impl Locator {
     /// `parameters` are those of the database's examples, by index.
     pub fn new(space: &BlendSpace, parameters: &[Parameters]) -> Self {
         let points: Vec<Vec3> = parameters.iter().map(|&example| space.scaled(example)).collect();
-        let simplices = space.simplices().map(|corners| Simplex::new(corners, &points)).collect();
+        let simplices = space.simplices().map(|corners| Simplex::new(corners, &points));
+        let simplices = simplices.filter(|simplex| !simplex.is_sliver(&points)).collect();
         let boundary = boundary_facets(space).iter().map(|facet| Simplex::new(facet, &points)).collect();
         Self { space: space.clone(), points, simplices, boundary }
     }
@@ -88,17 +92,17 @@ impl Locator {
         }
         match best {
             (least, shares, Some(simplex)) if least >= -INSIDE_TOLERANCE => simplex.normalised(shares),
-            _ => self.nearest_on_boundary(point),
+            (_, _, nearly) => self.nearest(point, nearly),
         }
     }
 
-    fn nearest_on_boundary(&self, point: Vec3) -> Shares {
+    /// Shares at the nearest point of the hull's boundary, or of the simplex that nearly holds the point where a sliver's gap does.
+    fn nearest(&self, point: Vec3, nearly: Option<&Simplex>) -> Shares {
         let mut nearest = (f32::INFINITY, Shares { shares: [1.0, 0.0, 0.0, 0.0], ..Shares::default() });
-        for facet in &self.boundary {
-            let corners = &facet.corners[..facet.count];
-            let (distance, shares) = nearest_on_facet(point, corners, &self.points);
-            if distance < nearest.0 {
-                nearest = (distance, shares);
+        for facet in self.boundary.iter().chain(nearly) {
+            let candidate = nearest_on_facet(point, &facet.corners[..facet.count], &self.points);
+            if candidate.0 < nearest.0 {
+                nearest = candidate;
             }
         }
         nearest.1
@@ -113,6 +117,11 @@ impl Simplex {
         let mut padded = [0; MAX_CORNERS];
         padded[..corners.len()].copy_from_slice(corners);
         Self { corners: padded, count: corners.len(), origin, rows: dual_edges(&edges) }
+    }
+
+    fn is_sliver(&self, points: &[Vec3]) -> bool {
+        let edge = |k: usize| points[self.corners[k] as usize] - self.origin;
+        !(1..self.count).all(|k| self.rows[k - 1].length() * edge(k).length() < SLIVER)
     }
 
     /// Barycentric coordinates of the point's projection onto the simplex's own plane, line or space.

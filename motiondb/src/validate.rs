@@ -35,8 +35,10 @@ pub struct Check {
 
 type Outcome = Result<(), String>;
 
+type Invariant = (&'static str, fn(&MotionDb) -> Outcome);
+
 /// In order of dependence; the doc of each function is the invariant.
-const INVARIANTS: [(&str, fn(&MotionDb) -> Outcome); 16] = [
+const INVARIANTS: [Invariant; 16] = [
     ("has_examples", has_examples),
     ("skeleton_is_a_body", skeleton_is_a_body),
     ("rows_are_complete", rows_are_complete),
@@ -267,7 +269,10 @@ fn hulls_hold_their_examples(db: &MotionDb) -> Outcome {
 /// Every sharp-turn edge has the origin on its right, so that standing is always allowed.
 fn sharp_turn_edges_hold_the_origin(db: &MotionDb) -> Outcome {
     let mut edges = db.velocity_hull.sharp_turn_edges_mps.iter();
-    match edges.find(|[from, to]| !(turn(*from, *to, Vec2::ZERO) <= HULL_TOLERANCE_MPS)) {
+    let holds = |[from, to]: &[Vec2; 2]| {
+        from.is_finite() && to.is_finite() && turn(*from, *to, Vec2::ZERO) <= HULL_TOLERANCE_MPS
+    };
+    match edges.find(|edge| !holds(edge)) {
         Some(edge) => Err(format!("{edge:?}")),
         None => Ok(()),
     }
