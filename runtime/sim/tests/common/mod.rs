@@ -1,0 +1,90 @@
+//! A body, a scenario and frames for the tests of recording and metrics.
+#![allow(dead_code, unreachable_pub, reason = "each test target uses its own part")]
+
+use std::path::{Path, PathBuf};
+
+use fbcrowd_sim::params::Params;
+use fbcrowd_sim::recording::{Header, Recorder, Recording};
+use fbcrowd_sim::recording_frame::AgentFrame;
+use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
+use glam::{Vec2, Vec3};
+use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
+
+/// A man of 1.75 m in plain numbers.
+pub fn skeleton() -> Skeleton {
+    let mut offsets_m = [Vec3::new(0.0, 0.0, 0.15); JOINT_COUNT];
+    offsets_m[Joint::Pelvis.index()] = Vec3::new(0.0, 0.0, 0.93);
+    for side in 0..2 {
+        let sign = 1.0 - 2.0 * side as f32;
+        offsets_m[Joint::THIGHS[side].index()] = Vec3::new(0.0, 0.09 * sign, 0.0);
+        offsets_m[Joint::SHANKS[side].index()] = Vec3::new(0.0, 0.0, -0.43);
+        offsets_m[Joint::FEET[side].index()] = Vec3::new(0.0, 0.0, -0.42);
+        offsets_m[Joint::TOES[side].index()] = Vec3::new(0.14, 0.0, -0.06);
+        offsets_m[Joint::UPPER_ARMS[side].index()] = Vec3::new(0.0, 0.12 * sign, 0.0);
+    }
+    let foot = Foot {
+        heel_m: Vec3::new(-0.05, 0.0, -0.08),
+        ball_m: Vec3::new(0.14, 0.0, -0.08),
+        toe_tip_m: Vec3::new(0.07, 0.0, -0.02),
+        measured_on_sole: true,
+    };
+    Skeleton {
+        offsets_m,
+        segment_ends_m: [Vec3::new(0.07, 0.0, 0.0); JOINT_COUNT],
+        segment_radii_m: [0.06; JOINT_COUNT],
+        limits_rad: [[Vec3::splat(-2.0), Vec3::splat(2.0)]; JOINT_COUNT],
+        feet: [foot; 2],
+    }
+}
+
+/// An agent that walks from here to there.
+pub fn agent(from: [f32; 2], to: [f32; 2]) -> AgentSpec {
+    AgentSpec {
+        position_m: Vec2::from(from),
+        facing_rad: 0.0,
+        goals_m: vec![Vec2::from(to)],
+        radius_m: 0.25,
+        preferred_speed_mps: 1.33,
+    }
+}
+
+/// A scenario of these agents.
+pub fn header(agents: Vec<AgentSpec>, dt_s: f32) -> Header {
+    let scenario = Scenario {
+        name: "test".to_owned(),
+        duration_s: 1.0,
+        dt_s,
+        seed: 1,
+        agents,
+        obstacles_m: vec![vec![Vec2::new(9.0, 9.0), Vec2::new(10.0, 9.0), Vec2::new(9.0, 10.0)]],
+        params: Params::default(),
+        view: View::default(),
+    };
+    Header { database_checksum: 7, skeleton: skeleton(), scenario }
+}
+
+/// A body standing upright at a place.
+pub fn standing_at(position_m: Vec2) -> AgentFrame {
+    let mut frame = AgentFrame::default();
+    frame.root.position_m = position_m;
+    frame.pose.pelvis_m = skeleton().offsets_m[0];
+    frame
+}
+
+/// An empty folder of this test's own.
+pub fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Writes frames and opens what was written.
+pub fn record(path: &Path, header: &Header, frames: &[Vec<AgentFrame>]) -> Recording {
+    let mut recorder = Recorder::create(path, header).unwrap();
+    for frame in frames {
+        recorder.push(frame).unwrap();
+    }
+    recorder.finish().unwrap();
+    Recording::open(path).unwrap()
+}

@@ -1,0 +1,222 @@
+//! Recordings keep what they were given, and refuse whatever is no recording.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{agent, folder, header, record, standing_at};
+use fbcrowd_sim::recording::{Recorder, Recording};
+use fbcrowd_sim::recording_error::RecordingError;
+use fbcrowd_sim::recording_frame::AgentFrame;
+use glam::{Quat, Vec2};
+use motiondb::pose::Joints;
+use proptest::prelude::*;
+
+/// Frames of two agents whose joints all turn.
+fn frames(count: usize) -> Vec<Vec<AgentFrame>> {
+    let body = |index: usize, agent: usize| {
+        let mut frame = standing_at(Vec2::new(index as f32 * 0.04, agent as f32 * 2.0));
+        for (joint, rotation) in frame.pose.rotations.iter_mut().enumerate() {
+            *rotation =
+                Quat::from_rotation_y(0.01 * (index + joint) as f32) * Quat::from_rotation_x(0.2 * agent as f32);
+        }
+        frame
+    };
+    (0..count).map(|index| vec![body(index, 0), body(index, 1)]).collect()
+}
+
+fn two_agents() -> fbcrowd_sim::recording::Header {
+    header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([0.0, 2.0], [5.0, 2.0])], 1.0 / 30.0)
+}
+
+/// Reads everything, so that every byte that matters is looked at.
+fn read_all(path: &Path) -> Result<Vec<Vec<AgentFrame>>, RecordingError> {
+    let recording = Recording::open(path)?;
+    let mut agents = Vec::new();
+    (0..recording.frame_count())
+        .map(|index| recording.read_frame(index, &mut agents).map(|()| agents.clone()))
+        .collect()
+}
+
+#[test]
+fn header_and_frames_come_back_in_any_order() {
+    let written = frames(9);
+    let recording = record(&folder("round_trip").join("a.fbrec"), &two_agents(), &written);
+    assert_eq!(recording.header(), &two_agents());
+    assert_eq!(recording.frame_count(), 9);
+    let mut agents = Vec::new();
+    for index in [8, 0, 5, 5, 1] {
+        recording.read_frame(index, &mut agents).unwrap();
+        for (read, written) in agents.iter().zip(&written[index]) {
+            assert_eq!(read.root, written.root);
+            assert!((read.pose.pelvis_m - written.pose.pelvis_m).length() < 1e-6);
+            for (read, written) in read.pose.rotations.iter().zip(&written.pose.rotations) {
+                assert!(read.angle_between(*written) < 1e-3);
+            }
+        }
+    }
+}
+
+#[test]
+fn two_runs_write_the_same_bytes_and_leave_no_other_file() {
+    let folder = folder("twice");
+    for name in ["a.fbrec", "b.fbrec"] {
+        record(&folder.join(name), &two_agents(), &frames(20));
+    }
+    assert_eq!(fs::read(folder.join("a.fbrec")).unwrap(), fs::read(folder.join("b.fbrec")).unwrap());
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
+}
+
+#[test]
+fn an_unfinished_recording_leaves_nothing() {
+    let folder = folder("unfinished");
+    let mut recorder = Recorder::create(&folder.join("a.fbrec"), &two_agents()).unwrap();
+    recorder.push(&frames(1)[0]).unwrap();
+    drop(recorder);
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+#[test]
+fn a_frame_with_nan_or_too_few_agents_is_refused() {
+    let mut recorder = Recorder::create(&folder("nan").join("a.fbrec"), &two_agents()).unwrap();
+    let mut frame = frames(1).remove(0);
+    assert!(matches!(recorder.push(&frame[..1]), Err(RecordingError::AgentCount { found: 1, expected: 2, .. })));
+    frame[1].pose.rotations[3].x = f32::NAN;
+    assert!(matches!(recorder.push(&frame), Err(RecordingError::NotFinite { agent: 1, frame: 0, .. })));
+}
+
+#[test]
+fn frames_are_read_from_several_threads() {
+    let recording = record(&folder("threads").join("a.fbrec"), &two_agents(), &frames(40));
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                let mut agents = Vec::new();
+                for index in 0..40 {
+                    recording.read_frame(index, &mut agents).unwrap();
+                    assert_eq!(agents[0].root.position_m.x, index as f32 * 0.04);
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn chunks_of_unknown_kind_are_skipped() {
+    let path = folder("unknown").join("a.fbrec");
+    record(&path, &two_agents(), &frames(3));
+    let bytes = fs::read(&path).unwrap();
+    // Between the index and the tail, where no offset needs to move.
+    let (front, tail) = bytes.split_at(bytes.len() - 20);
+    let mut other = b"NOTE\x02\0\0\0\0\0\0\0hi".to_vec();
+    other.splice(0..0, front.iter().copied());
+    fs::write(&path, [other, tail.to_vec()].concat()).unwrap();
+    assert_eq!(read_all(&path).unwrap().len(), 3);
+}
+
+#[test]
+fn every_truncation_is_refused() {
+    let path = folder("truncated").join("a.fbrec");
+    record(&path, &two_agents(), &frames(2));
+    let bytes = fs::read(&path).unwrap();
+    for length in 0..bytes.len() {
+        fs::write(&path, &bytes[..length]).unwrap();
+        assert!(read_all(&path).is_err(), "{length} of {} bytes were accepted", bytes.len());
+    }
+}
+
+#[test]
+fn errors_name_file_byte_and_remedy() {
+    let path = folder("messages").join("a.fbrec");
+    let check = |bytes: &[u8], expected: &str| {
+        fs::write(&path, bytes).unwrap();
+        let message = read_all(&path).unwrap_err().to_string();
+        assert!(message.starts_with(path.to_str().unwrap()) && message.contains(expected), "{message}");
+    };
+    record(&path, &two_agents(), &frames(2));
+    let bytes = fs::read(&path).unwrap();
+    check(b"HIERARCHY\nROOT Hips", "byte 0: not an FbCrowd recording; name a .fbrec file");
+    check(b"", "byte 0: not an FbCrowd recording");
+    check(&[&bytes[..8], &9_u32.to_le_bytes(), &bytes[12..]].concat(), "byte 8: format version 9");
+    check(&bytes[..bytes.len() - 1], "simulate the scenario again");
+    let mut altered = bytes.clone();
+    altered[40] ^= 1;
+    check(&altered, "byte 12: the HEAD chunk's checksum does not fit");
+    // A chunk that claims 4 GiB.
+    altered.clone_from(&bytes);
+    altered[16..20].fill(0xff);
+    check(&altered, "byte 24: 4294967295 bytes are missing");
+}
+
+fn bytes_of_a_recording(test: &str) -> Vec<u8> {
+    let path = folder(test).join("a.fbrec");
+    record(&path, &two_agents(), &frames(3));
+    fs::read(&path).unwrap()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn altered_bytes_are_refused(place in any::<prop::sample::Index>(), change in 1_u8..) {
+        let mut bytes = bytes_of_a_recording("altered");
+        let place = place.index(bytes.len());
+        bytes[place] ^= change;
+        let path = folder("altered").join("b.fbrec");
+        fs::write(&path, &bytes).unwrap();
+        prop_assert!(read_all(&path).is_err(), "byte {} was altered unnoticed", place);
+    }
+
+    /// With a checksum made to fit, as only an attacker would.
+    #[test]
+    fn forged_headers_neither_panic_nor_exhaust_memory(
+        changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8),
+    ) {
+        let mut bytes = bytes_of_a_recording("forged");
+        let length = u32::from_le_bytes(bytes[16..20].try_into().unwrap()) as usize;
+        for (place, value) in changes {
+            bytes[24 + place.index(length)] = value;
+        }
+        let checksum = crc32fast::hash(&[&bytes[12..20], &bytes[24..24 + length]].concat());
+        bytes[20..24].copy_from_slice(&checksum.to_le_bytes());
+        let path = folder("forged").join("b.fbrec");
+        fs::write(&path, &bytes).unwrap();
+        let _ = read_all(&path);
+    }
+}
+
+/// Root mean square of what packing adds to the speed of a sole, cm/s, at 120 frames a second: two independent errors a difference.
+fn packing_noise_cm_s(soles: impl Fn(&AgentFrame) -> [glam::Vec3; 3]) -> f64 {
+    let mut frames = Vec::new();
+    for index in 0..2000 {
+        let mut frame = standing_at(Vec2::ZERO);
+        for (joint, rotation) in frame.pose.rotations.iter_mut().enumerate() {
+            let angle = |seed: f32| 0.8 * (seed * (index * 22 + joint) as f32).sin();
+            *rotation = Quat::from_euler(glam::EulerRot::XYZ, angle(1.3), angle(2.7), angle(3.1));
+        }
+        frames.push(vec![frame]);
+    }
+    let header = header(vec![agent([0.0, 0.0], [5.0, 0.0])], 1.0 / 120.0);
+    let recording = record(&folder("noise").join("a.fbrec"), &header, &frames);
+    let (mut agents, mut squares) = (Vec::new(), 0.0_f64);
+    for (index, written) in frames.iter().enumerate() {
+        recording.read_frame(index, &mut agents).unwrap();
+        for (read, written) in soles(&agents[0]).iter().zip(soles(&written[0])) {
+            squares += f64::from((*read - written).truncate().length_squared());
+        }
+    }
+    (2.0 * squares / (3 * frames.len()) as f64).sqrt() * 120.0 * 100.0
+}
+
+#[test]
+fn packing_adds_less_than_a_fifth_of_a_centimetre_a_second_to_foot_slide_at_120_frames_a_second() {
+    let skeleton = common::skeleton();
+    let soles = |frame: &AgentFrame| -> [glam::Vec3; 3] {
+        let joints: Joints = frame.pose.forward_kinematics(&skeleton);
+        joints.sole_points_m(&skeleton, 0)
+    };
+    let noise_cm_s = packing_noise_cm_s(soles);
+    println!("packing noise at 120 Hz: {noise_cm_s:.3} cm/s");
+    assert!(noise_cm_s < 0.2, "{noise_cm_s} cm/s");
+}
