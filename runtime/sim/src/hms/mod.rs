@@ -1,3 +1,217 @@
-//! In progress.
+//! Human motion synthesis (`FbCrowd` §5): a plan becomes the next pose, and the next root, of a body.
+//!
+//! One step of a body, in this order:
+//!
+//! 1. [`asked`]: the plan as (v_f, ω_t, ω_s), what of it the database can do, and how far the body gets there in one step;
+//! 2. [`blending`]: the shares of the examples follow; phase and root move, the root exactly along its arc;
+//! 3. the pose is sampled at the new phase;
+//! 4. [`feet`]: planted feet are held;
+//! 5. [`ik`]: the legs reach their feet, the pelvis comes down where they would not.
+//!
+//! There is one mode, motion blending; the hybrid switch (§3.4.1) will choose between it and semi-procedural locomotion.
+//! The root frame has x forward, y left, z up, its origin on the ground under the ripple-free root; metres, seconds, radians.
 
+pub mod asked;
+pub mod blending;
+pub mod feet;
+pub mod ik;
 pub mod params;
+
+use glam::{Vec2, Vec3};
+use motiondb::motion_db::MotionDb;
+use motiondb::parameters::Parameters;
+use motiondb::pose::{Joints, Pose, Root};
+use motiondb::skeleton::{Joint, Skeleton};
+
+use self::asked::Space;
+use self::blending::{Mix, Weights};
+use self::feet::{FootHold, PLANTED_CONTACT, PosedFoot};
+use self::ik::FootTarget;
+use self::params::HmsParams;
+use crate::angle::wrap_rad;
+use crate::plan::{Plan, Stance, StanceFoot};
+
+/// Straightest a leg may be before the pelvis comes down for it, as a share of its length; straighter only where the pose is.
+const PELVIS_EXTENSION: f32 = 0.99;
+/// Furthest that the pelvis comes down, metres.
+const PELVIS_DROP_MAX_M: f32 = 0.12;
+/// Rate at which the pelvis follows, 1/s.
+const PELVIS_RATE_HZ: f32 = 15.0;
+
+/// A first pose is given this long to settle on its feet, s.
+const SETTLING_S: f32 = 1.0;
+
+/// A database, ready for synthesis.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'a> {
+    /// Poses, parameters and phase maps.
+    pub db: &'a MotionDb,
+    /// Its blend space.
+    pub space: &'a Space,
+    /// Tunables.
+    pub params: &'a HmsParams,
+}
+
+/// The synthesis of one body, from step to step.
+#[derive(Clone, Copy, Debug)]
+pub struct Body {
+    /// Where it is.
+    pub root: Root,
+    /// φ.
+    pub phase: f32,
+    /// Examples in play.
+    pub mix: Mix,
+    /// It stands, and will not take a step that is too small (see [`asked`]).
+    stands: bool,
+    feet: [FootHold; 2],
+    pelvis_drop_m: f32,
+}
+
+/// A synthesised body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Synthesis {
+    /// After IK, in the root frame.
+    pub pose: Pose,
+    /// Blended contact of each foot.
+    pub contacts: [f32; 2],
+    /// For the planner's next step (§4.2).
+    pub stance: Stance,
+    /// Weight-averaged planted-foot slide of the examples in use, cm/s.
+    pub examples_slide_cm_s: f32,
+}
+
+impl Body {
+    /// A body that stands at `root`, its cycle at `phase`.
+    pub fn standing(motion: &Motion, root: Root, phase: f32) -> (Self, Synthesis) {
+        let mix = Mix::new(&motion.space.standing());
+        let mut body = Self { root, phase, mix, stands: true, feet: Default::default(), pelvis_drop_m: 0.0 };
+        let weights = mix.weights(motion.db, phase);
+        let joints = weights.pose(motion.db, phase).forward_kinematics(&motion.db.skeleton);
+        body.feet = [0, 1].map(|side| FootHold::new(&body.posed_foot(&joints, &motion.db.skeleton, side)));
+        let synthesis = body.pose(motion, &weights, SETTLING_S);
+        (body, synthesis)
+    }
+
+    /// Steps 1 and 2: shares, phase and root follow the plan. The root may then be kept out of walls, before [`Self::synthesize`].
+    pub fn advance(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
+        let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
+        let goal = asked::realisable(asked, motion.space, motion.db, &mut self.stands);
+        let now = self.mix.parameters(motion.db);
+        let shares = asked::step_towards(now, goal, motion.space, motion.params, dt_s);
+        self.mix.approach(&shares, dt_s / motion.params.share_change_s);
+        self.phase = self.mix.advance_phase(motion.db, self.phase, dt_s);
+        self.root = moved(&self.root, &self.mix.parameters(motion.db), dt_s);
+    }
+
+    /// Steps 3 to 5: the pose at the present phase and root.
+    pub fn synthesize(&mut self, motion: &Motion, dt_s: f32) -> Synthesis {
+        let weights = self.mix.weights(motion.db, self.phase);
+        self.pose(motion, &weights, dt_s)
+    }
+
+    fn pose(&mut self, motion: &Motion, weights: &Weights, dt_s: f32) -> Synthesis {
+        let skeleton = &motion.db.skeleton;
+        let mut pose = weights.pose(motion.db, self.phase);
+        let contacts = weights.contacts(motion.db, self.phase);
+        let mut joints = pose.forward_kinematics(skeleton);
+
+        let targets = [0, 1].map(|side| self.hold_foot(&joints, skeleton, side, contacts[side], dt_s));
+        self.lower_pelvis(&mut pose, &mut joints, skeleton, &targets, dt_s);
+        for (side, target) in targets.iter().enumerate() {
+            ik::reach(&mut pose, &mut joints, skeleton, side, target);
+        }
+
+        let soles_m = [0, 1].map(|side| joints.sole_points_m(skeleton, side));
+        for (hold, sole_m) in self.feet.iter_mut().zip(soles_m) {
+            hold.placed(sole_m.map(|point| self.root.to_world(point)));
+        }
+        Synthesis {
+            pose,
+            contacts,
+            stance: self.stance(motion.db, weights, contacts, &soles_m),
+            examples_slide_cm_s: weights.examples_slide_cm_s(motion.db),
+        }
+    }
+
+    /// The target of one foot in the root frame.
+    fn hold_foot(&mut self, joints: &Joints, skeleton: &Skeleton, side: usize, contact: f32, dt_s: f32) -> FootTarget {
+        let posed = self.posed_foot(joints, skeleton, side);
+        let held = self.feet[side].step(&posed, contact >= PLANTED_CONTACT, dt_s);
+        FootTarget {
+            ankle_m: to_root(&self.root, held.ankle_m),
+            orientation: held.twist * joints.orientations[Joint::FEET[side].index()],
+        }
+    }
+
+    fn posed_foot(&self, joints: &Joints, skeleton: &Skeleton, side: usize) -> PosedFoot {
+        PosedFoot {
+            ankle_m: self.root.to_world(joints.positions_m[Joint::FEET[side].index()]),
+            sole_m: joints.sole_points_m(skeleton, side).map(|point| self.root.to_world(point)),
+        }
+    }
+
+    /// Brings the whole body down, softly, by what the more stretched leg needs to reach its foot.
+    fn lower_pelvis(
+        &mut self,
+        pose: &mut Pose,
+        joints: &mut Joints,
+        skeleton: &Skeleton,
+        targets: &[FootTarget; 2],
+        dt_s: f32,
+    ) {
+        let needed_m = [0, 1].map(|side| drop_needed_m(joints, skeleton, side, &targets[side]));
+        let wanted_m = needed_m[0].max(needed_m[1]).clamp(0.0, PELVIS_DROP_MAX_M);
+        self.pelvis_drop_m += (wanted_m - self.pelvis_drop_m) * (1.0 - libm::expf(-PELVIS_RATE_HZ * dt_s));
+        pose.pelvis_m.z -= self.pelvis_drop_m;
+        joints.positions_m.iter_mut().for_each(|position_m| position_m.z -= self.pelvis_drop_m);
+    }
+
+    /// The single stance foot, if there is one.
+    fn stance(&self, db: &MotionDb, weights: &Weights, contacts: [f32; 2], soles_m: &[[Vec3; 3]; 2]) -> Stance {
+        let planted = contacts.map(|contact| contact >= PLANTED_CONTACT);
+        if planted[0] == planted[1] {
+            return Stance { foot: None };
+        }
+        let side = usize::from(planted[1]);
+        let [heel_m, ball_m, toe_m] = soles_m[side].map(|point| self.root.forward().rotate(point.truncate()));
+        let foot = StanceFoot {
+            side,
+            heel_m,
+            ball_m,
+            toe_m,
+            swing_m: self.root.forward().rotate(soles_m[1 - side][1].truncate()),
+            time_to_landing_s: weights.time_to_landing_s(db, self.phase, 1 - side, PLANTED_CONTACT),
+        };
+        Stance { foot: Some(foot) }
+    }
+}
+
+/// The root after a step at constant parameters: exactly along its arc, whose chord lies at half the turn.
+fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
+    let half_turn_rad = 0.5 * dt_s * parameters.turn_rate_rad_s;
+    let chord = if half_turn_rad.abs() > 1e-3 { libm::sinf(half_turn_rad) / half_turn_rad } else { 1.0 };
+    let local_m = Vec2::new(parameters.speed_mps, parameters.strafe_mps) * dt_s * chord;
+    Root {
+        position_m: root.position_m + Vec2::from_angle(root.facing_rad + half_turn_rad).rotate(local_m),
+        facing_rad: wrap_rad(root.facing_rad + 2.0 * half_turn_rad),
+    }
+}
+
+/// A point of the world in the root frame.
+fn to_root(root: &Root, point_m: Vec3) -> Vec3 {
+    let forward = root.forward();
+    Vec2::new(forward.x, -forward.y).rotate(point_m.truncate() - root.position_m).extend(point_m.z)
+}
+
+/// How far the hip must come down for its leg to reach the target without stretching more than the pose does; negative if it reaches.
+fn drop_needed_m(joints: &Joints, skeleton: &Skeleton, side: usize, target: &FootTarget) -> f32 {
+    let [thigh, shank, foot] = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]].map(Joint::index);
+    let hip_m = joints.positions_m[thigh];
+    let leg_m = skeleton.offsets_m[shank].length() + skeleton.offsets_m[foot].length();
+    let reach_m = (PELVIS_EXTENSION * leg_m).max(joints.positions_m[foot].distance(hip_m));
+    let to_foot_m = target.ankle_m - hip_m;
+    -to_foot_m.z - libm::sqrtf((reach_m * reach_m - to_foot_m.truncate().length_squared()).max(0.0))
+}
+
+#[cfg(test)]
+mod tests;

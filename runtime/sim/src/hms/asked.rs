@@ -1,0 +1,104 @@
+//! From a plan to the parameters asked of the blend space: (v, o_d) → (v_f, ω_t, ω_s) → shares (`FbCrowd` §5, "query point").
+//!
+//! With α the angle from the facing to the wanted one,
+//!
+//!     ω_t = α / T_turn,   (v_f, ω_s) = v in a frame turned from the facing by lead·α,
+//!
+//! so that a plan whose facing follows its velocity becomes a turning clip (Eq. 3 reads ω_t as the heading reached after a second), and
+//! one that holds the facing a side-step or a step back. The root then moves from what it does towards what is asked at limited
+//! accelerations, straight through the space of parameters: the body passes the examples between.
+//!
+//! A body that stands does not creep: mixing a little step into idle lifts no foot. It stands, or it takes at least the steps that a
+//! mix with [`IDLE_SHARE_MAX`] of standing has.
+
+use glam::Vec2;
+use motiondb::blend_space::{Locator, Shares};
+use motiondb::motion_db::MotionDb;
+use motiondb::parameters::Parameters;
+
+use super::params::HmsParams;
+use crate::angle::wrap_rad;
+use crate::plan::Plan;
+
+/// Greatest share of standing examples in a body that steps: with more, the blended contact of a swinging foot would not fall below ½.
+const IDLE_SHARE_MAX: f32 = 0.35;
+/// A standing body starts where the asked parameters hold less standing than this …
+const START_IDLE_SHARE: f32 = 0.75;
+/// … and a stepping one stops where they hold more than this: 15 % of the slowest step.
+const STOP_IDLE_SHARE: f32 = 0.85;
+
+/// The blend space of a database, ready for queries.
+#[derive(Clone, Debug)]
+pub struct Space {
+    locator: Locator,
+    stands: Vec<bool>,
+    turn_rate_max_rad_s: f32,
+    speed_max_mps: f32,
+}
+
+impl Space {
+    /// Of one database.
+    pub fn new(db: &MotionDb) -> Self {
+        let points: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
+        let greatest = |of: fn(&Parameters) -> f32| points.iter().map(of).fold(0.0, f32::max);
+        Self {
+            locator: Locator::new(&db.blend_space, &points),
+            stands: db.examples.iter().map(|example| example.key_times_s.is_none()).collect(),
+            turn_rate_max_rad_s: greatest(|point| point.turn_rate_rad_s.abs()),
+            speed_max_mps: greatest(|point| Vec2::new(point.speed_mps, point.strafe_mps).length()),
+        }
+    }
+
+    /// Shares of standing still, or of whatever the database has that is slowest.
+    pub fn standing(&self) -> Shares {
+        self.locator.locate(Parameters::default())
+    }
+
+    /// Share of examples that stand.
+    fn idle_share(&self, shares: &Shares) -> f32 {
+        let entries = shares.examples.into_iter().zip(shares.shares);
+        entries.filter(|entry| self.stands[entry.0 as usize]).map(|entry| entry.1).sum()
+    }
+}
+
+/// What a plan asks of a body that faces `facing_rad`; anything not finite asks to stand.
+pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) -> Parameters {
+    if !(plan.velocity_mps.is_finite() && plan.facing_rad.is_finite()) {
+        return Parameters::default();
+    }
+    let velocity_mps = plan.velocity_mps.clamp_length_max(space.speed_max_mps);
+    let turn_rad = wrap_rad(plan.facing_rad - facing_rad);
+    let local_mps = Vec2::from_angle(-(facing_rad + params.facing_lead * turn_rad)).rotate(velocity_mps);
+    let turn_rate_rad_s = (turn_rad / params.turn_time_s).clamp(-space.turn_rate_max_rad_s, space.turn_rate_max_rad_s);
+    Parameters { speed_mps: local_mps.x, turn_rate_rad_s, strafe_mps: local_mps.y }
+}
+
+/// What the database can do of what is asked, as parameters inside its hull; switches `stands` with hysteresis.
+pub fn realisable(asked: Parameters, space: &Space, db: &MotionDb, stands: &mut bool) -> Parameters {
+    let shares = space.locator.locate(asked);
+    let idle = space.idle_share(&shares);
+    *stands = idle > if *stands { START_IDLE_SHARE } else { STOP_IDLE_SHARE };
+    if *stands {
+        return parameters_of(&space.standing(), db);
+    }
+    // Standing lies at the origin: scaling by this leaves that share of it.
+    let scale = if idle > IDLE_SHARE_MAX { (1.0 - IDLE_SHARE_MAX) / (1.0 - idle) } else { 1.0 };
+    Parameters::from_vec3(scale * parameters_of(&shares, db).to_vec3())
+}
+
+/// Shares of the point on the straight way from `now` to `goal` that a body may reach in one step.
+pub fn step_towards(now: Parameters, goal: Parameters, space: &Space, params: &HmsParams, dt_s: f32) -> Shares {
+    let change = goal.to_vec3() - now.to_vec3();
+    let speed_change_mps = Vec2::new(change.x, change.z).length();
+    let within = |change: f32, change_max: f32| if change <= change_max { 1.0 } else { change_max / change };
+    let fraction = within(speed_change_mps, params.acceleration_max_mps2 * dt_s)
+        .min(within(change.y.abs(), params.turn_acceleration_max_rad_s2 * dt_s));
+    space.locator.locate(Parameters::from_vec3(now.to_vec3() + fraction * change))
+}
+
+fn parameters_of(shares: &Shares, db: &MotionDb) -> Parameters {
+    let terms = shares.examples.into_iter().zip(shares.shares);
+    Parameters::from_vec3(
+        terms.map(|(example, share)| share * db.examples[example as usize].parameters.to_vec3()).sum(),
+    )
+}

@@ -1,0 +1,208 @@
+//! Motion blending (`FbCrowd` §5; `definitions.md`, "Blend"): shares of time, pose weights, phase, pose.
+//!
+//! The asked (v_f, ω_t, ω_s) has barycentric coordinates u among the examples, and u are shares of *time*: over a stretch of it, example
+//! i plays for u_i. So
+//!
+//!     root velocity    Σ u_i·(v_f, ω_t, ω_s)_i
+//!     phase rate φ'    Σ u_i·r_i(φ)
+//!     pose weights w_i u_i·r_i(φ) / φ'
+//!
+//! and a planted foot, which moves back through the root frame by v_i/r_i a phase in example i, moves by Σ w_i·v_i/r_i·φ' = Σ u_i·v_i
+//! a second in the blend: with the ground. Poses are weighted sums of rows (frames: [`motiondb::pose`]), between two rows linear.
+
+use glam::{Quat, Vec3};
+use motiondb::blend_space::Shares;
+use motiondb::motion_db::{MotionDb, PHASE_COUNT};
+use motiondb::parameters::Parameters;
+use motiondb::pose::Pose;
+use motiondb::skeleton::JOINT_COUNT;
+
+/// Examples that one body may mix: a simplex of four, and another that fades out.
+pub const MIX_MAX: usize = 8;
+/// Shares under this are let go, so that an example that has faded out is no longer sampled.
+const SHARE_MIN: f32 = 1e-3;
+
+/// The examples that a body plays, with their shares of time; sparse, without heap.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mix {
+    entries: [(u32, f32); MIX_MAX],
+    count: usize,
+}
+
+impl Mix {
+    /// Exactly these shares.
+    pub fn new(shares: &Shares) -> Self {
+        let mut mix = Self::default();
+        mix.add(shares, 1.0);
+        mix
+    }
+
+    /// (example, share), shares summing to 1.
+    pub fn entries(&self) -> &[(u32, f32)] {
+        &self.entries[..self.count]
+    }
+
+    /// Share of one example.
+    pub fn share(&self, example: u32) -> f32 {
+        self.entries().iter().find(|entry| entry.0 == example).map_or(0.0, |entry| entry.1)
+    }
+
+    /// Moves towards the target by at most `change_max`, counted as the sum of shares that change hands; a full change is 1.
+    pub fn approach(&mut self, target: &Shares, change_max: f32) {
+        let change = self.change_to(target);
+        let fraction = if change <= change_max { 1.0 } else { change_max / change };
+        self.entries[..self.count].iter_mut().for_each(|entry| entry.1 *= 1.0 - fraction);
+        self.add(target, fraction);
+        self.prune();
+    }
+
+    /// Sum of shares that must change hands to reach the target.
+    fn change_to(&self, target: &Shares) -> f32 {
+        let of_target = |example| entries_of(target).find(|entry| entry.0 == example).map_or(0.0, |entry| entry.1);
+        self.entries().iter().map(|&(example, share)| (share - of_target(example)).max(0.0)).sum()
+    }
+
+    /// Adds shares times a factor; where there is no room, the least share gives way.
+    fn add(&mut self, shares: &Shares, factor: f32) {
+        for (example, share) in entries_of(shares) {
+            let share = share * factor;
+            if let Some(entry) = self.entries[..self.count].iter_mut().find(|entry| entry.0 == example) {
+                entry.1 += share;
+            } else if self.count < MIX_MAX {
+                self.entries[self.count] = (example, share);
+                self.count += 1;
+            } else if let Some(least) = self.entries.iter_mut().min_by(|a, b| a.1.total_cmp(&b.1)) {
+                *least = (example, share);
+            }
+        }
+    }
+
+    /// Lets go what has faded out and makes the shares sum to 1 again.
+    fn prune(&mut self) {
+        let mut kept = 0;
+        for index in 0..self.count {
+            if self.entries[index].1 >= SHARE_MIN {
+                self.entries[kept] = self.entries[index];
+                kept += 1;
+            }
+        }
+        self.count = kept;
+        let sum: f32 = self.entries().iter().map(|entry| entry.1).sum();
+        self.entries[..kept].iter_mut().for_each(|entry| entry.1 /= sum);
+    }
+
+    /// Root velocity: Σ u_i·(v_f, ω_t, ω_s)_i.
+    pub fn parameters(&self, db: &MotionDb) -> Parameters {
+        let sum =
+            self.entries().iter().map(|&(example, share)| share * db.examples[example as usize].parameters.to_vec3());
+        Parameters::from_vec3(sum.fold(Vec3::ZERO, |sum, term| sum + term))
+    }
+
+    /// φ' = Σ u_i·r_i(φ), 1/s.
+    pub fn phase_rate_hz(&self, db: &MotionDb, phase: f32) -> f32 {
+        self.entries()
+            .iter()
+            .map(|&(example, share)| share * db.examples[example as usize].phase_map.rate_hz(phase))
+            .sum()
+    }
+
+    /// The phase in [0, 1) after a step, by the midpoint rule.
+    pub fn advance_phase(&self, db: &MotionDb, phase: f32, dt_s: f32) -> f32 {
+        let middle = phase + 0.5 * dt_s * self.phase_rate_hz(db, phase);
+        let next = phase + dt_s * self.phase_rate_hz(db, middle);
+        next - libm::floorf(next)
+    }
+
+    /// Pose weights: w_i = u_i·r_i(φ) / φ'.
+    pub fn weights(&self, db: &MotionDb, phase: f32) -> Weights {
+        let mut weights = Weights { entries: self.entries, count: self.count, phase_rate_hz: 0.0 };
+        for entry in &mut weights.entries[..self.count] {
+            entry.1 *= db.examples[entry.0 as usize].phase_map.rate_hz(phase);
+            weights.phase_rate_hz += entry.1;
+        }
+        weights.entries[..self.count].iter_mut().for_each(|entry| entry.1 /= weights.phase_rate_hz);
+        weights
+    }
+}
+
+/// The entries of located shares that count.
+fn entries_of(shares: &Shares) -> impl Iterator<Item = (u32, f32)> {
+    shares.examples.into_iter().zip(shares.shares).filter(|entry| entry.1 > 0.0)
+}
+
+/// Pose weights at one phase.
+#[derive(Clone, Copy, Debug)]
+pub struct Weights {
+    entries: [(u32, f32); MIX_MAX],
+    count: usize,
+    /// φ', 1/s.
+    pub phase_rate_hz: f32,
+}
+
+impl Weights {
+    /// (example, weight), weights summing to 1.
+    pub fn entries(&self) -> &[(u32, f32)] {
+        &self.entries[..self.count]
+    }
+
+    /// The blended pose.
+    pub fn pose(&self, db: &MotionDb, phase: f32) -> Pose {
+        let mut pose = Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
+        let (rows, shares) = two_rows(phase);
+        for &(example, weight) in self.entries() {
+            for (row, share) in rows.into_iter().zip(shares) {
+                let weight = weight * share;
+                pose.pelvis_m += weight * db.rows.pelvis_m[example as usize * PHASE_COUNT + row];
+                let rotations = db.rows.rotations(example as usize, row);
+                for (sum, rotation) in pose.rotations.iter_mut().zip(rotations) {
+                    *sum = *sum + *rotation * weight;
+                }
+            }
+        }
+        // Rows share a hemisphere, so a sum is never near zero.
+        pose.rotations.iter_mut().for_each(|rotation| *rotation = rotation.normalize());
+        pose
+    }
+
+    /// The blended contact Σ w_i·c_i of each foot.
+    pub fn contacts(&self, db: &MotionDb, phase: f32) -> [f32; 2] {
+        let (rows, shares) = two_rows(phase);
+        let mut contacts = [0.0; 2];
+        for &(example, weight) in self.entries() {
+            for (row, share) in rows.into_iter().zip(shares) {
+                let row = db.rows.contacts[example as usize * PHASE_COUNT + row];
+                contacts[0] += weight * share * row[0];
+                contacts[1] += weight * share * row[1];
+            }
+        }
+        contacts
+    }
+
+    /// Seconds until the blended contact of a foot that swings rises to `threshold`, at the present weights and phase rate; a whole
+    /// cycle where it never does.
+    pub fn time_to_landing_s(&self, db: &MotionDb, phase: f32, side: usize, threshold: f32) -> f32 {
+        let first_row = libm::ceilf(phase * PHASE_COUNT as f32) as usize;
+        let contact = |row: usize| -> f32 {
+            let row = row % PHASE_COUNT;
+            let terms = self.entries().iter();
+            terms.map(|&(example, weight)| weight * db.rows.contacts[example as usize * PHASE_COUNT + row][side]).sum()
+        };
+        let landing = (first_row..first_row + PHASE_COUNT).find(|&row| contact(row) >= threshold);
+        let phases = landing.unwrap_or(first_row + PHASE_COUNT) as f32 / PHASE_COUNT as f32 - phase;
+        phases.max(0.0) / self.phase_rate_hz
+    }
+
+    /// Weight-averaged planted-foot slide of the examples in use, cm/s.
+    pub fn examples_slide_cm_s(&self, db: &MotionDb) -> f32 {
+        self.entries().iter().map(|&(example, weight)| weight * db.examples[example as usize].planted_slide_cm_s).sum()
+    }
+}
+
+/// The stored rows beside a phase, and their shares.
+fn two_rows(phase: f32) -> ([usize; 2], [f32; 2]) {
+    let position = phase * PHASE_COUNT as f32;
+    let row = libm::floorf(position);
+    let share = position - row;
+    let row = row as usize % PHASE_COUNT;
+    ([row, (row + 1) % PHASE_COUNT], [1.0 - share, share])
+}
