@@ -1,2 +1,72 @@
-//! The command line over clips, databases, simulations and pictures.
-fn main() {}
+//! `fbcrowd`: clips to a motion database, a database to a crowd, a crowd to pictures.
+//!
+//! One file a subcommand under [`cmd`]. Results go to standard output, everything else to standard error. Exit codes: 0 yes; 1 the answer
+//! is no, or an output was written though some input was refused; 2 bad usage or input, nothing written.
+
+mod cmd;
+mod failure;
+mod output;
+mod progress;
+mod report;
+mod simulation;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::failure::{Answer, Failure};
+
+/// Clips to a motion database, a database to a crowd, a crowd to pictures.
+#[derive(Parser)]
+#[command(name = "fbcrowd", version, max_term_width = 110, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    /// Threads to use; all cores by default. Every output is the same for any number.
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Run(cmd::run::Args),
+    Compile(cmd::compile::Args),
+    Validate(cmd::validate::Args),
+    Inspect(cmd::inspect::Args),
+    Clips(cmd::clips::Args),
+    Simulate(cmd::simulate::Args),
+    Measure(cmd::measure::Args),
+    Render(cmd::render::Args),
+    Completions(cmd::completions::Args),
+}
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match use_threads(cli.threads).and_then(|()| dispatch(cli.command)) {
+        Ok(Answer::Yes) => ExitCode::SUCCESS,
+        Ok(Answer::No) => ExitCode::from(1),
+        Err(failure) => failure.report(),
+    }
+}
+
+fn dispatch(command: Command) -> Result<Answer, Failure> {
+    match command {
+        Command::Run(args) => cmd::run::run(&args),
+        Command::Compile(args) => cmd::compile::run(&args),
+        Command::Validate(args) => cmd::validate::run(&args),
+        Command::Inspect(args) => cmd::inspect::run(&args),
+        Command::Clips(args) => cmd::clips::run(&args),
+        Command::Simulate(args) => cmd::simulate::run(&args),
+        Command::Measure(args) => cmd::measure::run(&args),
+        Command::Render(args) => cmd::render::run(&args),
+        Command::Completions(args) => cmd::completions::run(&args),
+    }
+}
+
+fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(usize::from(threads))
+        .build_global()
+        .map_err(|error| Failure::bad(format!("cannot start {threads} threads: {error}; ask for fewer")))
+}

@@ -1,0 +1,121 @@
+//! The command line through the built binary: what bad input does, and that help and completions are there.
+
+mod support;
+
+use std::fs;
+use std::path::Path;
+
+use support::{compile, fbcrowd, files, folder, shared, text};
+
+const WALK: &str = "assets/clips/walk_1.1.bvh";
+
+fn scenario(folder: &Path, content: &str) -> String {
+    let path = folder.join("scene.toml");
+    fs::write(&path, content).unwrap();
+    text(&path).to_owned()
+}
+
+#[test]
+fn every_command_explains_itself_with_an_example() {
+    for command in ["run", "compile", "validate", "inspect", "clips", "simulate", "measure", "render", "completions"] {
+        let help = fbcrowd(&[command, "--help"]).expect_code(0);
+        assert!(help.stdout.contains("Example"), "{command}:\n{}", help.stdout);
+    }
+    assert!(fbcrowd(&["completions", "bash"]).expect_code(0).stdout.contains("fbcrowd"));
+}
+
+#[test]
+fn bad_usage_ends_with_code_2() {
+    fbcrowd(&["dance"]).expect_code(2);
+    fbcrowd(&["compile"]).expect_code(2);
+    fbcrowd(&["render", "missing.fbrec", "-o", "out/x", "--format", "bmp"]).expect_code(2);
+    fbcrowd(&["validate", "missing.fbdb", "--threads", "0"]).expect_code(2);
+}
+
+#[test]
+fn a_missing_clip_is_named_and_nothing_is_written() {
+    let folder = folder("missing_clip");
+    let database = folder.join("motion.fbdb");
+    fbcrowd(&["compile", "nowhere/walk.bvh", "-o", text(&database)]).expect_code(2).says(&["nowhere/walk.bvh"]);
+    fbcrowd(&["compile", text(&folder), "-o", text(&database)]).expect_code(2).says(&[text(&folder)]);
+    assert!(files(&folder).is_empty(), "{:?}", files(&folder));
+}
+
+#[test]
+fn a_malformed_clip_is_refused_by_line_and_the_rest_still_compiles() {
+    let folder = folder("malformed_clip");
+    let walk = fs::read_to_string(support::repository().join(WALK)).unwrap();
+    let broken = folder.join("broken.bvh");
+    fs::write(&broken, walk.replacen("OFFSET", "OFFSET over there", 1)).unwrap();
+    let database = folder.join("motion.fbdb");
+    let arguments = ["compile", text(&broken), WALK, "-o", text(&database)];
+    fbcrowd(&arguments).expect_code(1).says(&["broken.bvh", "line"]);
+    assert_eq!(files(&folder), ["broken.bvh", "motion.fbdb"]);
+    fbcrowd(&["validate", text(&database)]).expect_code(0);
+}
+
+#[test]
+fn a_clip_without_human_legs_is_refused_with_the_reason() {
+    let Some(fox) = shared("a_clip_without_human_legs_is_refused_with_the_reason", "mocap/gltf/Fox.glb") else { return };
+    let folder = folder("fox");
+    let database = folder.join("motion.fbdb");
+    fbcrowd(&["compile", text(&fox), "-o", text(&database)]).expect_code(2).says(&["Fox.glb", "leg"]);
+    assert!(files(&folder).is_empty());
+}
+
+#[test]
+fn altered_and_truncated_databases_and_recordings_are_refused() {
+    let folder = folder("altered");
+    let database = compile(&[WALK.to_owned()], &folder);
+    let scene = scenario(&folder, "duration_s = 0.5\ndatabase = \"motion.fbdb\"\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n");
+    let recording = folder.join("scene.fbrec");
+    fbcrowd(&["simulate", &scene, "--db", text(&database), "-o", text(&recording)]).expect_code(0);
+    for (whole, command) in [(&database, "validate"), (&recording, "measure")] {
+        fbcrowd(&[command, text(whole)]).expect_code(0);
+        let bytes = fs::read(whole).unwrap();
+        let damaged = folder.join("damaged");
+        for cut in [0, 7, 30, bytes.len() / 2, bytes.len() - 1] {
+            fs::write(&damaged, &bytes[..cut]).unwrap();
+            fbcrowd(&[command, text(&damaged)]).expect_code(2).says(&["damaged"]);
+        }
+        for place in [0, 9, 15, bytes.len() / 3, bytes.len() - 30] {
+            let mut altered = bytes.clone();
+            altered[place] ^= 0x20;
+            fs::write(&damaged, &altered).unwrap();
+            fbcrowd(&[command, text(&damaged)]).expect_code(2).says(&["damaged"]);
+        }
+    }
+}
+
+#[test]
+fn mistakes_in_a_scenario_are_shown_where_they_stand() {
+    let folder = folder("scenario_mistakes");
+    let agent = "agents = { at_m = [0, 0], goals_m = [[2, 0]] }\n";
+    let cases: [(&str, &[&str]); 5] = [
+        ("clips = \"x\"\nduration = 3\nAGENT", &["scene.toml:2", "duration"]),
+        ("clips = \"x\"\nduration_s = -3\nAGENT", &["scene.toml:2", "duration_s"]),
+        ("clips = \"x\"\nduration_s = 3\nagents = { at_m = [0, 0] ", &["scene.toml:3"]),
+        (
+            "clips = \"x\"\nduration_s = 3\nAGENT[[obstacles]]\npolygon_m = [[-1, -1], [1, -1], [1, 1], [-1, 1]]\n",
+            &["scene.toml:3", "obstacle"],
+        ),
+        ("clips = \"x\"\nduration_s = 3\nagents = { file = \"nobody.txt\" }\n", &["nobody.txt"]),
+    ];
+    for (content, words) in cases {
+        let scene = scenario(&folder, &content.replace("AGENT", agent));
+        let output = folder.join("output");
+        fbcrowd(&["run", &scene, "-o", text(&output)]).expect_code(2).says(words);
+        assert!(!output.exists());
+    }
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_named() {
+    let folder = folder("unwritable");
+    let file = folder.join("a_file");
+    fs::write(&file, "not a folder").unwrap();
+    let inside = file.join("motion.fbdb");
+    fbcrowd(&["compile", WALK, "-o", text(&inside)]).expect_code(2).says(&["a_file"]);
+    fbcrowd(&["clips", "--out", text(&file.join("clips"))]).expect_code(2).says(&["a_file"]);
+    assert_eq!(files(&folder), ["a_file"]);
+}

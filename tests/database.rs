@@ -1,0 +1,141 @@
+//! Databases through the built binary: the bundled clips, the paper's own set, glTF beside BVH.
+
+mod support;
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+use support::{compile, fbcrowd, folder, marine_clips, shared, text};
+
+fn inspect(database: &std::path::Path) -> Value {
+    fbcrowd(&["inspect", text(database), "--json"]).expect_code(0).json()
+}
+
+fn number(value: &Value, key: &str) -> f64 {
+    value[key].as_f64().unwrap_or_else(|| panic!("{key} is missing from {value}"))
+}
+
+fn within(found: f64, wanted: f64, share: f64, absolute: f64) -> bool {
+    (found - wanted).abs() <= f64::max(share * wanted.abs(), absolute)
+}
+
+#[test]
+fn the_bundled_clips_are_what_the_generator_makes() {
+    let folder = folder("clips");
+    let made = folder.join("clips");
+    fbcrowd(&["clips", "--out", text(&made)]).expect_code(0);
+    let bundled = support::repository().join("assets/clips");
+    for name in support::files(&made) {
+        let read = |folder: &std::path::Path| std::fs::read(folder.join(&name)).unwrap_or_default();
+        assert!(read(&made) == read(&bundled), "{name} differs: run `fbcrowd clips --out assets/clips`");
+    }
+}
+
+#[test]
+fn the_bundled_clips_make_a_valid_database_whose_planted_feet_hold() {
+    let database = compile(&["assets/clips".to_owned()], &folder("bundled"));
+    fbcrowd(&["validate", text(&database)]).expect_code(0);
+    let report = inspect(&database);
+    let examples = report["examples"].as_array().unwrap();
+    assert!(examples.len() >= 20, "{}", examples.len());
+    for example in examples {
+        assert!(number(example, "planted_slide_cm_s") <= 3.0, "{example}");
+    }
+    assert!((number(&report["blend_space"], "covered_share") - 1.0).abs() < 1e-3);
+    assert!(!report["correspondence"]["pairs_s"].as_array().unwrap().is_empty());
+}
+
+/// `facts/motion.md` §1: speed (m/s), turn rate (°/s), side speed (m/s) of the twelve recordings, by our definitions.
+const MARINE_TRUTH: [(&str, [f64; 3]); 12] = [
+    ("Idle01", [0.0, 0.0, 0.0]),
+    ("Meander01", [0.844, -1.1, 0.005]),
+    ("Walk01", [1.104, -0.9, -0.002]),
+    ("Jog01", [2.098, -5.3, -0.085]),
+    ("Run01", [3.889, -6.5, 0.001]),
+    ("WalkCircleRt01", [0.787, -46.5, -0.048]),
+    ("WalkTightCircleRt01", [0.518, -97.2, 0.036]),
+    ("RunCircleRt01", [2.282, -79.3, 0.029]),
+    ("RunTightCircleRt01", [1.661, -149.8, 0.027]),
+    ("Turn360Rt01", [0.185, -167.7, 0.091]),
+    ("StrafeSlowRt01", [0.016, 0.4, -0.345]),
+    ("StrafeFastRt01", [0.941, 0.1, -1.808]),
+];
+
+#[test]
+fn the_marine_recordings_make_the_papers_19_examples() {
+    let test = "the_marine_recordings_make_the_papers_19_examples";
+    let Some(clips) = marine_clips(test) else { return };
+    let database = compile(&clips, &folder("marine"));
+    fbcrowd(&["validate", text(&database)]).expect_code(0);
+    let report = inspect(&database);
+    let examples = report["examples"].as_array().unwrap();
+    let mirrors = examples.iter().filter(|example| example["mirrored"] == true).count();
+    assert_eq!((examples.len(), mirrors), (19, 7));
+
+    let truth: BTreeMap<String, [f64; 3]> =
+        MARINE_TRUTH.iter().map(|(name, truth)| (format!("ChrMarine_{name}.bvh"), *truth)).collect();
+    for source in report["sources"].as_array().unwrap() {
+        let [speed, turn, strafe] = truth[source["file"].as_str().unwrap()];
+        assert!(within(number(source, "speed_mps"), speed, 0.03, 0.03), "{source}");
+        assert!(within(number(source, "turn_rate_rad_s").to_degrees(), turn, 0.0, 3.0), "{source}");
+        assert!(within(number(source, "strafe_mps"), strafe, 0.03, 0.04), "{source}");
+    }
+    for example in examples {
+        let [speed, turn, strafe] = truth[example["source"].as_str().unwrap()];
+        let side = if example["mirrored"] == true { -1.0 } else { 1.0 };
+        assert!(within(number(example, "speed_mps"), speed, 0.08, 0.08), "{example}");
+        assert!(within(number(example, "turn_rate_rad_s").to_degrees(), side * turn, 0.0, 8.0), "{example}");
+        assert!(within(number(example, "strafe_mps"), side * strafe, 0.08, 0.1), "{example}");
+    }
+}
+
+#[test]
+fn a_mirror_negates_turning_and_strafing_and_nothing_else() {
+    let Some(clips) = marine_clips("a_mirror_negates_turning_and_strafing_and_nothing_else") else { return };
+    let report = inspect(&compile(&clips, &folder("mirrors")));
+    let examples = report["examples"].as_array().unwrap();
+    for mirror in examples.iter().filter(|example| example["mirrored"] == true) {
+        let same_source = |example: &&Value| example["source"] == mirror["source"] && example["mirrored"] == false;
+        let original = examples.iter().find(same_source).expect("every mirror has its original");
+        assert_eq!(number(mirror, "speed_mps"), number(original, "speed_mps"));
+        assert_eq!(number(mirror, "turn_rate_rad_s"), -number(original, "turn_rate_rad_s"));
+        assert_eq!(number(mirror, "strafe_mps"), -number(original, "strafe_mps"));
+        assert_eq!(number(mirror, "duration_s"), number(original, "duration_s"));
+    }
+}
+
+#[test]
+fn an_in_place_gltf_clip_stands_beside_bvh_clips_at_its_stance_foots_speed() {
+    let test = "an_in_place_gltf_clip_stands_beside_bvh_clips_at_its_stance_foots_speed";
+    let (Some(mut clips), Some(soldier)) = (marine_clips(test), shared(test, "mocap/gltf/Soldier.glb")) else { return };
+    clips.push(text(&soldier).to_owned());
+    let database = compile(&clips, &folder("soldier"));
+    fbcrowd(&["validate", text(&database)]).expect_code(0);
+    let report = inspect(&database);
+    let sources = report["sources"].as_array().unwrap();
+    // In place: three times the tolerances of definitions.md.
+    for (clip, speed) in [("Walk", 1.70), ("Run", 4.22)] {
+        let found = sources.iter().find(|source| source["clip"] == clip).expect("the clip is listed");
+        assert!(within(number(found, "speed_mps"), speed, 0.09, 0.09), "{found}");
+        let from = |example: &&Value| example["source"] == "Soldier.glb" && example["name"].as_str().unwrap().contains(clip);
+        let example = report["examples"].as_array().unwrap().iter().find(from).expect("it gives an example");
+        assert!(number(example, "planted_share") > 0.2, "{example}");
+    }
+}
+
+#[test]
+fn inspecting_clips_needs_no_database() {
+    let report = fbcrowd(&["inspect", "assets/clips/walk_1.1.bvh", "--json"]).expect_code(0).json();
+    let sources = report["sources"].as_array().unwrap();
+    assert_eq!(sources.len(), 1);
+    assert!(within(number(&sources[0], "speed_mps"), 1.1, 0.01, 0.01), "{}", sources[0]);
+}
+
+#[test]
+fn one_clip_alone_is_a_database_without_simplices_or_correspondences() {
+    let database = compile(&["assets/clips/walk_1.1.bvh".to_owned()], &folder("one_clip"));
+    fbcrowd(&["validate", text(&database)]).expect_code(0);
+    let report = inspect(&database);
+    assert_eq!(report["examples"].as_array().unwrap().len(), 1);
+    assert!(report["correspondence"].is_null());
+}

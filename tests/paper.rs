@@ -1,0 +1,42 @@
+//! The whole against the paper: its antipodal circle (§7, Fig. 7) on both databases, through bodies.
+
+mod support;
+
+use std::path::Path;
+
+use serde_json::Value;
+use support::{compile, fbcrowd, folder, marine_clips, text};
+
+fn measured(database: &Path, folder: &Path) -> Value {
+    let recording = folder.join("antipodal.fbrec");
+    let scene = "assets/scenarios/antipodal.toml";
+    fbcrowd(&["simulate", scene, "--db", text(database), "-o", text(&recording)]).expect_code(0);
+    fbcrowd(&["measure", text(&recording), "--json"]).expect_code(0).json()
+}
+
+fn check_everyone_arrives(measures: &Value) {
+    assert_eq!(measures["agents"], 17);
+    assert_eq!(measures["arrived"], 17, "{measures}");
+    assert_eq!(measures["stalled"], 0, "{measures}");
+}
+
+#[test]
+fn on_the_bundled_clips_everyone_crosses_the_circle_and_planted_feet_hold() {
+    let folder = folder("antipodal_bundled");
+    let database = compile(&["assets/clips".to_owned()], &folder);
+    let measures = measured(&database, &folder);
+    check_everyone_arrives(&measures);
+    assert!(measures["planted_slide_cm_s"].as_f64().unwrap() <= 3.0, "{measures}");
+    assert!(measures["planted_share"].as_f64().unwrap() >= 0.4, "{measures}");
+}
+
+#[test]
+fn on_the_papers_own_clips_everyone_crosses_and_feet_slide_no_more_than_in_the_recordings() {
+    let test = "on_the_papers_own_clips_everyone_crosses_and_feet_slide_no_more_than_in_the_recordings";
+    let Some(clips) = marine_clips(test) else { return };
+    let folder = folder("antipodal_marine");
+    let measures = measured(&compile(&clips, &folder), &folder);
+    check_everyone_arrives(&measures);
+    let slide = |key: &str| measures[key].as_f64().unwrap();
+    assert!(slide("planted_slide_cm_s") <= slide("examples_slide_cm_s"), "{measures}");
+}
