@@ -1,12 +1,24 @@
 //! The simulation: one step in the order of the paper's Fig. 2, told in [`step`].
 
+pub mod angle;
 pub mod hms;
 pub mod mcn;
+pub mod neighbours;
+pub mod obstacles;
 pub mod params;
 pub mod plan;
+pub mod polygon;
 pub mod recording;
 pub mod recording_chunk;
 pub mod recording_error;
 pub mod recording_frame;
 pub mod recording_packing;
 pub mod scenario;
+mod scenario_agents;
+pub mod scenario_check;
+pub mod scenario_error;
+pub mod scenario_file;
+pub mod split_mix;
+
+#[cfg(test)]
+mod test_db;

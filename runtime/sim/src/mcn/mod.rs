@@ -1,3 +1,267 @@
-//! In progress.
+//! MCN, motion-constrained navigation (`FbCrowd` §4): from the preferred velocity to one that body, stance and crowd allow.
+//!
+//! One function, [`plan`], in the order of the paper: who and what is near; v_pref → v_op by social forces and density filter (§4.3);
+//! the half-planes of walls, stance, database and other agents (§4.1, 4.2, 4.4); the linear programs (App. 9.3, 9.4); the facing (§4.5).
+//!
+//! It reads a frozen [`World`] and writes nothing but its [`Scratch`], so agents may be planned in any order and on any thread.
+//! World axes, metres, seconds, radians.
 
+pub mod density;
+pub mod half_plane;
+pub mod linear_program;
+pub mod motion_constraints;
+pub mod orca;
+pub mod orca_obstacles;
+pub mod orientation;
 pub mod params;
+pub mod social_force;
+pub mod stance;
+pub mod time_to_collision;
+
+use glam::Vec2;
+use motiondb::velocity_hull::VelocityHull;
+
+use self::half_plane::HalfPlane;
+use self::linear_program::Solution;
+use self::orca::Disc;
+use self::orientation::{Orientation, Walk};
+use self::params::McnParams;
+use crate::neighbours::{Nearest, Neighbours, Query};
+use crate::obstacles::{NearEdge, Obstacles, nearest_on_segment};
+use crate::plan::{Plan, Stance, VelocitySet};
+
+/// Everything that a plan depends on, as it stood at the end of the last step. Slices are by agent.
+#[derive(Clone, Copy, Debug)]
+pub struct World<'a> {
+    /// Of the synthesised roots, m.
+    pub positions_m: &'a [Vec2],
+    /// Of the synthesised roots, m/s.
+    pub velocities_mps: &'a [Vec2],
+    /// Of the synthesised roots, rad.
+    pub facings_rad: &'a [f32],
+    /// Of the bounding discs, m.
+    pub radii_m: &'a [f32],
+    /// v_pref, m/s.
+    pub preferred_mps: &'a [Vec2],
+    /// How each body stands.
+    pub stances: &'a [Stance],
+    /// [`Plan::strafing_s`] of the last step.
+    pub strafing_s: &'a [f32],
+    /// [`Plan::stepping_back_s`] of the last step.
+    pub stepping_back_s: &'a [f32],
+    /// Built from the same positions, velocities and radii.
+    pub neighbours: &'a Neighbours,
+    /// The walls.
+    pub obstacles: &'a Obstacles,
+    /// The database's velocity sets.
+    pub hull: &'a VelocityHull,
+    /// Step, s.
+    pub dt_s: f32,
+}
+
+/// Working memory of one thread. After [`plan`] it tells why the velocity was chosen.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    nearest: Nearest,
+    edges: Vec<NearEdge>,
+    agents_m: Vec<Vec2>,
+    walls_m: Vec<Vec2>,
+    of_walls: Vec<HalfPlane>,
+    of_agents: Vec<HalfPlane>,
+    half_planes: Vec<HalfPlane>,
+    projected: Vec<HalfPlane>,
+    adapted_mps: Vec2,
+    feasible_prefix: usize,
+}
+
+impl Scratch {
+    /// The half-planes of the last plan, by rank: walls, stance, sharp turns, hull, agents by time to collision.
+    pub fn half_planes(&self) -> &[HalfPlane] {
+        &self.half_planes
+    }
+
+    /// How many of them, from the first, the planned velocity satisfies for certain; the others yielded.
+    pub fn feasible_prefix(&self) -> usize {
+        self.feasible_prefix
+    }
+
+    /// v_op of the last plan, m/s.
+    pub fn adapted_mps(&self) -> Vec2 {
+        self.adapted_mps
+    }
+}
+
+/// Plans one agent's next velocity and facing.
+pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> Plan {
+    look_around(world, agent, params, scratch);
+    let density = adapt(world, agent, params, scratch);
+    avoid(world, agent, params, scratch);
+    let turning = choose(world, agent, VelocitySet::Turning, params, scratch);
+    let orientation = orient(world, agent, turning.velocity_mps, params, scratch);
+    let chosen = match orientation.set {
+        VelocitySet::Turning => turning,
+        VelocitySet::Holding => choose(world, agent, VelocitySet::Holding, params, scratch),
+    };
+    scratch.feasible_prefix = chosen.feasible_prefix;
+    Plan {
+        velocity_mps: chosen.velocity_mps,
+        facing_rad: libm::atan2f(orientation.facing.y, orientation.facing.x),
+        time_to_collision_s: time_to_collision_s(world, agent, world.velocities_mps[agent], scratch),
+        density,
+        set: orientation.set,
+        strafing_s: orientation.strafing_s,
+        stepping_back_s: orientation.stepping_back_s,
+    }
+}
+
+/// Who and what is near: the neighbours, soonest collision first, and the wall's edges, nearest first.
+fn look_around(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) {
+    let own = disc(world, agent);
+    let range_m = params.neighbour_range_m;
+    let query =
+        Query { agent, position_m: own.position_m, velocity_mps: own.velocity_mps, radius_m: own.radius_m, range_m };
+    world.neighbours.nearest(&query, &mut scratch.nearest);
+    scratch.nearest.sort_by_time_to_collision();
+    let wall_range_m = own.radius_m + params.obstacle_time_horizon_s * WALL_SPEED_MPS;
+    world.obstacles.near(own.position_m, wall_range_m, &mut scratch.edges);
+}
+
+/// Greatest speed at which a wall is looked for ahead, m/s: a run.
+const WALL_SPEED_MPS: f32 = 4.0;
+
+/// §4.3: v_op into the scratch; returns the density met.
+fn adapt(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> f32 {
+    let own = disc(world, agent);
+    let preferred_mps = kept_right(world, agent, params, scratch);
+    let of_agents: Vec2 = scratch
+        .nearest
+        .as_slice()
+        .iter()
+        .map(|neighbour| {
+            let other = disc(world, neighbour.agent as usize);
+            let offset_m = other.position_m - own.position_m;
+            let velocity_mps = own.velocity_mps - other.velocity_mps;
+            social_force::agent_force_mps2(offset_m, velocity_mps, own.radius_m + other.radius_m, params)
+        })
+        .sum();
+    let of_walls: Vec2 = scratch
+        .edges
+        .iter()
+        .map(|near| {
+            let corners_m = world.obstacles.ends_m(near.edge).map(|end_m| end_m - own.position_m);
+            social_force::wall_force_mps2(corners_m, own.velocity_mps, own.radius_m, params)
+        })
+        .sum();
+    let adapted_mps =
+        social_force::adapted_mps(own.velocity_mps, preferred_mps, of_agents + of_walls, world.dt_s, params);
+    gather_density(world, agent, scratch);
+    let filtered = density::filter(adapted_mps, &scratch.agents_m, &scratch.walls_m, params);
+    scratch.adapted_mps = filtered.velocity_mps;
+    filtered.density
+}
+
+/// v_pref, turned to the right the more, the sooner it would meet an obstruction. Everyone's bias being the same resolves symmetric
+/// encounters: all give way to the same side.
+fn kept_right(world: &World, agent: usize, params: &McnParams, scratch: &Scratch) -> Vec2 {
+    let preferred_mps = world.preferred_mps[agent];
+    let met_s = time_to_collision_with_agents_s(world, agent, preferred_mps, scratch);
+    let urgency = (1.0 - met_s / params.time_horizon_s).max(0.0);
+    let (sin, cos) = libm::sincosf(-params.keep_right_rad * urgency);
+    Vec2::new(cos, sin).rotate(preferred_mps)
+}
+
+/// Offsets of the agents and of the walls' nearest points within the density filter's range.
+fn gather_density(world: &World, agent: usize, scratch: &mut Scratch) {
+    let position_m = world.positions_m[agent];
+    scratch.agents_m.clear();
+    let close = scratch.nearest.as_slice().iter().filter(|neighbour| neighbour.distance_m <= density::RANGE_M);
+    scratch.agents_m.extend(close.map(|neighbour| world.positions_m[neighbour.agent as usize] - position_m));
+    scratch.walls_m.clear();
+    let ends_m = scratch.edges.iter().map(|near| world.obstacles.ends_m(near.edge));
+    scratch.walls_m.extend(ends_m.map(|[from_m, to_m]| nearest_on_segment(position_m, from_m, to_m) - position_m));
+}
+
+/// Eq. 12: the half-planes of walls and agents.
+fn avoid(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) {
+    let own = disc(world, agent);
+    scratch.of_walls.clear();
+    let (edges, horizon_s) = (&scratch.edges, params.obstacle_time_horizon_s);
+    orca_obstacles::obstacle_half_planes(world.obstacles, edges, &own, horizon_s, &mut scratch.of_walls);
+    scratch.of_agents.clear();
+    scratch.of_agents.extend(scratch.nearest.as_slice().iter().map(|neighbour| {
+        let other = disc(world, neighbour.agent as usize);
+        orca::agent_half_plane(&own, &other, neighbour.agent, params.time_horizon_s, world.dt_s)
+    }));
+}
+
+/// Eqs. 13, 14: all half-planes by rank, what never yields first, and the best velocity.
+fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scratch: &mut Scratch) -> Solution {
+    let forward = forward(world, agent);
+    let (corners_mps, source) = motion_constraints::set(world.hull, set);
+    let half_planes = &mut scratch.half_planes;
+    half_planes.clear();
+    half_planes.extend_from_slice(&scratch.of_walls);
+    half_planes.extend(stance::half_plane(&world.stances[agent], params.stance_twist_rad));
+    if set == VelocitySet::Turning {
+        let edges_mps = &world.hull.sharp_turn_edges_mps;
+        motion_constraints::sharp_turn_half_planes(edges_mps, forward, world.preferred_mps[agent], half_planes);
+    }
+    motion_constraints::hull_half_planes(corners_mps, forward, source, half_planes);
+    half_planes.extend_from_slice(&scratch.of_agents);
+    let speed_max_mps = motion_constraints::speed_max_mps(corners_mps);
+    linear_program::solve(half_planes, scratch.adapted_mps, speed_max_mps, &mut scratch.projected)
+}
+
+/// §4.5, given the velocity that the turning set allows.
+fn orient(world: &World, agent: usize, velocity_mps: Vec2, params: &McnParams, scratch: &mut Scratch) -> Orientation {
+    let walk = Walk {
+        forward: forward(world, agent),
+        preferred_mps: world.preferred_mps[agent],
+        velocity_mps,
+        strafing_s: world.strafing_s[agent],
+        stepping_back_s: world.stepping_back_s[agent],
+    };
+    let corners_mps = &world.hull.holding_mps;
+    let holds = |facing| {
+        let outside_mps = motion_constraints::outside_mps(corners_mps, facing, velocity_mps, &mut scratch.projected);
+        outside_mps <= orientation::HOLDING_SLACK_MPS
+    };
+    orientation::decide(&walk, holds, world.dt_s, params)
+}
+
+/// Least time to collision with a neighbour or a wall, for a velocity, s.
+fn time_to_collision_s(world: &World, agent: usize, velocity_mps: Vec2, scratch: &Scratch) -> f32 {
+    let own = disc(world, agent);
+    let with_walls = scratch.edges.iter().map(|near| {
+        let corners_m = world.obstacles.ends_m(near.edge).map(|end_m| end_m - own.position_m);
+        time_to_collision::disc_with_segment(corners_m, velocity_mps, own.radius_m)
+    });
+    with_walls.fold(time_to_collision_with_agents_s(world, agent, velocity_mps, scratch), f32::min)
+}
+
+fn time_to_collision_with_agents_s(world: &World, agent: usize, velocity_mps: Vec2, scratch: &Scratch) -> f32 {
+    let own = disc(world, agent);
+    let with_agents = scratch.nearest.as_slice().iter().map(|neighbour| {
+        let other = disc(world, neighbour.agent as usize);
+        let radius_m = own.radius_m + other.radius_m;
+        time_to_collision::disc_with_disc(
+            other.position_m - own.position_m,
+            velocity_mps - other.velocity_mps,
+            radius_m,
+        )
+    });
+    with_agents.fold(f32::INFINITY, f32::min)
+}
+
+fn disc(world: &World, agent: usize) -> Disc {
+    Disc {
+        position_m: world.positions_m[agent],
+        velocity_mps: world.velocities_mps[agent],
+        radius_m: world.radii_m[agent],
+    }
+}
+
+fn forward(world: &World, agent: usize) -> Vec2 {
+    let (sin, cos) = libm::sincosf(world.facings_rad[agent]);
+    Vec2::new(cos, sin)
+}

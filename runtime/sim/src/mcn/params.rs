@@ -5,10 +5,63 @@ use serde::{Deserialize, Serialize};
 /// Tunables of the planner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct McnParams {}
+pub struct McnParams {
+    /// τ: how far ahead agents avoid each other, s.
+    pub time_horizon_s: f32,
+    /// How far ahead walls are avoided, s. Short, because a wall does not move and a longer one keeps agents out of narrow passages.
+    pub obstacle_time_horizon_s: f32,
+    /// Farthest neighbour, m.
+    pub neighbour_range_m: f32,
+    /// k of Eq. 11, m²: strength of the social force.
+    pub interaction_strength: f32,
+    /// τ_0 of Eq. 11, s: interactions that lie farther ahead fade.
+    pub interaction_horizon_s: f32,
+    /// τ_0 of Eq. 9, s: time in which the preferred velocity is taken up.
+    pub relaxation_s: f32,
+    /// Time for which the acceleration of Eq. 9 is applied to the present velocity, s; never less than a step. It is what a body needs to
+    /// follow: with less, a body that lags would be slowed by Eq. 9's relaxation and by its own.
+    pub response_s: f32,
+    /// Greatest acceleration of Eq. 9, m/s².
+    pub acceleration_max_mps2: f32,
+    /// Density filter: stride factor of the fundamental diagram.
+    pub density_factor: f32,
+    /// Density filter: space kept beyond the stride, as a share of it.
+    pub density_buffer: f32,
+    /// The density filter slows nobody below this, m/s.
+    pub density_speed_min_mps: f32,
+    /// Greatest turn of v_pref to the right where the way is obstructed, rad. It resolves symmetric encounters.
+    pub keep_right_rad: f32,
+    /// Greatest twist of the stance foot in place (§4.2), rad.
+    pub stance_twist_rad: f32,
+    /// t_strafeLim (§4.5), s.
+    pub strafing_limit_s: f32,
+    /// Longest contiguous stepping back at held facing, s.
+    pub stepping_back_limit_s: f32,
+}
 
 impl Default for McnParams {
     fn default() -> Self {
-        Self {}
+        Self {
+            // Beyond the longest transition between syntheses and ahead of RVO2's usual 2 s in crowds; RVO2's protocol has 5.
+            time_horizon_s: 4.0,
+            obstacle_time_horizon_s: 1.0,
+            // `facts/planning.md` §3.
+            neighbour_range_m: 10.0,
+            // Karamouzas, Skinner, Guy 2014: k, τ_0 and the driving force's relaxation.
+            interaction_strength: 1.5,
+            interaction_horizon_s: 3.0,
+            relaxation_s: 0.54,
+            response_s: 0.3,
+            // `facts/planning.md` §1: 2 to 5 are smooth, the authors' 20 is not at steps of 0.1 s.
+            acceleration_max_mps2: 4.0,
+            // Menge's PedVO (`facts/planning.md` §2).
+            density_factor: 1.57,
+            density_buffer: 0.5,
+            density_speed_min_mps: 0.3,
+            keep_right_rad: 0.2,
+            stance_twist_rad: 0.35,
+            strafing_limit_s: 1.0,
+            stepping_back_limit_s: 2.0,
+        }
     }
 }

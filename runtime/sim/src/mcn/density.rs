@@ -1,0 +1,84 @@
+//! The density filter: no faster than the crowd ahead allows (`FbCrowd` §4.3; Narang et al. 2015; constants of Menge's PedVO).
+//!
+//! Density is felt at a critical point 1 m ahead, from a few neighbours, each a Gaussian in one dimension (so ρ is in 1/m), in which
+//! sideways distance counts more. The fundamental diagram turns density into speed: a stride needs the space S = 0.48/ρ.
+//! Directions on an arc around the preference are tried, and averaged by the progress that they allow: an average instead of the best,
+//! so that the velocity does not jump from one direction to another.
+
+use glam::Vec2;
+
+use super::params::McnParams;
+
+/// Menge: distance of the critical point, m.
+const AHEAD_M: f32 = 1.0;
+/// Menge: perpendicular offsets count this much more.
+const SIDEWAYS: f32 = 2.5;
+/// Menge: σ of an agent's share, m.
+const AGENT_SIGMA_M: f32 = 1.5;
+/// Menge: σ of a wall's share, m.
+const WALL_SIGMA_M: f32 = 0.75;
+/// Menge: free space of a stride, S = SPACE/ρ.
+const SPACE: f32 = 0.48;
+/// Neighbours farther than this are not felt, m; with all of them the diagram would stall the crowd (`facts/planning.md` §2).
+pub(crate) const RANGE_M: f32 = 5.0;
+/// 1/√2π.
+const GAUSS: f32 = 0.398_942_3;
+/// Cosine and sine of the arc's directions: 0, ±20°, ±40°.
+const ARC: [Vec2; 5] = [
+    Vec2::new(1.0, 0.0),
+    Vec2::new(0.939_692_6, 0.342_020_1),
+    Vec2::new(0.939_692_6, -0.342_020_1),
+    Vec2::new(0.766_044_4, 0.642_787_6),
+    Vec2::new(0.766_044_4, -0.642_787_6),
+];
+
+/// The filtered velocity and the density met along it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Filtered {
+    /// v_op, m/s.
+    pub velocity_mps: Vec2,
+    /// ρ along the unfiltered velocity, 1/m.
+    pub density: f32,
+}
+
+/// Scales v_op down to what the density ahead allows, on the arc around it. `agents` and `walls` are offsets from the agent's centre.
+pub fn filter(velocity_mps: Vec2, agents_m: &[Vec2], walls_m: &[Vec2], params: &McnParams) -> Filtered {
+    let speed_mps = velocity_mps.length();
+    let ahead = velocity_mps.normalize_or_zero();
+    let density = density_ahead(ahead, agents_m, walls_m);
+    if speed_mps <= speed_limit_mps(density, params) {
+        return Filtered { velocity_mps, density };
+    }
+    let mut sum_mps = Vec2::ZERO;
+    let mut weights = 0.0;
+    for turned in ARC {
+        let direction = turned.rotate(ahead);
+        let allowed_mps = speed_mps.min(speed_limit_mps(density_ahead(direction, agents_m, walls_m), params));
+        let progress = turned.x * allowed_mps / speed_mps;
+        let weight = progress * progress * progress * progress;
+        sum_mps += weight * allowed_mps * direction;
+        weights += weight;
+    }
+    Filtered { velocity_mps: sum_mps / weights.max(f32::MIN_POSITIVE), density }
+}
+
+/// ρ at the critical point along a unit direction, 1/m.
+pub fn density_ahead(ahead: Vec2, agents_m: &[Vec2], walls_m: &[Vec2]) -> f32 {
+    let share = |offset_m: &Vec2, sigma_m: f32| {
+        let from_critical_m = *offset_m - AHEAD_M * ahead;
+        let distance_squared = from_critical_m.dot(ahead) * from_critical_m.dot(ahead)
+            + SIDEWAYS * SIDEWAYS * from_critical_m.perp_dot(ahead) * from_critical_m.perp_dot(ahead);
+        // A wall has its own σ in the exponent and the agents' in the normaliser, as in Menge.
+        libm::expf(-distance_squared / (2.0 * sigma_m * sigma_m)) * GAUSS / AGENT_SIGMA_M
+    };
+    let of_agents: f32 = agents_m.iter().map(|offset_m| share(offset_m, AGENT_SIGMA_M)).sum();
+    let of_walls: f32 = walls_m.iter().map(|offset_m| share(offset_m, WALL_SIGMA_M)).sum();
+    of_agents + of_walls
+}
+
+/// The fundamental diagram: v_max = S² / (½ (1 + buffer)/factor)², never below the floor.
+pub fn speed_limit_mps(density: f32, params: &McnParams) -> f32 {
+    let space = SPACE / density.max(f32::MIN_POSITIVE);
+    let stride = 0.5 * (1.0 + params.density_buffer) / params.density_factor;
+    (space / stride * (space / stride)).max(params.density_speed_min_mps)
+}

@@ -1,0 +1,146 @@
+//! The velocity nearest to the adapted preference inside all half-planes, or the one that fails them least (`FbCrowd` App. 9.3, 9.4).
+//!
+//! The half-planes come in order of rank, what must not yield first. The **2D program** (van den Berg et al. 2011) is incremental: it
+//! adds one half-plane after the other and, where the optimum so far is cut off, moves it to the new line. So the line at which it
+//! fails ends the longest feasible prefix. That prefix stays hard, and the **3D program** minimises the greatest violation of the rest:
+//! a lexicographic relaxation, in which the order acts (in a plain minimax it does not).
+//!
+//! World axes, m/s. Within a disc of `speed_max`, which bounds the programs and nothing else.
+
+use glam::Vec2;
+
+use super::half_plane::HalfPlane;
+
+/// Lines whose directions' cross product is below this count as parallel; RVO2's own limit, far above f32 rounding.
+const PARALLEL: f32 = 1e-5;
+
+/// What the programs found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution {
+    /// v_i, m/s.
+    pub velocity_mps: Vec2,
+    /// How many of the half-planes, from the first, are satisfied together; all of them where the 2D program succeeded.
+    pub feasible_prefix: usize,
+}
+
+/// What a line's one-dimensional program looks for.
+#[derive(Clone, Copy)]
+enum Objective {
+    /// The point nearest to a velocity.
+    Nearest(Vec2),
+    /// The point furthest along a direction.
+    Furthest(Vec2),
+}
+
+/// Eq. 14: argmin ‖v − v_op‖ over the half-planes, relaxed from the last one back where they are infeasible.
+///
+/// `projected` is working memory.
+pub fn solve(
+    half_planes: &[HalfPlane],
+    optimal_mps: Vec2,
+    speed_max_mps: f32,
+    projected: &mut Vec<HalfPlane>,
+) -> Solution {
+    let nearest = optimal_mps.clamp_length_max(speed_max_mps);
+    match incremental(half_planes, nearest, Objective::Nearest(optimal_mps), speed_max_mps) {
+        Ok(velocity_mps) => Solution { velocity_mps, feasible_prefix: half_planes.len() },
+        Err((prefix, start_mps)) => Solution {
+            velocity_mps: least_violation(half_planes, prefix, start_mps, speed_max_mps, projected),
+            feasible_prefix: prefix,
+        },
+    }
+}
+
+/// The 2D program. On failure, the length of the longest feasible prefix and its optimum.
+fn incremental(
+    half_planes: &[HalfPlane],
+    start_mps: Vec2,
+    objective: Objective,
+    speed_max_mps: f32,
+) -> Result<Vec2, (usize, Vec2)> {
+    let mut best_mps = start_mps;
+    for (index, half_plane) in half_planes.iter().enumerate() {
+        if half_plane.violation_mps(best_mps) > 0.0 {
+            best_mps = on_line(half_plane, &half_planes[..index], objective, speed_max_mps).ok_or((index, best_mps))?;
+        }
+    }
+    Ok(best_mps)
+}
+
+/// The 1D program: the objective's best point of a line, within the disc and the half-planes before it.
+fn on_line(line: &HalfPlane, earlier: &[HalfPlane], objective: Objective, speed_max_mps: f32) -> Option<Vec2> {
+    let (mut least, mut most) = chord(line, speed_max_mps)?;
+    for other in earlier {
+        let slope = line.direction.perp_dot(other.direction);
+        let reach = other.direction.perp_dot(line.point_mps - other.point_mps);
+        if slope.abs() <= PARALLEL {
+            // The tolerance keeps a set without width, whose two sides coincide, from being lost to rounding.
+            if reach < -PARALLEL {
+                return None;
+            }
+        } else if slope > 0.0 {
+            most = most.min(reach / slope);
+        } else {
+            least = least.max(reach / slope);
+        }
+        if least > most {
+            return None;
+        }
+    }
+    let along = match objective {
+        Objective::Nearest(target_mps) => line.direction.dot(target_mps - line.point_mps).clamp(least, most),
+        Objective::Furthest(direction) if direction.dot(line.direction) > 0.0 => most,
+        Objective::Furthest(_) => least,
+    };
+    Some(line.point_mps + along * line.direction)
+}
+
+/// The stretch of a line inside the disc of `speed_max`.
+fn chord(line: &HalfPlane, speed_max_mps: f32) -> Option<(f32, f32)> {
+    let middle = -line.point_mps.dot(line.direction);
+    let discriminant = middle * middle + speed_max_mps * speed_max_mps - line.point_mps.length_squared();
+    (discriminant >= 0.0).then(|| (middle - discriminant.sqrt(), middle + discriminant.sqrt()))
+}
+
+/// The 3D program: with the first `hard` half-planes kept, the velocity whose greatest violation of the others is least.
+fn least_violation(
+    half_planes: &[HalfPlane],
+    hard: usize,
+    start_mps: Vec2,
+    speed_max_mps: f32,
+    projected: &mut Vec<HalfPlane>,
+) -> Vec2 {
+    let mut best_mps = start_mps;
+    let mut violation_mps = 0.0;
+    for index in hard..half_planes.len() {
+        let worst = &half_planes[index];
+        if worst.violation_mps(best_mps) <= violation_mps {
+            continue;
+        }
+        // Where `worst` is the greatest violation, every earlier soft line bounds the velocity by the bisector of both.
+        projected.clear();
+        projected.extend_from_slice(&half_planes[..hard]);
+        projected.extend(half_planes[hard..index].iter().filter_map(|other| bisector(worst, other)));
+        let inward = worst.direction.perp();
+        let furthest = incremental(projected, inward * speed_max_mps, Objective::Furthest(inward), speed_max_mps);
+        // Infeasible only by rounding: the last result is then as good as any.
+        best_mps = furthest.unwrap_or(best_mps);
+        violation_mps = worst.violation_mps(best_mps);
+    }
+    best_mps
+}
+
+/// Where `other` is violated no more than `worst`: the left of their bisector; none where parallel lines leave no choice.
+fn bisector(worst: &HalfPlane, other: &HalfPlane) -> Option<HalfPlane> {
+    let cross = worst.direction.perp_dot(other.direction);
+    let point_mps = if cross.abs() > PARALLEL {
+        let along = other.direction.perp_dot(worst.point_mps - other.point_mps) / cross;
+        worst.point_mps + along * worst.direction
+    } else if worst.direction.dot(other.direction) > 0.0 {
+        return None;
+    } else {
+        0.5 * (worst.point_mps + other.point_mps)
+    };
+    let direction = (other.direction - worst.direction).normalize();
+    Some(HalfPlane { point_mps, direction, source: other.source })
+}

@@ -1,0 +1,70 @@
+//! Half-planes that keep two moving discs from meeting within the horizon (`FbCrowd` §4.4, Eq. 12; van den Berg et al. 2011).
+//!
+//! The velocity obstacle of j for i, within τ, is a cone of relative velocities truncated by a *cut-off* disc of radius r/τ about
+//! p/τ (p = p_j − p_i, r = r_i + r_j). u is the least change of the relative velocity that leaves it; each agent takes half of u.
+//! Three cases, told apart by where the relative velocity projects:
+//!
+//! 1. overlap: the cut-off disc of one time step, so that they part as fast as a step allows;
+//! 2. the cut-off disc, where the relative velocity lies before the disc's tangent points;
+//! 3. the left or the right leg of the cone.
+
+use glam::Vec2;
+
+use super::half_plane::{HalfPlane, Source};
+
+/// A disc in motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disc {
+    /// World, m.
+    pub position_m: Vec2,
+    /// World, m/s.
+    pub velocity_mps: Vec2,
+    /// m.
+    pub radius_m: f32,
+}
+
+/// C_ij: the velocities of `own` that do their half of avoiding `other`, which is agent `index`, for `horizon`.
+pub fn agent_half_plane(own: &Disc, other: &Disc, index: u32, horizon_s: f32, dt_s: f32) -> HalfPlane {
+    let offset_m = other.position_m - own.position_m;
+    let velocity_mps = own.velocity_mps - other.velocity_mps;
+    let radius_m = own.radius_m + other.radius_m;
+    let (direction, change_mps) = if offset_m.length_squared() <= radius_m * radius_m {
+        leave_cut_off(offset_m, velocity_mps, radius_m, dt_s)
+    } else if projects_on_cut_off(offset_m, velocity_mps, radius_m, horizon_s) {
+        leave_cut_off(offset_m, velocity_mps, radius_m, horizon_s)
+    } else {
+        leave_leg(offset_m, velocity_mps, radius_m, horizon_s)
+    };
+    HalfPlane { point_mps: own.velocity_mps + 0.5 * change_mps, direction, source: Source::Agent(index) }
+}
+
+/// Whether the cut-off disc's front, between the two tangent points, is nearest to the relative velocity.
+fn projects_on_cut_off(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, horizon_s: f32) -> bool {
+    let from_centre = velocity_mps - offset_m / horizon_s;
+    let along = from_centre.dot(offset_m);
+    along < 0.0 && along * along > radius_m * radius_m * from_centre.length_squared()
+}
+
+/// Cases 1 and 2: direction of the line and u, out of the cut-off disc of `time`.
+fn leave_cut_off(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, time_s: f32) -> (Vec2, Vec2) {
+    let from_centre = velocity_mps - offset_m / time_s;
+    let distance = from_centre.length();
+    // Two discs on the same spot with the same velocity have no direction to part in: any fixed one serves.
+    let outward = if distance > 0.0 { from_centre / distance } else { Vec2::X };
+    (-outward.perp(), (radius_m / time_s - distance) * outward)
+}
+
+/// Case 3: direction of the line and u, out over the leg on the relative velocity's side.
+fn leave_leg(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, horizon_s: f32) -> (Vec2, Vec2) {
+    let [left, right] = tangents(offset_m, radius_m);
+    let passes_left = offset_m.perp_dot(velocity_mps - offset_m / horizon_s) > 0.0;
+    let direction = if passes_left { left } else { -right };
+    (direction, velocity_mps.dot(direction) * direction - velocity_mps)
+}
+
+/// Unit directions from the origin along the left and the right tangent of a disc; it must not contain the origin.
+pub(crate) fn tangents(centre_m: Vec2, radius_m: f32) -> [Vec2; 2] {
+    let distance_squared = centre_m.length_squared();
+    let leg_m = (distance_squared - radius_m * radius_m).max(0.0).sqrt();
+    [radius_m, -radius_m].map(|side_m| Vec2::new(leg_m, side_m).rotate(centre_m) / distance_squared)
+}

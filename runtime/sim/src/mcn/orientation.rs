@@ -1,0 +1,119 @@
+//! The preferred facing, and whether it is held or follows the velocity (`FbCrowd` §4.5).
+//!
+//!     f_d = v_pref/‖v_pref‖   if  v_pref·v_i >= 0  and  t_strafe < t_strafeLim
+//!           v_i/‖v_i‖         otherwise
+//!
+//! To face v_pref while walking elsewhere is to side-step, so the first line also asks that the holding set, at that facing, holds v_i: a
+//! body that the database cannot move that way turns. `definitions.md` adds its mirror image, stepping back: v_pref·v_i < 0, a shorter
+//! while. Both whiles are contiguous, and start anew only after a rest at aligned facing: without it the facing would flicker.
+//! Where v_pref or v_i is 0, the facing is kept.
+
+use glam::Vec2;
+
+use super::params::McnParams;
+use crate::plan::VelocitySet;
+
+/// Slower than this, a velocity has no direction to face, m/s.
+const STANDING_MPS: f32 = 0.1;
+/// A velocity within this angle of the facing is no side-step: 10°, as small as gait noise in the turn rate makes it look.
+const ALIGNED_COS: f32 = 0.984_807_8;
+/// A facing within this angle of the wanted one is held, beyond it the body still turns: 30°.
+const HELD_COS: f32 = 0.866_025_4;
+/// How far outside the holding set a velocity may lie to be walked at held facing, m/s; the set's half-planes then bring it in.
+pub(crate) const HOLDING_SLACK_MPS: f32 = 0.1;
+/// Rest at aligned facing after which a spent while starts anew, s: a stride.
+const REST_S: f32 = 1.0;
+
+/// What walks: everything that the decision depends on.
+#[derive(Clone, Copy, Debug)]
+pub struct Walk {
+    /// Unit vector along the present facing.
+    pub forward: Vec2,
+    /// v_pref, m/s.
+    pub preferred_mps: Vec2,
+    /// v_i as the turning set allows it, m/s.
+    pub velocity_mps: Vec2,
+    /// Contiguous time strafing so far, s.
+    pub strafing_s: f32,
+    /// Contiguous time stepping back so far, s.
+    pub stepping_back_s: f32,
+}
+
+/// What is decided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orientation {
+    /// f_d, unit vector.
+    pub facing: Vec2,
+    /// The velocity set in force.
+    pub set: VelocitySet,
+    /// Contiguous time strafing, s; beyond the limit, the limit and the rest that is still due.
+    pub strafing_s: f32,
+    /// Contiguous time stepping back, s; beyond the limit likewise.
+    pub stepping_back_s: f32,
+}
+
+/// §4.5. `holds` tells whether the holding set, at the facing of v_pref, holds v_i.
+pub fn decide(walk: &Walk, holds: impl FnOnce(Vec2) -> bool, dt_s: f32, params: &McnParams) -> Orientation {
+    let Some(wanted) = direction(walk.preferred_mps) else { return rest(walk, walk.forward, dt_s, params) };
+    let Some(walked) = direction(walk.velocity_mps) else {
+        // With v_pref behind it, a body would stand so for ever where the database has no tight turn: it turns on the spot.
+        let turned_away = wanted.dot(walk.forward) < 0.0;
+        return rest(walk, if turned_away { wanted } else { walk.forward }, dt_s, params);
+    };
+    let aligned = wanted.dot(walked) >= ALIGNED_COS;
+    if aligned {
+        return rest(walk, wanted, dt_s, params);
+    }
+    let steps_back = wanted.dot(walked) < 0.0;
+    let in_time = if steps_back {
+        walk.stepping_back_s < params.stepping_back_limit_s && wanted.dot(walk.forward) >= HELD_COS
+    } else {
+        walk.strafing_s < params.strafing_limit_s
+    };
+    if in_time && holds(wanted) { hold(walk, wanted, steps_back, dt_s) } else { turn(walk, walked, params) }
+}
+
+/// The facing is, or comes to be, where the body walks, or the body stands.
+fn rest(walk: &Walk, facing: Vec2, dt_s: f32, params: &McnParams) -> Orientation {
+    let aligned = facing.dot(walk.forward) >= ALIGNED_COS;
+    let after = |spent_s: f32, limit_s: f32| if aligned { rested_s(spent_s, limit_s, dt_s) } else { spent_s };
+    Orientation {
+        facing,
+        set: VelocitySet::Turning,
+        strafing_s: after(walk.strafing_s, params.strafing_limit_s),
+        stepping_back_s: after(walk.stepping_back_s, params.stepping_back_limit_s),
+    }
+}
+
+/// The facing stays on v_pref, or still turns there.
+fn hold(walk: &Walk, wanted: Vec2, steps_back: bool, dt_s: f32) -> Orientation {
+    let held = wanted.dot(walk.forward) >= HELD_COS;
+    Orientation {
+        facing: wanted,
+        set: if held { VelocitySet::Holding } else { VelocitySet::Turning },
+        strafing_s: walk.strafing_s + if steps_back { 0.0 } else { dt_s },
+        stepping_back_s: walk.stepping_back_s + if steps_back { dt_s } else { 0.0 },
+    }
+}
+
+/// The facing follows v_i. Whoever has turned away goes on so: both whiles are spent until a rest.
+fn turn(walk: &Walk, walked: Vec2, params: &McnParams) -> Orientation {
+    Orientation {
+        facing: walked,
+        set: VelocitySet::Turning,
+        strafing_s: walk.strafing_s.max(params.strafing_limit_s + REST_S),
+        stepping_back_s: walk.stepping_back_s.max(params.stepping_back_limit_s + REST_S),
+    }
+}
+
+/// A spent while after a step of rest: beyond the limit it shrinks to the limit, and is then forgotten; below, it runs back as it came.
+fn rested_s(spent_s: f32, limit_s: f32, dt_s: f32) -> f32 {
+    let left_s = (spent_s - dt_s).max(0.0);
+    let rest_is_over = spent_s >= limit_s && left_s < limit_s;
+    if rest_is_over { 0.0 } else { left_s }
+}
+
+fn direction(velocity_mps: Vec2) -> Option<Vec2> {
+    let speed_mps = velocity_mps.length();
+    (speed_mps >= STANDING_MPS).then(|| velocity_mps / speed_mps)
+}

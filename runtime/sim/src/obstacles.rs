@@ -1,0 +1,205 @@
+//! Walls: simple polygons whose edges the planner avoids and whose insides no root enters.
+//!
+//! Each corner knows its neighbours, the unit direction of the edge that leaves it, and whether the polygon is convex there, as van den
+//! Berg et al. 2011 need. Corners run counter-clockwise, so the inside is on an edge's left. World, metres.
+
+use glam::Vec2;
+
+/// Rounds of pushing a disc out: one for each wall of a niche, and one more.
+const CLAMP_ROUNDS: usize = 4;
+/// How far outside a wall a point without radius is put, m: more than f32 rounding at 1 km.
+const OUTSIDE_M: f32 = 1e-4;
+
+/// A corner of a polygon and the edge that leaves it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// Where it is.
+    pub point_m: Vec2,
+    /// Unit direction of the edge to the next corner.
+    pub direction: Vec2,
+    /// The polygon turns left here, or not at all.
+    pub convex: bool,
+    /// Index of the next corner.
+    pub next: u32,
+    /// Index of the previous corner.
+    pub previous: u32,
+}
+
+/// An edge near an agent, by the index of the corner that it leaves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearEdge {
+    /// Index into [`Obstacles::corners`].
+    pub edge: u32,
+    /// Distance of the edge from the agent's centre.
+    pub distance_m: f32,
+}
+
+/// All polygons of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Obstacles {
+    corners: Vec<Corner>,
+    polygons: Vec<Polygon>,
+}
+
+/// A run of corners and its bounding box.
+#[derive(Clone, Copy, Debug)]
+struct Polygon {
+    first: usize,
+    end: usize,
+    least_m: Vec2,
+    most_m: Vec2,
+}
+
+impl Obstacles {
+    /// Takes over simple polygons of three corners or more, either way round; repeated corners are dropped.
+    pub fn new(polygons_m: &[Vec<Vec2>]) -> Self {
+        let mut obstacles = Self::default();
+        for points_m in polygons_m {
+            obstacles.add(points_m);
+        }
+        obstacles
+    }
+
+    fn add(&mut self, points_m: &[Vec2]) {
+        let mut points_m = points_m.to_vec();
+        points_m.dedup();
+        while points_m.len() > 1 && points_m.first() == points_m.last() {
+            points_m.pop();
+        }
+        if points_m.len() < 3 {
+            return;
+        }
+        if doubled_area_m2(&points_m) < 0.0 {
+            points_m.reverse();
+        }
+        let (first, count) = (self.corners.len(), points_m.len());
+        self.corners.extend((0..count).map(|index| corner(&points_m, index, first)));
+        let least_m = points_m.iter().copied().fold(Vec2::INFINITY, Vec2::min);
+        let most_m = points_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max);
+        self.polygons.push(Polygon { first, end: first + count, least_m, most_m });
+    }
+
+    /// Every corner; an edge is known by the corner that it leaves.
+    pub fn corners(&self) -> &[Corner] {
+        &self.corners
+    }
+
+    /// Both ends of an edge.
+    pub fn ends_m(&self, edge: u32) -> [Vec2; 2] {
+        let corner = &self.corners[edge as usize];
+        [corner.point_m, self.corners[corner.next as usize].point_m]
+    }
+
+    /// The edges within `range` that show their outer side to the position, nearest first, ties by index.
+    pub fn near(&self, position_m: Vec2, range_m: f32, found: &mut Vec<NearEdge>) {
+        found.clear();
+        for polygon in self.polygons.iter().filter(|polygon| polygon.reaches(position_m, range_m)) {
+            for edge in polygon.first..polygon.end {
+                let [from_m, to_m] = self.ends_m(edge as u32);
+                let distance_m = position_m.distance(nearest_on_segment(position_m, from_m, to_m));
+                let faces = self.corners[edge].direction.perp_dot(position_m - from_m) < 0.0;
+                if faces && distance_m <= range_m {
+                    found.push(NearEdge { edge: edge as u32, distance_m });
+                }
+            }
+        }
+        found.sort_unstable_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.edge.cmp(&b.edge)));
+    }
+
+    /// Whether a point lies inside a polygon.
+    pub fn contains(&self, point_m: Vec2) -> bool {
+        self.polygons.iter().any(|polygon| polygon.reaches(point_m, 0.0) && self.is_inside(polygon, point_m))
+    }
+
+    /// The position nearby at which a disc touches no wall. In a gap too narrow for the disc its centre stays outside all polygons.
+    pub fn clamp_outside(&self, position_m: Vec2, radius_m: f32) -> Vec2 {
+        let mut clamped_m = position_m;
+        for _ in 0..CLAMP_ROUNDS {
+            clamped_m = self.pushed_out(clamped_m, radius_m);
+        }
+        self.pushed_out(clamped_m, OUTSIDE_M)
+    }
+
+    /// One round over all polygons.
+    fn pushed_out(&self, position_m: Vec2, radius_m: f32) -> Vec2 {
+        let mut position_m = position_m;
+        for polygon in &self.polygons {
+            if polygon.reaches(position_m, radius_m) {
+                position_m = self.out_of(polygon, position_m, radius_m);
+            }
+        }
+        position_m
+    }
+
+    /// Moves a disc away from a polygon, over the edge nearest to its centre.
+    fn out_of(&self, polygon: &Polygon, position_m: Vec2, radius_m: f32) -> Vec2 {
+        let (edge, touched_m) = self.nearest_edge(polygon, position_m);
+        let away_m = position_m - touched_m;
+        let inside = self.is_inside(polygon, position_m);
+        if !inside && away_m.length_squared() >= radius_m * radius_m {
+            return position_m;
+        }
+        let outward = -self.corners[edge].direction.perp();
+        let away = if inside { -away_m } else { away_m };
+        touched_m + radius_m * away.normalize_or(outward)
+    }
+
+    /// The polygon's edge nearest to a position, and the point of it that is.
+    fn nearest_edge(&self, polygon: &Polygon, position_m: Vec2) -> (usize, Vec2) {
+        let mut best = (polygon.first, self.corners[polygon.first].point_m);
+        for edge in polygon.first..polygon.end {
+            let [from_m, to_m] = self.ends_m(edge as u32);
+            let point_m = nearest_on_segment(position_m, from_m, to_m);
+            if point_m.distance_squared(position_m) < best.1.distance_squared(position_m) {
+                best = (edge, point_m);
+            }
+        }
+        best
+    }
+
+    /// Even-odd rule along a ray in +x.
+    fn is_inside(&self, polygon: &Polygon, point_m: Vec2) -> bool {
+        let crosses = |edge: &usize| {
+            let [from_m, to_m] = self.ends_m(*edge as u32);
+            let straddles = (from_m.y > point_m.y) != (to_m.y > point_m.y);
+            let left_of_edge = (to_m - from_m).perp_dot(point_m - from_m) > 0.0;
+            straddles && left_of_edge == (to_m.y > from_m.y)
+        };
+        (polygon.first..polygon.end).filter(crosses).count() % 2 == 1
+    }
+}
+
+impl Polygon {
+    /// Whether a disc may touch the polygon.
+    fn reaches(&self, position_m: Vec2, radius_m: f32) -> bool {
+        let nearest_m = position_m.clamp(self.least_m, self.most_m);
+        nearest_m.distance_squared(position_m) <= radius_m * radius_m
+    }
+}
+
+/// Corner `index` of a polygon whose first corner gets the index `first`.
+fn corner(points_m: &[Vec2], index: usize, first: usize) -> Corner {
+    let count = points_m.len();
+    let (next, previous) = ((index + 1) % count, (index + count - 1) % count);
+    let point_m = points_m[index];
+    Corner {
+        point_m,
+        direction: (points_m[next] - point_m).normalize(),
+        convex: (point_m - points_m[previous]).perp_dot(points_m[next] - point_m) >= 0.0,
+        next: (first + next) as u32,
+        previous: (first + previous) as u32,
+    }
+}
+
+/// Positive where the corners run counter-clockwise.
+fn doubled_area_m2(points_m: &[Vec2]) -> f32 {
+    let fan = points_m.windows(2).map(|pair| (pair[0] - points_m[0]).perp_dot(pair[1] - points_m[0]));
+    fan.sum()
+}
+
+/// The point of a segment nearest to a position.
+pub(crate) fn nearest_on_segment(position_m: Vec2, from_m: Vec2, to_m: Vec2) -> Vec2 {
+    let along = to_m - from_m;
+    let share = (position_m - from_m).dot(along) / along.length_squared().max(f32::MIN_POSITIVE);
+    from_m + share.clamp(0.0, 1.0) * along
+}
