@@ -1,0 +1,65 @@
+//! What can go wrong while drawing: each error names the file or the setting, the place in it and the remedy.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// Everything that drawing can refuse.
+#[derive(Debug, Error)]
+pub enum RenderError {
+    /// The output folder can be neither found nor made.
+    #[error("{}: the output folder cannot be made: {source}; name another with -o, or allow writing there", folder.display())]
+    Folder {
+        /// The folder asked for.
+        folder: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A picture could not be written; nothing stands under its name.
+    #[error("{}: the picture cannot be written: {source}; free some space or allow writing there, then render again", path.display())]
+    Write {
+        /// The picture's final name.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// The view asks for a picture that cannot be drawn.
+    #[error("view.{key} = {value}: {remedy}")]
+    View {
+        /// Key in the scenario's `[view]`.
+        key: &'static str,
+        /// Its value.
+        value: String,
+        /// What is accepted.
+        remedy: &'static str,
+    },
+    /// `--frames` is not of the grammar.
+    #[error(
+        "frames \"{text}\": {reason} at \"{part}\"; write ranges as 1001-1100, every second frame as 1001-1100x2, single ones as 1010,1020"
+    )]
+    FrameRange {
+        /// The whole text.
+        text: String,
+        /// The comma-separated part at fault.
+        part: String,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// `--frames` names only frames that the recording does not have.
+    #[error("frames \"{text}\": none lies in the recording, which has {first} to {last}; name some of these")]
+    NoFrames {
+        /// The whole text.
+        text: String,
+        /// First frame of the recording.
+        first: u32,
+        /// Last frame of the recording.
+        last: u32,
+    },
+    /// The recording holds no frame at all.
+    #[error("the recording holds no frame; simulate for at least one step")]
+    EmptyRecording,
+    /// The recording could not be read.
+    #[error(transparent)]
+    Recording(#[from] fbcrowd_sim::recording_error::RecordingError),
+}

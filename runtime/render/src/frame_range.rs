@@ -1,0 +1,111 @@
+//! Which frames of a sequence to render: `1001-1100`, `1001-1100x2` (or `:2`), `1010,1020`, and lists of these.
+
+use std::collections::BTreeSet;
+use std::str::FromStr;
+
+use crate::error::RenderError;
+
+/// Frames are numbered from here, as film tools expect.
+pub const FIRST_FRAME: u32 = 1001;
+
+/// Frame numbers as a user wrote them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FrameRange {
+    text: String,
+    pieces: Vec<Piece>,
+}
+
+/// `first-last x step`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Piece {
+    first: u32,
+    last: u32,
+    step: u32,
+}
+
+impl FromStr for FrameRange {
+    type Err = RenderError;
+
+    fn from_str(text: &str) -> Result<Self, RenderError> {
+        let refuse =
+            |part: &str, reason| RenderError::FrameRange { text: text.to_owned(), part: part.to_owned(), reason };
+        let piece = |part: &str| parse_piece(part.trim()).map_err(|reason| refuse(part, reason));
+        let pieces = text.split(',').map(piece).collect::<Result<_, _>>()?;
+        Ok(Self { text: text.to_owned(), pieces })
+    }
+}
+
+impl FrameRange {
+    /// The numbers that lie in a recording of `frame_count` frames, ascending, each once.
+    ///
+    /// # Errors
+    /// Where none does.
+    pub fn clip(&self, frame_count: u32) -> Result<Vec<u32>, RenderError> {
+        let (first, last) = (FIRST_FRAME, FIRST_FRAME + frame_count.saturating_sub(1));
+        let numbers: BTreeSet<u32> = self
+            .pieces
+            .iter()
+            .flat_map(|piece| (piece.first..=piece.last.min(last)).step_by(piece.step as usize))
+            .filter(|number| *number >= first)
+            .collect();
+        if numbers.is_empty() {
+            return Err(RenderError::NoFrames { text: self.text.clone(), first, last });
+        }
+        Ok(numbers.into_iter().collect())
+    }
+}
+
+fn parse_piece(part: &str) -> Result<Piece, &'static str> {
+    let number = |digits: &str| digits.trim().parse::<u32>().map_err(|_| "a frame number is missing or not a number");
+    let (span, step) = match part.split_once(['x', ':']) {
+        Some((span, step)) => (span, step.trim().parse::<u32>().map_err(|_| "the step is not a number")?),
+        None => (part, 1),
+    };
+    let (first, last) = match span.split_once('-') {
+        Some((first, last)) => (number(first)?, number(last)?),
+        None => (number(span)?, number(span)?),
+    };
+    match (step, first <= last) {
+        (0, _) => Err("the step is zero"),
+        (_, false) => Err("the range ends before it begins"),
+        _ => Ok(Piece { first, last, step }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(text: &str, expected: &[u32]) {
+        assert_eq!(text.parse::<FrameRange>().unwrap().clip(20).unwrap(), expected, "{text}");
+    }
+
+    #[test]
+    fn ranges_steps_and_lists_are_read_clipped_and_sorted() {
+        check("1001-1003", &[1001, 1002, 1003]);
+        check("1001-1006x2", &[1001, 1003, 1005]);
+        check("1001-1006:3", &[1001, 1004]);
+        check("1010,1005", &[1005, 1010]);
+        check("1002, 1001-1003", &[1001, 1002, 1003]);
+        check("1-4000000000x5", &[1001, 1006, 1011, 1016]);
+        check("1019-1100", &[1019, 1020]);
+    }
+
+    #[test]
+    fn what_is_no_range_is_refused_with_its_part() {
+        for (text, part) in [
+            ("", ""),
+            ("1001,,1002", ""),
+            ("a", "a"),
+            ("1001-", "1001-"),
+            ("1005-1001", "1005-1001"),
+            ("1001-1005x0", "1001-1005x0"),
+            ("1001-1005x", "1001-1005x"),
+            ("99999999999", "99999999999"),
+        ] {
+            let error = text.parse::<FrameRange>().unwrap_err();
+            assert!(matches!(&error, RenderError::FrameRange { part: found, .. } if found == part), "{text}: {error}");
+        }
+        assert!(matches!("1-20".parse::<FrameRange>().unwrap().clip(5), Err(RenderError::NoFrames { .. })));
+    }
+}

@@ -1,0 +1,124 @@
+//! One frame seen from straight above: ground, trails, shade, bodies, writing, in the order in which they cover each other.
+//!
+//! [`TopView::new`] does once what all frames of a sequence share; [`TopView::draw`] is a pure function of time and bodies, so that
+//! frames can be drawn in any order and on any thread.
+
+use fbcrowd_sim::recording::Header;
+use fbcrowd_sim::recording_frame::AgentFrame;
+use glam::{Vec2, Vec3};
+use tiny_skia::Pixmap;
+
+use crate::body::{self, Detail, Part};
+use crate::cone::{self, Cone};
+use crate::error::RenderError;
+use crate::framing::{Framing, frame_recording};
+use crate::ground;
+use crate::overlay::Overlay;
+use crate::palette::{Look, look};
+use crate::shade::ShadeMask;
+use crate::trails::{self, Tracks};
+
+/// Reach of a body and its shade about its root, m: bodies farther outside the picture are left out.
+const REACH_M: f32 = 2.0;
+/// Width of the dark rim under a limb, m, and its limits, pixels.
+const RIM_M: f32 = 0.022;
+const RIM_PX: [f32; 2] = [0.4, 3.0];
+/// Parts less than this off the ground that lie under others in full detail still throw shade; heads' small parts do not, m.
+const MIN_SHADE_RADIUS_M: f32 = 0.03;
+
+/// What all frames of one recording share.
+#[derive(Clone, Debug)]
+pub struct TopView<'a> {
+    header: &'a Header,
+    tracks: &'a Tracks,
+    framing: Framing,
+    background: Pixmap,
+    looks: Vec<Look>,
+    overlay: Overlay,
+}
+
+impl<'a> TopView<'a> {
+    /// Frames the recording as its view says and draws what stands still.
+    ///
+    /// # Errors
+    /// Where the view asks for a picture that cannot be drawn.
+    pub fn new(header: &'a Header, tracks: &'a Tracks) -> Result<Self, RenderError> {
+        let framing = frame_recording(header, &tracks.positions_m)?;
+        let background = ground::background(header, &framing);
+        let looks = (0..header.scenario.agents.len()).map(look).collect();
+        Ok(Self { header, tracks, framing, background, looks, overlay: Overlay::new(&framing) })
+    }
+
+    /// Where the world lies in the picture.
+    pub fn framing(&self) -> &Framing {
+        &self.framing
+    }
+
+    /// The picture of all agents at a time, opaque.
+    pub fn draw(&self, time_s: f32, agents: &[AgentFrame]) -> Pixmap {
+        let mut pixmap = self.background.clone();
+        let parts = self.parts(agents);
+        self.draw_trails(&mut pixmap, time_s, agents);
+        self.draw_shade(&mut pixmap, &parts);
+        self.draw_bodies(&mut pixmap, &parts);
+        self.draw_writing(&mut pixmap, time_s, agents);
+        pixmap
+    }
+
+    /// The limbs of every body in the picture, from the lowest to the highest.
+    fn parts(&self, agents: &[AgentFrame]) -> Vec<Part> {
+        let detail = Detail::at_scale(self.framing.scale_px_m);
+        let mut parts = Vec::new();
+        for (agent, look) in agents.iter().zip(&self.looks) {
+            if self.shows(agent.root.position_m) {
+                body::append_parts(&mut parts, &self.header.skeleton, agent, *look, detail);
+            }
+        }
+        // Stable, so that equal heights keep the order of agents.
+        parts.sort_by(|one, other| one.top_m.total_cmp(&other.top_m));
+        parts
+    }
+
+    fn shows(&self, position_m: Vec2) -> bool {
+        let reach = Vec2::splat(REACH_M * self.framing.scale_px_m);
+        let px = self.framing.to_px(position_m);
+        (px + reach).cmpge(Vec2::ZERO).all() && (px - reach).cmple(self.framing.size_px()).all()
+    }
+
+    fn draw_trails(&self, pixmap: &mut Pixmap, time_s: f32, agents: &[AgentFrame]) {
+        let trail_s = self.header.scenario.view.trail_s;
+        if trail_s <= 0.0 {
+            return;
+        }
+        for (index, (agent, look)) in agents.iter().zip(&self.looks).enumerate() {
+            let now = (time_s, agent.root.position_m);
+            trails::draw(pixmap, &self.framing, self.tracks, index, now, trail_s, look.shirt);
+        }
+    }
+
+    fn draw_shade(&self, pixmap: &mut Pixmap, parts: &[Part]) {
+        let mut shade = ShadeMask::new(&self.framing);
+        for part in parts.iter().filter(|part| part.radii_m[0] >= MIN_SHADE_RADIUS_M) {
+            shade.add_part(&self.framing, part);
+        }
+        shade.apply(pixmap);
+    }
+
+    fn draw_bodies(&self, pixmap: &mut Pixmap, parts: &[Part]) {
+        let scale = self.framing.scale_px_m;
+        let rim_px = (RIM_M * scale).clamp(RIM_PX[0], RIM_PX[1]);
+        let to_px = |end: Vec3| self.framing.to_px(end.truncate());
+        for part in parts {
+            let cone = Cone { ends_px: part.ends_m.map(to_px), radii_px: part.radii_m.map(|radius| radius * scale) };
+            cone::paint(pixmap, &cone, part.colour, rim_px);
+        }
+    }
+
+    fn draw_writing(&self, pixmap: &mut Pixmap, time_s: f32, agents: &[AgentFrame]) {
+        if self.header.scenario.view.labels {
+            self.overlay.draw_labels(pixmap, agents);
+        }
+        self.overlay.draw_scale_bar(pixmap);
+        self.overlay.draw_time(pixmap, time_s);
+    }
+}

@@ -1,0 +1,137 @@
+//! A hand-posed walker and crowds of it: bodies for pictures that depend on no simulation.
+
+#![expect(clippy::allow_attributes_without_reason, reason = "see below")]
+#![allow(dead_code, unreachable_pub)]
+
+use std::f32::consts::{FRAC_PI_2, TAU};
+
+use fbcrowd_sim::params::Params;
+use fbcrowd_sim::recording::Header;
+use fbcrowd_sim::recording_frame::AgentFrame;
+use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
+use glam::{Quat, Vec2, Vec3};
+use motiondb::pose::{Pose, Root};
+use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
+
+/// Walking speed of every walker, m/s.
+pub const SPEED_MPS: f32 = 1.3;
+/// Strides a second at that speed.
+pub const STRIDE_HZ: f32 = 0.93;
+
+/// An adult of 1.75 m.
+pub fn skeleton() -> Skeleton {
+    let mut offsets_m = [Vec3::ZERO; JOINT_COUNT];
+    let mut segment_ends_m = [Vec3::ZERO; JOINT_COUNT];
+    let mut segment_radii_m = [0.05; JOINT_COUNT];
+    let mut set = |joint: Joint, offset: [f32; 3], end: [f32; 3], radius: f32| {
+        for (joint, y) in [(joint, 1.0), (joint.mirrored(), -1.0)] {
+            let flip = if joint == joint.mirrored() { 1.0 } else { y };
+            offsets_m[joint.index()] = Vec3::new(offset[0], offset[1] * flip, offset[2]);
+            segment_ends_m[joint.index()] = Vec3::new(end[0], end[1] * flip, end[2]);
+            segment_radii_m[joint.index()] = radius;
+        }
+    };
+    set(Joint::Pelvis, [0.0, 0.0, 0.93], [0.0, 0.0, 0.1], 0.125);
+    set(Joint::SpineLower, [-0.01, 0.0, 0.1], [0.0, 0.0, 0.13], 0.115);
+    set(Joint::SpineMiddle, [0.0, 0.0, 0.13], [0.0, 0.0, 0.14], 0.12);
+    set(Joint::SpineUpper, [0.0, 0.0, 0.14], [0.0, 0.0, 0.18], 0.125);
+    set(Joint::Neck, [0.0, 0.0, 0.18], [0.02, 0.0, 0.09], 0.055);
+    set(Joint::Head, [0.02, 0.0, 0.09], [0.01, 0.0, 0.2], 0.098);
+    set(Joint::LeftClavicle, [0.0, 0.03, 0.13], [0.0, 0.15, 0.0], 0.06);
+    set(Joint::LeftUpperArm, [0.0, 0.15, 0.0], [0.0, 0.28, 0.0], 0.05);
+    set(Joint::LeftForearm, [0.0, 0.28, 0.0], [0.0, 0.25, 0.0], 0.042);
+    set(Joint::LeftHand, [0.0, 0.25, 0.0], [0.0, 0.17, 0.0], 0.042);
+    set(Joint::LeftThigh, [0.0, 0.09, -0.02], [0.0, 0.0, -0.42], 0.078);
+    set(Joint::LeftShank, [0.0, 0.0, -0.42], [0.0, 0.0, -0.41], 0.055);
+    set(Joint::LeftFoot, [0.0, 0.0, -0.41], [0.13, 0.0, -0.06], 0.045);
+    set(Joint::LeftToe, [0.13, 0.0, -0.06], [0.07, 0.0, -0.01], 0.04);
+    let foot = Foot {
+        heel_m: Vec3::new(-0.06, 0.0, -0.08),
+        ball_m: Vec3::new(0.13, 0.0, -0.08),
+        toe_tip_m: Vec3::new(0.08, 0.0, -0.02),
+        measured_on_sole: true,
+    };
+    let limits_rad = [[Vec3::splat(-3.0), Vec3::splat(3.0)]; JOINT_COUNT];
+    Skeleton { offsets_m, segment_ends_m, segment_radii_m, limits_rad, feet: [foot; 2] }
+}
+
+/// A walking pose at a phase: legs and arms swing as sines, knees bend in swing.
+pub fn walking(phase: f32) -> Pose {
+    let mut rotations = [Quat::IDENTITY; JOINT_COUNT];
+    for side in 0..2 {
+        let swing = (TAU * (phase + 0.5 * side as f32)).sin();
+        let lift = (TAU * (phase + 0.5 * side as f32)).cos().max(0.0);
+        let down = Quat::from_rotation_x(if side == 0 { -1.38 } else { 1.38 });
+        rotations[Joint::THIGHS[side].index()] = Quat::from_rotation_y(-0.42 * swing - 0.25 * lift);
+        rotations[Joint::SHANKS[side].index()] = Quat::from_rotation_y(0.12 + 0.95 * lift);
+        rotations[Joint::FEET[side].index()] = Quat::from_rotation_y(-0.05 + 0.25 * swing - 0.35 * lift);
+        rotations[Joint::UPPER_ARMS[side].index()] = Quat::from_rotation_y(0.5 * swing) * down;
+        let forearm = if side == 0 { Joint::LeftForearm } else { Joint::RightForearm };
+        let bend = if side == 0 { -1.0 } else { 1.0 };
+        rotations[forearm.index()] = Quat::from_rotation_z(bend * (0.45 - 0.25 * swing));
+    }
+    let yaw = 0.12 * (TAU * phase).sin();
+    rotations[Joint::Pelvis.index()] = Quat::from_rotation_z(-yaw);
+    rotations[Joint::SpineMiddle.index()] = Quat::from_rotation_z(2.0 * yaw);
+    rotations[Joint::Neck.index()] = Quat::from_rotation_z(-yaw);
+    Pose { pelvis_m: Vec3::new(0.0, 0.02 * (TAU * phase).cos(), 0.9), rotations }
+}
+
+/// A walker at a place, facing somewhere.
+pub fn walker(position_m: Vec2, facing_rad: f32, phase: f32) -> AgentFrame {
+    AgentFrame { root: Root { position_m, facing_rad }, phase, pose: walking(phase), ..AgentFrame::default() }
+}
+
+/// Agents on a circle, each bound for the opposite point, passing left of the centre on gentle arcs.
+pub fn circle(agent_count: usize, radius_m: f32, view: View) -> Header {
+    let at = |index: usize| radius_m * Vec2::from_angle(TAU * index as f32 / agent_count as f32);
+    let agents = (0..agent_count)
+        .map(|index| AgentSpec {
+            position_m: at(index),
+            facing_rad: (-at(index)).to_angle(),
+            goals_m: vec![-at(index)],
+            radius_m: 0.3,
+            preferred_speed_mps: SPEED_MPS,
+        })
+        .collect();
+    header(agents, view)
+}
+
+/// A scene around agents, with two obstacles out of their way.
+pub fn header(agents: Vec<AgentSpec>, view: View) -> Header {
+    let block =
+        |x: f32, y: f32| [[-0.7, -0.4], [0.7, -0.4], [0.7, 0.4], [-0.7, 0.4]].map(|c| Vec2::new(x, y) + Vec2::from(c));
+    let scenario = Scenario {
+        name: "golden".to_owned(),
+        duration_s: 4.0,
+        dt_s: 1.0 / 30.0,
+        seed: 1,
+        agents,
+        obstacles_m: vec![
+            block(-5.6, 2.6).to_vec(),
+            vec![Vec2::new(5.0, -2.8), Vec2::new(6.4, -2.6), Vec2::new(5.4, -1.6)],
+        ],
+        params: Params::default(),
+        view,
+    };
+    Header { database_checksum: 0, skeleton: skeleton(), scenario }
+}
+
+/// All agents of a scene after some seconds: each walks towards its goal on an arc that bulges to its right.
+pub fn frame(header: &Header, time_s: f32) -> Vec<AgentFrame> {
+    let walk = |(index, agent): (usize, &AgentSpec)| {
+        let goal = agent.goals_m[0];
+        let way = goal - agent.position_m;
+        let share = (SPEED_MPS * time_s / way.length()).min(1.0);
+        let bulge = 0.22 * way.length() * (TAU * 0.5 * share).sin();
+        let slope = 0.22 * 0.5 * TAU * (TAU * 0.5 * share).cos();
+        let position_m = agent.position_m + way * share - bulge * way.normalize().perp();
+        let facing_rad = (way.normalize() - slope * way.normalize().perp()).to_angle();
+        let phase = (STRIDE_HZ * time_s + 0.37 * index as f32).fract();
+        walker(position_m, facing_rad, phase)
+    };
+    header.scenario.agents.iter().enumerate().map(walk).collect()
+}
+
+/// A quarter turn, for readers of the poses above.
+pub const QUARTER_TURN: f32 = FRAC_PI_2;
