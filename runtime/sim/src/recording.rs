@@ -24,6 +24,7 @@ use crate::recording_error::RecordingError;
 use crate::recording_frame::AgentFrame;
 use crate::recording_packing::{PACKED_BYTES, pack, unpack};
 use crate::scenario::Scenario;
+use crate::scenario_check::check_numbers;
 
 /// Raised when a reader of the old version would misread the new one.
 pub const FORMAT_VERSION: u32 = 1;
@@ -199,6 +200,8 @@ fn decode_header(file: &ChunkFile) -> Result<Header, RecordingError> {
     if used != payload.len() {
         return Err(file.damaged(HEAD_BYTE, "the header is longer than it says"));
     }
+    // Whoever reads, measures or draws a recording may trust its numbers.
+    check_numbers(&header.scenario).map_err(|fault| file.damaged(HEAD_BYTE, fault.message))?;
     Ok(header)
 }
 

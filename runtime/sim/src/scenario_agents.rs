@@ -1,0 +1,247 @@
+//! The `agents` of a scenario file: one table or a list of tables, each of exactly one kind, and the agents that each stands for.
+//!
+//! | kind | its goals |
+//! |---|---|
+//! | `at_m = [x, y]` | `goals_m`, waypoints in order |
+//! | `circle = { count, radius_m, centre_m }` | the opposite place on the circle, exactly |
+//! | `grid = { columns, rows, spacing_m, centre_m, jitter_m }` | `goals_m`, the same for all, or `goal_offset_m` from each one's place |
+//! | `file = "x.txt"` | lines `x y goal_x goal_y`, `#` begins a comment |
+
+use std::f64::consts::TAU;
+use std::fmt;
+use std::ops::Range;
+
+use glam::{DVec2, Vec2};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use toml::Spanned;
+
+use crate::scenario::AgentSpec;
+use crate::scenario_check::AGENTS_MAX;
+use crate::split_mix::SplitMix64;
+
+/// Disc of an agent, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected trunk, and the radius of the
+/// protocol in which other planners were measured (`facts/planning.md` §3), so that figures compare.
+const RADIUS_M: f32 = 0.25;
+/// Of the same protocol, m/s.
+const PREFERRED_SPEED_MPS: f32 = 1.33;
+
+/// What `agents` holds: each table and, in a list, where it stands.
+#[derive(Debug)]
+pub(crate) struct Groups(pub(crate) Vec<(Option<Range<usize>>, Group)>);
+
+/// One table of agents.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Group {
+    at_m: Option<Point>,
+    circle: Option<Circle>,
+    grid: Option<Grid>,
+    pub(crate) file: Option<Spanned<String>>,
+    goals_m: Option<Vec<Point>>,
+    goal_offset_m: Option<Point>,
+    facing_deg: Option<f32>,
+    #[serde(default = "radius_m")]
+    radius_m: f32,
+    #[serde(default = "preferred_speed_mps")]
+    preferred_speed_mps: f32,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Circle {
+    count: usize,
+    radius_m: f64,
+    #[serde(default)]
+    centre_m: Point,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Grid {
+    columns: usize,
+    rows: usize,
+    spacing_m: f64,
+    #[serde(default)]
+    centre_m: Point,
+    #[serde(default)]
+    jitter_m: f64,
+}
+
+/// `[x, y]`; glam's own reading would drop a third number silently.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(try_from = "Vec<f32>")]
+pub(crate) struct Point(pub(crate) Vec2);
+
+impl TryFrom<Vec<f32>> for Point {
+    type Error = String;
+
+    fn try_from(numbers: Vec<f32>) -> Result<Self, String> {
+        let [x, y] = numbers[..] else { return Err(format!("{} numbers, not the two of `[x, y]`", numbers.len())) };
+        Ok(Self(Vec2::new(x, y)))
+    }
+}
+
+/// Where an agent starts and where it goes.
+pub(crate) type Journey = (Vec2, Vec<Vec2>);
+
+/// A message and what to do.
+pub(crate) type Complaint = (String, &'static str);
+
+fn radius_m() -> f32 {
+    RADIUS_M
+}
+
+fn preferred_speed_mps() -> f32 {
+    PREFERRED_SPEED_MPS
+}
+
+impl Group {
+    /// The agents of this table; `lines` are those of its `file`, `stream` tells its random numbers from other tables'.
+    pub(crate) fn agents(&self, lines: Vec<Journey>, seed: u64, stream: u64) -> Result<Vec<AgentSpec>, Complaint> {
+        let journeys = match (self.at_m, &self.circle, &self.grid) {
+            (Some(Point(at_m)), _, _) => vec![(at_m, self.shared_goals_m())],
+            (_, Some(circle), _) => circle.journeys()?,
+            (_, _, Some(grid)) => self.with_goals(grid.places_m(seed, stream)?),
+            _ => lines,
+        };
+        Ok(journeys.into_iter().map(|(position_m, goals_m)| self.agent(position_m, goals_m)).collect())
+    }
+
+    /// That the table is of exactly one kind and says where its agents go.
+    pub(crate) fn check_keys(&self) -> Result<(), Complaint> {
+        let kinds = [self.at_m.is_some(), self.circle.is_some(), self.grid.is_some(), self.file.is_some()];
+        if kinds.into_iter().filter(|given| *given).count() != 1 {
+            let message = "agents need exactly one of `at_m`, `circle`, `grid` and `file`";
+            return Err((message.into(), "split what is different into several `[[agents]]`"));
+        }
+        let goals = [self.goals_m.is_some(), self.goal_offset_m.is_some()];
+        match (self.at_m, &self.grid, goals) {
+            (Some(_), _, [true, false])
+            | (_, Some(_), [true, false] | [false, true])
+            | (None, None, [false, false]) => Ok(()),
+            (Some(_), ..) => {
+                Err(("an agent with `at_m` needs `goals_m`".into(), "add `goals_m = [[x, y]]`, and no `goal_offset_m`"))
+            }
+            (_, Some(_), _) => Err(("a grid needs either `goals_m` or `goal_offset_m`".into(), "give one of the two")),
+            _ => Err((
+                "agents of a circle or a file bring their own goals".into(),
+                "remove `goals_m` and `goal_offset_m`",
+            )),
+        }
+    }
+
+    fn shared_goals_m(&self) -> Vec<Vec2> {
+        self.goals_m.iter().flatten().map(|&Point(goal_m)| goal_m).collect()
+    }
+
+    fn with_goals(&self, places_m: Vec<Vec2>) -> Vec<Journey> {
+        let goals_m = |place_m| match self.goal_offset_m {
+            Some(Point(offset_m)) => vec![place_m + offset_m],
+            None => self.shared_goals_m(),
+        };
+        places_m.into_iter().map(|place_m| (place_m, goals_m(place_m))).collect()
+    }
+
+    fn agent(&self, position_m: Vec2, goals_m: Vec<Vec2>) -> AgentSpec {
+        let towards_goal = goals_m.first().map_or(Vec2::ZERO, |goal_m| goal_m - position_m);
+        let facing_rad = self.facing_deg.map_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x), f32::to_radians);
+        let &Self { radius_m, preferred_speed_mps, .. } = self;
+        AgentSpec { position_m, facing_rad, goals_m, radius_m, preferred_speed_mps }
+    }
+}
+
+impl Circle {
+    /// Counter-clockwise from +x.
+    fn journeys(&self) -> Result<Vec<Journey>, Complaint> {
+        check_count(Some(self.count))?;
+        let centre_m = DVec2::from(self.centre_m.0);
+        let journey = |index: usize| {
+            let (sin, cos) = libm::sincos(TAU * index as f64 / self.count as f64);
+            let arm_m = DVec2::new(cos, sin) * self.radius_m;
+            ((centre_m + arm_m).as_vec2(), vec![(centre_m - arm_m).as_vec2()])
+        };
+        Ok((0..self.count).map(journey).collect())
+    }
+}
+
+impl Grid {
+    /// Row by row, from the lower left; the jitter is uniform in a square of ± `jitter_m`.
+    fn places_m(&self, seed: u64, stream: u64) -> Result<Vec<Vec2>, Complaint> {
+        let count = check_count(self.columns.checked_mul(self.rows))?;
+        let mut random = SplitMix64::new(seed, stream);
+        let corner_m = DVec2::from(self.centre_m.0)
+            - 0.5 * self.spacing_m * DVec2::new(self.columns as f64 - 1.0, self.rows as f64 - 1.0);
+        let mut place_m = |index: usize| {
+            let cell = DVec2::new((index % self.columns) as f64, (index / self.columns) as f64);
+            let jitter_m = DVec2::new(random.within(self.jitter_m), random.within(self.jitter_m));
+            (corner_m + self.spacing_m * cell + jitter_m).as_vec2()
+        };
+        Ok((0..count).map(&mut place_m).collect())
+    }
+}
+
+/// Before anything is allocated for them.
+fn check_count(count: Option<usize>) -> Result<usize, Complaint> {
+    match count {
+        Some(count) if (1..=AGENTS_MAX).contains(&count) => Ok(count),
+        _ => Err((format!("these are no 1 to {AGENTS_MAX} agents"), "give another count")),
+    }
+}
+
+/// Lines `x y goal_x goal_y` in metres.
+///
+/// # Errors
+/// The bytes of the first line that is none, and what is wrong with it.
+pub(crate) fn parse_lines(text: &str) -> Result<Vec<Journey>, (Range<usize>, String)> {
+    let mut journeys = Vec::new();
+    let mut begin = 0;
+    for line in text.split_inclusive('\n') {
+        let content = line.split('#').next().unwrap_or_default().trim();
+        let span = begin..begin + line.trim_end().len();
+        begin += line.len();
+        if !content.is_empty() {
+            journeys.push(parse_line(content).map_err(|message| (span, message))?);
+        }
+    }
+    Ok(journeys)
+}
+
+fn parse_line(content: &str) -> Result<Journey, String> {
+    let number = |word: &str| word.parse::<f32>().map_err(|_| format!("`{word}` is no number"));
+    let numbers = content.split_whitespace().map(number).collect::<Result<Vec<f32>, String>>()?;
+    match numbers[..] {
+        [x, y, goal_x, goal_y] => Ok((Vec2::new(x, y), vec![Vec2::new(goal_x, goal_y)])),
+        _ => Err(format!("{} numbers, not the four of `x y goal_x goal_y`", numbers.len())),
+    }
+}
+
+impl<'de> Deserialize<'de> for Groups {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(OneOrMany)
+    }
+}
+
+/// Written by hand because serde's untagged enums forget where a mistake stands.
+struct OneOrMany;
+
+impl<'de> Visitor<'de> for OneOrMany {
+    type Value = Groups;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str("a table of agents or a list of such tables")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Groups, A::Error> {
+        Ok(Groups(vec![(None, Group::deserialize(MapAccessDeserializer::new(map))?)]))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Groups, A::Error> {
+        let mut groups = Vec::new();
+        while let Some(group) = list.next_element::<Spanned<Group>>()? {
+            groups.push((Some(group.span()), group.into_inner()));
+        }
+        Ok(Groups(groups))
+    }
+}

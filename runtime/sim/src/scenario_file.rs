@@ -1,0 +1,206 @@
+//! A scenario in TOML: read, resolved to explicit agents, checked; every mistake is shown where it stands.
+//!
+//! ```toml
+//! clips = "../clips"                  # or database = "x.fbdb"; a folder, file or manifest, relative to this file
+//! duration_s = 30.0
+//! agents = { circle = { count = 17, radius_m = 4.0 } }    # or [[agents]] tables: see `scenario_agents.rs`
+//!
+//! # All that follows may be left out.
+//! name = "antipodal"                  # the file's stem
+//! dt_s = 0.0333333                    # 1/30
+//! seed = 1                            # of everything random
+//! [[obstacles]]
+//! polygon_m = [[0, 0], [1, 0], [1, 1]]
+//! [params.planner]
+//! [params.synthesis]
+//! [view]
+//! ```
+
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use glam::Vec2;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::params::Params;
+use crate::polygon::signed_area_m2;
+use crate::scenario::{AgentSpec, Scenario, View};
+use crate::scenario_agents::{Complaint, Groups, Journey, Point, parse_lines};
+use crate::scenario_check::{Fault, Place, check};
+use crate::scenario_error::{Invalid, ScenarioError};
+
+const STEP_S: f32 = 1.0 / 30.0;
+const SEED: u64 = 1;
+/// A million agents take a tenth of it.
+const TEXT_MAX_BYTES: u64 = 1 << 30;
+
+/// Where a scenario's motion comes from; apart from the [`Scenario`], so that no path gets into a recording.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MotionSource {
+    /// A folder of clips, one clip or a manifest, to be compiled.
+    Clips(PathBuf),
+    /// A compiled database.
+    Database(PathBuf),
+}
+
+/// The file as written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ScenarioFile {
+    name: Option<String>,
+    clips: Option<Spanned<PathBuf>>,
+    database: Option<Spanned<PathBuf>>,
+    duration_s: Spanned<f32>,
+    dt_s: Option<Spanned<f32>>,
+    seed: Option<u64>,
+    agents: Spanned<Groups>,
+    #[serde(default)]
+    obstacles: Vec<Spanned<Obstacle>>,
+    #[serde(default)]
+    params: Params,
+    view: Option<Spanned<View>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Obstacle {
+    polygon_m: Vec<Point>,
+}
+
+/// A text and its name, to point into.
+struct Source<'a> {
+    path: &'a Path,
+    text: String,
+}
+
+/// Agents, and for each the place in the text that asked for it.
+#[derive(Default)]
+struct Placed {
+    agents: Vec<AgentSpec>,
+    spans: Vec<Range<usize>>,
+}
+
+/// Reads a scenario file and whatever agent files it names.
+///
+/// # Errors
+/// Where a file cannot be read or says something that cannot be simulated.
+pub fn read(path: &Path) -> Result<(Scenario, MotionSource), ScenarioError> {
+    let source = Source::read(path)?;
+    let file: ScenarioFile = toml::from_str(&source.text).map_err(|error| source.toml_error(&error))?;
+    let motion = motion_source(&source, &file)?;
+    let placed = place_agents(&source, &file)?;
+    let scenario = Scenario {
+        name: file.name.clone().unwrap_or_else(|| stem(path)),
+        duration_s: *file.duration_s.get_ref(),
+        dt_s: file.dt_s.as_ref().map_or(STEP_S, |dt_s| *dt_s.get_ref()),
+        seed: file.seed.unwrap_or(SEED),
+        agents: placed.agents,
+        obstacles_m: file.obstacles.iter().map(|obstacle| counter_clockwise(&obstacle.get_ref().polygon_m)).collect(),
+        params: file.params.clone(),
+        view: file.view.as_ref().map_or_else(View::default, |view| view.get_ref().clone()),
+    };
+    check(&scenario).map_err(|fault| source.fault(&file, &placed.spans, fault))?;
+    Ok((scenario, motion))
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {
+    let mut corners_m: Vec<Vec2> = polygon_m.iter().map(|&Point(corner_m)| corner_m).collect();
+    if signed_area_m2(&corners_m) < 0.0 {
+        corners_m.reverse();
+    }
+    corners_m
+}
+
+fn motion_source(source: &Source, file: &ScenarioFile) -> Result<MotionSource, ScenarioError> {
+    let (given, to_motion): (_, fn(PathBuf) -> MotionSource) = match (&file.clips, &file.database) {
+        (Some(clips), None) => (clips, MotionSource::Clips),
+        (None, Some(database)) => (database, MotionSource::Database),
+        (clips, _) => {
+            let span = clips.as_ref().map_or(0..0, Spanned::span);
+            let message = "a scenario needs either `clips` or `database`";
+            return Err(source.invalid(span, message, "name a folder of clips or a .fbdb file, relative to this file"));
+        }
+    };
+    let path = source.beside(given.get_ref());
+    if !path.exists() {
+        let message = format!("there is no {}", path.display());
+        return Err(source.invalid(given.span(), message, "the path is relative to the scenario file"));
+    }
+    Ok(to_motion(path))
+}
+
+fn place_agents(source: &Source, file: &ScenarioFile) -> Result<Placed, ScenarioError> {
+    let mut placed = Placed::default();
+    for (stream, (span, group)) in file.agents.get_ref().0.iter().enumerate() {
+        let span = span.clone().unwrap_or_else(|| file.agents.span());
+        let complain = |(message, help): Complaint| source.invalid(span.clone(), message, help);
+        group.check_keys().map_err(complain)?;
+        let lines = group.file.as_ref().map_or(Ok(Vec::new()), |name| read_lines(source, name))?;
+        let agents = group.agents(lines, file.seed.unwrap_or(SEED), stream as u64).map_err(complain)?;
+        placed.spans.extend(std::iter::repeat_n(span, agents.len()));
+        placed.agents.extend(agents);
+    }
+    Ok(placed)
+}
+
+fn read_lines(source: &Source, name: &Spanned<String>) -> Result<Vec<Journey>, ScenarioError> {
+    let path = source.beside(Path::new(name.get_ref()));
+    if !path.is_file() {
+        let message = format!("there is no file {}", path.display());
+        return Err(source.invalid(name.span(), message, "the path is relative to the scenario file"));
+    }
+    let lines = Source::read(&path)?;
+    parse_lines(&lines.text)
+        .map_err(|(span, message)| lines.invalid(span, message, "each line is `x y goal_x goal_y`, in metres"))
+}
+
+impl<'a> Source<'a> {
+    fn read(path: &'a Path) -> Result<Self, ScenarioError> {
+        let fail = |source| ScenarioError::Io { path: path.to_owned(), source };
+        if fs::metadata(path).map_err(fail)?.len() > TEXT_MAX_BYTES {
+            return Err(fail(std::io::Error::other("a text of more than 1 GiB")));
+        }
+        Ok(Self { path, text: fs::read_to_string(path).map_err(fail)? })
+    }
+
+    /// A path given relative to this file.
+    fn beside(&self, path: &Path) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    fn invalid(&self, span: Range<usize>, message: impl Into<String>, help: &str) -> ScenarioError {
+        let (path, text) = (self.path.to_owned(), self.text.clone());
+        ScenarioError::Invalid(Box::new(Invalid { path, text, span, message: message.into(), help: help.to_owned() }))
+    }
+
+    fn toml_error(&self, error: &toml::de::Error) -> ScenarioError {
+        let message = error.message();
+        let help = if message.starts_with("unknown field") {
+            "correct the key or remove it"
+        } else if message.starts_with("missing field") {
+            "add the key"
+        } else {
+            "correct the value"
+        };
+        self.invalid(error.span().unwrap_or(0..0), message, help)
+    }
+
+    /// Points at what breaks a rule.
+    fn fault(&self, file: &ScenarioFile, agents: &[Range<usize>], fault: Fault) -> ScenarioError {
+        let span = match fault.place {
+            Place::Duration => file.duration_s.span(),
+            Place::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
+            Place::View => file.view.as_ref().map_or(0..0, Spanned::span),
+            Place::Agent(index) => agents[index].clone(),
+            Place::Obstacle(index) => file.obstacles[index].span(),
+            Place::Whole => file.agents.span(),
+        };
+        self.invalid(span, fault.message, fault.help)
+    }
+}

@@ -1,0 +1,232 @@
+//! Scenario files stand for the agents that they describe, and every mistake is shown where it stands.
+
+mod common;
+
+use std::f32::consts::FRAC_PI_2;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use common::folder;
+use fbcrowd_sim::scenario::Scenario;
+use fbcrowd_sim::scenario_error::{Invalid, ScenarioError};
+use fbcrowd_sim::scenario_file::{MotionSource, read};
+use glam::Vec2;
+
+const HEAD: &str = "clips = \".\"\nduration_s = 10\n";
+const ONE: &str = "agents = { at_m = [0, 0], goals_m = [[5, 0]] }\n";
+
+fn write(test: &str, text: &str) -> PathBuf {
+    let path = folder(test).join("scene.toml");
+    fs::write(&path, text).unwrap();
+    path
+}
+
+fn scenario(test: &str, body: &str) -> Scenario {
+    read(&write(test, &format!("{HEAD}{body}"))).unwrap().0
+}
+
+/// That reading fails, pointing at exactly this part of the text with a message that contains this.
+fn check_refused(test: &str, text: &str, part: &str, message: &str) {
+    match read(&write(test, text)) {
+        Err(ScenarioError::Invalid(invalid)) => check_points_at(&invalid, part, message),
+        other => panic!("{text} gave {other:?}"),
+    }
+}
+
+fn check_points_at(invalid: &Invalid, part: &str, message: &str) {
+    assert!(invalid.message.contains(message), "{invalid}");
+    assert_eq!(&invalid.text[invalid.span.clone()], part, "{invalid}");
+    assert!(!invalid.help.is_empty());
+}
+
+#[test]
+fn a_short_file_gives_everything_its_default() {
+    let (scenario, motion) = read(&write("short", &format!("{HEAD}{ONE}"))).unwrap();
+    assert_eq!(
+        (scenario.name.as_str(), scenario.dt_s, scenario.duration_s, scenario.seed),
+        ("scene", 1.0 / 30.0, 10.0, 1)
+    );
+    assert_eq!((scenario.agents[0].radius_m, scenario.agents[0].preferred_speed_mps), (0.25, 1.33));
+    assert!(matches!(motion, MotionSource::Clips(_)));
+}
+
+#[test]
+fn an_agent_faces_its_first_goal_unless_told_otherwise() {
+    let agents = scenario(
+        "facing",
+        "agents = [{ at_m = [1, 1], goals_m = [[1, 4], [9, 9]] }, { at_m = [3, 3], goals_m = [[4, 4]], facing_deg = 180 }]",
+    )
+    .agents;
+    assert_eq!((agents[0].facing_rad, agents[0].goals_m.len()), (FRAC_PI_2, 2));
+    assert_eq!(agents[1].facing_rad, std::f32::consts::PI);
+}
+
+#[test]
+fn goals_of_a_circle_are_exactly_opposite() {
+    let agents = scenario("circle", "agents = { circle = { count = 17, radius_m = 4 } }").agents;
+    assert_eq!(agents.len(), 17);
+    assert!(agents.iter().all(|agent| agent.goals_m == [-agent.position_m]));
+    assert_eq!(agents[0].position_m, Vec2::new(4.0, 0.0));
+}
+
+#[test]
+fn a_grid_is_centred_and_its_jitter_follows_the_seed() {
+    let grid = |jitter_m: f32, seed: u64| {
+        let body = format!(
+            "seed = {seed}\nagents = {{ grid = {{ columns = 3, rows = 2, spacing_m = 2, centre_m = [10, 0], jitter_m = {jitter_m} }}, goal_offset_m = [0, 7] }}"
+        );
+        scenario("grid", &body).agents
+    };
+    let plain: Vec<Vec2> = grid(0.0, 1).iter().map(|agent| agent.position_m).collect();
+    let at = Vec2::new;
+    assert_eq!(plain, [at(8.0, -1.0), at(10.0, -1.0), at(12.0, -1.0), at(8.0, 1.0), at(10.0, 1.0), at(12.0, 1.0)]);
+    let jittered = grid(0.3, 1);
+    assert_eq!(jittered, grid(0.3, 1));
+    assert_ne!(jittered, grid(0.3, 2));
+    for (agent, place) in jittered.iter().zip(plain) {
+        assert!((agent.position_m - place).abs().max_element() <= 0.3);
+        assert_eq!(agent.goals_m, [agent.position_m + Vec2::new(0.0, 7.0)]);
+    }
+}
+
+#[test]
+fn obstacles_run_counter_clockwise_whatever_the_file_says() {
+    let obstacles =
+        |corners: &str| scenario("winding", &format!("{ONE}[[obstacles]]\npolygon_m = {corners}")).obstacles_m;
+    let counter_clockwise = obstacles("[[2, 2], [3, 2], [3, 3]]");
+    assert_eq!(counter_clockwise, [[Vec2::new(2.0, 2.0), Vec2::new(3.0, 2.0), Vec2::new(3.0, 3.0)]]);
+    assert_eq!(obstacles("[[3, 3], [3, 2], [2, 2]]"), counter_clockwise);
+}
+
+#[test]
+fn an_agent_file_gives_an_agent_a_line() {
+    let path = write("lines", &format!("{HEAD}agents = {{ file = \"a.txt\", radius_m = 0.3 }}"));
+    fs::write(path.with_file_name("a.txt"), "# start and goal\n0 0 5 0\n\n 1.5 2 -3e0 4 # the other\n").unwrap();
+    let agents = read(&path).unwrap().0.agents;
+    assert_eq!((agents[1].position_m, &agents[1].goals_m[..]), (Vec2::new(1.5, 2.0), &[Vec2::new(-3.0, 4.0)][..]));
+    assert_eq!(agents[1].radius_m, 0.3);
+}
+
+#[test]
+fn mistakes_in_an_agent_file_are_shown_in_that_file() {
+    let path = write("bad_lines", &format!("{HEAD}agents = {{ file = \"a.txt\" }}"));
+    fs::write(path.with_file_name("a.txt"), "# x\n0 0 5 0\n1 2 3\n").unwrap();
+    let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
+    check_points_at(&invalid, "1 2 3", "3 numbers, not the four");
+    assert_eq!((invalid.line(), invalid.path.file_name().unwrap().to_str().unwrap()), (3, "a.txt"));
+}
+
+#[test]
+fn wrong_keys_and_types_are_shown_where_they_stand() {
+    check_refused("key", &format!("{HEAD}durations = 3\n{ONE}"), "durations", "unknown field `durations`");
+    check_refused("type", "clips = \".\"\nduration_s = \"ten\"\n", "\"ten\"", "invalid type: string");
+    check_refused(
+        "group_key",
+        &format!("{HEAD}agents = {{ at_m = [0, 0], goal_m = [[5, 0]] }}"),
+        "goal_m",
+        "unknown field",
+    );
+    check_refused(
+        "circle_key",
+        &format!("{HEAD}[[agents]]\ncircle = {{ count = 3, radius = 4 }}"),
+        "radius",
+        "unknown field",
+    );
+    check_refused("seed", &format!("{HEAD}seed = -1\n{ONE}"), "-1", "invalid value");
+    check_refused("params", &format!("{HEAD}{ONE}[params.planer]\n"), "planer", "unknown field");
+    check_refused("view", &format!("{HEAD}{ONE}[view]\nheight_px = 3\n"), "height_px", "unknown field");
+    check_refused(
+        "point",
+        &format!("{HEAD}agents = {{ at_m = [0, 0, 1], goals_m = [[5, 0]] }}"),
+        "[0, 0, 1]",
+        "3 numbers, not the two",
+    );
+    check_refused("syntax", "clips = \n", "", "");
+}
+
+#[test]
+fn numbers_out_of_range_are_shown_where_they_stand() {
+    check_refused("dt", &format!("{HEAD}dt_s = 0\n{ONE}"), "0", "dt_s is 0");
+    check_refused("nan", &format!("{HEAD}dt_s = nan\n{ONE}"), "nan", "dt_s is NaN");
+    check_refused("duration", &format!("clips = \".\"\nduration_s = -1\n{ONE}"), "-1", "duration_s is -1");
+    let radius = "{ at_m = [0, 0], goals_m = [[5, 0]], radius_m = -1 }";
+    check_refused("radius", &format!("{HEAD}agents = {radius}"), radius, "radius_m is -1");
+    let far = "{ at_m = [inf, 0], goals_m = [[5, 0]] }";
+    check_refused("far", &format!("{HEAD}agents = [{far}]"), far, "no place within 10 km");
+    let crowd = "{ circle = { count = 9000000000, radius_m = 1 } }";
+    check_refused("crowd", &format!("{HEAD}agents = {crowd}"), crowd, "1 to 1000000 agents");
+    check_refused("nobody", &format!("{HEAD}agents = []"), "[]", "nobody");
+}
+
+#[test]
+fn agents_of_no_kind_or_two_are_refused() {
+    let none = "{ goals_m = [[5, 0]] }";
+    check_refused("none", &format!("{HEAD}agents = {none}"), none, "exactly one");
+    let aimless = "{ at_m = [0, 0] }";
+    check_refused("aimless", &format!("{HEAD}agents = {aimless}"), aimless, "needs `goals_m`");
+    let two = "{ at_m = [0, 0], file = \"scene.toml\" }";
+    check_refused("two", &format!("{HEAD}agents = {two}"), two, "exactly one");
+}
+
+#[test]
+fn bodies_stand_apart_from_each_other_and_from_obstacles() {
+    let second = "{ at_m = [0.3, 0], goals_m = [[5, 0]] }";
+    let agents = format!("agents = [{{ at_m = [0, 0], goals_m = [[5, 0]] }}, {second}]");
+    check_refused("overlap", &format!("{HEAD}{agents}"), second, "agents 0 and 1 overlap by 0.20 m");
+
+    let with_obstacle = |polygon: &str| format!("{HEAD}agents = [{second}]\n[[obstacles]]\npolygon_m = {polygon}\n");
+    check_refused(
+        "inside",
+        &with_obstacle("[[-1, -1], [1, -1], [1, 1], [-1, 1]]"),
+        second,
+        "agent 0 stands inside obstacle 0",
+    );
+    check_refused(
+        "grazing",
+        &with_obstacle("[[-1, 0.2], [1, 0.2], [0, 1]]"),
+        second,
+        "agent 0 reaches 0.05 m into obstacle 0",
+    );
+    check_refused(
+        "goal",
+        &with_obstacle("[[4, -1], [6, -1], [6, 2]]"),
+        second,
+        "a goal of agent 0 lies inside obstacle 0",
+    );
+}
+
+#[test]
+fn obstacles_must_be_simple_polygons() {
+    let check = |test: &str, polygon: &str, message: &str| {
+        let obstacle = format!("{{ polygon_m = {polygon} }}");
+        check_refused(test, &format!("{HEAD}{ONE}obstacles = [{obstacle}]"), &obstacle, message);
+    };
+    check("two_corners", "[[8, 8], [9, 9]]", "obstacle 0 has 2 corners");
+    check("bow_tie", "[[8, 8], [9, 9], [9, 8], [8, 9]]", "obstacle 0 crosses or touches itself");
+    check("repeated", "[[8, 8], [9, 8], [9, 9], [8, 8]]", "obstacle 0 crosses or touches itself");
+    check("sliver", "[[8, 8], [9, 8], [8.5, 8.00001]]", "obstacle 0 has no area");
+}
+
+#[test]
+fn missing_files_are_named() {
+    check_refused("no_clips", &format!("clips = \"gone\"\nduration_s = 1\n{ONE}"), "\"gone\"", "gone");
+    check_refused("no_motion", &format!("duration_s = 1\n{ONE}"), "", "either `clips` or `database`");
+    check_refused("both", &format!("{HEAD}database = \"x\"\n{ONE}"), "\".\"", "either `clips` or `database`");
+    check_refused("no_lines", &format!("{HEAD}agents = {{ file = \"gone.txt\" }}"), "\"gone.txt\"", "there is no file");
+    let error = read(Path::new("/nowhere/scene.toml")).unwrap_err();
+    assert!(
+        matches!(&error, ScenarioError::Io { .. }) && error.to_string().starts_with("/nowhere/scene.toml: "),
+        "{error}"
+    );
+}
+
+#[test]
+fn the_scenarios_that_come_along_are_sound() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenarios");
+    let agents = ["antipodal", "crossing", "bottleneck", "course"].map(|name| {
+        let (scenario, _) = read(&folder.join(name).with_extension("toml")).unwrap();
+        assert_eq!(scenario.name, name);
+        scenario.agents.len()
+    });
+    assert_eq!(agents, [17, 30, 20, 1]);
+}
