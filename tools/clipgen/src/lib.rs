@@ -1,1 +1,44 @@
-//! The generator of the bundled clips.
+//! The generator of the bundled clips: human locomotion made from gait science, nobody's motion capture.
+//!
+//! In reading order: whose body ([`body`]), what is published of its joints ([`published_curves`]) and what a speed makes of a gait
+//! ([`cadence`]); where the feet stand ([`footsteps`]), roll ([`foot_roll`]) and swing ([`swing`]); the pelvis over them ([`pelvis`]), the
+//! legs between ([`legs`]), trunk, head and arms ([`upper_body`]); all assembled ([`cycle`]) or standing ([`idle`]); the list of clips
+//! ([`catalogue`]) and their files ([`bvh_writer`], [`readme`]).
+//!
+//! Every byte follows from this source: no input, no clock, no seed from outside, trigonometry through `libm`.
+
+mod body;
+mod bvh_writer;
+mod cadence;
+mod catalogue;
+mod cycle;
+mod foot_roll;
+mod footsteps;
+mod idle;
+mod legs;
+mod pelvis;
+mod published_curves;
+mod readme;
+mod rotation;
+mod swing;
+mod upper_body;
+
+/// One file of `assets/clips`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ClipFile {
+    /// File name, with extension and without folders.
+    pub name: String,
+    /// Its content.
+    pub bytes: Vec<u8>,
+}
+
+/// Every file of `assets/clips`: the clips, then the README that lists them.
+pub fn generate() -> Vec<ClipFile> {
+    let clips = catalogue::clips();
+    let mut files: Vec<ClipFile> = clips
+        .iter()
+        .map(|clip| ClipFile { name: format!("{}.bvh", clip.name), bytes: bvh_writer::write(&clip.poses()) })
+        .collect();
+    files.push(ClipFile { name: "README.md".to_owned(), bytes: readme::write(&clips) });
+    files
+}

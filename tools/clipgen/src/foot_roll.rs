@@ -1,0 +1,124 @@
+//! The foot on the ground: heel, flat sole, toes, in that order, with the point that bears never moving.
+//!
+//! Two cases, by the pitch of the sole (toes up positive):
+//! - toes up: the foot turns about the heel point of the sole;
+//! - heel up: the foot turns about the toe joint, the toe segment about the toes' tip. While the toes lie flat the toe joint rests, as the
+//!   metatarsophalangeal joint does.
+//!
+//! Foot frame: x towards the toes, z up, origin on the ground under the ankle of the flat foot; metres.
+
+use glam::{DVec2, DVec3};
+
+use crate::body::{ANKLE_HEIGHT_M, BALL_X_M, HEEL_X_M, TOE_JOINT_HEIGHT_M, TOE_TIP_X_M};
+use crate::cadence::FootRoll;
+use crate::footsteps::Footprint;
+
+/// Share of the stride before toe-off in which the toes themselves roll.
+const TOE_ROLL_SHARE: f64 = 0.09;
+/// The heel rises as this power of time: late and fast (published free walk: −20° at 50 %, −55° at toe-off).
+const HEEL_RISE_POWER: f64 = 2.3;
+
+/// A foot in the root frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Foot {
+    /// The ankle, m.
+    pub(crate) ankle_m: DVec3,
+    /// Where the toes point, against the root's heading, radians.
+    pub(crate) yaw_rad: f64,
+    /// Toes up, radians.
+    pub(crate) pitch_rad: f64,
+    /// Toes up against the foot, radians.
+    pub(crate) toe_bend_rad: f64,
+}
+
+impl FootRoll {
+    /// Pitch of the sole at a leg phase in stance.
+    fn pitch_rad(&self, p: f64, toe_off: f64) -> f64 {
+        let landing = (1.0 - p / self.flat_from).max(0.0);
+        let rising = ((p - self.heel_off) / (toe_off - self.heel_off)).max(0.0);
+        self.strike_pitch_rad * landing * landing + self.toe_off_pitch_rad * libm::pow(rising, HEEL_RISE_POWER)
+    }
+
+    /// Pitch of the toes against the ground while the heel is up.
+    fn toe_pitch_rad(&self, p: f64, toe_off: f64) -> f64 {
+        let rolling = (1.0 - (toe_off - p) / TOE_ROLL_SHARE).max(0.0);
+        self.toe_off_toe_pitch_rad * rolling * rolling
+    }
+
+    /// The foot on its footprint at leg phase `p` in [0, toe-off].
+    pub(crate) fn standing(&self, print: &Footprint, p: f64, toe_off: f64) -> Foot {
+        let pitch_rad = self.pitch_rad(p, toe_off);
+        let toe_pitch_rad = if pitch_rad < 0.0 { self.toe_pitch_rad(p, toe_off) } else { pitch_rad };
+        let ankle = rolled_ankle_m(pitch_rad, toe_pitch_rad);
+        let (sin, cos) = libm::sincos(print.yaw_rad);
+        let ground_m = print.ground_m + DVec2::new(cos, sin) * ankle.x;
+        Foot {
+            ankle_m: ground_m.extend(ankle.y),
+            yaw_rad: print.yaw_rad,
+            pitch_rad,
+            toe_bend_rad: toe_pitch_rad - pitch_rad,
+        }
+    }
+
+    /// How far the roll has carried the ankle forward, m.
+    pub(crate) fn advance_m(&self, p: f64, toe_off: f64) -> f64 {
+        let pitch_rad = self.pitch_rad(p, toe_off);
+        let toe_pitch_rad = if pitch_rad < 0.0 { self.toe_pitch_rad(p, toe_off) } else { pitch_rad };
+        rolled_ankle_m(pitch_rad, toe_pitch_rad).x
+    }
+}
+
+/// The ankle in the foot frame; the two cases of the file's head.
+fn rolled_ankle_m(pitch_rad: f64, toe_pitch_rad: f64) -> DVec2 {
+    if pitch_rad >= 0.0 {
+        let heel = DVec2::new(HEEL_X_M, 0.0);
+        heel + turned(DVec2::new(-HEEL_X_M, ANKLE_HEIGHT_M), pitch_rad)
+    } else {
+        let tip = DVec2::new(TOE_TIP_X_M, 0.0);
+        let toe_joint = tip + turned(DVec2::new(BALL_X_M - TOE_TIP_X_M, TOE_JOINT_HEIGHT_M), toe_pitch_rad);
+        toe_joint + turned(DVec2::new(-BALL_X_M, ANKLE_HEIGHT_M - TOE_JOINT_HEIGHT_M), pitch_rad)
+    }
+}
+
+impl Foot {
+    /// Height of heel, ball and toe tip of the sole, m.
+    pub(crate) fn sole_heights_m(&self) -> [f64; 3] {
+        let under_ankle = |x: f64, z: f64| self.ankle_m.z + turned(DVec2::new(x, z), self.pitch_rad).y;
+        let toe = DVec2::new(TOE_TIP_X_M - BALL_X_M, -TOE_JOINT_HEIGHT_M);
+        let toe_joint = under_ankle(BALL_X_M, TOE_JOINT_HEIGHT_M - ANKLE_HEIGHT_M);
+        [
+            under_ankle(HEEL_X_M, -ANKLE_HEIGHT_M),
+            under_ankle(BALL_X_M, -ANKLE_HEIGHT_M),
+            toe_joint + turned(toe, self.pitch_rad + self.toe_bend_rad).y,
+        ]
+    }
+}
+
+/// Turned by `pitch_rad`, toes up.
+fn turned(point: DVec2, pitch_rad: f64) -> DVec2 {
+    let (sin, cos) = libm::sincos(pitch_rad);
+    DVec2::new(cos, sin).rotate(point)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn some_sole_point_is_always_on_the_ground_and_none_below() {
+        let degrees = |d: f64| d.to_radians();
+        let roll = FootRoll {
+            strike_pitch_rad: degrees(18.0),
+            flat_from: 0.12,
+            heel_off: 0.3,
+            toe_off_pitch_rad: degrees(-58.0),
+            toe_off_toe_pitch_rad: degrees(-20.0),
+        };
+        let print = Footprint { ground_m: DVec2::ZERO, yaw_rad: 0.0 };
+        for step in 0..=62 {
+            let heights_m = roll.standing(&print, f64::from(step) / 100.0, 0.62).sole_heights_m();
+            let lowest_m = heights_m.into_iter().fold(f64::INFINITY, f64::min);
+            assert!(lowest_m.abs() < 1e-12, "{step} {heights_m:?}");
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! The foot in the air: from where and how it left the ground to where and how it will strike.
+//!
+//! Six coordinates (ankle x, y, z, yaw, pitch, toe bend) run as cubic Hermite curves that meet place and velocity of both contacts. To
+//! them is added the published swing, less its own Hermite curve: a shape that vanishes with its slope at both ends, so that contacts stay
+//! exact and the knee's fold, the toes' clearance and the foot's dorsiflexion are those of people. What clearance is then still missing
+//! is added as a hump.
+
+use glam::DVec3;
+
+use crate::cadence::Gait;
+use crate::foot_roll::Foot;
+use crate::footsteps::{Footprint, RootMotion};
+
+/// Least clearance of the sole in mid-swing: toes pass 1.3 cm over the ground, m.
+const CLEARANCE_M: f64 = 0.013;
+/// Step of the one-sided slopes, share of the stride.
+const SLOPE_STEP: f64 = 1e-4;
+
+/// Ankle x, y, z (m), yaw, pitch, toe bend (radians).
+type Coordinates = [f64; 6];
+
+/// One leg's swing.
+#[derive(Clone, Debug)]
+pub(crate) struct Swing {
+    toe_off: f64,
+    feet: Hermite<6>,
+    published: Hermite<3>,
+    hump_m: f64,
+}
+
+/// A foot's stance, from which swings start and in which they end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stance<'a> {
+    /// The gait.
+    pub(crate) gait: &'a Gait,
+    /// The footprint at mid-stance.
+    pub(crate) mid_print: Footprint,
+}
+
+impl Stance<'_> {
+    /// The foot at leg phase `p` from strike; seen from the root of then.
+    pub(crate) fn foot(&self, p: f64) -> Foot {
+        let gait = self.gait;
+        let root: &RootMotion = &gait.root;
+        let print = self.mid_print.seen_later(root, (p - gait.mid_stance()) * gait.period_s());
+        gait.roll.standing(&print, p, gait.toe_off)
+    }
+}
+
+impl Swing {
+    /// The swing between two stances of the same leg; `hip_height_m` by leg phase.
+    pub(crate) fn between(stance: &Stance, hip_height_m: &dyn Fn(f64) -> f64) -> Self {
+        let gait = stance.gait;
+        let foot = |p: f64| coordinates(&stance.foot(p));
+        let published = |p: f64| published_coordinates(gait, p, hip_height_m);
+        let mut swing = Self {
+            toe_off: gait.toe_off,
+            feet: Hermite {
+                ends: [foot(gait.toe_off), foot(0.0)],
+                slopes: [
+                    slope(&foot, gait.toe_off, gait.toe_off - SLOPE_STEP, gait),
+                    slope(&foot, SLOPE_STEP, 0.0, gait),
+                ],
+            },
+            published: Hermite {
+                ends: [published(gait.toe_off), published(1.0)],
+                slopes: [
+                    slope(&published, gait.toe_off + SLOPE_STEP, gait.toe_off, gait),
+                    slope(&published, 1.0, 1.0 - SLOPE_STEP, gait),
+                ],
+            },
+            hump_m: gait.lift_m * (1.0 - gait.style_share),
+        };
+        swing.hump_m += swing.missing_clearance_m(gait, hip_height_m);
+        swing
+    }
+
+    /// The foot at leg phase `p` in [toe-off, 1].
+    pub(crate) fn foot(&self, gait: &Gait, p: f64, hip_height_m: &dyn Fn(f64) -> f64) -> Foot {
+        let s = (p - self.toe_off) / (1.0 - self.toe_off);
+        let [mut x, y, mut z, yaw_rad, mut pitch_rad, toe_bend_rad] = self.feet.at(s);
+        let shape = published_coordinates(gait, p, hip_height_m);
+        let chord = self.published.at(s);
+        x += gait.style_share * (shape[0] - chord[0]);
+        z += gait.style_share * (shape[1] - chord[1]) + self.hump_m * hump(s);
+        pitch_rad += gait.style_share * (shape[2] - chord[2]);
+        Foot { ankle_m: DVec3::new(x, y, z), yaw_rad, pitch_rad, toe_bend_rad }
+    }
+
+    fn missing_clearance_m(&self, gait: &Gait, hip_height_m: &dyn Fn(f64) -> f64) -> f64 {
+        let missing_at = |step: u32| {
+            let s = f64::from(step) / 100.0;
+            let foot = self.foot(gait, self.toe_off + s * (1.0 - self.toe_off), hip_height_m);
+            let lowest_m = foot.sole_heights_m().into_iter().fold(f64::INFINITY, f64::min);
+            (CLEARANCE_M * hump(s) - lowest_m) / hump(s)
+        };
+        (8..=92).map(missing_at).fold(0.0, f64::max)
+    }
+}
+
+/// Cubic Hermite curves over s in [0, 1].
+#[derive(Clone, Debug)]
+struct Hermite<const N: usize> {
+    ends: [[f64; N]; 2],
+    slopes: [[f64; N]; 2],
+}
+
+impl<const N: usize> Hermite<N> {
+    fn at(&self, s: f64) -> [f64; N] {
+        let rest = 1.0 - s;
+        let [start, end] = [(1.0 + 2.0 * s) * rest * rest, s * s * (3.0 - 2.0 * s)];
+        let [leave, arrive] = [s * rest * rest, -s * s * rest];
+        std::array::from_fn(|i| {
+            start * self.ends[0][i] + end * self.ends[1][i] + leave * self.slopes[0][i] + arrive * self.slopes[1][i]
+        })
+    }
+}
+
+/// Change between two phases, a swing's length of it.
+fn slope<const N: usize>(of: &dyn Fn(f64) -> [f64; N], late: f64, early: f64, gait: &Gait) -> [f64; N] {
+    let (late_values, early_values) = (of(late), of(early));
+    std::array::from_fn(|i| (late_values[i] - early_values[i]) * (1.0 - gait.toe_off) / (late - early))
+}
+
+fn coordinates(foot: &Foot) -> Coordinates {
+    [foot.ankle_m.x, foot.ankle_m.y, foot.ankle_m.z, foot.yaw_rad, foot.pitch_rad, foot.toe_bend_rad]
+}
+
+/// Ankle x and z and the sole's pitch, from the published curves hung from the hip.
+fn published_coordinates(gait: &Gait, p: f64, hip_height_m: &dyn Fn(f64) -> f64) -> [f64; 3] {
+    let flexion = gait.style.flexion(p, gait.toe_off);
+    let [x, z] = flexion.ankle_from_hip_m();
+    [x, hip_height_m(p) + z, flexion.foot_pitch_rad()]
+}
+
+/// 1 in the middle, 0 with zero slope at both ends.
+fn hump(s: f64) -> f64 {
+    16.0 * s * s * (1.0 - s) * (1.0 - s)
+}
