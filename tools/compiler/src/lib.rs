@@ -2,4 +2,41 @@
 //!
 //! import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] → [`human_clip::HumanClip`]
 
+mod anchors;
+pub mod anthropometry;
+pub mod arc;
+pub mod blend_space;
+pub mod bvh;
+mod bvh_prepass;
+mod calibration;
+pub mod compile;
+pub mod compile_error;
+pub mod contacts;
+pub mod correspondence;
+pub mod cycle;
+pub mod error;
+mod first_pose;
+pub mod foot_slide;
+pub mod gait;
+pub mod gltf;
 pub mod human_clip;
+pub mod import;
+mod joint_names;
+pub mod leg_ik;
+mod limb;
+pub mod mirror;
+pub mod parameterize;
+mod retarget;
+pub mod root_motion;
+pub mod rows;
+pub mod skeleton_map;
+mod soles;
+pub mod source_clip;
+pub mod source_parameters;
+pub mod standing;
+#[cfg(test)]
+mod synthetic;
+pub mod target_skeleton;
+pub mod units;
+pub mod unroll;
+pub mod velocity_hull;

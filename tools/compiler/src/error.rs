@@ -1,0 +1,78 @@
+//! What can go wrong at the import edge: one enum, each variant naming the file, the place in it and the remedy.
+
+use std::path::PathBuf;
+
+/// A file that cannot be read as motion at all. A single clip that is readable but not human is a [`Refusal`] instead.
+#[derive(Debug, thiserror::Error)]
+pub enum ImportError {
+    /// The file or folder cannot be read.
+    #[error("{}: {source}; check that the path exists and may be read", file.display())]
+    Unreadable {
+        /// The path.
+        file: PathBuf,
+        /// The operating system's reason.
+        source: std::io::Error,
+    },
+    /// Not `.bvh`, `.glb` or `.gltf`.
+    #[error("{}: not a motion clip; clips are *.bvh, *.glb and *.gltf", file.display())]
+    UnknownFormat {
+        /// The path.
+        file: PathBuf,
+    },
+    /// A BVH file whose text is malformed.
+    #[error("{}, line {line}: {problem}; {remedy}", file.display())]
+    Bvh {
+        /// The path.
+        file: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong there.
+        problem: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A glTF file that breaks its format.
+    #[error("{}, {place}: {problem}; {remedy}", file.display())]
+    Gltf {
+        /// The path.
+        file: PathBuf,
+        /// Byte, buffer, accessor or animation.
+        place: String,
+        /// What is wrong there.
+        problem: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+}
+
+/// Why a readable clip gives no [`crate::human_clip::HumanClip`]; other clips of the same file are not affected.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Refusal {
+    /// Nothing to measure.
+    #[error("only {frames} frame(s): a motion needs at least {MIN_FRAMES}; export the whole clip")]
+    TooShort {
+        /// Frames there are.
+        frames: usize,
+    },
+    /// No pair of limbs with hip, knee and ankle.
+    #[error("no human legs: {reason}; only clips of a walking human skeleton can be used")]
+    NoLegs {
+        /// What was looked for and not found.
+        reason: String,
+    },
+    /// No pair of arms above the legs.
+    #[error("no human arms: {reason}; the facing is measured from hips and shoulders")]
+    NoArms {
+        /// What was looked for and not found.
+        reason: String,
+    },
+    /// Limbs are there, but the body is a quadruped's or crawls or lies.
+    #[error("not upright: {reason}; only clips of a walking human skeleton can be used")]
+    NotUpright {
+        /// The measurement that says so.
+        reason: String,
+    },
+}
+
+/// The fewest frames of a clip: two positions make one velocity.
+pub const MIN_FRAMES: usize = 2;

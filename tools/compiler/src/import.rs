@@ -1,0 +1,96 @@
+//! Clips in: from files and folders to [`HumanClip`]s.
+//!
+//! # Steps
+//! read ([`crate::bvh`], [`crate::gltf`]) → roles ([`crate::skeleton_map`]) → metres, Z up ([`crate::units`]) → no separate first pose →
+//! whole-clip parameters ([`crate::source_parameters`]) → canonical humanoid (`retarget`).
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::error::{ImportError, MIN_FRAMES, Refusal};
+use crate::human_clip::HumanClip;
+use crate::skeleton_map::find_roles;
+use crate::source_clip::SourceClip;
+use crate::{bvh, first_pose, gltf, retarget, source_parameters, units};
+
+/// One clip of a file: a human motion, or why it is none.
+#[derive(Clone, Debug)]
+pub struct Import {
+    /// File name without folders.
+    pub file: String,
+    /// Clip within the file; empty where a file holds one unnamed clip.
+    pub clip: String,
+    /// The clip on the canonical humanoid.
+    pub outcome: Result<HumanClip, Refusal>,
+}
+
+/// Imports every clip of a `.bvh`, `.glb` or `.gltf` file. A refused clip hides no other.
+///
+/// # Errors
+/// [`ImportError`] where the file itself cannot be read as motion.
+pub fn import(path: &Path) -> Result<Vec<Import>, ImportError> {
+    let clips = read(path)?;
+    let several = clips.len() > 1;
+    let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    Ok(clips.into_iter().map(|clip| import_clip(clip, &stem, several)).collect())
+}
+
+/// Every `*.bvh`, `*.glb`, `*.gltf` below a folder, sorted by path.
+///
+/// # Errors
+/// Where a folder cannot be read.
+pub fn clip_files(folder: &Path) -> Result<Vec<PathBuf>, ImportError> {
+    let unreadable = |source| ImportError::Unreadable { file: folder.to_owned(), source };
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let entry = entry.map_err(unreadable)?;
+        // A link to a folder is not followed: it may lead back here.
+        if entry.file_type().map_err(unreadable)?.is_dir() {
+            files.extend(clip_files(&entry.path())?);
+        } else if Format::of(&entry.path()).is_some() {
+            files.push(entry.path());
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+enum Format {
+    Bvh,
+    Gltf,
+}
+
+impl Format {
+    fn of(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "bvh" => Some(Self::Bvh),
+            "glb" | "gltf" => Some(Self::Gltf),
+            _ => None,
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<Vec<SourceClip>, ImportError> {
+    let format = Format::of(path).ok_or_else(|| ImportError::UnknownFormat { file: path.to_owned() })?;
+    let bytes = fs::read(path).map_err(|source| ImportError::Unreadable { file: path.to_owned(), source })?;
+    match format {
+        Format::Bvh => Ok(vec![bvh::read(path, &bytes)?]),
+        Format::Gltf => gltf::read(path, &bytes),
+    }
+}
+
+fn import_clip(clip: SourceClip, stem: &str, several: bool) -> Import {
+    let name = if several { format!("{stem} {}", clip.clip) } else { stem.to_owned() };
+    Import { file: clip.file.clone(), clip: clip.clip.clone(), outcome: to_human(clip, name) }
+}
+
+fn to_human(clip: SourceClip, name: String) -> Result<HumanClip, Refusal> {
+    if clip.frame_count() < MIN_FRAMES {
+        return Err(Refusal::TooShort { frames: clip.frame_count() });
+    }
+    let roles = find_roles(&clip)?;
+    let (mut clip, units) = units::to_metres_z_up(clip, &roles);
+    first_pose::drop_separate_first_pose(&mut clip, &roles);
+    let whole = source_parameters::measure(&clip, &roles);
+    Ok(retarget::to_human(&clip, &roles, &units, whole, name))
+}

@@ -1,0 +1,215 @@
+//! Limbs of a source skeleton: pairs of chains, mirrored about the trunk, with two long bones each and a joint between.
+//!
+//! For a fork, every pair of children is tried; each child's chain is its longest path to a leaf. Along the chain, the two bones are the
+//! longest triple i < j < k whose lengths are of like size and that skips only joints lying on the bones themselves (twist bones,
+//! zero-length helpers). Names weigh in, so that an unnamed skeleton is found by its shape and a named one in a stiff pose by its words.
+
+use glam::DVec3;
+
+use crate::joint_names::{NameHints, Part};
+use crate::source_clip::SourceClip;
+
+/// Frames that geometry is judged on, spread over the clip.
+const SAMPLES: usize = 48;
+/// Shank over thigh, forearm over upper arm: human 0.8–1.2, dwarfish rigs wider.
+const BONE_RATIO: std::ops::RangeInclusive<f64> = 0.5..=1.75;
+/// How far a skipped joint may lie off its bone, over the bone's length.
+const SKIPPED_OFF_BONE: f64 = 0.08;
+/// How much two sides may differ in length (CMU's captured legs: 4 %).
+const SIDES_DIFFER: f64 = 0.15;
+/// Weight of a name that says this part; one that says another; a helper's.
+const NAME_WEIGHTS: [f64; 3] = [1.25, 0.6, 0.4];
+
+/// A skeleton with what role finding asks of it again and again.
+pub(crate) struct Shape<'a> {
+    pub clip: &'a SourceClip,
+    pub hints: Vec<NameHints>,
+    pub children: Vec<Vec<usize>>,
+    frames: Vec<usize>,
+}
+
+/// Three joints (hip, knee, ankle or shoulder, elbow, wrist) and the chain that they were found on.
+#[derive(Clone, Debug)]
+pub(crate) struct Limb {
+    pub joints: [usize; 3],
+    pub length: f64,
+    pub score: f64,
+}
+
+/// Two limbs of one fork.
+#[derive(Clone, Debug)]
+pub(crate) struct LimbPair {
+    pub fork: usize,
+    pub limbs: [Limb; 2],
+}
+
+impl LimbPair {
+    pub(crate) fn score(&self) -> f64 {
+        self.limbs[0].score + self.limbs[1].score
+    }
+}
+
+impl<'a> Shape<'a> {
+    pub(crate) fn new(clip: &'a SourceClip) -> Self {
+        let mut children = vec![Vec::new(); clip.joints.len()];
+        for (index, joint) in clip.joints.iter().enumerate() {
+            if let Some(parent) = joint.parent {
+                children[parent].push(index);
+            }
+        }
+        let step = clip.frame_count().div_ceil(SAMPLES).max(1);
+        Self {
+            clip,
+            hints: clip.joints.iter().map(|joint| crate::joint_names::hints(&joint.name)).collect(),
+            children,
+            frames: (0..clip.frame_count()).step_by(step).collect(),
+        }
+    }
+
+    /// Mean distance of two joints over the sampled frames.
+    pub(crate) fn distance(&self, a: usize, b: usize) -> f64 {
+        self.mean(|frame| (self.clip.position(frame, a) - self.clip.position(frame, b)).length())
+    }
+
+    /// Mean of a number over the sampled frames.
+    pub(crate) fn mean(&self, value: impl Fn(usize) -> f64) -> f64 {
+        self.frames.iter().map(|&frame| value(frame)).sum::<f64>() / self.frames.len() as f64
+    }
+
+    /// Mean of a vector over the sampled frames.
+    pub(crate) fn mean_vector(&self, value: impl Fn(usize) -> DVec3) -> DVec3 {
+        self.frames.iter().map(|&frame| value(frame)).sum::<DVec3>() / self.frames.len() as f64
+    }
+
+    /// Standard deviation over mean of the distance of two joints: 0 for a bone.
+    pub(crate) fn looseness(&self, a: usize, b: usize) -> f64 {
+        let mean = self.distance(a, b);
+        let square = self.mean(|frame| {
+            let length = (self.clip.position(frame, a) - self.clip.position(frame, b)).length();
+            (length - mean) * (length - mean)
+        });
+        square.sqrt() / mean.max(1e-12)
+    }
+
+    /// From a joint down to the leaf that is farthest along the bones, the joint included.
+    pub(crate) fn chain(&self, joint: usize) -> Vec<usize> {
+        let mut reach = vec![0.0; self.clip.joints.len()];
+        for child in (joint + 1..self.clip.joints.len()).rev() {
+            if let Some(parent) = self.clip.joints[child].parent {
+                reach[parent] = f64::max(reach[parent], reach[child] + self.distance(parent, child));
+            }
+        }
+        let mut chain = vec![joint];
+        let mut tail = joint;
+        let length = |parent: usize, child: usize| reach[child] + self.distance(parent, child);
+        while let Some(&next) =
+            self.children[tail].iter().max_by(|&&a, &&b| length(tail, a).total_cmp(&length(tail, b)))
+        {
+            chain.push(next);
+            tail = next;
+        }
+        chain
+    }
+
+    /// A joint and everything below it.
+    pub(crate) fn subtree(&self, joint: usize) -> Vec<usize> {
+        let mut members = vec![joint];
+        let mut next = 0;
+        while next < members.len() {
+            members.extend(&self.children[members[next]]);
+            next += 1;
+        }
+        members
+    }
+
+    /// A joint's ancestors, itself first, the root last.
+    pub(crate) fn ancestors(&self, joint: usize) -> Vec<usize> {
+        std::iter::successors(Some(joint), |&joint| self.clip.joints[joint].parent).collect()
+    }
+
+    pub(crate) fn says(&self, joint: usize, part: Part) -> bool {
+        self.hints[joint].parts.contains(&part)
+    }
+
+    fn name_weight(&self, joint: usize, part: Part) -> f64 {
+        let parts = &self.hints[joint].parts;
+        let [agrees, differs, helper] = NAME_WEIGHTS;
+        match parts {
+            _ if parts.contains(&Part::Helper) => helper,
+            _ if parts.contains(&part) => agrees,
+            _ if parts.is_empty() => 1.0,
+            _ => differs,
+        }
+    }
+
+    /// The limb pair that best fits three parts, among forks and children that `allowed` lets through.
+    pub(crate) fn best_pair(&self, parts: [Part; 3], allowed: impl Fn(usize) -> bool) -> Option<LimbPair> {
+        let mut best: Option<LimbPair> = None;
+        for fork in 0..self.children.len() {
+            let limbs: Vec<Limb> = self.children[fork]
+                .iter()
+                .filter(|&&child| self.children[fork].len() > 1 && allowed(child))
+                .filter_map(|&child| self.limb(&self.chain(child), parts))
+                .collect();
+            for (index, first) in limbs.iter().enumerate() {
+                for second in &limbs[index + 1..] {
+                    let pair = LimbPair { fork, limbs: [first.clone(), second.clone()] };
+                    if self.mirrored(&pair) && best.as_ref().is_none_or(|best| pair.score() > best.score()) {
+                        best = Some(pair);
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    fn mirrored(&self, pair: &LimbPair) -> bool {
+        let [first, second] = &pair.limbs;
+        let alike = (first.length - second.length).abs() <= SIDES_DIFFER * first.length.max(second.length);
+        let sides = [first, second].map(|limb| self.hints[limb.joints[1]].side);
+        alike && (sides == [None, None] || (sides[0] != sides[1] && sides.iter().all(Option::is_some)))
+    }
+
+    /// The best i < j < k on a chain.
+    fn limb(&self, chain: &[usize], parts: [Part; 3]) -> Option<Limb> {
+        let mut best: Option<Limb> = None;
+        for end in 2..chain.len() {
+            for middle in 1..end {
+                for start in 0..middle {
+                    let joints = [chain[start], chain[middle], chain[end]];
+                    let bones = [self.distance(joints[0], joints[1]), self.distance(joints[1], joints[2])];
+                    let ratio = bones[1] / bones[0].max(1e-12);
+                    let names: f64 =
+                        joints.iter().zip(parts).map(|(&joint, part)| self.name_weight(joint, part)).product();
+                    let score = (bones[0] + bones[1]) * names;
+                    // Of joints in one place the last carries the bend: a tie goes to it.
+                    let better = best.as_ref().is_none_or(|best| score >= best.score * (1.0 - 1e-6));
+                    if better
+                        && BONE_RATIO.contains(&ratio)
+                        && self.skips_only_bone(&chain[start..=middle])
+                        && self.skips_only_bone(&chain[middle..=end])
+                    {
+                        best = Some(Limb { joints, length: bones[0] + bones[1], score });
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// Whether all joints between the two ends lie on the line between them in every sampled frame.
+    fn skips_only_bone(&self, chain: &[usize]) -> bool {
+        let (Some(&first), Some(&last)) = (chain.first(), chain.last()) else { return true };
+        let inner = &chain[1..chain.len() - 1];
+        inner.is_empty()
+            || self.frames.iter().all(|&frame| {
+                let [start, end] = [first, last].map(|joint| self.clip.position(frame, joint));
+                let bone = end - start;
+                inner.iter().all(|&joint| {
+                    let along = self.clip.position(frame, joint) - start;
+                    let share = (along.dot(bone) / bone.length_squared().max(1e-24)).clamp(0.0, 1.0);
+                    (along - share * bone).length() <= SKIPPED_OFF_BONE * bone.length()
+                })
+            })
+    }
+}

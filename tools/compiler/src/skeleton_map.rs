@@ -1,0 +1,247 @@
+//! Automatic joint roles: which source joint plays which canonical one, by hierarchy, geometry and name; and the refusal, with its
+//! reason, of what is no human body.
+//!
+//! Legs are the best limb pair of all; arms the best pair elsewhere; the pelvis is the legs' fork, the chest the arms' fork, the spine
+//! the path between them; neck and head hang from the chest beside the arms. Left and right come from names, else from where the toes
+//! point. A body is human when its trunk stands over its legs: a quadruped's does not.
+
+use glam::DVec3;
+use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
+
+use crate::error::Refusal;
+use crate::joint_names::Part;
+use crate::limb::{Limb, LimbPair, Shape};
+use crate::source_clip::SourceClip;
+
+/// Least mean cosine between legs (ankles → hips) and trunk (hips → shoulders). Standing and running people 0.8–1, deep crouches 0.5; dogs
+/// and foxes about 0.
+const UPRIGHT_COSINE: f64 = 0.35;
+/// A toe joint is at least this share of the shank away from the ankle.
+const TOE_DISTANCE: f64 = 0.12;
+/// Knees and elbows are bones' ends: their bones' lengths vary less than this (translating knees of `misc/ezgi_walk1`: 5 %).
+const LOOSE_BONE: f64 = 0.15;
+
+/// Source joints by canonical role.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Roles {
+    /// The source joint that turns as the canonical one does; none where the source has no such joint.
+    pub joints: [Option<usize>; JOINT_COUNT],
+    /// The far end of head, hands and toes, where the source has one.
+    pub ends: [Option<usize>; JOINT_COUNT],
+    /// `[left, right]`: heel, ball and toe-tip joints on the sole, where the clip carries `…Sole` joints.
+    pub soles: [Option<[usize; 3]>; 2],
+}
+
+impl Roles {
+    /// The source joint of a role that [`find_roles`] never leaves out (pelvis, thigh, shank, foot, upper arm, forearm, hand).
+    pub fn required(&self, joint: Joint) -> usize {
+        self.joints[joint.index()].expect("find_roles assigns it or refuses the clip")
+    }
+}
+
+/// Finds the roles of a clip's joints.
+///
+/// # Errors
+/// [`Refusal`] for what has no human legs, no arms, or does not stand upright.
+pub fn find_roles(clip: &SourceClip) -> Result<Roles, Refusal> {
+    let shape = Shape::new(clip);
+    let mut legs = find_legs(&shape)?;
+    let mut arms = find_arms(&shape, &legs)?;
+    check_upright(&shape, &legs, &arms)?;
+    if legs_swapped(&shape, &legs, &arms) {
+        legs.limbs.swap(0, 1);
+    }
+    if arms_swapped(&shape, &legs, &arms) {
+        arms.limbs.swap(0, 1);
+    }
+    let mut roles = Roles { joints: [None; JOINT_COUNT], ends: [None; JOINT_COUNT], soles: [None; 2] };
+    assign_limbs(&shape, &mut roles, &legs, &arms);
+    assign_trunk(&shape, &mut roles, &legs, &arms);
+    Ok(roles)
+}
+
+fn find_legs(shape: &Shape) -> Result<LimbPair, Refusal> {
+    let pair = shape.best_pair([Part::Thigh, Part::Shank, Part::Foot], |_| true);
+    let Some(pair) = pair else {
+        let reason = "no two mirrored limbs with hip, knee and ankle among the joints".to_owned();
+        return Err(Refusal::NoLegs { reason });
+    };
+    for limb in &pair.limbs {
+        let [hip, knee, ankle] = limb.joints;
+        if shape.looseness(hip, knee).max(shape.looseness(knee, ankle)) > LOOSE_BONE {
+            let name = &shape.clip.joints[knee].name;
+            return Err(Refusal::NoLegs { reason: format!("the bones at `{name}` change their length") });
+        }
+    }
+    Ok(pair)
+}
+
+fn find_arms(shape: &Shape, legs: &LimbPair) -> Result<LimbPair, Refusal> {
+    let taken: Vec<usize> = legs.limbs.iter().flat_map(|limb| shape.subtree(limb.joints[0])).collect();
+    let above: Vec<usize> = legs.limbs.iter().flat_map(|limb| shape.ancestors(limb.joints[0])).collect();
+    let free = |joint: usize| !taken.contains(&joint) && !above.contains(&joint);
+    shape.best_pair([Part::UpperArm, Part::Forearm, Part::Hand], free).ok_or_else(|| Refusal::NoArms {
+        reason: "no two mirrored limbs with shoulder, elbow and wrist beside the legs".to_owned(),
+    })
+}
+
+fn middle(shape: &Shape, frame: usize, pair: &LimbPair, bone: usize) -> DVec3 {
+    let [first, second] = pair.limbs.each_ref().map(|limb| shape.clip.position(frame, limb.joints[bone]));
+    0.5 * (first + second)
+}
+
+fn check_upright(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> Result<(), Refusal> {
+    let cosine = shape.mean(|frame| {
+        let hips = middle(shape, frame, legs, 0);
+        let leg = hips - middle(shape, frame, legs, 2);
+        let trunk = middle(shape, frame, arms, 0) - hips;
+        leg.normalize_or_zero().dot(trunk.normalize_or_zero())
+    });
+    if cosine < UPRIGHT_COSINE {
+        let degrees = cosine.clamp(-1.0, 1.0).acos().to_degrees();
+        let reason =
+            format!("the trunk lies {degrees:.0}° off the legs' direction, as a quadruped's or a crawling body's");
+        return Err(Refusal::NotUpright { reason });
+    }
+    Ok(())
+}
+
+/// Whether the pair stands as right, left. By names where they say; else left is where up × forward points.
+fn legs_swapped(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> bool {
+    if let Some(side) = shape.hints[legs.limbs[0].joints[1]].side {
+        return side == Side::Right;
+    }
+    let lateral = shape.mean(|frame| {
+        let up = middle(shape, frame, arms, 0) - middle(shape, frame, legs, 2);
+        let forward: DVec3 = legs.limbs.iter().map(|limb| toe_direction(shape, frame, limb)).sum();
+        let across =
+            shape.clip.position(frame, legs.limbs[0].joints[0]) - shape.clip.position(frame, legs.limbs[1].joints[0]);
+        up.cross(forward).normalize_or_zero().dot(across)
+    });
+    lateral < 0.0
+}
+
+/// Arms without sides in their names lie on the side of the leg that is nearer in the pelvis–chest frame: across the same way.
+fn arms_swapped(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> bool {
+    if let Some(side) = shape.hints[arms.limbs[0].joints[1]].side {
+        return side == Side::Right;
+    }
+    let across = |frame: usize, pair: &LimbPair| {
+        shape.clip.position(frame, pair.limbs[0].joints[0]) - shape.clip.position(frame, pair.limbs[1].joints[0])
+    };
+    shape.mean(|frame| across(frame, legs).dot(across(frame, arms))) < 0.0
+}
+
+/// From the ankle to the end of the foot, or, where there is no foot, the way the knee points off the leg's line.
+fn toe_direction(shape: &Shape, frame: usize, limb: &Limb) -> DVec3 {
+    let [hip, knee, ankle] = limb.joints.map(|joint| shape.clip.position(frame, joint));
+    let end = shape.clip.position(frame, *shape.chain(limb.joints[2]).last().unwrap_or(&limb.joints[2]));
+    if (end - ankle).length() > TOE_DISTANCE * limb.length { end - ankle } else { knee - 0.5 * (hip + ankle) }
+}
+
+fn assign_limbs(shape: &Shape, roles: &mut Roles, legs: &LimbPair, arms: &LimbPair) {
+    const ARMS: [[Joint; 3]; 2] = [
+        [Joint::LeftUpperArm, Joint::LeftForearm, Joint::LeftHand],
+        [Joint::RightUpperArm, Joint::RightForearm, Joint::RightHand],
+    ];
+    const CLAVICLES: [Joint; 2] = [Joint::LeftClavicle, Joint::RightClavicle];
+    for side in Side::BOTH.map(Side::index) {
+        let leg = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]];
+        for bone in 0..3 {
+            roles.joints[leg[bone].index()] = Some(legs.limbs[side].joints[bone]);
+            roles.joints[ARMS[side][bone].index()] = Some(arms.limbs[side].joints[bone]);
+        }
+        let shoulder = arms.limbs[side].joints[0];
+        let above = shape.ancestors(shoulder).into_iter().skip(1).take_while(|&joint| joint != arms.fork).last();
+        roles.joints[CLAVICLES[side].index()] = above;
+        let hand = arms.limbs[side].joints[2];
+        roles.ends[ARMS[side][2].index()] = farthest(shape, hand, |joint| !shape.says(joint, Part::Helper));
+        assign_foot(shape, roles, side, &legs.limbs[side]);
+    }
+}
+
+fn assign_foot(shape: &Shape, roles: &mut Roles, side: usize, leg: &Limb) {
+    let ankle = leg.joints[2];
+    let below: Vec<usize> = shape.subtree(ankle).into_iter().skip(1).collect();
+    roles.soles[side] = soles(shape, &below);
+    let on_foot = |joint: &usize| {
+        let name = shape.clip.joints[*joint].name.to_lowercase();
+        !shape.says(*joint, Part::Helper) && !name.contains("heel") && !name.contains("sole")
+    };
+    let far = |joint: &usize| shape.distance(ankle, *joint) > TOE_DISTANCE * 0.5 * leg.length;
+    let toe = below.iter().copied().find(|joint| on_foot(joint) && far(joint));
+    let Some(toe) = toe else { return };
+    roles.joints[Joint::TOES[side].index()] = Some(toe);
+    roles.ends[Joint::TOES[side].index()] = farthest(shape, toe, |joint| on_foot(&joint));
+}
+
+/// Leaf joints named `…Sole` for heel, ball and toe tip.
+fn soles(shape: &Shape, foot: &[usize]) -> Option<[usize; 3]> {
+    let named = |word: &str| {
+        foot.iter().copied().find(|&joint| {
+            let name = shape.clip.joints[joint].name.to_lowercase();
+            name.contains("sole") && name.contains(word) && !shape.clip.joints[joint].is_end
+        })
+    };
+    Some([named("heel")?, named("ball")?, named("toe")?])
+}
+
+/// The joint below (or an end site) that is farthest away, if it is away at all.
+fn farthest(shape: &Shape, from: usize, counts: impl Fn(usize) -> bool) -> Option<usize> {
+    let below = shape.subtree(from).into_iter().skip(1).filter(|&joint| counts(joint));
+    let far = below.max_by(|&a, &b| shape.distance(from, a).total_cmp(&shape.distance(from, b)))?;
+    (shape.distance(from, far) > 1e-9).then_some(far)
+}
+
+fn assign_trunk(shape: &Shape, roles: &mut Roles, legs: &LimbPair, arms: &LimbPair) {
+    roles.joints[Joint::Pelvis.index()] = Some(legs.fork);
+    let pelvis_line = shape.ancestors(legs.fork);
+    let mut spine: Vec<usize> =
+        shape.ancestors(arms.fork).into_iter().take_while(|joint| !pelvis_line.contains(joint)).collect();
+    spine.reverse();
+    if let [lower, between @ .., upper] = spine.as_slice() {
+        roles.joints[Joint::SpineLower.index()] = Some(*lower);
+        roles.joints[Joint::SpineUpper.index()] = Some(*upper);
+        roles.joints[Joint::SpineMiddle.index()] = between.get(between.len() / 2).copied();
+    } else if let [upper] = spine.as_slice() {
+        roles.joints[Joint::SpineUpper.index()] = Some(*upper);
+    }
+    assign_head(shape, roles, legs, arms);
+}
+
+/// The branch beside the arms that a name calls neck or head, else the one that rises highest.
+fn assign_head(shape: &Shape, roles: &mut Roles, legs: &LimbPair, arms: &LimbPair) {
+    let taken: Vec<usize> =
+        arms.limbs.iter().chain(&legs.limbs).flat_map(|limb| shape.ancestors(limb.joints[0])).collect();
+    let up =
+        shape.mean_vector(|frame| middle(shape, frame, arms, 0) - middle(shape, frame, legs, 0)).normalize_or_zero();
+    let rise = |joint: usize| {
+        shape.mean(|frame| (shape.clip.position(frame, joint) - shape.clip.position(frame, arms.fork)).dot(up))
+    };
+    let named =
+        |chain: &Vec<usize>| chain.iter().any(|&joint| shape.says(joint, Part::Neck) || shape.says(joint, Part::Head));
+    let chains =
+        shape.children[arms.fork].iter().filter(|child| !taken.contains(child)).map(|&child| head_chain(shape, child));
+    let height = |chain: &Vec<usize>| chain.last().map_or(f64::MIN, |&joint| rise(joint));
+    let Some(chain) = chains.max_by(|a, b| named(a).cmp(&named(b)).then(height(a).total_cmp(&height(b)))) else {
+        return;
+    };
+    let turning: Vec<usize> = chain.iter().copied().filter(|&joint| !shape.clip.joints[joint].is_end).collect();
+    let named_head = turning.iter().copied().find(|&joint| shape.says(joint, Part::Head));
+    let Some(head) = named_head.or(turning.get(1).copied()).or(turning.first().copied()) else { return };
+    roles.joints[Joint::Head.index()] = Some(head);
+    roles.joints[Joint::Neck.index()] = turning.first().copied().filter(|&neck| neck != head);
+}
+
+/// Down to the head where a name says so, else the longest chain.
+fn head_chain(shape: &Shape, child: usize) -> Vec<usize> {
+    match shape.subtree(child).into_iter().find(|&joint| shape.says(joint, Part::Head)) {
+        Some(head) => {
+            let mut chain: Vec<usize> = shape.ancestors(head);
+            chain.truncate(1 + chain.iter().position(|&joint| joint == child).unwrap_or(0));
+            chain.reverse();
+            chain
+        }
+        None => shape.chain(child),
+    }
+}

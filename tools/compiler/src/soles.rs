@@ -1,0 +1,113 @@
+//! The soles: heel, ball and toe tip of each foot, in the canonical foot's and toe's frames, and the height of the ground.
+//!
+//! Where leaf joints named `…HeelSole`, `…BallSole`, `…ToeSole` exist, they are the soles. Otherwise the soles are estimated: the ground is
+//! the file's own zero if the planted feet stand just above it, else a joint's thickness below them; ball and toe tip lie on it under their
+//! joints, the heel on it behind the ankle.
+
+use glam::{DQuat, DVec3};
+use motiondb::skeleton::{JOINT_COUNT, Joint};
+
+use crate::calibration::{Tracks, flat_frames};
+
+/// Heel behind the ankle, over the distance from ankle to ball (anthropometry: 0.25–0.35).
+const HEEL_BEHIND: f64 = 0.3;
+/// Toe tip beyond the ball where the source has no toe end, over leg length: 7 cm for an adult.
+const TIP_OVER_LEG: f64 = 0.085;
+/// Toes shorter than this have no real end, over leg length.
+const TIP_MIN_OVER_LEG: f64 = 0.02;
+/// The lowest joint of a planted foot over the sole, over leg length: 2 cm for an adult.
+const THICKNESS_OVER_LEG: f64 = 0.024;
+/// A planted lowest joint this high over the file's zero still stands on it, over leg length: 9 cm.
+const ZERO_TRUSTED_OVER_LEG: f64 = 0.11;
+
+/// What was found of both feet.
+pub(crate) struct Soles {
+    /// `[left, right]`: heel, ball (foot frame), toe tip (toe frame).
+    pub points_m: [[DVec3; 3]; 2],
+    /// The ground's height in the source.
+    pub ground_m: f64,
+    /// From `…Sole` joints.
+    pub measured: bool,
+}
+
+/// Finds the soles from the calibrated joints.
+pub(crate) fn find(tracks: &Tracks, orientations: &[[DQuat; JOINT_COUNT]], leg_m: f64) -> Soles {
+    if let [Some(left), Some(right)] = tracks.roles.soles {
+        let points_m = [measured(tracks, orientations, 0, left), measured(tracks, orientations, 1, right)];
+        let ground = |joint| planted(tracks, |frame| tracks.clip.position(frame, joint).z);
+        let ground_m = left.into_iter().chain(right).map(ground).fold(f64::INFINITY, f64::min);
+        return Soles { points_m, ground_m, measured: true };
+    }
+    let ground_m = ground(tracks, leg_m);
+    let points_m = [0, 1].map(|side| estimated(tracks, orientations, side, ground_m, leg_m));
+    Soles { points_m, ground_m, measured: false }
+}
+
+fn measured(tracks: &Tracks, orientations: &[[DQuat; JOINT_COUNT]], side: usize, joints: [usize; 3]) -> [DVec3; 3] {
+    let carriers = [Joint::FEET[side], Joint::FEET[side], Joint::TOES[side]];
+    [0, 1, 2]
+        .map(|point| tracks.mean_in(carriers[point], orientations, |frame| tracks.clip.position(frame, joints[point])))
+}
+
+/// Height at which a point is planted: the lowest twentieth, as `planted_slide.py`.
+fn planted(tracks: &Tracks, height_m: impl Fn(usize) -> f64) -> f64 {
+    let mut heights: Vec<f64> = (0..tracks.positions_m.len()).map(height_m).collect();
+    heights.sort_by(f64::total_cmp);
+    heights[(heights.len() - 1) / 20]
+}
+
+fn ground(tracks: &Tracks, leg_m: f64) -> f64 {
+    let joint_height = |joint: Joint| planted(tracks, |frame| tracks.positions_m[frame][joint.index()].z);
+    let end_height = |joint: Joint| {
+        let end = tracks.roles.ends[joint.index()];
+        end.map_or(f64::INFINITY, |end| planted(tracks, |frame| tracks.clip.position(frame, end).z))
+    };
+    let joints = Joint::FEET.into_iter().chain(Joint::TOES);
+    let lowest = joints.map(|joint| joint_height(joint).min(end_height(joint))).fold(f64::INFINITY, f64::min);
+    if (0.0..ZERO_TRUSTED_OVER_LEG * leg_m).contains(&lowest) { 0.0 } else { lowest - THICKNESS_OVER_LEG * leg_m }
+}
+
+fn estimated(
+    tracks: &Tracks,
+    orientations: &[[DQuat; JOINT_COUNT]],
+    side: usize,
+    ground_m: f64,
+    leg_m: f64,
+) -> [DVec3; 3] {
+    let (foot, toe) = (Joint::FEET[side], Joint::TOES[side]);
+    let flat = flat_frames(tracks, &[foot, toe]);
+    let over_ground = |joint: Joint| {
+        let sum: f64 = flat.iter().map(|&frame| tracks.positions_m[frame][joint.index()].z).sum();
+        (sum / flat.len() as f64 - ground_m).max(0.0)
+    };
+    let ball = tracks.mean_in(foot, orientations, |frame| tracks.positions_m[frame][toe.index()]);
+    let end = tracks.mean_end(toe, orientations).filter(|end| end.length() > TIP_MIN_OVER_LEG * leg_m);
+    let tip = end.map_or(TIP_OVER_LEG * leg_m, |end| end.x.max(TIP_MIN_OVER_LEG * leg_m));
+    let (ankle_m, ball_m) = (over_ground(foot), over_ground(toe));
+    [
+        DVec3::new(-HEEL_BEHIND * ball.x, 0.0, -ankle_m),
+        DVec3::new(ball.x, ball.y, -ankle_m),
+        DVec3::new(tip, 0.0, -ball_m),
+    ]
+}
+
+impl Tracks<'_> {
+    /// Mean of a world point in a canonical joint's frame, metres.
+    pub(crate) fn mean_in(
+        &self,
+        joint: Joint,
+        orientations: &[[DQuat; JOINT_COUNT]],
+        point_m: impl Fn(usize) -> DVec3,
+    ) -> DVec3 {
+        let index = joint.index();
+        let local =
+            |frame: usize| orientations[frame][index].inverse() * (point_m(frame) - self.positions_m[frame][index]);
+        (0..orientations.len()).map(local).sum::<DVec3>() / orientations.len() as f64
+    }
+
+    /// Mean far end of a leaf joint's segment in its frame, where the source has one.
+    pub(crate) fn mean_end(&self, joint: Joint, orientations: &[[DQuat; JOINT_COUNT]]) -> Option<DVec3> {
+        let end = self.roles.ends[joint.index()]?;
+        Some(self.mean_in(joint, orientations, |frame| self.clip.position(frame, end)))
+    }
+}
