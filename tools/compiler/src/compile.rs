@@ -1,0 +1,214 @@
+//! The compiler: clips in, motion database out, one line a stage.
+//!
+//! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted by file and clip
+//! name, examples by their own name, and parallel stages collect in that order.
+
+use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
+use motiondb::parameters::Parameters;
+use rayon::prelude::*;
+
+use crate::compile_error::CompileError;
+use crate::cycle::{self, GaitCycle};
+use crate::gait::{self, Gait, GaitAnalysis};
+use crate::human_clip::{HumanBody, HumanClip};
+use crate::root_motion::GroundedClip;
+use crate::{
+    blend_space, correspondence, mirror, parameterize, root_motion, rows, standing, target_skeleton, unroll,
+    velocity_hull,
+};
+
+/// Period of standing clips where none steps, seconds.
+const STANDING_PERIOD_S: f64 = 1.0;
+
+/// Compiles clips into a database.
+///
+/// # Errors
+/// Where no clip gives an example, or two examples have one name.
+pub fn compile(mut clips: Vec<HumanClip>) -> Result<MotionDb, CompileError> {
+    clips.sort_by(|a, b| (&a.source.file, &a.source.clip).cmp(&(&b.source.file, &b.source.clip)));
+    let body = target_skeleton::choose(&clips);
+    let analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
+    let period_s = standing_period_s(&analyzed);
+    let mut sources: Vec<SourceRecord> = clips.iter().map(|clip| clip.source.clone()).collect();
+    let mut cycles: Vec<NamedCycle> = close(&clips, analyzed, &body, period_s, &mut sources);
+    add_mirrors(&mut cycles);
+    cycles.sort_by(|a, b| a.name.cmp(&b.name));
+    assemble(cycles, sources, &body)
+}
+
+/// A clip on the target skeleton, its gait found and, where it steps, its mean stride.
+struct Analyzed {
+    grounded: GroundedClip,
+    gait: GaitAnalysis,
+    stepping: Option<GaitCycle>,
+    warnings: Vec<String>,
+}
+
+fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
+    let grounded = unroll::unroll(root_motion::ground(clip, body), body);
+    let gait = gait::analyze(&grounded, body);
+    let mut warnings = Vec::new();
+    let stepping = match &gait.gait {
+        Gait::Steps(strides) => {
+            let mut cycle = cycle::mean_stride(&grounded, body, &gait.planted, strides);
+            warnings = parameterize::snap(&mut cycle);
+            Some(cycle)
+        }
+        Gait::Unsteady(reason) => {
+            warnings.push(format!("no example: {reason}"));
+            None
+        }
+        Gait::Stands => None,
+    };
+    Analyzed { grounded, gait, stepping, warnings }
+}
+
+/// The period of m_sp, which standing clips take over.
+fn standing_period_s(analyzed: &[Analyzed]) -> f64 {
+    let parameters: Vec<Option<Parameters>> =
+        analyzed.iter().map(|clip| clip.stepping.as_ref().map(|cycle| cycle.rates.to_parameters())).collect();
+    let stepping = parameters.iter().enumerate().filter_map(|(index, found)| Some((index, found.as_ref()?)));
+    let semi_procedural = correspondence::semi_procedural(stepping);
+    let cycle = semi_procedural.and_then(|index| analyzed[index].stepping.as_ref());
+    cycle.map_or(STANDING_PERIOD_S, |cycle| f64::from(cycle.phase_map.period_s))
+}
+
+/// A cycle on its way to an example.
+struct NamedCycle {
+    name: String,
+    source: u32,
+    mirrored: bool,
+    cycle: GaitCycle,
+}
+
+/// The cycles of all clips, standing ones now too; their warnings go to their sources.
+fn close(
+    clips: &[HumanClip],
+    analyzed: Vec<Analyzed>,
+    body: &HumanBody,
+    period_s: f64,
+    sources: &mut [SourceRecord],
+) -> Vec<NamedCycle> {
+    let mut cycles = Vec::new();
+    for (index, (clip, found)) in clips.iter().zip(analyzed).enumerate() {
+        sources[index].warnings.extend(found.warnings);
+        let cycle = match found.gait.gait {
+            Gait::Stands => Some(standing::standing_cycle(&found.grounded, body, period_s)),
+            _ => found.stepping,
+        };
+        if let Some(cycle) = cycle {
+            cycles.push(NamedCycle { name: clip.name.clone(), source: index as u32, mirrored: false, cycle });
+        }
+    }
+    cycles
+}
+
+/// Appends the mirrors of one-sided cycles that have no counterpart.
+fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
+    let rates: Vec<_> = cycles.iter().map(|named| named.cycle.rates).collect();
+    let mirrors: Vec<NamedCycle> = cycles
+        .iter()
+        .filter(|named| mirror::wants_mirror(&named.cycle.rates, &rates))
+        .map(|named| NamedCycle {
+            name: format!("{}_mirrored", named.name),
+            source: named.source,
+            mirrored: true,
+            cycle: mirror::mirror(&named.cycle),
+        })
+        .collect();
+    cycles.extend(mirrors);
+}
+
+/// The database of cycles sorted by name.
+fn assemble(named: Vec<NamedCycle>, sources: Vec<SourceRecord>, body: &HumanBody) -> Result<MotionDb, CompileError> {
+    if named.is_empty() {
+        return Err(CompileError::no_example(&sources));
+    }
+    if let Some(pair) = named.windows(2).find(|pair| pair[0].name == pair[1].name) {
+        return Err(CompileError::SameName { name: pair[0].name.clone() });
+    }
+    let examples: Vec<MotionExample> = named
+        .iter()
+        .map(|named| parameterize::example(&named.cycle, body, named.name.clone(), named.source, named.mirrored))
+        .collect();
+    let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
+    let blend_space = blend_space::build(&examples);
+    Ok(MotionDb {
+        skeleton: target_skeleton::skeleton(body, cycles.iter()),
+        correspondence: correspondence::build(&examples, &cycles, body, blend_space.axis_ranges),
+        velocity_hull: velocity_hull::build(&examples),
+        rows: rows::flatten(&cycles),
+        blend_space,
+        examples,
+        sources,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use motiondb::validate::validate;
+
+    use super::*;
+    use crate::arc::Rates;
+    use crate::synthetic::{Walk, idle, walk};
+
+    fn set() -> Vec<HumanClip> {
+        let with = |speed_mps, turn_rate_rad_s, strafe_mps| Walk {
+            rates: Rates { speed_mps, turn_rate_rad_s, strafe_mps },
+            ..Walk::default()
+        };
+        vec![
+            walk("straight", Walk { left_share: 0.55, ..with(1.1, 0.01, 0.0) }),
+            walk("slow", Walk { period_s: 1.3, frame_rate_hz: 120.0, ..with(0.7, 0.0, 0.0) }),
+            walk("turn", with(0.6, 0.9, 0.0)),
+            walk("side", with(0.1, 0.0, -0.4)),
+            idle("idle", 3.0),
+        ]
+    }
+
+    fn compiled(clips: Vec<HumanClip>) -> MotionDb {
+        compile(clips).unwrap()
+    }
+
+    fn check_rates(db: &MotionDb, name: &str, wanted: [f32; 3]) {
+        let example = db.examples.iter().find(|example| example.name == name).unwrap();
+        let found = example.parameters.to_vec3().to_array();
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!((found - wanted).abs() < 0.01, "{example:?}, not {wanted:?}");
+        }
+    }
+
+    #[test]
+    fn a_set_of_walks_gives_their_rates_mirrors_and_a_valid_database() {
+        let db = compiled(set());
+        assert!(validate(&db).iter().all(|check| check.broken.is_none()), "{:?}", validate(&db).last());
+        check_rates(&db, "straight", [1.1, 0.0, 0.0]);
+        check_rates(&db, "turn", [0.6, 0.9, 0.0]);
+        check_rates(&db, "turn_mirrored", [0.6, -0.9, 0.0]);
+        check_rates(&db, "side_mirrored", [0.1, 0.0, 0.4]);
+        assert_eq!(db.examples.len(), 7, "{:?}", db.sources);
+        for example in &db.examples {
+            assert!(example.planted_slide_cm_s < 1.0, "{example:?}");
+        }
+        let straight = &db.examples[db.correspondence.as_ref().unwrap().semi_procedural as usize];
+        assert_eq!(straight.name, "straight");
+        assert!((straight.phase_map.left_share - 0.55).abs() < 0.02, "{straight:?}");
+        assert!((straight.phase_map.period_s - 1.1).abs() < 0.01, "{straight:?}");
+    }
+
+    #[test]
+    fn order_and_threads_do_not_matter() {
+        let mut reversed = set();
+        reversed.reverse();
+        let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        assert_eq!(compiled(set()), one_thread.install(|| compiled(reversed)));
+    }
+
+    #[test]
+    fn a_performer_of_another_size_is_scaled() {
+        let double = Walk { size: 2.0, rates: Rates { speed_mps: 2.0, ..Rates::default() }, ..Walk::default() };
+        let mut clips = set();
+        clips.push(walk("giant", double));
+        check_rates(&compiled(clips), "giant", [1.0, 0.0, 0.0]);
+    }
+}

@@ -1,0 +1,39 @@
+//! Why clips give no database: each reason names what to do.
+
+use motiondb::motion_db::SourceRecord;
+
+use crate::error::ImportError;
+
+/// No database could be made.
+#[derive(Debug, thiserror::Error)]
+pub enum CompileError {
+    /// A file is not motion.
+    #[error(transparent)]
+    Import(#[from] ImportError),
+    /// Nothing to compile.
+    #[error("no clips; name *.bvh, *.glb or *.gltf files or a folder that holds some")]
+    NoClips,
+    /// Every clip was read, none walks or stands.
+    #[error("no clip gives an example: {reasons}; give clips of steady walking, running, turning or standing")]
+    NoExample {
+        /// What each clip's record says.
+        reasons: String,
+    },
+    /// Examples are told apart by name.
+    #[error("two clips are called {name}; rename one of the files")]
+    SameName {
+        /// The name.
+        name: String,
+    },
+}
+
+impl CompileError {
+    /// With the reasons from the sources' warnings.
+    pub(crate) fn no_example(sources: &[SourceRecord]) -> Self {
+        if sources.is_empty() {
+            return Self::NoClips;
+        }
+        let reason = |source: &SourceRecord| format!("{} ({})", source.file, source.warnings.join(", "));
+        Self::NoExample { reasons: sources.iter().map(reason).collect::<Vec<String>>().join("; ") }
+    }
+}

@@ -1,0 +1,100 @@
+//! Foot contacts of a clip, frame by frame: by height and by speed, as in the definition of planted-foot slide.
+//!
+//! A foot's contact point is the lowest of heel, ball and toe tip: on the sole where the clip had `…Sole` joints, else at the joints (ankle,
+//! ball, end of the toe), each over its own planted height. The foot is planted while that point is low and slow. World frame, metres.
+
+use glam::DVec3;
+use motiondb::skeleton::Joint;
+
+use crate::human_clip::{HumanBody, HumanJoints};
+use crate::root_motion::percentile;
+
+/// Over its planted height a planted point lifts less than this (`definitions.md`), metres.
+const HEIGHT_MAX_M: f64 = 0.025;
+/// Speed of a planted point: this, and a share of the body's speed for clips that slide as they run (`definitions.md`), m/s.
+const SPEED_MAX_MPS: f64 = 0.25;
+const SPEED_MAX_SHARE: f64 = 0.15;
+/// A point's planted height is this percentile of its heights (`definitions.md`).
+const PLANTED_PERCENTILE: f64 = 0.05;
+/// Speeds are taken over ± this time, so that noise weighs the same at 24 and at 120 frames a second: one frame at 30.
+const SPEED_SPAN_S: f64 = 1.0 / 30.0;
+/// A shorter lift is noise (swings last 0.3 s and more), a shorter contact is not a step (`definitions.md`), seconds.
+const LIFT_MIN_S: f64 = 0.1;
+const CONTACT_MIN_S: f64 = 0.08;
+
+/// The three points of a foot that may touch the ground, as slide and contact measure them.
+pub fn contact_points_m(joints: &HumanJoints, body: &HumanBody, side: usize) -> [DVec3; 3] {
+    if body.measured_on_sole {
+        return joints.sole_points_m(body, side);
+    }
+    let (foot, toe) = (Joint::FEET[side].index(), Joint::TOES[side].index());
+    let toe_end = joints.positions_m[toe] + joints.orientations[toe] * body.segment_ends_m[toe];
+    [joints.positions_m[foot], joints.positions_m[toe], toe_end]
+}
+
+/// Which of a foot's three points is the lowest over its planted height, frame by frame, and how high it is.
+pub fn lowest_points(feet: &[[DVec3; 3]]) -> Vec<(usize, f64)> {
+    let planted: [f64; 3] = std::array::from_fn(|point| {
+        let mut heights: Vec<f64> = feet.iter().map(|foot| foot[point].z).collect();
+        percentile(&mut heights, PLANTED_PERCENTILE)
+    });
+    let height = |foot: &[DVec3; 3], point: usize| foot[point].z - planted[point];
+    let lower = |a: (usize, f64), b: (usize, f64)| if b.1 < a.1 { b } else { a };
+    feet.iter()
+        .map(|foot| (1..3).fold((0, height(foot, 0)), |lowest, point| lower(lowest, (point, height(foot, point)))))
+        .collect()
+}
+
+/// Planted or not, frame by frame, of one foot.
+pub fn planted(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64) -> Vec<bool> {
+    let speed_max_mps = SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps;
+    let span = ((SPEED_SPAN_S * frame_rate_hz + 0.5) as usize).max(1);
+    let mut planted: Vec<bool> = lowest_points(feet)
+        .iter()
+        .enumerate()
+        .map(|(frame, &(point, height_m))| {
+            let (before, after) = (frame.saturating_sub(span), (frame + span).min(feet.len() - 1));
+            let moved = (feet[after][point] - feet[before][point]).truncate().length();
+            height_m < HEIGHT_MAX_M && moved * frame_rate_hz < speed_max_mps * (after - before) as f64
+        })
+        .collect();
+    flip_short_runs(&mut planted, false, LIFT_MIN_S * frame_rate_hz);
+    flip_short_runs(&mut planted, true, CONTACT_MIN_S * frame_rate_hz);
+    planted
+}
+
+/// Runs of equal values: value, first frame, frame after the last.
+pub fn runs(planted: &[bool]) -> Vec<(bool, usize, usize)> {
+    let mut runs: Vec<(bool, usize, usize)> = Vec::new();
+    for (frame, &value) in planted.iter().enumerate() {
+        match runs.last_mut() {
+            Some(run) if run.0 == value => run.2 = frame + 1,
+            _ => runs.push((value, frame, frame + 1)),
+        }
+    }
+    runs
+}
+
+/// Flips inner runs of `value` shorter than `length` frames; the first and the last may go on outside the clip.
+fn flip_short_runs(planted: &mut [bool], value: bool, length: f64) {
+    let runs = runs(planted);
+    for &(run_value, start, end) in runs.iter().skip(1).rev().skip(1) {
+        if run_value == value && ((end - start) as f64) < length {
+            planted[start..end].fill(!value);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_lifts_close_and_short_contacts_vanish() {
+        let frames = |text: &str| text.bytes().map(|b| b == b'#').collect::<Vec<bool>>();
+        let mut planted = frames("##.....######.#......#.....##");
+        flip_short_runs(&mut planted, false, 3.0);
+        flip_short_runs(&mut planted, true, 3.0);
+        assert_eq!(planted, frames("##.....########............##"));
+    }
+}

@@ -1,0 +1,208 @@
+//! Strides → GaitCycle: the phase-aligned mean stride, closed without a seam, at 64 uniform phases (`definitions.md`, "Example").
+//!
+//! Each stride is read along its own arc, at the times t(φ) of [`motiondb::phase_map`], through both of its landmarks. What is left open
+//! between its ends is spread evenly over the stride, so that planted feet feel it least, and both ends are faded into what the clip does
+//! just outside the stride, so that velocities close as well. Root frame: x forward, y left, metres, seconds.
+
+use glam::{DQuat, DVec3};
+use motiondb::motion_db::PHASE_COUNT;
+use motiondb::phase_map::PhaseMap;
+use motiondb::skeleton::JOINT_COUNT;
+
+use crate::arc::Rates;
+use crate::gait::Stride;
+use crate::human_clip::{HumanBody, HumanPose};
+use crate::root_motion::{GroundedClip, accumulate, align_to};
+
+/// Rows that a stride is faded over at each end, where the clip reaches that far: an eighth of a cycle.
+const FADE_ROWS: usize = PHASE_COUNT / 8;
+
+/// One closed cycle of 64 rows.
+#[derive(Clone, Debug)]
+pub struct GaitCycle {
+    /// Poses in the root frame at uniform phases.
+    pub rows: Vec<HumanPose>,
+    /// Contact of each foot, `[left, right]`, 0 to 1: the share of strides in which it is planted.
+    pub contacts: Vec<[f64; 2]>,
+    /// Phase to time.
+    pub phase_map: PhaseMap,
+    /// The root's rates.
+    pub rates: Rates,
+    /// The body steps; otherwise it stands.
+    pub steps: bool,
+}
+
+/// The mean of whole strides.
+pub fn mean_stride(clip: &GroundedClip, body: &HumanBody, planted: &[Vec<bool>; 2], strides: &[Stride]) -> GaitCycle {
+    let frames: f64 = strides.iter().map(|stride| stride.period_frames).sum();
+    let mean = |value: fn(&Stride) -> f64| strides.iter().map(|s| value(s) * s.period_frames).sum::<f64>() / frames;
+    let rates = Rates {
+        speed_mps: mean(|s| s.arc.rates.speed_mps),
+        turn_rate_rad_s: mean(|s| s.arc.rates.turn_rate_rad_s),
+        strafe_mps: mean(|s| s.arc.rates.strafe_mps),
+    };
+    let period_s = frames / strides.len() as f64 / clip.frame_rate_hz;
+    let phase_map = PhaseMap { period_s: period_s as f32, left_share: mean(|s| s.left_share) as f32 };
+    let (mut rows, mut contacts) = (vec![empty_pose(); PHASE_COUNT], vec![[0.0; 2]; PHASE_COUNT]);
+    for stride in strides {
+        add_stride(&mut rows, &mut contacts, &StrideReader { clip, planted, stride }, 1.0 / strides.len() as f64);
+    }
+    for row in &mut rows {
+        row.rotations = row.rotations.map(DQuat::normalize);
+    }
+    let mut cycle = GaitCycle { rows, contacts, phase_map, rates, steps: true };
+    lower_to_ground(&mut cycle, body);
+    cycle
+}
+
+impl GaitCycle {
+    /// Seconds from phase 0 at a row, which may lie in a neighbouring cycle.
+    pub fn row_time_s(&self, row: isize) -> f64 {
+        f64::from(self.phase_map.time_s(row as f32 / PHASE_COUNT as f32))
+    }
+
+    /// Index of a row that may lie in a neighbouring cycle.
+    pub fn wrap(row: isize) -> usize {
+        row.rem_euclid(PHASE_COUNT as isize) as usize
+    }
+}
+
+fn empty_pose() -> HumanPose {
+    HumanPose { pelvis_m: DVec3::ZERO, rotations: [DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] }
+}
+
+/// Reads one stride of a clip by phase.
+struct StrideReader<'a> {
+    clip: &'a GroundedClip,
+    planted: &'a [Vec<bool>; 2],
+    stride: &'a Stride,
+}
+
+impl StrideReader<'_> {
+    /// Frame of the clip at a phase, which may lie beyond the stride's ends.
+    fn frame(&self, phase: f64) -> f64 {
+        let ripple = 0.5 * (self.stride.left_share - 0.5) * (1.0 - libm::cos(std::f64::consts::TAU * phase));
+        self.stride.zero_frame + self.stride.period_frames * (phase + ripple)
+    }
+
+    fn pose(&self, phase: f64) -> HumanPose {
+        let frame = self.frame(phase);
+        let time_s = (frame - self.stride.zero_frame) / self.clip.frame_rate_hz;
+        self.stride.arc.relative(&self.clip.pose_at(frame), time_s)
+    }
+
+    /// Share of planted, between frames linearly.
+    fn contacts(&self, phase: f64) -> [f64; 2] {
+        let frame = self.frame(phase).max(0.0);
+        [0, 1].map(|side| {
+            let planted =
+                |frame: usize| f64::from(u8::from(self.planted[side][frame.min(self.planted[side].len() - 1)]));
+            let (base, share) = (frame as usize, frame - libm::floor(frame));
+            planted(base) + share * (planted(base + 1) - planted(base))
+        })
+    }
+
+    /// How far the fades reach beyond both ends, as a share of the cycle.
+    fn fade(&self) -> f64 {
+        let (start, last) = (self.stride.start_phase, (self.clip.poses.len() - 1) as f64);
+        let fits = |rows: usize| {
+            let fade = rows as f64 / PHASE_COUNT as f64;
+            self.frame(start - fade) >= 0.0 && self.frame(start + 1.0 + fade) <= last
+        };
+        (0..=FADE_ROWS).rev().find(|rows| fits(*rows)).unwrap_or(0) as f64 / PHASE_COUNT as f64
+    }
+}
+
+/// What a stride leaves open: its last pose against its first.
+struct Gap {
+    pelvis_m: DVec3,
+    rotations: [DVec3; JOINT_COUNT],
+}
+
+impl Gap {
+    fn between(first: &HumanPose, last: &HumanPose) -> Self {
+        let rotations = std::array::from_fn(|joint| {
+            let gap = last.rotations[joint] * first.rotations[joint].inverse();
+            (if gap.w < 0.0 { -gap } else { gap }).to_scaled_axis()
+        });
+        Self { pelvis_m: last.pelvis_m - first.pelvis_m, rotations }
+    }
+
+    /// Takes a share of the gap out of a pose.
+    fn take_out(&self, pose: &mut HumanPose, share: f64) {
+        pose.pelvis_m -= self.pelvis_m * share;
+        for (rotation, gap) in pose.rotations.iter_mut().zip(&self.rotations) {
+            *rotation = DQuat::from_scaled_axis(-*gap * share) * *rotation;
+        }
+    }
+}
+
+/// Adds one stride, closed, to the sums of all.
+fn add_stride(rows: &mut [HumanPose], contacts: &mut [[f64; 2]], reader: &StrideReader, share: f64) {
+    let start = reader.stride.start_phase;
+    let gap = Gap::between(&reader.pose(start), &reader.pose(start + 1.0));
+    let fade = reader.fade();
+    for (row, (pose, contact)) in rows.iter_mut().zip(contacts).enumerate() {
+        let phase = row as f64 / PHASE_COUNT as f64;
+        for phase in [phase - 1.0, phase, phase + 1.0, phase + 2.0] {
+            let weight = share * window(phase - start, fade);
+            if weight == 0.0 {
+                continue;
+            }
+            let mut part = reader.pose(phase);
+            gap.take_out(&mut part, phase - start - 0.5);
+            align_to(&mut part.rotations, &pose.rotations);
+            accumulate(pose, &part, weight);
+            let planted = reader.contacts(phase);
+            contact[0] += weight * planted[0];
+            contact[1] += weight * planted[1];
+        }
+    }
+}
+
+/// Weight of a phase counted from the stride's start: 1 within, faded over both ends; weights a cycle apart add up to 1.
+fn window(phase: f64, fade: f64) -> f64 {
+    if fade == 0.0 {
+        return if (0.0..1.0).contains(&phase) { 1.0 } else { 0.0 };
+    }
+    let ramp = |from_edge: f64| {
+        let t = (0.5 + 0.5 * from_edge / fade).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    };
+    ramp(phase) - ramp(phase - 1.0)
+}
+
+/// Shifts the cycle so that planted soles lie at z = 0 in the mean.
+fn lower_to_ground(cycle: &mut GaitCycle, body: &HumanBody) {
+    let (mut sum_m, mut weight) = (0.0, 0.0);
+    for (row, contacts) in cycle.rows.iter().zip(&cycle.contacts) {
+        let joints = row.forward_kinematics(body);
+        for (side, contact) in contacts.iter().enumerate() {
+            let lowest =
+                joints.sole_points_m(body, side).map(|point| point.z).into_iter().fold(f64::INFINITY, f64::min);
+            sum_m += contact * lowest;
+            weight += contact;
+        }
+    }
+    if weight > 0.0 {
+        for row in &mut cycle.rows {
+            row.pelvis_m.z -= sum_m / weight;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_a_cycle_apart_add_up_to_one() {
+        for fade in [0.0, 0.03, 0.125] {
+            for step in 0..100 {
+                let phase = f64::from(step) / 100.0;
+                let sum: f64 = [-1.0, 0.0, 1.0].iter().map(|turn| window(phase + turn, fade)).sum();
+                assert!((sum - 1.0).abs() < 1e-12, "{fade} {phase} {sum}");
+            }
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Planted-foot slide of a cycle (`definitions.md`): mean horizontal speed of the contact point over the middle 80 % of each contact.
+//!
+//! A foot is planted where its contact row is at least ½; its contact point is the lowest of three, as in [`crate::contacts`].
+
+use glam::DVec3;
+use motiondb::motion_db::PHASE_COUNT;
+
+use crate::arc::Arc;
+use crate::contacts::{contact_points_m, lowest_points};
+use crate::cycle::GaitCycle;
+use crate::human_clip::HumanBody;
+
+/// Cut from each end of a contact, as a share of it.
+const TRIMMED_SHARE: f64 = 0.1;
+/// A foot is planted from this contact on.
+pub const PLANTED: f64 = 0.5;
+
+/// What the planted feet of a cycle do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FootSlide {
+    /// Mean speed of planted contact points, cm/s.
+    pub slide_cm_s: f64,
+    /// Share of the cycle that a foot is planted, mean of both.
+    pub planted_share: f64,
+}
+
+/// Slide and planted share of both feet, the cycle repeated along its arc.
+pub fn measure(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
+    let (mut speeds, mut planted_rows) = (Vec::new(), 0);
+    for side in 0..2 {
+        let feet: Vec<[DVec3; 3]> =
+            cycle.rows.iter().map(|row| contact_points_m(&row.forward_kinematics(body), body, side)).collect();
+        let lowest = lowest_points(&feet);
+        for (start, length) in contacts(cycle, side) {
+            planted_rows += length;
+            let trim = (TRIMMED_SHARE * length as f64 + 0.5) as usize;
+            for row in start + trim..start + length - trim {
+                speeds.push(point_speed_mps(cycle, &feet, lowest[row % PHASE_COUNT].0, row as isize));
+            }
+        }
+    }
+    let slide_cm_s = if speeds.is_empty() { 0.0 } else { 100.0 * speeds.iter().sum::<f64>() / speeds.len() as f64 };
+    FootSlide { slide_cm_s, planted_share: planted_rows as f64 / (2 * PHASE_COUNT) as f64 }
+}
+
+/// First row and length of each contact of one foot; one that passes phase 0 counts once.
+pub fn contacts(cycle: &GaitCycle, side: usize) -> Vec<(usize, usize)> {
+    let planted = |row: usize| cycle.contacts[row % PHASE_COUNT][side] >= PLANTED;
+    if (0..PHASE_COUNT).all(planted) {
+        return vec![(0, PHASE_COUNT)];
+    }
+    (0..PHASE_COUNT)
+        .filter(|&row| planted(row) && !planted(row + PHASE_COUNT - 1))
+        .map(|row| (row, (row..).take_while(|&row| planted(row)).count()))
+        .collect()
+}
+
+/// Horizontal world speed of one contact point at a row.
+fn point_speed_mps(cycle: &GaitCycle, feet: &[[DVec3; 3]], point: usize, row: isize) -> f64 {
+    let arc = Arc { rates: cycle.rates, ..Arc::default() };
+    let at = |row: isize| {
+        let time_s = cycle.row_time_s(row);
+        (arc.to_world(feet[GaitCycle::wrap(row)][point], time_s), time_s)
+    };
+    let ((before_m, before_s), (after_m, after_s)) = (at(row - 1), at(row + 1));
+    (after_m - before_m).truncate().length() / (after_s - before_s)
+}

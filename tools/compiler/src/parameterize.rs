@@ -1,0 +1,87 @@
+//! GaitCycle → MotionExample: (v_f, ω_t, ω_s) freed of gait noise, key times, slide (`definitions.md`, "Example", "Key times").
+//!
+//! Snapping: an |ω_t| below 3 °/s is 0, and with it a small ω_s. What is snapped must not make planted feet slide, so a small ω_s is
+//! taken out by turning the root frame onto the direction of travel: the body then walks straight with its shoulders a few degrees off,
+//! as it did. The snapped turn is left to the feet: at most 3 °/s about a point some 15 cm away, below 1 cm/s.
+
+use std::f64::consts::PI;
+
+use glam::DQuat;
+use motiondb::motion_db::{MotionExample, PHASE_COUNT};
+
+use crate::arc::{Rates, rotation};
+use crate::cycle::GaitCycle;
+use crate::foot_slide::{self, PLANTED};
+use crate::human_clip::HumanBody;
+
+/// Slower turning is gait noise (`definitions.md`, "Example"): 3 °/s.
+const SNAPPED_TURN_RAD_S: f64 = 3.0 * PI / 180.0;
+/// And so is a smaller side speed, m/s (`definitions.md`, "Example") …
+const SNAPPED_STRAFE_MPS: f64 = 0.1;
+/// … of a body that goes somewhere: from here on the direction of travel is off the facing by 11° at most, m/s.
+const GOING_MPS: f64 = 0.5;
+
+/// Takes gait noise out of a cycle's rates; says what was taken.
+pub fn snap(cycle: &mut GaitCycle) -> Vec<String> {
+    let found = cycle.rates;
+    let mut said = Vec::new();
+    if found.turn_rate_rad_s == 0.0 || found.turn_rate_rad_s.abs() >= SNAPPED_TURN_RAD_S {
+        return said;
+    }
+    cycle.rates.turn_rate_rad_s = 0.0;
+    said.push(format!("turn rate {:.1} deg/s taken as 0", found.turn_rate_rad_s.to_degrees()));
+    if found.strafe_mps.abs() < SNAPPED_STRAFE_MPS && found.speed_mps.abs() > GOING_MPS {
+        face_along_travel(cycle);
+        said.push(format!("side speed {:.3} m/s taken as 0", found.strafe_mps));
+    }
+    said
+}
+
+/// Turns the root frame so that the body moves straight forward or straight back.
+fn face_along_travel(cycle: &mut GaitCycle) {
+    let Rates { speed_mps, strafe_mps, turn_rate_rad_s } = cycle.rates;
+    let off_rad = libm::atan(strafe_mps / speed_mps);
+    for row in &mut cycle.rows {
+        row.pelvis_m = (rotation(-off_rad) * row.pelvis_m.truncate()).extend(row.pelvis_m.z);
+        row.rotations[0] = DQuat::from_rotation_z(-off_rad) * row.rotations[0];
+    }
+    let speed_mps = libm::copysign(libm::hypot(speed_mps, strafe_mps), speed_mps);
+    cycle.rates = Rates { speed_mps, strafe_mps: 0.0, turn_rate_rad_s };
+}
+
+/// The example of a cycle.
+pub fn example(cycle: &GaitCycle, body: &HumanBody, name: String, source: u32, mirrored: bool) -> MotionExample {
+    let foot_slide = foot_slide::measure(cycle, body);
+    MotionExample {
+        name,
+        source,
+        mirrored,
+        parameters: cycle.rates.to_parameters(),
+        phase_map: cycle.phase_map,
+        key_times_s: if cycle.steps { key_times_s(cycle) } else { None },
+        planted_slide_cm_s: foot_slide.slide_cm_s as f32,
+        planted_share: foot_slide.planted_share as f32,
+    }
+}
+
+/// [right toe-off, right heel strike, left toe-off, left heel strike]: where the contact that holds each foot's mid-stance ends and begins.
+fn key_times_s(cycle: &GaitCycle) -> Option<[f32; 4]> {
+    let half = PHASE_COUNT as isize / 2;
+    let right = [crossing(cycle, 1, 0, 1)?, crossing(cycle, 1, 0, -1)?];
+    let left = [crossing(cycle, 0, half, 1)?, crossing(cycle, 0, half, -1)?];
+    Some([right[0], right[1], left[0], left[1]].map(|phase| within_period(cycle, phase)))
+}
+
+/// Phase at which a foot's contact falls below ½, going from a row forward or backward; none if it never does.
+fn crossing(cycle: &GaitCycle, side: usize, from: isize, step: isize) -> Option<f32> {
+    let contact = |row: isize| cycle.contacts[GaitCycle::wrap(row)][side];
+    let last = (0..PHASE_COUNT as isize).map(|rows| from + rows * step).find(|row| contact(row + step) < PLANTED)?;
+    let (inside, outside) = (contact(last), contact(last + step));
+    let share = if inside > outside { ((inside - PLANTED) / (inside - outside)).clamp(0.0, 1.0) } else { 0.0 };
+    Some(((last as f64 + step as f64 * share) / PHASE_COUNT as f64) as f32)
+}
+
+fn within_period(cycle: &GaitCycle, phase: f32) -> f32 {
+    let time_s = cycle.phase_map.time_s(phase.rem_euclid(1.0));
+    if time_s < cycle.phase_map.period_s { time_s } else { 0.0 }
+}

@@ -1,0 +1,150 @@
+//! HumanClip → GroundedClip: the performer's motion on the target skeleton, over the ground at z = 0, travelling as it was meant.
+//!
+//! Proportions (`definitions.md`, "Target skeleton"): the whole motion is scaled by the ratio of leg lengths, joint rotations are kept,
+//! and where the bones differ leg inverse kinematics puts the ankles back to their scaled places. Clips that tread on the spot get the
+//! ground speed at which their stance feet stand still. World frame, metres, radians, Z up.
+
+use glam::{DQuat, DVec3};
+use motiondb::skeleton::{JOINT_COUNT, Joint};
+
+use crate::arc::rotation;
+use crate::human_clip::{HumanBody, HumanClip, HumanJoints, HumanPose};
+use crate::leg_ik;
+
+/// Bones nearer than this are the same bones: no inverse kinematics for rounding errors.
+const SAME_BONE_M: f64 = 5e-4;
+/// Of the lowest sole points of all frames, the share that lies below the floor: flight lifts many, noise drops a few.
+const FLOOR_PERCENTILE: f64 = 0.1;
+
+/// A clip on the target skeleton.
+#[derive(Clone, Debug)]
+pub struct GroundedClip {
+    /// Frames a second.
+    pub frame_rate_hz: f64,
+    /// One pose a frame in the world; successive rotations lie in one hemisphere.
+    pub poses: Vec<HumanPose>,
+    /// The clip is a loop, here unrolled: frames of one round. The frames `loop_frames..2·loop_frames` are its middle copy.
+    pub loop_frames: Option<usize>,
+}
+
+/// Puts a clip on the target body and on the ground.
+pub fn ground(clip: &HumanClip, body: &HumanBody) -> GroundedClip {
+    let scale = leg_length_m(body) / leg_length_m(&clip.body);
+    let same_bones = clip.body.offsets_m.iter().zip(&body.offsets_m).all(|(a, b)| (*a - *b).length() <= SAME_BONE_M);
+    let mut poses: Vec<HumanPose> = clip
+        .frames
+        .iter()
+        .map(|pose| if same_bones { pose.clone() } else { retarget(pose, &clip.body, body, scale) })
+        .collect();
+    lower_to_floor(&mut poses, body);
+    if let Some(ground_speed) = clip.in_place_mps {
+        travel(&mut poses, body, ground_speed.extend(0.0) * scale, clip.frame_rate_hz);
+    }
+    align_hemispheres(&mut poses);
+    GroundedClip { frame_rate_hz: clip.frame_rate_hz, poses, loop_frames: None }
+}
+
+/// Thigh plus shank, mean of both sides.
+pub fn leg_length_m(body: &HumanBody) -> f64 {
+    let leg = |side: usize| {
+        body.offsets_m[Joint::SHANKS[side].index()].length() + body.offsets_m[Joint::FEET[side].index()].length()
+    };
+    0.5 * (leg(0) + leg(1))
+}
+
+/// The pose with the target's bones: scaled, rotations kept, ankles at their scaled places over their own soles.
+fn retarget(pose: &HumanPose, source: &HumanBody, target: &HumanBody, scale: f64) -> HumanPose {
+    let wanted = pose.forward_kinematics(source);
+    let mut posed = HumanPose { pelvis_m: pose.pelvis_m * scale, rotations: pose.rotations };
+    for side in 0..2 {
+        let foot = Joint::FEET[side].index();
+        let sole_m = target.soles_m[side][0].z - source.soles_m[side][0].z * scale;
+        let ankle_m = wanted.positions_m[foot] * scale - DVec3::Z * sole_m;
+        leg_ik::place_ankle(&mut posed, target, side, ankle_m);
+    }
+    posed
+}
+
+/// Shifts the clip so that planted soles lie at z = 0.
+fn lower_to_floor(poses: &mut [HumanPose], body: &HumanBody) {
+    let mut lowest: Vec<f64> = poses.iter().map(|pose| lowest_sole_m(&pose.forward_kinematics(body), body)).collect();
+    let floor_m = percentile(&mut lowest, FLOOR_PERCENTILE);
+    for pose in poses {
+        pose.pelvis_m.z -= floor_m;
+    }
+}
+
+fn lowest_sole_m(joints: &HumanJoints, body: &HumanBody) -> f64 {
+    let points = (0..2).flat_map(|side| joints.sole_points_m(body, side));
+    points.map(|point| point.z).fold(f64::INFINITY, f64::min)
+}
+
+/// Adds the ground speed of a clip that treads on the spot, along its mean facing.
+fn travel(poses: &mut [HumanPose], body: &HumanBody, ground_speed_mps: DVec3, frame_rate_hz: f64) {
+    let across: DVec3 = poses
+        .iter()
+        .map(|pose| {
+            let (sin, cos) = libm::sincos(pose.forward_kinematics(body).facing_rad());
+            DVec3::new(cos, sin, 0.0)
+        })
+        .sum();
+    let step_m = rotation(libm::atan2(across.y, across.x)) * ground_speed_mps.truncate() / frame_rate_hz;
+    for (frame, pose) in poses.iter_mut().enumerate() {
+        pose.pelvis_m += (step_m * frame as f64).extend(0.0);
+    }
+}
+
+/// Flips quaternions so that each lies in the hemisphere of its predecessor and may be interpolated component by component.
+pub fn align_hemispheres(poses: &mut [HumanPose]) {
+    for frame in 1..poses.len() {
+        let (before, after) = poses.split_at_mut(frame);
+        align_to(&mut after[0].rotations, &before[frame - 1].rotations);
+    }
+}
+
+/// Flips quaternions into the hemispheres of others.
+pub fn align_to(rotations: &mut [DQuat; JOINT_COUNT], reference: &[DQuat; JOINT_COUNT]) {
+    for (rotation, reference) in rotations.iter_mut().zip(reference) {
+        if rotation.dot(*reference) < 0.0 {
+            *rotation = -*rotation;
+        }
+    }
+}
+
+/// The value below which a share of all values lies; sorts them.
+pub fn percentile(values: &mut [f64], share: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let index = (share * values.len() as f64) as usize;
+    values.get(index.min(values.len().saturating_sub(1))).copied().unwrap_or(0.0)
+}
+
+impl GroundedClip {
+    /// The pose at a fractional frame, by Catmull–Rom in every component, so that hips and legs move by the same rule and a planted foot
+    /// stays where it is between frames. Clamped to the clip.
+    pub fn pose_at(&self, frame: f64) -> HumanPose {
+        let last = self.poses.len() - 1;
+        let base = (frame.max(0.0) as usize).min(last.saturating_sub(1));
+        let weights = catmull_rom((frame - base as f64).clamp(0.0, 1.0));
+        let neighbours = [base.saturating_sub(1), base, (base + 1).min(last), (base + 2).min(last)];
+        let mut blend =
+            HumanPose { pelvis_m: DVec3::ZERO, rotations: [DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
+        for (weight, neighbour) in weights.into_iter().zip(neighbours) {
+            accumulate(&mut blend, &self.poses[neighbour], weight);
+        }
+        blend.rotations = blend.rotations.map(DQuat::normalize);
+        blend
+    }
+}
+
+/// Adds a weighted pose, component by component.
+pub fn accumulate(sum: &mut HumanPose, pose: &HumanPose, weight: f64) {
+    sum.pelvis_m += pose.pelvis_m * weight;
+    for (sum, rotation) in sum.rotations.iter_mut().zip(&pose.rotations) {
+        *sum = *sum + *rotation * weight;
+    }
+}
+
+fn catmull_rom(t: f64) -> [f64; 4] {
+    let (t2, t3) = (t * t, t * t * t);
+    [0.5 * (-t + 2.0 * t2 - t3), 0.5 * (2.0 - 5.0 * t2 + 3.0 * t3), 0.5 * (t + 4.0 * t2 - 3.0 * t3), 0.5 * (t3 - t2)]
+}

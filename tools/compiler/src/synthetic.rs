@@ -1,0 +1,143 @@
+//! A made-up walker for unit tests: exact steps on an arc, so that every stage's answer is known beforehand.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::{DQuat, DVec2, DVec3};
+use motiondb::motion_db::SourceRecord;
+use motiondb::skeleton::{JOINT_COUNT, Joint};
+
+use crate::arc::{Arc, Rates, rotation};
+use crate::human_clip::{HumanBody, HumanClip, HumanPose};
+use crate::leg_ik::place_ankle;
+
+/// Ankle over the sole.
+const ANKLE_M: f64 = 0.09;
+/// Share of the period that each foot is planted.
+const PLANTED_SHARE: f64 = 0.6;
+
+/// A walk to be made.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Walk {
+    pub(crate) rates: Rates,
+    pub(crate) period_s: f64,
+    /// Share of the period from right to left mid-stance.
+    pub(crate) left_share: f64,
+    pub(crate) duration_s: f64,
+    pub(crate) frame_rate_hz: f64,
+    /// Everything of the performer, the speeds too, in this proportion.
+    pub(crate) size: f64,
+}
+
+impl Default for Walk {
+    fn default() -> Self {
+        let rates = Rates { speed_mps: 1.2, ..Rates::default() };
+        Self { rates, period_s: 1.1, left_share: 0.5, duration_s: 4.0, frame_rate_hz: 60.0, size: 1.0 }
+    }
+}
+
+/// A body with legs of 0.84 m.
+pub(crate) fn body(size: f64) -> HumanBody {
+    let mut offsets_m = [DVec3::ZERO; JOINT_COUNT];
+    let mut set = |joint: Joint, x: f64, y: f64, z: f64| {
+        offsets_m[joint.index()] = size * DVec3::new(x, y, z);
+        offsets_m[joint.mirrored().index()] = size * DVec3::new(x, if joint.mirrored() == joint { y } else { -y }, z);
+    };
+    for spine in [Joint::SpineLower, Joint::SpineMiddle, Joint::SpineUpper, Joint::Neck, Joint::Head] {
+        set(spine, 0.0, 0.0, 0.12);
+    }
+    set(Joint::LeftClavicle, 0.0, 0.05, 0.1);
+    set(Joint::LeftUpperArm, 0.0, 0.13, 0.0);
+    set(Joint::LeftForearm, 0.0, 0.28, 0.0);
+    set(Joint::LeftHand, 0.0, 0.25, 0.0);
+    set(Joint::LeftThigh, 0.0, 0.09, 0.0);
+    set(Joint::LeftShank, 0.0, 0.0, -0.42);
+    set(Joint::LeftFoot, 0.0, 0.0, -0.42);
+    set(Joint::LeftToe, 0.13, 0.0, -0.06);
+    let mut segment_ends_m = [DVec3::new(0.0, 0.0, 0.1) * size; JOINT_COUNT];
+    let sole = [DVec3::new(-0.05, 0.0, -ANKLE_M), DVec3::new(0.13, 0.0, -ANKLE_M), DVec3::new(0.07, 0.0, -0.03)];
+    for toe in Joint::TOES {
+        segment_ends_m[toe.index()] = DVec3::new(0.07, 0.0, 0.0) * size;
+    }
+    HumanBody { offsets_m, segment_ends_m, soles_m: [sole.map(|point| point * size); 2], measured_on_sole: true }
+}
+
+/// The clip of a walk; its phase 0 comes at 0.37 of a period.
+pub(crate) fn walk(name: &str, walk: Walk) -> HumanClip {
+    let body = body(walk.size);
+    let arc = Arc { start_m: DVec2::new(2.0, -1.0), facing_rad: 0.4, rates: walk.rates };
+    let frames = (walk.duration_s * walk.frame_rate_hz) as usize + 1;
+    let poses = (0..frames).map(|frame| pose(&walk, &body, &arc, frame as f64 / walk.frame_rate_hz)).collect();
+    clip(name, body, poses, walk.frame_rate_hz)
+}
+
+/// A body that stands and breathes.
+pub(crate) fn idle(name: &str, duration_s: f64) -> HumanClip {
+    let still = Walk { rates: Rates::default(), ..Walk::default() };
+    let arc = Arc::default();
+    let body = body(1.0);
+    let frames = (duration_s * 60.0) as usize + 1;
+    let poses = (0..frames)
+        .map(|frame| {
+            let mut pose = pose(&still, &body, &arc, -0.37 * still.period_s);
+            pose.rotations[Joint::SpineUpper.index()] = DQuat::from_rotation_y(0.02 * libm::sin(frame as f64 / 31.0));
+            for side in 0..2 {
+                place_ankle(&mut pose, &body, side, DVec3::new(0.0, 0.09 - 0.18 * side as f64, ANKLE_M));
+            }
+            pose
+        })
+        .collect();
+    clip(name, body, poses, 60.0)
+}
+
+fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64) -> HumanClip {
+    let source = SourceRecord {
+        file: format!("{name}.bvh"),
+        clip: String::new(),
+        speed_mps: 0.0,
+        turn_rate_rad_s: 0.0,
+        strafe_mps: 0.0,
+        up_axis: "+Z".into(),
+        metres_per_unit: 1.0,
+        frame_rate_hz: frame_rate_hz as f32,
+        warnings: Vec::new(),
+    };
+    HumanClip { name: name.into(), source, frame_rate_hz, body, frames, in_place_mps: None }
+}
+
+fn pose(walk: &Walk, body: &HumanBody, arc: &Arc, time_s: f64) -> HumanPose {
+    let (root_m, facing_rad) = arc.at(time_s);
+    let cycles = time_s / walk.period_s - 0.37;
+    let sway = DVec2::new(0.01 * libm::sin(2.0 * TAU * cycles), -0.02 * libm::cos(TAU * cycles)) * walk.size;
+    let height_m = walk.size * (0.80 + 0.01 * libm::cos(2.0 * TAU * cycles));
+    let mut rotations = [DQuat::IDENTITY; JOINT_COUNT];
+    rotations[0] = DQuat::from_rotation_z(facing_rad + 0.05 * libm::sin(TAU * cycles));
+    rotations[Joint::LeftUpperArm.index()] = DQuat::from_rotation_x(-FRAC_PI_2 + 0.1);
+    rotations[Joint::RightUpperArm.index()] = DQuat::from_rotation_x(FRAC_PI_2 - 0.1);
+    let mut pose = HumanPose { pelvis_m: (root_m + rotation(facing_rad) * sway).extend(height_m), rotations };
+    for (side, first_mid_stance) in [(0, walk.left_share), (1, 0.0)] {
+        place_foot(&mut pose, walk, body, arc, side, cycles - first_mid_stance);
+    }
+    pose
+}
+
+/// Puts a foot where it stands, or on its way between two stances; `cycles` counts from one of its mid-stances.
+fn place_foot(pose: &mut HumanPose, walk: &Walk, body: &HumanBody, arc: &Arc, side: usize, cycles: f64) {
+    let stance = libm::floor(cycles + 0.5);
+    let from_mid = cycles - stance;
+    let swing = ((from_mid.abs() - 0.5 * PLANTED_SHARE) / (1.0 - PLANTED_SHARE)).max(0.0) * from_mid.signum();
+    let first_mid_stance = if side == 0 { walk.left_share } else { 0.0 };
+    let print = |stance: f64| {
+        let (root_m, facing) = arc.at((stance + first_mid_stance + 0.37) * walk.period_s);
+        (root_m + rotation(facing) * DVec2::new(0.0, walk.size * (0.09 - 0.18 * side as f64)), facing)
+    };
+    let ((here_m, here_rad), (there_m, there_rad)) = (print(stance), print(stance + swing.signum()));
+    // Half a swing on either side of the middle, which both sides share: cos makes it leave and land at rest.
+    let share = 0.5 - 0.5 * libm::cos(PI * swing.abs());
+    let lift_m = walk.size * 0.1 * libm::sin(PI * swing.abs());
+    let ankle_m = here_m.lerp(there_m, share).extend(walk.size * ANKLE_M + lift_m);
+    let facing_rad = here_rad + share * (there_rad - here_rad);
+    place_ankle(pose, body, side, ankle_m);
+    let joints = pose.forward_kinematics(body);
+    let shank = joints.orientations[Joint::SHANKS[side].index()];
+    pose.rotations[Joint::FEET[side].index()] = shank.inverse() * DQuat::from_rotation_z(facing_rad);
+}

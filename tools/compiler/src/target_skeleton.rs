@@ -1,0 +1,119 @@
+//! The body that a database's examples share (`definitions.md`, "Target skeleton").
+//!
+//! One performer keeps his proportions; of several the median is taken, bone by bone, left and right alike so that mirrored cycles fit.
+//! Rest pose and frames as in [`motiondb::skeleton`]; metres.
+
+use glam::{DVec3, Vec3};
+use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
+
+use crate::anthropometry::{LIMITS_DEG, SEGMENT_RADII_PER_STATURE};
+use crate::cycle::GaitCycle;
+use crate::human_clip::{HumanBody, HumanClip};
+use crate::root_motion::leg_length_m;
+
+/// Thigh plus shank of adults, small woman to tall man; anything else is a toy or a giant and has no say.
+const HUMAN_LEG_M: std::ops::RangeInclusive<f64> = 0.65..=1.05;
+
+/// The median body of the human-sized performers, of all where none is.
+pub fn choose(clips: &[HumanClip]) -> HumanBody {
+    let human: Vec<&HumanBody> =
+        clips.iter().map(|clip| &clip.body).filter(|body| HUMAN_LEG_M.contains(&leg_length_m(body))).collect();
+    let bodies = if human.is_empty() { clips.iter().map(|clip| &clip.body).collect() } else { human };
+    let offsets_m = symmetric(&std::array::from_fn(|joint| median(&bodies, |body| body.offsets_m[joint])));
+    let segment_ends_m = symmetric(&std::array::from_fn(|joint| median(&bodies, |body| body.segment_ends_m[joint])));
+    let soles_m =
+        symmetric_soles(&[0, 1].map(|side| [0, 1, 2].map(|point| median(&bodies, |body| body.soles_m[side][point]))));
+    let measured_on_sole = bodies.iter().all(|body| body.measured_on_sole);
+    HumanBody { offsets_m, segment_ends_m, soles_m, measured_on_sole }
+}
+
+/// Median of each component.
+fn median(bodies: &[&HumanBody], vector: impl Fn(&HumanBody) -> DVec3) -> DVec3 {
+    DVec3::from_array(std::array::from_fn(|axis| {
+        let mut values: Vec<f64> = bodies.iter().map(|body| vector(body)[axis]).collect();
+        values.sort_by(f64::total_cmp);
+        let count = values.len();
+        0.5 * (values[(count - 1) / 2] + values[count / 2])
+    }))
+}
+
+const MIRROR: DVec3 = DVec3::new(1.0, -1.0, 1.0);
+
+/// Each vector averaged with its mirror image.
+fn symmetric(vectors: &[DVec3; JOINT_COUNT]) -> [DVec3; JOINT_COUNT] {
+    std::array::from_fn(|index| 0.5 * (vectors[index] + MIRROR * vectors[Joint::ALL[index].mirrored().index()]))
+}
+
+fn symmetric_soles(soles: &[[DVec3; 3]; 2]) -> [[DVec3; 3]; 2] {
+    [0, 1].map(|side| [0, 1, 2].map(|point| 0.5 * (soles[side][point] + MIRROR * soles[1 - side][point])))
+}
+
+/// The database's skeleton: bones, girths by stature, joint limits that hold every cycle.
+pub fn skeleton<'a>(body: &HumanBody, cycles: impl Iterator<Item = &'a GaitCycle>) -> Skeleton {
+    let rest = rest_positions_m(body);
+    let sole_m = rest_soles_m(body, &rest).into_iter().fold(f64::INFINITY, f64::min);
+    let crown_m = rest[Joint::Head.index()].z + body.segment_ends_m[Joint::Head.index()].z;
+    let stature_m = crown_m - sole_m;
+    let mut offsets_m = body.offsets_m.map(|offset| offset.as_vec3());
+    offsets_m[0] = Vec3::new(0.0, 0.0, -sole_m as f32);
+    Skeleton {
+        offsets_m,
+        segment_ends_m: body.segment_ends_m.map(|end| end.as_vec3()),
+        segment_radii_m: SEGMENT_RADII_PER_STATURE.map(|radius| (radius * stature_m) as f32),
+        limits_rad: limits_rad(cycles),
+        feet: [0, 1].map(|side| {
+            let [heel_m, ball_m, toe_tip_m] = body.soles_m[side].map(|point| point.as_vec3());
+            Foot { heel_m, ball_m, toe_tip_m, measured_on_sole: body.measured_on_sole }
+        }),
+    }
+}
+
+/// Joints in the rest pose, relative to the pelvis.
+fn rest_positions_m(body: &HumanBody) -> [DVec3; JOINT_COUNT] {
+    let mut positions = [DVec3::ZERO; JOINT_COUNT];
+    for joint in &Joint::ALL[1..] {
+        let Some(parent) = joint.parent() else { continue };
+        positions[joint.index()] = positions[parent.index()] + body.offsets_m[joint.index()];
+    }
+    positions
+}
+
+fn rest_soles_m(body: &HumanBody, rest: &[DVec3; JOINT_COUNT]) -> Vec<f64> {
+    (0..2)
+        .flat_map(|side| {
+            let (foot, toe) = (rest[Joint::FEET[side].index()].z, rest[Joint::TOES[side].index()].z);
+            let [heel, ball, tip] = body.soles_m[side];
+            [foot + heel.z, foot + ball.z, toe + tip.z]
+        })
+        .collect()
+}
+
+/// Published ranges, widened where a cycle goes beyond them, so that limits never forbid what the clips do.
+fn limits_rad<'a>(cycles: impl Iterator<Item = &'a GaitCycle>) -> [[Vec3; 2]; JOINT_COUNT] {
+    let mut limits = LIMITS_DEG.map(|range| range.map(|degrees| Vec3::from_array(degrees.map(f32::to_radians))));
+    for row in cycles.flat_map(|cycle| &cycle.rows) {
+        for (range, rotation) in limits.iter_mut().zip(&row.rotations) {
+            let vector = (if rotation.w < 0.0 { -*rotation } else { *rotation }).to_scaled_axis().as_vec3();
+            *range = [range[0].min(vector), range[1].max(vector)];
+        }
+    }
+    limits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn published_limits_are_mirror_images() {
+        for joint in Joint::ALL {
+            let [least, greatest] = LIMITS_DEG[joint.index()];
+            let [mirrored_least, mirrored_greatest] = LIMITS_DEG[joint.mirrored().index()];
+            // A rotation vector's x and z change sign in the mirror y = 0, its y does not.
+            assert_eq!([-greatest[0], least[1], -greatest[2]], mirrored_least, "{}", joint.name());
+            assert_eq!([-least[0], greatest[1], -least[2]], mirrored_greatest, "{}", joint.name());
+            let radius = SEGMENT_RADII_PER_STATURE[joint.index()];
+            assert_eq!(radius, SEGMENT_RADII_PER_STATURE[joint.mirrored().index()]);
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! Loops: a clip whose last pose is its first goes round three times, so that every stride of it has neighbours and all strides count.
+//!
+//! What is left between the last pose and the first is spread evenly over the round, so that the seam is like any other frame.
+
+use glam::{DQuat, DVec3};
+use motiondb::skeleton::JOINT_COUNT;
+
+use crate::arc::rotation;
+use crate::human_clip::{HumanBody, HumanPose};
+use crate::root_motion::{GroundedClip, align_hemispheres};
+
+/// Every joint of the last pose this near to the first's, relative to the root: a loop (`definitions.md`, "Example").
+const LOOP_GAP_M: f64 = 0.04;
+/// Copies of a loop: one before and one after the one that is analysed.
+const ROUNDS: usize = 3;
+/// Shorter clips are poses, not loops.
+const ROUND_MIN_S: f64 = 0.3;
+
+/// The clip three times round where it is a loop, else unchanged.
+pub fn unroll(clip: GroundedClip, body: &HumanBody) -> GroundedClip {
+    let round = clip.poses.len().saturating_sub(1);
+    if (round as f64) < ROUND_MIN_S * clip.frame_rate_hz || loop_gap_m(&clip, body) > LOOP_GAP_M {
+        return clip;
+    }
+    let seam = Seam::between(&clip.poses[0], &clip.poses[round], body);
+    let closed: Vec<HumanPose> =
+        (0..round).map(|frame| seam.close(&clip.poses[frame], frame as f64 / round as f64)).collect();
+    let mut poses = Vec::with_capacity(ROUNDS * round + 1);
+    for copy in 0..ROUNDS {
+        poses.extend(closed.iter().map(|pose| seam.carry(pose, copy)));
+    }
+    poses.push(seam.carry(&closed[0], ROUNDS));
+    align_hemispheres(&mut poses);
+    GroundedClip { poses, loop_frames: Some(round), ..clip }
+}
+
+/// The greatest distance between a joint's places in the first and the last pose, each relative to its root.
+fn loop_gap_m(clip: &GroundedClip, body: &HumanBody) -> f64 {
+    let local = |pose: &HumanPose| {
+        let joints = pose.forward_kinematics(body);
+        let turn = DQuat::from_rotation_z(-joints.facing_rad());
+        let ground = joints.hips_m().with_z(0.0);
+        joints.positions_m.map(|position| turn * (position - ground))
+    };
+    let (first, last) = (local(&clip.poses[0]), local(&clip.poses[clip.poses.len() - 1]));
+    first.iter().zip(&last).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
+/// How one round of a loop moves the body, and what it leaves open.
+struct Seam {
+    start_m: DVec3,
+    travelled_m: DVec3,
+    turned_rad: f64,
+    height_gap_m: f64,
+    /// From the last pose's rotations back to the first's, as rotation vectors.
+    rotation_gaps: [DVec3; JOINT_COUNT],
+}
+
+impl Seam {
+    fn between(first: &HumanPose, last: &HumanPose, body: &HumanBody) -> Self {
+        let (from, to) = (first.forward_kinematics(body), last.forward_kinematics(body));
+        let turned_rad = to.facing_rad() - from.facing_rad();
+        let turn = DQuat::from_rotation_z(turned_rad);
+        let rotation_gaps = std::array::from_fn(|joint| {
+            let wanted = if joint == 0 { turn * first.rotations[0] } else { first.rotations[joint] };
+            let gap = wanted * last.rotations[joint].inverse();
+            (if gap.w < 0.0 { -gap } else { gap }).to_scaled_axis()
+        });
+        let travelled_m = (last.pelvis_m - first.pelvis_m).with_z(0.0);
+        let height_gap_m = first.pelvis_m.z - last.pelvis_m.z;
+        Self { start_m: first.pelvis_m.with_z(0.0), travelled_m, turned_rad, height_gap_m, rotation_gaps }
+    }
+
+    /// A pose of the round with its part of the gap added: none at the first, all at the last.
+    fn close(&self, pose: &HumanPose, share: f64) -> HumanPose {
+        let mut closed = pose.clone();
+        closed.pelvis_m.z += self.height_gap_m * share;
+        for (rotation, gap) in closed.rotations.iter_mut().zip(&self.rotation_gaps) {
+            *rotation = DQuat::from_scaled_axis(*gap * share) * *rotation;
+        }
+        closed
+    }
+
+    /// A pose as it is some rounds later.
+    fn carry(&self, pose: &HumanPose, rounds: usize) -> HumanPose {
+        let mut carried = pose.clone();
+        for _ in 0..rounds {
+            let off = rotation(self.turned_rad) * (carried.pelvis_m - self.start_m).truncate();
+            carried.pelvis_m = self.start_m + self.travelled_m + off.extend(carried.pelvis_m.z);
+            carried.rotations[0] = DQuat::from_rotation_z(self.turned_rad) * carried.rotations[0];
+        }
+        carried
+    }
+}
