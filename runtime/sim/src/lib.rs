@@ -1,13 +1,20 @@
 //! The simulation: one step in the order of the paper's Fig. 2, told in [`step`].
 
+pub mod agents;
 pub mod angle;
+pub mod cns;
+pub mod collision_rate;
 pub mod hms;
 pub mod mcn;
+pub mod metrics;
 pub mod neighbours;
 pub mod obstacles;
 pub mod params;
+pub mod path;
 pub mod plan;
+pub mod planted_slide;
 pub mod polygon;
+pub mod progress;
 pub mod recording;
 pub mod recording_chunk;
 pub mod recording_error;
@@ -19,6 +26,7 @@ pub mod scenario_check;
 pub mod scenario_error;
 pub mod scenario_file;
 pub mod split_mix;
+pub mod step;
 
 #[cfg(test)]
 mod test_db;

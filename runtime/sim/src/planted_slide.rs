@@ -1,0 +1,189 @@
+//! How far planted feet slide (`definitions.md`, "Planted-foot slide"): the mean horizontal speed of each foot's contact point over the
+//! middle 80 % of each contact, measured on the recorded pose, so after the leg IK.
+//!
+//! As in `tools/planted_slide.py`, the reference for clips: central differences, contacts of less than 0.08 s left out. Only what is planted
+//! differs: here the blended contact of the database's rows (≥ ½), never a foot lock's own flag.
+
+use glam::{DVec2, Vec3};
+use motiondb::pose::{Joints, Root};
+use motiondb::skeleton::{Joint, Skeleton};
+
+use crate::recording_frame::AgentFrame;
+
+/// A foot whose blended contact reaches this is planted.
+const PLANTED_CONTACT: f32 = 0.5;
+/// Of each end of a contact, left out: there the foot rolls on and off.
+const TRIMMED_SHARE: f64 = 0.1;
+/// Shorter contacts are none, s.
+const CONTACT_MIN_S: f64 = 0.08;
+
+/// Follows every foot, frame by frame.
+#[derive(Debug)]
+pub struct PlantedSlide {
+    skeleton: Skeleton,
+    dt_s: f64,
+    /// `[left, right]` of each agent.
+    feet: Vec<[FootTrack; 2]>,
+    samples: usize,
+    slide_cm_s: f64,
+    examples_slide_cm_s: f64,
+    foot_frames: usize,
+    planted_foot_frames: usize,
+}
+
+/// Slides, cm/s, over the samples that count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slide {
+    /// Of the recorded bodies; none where no foot was ever planted.
+    pub slide_cm_s: Option<f64>,
+    /// Of the examples that the bodies were blended from, over the same samples.
+    pub examples_slide_cm_s: Option<f64>,
+    /// Share of all feet and frames that are planted.
+    pub planted_share: f64,
+}
+
+/// One foot's last two frames and its present contact.
+#[derive(Clone, Debug, Default)]
+struct FootTrack {
+    earlier: Option<FootFrame>,
+    latest: Option<FootFrame>,
+    /// Of the contact so far, frame by frame.
+    contact: Vec<Sample>,
+}
+
+/// A foot in one frame.
+#[derive(Clone, Copy, Debug)]
+struct FootFrame {
+    /// Heel, ball, toe on the ground, world, metres.
+    points_m: [DVec2; 3],
+    /// Which of them is lowest.
+    lowest: usize,
+    planted: bool,
+    examples_slide_cm_s: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    slide_cm_s: f64,
+    examples_slide_cm_s: f64,
+}
+
+impl PlantedSlide {
+    /// No frames yet.
+    pub fn new(skeleton: &Skeleton, agent_count: usize, dt_s: f32) -> Self {
+        Self {
+            skeleton: skeleton.clone(),
+            dt_s: f64::from(dt_s),
+            feet: vec![Default::default(); agent_count],
+            samples: 0,
+            slide_cm_s: 0.0,
+            examples_slide_cm_s: 0.0,
+            foot_frames: 0,
+            planted_foot_frames: 0,
+        }
+    }
+
+    /// Adds one frame: every agent, in index order.
+    pub fn push(&mut self, agents: &[AgentFrame]) {
+        for (index, agent) in agents.iter().enumerate() {
+            for (side, foot) in foot_frames(&self.skeleton, agent).into_iter().enumerate() {
+                self.foot_frames += 1;
+                self.planted_foot_frames += usize::from(foot.planted);
+                let ended = self.feet[index][side].push(foot, self.dt_s);
+                self.count(&ended);
+            }
+        }
+    }
+
+    /// After the last frame.
+    pub fn finish(mut self) -> Slide {
+        for track in std::mem::take(&mut self.feet).into_iter().flatten() {
+            self.count(&track.finish(self.dt_s));
+        }
+        let mean = |sum: f64| (self.samples > 0).then(|| sum / self.samples as f64);
+        Slide {
+            slide_cm_s: mean(self.slide_cm_s),
+            examples_slide_cm_s: mean(self.examples_slide_cm_s),
+            planted_share: self.planted_foot_frames as f64 / self.foot_frames.max(1) as f64,
+        }
+    }
+
+    /// The middle of a contact that ended.
+    fn count(&mut self, contact: &[Sample]) {
+        if (contact.len() as f64) * self.dt_s < CONTACT_MIN_S {
+            return;
+        }
+        let trimmed = (contact.len() as f64 * TRIMMED_SHARE).round_ties_even() as usize;
+        for sample in &contact[trimmed..contact.len() - trimmed] {
+            self.samples += 1;
+            self.slide_cm_s += sample.slide_cm_s;
+            self.examples_slide_cm_s += sample.examples_slide_cm_s;
+        }
+    }
+}
+
+impl FootTrack {
+    /// Takes the next frame, which makes the one before it measurable; returns the contact that this ends, or nothing.
+    fn push(&mut self, next: FootFrame, dt_s: f64) -> Vec<Sample> {
+        let mut ended = Vec::new();
+        match self.latest {
+            Some(latest) if latest.planted => self.contact.push(sample(self.earlier, latest, Some(next), dt_s)),
+            _ => ended = std::mem::take(&mut self.contact),
+        }
+        self.earlier = self.latest.replace(next);
+        ended
+    }
+
+    /// The last frame is measured against the one before it alone.
+    fn finish(mut self, dt_s: f64) -> Vec<Sample> {
+        if let Some(latest) = self.latest.filter(|latest| latest.planted) {
+            self.contact.push(sample(self.earlier, latest, None, dt_s));
+        }
+        self.contact
+    }
+}
+
+/// The contact point's speed by central differences, one-sided at either end of the recording.
+fn sample(earlier: Option<FootFrame>, at: FootFrame, next: Option<FootFrame>, dt_s: f64) -> Sample {
+    let steps = usize::from(earlier.is_some()) + usize::from(next.is_some());
+    let place_m = |frame: Option<FootFrame>| frame.unwrap_or(at).points_m[at.lowest];
+    let metres = place_m(earlier).distance(place_m(next));
+    let slide_cm_s = metres / (steps.max(1) as f64 * dt_s) * 100.0;
+    Sample { slide_cm_s, examples_slide_cm_s: at.examples_slide_cm_s }
+}
+
+/// `[left, right]`.
+fn foot_frames(skeleton: &Skeleton, agent: &AgentFrame) -> [FootFrame; 2] {
+    let joints = agent.pose.forward_kinematics(skeleton);
+    [0, 1].map(|side| {
+        let (points_m, planted_heights_m) = contact_points_m(skeleton, &joints, side);
+        let height_m = |point: usize| points_m[point].z - planted_heights_m[point];
+        let lowest = (1..3).fold(0, |best, point| if height_m(point) < height_m(best) { point } else { best });
+        FootFrame {
+            points_m: points_m.map(|point_m| to_ground_m(&agent.root, point_m)),
+            lowest,
+            planted: agent.contacts[side] >= PLANTED_CONTACT,
+            examples_slide_cm_s: f64::from(agent.examples_slide_cm_s),
+        }
+    })
+}
+
+/// Heel, ball and toe in the root frame and their heights when planted, metres: points on the sole where the clips had them, else the joints
+/// (ankle, ball, end of toe), which stand above it.
+fn contact_points_m(skeleton: &Skeleton, joints: &Joints, side: usize) -> ([Vec3; 3], [f32; 3]) {
+    let (foot, ankle, toe) = (&skeleton.feet[side], Joint::FEET[side], Joint::TOES[side]);
+    if foot.measured_on_sole {
+        return (joints.sole_points_m(skeleton, side), [0.0; 3]);
+    }
+    let toe_end_m = skeleton.segment_ends_m[toe.index()];
+    let points_m = [ankle, toe].map(|joint| joints.positions_m[joint.index()]);
+    let above_ball_m = skeleton.offsets_m[toe.index()].z - foot.ball_m.z;
+    let heights_m = [-foot.heel_m.z, above_ball_m, toe_end_m.z - foot.toe_tip_m.z];
+    ([points_m[0], points_m[1], joints.point_m(toe, toe_end_m)], heights_m)
+}
+
+/// In f64, so that the distance from the origin costs no precision.
+fn to_ground_m(root: &Root, point_m: Vec3) -> DVec2 {
+    let (sin, cos) = libm::sincos(f64::from(root.facing_rad));
+    DVec2::from(root.position_m) + DVec2::new(cos, sin).rotate(DVec2::from(point_m.truncate()))
+}

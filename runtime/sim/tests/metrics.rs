@@ -1,0 +1,149 @@
+//! Measures of recordings whose figures can be worked out by hand.
+
+mod common;
+
+use common::{agent, folder, header, record, standing_at};
+use fbcrowd_sim::metrics::{Measures, measure, write_trajectories};
+use fbcrowd_sim::recording::Header;
+use fbcrowd_sim::recording_frame::AgentFrame;
+use glam::{Quat, Vec2};
+use motiondb::skeleton::Joint;
+
+const DT_S: f32 = 0.1;
+
+fn measured(test: &str, header: &Header, frames: &[Vec<AgentFrame>]) -> Measures {
+    measure(&record(&folder(test).join("a.fbrec"), header, frames)).unwrap()
+}
+
+fn walker(goal_x: f32) -> Header {
+    header(vec![agent([0.0, 0.0], [goal_x, 0.0])], DT_S)
+}
+
+/// One agent along x, feet in the air.
+fn path(places_m: impl IntoIterator<Item = f32>) -> Vec<Vec<AgentFrame>> {
+    let frame = |x: f32| AgentFrame { contacts: [0.0; 2], ..standing_at(Vec2::new(x, 0.0)) };
+    places_m.into_iter().map(|x| vec![frame(x)]).collect()
+}
+
+fn check(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-4 * (1.0 + expected.abs()), "{found}, not {expected}");
+}
+
+#[test]
+fn acceleration_counts_the_start_from_rest_and_ends_at_the_arrival() {
+    // 1 m/s at once, kept for ten steps, then a stop: 10 m/s² twice in twenty steps, once in those nine before x = 0.9 > 1.4 − 0.5 − ε.
+    let places = (0..=20).map(|step| 0.1 * step.min(10) as f32);
+    let measures = measured("acceleration", &walker(1.39), &path(places));
+    assert_eq!((measures.agents, measures.steps, measures.arrived, measures.stalled), (1, 20, 1, 0));
+    check(measures.mean_acceleration_mps2, 20.0 / 20.0);
+    check(measures.mean_acceleration_before_arrival_mps2, 10.0 / 9.0);
+    check(measures.mean_time_to_goal_s.unwrap(), 0.9);
+}
+
+#[test]
+fn nobody_arriving_leaves_no_time_to_goal() {
+    let measures = measured("nobody", &walker(50.0), &path((0..5).map(|step| step as f32)));
+    assert_eq!((measures.arrived, measures.mean_time_to_goal_s, measures.planted_slide_cm_s), (0, None, None));
+}
+
+#[test]
+fn five_seconds_of_standing_stall_an_agent_but_not_one_that_arrived() {
+    let stood = |steps: i32, goal: f32, test| measured(test, &walker(goal), &path((0..=steps).map(|_| 0.0))).stalled;
+    assert_eq!(stood(49, 9.0, "stall_short"), 0);
+    assert_eq!(stood(50, 9.0, "stall"), 1);
+    assert_eq!(stood(90, 0.3, "stall_arrived"), 0);
+}
+
+#[test]
+fn tracking_error_is_the_distance_to_where_the_plan_would_have_led() {
+    let mut frames = path((0..5).map(|step| 0.1 * step as f32));
+    for frame in &mut frames {
+        frame[0].planned_mps = Vec2::new(1.0, 0.5);
+    }
+    check(measured("tracking", &walker(9.0), &frames).root_tracking_error_m, 0.05);
+}
+
+#[test]
+fn two_agents_on_one_place_collide_all_the_time() {
+    let header = header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([9.0, 0.0], [5.0, 0.0])], DT_S);
+    let frames = vec![vec![standing_at(Vec2::ONE); 2]; 8];
+    check(measured("collide", &header, &frames).collision_rate, 0.5);
+}
+
+/// A left foot planted in frames 10 to 29 that slides at 3 cm/s, but at 50 cm/s in the first and the last of them.
+fn sliding() -> Vec<Vec<AgentFrame>> {
+    let mut x = 0.0;
+    let frame = |step: i32| {
+        let planted = (10..30).contains(&step);
+        x += if (12..=28).contains(&step) { 0.003 } else { 0.05 };
+        let mut frame = standing_at(Vec2::new(x, 0.0));
+        frame.contacts = [if planted { 0.6 } else { 0.4 }, 0.0];
+        frame.examples_slide_cm_s = if planted { 2.0 } else { 9.0 };
+        vec![frame]
+    };
+    (0..40).map(frame).collect()
+}
+
+#[test]
+fn slide_is_measured_over_the_middle_of_each_contact() {
+    let measures = measured("slide", &walker(9.0), &sliding());
+    check(measures.planted_slide_cm_s.unwrap(), 3.0);
+    check(measures.examples_slide_cm_s.unwrap(), 2.0);
+    check(measures.planted_share, 20.0 / 80.0);
+}
+
+#[test]
+fn a_contact_that_the_recording_cuts_short_counts_too() {
+    let measures = measured("slide_cut", &walker(9.0), &sliding()[..27]);
+    check(measures.planted_slide_cm_s.unwrap(), 3.0);
+}
+
+#[test]
+fn a_foot_that_rolls_over_its_toe_does_not_slide() {
+    // The heel rises about the toe tip, which the body's motion keeps in place.
+    let tip_m = |frame: &AgentFrame| {
+        let skeleton = common::skeleton();
+        frame.pose.forward_kinematics(&skeleton).sole_points_m(&skeleton, 0)[2]
+    };
+    let rolling = |step: i32| {
+        let mut frame = standing_at(Vec2::ZERO);
+        frame.contacts = [1.0, 0.0];
+        frame.pose.rotations[Joint::LeftFoot.index()] = Quat::from_rotation_y(0.02 * step as f32);
+        let off_m = tip_m(&frame) - tip_m(&standing_at(Vec2::ZERO));
+        frame.pose.pelvis_m -= off_m;
+        vec![frame]
+    };
+    let frames: Vec<_> = (1..30).map(rolling).collect();
+    let slide = measured("roll", &walker(9.0), &frames).planted_slide_cm_s.unwrap();
+    assert!(slide < 0.05, "{slide} cm/s");
+}
+
+#[test]
+fn trajectories_have_a_line_a_frame_and_two_numbers_an_agent() {
+    let header = header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([9.0, 0.0], [5.0, 0.0])], DT_S);
+    let frames = vec![vec![standing_at(Vec2::new(1.0, 2.0)), standing_at(Vec2::new(-0.5, 0.25))]; 2];
+    let recording = record(&folder("trajectories").join("a.fbrec"), &header, &frames);
+    let mut text = Vec::new();
+    write_trajectories(&recording, &mut text).unwrap();
+    let line = "1.000000 2.000000 -0.500000 0.250000\n";
+    assert_eq!(String::from_utf8(text).unwrap(), line.repeat(2));
+}
+
+#[test]
+fn a_thousand_agents_are_measured_in_a_moment() {
+    let agents = (0..1000).map(|i| agent([(i % 40) as f32, (i / 40) as f32], [0.0, 0.0])).collect();
+    let frame = |step: i32| {
+        (0..1000).map(move |i| standing_at(Vec2::new((i % 40) as f32 + 0.04 * step as f32, (i / 40) as f32)))
+    };
+    let frames: Vec<Vec<AgentFrame>> = (0..30).map(|step| frame(step).collect()).collect();
+    let path = folder("thousand").join("a.fbrec");
+    let recording = record(&path, &header(agents, 1.0 / 30.0), &frames);
+    let begin = std::time::Instant::now();
+    assert_eq!(measure(&recording).unwrap().collision_rate, 0.0);
+    let size = std::fs::metadata(&path).unwrap().len() as f64;
+    println!(
+        "{:.1} ms a frame, {:.1} bytes an agent and frame",
+        begin.elapsed().as_secs_f64() * 1e3 / 30.0,
+        size / 30e3
+    );
+}
