@@ -68,7 +68,7 @@ impl Recorder {
     /// # Errors
     /// Where the folder cannot be written.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordingError> {
-        let fail = |source| RecordingError::Io { path: path.to_owned(), source };
+        let fail = |source| RecordingError::Unwritable { path: path.to_owned(), source };
         let payload =
             bincode::serde::encode_to_vec(header, bincode_config()).map_err(|error| fail(io::Error::other(error)))?;
         let mut file = AtomicFile::create(path).map_err(fail)?;
@@ -104,7 +104,8 @@ impl Recorder {
                 agent,
             })?;
         }
-        let payload = compress(&self.packed).map_err(|source| RecordingError::Io { path: path.clone(), source })?;
+        let payload =
+            compress(&self.packed).map_err(|source| RecordingError::Unwritable { path: path.clone(), source })?;
         self.frame_bytes.push(self.byte);
         self.write(FRAME, &payload)
     }
@@ -119,12 +120,12 @@ impl Recorder {
         self.write(INDEX, &index)?;
         self.write(TAIL, &index_byte.to_le_bytes())?;
         let Self { path, file, .. } = self;
-        file.commit().map_err(|source| RecordingError::Io { path, source })
+        file.commit().map_err(|source| RecordingError::Unwritable { path, source })
     }
 
     fn write(&mut self, kind: Kind, payload: &[u8]) -> Result<(), RecordingError> {
         write_chunk(self.file.writer(), kind, payload)
-            .map_err(|source| RecordingError::Io { path: self.path.clone(), source })?;
+            .map_err(|source| RecordingError::Unwritable { path: self.path.clone(), source })?;
         self.byte += CHUNK_HEAD_BYTES + payload.len() as u64;
         Ok(())
     }

@@ -50,7 +50,7 @@ impl ChunkFile {
     /// # Errors
     /// Where the system refuses.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
-        let fail = |source| RecordingError::Io { path: path.to_owned(), source };
+        let fail = |source| RecordingError::Unreadable { path: path.to_owned(), source };
         let file = File::open(path).map_err(fail)?;
         let length = file.metadata().map_err(fail)?.len();
         Ok(Self { path: path.to_owned(), length, file: Mutex::new(file) })
@@ -78,7 +78,7 @@ impl ChunkFile {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.seek(SeekFrom::Start(byte))
             .and_then(|_| file.read_exact(&mut bytes))
-            .map_err(|source| RecordingError::Io { path: self.path.clone(), source })?;
+            .map_err(|source| RecordingError::Unreadable { path: self.path.clone(), source })?;
         Ok(bytes)
     }
 

@@ -8,9 +8,17 @@ use crate::recording::FORMAT_VERSION;
 /// Why a recording cannot be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
-    /// The operating system refused.
-    #[error("{}: {source}", path.display())]
-    Io {
+    /// The system refuses to write.
+    #[error("{}: cannot be written: {source}; check that its folder exists, may be written and has room", path.display())]
+    Unwritable {
+        /// The recording.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The system refuses to read.
+    #[error("{}: cannot be read: {source}; check that the file exists and may be read", path.display())]
+    Unreadable {
         /// The recording.
         path: PathBuf,
         /// What the system said.

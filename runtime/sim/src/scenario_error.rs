@@ -7,9 +7,9 @@ use std::path::PathBuf;
 /// Why there is no scenario.
 #[derive(Debug, thiserror::Error)]
 pub enum ScenarioError {
-    /// The operating system refused.
-    #[error("{}: {source}", path.display())]
-    Io {
+    /// The system refuses to read.
+    #[error("{}: cannot be read: {source}; check that the file exists and is text", path.display())]
+    Unreadable {
         /// The scenario file, or one that it names.
         path: PathBuf,
         /// What the system said.

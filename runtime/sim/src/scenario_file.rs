@@ -162,7 +162,7 @@ fn read_lines(source: &Source, name: &Spanned<String>) -> Result<Vec<Journey>, S
 
 impl<'a> Source<'a> {
     fn read(path: &'a Path) -> Result<Self, ScenarioError> {
-        let fail = |source| ScenarioError::Io { path: path.to_owned(), source };
+        let fail = |source| ScenarioError::Unreadable { path: path.to_owned(), source };
         if fs::metadata(path).map_err(fail)?.len() > TEXT_MAX_BYTES {
             return Err(fail(std::io::Error::other("a text of more than 1 GiB")));
         }

@@ -143,6 +143,14 @@ fn errors_name_file_byte_and_remedy() {
     let mut altered = bytes.clone();
     altered[40] ^= 1;
     check(&altered, "byte 12: the HEAD chunk's checksum does not fit");
+    fs::remove_file(&path).unwrap();
+    let message = Recording::open(&path).unwrap_err().to_string();
+    assert!(
+        message.contains("a.fbrec: cannot be read: ") && message.contains("check that the file exists"),
+        "{message}"
+    );
+    let message = Recorder::create(&path.join("b.fbrec"), &two_agents()).unwrap_err().to_string();
+    assert!(message.contains("b.fbrec: cannot be written: ") && message.contains("check that its folder"), "{message}");
     // A chunk that claims 4 GiB.
     altered.clone_from(&bytes);
     altered[16..20].fill(0xff);

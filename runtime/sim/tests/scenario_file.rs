@@ -215,7 +215,7 @@ fn missing_files_are_named() {
     check_refused("no_lines", &format!("{HEAD}agents = {{ file = \"gone.txt\" }}"), "\"gone.txt\"", "there is no file");
     let error = read(Path::new("/nowhere/scene.toml")).unwrap_err();
     assert!(
-        matches!(&error, ScenarioError::Io { .. }) && error.to_string().starts_with("/nowhere/scene.toml: "),
+        matches!(&error, ScenarioError::Unreadable { .. }) && error.to_string().starts_with("/nowhere/scene.toml: "),
         "{error}"
     );
 }
