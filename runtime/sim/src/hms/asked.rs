@@ -1,11 +1,13 @@
 //! From a plan to the parameters asked of the blend space: (v, o_d) → (v_f, ω_t, ω_s) → shares (`FbCrowd` §5, "query point").
 //!
-//! With α the angle from the facing to the wanted one,
+//! With α the angle from the facing to the wanted one, and (a, b) the planned velocity along and left of the *wanted* facing,
 //!
-//!     ω_t = α / T_turn,   (v_f, ω_s) = v in a frame turned from the facing by lead·α,
+//!     ω_t = α / T_turn,   (v_f, ω_s) = (a, b)·max(0, cos α)
 //!
-//! so that a plan whose facing follows its velocity becomes a turning clip (Eq. 3 reads ω_t as the heading reached after a second), and
-//! one that holds the facing a side-step or a step back. The root then moves from what it does towards what is asked at limited
+//! A plan whose facing follows its velocity has b = 0 and becomes a turning clip, at the speed that brings the body where the plan wants
+//! it (going on at full speed while it faces elsewhere leads away); one that holds the facing has α = 0 and becomes a side-step or a step
+//! back. To ask for the planned velocity exactly while turning, side-stepping a·sin α, is worse in every way: it lies so far outside
+//! the examples that the nearest point of their hull hardly turns. The root then moves from what it does towards what is asked at limited
 //! accelerations, straight through the space of parameters: the body passes the examples between.
 //!
 //! A body that stands does not creep: mixing a little step into idle lifts no foot. It stands, or it takes at least the steps that a
@@ -26,6 +28,11 @@ const IDLE_SHARE_MAX: f32 = 0.35;
 const START_IDLE_SHARE: f32 = 0.75;
 /// … and a stepping one stops where they hold more than this: 15 % of the slowest step.
 const STOP_IDLE_SHARE: f32 = 0.85;
+
+/// A plan slower than this does not turn the body, for the direction of next to nothing is no direction …
+const TURN_SPEED_MIN_MPS: f32 = 0.1;
+/// … and one faster than this turns it at any rate.
+const TURN_SPEED_FULL_MPS: f32 = 0.2;
 
 /// The blend space of a database, ready for queries.
 #[derive(Clone, Debug)]
@@ -49,9 +56,14 @@ impl Space {
         }
     }
 
+    /// Shares at a point, or at the nearest one that the database has.
+    pub fn locate(&self, parameters: Parameters) -> Shares {
+        self.locator.locate(parameters)
+    }
+
     /// Shares of standing still, or of whatever the database has that is slowest.
     pub fn standing(&self) -> Shares {
-        self.locator.locate(Parameters::default())
+        self.locate(Parameters::default())
     }
 
     /// Share of examples that stand.
@@ -66,16 +78,18 @@ pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) ->
     if !(plan.velocity_mps.is_finite() && plan.facing_rad.is_finite()) {
         return Parameters::default();
     }
-    let velocity_mps = plan.velocity_mps.clamp_length_max(space.speed_max_mps);
     let turn_rad = wrap_rad(plan.facing_rad - facing_rad);
-    let local_mps = Vec2::from_angle(-(facing_rad + params.facing_lead * turn_rad)).rotate(velocity_mps);
-    let turn_rate_rad_s = (turn_rad / params.turn_time_s).clamp(-space.turn_rate_max_rad_s, space.turn_rate_max_rad_s);
-    Parameters { speed_mps: local_mps.x, turn_rate_rad_s, strafe_mps: local_mps.y }
+    let velocity_mps = plan.velocity_mps.clamp_length_max(space.speed_max_mps);
+    let wanted_mps = Vec2::from_angle(-plan.facing_rad).rotate(velocity_mps) * libm::cosf(turn_rad).max(0.0);
+    let going = (velocity_mps.length() - TURN_SPEED_MIN_MPS) / (TURN_SPEED_FULL_MPS - TURN_SPEED_MIN_MPS);
+    let turn_rate_max_rad_s = going.clamp(0.0, 1.0) * space.turn_rate_max_rad_s;
+    let turn_rate_rad_s = (turn_rad / params.turn_time_s).clamp(-turn_rate_max_rad_s, turn_rate_max_rad_s);
+    Parameters { speed_mps: wanted_mps.x, turn_rate_rad_s, strafe_mps: wanted_mps.y }
 }
 
 /// What the database can do of what is asked, as parameters inside its hull; switches `stands` with hysteresis.
 pub fn realisable(asked: Parameters, space: &Space, db: &MotionDb, stands: &mut bool) -> Parameters {
-    let shares = space.locator.locate(asked);
+    let shares = space.locate(asked);
     let idle = space.idle_share(&shares);
     *stands = idle > if *stands { START_IDLE_SHARE } else { STOP_IDLE_SHARE };
     if *stands {
@@ -93,7 +107,7 @@ pub fn step_towards(now: Parameters, goal: Parameters, space: &Space, params: &H
     let within = |change: f32, change_max: f32| if change <= change_max { 1.0 } else { change_max / change };
     let fraction = within(speed_change_mps, params.acceleration_max_mps2 * dt_s)
         .min(within(change.y.abs(), params.turn_acceleration_max_rad_s2 * dt_s));
-    space.locator.locate(Parameters::from_vec3(now.to_vec3() + fraction * change))
+    space.locate(Parameters::from_vec3(now.to_vec3() + fraction * change))
 }
 
 fn parameters_of(shares: &Shares, db: &MotionDb) -> Parameters {

@@ -86,3 +86,70 @@ fn bone_turn(old: (Vec3, Vec3), new: (Vec3, Vec3)) -> Quat {
     };
     Quat::from_mat3(&(frame(new) * frame(old).transpose()))
 }
+
+#[cfg(test)]
+mod tests {
+    use motiondb::skeleton::JOINT_COUNT;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::test_db::skeleton;
+
+    /// A standing body with one knee bent by `bend_rad`, and the leg reached out to the target.
+    fn reached(side: usize, bend_rad: f32, target: &FootTarget) -> (Pose, Joints, Joints) {
+        let skeleton = skeleton();
+        let mut pose = Pose { pelvis_m: skeleton.offsets_m[0], rotations: [Quat::IDENTITY; JOINT_COUNT] };
+        pose.rotations[Joint::SHANKS[side].index()] = Quat::from_rotation_y(bend_rad);
+        let before = pose.forward_kinematics(&skeleton);
+        let mut joints = before;
+        reach(&mut pose, &mut joints, &skeleton, side, target);
+        (pose, before, joints)
+    }
+
+    proptest! {
+        #[test]
+        fn the_ankle_reaches_its_target_or_stretches_towards_it(
+            x in -1.5f32..1.5, y in -1.5f32..1.5, z in -1.0f32..2.0, bend_rad in 0.0f32..1.5, side in 0usize..2,
+        ) {
+            let target = FootTarget { ankle_m: Vec3::new(x, y, z), orientation: Quat::from_rotation_z(0.4) };
+            let (pose, _, joints) = reached(side, bend_rad, &target);
+            let [hip_m, ankle_m] = [Joint::THIGHS[side], Joint::FEET[side]].map(|joint| joints.positions_m[joint.index()]);
+            let nearest_m = hip_m
+                + (target.ankle_m - hip_m).normalize() * reachable_m([0.42, 0.42], target.ankle_m.distance(hip_m));
+            prop_assert!(ankle_m.distance(nearest_m) < 1e-4, "{ankle_m} {nearest_m}");
+            prop_assert!(joints.orientations[Joint::FEET[side].index()].angle_between(target.orientation) < 1e-3);
+            let again = pose.forward_kinematics(&skeleton());
+            prop_assert!(again.positions_m.iter().zip(joints.positions_m).all(|(a, b)| a.distance(b) < 1e-4));
+        }
+    }
+
+    #[test]
+    fn a_foot_that_is_where_it_should_be_moves_nothing() {
+        let skeleton = skeleton();
+        let mut pose = Pose { pelvis_m: skeleton.offsets_m[0], rotations: [Quat::IDENTITY; JOINT_COUNT] };
+        pose.rotations[Joint::THIGHS[0].index()] = Quat::from_rotation_y(-0.5) * Quat::from_rotation_z(0.2);
+        pose.rotations[Joint::SHANKS[0].index()] = Quat::from_rotation_y(0.9);
+        let before = pose;
+        let mut joints = pose.forward_kinematics(&skeleton);
+        let foot = Joint::FEET[0].index();
+        let target = FootTarget { ankle_m: joints.positions_m[foot], orientation: joints.orientations[foot] };
+        reach(&mut pose, &mut joints, &skeleton, 0, &target);
+        for (before, after) in before.rotations.iter().zip(pose.rotations) {
+            assert!(before.angle_between(after) < 2e-3);
+        }
+    }
+
+    #[test]
+    fn a_straight_leg_bends_its_knee_forward() {
+        let target = FootTarget { ankle_m: Vec3::new(0.0, 0.1, 0.3), orientation: Quat::IDENTITY };
+        let (_, _, joints) = reached(0, 0.0, &target);
+        assert!(joints.positions_m[Joint::LeftShank.index()].x > 0.1);
+    }
+
+    #[test]
+    fn a_target_in_the_hip_itself_is_no_catastrophe() {
+        let hip_m = skeleton().offsets_m[0] + skeleton().offsets_m[Joint::LeftThigh.index()];
+        let (pose, _, _) = reached(0, 0.0, &FootTarget { ankle_m: hip_m, orientation: Quat::IDENTITY });
+        assert!(pose.rotations.iter().all(|rotation| rotation.is_normalized()));
+    }
+}

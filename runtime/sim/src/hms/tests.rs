@@ -1,13 +1,15 @@
 //! Claims about whole bodies, on the analytic database of [`crate::test_db`].
 
-use std::f32::consts::{FRAC_PI_2, PI, TAU};
+use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
+use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
 use proptest::prelude::*;
 
-use super::asked::Space;
+use super::asked::{self, Space};
+use super::blending::Mix;
 use super::params::HmsParams;
 use super::{Body, Motion, Synthesis};
 use crate::plan::Plan;
@@ -71,30 +73,132 @@ fn planted_slide(walk: &Walk, dt_s: f32) -> (f32, f32) {
     (speeds.iter().sum::<f32>() / speeds.len() as f32, planted_steps as f32 / (2 * walk.steps.len()) as f32)
 }
 
+/// Start, turns both ways, a side-step, a step back, and a stop: every change of speed and direction.
+fn errand(time_s: f32, root: &Root) -> Plan {
+    let held = |velocity_mps| Plan { velocity_mps, facing_rad: root.facing_rad, ..Plan::default() };
+    match time_s {
+        t if t < 0.5 => held(Vec2::ZERO),
+        t if t < 3.0 => towards(0.0, 1.3),
+        t if t < 5.0 => towards(FRAC_PI_2, 1.3),
+        t if t < 7.0 => towards(-2.0, 0.8),
+        t if t < 8.5 => held(root.forward().perp() * 0.45),
+        t if t < 10.0 => held(root.forward() * -0.5),
+        t if t < 12.0 => towards(0.0, 1.5),
+        _ => held(Vec2::ZERO),
+    }
+}
+
 #[test]
-fn probe() {
-    let plan = |time_s: f32, root: &Root| match time_s {
-        t if t < 0.5 => Plan::default(),
-        t if t < 4.0 => towards(0.0, 1.3),
-        t if t < 7.0 => towards(FRAC_PI_2, 1.3),
-        t if t < 9.0 => towards(PI, 0.8),
-        t if t < 11.0 => Plan { velocity_mps: Vec2::new(0.0, 0.5), facing_rad: PI, ..Plan::default() },
-        _ => Plan { facing_rad: root.facing_rad, ..Plan::default() },
-    };
-    let walk = walk(13.0, DT_S, plan);
-    println!("slide {:?}", planted_slide(&walk, DT_S));
-    for (index, (root, synthesis)) in walk.steps.iter().enumerate() {
-        let low = [0, 1].map(|side| soles_m(&walk, side)[index].iter().map(|p| p.z).fold(9.0, f32::min));
-        println!(
-            "{:6.3} {:6.3} {:6.3} facing {:6.3} contacts {:?} low {:.4} {:.4} pelvis {:.3}",
-            index as f32 * DT_S,
-            root.position_m.x,
-            root.position_m.y,
-            root.facing_rad,
-            synthesis.contacts,
-            low[0],
-            low[1],
-            synthesis.pose.pelvis_m.z
-        );
+fn planted_feet_hold_through_every_change_of_speed_and_direction() {
+    for dt_s in [1.0 / 60.0, DT_S, 0.1] {
+        let walk = walk(14.0, dt_s, errand);
+        let (slide_cm_s, planted_share) = planted_slide(&walk, dt_s);
+        assert!(slide_cm_s <= 1.0, "dt {dt_s}: {slide_cm_s} cm/s");
+        assert!((0.5..0.8).contains(&planted_share), "dt {dt_s}: {planted_share}");
+    }
+}
+
+#[test]
+fn soles_stay_on_or_above_the_ground() {
+    let walk = walk(14.0, DT_S, errand);
+    for side in 0..2 {
+        let lowest_m = soles_m(&walk, side).into_iter().flatten().map(|point| point.z).fold(f32::INFINITY, f32::min);
+        assert!(lowest_m > -0.005, "{lowest_m}");
+    }
+}
+
+#[test]
+fn feet_move_without_jumps() {
+    let dt_s = 1.0 / 60.0;
+    let walk = walk(14.0, dt_s, errand);
+    for side in 0..2 {
+        let balls_m: Vec<Vec3> = soles_m(&walk, side).into_iter().map(|sole| sole[1]).collect();
+        let fastest_mps = balls_m.windows(2).map(|pair| pair[0].distance(pair[1]) / dt_s).fold(0.0, f32::max);
+        assert!(fastest_mps < 6.5, "{fastest_mps} m/s"); // four times the fastest walk
+    }
+}
+
+#[test]
+fn the_root_accelerates_like_a_person_and_keeps_an_even_speed() {
+    let walk = walk(14.0, DT_S, errand);
+    let velocities: Vec<Vec2> =
+        walk.steps.windows(2).map(|pair| (pair[1].0.position_m - pair[0].0.position_m) / DT_S).collect();
+    let changes = velocities.windows(2).map(|pair| pair[0].distance(pair[1]) / DT_S);
+    // 3 m/s² in the body's frame, and the greatest turn rate times the speed there.
+    assert!(changes.fold(0.0, f32::max) < 4.5);
+    let even: Vec<f32> = velocities[60..85].iter().map(|velocity| velocity.length()).collect();
+    assert!(even.iter().all(|speed| (speed - 1.3).abs() < 1e-3), "{even:?}");
+}
+
+#[test]
+fn straight_stays_straight() {
+    let walk = walk(10.0, DT_S, |_, _| towards(0.0, 1.1));
+    assert!(walk.steps.iter().all(|(root, _)| root.position_m.y.abs() < 1e-4 && root.facing_rad.abs() < 1e-4));
+}
+
+#[test]
+fn a_circle_closes() {
+    let (turn_rate_rad_s, speed_mps, steps) = (1.2, 0.7, 200);
+    let dt_s = TAU / turn_rate_rad_s / steps as f32;
+    let lead_rad = turn_rate_rad_s * HmsParams::default().turn_time_s;
+    // At a constant angle ahead of the facing, cos α of the speed is asked.
+    let plan = |_: f32, root: &Root| towards(root.facing_rad + lead_rad, speed_mps / lead_rad.cos());
+    let walk = walk(12.0, dt_s, plan);
+    let (from, to) = (walk.steps[walk.steps.len() - 1 - steps].0, walk.steps[walk.steps.len() - 1].0);
+    assert!(from.position_m.distance(to.position_m) < 0.01, "{from:?} {to:?}");
+}
+
+#[test]
+fn a_body_that_is_hardly_asked_to_move_stands_quietly() {
+    let walk = walk(4.0, DT_S, |time_s, _| towards(3.0 * time_s, 0.05));
+    assert!(walk.steps.iter().all(|(root, _)| root.position_m == Vec2::ZERO && root.facing_rad == 0.0));
+}
+
+#[test]
+fn shares_of_time_hold_planted_feet_without_any_correction() {
+    let db = test_db();
+    let mix = Mix::new(&Space::new(&db).locate(Parameters { speed_mps: 0.8, ..Parameters::default() }));
+    assert_eq!(mix.entries().len(), 2);
+    let (small, speed_mps) = (1e-3, 0.8);
+    for phase in [0.45, 0.5, 0.55] {
+        let ball_m = |phase: f32| {
+            let joints = mix.weights(&db, phase).pose(&db, phase).forward_kinematics(&db.skeleton);
+            joints.sole_points_m(&db.skeleton, 0)[1]
+        };
+        let back_mps =
+            (ball_m(phase - small) - ball_m(phase + small)).x / (2.0 * small) * mix.phase_rate_hz(&db, phase);
+        assert!((back_mps - speed_mps).abs() < 0.02, "phase {phase}: {back_mps} m/s");
+    }
+}
+
+proptest! {
+    #[test]
+    fn inside_the_hull_the_body_does_what_is_asked(weights in prop::array::uniform11(0.0f32..1.0)) {
+        let db = test_db();
+        let (space, params) = (Space::new(&db), HmsParams::default());
+        let sum: f32 = weights[1..].iter().sum();
+        let terms = db.examples[1..].iter().zip(&weights[1..]).map(|(example, weight)| example.parameters.to_vec3() * *weight);
+        let asked = Parameters::from_vec3(terms.sum::<Vec3>() / sum * (1.0 - 0.1 * weights[0]));
+        let mut mix = Mix::new(&space.standing());
+        let mut stands = true;
+        for _ in 0..120 {
+            let goal = asked::realisable(asked, &space, &db, &mut stands);
+            mix.approach(&asked::step_towards(mix.parameters(&db), goal, &space, &params, DT_S), 0.1);
+        }
+        let steps = Mix::new(&space.locate(asked)).share(0) < 0.35;
+        prop_assert!(!steps || mix.parameters(&db).to_vec3().distance(asked.to_vec3()) < 1e-3);
+    }
+
+    #[test]
+    fn no_plan_however_wild_breaks_a_body(plans in prop::collection::vec((any::<f32>(), any::<f32>(), any::<f32>()), 40)) {
+        let plan = |time_s: f32, _: &Root| {
+            let (x, y, facing_rad) = plans[(time_s / DT_S).round() as usize];
+            Plan { velocity_mps: Vec2::new(x, y), facing_rad, ..Plan::default() }
+        };
+        for (root, synthesis) in walk(1.3, DT_S, plan).steps {
+            prop_assert!(root.position_m.is_finite() && root.facing_rad.is_finite());
+            prop_assert!(synthesis.pose.pelvis_m.is_finite());
+            prop_assert!(synthesis.pose.rotations.iter().all(|rotation| rotation.is_normalized()));
+        }
     }
 }

@@ -1,0 +1,80 @@
+//! The state of all agents as a structure of arrays, in index order.
+//!
+//! World axes, metres, seconds, radians. What the planner reads of the bodies changes only in [`crate::cns`], after all have moved.
+
+use glam::Vec2;
+use motiondb::pose::Root;
+
+use crate::hms::{Body, Motion, Synthesis};
+use crate::path::Progress;
+use crate::plan::{Plan, Stance};
+use crate::recording_frame::AgentFrame;
+use crate::scenario::Scenario;
+use crate::split_mix::SplitMix64;
+
+/// Streams from here on draw the starting phases; those below are the scenario's.
+const START_PHASE_STREAM: u64 = 1 << 32;
+
+/// Every agent; all arrays are of the same length.
+#[derive(Clone, Debug, Default)]
+pub struct Agents {
+    /// Centres of the discs: the synthesised roots, m.
+    pub positions_m: Vec<Vec2>,
+    /// Of the synthesised roots over the last step, m/s.
+    pub velocities_mps: Vec<Vec2>,
+    /// Of the synthesised roots, rad.
+    pub facings_rad: Vec<f32>,
+    /// Radii of the discs, m.
+    pub radii_m: Vec<f32>,
+    /// How far each has got on its way.
+    pub progress: Vec<Progress>,
+    /// v_pref, m/s.
+    pub preferred_mps: Vec<Vec2>,
+    /// What was planned for the step.
+    pub plans: Vec<Plan>,
+    /// Contiguous strafing time after the last plan, s.
+    pub strafing_s: Vec<f32>,
+    /// Contiguous time stepping back after the last plan, s.
+    pub stepping_back_s: Vec<f32>,
+    /// Synthesis, from step to step.
+    pub bodies: Vec<Body>,
+    /// What synthesis made of the step.
+    pub syntheses: Vec<Synthesis>,
+    /// The stance foot that the planner sees.
+    pub stances: Vec<Stance>,
+    /// What is recorded.
+    pub frames: Vec<AgentFrame>,
+}
+
+impl Agents {
+    /// Standing where the scenario puts them. Each starts at another phase of its cycle, so that no crowd marches in step.
+    pub fn new(scenario: &Scenario, motion: &Motion) -> Self {
+        let count = scenario.agents.len();
+        let mut agents = Self {
+            positions_m: scenario.agents.iter().map(|agent| agent.position_m).collect(),
+            velocities_mps: vec![Vec2::ZERO; count],
+            facings_rad: scenario.agents.iter().map(|agent| agent.facing_rad).collect(),
+            radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
+            progress: vec![Progress::default(); count],
+            preferred_mps: vec![Vec2::ZERO; count],
+            plans: vec![Plan::default(); count],
+            strafing_s: vec![0.0; count],
+            stepping_back_s: vec![0.0; count],
+            frames: vec![AgentFrame::default(); count],
+            ..Self::default()
+        };
+        for (index, agent) in scenario.agents.iter().enumerate() {
+            let root = Root { position_m: agent.position_m, facing_rad: agent.facing_rad };
+            let (body, synthesis) = Body::standing(motion, root, start_phase(scenario.seed, index as u64));
+            agents.bodies.push(body);
+            agents.stances.push(synthesis.stance);
+            agents.syntheses.push(synthesis);
+        }
+        agents
+    }
+}
+
+/// A phase in [0, 1), from 24 random bits, all that an f32 holds.
+fn start_phase(seed: u64, agent: u64) -> f32 {
+    (SplitMix64::new(seed, START_PHASE_STREAM + agent).next_u64() >> 40) as f32 / (1 << 24) as f32
+}

@@ -1,0 +1,104 @@
+//! The way to the goal: v_pref along ordered waypoints (`FbCrowd` §3, stage 2; the navigation mesh comes later).
+//!
+//! An agent heads for its next waypoint at its preferred speed, takes the one after as soon as it is near, brakes evenly before the last
+//! and then stays there. World, metres, seconds.
+
+use glam::Vec2;
+
+use crate::scenario::AgentSpec;
+
+/// A waypoint is passed within this distance: the arrival radius of the definitions, and about the turning circle of a walk.
+const WAYPOINT_RADIUS_M: f32 = 0.5;
+/// The last goal is reached within this distance: less than half a step …
+const GOAL_RADIUS_M: f32 = 0.1;
+/// … and sought again only when an agent is pushed away further than this, so that nobody shuffles about.
+const GOAL_LEFT_RADIUS_M: f32 = 0.4;
+/// Even braking before the goal, a third of what a person can do at most, m/s².
+const BRAKING_MPS2: f32 = 1.0;
+/// Over the last stretch the speed falls with the distance: this much time is left, s.
+const STOPPING_TIME_S: f32 = 0.5;
+
+/// How far an agent has got on its way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Progress {
+    /// Index of the waypoint that it heads for.
+    pub next: u32,
+    /// It has reached the last one and stays.
+    pub arrived: bool,
+}
+
+/// v_pref at a position, m/s.
+pub fn preferred_mps(agent: &AgentSpec, position_m: Vec2, progress: &mut Progress) -> Vec2 {
+    let Some(last_m) = agent.goals_m.last() else { return Vec2::ZERO };
+    let last = agent.goals_m.len() - 1;
+    while (progress.next as usize) < last
+        && position_m.distance(agent.goals_m[progress.next as usize]) < WAYPOINT_RADIUS_M
+    {
+        progress.next += 1;
+    }
+    let to_goal_m = agent.goals_m[progress.next as usize] - position_m;
+    let is_last = progress.next as usize == last;
+    progress.arrived = is_last && position_m.distance(*last_m) < arrival_radius_m(progress.arrived);
+    if progress.arrived {
+        return Vec2::ZERO;
+    }
+    let speed_mps = if is_last { braking_speed_mps(to_goal_m.length()) } else { f32::INFINITY };
+    to_goal_m.normalize_or_zero() * speed_mps.min(agent.preferred_speed_mps)
+}
+
+fn arrival_radius_m(arrived: bool) -> f32 {
+    if arrived { GOAL_LEFT_RADIUS_M } else { GOAL_RADIUS_M }
+}
+
+/// The speed from which even braking, then the last stretch, stop at the goal; both meet with the same slope.
+fn braking_speed_mps(distance_m: f32) -> f32 {
+    let last_stretch_m = BRAKING_MPS2 * STOPPING_TIME_S * STOPPING_TIME_S;
+    if distance_m < last_stretch_m {
+        return distance_m / STOPPING_TIME_S;
+    }
+    libm::sqrtf(2.0 * BRAKING_MPS2 * (distance_m - 0.5 * last_stretch_m))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn agent(goals_m: &[Vec2]) -> AgentSpec {
+        AgentSpec {
+            position_m: Vec2::ZERO,
+            facing_rad: 0.0,
+            goals_m: goals_m.to_vec(),
+            radius_m: 0.25,
+            preferred_speed_mps: 1.3,
+        }
+    }
+
+    #[test]
+    fn waypoints_are_taken_in_order_and_the_last_one_is_stayed_at() {
+        let agent = agent(&[Vec2::new(3.0, 0.0), Vec2::new(3.0, 4.0)]);
+        let (mut position_m, mut progress, mut nearest_first_m) = (Vec2::ZERO, Progress::default(), f32::INFINITY);
+        for _ in 0..300 {
+            position_m += preferred_mps(&agent, position_m, &mut progress) / 30.0;
+            nearest_first_m = nearest_first_m.min(position_m.distance(agent.goals_m[0]));
+        }
+        assert!(nearest_first_m < WAYPOINT_RADIUS_M);
+        assert!(progress.arrived && position_m.distance(agent.goals_m[1]) < GOAL_RADIUS_M);
+    }
+
+    #[test]
+    fn speed_falls_evenly_before_the_goal() {
+        let agent = agent(&[Vec2::new(5.0, 0.0)]);
+        let (mut position_m, mut progress, mut speed_mps, dt_s) = (Vec2::ZERO, Progress::default(), 1.3, 0.01);
+        while !progress.arrived {
+            let next_mps = preferred_mps(&agent, position_m, &mut progress).length();
+            assert!(progress.arrived || speed_mps - next_mps <= 1.02 * BRAKING_MPS2 * dt_s, "{speed_mps} {next_mps}");
+            position_m.x += next_mps * dt_s;
+            speed_mps = next_mps;
+        }
+    }
+
+    #[test]
+    fn an_agent_without_goals_stays() {
+        assert_eq!(preferred_mps(&agent(&[]), Vec2::ONE, &mut Progress::default()), Vec2::ZERO);
+    }
+}

@@ -1,0 +1,240 @@
+//! One step of the simulation, in the order of the paper's Fig. 2 (`FbCrowd` §3).
+//!
+//! 1. path: where each agent would go, v_pref;
+//! 2. neighbours: who is near;
+//! 3. planning (MCN, §4): v_pref becomes a velocity that body, stance and crowd allow;
+//! 4. synthesis (HMS, §5): the body follows;
+//! 5. coupling (CNS, §3.4): the disc follows the body; the step is recorded.
+//!
+//! Every plan is made from the world as the last step left it, and each body is moved by its own plan alone, so neither the order of
+//! agents nor the number of threads changes a bit. No clock runs in here: an observer hears the end of each stage.
+
+use std::sync::Arc;
+
+use motiondb::motion_db::MotionDb;
+use rayon::prelude::*;
+
+use crate::agents::Agents;
+use crate::cns;
+use crate::hms::Motion;
+use crate::hms::asked::Space;
+use crate::mcn::{self, Scratch, World};
+use crate::neighbours::Neighbours;
+use crate::obstacles::Obstacles;
+use crate::path;
+use crate::recording_frame::{AgentFrame, Mode};
+use crate::scenario::Scenario;
+
+/// Agents that one thread takes at a time, with one scratch: enough to outweigh the hand-over, few enough to share out 100 agents.
+const CHUNK: usize = 16;
+
+/// A stage of a step, for whoever measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// v_pref.
+    Path,
+    /// The grid of agents.
+    Neighbours,
+    /// MCN.
+    Planning,
+    /// HMS.
+    Synthesis,
+    /// CNS, and the frame.
+    Coupling,
+}
+
+/// A running simulation.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    db: Arc<MotionDb>,
+    space: Space,
+    scenario: Scenario,
+    obstacles: Obstacles,
+    neighbours: Neighbours,
+    scratches: Vec<Scratch>,
+    agents: Agents,
+}
+
+impl Simulation {
+    /// At time 0: every agent stands at its start.
+    pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
+        let space = Space::new(&db);
+        let motion = Motion { db: &db, space: &space, params: &scenario.params.synthesis };
+        let agents = Agents::new(scenario, &motion);
+        let mut simulation = Self {
+            obstacles: Obstacles::new(&scenario.obstacles_m),
+            neighbours: Neighbours::default(),
+            scratches: vec![Scratch::default(); agents.positions_m.len().div_ceil(CHUNK)],
+            scenario: scenario.clone(),
+            agents,
+            space,
+            db,
+        };
+        simulation.record();
+        simulation
+    }
+
+    /// What a recording keeps of the present, by agent.
+    pub fn frames(&self) -> &[AgentFrame] {
+        &self.agents.frames
+    }
+
+    /// Advances by the scenario's dt; `finished` hears the end of each stage.
+    pub fn step(&mut self, finished: &mut dyn FnMut(Stage)) {
+        self.follow_paths();
+        finished(Stage::Path);
+        self.neighbours.rebuild(&self.agents.positions_m, &self.agents.velocities_mps, &self.agents.radii_m);
+        finished(Stage::Neighbours);
+        self.plan();
+        finished(Stage::Planning);
+        self.synthesize();
+        finished(Stage::Synthesis);
+        cns::synchronize(&mut self.agents, self.scenario.dt_s);
+        self.record();
+        finished(Stage::Coupling);
+    }
+
+    fn follow_paths(&mut self) {
+        for (index, spec) in self.scenario.agents.iter().enumerate() {
+            let position_m = self.agents.positions_m[index];
+            self.agents.preferred_mps[index] = path::preferred_mps(spec, position_m, &mut self.agents.progress[index]);
+        }
+    }
+
+    fn plan(&mut self) {
+        let agents = &mut self.agents;
+        let world = World {
+            positions_m: &agents.positions_m,
+            velocities_mps: &agents.velocities_mps,
+            facings_rad: &agents.facings_rad,
+            radii_m: &agents.radii_m,
+            preferred_mps: &agents.preferred_mps,
+            stances: &agents.stances,
+            strafing_s: &agents.strafing_s,
+            stepping_back_s: &agents.stepping_back_s,
+            neighbours: &self.neighbours,
+            obstacles: &self.obstacles,
+            hull: &self.db.velocity_hull,
+            dt_s: self.scenario.dt_s,
+        };
+        let params = &self.scenario.params.planner;
+        let chunks = agents.plans.par_chunks_mut(CHUNK).zip(&mut self.scratches).enumerate();
+        chunks.for_each(|(chunk, (plans, scratch))| {
+            for (offset, plan) in plans.iter_mut().enumerate() {
+                *plan = mcn::plan(&world, chunk * CHUNK + offset, params, scratch);
+            }
+        });
+    }
+
+    fn synthesize(&mut self) {
+        let motion = Motion { db: &self.db, space: &self.space, params: &self.scenario.params.synthesis };
+        let (agents, obstacles, dt_s) = (&mut self.agents, &self.obstacles, self.scenario.dt_s);
+        let bodies = agents.bodies.par_iter_mut().with_min_len(CHUNK).zip(&mut agents.syntheses);
+        bodies.zip(&agents.plans).zip(&agents.radii_m).for_each(|(((body, synthesis), plan), &radius_m)| {
+            body.advance(&motion, plan, dt_s);
+            body.root = cns::outside_walls(body.root, radius_m, obstacles);
+            *synthesis = body.synthesize(&motion, dt_s);
+        });
+    }
+
+    fn record(&mut self) {
+        let agents = &mut self.agents;
+        for (index, frame) in agents.frames.iter_mut().enumerate() {
+            let (body, synthesis, plan) = (&agents.bodies[index], &agents.syntheses[index], &agents.plans[index]);
+            *frame = AgentFrame {
+                root: body.root,
+                preferred_mps: agents.preferred_mps[index],
+                planned_mps: plan.velocity_mps,
+                phase: body.phase,
+                mode: Mode::Blending,
+                contacts: synthesis.contacts,
+                set: plan.set,
+                strafing_s: plan.strafing_s,
+                stepping_back_s: plan.stepping_back_s,
+                examples_slide_cm_s: synthesis.examples_slide_cm_s,
+                pose: synthesis.pose,
+            };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec2;
+
+    use super::*;
+    use crate::params::Params;
+    use crate::scenario::{AgentSpec, View};
+    use crate::test_db::test_db;
+
+    /// Agents on a circle, each bound for the opposite point.
+    fn antipodal(count: usize, radius_m: f32) -> Scenario {
+        let agent = |index: usize| {
+            let angle_rad = std::f32::consts::TAU * index as f32 / count as f32;
+            let position_m = Vec2::from_angle(angle_rad) * radius_m;
+            AgentSpec {
+                position_m,
+                facing_rad: angle_rad + std::f32::consts::PI,
+                goals_m: vec![-position_m],
+                radius_m: 0.25,
+                preferred_speed_mps: 1.3,
+            }
+        };
+        Scenario {
+            name: "antipodal".into(),
+            duration_s: 30.0,
+            dt_s: 1.0 / 30.0,
+            seed: 1,
+            agents: (0..count).map(agent).collect(),
+            obstacles_m: Vec::new(),
+            params: Params::default(),
+            view: View::default(),
+        }
+    }
+
+    fn simulated(scenario: &Scenario, steps: usize) -> Vec<AgentFrame> {
+        let mut simulation = Simulation::new(Arc::new(test_db()), scenario);
+        (0..steps).for_each(|_| simulation.step(&mut |_| {}));
+        simulation.frames().to_vec()
+    }
+
+    #[test]
+    fn one_and_two_threads_give_the_same_bits() {
+        let scenario = antipodal(100, 14.0);
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| simulated(&scenario, 150))
+        };
+        assert_eq!(with(1), with(2));
+    }
+
+    #[test]
+    fn everyone_crosses_the_circle_and_stands_at_the_goal() {
+        let scenario = antipodal(17, 8.0);
+        let frames = simulated(&scenario, 900);
+        for (frame, agent) in frames.iter().zip(&scenario.agents) {
+            let off_m = frame.root.position_m.distance(agent.goals_m[0]);
+            assert!(off_m < 0.5, "{off_m} m");
+            assert_eq!(frame.contacts, [1.0; 2]);
+        }
+    }
+
+    #[test]
+    fn no_root_enters_a_wall_and_feet_hold_beside_it() {
+        let mut scenario = antipodal(1, 4.0);
+        let wall = [(-0.5, -6.0), (0.5, -6.0), (0.5, 6.0), (-0.5, 6.0)];
+        scenario.obstacles_m = vec![wall.map(Vec2::from).to_vec()];
+        let mut simulation = Simulation::new(Arc::new(test_db()), &scenario);
+        for _ in 0..300 {
+            simulation.step(&mut |_| {});
+            assert!(simulation.frames()[0].root.position_m.x >= 0.5 + 0.25 - 1e-3);
+        }
+    }
+
+    #[test]
+    fn stages_are_told_in_the_order_of_the_paper() {
+        let mut told = Vec::new();
+        Simulation::new(Arc::new(test_db()), &antipodal(2, 3.0)).step(&mut |stage| told.push(stage));
+        assert_eq!(told, [Stage::Path, Stage::Neighbours, Stage::Planning, Stage::Synthesis, Stage::Coupling]);
+    }
+}
