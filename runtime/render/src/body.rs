@@ -183,8 +183,8 @@ impl Body<'_> {
             }
         }
         parts.push(part([at(0.85, 0.0, -0.35), at(1.18, 0.0, -0.4)], [0.24 * radius_m, 0.16 * radius_m], skin * 0.97));
-        parts.push(part([at(-0.1, 0.0, 0.0), at(0.3, 0.0, 0.0)], [0.82 * radius_m; 2], skin));
-        parts.push(part([at(-0.32, 0.0, 0.1), at(0.06, 0.0, 0.12)], [0.84 * radius_m, 0.83 * radius_m], hair));
+        parts.push(part([at(-0.1, 0.0, -0.05), at(0.34, 0.0, -0.05)], [0.82 * radius_m; 2], skin));
+        parts.push(part([at(-0.32, 0.0, 0.1), at(-0.02, 0.0, 0.14)], [0.85 * radius_m, 0.83 * radius_m], hair));
     }
 }
 

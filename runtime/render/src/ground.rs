@@ -22,8 +22,10 @@ const RIM_M: f32 = 0.035;
 const GOAL_RADIUS_M: [f32; 2] = [0.17, 0.05];
 /// Width of a goal's ring, m.
 const GOAL_RING_M: f32 = 0.045;
-/// Opacity of goals: they lie on the ground, under everyone.
-const GOAL_OPACITY: f32 = 0.55;
+/// Opacity of goals: they lie on the ground, under everyone. In small pictures of crowds they fade, down to the second number.
+const GOAL_OPACITY: [f32; 2] = [0.55, 0.22];
+/// From this scale on goals have their full opacity, pixels a metre.
+const GOAL_SCALE_PX_M: f32 = 40.0;
 
 /// The still part of every frame.
 pub fn background(header: &Header, framing: &Framing) -> Pixmap {
@@ -55,9 +57,10 @@ fn draw_grid(pixmap: &mut Pixmap, framing: &Framing) {
 }
 
 fn draw_goals(pixmap: &mut Pixmap, header: &Header, framing: &Framing) {
+    let opacity = (GOAL_OPACITY[0] * framing.scale_px_m / GOAL_SCALE_PX_M).clamp(GOAL_OPACITY[1], GOAL_OPACITY[0]);
     for (index, agent) in header.scenario.agents.iter().enumerate() {
         let Some((last, waypoints)) = agent.goals_m.split_last() else { continue };
-        let paint = paint(palette::look(index).shirt, GOAL_OPACITY);
+        let paint = paint(palette::look(index).shirt, opacity);
         for waypoint in waypoints {
             if let Some(dot) = circle(framing, *waypoint, GOAL_RADIUS_M[1]) {
                 pixmap.fill_path(&dot, &paint, FillRule::Winding, Transform::identity(), None);

@@ -29,22 +29,17 @@ pub const SHOE: Rgb = Rgb::new(0.215, 0.205, 0.205);
 /// Plot paper.
 pub const PAPER: Rgb = Rgb::new(0.992, 0.990, 0.985);
 
-/// Skin tones, light to dark.
-const SKIN: [Rgb; 5] = [
-    Rgb::new(0.945, 0.800, 0.690),
-    Rgb::new(0.882, 0.706, 0.576),
-    Rgb::new(0.760, 0.570, 0.435),
-    Rgb::new(0.600, 0.430, 0.320),
-    Rgb::new(0.445, 0.310, 0.235),
-];
-/// Hair, dark to light; muted, so that no head competes with the clothes.
-const HAIR: [Rgb; 6] = [
-    Rgb::new(0.140, 0.120, 0.115),
-    Rgb::new(0.225, 0.165, 0.130),
-    Rgb::new(0.340, 0.235, 0.165),
-    Rgb::new(0.500, 0.375, 0.245),
-    Rgb::new(0.175, 0.150, 0.150),
-    Rgb::new(0.520, 0.500, 0.480),
+/// Skin and hair that go together, light to dark; hair is muted, so that no head competes with the clothes.
+const SKIN_AND_HAIR: [[Rgb; 2]; 9] = [
+    [Rgb::new(0.945, 0.800, 0.690), Rgb::new(0.500, 0.375, 0.245)],
+    [Rgb::new(0.945, 0.800, 0.690), Rgb::new(0.340, 0.235, 0.165)],
+    [Rgb::new(0.920, 0.765, 0.650), Rgb::new(0.225, 0.165, 0.130)],
+    [Rgb::new(0.882, 0.706, 0.576), Rgb::new(0.140, 0.120, 0.115)],
+    [Rgb::new(0.882, 0.706, 0.576), Rgb::new(0.340, 0.235, 0.165)],
+    [Rgb::new(0.900, 0.740, 0.620), Rgb::new(0.560, 0.545, 0.525)],
+    [Rgb::new(0.760, 0.570, 0.435), Rgb::new(0.175, 0.140, 0.125)],
+    [Rgb::new(0.620, 0.445, 0.335), Rgb::new(0.140, 0.120, 0.115)],
+    [Rgb::new(0.480, 0.335, 0.255), Rgb::new(0.115, 0.100, 0.100)],
 ];
 /// The golden angle as a share of a turn: any number of consecutive indices spreads evenly, neighbours lie far apart.
 const GOLDEN_SHARE: f32 = 0.381_966;
@@ -72,12 +67,12 @@ pub struct Look {
 pub fn look(agent: usize) -> Look {
     let hue_rad = agent_hue_rad(agent);
     let lightness = LIGHTNESS[agent % LIGHTNESS.len()];
-    let dice = scramble(agent as u32) as usize;
+    let [skin, hair] = SKIN_AND_HAIR[scramble(agent as u32) as usize % SKIN_AND_HAIR.len()];
     Look {
         shirt: oklch(lightness, CHROMA, hue_rad),
         trousers: oklch(0.62 * lightness, 0.35 * CHROMA, hue_rad),
-        skin: SKIN[dice % SKIN.len()],
-        hair: HAIR[(dice / SKIN.len()) % HAIR.len()],
+        skin,
+        hair,
     }
 }
 

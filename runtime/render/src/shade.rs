@@ -37,7 +37,7 @@ impl ShadeMask {
     /// Adds the shade of one part of a body.
     pub fn add_part(&mut self, framing: &Framing, part: &Part) {
         let scale = framing.scale_px_m;
-        let on_ground = |end: Vec3| framing.to_px(end.truncate()) + SUN_SLOPE * end.z.max(0.0) * scale;
+        let on_ground = |end: Vec3| (framing.to_px(end.truncate()) + SUN_SLOPE * end.z.max(0.0) * scale).extend(0.0);
         let height_m = 0.5 * (part.ends_m[0].z + part.ends_m[1].z);
         let softness_px = (scale * (SOFTNESS_M[0] + SOFTNESS_M[1] * height_m.max(0.0))).max(MIN_SOFTNESS_PX);
         let cone = Cone { ends_px: part.ends_m.map(on_ground), radii_px: part.radii_m.map(|radius| radius * scale) };
@@ -75,7 +75,7 @@ impl ShadeMask {
 
     /// Lays the shade over an opaque picture.
     pub fn apply(&self, pixmap: &mut Pixmap) {
-        for (pixel, depth) in pixmap.pixels_mut().iter_mut().zip(&self.depths) {
+        for (pixel, depth) in cone::pixels_mut(pixmap).iter_mut().zip(&self.depths) {
             if *depth > 0 {
                 let share = DARKNESS * f32::from(*depth) / 255.0;
                 *pixel = cone::to_pixel(cone::to_vec(*pixel).lerp(SHADE, share));

@@ -101,7 +101,7 @@ impl Glyph {
         let place = |pen: i32, corner: i32, step: usize, side: usize| {
             usize::try_from(pen.saturating_add(corner).saturating_add(step as i32)).ok().filter(|at| *at < side)
         };
-        let pixels = pixmap.pixels_mut();
+        let pixels = cone::pixels_mut(pixmap);
         for (row, line) in self.coverage.chunks(self.width.max(1)).enumerate() {
             let Some(y) = place(pen_px[1], self.corner_px[1], row, height) else { continue };
             for (column, covered) in line.iter().enumerate().filter(|(_, covered)| **covered > 0) {

@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 use tiny_skia::Pixmap;
 
 use crate::body::{self, Detail, Part};
-use crate::cone::{self, Cone};
+use crate::cone::{Canvas, Cone};
 use crate::error::RenderError;
 use crate::framing::{Framing, frame_recording};
 use crate::ground;
@@ -20,11 +20,16 @@ use crate::trails::{self, Tracks};
 
 /// Reach of a body and its shade about its root, m: bodies farther outside the picture are left out.
 const REACH_M: f32 = 2.0;
-/// Width of the dark rim under a limb, m, and its limits, pixels.
-const RIM_M: f32 = 0.022;
-const RIM_PX: [f32; 2] = [0.4, 3.0];
-/// Parts less than this off the ground that lie under others in full detail still throw shade; heads' small parts do not, m.
-const MIN_SHADE_RADIUS_M: f32 = 0.03;
+/// A canvas counts heights from this far below the ground: a toe that sinks in by a millimetre is not hidden, m.
+const BELOW_GROUND_M: f32 = 1.0;
+/// Width of the dark rim under a limb, m.
+const RIM_M: f32 = 0.025;
+/// A narrower rim is left out: it would only dirty small bodies; pixels.
+const MIN_RIM_PX: f32 = 0.6;
+/// A wider rim would look like an outline, pixels.
+const MAX_RIM_PX: f32 = 6.0;
+/// Thinner parts (ears; in small pictures also arms) throw no shade that could be seen, pixels.
+const MIN_SHADE_RADIUS_PX: f32 = 0.9;
 
 /// What all frames of one recording share.
 #[derive(Clone, Debug)]
@@ -60,7 +65,7 @@ impl<'a> TopView<'a> {
         let parts = self.parts(agents);
         self.draw_trails(&mut pixmap, time_s, agents);
         self.draw_shade(&mut pixmap, &parts);
-        self.draw_bodies(&mut pixmap, &parts);
+        let mut pixmap = self.draw_bodies(pixmap, &parts);
         self.draw_writing(&mut pixmap, time_s, agents);
         pixmap
     }
@@ -98,20 +103,22 @@ impl<'a> TopView<'a> {
 
     fn draw_shade(&self, pixmap: &mut Pixmap, parts: &[Part]) {
         let mut shade = ShadeMask::new(&self.framing);
-        for part in parts.iter().filter(|part| part.radii_m[0] >= MIN_SHADE_RADIUS_M) {
+        for part in parts.iter().filter(|part| part.radii_m[0] * self.framing.scale_px_m >= MIN_SHADE_RADIUS_PX) {
             shade.add_part(&self.framing, part);
         }
         shade.apply(pixmap);
     }
 
-    fn draw_bodies(&self, pixmap: &mut Pixmap, parts: &[Part]) {
+    fn draw_bodies(&self, pixmap: Pixmap, parts: &[Part]) -> Pixmap {
         let scale = self.framing.scale_px_m;
-        let rim_px = (RIM_M * scale).clamp(RIM_PX[0], RIM_PX[1]);
-        let to_px = |end: Vec3| self.framing.to_px(end.truncate());
+        let rim_px = Some(RIM_M * scale).filter(|rim_px| *rim_px >= MIN_RIM_PX).unwrap_or(0.0).min(MAX_RIM_PX);
+        let to_px = |end: Vec3| self.framing.to_px(end.truncate()).extend((end.z + BELOW_GROUND_M) * scale);
+        let mut canvas = Canvas::new(pixmap);
         for part in parts {
             let cone = Cone { ends_px: part.ends_m.map(to_px), radii_px: part.radii_m.map(|radius| radius * scale) };
-            cone::paint(pixmap, &cone, part.colour, rim_px);
+            canvas.paint(&cone, part.colour, rim_px);
         }
+        canvas.pixmap
     }
 
     fn draw_writing(&self, pixmap: &mut Pixmap, time_s: f32, agents: &[AgentFrame]) {

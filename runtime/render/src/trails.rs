@@ -14,7 +14,7 @@ const MIN_WIDTH_PX: f32 = 1.2;
 /// Opacity at the body; it falls to none at the end.
 const OPACITY: f32 = 0.60;
 /// Shortest piece worth drawing, pixels: bends of a walk show no corners at it.
-const PIECE_PX: f32 = 4.0;
+const PIECE_PX: f32 = 6.0;
 /// A brisk walk, m/s, by which [`PIECE_PX`] becomes a number of frames.
 const BRISK_MPS: f32 = 1.5;
 
@@ -108,7 +108,7 @@ fn draw_piece(pixmap: &mut Pixmap, framing: &Framing, ends: [Corner; 2], around:
     let window = Window::between(start.min(end) - reach, start.max(end) + reach, pixmap.width(), pixmap.height());
     let width = pixmap.width() as usize;
     let length = start.distance(end);
-    let pixels = pixmap.pixels_mut();
+    let pixels = cone::pixels_mut(pixmap);
     for y in window.rows() {
         for x in window.columns() {
             let point = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);

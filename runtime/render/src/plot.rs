@@ -1,0 +1,347 @@
+//! A small plotting kit: a figure on paper, panels with metric axes, and lines, polygons, marks and words in them.
+//!
+//! A [`Figure`] is the sheet, a [`Panel`] a window of it with its own axes; what is drawn in a panel is cut at its frame. Sizes of letters
+//! and lines are in proportion to the sheet's width, given for one of 1600 pixels.
+
+use glam::Vec2;
+use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Path, PathBuilder, Pixmap, Rect, Stroke, StrokeDash, Transform};
+
+use crate::ground::{fill_rect, paint, to_color};
+use crate::palette::{GRID_FINE, INK, PAPER, Rgb};
+use crate::text::{Anchor, Typeface};
+
+/// The sheet's width for which sizes are given, pixels.
+const REFERENCE_WIDTH_PX: f32 = 1600.0;
+/// Letters of titles, of axes and legends, and of notes beside points, on a sheet of that width, pixels.
+const LETTERS_PX: [f32; 3] = [36.0, 25.0, 19.0];
+/// Ticks stand about this far apart, on a sheet of that width, pixels.
+const TICK_DISTANCE_PX: f32 = 130.0;
+/// Least height of letters that can be read, pixels.
+const MIN_LETTERS_PX: f32 = 9.0;
+
+/// A sheet of paper.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// The picture, opaque.
+    pub pixmap: Pixmap,
+    /// Size of everything against a sheet of 1600 pixels.
+    pub scale: f32,
+    title_face: Typeface,
+    face: Typeface,
+    note_face: Typeface,
+}
+
+/// One axis: what it shows and from where to where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Quantity and unit, as in `forward speed, m/s`.
+    pub label: String,
+    /// Value at the left or lower end.
+    pub low: f32,
+    /// Value at the right or upper end.
+    pub high: f32,
+}
+
+/// A framed window of a figure.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// Left, top, width, height on the sheet, pixels.
+    pub rect_px: [f32; 4],
+    /// Across, then up.
+    pub axes: [Axis; 2],
+    cut: Option<Mask>,
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Colour.
+    pub colour: Rgb,
+    /// On a sheet of 1600 pixels.
+    pub width_px: f32,
+    /// 0 to 1.
+    pub opacity: f32,
+    /// Dashes instead of a full line.
+    pub dashed: bool,
+}
+
+/// The shape that marks a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A filled disc.
+    Disc,
+    /// An open ring.
+    Ring,
+    /// Two crossed strokes.
+    Cross,
+    /// A filled square on its corner.
+    Diamond,
+}
+
+impl Axis {
+    /// An axis that shows all of some values with 8 % of room on both sides; one unit where all are equal.
+    pub fn around(label: &str, values: impl Iterator<Item = f32>) -> Self {
+        let [low, high] =
+            values.map(|value| [value; 2]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default();
+        let room = if high - low > 1e-6 { 0.08 * (high - low) } else { 0.5 };
+        Self { label: label.to_owned(), low: low - room, high: high + room }
+    }
+
+    /// Round values, at most `count` of them.
+    pub fn ticks(&self, count: usize) -> Vec<f32> {
+        let step = tick_step((self.high - self.low) / count.max(1) as f32);
+        let first = (self.low / step).ceil() as i64;
+        let last = (self.high / step).floor() as i64;
+        (first..=last).map(|index| index as f32 * step).collect()
+    }
+}
+
+/// The least of 1, 2, 5, 10, … times a power of ten that is not below a length.
+fn tick_step(least: f32) -> f32 {
+    let power = libm::powf(10.0, libm::floorf(libm::log10f(least.max(1e-6))));
+    [1.0, 2.0, 5.0].into_iter().map(|factor| factor * power).find(|step| *step >= 0.999 * least).unwrap_or(10.0 * power)
+}
+
+/// A tick's value with as many decimals as its step needs.
+fn tick_text(value: f32, step: f32) -> String {
+    let decimals = (-libm::floorf(libm::log10f(step) + 1e-3)).max(0.0) as usize;
+    let text = format!("{value:.decimals$}");
+    // The minus sign of a typesetter, and no negative zero.
+    if text.trim_start_matches(['-', '0', '.']).is_empty() { text.replace('-', "") } else { text.replace('-', "−") }
+}
+
+impl Panel {
+    /// A place on the sheet, pixels.
+    pub fn to_px(&self, point: Vec2) -> Vec2 {
+        let [left, top, width, height] = self.rect_px;
+        let share = |value: f32, axis: &Axis| (value - axis.low) / (axis.high - axis.low);
+        let [x, y] = &self.axes;
+        Vec2::new(left + width * share(point.x, x), top + height * (1.0 - share(point.y, y)))
+    }
+
+    /// Pixels to one unit across.
+    pub fn unit_px(&self) -> f32 {
+        self.rect_px[2] / (self.axes[0].high - self.axes[0].low)
+    }
+}
+
+/// Widens the shorter of two axes until a unit is as long across as up.
+#[must_use]
+pub fn equal_units(rect_px: [f32; 4], mut axes: [Axis; 2]) -> [Axis; 2] {
+    let units_px = [0, 1].map(|index: usize| rect_px[2 + index] / (axes[index].high - axes[index].low));
+    let common_px = units_px[0].min(units_px[1]);
+    for (axis, unit_px) in axes.iter_mut().zip(units_px) {
+        let widen = 0.5 * (axis.high - axis.low) * (unit_px / common_px - 1.0);
+        (axis.low, axis.high) = (axis.low - widen, axis.high + widen);
+    }
+    axes
+}
+
+impl Figure {
+    /// An empty sheet; sides are 1 to 16384 pixels.
+    pub fn new(width_px: u32, height_px: u32) -> Self {
+        let side = |side_px: u32| side_px.clamp(1, crate::framing::MAX_SIDE_PX);
+        let mut pixmap = Pixmap::new(side(width_px), side(height_px)).expect("the sides are clamped to what it takes");
+        pixmap.fill(to_color(PAPER, 1.0));
+        let scale = pixmap.width() as f32 / REFERENCE_WIDTH_PX;
+        let [title_face, face, note_face] =
+            LETTERS_PX.map(|size_px| Typeface::new((size_px * scale).max(MIN_LETTERS_PX)));
+        Self { pixmap, scale, title_face, face, note_face }
+    }
+
+    /// Writes a heading, its baseline's left end at a place on the sheet.
+    pub fn title(&mut self, text: &str, at_px: Vec2) {
+        self.title_face.draw(&mut self.pixmap, text, at_px, Anchor::Left, INK);
+    }
+
+    /// Writes a line of text at a place on the sheet.
+    pub fn text(&mut self, text: &str, at_px: Vec2, anchor: Anchor) {
+        self.face.draw(&mut self.pixmap, text, at_px, anchor, INK);
+    }
+
+    /// Writes a small note at a place on the sheet.
+    pub fn note(&mut self, text: &str, at_px: Vec2, anchor: Anchor, colour: Rgb) {
+        self.note_face.draw_with_halo(&mut self.pixmap, text, at_px, anchor, [colour, PAPER]);
+    }
+
+    /// Draws the grid, the frame, ticks and labels of a panel.
+    pub fn panel(&mut self, rect_px: [f32; 4], axes: [Axis; 2]) -> Panel {
+        let cut = self.cut(rect_px);
+        let panel = Panel { rect_px: rect_px.map(f32::round), axes, cut };
+        self.draw_ticks_across(&panel);
+        self.draw_ticks_up(&panel);
+        self.draw_frame(&panel);
+        panel
+    }
+
+    fn cut(&self, [left, top, width, height]: [f32; 4]) -> Option<Mask> {
+        let mut mask = Mask::new(self.pixmap.width(), self.pixmap.height())?;
+        let frame = PathBuilder::from_rect(Rect::from_xywh(left, top, width, height)?);
+        mask.fill_path(&frame, FillRule::Winding, false, Transform::identity());
+        Some(mask)
+    }
+
+    fn tick_count(&self, length_px: f32) -> usize {
+        ((length_px / (TICK_DISTANCE_PX * self.scale)) as usize).max(2)
+    }
+
+    fn draw_ticks_across(&mut self, panel: &Panel) {
+        let [left, top, width, height] = panel.rect_px;
+        let ticks = panel.axes[0].ticks(self.tick_count(width));
+        let line = self.scale.round().max(1.0);
+        let base = top + height + 1.35 * self.face.size_px;
+        for value in &ticks {
+            let x = panel.to_px(Vec2::new(*value, 0.0)).x.round();
+            fill_rect(&mut self.pixmap, [x, top, line, height], GRID_FINE, 1.0);
+            fill_rect(&mut self.pixmap, [x, top + height, line, 8.0 * self.scale], INK, 1.0);
+            self.text(&tick_text(*value, spacing(&ticks)), Vec2::new(x, base), Anchor::Centre);
+        }
+        let below = Vec2::new(left + 0.5 * width, base + 1.3 * self.face.size_px);
+        self.text(&panel.axes[0].label, below, Anchor::Centre);
+    }
+
+    fn draw_ticks_up(&mut self, panel: &Panel) {
+        let [left, top, width, height] = panel.rect_px;
+        let ticks = panel.axes[1].ticks(self.tick_count(height));
+        let line = self.scale.round().max(1.0);
+        for value in &ticks {
+            let y = panel.to_px(Vec2::new(0.0, *value)).y.round();
+            fill_rect(&mut self.pixmap, [left, y, width, line], GRID_FINE, 1.0);
+            fill_rect(&mut self.pixmap, [left - 8.0 * self.scale, y, 8.0 * self.scale, line], INK, 1.0);
+            let beside = Vec2::new(left - 14.0 * self.scale, y + 0.35 * self.face.size_px);
+            self.text(&tick_text(*value, spacing(&ticks)), beside, Anchor::Right);
+        }
+        // Written level above the axis: no reader has to tilt the head.
+        let above = Vec2::new(left, top - 0.55 * self.face.size_px);
+        self.text(&panel.axes[1].label, above, Anchor::Left);
+    }
+
+    fn draw_frame(&mut self, panel: &Panel) {
+        let [left, top, width, height] = panel.rect_px;
+        let line = self.scale.round().max(1.0);
+        for edge in [[left, top + height, width + line, line], [left, top, line, height]] {
+            fill_rect(&mut self.pixmap, edge, INK, 1.0);
+        }
+    }
+
+    /// A line through points.
+    pub fn polyline(&mut self, panel: &Panel, points: impl IntoIterator<Item = Vec2>, line: Line) {
+        if let Some(path) = path(panel, points, false) {
+            self.stroke(panel, &path, line);
+        }
+    }
+
+    /// A filled polygon with an outline in the same colour.
+    pub fn polygon(&mut self, panel: &Panel, corners: impl IntoIterator<Item = Vec2>, fill_opacity: f32, line: Line) {
+        if let Some(path) = path(panel, corners, true) {
+            let fill = paint(line.colour, fill_opacity);
+            self.pixmap.fill_path(&path, &fill, FillRule::Winding, Transform::identity(), panel.cut.as_ref());
+            self.stroke(panel, &path, line);
+        }
+    }
+
+    /// A mark of a radius in pixels (of a sheet of 1600).
+    pub fn mark(&mut self, panel: &Panel, at: Vec2, mark: Mark, radius_px: f32, colour: Rgb) {
+        let centre = panel.to_px(at);
+        if centre.is_finite() {
+            self.mark_at(centre, mark, radius_px, colour);
+        }
+    }
+
+    /// A legend: a mark and a word each, from a place on the sheet to the right.
+    pub fn legend(&mut self, at_px: Vec2, entries: &[(Mark, Rgb, &str)]) {
+        let mut pen_px = at_px;
+        for (mark, colour, text) in entries {
+            let size = self.face.size_px;
+            self.mark_at(pen_px - Vec2::new(0.0, 0.32 * size), *mark, 9.0, *colour);
+            pen_px.x += 0.8 * size;
+            self.text(text, pen_px, Anchor::Left);
+            pen_px.x += self.face.width_px(text) + 1.6 * size;
+        }
+    }
+
+    fn mark_at(&mut self, centre: Vec2, mark: Mark, radius_px: f32, colour: Rgb) {
+        let radius = radius_px * self.scale;
+        let (paint, identity) = (paint(colour, 1.0), Transform::identity());
+        let stroke = Stroke { width: 0.42 * radius, line_cap: LineCap::Round, ..Stroke::default() };
+        let Some(path) = mark_path(centre, mark, radius) else { return };
+        match mark {
+            Mark::Disc | Mark::Diamond => self.pixmap.fill_path(&path, &paint, FillRule::Winding, identity, None),
+            Mark::Ring | Mark::Cross => self.pixmap.stroke_path(&path, &paint, &stroke, identity, None),
+        }
+    }
+
+    fn stroke(&mut self, panel: &Panel, path: &Path, line: Line) {
+        let width = (line.width_px * self.scale).max(1.0);
+        let dash = line.dashed.then(|| StrokeDash::new(vec![4.0 * width, 3.0 * width], 0.0)).flatten();
+        let stroke = Stroke { width, dash, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+        let paint = paint(line.colour, line.opacity);
+        self.pixmap.stroke_path(path, &paint, &stroke, Transform::identity(), panel.cut.as_ref());
+    }
+}
+
+/// A full line.
+pub fn line(colour: Rgb, width_px: f32) -> Line {
+    Line { colour, width_px, opacity: 1.0, dashed: false }
+}
+
+fn spacing(ticks: &[f32]) -> f32 {
+    ticks.windows(2).next().map_or(1.0, |pair| pair[1] - pair[0])
+}
+
+/// Points that are not finite are left out.
+fn path(panel: &Panel, points: impl IntoIterator<Item = Vec2>, closed: bool) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    for point in points.into_iter().map(|point| panel.to_px(point)).filter(|point| point.is_finite()) {
+        if path.is_empty() { path.move_to(point.x, point.y) } else { path.line_to(point.x, point.y) }
+    }
+    if closed {
+        path.close();
+    }
+    path.finish()
+}
+
+fn mark_path(centre: Vec2, mark: Mark, radius: f32) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    let corner = |x: f32, y: f32| (centre.x + x * radius, centre.y + y * radius);
+    match mark {
+        Mark::Disc | Mark::Ring => path.push_circle(centre.x, centre.y, radius),
+        Mark::Cross => {
+            for [from, to] in [[corner(-0.8, -0.8), corner(0.8, 0.8)], [corner(-0.8, 0.8), corner(0.8, -0.8)]] {
+                path.move_to(from.0, from.1);
+                path.line_to(to.0, to.1);
+            }
+        }
+        Mark::Diamond => {
+            let (top, right, bottom, left) = (corner(0.0, -1.2), corner(1.2, 0.0), corner(0.0, 1.2), corner(-1.2, 0.0));
+            path.move_to(top.0, top.1);
+            for (x, y) in [right, bottom, left] {
+                path.line_to(x, y);
+            }
+            path.close();
+        }
+    }
+    path.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_within_the_axis() {
+        let axis = Axis { label: String::new(), low: -0.31, high: 2.4 };
+        assert_eq!(axis.ticks(6), [0.0, 0.5, 1.0, 1.5, 2.0]);
+        assert_eq!(tick_text(-0.5, 0.5), "−0.5");
+        assert_eq!(tick_text(-0.0, 0.5), "0.0");
+        assert_eq!(tick_text(20.0, 10.0), "20");
+    }
+
+    #[test]
+    fn equal_units_are_equal_and_show_no_less() {
+        let axis = |low, high| Axis { label: String::new(), low, high };
+        let [x, y] = equal_units([0.0, 0.0, 300.0, 100.0], [axis(0.0, 1.0), axis(-2.0, 2.0)]);
+        assert!(((x.high - x.low) / 300.0 - (y.high - y.low) / 100.0).abs() < 1e-5);
+        assert!(x.low <= 0.0 && x.high >= 1.0 && y.low <= -2.0 && y.high >= 2.0);
+    }
+}

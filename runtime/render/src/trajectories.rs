@@ -1,0 +1,75 @@
+//! Everybody's path on one sheet, as in the paper's Fig. 7: one colour an agent, a dot where it starts, a cross on its goal.
+
+use fbcrowd_sim::recording::Header;
+use glam::Vec2;
+use tiny_skia::Pixmap;
+
+use crate::framing::bounds_m;
+use crate::palette::{GRID_COARSE, INK, OBSTACLE_RIM, line_colour};
+use crate::plot::{Axis, Figure, Line, Mark, Panel, equal_units, line};
+use crate::trails::Tracks;
+
+/// Sides of the sheet, pixels.
+const SIDE_PX: u32 = 1600;
+/// Left, top, width, height of the axes on it, pixels.
+const PANEL_PX: [f32; 4] = [130.0, 190.0, 1410.0, 1290.0];
+/// Room around the paths, m.
+const MARGIN_M: f32 = 0.6;
+/// Width of a path, and of one among more than [`FEW_AGENTS`], pixels.
+const PATH_PX: [f32; 2] = [4.0, 1.6];
+/// Radius of the marks, likewise.
+const MARK_PX: [f32; 2] = [11.0, 4.5];
+/// Up to so many agents, paths are drawn broad.
+const FEW_AGENTS: usize = 60;
+
+/// The plot of a whole recording.
+pub fn trajectories(header: &Header, tracks: &Tracks) -> Pixmap {
+    let mut figure = Figure::new(SIDE_PX, SIDE_PX);
+    figure.title(&title(header, tracks), Vec2::new(PANEL_PX[0], 70.0));
+    let [low, high] = shown_m(header, tracks);
+    let axis = |label: &str, low: f32, high: f32| Axis { label: label.to_owned(), low, high };
+    let axes = equal_units(PANEL_PX, [axis("x, m", low.x, high.x), axis("y, m", low.y, high.y)]);
+    let panel = figure.panel(PANEL_PX, axes);
+    draw_obstacles(&mut figure, &panel, header);
+    draw_paths(&mut figure, &panel, header, tracks);
+    figure.legend(Vec2::new(PANEL_PX[0] + 10.0, 122.0), &[(Mark::Disc, INK, "start"), (Mark::Cross, INK, "goal")]);
+    figure.pixmap
+}
+
+fn title(header: &Header, tracks: &Tracks) -> String {
+    let duration_s = tracks.frame_count().saturating_sub(1) as f32 * tracks.dt_s;
+    format!("{}: paths of {} agents in {duration_s:.1} s", header.scenario.name, tracks.agent_count)
+}
+
+/// Paths and goals, and obstacles with them.
+fn shown_m(header: &Header, tracks: &Tracks) -> [Vec2; 2] {
+    let goals = header.scenario.agents.iter().flat_map(|agent| agent.goals_m.iter());
+    let corners = header.scenario.obstacles_m.iter().flatten();
+    let [low, high] = bounds_m(tracks.positions_m.iter().chain(goals).chain(corners).copied());
+    [low - MARGIN_M, high + MARGIN_M]
+}
+
+fn draw_obstacles(figure: &mut Figure, panel: &Panel, header: &Header) {
+    for corners in &header.scenario.obstacles_m {
+        figure.polygon(panel, corners.iter().copied(), 1.0, line(GRID_COARSE, 1.0));
+        let closed = corners.iter().chain(corners.first()).copied();
+        figure.polyline(panel, closed, line(OBSTACLE_RIM, 3.0));
+    }
+}
+
+/// Paths below, then all marks, so that no path crosses a mark.
+fn draw_paths(figure: &mut Figure, panel: &Panel, header: &Header, tracks: &Tracks) {
+    let many = usize::from(tracks.agent_count > FEW_AGENTS);
+    for agent in 0..tracks.agent_count {
+        let style = Line { opacity: 0.85, ..line(line_colour(agent), PATH_PX[many]) };
+        figure.polyline(panel, tracks.agent_m(agent), style);
+    }
+    for (agent, spec) in header.scenario.agents.iter().enumerate() {
+        let colour = line_colour(agent);
+        if let Some(goal_m) = spec.goals_m.last() {
+            figure.mark(panel, *goal_m, Mark::Cross, MARK_PX[many], colour);
+        }
+        let start_m = tracks.agent_m(agent).next().unwrap_or(spec.position_m);
+        figure.mark(panel, start_m, Mark::Disc, 0.8 * MARK_PX[many], colour);
+    }
+}
