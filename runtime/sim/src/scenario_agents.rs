@@ -38,7 +38,7 @@ pub(crate) struct Group {
     at_m: Option<Point>,
     circle: Option<Circle>,
     grid: Option<Grid>,
-    pub(crate) file: Option<Spanned<String>>,
+    file: Option<Spanned<String>>,
     goals_m: Option<Vec<Point>>,
     goal_offset_m: Option<Point>,
     facing_deg: Option<f32>,
@@ -50,7 +50,7 @@ pub(crate) struct Group {
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Circle {
+pub(crate) struct Circle {
     count: usize,
     radius_m: f64,
     #[serde(default)]
@@ -59,7 +59,7 @@ struct Circle {
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Grid {
+pub(crate) struct Grid {
     columns: usize,
     rows: usize,
     spacing_m: f64,
@@ -83,6 +83,35 @@ impl TryFrom<Vec<f32>> for Point {
     }
 }
 
+/// What a table stands for.
+#[derive(Debug)]
+pub(crate) enum Kind<'a> {
+    /// One agent and its waypoints.
+    Single(Vec2, Vec<Vec2>),
+    Circle(&'a Circle),
+    Grid(&'a Grid, Goals),
+    /// The name of a file of lines.
+    File(&'a Spanned<String>),
+}
+
+/// Where the agents of a grid go.
+#[derive(Debug)]
+pub(crate) enum Goals {
+    /// The same waypoints for all.
+    Shared(Vec<Vec2>),
+    /// One goal, relative to each agent's start.
+    Offset(Vec2),
+}
+
+impl Goals {
+    fn from(&self, place_m: Vec2) -> Vec<Vec2> {
+        match self {
+            Self::Shared(goals_m) => goals_m.clone(),
+            Self::Offset(offset_m) => vec![place_m + offset_m],
+        }
+    }
+}
+
 /// Where an agent starts and where it goes.
 pub(crate) type Journey = (Vec2, Vec<Vec2>);
 
@@ -98,50 +127,48 @@ fn preferred_speed_mps() -> f32 {
 }
 
 impl Group {
-    /// The agents of this table; `lines` are those of its `file`, `stream` tells its random numbers from other tables'.
-    pub(crate) fn agents(&self, lines: Vec<Journey>, seed: u64, stream: u64) -> Result<Vec<AgentSpec>, Complaint> {
-        let journeys = match (self.at_m, &self.circle, &self.grid) {
-            (Some(Point(at_m)), _, _) => vec![(at_m, self.shared_goals_m())],
-            (_, Some(circle), _) => circle.journeys()?,
-            (_, _, Some(grid)) => self.with_goals(grid.places_m(seed, stream)?),
-            _ => lines,
-        };
-        Ok(journeys.into_iter().map(|(position_m, goals_m)| self.agent(position_m, goals_m)).collect())
+    /// What the table stands for, if it is of exactly one kind and says where its agents go.
+    pub(crate) fn kind(&self) -> Result<Kind<'_>, Complaint> {
+        match (self.at_m, &self.circle, &self.grid, &self.file) {
+            (Some(Point(at_m)), None, None, None) => self.single(at_m),
+            (None, Some(circle), None, None) => self.without_goals(Kind::Circle(circle)),
+            (None, None, Some(grid), None) => Ok(Kind::Grid(grid, self.goals()?)),
+            (None, None, None, Some(file)) => self.without_goals(Kind::File(file)),
+            _ => {
+                let message = "agents need exactly one of `at_m`, `circle`, `grid` and `file`";
+                Err((message.into(), "split what is different into several `[[agents]]`"))
+            }
+        }
     }
 
-    /// That the table is of exactly one kind and says where its agents go.
-    pub(crate) fn check_keys(&self) -> Result<(), Complaint> {
-        let kinds = [self.at_m.is_some(), self.circle.is_some(), self.grid.is_some(), self.file.is_some()];
-        if kinds.into_iter().filter(|given| *given).count() != 1 {
-            let message = "agents need exactly one of `at_m`, `circle`, `grid` and `file`";
-            return Err((message.into(), "split what is different into several `[[agents]]`"));
-        }
-        let goals = [self.goals_m.is_some(), self.goal_offset_m.is_some()];
-        match (self.at_m, &self.grid, goals) {
-            (Some(_), _, [true, false])
-            | (_, Some(_), [true, false] | [false, true])
-            | (None, None, [false, false]) => Ok(()),
-            (Some(_), ..) => {
+    fn single(&self, at_m: Vec2) -> Result<Kind<'_>, Complaint> {
+        match self.goals() {
+            Ok(Goals::Shared(goals_m)) => Ok(Kind::Single(at_m, goals_m)),
+            _ => {
                 Err(("an agent with `at_m` needs `goals_m`".into(), "add `goals_m = [[x, y]]`, and no `goal_offset_m`"))
             }
-            (_, Some(_), _) => Err(("a grid needs either `goals_m` or `goal_offset_m`".into(), "give one of the two")),
-            _ => Err((
-                "agents of a circle or a file bring their own goals".into(),
-                "remove `goals_m` and `goal_offset_m`",
-            )),
         }
     }
 
-    fn shared_goals_m(&self) -> Vec<Vec2> {
-        self.goals_m.iter().flatten().map(|&Point(goal_m)| goal_m).collect()
+    fn without_goals<'a>(&self, kind: Kind<'a>) -> Result<Kind<'a>, Complaint> {
+        if self.goals_m.is_none() && self.goal_offset_m.is_none() {
+            return Ok(kind);
+        }
+        let message = "agents of a circle or a file bring their own goals";
+        Err((message.into(), "remove `goals_m` and `goal_offset_m`"))
     }
 
-    fn with_goals(&self, places_m: Vec<Vec2>) -> Vec<Journey> {
-        let goals_m = |place_m| match self.goal_offset_m {
-            Some(Point(offset_m)) => vec![place_m + offset_m],
-            None => self.shared_goals_m(),
-        };
-        places_m.into_iter().map(|place_m| (place_m, goals_m(place_m))).collect()
+    fn goals(&self) -> Result<Goals, Complaint> {
+        match (&self.goals_m, self.goal_offset_m) {
+            (Some(goals_m), None) => Ok(Goals::Shared(goals_m.iter().map(|&Point(goal_m)| goal_m).collect())),
+            (None, Some(Point(offset_m))) => Ok(Goals::Offset(offset_m)),
+            _ => Err(("a grid needs either `goals_m` or `goal_offset_m`".into(), "give one of the two")),
+        }
+    }
+
+    /// With all that the table says of its agents besides their journeys.
+    pub(crate) fn agents(&self, journeys: Vec<Journey>) -> Vec<AgentSpec> {
+        journeys.into_iter().map(|(position_m, goals_m)| self.agent(position_m, goals_m)).collect()
     }
 
     fn agent(&self, position_m: Vec2, goals_m: Vec<Vec2>) -> AgentSpec {
@@ -154,7 +181,7 @@ impl Group {
 
 impl Circle {
     /// Counter-clockwise from +x.
-    fn journeys(&self) -> Result<Vec<Journey>, Complaint> {
+    pub(crate) fn journeys(&self) -> Result<Vec<Journey>, Complaint> {
         check_count(Some(self.count))?;
         let centre_m = DVec2::from(self.centre_m.0);
         let journey = |index: usize| {
@@ -168,9 +195,8 @@ impl Circle {
 
 impl Grid {
     /// Row by row, from the lower left; the jitter is uniform in a square of ± `jitter_m`.
-    fn places_m(&self, seed: u64, stream: u64) -> Result<Vec<Vec2>, Complaint> {
+    pub(crate) fn journeys(&self, goals: &Goals, mut random: SplitMix64) -> Result<Vec<Journey>, Complaint> {
         let count = check_count(self.columns.checked_mul(self.rows))?;
-        let mut random = SplitMix64::new(seed, stream);
         let corner_m = DVec2::from(self.centre_m.0)
             - 0.5 * self.spacing_m * DVec2::new(self.columns as f64 - 1.0, self.rows as f64 - 1.0);
         let mut place_m = |index: usize| {
@@ -178,7 +204,7 @@ impl Grid {
             let jitter_m = DVec2::new(random.within(self.jitter_m), random.within(self.jitter_m));
             (corner_m + self.spacing_m * cell + jitter_m).as_vec2()
         };
-        Ok((0..count).map(&mut place_m).collect())
+        Ok((0..count).map(|index| place_m(index)).map(|place_m| (place_m, goals.from(place_m))).collect())
     }
 }
 

@@ -27,9 +27,10 @@ use toml::Spanned;
 use crate::params::Params;
 use crate::polygon::signed_area_m2;
 use crate::scenario::{AgentSpec, Scenario, View};
-use crate::scenario_agents::{Complaint, Groups, Journey, Point, parse_lines};
+use crate::scenario_agents::{Complaint, Group, Groups, Journey, Kind, Point, parse_lines};
 use crate::scenario_check::{Fault, Place, check};
 use crate::scenario_error::{Invalid, ScenarioError};
+use crate::split_mix::SplitMix64;
 
 const STEP_S: f32 = 1.0 / 30.0;
 const SEED: u64 = 1;
@@ -139,14 +140,28 @@ fn place_agents(source: &Source, file: &ScenarioFile) -> Result<Placed, Scenario
     let mut placed = Placed::default();
     for (stream, (span, group)) in file.agents.get_ref().0.iter().enumerate() {
         let span = span.clone().unwrap_or_else(|| file.agents.span());
-        let complain = |(message, help): Complaint| source.invalid(span.clone(), message, help);
-        group.check_keys().map_err(complain)?;
-        let lines = group.file.as_ref().map_or(Ok(Vec::new()), |name| read_lines(source, name))?;
-        let agents = group.agents(lines, file.seed.unwrap_or(SEED), stream as u64).map_err(complain)?;
+        let random = SplitMix64::new(file.seed.unwrap_or(SEED), stream as u64);
+        let agents = group.agents(journeys(source, group, &span, random)?);
         placed.spans.extend(std::iter::repeat_n(span, agents.len()));
         placed.agents.extend(agents);
     }
     Ok(placed)
+}
+
+/// From where to where the agents of one table walk.
+fn journeys(
+    source: &Source,
+    group: &Group,
+    span: &Range<usize>,
+    random: SplitMix64,
+) -> Result<Vec<Journey>, ScenarioError> {
+    let complain = |(message, help): Complaint| source.invalid(span.clone(), message, help);
+    match group.kind().map_err(complain)? {
+        Kind::Single(at_m, goals_m) => Ok(vec![(at_m, goals_m)]),
+        Kind::Circle(circle) => circle.journeys().map_err(complain),
+        Kind::Grid(grid, goals) => grid.journeys(&goals, random).map_err(complain),
+        Kind::File(name) => read_lines(source, name),
+    }
 }
 
 fn read_lines(source: &Source, name: &Spanned<String>) -> Result<Vec<Journey>, ScenarioError> {
