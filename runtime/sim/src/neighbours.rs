@@ -3,8 +3,9 @@
 //! Agents lie in cell order as structures of arrays, so a row of cells is one run of memory. A search visits square rings of cells from
 //! the inside out and stops when no farther ring can hold a better neighbour. The answer does not depend on the grid.
 //!
-//! An agent is ranked by its distance or by its time to collision, whichever is more urgent (`FbCrowd` §4.4, **Open**: the nearest ten
-//! by distance alone can drop the fast approacher). World, metres, seconds.
+//! The nearest ten by distance alone can drop the fast approacher (`FbCrowd` §4.4, **Open**), so the speed at which the distance closes has
+//! a say: agents are ranked by a time, distance / (closing speed + 1 m/s). The time to collision itself does not serve. It jumps to
+//! infinity as soon as an agent is avoided, who then would drop out, be met again, and so on in turns. World, metres, seconds.
 
 use std::cmp::Ordering;
 
@@ -14,8 +15,8 @@ use crate::mcn::time_to_collision::disc_with_disc;
 
 /// Neighbours taken: the number of the benchmark protocol and of RVO2 (`facts/planning.md` §3).
 pub const NEIGHBOUR_COUNT: usize = 10;
-/// A second before a collision counts as near as this distance, m/s. At walking speed, 1.33 m/s towards each other, this halves the
-/// distance of one who comes straight on and leaves the order of those who keep theirs.
+/// Speed at which those who keep their distance might come, m/s. Of two at equal distance, one who comes straight on at walking speed,
+/// 1.33 m/s against ours, ranks as if nearer by a factor of 3.7.
 const APPROACH_MPS: f32 = 1.0;
 /// Agents to a cell that a search is fastest with.
 const AGENTS_PER_CELL: f32 = 3.0;
@@ -31,8 +32,8 @@ pub struct Neighbour {
     pub time_to_collision_s: f32,
     /// Between the centres.
     pub distance_m: f32,
-    /// min(distance, 1 m/s · time to collision), m: what the choice goes by.
-    pub rank_m: f32,
+    /// Distance over (closing speed + 1 m/s), s: what the choice goes by.
+    pub rank_s: f32,
 }
 
 /// At most [`NEIGHBOUR_COUNT`] neighbours, best rank first, ties by index.
@@ -90,7 +91,7 @@ impl Nearest {
 
     /// Takes a candidate in where it belongs.
     fn offer(&mut self, candidate: Neighbour) {
-        let before = |a: &Neighbour| (a.rank_m, a.agent) < (candidate.rank_m, candidate.agent);
+        let before = |a: &Neighbour| (a.rank_s, a.agent) < (candidate.rank_s, candidate.agent);
         let place = self.found.iter().rposition(before).map_or(0, |index| index + 1);
         if place < NEIGHBOUR_COUNT {
             self.found.truncate(NEIGHBOUR_COUNT - 1);
@@ -98,9 +99,9 @@ impl Nearest {
         }
     }
 
-    /// Rank that a candidate has to beat, m.
-    fn worst_m(&self) -> f32 {
-        if self.found.len() < NEIGHBOUR_COUNT { f32::INFINITY } else { self.found[NEIGHBOUR_COUNT - 1].rank_m }
+    /// Rank that a candidate has to beat, s.
+    fn worst_s(&self) -> f32 {
+        if self.found.len() < NEIGHBOUR_COUNT { f32::INFINITY } else { self.found[NEIGHBOUR_COUNT - 1].rank_s }
     }
 }
 
@@ -206,22 +207,27 @@ impl Neighbours {
             }
             let distance_m = distance_squared.sqrt();
             let velocity_mps = query.velocity_mps - self.velocities_mps[place];
-            let time_to_collision_s = disc_with_disc(offset_m, velocity_mps, query.radius_m + self.radii_m[place]);
-            let rank_m = distance_m.min(APPROACH_MPS * time_to_collision_s);
-            if rank_m <= nearest.worst_m() {
-                nearest.offer(Neighbour { agent, time_to_collision_s, distance_m, rank_m });
+            let rank_s = rank_s(offset_m, distance_m, velocity_mps);
+            if rank_s <= nearest.worst_s() {
+                let radius_m = query.radius_m + self.radii_m[place];
+                let time_to_collision_s = disc_with_disc(offset_m, velocity_mps, radius_m);
+                nearest.offer(Neighbour { agent, time_to_collision_s, distance_m, rank_s });
                 reach_m = self.reach_m(query, nearest);
             }
         }
     }
 
-    /// Beyond this distance nobody beats the worst neighbour found: not by distance, nor by approaching as fast as the fastest would.
+    /// Beyond this distance nobody beats the worst neighbour found, even straight on and as fast as the fastest.
     fn reach_m(&self, query: &Query, nearest: &Nearest) -> f32 {
-        let worst_m = nearest.worst_m();
         let closing_mps = query.velocity_mps.length() + self.speed_max_mps;
-        let approaching_m = query.radius_m + self.radius_max_m + worst_m * closing_mps / APPROACH_MPS;
-        worst_m.max(approaching_m).min(query.range_m)
+        (nearest.worst_s() * (closing_mps + APPROACH_MPS)).min(query.range_m)
     }
+}
+
+/// Distance / (closing speed + 1 m/s); `velocity` is the searcher's against the other's.
+fn rank_s(offset_m: Vec2, distance_m: f32, velocity_mps: Vec2) -> f32 {
+    let closing_mps = (velocity_mps.dot(offset_m) / distance_m.max(f32::MIN_POSITIVE)).max(0.0);
+    distance_m / (closing_mps + APPROACH_MPS)
 }
 
 /// The values of the agents in cell order.
@@ -236,15 +242,14 @@ mod tests {
 
     use super::*;
 
-    fn by_brute_force(query: &Query, positions_m: &[Vec2], velocities_mps: &[Vec2], radii_m: &[f32]) -> Vec<u32> {
+    fn by_brute_force(query: &Query, positions_m: &[Vec2], velocities_mps: &[Vec2]) -> Vec<u32> {
         let mut ranked: Vec<(f32, u32)> = (0..positions_m.len())
             .filter(|&other| other != query.agent)
             .map(|other| (positions_m[other] - query.position_m, other))
             .filter(|(offset_m, _)| offset_m.length_squared() <= query.range_m * query.range_m)
             .map(|(offset_m, other)| {
                 let velocity_mps = query.velocity_mps - velocities_mps[other];
-                let time_s = disc_with_disc(offset_m, velocity_mps, query.radius_m + radii_m[other]);
-                (offset_m.length().min(APPROACH_MPS * time_s), other as u32)
+                (rank_s(offset_m, offset_m.length(), velocity_mps), other as u32)
             })
             .collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -266,7 +271,7 @@ mod tests {
             };
             neighbours.nearest(&query, &mut nearest);
             let found: Vec<u32> = nearest.as_slice().iter().map(|neighbour| neighbour.agent).collect();
-            assert_eq!(found, by_brute_force(&query, positions_m, velocities_mps, &radii_m));
+            assert_eq!(found, by_brute_force(&query, positions_m, velocities_mps));
         }
     }
 
