@@ -3,14 +3,17 @@
 //! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted by file and clip
 //! name, examples by their own name, and parallel stages collect in that order.
 
+use std::path::{Path, PathBuf};
+
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
-use motiondb::parameters::Parameters;
 use rayon::prelude::*;
 
+use crate::arc::Rates;
 use crate::compile_error::CompileError;
 use crate::cycle::{self, GaitCycle};
 use crate::gait::{self, Gait, GaitAnalysis};
 use crate::human_clip::{HumanBody, HumanClip};
+use crate::import::{self, Import};
 use crate::root_motion::GroundedClip;
 use crate::{
     blend_space, correspondence, mirror, parameterize, root_motion, rows, standing, target_skeleton, unroll,
@@ -20,20 +23,85 @@ use crate::{
 /// Period of standing clips where none steps, seconds.
 const STANDING_PERIOD_S: f64 = 1.0;
 
+/// What a user may decide about a database.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct CompileOptions {
+    /// Name of the example that semi-procedural locomotion deforms (m_sp); without it the straight walk nearest 1.2 m/s.
+    pub semi_procedural: Option<String>,
+}
+
+/// A database, and the input that it could not use.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// The database.
+    pub db: MotionDb,
+    /// One message for each file or clip that was refused, in order of file name.
+    pub refused: Vec<String>,
+}
+
+/// Imports files, compiles their clips. `imported` is told of each file as it is done, from any thread.
+///
+/// # Errors
+/// As [`compile`]; a file that cannot be read is refused like a clip that is not human, unless nothing is left.
+pub fn compile_files(
+    files: &[PathBuf],
+    options: &CompileOptions,
+    imported: &(dyn Fn(&Path) + Sync),
+) -> Result<Compiled, CompileError> {
+    let (clips, refused) = import_files(files, imported);
+    if clips.is_empty() && !refused.is_empty() {
+        return Err(CompileError::NoExample { reasons: refused.join("; ") });
+    }
+    Ok(Compiled { db: compile(clips, options)?, refused })
+}
+
+/// The human clips of files, imported in parallel, and a message for each file or clip that gives none; both in order of file name.
+pub fn import_files(files: &[PathBuf], imported: &(dyn Fn(&Path) + Sync)) -> (Vec<HumanClip>, Vec<String>) {
+    let mut files: Vec<&PathBuf> = files.iter().collect();
+    files.sort_by_key(|file| (file.file_name(), *file));
+    let imports: Vec<_> = files
+        .par_iter()
+        .map(|file| {
+            let import = import::import(file);
+            imported(file);
+            import
+        })
+        .collect();
+    let (mut clips, mut refused) = (Vec::new(), Vec::new());
+    for import in imports {
+        match import {
+            Err(error) => refused.push(error.to_string()),
+            Ok(found) => {
+                for Import { file, clip, outcome } in found {
+                    match outcome {
+                        Ok(human) => clips.push(human),
+                        Err(refusal) if clip.is_empty() => refused.push(format!("{file}: {refusal}")),
+                        Err(refusal) => refused.push(format!("{file}, {clip}: {refusal}")),
+                    }
+                }
+            }
+        }
+    }
+    (clips, refused)
+}
+
 /// Compiles clips into a database.
 ///
 /// # Errors
-/// Where no clip gives an example, or two examples have one name.
-pub fn compile(mut clips: Vec<HumanClip>) -> Result<MotionDb, CompileError> {
+/// Where no clip gives an example, two examples have one name, or the options name an example that there is not.
+pub fn compile(mut clips: Vec<HumanClip>, options: &CompileOptions) -> Result<MotionDb, CompileError> {
     clips.sort_by(|a, b| (&a.source.file, &a.source.clip).cmp(&(&b.source.file, &b.source.clip)));
+    if clips.is_empty() {
+        return Err(CompileError::NoClips);
+    }
     let body = target_skeleton::choose(&clips);
     let analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
-    let period_s = standing_period_s(&analyzed);
+    let period_s = standing_period_s(&clips, &analyzed, options);
     let mut sources: Vec<SourceRecord> = clips.iter().map(|clip| clip.source.clone()).collect();
-    let mut cycles: Vec<NamedCycle> = close(&clips, analyzed, &body, period_s, &mut sources);
+    let mut cycles = close(&clips, analyzed, &body, period_s, &mut sources);
     add_mirrors(&mut cycles);
     cycles.sort_by(|a, b| a.name.cmp(&b.name));
-    assemble(cycles, sources, &body)
+    assemble(cycles, sources, &body, options)
 }
 
 /// A clip on the target skeleton, its gait found and, where it steps, its mean stride.
@@ -64,13 +132,15 @@ fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
 }
 
 /// The period of m_sp, which standing clips take over.
-fn standing_period_s(analyzed: &[Analyzed]) -> f64 {
-    let parameters: Vec<Option<Parameters>> =
-        analyzed.iter().map(|clip| clip.stepping.as_ref().map(|cycle| cycle.rates.to_parameters())).collect();
-    let stepping = parameters.iter().enumerate().filter_map(|(index, found)| Some((index, found.as_ref()?)));
-    let semi_procedural = correspondence::semi_procedural(stepping);
-    let cycle = semi_procedural.and_then(|index| analyzed[index].stepping.as_ref());
-    cycle.map_or(STANDING_PERIOD_S, |cycle| f64::from(cycle.phase_map.period_s))
+fn standing_period_s(clips: &[HumanClip], analyzed: &[Analyzed], options: &CompileOptions) -> f64 {
+    let stepping: Vec<(&str, &GaitCycle)> = clips
+        .iter()
+        .zip(analyzed)
+        .filter_map(|(clip, found)| Some((clip.name.as_str(), found.stepping.as_ref()?)))
+        .collect();
+    let rates: Vec<(&str, Rates)> = stepping.iter().map(|(name, cycle)| (*name, cycle.rates)).collect();
+    let chosen = correspondence::semi_procedural(&rates, options.semi_procedural.as_deref());
+    chosen.map_or(STANDING_PERIOD_S, |index| f64::from(stepping[index].1.phase_map.period_s))
 }
 
 /// A cycle on its way to an example.
@@ -120,7 +190,12 @@ fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
 }
 
 /// The database of cycles sorted by name.
-fn assemble(named: Vec<NamedCycle>, sources: Vec<SourceRecord>, body: &HumanBody) -> Result<MotionDb, CompileError> {
+fn assemble(
+    named: Vec<NamedCycle>,
+    sources: Vec<SourceRecord>,
+    body: &HumanBody,
+    options: &CompileOptions,
+) -> Result<MotionDb, CompileError> {
     if named.is_empty() {
         return Err(CompileError::no_example(&sources));
     }
@@ -133,9 +208,14 @@ fn assemble(named: Vec<NamedCycle>, sources: Vec<SourceRecord>, body: &HumanBody
         .collect();
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
     let blend_space = blend_space::build(&examples);
+    let named_sp = options.semi_procedural.as_deref();
+    if let Some(name) = named_sp.filter(|name| !examples.iter().any(|e| e.name == *name && e.key_times_s.is_some())) {
+        return Err(CompileError::NoSuchExample { name: name.to_owned() });
+    }
+    let correspondence = correspondence::build(&examples, &cycles, body, blend_space.axis_ranges, named_sp);
     Ok(MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
-        correspondence: correspondence::build(&examples, &cycles, body, blend_space.axis_ranges),
+        correspondence,
         velocity_hull: velocity_hull::build(&examples),
         rows: rows::flatten(&cycles),
         blend_space,
@@ -149,7 +229,6 @@ mod tests {
     use motiondb::validate::validate;
 
     use super::*;
-    use crate::arc::Rates;
     use crate::synthetic::{Walk, idle, walk};
 
     fn set() -> Vec<HumanClip> {
@@ -167,7 +246,7 @@ mod tests {
     }
 
     fn compiled(clips: Vec<HumanClip>) -> MotionDb {
-        compile(clips).unwrap()
+        compile(clips, &CompileOptions::default()).unwrap()
     }
 
     fn check_rates(db: &MotionDb, name: &str, wanted: [f32; 3]) {

@@ -2,14 +2,9 @@
 
 use motiondb::motion_db::SourceRecord;
 
-use crate::error::ImportError;
-
 /// No database could be made.
 #[derive(Debug, thiserror::Error)]
 pub enum CompileError {
-    /// A file is not motion.
-    #[error(transparent)]
-    Import(#[from] ImportError),
     /// Nothing to compile.
     #[error("no clips; name *.bvh, *.glb or *.gltf files or a folder that holds some")]
     NoClips,
@@ -18,6 +13,12 @@ pub enum CompileError {
     NoExample {
         /// What each clip's record says.
         reasons: String,
+    },
+    /// The options name an m_sp that there is not.
+    #[error("no example called {name} steps; name one that does as the semi-procedural clip, or none")]
+    NoSuchExample {
+        /// The name.
+        name: String,
     },
     /// Examples are told apart by name.
     #[error("two clips are called {name}; rename one of the files")]
@@ -30,9 +31,6 @@ pub enum CompileError {
 impl CompileError {
     /// With the reasons from the sources' warnings.
     pub(crate) fn no_example(sources: &[SourceRecord]) -> Self {
-        if sources.is_empty() {
-            return Self::NoClips;
-        }
         let reason = |source: &SourceRecord| format!("{} ({})", source.file, source.warnings.join(", "));
         Self::NoExample { reasons: sources.iter().map(reason).collect::<Vec<String>>().join("; ") }
     }

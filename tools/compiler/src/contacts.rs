@@ -18,7 +18,8 @@ const SPEED_MAX_SHARE: f64 = 0.15;
 const PLANTED_PERCENTILE: f64 = 0.05;
 /// Speeds are taken over ± this time, so that noise weighs the same at 24 and at 120 frames a second: one frame at 30.
 const SPEED_SPAN_S: f64 = 1.0 / 30.0;
-/// A shorter lift is noise (swings last 0.3 s and more), a shorter contact is not a step (`definitions.md`), seconds.
+/// A shorter touch is noise, then a shorter lift (swings last 0.3 s and more); what is still shorter is not a step (`definitions.md`), seconds.
+const TOUCH_MIN_S: f64 = 0.05;
 const LIFT_MIN_S: f64 = 0.1;
 const CONTACT_MIN_S: f64 = 0.08;
 
@@ -58,6 +59,7 @@ pub fn planted(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64) -> 
             height_m < HEIGHT_MAX_M && moved * frame_rate_hz < speed_max_mps * (after - before) as f64
         })
         .collect();
+    flip_short_runs(&mut planted, true, TOUCH_MIN_S * frame_rate_hz);
     flip_short_runs(&mut planted, false, LIFT_MIN_S * frame_rate_hz);
     flip_short_runs(&mut planted, true, CONTACT_MIN_S * frame_rate_hz);
     planted

@@ -6,14 +6,14 @@
 use glam::DVec3;
 use motiondb::correspondence::Correspondence;
 use motiondb::motion_db::{MotionExample, PHASE_COUNT};
-use motiondb::parameters::Parameters;
 use motiondb::velocity_hull::{HOLDING_TURN_MAX_RAD_S, TURNING_STRAFE_MAX_MPS};
 
+use crate::arc::Rates;
 use crate::cycle::GaitCycle;
 use crate::human_clip::HumanBody;
 
 /// m_sp is the straight walk nearest this speed (`definitions.md`), m/s.
-const SEMI_PROCEDURAL_MPS: f32 = 1.2;
+const SEMI_PROCEDURAL_MPS: f64 = 1.2;
 /// Weight of a joint's velocity beside its place: as far as it gets in this time, a transition's first instants, seconds.
 const VELOCITY_WEIGHT_S: f64 = 0.1;
 /// A minimum counts up to this multiple of the least distance of all.
@@ -21,13 +21,20 @@ const THRESHOLD_RATIO: f64 = 1.5;
 /// Cycles share their phases; poses further apart than this share of a cycle are alike by accident (left for right).
 const PHASE_OFFSET_MAX: isize = PHASE_COUNT as isize / 8;
 
-/// m_sp: of the straight walks the one nearest 1.2 m/s, of any steps where none is straight.
-pub fn semi_procedural<'a>(stepping: impl Iterator<Item = (usize, &'a Parameters)>) -> Option<usize> {
-    let bent = |found: &Parameters| {
-        found.turn_rate_rad_s.abs() > HOLDING_TURN_MAX_RAD_S || found.strafe_mps.abs() > TURNING_STRAFE_MAX_MPS
+/// m_sp among cycles that step: the named one, else of the straight walks the one nearest 1.2 m/s, of all where none is straight.
+pub fn semi_procedural(stepping: &[(&str, Rates)], wanted: Option<&str>) -> Option<usize> {
+    if let Some(index) = stepping.iter().position(|(name, _)| Some(*name) == wanted) {
+        return Some(index);
+    }
+    let bent = |found: &Rates| {
+        found.turn_rate_rad_s.abs() > f64::from(HOLDING_TURN_MAX_RAD_S)
+            || found.strafe_mps.abs() > f64::from(TURNING_STRAFE_MAX_MPS)
     };
-    let off = |found: &Parameters| (found.speed_mps - SEMI_PROCEDURAL_MPS).abs();
-    stepping.min_by(|(_, a), (_, b)| bent(a).cmp(&bent(b)).then(off(a).total_cmp(&off(b)))).map(|(index, _)| index)
+    let off = |found: &Rates| (found.speed_mps - SEMI_PROCEDURAL_MPS).abs();
+    (0..stepping.len()).min_by(|&a, &b| {
+        let (a, b) = (&stepping[a].1, &stepping[b].1);
+        bent(a).cmp(&bent(b)).then(off(a).total_cmp(&off(b)))
+    })
 }
 
 /// m_sp, m_mb and T; none with fewer than two cycles that step. `axis_ranges` are the blend space's.
@@ -36,16 +43,19 @@ pub fn build(
     cycles: &[GaitCycle],
     body: &HumanBody,
     axis_ranges: [f32; 3],
+    wanted: Option<&str>,
 ) -> Option<Correspondence> {
-    let stepping = || examples.iter().enumerate().filter(|(index, _)| cycles[*index].steps);
-    let sp = semi_procedural(stepping().map(|(index, example)| (index, &example.parameters)))?;
+    let stepping: Vec<usize> = (0..examples.len()).filter(|index| cycles[*index].steps).collect();
+    let rates: Vec<(&str, Rates)> =
+        stepping.iter().map(|&index| (examples[index].name.as_str(), cycles[index].rates)).collect();
+    let sp = stepping[semi_procedural(&rates, wanted)?];
     let distance = |example: &MotionExample| {
         let off = (example.parameters.to_vec3() - examples[sp].parameters.to_vec3()).to_array();
         let scaled = off.iter().zip(axis_ranges).map(|(off, range)| if range > 0.0 { off / range } else { 0.0 });
         scaled.map(|off| off * off).sum::<f32>()
     };
-    let (mb, _) =
-        stepping().filter(|(index, _)| *index != sp).min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)))?;
+    let others = stepping.iter().copied().filter(|index| *index != sp);
+    let mb = others.min_by(|&a, &b| distance(&examples[a]).total_cmp(&distance(&examples[b])))?;
     let pairs = thin(minima(&Features::of(&cycles[sp], body), &Features::of(&cycles[mb], body)));
     let time_s = |example: usize, row: usize| cycles[example].row_time_s(row as isize) as f32;
     let pairs_s = pairs.iter().map(|pair| [time_s(sp, pair.sp), time_s(mb, pair.mb_row())]).collect();

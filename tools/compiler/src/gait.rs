@@ -7,7 +7,7 @@ use glam::DVec3;
 use motiondb::skeleton::Side;
 
 use crate::arc::{Arc, RootSample};
-use crate::contacts::{contact_points_m, planted, runs};
+use crate::contacts::{planted, runs};
 use crate::human_clip::{HumanBody, HumanJoints};
 use crate::root_motion::GroundedClip;
 
@@ -70,7 +70,7 @@ pub fn analyze(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysis {
     let joints: Vec<HumanJoints> = clip.poses.iter().map(|pose| pose.forward_kinematics(body)).collect();
     let speed_mps = mean_speed_mps(&joints, clip.frame_rate_hz);
     let planted = [0, 1].map(|side| {
-        let feet: Vec<[DVec3; 3]> = joints.iter().map(|joints| contact_points_m(joints, body, side)).collect();
+        let feet: Vec<[DVec3; 3]> = joints.iter().map(|joints| joints.sole_points_m(body, side)).collect();
         planted(&feet, clip.frame_rate_hz, speed_mps)
     });
     let root = RootTrack::of(&joints);
