@@ -25,14 +25,40 @@ use crate::plan::Plan;
 /// Greatest share of standing examples in a body that steps: with more, the blended contact of a swinging foot would not fall below ½.
 const IDLE_SHARE_MAX: f32 = 0.35;
 /// A standing body starts where the asked parameters hold less standing than this …
-const START_IDLE_SHARE: f32 = 0.75;
-/// … and a stepping one stops where they hold more than this: 15 % of the slowest step.
-const STOP_IDLE_SHARE: f32 = 0.85;
-
+const START_IDLE_SHARE: f32 = 0.8;
+/// … and a stepping one stops where they hold more than this. A planner that approaches its preferred velocity from the present one keeps
+/// asking for some 0.45 of the least steps' 0.65: a body that is to stop must take that, an idle share of 0.71, for standing …
+const STOP_IDLE_SHARE: f32 = 0.65;
+/// … but either lasts for this long, about a step, s, for the planner goes on to speak of the velocity before …
+const GAIT_TIME_S: f32 = 0.4;
+/// … unless it is asked to stand in earnest.
+const HALT_IDLE_SHARE: f32 = 0.95;
 /// A plan slower than this does not turn the body, for the direction of next to nothing is no direction …
 const TURN_SPEED_MIN_MPS: f32 = 0.1;
 /// … and one faster than this turns it at any rate.
 const TURN_SPEED_FULL_MPS: f32 = 0.2;
+
+/// Whether a body stands or steps, and for how long, s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Gait {
+    /// Both feet on the ground.
+    Standing(f32),
+    /// One foot after the other.
+    Stepping(f32),
+}
+
+impl Gait {
+    /// Follows what is asked, with hysteresis.
+    fn followed(self, idle_share: f32, dt_s: f32) -> Self {
+        match self {
+            Self::Standing(for_s) if for_s >= GAIT_TIME_S && idle_share < START_IDLE_SHARE => Self::Stepping(dt_s),
+            Self::Stepping(for_s) if for_s >= GAIT_TIME_S && idle_share > STOP_IDLE_SHARE => Self::Standing(dt_s),
+            Self::Stepping(_) if idle_share > HALT_IDLE_SHARE => Self::Standing(dt_s),
+            Self::Standing(for_s) => Self::Standing(for_s + dt_s),
+            Self::Stepping(for_s) => Self::Stepping(for_s + dt_s),
+        }
+    }
+}
 
 /// The blend space of a database, ready for queries.
 #[derive(Clone, Debug)]
@@ -87,12 +113,12 @@ pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) ->
     Parameters { speed_mps: wanted_mps.x, turn_rate_rad_s, strafe_mps: wanted_mps.y }
 }
 
-/// What the database can do of what is asked, as parameters inside its hull; switches `stands` with hysteresis.
-pub fn realisable(asked: Parameters, space: &Space, db: &MotionDb, stands: &mut bool) -> Parameters {
+/// What the database can do of what is asked, as parameters inside its hull; none of it while the body stands.
+pub fn realisable(asked: Parameters, space: &Space, db: &MotionDb, gait: &mut Gait, dt_s: f32) -> Parameters {
     let shares = space.locate(asked);
     let idle = space.idle_share(&shares);
-    *stands = idle > if *stands { START_IDLE_SHARE } else { STOP_IDLE_SHARE };
-    if *stands {
+    *gait = gait.followed(idle, dt_s);
+    if matches!(gait, Gait::Standing(_)) {
         return parameters_of(&space.standing(), db);
     }
     // Standing lies at the origin: scaling by this leaves that share of it.

@@ -20,7 +20,7 @@ use motiondb::skeleton::JOINT_COUNT;
 /// Examples that one body may mix: a simplex of four, and another that fades out.
 pub const MIX_MAX: usize = 8;
 /// Shares under this are let go, so that an example that has faded out is no longer sampled.
-const SHARE_MIN: f32 = 1e-3;
+const SHARE_MIN: f32 = 1e-4;
 
 /// The examples that a body plays, with their shares of time; sparse, without heap.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -23,7 +23,7 @@ use motiondb::parameters::Parameters;
 use motiondb::pose::{Joints, Pose, Root};
 use motiondb::skeleton::{Joint, Skeleton};
 
-use self::asked::Space;
+use self::asked::{Gait, Space};
 use self::blending::{Mix, Weights};
 use self::feet::{FootHold, PLANTED_CONTACT, PosedFoot};
 use self::ik::FootTarget;
@@ -61,8 +61,7 @@ pub struct Body {
     pub phase: f32,
     /// Examples in play.
     pub mix: Mix,
-    /// It stands, and will not take a step that is too small (see [`asked`]).
-    stands: bool,
+    gait: Gait,
     feet: [FootHold; 2],
     pelvis_drop_m: f32,
 }
@@ -84,7 +83,14 @@ impl Body {
     /// A body that stands at `root`, its cycle at `phase`.
     pub fn standing(motion: &Motion, root: Root, phase: f32) -> (Self, Synthesis) {
         let mix = Mix::new(&motion.space.standing());
-        let mut body = Self { root, phase, mix, stands: true, feet: Default::default(), pelvis_drop_m: 0.0 };
+        let mut body = Self {
+            root,
+            phase,
+            mix,
+            gait: Gait::Standing(f32::INFINITY),
+            feet: Default::default(),
+            pelvis_drop_m: 0.0,
+        };
         let weights = mix.weights(motion.db, phase);
         let joints = weights.pose(motion.db, phase).forward_kinematics(&motion.db.skeleton);
         body.feet = [0, 1].map(|side| FootHold::new(&body.posed_foot(&joints, &motion.db.skeleton, side)));
@@ -95,7 +101,7 @@ impl Body {
     /// Steps 1 and 2: shares, phase and root follow the plan. The root may then be kept out of walls, before [`Self::synthesize`].
     pub fn advance(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
         let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
-        let goal = asked::realisable(asked, motion.space, motion.db, &mut self.stands);
+        let goal = asked::realisable(asked, motion.space, motion.db, &mut self.gait, dt_s);
         let now = self.mix.parameters(motion.db);
         let shares = asked::step_towards(now, goal, motion.space, motion.params, dt_s);
         self.mix.approach(&shares, dt_s / motion.params.share_change_s);

@@ -8,7 +8,7 @@ use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
 use proptest::prelude::*;
 
-use super::asked::{self, Space};
+use super::asked::{self, Gait, Space};
 use super::blending::Mix;
 use super::params::HmsParams;
 use super::{Body, Motion, Synthesis};
@@ -180,9 +180,9 @@ proptest! {
         let terms = db.examples[1..].iter().zip(&weights[1..]).map(|(example, weight)| example.parameters.to_vec3() * *weight);
         let asked = Parameters::from_vec3(terms.sum::<Vec3>() / sum * (1.0 - 0.1 * weights[0]));
         let mut mix = Mix::new(&space.standing());
-        let mut stands = true;
+        let mut gait = Gait::Standing(f32::INFINITY);
         for _ in 0..120 {
-            let goal = asked::realisable(asked, &space, &db, &mut stands);
+            let goal = asked::realisable(asked, &space, &db, &mut gait, DT_S);
             mix.approach(&asked::step_towards(mix.parameters(&db), goal, &space, &params, DT_S), 0.1);
         }
         let steps = Mix::new(&space.locate(asked)).share(0) < 0.35;
