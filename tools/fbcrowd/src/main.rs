@@ -4,9 +4,11 @@
 //! is no, or an output was written though some input was refused; 2 bad usage or input, nothing written.
 
 mod cmd;
+mod compiling;
 mod failure;
 mod output;
 mod progress;
+mod rendering;
 mod report;
 mod simulation;
 

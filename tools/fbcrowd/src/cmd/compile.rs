@@ -1,0 +1,45 @@
+//! `fbcrowd compile`: clips in, motion database out.
+
+use std::path::PathBuf;
+
+use motiondb::file;
+
+use crate::compiling;
+use crate::failure::{Answer, Failure};
+use crate::output;
+
+/// Compile motion clips into a database.
+///
+/// Units, axes, joints, cycles and parameters are found. Exit code 0: all clips were used; 1: the database was written, but some input
+/// was refused; 2: nothing was written.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Examples:\n  fbcrowd compile assets/clips -o motion.fbdb\n  fbcrowd compile walk.bvh run.glb -o motion.fbdb"
+)]
+pub(crate) struct Args {
+    /// BVH, GLB or glTF files, or folders of them.
+    #[arg(required = true, value_name = "CLIPS")]
+    clips: Vec<PathBuf>,
+    /// The database.
+    #[arg(short, long, value_name = "FILE.fbdb")]
+    output: PathBuf,
+}
+
+pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+    let (db, answer) = compiling::compile(&args.clips)?;
+    file::write(&args.output, &db)?;
+    for source in &db.sources {
+        for warning in &source.warnings {
+            eprintln!("warning: {} {}: {warning}", source.file, source.clip);
+        }
+    }
+    let mirrors = db.examples.iter().filter(|example| example.mirrored).count();
+    output::print(&format!(
+        "{}: {} examples ({mirrors} of them mirrored) from {} clips, {} simplices",
+        args.output.display(),
+        db.examples.len(),
+        db.sources.len(),
+        db.blend_space.simplices().count(),
+    ))?;
+    Ok(answer)
+}

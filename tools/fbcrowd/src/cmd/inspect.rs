@@ -1,0 +1,53 @@
+//! `fbcrowd inspect`: what a database holds, or what clips are, as a table, JSON and pictures.
+
+use std::path::PathBuf;
+
+use motiondb::file;
+
+use crate::compiling;
+use crate::failure::{Answer, Failure};
+use crate::output;
+use crate::report::{self, DatabaseReport, SourcesReport};
+
+/// Show what a database holds, or what was found in clips.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  fbcrowd inspect motion.fbdb --json\n  fbcrowd inspect my/clips")]
+pub(crate) struct Args {
+    /// A database, or clips: files or folders.
+    #[arg(required = true, value_name = "FILE.fbdb|CLIPS")]
+    input: Vec<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+    match args.input.as_slice() {
+        [database] if database.extension().is_some_and(|extension| extension == "fbdb") => {
+            inspect_database(args, database)
+        }
+        clips => inspect_clips(args, clips),
+    }
+}
+
+fn inspect_database(args: &Args, path: &std::path::Path) -> Result<Answer, Failure> {
+    let (db, _) = file::load(path)?;
+    let report = DatabaseReport::new(&db);
+    if args.json {
+        output::print_json(&report)?;
+    } else {
+        output::print(&report::database_text(&report))?;
+    }
+    Ok(Answer::Yes)
+}
+
+fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
+    let (clips, answer) = compiling::import(clips)?;
+    let report = SourcesReport { sources: clips.into_iter().map(|clip| clip.source).collect() };
+    if args.json {
+        output::print_json(&report)?;
+    } else {
+        output::print(&report::sources_text(&report.sources))?;
+    }
+    Ok(answer)
+}

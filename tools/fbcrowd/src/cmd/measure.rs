@@ -1,0 +1,79 @@
+//! `fbcrowd measure`: what a recording is worth in figures.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use fbcrowd_sim::metrics::{self, Measures};
+use fbcrowd_sim::recording::Recording;
+use motiondb::atomic_file::AtomicFile;
+
+use crate::failure::{Answer, Failure};
+use crate::output;
+
+/// Measure collisions, acceleration, arrivals, foot slide and tracking of a recording.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  fbcrowd measure out/antipodal/antipodal.fbrec --json")]
+pub(crate) struct Args {
+    /// The recording.
+    #[arg(value_name = "FILE.fbrec")]
+    recording: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    /// Write a line a step: x y of each agent's root, metres.
+    #[arg(long, value_name = "OUT.txt")]
+    trajectories: Option<PathBuf>,
+}
+
+pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+    let bad = |error: fbcrowd_sim::recording_error::RecordingError| Failure::bad(error.to_string());
+    let recording = Recording::open(&args.recording).map_err(bad)?;
+    let measures = metrics::measure(&recording).map_err(bad)?;
+    if let Some(path) = &args.trajectories {
+        write_trajectories(&recording, path).map_err(|error| Failure::unwritable(path, &error))?;
+    }
+    if args.json {
+        output::print_json(&measures)?;
+    } else {
+        output::print(&text(&measures))?;
+    }
+    Ok(Answer::Yes)
+}
+
+fn write_trajectories(recording: &Recording, path: &Path) -> io::Result<()> {
+    let mut file = AtomicFile::create(path)?;
+    metrics::write_trajectories(recording, file.writer())?;
+    file.writer().flush()?;
+    file.commit()
+}
+
+/// Figures for people, one a line.
+pub(crate) fn text(measures: &Measures) -> String {
+    let optional = |value: Option<f64>, unit: &str| value.map_or("–".into(), |value| format!("{value:.2} {unit}"));
+    [
+        ("agents", format!("{}", measures.agents)),
+        ("steps", format!("{} of {:.4} s", measures.steps, measures.dt_s)),
+        ("collisions C", format!("{:.5}", measures.collision_rate)),
+        (
+            "acceleration A",
+            format!(
+                "{:.3} m/s², before arrival {:.3} m/s²",
+                measures.mean_acceleration_mps2, measures.mean_acceleration_before_arrival_mps2
+            ),
+        ),
+        ("arrived", format!("{} of {}, {} stalled", measures.arrived, measures.agents, measures.stalled)),
+        ("mean time to goal", optional(measures.mean_time_to_goal_s, "s")),
+        (
+            "planted-foot slide",
+            format!(
+                "{}, of the examples {}, planted {:.0} %",
+                optional(measures.planted_slide_cm_s, "cm/s"),
+                optional(measures.examples_slide_cm_s, "cm/s"),
+                100.0 * measures.planted_share
+            ),
+        ),
+        ("root tracking error", format!("{:.2} mm a step", 1000.0 * measures.root_tracking_error_m)),
+    ]
+    .map(|(name, value)| format!("{name:<25}{value}\n"))
+    .concat()
+}

@@ -1,0 +1,70 @@
+//! `fbcrowd run`: the main job in one line: compile, simulate, measure, render.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fbcrowd_render::sequence::{Format, SequenceOptions};
+use fbcrowd_sim::metrics;
+use fbcrowd_sim::scenario_file::MotionSource;
+use motiondb::file;
+
+use crate::cmd::measure;
+use crate::failure::{Answer, Failure};
+use crate::rendering::Rendered;
+use crate::simulation::Timings;
+use crate::{compiling, output, rendering, simulation};
+
+/// Compile a scenario's clips, simulate it, and render it.
+///
+/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png` and `frames/NAME.####.png`.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  fbcrowd run assets/scenarios/antipodal.toml")]
+pub(crate) struct Args {
+    /// The scenario.
+    #[arg(value_name = "SCENARIO.toml")]
+    scenario: PathBuf,
+    /// The folder to write to; `out/NAME` by default.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+    let (scenario, motion) = simulation::read_scenario(&args.scenario)?;
+    let name = scenario.name.clone();
+    let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    let recording_path = folder.join(format!("{name}.fbrec"));
+    let (database, answer) = database(motion, &folder)?;
+    let (db, checksum) = file::load(&database)?;
+
+    let timings = simulation::simulate(db, checksum, scenario, &recording_path)?;
+    let recording = rendering::open(&recording_path)?;
+    let measures = metrics::measure(&recording).map_err(|error| Failure::bad(error.to_string()))?;
+    rendering::plot_trajectories(&recording, &folder.join("trajectories.png"))?;
+    let options = SequenceOptions { folder: folder.join("frames"), name, format: Format::Png, frames: None };
+    let rendered = rendering::render(&recording, &options)?;
+
+    output::print(&summary(&measure::text(&measures), &timings, &rendered, &folder))?;
+    Ok(answer)
+}
+
+/// The scenario's database, compiled into the output folder where it names clips.
+fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Failure> {
+    let clips = match motion {
+        MotionSource::Database(path) => {
+            file::read(&path)?; // before anything is written
+            fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
+            return Ok((path, Answer::Yes));
+        }
+        MotionSource::Clips(path) => path,
+    };
+    let (db, answer) = compiling::compile(&[clips])?;
+    fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
+    let path = folder.join("motion.fbdb");
+    file::write(&path, &db)?;
+    Ok((path, answer))
+}
+
+fn summary(measures: &str, timings: &Timings, rendered: &Rendered, folder: &Path) -> String {
+    let rendering = format!("{} frames, {:.1} ms a frame", rendered.frames, rendered.ms_per_frame);
+    format!("{measures}{}{:<25}{rendering}\n{:<25}{}", timings.text(), "rendering", "written to", folder.display())
+}

@@ -1,0 +1,146 @@
+//! What `fbcrowd inspect` says: the stable JSON (`definitions.md`; field names carry their units) and the tables for people.
+
+use glam::Vec2;
+use motiondb::correspondence::Correspondence;
+use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
+use motiondb::velocity_hull::VelocityHull;
+use serde::Serialize;
+
+/// Clips without a database.
+#[derive(Serialize)]
+pub(crate) struct SourcesReport {
+    pub(crate) sources: Vec<SourceRecord>,
+}
+
+/// A whole database.
+#[derive(Serialize)]
+pub(crate) struct DatabaseReport {
+    examples: Vec<Example>,
+    sources: Vec<SourceRecord>,
+    velocity_hull: VelocityHull,
+    blend_space: BlendSpace,
+    correspondence: Option<Correspondence>,
+}
+
+#[derive(Serialize)]
+struct Example {
+    name: String,
+    source: String,
+    clip: String,
+    mirrored: bool,
+    speed_mps: f32,
+    turn_rate_rad_s: f32,
+    strafe_mps: f32,
+    duration_s: f32,
+    key_times_s: Option<[f32; 4]>,
+    planted_slide_cm_s: f32,
+    planted_share: f32,
+}
+
+#[derive(Serialize)]
+struct BlendSpace {
+    dimension: u32,
+    simplices: Vec<Vec<u32>>,
+    covered_share: f32,
+}
+
+impl DatabaseReport {
+    pub(crate) fn new(db: &MotionDb) -> Self {
+        Self {
+            examples: db.examples.iter().map(|example| Example::new(example, &db.sources)).collect(),
+            sources: db.sources.clone(),
+            velocity_hull: db.velocity_hull.clone(),
+            blend_space: BlendSpace {
+                dimension: db.blend_space.dimension,
+                simplices: db.blend_space.simplices().map(<[u32]>::to_vec).collect(),
+                covered_share: db.blend_space.covered_share,
+            },
+            correspondence: db.correspondence.clone(),
+        }
+    }
+}
+
+impl Example {
+    fn new(example: &MotionExample, sources: &[SourceRecord]) -> Self {
+        let source = &sources[example.source as usize];
+        Self {
+            name: example.name.clone(),
+            source: source.file.clone(),
+            clip: source.clip.clone(),
+            mirrored: example.mirrored,
+            speed_mps: example.parameters.speed_mps,
+            turn_rate_rad_s: example.parameters.turn_rate_rad_s,
+            strafe_mps: example.parameters.strafe_mps,
+            duration_s: example.phase_map.period_s,
+            key_times_s: example.key_times_s,
+            planted_slide_cm_s: example.planted_slide_cm_s,
+            planted_share: example.planted_share,
+        }
+    }
+}
+
+/// The database as tables.
+pub(crate) fn database_text(report: &DatabaseReport) -> String {
+    let width = report.examples.iter().map(|example| example.name.chars().count()).max().unwrap_or(0).max(7);
+    let mut text = format!("{:<width$}  speed m/s  turn °/s  strafe m/s  period s  slide cm/s  planted\n", "example");
+    for example in &report.examples {
+        text += &format!(
+            "{:<width$}  {:9.3}  {:8.1}  {:10.3}  {:8.3}  {:10.2}  {:6.0} %\n",
+            example.name,
+            example.speed_mps,
+            example.turn_rate_rad_s.to_degrees(),
+            example.strafe_mps,
+            example.duration_s,
+            example.planted_slide_cm_s,
+            100.0 * example.planted_share,
+        );
+    }
+    let hull = &report.velocity_hull;
+    text += &format!("\nturning set, m/s    {}\n", corners(&hull.turning_mps));
+    text += &format!("holding set, m/s    {}\n", corners(&hull.holding_mps));
+    text += &format!("sharp-turn edges    {}\n", hull.sharp_turn_edges_mps.len());
+    text += &format!(
+        "blend space         {} simplices in {} dimensions, {:.1} % of the hull\n",
+        report.blend_space.simplices.len(),
+        report.blend_space.dimension,
+        100.0 * report.blend_space.covered_share,
+    );
+    text += &correspondence_text(report);
+    let warned = report.sources.iter().filter(|source| !source.warnings.is_empty());
+    text + &warned.map(warnings_text).collect::<String>()
+}
+
+fn correspondence_text(report: &DatabaseReport) -> String {
+    let Some(found) = &report.correspondence else { return "correspondences     none\n".into() };
+    let name = |index: u32| &report.examples[index as usize].name;
+    let pairs: Vec<String> = found.pairs_s.iter().map(|[sp, mb]| format!("{sp:.3}/{mb:.3}")).collect();
+    format!("correspondences, s  {} / {}: {}\n", name(found.semi_procedural), name(found.blending), pairs.join("  "))
+}
+
+fn corners(polygon: &[Vec2]) -> String {
+    polygon.iter().map(|corner| format!("({:.2}, {:.2})", corner.x, corner.y)).collect::<Vec<_>>().join(" ")
+}
+
+/// Clips as a table.
+pub(crate) fn sources_text(sources: &[SourceRecord]) -> String {
+    let name = |source: &SourceRecord| format!("{} {}", source.file, source.clip).trim_end().to_owned();
+    let width = sources.iter().map(|source| name(source).chars().count()).max().unwrap_or(0).max(4);
+    let mut text = format!("{:<width$}  speed m/s  turn °/s  strafe m/s  up  m per unit     Hz\n", "clip");
+    for source in sources {
+        text += &format!(
+            "{:<width$}  {:9.3}  {:8.1}  {:10.3}  {}  {:10.6}  {:5.1}\n",
+            name(source),
+            source.speed_mps,
+            source.turn_rate_rad_s.to_degrees(),
+            source.strafe_mps,
+            source.up_axis,
+            source.metres_per_unit,
+            source.frame_rate_hz,
+        );
+    }
+    text + &sources.iter().map(warnings_text).collect::<String>()
+}
+
+fn warnings_text(source: &SourceRecord) -> String {
+    source.warnings.iter().map(|warning| format!("warning: {} {}: {warning}\n", source.file, source.clip)).collect()
+}

@@ -1,0 +1,127 @@
+//! Runs a simulation into a recording and measures the time that its stages take: what `simulate` and `run` share.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use fbcrowd_sim::recording::{Header, Recorder};
+use fbcrowd_sim::scenario::Scenario;
+use fbcrowd_sim::scenario_error::ScenarioError;
+use fbcrowd_sim::scenario_file::{self, MotionSource};
+use fbcrowd_sim::step::{Simulation, Stage};
+use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
+use motiondb::motion_db::MotionDb;
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::progress::Progress;
+
+/// Where the time of a simulation went. Never part of a recording.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Timings {
+    agents: usize,
+    steps: usize,
+    threads: usize,
+    planning_us_per_agent_step: f64,
+    synthesis_us_per_agent_step: f64,
+    coupling_us_per_agent_step: f64,
+    /// Simulated time over the time that all stages took, recording left out.
+    pub(crate) times_real_time: f64,
+}
+
+impl Timings {
+    /// One line each.
+    pub(crate) fn text(&self) -> String {
+        format!(
+            "time per agent and step  planning {:.2} µs, synthesis {:.2} µs, coupling {:.2} µs\n\
+             speed                    {:.1} × real time, {} thread{}\n",
+            self.planning_us_per_agent_step,
+            self.synthesis_us_per_agent_step,
+            self.coupling_us_per_agent_step,
+            self.times_real_time,
+            self.threads,
+            if self.threads == 1 { "" } else { "s" },
+        )
+    }
+}
+
+/// Reads a scenario; a mistake in it is shown where it stands.
+pub(crate) fn read_scenario(path: &Path) -> Result<(Scenario, MotionSource), Failure> {
+    scenario_file::read(path).map_err(|error| match error {
+        ScenarioError::Unreadable { .. } => Failure::bad(error.to_string()),
+        ScenarioError::Invalid(invalid) => {
+            let mistake =
+                MietteDiagnostic::new(format!("{}:{}: {}", invalid.path.display(), invalid.line(), invalid.message))
+                    .with_help(invalid.help)
+                    .with_label(LabeledSpan::underline(invalid.span));
+            let name = invalid.path.display().to_string();
+            Failure::Bad(Report::new(mistake).with_source_code(NamedSource::new(name, invalid.text)))
+        }
+    })
+}
+
+/// Simulates a scenario on a database into a recording.
+pub(crate) fn simulate(
+    db: MotionDb,
+    database_checksum: u32,
+    scenario: Scenario,
+    recording: &Path,
+) -> Result<Timings, Failure> {
+    let steps = (scenario.duration_s / scenario.dt_s).round() as usize;
+    let header = Header { database_checksum, skeleton: db.skeleton.clone(), scenario };
+    let bad = |error: fbcrowd_sim::recording_error::RecordingError| Failure::bad(error.to_string());
+    let mut recorder = Recorder::create(recording, &header).map_err(bad)?;
+    let mut simulation = Simulation::new(Arc::new(db), &header.scenario);
+    recorder.push(simulation.frames()).map_err(bad)?;
+    let mut stopwatch = Stopwatch::default();
+    let progress = Progress::new("steps", steps);
+    for _ in 0..steps {
+        stopwatch.start();
+        simulation.step(&mut |stage| stopwatch.lap(stage));
+        recorder.push(simulation.frames()).map_err(bad)?;
+        progress.advance();
+    }
+    progress.finish();
+    recorder.finish().map_err(bad)?;
+    Ok(stopwatch.timings(header.scenario.agents.len(), steps, header.scenario.dt_s))
+}
+
+/// Time per stage; path and neighbours count as planning.
+#[derive(Debug, Default)]
+struct Stopwatch {
+    last: Option<Instant>,
+    planning: Duration,
+    synthesis: Duration,
+    coupling: Duration,
+}
+
+impl Stopwatch {
+    fn start(&mut self) {
+        self.last = Some(Instant::now());
+    }
+
+    fn lap(&mut self, stage: Stage) {
+        let now = Instant::now();
+        let spent = self.last.replace(now).map_or(Duration::ZERO, |last| now - last);
+        match stage {
+            Stage::Path | Stage::Neighbours | Stage::Planning => self.planning += spent,
+            Stage::Synthesis => self.synthesis += spent,
+            Stage::Coupling => self.coupling += spent,
+        }
+    }
+
+    fn timings(&self, agents: usize, steps: usize, dt_s: f32) -> Timings {
+        let agent_steps = (agents * steps).max(1) as f64;
+        let microseconds = |spent: Duration| spent.as_secs_f64() * 1e6 / agent_steps;
+        let total = self.planning + self.synthesis + self.coupling;
+        Timings {
+            agents,
+            steps,
+            threads: rayon::current_num_threads(),
+            planning_us_per_agent_step: microseconds(self.planning),
+            synthesis_us_per_agent_step: microseconds(self.synthesis),
+            coupling_us_per_agent_step: microseconds(self.coupling),
+            times_real_time: steps as f64 * f64::from(dt_s) / total.as_secs_f64().max(1e-9),
+        }
+    }
+}
