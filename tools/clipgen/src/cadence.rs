@@ -52,6 +52,8 @@ pub(crate) struct FootRoll {
     pub(crate) flat_from: f64,
     /// When the heel rises.
     pub(crate) heel_off: f64,
+    /// The heel rises as this power of time: late and fast (published free walk: −15° at 50 %, −55° at toe-off).
+    pub(crate) heel_rise_power: f64,
     /// At toe-off (negative).
     pub(crate) toe_off_pitch_rad: f64,
     /// Of the toes at toe-off (negative).
@@ -115,13 +117,13 @@ impl Gait {
 pub(crate) fn walk(root: RootMotion, stride_frames: usize) -> Gait {
     let speed = root.pace_mps();
     let by_speed = |values: [f64; 5]| between(speed, &[0.5, 0.8, 1.1, 1.4, 1.8], &values);
-    let toe_off = by_speed([0.650, 0.645, 0.635, 0.620, 0.600]);
+    let toe_off = by_speed([0.612, 0.620, 0.626, 0.612, 0.592]);
     Gait {
         root,
         stride_frames,
         toe_off,
         style: Style::walk(speed),
-        style_share: between(speed, &[0.2, 0.6], &[0.0, 1.0]),
+        style_share: between(speed, &[0.1, 0.4], &[0.0, 1.0]),
         lift_m: 0.05,
         half_width_m: by_speed([0.060, 0.056, 0.052, 0.050, 0.046]),
         toe_out_rad: by_speed([7.0, 7.0, 6.5, 6.0, 5.0]).to_radians(),
@@ -129,7 +131,8 @@ pub(crate) fn walk(root: RootMotion, stride_frames: usize) -> Gait {
             strike_pitch_rad: by_speed([9.0, 13.0, 17.0, 20.0, 22.0]).to_radians(),
             flat_from: by_speed([0.13, 0.13, 0.12, 0.11, 0.10]),
             heel_off: toe_off * by_speed([0.58, 0.54, 0.50, 0.47, 0.44]),
-            toe_off_pitch_rad: -by_speed([44.0, 51.0, 55.0, 59.0, 62.0]).to_radians(),
+            heel_rise_power: by_speed([2.3, 2.6, 2.8, 2.8, 2.8]),
+            toe_off_pitch_rad: -by_speed([37.0, 47.0, 54.0, 59.0, 62.0]).to_radians(),
             toe_off_toe_pitch_rad: -by_speed([12.0, 15.0, 18.0, 20.0, 22.0]).to_radians(),
         },
         running: false,
@@ -147,7 +150,7 @@ pub(crate) fn walk(root: RootMotion, stride_frames: usize) -> Gait {
 pub(crate) fn run(root: RootMotion, stride_frames: usize) -> Gait {
     let speed = root.pace_mps();
     let by_speed = |values: [f64; 2]| between(speed, &[2.4, 3.5], &values);
-    let toe_off = by_speed([0.38, 0.35]);
+    let toe_off = by_speed([0.38, 0.315]);
     Gait {
         toe_off,
         style: Style::Jog,
@@ -155,9 +158,10 @@ pub(crate) fn run(root: RootMotion, stride_frames: usize) -> Gait {
         half_width_m: 0.032,
         roll: FootRoll {
             strike_pitch_rad: by_speed([9.0, 11.0]).to_radians(),
-            flat_from: 0.09,
-            heel_off: toe_off * 0.45,
-            toe_off_pitch_rad: -by_speed([58.0, 63.0]).to_radians(),
+            flat_from: 0.07,
+            heel_off: 0.08,
+            heel_rise_power: by_speed([1.7, 1.5]),
+            toe_off_pitch_rad: -by_speed([57.0, 62.0]).to_radians(),
             toe_off_toe_pitch_rad: -by_speed([20.0, 24.0]).to_radians(),
         },
         running: true,
@@ -183,18 +187,19 @@ pub(crate) fn run(root: RootMotion, stride_frames: usize) -> Gait {
 
 /// Stepping where nobody published curves (sideways, about oneself): flat feet, a little lift, knees that give.
 pub(crate) fn step_about(root: RootMotion, stride_frames: usize, half_width_m: f64) -> Gait {
-    let toe_off = 0.60;
+    let toe_off = 0.585;
     let walk = walk(root, stride_frames);
     Gait {
         toe_off,
         style_share: 0.0,
-        lift_m: 0.055,
+        lift_m: 0.025,
         half_width_m,
         roll: FootRoll {
-            strike_pitch_rad: -10_f64.to_radians(),
+            strike_pitch_rad: -6_f64.to_radians(),
             flat_from: 0.10,
             heel_off: toe_off * 0.55,
-            toe_off_pitch_rad: -26_f64.to_radians(),
+            heel_rise_power: 2.2,
+            toe_off_pitch_rad: -20_f64.to_radians(),
             toe_off_toe_pitch_rad: -6_f64.to_radians(),
         },
         pelvis: PelvisSwing { sway_m: 0.025, surge_m: 0.0, list_rad: 0.035, rotation_rad: 0.0 },
@@ -250,8 +255,8 @@ fn walking_upper_body(root: &RootMotion) -> UpperBodySwing {
         arm_mean_rad: by_speed([0.0, 0.0, -1.0, -2.0, 0.0]),
         arm_swing_rad: by_speed([6.0, 9.0, 13.0, 17.5, 24.0]),
         arm_out_rad: by_speed([7.0, 7.0, 7.5, 8.0, 9.0]),
-        elbow_rad: by_speed([16.0, 18.0, 22.0, 27.0, 38.0]),
-        elbow_swing_rad: by_speed([3.0, 5.0, 8.0, 11.0, 15.0]),
+        elbow_rad: by_speed([14.0, 16.0, 19.0, 23.0, 34.0]),
+        elbow_swing_rad: by_speed([3.0, 5.0, 7.0, 9.0, 13.0]),
     }
 }
 

@@ -50,25 +50,30 @@ enum Kind {
 type Row = (&'static str, Kind, (f64, f64, f64), usize, usize);
 
 const ROWS: &[Row] = &[
-    ("walk_050", Kind::Walk, (0.5, 0.0, 0.0), 50, 3),
-    ("walk_080", Kind::Walk, (0.8, 0.0, 0.0), 42, 4),
-    ("walk_110", Kind::Walk, (1.1, 0.0, 0.0), 37, 4),
-    ("walk_140", Kind::Walk, (1.4, 0.0, 0.0), 32, 4),
-    ("walk_180", Kind::Walk, (1.8, 0.0, 0.0), 30, 4),
+    ("walk_050", Kind::Walk, (0.5, 0.0, 0.0), 48, 3),
+    ("walk_080", Kind::Walk, (0.8, 0.0, 0.0), 40, 4),
+    ("walk_110", Kind::Walk, (1.1, 0.0, 0.0), 36, 4),
+    ("walk_140", Kind::Walk, (1.4, 0.0, 0.0), 30, 4),
+    ("walk_180", Kind::Walk, (1.8, 0.0, 0.0), 27, 4),
     ("jog_240", Kind::Run, (2.4, 0.0, 0.0), 22, 4),
-    ("run_350", Kind::Run, (3.5, 0.0, 0.0), 21, 4),
-    ("turn_030_left", Kind::Walk, (1.0, 30.0, 0.0), 38, 4),
+    ("run_350", Kind::Run, (3.5, 0.0, 0.0), 20, 4),
+    ("turn_030_left", Kind::Walk, (1.0, 30.0, 0.0), 37, 4),
     ("turn_060_left", Kind::Walk, (0.85, 60.0, 0.0), 36, 4),
     ("turn_090_left", Kind::Walk, (0.65, 90.0, 0.0), 32, 4),
     ("turn_130_left", Kind::Walk, (0.45, 130.0, 0.0), 27, 4),
+    ("jog_turn_060_left", Kind::Run, (2.3, 60.0, 0.0), 22, 4),
+    ("jog_turn_110_left", Kind::Run, (1.9, 110.0, 0.0), 21, 4),
     ("spin_090_left", Kind::StepAbout(0.095), (0.0, 90.0, 0.0), 30, 4),
     ("spin_170_left", Kind::StepAbout(0.100), (0.0, 170.0, 0.0), 20, 4),
     ("side_035_left", Kind::StepAbout(0.155), (0.0, 0.0, 0.35), 36, 4),
     ("side_060_left", Kind::StepAbout(0.180), (0.0, 0.0, 0.6), 27, 4),
+    ("shuffle_120_left", Kind::StepAbout(0.215), (0.0, 0.0, 1.2), 16, 6),
+    ("diagonal_110_030_left", Kind::Diagonal, (1.1, 0.0, 0.3), 34, 4),
     ("diagonal_080_040_left", Kind::Diagonal, (0.8, 0.0, 0.4), 36, 4),
     ("backward_040", Kind::Backward, (-0.4, 0.0, 0.0), 42, 3),
     ("backward_080", Kind::Backward, (-0.8, 0.0, 0.0), 34, 4),
     ("backward_110", Kind::Backward, (-1.1, 0.0, 0.0), 29, 4),
+    ("backward_turn_045_left", Kind::Backward, (-0.6, 45.0, 0.0), 36, 4),
 ];
 
 /// Every clip, in the order of the README.

@@ -18,8 +18,13 @@ use crate::upper_body;
 
 /// Where the foot of a gait without published curves stands under the body: the ankle 3 cm behind the hips, the weight over its middle, m.
 const ANKLE_UNDER_HIPS_M: f64 = -0.03;
+/// Adults' steps are longer than those of the children whose curves these are (.80 leg lengths against .75 at their free speed), mostly
+/// behind them: with the feet so much farther back hip and knee come nearest to the curves, m.
+const ADULT_TRAIL_M: f64 = 0.025;
 /// The knee points between the pelvis's and the foot's direction, by this share towards the foot's.
 const KNEE_TOWARDS_FOOT: f64 = 0.6;
+/// Rounds of lowering the hips where a leg would be overstretched; the smooth height converges within them to under a millimetre.
+const LOWERING_ROUNDS: usize = 12;
 /// Samples when placing the feet.
 const SAMPLES: usize = 60;
 
@@ -30,6 +35,13 @@ pub(crate) enum Film {
     Forward,
     /// Back to front: a forward gait becomes a backward one.
     Reversed,
+}
+
+/// Which legs must reach.
+#[derive(Clone, Copy, PartialEq)]
+enum Legs {
+    All,
+    Standing,
 }
 
 /// A gait made ready to be posed at any phase.
@@ -62,9 +74,37 @@ impl<'a> Cycle<'a> {
     fn new(gait: &'a Gait) -> Self {
         let prints = footprints(gait);
         let stances = prints.map(|mid_print| Stance { gait, mid_print });
-        let height = Height::fitted(gait, &stances);
+        let mut wanted_m = pelvis::wanted_heights_m(gait, &stances);
+        let mut cycle = Self::at_height(gait, prints, Height::through(gait, &wanted_m));
+        for _ in 0..LOWERING_ROUNDS {
+            for (sample, height_m) in wanted_m.iter_mut().enumerate() {
+                *height_m -= cycle.overstretch_m(pelvis::phase_of(sample), Legs::All);
+            }
+            cycle = Self::at_height(gait, prints, Height::through(gait, &wanted_m));
+        }
+        // What the smoothing left: standing legs must reach.
+        let still_m = |sample| cycle.overstretch_m(pelvis::phase_of(sample), Legs::Standing);
+        let mut height = cycle.height.clone();
+        height.lower_by_m((0..pelvis::SAMPLES).map(still_m).fold(0.0, f64::max));
+        Self::at_height(gait, prints, height)
+    }
+
+    fn at_height(gait: &'a Gait, prints: [Footprint; 2], height: Height) -> Self {
+        let stances = prints.map(|mid_print| Stance { gait, mid_print });
         let swings = array::from_fn(|side| Swing::between(&stances[side], &hip_height_of_leg(gait, &height, side)));
         Self { gait, prints, height, swings }
+    }
+
+    /// The greater overstretch of the two legs, m.
+    fn overstretch_m(&self, cycle_phase: f64, legs: Legs) -> f64 {
+        let of_leg = |side: usize| {
+            let in_swing = leg_phase(cycle_phase, side) > self.gait.toe_off;
+            if in_swing && legs == Legs::Standing {
+                return 0.0;
+            }
+            self.height.overstretch_m(self.gait, cycle_phase, side, self.foot(cycle_phase, side).ankle_m)
+        };
+        of_leg(0).max(of_leg(1))
     }
 
     fn pose(&self, cycle_phase: f64) -> crate::body::Pose {
@@ -103,7 +143,7 @@ fn hip_height_of_leg(gait: &Gait, height: &Height, side: usize) -> impl Fn(f64) 
     move |p| pelvis::hip_m(&pelvis::pose(gait, height, p - 0.5 * side as f64), side).z
 }
 
-/// Both feet at their mid-stances: so far ahead that over stance the hip angles are, on the mean, the published ones.
+/// Both feet at their mid-stances: so far ahead that until the other foot strikes the hip angles are, on the mean, the published ones.
 fn footprints(gait: &Gait) -> [Footprint; 2] {
     let ahead_m = gait.style_share * published_ahead_m(gait) + (1.0 - gait.style_share) * ANKLE_UNDER_HIPS_M;
     [1.0, -1.0].map(|sign| Footprint {
@@ -114,9 +154,10 @@ fn footprints(gait: &Gait) -> [Footprint; 2] {
 
 fn published_ahead_m(gait: &Gait) -> f64 {
     let sample_m = |i: usize| {
-        let p = gait.toe_off * (i as f64 + 0.5) / SAMPLES as f64;
+        let p = gait.toe_off.min(0.5) * (i as f64 + 0.5) / SAMPLES as f64;
         let carried_m = gait.root.pace_mps() * gait.period_s() * (p - gait.mid_stance());
         gait.style.flexion(p, gait.toe_off).ankle_from_hip_m()[0] + carried_m - gait.roll.advance_m(p, gait.toe_off)
     };
-    (0..SAMPLES).map(sample_m).sum::<f64>() / SAMPLES as f64
+    let trail_m = if gait.running { 0.0 } else { ADULT_TRAIL_M };
+    (0..SAMPLES).map(sample_m).sum::<f64>() / SAMPLES as f64 - trail_m
 }

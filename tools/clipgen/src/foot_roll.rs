@@ -15,8 +15,6 @@ use crate::footsteps::Footprint;
 
 /// Share of the stride before toe-off in which the toes themselves roll.
 const TOE_ROLL_SHARE: f64 = 0.09;
-/// The heel rises as this power of time: late and fast (published free walk: −20° at 50 %, −55° at toe-off).
-const HEEL_RISE_POWER: f64 = 2.3;
 
 /// A foot in the root frame.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +34,7 @@ impl FootRoll {
     fn pitch_rad(&self, p: f64, toe_off: f64) -> f64 {
         let landing = (1.0 - p / self.flat_from).max(0.0);
         let rising = ((p - self.heel_off) / (toe_off - self.heel_off)).max(0.0);
-        self.strike_pitch_rad * landing * landing + self.toe_off_pitch_rad * libm::pow(rising, HEEL_RISE_POWER)
+        self.strike_pitch_rad * landing * landing + self.toe_off_pitch_rad * libm::pow(rising, self.heel_rise_power)
     }
 
     /// Pitch of the toes against the ground while the heel is up.
@@ -111,6 +109,7 @@ mod tests {
             strike_pitch_rad: degrees(18.0),
             flat_from: 0.12,
             heel_off: 0.3,
+            heel_rise_power: 2.8,
             toe_off_pitch_rad: degrees(-58.0),
             toe_off_toe_pitch_rad: degrees(-20.0),
         };

@@ -6,15 +6,14 @@
 use glam::{DQuat, DVec3};
 
 use crate::body::{ANKLE_HEIGHT_M, CLAVICLES, HEIGHT_M, JOINT_COUNT, Pose};
-use crate::cadence::FRAME_RATE_HZ;
 use crate::cycle::write_leg;
 use crate::foot_roll::Foot;
 use crate::pelvis::PelvisPose;
-use crate::rotation::{about_x, about_y, about_z, wave};
+use crate::rotation::{about_x, about_z, wave};
 use crate::upper_body::{Arm, UpperBody};
 
 /// Frames of the clip's period.
-pub(crate) const FRAMES: usize = 180;
+const FRAMES: usize = 180;
 /// Breaths in the period.
 const BREATHS: f64 = 2.0;
 /// Ankles from the midline: feet a little wider than the hips, m.
@@ -24,20 +23,20 @@ const ANKLE_X_M: f64 = -0.03;
 /// Toes outward, radians.
 const TOE_OUT_RAD: f64 = 0.16;
 /// Height of the hips: knees flexed by some 8°, m.
-const HIP_HEIGHT_M: f64 = 0.5215 * HEIGHT_M;
+const HIP_HEIGHT_M: f64 = 0.5265 * HEIGHT_M;
 
 /// The clip's frames; the last is the first again.
 pub(crate) fn frames() -> Vec<Pose> {
-    (0..=FRAMES).map(|frame| pose(frame as f64 / FRAMES as f64, frame as f64 / FRAME_RATE_HZ)).collect()
+    (0..=FRAMES).map(|frame| pose(frame as f64 / FRAMES as f64)).collect()
 }
 
-fn pose(shift: f64, _time_s: f64) -> Pose {
+fn pose(shift: f64) -> Pose {
     let weight = wave(shift) + 0.15 * wave(2.0 * shift - 0.1);
     let breath = wave(BREATHS * shift - 0.3);
     let (list_rad, yaw_rad) = (0.022 * weight, 0.020 * wave(shift - 0.05));
     let pelvis = PelvisPose {
         place_m: DVec3::new(0.004 * wave(2.0 * shift - 0.2), 0.022 * weight, HIP_HEIGHT_M),
-        rotation: about_z(yaw_rad) * about_y(0.0) * about_x(list_rad),
+        rotation: about_z(yaw_rad) * about_x(list_rad),
         yaw_rad,
     };
     let mut rotations = [DQuat::IDENTITY; JOINT_COUNT];

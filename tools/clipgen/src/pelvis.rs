@@ -1,7 +1,8 @@
 //! The pelvis about the root's path: height, sway, surge, list, rotation, tilt.
 //!
 //! Walking: the pelvis rides over the stance leg as over an inverted pendulum. Its height is the one at which the stance knee would have
-//! its published flexion, smoothed to four harmonics of the stride and lowered until no leg is overstretched. Running: at the top of
+//! its published flexion, smoothed to four harmonics of the stride and lowered wherever a leg, standing or about to strike, would be
+//! overstretched. Running: at the top of
 //! flight the hips fall with g, which at the step's frequency gives the amplitude g/(4π/P)² (3.3 cm at 2.7 steps/s: a drop of 7 cm).
 //! List and rotation have the published shapes (Schwartz et al. 2008, free class). Root frame, metres.
 
@@ -10,17 +11,19 @@ use glam::{DQuat, DVec3};
 use crate::body::{HALF_HIP_M, HEIGHT_M};
 use crate::cadence::Gait;
 use crate::footsteps::leg_phase;
-use crate::legs::{longest_reach_m, reach_m};
+use crate::legs::reach_m;
 use crate::rotation::{about_x, about_y, about_z, wave};
 use crate::swing::Stance;
 
 const GRAVITY_MPS2: f64 = 9.81;
 /// Samples of the stride when fitting the height.
-const SAMPLES: usize = 120;
+pub(crate) const SAMPLES: usize = 120;
 /// Harmonics of the stride in the fitted height.
 const HARMONICS: usize = 4;
-/// Share of a stride over which the height's care passes from the trailing to the leading leg.
-const HANDOVER_SHARE: f64 = 0.06;
+/// The trailing leg's say in the height fades over this share of the stride before the other foot strikes.
+const HANDOVER_SHARE: f64 = 0.05;
+/// Knees are planned to stay flexed by this much at the least (published minima: 3–7°), radians.
+const LEAST_PLANNED_KNEE_RAD: f64 = 4.0 * std::f64::consts::PI / 180.0;
 /// Share of a turn's bank that the pelvis takes; the trunk takes all of it.
 const BANK_SHARE: f64 = 0.5;
 /// Where the published rotation is greatest, share of the stride after the strike of the side that is ahead.
@@ -55,36 +58,32 @@ impl Height {
         height_m
     }
 
-    /// Fits the height to the stances of `[left, right]`.
-    pub(crate) fn fitted(gait: &Gait, stances: &[Stance; 2]) -> Self {
-        let wanted_m: Vec<f64> = (0..SAMPLES).map(|i| wanted_height_m(gait, stances, phase_of(i))).collect();
+    /// The height whose samples come nearest to the wanted ones.
+    pub(crate) fn through(gait: &Gait, wanted_m: &[f64; SAMPLES]) -> Self {
         let mut height = Self { mean_m: mean(wanted_m.iter().copied()), harmonics_m: [[0.0; 2]; HARMONICS] };
         if gait.running {
             height.harmonics_m[1] = flight_harmonic_m(gait);
-        } else {
-            for (index, harmonic) in height.harmonics_m.iter_mut().enumerate() {
-                let against = |shift: f64| {
-                    let angle = |i: usize| (index + 1) as f64 * phase_of(i) - shift;
-                    2.0 * mean(wanted_m.iter().enumerate().map(|(i, z)| z * wave(angle(i))))
-                };
-                *harmonic = [against(0.0), against(0.25)];
-            }
+            return height;
         }
-        height.mean_m -= height.overstretch_m(gait, stances);
+        for (index, harmonic) in height.harmonics_m.iter_mut().enumerate() {
+            let against = |shift: f64| {
+                let angle = |i: usize| (index + 1) as f64 * phase_of(i) - shift;
+                2.0 * mean(wanted_m.iter().enumerate().map(|(i, z)| z * wave(angle(i))))
+            };
+            *harmonic = [against(0.0), against(0.25)];
+        }
         height
     }
 
-    /// By how much the hips are too high for some standing leg, m.
-    fn overstretch_m(&self, gait: &Gait, stances: &[Stance; 2]) -> f64 {
-        let too_high = |i: usize| {
-            let phase = phase_of(i);
-            let highest_m = |side: usize| match standing_phase(gait, phase, side) {
-                Some(p) => highest_hips_m(gait, &stances[side], p, phase, side, longest_reach_m()),
-                None => f64::INFINITY,
-            };
-            self.at_m(phase) - highest_m(0).min(highest_m(1))
-        };
-        (0..SAMPLES).map(too_high).fold(0.0, f64::max)
+    /// By how much the hips are too high for a leg to reach its ankle, m; 0 where it does.
+    pub(crate) fn overstretch_m(&self, gait: &Gait, cycle_phase: f64, side: usize, ankle_m: DVec3) -> f64 {
+        let knee_rad = LEAST_PLANNED_KNEE_RAD;
+        (self.at_m(cycle_phase) - hips_over_m(gait, ankle_m, cycle_phase, side, reach_m(knee_rad))).max(0.0)
+    }
+
+    /// Lowers all of it.
+    pub(crate) fn lower_by_m(&mut self, drop_m: f64) {
+        self.mean_m -= drop_m;
     }
 }
 
@@ -101,6 +100,7 @@ fn level_pose(gait: &Gait, cycle_phase: f64) -> PelvisPose {
     let since_mid_stance = cycle_phase - gait.mid_stance();
     let yaw_rad = -swing.rotation_rad * wave(cycle_phase - ROTATION_PEAK);
     let list_rad = swing.list_rad * list_shape(cycle_phase) - BANK_SHARE * gait.upper_body.bank_rad;
+    // List and bank outermost: about the heading they leave the facing alone.
     let tilt_rad = gait.style.tilt_beyond_standing_deg().to_radians();
     PelvisPose {
         place_m: DVec3::new(
@@ -108,7 +108,7 @@ fn level_pose(gait: &Gait, cycle_phase: f64) -> PelvisPose {
             swing.sway_m * wave(since_mid_stance),
             0.0,
         ),
-        rotation: about_z(yaw_rad) * about_y(tilt_rad) * about_x(list_rad),
+        rotation: about_x(list_rad) * about_z(yaw_rad) * about_y(tilt_rad),
         yaw_rad,
     }
 }
@@ -124,25 +124,28 @@ pub(crate) fn hip_m(pelvis: &PelvisPose, side: usize) -> DVec3 {
     pelvis.place_m + pelvis.rotation * DVec3::new(0.0, outward, 0.0)
 }
 
-/// Height at which the standing knees have their published flexion, m.
+/// Heights over the stride at which the standing knees would have their published flexion, m.
+pub(crate) fn wanted_heights_m(gait: &Gait, stances: &[Stance; 2]) -> [f64; SAMPLES] {
+    std::array::from_fn(|sample| wanted_height_m(gait, stances, phase_of(sample)))
+}
+
 fn wanted_height_m(gait: &Gait, stances: &[Stance; 2], cycle_phase: f64) -> f64 {
     let (mut sum, mut weights) = (0.0, 0.0);
     for (side, stance) in stances.iter().enumerate() {
         let Some(p) = standing_phase(gait, cycle_phase, side) else { continue };
         let knee_rad = gait.style.flexion(p, gait.toe_off).knee_deg.to_radians();
         let until_other = if gait.running { gait.toe_off } else { 0.5 };
-        let weight = ((p + HANDOVER_SHARE) / HANDOVER_SHARE).min((until_other + HANDOVER_SHARE - p) / HANDOVER_SHARE);
+        let weight = (until_other - p) / HANDOVER_SHARE;
         let weight = weight.clamp(0.0, 1.0) + 1e-6;
-        sum += weight * highest_hips_m(gait, stance, p, cycle_phase, side, reach_m(knee_rad));
+        sum += weight * hips_over_m(gait, stance.foot(p).ankle_m, cycle_phase, side, reach_m(knee_rad));
         weights += weight;
     }
     if weights > 0.0 { sum / weights } else { 0.53 * HEIGHT_M }
 }
 
-/// Height of the hips' midpoint at which a standing leg spans `reach_m`.
-fn highest_hips_m(gait: &Gait, stance: &Stance, p: f64, cycle_phase: f64, side: usize, reach_m: f64) -> f64 {
+/// Height of the hips' midpoint at which a leg spans `reach_m`.
+fn hips_over_m(gait: &Gait, ankle_m: DVec3, cycle_phase: f64, side: usize, reach_m: f64) -> f64 {
     let hip_m = hip_m(&level_pose(gait, cycle_phase), side);
-    let ankle_m = stance.foot(p).ankle_m;
     let aside_squared = (hip_m - ankle_m).truncate().length_squared();
     ankle_m.z + libm::sqrt((reach_m * reach_m - aside_squared).max(0.0)) - hip_m.z
 }
@@ -161,7 +164,8 @@ fn flight_harmonic_m(gait: &Gait) -> [f64; 2] {
     [-amplitude_m * wave(angle), -amplitude_m * wave(angle - 0.25)]
 }
 
-fn phase_of(sample: usize) -> f64 {
+/// Cycle phase of a sample.
+pub(crate) fn phase_of(sample: usize) -> f64 {
     sample as f64 / SAMPLES as f64
 }
 

@@ -81,8 +81,8 @@ pub(crate) fn in_gait(gait: &Gait, cycle_phase: f64) -> UpperBody {
 impl UpperBody {
     /// Writes the joints from spine to hands.
     pub(crate) fn write(&self, pelvis: &PelvisPose, rotations: &mut [DQuat; JOINT_COUNT]) {
-        let chest = about_z(self.chest_yaw_rad) * about_y(self.chest_pitch_rad) * about_x(self.chest_roll_rad);
-        let head = about_z(self.head_yaw_rad) * about_y(GAZE_DOWN_RAD) * about_x(self.head_roll_rad);
+        let chest = about_x(self.chest_roll_rad) * about_z(self.chest_yaw_rad) * about_y(self.chest_pitch_rad);
+        let head = about_x(self.head_roll_rad) * about_z(self.head_yaw_rad) * about_y(GAZE_DOWN_RAD);
         let spine = share_of(pelvis.rotation.inverse() * chest, 1.0 / 3.0);
         rotations[SPINE..=CHEST].fill(spine);
         rotations[NECK..=HEAD].fill(share_of(chest.inverse() * head, 0.5));
