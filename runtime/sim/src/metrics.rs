@@ -1,6 +1,6 @@
 //! What a recording shows in numbers (`FbCrowd` App. 11; `definitions.md`, "measure"), streamed: two frames at a time.
 //!
-//! Collisions stand in [`collision_rate`](crate::collision_rate), accelerations, arrivals and tracking in [`progress`](crate::progress),
+//! Collisions stand in [`collision_rate`](crate::collision_rate), accelerations, arrivals and tracking in [`root_measures`](crate::root_measures),
 //! foot slide in [`planted_slide`](crate::planted_slide). Positions are those of the root as synthesised.
 
 use std::io::{self, Write};
@@ -10,10 +10,10 @@ use serde::Serialize;
 
 use crate::collision_rate::Collisions;
 use crate::planted_slide::PlantedSlide;
-use crate::progress::Progress;
 use crate::recording::Recording;
 use crate::recording_error::RecordingError;
 use crate::recording_frame::AgentFrame;
+use crate::root_measures::RootMeasures;
 
 /// The figures of one recording, under the names of `measure --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -56,13 +56,13 @@ pub fn measure(recording: &Recording) -> Result<Measures, RecordingError> {
     let (mut before, mut after) = (Vec::new(), Vec::new());
     recording.read_frame(0, &mut before)?;
     let mut collisions = Collisions::new(agents.iter().map(|agent| agent.radius_m));
-    let mut progress = Progress::new(agents, &before, dt_s);
+    let mut roots = RootMeasures::new(agents, &before, dt_s);
     let mut slide = PlantedSlide::new(&recording.header().skeleton, agents.len(), dt_s);
     slide.push(&before);
     for frame in 1..recording.frame_count() {
         recording.read_frame(frame, &mut after)?;
         collisions.push(&roots_m(&before), &roots_m(&after));
-        progress.push(&before, &after);
+        roots.push(&before, &after);
         slide.push(&after);
         std::mem::swap(&mut before, &mut after);
     }
@@ -72,15 +72,15 @@ pub fn measure(recording: &Recording) -> Result<Measures, RecordingError> {
         steps,
         dt_s,
         collision_rate: collisions.rate(steps),
-        mean_acceleration_mps2: progress.mean_acceleration_mps2(),
-        mean_acceleration_before_arrival_mps2: progress.mean_acceleration_before_arrival_mps2(),
-        arrived: progress.arrived(),
-        stalled: progress.stalled(),
-        mean_time_to_goal_s: progress.mean_time_to_goal_s(),
+        mean_acceleration_mps2: roots.mean_acceleration_mps2(),
+        mean_acceleration_before_arrival_mps2: roots.mean_acceleration_before_arrival_mps2(),
+        arrived: roots.arrived(),
+        stalled: roots.stalled(),
+        mean_time_to_goal_s: roots.mean_time_to_goal_s(),
         planted_slide_cm_s: slide.slide_cm_s,
         examples_slide_cm_s: slide.examples_slide_cm_s,
         planted_share: slide.planted_share,
-        root_tracking_error_m: progress.root_tracking_error_m(),
+        root_tracking_error_m: roots.root_tracking_error_m(),
     })
 }
 

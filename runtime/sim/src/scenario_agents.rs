@@ -2,9 +2,9 @@
 //!
 //! | kind | its goals |
 //! |---|---|
-//! | `at_m = [x, y]` | `goals_m`, waypoints in order |
+//! | `at_m = [x, y]` | `goals_m`, waypoints in order; then, where given, the start plus `goal_offset_m` |
 //! | `circle = { count, radius_m, centre_m }` | the opposite place on the circle, exactly |
-//! | `grid = { columns, rows, spacing_m, centre_m, jitter_m }` | `goals_m`, the same for all, or `goal_offset_m` from each one's place |
+//! | `grid = { columns, rows, spacing_m, centre_m, jitter_m }` | the same: `goals_m` for all alike, `goal_offset_m` from each one's own start |
 //! | `file = "x.txt"` | lines `x y goal_x goal_y`, `#` begins a comment |
 
 use std::f64::consts::TAU;
@@ -86,30 +86,12 @@ impl TryFrom<Vec<f32>> for Point {
 /// What a table stands for.
 #[derive(Debug)]
 pub(crate) enum Kind<'a> {
-    /// One agent and its waypoints.
-    Single(Vec2, Vec<Vec2>),
+    /// Where one agent starts.
+    Single(Vec2),
     Circle(&'a Circle),
-    Grid(&'a Grid, Goals),
+    Grid(&'a Grid),
     /// The name of a file of lines.
     File(&'a Spanned<String>),
-}
-
-/// Where the agents of a grid go.
-#[derive(Debug)]
-pub(crate) enum Goals {
-    /// The same waypoints for all.
-    Shared(Vec<Vec2>),
-    /// One goal, relative to each agent's start.
-    Offset(Vec2),
-}
-
-impl Goals {
-    fn from(&self, place_m: Vec2) -> Vec<Vec2> {
-        match self {
-            Self::Shared(goals_m) => goals_m.clone(),
-            Self::Offset(offset_m) => vec![place_m + offset_m],
-        }
-    }
 }
 
 /// Where an agent starts and where it goes.
@@ -130,9 +112,9 @@ impl Group {
     /// What the table stands for, if it is of exactly one kind and says where its agents go.
     pub(crate) fn kind(&self) -> Result<Kind<'_>, Complaint> {
         match (self.at_m, &self.circle, &self.grid, &self.file) {
-            (Some(Point(at_m)), None, None, None) => self.single(at_m),
+            (Some(Point(at_m)), None, None, None) => self.with_goals(Kind::Single(at_m)),
             (None, Some(circle), None, None) => self.without_goals(Kind::Circle(circle)),
-            (None, None, Some(grid), None) => Ok(Kind::Grid(grid, self.goals()?)),
+            (None, None, Some(grid), None) => self.with_goals(Kind::Grid(grid)),
             (None, None, None, Some(file)) => self.without_goals(Kind::File(file)),
             _ => {
                 let message = "agents need exactly one of `at_m`, `circle`, `grid` and `file`";
@@ -141,13 +123,12 @@ impl Group {
         }
     }
 
-    fn single(&self, at_m: Vec2) -> Result<Kind<'_>, Complaint> {
-        match self.goals() {
-            Ok(Goals::Shared(goals_m)) => Ok(Kind::Single(at_m, goals_m)),
-            _ => {
-                Err(("an agent with `at_m` needs `goals_m`".into(), "add `goals_m = [[x, y]]`, and no `goal_offset_m`"))
-            }
+    fn with_goals<'a>(&self, kind: Kind<'a>) -> Result<Kind<'a>, Complaint> {
+        if self.goal_offset_m.is_some() || self.goals_m.as_ref().is_some_and(|goals_m| !goals_m.is_empty()) {
+            return Ok(kind);
         }
+        let message = "agents of `at_m` or `grid` need to be told where to go";
+        Err((message.into(), "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both"))
     }
 
     fn without_goals<'a>(&self, kind: Kind<'a>) -> Result<Kind<'a>, Complaint> {
@@ -158,12 +139,11 @@ impl Group {
         Err((message.into(), "remove `goals_m` and `goal_offset_m`"))
     }
 
-    fn goals(&self) -> Result<Goals, Complaint> {
-        match (&self.goals_m, self.goal_offset_m) {
-            (Some(goals_m), None) => Ok(Goals::Shared(goals_m.iter().map(|&Point(goal_m)| goal_m).collect())),
-            (None, Some(Point(offset_m))) => Ok(Goals::Offset(offset_m)),
-            _ => Err(("a grid needs either `goals_m` or `goal_offset_m`".into(), "give one of the two")),
-        }
+    /// From a start to the goals that the table names.
+    pub(crate) fn journey(&self, start_m: Vec2) -> Journey {
+        let shared_m = self.goals_m.iter().flatten().map(|&Point(goal_m)| goal_m);
+        let own_m = self.goal_offset_m.map(|Point(offset_m)| start_m + offset_m);
+        (start_m, shared_m.chain(own_m).collect())
     }
 
     /// With all that the table says of its agents besides their journeys.
@@ -195,7 +175,7 @@ impl Circle {
 
 impl Grid {
     /// Row by row, from the lower left; the jitter is uniform in a square of ± `jitter_m`.
-    pub(crate) fn journeys(&self, goals: &Goals, mut random: SplitMix64) -> Result<Vec<Journey>, Complaint> {
+    pub(crate) fn places_m(&self, mut random: SplitMix64) -> Result<Vec<Vec2>, Complaint> {
         let count = check_count(self.columns.checked_mul(self.rows))?;
         let corner_m = DVec2::from(self.centre_m.0)
             - 0.5 * self.spacing_m * DVec2::new(self.columns as f64 - 1.0, self.rows as f64 - 1.0);
@@ -204,7 +184,7 @@ impl Grid {
             let jitter_m = DVec2::new(random.within(self.jitter_m), random.within(self.jitter_m));
             (corner_m + self.spacing_m * cell + jitter_m).as_vec2()
         };
-        Ok((0..count).map(|index| place_m(index)).map(|place_m| (place_m, goals.from(place_m))).collect())
+        Ok((0..count).map(&mut place_m).collect())
     }
 }
 

@@ -157,9 +157,12 @@ fn journeys(
 ) -> Result<Vec<Journey>, ScenarioError> {
     let complain = |(message, help): Complaint| source.invalid(span.clone(), message, help);
     match group.kind().map_err(complain)? {
-        Kind::Single(at_m, goals_m) => Ok(vec![(at_m, goals_m)]),
+        Kind::Single(at_m) => Ok(vec![group.journey(at_m)]),
         Kind::Circle(circle) => circle.journeys().map_err(complain),
-        Kind::Grid(grid, goals) => grid.journeys(&goals, random).map_err(complain),
+        Kind::Grid(grid) => {
+            let places_m = grid.places_m(random).map_err(complain)?;
+            Ok(places_m.into_iter().map(|place_m| group.journey(place_m)).collect())
+        }
         Kind::File(name) => read_lines(source, name),
     }
 }

@@ -90,6 +90,15 @@ fn a_grid_is_centred_and_its_jitter_follows_the_seed() {
 }
 
 #[test]
+fn shared_waypoints_come_before_each_agents_own_goal() {
+    let grid = "{ columns = 2, rows = 1, spacing_m = 2 }";
+    let agents =
+        scenario("door", &format!("agents = {{ grid = {grid}, goals_m = [[3, 3]], goal_offset_m = [9, 0] }}")).agents;
+    assert_eq!(agents[0].goals_m, [Vec2::new(3.0, 3.0), Vec2::new(8.0, 0.0)]);
+    assert_eq!(agents[1].goals_m, [Vec2::new(3.0, 3.0), Vec2::new(10.0, 0.0)]);
+}
+
+#[test]
 fn obstacles_run_counter_clockwise_whatever_the_file_says() {
     let obstacles =
         |corners: &str| scenario("winding", &format!("{ONE}[[obstacles]]\npolygon_m = {corners}")).obstacles_m;
@@ -163,7 +172,7 @@ fn agents_of_no_kind_or_two_are_refused() {
     let none = "{ goals_m = [[5, 0]] }";
     check_refused("none", &format!("{HEAD}agents = {none}"), none, "exactly one");
     let aimless = "{ at_m = [0, 0] }";
-    check_refused("aimless", &format!("{HEAD}agents = {aimless}"), aimless, "needs `goals_m`");
+    check_refused("aimless", &format!("{HEAD}agents = {aimless}"), aimless, "told where to go");
     let two = "{ at_m = [0, 0], file = \"scene.toml\" }";
     check_refused("two", &format!("{HEAD}agents = {two}"), two, "exactly one");
 }

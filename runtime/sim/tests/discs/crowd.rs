@@ -136,11 +136,12 @@ impl Crowd {
         };
         for agent in 0..self.plans.len() {
             let Disc { position_m, velocity_mps, radius_m } = disc(agent);
-            self.neighbours.nearest(&Query { agent, position_m, velocity_mps, radius_m, range_m: RANGE_M }, &mut nearest);
-            let half_plane = |other: u32| {
-                orca::agent_half_plane(&disc(agent), &disc(other as usize), other, HORIZON_S, dt_s)
-            };
-            let found: Vec<HalfPlane> = nearest.as_slice().iter().map(|neighbour| half_plane(neighbour.agent)).collect();
+            self.neighbours
+                .nearest(&Query { agent, position_m, velocity_mps, radius_m, range_m: RANGE_M }, &mut nearest);
+            let half_plane =
+                |other: u32| orca::agent_half_plane(&disc(agent), &disc(other as usize), other, HORIZON_S, dt_s);
+            let found: Vec<HalfPlane> =
+                nearest.as_slice().iter().map(|neighbour| half_plane(neighbour.agent)).collect();
             let preferred_mps = self.preferred_mps(agent, dt_s);
             let solution = linear_program::solve(&found, preferred_mps, SPEED_MAX_MPS, &mut projected);
             self.plans[agent].velocity_mps = solution.velocity_mps;
@@ -178,7 +179,8 @@ impl Crowd {
     /// Moves everyone; returns Σ PD (Eqs. 16, 17) of the step and adds the accelerations.
     fn advance(&mut self, body: Body, dt_s: f32, accelerations_mps2: &mut f32) -> f32 {
         for (agent, plan) in self.plans.iter().enumerate() {
-            let (velocity_mps, facing_rad) = body.follow(self.velocities_mps[agent], self.facings_rad[agent], plan, dt_s);
+            let (velocity_mps, facing_rad) =
+                body.follow(self.velocities_mps[agent], self.facings_rad[agent], plan, dt_s);
             *accelerations_mps2 += velocity_mps.distance(self.velocities_mps[agent]) / dt_s;
             self.velocities_mps[agent] = velocity_mps;
             self.facings_rad[agent] = facing_rad;

@@ -16,7 +16,7 @@ const STALL_S: f64 = 5.0;
 
 /// Follows every agent, step by step.
 #[derive(Debug)]
-pub struct Progress {
+pub struct RootMeasures {
     dt_s: f64,
     steps: usize,
     walkers: Vec<Walker>,
@@ -53,7 +53,7 @@ impl Mean {
     }
 }
 
-impl Progress {
+impl RootMeasures {
     /// At the start.
     pub fn new(agents: &[AgentSpec], start: &[AgentFrame], dt_s: f32) -> Self {
         let mut walkers: Vec<Walker> = agents.iter().map(Walker::new).collect();

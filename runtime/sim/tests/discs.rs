@@ -1,0 +1,178 @@
+//! Claims about the planner, on discs without bodies: who arrives, how often discs overlap, how smoothly they walk.
+//!
+//! Scenes and protocol of `facts/planning.md` §3, and encounters that deadlock where agents are alike. The body's part is a lag and a
+//! turning rate.
+
+#[path = "discs/crowd.rs"]
+mod crowd;
+
+use std::f32::consts::TAU;
+
+use fbcrowd_sim::mcn::params::McnParams;
+use fbcrowd_sim::obstacles::Obstacles;
+use glam::Vec2;
+use motiondb::velocity_hull::VelocityHull;
+
+use crate::crowd::{Body, Crowd, Figures, Planner, RADIUS_M, read_scene};
+
+const DT_S: f32 = 1.0 / 30.0;
+/// A walker's: a third of a second to a new velocity, a right angle in three quarters.
+const BODY: Body = Body::Lagging(0.3, 2.0);
+
+/// What a modest set of clips allows.
+fn hull() -> VelocityHull {
+    let corners = |corners: &[[f32; 2]]| corners.iter().copied().map(Vec2::from).collect::<Vec<Vec2>>();
+    let left = corners(&[[-0.1, 0.1], [0.0, 0.7]]);
+    let right = corners(&[[0.0, -0.7], [-0.1, -0.1]]);
+    VelocityHull {
+        turning_mps: corners(&[
+            [1.9, 0.0],
+            [1.2, -1.0],
+            [0.0, -0.7],
+            [-0.4, -0.1],
+            [-0.4, 0.1],
+            [0.0, 0.7],
+            [1.2, 1.0],
+        ]),
+        holding_mps: corners(&[[1.9, 0.0], [0.0, -0.8], [-0.8, 0.0], [0.0, 0.8]]),
+        sharp_turn_edges_mps: vec![[left[0], left[1]], [right[0], right[1]]],
+    }
+}
+
+/// The whole planner with its default tunables.
+fn simulate(agents: &[(Vec2, Vec2)], obstacles: &Obstacles, duration_s: f32) -> Figures {
+    let (params, hull) = (McnParams::default(), hull());
+    Crowd::new(agents).run(&Planner::Mcn(&params, &hull, obstacles), BODY, DT_S, duration_s)
+}
+
+fn report(name: &str, figures: &Figures) {
+    println!(
+        "{name}: C {:.4}, A {:.2} m/s², arrived {} after {:.1} s, stalled {}, {:.1} µs per agent-step",
+        figures.collisions,
+        figures.acceleration_mps2,
+        figures.arrived,
+        figures.mean_arrival_s,
+        figures.stalled,
+        figures.planning_us
+    );
+}
+
+/// Everybody arrives, nobody stalls, and discs overlap on average by less than `collisions` (Eq. 17).
+fn check(name: &str, agents: &[(Vec2, Vec2)], obstacles: &Obstacles, collisions: f32) -> Figures {
+    let figures = simulate(agents, obstacles, 60.0);
+    report(name, &figures);
+    assert_eq!(figures.arrived, agents.len(), "{name}: not all arrive");
+    assert_eq!(figures.stalled, 0, "{name}: some stall");
+    assert!(figures.collisions <= collisions, "{name}: C = {}", figures.collisions);
+    figures
+}
+
+fn check_scenes(names: &[&str], collisions: f32) {
+    for name in names {
+        match read_scene(name) {
+            Some(agents) => drop(check(name, &agents, &Obstacles::default(), collisions)),
+            None => println!("SKIPPED {name}: no such scene in /work/shared/bench/scenes"),
+        }
+    }
+}
+
+fn antipodal(count: usize, radius_m: f32) -> Vec<(Vec2, Vec2)> {
+    let place = |index: usize| {
+        let (sin, cos) = libm::sincosf(TAU * index as f32 / count as f32);
+        radius_m * Vec2::new(cos, sin)
+    };
+    (0..count).map(|index| (place(index), -place(index))).collect()
+}
+
+fn rectangle(least: [f32; 2], most: [f32; 2]) -> Vec<Vec2> {
+    [[least[0], least[1]], [most[0], least[1]], [most[0], most[1]], [least[0], most[1]]].map(Vec2::from).to_vec()
+}
+
+#[test]
+fn everybody_crosses_the_antipodal_circle() {
+    check_scenes(&["circle_17.txt", "circle_17_s1.txt", "circle_17_s2.txt"], 0.001);
+}
+
+#[test]
+fn everybody_crosses_in_two_and_four_directions() {
+    check_scenes(&["cross2_30_s1.txt", "bidir_53_s1.txt", "bidir_53_s2.txt", "cross4_100_s1.txt"], 0.003);
+}
+
+#[test]
+fn symmetric_encounters_resolve() {
+    let none = Obstacles::default();
+    check("two head-on", &antipodal(2, 4.0), &none, 0.0);
+    check("four in a cross", &antipodal(4, 4.0), &none, 0.001);
+    check("a circle of 17", &antipodal(17, 4.06), &none, 0.001);
+}
+
+#[test]
+fn opposing_walkers_pass_on_the_right() {
+    let figures = simulate(&antipodal(2, 4.0), &Obstacles::default(), 60.0);
+    let lowest_m = figures.trails_m.iter().map(|step| step[1].y).fold(0.0, f32::max);
+    let highest_m = figures.trails_m.iter().map(|step| step[0].y).fold(0.0, f32::max);
+    // Agent 0 walks towards −x, so its right is +y.
+    assert!(highest_m > 0.1 && lowest_m < 0.1, "{highest_m} {lowest_m}");
+}
+
+#[test]
+fn streams_pass_a_corridor_and_a_door_without_entering_walls() {
+    let corridor = Obstacles::new(&[rectangle([-8.0, 1.5], [8.0, 2.0]), rectangle([-8.0, -2.0], [8.0, -1.5])]);
+    let opposed = |row: usize, side: f32| {
+        let start = Vec2::new(side * (4.0 + 1.2 * (row / 3) as f32), 0.8 * (row % 3) as f32 - 0.8);
+        (start, start * Vec2::new(-1.0, 1.0))
+    };
+    let both: Vec<(Vec2, Vec2)> = (0..9).flat_map(|row| [opposed(row, 1.0), opposed(row, -1.0)]).collect();
+    let door = Obstacles::new(&[rectangle([-0.2, 0.5], [0.2, 6.0]), rectangle([-0.2, -6.0], [0.2, -0.5])]);
+    let one_way: Vec<(Vec2, Vec2)> = (0..16).map(|row| (-opposed(row, 1.0).0, Vec2::new(4.0, 0.0))).collect();
+    // Those who share a goal wait for it, so the way to the door's far side is what is asked.
+    let spread =
+        |(index, (from, to)): (usize, &(Vec2, Vec2))| (*from, *to + Vec2::new(1.2 * (index / 4) as f32, from.y));
+    let one_way: Vec<(Vec2, Vec2)> = one_way.iter().enumerate().map(spread).collect();
+    for (name, agents, walls) in [("corridor", both, corridor), ("door", one_way, door)] {
+        let figures = check(name, &agents, &walls, 0.01);
+        for position_m in figures.trails_m.iter().flatten() {
+            let pushed_m = walls.clamp_outside(*position_m, RADIUS_M).distance(*position_m);
+            assert!(pushed_m < 0.1, "{name}: {position_m} lies {pushed_m} m in a wall");
+        }
+    }
+}
+
+#[test]
+fn orca_alone_stays_within_the_figures_of_rvo2() {
+    // Mean and spread of the accelerations of `facts/planning.md` §3.
+    for (scene, mean_mps2, spread_mps2) in
+        [("cross2_30", 0.31, 0.13), ("bidir_53", 0.35, 0.10), ("cross4_100", 0.36, 0.04)]
+    {
+        let figures: Vec<Figures> = (1..=5)
+            .filter_map(|seed| read_scene(&format!("{scene}_s{seed}.txt")))
+            .map(|agents| Crowd::new(&agents).run(&Planner::Orca, Body::Ideal, 0.1, 60.0))
+            .inspect(|figures| report(scene, figures))
+            .collect();
+        if figures.is_empty() {
+            println!("SKIPPED {scene}: no such scene in /work/shared/bench/scenes");
+            continue;
+        }
+        let mean = |value: fn(&Figures) -> f32| figures.iter().map(value).sum::<f32>() / figures.len() as f32;
+        let (collisions, acceleration_mps2) = (mean(|run| run.collisions), mean(|run| run.acceleration_mps2));
+        println!("{scene}: mean C {collisions:.4}, mean A {acceleration_mps2:.2} m/s²");
+        assert!(collisions < 0.001, "{scene}: C = {collisions}");
+        assert!(acceleration_mps2 < mean_mps2 + 2.0 * spread_mps2, "{scene}: A = {acceleration_mps2}");
+    }
+}
+
+#[test]
+fn a_thousand_in_a_disc_go_on_walking() {
+    let Some(agents) = read_scene("disc_1000.txt") else {
+        println!("SKIPPED disc_1000.txt: no such scene in /work/shared/bench/scenes");
+        return;
+    };
+    let figures = simulate(&agents, &Obstacles::default(), 15.0);
+    report("disc_1000", &figures);
+    let advanced = |index: usize| {
+        let last_m = figures.trails_m[figures.trails_m.len() - 1][index];
+        agents[index].0.distance(agents[index].1) - last_m.distance(agents[index].1)
+    };
+    let mean_m = (0..agents.len()).map(advanced).sum::<f32>() / agents.len() as f32;
+    assert!(figures.collisions < 0.01 && mean_m > 5.0, "C = {}, {mean_m} m", figures.collisions);
+}
