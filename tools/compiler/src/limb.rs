@@ -1,7 +1,7 @@
 //! Limbs of a source skeleton: pairs of chains, mirrored about the trunk, with two long bones each and a joint between.
 //!
-//! For a fork, every pair of children is tried; each child's chain is its longest path to a leaf. Along the chain, the two bones are the
-//! longest triple i < j < k whose lengths are of like size and that skips only joints lying on the bones themselves (twist bones,
+//! For a fork, every pair of children is tried; each child's chain is its longest path to a leaf. Along both chains alike, the two bones are
+//! the longest triple i < j < k whose lengths are of like size and that skips only joints lying on the bones themselves (twist bones,
 //! zero-length helpers). Names weigh in, so that an unnamed skeleton is found by its shape and a named one in a stiff pose by its words.
 
 use glam::DVec3;
@@ -11,14 +11,20 @@ use crate::source_clip::SourceClip;
 
 /// Frames that geometry is judged on, spread over the clip.
 const SAMPLES: usize = 48;
-/// Shank over thigh, forearm over upper arm: human 0.8–1.2, dwarfish rigs wider.
-const BONE_RATIO: std::ops::RangeInclusive<f64> = 0.5..=1.75;
+/// Shank over thigh, forearm over upper arm: human 0.8–1.2, drawn characters up to 2.4 (`RobotExpressive.glb`).
+const BONE_RATIO: std::ops::RangeInclusive<f64> = 0.45..=2.6;
 /// How far a skipped joint may lie off its bone, over the bone's length.
 const SKIPPED_OFF_BONE: f64 = 0.08;
 /// How much two sides may differ in length (CMU's captured legs: 4 %).
 const SIDES_DIFFER: f64 = 0.15;
 /// Weight of a name that says this part; one that says another; a helper's.
 const NAME_WEIGHTS: [f64; 3] = [1.25, 0.6, 0.4];
+/// How much the distance from the knee to a foot outside the leg's chain may vary, over its mean.
+const PARTED_FOOT_LOOSENESS: f64 = 0.12;
+/// The depths of a limb that is on no chain.
+const PARTED: [usize; 3] = [0; 3];
+/// Weight of passing over a joint that is named as a part of a limb: not a twist bone (Bandai's `UpperArm` beside `Shoulder`).
+const SKIPPED_PART_WEIGHT: f64 = 0.5;
 
 /// A skeleton with what role finding asks of it again and again.
 pub(crate) struct Shape<'a> {
@@ -32,6 +38,8 @@ pub(crate) struct Shape<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct Limb {
     pub joints: [usize; 3],
+    /// Places on the chain; both sides of a pair have the same.
+    depths: [usize; 3],
     pub length: f64,
     pub score: f64,
 }
@@ -142,25 +150,60 @@ impl<'a> Shape<'a> {
         }
     }
 
+    fn skipped_weight(&self, chain: &[usize], joints: [usize; 3]) -> f64 {
+        let names_a_part = |joint: usize| {
+            let parts = &self.hints[joint].parts;
+            !parts.is_empty() && !parts.contains(&Part::Helper)
+        };
+        let skipped = chain.iter().filter(|joint| !joints.contains(joint) && names_a_part(**joint));
+        skipped.map(|_| SKIPPED_PART_WEIGHT).product()
+    }
+
     /// The limb pair that best fits three parts, among forks and children that `allowed` lets through.
     pub(crate) fn best_pair(&self, parts: [Part; 3], allowed: impl Fn(usize) -> bool) -> Option<LimbPair> {
         let mut best: Option<LimbPair> = None;
-        for fork in 0..self.children.len() {
-            let limbs: Vec<Limb> = self.children[fork]
+        for fork in (0..self.children.len()).filter(|&fork| self.children[fork].len() > 1) {
+            let branches: Vec<Vec<Limb>> = self.children[fork]
                 .iter()
-                .filter(|&&child| self.children[fork].len() > 1 && allowed(child))
-                .filter_map(|&child| self.limb(&self.chain(child), parts))
+                .filter(|&&child| allowed(child))
+                .map(|&child| self.limbs(child, parts))
                 .collect();
-            for (index, first) in limbs.iter().enumerate() {
-                for second in &limbs[index + 1..] {
-                    let pair = LimbPair { fork, limbs: [first.clone(), second.clone()] };
-                    if self.mirrored(&pair) && best.as_ref().is_none_or(|best| pair.score() > best.score()) {
-                        best = Some(pair);
+            for (index, first) in branches.iter().enumerate() {
+                for second in branches[index + 1..].iter().flatten() {
+                    for first in first.iter().filter(|first| first.depths == second.depths) {
+                        let pair = LimbPair { fork, limbs: [first.clone(), second.clone()] };
+                        // Of joints in one place the last carries the bend: a tie goes to it.
+                        let better = best.as_ref().is_none_or(|best| pair.score() >= best.score() * (1.0 - 1e-6));
+                        if better && self.mirrored(&pair) {
+                            best = Some(pair);
+                        }
                     }
                 }
             }
         }
         best
+    }
+
+    /// A leg whose foot is no child of its shank: some rigs hang the feet, as targets of their leg IK, from the root
+    /// (`RobotExpressive.glb`). Found by name and side, and by the knee's constant distance.
+    fn limb_with_parted_foot(&self, thigh: usize, parts: [Part; 3]) -> Option<Limb> {
+        let [first, second, last] = parts;
+        let shank = *self.children[thigh].iter().find(|&&joint| self.hints[joint].parts == [second])?;
+        if last != Part::Foot || !self.says(thigh, first) {
+            return None;
+        }
+        let inside = self.subtree(thigh);
+        let is_foot = |&joint: &usize| {
+            self.hints[joint].parts == [last]
+                && self.hints[joint].side == self.hints[shank].side
+                && !inside.contains(&joint)
+                && self.looseness(shank, joint) < PARTED_FOOT_LOOSENESS
+        };
+        let foot = (0..self.children.len()).find(is_foot)?;
+        let length = self.distance(thigh, shank) + self.distance(shank, foot);
+        let names: f64 =
+            [thigh, shank, foot].iter().zip(parts).map(|(&joint, part)| self.name_weight(joint, part)).product();
+        Some(Limb { joints: [thigh, shank, foot], depths: PARTED, length, score: length * names })
     }
 
     fn mirrored(&self, pair: &LimbPair) -> bool {
@@ -170,31 +213,29 @@ impl<'a> Shape<'a> {
         alike && (sides == [None, None] || (sides[0] != sides[1] && sides.iter().all(Option::is_some)))
     }
 
-    /// The best i < j < k on a chain.
-    fn limb(&self, chain: &[usize], parts: [Part; 3]) -> Option<Limb> {
-        let mut best: Option<Limb> = None;
+    /// Every i < j < k on a child's chain that could be a limb.
+    fn limbs(&self, child: usize, parts: [Part; 3]) -> Vec<Limb> {
+        let chain = self.chain(child);
+        let mut limbs = Vec::from_iter(self.limb_with_parted_foot(child, parts));
         for end in 2..chain.len() {
             for middle in 1..end {
-                for start in 0..middle {
-                    let joints = [chain[start], chain[middle], chain[end]];
-                    let bones = [self.distance(joints[0], joints[1]), self.distance(joints[1], joints[2])];
-                    let ratio = bones[1] / bones[0].max(1e-12);
-                    let names: f64 =
-                        joints.iter().zip(parts).map(|(&joint, part)| self.name_weight(joint, part)).product();
-                    let score = (bones[0] + bones[1]) * names;
-                    // Of joints in one place the last carries the bend: a tie goes to it.
-                    let better = best.as_ref().is_none_or(|best| score >= best.score * (1.0 - 1e-6));
-                    if better
-                        && BONE_RATIO.contains(&ratio)
-                        && self.skips_only_bone(&chain[start..=middle])
-                        && self.skips_only_bone(&chain[middle..=end])
-                    {
-                        best = Some(Limb { joints, length: bones[0] + bones[1], score });
-                    }
-                }
+                limbs.extend((0..middle).filter_map(|start| self.limb(&chain, [start, middle, end], parts)));
             }
         }
-        best
+        limbs
+    }
+
+    fn limb(&self, chain: &[usize], depths: [usize; 3], parts: [Part; 3]) -> Option<Limb> {
+        let joints = depths.map(|depth| chain[depth]);
+        let bones = [self.distance(joints[0], joints[1]), self.distance(joints[1], joints[2])];
+        let [start, middle, end] = depths;
+        let fits = BONE_RATIO.contains(&(bones[1] / bones[0].max(1e-12)))
+            && self.skips_only_bone(&chain[start..=middle])
+            && self.skips_only_bone(&chain[middle..=end]);
+        let names: f64 = joints.iter().zip(parts).map(|(&joint, part)| self.name_weight(joint, part)).product();
+        let length = bones[0] + bones[1];
+        let score = length * names * self.skipped_weight(&chain[start..=end], joints);
+        fits.then_some(Limb { joints, depths, length, score })
     }
 
     /// Whether all joints between the two ends lie on the line between them in every sampled frame.

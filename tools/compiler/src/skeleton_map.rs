@@ -13,9 +13,11 @@ use crate::joint_names::Part;
 use crate::limb::{Limb, LimbPair, Shape};
 use crate::source_clip::SourceClip;
 
-/// Least mean cosine between legs (ankles → hips) and trunk (hips → shoulders). Standing and running people 0.8–1, deep crouches 0.5; dogs
-/// and foxes about 0.
-const UPRIGHT_COSINE: f64 = 0.35;
+/// Least mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders). People walk and run at 0.9–1, crouch
+/// and bow at 0.64; a fox walks at 0.1 and gallops at 0.28.
+const UPRIGHT_COSINE: f64 = 0.45;
+/// The shortest arms, over the legs (people 0.65): what is shorter is a pair of fingers.
+const ARM_OVER_LEG: f64 = 0.25;
 /// A toe joint is at least this share of the shank away from the ankle.
 const TOE_DISTANCE: f64 = 0.12;
 /// Knees and elbows are bones' ends: their bones' lengths vary less than this (translating knees of `misc/ezgi_walk1`: 5 %).
@@ -80,8 +82,9 @@ fn find_arms(shape: &Shape, legs: &LimbPair) -> Result<LimbPair, Refusal> {
     let taken: Vec<usize> = legs.limbs.iter().flat_map(|limb| shape.subtree(limb.joints[0])).collect();
     let above: Vec<usize> = legs.limbs.iter().flat_map(|limb| shape.ancestors(limb.joints[0])).collect();
     let free = |joint: usize| !taken.contains(&joint) && !above.contains(&joint);
-    shape.best_pair([Part::UpperArm, Part::Forearm, Part::Hand], free).ok_or_else(|| Refusal::NoArms {
-        reason: "no two mirrored limbs with shoulder, elbow and wrist beside the legs".to_owned(),
+    let long_enough = |pair: &LimbPair| pair.limbs[0].length >= ARM_OVER_LEG * legs.limbs[0].length;
+    shape.best_pair([Part::UpperArm, Part::Forearm, Part::Hand], free).filter(long_enough).ok_or_else(|| {
+        Refusal::NoArms { reason: "no two mirrored limbs with shoulder, elbow and wrist beside the legs".to_owned() }
     })
 }
 
@@ -91,11 +94,12 @@ fn middle(shape: &Shape, frame: usize, pair: &LimbPair, bone: usize) -> DVec3 {
 }
 
 fn check_upright(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> Result<(), Refusal> {
+    let tips = legs.limbs.each_ref().map(|limb| shape.chain(limb.joints[2]).last().copied().unwrap_or(limb.joints[2]));
+    let toes = |frame: usize| 0.5 * tips.map(|tip| shape.clip.position(frame, tip)).into_iter().sum::<DVec3>();
+    let legs_up = shape.mean_vector(|frame| middle(shape, frame, legs, 0) - toes(frame));
     let cosine = shape.mean(|frame| {
-        let hips = middle(shape, frame, legs, 0);
-        let leg = hips - middle(shape, frame, legs, 2);
-        let trunk = middle(shape, frame, arms, 0) - hips;
-        leg.normalize_or_zero().dot(trunk.normalize_or_zero())
+        let trunk = middle(shape, frame, arms, 0) - middle(shape, frame, legs, 0);
+        legs_up.normalize_or_zero().dot(trunk.normalize_or_zero())
     });
     if cosine < UPRIGHT_COSINE {
         let degrees = cosine.clamp(-1.0, 1.0).acos().to_degrees();
