@@ -16,6 +16,8 @@ const SPEED_MAX_MPS: f64 = 0.25;
 const SPEED_MAX_SHARE: f64 = 0.15;
 /// A point's planted height is this percentile of its heights (`definitions.md`).
 const PLANTED_PERCENTILE: f64 = 0.05;
+/// It is found anew over this time: longer than a stride, so that every window holds a stance.
+const FLOOR_WINDOW_S: f64 = 1.6;
 /// Speeds are taken over ± this time, so that noise weighs the same at 24 and at 120 frames a second: one frame at 30.
 const SPEED_SPAN_S: f64 = 1.0 / 30.0;
 /// A shorter touch is noise, then a shorter lift (swings last 0.3 s and more); what is still shorter is not a step (`definitions.md`), seconds.
@@ -33,30 +35,49 @@ pub fn contact_points_m(joints: &HumanJoints, body: &HumanBody, side: usize) -> 
     [joints.positions_m[foot], joints.positions_m[toe], toe_end]
 }
 
-/// Which of a foot's three points is the lowest over its planted height, frame by frame, and how high it is.
-pub fn lowest_points(feet: &[[DVec3; 3]]) -> Vec<(usize, f64)> {
-    let planted: [f64; 3] = std::array::from_fn(|point| {
-        let mut heights: Vec<f64> = feet.iter().map(|foot| foot[point].z).collect();
-        percentile(&mut heights, PLANTED_PERCENTILE)
-    });
-    let height = |foot: &[DVec3; 3], point: usize| foot[point].z - planted[point];
+/// Which of a foot's three points is the lowest over its planted height, frame by frame, and how high it is. Planted heights are taken over
+/// `window` frames about each frame: the floor of a capture may slope.
+pub fn lowest_points(feet: &[[DVec3; 3]], window: usize) -> Vec<(usize, f64)> {
+    let planted = [0, 1, 2].map(|point| planted_heights_m(feet, point, window));
     let lower = |a: (usize, f64), b: (usize, f64)| if b.1 < a.1 { b } else { a };
-    feet.iter()
-        .map(|foot| (1..3).fold((0, height(foot, 0)), |lowest, point| lower(lowest, (point, height(foot, point)))))
+    (0..feet.len())
+        .map(|frame| {
+            let height = |point: usize| (point, feet[frame][point].z - planted[point][frame]);
+            lower(lower(height(0), height(1)), height(2))
+        })
         .collect()
 }
 
+/// Height at which a point is planted about each frame.
+fn planted_heights_m(feet: &[[DVec3; 3]], point: usize, window: usize) -> Vec<f64> {
+    let window = window.clamp(1, feet.len());
+    let mut heights = Vec::with_capacity(window);
+    let percentiles: Vec<f64> = feet
+        .windows(window)
+        .map(|near| {
+            heights.clear();
+            heights.extend(near.iter().map(|foot| foot[point].z));
+            percentile(&mut heights, PLANTED_PERCENTILE)
+        })
+        .collect();
+    let of_frame = |frame: usize| percentiles[frame.saturating_sub(window / 2).min(percentiles.len() - 1)];
+    (0..feet.len()).map(of_frame).collect()
+}
+
 /// Planted or not, frame by frame, of one foot.
-pub fn planted(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64) -> Vec<bool> {
-    let speed_max_mps = SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps;
+///
+/// `lenience` multiplies both limits: 1 is the definition, more finds the steps of noisy clips.
+pub fn planted(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64, lenience: f64) -> Vec<bool> {
+    let speed_max_mps = lenience * (SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps);
+    let window = (FLOOR_WINDOW_S * frame_rate_hz) as usize;
     let span = ((SPEED_SPAN_S * frame_rate_hz + 0.5) as usize).max(1);
-    let mut planted: Vec<bool> = lowest_points(feet)
+    let mut planted: Vec<bool> = lowest_points(feet, window)
         .iter()
         .enumerate()
         .map(|(frame, &(point, height_m))| {
             let (before, after) = (frame.saturating_sub(span), (frame + span).min(feet.len() - 1));
             let moved = (feet[after][point] - feet[before][point]).truncate().length();
-            height_m < HEIGHT_MAX_M && moved * frame_rate_hz < speed_max_mps * (after - before) as f64
+            height_m < lenience * HEIGHT_MAX_M && moved * frame_rate_hz < speed_max_mps * (after - before) as f64
         })
         .collect();
     flip_short_runs(&mut planted, true, TOUCH_MIN_S * frame_rate_hz);

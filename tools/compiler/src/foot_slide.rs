@@ -11,7 +11,6 @@ use crate::cycle::GaitCycle;
 use crate::human_clip::HumanBody;
 
 /// Cut from each end of a contact, as a share of it.
-const SPAN: isize = 1;
 const TRIMMED_SHARE: f64 = 0.1;
 /// A foot is planted from this contact on.
 pub const PLANTED: f64 = 0.5;
@@ -31,7 +30,7 @@ pub fn measure(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
     for side in 0..2 {
         let feet: Vec<[DVec3; 3]> =
             cycle.rows.iter().map(|row| contact_points_m(&row.forward_kinematics(body), body, side)).collect();
-        let lowest = lowest_points(&feet);
+        let lowest = lowest_points(&feet, PHASE_COUNT);
         for (start, length) in contacts(cycle, side) {
             planted_rows += length;
             let trim = (TRIMMED_SHARE * length as f64 + 0.5) as usize;
@@ -63,6 +62,6 @@ fn point_speed_mps(cycle: &GaitCycle, feet: &[[DVec3; 3]], point: usize, row: is
         let time_s = cycle.row_time_s(row);
         (arc.to_world(feet[GaitCycle::wrap(row)][point], time_s), time_s)
     };
-    let ((before_m, before_s), (after_m, after_s)) = (at(row - SPAN), at(row + SPAN));
+    let ((before_m, before_s), (after_m, after_s)) = (at(row - 1), at(row + 1));
     (after_m - before_m).truncate().length() / (after_s - before_s)
 }
