@@ -7,7 +7,7 @@ use std::path::Path;
 
 use support::{compile, fbcrowd, files, folder, shared, text};
 
-const WALK: &str = "assets/clips/walk_1.1.bvh";
+const WALK: &str = "assets/clips/walk_110.bvh";
 
 fn scenario(folder: &Path, content: &str) -> String {
     let path = folder.join("scene.toml");
@@ -56,7 +56,9 @@ fn a_malformed_clip_is_refused_by_line_and_the_rest_still_compiles() {
 
 #[test]
 fn a_clip_without_human_legs_is_refused_with_the_reason() {
-    let Some(fox) = shared("a_clip_without_human_legs_is_refused_with_the_reason", "mocap/gltf/Fox.glb") else { return };
+    let Some(fox) = shared("a_clip_without_human_legs_is_refused_with_the_reason", "mocap/gltf/Fox.glb") else {
+        return;
+    };
     let folder = folder("fox");
     let database = folder.join("motion.fbdb");
     fbcrowd(&["compile", text(&fox), "-o", text(&database)]).expect_code(2).says(&["Fox.glb", "leg"]);
@@ -67,7 +69,10 @@ fn a_clip_without_human_legs_is_refused_with_the_reason() {
 fn altered_and_truncated_databases_and_recordings_are_refused() {
     let folder = folder("altered");
     let database = compile(&[WALK.to_owned()], &folder);
-    let scene = scenario(&folder, "duration_s = 0.5\ndatabase = \"motion.fbdb\"\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n");
+    let scene = scenario(
+        &folder,
+        "duration_s = 0.5\ndatabase = \"motion.fbdb\"\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n",
+    );
     let recording = folder.join("scene.fbrec");
     fbcrowd(&["simulate", &scene, "--db", text(&database), "-o", text(&recording)]).expect_code(0);
     for (whole, command) in [(&database, "validate"), (&recording, "measure")] {
@@ -90,19 +95,20 @@ fn altered_and_truncated_databases_and_recordings_are_refused() {
 #[test]
 fn mistakes_in_a_scenario_are_shown_where_they_stand() {
     let folder = folder("scenario_mistakes");
+    let clips = format!("clips = \"{}\"", text(&support::repository().join("assets/clips")));
     let agent = "agents = { at_m = [0, 0], goals_m = [[2, 0]] }\n";
     let cases: [(&str, &[&str]); 5] = [
-        ("clips = \"x\"\nduration = 3\nAGENT", &["scene.toml:2", "duration"]),
-        ("clips = \"x\"\nduration_s = -3\nAGENT", &["scene.toml:2", "duration_s"]),
-        ("clips = \"x\"\nduration_s = 3\nagents = { at_m = [0, 0] ", &["scene.toml:3"]),
+        ("CLIPS\nduration = 3\nAGENT", &["scene.toml:2", "duration"]),
+        ("CLIPS\nduration_s = -3\nAGENT", &["scene.toml:2", "duration_s"]),
+        ("CLIPS\nduration_s = 3\nagents = { at_m = [0, 0] ", &["scene.toml:3"]),
         (
-            "clips = \"x\"\nduration_s = 3\nAGENT[[obstacles]]\npolygon_m = [[-1, -1], [1, -1], [1, 1], [-1, 1]]\n",
+            "CLIPS\nduration_s = 3\nAGENT[[obstacles]]\npolygon_m = [[-1, -1], [1, -1], [1, 1], [-1, 1]]\n",
             &["scene.toml:3", "obstacle"],
         ),
-        ("clips = \"x\"\nduration_s = 3\nagents = { file = \"nobody.txt\" }\n", &["nobody.txt"]),
+        ("CLIPS\nduration_s = 3\nagents = { file = \"nobody.txt\" }\n", &["nobody.txt"]),
     ];
     for (content, words) in cases {
-        let scene = scenario(&folder, &content.replace("AGENT", agent));
+        let scene = scenario(&folder, &content.replace("AGENT", agent).replace("CLIPS", &clips));
         let output = folder.join("output");
         fbcrowd(&["run", &scene, "-o", text(&output)]).expect_code(2).says(words);
         assert!(!output.exists());

@@ -117,7 +117,8 @@ fn an_in_place_gltf_clip_stands_beside_bvh_clips_at_its_stance_foots_speed() {
     for (clip, speed) in [("Walk", 1.70), ("Run", 4.22)] {
         let found = sources.iter().find(|source| source["clip"] == clip).expect("the clip is listed");
         assert!(within(number(found, "speed_mps"), speed, 0.09, 0.09), "{found}");
-        let from = |example: &&Value| example["source"] == "Soldier.glb" && example["name"].as_str().unwrap().contains(clip);
+        let from =
+            |example: &&Value| example["source"] == "Soldier.glb" && example["name"].as_str().unwrap().contains(clip);
         let example = report["examples"].as_array().unwrap().iter().find(from).expect("it gives an example");
         assert!(number(example, "planted_share") > 0.2, "{example}");
     }
@@ -125,7 +126,7 @@ fn an_in_place_gltf_clip_stands_beside_bvh_clips_at_its_stance_foots_speed() {
 
 #[test]
 fn inspecting_clips_needs_no_database() {
-    let report = fbcrowd(&["inspect", "assets/clips/walk_1.1.bvh", "--json"]).expect_code(0).json();
+    let report = fbcrowd(&["inspect", "assets/clips/walk_110.bvh", "--json"]).expect_code(0).json();
     let sources = report["sources"].as_array().unwrap();
     assert_eq!(sources.len(), 1);
     assert!(within(number(&sources[0], "speed_mps"), 1.1, 0.01, 0.01), "{}", sources[0]);
@@ -133,7 +134,7 @@ fn inspecting_clips_needs_no_database() {
 
 #[test]
 fn one_clip_alone_is_a_database_without_simplices_or_correspondences() {
-    let database = compile(&["assets/clips/walk_1.1.bvh".to_owned()], &folder("one_clip"));
+    let database = compile(&["assets/clips/walk_110.bvh".to_owned()], &folder("one_clip"));
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
     assert_eq!(report["examples"].as_array().unwrap().len(), 1);

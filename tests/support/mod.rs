@@ -27,7 +27,8 @@ impl Outcome {
     #[track_caller]
     pub fn says(self, words: &[&str]) -> Self {
         // The reporter wraps long lines: compare without line breaks and their decoration.
-        let flat = |text: &str| text.chars().filter(|letter| !letter.is_whitespace() && *letter != '│').collect::<String>();
+        let flat =
+            |text: &str| text.chars().filter(|letter| !letter.is_whitespace() && *letter != '│').collect::<String>();
         let said = flat(&self.stderr);
         for word in words {
             assert!(said.contains(&flat(word)), "`{word}` is missing from:\n{}", self.stderr);
