@@ -11,6 +11,8 @@ mod body;
 mod bvh_writer;
 mod cadence;
 mod catalogue;
+#[cfg(test)]
+mod claims;
 mod cycle;
 mod foot_roll;
 mod footsteps;

@@ -24,8 +24,8 @@ const HARMONICS: usize = 4;
 const HANDOVER_SHARE: f64 = 0.05;
 /// Knees are planned to stay flexed by this much at the least (published minima: 3–7°), radians.
 const LEAST_PLANNED_KNEE_RAD: f64 = 4.0 * std::f64::consts::PI / 180.0;
-/// Share of a turn's bank that the pelvis takes; the trunk takes all of it.
-const BANK_SHARE: f64 = 0.5;
+/// Share of a turn's bank that the pelvis takes.
+const BANK_SHARE: f64 = 0.6;
 /// Where the published rotation is greatest, share of the stride after the strike of the side that is ahead.
 pub(crate) const ROTATION_PEAK: f64 = 0.081;
 

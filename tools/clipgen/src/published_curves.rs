@@ -21,6 +21,7 @@ const GRAVITY_MPS2: f64 = 9.81;
 /// a0, then (a_k, b_k).
 type Series = (f64, &'static [(f64, f64)]);
 
+#[expect(clippy::approx_constant, reason = "−3.14 is a published coefficient")]
 const HIP: [Series; 5] = [
     (16.78, &[(14.20, -1.13), (-0.09, -3.08), (-0.49, 0.46), (0.02, -0.07)]),
     (17.70, &[(17.41, -3.32), (-2.16, -2.44), (-0.07, 1.48), (0.09, -0.17)]),

@@ -19,6 +19,8 @@ const ELBOW_LAG: f64 = 0.04;
 const NOD_RAD: f64 = 0.012;
 /// The chest dips towards the stance side by this share of the pelvis's list, radians.
 const CHEST_LIST_SHARE: f64 = 0.30;
+/// Share of a turn's bank that the chest takes; the legs take as much, the feet being set outward.
+const CHEST_BANK_SHARE: f64 = 0.85;
 /// Upper arms turned inward, so that the hands swing towards the midline, radians.
 const ARM_INWARD_RAD: f64 = 0.30;
 /// Clavicles follow the arm by this share.
@@ -64,7 +66,7 @@ pub(crate) fn in_gait(gait: &Gait, cycle_phase: f64) -> UpperBody {
     UpperBody {
         chest_yaw_rad: style.chest_yaw_rad * chest_wave,
         chest_pitch_rad: style.lean_rad + NOD_RAD * wave(2.0 * cycle_phase - 0.2),
-        chest_roll_rad: -style.bank_rad - CHEST_LIST_SHARE * gait.pelvis.list_rad * list_wave,
+        chest_roll_rad: -CHEST_BANK_SHARE * style.bank_rad - CHEST_LIST_SHARE * gait.pelvis.list_rad * list_wave,
         head_yaw_rad: style.look_rad,
         head_roll_rad: -0.4 * style.bank_rad,
         arms: [0.5, 0.0].map(|foremost| {

@@ -1,0 +1,202 @@
+//! What the bundled clips claim, measured on their own skeletons with this file's forward kinematics.
+//!
+//! Measures as in `definitions.md`: facing from hips and shoulders; slide of the lowest sole point over the middle 80 % of each contact,
+//! a foot being planted where that point is within 2.5 cm of the ground and slower than 0.25 m/s + 15 % of the body's speed.
+
+use glam::{DVec2, DVec3};
+
+use crate::body::{ARMS, FEET, JOINT_COUNT, SHANKS, THIGHS, TOES};
+use crate::cadence::FRAME_RATE_HZ;
+use crate::catalogue::{Clip, Recipe, clips};
+use crate::generate;
+
+/// Joint positions of every frame, m.
+type Frames = Vec<[DVec3; JOINT_COUNT]>;
+
+fn frames(clip: &Clip) -> Frames {
+    clip.poses().iter().map(crate::body::Pose::positions_m).collect()
+}
+
+fn is_running(clip: &Clip) -> bool {
+    matches!(&clip.recipe, Recipe::Steps { gait, .. } if gait.running)
+}
+
+fn check_each(claim: impl Fn(&Clip, &Frames) -> Result<(), String>) {
+    let broken: Vec<String> = clips()
+        .iter()
+        .filter_map(|clip| claim(clip, &frames(clip)).err().map(|error| format!("{}: {error}", clip.name)))
+        .collect();
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+fn within(what: &str, value: f64, range: std::ops::RangeInclusive<f64>) -> Result<(), String> {
+    if range.contains(&value) { Ok(()) } else { Err(format!("{what} {value:.4} outside {range:?}")) }
+}
+
+fn facing(joints: &[DVec3; JOINT_COUNT]) -> DVec2 {
+    let across = |pair: [usize; 2]| (joints[pair[1]] - joints[pair[0]]).normalize();
+    let right = across(THIGHS) + across(ARMS);
+    DVec2::new(-right.y, right.x).normalize()
+}
+
+fn sole_points(joints: &[DVec3; JOINT_COUNT], side: usize) -> [DVec3; 3] {
+    [TOES[side] + 1, TOES[side] + 2, TOES[side] + 3].map(|index| joints[index])
+}
+
+fn knee_flexion_deg(joints: &[DVec3; JOINT_COUNT], side: usize) -> f64 {
+    let thigh = joints[SHANKS[side]] - joints[THIGHS[side]];
+    let shank = joints[FEET[side]] - joints[SHANKS[side]];
+    libm::acos((thigh.normalize().dot(shank.normalize())).clamp(-1.0, 1.0)).to_degrees()
+}
+
+/// Mean slide in cm/s and planted share of one foot.
+fn slide_and_share(frames: &Frames, side: usize, pace_mps: f64) -> (f64, f64) {
+    let last = frames.len() - 1;
+    let lowest_and_speed = |i: usize| {
+        let points = sole_points(&frames[i], side);
+        let k = (0..3).min_by(|a, b| points[*a].z.total_cmp(&points[*b].z)).unwrap();
+        let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
+        let way_m = (sole_points(&frames[after], side)[k] - sole_points(&frames[before], side)[k]).truncate();
+        (points[k].z, way_m.length() * FRAME_RATE_HZ / (after - before) as f64)
+    };
+    let feet: Vec<(f64, f64)> = (0..frames.len()).map(lowest_and_speed).collect();
+    let planted: Vec<bool> = feet.iter().map(|(z, speed)| *z < 0.025 && *speed < 0.25 + 0.15 * pace_mps).collect();
+    let (mut sum, mut count, mut start) = (0.0, 0, 0);
+    while start < planted.len() {
+        let length = planted[start..].iter().take_while(|planted| **planted).count();
+        let margin = (length as f64 * 0.1).round() as usize;
+        if length >= 3 {
+            for (_, speed) in &feet[start + margin..start + length - margin] {
+                sum += speed * 100.0;
+                count += 1;
+            }
+        }
+        start += length.max(1);
+    }
+    let share = planted.iter().filter(|planted| **planted).count() as f64 / planted.len() as f64;
+    (sum / f64::from(count), share)
+}
+
+#[test]
+fn committed_clips_are_what_the_generator_writes() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/clips");
+    let files = generate();
+    for file in &files {
+        let committed = std::fs::read(folder.join(&file.name)).unwrap_or_default();
+        assert!(committed == file.bytes, "{} differs: run `fbcrowd clips --out assets/clips`", file.name);
+    }
+    assert_eq!(std::fs::read_dir(folder).unwrap().count(), files.len(), "a file that nobody generates");
+    assert!(files.iter().map(|file| file.bytes.len()).sum::<usize>() < 5_000_000);
+}
+
+#[test]
+fn every_clip_moves_as_its_name_claims() {
+    check_each(|clip, frames| {
+        let hips = |joints: &[DVec3; JOINT_COUNT]| (0.5 * (joints[THIGHS[0]] + joints[THIGHS[1]])).truncate();
+        let (mut velocity, count) = (DVec2::ZERO, (frames.len() - 1) as f64);
+        for pair in frames.windows(2) {
+            let ahead = (facing(&pair[0]) + facing(&pair[1])).normalize();
+            let step = (hips(&pair[1]) - hips(&pair[0])) * FRAME_RATE_HZ / count;
+            velocity += DVec2::new(step.dot(ahead), ahead.perp_dot(step));
+        }
+        let turned: f64 = frames.windows(2).map(|pair| facing(&pair[0]).angle_to(facing(&pair[1]))).sum();
+        let turn_deg_s = (turned * FRAME_RATE_HZ / count).to_degrees();
+        let off = |claim: f64, least: f64| (0.01 * claim.abs()).max(least);
+        let around = |claim: f64, least: f64| claim - off(claim, least)..=claim + off(claim, least);
+        within("v_f", velocity.x, around(clip.motion.speed_mps, 0.01))?;
+        within("ω_s", velocity.y, around(clip.motion.strafe_mps, 0.01))?;
+        within("ω_t", turn_deg_s, around(clip.motion.turn_rate_rad_s.to_degrees(), 0.5))
+    });
+}
+
+#[test]
+fn planted_feet_stand_still_for_as_long_as_peoples_do() {
+    check_each(|clip, frames| {
+        for side in 0..2 {
+            let (slide_cm_s, share) = slide_and_share(frames, side, clip.motion.pace_mps());
+            let (slide_bar, shares) = match (&clip.recipe, is_running(clip)) {
+                (Recipe::Idle, _) => (0.1, 1.0..=1.0),
+                (_, true) => (3.0, 0.28..=0.45),
+                (_, false) => (1.0, 0.45..=0.65),
+            };
+            within("slide", slide_cm_s, 0.0..=slide_bar)?;
+            within("planted share", share, shares)?;
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn no_sole_goes_through_the_floor() {
+    check_each(|_, frames| {
+        let soles = frames.iter().flat_map(|joints| [sole_points(joints, 0), sole_points(joints, 1)].concat());
+        within("lowest sole point", soles.map(|point| point.z).fold(f64::INFINITY, f64::min), -0.005..=0.005)
+    });
+}
+
+#[test]
+fn no_knee_is_straight_or_folds_beyond_human_range() {
+    check_each(|_, frames| {
+        for joints in frames {
+            for side in 0..2 {
+                within("knee flexion", knee_flexion_deg(joints, side), 1.0..=130.0)?;
+            }
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn the_last_frame_is_the_first_one_moved_on() {
+    check_each(|clip, frames| {
+        let (first, last) = (frames[0], frames[frames.len() - 1]);
+        let turn = facing(&first).angle_to(facing(&last));
+        let (sin, cos) = libm::sincos(turn);
+        for index in 0..JOINT_COUNT {
+            let [from, to] = [first, last].map(|joints| joints[index] - joints[0]);
+            let expected = DVec2::new(cos, sin).rotate(from.truncate()).extend(from.z);
+            within(clip.name, expected.distance(to), 0.0..=1e-6)?;
+        }
+        within("duration", (frames.len() - 1) as f64 / FRAME_RATE_HZ, 1.0..=6.0)
+    });
+}
+
+#[test]
+fn no_joint_pops_between_frames() {
+    // A pop shows as a change of velocity within one frame. Struck heels change a foot's by some 1.5 m/s in walking, 4 m/s in running.
+    check_each(|clip, frames| {
+        let bar_mps = if is_running(clip) { 6.0 } else { 3.5 };
+        for triple in frames.windows(3) {
+            for ((before, now), after) in triple[0].iter().zip(&triple[1]).zip(&triple[2]) {
+                let change = (after - 2.0 * now + before) * FRAME_RATE_HZ;
+                within("velocity change", change.length(), 0.0..=bar_mps)?;
+            }
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn straight_walks_keep_to_adult_bands_of_cadence_and_stride() {
+    // (speed m/s, cadence steps/min, stride m) of men slow, men or women normal, men or women fast: `facts/motion.md` §4, ±1 SD.
+    let bands = [
+        (0.85..=1.20, 86.0..=101.0, 1.18..=1.48),
+        (1.20..=1.65, 99.0..=124.0, 1.31..=1.66),
+        (1.65..=2.25, 118.0..=156.0, 1.56..=1.98),
+    ];
+    for clip in clips().iter().filter(|clip| clip.name.starts_with("walk_")) {
+        let (cadence, step_m) = clip.cadence_and_step_m().unwrap();
+        for (_, cadences, strides) in bands.iter().filter(|band| band.0.contains(&clip.motion.speed_mps)) {
+            assert!(
+                cadences.contains(&cadence) && strides.contains(&(2.0 * step_m)),
+                "{} {cadence} {step_m}",
+                clip.name
+            );
+        }
+    }
+}
+
+#[test]
+fn generator_is_deterministic() {
+    assert!(generate() == generate());
+}
