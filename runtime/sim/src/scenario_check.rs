@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, Vec2};
 
+use crate::params::Params;
 use crate::polygon::{closest_distance_m, contains, is_simple, signed_area_m2};
 use crate::scenario::{AgentSpec, Scenario};
 
@@ -25,6 +26,10 @@ const OBSTACLES_MAX: usize = 10_000;
 const CORNERS_MAX: usize = 1_000;
 /// Thinner slivers have no inside, m².
 const AREA_MIN_M2: f64 = 1e-4;
+/// No tunable of a human body comes near, in any unit.
+const TUNABLE_MAX: f64 = 1e6;
+/// The shortest step; nothing is timed finer.
+const TIME_MIN_S: f64 = 1e-3;
 const PICTURE_PIXELS: RangeInclusive<u32> = 16..=16_384;
 const FRAME_RATE_HZ: RangeInclusive<f32> = 0.1..=1_000.0;
 /// Rounding of positions that are meant to touch, m.
@@ -42,7 +47,7 @@ pub struct Fault {
 }
 
 /// A part of a scenario.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// `duration_s`
     Duration,
@@ -50,6 +55,8 @@ pub enum Place {
     Step,
     /// `[view]`
     View,
+    /// A tunable: section and key.
+    Parameter(String, String),
     /// An agent, by index.
     Agent(usize),
     /// An obstacle, by index.
@@ -59,8 +66,8 @@ pub enum Place {
 }
 
 impl Place {
-    fn fault<T>(self, message: String, help: &'static str) -> Result<T, Fault> {
-        Err(Fault { place: self, message, help })
+    fn fault<T>(&self, message: String, help: &'static str) -> Result<T, Fault> {
+        Err(Fault { place: self.clone(), message, help })
     }
 }
 
@@ -82,6 +89,7 @@ pub fn check(scenario: &Scenario) -> Result<(), Fault> {
 pub fn check_numbers(scenario: &Scenario) -> Result<(), Fault> {
     check_time(scenario)?;
     check_view(scenario)?;
+    check_params(&scenario.params)?;
     let count = scenario.agents.len();
     if count == 0 {
         return Place::Whole.fault("there is nobody to simulate".into(), "add at least one agent");
@@ -90,10 +98,10 @@ pub fn check_numbers(scenario: &Scenario) -> Result<(), Fault> {
         return Place::Whole.fault(format!("{count} agents are more than {AGENTS_MAX}"), "simulate fewer");
     }
     for (index, agent) in scenario.agents.iter().enumerate() {
-        check_agent(Place::Agent(index), index, agent)?;
+        check_agent(&Place::Agent(index), index, agent)?;
     }
     for (index, polygon_m) in scenario.obstacles_m.iter().enumerate() {
-        check_points(Place::Obstacle(index), polygon_m)?;
+        check_points(&Place::Obstacle(index), polygon_m)?;
     }
     Ok(())
 }
@@ -136,7 +144,31 @@ fn check_view(scenario: &Scenario) -> Result<(), Fault> {
     Ok(())
 }
 
-fn check_agent(place: Place, index: usize, agent: &AgentSpec) -> Result<(), Fault> {
+/// Names carry their units, so one rule serves all tunables: finite, times at least a millisecond (they divide), only angles negative.
+fn check_params(params: &Params) -> Result<(), Fault> {
+    let Ok(sections) = toml::Table::try_from(params) else { return Ok(()) };
+    for (section, table) in &sections {
+        for (key, value) in table.as_table().into_iter().flatten() {
+            let Some(number) = value.as_float() else { continue };
+            let least = if key.ends_with("_s") {
+                TIME_MIN_S
+            } else if key.ends_with("_rad") {
+                -TUNABLE_MAX
+            } else {
+                0.0
+            };
+            if !(least..=TUNABLE_MAX).contains(&number) {
+                return Place::Parameter(section.clone(), key.clone()).fault(
+                    format!("{key} is {number}, not between {least} and {TUNABLE_MAX}"),
+                    "leave it out for its default",
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
+fn check_agent(place: &Place, index: usize, agent: &AgentSpec) -> Result<(), Fault> {
     check_points(place, &[agent.position_m])?;
     check_points(place, &agent.goals_m)?;
     let (radius_m, speed_mps) = (agent.radius_m, agent.preferred_speed_mps);
@@ -158,7 +190,7 @@ fn check_agent(place: Place, index: usize, agent: &AgentSpec) -> Result<(), Faul
     Ok(())
 }
 
-fn check_points(place: Place, points_m: &[Vec2]) -> Result<(), Fault> {
+fn check_points(place: &Place, points_m: &[Vec2]) -> Result<(), Fault> {
     match points_m.iter().find(|point_m| !is_on_the_map(**point_m)) {
         None => Ok(()),
         Some(point_m) => place.fault(

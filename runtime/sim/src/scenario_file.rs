@@ -16,6 +16,7 @@
 //! [view]
 //! ```
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -215,10 +216,21 @@ impl<'a> Source<'a> {
             Place::Duration => file.duration_s.span(),
             Place::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
             Place::View => file.view.as_ref().map_or(0..0, Spanned::span),
+            Place::Parameter(section, key) => self.parameter_span(&section, &key),
             Place::Agent(index) => agents[index].clone(),
             Place::Obstacle(index) => file.obstacles[index].span(),
             Place::Whole => file.agents.span(),
         };
         self.invalid(span, fault.message, fault.help)
+    }
+
+    /// Reads the text once more, since [`Params`] keeps no places.
+    fn parameter_span(&self, section: &str, key: &str) -> Range<usize> {
+        #[derive(Deserialize)]
+        struct Places {
+            params: BTreeMap<String, BTreeMap<String, Spanned<toml::Value>>>,
+        }
+        let places = toml::from_str::<Places>(&self.text).ok();
+        places.and_then(|places| Some(places.params.get(section)?.get(key)?.span())).unwrap_or(0..0)
     }
 }

@@ -119,6 +119,27 @@ fn a_foot_that_rolls_over_its_toe_does_not_slide() {
 }
 
 #[test]
+fn without_soles_the_joint_nearest_its_planted_height_is_the_contact_point() {
+    // Foot flat: ankle and ball are both at their planted heights, and the ankle comes first. Heel up: the ball, in place, takes over.
+    let mut header = walker(9.0);
+    header.skeleton.feet.iter_mut().for_each(|foot| foot.measured_on_sole = false);
+    let ball_m =
+        |frame: &AgentFrame| frame.pose.forward_kinematics(&header.skeleton).positions_m[Joint::LeftToe.index()];
+    let rolling = |step: i32| {
+        let mut frame = standing_at(Vec2::ZERO);
+        frame.contacts = [1.0, 0.0];
+        frame.pose.rotations[Joint::LeftFoot.index()] = Quat::from_rotation_y(0.05 + 0.02 * step as f32);
+        frame.pose.rotations[Joint::LeftToe.index()] = Quat::from_rotation_y(-0.05 - 0.02 * step as f32);
+        let off_m = ball_m(&frame) - ball_m(&standing_at(Vec2::ZERO));
+        frame.pose.pelvis_m -= off_m;
+        vec![frame]
+    };
+    let frames: Vec<_> = (1..30).map(rolling).collect();
+    let slide = measured("joints", &header, &frames).planted_slide_cm_s.unwrap();
+    assert!(slide < 0.05, "{slide} cm/s");
+}
+
+#[test]
 fn trajectories_have_a_line_a_frame_and_two_numbers_an_agent() {
     let header = header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([9.0, 0.0], [5.0, 0.0])], DT_S);
     let frames = vec![vec![standing_at(Vec2::new(1.0, 2.0)), standing_at(Vec2::new(-0.5, 0.25))]; 2];
