@@ -39,10 +39,17 @@ fn hull() -> VelocityHull {
     }
 }
 
+/// A place with walls, and the door that all go through.
+#[derive(Default)]
+struct Place {
+    walls: Obstacles,
+    door_m: Option<Vec2>,
+}
+
 /// The whole planner with its default tunables.
-fn simulate(agents: &[(Vec2, Vec2)], obstacles: &Obstacles, duration_s: f32) -> Figures {
+fn simulate(agents: &[(Vec2, Vec2)], place: &Place, duration_s: f32) -> Figures {
     let (params, hull) = (McnParams::default(), hull());
-    Crowd::new(agents).run(&Planner::Mcn(&params, &hull, obstacles), BODY, DT_S, duration_s)
+    Crowd::new(agents, place.door_m).run(&Planner::Mcn(&params, &hull, &place.walls), BODY, DT_S, duration_s)
 }
 
 fn report(name: &str, figures: &Figures) {
@@ -58,8 +65,8 @@ fn report(name: &str, figures: &Figures) {
 }
 
 /// Everybody arrives, nobody stalls, and discs overlap on average by less than `collisions` (Eq. 17).
-fn check(name: &str, agents: &[(Vec2, Vec2)], obstacles: &Obstacles, collisions: f32) -> Figures {
-    let figures = simulate(agents, obstacles, 60.0);
+fn check(name: &str, agents: &[(Vec2, Vec2)], place: &Place, collisions: f32) -> Figures {
+    let figures = simulate(agents, place, 60.0);
     report(name, &figures);
     assert_eq!(figures.arrived, agents.len(), "{name}: not all arrive");
     assert_eq!(figures.stalled, 0, "{name}: some stall");
@@ -70,7 +77,7 @@ fn check(name: &str, agents: &[(Vec2, Vec2)], obstacles: &Obstacles, collisions:
 fn check_scenes(names: &[&str], collisions: f32) {
     for name in names {
         match read_scene(name) {
-            Some(agents) => drop(check(name, &agents, &Obstacles::default(), collisions)),
+            Some(agents) => drop(check(name, &agents, &Place::default(), collisions)),
             None => println!("SKIPPED {name}: no such scene in /work/shared/bench/scenes"),
         }
     }
@@ -100,7 +107,7 @@ fn everybody_crosses_in_two_and_four_directions() {
 
 #[test]
 fn symmetric_encounters_resolve() {
-    let none = Obstacles::default();
+    let none = Place::default();
     check("two head-on", &antipodal(2, 4.0), &none, 0.0);
     check("four in a cross", &antipodal(4, 4.0), &none, 0.001);
     check("a circle of 17", &antipodal(17, 4.06), &none, 0.001);
@@ -108,34 +115,40 @@ fn symmetric_encounters_resolve() {
 
 #[test]
 fn opposing_walkers_pass_on_the_right() {
-    let figures = simulate(&antipodal(2, 4.0), &Obstacles::default(), 60.0);
+    let figures = simulate(&antipodal(2, 4.0), &Place::default(), 60.0);
     let lowest_m = figures.trails_m.iter().map(|step| step[1].y).fold(0.0, f32::max);
     let highest_m = figures.trails_m.iter().map(|step| step[0].y).fold(0.0, f32::max);
     // Agent 0 walks towards −x, so its right is +y.
     assert!(highest_m > 0.1 && lowest_m < 0.1, "{highest_m} {lowest_m}");
 }
 
-#[test]
-fn streams_pass_a_corridor_and_a_door_without_entering_walls() {
-    let corridor = Obstacles::new(&[rectangle([-8.0, 1.5], [8.0, 2.0]), rectangle([-8.0, -2.0], [8.0, -1.5])]);
-    let opposed = |row: usize, side: f32| {
-        let start = Vec2::new(side * (4.0 + 1.2 * (row / 3) as f32), 0.8 * (row % 3) as f32 - 0.8);
-        (start, start * Vec2::new(-1.0, 1.0))
-    };
-    let both: Vec<(Vec2, Vec2)> = (0..9).flat_map(|row| [opposed(row, 1.0), opposed(row, -1.0)]).collect();
-    let door = Obstacles::new(&[rectangle([-0.2, 0.5], [0.2, 6.0]), rectangle([-0.2, -6.0], [0.2, -0.5])]);
-    let one_way: Vec<(Vec2, Vec2)> = (0..16).map(|row| (-opposed(row, 1.0).0, Vec2::new(4.0, 0.0))).collect();
-    // Those who share a goal wait for it, so the way to the door's far side is what is asked.
-    let spread =
-        |(index, (from, to)): (usize, &(Vec2, Vec2))| (*from, *to + Vec2::new(1.2 * (index / 4) as f32, from.y));
-    let one_way: Vec<(Vec2, Vec2)> = one_way.iter().enumerate().map(spread).collect();
-    for (name, agents, walls) in [("corridor", both, corridor), ("door", one_way, door)] {
-        let figures = check(name, &agents, &walls, 0.01);
-        for position_m in figures.trails_m.iter().flatten() {
-            let pushed_m = walls.clamp_outside(*position_m, RADIUS_M).distance(*position_m);
-            assert!(pushed_m < 0.1, "{name}: {position_m} lies {pushed_m} m in a wall");
-        }
+/// Agent `index` of a column three abreast that walks from x < 0 to the mirrored place, or to one 14 m on.
+fn in_column(index: usize) -> Vec2 {
+    Vec2::new(-4.0 - 1.2 * (index / 3) as f32, 0.8 * (index % 3) as f32 - 0.8)
+}
+
+fn check_walls(name: &str, agents: &[(Vec2, Vec2)], place: &Place) {
+    let figures = check(name, agents, place, 0.01);
+    for position_m in figures.trails_m.iter().flatten() {
+        let pushed_m = place.walls.clamp_outside(*position_m, RADIUS_M).distance(*position_m);
+        assert!(pushed_m < 0.05, "{name}: {position_m} lies {pushed_m} m in a wall");
     }
+}
+
+#[test]
+fn opposed_columns_pass_a_corridor_without_entering_its_walls() {
+    let walls = Obstacles::new(&[rectangle([-12.0, 1.5], [12.0, 2.0]), rectangle([-12.0, -2.0], [12.0, -1.5])]);
+    let across = Vec2::new(-1.0, 1.0);
+    let there = (0..9).map(|index| (in_column(index), in_column(index) * across));
+    let back = (0..9).map(|index| (in_column(index) * across, in_column(index)));
+    check_walls("corridor", &there.chain(back).collect::<Vec<_>>(), &Place { walls, door_m: None });
+}
+
+#[test]
+fn a_column_passes_a_door_of_a_metre_without_entering_its_walls() {
+    let walls = Obstacles::new(&[rectangle([-0.2, 0.5], [0.2, 6.0]), rectangle([-0.2, -6.0], [0.2, -0.5])]);
+    let agents: Vec<_> = (0..15).map(|index| (in_column(index), in_column(index) + Vec2::new(14.0, 0.0))).collect();
+    check_walls("door", &agents, &Place { walls, door_m: Some(Vec2::new(0.3, 0.0)) });
 }
 
 #[test]
@@ -146,7 +159,7 @@ fn orca_alone_stays_within_the_figures_of_rvo2() {
     {
         let figures: Vec<Figures> = (1..=5)
             .filter_map(|seed| read_scene(&format!("{scene}_s{seed}.txt")))
-            .map(|agents| Crowd::new(&agents).run(&Planner::Orca, Body::Ideal, 0.1, 60.0))
+            .map(|agents| Crowd::new(&agents, None).run(&Planner::Orca, Body::Ideal, 0.1, 60.0))
             .inspect(|figures| report(scene, figures))
             .collect();
         if figures.is_empty() {
@@ -167,12 +180,12 @@ fn a_thousand_in_a_disc_go_on_walking() {
         println!("SKIPPED disc_1000.txt: no such scene in /work/shared/bench/scenes");
         return;
     };
-    let figures = simulate(&agents, &Obstacles::default(), 15.0);
+    let figures = simulate(&agents, &Place::default(), 15.0);
     report("disc_1000", &figures);
     let advanced = |index: usize| {
         let last_m = figures.trails_m[figures.trails_m.len() - 1][index];
         agents[index].0.distance(agents[index].1) - last_m.distance(agents[index].1)
     };
     let mean_m = (0..agents.len()).map(advanced).sum::<f32>() / agents.len() as f32;
-    assert!(figures.collisions < 0.01 && mean_m > 5.0, "C = {}, {mean_m} m", figures.collisions);
+    assert!(figures.collisions < 0.03 && mean_m > 10.0, "C = {}, {mean_m} m", figures.collisions);
 }

@@ -160,8 +160,8 @@ fn adapt(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch)
     filtered.density
 }
 
-/// v_pref, turned to the right the more, the sooner it would meet an obstruction. Everyone's bias being the same resolves symmetric
-/// encounters: all give way to the same side.
+/// v_pref, turned to the right the more, the sooner it would meet an obstruction. All give way to the same side, so two who meet head-on
+/// pass.
 fn kept_right(world: &World, agent: usize, params: &McnParams, scratch: &Scratch) -> Vec2 {
     let preferred_mps = world.preferred_mps[agent];
     let met_s = time_to_collision_with_agents_s(world, agent, preferred_mps, scratch);
@@ -190,7 +190,14 @@ fn avoid(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch)
     scratch.of_agents.clear();
     scratch.of_agents.extend(scratch.nearest.as_slice().iter().map(|neighbour| {
         let other = disc(world, neighbour.agent as usize);
-        orca::agent_half_plane(&own, &other, neighbour.agent, params.time_horizon_s, world.dt_s)
+        orca::agent_half_plane(
+            &own,
+            &other,
+            orca::share(&own, &other),
+            neighbour.agent,
+            params.time_horizon_s,
+            world.dt_s,
+        )
     }));
 }
 

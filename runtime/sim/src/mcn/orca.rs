@@ -23,8 +23,24 @@ pub struct Disc {
     pub radius_m: f32,
 }
 
-/// C_ij: the velocities of `own` that do their half of avoiding `other`, which is agent `index`, for `horizon`.
-pub fn agent_half_plane(own: &Disc, other: &Disc, index: u32, horizon_s: f32, dt_s: f32) -> HalfPlane {
+/// Share of u that an agent takes of whom it meets from the left beyond one half, and less of whom from the right.
+const YIELD_TO_LEFT: f32 = 0.2;
+/// Speeds in sum below which nobody comes from a side, m/s.
+const STANDING_MPS: f32 = 0.1;
+
+/// The share of u that `own` takes, ½ on average: more where `other` comes from its left, as in a roundabout of those who keep right.
+///
+/// The shares of both add up to 1, so together they still avoid each other. With ½ each, those who meet at a centre from all around
+/// brake alike until they stand. The sine of the angle between p and v_i + v_j changes its sign when i and j are exchanged.
+pub fn share(own: &Disc, other: &Disc) -> f32 {
+    let offset_m = other.position_m - own.position_m;
+    let speeds_mps = own.velocity_mps.length() + other.velocity_mps.length();
+    let from_right = offset_m.perp_dot(own.velocity_mps + other.velocity_mps);
+    0.5 - YIELD_TO_LEFT * from_right / (offset_m.length() * speeds_mps.max(STANDING_MPS)).max(f32::MIN_POSITIVE)
+}
+
+/// C_ij: the velocities of `own` that do their share of avoiding `other`, which is agent `index`, for `horizon`.
+pub fn agent_half_plane(own: &Disc, other: &Disc, share: f32, index: u32, horizon_s: f32, dt_s: f32) -> HalfPlane {
     let offset_m = other.position_m - own.position_m;
     let velocity_mps = own.velocity_mps - other.velocity_mps;
     let radius_m = own.radius_m + other.radius_m;
@@ -35,7 +51,7 @@ pub fn agent_half_plane(own: &Disc, other: &Disc, index: u32, horizon_s: f32, dt
     } else {
         leave_leg(offset_m, velocity_mps, radius_m, horizon_s)
     };
-    HalfPlane { point_mps: own.velocity_mps + 0.5 * change_mps, direction, source: Source::Agent(index) }
+    HalfPlane { point_mps: own.velocity_mps + share * change_mps, direction, source: Source::Agent(index) }
 }
 
 /// Whether the cut-off disc's front, between the two tangent points, is nearest to the relative velocity.

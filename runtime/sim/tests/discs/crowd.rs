@@ -43,8 +43,10 @@ pub enum Planner<'a> {
 }
 
 pub struct Crowd {
-    pub positions_m: Vec<Vec2>,
-    pub goals_m: Vec<Vec2>,
+    positions_m: Vec<Vec2>,
+    goals_m: Vec<Vec2>,
+    /// Where all walk first whose x is less than its.
+    door_m: Option<Vec2>,
     velocities_mps: Vec<Vec2>,
     facings_rad: Vec<f32>,
     radii_m: Vec<f32>,
@@ -79,12 +81,13 @@ pub fn read_scene(name: &str) -> Option<Vec<(Vec2, Vec2)>> {
 }
 
 impl Crowd {
-    pub fn new(agents: &[(Vec2, Vec2)]) -> Self {
+    pub fn new(agents: &[(Vec2, Vec2)], door_m: Option<Vec2>) -> Self {
         let count = agents.len();
         let facing = |(from, to): &(Vec2, Vec2)| libm::atan2f(to.y - from.y, to.x - from.x);
         Self {
             positions_m: agents.iter().map(|agent| agent.0).collect(),
             goals_m: agents.iter().map(|agent| agent.1).collect(),
+            door_m,
             velocities_mps: vec![Vec2::ZERO; count],
             facings_rad: agents.iter().map(facing).collect(),
             radii_m: vec![RADIUS_M; count],
@@ -139,7 +142,7 @@ impl Crowd {
             self.neighbours
                 .nearest(&Query { agent, position_m, velocity_mps, radius_m, range_m: RANGE_M }, &mut nearest);
             let half_plane =
-                |other: u32| orca::agent_half_plane(&disc(agent), &disc(other as usize), other, HORIZON_S, dt_s);
+                |other: u32| orca::agent_half_plane(&disc(agent), &disc(other as usize), 0.5, other, HORIZON_S, dt_s);
             let found: Vec<HalfPlane> =
                 nearest.as_slice().iter().map(|neighbour| half_plane(neighbour.agent)).collect();
             let preferred_mps = self.preferred_mps(agent, dt_s);
@@ -171,8 +174,12 @@ impl Crowd {
         self.plans = (0..count).map(|agent| mcn::plan(&world, agent, params, &mut scratch)).collect();
     }
 
-    /// Towards the goal, slower within `slowing` of it.
+    /// Towards the door, or the goal, slower within `slowing` of it.
     fn preferred_mps(&self, agent: usize, slowing_s: f32) -> Vec2 {
+        let before = |door_m: &Vec2| self.positions_m[agent].x < door_m.x;
+        if let Some(door_m) = self.door_m.filter(before) {
+            return (door_m - self.positions_m[agent]).normalize_or_zero() * SPEED_MPS;
+        }
         ((self.goals_m[agent] - self.positions_m[agent]) / slowing_s).clamp_length_max(SPEED_MPS)
     }
 
