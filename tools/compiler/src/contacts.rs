@@ -20,7 +20,7 @@ const PLANTED_PERCENTILE: f64 = 0.05;
 const FLOOR_WINDOW_S: f64 = 1.6;
 /// Speeds are taken over ± this time, so that noise weighs the same at 24 and at 120 frames a second: one frame at 30.
 const SPEED_SPAN_S: f64 = 1.0 / 30.0;
-/// A shorter touch is noise, then a shorter lift (swings last 0.3 s and more); what is still shorter is not a step (`definitions.md`), seconds.
+/// A shorter touch is not planted, a shorter lift not a swing (those last 0.3 s and more), a shorter contact not a step (`definitions.md`), seconds.
 const TOUCH_MIN_S: f64 = 0.05;
 const LIFT_MIN_S: f64 = 0.1;
 const CONTACT_MIN_S: f64 = 0.08;
@@ -64,14 +64,21 @@ fn planted_heights_m(feet: &[[DVec3; 3]], point: usize, window: usize) -> Vec<f6
     (0..feet.len()).map(of_frame).collect()
 }
 
-/// Planted or not, frame by frame, of one foot.
-///
-/// `lenience` multiplies both limits: 1 is the definition, more finds the steps of noisy clips.
-pub fn planted(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64, lenience: f64) -> Vec<bool> {
+/// One foot's contacts, frame by frame.
+#[derive(Clone, Debug)]
+pub struct Contacts {
+    /// Planted, as near to the definition as noise allows.
+    pub planted: Vec<bool>,
+    /// On the ground in one step, short lifts and slips included: what its middle is taken of.
+    pub stepping: Vec<bool>,
+}
+
+/// The contacts of one foot. `lenience` multiplies both limits: 1 is the definition, more finds the steps of noisy clips.
+pub fn find(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64, lenience: f64) -> Contacts {
     let speed_max_mps = lenience * (SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps);
     let window = (FLOOR_WINDOW_S * frame_rate_hz) as usize;
     let span = ((SPEED_SPAN_S * frame_rate_hz + 0.5) as usize).max(1);
-    let mut planted: Vec<bool> = lowest_points(feet, window)
+    let mut stepping: Vec<bool> = lowest_points(feet, window)
         .iter()
         .enumerate()
         .map(|(frame, &(point, height_m))| {
@@ -80,10 +87,13 @@ pub fn planted(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64, len
             height_m < lenience * HEIGHT_MAX_M && moved * frame_rate_hz < speed_max_mps * (after - before) as f64
         })
         .collect();
+    let mut planted = stepping.clone();
     flip_short_runs(&mut planted, true, TOUCH_MIN_S * frame_rate_hz);
-    flip_short_runs(&mut planted, false, LIFT_MIN_S * frame_rate_hz);
-    flip_short_runs(&mut planted, true, CONTACT_MIN_S * frame_rate_hz);
-    planted
+    for contacts in [&mut planted, &mut stepping] {
+        flip_short_runs(contacts, false, LIFT_MIN_S * frame_rate_hz);
+        flip_short_runs(contacts, true, CONTACT_MIN_S * frame_rate_hz);
+    }
+    Contacts { planted, stepping }
 }
 
 /// Runs of equal values: value, first frame, frame after the last.

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use motiondb::skeleton::Side;
 
 use crate::arc::{Arc, RootSample};
-use crate::contacts::{contact_points_m, planted, runs};
+use crate::contacts::{self, contact_points_m, runs};
 use crate::human_clip::{HumanBody, HumanJoints};
 use crate::root_motion::{GroundedClip, percentile};
 
@@ -86,8 +86,10 @@ pub fn analyze(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysis {
         .map(|side| joints.iter().map(|joints| contact_points_m(joints, body, side)).collect::<Vec<[DVec3; 3]>>());
     let speed_mps = mean_speed_mps(&joints, clip.frame_rate_hz);
     let analyses = LENIENCES.map(|lenience| {
-        let planted = [0, 1].map(|side| planted(&feet[side], clip.frame_rate_hz, speed_mps, lenience));
-        let gait = if stands(&planted, &root, clip) { Gait::Stands } else { steps(clip, &planted, &joints, &root) };
+        let contacts = [0, 1].map(|side| contacts::find(&feet[side], clip.frame_rate_hz, speed_mps, lenience));
+        let planted = contacts.each_ref().map(|contacts| contacts.planted.clone());
+        let stepping = contacts.map(|contacts| contacts.stepping);
+        let gait = if stands(&planted, &root, clip) { Gait::Stands } else { steps(clip, &stepping, &joints, &root) };
         GaitAnalysis { planted, gait }
     });
     // The first of the best: `max_by_key` alone would take the last.
@@ -153,10 +155,10 @@ struct Landmark {
     frame: f64,
 }
 
-fn steps(clip: &GroundedClip, planted: &[Vec<bool>; 2], joints: &[HumanJoints], root: &RootTrack) -> Gait {
-    let landmarks = landmarks(planted);
+fn steps(clip: &GroundedClip, stepping: &[Vec<bool>; 2], joints: &[HumanJoints], root: &RootTrack) -> Gait {
+    let landmarks = landmarks(stepping);
     let strides: Vec<Option<Stride>> = (0..landmarks.len().saturating_sub(2))
-        .map(|first| stride(&landmarks[first..first + 3], clip, planted, root))
+        .map(|first| stride(&landmarks[first..first + 3], clip, stepping, root))
         .map(|stride| stride.filter(|stride| closes(stride, joints, clip.frame_rate_hz)))
         .collect();
     let window = match clip.loop_frames {
@@ -172,10 +174,10 @@ fn steps(clip: &GroundedClip, planted: &[Vec<bool>; 2], joints: &[HumanJoints], 
 
 /// Middles of all contacts, in order of time. Where the clip cuts a contact, its middle is half of the foot's usual contact away from the
 /// end that is seen, if that still lies within the clip.
-fn landmarks(planted: &[Vec<bool>; 2]) -> Vec<Landmark> {
+fn landmarks(stepping: &[Vec<bool>; 2]) -> Vec<Landmark> {
     let mut landmarks = Vec::new();
     for side in Side::BOTH {
-        let frames = &planted[side.index()];
+        let frames = &stepping[side.index()];
         let contacts: Vec<(usize, usize)> =
             runs(frames).into_iter().filter(|run| run.0).map(|(_, start, end)| (start, end)).collect();
         let whole = |&(start, end): &(usize, usize)| start > 0 && end < frames.len();
@@ -214,13 +216,13 @@ fn closes(stride: &Stride, joints: &[HumanJoints], frame_rate_hz: f64) -> bool {
 }
 
 /// The stride over three landmarks, if it is one.
-fn stride(marks: &[Landmark], clip: &GroundedClip, planted: &[Vec<bool>; 2], root: &RootTrack) -> Option<Stride> {
+fn stride(marks: &[Landmark], clip: &GroundedClip, stepping: &[Vec<bool>; 2], root: &RootTrack) -> Option<Stride> {
     let [first, middle, last] = marks else { return None };
     let period_frames = last.frame - first.frame;
     let half_share = (middle.frame - first.frame) / period_frames;
     let alternates = first.side == last.side && first.side != middle.side;
     let in_range = PERIOD_S.contains(&(period_frames / clip.frame_rate_hz)) && HALF_SHARE.contains(&half_share);
-    if !alternates || !in_range || pauses(planted, first.frame, last.frame) {
+    if !alternates || !in_range || pauses(stepping, first.frame, last.frame) {
         return None;
     }
     let (zero_frame, start_phase, left_share) = match first.side {
@@ -238,8 +240,8 @@ fn stride(marks: &[Landmark], clip: &GroundedClip, planted: &[Vec<bool>; 2], roo
 }
 
 /// Whether both feet stay down too long for a gait.
-fn pauses(planted: &[Vec<bool>; 2], from: f64, to: f64) -> bool {
-    let both: Vec<bool> = (from as usize..to as usize).map(|frame| planted[0][frame] && planted[1][frame]).collect();
+fn pauses(stepping: &[Vec<bool>; 2], from: f64, to: f64) -> bool {
+    let both: Vec<bool> = (from as usize..to as usize).map(|frame| stepping[0][frame] && stepping[1][frame]).collect();
     runs(&both).iter().any(|&(down, start, end)| down && (end - start) as f64 > PAUSE_SHARE_MAX * (to - from))
 }
 

@@ -38,7 +38,8 @@ fn is_counterpart(wanted: &Rates, other: &Rates) -> bool {
 
 /// Rates of the mirrored motion.
 pub fn mirrored_rates(rates: &Rates) -> Rates {
-    Rates { turn_rate_rad_s: -rates.turn_rate_rad_s, strafe_mps: -rates.strafe_mps, ..*rates }
+    // 0 − x, so that 0 stays 0 and does not become −0.
+    Rates { turn_rate_rad_s: 0.0 - rates.turn_rate_rad_s, strafe_mps: 0.0 - rates.strafe_mps, ..*rates }
 }
 
 /// The mirrored cycle; its phase 0 is the original's left mid-stance.

@@ -20,19 +20,26 @@ const SNAPPED_TURN_RAD_S: f64 = 3.0 * PI / 180.0;
 const SNAPPED_STRAFE_MPS: f64 = 0.1;
 /// … of a body that goes somewhere: from here on the direction of travel is off the facing by 11° at most, m/s.
 const GOING_MPS: f64 = 0.5;
+/// Less than this is not worth a word: 0.1 °/s, 5 mm/s.
+const NOTICED_RAD_S: f64 = 0.1 * PI / 180.0;
+const NOTICED_MPS: f64 = 0.005;
 
-/// Takes gait noise out of a cycle's rates; says what was taken.
+/// Takes gait noise out of a cycle's rates; says what was taken, if anyone could notice.
 pub fn snap(cycle: &mut GaitCycle) -> Vec<String> {
     let found = cycle.rates;
     let mut said = Vec::new();
-    if found.turn_rate_rad_s == 0.0 || found.turn_rate_rad_s.abs() >= SNAPPED_TURN_RAD_S {
+    if found.turn_rate_rad_s.abs() >= SNAPPED_TURN_RAD_S {
         return said;
     }
     cycle.rates.turn_rate_rad_s = 0.0;
-    said.push(format!("turn rate {:.1} deg/s taken as 0", found.turn_rate_rad_s.to_degrees()));
+    if found.turn_rate_rad_s.abs() > NOTICED_RAD_S {
+        said.push(format!("turn rate {:.1} deg/s taken as 0", found.turn_rate_rad_s.to_degrees()));
+    }
     if found.strafe_mps.abs() < SNAPPED_STRAFE_MPS && found.speed_mps.abs() > GOING_MPS {
         face_along_travel(cycle);
-        said.push(format!("side speed {:.3} m/s taken as 0", found.strafe_mps));
+        if found.strafe_mps.abs() > NOTICED_MPS {
+            said.push(format!("side speed {:.3} m/s taken as 0", found.strafe_mps));
+        }
     }
     said
 }
