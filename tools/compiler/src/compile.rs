@@ -104,6 +104,21 @@ pub fn compile(mut clips: Vec<HumanClip>, options: &CompileOptions) -> Result<Mo
     assemble(cycles, sources, &body, options)
 }
 
+/// The records of clips with what a compilation would say of each, in the order of a database.
+pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SourceRecord> {
+    clips.sort_by(|a, b| (&a.source.file, &a.source.clip).cmp(&(&b.source.file, &b.source.clip)));
+    if clips.is_empty() {
+        return Vec::new();
+    }
+    let body = target_skeleton::choose(&clips);
+    let record = |clip: &HumanClip| {
+        let mut source = clip.source.clone();
+        source.warnings.extend(analyze(clip, &body).warnings);
+        source
+    };
+    clips.par_iter().map(record).collect()
+}
+
 /// A clip on the target skeleton, its gait found and, where it steps, its mean stride.
 struct Analyzed {
     grounded: GroundedClip,

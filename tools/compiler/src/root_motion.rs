@@ -140,7 +140,7 @@ impl GroundedClip {
 pub fn accumulate(sum: &mut HumanPose, pose: &HumanPose, weight: f64) {
     sum.pelvis_m += pose.pelvis_m * weight;
     for (sum, rotation) in sum.rotations.iter_mut().zip(&pose.rotations) {
-        *sum = *sum + *rotation * weight;
+        *sum += *rotation * weight;
     }
 }
 
