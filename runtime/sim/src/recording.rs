@@ -1,11 +1,12 @@
 //! `.fbrec`: a simulation, recorded frame by frame while it runs; self-contained, any frame readable without the others.
 //!
-//! | bytes | |
-//! |---|---|
-//! | 8 | magic, with the bytes that a transfer in text mode would change |
-//! | 4 | format version |
-//! | … | chunks ([`recording_chunk`](crate::recording_chunk)): `HEAD` (the [`Header`], bincode with fixed-size integers) comes first, then one `FRAM` a frame (zlib over the [packed](crate::recording_packing) agents, byte plane by byte plane), then `INDX` (u64: byte of each `FRAM`) |
-//! | 20 | the last chunk, `TAIL` (u64: byte of `INDX`) |
+//! A magic of 8 bytes (among them those that a transfer in text mode would change), the format version as u32, then
+//! [chunks](crate::recording_chunk), little-endian:
+//!
+//! - `HEAD` comes first: the [`Header`], bincode with fixed-size integers;
+//! - one `FRAM` a frame: zlib over the [packed](crate::recording_packing) agents, all their first bytes, all their second bytes, …;
+//! - `INDX`: the byte at which each `FRAM` begins, u64 each;
+//! - `TAIL` ends the file: the byte at which `INDX` begins, u64.
 //!
 //! Frame 0 is the start, frame k the state after k steps. The writer holds one frame and the offsets, the reader the header and the offsets.
 
@@ -15,6 +16,7 @@ use std::path::{Path, PathBuf};
 use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
+use glam::Vec3;
 use motiondb::atomic_file::AtomicFile;
 use motiondb::skeleton::Skeleton;
 use serde::{Deserialize, Serialize};
@@ -160,7 +162,7 @@ impl Recording {
         &self.header
     }
 
-    /// Frames, the start included: steps + 1.
+    /// Frames, the start included: steps + 1, so at least one.
     pub fn frame_count(&self) -> usize {
         self.frame_bytes.len()
     }
@@ -206,7 +208,17 @@ fn decode_header(file: &ChunkFile) -> Result<Header, RecordingError> {
     }
     // Whoever reads, measures or draws a recording may trust its numbers.
     check_numbers(&header.scenario).map_err(|fault| file.damaged(HEAD_BYTE, fault.message))?;
+    if !is_finite(&header.skeleton) {
+        return Err(file.damaged(HEAD_BYTE, "the skeleton is not finite"));
+    }
     Ok(header)
+}
+
+fn is_finite(skeleton: &Skeleton) -> bool {
+    let soles_m = skeleton.feet.iter().flat_map(|foot| [foot.heel_m, foot.ball_m, foot.toe_tip_m]);
+    let vectors = [skeleton.offsets_m, skeleton.segment_ends_m].into_iter().flatten();
+    let limits = skeleton.limits_rad.iter().flatten().copied();
+    vectors.chain(limits).chain(soles_m).all(Vec3::is_finite) && skeleton.segment_radii_m.iter().all(|m| m.is_finite())
 }
 
 /// Where each frame's chunk begins.
@@ -217,8 +229,8 @@ fn read_index(file: &ChunkFile) -> Result<Vec<u64>, RecordingError> {
         Err(_) => return Err(file.damaged(tail_byte, "the last chunk names no index")),
     };
     let index = file.read_chunk(index_byte, INDEX)?;
-    let (bytes, []) = index.as_chunks::<8>() else {
-        return Err(file.damaged(index_byte, "the index is not whole"));
+    let (bytes @ [_, ..], []) = index.as_chunks::<8>() else {
+        return Err(file.damaged(index_byte, "the index is empty or not whole"));
     };
     Ok(bytes.iter().map(|byte| u64::from_le_bytes(*byte)).collect())
 }
@@ -242,7 +254,14 @@ fn decompress(payload: &[u8], agent_count: usize) -> Option<Vec<u8>> {
     (planes.len() == length).then(|| transpose(&planes, agent_count))
 }
 
-/// Rows of `columns` bytes, column by column.
+/// Rows of `columns` bytes become columns.
 fn transpose(bytes: &[u8], columns: usize) -> Vec<u8> {
-    (0..columns).flat_map(|column| bytes[column..].iter().step_by(columns)).copied().collect()
+    let rows = bytes.len() / columns;
+    let mut turned = vec![0; bytes.len()];
+    for (row, values) in bytes.chunks_exact(columns).enumerate() {
+        for (column, value) in values.iter().enumerate() {
+            turned[column * rows + row] = *value;
+        }
+    }
+    turned
 }

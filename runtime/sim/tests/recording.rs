@@ -103,6 +103,17 @@ fn frames_are_read_from_several_threads() {
 }
 
 #[test]
+fn a_recording_without_a_frame_or_with_a_broken_body_is_refused() {
+    let path = folder("hollow").join("a.fbrec");
+    Recorder::create(&path, &two_agents()).unwrap().finish().unwrap();
+    assert!(Recording::open(&path).unwrap_err().to_string().contains("the index is empty"));
+    let mut broken = two_agents();
+    broken.skeleton.offsets_m[4].y = f32::INFINITY;
+    Recorder::create(&path, &broken).unwrap().finish().unwrap();
+    assert!(Recording::open(&path).unwrap_err().to_string().contains("the skeleton is not finite"));
+}
+
+#[test]
 fn chunks_of_unknown_kind_are_skipped() {
     let path = folder("unknown").join("a.fbrec");
     record(&path, &two_agents(), &frames(3));
