@@ -155,9 +155,10 @@ impl Body<'_> {
         let chest_m = self.radius_m(Joint::SpineUpper);
         let shoulder_m = 1.3 * self.radius_m(Joint::LeftUpperArm);
         if detail == Detail::Full {
-            let hips = Joint::THIGHS.map(|joint| self.joint_m(joint));
-            let hip_m = 0.95 * self.radius_m(Joint::Pelvis);
-            parts.push(part(hips, [hip_m; 2], self.look.trousers * 1.1));
+            // Hips are hardly broader than the shoulders' middle: the balls' centres lie well inside the hip joints.
+            let [left_hip, right_hip] = Joint::THIGHS.map(|joint| self.joint_m(joint));
+            let hips = [right_hip.lerp(left_hip, 0.75), left_hip.lerp(right_hip, 0.75)];
+            parts.push(part(hips, [0.92 * self.radius_m(Joint::Pelvis); 2], self.look.trousers * 1.1));
             let waist = [self.joint_m(Joint::SpineLower), self.joint_m(Joint::SpineUpper)];
             parts.push(part(waist, [self.radius_m(Joint::SpineLower), chest_m], shirt * 0.9));
         }

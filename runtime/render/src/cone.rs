@@ -77,11 +77,11 @@ fn paint_pixel(pixel: &mut Pixel, below_px: &mut f32, surface: &Surface, distanc
         let drop = ((surface.axis_px - *below_px) / (RIM_DROP * rim_px)).clamp(0.0, 1.0);
         mixed *= 1.0 - RIM_DARKNESS * nearness * nearness * drop;
     }
-    if coverage > 0.0 && surface.top_px >= *below_px {
-        mixed = mixed.lerp((colour * surface.light).min(Vec3::ONE), coverage);
-        if coverage >= 0.5 {
-            *below_px = surface.top_px;
-        }
+    // Where two surfaces cut each other, the nearer one takes over within a pixel of height, so that the seam is smooth.
+    let visible = coverage * (0.5 + surface.top_px - *below_px).clamp(0.0, 1.0);
+    mixed = mixed.lerp((colour * surface.light).min(Vec3::ONE), visible);
+    if visible >= 0.5 {
+        *below_px = surface.top_px;
     }
     *pixel = to_pixel(mixed);
 }

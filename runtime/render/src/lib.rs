@@ -5,17 +5,24 @@
 //! [`cone`], coloured by [`palette`]) → writing ([`overlay`], [`text`]) → the picture ([`top_view`]) → files ([`png_frame`], [`exr_frame`],
 //! all of them by [`sequence`]).
 //!
+//! Plots stand on a small kit ([`plot`]): everybody's paths ([`trajectories`]); of a database its velocity sets ([`velocity_plot`]), blend
+//! space ([`parameter_plot`]), bodies ([`contact_sheet`]) and steps ([`gait_plot`]), all of them by [`database_plots`].
+//!
 //! Conventions: world metres, x right and y up in the picture; pixels, x right and y down; colours sRGB-encoded, 0 to 1.
 
 pub mod body;
 pub mod cone;
+pub mod contact_sheet;
+pub mod database_plots;
 pub mod error;
 pub mod exr_frame;
 pub mod frame_range;
 pub mod framing;
+pub mod gait_plot;
 pub mod ground;
 pub mod overlay;
 pub mod palette;
+pub mod parameter_plot;
 pub mod playback;
 pub mod plot;
 pub mod png_frame;
@@ -25,3 +32,4 @@ pub mod text;
 pub mod top_view;
 pub mod trails;
 pub mod trajectories;
+pub mod velocity_plot;

@@ -1,7 +1,7 @@
 //! A small plotting kit: a figure on paper, panels with metric axes, and lines, polygons, marks and words in them.
 //!
-//! A [`Figure`] is the sheet, a [`Panel`] a window of it with its own axes; what is drawn in a panel is cut at its frame. Sizes of letters
-//! and lines are in proportion to the sheet's width, given for one of 1600 pixels.
+//! A [`Figure`] is the sheet, a [`Panel`] a window of it with its own axes; what is drawn in a panel is cut at its frame. Sheets are large
+//! (1600 pixels across and more), letters and lines on all of them the same.
 
 use glam::Vec2;
 use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Path, PathBuilder, Pixmap, Rect, Stroke, StrokeDash, Transform};
@@ -10,22 +10,26 @@ use crate::ground::{fill_rect, paint, to_color};
 use crate::palette::{GRID_FINE, INK, PAPER, Rgb};
 use crate::text::{Anchor, Typeface};
 
-/// The sheet's width for which sizes are given, pixels.
-const REFERENCE_WIDTH_PX: f32 = 1600.0;
-/// Letters of titles, of axes and legends, and of notes beside points, on a sheet of that width, pixels.
+/// Letters of titles, of axes and legends, and of notes beside points, pixels.
 const LETTERS_PX: [f32; 3] = [36.0, 25.0, 19.0];
-/// Ticks stand about this far apart, on a sheet of that width, pixels.
-const TICK_DISTANCE_PX: f32 = 130.0;
-/// Least height of letters that can be read, pixels.
-const MIN_LETTERS_PX: f32 = 9.0;
+/// Ticks stand about this far apart, pixels.
+const TICK_DISTANCE_PX: f32 = 110.0;
+/// Width of axes and grid lines, and length of ticks, pixels.
+const HAIRLINE_PX: f32 = 1.0;
+const TICK_PX: f32 = 8.0;
+/// Radius of the marks of a legend, pixels.
+const LEGEND_MARK_PX: f32 = 9.0;
+/// Where a note may stand against its point: right, left, above, below, then ever lower on the right; steps of its width and height.
+const NOTE_PLACES: [[f32; 2]; 8] =
+    [[0.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0], [-1.0, -1.0], [-1.0, 1.0], [0.0, -2.0], [0.0, 2.0]];
+/// Distance of a note from its point, pixels.
+const NOTE_GAP_PX: f32 = 13.0;
 
 /// A sheet of paper.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// The picture, opaque.
     pub pixmap: Pixmap,
-    /// Size of everything against a sheet of 1600 pixels.
-    pub scale: f32,
     title_face: Typeface,
     face: Typeface,
     note_face: Typeface,
@@ -57,7 +61,7 @@ pub struct Panel {
 pub struct Line {
     /// Colour.
     pub colour: Rgb,
-    /// On a sheet of 1600 pixels.
+    /// Pixels.
     pub width_px: f32,
     /// 0 to 1.
     pub opacity: f32,
@@ -87,9 +91,14 @@ impl Axis {
         Self { label: label.to_owned(), low: low - room, high: high + room }
     }
 
-    /// Round values, at most `count` of them.
-    pub fn ticks(&self, count: usize) -> Vec<f32> {
-        let step = tick_step((self.high - self.low) / count.max(1) as f32);
+    /// A round distance of ticks that stand about [`TICK_DISTANCE_PX`] apart on an axis of a length.
+    fn tick_step(&self, length_px: f32) -> f32 {
+        let count = (length_px / TICK_DISTANCE_PX).max(2.0);
+        round_step((self.high - self.low) / count)
+    }
+
+    /// The multiples of a step that lie on the axis.
+    fn ticks(&self, step: f32) -> Vec<f32> {
         let first = (self.low / step).ceil() as i64;
         let last = (self.high / step).floor() as i64;
         (first..=last).map(|index| index as f32 * step).collect()
@@ -97,17 +106,21 @@ impl Axis {
 }
 
 /// The least of 1, 2, 5, 10, … times a power of ten that is not below a length.
-fn tick_step(least: f32) -> f32 {
+fn round_step(least: f32) -> f32 {
     let power = libm::powf(10.0, libm::floorf(libm::log10f(least.max(1e-6))));
     [1.0, 2.0, 5.0].into_iter().map(|factor| factor * power).find(|step| *step >= 0.999 * least).unwrap_or(10.0 * power)
 }
 
 /// A tick's value with as many decimals as its step needs.
 fn tick_text(value: f32, step: f32) -> String {
-    let decimals = (-libm::floorf(libm::log10f(step) + 1e-3)).max(0.0) as usize;
+    number(value, (-libm::floorf(libm::log10f(step) + 1e-3)).max(0.0) as usize)
+}
+
+/// A number with a typesetter's minus sign, and none before zero.
+pub fn number(value: f32, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
-    // The minus sign of a typesetter, and no negative zero.
-    if text.trim_start_matches(['-', '0', '.']).is_empty() { text.replace('-', "") } else { text.replace('-', "−") }
+    let is_zero = text.trim_start_matches(['-', '0', '.']).is_empty();
+    text.replace('-', if is_zero { "" } else { "−" })
 }
 
 impl Panel {
@@ -143,10 +156,8 @@ impl Figure {
         let side = |side_px: u32| side_px.clamp(1, crate::framing::MAX_SIDE_PX);
         let mut pixmap = Pixmap::new(side(width_px), side(height_px)).expect("the sides are clamped to what it takes");
         pixmap.fill(to_color(PAPER, 1.0));
-        let scale = pixmap.width() as f32 / REFERENCE_WIDTH_PX;
-        let [title_face, face, note_face] =
-            LETTERS_PX.map(|size_px| Typeface::new((size_px * scale).max(MIN_LETTERS_PX)));
-        Self { pixmap, scale, title_face, face, note_face }
+        let [title_face, face, note_face] = LETTERS_PX.map(Typeface::new);
+        Self { pixmap, title_face, face, note_face }
     }
 
     /// Writes a heading, its baseline's left end at a place on the sheet.
@@ -162,6 +173,20 @@ impl Figure {
     /// Writes a small note at a place on the sheet.
     pub fn note(&mut self, text: &str, at_px: Vec2, anchor: Anchor, colour: Rgb) {
         self.note_face.draw_with_halo(&mut self.pixmap, text, at_px, anchor, [colour, PAPER]);
+    }
+
+    /// Writes the names of points beside them, each where none before it stands, as far as there is room.
+    pub fn names(&mut self, panel: &Panel, names: &[(Vec2, &str)]) {
+        let height_px = self.note_face.size_px;
+        let mut taken: Vec<[Vec2; 2]> = Vec::new();
+        for (point, name) in names {
+            let size_px = Vec2::new(self.note_face.width_px(name), height_px);
+            let boxes = NOTE_PLACES.map(|place| note_box(panel.to_px(*point), size_px, place));
+            let free = boxes.into_iter().find(|place| !taken.iter().any(|other| overlap(place, other)));
+            let [low, high] = free.unwrap_or(boxes[0]);
+            taken.push([low, high]);
+            self.note(name, Vec2::new(low.x, high.y - 0.2 * height_px), Anchor::Left, INK);
+        }
     }
 
     /// Draws the grid, the frame, ticks and labels of a panel.
@@ -181,20 +206,15 @@ impl Figure {
         Some(mask)
     }
 
-    fn tick_count(&self, length_px: f32) -> usize {
-        ((length_px / (TICK_DISTANCE_PX * self.scale)) as usize).max(2)
-    }
-
     fn draw_ticks_across(&mut self, panel: &Panel) {
         let [left, top, width, height] = panel.rect_px;
-        let ticks = panel.axes[0].ticks(self.tick_count(width));
-        let line = self.scale.round().max(1.0);
+        let step = panel.axes[0].tick_step(width);
         let base = top + height + 1.35 * self.face.size_px;
-        for value in &ticks {
-            let x = panel.to_px(Vec2::new(*value, 0.0)).x.round();
-            fill_rect(&mut self.pixmap, [x, top, line, height], GRID_FINE, 1.0);
-            fill_rect(&mut self.pixmap, [x, top + height, line, 8.0 * self.scale], INK, 1.0);
-            self.text(&tick_text(*value, spacing(&ticks)), Vec2::new(x, base), Anchor::Centre);
+        for value in panel.axes[0].ticks(step) {
+            let x = panel.to_px(Vec2::new(value, 0.0)).x.round();
+            fill_rect(&mut self.pixmap, [x, top, HAIRLINE_PX, height], GRID_FINE, 1.0);
+            fill_rect(&mut self.pixmap, [x, top + height, HAIRLINE_PX, TICK_PX], INK, 1.0);
+            self.text(&tick_text(value, step), Vec2::new(x, base), Anchor::Centre);
         }
         let below = Vec2::new(left + 0.5 * width, base + 1.3 * self.face.size_px);
         self.text(&panel.axes[0].label, below, Anchor::Centre);
@@ -202,14 +222,13 @@ impl Figure {
 
     fn draw_ticks_up(&mut self, panel: &Panel) {
         let [left, top, width, height] = panel.rect_px;
-        let ticks = panel.axes[1].ticks(self.tick_count(height));
-        let line = self.scale.round().max(1.0);
-        for value in &ticks {
-            let y = panel.to_px(Vec2::new(0.0, *value)).y.round();
-            fill_rect(&mut self.pixmap, [left, y, width, line], GRID_FINE, 1.0);
-            fill_rect(&mut self.pixmap, [left - 8.0 * self.scale, y, 8.0 * self.scale, line], INK, 1.0);
-            let beside = Vec2::new(left - 14.0 * self.scale, y + 0.35 * self.face.size_px);
-            self.text(&tick_text(*value, spacing(&ticks)), beside, Anchor::Right);
+        let step = panel.axes[1].tick_step(height);
+        for value in panel.axes[1].ticks(step) {
+            let y = panel.to_px(Vec2::new(0.0, value)).y.round();
+            fill_rect(&mut self.pixmap, [left, y, width, HAIRLINE_PX], GRID_FINE, 1.0);
+            fill_rect(&mut self.pixmap, [left - TICK_PX, y, TICK_PX, HAIRLINE_PX], INK, 1.0);
+            let beside = Vec2::new(left - 1.75 * TICK_PX, y + 0.35 * self.face.size_px);
+            self.text(&tick_text(value, step), beside, Anchor::Right);
         }
         // Written level above the axis: no reader has to tilt the head.
         let above = Vec2::new(left, top - 0.55 * self.face.size_px);
@@ -218,8 +237,7 @@ impl Figure {
 
     fn draw_frame(&mut self, panel: &Panel) {
         let [left, top, width, height] = panel.rect_px;
-        let line = self.scale.round().max(1.0);
-        for edge in [[left, top + height, width + line, line], [left, top, line, height]] {
+        for edge in [[left, top + height, width + HAIRLINE_PX, HAIRLINE_PX], [left, top, HAIRLINE_PX, height]] {
             fill_rect(&mut self.pixmap, edge, INK, 1.0);
         }
     }
@@ -240,7 +258,7 @@ impl Figure {
         }
     }
 
-    /// A mark of a radius in pixels (of a sheet of 1600).
+    /// A mark of a radius in pixels.
     pub fn mark(&mut self, panel: &Panel, at: Vec2, mark: Mark, radius_px: f32, colour: Rgb) {
         let centre = panel.to_px(at);
         if centre.is_finite() {
@@ -253,15 +271,14 @@ impl Figure {
         let mut pen_px = at_px;
         for (mark, colour, text) in entries {
             let size = self.face.size_px;
-            self.mark_at(pen_px - Vec2::new(0.0, 0.32 * size), *mark, 9.0, *colour);
+            self.mark_at(pen_px - Vec2::new(0.0, 0.32 * size), *mark, LEGEND_MARK_PX, *colour);
             pen_px.x += 0.8 * size;
             self.text(text, pen_px, Anchor::Left);
             pen_px.x += self.face.width_px(text) + 1.6 * size;
         }
     }
 
-    fn mark_at(&mut self, centre: Vec2, mark: Mark, radius_px: f32, colour: Rgb) {
-        let radius = radius_px * self.scale;
+    fn mark_at(&mut self, centre: Vec2, mark: Mark, radius: f32, colour: Rgb) {
         let (paint, identity) = (paint(colour, 1.0), Transform::identity());
         let stroke = Stroke { width: 0.42 * radius, line_cap: LineCap::Round, ..Stroke::default() };
         let Some(path) = mark_path(centre, mark, radius) else { return };
@@ -272,7 +289,7 @@ impl Figure {
     }
 
     fn stroke(&mut self, panel: &Panel, path: &Path, line: Line) {
-        let width = (line.width_px * self.scale).max(1.0);
+        let width = line.width_px.max(1.0);
         let dash = line.dashed.then(|| StrokeDash::new(vec![4.0 * width, 3.0 * width], 0.0)).flatten();
         let stroke = Stroke { width, dash, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
         let paint = paint(line.colour, line.opacity);
@@ -285,8 +302,15 @@ pub fn line(colour: Rgb, width_px: f32) -> Line {
     Line { colour, width_px, opacity: 1.0, dashed: false }
 }
 
-fn spacing(ticks: &[f32]) -> f32 {
-    ticks.windows(2).next().map_or(1.0, |pair| pair[1] - pair[0])
+/// Upper left and lower right corner of a note at one of [`NOTE_PLACES`].
+fn note_box(point_px: Vec2, size_px: Vec2, [across, down]: [f32; 2]) -> [Vec2; 2] {
+    let left = if across < 0.0 { -NOTE_GAP_PX - size_px.x } else { NOTE_GAP_PX };
+    let low = point_px + Vec2::new(left, (down - 0.5) * size_px.y);
+    [low, low + size_px]
+}
+
+fn overlap(one: &[Vec2; 2], other: &[Vec2; 2]) -> bool {
+    one[0].cmplt(other[1]).all() && other[0].cmplt(one[1]).all()
 }
 
 /// Points that are not finite are left out.
@@ -331,7 +355,7 @@ mod tests {
     #[test]
     fn ticks_are_round_and_within_the_axis() {
         let axis = Axis { label: String::new(), low: -0.31, high: 2.4 };
-        assert_eq!(axis.ticks(6), [0.0, 0.5, 1.0, 1.5, 2.0]);
+        assert_eq!(axis.ticks(axis.tick_step(6.0 * TICK_DISTANCE_PX)), [0.0, 0.5, 1.0, 1.5, 2.0]);
         assert_eq!(tick_text(-0.5, 0.5), "−0.5");
         assert_eq!(tick_text(-0.0, 0.5), "0.0");
         assert_eq!(tick_text(20.0, 10.0), "20");

@@ -1,12 +1,10 @@
-//! A hand-posed walker and crowds of it: bodies for pictures that depend on no simulation.
+//! A hand-posed walker and small crowds of it: bodies for pictures that depend on no clip and no simulation.
 
-#![expect(clippy::allow_attributes_without_reason, reason = "see below")]
-#![allow(dead_code, unreachable_pub)]
-
-use std::f32::consts::{FRAC_PI_2, TAU};
+use std::f32::consts::TAU;
+use std::path::{Path, PathBuf};
 
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::recording::Header;
+use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::recording_frame::AgentFrame;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use glam::{Quat, Vec2, Vec3};
@@ -14,12 +12,12 @@ use motiondb::pose::{Pose, Root};
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
 
 /// Walking speed of every walker, m/s.
-pub const SPEED_MPS: f32 = 1.3;
+const SPEED_MPS: f32 = 1.3;
 /// Strides a second at that speed.
-pub const STRIDE_HZ: f32 = 0.93;
+const STRIDE_HZ: f32 = 0.93;
 
 /// An adult of 1.75 m.
-pub fn skeleton() -> Skeleton {
+fn skeleton() -> Skeleton {
     let mut offsets_m = [Vec3::ZERO; JOINT_COUNT];
     let mut segment_ends_m = [Vec3::ZERO; JOINT_COUNT];
     let mut segment_radii_m = [0.05; JOINT_COUNT];
@@ -56,7 +54,7 @@ pub fn skeleton() -> Skeleton {
 }
 
 /// A walking pose at a phase: legs and arms swing as sines, knees bend in swing.
-pub fn walking(phase: f32) -> Pose {
+fn walking(phase: f32) -> Pose {
     let mut rotations = [Quat::IDENTITY; JOINT_COUNT];
     for side in 0..2 {
         let swing = (TAU * (phase + 0.5 * side as f32)).sin();
@@ -78,12 +76,12 @@ pub fn walking(phase: f32) -> Pose {
 }
 
 /// A walker at a place, facing somewhere.
-pub fn walker(position_m: Vec2, facing_rad: f32, phase: f32) -> AgentFrame {
+fn walker(position_m: Vec2, facing_rad: f32, phase: f32) -> AgentFrame {
     AgentFrame { root: Root { position_m, facing_rad }, phase, pose: walking(phase), ..AgentFrame::default() }
 }
 
 /// Agents on a circle, each bound for the opposite point, passing left of the centre on gentle arcs.
-pub fn circle(agent_count: usize, radius_m: f32, view: View) -> Header {
+pub(crate) fn circle(agent_count: usize, radius_m: f32, view: View) -> Header {
     let at = |index: usize| radius_m * Vec2::from_angle(TAU * index as f32 / agent_count as f32);
     let agents = (0..agent_count)
         .map(|index| AgentSpec {
@@ -98,18 +96,18 @@ pub fn circle(agent_count: usize, radius_m: f32, view: View) -> Header {
 }
 
 /// A scene around agents, with two obstacles out of their way.
-pub fn header(agents: Vec<AgentSpec>, view: View) -> Header {
+fn header(agents: Vec<AgentSpec>, view: View) -> Header {
     let block =
         |x: f32, y: f32| [[-0.7, -0.4], [0.7, -0.4], [0.7, 0.4], [-0.7, 0.4]].map(|c| Vec2::new(x, y) + Vec2::from(c));
     let scenario = Scenario {
-        name: "golden".to_owned(),
-        duration_s: 4.0,
-        dt_s: 1.0 / 30.0,
+        name: "walkers".to_owned(),
+        duration_s: 1.6,
+        dt_s: 0.1,
         seed: 1,
         agents,
         obstacles_m: vec![
-            block(-5.6, 2.6).to_vec(),
-            vec![Vec2::new(5.0, -2.8), Vec2::new(6.4, -2.6), Vec2::new(5.4, -1.6)],
+            block(-2.8, 1.3).to_vec(),
+            vec![Vec2::new(2.4, -1.5), Vec2::new(3.5, -1.4), Vec2::new(2.7, -0.6)],
         ],
         params: Params::default(),
         view,
@@ -118,7 +116,7 @@ pub fn header(agents: Vec<AgentSpec>, view: View) -> Header {
 }
 
 /// All agents of a scene after some seconds: each walks towards its goal on an arc that bulges to its right.
-pub fn frame(header: &Header, time_s: f32) -> Vec<AgentFrame> {
+pub(crate) fn frame(header: &Header, time_s: f32) -> Vec<AgentFrame> {
     let walk = |(index, agent): (usize, &AgentSpec)| {
         let goal = agent.goals_m[0];
         let way = goal - agent.position_m;
@@ -133,5 +131,39 @@ pub fn frame(header: &Header, time_s: f32) -> Vec<AgentFrame> {
     header.scenario.agents.iter().enumerate().map(walk).collect()
 }
 
-/// A quarter turn, for readers of the poses above.
-pub const QUARTER_TURN: f32 = FRAC_PI_2;
+/// The scene of the golden pictures: small, with all that a top view shows.
+pub(crate) fn golden_header() -> Header {
+    let view = View { width: 320, height: 180, frame_rate_hz: 20.0, trail_s: 1.0, labels: true, ..View::default() };
+    circle(7, 1.6, view)
+}
+
+/// Writes the scene of the golden pictures as a recording.
+pub(crate) fn write_recording(path: &Path) {
+    let header = golden_header();
+    let mut recorder = Recorder::create(path, &header).unwrap();
+    for step in 0..=16 {
+        recorder.push(&frame(&header, step as f32 * header.scenario.dt_s)).unwrap();
+    }
+    recorder.finish().unwrap();
+}
+
+/// An empty folder for one test, removed in the end.
+pub(crate) struct Scratch(PathBuf);
+
+impl Scratch {
+    pub(crate) fn new(name: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("fbcrowd-render-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        Self(folder)
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}

@@ -1,0 +1,138 @@
+//! Every example of a database as a strip of bodies: from the side, from the front and from above, at eight phases of its cycle.
+//!
+//! The bodies are those of the top view, turned; the feet that carry weight stand on an underlined ground.
+
+use fbcrowd_sim::recording_frame::AgentFrame;
+use glam::{Mat3, Vec2, Vec3};
+use motiondb::motion_db::{MotionDb, PHASE_COUNT};
+use motiondb::pose::Pose;
+use tiny_skia::Pixmap;
+
+use crate::body::{self, Detail, Part};
+use crate::cone::{Canvas, Cone};
+use crate::ground::fill_rect;
+use crate::palette::{GRID_COARSE, INK, look};
+use crate::plot::{Figure, number};
+use crate::text::Anchor;
+
+/// Phases drawn of each cycle.
+const PHASES: usize = 8;
+/// Width and height of one body's cell, pixels.
+const CELL_PX: Vec2 = Vec2::new(94.0, 150.0);
+/// Pixels a metre.
+const SCALE_PX_M: f32 = 66.0;
+/// Height of the ground line over a cell's lower edge, pixels.
+const GROUND_PX: f32 = 18.0;
+/// Width of the column of names, height of the head row, gap between views, pixels.
+const NAMES_PX: f32 = 540.0;
+const HEAD_PX: f32 = 150.0;
+const GAP_PX: f32 = 40.0;
+/// Width of the dark rim under a limb, pixels.
+const RIM_PX: f32 = 1.5;
+/// Bodies are seen from this far beyond their own depth, so that no part counts as below the paper, m.
+const DEPTH_OFFSET_M: f32 = 2.0;
+
+/// One way of looking at a body: its name, and the root frame's axes as right, up and towards the eye.
+struct View {
+    name: &'static str,
+    axes: [Vec3; 3],
+    /// Height of the body's root over the ground line: bodies seen from above are centred in their cell, pixels.
+    lift_px: f32,
+}
+
+const VIEWS: [View; 3] = [
+    View { name: "from its right side", axes: [Vec3::X, Vec3::Z, Vec3::NEG_Y], lift_px: 0.0 },
+    View { name: "from the front", axes: [Vec3::Y, Vec3::Z, Vec3::X], lift_px: 0.0 },
+    View { name: "from above", axes: [Vec3::X, Vec3::Y, Vec3::Z], lift_px: 56.0 },
+];
+
+/// The contact sheet of a database.
+pub fn contact_sheet(db: &MotionDb) -> Pixmap {
+    let strip_px = PHASES as f32 * CELL_PX.x + GAP_PX;
+    let width = NAMES_PX + VIEWS.len() as f32 * strip_px;
+    let height = HEAD_PX + db.examples.len() as f32 * CELL_PX.y + GAP_PX;
+    let mut figure = Figure::new(width as u32, height as u32);
+    draw_head(&mut figure, strip_px);
+    for (row, example) in db.examples.iter().enumerate() {
+        let base = HEAD_PX + (row + 1) as f32 * CELL_PX.y - GROUND_PX;
+        figure.text(&example.name, Vec2::new(GAP_PX, base - 70.0), Anchor::Left);
+        draw_numbers(&mut figure, db, row, base);
+        for view in 0..VIEWS.len() {
+            let left = NAMES_PX + view as f32 * strip_px;
+            fill_rect(&mut figure.pixmap, [left, base.round(), strip_px - GAP_PX, 1.0], GRID_COARSE, 1.0);
+        }
+    }
+    figure.pixmap = draw_bodies(figure.pixmap, db, strip_px);
+    figure.pixmap
+}
+
+fn draw_head(figure: &mut Figure, strip_px: f32) {
+    figure.title("Examples, one stride each, from right mid-stance on", Vec2::new(GAP_PX, 66.0));
+    for (index, view) in VIEWS.iter().enumerate() {
+        figure.text(view.name, Vec2::new(NAMES_PX + index as f32 * strip_px, 120.0), Anchor::Left);
+    }
+}
+
+fn draw_numbers(figure: &mut Figure, db: &MotionDb, row: usize, base: f32) {
+    let parameters = &db.examples[row].parameters;
+    let (speed, strafe) = (number(parameters.speed_mps, 2), number(parameters.strafe_mps, 2));
+    let turn = number(parameters.turn_rate_rad_s.to_degrees(), 0);
+    let lines = [
+        format!("{speed} m/s forward, {strafe} m/s to the left"),
+        format!("{turn} °/s, stride {} s", number(db.examples[row].phase_map.period_s, 2)),
+    ];
+    for (index, line) in lines.iter().enumerate() {
+        let below = Vec2::new(GAP_PX, base - 40.0 + 26.0 * index as f32);
+        figure.note(line, below, Anchor::Left, INK);
+    }
+}
+
+fn draw_bodies(paper: Pixmap, db: &MotionDb, strip_px: f32) -> Pixmap {
+    let mut canvas = Canvas::new(paper);
+    for row in 0..db.examples.len() {
+        for cell in 0..PHASES {
+            let parts = parts(db, row, cell * PHASE_COUNT / PHASES);
+            for (index, view) in VIEWS.iter().enumerate() {
+                let x = NAMES_PX + index as f32 * strip_px + (cell as f32 + 0.5) * CELL_PX.x;
+                let y = HEAD_PX + (row + 1) as f32 * CELL_PX.y - GROUND_PX - view.lift_px;
+                draw_body(&mut canvas, &parts, view, Vec2::new(x, y));
+            }
+        }
+    }
+    canvas.pixmap
+}
+
+/// The limbs of one example at one stored phase, in the root frame.
+fn parts(db: &MotionDb, example: usize, phase: usize) -> Vec<Part> {
+    let rotations = *db.rows.rotations(example, phase);
+    let pose = Pose { pelvis_m: db.rows.pelvis_m[example * PHASE_COUNT + phase], rotations };
+    let mut parts = Vec::new();
+    body::append_parts(
+        &mut parts,
+        &db.skeleton,
+        &AgentFrame { pose, ..AgentFrame::default() },
+        look(example),
+        Detail::Full,
+    );
+    parts
+}
+
+/// Far parts first, as the top view paints low ones first.
+fn draw_body(canvas: &mut Canvas, parts: &[Part], view: &View, at_px: Vec2) {
+    let to_view = Mat3::from_cols(view.axes[0], view.axes[1], view.axes[2]).transpose();
+    let to_px = |point: Vec3| {
+        let seen = (to_view * point + Vec3::Z * DEPTH_OFFSET_M) * SCALE_PX_M;
+        Vec3::new(at_px.x + seen.x, at_px.y - seen.y, seen.z)
+    };
+    let mut cones: Vec<(Cone, Vec3)> = parts
+        .iter()
+        .map(|part| {
+            (Cone { ends_px: part.ends_m.map(to_px), radii_px: part.radii_m.map(|r| r * SCALE_PX_M) }, part.colour)
+        })
+        .collect();
+    let depth = |cone: &Cone| cone.ends_px[0].z + cone.ends_px[1].z;
+    cones.sort_by(|one, other| depth(&one.0).total_cmp(&depth(&other.0)));
+    for (cone, colour) in &cones {
+        canvas.paint(cone, *colour, RIM_PX);
+    }
+}

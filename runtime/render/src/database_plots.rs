@@ -1,0 +1,32 @@
+//! All plots of a database, as `inspect --plots` writes them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use motiondb::motion_db::MotionDb;
+
+use crate::contact_sheet::contact_sheet;
+use crate::error::RenderError;
+use crate::gait_plot::gait_events;
+use crate::parameter_plot::parameter_space;
+use crate::png_frame;
+use crate::velocity_plot::velocity_space;
+
+/// Writes every plot of a database into a folder, which is made if missing; returns the files.
+///
+/// # Errors
+/// Where the folder or a file cannot be written.
+pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>, RenderError> {
+    fs::create_dir_all(folder).map_err(|source| RenderError::Folder { folder: folder.to_owned(), source })?;
+    let plots = [
+        ("velocity_space.png", velocity_space(db)),
+        ("parameter_space.png", parameter_space(db)),
+        ("contact_sheet.png", contact_sheet(db)),
+        ("gait_events.png", gait_events(db)),
+    ];
+    let write = |(name, plot)| {
+        let path = folder.join(name);
+        png_frame::write(&path, &plot).map(|()| path)
+    };
+    plots.into_iter().map(write).collect()
+}

@@ -1,0 +1,102 @@
+//! When feet stand: for every example the height of both soles over the cycle, the contacts found, and the four key times.
+
+use glam::{Vec2, Vec3};
+use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
+use motiondb::pose::{Pose, Root};
+use motiondb::skeleton::Side;
+use tiny_skia::Pixmap;
+
+use crate::palette::{INK, Rgb};
+use crate::plot::{Axis, Figure, Line, Mark, Panel, line};
+use crate::text::Anchor;
+
+/// Panels side by side.
+const COLUMNS: usize = 3;
+/// Width and height of one panel with its surroundings, pixels.
+const CELL_PX: Vec2 = Vec2::new(800.0, 460.0);
+/// Left, top, width, height of the axes within it, pixels.
+const PANEL_PX: [f32; 4] = [120.0, 110.0, 650.0, 230.0];
+/// Height of the sheet's head, pixels.
+const HEAD_PX: f32 = 150.0;
+/// Left foot: green; right foot: violet, as port and starboard would have it.
+const FOOT_COLOURS: [Rgb; 2] = [Rgb::new(0.13, 0.55, 0.30), Rgb::new(0.52, 0.27, 0.68)];
+/// Height at which the contact bars of both feet are drawn, below the ground, share of the axis.
+const BAR_SHARES: [f32; 2] = [0.12, 0.20];
+/// A foot is planted where its contact is at least this (`definitions.md`).
+const PLANTED: f32 = 0.5;
+/// Names of the key times, in their order.
+const KEY_NAMES: [&str; 4] = ["R off", "R strike", "L off", "L strike"];
+/// The foot that each key time speaks of, as an index of a `[left, right]` pair.
+const KEY_SIDES: [usize; 4] = [1, 1, 0, 0];
+
+/// The gait plot of a database.
+pub fn gait_events(db: &MotionDb) -> Pixmap {
+    let rows = db.examples.len().div_ceil(COLUMNS);
+    let size = [COLUMNS as f32 * CELL_PX.x, HEAD_PX + rows as f32 * CELL_PX.y];
+    let mut figure = Figure::new(size[0] as u32, size[1] as u32);
+    figure.title("Lowest point of each sole, contacts and key times", Vec2::new(PANEL_PX[0], 70.0));
+    let legend = [(Mark::Disc, FOOT_COLOURS[0], "left foot"), (Mark::Disc, FOOT_COLOURS[1], "right foot")];
+    figure.legend(Vec2::new(PANEL_PX[0] + 10.0, 130.0), &legend);
+    for example in 0..db.examples.len() {
+        draw_example(&mut figure, db, example);
+    }
+    figure.pixmap
+}
+
+fn draw_example(figure: &mut Figure, db: &MotionDb, index: usize) {
+    let example = &db.examples[index];
+    let corner = Vec2::new((index % COLUMNS) as f32 * CELL_PX.x, HEAD_PX + (index / COLUMNS) as f32 * CELL_PX.y);
+    let heights_m = Side::BOTH.map(|side| sole_heights_m(db, index, side));
+    let greatest_m = heights_m.iter().flatten().copied().fold(0.05, f32::max);
+    let time = Axis { label: "time, s".to_owned(), low: 0.0, high: example.phase_map.period_s };
+    let height = Axis { label: "height, m".to_owned(), low: -0.26 * greatest_m, high: 1.08 * greatest_m };
+    let [left, top, width, panel_height] = PANEL_PX;
+    let panel = figure.panel([corner.x + left, corner.y + top, width, panel_height], [time, height]);
+    figure.text(&example.name, corner + Vec2::new(left + width, top - 16.0), Anchor::Right);
+    draw_key_times(figure, &panel, example);
+    for side in Side::BOTH {
+        let colour = FOOT_COLOURS[side.index()];
+        let curve =
+            heights_m[side.index()].iter().enumerate().map(|(row, height)| Vec2::new(time_s(example, row), *height));
+        figure.polyline(&panel, curve, line(colour, 2.4));
+        draw_contacts(figure, &panel, db, index, side, -BAR_SHARES[side.index()] * greatest_m);
+    }
+}
+
+/// Height of the lowest sole point at each stored phase, and at the first once more, which closes the cycle.
+fn sole_heights_m(db: &MotionDb, example: usize, side: Side) -> Vec<f32> {
+    let lowest_m = |row: usize| {
+        let phase = row % PHASE_COUNT;
+        let pelvis_m = db.rows.pelvis_m[example * PHASE_COUNT + phase];
+        let joints = Pose { pelvis_m, rotations: *db.rows.rotations(example, phase) }.forward_kinematics(&db.skeleton);
+        let points: [Vec3; 3] = joints.sole_points_m(&db.skeleton, side.index());
+        points.map(|point| Root::default().to_world(point).z).into_iter().fold(f32::INFINITY, f32::min)
+    };
+    (0..=PHASE_COUNT).map(lowest_m).collect()
+}
+
+fn time_s(example: &MotionExample, row: usize) -> f32 {
+    example.phase_map.time_s(row as f32 / PHASE_COUNT as f32)
+}
+
+/// A bar under the ground wherever the foot is planted.
+fn draw_contacts(figure: &mut Figure, panel: &Panel, db: &MotionDb, example: usize, side: Side, height_m: f32) {
+    let planted = |row: usize| db.rows.contacts[example * PHASE_COUNT + row % PHASE_COUNT][side.index()] >= PLANTED;
+    for row in (0..PHASE_COUNT).filter(|row| planted(*row) && planted(row + 1)) {
+        let ends = [row, row + 1].map(|row| Vec2::new(time_s(&db.examples[example], row), height_m));
+        figure.polyline(panel, ends, line(FOOT_COLOURS[side.index()], 6.0));
+    }
+}
+
+fn draw_key_times(figure: &mut Figure, panel: &Panel, example: &MotionExample) {
+    let Some(key_times_s) = example.key_times_s else { return };
+    let [_, height] = &panel.axes;
+    for (key, time_s) in key_times_s.into_iter().enumerate() {
+        let ends = [Vec2::new(time_s, height.low), Vec2::new(time_s, height.high)];
+        let colour = FOOT_COLOURS[KEY_SIDES[key]];
+        figure.polyline(panel, ends, Line { dashed: true, opacity: 0.8, ..line(colour, 1.3) });
+        // Events come close together: their names stand on two levels.
+        let at = panel.to_px(ends[1]) + Vec2::new(4.0, 18.0 + 20.0 * (key % 2) as f32);
+        figure.note(KEY_NAMES[key], at, Anchor::Left, INK);
+    }
+}

@@ -1,0 +1,87 @@
+//! The velocities that a database allows, in the agent's frame, as the paper's Fig. 3: turning and holding set, and the edges that forbid
+//! sharp turns.
+
+use glam::Vec2;
+use motiondb::motion_db::{MotionDb, MotionExample};
+use motiondb::velocity_hull::{is_holding, is_turning, turning_point_mps};
+use tiny_skia::Pixmap;
+
+use crate::palette::{INK, Rgb};
+use crate::plot::{Axis, Figure, Line, Mark, Panel, equal_units, line};
+
+/// Sides of the sheet, pixels.
+const SHEET_PX: [u32; 2] = [1600, 1400];
+/// Left, top, width, height of the axes on it, pixels.
+const PANEL_PX: [f32; 4] = [130.0, 190.0, 1410.0, 1080.0];
+/// Turning set: a blue; holding set: an ochre; sharp-turn edges: a red, as in the paper.
+const TURNING: Rgb = Rgb::new(0.16, 0.40, 0.72);
+const HOLDING: Rgb = Rgb::new(0.78, 0.52, 0.10);
+const SHARP_TURN: Rgb = Rgb::new(0.80, 0.16, 0.16);
+
+/// The plot of a database's velocity sets.
+pub fn velocity_space(db: &MotionDb) -> Pixmap {
+    let mut figure = Figure::new(SHEET_PX[0], SHEET_PX[1]);
+    figure.title("Velocities that the motions allow, in the agent's frame", Vec2::new(PANEL_PX[0], 70.0));
+    let panel = figure.panel(PANEL_PX, equal_units(PANEL_PX, axes(db)));
+    draw_sets(&mut figure, &panel, db);
+    draw_agent(&mut figure, &panel);
+    draw_examples(&mut figure, &panel, db);
+    let legend = [
+        (Mark::Disc, TURNING, "turning set"),
+        (Mark::Diamond, HOLDING, "holding set"),
+        (Mark::Cross, SHARP_TURN, "sharp-turn edges"),
+    ];
+    figure.legend(Vec2::new(PANEL_PX[0] + 10.0, 122.0), &legend);
+    figure.pixmap
+}
+
+/// Forward to the right and left up: the agent's frame, not mirrored.
+fn axes(db: &MotionDb) -> [Axis; 2] {
+    let points: Vec<Vec2> = db.examples.iter().flat_map(points_mps).map(|(_, _, point)| point).collect();
+    let with_origin = |values: Vec<f32>| values.into_iter().chain([0.0]);
+    [
+        Axis::around("forward velocity, m/s", with_origin(points.iter().map(|point| point.x).collect())),
+        Axis::around("velocity to the left, m/s", with_origin(points.iter().map(|point| point.y).collect())),
+    ]
+}
+
+/// Where an example stands in each set that it belongs to.
+fn points_mps(example: &MotionExample) -> impl Iterator<Item = (Mark, Rgb, Vec2)> {
+    let parameters = &example.parameters;
+    let turning = is_turning(parameters).then(|| (Mark::Disc, TURNING, turning_point_mps(parameters)));
+    let held = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
+    let holding = (is_holding(parameters) && !is_turning(parameters)).then_some((Mark::Diamond, HOLDING, held));
+    turning.into_iter().chain(holding)
+}
+
+fn draw_sets(figure: &mut Figure, panel: &Panel, db: &MotionDb) {
+    let sets = &db.velocity_hull;
+    figure.polygon(panel, sets.holding_mps.iter().copied(), 0.13, line(HOLDING, 3.0));
+    figure.polygon(panel, sets.turning_mps.iter().copied(), 0.13, line(TURNING, 3.0));
+    for edge in &sets.sharp_turn_edges_mps {
+        figure.polyline(panel, *edge, Line { dashed: true, ..line(SHARP_TURN, 4.5) });
+    }
+}
+
+/// The agent itself: its two axes through the origin, and a ring.
+fn draw_agent(figure: &mut Figure, panel: &Panel) {
+    let [x, y] = &panel.axes;
+    let axis = Line { opacity: 0.5, ..line(INK, 1.5) };
+    figure.polyline(panel, [Vec2::new(x.low, 0.0), Vec2::new(x.high, 0.0)], axis);
+    figure.polyline(panel, [Vec2::new(0.0, y.low), Vec2::new(0.0, y.high)], axis);
+    figure.mark(panel, Vec2::ZERO, Mark::Ring, 10.0, INK);
+}
+
+fn draw_examples(figure: &mut Figure, panel: &Panel, db: &MotionDb) {
+    for example in &db.examples {
+        for (mark, colour, point) in points_mps(example) {
+            figure.mark(panel, point, mark, 8.0, colour);
+        }
+    }
+    let names: Vec<(Vec2, &str)> = db
+        .examples
+        .iter()
+        .flat_map(|example| points_mps(example).map(|(_, _, point)| (point, example.name.as_str())))
+        .collect();
+    figure.names(panel, &names);
+}

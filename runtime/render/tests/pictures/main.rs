@@ -1,0 +1,6 @@
+//! Pictures as users get them: whole sequences, golden images, plots of databases.
+
+mod golden;
+mod plots;
+mod sequence;
+mod support;

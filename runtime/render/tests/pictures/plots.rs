@@ -1,0 +1,78 @@
+//! Plots of a database draw whatever a valid database may hold, always alike.
+
+use fbcrowd_render::contact_sheet::contact_sheet;
+use fbcrowd_render::database_plots::write_database_plots;
+use fbcrowd_render::gait_plot::gait_events;
+use fbcrowd_render::parameter_plot::parameter_space;
+use fbcrowd_render::velocity_plot::velocity_space;
+use glam::Vec2;
+use motiondb::blend_space::BlendSpace;
+use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
+use motiondb::parameters::Parameters;
+use motiondb::phase_map::PhaseMap;
+use motiondb::velocity_hull::VelocityHull;
+use tiny_skia::Pixmap;
+
+use crate::support;
+
+/// A database of hand-posed walks at the given speeds, m/s; the first one stands.
+fn database(speeds_mps: &[f32]) -> MotionDb {
+    let examples = speeds_mps.iter().enumerate().map(|(index, speed_mps)| MotionExample {
+        name: format!("walk_{index}"),
+        source: 0,
+        mirrored: false,
+        parameters: Parameters { speed_mps: *speed_mps, ..Parameters::default() },
+        phase_map: PhaseMap { period_s: 1.1, left_share: 0.5 },
+        key_times_s: (index > 0).then_some([0.3, 0.7, 0.85, 0.15]),
+        planted_slide_cm_s: 0.0,
+        planted_share: 0.6,
+    });
+    let header = support::golden_header();
+    let mut rows = Rows::default();
+    for row in 0..speeds_mps.len() * PHASE_COUNT {
+        let pose = support::frame(&header, row as f32 / 60.0)[0].pose;
+        rows.rotations.extend(pose.rotations);
+        rows.pelvis_m.push(pose.pelvis_m);
+        rows.contacts.push([1.0, (row % 2) as f32]);
+    }
+    let simplices: Vec<u32> = (1..speeds_mps.len() as u32).flat_map(|index| [index - 1, index]).collect();
+    let dimension = u32::from(speeds_mps.len() > 1);
+    let corners = speeds_mps.iter().map(|speed| Vec2::new(*speed, 0.0)).collect();
+    MotionDb {
+        skeleton: header.skeleton,
+        sources: Vec::new(),
+        examples: examples.collect(),
+        rows,
+        velocity_hull: VelocityHull { turning_mps: corners, ..VelocityHull::default() },
+        blend_space: BlendSpace { dimension, axis_ranges: [1.0, 0.0, 0.0], simplices, covered_share: 1.0 },
+        correspondence: None,
+    }
+}
+
+/// Share of the pixels that are not paper.
+fn inked_share(pixmap: &Pixmap) -> f64 {
+    let paper = pixmap.pixel(0, 0).unwrap();
+    pixmap.pixels().iter().filter(|pixel| **pixel != paper).count() as f64 / pixmap.pixels().len() as f64
+}
+
+#[test]
+fn databases_of_one_and_of_many_examples_are_drawn() {
+    for speeds_mps in [&[0.0][..], &[0.0, 1.0, 1.4]] {
+        let db = database(speeds_mps);
+        for plot in [velocity_space, parameter_space, contact_sheet, gait_events] {
+            let drawn = plot(&db);
+            assert!((0.003..0.5).contains(&inked_share(&drawn)), "{}", inked_share(&drawn));
+            assert!(drawn == plot(&db), "drawing again gives another picture");
+        }
+    }
+}
+
+#[test]
+fn all_plots_are_written_and_a_folder_in_the_way_is_named() {
+    let folder = support::Scratch::new("plots");
+    let files = write_database_plots(&database(&[0.0, 1.2]), folder.path()).unwrap();
+    assert_eq!(files.len(), 4);
+    assert!(files.iter().all(|file| file.is_file()));
+    let error = write_database_plots(&database(&[0.0]), &files[0]).unwrap_err();
+    assert!(error.to_string().contains("velocity_space.png"), "{error}");
+}

@@ -1,0 +1,125 @@
+//! Sequences are the same files however they are made, and say what is wrong where they cannot be made.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::Cursor;
+use std::path::Path;
+use std::sync::Mutex;
+
+use exr::prelude::{ReadChannels, ReadLayers, f16, read};
+use fbcrowd_render::error::RenderError;
+use fbcrowd_render::palette::decode_srgb;
+use fbcrowd_render::sequence::{Format, SequenceOptions, render_sequence};
+use fbcrowd_sim::recording::Recording;
+
+use crate::support::{self, Scratch};
+
+fn options(folder: &Path, format: Format, frames: Option<&str>) -> SequenceOptions {
+    let frames = frames.map(|frames| frames.parse().unwrap());
+    SequenceOptions { folder: folder.to_owned(), name: "walkers".to_owned(), format, frames }
+}
+
+fn recording(folder: &Path) -> Recording {
+    let path = folder.join("walkers.fbrec");
+    support::write_recording(&path);
+    Recording::open(&path).unwrap()
+}
+
+/// Files by name, drawn with a number of threads.
+fn files(recording: &Recording, format: Format, frames: &[Option<&str>], threads: usize) -> BTreeMap<String, Vec<u8>> {
+    let scratch = Scratch::new(&format!("threads-{threads}-{}-{}", frames.len(), format.extension()));
+    let folder = scratch.path();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    for frames in frames {
+        pool.install(|| render_sequence(recording, &options(folder, format, *frames), &|_, _| ())).unwrap();
+    }
+    let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    names.map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
+}
+
+#[test]
+fn files_are_identical_for_any_threads_and_chunks_and_from_run_to_run() {
+    let scratch = Scratch::new("identical");
+    let recording = recording(scratch.path());
+    for format in [Format::Png, Format::Exr] {
+        let once = files(&recording, format, &[None], 1);
+        assert_eq!(once.len(), 33, "1.6 s at 20 frames a second, the start included");
+        assert_eq!(once.keys().next().unwrap(), &format!("walkers.1001.{}", format.extension()));
+        assert_eq!(once, files(&recording, format, &[None], 4));
+        assert_eq!(once, files(&recording, format, &[Some("1001-1033x2"), Some("1002-2000:2")], 2));
+    }
+}
+
+#[test]
+fn exr_is_the_png_in_scene_linear_light() {
+    let scratch = Scratch::new("linear");
+    let folder = scratch.path();
+    let recording = recording(folder);
+    let [png, exr] = [Format::Png, Format::Exr].map(|format| {
+        let written = render_sequence(&recording, &options(folder, format, Some("1020")), &|_, _| ()).unwrap();
+        fs::read(&written[0]).unwrap()
+    });
+    let mut reader = png::Decoder::new(Cursor::new(png)).read_info().unwrap();
+    let mut codes = vec![0; reader.output_buffer_size().unwrap()];
+    let width = reader.next_frame(&mut codes).unwrap().width as usize;
+    let pixels = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .rgba_channels(
+            |size, _| (size.width(), vec![[0.0_f32; 4]; size.area()]),
+            |(width, pixels), at, (r, g, b, a): (f32, f32, f32, f32)| pixels[at.y() * *width + at.x()] = [r, g, b, a],
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(Cursor::new(exr))
+        .unwrap();
+    assert_eq!(pixels.layer_data.attributes.frames_per_second, Some((20, 1)));
+    assert_eq!(pixels.layer_data.attributes.capture_date, None);
+    let (exr_width, linear) = pixels.layer_data.channel_data.pixels;
+    assert_eq!(exr_width, width);
+    for (pixel, code) in linear.iter().zip(codes.chunks(3)) {
+        let expected = [0, 1, 2].map(|channel| f16::from_f32(decode_srgb(f32::from(code[channel]) / 255.0)).to_f32());
+        assert_eq!(pixel[..3], expected);
+        assert_eq!(pixel[3], 1.0);
+    }
+}
+
+#[test]
+fn progress_counts_every_frame_once() {
+    let scratch = Scratch::new("progress");
+    let folder = scratch.path();
+    let recording = recording(folder);
+    let heard = Mutex::new(Vec::new());
+    let progress = |done, all| heard.lock().unwrap().push((done, all));
+    render_sequence(&recording, &options(folder, Format::Png, Some("1001-1010x3")), &progress).unwrap();
+    let mut heard = heard.into_inner().unwrap();
+    heard.sort_unstable();
+    assert_eq!(heard, [(1, 4), (2, 4), (3, 4), (4, 4)]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_named_and_nothing_is_left() {
+    let scratch = Scratch::new("unwritable");
+    let folder = scratch.path();
+    let recording = recording(folder);
+    let blocked = folder.join("file/frames");
+    fs::write(folder.join("file"), "in the way").unwrap();
+    let error = render_sequence(&recording, &options(&blocked, Format::Png, None), &|_, _| ()).unwrap_err();
+    assert!(matches!(&error, RenderError::Folder { folder, .. } if *folder == blocked), "{error}");
+    assert!(error.to_string().contains("file/frames"), "{error}");
+    // A folder stands where the frame should go: the frame is refused by name, its temporary file removed.
+    fs::create_dir(folder.join("walkers.1001.png")).unwrap();
+    let error = render_sequence(&recording, &options(folder, Format::Png, Some("1001")), &|_, _| ()).unwrap_err();
+    assert!(matches!(&error, RenderError::Write { path, .. } if path.ends_with("walkers.1001.png")), "{error}");
+    let left = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    assert!(left.into_iter().all(|name| !name.ends_with(".tmp")));
+}
+
+#[test]
+fn frames_outside_the_recording_are_refused() {
+    let scratch = Scratch::new("outside");
+    let folder = scratch.path();
+    let recording = recording(folder);
+    let error = render_sequence(&recording, &options(folder, Format::Png, Some("1-100")), &|_, _| ()).unwrap_err();
+    assert!(matches!(error, RenderError::NoFrames { first: 1001, last: 1033, .. }), "{error}");
+}
