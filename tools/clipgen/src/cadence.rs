@@ -14,6 +14,9 @@ const GRAVITY_MPS2: f64 = 9.81;
 /// width and the trunk's own bank spare a part of).
 const LEAN_ARM_M: f64 = 0.70;
 
+/// How much earlier a foot leaves the ground in turns, share of the stride per rad/s.
+const TURN_TOE_OFF_S: f64 = 0.010;
+
 /// One steady gait: everything that the generator needs to make its cycle. Angles in radians, shares of the stride.
 #[derive(Clone, Debug)]
 pub(crate) struct Gait {
@@ -37,6 +40,9 @@ pub(crate) struct Gait {
     pub(crate) roll: FootRoll,
     /// With a flight phase; the hips then fall freely.
     pub(crate) running: bool,
+    /// When pelvis and chest are turned farthest, the striking side's hip ahead: share of the stride after that strike. People's trunks
+    /// and arms keep time with the thighs; walkers strike with the thigh just past its foremost, runners well after.
+    pub(crate) yaw_peak: f64,
     /// The pelvis about its path.
     pub(crate) pelvis: PelvisSwing,
     /// Trunk, head and arms.
@@ -117,7 +123,8 @@ impl Gait {
 pub(crate) fn walk(root: RootMotion, stride_frames: usize) -> Gait {
     let speed = root.pace_mps();
     let by_speed = |values: [f64; 5]| between(speed, &[0.5, 0.8, 1.1, 1.4, 1.8], &values);
-    let toe_off = by_speed([0.605, 0.610, 0.616, 0.612, 0.592]);
+    // A turning foot leaves the ground more slowly and counts as planted for longer.
+    let toe_off = by_speed([0.600, 0.602, 0.626, 0.614, 0.592]) - TURN_TOE_OFF_S * root.turn_rate_rad_s.abs();
     Gait {
         root,
         stride_frames,
@@ -136,6 +143,7 @@ pub(crate) fn walk(root: RootMotion, stride_frames: usize) -> Gait {
             toe_off_toe_pitch_rad: -by_speed([12.0, 15.0, 18.0, 20.0, 22.0]).to_radians(),
         },
         running: false,
+        yaw_peak: 0.02,
         pelvis: PelvisSwing {
             sway_m: by_speed([0.034, 0.032, 0.026, 0.021, 0.018]),
             surge_m: by_speed([0.008, 0.010, 0.012, 0.014, 0.015]),
@@ -150,7 +158,7 @@ pub(crate) fn walk(root: RootMotion, stride_frames: usize) -> Gait {
 pub(crate) fn run(root: RootMotion, stride_frames: usize) -> Gait {
     let speed = root.pace_mps();
     let by_speed = |values: [f64; 2]| between(speed, &[2.4, 3.5], &values);
-    let toe_off = by_speed([0.38, 0.315]);
+    let toe_off = by_speed([0.365, 0.315]);
     Gait {
         toe_off,
         style: Style::Jog,
@@ -165,6 +173,7 @@ pub(crate) fn run(root: RootMotion, stride_frames: usize) -> Gait {
             toe_off_toe_pitch_rad: -by_speed([20.0, 24.0]).to_radians(),
         },
         running: true,
+        yaw_peak: -0.13,
         pelvis: PelvisSwing {
             sway_m: 0.010,
             surge_m: 0.010,
@@ -175,7 +184,7 @@ pub(crate) fn run(root: RootMotion, stride_frames: usize) -> Gait {
             lean_rad: by_speed([7.0, 10.0]).to_radians(),
             chest_yaw_rad: by_speed([12.0, 16.0]).to_radians(),
             arm_mean_rad: by_speed([-8.0, -4.0]).to_radians(),
-            arm_swing_rad: by_speed([22.0, 33.0]).to_radians(),
+            arm_swing_rad: by_speed([26.0, 35.0]).to_radians(),
             arm_out_rad: 14_f64.to_radians(),
             elbow_rad: by_speed([80.0, 88.0]).to_radians(),
             elbow_swing_rad: by_speed([9.0, 14.0]).to_radians(),
@@ -187,27 +196,30 @@ pub(crate) fn run(root: RootMotion, stride_frames: usize) -> Gait {
 
 /// Stepping where nobody published curves (sideways, about oneself): flat feet, a little lift, knees that give.
 pub(crate) fn step_about(root: RootMotion, stride_frames: usize, half_width_m: f64) -> Gait {
-    let toe_off = 0.565;
+    let toe_off = 0.55;
+    // Slow steps hardly leave the ground; haste is the speed of the feet, those of a turning body 0.3 m from its axis.
+    let haste = (root.pace_mps() + 0.1 * root.turn_rate_rad_s.abs()).min(1.0);
     let walk = walk(root, stride_frames);
     Gait {
         toe_off,
         style_share: 0.0,
-        lift_m: 0.025,
+        lift_m: 0.012 + 0.010 * haste,
         half_width_m,
         roll: FootRoll {
-            strike_pitch_rad: -6_f64.to_radians(),
+            strike_pitch_rad: -(2.0 + 4.0 * haste).to_radians(),
             flat_from: 0.10,
             heel_off: toe_off * 0.55,
             heel_rise_power: 2.2,
-            toe_off_pitch_rad: -20_f64.to_radians(),
-            toe_off_toe_pitch_rad: -6_f64.to_radians(),
+            toe_off_pitch_rad: -(6.0 + 14.0 * haste).to_radians(),
+            toe_off_toe_pitch_rad: -(2.0 + 4.0 * haste).to_radians(),
         },
         pelvis: PelvisSwing { sway_m: 0.025, surge_m: 0.0, list_rad: 0.035, rotation_rad: 0.0 },
         upper_body: UpperBodySwing {
             chest_yaw_rad: 0.02,
-            arm_swing_rad: 4_f64.to_radians(),
+            arm_swing_rad: (1.5 + 3.0 * haste).to_radians(),
             arm_out_rad: 12_f64.to_radians(),
-            elbow_rad: 28_f64.to_radians(),
+            elbow_rad: (16.0 + 16.0 * haste).to_radians(),
+            elbow_swing_rad: 0.05 * haste,
             ..walk.upper_body
         },
         ..walk
@@ -254,9 +266,9 @@ fn walking_upper_body(root: &RootMotion) -> UpperBodySwing {
         bank_rad: libm::atan(root.speed_mps * root.turn_rate_rad_s / GRAVITY_MPS2),
         look_rad: (0.22 * root.turn_rate_rad_s).clamp(-0.45, 0.45),
         chest_yaw_rad: by_speed([2.0, 2.6, 3.4, 4.2, 5.5]),
-        arm_mean_rad: by_speed([0.0, 0.0, -1.0, -2.0, 0.0]),
-        arm_swing_rad: by_speed([6.0, 9.0, 13.0, 17.5, 24.0]),
-        arm_out_rad: by_speed([7.0, 7.0, 7.5, 8.0, 9.0]),
+        arm_mean_rad: by_speed([1.0, 1.5, 2.0, 2.0, 2.0]),
+        arm_swing_rad: by_speed([6.0, 10.0, 15.0, 19.0, 24.0]),
+        arm_out_rad: by_speed([9.0, 9.0, 9.0, 9.0, 10.0]),
         elbow_rad: by_speed([14.0, 16.0, 19.0, 23.0, 34.0]),
         elbow_swing_rad: by_speed([3.0, 5.0, 7.0, 9.0, 13.0]),
     }

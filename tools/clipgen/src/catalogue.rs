@@ -57,7 +57,7 @@ const ROWS: &[Row] = &[
     ("walk_180", Kind::Walk, (1.8, 0.0, 0.0), 27, 4),
     ("jog_240", Kind::Run, (2.4, 0.0, 0.0), 22, 4),
     ("run_350", Kind::Run, (3.5, 0.0, 0.0), 20, 4),
-    ("turn_030_left", Kind::Walk, (1.0, 30.0, 0.0), 37, 4),
+    ("turn_030_left", Kind::Walk, (1.0, 30.0, 0.0), 36, 4),
     ("turn_060_left", Kind::Walk, (0.85, 60.0, 0.0), 36, 4),
     ("turn_090_left", Kind::Walk, (0.65, 90.0, 0.0), 32, 4),
     ("turn_130_left", Kind::Walk, (0.45, 130.0, 0.0), 27, 4),

@@ -11,7 +11,7 @@ use crate::cadence::{FRAME_RATE_HZ, Gait};
 use crate::foot_roll::Foot;
 use crate::footsteps::{Footprint, leg_phase};
 use crate::legs;
-use crate::pelvis::{self, Height, PelvisPose, ROTATION_PEAK};
+use crate::pelvis::{self, Height, PelvisPose};
 use crate::rotation::{about_y, about_z};
 use crate::swing::{Stance, Swing};
 use crate::upper_body;
@@ -61,7 +61,7 @@ pub(crate) fn frames(gait: &Gait, strides: usize, film: Film) -> Vec<Pose> {
         .map(|frame| {
             let time_s = direction * frame as f64 / FRAME_RATE_HZ;
             // Begins where the yaw of hips and chest turns back, so that it biases no mean over the clip's ends.
-            let mut pose = cycle.pose(ROTATION_PEAK + time_s / gait.period_s());
+            let mut pose = cycle.pose(gait.yaw_peak + time_s / gait.period_s());
             let turn = about_z(gait.root.heading_rad(time_s));
             pose.hips_m = gait.root.place_m(time_s).extend(0.0) + turn * pose.hips_m;
             pose.rotations[0] = turn * pose.rotations[0];

@@ -4,7 +4,7 @@
 //! its published flexion, smoothed to four harmonics of the stride and lowered wherever a leg, standing or about to strike, would be
 //! overstretched. Running: at the top of
 //! flight the hips fall with g, which at the step's frequency gives the amplitude g/(4π/P)² (3.3 cm at 2.7 steps/s: a drop of 7 cm).
-//! List and rotation have the published shapes (Schwartz et al. 2008, free class). Root frame, metres.
+//! The list has the published shape (Schwartz et al. 2008, free class), the rotation its amplitude. Root frame, metres.
 
 use glam::{DQuat, DVec3};
 
@@ -26,9 +26,6 @@ const HANDOVER_SHARE: f64 = 0.05;
 const LEAST_PLANNED_KNEE_RAD: f64 = 4.0 * std::f64::consts::PI / 180.0;
 /// Share of a turn's bank that the pelvis takes.
 const BANK_SHARE: f64 = 0.6;
-/// Where the published rotation is greatest, share of the stride after the strike of the side that is ahead.
-pub(crate) const ROTATION_PEAK: f64 = 0.081;
-
 /// The pelvis at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PelvisPose {
@@ -98,7 +95,7 @@ pub(crate) fn pose(gait: &Gait, height: &Height, cycle_phase: f64) -> PelvisPose
 fn level_pose(gait: &Gait, cycle_phase: f64) -> PelvisPose {
     let swing = &gait.pelvis;
     let since_mid_stance = cycle_phase - gait.mid_stance();
-    let yaw_rad = -swing.rotation_rad * wave(cycle_phase - ROTATION_PEAK);
+    let yaw_rad = -swing.rotation_rad * wave(cycle_phase - gait.yaw_peak);
     let list_rad = swing.list_rad * list_shape(cycle_phase) - BANK_SHARE * gait.upper_body.bank_rad;
     // List and bank outermost: about the heading they leave the facing alone.
     let tilt_rad = gait.style.tilt_beyond_standing_deg().to_radians();

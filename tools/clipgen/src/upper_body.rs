@@ -2,27 +2,28 @@
 //!
 //! The chest counter-rotates the pelvis (3–5° above 1 m/s), leans with speed and banks into turns; the spine's three joints share what
 //! lies between pelvis and chest. The head stays level and looks where the body will be. Arms swing in antiphase to the leg of their side:
-//! foremost as the other heel strikes. They hang from a chest that yaws but their swing is counted against the vertical. Root frame.
+//! foremost shortly before the other heel strikes. They hang from a chest that yaws but their swing is counted against the vertical. Root frame.
 
 use glam::DQuat;
 
 use crate::body::{ARMS, CHEST, CLAVICLES, FOREARMS, HANDS, HEAD, JOINT_COUNT, NECK, SPINE};
 use crate::cadence::Gait;
-use crate::pelvis::{PelvisPose, ROTATION_PEAK};
+use crate::pelvis::PelvisPose;
 use crate::rotation::{about_x, about_y, about_z, share_of, wave};
 
-/// The foremost hand comes this much after the other heel's strike, share of the stride.
-const ARM_LAG: f64 = 0.03;
+/// The foremost hand comes this much before the trunk is turned farthest, share of the stride: opposite to the thigh.
+const ARM_LEAD: f64 = 0.05;
 /// The elbow's greatest bend comes after the shoulder's, share of the stride.
 const ELBOW_LAG: f64 = 0.04;
 /// The trunk nods twice a stride, forward as each foot takes the load, radians.
 const NOD_RAD: f64 = 0.012;
 /// The chest dips towards the stance side by this share of the pelvis's list, radians.
-const CHEST_LIST_SHARE: f64 = 0.30;
+const CHEST_LIST_SHARE: f64 = 0.60;
 /// Share of a turn's bank that the chest takes; the legs take as much, the feet being set outward.
 const CHEST_BANK_SHARE: f64 = 0.85;
-/// Upper arms turned inward, so that the hands swing towards the midline, radians.
-const ARM_INWARD_RAD: f64 = 0.30;
+/// Upper arms turn inward, so that the hands swing towards the midline, the more the elbow is bent: radians, and per radian of the elbow.
+const ARM_INWARD_RAD: f64 = 0.24;
+const ARM_INWARD_PER_ELBOW: f64 = 0.13;
 /// Clavicles follow the arm by this share.
 const CLAVICLE_SHARE: f64 = 0.12;
 /// A relaxed wrist, radians.
@@ -61,7 +62,7 @@ pub(crate) struct Arm {
 /// Of a gait at a cycle phase (0 at the left heel strike).
 pub(crate) fn in_gait(gait: &Gait, cycle_phase: f64) -> UpperBody {
     let style = &gait.upper_body;
-    let chest_wave = wave(cycle_phase - ROTATION_PEAK);
+    let chest_wave = wave(cycle_phase - gait.yaw_peak);
     let list_wave = wave(cycle_phase - gait.mid_stance());
     UpperBody {
         chest_yaw_rad: style.chest_yaw_rad * chest_wave,
@@ -70,7 +71,7 @@ pub(crate) fn in_gait(gait: &Gait, cycle_phase: f64) -> UpperBody {
         head_yaw_rad: style.look_rad,
         head_roll_rad: -0.4 * style.bank_rad,
         arms: [0.5, 0.0].map(|foremost| {
-            let since = cycle_phase - foremost - ARM_LAG;
+            let since = cycle_phase - foremost - gait.yaw_peak + ARM_LEAD;
             Arm {
                 flexion_rad: style.arm_mean_rad + style.arm_swing_rad * wave(since),
                 out_rad: style.arm_out_rad,
@@ -99,7 +100,8 @@ impl Arm {
     fn write(&self, side: usize, chest_yaw_rad: f64, chest: DQuat, rotations: &mut [DQuat; JOINT_COUNT]) {
         let sign = if side == 0 { 1.0 } else { -1.0 };
         let lowered = about_x(-sign * (std::f64::consts::FRAC_PI_2 - self.out_rad));
-        let hanging = about_y(-self.flexion_rad) * lowered * about_y(ARM_INWARD_RAD);
+        let inward_rad = ARM_INWARD_RAD + ARM_INWARD_PER_ELBOW * self.elbow_rad;
+        let hanging = about_y(-self.flexion_rad) * lowered * about_y(inward_rad);
         let clavicle = about_z(-sign * CLAVICLE_SHARE * self.flexion_rad);
         rotations[CLAVICLES[side]] = clavicle;
         rotations[ARMS[side]] = (chest * clavicle).inverse() * about_z(chest_yaw_rad) * hanging;
