@@ -203,3 +203,87 @@ pub(crate) fn nearest_on_segment(position_m: Vec2, from_m: Vec2, to_m: Vec2) -> 
     let share = (position_m - from_m).dot(along) / along.length_squared().max(f32::MIN_POSITIVE);
     from_m + share.clamp(0.0, 1.0) * along
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const RADIUS_M: f32 = 0.25;
+
+    /// An L, clockwise on purpose, and a block 0.3 m off it: a niche and a gap too narrow for the disc.
+    fn place() -> Obstacles {
+        let polygon = |corners: &[[f32; 2]]| corners.iter().copied().map(Vec2::from).collect::<Vec<Vec2>>();
+        Obstacles::new(&[
+            polygon(&[[0.0, 0.0], [0.0, 3.0], [1.0, 3.0], [1.0, 1.0], [3.0, 1.0], [3.0, 0.0]]),
+            polygon(&[[3.3, 0.0], [4.0, 0.0], [4.0, 1.0], [3.3, 1.0]]),
+        ])
+    }
+
+    fn in_the_shapes(point: Vec2) -> bool {
+        let within = |least: [f32; 2], most: [f32; 2]| {
+            point.cmpgt(Vec2::from(least)).all() && point.cmplt(Vec2::from(most)).all()
+        };
+        within([0.0, 0.0], [1.0, 3.0]) || within([0.0, 0.0], [3.0, 1.0]) || within([3.3, 0.0], [4.0, 1.0])
+    }
+
+    fn distance_to_edges_m(obstacles: &Obstacles, point_m: Vec2) -> f32 {
+        let edges = 0..obstacles.corners().len() as u32;
+        let distance_m = |edge| {
+            let [from_m, to_m] = obstacles.ends_m(edge);
+            point_m.distance(nearest_on_segment(point_m, from_m, to_m))
+        };
+        edges.map(distance_m).fold(f32::INFINITY, f32::min)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn knows_inside_from_outside(x in -1.0f32..5.0, y in -1.0f32..4.0) {
+            prop_assert_eq!(place().contains(Vec2::new(x, y)), in_the_shapes(Vec2::new(x, y)));
+        }
+
+        #[test]
+        fn clamps_a_disc_out_of_walls_and_leaves_a_free_one(x in -1.0f32..5.0, y in -1.0f32..4.0) {
+            let (obstacles, position_m) = (place(), Vec2::new(x, y));
+            let free = !obstacles.contains(position_m) && distance_to_edges_m(&obstacles, position_m) >= RADIUS_M;
+            let clamped_m = obstacles.clamp_outside(position_m, RADIUS_M);
+            prop_assert!(!obstacles.contains(clamped_m), "{clamped_m} is inside");
+            prop_assert!(!free || clamped_m == position_m);
+            let in_the_gap = (2.9..3.5).contains(&clamped_m.x) && (-0.3..1.3).contains(&clamped_m.y);
+            prop_assert!(in_the_gap || distance_to_edges_m(&obstacles, clamped_m) > RADIUS_M - 1e-3, "{clamped_m}");
+        }
+
+        #[test]
+        fn near_edges_are_those_within_range_that_face_the_point(x in -1.0f32..5.0, y in -1.0f32..4.0) {
+            let (obstacles, position_m, mut found) = (place(), Vec2::new(x, y), Vec::new());
+            obstacles.near(position_m, 1.0, &mut found);
+            prop_assert!(found.windows(2).all(|pair| pair[0].distance_m <= pair[1].distance_m));
+            for edge in 0..obstacles.corners().len() as u32 {
+                let [from_m, to_m] = obstacles.ends_m(edge);
+                let right = (to_m - from_m).perp_dot(position_m - from_m) < 0.0;
+                let close = position_m.distance(nearest_on_segment(position_m, from_m, to_m)) <= 1.0;
+                prop_assert_eq!(found.iter().any(|near| near.edge == edge), right && close);
+            }
+        }
+    }
+
+    #[test]
+    fn corners_run_counter_clockwise_and_know_the_niche() {
+        let obstacles = place();
+        let hollow: Vec<Vec2> =
+            obstacles.corners().iter().filter(|corner| !corner.convex).map(|corner| corner.point_m).collect();
+        assert_eq!(hollow, [Vec2::ONE]);
+        for (index, corner) in obstacles.corners().iter().enumerate() {
+            assert_eq!(obstacles.corners()[corner.next as usize].previous as usize, index);
+        }
+    }
+
+    #[test]
+    fn degenerate_polygons_are_dropped() {
+        let flat = vec![Vec2::ZERO, Vec2::X, Vec2::X, Vec2::ZERO];
+        assert!(Obstacles::new(&[vec![], vec![Vec2::X], flat]).corners().is_empty());
+    }
+}

@@ -82,3 +82,57 @@ pub fn speed_limit_mps(density: f32, params: &McnParams) -> f32 {
     let stride = 0.5 * (1.0 + params.density_buffer) / params.density_factor;
     (space / stride * (space / stride)).max(params.density_speed_min_mps)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The ten nearest of a square lattice of a density, 1/m².
+    fn lattice(per_m2: f32) -> Vec<Vec2> {
+        let spacing_m = 1.0 / per_m2.sqrt();
+        let mut places: Vec<Vec2> = (-4..=4)
+            .flat_map(|x| (-4..=4).map(move |y| spacing_m * Vec2::new(x as f32, y as f32)))
+            .filter(|place_m| place_m.length() > 0.0 && place_m.length() <= RANGE_M)
+            .collect();
+        places.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        places.truncate(10);
+        places
+    }
+
+    /// ρ ahead of an agent whose ten nearest neighbours are spread evenly over the disc that they fill at a density, 1/m².
+    fn density_amid_ten(per_m2: f32) -> f32 {
+        let radius_m = (10.0 / (std::f32::consts::PI * per_m2)).sqrt();
+        let places: Vec<Vec2> = (-50..=50)
+            .flat_map(|x| (-50..=50).map(move |y| Vec2::new(x as f32, y as f32) / 50.0))
+            .filter(|place| place.length() <= 1.0)
+            .map(|place| radius_m * place)
+            .collect();
+        density_ahead(Vec2::X, &places, &[]) * 10.0 / places.len() as f32
+    }
+
+    #[test]
+    fn follows_weidmanns_fundamental_diagram() {
+        for per_m2 in [1.0, 1.5, 2.0, 2.5] {
+            let expected_mps = 1.34 * (1.0 - libm::expf(-1.913 * (1.0 / per_m2 - 1.0 / 5.4)));
+            let limit_mps = speed_limit_mps(density_amid_ten(per_m2), &McnParams::default());
+            assert!((limit_mps / expected_mps - 1.0).abs() < 0.15, "{per_m2}/m²: {limit_mps}, {expected_mps} m/s");
+        }
+    }
+
+    #[test]
+    fn a_free_way_is_left_alone_and_nobody_is_stalled() {
+        let params = McnParams::default();
+        let free = filter(Vec2::new(1.3, 0.2), &[Vec2::new(-2.0, 0.0)], &[], &params);
+        assert_eq!(free.velocity_mps, Vec2::new(1.3, 0.2));
+        let jam = filter(Vec2::new(1.3, 0.0), &lattice(8.0), &[], &params);
+        assert!(jam.velocity_mps.length() > 0.8 * params.density_speed_min_mps && jam.velocity_mps.length() < 0.5);
+        assert_eq!(filter(Vec2::ZERO, &lattice(8.0), &[], &params).velocity_mps, Vec2::ZERO);
+    }
+
+    #[test]
+    fn leans_to_the_emptier_side() {
+        let crowd_on_the_left: Vec<Vec2> = (0..8).map(|index| Vec2::new(0.6 + 0.2 * index as f32, 0.5)).collect();
+        let filtered = filter(Vec2::new(1.3, 0.0), &crowd_on_the_left, &[], &McnParams::default());
+        assert!(filtered.velocity_mps.y < -0.02 && filtered.velocity_mps.x > 0.2, "{filtered:?}");
+    }
+}

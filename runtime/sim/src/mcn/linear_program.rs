@@ -144,3 +144,90 @@ fn bisector(worst: &HalfPlane, other: &HalfPlane) -> Option<HalfPlane> {
     let direction = (other.direction - worst.direction).normalize();
     Some(HalfPlane { point_mps, direction, source: other.source })
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::mcn::half_plane::Source;
+
+    const SPEED_MAX_MPS: f32 = 2.0;
+    /// Spacing of the velocities that brute force tries, m/s.
+    const GRID_MPS: f32 = 0.04;
+
+    fn half_planes(counts: std::ops::Range<usize>) -> impl Strategy<Value = Vec<HalfPlane>> {
+        let one = (0.0f32..std::f32::consts::TAU, -0.6f32..1.5).prop_map(|(angle, distance_mps)| {
+            let (sin, cos) = libm::sincosf(angle);
+            HalfPlane::behind(distance_mps * Vec2::new(cos, sin), Vec2::new(cos, sin), Source::Stance)
+        });
+        proptest::collection::vec(one, counts)
+    }
+
+    fn worst_mps(half_planes: &[HalfPlane], velocity_mps: Vec2) -> f32 {
+        half_planes.iter().map(|half_plane| half_plane.violation_mps(velocity_mps)).fold(f32::NEG_INFINITY, f32::max)
+    }
+
+    fn grid() -> impl Iterator<Item = Vec2> {
+        let steps = (SPEED_MAX_MPS / GRID_MPS) as i32;
+        (-steps..=steps)
+            .flat_map(move |x| (-steps..=steps).map(move |y| GRID_MPS * Vec2::new(x as f32, y as f32)))
+            .filter(|velocity_mps| velocity_mps.length() <= SPEED_MAX_MPS)
+    }
+
+    /// The 2D optimum is no worse than any velocity tried; a failed prefix has no room for its next half-plane; the 3D optimum keeps the
+    /// prefix and its greatest violation is no worse than any velocity's that keeps it.
+    fn check(half_planes: &[HalfPlane], optimal_mps: Vec2) {
+        let solution = solve(half_planes, optimal_mps, SPEED_MAX_MPS, &mut Vec::new());
+        let Solution { velocity_mps, feasible_prefix } = solution;
+        let (hard, soft) = half_planes.split_at(feasible_prefix);
+        assert!(worst_mps(hard, velocity_mps) < 2e-3, "{solution:?}");
+        assert!(velocity_mps.length() < SPEED_MAX_MPS + 1e-3);
+        for tried_mps in grid().filter(|&tried_mps| worst_mps(hard, tried_mps) <= 0.0) {
+            if soft.is_empty() {
+                assert!(velocity_mps.distance(optimal_mps) <= tried_mps.distance(optimal_mps) + 1e-3, "{tried_mps}");
+            } else {
+                assert!(soft[0].violation_mps(tried_mps) > -1e-3, "{tried_mps} is feasible");
+                assert!(worst_mps(soft, velocity_mps) <= worst_mps(soft, tried_mps) + 2e-3, "{tried_mps} is better");
+            }
+        }
+    }
+
+    fn optimal() -> impl Strategy<Value = Vec2> {
+        (-2.5f32..2.5, -2.5f32..2.5).prop_map(Vec2::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(400))]
+
+        #[test]
+        fn no_velocity_tried_is_better(half_planes in half_planes(1..12), optimal in optimal()) {
+            check(&half_planes, optimal);
+        }
+
+        #[test]
+        fn no_velocity_tried_yields_less_in_a_tight_crowd(mut half_planes in half_planes(4..9), optimal in optimal()) {
+            for half_plane in &mut half_planes {
+                half_plane.point_mps -= 0.8 * half_plane.direction.perp() * -1.0;
+            }
+            check(&half_planes, optimal);
+        }
+    }
+
+    #[test]
+    fn projects_nothing_without_half_planes() {
+        let solution = solve(&[], Vec2::new(0.3, -1.2), SPEED_MAX_MPS, &mut Vec::new());
+        assert_eq!(solution, Solution { velocity_mps: Vec2::new(0.3, -1.2), feasible_prefix: 0 });
+    }
+
+    #[test]
+    fn what_comes_first_yields_last() {
+        let ahead = HalfPlane::behind(Vec2::new(1.0, 0.0), -Vec2::X, Source::Agent(0));
+        let back = HalfPlane::behind(Vec2::new(-1.0, 0.0), Vec2::X, Source::Agent(1));
+        for (half_planes, x_mps) in [([ahead, back], 1.0), ([back, ahead], -1.0)] {
+            let solution = solve(&half_planes, Vec2::ZERO, SPEED_MAX_MPS, &mut Vec::new());
+            assert_eq!(solution.feasible_prefix, 1);
+            assert!((solution.velocity_mps.x - x_mps).abs() < 1e-4, "{solution:?}");
+        }
+    }
+}

@@ -84,3 +84,97 @@ pub(crate) fn tangents(centre_m: Vec2, radius_m: f32) -> [Vec2; 2] {
     let leg_m = (distance_squared - radius_m * radius_m).max(0.0).sqrt();
     [radius_m, -radius_m].map(|side_m| Vec2::new(leg_m, side_m).rotate(centre_m) / distance_squared)
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::mcn::time_to_collision::disc_with_disc;
+
+    const HORIZON_S: f32 = 4.0;
+    const DT_S: f32 = 0.1;
+
+    fn vector(bound: f32) -> impl Strategy<Value = Vec2> {
+        (-bound..bound, -bound..bound).prop_map(Vec2::from)
+    }
+
+    fn disc() -> impl Strategy<Value = Disc> {
+        (vector(3.0), vector(1.5), 0.15f32..0.5).prop_map(|(position_m, velocity_mps, radius_m)| Disc {
+            position_m,
+            velocity_mps,
+            radius_m,
+        })
+    }
+
+    fn both_half_planes(own: &Disc, other: &Disc) -> [HalfPlane; 2] {
+        [(own, other), (other, own)].map(|(a, b)| agent_half_plane(a, b, share(a, b), 0, HORIZON_S, DT_S))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn discs_that_both_keep_their_half_planes_do_not_meet_within_the_horizon(
+            own in disc(), other in disc(), first in vector(2.0), second in vector(2.0),
+        ) {
+            let radius_m = own.radius_m + other.radius_m;
+            let offset_m = other.position_m - own.position_m;
+            if offset_m.length() < radius_m + 0.01 {
+                return Ok(());
+            }
+            let chosen = both_half_planes(&own, &other).into_iter().zip([first, second]);
+            // A velocity outside is moved to the boundary, where the claim is sharpest.
+            let [first, second] = [0, 1].map(|index| {
+                let (half_plane, velocity_mps) = chosen.clone().nth(index).unwrap();
+                velocity_mps + half_plane.violation_mps(velocity_mps).max(0.0) * half_plane.direction.perp()
+            });
+            let met_s = disc_with_disc(offset_m, first - second, radius_m - 2e-3);
+            prop_assert!(met_s > HORIZON_S - 1e-2, "{met_s}");
+        }
+
+        #[test]
+        fn the_change_is_the_least_that_avoids(own in disc(), other in disc()) {
+            let radius_m = own.radius_m + other.radius_m;
+            let offset_m = other.position_m - own.position_m;
+            let velocity_mps = own.velocity_mps - other.velocity_mps;
+            let met_s = disc_with_disc(offset_m, velocity_mps, radius_m);
+            if met_s <= 0.0 || met_s >= HORIZON_S {
+                return Ok(());
+            }
+            let half_plane = agent_half_plane(&own, &other, 1.0, 0, HORIZON_S, DT_S);
+            let change_mps = half_plane.violation_mps(own.velocity_mps);
+            for step in 0..360 {
+                let (sin, cos) = libm::sincosf((step as f32).to_radians());
+                let less_mps = velocity_mps + 0.99 * change_mps * Vec2::new(cos, sin);
+                prop_assert!(disc_with_disc(offset_m, less_mps, radius_m + 1e-3) < HORIZON_S + 2e-2);
+            }
+        }
+
+        #[test]
+        fn shares_add_up_to_one(own in disc(), other in disc()) {
+            let [first, second] = [share(&own, &other), share(&other, &own)];
+            prop_assert!((first + second - 1.0).abs() < 1e-5 && (0.29..0.71).contains(&first));
+        }
+
+        #[test]
+        fn overlapping_discs_part_within_a_step(own in disc(), direction in vector(1.0), depth in 0.05f32..0.95) {
+            let reach_m = (own.radius_m + 0.3) * depth;
+            let other = Disc {
+                position_m: own.position_m + reach_m * direction.normalize_or(Vec2::X),
+                velocity_mps: Vec2::ZERO,
+                radius_m: 0.3,
+            };
+            let [first, second] = both_half_planes(&own, &other).map(|half_plane| half_plane.point_mps);
+            let parted_m = (other.position_m - own.position_m - DT_S * (first - second)).length();
+            prop_assert!(parted_m > own.radius_m + 0.3 - 1e-3, "{parted_m}");
+        }
+    }
+
+    #[test]
+    fn who_comes_from_the_left_is_given_more() {
+        let own = Disc { position_m: Vec2::ZERO, velocity_mps: Vec2::X, radius_m: 0.25 };
+        let from_left = Disc { position_m: Vec2::new(2.0, 2.0), velocity_mps: -Vec2::Y, radius_m: 0.25 };
+        assert!(share(&own, &from_left) > 0.6 && share(&from_left, &own) < 0.4);
+    }
+}

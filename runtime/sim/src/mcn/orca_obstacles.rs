@@ -191,3 +191,78 @@ impl Shadow {
         HalfPlane { point_mps: self.corners_mps[side] + self.radius_mps * direction.perp(), direction, source }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::mcn::time_to_collision::disc_with_segment;
+
+    const HORIZON_S: f32 = 2.0;
+    const RADIUS_M: f32 = 0.3;
+
+    /// A block, an L with a niche, and a thin wall beside them, which make corners of every kind.
+    fn place() -> Obstacles {
+        let polygon = |corners: &[[f32; 2]]| corners.iter().copied().map(Vec2::from).collect::<Vec<Vec2>>();
+        Obstacles::new(&[
+            polygon(&[[1.0, -1.0], [2.0, -1.0], [2.0, 1.0], [1.0, 1.0]]),
+            polygon(&[[-3.0, -2.0], [-1.0, -2.0], [-1.0, -1.0], [-2.0, -1.0], [-2.0, 1.5], [-3.0, 1.5]]),
+            polygon(&[[-1.0, 2.5], [2.0, 2.6], [2.0, 2.8]]),
+        ])
+    }
+
+    fn half_planes(obstacles: &Obstacles, own: &Disc) -> Vec<HalfPlane> {
+        let (mut near, mut found) = (Vec::new(), Vec::new());
+        obstacles.near(own.position_m, 10.0, &mut near);
+        obstacle_half_planes(obstacles, &near, own, HORIZON_S, &mut found);
+        found
+    }
+
+    fn met_s(obstacles: &Obstacles, position_m: Vec2, velocity_mps: Vec2) -> f32 {
+        let edges = 0..obstacles.corners().len() as u32;
+        let met_s = |edge| {
+            let corners_m = obstacles.ends_m(edge).map(|end_m| end_m - position_m);
+            disc_with_segment(corners_m, velocity_mps, RADIUS_M - 2e-3)
+        };
+        edges.map(met_s).fold(f32::INFINITY, f32::min)
+    }
+
+    fn vector(bound: f32) -> impl Strategy<Value = Vec2> {
+        (-bound..bound, -bound..bound).prop_map(Vec2::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn a_permitted_velocity_meets_no_wall_within_the_horizon(
+            position_m in vector(4.0), velocity_mps in vector(1.5), tried_mps in vector(2.0),
+        ) {
+            let obstacles = place();
+            prop_assume!(obstacles.clamp_outside(position_m, RADIUS_M + 0.01).distance(position_m) < 1e-6);
+            let own = Disc { position_m, velocity_mps, radius_m: RADIUS_M };
+            let found = half_planes(&obstacles, &own);
+            prop_assert!(found.iter().all(|half_plane| half_plane.violation_mps(Vec2::ZERO) < 1e-4), "standing is forbidden");
+            let permitted = found.iter().all(|half_plane| half_plane.violation_mps(tried_mps) <= 0.0);
+            prop_assert!(!permitted || met_s(&obstacles, position_m, tried_mps) > HORIZON_S - 1e-2);
+        }
+
+        #[test]
+        fn a_velocity_that_meets_nothing_is_kept(position_m in vector(4.0), velocity_mps in vector(1.5)) {
+            let obstacles = Obstacles::new(&[vec![Vec2::new(1.0, -1.0), Vec2::new(2.0, -1.0), Vec2::new(1.5, 1.0)]]);
+            prop_assume!(obstacles.clamp_outside(position_m, RADIUS_M + 0.01).distance(position_m) < 1e-6);
+            let own = Disc { position_m, velocity_mps, radius_m: RADIUS_M };
+            let kept = half_planes(&obstacles, &own).iter().all(|half_plane| half_plane.violation_mps(velocity_mps) <= 1e-3);
+            prop_assert!(kept || met_s(&obstacles, position_m, velocity_mps) < HORIZON_S + 2e-2);
+        }
+    }
+
+    #[test]
+    fn a_disc_in_contact_may_leave_and_slide_but_not_press_on() {
+        let own = Disc { position_m: Vec2::new(0.75, 0.0), velocity_mps: Vec2::ZERO, radius_m: RADIUS_M };
+        let found = half_planes(&place(), &own);
+        let permits = |velocity_mps| found.iter().all(|half_plane| half_plane.violation_mps(velocity_mps) <= 1e-6);
+        assert!(permits(-0.2 * Vec2::X) && permits(0.2 * Vec2::Y) && !permits(0.1 * Vec2::X));
+    }
+}

@@ -117,3 +117,70 @@ fn direction(velocity_mps: Vec2) -> Option<Vec2> {
     let speed_mps = velocity_mps.length();
     (speed_mps >= STANDING_MPS).then(|| velocity_mps / speed_mps)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DT_S: f32 = 0.1;
+
+    /// Faces and wants +x.
+    fn walk(velocity_mps: Vec2) -> Walk {
+        Walk { forward: Vec2::X, preferred_mps: Vec2::X, velocity_mps, strafing_s: 0.0, stepping_back_s: 0.0 }
+    }
+
+    fn decided(walk: &Walk, holds: bool) -> Orientation {
+        decide(walk, |_| holds, DT_S, &McnParams::default())
+    }
+
+    /// Walks on with a velocity until a time is over, facing what is decided; returns the last decision.
+    fn walk_on(mut walk: Walk, duration_s: f32) -> (Walk, Orientation) {
+        let mut orientation = decided(&walk, true);
+        for _ in 0..(duration_s / DT_S) as usize {
+            orientation = decided(&walk, true);
+            let Orientation { facing, strafing_s, stepping_back_s, .. } = orientation;
+            walk = Walk { forward: facing, strafing_s, stepping_back_s, ..walk };
+        }
+        (walk, orientation)
+    }
+
+    #[test]
+    fn faces_v_pref_while_side_stepping_and_the_velocity_where_the_body_cannot() {
+        let aside = walk(Vec2::new(0.3, 0.4));
+        assert_eq!(decided(&aside, true).facing, Vec2::X);
+        assert_eq!(decided(&aside, true).set, VelocitySet::Holding);
+        assert_eq!(decided(&aside, false).facing, Vec2::new(0.6, 0.8));
+        assert_eq!(decided(&aside, false).set, VelocitySet::Turning);
+    }
+
+    #[test]
+    fn strafing_ends_at_its_limit_and_starts_anew_only_after_a_rest() {
+        let aside = Vec2::new(0.3, 0.4);
+        let (spent, orientation) = walk_on(walk(aside), 1.5);
+        assert_eq!(orientation.facing, aside.normalize());
+        let (restless, _) = walk_on(Walk { velocity_mps: Vec2::X, ..spent }, 0.5);
+        assert_eq!(decided(&Walk { velocity_mps: aside, ..restless }, true).set, VelocitySet::Turning);
+        let (rested, _) = walk_on(Walk { velocity_mps: Vec2::X, ..spent }, 1.5);
+        assert_eq!(decided(&Walk { velocity_mps: aside, ..rested }, true).set, VelocitySet::Holding);
+    }
+
+    #[test]
+    fn steps_back_for_a_while_and_then_turns() {
+        let (_, early) = walk_on(walk(-0.4 * Vec2::X), 1.0);
+        assert_eq!((early.facing, early.set), (Vec2::X, VelocitySet::Holding));
+        let (_, late) = walk_on(walk(-0.4 * Vec2::X), 2.5);
+        assert_eq!((late.facing, late.set), (-Vec2::X, VelocitySet::Turning));
+    }
+
+    #[test]
+    fn keeps_the_facing_where_nothing_is_wanted_or_walked() {
+        let still = Walk { forward: Vec2::Y, ..walk(Vec2::ZERO) };
+        assert_eq!(decided(&still, true).facing, Vec2::Y);
+        assert_eq!(decided(&Walk { preferred_mps: Vec2::ZERO, velocity_mps: Vec2::X, ..still }, true).facing, Vec2::Y);
+    }
+
+    #[test]
+    fn turns_on_the_spot_when_it_stands_with_its_back_to_v_pref() {
+        assert_eq!(decided(&Walk { forward: -Vec2::X, ..walk(Vec2::ZERO) }, true).facing, Vec2::X);
+    }
+}

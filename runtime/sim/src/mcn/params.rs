@@ -54,7 +54,7 @@ impl Default for McnParams {
             response_s: 0.3,
             // `facts/planning.md` §1: 2 to 5 are smooth, the authors' 20 is not at steps of 0.1 s.
             acceleration_max_mps2: 4.0,
-            // Menge's PedVO (`facts/planning.md` §2).
+            // Menge's PedVO (`facts/planning.md` §2); of its two buffers, 0.5 and 0.9, the one that keeps within 10 % of Weidmann's diagram.
             density_factor: 1.57,
             density_buffer: 0.5,
             density_speed_min_mps: 0.3,

@@ -30,7 +30,8 @@ pub fn agent_force_mps2(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, param
     // Overlapping discs count as touching (the authors' code).
     let radius_m = radius_m.min(OVERLAP_RADIUS_SHARE * offset_m.length());
     let time_s = disc_with_disc(offset_m, velocity_mps, radius_m);
-    if !time_s.is_finite() {
+    // On the same spot there is no direction to be pushed in; the collision's half-plane parts them.
+    if time_s <= 0.0 || time_s.is_infinite() {
         return Vec2::ZERO;
     }
     let speed_squared = velocity_mps.length_squared();
@@ -57,4 +58,82 @@ fn steepness(time_s: f32, params: &McnParams) -> f32 {
     let time_s = time_s.max(TIME_MIN_S);
     let energy = params.interaction_strength * libm::expf(-time_s / params.interaction_horizon_s) / (time_s * time_s);
     energy * (2.0 / time_s + 1.0 / params.interaction_horizon_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::mcn::time_to_collision::disc_with_segment;
+
+    fn vector(bound: f32) -> impl Strategy<Value = Vec2> {
+        (-bound..bound, -bound..bound).prop_map(Vec2::from)
+    }
+
+    /// E(τ) = k τ⁻² e^(−τ/τ_0), in f64 from here on, so that its differences mean something.
+    fn energy(time_s: f32) -> f64 {
+        let (time_s, params) = (f64::from(time_s), McnParams::default());
+        f64::from(params.interaction_strength) / (time_s * time_s)
+            * (-time_s / f64::from(params.interaction_horizon_s)).exp()
+    }
+
+    /// −∇E over the own position, by central differences.
+    fn downhill(time_s: impl Fn(Vec2) -> f32) -> Vec2 {
+        let step_m = 4e-3;
+        let along = |axis: Vec2| energy(time_s(axis * step_m)) - energy(time_s(-axis * step_m));
+        -Vec2::new(along(Vec2::X) as f32, along(Vec2::Y) as f32) / (2.0 * step_m)
+    }
+
+    fn check(force_mps2: Vec2, expected_mps2: Vec2) {
+        let tolerance = 0.02 * expected_mps2.length() + 0.02;
+        assert!(force_mps2.distance(expected_mps2) < tolerance, "{force_mps2} {expected_mps2}");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn the_force_between_agents_is_the_downhill_slope_of_their_energy(
+            offset in vector(4.0), velocity in vector(2.0), radius in 0.3f32..0.8,
+        ) {
+            let time_s = |moved| disc_with_disc(offset - moved, velocity, radius);
+            let force_mps2 = agent_force_mps2(offset, velocity, radius, &McnParams::default());
+            let now_s = time_s(Vec2::ZERO);
+            prop_assert!(now_s.is_finite() || force_mps2 == Vec2::ZERO);
+            // Near a graze the slope is without bound and differences mean nothing.
+            if (0.3..8.0).contains(&now_s) && disc_with_disc(offset, velocity, 0.93 * radius).is_finite() {
+                check(force_mps2, downhill(time_s));
+            }
+        }
+
+        #[test]
+        fn the_force_of_a_wall_is_the_downhill_slope_of_its_energy(
+            first in vector(4.0), second in vector(4.0), velocity in vector(2.0), radius in 0.2f32..0.5,
+        ) {
+            prop_assume!(first.distance(second) > 0.5);
+            let time_s = |moved, radius_m| disc_with_segment([first - moved, second - moved], velocity, radius_m);
+            let exact_s = time_s(Vec2::ZERO, radius);
+            let force_mps2 = wall_force_mps2([first, second], velocity, radius, &McnParams::default());
+            prop_assert!(exact_s.is_finite() || force_mps2 == Vec2::ZERO);
+            if (0.3..8.0).contains(&exact_s) && time_s(Vec2::ZERO, 0.93 * radius) < exact_s * 1.3 {
+                check(force_mps2, downhill(|moved| time_s(moved, radius)));
+            }
+        }
+    }
+
+    #[test]
+    fn nobody_in_the_way_leaves_the_driving_force_alone() {
+        let params = McnParams { response_s: 0.0, ..McnParams::default() };
+        let adapted = adapted_mps(Vec2::X, Vec2::new(1.0, 0.54), Vec2::ZERO, 0.1, &params);
+        assert!(adapted.distance(Vec2::new(1.0, 0.1)) < 1e-6);
+        assert_eq!(agent_force_mps2(Vec2::X, -Vec2::X, 0.5, &params), Vec2::ZERO);
+    }
+
+    #[test]
+    fn overlapping_agents_push_apart_without_bound_or_nan() {
+        let force = agent_force_mps2(Vec2::new(0.2, 0.0), Vec2::X, 0.5, &McnParams::default());
+        assert!(force.is_finite() && force.x < -1.0);
+        assert!(agent_force_mps2(Vec2::ZERO, Vec2::X, 0.5, &McnParams::default()).is_finite());
+    }
 }
