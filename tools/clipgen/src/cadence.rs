@@ -36,6 +36,8 @@ pub(crate) struct Gait {
     pub(crate) half_width_m: f64,
     /// Toes outward.
     pub(crate) toe_out_rad: f64,
+    /// The hips are kept so low that no knee need straighten beyond this.
+    pub(crate) least_knee_rad: f64,
     /// The foot's motion on the ground.
     pub(crate) roll: FootRoll,
     /// With a flight phase; the hips then fall freely.
@@ -134,6 +136,8 @@ pub(crate) fn walk(root: RootMotion, stride_frames: usize) -> Gait {
         lift_m: 0.05,
         half_width_m: by_speed([0.060, 0.056, 0.052, 0.050, 0.046]),
         toe_out_rad: by_speed([7.0, 7.0, 6.5, 6.0, 5.0]).to_radians(),
+        // Published minima are 3 to 7°.
+        least_knee_rad: 4_f64.to_radians(),
         roll: FootRoll {
             strike_pitch_rad: by_speed([9.0, 13.0, 17.0, 20.0, 22.0]).to_radians(),
             flat_from: by_speed([0.13, 0.13, 0.12, 0.11, 0.10]),
@@ -205,6 +209,7 @@ pub(crate) fn step_about(root: RootMotion, stride_frames: usize, half_width_m: f
         style_share: 0.0,
         lift_m: 0.012 + 0.010 * haste,
         half_width_m,
+        least_knee_rad: (8.0 + 8.0 * haste).to_radians(),
         roll: FootRoll {
             strike_pitch_rad: -(2.0 + 4.0 * haste).to_radians(),
             flat_from: 0.10,

@@ -22,8 +22,6 @@ pub(crate) const SAMPLES: usize = 120;
 const HARMONICS: usize = 4;
 /// The trailing leg's say in the height fades over this share of the stride before the other foot strikes.
 const HANDOVER_SHARE: f64 = 0.05;
-/// Knees are planned to stay flexed by this much at the least (published minima: 3–7°), radians.
-const LEAST_PLANNED_KNEE_RAD: f64 = 4.0 * std::f64::consts::PI / 180.0;
 /// Share of a turn's bank that the pelvis takes.
 const BANK_SHARE: f64 = 0.6;
 /// The pelvis at one moment.
@@ -74,8 +72,7 @@ impl Height {
 
     /// By how much the hips are too high for a leg to reach its ankle, m; 0 where it does.
     pub(crate) fn overstretch_m(&self, gait: &Gait, cycle_phase: f64, side: usize, ankle_m: DVec3) -> f64 {
-        let knee_rad = LEAST_PLANNED_KNEE_RAD;
-        (self.at_m(cycle_phase) - hips_over_m(gait, ankle_m, cycle_phase, side, reach_m(knee_rad))).max(0.0)
+        (self.at_m(cycle_phase) - hips_over_m(gait, ankle_m, cycle_phase, side, reach_m(gait.least_knee_rad))).max(0.0)
     }
 
     /// Lowers all of it.
