@@ -16,8 +16,8 @@ use crate::human_clip::{HumanBody, HumanClip};
 use crate::import::{self, Import};
 use crate::root_motion::GroundedClip;
 use crate::{
-    blend_space, correspondence, mirror, parameterize, root_motion, rows, standing, target_skeleton, unroll,
-    velocity_hull,
+    blend_space, correspondence, foot_slide, mirror, parameterize, root_motion, rows, standing, target_skeleton,
+    unroll, velocity_hull,
 };
 
 /// Period of standing clips where none steps, seconds.
@@ -135,6 +135,7 @@ fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
         Gait::Steps(strides) => {
             let mut cycle = cycle::mean_stride(&grounded, body, &gait.planted, strides);
             warnings = parameterize::snap(&mut cycle);
+            warnings.extend(foot_slide::lint(&cycle, body));
             Some(cycle)
         }
         Gait::Unsteady(reason) => {

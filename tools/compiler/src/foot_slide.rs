@@ -12,6 +12,11 @@ use crate::human_clip::HumanBody;
 
 /// Cut from each end of a contact, as a share of it.
 const TRIMMED_SHARE: f64 = 0.1;
+/// More slide than this is worth a warning: clean walks have 3–8 cm/s, runs 6 cm/s more for each m/s (`definitions.md`).
+const SUSPECT_SLIDE_CM_S: f64 = 12.0;
+const SUSPECT_SLIDE_CM_S_PER_MPS: f64 = 8.0;
+/// And so is a foot planted for less of the cycle than in a sprint.
+const SUSPECT_SHARE: f64 = 0.2;
 /// A foot is planted from this contact on.
 pub const PLANTED: f64 = 0.5;
 
@@ -41,6 +46,20 @@ pub fn measure(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
     }
     let slide_cm_s = if speeds.is_empty() { 0.0 } else { 100.0 * speeds.iter().sum::<f64>() / speeds.len() as f64 };
     FootSlide { slide_cm_s, planted_share: planted_rows as f64 / (2 * PHASE_COUNT) as f64 }
+}
+
+/// Warnings for a cycle whose feet are no model of standing on the ground.
+pub fn lint(cycle: &GaitCycle, body: &HumanBody) -> Vec<String> {
+    let FootSlide { slide_cm_s, planted_share } = measure(cycle, body);
+    let speed_mps = libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
+    let mut warnings = Vec::new();
+    if slide_cm_s > SUSPECT_SLIDE_CM_S + SUSPECT_SLIDE_CM_S_PER_MPS * speed_mps {
+        warnings.push(format!("planted feet slide by {slide_cm_s:.0} cm/s"));
+    }
+    if planted_share < SUSPECT_SHARE {
+        warnings.push(format!("feet are planted for only {:.0} % of the cycle", 100.0 * planted_share));
+    }
+    warnings
 }
 
 /// First row and length of each contact of one foot; one that passes phase 0 counts once.

@@ -3,18 +3,20 @@
 //! Phase 0 is the middle of a right contact, phase ½ the middle of a left one (`definitions.md`, "Phase"). A stride runs between two
 //! landmarks of the same foot with exactly one of the other foot between them, and may begin at either. Times are in frames of the clip.
 
+use std::ops::{Range, RangeInclusive};
+
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::Side;
 
-use crate::arc::{Arc, RootSample};
+use crate::arc::{Arc, Rates, RootSample};
 use crate::contacts::{self, contact_points_m, runs};
 use crate::human_clip::{HumanBody, HumanJoints};
 use crate::root_motion::{GroundedClip, percentile};
 
 /// A stride takes this long: sprints 0.45 s, the slowest shuffles 2.2 s.
-const PERIOD_S: std::ops::RangeInclusive<f64> = 0.4..=2.5;
+const PERIOD_S: RangeInclusive<f64> = 0.4..=2.5;
 /// Share of the period from the first landmark to the second: real clips .40–.60 (`definitions.md`, "Phase").
-const HALF_SHARE: std::ops::RangeInclusive<f64> = 0.32..=0.68;
+const HALF_SHARE: RangeInclusive<f64> = 0.32..=0.68;
 /// Strides of a steady window differ from their mean by at most: speed (m/s, or this share of it), turn rate, share of the period.
 const STEADY_SPEED_MPS: f64 = 0.12;
 const STEADY_SPEED_SHARE: f64 = 0.12;
@@ -22,6 +24,9 @@ const STEADY_TURN_RAD_S: f64 = 15.0 * std::f64::consts::PI / 180.0;
 const STEADY_PERIOD_SHARE: f64 = 0.15;
 /// Both feet on the ground without a break for longer than this share of a stride: the body stops between steps. Very slow walking: 18 %.
 const PAUSE_SHARE_MAX: f64 = 0.34;
+/// A stride that neither goes nor turns this far treads on the spot, which is no locomotion: metres, 10°.
+const STRIDE_TRAVEL_M: f64 = 0.05;
+const STRIDE_TURN_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 /// Multiples of the contact limits of the definition that are tried.
 const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
 /// Root mean square distance of the joints between both ends of a stride, relative to the root; steps of real people: 1 to 6 cm.
@@ -172,33 +177,37 @@ fn steps(clip: &GroundedClip, stepping: &[Vec<bool>; 2], joints: &[HumanJoints],
     }
 }
 
-/// Middles of all contacts, in order of time. Where the clip cuts a contact, its middle is half of the foot's usual contact away from the
-/// end that is seen, if that still lies within the clip.
+/// Middles of all contacts, in order of time. Where the clip cuts a contact, its middle is half of a usual contact away from the end that
+/// is seen, if that still lies within the clip.
 fn landmarks(stepping: &[Vec<bool>; 2]) -> Vec<Landmark> {
+    let contacts = stepping.each_ref().map(|frames| {
+        runs(frames).into_iter().filter(|run| run.0).map(|(_, start, end)| start..end).collect::<Vec<Range<usize>>>()
+    });
+    let frames = stepping[0].len();
+    let whole = |contact: &&Range<usize>| contact.start > 0 && contact.end < frames;
+    let lengths = |side: usize| contacts[side].iter().filter(whole).map(|c| c.len() as f64).collect::<Vec<f64>>();
     let mut landmarks = Vec::new();
     for side in Side::BOTH {
-        let frames = &stepping[side.index()];
-        let contacts: Vec<(usize, usize)> =
-            runs(frames).into_iter().filter(|run| run.0).map(|(_, start, end)| (start, end)).collect();
-        let whole = |&(start, end): &(usize, usize)| start > 0 && end < frames.len();
-        let mut lengths: Vec<f64> =
-            contacts.iter().filter(|run| whole(run)).map(|run| (run.1 - run.0) as f64).collect();
-        let half = 0.5 * (percentile(&mut lengths, 0.5) - 1.0);
-        for run in contacts {
-            let (first, last) = (run.0 as f64, (run.1 - 1) as f64);
-            let frame = match run {
-                _ if whole(&run) => 0.5 * (first + last),
-                (0, end) if end < frames.len() => last - half,
-                (start, _) if start > 0 => first + half,
-                _ => continue,
-            };
-            if half > 0.0 && (first..=last).contains(&frame) {
-                landmarks.push(Landmark { side, frame });
-            }
-        }
+        let own = lengths(side.index());
+        let mut usual = if own.is_empty() { lengths(side.other().index()) } else { own };
+        let half = 0.5 * (percentile(&mut usual, 0.5) - 1.0).max(0.0);
+        let middles = contacts[side.index()].iter().filter_map(|contact| middle(contact, frames, half));
+        landmarks.extend(middles.map(|frame| Landmark { side, frame }));
     }
     landmarks.sort_by(|a, b| a.frame.total_cmp(&b.frame));
     landmarks
+}
+
+/// The middle of a contact of a clip, `half` a usual contact away from the end that is seen; none where it is not seen or not at all known.
+fn middle(contact: &Range<usize>, frames: usize, half: f64) -> Option<f64> {
+    let (first, last) = (contact.start as f64, (contact.end - 1) as f64);
+    let middle = match (contact.start > 0, contact.end < frames) {
+        (true, true) => 0.5 * (first + last),
+        (false, true) => last - half,
+        (true, false) => first + half,
+        (false, false) => return None,
+    };
+    (half > 0.0 && (first..=last).contains(&middle)).then_some(middle)
 }
 
 /// Whether the body is at the end of a stride as it was at its beginning.
@@ -236,7 +245,15 @@ fn stride(marks: &[Landmark], clip: &GroundedClip, stepping: &[Vec<bool>; 2], ro
         })
         .collect();
     let arc = Arc::fit(&samples).shifted((zero_frame - first.frame) / clip.frame_rate_hz);
+    if !goes_somewhere(&arc.rates, period_frames / clip.frame_rate_hz) {
+        return None;
+    }
     Some(Stride { zero_frame, start_phase, period_frames, left_share, arc })
+}
+
+fn goes_somewhere(rates: &Rates, period_s: f64) -> bool {
+    libm::hypot(rates.speed_mps, rates.strafe_mps) * period_s > STRIDE_TRAVEL_M
+        || rates.turn_rate_rad_s.abs() * period_s > STRIDE_TURN_RAD
 }
 
 /// Whether both feet stay down too long for a gait.
