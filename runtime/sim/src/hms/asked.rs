@@ -9,62 +9,30 @@
 //! back. To ask for the planned velocity exactly while turning, side-stepping a·sin α, is worse in every way: it lies so far outside
 //! the examples that the nearest point of their hull hardly turns. The root then moves from what it does towards what is asked at limited
 //! accelerations, straight through the space of parameters: the body passes the examples between.
-//!
-//! A body that stands does not creep: mixing a little step into idle lifts no foot. It stands, or it takes at least the steps that a
-//! mix with [`IDLE_SHARE_MAX`] of standing has.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use motiondb::blend_space::{Locator, Shares};
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 
+use super::blending::Mix;
 use super::params::HmsParams;
 use crate::angle::wrap_rad;
 use crate::plan::Plan;
 
-/// Greatest share of standing examples in a body that steps: with more, the blended contact of a swinging foot would not fall below ½.
-const IDLE_SHARE_MAX: f32 = 0.35;
-/// A standing body starts where the asked parameters hold less standing than this …
-const START_IDLE_SHARE: f32 = 0.8;
-/// … and a stepping one stops where they hold more than this. A planner that approaches its preferred velocity from the present one keeps
-/// asking for some 0.45 of the least steps' 0.65: a body that is to stop must take that, an idle share of 0.71, for standing …
-const STOP_IDLE_SHARE: f32 = 0.65;
-/// … but either lasts for this long, about a step, s, for the planner goes on to speak of the velocity before …
-const GAIT_TIME_S: f32 = 0.4;
-/// … unless it is asked to stand in earnest.
-const HALT_IDLE_SHARE: f32 = 0.95;
 /// A plan slower than this does not turn the body, for the direction of next to nothing is no direction …
 const TURN_SPEED_MIN_MPS: f32 = 0.1;
 /// … and one faster than this turns it at any rate.
 const TURN_SPEED_FULL_MPS: f32 = 0.2;
 
-/// Whether a body stands or steps, and for how long, s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Gait {
-    /// Both feet on the ground.
-    Standing(f32),
-    /// One foot after the other.
-    Stepping(f32),
-}
-
-impl Gait {
-    /// Follows what is asked, with hysteresis.
-    fn followed(self, idle_share: f32, dt_s: f32) -> Self {
-        match self {
-            Self::Standing(for_s) if for_s >= GAIT_TIME_S && idle_share < START_IDLE_SHARE => Self::Stepping(dt_s),
-            Self::Stepping(for_s) if for_s >= GAIT_TIME_S && idle_share > STOP_IDLE_SHARE => Self::Standing(dt_s),
-            Self::Stepping(_) if idle_share > HALT_IDLE_SHARE => Self::Standing(dt_s),
-            Self::Standing(for_s) => Self::Standing(for_s + dt_s),
-            Self::Stepping(for_s) => Self::Stepping(for_s + dt_s),
-        }
-    }
-}
-
 /// The blend space of a database, ready for queries.
 #[derive(Clone, Debug)]
 pub struct Space {
     locator: Locator,
+    points: Vec<Parameters>,
     stands: Vec<bool>,
+    /// The balls of the feet of a standing body in the root frame, `[left, right]`, metres.
+    pub standing_balls_m: [Vec3; 2],
     turn_rate_max_rad_s: f32,
     speed_max_mps: f32,
 }
@@ -74,11 +42,16 @@ impl Space {
     pub fn new(db: &MotionDb) -> Self {
         let points: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
         let greatest = |of: fn(&Parameters) -> f32| points.iter().map(of).fold(0.0, f32::max);
+        let locator = Locator::new(&db.blend_space, &points);
+        let standing = Mix::new(&locator.locate(Parameters::default())).weights(db, 0.0).pose(db, 0.0);
+        let joints = standing.forward_kinematics(&db.skeleton);
         Self {
-            locator: Locator::new(&db.blend_space, &points),
+            standing_balls_m: [0, 1].map(|side| joints.sole_points_m(&db.skeleton, side)[1]),
+            locator,
             stands: db.examples.iter().map(|example| example.key_times_s.is_none()).collect(),
             turn_rate_max_rad_s: greatest(|point| point.turn_rate_rad_s.abs()),
             speed_max_mps: greatest(|point| Vec2::new(point.speed_mps, point.strafe_mps).length()),
+            points,
         }
     }
 
@@ -92,10 +65,15 @@ impl Space {
         self.locate(Parameters::default())
     }
 
-    /// Share of examples that stand.
-    fn idle_share(&self, shares: &Shares) -> f32 {
-        let entries = shares.examples.into_iter().zip(shares.shares);
-        entries.filter(|entry| self.stands[entry.0 as usize]).map(|entry| entry.1).sum()
+    /// The nearest point that the database has, and the share of standing examples in it.
+    pub fn nearest(&self, parameters: Parameters) -> (Parameters, f32) {
+        let shares = self.locate(parameters);
+        let (mut sum, mut idle_share) = (Vec3::ZERO, 0.0);
+        for (example, share) in shares.examples.into_iter().zip(shares.shares) {
+            sum += share * self.points[example as usize].to_vec3();
+            idle_share += if self.stands[example as usize] { share } else { 0.0 };
+        }
+        (Parameters::from_vec3(sum), idle_share)
     }
 }
 
@@ -113,19 +91,6 @@ pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) ->
     Parameters { speed_mps: wanted_mps.x, turn_rate_rad_s, strafe_mps: wanted_mps.y }
 }
 
-/// What the database can do of what is asked, as parameters inside its hull; none of it while the body stands.
-pub fn realisable(asked: Parameters, space: &Space, db: &MotionDb, gait: &mut Gait, dt_s: f32) -> Parameters {
-    let shares = space.locate(asked);
-    let idle = space.idle_share(&shares);
-    *gait = gait.followed(idle, dt_s);
-    if matches!(gait, Gait::Standing(_)) {
-        return parameters_of(&space.standing(), db);
-    }
-    // Standing lies at the origin: scaling by this leaves that share of it.
-    let scale = if idle > IDLE_SHARE_MAX { (1.0 - IDLE_SHARE_MAX) / (1.0 - idle) } else { 1.0 };
-    Parameters::from_vec3(scale * parameters_of(&shares, db).to_vec3())
-}
-
 /// Shares of the point on the straight way from `now` to `goal` that a body may reach in one step.
 pub fn step_towards(now: Parameters, goal: Parameters, space: &Space, params: &HmsParams, dt_s: f32) -> Shares {
     let change = goal.to_vec3() - now.to_vec3();
@@ -134,11 +99,4 @@ pub fn step_towards(now: Parameters, goal: Parameters, space: &Space, params: &H
     let fraction = within(speed_change_mps, params.acceleration_max_mps2 * dt_s)
         .min(within(change.y.abs(), params.turn_acceleration_max_rad_s2 * dt_s));
     space.locate(Parameters::from_vec3(now.to_vec3() + fraction * change))
-}
-
-fn parameters_of(shares: &Shares, db: &MotionDb) -> Parameters {
-    let terms = shares.examples.into_iter().zip(shares.shares);
-    Parameters::from_vec3(
-        terms.map(|(example, share)| share * db.examples[example as usize].parameters.to_vec3()).sum(),
-    )
 }

@@ -49,6 +49,7 @@ impl PosedFoot {
 /// What takes the pose's foot to the final one, and what it needs to know of the step before.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FootHold {
+    planted: bool,
     /// c.
     shift_m: Vec2,
     shift_mps: Vec2,
@@ -79,6 +80,7 @@ impl FootHold {
     pub fn step(&mut self, posed: &PosedFoot, planted: bool, dt_s: f32) -> HeldFoot {
         let heading_rad = posed.heading_rad();
         let (lowest, height_m) = posed.lowest();
+        self.planted = planted;
         if planted {
             self.hold(posed, lowest, wrap_rad(heading_rad - self.heading_rad), dt_s);
         } else {
@@ -90,6 +92,16 @@ impl FootHold {
             ankle_m: posed.ankle_m + self.shift_m.extend(self.lift_m),
             twist: Quat::from_rotation_z(self.twist_rad),
         }
+    }
+
+    /// c of a planted foot.
+    pub fn planted_shift_m(&self) -> Option<Vec2> {
+        self.planted.then_some(self.shift_m)
+    }
+
+    /// The ball of a planted foot, in the world.
+    pub fn planted_ball_m(&self) -> Option<Vec3> {
+        self.planted.then_some(self.sole_m[1])
     }
 
     /// Takes note of the foot as the leg could place it.

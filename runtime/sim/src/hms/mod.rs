@@ -2,7 +2,7 @@
 //!
 //! One step of a body, in this order:
 //!
-//! 1. [`asked`]: the plan as (v_f, ω_t, ω_s), what of it the database can do, and how far the body gets there in one step;
+//! 1. [`asked`], [`gait`]: the plan as (v_f, ω_t, ω_s), what of it the body can do, standing or stepping, and how far it gets in one step;
 //! 2. [`blending`]: the shares of the examples follow; phase and root move, the root exactly along its arc;
 //! 3. the pose is sampled at the new phase;
 //! 4. [`feet`]: planted feet are held;
@@ -14,6 +14,7 @@
 pub mod asked;
 pub mod blending;
 pub mod feet;
+pub mod gait;
 pub mod ik;
 pub mod params;
 
@@ -23,9 +24,10 @@ use motiondb::parameters::Parameters;
 use motiondb::pose::{Joints, Pose, Root};
 use motiondb::skeleton::{Joint, Skeleton};
 
-use self::asked::{Gait, Space};
+use self::asked::Space;
 use self::blending::{Mix, Weights};
 use self::feet::{FootHold, PLANTED_CONTACT, PosedFoot};
+use self::gait::Gait;
 use self::ik::FootTarget;
 use self::params::HmsParams;
 use crate::angle::wrap_rad;
@@ -38,6 +40,14 @@ const PELVIS_DROP_MAX_M: f32 = 0.12;
 /// Rate at which the pelvis follows, 1/s.
 const PELVIS_RATE_HZ: f32 = 15.0;
 
+/// Feet this near to where a standing body has them are under it, m: half a small step.
+const GATHERED_M: f32 = 0.18;
+/// Time in which the phase catches up with a planted foot, s: about half a stance.
+const CATCH_UP_TIME_S: f32 = 0.2;
+/// Greatest change of the phase rate for it.
+const HURRY_MAX: f32 = 0.4;
+/// A body slower than this hardly moves its feet by its phase, m/s.
+const HURRY_SPEED_MIN_MPS: f32 = 0.4;
 /// A first pose is given this long to settle on its feet, s.
 const SETTLING_S: f32 = 1.0;
 
@@ -83,14 +93,7 @@ impl Body {
     /// A body that stands at `root`, its cycle at `phase`.
     pub fn standing(motion: &Motion, root: Root, phase: f32) -> (Self, Synthesis) {
         let mix = Mix::new(&motion.space.standing());
-        let mut body = Self {
-            root,
-            phase,
-            mix,
-            gait: Gait::Standing(f32::INFINITY),
-            feet: Default::default(),
-            pelvis_drop_m: 0.0,
-        };
+        let mut body = Self { root, phase, mix, gait: Gait::STANDING, feet: Default::default(), pelvis_drop_m: 0.0 };
         let weights = mix.weights(motion.db, phase);
         let joints = weights.pose(motion.db, phase).forward_kinematics(&motion.db.skeleton);
         body.feet = [0, 1].map(|side| FootHold::new(&body.posed_foot(&joints, &motion.db.skeleton, side)));
@@ -101,12 +104,35 @@ impl Body {
     /// Steps 1 and 2: shares, phase and root follow the plan. The root may then be kept out of walls, before [`Self::synthesize`].
     pub fn advance(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
         let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
-        let goal = asked::realisable(asked, motion.space, motion.db, &mut self.gait, dt_s);
         let now = self.mix.parameters(motion.db);
+        self.gait.follow(motion.space.nearest(asked).1, self.feet_gathered(motion), dt_s);
+        let goal = gait::goal(asked, now, self.gait, motion.space);
         let shares = asked::step_towards(now, goal, motion.space, motion.params, dt_s);
         self.mix.approach(&shares, dt_s / motion.params.share_change_s);
-        self.phase = self.mix.advance_phase(motion.db, self.phase, dt_s);
-        self.root = moved(&self.root, &self.mix.parameters(motion.db), dt_s);
+        let moved = moved(&self.root, &self.mix.parameters(motion.db), dt_s);
+        let hurry = self.hurry((moved.position_m - self.root.position_m) / dt_s);
+        self.phase = self.mix.advance_phase(motion.db, self.phase, hurry * dt_s);
+        self.root = moved;
+    }
+
+    /// Whether both feet are on the ground, and near enough to where a standing body has them.
+    fn feet_gathered(&self, motion: &Motion) -> bool {
+        let gathered = |side: usize| {
+            let standing_m = self.root.to_world(motion.space.standing_balls_m[side]);
+            let ball_m = self.feet[side].planted_ball_m();
+            ball_m.is_some_and(|ball_m| ball_m.truncate().distance(standing_m.truncate()) < GATHERED_M)
+        };
+        gathered(0) && gathered(1)
+    }
+
+    /// Factor on the phase rate. A body that speeds up within a step has its foot further back than the faster examples have it at this
+    /// phase: the phase catches up, and the foot meets the pose again before the leg must stretch; likewise when it slows down.
+    fn hurry(&self, velocity_mps: Vec2) -> f32 {
+        let speed_squared = velocity_mps.length_squared().max(HURRY_SPEED_MIN_MPS * HURRY_SPEED_MIN_MPS);
+        let planted = self.feet.iter().filter_map(FootHold::planted_shift_m);
+        let (sum_m, count) = planted.fold((Vec2::ZERO, 0.0), |(sum_m, count), shift_m| (sum_m + shift_m, count + 1.0));
+        let behind_s = -sum_m.dot(velocity_mps) / (speed_squared * f32::max(count, 1.0));
+        1.0 + (behind_s / CATCH_UP_TIME_S).clamp(-HURRY_MAX, HURRY_MAX)
     }
 
     /// Steps 3 to 5: the pose at the present phase and root.

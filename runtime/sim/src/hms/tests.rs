@@ -8,8 +8,9 @@ use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
 use proptest::prelude::*;
 
-use super::asked::{self, Gait, Space};
+use super::asked::{self, Space};
 use super::blending::Mix;
+use super::gait::{self, Gait};
 use super::params::HmsParams;
 use super::{Body, Motion, Synthesis};
 use crate::plan::Plan;
@@ -24,7 +25,10 @@ struct Walk {
 
 /// Lets a body follow a plan that depends on time and on where it is.
 fn walk(seconds: f32, dt_s: f32, plan: impl Fn(f32, &Root) -> Plan) -> Walk {
-    let db = test_db();
+    walk_on(test_db(), seconds, dt_s, plan)
+}
+
+fn walk_on(db: MotionDb, seconds: f32, dt_s: f32, plan: impl Fn(f32, &Root) -> Plan) -> Walk {
     let (space, params) = (Space::new(&db), HmsParams::default());
     let motion = Motion { db: &db, space: &space, params: &params };
     let (mut body, first) = Body::standing(&motion, Root::default(), 0.3);
@@ -180,9 +184,10 @@ proptest! {
         let terms = db.examples[1..].iter().zip(&weights[1..]).map(|(example, weight)| example.parameters.to_vec3() * *weight);
         let asked = Parameters::from_vec3(terms.sum::<Vec3>() / sum * (1.0 - 0.1 * weights[0]));
         let mut mix = Mix::new(&space.standing());
-        let mut gait = Gait::Standing(f32::INFINITY);
+        let mut gait = Gait::STANDING;
         for _ in 0..120 {
-            let goal = asked::realisable(asked, &space, &db, &mut gait, DT_S);
+            gait.follow(space.nearest(asked).1, true, DT_S);
+            let goal = gait::goal(asked, mix.parameters(&db), gait, &space);
             mix.approach(&asked::step_towards(mix.parameters(&db), goal, &space, &params, DT_S), 0.1);
         }
         let steps = Mix::new(&space.locate(asked)).share(0) < 0.35;

@@ -1,0 +1,69 @@
+//! Standing or stepping: a body does not creep.
+//!
+//! Mixing a little step into idle lifts no foot: by the blended contact (`definitions.md`, "Planted-foot slide") both feet stay planted as
+//! long as standing has the greater share. So a body stands, or it takes at least the steps of a mix with [`IDLE_SHARE_MAX`] of standing;
+//! and it does not freeze in mid-stride, but takes such small steps until its feet are under it.
+
+use motiondb::parameters::Parameters;
+
+use super::asked::Space;
+
+/// Greatest share of standing examples in a body that steps: with more, the blended contact of a swinging foot would not fall below ½.
+pub const IDLE_SHARE_MAX: f32 = 0.35;
+/// A standing body starts where the asked parameters hold less standing than this …
+const START_IDLE_SHARE: f32 = 0.8;
+/// … and a stepping one stops where they hold more than this. A planner that approaches its preferred velocity from the present one keeps
+/// asking for some 0.45 of the least steps' 0.65: a body that is to stop must take that, an idle share of 0.71, for standing …
+const STOP_IDLE_SHARE: f32 = 0.65;
+/// … but either lasts for this long, about a step, s, for the planner goes on to speak of the velocity before …
+const GAIT_TIME_S: f32 = 0.4;
+/// … unless it is asked to stand in earnest: then not even a direction is left.
+const HALT_IDLE_SHARE: f32 = 0.95;
+/// To stop, a body takes small steps until its feet are under it, for this long at most, s.
+const GATHERING_TIME_S: f32 = 1.2;
+/// While it does, it makes for this share of what it does, or for the least steps, whichever is more.
+const SLOWING: f32 = 0.25;
+
+/// Whether a body stands or steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gait {
+    /// Both feet on the ground; otherwise one after the other.
+    pub stands: bool,
+    /// For how long, s.
+    since_s: f32,
+    /// How long it has been stepping though asked to stand, s.
+    gathering_s: f32,
+}
+
+impl Gait {
+    /// At the start: standing, ready to go.
+    pub const STANDING: Self = Self { stands: true, since_s: GAIT_TIME_S, gathering_s: 0.0 };
+
+    /// Follows what is asked, with hysteresis; `feet_gathered` tells whether the body could stand as its feet are.
+    pub fn follow(&mut self, idle_share: f32, feet_gathered: bool, dt_s: f32) {
+        let lasted = self.since_s >= GAIT_TIME_S;
+        let stop = !self.stands && (lasted && idle_share > STOP_IDLE_SHARE || idle_share > HALT_IDLE_SHARE);
+        let start = self.stands && lasted && idle_share < START_IDLE_SHARE;
+        self.gathering_s = if stop { self.gathering_s + dt_s } else { 0.0 };
+        if start || stop && (feet_gathered || self.gathering_s > GATHERING_TIME_S) {
+            *self = Self { stands: !self.stands, since_s: 0.0, gathering_s: 0.0 };
+        }
+        self.since_s += dt_s;
+    }
+}
+
+/// The parameters to make for: of what is asked the nearest that the database has, at steps no smaller than the least; none where the
+/// body stands. `now` gives the direction where the body gathers its feet.
+pub fn goal(asked: Parameters, now: Parameters, gait: Gait, space: &Space) -> Parameters {
+    if gait.stands {
+        return space.nearest(Parameters::default()).0;
+    }
+    let (mut goal, mut idle_share) = space.nearest(asked);
+    if idle_share > HALT_IDLE_SHARE {
+        (goal, idle_share) = space.nearest(Parameters::from_vec3(SLOWING * now.to_vec3()));
+    }
+    // Standing lies at the origin: scaling by this leaves that share of it.
+    let stepping_share = (1.0 - idle_share).max(1.0 - HALT_IDLE_SHARE);
+    let scale = ((1.0 - IDLE_SHARE_MAX) / stepping_share).max(1.0);
+    Parameters::from_vec3(scale * goal.to_vec3())
+}
