@@ -26,7 +26,7 @@ use crate::recording_error::RecordingError;
 use crate::recording_frame::AgentFrame;
 use crate::recording_packing::{PACKED_BYTES, pack, unpack};
 use crate::scenario::Scenario;
-use crate::scenario_check::check_numbers;
+use crate::scenario_ranges::check_ranges;
 
 /// Raised when a reader of the old version would misread the new one.
 pub const FORMAT_VERSION: u32 = 1;
@@ -207,7 +207,7 @@ fn decode_header(file: &ChunkFile) -> Result<Header, RecordingError> {
         return Err(file.damaged(HEAD_BYTE, "the header is longer than it says"));
     }
     // Whoever reads, measures or draws a recording may trust its numbers.
-    check_numbers(&header.scenario).map_err(|fault| file.damaged(HEAD_BYTE, fault.message))?;
+    check_ranges(&header.scenario).map_err(|fault| file.damaged(HEAD_BYTE, fault.message))?;
     if !is_finite(&header.skeleton) {
         return Err(file.damaged(HEAD_BYTE, "the skeleton is not finite"));
     }

@@ -18,7 +18,7 @@ use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use crate::scenario::AgentSpec;
-use crate::scenario_check::AGENTS_MAX;
+use crate::scenario_ranges::AGENTS_MAX;
 use crate::split_mix::SplitMix64;
 
 /// Disc of an agent, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected trunk, and the radius of the

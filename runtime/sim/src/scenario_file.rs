@@ -219,7 +219,7 @@ impl<'a> Source<'a> {
             Place::Parameter(section, key) => self.parameter_span(&section, &key),
             Place::Agent(index) => agents[index].clone(),
             Place::Obstacle(index) => file.obstacles[index].span(),
-            Place::Whole => file.agents.span(),
+            Place::Agents => file.agents.span(),
         };
         self.invalid(span, fault.message, fault.help)
     }

@@ -166,7 +166,7 @@ fn numbers_out_of_range_are_shown_where_they_stand() {
     check_refused("crowd", &format!("{HEAD}agents = {crowd}"), crowd, "1 to 1000000 agents");
     let tunables = "[params.planner]\ntime_horizon_s = 0.0\n";
     check_refused("tunable", &format!("{HEAD}{ONE}{tunables}"), "0.0", "time_horizon_s is 0, not between");
-    check_refused("nobody", &format!("{HEAD}agents = []"), "[]", "nobody");
+    check_refused("nobody", &format!("{HEAD}agents = []"), "[]", "the number of agents is 0");
 }
 
 #[test]
