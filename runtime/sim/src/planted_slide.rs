@@ -59,13 +59,14 @@ struct FootFrame {
     /// Which of them is lowest.
     lowest: usize,
     planted: bool,
-    examples_slide_cm_s: f64,
+    examples_slide_cm_s: f32,
 }
 
+/// In f32, since a body that stands adds to its contact as long as the recording lasts.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
-    slide_cm_s: f64,
-    examples_slide_cm_s: f64,
+    slide_cm_s: f32,
+    examples_slide_cm_s: f32,
 }
 
 impl PlantedSlide {
@@ -116,8 +117,8 @@ impl PlantedSlide {
         let trimmed = (contact.len() as f64 * TRIMMED_SHARE).round_ties_even() as usize;
         for sample in &contact[trimmed..contact.len() - trimmed] {
             self.samples += 1;
-            self.slide_cm_s += sample.slide_cm_s;
-            self.examples_slide_cm_s += sample.examples_slide_cm_s;
+            self.slide_cm_s += f64::from(sample.slide_cm_s);
+            self.examples_slide_cm_s += f64::from(sample.examples_slide_cm_s);
         }
     }
 }
@@ -148,7 +149,7 @@ fn sample(earlier: Option<FootFrame>, at: FootFrame, next: Option<FootFrame>, dt
     let steps = usize::from(earlier.is_some()) + usize::from(next.is_some());
     let place_m = |frame: Option<FootFrame>| frame.unwrap_or(at).points_m[at.lowest];
     let metres = place_m(earlier).distance(place_m(next));
-    let slide_cm_s = metres / (steps.max(1) as f64 * dt_s) * 100.0;
+    let slide_cm_s = (metres / (steps.max(1) as f64 * dt_s) * 100.0) as f32;
     Sample { slide_cm_s, examples_slide_cm_s: at.examples_slide_cm_s }
 }
 
@@ -163,7 +164,7 @@ fn foot_frames(skeleton: &Skeleton, agent: &AgentFrame) -> [FootFrame; 2] {
             points_m: points_m.map(|point_m| to_ground_m(&agent.root, point_m)),
             lowest,
             planted: agent.contacts[side] >= PLANTED_CONTACT,
-            examples_slide_cm_s: f64::from(agent.examples_slide_cm_s),
+            examples_slide_cm_s: agent.examples_slide_cm_s,
         }
     })
 }
