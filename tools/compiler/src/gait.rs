@@ -27,6 +27,9 @@ const PAUSE_SHARE_MAX: f64 = 0.34;
 /// A stride that neither goes nor turns this far treads on the spot, which is no locomotion: metres, 10°.
 const STRIDE_TRAVEL_M: f64 = 0.05;
 const STRIDE_TURN_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
+/// Speeds of the two steps of a stride differ by at most this, or this share of their mean.
+const STEP_SPEED_MPS: f64 = 0.2;
+const STEP_SPEED_SHARE: f64 = 0.25;
 /// Multiples of the contact limits of the definition that are tried.
 const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
 /// Root mean square distance of the joints between both ends of a stride, relative to the root; steps of real people: 1 to 6 cm.
@@ -52,6 +55,8 @@ pub struct Stride {
     pub left_share: f64,
     /// Its root; time 0 is the frame of phase 0.
     pub arc: Arc,
+    /// Speed of the hips in its first and its second step, m/s.
+    pub step_speeds_mps: [f64; 2],
 }
 
 impl Stride {
@@ -245,10 +250,19 @@ fn stride(marks: &[Landmark], clip: &GroundedClip, stepping: &[Vec<bool>; 2], ro
         })
         .collect();
     let arc = Arc::fit(&samples).shifted((zero_frame - first.frame) / clip.frame_rate_hz);
+    let step_speeds_mps = [[first, middle], [middle, last]].map(|[from, to]| {
+        let (frames, path) = (to.frame - from.frame, root.at(to.frame, 0.0).hips_m - root.at(from.frame, 0.0).hips_m);
+        path.length() * clip.frame_rate_hz / frames
+    });
     if !goes_somewhere(&arc.rates, period_frames / clip.frame_rate_hz) {
         return None;
     }
-    Some(Stride { zero_frame, start_phase, period_frames, left_share, arc })
+    Some(Stride { zero_frame, start_phase, period_frames, left_share, arc, step_speeds_mps })
+}
+
+/// Whether a body goes much faster in one step than in the other: with no other stride to compare with, it starts or stops.
+fn speeds_up([first, second]: [f64; 2]) -> bool {
+    (second - first).abs() > STEP_SPEED_MPS.max(STEP_SPEED_SHARE * 0.5 * (first + second))
 }
 
 fn goes_somewhere(rates: &Rates, period_s: f64) -> bool {
@@ -282,6 +296,9 @@ fn steady_window(strides: &[Option<Stride>]) -> Option<Vec<Stride>> {
             // Every stride counts for steadiness, also those that begin with the other foot; every second one goes into the mean.
             let Some(all) = strides[first..=last].iter().copied().collect::<Option<Vec<Stride>>>() else { break };
             let Some(deviation) = deviation(&all) else { continue };
+            if all.len() == 1 && speeds_up(all[0].step_speeds_mps) {
+                continue;
+            }
             let longer = best.as_ref().is_none_or(|best| (last - first, -deviation) > (best.0, -best.1));
             if longer {
                 best = Some((last - first, deviation, all.into_iter().step_by(2).collect()));

@@ -28,6 +28,7 @@ pub fn standing_cycle(clip: &GroundedClip, body: &HumanBody, period_s: f64) -> G
         period_frames: (period_s * clip.frame_rate_hz).min(length as f64),
         left_share: 0.5,
         arc: Arc { start_m: mean_hips_m(window), facing_rad: mean_facing_rad(window), rates: Rates::default() },
+        step_speeds_mps: [0.0; 2],
     };
     let planted = [vec![true; joints.len()], vec![true; joints.len()]];
     let mut cycle = mean_stride(clip, body, &planted, &[stride]);
