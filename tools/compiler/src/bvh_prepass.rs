@@ -274,7 +274,10 @@ fn header(line: Option<(usize, &str)>, last_line: usize, words: &[&str]) -> Resu
     if !found.eq(words.iter().copied()) {
         return flaw(line, format!("`{}:` is missing", words.join(" ")), remedy);
     }
-    number(line, value.trim())
+    match value.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => flaw(line, format!("`{}` is not a number", shown(value.trim())), remedy),
+    }
 }
 
 /// All values, whole rows only: a last row cut short is dropped with a warning, any other odd row is an error.

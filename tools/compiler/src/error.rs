@@ -66,6 +66,9 @@ pub enum Refusal {
         /// What was looked for and not found.
         reason: String,
     },
+    /// Joints in places that no body has.
+    #[error("positions or rotations are not finite: the skeleton is degenerate; export the clip again")]
+    Degenerate,
     /// Limbs are there, but the body is a quadruped's or crawls or lies.
     #[error("not upright: {reason}; only clips of a walking human skeleton can be used")]
     NotUpright {

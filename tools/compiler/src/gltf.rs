@@ -15,6 +15,8 @@ use crate::source_clip::{SourceClip, SourceJoint};
 
 /// Sampling rate: that of most recorded clips; keys of animated characters are no denser.
 const FRAME_RATE_HZ: f64 = 30.0;
+/// Key times are rounded to f32 in the file; a sample this short before a key is at it (matters where values step).
+const KEY_ROUNDING_S: f64 = 1e-5;
 /// Most node-frames of one animation: 50 nodes for three quarters of an hour. A two-key track can claim any duration.
 const MAX_NODE_FRAMES: f64 = 4e6;
 /// Animations are sampled one after another and kept together: their sum is bounded too.
@@ -165,7 +167,7 @@ fn orientation(matrix: DMat3) -> DQuat {
 
 /// Sets what a track drives in its node's transform.
 fn apply(track: &Track, time_s: f64, local: &mut Transform) {
-    let next = track.times_s.partition_point(|&key_s| key_s <= time_s);
+    let next = track.times_s.partition_point(|&key_s| key_s <= time_s + KEY_ROUNDING_S);
     let last = track.times_s.len() - 1;
     let (from, to) = (next.saturating_sub(1).min(last), next.min(last));
     let span_s = track.times_s[to] - track.times_s[from];

@@ -1,17 +1,17 @@
 //! Clips in: from files and folders to [`HumanClip`]s.
 //!
 //! # Steps
-//! read ([`crate::bvh`], [`crate::gltf`]) → roles ([`crate::skeleton_map`]) → metres, Z up ([`crate::units`]) → no separate first pose →
-//! whole-clip parameters ([`crate::source_parameters`]) → canonical humanoid (`retarget`).
+//! read ([`crate::bvh`], [`crate::gltf`]) → roles ([`crate::skeleton_map`]) → metres, Z up ([`crate::units`]) → no separate first pose
+//! (`first_pose`) → whole-clip parameters ([`crate::source_parameters`]) → a plausible gait (`plausibility`) → canonical humanoid (`retarget`).
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::error::{ImportError, MIN_FRAMES, Refusal};
-use crate::human_clip::HumanClip;
+use crate::human_clip::{HumanClip, HumanPose};
 use crate::skeleton_map::find_roles;
 use crate::source_clip::SourceClip;
-use crate::{bvh, first_pose, gltf, retarget, source_parameters, units};
+use crate::{bvh, first_pose, gltf, plausibility, retarget, source_parameters, units};
 
 /// One clip of a file: a human motion, or why it is none.
 #[derive(Clone, Debug)]
@@ -29,7 +29,19 @@ pub struct Import {
 /// # Errors
 /// [`ImportError`] where the file itself cannot be read as motion.
 pub fn import(path: &Path) -> Result<Vec<Import>, ImportError> {
-    let clips = read(path)?;
+    let bytes = fs::read(path).map_err(|source| ImportError::Unreadable { file: path.to_owned(), source })?;
+    import_bytes(path, &bytes)
+}
+
+/// As [`import`], from the bytes of a file; `path` gives the format, the names and the folder of glTF buffers.
+///
+/// # Errors
+/// As [`import`].
+pub fn import_bytes(path: &Path, bytes: &[u8]) -> Result<Vec<Import>, ImportError> {
+    let clips = match Format::of(path).ok_or_else(|| ImportError::UnknownFormat { file: path.to_owned() })? {
+        Format::Bvh => vec![bvh::read(path, bytes)?],
+        Format::Gltf => gltf::read(path, bytes)?,
+    };
     let several = clips.len() > 1;
     let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     Ok(clips.into_iter().map(|clip| import_clip(clip, &stem, several)).collect())
@@ -70,15 +82,6 @@ impl Format {
     }
 }
 
-fn read(path: &Path) -> Result<Vec<SourceClip>, ImportError> {
-    let format = Format::of(path).ok_or_else(|| ImportError::UnknownFormat { file: path.to_owned() })?;
-    let bytes = fs::read(path).map_err(|source| ImportError::Unreadable { file: path.to_owned(), source })?;
-    match format {
-        Format::Bvh => Ok(vec![bvh::read(path, &bytes)?]),
-        Format::Gltf => gltf::read(path, &bytes),
-    }
-}
-
 fn import_clip(clip: SourceClip, stem: &str, several: bool) -> Import {
     let name = if several { format!("{stem} {}", clip.clip) } else { stem.to_owned() };
     Import { file: clip.file.clone(), clip: clip.clip.clone(), outcome: to_human(clip, name) }
@@ -92,5 +95,8 @@ fn to_human(clip: SourceClip, name: String) -> Result<HumanClip, Refusal> {
     let (mut clip, units) = units::to_metres_z_up(clip, &roles);
     first_pose::drop_separate_first_pose(&mut clip, &roles);
     let whole = source_parameters::measure(&clip, &roles);
-    Ok(retarget::to_human(&clip, &roles, &units, whole, name))
+    clip.warnings.extend(plausibility::implausible_gait(&clip, &roles, &whole));
+    let human = retarget::to_human(&clip, &roles, &units, whole, name);
+    let finite = |pose: &HumanPose| pose.pelvis_m.is_finite() && pose.rotations.iter().all(|turn| turn.is_finite());
+    if human.frames.iter().all(finite) { Ok(human) } else { Err(Refusal::Degenerate) }
 }

@@ -27,6 +27,7 @@ pub mod leg_ik;
 mod limb;
 pub mod mirror;
 pub mod parameterize;
+mod plausibility;
 mod quiet_unwind;
 mod retarget;
 pub mod root_motion;

@@ -1,7 +1,7 @@
 //! Source clip → [`HumanClip`]: the canonical humanoid posed so that its joints are where the source's are.
 //!
-//! The body's bones are the source's mean bones in the calibrated joint frames ([`crate::calibration`]). In each frame every joint with one
-//! child is then turned, by the shortest arc, until its bone points exactly at that child: twist bones between roles, bones of the trunk
+//! The body's bones are the source's mean bones in the calibrated joint frames (`calibration`). In each frame every joint with one child is
+//! then turned, by the shortest arc, until its bone points exactly at that child: twist bones between roles, bones of the trunk
 //! that the source splits otherwise and joints with position channels all end up where the source puts them. At last the body is moved
 //! down or up so that its soles stand on z = 0.
 
@@ -42,7 +42,10 @@ pub(crate) fn to_human(
     let anchors = anchors(clip, roles, &forward, leg_m);
     let positions_m: Vec<[DVec3; JOINT_COUNT]> = frames.map(|frame| positions(clip, roles, &anchors, frame)).collect();
     let tracks = Tracks { clip, roles, anchors: &anchors, positions_m: &positions_m, forward: &forward };
-    let orientations = calibrated(&tracks);
+    let mut orientations = calibrated(&tracks);
+    for (turns, positions) in orientations.iter_mut().zip(&positions_m) {
+        aim_pelvis(turns, positions);
+    }
     let offsets_m = mean_offsets(&positions_m, &orientations);
     let soles = soles::find(&tracks, &orientations, leg_m);
     let mut frames: Vec<HumanPose> = positions_m
@@ -68,6 +71,15 @@ fn positions(clip: &SourceClip, roles: &Roles, anchors: &[Anchor; JOINT_COUNT], 
     let mut positions = anchors.each_ref().map(|anchor| anchor.position_m(clip, frame));
     positions[Joint::Pelvis.index()] = crate::units::middle(clip, roles, Joint::THIGHS, frame);
     positions
+}
+
+/// The pelvis's y is the hip line itself, also where the hips move in the pelvis (CMU's hip helpers turn, drawn characters stretch).
+fn aim_pelvis(turns: &mut [DQuat; JOINT_COUNT], positions_m: &[DVec3; JOINT_COUNT]) {
+    let [left, right] = Joint::THIGHS.map(|hip| positions_m[hip.index()]);
+    if let Some(line) = (left - right).try_normalize() {
+        let pelvis = &mut turns[Joint::Pelvis.index()];
+        *pelvis = (DQuat::from_rotation_arc(*pelvis * DVec3::Y, line) * *pelvis).normalize();
+    }
 }
 
 fn mean_offsets(positions_m: &[[DVec3; JOINT_COUNT]], orientations: &[[DQuat; JOINT_COUNT]]) -> [DVec3; JOINT_COUNT] {
@@ -101,9 +113,11 @@ fn pose(
             }
         }
     }
-    let local = |joint: Joint| match joint.parent() {
-        Some(parent) => (orientations[parent.index()].inverse() * orientations[joint.index()]).normalize(),
-        None => orientations[joint.index()],
+    let local = |joint: Joint| {
+        let parent = joint.parent().map_or(DQuat::IDENTITY, |parent| orientations[parent.index()]);
+        let turn = (parent.inverse() * orientations[joint.index()]).normalize();
+        // Of the two quaternions of a rotation the one that turns less than half.
+        if turn.w < 0.0 { -turn } else { turn }
     };
     HumanPose { pelvis_m: targets_m[Joint::Pelvis.index()], rotations: Joint::ALL.map(local) }
 }

@@ -9,8 +9,8 @@ use motiondb::skeleton::{JOINT_COUNT, Joint};
 
 use crate::calibration::{Tracks, flat_frames};
 
-/// Heel behind the ankle, over the distance from ankle to ball (anthropometry: 0.25–0.35).
-const HEEL_BEHIND: f64 = 0.3;
+/// Heel behind the ankle, over the distance from ankle to ball: 5 cm where that is 13.
+const HEEL_BEHIND: f64 = 0.4;
 /// Toe tip beyond the ball where the source has no toe end, over leg length: 7 cm for an adult.
 const TIP_OVER_LEG: f64 = 0.085;
 /// Toes shorter than this have no real end, over leg length.
