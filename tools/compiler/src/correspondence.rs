@@ -140,3 +140,44 @@ fn thin(mut pairs: Vec<Pair>) -> Vec<Pair> {
     }
     pairs
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{self, Walk, body, cycle_of};
+
+    fn cycle(speed_mps: f64, period_s: f64) -> GaitCycle {
+        let rates = Rates { speed_mps, ..Rates::default() };
+        cycle_of(&synthetic::walk("walk", Walk { rates, period_s, ..Walk::default() }))
+    }
+
+    #[test]
+    fn a_cycle_corresponds_to_itself_at_equal_times() {
+        let features = Features::of(&cycle(1.0, 1.1), &body(1.0));
+        let pairs = thin(minima(&features, &features));
+        assert!(pairs.iter().all(|pair| pair.offset == 0 && pair.distance == 0.0), "{pairs:?}");
+    }
+
+    #[test]
+    fn pairs_of_two_walks_rise_in_both_and_serve_both_steps() {
+        let pairs =
+            thin(minima(&Features::of(&cycle(1.0, 1.1), &body(1.0)), &Features::of(&cycle(0.7, 1.4), &body(1.0))));
+        for step in [0..PHASE_COUNT / 2, PHASE_COUNT / 2..PHASE_COUNT] {
+            assert!(pairs.iter().any(|pair| step.contains(&pair.sp)), "{pairs:?}");
+        }
+        for pair in pairs.windows(2) {
+            assert!(
+                pair[0].sp < pair[1].sp && pair[0].sp as isize + pair[0].offset < pair[1].sp as isize + pair[1].offset
+            );
+        }
+    }
+
+    #[test]
+    fn the_straight_walk_nearest_its_speed_is_deformed() {
+        let rates = |speed_mps, turn_rate_rad_s| Rates { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
+        let set = [("run", rates(3.0, 0.0)), ("bend", rates(1.2, 0.5)), ("walk", rates(1.0, 0.0))];
+        assert_eq!(semi_procedural(&set, None), Some(2));
+        assert_eq!(semi_procedural(&set, Some("run")), Some(0));
+        assert_eq!(semi_procedural(&[], None), None);
+    }
+}

@@ -84,3 +84,21 @@ fn point_speed_mps(cycle: &GaitCycle, feet: &[[DVec3; 3]], point: usize, row: is
     let ((before_m, before_s), (after_m, after_s)) = (at(row - 1), at(row + 1));
     (after_m - before_m).truncate().length() / (after_s - before_s)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arc::Rates;
+    use crate::synthetic::{self, Walk, cycle_of};
+
+    #[test]
+    fn feet_that_stand_still_do_not_slide_and_a_wrong_root_speed_is_their_slide() {
+        let clip = synthetic::walk("walk", Walk::default());
+        let mut cycle = cycle_of(&clip);
+        let still = measure(&cycle, &clip.body);
+        assert!(still.slide_cm_s < 0.5, "{still:?}");
+        assert!((still.planted_share - 0.6).abs() < 0.06, "{still:?}");
+        cycle.rates = Rates { speed_mps: cycle.rates.speed_mps + 0.1, ..cycle.rates };
+        assert!((measure(&cycle, &clip.body).slide_cm_s - 10.0).abs() < 0.5);
+    }
+}

@@ -323,3 +323,58 @@ fn deviation(strides: &[Stride]) -> Option<f64> {
         .max(spread(|s| s.period_frames, STEADY_PERIOD_SHARE * mean(|s| s.period_frames)));
     (deviation <= 1.0).then_some(deviation)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::root_motion::ground;
+    use crate::synthetic::{self, Walk};
+
+    fn strides(walk: Walk) -> Vec<Stride> {
+        let clip = synthetic::walk("walk", walk);
+        match analyze(&ground(&clip, &clip.body), &clip.body).gait {
+            Gait::Steps(strides) => strides,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn landmarks_come_where_the_feet_stand_under_the_body() {
+        for (left_share, frame_rate_hz) in [(0.5, 30.0), (0.45, 60.0), (0.57, 120.0)] {
+            for stride in strides(Walk { left_share, frame_rate_hz, ..Walk::default() }) {
+                let cycles = stride.zero_frame / frame_rate_hz / 1.1 - 0.37;
+                assert!((cycles - libm::round(cycles)).abs() < 0.03, "{stride:?}");
+                assert!((stride.left_share - left_share).abs() < 0.03, "{stride:?}");
+                assert!((stride.period_frames / frame_rate_hz - 1.1).abs() < 0.03, "{stride:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn contacts_that_the_clip_cuts_still_mark_a_stride() {
+        // The second right contact is cut after 64 % of it.
+        assert_eq!(strides(Walk { duration_s: 1.6, ..Walk::default() }).len(), 1);
+    }
+
+    #[test]
+    fn of_a_clip_that_speeds_up_only_the_steady_part_counts() {
+        let clip = |speed_mps| {
+            synthetic::walk("walk", Walk { rates: Rates { speed_mps, ..Rates::default() }, ..Walk::default() })
+        };
+        let (slow, mut fast) = (clip(0.5), clip(1.1));
+        let off_m = slow.frames[240].pelvis_m - fast.frames[0].pelvis_m;
+        fast.frames.truncate(200);
+        fast.frames.iter_mut().for_each(|pose| pose.pelvis_m += off_m);
+        let mut both = slow;
+        both.frames.truncate(240);
+        both.frames.extend(fast.frames);
+        let Gait::Steps(strides) = analyze(&ground(&both, &both.body), &both.body).gait else { panic!("no steps") };
+        assert!(strides.iter().all(|stride| (stride.arc.rates.speed_mps - 0.5).abs() < 0.02), "{strides:?}");
+    }
+
+    #[test]
+    fn a_body_that_stands_makes_no_steps() {
+        let clip = synthetic::idle("idle", 3.0);
+        assert!(matches!(analyze(&ground(&clip, &clip.body), &clip.body).gait, Gait::Stands));
+    }
+}

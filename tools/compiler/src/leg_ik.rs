@@ -55,3 +55,46 @@ fn knee_angle_change(thigh: DVec3, shank: DVec3, reach_m: f64) -> f64 {
     let cos_now = thigh.dot(shank) / (a * b);
     libm::acos(cos_wanted.clamp(-1.0, 1.0)) - libm::acos(cos_now.clamp(-1.0, 1.0))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{self, Walk};
+
+    /// The ankle arrives, the foot keeps its orientation and the knee its side, in every pose of a walk.
+    fn check_reach(off_m: DVec3, tolerance_m: f64) {
+        let clip = synthetic::walk("walk", Walk::default());
+        for pose in &clip.frames {
+            for side in 0..2 {
+                let foot = Joint::FEET[side].index();
+                let before = pose.forward_kinematics(&clip.body);
+                let mut moved = pose.clone();
+                place_ankle(&mut moved, &clip.body, side, before.positions_m[foot] + off_m);
+                let after = moved.forward_kinematics(&clip.body);
+                assert!(after.positions_m[foot].distance(before.positions_m[foot] + off_m) < tolerance_m);
+                assert!(after.orientations[foot].angle_between(before.orientations[foot]) < 1e-6);
+                let [hip, knee] = [Joint::THIGHS[side], Joint::SHANKS[side]].map(|j| after.positions_m[j.index()]);
+                let bulge = (knee - hip).cross(after.positions_m[foot] - knee);
+                let left = after.orientations[Joint::THIGHS[side].index()] * DVec3::Y;
+                assert!(bulge.dot(left) > -1e-6, "a knee bends backward: {bulge}");
+            }
+        }
+    }
+
+    #[test]
+    fn ankles_reach_targets_within_the_leg() {
+        check_reach(DVec3::ZERO, 1e-3);
+        check_reach(DVec3::new(0.02, -0.03, 0.05), 1e-3);
+    }
+
+    #[test]
+    fn a_target_out_of_reach_straightens_the_leg_towards_it() {
+        let clip = synthetic::walk("walk", Walk::default());
+        let mut pose = clip.frames[0].clone();
+        let hip_m = pose.forward_kinematics(&clip.body).positions_m[Joint::LeftThigh.index()];
+        place_ankle(&mut pose, &clip.body, 0, hip_m + DVec3::new(0.0, 0.3, -2.0));
+        let ankle_m = pose.forward_kinematics(&clip.body).positions_m[Joint::LeftFoot.index()] - hip_m;
+        assert!(ankle_m.normalize().dot(DVec3::new(0.0, 0.3, -2.0).normalize()) > 0.999_99);
+        assert!((ankle_m.length() - 0.84).abs() < 2e-3, "{}", ankle_m.length());
+    }
+}

@@ -67,3 +67,31 @@ fn mirror_pose(pose: &HumanPose) -> HumanPose {
     }
     HumanPose { pelvis_m: pose.pelvis_m * DVec3::new(1.0, -1.0, 1.0), rotations }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{self, Walk, cycle_of};
+
+    #[test]
+    fn a_mirror_of_a_mirror_is_the_original() {
+        let rates = Rates { speed_mps: 0.6, turn_rate_rad_s: 0.9, strafe_mps: -0.2 };
+        let cycle = cycle_of(&synthetic::walk("turn", Walk { rates, left_share: 0.54, ..Walk::default() }));
+        let twice = mirror(&mirror(&cycle));
+        assert_eq!(twice.rates, cycle.rates);
+        assert_eq!(twice.contacts, cycle.contacts);
+        for (back, row) in twice.rows.iter().zip(&cycle.rows) {
+            assert_eq!(back, row);
+        }
+    }
+
+    #[test]
+    fn a_counterpart_makes_the_mirror_needless() {
+        let left = Rates { speed_mps: 0.8, turn_rate_rad_s: 0.8, strafe_mps: 0.0 };
+        let right = Rates { speed_mps: 0.85, turn_rate_rad_s: -0.75, strafe_mps: 0.02 };
+        let straight = Rates { speed_mps: 1.2, turn_rate_rad_s: 0.1, strafe_mps: 0.1 };
+        assert!(wants_mirror(&left, &[left, straight]));
+        assert!(!wants_mirror(&left, &[left, right, straight]));
+        assert!(!wants_mirror(&straight, &[left, straight]));
+    }
+}

@@ -7,8 +7,11 @@ use motiondb::motion_db::SourceRecord;
 use motiondb::skeleton::{JOINT_COUNT, Joint};
 
 use crate::arc::{Arc, Rates, rotation};
+use crate::cycle::{GaitCycle, mean_stride};
+use crate::gait::{self, Gait};
 use crate::human_clip::{HumanBody, HumanClip, HumanPose};
 use crate::leg_ik::place_ankle;
+use crate::root_motion::ground;
 
 /// Ankle over the sole.
 const ANKLE_M: f64 = 0.09;
@@ -140,4 +143,12 @@ fn place_foot(pose: &mut HumanPose, walk: &Walk, body: &HumanBody, arc: &Arc, si
     let joints = pose.forward_kinematics(body);
     let shank = joints.orientations[Joint::SHANKS[side].index()];
     pose.rotations[Joint::FEET[side].index()] = shank.inverse() * DQuat::from_rotation_z(facing_rad);
+}
+
+/// The mean stride of a clip on its own body.
+pub(crate) fn cycle_of(clip: &HumanClip) -> GaitCycle {
+    let grounded = ground(clip, &clip.body);
+    let analysis = gait::analyze(&grounded, &clip.body);
+    let Gait::Steps(strides) = &analysis.gait else { panic!("{:?}", analysis.gait) };
+    mean_stride(&grounded, &clip.body, &analysis.planted, strides)
 }

@@ -92,3 +92,49 @@ impl Seam {
         carried
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arc::Rates;
+    use crate::gait::{self, Gait};
+    use crate::root_motion::ground;
+    use crate::synthetic::{self, Walk};
+
+    /// A walk of exactly `strides` strides.
+    fn whole(strides: f64) -> Walk {
+        let rates = Rates { speed_mps: 0.7, turn_rate_rad_s: 0.8, strafe_mps: 0.0 };
+        Walk { rates, period_s: 1.1, duration_s: 1.1 * strides, ..Walk::default() }
+    }
+
+    #[test]
+    fn all_strides_of_a_loop_count() {
+        let clip = synthetic::walk("loop", whole(2.0));
+        let unrolled = unroll(ground(&clip, &clip.body), &clip.body);
+        assert_eq!(unrolled.loop_frames, Some(132));
+        let Gait::Steps(strides) = gait::analyze(&unrolled, &clip.body).gait else { panic!("no steps") };
+        assert_eq!(strides.len(), 2);
+        for stride in strides {
+            assert!((stride.arc.rates.speed_mps - 0.7).abs() < 0.01, "{stride:?}");
+            assert!((stride.arc.rates.turn_rate_rad_s - 0.8).abs() < 0.01, "{stride:?}");
+        }
+    }
+
+    #[test]
+    fn rounds_follow_each_other_without_a_jump() {
+        let clip = synthetic::walk("loop", whole(1.0));
+        let unrolled = unroll(ground(&clip, &clip.body), &clip.body);
+        let places: Vec<_> = unrolled.poses.iter().map(|p| p.forward_kinematics(&clip.body).positions_m).collect();
+        let step = |frame: usize| {
+            places[frame].iter().zip(&places[frame + 1]).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+        };
+        let largest = (0..65).map(step).fold(0.0, f64::max);
+        assert!(step(65) <= largest && step(131) <= largest, "{} {} {largest}", step(65), step(131));
+    }
+
+    #[test]
+    fn a_clip_that_ends_in_another_pose_is_no_loop() {
+        let clip = synthetic::walk("part", whole(1.4));
+        assert_eq!(unroll(ground(&clip, &clip.body), &clip.body).loop_frames, None);
+    }
+}
