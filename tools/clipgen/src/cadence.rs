@@ -2,7 +2,8 @@
 //!
 //! Cadences lie inside the adult ±1 SD bands of `facts/motion.md` §4 (18–29 years): men slow 86–101 steps/min at .85–1.2 m/s, normal
 //! 99–113 at 1.2–1.65, fast 118–141 at 1.65–2.2. Double support: 25–34, 22–31, 17–24 %; toe-off = 50 % + half of it. Foot angles and
-//! pelvis amplitudes: Schwartz et al. 2008 by v*. A stride is a whole number of frames, so that every stride is sampled alike.
+//! pelvis amplitudes: Schwartz et al. 2008 by v*. A clip is a whole number of frames
+//! and strides, but a stride is not: each is sampled at other moments, so that the mean over strides knows what lies between frames.
 
 use crate::footsteps::RootMotion;
 use crate::published_curves::Style;
@@ -22,8 +23,8 @@ const TURN_TOE_OFF_S: f64 = 0.010;
 pub(crate) struct Gait {
     /// How the root moves.
     pub(crate) root: RootMotion,
-    /// Frames a stride.
-    pub(crate) stride_frames: usize,
+    /// Frames a stride; need not be whole.
+    pub(crate) stride_frames: f64,
     /// When a foot leaves the ground, from its strike.
     pub(crate) toe_off: f64,
     /// The published curves it takes after, and how much of their swing (1 forward, 0 where nobody published any).
@@ -107,7 +108,7 @@ pub(crate) struct UpperBodySwing {
 impl Gait {
     /// Seconds a stride.
     pub(crate) fn period_s(&self) -> f64 {
-        self.stride_frames as f64 / FRAME_RATE_HZ
+        self.stride_frames / FRAME_RATE_HZ
     }
 
     /// Mid-stance from the strike, share of the stride.
@@ -122,11 +123,11 @@ impl Gait {
 }
 
 /// Forward walking, straight or turning.
-pub(crate) fn walk(root: RootMotion, stride_frames: usize) -> Gait {
+pub(crate) fn walk(root: RootMotion, stride_frames: f64) -> Gait {
     let speed = root.pace_mps();
     let by_speed = |values: [f64; 5]| between(speed, &[0.5, 0.8, 1.1, 1.4, 1.8], &values);
     // A turning foot leaves the ground more slowly and counts as planted for longer.
-    let toe_off = by_speed([0.600, 0.602, 0.626, 0.614, 0.592]) - TURN_TOE_OFF_S * root.turn_rate_rad_s.abs();
+    let toe_off = by_speed([0.600, 0.610, 0.626, 0.616, 0.594]) - TURN_TOE_OFF_S * root.turn_rate_rad_s.abs();
     Gait {
         root,
         stride_frames,
@@ -159,7 +160,7 @@ pub(crate) fn walk(root: RootMotion, stride_frames: usize) -> Gait {
 }
 
 /// Jogging and running.
-pub(crate) fn run(root: RootMotion, stride_frames: usize) -> Gait {
+pub(crate) fn run(root: RootMotion, stride_frames: f64) -> Gait {
     let speed = root.pace_mps();
     let by_speed = |values: [f64; 2]| between(speed, &[2.4, 3.5], &values);
     let toe_off = by_speed([0.365, 0.315]);
@@ -199,7 +200,7 @@ pub(crate) fn run(root: RootMotion, stride_frames: usize) -> Gait {
 }
 
 /// Stepping where nobody published curves (sideways, about oneself): flat feet, a little lift, knees that give.
-pub(crate) fn step_about(root: RootMotion, stride_frames: usize, half_width_m: f64) -> Gait {
+pub(crate) fn step_about(root: RootMotion, stride_frames: f64, half_width_m: f64) -> Gait {
     let toe_off = 0.55;
     // Slow steps hardly leave the ground; haste is the speed of the feet, those of a turning body 0.3 m from its axis.
     let haste = (root.pace_mps() + 0.1 * root.turn_rate_rad_s.abs()).min(1.0);
@@ -232,7 +233,7 @@ pub(crate) fn step_about(root: RootMotion, stride_frames: usize, half_width_m: f
 }
 
 /// Walking forward and sideways at once: a walk whose feet stand wider, so that they do not cross.
-pub(crate) fn diagonal(root: RootMotion, stride_frames: usize) -> Gait {
+pub(crate) fn diagonal(root: RootMotion, stride_frames: f64) -> Gait {
     let walk = walk(root, stride_frames);
     let side_step_m = 0.5 * root.strafe_mps.abs() * walk.period_s();
     Gait { half_width_m: (0.5 * side_step_m + 0.045).max(walk.half_width_m), ..walk }
@@ -240,7 +241,7 @@ pub(crate) fn diagonal(root: RootMotion, stride_frames: usize) -> Gait {
 
 /// The film of this gait, run backward, is backward walking (its joint curves are nearly those of forward walking in reversed time):
 /// shorter steps, wider, flatter feet, quieter arms.
-pub(crate) fn backward_film(backward: RootMotion, stride_frames: usize) -> Gait {
+pub(crate) fn backward_film(backward: RootMotion, stride_frames: f64) -> Gait {
     let walk = walk(backward.reversed(), stride_frames);
     Gait {
         // Slow feet count as planted for a while before and after they are: what is measured is 3 % more.

@@ -46,34 +46,34 @@ enum Kind {
     StepAbout(f64),
 }
 
-/// Name, kind, (v_f m/s, ω_t °/s, ω_s m/s), frames a stride, strides.
+/// Name, kind, (v_f m/s, ω_t °/s, ω_s m/s), frames, strides. Frames over strides leaves a rest of one: see `cadence.rs`.
 type Row = (&'static str, Kind, (f64, f64, f64), usize, usize);
 
 const ROWS: &[Row] = &[
-    ("walk_050", Kind::Walk, (0.5, 0.0, 0.0), 48, 3),
-    ("walk_080", Kind::Walk, (0.8, 0.0, 0.0), 40, 4),
-    ("walk_110", Kind::Walk, (1.1, 0.0, 0.0), 36, 4),
-    ("walk_140", Kind::Walk, (1.4, 0.0, 0.0), 30, 4),
-    ("walk_180", Kind::Walk, (1.8, 0.0, 0.0), 27, 4),
-    ("jog_240", Kind::Run, (2.4, 0.0, 0.0), 22, 4),
-    ("run_350", Kind::Run, (3.5, 0.0, 0.0), 20, 4),
-    ("turn_030_left", Kind::Walk, (1.0, 30.0, 0.0), 36, 4),
-    ("turn_060_left", Kind::Walk, (0.85, 60.0, 0.0), 36, 4),
-    ("turn_090_left", Kind::Walk, (0.65, 90.0, 0.0), 32, 4),
-    ("turn_130_left", Kind::Walk, (0.45, 130.0, 0.0), 27, 4),
-    ("jog_turn_060_left", Kind::Run, (2.3, 60.0, 0.0), 22, 4),
-    ("jog_turn_110_left", Kind::Run, (1.9, 110.0, 0.0), 21, 4),
-    ("spin_090_left", Kind::StepAbout(0.095), (0.0, 90.0, 0.0), 30, 4),
-    ("spin_170_left", Kind::StepAbout(0.100), (0.0, 170.0, 0.0), 20, 4),
-    ("side_035_left", Kind::StepAbout(0.155), (0.0, 0.0, 0.35), 36, 4),
-    ("side_060_left", Kind::StepAbout(0.180), (0.0, 0.0, 0.6), 27, 4),
-    ("shuffle_120_left", Kind::StepAbout(0.215), (0.0, 0.0, 1.2), 16, 6),
-    ("diagonal_110_030_left", Kind::Diagonal, (1.1, 0.0, 0.3), 34, 4),
-    ("diagonal_080_040_left", Kind::Diagonal, (0.8, 0.0, 0.4), 36, 4),
-    ("backward_040", Kind::Backward, (-0.4, 0.0, 0.0), 42, 3),
-    ("backward_080", Kind::Backward, (-0.8, 0.0, 0.0), 34, 4),
-    ("backward_110", Kind::Backward, (-1.1, 0.0, 0.0), 29, 4),
-    ("backward_turn_045_left", Kind::Backward, (-0.6, 45.0, 0.0), 36, 4),
+    ("walk_050", Kind::Walk, (0.5, 0.0, 0.0), 145, 3),
+    ("walk_080", Kind::Walk, (0.8, 0.0, 0.0), 161, 4),
+    ("walk_110", Kind::Walk, (1.1, 0.0, 0.0), 145, 4),
+    ("walk_140", Kind::Walk, (1.4, 0.0, 0.0), 121, 4),
+    ("walk_180", Kind::Walk, (1.8, 0.0, 0.0), 109, 4),
+    ("jog_240", Kind::Run, (2.4, 0.0, 0.0), 89, 4),
+    ("run_350", Kind::Run, (3.5, 0.0, 0.0), 81, 4),
+    ("turn_030_left", Kind::Walk, (1.0, 30.0, 0.0), 145, 4),
+    ("turn_060_left", Kind::Walk, (0.85, 60.0, 0.0), 145, 4),
+    ("turn_090_left", Kind::Walk, (0.65, 90.0, 0.0), 129, 4),
+    ("turn_130_left", Kind::Walk, (0.45, 130.0, 0.0), 121, 4),
+    ("jog_turn_060_left", Kind::Run, (2.3, 60.0, 0.0), 89, 4),
+    ("jog_turn_110_left", Kind::Run, (1.9, 110.0, 0.0), 85, 4),
+    ("spin_090_left", Kind::StepAbout(0.095), (0.0, 90.0, 0.0), 121, 4),
+    ("spin_170_left", Kind::StepAbout(0.100), (0.0, 170.0, 0.0), 81, 4),
+    ("side_035_left", Kind::StepAbout(0.155), (0.0, 0.0, 0.35), 145, 4),
+    ("side_060_left", Kind::StepAbout(0.180), (0.0, 0.0, 0.6), 109, 4),
+    ("shuffle_120_left", Kind::StepAbout(0.215), (0.0, 0.0, 1.2), 97, 6),
+    ("diagonal_110_030_left", Kind::Diagonal, (1.1, 0.0, 0.3), 137, 4),
+    ("diagonal_080_040_left", Kind::Diagonal, (0.8, 0.0, 0.4), 145, 4),
+    ("backward_040", Kind::Backward, (-0.4, 0.0, 0.0), 127, 3),
+    ("backward_080", Kind::Backward, (-0.8, 0.0, 0.0), 137, 4),
+    ("backward_110", Kind::Backward, (-1.1, 0.0, 0.0), 117, 4),
+    ("backward_turn_045_left", Kind::Backward, (-0.6, 45.0, 0.0), 145, 4),
 ];
 
 /// Every clip, in the order of the README.
@@ -84,7 +84,8 @@ pub(crate) fn clips() -> Vec<Clip> {
     clips
 }
 
-fn clip_of(&(name, kind, (speed_mps, turn_deg_s, strafe_mps), stride_frames, strides): &Row) -> Clip {
+fn clip_of(&(name, kind, (speed_mps, turn_deg_s, strafe_mps), frames, strides): &Row) -> Clip {
+    let stride_frames = frames as f64 / strides as f64;
     let motion = RootMotion { speed_mps, turn_rate_rad_s: turn_deg_s.to_radians(), strafe_mps };
     let (gait, film) = match kind {
         Kind::Walk => (cadence::walk(motion, stride_frames), Film::Forward),
@@ -108,7 +109,7 @@ impl Clip {
     /// Steps a minute and metres a step, for clips that step.
     pub(crate) fn cadence_and_step_m(&self) -> Option<(f64, f64)> {
         let Recipe::Steps { gait, .. } = &self.recipe else { return None };
-        let step_s = 0.5 * gait.stride_frames as f64 / FRAME_RATE_HZ;
+        let step_s = 0.5 * gait.stride_frames / FRAME_RATE_HZ;
         Some((60.0 / step_s, self.motion.pace_mps() * step_s))
     }
 }

@@ -57,7 +57,8 @@ struct Cycle<'a> {
 pub(crate) fn frames(gait: &Gait, strides: usize, film: Film) -> Vec<Pose> {
     let cycle = Cycle::new(gait);
     let direction = if film == Film::Forward { 1.0 } else { -1.0 };
-    (0..=strides * gait.stride_frames)
+    let last = libm::round(strides as f64 * gait.stride_frames) as usize;
+    (0..=last)
         .map(|frame| {
             let time_s = direction * frame as f64 / FRAME_RATE_HZ;
             // Begins where the yaw of hips and chest turns back, so that it biases no mean over the clip's ends.
