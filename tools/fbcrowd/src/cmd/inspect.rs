@@ -1,7 +1,8 @@
 //! `fbcrowd inspect`: what a database holds, or what clips are, as a table, JSON and pictures.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use fbcrowd_render::database_plots::write_database_plots;
 use motiondb::file;
 
 use crate::compiling;
@@ -11,7 +12,7 @@ use crate::report::{self, DatabaseReport, SourcesReport};
 
 /// Show what a database holds, or what was found in clips.
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  fbcrowd inspect motion.fbdb --json\n  fbcrowd inspect my/clips")]
+#[command(after_help = "Examples:\n  fbcrowd inspect motion.fbdb --plots out/plots\n  fbcrowd inspect my/clips --json")]
 pub(crate) struct Args {
     /// A database, or clips: files or folders.
     #[arg(required = true, value_name = "FILE.fbdb|CLIPS")]
@@ -19,6 +20,9 @@ pub(crate) struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    /// Write pictures of a database's velocity sets, examples and simplices.
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
@@ -30,8 +34,13 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     }
 }
 
-fn inspect_database(args: &Args, path: &std::path::Path) -> Result<Answer, Failure> {
+fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
     let (db, _) = file::load(path)?;
+    if let Some(folder) = &args.plots {
+        for picture in write_database_plots(&db, folder)? {
+            eprintln!("drew {}", picture.display());
+        }
+    }
     let report = DatabaseReport::new(&db);
     if args.json {
         output::print_json(&report)?;
@@ -42,6 +51,9 @@ fn inspect_database(args: &Args, path: &std::path::Path) -> Result<Answer, Failu
 }
 
 fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
+    if args.plots.is_some() {
+        return Err(Failure::bad("--plots draws databases; compile the clips first with `fbcrowd compile`"));
+    }
     let (clips, answer) = compiling::import(clips)?;
     let report = SourcesReport { sources: clips.into_iter().map(|clip| clip.source).collect() };
     if args.json {
