@@ -67,6 +67,9 @@ struct Simplex {
     count: usize,
     origin: Vec3,
     rows: [Vec3; 3],
+    /// Of a ball that holds it, so that a search for the nearest can pass it by.
+    centre: Vec3,
+    radius: f32,
 }
 
 impl Locator {
@@ -89,6 +92,9 @@ impl Locator {
             if least > best.0 {
                 best = (least, shares, Some(simplex));
             }
+            if least >= 0.0 {
+                break;
+            }
         }
         match best {
             (least, shares, Some(simplex)) if least >= -INSIDE_TOLERANCE => simplex.normalised(shares),
@@ -100,6 +106,10 @@ impl Locator {
     fn nearest(&self, point: Vec3, nearly: Option<&Simplex>) -> Shares {
         let mut nearest = (f32::INFINITY, Shares { shares: [1.0, 0.0, 0.0, 0.0], ..Shares::default() });
         for facet in self.boundary.iter().chain(nearly) {
+            let nearest_possible = (point.distance(facet.centre) - facet.radius).max(0.0);
+            if nearest_possible * nearest_possible > nearest.0 {
+                continue;
+            }
             let candidate = nearest_on_facet(point, &facet.corners[..facet.count], &self.points);
             if candidate.0 < nearest.0 {
                 nearest = candidate;
@@ -113,10 +123,14 @@ impl Simplex {
     fn new(corners: &[u32], points: &[Vec3]) -> Self {
         let corner = |k: usize| points[corners[k] as usize];
         let origin = corner(0);
-        let edges: Vec<Vec3> = (1..corners.len()).map(|k| corner(k) - origin).collect();
+        let count = corners.len();
+        let mut edges = [Vec3::ZERO; 3];
+        (1..count).for_each(|k| edges[k - 1] = corner(k) - origin);
         let mut padded = [0; MAX_CORNERS];
-        padded[..corners.len()].copy_from_slice(corners);
-        Self { corners: padded, count: corners.len(), origin, rows: dual_edges(&edges) }
+        padded[..count].copy_from_slice(corners);
+        let centre = (0..count).map(corner).sum::<Vec3>() / count as f32;
+        let radius = (0..count).map(|k| corner(k).distance(centre)).fold(0.0, f32::max);
+        Self { corners: padded, count, origin, rows: dual_edges(&edges[..count - 1]), centre, radius }
     }
 
     fn is_sliver(&self, points: &[Vec3]) -> bool {

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::agents::Agents;
 use crate::cns;
 use crate::hms::Motion;
-use crate::hms::asked::Space;
+use crate::hms::space::Space;
 use crate::mcn::{self, Scratch, World};
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;

@@ -10,13 +10,12 @@
 //! the examples that the nearest point of their hull hardly turns. The root then moves from what it does towards what is asked at limited
 //! accelerations, straight through the space of parameters: the body passes the examples between.
 
-use glam::{Vec2, Vec3};
-use motiondb::blend_space::{Locator, Shares};
-use motiondb::motion_db::MotionDb;
+use glam::Vec2;
+use motiondb::blend_space::Shares;
 use motiondb::parameters::Parameters;
 
-use super::blending::Mix;
 use super::params::HmsParams;
+use super::space::Space;
 use crate::angle::wrap_rad;
 use crate::plan::Plan;
 
@@ -24,58 +23,6 @@ use crate::plan::Plan;
 const TURN_SPEED_MIN_MPS: f32 = 0.1;
 /// … and one faster than this turns it at any rate.
 const TURN_SPEED_FULL_MPS: f32 = 0.2;
-
-/// The blend space of a database, ready for queries.
-#[derive(Clone, Debug)]
-pub struct Space {
-    locator: Locator,
-    points: Vec<Parameters>,
-    stands: Vec<bool>,
-    /// The balls of the feet of a standing body in the root frame, `[left, right]`, metres.
-    pub standing_balls_m: [Vec3; 2],
-    turn_rate_max_rad_s: f32,
-    speed_max_mps: f32,
-}
-
-impl Space {
-    /// Of one database.
-    pub fn new(db: &MotionDb) -> Self {
-        let points: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
-        let greatest = |of: fn(&Parameters) -> f32| points.iter().map(of).fold(0.0, f32::max);
-        let locator = Locator::new(&db.blend_space, &points);
-        let standing = Mix::new(&locator.locate(Parameters::default())).weights(db, 0.0).pose(db, 0.0);
-        let joints = standing.forward_kinematics(&db.skeleton);
-        Self {
-            standing_balls_m: [0, 1].map(|side| joints.sole_points_m(&db.skeleton, side)[1]),
-            locator,
-            stands: db.examples.iter().map(|example| example.key_times_s.is_none()).collect(),
-            turn_rate_max_rad_s: greatest(|point| point.turn_rate_rad_s.abs()),
-            speed_max_mps: greatest(|point| Vec2::new(point.speed_mps, point.strafe_mps).length()),
-            points,
-        }
-    }
-
-    /// Shares at a point, or at the nearest one that the database has.
-    pub fn locate(&self, parameters: Parameters) -> Shares {
-        self.locator.locate(parameters)
-    }
-
-    /// Shares of standing still, or of whatever the database has that is slowest.
-    pub fn standing(&self) -> Shares {
-        self.locate(Parameters::default())
-    }
-
-    /// The nearest point that the database has, and the share of standing examples in it.
-    pub fn nearest(&self, parameters: Parameters) -> (Parameters, f32) {
-        let shares = self.locate(parameters);
-        let (mut sum, mut idle_share) = (Vec3::ZERO, 0.0);
-        for (example, share) in shares.examples.into_iter().zip(shares.shares) {
-            sum += share * self.points[example as usize].to_vec3();
-            idle_share += if self.stands[example as usize] { share } else { 0.0 };
-        }
-        (Parameters::from_vec3(sum), idle_share)
-    }
-}
 
 /// What a plan asks of a body that faces `facing_rad`; anything not finite asks to stand.
 pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) -> Parameters {

@@ -6,7 +6,7 @@
 
 use motiondb::parameters::Parameters;
 
-use super::asked::Space;
+use super::space::{Nearest, Space};
 
 /// Greatest share of standing examples in a body that steps: with more, the blended contact of a swinging foot would not fall below ½.
 pub const IDLE_SHARE_MAX: f32 = 0.35;
@@ -52,18 +52,16 @@ impl Gait {
     }
 }
 
-/// The parameters to make for: of what is asked the nearest that the database has, at steps no smaller than the least; none where the
-/// body stands. `now` gives the direction where the body gathers its feet.
-pub fn goal(asked: Parameters, now: Parameters, gait: Gait, space: &Space) -> Parameters {
+/// The parameters to make for: `nearest`, what the database has of what is asked, at steps no smaller than the least; none where the body
+/// stands. `now`, what it does, gives the direction where it gathers its feet.
+pub fn goal(nearest: Nearest, now: Parameters, gait: Gait, space: &Space) -> Parameters {
     if gait.stands {
-        return space.nearest(Parameters::default()).0;
+        return space.nearest(Parameters::default()).parameters;
     }
-    let (mut goal, mut idle_share) = space.nearest(asked);
-    if idle_share > HALT_IDLE_SHARE {
-        (goal, idle_share) = space.nearest(Parameters::from_vec3(SLOWING * now.to_vec3()));
-    }
+    let slowing = || space.nearest(Parameters::from_vec3(SLOWING * now.to_vec3()));
+    let goal = if nearest.idle_share > HALT_IDLE_SHARE { slowing() } else { nearest };
     // Standing lies at the origin: scaling by this leaves that share of it.
-    let stepping_share = (1.0 - idle_share).max(1.0 - HALT_IDLE_SHARE);
+    let stepping_share = (1.0 - goal.idle_share).max(1.0 - HALT_IDLE_SHARE);
     let scale = ((1.0 - IDLE_SHARE_MAX) / stepping_share).max(1.0);
-    Parameters::from_vec3(scale * goal.to_vec3())
+    Parameters::from_vec3(scale * goal.parameters.to_vec3())
 }

@@ -17,6 +17,7 @@ pub mod feet;
 pub mod gait;
 pub mod ik;
 pub mod params;
+pub mod space;
 
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
@@ -24,12 +25,12 @@ use motiondb::parameters::Parameters;
 use motiondb::pose::{Joints, Pose, Root};
 use motiondb::skeleton::{Joint, Skeleton};
 
-use self::asked::Space;
 use self::blending::{Mix, Weights};
 use self::feet::{FootHold, PLANTED_CONTACT, PosedFoot};
 use self::gait::Gait;
 use self::ik::FootTarget;
 use self::params::HmsParams;
+use self::space::Space;
 use crate::angle::wrap_rad;
 use crate::plan::{Plan, Stance, StanceFoot};
 
@@ -105,8 +106,9 @@ impl Body {
     pub fn advance(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
         let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
         let now = self.mix.parameters(motion.db);
-        self.gait.follow(motion.space.nearest(asked).1, self.feet_gathered(motion), dt_s);
-        let goal = gait::goal(asked, now, self.gait, motion.space);
+        let nearest = motion.space.nearest(asked);
+        self.gait.follow(nearest.idle_share, self.feet_gathered(motion), dt_s);
+        let goal = gait::goal(nearest, now, self.gait, motion.space);
         let shares = asked::step_towards(now, goal, motion.space, motion.params, dt_s);
         self.mix.approach(&shares, dt_s / motion.params.share_change_s);
         let moved = moved(&self.root, &self.mix.parameters(motion.db), dt_s);

@@ -8,10 +8,11 @@ use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
 use proptest::prelude::*;
 
-use super::asked::{self, Space};
+use super::asked;
 use super::blending::Mix;
 use super::gait::{self, Gait};
 use super::params::HmsParams;
+use super::space::Space;
 use super::{Body, Motion, Synthesis};
 use crate::plan::Plan;
 use crate::test_db::test_db;
@@ -135,6 +136,24 @@ fn the_root_accelerates_like_a_person_and_keeps_an_even_speed() {
 }
 
 #[test]
+fn a_body_that_stops_stands_upright_with_its_feet_under_it() {
+    for stop_s in [2.0, 2.1, 2.2, 2.3, 2.4, 2.5, 2.6, 2.7] {
+        let plan = |time_s: f32, _: &Root| towards(0.0, if time_s < stop_s { 1.4 } else { 0.0 });
+        let walk = walk(6.0, DT_S, plan);
+        let (first, last) = (&walk.steps[0].1, &walk.steps[walk.steps.len() - 1].1);
+        let crouch_m = first.pose.pelvis_m.z - last.pose.pelvis_m.z;
+        assert!(crouch_m < 0.03, "stopped at {stop_s}: {crouch_m} m");
+        for side in 0..2 {
+            let ball_m = |step: &Synthesis| {
+                step.pose.forward_kinematics(&walk.db.skeleton).sole_points_m(&walk.db.skeleton, side)[1]
+            };
+            let off_m = ball_m(first).distance(ball_m(last));
+            assert!(off_m < 0.25, "stopped at {stop_s}: {off_m} m");
+        }
+    }
+}
+
+#[test]
 fn straight_stays_straight() {
     let walk = walk(10.0, DT_S, |_, _| towards(0.0, 1.1));
     assert!(walk.steps.iter().all(|(root, _)| root.position_m.y.abs() < 1e-4 && root.facing_rad.abs() < 1e-4));
@@ -186,8 +205,9 @@ proptest! {
         let mut mix = Mix::new(&space.standing());
         let mut gait = Gait::STANDING;
         for _ in 0..120 {
-            gait.follow(space.nearest(asked).1, true, DT_S);
-            let goal = gait::goal(asked, mix.parameters(&db), gait, &space);
+            let nearest = space.nearest(asked);
+            gait.follow(nearest.idle_share, true, DT_S);
+            let goal = gait::goal(nearest, mix.parameters(&db), gait, &space);
             mix.approach(&asked::step_towards(mix.parameters(&db), goal, &space, &params, DT_S), 0.1);
         }
         let steps = Mix::new(&space.locate(asked)).share(0) < 0.35;
