@@ -22,8 +22,8 @@ const STEADY_SPEED_MPS: f64 = 0.12;
 const STEADY_SPEED_SHARE: f64 = 0.12;
 const STEADY_TURN_RAD_S: f64 = 15.0 * std::f64::consts::PI / 180.0;
 const STEADY_PERIOD_SHARE: f64 = 0.15;
-/// Both feet on the ground without a break for longer than this share of a stride: the body stops between steps. Very slow walking: 18 %.
-const PAUSE_SHARE_MAX: f64 = 0.34;
+/// Both feet on the ground for a larger share of a stride: the body stops between steps. Very slow walking: 36 % (Schwartz et al. 2008).
+const DOUBLE_SUPPORT_MAX: f64 = 0.45;
 /// A stride that neither goes nor turns this far treads on the spot, which is no locomotion: metres, 10°.
 const STRIDE_TRAVEL_M: f64 = 0.05;
 const STRIDE_TURN_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
@@ -272,8 +272,8 @@ fn goes_somewhere(rates: &Rates, period_s: f64) -> bool {
 
 /// Whether both feet stay down too long for a gait.
 fn pauses(stepping: &[Vec<bool>; 2], from: f64, to: f64) -> bool {
-    let both: Vec<bool> = (from as usize..to as usize).map(|frame| stepping[0][frame] && stepping[1][frame]).collect();
-    runs(&both).iter().any(|&(down, start, end)| down && (end - start) as f64 > PAUSE_SHARE_MAX * (to - from))
+    let both = (from as usize..to as usize).filter(|&frame| stepping[0][frame] && stepping[1][frame]).count();
+    both as f64 > DOUBLE_SUPPORT_MAX * (to - from)
 }
 
 /// Of a loop all strides of one round, from the first landmark of its middle copy.
