@@ -130,19 +130,17 @@ fn least_violation(
     best_mps
 }
 
-/// Where `other` is violated no more than `worst`: the left of their bisector; none where parallel lines leave no choice.
+/// Where `other` is violated no more than `worst`: det(d_o − d_w, v) >= det(d_o, p_o) − det(d_w, p_w). None where the lines run alike and
+/// one is violated more everywhere.
 fn bisector(worst: &HalfPlane, other: &HalfPlane) -> Option<HalfPlane> {
-    let cross = worst.direction.perp_dot(other.direction);
-    let point_mps = if cross.abs() > PARALLEL {
-        let along = other.direction.perp_dot(worst.point_mps - other.point_mps) / cross;
-        worst.point_mps + along * worst.direction
-    } else if worst.direction.dot(other.direction) > 0.0 {
+    let across = other.direction - worst.direction;
+    let length = across.length();
+    if length <= PARALLEL {
         return None;
-    } else {
-        0.5 * (worst.point_mps + other.point_mps)
-    };
-    let direction = (other.direction - worst.direction).normalize();
-    Some(HalfPlane { point_mps, direction, source: other.source })
+    }
+    let direction = across / length;
+    let offset_mps = other.direction.perp_dot(other.point_mps) - worst.direction.perp_dot(worst.point_mps);
+    Some(HalfPlane { point_mps: offset_mps / length * direction.perp(), direction, source: other.source })
 }
 
 #[cfg(test)]

@@ -30,6 +30,9 @@ use crate::neighbours::{Nearest, Neighbours, Query};
 use crate::obstacles::{NearEdge, Obstacles, nearest_on_segment};
 use crate::plan::{Plan, Stance, VelocitySet};
 
+/// Greatest speed at which a wall is looked for ahead, m/s: a run.
+const WALL_SPEED_MPS: f32 = 4.0;
+
 /// Everything that a plan depends on, as it stood at the end of the last step. Slices are by agent.
 #[derive(Clone, Copy, Debug)]
 pub struct World<'a> {
@@ -80,7 +83,7 @@ impl Scratch {
         &self.half_planes
     }
 
-    /// How many of them, from the first, the planned velocity satisfies for certain; the others yielded.
+    /// How many of them, from the first, are satisfied together; those after them yielded.
     pub fn feasible_prefix(&self) -> usize {
         self.feasible_prefix
     }
@@ -125,9 +128,6 @@ fn look_around(world: &World, agent: usize, params: &McnParams, scratch: &mut Sc
     let wall_range_m = own.radius_m + params.obstacle_time_horizon_s * WALL_SPEED_MPS;
     world.obstacles.near(own.position_m, wall_range_m, &mut scratch.edges);
 }
-
-/// Greatest speed at which a wall is looked for ahead, m/s: a run.
-const WALL_SPEED_MPS: f32 = 4.0;
 
 /// §4.3: v_op into the scratch; returns the density met.
 fn adapt(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> f32 {
@@ -190,14 +190,8 @@ fn avoid(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch)
     scratch.of_agents.clear();
     scratch.of_agents.extend(scratch.nearest.as_slice().iter().map(|neighbour| {
         let other = disc(world, neighbour.agent as usize);
-        orca::agent_half_plane(
-            &own,
-            &other,
-            orca::share(&own, &other),
-            neighbour.agent,
-            params.time_horizon_s,
-            world.dt_s,
-        )
+        let share = orca::share(&own, &other);
+        orca::agent_half_plane(&own, &other, share, neighbour.agent, params.time_horizon_s, world.dt_s)
     }));
 }
 
@@ -271,4 +265,125 @@ fn disc(world: &World, agent: usize) -> Disc {
 fn forward(world: &World, agent: usize) -> Vec2 {
     let (sin, cos) = libm::sincosf(world.facings_rad[agent]);
     Vec2::new(cos, sin)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::half_plane::Source;
+    use super::*;
+
+    /// A scene of agents that face and want +x at 1.3 m/s, and all the rest that a world borrows.
+    struct Scene {
+        positions_m: Vec<Vec2>,
+        velocities_mps: Vec<Vec2>,
+        facings_rad: Vec<f32>,
+        preferred_mps: Vec<Vec2>,
+        stances: Vec<Stance>,
+        obstacles: Obstacles,
+    }
+
+    const WALK: Vec2 = Vec2::new(1.3, 0.0);
+
+    impl Scene {
+        fn new(positions_m: &[[f32; 2]]) -> Self {
+            let count = positions_m.len();
+            Self {
+                positions_m: positions_m.iter().copied().map(Vec2::from).collect(),
+                velocities_mps: vec![WALK; count],
+                facings_rad: vec![0.0; count],
+                preferred_mps: vec![WALK; count],
+                stances: vec![Stance::default(); count],
+                obstacles: Obstacles::default(),
+            }
+        }
+
+        /// The first agent's plan.
+        fn plan(&self, scratch: &mut Scratch) -> Plan {
+            let count = self.positions_m.len();
+            let radii_m = vec![0.25; count];
+            let mut neighbours = Neighbours::default();
+            neighbours.rebuild(&self.positions_m, &self.velocities_mps, &radii_m);
+            let kite = |ahead: f32, aside: f32, back: f32| {
+                vec![Vec2::new(ahead, 0.0), Vec2::new(0.0, -aside), Vec2::new(-back, 0.0), Vec2::new(0.0, aside)]
+            };
+            let hull = VelocityHull {
+                turning_mps: kite(1.8, 1.0, 0.5),
+                holding_mps: kite(1.8, 0.8, 0.8),
+                sharp_turn_edges_mps: vec![[Vec2::new(-0.1, 0.2), Vec2::new(0.0, 1.0)]],
+            };
+            let world = World {
+                positions_m: &self.positions_m,
+                velocities_mps: &self.velocities_mps,
+                facings_rad: &self.facings_rad,
+                radii_m: &radii_m,
+                preferred_mps: &self.preferred_mps,
+                stances: &self.stances,
+                strafing_s: &vec![0.0; count],
+                stepping_back_s: &vec![0.0; count],
+                neighbours: &neighbours,
+                obstacles: &self.obstacles,
+                hull: &hull,
+                dt_s: 0.1,
+            };
+            plan(&world, 0, &McnParams::default(), scratch)
+        }
+    }
+
+    #[test]
+    fn alone_it_keeps_walking_as_it_wants() {
+        let plan = Scene::new(&[[0.0, 0.0]]).plan(&mut Scratch::default());
+        assert_eq!((plan.velocity_mps, plan.facing_rad, plan.set), (WALK, 0.0, VelocitySet::Turning));
+        assert_eq!(plan.time_to_collision_s, f32::INFINITY);
+    }
+
+    #[test]
+    fn never_walks_faster_than_the_database_can() {
+        let mut scene = Scene::new(&[[0.0, 0.0]]);
+        scene.preferred_mps[0] = Vec2::new(4.0, 0.0);
+        scene.velocities_mps[0] = Vec2::new(1.8, 0.0);
+        assert!(scene.plan(&mut Scratch::default()).velocity_mps.distance(Vec2::new(1.8, 0.0)) < 1e-4);
+    }
+
+    #[test]
+    fn half_planes_stand_in_order_of_yielding() {
+        let mut scene = Scene::new(&[[0.0, 0.0], [3.0, 0.1], [2.0, 1.5]]);
+        scene.velocities_mps[1] = -WALK;
+        scene.preferred_mps[0] = Vec2::new(-1.0, 0.5);
+        scene.obstacles = Obstacles::new(&[vec![Vec2::new(-1.0, -1.0), Vec2::new(2.0, -1.0), Vec2::new(0.5, -0.5)]]);
+        scene.stances[0].foot = Some(crate::plan::StanceFoot {
+            side: 0,
+            heel_m: Vec2::new(-0.1, 0.06),
+            ball_m: Vec2::new(0.05, 0.06),
+            toe_m: Vec2::new(0.12, 0.06),
+            swing_m: Vec2::new(0.0, -0.09),
+            time_to_landing_s: 0.3,
+        });
+        let mut scratch = Scratch::default();
+        scene.plan(&mut scratch);
+        let mut kinds: Vec<Source> = scratch.half_planes().iter().map(|half_plane| half_plane.source).collect();
+        kinds.retain(|source| !matches!(source, Source::Obstacle(_)));
+        kinds.dedup();
+        let expected = [Source::Stance, Source::SharpTurn, Source::TurningHull, Source::Agent(1), Source::Agent(2)];
+        assert_eq!(kinds, expected);
+        assert!(matches!(scratch.half_planes()[0].source, Source::Obstacle(_)));
+    }
+
+    #[test]
+    fn gives_way_to_who_comes_head_on_and_meets_nobody() {
+        let mut scene = Scene::new(&[[0.0, 0.0], [4.0, 0.0]]);
+        scene.velocities_mps[1] = -WALK;
+        let plan = scene.plan(&mut Scratch::default());
+        assert!(plan.velocity_mps.y < 0.0 && plan.velocity_mps.x > 0.5, "{plan:?}");
+        assert!((plan.time_to_collision_s - 3.5 / 2.6).abs() < 1e-4);
+    }
+
+    #[test]
+    fn steps_aside_at_held_facing_when_pushed_gently() {
+        let mut scene = Scene::new(&[[0.0, 0.0], [0.4, 1.0]]);
+        scene.velocities_mps = vec![Vec2::new(0.2, 0.0), Vec2::new(0.0, -0.4)];
+        scene.preferred_mps[0] = Vec2::new(0.3, 0.0);
+        let plan = scene.plan(&mut Scratch::default());
+        assert!(plan.velocity_mps.y < -0.1 && plan.strafing_s > 0.0, "{plan:?}");
+        assert_eq!((plan.set, plan.facing_rad), (VelocitySet::Holding, 0.0), "{plan:?}");
+    }
 }
