@@ -1,7 +1,7 @@
 //! A person from above: the limbs of one posed skeleton, from the shoes up to the hair, as swept balls in the world.
 //!
-//! Bones come from forward kinematics, girths from the skeleton's `segment_radii_m`; what a capsule per bone does not give (a trunk
-//! broader than deep, a face, hair) is composed here from several. World metres, z up.
+//! Bones come from forward kinematics, girths from the skeleton's `segment_radii_m`; what a capsule per bone does not
+//! give (a trunk broader than deep, a face, hair) is composed here from several. World metres, z up.
 
 use fbcrowd_sim::recording_frame::AgentFrame;
 use glam::Vec3;

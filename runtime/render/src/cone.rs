@@ -1,8 +1,9 @@
 //! The one kernel behind bodies and their shadows: a ball swept along a bone while its radius changes, seen from above.
 //!
-//! tiny-skia fills paths with flat colours and gradients; a limb needs a rounded shade across and a soft edge, for twenty limbs of a
-//! thousand bodies. So each limb is painted from its distance field (the uneven capsule of I. Quilez, "2D distance functions"): coverage
-//! from the distance, the surface's normal from the offset to the bone. All in pixels, x right, y down; z towards the eye.
+//! tiny-skia fills paths with flat colours and gradients; a limb needs a rounded shade across and a soft edge, for
+//! twenty limbs of a thousand bodies. So each limb is painted from its distance field (the uneven capsule of I. Quilez,
+//! "2D distance functions"): coverage from the distance, the surface's normal from the offset to the bone. All in
+//! pixels, x right, y down; z towards the eye.
 
 use std::ops::Range;
 
@@ -47,8 +48,14 @@ impl Canvas {
         Self { pixmap, heights_px }
     }
 
-    /// Paints a shaded limb with smooth edges, hidden by what lies higher, and within `rim_px` a dark rim on what lies clearly lower: so
-    /// an arm stands out from the trunk, and upper arm and forearm run into each other.
+    /// Bare again, over a background of the same size.
+    pub fn reset(&mut self, background: &Pixmap) {
+        self.pixmap.data_mut().copy_from_slice(background.data());
+        self.heights_px.fill(0.0);
+    }
+
+    /// Paints a shaded limb with smooth edges, hidden by what lies higher, and within `rim_px` a dark rim on what lies
+    /// clearly lower: so an arm stands out from the trunk, and upper arm and forearm run into each other.
     pub fn paint(&mut self, cone: &Cone, colour: Rgb, rim_px: f32) {
         let field = Field::new(cone);
         let (width, height) = (self.pixmap.width(), self.pixmap.height());
@@ -77,7 +84,8 @@ fn paint_pixel(pixel: &mut Pixel, below_px: &mut f32, surface: &Surface, distanc
         let drop = ((surface.axis_px - *below_px) / (RIM_DROP * rim_px)).clamp(0.0, 1.0);
         mixed *= 1.0 - RIM_DARKNESS * nearness * nearness * drop;
     }
-    // Where two surfaces cut each other, the nearer one takes over within a pixel of height, so that the seam is smooth.
+    // Where two surfaces cut each other, the nearer one takes over within a pixel of height, so that the seam is
+    // smooth.
     let visible = coverage * (0.5 + surface.top_px - *below_px).clamp(0.0, 1.0);
     mixed = mixed.lerp((colour * surface.light).min(Vec3::ONE), visible);
     if visible >= 0.5 {
@@ -166,8 +174,8 @@ impl Field {
         }
     }
 
-    /// The columns of a row that lie no farther from the axis's line than the greater radius and a margin: for a limb that lies across
-    /// its window, a fraction of it.
+    /// The columns of a row that lie no farther from the axis's line than the greater radius and a margin: for a limb
+    /// that lies across its window, a fraction of it.
     fn columns(&self, window: &Window, row: usize, margin_px: f32) -> Range<usize> {
         let columns = window.columns();
         if self.axis.y.abs() < 0.05 * self.length {
@@ -184,8 +192,11 @@ impl Field {
         let offset = point - self.start;
         let along = (offset.dot(self.axis) * self.inverse_length_squared).clamp(0.0, 1.0);
         let radius = self.radii[0] + along * (self.radii[1] - self.radii[0]);
-        let tilt = ((offset - along * self.axis) / radius.max(1e-3)).clamp_length_max(1.0);
-        let normal = tilt.extend((1.0 - tilt.length_squared()).max(0.0).sqrt());
+        let tilt = (offset - along * self.axis) / radius.max(1e-3);
+        let steepness = tilt.length_squared();
+        // At the outline's soft edge, just outside, the surface is that of the rim.
+        let normal =
+            if steepness < 1.0 { tilt.extend((1.0 - steepness).sqrt()) } else { (tilt / steepness.sqrt()).extend(0.0) };
         let axis_px = self.heights[0] + along * (self.heights[1] - self.heights[0]);
         Surface { axis_px, top_px: axis_px + radius * normal.z, light: AMBIENT + DIFFUSE * normal.dot(LIGHT).max(0.0) }
     }
@@ -233,7 +244,7 @@ pub(crate) fn pixels_mut(pixmap: &mut Pixmap) -> &mut [Pixel] {
 /// An opaque pixel's colour, 0 to 1.
 pub(crate) fn to_vec(pixel: Pixel) -> Vec3 {
     let [red, green, blue, _] = pixel.map(f32::from);
-    Vec3::new(red, green, blue) / 255.0
+    Vec3::new(red, green, blue) * (1.0 / 255.0)
 }
 
 /// An opaque pixel; colours within 0 to 1.
@@ -267,7 +278,8 @@ mod tests {
                 for x in 0..40 {
                     let point = Vec2::new(x as f32, y as f32);
                     let (found, truth) = (field.distance(point), brute_force_distance(&cone, point));
-                    // Inside, the swept discs' own minimum lies deeper than the distance to the outline; only signs must agree.
+                    // Inside, the swept discs' own minimum lies deeper than the distance to the outline; only signs
+                    // must agree.
                     let same = if truth > 0.0 { (found - truth).abs() < 0.02 } else { found < 0.02 };
                     assert!(same, "{radii_px:?} {point} {found} {truth}");
                 }

@@ -1,4 +1,5 @@
-//! Every example of a database as a strip of bodies: from the side, from the front and from above, at eight phases of its cycle.
+//! Every example of a database as a strip of bodies: from the side, from the front and from above, at eight phases of
+//! its cycle.
 //!
 //! The bodies are those of the top view, turned; the feet that carry weight stand on an underlined ground.
 
@@ -8,11 +9,12 @@ use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::pose::Pose;
 use tiny_skia::Pixmap;
 
+use crate::axis::number;
 use crate::body::{self, Detail, Part};
 use crate::cone::{Canvas, Cone};
 use crate::ground::fill_rect;
 use crate::palette::{GRID_COARSE, INK, look};
-use crate::plot::{Figure, number};
+use crate::plot::Figure;
 use crate::text::Anchor;
 
 /// Phases drawn of each cycle.

@@ -1,7 +1,8 @@
 //! A picture as EXR: scene-linear Rec. 709, half floats, premultiplied, the same bytes from run to run.
 //!
-//! Only attributes that the `exr` crate keeps in named fields are written: it stores further ones in a hash map and writes them in an
-//! order that changes from run to run. Lines go in increasing order, which parallel writing elsewhere does not keep. No date.
+//! Only attributes that the `exr` crate keeps in named fields are written: it stores further ones in a hash map and
+//! writes them in an order that changes from run to run. Lines go in increasing order, which parallel writing elsewhere
+//! does not keep. No date.
 
 use std::io::{self, Cursor};
 use std::path::Path;

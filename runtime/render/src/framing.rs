@@ -1,4 +1,5 @@
-//! Which part of the world a picture shows: metres to pixels, chosen by the view or fitted to all that moves and stands.
+//! Which part of the world a picture shows: metres to pixels, chosen by the view or fitted to all that moves and
+//! stands.
 //!
 //! World: x right, y up in the picture. Pixels: x right, y down, (0, 0) the picture's upper left corner.
 
@@ -49,8 +50,8 @@ impl Framing {
     }
 }
 
-/// The framing that a recording's view asks for; what the view leaves open is fitted to `positions_m` (of the whole recording, so
-/// that the picture does not move), to goals and to obstacles.
+/// The framing that a recording's view asks for; what the view leaves open is fitted to `positions_m` (of the whole
+/// recording, so that the picture does not move), to goals and to obstacles.
 ///
 /// # Errors
 /// Where the view asks for an empty, a huge or an infinitely enlarged picture.

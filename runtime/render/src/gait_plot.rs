@@ -1,4 +1,5 @@
-//! When feet stand: for every example the height of both soles over the cycle, the contacts found, and the four key times.
+//! When feet stand: for every example the height of both soles over the cycle, the contacts found, and the four key
+//! times.
 
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
@@ -6,8 +7,9 @@ use motiondb::pose::{Pose, Root};
 use motiondb::skeleton::Side;
 use tiny_skia::Pixmap;
 
+use crate::axis::Axis;
 use crate::palette::{INK, Rgb};
-use crate::plot::{Axis, Figure, Line, Mark, Panel, line};
+use crate::plot::{Figure, Line, Mark, Panel, line};
 use crate::text::Anchor;
 
 /// Panels side by side.

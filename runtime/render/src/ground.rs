@@ -1,4 +1,5 @@
-//! All that stands still in a top view, drawn once for a whole sequence: ground, metric grid, goals, obstacles with their shade.
+//! All that stands still in a top view, drawn once for a whole sequence: ground, metric grid, goals, obstacles with
+//! their shade.
 
 use fbcrowd_sim::recording::Header;
 use glam::Vec2;
@@ -22,7 +23,8 @@ const RIM_M: f32 = 0.035;
 const GOAL_RADIUS_M: [f32; 2] = [0.17, 0.05];
 /// Width of a goal's ring, m.
 const GOAL_RING_M: f32 = 0.045;
-/// Opacity of goals: they lie on the ground, under everyone. In small pictures of crowds they fade, down to the second number.
+/// Opacity of goals: they lie on the ground, under everyone. In small pictures of crowds they fade, down to the second
+/// number.
 const GOAL_OPACITY: [f32; 2] = [0.55, 0.22];
 /// From this scale on goals have their full opacity, pixels a metre.
 const GOAL_SCALE_PX_M: f32 = 40.0;

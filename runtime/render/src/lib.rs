@@ -1,15 +1,18 @@
 //! Pictures of recordings and databases: PNG and EXR sequences, plots.
 //!
-//! A top view goes, in reading order: numbers of frames ([`frame_range`]) → bodies at each frame's time ([`playback`]) → the window onto the
-//! world ([`framing`]) → what stands still ([`ground`]) → where all have walked ([`trails`]) → [`shade`] → limbs ([`body`], painted by
-//! [`cone`], coloured by [`palette`]) → writing ([`overlay`], [`text`]) → the picture ([`top_view`]) → files ([`png_frame`], [`exr_frame`],
-//! all of them by [`sequence`]).
+//! A top view goes, in reading order: numbers of frames ([`frame_range`]) → bodies at each frame's time ([`playback`])
+//! → the window onto the world ([`framing`]) → what stands still ([`ground`]) → where all have walked ([`trails`]) →
+//! [`shade`] → limbs ([`body`], painted by [`cone`], coloured by [`palette`]) → writing ([`overlay`], [`text`]) → the
+//! picture ([`top_view`]) → files ([`png_frame`], [`exr_frame`], all of them by [`sequence`]).
 //!
-//! Plots stand on a small kit ([`plot`]): everybody's paths ([`trajectories`]); of a database its velocity sets ([`velocity_plot`]), blend
-//! space ([`parameter_plot`]), bodies ([`contact_sheet`]) and steps ([`gait_plot`]), all of them by [`database_plots`].
+//! Plots stand on a small kit ([`plot`], [`axis`]): everybody's paths ([`trajectories`]); of a database its velocity
+//! sets ([`velocity_plot`]), blend space ([`parameter_plot`]), bodies ([`contact_sheet`]) and steps ([`gait_plot`]),
+//! all of them by [`database_plots`].
 //!
-//! Conventions: world metres, x right and y up in the picture; pixels, x right and y down; colours sRGB-encoded, 0 to 1.
+//! Conventions: world metres, x right and y up in the picture; pixels, x right and y down; colours sRGB-encoded, 0 to
+//! 1.
 
+pub mod axis;
 pub mod body;
 pub mod cone;
 pub mod contact_sheet;

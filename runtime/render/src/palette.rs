@@ -1,7 +1,7 @@
 //! Colours: one hue an agent, evenly spread to the eye, and neutrals for all that is not an agent.
 //!
-//! Colours are sRGB-encoded, 0 to 1. Hues are chosen in `OKLCh` (Ottosson 2020, "A perceptual color space for image processing"), where
-//! equal lightness looks equally light, so that no agent shouts.
+//! Colours are sRGB-encoded, 0 to 1. Hues are chosen in `OKLCh` (Ottosson 2020, "A perceptual color space for image
+//! processing"), where equal lightness looks equally light, so that no agent shouts.
 
 use std::f32::consts::TAU;
 

@@ -1,13 +1,16 @@
-//! The space in which motions are blended: every example at its (v_f, ω_t, ω_s) and the simplices between them, seen along each axis.
+//! The space in which motions are blended: every example at its (v_f, ω_t, ω_s) and the simplices between them, seen
+//! along each axis.
 //!
-//! Many examples share a parameter and fall together in two of the three views: points carry numbers, names stand in a key.
+//! Many examples share a parameter and fall together in two of the three views: points carry numbers, names stand in a
+//! key.
 
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
 use tiny_skia::Pixmap;
 
+use crate::axis::Axis;
 use crate::palette::line_colour;
-use crate::plot::{Axis, Figure, Line, Mark, Panel, line};
+use crate::plot::{Figure, Line, Mark, Panel, line};
 use crate::text::Anchor;
 
 /// Width of the sheet, pixels.

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use crate::error::RenderError;
 use crate::trails::Tracks;
 
-/// A picture's time this near a recorded frame, in steps, takes that frame as it is: pictures at the simulation's own rate show exactly
-/// what was simulated.
+/// A picture's time this near a recorded frame, in steps, takes that frame as it is: pictures at the simulation's own
+/// rate show exactly what was simulated.
 const SAME_FRAME_STEPS: f64 = 1e-3;
 
 /// Number of pictures that a recording gives at its view's frame rate, the first at time 0.

@@ -1,25 +1,25 @@
 //! A small plotting kit: a figure on paper, panels with metric axes, and lines, polygons, marks and words in them.
 //!
-//! A [`Figure`] is the sheet, a [`Panel`] a window of it with its own axes; what is drawn in a panel is cut at its frame. Sheets are large
-//! (1600 pixels across and more), letters and lines on all of them the same.
+//! A [`Figure`] is the sheet, a [`Panel`] a window of it with its own axes; what is drawn in a panel is cut at its
+//! frame. Sheets are large (1600 pixels across and more), letters and lines on all of them the same.
 
 use glam::Vec2;
 use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Path, PathBuilder, Pixmap, Rect, Stroke, StrokeDash, Transform};
 
+use crate::axis::{Axis, tick_text};
 use crate::ground::{fill_rect, paint, to_color};
 use crate::palette::{GRID_FINE, INK, PAPER, Rgb};
 use crate::text::{Anchor, Typeface};
 
 /// Letters of titles, of axes and legends, and of notes beside points, pixels.
 const LETTERS_PX: [f32; 3] = [36.0, 25.0, 19.0];
-/// Ticks stand about this far apart, pixels.
-const TICK_DISTANCE_PX: f32 = 110.0;
 /// Width of axes and grid lines, and length of ticks, pixels.
 const HAIRLINE_PX: f32 = 1.0;
 const TICK_PX: f32 = 8.0;
 /// Radius of the marks of a legend, pixels.
 const LEGEND_MARK_PX: f32 = 9.0;
-/// Where a note may stand against its point: right, left, above, below, then ever lower on the right; steps of its width and height.
+/// Where a note may stand against its point: right, left, above, below, then ever lower on the right; steps of its
+/// width and height.
 const NOTE_PLACES: [[f32; 2]; 8] =
     [[0.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0], [-1.0, -1.0], [-1.0, 1.0], [0.0, -2.0], [0.0, 2.0]];
 /// Distance of a note from its point, pixels.
@@ -33,17 +33,6 @@ pub struct Figure {
     title_face: Typeface,
     face: Typeface,
     note_face: Typeface,
-}
-
-/// One axis: what it shows and from where to where.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
-    /// Quantity and unit, as in `forward speed, m/s`.
-    pub label: String,
-    /// Value at the left or lower end.
-    pub low: f32,
-    /// Value at the right or upper end.
-    pub high: f32,
 }
 
 /// A framed window of a figure.
@@ -82,47 +71,6 @@ pub enum Mark {
     Diamond,
 }
 
-impl Axis {
-    /// An axis that shows all of some values with 8 % of room on both sides; one unit where all are equal.
-    pub fn around(label: &str, values: impl Iterator<Item = f32>) -> Self {
-        let [low, high] =
-            values.map(|value| [value; 2]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default();
-        let room = if high - low > 1e-6 { 0.08 * (high - low) } else { 0.5 };
-        Self { label: label.to_owned(), low: low - room, high: high + room }
-    }
-
-    /// A round distance of ticks that stand about [`TICK_DISTANCE_PX`] apart on an axis of a length.
-    fn tick_step(&self, length_px: f32) -> f32 {
-        let count = (length_px / TICK_DISTANCE_PX).max(2.0);
-        round_step((self.high - self.low) / count)
-    }
-
-    /// The multiples of a step that lie on the axis.
-    fn ticks(&self, step: f32) -> Vec<f32> {
-        let first = (self.low / step).ceil() as i64;
-        let last = (self.high / step).floor() as i64;
-        (first..=last).map(|index| index as f32 * step).collect()
-    }
-}
-
-/// The least of 1, 2, 5, 10, … times a power of ten that is not below a length.
-fn round_step(least: f32) -> f32 {
-    let power = libm::powf(10.0, libm::floorf(libm::log10f(least.max(1e-6))));
-    [1.0, 2.0, 5.0].into_iter().map(|factor| factor * power).find(|step| *step >= 0.999 * least).unwrap_or(10.0 * power)
-}
-
-/// A tick's value with as many decimals as its step needs.
-fn tick_text(value: f32, step: f32) -> String {
-    number(value, (-libm::floorf(libm::log10f(step) + 1e-3)).max(0.0) as usize)
-}
-
-/// A number with a typesetter's minus sign, and none before zero.
-pub fn number(value: f32, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let is_zero = text.trim_start_matches(['-', '0', '.']).is_empty();
-    text.replace('-', if is_zero { "" } else { "−" })
-}
-
 impl Panel {
     /// A place on the sheet, pixels.
     pub fn to_px(&self, point: Vec2) -> Vec2 {
@@ -136,18 +84,6 @@ impl Panel {
     pub fn unit_px(&self) -> f32 {
         self.rect_px[2] / (self.axes[0].high - self.axes[0].low)
     }
-}
-
-/// Widens the shorter of two axes until a unit is as long across as up.
-#[must_use]
-pub fn equal_units(rect_px: [f32; 4], mut axes: [Axis; 2]) -> [Axis; 2] {
-    let units_px = [0, 1].map(|index: usize| rect_px[2 + index] / (axes[index].high - axes[index].low));
-    let common_px = units_px[0].min(units_px[1]);
-    for (axis, unit_px) in axes.iter_mut().zip(units_px) {
-        let widen = 0.5 * (axis.high - axis.low) * (unit_px / common_px - 1.0);
-        (axis.low, axis.high) = (axis.low - widen, axis.high + widen);
-    }
-    axes
 }
 
 impl Figure {
@@ -346,26 +282,4 @@ fn mark_path(centre: Vec2, mark: Mark, radius: f32) -> Option<Path> {
         }
     }
     path.finish()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ticks_are_round_and_within_the_axis() {
-        let axis = Axis { label: String::new(), low: -0.31, high: 2.4 };
-        assert_eq!(axis.ticks(axis.tick_step(6.0 * TICK_DISTANCE_PX)), [0.0, 0.5, 1.0, 1.5, 2.0]);
-        assert_eq!(tick_text(-0.5, 0.5), "−0.5");
-        assert_eq!(tick_text(-0.0, 0.5), "0.0");
-        assert_eq!(tick_text(20.0, 10.0), "20");
-    }
-
-    #[test]
-    fn equal_units_are_equal_and_show_no_less() {
-        let axis = |low, high| Axis { label: String::new(), low, high };
-        let [x, y] = equal_units([0.0, 0.0, 300.0, 100.0], [axis(0.0, 1.0), axis(-2.0, 2.0)]);
-        assert!(((x.high - x.low) / 300.0 - (y.high - y.low) / 100.0).abs() < 1e-5);
-        assert!(x.low <= 0.0 && x.high >= 1.0 && y.low <= -2.0 && y.high >= 2.0);
-    }
 }

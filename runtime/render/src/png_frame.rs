@@ -1,4 +1,5 @@
-//! A picture as PNG: eight bits, sRGB, fast compression (fast and `Up`-filtered: 4 ms a 1080p frame, where the best takes 60).
+//! A picture as PNG: eight bits, sRGB, fast compression (fast and `Up`-filtered: 4 ms a 1080p frame, where the best
+//! takes 60).
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! A recording as numbered pictures, drawn in parallel.
 //!
-//! Each picture is a function of the recording and its number alone, so that any share of a sequence, on any number of threads, gives
-//! the same files; each appears under its name whole or not at all.
+//! Each picture is a function of the recording and its number alone, so that any share of a sequence, on any number of
+//! threads, gives the same files; each appears under its name whole or not at all.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use crate::error::RenderError;
 use crate::frame_range::{FIRST_FRAME, FrameRange};
 use crate::playback::{picture_count, picture_time_s, read_tracks, sample};
-use crate::top_view::TopView;
+use crate::top_view::{FrameBuffers, TopView};
 use crate::{exr_frame, png_frame};
 
 /// File format of a sequence.
@@ -49,7 +49,8 @@ pub struct SequenceOptions {
     pub frames: Option<FrameRange>,
 }
 
-/// Renders a recording from above; `progress` hears, from any thread, how many of how many frames are done. Returns the files in order.
+/// Renders a recording from above; `progress` hears, from any thread, how many of how many frames are done. Returns the
+/// files in order.
 ///
 /// # Errors
 /// Where the view or the range is impossible, the recording damaged, or a file cannot be written.
@@ -65,11 +66,14 @@ pub fn render_sequence(
     let done = AtomicUsize::new(0);
     numbers
         .par_iter()
-        .map(|number| {
-            let path = render_frame(recording, &view, options, *number)?;
-            progress(done.fetch_add(1, Ordering::Relaxed) + 1, numbers.len());
-            Ok(path)
-        })
+        .map_init(
+            || view.buffers(),
+            |buffers, number| {
+                let path = render_frame(recording, &view, buffers, options, *number)?;
+                progress(done.fetch_add(1, Ordering::Relaxed) + 1, numbers.len());
+                Ok(path)
+            },
+        )
         .collect()
 }
 
@@ -88,16 +92,17 @@ fn make_folder(folder: &Path) -> Result<(), RenderError> {
 fn render_frame(
     recording: &Recording,
     view: &TopView<'_>,
+    buffers: &mut FrameBuffers,
     options: &SequenceOptions,
     number: u32,
 ) -> Result<PathBuf, RenderError> {
     let time_s = picture_time_s(recording, number - FIRST_FRAME);
     let agents = sample(recording, time_s)?;
-    let pixmap = view.draw(time_s as f32, &agents);
+    let pixmap = view.draw(buffers, time_s as f32, &agents);
     let path = options.folder.join(format!("{}.{number:04}.{}", options.name, options.format.extension()));
     match options.format {
-        Format::Png => png_frame::write(&path, &pixmap)?,
-        Format::Exr => exr_frame::write(&path, &pixmap, recording.header().scenario.view.frame_rate_hz)?,
+        Format::Png => png_frame::write(&path, pixmap)?,
+        Format::Exr => exr_frame::write(&path, pixmap, recording.header().scenario.view.frame_rate_hz)?,
     }
     Ok(path)
 }

@@ -1,7 +1,7 @@
 //! Shade on the ground: what stands between sun and ground, collected in a mask and laid over the picture once.
 //!
-//! A mask takes the greatest of overlapping shades, so that two limbs over one spot do not darken it twice. The sun stands at the upper
-//! left and high: shade falls to the lower right and is short enough that a crowd stays readable.
+//! A mask takes the greatest of overlapping shades, so that two limbs over one spot do not darken it twice. The sun
+//! stands at the upper left and high: shade falls to the lower right and is short enough that a crowd stays readable.
 
 use glam::{Vec2, Vec3};
 use tiny_skia::{FillRule, Mask, Path, Pixmap, Transform};
@@ -32,6 +32,11 @@ impl ShadeMask {
     pub fn new(framing: &Framing) -> Self {
         let size_px = [framing.width_px, framing.height_px];
         Self { size_px, depths: vec![0; framing.width_px as usize * framing.height_px as usize] }
+    }
+
+    /// Takes all shade away.
+    pub fn clear(&mut self) {
+        self.depths.fill(0);
     }
 
     /// Adds the shade of one part of a body.
@@ -84,7 +89,8 @@ impl ShadeMask {
     }
 }
 
-/// The mean over 2·radius + 1 neighbours of `count` values, `stride` apart, from `start`; beyond the ends lies no shade.
+/// The mean over 2·radius + 1 neighbours of `count` values, `stride` apart, from `start`; beyond the ends lies no
+/// shade.
 fn box_blur(values: &mut [u8], start: usize, stride: usize, count: usize, radius: usize) {
     let line: Vec<u8> = (0..count).map(|index| values[start + index * stride]).collect();
     let window = 2 * radius as u32 + 1;

@@ -1,7 +1,8 @@
-//! One frame seen from straight above: ground, trails, shade, bodies, writing, in the order in which they cover each other.
+//! One frame seen from straight above: ground, trails, shade, bodies, writing, in the order in which they cover each
+//! other.
 //!
-//! [`TopView::new`] does once what all frames of a sequence share; [`TopView::draw`] is a pure function of time and bodies, so that
-//! frames can be drawn in any order and on any thread.
+//! [`TopView::new`] does once what all frames of a sequence share; [`TopView::draw`] depends on time and bodies alone,
+//! so that frames can be drawn in any order and on any thread.
 
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::recording_frame::AgentFrame;
@@ -16,7 +17,7 @@ use crate::ground;
 use crate::overlay::Overlay;
 use crate::palette::{Look, look};
 use crate::shade::ShadeMask;
-use crate::trails::{self, Tracks};
+use crate::trails::{self, Tracks, Trail};
 
 /// Reach of a body and its shade about its root, m: bodies farther outside the picture are left out.
 const REACH_M: f32 = 2.0;
@@ -42,6 +43,13 @@ pub struct TopView<'a> {
     overlay: Overlay,
 }
 
+/// Memory that consecutive frames share: a fresh megapixel costs more than drawing on it.
+#[derive(Clone, Debug)]
+pub struct FrameBuffers {
+    canvas: Canvas,
+    shade: ShadeMask,
+}
+
 impl<'a> TopView<'a> {
     /// Frames the recording as its view says and draws what stands still.
     ///
@@ -54,20 +62,21 @@ impl<'a> TopView<'a> {
         Ok(Self { header, tracks, framing, background, looks, overlay: Overlay::new(&framing) })
     }
 
-    /// Where the world lies in the picture.
-    pub fn framing(&self) -> &Framing {
-        &self.framing
+    /// Memory for drawing frames one after the other.
+    pub fn buffers(&self) -> FrameBuffers {
+        FrameBuffers { canvas: Canvas::new(self.background.clone()), shade: ShadeMask::new(&self.framing) }
     }
 
-    /// The picture of all agents at a time, opaque.
-    pub fn draw(&self, time_s: f32, agents: &[AgentFrame]) -> Pixmap {
-        let mut pixmap = self.background.clone();
+    /// The picture of all agents at a time, opaque. What the buffers held before has no influence.
+    pub fn draw<'b>(&self, buffers: &'b mut FrameBuffers, time_s: f32, agents: &[AgentFrame]) -> &'b Pixmap {
+        let FrameBuffers { canvas, shade } = buffers;
+        canvas.reset(&self.background);
         let parts = self.parts(agents);
-        self.draw_trails(&mut pixmap, time_s, agents);
-        self.draw_shade(&mut pixmap, &parts);
-        let mut pixmap = self.draw_bodies(pixmap, &parts);
-        self.draw_writing(&mut pixmap, time_s, agents);
-        pixmap
+        self.draw_trails(&mut canvas.pixmap, time_s, agents);
+        self.draw_shade(&mut canvas.pixmap, shade, &parts);
+        self.draw_bodies(canvas, &parts);
+        self.draw_writing(&mut canvas.pixmap, time_s, agents);
+        &canvas.pixmap
     }
 
     /// The limbs of every body in the picture, from the lowest to the highest.
@@ -91,34 +100,32 @@ impl<'a> TopView<'a> {
     }
 
     fn draw_trails(&self, pixmap: &mut Pixmap, time_s: f32, agents: &[AgentFrame]) {
-        let trail_s = self.header.scenario.view.trail_s;
-        if trail_s <= 0.0 {
+        let length_s = self.header.scenario.view.trail_s;
+        if length_s <= 0.0 {
             return;
         }
-        for (index, (agent, look)) in agents.iter().zip(&self.looks).enumerate() {
-            let now = (time_s, agent.root.position_m);
-            trails::draw(pixmap, &self.framing, self.tracks, index, now, trail_s, look.shirt);
+        for (agent, (frame, look)) in agents.iter().zip(&self.looks).enumerate() {
+            let trail = Trail { agent, time_s, position_m: frame.root.position_m, length_s, colour: look.shirt };
+            trails::draw(pixmap, &self.framing, self.tracks, &trail);
         }
     }
 
-    fn draw_shade(&self, pixmap: &mut Pixmap, parts: &[Part]) {
-        let mut shade = ShadeMask::new(&self.framing);
+    fn draw_shade(&self, pixmap: &mut Pixmap, shade: &mut ShadeMask, parts: &[Part]) {
+        shade.clear();
         for part in parts.iter().filter(|part| part.radii_m[0] * self.framing.scale_px_m >= MIN_SHADE_RADIUS_PX) {
             shade.add_part(&self.framing, part);
         }
         shade.apply(pixmap);
     }
 
-    fn draw_bodies(&self, pixmap: Pixmap, parts: &[Part]) -> Pixmap {
+    fn draw_bodies(&self, canvas: &mut Canvas, parts: &[Part]) {
         let scale = self.framing.scale_px_m;
         let rim_px = Some(RIM_M * scale).filter(|rim_px| *rim_px >= MIN_RIM_PX).unwrap_or(0.0).min(MAX_RIM_PX);
         let to_px = |end: Vec3| self.framing.to_px(end.truncate()).extend((end.z + BELOW_GROUND_M) * scale);
-        let mut canvas = Canvas::new(pixmap);
         for part in parts {
             let cone = Cone { ends_px: part.ends_m.map(to_px), radii_px: part.radii_m.map(|radius| radius * scale) };
             canvas.paint(&cone, part.colour, rim_px);
         }
-        canvas.pixmap
     }
 
     fn draw_writing(&self, pixmap: &mut Pixmap, time_s: f32, agents: &[AgentFrame]) {

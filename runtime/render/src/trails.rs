@@ -46,6 +46,21 @@ impl Tracks {
     }
 }
 
+/// The trail of one agent at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trail {
+    /// Index of the agent.
+    pub agent: usize,
+    /// Now, s.
+    pub time_s: f32,
+    /// Where the agent stands now, world, m.
+    pub position_m: Vec2,
+    /// How far back the trail reaches, s.
+    pub length_s: f32,
+    /// Colour of the ribbon.
+    pub colour: Rgb,
+}
+
 /// One corner of a ribbon.
 #[derive(Clone, Copy, Debug)]
 struct Corner {
@@ -54,34 +69,28 @@ struct Corner {
     age: f32,
 }
 
-/// Draws the trail of one agent: its last `trail_s` seconds before `time_s`, up to where it stands now.
-pub fn draw(
-    pixmap: &mut Pixmap,
-    framing: &Framing,
-    tracks: &Tracks,
-    agent: usize,
-    now: (f32, Vec2),
-    trail_s: f32,
-    colour: Rgb,
-) {
-    let corners = corners(framing, tracks, agent, now, trail_s);
+/// Draws a trail over an opaque picture.
+pub fn draw(pixmap: &mut Pixmap, framing: &Framing, tracks: &Tracks, trail: &Trail) {
+    let corners = corners(framing, tracks, trail);
     for index in 1..corners.len() {
         let before = index.checked_sub(2).map(|before| corners[before].at_px);
         let after = corners.get(index + 1).map(|corner| corner.at_px);
-        draw_piece(pixmap, framing, [corners[index - 1], corners[index]], [before, after], colour);
+        let piece = Piece::new(framing, [corners[index - 1], corners[index]], [before, after]);
+        piece.paint(pixmap, trail.colour);
     }
 }
 
-/// From the body backwards. Corners sit on fixed recorded frames, so that the ribbon does not crawl from picture to picture.
-fn corners(framing: &Framing, tracks: &Tracks, agent: usize, now: (f32, Vec2), trail_s: f32) -> Vec<Corner> {
-    let (time_s, position_m) = now;
+/// From the body backwards. Corners sit on fixed recorded frames, so that the ribbon does not crawl from picture to
+/// picture.
+fn corners(framing: &Framing, tracks: &Tracks, trail: &Trail) -> Vec<Corner> {
+    let Trail { agent, time_s, length_s, .. } = *trail;
     let stride = ((PIECE_PX / (BRISK_MPS * tracks.dt_s * framing.scale_px_m)).round() as usize).max(1);
     let newest = ((time_s / tracks.dt_s) as usize).min(tracks.frame_count().saturating_sub(1));
-    let oldest = ((time_s - trail_s).max(0.0) / tracks.dt_s).ceil() as usize;
-    let mut corners = vec![Corner { at_px: framing.to_px(position_m), age: 0.0 }];
+    let oldest = ((time_s - length_s).max(0.0) / tracks.dt_s).ceil() as usize;
+    let mut corners = vec![Corner { at_px: framing.to_px(trail.position_m), age: 0.0 }];
     for frame in (oldest..=newest).rev().filter(|frame| frame % stride == 0) {
         let at_px = framing.to_px(tracks.frame_m(frame)[agent]);
-        let age = (time_s - frame as f32 * tracks.dt_s) / trail_s;
+        let age = (time_s - frame as f32 * tracks.dt_s) / length_s;
         let moved = corners.last().is_none_or(|last| last.at_px.distance_squared(at_px) > 0.01);
         if moved && at_px.is_finite() {
             corners.push(Corner { at_px, age });
@@ -90,39 +99,64 @@ fn corners(framing: &Framing, tracks: &Tracks, agent: usize, now: (f32, Vec2), t
     corners
 }
 
-/// One piece between two corners. Where pieces meet, the bisector of their directions parts them, so that no pixel is painted twice.
-fn draw_piece(pixmap: &mut Pixmap, framing: &Framing, ends: [Corner; 2], around: [Option<Vec2>; 2], colour: Rgb) {
-    let [start, end] = ends.map(|corner| corner.at_px);
-    let direction = (end - start).normalize_or_zero();
-    let bisector = |other: Option<Vec2>| {
-        let sum = other.map_or(Vec2::ZERO, |other| other.normalize_or_zero()) + direction;
-        if sum.dot(direction) > 0.2 { sum } else { direction }
-    };
-    let [enter, leave] =
-        [bisector(around[0].map(|before| start - before)), bisector(around[1].map(|after| after - end))];
-    let half_px = |age: f32| {
-        let width_m = WIDTH_M[0] + age * (WIDTH_M[1] - WIDTH_M[0]);
-        0.5 * (width_m * framing.scale_px_m).max(MIN_WIDTH_PX)
-    };
-    let reach = Vec2::splat(half_px(0.0) + 1.0);
-    let window = Window::between(start.min(end) - reach, start.max(end) + reach, pixmap.width(), pixmap.height());
-    let width = pixmap.width() as usize;
-    let length = start.distance(end);
-    let pixels = cone::pixels_mut(pixmap);
-    for y in window.rows() {
-        for x in window.columns() {
-            let point = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-            if enter.dot(point - start) < 0.0 || leave.dot(point - end) >= 0.0 {
-                continue;
-            }
-            let along = (direction.dot(point - start) / length).clamp(0.0, 1.0);
-            let age = ends[0].age + along * (ends[1].age - ends[0].age);
-            let coverage = (half_px(age) + 0.5 - direction.perp_dot(point - start).abs()).clamp(0.0, 1.0);
-            let opacity = OPACITY * (1.0 - age).clamp(0.0, 1.0) * coverage;
-            if opacity > 0.0 {
-                let pixel = &mut pixels[y * width + x];
-                *pixel = cone::to_pixel(cone::to_vec(*pixel).lerp(colour, opacity));
+/// The ribbon between two corners. Where pieces meet, the bisector of their directions parts them, so that no pixel is
+/// painted twice.
+struct Piece {
+    ends: [Corner; 2],
+    direction: Vec2,
+    length_px: f32,
+    /// Normals of the lines at which the piece begins and ends, along the way.
+    borders: [Vec2; 2],
+    /// Half the width at a trail's head and end, pixels.
+    half_px: [f32; 2],
+}
+
+impl Piece {
+    /// `around`: the corners before and after the piece.
+    fn new(framing: &Framing, ends: [Corner; 2], around: [Option<Vec2>; 2]) -> Self {
+        let [start, end] = ends.map(|corner| corner.at_px);
+        let direction = (end - start).normalize_or_zero();
+        // Where the way turns back on itself there is no bisector to speak of: the piece is cut straight.
+        let bisector = |other: Option<Vec2>| {
+            let sum = direction + other.map_or(Vec2::ZERO, Vec2::normalize_or_zero);
+            if sum.dot(direction) > 0.2 { sum } else { direction }
+        };
+        let [before, after] = [around[0].map(|before| start - before), around[1].map(|after| after - end)];
+        Self {
+            ends,
+            direction,
+            length_px: start.distance(end),
+            borders: [bisector(before), bisector(after)],
+            half_px: WIDTH_M.map(|width_m| 0.5 * (width_m * framing.scale_px_m).max(MIN_WIDTH_PX)),
+        }
+    }
+
+    fn paint(&self, pixmap: &mut Pixmap, colour: Rgb) {
+        let [start, end] = self.ends.map(|corner| corner.at_px);
+        let reach = Vec2::splat(self.half_px[0] + 1.0);
+        let window = Window::between(start.min(end) - reach, start.max(end) + reach, pixmap.width(), pixmap.height());
+        let width = pixmap.width() as usize;
+        let pixels = cone::pixels_mut(pixmap);
+        for y in window.rows() {
+            for x in window.columns() {
+                let opacity = self.opacity(Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
+                if opacity > 0.0 {
+                    let pixel = &mut pixels[y * width + x];
+                    *pixel = cone::to_pixel(cone::to_vec(*pixel).lerp(colour, opacity));
+                }
             }
         }
+    }
+
+    fn opacity(&self, point: Vec2) -> f32 {
+        let [start, end] = self.ends.map(|corner| corner.at_px);
+        if self.borders[0].dot(point - start) < 0.0 || self.borders[1].dot(point - end) >= 0.0 {
+            return 0.0;
+        }
+        let along = (self.direction.dot(point - start) / self.length_px).clamp(0.0, 1.0);
+        let age = (self.ends[0].age + along * (self.ends[1].age - self.ends[0].age)).clamp(0.0, 1.0);
+        let half_px = self.half_px[0] + age * (self.half_px[1] - self.half_px[0]);
+        let coverage = (half_px + 0.5 - self.direction.perp_dot(point - start).abs()).clamp(0.0, 1.0);
+        OPACITY * (1.0 - age) * coverage
     }
 }

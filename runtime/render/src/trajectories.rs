@@ -1,12 +1,14 @@
-//! Everybody's path on one sheet, as in the paper's Fig. 7: one colour an agent, a dot where it starts, a cross on its goal.
+//! Everybody's path on one sheet, as in the paper's Fig. 7: one colour an agent, a dot where it starts, a cross on its
+//! goal.
 
 use fbcrowd_sim::recording::Header;
 use glam::Vec2;
 use tiny_skia::Pixmap;
 
+use crate::axis::{Axis, equal_units};
 use crate::framing::bounds_m;
 use crate::palette::{GRID_COARSE, INK, OBSTACLE_RIM, line_colour};
-use crate::plot::{Axis, Figure, Line, Mark, Panel, equal_units, line};
+use crate::plot::{Figure, Line, Mark, Panel, line};
 use crate::trails::Tracks;
 
 /// Sides of the sheet, pixels.

@@ -1,13 +1,14 @@
-//! The velocities that a database allows, in the agent's frame, as the paper's Fig. 3: turning and holding set, and the edges that forbid
-//! sharp turns.
+//! The velocities that a database allows, in the agent's frame, as the paper's Fig. 3: turning and holding set, and the
+//! edges that forbid sharp turns.
 
 use glam::Vec2;
 use motiondb::motion_db::{MotionDb, MotionExample};
 use motiondb::velocity_hull::{is_holding, is_turning, turning_point_mps};
 use tiny_skia::Pixmap;
 
+use crate::axis::{Axis, equal_units};
 use crate::palette::{INK, Rgb};
-use crate::plot::{Axis, Figure, Line, Mark, Panel, equal_units, line};
+use crate::plot::{Figure, Line, Mark, Panel, line};
 
 /// Sides of the sheet, pixels.
 const SHEET_PX: [u32; 2] = [1600, 1400];

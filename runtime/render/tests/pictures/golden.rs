@@ -1,7 +1,7 @@
 //! Pictures of a small committed recording look as they did when someone last looked at them.
 //!
-//! After an intended change, or a new recording format, run `cargo test -p fbcrowd-render --test pictures -- --ignored` and look at the
-//! pictures in `tests/golden` before committing them.
+//! After an intended change, or a new recording format, run `cargo test -p fbcrowd-render --test pictures -- --ignored`
+//! and look at the pictures in `tests/golden` before committing them.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -19,7 +19,8 @@ use crate::support;
 
 /// Another machine's rounding may move a channel by this much on the average, code values.
 const MEAN_TOLERANCE: f64 = 0.25;
-/// Share of the pixels that may differ by more than [`PIXEL_TOLERANCE`]: edges that fall on the other side of a pixel's centre.
+/// Share of the pixels that may differ by more than [`PIXEL_TOLERANCE`]: edges that fall on the other side of a pixel's
+/// centre.
 const EDGE_SHARE: f64 = 0.002;
 /// Code values.
 const PIXEL_TOLERANCE: u8 = 24;
@@ -35,7 +36,8 @@ fn pictures() -> Vec<(&'static str, Pixmap)> {
     let top_view = |view: View, time_s: f64| {
         let mut header = recording.header().clone();
         header.scenario.view = view;
-        TopView::new(&header, &tracks).unwrap().draw(time_s as f32, &sample(&recording, time_s).unwrap())
+        let view = TopView::new(&header, &tracks).unwrap();
+        view.draw(&mut view.buffers(), time_s as f32, &sample(&recording, time_s).unwrap()).clone()
     };
     let view = recording.header().scenario.view.clone();
     let near = View { width: 240, height: 135, width_m: Some(2.4), labels: false, ..view.clone() };
