@@ -1,9 +1,12 @@
 //! What a speed makes of a gait: cadence, contact timing, foot angles, pelvis and arm amplitudes.
 //!
-//! Cadences lie inside the adult ±1 SD bands of `facts/motion.md` §4 (18–29 years): men slow 86–101 steps/min at .85–1.2 m/s, normal
-//! 99–113 at 1.2–1.65, fast 118–141 at 1.65–2.2. Double support: 25–34, 22–31, 17–24 %; toe-off = 50 % + half of it. Foot angles and
-//! pelvis amplitudes: Schwartz et al. 2008 by v*. A clip is a whole number of frames
-//! and strides, but a stride is not: each is sampled at other moments, so that the mean over strides knows what lies between frames.
+//! Cadence and stride lie inside the adult ±1 SD bands of `facts/motion.md` §4 (18–29 years): at 1.1 m/s those of men walking slowly
+//! (86–101 steps/min, 1.18–1.48 m), at 1.4 of women walking normally (107–124, 1.31–1.53), at 1.8 of women walking fast (129–156,
+//! 1.56–1.84). Double support is 25, 23 and 19 % of the stride (bands 25–34, 20–28, 14–22); toe-off = 50 % + half of it. Foot angles and
+//! pelvis amplitudes by v*: Schwartz et al. 2008. Below 0.85 m/s feet leave the ground earlier than Schwartz's very slow walkers' (68 %).
+//!
+//! A clip is a whole number of frames and of strides, but a stride is not one of frames: each is sampled at other moments, so that the
+//! mean over strides knows what lies between frames.
 
 use crate::footsteps::RootMotion;
 use crate::published_curves::Style;
@@ -11,10 +14,9 @@ use crate::published_curves::Style;
 /// Frames a second of every clip.
 pub(crate) const FRAME_RATE_HZ: f64 = 30.0;
 const GRAVITY_MPS2: f64 = 9.81;
-/// In a turn the body leans inward as one: the feet go outward by this height times the lean's tangent, m (hips at .92 m, which the sole's
-/// width and the trunk's own bank spare a part of).
+/// In a turn the body leans inward as one: the feet go outward by this height times the lean's tangent, m. Less than the hips' .92 m, for
+/// the trunk banks as well.
 const LEAN_ARM_M: f64 = 0.70;
-
 /// How much earlier a foot leaves the ground in turns, share of the stride per rad/s.
 const TURN_TOE_OFF_S: f64 = 0.010;
 

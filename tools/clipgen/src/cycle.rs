@@ -72,10 +72,10 @@ pub(crate) fn frames(gait: &Gait, strides: usize, film: Film) -> Vec<Pose> {
 }
 
 impl<'a> Cycle<'a> {
+    /// Plans the feet, sets the hips over them, and lowers the hips until the legs reach.
     fn new(gait: &'a Gait) -> Self {
         let prints = footprints(gait);
-        let stances = prints.map(|mid_print| Stance { gait, mid_print });
-        let mut wanted_m = pelvis::wanted_heights_m(gait, &stances);
+        let mut wanted_m = pelvis::wanted_heights_m(gait, &prints.map(|mid_print| Stance { gait, mid_print }));
         let mut cycle = Self::at_height(gait, prints, Height::through(gait, &wanted_m));
         for _ in 0..LOWERING_ROUNDS {
             for (sample, height_m) in wanted_m.iter_mut().enumerate() {
@@ -85,9 +85,8 @@ impl<'a> Cycle<'a> {
         }
         // What the smoothing left: standing legs must reach.
         let still_m = |sample| cycle.overstretch_m(pelvis::phase_of(sample), Legs::Standing);
-        let mut height = cycle.height.clone();
-        height.lower_by_m((0..pelvis::SAMPLES).map(still_m).fold(0.0, f64::max));
-        Self::at_height(gait, prints, height)
+        let drop_m = (0..pelvis::SAMPLES).map(still_m).fold(0.0, f64::max);
+        Self::at_height(gait, prints, cycle.height.lowered_by_m(drop_m))
     }
 
     fn at_height(gait: &'a Gait, prints: [Footprint; 2], height: Height) -> Self {
@@ -108,7 +107,7 @@ impl<'a> Cycle<'a> {
         of_leg(0).max(of_leg(1))
     }
 
-    fn pose(&self, cycle_phase: f64) -> crate::body::Pose {
+    fn pose(&self, cycle_phase: f64) -> Pose {
         let pelvis = pelvis::pose(self.gait, &self.height, cycle_phase);
         let mut rotations = [DQuat::IDENTITY; JOINT_COUNT];
         rotations[0] = pelvis.rotation;
@@ -156,7 +155,7 @@ fn footprints(gait: &Gait) -> [Footprint; 2] {
 fn published_ahead_m(gait: &Gait) -> f64 {
     let sample_m = |i: usize| {
         let p = gait.toe_off.min(0.5) * (i as f64 + 0.5) / SAMPLES as f64;
-        let carried_m = gait.root.pace_mps() * gait.period_s() * (p - gait.mid_stance());
+        let carried_m = gait.root.speed_mps * gait.period_s() * (p - gait.mid_stance());
         gait.style.flexion(p, gait.toe_off).ankle_from_hip_m()[0] + carried_m - gait.roll.advance_m(p, gait.toe_off)
     };
     let trail_m = if gait.running { 0.0 } else { ADULT_TRAIL_M };

@@ -37,32 +37,35 @@ impl FootRoll {
         self.strike_pitch_rad * landing * landing + self.toe_off_pitch_rad * libm::pow(rising, self.heel_rise_power)
     }
 
-    /// Pitch of the toes against the ground while the heel is up.
+    /// Pitch of the toes against the ground: the foot's while the toes are up, their own while the heel is.
     fn toe_pitch_rad(&self, p: f64, toe_off: f64) -> f64 {
+        let pitch_rad = self.pitch_rad(p, toe_off);
         let rolling = (1.0 - (toe_off - p) / TOE_ROLL_SHARE).max(0.0);
-        self.toe_off_toe_pitch_rad * rolling * rolling
+        if pitch_rad < 0.0 { self.toe_off_toe_pitch_rad * rolling * rolling } else { pitch_rad }
     }
 
-    /// The foot on its footprint at leg phase `p` in [0, toe-off].
-    pub(crate) fn standing(&self, print: &Footprint, p: f64, toe_off: f64) -> Foot {
-        let pitch_rad = self.pitch_rad(p, toe_off);
-        let toe_pitch_rad = if pitch_rad < 0.0 { self.toe_pitch_rad(p, toe_off) } else { pitch_rad };
-        let ankle = rolled_ankle_m(pitch_rad, toe_pitch_rad);
-        let (sin, cos) = libm::sincos(print.yaw_rad);
-        let ground_m = print.ground_m + DVec2::new(cos, sin) * ankle.x;
-        Foot {
-            ankle_m: ground_m.extend(ankle.y),
-            yaw_rad: print.yaw_rad,
-            pitch_rad,
-            toe_bend_rad: toe_pitch_rad - pitch_rad,
-        }
+    /// The ankle in the foot frame, m.
+    fn ankle_m(&self, p: f64, toe_off: f64) -> DVec2 {
+        rolled_ankle_m(self.pitch_rad(p, toe_off), self.toe_pitch_rad(p, toe_off))
     }
 
     /// How far the roll has carried the ankle forward, m.
     pub(crate) fn advance_m(&self, p: f64, toe_off: f64) -> f64 {
+        self.ankle_m(p, toe_off).x
+    }
+
+    /// The foot on its footprint at leg phase `p` in [0, toe-off].
+    pub(crate) fn standing(&self, print: &Footprint, p: f64, toe_off: f64) -> Foot {
+        let ankle = self.ankle_m(p, toe_off);
+        let (sin, cos) = libm::sincos(print.yaw_rad);
+        let ground_m = print.ground_m + DVec2::new(cos, sin) * ankle.x;
         let pitch_rad = self.pitch_rad(p, toe_off);
-        let toe_pitch_rad = if pitch_rad < 0.0 { self.toe_pitch_rad(p, toe_off) } else { pitch_rad };
-        rolled_ankle_m(pitch_rad, toe_pitch_rad).x
+        Foot {
+            ankle_m: ground_m.extend(ankle.y),
+            yaw_rad: print.yaw_rad,
+            pitch_rad,
+            toe_bend_rad: self.toe_pitch_rad(p, toe_off) - pitch_rad,
+        }
     }
 }
 

@@ -75,9 +75,9 @@ impl Height {
         (self.at_m(cycle_phase) - hips_over_m(gait, ankle_m, cycle_phase, side, reach_m(gait.least_knee_rad))).max(0.0)
     }
 
-    /// Lowers all of it.
-    pub(crate) fn lower_by_m(&mut self, drop_m: f64) {
-        self.mean_m -= drop_m;
+    /// All of it lower.
+    pub(crate) fn lowered_by_m(&self, drop_m: f64) -> Self {
+        Self { mean_m: self.mean_m - drop_m, ..self.clone() }
     }
 }
 

@@ -12,8 +12,8 @@ a test compares every byte of this folder with what the generator writes. Licenc
 
 BVH, centimetres, Y up, Z forward, X to the body's left, 30 frames a second, a body of 1.75 m (proportions: Drillis and Contini 1966, in
 Winter, *Biomechanics and Motor Control of Human Movement*). Every clip is a whole number of strides of a steady gait (3 to 6; a stride
-need not be a whole number of frames); its **last frame is its first one, moved on** by those strides: for a loop leave it out. Leaf joints `…HeelSole`, `…BallSole`, `…ToeSole` lie on the soles. Turns and side-steps are to
-the left; the compiler mirrors them.
+need not be a whole number of frames); its **last frame is its first one, moved on** by those strides: for a loop leave it out. Leaf
+joints `…HeelSole`, `…BallSole`, `…ToeSole` lie on the soles. Turns and side-steps are to the left; the compiler mirrors them.
 
 v_f forward, ω_t counter-clockwise, ω_s to the left. The step length is that along the path of the root.
 
