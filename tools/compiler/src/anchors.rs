@@ -36,55 +36,77 @@ impl Anchor {
 pub(crate) fn anchors(clip: &SourceClip, roles: &Roles, forward: &[DVec3], leg_m: f64) -> [Anchor; JOINT_COUNT] {
     let at_role = |joint: Joint| Anchor { joint: roles.joints[joint.index()].unwrap_or(0), offset_m: DVec3::ZERO };
     let mut anchors = Joint::ALL.map(at_role);
-    let hips = |frame| middle(clip, roles, Joint::THIGHS, frame);
-    let shoulders = |frame| middle(clip, roles, Joint::UPPER_ARMS, frame);
-    let missing = |joint: Joint| roles.joints[joint.index()].is_none();
+    put_trunk(clip, roles, &mut anchors);
+    put_head(clip, roles, leg_m, &mut anchors);
+    put_clavicles(clip, roles, &mut anchors);
+    put_toes(clip, roles, forward, leg_m, &mut anchors);
+    anchors
+}
 
+fn missing(roles: &Roles, joint: Joint) -> bool {
+    roles.joints[joint.index()].is_none()
+}
+
+/// The pelvis between the hips; missing spine joints on the line from there to the chest.
+fn put_trunk(clip: &SourceClip, roles: &Roles, anchors: &mut [Anchor; JOINT_COUNT]) {
     let pelvis = roles.required(Joint::Pelvis);
+    let hips = |frame| middle(clip, roles, Joint::THIGHS, frame);
     anchors[Joint::Pelvis.index()] = fixed(clip, pelvis, hips);
-    if missing(Joint::SpineUpper) {
+    if missing(roles, Joint::SpineUpper) {
+        let shoulders = |frame| middle(clip, roles, Joint::UPPER_ARMS, frame);
         anchors[Joint::SpineUpper.index()] =
             fixed(clip, pelvis, |frame| hips(frame).lerp(shoulders(frame), CHEST_SHARE));
     }
     let chest = anchors[Joint::SpineUpper.index()];
-    if missing(Joint::SpineLower) {
+    if missing(roles, Joint::SpineLower) {
         let third = |frame| hips(frame).lerp(chest.position_m(clip, frame), 1.0 / 3.0);
         anchors[Joint::SpineLower.index()] = fixed(clip, pelvis, third);
     }
     let lower = anchors[Joint::SpineLower.index()];
-    if missing(Joint::SpineMiddle) {
+    if missing(roles, Joint::SpineMiddle) {
         let half = |frame| lower.position_m(clip, frame).lerp(chest.position_m(clip, frame), 0.5);
         anchors[Joint::SpineMiddle.index()] = fixed(clip, lower.joint, half);
     }
-    if missing(Joint::Neck) {
-        let head = roles.joints[Joint::Head.index()];
-        let neck =
-            |frame| head.map_or(shoulders(frame), |head| shoulders(frame).lerp(clip.position(frame, head), NECK_SHARE));
-        anchors[Joint::Neck.index()] = fixed(clip, chest.joint, neck);
+}
+
+/// A missing neck between shoulders and head, a missing head above the neck.
+fn put_head(clip: &SourceClip, roles: &Roles, leg_m: f64, anchors: &mut [Anchor; JOINT_COUNT]) {
+    if missing(roles, Joint::Neck) {
+        let neck = |frame| {
+            let shoulders = middle(clip, roles, Joint::UPPER_ARMS, frame);
+            let head = roles.joints[Joint::Head.index()];
+            head.map_or(shoulders, |head| shoulders.lerp(clip.position(frame, head), NECK_SHARE))
+        };
+        anchors[Joint::Neck.index()] = fixed(clip, anchors[Joint::SpineUpper.index()].joint, neck);
     }
     let neck = anchors[Joint::Neck.index()];
-    if missing(Joint::Head) {
+    if missing(roles, Joint::Head) {
         let above = |frame| neck.position_m(clip, frame) + NECK_OVER_LEG * leg_m * DVec3::Z;
         anchors[Joint::Head.index()] = fixed(clip, neck.joint, above);
     }
+}
+
+fn put_clavicles(clip: &SourceClip, roles: &Roles, anchors: &mut [Anchor; JOINT_COUNT]) {
+    let chest = anchors[Joint::SpineUpper.index()].joint;
     for (clavicle, arm) in [(Joint::LeftClavicle, Joint::LeftUpperArm), (Joint::RightClavicle, Joint::RightUpperArm)] {
-        if missing(clavicle) {
+        if missing(roles, clavicle) {
             let arm = roles.required(arm);
+            let shoulders = |frame| middle(clip, roles, Joint::UPPER_ARMS, frame);
             let root = |frame| shoulders(frame).lerp(clip.position(frame, arm), CLAVICLE_SHARE);
-            anchors[clavicle.index()] = fixed(clip, chest.joint, root);
+            anchors[clavicle.index()] = fixed(clip, chest, root);
         }
     }
+}
+
+fn put_toes(clip: &SourceClip, roles: &Roles, forward: &[DVec3], leg_m: f64, anchors: &mut [Anchor; JOINT_COUNT]) {
     for side in 0..2 {
-        if missing(Joint::TOES[side]) {
+        if missing(roles, Joint::TOES[side]) {
             let ankle = roles.required(Joint::FEET[side]);
-            let ball = |frame: usize| {
-                let foot = FOOT_OVER_LEG * forward[frame] - ANKLE_OVER_LEG * DVec3::Z;
-                clip.position(frame, ankle) + leg_m * foot
-            };
+            let foot = |frame: usize| FOOT_OVER_LEG * forward[frame] - ANKLE_OVER_LEG * DVec3::Z;
+            let ball = |frame: usize| clip.position(frame, ankle) + leg_m * foot(frame);
             anchors[Joint::TOES[side].index()] = fixed(clip, ankle, ball);
         }
     }
-    anchors
 }
 
 /// The point of a joint's frame that is on average where `target` is.

@@ -303,9 +303,13 @@ fn row_values(rows: &[(usize, &str)], channels: usize, warnings: &mut Vec<String
 fn canonical_text(joints: &[CheckedJoint], motion: &Motion) -> String {
     let mut text = String::from("HIERARCHY\n");
     let mut open: Vec<usize> = Vec::new();
+    let mut is_leaf = vec![true; joints.len()];
+    for joint in joints.iter().filter(|joint| !joint.is_end) {
+        joint.parent.into_iter().for_each(|parent| is_leaf[parent] = false);
+    }
     for (index, joint) in joints.iter().enumerate().filter(|(_, joint)| !joint.is_end) {
         while open.last().copied() != joint.parent {
-            close(&mut text, joints, open.pop());
+            close(&mut text, open.pop().is_some_and(|joint| is_leaf[joint]));
         }
         let keyword = if joint.parent.is_none() { "ROOT" } else { "JOINT" };
         let _ =
@@ -314,7 +318,7 @@ fn canonical_text(joints: &[CheckedJoint], motion: &Motion) -> String {
         open.push(index);
     }
     while let Some(joint) = open.pop() {
-        close(&mut text, joints, Some(joint));
+        close(&mut text, is_leaf[joint]);
     }
     let _ = writeln!(text, "MOTION\nFrames: {}\nFrame Time: {}", motion.rows, motion.frame_time_s);
     for row in motion.values.chunks(motion.values.len() / motion.rows) {
@@ -327,8 +331,8 @@ fn canonical_text(joints: &[CheckedJoint], motion: &Motion) -> String {
 }
 
 /// Closes a joint; a leaf gets the End Site that `bvh_anim` wants (the real ones are kept aside).
-fn close(text: &mut String, joints: &[CheckedJoint], joint: Option<usize>) {
-    if !joints.iter().any(|child| child.parent == joint && !child.is_end) {
+fn close(text: &mut String, is_leaf: bool) {
+    if is_leaf {
         text.push_str("End Site\n{\nOFFSET 0 0 0\n}\n");
     }
     text.push_str("}\n");

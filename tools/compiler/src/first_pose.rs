@@ -30,7 +30,8 @@ pub(crate) fn drop_separate_first_pose(clip: &mut SourceClip, roles: &Roles) {
     if first > JUMP_TIMES_MEDIAN * steps[steps.len() / 2] + JUMP_MIN_M {
         clip.drop_first_frames(1);
         clip.warnings.push("the first frame is a separate pose and is not used".to_owned());
-    } else if spread(clip, roles, 0) > SPREAD_COSINE {
+    }
+    if spread(clip, roles, 0) > SPREAD_COSINE {
         let lowered = (1..clip.frame_count()).find(|&frame| spread(clip, roles, frame) < LOWERED_COSINE);
         clip.warnings.extend(lowered.map(|frames| format!("the first {frames} frames come out of a T-pose")));
     }

@@ -21,6 +21,8 @@ const SIDES_DIFFER: f64 = 0.15;
 const NAME_WEIGHTS: [f64; 3] = [1.25, 0.6, 0.4];
 /// How much the distance from the knee to a foot outside the leg's chain may vary, over its mean.
 const PARTED_FOOT_LOOSENESS: f64 = 0.12;
+/// Joints from a fork to the end of its limb, helpers and fingers included: 9 in the busiest rig seen.
+const LONGEST_CHAIN: usize = 16;
 /// The depths of a limb that is on no chain.
 const PARTED: [usize; 3] = [0; 3];
 /// Weight of passing over a joint that is named as a part of a limb: not a twist bone (Bandai's `UpperArm` beside `Shoulder`).
@@ -32,6 +34,8 @@ pub(crate) struct Shape<'a> {
     pub hints: Vec<NameHints>,
     pub children: Vec<Vec<usize>>,
     frames: Vec<usize>,
+    /// Along the bones from each joint to its farthest leaf.
+    reach: Vec<f64>,
 }
 
 /// Three joints (hip, knee, ankle or shoulder, elbow, wrist) and the chain that they were found on.
@@ -66,12 +70,23 @@ impl<'a> Shape<'a> {
             }
         }
         let step = clip.frame_count().div_ceil(SAMPLES).max(1);
-        Self {
+        let mut shape = Self {
             clip,
             hints: clip.joints.iter().map(|joint| crate::joint_names::hints(&joint.name)).collect(),
             children,
             frames: (0..clip.frame_count()).step_by(step).collect(),
+            reach: vec![0.0; clip.joints.len()],
+        };
+        for child in (0..clip.joints.len()).rev() {
+            if let Some(parent) = clip.joints[child].parent {
+                shape.reach[parent] = shape.reach[parent].max(shape.reach_through(parent, child));
+            }
         }
+        shape
+    }
+
+    fn reach_through(&self, parent: usize, child: usize) -> f64 {
+        self.reach[child] + self.distance(parent, child)
     }
 
     /// Mean distance of two joints over the sampled frames.
@@ -101,17 +116,11 @@ impl<'a> Shape<'a> {
 
     /// From a joint down to the leaf that is farthest along the bones, the joint included.
     pub(crate) fn chain(&self, joint: usize) -> Vec<usize> {
-        let mut reach = vec![0.0; self.clip.joints.len()];
-        for child in (joint + 1..self.clip.joints.len()).rev() {
-            if let Some(parent) = self.clip.joints[child].parent {
-                reach[parent] = f64::max(reach[parent], reach[child] + self.distance(parent, child));
-            }
-        }
         let mut chain = vec![joint];
         let mut tail = joint;
-        let length = |parent: usize, child: usize| reach[child] + self.distance(parent, child);
+        let through = |parent: usize, child: usize| self.reach_through(parent, child);
         while let Some(&next) =
-            self.children[tail].iter().max_by(|&&a, &&b| length(tail, a).total_cmp(&length(tail, b)))
+            self.children[tail].iter().max_by(|&&a, &&b| through(tail, a).total_cmp(&through(tail, b)))
         {
             chain.push(next);
             tail = next;
@@ -168,16 +177,11 @@ impl<'a> Shape<'a> {
                 .filter(|&&child| allowed(child))
                 .map(|&child| self.limbs(child, parts))
                 .collect();
-            for (index, first) in branches.iter().enumerate() {
-                for second in branches[index + 1..].iter().flatten() {
-                    for first in first.iter().filter(|first| first.depths == second.depths) {
-                        let pair = LimbPair { fork, limbs: [first.clone(), second.clone()] };
-                        // Of joints in one place the last carries the bend: a tie goes to it.
-                        let better = best.as_ref().is_none_or(|best| pair.score() >= best.score() * (1.0 - 1e-6));
-                        if better && self.mirrored(&pair) {
-                            best = Some(pair);
-                        }
-                    }
+            for pair in mirrored_pairs(fork, &branches) {
+                // Of joints in one place the last carries the bend: a tie goes to it.
+                let better = best.as_ref().is_none_or(|best| pair.score() >= best.score() * (1.0 - 1e-6));
+                if better && self.on_both_sides(&pair) {
+                    best = Some(pair);
                 }
             }
         }
@@ -206,16 +210,16 @@ impl<'a> Shape<'a> {
         Some(Limb { joints: [thigh, shank, foot], depths: PARTED, length, score: length * names })
     }
 
-    fn mirrored(&self, pair: &LimbPair) -> bool {
-        let [first, second] = &pair.limbs;
-        let alike = (first.length - second.length).abs() <= SIDES_DIFFER * first.length.max(second.length);
-        let sides = [first, second].map(|limb| self.hints[limb.joints[1]].side);
-        alike && (sides == [None, None] || (sides[0] != sides[1] && sides.iter().all(Option::is_some)))
+    /// Whether the names put the two limbs on two sides, or say nothing of sides.
+    fn on_both_sides(&self, pair: &LimbPair) -> bool {
+        let [first, second] = pair.limbs.each_ref().map(|limb| self.hints[limb.joints[1]].side);
+        first.is_none() == second.is_none() && (first.is_none() || first != second)
     }
 
     /// Every i < j < k on a child's chain that could be a limb.
     fn limbs(&self, child: usize, parts: [Part; 3]) -> Vec<Limb> {
-        let chain = self.chain(child);
+        let mut chain = self.chain(child);
+        chain.truncate(LONGEST_CHAIN);
         let mut limbs = Vec::from_iter(self.limb_with_parted_foot(child, parts));
         for end in 2..chain.len() {
             for middle in 1..end {
@@ -253,4 +257,18 @@ impl<'a> Shape<'a> {
                 })
             })
     }
+}
+
+/// Limbs of two branches of a fork, at the same places of their chains and of like length.
+fn mirrored_pairs(fork: usize, branches: &[Vec<Limb>]) -> impl Iterator<Item = LimbPair> {
+    let alike = |first: &Limb, second: &Limb| {
+        first.depths == second.depths
+            && (first.length - second.length).abs() <= SIDES_DIFFER * first.length.max(second.length)
+    };
+    branches.iter().enumerate().flat_map(move |(index, branch)| {
+        let others = branches[index + 1..].iter().flatten();
+        let pairs = others.flat_map(move |second| branch.iter().map(move |first| (first, second)));
+        let mirrored = pairs.filter(move |(first, second)| alike(first, second));
+        mirrored.map(move |(first, second)| LimbPair { fork, limbs: [first.clone(), second.clone()] })
+    })
 }

@@ -18,6 +18,8 @@ use crate::source_clip::SourceClip;
 const UPRIGHT_COSINE: f64 = 0.45;
 /// The shortest arms, over the legs (people 0.65): what is shorter is a pair of fingers.
 const ARM_OVER_LEG: f64 = 0.25;
+/// More joints than any rig with face and fingers (165 in the development set).
+const MAX_JOINTS: usize = 4096;
 /// A toe joint is at least this share of the shank away from the ankle.
 const TOE_DISTANCE: f64 = 0.12;
 /// Knees and elbows are bones' ends: their bones' lengths vary less than this (translating knees of `misc/ezgi_walk1`: 5 %).
@@ -46,6 +48,9 @@ impl Roles {
 /// # Errors
 /// [`Refusal`] for what has no human legs, no arms, or does not stand upright.
 pub fn find_roles(clip: &SourceClip) -> Result<Roles, Refusal> {
+    if clip.joints.len() > MAX_JOINTS {
+        return Err(Refusal::NoLegs { reason: format!("{} joints are no body's", clip.joints.len()) });
+    }
     let shape = Shape::new(clip);
     let mut legs = find_legs(&shape)?;
     let mut arms = find_arms(&shape, &legs)?;

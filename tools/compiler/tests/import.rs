@@ -259,7 +259,7 @@ fn nameless_skeletons_are_understood_by_their_shape() {
         let mut count = 0;
         let nameless: Vec<String> = text
             .lines()
-            .map(|line| match line.trim_start().split_whitespace().next() {
+            .map(|line| match line.split_whitespace().next() {
                 Some(keyword @ ("ROOT" | "JOINT")) => {
                     count += 1;
                     format!("{keyword} n{count}")
