@@ -22,7 +22,7 @@ impl Axis {
         Self { label: label.to_owned(), low: low - room, high: high + room }
     }
 
-    /// A round distance of ticks that stand about [`TICK_DISTANCE_PX`] apart on an axis of a length.
+    /// A round distance of ticks that stand about `TICK_DISTANCE_PX` apart on an axis of a length.
     pub fn tick_step(&self, length_px: f32) -> f32 {
         let count = (length_px / TICK_DISTANCE_PX).max(2.0);
         round_step((self.high - self.low) / count)
