@@ -18,8 +18,8 @@ pub const NEIGHBOUR_COUNT: usize = 10;
 /// Speed at which those who keep their distance might come, m/s. Of two at equal distance, one who comes straight on at walking speed,
 /// 1.33 m/s against ours, ranks as if nearer by a factor of 3.7.
 const APPROACH_MPS: f32 = 1.0;
-/// Agents to a cell that a search is fastest with.
-const AGENTS_PER_CELL: f32 = 3.0;
+/// Agents to a cell, on average; from 1 to 3 the time of a search hardly changes.
+const AGENTS_PER_CELL: f32 = 2.0;
 /// Least side of a cell, m: the diameter of a body.
 const CELL_MIN_M: f32 = 0.5;
 
@@ -32,14 +32,22 @@ pub struct Neighbour {
     pub time_to_collision_s: f32,
     /// Between the centres.
     pub distance_m: f32,
-    /// Distance over (closing speed + 1 m/s), s: what the choice goes by.
-    pub rank_s: f32,
 }
 
 /// At most [`NEIGHBOUR_COUNT`] neighbours, best rank first, ties by index.
 #[derive(Clone, Debug, Default)]
 pub struct Nearest {
     found: Vec<Neighbour>,
+    candidates: Vec<Candidate>,
+}
+
+/// All that the search itself needs to know of an agent.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    rank_s: f32,
+    agent: u32,
+    /// Index in cell order.
+    place: u32,
 }
 
 /// The agents, sorted by cell.
@@ -59,7 +67,6 @@ pub struct Neighbours {
     velocities_mps: Vec<Vec2>,
     radii_m: Vec<f32>,
     speed_max_mps: f32,
-    radius_max_m: f32,
 }
 
 /// Who searches.
@@ -90,18 +97,22 @@ impl Nearest {
     }
 
     /// Takes a candidate in where it belongs.
-    fn offer(&mut self, candidate: Neighbour) {
-        let before = |a: &Neighbour| (a.rank_s, a.agent) < (candidate.rank_s, candidate.agent);
-        let place = self.found.iter().rposition(before).map_or(0, |index| index + 1);
+    fn offer(&mut self, candidate: Candidate) {
+        let before = |other: &Candidate| (other.rank_s, other.agent) < (candidate.rank_s, candidate.agent);
+        let place = self.candidates.iter().rposition(before).map_or(0, |index| index + 1);
         if place < NEIGHBOUR_COUNT {
-            self.found.truncate(NEIGHBOUR_COUNT - 1);
-            self.found.insert(place, candidate);
+            self.candidates.truncate(NEIGHBOUR_COUNT - 1);
+            self.candidates.insert(place, candidate);
         }
     }
 
     /// Rank that a candidate has to beat, s.
     fn worst_s(&self) -> f32 {
-        if self.found.len() < NEIGHBOUR_COUNT { f32::INFINITY } else { self.found[NEIGHBOUR_COUNT - 1].rank_s }
+        if self.candidates.len() < NEIGHBOUR_COUNT {
+            f32::INFINITY
+        } else {
+            self.candidates[NEIGHBOUR_COUNT - 1].rank_s
+        }
     }
 }
 
@@ -115,7 +126,6 @@ impl Neighbours {
         gather(&mut self.velocities_mps, agents, velocities_mps);
         gather(&mut self.radii_m, agents, radii_m);
         self.speed_max_mps = velocities_mps.iter().map(|velocity| velocity.length()).fold(0.0, f32::max);
-        self.radius_max_m = radii_m.iter().copied().fold(0.0, f32::max);
     }
 
     /// Chooses the cell: the box of all agents, [`AGENTS_PER_CELL`] to a cell on average.
@@ -168,26 +178,34 @@ impl Neighbours {
 
     /// The best-ranked agents within range.
     pub fn nearest(&self, query: &Query, nearest: &mut Nearest) {
+        nearest.candidates.clear();
+        self.search(query, nearest);
         nearest.found.clear();
+        nearest.found.extend(nearest.candidates.iter().map(|candidate| self.neighbour(candidate, query)));
+    }
+
+    /// Visits the rings of cells around the query, until none can hold a better candidate.
+    fn search(&self, query: &Query, nearest: &mut Nearest) {
         if self.agents.is_empty() {
             return;
         }
         let [column, row] = self.cell_of(query.position_m);
+        let closing_mps = query.velocity_mps.length() + self.speed_max_mps;
         for ring in 0..self.columns.max(self.rows) {
             // A ring's cells lie behind all rings inside it.
             let closest_m = ring.saturating_sub(1) as f32 * self.cell_m;
-            if closest_m > self.reach_m(query, nearest) {
+            if closest_m > reach_m(query, closing_mps, nearest) {
                 break;
             }
             let rows = row.saturating_sub(ring)..=(row + ring).min(self.rows - 1);
             for visited in rows {
                 if visited.abs_diff(row) == ring {
                     let columns = [column.saturating_sub(ring), (column + ring).min(self.columns - 1)];
-                    self.scan(visited, columns, query, nearest);
+                    self.scan(visited, columns, query, closing_mps, nearest);
                 } else {
                     let sides = [column.checked_sub(ring), Some(column + ring).filter(|&side| side < self.columns)];
                     for side in sides.into_iter().flatten() {
-                        self.scan(visited, [side, side], query, nearest);
+                        self.scan(visited, [side, side], query, closing_mps, nearest);
                     }
                 }
             }
@@ -195,33 +213,41 @@ impl Neighbours {
     }
 
     /// Offers the agents of a run of cells of one row.
-    fn scan(&self, row: usize, columns: [usize; 2], query: &Query, nearest: &mut Nearest) {
+    fn scan(&self, row: usize, columns: [usize; 2], query: &Query, closing_mps: f32, nearest: &mut Nearest) {
         let [first, last] = columns.map(|column| row * self.columns + column);
-        let mut reach_m = self.reach_m(query, nearest);
+        let mut reach_m = reach_m(query, closing_mps, nearest);
         for place in self.starts[first] as usize..self.starts[last + 1] as usize {
             let offset_m = self.positions_m[place] - query.position_m;
-            let agent = self.agents[place];
             let distance_squared = offset_m.length_squared();
-            if distance_squared > reach_m * reach_m || agent as usize == query.agent {
+            if distance_squared > reach_m * reach_m {
                 continue;
             }
-            let distance_m = distance_squared.sqrt();
             let velocity_mps = query.velocity_mps - self.velocities_mps[place];
-            let rank_s = rank_s(offset_m, distance_m, velocity_mps);
-            if rank_s <= nearest.worst_s() {
-                let radius_m = query.radius_m + self.radii_m[place];
-                let time_to_collision_s = disc_with_disc(offset_m, velocity_mps, radius_m);
-                nearest.offer(Neighbour { agent, time_to_collision_s, distance_m, rank_s });
-                reach_m = self.reach_m(query, nearest);
+            let rank_s = rank_s(offset_m, distance_squared.sqrt(), velocity_mps);
+            let agent = self.agents[place];
+            if rank_s <= nearest.worst_s() && agent as usize != query.agent {
+                nearest.offer(Candidate { rank_s, agent, place: place as u32 });
+                reach_m = self::reach_m(query, closing_mps, nearest);
             }
         }
     }
 
-    /// Beyond this distance nobody beats the worst neighbour found, even straight on and as fast as the fastest.
-    fn reach_m(&self, query: &Query, nearest: &Nearest) -> f32 {
-        let closing_mps = query.velocity_mps.length() + self.speed_max_mps;
-        (nearest.worst_s() * (closing_mps + APPROACH_MPS)).min(query.range_m)
+    /// What there is to know of a chosen candidate.
+    fn neighbour(&self, candidate: &Candidate, query: &Query) -> Neighbour {
+        let place = candidate.place as usize;
+        let offset_m = self.positions_m[place] - query.position_m;
+        let velocity_mps = query.velocity_mps - self.velocities_mps[place];
+        Neighbour {
+            agent: candidate.agent,
+            time_to_collision_s: disc_with_disc(offset_m, velocity_mps, query.radius_m + self.radii_m[place]),
+            distance_m: offset_m.length(),
+        }
     }
+}
+
+/// Beyond this distance nobody beats the worst candidate, even straight on and as fast as the fastest.
+fn reach_m(query: &Query, closing_mps: f32, nearest: &Nearest) -> f32 {
+    (nearest.worst_s() * (closing_mps + APPROACH_MPS)).min(query.range_m)
 }
 
 /// Distance / (closing speed + 1 m/s); `velocity` is the searcher's against the other's.
