@@ -10,9 +10,9 @@ use motiondb::phase_map::PhaseMap;
 use motiondb::skeleton::JOINT_COUNT;
 
 use crate::arc::Rates;
-use crate::gait::Stride;
 use crate::human_clip::{HumanBody, HumanPose};
 use crate::root_motion::{GroundedClip, accumulate, align_to};
+use crate::stride::Stride;
 
 /// Rows that a stride is faded over at each end, where the clip reaches that far: an eighth of a cycle.
 const FADE_ROWS: usize = PHASE_COUNT / 8;

@@ -1,6 +1,9 @@
 //! Motion clips in, motion database out: one file per stage, in `compile.rs` one line per stage.
 //!
-//! import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] → [`human_clip::HumanClip`]
+//! import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] → [`human_clip::HumanClip`] →
+//! [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] → [`contacts`], [`gait`], [`stride`], [`steady_window`] →
+//! [`cycle::GaitCycle`] (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`], [`velocity_hull`], [`blend_space`],
+//! [`correspondence`] → [`motiondb::motion_db::MotionDb`]
 
 mod anchors;
 pub mod anthropometry;
@@ -37,6 +40,8 @@ mod soles;
 pub mod source_clip;
 pub mod source_parameters;
 pub mod standing;
+pub mod steady_window;
+pub mod stride;
 #[cfg(test)]
 mod synthetic;
 pub mod target_skeleton;

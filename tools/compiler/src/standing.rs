@@ -7,9 +7,9 @@ use glam::DVec2;
 
 use crate::arc::{Arc, Rates};
 use crate::cycle::{GaitCycle, mean_stride};
-use crate::gait::Stride;
 use crate::human_clip::{HumanBody, HumanJoints};
 use crate::root_motion::GroundedClip;
+use crate::stride::Stride;
 
 /// Weight of a joint's velocity beside its place where poses are compared: as far as it gets in this time.
 const VELOCITY_WEIGHT_S: f64 = 0.1;
