@@ -214,12 +214,12 @@ pub(crate) fn step_about(root: RootMotion, stride_frames: f64, half_width_m: f64
         half_width_m,
         least_knee_rad: (8.0 + 8.0 * haste).to_radians(),
         roll: FootRoll {
-            strike_pitch_rad: -(2.0 + 4.0 * haste).to_radians(),
+            strike_pitch_rad: -(2.0 + 2.0 * haste).to_radians(),
             flat_from: 0.10,
             heel_off: toe_off * 0.55,
             heel_rise_power: 2.2,
-            toe_off_pitch_rad: -(6.0 + 14.0 * haste).to_radians(),
-            toe_off_toe_pitch_rad: -(2.0 + 4.0 * haste).to_radians(),
+            toe_off_pitch_rad: -(6.0 + 8.0 * haste).to_radians(),
+            toe_off_toe_pitch_rad: -(1.0 + 1.0 * haste).to_radians(),
         },
         pelvis: PelvisSwing { sway_m: 0.025, surge_m: 0.0, list_rad: 0.035, rotation_rad: 0.0 },
         upper_body: UpperBodySwing {

@@ -1,9 +1,9 @@
 //! The generator of the bundled clips: human locomotion made from gait science, nobody's motion capture.
 //!
-//! In reading order: whose body ([`body`]), what is published of its joints ([`published_curves`]) and what a speed makes of a gait
-//! ([`cadence`]); where the feet stand ([`footsteps`]), roll ([`foot_roll`]) and swing ([`swing`]); the pelvis over them ([`pelvis`]), the
-//! legs between ([`legs`]), trunk, head and arms ([`upper_body`]); all assembled ([`cycle`]) or standing ([`idle`]); the list of clips
-//! ([`catalogue`]) and their files ([`bvh_writer`], [`readme`]).
+//! In reading order: whose body (`body`), what is published of its joints (`published_curves`) and what a speed makes of a gait
+//! (`cadence`); where the feet stand (`footsteps`), roll (`foot_roll`) and swing (`swing`); the pelvis over them (`pelvis`), the
+//! legs between (`legs`), trunk, head and arms (`upper_body`); all assembled (`cycle`) or standing (`idle`); the list of clips
+//! (`catalogue`) and their files (`bvh_writer`, `readme`).
 //!
 //! Every byte follows from this source: no input, no clock, no seed from outside, trigonometry through `libm`.
 
