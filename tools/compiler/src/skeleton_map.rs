@@ -99,7 +99,7 @@ fn middle(shape: &Shape, frame: usize, pair: &LimbPair, bone: usize) -> DVec3 {
 }
 
 fn check_upright(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> Result<(), Refusal> {
-    let tips = legs.limbs.each_ref().map(|limb| shape.chain(limb.joints[2]).last().copied().unwrap_or(limb.joints[2]));
+    let tips = legs.limbs.each_ref().map(|limb| toe_tip(shape, limb));
     let toes = |frame: usize| 0.5 * tips.map(|tip| shape.clip.position(frame, tip)).into_iter().sum::<DVec3>();
     let legs_up = shape.mean_vector(|frame| middle(shape, frame, legs, 0) - toes(frame));
     let cosine = shape.mean(|frame| {
@@ -120,9 +120,11 @@ fn legs_swapped(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> bool {
     if let Some(side) = shape.hints[legs.limbs[0].joints[1]].side {
         return side == Side::Right;
     }
+    let tips = legs.limbs.each_ref().map(|limb| toe_tip(shape, limb));
     let lateral = shape.mean(|frame| {
         let up = middle(shape, frame, arms, 0) - middle(shape, frame, legs, 2);
-        let forward: DVec3 = legs.limbs.iter().map(|limb| toe_direction(shape, frame, limb)).sum();
+        let forward: DVec3 =
+            legs.limbs.iter().zip(tips).map(|(limb, tip)| toe_direction(shape, frame, limb, tip)).sum();
         let across =
             shape.clip.position(frame, legs.limbs[0].joints[0]) - shape.clip.position(frame, legs.limbs[1].joints[0]);
         up.cross(forward).normalize_or_zero().dot(across)
@@ -141,10 +143,15 @@ fn arms_swapped(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> bool {
     shape.mean(|frame| across(frame, legs).dot(across(frame, arms))) < 0.0
 }
 
+/// The joint of a foot that is farthest from the ankle; the ankle where there is none.
+fn toe_tip(shape: &Shape, limb: &Limb) -> usize {
+    farthest(shape, limb.joints[2], |_| true).unwrap_or(limb.joints[2])
+}
+
 /// From the ankle to the end of the foot, or, where there is no foot, the way the knee points off the leg's line.
-fn toe_direction(shape: &Shape, frame: usize, limb: &Limb) -> DVec3 {
+fn toe_direction(shape: &Shape, frame: usize, limb: &Limb, tip: usize) -> DVec3 {
     let [hip, knee, ankle] = limb.joints.map(|joint| shape.clip.position(frame, joint));
-    let end = shape.clip.position(frame, *shape.chain(limb.joints[2]).last().unwrap_or(&limb.joints[2]));
+    let end = shape.clip.position(frame, tip);
     if (end - ankle).length() > TOE_DISTANCE * limb.length { end - ankle } else { knee - 0.5 * (hip + ankle) }
 }
 

@@ -17,8 +17,8 @@ const TIP_OVER_LEG: f64 = 0.085;
 const TIP_MIN_OVER_LEG: f64 = 0.02;
 /// The lowest joint of a planted foot over the sole, over leg length: 2 cm for an adult.
 const THICKNESS_OVER_LEG: f64 = 0.024;
-/// A planted lowest joint this high over the file's zero still stands on it, over leg length: 9 cm.
-const ZERO_TRUSTED_OVER_LEG: f64 = 0.11;
+/// A planted lowest joint this high over the file's zero still stands on it, over leg length: 5 cm (Bandai's toe joints: 4).
+const ZERO_TRUSTED_OVER_LEG: f64 = 0.06;
 
 /// What was found of both feet.
 pub(crate) struct Soles {

@@ -250,6 +250,7 @@ fn nameless_skeletons_are_understood_by_their_shape() {
     let Some(folder) = mocap("nameless_skeletons_are_understood_by_their_shape") else { return };
     for file in [
         "smartbody_converted/ChrMarine_Walk01.bvh",
+        "smartbody_converted/ChrMarine_StrafeFastRt01.bvh",
         "lafan1_skeleton/egg_walking.bvh",
         "games105/walkF.bvh",
         "cmu_motionviewer/walk.bvh",
