@@ -206,7 +206,7 @@ mod tests {
         #[test]
         fn no_velocity_tried_yields_less_in_a_tight_crowd(mut half_planes in half_planes(4..9), optimal in optimal()) {
             for half_plane in &mut half_planes {
-                half_plane.point_mps -= 0.8 * half_plane.direction.perp() * -1.0;
+                half_plane.point_mps += 0.8 * half_plane.direction.perp();
             }
             check(&half_planes, optimal);
         }

@@ -123,12 +123,12 @@ mod tests {
             if offset_m.length() < radius_m + 0.01 {
                 return Ok(());
             }
-            let chosen = both_half_planes(&own, &other).into_iter().zip([first, second]);
             // A velocity outside is moved to the boundary, where the claim is sharpest.
-            let [first, second] = [0, 1].map(|index| {
-                let (half_plane, velocity_mps) = chosen.clone().nth(index).unwrap();
+            let kept = |half_plane: &HalfPlane, velocity_mps: Vec2| {
                 velocity_mps + half_plane.violation_mps(velocity_mps).max(0.0) * half_plane.direction.perp()
-            });
+            };
+            let [of_own, of_other] = both_half_planes(&own, &other);
+            let (first, second) = (kept(&of_own, first), kept(&of_other, second));
             let met_s = disc_with_disc(offset_m, first - second, radius_m - 2e-3);
             prop_assert!(met_s > HORIZON_S - 1e-2, "{met_s}");
         }

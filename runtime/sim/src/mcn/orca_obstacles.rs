@@ -109,12 +109,13 @@ fn edge_half_plane(ends: [End; 2], own: &Disc, horizon_s: f32, source: Source) -
         return Some(stay_off(left.outgoing.perp(), source));
     }
 
-    let bearers = match on_line {
+    // Beyond an end of the edge, but within a radius of its line: seen obliquely.
+    let oblique = on_line;
+    let bearers = match oblique {
         true if share < 0.0 => [left, left],
         true => [right, right],
         false => [left, right],
     };
-    let oblique = on_line;
     if oblique && !bearers[0].convex {
         return None;
     }

@@ -14,7 +14,7 @@ use glam::Vec2;
 use motiondb::velocity_hull::VelocityHull;
 
 /// Protocol of `facts/planning.md` §3.
-pub const RADIUS_M: f32 = 0.25;
+pub(crate) const RADIUS_M: f32 = 0.25;
 const SPEED_MPS: f32 = 1.33;
 const SPEED_MAX_MPS: f32 = 2.0;
 const HORIZON_S: f32 = 5.0;
@@ -27,7 +27,7 @@ const STALL: (f32, f32) = (0.1, 5.0);
 
 /// How discs take up what is planned.
 #[derive(Clone, Copy)]
-pub enum Body {
+pub(crate) enum Body {
     /// At once.
     Ideal,
     /// Velocity with this time constant, s, facing at this rate, rad/s.
@@ -35,14 +35,14 @@ pub enum Body {
 }
 
 /// Who plans.
-pub enum Planner<'a> {
+pub(crate) enum Planner<'a> {
     /// Only the half-planes of other agents: what RVO2 does.
     Orca,
     /// The whole of §4.
     Mcn(&'a McnParams, &'a VelocityHull, &'a Obstacles),
 }
 
-pub struct Crowd {
+pub(crate) struct Crowd {
     positions_m: Vec<Vec2>,
     goals_m: Vec<Vec2>,
     /// Where all walk first whose x is less than its.
@@ -58,19 +58,19 @@ pub struct Crowd {
 
 /// Metrics of `definitions.md`.
 #[derive(Debug, Default)]
-pub struct Figures {
-    pub collisions: f32,
+pub(crate) struct Figures {
+    pub(crate) collisions: f32,
     pub acceleration_mps2: f32,
-    pub arrived: usize,
-    pub mean_arrival_s: f32,
-    pub stalled: usize,
-    pub planning_us: f32,
+    pub(crate) arrived: usize,
+    pub(crate) mean_arrival_s: f32,
+    pub(crate) stalled: usize,
+    pub(crate) planning_us: f32,
     /// Positions, step by step.
-    pub trails_m: Vec<Vec<Vec2>>,
+    pub(crate) trails_m: Vec<Vec<Vec2>>,
 }
 
 /// Lines `x y goal_x goal_y`; none where the file is missing.
-pub fn read_scene(name: &str) -> Option<Vec<(Vec2, Vec2)>> {
+pub(crate) fn read_scene(name: &str) -> Option<Vec<(Vec2, Vec2)>> {
     let path = Path::new("/work/shared/bench/scenes").join(name);
     let text = std::fs::read_to_string(path).ok()?;
     let agent = |line: &str| {
@@ -81,7 +81,7 @@ pub fn read_scene(name: &str) -> Option<Vec<(Vec2, Vec2)>> {
 }
 
 impl Crowd {
-    pub fn new(agents: &[(Vec2, Vec2)], door_m: Option<Vec2>) -> Self {
+    pub(crate) fn new(agents: &[(Vec2, Vec2)], door_m: Option<Vec2>) -> Self {
         let count = agents.len();
         let facing = |(from, to): &(Vec2, Vec2)| libm::atan2f(to.y - from.y, to.x - from.x);
         Self {
@@ -99,7 +99,7 @@ impl Crowd {
     }
 
     /// Runs until all have arrived, or the time is over.
-    pub fn run(&mut self, planner: &Planner, body: Body, dt_s: f32, duration_s: f32) -> Figures {
+    pub(crate) fn run(&mut self, planner: &Planner, body: Body, dt_s: f32, duration_s: f32) -> Figures {
         let mut figures = Figures::default();
         let mut planning = Duration::ZERO;
         let mut steps = 0;
