@@ -16,9 +16,17 @@ const PAYLOAD_LIMIT: usize = 1 << 30;
 /// Why a database cannot be read or written. Each message names the file and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
-    /// The file system said no.
-    #[error("{path}: {source}")]
-    Io {
+    /// The system refuses to read.
+    #[error("{path}: cannot be read: {source}; check that the file exists")]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The system refuses to write.
+    #[error("{path}: cannot be written: {source}; choose another place")]
+    Unwritable {
         /// The file.
         path: PathBuf,
         /// What the system said.
@@ -78,26 +86,26 @@ pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<(MotionDb, u32), FileErro
 /// Writes a database under its final name whole or not at all; returns the checksum of its file.
 ///
 /// # Errors
-/// [`FileError::Io`].
+/// [`FileError::Unwritable`].
 pub fn write(path: &Path, db: &MotionDb) -> Result<u32, FileError> {
     let bytes = to_bytes(db);
-    atomic_file::write(path, &bytes).map_err(|source| FileError::Io { path: path.to_owned(), source })?;
+    atomic_file::write(path, &bytes).map_err(|source| FileError::Unwritable { path: path.to_owned(), source })?;
     Ok(from_bytes(path, &bytes)?.1)
 }
 
 /// Reads a database without judging it: for `fbcrowd validate` and `inspect`.
 ///
 /// # Errors
-/// All but [`FileError::Invariant`].
+/// All but [`FileError::Invariant`] and [`FileError::Unwritable`].
 pub fn read(path: &Path) -> Result<(MotionDb, u32), FileError> {
-    let bytes = fs::read(path).map_err(|source| FileError::Io { path: path.to_owned(), source })?;
+    let bytes = fs::read(path).map_err(|source| FileError::Unreadable { path: path.to_owned(), source })?;
     from_bytes(path, &bytes)
 }
 
 /// Reads a database whose invariants all hold, as the runtime relies on; with the checksum of its file.
 ///
 /// # Errors
-/// All of [`FileError`].
+/// All but [`FileError::Unwritable`].
 pub fn load(path: &Path) -> Result<(MotionDb, u32), FileError> {
     let (db, checksum) = read(path)?;
     match validate::validate(&db).into_iter().find(|check| check.broken.is_some()) {

@@ -1,7 +1,6 @@
 //! What `fbcrowd inspect` says: the stable JSON (`definitions.md`; field names carry their units) and the tables for people.
 
 use glam::Vec2;
-use motiondb::correspondence::Correspondence;
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::velocity_hull::VelocityHull;
 use serde::Serialize;
@@ -37,6 +36,14 @@ struct Example {
     planted_share: f32,
 }
 
+/// Examples by name.
+#[derive(Serialize)]
+struct Correspondence {
+    semi_procedural: String,
+    blending: String,
+    pairs_s: Vec<[f32; 2]>,
+}
+
 #[derive(Serialize)]
 struct BlendSpace {
     dimension: u32,
@@ -46,6 +53,7 @@ struct BlendSpace {
 
 impl DatabaseReport {
     pub(crate) fn new(db: &MotionDb) -> Self {
+        let name = |example: u32| db.examples[example as usize].name.clone();
         Self {
             examples: db.examples.iter().map(|example| Example::new(example, &db.sources)).collect(),
             sources: db.sources.clone(),
@@ -55,7 +63,11 @@ impl DatabaseReport {
                 simplices: db.blend_space.simplices().map(<[u32]>::to_vec).collect(),
                 covered_share: db.blend_space.covered_share,
             },
-            correspondence: db.correspondence.clone(),
+            correspondence: db.correspondence.as_ref().map(|found| Correspondence {
+                semi_procedural: name(found.semi_procedural),
+                blending: name(found.blending),
+                pairs_s: found.pairs_s.clone(),
+            }),
         }
     }
 }
@@ -112,9 +124,8 @@ pub(crate) fn database_text(report: &DatabaseReport) -> String {
 
 fn correspondence_text(report: &DatabaseReport) -> String {
     let Some(found) = &report.correspondence else { return "correspondences     none\n".into() };
-    let name = |index: u32| &report.examples[index as usize].name;
     let pairs: Vec<String> = found.pairs_s.iter().map(|[sp, mb]| format!("{sp:.3}/{mb:.3}")).collect();
-    format!("correspondences, s  {} / {}: {}\n", name(found.semi_procedural), name(found.blending), pairs.join("  "))
+    format!("correspondences, s  {} / {}: {}\n", found.semi_procedural, found.blending, pairs.join("  "))
 }
 
 fn corners(polygon: &[Vec2]) -> String {

@@ -26,7 +26,9 @@ pub(crate) struct Timings {
     synthesis_us_per_agent_step: f64,
     coupling_us_per_agent_step: f64,
     /// Simulated time over the time that all stages took, recording left out.
-    pub(crate) times_real_time: f64,
+    times_real_time: f64,
+    /// Agents that one core carries in real time at this dt, counting every thread as busy throughout.
+    agents_per_core_in_real_time: f64,
 }
 
 impl Timings {
@@ -34,13 +36,14 @@ impl Timings {
     pub(crate) fn text(&self) -> String {
         format!(
             "time per agent and step  planning {:.2} µs, synthesis {:.2} µs, coupling {:.2} µs\n\
-             speed                    {:.1} × real time, {} thread{}\n",
+             speed                    {:.1} × real time with {} thread{}; one core carries {:.0} agents in real time\n",
             self.planning_us_per_agent_step,
             self.synthesis_us_per_agent_step,
             self.coupling_us_per_agent_step,
             self.times_real_time,
             self.threads,
             if self.threads == 1 { "" } else { "s" },
+            self.agents_per_core_in_real_time,
         )
     }
 }
@@ -114,14 +117,17 @@ impl Stopwatch {
         let agent_steps = (agents * steps).max(1) as f64;
         let microseconds = |spent: Duration| spent.as_secs_f64() * 1e6 / agent_steps;
         let total = self.planning + self.synthesis + self.coupling;
+        let threads = rayon::current_num_threads();
+        let times_real_time = steps as f64 * f64::from(dt_s) / total.as_secs_f64().max(1e-9);
         Timings {
             agents,
             steps,
-            threads: rayon::current_num_threads(),
+            threads,
             planning_us_per_agent_step: microseconds(self.planning),
             synthesis_us_per_agent_step: microseconds(self.synthesis),
             coupling_us_per_agent_step: microseconds(self.coupling),
-            times_real_time: steps as f64 * f64::from(dt_s) / total.as_secs_f64().max(1e-9),
+            times_real_time,
+            agents_per_core_in_real_time: times_real_time * agents as f64 / threads as f64,
         }
     }
 }
