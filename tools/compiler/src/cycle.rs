@@ -193,7 +193,30 @@ fn lower_to_ground(cycle: &mut GaitCycle, body: &HumanBody) {
 
 #[cfg(test)]
 mod tests {
+    use motiondb::skeleton::Joint;
+
     use super::*;
+    use crate::synthetic::{self, Walk, cycle_of};
+
+    #[test]
+    fn a_clip_that_drifts_still_gives_a_cycle_without_a_seam() {
+        let mut clip = synthetic::walk("walk", Walk { duration_s: 1.9, ..Walk::default() });
+        for (frame, pose) in clip.frames.iter_mut().enumerate() {
+            pose.rotations[Joint::SpineLower.index()] = DQuat::from_rotation_y(0.003 * frame as f64);
+            pose.pelvis_m.z -= 0.0002 * frame as f64;
+        }
+        let cycle = cycle_of(&clip);
+        let step = |row: usize| {
+            let (here, next) = (&cycle.rows[row], &cycle.rows[(row + 1) % PHASE_COUNT]);
+            let turns = here.rotations.iter().zip(&next.rotations).map(|(a, b)| a.angle_between(*b));
+            turns.fold(here.pelvis_m.distance(next.pelvis_m), f64::max)
+        };
+        let largest = (0..PHASE_COUNT).map(step).fold(0.0, f64::max);
+        let spine = |row: usize| cycle.rows[row % PHASE_COUNT].rotations[Joint::SpineLower.index()];
+        let spine_step = |row: usize| spine(row).angle_between(spine(row + 1));
+        assert!(largest < 0.2, "{largest}");
+        assert!((0..PHASE_COUNT).all(|row| spine_step(row) < 0.004), "the drift is left in one place");
+    }
 
     #[test]
     fn windows_a_cycle_apart_add_up_to_one() {

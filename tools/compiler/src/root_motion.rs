@@ -148,3 +148,47 @@ fn catmull_rom(t: f64) -> [f64; 4] {
     let (t2, t3) = (t * t, t * t * t);
     [0.5 * (-t + 2.0 * t2 - t3), 0.5 * (2.0 - 5.0 * t2 + 3.0 * t3), 0.5 * (t + 4.0 * t2 - 3.0 * t3), 0.5 * (t3 - t2)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arc::{Arc, Rates};
+    use crate::synthetic::{self, Walk, cycle_of};
+
+    #[test]
+    fn a_clip_on_the_spot_travels_at_its_ground_speed() {
+        let rates = Rates { speed_mps: 1.1, turn_rate_rad_s: 0.0, strafe_mps: 0.1 };
+        let mut clip = synthetic::walk("walk", Walk { rates, ..Walk::default() });
+        let arc = Arc { facing_rad: 0.4, rates, ..Arc::default() };
+        for (frame, pose) in clip.frames.iter_mut().enumerate() {
+            pose.pelvis_m -= arc.at(frame as f64 / clip.frame_rate_hz).0.extend(0.0);
+        }
+        clip.in_place_mps = Some(glam::DVec2::new(1.1, 0.1));
+        let found = cycle_of(&clip).rates;
+        assert!((found.speed_mps - 1.1).abs() < 0.02 && (found.strafe_mps - 0.1).abs() < 0.02, "{found:?}");
+    }
+
+    #[test]
+    fn feet_stand_at_zero_wherever_the_clip_had_its_floor() {
+        let mut clip = synthetic::walk("walk", Walk::default());
+        clip.frames.iter_mut().for_each(|pose| pose.pelvis_m.z += 0.4);
+        let grounded = ground(&clip, &clip.body);
+        let lowest = |pose: &HumanPose| lowest_sole_m(&pose.forward_kinematics(&clip.body), &clip.body);
+        assert!(grounded.poses.iter().all(|pose| lowest(pose).abs() < 0.005));
+    }
+
+    #[test]
+    fn another_body_puts_its_ankles_at_the_scaled_places() {
+        let clip = synthetic::walk("walk", Walk::default());
+        let mut body = synthetic::body(0.9);
+        body.offsets_m[Joint::LeftThigh.index()].y += 0.03;
+        body.offsets_m[Joint::RightThigh.index()].y -= 0.03;
+        for (pose, source) in ground(&clip, &body).poses.iter().zip(&clip.frames) {
+            let (placed, wanted) = (pose.forward_kinematics(&body), source.forward_kinematics(&clip.body));
+            for foot in Joint::FEET.map(Joint::index) {
+                let off_m = placed.positions_m[foot] - wanted.positions_m[foot] * 0.9;
+                assert!(off_m.length() < 0.01, "{off_m}");
+            }
+        }
+    }
+}

@@ -103,6 +103,36 @@ fn limits_rad<'a>(cycles: impl Iterator<Item = &'a GaitCycle>) -> [[Vec3; 2]; JO
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::synthetic::{self, Walk, cycle_of};
+
+    #[test]
+    fn one_performer_keeps_his_bones() {
+        let clips = [synthetic::walk("a", Walk::default()), synthetic::idle("b", 1.0)];
+        let body = choose(&clips);
+        assert_eq!(body, clips[0].body);
+    }
+
+    #[test]
+    fn giants_and_toys_have_no_say() {
+        let sizes = [1.0, 1.1, 0.9, 3.0, 0.3];
+        let clips = sizes.map(|size| synthetic::walk("walk", Walk { size, duration_s: 0.1, ..Walk::default() }));
+        assert!((leg_length_m(&choose(&clips)) - 0.84).abs() < 1e-9);
+        assert!((leg_length_m(&choose(&clips[3..4])) - 2.52).abs() < 1e-9);
+    }
+
+    #[test]
+    fn limits_hold_every_row_and_the_standing_height_is_that_of_the_legs() {
+        let clip = synthetic::walk("walk", Walk::default());
+        let cycle = cycle_of(&clip);
+        let skeleton = skeleton(&clip.body, std::iter::once(&cycle));
+        assert!((skeleton.offsets_m[0].z - 0.93).abs() < 1e-6);
+        for row in &cycle.rows {
+            for (rotation, [least, greatest]) in row.rotations.iter().zip(skeleton.limits_rad) {
+                let vector = (if rotation.w < 0.0 { -*rotation } else { *rotation }).to_scaled_axis().as_vec3();
+                assert!(vector.cmpge(least).all() && vector.cmple(greatest).all());
+            }
+        }
+    }
 
     #[test]
     fn published_limits_are_mirror_images() {
