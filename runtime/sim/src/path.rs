@@ -9,10 +9,11 @@ use crate::scenario::AgentSpec;
 
 /// A waypoint is passed within this distance: the arrival radius of the definitions, and about the turning circle of a walk.
 const WAYPOINT_RADIUS_M: f32 = 0.5;
-/// The last goal is reached within this distance: less than half a step …
-const GOAL_RADIUS_M: f32 = 0.1;
-/// … and sought again only when an agent is pushed away further than this, so that nobody shuffles about.
-const GOAL_LEFT_RADIUS_M: f32 = 0.4;
+/// The last goal is reached within this distance, half a step …
+const GOAL_RADIUS_M: f32 = 0.2;
+/// … and sought again only when an agent is pushed away further than this: with 0.4 m the bodies of slow databases, whose least step is
+/// long, shuffled about their goals for ever.
+const GOAL_LEFT_RADIUS_M: f32 = 0.6;
 /// Even braking before the goal, a third of what a person can do at most, m/s².
 const BRAKING_MPS2: f32 = 1.0;
 /// Over the last stretch the speed falls with the distance: this much time is left, s.

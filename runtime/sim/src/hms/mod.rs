@@ -2,7 +2,7 @@
 //!
 //! One step of a body, in this order:
 //!
-//! 1. [`asked`], [`gait`]: the plan as (v_f, ω_t, ω_s), what of it the body can do, standing or stepping, and how far it gets in one step;
+//! 1. [`owed`], [`asked`], [`gait`]: the plan as (v_f, ω_t, ω_s), what of it the body can do, standing or stepping, and how far it gets in one step;
 //! 2. [`blending`]: the shares of the examples follow; phase and root move, the root exactly along its arc;
 //! 3. the pose is sampled at the new phase;
 //! 4. [`feet`]: planted feet are held;
@@ -16,6 +16,7 @@ pub mod blending;
 pub mod feet;
 pub mod gait;
 pub mod ik;
+pub mod owed;
 pub mod params;
 pub mod space;
 
@@ -29,6 +30,7 @@ use self::blending::{Mix, Weights};
 use self::feet::{FootHold, PLANTED_CONTACT, PosedFoot};
 use self::gait::Gait;
 use self::ik::FootTarget;
+use self::owed::Owed;
 use self::params::HmsParams;
 use self::space::Space;
 use crate::angle::wrap_rad;
@@ -73,6 +75,9 @@ pub struct Body {
     /// Examples in play.
     pub mix: Mix,
     gait: Gait,
+    owed: Owed,
+    /// Velocity of the last step, world, m/s.
+    walked_mps: Vec2,
     feet: [FootHold; 2],
     pelvis_drop_m: f32,
 }
@@ -94,7 +99,16 @@ impl Body {
     /// A body that stands at `root`, its cycle at `phase`.
     pub fn standing(motion: &Motion, root: Root, phase: f32) -> (Self, Synthesis) {
         let mix = Mix::new(&motion.space.standing());
-        let mut body = Self { root, phase, mix, gait: Gait::STANDING, feet: Default::default(), pelvis_drop_m: 0.0 };
+        let mut body = Self {
+            root,
+            phase,
+            mix,
+            gait: Gait::STANDING,
+            owed: Owed::default(),
+            walked_mps: Vec2::ZERO,
+            feet: Default::default(),
+            pelvis_drop_m: 0.0,
+        };
         let weights = mix.weights(motion.db, phase);
         let joints = weights.pose(motion.db, phase).forward_kinematics(&motion.db.skeleton);
         body.feet = [0, 1].map(|side| FootHold::new(&body.posed_foot(&joints, &motion.db.skeleton, side)));
@@ -104,7 +118,8 @@ impl Body {
 
     /// Steps 1 and 2: shares, phase and root follow the plan. The root may then be kept out of walls, before [`Self::synthesize`].
     pub fn advance(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
-        let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
+        let plan = self.owed.settle(plan, self.walked_mps, dt_s);
+        let asked = asked::asked(&plan, self.root.facing_rad, motion.space, motion.params);
         let now = self.mix.parameters(motion.db);
         let nearest = motion.space.nearest(asked);
         self.gait.follow(nearest.idle_share, self.feet_gathered(motion), dt_s);
@@ -112,8 +127,8 @@ impl Body {
         let shares = asked::step_towards(now, goal, motion.space, motion.params, dt_s);
         self.mix.approach(&shares, dt_s / motion.params.share_change_s);
         let moved = moved(&self.root, &self.mix.parameters(motion.db), dt_s);
-        let hurry = self.hurry((moved.position_m - self.root.position_m) / dt_s);
-        self.phase = self.mix.advance_phase(motion.db, self.phase, hurry * dt_s);
+        self.walked_mps = (moved.position_m - self.root.position_m) / dt_s;
+        self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * dt_s);
         self.root = moved;
     }
 
@@ -129,11 +144,11 @@ impl Body {
 
     /// Factor on the phase rate. A body that speeds up within a step has its foot further back than the faster examples have it at this
     /// phase: the phase catches up, and the foot meets the pose again before the leg must stretch; likewise when it slows down.
-    fn hurry(&self, velocity_mps: Vec2) -> f32 {
-        let speed_squared = velocity_mps.length_squared().max(HURRY_SPEED_MIN_MPS * HURRY_SPEED_MIN_MPS);
+    fn hurry(&self) -> f32 {
+        let speed_squared = self.walked_mps.length_squared().max(HURRY_SPEED_MIN_MPS * HURRY_SPEED_MIN_MPS);
         let planted = self.feet.iter().filter_map(FootHold::planted_shift_m);
         let (sum_m, count) = planted.fold((Vec2::ZERO, 0.0), |(sum_m, count), shift_m| (sum_m + shift_m, count + 1.0));
-        let behind_s = -sum_m.dot(velocity_mps) / (speed_squared * f32::max(count, 1.0));
+        let behind_s = -sum_m.dot(self.walked_mps) / (speed_squared * f32::max(count, 1.0));
         1.0 + (behind_s / CATCH_UP_TIME_S).clamp(-HURRY_MAX, HURRY_MAX)
     }
 
