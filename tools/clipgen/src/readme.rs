@@ -7,8 +7,10 @@ use crate::catalogue::Clip;
 const HEAD: &str = "\
 # The bundled clips
 
-Made by `tools/clipgen` (`fbcrowd clips --out assets/clips`) from published gait science; no motion capture went into them. Do not edit:
-a test compares every byte of this folder with what the generator writes. Licence: MIT or Apache-2.0, as the code; also CC0 1.0.
+Made by `tools/clipgen` (`fbcrowd clips --out assets/clips`) from published gait science. No motion capture is in them; where nothing is
+published to the degree (when arms and trunk swing, how far a slow side-step lifts a foot), the generator's constants were set by the eye
+beside public captures (CMU, Bandai Namco, SmartBody). Do not edit: a test compares every byte of this folder with what the generator
+writes. Licence: MIT, as the code.
 
 BVH, centimetres, Y up, Z forward, X to the body's left, 30 frames a second, a body of 1.75 m (proportions: Drillis and Contini 1966, in
 Winter, *Biomechanics and Motor Control of Human Movement*). Every clip is a whole number of strides of a steady gait (3 to 6; a stride
