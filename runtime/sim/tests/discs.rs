@@ -114,6 +114,22 @@ fn symmetric_encounters_resolve() {
 }
 
 #[test]
+fn who_stands_with_its_back_to_the_goal_turns_and_arrives() {
+    let (params, walls) = (McnParams::default(), Obstacles::default());
+    let forward_only = VelocityHull {
+        turning_mps: vec![Vec2::ZERO, Vec2::new(1.6, 0.0)],
+        holding_mps: vec![Vec2::ZERO, Vec2::new(1.6, 0.0)],
+        sharp_turn_edges_mps: Vec::new(),
+    };
+    for hull in [hull(), forward_only] {
+        let mut crowd = Crowd::new(&[(Vec2::ZERO, Vec2::new(6.0, 0.0))], None).turned_about();
+        let figures = crowd.run(&Planner::Mcn(&params, &hull, &walls), BODY, DT_S, 20.0);
+        report("turning about", &figures);
+        assert_eq!((figures.arrived, figures.stalled), (1, 0));
+    }
+}
+
+#[test]
 fn opposing_walkers_pass_on_the_right() {
     let figures = simulate(&antipodal(2, 4.0), &Place::default(), 60.0);
     let lowest_m = figures.trails_m.iter().map(|step| step[1].y).fold(0.0, f32::max);

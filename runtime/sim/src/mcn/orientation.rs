@@ -6,7 +6,7 @@
 //! To face v_pref while walking elsewhere is to side-step, so the first line also asks that the holding set, at that facing, holds v_i: a
 //! body that the database cannot move that way turns. `definitions.md` adds its mirror image, stepping back: v_pref·v_i < 0, a shorter
 //! while. Both whiles are contiguous, and start anew only after a rest at aligned facing: without it the facing would flicker.
-//! Where v_pref or v_i is 0, the facing is kept.
+//! Where v_pref or v_i is 0, the facing is kept; but who stands and would walk elsewhere than ahead turns there.
 
 use glam::Vec2;
 
@@ -56,8 +56,8 @@ pub struct Orientation {
 pub fn decide(walk: &Walk, holds: impl FnOnce(Vec2) -> bool, dt_s: f32, params: &McnParams) -> Orientation {
     let Some(wanted) = direction(walk.preferred_mps) else { return rest(walk, walk.forward, dt_s, params) };
     let Some(walked) = direction(walk.velocity_mps) else {
-        // With v_pref behind it, a body would stand so for ever where the database has no tight turn: it turns on the spot.
-        let turned_away = wanted.dot(walk.forward) < 0.0;
+        // With v_pref aside or behind, a body would stand so for ever where the database has no tight turn: it turns on the spot.
+        let turned_away = wanted.dot(walk.forward) < HELD_COS;
         return rest(walk, if turned_away { wanted } else { walk.forward }, dt_s, params);
     };
     let aligned = wanted.dot(walked) >= ALIGNED_COS;
@@ -174,13 +174,16 @@ mod tests {
 
     #[test]
     fn keeps_the_facing_where_nothing_is_wanted_or_walked() {
-        let still = Walk { forward: Vec2::Y, ..walk(Vec2::ZERO) };
-        assert_eq!(decided(&still, true).facing, Vec2::Y);
-        assert_eq!(decided(&Walk { preferred_mps: Vec2::ZERO, velocity_mps: Vec2::X, ..still }, true).facing, Vec2::Y);
+        let forward = Vec2::new(0.96, 0.28);
+        assert_eq!(decided(&Walk { forward, ..walk(Vec2::ZERO) }, true).facing, forward);
+        let unwanted = Walk { forward, preferred_mps: Vec2::ZERO, ..walk(Vec2::X) };
+        assert_eq!(decided(&unwanted, true).facing, forward);
     }
 
     #[test]
-    fn turns_on_the_spot_when_it_stands_with_its_back_to_v_pref() {
-        assert_eq!(decided(&Walk { forward: -Vec2::X, ..walk(Vec2::ZERO) }, true).facing, Vec2::X);
+    fn turns_on_the_spot_when_it_stands_and_v_pref_lies_aside_or_behind() {
+        for forward in [Vec2::Y, -Vec2::X] {
+            assert_eq!(decided(&Walk { forward, ..walk(Vec2::ZERO) }, true).facing, Vec2::X);
+        }
     }
 }

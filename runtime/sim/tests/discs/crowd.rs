@@ -98,6 +98,12 @@ impl Crowd {
         }
     }
 
+    /// All turn their backs to their goals.
+    pub(crate) fn turned_about(mut self) -> Self {
+        self.facings_rad.iter_mut().for_each(|facing_rad| *facing_rad += std::f32::consts::PI);
+        self
+    }
+
     /// Runs until all have arrived, or the time is over.
     pub(crate) fn run(&mut self, planner: &Planner, body: Body, dt_s: f32, duration_s: f32) -> Figures {
         let mut figures = Figures::default();
