@@ -43,12 +43,12 @@ fn clips(file: &Path, bytes: &[u8]) -> Result<Vec<SourceClip>, Flaw> {
     let mut node_frames = 0.0;
     let mut clips = Vec::new();
     for (animation, name) in animations.iter().zip(names) {
-        let (start_s, frames) = span(animation, nodes.len(), &name)?;
-        node_frames += (frames * nodes.len()) as f64;
+        let span = span(animation, nodes.len(), &name)?;
+        node_frames += (span.frames * nodes.len()) as f64;
         if node_frames > MAX_FILE_NODE_FRAMES {
             return flaw(&name, "the file's animations are too long together", "split the file");
         }
-        clips.push(sampled(&tree, &nodes, animation, start_s, frames, &file_name, name));
+        clips.push(sampled(&tree, &nodes, animation, &span, &file_name, name));
     }
     if clips.is_empty() {
         return flaw("document", "it holds no animation", "export it with its animations");
@@ -72,15 +72,14 @@ fn clip_names(animations: &[Animation]) -> Vec<String> {
     animations.iter().enumerate().map(name).collect()
 }
 
-/// First key and number of frames.
-fn span(animation: &Animation, nodes: usize, name: &str) -> Result<(f64, usize), Flaw> {
+fn span(animation: &Animation, nodes: usize, name: &str) -> Result<Span, Flaw> {
     let start_s = animation.tracks.iter().map(|track| track.times_s[0]).fold(f64::INFINITY, f64::min);
     let end_s = animation.tracks.iter().map(|track| track.times_s[track.times_s.len() - 1]).fold(0.0, f64::max);
     let frames = if start_s <= end_s { ((end_s - start_s) * FRAME_RATE_HZ).round() + 1.0 } else { 0.0 };
     if frames * nodes as f64 > MAX_NODE_FRAMES {
         return flaw(name, "the animation lasts too long", "repair its key times");
     }
-    Ok((start_s, frames as usize))
+    Ok(Span { start_s, frames: frames as usize })
 }
 
 /// The nodes in an order in which parents stand before their children.
@@ -115,31 +114,21 @@ impl Tree {
     }
 }
 
-fn sampled(
-    tree: &Tree,
-    nodes: &[Node],
-    animation: &Animation,
+/// When an animation begins (its first key) and how many frames it lasts.
+struct Span {
     start_s: f64,
     frames: usize,
-    file: &str,
-    clip: String,
-) -> SourceClip {
-    let mut positions = Vec::with_capacity(frames * nodes.len());
-    let mut orientations = Vec::with_capacity(frames * nodes.len());
+}
+
+fn sampled(tree: &Tree, nodes: &[Node], animation: &Animation, span: &Span, file: &str, clip: String) -> SourceClip {
     let mut locals: Vec<Transform> = nodes.iter().map(|node| node.rest).collect();
-    let mut globals = vec![DMat4::IDENTITY; nodes.len()];
-    for frame in 0..frames {
-        let time_s = start_s + frame as f64 / FRAME_RATE_HZ;
+    let mut globals = Vec::with_capacity(span.frames * nodes.len());
+    for frame in 0..span.frames {
+        let time_s = span.start_s + frame as f64 / FRAME_RATE_HZ;
         for track in &animation.tracks {
             apply(track, time_s, &mut locals[track.node]);
         }
-        for (place, &node) in tree.order.iter().enumerate() {
-            let Transform { translation, rotation, scale } = locals[node];
-            let local = DMat4::from_scale_rotation_translation(scale, rotation, translation);
-            globals[place] = tree.parents[place].map_or(local, |parent| globals[parent] * local);
-            positions.push(globals[place].w_axis.truncate());
-            orientations.push(orientation(DMat3::from_mat4(globals[place])));
-        }
+        push_globals(tree, &locals, &mut globals);
     }
     let joint = |(place, &node): (usize, &usize)| SourceJoint {
         name: nodes[node].name.clone(),
@@ -151,10 +140,20 @@ fn sampled(
         clip,
         joints: tree.order.iter().enumerate().map(joint).collect(),
         frame_rate_hz: FRAME_RATE_HZ,
-        positions,
-        orientations,
+        positions: globals.iter().map(|global| global.w_axis.truncate()).collect(),
+        orientations: globals.iter().map(|global| orientation(DMat3::from_mat4(*global))).collect(),
         metres_per_unit: Some(1.0),
         warnings: Vec::new(),
+    }
+}
+
+/// Appends one frame's global matrices, in the tree's order.
+fn push_globals(tree: &Tree, locals: &[Transform], globals: &mut Vec<DMat4>) {
+    let start = globals.len();
+    for (&node, &parent) in tree.order.iter().zip(&tree.parents) {
+        let Transform { translation, rotation, scale } = locals[node];
+        let local = DMat4::from_scale_rotation_translation(scale, rotation, translation);
+        globals.push(parent.map_or(local, |parent| globals[start + parent] * local));
     }
 }
 

@@ -1,9 +1,9 @@
 //! Source clip → [`HumanClip`]: the canonical humanoid posed so that its joints are where the source's are.
 //!
 //! The body's bones are the source's mean bones in the calibrated joint frames (`calibration`). In each frame every joint with one child is
-//! then turned, by the shortest arc, until its bone points exactly at that child: twist bones between roles, bones of the trunk
-//! that the source splits otherwise and joints with position channels all end up where the source puts them. At last the body is moved
-//! down or up so that its soles stand on z = 0.
+//! then turned, by the shortest arc, until its bone points exactly at that child: twist bones between roles, bones of the trunk that the
+//! source splits otherwise and joints with position channels all end up where the source puts them. At last the body is moved down or up
+//! so that its soles stand on z = 0.
 
 use glam::{DQuat, DVec3};
 use motiondb::motion_db::SourceRecord;

@@ -107,7 +107,7 @@ fn check_upright(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> Result<(), 
         legs_up.normalize_or_zero().dot(trunk.normalize_or_zero())
     });
     if cosine < UPRIGHT_COSINE {
-        let degrees = cosine.clamp(-1.0, 1.0).acos().to_degrees();
+        let degrees = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
         let reason =
             format!("the trunk lies {degrees:.0}° off the legs' direction, as a quadruped's or a crawling body's");
         return Err(Refusal::NotUpright { reason });
