@@ -11,15 +11,26 @@ use crate::root_motion::{GroundedClip, align_hemispheres};
 
 /// Every joint of the last pose this near to the first's, relative to the root: a loop (`definitions.md`, "Example").
 const LOOP_GAP_M: f64 = 0.04;
+/// The repeated frame is left out where the pose that would follow is this much nearer to the first than the last one is.
+const LEFT_OUT_RATIO: f64 = 0.5;
 /// Copies of a loop: one before and one after the one that is analysed.
 const ROUNDS: usize = 3;
 /// Shorter clips are poses, not loops.
 const ROUND_MIN_S: f64 = 0.3;
 
-/// The clip three times round where it is a loop, else unchanged.
-pub fn unroll(clip: GroundedClip, body: &HumanBody) -> GroundedClip {
-    let round = clip.poses.len().saturating_sub(1);
-    if (round as f64) < ROUND_MIN_S * clip.frame_rate_hz || loop_gap_m(&clip, body) > LOOP_GAP_M {
+/// The clip three times round where it is a loop, else unchanged. Some loops end one frame before they would repeat their first pose.
+pub fn unroll(mut clip: GroundedClip, body: &HumanBody) -> GroundedClip {
+    let [first, .., before, last] = clip.poses.as_slice() else { return clip };
+    let next = next_pose(before, last);
+    let (last_gap_m, next_gap_m) = (loop_gap_m(first, last, body), loop_gap_m(first, &next, body));
+    if last_gap_m.min(next_gap_m) > LOOP_GAP_M {
+        return clip;
+    }
+    if next_gap_m < LEFT_OUT_RATIO * last_gap_m {
+        clip.poses.push(next);
+    }
+    let round = clip.poses.len() - 1;
+    if (round as f64) < ROUND_MIN_S * clip.frame_rate_hz {
         return clip;
     }
     let seam = Seam::between(&clip.poses[0], &clip.poses[round], body);
@@ -34,16 +45,22 @@ pub fn unroll(clip: GroundedClip, body: &HumanBody) -> GroundedClip {
     GroundedClip { poses, loop_frames: Some(round), ..clip }
 }
 
-/// The greatest distance between a joint's places in the first and the last pose, each relative to its root.
-fn loop_gap_m(clip: &GroundedClip, body: &HumanBody) -> f64 {
+/// The pose that would follow if all went on as it did.
+fn next_pose(before: &HumanPose, last: &HumanPose) -> HumanPose {
+    let rotations =
+        std::array::from_fn(|joint| last.rotations[joint] * before.rotations[joint].inverse() * last.rotations[joint]);
+    HumanPose { pelvis_m: 2.0 * last.pelvis_m - before.pelvis_m, rotations }
+}
+
+/// The greatest distance between a joint's places in two poses, each relative to its root.
+fn loop_gap_m(first: &HumanPose, last: &HumanPose, body: &HumanBody) -> f64 {
     let local = |pose: &HumanPose| {
         let joints = pose.forward_kinematics(body);
         let turn = DQuat::from_rotation_z(-joints.facing_rad());
         let ground = joints.hips_m().with_z(0.0);
         joints.positions_m.map(|position| turn * (position - ground))
     };
-    let (first, last) = (local(&clip.poses[0]), local(&clip.poses[clip.poses.len() - 1]));
-    first.iter().zip(&last).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+    local(first).iter().zip(&local(last)).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
 }
 
 /// How one round of a loop moves the body, and what it leaves open.
@@ -130,6 +147,13 @@ mod tests {
         };
         let largest = (0..65).map(step).fold(0.0, f64::max);
         assert!(step(65) <= largest && step(131) <= largest, "{} {} {largest}", step(65), step(131));
+    }
+
+    #[test]
+    fn a_loop_may_leave_out_its_repeated_frame() {
+        let mut clip = synthetic::walk("loop", whole(2.0));
+        clip.frames.pop();
+        assert_eq!(unroll(ground(&clip, &clip.body), &clip.body).loop_frames, Some(132));
     }
 
     #[test]
