@@ -1,0 +1,135 @@
+//! Claims about synthesised bodies on compiled clips: the bundled ones, and real motion capture where it is at hand.
+
+use std::f32::consts::FRAC_PI_2;
+use std::path::{Path, PathBuf};
+
+use fbcrowd_sim::hms::params::HmsParams;
+use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::{Body, Motion, Synthesis};
+use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::planted_slide::{PlantedSlide, Slide};
+use fbcrowd_sim::recording_frame::AgentFrame;
+use glam::Vec2;
+use motiondb::motion_db::MotionDb;
+use motiondb::pose::Root;
+use motiondb_compiler::compile::{CompileOptions, compile_files};
+
+const DT_S: f32 = 1.0 / 30.0;
+const SECONDS: f32 = 16.0;
+/// The recordings that make the paper's 19 examples (`motion.md` §1).
+const MARINE: [&str; 12] = [
+    "Idle01",
+    "Meander01",
+    "Walk01",
+    "Jog01",
+    "Run01",
+    "WalkCircleRt01",
+    "WalkTightCircleRt01",
+    "RunCircleRt01",
+    "RunTightCircleRt01",
+    "Turn360Rt01",
+    "StrafeSlowRt01",
+    "StrafeFastRt01",
+];
+
+fn bundled() -> MotionDb {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/clips");
+    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    compiled(files.filter(|file| file.extension().is_some_and(|extension| extension == "bvh")).collect())
+}
+
+fn marine(test: &str) -> Option<MotionDb> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/mocap/smartbody_converted");
+    if !folder.is_dir() {
+        println!("SKIPPED {test}: no recordings at {}", folder.display());
+        return None;
+    }
+    Some(compiled(MARINE.iter().map(|clip| folder.join(format!("ChrMarine_{clip}.bvh"))).collect()))
+}
+
+fn compiled(files: Vec<PathBuf>) -> MotionDb {
+    compile_files(&files, &CompileOptions::default(), &|_| {}).unwrap().db
+}
+
+/// Starts, turns both ways, a side-step, a step back, and a stop: every change of speed and direction.
+fn errand(time_s: f32, root: &Root) -> Plan {
+    let towards = |angle_rad: f32, speed_mps: f32| Plan {
+        velocity_mps: Vec2::from_angle(angle_rad) * speed_mps,
+        facing_rad: angle_rad,
+        ..Plan::default()
+    };
+    let held = |velocity_mps| Plan { velocity_mps, facing_rad: root.facing_rad, ..Plan::default() };
+    match time_s {
+        t if t < 0.5 => held(Vec2::ZERO),
+        t if t < 3.0 => towards(0.0, 1.3),
+        t if t < 5.0 => towards(FRAC_PI_2, 1.3),
+        t if t < 7.0 => towards(-2.0, 0.8),
+        t if t < 8.5 => held(root.forward().perp() * 0.45),
+        t if t < 10.0 => held(root.forward() * -0.5),
+        t if t < 12.0 => towards(0.0, 1.5),
+        _ => held(Vec2::ZERO),
+    }
+}
+
+/// One body at each of eight phases goes on the errand; `see` is shown every step.
+fn go(db: &MotionDb, mut see: impl FnMut(&Root, &Synthesis)) -> Slide {
+    let (space, params) = (Space::new(db), HmsParams::default());
+    let motion = Motion { db, space: &space, params: &params };
+    let start = |index: usize| Body::standing(&motion, Root::default(), index as f32 / 8.0);
+    let mut bodies: Vec<Body> = (0..8).map(|index| start(index).0).collect();
+    let mut slide = PlantedSlide::new(&db.skeleton, bodies.len(), DT_S);
+    for step in 0..(SECONDS / DT_S) as usize {
+        let frames = bodies.iter_mut().map(|body| {
+            body.advance(&motion, &errand(step as f32 * DT_S, &body.root), DT_S);
+            let synthesis = body.synthesize(&motion, DT_S);
+            see(&body.root, &synthesis);
+            AgentFrame {
+                root: body.root,
+                contacts: synthesis.contacts,
+                examples_slide_cm_s: synthesis.examples_slide_cm_s,
+                pose: synthesis.pose,
+                ..AgentFrame::default()
+            }
+        });
+        slide.push(&frames.collect::<Vec<_>>());
+    }
+    slide.finish()
+}
+
+#[test]
+fn feet_of_the_bundled_clips_hold_through_every_change_of_speed_and_direction() {
+    let slide = go(&bundled(), |_, _| {});
+    assert!(slide.slide_cm_s.unwrap() <= 1.0 && slide.planted_share > 0.5, "{slide:?}");
+}
+
+#[test]
+fn feet_of_real_clips_slide_less_than_in_the_clips() {
+    let Some(db) = marine("feet_of_real_clips_slide_less_than_in_the_clips") else { return };
+    let slide = go(&db, |_, _| {});
+    assert!(slide.slide_cm_s.unwrap() < slide.examples_slide_cm_s.unwrap(), "{slide:?}");
+}
+
+#[test]
+fn no_sole_sinks_into_the_ground_and_nobody_crouches() {
+    let databases = [Some(bundled()), marine("no_sole_sinks_into_the_ground_and_nobody_crouches")];
+    for db in databases.into_iter().flatten() {
+        let lowest_pelvis_m = db.rows.pelvis_m.iter().map(|pelvis| pelvis.z).fold(f32::INFINITY, f32::min);
+        go(&db, |_, synthesis| {
+            let joints = synthesis.pose.forward_kinematics(&db.skeleton);
+            let soles_m = [0, 1].map(|side| joints.sole_points_m(&db.skeleton, side));
+            assert!(soles_m.iter().flatten().all(|point| point.z > -0.005), "{soles_m:?}");
+            assert!(synthesis.pose.pelvis_m.z > lowest_pelvis_m - 0.05, "{}", synthesis.pose.pelvis_m);
+        });
+    }
+}
+
+#[test]
+fn a_body_that_has_stopped_rests() {
+    let databases = [Some(bundled()), marine("a_body_that_has_stopped_rests")];
+    for db in databases.into_iter().flatten() {
+        let mut roots = Vec::new();
+        go(&db, |root, _| roots.push(*root));
+        let (before, last) = (&roots[roots.len() - 16..roots.len() - 8], &roots[roots.len() - 8..]);
+        assert_eq!(before, last);
+    }
+}
