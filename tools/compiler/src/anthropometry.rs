@@ -1,7 +1,7 @@
 //! Published figures of the human body: how thick its segments are and how far its joints turn.
 //!
-//! Girths: ANSUR II (Gordon et al. 2014), medians of men, circumference over 2π, over the stature of 1.755 m; a segment's capsule takes the
-//! mean of the girths at its ends. Ranges: American Academy of Orthopaedic Surgeons, *Joint Motion* (1965), per anatomical axis; where a
+//! Girths: ANSUR II (Gordon et al. 2014), medians of men in round figures, over the stature of 1.755 m. Limbs: circumference over 2π, mean of
+//! the segment's ends. Trunk, which is broader than deep: a quarter of breadth plus depth. Ranges: American Academy of Orthopaedic Surgeons, *Joint Motion* (1965), per anatomical axis; where a
 //! segment stands for several joints (spine, shoulder with its blade) their sum is shared. Rotation vectors in rest-pose body axes
 //! (x forward, y left, z up, arms out, palms down): +y bends the trunk forward and flexes the knee, −y flexes the hip and lifts the toes.
 
@@ -10,16 +10,16 @@ use motiondb::skeleton::JOINT_COUNT;
 /// Radius of each joint's own segment over the stature.
 #[rustfmt::skip]
 pub const SEGMENT_RADII_PER_STATURE: [f64; JOINT_COUNT] = [
-    0.088, // pelvis: buttocks 1.02 m round, waist 0.94
-    0.082, // lower spine: waist
-    0.086, // middle spine
-    0.080, // upper spine: chest 1.06 m round, narrowing to the neck
+    0.085, // pelvis: hips 0.35 m broad, 0.25 deep
+    0.079, // lower spine: waist 0.32 broad, 0.24 deep
+    0.078, // middle spine: chest 0.29 broad, 0.25 deep
+    0.070, // upper spine: chest, narrowing to where neck and clavicles take over
     0.036, // neck: 0.40 m
     0.052, // head: 0.57 m
-    0.040, 0.030, 0.025, 0.022, // left clavicle (shoulder's cap), upper arm 0.36 m, forearm 0.31 to wrist 0.18, hand 0.21
-    0.040, 0.030, 0.025, 0.022, // right
-    0.046, 0.030, 0.024, 0.021, // left thigh 0.63 m to knee 0.39, shank 0.39 to ankle 0.23, foot 0.26, toes
-    0.046, 0.030, 0.024, 0.021, // right
+    0.040, 0.030, 0.022, 0.019, // left clavicle (the shoulder's cap), upper arm 0.36 m to elbow 0.28, forearm 0.31 to wrist 0.18, hand 0.21
+    0.040, 0.030, 0.022, 0.019, // right
+    0.046, 0.028, 0.024, 0.021, // left thigh 0.62 m to knee 0.39, shank 0.39 to ankle 0.23, foot 0.26, toes
+    0.046, 0.028, 0.024, 0.021, // right
 ];
 
 const FREE: f32 = 180.0;
