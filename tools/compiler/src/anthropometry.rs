@@ -1,9 +1,11 @@
 //! Published figures of the human body: how thick its segments are and how far its joints turn.
 //!
 //! Girths: ANSUR II (Gordon et al. 2014), medians of men in round figures, over the stature of 1.755 m. Limbs: circumference over 2π, mean of
-//! the segment's ends. Trunk, which is broader than deep: a quarter of breadth plus depth. Ranges: American Academy of Orthopaedic Surgeons, *Joint Motion* (1965), per anatomical axis; where a
-//! segment stands for several joints (spine, shoulder with its blade) their sum is shared. Rotation vectors in rest-pose body axes
-//! (x forward, y left, z up, arms out, palms down): +y bends the trunk forward and flexes the knee, −y flexes the hip and lifts the toes.
+//! the segment's ends. Trunk, which is broader than deep: a quarter of breadth plus depth.
+//!
+//! Ranges: American Academy of Orthopaedic Surgeons, *Joint Motion* (1965), per anatomical axis; where a segment stands for several joints
+//! (spine, shoulder with its blade) their sum is shared. Rotation vectors in rest-pose body axes (x forward, y left, z up, arms out, palms
+//! down): +y bends the trunk forward and flexes the knee, −y flexes the hip and lifts the toes.
 
 use motiondb::skeleton::JOINT_COUNT;
 
