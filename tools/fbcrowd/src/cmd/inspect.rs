@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use fbcrowd_render::database_plots::write_database_plots;
 use motiondb::file;
+use motiondb_compiler::compile;
 
 use crate::compiling;
 use crate::failure::{Answer, Failure};
@@ -55,7 +56,7 @@ fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
         return Err(Failure::bad("--plots draws databases; compile the clips first with `fbcrowd compile`"));
     }
     let (clips, answer) = compiling::import(clips)?;
-    let report = SourcesReport { sources: clips.into_iter().map(|clip| clip.source).collect() };
+    let report = SourcesReport { sources: compile::survey(clips) };
     if args.json {
         output::print_json(&report)?;
     } else {
