@@ -2,7 +2,9 @@
 //!
 //! With α the angle from the facing to the wanted one, and (a, b) the planned velocity along and left of the *wanted* facing,
 //!
-//!     ω_t = α / T_turn,   (v_f, ω_s) = (a, b)·max(0, cos α)
+//! ```text
+//! ω_t = α / T_turn,   (v_f, ω_s) = (a, b)·max(0, cos α)
+//! ```
 //!
 //! A plan whose facing follows its velocity has b = 0 and becomes a turning clip, at the speed that brings the body where the plan wants
 //! it (going on at full speed while it faces elsewhere leads away); one that holds the facing has α = 0 and becomes a side-step or a step

@@ -3,9 +3,11 @@
 //! The asked (v_f, ω_t, ω_s) has barycentric coordinates u among the examples, and u are shares of *time*: over a stretch of it, example
 //! i plays for u_i. So
 //!
-//!     root velocity    Σ u_i·(v_f, ω_t, ω_s)_i
-//!     phase rate φ'    Σ u_i·r_i(φ)
-//!     pose weights w_i u_i·r_i(φ) / φ'
+//! ```text
+//! root velocity    Σ u_i·(v_f, ω_t, ω_s)_i
+//! phase rate φ'    Σ u_i·r_i(φ)
+//! pose weights w_i u_i·r_i(φ) / φ'
+//! ```
 //!
 //! and a planted foot, which moves back through the root frame by v_i/r_i a phase in example i, moves by Σ w_i·v_i/r_i·φ' = Σ u_i·v_i
 //! a second in the blend: with the ground. Poses are weighted sums of rows (frames: [`motiondb::pose`]), between two rows linear.
@@ -155,7 +157,7 @@ impl Weights {
                 pose.pelvis_m += weight * db.rows.pelvis_m[example as usize * PHASE_COUNT + row];
                 let rotations = db.rows.rotations(example as usize, row);
                 for (sum, rotation) in pose.rotations.iter_mut().zip(rotations) {
-                    *sum = *sum + *rotation * weight;
+                    *sum += *rotation * weight;
                 }
             }
         }

@@ -18,6 +18,10 @@ pub const PLANTED_CONTACT: f32 = 0.5;
 const RELEASE_RATE_HZ: f32 = 20.0;
 /// Rate at which a planted sole comes down to the ground and a lifted one gives up its lift, 1/s.
 const LIFT_RATE_HZ: f32 = 20.0;
+/// Toe clearance of a swinging foot (`motion.md` §5): blends with standing lower the swing, and would drag the toes …
+const CLEARANCE_M: f32 = 0.013;
+/// … in full from this speed, m/s; a foot that leaves or lands moves slowly.
+const CLEARANCE_SPEED_MPS: f32 = 1.0;
 /// Greatest shift: the leg of a step that is broken off half-way; beyond it the foot slides, metres.
 const SHIFT_MAX_M: f32 = 0.35;
 /// Greatest twist of a foot against the pose's: people twist the stance foot, and pivot on it beyond about 45° (`motion.md` §2).
@@ -59,6 +63,7 @@ pub struct FootHold {
     lift_m: f32,
     heading_rad: f32,
     sole_m: [Vec3; 3],
+    speed_mps: f32,
 }
 
 /// Where the ankle shall be, in the world, and how far the foot is twisted about the vertical.
@@ -105,7 +110,8 @@ impl FootHold {
     }
 
     /// Takes note of the foot as the leg could place it.
-    pub fn placed(&mut self, sole_m: [Vec3; 3]) {
+    pub fn placed(&mut self, sole_m: [Vec3; 3], dt_s: f32) {
+        self.speed_mps = (sole_m[1] - self.sole_m[1]).truncate().length() / dt_s;
         self.sole_m = sole_m;
     }
 
@@ -131,11 +137,12 @@ impl FootHold {
         self.twist_rad_s = decay * (self.twist_rad_s - RELEASE_RATE_HZ * dt_s * pull_rad_s);
     }
 
-    /// A planted sole settles on the ground, a lifted one on the pose's height; none goes below the ground.
+    /// A planted sole settles on the ground, a swinging one on the pose's height; none goes below the ground or drags along it.
     fn lift(&mut self, height_m: f32, planted: bool, dt_s: f32) {
         let decay = libm::expf(-LIFT_RATE_HZ * dt_s);
         let gap_m = self.sole_m.iter().fold(f32::INFINITY, |low, point| low.min(point.z));
         let wanted_m = if planted { decay * gap_m - height_m } else { decay * self.lift_m };
-        self.lift_m = wanted_m.max(-height_m);
+        let clearance_m = if planted { 0.0 } else { CLEARANCE_M * (self.speed_mps / CLEARANCE_SPEED_MPS).min(1.0) };
+        self.lift_m = wanted_m.max(clearance_m - height_m);
     }
 }

@@ -172,7 +172,7 @@ impl Body {
 
         let soles_m = [0, 1].map(|side| joints.sole_points_m(skeleton, side));
         for (hold, sole_m) in self.feet.iter_mut().zip(soles_m) {
-            hold.placed(sole_m.map(|point| self.root.to_world(point)));
+            hold.placed(sole_m.map(|point| self.root.to_world(point)), dt_s);
         }
         Synthesis {
             pose,
