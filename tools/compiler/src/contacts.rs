@@ -20,7 +20,8 @@ const PLANTED_PERCENTILE: f64 = 0.05;
 const FLOOR_WINDOW_S: f64 = 1.6;
 /// Speeds are taken over ± this time, so that noise weighs the same at 24 and at 120 frames a second: one frame at 30.
 const SPEED_SPAN_S: f64 = 1.0 / 30.0;
-/// A shorter touch is not planted, a shorter lift not a swing (those last 0.3 s and more), a shorter contact not a step (`definitions.md`), seconds.
+/// Seconds: a shorter touch is not planted, a shorter lift no swing (those last 0.3 s and more), a shorter contact no step
+/// (`definitions.md`).
 const TOUCH_MIN_S: f64 = 0.05;
 const LIFT_MIN_S: f64 = 0.1;
 const CONTACT_MIN_S: f64 = 0.08;

@@ -44,7 +44,8 @@ pub struct GaitAnalysis {
 
 /// Finds contacts, landmarks and the steady window.
 ///
-/// Contacts are those of the definition where they show steps; the feet of noisy captures are let slide and lift more, as little as it takes.
+/// Contacts are those of the definition where they show the most strides; the feet of noisy captures are let slide and lift more, as little
+/// as it takes.
 pub fn analyze(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysis {
     let joints = clip.poses.iter().map(|pose| pose.forward_kinematics(body)).collect();
     let track = BodyTrack::of(joints, clip.frame_rate_hz);
