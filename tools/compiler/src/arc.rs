@@ -2,7 +2,9 @@
 //!
 //! With heading θ(t) = θ₀ + ω_t·t the root moves at (v_f, ω_s) in its own turning frame, so that
 //!
-//!     p(t) = p₀ + R(θ₀)·J(ω_t·t)·(v_f, ω_s)·t,   J(a) = [sin a, cos a − 1; 1 − cos a, sin a] / a.
+//! ```text
+//! p(t) = p₀ + R(θ₀)·J(ω_t·t)·(v_f, ω_s)·t,   J(a) = [sin a, cos a − 1; 1 − cos a, sin a] / a.
+//! ```
 //!
 //! All that is left of the pelvis's path, its sway, surge, bob and yaw, belongs to the pose. World frame, metres, seconds, radians.
 
