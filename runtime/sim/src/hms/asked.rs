@@ -21,11 +21,6 @@ use super::space::Space;
 use crate::angle::wrap_rad;
 use crate::plan::Plan;
 
-/// A plan slower than this does not turn the body, for the direction of next to nothing is no direction …
-const TURN_SPEED_MIN_MPS: f32 = 0.1;
-/// … and one faster than this turns it at any rate.
-const TURN_SPEED_FULL_MPS: f32 = 0.2;
-
 /// What a plan asks of a body that faces `facing_rad`; anything not finite asks to stand.
 pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) -> Parameters {
     if !(plan.velocity_mps.is_finite() && plan.facing_rad.is_finite()) {
@@ -34,9 +29,7 @@ pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) ->
     let turn_rad = wrap_rad(plan.facing_rad - facing_rad);
     let velocity_mps = plan.velocity_mps.clamp_length_max(space.speed_max_mps);
     let wanted_mps = Vec2::from_angle(-plan.facing_rad).rotate(velocity_mps) * libm::cosf(turn_rad).max(0.0);
-    let going = (velocity_mps.length() - TURN_SPEED_MIN_MPS) / (TURN_SPEED_FULL_MPS - TURN_SPEED_MIN_MPS);
-    let turn_rate_max_rad_s = going.clamp(0.0, 1.0) * space.turn_rate_max_rad_s;
-    let turn_rate_rad_s = (turn_rad / params.turn_time_s).clamp(-turn_rate_max_rad_s, turn_rate_max_rad_s);
+    let turn_rate_rad_s = (turn_rad / params.turn_time_s).clamp(-space.turn_rate_max_rad_s, space.turn_rate_max_rad_s);
     Parameters { speed_mps: wanted_mps.x, turn_rate_rad_s, strafe_mps: wanted_mps.y }
 }
 

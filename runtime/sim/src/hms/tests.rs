@@ -136,6 +136,14 @@ fn the_root_accelerates_like_a_person_and_keeps_an_even_speed() {
 }
 
 #[test]
+fn a_standing_body_turns_on_the_spot_to_the_facing_that_is_asked() {
+    let walk = walk(4.0, DT_S, |_, _| Plan { facing_rad: 2.5, ..Plan::default() });
+    let root = walk.steps[walk.steps.len() - 1].0;
+    assert!((root.facing_rad - 2.5).abs() < 0.2 && root.position_m.length() < 0.5, "{root:?}");
+    assert!(planted_slide(&walk, DT_S).0 < 1.0);
+}
+
+#[test]
 fn a_body_that_stops_stands_upright_with_its_feet_under_it() {
     for stop_s in [2.0, 2.1, 2.2, 2.3, 2.4, 2.5, 2.6, 2.7] {
         let plan = |time_s: f32, _: &Root| towards(0.0, if time_s < stop_s { 1.4 } else { 0.0 });
@@ -173,7 +181,9 @@ fn a_circle_closes() {
 
 #[test]
 fn a_body_that_is_hardly_asked_to_move_stands_quietly() {
-    let walk = walk(4.0, DT_S, |time_s, _| towards(3.0 * time_s, 0.05));
+    let velocity_mps = |time_s: f32| Vec2::from_angle(3.0 * time_s) * 0.05;
+    let walk =
+        walk(4.0, DT_S, |time_s, _| Plan { velocity_mps: velocity_mps(time_s), facing_rad: 0.0, ..Plan::default() });
     assert!(walk.steps.iter().all(|(root, _)| root.position_m == Vec2::ZERO && root.facing_rad == 0.0));
 }
 

@@ -1,7 +1,9 @@
 //! The preferred facing, and whether it is held or follows the velocity (`FbCrowd` §4.5).
 //!
-//!     f_d = v_pref/‖v_pref‖   if  v_pref·v_i >= 0  and  t_strafe < t_strafeLim
-//!           v_i/‖v_i‖         otherwise
+//! ```text
+//! f_d = v_pref/‖v_pref‖   if  v_pref·v_i >= 0  and  t_strafe < t_strafeLim
+//!       v_i/‖v_i‖         otherwise
+//! ```
 //!
 //! To face v_pref while walking elsewhere is to side-step, so the first line also asks that the holding set, at that facing, holds v_i: a
 //! body that the database cannot move that way turns. `definitions.md` adds its mirror image, stepping back: v_pref·v_i < 0, a shorter
