@@ -1,7 +1,7 @@
 //! `fbcrowd run`: the main job in one line: compile, simulate, measure, render.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use fbcrowd_render::sequence::{Format, SequenceOptions};
 use fbcrowd_sim::metrics;
@@ -41,6 +41,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let measures = metrics::measure(&recording).map_err(|error| Failure::bad(error.to_string()))?;
     rendering::plot_trajectories(&recording, &folder.join("trajectories.png"))?;
     let options = SequenceOptions { folder: folder.join("frames"), name, format: Format::Png, frames: None };
+    remove_frames(&options).map_err(|error| Failure::unwritable(&options.folder, &error))?;
     let rendered = rendering::render(&recording, &options)?;
 
     output::print(&summary(&measure::text(&measures), &timings, &rendered, &folder))?;
@@ -62,6 +63,22 @@ fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Fa
     let path = folder.join("motion.fbdb");
     file::write(&path, &db)?;
     Ok((path, answer))
+}
+
+/// Frames of an earlier and longer run would follow on this one's last.
+fn remove_frames(options: &SequenceOptions) -> io::Result<()> {
+    let Ok(entries) = fs::read_dir(&options.folder) else { return Ok(()) };
+    let is_frame = |file: &str| {
+        let number = file.strip_prefix(&format!("{}.", options.name)).and_then(|rest| rest.strip_suffix(".png"));
+        number.is_some_and(|number| number.len() >= 4 && number.bytes().all(|byte| byte.is_ascii_digit()))
+    };
+    for entry in entries {
+        let entry = entry?;
+        if entry.file_name().to_str().is_some_and(is_frame) {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
 }
 
 fn summary(measures: &str, timings: &Timings, rendered: &Rendered, folder: &Path) -> String {
