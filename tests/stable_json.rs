@@ -1,0 +1,107 @@
+//! `--json` is a promise: programs read these keys, units in their names.
+
+mod support;
+
+use std::fs;
+
+use serde_json::Value;
+use support::{compile, fbcrowd, folder, repository, text};
+
+/// Fails unless an object has exactly these keys.
+#[track_caller]
+fn check_keys(value: &Value, keys: &[&str]) {
+    let mut found: Vec<&str> = value.as_object().expect("an object").keys().map(String::as_str).collect();
+    let mut wanted = keys.to_vec();
+    found.sort_unstable();
+    wanted.sort_unstable();
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn inspect_lists_examples_sources_velocity_sets_simplices_and_correspondences() {
+    let clips = ["walk_080", "walk_110", "jog_240"].map(|clip| format!("assets/clips/{clip}.bvh"));
+    let report = fbcrowd(&["inspect", text(&compile(&clips, &folder("inspect_keys"))), "--json"]).expect_code(0).json();
+    check_keys(&report, &["examples", "sources", "velocity_hull", "blend_space", "correspondence"]);
+    let of_example = [
+        "name",
+        "source",
+        "clip",
+        "mirrored",
+        "speed_mps",
+        "turn_rate_rad_s",
+        "strafe_mps",
+        "duration_s",
+        "key_times_s",
+        "planted_slide_cm_s",
+        "planted_share",
+    ];
+    check_keys(&report["examples"][0], &of_example);
+    assert_eq!(report["examples"][0]["source"], "jog_240.bvh");
+    let of_source = [
+        "file",
+        "clip",
+        "speed_mps",
+        "turn_rate_rad_s",
+        "strafe_mps",
+        "up_axis",
+        "metres_per_unit",
+        "frame_rate_hz",
+        "warnings",
+    ];
+    check_keys(&report["sources"][0], &of_source);
+    check_keys(&report["velocity_hull"], &["turning_mps", "holding_mps", "sharp_turn_edges_mps"]);
+    check_keys(&report["blend_space"], &["dimension", "simplices", "covered_share"]);
+    check_keys(&report["correspondence"], &["semi_procedural", "blending", "pairs_s"]);
+    assert_eq!(report["correspondence"]["semi_procedural"], "walk_110");
+    assert_eq!(report["correspondence"]["blending"], "walk_080");
+    assert_eq!(report["velocity_hull"]["turning_mps"][0].as_array().map(Vec::len), Some(2));
+}
+
+#[test]
+fn measure_and_the_timing_report_keep_their_keys() {
+    let folder = folder("measure_keys");
+    let database = compile(&["assets/clips/walk_110.bvh".to_owned()], &folder);
+    let scene = folder.join("scene.toml");
+    let clips = repository().join("assets/clips");
+    let content = "duration_s = 1\nagents = { at_m = [0, 0], goals_m = [[5, 0]] }\n";
+    fs::write(&scene, format!("clips = \"{}\"\n{content}", text(&clips))).unwrap();
+    let (recording, report) = (folder.join("scene.fbrec"), folder.join("report.json"));
+    let arguments =
+        ["simulate", text(&scene), "--db", text(&database), "-o", text(&recording), "--report", text(&report)];
+    fbcrowd(&arguments).expect_code(0);
+    let timings: Value = serde_json::from_str(&fs::read_to_string(&report).unwrap()).unwrap();
+    let of_timings = [
+        "agents",
+        "steps",
+        "threads",
+        "planning_us_per_agent_step",
+        "synthesis_us_per_agent_step",
+        "coupling_us_per_agent_step",
+        "times_real_time",
+        "agents_per_core_in_real_time",
+    ];
+    check_keys(&timings, &of_timings);
+
+    let trajectories = folder.join("roots.txt");
+    let measures = fbcrowd(&["measure", text(&recording), "--json", "--trajectories", text(&trajectories)]);
+    let measures = measures.expect_code(0).json();
+    let of_measures = [
+        "agents",
+        "steps",
+        "dt_s",
+        "collision_rate",
+        "mean_acceleration_mps2",
+        "mean_acceleration_before_arrival_mps2",
+        "arrived",
+        "stalled",
+        "mean_time_to_goal_s",
+        "planted_slide_cm_s",
+        "examples_slide_cm_s",
+        "planted_share",
+        "root_tracking_error_m",
+    ];
+    check_keys(&measures, &of_measures);
+    assert_eq!((&measures["agents"], &measures["steps"]), (&Value::from(1), &Value::from(30)));
+    assert!(measures["mean_time_to_goal_s"].is_null());
+    assert_eq!(fs::read_to_string(&trajectories).unwrap().lines().count(), 31);
+}
