@@ -1,7 +1,8 @@
 //! Simplices in (v_f, ω_t, ω_s) and the shares of examples at a query (`FbCrowd` §5; `definitions.md`, "Blend").
 //!
-//! Distances are taken after dividing each axis by its range over the examples. Sets of fewer dimensions (only straight walks, say) are
-//! simplices of fewer corners in the same three axes; one projection formula, the pseudo-inverse of the edge matrix, serves them all.
+//! Distances are taken after dividing each axis by its range over the examples. Sets of fewer dimensions (only straight
+//! walks, say) are simplices of fewer corners in the same three axes; one projection formula, the pseudo-inverse of the
+//! edge matrix, serves them all.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -12,8 +13,8 @@ use crate::parameters::Parameters;
 pub const MAX_CORNERS: usize = 4;
 /// A share this far below zero is rounding, not outside.
 const INSIDE_TOLERANCE: f32 = 1e-5;
-/// A simplex with an edge this many times longer than its height is a sliver that rounding left of nothing. It is no place to blend in;
-/// the gap that it leaves is thinner than what the compiler's quantisation moves a point.
+/// A simplex with an edge this many times longer than its height is a sliver that rounding left of nothing. It is no
+/// place to blend in; the gap that it leaves is thinner than what the compiler's quantisation moves a point.
 const SLIVER: f32 = 1e4;
 
 /// A triangulation of the examples' parameters in as many dimensions as they span.
@@ -102,7 +103,8 @@ impl Locator {
         }
     }
 
-    /// Shares at the nearest point of the hull's boundary, or of the simplex that nearly holds the point where a sliver's gap does.
+    /// Shares at the nearest point of the hull's boundary, or of the simplex that nearly holds the point where a
+    /// sliver's gap does.
     fn nearest(&self, point: Vec3, nearly: Option<&Simplex>) -> Shares {
         let mut nearest = (f32::INFINITY, Shares { shares: [1.0, 0.0, 0.0, 0.0], ..Shares::default() });
         for facet in self.boundary.iter().chain(nearly) {

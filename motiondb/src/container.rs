@@ -1,7 +1,7 @@
 //! The envelope of a database file: magic, format version, payload length, checksum over header and payload.
 //!
-//! Layout, little-endian: magic (8 bytes), version (u32), payload length (u64), CRC-32 of the 20 bytes before it and the payload (u32),
-//! payload. Nothing is allocated or decoded before all four agree with the bytes that are there.
+//! Layout, little-endian: magic (8 bytes), version (u32), payload length (u64), CRC-32 of the 20 bytes before it and
+//! the payload (u32), payload. Nothing is allocated or decoded before all four agree with the bytes that are there.
 
 /// Bytes before the payload.
 const HEADER_LENGTH: usize = 24;

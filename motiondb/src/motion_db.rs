@@ -45,7 +45,8 @@ pub struct MotionExample {
     pub parameters: Parameters,
     /// Phase to time.
     pub phase_map: PhaseMap,
-    /// Right toe-off, right heel strike, left toe-off, left heel strike, seconds from phase 0; none for a body that stands.
+    /// Right toe-off, right heel strike, left toe-off, left heel strike, seconds from phase 0; none for a body that
+    /// stands.
     pub key_times_s: Option<[f32; 4]>,
     /// Planted-foot slide of the cycle, cm/s, by the contacts of its rows.
     pub planted_slide_cm_s: f32,

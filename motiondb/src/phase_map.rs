@@ -1,13 +1,14 @@
 //! When each phase of a cycle comes: a smooth map from phase to time.
 //!
-//! Phase φ in [0, 1): 0 at right mid-stance, ½ at left mid-stance. The half-strides of real clips are not equal, so with h the share of
-//! the period from right to left mid-stance,
+//! Phase φ in [0, 1): 0 at right mid-stance, ½ at left mid-stance. The half-strides of real clips are not equal, so
+//! with h the share of the period from right to left mid-stance,
 //!
 //! ```text
 //! t(φ) = P·(φ + (h − ½)(1 − cos 2πφ)/2),   dt/dφ = P·(1 + (h − ½)·π·sin 2πφ),
 //! ```
 //!
-//! which meets both landmarks, is periodic and as smooth as can be: the phase rate never jumps, and rises nowhere for |h − ½| < 1/π.
+//! which meets both landmarks, is periodic and as smooth as can be: the phase rate never jumps, and rises nowhere for
+//! |h − ½| < 1/π.
 
 use std::f32::consts::{PI, TAU};
 

@@ -1,7 +1,8 @@
 //! A posed body and its forward kinematics.
 //!
-//! Two frames: the *root frame* sits on the ground under the ripple-free root trajectory, x along the facing; the *world* is where roots
-//! move. A pose is relative to its root; all that is left of the pelvis's path (sway, surge, bob, yaw) is in the pose.
+//! Two frames: the *root frame* sits on the ground under the ripple-free root trajectory, x along the facing; the
+//! *world* is where roots move. A pose is relative to its root; all that is left of the pelvis's path (sway, surge,
+//! bob, yaw) is in the pose.
 
 use glam::{Quat, Vec2, Vec3};
 use serde::{Deserialize, Serialize};
@@ -36,7 +37,8 @@ impl Root {
 pub struct Pose {
     /// The pelvis joint in the root frame: forward, left, height over the ground, metres.
     pub pelvis_m: Vec3,
-    /// Rotation of each joint against its parent's; the pelvis's against the root frame, so it carries the pelvis's yaw.
+    /// Rotation of each joint against its parent's; the pelvis's against the root frame, so it carries the pelvis's
+    /// yaw.
     pub rotations: [Quat; JOINT_COUNT],
 }
 

@@ -1,7 +1,8 @@
 //! The canonical humanoid: 22 joints in one fixed order, so that a pose is an array and blending is arithmetic.
 //!
-//! Rest pose: standing at the origin, facing +x, left is +y, up is +z, arms straight out along ±y with palms down, feet flat on z = 0.
-//! Every joint's rest orientation is the identity, so a joint's offset is its parent's bone in body axes.
+//! Rest pose: standing at the origin, facing +x, left is +y, up is +z, arms straight out along ±y with palms down, feet
+//! flat on z = 0. Every joint's rest orientation is the identity, so a joint's offset is its parent's bone in body
+//! axes.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -171,13 +172,17 @@ const NAMES: [&str; JOINT_COUNT] = [
 /// Bones, girths, joint limits and soles of one body. Every vector is in the rest pose's body axes, metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Skeleton {
-    /// Joint position relative to its parent joint; the pelvis's is its height over the ground when standing, (0, 0, h).
+    /// Joint position relative to its parent joint; the pelvis's is its height over the ground when standing, (0, 0,
+    /// h).
     pub offsets_m: [Vec3; JOINT_COUNT],
-    /// Far end of each joint's own segment, relative to the joint: the child's offset, or the fingertips, crown and toe tips.
+    /// Far end of each joint's own segment, relative to the joint: the child's offset, or the fingertips, crown and toe
+    /// tips.
     pub segment_ends_m: [Vec3; JOINT_COUNT],
-    /// Radius of the capsule from each joint to its segment's end: the body that a picture draws and a collision test uses.
+    /// Radius of the capsule from each joint to its segment's end: the body that a picture draws and a collision test
+    /// uses.
     pub segment_radii_m: [f32; JOINT_COUNT],
-    /// Least and greatest rotation of each joint against its rest, as a rotation vector (axis × angle), radians, in body axes.
+    /// Least and greatest rotation of each joint against its rest, as a rotation vector (axis × angle), radians, in
+    /// body axes.
     pub limits_rad: [[Vec3; 2]; JOINT_COUNT],
     /// `[left, right]` soles.
     pub feet: [Foot; 2],
@@ -192,8 +197,8 @@ pub struct Foot {
     pub ball_m: Vec3,
     /// Relative to the toe joint.
     pub toe_tip_m: Vec3,
-    /// The clips carried `…Sole` joints. Where they did not, the points above are estimated from the planted heights of the joints, and
-    /// slide is measured at the joints themselves (ankle, ball, end of toe).
+    /// The clips carried `…Sole` joints. Where they did not, the points above are estimated from the planted heights of
+    /// the joints, and slide is measured at the joints themselves (ankle, ball, end of toe).
     pub measured_on_sole: bool,
 }
 

@@ -1,4 +1,5 @@
-//! Every invariant of a database, by name. The runtime relies on all of them, so [`crate::file::load`] refuses what breaks one.
+//! Every invariant of a database, by name. The runtime relies on all of them, so [`crate::file::load`] refuses what
+//! breaks one.
 //!
 //! Structure comes first: a later check may index where an earlier one has looked, and is skipped once one is broken.
 

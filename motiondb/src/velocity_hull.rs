@@ -1,6 +1,7 @@
 //! The velocities that the database can realise (`FbCrowd` §4.1, Eqs. 2–5; `definitions.md`, "Velocity constraints").
 //!
-//! Both sets are convex polygons in the agent's frame (x forward, y left, m/s), corners clockwise, and count the origin.
+//! Both sets are convex polygons in the agent's frame (x forward, y left, m/s), corners clockwise, and count the
+//! origin.
 
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -21,7 +22,8 @@ pub struct VelocityHull {
     pub turning_mps: Vec<Vec2>,
     /// Velocities at held facing: forward, side-stepping, backward. Clockwise.
     pub holding_mps: Vec<Vec2>,
-    /// Edges of the wrapping polygon with an end beyond ±90°, each from its clockwise-first end: the inside is on the edge's right.
+    /// Edges of the wrapping polygon with an end beyond ±90°, each from its clockwise-first end: the inside is on the
+    /// edge's right.
     pub sharp_turn_edges_mps: Vec<[Vec2; 2]>,
 }
 

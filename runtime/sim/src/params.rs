@@ -1,4 +1,5 @@
-//! Every tunable of a simulation, as a scenario file may set it; each section's defaults, units and reasons stand with its owner.
+//! Every tunable of a simulation, as a scenario file may set it; each section's defaults, units and reasons stand with
+//! its owner.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,5 @@
-//! The four plain values that pass between planner and synthesis: stance, velocity, facing, mode (`FbCrowd` §3, Fig. 2).
+//! The four plain values that pass between planner and synthesis: stance, velocity, facing, mode (`FbCrowd` §3, Fig.
+//! 2).
 //!
 //! MCN and HMS never see each other; only `step.rs` sees both.
 

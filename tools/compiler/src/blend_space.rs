@@ -1,9 +1,10 @@
 //! Exact simplices over the examples' parameters (`FbCrowd` §5; `definitions.md`, "Axes").
 //!
-//! Delaunay in one to three dimensions: points are quantised to whole numbers and lifted to h = |x|²·2²⁰ + noise, noise one of 2¹⁶
-//! numbers drawn from the point's index; a simplex belongs where its lifted plane lies below all other points. In whole numbers of 128 bits
-//! every decision is exact; the noise breaks the ties of grids and circles, so the simplices of any set fit together without gap or
-//! overlap. The *upper* hull of the same lifted points fills the same convex hull with other simplices: the two volumes must agree.
+//! Delaunay in one to three dimensions: points are quantised to whole numbers and lifted to h = |x|²·2²⁰ + noise, noise
+//! one of 2¹⁶ numbers drawn from the point's index; a simplex belongs where its lifted plane lies below all other
+//! points. In whole numbers of 128 bits every decision is exact; the noise breaks the ties of grids and circles, so the
+//! simplices of any set fit together without gap or overlap. The *upper* hull of the same lifted points fills the same
+//! convex hull with other simplices: the two volumes must agree.
 
 use glam::Vec3;
 use motiondb::blend_space::BlendSpace;
@@ -110,7 +111,8 @@ fn lift(point: &[i128; 3], axes: &[usize], index: u32) -> Lifted {
     [x, y, z, (x * x + y * y + z * z) * LIFT + noise(index)]
 }
 
-/// One of 2¹⁶ numbers (the 32-bit finaliser of MurmurHash3). A linear hash would leave every parallelogram of a grid tied.
+/// One of 2¹⁶ numbers (the 32-bit finaliser of MurmurHash3). A linear hash would leave every parallelogram of a grid
+/// tied.
 fn noise(index: u32) -> i128 {
     let mut bits = index.wrapping_add(1);
     bits = (bits ^ (bits >> 16)).wrapping_mul(0x85eb_ca6b);
@@ -157,7 +159,8 @@ fn supports(points: &[Lifted], corners: &[usize], side: i128) -> bool {
     points.iter().enumerate().all(|(index, point)| height(point) * side < 0 || corners.contains(&index))
 }
 
-/// Normal of the hyperplane through the corners; axes beyond the dimension are padded with unit edges, so that one formula serves all.
+/// Normal of the hyperplane through the corners; axes beyond the dimension are padded with unit edges, so that one
+/// formula serves all.
 fn plane_normal(points: &[Lifted], corners: &[usize]) -> [i128; 4] {
     let mut edges: [Lifted; 3] = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]];
     for (edge, &corner) in edges.iter_mut().zip(&corners[1..]) {

@@ -17,7 +17,8 @@ pub struct HumanClip {
     pub body: HumanBody,
     /// One pose a frame; a separate first frame (T-pose and jump) is already dropped.
     pub frames: Vec<HumanPose>,
-    /// The clip treads on the spot: the ground speed (forward, left, in the body's frame, m/s) at which its stance feet stand still.
+    /// The clip treads on the spot: the ground speed (forward, left, in the body's frame, m/s) at which its stance feet
+    /// stand still.
     pub in_place_mps: Option<DVec2>,
 }
 
@@ -26,7 +27,8 @@ pub struct HumanClip {
 pub struct HumanBody {
     /// Joint relative to its parent; entry 0 is zero.
     pub offsets_m: [DVec3; JOINT_COUNT],
-    /// Far ends of the leaf joints' segments (crown, fingertips, toe tips) and of the others (their child), relative to the joint.
+    /// Far ends of the leaf joints' segments (crown, fingertips, toe tips) and of the others (their child), relative to
+    /// the joint.
     pub segment_ends_m: [DVec3; JOINT_COUNT],
     /// `[left, right]`: heel, ball (relative to the foot joint) and toe tip (relative to the toe joint) on the sole.
     pub soles_m: [[DVec3; 3]; 2],
@@ -76,7 +78,8 @@ impl HumanJoints {
         [on_foot(heel), on_foot(ball), self.positions_m[toe] + self.orientations[toe] * tip]
     }
 
-    /// The facing of the definitions: mean of the left→right unit vectors of hip pair and shoulder pair, turned 90°, on the ground; radians.
+    /// The facing of the definitions: mean of the left→right unit vectors of hip pair and shoulder pair, turned 90°, on
+    /// the ground; radians.
     pub fn facing_rad(&self) -> f64 {
         let across = |pair: [Joint; 2]| {
             (self.positions_m[pair[1].index()] - self.positions_m[pair[0].index()]).normalize_or_zero()

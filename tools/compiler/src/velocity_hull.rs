@@ -1,6 +1,7 @@
 //! The velocity sets of a database (`FbCrowd` §4.1, Eqs. 2–5; `definitions.md`, "Velocity constraints").
 //!
-//! All polygons are in the agent's frame (x forward, y left, m/s), clockwise, and count the origin: standing is always possible.
+//! All polygons are in the agent's frame (x forward, y left, m/s), clockwise, and count the origin: standing is always
+//! possible.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -9,7 +10,8 @@ use motiondb::motion_db::MotionExample;
 use motiondb::velocity_hull::{VelocityHull, is_holding, is_turning, turning_point_mps};
 use robust::{Coord, orient2d};
 
-/// Directions closer than this are one direction of the wrapping polygon: what gait noise leaves in a turn rate (3 °/s, as for snapping).
+/// Directions closer than this are one direction of the wrapping polygon: what gait noise leaves in a turn rate (3 °/s,
+/// as for snapping).
 const SAME_DIRECTION_RAD: f64 = 3.0 * TAU / 360.0;
 /// A point this near the origin has no direction: a body that stands, m/s.
 const STANDING_MPS: f64 = 1e-3;
@@ -27,7 +29,8 @@ pub fn build(examples: &[MotionExample]) -> VelocityHull {
     }
 }
 
-/// Convex hull of the points and the origin, clockwise, without corners on its edges (Andrew's monotone chain on exact predicates).
+/// Convex hull of the points and the origin, clockwise, without corners on its edges (Andrew's monotone chain on exact
+/// predicates).
 pub fn clockwise_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut sorted: Vec<Vec2> = points.chain([Vec2::ZERO]).collect();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -81,7 +84,8 @@ pub fn wrapping_polygon(points: &[Vec2]) -> Vec<Vec2> {
     polygon.into_iter().map(|(_, point)| point).collect()
 }
 
-/// Edges of the wrapping polygon with an end beyond ±90° (the red lines of Fig. 3b). An edge that passes behind the origin bounds nothing.
+/// Edges of the wrapping polygon with an end beyond ±90° (the red lines of Fig. 3b). An edge that passes behind the
+/// origin bounds nothing.
 fn sharp_turn_edges(polygon: &[Vec2]) -> Vec<[Vec2; 2]> {
     if polygon.len() < 2 {
         return Vec::new();

@@ -1,7 +1,8 @@
 //! `fbcrowd`: clips to a motion database, a database to a crowd, a crowd to pictures.
 //!
-//! One file a subcommand under [`cmd`]. Results go to standard output, everything else to standard error. Exit codes: 0 yes; 1 the answer
-//! is no, or an output was written though some input was refused; 2 bad usage or input, nothing written.
+//! One file a subcommand under [`cmd`]. Results go to standard output, everything else to standard error. Exit codes: 0
+//! yes; 1 the answer is no, or an output was written though some input was refused; 2 bad usage or input, nothing
+//! written.
 
 mod cmd;
 mod compiling;

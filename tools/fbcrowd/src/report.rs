@@ -1,4 +1,5 @@
-//! What `fbcrowd inspect` says: the stable JSON (`definitions.md`; field names carry their units) and the tables for people.
+//! What `fbcrowd inspect` says: the stable JSON (`definitions.md`; field names carry their units) and the tables for
+//! people.
 
 use glam::Vec2;
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};

@@ -10,8 +10,8 @@ use crate::output;
 
 /// Compile motion clips into a database.
 ///
-/// Units, axes, joints, cycles and parameters are found. Exit code 0: all clips were used; 1: the database was written, but some input
-/// was refused; 2: nothing was written.
+/// Units, axes, joints, cycles and parameters are found. Exit code 0: all clips were used; 1: the database was written,
+/// but some input was refused; 2: nothing was written.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd compile assets/clips -o motion.fbdb\n  fbcrowd compile walk.bvh run.glb -o motion.fbdb"
