@@ -4,6 +4,7 @@ mod support;
 
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 use support::{compile, fbcrowd, files, folder, shared, text};
 
@@ -113,6 +114,64 @@ fn mistakes_in_a_scenario_are_shown_where_they_stand() {
         fbcrowd(&["run", &scene, "-o", text(&output)]).expect_code(2).says(words);
         assert!(!output.exists());
     }
+}
+
+#[test]
+fn whoever_brings_a_database_needs_no_clips() {
+    let folder = folder("own_database");
+    let database = compile(&[WALK.to_owned()], &folder);
+    let scene =
+        scenario(&folder, "duration_s = 0.1\nclips = \"nowhere\"\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n");
+    let recording = folder.join("scene.fbrec");
+    fbcrowd(&["simulate", &scene, "--db", text(&database), "-o", text(&recording)]).expect_code(0);
+    for command in [["simulate", &scene, "-o", text(&recording)], ["run", &scene, "-o", text(&folder)]] {
+        fbcrowd(&command).expect_code(2).says(&["scene.toml:2", "nowhere"]);
+    }
+}
+
+#[test]
+fn an_output_never_replaces_an_input_or_a_folder() {
+    let folder = folder("replaced");
+    let walk = folder.join("walk.bvh");
+    fs::copy(support::repository().join(WALK), &walk).unwrap();
+    let before = fs::read(&walk).unwrap();
+    fbcrowd(&["compile", text(&walk), "-o", text(&walk)]).expect_code(2).says(&["walk.bvh"]);
+    assert_eq!(fs::read(&walk).unwrap(), before);
+    fbcrowd(&["compile", WALK, "-o", text(&folder)]).expect_code(2).says(&["regular file"]);
+    let database = compile(&[WALK.to_owned()], &folder);
+    let scene = scenario(
+        &folder,
+        "duration_s = 0.1\ndatabase = \"motion.fbdb\"\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n",
+    );
+    fbcrowd(&["simulate", &scene, "-o", &scene]).expect_code(2).says(&["scene.toml"]);
+    fbcrowd(&["simulate", &scene, "-o", text(&database)]).expect_code(2).says(&["motion.fbdb"]);
+    let (recording, report) = (folder.join("scene.fbrec"), folder.join("no/report.json"));
+    fbcrowd(&["simulate", &scene, "-o", text(&recording), "--report", text(&report)])
+        .expect_code(2)
+        .says(&["report.json"]);
+    assert_eq!(files(&folder), ["motion.fbdb", "scene.toml", "walk.bvh"]);
+}
+
+#[test]
+fn a_clip_named_twice_is_read_once() {
+    let database = folder("twice").join("motion.fbdb");
+    fbcrowd(&["compile", WALK, WALK, "-o", text(&database)]).expect_code(0);
+}
+
+#[test]
+fn work_goes_on_where_nobody_reads_what_it_says() {
+    let folder = folder("reader_gone");
+    let database = folder.join("motion.fbdb");
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let status = Command::new(env!("CARGO_BIN_EXE_fbcrowd"))
+        .args(["compile", WALK, "-o", text(&database)])
+        .current_dir(support::repository())
+        .stdout(writer.try_clone().unwrap())
+        .stderr(writer)
+        .status()
+        .unwrap();
+    assert!(status.success() && database.exists(), "{status}");
 }
 
 #[test]

@@ -16,10 +16,13 @@ impl AtomicFile {
     /// Opens `.NAME.PID.tmp` beside `target`.
     ///
     /// # Errors
-    /// Where the folder cannot be written.
+    /// Where the folder cannot be written, or `target` exists and is no file: a folder, or a device that renaming would replace.
     pub fn create(target: &Path) -> io::Result<Self> {
         let name =
             target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
+        if fs::metadata(target).is_ok_and(|found| !found.is_file()) {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "what is there is no regular file"));
+        }
         let temporary = target.with_file_name(format!(".{}.{}.tmp", name.to_string_lossy(), std::process::id()));
         let writer = Some(BufWriter::new(File::create(&temporary)?));
         Ok(Self { writer, temporary, target: target.to_owned() })

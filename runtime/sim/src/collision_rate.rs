@@ -2,11 +2,13 @@
 
 use glam::{DVec2, Vec2};
 
+use crate::scenario_check::longer_side;
+
 /// Sums the penetration depths of all pairs, step by step.
 #[derive(Debug)]
 pub struct Collisions {
     radii_m: Vec<f64>,
-    /// Agents by the left end of what they sweep in a step; hardly changes from one step to the next, so sorting stays cheap.
+    /// Agents by where along the crowd's longer side begins what they sweep in a step; hardly changes from one step to the next, so sorting stays cheap.
     order: Vec<usize>,
     penetration: f64,
 }
@@ -34,10 +36,11 @@ impl Collisions {
             radius_m,
         };
         let sweeps: Vec<Sweep> = self.radii_m.iter().enumerate().map(sweep).collect();
-        self.order.sort_by(|&a, &b| sweeps[a].left_m().total_cmp(&sweeps[b].left_m()).then(a.cmp(&b)));
+        let axis = longer_side(before_m.iter().copied());
+        self.order.sort_by(|&a, &b| sweeps[a].low_m(axis).total_cmp(&sweeps[b].low_m(axis)).then(a.cmp(&b)));
         for (rank, &a) in self.order.iter().enumerate() {
-            let right_m = sweeps[a].right_m();
-            let near = self.order[rank + 1..].iter().take_while(|&&b| sweeps[b].left_m() < right_m);
+            let high_m = sweeps[a].high_m(axis);
+            let near = self.order[rank + 1..].iter().take_while(|&&b| sweeps[b].low_m(axis) < high_m);
             self.penetration += near.map(|&b| penetration(&sweeps[a], &sweeps[b])).sum::<f64>();
         }
     }
@@ -49,12 +52,12 @@ impl Collisions {
 }
 
 impl Sweep {
-    fn left_m(&self) -> f64 {
-        self.start_m.x + self.displacement_m.x.min(0.0) - self.radius_m
+    fn low_m(&self, axis: usize) -> f64 {
+        self.start_m[axis] + self.displacement_m[axis].min(0.0) - self.radius_m
     }
 
-    fn right_m(&self) -> f64 {
-        self.start_m.x + self.displacement_m.x.max(0.0) + self.radius_m
+    fn high_m(&self, axis: usize) -> f64 {
+        self.start_m[axis] + self.displacement_m[axis].max(0.0) + self.radius_m
     }
 }
 

@@ -25,6 +25,7 @@ mod scenario_agents;
 pub mod scenario_check;
 pub mod scenario_error;
 pub mod scenario_file;
+mod scenario_point;
 pub mod scenario_ranges;
 pub mod split_mix;
 pub mod step;

@@ -4,6 +4,7 @@ use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 use crate::params::Params;
+use crate::scenario_point;
 
 /// What is simulated. A recording carries it whole.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,6 +53,7 @@ pub struct View {
     /// Frames a second of the sequence; the recording is sampled at it.
     pub frame_rate_hz: f32,
     /// Centre of the picture, world, metres; framed automatically where absent.
+    #[serde(deserialize_with = "scenario_point::optional")]
     pub centre_m: Option<Vec2>,
     /// Metres across the picture's width; framed automatically where absent.
     pub width_m: Option<f32>,

@@ -18,7 +18,8 @@ use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use crate::scenario::AgentSpec;
-use crate::scenario_ranges::AGENTS_MAX;
+use crate::scenario_point::Point;
+use crate::scenario_ranges::{AGENTS_MAX, COORDINATE_MAX_M};
 use crate::split_mix::SplitMix64;
 
 /// Disc of an agent, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected trunk, and the radius of the
@@ -67,20 +68,6 @@ pub(crate) struct Grid {
     centre_m: Point,
     #[serde(default)]
     jitter_m: f64,
-}
-
-/// `[x, y]`; glam's own reading would drop a third number silently.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
-#[serde(try_from = "Vec<f32>")]
-pub(crate) struct Point(pub(crate) Vec2);
-
-impl TryFrom<Vec<f32>> for Point {
-    type Error = String;
-
-    fn try_from(numbers: Vec<f32>) -> Result<Self, String> {
-        let [x, y] = numbers[..] else { return Err(format!("{} numbers, not the two of `[x, y]`", numbers.len())) };
-        Ok(Self(Vec2::new(x, y)))
-    }
 }
 
 /// What a table stands for.
@@ -215,7 +202,11 @@ pub(crate) fn parse_lines(text: &str) -> Result<Vec<Journey>, (Range<usize>, Str
 }
 
 fn parse_line(content: &str) -> Result<Journey, String> {
-    let number = |word: &str| word.parse::<f32>().map_err(|_| format!("`{word}` is no number"));
+    let number = |word: &str| match word.parse::<f32>() {
+        Ok(metres) if metres.abs() <= COORDINATE_MAX_M => Ok(metres),
+        Ok(_) => Err(format!("`{word}` is no place within 10 km of the origin")),
+        Err(_) => Err(format!("`{word}` is no number")),
+    };
     let numbers = content.split_whitespace().map(number).collect::<Result<Vec<f32>, String>>()?;
     match numbers[..] {
         [x, y, goal_x, goal_y] => Ok((Vec2::new(x, y), vec![Vec2::new(goal_x, goal_y)])),

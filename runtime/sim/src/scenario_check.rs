@@ -28,6 +28,8 @@ pub struct Fault {
 /// A part of a scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
+    /// `name`
+    Name,
     /// `duration_s`
     Duration,
     /// `dt_s`
@@ -115,13 +117,14 @@ fn check_start(index: usize, agent: &AgentSpec, obstacle: usize, polygon_m: &[Ve
     }
 }
 
-/// Sweeps along x, so that a crowd of thousands is quick.
+/// Sweeps along the crowd's longer side, so that thousands are quick, in a square or in line.
 fn check_agents_apart(agents: &[AgentSpec]) -> Result<(), Fault> {
-    let left_m = |index: usize| agents[index].position_m.x - agents[index].radius_m;
+    let axis = longer_side(agents.iter().map(|agent| agent.position_m));
+    let left_m = |index: usize| agents[index].position_m[axis] - agents[index].radius_m;
     let mut order: Vec<usize> = (0..agents.len()).collect();
     order.sort_by(|&a, &b| left_m(a).total_cmp(&left_m(b)).then(a.cmp(&b)));
     for (rank, &a) in order.iter().enumerate() {
-        let right_m = agents[a].position_m.x + agents[a].radius_m;
+        let right_m = agents[a].position_m[axis] + agents[a].radius_m;
         for &b in order[rank + 1..].iter().take_while(|&&b| left_m(b) < right_m) {
             let overlap_m = overlap_m(&agents[a], &agents[b]);
             if overlap_m > TOUCH_M {
@@ -131,6 +134,13 @@ fn check_agents_apart(agents: &[AgentSpec]) -> Result<(), Fault> {
         }
     }
     Ok(())
+}
+
+/// The axis along which places are farther apart: 0 for x, 1 for y.
+pub(crate) fn longer_side(places_m: impl Iterator<Item = Vec2>) -> usize {
+    let start = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+    let (low_m, high_m) = places_m.fold(start, |(low_m, high_m), place_m| (low_m.min(place_m), high_m.max(place_m)));
+    (high_m - low_m).max_position()
 }
 
 fn overlap_m(a: &AgentSpec, b: &AgentSpec) -> f64 {

@@ -28,15 +28,18 @@ use toml::Spanned;
 use crate::params::Params;
 use crate::polygon::signed_area_m2;
 use crate::scenario::{AgentSpec, Scenario, View};
-use crate::scenario_agents::{Complaint, Group, Groups, Journey, Kind, Point, parse_lines};
+use crate::scenario_agents::{Complaint, Group, Groups, Journey, Kind, parse_lines};
 use crate::scenario_check::{Fault, Place, check};
 use crate::scenario_error::{Invalid, ScenarioError};
+use crate::scenario_point::Point;
 use crate::split_mix::SplitMix64;
 
 const STEP_S: f32 = 1.0 / 30.0;
 const SEED: u64 = 1;
 /// A million agents take a tenth of it.
 const TEXT_MAX_BYTES: u64 = 1 << 30;
+/// Longer messages are cut.
+const MESSAGE_MAX_LETTERS: usize = 1_000;
 
 /// Where a scenario's motion comes from; apart from the [`Scenario`], so that no path gets into a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,7 +54,7 @@ pub enum MotionSource {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ScenarioFile {
-    name: Option<String>,
+    name: Option<Spanned<String>>,
     clips: Option<Spanned<PathBuf>>,
     database: Option<Spanned<PathBuf>>,
     duration_s: Spanned<f32>,
@@ -84,17 +87,18 @@ struct Placed {
     spans: Vec<Range<usize>>,
 }
 
-/// Reads a scenario file and whatever agent files it names.
+/// Reads a scenario file and whatever agent files it names. Its motion is an error of its own, so that whoever brings a database need not
+/// have the one that the file names.
 ///
 /// # Errors
 /// Where a file cannot be read or says something that cannot be simulated.
-pub fn read(path: &Path) -> Result<(Scenario, MotionSource), ScenarioError> {
+pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
     let source = Source::read(path)?;
     let file: ScenarioFile = toml::from_str(&source.text).map_err(|error| source.toml_error(&error))?;
     let motion = motion_source(&source, &file)?;
     let placed = place_agents(&source, &file)?;
     let scenario = Scenario {
-        name: file.name.clone().unwrap_or_else(|| stem(path)),
+        name: file.name.as_ref().map_or_else(|| stem(path), |name| name.get_ref().clone()),
         duration_s: *file.duration_s.get_ref(),
         dt_s: file.dt_s.as_ref().map_or(STEP_S, |dt_s| *dt_s.get_ref()),
         seed: file.seed.unwrap_or(SEED),
@@ -119,7 +123,8 @@ fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {
     corners_m
 }
 
-fn motion_source(source: &Source, file: &ScenarioFile) -> Result<MotionSource, ScenarioError> {
+/// What the file names, or that it is not there; the file itself is wrong unless it names exactly one.
+fn motion_source(source: &Source, file: &ScenarioFile) -> Result<Result<MotionSource, ScenarioError>, ScenarioError> {
     let (given, to_motion): (_, fn(PathBuf) -> MotionSource) = match (&file.clips, &file.database) {
         (Some(clips), None) => (clips, MotionSource::Clips),
         (None, Some(database)) => (database, MotionSource::Database),
@@ -130,11 +135,11 @@ fn motion_source(source: &Source, file: &ScenarioFile) -> Result<MotionSource, S
         }
     };
     let path = source.beside(given.get_ref());
-    if !path.exists() {
-        let message = format!("there is no {}", path.display());
-        return Err(source.invalid(given.span(), message, "the path is relative to the scenario file"));
+    if path.exists() {
+        return Ok(Ok(to_motion(path)));
     }
-    Ok(to_motion(path))
+    let message = format!("there is no {}", path.display());
+    Ok(Err(source.invalid(given.span(), message, "the path is relative to the scenario file")))
 }
 
 fn place_agents(source: &Source, file: &ScenarioFile) -> Result<Placed, ScenarioError> {
@@ -185,7 +190,10 @@ impl<'a> Source<'a> {
         if fs::metadata(path).map_err(fail)?.len() > TEXT_MAX_BYTES {
             return Err(fail(std::io::Error::other("a text of more than 1 GiB")));
         }
-        Ok(Self { path, text: fs::read_to_string(path).map_err(fail)? })
+        let text = fs::read_to_string(path).map_err(fail)?;
+        // Some editors begin a text with a byte order mark.
+        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+        Ok(Self { path, text })
     }
 
     /// A path given relative to this file.
@@ -195,7 +203,9 @@ impl<'a> Source<'a> {
 
     fn invalid(&self, span: Range<usize>, message: impl Into<String>, help: &str) -> ScenarioError {
         let (path, text) = (self.path.to_owned(), self.text.clone());
-        ScenarioError::Invalid(Box::new(Invalid { path, text, span, message: message.into(), help: help.to_owned() }))
+        // It may quote what is wrong, however long.
+        let message = message.into().chars().take(MESSAGE_MAX_LETTERS).collect();
+        ScenarioError::Invalid(Box::new(Invalid { path, text, span, message, help: help.to_owned() }))
     }
 
     fn toml_error(&self, error: &toml::de::Error) -> ScenarioError {
@@ -213,6 +223,7 @@ impl<'a> Source<'a> {
     /// Points at what breaks a rule.
     fn fault(&self, file: &ScenarioFile, agents: &[Range<usize>], fault: Fault) -> ScenarioError {
         let span = match fault.place {
+            Place::Name => file.name.as_ref().map_or(0..0, Spanned::span),
             Place::Duration => file.duration_s.span(),
             Place::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
             Place::View => file.view.as_ref().map_or(0..0, Spanned::span),

@@ -9,12 +9,14 @@ use crate::params::Params;
 use crate::scenario::{AgentSpec, Scenario, View};
 use crate::scenario_check::{Fault, Place};
 
+/// Of a name in bytes: with a frame number and an ending it still names a file.
+const NAME_MAX_BYTES: usize = 200;
 /// A day; longer runs are a slip of the unit.
 const DURATION_S: RangeInclusive<f32> = 1e-3..=86_400.0;
 /// Coarser than half a second no gait is left between two steps.
 const STEP_S: RangeInclusive<f32> = 1e-3..=0.5;
 /// Beyond, f32 positions resolve no millimetre.
-const COORDINATE_MAX_M: f32 = 10_000.0;
+pub(crate) const COORDINATE_MAX_M: f32 = 10_000.0;
 /// From a child to a person with luggage.
 const RADIUS_M: RangeInclusive<f32> = 0.1..=1.0;
 /// From the slowest shuffle to a sprint.
@@ -29,7 +31,8 @@ const OBSTACLES_MAX: usize = 10_000;
 const TUNABLE_MAX: f64 = 1e6;
 /// The shortest step; nothing is timed finer.
 const TIME_MIN_S: f64 = 1e-3;
-const PICTURE_PIXELS: RangeInclusive<u32> = 16..=16_384;
+/// Past 8K; each thread holds a picture or two.
+const PICTURE_PIXELS: RangeInclusive<u32> = 16..=8_192;
 const PICTURE_WIDTH_M: RangeInclusive<f32> = 0.01..=2.0 * COORDINATE_MAX_M;
 const FRAME_RATE_HZ: RangeInclusive<f32> = 0.1..=1_000.0;
 /// What to do about a key that may be left out.
@@ -40,6 +43,7 @@ const DEFAULT: &str = "leave it out for its default";
 /// # Errors
 /// The first number that is.
 pub fn check_ranges(scenario: &Scenario) -> Result<(), Fault> {
+    check_name(&scenario.name)?;
     within(&Place::Duration, "duration_s", scenario.duration_s, &DURATION_S, "give the simulated time in seconds")?;
     within(&Place::Step, "dt_s", scenario.dt_s, &STEP_S, "leave it out for 1/30 s")?;
     if scenario.dt_s > scenario.duration_s {
@@ -74,6 +78,17 @@ fn within<T: PartialOrd + Display>(
         return Ok(());
     }
     place.fault(format!("{name} is {value}, not between {} and {}", range.start(), range.end()), help)
+}
+
+/// Files are named after the scenario, and must stay where their folder is.
+fn check_name(name: &str) -> Result<(), Fault> {
+    let is_plain = |letter: char| !letter.is_control() && !['/', '\\'].contains(&letter);
+    if (1..=NAME_MAX_BYTES).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_plain) {
+        return Ok(());
+    }
+    let shown: String = name.chars().take(NAME_MAX_BYTES).collect();
+    let help = "set `name` to some letters and digits, without `/`, `\\` or a dot in front";
+    Place::Name.fault(format!("{shown:?} cannot name a file"), help)
 }
 
 fn check_view(view: &View) -> Result<(), Fault> {

@@ -5,6 +5,7 @@ mod common;
 use std::f32::consts::FRAC_PI_2;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use common::folder;
 use fbcrowd_sim::scenario::Scenario;
@@ -27,7 +28,7 @@ fn scenario(test: &str, body: &str) -> Scenario {
 
 /// That reading fails, pointing at exactly this part of the text with a message that contains this.
 fn check_refused(test: &str, text: &str, part: &str, message: &str) {
-    match read(&write(test, text)) {
+    match read(&write(test, text)).and_then(|(scenario, motion)| Ok((scenario, motion?))) {
         Err(ScenarioError::Invalid(invalid)) => check_points_at(&invalid, part, message),
         other => panic!("{text} gave {other:?}"),
     }
@@ -47,7 +48,7 @@ fn a_short_file_gives_everything_its_default() {
         ("scene", 1.0 / 30.0, 10.0, 1)
     );
     assert_eq!((scenario.agents[0].radius_m, scenario.agents[0].preferred_speed_mps), (0.25, 1.33));
-    assert!(matches!(motion, MotionSource::Clips(_)));
+    assert!(matches!(motion, Ok(MotionSource::Clips(_))));
 }
 
 #[test]
@@ -123,6 +124,11 @@ fn mistakes_in_an_agent_file_are_shown_in_that_file() {
     let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
     check_points_at(&invalid, "1 2 3", "3 numbers, not the four");
     assert_eq!((invalid.line(), invalid.path.file_name().unwrap().to_str().unwrap()), (3, "a.txt"));
+    for (line, message) in [("0 nan 5 0", "`nan` is no place"), ("0 0 1e99 0", "`1e99` is no place")] {
+        fs::write(path.with_file_name("a.txt"), format!("1 1 2 2\n{line}\n")).unwrap();
+        let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
+        check_points_at(&invalid, line, message);
+    }
 }
 
 #[test]
@@ -148,8 +154,9 @@ fn wrong_keys_and_types_are_shown_where_they_stand() {
         "point",
         &format!("{HEAD}agents = {{ at_m = [0, 0, 1], goals_m = [[5, 0]] }}"),
         "[0, 0, 1]",
-        "3 numbers, not the two",
+        "invalid length 3, expected the two numbers",
     );
+    check_refused("centre", &format!("{HEAD}{ONE}[view]\ncentre_m = [1, 2, 3]\n"), "[1, 2, 3]", "invalid length 3");
     check_refused("syntax", "clips = \n", "", "");
 }
 
@@ -216,6 +223,34 @@ fn obstacles_must_be_simple_polygons() {
     check("bow_tie", "[[8, 8], [9, 9], [9, 8], [8, 9]]", "obstacle 0 crosses or touches itself");
     check("repeated", "[[8, 8], [9, 8], [9, 9], [8, 8]]", "obstacle 0 crosses or touches itself");
     check("sliver", "[[8, 8], [9, 8], [8.5, 8.00001]]", "obstacle 0 has no area");
+}
+
+#[test]
+fn names_that_lead_elsewhere_or_name_no_file_are_refused() {
+    for name in ["../up", "/tmp/away", "", "..", ".hidden", "a\\\\b", "line\\nbreak", &"long".repeat(60)] {
+        let quoted = format!("\"{name}\"");
+        check_refused("name", &format!("name = {quoted}\n{HEAD}{ONE}"), &quoted, "cannot name a file");
+    }
+    assert_eq!(scenario("good_name", &format!("name = \"Straße 7.b\"\n{ONE}")).name, "Straße 7.b");
+}
+
+#[test]
+fn messages_stay_short_whatever_they_quote() {
+    let key = "k".repeat(1 << 20);
+    let Err(ScenarioError::Invalid(invalid)) = read(&write("long_key", &format!("{HEAD}{key} = 1\n{ONE}"))) else {
+        panic!("accepted")
+    };
+    assert!(invalid.message.len() < 2_000 && invalid.message.contains("unknown field"));
+}
+
+#[test]
+fn a_crowd_in_a_line_is_checked_as_quickly_as_one_in_a_square() {
+    for (columns, rows) in [(1, 16_000), (16_000, 1), (126, 127)] {
+        let grid = format!("{{ columns = {columns}, rows = {rows}, spacing_m = 0.6 }}");
+        let start = Instant::now();
+        scenario("line", &format!("agents = {{ grid = {grid}, goal_offset_m = [1, 1] }}"));
+        assert!(start.elapsed().as_secs_f64() < 0.5, "{columns} × {rows} took {:?}", start.elapsed());
+    }
 }
 
 #[test]

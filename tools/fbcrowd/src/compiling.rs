@@ -8,9 +8,10 @@ use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
 
 use crate::failure::{Answer, Failure};
+use crate::output;
 use crate::progress::Progress;
 
-/// The clip files that paths mean: files as they are, folders by what lies below them.
+/// The clip files that paths mean, each once: files as they are, folders by what lies below them.
 pub(crate) fn clip_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for path in paths {
@@ -20,6 +21,8 @@ pub(crate) fn clip_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
             files.push(path.clone());
         }
     }
+    files.sort();
+    files.dedup();
     match (files.is_empty(), paths.first()) {
         (true, Some(folder)) => Err(Failure::bad(format!(
             "{}: no *.bvh, *.glb or *.gltf below it; name another folder or the clips themselves",
@@ -53,7 +56,7 @@ pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Answer), Fail
 
 fn say_refused(refused: &[String]) -> Answer {
     for message in refused {
-        eprintln!("refused: {message}");
+        output::say(&format!("refused: {message}"));
     }
     if refused.is_empty() { Answer::Yes } else { Answer::No }
 }

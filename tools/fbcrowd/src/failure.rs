@@ -4,6 +4,8 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
+use crate::output;
+
 /// The answer of a command that could do its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Answer {
@@ -30,14 +32,14 @@ impl Failure {
 
     /// A file or folder that the system would not let us write.
     pub(crate) fn unwritable(path: &Path, error: &io::Error) -> Self {
-        Self::bad(format!("cannot write {}: {error}; choose another place with -o", path.display()))
+        Self::bad(format!("cannot write {}: {error}; choose another place", path.display()))
     }
 
     /// Says it on standard error.
     pub(crate) fn report(self) -> ExitCode {
         match self {
             Self::Bad(report) => {
-                eprintln!("Error: {report:?}");
+                output::say(&format!("Error: {report:?}"));
                 ExitCode::from(2)
             }
             Self::ReaderGone => ExitCode::SUCCESS,

@@ -1,10 +1,28 @@
-//! Standard output: results only, as text or JSON.
+//! Standard output: results only, as text or JSON. Standard error: all else.
 
 use std::io::{self, ErrorKind, Write};
+use std::path::Path;
 
 use serde::Serialize;
 
 use crate::failure::Failure;
+
+/// Says something on standard error; where nobody reads it (`2>&1 | head -1`), the work goes on.
+pub(crate) fn say(message: &str) {
+    let _ = writeln!(io::stderr(), "{message}");
+}
+
+/// That a file to be written is none of those to be read, which it would replace.
+pub(crate) fn spare<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+    let Ok(existing) = output.canonicalize() else { return Ok(()) };
+    let mut inputs = inputs.into_iter();
+    if inputs.any(|input| input.canonicalize().is_ok_and(|input| input == existing)) {
+        let message =
+            format!("{}: is to be read and cannot be written as well; choose another place", output.display());
+        return Err(Failure::bad(message));
+    }
+    Ok(())
+}
 
 /// Prints a result.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {

@@ -5,6 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::output;
+
 const TEMPLATE: &str = "{msg:>12} [{bar:40}] {pos}/{len} {eta}";
 
 /// Work of a known length; shared by the threads that do it.
@@ -32,7 +34,7 @@ impl Progress {
         match &self.bar {
             Some(bar) => bar.inc(1),
             None if tenth(done, self.total) != tenth(done - 1, self.total) => {
-                eprintln!("{}: {done}/{}", self.label, self.total);
+                output::say(&format!("{}: {done}/{}", self.label, self.total));
             }
             None => {}
         }

@@ -26,11 +26,12 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+    output::spare(&args.output, args.clips.iter().map(PathBuf::as_path))?;
     let (db, answer) = compiling::compile(&args.clips)?;
     file::write(&args.output, &db)?;
     for source in &db.sources {
         for warning in &source.warnings {
-            eprintln!("warning: {} {}: {warning}", source.file, source.clip);
+            output::say(&format!("warning: {} {}: {warning}", source.file, source.clip));
         }
     }
     let mirrors = db.examples.iter().filter(|example| example.mirrored).count();

@@ -44,7 +44,7 @@ fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
     let (db, _) = file::load(path)?;
     if let Some(folder) = &args.plots {
         for picture in write_database_plots(&db, folder)? {
-            eprintln!("drew {}", picture.display());
+            output::say(&format!("drew {}", picture.display()));
         }
     }
     let report = DatabaseReport::new(&db);

@@ -30,6 +30,9 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let bad = |error: fbcrowd_sim::recording_error::RecordingError| Failure::bad(error.to_string());
     let recording = Recording::open(&args.recording).map_err(bad)?;
+    if let Some(path) = &args.trajectories {
+        output::spare(path, [args.recording.as_path()])?;
+    }
     let measures = metrics::measure(&recording).map_err(bad)?;
     if let Some(path) = &args.trajectories {
         write_trajectories(&recording, path).map_err(|error| Failure::unwritable(path, &error))?;

@@ -5,7 +5,7 @@ use std::{fs, io};
 
 use fbcrowd_render::sequence::{Format, SequenceOptions};
 use fbcrowd_sim::metrics;
-use fbcrowd_sim::scenario_file::MotionSource;
+use fbcrowd_sim::scenario_file::{self, MotionSource};
 use motiondb::file;
 
 use crate::cmd::measure;
@@ -29,11 +29,11 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let (scenario, motion) = simulation::read_scenario(&args.scenario)?;
+    let (scenario, motion) = scenario_file::read(&args.scenario)?;
     let name = scenario.name.clone();
     let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let recording_path = folder.join(format!("{name}.fbrec"));
-    let (database, answer) = database(motion, &folder)?;
+    let (database, answer) = database(motion?, &folder)?;
     let (db, checksum) = file::load(&database)?;
 
     let timings = simulation::simulate(db, checksum, scenario, &recording_path)?;

@@ -1,11 +1,14 @@
 //! `fbcrowd simulate`: a scenario on a database, recorded.
 
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::scenario_file::MotionSource;
-use motiondb::{atomic_file, file};
+use fbcrowd_sim::scenario_file::{self, MotionSource};
+use motiondb::atomic_file::AtomicFile;
+use motiondb::file;
 
 use crate::failure::{Answer, Failure};
+use crate::simulation::Timings;
 use crate::{output, simulation};
 
 /// Simulate a scenario on a compiled database.
@@ -29,24 +32,49 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let (scenario, motion) = simulation::read_scenario(&args.scenario)?;
-    let database = match (&args.database, motion) {
-        (Some(given), _) => given.clone(),
-        (None, MotionSource::Database(own)) => own,
-        (None, MotionSource::Clips(clips)) => {
-            return Err(Failure::bad(format!(
-                "{} names clips, not a database; compile {} and name the result with --db, or use `fbcrowd run`",
-                args.scenario.display(),
-                clips.display()
-            )));
-        }
+    let (scenario, motion) = scenario_file::read(&args.scenario)?;
+    let database = match &args.database {
+        Some(given) => given.clone(),
+        None => own_database(&args.scenario, motion?)?,
     };
-    let (db, checksum) = file::load(&database)?;
-    let timings = simulation::simulate(db, checksum, scenario, &args.output)?;
-    if let Some(report) = &args.report {
-        atomic_file::write(report, output::to_json(&timings).as_bytes())
-            .map_err(|error| Failure::unwritable(report, &error))?;
+    for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
+        output::spare(written, [args.scenario.as_path(), &database])?;
     }
+    let (db, checksum) = file::load(&database)?;
+    // Opened before the long work, so that a place that cannot be written ends it early.
+    let report = args.report.as_deref().map(Report::create).transpose()?;
+    let timings = simulation::simulate(db, checksum, scenario, &args.output)?;
+    report.map_or(Ok(()), |report| report.finish(&timings))?;
     output::print(&timings.text())?;
     Ok(Answer::Yes)
+}
+
+/// The database that the scenario itself names.
+fn own_database(scenario: &Path, motion: MotionSource) -> Result<PathBuf, Failure> {
+    match motion {
+        MotionSource::Database(own) => Ok(own),
+        MotionSource::Clips(clips) => Err(Failure::bad(format!(
+            "{} names clips, not a database; compile {} and name the result with --db, or use `fbcrowd run`",
+            scenario.display(),
+            clips.display()
+        ))),
+    }
+}
+
+/// The file of `--report`.
+struct Report<'a> {
+    path: &'a Path,
+    file: AtomicFile,
+}
+
+impl<'a> Report<'a> {
+    fn create(path: &'a Path) -> Result<Self, Failure> {
+        let file = AtomicFile::create(path).map_err(|error| Failure::unwritable(path, &error))?;
+        Ok(Self { path, file })
+    }
+
+    fn finish(mut self, timings: &Timings) -> Result<(), Failure> {
+        let written = self.file.writer().write_all(output::to_json(timings).as_bytes());
+        written.and_then(|()| self.file.commit()).map_err(|error| Failure::unwritable(self.path, &error))
+    }
 }
