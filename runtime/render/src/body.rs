@@ -104,12 +104,17 @@ impl Body<'_> {
         let sole = self.joints.sole_points_m(self.skeleton, side.index()).map(|point| self.frame.root.to_world(point));
         let (heel_m, ball_m) = (0.85 * self.radius_m(foot), self.radius_m(foot).max(self.radius_m(toe)));
         let toe_m = 0.85 * self.radius_m(toe);
-        // The sole points lie at the rim of the shoe; the swept ball's centre lies a radius inside.
+        // The sole points lie under the rim of the shoe; the swept ball's centre lies a radius inside and above.
         let inward = (sole[2] - sole[0]).normalize_or_zero();
-        let [heel, ball, tip] = [sole[0] + inward * heel_m, sole[1], sole[2] - inward * toe_m];
+        let above = |joint: Joint, radius_m: f32| self.point_m(joint, Vec3::Z * radius_m) - self.joint_m(joint);
+        let heel = sole[0] + inward * heel_m + above(foot, heel_m);
+        let ball = sole[1] + above(foot, ball_m);
+        let tip = sole[2] - inward * toe_m + above(toe, toe_m);
         if detail == Detail::Full {
+            let ankle_m = 0.9 * self.radius_m(Joint::SHANKS[side.index()]);
             parts.push(part([heel, ball], [heel_m, ball_m], SHOE));
             parts.push(part([ball, tip], [ball_m, toe_m], SHOE * 1.12));
+            parts.push(part([self.joint_m(foot), heel.lerp(ball, 0.5)], [ankle_m, heel_m], SHOE));
         } else {
             parts.push(part([heel, tip], [ball_m; 2], SHOE));
         }
