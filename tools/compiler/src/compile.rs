@@ -5,7 +5,9 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
+use motiondb::validate::validate;
 use rayon::prelude::*;
 
 use crate::arc::Rates;
@@ -22,6 +24,10 @@ use crate::{
 
 /// Period of standing clips where none steps, seconds.
 const STANDING_PERIOD_S: f64 = 1.0;
+/// Whoever walks, crouched or on hands, has the pelvis above this, m.
+const PELVIS_HEIGHT_MIN_M: f64 = 0.01;
+/// Why a clip in which it is elsewhere is no example.
+const STRAY: &str = "the pelvis is where no legs could carry it";
 
 /// What a user may decide about a database.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -88,7 +94,7 @@ pub fn import_files(files: &[PathBuf], imported: &(dyn Fn(&Path) + Sync)) -> (Ve
 /// Compiles clips into a database.
 ///
 /// # Errors
-/// Where no clip gives an example, two examples have one name, or the options name an example that there is not.
+/// Where no clip gives an example, two examples have one name, the options name an example that there is not, or the database is unsound.
 pub fn compile(mut clips: Vec<HumanClip>, options: &CompileOptions) -> Result<MotionDb, CompileError> {
     clips.sort_by(|a, b| (&a.source.file, &a.source.clip).cmp(&(&b.source.file, &b.source.clip)));
     if clips.is_empty() {
@@ -129,14 +135,20 @@ struct Analyzed {
 
 fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
     let grounded = unroll::unroll(root_motion::ground(clip, body), body);
-    let gait = gait::analyze(&grounded, body);
+    let mut gait = gait::analyze(&grounded, body);
+    let heights_m = grounded.poses.iter().map(|pose| DVec3::Z * pose.pelvis_m.z);
+    if matches!(gait.gait, Gait::Stands) && strays(heights_m, body) {
+        gait.gait = Gait::Unsteady(STRAY);
+    }
     let mut warnings = Vec::new();
     let stepping = match &gait.gait {
         Gait::Steps(strides) => {
             let mut cycle = cycle::mean_stride(&grounded, body, &gait.planted, strides);
             warnings = parameterize::snap(&mut cycle);
             warnings.extend(foot_slide::lint(&cycle, body));
-            Some(cycle)
+            let stray = strays(cycle.rows.iter().map(|row| row.pelvis_m), body);
+            warnings.extend(stray.then(|| format!("no example: {STRAY}")));
+            (!stray).then_some(cycle)
         }
         Gait::Unsteady(reason) => {
             warnings.push(format!("no example: {reason}"));
@@ -145,6 +157,14 @@ fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
         Gait::Stands => None,
     };
     Analyzed { grounded, gait, stepping, warnings }
+}
+
+/// Whether a pelvis leaves its root, at z = 0: more than two legs aside, three up, or into the ground.
+fn strays(mut pelvis_m: impl Iterator<Item = DVec3>, body: &HumanBody) -> bool {
+    let leg_m = root_motion::leg_length_m(body);
+    let heights_m = PELVIS_HEIGHT_MIN_M..3.0 * leg_m;
+    let is_near = |place_m: &DVec3| place_m.truncate().length() < 2.0 * leg_m && heights_m.contains(&place_m.z);
+    !pelvis_m.all(|place_m| is_near(&place_m))
 }
 
 /// The period of m_sp, which standing clips take over.
@@ -229,7 +249,7 @@ fn assemble(
         return Err(CompileError::NoSuchExample { name: name.to_owned() });
     }
     let correspondence = correspondence::build(&examples, &cycles, body, blend_space.axis_ranges, named_sp);
-    Ok(MotionDb {
+    let db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
         correspondence,
         velocity_hull: velocity_hull::build(&examples),
@@ -237,13 +257,15 @@ fn assemble(
         blend_space,
         examples,
         sources,
-    })
+    };
+    match validate(&db).into_iter().find_map(|check| Some((check.name, check.broken?))) {
+        Some((invariant, detail)) => Err(CompileError::Unsound { invariant, detail }),
+        None => Ok(db),
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use motiondb::validate::validate;
-
     use super::*;
     use crate::synthetic::{Walk, idle, walk};
 
@@ -297,6 +319,23 @@ mod tests {
         reversed.reverse();
         let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
         assert_eq!(compiled(set()), one_thread.install(|| compiled(reversed)));
+    }
+
+    #[test]
+    fn a_body_that_leaves_its_legs_gives_no_example_and_spoils_no_other() {
+        let mut clips = set();
+        clips.push(walk("leap", Walk::default()));
+        clips.push(idle("sunk", 3.0));
+        let count = clips.len();
+        clips[count - 2].frames.iter_mut().skip(7).step_by(9).for_each(|pose| pose.pelvis_m.y += 8.0);
+        clips[count - 1].frames.iter_mut().skip(7).step_by(9).for_each(|pose| pose.pelvis_m.z -= 2.0);
+        let db = compiled(clips);
+        assert!(
+            !db.examples.iter().any(|example| example.name == "leap" || example.name == "sunk"),
+            "{:?}",
+            db.sources
+        );
+        assert_eq!(db.examples.len(), 7);
     }
 
     #[test]

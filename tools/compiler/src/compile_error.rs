@@ -20,6 +20,16 @@ pub enum CompileError {
         /// The name.
         name: String,
     },
+    /// What was compiled is no sound database: the clips hold something that no earlier stage knew to refuse.
+    #[error(
+        "the clips give a database that breaks `{invariant}`: {detail}; leave out the clip that this names, or repair it"
+    )]
+    Unsound {
+        /// Its name in `fbcrowd validate`.
+        invariant: &'static str,
+        /// Where and how.
+        detail: String,
+    },
     /// Examples are told apart by name.
     #[error("two clips are called {name}; rename one of the files")]
     SameName {

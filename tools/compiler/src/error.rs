@@ -69,6 +69,12 @@ pub enum Refusal {
     /// Joints in places that no body has.
     #[error("positions or rotations are not finite: the skeleton is degenerate; export the clip again")]
     Degenerate,
+    /// Bones that no body has.
+    #[error("no human proportions: {reason}; check the skeleton's offsets and its unit, and export the clip again")]
+    Disproportionate {
+        /// The measurement that says so.
+        reason: String,
+    },
     /// Limbs are there, but the body is a quadruped's or crawls or lies.
     #[error("not upright: {reason}; only clips of a walking human skeleton can be used")]
     NotUpright {

@@ -15,6 +15,10 @@ use gltf::accessor::{Accessor, DataType, Dimensions};
 use gltf::animation::util::ReadOutputs;
 use gltf::animation::{Channel, Interpolation};
 
+/// Flaws of one document that a message lists, and the letters of any other message.
+const SHOWN_FLAWS: usize = 3;
+const SHOWN_LETTERS: usize = 500;
+
 /// What is wrong, and where.
 #[derive(Debug)]
 pub(crate) struct Flaw {
@@ -92,7 +96,7 @@ fn flaw<T>(place: impl Into<String>, problem: impl Into<String>, remedy: &'stati
 
 fn parse_unguarded(file: &Path, bytes: &[u8]) -> Result<(Vec<Node>, Vec<Animation>), Flaw> {
     let document = gltf::Gltf::from_slice(bytes)
-        .or_else(|error| flaw("document", error.to_string(), "check it with the glTF validator, or export it again"))?;
+        .or_else(|error| flaw("document", shown(&error), "check it with the glTF validator, or export it again"))?;
     let chunk = document.blob.as_deref();
     let buffers =
         document.buffers().map(|buffer| read_buffer(file, &buffer, chunk)).collect::<Result<Vec<_>, Flaw>>()?;
@@ -105,6 +109,18 @@ fn parse_unguarded(file: &Path, bytes: &[u8]) -> Result<(Vec<Node>, Vec<Animatio
         })
         .collect::<Result<_, Flaw>>()?;
     Ok((nodes, animations))
+}
+
+/// What is wrong in a document, in short: one slip at its start may put thousands of indices out of bounds.
+fn shown(error: &gltf::Error) -> String {
+    match error {
+        gltf::Error::Validation(flaws) if flaws.len() > SHOWN_FLAWS => {
+            let first: Vec<String> =
+                flaws[..SHOWN_FLAWS].iter().map(|(path, flaw)| format!("{path}: {flaw}")).collect();
+            format!("{}; and {} more", first.join("; "), flaws.len() - SHOWN_FLAWS)
+        }
+        _ => error.to_string().chars().take(SHOWN_LETTERS).collect(),
+    }
 }
 
 fn own_node(node: &gltf::Node) -> Node {

@@ -2,7 +2,8 @@
 //!
 //! # Steps
 //! read ([`crate::bvh`], [`crate::gltf`]) → roles ([`crate::skeleton_map`]) → metres, Z up ([`crate::units`]) → no separate first pose
-//! (`first_pose`) → whole-clip parameters ([`crate::source_parameters`]) → a plausible gait (`plausibility`) → canonical humanoid (`retarget`).
+//! (`first_pose`) → whole-clip parameters ([`crate::source_parameters`]) → a plausible gait (`plausibility`) → canonical humanoid (`retarget`)
+//! → a plausible body.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -98,5 +99,8 @@ fn to_human(clip: SourceClip, name: String) -> Result<HumanClip, Refusal> {
     clip.warnings.extend(plausibility::implausible_gait(&clip, &roles, &whole));
     let human = retarget::to_human(&clip, &roles, &units, whole, name);
     let finite = |pose: &HumanPose| pose.pelvis_m.is_finite() && pose.rotations.iter().all(|turn| turn.is_finite());
-    if human.frames.iter().all(finite) { Ok(human) } else { Err(Refusal::Degenerate) }
+    if !human.frames.iter().all(finite) {
+        return Err(Refusal::Degenerate);
+    }
+    plausibility::impossible_body(&human.body).map_or(Ok(human), Err)
 }
