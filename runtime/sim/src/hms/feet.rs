@@ -104,9 +104,14 @@ impl FootHold {
         self.planted.then_some(self.shift_m)
     }
 
-    /// The ball of a planted foot, in the world.
-    pub fn planted_ball_m(&self) -> Option<Vec3> {
-        self.planted.then_some(self.sole_m[1])
+    /// The ball, in the world.
+    pub fn ball_m(&self) -> Vec3 {
+        self.sole_m[1]
+    }
+
+    /// On the ground.
+    pub fn planted(&self) -> bool {
+        self.planted
     }
 
     /// Takes note of the foot as the leg could place it.

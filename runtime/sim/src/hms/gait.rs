@@ -39,8 +39,8 @@ impl Gait {
     /// At the start: standing, ready to go.
     pub const STANDING: Self = Self { stands: true, since_s: GAIT_TIME_S, gathering_s: 0.0 };
 
-    /// Follows what is asked, with hysteresis; `feet_gathered` tells whether the body could stand as its feet are.
-    pub fn follow(&mut self, idle_share: f32, feet_gathered: bool, dt_s: f32) {
+    /// Follows what is asked, with hysteresis; `feet_gathered` tells whether the body could stand as its feet are. Whether it starts to step.
+    pub fn follow(&mut self, idle_share: f32, feet_gathered: bool, dt_s: f32) -> bool {
         let lasted = self.since_s >= GAIT_TIME_S;
         let stop = !self.stands && (lasted && idle_share > STOP_IDLE_SHARE || idle_share > HALT_IDLE_SHARE);
         let start = self.stands && lasted && idle_share < START_IDLE_SHARE;
@@ -49,6 +49,7 @@ impl Gait {
             *self = Self { stands: !self.stands, since_s: 0.0, gathering_s: 0.0 };
         }
         self.since_s += dt_s;
+        start
     }
 }
 

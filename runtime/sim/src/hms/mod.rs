@@ -40,8 +40,8 @@ use crate::plan::{Plan, Stance, StanceFoot};
 const PELVIS_EXTENSION: f32 = 0.99;
 /// Furthest that the pelvis comes down, metres.
 const PELVIS_DROP_MAX_M: f32 = 0.12;
-/// Rate at which the pelvis follows, 1/s.
-const PELVIS_RATE_HZ: f32 = 15.0;
+/// It begins to come down this much before it must, m: half of the bob of walking, so that knees never snap straight.
+const PELVIS_SOFTNESS_M: f32 = 0.02;
 
 /// Feet this near to where a standing body has them are under it, m: half a small step.
 const GATHERED_M: f32 = 0.18;
@@ -51,6 +51,12 @@ const CATCH_UP_TIME_S: f32 = 0.2;
 const HURRY_MAX: f32 = 0.4;
 /// A body slower than this hardly moves its feet by its phase, m/s.
 const HURRY_SPEED_MIN_MPS: f32 = 0.4;
+/// A plan reaches the body with this lag, s. Planners that take turns in giving way change their mind every step; a body so led would tremble.
+const INTENTION_TIME_S: f32 = 0.05;
+/// Phase of the first step before the swinging foot's passing of the other: it is lifted there, and passes when stepping has faded in.
+const LIFT_OFF_PHASE: f32 = 0.15;
+/// A first step aside, or into a turn, is made by the foot on that side, unless that foot is ahead of the other by this, m.
+const OPEN_SIDE_M: f32 = 0.1;
 /// A first pose is given this long to settle on its feet, s.
 const SETTLING_S: f32 = 1.0;
 
@@ -76,10 +82,11 @@ pub struct Body {
     pub mix: Mix,
     gait: Gait,
     owed: Owed,
+    /// What the plans of the last moments asked for.
+    intended: Parameters,
     /// Velocity of the last step, world, m/s.
     walked_mps: Vec2,
     feet: [FootHold; 2],
-    pelvis_drop_m: f32,
 }
 
 /// A synthesised body.
@@ -105,9 +112,9 @@ impl Body {
             mix,
             gait: Gait::STANDING,
             owed: Owed::default(),
+            intended: Parameters::default(),
             walked_mps: Vec2::ZERO,
             feet: Default::default(),
-            pelvis_drop_m: 0.0,
         };
         let weights = mix.weights(motion.db, phase);
         let joints = weights.pose(motion.db, phase).forward_kinematics(&motion.db.skeleton);
@@ -119,10 +126,12 @@ impl Body {
     /// Steps 1 and 2: shares, phase and root follow the plan. The root may then be kept out of walls, before [`Self::synthesize`].
     pub fn advance(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
         let plan = self.owed.settle(plan, self.walked_mps, dt_s);
-        let asked = asked::asked(&plan, self.root.facing_rad, motion.space, motion.params);
+        self.intend(asked::asked(&plan, self.root.facing_rad, motion.space, motion.params), dt_s);
         let now = self.mix.parameters(motion.db);
-        let nearest = motion.space.nearest(asked);
-        self.gait.follow(nearest.idle_share, self.feet_gathered(motion), dt_s);
+        let nearest = motion.space.nearest(self.intended);
+        if self.gait.follow(nearest.idle_share, self.feet_gathered(motion), dt_s) {
+            self.phase = self.first_step_phase(motion);
+        }
         let goal = gait::goal(nearest, now, self.gait, motion.space);
         let shares = asked::step_towards(now, goal, motion.space, motion.params, dt_s);
         self.mix.approach(&shares, dt_s / motion.params.share_change_s);
@@ -132,12 +141,32 @@ impl Body {
         self.root = moved;
     }
 
+    fn intend(&mut self, asked: Parameters, dt_s: f32) {
+        let follow = 1.0 - libm::expf(-dt_s / INTENTION_TIME_S);
+        let (intended, asked) = (self.intended.to_vec3(), asked.to_vec3());
+        self.intended = Parameters::from_vec3(intended + follow * (asked - intended));
+    }
+
+    /// A standing body is free in its phase (standing hardly moves): its first step begins with the lift of the foot that is further
+    /// behind, or on the side to which it goes, so that the other foot is under it and not a step away.
+    fn first_step_phase(&self, motion: &Motion) -> f32 {
+        let velocity_mps = Vec2::new(self.intended.speed_mps, self.intended.strafe_mps);
+        let way = velocity_mps.normalize_or_zero();
+        let ahead_m = [0, 1].map(|side| {
+            let ball_m = to_root(&self.root, self.feet[side].ball_m()) - motion.space.standing_balls_m[side];
+            ball_m.truncate().dot(way)
+        });
+        let to_left = way.y + self.intended.turn_rate_rad_s / motion.space.turn_rate_max_rad_s;
+        let passing = if ahead_m[0] - ahead_m[1] < OPEN_SIDE_M * to_left { 1.0 } else { 0.5 };
+        passing - LIFT_OFF_PHASE
+    }
+
     /// Whether both feet are on the ground, and near enough to where a standing body has them.
     fn feet_gathered(&self, motion: &Motion) -> bool {
         let gathered = |side: usize| {
             let standing_m = self.root.to_world(motion.space.standing_balls_m[side]);
-            let ball_m = self.feet[side].planted_ball_m();
-            ball_m.is_some_and(|ball_m| ball_m.truncate().distance(standing_m.truncate()) < GATHERED_M)
+            let off_m = (self.feet[side].ball_m() - standing_m).truncate();
+            self.feet[side].planted() && off_m.length() < GATHERED_M
         };
         gathered(0) && gathered(1)
     }
@@ -165,7 +194,7 @@ impl Body {
         let mut joints = pose.forward_kinematics(skeleton);
 
         let targets = [0, 1].map(|side| self.hold_foot(&joints, skeleton, side, contacts[side], dt_s));
-        self.lower_pelvis(&mut pose, &mut joints, skeleton, &targets, dt_s);
+        lower_pelvis(&mut pose, &mut joints, skeleton, &targets);
         for (side, target) in targets.iter().enumerate() {
             ik::reach(&mut pose, &mut joints, skeleton, side, target);
         }
@@ -197,22 +226,6 @@ impl Body {
             ankle_m: self.root.to_world(joints.positions_m[Joint::FEET[side].index()]),
             sole_m: joints.sole_points_m(skeleton, side).map(|point| self.root.to_world(point)),
         }
-    }
-
-    /// Brings the whole body down, softly, by what the more stretched leg needs to reach its foot.
-    fn lower_pelvis(
-        &mut self,
-        pose: &mut Pose,
-        joints: &mut Joints,
-        skeleton: &Skeleton,
-        targets: &[FootTarget; 2],
-        dt_s: f32,
-    ) {
-        let needed_m = [0, 1].map(|side| drop_needed_m(joints, skeleton, side, &targets[side]));
-        let wanted_m = needed_m[0].max(needed_m[1]).clamp(0.0, PELVIS_DROP_MAX_M);
-        self.pelvis_drop_m += (wanted_m - self.pelvis_drop_m) * (1.0 - libm::expf(-PELVIS_RATE_HZ * dt_s));
-        pose.pelvis_m.z -= self.pelvis_drop_m;
-        joints.positions_m.iter_mut().for_each(|position_m| position_m.z -= self.pelvis_drop_m);
     }
 
     /// The single stance foot, if there is one.
@@ -250,6 +263,17 @@ fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
 fn to_root(root: &Root, point_m: Vec3) -> Vec3 {
     let forward = root.forward();
     Vec2::new(forward.x, -forward.y).rotate(point_m.truncate() - root.position_m).extend(point_m.z)
+}
+
+/// Brings the whole body down by what the more stretched leg needs to reach its foot: the soft maximum of both needs and of none. It
+/// begins a little before the leg is stretched, so that neither hips nor knee jerk when it is.
+fn lower_pelvis(pose: &mut Pose, joints: &mut Joints, skeleton: &Skeleton, targets: &[FootTarget; 2]) {
+    let need = |side: usize| {
+        libm::expf(drop_needed_m(joints, skeleton, side, &targets[side]) / PELVIS_SOFTNESS_M - 1.0)
+    };
+    let drop_m = (PELVIS_SOFTNESS_M * libm::logf(1.0 + need(0) + need(1))).min(PELVIS_DROP_MAX_M);
+    pose.pelvis_m.z -= drop_m;
+    joints.positions_m.iter_mut().for_each(|position_m| position_m.z -= drop_m);
 }
 
 /// How far the hip must come down for its leg to reach the target without stretching more than the pose does; negative if it reaches.
