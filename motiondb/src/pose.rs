@@ -75,10 +75,16 @@ impl Joints {
     /// Heel, ball and toe tip on the sole of one foot.
     pub fn sole_points_m(&self, skeleton: &Skeleton, side: usize) -> [Vec3; 3] {
         let foot = &skeleton.feet[side];
-        [
-            self.point_m(Joint::FEET[side], foot.heel_m),
-            self.point_m(Joint::FEET[side], foot.ball_m),
-            self.point_m(Joint::TOES[side], foot.toe_tip_m),
-        ]
+        self.foot_points_m(side, [foot.heel_m, foot.ball_m, foot.toe_tip_m])
+    }
+
+    /// The points of one foot at which its slide is measured.
+    pub fn measured_points_m(&self, skeleton: &Skeleton, side: usize) -> [Vec3; 3] {
+        self.foot_points_m(side, skeleton.feet[side].measured_m)
+    }
+
+    fn foot_points_m(&self, side: usize, [heel_m, ball_m, toe_tip_m]: [Vec3; 3]) -> [Vec3; 3] {
+        let (foot, toe) = (Joint::FEET[side], Joint::TOES[side]);
+        [self.point_m(foot, heel_m), self.point_m(foot, ball_m), self.point_m(toe, toe_tip_m)]
     }
 }

@@ -188,7 +188,7 @@ pub struct Skeleton {
     pub feet: [Foot; 2],
 }
 
-/// The three points of a foot that touch the ground.
+/// The three points of a foot that touch the ground, and those at which its slide is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Foot {
     /// Relative to the foot joint (the ankle).
@@ -197,9 +197,10 @@ pub struct Foot {
     pub ball_m: Vec3,
     /// Relative to the toe joint.
     pub toe_tip_m: Vec3,
-    /// The clips carried `…Sole` joints. Where they did not, the points above are estimated from the planted heights of
-    /// the joints, and slide is measured at the joints themselves (ankle, ball, end of toe).
-    pub measured_on_sole: bool,
+    /// Where slide is measured: heel and ball relative to the foot joint, toe tip relative to the toe joint. The points
+    /// above where the clips carried `…Sole` joints; else those are estimated, and slide is measured at the joints over
+    /// them (heel or ankle, ball, end of the toe).
+    pub measured_m: [Vec3; 3],
 }
 
 impl Skeleton {

@@ -98,8 +98,8 @@ fn skeleton_is_a_body(db: &MotionDb) -> Outcome {
         ensure(radius_m > 0.0 && radius_m < 1.0, || format!("{} has radius {radius_m} m", joint.name()))?;
     }
     for foot in &skeleton.feet {
-        let soles = [foot.heel_m, foot.ball_m, foot.toe_tip_m];
-        ensure(soles.iter().all(|point| point.is_finite()), || "a sole point is not finite".into())?;
+        let mut points = [foot.heel_m, foot.ball_m, foot.toe_tip_m].into_iter().chain(foot.measured_m);
+        ensure(points.all(|point| point.is_finite()), || "a point of a foot is not finite".into())?;
     }
     let leg_m = skeleton.leg_length_m();
     ensure((0.1..3.0).contains(&leg_m), || format!("legs are {leg_m} m long"))

@@ -6,7 +6,7 @@
 
 use glam::{DVec2, Vec3};
 use motiondb::pose::{Joints, Root};
-use motiondb::skeleton::{Joint, Skeleton};
+use motiondb::skeleton::Skeleton;
 
 use crate::recording_frame::AgentFrame;
 
@@ -169,18 +169,12 @@ fn foot_frames(skeleton: &Skeleton, agent: &AgentFrame) -> [FootFrame; 2] {
     })
 }
 
-/// Heel, ball and toe in the root frame and their heights when planted, metres: points on the sole where the clips had them, else the joints
-/// (ankle, ball, end of toe), which stand above it.
+/// Heel, ball and toe in the root frame and their heights when planted, metres: as far as they lie over the sole.
 fn contact_points_m(skeleton: &Skeleton, joints: &Joints, side: usize) -> ([Vec3; 3], [f32; 3]) {
-    let (foot, ankle, toe) = (&skeleton.feet[side], Joint::FEET[side], Joint::TOES[side]);
-    if foot.measured_on_sole {
-        return (joints.sole_points_m(skeleton, side), [0.0; 3]);
-    }
-    let toe_end_m = skeleton.segment_ends_m[toe.index()];
-    let points_m = [ankle, toe].map(|joint| joints.positions_m[joint.index()]);
-    let above_ball_m = skeleton.offsets_m[toe.index()].z - foot.ball_m.z;
-    let heights_m = [-foot.heel_m.z, above_ball_m, toe_end_m.z - foot.toe_tip_m.z];
-    ([points_m[0], points_m[1], joints.point_m(toe, toe_end_m)], heights_m)
+    let foot = &skeleton.feet[side];
+    let soles_m = [foot.heel_m, foot.ball_m, foot.toe_tip_m];
+    let heights_m = std::array::from_fn(|point| foot.measured_m[point].z - soles_m[point].z);
+    (joints.measured_points_m(skeleton, side), heights_m)
 }
 
 /// In f64, so that the distance from the origin costs no precision.

@@ -215,10 +215,11 @@ fn decode_header(file: &ChunkFile) -> Result<Header, RecordingError> {
 }
 
 fn is_finite(skeleton: &Skeleton) -> bool {
-    let soles_m = skeleton.feet.iter().flat_map(|foot| [foot.heel_m, foot.ball_m, foot.toe_tip_m]);
+    let feet = skeleton.feet.iter();
+    let points_m = feet.flat_map(|foot| [foot.heel_m, foot.ball_m, foot.toe_tip_m].into_iter().chain(foot.measured_m));
     let vectors = [skeleton.offsets_m, skeleton.segment_ends_m].into_iter().flatten();
     let limits = skeleton.limits_rad.iter().flatten().copied();
-    vectors.chain(limits).chain(soles_m).all(Vec3::is_finite) && skeleton.segment_radii_m.iter().all(|m| m.is_finite())
+    vectors.chain(limits).chain(points_m).all(Vec3::is_finite) && skeleton.segment_radii_m.iter().all(|m| m.is_finite())
 }
 
 /// Where each frame's chunk begins.
@@ -232,7 +233,12 @@ fn read_index(file: &ChunkFile) -> Result<Vec<u64>, RecordingError> {
     let (bytes @ [_, ..], []) = index.as_chunks::<8>() else {
         return Err(file.damaged(index_byte, "the index is empty or not whole"));
     };
-    Ok(bytes.iter().map(|byte| u64::from_le_bytes(*byte)).collect())
+    let frame_bytes: Vec<u64> = bytes.iter().map(|byte| u64::from_le_bytes(*byte)).collect();
+    // So that a short file cannot claim many frames.
+    if !frame_bytes.is_sorted_by(|a, b| a < b) {
+        return Err(file.damaged(index_byte, "the index does not rise"));
+    }
+    Ok(frame_bytes)
 }
 
 fn bincode_config() -> impl bincode::config::Config {

@@ -169,7 +169,8 @@ pub(crate) fn skeleton() -> Skeleton {
         offsets_m[Joint::TOES[side].index()] = BALL_M;
         offsets_m[Joint::UPPER_ARMS[side].index()] = Vec3::new(0.0, sign * 0.16, 0.0);
     }
-    let foot = Foot { heel_m: HEEL_M, ball_m: BALL_M, toe_tip_m: Vec3::new(0.06, 0.0, 0.0), measured_on_sole: true };
+    let toe_tip_m = Vec3::new(0.06, 0.0, 0.0);
+    let foot = Foot { heel_m: HEEL_M, ball_m: BALL_M, toe_tip_m, measured_m: [HEEL_M, BALL_M, toe_tip_m] };
     Skeleton {
         segment_ends_m: offsets_m,
         offsets_m,

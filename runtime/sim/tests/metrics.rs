@@ -6,7 +6,7 @@ use common::{agent, folder, header, record, standing_at};
 use fbcrowd_sim::metrics::{Measures, measure, write_trajectories};
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::recording_frame::AgentFrame;
-use glam::{Quat, Vec2};
+use glam::{Quat, Vec2, Vec3};
 use motiondb::skeleton::Joint;
 
 const DT_S: f32 = 0.1;
@@ -122,7 +122,9 @@ fn a_foot_that_rolls_over_its_toe_does_not_slide() {
 fn without_soles_the_joint_nearest_its_planted_height_is_the_contact_point() {
     // Foot flat: ankle and ball are both at their planted heights, and the ankle comes first. Heel up: the ball, in place, takes over.
     let mut header = walker(9.0);
-    header.skeleton.feet.iter_mut().for_each(|foot| foot.measured_on_sole = false);
+    let toe_end_m = header.skeleton.segment_ends_m[Joint::LeftToe.index()];
+    let joints_m = [Vec3::ZERO, header.skeleton.offsets_m[Joint::LeftToe.index()], toe_end_m];
+    header.skeleton.feet.iter_mut().for_each(|foot| foot.measured_m = joints_m);
     let ball_m =
         |frame: &AgentFrame| frame.pose.forward_kinematics(&header.skeleton).positions_m[Joint::LeftToe.index()];
     let rolling = |step: i32| {

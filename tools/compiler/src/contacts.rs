@@ -4,9 +4,7 @@
 //! ball, end of the toe), each over its own planted height. The foot is planted while that point is low and slow. World frame, metres.
 
 use glam::DVec3;
-use motiondb::skeleton::Joint;
 
-use crate::human_clip::{HumanBody, HumanJoints};
 use crate::root_motion::percentile;
 
 /// Over its planted height a planted point lifts less than this (`definitions.md`), metres.
@@ -25,16 +23,6 @@ const SPEED_SPAN_S: f64 = 1.0 / 30.0;
 const TOUCH_MIN_S: f64 = 0.05;
 const LIFT_MIN_S: f64 = 0.1;
 const CONTACT_MIN_S: f64 = 0.08;
-
-/// The three points of a foot that may touch the ground, as slide and contact measure them.
-pub fn contact_points_m(joints: &HumanJoints, body: &HumanBody, side: usize) -> [DVec3; 3] {
-    if body.measured_on_sole {
-        return joints.sole_points_m(body, side);
-    }
-    let (foot, toe) = (Joint::FEET[side].index(), Joint::TOES[side].index());
-    let toe_end = joints.positions_m[toe] + joints.orientations[toe] * body.segment_ends_m[toe];
-    [joints.positions_m[foot], joints.positions_m[toe], toe_end]
-}
 
 /// Which of a foot's three points is the lowest over its planted height, frame by frame, and how high it is. Planted heights are taken over
 /// `window` frames about each frame: the floor of a capture may slope.

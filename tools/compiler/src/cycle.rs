@@ -11,18 +11,23 @@ use motiondb::skeleton::JOINT_COUNT;
 
 use crate::arc::Rates;
 use crate::human_clip::{HumanBody, HumanPose};
-use crate::root_motion::{GroundedClip, accumulate, align_to};
+use crate::pose_mean::pose_mean;
+use crate::root_motion::GroundedClip;
 use crate::stride::Stride;
 
 /// Rows that a stride is faded over at each end, where the clip reaches that far: an eighth of a cycle.
 const FADE_ROWS: usize = PHASE_COUNT / 8;
+/// Time in which a foot's contact goes from 0 to 1: one frame of the slowest clips, which know it no better.
+const CONTACT_RAMP_S: f64 = 1.0 / 30.0;
+/// Ends farther away count as this far, so that a contact's other end has no say.
+const DEPTH_MAX_S: f64 = 0.1;
 
 /// One closed cycle of 64 rows.
 #[derive(Clone, Debug)]
 pub struct GaitCycle {
     /// Poses in the root frame at uniform phases.
     pub rows: Vec<HumanPose>,
-    /// Contact of each foot, `[left, right]`, 0 to 1: the share of strides in which it is planted.
+    /// Contact of each foot, `[left, right]`, 0 to 1, ½ at both ends.
     pub contacts: Vec<[f64; 2]>,
     /// Phase to time.
     pub phase_map: PhaseMap,
@@ -43,13 +48,14 @@ pub fn mean_stride(clip: &GroundedClip, body: &HumanBody, planted: &[Vec<bool>; 
     };
     let period_s = frames / strides.len() as f64 / clip.frame_rate_hz;
     let phase_map = PhaseMap { period_s: period_s as f32, left_share: mean(|s| s.left_share) as f32 };
-    let (mut rows, mut contacts) = (vec![empty_pose(); PHASE_COUNT], vec![[0.0; 2]; PHASE_COUNT]);
+    let contact_depths_s = planted.each_ref().map(|planted| contact_depths_s(planted, clip.frame_rate_hz));
+    let (mut parts, mut depths_s) = (vec![Vec::new(); PHASE_COUNT], vec![[0.0; 2]; PHASE_COUNT]);
     for stride in strides {
-        add_stride(&mut rows, &mut contacts, &StrideReader { clip, planted, stride }, 1.0 / strides.len() as f64);
+        let reader = StrideReader { clip, body, contact_depths_s: &contact_depths_s, stride };
+        add_stride(&mut parts, &mut depths_s, &reader, 1.0 / strides.len() as f64);
     }
-    for row in &mut rows {
-        row.rotations = row.rotations.map(DQuat::normalize);
-    }
+    let rows = parts.iter().map(|parts| pose_mean(parts, body)).collect();
+    let contacts = depths_s.iter().map(|depths_s| depths_s.map(contact)).collect();
     let mut cycle = GaitCycle { rows, contacts, phase_map, rates, steps: true };
     lower_to_ground(&mut cycle, body);
     cycle
@@ -67,14 +73,30 @@ impl GaitCycle {
     }
 }
 
-fn empty_pose() -> HumanPose {
-    HumanPose { pelvis_m: DVec3::ZERO, rotations: [DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] }
+/// How deep each frame lies in a contact: seconds to its nearest end, negative outside. The mean of this over strides ends each contact at
+/// the mean of its ends; a mean of planted or not would stretch contacts to where only half of the strides have them.
+fn contact_depths_s(planted: &[bool], frame_rate_hz: f64) -> Vec<f64> {
+    let edges: Vec<f64> = (1..planted.len())
+        .filter(|&frame| planted[frame] != planted[frame - 1])
+        .map(|frame| frame as f64 - 0.5)
+        .collect();
+    let depth_s = |frame: usize| {
+        let frames = edges.iter().map(|edge| (frame as f64 - edge).abs()).fold(f64::INFINITY, f64::min);
+        (frames / frame_rate_hz).min(DEPTH_MAX_S) * if planted[frame] { 1.0 } else { -1.0 }
+    };
+    (0..planted.len()).map(depth_s).collect()
+}
+
+/// Contact of a foot at a depth: ½ at the end of a contact.
+fn contact(depth_s: f64) -> f64 {
+    (0.5 + depth_s / CONTACT_RAMP_S).clamp(0.0, 1.0)
 }
 
 /// Reads one stride of a clip by phase.
 struct StrideReader<'a> {
     clip: &'a GroundedClip,
-    planted: &'a [Vec<bool>; 2],
+    body: &'a HumanBody,
+    contact_depths_s: &'a [Vec<f64>; 2],
     stride: &'a Stride,
 }
 
@@ -88,17 +110,16 @@ impl StrideReader<'_> {
     fn pose(&self, phase: f64) -> HumanPose {
         let frame = self.frame(phase);
         let time_s = (frame - self.stride.zero_frame) / self.clip.frame_rate_hz;
-        self.stride.arc.relative(&self.clip.pose_at(frame), time_s)
+        self.stride.arc.relative(&self.clip.pose_at(frame, self.body), time_s)
     }
 
-    /// Share of planted, between frames linearly.
-    fn contacts(&self, phase: f64) -> [f64; 2] {
+    /// How deep each foot is in a contact, between frames linearly, seconds (see [`contact_depths_s`]).
+    fn contact_depths_s(&self, phase: f64) -> [f64; 2] {
         let frame = self.frame(phase).max(0.0);
         [0, 1].map(|side| {
-            let planted =
-                |frame: usize| f64::from(u8::from(self.planted[side][frame.min(self.planted[side].len() - 1)]));
+            let depth_s = |frame: usize| self.contact_depths_s[side][frame.min(self.contact_depths_s[side].len() - 1)];
             let (base, share) = (frame as usize, frame - libm::floor(frame));
-            planted(base) + share * (planted(base + 1) - planted(base))
+            depth_s(base) + share * (depth_s(base + 1) - depth_s(base))
         })
     }
 
@@ -137,12 +158,12 @@ impl Gap {
     }
 }
 
-/// Adds one stride, closed, to the sums of all.
-fn add_stride(rows: &mut [HumanPose], contacts: &mut [[f64; 2]], reader: &StrideReader, share: f64) {
+/// Adds one stride, closed, to the parts of the mean of all.
+fn add_stride(rows: &mut [Vec<(f64, HumanPose)>], depths_s: &mut [[f64; 2]], reader: &StrideReader, share: f64) {
     let start = reader.stride.start_phase;
     let gap = Gap::between(&reader.pose(start), &reader.pose(start + 1.0));
     let fade = reader.fade();
-    for (row, (pose, contact)) in rows.iter_mut().zip(contacts).enumerate() {
+    for (row, (parts, depth_s)) in rows.iter_mut().zip(depths_s).enumerate() {
         let phase = row as f64 / PHASE_COUNT as f64;
         for phase in [phase - 1.0, phase, phase + 1.0, phase + 2.0] {
             let weight = share * window(phase - start, fade);
@@ -151,11 +172,10 @@ fn add_stride(rows: &mut [HumanPose], contacts: &mut [[f64; 2]], reader: &Stride
             }
             let mut part = reader.pose(phase);
             gap.take_out(&mut part, phase - start - 0.5);
-            align_to(&mut part.rotations, &pose.rotations);
-            accumulate(pose, &part, weight);
-            let planted = reader.contacts(phase);
-            contact[0] += weight * planted[0];
-            contact[1] += weight * planted[1];
+            parts.push((weight, part));
+            let depths_s = reader.contact_depths_s(phase);
+            depth_s[0] += weight * depths_s[0];
+            depth_s[1] += weight * depths_s[1];
         }
     }
 }

@@ -6,7 +6,7 @@ use glam::DVec3;
 use motiondb::motion_db::PHASE_COUNT;
 
 use crate::arc::Arc;
-use crate::contacts::{contact_points_m, lowest_points};
+use crate::contacts::lowest_points;
 use crate::cycle::GaitCycle;
 use crate::human_clip::HumanBody;
 
@@ -34,7 +34,7 @@ pub fn measure(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
     let (mut speeds, mut planted_rows) = (Vec::new(), 0);
     for side in 0..2 {
         let feet: Vec<[DVec3; 3]> =
-            cycle.rows.iter().map(|row| contact_points_m(&row.forward_kinematics(body), body, side)).collect();
+            cycle.rows.iter().map(|row| row.forward_kinematics(body).measured_points_m(body, side)).collect();
         let lowest = lowest_points(&feet, PHASE_COUNT);
         for (start, length) in contacts(cycle, side) {
             planted_rows += length;

@@ -8,11 +8,12 @@ use std::ops::Range;
 use glam::DVec3;
 use motiondb::skeleton::Side;
 
-use crate::contacts::{self, contact_points_m, runs};
+use crate::contacts::{self, runs};
 use crate::human_clip::HumanBody;
 use crate::root_motion::{GroundedClip, percentile};
 use crate::steady_window::{round_of_strides, steady_window};
 use crate::stride::{BodyTrack, Landmark, Stride, stride};
+use crate::stride_alignment::align;
 
 /// Multiples of the contact limits of the definition that are tried.
 const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
@@ -50,7 +51,7 @@ pub fn analyze(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysis {
     let joints = clip.poses.iter().map(|pose| pose.forward_kinematics(body)).collect();
     let track = BodyTrack::of(joints, clip.frame_rate_hz);
     let feet = [0, 1].map(|side| {
-        track.joints.iter().map(|joints| contact_points_m(joints, body, side)).collect::<Vec<[DVec3; 3]>>()
+        track.joints.iter().map(|joints| joints.measured_points_m(body, side)).collect::<Vec<[DVec3; 3]>>()
     });
     let speed_mps = track.mean_speed_mps();
     let analyses = LENIENCES.map(|lenience| {
@@ -91,7 +92,7 @@ fn steps(stepping: &[Vec<bool>; 2], track: &BodyTrack, loop_frames: Option<usize
         None => steady_window(&strides),
     };
     match window {
-        Some(strides) if !strides.is_empty() => Gait::Steps(strides),
+        Some(strides) if !strides.is_empty() => Gait::Steps(align(&strides, track)),
         _ if strides.iter().all(Option::is_none) => Gait::Unsteady("no whole stride with one step of each foot"),
         _ => Gait::Unsteady("no steady stride"),
     }

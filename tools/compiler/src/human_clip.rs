@@ -32,8 +32,8 @@ pub struct HumanBody {
     pub segment_ends_m: [DVec3; JOINT_COUNT],
     /// `[left, right]`: heel, ball (relative to the foot joint) and toe tip (relative to the toe joint) on the sole.
     pub soles_m: [[DVec3; 3]; 2],
-    /// The clip carried `…Sole` joints; otherwise the soles are estimated from planted heights.
-    pub measured_on_sole: bool,
+    /// Where slide is measured, in the same frames: the soles themselves or the joints over them (see [`motiondb::skeleton::Foot`]).
+    pub measured_m: [[DVec3; 3]; 2],
 }
 
 /// One frame.
@@ -72,8 +72,16 @@ impl HumanPose {
 impl HumanJoints {
     /// Heel, ball and toe tip on the sole of one foot.
     pub fn sole_points_m(&self, body: &HumanBody, side: usize) -> [DVec3; 3] {
+        self.foot_points_m(side, body.soles_m[side])
+    }
+
+    /// The points of one foot at which its slide is measured.
+    pub fn measured_points_m(&self, body: &HumanBody, side: usize) -> [DVec3; 3] {
+        self.foot_points_m(side, body.measured_m[side])
+    }
+
+    fn foot_points_m(&self, side: usize, [heel, ball, tip]: [DVec3; 3]) -> [DVec3; 3] {
         let (foot, toe) = (Joint::FEET[side].index(), Joint::TOES[side].index());
-        let [heel, ball, tip] = body.soles_m[side];
         let on_foot = |offset: DVec3| self.positions_m[foot] + self.orientations[foot] * offset;
         [on_foot(heel), on_foot(ball), self.positions_m[toe] + self.orientations[toe] * tip]
     }

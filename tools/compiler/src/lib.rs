@@ -1,8 +1,8 @@
 //! Motion clips in, motion database out: one file per stage, in `compile.rs` one line per stage.
 //!
 //! import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] → [`human_clip::HumanClip`] →
-//! [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] → [`contacts`], [`gait`], [`stride`], [`steady_window`] →
-//! [`cycle::GaitCycle`] (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`], [`velocity_hull`], [`blend_space`],
+//! [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] → [`contacts`], [`gait`], [`stride`], [`steady_window`],
+//! [`stride_alignment`] → [`pose_mean`], [`cycle::GaitCycle`] (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`], [`velocity_hull`], [`blend_space`],
 //! [`correspondence`] → [`motiondb::motion_db::MotionDb`]
 
 mod anchors;
@@ -31,6 +31,7 @@ mod limb;
 pub mod mirror;
 pub mod parameterize;
 mod plausibility;
+pub mod pose_mean;
 mod quiet_unwind;
 mod retarget;
 pub mod root_motion;
@@ -42,6 +43,7 @@ pub mod source_parameters;
 pub mod standing;
 pub mod steady_window;
 pub mod stride;
+pub mod stride_alignment;
 #[cfg(test)]
 mod synthetic;
 pub mod target_skeleton;

@@ -161,5 +161,5 @@ fn body(
         segment_ends_m[hand.index()] = tracks.mean_end(hand, orientations).unwrap_or(usual);
         segment_ends_m[Joint::TOES[side].index()] = soles.points_m[side][2];
     }
-    HumanBody { offsets_m, segment_ends_m, soles_m: soles.points_m, measured_on_sole: soles.measured }
+    HumanBody { offsets_m, segment_ends_m, soles_m: soles.points_m, measured_m: soles.measured_m }
 }

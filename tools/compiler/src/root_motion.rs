@@ -10,6 +10,7 @@ use motiondb::skeleton::{JOINT_COUNT, Joint};
 use crate::arc::rotation;
 use crate::human_clip::{HumanBody, HumanClip, HumanJoints, HumanPose};
 use crate::leg_ik;
+use crate::pose_mean::pose_between;
 
 /// Bones nearer than this are the same bones: no inverse kinematics for rounding errors.
 const SAME_BONE_M: f64 = 5e-4;
@@ -119,34 +120,13 @@ pub fn percentile(values: &mut [f64], share: f64) -> f64 {
 }
 
 impl GroundedClip {
-    /// The pose at a fractional frame, by Catmull–Rom in every component, so that hips and legs move by the same rule and a planted foot
-    /// stays where it is between frames. Clamped to the clip.
-    pub fn pose_at(&self, frame: f64) -> HumanPose {
+    /// The pose at a fractional frame, clamped to the clip.
+    pub fn pose_at(&self, frame: f64, body: &HumanBody) -> HumanPose {
         let last = self.poses.len() - 1;
         let base = (frame.max(0.0) as usize).min(last.saturating_sub(1));
-        let weights = catmull_rom((frame - base as f64).clamp(0.0, 1.0));
         let neighbours = [base.saturating_sub(1), base, (base + 1).min(last), (base + 2).min(last)];
-        let mut blend =
-            HumanPose { pelvis_m: DVec3::ZERO, rotations: [DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
-        for (weight, neighbour) in weights.into_iter().zip(neighbours) {
-            accumulate(&mut blend, &self.poses[neighbour], weight);
-        }
-        blend.rotations = blend.rotations.map(DQuat::normalize);
-        blend
+        pose_between(neighbours.map(|frame| &self.poses[frame]), (frame - base as f64).clamp(0.0, 1.0), body)
     }
-}
-
-/// Adds a weighted pose, component by component.
-pub fn accumulate(sum: &mut HumanPose, pose: &HumanPose, weight: f64) {
-    sum.pelvis_m += pose.pelvis_m * weight;
-    for (sum, rotation) in sum.rotations.iter_mut().zip(&pose.rotations) {
-        *sum += *rotation * weight;
-    }
-}
-
-fn catmull_rom(t: f64) -> [f64; 4] {
-    let (t2, t3) = (t * t, t * t * t);
-    [0.5 * (-t + 2.0 * t2 - t3), 0.5 * (2.0 - 5.0 * t2 + 3.0 * t3), 0.5 * (t + 4.0 * t2 - 3.0 * t3), 0.5 * (t3 - t2)]
 }
 
 #[cfg(test)]

@@ -34,6 +34,8 @@ pub struct Roles {
     pub ends: [Option<usize>; JOINT_COUNT],
     /// `[left, right]`: heel, ball and toe-tip joints on the sole, where the clip carries `…Sole` joints.
     pub soles: [Option<[usize; 3]>; 2],
+    /// `[left, right]`: the heel's own joint, where the clip has one.
+    pub heels: [Option<usize>; 2],
 }
 
 impl Roles {
@@ -61,7 +63,8 @@ pub fn find_roles(clip: &SourceClip) -> Result<Roles, Refusal> {
     if arms_swapped(&shape, &legs, &arms) {
         arms.limbs.swap(0, 1);
     }
-    let mut roles = Roles { joints: [None; JOINT_COUNT], ends: [None; JOINT_COUNT], soles: [None; 2] };
+    let mut roles =
+        Roles { joints: [None; JOINT_COUNT], ends: [None; JOINT_COUNT], soles: [None; 2], heels: [None; 2] };
     assign_limbs(&shape, &mut roles, &legs, &arms);
     assign_trunk(&shape, &mut roles, &legs, &arms);
     Ok(roles)
@@ -179,11 +182,10 @@ fn assign_limbs(shape: &Shape, roles: &mut Roles, legs: &LimbPair, arms: &LimbPa
 fn assign_foot(shape: &Shape, roles: &mut Roles, side: usize, leg: &Limb) {
     let ankle = leg.joints[2];
     let below: Vec<usize> = shape.subtree(ankle).into_iter().skip(1).collect();
+    let says = |joint: usize, word: &str| shape.clip.joints[joint].name.to_lowercase().contains(word);
     roles.soles[side] = soles(shape, &below);
-    let on_foot = |joint: &usize| {
-        let name = shape.clip.joints[*joint].name.to_lowercase();
-        !shape.says(*joint, Part::Helper) && !name.contains("heel") && !name.contains("sole")
-    };
+    roles.heels[side] = below.iter().copied().find(|&joint| says(joint, "heel") && !shape.says(joint, Part::Helper));
+    let on_foot = |joint: &usize| !shape.says(*joint, Part::Helper) && !says(*joint, "heel") && !says(*joint, "sole");
     let far = |joint: &usize| shape.distance(ankle, *joint) > TOE_DISTANCE * 0.5 * leg.length;
     let toe = below.iter().copied().find(|joint| on_foot(joint) && far(joint));
     let Some(toe) = toe else { return };

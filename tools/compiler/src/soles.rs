@@ -24,10 +24,10 @@ const ZERO_TRUSTED_OVER_LEG: f64 = 0.06;
 pub(crate) struct Soles {
     /// `[left, right]`: heel, ball (foot frame), toe tip (toe frame).
     pub points_m: [[DVec3; 3]; 2],
+    /// In the same frames, the points at which slide is measured: those of `…Sole` joints, else the joints over the sole.
+    pub measured_m: [[DVec3; 3]; 2],
     /// The ground's height in the source.
     pub ground_m: f64,
-    /// From `…Sole` joints.
-    pub measured: bool,
 }
 
 /// Finds the soles from the calibrated joints.
@@ -36,11 +36,12 @@ pub(crate) fn find(tracks: &Tracks, orientations: &[[DQuat; JOINT_COUNT]], leg_m
         let points_m = [measured(tracks, orientations, 0, left), measured(tracks, orientations, 1, right)];
         let ground = |joint| planted(tracks, |frame| tracks.clip.position(frame, joint).z);
         let ground_m = left.into_iter().chain(right).map(ground).fold(f64::INFINITY, f64::min);
-        return Soles { points_m, ground_m, measured: true };
+        return Soles { points_m, measured_m: points_m, ground_m };
     }
     let ground_m = ground(tracks, leg_m);
-    let points_m = [0, 1].map(|side| estimated(tracks, orientations, side, ground_m, leg_m));
-    Soles { points_m, ground_m, measured: false }
+    let measured_m = [0, 1].map(|side| foot_joints(tracks, orientations, side, leg_m));
+    let points_m = [0, 1].map(|side| under_joints(tracks, side, measured_m[side], ground_m));
+    Soles { points_m, measured_m, ground_m }
 }
 
 fn measured(tracks: &Tracks, orientations: &[[DQuat; JOINT_COUNT]], side: usize, joints: [usize; 3]) -> [DVec3; 3] {
@@ -67,28 +68,28 @@ fn ground(tracks: &Tracks, leg_m: f64) -> f64 {
     if (0.0..ZERO_TRUSTED_OVER_LEG * leg_m).contains(&lowest) { 0.0 } else { lowest - THICKNESS_OVER_LEG * leg_m }
 }
 
-fn estimated(
-    tracks: &Tracks,
-    orientations: &[[DQuat; JOINT_COUNT]],
-    side: usize,
-    ground_m: f64,
-    leg_m: f64,
-) -> [DVec3; 3] {
+/// Heel joint (the ankle where there is none), ball and end of the toe.
+fn foot_joints(tracks: &Tracks, orientations: &[[DQuat; JOINT_COUNT]], side: usize, leg_m: f64) -> [DVec3; 3] {
+    let (foot, toe) = (Joint::FEET[side], Joint::TOES[side]);
+    let heel = tracks.roles.heels[side]
+        .map(|joint| tracks.mean_in(foot, orientations, |frame| tracks.clip.position(frame, joint)))
+        .filter(|heel| heel.x < 0.0 && heel.z < 0.0);
+    let ball = tracks.mean_in(foot, orientations, |frame| tracks.positions_m[frame][toe.index()]);
+    let end = tracks.mean_end(toe, orientations).filter(|end| end.length() > TIP_MIN_OVER_LEG * leg_m);
+    [heel.unwrap_or(DVec3::ZERO), ball, end.unwrap_or(TIP_OVER_LEG * leg_m * DVec3::X)]
+}
+
+/// The sole under the joints of a foot, as high as the flat foot stands over the ground.
+fn under_joints(tracks: &Tracks, side: usize, [heel, ball, end]: [DVec3; 3], ground_m: f64) -> [DVec3; 3] {
     let (foot, toe) = (Joint::FEET[side], Joint::TOES[side]);
     let flat = flat_frames(tracks, &[foot, toe]);
     let over_ground = |joint: Joint| {
         let sum: f64 = flat.iter().map(|&frame| tracks.positions_m[frame][joint.index()].z).sum();
         (sum / flat.len() as f64 - ground_m).max(0.0)
     };
-    let ball = tracks.mean_in(foot, orientations, |frame| tracks.positions_m[frame][toe.index()]);
-    let end = tracks.mean_end(toe, orientations).filter(|end| end.length() > TIP_MIN_OVER_LEG * leg_m);
-    let tip = end.map_or(TIP_OVER_LEG * leg_m, |end| end.x.max(TIP_MIN_OVER_LEG * leg_m));
     let (ankle_m, ball_m) = (over_ground(foot), over_ground(toe));
-    [
-        DVec3::new(-HEEL_BEHIND * ball.x, 0.0, -ankle_m),
-        DVec3::new(ball.x, ball.y, -ankle_m),
-        DVec3::new(tip, 0.0, -ball_m),
-    ]
+    let heel = if heel == DVec3::ZERO { DVec3::new(-HEEL_BEHIND * ball.x, 0.0, 0.0) } else { heel };
+    [heel.with_z(-ankle_m), ball.with_z(-ankle_m), DVec3::new(end.x.max(0.0), 0.0, -ball_m)]
 }
 
 impl Tracks<'_> {

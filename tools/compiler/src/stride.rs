@@ -108,17 +108,36 @@ pub fn stride(marks: &[Landmark], stepping: &[Vec<bool>; 2], body: &BodyTrack) -
     if !alternates || !in_range || pauses(stepping, first.frame, last.frame) {
         return None;
     }
-    let (zero_frame, start_phase, left_share) = match first.side {
-        Side::Right => (first.frame, 0.0, half_share),
-        Side::Left => (middle.frame - period_frames, 0.5, 1.0 - half_share),
-    };
-    let arc = arc(body, first.frame, period_frames).shifted((zero_frame - first.frame) / body.frame_rate_hz);
-    let step_speeds_mps = [[first, middle], [middle, last]].map(|[from, to]| {
-        let path_m = body.at(from.frame, 0.0).hips_m.distance(body.at(to.frame, 0.0).hips_m);
-        path_m * body.frame_rate_hz / (to.frame - from.frame)
-    });
-    let stride = Stride { zero_frame, start_phase, period_frames, left_share, arc, step_speeds_mps };
-    (goes_somewhere(&stride, body) && closes(&stride, first.frame, body)).then_some(stride)
+    let stride = Stride::over(&[*first, *middle, *last], body);
+    (goes_somewhere(&stride, body) && closes(&stride, body)).then_some(stride)
+}
+
+impl Stride {
+    /// The stride over three landmarks of which the middle one is the other foot's.
+    pub fn over([first, middle, last]: &[Landmark; 3], body: &BodyTrack) -> Self {
+        let period_frames = last.frame - first.frame;
+        let half_share = (middle.frame - first.frame) / period_frames;
+        let (zero_frame, start_phase, left_share) = match first.side {
+            Side::Right => (first.frame, 0.0, half_share),
+            Side::Left => (middle.frame - period_frames, 0.5, 1.0 - half_share),
+        };
+        let arc = arc(body, first.frame, period_frames).shifted((zero_frame - first.frame) / body.frame_rate_hz);
+        let step_speeds_mps = [[first, middle], [middle, last]].map(|[from, to]| {
+            let path_m = body.at(from.frame, 0.0).hips_m.distance(body.at(to.frame, 0.0).hips_m);
+            path_m * body.frame_rate_hz / (to.frame - from.frame)
+        });
+        Self { zero_frame, start_phase, period_frames, left_share, arc, step_speeds_mps }
+    }
+
+    /// Its first landmark.
+    pub fn first_frame(&self) -> f64 {
+        if self.start_phase == 0.0 { self.zero_frame } else { self.zero_frame + self.left_share * self.period_frames }
+    }
+
+    /// The other foot's landmark.
+    pub fn middle_frame(&self) -> f64 {
+        self.zero_frame + self.period_frames * if self.start_phase == 0.0 { self.left_share } else { 1.0 }
+    }
 }
 
 /// The arc of a stride, its clock at 0 at the stride's first frame.
@@ -133,7 +152,8 @@ fn arc(body: &BodyTrack, first_frame: f64, period_frames: f64) -> Arc {
 }
 
 /// Whether the body is at the end of a stride as it was at its beginning.
-fn closes(stride: &Stride, first_frame: f64, body: &BodyTrack) -> bool {
+fn closes(stride: &Stride, body: &BodyTrack) -> bool {
+    let first_frame = stride.first_frame();
     let local = |frame: f64| {
         let index = ((frame + 0.5) as usize).min(body.joints.len() - 1);
         let (position_m, facing_rad) = stride.arc.at((index as f64 - stride.zero_frame) / body.frame_rate_hz);

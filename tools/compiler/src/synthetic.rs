@@ -61,7 +61,8 @@ pub(crate) fn body(size: f64) -> HumanBody {
     for toe in Joint::TOES {
         segment_ends_m[toe.index()] = DVec3::new(0.07, 0.0, 0.0) * size;
     }
-    HumanBody { offsets_m, segment_ends_m, soles_m: [sole.map(|point| point * size); 2], measured_on_sole: true }
+    let soles_m = [sole.map(|point| point * size); 2];
+    HumanBody { offsets_m, segment_ends_m, soles_m, measured_m: soles_m }
 }
 
 /// The clip of a walk; its phase 0 comes at 0.37 of a period.

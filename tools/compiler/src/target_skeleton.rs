@@ -21,10 +21,11 @@ pub fn choose(clips: &[HumanClip]) -> HumanBody {
     let bodies = if human.is_empty() { clips.iter().map(|clip| &clip.body).collect() } else { human };
     let offsets_m = symmetric(&std::array::from_fn(|joint| median(&bodies, |body| body.offsets_m[joint])));
     let segment_ends_m = symmetric(&std::array::from_fn(|joint| median(&bodies, |body| body.segment_ends_m[joint])));
-    let soles_m =
-        symmetric_soles(&[0, 1].map(|side| [0, 1, 2].map(|point| median(&bodies, |body| body.soles_m[side][point]))));
-    let measured_on_sole = bodies.iter().all(|body| body.measured_on_sole);
-    HumanBody { offsets_m, segment_ends_m, soles_m, measured_on_sole }
+    let soles_m = median_feet(&bodies, |body| body.soles_m);
+    // One body is measured in one way: on the sole where every clip shows it, else at the joints of those that do not.
+    let at_joints: Vec<&HumanBody> = bodies.iter().copied().filter(|body| body.measured_m != body.soles_m).collect();
+    let measured_m = if at_joints.is_empty() { soles_m } else { median_feet(&at_joints, |body| body.measured_m) };
+    HumanBody { offsets_m, segment_ends_m, soles_m, measured_m }
 }
 
 /// Median of each component.
@@ -44,8 +45,10 @@ fn symmetric(vectors: &[DVec3; JOINT_COUNT]) -> [DVec3; JOINT_COUNT] {
     std::array::from_fn(|index| 0.5 * (vectors[index] + MIRROR * vectors[Joint::ALL[index].mirrored().index()]))
 }
 
-fn symmetric_soles(soles: &[[DVec3; 3]; 2]) -> [[DVec3; 3]; 2] {
-    [0, 1].map(|side| [0, 1, 2].map(|point| 0.5 * (soles[side][point] + MIRROR * soles[1 - side][point])))
+/// Median points of both feet, each averaged with its mirror image.
+fn median_feet(bodies: &[&HumanBody], points: impl Fn(&HumanBody) -> [[DVec3; 3]; 2]) -> [[DVec3; 3]; 2] {
+    let median = |side: usize, point: usize| median(bodies, |body| points(body)[side][point]);
+    [0, 1].map(|side| [0, 1, 2].map(|point| 0.5 * (median(side, point) + MIRROR * median(1 - side, point))))
 }
 
 /// The database's skeleton: bones, girths by stature, joint limits that hold every cycle.
@@ -63,7 +66,7 @@ pub fn skeleton<'a>(body: &HumanBody, cycles: impl Iterator<Item = &'a GaitCycle
         limits_rad: limits_rad(cycles),
         feet: [0, 1].map(|side| {
             let [heel_m, ball_m, toe_tip_m] = body.soles_m[side].map(|point| point.as_vec3());
-            Foot { heel_m, ball_m, toe_tip_m, measured_on_sole: body.measured_on_sole }
+            Foot { heel_m, ball_m, toe_tip_m, measured_m: body.measured_m[side].map(|point| point.as_vec3()) }
         }),
     }
 }

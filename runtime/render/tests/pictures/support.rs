@@ -43,12 +43,9 @@ fn skeleton() -> Skeleton {
     set(Joint::LeftShank, [0.0, 0.0, -0.42], [0.0, 0.0, -0.41], 0.055);
     set(Joint::LeftFoot, [0.0, 0.0, -0.41], [0.13, 0.0, -0.06], 0.045);
     set(Joint::LeftToe, [0.13, 0.0, -0.06], [0.07, 0.0, -0.01], 0.04);
-    let foot = Foot {
-        heel_m: Vec3::new(-0.06, 0.0, -0.08),
-        ball_m: Vec3::new(0.13, 0.0, -0.08),
-        toe_tip_m: Vec3::new(0.08, 0.0, -0.02),
-        measured_on_sole: true,
-    };
+    let [heel_m, ball_m, toe_tip_m] =
+        [Vec3::new(-0.06, 0.0, -0.08), Vec3::new(0.13, 0.0, -0.08), Vec3::new(0.08, 0.0, -0.02)];
+    let foot = Foot { heel_m, ball_m, toe_tip_m, measured_m: [heel_m, ball_m, toe_tip_m] };
     let limits_rad = [[Vec3::splat(-3.0), Vec3::splat(3.0)]; JOINT_COUNT];
     Skeleton { offsets_m, segment_ends_m, segment_radii_m, limits_rad, feet: [foot; 2] }
 }

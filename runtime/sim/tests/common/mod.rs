@@ -22,12 +22,9 @@ pub fn skeleton() -> Skeleton {
         offsets_m[Joint::TOES[side].index()] = Vec3::new(0.14, 0.0, -0.06);
         offsets_m[Joint::UPPER_ARMS[side].index()] = Vec3::new(0.0, 0.12 * sign, 0.0);
     }
-    let foot = Foot {
-        heel_m: Vec3::new(-0.05, 0.0, -0.08),
-        ball_m: Vec3::new(0.14, 0.0, -0.08),
-        toe_tip_m: Vec3::new(0.07, 0.0, -0.02),
-        measured_on_sole: true,
-    };
+    let [heel_m, ball_m, toe_tip_m] =
+        [Vec3::new(-0.05, 0.0, -0.08), Vec3::new(0.14, 0.0, -0.08), Vec3::new(0.07, 0.0, -0.02)];
+    let foot = Foot { heel_m, ball_m, toe_tip_m, measured_m: [heel_m, ball_m, toe_tip_m] };
     Skeleton {
         offsets_m,
         segment_ends_m: [Vec3::new(0.07, 0.0, 0.0); JOINT_COUNT],
