@@ -76,6 +76,17 @@ const ROWS: &[Row] = &[
     ("backward_turn_045_left", Kind::Backward, (-0.6, 45.0, 0.0), 145, 4),
 ];
 
+/// Clips written as GLB, with a skinned body; one of every kind of gait, so that what people see by default comes through both importers.
+const SKINNED: [&str; 7] = [
+    "walk_140",
+    "turn_030_left",
+    "jog_turn_060_left",
+    "spin_090_left",
+    "side_035_left",
+    "diagonal_110_030_left",
+    "backward_080",
+];
+
 /// Every clip, in the order of the README.
 pub(crate) fn clips() -> Vec<Clip> {
     let still = RootMotion { speed_mps: 0.0, turn_rate_rad_s: 0.0, strafe_mps: 0.0 };
@@ -98,6 +109,16 @@ fn clip_of(&(name, kind, (speed_mps, turn_deg_s, strafe_mps), frames, strides): 
 }
 
 impl Clip {
+    /// Whether its file is a GLB with a skinned body, not a BVH.
+    pub(crate) fn is_skinned(&self) -> bool {
+        SKINNED.contains(&self.name)
+    }
+
+    /// Its name in the folder.
+    pub(crate) fn file_name(&self) -> String {
+        format!("{}.{}", self.name, if self.is_skinned() { "glb" } else { "bvh" })
+    }
+
     /// Its frames.
     pub(crate) fn poses(&self) -> Vec<Pose> {
         match &self.recipe {

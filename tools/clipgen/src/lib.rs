@@ -3,11 +3,12 @@
 //! In reading order: whose body (`body`), what is published of its joints (`published_curves`) and what a speed makes of a gait
 //! (`cadence`); where the feet stand (`footsteps`), roll (`foot_roll`) and swing (`swing`); the pelvis over them (`pelvis`), the
 //! legs between (`legs`), trunk, head and arms (`upper_body`); all assembled (`cycle`) or standing (`idle`); the list of clips
-//! (`catalogue`) and their files (`bvh_writer`, `readme`).
+//! (`catalogue`) and their files (`bvh_writer`; `body_mesh`, `glb_buffer` and `glb_writer`; `readme`).
 //!
 //! Every byte follows from this source: no input, no clock, no seed from outside, trigonometry through `libm`.
 
 mod body;
+mod body_mesh;
 mod bvh_writer;
 mod cadence;
 mod catalogue;
@@ -16,6 +17,8 @@ mod claims;
 mod cycle;
 mod foot_roll;
 mod footsteps;
+mod glb_buffer;
+mod glb_writer;
 mod idle;
 mod legs;
 mod pelvis;
@@ -37,10 +40,12 @@ pub struct ClipFile {
 /// Every file of `assets/clips`: the clips, then the README that lists them.
 pub fn generate() -> Vec<ClipFile> {
     let clips = catalogue::clips();
-    let mut files: Vec<ClipFile> = clips
-        .iter()
-        .map(|clip| ClipFile { name: format!("{}.bvh", clip.name), bytes: bvh_writer::write(&clip.poses()) })
-        .collect();
+    let mut files: Vec<ClipFile> =
+        clips.iter().map(|clip| ClipFile { name: clip.file_name(), bytes: file_bytes(clip) }).collect();
     files.push(ClipFile { name: "README.md".to_owned(), bytes: readme::write(&clips) });
     files
+}
+
+fn file_bytes(clip: &catalogue::Clip) -> Vec<u8> {
+    if clip.is_skinned() { glb_writer::write(clip.name, &clip.poses()) } else { bvh_writer::write(&clip.poses()) }
 }

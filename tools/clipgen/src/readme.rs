@@ -12,14 +12,15 @@ published to the degree (when arms and trunk swing, how far a slow side-step lif
 beside public captures (CMU, Bandai Namco, SmartBody). Do not edit: a test compares every byte of this folder with what the generator
 writes. Licence: MIT, as the code.
 
-BVH, centimetres, Y up, Z forward, X to the body's left, 30 frames a second, a body of 1.75 m (proportions: Drillis and Contini 1966, in
-Winter, *Biomechanics and Motor Control of Human Movement*). Every clip is a whole number of strides of a steady gait (3 to 6; a stride
+Y up, Z forward, X to the body's left, 30 frames a second, a body of 1.75 m (proportions: Drillis and Contini 1966, in Winter,
+*Biomechanics and Motor Control of Human Movement*). Most files are BVH, in centimetres; one clip of every kind is GLB (glTF 2.0, metres)
+with a skinned body, so that whoever runs the default set runs both importers. No clip is there twice. Every clip is a whole number of strides of a steady gait (3 to 6; a stride
 need not be a whole number of frames); its **last frame is its first one, moved on** by those strides: for a loop leave it out. Leaf
 joints `…HeelSole`, `…BallSole`, `…ToeSole` lie on the soles. Turns and side-steps are to the left; the compiler mirrors them.
 
 v_f forward, ω_t counter-clockwise, ω_s to the left. The step length is that along the path of the root.
 
-| clip | v_f m/s | ω_t °/s | ω_s m/s | cadence steps/min | step m |
+| file | v_f m/s | ω_t °/s | ω_s m/s | cadence steps/min | step m |
 |---|---|---|---|---|---|
 ";
 
@@ -35,8 +36,13 @@ pub(crate) fn write(clips: &[Clip]) -> Vec<u8> {
         let motion = &clip.motion;
         let turn_deg_s = motion.turn_rate_rad_s.to_degrees();
         // Writing to a string cannot fail.
-        let _ =
-            write!(text, "| {} | {:.2} | {turn_deg_s:.0} | {:.2} |", clip.name, motion.speed_mps, motion.strafe_mps);
+        let _ = write!(
+            text,
+            "| {} | {:.2} | {turn_deg_s:.0} | {:.2} |",
+            clip.file_name(),
+            motion.speed_mps,
+            motion.strafe_mps
+        );
         let _ = match clip.cadence_and_step_m() {
             Some((cadence, step_m)) => writeln!(text, " {cadence:.1} | {step_m:.3} |"),
             None => writeln!(text, " – | – |"),
