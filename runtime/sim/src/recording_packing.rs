@@ -32,11 +32,13 @@ const COARSE_BITS: u32 = 15;
 const PELVIS_RANGE_M: f32 = 4.0;
 const PELVIS_STEPS: f32 = 8_388_607.0;
 const CONTACT_STEPS: f32 = 65_535.0;
+/// No metre, second, radian or velocity of a scenario comes near; the largest are the 86,400 s of a day.
+const SCALAR_MAX: f32 = 1e5;
 
-/// Appends [`PACKED_BYTES`] bytes; none where a value is not finite.
+/// Appends [`PACKED_BYTES`] bytes; none where a value is not finite, or beyond all scenarios.
 pub fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
     let scalars = scalars(frame);
-    let finite = scalars.iter().all(|value| value.is_finite())
+    let finite = scalars.iter().all(|value| value.abs() <= SCALAR_MAX)
         && frame.contacts.iter().all(|contact| contact.is_finite())
         && frame.pose.pelvis_m.is_finite()
         && frame.pose.rotations.iter().all(|rotation| rotation.is_finite());
@@ -62,7 +64,7 @@ pub fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
 /// The inverse of [`pack`]; says what is wrong where the bytes are no frame.
 ///
 /// # Errors
-/// Bytes run out, a value is not finite, or a mode is unknown.
+/// Bytes run out, a value is not finite or beyond all scenarios, or a mode is unknown.
 pub fn unpack(bytes: &[u8]) -> Result<AgentFrame, &'static str> {
     let rest = &mut &*bytes;
     let root = Root { position_m: take_vec2(rest)?, facing_rad: take_f32(rest)? };
@@ -115,7 +117,7 @@ fn take<const N: usize>(rest: &mut &[u8]) -> Result<[u8; N], &'static str> {
 
 fn take_f32(rest: &mut &[u8]) -> Result<f32, &'static str> {
     let value = f32::from_le_bytes(take(rest)?);
-    if value.is_finite() { Ok(value) } else { Err("a value is not finite") }
+    if value.abs() <= SCALAR_MAX { Ok(value) } else { Err("a value is not finite, or beyond all scenarios") }
 }
 
 fn take_vec2(rest: &mut &[u8]) -> Result<Vec2, &'static str> {

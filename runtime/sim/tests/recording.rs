@@ -7,6 +7,7 @@ use std::path::Path;
 
 use common::{agent, folder, header, record, standing_at};
 use fbcrowd_sim::recording::{Recorder, Recording};
+use fbcrowd_sim::recording_chunk::write_chunk;
 use fbcrowd_sim::recording_error::RecordingError;
 use fbcrowd_sim::recording_frame::AgentFrame;
 use glam::{Quat, Vec2};
@@ -111,6 +112,28 @@ fn a_recording_without_a_frame_or_with_a_broken_body_is_refused() {
     broken.skeleton.offsets_m[4].y = f32::INFINITY;
     Recorder::create(&path, &broken).unwrap().finish().unwrap();
     assert!(Recording::open(&path).unwrap_err().to_string().contains("the skeleton is not finite"));
+}
+
+#[test]
+fn an_index_cannot_claim_one_frame_again_and_again() {
+    let path = folder("again").join("a.fbrec");
+    drop(record(&path, &two_agents(), &frames(3)));
+    let bytes = fs::read(&path).unwrap();
+    let index_byte = bytes.windows(4).rposition(|window| window == b"INDX").unwrap();
+    let first: [u8; 8] = bytes[index_byte + 12..][..8].try_into().unwrap();
+    let mut forged = bytes[..index_byte].to_vec();
+    write_chunk(&mut forged, *b"INDX", &first.repeat(1000)).unwrap();
+    write_chunk(&mut forged, *b"TAIL", &(index_byte as u64).to_le_bytes()).unwrap();
+    fs::write(&path, forged).unwrap();
+    assert!(matches!(Recording::open(&path), Err(RecordingError::Damaged { .. })));
+}
+
+#[test]
+fn values_beyond_all_scenarios_are_refused() {
+    let mut recorder = Recorder::create(&folder("beyond").join("a.fbrec"), &two_agents()).unwrap();
+    let mut agents = frames(1).remove(0);
+    agents[1].root.position_m.x = 1e30;
+    assert!(recorder.push(&agents).is_err());
 }
 
 #[test]

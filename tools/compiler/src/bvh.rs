@@ -9,7 +9,7 @@
 
 use std::path::Path;
 
-use bvh_anim::{Axis, Bvh, Channel};
+use bvh_anim::{Axis, Bvh, Channel, Frame};
 use glam::{DQuat, DVec3};
 
 use crate::bvh_prepass::{self, CheckedBvh, CheckedJoint};
@@ -37,14 +37,15 @@ pub fn read(file: &Path, bytes: &[u8]) -> Result<SourceClip, ImportError> {
 }
 
 fn posed(file: &Path, checked: &CheckedBvh, bvh: &Bvh) -> SourceClip {
-    let movers = movers(checked, bvh);
-    let frames = bvh.frames().len();
-    let mut positions = Vec::with_capacity(frames * movers.len());
-    let mut orientations = Vec::with_capacity(frames * movers.len());
-    for frame in 0..frames {
+    // Once: each look-up by number in `bvh_anim` walks over all frames before it.
+    let frames: Vec<&Frame> = bvh.frames().collect();
+    let movers = movers(checked, bvh, &frames);
+    let mut positions = Vec::with_capacity(frames.len() * movers.len());
+    let mut orientations = Vec::with_capacity(frames.len() * movers.len());
+    for frame in frames {
         let start = positions.len();
         for (mover, joint) in movers.iter().zip(&checked.joints) {
-            let (offset, rotation) = mover.local(bvh, frame);
+            let (offset, rotation) = mover.local(frame);
             let (position, orientation) = match joint.parent {
                 Some(parent) => {
                     let turn: DQuat = orientations[start + parent];
@@ -81,10 +82,10 @@ struct Mover {
 }
 
 impl Mover {
-    fn local(&self, bvh: &Bvh, frame: usize) -> (DVec3, DQuat) {
+    fn local(&self, frame: &Frame) -> (DVec3, DQuat) {
         let (mut offset, mut rotation) = (self.offset, DQuat::IDENTITY);
         for channel in &self.channels {
-            let value = f64::from(bvh.get_motion(frame, channel));
+            let value = f64::from(frame[channel]);
             let axis = axis_index(channel);
             if channel.channel_type().is_position() {
                 offset[axis] = if self.relative { self.offset[axis] + value } else { value };
@@ -104,13 +105,13 @@ fn axis_index(channel: &Channel) -> usize {
     }
 }
 
-fn movers(checked: &CheckedBvh, bvh: &Bvh) -> Vec<Mover> {
+fn movers(checked: &CheckedBvh, bvh: &Bvh, frames: &[&Frame]) -> Vec<Mover> {
     let joints: Vec<_> = bvh.joints().collect();
     let mut read = joints.iter().map(|joint| joint.data().channels().to_vec());
     let carriers = carriers(&checked.joints);
     let mover = |(index, joint): (usize, &CheckedJoint)| {
         let channels = if joint.is_end { Vec::new() } else { read.next().unwrap_or_default() };
-        let relative = index >= carriers && is_relative(joint.offset, &channels, bvh);
+        let relative = index >= carriers && is_relative(joint.offset, &channels, frames);
         Mover { offset: joint.offset, channels, relative }
     };
     checked.joints.iter().enumerate().map(mover).collect()
@@ -122,12 +123,11 @@ fn carriers(joints: &[CheckedJoint]) -> usize {
     1 + (0..joints.len()).take_while(|&joint| children(joint) == 1).count()
 }
 
-fn is_relative(offset: DVec3, channels: &[Channel], bvh: &Bvh) -> bool {
-    let frames = bvh.frames().len();
+fn is_relative(offset: DVec3, channels: &[Channel], frames: &[&Frame]) -> bool {
     let mut mean = offset;
     for channel in channels.iter().filter(|channel| channel.channel_type().is_position()) {
-        let sum: f64 = (0..frames).map(|frame| f64::from(bvh.get_motion(frame, channel))).sum();
-        mean[axis_index(channel)] = sum / frames as f64;
+        let sum: f64 = frames.iter().map(|frame| f64::from(frame[channel])).sum();
+        mean[axis_index(channel)] = sum / frames.len() as f64;
     }
     mean.length() < (mean - offset).length()
 }

@@ -8,11 +8,15 @@ use std::fmt::Write as _;
 
 use glam::DVec3;
 
+use crate::skeleton_map::MAX_JOINTS;
+
 /// Deepest nesting of joints: deeper is no skeleton (the deepest real one, with face and fingers: 24).
 const MAX_DEPTH: usize = 256;
 /// Joint-frames for each number of the motion section. A joint has at least one channel in practice, end sites add one in three; this
 /// keeps the decoded clip proportional to the file.
 const MAX_JOINT_FRAMES_PER_VALUE: usize = 4;
+/// From the fastest motion capture to where no gait is left between two frames.
+const FRAME_TIME_S: std::ops::RangeInclusive<f64> = 1e-3..=1.0;
 /// Largest magnitude of any number: a kilometre in hundredths of a millimetre.
 const MAX_VALUE: f64 = 1e8;
 
@@ -155,6 +159,9 @@ impl HierarchyReader {
         if self.announced || self.open.len() >= MAX_DEPTH {
             return flaw(line, "a joint where `{` was expected, or joints nested too deeply", "repair the braces");
         }
+        if self.joints.len() >= MAX_JOINTS {
+            return flaw(line, format!("more than {MAX_JOINTS} joints"), "export the body's own skeleton");
+        }
         self.announced = true;
         self.joints.push(CheckedJoint { name, parent, offset: DVec3::ZERO, channels: Vec::new(), is_end });
         Ok(())
@@ -244,8 +251,10 @@ fn motion(lines: &[&str], start: usize, joints: &[CheckedJoint], warnings: &mut 
     let mut numbered = (start..lines.len()).map(|index| (index + 1, lines[index])).filter(|(_, line)| !line.is_empty());
     let claimed = header(numbered.next(), lines.len(), &["FRAMES"])?;
     let frame_time_s = header(numbered.next(), lines.len(), &["FRAME", "TIME"])?;
-    if frame_time_s <= 0.0 {
-        return flaw(start + 2, "Frame Time is not above zero", "write the seconds between two frames");
+    if !FRAME_TIME_S.contains(&frame_time_s) {
+        let [least, greatest] = [FRAME_TIME_S.start(), FRAME_TIME_S.end()];
+        let problem = format!("Frame Time is {frame_time_s} s, not between {least} and {greatest}");
+        return flaw(start + 2, problem, "write the seconds between two frames");
     }
     let channel_count: usize = joints.iter().map(|joint| joint.channels.len()).sum();
     let rows: Vec<(usize, &str)> = numbered.collect();

@@ -19,7 +19,7 @@ const UPRIGHT_COSINE: f64 = 0.45;
 /// The shortest arms, over the legs (people 0.65): what is shorter is a pair of fingers.
 const ARM_OVER_LEG: f64 = 0.25;
 /// More joints than any rig with face and fingers (165 in the development set).
-const MAX_JOINTS: usize = 4096;
+pub(crate) const MAX_JOINTS: usize = 4096;
 /// A toe joint is at least this share of the shank away from the ankle.
 const TOE_DISTANCE: f64 = 0.12;
 /// Knees and elbows are bones' ends: their bones' lengths vary less than this (translating knees of `misc/ezgi_walk1`: 5 %).

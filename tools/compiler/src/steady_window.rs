@@ -25,38 +25,79 @@ pub fn round_of_strides(strides: &[Option<Stride>], landmarks: &[Landmark], roun
 
 /// The longest run of strides, end to end, that are like their mean; of several as long, the steadiest.
 pub fn steady_window(strides: &[Option<Stride>]) -> Option<Vec<Stride>> {
-    let mut best: Option<(usize, f64, Vec<Stride>)> = None;
+    let mut best: Option<(usize, f64, usize)> = None;
     for first in 0..strides.len() {
-        for last in (first..strides.len()).step_by(2) {
-            // Every stride counts for steadiness, also those that begin with the other foot; every second one goes into the mean.
-            let Some(all) = strides[first..=last].iter().copied().collect::<Option<Vec<Stride>>>() else { break };
-            let Some(deviation) = deviation(&all) else { continue };
-            if all.len() == 1 && speeds_up(all[0].step_speeds_mps) {
-                continue;
-            }
-            let longer = best.as_ref().is_none_or(|best| (last - first, -deviation) > (best.0, -best.1));
-            if longer {
-                best = Some((last - first, deviation, all.into_iter().step_by(2).collect()));
+        let mut window = Window::default();
+        // Every stride counts for steadiness, also those that begin with the other foot; every second one goes into the mean.
+        for (length, stride) in strides[first..].iter().map_while(Option::as_ref).enumerate() {
+            window.add(stride);
+            let Some(deviation) = window.deviation().filter(|_| length.is_multiple_of(2)) else { continue };
+            let alone = length == 0;
+            let longer = best.is_none_or(|best| (length, -deviation) > (best.0, -best.1));
+            if longer && !(alone && speeds_up(stride.step_speeds_mps)) {
+                best = Some((length, deviation, first));
             }
         }
     }
-    best.map(|(_, _, strides)| strides)
+    let (length, _, first) = best?;
+    Some(strides[first..=first + length].iter().step_by(2).flatten().copied().collect())
 }
 
-/// The greatest deviation of any stride from the mean, 1 at the limit; none beyond.
-fn deviation(strides: &[Stride]) -> Option<f64> {
-    let mean = |value: fn(&Stride) -> f64| strides.iter().map(value).sum::<f64>() / strides.len() as f64;
-    let spread = |value: fn(&Stride) -> f64, limit: f64| {
-        let mean = mean(value);
-        strides.iter().map(|stride| (value(stride) - mean).abs() / limit).fold(0.0, f64::max)
-    };
-    let (forward, left) = (mean(|s| s.arc.rates.speed_mps), mean(|s| s.arc.rates.strafe_mps));
-    let speed_limit = STEADY_SPEED_MPS.max(STEADY_SPEED_SHARE * libm::hypot(forward, left));
-    let deviation = spread(|s| s.arc.rates.speed_mps, speed_limit)
-        .max(spread(|s| s.arc.rates.strafe_mps, speed_limit))
-        .max(spread(|s| s.arc.rates.turn_rate_rad_s, STEADY_TURN_RAD_S))
-        .max(spread(|s| s.period_frames, STEADY_PERIOD_SHARE * mean(|s| s.period_frames)));
-    (deviation <= 1.0).then_some(deviation)
+/// Some strides, one after the other: what they have in common. Grows by a stride at a time, so that long takes are quick.
+#[derive(Default)]
+struct Window {
+    strides: usize,
+    speed_mps: Spread,
+    strafe_mps: Spread,
+    turn_rate_rad_s: Spread,
+    period_frames: Spread,
+}
+
+impl Window {
+    fn add(&mut self, stride: &Stride) {
+        self.strides += 1;
+        self.speed_mps.add(stride.arc.rates.speed_mps);
+        self.strafe_mps.add(stride.arc.rates.strafe_mps);
+        self.turn_rate_rad_s.add(stride.arc.rates.turn_rate_rad_s);
+        self.period_frames.add(stride.period_frames);
+    }
+
+    /// The greatest deviation of any stride from the mean, 1 at the limit; none beyond.
+    fn deviation(&self) -> Option<f64> {
+        let mean = |spread: &Spread| spread.sum / self.strides as f64;
+        let deviation = |spread: &Spread, limit: f64| {
+            let mean = mean(spread);
+            (spread.greatest - mean).max(mean - spread.least) / limit
+        };
+        let speed_mps = libm::hypot(mean(&self.speed_mps), mean(&self.strafe_mps));
+        let speed_limit_mps = STEADY_SPEED_MPS.max(STEADY_SPEED_SHARE * speed_mps);
+        let greatest = deviation(&self.speed_mps, speed_limit_mps)
+            .max(deviation(&self.strafe_mps, speed_limit_mps))
+            .max(deviation(&self.turn_rate_rad_s, STEADY_TURN_RAD_S))
+            .max(deviation(&self.period_frames, STEADY_PERIOD_SHARE * mean(&self.period_frames)));
+        (greatest <= 1.0).then_some(greatest)
+    }
+}
+
+/// Sum and ends of one value.
+struct Spread {
+    sum: f64,
+    least: f64,
+    greatest: f64,
+}
+
+impl Default for Spread {
+    fn default() -> Self {
+        Self { sum: 0.0, least: f64::INFINITY, greatest: f64::NEG_INFINITY }
+    }
+}
+
+impl Spread {
+    fn add(&mut self, value: f64) {
+        self.sum += value;
+        self.least = self.least.min(value);
+        self.greatest = self.greatest.max(value);
+    }
 }
 
 /// Whether a body goes much faster in one step than in the other: with no other stride to compare with, it starts or stops.

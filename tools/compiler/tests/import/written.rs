@@ -192,7 +192,11 @@ fn malformed_bvh_is_refused_at_its_line() {
     check("CHANNELS 6", "CHANNELS 5", 5);
     check("ROOT Hips", "ROOT Hips\nROOT Hips", 3);
     check("Zrotation", "Wrotation", 5);
-    check("Frame Time: 0.0333333333", "Frame Time: 0", bvh_text().lines().count() - FRAMES);
+    for frame_time in ["0", "-1", "1e-9", "nan", "100", "1e30"] {
+        let line = format!("Frame Time: {frame_time}");
+        check("Frame Time: 0.0333333333", &line, bvh_text().lines().count() - FRAMES);
+    }
+    check("CHANNELS 6", &format!("{}CHANNELS 6", "End Site\n{\n}\n".repeat(5000)), 4 + 3 * 4095 + 1);
 }
 
 #[test]
