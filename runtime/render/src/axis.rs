@@ -1,7 +1,10 @@
 //! Axes of plots: their range, round ticks, and numbers as a typesetter writes them.
 
 /// Ticks stand about this far apart, pixels.
-const TICK_DISTANCE_PX: f32 = 110.0;
+const TICK_DISTANCE_PX: f32 = 80.0;
+/// On a short axis they stand closer, to be about so many.
+const MIN_TICKS: f32 = 4.5;
+
 /// One axis: what it shows and from where to where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -24,7 +27,7 @@ impl Axis {
 
     /// A round distance of ticks that stand about `TICK_DISTANCE_PX` apart on an axis of a length.
     pub fn tick_step(&self, length_px: f32) -> f32 {
-        let count = (length_px / TICK_DISTANCE_PX).max(2.0);
+        let count = (length_px / TICK_DISTANCE_PX).max(MIN_TICKS);
         round_step((self.high - self.low) / count)
     }
 

@@ -144,7 +144,9 @@ impl Body<'_> {
         let [upper_m, forearm_m, hand_m] = [upper, forearm, hand].map(|joint| self.radius_m(joint));
         let (sleeve, skin) = (self.look.shirt * 0.97, self.look.skin);
         if detail == Detail::Full {
-            parts.push(part([wrist, self.end_m(hand)], [0.9 * hand_m, 0.7 * hand_m], skin));
+            // A palm is broader than its wrist, fingers hardly narrower.
+            let (tip, palm_m) = (self.end_m(hand), hand_m.max(0.9 * forearm_m));
+            parts.push(part([wrist.lerp(tip, 0.1), tip.lerp(wrist, 0.2)], [palm_m, 0.75 * palm_m], skin));
             parts.push(part([elbow, wrist], [forearm_m, 0.8 * forearm_m], skin));
             parts.push(part([shoulder, elbow], [1.15 * upper_m, upper_m], sleeve));
         } else {

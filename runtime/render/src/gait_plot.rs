@@ -8,22 +8,27 @@ use motiondb::skeleton::Side;
 use tiny_skia::Pixmap;
 
 use crate::axis::Axis;
+use crate::mark::Mark;
 use crate::palette::{INK, Rgb};
-use crate::plot::{Figure, Line, Mark, Panel, line};
+use crate::plot::{Figure, Line, Panel, line};
 use crate::text::Anchor;
 
 /// Panels side by side.
 const COLUMNS: usize = 3;
 /// Width and height of one panel with its surroundings, pixels.
-const CELL_PX: Vec2 = Vec2::new(800.0, 460.0);
+const CELL_PX: Vec2 = Vec2::new(800.0, 450.0);
 /// Left, top, width, height of the axes within it, pixels.
-const PANEL_PX: [f32; 4] = [120.0, 110.0, 650.0, 230.0];
+const PANEL_PX: [f32; 4] = [120.0, 90.0, 650.0, 270.0];
 /// Height of the sheet's head, pixels.
-const HEAD_PX: f32 = 150.0;
+const HEAD_PX: f32 = 180.0;
 /// Left foot: green; right foot: violet, as port and starboard would have it.
 const FOOT_COLOURS: [Rgb; 2] = [Rgb::new(0.13, 0.55, 0.30), Rgb::new(0.52, 0.27, 0.68)];
-/// Height at which the contact bars of both feet are drawn, below the ground, share of the axis.
-const BAR_SHARES: [f32; 2] = [0.12, 0.20];
+/// Height of both feet's contact bars over the axis's lower end, share of the axis.
+const BAR_SHARES: [f32; 2] = [0.10, 0.04];
+/// Room below the curves, for the bars, and above, for the key times' names, share of the curves' range.
+const ROOM_SHARES: [f32; 2] = [0.24, 0.25];
+/// Least range shown: standing feet draw a level line, not noise, m.
+const MIN_RANGE_M: f32 = 0.05;
 /// A foot is planted where its contact is at least this (`definitions.md`).
 const PLANTED: f32 = 0.5;
 /// Names of the key times, in their order.
@@ -37,7 +42,12 @@ pub fn gait_events(db: &MotionDb) -> Pixmap {
     let size = [COLUMNS as f32 * CELL_PX.x, HEAD_PX + rows as f32 * CELL_PX.y];
     let mut figure = Figure::new(size[0] as u32, size[1] as u32);
     figure.title("Lowest point of each sole, contacts and key times", Vec2::new(PANEL_PX[0], 70.0));
-    let legend = [(Mark::Disc, FOOT_COLOURS[0], "left foot"), (Mark::Disc, FOOT_COLOURS[1], "right foot")];
+    let legend = [
+        (Mark::Disc, FOOT_COLOURS[0], "left foot"),
+        (Mark::Disc, FOOT_COLOURS[1], "right foot"),
+        (Mark::Bar, INK, "planted"),
+        (Mark::Dashes, INK, "key times: toe-offs and heel strikes"),
+    ];
     figure.legend(Vec2::new(PANEL_PX[0] + 10.0, 130.0), &legend);
     for example in 0..db.examples.len() {
         draw_example(&mut figure, db, example);
@@ -49,11 +59,9 @@ fn draw_example(figure: &mut Figure, db: &MotionDb, index: usize) {
     let example = &db.examples[index];
     let corner = Vec2::new((index % COLUMNS) as f32 * CELL_PX.x, HEAD_PX + (index / COLUMNS) as f32 * CELL_PX.y);
     let heights_m = Side::BOTH.map(|side| sole_heights_m(db, index, side));
-    let greatest_m = heights_m.iter().flatten().copied().fold(0.05, f32::max);
     let time = Axis { label: "time, s".to_owned(), low: 0.0, high: example.phase_map.period_s };
-    let height = Axis { label: "height, m".to_owned(), low: -0.26 * greatest_m, high: 1.08 * greatest_m };
     let [left, top, width, panel_height] = PANEL_PX;
-    let panel = figure.panel([corner.x + left, corner.y + top, width, panel_height], [time, height]);
+    let panel = figure.panel([corner.x + left, corner.y + top, width, panel_height], [time, height_axis(&heights_m)]);
     figure.text(&example.name, corner + Vec2::new(left + width, top - 16.0), Anchor::Right);
     draw_key_times(figure, &panel, example);
     for side in Side::BOTH {
@@ -61,8 +69,16 @@ fn draw_example(figure: &mut Figure, db: &MotionDb, index: usize) {
         let curve =
             heights_m[side.index()].iter().enumerate().map(|(row, height)| Vec2::new(time_s(example, row), *height));
         figure.polyline(&panel, curve, line(colour, 2.4));
-        draw_contacts(figure, &panel, db, index, side, -BAR_SHARES[side.index()] * greatest_m);
+        draw_contacts(figure, &panel, db, index, side);
     }
+}
+
+fn height_axis(heights_m: &[Vec<f32>; 2]) -> Axis {
+    let all = heights_m.iter().flatten();
+    let [low, high] = all.fold([0.0_f32; 2], |[low, high], height| [low.min(*height), high.max(*height)]);
+    let range = (high - low).max(MIN_RANGE_M);
+    let [below, above] = ROOM_SHARES.map(|share| share * range);
+    Axis { label: "height, m".to_owned(), low: low - below, high: low + range + above }
 }
 
 /// Height of the lowest sole point at each stored phase, and at the first once more, which closes the cycle.
@@ -81,8 +97,10 @@ fn time_s(example: &MotionExample, row: usize) -> f32 {
     example.phase_map.time_s(row as f32 / PHASE_COUNT as f32)
 }
 
-/// A bar under the ground wherever the foot is planted.
-fn draw_contacts(figure: &mut Figure, panel: &Panel, db: &MotionDb, example: usize, side: Side, height_m: f32) {
+/// A bar below the curves wherever the foot is planted.
+fn draw_contacts(figure: &mut Figure, panel: &Panel, db: &MotionDb, example: usize, side: Side) {
+    let [_, height] = &panel.axes;
+    let height_m = height.low + BAR_SHARES[side.index()] * (height.high - height.low);
     let planted = |row: usize| db.rows.contacts[example * PHASE_COUNT + row % PHASE_COUNT][side.index()] >= PLANTED;
     for row in (0..PHASE_COUNT).filter(|row| planted(*row) && planted(row + 1)) {
         let ends = [row, row + 1].map(|row| Vec2::new(time_s(&db.examples[example], row), height_m));

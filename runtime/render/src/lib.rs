@@ -5,9 +5,9 @@
 //! [`shade`] → limbs ([`body`], painted by [`cone`], coloured by [`palette`]) → writing ([`overlay`], [`text`]) → the
 //! picture ([`top_view`]) → files ([`png_frame`], [`exr_frame`], all of them by [`sequence`]).
 //!
-//! Plots stand on a small kit ([`plot`], [`axis`]): everybody's paths ([`trajectories`]); of a database its velocity
-//! sets ([`velocity_plot`]), blend space ([`parameter_plot`]), bodies ([`contact_sheet`]) and steps ([`gait_plot`]),
-//! all of them by [`database_plots`].
+//! Plots stand on a small kit ([`plot`], [`axis`], [`mark`], `name_places`): everybody's paths ([`trajectories`]); of
+//! a database its velocity sets ([`velocity_plot`]), blend space ([`parameter_plot`]), bodies ([`contact_sheet`]) and
+//! steps ([`gait_plot`]), all of them by [`database_plots`].
 //!
 //! Conventions: world metres, x right and y up in the picture; pixels, x right and y down; colours sRGB-encoded, 0 to
 //! 1.
@@ -23,6 +23,8 @@ pub mod frame_range;
 pub mod framing;
 pub mod gait_plot;
 pub mod ground;
+pub mod mark;
+mod name_places;
 pub mod overlay;
 pub mod palette;
 pub mod parameter_plot;

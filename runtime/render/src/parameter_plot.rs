@@ -2,53 +2,73 @@
 //! along each axis.
 //!
 //! Many examples share a parameter and fall together in two of the three views: points carry numbers, names stand in a
-//! key.
+//! key. Mirrored twins are open marks without a number.
 
 use glam::{Vec2, Vec3};
-use motiondb::motion_db::MotionDb;
+use motiondb::motion_db::{MotionDb, MotionExample};
 use tiny_skia::Pixmap;
 
 use crate::axis::Axis;
-use crate::palette::line_colour;
-use crate::plot::{Figure, Line, Mark, Panel, line};
-use crate::text::Anchor;
+use crate::mark::Mark;
+use crate::palette::{INK, Rgb, line_colour};
+use crate::plot::{Figure, Line, Panel, line};
 
 /// Width of the sheet, pixels.
 const WIDTH_PX: u32 = 2900;
-/// Least height, pixels; a long key takes more.
-const MIN_HEIGHT_PX: u32 = 1020;
 /// Top and height of every panel, pixels.
-const PANEL_TOP_AND_HEIGHT_PX: [f32; 2] = [200.0, 680.0];
+const PANEL_TOP_AND_HEIGHT_PX: [f32; 2] = [220.0, 760.0];
 /// Left edge of the first panel, width of each, and distance from one to the next, pixels.
-const PANEL_LEFT_WIDTH_STEP_PX: [f32; 3] = [120.0, 640.0, 780.0];
-/// Left edge and first line of the key, and distance of its lines, pixels.
-const KEY_LEFT_TOP_STEP_PX: [f32; 3] = [2440.0, 200.0, 30.0];
+const PANEL_LEFT_WIDTH_STEP_PX: [f32; 3] = [120.0, 820.0, 930.0];
+/// Columns of the key, under the panels.
+const KEY_COLUMNS: usize = 5;
+/// First line of the key, and distance of its columns and lines, pixels.
+const KEY_TOP_PX: f32 = 1130.0;
+const KEY_STEP_PX: Vec2 = Vec2::new(550.0, 42.0);
 /// The two axes of each panel: v_f and ω_t, v_f and ω_s, ω_t and ω_s.
 const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 const AXIS_NAMES: [&str; 3] = ["forward speed v_f, m/s", "turn rate ω_t, °/s", "side speed ω_s, m/s"];
 
 /// The plot of a database's blend space.
 pub fn parameter_space(db: &MotionDb) -> Pixmap {
-    let [key_left, key_top, key_step] = KEY_LEFT_TOP_STEP_PX;
-    let key_bottom_px = key_top + key_step * (db.examples.len() + 1) as f32;
-    let mut figure = Figure::new(WIDTH_PX, MIN_HEIGHT_PX.max(key_bottom_px as u32));
-    let space = &db.blend_space;
-    let simplices = space.simplices.len() / (space.dimension as usize + 1);
-    let title = format!(
-        "Blend space: {} examples, {simplices} simplices of dimension {}, {:.1} % of the hull covered",
-        db.examples.len(),
-        space.dimension,
-        100.0 * space.covered_share
-    );
-    figure.title(&title, Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0], 80.0));
+    let key_lines = recorded(db).count().div_ceil(KEY_COLUMNS);
+    let mut figure = Figure::new(WIDTH_PX, (KEY_TOP_PX + key_lines as f32 * KEY_STEP_PX.y) as u32);
+    figure.title(&title(db), Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0], 80.0));
+    let legend = [(Mark::Disc, INK, "recorded, numbers in the key below"), (Mark::Ring, INK, "its mirrored twin")];
+    figure.legend(Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0] + 10.0, 134.0), &legend);
     for (index, view) in VIEWS.into_iter().enumerate() {
         draw_view(&mut figure, db, index, view);
     }
-    for (index, example) in db.examples.iter().enumerate() {
-        let at = Vec2::new(key_left, key_top + key_step * index as f32);
-        figure.note(&format!("{index}  {}", example.name), at, Anchor::Left, line_colour(index));
-    }
+    draw_key(&mut figure, db, key_lines);
     figure.pixmap
+}
+
+fn title(db: &MotionDb) -> String {
+    let space = &db.blend_space;
+    let (dimension, covered) = (space.dimension, 100.0 * space.covered_share);
+    let simplices = space.simplices.len() / (dimension as usize + 1);
+    let counts = format!("{} examples, {simplices} simplices of dimension {dimension}", db.examples.len());
+    format!("Blend space: {counts}, {covered:.1} % of the hull covered")
+}
+
+/// The examples that are no mirrored twins, with their indices.
+fn recorded(db: &MotionDb) -> impl Iterator<Item = (usize, &MotionExample)> {
+    db.examples.iter().enumerate().filter(|(_, example)| !example.mirrored)
+}
+
+/// The colour of an example, which its mirrored twin shares.
+fn example_colour(db: &MotionDb, example: &MotionExample) -> Rgb {
+    let first = db.examples.iter().position(|other| other.source == example.source);
+    line_colour(first.unwrap_or_default())
+}
+
+/// Numbers and names, column by column.
+fn draw_key(figure: &mut Figure, db: &MotionDb, lines: usize) {
+    for (place, (index, example)) in recorded(db).enumerate() {
+        let step = Vec2::new((place / lines) as f32, (place % lines) as f32) * KEY_STEP_PX;
+        let at = Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0], KEY_TOP_PX) + step;
+        let text = format!("{index}  {}", example.name);
+        figure.legend(at, &[(Mark::Disc, example_colour(db, example), &text)]);
+    }
 }
 
 fn draw_view(figure: &mut Figure, db: &MotionDb, index: usize, view: [usize; 2]) {
@@ -59,10 +79,14 @@ fn draw_view(figure: &mut Figure, db: &MotionDb, index: usize, view: [usize; 2])
     let panel = figure.panel([left + step * index as f32, top, width, height], axes);
     let flat: Vec<Vec2> = points.iter().map(|point| Vec2::new(point[view[0]], point[view[1]])).collect();
     draw_simplices(figure, &panel, db, &flat);
-    for (example, point) in flat.iter().enumerate() {
-        figure.mark(&panel, *point, Mark::Disc, 6.5, line_colour(example));
+    for (example, point) in db.examples.iter().zip(&flat) {
+        let mark = if example.mirrored { Mark::Ring } else { Mark::Disc };
+        figure.mark(&panel, *point, mark, 6.5, example_colour(db, example));
     }
-    let numbers: Vec<String> = (0..flat.len()).map(|example| example.to_string()).collect();
+    let number = |(index, example): (usize, &MotionExample)| {
+        if example.mirrored { String::new() } else { index.to_string() }
+    };
+    let numbers: Vec<String> = db.examples.iter().enumerate().map(number).collect();
     let names: Vec<(Vec2, &str)> = flat.iter().copied().zip(numbers.iter().map(String::as_str)).collect();
     figure.names(&panel, &names);
 }
@@ -80,7 +104,7 @@ fn draw_simplices(figure: &mut Figure, panel: &Panel, db: &MotionDb, points: &[V
     edges.dedup();
     for [from, to] in edges {
         let ends = [points.get(from as usize), points.get(to as usize)].into_iter().flatten().copied();
-        figure.polyline(panel, ends, Line { opacity: 0.4, ..line(line_colour(0), 1.3) });
+        figure.polyline(panel, ends, Line { opacity: 0.22, ..line(INK, 1.3) });
     }
 }
 

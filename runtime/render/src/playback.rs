@@ -16,6 +16,9 @@ use crate::trails::Tracks;
 /// rate show exactly what was simulated.
 const SAME_FRAME_STEPS: f64 = 1e-3;
 
+/// Most positions kept of a recording: 256 MiB, a thousand agents for 18 minutes at every step.
+const MAX_TRACK_POINTS: usize = 1 << 25;
+
 /// Number of pictures that a recording gives at its view's frame rate, the first at time 0.
 pub fn picture_count(recording: &Recording) -> u32 {
     let steps = recording.frame_count().saturating_sub(1);
@@ -29,7 +32,8 @@ pub fn picture_time_s(recording: &Recording, picture: u32) -> f64 {
     f64::from(picture) / f64::from(recording.header().scenario.view.frame_rate_hz)
 }
 
-/// Every agent's root in every recorded frame.
+/// Every agent's root over the whole recording: in every frame, or in every so many-th, so that a long recording of
+/// many agents takes no more than 256 MiB.
 ///
 /// # Errors
 /// Where the recording has no frame or one cannot be read.
@@ -37,16 +41,20 @@ pub fn read_tracks(recording: &Recording) -> Result<Tracks, RenderError> {
     if recording.frame_count() == 0 {
         return Err(RenderError::EmptyRecording);
     }
-    let frames: Result<Vec<Vec<Vec2>>, RecordingError> =
-        (0..recording.frame_count()).into_par_iter().map(|frame| read_roots_m(recording, frame)).collect();
     let scenario = &recording.header().scenario;
-    Ok(Tracks { agent_count: scenario.agents.len(), dt_s: scenario.dt_s, positions_m: frames?.concat() })
-}
-
-fn read_roots_m(recording: &Recording, frame: usize) -> Result<Vec<Vec2>, RecordingError> {
-    let mut agents = Vec::new();
-    recording.read_frame(frame, &mut agents)?;
-    Ok(agents.iter().map(|agent| agent.root.position_m).collect())
+    let agent_count = scenario.agents.len();
+    let stride = (recording.frame_count() * agent_count).div_ceil(MAX_TRACK_POINTS).max(1);
+    let kept = recording.frame_count().div_ceil(stride);
+    let mut positions_m = vec![Vec2::ZERO; kept * agent_count];
+    let frames = positions_m.par_chunks_mut(agent_count.max(1)).enumerate();
+    frames.try_for_each_init(Vec::new, |agents, (index, positions_m)| {
+        recording.read_frame(index * stride, agents)?;
+        for (position_m, agent) in positions_m.iter_mut().zip(agents) {
+            *position_m = agent.root.position_m;
+        }
+        Ok::<(), RecordingError>(())
+    })?;
+    Ok(Tracks { agent_count, dt_s: scenario.dt_s * stride as f32, positions_m })
 }
 
 /// All agents at a time; between two recorded frames, both blended.

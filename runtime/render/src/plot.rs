@@ -8,6 +8,8 @@ use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Path, PathBuilder, Pixmap, Re
 
 use crate::axis::{Axis, tick_text};
 use crate::ground::{fill_rect, paint, to_color};
+use crate::mark::Mark;
+use crate::name_places::{NamePlace, place_names};
 use crate::palette::{GRID_FINE, INK, PAPER, Rgb};
 use crate::text::{Anchor, Typeface};
 
@@ -18,12 +20,10 @@ const HAIRLINE_PX: f32 = 1.0;
 const TICK_PX: f32 = 8.0;
 /// Radius of the marks of a legend, pixels.
 const LEGEND_MARK_PX: f32 = 9.0;
-/// Where a note may stand against its point: right, left, above, below, then ever lower on the right; steps of its
-/// width and height.
-const NOTE_PLACES: [[f32; 2]; 8] =
-    [[0.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0], [-1.0, -1.0], [-1.0, 1.0], [0.0, -2.0], [0.0, 2.0]];
-/// Distance of a note from its point, pixels.
-const NOTE_GAP_PX: f32 = 13.0;
+/// Points nearer to each other than this share one note, pixels.
+const SAME_POINT_PX: f32 = 5.0;
+/// How much of what lies under a name shows through.
+const NAME_BACKING: f32 = 0.75;
 
 /// A sheet of paper.
 #[derive(Clone, Debug)]
@@ -56,19 +56,6 @@ pub struct Line {
     pub opacity: f32,
     /// Dashes instead of a full line.
     pub dashed: bool,
-}
-
-/// The shape that marks a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
-    /// A filled disc.
-    Disc,
-    /// An open ring.
-    Ring,
-    /// Two crossed strokes.
-    Cross,
-    /// A filled square on its corner.
-    Diamond,
 }
 
 impl Panel {
@@ -111,17 +98,32 @@ impl Figure {
         self.note_face.draw_with_halo(&mut self.pixmap, text, at_px, anchor, [colour, PAPER]);
     }
 
-    /// Writes the names of points beside them, each where none before it stands, as far as there is room.
+    /// Writes the names of points beside them, those of points that fall together in one line; points with an empty
+    /// name are only kept free. Names that stand far off are tied to their points by a line.
     pub fn names(&mut self, panel: &Panel, names: &[(Vec2, &str)]) {
-        let height_px = self.note_face.size_px;
-        let mut taken: Vec<[Vec2; 2]> = Vec::new();
-        for (point, name) in names {
-            let size_px = Vec2::new(self.note_face.width_px(name), height_px);
-            let boxes = NOTE_PLACES.map(|place| note_box(panel.to_px(*point), size_px, place));
-            let free = boxes.into_iter().find(|place| !taken.iter().any(|other| overlap(place, other)));
-            let [low, high] = free.unwrap_or(boxes[0]);
-            taken.push([low, high]);
-            self.note(name, Vec2::new(low.x, high.y - 0.2 * height_px), Anchor::Left, INK);
+        let points: Vec<Vec2> = names.iter().map(|(point, _)| panel.to_px(*point)).collect();
+        let notes = joined_names(names.iter().map(|(_, name)| *name).zip(&points));
+        let size = |text: &str| Vec2::new(self.note_face.width_px(text), self.note_face.size_px);
+        let sizes: Vec<(Vec2, Vec2)> = notes.iter().map(|(point, text)| (*point, size(text))).collect();
+        let places = place_names(&sizes, &points, &NamePlace::within(panel.rect_px));
+        for ((point, _), place) in notes.iter().zip(&places).filter(|(_, place)| place.is_far) {
+            self.leader([*point, place.nearest_px(*point)]);
+        }
+        for ((_, text), place) in notes.iter().zip(&places) {
+            let (low, size) = (place.low_px, place.high_px - place.low_px);
+            fill_rect(&mut self.pixmap, [low.x, low.y, size.x, size.y], PAPER, NAME_BACKING);
+            self.note(text, Vec2::new(low.x, place.high_px.y - 0.2 * size.y), Anchor::Left, INK);
+        }
+    }
+
+    /// The fine line from a point to its name.
+    fn leader(&mut self, [from, to]: [Vec2; 2]) {
+        let mut path = PathBuilder::new();
+        path.move_to(from.x, from.y);
+        path.line_to(to.x, to.y);
+        if let Some(path) = path.finish() {
+            let stroke = Stroke { width: HAIRLINE_PX, ..Stroke::default() };
+            self.pixmap.stroke_path(&path, &paint(INK, 0.6), &stroke, Transform::identity(), None);
         }
     }
 
@@ -198,7 +200,7 @@ impl Figure {
     pub fn mark(&mut self, panel: &Panel, at: Vec2, mark: Mark, radius_px: f32, colour: Rgb) {
         let centre = panel.to_px(at);
         if centre.is_finite() {
-            self.mark_at(centre, mark, radius_px, colour);
+            mark.draw(&mut self.pixmap, centre, radius_px, colour);
         }
     }
 
@@ -207,20 +209,10 @@ impl Figure {
         let mut pen_px = at_px;
         for (mark, colour, text) in entries {
             let size = self.face.size_px;
-            self.mark_at(pen_px - Vec2::new(0.0, 0.32 * size), *mark, LEGEND_MARK_PX, *colour);
+            mark.draw(&mut self.pixmap, pen_px - Vec2::new(0.0, 0.32 * size), LEGEND_MARK_PX, *colour);
             pen_px.x += 0.8 * size;
             self.text(text, pen_px, Anchor::Left);
             pen_px.x += self.face.width_px(text) + 1.6 * size;
-        }
-    }
-
-    fn mark_at(&mut self, centre: Vec2, mark: Mark, radius: f32, colour: Rgb) {
-        let (paint, identity) = (paint(colour, 1.0), Transform::identity());
-        let stroke = Stroke { width: 0.42 * radius, line_cap: LineCap::Round, ..Stroke::default() };
-        let Some(path) = mark_path(centre, mark, radius) else { return };
-        match mark {
-            Mark::Disc | Mark::Diamond => self.pixmap.fill_path(&path, &paint, FillRule::Winding, identity, None),
-            Mark::Ring | Mark::Cross => self.pixmap.stroke_path(&path, &paint, &stroke, identity, None),
         }
     }
 
@@ -238,15 +230,16 @@ pub fn line(colour: Rgb, width_px: f32) -> Line {
     Line { colour, width_px, opacity: 1.0, dashed: false }
 }
 
-/// Upper left and lower right corner of a note at one of [`NOTE_PLACES`].
-fn note_box(point_px: Vec2, size_px: Vec2, [across, down]: [f32; 2]) -> [Vec2; 2] {
-    let left = if across < 0.0 { -NOTE_GAP_PX - size_px.x } else { NOTE_GAP_PX };
-    let low = point_px + Vec2::new(left, (down - 0.5) * size_px.y);
-    [low, low + size_px]
-}
-
-fn overlap(one: &[Vec2; 2], other: &[Vec2; 2]) -> bool {
-    one[0].cmplt(other[1]).all() && other[0].cmplt(one[1]).all()
+/// Names with their points; names of points that fall together joined by commas at the first of them.
+fn joined_names<'a>(names: impl Iterator<Item = (&'a str, &'a Vec2)>) -> Vec<(Vec2, String)> {
+    let mut joined: Vec<(Vec2, String)> = Vec::new();
+    for (name, point) in names.filter(|(name, point)| !name.is_empty() && point.is_finite()) {
+        match joined.iter_mut().find(|(other, _)| other.distance(*point) < SAME_POINT_PX) {
+            Some((_, text)) => *text = format!("{text}, {name}"),
+            None => joined.push((*point, name.to_owned())),
+        }
+    }
+    joined
 }
 
 /// Points that are not finite are left out.
@@ -257,29 +250,6 @@ fn path(panel: &Panel, points: impl IntoIterator<Item = Vec2>, closed: bool) -> 
     }
     if closed {
         path.close();
-    }
-    path.finish()
-}
-
-fn mark_path(centre: Vec2, mark: Mark, radius: f32) -> Option<Path> {
-    let mut path = PathBuilder::new();
-    let corner = |x: f32, y: f32| (centre.x + x * radius, centre.y + y * radius);
-    match mark {
-        Mark::Disc | Mark::Ring => path.push_circle(centre.x, centre.y, radius),
-        Mark::Cross => {
-            for [from, to] in [[corner(-0.8, -0.8), corner(0.8, 0.8)], [corner(-0.8, 0.8), corner(0.8, -0.8)]] {
-                path.move_to(from.0, from.1);
-                path.line_to(to.0, to.1);
-            }
-        }
-        Mark::Diamond => {
-            let (top, right, bottom, left) = (corner(0.0, -1.2), corner(1.2, 0.0), corner(0.0, 1.2), corner(-1.2, 0.0));
-            path.move_to(top.0, top.1);
-            for (x, y) in [right, bottom, left] {
-                path.line_to(x, y);
-            }
-            path.close();
-        }
     }
     path.finish()
 }

@@ -26,9 +26,10 @@ fn encode(pixmap: &Pixmap) -> Result<Vec<u8>, EncodingError> {
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Fast);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    let pixels: Vec<u8> = pixmap.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
+    let pixels: Vec<[u8; 3]> =
+        pixmap.data().as_chunks().0.iter().map(|&[red, green, blue, _]| [red, green, blue]).collect();
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&pixels)?;
+    writer.write_image_data(pixels.as_flattened())?;
     writer.finish()?;
     Ok(bytes)
 }

@@ -18,19 +18,19 @@ const PIECE_PX: f32 = 6.0;
 /// A brisk walk, m/s, by which [`PIECE_PX`] becomes a number of frames.
 const BRISK_MPS: f32 = 1.5;
 
-/// Root positions of every agent in every recorded frame.
+/// Root positions of every agent, at even times from 0 on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracks {
     /// Agents in each frame.
     pub agent_count: usize,
-    /// Seconds between recorded frames.
+    /// Seconds between frames.
     pub dt_s: f32,
     /// Frame after frame, in each the agents by index; world, metres.
     pub positions_m: Vec<Vec2>,
 }
 
 impl Tracks {
-    /// Number of recorded frames.
+    /// Number of frames.
     pub fn frame_count(&self) -> usize {
         self.positions_m.len().checked_div(self.agent_count).unwrap_or(0)
     }
@@ -80,7 +80,7 @@ pub fn draw(pixmap: &mut Pixmap, framing: &Framing, tracks: &Tracks, trail: &Tra
     }
 }
 
-/// From the body backwards. Corners sit on fixed recorded frames, so that the ribbon does not crawl from picture to
+/// From the body backwards. Corners sit on fixed frames of the tracks, so that the ribbon does not crawl from picture to
 /// picture.
 fn corners(framing: &Framing, tracks: &Tracks, trail: &Trail) -> Vec<Corner> {
     let Trail { agent, time_s, length_s, .. } = *trail;

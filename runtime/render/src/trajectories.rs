@@ -7,8 +7,9 @@ use tiny_skia::Pixmap;
 
 use crate::axis::{Axis, equal_units};
 use crate::framing::bounds_m;
+use crate::mark::Mark;
 use crate::palette::{GRID_COARSE, INK, OBSTACLE_RIM, line_colour};
-use crate::plot::{Figure, Line, Mark, Panel, line};
+use crate::plot::{Figure, Line, Panel, line};
 use crate::trails::Tracks;
 
 /// Sides of the sheet, pixels.

@@ -7,8 +7,9 @@ use motiondb::velocity_hull::{is_holding, is_turning, turning_point_mps};
 use tiny_skia::Pixmap;
 
 use crate::axis::{Axis, equal_units};
+use crate::mark::Mark;
 use crate::palette::{INK, Rgb};
-use crate::plot::{Figure, Line, Mark, Panel, line};
+use crate::plot::{Figure, Line, Panel, line};
 
 /// Sides of the sheet, pixels.
 const SHEET_PX: [u32; 2] = [1600, 1400];
@@ -25,12 +26,13 @@ pub fn velocity_space(db: &MotionDb) -> Pixmap {
     figure.title("Velocities that the motions allow, in the agent's frame", Vec2::new(PANEL_PX[0], 70.0));
     let panel = figure.panel(PANEL_PX, equal_units(PANEL_PX, axes(db)));
     draw_sets(&mut figure, &panel, db);
-    draw_agent(&mut figure, &panel);
+    draw_axes(&mut figure, &panel);
     draw_examples(&mut figure, &panel, db);
     let legend = [
         (Mark::Disc, TURNING, "turning set"),
         (Mark::Diamond, HOLDING, "holding set"),
-        (Mark::Cross, SHARP_TURN, "sharp-turn edges"),
+        (Mark::Dashes, SHARP_TURN, "sharp-turn edges"),
+        (Mark::Ring, INK, "mirrored twins, unnamed"),
     ];
     figure.legend(Vec2::new(PANEL_PX[0] + 10.0, 122.0), &legend);
     figure.pixmap
@@ -46,12 +48,14 @@ fn axes(db: &MotionDb) -> [Axis; 2] {
     ]
 }
 
-/// Where an example stands in each set that it belongs to.
+/// Where an example stands in each set that it belongs to; the marks of mirrored twins are open.
 fn points_mps(example: &MotionExample) -> impl Iterator<Item = (Mark, Rgb, Vec2)> {
     let parameters = &example.parameters;
-    let turning = is_turning(parameters).then(|| (Mark::Disc, TURNING, turning_point_mps(parameters)));
+    let [turning_mark, holding_mark] =
+        if example.mirrored { [Mark::Ring, Mark::OpenDiamond] } else { [Mark::Disc, Mark::Diamond] };
+    let turning = is_turning(parameters).then(|| (turning_mark, TURNING, turning_point_mps(parameters)));
     let held = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
-    let holding = (is_holding(parameters) && !is_turning(parameters)).then_some((Mark::Diamond, HOLDING, held));
+    let holding = (is_holding(parameters) && !is_turning(parameters)).then_some((holding_mark, HOLDING, held));
     turning.into_iter().chain(holding)
 }
 
@@ -64,25 +68,21 @@ fn draw_sets(figure: &mut Figure, panel: &Panel, db: &MotionDb) {
     }
 }
 
-/// The agent itself: its two axes through the origin, and a ring.
-fn draw_agent(figure: &mut Figure, panel: &Panel) {
+/// The agent's own axes, through the origin.
+fn draw_axes(figure: &mut Figure, panel: &Panel) {
     let [x, y] = &panel.axes;
     let axis = Line { opacity: 0.5, ..line(INK, 1.5) };
     figure.polyline(panel, [Vec2::new(x.low, 0.0), Vec2::new(x.high, 0.0)], axis);
     figure.polyline(panel, [Vec2::new(0.0, y.low), Vec2::new(0.0, y.high)], axis);
-    figure.mark(panel, Vec2::ZERO, Mark::Ring, 10.0, INK);
 }
 
 fn draw_examples(figure: &mut Figure, panel: &Panel, db: &MotionDb) {
+    let mut names = Vec::new();
     for example in &db.examples {
         for (mark, colour, point) in points_mps(example) {
             figure.mark(panel, point, mark, 8.0, colour);
+            names.push((point, if example.mirrored { "" } else { example.name.as_str() }));
         }
     }
-    let names: Vec<(Vec2, &str)> = db
-        .examples
-        .iter()
-        .flat_map(|example| points_mps(example).map(|(_, _, point)| (point, example.name.as_str())))
-        .collect();
     figure.names(panel, &names);
 }
