@@ -12,7 +12,7 @@ use fbcrowd_sim::recording_frame::AgentFrame;
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::pose::Root;
-use motiondb_compiler::compile::{CompileOptions, compile_files};
+use motiondb_compiler::compile::compile_files;
 
 const DT_S: f32 = 1.0 / 30.0;
 const SECONDS: f32 = 16.0;
@@ -48,7 +48,7 @@ fn marine(test: &str) -> Option<MotionDb> {
 }
 
 fn compiled(files: Vec<PathBuf>) -> MotionDb {
-    compile_files(&files, &CompileOptions::default(), &|_| {}).unwrap().db
+    compile_files(&files, &|_| {}).unwrap().db
 }
 
 /// Starts, turns both ways, a side-step, a step back, and a stop: every change of speed and direction.

@@ -5,36 +5,21 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::DVec3;
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::validate::validate;
 use rayon::prelude::*;
 
+use crate::analysis::{Analyzed, analyze};
 use crate::arc::Rates;
 use crate::compile_error::CompileError;
-use crate::cycle::{self, GaitCycle};
-use crate::gait::{self, Gait, GaitAnalysis};
+use crate::cycle::GaitCycle;
+use crate::gait::Gait;
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::import::{self, Import};
-use crate::root_motion::GroundedClip;
-use crate::{
-    blend_space, correspondence, foot_slide, mirror, parameterize, root_motion, rows, standing, target_skeleton,
-    unroll, velocity_hull,
-};
+use crate::{blend_space, correspondence, mirror, parameterize, rows, standing, target_skeleton, velocity_hull};
 
 /// Period of standing clips where none steps, seconds.
 const STANDING_PERIOD_S: f64 = 1.0;
-/// Whoever walks, crouched or on hands, has the pelvis above this, m.
-const PELVIS_HEIGHT_MIN_M: f64 = 0.01;
-/// Why a clip in which it is elsewhere is no example.
-const STRAY: &str = "the pelvis is where no legs could carry it";
-
-/// What a user may decide about a database.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct CompileOptions {
-    /// Name of the example that semi-procedural locomotion deforms (m_sp); without it the straight walk nearest 1.2 m/s.
-    pub semi_procedural: Option<String>,
-}
 
 /// A database, and the input that it could not use.
 #[derive(Clone, Debug)]
@@ -49,16 +34,12 @@ pub struct Compiled {
 ///
 /// # Errors
 /// As [`compile`]; a file that cannot be read is refused like a clip that is not human, unless nothing is left.
-pub fn compile_files(
-    files: &[PathBuf],
-    options: &CompileOptions,
-    imported: &(dyn Fn(&Path) + Sync),
-) -> Result<Compiled, CompileError> {
+pub fn compile_files(files: &[PathBuf], imported: &(dyn Fn(&Path) + Sync)) -> Result<Compiled, CompileError> {
     let (clips, refused) = import_files(files, imported);
     if clips.is_empty() && !refused.is_empty() {
         return Err(CompileError::NoExample { reasons: refused.join("; ") });
     }
-    Ok(Compiled { db: compile(clips, options)?, refused })
+    Ok(Compiled { db: compile(clips)?, refused })
 }
 
 /// The human clips of files, imported in parallel, and a message for each file or clip that gives none; both in order of file name.
@@ -94,20 +75,20 @@ pub fn import_files(files: &[PathBuf], imported: &(dyn Fn(&Path) + Sync)) -> (Ve
 /// Compiles clips into a database.
 ///
 /// # Errors
-/// Where no clip gives an example, two examples have one name, the options name an example that there is not, or the database is unsound.
-pub fn compile(mut clips: Vec<HumanClip>, options: &CompileOptions) -> Result<MotionDb, CompileError> {
+/// Where no clip gives an example, two examples have one name, or the database is unsound.
+pub fn compile(mut clips: Vec<HumanClip>) -> Result<MotionDb, CompileError> {
     clips.sort_by(|a, b| (&a.source.file, &a.source.clip).cmp(&(&b.source.file, &b.source.clip)));
     if clips.is_empty() {
         return Err(CompileError::NoClips);
     }
     let body = target_skeleton::choose(&clips);
     let analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
-    let period_s = standing_period_s(&clips, &analyzed, options);
+    let period_s = standing_period_s(&analyzed);
     let mut sources: Vec<SourceRecord> = clips.iter().map(|clip| clip.source.clone()).collect();
     let mut cycles = close(&clips, analyzed, &body, period_s, &mut sources);
     add_mirrors(&mut cycles);
     cycles.sort_by(|a, b| a.name.cmp(&b.name));
-    assemble(cycles, sources, &body, options)
+    assemble(cycles, sources, &body)
 }
 
 /// The records of clips with what a compilation would say of each, in the order of a database.
@@ -125,58 +106,12 @@ pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SourceRecord> {
     clips.par_iter().map(record).collect()
 }
 
-/// A clip on the target skeleton, its gait found and, where it steps, its mean stride.
-struct Analyzed {
-    grounded: GroundedClip,
-    gait: GaitAnalysis,
-    stepping: Option<GaitCycle>,
-    warnings: Vec<String>,
-}
-
-fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
-    let grounded = unroll::unroll(root_motion::ground(clip, body), body);
-    let mut gait = gait::analyze(&grounded, body);
-    let heights_m = grounded.poses.iter().map(|pose| DVec3::Z * pose.pelvis_m.z);
-    if matches!(gait.gait, Gait::Stands) && strays(heights_m, body) {
-        gait.gait = Gait::Unsteady(STRAY);
-    }
-    let mut warnings = Vec::new();
-    let stepping = match &gait.gait {
-        Gait::Steps(strides) => {
-            let mut cycle = cycle::mean_stride(&grounded, body, &gait.planted, strides);
-            warnings = parameterize::snap(&mut cycle);
-            warnings.extend(foot_slide::lint(&cycle, body));
-            let stray = strays(cycle.rows.iter().map(|row| row.pelvis_m), body);
-            warnings.extend(stray.then(|| format!("no example: {STRAY}")));
-            (!stray).then_some(cycle)
-        }
-        Gait::Unsteady(reason) => {
-            warnings.push(format!("no example: {reason}"));
-            None
-        }
-        Gait::Stands => None,
-    };
-    Analyzed { grounded, gait, stepping, warnings }
-}
-
-/// Whether a pelvis leaves its root, at z = 0: more than two legs aside, three up, or into the ground.
-fn strays(mut pelvis_m: impl Iterator<Item = DVec3>, body: &HumanBody) -> bool {
-    let leg_m = root_motion::leg_length_m(body);
-    let heights_m = PELVIS_HEIGHT_MIN_M..3.0 * leg_m;
-    let is_near = |place_m: &DVec3| place_m.truncate().length() < 2.0 * leg_m && heights_m.contains(&place_m.z);
-    !pelvis_m.all(|place_m| is_near(&place_m))
-}
-
 /// The period of m_sp, which standing clips take over.
-fn standing_period_s(clips: &[HumanClip], analyzed: &[Analyzed], options: &CompileOptions) -> f64 {
-    let stepping: Vec<(&str, &GaitCycle)> = clips
-        .iter()
-        .zip(analyzed)
-        .filter_map(|(clip, found)| Some((clip.name.as_str(), found.stepping.as_ref()?)))
-        .collect();
-    let rates: Vec<(&str, Rates)> = stepping.iter().map(|(name, cycle)| (*name, cycle.rates)).collect();
-    let chosen = correspondence::semi_procedural(&rates, options.semi_procedural.as_deref());
-    chosen.map_or(STANDING_PERIOD_S, |index| f64::from(stepping[index].1.phase_map.period_s))
+fn standing_period_s(analyzed: &[Analyzed]) -> f64 {
+    let stepping: Vec<&GaitCycle> = analyzed.iter().filter_map(|found| found.stepping.as_ref()).collect();
+    let rates: Vec<Rates> = stepping.iter().map(|cycle| cycle.rates).collect();
+    let chosen = correspondence::semi_procedural(&rates);
+    chosen.map_or(STANDING_PERIOD_S, |index| f64::from(stepping[index].phase_map.period_s))
 }
 
 /// A cycle on its way to an example.
@@ -226,12 +161,7 @@ fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
 }
 
 /// The database of cycles sorted by name.
-fn assemble(
-    named: Vec<NamedCycle>,
-    sources: Vec<SourceRecord>,
-    body: &HumanBody,
-    options: &CompileOptions,
-) -> Result<MotionDb, CompileError> {
+fn assemble(named: Vec<NamedCycle>, sources: Vec<SourceRecord>, body: &HumanBody) -> Result<MotionDb, CompileError> {
     if named.is_empty() {
         return Err(CompileError::no_example(&sources));
     }
@@ -244,11 +174,7 @@ fn assemble(
         .collect();
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
     let blend_space = blend_space::build(&examples);
-    let named_sp = options.semi_procedural.as_deref();
-    if let Some(name) = named_sp.filter(|name| !examples.iter().any(|e| e.name == *name && e.key_times_s.is_some())) {
-        return Err(CompileError::NoSuchExample { name: name.to_owned() });
-    }
-    let correspondence = correspondence::build(&examples, &cycles, body, blend_space.axis_ranges, named_sp);
+    let correspondence = correspondence::build(&examples, &cycles, body, blend_space.axis_ranges);
     let db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
         correspondence,
@@ -284,7 +210,7 @@ mod tests {
     }
 
     fn compiled(clips: Vec<HumanClip>) -> MotionDb {
-        compile(clips, &CompileOptions::default()).unwrap()
+        compile(clips).unwrap()
     }
 
     fn check_rates(db: &MotionDb, name: &str, wanted: [f32; 3]) {

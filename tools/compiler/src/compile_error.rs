@@ -14,12 +14,6 @@ pub enum CompileError {
         /// What each clip's record says.
         reasons: String,
     },
-    /// The options name an m_sp that there is not.
-    #[error("no example called {name} steps; name one that does as the semi-procedural clip, or none")]
-    NoSuchExample {
-        /// The name.
-        name: String,
-    },
     /// What was compiled is no sound database: the clips hold something that no earlier stage knew to refuse.
     #[error(
         "the clips give a database that breaks `{invariant}`: {detail}; leave out the clip that this names, or repair it"

@@ -21,18 +21,15 @@ const THRESHOLD_RATIO: f64 = 1.5;
 /// Cycles share their phases; poses further apart than this share of a cycle are alike by accident (left for right).
 const PHASE_OFFSET_MAX: isize = PHASE_COUNT as isize / 8;
 
-/// m_sp among cycles that step: the named one, else of the straight walks the one nearest 1.2 m/s, of all where none is straight.
-pub fn semi_procedural(stepping: &[(&str, Rates)], wanted: Option<&str>) -> Option<usize> {
-    if let Some(index) = stepping.iter().position(|(name, _)| Some(*name) == wanted) {
-        return Some(index);
-    }
+/// m_sp among cycles that step: of the straight walks the one nearest 1.2 m/s, of all where none is straight.
+pub fn semi_procedural(stepping: &[Rates]) -> Option<usize> {
     let bent = |found: &Rates| {
         found.turn_rate_rad_s.abs() > f64::from(HOLDING_TURN_MAX_RAD_S)
             || found.strafe_mps.abs() > f64::from(TURNING_STRAFE_MAX_MPS)
     };
     let off = |found: &Rates| (found.speed_mps - SEMI_PROCEDURAL_MPS).abs();
     (0..stepping.len()).min_by(|&a, &b| {
-        let (a, b) = (&stepping[a].1, &stepping[b].1);
+        let (a, b) = (&stepping[a], &stepping[b]);
         bent(a).cmp(&bent(b)).then(off(a).total_cmp(&off(b)))
     })
 }
@@ -43,12 +40,10 @@ pub fn build(
     cycles: &[GaitCycle],
     body: &HumanBody,
     axis_ranges: [f32; 3],
-    wanted: Option<&str>,
 ) -> Option<Correspondence> {
     let stepping: Vec<usize> = (0..examples.len()).filter(|index| cycles[*index].steps).collect();
-    let rates: Vec<(&str, Rates)> =
-        stepping.iter().map(|&index| (examples[index].name.as_str(), cycles[index].rates)).collect();
-    let sp = stepping[semi_procedural(&rates, wanted)?];
+    let rates: Vec<Rates> = stepping.iter().map(|&index| cycles[index].rates).collect();
+    let sp = stepping[semi_procedural(&rates)?];
     let distance = |example: &MotionExample| {
         let off = (example.parameters.to_vec3() - examples[sp].parameters.to_vec3()).to_array();
         let scaled = off.iter().zip(axis_ranges).map(|(off, range)| if range > 0.0 { off / range } else { 0.0 });
@@ -175,9 +170,8 @@ mod tests {
     #[test]
     fn the_straight_walk_nearest_its_speed_is_deformed() {
         let rates = |speed_mps, turn_rate_rad_s| Rates { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
-        let set = [("run", rates(3.0, 0.0)), ("bend", rates(1.2, 0.5)), ("walk", rates(1.0, 0.0))];
-        assert_eq!(semi_procedural(&set, None), Some(2));
-        assert_eq!(semi_procedural(&set, Some("run")), Some(0));
-        assert_eq!(semi_procedural(&[], None), None);
+        let (run, bend, walk) = (rates(3.0, 0.0), rates(1.2, 0.5), rates(1.0, 0.0));
+        assert_eq!(semi_procedural(&[run, bend, walk]), Some(2));
+        assert_eq!(semi_procedural(&[]), None);
     }
 }

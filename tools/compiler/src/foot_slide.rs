@@ -17,6 +17,12 @@ const SUSPECT_SLIDE_CM_S: f64 = 12.0;
 const SUSPECT_SLIDE_CM_S_PER_MPS: f64 = 8.0;
 /// And so is a foot planted for less of the cycle than in a sprint.
 const SUSPECT_SHARE: f64 = 0.2;
+/// More slide than this, and than this share of the body's speed, is no stance at all: blended into a crowd it drags all feet. Noisy
+/// captures: 18 cm/s; hand-keyed runs: 7 % (`definitions.md`).
+const EXCESSIVE_SLIDE_CM_S: f64 = 25.0;
+const EXCESSIVE_SLIDE_SHARE: f64 = 0.2;
+/// Nor is there one where both feet together stand for less than a quarter of the cycle.
+const NO_STANCE_SHARE: f64 = 0.125;
 /// A foot is planted from this contact on.
 pub const PLANTED: f64 = 0.5;
 
@@ -46,6 +52,17 @@ pub fn measure(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
     }
     let slide_cm_s = if speeds.is_empty() { 0.0 } else { 100.0 * speeds.iter().sum::<f64>() / speeds.len() as f64 };
     FootSlide { slide_cm_s, planted_share: planted_rows as f64 / (2 * PHASE_COUNT) as f64 }
+}
+
+/// Why a cycle shows no stance that a crowd could be made of, if so.
+pub fn excess(cycle: &GaitCycle, body: &HumanBody) -> Option<String> {
+    let FootSlide { slide_cm_s, planted_share } = measure(cycle, body);
+    let speed_cm_s = 100.0 * libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
+    if planted_share < NO_STANCE_SHARE {
+        return Some(format!("its feet are planted for only {:.0} % of the cycle", 100.0 * planted_share));
+    }
+    (slide_cm_s > EXCESSIVE_SLIDE_CM_S.max(EXCESSIVE_SLIDE_SHARE * speed_cm_s))
+        .then(|| format!("its planted feet slide by {slide_cm_s:.0} cm/s"))
 }
 
 /// Warnings for a cycle whose feet are no model of standing on the ground.

@@ -20,6 +20,8 @@ const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
 /// A body stands that moves slower than this, with its feet planted for nearly all of the clip.
 const STANDING_SPEED_MPS: f64 = 0.06;
 const STANDING_SHARE_MIN: f64 = 0.95;
+/// And whose joints move slower than this in the mean: who breathes, nods and shifts weight stands (0.01–0.1), who dances does not (0.3).
+const STANDING_STIR_MPS: f64 = 0.15;
 /// Shorter clips are poses.
 const STANDING_MIN_S: f64 = 0.5;
 
@@ -81,6 +83,7 @@ fn stands(planted: &[Vec<bool>; 2], track: &BodyTrack) -> bool {
     let share = |side: &Vec<bool>| side.iter().filter(|planted| **planted).count() as f64 / side.len() as f64;
     track.joints.len() as f64 >= STANDING_MIN_S * track.frame_rate_hz
         && track.net_speed_mps() < STANDING_SPEED_MPS
+        && track.mean_joint_speed_mps() < STANDING_STIR_MPS
         && planted.iter().all(|side| share(side) >= STANDING_SHARE_MIN)
 }
 
@@ -93,6 +96,7 @@ fn steps(stepping: &[Vec<bool>; 2], track: &BodyTrack, loop_frames: Option<usize
     };
     match window {
         Some(strides) if !strides.is_empty() => Gait::Steps(align(&strides, track)),
+        _ if landmarks.is_empty() => Gait::Unsteady("no step, and the body does not stand still"),
         _ if strides.iter().all(Option::is_none) => Gait::Unsteady("no whole stride with one step of each foot"),
         _ => Gait::Unsteady("no steady stride"),
     }

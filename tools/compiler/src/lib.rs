@@ -5,6 +5,7 @@
 //! [`stride_alignment`] → [`pose_mean`], [`cycle::GaitCycle`] (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`], [`velocity_hull`], [`blend_space`],
 //! [`correspondence`] → [`motiondb::motion_db::MotionDb`]
 
+mod analysis;
 mod anchors;
 pub mod anthropometry;
 pub mod arc;

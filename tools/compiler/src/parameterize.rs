@@ -20,9 +20,9 @@ const SNAPPED_TURN_RAD_S: f64 = 3.0 * PI / 180.0;
 const SNAPPED_STRAFE_MPS: f64 = 0.1;
 /// … of a body that goes somewhere: from here on the direction of travel is off the facing by 11° at most, m/s.
 const GOING_MPS: f64 = 0.5;
-/// Less than this is not worth a word: 0.1 °/s, 5 mm/s.
-const NOTICED_RAD_S: f64 = 0.1 * PI / 180.0;
-const NOTICED_MPS: f64 = 0.005;
+/// Less than this is not worth a word: over 10 s of walking it shows as 10°, 30 cm.
+const NOTICED_RAD_S: f64 = 1.0 * PI / 180.0;
+const NOTICED_MPS: f64 = 0.03;
 
 /// Takes gait noise out of a cycle's rates; says what was taken, if anyone could notice.
 pub fn snap(cycle: &mut GaitCycle) -> Vec<String> {

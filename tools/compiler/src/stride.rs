@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
 
 use glam::{DQuat, DVec2};
-use motiondb::skeleton::Side;
+use motiondb::skeleton::{JOINT_COUNT, Side};
 
 use crate::arc::{Arc, RootSample};
 use crate::human_clip::HumanJoints;
@@ -81,6 +81,13 @@ impl BodyTrack {
     pub fn mean_speed_mps(&self) -> f64 {
         let path: f64 = self.hips_m.windows(2).map(|pair| pair[1].distance(pair[0])).sum();
         path * self.frame_rate_hz / (self.hips_m.len().max(2) - 1) as f64
+    }
+
+    /// Mean speed of all joints, m/s.
+    pub fn mean_joint_speed_mps(&self) -> f64 {
+        let steps = self.joints.windows(2).flat_map(|pair| pair[0].positions_m.iter().zip(&pair[1].positions_m));
+        let path: f64 = steps.map(|(from, to)| from.distance(*to)).sum();
+        path * self.frame_rate_hz / ((self.joints.len().max(2) - 1) * JOINT_COUNT) as f64
     }
 
     /// From the first frame to the last as the crow flies, m/s.

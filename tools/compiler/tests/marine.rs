@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::pose::Pose;
 use motiondb::validate::validate;
-use motiondb_compiler::compile::{CompileOptions, compile_files};
+use motiondb_compiler::compile::compile_files;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap/smartbody_converted");
 
@@ -51,7 +51,7 @@ fn marine(test: &str) -> Option<MotionDb> {
         println!("SKIPPED {test}: {FOLDER} is missing");
         return None;
     };
-    let compiled = compile_files(&files, &CompileOptions::default(), &|_| ()).unwrap();
+    let compiled = compile_files(&files, &|_| ()).unwrap();
     assert!(compiled.refused.is_empty(), "{:?}", compiled.refused);
     Some(compiled.db)
 }
@@ -183,7 +183,7 @@ fn folder_order_and_threads_leave_every_byte_as_it_is() {
         println!("SKIPPED folder_order_and_threads_leave_every_byte_as_it_is: {FOLDER} is missing");
         return;
     };
-    let compiled = |files: &[PathBuf]| compile_files(files, &CompileOptions::default(), &|_| ()).unwrap().db;
+    let compiled = |files: &[PathBuf]| compile_files(files, &|_| ()).unwrap().db;
     let folder = std::env::temp_dir().join(format!("fbcrowd-marine-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let copies: Vec<PathBuf> = files.iter().map(|file| folder.join(file.file_name().unwrap())).collect();

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use motiondb::motion_db::MotionDb;
-use motiondb_compiler::compile::{self, CompileOptions, Compiled};
+use motiondb_compiler::compile::{self, Compiled};
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
 
@@ -36,7 +36,7 @@ pub(crate) fn clip_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 pub(crate) fn compile(paths: &[PathBuf]) -> Result<(MotionDb, Answer), Failure> {
     let files = clip_files(paths)?;
     let progress = Progress::new("clips", files.len());
-    let compiled = compile::compile_files(&files, &CompileOptions::default(), &|_| progress.advance());
+    let compiled = compile::compile_files(&files, &|_| progress.advance());
     progress.finish();
     let Compiled { db, refused } = compiled.map_err(|error| Failure::bad(error.to_string()))?;
     Ok((db, say_refused(&refused)))
