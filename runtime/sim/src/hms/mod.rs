@@ -268,9 +268,8 @@ fn to_root(root: &Root, point_m: Vec3) -> Vec3 {
 /// Brings the whole body down by what the more stretched leg needs to reach its foot: the soft maximum of both needs and of none. It
 /// begins a little before the leg is stretched, so that neither hips nor knee jerk when it is.
 fn lower_pelvis(pose: &mut Pose, joints: &mut Joints, skeleton: &Skeleton, targets: &[FootTarget; 2]) {
-    let need = |side: usize| {
-        libm::expf(drop_needed_m(joints, skeleton, side, &targets[side]) / PELVIS_SOFTNESS_M - 1.0)
-    };
+    let need =
+        |side: usize| libm::expf(drop_needed_m(joints, skeleton, side, &targets[side]) / PELVIS_SOFTNESS_M - 1.0);
     let drop_m = (PELVIS_SOFTNESS_M * libm::logf(1.0 + need(0) + need(1))).min(PELVIS_DROP_MAX_M);
     pose.pelvis_m.z -= drop_m;
     joints.positions_m.iter_mut().for_each(|position_m| position_m.z -= drop_m);

@@ -64,7 +64,9 @@ pub fn decide(walk: &Walk, holds: impl FnOnce(Vec2) -> bool, dt_s: f32, params: 
     };
     let aligned = wanted.dot(walked) >= ALIGNED_COS;
     if aligned {
-        return rest(walk, wanted, dt_s, params);
+        // Who has turned away goes on facing v_i until rested; else the facing would flicker where v_i wavers about aligned.
+        let turned_away = walk.strafing_s >= params.strafing_limit_s;
+        return rest(walk, if turned_away { walked } else { wanted }, dt_s, params);
     }
     let steps_back = wanted.dot(walked) < 0.0;
     let in_time = if steps_back {
@@ -172,6 +174,18 @@ mod tests {
         assert_eq!((early.facing, early.set), (Vec2::X, VelocitySet::Holding));
         let (_, late) = walk_on(walk(-0.4 * Vec2::X), 2.5);
         assert_eq!((late.facing, late.set), (-Vec2::X, VelocitySet::Turning));
+    }
+
+    #[test]
+    fn a_velocity_that_wavers_about_aligned_does_not_make_the_facing_flicker() {
+        let [inside, outside] = [9.0f32, 11.0].map(|degrees| Vec2::from_angle(degrees.to_radians()));
+        let mut walk = walk(outside);
+        for step in 0..8 {
+            walk.velocity_mps = if step % 2 == 0 { outside } else { inside };
+            let Orientation { facing, strafing_s, stepping_back_s, .. } = decided(&walk, false);
+            assert!(facing.angle_to(outside).abs() < 3.0f32.to_radians(), "step {step}: {facing}");
+            walk = Walk { strafing_s, stepping_back_s, ..walk };
+        }
     }
 
     #[test]
