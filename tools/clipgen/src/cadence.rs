@@ -2,8 +2,9 @@
 //!
 //! Cadence and stride lie inside the adult ±1 SD bands of `facts/motion.md` §4 (18–29 years): at 1.1 m/s those of men walking slowly
 //! (86–101 steps/min, 1.18–1.48 m), at 1.4 of women walking normally (107–124, 1.31–1.53), at 1.8 of women walking fast (129–156,
-//! 1.56–1.84). Double support is 25, 23 and 19 % of the stride (bands 25–34, 20–28, 14–22); toe-off = 50 % + half of it. Foot angles and
-//! pelvis amplitudes by v*: Schwartz et al. 2008. Below 0.85 m/s feet leave the ground earlier than Schwartz's very slow walkers' (68 %).
+//! 1.56–1.84). Double support is 25, 23 and 19 % of the stride (bands 25–34, 20–28, 14–22); toe-off = 50 % + half of it; at 0.5 and 0.8 m/s
+//! it is 30 and 28 %, between those of Schwartz's very slow and slow walkers (36 and 24 %). Foot angles and pelvis amplitudes by v*: Schwartz
+//! et al. 2008. Shoulders swing farther back than forward (Murray, Sepic and Barnard 1967: 24° back, 8° forward at free speed).
 //!
 //! A clip is a whole number of frames and of strides, but a stride is not one of frames: each is sampled at other moments, so that the
 //! mean over strides knows what lies between frames.
@@ -129,7 +130,7 @@ pub(crate) fn walk(root: RootMotion, stride_frames: f64) -> Gait {
     let speed = root.pace_mps();
     let by_speed = |values: [f64; 5]| between(speed, &[0.5, 0.8, 1.1, 1.4, 1.8], &values);
     // A turning foot leaves the ground more slowly and counts as planted for longer.
-    let toe_off = by_speed([0.600, 0.610, 0.626, 0.616, 0.594]) - TURN_TOE_OFF_S * root.turn_rate_rad_s.abs();
+    let toe_off = by_speed([0.650, 0.640, 0.626, 0.616, 0.594]) - TURN_TOE_OFF_S * root.turn_rate_rad_s.abs();
     Gait {
         root,
         stride_frames,
@@ -174,7 +175,7 @@ pub(crate) fn run(root: RootMotion, stride_frames: f64) -> Gait {
         roll: FootRoll {
             strike_pitch_rad: by_speed([9.0, 11.0]).to_radians(),
             flat_from: 0.07,
-            heel_off: 0.08,
+            heel_off: 0.16,
             heel_rise_power: by_speed([1.7, 1.5]),
             toe_off_pitch_rad: -by_speed([57.0, 62.0]).to_radians(),
             toe_off_toe_pitch_rad: -by_speed([20.0, 24.0]).to_radians(),
@@ -246,8 +247,8 @@ pub(crate) fn diagonal(root: RootMotion, stride_frames: f64) -> Gait {
 pub(crate) fn backward_film(backward: RootMotion, stride_frames: f64) -> Gait {
     let walk = walk(backward.reversed(), stride_frames);
     Gait {
-        // Slow feet count as planted for a while before and after they are: what is measured is 3 % more.
-        toe_off: walk.toe_off - 0.02,
+        // Slow feet count as planted for a while before and after they are: what is measured is 3 to 5 % more.
+        toe_off: (walk.toe_off - 0.02).min(0.615),
         style: Style::walk(0.75 * walk.root.pace_mps()),
         half_width_m: 0.068,
         roll: FootRoll {
@@ -274,7 +275,7 @@ fn walking_upper_body(root: &RootMotion) -> UpperBodySwing {
         bank_rad: libm::atan(root.speed_mps * root.turn_rate_rad_s / GRAVITY_MPS2),
         look_rad: (0.22 * root.turn_rate_rad_s).clamp(-0.45, 0.45),
         chest_yaw_rad: by_speed([2.0, 2.6, 3.4, 4.2, 5.5]),
-        arm_mean_rad: by_speed([1.0, 1.5, 2.0, 2.0, 2.0]),
+        arm_mean_rad: by_speed([-2.0, -3.5, -5.5, -7.0, -8.0]),
         arm_swing_rad: by_speed([6.0, 10.0, 15.0, 19.0, 24.0]),
         arm_out_rad: by_speed([9.0, 9.0, 9.0, 9.0, 10.0]),
         elbow_rad: by_speed([14.0, 16.0, 19.0, 23.0, 34.0]),

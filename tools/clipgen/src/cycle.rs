@@ -21,6 +21,8 @@ const ANKLE_UNDER_HIPS_M: f64 = -0.03;
 /// Adults' steps are longer than those of the children whose curves these are (.80 leg lengths against .75 at their free speed), mostly
 /// behind them: with the feet so much farther back hip and knee come nearest to the curves, m.
 const ADULT_TRAIL_M: f64 = 0.025;
+/// Speeds from which adults' steps begin to be longer, and from which they are so in full, m/s.
+const ADULT_TRAIL_FROM_MPS: [f64; 2] = [0.3, 1.1];
 /// The knee points between the pelvis's and the foot's direction, by this share towards the foot's.
 const KNEE_TOWARDS_FOOT: f64 = 0.6;
 /// Rounds of lowering the hips where a leg would be overstretched; the smooth height converges within them to under a millimetre.
@@ -158,6 +160,8 @@ fn published_ahead_m(gait: &Gait) -> f64 {
         let carried_m = gait.root.speed_mps * gait.period_s() * (p - gait.mid_stance());
         gait.style.flexion(p, gait.toe_off).ankle_from_hip_m()[0] + carried_m - gait.roll.advance_m(p, gait.toe_off)
     };
-    let trail_m = if gait.running { 0.0 } else { ADULT_TRAIL_M };
+    let [from_mps, full_mps] = ADULT_TRAIL_FROM_MPS;
+    let trail_share = ((gait.root.pace_mps() - from_mps) / (full_mps - from_mps)).clamp(0.0, 1.0);
+    let trail_m = if gait.running { 0.0 } else { ADULT_TRAIL_M * trail_share };
     (0..SAMPLES).map(sample_m).sum::<f64>() / SAMPLES as f64 - trail_m
 }

@@ -14,9 +14,10 @@ writes. Licence: MIT, as the code.
 
 Y up, Z forward, X to the body's left, 30 frames a second, a body of 1.75 m (proportions: Drillis and Contini 1966, in Winter,
 *Biomechanics and Motor Control of Human Movement*). Most files are BVH, in centimetres; one clip of every kind is GLB (glTF 2.0, metres)
-with a skinned body, so that whoever runs the default set runs both importers. No clip is there twice. Every clip is a whole number of strides of a steady gait (3 to 6; a stride
-need not be a whole number of frames); its **last frame is its first one, moved on** by those strides: for a loop leave it out. Leaf
-joints `…HeelSole`, `…BallSole`, `…ToeSole` lie on the soles. Turns and side-steps are to the left; the compiler mirrors them.
+with a skinned body, so that whoever runs the default set runs both importers. No clip is there twice. Every clip is a whole number of
+strides of a steady gait (3 to 6; a stride need not be a whole number of frames); its **last frame is its first one, moved on** by those
+strides: for a loop leave it out. Leaf joints `…HeelSole`, `…BallSole`, `…ToeSole` lie on the soles. Turns and side-steps are to the left;
+the compiler mirrors them.
 
 v_f forward, ω_t counter-clockwise, ω_s to the left. The step length is that along the path of the root.
 

@@ -7,19 +7,23 @@
 
 use glam::DVec3;
 
+use crate::body::TOE_TIP_X_M;
 use crate::cadence::Gait;
 use crate::foot_roll::Foot;
 use crate::footsteps::{Footprint, RootMotion};
 
 /// Least clearance of the sole in mid-swing: toes pass 1.3 cm over the ground, m.
 const CLEARANCE_M: f64 = 0.013;
+/// Share of the added lift of the toes that the ankle's dorsiflexion gives, the rest being the knee's and the hip's.
+const TOE_UP_SHARE: f64 = 0.4;
 /// Step of the one-sided slopes, share of the stride.
 const SLOPE_STEP: f64 = 1e-4;
 
 /// Speed of the ankle over the ground just before the strike, forward and down, as shares of the walking speed (the heel of a walker at
 /// 1.4 m/s arrives, the foot's own turn included, at about 0.4 and 0.3 m/s).
-const IMPACT_FORWARD_SHARE: f64 = 0.16;
-const IMPACT_DOWN_SHARE: f64 = 0.12;
+const WALKING_IMPACT_SHARES: [f64; 2] = [0.16, 0.12];
+/// The same of runners, whose feet are still swinging when they strike: some 1 m/s forward and 0.7 m/s down at 3 m/s.
+const RUNNING_IMPACT_SHARES: [f64; 2] = [0.34, 0.24];
 /// The pitch before the strike, of the rate at which the sole then slaps down: the published pitch is nearly level in time there.
 const IMPACT_PITCH_SHARE: f64 = 0.15;
 
@@ -90,17 +94,19 @@ impl Swing {
         let shape = published_coordinates(gait, p, hip_height_m);
         let chord = self.published.at(s);
         x += gait.style_share * (shape[0] - chord[0]);
-        z += gait.style_share * (shape[1] - chord[1]) + self.hump_m * hump(s);
-        pitch_rad += gait.style_share * (shape[2] - chord[2]);
+        let lift_m = self.hump_m * hump(s);
+        z += gait.style_share * (shape[1] - chord[1]) + (1.0 - gait.style_share * TOE_UP_SHARE) * lift_m;
+        pitch_rad += gait.style_share * (shape[2] - chord[2] + TOE_UP_SHARE * lift_m / TOE_TIP_X_M);
         Foot { ankle_m: DVec3::new(x, y, z), yaw_rad, pitch_rad, toe_bend_rad }
     }
 
     /// The strike is an impact: until then the foot moves on forward and down, and its sole is not yet slapping down.
     fn arrive_with_impact(&mut self, gait: &Gait) {
         let swing_m = gait.style_share * gait.root.pace_mps() * (1.0 - self.toe_off) * gait.period_s();
+        let [forward_share, down_share] = if gait.running { RUNNING_IMPACT_SHARES } else { WALKING_IMPACT_SHARES };
         let arrival = &mut self.feet.slopes[1];
-        arrival[0] += IMPACT_FORWARD_SHARE * swing_m;
-        arrival[2] -= IMPACT_DOWN_SHARE * swing_m;
+        arrival[0] += forward_share * swing_m;
+        arrival[2] -= down_share * swing_m;
         arrival[4] *= IMPACT_PITCH_SHARE;
     }
 
@@ -152,7 +158,8 @@ fn published_coordinates(gait: &Gait, p: f64, hip_height_m: &dyn Fn(f64) -> f64)
     [x, hip_height_m(p) + z, flexion.foot_pitch_rad()]
 }
 
-/// 1 in the middle, 0 with zero slope at both ends.
+/// 1 at its greatest (s = 0.4: late in swing the toes are up and need no help), 0 with zero slope at both ends.
 fn hump(s: f64) -> f64 {
-    16.0 * s * s * (1.0 - s) * (1.0 - s)
+    let rest = 1.0 - s;
+    s * s * rest * rest * rest / (0.4 * 0.4 * 0.6 * 0.6 * 0.6)
 }
