@@ -21,8 +21,8 @@ const SUSPECT_SHARE: f64 = 0.2;
 /// captures: 18 cm/s; hand-keyed runs: 7 % (`definitions.md`).
 const EXCESSIVE_SLIDE_CM_S: f64 = 25.0;
 const EXCESSIVE_SLIDE_SHARE: f64 = 0.2;
-/// Nor is there one where both feet together stand for less than a quarter of the cycle.
-const NO_STANCE_SHARE: f64 = 0.125;
+/// Nor is there one where feet are planted for less than this share of the cycle; sprinters' are for 0.22.
+const NO_STANCE_SHARE: f64 = 0.14;
 /// A foot is planted from this contact on.
 pub const PLANTED: f64 = 0.5;
 

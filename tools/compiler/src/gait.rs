@@ -20,8 +20,8 @@ const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
 /// A body stands that moves slower than this, with its feet planted for nearly all of the clip.
 const STANDING_SPEED_MPS: f64 = 0.06;
 const STANDING_SHARE_MIN: f64 = 0.95;
-/// And whose joints move slower than this in the mean: who breathes, nods and shifts weight stands (0.01–0.1), who dances does not (0.3).
-const STANDING_STIR_MPS: f64 = 0.15;
+/// And whose joints move slower than this in the mean: who breathes and shifts weight stands (0.003–0.02), who dances does not.
+const STANDING_STIR_MPS: f64 = 0.06;
 /// Shorter clips are poses.
 const STANDING_MIN_S: f64 = 0.5;
 

@@ -14,6 +14,8 @@ use crate::pose_mean::pose_between;
 
 /// Bones nearer than this are the same bones: no inverse kinematics for rounding errors.
 const SAME_BONE_M: f64 = 5e-4;
+/// A performer whose bones are all as long as the target's, to this much, is the target himself in another clip.
+const SAME_LENGTH_M: f64 = 5e-3;
 /// Of the lowest sole points of all frames, the share that lies below the floor: flight lifts many, noise drops a few.
 const FLOOR_PERCENTILE: f64 = 0.1;
 
@@ -62,8 +64,27 @@ fn retarget(pose: &HumanPose, source: &HumanBody, target: &HumanBody, scale: f64
         let sole_m = target.soles_m[side][0].z - source.soles_m[side][0].z * scale;
         let ankle_m = wanted.positions_m[foot] * scale - DVec3::Z * sole_m;
         leg_ik::place_ankle(&mut posed, target, side, ankle_m);
+        if is_same_performer(source, target) {
+            align_foot(&mut posed, source, target, side);
+        }
     }
     posed
+}
+
+fn is_same_performer(source: &HumanBody, target: &HumanBody) -> bool {
+    let off_m = |(a, b): (&DVec3, &DVec3)| (a.length() - b.length()).abs();
+    source.offsets_m.iter().zip(&target.offsets_m).all(|bones| off_m(bones) <= SAME_LENGTH_M)
+}
+
+/// Turns foot and toes of the same performer as his are turned. How a foot lies in its frame is found anew in every clip, from the frames
+/// in which it is flattest; in a run none is flat, and the frame is a few degrees off.
+fn align_foot(pose: &mut HumanPose, source: &HumanBody, target: &HumanBody, side: usize) {
+    let [foot, toe] = [Joint::FEET[side].index(), Joint::TOES[side].index()];
+    let arc = |from: DVec3, to: DVec3| DQuat::from_rotation_arc(from.normalize_or(DVec3::X), to.normalize_or(DVec3::X));
+    let of_foot = arc(target.offsets_m[toe], source.offsets_m[toe]);
+    let of_toe = arc(target.measured_m[side][2], source.measured_m[side][2]);
+    pose.rotations[foot] *= of_foot;
+    pose.rotations[toe] = of_foot.inverse() * pose.rotations[toe] * of_toe;
 }
 
 /// Shifts the clip so that planted soles lie at z = 0.
