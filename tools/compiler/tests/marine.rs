@@ -26,18 +26,22 @@ const TABLE: [(&str, [f32; 3]); 12] = [
     ("StrafeFastRt01", [0.941, 0.1, -1.808]),
 ];
 
-/// Planted-foot slide of the recordings by `tools/planted_slide.py`, cm/s. It sees a heel joint that the canonical humanoid has not, and
-/// trims short contacts by whole frames, hence the half that is granted on top.
-const SLIDES_CM_S: [(&str, f32); 8] = [
+/// Planted-foot slide of the recordings by `tools/planted_slide.py`, cm/s, and what an example may slide more: the script trims short
+/// contacts by whole frames.
+const SLIDES_CM_S: [(&str, f32); 11] = [
+    ("Turn360Rt01", 1.7),
     ("Meander01", 2.6),
-    ("Walk01", 3.6),
-    ("WalkCircleRt01", 4.0),
     ("StrafeSlowRt01", 3.5),
+    ("Walk01", 3.6),
+    ("WalkTightCircleRt01", 3.9),
+    ("WalkCircleRt01", 4.0),
     ("RunCircleRt01", 6.5),
+    ("RunTightCircleRt01", 9.7),
     ("StrafeFastRt01", 12.4),
     ("Jog01", 15.6),
     ("Run01", 28.3),
 ];
+const SLIDE_RATIO: f32 = 1.15;
 
 fn files() -> Option<Vec<PathBuf>> {
     let files: Vec<PathBuf> =
@@ -67,6 +71,12 @@ fn rates(example: &MotionExample) -> [f32; 3] {
     [found.speed_mps, found.turn_rate_rad_s.to_degrees(), found.strafe_mps]
 }
 
+fn check_near(name: &str, found: [f32; 3], wanted: [f32; 3], limits: [f32; 3]) {
+    for ((found, wanted), limit) in found.into_iter().zip(wanted).zip(limits) {
+        assert!((found - wanted).abs() <= limit, "{name}: {found}, not {wanted} ± {limit}");
+    }
+}
+
 #[test]
 fn twelve_recordings_give_the_papers_nineteen_examples() {
     let Some(db) = marine("twelve_recordings_give_the_papers_nineteen_examples") else { return };
@@ -89,11 +99,20 @@ fn the_database_keeps_every_invariant() {
 fn parameters_are_those_of_the_table() {
     let Some(db) = marine("parameters_are_those_of_the_table") else { return };
     for (name, [speed, turn, strafe]) in TABLE {
-        let found = rates(example(&db, name));
         let limits = [(0.08 * speed.abs()).max(0.08), 8.0, (0.08 * strafe.abs()).max(0.1)];
-        for ((found, wanted), limit) in found.iter().zip([speed, turn, strafe]).zip(limits) {
-            assert!((found - wanted).abs() <= limit, "{name}: {found}, not {wanted} ± {limit}");
-        }
+        check_near(name, rates(example(&db, name)), [speed, turn, strafe], limits);
+    }
+}
+
+#[test]
+fn sources_are_those_of_the_table() {
+    let Some(db) = marine("sources_are_those_of_the_table") else { return };
+    for (name, [speed, turn, strafe]) in TABLE {
+        let file = format!("ChrMarine_{name}.bvh");
+        let source = db.sources.iter().find(|source| source.file == file).unwrap();
+        let found = [source.speed_mps, source.turn_rate_rad_s.to_degrees(), source.strafe_mps];
+        let limits = [(0.03 * speed.abs()).max(0.03), 3.0, (0.03 * strafe.abs()).max(0.04)];
+        check_near(name, found, [speed, turn, strafe], limits);
     }
 }
 
@@ -123,11 +142,11 @@ fn mirrors_negate_turning_and_strafing_and_come_half_a_cycle_later() {
 }
 
 #[test]
-fn planted_feet_slide_little_more_than_in_the_recordings() {
-    let Some(db) = marine("planted_feet_slide_little_more_than_in_the_recordings") else { return };
+fn planted_feet_slide_no_more_than_in_the_recordings() {
+    let Some(db) = marine("planted_feet_slide_no_more_than_in_the_recordings") else { return };
     for (name, slide_cm_s) in SLIDES_CM_S {
         let found = example(&db, name);
-        assert!(found.planted_slide_cm_s <= 1.5 * slide_cm_s, "{name}: {} cm/s", found.planted_slide_cm_s);
+        assert!(found.planted_slide_cm_s <= SLIDE_RATIO * slide_cm_s, "{name}: {} cm/s", found.planted_slide_cm_s);
         let shares =
             if found.parameters.speed_mps > 1.5 || name == "StrafeFastRt01" { 0.28..=0.45 } else { 0.45..=0.7 };
         assert!(shares.contains(&found.planted_share), "{name}: planted for {}", found.planted_share);
