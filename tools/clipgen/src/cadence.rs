@@ -4,7 +4,7 @@
 //! (86–101 steps/min, 1.18–1.48 m), at 1.4 of women walking normally (107–124, 1.31–1.53), at 1.8 of women walking fast (129–156,
 //! 1.56–1.84). Double support is 25, 23 and 19 % of the stride (bands 25–34, 20–28, 14–22); toe-off = 50 % + half of it; at 0.5 and 0.8 m/s
 //! it is 30 and 28 %, between those of Schwartz's very slow and slow walkers (36 and 24 %). Foot angles and pelvis amplitudes by v*: Schwartz
-//! et al. 2008. Shoulders swing farther back than forward (Murray, Sepic and Barnard 1967: 24° back, 8° forward at free speed).
+//! et al. 2008. Shoulders swing farther back than forward (24° back, 8° forward at free speed: Perry, *Gait Analysis*, ch. 8).
 //!
 //! A clip is a whole number of frames and of strides, but a stride is not one of frames: each is sampled at other moments, so that the
 //! mean over strides knows what lies between frames.

@@ -16,6 +16,9 @@ use crate::footsteps::{Footprint, RootMotion};
 const CLEARANCE_M: f64 = 0.013;
 /// Share of the added lift of the toes that the ankle's dorsiflexion gives, the rest being the knee's and the hip's.
 const TOE_UP_SHARE: f64 = 0.4;
+/// Runners' toes, still pointing down as the shank swings through, pass higher: from and to these shares of the swing, m.
+const RUNNING_CLEARANCE_M: f64 = 0.03;
+const RUNNING_CLEAR_FROM_TO: [f64; 2] = [0.25, 0.80];
 /// Step of the one-sided slopes, share of the stride.
 const SLOPE_STEP: f64 = 1e-4;
 
@@ -94,7 +97,7 @@ impl Swing {
         let shape = published_coordinates(gait, p, hip_height_m);
         let chord = self.published.at(s);
         x += gait.style_share * (shape[0] - chord[0]);
-        let lift_m = self.hump_m * hump(s);
+        let lift_m = self.hump_m * hump(gait, s);
         z += gait.style_share * (shape[1] - chord[1]) + (1.0 - gait.style_share * TOE_UP_SHARE) * lift_m;
         pitch_rad += gait.style_share * (shape[2] - chord[2] + TOE_UP_SHARE * lift_m / TOE_TIP_X_M);
         Foot { ankle_m: DVec3::new(x, y, z), yaw_rad, pitch_rad, toe_bend_rad }
@@ -115,9 +118,7 @@ impl Swing {
             let s = f64::from(step) / 100.0;
             let foot = self.foot(gait, self.toe_off + s * (1.0 - self.toe_off), hip_height_m);
             let lowest_m = foot.sole_heights_m().into_iter().fold(f64::INFINITY, f64::min);
-            // Near its ends the swing need only stay over the ground.
-            let wanted_m = if (25..=75).contains(&step) { CLEARANCE_M * hump(s) } else { 0.0 };
-            (wanted_m - lowest_m) / hump(s)
+            (wanted_clearance_m(gait, s) - lowest_m) / hump(gait, s)
         };
         (5..=95).map(missing_at).fold(0.0, f64::max)
     }
@@ -158,8 +159,19 @@ fn published_coordinates(gait: &Gait, p: f64, hip_height_m: &dyn Fn(f64) -> f64)
     [x, hip_height_m(p) + z, flexion.foot_pitch_rad()]
 }
 
-/// 1 at its greatest (s = 0.4: late in swing the toes are up and need no help), 0 with zero slope at both ends.
-fn hump(s: f64) -> f64 {
-    let rest = 1.0 - s;
+/// Near its ends the swing need only stay over the ground.
+fn wanted_clearance_m(gait: &Gait, s: f64) -> f64 {
+    let [from, to] = RUNNING_CLEAR_FROM_TO;
+    match gait.running {
+        true if (from..=to).contains(&s) => RUNNING_CLEARANCE_M,
+        false if (0.25..=0.75).contains(&s) => CLEARANCE_M * hump(gait, s),
+        _ => 0.0,
+    }
+}
+
+/// The shape of added lift: 1 at its greatest, 0 with zero slope at both ends. Walkers' toes need it most at s = 0.4 (later they are up by
+/// themselves), runners' at 0.6.
+fn hump(gait: &Gait, s: f64) -> f64 {
+    let (s, rest) = if gait.running { (1.0 - s, s) } else { (s, 1.0 - s) };
     s * s * rest * rest * rest / (0.4 * 0.4 * 0.6 * 0.6 * 0.6)
 }
