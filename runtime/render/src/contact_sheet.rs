@@ -5,7 +5,7 @@
 
 use fbcrowd_sim::recording_frame::AgentFrame;
 use glam::{Mat3, Vec2, Vec3};
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
+use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::pose::Pose;
 use tiny_skia::Pixmap;
 
@@ -29,6 +29,12 @@ const GROUND_PX: f32 = 18.0;
 const NAMES_PX: f32 = 540.0;
 const HEAD_PX: f32 = 150.0;
 const GAP_PX: f32 = 40.0;
+/// Width of one view of one example, and of all that is drawn of it, pixels.
+const STRIP_PX: f32 = PHASES as f32 * CELL_PX.x + GAP_PX;
+const BLOCK_PX: f32 = NAMES_PX + VIEWS.len() as f32 * STRIP_PX;
+/// More examples go into further columns, up to the second number, which is what the largest picture takes.
+const MAX_ROWS: usize = 32;
+const MAX_COLUMNS: usize = 5;
 /// Width of the dark rim under a limb, pixels.
 const RIM_PX: f32 = 1.5;
 /// Bodies are seen from this far beyond their own depth, so that no part counts as below the paper, m.
@@ -50,54 +56,64 @@ const VIEWS: [View; 3] = [
 
 /// The contact sheet of a database.
 pub fn contact_sheet(db: &MotionDb) -> Pixmap {
-    let strip_px = PHASES as f32 * CELL_PX.x + GAP_PX;
-    let width = NAMES_PX + VIEWS.len() as f32 * strip_px;
-    let height = HEAD_PX + db.examples.len() as f32 * CELL_PX.y + GAP_PX;
-    let mut figure = Figure::new(width as u32, height as u32);
-    draw_head(&mut figure, strip_px);
-    for (row, example) in db.examples.iter().enumerate() {
-        let base = HEAD_PX + (row + 1) as f32 * CELL_PX.y - GROUND_PX;
-        figure.text(&example.name, Vec2::new(GAP_PX, base - 70.0), Anchor::Left);
-        draw_numbers(&mut figure, db, row, base);
-        for view in 0..VIEWS.len() {
-            let left = NAMES_PX + view as f32 * strip_px;
-            fill_rect(&mut figure.pixmap, [left, base.round(), strip_px - GAP_PX, 1.0], GRID_COARSE, 1.0);
-        }
+    let columns = db.examples.len().div_ceil(MAX_ROWS).clamp(1, MAX_COLUMNS);
+    let rows = db.examples.len().div_ceil(columns);
+    let size = Vec2::new(columns as f32 * BLOCK_PX, HEAD_PX + rows as f32 * CELL_PX.y + GAP_PX);
+    let mut figure = Figure::new(size.x as u32, size.y as u32);
+    figure.title("Examples, one stride each, from right mid-stance on", Vec2::new(GAP_PX, 66.0));
+    for column in 0..columns {
+        draw_head(&mut figure, column as f32 * BLOCK_PX);
     }
-    figure.pixmap = draw_bodies(figure.pixmap, db, strip_px);
+    for example in 0..db.examples.len() {
+        draw_words(&mut figure, db, example, corner_px(example, rows));
+    }
+    figure.pixmap = draw_bodies(figure.pixmap, db, rows);
     figure.pixmap
 }
 
-fn draw_head(figure: &mut Figure, strip_px: f32) {
-    figure.title("Examples, one stride each, from right mid-stance on", Vec2::new(GAP_PX, 66.0));
+/// Where the ground line of an example begins.
+fn corner_px(example: usize, rows: usize) -> Vec2 {
+    let [column, row] = [example / rows, example % rows].map(|index| index as f32);
+    Vec2::new(column * BLOCK_PX, HEAD_PX + (row + 1.0) * CELL_PX.y - GROUND_PX)
+}
+
+fn draw_head(figure: &mut Figure, left: f32) {
     for (index, view) in VIEWS.iter().enumerate() {
-        figure.text(view.name, Vec2::new(NAMES_PX + index as f32 * strip_px, 120.0), Anchor::Left);
+        figure.text(view.name, Vec2::new(left + NAMES_PX + index as f32 * STRIP_PX, 120.0), Anchor::Left);
     }
 }
 
-fn draw_numbers(figure: &mut Figure, db: &MotionDb, row: usize, base: f32) {
-    let parameters = &db.examples[row].parameters;
+/// Name, numbers and ground of one example.
+fn draw_words(figure: &mut Figure, db: &MotionDb, example: usize, corner: Vec2) {
+    figure.text(&db.examples[example].name, corner + Vec2::new(GAP_PX, -70.0), Anchor::Left);
+    draw_numbers(figure, &db.examples[example], corner + Vec2::new(GAP_PX, -40.0));
+    for view in 0..VIEWS.len() {
+        let left = corner.x + NAMES_PX + view as f32 * STRIP_PX;
+        fill_rect(&mut figure.pixmap, [left, corner.y.round(), STRIP_PX - GAP_PX, 1.0], GRID_COARSE, 1.0);
+    }
+}
+
+fn draw_numbers(figure: &mut Figure, example: &MotionExample, at_px: Vec2) {
+    let parameters = &example.parameters;
     let (speed, strafe) = (number(parameters.speed_mps, 2), number(parameters.strafe_mps, 2));
     let turn = number(parameters.turn_rate_rad_s.to_degrees(), 0);
     let lines = [
         format!("{speed} m/s forward, {strafe} m/s to the left"),
-        format!("{turn} °/s, stride {} s", number(db.examples[row].phase_map.period_s, 2)),
+        format!("{turn} °/s, stride {} s", number(example.phase_map.period_s, 2)),
     ];
     for (index, line) in lines.iter().enumerate() {
-        let below = Vec2::new(GAP_PX, base - 40.0 + 26.0 * index as f32);
-        figure.note(line, below, Anchor::Left, INK);
+        figure.note(line, at_px + Vec2::new(0.0, 26.0 * index as f32), Anchor::Left, INK);
     }
 }
 
-fn draw_bodies(paper: Pixmap, db: &MotionDb, strip_px: f32) -> Pixmap {
+fn draw_bodies(paper: Pixmap, db: &MotionDb, rows: usize) -> Pixmap {
     let mut canvas = Canvas::new(paper);
-    for row in 0..db.examples.len() {
+    for example in 0..db.examples.len() {
         for cell in 0..PHASES {
-            let parts = parts(db, row, cell * PHASE_COUNT / PHASES);
+            let parts = parts(db, example, cell * PHASE_COUNT / PHASES);
             for (index, view) in VIEWS.iter().enumerate() {
-                let x = NAMES_PX + index as f32 * strip_px + (cell as f32 + 0.5) * CELL_PX.x;
-                let y = HEAD_PX + (row + 1) as f32 * CELL_PX.y - GROUND_PX - view.lift_px;
-                draw_body(&mut canvas, &parts, view, Vec2::new(x, y));
+                let right = NAMES_PX + index as f32 * STRIP_PX + (cell as f32 + 0.5) * CELL_PX.x;
+                draw_body(&mut canvas, &parts, view, corner_px(example, rows) + Vec2::new(right, -view.lift_px));
             }
         }
     }
@@ -108,14 +124,9 @@ fn draw_bodies(paper: Pixmap, db: &MotionDb, strip_px: f32) -> Pixmap {
 fn parts(db: &MotionDb, example: usize, phase: usize) -> Vec<Part> {
     let rotations = *db.rows.rotations(example, phase);
     let pose = Pose { pelvis_m: db.rows.pelvis_m[example * PHASE_COUNT + phase], rotations };
+    let frame = AgentFrame { pose, ..AgentFrame::default() };
     let mut parts = Vec::new();
-    body::append_parts(
-        &mut parts,
-        &db.skeleton,
-        &AgentFrame { pose, ..AgentFrame::default() },
-        look(example),
-        Detail::Full,
-    );
+    body::append_parts(&mut parts, &db.skeleton, &frame, look(example), Detail::Full);
     parts
 }
 

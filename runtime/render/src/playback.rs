@@ -43,7 +43,7 @@ pub fn read_tracks(recording: &Recording) -> Result<Tracks, RenderError> {
     }
     let scenario = &recording.header().scenario;
     let agent_count = scenario.agents.len();
-    let stride = (recording.frame_count() * agent_count).div_ceil(MAX_TRACK_POINTS).max(1);
+    let stride = track_stride(recording.frame_count(), agent_count);
     let kept = recording.frame_count().div_ceil(stride);
     let mut positions_m = vec![Vec2::ZERO; kept * agent_count];
     let frames = positions_m.par_chunks_mut(agent_count.max(1)).enumerate();
@@ -55,6 +55,11 @@ pub fn read_tracks(recording: &Recording) -> Result<Tracks, RenderError> {
         Ok::<(), RecordingError>(())
     })?;
     Ok(Tracks { agent_count, dt_s: scenario.dt_s * stride as f32, positions_m })
+}
+
+/// Every how many-th frame is kept.
+fn track_stride(frame_count: usize, agent_count: usize) -> usize {
+    frame_count.saturating_mul(agent_count).div_ceil(MAX_TRACK_POINTS).max(1)
 }
 
 /// All agents at a time; between two recorded frames, both blended.
@@ -98,6 +103,13 @@ fn blend(agent: &AgentFrame, next: &AgentFrame, share: f32) -> AgentFrame {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tracks_keep_every_frame_until_memory_is_full() {
+        for (frames, agents, stride) in [(1, 0, 1), (540, 17, 1), (18_000, 1_000, 1), (18_000, 10_000, 6)] {
+            assert_eq!(track_stride(frames, agents), stride, "{frames} {agents}");
+        }
+    }
 
     #[test]
     fn blended_facing_takes_the_shorter_way() {

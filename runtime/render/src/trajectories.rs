@@ -12,10 +12,13 @@ use crate::palette::{GRID_COARSE, INK, OBSTACLE_RIM, line_colour};
 use crate::plot::{Figure, Line, Panel, line};
 use crate::trails::Tracks;
 
-/// Sides of the sheet, pixels.
-const SIDE_PX: u32 = 1600;
-/// Left, top, width, height of the axes on it, pixels.
-const PANEL_PX: [f32; 4] = [130.0, 190.0, 1410.0, 1290.0];
+/// Width of the sheet, pixels.
+const WIDTH_PX: u32 = 1600;
+/// Left, top and width of the axes on it, and the room below them, pixels.
+const PANEL_LEFT_TOP_WIDTH_PX: [f32; 3] = [130.0, 190.0, 1410.0];
+const BELOW_PX: f32 = 120.0;
+/// Least and greatest height of the axes, which follows the scene's, pixels.
+const PANEL_HEIGHTS_PX: [f32; 2] = [480.0, 1600.0];
 /// Room around the paths, m.
 const MARGIN_M: f32 = 0.6;
 /// Width of a path, and of one among more than [`FEW_AGENTS`], pixels.
@@ -27,15 +30,19 @@ const FEW_AGENTS: usize = 60;
 
 /// The plot of a whole recording.
 pub fn trajectories(header: &Header, tracks: &Tracks) -> Pixmap {
-    let mut figure = Figure::new(SIDE_PX, SIDE_PX);
-    figure.title(&title(header, tracks), Vec2::new(PANEL_PX[0], 70.0));
     let [low, high] = shown_m(header, tracks);
+    let [left, top, width] = PANEL_LEFT_TOP_WIDTH_PX;
+    let [least, greatest] = PANEL_HEIGHTS_PX;
+    let height = (width * (high.y - low.y) / (high.x - low.x)).round().clamp(least, greatest);
+    let mut figure = Figure::new(WIDTH_PX, (top + height + BELOW_PX) as u32);
+    figure.title(&title(header, tracks), Vec2::new(left, 70.0));
+    figure.legend(Vec2::new(left + 10.0, 122.0), &[(Mark::Disc, INK, "start"), (Mark::Cross, INK, "goal")]);
     let axis = |label: &str, low: f32, high: f32| Axis { label: label.to_owned(), low, high };
-    let axes = equal_units(PANEL_PX, [axis("x, m", low.x, high.x), axis("y, m", low.y, high.y)]);
-    let panel = figure.panel(PANEL_PX, axes);
+    let rect_px = [left, top, width, height];
+    let axes = equal_units(rect_px, [axis("x, m", low.x, high.x), axis("y, m", low.y, high.y)]);
+    let panel = figure.panel(rect_px, axes);
     draw_obstacles(&mut figure, &panel, header);
     draw_paths(&mut figure, &panel, header, tracks);
-    figure.legend(Vec2::new(PANEL_PX[0] + 10.0, 122.0), &[(Mark::Disc, INK, "start"), (Mark::Cross, INK, "goal")]);
     figure.pixmap
 }
 
