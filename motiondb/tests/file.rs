@@ -1,0 +1,60 @@
+//! `.fbdb`: what was written is read, and whatever else is refused with the file's name.
+
+mod support;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use motiondb::file::{self, FileError};
+use proptest::prelude::*;
+use support::small_db;
+
+fn place(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
+#[test]
+fn what_was_written_is_read_and_leaves_nothing_beside_it() {
+    let folder = place("round_trip");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("motion.fbdb");
+    let checksum = file::write(&path, &small_db()).unwrap();
+    assert_eq!(file::load(&path).unwrap(), (small_db(), checksum));
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+}
+
+#[test]
+fn a_missing_file_a_missing_folder_and_foreign_content_are_told_apart() {
+    assert!(matches!(file::read(&place("nothing.fbdb")), Err(FileError::Unreadable { .. })));
+    assert!(matches!(file::write(&place("nowhere/motion.fbdb"), &small_db()), Err(FileError::Unwritable { .. })));
+    let foreign = place("foreign.fbdb");
+    fs::write(&foreign, "HIERARCHY\nROOT Hips\n").unwrap();
+    let message = file::read(&foreign).unwrap_err().to_string();
+    assert!(message.contains("foreign.fbdb") && message.contains("fbcrowd compile"), "{message}");
+}
+
+#[test]
+fn a_broken_invariant_is_read_but_not_loaded() {
+    let path = place("broken.fbdb");
+    let mut db = small_db();
+    db.blend_space.covered_share = 0.5;
+    file::write(&path, &db).unwrap();
+    assert!(file::read(&path).is_ok());
+    let invariant = "simplices_cover_the_examples";
+    assert!(matches!(file::load(&path), Err(FileError::Invariant { invariant: found, .. }) if found == invariant));
+}
+
+proptest! {
+    #[test]
+    fn no_altered_or_cut_file_is_read(place_share in 0.0f64..1.0, bit in 0u8..8, cut in any::<bool>()) {
+        let mut bytes = file::to_bytes(&small_db());
+        let place = (place_share * bytes.len() as f64) as usize;
+        if cut {
+            bytes.truncate(place);
+        } else {
+            bytes[place] ^= 1 << bit;
+        }
+        prop_assert!(file::from_bytes(Path::new("altered"), &bytes).is_err());
+    }
+}
