@@ -38,6 +38,8 @@ const HEAD: Kind = *b"HEAD";
 const FRAME: Kind = *b"FRAM";
 const INDEX: Kind = *b"INDX";
 const TAIL: Kind = *b"TAIL";
+/// Longer is no bone, m, and greater no angle of a joint, rad.
+const SKELETON_MAX_M: f32 = 10.0;
 /// No header of a million agents with waypoints comes near; bincode refuses to decode beyond it.
 const HEADER_LIMIT_BYTES: usize = 1 << 30;
 
@@ -208,18 +210,21 @@ fn decode_header(file: &ChunkFile) -> Result<Header, RecordingError> {
     }
     // Whoever reads, measures or draws a recording may trust its numbers.
     check_ranges(&header.scenario).map_err(|fault| file.damaged(HEAD_BYTE, fault.message))?;
-    if !is_finite(&header.skeleton) {
-        return Err(file.damaged(HEAD_BYTE, "the skeleton is not finite"));
+    if !is_bodily(&header.skeleton) {
+        return Err(file.damaged(HEAD_BYTE, "the skeleton is no body's"));
     }
     Ok(header)
 }
 
-fn is_finite(skeleton: &Skeleton) -> bool {
+/// Whether every bone, point and limit is finite and within reach of a giant's hand.
+fn is_bodily(skeleton: &Skeleton) -> bool {
+    let near = |vector: Vec3| vector.is_finite() && vector.abs().max_element() <= SKELETON_MAX_M;
     let feet = skeleton.feet.iter();
     let points_m = feet.flat_map(|foot| [foot.heel_m, foot.ball_m, foot.toe_tip_m].into_iter().chain(foot.measured_m));
     let vectors = [skeleton.offsets_m, skeleton.segment_ends_m].into_iter().flatten();
     let limits = skeleton.limits_rad.iter().flatten().copied();
-    vectors.chain(limits).chain(points_m).all(Vec3::is_finite) && skeleton.segment_radii_m.iter().all(|m| m.is_finite())
+    vectors.chain(limits).chain(points_m).all(near)
+        && skeleton.segment_radii_m.iter().all(|radius_m| (0.0..=SKELETON_MAX_M).contains(radius_m))
 }
 
 /// Where each frame's chunk begins.

@@ -109,9 +109,11 @@ fn a_recording_without_a_frame_or_with_a_broken_body_is_refused() {
     Recorder::create(&path, &two_agents()).unwrap().finish().unwrap();
     assert!(Recording::open(&path).unwrap_err().to_string().contains("the index is empty"));
     let mut broken = two_agents();
-    broken.skeleton.offsets_m[4].y = f32::INFINITY;
-    Recorder::create(&path, &broken).unwrap().finish().unwrap();
-    assert!(Recording::open(&path).unwrap_err().to_string().contains("the skeleton is not finite"));
+    for bone_m in [f32::INFINITY, f32::NAN, 1e30] {
+        broken.skeleton.offsets_m[4].y = bone_m;
+        Recorder::create(&path, &broken).unwrap().finish().unwrap();
+        assert!(Recording::open(&path).unwrap_err().to_string().contains("the skeleton is no body's"));
+    }
 }
 
 #[test]

@@ -14,6 +14,7 @@ use glam::{DQuat, DVec3};
 use gltf::accessor::{Accessor, DataType, Dimensions};
 use gltf::animation::util::ReadOutputs;
 use gltf::animation::{Channel, Interpolation};
+use gltf::json::validation;
 
 /// Flaws of one document that a message lists, and the letters of any other message.
 const SHOWN_FLAWS: usize = 3;
@@ -95,8 +96,7 @@ fn flaw<T>(place: impl Into<String>, problem: impl Into<String>, remedy: &'stati
 }
 
 fn parse_unguarded(file: &Path, bytes: &[u8]) -> Result<(Vec<Node>, Vec<Animation>), Flaw> {
-    let document = gltf::Gltf::from_slice(bytes)
-        .or_else(|error| flaw("document", shown(&error), "check it with the glTF validator, or export it again"))?;
+    let document = gltf::Gltf::from_slice(bytes).or_else(|error| flaw("document", shown(&error), remedy(&error)))?;
     let chunk = document.blob.as_deref();
     let buffers =
         document.buffers().map(|buffer| read_buffer(file, &buffer, chunk)).collect::<Result<Vec<_>, Flaw>>()?;
@@ -119,7 +119,16 @@ fn shown(error: &gltf::Error) -> String {
                 flaws[..SHOWN_FLAWS].iter().map(|(path, flaw)| format!("{path}: {flaw}")).collect();
             format!("{}; and {} more", first.join("; "), flaws.len() - SHOWN_FLAWS)
         }
-        _ => error.to_string().chars().take(SHOWN_LETTERS).collect(),
+        _ => error.to_string().trim_end_matches([';', ' ']).chars().take(SHOWN_LETTERS).collect(),
+    }
+}
+
+fn remedy(error: &gltf::Error) -> &'static str {
+    match error {
+        gltf::Error::Validation(flaws) if flaws.iter().any(|(_, flaw)| *flaw == validation::Error::Unsupported) => {
+            "export it without the extension that it requires, uncompressed"
+        }
+        _ => "check it with the glTF validator, or export it again",
     }
 }
 
