@@ -22,7 +22,7 @@ const TICK_PX: f32 = 8.0;
 const LEGEND_MARK_PX: f32 = 9.0;
 /// Points nearer to each other than this share one note, pixels.
 const SAME_POINT_PX: f32 = 5.0;
-/// How much of what lies under a name shows through.
+/// Opacity of the paper under a name: lines behind it stay faintly visible.
 const NAME_BACKING: f32 = 0.75;
 
 /// A sheet of paper.
@@ -65,11 +65,6 @@ impl Panel {
         let share = |value: f32, axis: &Axis| (value - axis.low) / (axis.high - axis.low);
         let [x, y] = &self.axes;
         Vec2::new(left + width * share(point.x, x), top + height * (1.0 - share(point.y, y)))
-    }
-
-    /// Pixels to one unit across.
-    pub fn unit_px(&self) -> f32 {
-        self.rect_px[2] / (self.axes[0].high - self.axes[0].low)
     }
 }
 
