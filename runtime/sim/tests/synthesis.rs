@@ -2,16 +2,21 @@
 
 use std::f32::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use fbcrowd_sim::hms::params::HmsParams;
 use fbcrowd_sim::hms::space::Space;
 use fbcrowd_sim::hms::{Body, Motion, Synthesis};
+use fbcrowd_sim::obstacles::Obstacles;
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::planted_slide::{PlantedSlide, Slide};
 use fbcrowd_sim::recording_frame::AgentFrame;
-use glam::Vec2;
+use fbcrowd_sim::scenario_file;
+use fbcrowd_sim::step::Simulation;
+use glam::{Quat, Vec2};
 use motiondb::motion_db::MotionDb;
 use motiondb::pose::Root;
+use motiondb::skeleton::Joint;
 use motiondb_compiler::compile::compile_files;
 
 const DT_S: f32 = 1.0 / 30.0;
@@ -124,6 +129,25 @@ fn no_sole_sinks_into_the_ground_and_nobody_crouches() {
 }
 
 #[test]
+fn knees_neither_snap_nor_lock() {
+    let db = bundled();
+    let mut knees_rad = vec![Vec::new(); 8];
+    let mut seen = 0;
+    go(&db, |_, synthesis| {
+        let knee_rad = |shank: Joint| synthesis.pose.rotations[shank.index()].angle_between(Quat::IDENTITY);
+        knees_rad[seen % 8].push(Joint::SHANKS.map(knee_rad));
+        seen += 1;
+    });
+    for (earlier, later) in knees_rad.iter().flat_map(|body| body.iter().zip(&body[1..])) {
+        for side in 0..2 {
+            assert!(earlier[side] > 0.1, "{} rad", earlier[side]); // the leg at its full length has 0.09
+            let speed_rad_s = (later[side] - earlier[side]).abs() / DT_S;
+            assert!(speed_rad_s < 9.0, "{speed_rad_s} rad/s"); // a brisk walker's swing has 7
+        }
+    }
+}
+
+#[test]
 fn a_body_that_has_stopped_rests() {
     let databases = [Some(bundled()), marine("a_body_that_has_stopped_rests")];
     for db in databases.into_iter().flatten() {
@@ -132,4 +156,23 @@ fn a_body_that_has_stopped_rests() {
         let (before, last) = (&roots[roots.len() - 16..roots.len() - 8], &roots[roots.len() - 8..]);
         assert_eq!(before, last);
     }
+}
+
+#[test]
+fn everyone_leaves_the_room_and_no_root_comes_into_a_wall() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenarios/bottleneck.toml");
+    let (scenario, _) = scenario_file::read(&file).unwrap();
+    let obstacles = Obstacles::new(&scenario.obstacles_m);
+    let mut simulation = Simulation::new(Arc::new(bundled()), &scenario);
+    let mut arrived = vec![false; scenario.agents.len()];
+    for _ in 0..(scenario.duration_s / scenario.dt_s) as usize {
+        simulation.step(&mut |_| {});
+        for ((frame, agent), arrived) in simulation.frames().iter().zip(&scenario.agents).zip(&mut arrived) {
+            let position_m = frame.root.position_m;
+            let clamped_m = obstacles.clamp_outside(position_m, agent.radius_m);
+            assert!(clamped_m.distance(position_m) < 1e-3, "{position_m}");
+            *arrived |= position_m.distance(*agent.goals_m.last().unwrap()) < 0.5;
+        }
+    }
+    assert!(arrived.iter().all(|&arrived| arrived), "{arrived:?}");
 }

@@ -6,7 +6,7 @@
 //! 2. [`blending`]: the shares of the examples follow; phase and root move, the root exactly along its arc;
 //! 3. the pose is sampled at the new phase;
 //! 4. [`feet`]: planted feet are held;
-//! 5. [`ik`]: the legs reach their feet, the pelvis comes down where they would not.
+//! 5. [`pelvis`], [`ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach them.
 //!
 //! There is one mode, motion blending; the hybrid switch (§3.4.1) will choose between it and semi-procedural locomotion.
 //! The root frame has x forward, y left, z up, its origin on the ground under the ripple-free root; metres, seconds, radians.
@@ -18,6 +18,7 @@ pub mod gait;
 pub mod ik;
 pub mod owed;
 pub mod params;
+pub mod pelvis;
 pub mod space;
 
 use glam::{Vec2, Vec3};
@@ -36,13 +37,6 @@ use self::space::Space;
 use crate::angle::wrap_rad;
 use crate::plan::{Plan, Stance, StanceFoot};
 
-/// Straightest a leg may be before the pelvis comes down for it, as a share of its length; straighter only where the pose is.
-const PELVIS_EXTENSION: f32 = 0.99;
-/// Furthest that the pelvis comes down, metres.
-const PELVIS_DROP_MAX_M: f32 = 0.12;
-/// It begins to come down this much before it must, m: half of the bob of walking, so that knees never snap straight.
-const PELVIS_SOFTNESS_M: f32 = 0.02;
-
 /// Feet this near to where a standing body has them are under it, m: half a small step.
 const GATHERED_M: f32 = 0.18;
 /// Time in which the phase catches up with a planted foot, s: about half a stance.
@@ -51,7 +45,8 @@ const CATCH_UP_TIME_S: f32 = 0.2;
 const HURRY_MAX: f32 = 0.4;
 /// A body slower than this hardly moves its feet by its phase, m/s.
 const HURRY_SPEED_MIN_MPS: f32 = 0.4;
-/// A plan reaches the body with this lag, s. Planners that take turns in giving way change their mind every step; a body so led would tremble.
+/// A plan reaches the body with this lag, s. Two who give way to each other change their plans at every step, and a body that followed at
+/// once would tremble.
 const INTENTION_TIME_S: f32 = 0.05;
 /// Phase of the first step before the swinging foot's passing of the other: it is lifted there, and passes when stepping has faded in.
 const LIFT_OFF_PHASE: f32 = 0.15;
@@ -141,6 +136,7 @@ impl Body {
         self.root = moved;
     }
 
+    /// What is asked, smoothed.
     fn intend(&mut self, asked: Parameters, dt_s: f32) {
         let follow = 1.0 - libm::expf(-dt_s / INTENTION_TIME_S);
         let (intended, asked) = (self.intended.to_vec3(), asked.to_vec3());
@@ -194,7 +190,7 @@ impl Body {
         let mut joints = pose.forward_kinematics(skeleton);
 
         let targets = [0, 1].map(|side| self.hold_foot(&joints, skeleton, side, contacts[side], dt_s));
-        lower_pelvis(&mut pose, &mut joints, skeleton, &targets);
+        pelvis::lower(&mut pose, &mut joints, skeleton, &targets);
         for (side, target) in targets.iter().enumerate() {
             ik::reach(&mut pose, &mut joints, skeleton, side, target);
         }
@@ -263,26 +259,6 @@ fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
 fn to_root(root: &Root, point_m: Vec3) -> Vec3 {
     let forward = root.forward();
     Vec2::new(forward.x, -forward.y).rotate(point_m.truncate() - root.position_m).extend(point_m.z)
-}
-
-/// Brings the whole body down by what the more stretched leg needs to reach its foot: the soft maximum of both needs and of none. It
-/// begins a little before the leg is stretched, so that neither hips nor knee jerk when it is.
-fn lower_pelvis(pose: &mut Pose, joints: &mut Joints, skeleton: &Skeleton, targets: &[FootTarget; 2]) {
-    let need =
-        |side: usize| libm::expf(drop_needed_m(joints, skeleton, side, &targets[side]) / PELVIS_SOFTNESS_M - 1.0);
-    let drop_m = (PELVIS_SOFTNESS_M * libm::logf(1.0 + need(0) + need(1))).min(PELVIS_DROP_MAX_M);
-    pose.pelvis_m.z -= drop_m;
-    joints.positions_m.iter_mut().for_each(|position_m| position_m.z -= drop_m);
-}
-
-/// How far the hip must come down for its leg to reach the target without stretching more than the pose does; negative if it reaches.
-fn drop_needed_m(joints: &Joints, skeleton: &Skeleton, side: usize, target: &FootTarget) -> f32 {
-    let [thigh, shank, foot] = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]].map(Joint::index);
-    let hip_m = joints.positions_m[thigh];
-    let leg_m = skeleton.offsets_m[shank].length() + skeleton.offsets_m[foot].length();
-    let reach_m = (PELVIS_EXTENSION * leg_m).max(joints.positions_m[foot].distance(hip_m));
-    let to_foot_m = target.ankle_m - hip_m;
-    -to_foot_m.z - libm::sqrtf((reach_m * reach_m - to_foot_m.truncate().length_squared()).max(0.0))
 }
 
 #[cfg(test)]

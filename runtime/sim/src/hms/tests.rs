@@ -124,6 +124,28 @@ fn feet_move_without_jumps() {
 }
 
 #[test]
+fn the_first_step_is_made_by_the_foot_on_the_side_to_which_it_goes() {
+    for (angle_rad, side) in [(1.2, 0), (-1.2, 1)] {
+        let walk = walk(1.0, DT_S, |_, _| Plan { facing_rad: 0.0, ..towards(angle_rad, 0.5) });
+        let first = walk.steps.iter().find(|step| step.1.contacts != [1.0; 2] && step.1.stance.foot.is_some());
+        assert_eq!(first.unwrap().1.stance.foot.unwrap().side, 1 - side, "towards {angle_rad}");
+    }
+}
+
+#[test]
+fn a_plan_that_changes_its_mind_at_every_step_does_not_make_a_body_tremble() {
+    let plan = |time_s: f32, _: &Root| {
+        let turned_rad = if (time_s / DT_S).round() as i32 % 2 == 0 { 0.1 } else { -0.1 };
+        Plan { velocity_mps: Vec2::from_angle(turned_rad) * 1.3, ..towards(0.0, 1.3) }
+    };
+    let walk = walk(4.0, DT_S, plan);
+    let aside_mps: Vec<f32> =
+        walk.steps[60..].windows(2).map(|pair| (pair[1].0.position_m.y - pair[0].0.position_m.y) / DT_S).collect();
+    let jump_mps = aside_mps.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max);
+    assert!(jump_mps < 0.1, "{jump_mps} m/s"); // of the plan's 0.26
+}
+
+#[test]
 fn the_root_accelerates_like_a_person_and_keeps_an_even_speed() {
     let walk = walk(14.0, DT_S, errand);
     let velocities: Vec<Vec2> =
