@@ -1,9 +1,10 @@
 //! The body that all bundled clips are made on: 1.75 m tall, of published proportions.
 //!
-//! Segment lengths are the shares of body height of Drillis and Contini (1966) as printed in Winter, *Biomechanics and Motor Control of
-//! Human Movement* (Fig. 4.1): thigh .245, shank .246, ankle height .039, foot .152, upper arm .186, forearm .146, hand .108, shoulder
-//! height .818. Those shares name surface landmarks for the breadths (hips .191, shoulders .259), so the joint centres lie inside them.
-//! Frame of the rest pose (a T-pose): x forward, y left, z up, metres; the root is the midpoint of the hips.
+//! Segment lengths are the shares of body height of Drillis and Contini (1966) as printed in Winter, *Biomechanics and
+//! Motor Control of Human Movement* (Fig. 4.1): thigh .245, shank .246, ankle height .039, foot .152, upper arm .186,
+//! forearm .146, hand .108, shoulder height .818. Those shares name surface landmarks for the breadths (hips .191,
+//! shoulders .259), so the joint centres lie inside them. Frame of the rest pose (a T-pose): x forward, y left, z up,
+//! metres; the root is the midpoint of the hips.
 
 use glam::{DQuat, DVec3};
 

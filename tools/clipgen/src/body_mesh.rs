@@ -1,8 +1,9 @@
 //! The body as a skinned mesh: a low-poly capsule of elliptic section for every segment.
 //!
-//! Two cases of a vertex's weights: within a third of the segment of a joint that it shares with its parent or child, half to none of the
-//! weight is the neighbour's, so that joints bend smoothly; elsewhere the segment's own joint carries all. Rest pose of `body.rs`
-//! (x forward, y left, z up), metres. Half breadths and depths were set by the eye to a slim adult's.
+//! Two cases of a vertex's weights: within a third of the segment of a joint that it shares with its parent or child,
+//! half to none of the weight is the neighbour's, so that joints bend smoothly; elsewhere the segment's own joint
+//! carries all. Rest pose of `body.rs` (x forward, y left, z up), metres. Half breadths and depths were set by the eye
+//! to a slim adult's.
 
 use glam::DVec3;
 

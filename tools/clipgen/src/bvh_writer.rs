@@ -1,8 +1,8 @@
 //! Poses to BVH text: centimetres, Y up, Z forward, X to the body's left; 30 frames a second.
 //!
-//! The generator's frame (x forward, y left, z up) turns into BVH's by (X, Y, Z) = (y, z, x), which keeps the hand. Angles are intrinsic
-//! in the order of their channels: Z X Y, but Z Y X in the legs, whose turn about X (the knee's fold) can pass 90°, where the middle angle
-//! of an order is singular. Four decimals: 1 µm and 2 µrad.
+//! The generator's frame (x forward, y left, z up) turns into BVH's by (X, Y, Z) = (y, z, x), which keeps the hand.
+//! Angles are intrinsic in the order of their channels: Z X Y, but Z Y X in the legs, whose turn about X (the knee's
+//! fold) can pass 90°, where the middle angle of an order is singular. Four decimals: 1 µm and 2 µrad.
 
 use std::fmt::Write;
 

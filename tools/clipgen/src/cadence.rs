@@ -1,13 +1,14 @@
 //! What a speed makes of a gait: cadence, contact timing, foot angles, pelvis and arm amplitudes.
 //!
-//! Cadence and stride lie inside the adult ±1 SD bands of `facts/motion.md` §4 (18–29 years): at 1.1 m/s those of men walking slowly
-//! (86–101 steps/min, 1.18–1.48 m), at 1.4 of women walking normally (107–124, 1.31–1.53), at 1.8 of women walking fast (129–156,
-//! 1.56–1.84). Double support is 25, 23 and 19 % of the stride (bands 25–34, 20–28, 14–22); toe-off = 50 % + half of it; at 0.5 and 0.8 m/s
-//! it is 30 and 28 %, between those of Schwartz's very slow and slow walkers (36 and 24 %). Foot angles and pelvis amplitudes by v*: Schwartz
-//! et al. 2008. Shoulders swing farther back than forward (24° back, 8° forward at free speed: Perry, *Gait Analysis*, ch. 8).
+//! Cadence and stride lie inside the adult ±1 SD bands of `facts/motion.md` §4 (18–29 years): at 1.1 m/s those of men
+//! walking slowly (86–101 steps/min, 1.18–1.48 m), at 1.4 of women walking normally (107–124, 1.31–1.53), at 1.8 of
+//! women walking fast (129–156, 1.56–1.84). Double support is 25, 23 and 19 % of the stride (bands 25–34, 20–28,
+//! 14–22); toe-off = 50 % + half of it; at 0.5 and 0.8 m/s it is 30 and 28 %, between those of Schwartz's very slow and
+//! slow walkers (36 and 24 %). Foot angles and pelvis amplitudes by v*: Schwartz et al. 2008. Shoulders swing farther
+//! back than forward (24° back, 8° forward at free speed: Perry, *Gait Analysis*, ch. 8).
 //!
-//! A clip is a whole number of frames and of strides, but a stride is not one of frames: each is sampled at other moments, so that the
-//! mean over strides knows what lies between frames.
+//! A clip is a whole number of frames and of strides, but a stride is not one of frames: each is sampled at other
+//! moments, so that the mean over strides knows what lies between frames.
 
 use crate::footsteps::RootMotion;
 use crate::published_curves::Style;
@@ -15,11 +16,14 @@ use crate::published_curves::Style;
 /// Frames a second of every clip.
 pub(crate) const FRAME_RATE_HZ: f64 = 30.0;
 const GRAVITY_MPS2: f64 = 9.81;
-/// In a turn the body leans inward as one: the feet go outward by this height times the lean's tangent, m. Less than the hips' .92 m, for
-/// the trunk banks as well.
+/// In a turn the body leans inward as one: the feet go outward by this height times the lean's tangent, m. Less than
+/// the hips' .92 m, for the trunk banks as well.
 const LEAN_ARM_M: f64 = 0.70;
 /// How much earlier a foot leaves the ground in turns, share of the stride per rad/s.
 const TURN_TOE_OFF_S: f64 = 0.010;
+
+/// The least sway of a body that steps about, m.
+const STEP_SWAY_M: f64 = 0.025;
 
 /// One steady gait: everything that the generator needs to make its cycle. Angles in radians, shares of the stride.
 #[derive(Clone, Debug)]
@@ -46,8 +50,9 @@ pub(crate) struct Gait {
     pub(crate) roll: FootRoll,
     /// With a flight phase; the hips then fall freely.
     pub(crate) running: bool,
-    /// When pelvis and chest are turned farthest, the striking side's hip ahead: share of the stride after that strike. People's trunks
-    /// and arms keep time with the thighs; walkers strike with the thigh just past its foremost, runners well after.
+    /// When pelvis and chest are turned farthest, the striking side's hip ahead: share of the stride after that strike.
+    /// People's trunks and arms keep time with the thighs; walkers strike with the thigh just past its foremost,
+    /// runners well after.
     pub(crate) yaw_peak: f64,
     /// The pelvis about its path.
     pub(crate) pelvis: PelvisSwing,
@@ -222,7 +227,12 @@ pub(crate) fn step_about(root: RootMotion, stride_frames: f64, half_width_m: f64
             toe_off_pitch_rad: -(6.0 + 8.0 * haste).to_radians(),
             toe_off_toe_pitch_rad: -(1.0 + 1.0 * haste).to_radians(),
         },
-        pelvis: PelvisSwing { sway_m: 0.025, surge_m: 0.0, list_rad: 0.035, rotation_rad: 0.0 },
+        pelvis: PelvisSwing {
+            sway_m: STEP_SWAY_M.max(side_step_sway_m(&root, walk.period_s())),
+            surge_m: 0.0,
+            list_rad: 0.035,
+            rotation_rad: 0.0,
+        },
         upper_body: UpperBodySwing {
             chest_yaw_rad: 0.02,
             arm_swing_rad: (1.5 + 3.0 * haste).to_radians(),
@@ -235,6 +245,13 @@ pub(crate) fn step_about(root: RootMotion, stride_frames: f64, half_width_m: f64
     }
 }
 
+/// People who side-step start with every stride and all but stop with their feet together; the faster, the more evenly
+/// they go. The leading foot being the one that the pelvis then sways to, a greater sway does this.
+fn side_step_sway_m(root: &RootMotion, period_s: f64) -> f64 {
+    let halting = between(root.strafe_mps.abs(), &[0.35, 0.6, 1.2], &[0.85, 0.6, 0.25]);
+    halting * root.strafe_mps.abs() * period_s / std::f64::consts::TAU
+}
+
 /// Walking forward and sideways at once: a walk whose feet stand wider, so that they do not cross.
 pub(crate) fn diagonal(root: RootMotion, stride_frames: f64) -> Gait {
     let walk = walk(root, stride_frames);
@@ -242,8 +259,8 @@ pub(crate) fn diagonal(root: RootMotion, stride_frames: f64) -> Gait {
     Gait { half_width_m: (0.5 * side_step_m + 0.045).max(walk.half_width_m), ..walk }
 }
 
-/// The film of this gait, run backward, is backward walking (its joint curves are nearly those of forward walking in reversed time):
-/// shorter steps, wider, flatter feet, quieter arms.
+/// The film of this gait, run backward, is backward walking (its joint curves are nearly those of forward walking in
+/// reversed time): shorter steps, wider, flatter feet, quieter arms.
 pub(crate) fn backward_film(backward: RootMotion, stride_frames: f64) -> Gait {
     let walk = walk(backward.reversed(), stride_frames);
     Gait {
@@ -259,6 +276,8 @@ pub(crate) fn backward_film(backward: RootMotion, stride_frames: f64) -> Gait {
         },
         upper_body: UpperBodySwing {
             lean_rad: 0.035,
+            // Over the shoulder on the inside of the turn: that is where they go.
+            look_rad: 2.0 * walk.upper_body.look_rad,
             arm_swing_rad: 0.55 * walk.upper_body.arm_swing_rad,
             chest_yaw_rad: 0.6 * walk.upper_body.chest_yaw_rad,
             elbow_rad: 24_f64.to_radians(),

@@ -1,12 +1,14 @@
 //! The list of clips: name, what it claims to be, and its gait.
 //!
-//! Turns and side-steps are authored to the left; the compiler mirrors them. Speeds of turns fall with their rate, as people's do.
+//! Turns and side-steps are authored to the left; the compiler mirrors them. Speeds of turns fall with their rate, as
+//! people's do.
 
 use crate::body::Pose;
 use crate::cadence::{self, FRAME_RATE_HZ, Gait};
 use crate::cycle::{self, Film};
 use crate::footsteps::RootMotion;
 use crate::idle;
+use crate::variation::Variation;
 
 /// One clip.
 #[derive(Clone, Debug)]
@@ -46,7 +48,8 @@ enum Kind {
     StepAbout(f64),
 }
 
-/// Name, kind, (v_f m/s, ω_t °/s, ω_s m/s), frames, strides. Frames over strides leaves a rest of one: see `cadence.rs`.
+/// Name, kind, (v_f m/s, ω_t °/s, ω_s m/s), frames, strides. Frames over strides leaves a rest of one: see
+/// `cadence.rs`.
 type Row = (&'static str, Kind, (f64, f64, f64), usize, usize);
 
 const ROWS: &[Row] = &[
@@ -76,7 +79,8 @@ const ROWS: &[Row] = &[
     ("backward_turn_045_left", Kind::Backward, (-0.6, 45.0, 0.0), 145, 4),
 ];
 
-/// Clips written as GLB, with a skinned body; one of every kind of gait, so that what people see by default comes through both importers.
+/// Clips written as GLB, with a skinned body; one of every kind of gait, so that what people see by default comes
+/// through both importers.
 const SKINNED: [&str; 7] = [
     "walk_140",
     "turn_030_left",
@@ -123,7 +127,9 @@ impl Clip {
     pub(crate) fn poses(&self) -> Vec<Pose> {
         match &self.recipe {
             Recipe::Idle => idle::frames(),
-            Recipe::Steps { gait, strides, film } => cycle::frames(gait, *strides, *film),
+            Recipe::Steps { gait, strides, film } => {
+                cycle::frames(gait, *strides, *film, &Variation::of_clip(self.name, *strides))
+            }
         }
     }
 

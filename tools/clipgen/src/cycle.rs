@@ -1,13 +1,15 @@
-//! One closed cycle of a gait, assembled: footprints → pelvis → swings → legs → upper body; and the frames of a clip made of it.
+//! One closed cycle of a gait, assembled: footprints → pelvis → swings → legs → upper body; and the frames of a clip
+//! made of it.
 //!
-//! All parts live in the frame of the moving root, in which a steady gait is periodic; only [`frames`] puts the root on its arc.
+//! All parts live in the frame of the moving root, in which a steady gait is periodic; only [`frames`] puts the root on
+//! its arc.
 
 use std::array;
 
 use glam::{DQuat, DVec2};
 
 use crate::body::{FEET, JOINT_COUNT, Pose, SHANKS, THIGHS, TOES};
-use crate::cadence::{FRAME_RATE_HZ, Gait};
+use crate::cadence::{FRAME_RATE_HZ, Gait, UpperBodySwing};
 use crate::foot_roll::Foot;
 use crate::footsteps::{Footprint, leg_phase};
 use crate::legs;
@@ -15,17 +17,20 @@ use crate::pelvis::{self, Height, PelvisPose};
 use crate::rotation::{about_y, about_z};
 use crate::swing::{Stance, Swing};
 use crate::upper_body;
+use crate::variation::Variation;
 
-/// Where the foot of a gait without published curves stands under the body: the ankle 3 cm behind the hips, the weight over its middle, m.
+/// Where the foot of a gait without published curves stands under the body: the ankle 3 cm behind the hips, the weight
+/// over its middle, m.
 const ANKLE_UNDER_HIPS_M: f64 = -0.03;
-/// Adults' steps are longer than those of the children whose curves these are (.80 leg lengths against .75 at their free speed), mostly
-/// behind them: with the feet so much farther back hip and knee come nearest to the curves, m.
+/// Adults' steps are longer than those of the children whose curves these are (.80 leg lengths against .75 at their
+/// free speed), mostly behind them: with the feet so much farther back hip and knee come nearest to the curves, m.
 const ADULT_TRAIL_M: f64 = 0.025;
 /// Speeds from which adults' steps begin to be longer, and from which they are so in full, m/s.
 const ADULT_TRAIL_FROM_MPS: [f64; 2] = [0.3, 1.1];
 /// The knee points between the pelvis's and the foot's direction, by this share towards the foot's.
 const KNEE_TOWARDS_FOOT: f64 = 0.6;
-/// Rounds of lowering the hips where a leg would be overstretched; the smooth height converges within them to under a millimetre.
+/// Rounds of lowering the hips where a leg would be overstretched; the smooth height converges within them to under a
+/// millimetre.
 const LOWERING_ROUNDS: usize = 12;
 /// Samples when placing the feet.
 const SAMPLES: usize = 60;
@@ -56,7 +61,7 @@ struct Cycle<'a> {
 }
 
 /// The clip: `strides` whole strides and the frame after them, which is the first one moved on.
-pub(crate) fn frames(gait: &Gait, strides: usize, film: Film) -> Vec<Pose> {
+pub(crate) fn frames(gait: &Gait, strides: usize, film: Film, variation: &Variation) -> Vec<Pose> {
     let cycle = Cycle::new(gait);
     let direction = if film == Film::Forward { 1.0 } else { -1.0 };
     let last = libm::round(strides as f64 * gait.stride_frames) as usize;
@@ -64,7 +69,9 @@ pub(crate) fn frames(gait: &Gait, strides: usize, film: Film) -> Vec<Pose> {
         .map(|frame| {
             let time_s = direction * frame as f64 / FRAME_RATE_HZ;
             // Begins where the yaw of hips and chest turns back, so that it biases no mean over the clip's ends.
-            let mut pose = cycle.pose(gait.yaw_peak + time_s / gait.period_s());
+            let strides_gone = time_s / gait.period_s();
+            let upper_body = variation.of_upper_body(&gait.upper_body, strides_gone);
+            let mut pose = cycle.pose(gait.yaw_peak + strides_gone, &upper_body);
             let turn = about_z(gait.root.heading_rad(time_s));
             pose.hips_m = gait.root.place_m(time_s).extend(0.0) + turn * pose.hips_m;
             pose.rotations[0] = turn * pose.rotations[0];
@@ -109,14 +116,14 @@ impl<'a> Cycle<'a> {
         of_leg(0).max(of_leg(1))
     }
 
-    fn pose(&self, cycle_phase: f64) -> Pose {
+    fn pose(&self, cycle_phase: f64, swing: &UpperBodySwing) -> Pose {
         let pelvis = pelvis::pose(self.gait, &self.height, cycle_phase);
         let mut rotations = [DQuat::IDENTITY; JOINT_COUNT];
         rotations[0] = pelvis.rotation;
         for side in 0..2 {
             write_leg(&pelvis, &self.foot(cycle_phase, side), side, &mut rotations);
         }
-        upper_body::in_gait(self.gait, cycle_phase).write(&pelvis, &mut rotations);
+        upper_body::in_gait(self.gait, swing, cycle_phase).write(&pelvis, &mut rotations);
         Pose { hips_m: pelvis.place_m, rotations }
     }
 
@@ -145,7 +152,8 @@ fn hip_height_of_leg(gait: &Gait, height: &Height, side: usize) -> impl Fn(f64) 
     move |p| pelvis::hip_m(&pelvis::pose(gait, height, p - 0.5 * side as f64), side).z
 }
 
-/// Both feet at their mid-stances: so far ahead that until the other foot strikes the hip angles are, on the mean, the published ones.
+/// Both feet at their mid-stances: so far ahead that until the other foot strikes the hip angles are, on the mean, the
+/// published ones.
 fn footprints(gait: &Gait) -> [Footprint; 2] {
     let ahead_m = gait.style_share * published_ahead_m(gait) + (1.0 - gait.style_share) * ANKLE_UNDER_HIPS_M;
     [1.0, -1.0].map(|sign| Footprint {

@@ -2,8 +2,8 @@
 //!
 //! Two cases, by the pitch of the sole (toes up positive):
 //! - toes up: the foot turns about the heel point of the sole;
-//! - heel up: the foot turns about the toe joint, the toe segment about the toes' tip. While the toes lie flat the toe joint rests, as the
-//!   metatarsophalangeal joint does.
+//! - heel up: the foot turns about the toe joint, the toe segment about the toes' tip. While the toes lie flat the toe
+//!   joint rests, as the metatarsophalangeal joint does.
 //!
 //! Foot frame: x towards the toes, z up, origin on the ground under the ankle of the flat foot; metres.
 

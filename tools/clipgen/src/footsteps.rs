@@ -1,7 +1,8 @@
 //! Where the feet stand: footprints planned in the world, seen from the moving root.
 //!
-//! The root moves uniformly at (v_f, ω_t, ω_s), along an arc. A footprint is put down relative to the root of mid-stance and then stays
-//! where it is in the world; so seen from the root it runs backward along the same arc. Root frame: x forward, y left, metres.
+//! The root moves uniformly at (v_f, ω_t, ω_s), along an arc. A footprint is put down relative to the root of
+//! mid-stance and then stays where it is in the world; so seen from the root it runs backward along the same arc. Root
+//! frame: x forward, y left, metres.
 
 use glam::DVec2;
 

@@ -1,9 +1,10 @@
-//! Poses to GLB: glTF 2.0 in one binary file, metres, Y up, Z forward, X to the body's left; a skinned body and one animation.
+//! Poses to GLB: glTF 2.0 in one binary file, metres, Y up, Z forward, X to the body's left; a skinned body and one
+//! animation.
 //!
-//! Nodes are the joints in their order, then the tips of head and hands, then the mesh. The generator's frame (x forward, y left, z up)
-//! turns into glTF's by (X, Y, Z) = (y, z, x), as into BVH's. Joints rest unturned, so inverse bind matrices only move; rotation tracks run
-//! along the shorter arcs, LINEAR, 30 keys a second. The container is Khronos's glTF 2.0, §4.4: header, JSON chunk, binary chunk, each
-//! aligned to 4 bytes.
+//! Nodes are the joints in their order, then the tips of head and hands, then the mesh. The generator's frame (x
+//! forward, y left, z up) turns into glTF's by (X, Y, Z) = (y, z, x), as into BVH's. Joints rest unturned, so inverse
+//! bind matrices only move; rotation tracks run along the shorter arcs, LINEAR, 30 keys a second. The container is
+//! Khronos's glTF 2.0, §4.4: header, JSON chunk, binary chunk, each aligned to 4 bytes.
 
 use glam::{DQuat, DVec3};
 

@@ -1,7 +1,7 @@
 //! Standing: breathing, and the weight going from foot to foot and back.
 //!
-//! Six seconds: two breaths (20 a minute, the upper end of rest) and one shift of the weight, both of which close on themselves. The feet
-//! never move; the hips move over them.
+//! Six seconds: two breaths (20 a minute, the upper end of rest) and one shift of the weight, both of which close on
+//! themselves. The feet never move; the hips move over them.
 
 use glam::{DQuat, DVec3};
 

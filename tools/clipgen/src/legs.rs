@@ -1,11 +1,13 @@
-//! Legs by analytic two-bone inverse kinematics, the knee in the plane of hip, ankle and the leg's own forward direction.
+//! Legs by analytic two-bone inverse kinematics, the knee in the plane of hip, ankle and the leg's own forward
+//! direction.
 
 use glam::{DQuat, DVec3};
 
 use crate::body::{SHANK_M, THIGH_M};
 use crate::rotation::from_left_and_up;
 
-/// A knee never straightens beyond this flexion, radians: people's do not in walking, and at 0 the solution has no bend to follow.
+/// A knee never straightens beyond this flexion, radians: people's do not in walking, and at 0 the solution has no bend
+/// to follow.
 const LEAST_KNEE_RAD: f64 = 2.5 * std::f64::consts::PI / 180.0;
 
 /// Thigh and shank in the frame in which hip and ankle were given.

@@ -1,11 +1,12 @@
 //! The generator of the bundled clips: human locomotion made from gait science, nobody's motion capture.
 //!
-//! In reading order: whose body (`body`), what is published of its joints (`published_curves`) and what a speed makes of a gait
-//! (`cadence`); where the feet stand (`footsteps`), roll (`foot_roll`) and swing (`swing`); the pelvis over them (`pelvis`), the
-//! legs between (`legs`), trunk, head and arms (`upper_body`); all assembled (`cycle`) or standing (`idle`); the list of clips
-//! (`catalogue`) and their files (`bvh_writer`; `body_mesh`, `glb_buffer` and `glb_writer`; `readme`).
+//! In reading order: whose body (`body`), what is published of its joints (`published_curves`) and what a speed makes
+//! of a gait (`cadence`); where the feet stand (`footsteps`), roll (`foot_roll`) and swing (`swing`); the pelvis over
+//! them (`pelvis`), the legs between (`legs`), trunk, head and arms (`upper_body`), no two strides alike (`variation`);
+//! all assembled (`cycle`) or standing (`idle`); the list of clips (`catalogue`) and their files (`bvh_writer`;
+//! `body_mesh`, `glb_buffer` and `glb_writer`; `readme`).
 //!
-//! Every byte follows from this source: no input, no clock, no seed from outside, trigonometry through `libm`.
+//! Every byte follows from this source: no input, no clock, no seed but the clips' names, trigonometry through `libm`.
 
 mod body;
 mod body_mesh;
@@ -27,6 +28,7 @@ mod readme;
 mod rotation;
 mod swing;
 mod upper_body;
+mod variation;
 
 /// One file of `assets/clips`.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! The pelvis about the root's path: height, sway, surge, list, rotation, tilt.
 //!
-//! Walking: the pelvis rides over the stance leg as over an inverted pendulum. Its height is the one at which the stance knee would have
-//! its published flexion, smoothed to four harmonics of the stride and lowered wherever a leg, standing or about to strike, would be
-//! overstretched. Running: at the top of
-//! flight the hips fall with g, which at the step's frequency gives the amplitude g/(4π/P)² (3.3 cm at 2.7 steps/s: a drop of 7 cm).
-//! The list has the published shape (Schwartz et al. 2008, free class), the rotation its amplitude. Root frame, metres.
+//! Walking: the pelvis rides over the stance leg as over an inverted pendulum. Its height is the one at which the
+//! stance knee would have its published flexion, smoothed to four harmonics of the stride and lowered wherever a leg,
+//! standing or about to strike, would be overstretched. Running: at the top of flight the hips fall with g, which at
+//! the step's frequency gives the amplitude g/(4π/P)² (3.3 cm at 2.7 steps/s: a drop of 7 cm). The list has the
+//! published shape (Schwartz et al. 2008, free class), the rotation its amplitude. Root frame, metres.
 
 use glam::{DQuat, DVec3};
 

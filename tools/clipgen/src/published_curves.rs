@@ -1,8 +1,8 @@
 //! Published flexion curves of hip, knee and ankle over a gait cycle, by speed.
 //!
-//! Walking: means of Schwartz, Rozumalski, Trost (2008), *J. Biomech.* 41, five classes of v* = v/√(g·leg), as Fourier series
-//! f(p) = a0 + Σ (a_k cos 2πkp + b_k sin 2πkp), p = 0 at the leg's heel strike. Between two classes the curves are mixed by v*.
-//! Jogging: ten samples a cycle at 2.8 m/s, joined by the trigonometric polynomial through them.
+//! Walking: means of Schwartz, Rozumalski, Trost (2008), *J. Biomech.* 41, five classes of v* = v/√(g·leg), as Fourier
+//! series f(p) = a0 + Σ (a_k cos 2πkp + b_k sin 2πkp), p = 0 at the leg's heel strike. Between two classes the curves
+//! are mixed by v*. Jogging: ten samples a cycle at 2.8 m/s, joined by the trigonometric polynomial through them.
 //! Degrees; flexion and dorsiflexion positive; the hip is counted against the pelvis, which tilts forward.
 
 use crate::body::{SHANK_M, THIGH_M};

@@ -7,17 +7,18 @@ use crate::catalogue::Clip;
 const HEAD: &str = "\
 # The bundled clips
 
-Made by `tools/clipgen` (`fbcrowd clips --out assets/clips`) from published gait science. No motion capture is in them; where nothing is
-published to the degree (when arms and trunk swing, how far a slow side-step lifts a foot), the generator's constants were set by the eye
-beside public captures (CMU, Bandai Namco, SmartBody). Do not edit: a test compares every byte of this folder with what the generator
-writes. Licence: MIT, as the code.
+Made by `tools/clipgen` (`fbcrowd clips --out assets/clips`) from published gait science. No motion capture is in
+them; where nothing is published to the degree (when arms and trunk swing, how far a slow side-step lifts a foot), the
+generator's constants were set by the eye beside public captures (CMU, Bandai Namco, SmartBody). Do not edit: a test
+compares every byte of this folder with what the generator writes. Licence: MIT, as the code.
 
-Y up, Z forward, X to the body's left, 30 frames a second, a body of 1.75 m (proportions: Drillis and Contini 1966, in Winter,
-*Biomechanics and Motor Control of Human Movement*). Most files are BVH, in centimetres; one clip of every kind is GLB (glTF 2.0, metres)
-with a skinned body, so that whoever runs the default set runs both importers. No clip is there twice. Every clip is a whole number of
-strides of a steady gait (3 to 6; a stride need not be a whole number of frames); its **last frame is its first one, moved on** by those
-strides: for a loop leave it out. Leaf joints `…HeelSole`, `…BallSole`, `…ToeSole` lie on the soles. Turns and side-steps are to the left;
-the compiler mirrors them.
+Y up, Z forward, X to the body's left, 30 frames a second, a body of 1.75 m (proportions: Drillis and Contini 1966, in
+Winter, *Biomechanics and Motor Control of Human Movement*). Most files are BVH, in centimetres; one clip of every
+kind is GLB (glTF 2.0, metres) with a skinned body, so that whoever runs the default set runs both importers. No clip
+is there twice. Every clip is a whole number of strides of a steady gait (3 to 6; a stride need not be a whole number
+of frames); its **last frame is its first one, moved on** by those strides: for a loop leave it out. Arms, trunk and
+gaze change a little from stride to stride, feet and pelvis do not. Leaf joints `…HeelSole`, `…BallSole`, `…ToeSole`
+lie on the soles. Turns and side-steps are to the left; the compiler mirrors them.
 
 v_f forward, ω_t counter-clockwise, ω_s to the left. The step length is that along the path of the root.
 
@@ -26,8 +27,9 @@ v_f forward, ω_t counter-clockwise, ω_s to the left. The step length is that a
 ";
 
 const SOURCES: &str = "
-Sources: joint curves, foot angles and pelvis amplitudes by speed, Schwartz, Rozumalski and Trost 2008 (*J. Biomech.* 41); cadence, step
-length and double support, adults of 18–29 years as in `cadence.rs`; arms and trunk as in `upper_body.rs`.
+Sources: joint curves, foot angles and pelvis amplitudes by speed, Schwartz, Rozumalski and Trost 2008 (*J. Biomech.*
+41); cadence, step length and double support, adults of 18–29 years as in `cadence.rs`; arms and trunk as in
+`upper_body.rs`.
 ";
 
 /// The file's bytes.

@@ -1,9 +1,9 @@
 //! The foot in the air: from where and how it left the ground to where and how it will strike.
 //!
-//! Six coordinates (ankle x, y, z, yaw, pitch, toe bend) run as cubic Hermite curves that meet place and velocity of both contacts. To
-//! them is added the published swing, less its own Hermite curve: a shape that vanishes with its slope at both ends, so that contacts stay
-//! exact and the knee's fold, the toes' clearance and the foot's dorsiflexion are those of people. What clearance is then still missing
-//! is added as a hump.
+//! Six coordinates (ankle x, y, z, yaw, pitch, toe bend) run as cubic Hermite curves that meet place and velocity of
+//! both contacts. To them is added the published swing, less its own Hermite curve: a shape that vanishes with its
+//! slope at both ends, so that contacts stay exact and the knee's fold, the toes' clearance and the foot's dorsiflexion
+//! are those of people. What clearance is then still missing is added as a hump.
 
 use glam::DVec3;
 
@@ -16,18 +16,20 @@ use crate::footsteps::{Footprint, RootMotion};
 const CLEARANCE_M: f64 = 0.013;
 /// Share of the added lift of the toes that the ankle's dorsiflexion gives, the rest being the knee's and the hip's.
 const TOE_UP_SHARE: f64 = 0.4;
-/// Runners' toes, still pointing down as the shank swings through, pass higher: from and to these shares of the swing, m.
+/// Runners' toes, still pointing down as the shank swings through, pass higher: from and to these shares of the swing,
+/// m.
 const RUNNING_CLEARANCE_M: f64 = 0.03;
 const RUNNING_CLEAR_FROM_TO: [f64; 2] = [0.25, 0.80];
 /// Step of the one-sided slopes, share of the stride.
 const SLOPE_STEP: f64 = 1e-4;
 
-/// Speed of the ankle over the ground just before the strike, forward and down, as shares of the walking speed (the heel of a walker at
-/// 1.4 m/s arrives, the foot's own turn included, at about 0.4 and 0.3 m/s).
+/// Speed of the ankle over the ground just before the strike, forward and down, as shares of the walking speed (the
+/// heel of a walker at 1.4 m/s arrives, the foot's own turn included, at about 0.4 and 0.3 m/s).
 const WALKING_IMPACT_SHARES: [f64; 2] = [0.16, 0.12];
 /// The same of runners, whose feet are still swinging when they strike: some 1 m/s forward and 0.7 m/s down at 3 m/s.
 const RUNNING_IMPACT_SHARES: [f64; 2] = [0.34, 0.24];
-/// The pitch before the strike, of the rate at which the sole then slaps down: the published pitch is nearly level in time there.
+/// The pitch before the strike, of the rate at which the sole then slaps down: the published pitch is nearly level in
+/// time there.
 const IMPACT_PITCH_SHARE: f64 = 0.15;
 
 /// Ankle x, y, z (m), yaw, pitch, toe bend (radians).
@@ -169,8 +171,8 @@ fn wanted_clearance_m(gait: &Gait, s: f64) -> f64 {
     }
 }
 
-/// The shape of added lift: 1 at its greatest, 0 with zero slope at both ends. Walkers' toes need it most at s = 0.4 (later they are up by
-/// themselves), runners' at 0.6.
+/// The shape of added lift: 1 at its greatest, 0 with zero slope at both ends. Walkers' toes need it most at s = 0.4
+/// (later they are up by themselves), runners' at 0.6.
 fn hump(gait: &Gait, s: f64) -> f64 {
     let (s, rest) = if gait.running { (1.0 - s, s) } else { (s, 1.0 - s) };
     s * s * rest * rest * rest / (0.4 * 0.4 * 0.6 * 0.6 * 0.6)

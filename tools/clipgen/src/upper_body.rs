@@ -1,13 +1,14 @@
 //! Trunk, head and arms.
 //!
-//! The chest counter-rotates the pelvis (3–5° above 1 m/s), leans with speed and banks into turns; the spine's three joints share what
-//! lies between pelvis and chest. The head stays level and looks where the body will be. Arms swing in antiphase to the leg of their side:
-//! foremost shortly before the other heel strikes. They hang from a chest that yaws but their swing is counted against the vertical. Root frame.
+//! The chest counter-rotates the pelvis (3–5° above 1 m/s), leans with speed and banks into turns; the spine's three
+//! joints share what lies between pelvis and chest. The head stays level and looks where the body will be. Arms swing
+//! in antiphase to the leg of their side: foremost shortly before the other heel strikes. They hang from a chest that
+//! yaws but their swing is counted against the vertical. Root frame.
 
 use glam::DQuat;
 
 use crate::body::{ARMS, CHEST, CLAVICLES, FOREARMS, HANDS, HEAD, JOINT_COUNT, NECK, SPINE};
-use crate::cadence::Gait;
+use crate::cadence::{Gait, UpperBodySwing};
 use crate::pelvis::PelvisPose;
 use crate::rotation::{about_x, about_y, about_z, share_of, wave};
 
@@ -21,7 +22,8 @@ const NOD_RAD: f64 = 0.012;
 const CHEST_LIST_SHARE: f64 = 0.60;
 /// Share of a turn's bank that the chest takes; the legs take as much, the feet being set outward.
 const CHEST_BANK_SHARE: f64 = 0.85;
-/// Upper arms turn inward, so that the hands swing towards the midline, the more the elbow is bent: radians, and per radian of the elbow.
+/// Upper arms turn inward, so that the hands swing towards the midline, the more the elbow is bent: radians, and per
+/// radian of the elbow.
 const ARM_INWARD_RAD: f64 = 0.24;
 const ARM_INWARD_PER_ELBOW: f64 = 0.13;
 /// Clavicles follow the arm by this share.
@@ -59,9 +61,8 @@ pub(crate) struct Arm {
     pub(crate) elbow_rad: f64,
 }
 
-/// Of a gait at a cycle phase (0 at the left heel strike).
-pub(crate) fn in_gait(gait: &Gait, cycle_phase: f64) -> UpperBody {
-    let style = &gait.upper_body;
+/// Of a gait at a cycle phase (0 at the left heel strike); `style` is its own or a variation of it.
+pub(crate) fn in_gait(gait: &Gait, style: &UpperBodySwing, cycle_phase: f64) -> UpperBody {
     let chest_wave = wave(cycle_phase - gait.yaw_peak);
     let list_wave = wave(cycle_phase - gait.mid_stance());
     UpperBody {
