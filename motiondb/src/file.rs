@@ -1,11 +1,11 @@
 //! `.fbdb`: a motion database on disk. Same clips, same bytes: no paths, no dates, no hash-map order.
 
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use crate::container::{self, ContainerError};
 use crate::motion_db::MotionDb;
-use crate::{atomic_file, validate};
+use crate::{atomic_file, input_file, validate};
 
 const MAGIC: [u8; 8] = *b"FBCROWDB";
 /// Format version (`definitions.md`, "Files").
@@ -98,7 +98,7 @@ pub fn write(path: &Path, db: &MotionDb) -> Result<u32, FileError> {
 /// # Errors
 /// All but [`FileError::Invariant`] and [`FileError::Unwritable`].
 pub fn read(path: &Path) -> Result<(MotionDb, u32), FileError> {
-    let bytes = fs::read(path).map_err(|source| FileError::Unreadable { path: path.to_owned(), source })?;
+    let bytes = input_file::read(path).map_err(|source| FileError::Unreadable { path: path.to_owned(), source })?;
     from_bytes(path, &bytes)
 }
 

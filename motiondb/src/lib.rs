@@ -13,6 +13,7 @@ pub mod blend_space;
 pub mod container;
 pub mod correspondence;
 pub mod file;
+pub mod input_file;
 pub mod motion_db;
 pub mod parameters;
 pub mod phase_map;

@@ -7,6 +7,8 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use motiondb::input_file;
+
 use crate::recording_error::RecordingError;
 
 /// Bytes of a chunk before its payload.
@@ -51,7 +53,7 @@ impl ChunkFile {
     /// Where the system refuses.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let fail = |source| RecordingError::Unreadable { path: path.to_owned(), source };
-        let file = File::open(path).map_err(fail)?;
+        let file = input_file::open(path).map_err(fail)?;
         let length = file.metadata().map_err(fail)?.len();
         Ok(Self { path: path.to_owned(), length, file: Mutex::new(file) })
     }

@@ -17,11 +17,12 @@
 //! ```
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use glam::Vec2;
+use motiondb::input_file;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -190,7 +191,7 @@ impl<'a> Source<'a> {
         if fs::metadata(path).map_err(fail)?.len() > TEXT_MAX_BYTES {
             return Err(fail(std::io::Error::other("a text of more than 1 GiB")));
         }
-        let text = fs::read_to_string(path).map_err(fail)?;
+        let text = io::read_to_string(input_file::open(path).map_err(fail)?).map_err(fail)?;
         // Some editors begin a text with a byte order mark.
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
         Ok(Self { path, text })

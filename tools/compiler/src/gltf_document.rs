@@ -4,7 +4,6 @@
 //! checked. Buffers are read here too (GLB chunk, `data:` URI, file beside the document): never more bytes than are there, and no accessor
 //! whose count its bytes do not pay for.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -15,6 +14,7 @@ use gltf::accessor::{Accessor, DataType, Dimensions};
 use gltf::animation::util::ReadOutputs;
 use gltf::animation::{Channel, Interpolation};
 use gltf::json::validation;
+use motiondb::input_file;
 
 /// Flaws of one document that a message lists, and the letters of any other message.
 const SHOWN_FLAWS: usize = 3;
@@ -173,7 +173,7 @@ fn read_buffer(file: &Path, buffer: &gltf::Buffer, chunk: Option<&[u8]>) -> Resu
 fn read_beside(file: &Path, uri: &str, length: usize) -> Option<Vec<u8>> {
     let path = file.parent()?.join(percent_decoded(uri)?);
     let mut bytes = Vec::new();
-    File::open(path).ok()?.take(length as u64).read_to_end(&mut bytes).ok()?;
+    input_file::open(&path).ok()?.take(length as u64).read_to_end(&mut bytes).ok()?;
     Some(bytes)
 }
 

@@ -8,6 +8,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use motiondb::input_file;
+
 use crate::error::{ImportError, MIN_FRAMES, Refusal};
 use crate::human_clip::{HumanClip, HumanPose};
 use crate::skeleton_map::find_roles;
@@ -30,7 +32,7 @@ pub struct Import {
 /// # Errors
 /// [`ImportError`] where the file itself cannot be read as motion.
 pub fn import(path: &Path) -> Result<Vec<Import>, ImportError> {
-    let bytes = fs::read(path).map_err(|source| ImportError::Unreadable { file: path.to_owned(), source })?;
+    let bytes = input_file::read(path).map_err(|source| ImportError::Unreadable { file: path.to_owned(), source })?;
     import_bytes(path, &bytes)
 }
 
