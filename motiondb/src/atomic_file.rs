@@ -1,4 +1,7 @@
-//! Files that appear under their final name whole or not at all.
+//! Files that appear under their final name whole or not at all, though the process be killed at any time.
+//!
+//! Nothing is forced onto the disk: that would cost a frame as much as drawing it, and only a failing power supply
+//! would tell.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -16,7 +19,8 @@ impl AtomicFile {
     /// Opens `.NAME.PID.tmp` beside `target`.
     ///
     /// # Errors
-    /// Where the folder cannot be written, or `target` exists and is no file: a folder, or a device that renaming would replace.
+    /// Where the folder cannot be written, or `target` exists and is no file: a folder, or a device that renaming would
+    /// replace.
     pub fn create(target: &Path) -> io::Result<Self> {
         let name =
             target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
@@ -33,13 +37,13 @@ impl AtomicFile {
         self.writer.as_mut().expect("taken only by commit, which consumes self")
     }
 
-    /// Flushes to disk and renames to the final name.
+    /// Flushes and renames to the final name.
     ///
     /// # Errors
     /// Where flushing or renaming fails; the temporary file is removed.
     pub fn commit(mut self) -> io::Result<()> {
         if let Some(writer) = self.writer.take() {
-            writer.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()?;
+            writer.into_inner().map_err(io::IntoInnerError::into_error)?;
         }
         fs::rename(&self.temporary, &self.target)
     }
