@@ -229,6 +229,19 @@ fn walking_joints_follow_the_published_curves_within_five_degrees() {
 }
 
 #[test]
+fn a_slow_side_step_all_but_stops_with_the_feet_together() {
+    let clips = clips();
+    let clip = clips.iter().find(|clip| clip.name == "side_035_left").unwrap();
+    let frames = frames(clip);
+    let slowest = frames
+        .windows(2)
+        .map(|pair| ((pair[1][0] - pair[0][0]).y * FRAME_RATE_HZ, (pair[1][FEET[0]] - pair[1][FEET[1]]).y))
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    let (speed_mps, apart_m) = slowest.unwrap();
+    assert!(speed_mps < 0.3 * clip.motion.strafe_mps && apart_m < 0.3, "{speed_mps} {apart_m}");
+}
+
+#[test]
 fn generator_is_deterministic() {
     assert!(generate() == generate());
 }
