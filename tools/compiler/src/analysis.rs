@@ -1,7 +1,8 @@
-//! HumanClip → what its example will be made of: the clip on the target skeleton, its gait, its mean stride; or why it gives none.
+//! HumanClip → what its example will be made of: the clip on the target skeleton, its gait, its mean stride; or why it
+//! gives none.
 //!
-//! A folder may hold anything: dances, jumps, deaths. What steps or stands steadily may still be no model of standing on the ground, and
-//! then gives no example either.
+//! A folder may hold anything: dances, jumps, deaths. What steps or stands steadily may still be no model of standing
+//! on the ground, and then gives no example either.
 
 use glam::DVec3;
 

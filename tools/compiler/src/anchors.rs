@@ -1,5 +1,5 @@
-//! Where every canonical joint sits on the source skeleton: on the joint of its role or, where the source has none (toes, clavicles,
-//! spine, neck), at a fixed point of the joint that would carry it.
+//! Where every canonical joint sits on the source skeleton: on the joint of its role or, where the source has none
+//! (toes, clavicles, spine, neck), at a fixed point of the joint that would carry it.
 
 use glam::DVec3;
 use motiondb::skeleton::{JOINT_COUNT, Joint};
@@ -16,7 +16,8 @@ pub(crate) struct Anchor {
     pub offset_m: DVec3,
 }
 
-/// Shares along a line at which missing joints are put: plain anatomy, spine joints evenly, the clavicle's root near the breastbone.
+/// Shares along a line at which missing joints are put: plain anatomy, spine joints evenly, the clavicle's root near
+/// the breastbone.
 const CHEST_SHARE: f64 = 0.65;
 const NECK_SHARE: f64 = 0.35;
 const CLAVICLE_SHARE: f64 = 0.15;

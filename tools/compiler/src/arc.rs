@@ -6,14 +6,16 @@
 //! p(t) = p₀ + R(θ₀)·J(ω_t·t)·(v_f, ω_s)·t,   J(a) = [sin a, cos a − 1; 1 − cos a, sin a] / a.
 //! ```
 //!
-//! All that is left of the pelvis's path, its sway, surge, bob and yaw, belongs to the pose. World frame, metres, seconds, radians.
+//! All that is left of the pelvis's path, its sway, surge, bob and yaw, belongs to the pose. World frame, metres,
+//! seconds, radians.
 
 use glam::{DMat2, DQuat, DVec2, DVec3};
 use motiondb::parameters::Parameters;
 
 use crate::human_clip::HumanPose;
 
-/// Rounds of the fit: the sway at the stride's ends turns with the body, and each round shrinks what is left of it a hundredfold.
+/// Rounds of the fit: the sway at the stride's ends turns with the body, and each round shrinks what is left of it a
+/// hundredfold.
 const FIT_ROUNDS: usize = 4;
 /// Below this angle J is taken from its series, whose next term is a³/24.
 const SMALL_ANGLE_RAD: f64 = 1e-4;

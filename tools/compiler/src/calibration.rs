@@ -1,8 +1,8 @@
-//! The one constant rotation K_j of each canonical joint j in a clip: R_j(t) = G_j(t)·K_j, with G_j the source joint's global orientation
-//! and R_j the canonical joint's, against the rest pose.
+//! The one constant rotation K_j of each canonical joint j in a clip: R_j(t) = G_j(t)·K_j, with G_j the source joint's
+//! global orientation and R_j the canonical joint's, against the rest pose.
 //!
-//! K_j matches two directions that are constant in the source joint's frame with those of the canonical rest pose: the bone, and a lateral
-//! or hinge axis. Nothing is taken from the source's zero pose or its local rotations.
+//! K_j matches two directions that are constant in the source joint's frame with those of the canonical rest pose: the
+//! bone, and a lateral or hinge axis. Nothing is taken from the source's zero pose or its local rotations.
 //!
 //! | joint | first, matched exactly | second |
 //! |---|---|---|
@@ -14,7 +14,8 @@
 //! | thigh, shank | to the child, −z | knee hinge, +y |
 //! | foot, toe | up while it is flat on the ground, +z | to the toe, +x |
 //!
-//! Hinge axes are cross products of the two bones, which weigh themselves by flexion, plus a little of what a straight limb would bend about.
+//! Hinge axes are cross products of the two bones, which weigh themselves by flexion, plus a little of what a straight
+//! limb would bend about.
 
 use glam::{DMat3, DQuat, DVec3};
 use motiondb::skeleton::{JOINT_COUNT, Joint, Side};

@@ -1,7 +1,7 @@
 //! The compiler: clips in, motion database out, one line a stage.
 //!
-//! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted by file and clip
-//! name, examples by their own name, and parallel stages collect in that order.
+//! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted
+//! by file and clip name, examples by their own name, and parallel stages collect in that order.
 
 use std::path::{Path, PathBuf};
 
@@ -42,7 +42,8 @@ pub fn compile_files(files: &[PathBuf], imported: &(dyn Fn(&Path) + Sync)) -> Re
     Ok(Compiled { db: compile(clips)?, refused })
 }
 
-/// The human clips of files, imported in parallel, and a message for each file or clip that gives none; both in order of file name.
+/// The human clips of files, imported in parallel, and a message for each file or clip that gives none; both in order
+/// of file name.
 pub fn import_files(files: &[PathBuf], imported: &(dyn Fn(&Path) + Sync)) -> (Vec<HumanClip>, Vec<String>) {
     let mut files: Vec<&PathBuf> = files.iter().collect();
     files.sort_by_key(|file| (file.file_name(), *file));

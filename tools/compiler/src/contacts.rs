@@ -1,7 +1,8 @@
 //! Foot contacts of a clip, frame by frame: by height and by speed, as in the definition of planted-foot slide.
 //!
-//! A foot's contact point is the lowest of heel, ball and toe tip: on the sole where the clip had `…Sole` joints, else at the joints (ankle,
-//! ball, end of the toe), each over its own planted height. The foot is planted while that point is low and slow. World frame, metres.
+//! A foot's contact point is the lowest of heel, ball and toe tip: on the sole where the clip had `…Sole` joints, else
+//! at the joints (ankle, ball, end of the toe), each over its own planted height. The foot is planted while that point
+//! is low and slow. World frame, metres.
 
 use glam::DVec3;
 
@@ -9,7 +10,8 @@ use crate::root_motion::percentile;
 
 /// Over its planted height a planted point lifts less than this (`definitions.md`), metres.
 const HEIGHT_MAX_M: f64 = 0.025;
-/// Speed of a planted point: this, and a share of the body's speed for clips that slide as they run (`definitions.md`), m/s.
+/// Speed of a planted point: this, and a share of the body's speed for clips that slide as they run (`definitions.md`),
+/// m/s.
 const SPEED_MAX_MPS: f64 = 0.25;
 const SPEED_MAX_SHARE: f64 = 0.15;
 /// A point's planted height is this percentile of its heights (`definitions.md`).
@@ -18,14 +20,14 @@ const PLANTED_PERCENTILE: f64 = 0.05;
 const FLOOR_WINDOW_S: f64 = 1.6;
 /// Speeds are taken over ± this time, so that noise weighs the same at 24 and at 120 frames a second: one frame at 30.
 const SPEED_SPAN_S: f64 = 1.0 / 30.0;
-/// Seconds: a shorter touch is not planted, a shorter lift no swing (those last 0.3 s and more), a shorter contact no step
-/// (`definitions.md`).
+/// Seconds: a shorter touch is not planted, a shorter lift no swing (those last 0.3 s and more), a shorter contact no
+/// step (`definitions.md`).
 const TOUCH_MIN_S: f64 = 0.05;
 const LIFT_MIN_S: f64 = 0.1;
 const CONTACT_MIN_S: f64 = 0.08;
 
-/// Which of a foot's three points is the lowest over its planted height, frame by frame, and how high it is. Planted heights are taken over
-/// `window` frames about each frame: the floor of a capture may slope.
+/// Which of a foot's three points is the lowest over its planted height, frame by frame, and how high it is. Planted
+/// heights are taken over `window` frames about each frame: the floor of a capture may slope.
 pub fn lowest_points(feet: &[[DVec3; 3]], window: usize) -> Vec<(usize, f64)> {
     let planted = [0, 1, 2].map(|point| planted_heights_m(feet, point, window));
     let lower = |a: (usize, f64), b: (usize, f64)| if b.1 < a.1 { b } else { a };
@@ -62,7 +64,8 @@ pub struct Contacts {
     pub stepping: Vec<bool>,
 }
 
-/// The contacts of one foot. `lenience` multiplies both limits: 1 is the definition, more finds the steps of noisy clips.
+/// The contacts of one foot. `lenience` multiplies both limits: 1 is the definition, more finds the steps of noisy
+/// clips.
 pub fn find(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64, lenience: f64) -> Contacts {
     let speed_max_mps = lenience * (SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps);
     let window = (FLOOR_WINDOW_S * frame_rate_hz) as usize;

@@ -1,7 +1,8 @@
 //! Correspondence times T between m_sp and m_mb (`FbCrowd` §5, Eq. 10): where the two cycles' poses are most alike.
 //!
-//! Poses are compared by joint places and velocities in the root frame, at all pairs of stored phases. The pairs of T are the local minima
-//! of that distance below a threshold, thinned to be monotone in both cycles, with at least one in each step of m_sp.
+//! Poses are compared by joint places and velocities in the root frame, at all pairs of stored phases. The pairs of T
+//! are the local minima of that distance below a threshold, thinned to be monotone in both cycles, with at least one in
+//! each step of m_sp.
 
 use glam::DVec3;
 use motiondb::correspondence::Correspondence;
@@ -14,7 +15,8 @@ use crate::human_clip::HumanBody;
 
 /// m_sp is the straight walk nearest this speed (`definitions.md`), m/s.
 const SEMI_PROCEDURAL_MPS: f64 = 1.2;
-/// Weight of a joint's velocity beside its place: as far as it gets in this time, a transition's first instants, seconds.
+/// Weight of a joint's velocity beside its place: as far as it gets in this time, a transition's first instants,
+/// seconds.
 const VELOCITY_WEIGHT_S: f64 = 0.1;
 /// A minimum counts up to this multiple of the least distance of all.
 const THRESHOLD_RATIO: f64 = 1.5;

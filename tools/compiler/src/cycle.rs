@@ -1,8 +1,10 @@
-//! Strides → GaitCycle: the phase-aligned mean stride, closed without a seam, at 64 uniform phases (`definitions.md`, "Example").
+//! Strides → GaitCycle: the phase-aligned mean stride, closed without a seam, at 64 uniform phases (`definitions.md`,
+//! "Example").
 //!
-//! Each stride is read along its own arc, at the times t(φ) of [`motiondb::phase_map`], through both of its landmarks. What is left open
-//! between its ends is spread evenly over the stride, so that planted feet feel it least, and both ends are faded into what the clip does
-//! just outside the stride, so that velocities close as well. Root frame: x forward, y left, metres, seconds.
+//! Each stride is read along its own arc, at the times t(φ) of [`motiondb::phase_map`], through both of its landmarks.
+//! What is left open between its ends is spread evenly over the stride, so that planted feet feel it least, and both
+//! ends are faded into what the clip does just outside the stride, so that velocities close as well. Root frame: x
+//! forward, y left, metres, seconds.
 
 use glam::{DQuat, DVec3};
 use motiondb::motion_db::PHASE_COUNT;
@@ -73,8 +75,9 @@ impl GaitCycle {
     }
 }
 
-/// How deep each frame lies in a contact: seconds to its nearest end, negative outside. The mean of this over strides ends each contact at
-/// the mean of its ends; a mean of planted or not would stretch contacts to where only half of the strides have them.
+/// How deep each frame lies in a contact: seconds to its nearest end, negative outside. The mean of this over strides
+/// ends each contact at the mean of its ends; a mean of planted or not would stretch contacts to where only half of the
+/// strides have them.
 fn contact_depths_s(planted: &[bool], frame_rate_hz: f64) -> Vec<f64> {
     let edges: Vec<f64> = (1..planted.len())
         .filter(|&frame| planted[frame] != planted[frame - 1])
@@ -180,7 +183,8 @@ fn add_stride(rows: &mut [Vec<(f64, HumanPose)>], depths_s: &mut [[f64; 2]], rea
     }
 }
 
-/// Weight of a phase counted from the stride's start: 1 within, faded over both ends; weights a cycle apart add up to 1.
+/// Weight of a phase counted from the stride's start: 1 within, faded over both ends; weights a cycle apart add up to
+/// 1.
 fn window(phase: f64, fade: f64) -> f64 {
     if fade == 0.0 {
         return if (0.0..1.0).contains(&phase) { 1.0 } else { 0.0 };

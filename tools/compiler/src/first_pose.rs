@@ -1,6 +1,8 @@
-//! A separate first pose: many files begin with a T-pose and jump from it into the motion, or blend out of it over some frames (PFNN: 40).
+//! A separate first pose: many files begin with a T-pose and jump from it into the motion, or blend out of it over some
+//! frames (PFNN: 40).
 //!
-//! A jump is cut off. A blend stays, since it is a motion, but is told: an example is made from a steady window and leaves it out.
+//! A jump is cut off. A blend stays, since it is a motion, but is told: an example is made from a steady window and
+//! leaves it out.
 
 use glam::DVec3;
 use motiondb::skeleton::Joint;
@@ -14,7 +16,8 @@ const JUMP_TIMES_MEDIAN: f64 = 8.0;
 const JUMP_MIN_M: f64 = 0.05;
 /// Shorter clips have no median to speak of.
 const FRAMES_MIN: usize = 11;
-/// Arms are spread in a T-pose when both lie this near the shoulder line (cosine of 30°), and no longer when one is past 45°.
+/// Arms are spread in a T-pose when both lie this near the shoulder line (cosine of 30°), and no longer when one is
+/// past 45°.
 const SPREAD_COSINE: f64 = 0.87;
 const LOWERED_COSINE: f64 = 0.71;
 

@@ -1,6 +1,8 @@
-//! Planted-foot slide of a cycle (`definitions.md`): mean horizontal speed of the contact point over the middle 80 % of each contact.
+//! Planted-foot slide of a cycle (`definitions.md`): mean horizontal speed of the contact point over the middle 80 % of
+//! each contact.
 //!
-//! A foot is planted where its contact row is at least ½; its contact point is the lowest of three, as in [`crate::contacts`].
+//! A foot is planted where its contact row is at least ½; its contact point is the lowest of three, as in
+//! [`crate::contacts`].
 
 use glam::DVec3;
 use motiondb::motion_db::PHASE_COUNT;
@@ -12,13 +14,14 @@ use crate::human_clip::HumanBody;
 
 /// Cut from each end of a contact, as a share of it.
 const TRIMMED_SHARE: f64 = 0.1;
-/// More slide than this is worth a warning: clean walks have 3–8 cm/s, runs 6 cm/s more for each m/s (`definitions.md`).
+/// More slide than this is worth a warning: clean walks have 3–8 cm/s, runs 6 cm/s more for each m/s
+/// (`definitions.md`).
 const SUSPECT_SLIDE_CM_S: f64 = 12.0;
 const SUSPECT_SLIDE_CM_S_PER_MPS: f64 = 8.0;
 /// And so is a foot planted for less of the cycle than in a sprint.
 const SUSPECT_SHARE: f64 = 0.2;
-/// More slide than this, and than this share of the body's speed, is no stance at all: blended into a crowd it drags all feet. Noisy
-/// captures: 18 cm/s; hand-keyed runs: 7 % (`definitions.md`).
+/// More slide than this, and than this share of the body's speed, is no stance at all: blended into a crowd it drags
+/// all feet. Noisy captures: 18 cm/s; hand-keyed runs: 7 % (`definitions.md`).
 const EXCESSIVE_SLIDE_CM_S: f64 = 25.0;
 const EXCESSIVE_SLIDE_SHARE: f64 = 0.2;
 /// Nor is there one where feet are planted for less than this share of the cycle; sprinters' are for 0.22.

@@ -1,7 +1,8 @@
 //! GroundedClip → what the feet do: contacts, steps and their landmarks, standing (`definitions.md`, "Phase").
 //!
-//! Phase 0 is the middle of a right contact, phase ½ the middle of a left one. Between landmarks lie strides ([`crate::stride`]), of which
-//! the steady ones ([`crate::steady_window`]) make an example. Times are in frames of the clip.
+//! Phase 0 is the middle of a right contact, phase ½ the middle of a left one. Between landmarks lie strides
+//! ([`crate::stride`]), of which the steady ones ([`crate::steady_window`]) make an example. Times are in frames of the
+//! clip.
 
 use std::ops::Range;
 
@@ -20,7 +21,8 @@ const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
 /// A body stands that moves slower than this, with its feet planted for nearly all of the clip.
 const STANDING_SPEED_MPS: f64 = 0.06;
 const STANDING_SHARE_MIN: f64 = 0.95;
-/// And whose joints move slower than this in the mean: who breathes and shifts weight stands (0.003–0.02), who dances does not.
+/// And whose joints move slower than this in the mean: who breathes and shifts weight stands (0.003–0.02), who dances
+/// does not.
 const STANDING_STIR_MPS: f64 = 0.06;
 /// Shorter clips are poses.
 const STANDING_MIN_S: f64 = 0.5;
@@ -47,8 +49,8 @@ pub struct GaitAnalysis {
 
 /// Finds contacts, landmarks and the steady window.
 ///
-/// Contacts are those of the definition where they show the most strides; the feet of noisy captures are let slide and lift more, as little
-/// as it takes.
+/// Contacts are those of the definition where they show the most strides; the feet of noisy captures are let slide and
+/// lift more, as little as it takes.
 pub fn analyze(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysis {
     let joints = clip.poses.iter().map(|pose| pose.forward_kinematics(body)).collect();
     let track = BodyTrack::of(joints, clip.frame_rate_hz);
@@ -102,8 +104,8 @@ fn steps(stepping: &[Vec<bool>; 2], track: &BodyTrack, loop_frames: Option<usize
     }
 }
 
-/// Middles of all contacts, in order of time. Where the clip cuts a contact, its middle is half of a usual contact away from the end that
-/// is seen, if that still lies within the clip.
+/// Middles of all contacts, in order of time. Where the clip cuts a contact, its middle is half of a usual contact away
+/// from the end that is seen, if that still lies within the clip.
 fn landmarks(stepping: &[Vec<bool>; 2]) -> Vec<Landmark> {
     let contacts = stepping.each_ref().map(|frames| {
         runs(frames).into_iter().filter(|run| run.0).map(|(_, start, end)| start..end).collect::<Vec<Range<usize>>>()
@@ -123,7 +125,8 @@ fn landmarks(stepping: &[Vec<bool>; 2]) -> Vec<Landmark> {
     landmarks
 }
 
-/// The middle of a contact of a clip, `half` a usual contact away from the end that is seen; none where it is not seen or not at all known.
+/// The middle of a contact of a clip, `half` a usual contact away from the end that is seen; none where it is not seen
+/// or not at all known.
 fn middle(contact: &Range<usize>, frames: usize, half: f64) -> Option<f64> {
     let (first, last) = (contact.start as f64, (contact.end - 1) as f64);
     let middle = match (contact.start > 0, contact.end < frames) {

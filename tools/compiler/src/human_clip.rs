@@ -32,7 +32,8 @@ pub struct HumanBody {
     pub segment_ends_m: [DVec3; JOINT_COUNT],
     /// `[left, right]`: heel, ball (relative to the foot joint) and toe tip (relative to the toe joint) on the sole.
     pub soles_m: [[DVec3; 3]; 2],
-    /// Where slide is measured, in the same frames: the soles themselves or the joints over them (see [`motiondb::skeleton::Foot`]).
+    /// Where slide is measured, in the same frames: the soles themselves or the joints over them (see
+    /// [`motiondb::skeleton::Foot`]).
     pub measured_m: [[DVec3; 3]; 2],
 }
 

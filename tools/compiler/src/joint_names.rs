@@ -1,6 +1,8 @@
-//! What a joint's name hints at: a side and a set of anatomical parts. Hints only: hierarchy and geometry decide, names break ties.
+//! What a joint's name hints at: a side and a set of anatomical parts. Hints only: hierarchy and geometry decide, names
+//! break ties.
 //!
-//! Words are cut at punctuation, digits and capitals (`CC_Base_L_Thigh`, `JtHipLf`, `mixamorig:LeftUpLeg`, `upperleg.l`, `lThigh`).
+//! Words are cut at punctuation, digits and capitals (`CC_Base_L_Thigh`, `JtHipLf`, `mixamorig:LeftUpLeg`,
+//! `upperleg.l`, `lThigh`).
 
 use motiondb::skeleton::Side;
 

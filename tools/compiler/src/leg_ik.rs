@@ -1,7 +1,8 @@
 //! Two-bone leg inverse kinematics: puts an ankle where it should be and keeps the foot's orientation.
 //!
-//! Three steps: bend the knee about its own axis until hip to ankle has the wanted length; swing the whole leg onto the target by the
-//! shortest arc; turn the foot back to the orientation that it had. Positions and orientations are those of the pose's own frame.
+//! Three steps: bend the knee about its own axis until hip to ankle has the wanted length; swing the whole leg onto the
+//! target by the shortest arc; turn the foot back to the orientation that it had. Positions and orientations are those
+//! of the pose's own frame.
 
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::Joint;
@@ -40,7 +41,8 @@ fn knee_axis(joints: &HumanJoints, side: usize) -> DVec3 {
     let thigh = position(Joint::SHANKS[side]) - position(Joint::THIGHS[side]);
     let shank = position(Joint::FEET[side]) - position(Joint::SHANKS[side]);
     let left = joints.orientations[Joint::THIGHS[side].index()] * DVec3::Y;
-    // A nearly straight leg has no plane of its own: lean on the thigh's axis, by an amount that a bent knee does not feel.
+    // A nearly straight leg has no plane of its own: lean on the thigh's axis, by an amount that a bent knee does not
+    // feel.
     let normal = thigh.cross(shank) / (thigh.length() * shank.length());
     let normal = if normal.dot(left) < 0.0 { -normal } else { normal };
     let axis = normal + 0.05 * left;

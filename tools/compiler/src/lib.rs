@@ -1,9 +1,10 @@
 //! Motion clips in, motion database out: one file per stage, in `compile.rs` one line per stage.
 //!
 //! import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] → [`human_clip::HumanClip`] →
-//! [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] → [`contacts`], [`gait`], [`stride`], [`steady_window`],
-//! [`stride_alignment`] → [`pose_mean`], [`cycle::GaitCycle`] (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`], [`velocity_hull`], [`blend_space`],
-//! [`correspondence`] → [`motiondb::motion_db::MotionDb`]
+//! [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] → [`contacts`], [`gait`],
+//! [`stride`], [`steady_window`], [`stride_alignment`] → [`pose_mean`], [`cycle::GaitCycle`] (or [`standing`]) →
+//! [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`], [`velocity_hull`], [`blend_space`], [`correspondence`] →
+//! [`motiondb::motion_db::MotionDb`]
 
 mod analysis;
 mod anchors;

@@ -1,8 +1,9 @@
 //! Limbs of a source skeleton: pairs of chains, mirrored about the trunk, with two long bones each and a joint between.
 //!
-//! For a fork, every pair of children is tried; each child's chain is its longest path to a leaf. Along both chains alike, the two bones are
-//! the longest triple i < j < k whose lengths are of like size and that skips only joints lying on the bones themselves (twist bones,
-//! zero-length helpers). Names weigh in, so that an unnamed skeleton is found by its shape and a named one in a stiff pose by its words.
+//! For a fork, every pair of children is tried; each child's chain is its longest path to a leaf. Along both chains
+//! alike, the two bones are the longest triple i < j < k whose lengths are of like size and that skips only joints
+//! lying on the bones themselves (twist bones, zero-length helpers). Names weigh in, so that an unnamed skeleton is
+//! found by its shape and a named one in a stiff pose by its words.
 
 use glam::DVec3;
 
@@ -25,7 +26,8 @@ const PARTED_FOOT_LOOSENESS: f64 = 0.12;
 const LONGEST_CHAIN: usize = 16;
 /// The depths of a limb that is on no chain.
 const PARTED: [usize; 3] = [0; 3];
-/// Weight of passing over a joint that is named as a part of a limb: not a twist bone (Bandai's `UpperArm` beside `Shoulder`).
+/// Weight of passing over a joint that is named as a part of a limb: not a twist bone (Bandai's `UpperArm` beside
+/// `Shoulder`).
 const SKIPPED_PART_WEIGHT: f64 = 0.5;
 
 /// A skeleton with what role finding asks of it again and again.

@@ -1,8 +1,10 @@
-//! GaitCycle → MotionExample: (v_f, ω_t, ω_s) freed of gait noise, key times, slide (`definitions.md`, "Example", "Key times").
+//! GaitCycle → MotionExample: (v_f, ω_t, ω_s) freed of gait noise, key times, slide (`definitions.md`, "Example", "Key
+//! times").
 //!
-//! Snapping: an |ω_t| below 3 °/s is 0, and with it a small ω_s. What is snapped must not make planted feet slide, so a small ω_s is
-//! taken out by turning the root frame onto the direction of travel: the body then walks straight with its shoulders a few degrees off,
-//! as it did. The snapped turn is left to the feet: at most 3 °/s about a point some 15 cm away, below 1 cm/s.
+//! Snapping: an |ω_t| below 3 °/s is 0, and with it a small ω_s. What is snapped must not make planted feet slide, so a
+//! small ω_s is taken out by turning the root frame onto the direction of travel: the body then walks straight with its
+//! shoulders a few degrees off, as it did. The snapped turn is left to the feet: at most 3 °/s about a point some 15 cm
+//! away, below 1 cm/s.
 
 use std::f64::consts::PI;
 
@@ -71,7 +73,8 @@ pub fn example(cycle: &GaitCycle, body: &HumanBody, name: String, source: u32, m
     }
 }
 
-/// [right toe-off, right heel strike, left toe-off, left heel strike]: where the contact that holds each foot's mid-stance ends and begins.
+/// [right toe-off, right heel strike, left toe-off, left heel strike]: where the contact that holds each foot's
+/// mid-stance ends and begins.
 fn key_times_s(cycle: &GaitCycle) -> Option<[f32; 4]> {
     let half = PHASE_COUNT as isize / 2;
     let right = [crossing(cycle, 1, 0, 1)?, crossing(cycle, 1, 0, -1)?];

@@ -1,8 +1,8 @@
 //! Whether a gait and a body can be true.
 //!
 //! Of a gait: the ratio of step length to cadence, which people keep at 0.6–0.7 cm/(step/min) over all speeds, slow or
-//! running (`facts/motion.md` §4). A lying `Frame Time:` scales it by the square of the lie: the CMU run 02_03 at 1/25 s instead of
-//! 1/120 s comes out at 11.
+//! running (`facts/motion.md` §4). A lying `Frame Time:` scales it by the square of the lie: the CMU run 02_03 at 1/25
+//! s instead of 1/120 s comes out at 11.
 
 use motiondb::skeleton::Joint;
 
@@ -14,7 +14,8 @@ use crate::source_clip::SourceClip;
 use crate::source_parameters::{WholeClip, facing_rad};
 use crate::units::{HUMAN_LEG_M, leg_length};
 
-/// Plausible walk ratios, cm/(step/min), for a person's leg. Clips of the development set: 0.27 (careful small steps) to 1.1 (sprint).
+/// Plausible walk ratios, cm/(step/min), for a person's leg. Clips of the development set: 0.27 (careful small steps)
+/// to 1.1 (sprint).
 const WALK_RATIO_CM_MIN: std::ops::RangeInclusive<f64> = 0.15..=2.0;
 /// Slower clips stand, turn or side-step, m/s.
 const SPEED_MIN_MPS: f64 = 0.4;

@@ -1,9 +1,11 @@
-//! Weighted means of poses whose feet stand where the mean of their feet stands: between the frames of a clip, and over its strides.
+//! Weighted means of poses whose feet stand where the mean of their feet stands: between the frames of a clip, and over
+//! its strides.
 //!
-//! The mean of joint rotations alone moves a foot that is planted in every pose: hip, knee and ankle turn through large angles that cancel
-//! out at the foot, and their means cancel only nearly. At 30 frames a second that is 2–5 cm/s of slide, more than many clips have. So the
-//! pelvis and the joints are averaged by themselves, each foot's orientation and contact point in the frame of the poses too, and leg
-//! inverse kinematics puts the foot there. Weights sum to 1 and may be negative (Catmull–Rom).
+//! The mean of joint rotations alone moves a foot that is planted in every pose: hip, knee and ankle turn through large
+//! angles that cancel out at the foot, and their means cancel only nearly. At 30 frames a second that is 2–5 cm/s of
+//! slide, more than many clips have. So the pelvis and the joints are averaged by themselves, each foot's orientation
+//! and contact point in the frame of the poses too, and leg inverse kinematics puts the foot there. Weights sum to 1
+//! and may be negative (Catmull–Rom).
 
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::Joint;
@@ -11,7 +13,8 @@ use motiondb::skeleton::Joint;
 use crate::human_clip::{HumanBody, HumanJoints, HumanPose};
 use crate::leg_ik::place_ankle;
 
-/// Height over the foot's lowest point at which a sole point counts 1/e for where the foot is: what stands counts, what is lifted hardly.
+/// Height over the foot's lowest point at which a sole point counts 1/e for where the foot is: what stands counts, what
+/// is lifted hardly.
 const STANDING_HEIGHT_M: f64 = 0.005;
 
 /// The weighted mean of poses given in one frame.
@@ -25,8 +28,8 @@ pub fn pose_mean(parts: &[(f64, HumanPose)], body: &HumanBody) -> HumanPose {
     mean_with_feet(parts, body, feet)
 }
 
-/// The pose between the second and the third of four successive ones, by Catmull–Rom; its feet by a monotone cubic, so that a foot that
-/// stands in both does not stir because it is about to leave.
+/// The pose between the second and the third of four successive ones, by Catmull–Rom; its feet by a monotone cubic, so
+/// that a foot that stands in both does not stir because it is about to leave.
 pub fn pose_between(poses: [&HumanPose; 4], share: f64, body: &HumanBody) -> HumanPose {
     let weights = catmull_rom(share);
     let parts: Vec<(f64, HumanPose)> = weights.into_iter().zip(poses).map(|(w, pose)| (w, pose.clone())).collect();
@@ -85,8 +88,8 @@ fn catmull_rom(t: f64) -> [f64; 4] {
     [0.5 * (-t + 2.0 * t2 - t3), 0.5 * (2.0 - 5.0 * t2 + 3.0 * t3), 0.5 * (t + 4.0 * t2 - 3.0 * t3), 0.5 * (t3 - t2)]
 }
 
-/// Between the second and the third of four successive values, never beyond them: a cubic whose slopes are the harmonic means of the
-/// differences about each (Fritsch and Butland 1984), 0 where those change sign or vanish.
+/// Between the second and the third of four successive values, never beyond them: a cubic whose slopes are the harmonic
+/// means of the differences about each (Fritsch and Butland 1984), 0 where those change sign or vanish.
 fn monotone([before, from, to, after]: [f64; 4], share: f64) -> f64 {
     let slope = |a: f64, b: f64| if a * b > 0.0 { 2.0 * a * b / (a + b) } else { 0.0 };
     let (start, end) = (slope(from - before, to - from), slope(to - from, after - to));
@@ -103,4 +106,42 @@ fn mean(rotations: impl Iterator<Item = (f64, DQuat)>) -> DQuat {
         sum = Some((reference, so_far + rotation * weight));
     }
     sum.map_or(DQuat::IDENTITY, |(_, sum)| sum.normalize())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{self, Walk};
+
+    #[test]
+    fn a_foot_that_stands_before_and_after_stands_between() {
+        let clip = synthetic::walk("walk", Walk { frame_rate_hz: 30.0, ..Walk::default() });
+        let points_m =
+            |pose: &HumanPose, side: usize| pose.forward_kinematics(&clip.body).sole_points_m(&clip.body, side);
+        let mut stood = 0;
+        for poses in clip.frames.windows(4) {
+            let between = pose_between([&poses[0], &poses[1], &poses[2], &poses[3]], 0.4, &clip.body);
+            for side in 0..2 {
+                let [from, to] = [&poses[1], &poses[2]].map(|pose| points_m(pose, side)[0]);
+                if from.distance(to) < 1e-6 {
+                    stood += 1;
+                    let off_m = points_m(&between, side)[0].distance(from);
+                    assert!(off_m < 2e-4, "{off_m} m");
+                }
+            }
+        }
+        assert!(stood > 100, "{stood}");
+    }
+
+    #[test]
+    fn a_monotone_cubic_meets_its_values_and_stays_between_them() {
+        for values in [[0.0, 1.0, 2.0, 3.0], [5.0, 1.0, 1.0, 9.0], [0.0, 1.0, 1.1, 8.0], [2.0, 1.0, 3.0, 0.0]] {
+            let [_, from, to, _] = values;
+            assert_eq!([monotone(values, 0.0), monotone(values, 1.0)], [from, to]);
+            for step in 0..=20 {
+                let value = monotone(values, f64::from(step) / 20.0);
+                assert!((from.min(to)..=from.max(to)).contains(&value), "{values:?}: {value}");
+            }
+        }
+    }
 }

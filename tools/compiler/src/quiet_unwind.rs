@@ -1,6 +1,7 @@
 //! Catches the panics of a foreign parser without a word on standard error.
 //!
-//! The panic hook is the process's; ours is put before the present one once, and is silent only for threads that are within [`catch`].
+//! The panic hook is the process's; ours is put before the present one once, and is silent only for threads that are
+//! within [`catch`].
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};

@@ -1,9 +1,9 @@
 //! Source clip → [`HumanClip`]: the canonical humanoid posed so that its joints are where the source's are.
 //!
-//! The body's bones are the source's mean bones in the calibrated joint frames (`calibration`). In each frame every joint with one child is
-//! then turned, by the shortest arc, until its bone points exactly at that child: twist bones between roles, bones of the trunk that the
-//! source splits otherwise and joints with position channels all end up where the source puts them. At last the body is moved down or up
-//! so that its soles stand on z = 0.
+//! The body's bones are the source's mean bones in the calibrated joint frames (`calibration`). In each frame every
+//! joint with one child is then turned, by the shortest arc, until its bone points exactly at that child: twist bones
+//! between roles, bones of the trunk that the source splits otherwise and joints with position channels all end up
+//! where the source puts them. At last the body is moved down or up so that its soles stand on z = 0.
 
 use glam::{DQuat, DVec3};
 use motiondb::motion_db::SourceRecord;
@@ -73,7 +73,8 @@ fn positions(clip: &SourceClip, roles: &Roles, anchors: &[Anchor; JOINT_COUNT], 
     positions
 }
 
-/// The pelvis's y is the hip line itself, also where the hips move in the pelvis (CMU's hip helpers turn, drawn characters stretch).
+/// The pelvis's y is the hip line itself, also where the hips move in the pelvis (CMU's hip helpers turn, drawn
+/// characters stretch).
 fn aim_pelvis(turns: &mut [DQuat; JOINT_COUNT], positions_m: &[DVec3; JOINT_COUNT]) {
     let [left, right] = Joint::THIGHS.map(|hip| positions_m[hip.index()]);
     if let Some(line) = (left - right).try_normalize() {

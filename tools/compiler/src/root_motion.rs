@@ -1,8 +1,10 @@
-//! HumanClip → GroundedClip: the performer's motion on the target skeleton, over the ground at z = 0, travelling as it was meant.
+//! HumanClip → GroundedClip: the performer's motion on the target skeleton, over the ground at z = 0, travelling as it
+//! was meant.
 //!
-//! Proportions (`definitions.md`, "Target skeleton"): the whole motion is scaled by the ratio of leg lengths, joint rotations are kept,
-//! and where the bones differ leg inverse kinematics puts the ankles back to their scaled places. Clips that tread on the spot get the
-//! ground speed at which their stance feet stand still. World frame, metres, radians, Z up.
+//! Proportions (`definitions.md`, "Target skeleton"): the whole motion is scaled by the ratio of leg lengths, joint
+//! rotations are kept, and where the bones differ leg inverse kinematics puts the ankles back to their scaled places.
+//! Clips that tread on the spot get the ground speed at which their stance feet stand still. World frame, metres,
+//! radians, Z up.
 
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::{JOINT_COUNT, Joint};
@@ -26,7 +28,8 @@ pub struct GroundedClip {
     pub frame_rate_hz: f64,
     /// One pose a frame in the world; successive rotations lie in one hemisphere.
     pub poses: Vec<HumanPose>,
-    /// The clip is a loop, here unrolled: frames of one round. The frames `loop_frames..2·loop_frames` are its middle copy.
+    /// The clip is a loop, here unrolled: frames of one round. The frames `loop_frames..2·loop_frames` are its middle
+    /// copy.
     pub loop_frames: Option<usize>,
 }
 
@@ -76,8 +79,8 @@ fn is_same_performer(source: &HumanBody, target: &HumanBody) -> bool {
     source.offsets_m.iter().zip(&target.offsets_m).all(|bones| off_m(bones) <= SAME_LENGTH_M)
 }
 
-/// Turns foot and toes of the same performer as his are turned. How a foot lies in its frame is found anew in every clip, from the frames
-/// in which it is flattest; in a run none is flat, and the frame is a few degrees off.
+/// Turns foot and toes of the same performer as his are turned. How a foot lies in its frame is found anew in every
+/// clip, from the frames in which it is flattest; in a run none is flat, and the frame is a few degrees off.
 fn align_foot(pose: &mut HumanPose, source: &HumanBody, target: &HumanBody, side: usize) {
     let [foot, toe] = [Joint::FEET[side].index(), Joint::TOES[side].index()];
     let arc = |from: DVec3, to: DVec3| DQuat::from_rotation_arc(from.normalize_or(DVec3::X), to.normalize_or(DVec3::X));
@@ -116,7 +119,8 @@ fn travel(poses: &mut [HumanPose], body: &HumanBody, ground_speed_mps: DVec3, fr
     }
 }
 
-/// Flips quaternions so that each lies in the hemisphere of its predecessor and may be interpolated component by component.
+/// Flips quaternions so that each lies in the hemisphere of its predecessor and may be interpolated component by
+/// component.
 pub fn align_hemispheres(poses: &mut [HumanPose]) {
     for frame in 1..poses.len() {
         let (before, after) = poses.split_at_mut(frame);

@@ -1,8 +1,9 @@
-//! The soles: heel, ball and toe tip of each foot, in the canonical foot's and toe's frames, and the height of the ground.
+//! The soles: heel, ball and toe tip of each foot, in the canonical foot's and toe's frames, and the height of the
+//! ground.
 //!
-//! Where leaf joints named `…HeelSole`, `…BallSole`, `…ToeSole` exist, they are the soles. Otherwise the soles are estimated: the ground is
-//! the file's own zero if the planted feet stand just above it, else a joint's thickness below them; ball and toe tip lie on it under their
-//! joints, the heel on it behind the ankle.
+//! Where leaf joints named `…HeelSole`, `…BallSole`, `…ToeSole` exist, they are the soles. Otherwise the soles are
+//! estimated: the ground is the file's own zero if the planted feet stand just above it, else a joint's thickness below
+//! them; ball and toe tip lie on it under their joints, the heel on it behind the ankle.
 
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::{JOINT_COUNT, Joint};
@@ -17,14 +18,16 @@ const TIP_OVER_LEG: f64 = 0.085;
 const TIP_MIN_OVER_LEG: f64 = 0.02;
 /// The lowest joint of a planted foot over the sole, over leg length: 2 cm for an adult.
 const THICKNESS_OVER_LEG: f64 = 0.024;
-/// A planted lowest joint this high over the file's zero still stands on it, over leg length: 5 cm (Bandai's toe joints: 4).
+/// A planted lowest joint this high over the file's zero still stands on it, over leg length: 5 cm (Bandai's toe
+/// joints: 4).
 const ZERO_TRUSTED_OVER_LEG: f64 = 0.06;
 
 /// What was found of both feet.
 pub(crate) struct Soles {
     /// `[left, right]`: heel, ball (foot frame), toe tip (toe frame).
     pub points_m: [[DVec3; 3]; 2],
-    /// In the same frames, the points at which slide is measured: those of `…Sole` joints, else the joints over the sole.
+    /// In the same frames, the points at which slide is measured: those of `…Sole` joints, else the joints over the
+    /// sole.
     pub measured_m: [[DVec3; 3]; 2],
     /// The ground's height in the source.
     pub ground_m: f64,

@@ -1,4 +1,5 @@
-//! A clip as its file tells it: every joint's global position and orientation in every frame, in the source's units and axes.
+//! A clip as its file tells it: every joint's global position and orientation in every frame, in the source's units and
+//! axes.
 //!
 //! Local rotations, rest poses and scales are gone at this point: what two formats disagree about ends here.
 

@@ -1,7 +1,8 @@
-//! A clip whose body stands → GaitCycle without steps: both feet planted, the root at rest (`definitions.md`, "Example").
+//! A clip whose body stands → GaitCycle without steps: both feet planted, the root at rest (`definitions.md`,
+//! "Example").
 //!
-//! Its period is that of m_sp, so that idle and walk share one clock; of all windows of that length the calmest is taken, the one whose
-//! ends are most alike, and closed like a stride.
+//! Its period is that of m_sp, so that idle and walk share one clock; of all windows of that length the calmest is
+//! taken, the one whose ends are most alike, and closed like a stride.
 
 use glam::DVec2;
 

@@ -1,8 +1,10 @@
-//! Which strides of a clip make its example: all of a loop, else the longest run that is steady (`definitions.md`, "Example").
+//! Which strides of a clip make its example: all of a loop, else the longest run that is steady (`definitions.md`,
+//! "Example").
 
 use crate::stride::{Landmark, Stride};
 
-/// Strides of a steady window differ from their mean by at most: speed (m/s, or this share of it), turn rate, share of the period.
+/// Strides of a steady window differ from their mean by at most: speed (m/s, or this share of it), turn rate, share of
+/// the period.
 const STEADY_SPEED_MPS: f64 = 0.12;
 const STEADY_SPEED_SHARE: f64 = 0.12;
 const STEADY_TURN_RAD_S: f64 = 15.0 * std::f64::consts::PI / 180.0;
@@ -28,7 +30,8 @@ pub fn steady_window(strides: &[Option<Stride>]) -> Option<Vec<Stride>> {
     let mut best: Option<(usize, f64, usize)> = None;
     for first in 0..strides.len() {
         let mut window = Window::default();
-        // Every stride counts for steadiness, also those that begin with the other foot; every second one goes into the mean.
+        // Every stride counts for steadiness, also those that begin with the other foot; every second one goes into the
+        // mean.
         for (length, stride) in strides[first..].iter().map_while(Option::as_ref).enumerate() {
             window.add(stride);
             let Some(deviation) = window.deviation().filter(|_| length.is_multiple_of(2)) else { continue };
@@ -43,7 +46,8 @@ pub fn steady_window(strides: &[Option<Stride>]) -> Option<Vec<Stride>> {
     Some(strides[first..=first + length].iter().step_by(2).flatten().copied().collect())
 }
 
-/// Some strides, one after the other: what they have in common. Grows by a stride at a time, so that long takes are quick.
+/// Some strides, one after the other: what they have in common. Grows by a stride at a time, so that long takes are
+/// quick.
 #[derive(Default)]
 struct Window {
     strides: usize,
@@ -100,7 +104,8 @@ impl Spread {
     }
 }
 
-/// Whether a body goes much faster in one step than in the other: with no other stride to compare with, it starts or stops.
+/// Whether a body goes much faster in one step than in the other: with no other stride to compare with, it starts or
+/// stops.
 fn speeds_up([first, second]: [f64; 2]) -> bool {
     (second - first).abs() > STEP_SPEED_MPS.max(STEP_SPEED_SHARE * 0.5 * (first + second))
 }

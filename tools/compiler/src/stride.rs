@@ -1,7 +1,8 @@
-//! One stride of a clip: between two landmarks of one foot, with exactly one of the other foot between them, from either foot.
+//! One stride of a clip: between two landmarks of one foot, with exactly one of the other foot between them, from
+//! either foot.
 //!
-//! What is no step of a gait is no stride: too long or short, limping beyond measure, stopping between steps, treading on the spot, or
-//! ending in another pose than it began with. Times are in frames of the clip.
+//! What is no step of a gait is no stride: too long or short, limping beyond measure, stopping between steps, treading
+//! on the spot, or ending in another pose than it began with. Times are in frames of the clip.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
@@ -16,12 +17,14 @@ use crate::human_clip::HumanJoints;
 const PERIOD_S: RangeInclusive<f64> = 0.4..=2.5;
 /// Share of the period from the first landmark to the second: real clips .40–.60 (`definitions.md`, "Phase").
 const HALF_SHARE: RangeInclusive<f64> = 0.32..=0.68;
-/// Both feet on the ground for a larger share of a stride: the body stops between steps. Very slow walking: 36 % (Schwartz et al. 2008).
+/// Both feet on the ground for a larger share of a stride: the body stops between steps. Very slow walking: 36 %
+/// (Schwartz et al. 2008).
 const DOUBLE_SUPPORT_MAX: f64 = 0.45;
 /// A stride that neither goes nor turns this far treads on the spot, which is no locomotion: metres, 10°.
 const STRIDE_TRAVEL_M: f64 = 0.05;
 const STRIDE_TURN_RAD: f64 = 10.0 * PI / 180.0;
-/// Root mean square distance of the joints between both ends of a stride, relative to the root; steps of real people: 1 to 6 cm.
+/// Root mean square distance of the joints between both ends of a stride, relative to the root; steps of real people: 1
+/// to 6 cm.
 const STRIDE_GAP_M: f64 = 0.1;
 /// Samples of a stride's root, uniform in time.
 const ROOT_SAMPLES: usize = 64;

@@ -1,7 +1,7 @@
 //! The body that a database's examples share (`definitions.md`, "Target skeleton").
 //!
-//! One performer keeps his proportions; of several the median is taken, bone by bone, left and right alike so that mirrored cycles fit.
-//! Rest pose and frames as in [`motiondb::skeleton`]; metres.
+//! One performer keeps his proportions; of several the median is taken, bone by bone, left and right alike so that
+//! mirrored cycles fit. Rest pose and frames as in [`motiondb::skeleton`]; metres.
 
 use glam::{DVec3, Vec3};
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};

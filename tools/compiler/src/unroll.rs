@@ -1,6 +1,8 @@
-//! Loops: a clip whose last pose is its first goes round three times, so that every stride of it has neighbours and all strides count.
+//! Loops: a clip whose last pose is its first goes round three times, so that every stride of it has neighbours and all
+//! strides count.
 //!
-//! What is left between the last pose and the first is spread evenly over the round, so that the seam is like any other frame.
+//! What is left between the last pose and the first is spread evenly over the round, so that the seam is like any other
+//! frame.
 
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::JOINT_COUNT;
@@ -11,14 +13,16 @@ use crate::root_motion::{GroundedClip, align_hemispheres};
 
 /// Every joint of the last pose this near to the first's, relative to the root: a loop (`definitions.md`, "Example").
 const LOOP_GAP_M: f64 = 0.04;
-/// The repeated frame is left out where the pose that would follow is this much nearer to the first than the last one is.
+/// The repeated frame is left out where the pose that would follow is this much nearer to the first than the last one
+/// is.
 const LEFT_OUT_RATIO: f64 = 0.5;
 /// Copies of a loop: one before and one after the one that is analysed.
 const ROUNDS: usize = 3;
 /// Shorter clips are poses, not loops.
 const ROUND_MIN_S: f64 = 0.3;
 
-/// The clip three times round where it is a loop, else unchanged. Some loops end one frame before they would repeat their first pose.
+/// The clip three times round where it is a loop, else unchanged. Some loops end one frame before they would repeat
+/// their first pose.
 pub fn unroll(mut clip: GroundedClip, body: &HumanBody) -> GroundedClip {
     let [first, .., before, last] = clip.poses.as_slice() else { return clip };
     let next = next_pose(before, last);
