@@ -5,6 +5,8 @@
 
 use glam::Vec2;
 
+use crate::polygon::signed_area_m2;
+
 /// Rounds of pushing a disc out: one for each wall of a niche, and one more.
 const CLAMP_ROUNDS: usize = 4;
 /// How far outside a wall a point without radius is put, m: more than f32 rounding at 1 km.
@@ -69,7 +71,7 @@ impl Obstacles {
         if points_m.len() < 3 {
             return;
         }
-        if doubled_area_m2(&points_m) < 0.0 {
+        if signed_area_m2(&points_m) < 0.0 {
             points_m.reverse();
         }
         let (first, count) = (self.corners.len(), points_m.len());
@@ -189,12 +191,6 @@ fn corner(points_m: &[Vec2], index: usize, first: usize) -> Corner {
         next: (first + next) as u32,
         previous: (first + previous) as u32,
     }
-}
-
-/// Positive where the corners run counter-clockwise.
-fn doubled_area_m2(points_m: &[Vec2]) -> f32 {
-    let fan = points_m.windows(2).map(|pair| (pair[0] - points_m[0]).perp_dot(pair[1] - points_m[0]));
-    fan.sum()
 }
 
 /// The point of a segment nearest to a position.

@@ -350,14 +350,7 @@ mod tests {
         scene.velocities_mps[1] = -WALK;
         scene.preferred_mps[0] = Vec2::new(-1.0, 0.5);
         scene.obstacles = Obstacles::new(&[vec![Vec2::new(-1.0, -1.0), Vec2::new(2.0, -1.0), Vec2::new(0.5, -0.5)]]);
-        scene.stances[0].foot = Some(crate::plan::StanceFoot {
-            side: 0,
-            heel_m: Vec2::new(-0.1, 0.06),
-            ball_m: Vec2::new(0.05, 0.06),
-            toe_m: Vec2::new(0.12, 0.06),
-            swing_m: Vec2::new(0.0, -0.09),
-            time_to_landing_s: 0.3,
-        });
+        scene.stances[0].foot = Some(stance::tests::on_left_foot());
         let mut scratch = Scratch::default();
         scene.plan(&mut scratch);
         let mut kinds: Vec<Source> = scratch.half_planes().iter().map(|half_plane| half_plane.source).collect();

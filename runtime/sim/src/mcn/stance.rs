@@ -36,11 +36,11 @@ fn left_sign(foot: &StanceFoot) -> f32 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
     /// A walker along +x on the left foot, swing foot passing.
-    fn on_left_foot() -> StanceFoot {
+    pub(in crate::mcn) fn on_left_foot() -> StanceFoot {
         StanceFoot {
             side: 0,
             heel_m: Vec2::new(-0.1, 0.06),

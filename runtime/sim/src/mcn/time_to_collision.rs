@@ -4,6 +4,8 @@
 
 use glam::Vec2;
 
+use crate::obstacles::nearest_on_segment;
+
 /// Below this squared relative speed nothing approaches, (m/s)²: the limit of the authors' own code (`facts/planning.md` §1).
 const SPEED_SQUARED_MIN: f32 = 1e-5;
 
@@ -27,7 +29,8 @@ pub fn disc_with_disc(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32) -> f32 
 ///
 /// The segment grown by the radius is a capsule: two discs and two straight sides.
 pub fn disc_with_segment(corners_m: [Vec2; 2], velocity_mps: Vec2, radius_m: f32) -> f32 {
-    if distance_to_segment_m(corners_m) <= radius_m {
+    let [from_m, to_m] = corners_m;
+    if nearest_on_segment(Vec2::ZERO, from_m, to_m).length() <= radius_m {
         return 0.0;
     }
     let ends = corners_m.map(|corner_m| disc_with_disc(corner_m, velocity_mps, radius_m));
@@ -48,13 +51,6 @@ pub(crate) fn disc_with_side(corners_m: [Vec2; 2], velocity_mps: Vec2, radius_m:
     let time_s = (towards.abs() - radius_m) / approach;
     let share = (velocity_mps * time_s - corners_m[0]).dot(along) / (length_m * length_m);
     if time_s >= 0.0 && (0.0..=1.0).contains(&share) { time_s } else { f32::INFINITY }
-}
-
-/// Distance of the origin from a segment.
-fn distance_to_segment_m(corners_m: [Vec2; 2]) -> f32 {
-    let along = corners_m[1] - corners_m[0];
-    let share = (-corners_m[0].dot(along) / along.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (corners_m[0] + share * along).length()
 }
 
 #[cfg(test)]
@@ -95,7 +91,7 @@ mod tests {
             first in vector(4.0), second in vector(4.0), velocity in vector(2.0), radius in 0.1f32..1.0,
         ) {
             prop_assume!(first.distance(second) > 0.05);
-            let gap = |moved: Vec2| distance_to_segment_m([first - moved, second - moved]) - radius;
+            let gap = |moved: Vec2| nearest_on_segment(moved, first, second).distance(moved) - radius;
             let exact = disc_with_segment([first, second], velocity, radius);
             check(exact, by_marching(velocity, gap), closest_m(velocity, gap));
         }
