@@ -3,7 +3,8 @@
 //!
 //! Where leaf joints named `…HeelSole`, `…BallSole`, `…ToeSole` exist, they are the soles. Otherwise the soles are
 //! estimated: the ground is the file's own zero if the planted feet stand just above it, else a joint's thickness below
-//! them; ball and toe tip lie on it under their joints, the heel on it behind the ankle.
+//! them; ball and toe tip lie on it under their joints, the heel behind the ankle. Slide is then measured at the
+//! joints, which do not depend on that estimate.
 
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::{JOINT_COUNT, Joint};
@@ -76,7 +77,7 @@ fn foot_joints(tracks: &Tracks, orientations: &[[DQuat; JOINT_COUNT]], side: usi
     let (foot, toe) = (Joint::FEET[side], Joint::TOES[side]);
     let heel = tracks.roles.heels[side]
         .map(|joint| tracks.mean_in(foot, orientations, |frame| tracks.clip.position(frame, joint)))
-        .filter(|heel| heel.x < 0.0 && heel.z < 0.0);
+        .filter(|heel| heel.z < 0.0);
     let ball = tracks.mean_in(foot, orientations, |frame| tracks.positions_m[frame][toe.index()]);
     let end = tracks.mean_end(toe, orientations).filter(|end| end.length() > TIP_MIN_OVER_LEG * leg_m);
     [heel.unwrap_or(DVec3::ZERO), ball, end.unwrap_or(TIP_OVER_LEG * leg_m * DVec3::X)]
@@ -91,7 +92,8 @@ fn under_joints(tracks: &Tracks, side: usize, [heel, ball, end]: [DVec3; 3], gro
         (sum / flat.len() as f64 - ground_m).max(0.0)
     };
     let (ankle_m, ball_m) = (over_ground(foot), over_ground(toe));
-    let heel = if heel == DVec3::ZERO { DVec3::new(-HEEL_BEHIND * ball.x, 0.0, 0.0) } else { heel };
+    // Rigs put the heel's joint under the ankle rather than at the end of the foot.
+    let heel = heel.with_x(heel.x.min(-HEEL_BEHIND * ball.x));
     [heel.with_z(-ankle_m), ball.with_z(-ankle_m), DVec3::new(end.x.max(0.0), 0.0, -ball_m)]
 }
 

@@ -155,6 +155,16 @@ fn planted_feet_slide_no_more_than_in_the_recordings() {
 }
 
 #[test]
+fn slide_is_measured_at_the_heel_joint_over_the_sole() {
+    let Some(db) = marine("slide_is_measured_at_the_heel_joint_over_the_sole") else { return };
+    for foot in &db.skeleton.feet {
+        let heel_m = foot.measured_m[0];
+        assert!((-0.12..-0.05).contains(&heel_m.z), "{heel_m} is no heel");
+        assert!(foot.heel_m.z < heel_m.z && foot.heel_m.x < -0.03, "{foot:?}");
+    }
+}
+
+#[test]
 fn feet_are_under_the_body_at_their_mid_stance() {
     let Some(db) = marine("feet_are_under_the_body_at_their_mid_stance") else { return };
     for (index, example) in db.examples.iter().enumerate().filter(|(_, example)| example.key_times_s.is_some()) {
@@ -165,7 +175,7 @@ fn feet_are_under_the_body_at_their_mid_stance() {
             let along = soles[1].truncate().dot(travel(example));
             assert!(db.rows.contacts[row][side] > 0.5, "{}: side {side} is not planted", example.name);
             assert!(along.abs() < 0.25, "{}: side {side} is {along} m ahead", example.name);
-            assert!(soles.iter().all(|sole| sole.z.abs() < 0.05), "{}: side {side} at {soles:?}", example.name);
+            assert!(soles.iter().all(|sole| sole.z.abs() < 0.06), "{}: side {side} at {soles:?}", example.name);
         }
     }
 }
