@@ -175,7 +175,9 @@ fn feet_are_under_the_body_at_their_mid_stance() {
             let along = soles[1].truncate().dot(travel(example));
             assert!(db.rows.contacts[row][side] > 0.5, "{}: side {side} is not planted", example.name);
             assert!(along.abs() < 0.25, "{}: side {side} is {along} m ahead", example.name);
-            assert!(soles.iter().all(|sole| sole.z.abs() < 0.06), "{}: side {side} at {soles:?}", example.name);
+            // Runners stand on the ball of the foot, the heel lifted.
+            let [heel, ball, toe_tip] = soles.map(|sole| sole.z.abs());
+            assert!(ball.max(toe_tip) < 0.05 && heel < 0.1, "{}: side {side} at {soles:?}", example.name);
         }
     }
 }
