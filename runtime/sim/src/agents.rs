@@ -1,6 +1,7 @@
 //! The state of all agents as a structure of arrays, in index order.
 //!
-//! World axes, metres, seconds, radians. What the planner reads of the bodies changes only in [`crate::cns`], after all have moved.
+//! World axes, metres, seconds, radians. What the planner reads of the bodies changes only in [`crate::cns`], after all
+//! have moved.
 
 use glam::Vec2;
 use motiondb::pose::Root;
@@ -47,7 +48,8 @@ pub struct Agents {
 }
 
 impl Agents {
-    /// Standing where the scenario puts them. Each starts at another phase of its cycle, so that no crowd marches in step.
+    /// Standing where the scenario puts them. Each starts at another phase of its cycle, so that no crowd marches in
+    /// step.
     pub fn new(scenario: &Scenario, motion: &Motion) -> Self {
         let count = scenario.agents.len();
         let mut agents = Self {

@@ -1,5 +1,5 @@
-//! CNS, coupled navigation and synthesis (`FbCrowd` §3.4): the disc takes place and facing from the body *as synthesised*, and the planner
-//! sees the foot that it stands on.
+//! CNS, coupled navigation and synthesis (`FbCrowd` §3.4): the disc takes place and facing from the body *as
+//! synthesised*, and the planner sees the foot that it stands on.
 
 use glam::Vec2;
 use motiondb::pose::Root;

@@ -1,11 +1,13 @@
 //! Who is near: a grid sorted by cell, whose cell follows the crowd's density.
 //!
-//! Agents lie in cell order as structures of arrays, so a row of cells is one run of memory. A search visits square rings of cells from
-//! the inside out and stops when no farther ring can hold a better neighbour. The answer does not depend on the grid.
+//! Agents lie in cell order as structures of arrays, so a row of cells is one run of memory. A search visits square
+//! rings of cells from the inside out and stops when no farther ring can hold a better neighbour. The answer does not
+//! depend on the grid.
 //!
-//! The nearest ten by distance alone can drop the fast approacher (`FbCrowd` §4.4, **Open**), so the speed at which the distance closes has
-//! a say: agents are ranked by a time, distance / (closing speed + 1 m/s). The time to collision itself does not serve. It jumps to
-//! infinity as soon as an agent is avoided, who then would drop out, be met again, and so on in turns. World, metres, seconds.
+//! The nearest ten by distance alone can drop the fast approacher (`FbCrowd` §4.4, **Open**), so the speed at which the
+//! distance closes has a say: agents are ranked by a time, distance / (closing speed + 1 m/s). The time to collision
+//! itself does not serve. It jumps to infinity as soon as an agent is avoided, who then would drop out, be met again,
+//! and so on in turns. World, metres, seconds.
 
 use std::cmp::Ordering;
 
@@ -15,8 +17,8 @@ use crate::mcn::time_to_collision::disc_with_disc;
 
 /// Neighbours taken: the number of the benchmark protocol and of RVO2 (`facts/planning.md` §3).
 pub const NEIGHBOUR_COUNT: usize = 10;
-/// Speed at which those who keep their distance might come, m/s. Of two at equal distance, one who comes straight on at walking speed,
-/// 1.33 m/s against ours, ranks as if nearer by a factor of 3.7.
+/// Speed at which those who keep their distance might come, m/s. Of two at equal distance, one who comes straight on at
+/// walking speed, 1.33 m/s against ours, ranks as if nearer by a factor of 3.7.
 const APPROACH_MPS: f32 = 1.0;
 /// Agents to a cell, on average; from 1 to 3 the time of a search hardly changes.
 const AGENTS_PER_CELL: f32 = 2.0;

@@ -1,7 +1,8 @@
 //! Walls: simple polygons whose edges the planner avoids and whose insides no root enters.
 //!
-//! Each corner knows its neighbours, the unit direction of the edge that leaves it, and whether the polygon is convex there, as van den
-//! Berg et al. 2011 need. Corners run counter-clockwise, so the inside is on an edge's left. World, metres.
+//! Each corner knows its neighbours, the unit direction of the edge that leaves it, and whether the polygon is convex
+//! there, as van den Berg et al. 2011 need. Corners run counter-clockwise, so the inside is on an edge's left. World,
+//! metres.
 
 use glam::Vec2;
 
@@ -113,7 +114,8 @@ impl Obstacles {
         self.polygons.iter().any(|polygon| polygon.reaches(point_m, 0.0) && self.is_inside(polygon, point_m))
     }
 
-    /// The position nearby at which a disc touches no wall. In a gap too narrow for the disc its centre stays outside all polygons.
+    /// The position nearby at which a disc touches no wall. In a gap too narrow for the disc its centre stays outside
+    /// all polygons.
     pub fn clamp_outside(&self, position_m: Vec2, radius_m: f32) -> Vec2 {
         let mut clamped_m = position_m;
         for _ in 0..CLAMP_ROUNDS {

@@ -1,18 +1,19 @@
 //! The way to the goal: v_pref along ordered waypoints (`FbCrowd` §3, stage 2; the navigation mesh comes later).
 //!
-//! An agent heads for its next waypoint at its preferred speed, takes the one after as soon as it is near, brakes evenly before the last
-//! and then stays there. World, metres, seconds.
+//! An agent heads for its next waypoint at its preferred speed, takes the one after as soon as it is near, brakes
+//! evenly before the last and then stays there. World, metres, seconds.
 
 use glam::Vec2;
 
 use crate::scenario::AgentSpec;
 
-/// A waypoint is passed within this distance: the arrival radius of the definitions, and about the turning circle of a walk.
+/// A waypoint is passed within this distance: the arrival radius of the definitions, and about the turning circle of a
+/// walk.
 const WAYPOINT_RADIUS_M: f32 = 0.5;
 /// The last goal is reached within this distance, half a step …
 const GOAL_RADIUS_M: f32 = 0.2;
-/// … and sought again only when an agent is pushed away further than this: with 0.4 m the bodies of slow databases, whose least step is
-/// long, shuffled about their goals for ever.
+/// … and sought again only when an agent is pushed away further than this: with 0.4 m the bodies of slow databases,
+/// whose least step is long, shuffled about their goals for ever.
 const GOAL_LEFT_RADIUS_M: f32 = 0.6;
 /// Even braking before the goal, a third of what a person can do at most, m/s².
 const BRAKING_MPS2: f32 = 1.0;

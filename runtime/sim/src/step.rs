@@ -6,8 +6,9 @@
 //! 4. synthesis (HMS, §5): the body follows;
 //! 5. coupling (CNS, §3.4): the disc follows the body; the step is recorded.
 //!
-//! Every plan is made from the world as the last step left it, and each body is moved by its own plan alone, so neither the order of
-//! agents nor the number of threads changes a bit. No clock runs in here: an observer hears the end of each stage.
+//! Every plan is made from the world as the last step left it, and each body is moved by its own plan alone, so neither
+//! the order of agents nor the number of threads changes a bit. No clock runs in here: an observer hears the end of
+//! each stage.
 
 use std::sync::Arc;
 
@@ -25,7 +26,8 @@ use crate::path;
 use crate::recording_frame::{AgentFrame, Mode};
 use crate::scenario::Scenario;
 
-/// Agents that one thread takes at a time, with one scratch: enough to outweigh the hand-over, few enough to share out 100 agents.
+/// Agents that one thread takes at a time, with one scratch: enough to outweigh the hand-over, few enough to share out
+/// 100 agents.
 const CHUNK: usize = 16;
 
 /// A stage of a step, for whoever measures.

@@ -1,16 +1,19 @@
-//! From a plan to the parameters asked of the blend space: (v, o_d) → (v_f, ω_t, ω_s) → shares (`FbCrowd` §5, "query point").
+//! From a plan to the parameters asked of the blend space: (v, o_d) → (v_f, ω_t, ω_s) → shares (`FbCrowd` §5, "query
+//! point").
 //!
-//! With α the angle from the facing to the wanted one, and (a, b) the planned velocity along and left of the *wanted* facing,
+//! With α the angle from the facing to the wanted one, and (a, b) the planned velocity along and left of the *wanted*
+//! facing,
 //!
 //! ```text
 //! ω_t = α / T_turn,   (v_f, ω_s) = (a, b)·max(0, cos α)
 //! ```
 //!
-//! A plan whose facing follows its velocity has b = 0 and becomes a turning clip, at the speed that brings the body where the plan wants
-//! it (going on at full speed while it faces elsewhere leads away); one that holds the facing has α = 0 and becomes a side-step or a step
-//! back. To ask for the planned velocity exactly while turning, side-stepping a·sin α, is worse in every way: it lies so far outside
-//! the examples that the nearest point of their hull hardly turns. The root then moves from what it does towards what is asked at limited
-//! accelerations, straight through the space of parameters: the body passes the examples between.
+//! A plan whose facing follows its velocity has b = 0 and becomes a turning clip, at the speed that brings the body
+//! where the plan wants it (going on at full speed while it faces elsewhere leads away); one that holds the facing has
+//! α = 0 and becomes a side-step or a step back. To ask for the planned velocity exactly while turning, side-stepping
+//! a·sin α, is worse in every way: it lies so far outside the examples that the nearest point of their hull hardly
+//! turns. The root then moves from what it does towards what is asked at limited accelerations, straight through the
+//! space of parameters: the body passes the examples between.
 
 use glam::Vec2;
 use motiondb::blend_space::Shares;

@@ -1,7 +1,7 @@
 //! Motion blending (`FbCrowd` §5; `definitions.md`, "Blend"): shares of time, pose weights, phase, pose.
 //!
-//! The asked (v_f, ω_t, ω_s) has barycentric coordinates u among the examples, and u are shares of *time*: over a stretch of it, example
-//! i plays for u_i. So
+//! The asked (v_f, ω_t, ω_s) has barycentric coordinates u among the examples, and u are shares of *time*: over a
+//! stretch of it, example i plays for u_i. So
 //!
 //! ```text
 //! root velocity    Σ u_i·(v_f, ω_t, ω_s)_i
@@ -9,8 +9,9 @@
 //! pose weights w_i u_i·r_i(φ) / φ'
 //! ```
 //!
-//! and a planted foot, which moves back through the root frame by v_i/r_i a phase in example i, moves by Σ w_i·v_i/r_i·φ' = Σ u_i·v_i
-//! a second in the blend: with the ground. Poses are weighted sums of rows (frames: [`motiondb::pose`]), between two rows linear.
+//! and a planted foot, which moves back through the root frame by v_i/r_i a phase in example i, moves by Σ
+//! w_i·v_i/r_i·φ' = Σ u_i·v_i a second in the blend: with the ground. Poses are weighted sums of rows (frames:
+//! [`motiondb::pose`]), between two rows linear.
 
 use glam::{Quat, Vec3};
 use motiondb::blend_space::Shares;
@@ -49,7 +50,8 @@ impl Mix {
         self.entries().iter().find(|entry| entry.0 == example).map_or(0.0, |entry| entry.1)
     }
 
-    /// Moves towards the target by at most `change_max`, counted as the sum of shares that change hands; a full change is 1.
+    /// Moves towards the target by at most `change_max`, counted as the sum of shares that change hands; a full change
+    /// is 1.
     pub fn approach(&mut self, target: &Shares, change_max: f32) {
         let change = self.change_to(target);
         let fraction = if change <= change_max { 1.0 } else { change_max / change };
@@ -180,8 +182,8 @@ impl Weights {
         contacts
     }
 
-    /// Seconds until the blended contact of a foot that swings rises to `threshold`, at the present weights and phase rate; a whole
-    /// cycle where it never does.
+    /// Seconds until the blended contact of a foot that swings rises to `threshold`, at the present weights and phase
+    /// rate; a whole cycle where it never does.
     pub fn time_to_landing_s(&self, db: &MotionDb, phase: f32, side: usize, threshold: f32) -> f32 {
         let first_row = libm::ceilf(phase * PHASE_COUNT as f32) as usize;
         let contact = |row: usize| -> f32 {

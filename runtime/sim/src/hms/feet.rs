@@ -1,10 +1,11 @@
 //! Foot holding: a planted foot stays where it stands, rolls from heel over ball to toe, and is let go softly.
 //!
-//! Time-share weights hold planted feet while the shares rest; while they change, or where turning clips blend, the pose's foot drifts.
-//! A foot's *hold* is the rigid motion (horizontal shift c, twist ψ about the vertical, lift) that takes the pose's foot to the final
-//! one. While the foot is planted, c and ψ cancel the motion of the sole point that is lowest now and the turning of the foot: the
-//! contact point rests, and the foot still rolls, since its pitch is left to the pose. Off the ground c and ψ return to zero like a
-//! critically damped spring that starts at the speed they had, so the foot's velocity does not jump at toe-off.
+//! Time-share weights hold planted feet while the shares rest; while they change, or where turning clips blend, the
+//! pose's foot drifts. A foot's *hold* is the rigid motion (horizontal shift c, twist ψ about the vertical, lift) that
+//! takes the pose's foot to the final one. While the foot is planted, c and ψ cancel the motion of the sole point that
+//! is lowest now and the turning of the foot: the contact point rests, and the foot still rolls, since its pitch is
+//! left to the pose. Off the ground c and ψ return to zero like a critically damped spring that starts at the speed
+//! they had, so the foot's velocity does not jump at toe-off.
 //!
 //! World, metres and radians; z is the height over the ground, the same in world and root frame.
 
@@ -24,7 +25,8 @@ const CLEARANCE_M: f32 = 0.013;
 const CLEARANCE_SPEED_MPS: f32 = 1.0;
 /// Greatest shift: the leg of a step that is broken off half-way; beyond it the foot slides, metres.
 const SHIFT_MAX_M: f32 = 0.35;
-/// Greatest twist of a foot against the pose's: people twist the stance foot, and pivot on it beyond about 45° (`motion.md` §2).
+/// Greatest twist of a foot against the pose's: people twist the stance foot, and pivot on it beyond about 45°
+/// (`motion.md` §2).
 const TWIST_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
 
 /// A foot in the world.
@@ -142,7 +144,8 @@ impl FootHold {
         self.twist_rad_s = decay * (self.twist_rad_s - RELEASE_RATE_HZ * dt_s * pull_rad_s);
     }
 
-    /// A planted sole settles on the ground, a swinging one on the pose's height; none goes below the ground or drags along it.
+    /// A planted sole settles on the ground, a swinging one on the pose's height; none goes below the ground or drags
+    /// along it.
     fn lift(&mut self, height_m: f32, planted: bool, dt_s: f32) {
         let decay = libm::expf(-LIFT_RATE_HZ * dt_s);
         let gap_m = self.sole_m.iter().fold(f32::INFINITY, |low, point| low.min(point.z));

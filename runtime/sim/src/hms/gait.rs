@@ -1,19 +1,22 @@
 //! Standing or stepping: a body does not creep.
 //!
-//! Mixing a little step into idle lifts no foot: by the blended contact (`definitions.md`, "Planted-foot slide") both feet stay planted as
-//! long as standing has the greater share. So a body stands, or it takes at least the steps of a mix with [`IDLE_SHARE_MAX`] of standing;
-//! and it does not freeze in mid-stride, but takes such small steps until its feet are under it.
+//! Mixing a little step into idle lifts no foot: by the blended contact (`definitions.md`, "Planted-foot slide") both
+//! feet stay planted as long as standing has the greater share. So a body stands, or it takes at least the steps of a
+//! mix with [`IDLE_SHARE_MAX`] of standing; and it does not freeze in mid-stride, but takes such small steps until its
+//! feet are under it.
 
 use motiondb::parameters::Parameters;
 
 use super::space::{Nearest, Space};
 
-/// Greatest share of standing examples in a body that steps: with more, the blended contact of a swinging foot would not fall below ½.
+/// Greatest share of standing examples in a body that steps: with more, the blended contact of a swinging foot would
+/// not fall below ½.
 pub const IDLE_SHARE_MAX: f32 = 0.35;
 /// A standing body starts where the asked parameters hold less standing than this …
 const START_IDLE_SHARE: f32 = 0.8;
-/// … and a stepping one stops where they hold more than this. A planner that approaches its preferred velocity from the present one keeps
-/// asking for some 0.45 of the least steps' 0.65: a body that is to stop must take that, an idle share of 0.71, for standing …
+/// … and a stepping one stops where they hold more than this. A planner that approaches its preferred velocity from the
+/// present one keeps asking for some 0.45 of the least steps' 0.65: a body that is to stop must take that, an idle
+/// share of 0.71, for standing …
 const STOP_IDLE_SHARE: f32 = 0.65;
 /// … but either lasts for this long, about a step, s, for the planner goes on to speak of the velocity before …
 const GAIT_TIME_S: f32 = 0.4;
@@ -39,7 +42,8 @@ impl Gait {
     /// At the start: standing, ready to go.
     pub const STANDING: Self = Self { stands: true, since_s: GAIT_TIME_S, gathering_s: 0.0 };
 
-    /// Follows what is asked, with hysteresis; `feet_gathered` tells whether the body could stand as its feet are. Whether it starts to step.
+    /// Follows what is asked, with hysteresis; `feet_gathered` tells whether the body could stand as its feet are.
+    /// Returns whether it now starts to step.
     pub fn follow(&mut self, idle_share: f32, feet_gathered: bool, dt_s: f32) -> bool {
         let lasted = self.since_s >= GAIT_TIME_S;
         let stop = !self.stands && (lasted && idle_share > STOP_IDLE_SHARE || idle_share > HALT_IDLE_SHARE);
@@ -53,8 +57,8 @@ impl Gait {
     }
 }
 
-/// The parameters to make for: `nearest`, what the database has of what is asked, at steps no smaller than the least; none where the body
-/// stands. `now`, what it does, gives the direction where it gathers its feet.
+/// The parameters to make for: `nearest`, what the database has of what is asked, at steps no smaller than the least;
+/// none where the body stands. `now`, what it does, gives the direction where it gathers its feet.
 pub fn goal(nearest: Nearest, now: Parameters, gait: Gait, space: &Space) -> Parameters {
     if gait.stands {
         return space.nearest(Parameters::default()).parameters;

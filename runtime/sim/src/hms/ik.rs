@@ -1,17 +1,21 @@
-//! Two-bone leg IK: bends hip and knee so that the ankle meets a point, and turns the ankle so that the foot keeps its orientation.
+//! Two-bone leg IK: bends hip and knee so that the ankle meets a point, and turns the ankle so that the foot keeps its
+//! orientation.
 //!
-//! All vectors are in the root frame (x forward, y left, z up), metres; orientations are against the rest pose. Analytic, by the law of
-//! cosines; the leg stays in its plane, which turns with the line from hip to ankle, so the knee remains the hinge that the pose had.
+//! All vectors are in the root frame (x forward, y left, z up), metres; orientations are against the rest pose.
+//! Analytic, by the law of cosines; the leg stays in its plane, which turns with the line from hip to ankle, so the
+//! knee remains the hinge that the pose had.
 
 use glam::{Mat3, Quat, Vec3};
 use motiondb::pose::{Joints, Pose};
 use motiondb::skeleton::{Joint, Skeleton};
 
-/// Greatest share of the leg's length from hip to ankle: beyond it the knee angle changes infinitely fast (`motion.md` §2).
+/// Greatest share of the leg's length from hip to ankle: beyond it the knee angle changes infinitely fast (`motion.md`
+/// §2).
 const EXTENSION_MAX: f32 = 0.999;
 /// Least distance from hip to ankle, as a multiple of the bones' difference in length (`motion.md` §2).
 const FLEXION_MARGIN: f32 = 1.001;
-/// A straight leg has no plane; this much of the thigh's forward axis is added to the knee's offset, so that it bends forward, metres.
+/// A straight leg has no plane; this much of the thigh's forward axis is added to the knee's offset, so that it bends
+/// forward, metres.
 const KNEE_BIAS_M: f32 = 1e-3;
 
 /// Where one foot shall be.

@@ -2,14 +2,16 @@
 //!
 //! One step of a body, in this order:
 //!
-//! 1. [`owed`], [`asked`], [`gait`]: the plan as (v_f, ω_t, ω_s), what of it the body can do, standing or stepping, and how far it gets in one step;
+//! 1. [`owed`], [`asked`], [`gait`]: the plan as (v_f, ω_t, ω_s), smoothed; what of it the body can do, standing or
+//!    stepping; and how far it gets in one step;
 //! 2. [`blending`]: the shares of the examples follow; phase and root move, the root exactly along its arc;
 //! 3. the pose is sampled at the new phase;
 //! 4. [`feet`]: planted feet are held;
 //! 5. [`pelvis`], [`ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach them.
 //!
-//! There is one mode, motion blending; the hybrid switch (§3.4.1) will choose between it and semi-procedural locomotion.
-//! The root frame has x forward, y left, z up, its origin on the ground under the ripple-free root; metres, seconds, radians.
+//! There is one mode, motion blending; the hybrid switch (§3.4.1) will choose between it and semi-procedural
+//! locomotion. The root frame has x forward, y left, z up, its origin on the ground under the ripple-free root; metres,
+//! seconds, radians.
 
 pub mod asked;
 pub mod blending;
@@ -45,12 +47,14 @@ const CATCH_UP_TIME_S: f32 = 0.2;
 const HURRY_MAX: f32 = 0.4;
 /// A body slower than this hardly moves its feet by its phase, m/s.
 const HURRY_SPEED_MIN_MPS: f32 = 0.4;
-/// A plan reaches the body with this lag, s. Two who give way to each other change their plans at every step, and a body that followed at
-/// once would tremble.
+/// A plan reaches the body with this lag, s. Two who give way to each other change their plans at every step, and a
+/// body that followed at once would tremble.
 const INTENTION_TIME_S: f32 = 0.05;
-/// Phase of the first step before the swinging foot's passing of the other: it is lifted there, and passes when stepping has faded in.
+/// Phase of the first step before the swinging foot's passing of the other: it is lifted there, and passes when
+/// stepping has faded in.
 const LIFT_OFF_PHASE: f32 = 0.15;
-/// A first step aside, or into a turn, is made by the foot on that side, unless that foot is ahead of the other by this, m.
+/// A first step aside, or into a turn, is made by the foot on that side, unless that foot is ahead of the other by
+/// this, m.
 const OPEN_SIDE_M: f32 = 0.1;
 /// A first pose is given this long to settle on its feet, s.
 const SETTLING_S: f32 = 1.0;
@@ -118,7 +122,8 @@ impl Body {
         (body, synthesis)
     }
 
-    /// Steps 1 and 2: shares, phase and root follow the plan. The root may then be kept out of walls, before [`Self::synthesize`].
+    /// Steps 1 and 2: shares, phase and root follow the plan. The root may then be kept out of walls, before
+    /// [`Self::synthesize`].
     pub fn advance(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
         let plan = self.owed.settle(plan, self.walked_mps, dt_s);
         self.intend(asked::asked(&plan, self.root.facing_rad, motion.space, motion.params), dt_s);
@@ -143,8 +148,8 @@ impl Body {
         self.intended = Parameters::from_vec3(intended + follow * (asked - intended));
     }
 
-    /// A standing body is free in its phase (standing hardly moves): its first step begins with the lift of the foot that is further
-    /// behind, or on the side to which it goes, so that the other foot is under it and not a step away.
+    /// A standing body is free in its phase (standing hardly moves): its first step begins with the lift of the foot
+    /// that is further behind, or on the side to which it goes, so that the other foot is under it and not a step away.
     fn first_step_phase(&self, motion: &Motion) -> f32 {
         let velocity_mps = Vec2::new(self.intended.speed_mps, self.intended.strafe_mps);
         let way = velocity_mps.normalize_or_zero();
@@ -167,8 +172,9 @@ impl Body {
         gathered(0) && gathered(1)
     }
 
-    /// Factor on the phase rate. A body that speeds up within a step has its foot further back than the faster examples have it at this
-    /// phase: the phase catches up, and the foot meets the pose again before the leg must stretch; likewise when it slows down.
+    /// Factor on the phase rate. A body that speeds up within a step has its foot further back than the faster examples
+    /// have it at this phase: the phase catches up, and the foot meets the pose again before the leg must stretch;
+    /// likewise when it slows down.
     fn hurry(&self) -> f32 {
         let speed_squared = self.walked_mps.length_squared().max(HURRY_SPEED_MIN_MPS * HURRY_SPEED_MIN_MPS);
         let planted = self.feet.iter().filter_map(FootHold::planted_shift_m);

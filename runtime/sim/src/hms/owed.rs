@@ -1,8 +1,8 @@
 //! What a standing body owes the planner: a plan too slow for the least step is saved up, and paid with a step.
 //!
-//! In a jam the planner creeps past its neighbours at a few cm/s. A body that stands (see [`super::gait`]) would never follow, and two who
-//! wait for each other's creeping would stand for ever. So the distance planned and not walked is added up; once it makes a small step,
-//! the body takes that step where the planner wanted it. World, metres, seconds.
+//! In a jam the planner creeps past its neighbours at a few cm/s. A body that stands (see [`super::gait`]) would never
+//! follow, and two who wait for each other's creeping would stand for ever. So the distance planned and not walked is
+//! added up; once it makes a small step, the body takes that step where the planner wanted it. World, metres, seconds.
 
 use glam::Vec2;
 

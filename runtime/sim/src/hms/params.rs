@@ -12,8 +12,9 @@ pub struct HmsParams {
     pub turn_acceleration_max_rad_s2: f32,
     /// Least time for the shares of the examples to change hands completely, s: slim simplices would else flip poses.
     pub share_change_s: f32,
-    /// T_turn: the turn rate is the angle to the wanted facing divided by this time, s. Shorter overshoots at the turn acceleration
-    /// above; longer tracks worse (a turn of 90° at 1.3 m/s: 1.4 s and 1.2 m off the planned velocity at 0.3, 2.9 s and 2.1 m at 1).
+    /// T_turn: the turn rate is the angle to the wanted facing divided by this time, s. Shorter overshoots at the turn
+    /// acceleration above; longer tracks worse (a turn of 90° at 1.3 m/s: 1.4 s and 1.2 m off the planned velocity at
+    /// 0.3, 2.9 s and 2.1 m at 1).
     pub turn_time_s: f32,
 }
 

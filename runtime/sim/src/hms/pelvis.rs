@@ -1,25 +1,27 @@
 //! The pelvis comes down where a leg would have to stretch to reach its foot (`motion.md` §2: "lower the pelvis").
 //!
-//! With d_left and d_right the descents that the legs need, negative where they reach, the pelvis comes down by the soft maximum of
-//! both and of none,
+//! With d_left and d_right the descents that the legs need, negative where they reach, the pelvis comes down by the
+//! soft maximum of both and of none,
 //!
 //! ```text
 //! d = s·ln(1 + e^(d_left/s) + e^(d_right/s))
 //! ```
 //!
-//! which is never less than what is needed, and begins a little before: neither hips nor knee jerk as the leg comes to its end. It depends
-//! on this step's pose alone. All vectors are in the root frame (x forward, y left, z up), metres.
+//! which is never less than what is needed, and begins a little before: neither hips nor knee jerk as the leg comes to
+//! its end. It depends on this step's pose alone. All vectors are in the root frame (x forward, y left, z up), metres.
 
 use motiondb::pose::{Joints, Pose};
 use motiondb::skeleton::{Joint, Skeleton};
 
 use super::ik::FootTarget;
 
-/// Straightest a leg may be before the pelvis comes down for it, as a share of its length; straighter only where the pose is.
+/// Straightest a leg may be before the pelvis comes down for it, as a share of its length; straighter only where the
+/// pose is.
 const EXTENSION: f32 = 0.99;
 /// Furthest that the pelvis comes down, m.
 const DROP_MAX_M: f32 = 0.12;
-/// s, m: half of what the hips bob in walking. With 0.01 knees still snap at stops, with 0.02 they stay bent where they need not.
+/// s, m: half of what the hips bob in walking. With 0.01 knees still snap at stops, with 0.02 they stay bent where they
+/// need not.
 const SOFTNESS_M: f32 = 0.015;
 
 /// Lowers the pelvis of `pose`, and with it all of `joints`, its forward kinematics.
@@ -36,7 +38,8 @@ fn soft_maximum_m(needed_m: [f32; 2]) -> f32 {
     SOFTNESS_M * libm::logf(1.0 + left + right)
 }
 
-/// How far the hip must come down for its leg to reach the target without stretching more than the pose does; negative if it reaches.
+/// How far the hip must come down for its leg to reach the target without stretching more than the pose does; negative
+/// if it reaches.
 fn needed_m(joints: &Joints, skeleton: &Skeleton, side: usize, target: &FootTarget) -> f32 {
     let [thigh, shank, foot] = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]].map(Joint::index);
     let hip_m = joints.positions_m[thigh];

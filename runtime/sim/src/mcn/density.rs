@@ -1,9 +1,10 @@
-//! The density filter: no faster than the crowd ahead allows (`FbCrowd` §4.3; Narang et al. 2015; constants of Menge's PedVO).
+//! The density filter: no faster than the crowd ahead allows (`FbCrowd` §4.3; Narang et al. 2015; constants of Menge's
+//! PedVO).
 //!
-//! Density is felt at a critical point 1 m ahead, from a few neighbours, each a Gaussian in one dimension (so ρ is in 1/m), in which
-//! sideways distance counts more. The fundamental diagram turns density into speed: a stride needs the space S = 0.48/ρ.
-//! Directions on an arc around the preference are tried, and averaged by the progress that they allow: an average instead of the best,
-//! so that the velocity does not jump from one direction to another.
+//! Density is felt at a critical point 1 m ahead, from a few neighbours, each a Gaussian in one dimension (so ρ is in
+//! 1/m), in which sideways distance counts more. The fundamental diagram turns density into speed: a stride needs the
+//! space S = 0.48/ρ. Directions on an arc around the preference are tried, and averaged by the progress that they
+//! allow: an average instead of the best, so that the velocity does not jump from one direction to another.
 
 use glam::Vec2;
 
@@ -19,7 +20,8 @@ const AGENT_SIGMA_M: f32 = 1.5;
 const WALL_SIGMA_M: f32 = 0.75;
 /// Menge: free space of a stride, S = SPACE/ρ.
 const SPACE: f32 = 0.48;
-/// Neighbours farther than this are not felt, m; with all of them the diagram would stall the crowd (`facts/planning.md` §2).
+/// Neighbours farther than this are not felt, m; with all of them the diagram would stall the crowd
+/// (`facts/planning.md` §2).
 pub(crate) const RANGE_M: f32 = 5.0;
 /// 1/√2π.
 const GAUSS: f32 = 0.398_942_3;
@@ -41,7 +43,8 @@ pub struct Filtered {
     pub density: f32,
 }
 
-/// Scales v_op down to what the density ahead allows, on the arc around it. `agents` and `walls` are offsets from the agent's centre.
+/// Scales v_op down to what the density ahead allows, on the arc around it. `agents` and `walls` are offsets from the
+/// agent's centre.
 pub fn filter(velocity_mps: Vec2, agents_m: &[Vec2], walls_m: &[Vec2], params: &McnParams) -> Filtered {
     let speed_mps = velocity_mps.length();
     let ahead = velocity_mps.normalize_or_zero();
@@ -99,7 +102,8 @@ mod tests {
         places
     }
 
-    /// ρ ahead of an agent whose ten nearest neighbours are spread evenly over the disc that they fill at a density, 1/m².
+    /// ρ ahead of an agent whose ten nearest neighbours are spread evenly over the disc that they fill at a density,
+    /// 1/m².
     fn density_amid_ten(per_m2: f32) -> f32 {
         let radius_m = (10.0 / (std::f32::consts::PI * per_m2)).sqrt();
         let places: Vec<Vec2> = (-50..=50)

@@ -1,7 +1,7 @@
 //! A half-plane of permitted velocities that remembers where it comes from.
 //!
-//! The convention of van den Berg et al. 2011, which `FbCrowd` §4.1 shares: a point and a unit direction, permitted is the **left** side.
-//! World axes, m/s. The source lets a picture or a test say why a velocity was chosen.
+//! The convention of van den Berg et al. 2011, which `FbCrowd` §4.1 shares: a point and a unit direction, permitted is
+//! the **left** side. World axes, m/s. The source lets a picture or a test say why a velocity was chosen.
 
 use glam::Vec2;
 

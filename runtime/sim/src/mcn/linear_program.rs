@@ -1,9 +1,11 @@
-//! The velocity nearest to the adapted preference inside all half-planes, or the one that fails them least (`FbCrowd` App. 9.3, 9.4).
+//! The velocity nearest to the adapted preference inside all half-planes, or the one that fails them least (`FbCrowd`
+//! App. 9.3, 9.4).
 //!
-//! The half-planes come in order of rank, what must not yield first. The **2D program** (van den Berg et al. 2011) is incremental: it
-//! adds one half-plane after the other and, where the optimum so far is cut off, moves it to the new line. So the line at which it
-//! fails ends the longest feasible prefix. That prefix stays hard, and the **3D program** minimises the greatest violation of the rest:
-//! a lexicographic relaxation, in which the order acts (in a plain minimax it does not).
+//! The half-planes come in order of rank, what must not yield first. The **2D program** (van den Berg et al. 2011) is
+//! incremental: it adds one half-plane after the other and, where the optimum so far is cut off, moves it to the new
+//! line. So the line at which it fails ends the longest feasible prefix. That prefix stays hard, and the **3D program**
+//! minimises the greatest violation of the rest: a lexicographic relaxation, in which the order acts (in a plain
+//! minimax it does not).
 //!
 //! World axes, m/s. Within a disc of `speed_max`, which bounds the programs and nothing else.
 
@@ -102,7 +104,8 @@ fn chord(line: &HalfPlane, speed_max_mps: f32) -> Option<(f32, f32)> {
     (discriminant >= 0.0).then(|| (middle - discriminant.sqrt(), middle + discriminant.sqrt()))
 }
 
-/// The 3D program: with the first `hard` half-planes kept, the velocity whose greatest violation of the others is least.
+/// The 3D program: with the first `hard` half-planes kept, the velocity whose greatest violation of the others is
+/// least.
 fn least_violation(
     half_planes: &[HalfPlane],
     hard: usize,
@@ -130,8 +133,8 @@ fn least_violation(
     best_mps
 }
 
-/// Where `other` is violated no more than `worst`: det(d_o − d_w, v) >= det(d_o, p_o) − det(d_w, p_w). None where the lines run alike and
-/// one is violated more everywhere.
+/// Where `other` is violated no more than `worst`: det(d_o − d_w, v) >= det(d_o, p_o) − det(d_w, p_w). None where the
+/// lines run alike and one is violated more everywhere.
 fn bisector(worst: &HalfPlane, other: &HalfPlane) -> Option<HalfPlane> {
     let across = other.direction - worst.direction;
     let length = across.length();
@@ -173,8 +176,8 @@ mod tests {
             .filter(|velocity_mps| velocity_mps.length() <= SPEED_MAX_MPS)
     }
 
-    /// The 2D optimum is no worse than any velocity tried; a failed prefix has no room for its next half-plane; the 3D optimum keeps the
-    /// prefix and its greatest violation is no worse than any velocity's that keeps it.
+    /// The 2D optimum is no worse than any velocity tried; a failed prefix has no room for its next half-plane; the 3D
+    /// optimum keeps the prefix and its greatest violation is no worse than any velocity's that keeps it.
     fn check(half_planes: &[HalfPlane], optimal_mps: Vec2) {
         let solution = solve(half_planes, optimal_mps, SPEED_MAX_MPS, &mut Vec::new());
         let Solution { velocity_mps, feasible_prefix } = solution;

@@ -1,10 +1,12 @@
-//! MCN, motion-constrained navigation (`FbCrowd` §4): from the preferred velocity to one that body, stance and crowd allow.
+//! MCN, motion-constrained navigation (`FbCrowd` §4): from the preferred velocity to one that body, stance and crowd
+//! allow.
 //!
-//! One function, [`plan`], in the order of the paper: who and what is near; v_pref → v_op by social forces and density filter (§4.3);
-//! the half-planes of walls, stance, database and other agents (§4.1, 4.2, 4.4); the linear programs (App. 9.3, 9.4); the facing (§4.5).
+//! One function, [`plan`], in the order of the paper: who and what is near; v_pref → v_op by social forces and density
+//! filter (§4.3); the half-planes of walls, stance, database and other agents (§4.1, 4.2, 4.4); the linear programs
+//! (App. 9.3, 9.4); the facing (§4.5).
 //!
-//! It reads a frozen [`World`] and writes nothing but its [`Scratch`], so agents may be planned in any order and on any thread.
-//! World axes, metres, seconds, radians.
+//! It reads a frozen [`World`] and writes nothing but its [`Scratch`], so agents may be planned in any order and on any
+//! thread. World axes, metres, seconds, radians.
 
 pub mod density;
 pub mod half_plane;
@@ -160,8 +162,8 @@ fn adapt(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch)
     filtered.density
 }
 
-/// v_pref, turned to the right the more, the sooner it would meet an obstruction. All give way to the same side, so two who meet head-on
-/// pass.
+/// v_pref, turned to the right the more, the sooner it would meet an obstruction. All give way to the same side, so two
+/// who meet head-on pass.
 fn kept_right(world: &World, agent: usize, params: &McnParams, scratch: &Scratch) -> Vec2 {
     let preferred_mps = world.preferred_mps[agent];
     let met_s = time_to_collision_with_agents_s(world, agent, preferred_mps, scratch);

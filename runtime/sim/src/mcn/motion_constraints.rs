@@ -1,8 +1,9 @@
 //! Half-planes of the velocities that the motion database can realise (`FbCrowd` §4.1, Eqs. 2–5; `definitions.md`).
 //!
-//! The turning set limits a body whose facing follows its velocity, the holding set one that holds its facing. Both are convex, clockwise,
-//! and count the origin; each edge gives one half-plane, rotated by the agent's facing. While v_pref lies more than 90° off the facing, the
-//! wrapping polygon's sharp-turn edges on the side of the turn join the turning set.
+//! The turning set limits a body whose facing follows its velocity, the holding set one that holds its facing. Both are
+//! convex, clockwise, and count the origin; each edge gives one half-plane, rotated by the agent's facing. While v_pref
+//! lies more than 90° off the facing, the wrapping polygon's sharp-turn edges on the side of the turn join the turning
+//! set.
 
 use glam::Vec2;
 use motiondb::velocity_hull::VelocityHull;

@@ -1,8 +1,9 @@
-//! Half-planes that keep two moving discs from meeting within the horizon (`FbCrowd` §4.4, Eq. 12; van den Berg et al. 2011).
+//! Half-planes that keep two moving discs from meeting within the horizon (`FbCrowd` §4.4, Eq. 12; van den Berg et al.
+//! 2011).
 //!
-//! The velocity obstacle of j for i, within τ, is a cone of relative velocities truncated by a *cut-off* disc of radius r/τ about
-//! p/τ (p = p_j − p_i, r = r_i + r_j). u is the least change of the relative velocity that leaves it; each agent takes half of u.
-//! Three cases, told apart by where the relative velocity projects:
+//! The velocity obstacle of j for i, within τ, is a cone of relative velocities truncated by a *cut-off* disc of radius
+//! r/τ about p/τ (p = p_j − p_i, r = r_i + r_j). u is the least change of the relative velocity that leaves it; each
+//! agent takes half of u. Three cases, told apart by where the relative velocity projects:
 //!
 //! 1. overlap: the cut-off disc of one time step, so that they part as fast as a step allows;
 //! 2. the cut-off disc, where the relative velocity lies before the disc's tangent points;
@@ -28,10 +29,12 @@ const YIELD_TO_LEFT: f32 = 0.2;
 /// Speeds in sum below which nobody comes from a side, m/s.
 const STANDING_MPS: f32 = 0.1;
 
-/// The share of u that `own` takes, ½ on average: more where `other` comes from its left, as in a roundabout of those who keep right.
+/// The share of u that `own` takes, ½ on average: more where `other` comes from its left, as in a roundabout of those
+/// who keep right.
 ///
-/// The shares of both add up to 1, so together they still avoid each other. With ½ each, those who meet at a centre from all around
-/// brake alike until they stand. The sine of the angle between p and v_i + v_j changes its sign when i and j are exchanged.
+/// The shares of both add up to 1, so together they still avoid each other. With ½ each, those who meet at a centre
+/// from all around brake alike until they stand. The sine of the angle between p and v_i + v_j changes its sign when i
+/// and j are exchanged.
 pub fn share(own: &Disc, other: &Disc) -> f32 {
     let offset_m = other.position_m - own.position_m;
     let speeds_mps = own.velocity_mps.length() + other.velocity_mps.length();

@@ -1,7 +1,8 @@
-//! Half-planes that keep a disc off the walls within the horizon (`FbCrowd` §4.4, C_iW; van den Berg et al. 2011, §5.4).
+//! Half-planes that keep a disc off the walls within the horizon (`FbCrowd` §4.4, C_iW; van den Berg et al. 2011,
+//! §5.4).
 //!
-//! A wall does not yield, so the whole change is the agent's. Seen from the disc, an edge has a *left* corner (where it begins, the
-//! polygon being counter-clockwise) and a *right* one. In order:
+//! A wall does not yield, so the whole change is the agent's. Seen from the disc, an edge has a *left* corner (where it
+//! begins, the polygon being counter-clockwise) and a *right* one. In order:
 //!
 //! 1. covered: the half-planes of nearer edges forbid the whole edge already; nothing to add;
 //! 2. contact: the disc overlaps the edge or one of its corners; it may only not go deeper;

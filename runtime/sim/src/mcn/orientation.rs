@@ -5,10 +5,11 @@
 //!       v_i/‖v_i‖         otherwise
 //! ```
 //!
-//! To face v_pref while walking elsewhere is to side-step, so the first line also asks that the holding set, at that facing, holds v_i: a
-//! body that the database cannot move that way turns. `definitions.md` adds its mirror image, stepping back: v_pref·v_i < 0, a shorter
-//! while. Both whiles are contiguous, and start anew only after a rest at aligned facing: without it the facing would flicker.
-//! Where v_pref or v_i is 0, the facing is kept; but who stands and would walk elsewhere than ahead turns there.
+//! To face v_pref while walking elsewhere is to side-step, so the first line also asks that the holding set, at that
+//! facing, holds v_i: a body that the database cannot move that way turns. `definitions.md` adds its mirror image,
+//! stepping back: v_pref·v_i < 0, a shorter while. Both whiles are contiguous, and start anew only after a rest at
+//! aligned facing: without it the facing would flicker. Where v_pref or v_i is 0, the facing is kept; but who stands
+//! and would walk elsewhere than ahead turns there.
 
 use glam::Vec2;
 
@@ -17,11 +18,13 @@ use crate::plan::VelocitySet;
 
 /// Slower than this, a velocity has no direction to face, m/s.
 const STANDING_MPS: f32 = 0.1;
-/// A velocity within this angle of the facing is no side-step: 10°, as small as gait noise in the turn rate makes it look.
+/// A velocity within this angle of the facing is no side-step: 10°, as small as gait noise in the turn rate makes it
+/// look.
 const ALIGNED_COS: f32 = 0.984_807_8;
 /// A facing within this angle of the wanted one is held, beyond it the body still turns: 30°.
 const HELD_COS: f32 = 0.866_025_4;
-/// How far outside the holding set a velocity may lie to be walked at held facing, m/s; the set's half-planes then bring it in.
+/// How far outside the holding set a velocity may lie to be walked at held facing, m/s; the set's half-planes then
+/// bring it in.
 pub(crate) const HOLDING_SLACK_MPS: f32 = 0.1;
 /// Rest at aligned facing after which a spent while starts anew, s: a stride.
 const REST_S: f32 = 1.0;
@@ -58,13 +61,15 @@ pub struct Orientation {
 pub fn decide(walk: &Walk, holds: impl FnOnce(Vec2) -> bool, dt_s: f32, params: &McnParams) -> Orientation {
     let Some(wanted) = direction(walk.preferred_mps) else { return rest(walk, walk.forward, dt_s, params) };
     let Some(walked) = direction(walk.velocity_mps) else {
-        // With v_pref aside or behind, a body would stand so for ever where the database has no tight turn: it turns on the spot.
+        // With v_pref aside or behind, a body would stand so for ever where the database has no tight turn: it turns on
+        // the spot.
         let turned_away = wanted.dot(walk.forward) < HELD_COS;
         return rest(walk, if turned_away { wanted } else { walk.forward }, dt_s, params);
     };
     let aligned = wanted.dot(walked) >= ALIGNED_COS;
     if aligned {
-        // Who has turned away goes on facing v_i until rested; else the facing would flicker where v_i wavers about aligned.
+        // Who has turned away goes on facing v_i until rested; else the facing would flicker where v_i wavers about
+        // aligned.
         let turned_away = walk.strafing_s >= params.strafing_limit_s;
         return rest(walk, if turned_away { walked } else { wanted }, dt_s, params);
     }
@@ -110,7 +115,8 @@ fn turn(walk: &Walk, walked: Vec2, params: &McnParams) -> Orientation {
     }
 }
 
-/// A spent while after a step of rest: beyond the limit it shrinks to the limit, and is then forgotten; below, it runs back as it came.
+/// A spent while after a step of rest: beyond the limit it shrinks to the limit, and is then forgotten; below, it runs
+/// back as it came.
 fn rested_s(spent_s: f32, limit_s: f32, dt_s: f32) -> f32 {
     let left_s = (spent_s - dt_s).max(0.0);
     let rest_is_over = spent_s >= limit_s && left_s < limit_s;

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct McnParams {
     /// τ: how far ahead agents avoid each other, s.
     pub time_horizon_s: f32,
-    /// How far ahead walls are avoided, s. Short, because a wall does not move and a longer one keeps agents out of narrow passages.
+    /// How far ahead walls are avoided, s. Short, because a wall does not move and a longer one keeps agents out of
+    /// narrow passages.
     pub obstacle_time_horizon_s: f32,
     /// Farthest neighbour, m.
     pub neighbour_range_m: f32,
@@ -18,8 +19,8 @@ pub struct McnParams {
     pub interaction_horizon_s: f32,
     /// τ_0 of Eq. 9, s: time in which the preferred velocity is taken up.
     pub relaxation_s: f32,
-    /// Time for which the acceleration of Eq. 9 is applied to the present velocity, s; never less than a step. It is what a body needs to
-    /// follow: with less, a body that lags would be slowed by Eq. 9's relaxation and by its own.
+    /// Time for which the acceleration of Eq. 9 is applied to the present velocity, s; never less than a step. It is
+    /// what a body needs to follow: with less, a body that lags would be slowed by Eq. 9's relaxation and by its own.
     pub response_s: f32,
     /// Greatest acceleration of Eq. 9, m/s².
     pub acceleration_max_mps2: f32,
@@ -42,8 +43,8 @@ pub struct McnParams {
 impl Default for McnParams {
     fn default() -> Self {
         Self {
-            // Beyond the longest transition between syntheses. Measured on circles of 17 to 100 and crossing streams: overlap and
-            // acceleration grow below 3 and gain nothing above 4.
+            // Beyond the longest transition between syntheses. Measured on circles of 17 to 100 and crossing streams:
+            // overlap and acceleration grow below 3 and gain nothing above 4.
             time_horizon_s: 4.0,
             obstacle_time_horizon_s: 1.0,
             // `facts/planning.md` §3.
@@ -55,11 +56,13 @@ impl Default for McnParams {
             response_s: 0.3,
             // `facts/planning.md` §1: 2 to 5 are smooth, the authors' 20 is not at steps of 0.1 s.
             acceleration_max_mps2: 4.0,
-            // Menge's PedVO (`facts/planning.md` §2); of its two buffers, 0.5 and 0.9, the one that keeps within 10 % of Weidmann's diagram.
+            // Menge's PedVO (`facts/planning.md` §2); of its two buffers, 0.5 and 0.9, the one that keeps within 10 %
+            // of Weidmann's diagram.
             density_factor: 1.57,
             density_buffer: 0.5,
             density_speed_min_mps: 0.3,
-            // 17°. Measured on circles of 17 to 100: 0.2 leaves 5 times the overlap, 0.4 makes late comers stray about their goals.
+            // 17°. Measured on circles of 17 to 100: 0.2 leaves 5 times the overlap, 0.4 makes late comers stray about
+            // their goals.
             keep_right_rad: 0.3,
             stance_twist_rad: 0.35,
             strafing_limit_s: 1.0,

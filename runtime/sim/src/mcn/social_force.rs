@@ -1,11 +1,11 @@
 //! The preferred velocity, adapted to who comes (`FbCrowd` §4.3, App. 9.1, Eqs. 9 and 11).
 //!
 //! The force between two agents is the universal power law of Karamouzas, Skinner, Guy 2014: the gradient of the energy
-//! E(τ) = k τ⁻² e^(−τ/τ_0) of their time to collision τ, in closed form. Walls act alike, on the capsule that a segment grown by the
-//! agent's radius makes. Masses are 1, so forces are accelerations, m/s².
+//! E(τ) = k τ⁻² e^(−τ/τ_0) of their time to collision τ, in closed form. Walls act alike, on the capsule that a segment
+//! grown by the agent's radius makes. Masses are 1, so forces are accelerations, m/s².
 //!
-//! Integrated over many steps Eq. 9 is stiff and stalls crowds (`facts/planning.md` §1): it is evaluated afresh each step and only
-//! modulates v_pref.
+//! Integrated over many steps Eq. 9 is stiff and stalls crowds (`facts/planning.md` §1): it is evaluated afresh each
+//! step and only modulates v_pref.
 
 use glam::Vec2;
 

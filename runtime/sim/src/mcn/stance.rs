@@ -1,9 +1,10 @@
-//! The stance foot's half-plane: the swing foot must not land beyond the foot that carries the body (`FbCrowd` §4.2, Eq. 6).
+//! The stance foot's half-plane: the swing foot must not land beyond the foot that carries the body (`FbCrowd` §4.2,
+//! Eq. 6).
 //!
-//! The printed construction cannot hold (`paper/fbcrowd.md`, §4.2, **Erratum** and **Open**). What is limited here is where the swing
-//! foot *lands*: until then it moves with the root, so v·n_b ≤ clearance / time to landing, where n_b points outward, away from the swing
-//! side, and the clearance is the swing foot's distance from the stance foot's line. n_b is first turned by the twist that the stance
-//! foot allows in place. World axes, metres, seconds.
+//! The printed construction cannot hold (`paper/fbcrowd.md`, §4.2, **Erratum** and **Open**). What is limited here is
+//! where the swing foot *lands*: until then it moves with the root, so v·n_b ≤ clearance / time to landing, where n_b
+//! points outward, away from the swing side, and the clearance is the swing foot's distance from the stance foot's
+//! line. n_b is first turned by the twist that the stance foot allows in place. World axes, metres, seconds.
 
 use glam::Vec2;
 
