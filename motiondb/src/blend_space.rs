@@ -241,7 +241,8 @@ mod tests {
             let shares = Locator::new(&space, &parameters).locate(Parameters::from_vec3(Vec3::new(x, y, z)));
             let nearest = Vec3::new(x.clamp(0.0, 2.0), y.clamp(0.0, 1.0), z.clamp(0.0, 0.5));
             prop_assert!((shares.shares.iter().sum::<f32>() - 1.0).abs() < 1e-5);
-            prop_assert!(reached(&shares, &parameters).distance(nearest) < 1e-4, "{shares:?}");
+            // Squared distances that differ by less than their rounding are one: up to √(3·2⁻²³) of a range.
+            prop_assert!(reached(&shares, &parameters).distance(nearest) < 2e-3, "{shares:?}");
         }
     }
 

@@ -1,7 +1,7 @@
 //! Every invariant of a database, by name. The runtime relies on all of them, so [`crate::file::load`] refuses what
 //! breaks one.
 //!
-//! Structure comes first: a later check may index where an earlier one has looked, and is skipped once one is broken.
+//! Structure comes first: the later checks index where those have looked, and are left out where one of those is broken.
 
 use std::f32::consts::PI;
 
@@ -38,12 +38,16 @@ type Outcome = Result<(), String>;
 
 type Invariant = (&'static str, fn(&MotionDb) -> Outcome);
 
-/// In order of dependence; the doc of each function is the invariant.
-const INVARIANTS: [Invariant; 16] = [
+/// What all else relies on, in order of dependence; the doc of each function is the invariant.
+const STRUCTURE: [Invariant; 4] = [
     ("has_examples", has_examples),
     ("skeleton_is_a_body", skeleton_is_a_body),
     ("rows_are_complete", rows_are_complete),
     ("indices_are_in_range", indices_are_in_range),
+];
+
+/// What may hold or break by itself.
+const CONTENT: [Invariant; 12] = [
     ("names_are_unique", names_are_unique),
     ("parameters_are_human", parameters_are_human),
     ("phase_maps_rise", phase_maps_rise),
@@ -58,17 +62,17 @@ const INVARIANTS: [Invariant; 16] = [
     ("correspondences_are_cyclic", correspondences_are_cyclic),
 ];
 
-/// All invariants up to the first broken one.
+/// All invariants; where the structure is broken, only those up to its first fault.
 pub fn validate(db: &MotionDb) -> Vec<Check> {
-    let mut checks = Vec::with_capacity(INVARIANTS.len());
-    for (name, invariant) in INVARIANTS {
-        let broken = invariant(db).err();
-        let stop = broken.is_some();
-        checks.push(Check { name, broken });
-        if stop {
-            break;
+    let check = |(name, invariant): Invariant| Check { name, broken: invariant(db).err() };
+    let mut checks = Vec::new();
+    for invariant in STRUCTURE {
+        checks.push(check(invariant));
+        if checks.last().is_some_and(|check| check.broken.is_some()) {
+            return checks;
         }
     }
+    checks.extend(CONTENT.map(check));
     checks
 }
 
