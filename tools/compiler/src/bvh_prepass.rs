@@ -64,32 +64,35 @@ fn flaw<T>(line: usize, problem: impl Into<String>, remedy: &'static str) -> Res
 /// Checks the bytes of a BVH file and rewrites them canonically.
 pub(crate) fn check(bytes: &[u8]) -> Result<CheckedBvh, Flaw> {
     let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
-    let lines: Vec<&str> = split_lines(&text);
-    let (joints, motion_line) = hierarchy(&lines)?;
+    let mut lines = numbered_lines(&text);
+    let (joints, motion_line) = hierarchy(&mut lines)?;
     let mut warnings = Vec::new();
-    let motion = motion(&lines, motion_line, &joints, &mut warnings)?;
+    let motion = motion(lines, motion_line, &joints, &mut warnings)?;
     let text = canonical_text(&joints, &motion);
     Ok(CheckedBvh { text, joints, warnings })
 }
 
-/// LF, CRLF and bare CR all end a line.
-fn split_lines(text: &str) -> Vec<&str> {
-    text.split('\n').flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r')).map(str::trim).collect()
+/// The lines that are not blank, with their numbers from 1; LF, CRLF and bare CR all end a line.
+fn numbered_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let lines = text.split('\n').flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r'));
+    (1..).zip(lines.map(str::trim)).filter(|(_, line)| !line.is_empty())
 }
 
-/// The hierarchy and the index of the line after `MOTION`.
-fn hierarchy(lines: &[&str]) -> Result<(Vec<CheckedJoint>, usize), Flaw> {
+/// The hierarchy and the number of the line that says `MOTION`.
+fn hierarchy<'a>(lines: impl Iterator<Item = (usize, &'a str)>) -> Result<(Vec<CheckedJoint>, usize), Flaw> {
     let mut reader = HierarchyReader::default();
-    for (index, line) in lines.iter().enumerate() {
-        if line.eq_ignore_ascii_case("MOTION") {
-            reader.finish(index + 1)?;
-            return Ok((reader.joints, index + 1));
+    let mut last_line = 1;
+    for (line, text) in lines {
+        if text.eq_ignore_ascii_case("MOTION") {
+            reader.finish(line)?;
+            return Ok((reader.joints, line));
         }
-        for statement in statements(line) {
-            reader.read(index + 1, statement)?;
+        for statement in statements(text) {
+            reader.read(line, statement)?;
         }
+        last_line = line;
     }
-    flaw(lines.len(), "the file ends without a MOTION section", "export the clip with its motion")
+    flaw(last_line, "the file ends without a MOTION section", "export the clip with its motion")
 }
 
 /// Braces stand by themselves, whatever line they share.
@@ -247,24 +250,27 @@ struct Motion {
     rows: usize,
 }
 
-fn motion(lines: &[&str], start: usize, joints: &[CheckedJoint], warnings: &mut Vec<String>) -> Result<Motion, Flaw> {
-    let mut numbered = (start..lines.len()).map(|index| (index + 1, lines[index])).filter(|(_, line)| !line.is_empty());
-    let claimed = header(numbered.next(), lines.len(), &["FRAMES"])?;
-    let frame_time_s = header(numbered.next(), lines.len(), &["FRAME", "TIME"])?;
+fn motion<'a>(
+    mut lines: impl Iterator<Item = (usize, &'a str)>,
+    motion_line: usize,
+    joints: &[CheckedJoint],
+    warnings: &mut Vec<String>,
+) -> Result<Motion, Flaw> {
+    let (_, claimed) = header(lines.next(), motion_line, &["FRAMES"])?;
+    let (line, frame_time_s) = header(lines.next(), motion_line, &["FRAME", "TIME"])?;
     if !FRAME_TIME_S.contains(&frame_time_s) {
         let [least, greatest] = [FRAME_TIME_S.start(), FRAME_TIME_S.end()];
         let problem = format!("Frame Time is {frame_time_s} s, not between {least} and {greatest}");
-        return flaw(start + 2, problem, "write the seconds between two frames");
+        return flaw(line, problem, "write the seconds between two frames");
     }
     let channel_count: usize = joints.iter().map(|joint| joint.channels.len()).sum();
-    let rows: Vec<(usize, &str)> = numbered.collect();
-    let values = row_values(&rows, channel_count, warnings)?;
+    let values = row_values(lines, channel_count, warnings)?;
     let row_count = values.len().checked_div(channel_count).unwrap_or(0);
     if row_count == 0 {
-        return flaw(lines.len(), "there is not one whole row of motion", "export the clip with its motion");
+        return flaw(motion_line, "there is not one whole row of motion", "export the clip with its motion");
     }
     if joints.len() * row_count > MAX_JOINT_FRAMES_PER_VALUE * values.len() {
-        return flaw(start, "most joints have no channels", "export a skeleton whose joints move");
+        return flaw(motion_line, "most joints have no channels", "export a skeleton whose joints move");
     }
     if row_count as f64 != claimed {
         warnings.push(format!("`Frames:` says {claimed}, but there are {row_count} rows: the rows are used"));
@@ -272,10 +278,10 @@ fn motion(lines: &[&str], start: usize, joints: &[CheckedJoint], warnings: &mut 
     Ok(Motion { frame_time_s, values, rows: row_count })
 }
 
-/// `Frames: 12`, `Frame Time:<tab>0.03`, `Frames :12`: the words up to the colon, then a number.
-fn header(line: Option<(usize, &str)>, last_line: usize, words: &[&str]) -> Result<f64, Flaw> {
+/// `Frames: 12`, `Frame Time:<tab>0.03`, `Frames :12`: the words up to the colon, then a number; with its line.
+fn header(line: Option<(usize, &str)>, motion_line: usize, words: &[&str]) -> Result<(usize, f64), Flaw> {
     let remedy = "after MOTION come `Frames: N` and `Frame Time: seconds`";
-    let Some((line, text)) = line else { return flaw(last_line, "the motion section is empty", remedy) };
+    let Some((line, text)) = line else { return flaw(motion_line, "the motion section is empty", remedy) };
     let Some((head, value)) = text.split_once(':') else {
         return flaw(line, format!("`{}:` is missing", words.join(" ")), remedy);
     };
@@ -284,21 +290,26 @@ fn header(line: Option<(usize, &str)>, last_line: usize, words: &[&str]) -> Resu
         return flaw(line, format!("`{}:` is missing", words.join(" ")), remedy);
     }
     match value.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
+        Ok(value) if value.is_finite() => Ok((line, value)),
         _ => flaw(line, format!("`{}` is not a number", shown(value.trim())), remedy),
     }
 }
 
 /// All values, whole rows only: a last row cut short is dropped with a warning, any other odd row is an error.
-fn row_values(rows: &[(usize, &str)], channels: usize, warnings: &mut Vec<String>) -> Result<Vec<f64>, Flaw> {
-    let mut values = Vec::with_capacity(rows.iter().map(|(_, text)| text.len() / 2 + 1).sum());
-    for (index, &(line, text)) in rows.iter().enumerate() {
+fn row_values<'a>(
+    lines: impl Iterator<Item = (usize, &'a str)>,
+    channels: usize,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<f64>, Flaw> {
+    let mut values = Vec::new();
+    let mut lines = lines.peekable();
+    while let Some((line, text)) = lines.next() {
         let before = values.len();
         for word in text.split_whitespace() {
             values.push(number(line, word)?);
         }
         let found = values.len() - before;
-        if found < channels && index > 0 && index + 1 == rows.len() {
+        if found < channels && before > 0 && lines.peek().is_none() {
             values.truncate(before);
             warnings.push(format!("line {line}: the last row is cut short and is not used"));
         } else if found != channels {

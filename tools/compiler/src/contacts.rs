@@ -6,8 +6,6 @@
 
 use glam::DVec3;
 
-use crate::root_motion::percentile;
-
 /// Over its planted height a planted point lifts less than this (`definitions.md`), metres.
 const HEIGHT_MAX_M: f64 = 0.025;
 /// Speed of a planted point: this, and a share of the body's speed for clips that slide as they run (`definitions.md`),
@@ -39,18 +37,20 @@ pub fn lowest_points(feet: &[[DVec3; 3]], window: usize) -> Vec<(usize, f64)> {
         .collect()
 }
 
-/// Height at which a point is planted about each frame.
+/// Height at which a point is planted about each frame: the percentile of a window that slides over the heights, kept
+/// sorted so that a frame costs one search and one shift.
 fn planted_heights_m(feet: &[[DVec3; 3]], point: usize, window: usize) -> Vec<f64> {
-    let window = window.clamp(1, feet.len());
-    let mut heights = Vec::with_capacity(window);
-    let percentiles: Vec<f64> = feet
-        .windows(window)
-        .map(|near| {
-            heights.clear();
-            heights.extend(near.iter().map(|foot| foot[point].z));
-            percentile(&mut heights, PLANTED_PERCENTILE)
-        })
-        .collect();
+    let heights: Vec<f64> = feet.iter().map(|foot| foot[point].z).collect();
+    let window = window.clamp(1, heights.len());
+    let mut near = heights[..window].to_vec();
+    near.sort_by(f64::total_cmp);
+    let index = (PLANTED_PERCENTILE * window as f64) as usize;
+    let mut percentiles = vec![near[index]];
+    for (gone, new) in heights.iter().zip(&heights[window..]) {
+        near.remove(near.partition_point(|height| height.total_cmp(gone).is_lt()));
+        near.insert(near.partition_point(|height| height.total_cmp(new).is_lt()), *new);
+        percentiles.push(near[index]);
+    }
     let of_frame = |frame: usize| percentiles[frame.saturating_sub(window / 2).min(percentiles.len() - 1)];
     (0..feet.len()).map(of_frame).collect()
 }
@@ -113,6 +113,24 @@ fn flip_short_runs(planted: &mut [bool], value: bool, length: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::root_motion::percentile;
+
+    #[test]
+    fn planted_heights_are_the_percentiles_of_all_windows() {
+        // Repeated heights and both zeros are among them.
+        let height_m =
+            |frame: usize| (frame * frame % 97) as f64 * 0.01 - if frame.is_multiple_of(7) { 0.3 } else { -0.0 };
+        let feet: Vec<[DVec3; 3]> = (0..300).map(|frame| [DVec3::new(0.0, 0.0, height_m(frame)); 3]).collect();
+        for window in [1, 2, 20, 99, 300, 400] {
+            let found = planted_heights_m(&feet, 0, window);
+            let length = window.min(feet.len());
+            for (frame, &found_m) in found.iter().enumerate() {
+                let start = frame.saturating_sub(length / 2).min(feet.len() - length);
+                let mut near: Vec<f64> = feet[start..start + length].iter().map(|foot| foot[0].z).collect();
+                assert_eq!(found_m, percentile(&mut near, PLANTED_PERCENTILE), "window {window}, frame {frame}");
+            }
+        }
+    }
 
     #[test]
     fn short_lifts_close_and_short_contacts_vanish() {

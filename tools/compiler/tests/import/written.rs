@@ -200,6 +200,13 @@ fn malformed_bvh_is_refused_at_its_line() {
 }
 
 #[test]
+fn millions_of_blank_lines_are_passed_over_but_counted() {
+    let text = format!("HIERARCHY{}nonsense", "\n".repeat(10_000_000));
+    let message = import_bytes(Path::new("blank.bvh"), text.as_bytes()).unwrap_err().to_string();
+    assert!(message.starts_with("blank.bvh, line 10000001: "), "{message}");
+}
+
+#[test]
 fn gltf_reads_as_bvh_does_with_every_interpolation() {
     let expected = only(import_bytes(Path::new("walk.bvh"), bvh_text().as_bytes()));
     for interpolation in ["LINEAR", "STEP", "CUBICSPLINE"] {
