@@ -27,6 +27,8 @@ use crate::split_mix::SplitMix64;
 const RADIUS_M: f32 = 0.25;
 /// Of the same protocol, m/s.
 const PREFERRED_SPEED_MPS: f32 = 1.33;
+/// Of all agents together: ten for each of the largest crowd, 80 MB.
+const WAYPOINTS_MAX: usize = 10 * AGENTS_MAX;
 
 /// What `agents` holds: each table and, in a list, where it stands.
 #[derive(Debug)]
@@ -133,6 +135,14 @@ impl Group {
         (start_m, shared_m.chain(own_m).collect())
     }
 
+    /// From each place of a grid to the goals that the table names.
+    pub(crate) fn grid_journeys(&self, grid: &Grid, random: SplitMix64) -> Result<Vec<Journey>, Complaint> {
+        let places_m = grid.places_m(random)?;
+        let goals = self.goals_m.as_ref().map_or(0, Vec::len) + usize::from(self.goal_offset_m.is_some());
+        check_size(places_m.len(), places_m.len() * goals)?;
+        Ok(places_m.into_iter().map(|place_m| self.journey(place_m)).collect())
+    }
+
     /// With all that the table says of its agents besides their journeys.
     pub(crate) fn agents(&self, journeys: Vec<Journey>) -> Vec<AgentSpec> {
         journeys.into_iter().map(|(position_m, goals_m)| self.agent(position_m, goals_m)).collect()
@@ -162,7 +172,7 @@ impl Circle {
 
 impl Grid {
     /// Row by row, from the lower left; the jitter is uniform in a square of ± `jitter_m`.
-    pub(crate) fn places_m(&self, mut random: SplitMix64) -> Result<Vec<Vec2>, Complaint> {
+    fn places_m(&self, mut random: SplitMix64) -> Result<Vec<Vec2>, Complaint> {
         let count = check_count(self.columns.checked_mul(self.rows))?;
         let corner_m = DVec2::from(self.centre_m.0)
             - 0.5 * self.spacing_m * DVec2::new(self.columns as f64 - 1.0, self.rows as f64 - 1.0);
@@ -181,6 +191,18 @@ fn check_count(count: Option<usize>) -> Result<usize, Complaint> {
         Some(count) if (1..=AGENTS_MAX).contains(&count) => Ok(count),
         _ => Err((format!("these are no 1 to {AGENTS_MAX} agents"), "give another count")),
     }
+}
+
+/// A few lines of text may ask for more than any memory holds.
+pub(crate) fn check_size(agents: usize, waypoints: usize) -> Result<(), Complaint> {
+    if agents > AGENTS_MAX {
+        return Err((format!("with these there are {agents} agents, more than {AGENTS_MAX}"), "ask for fewer"));
+    }
+    if waypoints > WAYPOINTS_MAX {
+        let message = format!("with these there are {waypoints} waypoints, more than {WAYPOINTS_MAX}");
+        return Err((message, "ask for fewer agents or fewer goals"));
+    }
+    Ok(())
 }
 
 /// Lines `x y goal_x goal_y` in metres.

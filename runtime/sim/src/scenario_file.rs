@@ -29,7 +29,7 @@ use toml::Spanned;
 use crate::params::Params;
 use crate::polygon::signed_area_m2;
 use crate::scenario::{AgentSpec, Scenario, View};
-use crate::scenario_agents::{Complaint, Group, Groups, Journey, Kind, parse_lines};
+use crate::scenario_agents::{Complaint, Group, Groups, Journey, Kind, check_size, parse_lines};
 use crate::scenario_check::{Fault, Place, check};
 use crate::scenario_error::{Invalid, ScenarioError};
 use crate::scenario_point::Point;
@@ -86,6 +86,7 @@ struct Source<'a> {
 struct Placed {
     agents: Vec<AgentSpec>,
     spans: Vec<Range<usize>>,
+    waypoints: usize,
 }
 
 /// Reads a scenario file and whatever agent files it names. Its motion is an error of its own, so that whoever brings a database need not
@@ -149,6 +150,11 @@ fn place_agents(source: &Source, file: &ScenarioFile) -> Result<Placed, Scenario
         let span = span.clone().unwrap_or_else(|| file.agents.span());
         let random = SplitMix64::new(file.seed.unwrap_or(SEED), stream as u64);
         let agents = group.agents(journeys(source, group, &span, random)?);
+        placed.waypoints += agents.iter().map(|agent| agent.goals_m.len()).sum::<usize>();
+        // After each table, so that many of them do not fill the memory first.
+        if let Err((message, help)) = check_size(placed.agents.len() + agents.len(), placed.waypoints) {
+            return Err(source.invalid(span, message, help));
+        }
         placed.spans.extend(std::iter::repeat_n(span, agents.len()));
         placed.agents.extend(agents);
     }
@@ -166,10 +172,7 @@ fn journeys(
     match group.kind().map_err(complain)? {
         Kind::Single(at_m) => Ok(vec![group.journey(at_m)]),
         Kind::Circle(circle) => circle.journeys().map_err(complain),
-        Kind::Grid(grid) => {
-            let places_m = grid.places_m(random).map_err(complain)?;
-            Ok(places_m.into_iter().map(|place_m| group.journey(place_m)).collect())
-        }
+        Kind::Grid(grid) => group.grid_journeys(grid, random).map_err(complain),
         Kind::File(name) => read_lines(source, name),
     }
 }

@@ -254,6 +254,15 @@ fn a_crowd_in_a_line_is_checked_as_quickly_as_one_in_a_square() {
 }
 
 #[test]
+fn a_short_text_that_asks_for_too_much_is_refused_before_it_is_made() {
+    let crowd = "[[agents]]\ngrid = { columns = 800, rows = 1000, spacing_m = 1 }\ngoal_offset_m = [1, 0]\n";
+    check_refused("crowds", &format!("{HEAD}{}", crowd.repeat(50)), "[[agents]]", "1600000 agents");
+    let goals = "[1, 2], ".repeat(5_000);
+    let table = format!("{{ grid = {{ columns = 800, rows = 1000, spacing_m = 1 }}, goals_m = [{goals}] }}");
+    check_refused("goals", &format!("{HEAD}agents = {table}"), &table, "4000000000 waypoints");
+}
+
+#[test]
 fn missing_files_are_named() {
     check_refused("no_clips", &format!("clips = \"gone\"\nduration_s = 1\n{ONE}"), "\"gone\"", "gone");
     check_refused("no_motion", &format!("duration_s = 1\n{ONE}"), "", "either `clips` or `database`");
