@@ -1,0 +1,109 @@
+//! Writes the seeds that are too long to write by hand: `cargo run --example corpus`, in this folder. All of them are made here.
+
+use std::fs;
+use std::path::Path;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use fbcrowd_sim::params::Params;
+use fbcrowd_sim::recording::{Header, Recorder};
+use fbcrowd_sim::recording_frame::AgentFrame;
+use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
+use glam::Vec2;
+
+#[path = "../../motiondb/tests/support/mod.rs"]
+mod support;
+
+/// Rows of motion in a BVH seed: a step and a half of a walk.
+const ROWS: usize = 24;
+/// One animation for each interpolation of glTF, and whether its values come in threes.
+const INTERPOLATIONS: [(&str, bool); 3] = [("LINEAR", false), ("STEP", false), ("CUBICSPLINE", true)];
+const KEYS: usize = 3;
+
+fn main() {
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
+    let write = |name: &str, bytes: &[u8]| fs::write(corpus.join(name), bytes).expect("the corpus can be written");
+    write("bvh/walk.bvh", &short_walk());
+    let (json, buffer) = document();
+    let data = format!(r#","uri":"data:application/octet-stream;base64,{}""#, STANDARD.encode(&buffer));
+    write("gltf/limb.gltf", json.replace("@", &data).as_bytes());
+    write("gltf/limb.glb", &glb(json.replace("@", "").into_bytes(), &buffer));
+    write("database/small.fbdb", &motiondb::file::to_bytes(&support::small_db()));
+    record(&corpus.join("recording/two.fbrec"));
+}
+
+/// The first rows of a bundled clip.
+fn short_walk() -> Vec<u8> {
+    let clips = clipgen::generate();
+    let walk = clips.iter().find(|clip| clip.name == "walk_180.bvh").expect("a bundled clip");
+    let text = String::from_utf8_lossy(&walk.bytes);
+    let motion = text.lines().position(|line| line == "MOTION").expect("a BVH file");
+    text.lines().take(motion + 3 + ROWS).flat_map(|line| [line, "\n"]).collect::<String>().into_bytes()
+}
+
+/// Two nodes that turn and move, in JSON (`@`: where a buffer's address belongs), and their buffer.
+fn document() -> (String, Vec<u8>) {
+    let mut floats: Vec<f32> = (0..KEYS).map(|key| 0.5 * key as f32).collect();
+    let mut accessors = vec![accessor(0, KEYS, "SCALAR")];
+    let mut animations = Vec::new();
+    for (interpolation, in_threes) in INTERPOLATIONS {
+        let (mut channels, mut samplers) = (Vec::new(), Vec::new());
+        for (node, path, value) in
+            [(0, "translation", &[0.0, 0.9, 0.1][..]), (0, "rotation", &[0.0, 0.6, 0.0, 0.8]), (1, "scale", &[1.0; 3])]
+        {
+            let count = if in_threes { 3 * KEYS } else { KEYS };
+            channels.push(format!(r#"{{"sampler":{},"target":{{"node":{node},"path":"{path}"}}}}"#, samplers.len()));
+            samplers.push(format!(r#"{{"input":0,"output":{},"interpolation":"{interpolation}"}}"#, accessors.len()));
+            accessors.push(accessor(4 * floats.len(), count, if value.len() == 4 { "VEC4" } else { "VEC3" }));
+            (0..count).for_each(|_| floats.extend(value));
+        }
+        let (channels, samplers) = (channels.join(","), samplers.join(","));
+        animations.push(format!(r#"{{"name":"{interpolation}","channels":[{channels}],"samplers":[{samplers}]}}"#));
+    }
+    let (accessors, animations, length) = (accessors.join(","), animations.join(","), 4 * floats.len());
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"name":"Hips","children":[1]}},{{"name":"Spine","translation":[0,0.1,0]}}],"animations":[{animations}],"accessors":[{accessors}],"bufferViews":[{{"buffer":0,"byteLength":{length}}}],"buffers":[{{"byteLength":{length}@}}]}}"#
+    );
+    (json, floats.iter().flat_map(|value| value.to_le_bytes()).collect())
+}
+
+fn accessor(offset: usize, count: usize, shape: &str) -> String {
+    let bounds = if offset == 0 { r#","min":[0],"max":[1]"# } else { "" };
+    format!(r#"{{"bufferView":0,"byteOffset":{offset},"componentType":5126,"count":{count},"type":"{shape}"{bounds}}}"#)
+}
+
+fn glb(mut json: Vec<u8>, buffer: &[u8]) -> Vec<u8> {
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let word = |number: usize| (number as u32).to_le_bytes();
+    let length = word(12 + 8 + json.len() + 8 + buffer.len());
+    let parts: [&[u8]; 9] =
+        [b"glTF", &word(2), &length, &word(json.len()), b"JSON", &json, &word(buffer.len()), b"BIN\0", buffer];
+    parts.concat()
+}
+
+/// Two agents in three frames.
+fn record(path: &Path) {
+    let agent = |y: f32| AgentSpec {
+        position_m: Vec2::new(0.0, y),
+        facing_rad: 0.0,
+        goals_m: vec![Vec2::new(5.0, y)],
+        radius_m: 0.25,
+        preferred_speed_mps: 1.33,
+    };
+    let scenario = Scenario {
+        name: "two".to_owned(),
+        duration_s: 1.0,
+        dt_s: 0.5,
+        seed: 1,
+        agents: vec![agent(0.0), agent(2.0)],
+        obstacles_m: vec![vec![Vec2::new(9.0, 9.0), Vec2::new(10.0, 9.0), Vec2::new(9.0, 10.0)]],
+        params: Params::default(),
+        view: View::default(),
+    };
+    let header = Header { database_checksum: 7, skeleton: support::small_db().skeleton, scenario };
+    let mut recorder = Recorder::create(path, &header).expect("the corpus can be written");
+    for _ in 0..3 {
+        recorder.push(&[AgentFrame::default(), AgentFrame::default()]).expect("finite agents");
+    }
+    recorder.finish().expect("the corpus can be written");
+}

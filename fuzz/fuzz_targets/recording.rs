@@ -1,0 +1,58 @@
+//! Any bytes as a recording: as they are, and with right checksums, index and tail, so that header and frames are reached.
+#![no_main]
+
+use std::fs;
+
+use fbcrowd_fuzz::on_disk;
+use fbcrowd_sim::metrics::measure;
+use fbcrowd_sim::recording::Recording;
+use fbcrowd_sim::recording_chunk::{CHUNK_HEAD_BYTES, write_chunk};
+use fbcrowd_sim::recording_packing::{PACKED_BYTES, unpack};
+use libfuzzer_sys::fuzz_target;
+
+/// Magic and version stand before the first chunk.
+const HEAD_BYTE: usize = 12;
+
+fuzz_target!(|bytes: &[u8]| {
+    read(bytes);
+    read(&repaired(bytes));
+    // Compression hides agents from most mutations.
+    for packed in bytes.chunks_exact(PACKED_BYTES) {
+        let _ = unpack(packed);
+    }
+});
+
+fn read(bytes: &[u8]) {
+    let path = on_disk("fbrec", bytes);
+    if let Ok(recording) = Recording::open(&path) {
+        let _ = measure(&recording);
+    }
+    fs::remove_file(path).expect("it was written just now");
+}
+
+/// The same header and frames in a whole file.
+fn repaired(bytes: &[u8]) -> Vec<u8> {
+    let (start, mut rest) = bytes.split_at(bytes.len().min(HEAD_BYTE));
+    let (mut file, mut frames) = (start.to_vec(), Vec::new());
+    while let Some((head, after)) = rest.split_first_chunk::<{ CHUNK_HEAD_BYTES as usize }>() {
+        let kind = [head[0], head[1], head[2], head[3]];
+        let length = u32::from_le_bytes([head[4], head[5], head[6], head[7]]) as usize;
+        let (payload, after) = after.split_at(length.min(after.len()));
+        rest = after;
+        if kind == *b"INDX" {
+            break;
+        }
+        if kind == *b"FRAM" {
+            frames.extend((file.len() as u64).to_le_bytes());
+        }
+        append(&mut file, kind, payload);
+    }
+    let index_byte = file.len() as u64;
+    append(&mut file, *b"INDX", &frames);
+    append(&mut file, *b"TAIL", &index_byte.to_le_bytes());
+    file
+}
+
+fn append(file: &mut Vec<u8>, kind: [u8; 4], payload: &[u8]) {
+    write_chunk(file, kind, payload).expect("an input is shorter than 4 GiB");
+}
