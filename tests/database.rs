@@ -108,3 +108,34 @@ fn one_clip_alone_is_a_database_without_simplices_or_correspondences() {
     assert_eq!(report["examples"].as_array().unwrap().len(), 1);
     assert!(report["correspondence"].is_null());
 }
+
+#[test]
+fn what_is_left_out_is_blended_from_the_others_without_its_mirror() {
+    let walks = ["idle.bvh", "walk_080.bvh", "walk_110.bvh", "walk_140.glb"];
+    let turns = ["turn_030_left.glb", "turn_060_left.bvh", "turn_090_left.bvh"];
+    let clips = [&walks[..], &turns].concat().into_iter().map(|clip| format!("assets/clips/{clip}"));
+    let database = compile(&clips.collect::<Vec<_>>(), &folder("leave_one_out"));
+    let report = fbcrowd(&["inspect", text(&database), "--leave-one-out", "--json"]).expect_code(0).json();
+    let found = &report["leave_one_out"];
+    let examples = found["examples"].as_array().unwrap();
+    let names: Vec<&str> = examples.iter().map(|example| example["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["turn_030_left", "turn_060_left", "walk_080", "walk_110"]);
+    for example in examples {
+        let name = example["name"].as_str().unwrap();
+        let mix = example["mix"].as_array().unwrap();
+        assert!((mix.iter().map(|part| number(part, "share")).sum::<f64>() - 1.0).abs() < 1e-5);
+        assert!(!mix.iter().any(|part| part["name"].as_str().unwrap().starts_with(name)), "{example}");
+        assert!(!example["nearest"].as_str().unwrap().starts_with(name), "{example}");
+        assert!(number(example, "blended_rmse_m") < 0.05, "{example}");
+    }
+    assert!(number(found, "blended_better_share") >= 0.75, "{found}");
+}
+
+#[test]
+fn a_set_that_needs_each_of_its_examples_leaves_none_out() {
+    let database = compile(&["assets/clips/walk_110.bvh".to_owned()], &folder("leave_one_out_alone"));
+    let report = fbcrowd(&["inspect", text(&database), "--leave-one-out", "--json"]).expect_code(0).json();
+    assert_eq!(report["leave_one_out"]["outside"][0], "walk_110");
+    assert!(report["leave_one_out"]["median_blended_rmse_m"].is_null());
+    fbcrowd(&["inspect", "assets/clips/walk_110.bvh", "--leave-one-out"]).expect_code(2).says(&["fbcrowd compile"]);
+}

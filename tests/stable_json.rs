@@ -21,7 +21,7 @@ fn check_keys(value: &Value, keys: &[&str]) {
 fn inspect_lists_examples_sources_velocity_sets_simplices_and_correspondences() {
     let clips = ["walk_080", "walk_110", "jog_240"].map(|clip| format!("assets/clips/{clip}.bvh"));
     let report = fbcrowd(&["inspect", text(&compile(&clips, &folder("inspect_keys"))), "--json"]).expect_code(0).json();
-    check_keys(&report, &["examples", "sources", "velocity_hull", "blend_space", "correspondence"]);
+    check_keys(&report, &["examples", "sources", "velocity_hull", "blend_space", "correspondence", "coverage"]);
     let of_example = [
         "name",
         "source",
@@ -52,6 +52,8 @@ fn inspect_lists_examples_sources_velocity_sets_simplices_and_correspondences() 
     check_keys(&report["velocity_hull"], &["turning_mps", "holding_mps", "sharp_turn_edges_mps"]);
     check_keys(&report["blend_space"], &["dimension", "simplices", "covered_share"]);
     check_keys(&report["correspondence"], &["semi_procedural", "blending", "pairs_s"]);
+    check_keys(&report["coverage"][0], &["lack", "sentence"]);
+    assert_eq!(report["coverage"][0]["lack"], "standing");
     assert_eq!(report["correspondence"]["semi_procedural"], "walk_110");
     assert_eq!(report["correspondence"]["blending"], "walk_080");
     assert_eq!(report["velocity_hull"]["turning_mps"][0].as_array().map(Vec::len), Some(2));

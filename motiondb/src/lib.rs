@@ -3,7 +3,7 @@
 //! In reading order: whose body ([`skeleton`]), how it is posed ([`pose`]), how a clip moves ([`parameters`]) and when
 //! ([`phase_map`]), which velocities it allows ([`velocity_hull`], `FbCrowd` §4.1), how clips blend ([`blend_space`],
 //! §5), where synthesis may switch ([`correspondence`], §5, Eq. 10), the database itself ([`motion_db`]), its
-//! invariants ([`validate`]) and its file ([`mod@file`]).
+//! invariants ([`validate`]), where it is thin ([`coverage`]) and its file ([`mod@file`]).
 //!
 //! Conventions: metres, seconds, radians; x and y on the ground, z up, right-handed. A body's frame: x forward, y left.
 //! Angles are counter-clockwise seen from above. Pairs of sides are `[left, right]`.
@@ -12,6 +12,7 @@ pub mod atomic_file;
 pub mod blend_space;
 pub mod container;
 pub mod correspondence;
+pub mod coverage;
 pub mod file;
 pub mod input_file;
 pub mod motion_db;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use motiondb::motion_db::MotionDb;
 
 use crate::contact_sheet::contact_sheet;
+use crate::coverage_plot::coverage_slices;
 use crate::error::RenderError;
 use crate::gait_plot::gait_events;
 use crate::parameter_plot::parameter_space;
@@ -21,6 +22,7 @@ pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>
     let plots = [
         ("velocity_space.png", velocity_space(db)),
         ("parameter_space.png", parameter_space(db)),
+        ("coverage.png", coverage_slices(db)),
         ("contact_sheet.png", contact_sheet(db)),
         ("gait_events.png", gait_events(db)),
     ];

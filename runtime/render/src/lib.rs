@@ -6,7 +6,7 @@
 //! picture ([`top_view`]) → files ([`png_frame`], [`exr_frame`], all of them by [`sequence`]).
 //!
 //! Plots stand on a small kit ([`plot`], [`axis`], [`mark`], `name_places`): everybody's paths ([`trajectories`]); of
-//! a database its velocity sets ([`velocity_plot`]), blend space ([`parameter_plot`]), bodies ([`contact_sheet`]) and
+//! a database its velocity sets ([`velocity_plot`]), blend space ([`parameter_plot`]) and where it is thin ([`coverage_plot`]), bodies ([`contact_sheet`]) and
 //! steps ([`gait_plot`]), all of them by [`database_plots`].
 //!
 //! Conventions: world metres, x right and y up in the picture; pixels, x right and y down; colours sRGB-encoded, 0 to
@@ -16,6 +16,7 @@ pub mod axis;
 pub mod body;
 pub mod cone;
 pub mod contact_sheet;
+pub mod coverage_plot;
 pub mod database_plots;
 pub mod error;
 pub mod exr_frame;

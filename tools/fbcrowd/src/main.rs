@@ -7,6 +7,7 @@
 mod cmd;
 mod compiling;
 mod failure;
+mod leave_one_out;
 mod output;
 mod progress;
 mod rendering;

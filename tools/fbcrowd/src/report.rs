@@ -2,9 +2,12 @@
 //! people.
 
 use glam::Vec2;
+use motiondb::coverage::{self, ThinPlace};
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::velocity_hull::VelocityHull;
 use serde::Serialize;
+
+use crate::leave_one_out::{LeaveOneOut, LeftOut};
 
 /// Clips without a database.
 #[derive(Serialize)]
@@ -20,6 +23,10 @@ pub(crate) struct DatabaseReport {
     velocity_hull: VelocityHull,
     blend_space: BlendSpace,
     correspondence: Option<Correspondence>,
+    coverage: Vec<ThinPlace>,
+    /// Where asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) leave_one_out: Option<LeaveOneOut>,
 }
 
 #[derive(Serialize)]
@@ -69,6 +76,8 @@ impl DatabaseReport {
                 blending: name(found.blending),
                 pairs_s: found.pairs_s.clone(),
             }),
+            coverage: coverage::coverage(db),
+            leave_one_out: None,
         }
     }
 }
@@ -119,6 +128,8 @@ pub(crate) fn database_text(report: &DatabaseReport) -> String {
         100.0 * report.blend_space.covered_share,
     );
     text += &correspondence_text(report);
+    text += &coverage_text(report);
+    text += &report.leave_one_out.as_ref().map(leave_one_out_text).unwrap_or_default();
     let warned = report.sources.iter().filter(|source| !source.warnings.is_empty());
     text + &warned.map(warnings_text).collect::<String>()
 }
@@ -127,6 +138,43 @@ fn correspondence_text(report: &DatabaseReport) -> String {
     let Some(found) = &report.correspondence else { return "correspondences     none\n".into() };
     let pairs: Vec<String> = found.pairs_s.iter().map(|[sp, mb]| format!("{sp:.3}/{mb:.3}")).collect();
     format!("correspondences, s  {} / {}: {}\n", found.semi_procedural, found.blending, pairs.join("  "))
+}
+
+fn coverage_text(report: &DatabaseReport) -> String {
+    if report.coverage.is_empty() {
+        return "\nthin                nowhere\n".into();
+    }
+    let lines: String = report.coverage.iter().map(|thin| format!("  {}\n", thin.sentence)).collect();
+    format!("\nwhere the set is thin\n{lines}\n")
+}
+
+/// RMSE in cm: the blend's, the nearest example's, and who they are.
+fn leave_one_out_text(found: &LeaveOneOut) -> String {
+    let width = found.examples.iter().map(|left_out| left_out.name.chars().count()).max().unwrap_or(0).max(8);
+    let mut text = format!("{:<width$}  blend cm  nearest cm  nearest example, then the blend's shares\n", "left out");
+    for left_out in &found.examples {
+        text += &format!(
+            "{:<width$}  {:8.1}  {:10.1}  {}; {}\n",
+            left_out.name,
+            100.0 * left_out.blended_rmse_m,
+            100.0 * left_out.nearest_rmse_m,
+            left_out.nearest,
+            shares(left_out),
+        );
+    }
+    if let (Some(share), Some(blended_m), Some(nearest_m)) =
+        (found.blended_better_share, found.median_blended_rmse_m, found.median_nearest_rmse_m)
+    {
+        text += &format!("{:<width$}  {:8.1}  {:10.1}  ", "median", 100.0 * blended_m, 100.0 * nearest_m);
+        text += &format!("the blend is nearer for {:.0} % of {}\n", 100.0 * share, found.examples.len());
+    }
+    text + &format!("corners of the hull, which no blend reaches: {}\n\n", found.outside.join(", "))
+}
+
+fn shares(left_out: &LeftOut) -> String {
+    let counting = left_out.mix.iter().filter(|part| part.share >= 0.005);
+    let parts = counting.map(|part| format!("{:.0} % {}", 100.0 * part.share, part.name));
+    parts.collect::<Vec<_>>().join(", ")
 }
 
 fn corners(polygon: &[Vec2]) -> String {

@@ -1,6 +1,7 @@
 //! Plots of a database draw whatever a valid database may hold, always alike.
 
 use fbcrowd_render::contact_sheet::contact_sheet;
+use fbcrowd_render::coverage_plot::coverage_slices;
 use fbcrowd_render::database_plots::write_database_plots;
 use fbcrowd_render::gait_plot::gait_events;
 use fbcrowd_render::parameter_plot::parameter_space;
@@ -59,7 +60,7 @@ fn inked_share(pixmap: &Pixmap) -> f64 {
 fn databases_of_one_and_of_many_examples_are_drawn() {
     for speeds_mps in [&[0.0][..], &[0.0, 1.0, 1.4]] {
         let db = database(speeds_mps);
-        for plot in [velocity_space, parameter_space, contact_sheet, gait_events] {
+        for plot in [velocity_space, parameter_space, coverage_slices, contact_sheet, gait_events] {
             let drawn = plot(&db);
             assert!((0.003..0.5).contains(&inked_share(&drawn)), "{}", inked_share(&drawn));
             assert!(drawn == plot(&db), "drawing again gives another picture");
@@ -71,7 +72,7 @@ fn databases_of_one_and_of_many_examples_are_drawn() {
 fn all_plots_are_written_and_a_folder_in_the_way_is_named() {
     let folder = support::Scratch::new("plots");
     let files = write_database_plots(&database(&[0.0, 1.2]), folder.path()).unwrap();
-    assert_eq!(files.len(), 4);
+    assert_eq!(files.len(), 5);
     assert!(files.iter().all(|file| file.is_file()));
     let error = write_database_plots(&database(&[0.0]), &files[0]).unwrap_err();
     assert!(error.to_string().contains("velocity_space.png"), "{error}");

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use motiondb::file;
+use motiondb::{coverage, file};
 
 use crate::compiling;
 use crate::failure::{Answer, Failure};
@@ -33,6 +33,9 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         for warning in &source.warnings {
             output::say(&format!("warning: {} {}: {warning}", source.file, source.clip));
         }
+    }
+    for thin in coverage::coverage(&db) {
+        output::say(&format!("note: {}", thin.sentence));
     }
     let mirrors = db.examples.iter().filter(|example| example.mirrored).count();
     output::print(&format!(

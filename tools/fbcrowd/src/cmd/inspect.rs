@@ -8,12 +8,15 @@ use motiondb_compiler::compile;
 
 use crate::compiling;
 use crate::failure::{Answer, Failure};
+use crate::leave_one_out::leave_one_out;
 use crate::output;
 use crate::report::{self, DatabaseReport, SourcesReport};
 
 /// Show what a database holds, or what was found in clips.
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  fbcrowd inspect motion.fbdb --plots out/plots\n  fbcrowd inspect my/clips --json")]
+#[command(
+    after_help = "Examples:\n  fbcrowd inspect motion.fbdb --plots out/plots\n  fbcrowd inspect motion.fbdb --leave-one-out\n  fbcrowd inspect my/clips --json"
+)]
 pub(crate) struct Args {
     /// A database, or clips: files or folders.
     #[arg(required = true, value_name = "FILE.fbdb|CLIPS")]
@@ -22,13 +25,21 @@ pub(crate) struct Args {
     /// frame_rate_hz, warnings[]}`; of a database also `examples[] {name, source, clip, mirrored, speed_mps,
     /// turn_rate_rad_s, strafe_mps, duration_s, key_times_s, planted_slide_cm_s, planted_share}`, `velocity_hull
     /// {turning_mps[][2], holding_mps[][2], sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension, simplices[][],
-    /// covered_share}` and `correspondence {semi_procedural, blending, pairs_s[][2]}` or null. Key times: right
-    /// toe-off, right heel strike, left toe-off, left heel strike, from right mid-stance.
+    /// covered_share}`, `correspondence {semi_procedural, blending, pairs_s[][2]}` or null, and `coverage[] {lack,
+    /// sentence}`: where the set is thin. Key times: right toe-off, right heel strike, left toe-off, left heel strike,
+    /// from right mid-stance.
     #[arg(long)]
     json: bool,
-    /// Write pictures of a database's velocity sets, examples and simplices.
+    /// Write pictures of a database: velocity sets, parameters, where they are thin, bodies, steps.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+    /// Rebuild a database without each of its recorded examples (and its mirror), blend at its parameters, and compare:
+    /// root-mean-square distance of the joints over the cycle, beside that of the nearest other example. In JSON
+    /// `leave_one_out {examples[] {name, blended_rmse_m, nearest_rmse_m, nearest, mix[] {name, share}}, outside[],
+    /// blended_better_share, median_blended_rmse_m, median_nearest_rmse_m}`; `outside` are corners of the hull, which
+    /// nothing else reaches.
+    #[arg(long)]
+    leave_one_out: bool,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
@@ -47,7 +58,8 @@ fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
             output::say(&format!("drew {}", picture.display()));
         }
     }
-    let report = DatabaseReport::new(&db);
+    let mut report = DatabaseReport::new(&db);
+    report.leave_one_out = args.leave_one_out.then(|| leave_one_out(&db));
     if args.json {
         output::print_json(&report)?;
     } else {
@@ -59,6 +71,10 @@ fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
 fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
     if args.plots.is_some() {
         return Err(Failure::bad("--plots draws databases; compile the clips first with `fbcrowd compile`"));
+    }
+    if args.leave_one_out {
+        let message = "--leave-one-out takes a database apart; compile the clips first with `fbcrowd compile`";
+        return Err(Failure::bad(message));
     }
     let (clips, answer) = compiling::import(clips)?;
     let report = SourcesReport { sources: compile::survey(clips) };
