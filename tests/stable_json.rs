@@ -60,6 +60,19 @@ fn inspect_lists_examples_sources_velocity_sets_simplices_and_correspondences() 
 }
 
 #[test]
+fn leaving_out_keeps_its_keys() {
+    let clips = ["walk_050", "walk_080", "walk_110"].map(|clip| format!("assets/clips/{clip}.bvh"));
+    let database = compile(&clips, &folder("leave_one_out_keys"));
+    let report = fbcrowd(&["inspect", text(&database), "--leave-one-out", "--json"]).expect_code(0).json();
+    let found = &report["leave_one_out"];
+    let of_all = ["examples", "outside", "blended_better_share", "median_blended_rmse_m", "median_nearest_rmse_m"];
+    check_keys(found, &of_all);
+    check_keys(&found["examples"][0], &["name", "blended_rmse_m", "nearest_rmse_m", "nearest", "mix"]);
+    check_keys(&found["examples"][0]["mix"][0], &["name", "share"]);
+    assert_eq!(found["examples"][0]["name"], "walk_080");
+}
+
+#[test]
 fn measure_and_the_timing_report_keep_their_keys() {
     let folder = folder("measure_keys");
     let database = compile(&["assets/clips/walk_110.bvh".to_owned()], &folder);

@@ -2,6 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Weight of a joint's velocity beside its place where poses are compared: as far as it gets in this time, a
+/// transition's first instants, seconds.
+pub const VELOCITY_WEIGHT_S: f64 = 0.1;
+
 /// Where m_sp and m_mb are most alike, so that synthesis may switch from one to the other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Correspondence {

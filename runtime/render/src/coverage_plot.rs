@@ -15,7 +15,7 @@ use tiny_skia::Pixmap;
 use crate::axis::{Axis, number};
 use crate::ground::fill_rect;
 use crate::mark::Mark;
-use crate::palette::{INK, Rgb};
+use crate::palette::{INK, heat};
 use crate::plot::{Figure, Panel};
 use crate::text::Anchor;
 
@@ -38,9 +38,6 @@ const AXIS_NAMES: [&str; 3] = ["forward speed v_f, m/s", "turn rate ω_t, °/s",
 const IN_SLICE_SHARE: f32 = 0.05;
 /// The mean distance that is coloured as thin as can be, ranges: as far as half across the set.
 const THINNEST: f32 = 0.4;
-/// Dense: a pale green; thin: a strong orange red; the way between goes over pale yellow.
-const SCALE: [Rgb; 3] = [Rgb::new(0.62, 0.82, 0.66), Rgb::new(0.98, 0.90, 0.60), Rgb::new(0.86, 0.36, 0.22)];
-
 /// The plot of a database's thin places.
 pub fn coverage_slices(db: &MotionDb) -> Pixmap {
     let sentences: Vec<String> = match coverage(db) {
@@ -69,9 +66,9 @@ fn draw_legend(figure: &mut Figure, at_px: Vec2) {
     let [dense, middle, thin] = [0.0, 0.5, 1.0].map(|share| number(share * THINNEST, 1));
     let thin = format!("{thin} and more; white: outside the hull");
     let legend = [
-        (Mark::Diamond, SCALE[0], dense.as_str()),
-        (Mark::Diamond, SCALE[1], middle.as_str()),
-        (Mark::Diamond, SCALE[2], thin.as_str()),
+        (Mark::Diamond, heat(0.0), dense.as_str()),
+        (Mark::Diamond, heat(0.5), middle.as_str()),
+        (Mark::Diamond, heat(1.0), thin.as_str()),
         (Mark::Disc, INK, "examples in the slice"),
         (Mark::Ring, INK, "their mirrored twins"),
     ];
@@ -126,7 +123,7 @@ fn draw_cells(figure: &mut Figure, panel: &Panel, db: &MotionDb, locator: &Locat
         query[third] = value;
         if let Some(thin) = thinness(db, locator, Parameters::from_vec3(query)) {
             let corner = Vec2::new(left + column as f32 * CELL_PX, top + row as f32 * CELL_PX);
-            fill_rect(&mut figure.pixmap, [corner.x, corner.y, CELL_PX, CELL_PX], colour(thin / THINNEST), 1.0);
+            fill_rect(&mut figure.pixmap, [corner.x, corner.y, CELL_PX, CELL_PX], heat(thin / THINNEST), 1.0);
         }
     }
 }
@@ -137,10 +134,4 @@ fn thinness(db: &MotionDb, locator: &Locator, query: Parameters) -> Option<f32> 
     let asked = db.blend_space.scaled(query);
     let distance = |example: u32| db.blend_space.scaled(db.examples[example as usize].parameters).distance(asked);
     Some(shares.examples.into_iter().zip(shares.shares).map(|(example, share)| share * distance(example)).sum())
-}
-
-/// The scale's colour at a share from 0, dense, to 1, thin.
-fn colour(share: f32) -> Rgb {
-    let share = 2.0 * share.clamp(0.0, 1.0);
-    if share < 1.0 { SCALE[0].lerp(SCALE[1], share) } else { SCALE[1].lerp(SCALE[2], share - 1.0) }
 }

@@ -11,6 +11,7 @@ use crate::error::RenderError;
 use crate::gait_plot::gait_events;
 use crate::parameter_plot::parameter_space;
 use crate::png_frame;
+use crate::pose_distance_plot::pose_distances;
 use crate::velocity_plot::velocity_space;
 
 /// Writes every plot of a database into a folder, which is made if missing; returns the files.
@@ -19,7 +20,7 @@ use crate::velocity_plot::velocity_space;
 /// Where the folder or a file cannot be written.
 pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>, RenderError> {
     fs::create_dir_all(folder).map_err(|source| RenderError::Folder { folder: folder.to_owned(), source })?;
-    let plots = [
+    let always = [
         ("velocity_space.png", velocity_space(db)),
         ("parameter_space.png", parameter_space(db)),
         ("coverage.png", coverage_slices(db)),
@@ -30,5 +31,6 @@ pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>
         let path = folder.join(name);
         png_frame::write(&path, &plot).map(|()| path)
     };
-    plots.into_iter().map(write).collect()
+    let correspondences = pose_distances(db).map(|plot| ("pose_distance.png", plot));
+    always.into_iter().chain(correspondences).map(write).collect()
 }

@@ -29,6 +29,9 @@ pub const SHOE: Rgb = Rgb::new(0.215, 0.205, 0.205);
 /// Plot paper.
 pub const PAPER: Rgb = Rgb::new(0.992, 0.990, 0.985);
 
+/// Measures from good to bad, light enough for marks in ink to stand on.
+const HEAT: [Rgb; 3] = [Rgb::new(0.62, 0.82, 0.66), Rgb::new(0.98, 0.90, 0.60), Rgb::new(0.86, 0.36, 0.22)];
+
 /// Skin and hair that go together, light to dark; hair is muted, so that no head competes with the clothes.
 const SKIN_AND_HAIR: [[Rgb; 2]; 9] = [
     [Rgb::new(0.945, 0.800, 0.690), Rgb::new(0.500, 0.375, 0.245)],
@@ -84,6 +87,12 @@ pub fn line_colour(index: usize) -> Rgb {
 fn agent_hue_rad(agent: usize) -> f32 {
     let turns = FIRST_HUE_SHARE + GOLDEN_SHARE * agent as f32;
     TAU * (turns - libm::floorf(turns))
+}
+
+/// A measure's colour at a share from 0, good, to 1, bad: pale green over pale yellow to orange red.
+pub fn heat(share: f32) -> Rgb {
+    let share = 2.0 * share.clamp(0.0, 1.0);
+    if share < 1.0 { HEAT[0].lerp(HEAT[1], share) } else { HEAT[1].lerp(HEAT[2], share - 1.0) }
 }
 
 /// A fixed, well-mixed number for each index (the finaliser of `MurmurHash3`).

@@ -5,7 +5,7 @@
 //! each step of m_sp.
 
 use glam::DVec3;
-use motiondb::correspondence::Correspondence;
+use motiondb::correspondence::{Correspondence, VELOCITY_WEIGHT_S};
 use motiondb::motion_db::{MotionExample, PHASE_COUNT};
 use motiondb::velocity_hull::{HOLDING_TURN_MAX_RAD_S, TURNING_STRAFE_MAX_MPS};
 
@@ -15,9 +15,6 @@ use crate::human_clip::HumanBody;
 
 /// m_sp is the straight walk nearest this speed (`definitions.md`), m/s.
 const SEMI_PROCEDURAL_MPS: f64 = 1.2;
-/// Weight of a joint's velocity beside its place: as far as it gets in this time, a transition's first instants,
-/// seconds.
-const VELOCITY_WEIGHT_S: f64 = 0.1;
 /// A minimum counts up to this multiple of the least distance of all.
 const THRESHOLD_RATIO: f64 = 1.5;
 /// Cycles share their phases; poses further apart than this share of a cycle are alike by accident (left for right).

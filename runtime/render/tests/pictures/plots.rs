@@ -5,9 +5,11 @@ use fbcrowd_render::coverage_plot::coverage_slices;
 use fbcrowd_render::database_plots::write_database_plots;
 use fbcrowd_render::gait_plot::gait_events;
 use fbcrowd_render::parameter_plot::parameter_space;
+use fbcrowd_render::pose_distance_plot::pose_distances;
 use fbcrowd_render::velocity_plot::velocity_space;
 use glam::Vec2;
 use motiondb::blend_space::BlendSpace;
+use motiondb::correspondence::Correspondence;
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
@@ -66,6 +68,21 @@ fn databases_of_one_and_of_many_examples_are_drawn() {
             assert!(drawn == plot(&db), "drawing again gives another picture");
         }
     }
+}
+
+#[test]
+fn pose_distances_are_drawn_where_there_are_correspondences() {
+    let mut db = database(&[0.0, 1.0, 1.4]);
+    assert!(pose_distances(&db).is_none());
+    db.correspondence = Some(Correspondence { semi_procedural: 1, blending: 2, pairs_s: vec![[0.275, 0.825]] });
+    let drawn = pose_distances(&db).unwrap();
+    // The panel's middle is coloured, and the pair at phases ¼ and ¾ is a disc of ink.
+    let pixel = |x, y| drawn.pixel(x, y).unwrap();
+    assert_ne!(pixel(690, 770), pixel(0, 0));
+    let pair = pixel(410, 490);
+    assert!(pair.red() < 60 && pair.green() < 60 && pair.blue() < 60, "{pair:?}");
+    let folder = support::Scratch::new("pose_distances");
+    assert_eq!(write_database_plots(&db, folder.path()).unwrap().len(), 6);
 }
 
 #[test]

@@ -30,7 +30,8 @@ pub(crate) struct Args {
     /// from right mid-stance.
     #[arg(long)]
     json: bool,
-    /// Write pictures of a database: velocity sets, parameters, where they are thin, bodies, steps.
+    /// Write pictures of a database: velocity sets, parameters, where they are thin, bodies, steps, and how alike the
+    /// poses of m_sp and m_mb are.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
     /// Rebuild a database without each of its recorded examples (and its mirror), blend at its parameters, and compare:
