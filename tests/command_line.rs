@@ -56,6 +56,40 @@ fn a_malformed_clip_is_refused_by_line_and_the_rest_still_compiles() {
 }
 
 #[test]
+fn a_manifest_is_found_in_its_folder_and_followed() {
+    let folder = folder("manifest");
+    for clip in ["walk_110.bvh", "idle.bvh"] {
+        fs::copy(support::repository().join("assets/clips").join(clip), folder.join(clip)).unwrap();
+    }
+    let database = folder.join("motion.fbdb");
+    let compile = |manifest: &str, input: &Path| {
+        fs::write(folder.join("manifest.toml"), manifest).unwrap();
+        fbcrowd(&["compile", text(input), "-o", text(&database)])
+    };
+    let wrong = "[[clips]]\npath = \"walk_110.bvh\"\njoints = { neck = \"Nack\" }\n";
+    compile(wrong, &folder).expect_code(2).says(&["manifest.toml:3", "Nack", "LeftUpLeg"]);
+    assert_eq!(files(&folder), ["idle.bvh", "manifest.toml", "walk_110.bvh"]);
+    let stroll = wrong.replace("joints = { neck = \"Nack\" }", "name = \"stroll\"");
+    for input in [folder.clone(), folder.join("manifest.toml")] {
+        compile(&stroll, &input).expect_code(0);
+        let shown = fbcrowd(&["inspect", text(&database), "--json"]).expect_code(0).json();
+        assert_eq!(shown["examples"].as_array().unwrap().len(), 1);
+        assert_eq!(shown["examples"][0]["name"], "stroll");
+    }
+}
+
+#[test]
+fn strict_makes_a_refusal_final() {
+    let folder = folder("strict");
+    let broken = folder.join("broken.bvh");
+    fs::write(&broken, "no clip").unwrap();
+    let database = folder.join("motion.fbdb");
+    let arguments = ["compile", text(&broken), WALK, "--strict", "-o", text(&database)];
+    fbcrowd(&arguments).expect_code(2).says(&["broken.bvh", "--strict"]);
+    assert_eq!(files(&folder), ["broken.bvh"]);
+}
+
+#[test]
 fn a_clip_without_human_legs_is_refused_with_the_reason() {
     let Some(fox) = shared("a_clip_without_human_legs_is_refused_with_the_reason", "mocap/gltf/Fox.glb") else {
         return;

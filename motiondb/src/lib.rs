@@ -20,5 +20,6 @@ pub mod parameters;
 pub mod phase_map;
 pub mod pose;
 pub mod skeleton;
+pub mod source_text;
 pub mod validate;
 pub mod velocity_hull;

@@ -19,10 +19,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use glam::Vec2;
-use motiondb::input_file;
+use motiondb::source_text::SourceText;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -31,16 +30,12 @@ use crate::polygon::signed_area_m2;
 use crate::scenario::{AgentSpec, Scenario, View};
 use crate::scenario_agents::{Complaint, Group, Groups, Journey, Kind, check_size, parse_lines};
 use crate::scenario_check::{Fault, Place, check};
-use crate::scenario_error::{Invalid, ScenarioError};
+use crate::scenario_error::ScenarioError;
 use crate::scenario_point::Point;
 use crate::split_mix::SplitMix64;
 
 const STEP_S: f32 = 1.0 / 30.0;
 const SEED: u64 = 1;
-/// A million agents take a tenth of it.
-const TEXT_MAX_BYTES: u64 = 1 << 30;
-/// Longer messages are cut.
-const MESSAGE_MAX_LETTERS: usize = 1_000;
 
 /// Where a scenario's motion comes from; apart from the [`Scenario`], so that no path gets into a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,12 +70,6 @@ struct Obstacle {
     polygon_m: Vec<Point>,
 }
 
-/// A text and its name, to point into.
-struct Source<'a> {
-    path: &'a Path,
-    text: String,
-}
-
 /// Agents, and for each the place in the text that asked for it.
 #[derive(Default)]
 struct Placed {
@@ -95,8 +84,9 @@ struct Placed {
 /// # Errors
 /// Where a file cannot be read or says something that cannot be simulated.
 pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
-    let source = Source::read(path)?;
-    let file: ScenarioFile = toml::from_str(&source.text).map_err(|error| source.toml_error(&error))?;
+    let source = read_text(path)?;
+    let file: ScenarioFile =
+        toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message()))?;
     let motion = motion_source(&source, &file)?;
     let placed = place_agents(&source, &file)?;
     let scenario = Scenario {
@@ -109,7 +99,7 @@ pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(View::default, |view| view.get_ref().clone()),
     };
-    check(&scenario).map_err(|fault| source.fault(&file, &placed.spans, fault))?;
+    check(&scenario).map_err(|broken| fault(&source, &file, &placed.spans, broken))?;
     Ok((scenario, motion))
 }
 
@@ -126,14 +116,19 @@ fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {
 }
 
 /// What the file names, or that it is not there; the file itself is wrong unless it names exactly one.
-fn motion_source(source: &Source, file: &ScenarioFile) -> Result<Result<MotionSource, ScenarioError>, ScenarioError> {
+fn motion_source(
+    source: &SourceText,
+    file: &ScenarioFile,
+) -> Result<Result<MotionSource, ScenarioError>, ScenarioError> {
     let (given, to_motion): (_, fn(PathBuf) -> MotionSource) = match (&file.clips, &file.database) {
         (Some(clips), None) => (clips, MotionSource::Clips),
         (None, Some(database)) => (database, MotionSource::Database),
         (clips, _) => {
             let span = clips.as_ref().map_or(0..0, Spanned::span);
             let message = "a scenario needs either `clips` or `database`";
-            return Err(source.invalid(span, message, "name a folder of clips or a .fbdb file, relative to this file"));
+            return Err(source
+                .invalid(span, message, "name a folder of clips or a .fbdb file, relative to this file")
+                .into());
         }
     };
     let path = source.beside(given.get_ref());
@@ -141,10 +136,10 @@ fn motion_source(source: &Source, file: &ScenarioFile) -> Result<Result<MotionSo
         return Ok(Ok(to_motion(path)));
     }
     let message = format!("there is no {}", path.display());
-    Ok(Err(source.invalid(given.span(), message, "the path is relative to the scenario file")))
+    Ok(Err(source.invalid(given.span(), message, "the path is relative to the scenario file").into()))
 }
 
-fn place_agents(source: &Source, file: &ScenarioFile) -> Result<Placed, ScenarioError> {
+fn place_agents(source: &SourceText, file: &ScenarioFile) -> Result<Placed, ScenarioError> {
     let mut placed = Placed::default();
     for (stream, (span, group)) in file.agents.get_ref().0.iter().enumerate() {
         let span = span.clone().unwrap_or_else(|| file.agents.span());
@@ -153,7 +148,7 @@ fn place_agents(source: &Source, file: &ScenarioFile) -> Result<Placed, Scenario
         placed.waypoints += agents.iter().map(|agent| agent.goals_m.len()).sum::<usize>();
         // After each table, so that many of them do not fill the memory first.
         if let Err((message, help)) = check_size(placed.agents.len() + agents.len(), placed.waypoints) {
-            return Err(source.invalid(span, message, help));
+            return Err(source.invalid(span, message, help).into());
         }
         placed.spans.extend(std::iter::repeat_n(span, agents.len()));
         placed.agents.extend(agents);
@@ -163,12 +158,12 @@ fn place_agents(source: &Source, file: &ScenarioFile) -> Result<Placed, Scenario
 
 /// From where to where the agents of one table walk.
 fn journeys(
-    source: &Source,
+    source: &SourceText,
     group: &Group,
     span: &Range<usize>,
     random: SplitMix64,
 ) -> Result<Vec<Journey>, ScenarioError> {
-    let complain = |(message, help): Complaint| source.invalid(span.clone(), message, help);
+    let complain = |(message, help): Complaint| ScenarioError::from(source.invalid(span.clone(), message, help));
     match group.kind().map_err(complain)? {
         Kind::Single(at_m) => Ok(vec![group.journey(at_m)]),
         Kind::Circle(circle) => circle.journeys().map_err(complain),
@@ -177,75 +172,43 @@ fn journeys(
     }
 }
 
-fn read_lines(source: &Source, name: &Spanned<String>) -> Result<Vec<Journey>, ScenarioError> {
+fn read_lines(source: &SourceText, name: &Spanned<String>) -> Result<Vec<Journey>, ScenarioError> {
     let path = source.beside(Path::new(name.get_ref()));
     if !path.is_file() {
         let message = format!("there is no file {}", path.display());
-        return Err(source.invalid(name.span(), message, "the path is relative to the scenario file"));
+        return Err(source.invalid(name.span(), message, "the path is relative to the scenario file").into());
     }
-    let lines = Source::read(&path)?;
+    let lines = read_text(&path)?;
     parse_lines(&lines.text)
-        .map_err(|(span, message)| lines.invalid(span, message, "each line is `x y goal_x goal_y`, in metres"))
+        .map_err(|(span, message)| lines.invalid(span, message, "each line is `x y goal_x goal_y`, in metres").into())
 }
 
-impl<'a> Source<'a> {
-    fn read(path: &'a Path) -> Result<Self, ScenarioError> {
-        let fail = |source| ScenarioError::Unreadable { path: path.to_owned(), source };
-        if fs::metadata(path).map_err(fail)?.len() > TEXT_MAX_BYTES {
-            return Err(fail(std::io::Error::other("a text of more than 1 GiB")));
-        }
-        let text = io::read_to_string(input_file::open(path).map_err(fail)?).map_err(fail)?;
-        // Some editors begin a text with a byte order mark.
-        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-        Ok(Self { path, text })
-    }
+/// The text of a file.
+fn read_text(path: &Path) -> Result<SourceText, ScenarioError> {
+    SourceText::read(path).map_err(|source| ScenarioError::Unreadable { path: path.to_owned(), source })
+}
 
-    /// A path given relative to this file.
-    fn beside(&self, path: &Path) -> PathBuf {
-        self.path.parent().unwrap_or(Path::new("")).join(path)
-    }
+/// Points at what breaks a rule.
+fn fault(source: &SourceText, file: &ScenarioFile, agents: &[Range<usize>], fault: Fault) -> ScenarioError {
+    let span = match fault.place {
+        Place::Name => file.name.as_ref().map_or(0..0, Spanned::span),
+        Place::Duration => file.duration_s.span(),
+        Place::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
+        Place::View => file.view.as_ref().map_or(0..0, Spanned::span),
+        Place::Parameter(section, key) => parameter_span(source, &section, &key),
+        Place::Agent(index) => agents[index].clone(),
+        Place::Obstacle(index) => file.obstacles[index].span(),
+        Place::Agents => file.agents.span(),
+    };
+    source.invalid(span, fault.message, fault.help).into()
+}
 
-    fn invalid(&self, span: Range<usize>, message: impl Into<String>, help: &str) -> ScenarioError {
-        let (path, text) = (self.path.to_owned(), self.text.clone());
-        // It may quote what is wrong, however long.
-        let message = message.into().chars().take(MESSAGE_MAX_LETTERS).collect();
-        ScenarioError::Invalid(Box::new(Invalid { path, text, span, message, help: help.to_owned() }))
+/// Reads the text once more, since [`Params`] keeps no places.
+fn parameter_span(source: &SourceText, section: &str, key: &str) -> Range<usize> {
+    #[derive(Deserialize)]
+    struct Places {
+        params: BTreeMap<String, BTreeMap<String, Spanned<toml::Value>>>,
     }
-
-    fn toml_error(&self, error: &toml::de::Error) -> ScenarioError {
-        let message = error.message();
-        let help = if message.starts_with("unknown field") {
-            "correct the key or remove it"
-        } else if message.starts_with("missing field") {
-            "add the key"
-        } else {
-            "correct the value"
-        };
-        self.invalid(error.span().unwrap_or(0..0), message, help)
-    }
-
-    /// Points at what breaks a rule.
-    fn fault(&self, file: &ScenarioFile, agents: &[Range<usize>], fault: Fault) -> ScenarioError {
-        let span = match fault.place {
-            Place::Name => file.name.as_ref().map_or(0..0, Spanned::span),
-            Place::Duration => file.duration_s.span(),
-            Place::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
-            Place::View => file.view.as_ref().map_or(0..0, Spanned::span),
-            Place::Parameter(section, key) => self.parameter_span(&section, &key),
-            Place::Agent(index) => agents[index].clone(),
-            Place::Obstacle(index) => file.obstacles[index].span(),
-            Place::Agents => file.agents.span(),
-        };
-        self.invalid(span, fault.message, fault.help)
-    }
-
-    /// Reads the text once more, since [`Params`] keeps no places.
-    fn parameter_span(&self, section: &str, key: &str) -> Range<usize> {
-        #[derive(Deserialize)]
-        struct Places {
-            params: BTreeMap<String, BTreeMap<String, Spanned<toml::Value>>>,
-        }
-        let places = toml::from_str::<Places>(&self.text).ok();
-        places.and_then(|places| Some(places.params.get(section)?.get(key)?.span())).unwrap_or(0..0)
-    }
+    let places = toml::from_str::<Places>(&source.text).ok();
+    places.and_then(|places| Some(places.params.get(section)?.get(key)?.span())).unwrap_or(0..0)
 }

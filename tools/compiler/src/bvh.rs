@@ -64,6 +64,7 @@ fn posed(file: &Path, checked: &CheckedBvh, bvh: &Bvh) -> SourceClip {
         frame_rate_hz: 1.0 / bvh.frame_time().as_secs_f64().max(1e-6),
         positions,
         orientations,
+        up_axis: None,
         metres_per_unit: None,
         warnings: checked.warnings.clone(),
     }

@@ -14,8 +14,10 @@ use crate::arc::Rates;
 use crate::compile_error::CompileError;
 use crate::cycle::GaitCycle;
 use crate::gait::Gait;
-use crate::human_clip::{HumanBody, HumanClip};
+use crate::human_clip::{Choices, HumanBody, HumanClip};
 use crate::import::{self, Import};
+use crate::manifest::Manifest;
+use crate::manifest_error::ManifestError;
 use crate::{blend_space, correspondence, mirror, parameterize, rows, standing, target_skeleton, velocity_hull};
 
 /// Period of standing clips where none steps, seconds.
@@ -35,42 +37,58 @@ pub struct Compiled {
 /// # Errors
 /// As [`compile`]; a file that cannot be read is refused like a clip that is not human, unless nothing is left.
 pub fn compile_files(files: &[PathBuf], imported: &(dyn Fn(&Path) + Sync)) -> Result<Compiled, CompileError> {
-    let (clips, refused) = import_files(files, imported);
+    compile_manifest(&Manifest::of_files(files), imported)
+}
+
+/// As [`compile_files`], of the clips and by the choices of a manifest.
+///
+/// # Errors
+/// As [`compile_files`], and where the manifest says of a clip what is not so.
+pub fn compile_manifest(manifest: &Manifest, imported: &(dyn Fn(&Path) + Sync)) -> Result<Compiled, CompileError> {
+    let (clips, refused) = import_manifest(manifest, imported)?;
     if clips.is_empty() && !refused.is_empty() {
         return Err(CompileError::NoExample { reasons: refused.join("; ") });
     }
-    Ok(Compiled { db: compile(clips)?, refused })
+    match compile(clips) {
+        Err(CompileError::NotStepping { .. }) => Err(ManifestError::from(manifest.not_stepping()).into()),
+        compiled => Ok(Compiled { db: compiled?, refused }),
+    }
 }
 
-/// The human clips of files, imported in parallel, and a message for each file or clip that gives none; both in order
-/// of file name.
-pub fn import_files(files: &[PathBuf], imported: &(dyn Fn(&Path) + Sync)) -> (Vec<HumanClip>, Vec<String>) {
-    let mut files: Vec<&PathBuf> = files.iter().collect();
-    files.sort_by_key(|file| (file.file_name(), *file));
-    let imports: Vec<_> = files
+/// The human clips of a manifest, imported in parallel, and a message for each file or clip that gives none; both in
+/// order of file name.
+///
+/// # Errors
+/// Where the manifest says of a clip what is not so.
+pub fn import_manifest(
+    manifest: &Manifest,
+    imported: &(dyn Fn(&Path) + Sync),
+) -> Result<(Vec<HumanClip>, Vec<String>), ManifestError> {
+    let imports: Vec<_> = manifest
+        .takes
         .par_iter()
-        .map(|file| {
-            let import = import::import(file);
-            imported(file);
+        .map(|take| {
+            let import = import::import_take(take);
+            imported(&take.path);
             import
         })
         .collect();
     let (mut clips, mut refused) = (Vec::new(), Vec::new());
-    for import in imports {
+    for (take, import) in manifest.takes.iter().zip(imports) {
         match import {
             Err(error) => refused.push(error.to_string()),
             Ok(found) => {
                 for Import { file, clip, outcome } in found {
                     match outcome {
                         Ok(human) => clips.push(human),
-                        Err(refusal) if clip.is_empty() => refused.push(format!("{file}: {refusal}")),
-                        Err(refusal) => refused.push(format!("{file}, {clip}: {refusal}")),
+                        Err(refusal) => refused.push(manifest.refusal(take, &[&file, &clip], refusal)?),
                     }
                 }
             }
         }
     }
-    (clips, refused)
+    manifest.choose(&mut clips)?;
+    Ok((clips, refused))
 }
 
 /// Compiles clips into a database.
@@ -78,13 +96,13 @@ pub fn import_files(files: &[PathBuf], imported: &(dyn Fn(&Path) + Sync)) -> (Ve
 /// # Errors
 /// Where no clip gives an example, two examples have one name, or the database is unsound.
 pub fn compile(mut clips: Vec<HumanClip>) -> Result<MotionDb, CompileError> {
-    clips.sort_by(|a, b| (&a.source.file, &a.source.clip).cmp(&(&b.source.file, &b.source.clip)));
+    sort(&mut clips);
     if clips.is_empty() {
         return Err(CompileError::NoClips);
     }
     let body = target_skeleton::choose(&clips);
     let analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
-    let period_s = standing_period_s(&analyzed);
+    let period_s = standing_period_s(chosen_cycle(&clips, &analyzed)?, &analyzed);
     let mut sources: Vec<SourceRecord> = clips.iter().map(|clip| clip.source.clone()).collect();
     let mut cycles = close(&clips, analyzed, &body, period_s, &mut sources);
     add_mirrors(&mut cycles);
@@ -94,7 +112,7 @@ pub fn compile(mut clips: Vec<HumanClip>) -> Result<MotionDb, CompileError> {
 
 /// The records of clips with what a compilation would say of each, in the order of a database.
 pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SourceRecord> {
-    clips.sort_by(|a, b| (&a.source.file, &a.source.clip).cmp(&(&b.source.file, &b.source.clip)));
+    sort(&mut clips);
     if clips.is_empty() {
         return Vec::new();
     }
@@ -107,8 +125,23 @@ pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SourceRecord> {
     clips.par_iter().map(record).collect()
 }
 
+/// Into the order of a database, which no folder and no argument changes.
+fn sort(clips: &mut [HumanClip]) {
+    clips.sort_by(|a, b| (&a.source.file, &a.source.clip, &a.name).cmp(&(&b.source.file, &b.source.clip, &b.name)));
+}
+
+/// The cycle of the clip that a manifest chose as m_sp, if any.
+fn chosen_cycle<'a>(clips: &[HumanClip], analyzed: &'a [Analyzed]) -> Result<Option<&'a GaitCycle>, CompileError> {
+    let chosen = clips.iter().zip(analyzed).find(|(clip, _)| clip.choices.is_semi_procedural);
+    let Some((clip, found)) = chosen else { return Ok(None) };
+    found.stepping.as_ref().map(Some).ok_or_else(|| CompileError::NotStepping { name: clip.name.clone() })
+}
+
 /// The period of m_sp, which standing clips take over.
-fn standing_period_s(analyzed: &[Analyzed]) -> f64 {
+fn standing_period_s(chosen: Option<&GaitCycle>, analyzed: &[Analyzed]) -> f64 {
+    if let Some(cycle) = chosen {
+        return f64::from(cycle.phase_map.period_s);
+    }
     let stepping: Vec<&GaitCycle> = analyzed.iter().filter_map(|found| found.stepping.as_ref()).collect();
     let rates: Vec<Rates> = stepping.iter().map(|cycle| cycle.rates).collect();
     let chosen = correspondence::semi_procedural(&rates);
@@ -120,6 +153,7 @@ struct NamedCycle {
     name: String,
     source: u32,
     mirrored: bool,
+    choices: Choices,
     cycle: GaitCycle,
 }
 
@@ -139,22 +173,24 @@ fn close(
             _ => found.stepping,
         };
         if let Some(cycle) = cycle {
-            cycles.push(NamedCycle { name: clip.name.clone(), source: index as u32, mirrored: false, cycle });
+            let (name, choices) = (clip.name.clone(), clip.choices);
+            cycles.push(NamedCycle { name, source: index as u32, mirrored: false, choices, cycle });
         }
     }
     cycles
 }
 
-/// Appends the mirrors of one-sided cycles that have no counterpart.
+/// Appends the mirrors that a manifest wants, else those of one-sided cycles that have no counterpart.
 fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
     let rates: Vec<_> = cycles.iter().map(|named| named.cycle.rates).collect();
     let mirrors: Vec<NamedCycle> = cycles
         .iter()
-        .filter(|named| mirror::wants_mirror(&named.cycle.rates, &rates))
+        .filter(|named| named.choices.mirror.unwrap_or_else(|| mirror::wants_mirror(&named.cycle.rates, &rates)))
         .map(|named| NamedCycle {
             name: format!("{}_mirrored", named.name),
             source: named.source,
             mirrored: true,
+            choices: Choices::default(),
             cycle: mirror::mirror(&named.cycle),
         })
         .collect();
@@ -173,9 +209,10 @@ fn assemble(named: Vec<NamedCycle>, sources: Vec<SourceRecord>, body: &HumanBody
         .iter()
         .map(|named| parameterize::example(&named.cycle, body, named.name.clone(), named.source, named.mirrored))
         .collect();
+    let chosen = named.iter().position(|named| named.choices.is_semi_procedural);
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
     let blend_space = blend_space::build(&examples);
-    let correspondence = correspondence::build(&examples, &cycles, body, blend_space.axis_ranges);
+    let correspondence = correspondence::build(&examples, &cycles, body, blend_space.axis_ranges, chosen);
     let db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
         correspondence,

@@ -2,6 +2,8 @@
 
 use motiondb::motion_db::SourceRecord;
 
+use crate::manifest_error::ManifestError;
+
 /// No database could be made.
 #[derive(Debug, thiserror::Error)]
 pub enum CompileError {
@@ -24,8 +26,17 @@ pub enum CompileError {
         /// Where and how.
         detail: String,
     },
+    /// A manifest cannot be followed.
+    #[error(transparent)]
+    Manifest(#[from] ManifestError),
+    /// The clip that was chosen as m_sp.
+    #[error("{name} is to be m_sp, but gives no example that steps; choose a straight walk")]
+    NotStepping {
+        /// Its name.
+        name: String,
+    },
     /// Examples are told apart by name.
-    #[error("two clips are called {name}; rename one of the files")]
+    #[error("two clips are called {name}; rename one of the files, or name one in a manifest")]
     SameName {
         /// The name.
         name: String,

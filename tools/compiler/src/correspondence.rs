@@ -33,16 +33,18 @@ pub fn semi_procedural(stepping: &[Rates]) -> Option<usize> {
     })
 }
 
-/// m_sp, m_mb and T; none with fewer than two cycles that step. `axis_ranges` are the blend space's.
+/// m_sp, m_mb and T; none with fewer than two cycles that step. `axis_ranges` are the blend space's; `chosen` is m_sp
+/// where it need not be found.
 pub fn build(
     examples: &[MotionExample],
     cycles: &[GaitCycle],
     body: &HumanBody,
     axis_ranges: [f32; 3],
+    chosen: Option<usize>,
 ) -> Option<Correspondence> {
     let stepping: Vec<usize> = (0..examples.len()).filter(|index| cycles[*index].steps).collect();
     let rates: Vec<Rates> = stepping.iter().map(|&index| cycles[index].rates).collect();
-    let sp = stepping[semi_procedural(&rates)?];
+    let sp = chosen.or_else(|| Some(stepping[semi_procedural(&rates)?]))?;
     let distance = |example: &MotionExample| {
         let off = (example.parameters.to_vec3() - examples[sp].parameters.to_vec3()).to_array();
         let scaled = off.iter().zip(axis_ranges).map(|(off, range)| if range > 0.0 { off / range } else { 0.0 });

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use motiondb::skeleton::Joint;
+
 /// A file that cannot be read as motion at all. A single clip that is readable but not human is a [`Refusal`] instead.
 #[derive(Debug, thiserror::Error)]
 pub enum ImportError {
@@ -75,12 +77,35 @@ pub enum Refusal {
         /// The measurement that says so.
         reason: String,
     },
+    /// The manifest says of the clip what is not so.
+    #[error("{reason}; {remedy}")]
+    Setting {
+        /// What it says.
+        setting: Setting,
+        /// Why it is not so.
+        reason: String,
+        /// What to do.
+        remedy: &'static str,
+    },
     /// Limbs are there, but the body is a quadruped's or crawls or lies.
     #[error("not upright: {reason}; only clips of a walking human skeleton can be used")]
     NotUpright {
         /// The measurement that says so.
         reason: String,
     },
+}
+
+/// What a manifest says of a clip and the clip may belie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Setting {
+    /// Which animation of a glTF file.
+    Animation,
+    /// Which frames.
+    Frames,
+    /// Where the body faces.
+    Forward,
+    /// Who plays a role.
+    Joint(Joint),
 }
 
 /// The fewest frames of a clip: two positions make one velocity.

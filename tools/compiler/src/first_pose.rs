@@ -31,7 +31,7 @@ pub(crate) fn drop_separate_first_pose(clip: &mut SourceClip, roles: &Roles) {
     let first = steps.remove(0);
     steps.sort_by(f64::total_cmp);
     if first > JUMP_TIMES_MEDIAN * steps[steps.len() / 2] + JUMP_MIN_M {
-        clip.drop_first_frames(1);
+        clip.keep_frames(1..clip.frame_count());
         clip.warnings.push("the first frame is a separate pose and is not used".to_owned());
     }
     if spread(clip, roles, 0) > SPREAD_COSINE {

@@ -142,6 +142,7 @@ fn sampled(tree: &Tree, nodes: &[Node], animation: &Animation, span: &Span, file
         frame_rate_hz: FRAME_RATE_HZ,
         positions: globals.iter().map(|global| global.w_axis.truncate()).collect(),
         orientations: globals.iter().map(|global| orientation(DMat3::from_mat4(*global))).collect(),
+        up_axis: None,
         metres_per_unit: Some(1.0),
         warnings: Vec::new(),
     }

@@ -20,6 +20,19 @@ pub struct HumanClip {
     /// The clip treads on the spot: the ground speed (forward, left, in the body's frame, m/s) at which its stance feet
     /// stand still.
     pub in_place_mps: Option<DVec2>,
+    /// What a manifest makes of it.
+    pub choices: Choices,
+}
+
+/// What a manifest makes of a clip; by default the set decides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Choices {
+    /// Whether its example is mirrored; where none, when that adds to the set.
+    pub mirror: Option<bool>,
+    /// Its example is m_sp.
+    pub is_semi_procedural: bool,
+    /// All examples have its body.
+    pub is_target_skeleton: bool,
 }
 
 /// Bones of one performer in the canonical rest pose (see [`motiondb::skeleton`]), metres.

@@ -1,20 +1,22 @@
 //! Clips in: from files and folders to [`HumanClip`]s.
 //!
 //! # Steps
-//! read ([`crate::bvh`], [`crate::gltf`]) → roles ([`crate::skeleton_map`]) → metres, Z up ([`crate::units`]) → no separate first pose
-//! (`first_pose`) → whole-clip parameters ([`crate::source_parameters`]) → a plausible gait (`plausibility`) → canonical humanoid (`retarget`)
-//! → a plausible body.
+//! read ([`crate::bvh`], [`crate::gltf`]) → what a manifest corrects ([`crate::take`]) → roles ([`crate::skeleton_map`])
+//! and facing (`facing`) → metres, Z up ([`crate::units`]) → no separate first pose (`first_pose`) → whole-clip
+//! parameters ([`crate::source_parameters`]) → a plausible gait (`plausibility`) → canonical humanoid (`retarget`) → a
+//! plausible body.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use motiondb::input_file;
 
-use crate::error::{ImportError, MIN_FRAMES, Refusal};
+use crate::error::{ImportError, MIN_FRAMES, Refusal, Setting};
 use crate::human_clip::{HumanClip, HumanPose};
 use crate::skeleton_map::find_roles;
 use crate::source_clip::SourceClip;
-use crate::{bvh, first_pose, gltf, plausibility, retarget, source_parameters, units};
+use crate::take::{Settings, Take};
+use crate::{bvh, facing, first_pose, gltf, plausibility, retarget, source_parameters, units};
 
 /// One clip of a file: a human motion, or why it is none.
 #[derive(Clone, Debug)]
@@ -32,8 +34,17 @@ pub struct Import {
 /// # Errors
 /// [`ImportError`] where the file itself cannot be read as motion.
 pub fn import(path: &Path) -> Result<Vec<Import>, ImportError> {
-    let bytes = input_file::read(path).map_err(|source| ImportError::Unreadable { file: path.to_owned(), source })?;
-    import_bytes(path, &bytes)
+    import_take(&Take::from(path.to_owned()))
+}
+
+/// As [`import`], with what a manifest says of the file.
+///
+/// # Errors
+/// As [`import`].
+pub fn import_take(take: &Take) -> Result<Vec<Import>, ImportError> {
+    let path = &take.path;
+    let bytes = input_file::read(path).map_err(|source| ImportError::Unreadable { file: path.clone(), source })?;
+    import_read(take, &bytes)
 }
 
 /// As [`import`], from the bytes of a file; `path` gives the format, the names and the folder of glTF buffers.
@@ -41,13 +52,38 @@ pub fn import(path: &Path) -> Result<Vec<Import>, ImportError> {
 /// # Errors
 /// As [`import`].
 pub fn import_bytes(path: &Path, bytes: &[u8]) -> Result<Vec<Import>, ImportError> {
+    import_read(&Take::from(path.to_owned()), bytes)
+}
+
+fn import_read(take: &Take, bytes: &[u8]) -> Result<Vec<Import>, ImportError> {
+    let path = take.path.as_path();
     let clips = match Format::of(path).ok_or_else(|| ImportError::UnknownFormat { file: path.to_owned() })? {
         Format::Bvh => vec![bvh::read(path, bytes)?],
         Format::Gltf => gltf::read(path, bytes)?,
     };
     let several = clips.len() > 1;
     let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    Ok(clips.into_iter().map(|clip| import_clip(clip, &stem, several)).collect())
+    let label = take.settings.name.clone().unwrap_or(stem);
+    let Some(animation) = &take.animation else {
+        return Ok(clips.into_iter().map(|clip| import_clip(clip, take, &label, several)).collect());
+    };
+    let only_name = several && take.settings.name.is_none();
+    let names: Vec<String> = clips.iter().map(|clip| clip.clip.clone()).collect();
+    let found = clips.into_iter().find(|clip| clip.clip == *animation);
+    Ok(vec![found.map_or_else(
+        || Import { file: file_name(path), clip: animation.clone(), outcome: Err(no_animation(animation, &names)) },
+        |clip| import_clip(clip, take, &label, only_name),
+    )])
+}
+
+fn no_animation(animation: &str, names: &[String]) -> Refusal {
+    let names = if *names == [""] { "a motion without name".to_owned() } else { names.join(", ") };
+    let reason = format!("there is no animation `{animation}`, but {names}");
+    Refusal::Setting { setting: Setting::Animation, reason, remedy: "name what is there, or remove the key" }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// Every `*.bvh`, `*.glb`, `*.gltf` below a folder, sorted by path.
@@ -85,21 +121,28 @@ impl Format {
     }
 }
 
-fn import_clip(clip: SourceClip, stem: &str, several: bool) -> Import {
-    let name = if several { format!("{stem} {}", clip.clip) } else { stem.to_owned() };
-    Import { file: clip.file.clone(), clip: clip.clip.clone(), outcome: to_human(clip, name) }
+fn import_clip(clip: SourceClip, take: &Take, label: &str, several: bool) -> Import {
+    let name = if several { format!("{label} {}", clip.clip) } else { label.to_owned() };
+    Import { file: clip.file.clone(), clip: clip.clip.clone(), outcome: to_human(clip, &take.settings, name) }
 }
 
-fn to_human(clip: SourceClip, name: String) -> Result<HumanClip, Refusal> {
+fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<HumanClip, Refusal> {
+    settings.correct(&mut clip)?;
     if clip.frame_count() < MIN_FRAMES {
         return Err(Refusal::TooShort { frames: clip.frame_count() });
     }
-    let roles = find_roles(&clip)?;
+    let mut roles = find_roles(&clip, &settings.joint_map(&clip)?)?;
+    if let Some(forward) = settings.forward {
+        facing::face(&clip, &mut roles, forward)?;
+    }
     let (mut clip, units) = units::to_metres_z_up(clip, &roles);
-    first_pose::drop_separate_first_pose(&mut clip, &roles);
+    if settings.frames.is_none() {
+        first_pose::drop_separate_first_pose(&mut clip, &roles);
+    }
     let whole = source_parameters::measure(&clip, &roles);
     clip.warnings.extend(plausibility::implausible_gait(&clip, &roles, &whole));
-    let human = retarget::to_human(&clip, &roles, &units, whole, name);
+    let mut human = retarget::to_human(&clip, &roles, &units, whole, name);
+    human.choices.mirror = settings.mirror;
     let finite = |pose: &HumanPose| pose.pelvis_m.is_finite() && pose.rotations.iter().all(|turn| turn.is_finite());
     if !human.frames.iter().all(finite) {
         return Err(Refusal::Degenerate);

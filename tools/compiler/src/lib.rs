@@ -1,15 +1,16 @@
 //! Motion clips in, motion database out: one file per stage, in `compile.rs` one line per stage.
 //!
-//! import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] → [`human_clip::HumanClip`] →
-//! [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] → [`contacts`], [`gait`],
-//! [`stride`], [`steady_window`], [`stride_alignment`] → [`pose_mean`], [`cycle::GaitCycle`] (or [`standing`]) →
-//! [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`], [`velocity_hull`], [`blend_space`], [`correspondence`] →
-//! [`motiondb::motion_db::MotionDb`]
+//! [`manifest`] → [`take`] → import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] →
+//! [`human_clip::HumanClip`] → [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] →
+//! [`contacts`], [`gait`], [`stride`], [`steady_window`], [`stride_alignment`] → [`pose_mean`], [`cycle::GaitCycle`]
+//! (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`], [`velocity_hull`], [`blend_space`],
+//! [`correspondence`] → [`motiondb::motion_db::MotionDb`]
 
 mod analysis;
 mod anchors;
 pub mod anthropometry;
 pub mod arc;
+pub mod axis;
 pub mod blend_space;
 pub mod bvh;
 mod bvh_prepass;
@@ -20,6 +21,7 @@ pub mod contacts;
 pub mod correspondence;
 pub mod cycle;
 pub mod error;
+mod facing;
 mod first_pose;
 pub mod foot_slide;
 pub mod gait;
@@ -30,6 +32,9 @@ pub mod import;
 mod joint_names;
 pub mod leg_ik;
 mod limb;
+pub mod manifest;
+pub mod manifest_error;
+mod manifest_table;
 pub mod mirror;
 pub mod parameterize;
 mod plausibility;
@@ -48,6 +53,7 @@ pub mod stride;
 pub mod stride_alignment;
 #[cfg(test)]
 mod synthetic;
+pub mod take;
 pub mod target_skeleton;
 pub mod units;
 pub mod unroll;

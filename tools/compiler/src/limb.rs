@@ -58,6 +58,18 @@ pub(crate) struct LimbPair {
 }
 
 impl LimbPair {
+    /// Limbs that need not be found, of the joint that both hang from.
+    pub(crate) fn known(shape: &Shape, joints: [[usize; 3]; 2]) -> Self {
+        let limbs = joints.map(|joints| {
+            let [from, middle, to] = joints;
+            let length = shape.distance(from, middle) + shape.distance(middle, to);
+            Limb { joints, depths: PARTED, length, score: 0.0 }
+        });
+        let above = shape.ancestors(joints[1][0]);
+        let fork = shape.ancestors(joints[0][0]).into_iter().find(|joint| above.contains(joint)).unwrap_or(0);
+        Self { fork, limbs }
+    }
+
     pub(crate) fn score(&self) -> f64 {
         self.limbs[0].score + self.limbs[1].score
     }

@@ -11,7 +11,7 @@ use motiondb::skeleton::{JOINT_COUNT, Joint};
 
 use crate::anchors::{Anchor, anchors};
 use crate::calibration::{Tracks, calibrated};
-use crate::human_clip::{HumanBody, HumanClip, HumanPose};
+use crate::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
 use crate::skeleton_map::Roles;
 use crate::soles::{self, Soles};
 use crate::source_clip::SourceClip;
@@ -63,6 +63,7 @@ pub(crate) fn to_human(
         body: body(&tracks, &orientations, offsets_m, soles, leg_m),
         frames,
         in_place_mps: whole.in_place.then(|| glam::DVec2::new(whole.speed_mps, whole.strafe_mps)),
+        choices: Choices::default(),
     }
 }
 

@@ -8,10 +8,11 @@
 use glam::DVec3;
 use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
 
-use crate::error::Refusal;
+use crate::error::{Refusal, Setting};
 use crate::joint_names::Part;
 use crate::limb::{Limb, LimbPair, Shape};
 use crate::source_clip::SourceClip;
+use crate::take::JointMap;
 
 /// Least mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders). People walk and run at 0.9–1, crouch
 /// and bow at 0.64; a fox walks at 0.1 and gallops at 0.28.
@@ -24,6 +25,15 @@ pub(crate) const MAX_JOINTS: usize = 4096;
 const TOE_DISTANCE: f64 = 0.12;
 /// Knees and elbows are bones' ends: their bones' lengths vary less than this (translating knees of `misc/ezgi_walk1`: 5 %).
 const LOOSE_BONE: f64 = 0.15;
+
+/// The roles of the limbs, from the trunk outwards, `[left, right]`.
+pub(crate) const LEGS: [[Joint; 3]; 2] =
+    [[Joint::LeftThigh, Joint::LeftShank, Joint::LeftFoot], [Joint::RightThigh, Joint::RightShank, Joint::RightFoot]];
+/// As [`LEGS`].
+pub(crate) const ARMS: [[Joint; 3]; 2] = [
+    [Joint::LeftUpperArm, Joint::LeftForearm, Joint::LeftHand],
+    [Joint::RightUpperArm, Joint::RightForearm, Joint::RightHand],
+];
 
 /// Source joints by canonical role.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,31 +53,64 @@ impl Roles {
     pub fn required(&self, joint: Joint) -> usize {
         self.joints[joint.index()].expect("find_roles assigns it or refuses the clip")
     }
+
+    /// Left becomes right.
+    pub(crate) fn exchange_sides(&mut self) {
+        let mirrored = |found: &[Option<usize>; JOINT_COUNT]| Joint::ALL.map(|joint| found[joint.mirrored().index()]);
+        (self.joints, self.ends) = (mirrored(&self.joints), mirrored(&self.ends));
+        self.soles.swap(0, 1);
+        self.heels.swap(0, 1);
+    }
 }
 
-/// Finds the roles of a clip's joints.
+/// Finds the roles of a clip's joints, apart from those that are known: of legs and arms all six joints or none.
 ///
 /// # Errors
-/// [`Refusal`] for what has no human legs, no arms, or does not stand upright.
-pub fn find_roles(clip: &SourceClip) -> Result<Roles, Refusal> {
+/// [`Refusal`] for what has no human legs, no arms, or does not stand upright, or is known wrongly.
+pub fn find_roles(clip: &SourceClip, known: &JointMap) -> Result<Roles, Refusal> {
     if clip.joints.len() > MAX_JOINTS {
         return Err(Refusal::NoLegs { reason: format!("{} joints are no body's", clip.joints.len()) });
     }
     let shape = Shape::new(clip);
-    let mut legs = find_legs(&shape)?;
-    let mut arms = find_arms(&shape, &legs)?;
+    let (known_legs, known_arms) = (known_pair(&shape, known, LEGS)?, known_pair(&shape, known, ARMS)?);
+    let mut legs = known_legs.clone().map_or_else(|| find_legs(&shape), Ok)?;
+    let mut arms = known_arms.clone().map_or_else(|| find_arms(&shape, &legs), Ok)?;
     check_upright(&shape, &legs, &arms)?;
-    if legs_swapped(&shape, &legs, &arms) {
+    if known_legs.is_none() && legs_swapped(&shape, &legs, &arms) {
         legs.limbs.swap(0, 1);
     }
-    if arms_swapped(&shape, &legs, &arms) {
+    if known_arms.is_none() && arms_swapped(&shape, &legs, &arms) {
         arms.limbs.swap(0, 1);
     }
     let mut roles =
         Roles { joints: [None; JOINT_COUNT], ends: [None; JOINT_COUNT], soles: [None; 2], heels: [None; 2] };
     assign_limbs(&shape, &mut roles, &legs, &arms);
     assign_trunk(&shape, &mut roles, &legs, &arms);
+    for (role, known) in roles.joints.iter_mut().zip(known) {
+        *role = known.or(*role);
+    }
     Ok(roles)
+}
+
+/// The pair whose six joints are known.
+fn known_pair(shape: &Shape, known: &JointMap, roles: [[Joint; 3]; 2]) -> Result<Option<LimbPair>, Refusal> {
+    let mut joints = [[0; 3]; 2];
+    for (joint, role) in joints.as_flattened_mut().iter_mut().zip(roles.as_flattened()) {
+        let Some(known) = known[role.index()] else { return Ok(None) };
+        *joint = known;
+    }
+    for (limb, roles) in joints.iter().zip(roles) {
+        for bone in 0..2 {
+            let [above, below] = [limb[bone], limb[bone + 1]];
+            if above == below || !shape.ancestors(below).contains(&above) {
+                let [above, below] = [above, below].map(|joint| &shape.clip.joints[joint].name);
+                let reason = format!("`{below}` does not hang from `{above}` in {}", shape.clip.file);
+                let remedy = "follow each limb from the trunk outwards";
+                return Err(Refusal::Setting { setting: Setting::Joint(roles[bone + 1]), reason, remedy });
+            }
+        }
+    }
+    Ok(Some(LimbPair::known(shape, joints)))
 }
 
 fn find_legs(shape: &Shape) -> Result<LimbPair, Refusal> {
@@ -159,15 +202,10 @@ fn toe_direction(shape: &Shape, frame: usize, limb: &Limb, tip: usize) -> DVec3 
 }
 
 fn assign_limbs(shape: &Shape, roles: &mut Roles, legs: &LimbPair, arms: &LimbPair) {
-    const ARMS: [[Joint; 3]; 2] = [
-        [Joint::LeftUpperArm, Joint::LeftForearm, Joint::LeftHand],
-        [Joint::RightUpperArm, Joint::RightForearm, Joint::RightHand],
-    ];
     const CLAVICLES: [Joint; 2] = [Joint::LeftClavicle, Joint::RightClavicle];
     for side in Side::BOTH.map(Side::index) {
-        let leg = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]];
         for bone in 0..3 {
-            roles.joints[leg[bone].index()] = Some(legs.limbs[side].joints[bone]);
+            roles.joints[LEGS[side][bone].index()] = Some(legs.limbs[side].joints[bone]);
             roles.joints[ARMS[side][bone].index()] = Some(arms.limbs[side].joints[bone]);
         }
         let shoulder = arms.limbs[side].joints[0];

@@ -3,7 +3,11 @@
 //!
 //! Local rotations, rest poses and scales are gone at this point: what two formats disagree about ends here.
 
+use std::ops::Range;
+
 use glam::{DQuat, DVec3};
+
+use crate::axis::Axis;
 
 /// One joint of a source skeleton.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,8 +35,10 @@ pub struct SourceClip {
     pub positions: Vec<DVec3>,
     /// Global orientations, in the same order.
     pub orientations: Vec<DQuat>,
-    /// Metres per unit where the format defines it (glTF: 1).
+    /// Metres per unit where the format (glTF: 1) or the manifest says it.
     pub metres_per_unit: Option<f64>,
+    /// The axis that points up where the manifest says it; else it is found.
+    pub up_axis: Option<Axis>,
     /// What was odd in the file.
     pub warnings: Vec<String>,
 }
@@ -53,10 +59,12 @@ impl SourceClip {
         self.orientations[frame * self.joints.len() + joint]
     }
 
-    /// Drops the first frames.
-    pub fn drop_first_frames(&mut self, count: usize) {
-        let values = count * self.joints.len();
-        self.positions.drain(..values);
-        self.orientations.drain(..values);
+    /// Drops all frames but these.
+    pub fn keep_frames(&mut self, frames: Range<usize>) {
+        let (first, last) = (frames.start * self.joints.len(), frames.end * self.joints.len());
+        self.positions.truncate(last);
+        self.orientations.truncate(last);
+        self.positions.drain(..first);
+        self.orientations.drain(..first);
     }
 }

@@ -9,7 +9,7 @@ use motiondb::skeleton::{JOINT_COUNT, Joint};
 use crate::arc::{Arc, Rates, rotation};
 use crate::cycle::{GaitCycle, mean_stride};
 use crate::gait::{self, Gait};
-use crate::human_clip::{HumanBody, HumanClip, HumanPose};
+use crate::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
 use crate::leg_ik::place_ankle;
 use crate::root_motion::ground;
 
@@ -105,7 +105,15 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
         frame_rate_hz: frame_rate_hz as f32,
         warnings: Vec::new(),
     };
-    HumanClip { name: name.into(), source, frame_rate_hz, body, frames, in_place_mps: None }
+    HumanClip {
+        name: name.into(),
+        source,
+        frame_rate_hz,
+        body,
+        frames,
+        in_place_mps: None,
+        choices: Choices::default(),
+    }
 }
 
 fn pose(walk: &Walk, body: &HumanBody, arc: &Arc, time_s: f64) -> HumanPose {

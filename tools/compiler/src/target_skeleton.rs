@@ -14,11 +14,14 @@ use crate::root_motion::leg_length_m;
 /// Thigh plus shank of adults, small woman to tall man; anything else is a toy or a giant and has no say.
 const HUMAN_LEG_M: std::ops::RangeInclusive<f64> = 0.65..=1.05;
 
-/// The median body of the human-sized performers, of all where none is.
+/// The body of the chosen clip, else the median of the human-sized performers, of all where none is.
 pub fn choose(clips: &[HumanClip]) -> HumanBody {
-    let human: Vec<&HumanBody> =
-        clips.iter().map(|clip| &clip.body).filter(|body| HUMAN_LEG_M.contains(&leg_length_m(body))).collect();
-    let bodies = if human.is_empty() { clips.iter().map(|clip| &clip.body).collect() } else { human };
+    let human = |clip: &&HumanClip| HUMAN_LEG_M.contains(&leg_length_m(&clip.body));
+    let bodies_of = |counts: &dyn Fn(&&HumanClip) -> bool| -> Vec<&HumanBody> {
+        clips.iter().filter(counts).map(|clip| &clip.body).collect()
+    };
+    let candidates = [bodies_of(&|clip| clip.choices.is_target_skeleton), bodies_of(&human), bodies_of(&|_| true)];
+    let bodies = candidates.into_iter().find(|bodies| !bodies.is_empty()).unwrap_or_default();
     let offsets_m = symmetric(&std::array::from_fn(|joint| median(&bodies, |body| body.offsets_m[joint])));
     let segment_ends_m = symmetric(&std::array::from_fn(|joint| median(&bodies, |body| body.segment_ends_m[joint])));
     let soles_m = median_feet(&bodies, |body| body.soles_m);

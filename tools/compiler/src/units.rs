@@ -6,6 +6,7 @@
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::Joint;
 
+use crate::axis::Axis;
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;
 
@@ -25,16 +26,16 @@ pub struct SourceUnits {
 
 /// Turns and scales a clip to metres, Z up, and says what was found.
 pub fn to_metres_z_up(mut clip: SourceClip, roles: &Roles) -> (SourceClip, SourceUnits) {
-    let (up, up_axis) = up_axis(&clip, roles);
+    let up = clip.up_axis.unwrap_or_else(|| found_up(&clip, roles));
     let metres_per_unit = clip.metres_per_unit.unwrap_or_else(|| nearest_unit(leg_length(&clip, roles)));
-    let turn = DQuat::from_rotation_arc(up, DVec3::Z);
+    let turn = DQuat::from_rotation_arc(up.direction(), DVec3::Z);
     for position in &mut clip.positions {
         *position = turn * *position * metres_per_unit;
     }
     for orientation in &mut clip.orientations {
         *orientation = turn * *orientation;
     }
-    (clip, SourceUnits { up_axis, metres_per_unit })
+    (clip, SourceUnits { up_axis: up.name(), metres_per_unit })
 }
 
 /// Midpoint of a pair of roles in one frame.
@@ -42,14 +43,12 @@ pub(crate) fn middle(clip: &SourceClip, roles: &Roles, pair: [Joint; 2], frame: 
     0.5 * pair.map(|joint| clip.position(frame, roles.required(joint))).into_iter().sum::<DVec3>()
 }
 
-fn up_axis(clip: &SourceClip, roles: &Roles) -> (DVec3, String) {
+/// From the feet to the shoulders on the average of all frames.
+pub(crate) fn found_up(clip: &SourceClip, roles: &Roles) -> Axis {
     let body: DVec3 = (0..clip.frame_count())
         .map(|frame| middle(clip, roles, Joint::UPPER_ARMS, frame) - middle(clip, roles, Joint::FEET, frame))
         .sum();
-    let axis = body.abs().max_position();
-    let sign = if body[axis] < 0.0 { -1.0 } else { 1.0 };
-    let name = format!("{}{}", if sign < 0.0 { '-' } else { '+' }, ['X', 'Y', 'Z'][axis]);
-    (sign * DVec3::AXES[axis], name)
+    Axis::nearest(body)
 }
 
 /// Mean of both sides and all frames, in the clip's units.

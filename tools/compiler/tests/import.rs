@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use motiondb::skeleton::Joint;
+use motiondb::skeleton::{JOINT_COUNT, Joint};
 use motiondb_compiler::error::Refusal;
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import::{Import, clip_files, import, import_bytes};
@@ -84,7 +84,7 @@ fn measured_as_the_index_does(folder: &Path, row: &Row, human: &HumanClip) -> [f
         return ours;
     }
     let clip = source(&folder.join(&row["file"]), &row["clip"]);
-    let mut roles = find_roles(&clip).unwrap();
+    let mut roles = find_roles(&clip, &[None; JOINT_COUNT]).unwrap();
     let (clip, _) = units::to_metres_z_up(clip, &roles);
     for (shoulder, elbow) in [(Joint::LeftUpperArm, Joint::LeftForearm), (Joint::RightUpperArm, Joint::RightForearm)] {
         roles.joints[shoulder.index()] = roles.joints[elbow.index()];
@@ -165,7 +165,7 @@ fn a_lying_frame_time_and_a_separate_first_pose_are_told() {
 /// Greatest distance between a canonical joint and its source joint, both seen from the hips, metres.
 fn farthest_off(path: &Path, clip: &str, human: &HumanClip, joints: &[Joint]) -> f64 {
     let clip = source(path, clip);
-    let roles = find_roles(&clip).unwrap();
+    let roles = find_roles(&clip, &[None; JOINT_COUNT]).unwrap();
     let (clip, _) = units::to_metres_z_up(clip, &roles);
     let dropped = clip.frame_count() - human.frames.len();
     let mut farthest: f64 = 0.0;

@@ -6,16 +6,25 @@ use motiondb::motion_db::MotionDb;
 use motiondb_compiler::compile::{self, Compiled};
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
+use motiondb_compiler::manifest::Manifest;
 
 use crate::failure::{Answer, Failure};
 use crate::output;
 use crate::progress::Progress;
 
-/// The clip files that paths mean, each once: files as they are, folders by what lies below them.
-pub(crate) fn clip_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
-    let mut files = Vec::new();
+/// A folder's file of this name says what of its clips need not be found.
+const MANIFEST: &str = "manifest.toml";
+
+/// The clips that paths mean, each once: files as they are, folders by their manifest, else by what lies below them.
+fn manifest(paths: &[PathBuf]) -> Result<Manifest, Failure> {
+    let (mut files, mut manifests) = (Vec::new(), Vec::new());
     for path in paths {
-        if path.is_dir() {
+        let inside = path.join(MANIFEST);
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            manifests.push(path.clone());
+        } else if inside.is_file() {
+            manifests.push(inside);
+        } else if path.is_dir() {
             files.extend(import::clip_files(path).map_err(|error| Failure::bad(error.to_string()))?);
         } else {
             files.push(path.clone());
@@ -23,31 +32,43 @@ pub(crate) fn clip_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     }
     files.sort();
     files.dedup();
-    match (files.is_empty(), paths.first()) {
+    manifests.sort();
+    manifests.dedup();
+    let mut manifest = match &manifests[..] {
+        [] => Manifest::default(),
+        [only] => Manifest::read(only)?,
+        [one, another, ..] => {
+            let both = format!("{} and {} are two manifests", one.display(), another.display());
+            return Err(Failure::bad(format!("{both}; write one that names the folders of both")));
+        }
+    };
+    manifest.add_files(&files);
+    match (manifest.takes.is_empty(), paths.first()) {
         (true, Some(folder)) => Err(Failure::bad(format!(
             "{}: no *.bvh, *.glb or *.gltf below it; name another folder or the clips themselves",
             folder.display()
         ))),
-        _ => Ok(files),
+        _ => Ok(manifest),
     }
 }
 
 /// Compiles clips; what was refused is said on standard error, and makes the answer no.
 pub(crate) fn compile(paths: &[PathBuf]) -> Result<(MotionDb, Answer), Failure> {
-    let files = clip_files(paths)?;
-    let progress = Progress::new("clips", files.len());
-    let compiled = compile::compile_files(&files, &|_| progress.advance());
+    let manifest = manifest(paths)?;
+    let progress = Progress::new("clips", manifest.takes.len());
+    let compiled = compile::compile_manifest(&manifest, &|_| progress.advance());
     progress.finish();
-    let Compiled { db, refused } = compiled.map_err(|error| Failure::bad(error.to_string()))?;
+    let Compiled { db, refused } = compiled?;
     Ok((db, say_refused(&refused)))
 }
 
 /// Imports clips without making a database of them.
 pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Answer), Failure> {
-    let files = clip_files(paths)?;
-    let progress = Progress::new("clips", files.len());
-    let (clips, refused) = compile::import_files(&files, &|_| progress.advance());
+    let manifest = manifest(paths)?;
+    let progress = Progress::new("clips", manifest.takes.len());
+    let imported = compile::import_manifest(&manifest, &|_| progress.advance());
     progress.finish();
+    let (clips, refused) = imported?;
     if clips.is_empty() {
         return Err(Failure::bad(refused.join("\n")));
     }

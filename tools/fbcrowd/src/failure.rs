@@ -4,7 +4,15 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
+use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
+use motiondb::source_text::Invalid;
+use motiondb_compiler::compile_error::CompileError;
+use motiondb_compiler::manifest_error::ManifestError;
+
 use crate::output;
+
+/// The text around a mistake is shown only where all its lines are shorter: nobody reads longer ones.
+const SHOWN_LINE_BYTES: usize = 1_000;
 
 /// The answer of a command that could do its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +38,18 @@ impl Failure {
         Self::Bad(miette::Report::msg(message.into()))
     }
 
+    /// A mistake in a scenario or a manifest, shown where it stands.
+    pub(crate) fn mistake(invalid: Invalid) -> Self {
+        let place = format!("{}:{}", invalid.path.display(), invalid.line());
+        let mistake = MietteDiagnostic::new(format!("{place}: {}", invalid.message)).with_help(&invalid.help);
+        if invalid.text.lines().any(|line| line.len() > SHOWN_LINE_BYTES) {
+            return Self::Bad(Report::new(mistake));
+        }
+        let name = invalid.path.display().to_string();
+        let mistake = mistake.with_label(LabeledSpan::underline(invalid.span));
+        Self::Bad(Report::new(mistake).with_source_code(NamedSource::new(name, invalid.text)))
+    }
+
     /// A file or folder that the system would not let us write.
     pub(crate) fn unwritable(path: &Path, error: &io::Error) -> Self {
         Self::bad(format!("cannot write {}: {error}; choose another place", path.display()))
@@ -50,5 +70,23 @@ impl Failure {
 impl From<motiondb::file::FileError> for Failure {
     fn from(error: motiondb::file::FileError) -> Self {
         Self::bad(error.to_string())
+    }
+}
+
+impl From<ManifestError> for Failure {
+    fn from(error: ManifestError) -> Self {
+        match error {
+            ManifestError::Invalid(invalid) => Self::mistake(*invalid),
+            other => Self::bad(other.to_string()),
+        }
+    }
+}
+
+impl From<CompileError> for Failure {
+    fn from(error: CompileError) -> Self {
+        match error {
+            CompileError::Manifest(error) => error.into(),
+            other => Self::bad(other.to_string()),
+        }
     }
 }

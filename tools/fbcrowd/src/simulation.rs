@@ -8,15 +8,11 @@ use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::scenario_error::ScenarioError;
 use fbcrowd_sim::step::{Simulation, Stage};
-use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use motiondb::motion_db::MotionDb;
 use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::progress::Progress;
-
-/// The text around a mistake is shown only where all its lines are shorter: nobody reads longer ones.
-const SHOWN_LINE_BYTES: usize = 1_000;
 
 /// Where the time of a simulation went. Never part of a recording.
 #[derive(Clone, Debug, Serialize)]
@@ -53,18 +49,10 @@ impl Timings {
 /// A mistake in a scenario is shown where it stands.
 impl From<ScenarioError> for Failure {
     fn from(error: ScenarioError) -> Self {
-        let invalid = match error {
-            ScenarioError::Unreadable { .. } => return Self::bad(error.to_string()),
-            ScenarioError::Invalid(invalid) => invalid,
-        };
-        let place = format!("{}:{}", invalid.path.display(), invalid.line());
-        let mistake = MietteDiagnostic::new(format!("{place}: {}", invalid.message)).with_help(&invalid.help);
-        if invalid.text.lines().any(|line| line.len() > SHOWN_LINE_BYTES) {
-            return Self::Bad(Report::new(mistake));
+        match error {
+            ScenarioError::Unreadable { .. } => Self::bad(error.to_string()),
+            ScenarioError::Invalid(invalid) => Self::mistake(*invalid),
         }
-        let name = invalid.path.display().to_string();
-        let mistake = mistake.with_label(LabeledSpan::underline(invalid.span));
-        Self::Bad(Report::new(mistake).with_source_code(NamedSource::new(name, invalid.text)))
     }
 }
 

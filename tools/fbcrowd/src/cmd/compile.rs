@@ -10,24 +10,31 @@ use crate::output;
 
 /// Compile motion clips into a database.
 ///
-/// Units, axes, joints, cycles and parameters are found. Exit code 0: all clips were used; 1: the database was written,
-/// but some input was refused; 2: nothing was written.
+/// Units, axes, joints, cycles and parameters are found; a manifest overrides what it names. Exit code 0: all clips were
+/// used; 1: the database was written, but some input was refused; 2: nothing was written.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd compile assets/clips -o motion.fbdb\n  fbcrowd compile walk.bvh run.glb -o motion.fbdb"
+    after_help = "Examples:\n  fbcrowd compile assets/clips -o motion.fbdb\n  fbcrowd compile walk.bvh run.glb -o motion.fbdb\n  \
+                  fbcrowd compile clips/manifest.toml -o motion.fbdb --strict"
 )]
 pub(crate) struct Args {
-    /// BVH, GLB or glTF files, or folders of them.
+    /// BVH, GLB or glTF files, folders of them (with their `manifest.toml`), or one manifest.
     #[arg(required = true, value_name = "CLIPS")]
     clips: Vec<PathBuf>,
     /// The database.
     #[arg(short, long, value_name = "FILE.fbdb")]
     output: PathBuf,
+    /// Write nothing where any input is refused.
+    #[arg(long)]
+    strict: bool,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     output::spare(&args.output, args.clips.iter().map(PathBuf::as_path))?;
     let (db, answer) = compiling::compile(&args.clips)?;
+    if args.strict && answer == Answer::No {
+        return Err(Failure::bad("some input was refused, and --strict allows none; repair it or leave it out"));
+    }
     file::write(&args.output, &db)?;
     for source in &db.sources {
         for warning in &source.warnings {

@@ -1,0 +1,88 @@
+//! A text that a user wrote, and a mistake in it with all that is needed to show it there: what scenarios and manifests
+//! share.
+
+use std::fs;
+use std::io;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use crate::input_file;
+
+/// A million agents take a tenth of it.
+const TEXT_MAX_BYTES: u64 = 1 << 30;
+/// Longer messages are cut.
+const MESSAGE_MAX_LETTERS: usize = 1_000;
+
+/// A text and its name, to point into.
+#[derive(Clone, Debug, Default)]
+pub struct SourceText {
+    /// Its file.
+    pub path: PathBuf,
+    /// The whole of it, without byte order mark.
+    pub text: String,
+}
+
+/// A mistake in a text.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}:{}: {message}; {help}", path.display(), self.line())]
+pub struct Invalid {
+    /// The file that is wrong.
+    pub path: PathBuf,
+    /// Its whole text.
+    pub text: String,
+    /// The bytes of the text that are wrong.
+    pub span: Range<usize>,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: String,
+}
+
+impl Invalid {
+    /// Line of the mistake, counted from 1.
+    pub fn line(&self) -> usize {
+        let before = &self.text.as_bytes()[..self.span.start.min(self.text.len())];
+        1 + before.iter().filter(|&&byte| byte == b'\n').count()
+    }
+}
+
+impl SourceText {
+    /// Reads a regular file of text.
+    ///
+    /// # Errors
+    /// Where the system refuses, or the file is no text or too long.
+    pub fn read(path: &Path) -> io::Result<Self> {
+        if fs::metadata(path)?.len() > TEXT_MAX_BYTES {
+            return Err(io::Error::other("a text of more than 1 GiB"));
+        }
+        let text = io::read_to_string(input_file::open(path)?)?;
+        // Some editors begin a text with a byte order mark.
+        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+        Ok(Self { path: path.to_owned(), text })
+    }
+
+    /// A path given relative to this file.
+    pub fn beside(&self, path: &Path) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    /// A mistake in this text.
+    pub fn invalid(&self, span: Range<usize>, message: impl Into<String>, help: &str) -> Invalid {
+        let (path, text) = (self.path.clone(), self.text.clone());
+        // It may quote what is wrong, however long.
+        let message = message.into().chars().take(MESSAGE_MAX_LETTERS).collect();
+        Invalid { path, text, span, message, help: help.to_owned() }
+    }
+
+    /// A mistake that the parser found, with the help that its message asks for.
+    pub fn unparsed(&self, span: Option<Range<usize>>, message: &str) -> Invalid {
+        let help = if message.starts_with("unknown field") {
+            "correct the key or remove it"
+        } else if message.starts_with("missing field") {
+            "add the key"
+        } else {
+            "correct the value"
+        };
+        self.invalid(span.unwrap_or(0..0), message, help)
+    }
+}

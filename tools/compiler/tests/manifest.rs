@@ -1,0 +1,192 @@
+//! A manifest overrides what would be found, and each of its mistakes is shown where it stands.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use motiondb::motion_db::{MotionDb, MotionExample};
+use motiondb::source_text::Invalid;
+use motiondb_compiler::compile::{Compiled, compile_manifest};
+use motiondb_compiler::compile_error::CompileError;
+use motiondb_compiler::manifest::Manifest;
+use motiondb_compiler::manifest_error::ManifestError;
+
+const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
+const SCHEMA: &str = include_str!("../../../assets/manifest.schema.json");
+const LEGS: &str = "left_thigh = 'LeftUpLeg'\nleft_shank = 'LeftLeg'\nleft_foot = 'LeftFoot'\n\
+                    right_thigh = 'RightUpLeg'\nright_shank = 'RightLeg'\nright_foot = 'RightFoot'\n";
+
+/// A folder with some of the bundled clips and a manifest.
+fn folder(test: &str, manifest: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("manifest").join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(folder.join("inner")).unwrap();
+    for clip in ["walk_110.bvh", "turn_090_left.bvh", "walk_140.glb", "idle.bvh"] {
+        fs::copy(Path::new(CLIPS).join(clip), folder.join(clip)).unwrap();
+    }
+    fs::copy(Path::new(CLIPS).join("walk_180.bvh"), folder.join("inner/walk_180.bvh")).unwrap();
+    fs::write(folder.join("manifest.toml"), manifest).unwrap();
+    folder
+}
+
+fn compile(folder: &Path) -> Result<Compiled, CompileError> {
+    compile_manifest(&Manifest::read(&folder.join("manifest.toml"))?, &|_| ())
+}
+
+fn compiled(test: &str, manifest: &str) -> MotionDb {
+    let compiled = compile(&folder(test, manifest)).unwrap();
+    assert!(compiled.refused.is_empty(), "{:?}", compiled.refused);
+    compiled.db
+}
+
+fn names(db: &MotionDb) -> Vec<&str> {
+    db.examples.iter().map(|example| example.name.as_str()).collect()
+}
+
+fn example<'a>(db: &'a MotionDb, name: &str) -> &'a MotionExample {
+    db.examples.iter().find(|example| example.name == name).unwrap_or_else(|| panic!("no {name} in {:?}", names(db)))
+}
+
+/// Checks that a manifest is refused at a part of its text, in words that hold all of `says`.
+#[track_caller]
+fn check_refused(test: &str, manifest: &str, part: &str, says: &[&str]) {
+    let error = compile(&folder(test, manifest)).unwrap_err();
+    let CompileError::Manifest(ManifestError::Invalid(invalid)) = error else { panic!("{error}") };
+    let Invalid { text, span, message, .. } = invalid.as_ref();
+    assert_eq!(&text[span.clone()], part, "{invalid}");
+    assert_eq!(invalid.line(), 1 + text[..span.start].matches('\n').count(), "{invalid}");
+    for word in says {
+        assert!(message.contains(word), "`{word}` is missing from: {message}");
+    }
+}
+
+#[test]
+fn an_empty_manifest_takes_all_below_its_folder() {
+    let db = compiled("empty", "");
+    assert_eq!(names(&db), ["idle", "turn_090_left", "turn_090_left_mirrored", "walk_110", "walk_140", "walk_180"]);
+    let skipping =
+        compiled("skipping", "[[clips]]\npath = 'inner'\nskip = true\n[[clips]]\npath = 'idle.bvh'\nskip = true\n");
+    assert_eq!(names(&skipping), ["turn_090_left", "turn_090_left_mirrored", "walk_110", "walk_140"]);
+}
+
+#[test]
+fn named_clips_are_all_that_is_taken_and_bear_their_labels() {
+    let manifest = "[[clips]]\npath = 'walk_110.bvh'\nname = 'stroll'\n\n[[clips]]\npath = './inner/walk_180.bvh'\n";
+    assert_eq!(names(&compiled("named", manifest)), ["stroll", "walk_180"]);
+    let animation = "[[clips]]\npath = 'walk_140.glb'\nanimation = 'walk_140'\nname = 'march'\n";
+    assert_eq!(names(&compiled("animation", animation)), ["march"]);
+}
+
+#[test]
+fn unit_axis_and_frame_rate_are_those_of_the_manifest() {
+    let whole = "[[clips]]\npath = '.'\nmetres_per_unit = 0.011\nup = '+Y'\nframe_rate_hz = 30.0\n";
+    let own =
+        "[[clips]]\npath = 'walk_110.bvh'\nframe_rate_hz = 120.0\n\n[[clips]]\npath = 'walk_140.glb'\nskip = true\n";
+    let found = compiled("found", "");
+    let db = compiled("told", &format!("{whole}{own}"));
+    for (name, frame_rate_hz) in [("walk_110.bvh", 120.0), ("walk_180.bvh", 30.0)] {
+        let of = |db: &MotionDb| db.sources.iter().find(|source| source.file == name).unwrap().clone();
+        let (told, before) = (of(&db), of(&found));
+        assert_eq!((told.metres_per_unit, told.frame_rate_hz, told.up_axis.as_str()), (0.011, frame_rate_hz, "+Y"));
+        let wanted_mps = before.speed_mps * 1.1 * frame_rate_hz / before.frame_rate_hz;
+        assert!((told.speed_mps - wanted_mps).abs() < 0.02 * wanted_mps, "{told:?}, not {wanted_mps}");
+    }
+    let lying = "[[clips]]\npath = 'walk_110.bvh'\nup = '+X'\n";
+    let error = compile(&folder("lying", lying)).unwrap_err().to_string();
+    assert!(error.contains("no legs could carry"), "the axis is believed: {error}");
+}
+
+#[test]
+fn two_parts_of_one_capture_are_two_clips() {
+    let part =
+        |name: &str, frames: &str| format!("[[clips]]\npath = 'walk_110.bvh'\nname = '{name}'\nframes = {frames}\n");
+    let db = compiled("parts", &format!("{}{}", part("second", "[20, 120]"), part("first", "[1, 100]")));
+    assert_eq!(names(&db), ["first", "second"]);
+    assert_eq!(db.sources.len(), 2);
+}
+
+#[test]
+fn the_manifest_decides_about_mirrors_m_sp_and_the_body() {
+    let choices = "semi_procedural = 'walk_180'\ntarget_skeleton = 'walk_140'\n[[clips]]\npath = '.'\n\n";
+    let none = "[[clips]]\npath = 'turn_090_left.bvh'\nmirror = false\n";
+    let bigger = "[[clips]]\npath = 'walk_140.glb'\nmetres_per_unit = 1.1\n";
+    let db = compiled("choices", &format!("{choices}{none}{bigger}"));
+    assert_eq!(names(&db), ["idle", "turn_090_left", "walk_110", "walk_140", "walk_180"]);
+    let chosen = db.correspondence.as_ref().unwrap().semi_procedural as usize;
+    assert_eq!(db.examples[chosen].name, "walk_180");
+    let (idle, walk) = (example(&db, "idle"), example(&db, "walk_180"));
+    assert!((idle.phase_map.period_s - walk.phase_map.period_s).abs() < 1e-6, "standing takes m_sp's period");
+    let shank_m = |db: &MotionDb| db.skeleton.offsets_m[motiondb::skeleton::Joint::LeftFoot.index()].length();
+    let ratio = shank_m(&db) / shank_m(&compiled("unchosen", ""));
+    assert!((ratio - 1.1).abs() < 0.01, "{ratio}");
+}
+
+#[test]
+fn a_joint_map_finds_the_same_body_under_other_names() {
+    let folder = folder("map", "");
+    let wanted = compile(&folder).unwrap().db;
+    let map = format!("[[clips]]\npath = '.'\n[[clips]]\npath = 'walk_110.bvh'\n[clips.joints]\nneck = 'Neck'\n{LEGS}");
+    fs::write(folder.join("manifest.toml"), &map).unwrap();
+    assert_eq!(compile(&folder).unwrap().db, wanted);
+    // Left and right exchanged by hand: the body faces backward, and so does its walk.
+    let exchanged = map.replace("left_", "other_").replace("right_", "left_").replace("other_", "right_");
+    fs::write(folder.join("manifest.toml"), exchanged).unwrap();
+    let speed_mps = |db: &MotionDb| db.sources.iter().find(|source| source.file == "walk_110.bvh").unwrap().speed_mps;
+    assert!(speed_mps(&wanted) > 1.0);
+    assert!(speed_mps(&compile(&folder).unwrap().db) < 0.5);
+}
+
+#[test]
+fn a_facing_exchanges_left_and_right_only_where_they_were_found_wrongly() {
+    let speed_mps = |test: &str, forward: &str| {
+        let db =
+            compile(&folder(test, &format!("[[clips]]\npath = 'walk_110.bvh'\nforward = '{forward}'\n"))).unwrap().db;
+        db.sources[0].speed_mps
+    };
+    let speeds = [speed_mps("facing", "+Z"), speed_mps("backing", "-Z")];
+    assert!(speeds.iter().any(|&speed| speed > 1.0) && speeds.iter().any(|&speed| speed < 0.5), "{speeds:?}");
+}
+
+#[test]
+fn mistakes_are_shown_where_they_stand() {
+    let one = "[[clips]]\npath = 'walk_110.bvh'\n";
+    let check = |test, text: &str, part, says: &[&str]| check_refused(test, &format!("{one}{text}"), part, says);
+    check("key", "speed = 1\n", "speed", &["unknown field", "metres_per_unit"]);
+    check("axis", "up = 'Q'\n", "'Q'", &["no axis"]);
+    check("frames", "frames = [1, 99999]\n", "[1, 99999]", &["walk_110.bvh", "99999", "1 to"]);
+    check("backwards", "frames = [9, 3]\n", "[9, 3]", &["from frame 9 to 3"]);
+    check("unit", "metres_per_unit = 0.0\n", "0.0", &["metres_per_unit"]);
+    check("rate", "frame_rate_hz = nan\n", "nan", &["frame_rate_hz"]);
+    check("animated", "animation = 'Run'\n", "'Run'", &["`Run`"]);
+    check("facing_up", "forward = '+Y'\n", "'+Y'", &["up"]);
+    check("role", "joints = { nose = 'Nose' }\n", "nose", &["left_thigh"]);
+    check("joint", "joints = { neck = 'Nack' }\n", "'Nack'", &["`Nack`", "Neck"]);
+    check("half", "joints = { left_foot = 'LeftFoot' }\n", "left_foot", &["left_thigh"]);
+    check("twice", "joints = { neck = 'Neck', head = 'Neck' }\n", "'Neck'", &["neck", "head"]);
+    let tangled = format!("[clips.joints]\n{}", LEGS.replace("'LeftFoot'", "'LeftHand'"));
+    check("tangled", &tangled, "'LeftHand'", &["`LeftHand`", "`LeftLeg`"]);
+    check_refused("missing", "[[clips]]\npath = 'run.bvh'\n", "'run.bvh'", &["run.bvh"]);
+    check_refused("whole", "[[clips]]\npath = '.'\nframes = [1, 9]\n", "[1, 9]", &["folder"]);
+    check_refused("m_sp", "semi_procedural = 'run'\n", "'run'", &["`run`", "walk_110"]);
+    check_refused("body", "target_skeleton = 'giant'\n", "'giant'", &["`giant`", "walk_110"]);
+    check_refused("standing", "semi_procedural = 'idle'\n", "'idle'", &["no example that steps"]);
+}
+
+#[test]
+fn the_schema_for_editors_knows_the_keys_that_are_read() {
+    let schema: serde_json::Value = serde_json::from_str(SCHEMA).unwrap();
+    let check = |properties: &serde_json::Value, text: &str| {
+        let error = compile(&folder("schema", text)).unwrap_err().to_string();
+        let (_, expected) = error.split_once("expected one of ").unwrap();
+        let read: BTreeSet<&str> = expected.split('`').skip(1).step_by(2).collect();
+        let shown: BTreeSet<&str> = properties.as_object().unwrap().keys().map(String::as_str).collect();
+        assert_eq!(read, shown);
+    };
+    check(&schema["properties"], "unknown = 1\n");
+    let table = &schema["properties"]["clips"]["items"]["properties"];
+    check(table, "[[clips]]\npath = 'walk_110.bvh'\nunknown = 1\n");
+    let roles: Vec<&String> = table["joints"]["properties"].as_object().unwrap().keys().collect();
+    let mut joints = motiondb::skeleton::Joint::ALL.map(motiondb::skeleton::Joint::name);
+    joints.sort_unstable();
+    assert_eq!(roles, joints);
+}
