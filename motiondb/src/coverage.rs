@@ -219,14 +219,14 @@ fn speed_gaps(db: &MotionDb) -> Vec<ThinPlace> {
 fn turn_gaps(db: &MotionDb) -> Vec<ThinPlace> {
     let sentence = |ends: [f32; 2]| {
         let [low, high] = ends.map(f32::to_degrees);
-        format!("No clip turns at between {low:.0} and {high:.0} °/s: turns between mix the two.")
+        format!("No clip turns at rates between {low:.0} and {high:.0} °/s: turns between mix the two.")
     };
     gaps(parameters(db).map(|found| found.turn_rate_rad_s.abs()).collect(), TURN_GAP_RAD_S, Lack::TurnGap, sentence)
 }
 
 fn side_gaps(db: &MotionDb) -> Vec<ThinPlace> {
     let sentence = |[low, high]: [f32; 2]| {
-        format!("No clip goes aside at between {low:.2} and {high:.2} m/s: side speeds between mix the two.")
+        format!("No clip goes aside at speeds between {low:.2} and {high:.2} m/s: steps between mix the two.")
     };
     gaps(parameters(db).map(|found| found.strafe_mps.abs()).collect(), SPEED_GAP_MPS, Lack::SideGap, sentence)
 }

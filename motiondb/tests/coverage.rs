@@ -91,3 +91,16 @@ fn a_dense_set_has_no_thin_place() {
     // In the plane ω_s = 0; the side-steps need no simplex to be there.
     check(&set(&points, 2, &[7, 8, 11, 8, 11, 12]), &[]);
 }
+
+#[test]
+fn gaps_between_turns_and_side_speeds_are_said_once_for_both_sides() {
+    let points = [[1.2, 0.0, 0.0], [1.2, 1.5, 0.0], [1.2, -1.5, 0.0], [1.2, 0.0, 0.9], [1.2, 0.0, -0.9]];
+    let found = coverage(&set(&points, 2, &[1, 3, 2, 1, 2, 4]));
+    let sentence = |lack: Lack| found.iter().filter(move |thin| thin.lack == lack).map(|thin| thin.sentence.as_str());
+    assert!(
+        sentence(Lack::TurnGap).eq(["No clip turns at rates between 0 and 86 °/s: turns between mix the two."]),
+        "{found:?}"
+    );
+    let side_gap = "No clip goes aside at speeds between 0.00 and 0.90 m/s: steps between mix the two.";
+    assert!(sentence(Lack::SideGap).eq([side_gap]), "{found:?}");
+}
