@@ -1,11 +1,14 @@
-//! Any bytes as a BVH file: an import or an error.
+//! Any bytes as a BVH file: an import or an error; what is imported compiles or is refused.
 #![no_main]
 
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
+use motiondb_compiler::compile::compile;
 use motiondb_compiler::import::import_bytes;
 
 fuzz_target!(|bytes: &[u8]| {
-    let _ = import_bytes(Path::new("clip.bvh"), bytes);
+    if let Ok(imports) = import_bytes(Path::new("clip.bvh"), bytes) {
+        let _ = compile(imports.into_iter().filter_map(|import| import.outcome.ok()).collect());
+    }
 });
