@@ -5,14 +5,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use motiondb::motion_db::{MotionDb, MotionExample};
-use motiondb::source_text::Invalid;
+use motiondb::source_text::{Invalid, SourceText};
 use motiondb_compiler::compile::{Compiled, compile_manifest};
 use motiondb_compiler::compile_error::CompileError;
 use motiondb_compiler::manifest::Manifest;
 use motiondb_compiler::manifest_error::ManifestError;
+use proptest::prelude::*;
 
 const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 const SCHEMA: &str = include_str!("../../../assets/manifest.schema.json");
+const ALL_KEYS: &str = include_str!("../../../fuzz/corpus/manifest/all_keys.toml");
 const LEGS: &str = "left_thigh = 'LeftUpLeg'\nleft_shank = 'LeftLeg'\nleft_foot = 'LeftFoot'\n\
                     right_thigh = 'RightUpLeg'\nright_shank = 'RightLeg'\nright_foot = 'RightFoot'\n";
 
@@ -189,4 +191,21 @@ fn the_schema_for_editors_knows_the_keys_that_are_read() {
     let mut joints = motiondb::skeleton::Joint::ALL.map(motiondb::skeleton::Joint::name);
     joints.sort_unstable();
     assert_eq!(roles, joints);
+}
+
+proptest! {
+    #[test]
+    fn a_damaged_manifest_is_refused_within_its_text(
+        damage in prop::collection::vec((any::<prop::sample::Index>(), prop::char::range(' ', '~')), 1..4),
+    ) {
+        let mut letters: Vec<char> = ALL_KEYS.chars().collect();
+        for (place, letter) in damage {
+            *place.get_mut(&mut letters) = letter;
+        }
+        let text: String = letters.into_iter().filter(|&letter| letter != '/').collect();
+        let source = SourceText { path: PathBuf::from("/nowhere/manifest.toml"), text };
+        if let Err(ManifestError::Invalid(invalid)) = Manifest::parse(source) {
+            prop_assert!(invalid.text.get(invalid.span.clone()).is_some(), "{invalid}");
+        }
+    }
 }
