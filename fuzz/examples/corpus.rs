@@ -14,8 +14,8 @@ use glam::Vec2;
 #[path = "../../motiondb/tests/support/mod.rs"]
 mod support;
 
-/// Rows of motion in a BVH seed: a step and a half of a walk.
-const ROWS: usize = 24;
+/// Rows of motion in a BVH seed: two strides, enough for an example.
+const ROWS: usize = 64;
 /// One animation for each interpolation of glTF, and whether its values come in threes.
 const INTERPOLATIONS: [(&str, bool); 3] = [("LINEAR", false), ("STEP", false), ("CUBICSPLINE", true)];
 const KEYS: usize = 3;
