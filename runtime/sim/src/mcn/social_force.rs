@@ -85,8 +85,9 @@ mod tests {
         -Vec2::new(along(Vec2::X) as f32, along(Vec2::Y) as f32) / (2.0 * step_m)
     }
 
+    /// Differences over 8 mm are off by some per cent where a ball of 0.2 m curves away from the path.
     fn check(force_mps2: Vec2, expected_mps2: Vec2) {
-        let tolerance = 0.05 * expected_mps2.length() + 0.02;
+        let tolerance = 0.1 * expected_mps2.length() + 0.02;
         assert!(force_mps2.distance(expected_mps2) < tolerance, "{force_mps2} {expected_mps2}");
     }
 
