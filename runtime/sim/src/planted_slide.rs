@@ -8,10 +8,8 @@ use glam::{DVec2, Vec3};
 use motiondb::pose::{Joints, Root};
 use motiondb::skeleton::Skeleton;
 
-use crate::recording_frame::AgentFrame;
+use crate::recording_frame::{AgentFrame, PLANTED_CONTACT};
 
-/// A foot whose blended contact reaches this is planted.
-const PLANTED_CONTACT: f32 = 0.5;
 /// Of each end of a contact, left out: there the foot rolls on and off.
 const TRIMMED_SHARE: f64 = 0.1;
 /// Shorter contacts are none, s.

@@ -6,6 +6,9 @@ use motiondb::skeleton::JOINT_COUNT;
 
 use crate::plan::VelocitySet;
 
+/// Blended contact Σ w·c from which a foot is planted (`definitions.md`, "Planted-foot slide").
+pub const PLANTED_CONTACT: f32 = 0.5;
+
 /// One agent in one frame, decoded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AgentFrame {
@@ -19,7 +22,7 @@ pub struct AgentFrame {
     pub phase: f32,
     /// Synthesis in force.
     pub mode: Mode,
-    /// Blended contact Σ w·c of each foot, `[left, right]`; planted where ≥ ½.
+    /// Blended contact Σ w·c of each foot, `[left, right]`; planted from [`PLANTED_CONTACT`] on.
     pub contacts: [f32; 2],
     /// Velocity set in force.
     pub set: VelocitySet,

@@ -13,8 +13,6 @@ use glam::{Quat, Vec2, Vec3};
 
 use crate::angle::wrap_rad;
 
-/// Blended contact from which a foot is planted (`definitions.md`, "Planted-foot slide").
-pub const PLANTED_CONTACT: f32 = 0.5;
 /// Rate of the spring that lets a foot go, 1/s: of a hold, 4 % is left after 0.25 s, before the foot lands again.
 const RELEASE_RATE_HZ: f32 = 20.0;
 /// Rate at which a planted sole comes down to the ground and a lifted one gives up its lift, 1/s.

@@ -30,7 +30,7 @@ use motiondb::pose::{Joints, Pose, Root};
 use motiondb::skeleton::{Joint, Skeleton};
 
 use self::blending::{Mix, Weights};
-use self::feet::{FootHold, PLANTED_CONTACT, PosedFoot};
+use self::feet::{FootHold, PosedFoot};
 use self::gait::Gait;
 use self::ik::FootTarget;
 use self::owed::Owed;
@@ -38,6 +38,7 @@ use self::params::HmsParams;
 use self::space::Space;
 use crate::angle::wrap_rad;
 use crate::plan::{Plan, Stance, StanceFoot};
+use crate::recording_frame::PLANTED_CONTACT;
 
 /// Feet this near to where a standing body has them are under it, m: half a small step.
 const GATHERED_M: f32 = 0.18;
