@@ -26,6 +26,7 @@ fn inspect_lists_examples_sources_velocity_sets_simplices_and_correspondences() 
         "name",
         "source",
         "clip",
+        "window_s",
         "mirrored",
         "speed_mps",
         "turn_rate_rad_s",
@@ -49,7 +50,7 @@ fn inspect_lists_examples_sources_velocity_sets_simplices_and_correspondences() 
         "warnings",
     ];
     check_keys(&report["sources"][0], &of_source);
-    check_keys(&report["velocity_hull"], &["turning_mps", "holding_mps", "sharp_turn_edges_mps"]);
+    check_keys(&report["velocity_hull"], &["construction", "turning_mps", "holding_mps", "sharp_turn_edges_mps"]);
     check_keys(&report["blend_space"], &["dimension", "simplices", "covered_share"]);
     check_keys(&report["correspondence"], &["semi_procedural", "blending", "pairs_s"]);
     check_keys(&report["coverage"][0], &["lack", "sentence"]);

@@ -39,6 +39,8 @@ pub struct MotionExample {
     pub name: String,
     /// Index into [`MotionDb::sources`].
     pub source: u32,
+    /// The part of the source that it was made from, first and last second, from the file's first frame on.
+    pub window_s: [f32; 2],
     /// Left and right were exchanged.
     pub mirrored: bool,
     /// The root's motion in one cycle, scaled to the database's skeleton.

@@ -15,12 +15,27 @@ pub const TURNING_SPEED_MIN_MPS: f32 = -0.05;
 /// Examples with at most this turn rate hold their facing: 10 °/s.
 pub const HOLDING_TURN_MAX_RAD_S: f32 = 10.0 * std::f32::consts::PI / 180.0;
 
+/// Which examples bound which velocities.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Construction {
+    /// A set for turning bodies and one for bodies that hold their facing (`definitions.md`).
+    #[default]
+    TurningAndHolding,
+    /// The paper's alone, for comparison: the turning set bounds every velocity; side-stepping and backward examples
+    /// bound none.
+    Paper,
+}
+
 /// The velocity sets of a database.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct VelocityHull {
+    /// How the sets were built.
+    pub construction: Construction,
     /// The paper's set: velocities that the facing will follow. Clockwise.
     pub turning_mps: Vec<Vec2>,
-    /// Velocities at held facing: forward, side-stepping, backward. Clockwise.
+    /// Velocities at held facing: forward, side-stepping, backward; the turning set again in the paper's construction.
+    /// Clockwise.
     pub holding_mps: Vec<Vec2>,
     /// Edges of the wrapping polygon with an end beyond ±90°, each from its clockwise-first end: the inside is on the
     /// edge's right.

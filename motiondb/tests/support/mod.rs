@@ -9,7 +9,7 @@ use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows, SourceReco
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::velocity_hull::{Construction, VelocityHull};
 
 /// Standing, a walk and a walking turn that all swing every joint by a tenth of a radian.
 pub(crate) fn small_db() -> MotionDb {
@@ -21,6 +21,7 @@ pub(crate) fn small_db() -> MotionDb {
         sources: vec![source()],
         rows: rows(examples.len()),
         velocity_hull: VelocityHull {
+            construction: Construction::default(),
             turning_mps: vec![Vec2::ZERO, Vec2::new(0.8 * libm::cosf(1.0), 0.8 * libm::sinf(1.0)), Vec2::new(1.2, 0.0)],
             holding_mps: vec![Vec2::ZERO, Vec2::new(1.2, 0.0)],
             sharp_turn_edges_mps: Vec::new(),
@@ -44,6 +45,7 @@ fn example(name: &str, [speed_mps, turn_rate_rad_s, strafe_mps]: [f32; 3]) -> Mo
     MotionExample {
         name: name.into(),
         source: 0,
+        window_s: [0.0, 1.0],
         mirrored: false,
         parameters: Parameters { speed_mps, turn_rate_rad_s, strafe_mps },
         phase_map: PhaseMap { period_s: 1.0, left_share: 0.5 },

@@ -12,7 +12,7 @@ use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
 use motiondb::pose::Pose;
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
-use motiondb::velocity_hull::{VelocityHull, is_holding, is_turning, turning_point_mps};
+use motiondb::velocity_hull::{Construction, VelocityHull, is_holding, is_turning, turning_point_mps};
 
 use crate::hms::ik::{FootTarget, reach};
 
@@ -67,6 +67,7 @@ fn example(name: &str, [speed_mps, turn_rate_rad_s, strafe_mps]: [f32; 3], perio
     MotionExample {
         name: name.into(),
         source: 0,
+        window_s: [0.0, 1.0],
         mirrored: false,
         parameters: Parameters { speed_mps, turn_rate_rad_s, strafe_mps },
         phase_map: PhaseMap { period_s, left_share: if stands { 0.5 } else { 0.53 } },
@@ -185,6 +186,7 @@ fn hull(parameters: &[Parameters]) -> VelocityHull {
     let holding =
         parameters.iter().filter(|point| is_holding(point)).map(|point| Vec2::new(point.speed_mps, point.strafe_mps));
     VelocityHull {
+        construction: Construction::default(),
         turning_mps: clockwise_hull(turning),
         holding_mps: clockwise_hull(holding.collect()),
         sharp_turn_edges_mps: Vec::new(),

@@ -11,7 +11,7 @@ use std::f32::consts::TAU;
 use fbcrowd_sim::mcn::params::McnParams;
 use fbcrowd_sim::obstacles::Obstacles;
 use glam::Vec2;
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::velocity_hull::{Construction, VelocityHull};
 
 use crate::crowd::{Body, Crowd, Figures, Planner, RADIUS_M, read_scene};
 
@@ -25,6 +25,7 @@ fn hull() -> VelocityHull {
     let left = corners(&[[-0.1, 0.1], [0.0, 0.7]]);
     let right = corners(&[[0.0, -0.7], [-0.1, -0.1]]);
     VelocityHull {
+        construction: Construction::default(),
         turning_mps: corners(&[
             [1.9, 0.0],
             [1.2, -1.0],
@@ -117,6 +118,7 @@ fn symmetric_encounters_resolve() {
 fn who_stands_with_its_back_to_the_goal_turns_and_arrives() {
     let (params, walls) = (McnParams::default(), Obstacles::default());
     let forward_only = VelocityHull {
+        construction: Construction::default(),
         turning_mps: vec![Vec2::ZERO, Vec2::new(1.6, 0.0)],
         holding_mps: vec![Vec2::ZERO, Vec2::new(1.6, 0.0)],
         sharp_turn_edges_mps: Vec::new(),

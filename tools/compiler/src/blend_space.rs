@@ -194,6 +194,7 @@ mod tests {
         MotionExample {
             name: String::new(),
             source: 0,
+            window_s: [0.0, 1.0],
             mirrored: false,
             parameters: Parameters::from_vec3(Vec3::from(point)),
             phase_map: PhaseMap { period_s: 1.0, left_share: 0.5 },

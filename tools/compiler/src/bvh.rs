@@ -61,6 +61,7 @@ fn posed(file: &Path, checked: &CheckedBvh, bvh: &Bvh) -> SourceClip {
         file: file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
         clip: String::new(),
         joints: checked.joints.iter().map(source_joint).collect(),
+        first_frame: 0,
         frame_rate_hz: 1.0 / bvh.frame_time().as_secs_f64().max(1e-6),
         positions,
         orientations,

@@ -3,16 +3,18 @@
 //! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted
 //! by file and clip name, examples by their own name, and parallel stages collect in that order.
 
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::validate::validate;
+use motiondb::velocity_hull::Construction;
 use rayon::prelude::*;
 
 use crate::analysis::{Analyzed, analyze};
 use crate::arc::Rates;
 use crate::compile_error::CompileError;
-use crate::cycle::GaitCycle;
+use crate::cycle::{GaitCycle, NamedCycle};
 use crate::gait::Gait;
 use crate::human_clip::{Choices, HumanBody, HumanClip};
 use crate::import::{self, Import};
@@ -49,7 +51,7 @@ pub fn compile_manifest(manifest: &Manifest, imported: &(dyn Fn(&Path) + Sync)) 
     if clips.is_empty() && !refused.is_empty() {
         return Err(CompileError::NoExample { reasons: refused.join("; ") });
     }
-    match compile(clips) {
+    match compile(clips, &manifest.options) {
         Err(CompileError::NotStepping { .. }) => Err(ManifestError::from(manifest.not_stepping()).into()),
         compiled => Ok(Compiled { db: compiled?, refused }),
     }
@@ -91,11 +93,20 @@ pub fn import_manifest(
     Ok((clips, refused))
 }
 
+/// What a user wants of the whole set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Most recorded examples, mirrors not counted; all where none.
+    pub max_examples: Option<NonZeroUsize>,
+    /// Which examples bound which velocities.
+    pub velocity_hull: Construction,
+}
+
 /// Compiles clips into a database.
 ///
 /// # Errors
 /// Where no clip gives an example, two examples have one name, or the database is unsound.
-pub fn compile(mut clips: Vec<HumanClip>) -> Result<MotionDb, CompileError> {
+pub fn compile(mut clips: Vec<HumanClip>, options: &Options) -> Result<MotionDb, CompileError> {
     sort(&mut clips);
     if clips.is_empty() {
         return Err(CompileError::NoClips);
@@ -107,7 +118,7 @@ pub fn compile(mut clips: Vec<HumanClip>) -> Result<MotionDb, CompileError> {
     let mut cycles = close(&clips, analyzed, &body, period_s, &mut sources);
     add_mirrors(&mut cycles);
     cycles.sort_by(|a, b| a.name.cmp(&b.name));
-    assemble(cycles, sources, &body)
+    assemble(cycles, sources, &body, options)
 }
 
 /// The records of clips with what a compilation would say of each, in the order of a database.
@@ -148,15 +159,6 @@ fn standing_period_s(chosen: Option<&GaitCycle>, analyzed: &[Analyzed]) -> f64 {
     chosen.map_or(STANDING_PERIOD_S, |index| f64::from(stepping[index].phase_map.period_s))
 }
 
-/// A cycle on its way to an example.
-struct NamedCycle {
-    name: String,
-    source: u32,
-    mirrored: bool,
-    choices: Choices,
-    cycle: GaitCycle,
-}
-
 /// The cycles of all clips, standing ones now too; their warnings go to their sources.
 fn close(
     clips: &[HumanClip],
@@ -174,7 +176,9 @@ fn close(
         };
         if let Some(cycle) = cycle {
             let (name, choices) = (clip.name.clone(), clip.choices);
-            cycles.push(NamedCycle { name, source: index as u32, mirrored: false, choices, cycle });
+            let window_s = [clip.first_frame, clip.first_frame + clip.frames.len() - 1];
+            let window_s = window_s.map(|frame| frame as f64 / clip.frame_rate_hz);
+            cycles.push(NamedCycle { name, source: index as u32, window_s, mirrored: false, choices, cycle });
         }
     }
     cycles
@@ -189,6 +193,7 @@ fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
         .map(|named| NamedCycle {
             name: format!("{}_mirrored", named.name),
             source: named.source,
+            window_s: named.window_s,
             mirrored: true,
             choices: Choices::default(),
             cycle: mirror::mirror(&named.cycle),
@@ -198,17 +203,19 @@ fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
 }
 
 /// The database of cycles sorted by name.
-fn assemble(named: Vec<NamedCycle>, sources: Vec<SourceRecord>, body: &HumanBody) -> Result<MotionDb, CompileError> {
+fn assemble(
+    named: Vec<NamedCycle>,
+    sources: Vec<SourceRecord>,
+    body: &HumanBody,
+    options: &Options,
+) -> Result<MotionDb, CompileError> {
     if named.is_empty() {
         return Err(CompileError::no_example(&sources));
     }
     if let Some(pair) = named.windows(2).find(|pair| pair[0].name == pair[1].name) {
         return Err(CompileError::SameName { name: pair[0].name.clone() });
     }
-    let examples: Vec<MotionExample> = named
-        .iter()
-        .map(|named| parameterize::example(&named.cycle, body, named.name.clone(), named.source, named.mirrored))
-        .collect();
+    let examples: Vec<MotionExample> = named.iter().map(|named| parameterize::example(named, body)).collect();
     let chosen = named.iter().position(|named| named.choices.is_semi_procedural);
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
     let blend_space = blend_space::build(&examples);
@@ -216,7 +223,7 @@ fn assemble(named: Vec<NamedCycle>, sources: Vec<SourceRecord>, body: &HumanBody
     let db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
         correspondence,
-        velocity_hull: velocity_hull::build(&examples),
+        velocity_hull: velocity_hull::build(&examples, options.velocity_hull),
         rows: rows::flatten(&cycles),
         blend_space,
         examples,
@@ -248,7 +255,7 @@ mod tests {
     }
 
     fn compiled(clips: Vec<HumanClip>) -> MotionDb {
-        compile(clips).unwrap()
+        compile(clips, &Options::default()).unwrap()
     }
 
     fn check_rates(db: &MotionDb, name: &str, wanted: [f32; 3]) {

@@ -12,7 +12,7 @@ use motiondb::phase_map::PhaseMap;
 use motiondb::skeleton::JOINT_COUNT;
 
 use crate::arc::Rates;
-use crate::human_clip::{HumanBody, HumanPose};
+use crate::human_clip::{Choices, HumanBody, HumanPose};
 use crate::pose_mean::pose_mean;
 use crate::root_motion::GroundedClip;
 use crate::stride::Stride;
@@ -37,6 +37,23 @@ pub struct GaitCycle {
     pub rates: Rates,
     /// The body steps; otherwise it stands.
     pub steps: bool,
+}
+
+/// A cycle on its way to an example.
+#[derive(Clone, Debug)]
+pub struct NamedCycle {
+    /// The example's name.
+    pub name: String,
+    /// Index of its source.
+    pub source: u32,
+    /// First and last second of the source that it was made from.
+    pub window_s: [f64; 2],
+    /// Left and right were exchanged.
+    pub mirrored: bool,
+    /// What a manifest makes of it.
+    pub choices: Choices,
+    /// The cycle.
+    pub cycle: GaitCycle,
 }
 
 /// The mean of whole strides.

@@ -139,6 +139,7 @@ fn sampled(tree: &Tree, nodes: &[Node], animation: &Animation, span: &Span, file
         file: file.to_owned(),
         clip,
         joints: tree.order.iter().enumerate().map(joint).collect(),
+        first_frame: 0,
         frame_rate_hz: FRAME_RATE_HZ,
         positions: globals.iter().map(|global| global.w_axis.truncate()).collect(),
         orientations: globals.iter().map(|global| orientation(DMat3::from_mat4(*global))).collect(),

@@ -11,6 +11,8 @@ pub struct HumanClip {
     pub name: String,
     /// What was found in the source, whole-clip parameters included.
     pub source: SourceRecord,
+    /// Frames of the file before the first that is kept (a T-pose, what a manifest leaves out).
+    pub first_frame: usize,
     /// Frames a second, after any correction.
     pub frame_rate_hz: f64,
     /// The performer's bones.

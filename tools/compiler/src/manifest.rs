@@ -6,6 +6,8 @@
 //! # All of it may be left out. Unless [[clips]] name what is used, it is all below the manifest's folder.
 //! semi_procedural = "walk"            # m_sp, by the name of its example
 //! target_skeleton = "walk"            # whose body all examples share
+//! max_examples = 40                   # of near-equal ones the best are kept; mirrors not counted
+//! velocity_hull = "paper"             # the paper's own construction alone; else "turning_and_holding"
 //!
 //! [[clips]]
 //! path = "."                          # a folder: what holds for all clips below it; relative to this file
@@ -29,12 +31,15 @@
 //!
 //! Of the folders that hold a file, later tables count more; the file's own counts most.
 
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use motiondb::source_text::{Invalid, SourceText};
+use motiondb::velocity_hull::Construction;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::compile::Options;
 use crate::error::Refusal;
 use crate::human_clip::HumanClip;
 use crate::import;
@@ -47,6 +52,8 @@ use crate::take::Take;
 pub struct Manifest {
     /// Every clip, sorted by path; takes of one file in the manifest's order.
     pub takes: Vec<Take>,
+    /// What is wanted of the whole set.
+    pub options: Options,
     source: SourceText,
     semi_procedural: Option<Spanned<String>>,
     target_skeleton: Option<Spanned<String>>,
@@ -58,6 +65,9 @@ pub struct Manifest {
 struct ManifestFile {
     semi_procedural: Option<Spanned<String>>,
     target_skeleton: Option<Spanned<String>>,
+    max_examples: Option<NonZeroUsize>,
+    #[serde(default)]
+    velocity_hull: Construction,
     #[serde(default)]
     clips: Vec<Spanned<Table>>,
 }
@@ -83,8 +93,9 @@ impl Manifest {
             table.get_ref().check(&source)?;
         }
         let takes = takes(&source, &file.clips)?;
+        let options = Options { max_examples: file.max_examples, velocity_hull: file.velocity_hull };
         let (semi_procedural, target_skeleton) = (file.semi_procedural, file.target_skeleton);
-        Ok(Self { takes, source, semi_procedural, target_skeleton })
+        Ok(Self { takes, options, source, semi_procedural, target_skeleton })
     }
 
     /// Files of which nothing is said.

@@ -12,7 +12,7 @@ use glam::DQuat;
 use motiondb::motion_db::{MotionExample, PHASE_COUNT};
 
 use crate::arc::{Rates, rotation};
-use crate::cycle::GaitCycle;
+use crate::cycle::{GaitCycle, NamedCycle};
 use crate::foot_slide::{self, PLANTED};
 use crate::human_clip::HumanBody;
 
@@ -59,12 +59,14 @@ fn face_along_travel(cycle: &mut GaitCycle) {
 }
 
 /// The example of a cycle.
-pub fn example(cycle: &GaitCycle, body: &HumanBody, name: String, source: u32, mirrored: bool) -> MotionExample {
+pub fn example(named: &NamedCycle, body: &HumanBody) -> MotionExample {
+    let cycle = &named.cycle;
     let foot_slide = foot_slide::measure(cycle, body);
     MotionExample {
-        name,
-        source,
-        mirrored,
+        name: named.name.clone(),
+        source: named.source,
+        window_s: named.window_s.map(|second| second as f32),
+        mirrored: named.mirrored,
         parameters: cycle.rates.to_parameters(),
         phase_map: cycle.phase_map,
         key_times_s: if cycle.steps { key_times_s(cycle) } else { None },

@@ -59,6 +59,7 @@ pub(crate) fn to_human(
     HumanClip {
         name,
         source: record(clip, units, whole),
+        first_frame: clip.first_frame,
         frame_rate_hz: clip.frame_rate_hz,
         body: body(&tracks, &orientations, offsets_m, soles, leg_m),
         frames,

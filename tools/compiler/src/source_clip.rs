@@ -29,6 +29,8 @@ pub struct SourceClip {
     pub clip: String,
     /// A parent stands before its children.
     pub joints: Vec<SourceJoint>,
+    /// Frames of the file before the first that is kept.
+    pub first_frame: usize,
     /// Frames a second.
     pub frame_rate_hz: f64,
     /// Global positions in source units, frame-major: frame · joint count + joint.
@@ -61,6 +63,7 @@ impl SourceClip {
 
     /// Drops all frames but these.
     pub fn keep_frames(&mut self, frames: Range<usize>) {
+        self.first_frame += frames.start;
         let (first, last) = (frames.start * self.joints.len(), frames.end * self.joints.len());
         self.positions.truncate(last);
         self.orientations.truncate(last);

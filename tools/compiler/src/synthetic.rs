@@ -108,6 +108,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
     HumanClip {
         name: name.into(),
         source,
+        first_frame: 0,
         frame_rate_hz,
         body,
         frames,

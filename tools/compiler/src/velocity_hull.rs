@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{DVec2, Vec2};
 use motiondb::motion_db::MotionExample;
-use motiondb::velocity_hull::{VelocityHull, is_holding, is_turning, turning_point_mps};
+use motiondb::velocity_hull::{Construction, VelocityHull, is_holding, is_turning, turning_point_mps};
 use robust::{Coord, orient2d};
 
 /// Directions closer than this are one direction of the wrapping polygon: what gait noise leaves in a turn rate (3 °/s,
@@ -17,14 +17,19 @@ const SAME_DIRECTION_RAD: f64 = 3.0 * TAU / 360.0;
 const STANDING_MPS: f64 = 1e-3;
 
 /// Both sets and the sharp-turn edges of a database's examples.
-pub fn build(examples: &[MotionExample]) -> VelocityHull {
+pub fn build(examples: &[MotionExample], construction: Construction) -> VelocityHull {
     let parameters = || examples.iter().map(|example| &example.parameters);
     let turning: Vec<Vec2> = parameters().filter(|found| is_turning(found)).map(turning_point_mps).collect();
     let holding =
         parameters().filter(|found| is_holding(found)).map(|found| Vec2::new(found.speed_mps, found.strafe_mps));
+    let turning_mps = clockwise_hull(turning.iter().copied());
     VelocityHull {
-        turning_mps: clockwise_hull(turning.iter().copied()),
-        holding_mps: clockwise_hull(holding),
+        construction,
+        holding_mps: match construction {
+            Construction::TurningAndHolding => clockwise_hull(holding),
+            Construction::Paper => turning_mps.clone(),
+        },
+        turning_mps,
         sharp_turn_edges_mps: sharp_turn_edges(&wrapping_polygon(&turning)),
     }
 }

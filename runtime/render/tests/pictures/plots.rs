@@ -23,6 +23,7 @@ fn database(speeds_mps: &[f32]) -> MotionDb {
     let examples = speeds_mps.iter().enumerate().map(|(index, speed_mps)| MotionExample {
         name: format!("walk_{index}"),
         source: 0,
+        window_s: [0.0, 1.0],
         mirrored: false,
         parameters: Parameters { speed_mps: *speed_mps, ..Parameters::default() },
         phase_map: PhaseMap { period_s: 1.1, left_share: 0.5 },

@@ -309,6 +309,7 @@ mod tests {
                 vec![Vec2::new(ahead, 0.0), Vec2::new(0.0, -aside), Vec2::new(-back, 0.0), Vec2::new(0.0, aside)]
             };
             let hull = VelocityHull {
+                construction: motiondb::velocity_hull::Construction::default(),
                 turning_mps: kite(1.8, 1.0, 0.5),
                 holding_mps: kite(1.8, 0.8, 0.8),
                 sharp_turn_edges_mps: vec![[Vec2::new(-0.1, 0.2), Vec2::new(0.0, 1.0)]],

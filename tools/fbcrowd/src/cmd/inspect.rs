@@ -22,9 +22,9 @@ pub(crate) struct Args {
     #[arg(required = true, value_name = "FILE.fbdb|CLIPS")]
     input: Vec<PathBuf>,
     /// Print JSON: `sources[] {file, clip, speed_mps, turn_rate_rad_s, strafe_mps, up_axis, metres_per_unit,
-    /// frame_rate_hz, warnings[]}`; of a database also `examples[] {name, source, clip, mirrored, speed_mps,
+    /// frame_rate_hz, warnings[]}`; of a database also `examples[] {name, source, clip, window_s, mirrored, speed_mps,
     /// turn_rate_rad_s, strafe_mps, duration_s, key_times_s, planted_slide_cm_s, planted_share}`, `velocity_hull
-    /// {turning_mps[][2], holding_mps[][2], sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension, simplices[][],
+    /// {construction, turning_mps[][2], holding_mps[][2], sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension, simplices[][],
     /// covered_share}`, `correspondence {semi_procedural, blending, pairs_s[][2]}` or null, and `coverage[] {lack,
     /// sentence}`: where the set is thin. Key times: right toe-off, right heel strike, left toe-off, left heel strike,
     /// from right mid-stance.
