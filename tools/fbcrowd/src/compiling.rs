@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use motiondb::motion_db::MotionDb;
+use motiondb::velocity_hull::Construction;
 use motiondb_compiler::compile::{self, Compiled};
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
@@ -52,9 +53,18 @@ fn manifest(paths: &[PathBuf]) -> Result<Manifest, Failure> {
     }
 }
 
+/// What the command line wants of the whole set; it counts more than a manifest.
+#[derive(Default)]
+pub(crate) struct Overrides {
+    pub(crate) velocity_hull: Option<Construction>,
+}
+
 /// Compiles clips; what was refused is said on standard error, and makes the answer no.
-pub(crate) fn compile(paths: &[PathBuf]) -> Result<(MotionDb, Answer), Failure> {
-    let manifest = manifest(paths)?;
+pub(crate) fn compile(paths: &[PathBuf], overrides: &Overrides) -> Result<(MotionDb, Answer), Failure> {
+    let mut manifest = manifest(paths)?;
+    if let Some(construction) = overrides.velocity_hull {
+        manifest.options.velocity_hull = construction;
+    }
     let progress = Progress::new("clips", manifest.takes.len());
     let compiled = compile::compile_manifest(&manifest, &|_| progress.advance());
     progress.finish();

@@ -4,7 +4,7 @@
 use glam::Vec2;
 use motiondb::coverage::{self, ThinPlace};
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::velocity_hull::{Construction, VelocityHull};
 use serde::Serialize;
 
 use crate::leave_one_out::{LeaveOneOut, LeftOut};
@@ -121,7 +121,10 @@ pub(crate) fn database_text(report: &DatabaseReport) -> String {
     }
     let hull = &report.velocity_hull;
     text += &format!("\nturning set, m/s    {}\n", corners(&hull.turning_mps));
-    text += &format!("holding set, m/s    {}\n", corners(&hull.holding_mps));
+    text += &match hull.construction {
+        Construction::TurningAndHolding => format!("holding set, m/s    {}\n", corners(&hull.holding_mps)),
+        Construction::Paper => "holding set         the turning set (the paper's construction)\n".into(),
+    };
     text += &format!("sharp-turn edges    {}\n", hull.sharp_turn_edges_mps.len());
     text += &format!(
         "blend space         {} simplices in {} dimensions, {:.1} % of the hull\n",

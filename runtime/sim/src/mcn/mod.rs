@@ -21,7 +21,7 @@ pub mod stance;
 pub mod time_to_collision;
 
 use glam::Vec2;
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::velocity_hull::{Construction, VelocityHull};
 
 use self::half_plane::HalfPlane;
 use self::linear_program::Solution;
@@ -225,9 +225,11 @@ fn orient(world: &World, agent: usize, velocity_mps: Vec2, params: &McnParams, s
         stepping_back_s: world.stepping_back_s[agent],
     };
     let corners_mps = &world.hull.holding_mps;
+    // The paper knows no stepping back: its set was spanned by bodies that turn.
+    let may_hold = world.hull.construction != Construction::Paper || walk.preferred_mps.dot(velocity_mps) >= 0.0;
     let holds = |facing| {
         let outside_mps = motion_constraints::outside_mps(corners_mps, facing, velocity_mps, &mut scratch.projected);
-        outside_mps <= orientation::HOLDING_SLACK_MPS
+        may_hold && outside_mps <= orientation::HOLDING_SLACK_MPS
     };
     orientation::decide(&walk, holds, world.dt_s, params)
 }
@@ -282,6 +284,7 @@ mod tests {
         preferred_mps: Vec<Vec2>,
         stances: Vec<Stance>,
         obstacles: Obstacles,
+        construction: Construction,
     }
 
     const WALK: Vec2 = Vec2::new(1.3, 0.0);
@@ -296,6 +299,7 @@ mod tests {
                 preferred_mps: vec![WALK; count],
                 stances: vec![Stance::default(); count],
                 obstacles: Obstacles::default(),
+                construction: Construction::default(),
             }
         }
 
@@ -309,7 +313,7 @@ mod tests {
                 vec![Vec2::new(ahead, 0.0), Vec2::new(0.0, -aside), Vec2::new(-back, 0.0), Vec2::new(0.0, aside)]
             };
             let hull = VelocityHull {
-                construction: motiondb::velocity_hull::Construction::default(),
+                construction: self.construction,
                 turning_mps: kite(1.8, 1.0, 0.5),
                 holding_mps: kite(1.8, 0.8, 0.8),
                 sharp_turn_edges_mps: vec![[Vec2::new(-0.1, 0.2), Vec2::new(0.0, 1.0)]],
@@ -381,5 +385,17 @@ mod tests {
         let plan = scene.plan(&mut Scratch::default());
         assert!(plan.velocity_mps.y < -0.1 && plan.strafing_s > 0.0, "{plan:?}");
         assert_eq!((plan.set, plan.facing_rad), (VelocitySet::Holding, 0.0), "{plan:?}");
+    }
+    #[test]
+    fn steps_back_from_who_comes_too_near_but_turns_away_by_the_papers_construction() {
+        let mut scene = Scene::new(&[[0.0, 0.0], [0.55, 0.0]]);
+        scene.velocities_mps = vec![Vec2::ZERO, Vec2::new(-0.6, 0.0)];
+        scene.preferred_mps[0] = Vec2::new(0.3, 0.0);
+        let plan = scene.plan(&mut Scratch::default());
+        assert!(plan.velocity_mps.x < -0.1 && plan.stepping_back_s > 0.0, "{plan:?}");
+        assert_eq!((plan.set, plan.facing_rad), (VelocitySet::Holding, 0.0), "{plan:?}");
+        scene.construction = Construction::Paper;
+        let plan = scene.plan(&mut Scratch::default());
+        assert!(plan.set == VelocitySet::Turning && plan.facing_rad.abs() > 1.5, "{plan:?}");
     }
 }

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use motiondb::velocity_hull::Construction;
 use motiondb::{coverage, file};
 
-use crate::compiling;
+use crate::compiling::{self, Overrides};
 use crate::failure::{Answer, Failure};
 use crate::output;
 
@@ -27,11 +28,33 @@ pub(crate) struct Args {
     /// Write nothing where any input is refused.
     #[arg(long)]
     strict: bool,
+    /// How the motions bound velocities, whatever the manifest says.
+    #[arg(long, value_enum, value_name = "SETS")]
+    velocity_hull: Option<VelocitySets>,
+}
+
+/// [`Construction`] on the command line.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum VelocitySets {
+    /// A set for bodies that turn and one for bodies that hold their facing.
+    TurningAndHolding,
+    /// The paper's own construction alone: side-stepping and backward motions bound nothing.
+    Paper,
+}
+
+impl From<VelocitySets> for Construction {
+    fn from(sets: VelocitySets) -> Self {
+        match sets {
+            VelocitySets::TurningAndHolding => Self::TurningAndHolding,
+            VelocitySets::Paper => Self::Paper,
+        }
+    }
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     output::spare(&args.output, args.clips.iter().map(PathBuf::as_path))?;
-    let (db, answer) = compiling::compile(&args.clips)?;
+    let overrides = Overrides { velocity_hull: args.velocity_hull.map(Construction::from) };
+    let (db, answer) = compiling::compile(&args.clips, &overrides)?;
     if args.strict && answer == Answer::No {
         return Err(Failure::bad("some input was refused, and --strict allows none; repair it or leave it out"));
     }

@@ -9,10 +9,11 @@ use fbcrowd_sim::scenario_file::{self, MotionSource};
 use motiondb::file;
 
 use crate::cmd::measure;
+use crate::compiling::{self, Overrides};
 use crate::failure::{Answer, Failure};
 use crate::rendering::Rendered;
 use crate::simulation::Timings;
-use crate::{compiling, output, rendering, simulation};
+use crate::{output, rendering, simulation};
 
 /// Compile a scenario's clips, simulate it, and render it.
 ///
@@ -58,7 +59,7 @@ fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Fa
         }
         MotionSource::Clips(path) => path,
     };
-    let (db, answer) = compiling::compile(&[clips])?;
+    let (db, answer) = compiling::compile(&[clips], &Overrides::default())?;
     fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     let path = folder.join("motion.fbdb");
     file::write(&path, &db)?;
