@@ -4,11 +4,12 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use motiondb_compiler::compile::compile;
+use motiondb_compiler::compile::{Options, compile};
 use motiondb_compiler::import::import_bytes;
 
 fuzz_target!(|bytes: &[u8]| {
     if let Ok(imports) = import_bytes(Path::new("clip.bvh"), bytes) {
-        let _ = compile(imports.into_iter().filter_map(|import| import.outcome.ok()).collect());
+        let clips = imports.into_iter().filter_map(|import| import.outcome.ok()).collect();
+        let _ = compile(clips, &Options::default(), &|_| ());
     }
 });

@@ -4,7 +4,7 @@
 //! by file and clip name, examples by their own name, and parallel stages collect in that order.
 
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::validate::validate;
@@ -20,6 +20,7 @@ use crate::human_clip::{Choices, HumanBody, HumanClip};
 use crate::import::{self, Import};
 use crate::manifest::Manifest;
 use crate::manifest_error::ManifestError;
+use crate::progress::{Event, Observer};
 use crate::{blend_space, correspondence, mirror, parameterize, rows, standing, target_skeleton, velocity_hull};
 
 /// Period of standing clips where none steps, seconds.
@@ -34,24 +35,24 @@ pub struct Compiled {
     pub refused: Vec<String>,
 }
 
-/// Imports files, compiles their clips. `imported` is told of each file as it is done, from any thread.
+/// Imports files, compiles their clips.
 ///
 /// # Errors
 /// As [`compile`]; a file that cannot be read is refused like a clip that is not human, unless nothing is left.
-pub fn compile_files(files: &[PathBuf], imported: &(dyn Fn(&Path) + Sync)) -> Result<Compiled, CompileError> {
-    compile_manifest(&Manifest::of_files(files), imported)
+pub fn compile_files(files: &[PathBuf], tell: &Observer) -> Result<Compiled, CompileError> {
+    compile_manifest(&Manifest::of_files(files), tell)
 }
 
 /// As [`compile_files`], of the clips and by the choices of a manifest.
 ///
 /// # Errors
 /// As [`compile_files`], and where the manifest says of a clip what is not so.
-pub fn compile_manifest(manifest: &Manifest, imported: &(dyn Fn(&Path) + Sync)) -> Result<Compiled, CompileError> {
-    let (clips, refused) = import_manifest(manifest, imported)?;
+pub fn compile_manifest(manifest: &Manifest, tell: &Observer) -> Result<Compiled, CompileError> {
+    let (clips, refused) = import_manifest(manifest, tell)?;
     if clips.is_empty() && !refused.is_empty() {
         return Err(CompileError::NoExample { reasons: refused.join("; ") });
     }
-    match compile(clips, &manifest.options) {
+    match compile(clips, &manifest.options, tell) {
         Err(CompileError::NotStepping { .. }) => Err(ManifestError::from(manifest.not_stepping()).into()),
         compiled => Ok(Compiled { db: compiled?, refused }),
     }
@@ -62,16 +63,14 @@ pub fn compile_manifest(manifest: &Manifest, imported: &(dyn Fn(&Path) + Sync)) 
 ///
 /// # Errors
 /// Where the manifest says of a clip what is not so.
-pub fn import_manifest(
-    manifest: &Manifest,
-    imported: &(dyn Fn(&Path) + Sync),
-) -> Result<(Vec<HumanClip>, Vec<String>), ManifestError> {
+pub fn import_manifest(manifest: &Manifest, tell: &Observer) -> Result<(Vec<HumanClip>, Vec<String>), ManifestError> {
+    tell(Event::Stage("import"));
     let imports: Vec<_> = manifest
         .takes
         .par_iter()
         .map(|take| {
             let import = import::import_take(take);
-            imported(&take.path);
+            tell(Event::Imported(&take.path));
             import
         })
         .collect();
@@ -106,19 +105,20 @@ pub struct Options {
 ///
 /// # Errors
 /// Where no clip gives an example, two examples have one name, or the database is unsound.
-pub fn compile(mut clips: Vec<HumanClip>, options: &Options) -> Result<MotionDb, CompileError> {
+pub fn compile(mut clips: Vec<HumanClip>, options: &Options, tell: &Observer) -> Result<MotionDb, CompileError> {
     sort(&mut clips);
     if clips.is_empty() {
         return Err(CompileError::NoClips);
     }
     let body = target_skeleton::choose(&clips);
+    tell(Event::Stage("analysis of gaits"));
     let analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
     let period_s = standing_period_s(chosen_cycle(&clips, &analyzed)?, &analyzed);
     let mut sources: Vec<SourceRecord> = clips.iter().map(|clip| clip.source.clone()).collect();
     let mut cycles = close(&clips, analyzed, &body, period_s, &mut sources);
     add_mirrors(&mut cycles);
     cycles.sort_by(|a, b| a.name.cmp(&b.name));
-    assemble(cycles, sources, &body, options)
+    assemble(cycles, sources, &body, options, tell)
 }
 
 /// The records of clips with what a compilation would say of each, in the order of a database.
@@ -208,6 +208,7 @@ fn assemble(
     sources: Vec<SourceRecord>,
     body: &HumanBody,
     options: &Options,
+    tell: &Observer,
 ) -> Result<MotionDb, CompileError> {
     if named.is_empty() {
         return Err(CompileError::no_example(&sources));
@@ -215,11 +216,15 @@ fn assemble(
     if let Some(pair) = named.windows(2).find(|pair| pair[0].name == pair[1].name) {
         return Err(CompileError::SameName { name: pair[0].name.clone() });
     }
+    tell(Event::Stage("parameters"));
     let examples: Vec<MotionExample> = named.iter().map(|named| parameterize::example(named, body)).collect();
     let chosen = named.iter().position(|named| named.choices.is_semi_procedural);
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
+    tell(Event::Stage("blend space"));
     let blend_space = blend_space::build(&examples);
+    tell(Event::Stage("correspondence times"));
     let correspondence = correspondence::build(&examples, &cycles, body, blend_space.axis_ranges, chosen);
+    tell(Event::Stage("assembly"));
     let db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
         correspondence,
@@ -229,6 +234,7 @@ fn assemble(
         examples,
         sources,
     };
+    tell(Event::Stage("validation"));
     match validate(&db).into_iter().find_map(|check| Some((check.name, check.broken?))) {
         Some((invariant, detail)) => Err(CompileError::Unsound { invariant, detail }),
         None => Ok(db),
@@ -255,7 +261,7 @@ mod tests {
     }
 
     fn compiled(clips: Vec<HumanClip>) -> MotionDb {
-        compile(clips, &Options::default()).unwrap()
+        compile(clips, &Options::default(), &|_| ()).unwrap()
     }
 
     fn check_rates(db: &MotionDb, name: &str, wanted: [f32; 3]) {

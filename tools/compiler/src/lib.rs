@@ -39,6 +39,7 @@ pub mod mirror;
 pub mod parameterize;
 mod plausibility;
 pub mod pose_mean;
+pub mod progress;
 mod quiet_unwind;
 mod retarget;
 pub mod root_motion;

@@ -8,6 +8,7 @@ use motiondb_compiler::compile::{self, Compiled};
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
 use motiondb_compiler::manifest::Manifest;
+use motiondb_compiler::progress::Event;
 
 use crate::failure::{Answer, Failure};
 use crate::output;
@@ -66,7 +67,7 @@ pub(crate) fn compile(paths: &[PathBuf], overrides: &Overrides) -> Result<(Motio
         manifest.options.velocity_hull = construction;
     }
     let progress = Progress::new("clips", manifest.takes.len());
-    let compiled = compile::compile_manifest(&manifest, &|_| progress.advance());
+    let compiled = compile::compile_manifest(&manifest, &|event| advance(&progress, event));
     progress.finish();
     let Compiled { db, refused } = compiled?;
     Ok((db, say_refused(&refused)))
@@ -76,13 +77,20 @@ pub(crate) fn compile(paths: &[PathBuf], overrides: &Overrides) -> Result<(Motio
 pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Answer), Failure> {
     let manifest = manifest(paths)?;
     let progress = Progress::new("clips", manifest.takes.len());
-    let imported = compile::import_manifest(&manifest, &|_| progress.advance());
+    let imported = compile::import_manifest(&manifest, &|event| advance(&progress, event));
     progress.finish();
     let (clips, refused) = imported?;
     if clips.is_empty() {
         return Err(Failure::bad(refused.join("\n")));
     }
     Ok((clips, say_refused(&refused)))
+}
+
+/// Progress counts imported files: what comes after takes no time worth a bar.
+fn advance(progress: &Progress, event: Event) {
+    if let Event::Imported(_) = event {
+        progress.advance();
+    }
 }
 
 fn say_refused(refused: &[String]) -> Answer {
