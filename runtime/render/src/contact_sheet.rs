@@ -1,7 +1,10 @@
-//! Every example of a database as a strip of bodies: from the side, from the front and from above, at eight phases of
-//! its cycle.
+//! Every example of a database as strips of bodies and, under them, of stick figures: from the side, from the front and
+//! from above, at eight phases of its cycle.
 //!
-//! The bodies are those of the top view, turned; the feet that carry weight stand on an underlined ground.
+//! The bodies are those of the top view, turned; the feet that carry weight stand on an underlined ground. A sheet holds
+//! two dozen examples; more go on further sheets.
+
+use std::ops::Range;
 
 use fbcrowd_sim::recording_frame::AgentFrame;
 use glam::{Mat3, Vec2, Vec3};
@@ -15,6 +18,7 @@ use crate::cone::{Canvas, Cone};
 use crate::ground::fill_rect;
 use crate::palette::{GRID_COARSE, INK, look};
 use crate::plot::Figure;
+use crate::stick;
 use crate::text::Anchor;
 
 /// Phases drawn of each cycle.
@@ -32,9 +36,11 @@ const GAP_PX: f32 = 40.0;
 /// Width of one view of one example, and of all that is drawn of it, pixels.
 const STRIP_PX: f32 = PHASES as f32 * CELL_PX.x + GAP_PX;
 const BLOCK_PX: f32 = NAMES_PX + VIEWS.len() as f32 * STRIP_PX;
-/// More examples go into further columns, up to the second number, which is what the largest picture takes.
-const MAX_ROWS: usize = 32;
-const MAX_COLUMNS: usize = 5;
+/// Height of one example: bodies over sticks, pixels.
+const ROW_PX: f32 = 2.0 * CELL_PX.y;
+/// Examples on a sheet, one below the other in two columns.
+pub(crate) const SHEET_EXAMPLES: usize = 24;
+const COLUMNS: usize = 2;
 /// Width of the dark rim under a limb, pixels.
 const RIM_PX: f32 = 1.5;
 /// Bodies are seen from this far beyond their own depth, so that no part counts as below the paper, m.
@@ -54,27 +60,34 @@ const VIEWS: [View; 3] = [
     View { name: "from above", axes: [Vec3::X, Vec3::Y, Vec3::Z], lift_px: 56.0 },
 ];
 
-/// The contact sheet of a database.
-pub fn contact_sheet(db: &MotionDb) -> Pixmap {
-    let columns = db.examples.len().div_ceil(MAX_ROWS).clamp(1, MAX_COLUMNS);
-    let rows = db.examples.len().div_ceil(columns);
-    let size = Vec2::new(columns as f32 * BLOCK_PX, HEAD_PX + rows as f32 * CELL_PX.y + GAP_PX);
+/// The contact sheet of some examples of a database.
+pub fn contact_sheet(db: &MotionDb, examples: Range<usize>) -> Pixmap {
+    let columns = examples.len().min(COLUMNS);
+    let rows = examples.len().div_ceil(columns.max(1));
+    let size = Vec2::new(columns as f32 * BLOCK_PX, HEAD_PX + rows as f32 * ROW_PX + GAP_PX);
     let mut figure = Figure::new(size.x as u32, size.y as u32);
     figure.title("Examples, one stride each, from right mid-stance on", Vec2::new(GAP_PX, 66.0));
     for column in 0..columns {
         draw_head(&mut figure, column as f32 * BLOCK_PX);
     }
-    for example in 0..db.examples.len() {
-        draw_words(&mut figure, db, example, corner_px(example, rows));
+    let corners: Vec<(usize, Vec2)> = examples.enumerate().map(|(n, example)| (example, corner_px(n, rows))).collect();
+    for &(example, corner) in &corners {
+        draw_words(&mut figure, db, example, corner);
+        draw_sticks(&mut figure.pixmap, db, example, corner + Vec2::new(0.0, CELL_PX.y));
     }
-    figure.pixmap = draw_bodies(figure.pixmap, db, rows);
+    figure.pixmap = draw_bodies(figure.pixmap, db, &corners);
     figure.pixmap
 }
 
-/// Where the ground line of an example begins.
-fn corner_px(example: usize, rows: usize) -> Vec2 {
-    let [column, row] = [example / rows, example % rows].map(|index| index as f32);
-    Vec2::new(column * BLOCK_PX, HEAD_PX + (row + 1.0) * CELL_PX.y - GROUND_PX)
+/// Where the ground line of the bodies of a sheet's n-th example begins.
+fn corner_px(n: usize, rows: usize) -> Vec2 {
+    let [column, row] = [n / rows, n % rows].map(|index| index as f32);
+    Vec2::new(column * BLOCK_PX, HEAD_PX + row * ROW_PX + CELL_PX.y - GROUND_PX)
+}
+
+/// Where the root of a body stands on the sheet, from the beginning of its ground line.
+fn cell_px(view: usize, cell: usize) -> Vec2 {
+    Vec2::new(NAMES_PX + view as f32 * STRIP_PX + (cell as f32 + 0.5) * CELL_PX.x, -VIEWS[view].lift_px)
 }
 
 fn draw_head(figure: &mut Figure, left: f32) {
@@ -89,7 +102,9 @@ fn draw_words(figure: &mut Figure, db: &MotionDb, example: usize, corner: Vec2) 
     draw_numbers(figure, &db.examples[example], corner + Vec2::new(GAP_PX, -40.0));
     for view in 0..VIEWS.len() {
         let left = corner.x + NAMES_PX + view as f32 * STRIP_PX;
-        fill_rect(&mut figure.pixmap, [left, corner.y.round(), STRIP_PX - GAP_PX, 1.0], GRID_COARSE, 1.0);
+        for ground in [corner.y, corner.y + CELL_PX.y] {
+            fill_rect(&mut figure.pixmap, [left, ground.round(), STRIP_PX - GAP_PX, 1.0], GRID_COARSE, 1.0);
+        }
     }
 }
 
@@ -106,25 +121,41 @@ fn draw_numbers(figure: &mut Figure, example: &MotionExample, at_px: Vec2) {
     }
 }
 
-fn draw_bodies(paper: Pixmap, db: &MotionDb, rows: usize) -> Pixmap {
+fn draw_bodies(paper: Pixmap, db: &MotionDb, corners: &[(usize, Vec2)]) -> Pixmap {
     let mut canvas = Canvas::new(paper);
-    for example in 0..db.examples.len() {
+    for &(example, corner) in corners {
         for cell in 0..PHASES {
-            let parts = parts(db, example, cell * PHASE_COUNT / PHASES);
+            let parts = parts(db, example, cell);
             for (index, view) in VIEWS.iter().enumerate() {
-                let right = NAMES_PX + index as f32 * STRIP_PX + (cell as f32 + 0.5) * CELL_PX.x;
-                draw_body(&mut canvas, &parts, view, corner_px(example, rows) + Vec2::new(right, -view.lift_px));
+                draw_body(&mut canvas, &parts, view, corner + cell_px(index, cell));
             }
         }
     }
     canvas.pixmap
 }
 
-/// The limbs of one example at one stored phase, in the root frame.
-fn parts(db: &MotionDb, example: usize, phase: usize) -> Vec<Part> {
+fn draw_sticks(pixmap: &mut Pixmap, db: &MotionDb, example: usize, corner: Vec2) {
+    for cell in 0..PHASES {
+        let sticks = stick::sticks(&db.skeleton, &pose(db, example, cell));
+        for (index, view) in VIEWS.iter().enumerate() {
+            let at_px = corner + cell_px(index, cell);
+            let to_px =
+                |point_m: Vec3| at_px + SCALE_PX_M * Vec2::new(view.axes[0].dot(point_m), -view.axes[1].dot(point_m));
+            sticks.iter().for_each(|stick| stick::draw(pixmap, stick, to_px));
+        }
+    }
+}
+
+/// The pose of an example in one cell of its strips, in the root frame.
+fn pose(db: &MotionDb, example: usize, cell: usize) -> Pose {
+    let phase = cell * PHASE_COUNT / PHASES;
     let rotations = *db.rows.rotations(example, phase);
-    let pose = Pose { pelvis_m: db.rows.pelvis_m[example * PHASE_COUNT + phase], rotations };
-    let frame = AgentFrame { pose, ..AgentFrame::default() };
+    Pose { pelvis_m: db.rows.pelvis_m[example * PHASE_COUNT + phase], rotations }
+}
+
+/// The limbs of an example in one cell.
+fn parts(db: &MotionDb, example: usize, cell: usize) -> Vec<Part> {
+    let frame = AgentFrame { pose: pose(db, example, cell), ..AgentFrame::default() };
     let mut parts = Vec::new();
     body::append_parts(&mut parts, &db.skeleton, &frame, look(example), Detail::Full);
     parts

@@ -1,11 +1,15 @@
 //! All plots of a database, as `inspect --plots` writes them.
+//!
+//! Pictures of single examples go on several sheets where there are many: `contact_sheet.png`, `contact_sheet_2.png` …
 
 use std::fs;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use motiondb::motion_db::MotionDb;
+use tiny_skia::Pixmap;
 
-use crate::contact_sheet::contact_sheet;
+use crate::contact_sheet::{self, contact_sheet};
 use crate::coverage_plot::coverage_slices;
 use crate::error::RenderError;
 use crate::gait_plot::gait_events;
@@ -24,13 +28,23 @@ pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>
         ("velocity_space.png", velocity_space(db)),
         ("parameter_space.png", parameter_space(db)),
         ("coverage.png", coverage_slices(db)),
-        ("contact_sheet.png", contact_sheet(db)),
         ("gait_events.png", gait_events(db)),
     ];
-    let write = |(name, plot)| {
+    let write = |(name, plot): (String, Pixmap)| {
         let path = folder.join(name);
         png_frame::write(&path, &plot).map(|()| path)
     };
     let correspondences = pose_distances(db).map(|plot| ("pose_distance.png", plot));
-    always.into_iter().chain(correspondences).map(write).collect()
+    let single = always.into_iter().chain(correspondences).map(|(name, plot)| (name.to_owned(), plot));
+    let sheets = sheets(db.examples.len(), contact_sheet::SHEET_EXAMPLES)
+        .map(|(number, examples)| (format!("contact_sheet{number}.png"), contact_sheet(db, examples)));
+    single.chain(sheets).map(write).collect()
+}
+
+/// What distinguishes each sheet's name, and its examples.
+fn sheets(examples: usize, each: usize) -> impl Iterator<Item = (String, Range<usize>)> {
+    (0..examples.div_ceil(each)).map(move |sheet| {
+        let number = if sheet == 0 { String::new() } else { format!("_{}", sheet + 1) };
+        (number, sheet * each..examples.min((sheet + 1) * each))
+    })
 }

@@ -6,8 +6,9 @@
 //! picture ([`top_view`]) → files ([`png_frame`], [`exr_frame`], all of them by [`sequence`]).
 //!
 //! Plots stand on a small kit ([`plot`], [`axis`], [`mark`], `name_places`): everybody's paths ([`trajectories`]); of
-//! a database its velocity sets ([`velocity_plot`]), blend space ([`parameter_plot`]) and where it is thin ([`coverage_plot`]), bodies ([`contact_sheet`]),
-//! steps ([`gait_plot`]) and correspondences ([`pose_distance_plot`]), all of them by [`database_plots`].
+//! a database its velocity sets ([`velocity_plot`]), blend space ([`parameter_plot`]) and where it is thin
+//! ([`coverage_plot`]), bodies and sticks ([`contact_sheet`], `stick`), steps ([`gait_plot`]) and correspondences
+//! ([`pose_distance_plot`]), all of them by [`database_plots`].
 //!
 //! Conventions: world metres, x right and y up in the picture; pixels, x right and y down; colours sRGB-encoded, 0 to
 //! 1.
@@ -35,6 +36,7 @@ pub mod png_frame;
 pub mod pose_distance_plot;
 pub mod sequence;
 pub mod shade;
+mod stick;
 pub mod text;
 pub mod top_view;
 pub mod trails;

@@ -28,6 +28,8 @@ pub const INK: Rgb = Rgb::new(0.200, 0.196, 0.190);
 pub const SHOE: Rgb = Rgb::new(0.215, 0.205, 0.205);
 /// Plot paper.
 pub const PAPER: Rgb = Rgb::new(0.992, 0.990, 0.985);
+/// Left and right of a body: green and violet, as port and starboard would have it.
+pub const SIDES: [Rgb; 2] = [Rgb::new(0.13, 0.55, 0.30), Rgb::new(0.52, 0.27, 0.68)];
 
 /// Measures from good to bad, light enough for marks in ink to stand on.
 const HEAT: [Rgb; 3] = [Rgb::new(0.62, 0.82, 0.66), Rgb::new(0.98, 0.90, 0.60), Rgb::new(0.86, 0.36, 0.22)];
