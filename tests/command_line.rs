@@ -193,6 +193,33 @@ fn a_clip_named_twice_is_read_once() {
 }
 
 #[test]
+fn clips_of_one_name_are_told_apart_by_what_they_hold_and_not_by_where_they_are() {
+    let clips = support::repository().join("assets/clips");
+    let [root, other] = ["one_name", "one_name_elsewhere"].map(folder);
+    let mut databases = Vec::new();
+    // The same three files, in other folders and under other arguments.
+    for (root, [a, b]) in [(&root, ["a", "b"]), (&other, ["z", "y"])] {
+        for (inner, clip) in [(a, "walk_110.bvh"), (b, "walk_080.bvh")] {
+            fs::create_dir(root.join(inner)).unwrap();
+            fs::copy(clips.join(clip), root.join(inner).join("walk.bvh")).unwrap();
+        }
+        fs::copy(clips.join("walk_140.glb"), root.join("walk.glb")).unwrap();
+        let database = root.join("motion.fbdb");
+        fbcrowd(&["compile", text(root), "-o", text(&database)]).expect_code(0);
+        databases.push(fs::read(&database).unwrap());
+    }
+    let database = root.join("motion.fbdb");
+    let files = ["walk.glb", "b/walk.bvh", "a/walk.bvh"].map(|file| text(&root.join(file)).to_owned());
+    fbcrowd(&["compile", &files[0], &files[1], &files[2], "-o", text(&database)]).expect_code(0);
+    databases.push(fs::read(&database).unwrap());
+    assert!(databases.windows(2).all(|pair| pair[0] == pair[1]));
+    let shown = fbcrowd(&["inspect", text(&database), "--json"]).expect_code(0).json();
+    let examples = shown["examples"].as_array().unwrap().iter();
+    let names: Vec<&str> = examples.map(|example| example["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["walk", "walk_2", "walk_3"]);
+}
+
+#[test]
 fn work_goes_on_where_nobody_reads_what_it_says() {
     let folder = folder("reader_gone");
     let database = folder.join("motion.fbdb");

@@ -10,6 +10,7 @@ use crate::cycle::{self, GaitCycle};
 use crate::foot_slide;
 use crate::gait::{self, Gait, GaitAnalysis};
 use crate::human_clip::{HumanBody, HumanClip};
+use crate::remark::NO_EXAMPLE;
 use crate::root_motion::{self, GroundedClip, leg_length_m};
 use crate::{parameterize, unroll};
 
@@ -40,14 +41,14 @@ pub(crate) fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
             let mut cycle = cycle::mean_stride(&grounded, body, &gait.planted, strides);
             warnings = parameterize::snap(&mut cycle);
             match unfit(&cycle, body) {
-                Some(reason) => warnings.push(format!("no example: {reason}")),
+                Some(reason) => warnings.push(format!("{NO_EXAMPLE}{reason}")),
                 None => {
                     warnings.extend(foot_slide::lint(&cycle, body));
                     stepping = Some(cycle);
                 }
             }
         }
-        Gait::Unsteady(reason) => warnings.push(format!("no example: {reason}")),
+        Gait::Unsteady(reason) => warnings.push(format!("{NO_EXAMPLE}{reason}")),
         Gait::Stands => {}
     }
     Analyzed { grounded, gait, stepping, warnings }

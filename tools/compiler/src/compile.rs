@@ -21,7 +21,8 @@ use crate::import::{self, Import};
 use crate::manifest::Manifest;
 use crate::manifest_error::ManifestError;
 use crate::progress::{Event, Observer};
-use crate::{blend_space, correspondence, mirror, parameterize, rows, standing, target_skeleton, velocity_hull};
+use crate::refused::Refused;
+use crate::{blend_space, correspondence, mirror, names, parameterize, rows, standing, target_skeleton, velocity_hull};
 
 /// Period of standing clips where none steps, seconds.
 const STANDING_PERIOD_S: f64 = 1.0;
@@ -31,8 +32,8 @@ const STANDING_PERIOD_S: f64 = 1.0;
 pub struct Compiled {
     /// The database.
     pub db: MotionDb,
-    /// One message for each file or clip that was refused, in order of file name.
-    pub refused: Vec<String>,
+    /// Each file or clip that was refused, in order of file name.
+    pub refused: Vec<Refused>,
 }
 
 /// Imports files, compiles their clips.
@@ -50,7 +51,7 @@ pub fn compile_files(files: &[PathBuf], tell: &Observer) -> Result<Compiled, Com
 pub fn compile_manifest(manifest: &Manifest, tell: &Observer) -> Result<Compiled, CompileError> {
     let (clips, refused) = import_manifest(manifest, tell)?;
     if clips.is_empty() && !refused.is_empty() {
-        return Err(CompileError::NoExample { reasons: refused.join("; ") });
+        return Err(CompileError::NoExample { reasons: refused });
     }
     match compile(clips, &manifest.options, tell) {
         Err(CompileError::NotStepping { .. }) => Err(ManifestError::from(manifest.not_stepping()).into()),
@@ -58,12 +59,12 @@ pub fn compile_manifest(manifest: &Manifest, tell: &Observer) -> Result<Compiled
     }
 }
 
-/// The human clips of a manifest, imported in parallel, and a message for each file or clip that gives none; both in
-/// order of file name.
+/// The human clips of a manifest, imported in parallel, and each file or clip that gives none; both in order of file
+/// name. Clips of one name are told apart.
 ///
 /// # Errors
 /// Where the manifest says of a clip what is not so.
-pub fn import_manifest(manifest: &Manifest, tell: &Observer) -> Result<(Vec<HumanClip>, Vec<String>), ManifestError> {
+pub fn import_manifest(manifest: &Manifest, tell: &Observer) -> Result<(Vec<HumanClip>, Vec<Refused>), ManifestError> {
     tell(Event::Stage("import"));
     let imports: Vec<_> = manifest
         .takes
@@ -76,18 +77,23 @@ pub fn import_manifest(manifest: &Manifest, tell: &Observer) -> Result<(Vec<Huma
         .collect();
     let (mut clips, mut refused) = (Vec::new(), Vec::new());
     for (take, import) in manifest.takes.iter().zip(imports) {
+        let file = take.path.display().to_string();
         match import {
-            Err(error) => refused.push(error.to_string()),
+            Err(error) => refused.push(Refused { file, clip: String::new(), reason: error.reason() }),
             Ok(found) => {
-                for Import { file, clip, outcome } in found {
+                for Import { clip, outcome, .. } in found {
                     match outcome {
                         Ok(human) => clips.push(human),
-                        Err(refusal) => refused.push(manifest.refusal(take, &[&file, &clip], refusal)?),
+                        Err(refusal) => {
+                            let reason = manifest.reason(take, refusal)?;
+                            refused.push(Refused { file: file.clone(), clip, reason });
+                        }
                     }
                 }
             }
         }
     }
+    sort(&mut clips);
     manifest.choose(&mut clips)?;
     Ok((clips, refused))
 }
@@ -104,7 +110,7 @@ pub struct Options {
 /// Compiles clips into a database.
 ///
 /// # Errors
-/// Where no clip gives an example, two examples have one name, or the database is unsound.
+/// Where no clip gives an example, or the database is unsound.
 pub fn compile(mut clips: Vec<HumanClip>, options: &Options, tell: &Observer) -> Result<MotionDb, CompileError> {
     sort(&mut clips);
     if clips.is_empty() {
@@ -117,6 +123,7 @@ pub fn compile(mut clips: Vec<HumanClip>, options: &Options, tell: &Observer) ->
     let mut sources: Vec<SourceRecord> = clips.iter().map(|clip| clip.source.clone()).collect();
     let mut cycles = close(&clips, analyzed, &body, period_s, &mut sources);
     add_mirrors(&mut cycles);
+    names::tell_apart(cycles.iter_mut().map(|cycle| &mut cycle.name));
     cycles.sort_by(|a, b| a.name.cmp(&b.name));
     assemble(cycles, sources, &body, options, tell)
 }
@@ -136,9 +143,12 @@ pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SourceRecord> {
     clips.par_iter().map(record).collect()
 }
 
-/// Into the order of a database, which no folder and no argument changes.
+/// Into the order of a database, which no folder and no argument changes: files of one name go by what they hold. Clips
+/// of one name are told apart in that order.
 fn sort(clips: &mut [HumanClip]) {
-    clips.sort_by(|a, b| (&a.source.file, &a.source.clip, &a.name).cmp(&(&b.source.file, &b.source.clip, &b.name)));
+    let names = |clip: &HumanClip| (clip.source.file.clone(), clip.source.clip.clone(), clip.name.clone());
+    clips.sort_by(|a, b| names(a).cmp(&names(b)).then_with(|| a.by_content(b)));
+    names::tell_apart(clips.iter_mut().map(|clip| &mut clip.name));
 }
 
 /// The cycle of the clip that a manifest chose as m_sp, if any.
@@ -212,9 +222,6 @@ fn assemble(
 ) -> Result<MotionDb, CompileError> {
     if named.is_empty() {
         return Err(CompileError::no_example(&sources));
-    }
-    if let Some(pair) = named.windows(2).find(|pair| pair[0].name == pair[1].name) {
-        return Err(CompileError::SameName { name: pair[0].name.clone() });
     }
     tell(Event::Stage("parameters"));
     let examples: Vec<MotionExample> = named.iter().map(|named| parameterize::example(named, body)).collect();

@@ -3,6 +3,8 @@
 use motiondb::motion_db::SourceRecord;
 
 use crate::manifest_error::ManifestError;
+use crate::refused::Refused;
+use crate::remark;
 
 /// No database could be made.
 #[derive(Debug, thiserror::Error)]
@@ -11,10 +13,10 @@ pub enum CompileError {
     #[error("no clips; name *.bvh, *.glb or *.gltf files or a folder that holds some")]
     NoClips,
     /// Every clip was read, none walks or stands.
-    #[error("no clip gives an example: {reasons}; give clips of steady walking, running, turning or standing")]
+    #[error("no clip gives an example: {}; give clips of steady walking, running, turning or standing", all(reasons))]
     NoExample {
-        /// What each clip's record says.
-        reasons: String,
+        /// Of each file or clip, why.
+        reasons: Vec<Refused>,
     },
     /// What was compiled is no sound database: the clips hold something that no earlier stage knew to refuse.
     #[error(
@@ -35,18 +37,19 @@ pub enum CompileError {
         /// Its name.
         name: String,
     },
-    /// Examples are told apart by name.
-    #[error("two clips are called {name}; rename one of the files, or name one in a manifest")]
-    SameName {
-        /// The name.
-        name: String,
-    },
 }
 
 impl CompileError {
     /// With the reasons from the sources' warnings.
     pub(crate) fn no_example(sources: &[SourceRecord]) -> Self {
-        let reason = |source: &SourceRecord| format!("{} ({})", source.file, source.warnings.join(", "));
-        Self::NoExample { reasons: sources.iter().map(reason).collect::<Vec<String>>().join("; ") }
+        let reason = |source: &SourceRecord| {
+            let last = source.warnings.last().cloned().unwrap_or_default();
+            Refused { file: source.file.clone(), clip: source.clip.clone(), reason: remark::bare(&last).to_owned() }
+        };
+        Self::NoExample { reasons: sources.iter().map(reason).collect() }
     }
+}
+
+fn all(reasons: &[Refused]) -> String {
+    reasons.iter().map(Refused::to_string).collect::<Vec<String>>().join("; ")
 }

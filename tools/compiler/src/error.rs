@@ -1,6 +1,6 @@
 //! What can go wrong at the import edge: one enum, each variant naming the file, the place in it and the remedy.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use motiondb::skeleton::Joint;
 
@@ -45,6 +45,23 @@ pub enum ImportError {
         /// What to do.
         remedy: &'static str,
     },
+}
+
+impl ImportError {
+    /// The file.
+    pub fn file(&self) -> &Path {
+        match self {
+            Self::Unreadable { file, .. } | Self::UnknownFormat { file } => file,
+            Self::Bvh { file, .. } | Self::Gltf { file, .. } => file,
+        }
+    }
+
+    /// The whole message but for the file's name.
+    pub fn reason(&self) -> String {
+        let message = self.to_string();
+        let file = self.file().display().to_string();
+        message.strip_prefix(&file).unwrap_or(&message).trim_start_matches([':', ',', ' ']).to_owned()
+    }
 }
 
 /// Why a readable clip gives no [`crate::human_clip::HumanClip`]; other clips of the same file are not affected.

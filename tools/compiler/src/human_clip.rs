@@ -1,5 +1,7 @@
 //! A clip on the canonical humanoid: metres, Z up, the performer's own proportions, still travelling through the world.
 
+use std::cmp::Ordering;
+
 use glam::{DQuat, DVec2, DVec3};
 use motiondb::motion_db::SourceRecord;
 use motiondb::skeleton::{JOINT_COUNT, Joint};
@@ -27,7 +29,7 @@ pub struct HumanClip {
 }
 
 /// What a manifest makes of a clip; by default the set decides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Choices {
     /// Whether its example is mirrored; where none, when that adds to the set.
     pub mirror: Option<bool>,
@@ -68,6 +70,23 @@ pub struct HumanJoints {
     pub positions_m: [DVec3; JOINT_COUNT],
     /// Against the rest pose.
     pub orientations: [DQuat; JOINT_COUNT],
+}
+
+impl HumanClip {
+    /// An order of clips that no name and no folder changes.
+    pub fn by_content(&self, other: &Self) -> Ordering {
+        let heads = [self, other].map(|clip| (clip.frames.len(), clip.first_frame, clip.choices));
+        heads[0].cmp(&heads[1]).then_with(|| self.values().cmp(other.values()))
+    }
+
+    /// All that its frames hold, bit by bit.
+    fn values(&self) -> impl Iterator<Item = u64> {
+        let of_pose = |pose: &HumanPose| {
+            let turns = pose.rotations.map(|turn| turn.to_array());
+            pose.pelvis_m.to_array().into_iter().chain(turns.into_iter().flatten())
+        };
+        std::iter::once(self.frame_rate_hz).chain(self.frames.iter().flat_map(of_pose)).map(f64::to_bits)
+    }
 }
 
 impl HumanPose {

@@ -142,18 +142,17 @@ impl Manifest {
         self.source.invalid(span, "this clip gives no example that steps", "name a straight walk")
     }
 
-    /// The message for a refused clip, named by file and clip.
+    /// Why a clip is refused.
     ///
     /// # Errors
     /// Where the manifest says of it what is not so.
-    pub(crate) fn refusal(&self, take: &Take, names: &[&str; 2], refusal: Refusal) -> Result<String, Invalid> {
-        match (refusal, names) {
-            (Refusal::Setting { setting, reason, remedy }, _) => {
+    pub(crate) fn reason(&self, take: &Take, refusal: Refusal) -> Result<String, Invalid> {
+        match refusal {
+            Refusal::Setting { setting, reason, remedy } => {
                 let span = take.places.values.get(&setting).unwrap_or(&take.places.table);
                 Err(self.source.invalid(span.clone(), reason, remedy))
             }
-            (refusal, [file, ""]) => Ok(format!("{file}: {refusal}")),
-            (refusal, [file, clip]) => Ok(format!("{file}, {clip}: {refusal}")),
+            refusal => Ok(refusal.to_string()),
         }
     }
 }

@@ -8,6 +8,7 @@ use motiondb_compiler::compile::{self, Compiled};
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
 use motiondb_compiler::manifest::Manifest;
+use motiondb_compiler::refused::Refused;
 use motiondb_compiler::progress::Event;
 
 use crate::failure::{Answer, Failure};
@@ -81,7 +82,7 @@ pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Answer), Fail
     progress.finish();
     let (clips, refused) = imported?;
     if clips.is_empty() {
-        return Err(Failure::bad(refused.join("\n")));
+        return Err(Failure::bad(refused.iter().map(Refused::to_string).collect::<Vec<_>>().join("\n")));
     }
     Ok((clips, say_refused(&refused)))
 }
@@ -93,7 +94,7 @@ fn advance(progress: &Progress, event: Event) {
     }
 }
 
-fn say_refused(refused: &[String]) -> Answer {
+fn say_refused(refused: &[Refused]) -> Answer {
     for message in refused {
         output::say(&format!("refused: {message}"));
     }

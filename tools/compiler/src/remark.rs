@@ -1,0 +1,35 @@
+//! What is said of a clip in [`motiondb::motion_db::SourceRecord::warnings`], and how much of it a user need read.
+//!
+//! Records hold plain sentences; two phrases tell their weight, and whoever writes a remark of that weight uses them.
+
+/// Begins the reason why a clip gives no example.
+pub const NO_EXAMPLE: &str = "no example: ";
+/// What the compiler does with every clip like it: nothing is wrong.
+const ROUTINE: [&str; 3] = ["taken as 0", "come out of a T-pose", "is a separate pose and is not used"];
+
+/// How much a remark matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Weight {
+    /// The clip is used as it is meant to be: nothing to do.
+    Note,
+    /// The clip is used, but something about it is doubtful.
+    Warning,
+    /// The clip, or a part of it, gives no example.
+    NoExample,
+}
+
+/// How much a remark matters.
+pub fn weight(remark: &str) -> Weight {
+    if remark.starts_with(NO_EXAMPLE) {
+        Weight::NoExample
+    } else if ROUTINE.iter().any(|routine| remark.ends_with(routine)) {
+        Weight::Note
+    } else {
+        Weight::Warning
+    }
+}
+
+/// A remark without the words that tell its weight.
+pub fn bare(remark: &str) -> &str {
+    remark.strip_prefix(NO_EXAMPLE).unwrap_or(remark)
+}
