@@ -3,7 +3,8 @@
 //! In reading order: whose body ([`skeleton`]), how it is posed ([`pose`]), how a clip moves ([`parameters`]) and when
 //! ([`phase_map`]), which velocities it allows ([`velocity_hull`], `FbCrowd` §4.1), how clips blend ([`blend_space`],
 //! §5), where synthesis may switch ([`correspondence`], §5, Eq. 10), the database itself ([`motion_db`]), its
-//! invariants ([`validate`]), where it is thin ([`coverage`]) and its file ([`mod@file`]).
+//! invariants ([`validate`]; of the blend space [`tiling`], on the [`lattice`]), where it is thin ([`coverage`]) and its
+//! file ([`mod@file`]).
 //!
 //! Conventions: metres, seconds, radians; x and y on the ground, z up, right-handed. A body's frame: x forward, y left.
 //! Angles are counter-clockwise seen from above. Pairs of sides are `[left, right]`.
@@ -15,11 +16,13 @@ pub mod correspondence;
 pub mod coverage;
 pub mod file;
 pub mod input_file;
+pub mod lattice;
 pub mod motion_db;
 pub mod parameters;
 pub mod phase_map;
 pub mod pose;
 pub mod skeleton;
 pub mod source_text;
+pub mod tiling;
 pub mod validate;
 pub mod velocity_hull;
