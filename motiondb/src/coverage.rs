@@ -21,7 +21,7 @@ const IN_PLACE_MPS: f32 = 0.25;
 /// A turn in place takes less than six seconds for half a turn: 30 °/s.
 const IN_PLACE_TURN_RAD_S: f32 = 30.0 * std::f32::consts::PI / 180.0;
 /// People walk up to here, and run from here on (Hreljac 1993: 2.05 ± 0.1), m/s.
-const RUN_MPS: f32 = 2.05;
+pub(crate) const RUN_MPS: f32 = 2.05;
 /// A walking turn wider than this does not fit into a corridor, metres.
 const TURN_RADIUS_MAX_M: f32 = 1.5;
 /// Neighbours further apart than this mix gaits that hardly resemble each other: from slow walk to fast walk, m/s.

@@ -1,10 +1,11 @@
 //! The motion database: the nouns that the offline compiler and the runtime share.
 //!
-//! In reading order: whose body ([`skeleton`]), how it is posed ([`pose`]), how a clip moves ([`parameters`]) and when
-//! ([`phase_map`]), which velocities it allows ([`velocity_hull`], `FbCrowd` §4.1), how clips blend ([`blend_space`],
-//! §5), where synthesis may switch ([`correspondence`], §5, Eq. 10), the database itself ([`motion_db`]), its
-//! invariants ([`validate`]; of the blend space [`tiling`], on the [`lattice`]), where it is thin ([`coverage`]) and its
-//! file ([`mod@file`]).
+//! In reading order: whose body ([`skeleton`]), how it is posed ([`pose`]) and how far its joints turn
+//! ([`joint_ranges`]), how a clip moves ([`parameters`]) and when ([`phase_map`]), which velocities it allows
+//! ([`velocity_hull`], `FbCrowd` §4.1), how clips blend ([`blend_space`], §5), where synthesis may switch
+//! ([`correspondence`], §5, Eq. 10), the database itself ([`motion_db`]), what its feet do on the ground
+//! ([`planted_feet`]), its invariants ([`validate`]; of the blend space [`tiling`], on the [`lattice`]), how good its
+//! examples are ([`quality`]), where it is thin ([`coverage`]) and its file ([`mod@file`]).
 //!
 //! Conventions: metres, seconds, radians; x and y on the ground, z up, right-handed. A body's frame: x forward, y left.
 //! Angles are counter-clockwise seen from above. Pairs of sides are `[left, right]`.
@@ -16,11 +17,14 @@ pub mod correspondence;
 pub mod coverage;
 pub mod file;
 pub mod input_file;
+pub mod joint_ranges;
 pub mod lattice;
 pub mod motion_db;
 pub mod parameters;
 pub mod phase_map;
+pub mod planted_feet;
 pub mod pose;
+pub mod quality;
 pub mod skeleton;
 pub mod source_text;
 pub mod tiling;

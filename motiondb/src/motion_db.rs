@@ -7,6 +7,7 @@ use crate::blend_space::BlendSpace;
 use crate::correspondence::Correspondence;
 use crate::parameters::Parameters;
 use crate::phase_map::PhaseMap;
+use crate::pose::{Joints, Pose};
 use crate::skeleton::{JOINT_COUNT, Skeleton};
 use crate::velocity_hull::VelocityHull;
 
@@ -30,6 +31,13 @@ pub struct MotionDb {
     pub blend_space: BlendSpace,
     /// Absent where there are fewer than two cycles with steps.
     pub correspondence: Option<Correspondence>,
+}
+
+impl MotionDb {
+    /// The joints of one example in every row, in the root frame.
+    pub fn posed_rows(&self, example: usize) -> Vec<Joints> {
+        (0..PHASE_COUNT).map(|phase| self.rows.pose(example, phase).forward_kinematics(&self.skeleton)).collect()
+    }
 }
 
 /// One closed cycle: one stride, right and left step.
@@ -72,6 +80,11 @@ impl Rows {
     pub fn rotations(&self, example: usize, phase: usize) -> &[Quat; JOINT_COUNT] {
         let start = (example * PHASE_COUNT + phase) * JOINT_COUNT;
         self.rotations[start..].first_chunk().expect("validated: every row is whole")
+    }
+
+    /// The pose of one row.
+    pub fn pose(&self, example: usize, phase: usize) -> Pose {
+        Pose { pelvis_m: self.pelvis_m[example * PHASE_COUNT + phase], rotations: *self.rotations(example, phase) }
     }
 }
 

@@ -4,9 +4,10 @@
 //! mirrored cycles fit. Rest pose and frames as in [`motiondb::skeleton`]; metres.
 
 use glam::{DVec3, Vec3};
+use motiondb::joint_ranges::JOINT_RANGES_DEG;
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
 
-use crate::anthropometry::{LIMITS_DEG, SEGMENT_RADII_PER_STATURE};
+use crate::anthropometry::SEGMENT_RADII_PER_STATURE;
 use crate::cycle::GaitCycle;
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::root_motion::leg_length_m;
@@ -96,7 +97,7 @@ fn rest_soles_m(body: &HumanBody, rest: &[DVec3; JOINT_COUNT]) -> Vec<f64> {
 
 /// Published ranges, widened where a cycle goes beyond them, so that limits never forbid what the clips do.
 fn limits_rad<'a>(cycles: impl Iterator<Item = &'a GaitCycle>) -> [[Vec3; 2]; JOINT_COUNT] {
-    let mut limits = LIMITS_DEG.map(|range| range.map(|degrees| Vec3::from_array(degrees.map(f32::to_radians))));
+    let mut limits = JOINT_RANGES_DEG.map(|range| range.map(|degrees| Vec3::from_array(degrees.map(f32::to_radians))));
     for row in cycles.flat_map(|cycle| &cycle.rows) {
         for (range, rotation) in limits.iter_mut().zip(&row.rotations) {
             let vector = (if rotation.w < 0.0 { -*rotation } else { *rotation }).to_scaled_axis().as_vec3();
@@ -143,8 +144,8 @@ mod tests {
     #[test]
     fn published_limits_are_mirror_images() {
         for joint in Joint::ALL {
-            let [least, greatest] = LIMITS_DEG[joint.index()];
-            let [mirrored_least, mirrored_greatest] = LIMITS_DEG[joint.mirrored().index()];
+            let [least, greatest] = JOINT_RANGES_DEG[joint.index()];
+            let [mirrored_least, mirrored_greatest] = JOINT_RANGES_DEG[joint.mirrored().index()];
             // A rotation vector's x and z change sign in the mirror y = 0, its y does not.
             assert_eq!([-greatest[0], least[1], -greatest[2]], mirrored_least, "{}", joint.name());
             assert_eq!([-least[0], greatest[1], -least[2]], mirrored_greatest, "{}", joint.name());

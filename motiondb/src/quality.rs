@@ -1,0 +1,244 @@
+//! How good the motion of each example is: plain figures, and those that a person should look at.
+//!
+//! No figure here makes a database unsound ([`crate::validate`] does that): a sliding foot is played as it is. The
+//! thresholds lie just beyond what good captures show, so that most clips pass in silence; each names its source.
+//! Poses in the root frame; figures carry their units.
+
+use glam::{Quat, Vec3};
+use serde::Serialize;
+
+use crate::coverage::RUN_MPS;
+use crate::joint_ranges::JOINT_RANGES_DEG;
+use crate::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
+use crate::pose::Joints;
+use crate::skeleton::{JOINT_COUNT, Joint, Skeleton};
+
+/// Planted feet of clean walks slide by 2–8 cm/s, fast side-steps by 12, noisy walks by up to 18 (`definitions.md`), cm/s.
+const WALKING_SLIDE_MAX_CM_S: f32 = 15.0;
+/// Of runs: 6.5 in a circle, 22 hand-keyed, 28 at 3.9 m/s (`definitions.md`), cm/s.
+const RUNNING_SLIDE_MAX_CM_S: f32 = 30.0;
+/// Share of the cycle that a foot is planted. Walks have 0.45–0.65 (`definitions.md`), noisy ones label less, creeping
+/// ones more; runners who turn tightly, at walking speed, have 0.38.
+const WALKING_SHARE: [f32; 2] = [0.35, 0.8];
+/// Runs: 0.28–0.45 (`definitions.md`); sprinters 0.22.
+const RUNNING_SHARE: [f32; 2] = [0.22, 0.5];
+/// Who stands lifts no foot for long.
+const STANDING_SHARE: [f32; 2] = [0.9, 1.0];
+/// The step over the seam, of angles and of velocities, over the cycle's own median step (`facts/motion.md` §7). Cycles
+/// without a visible seam: up to 1.5 and 2.8; with one, from 3 and 9 on.
+const SEAM_ANGLE_MAX: f32 = 2.0;
+const SEAM_VELOCITY_MAX: f32 = 4.0;
+/// Smaller steps than this are not seen, so a calmer median counts as this much: 0.05° a joint and row.
+const SEAM_STEP_MIN_RAD: f32 = 0.05 * std::f32::consts::PI / 180.0;
+/// Contacts reach this high over the ground (`definitions.md`, "Planted-foot slide"); a sole that sinks deeper than it
+/// may rise is seen, mm.
+const PENETRATION_MAX_MM: f32 = 25.0;
+/// People land on a knee flexed by 3–5° (`facts/motion.md` §5); straighter it snaps, degrees.
+const KNEE_FLEXION_MIN_DEG: f32 = 1.0;
+/// The compiler's leg inverse kinematics ends at 0.9995, a knee flexed by 3.6°; a longer leg came from a clip, hip to
+/// ankle over thigh plus shank.
+const LEG_EXTENSION_MAX: f32 = 0.9997;
+/// Published ranges are of slow, unforced motion, and rigs share out a bend of the spine as they like: sound clips exceed
+/// them by up to 42°, degrees.
+const RANGE_EXCESS_MAX_DEG: f32 = 45.0;
+
+/// The figures of one example.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExampleQuality {
+    /// Its name.
+    pub example: String,
+    /// Mean speed of planted feet, cm/s.
+    pub planted_slide_cm_s: f32,
+    /// Share of the cycle that a foot is planted, mean of both.
+    pub planted_share: f32,
+    /// Root mean square over the joints of the turn from the last row to the first, over the median of all rows.
+    pub seam_angle_ratio: f32,
+    /// The same of the change of angular velocity, where that is greatest at the seam.
+    pub seam_velocity_ratio: f32,
+    /// How far a sole sinks below the ground, at most, mm.
+    pub penetration_mm: f32,
+    /// Least flexion of a knee, negative where it is hyperextended, degrees.
+    pub knee_flexion_min_deg: f32,
+    /// Greatest distance from hip to ankle over thigh plus shank.
+    pub leg_extension_max: f32,
+    /// How far a joint turns beyond the published range of people's, at most, degrees; 0 within.
+    pub range_excess_deg: f32,
+    /// The joint that does.
+    pub range_excess_joint: &'static str,
+}
+
+/// A figure beyond its threshold.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// Whose.
+    pub example: String,
+    /// Which figure: its name in [`ExampleQuality`].
+    pub measure: &'static str,
+    /// What it is.
+    pub value: f32,
+    /// What it should not pass.
+    pub threshold: f32,
+    /// Unit of both; empty for ratios and shares.
+    pub unit: &'static str,
+    /// For people, without the example's name.
+    pub sentence: String,
+}
+
+/// The figures of every example, in order. The database must be valid.
+pub fn quality(db: &MotionDb) -> Vec<ExampleQuality> {
+    (0..db.examples.len()).map(|example| example_quality(db, example)).collect()
+}
+
+/// Whatever lies beyond its threshold, in order of examples; mirrors repeat their originals and are passed over. The
+/// database must be valid.
+pub fn lint(db: &MotionDb) -> Vec<Finding> {
+    let recorded = quality(db).into_iter().zip(&db.examples).filter(|(_, example)| !example.mirrored);
+    recorded.flat_map(|(found, example)| findings(&found, example)).collect()
+}
+
+fn example_quality(db: &MotionDb, index: usize) -> ExampleQuality {
+    let (example, joints) = (&db.examples[index], db.posed_rows(index));
+    let [seam_angle_ratio, seam_velocity_ratio] = seam(&turns(db, index));
+    let (range_excess_deg, joint) = range_excess_deg(db, index);
+    ExampleQuality {
+        example: example.name.clone(),
+        planted_slide_cm_s: example.planted_slide_cm_s,
+        planted_share: example.planted_share,
+        seam_angle_ratio,
+        seam_velocity_ratio,
+        penetration_mm: penetration_mm(&joints, &db.skeleton),
+        knee_flexion_min_deg: knee_flexion_min_deg(db, index),
+        leg_extension_max: leg_extension_max(&joints, &db.skeleton),
+        range_excess_deg,
+        range_excess_joint: joint.name(),
+    }
+}
+
+/// How each joint turns from each row to the next, the last to the first, as rotation vectors in the joint's frame.
+fn turns(db: &MotionDb, example: usize) -> Vec<[Vec3; JOINT_COUNT]> {
+    let turn = |from: Quat, to: Quat| {
+        let turn = from.inverse() * to;
+        (if turn.w < 0.0 { -turn } else { turn }).to_scaled_axis()
+    };
+    let of_row = |row: usize| {
+        let (from, to) = (db.rows.rotations(example, row), db.rows.rotations(example, (row + 1) % PHASE_COUNT));
+        std::array::from_fn(|joint| turn(from[joint], to[joint]))
+    };
+    (0..PHASE_COUNT).map(of_row).collect()
+}
+
+/// The seam's step of angles, and of velocities into or out of it, over the medians of all steps.
+fn seam(turns: &[[Vec3; JOINT_COUNT]]) -> [f32; 2] {
+    let before = |row: usize| &turns[(row + PHASE_COUNT - 1) % PHASE_COUNT];
+    let angles: Vec<f32> = turns.iter().map(|turn| rms(turn.iter().copied())).collect();
+    let changes: Vec<f32> = (0..PHASE_COUNT)
+        .map(|row| rms(turns[row].iter().zip(before(row)).map(|(after, before)| after - before)))
+        .collect();
+    let last = PHASE_COUNT - 1;
+    [angles[last] / median(&angles), changes[last].max(changes[0]) / median(&changes)]
+}
+
+fn rms(vectors: impl Iterator<Item = Vec3>) -> f32 {
+    libm::sqrtf(vectors.map(Vec3::length_squared).sum::<f32>() / JOINT_COUNT as f32)
+}
+
+fn median(steps: &[f32]) -> f32 {
+    let mut sorted = steps.to_vec();
+    sorted.sort_by(f32::total_cmp);
+    sorted[sorted.len() / 2].max(SEAM_STEP_MIN_RAD)
+}
+
+fn penetration_mm(rows: &[Joints], skeleton: &Skeleton) -> f32 {
+    let soles = rows.iter().flat_map(|joints| [0, 1].map(|side| joints.sole_points_m(skeleton, side)));
+    1000.0 * soles.flatten().map(|point| -point.z).fold(0.0, f32::max)
+}
+
+/// Flexion is the twist of the shank about its left axis.
+fn knee_flexion_min_deg(db: &MotionDb, example: usize) -> f32 {
+    let knees =
+        (0..PHASE_COUNT).flat_map(|row| Joint::SHANKS.map(|shank| db.rows.rotations(example, row)[shank.index()]));
+    let flexion_rad = |knee: Quat| {
+        let knee = if knee.w < 0.0 { -knee } else { knee };
+        2.0 * libm::atan2f(knee.y, knee.w)
+    };
+    knees.map(flexion_rad).fold(f32::INFINITY, f32::min).to_degrees()
+}
+
+fn leg_extension_max(rows: &[Joints], skeleton: &Skeleton) -> f32 {
+    let extension = |joints: &Joints, side: usize| {
+        let [thigh, shank, foot] = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]].map(Joint::index);
+        let leg_m = skeleton.offsets_m[shank].length() + skeleton.offsets_m[foot].length();
+        joints.positions_m[thigh].distance(joints.positions_m[foot]) / leg_m
+    };
+    rows.iter().flat_map(|joints| [0, 1].map(|side| extension(joints, side))).fold(0.0, f32::max)
+}
+
+/// How far beyond its published range a joint turns, and which.
+fn range_excess_deg(db: &MotionDb, example: usize) -> (f32, Joint) {
+    let mut worst = (0.0, Joint::Pelvis);
+    for row in 0..PHASE_COUNT {
+        for (joint, &rotation) in Joint::ALL.into_iter().zip(db.rows.rotations(example, row)) {
+            let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
+            let turned_deg = rotation.to_scaled_axis().map(f32::to_degrees);
+            let [least, greatest] = JOINT_RANGES_DEG[joint.index()].map(Vec3::from_array);
+            let excess_deg = (least - turned_deg).max(turned_deg - greatest).max_element();
+            if excess_deg > worst.0 {
+                worst = (excess_deg, joint);
+            }
+        }
+    }
+    worst
+}
+
+/// What lies beyond its thresholds.
+fn findings(found: &ExampleQuality, example: &MotionExample) -> Vec<Finding> {
+    let runs = example.parameters.speed_mps.hypot(example.parameters.strafe_mps) >= RUN_MPS;
+    let (gait, slide_max_cm_s, share) = match example.key_times_s {
+        None => ("standing", WALKING_SLIDE_MAX_CM_S, STANDING_SHARE),
+        Some(_) if runs => ("running", RUNNING_SLIDE_MAX_CM_S, RUNNING_SHARE),
+        Some(_) => ("walking", WALKING_SLIDE_MAX_CM_S, WALKING_SHARE),
+    };
+    let judge = |measure, unit, value: f32, [least, greatest]: [f32; 2], say: &dyn Fn(f32) -> String| {
+        let threshold = if value < least { least } else { greatest };
+        let is_beyond = value < least || value > greatest;
+        let finding =
+            || Finding { example: found.example.clone(), measure, value, threshold, unit, sentence: say(threshold) };
+        is_beyond.then(finding)
+    };
+    let up_to = |greatest: f32| [f32::NEG_INFINITY, greatest];
+    [
+        judge("planted_slide_cm_s", "cm/s", found.planted_slide_cm_s, up_to(slide_max_cm_s), &|limit| {
+            format!("planted feet slide by {:.0} cm/s; {gait} clips should stay under {limit:.0}", found.planted_slide_cm_s)
+        }),
+        judge("planted_share", "", found.planted_share, share, &|limit| {
+            let [has, should] = [found.planted_share, limit].map(|share| 100.0 * share);
+            let side = if found.planted_share < limit { "at least" } else { "at most" };
+            format!("a foot is planted for {has:.0} % of the cycle; {gait} it should be for {side} {should:.0}")
+        }),
+        judge("seam_angle_ratio", "", found.seam_angle_ratio, up_to(SEAM_ANGLE_MAX), &|limit| {
+            let times = found.seam_angle_ratio;
+            format!("the pose jumps where the cycle closes, by {times:.1} usual steps; up to {limit:.0} go unseen")
+        }),
+        judge("seam_velocity_ratio", "", found.seam_velocity_ratio, up_to(SEAM_VELOCITY_MAX), &|limit| {
+            let times = found.seam_velocity_ratio;
+            format!("the motion jerks where the cycle closes, {times:.1} times as much as elsewhere; up to {limit:.0} goes unseen")
+        }),
+        judge("penetration_mm", "mm", found.penetration_mm, up_to(PENETRATION_MAX_MM), &|limit| {
+            format!("a sole sinks {:.0} mm into the ground; {limit:.0} is what shoes hide", found.penetration_mm)
+        }),
+        judge("knee_flexion_min_deg", "deg", found.knee_flexion_min_deg, [KNEE_FLEXION_MIN_DEG, f32::INFINITY], &|limit| {
+            let flexed = found.knee_flexion_min_deg;
+            format!("a knee straightens to {flexed:.1}° of flexion; below {limit:.0} it snaps or bends backward")
+        }),
+        judge("leg_extension_max", "", found.leg_extension_max, up_to(LEG_EXTENSION_MAX), &|_| {
+            "a leg is stretched to its full length; it may be too short for the clip's steps".to_owned()
+        }),
+        judge("range_excess_deg", "deg", found.range_excess_deg, up_to(RANGE_EXCESS_MAX_DEG), &|_| {
+            let (joint, beyond) = (found.range_excess_joint, found.range_excess_deg);
+            format!("{joint} turns {beyond:.0}° beyond the range of people's")
+        }),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
