@@ -2,7 +2,7 @@
 //!
 //! In reading order: whose body ([`skeleton`]), how it is posed ([`pose`]) and how far its joints turn
 //! ([`joint_ranges`]), how a clip moves ([`parameters`]) and when ([`phase_map`]), which velocities it allows
-//! ([`velocity_hull`], `FbCrowd` §4.1), how clips blend ([`blend_space`], §5), where synthesis may switch
+//! ([`velocity_hull`], [`wrapping_polygon`], `FbCrowd` §4.1), how clips blend ([`blend_space`], §5), where synthesis may switch
 //! ([`correspondence`], §5, Eq. 10), the database itself ([`motion_db`]), what its feet do on the ground
 //! ([`planted_feet`]), its invariants ([`validate`]; of the blend space [`tiling`], on the [`lattice`]), how good its
 //! examples are ([`quality`]), where it is thin ([`coverage`]) and its file ([`mod@file`]).
@@ -30,3 +30,4 @@ pub mod source_text;
 pub mod tiling;
 pub mod validate;
 pub mod velocity_hull;
+pub mod wrapping_polygon;

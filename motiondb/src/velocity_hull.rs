@@ -15,6 +15,9 @@ pub const TURNING_SPEED_MIN_MPS: f32 = -0.05;
 /// Examples with at most this turn rate hold their facing: 10 °/s.
 pub const HOLDING_TURN_MAX_RAD_S: f32 = 10.0 * std::f32::consts::PI / 180.0;
 
+/// Half the width given to a set without area, m/s: rounding in its rotation cannot empty it then.
+pub const HALF_WIDTH_MPS: f32 = 0.01;
+
 /// Which examples bound which velocities.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -48,6 +51,11 @@ pub fn turning_point_mps(parameters: &Parameters) -> Vec2 {
     Vec2::new(cos, sin) * parameters.speed_mps
 }
 
+/// The point of a holding example in the agent's frame.
+pub fn holding_point_mps(parameters: &Parameters) -> Vec2 {
+    Vec2::new(parameters.speed_mps, parameters.strafe_mps)
+}
+
 /// Whether an example belongs to the turning set.
 pub fn is_turning(parameters: &Parameters) -> bool {
     parameters.strafe_mps.abs() <= TURNING_STRAFE_MAX_MPS && parameters.speed_mps >= TURNING_SPEED_MIN_MPS
@@ -56,4 +64,30 @@ pub fn is_turning(parameters: &Parameters) -> bool {
 /// Whether an example belongs to the holding set.
 pub fn is_holding(parameters: &Parameters) -> bool {
     parameters.turn_rate_rad_s.abs() <= HOLDING_TURN_MAX_RAD_S
+}
+
+/// Eqs. 4, 5: the half-planes of a set in the agent's frame, one for each edge, as a point p and a unit direction d;
+/// permitted are the velocities on the left. A set without area is widened into a rectangle.
+pub fn half_planes(corners_mps: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
+    let rectangle = match *corners_mps {
+        [] => Some(widened(Vec2::ZERO, Vec2::ZERO)),
+        [only] => Some(widened(Vec2::ZERO, only)),
+        [first, second] => Some(widened(first, second)),
+        _ => None,
+    };
+    let count = rectangle.map_or(corners_mps.len(), |corners| corners.len());
+    let corner = move |k: usize| rectangle.map_or_else(|| corners_mps[k % count], |corners| corners[k % count]);
+    (0..count).filter_map(move |k| half_plane(corner(k), corner(k + 1)))
+}
+
+/// p = v_i, d = (v_i − v_{i+1})/‖v_i − v_{i+1}‖; none for an edge without length.
+pub fn half_plane(corner_mps: Vec2, next_mps: Vec2) -> Option<(Vec2, Vec2)> {
+    Some((corner_mps, (corner_mps - next_mps).try_normalize()?))
+}
+
+/// The rectangle, clockwise, about a segment or a point.
+fn widened(from_mps: Vec2, to_mps: Vec2) -> [Vec2; 4] {
+    let along = (to_mps - from_mps).normalize_or(Vec2::X) * HALF_WIDTH_MPS;
+    let left = along.perp();
+    [from_mps - along + left, to_mps + along + left, to_mps + along - left, from_mps - along - left]
 }

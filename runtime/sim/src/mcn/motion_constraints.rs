@@ -6,22 +6,14 @@
 //! set.
 
 use glam::Vec2;
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::velocity_hull::{HALF_WIDTH_MPS, VelocityHull, half_plane, half_planes};
 
 use super::half_plane::{HalfPlane, Source};
 use crate::plan::VelocitySet;
 
-/// Half the width given to a set without area, m/s: rounding in its rotation cannot empty it then.
-const HALF_WIDTH_MPS: f32 = 0.01;
-
 /// Eqs. 4, 5: appends a set's half-planes, in world axes; `forward` is the agent's facing.
 pub fn hull_half_planes(corners_mps: &[Vec2], forward: Vec2, source: Source, found: &mut Vec<HalfPlane>) {
-    match *corners_mps {
-        [] => ring(&widened(Vec2::ZERO, Vec2::ZERO), forward, source, found),
-        [only] => ring(&widened(Vec2::ZERO, only), forward, source, found),
-        [first, second] => ring(&widened(first, second), forward, source, found),
-        _ => ring(corners_mps, forward, source, found),
-    }
+    found.extend(half_planes(corners_mps).map(|half_plane| rotated(half_plane, forward, source)));
 }
 
 /// Appends the sharp-turn edges for a v_pref more than 90° off the facing; none otherwise.
@@ -32,7 +24,7 @@ pub fn sharp_turn_half_planes(edges_mps: &[[Vec2; 2]], forward: Vec2, preferred_
     let turns_left = forward.perp_dot(preferred_mps) > 0.0;
     let on_the_side_of_the_turn = |end: &Vec2| end.x < 0.0 && if turns_left { end.y >= 0.0 } else { end.y <= 0.0 };
     for edge in edges_mps.iter().filter(|edge| edge.iter().any(on_the_side_of_the_turn)) {
-        found.extend(edge_half_plane(edge[0], edge[1], forward, Source::SharpTurn));
+        found.extend(half_plane(edge[0], edge[1]).map(|half_plane| rotated(half_plane, forward, Source::SharpTurn)));
     }
 }
 
@@ -56,25 +48,9 @@ pub fn speed_max_mps(corners_mps: &[Vec2]) -> f32 {
     corners_mps.iter().map(|corner_mps| corner_mps.length()).fold(HALF_WIDTH_MPS, f32::max)
 }
 
-/// One half-plane for each edge of a clockwise polygon.
-fn ring(corners_mps: &[Vec2], forward: Vec2, source: Source, found: &mut Vec<HalfPlane>) {
-    for (index, &corner_mps) in corners_mps.iter().enumerate() {
-        let next_mps = corners_mps[(index + 1) % corners_mps.len()];
-        found.extend(edge_half_plane(corner_mps, next_mps, forward, source));
-    }
-}
-
-/// p = v_i, d = (v_i − v_{i+1})/‖v_i − v_{i+1}‖, rotated by the facing; none for an edge without length.
-fn edge_half_plane(corner_mps: Vec2, next_mps: Vec2, forward: Vec2, source: Source) -> Option<HalfPlane> {
-    let direction = (corner_mps - next_mps).try_normalize()?;
-    Some(HalfPlane { point_mps: forward.rotate(corner_mps), direction: forward.rotate(direction), source })
-}
-
-/// The rectangle, clockwise, about a segment or a point.
-fn widened(from_mps: Vec2, to_mps: Vec2) -> [Vec2; 4] {
-    let along = (to_mps - from_mps).normalize_or(Vec2::X) * HALF_WIDTH_MPS;
-    let left = along.perp();
-    [from_mps - along + left, to_mps + along + left, to_mps + along - left, from_mps - along - left]
+/// From the agent's frame to the world's axes.
+fn rotated((point_mps, direction): (Vec2, Vec2), forward: Vec2, source: Source) -> HalfPlane {
+    HalfPlane { point_mps: forward.rotate(point_mps), direction: forward.rotate(direction), source }
 }
 
 #[cfg(test)]

@@ -1,0 +1,69 @@
+//! The wrapping polygon of the turning examples and its sharp-turn edges (`FbCrowd` §4.1, Fig. 3b; `definitions.md`,
+//! "Velocity constraints").
+//!
+//! The convex hull of the turning set lets through velocities behind that no example shows; the wrapping polygon, which
+//! is star-shaped about the origin, does not. Agent's frame (x forward, y left), m/s.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use glam::{DVec2, Vec2};
+
+/// Directions closer than this are one direction of the wrapping polygon: what gait noise leaves in a turn rate (3 °/s,
+/// as for snapping).
+const SAME_DIRECTION_RAD: f64 = 3.0 * TAU / 360.0;
+/// A point this near the origin has no direction: a body that stands, m/s.
+const STANDING_MPS: f64 = 1e-3;
+
+/// The outermost point per direction, clockwise from straight behind: a polygon that is star-shaped about the origin.
+fn wrapping_polygon(points: &[Vec2]) -> Vec<Vec2> {
+    let mut sorted: Vec<(f64, Vec2)> = points
+        .iter()
+        .filter(|point| f64::from(point.length()) > STANDING_MPS)
+        .map(|&point| (libm::atan2(f64::from(point.y), f64::from(point.x)), point))
+        .collect();
+    sorted.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.length().total_cmp(&b.1.length())));
+    let mut polygon: Vec<(f64, Vec2)> = Vec::new();
+    for (angle, point) in sorted {
+        match polygon.last_mut() {
+            Some((last, outermost)) if *last - angle < SAME_DIRECTION_RAD => {
+                if point.length() > outermost.length() {
+                    (*last, *outermost) = (angle, point);
+                }
+            }
+            _ => polygon.push((angle, point)),
+        }
+    }
+    polygon.into_iter().map(|(_, point)| point).collect()
+}
+
+/// Edges of the turning points' wrapping polygon with an end beyond ±90° (the red lines of Fig. 3b), each from its
+/// clockwise-first end. An edge that passes behind the origin bounds nothing.
+pub fn sharp_turn_edges(turning_points_mps: &[Vec2]) -> Vec<[Vec2; 2]> {
+    let polygon = wrapping_polygon(turning_points_mps);
+    if polygon.len() < 2 {
+        return Vec::new();
+    }
+    let behind = |point: Vec2| DVec2::X.angle_to(point.as_dvec2()).abs() > FRAC_PI_2;
+    let edges = (0..polygon.len()).map(|k| [polygon[k], polygon[(k + 1) % polygon.len()]]);
+    let holds_the_origin = |[from, to]: &[Vec2; 2]| from.as_dvec2().perp_dot(to.as_dvec2()) < 0.0;
+    edges.filter(|edge| edge.iter().any(|end| behind(*end)) && holds_the_origin(edge)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_wrapping_polygon_keeps_the_fastest_of_each_direction_and_its_rear_edges_are_sharp_turns() {
+        let at = |speed: f32, degrees: f32| Vec2::from_angle(degrees.to_radians()) * speed;
+        let mut points = vec![at(1.1, 0.0), at(3.9, 0.0), Vec2::ZERO];
+        for (speed, degrees) in [(0.8, 46.0), (2.3, 79.0), (0.5, 97.0), (1.7, 150.0), (0.2, 168.0)] {
+            points.extend([at(speed, degrees), at(speed, -degrees)]);
+        }
+        let polygon = wrapping_polygon(&points);
+        assert_eq!(polygon.len(), 11);
+        assert!(polygon.contains(&at(3.9, 0.0)) && !polygon.contains(&at(1.1, 0.0)));
+        // 79→97, 97→150, 150→168 on each side, and 168→−168 behind.
+        assert_eq!(sharp_turn_edges(&points).len(), 7);
+    }
+}
