@@ -33,6 +33,8 @@ pub struct Lattice {
     pub points: Vec<LatticePoint>,
     /// Squared distance of each example from the axes' least values, over all three axes.
     pub lifts: Vec<i64>,
+    /// `dimension + 1` examples that span the set: a simplex with volume, as large as a greedy choice finds.
+    pub span: Vec<usize>,
 }
 
 impl Lattice {
@@ -50,13 +52,15 @@ impl Lattice {
             })
         };
         let all: Vec<[i64; 3]> = parameters.iter().map(whole).collect();
-        let axes = spanning_axes(&all);
+        let (span, directions) = spanning_simplex(&all);
+        let axes = spanning_axes(&directions);
         let seen = |point: &[i64; 3]| std::array::from_fn(|k| axes.get(k).map_or(0, |&axis| point[axis]));
         Some(Self {
             dimension: axes.len(),
             axis_ranges,
             points: all.iter().map(seen).collect(),
             lifts: all.iter().map(|point| point.iter().map(|x| x * x).sum()).collect(),
+            span,
         })
     }
 }
@@ -69,32 +73,35 @@ fn axis_ranges(parameters: &[Parameters]) -> Option<[f32; 3]> {
     (points().all(|point| point.is_finite()) && ranges.is_finite()).then(|| std::array::from_fn(kept))
 }
 
-/// Axes onto which the points project without losing a dimension, in ascending order; as many as the points span.
-fn spanning_axes(points: &[[i64; 3]]) -> Vec<usize> {
-    let base = principal_directions(points);
+/// Points that hold all others between them but for noise, each the farthest from the flat of those before it, and
+/// orthonormal directions of that flat.
+fn spanning_simplex(points: &[[i64; 3]]) -> (Vec<usize>, Vec<DVec3>) {
+    let offset = |index: usize| DVec3::from_array(std::array::from_fn(|k| (points[index][k] - points[0][k]) as f64));
+    let (mut span, mut directions) = (vec![0], Vec::<DVec3>::new());
+    while directions.len() < 3 {
+        let off_flat = |index| directions.iter().fold(offset(index), |off, along| off.reject_from_normalized(*along));
+        let offs = (0..points.len()).map(|index| (index, off_flat(index)));
+        match offs.max_by(|(_, a), (_, b)| a.length_squared().total_cmp(&b.length_squared())) {
+            Some((index, off)) if off.length() > FLAT_STEPS => {
+                span.push(index);
+                directions.push(off.normalize());
+            }
+            _ => break,
+        }
+    }
+    (span, directions)
+}
+
+/// As many axes as there are orthonormal directions, ascending: the flat of the directions is seen along those that it
+/// leans on least.
+fn spanning_axes(directions: &[DVec3]) -> Vec<usize> {
     let steepest = |of: DVec3| (0..3).max_by(|&a, &b| of[a].abs().total_cmp(&of[b].abs()));
-    match *base {
+    match *directions {
         [] => Vec::new(),
         [along] => steepest(along).into_iter().collect(),
         [a, b] => (0..3).filter(|&axis| Some(axis) != steepest(a.cross(b))).collect(),
         _ => vec![0, 1, 2],
     }
-}
-
-/// Orthonormal directions that hold all points but for noise: each towards the point farthest from the flat so far.
-fn principal_directions(points: &[[i64; 3]]) -> Vec<DVec3> {
-    let offset = |point: &[i64; 3]| DVec3::from_array(std::array::from_fn(|k| (point[k] - points[0][k]) as f64));
-    let mut base: Vec<DVec3> = Vec::new();
-    while base.len() < 3 {
-        let off_flat =
-            |point| base.iter().fold(offset(point), |rest, direction| rest.reject_from_normalized(*direction));
-        let farthest = points.iter().map(off_flat).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-        match farthest {
-            Some(far) if far.length() > FLAT_STEPS => base.push(far.normalize()),
-            _ => break,
-        }
-    }
-    base
 }
 
 /// Length, twice the area or six times the volume of a simplex of one to four corners, signed: positive where they turn
