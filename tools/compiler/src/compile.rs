@@ -6,6 +6,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use motiondb::blend_space::BlendSpace;
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::validate::validate;
 use motiondb::velocity_hull::Construction;
@@ -215,7 +216,7 @@ fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
 /// The database of cycles sorted by name.
 fn assemble(
     named: Vec<NamedCycle>,
-    sources: Vec<SourceRecord>,
+    mut sources: Vec<SourceRecord>,
     body: &HumanBody,
     options: &Options,
     tell: &Observer,
@@ -229,6 +230,7 @@ fn assemble(
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
     tell(Event::Stage("blend space"));
     let blend_space = blend_space::build(&examples);
+    tell_of_twins(&examples, &blend_space, &mut sources);
     tell(Event::Stage("correspondence times"));
     let correspondence = correspondence::build(&examples, &cycles, body, blend_space.axis_ranges, chosen);
     tell(Event::Stage("assembly"));
@@ -245,6 +247,15 @@ fn assemble(
     match validate(&db).into_iter().find_map(|check| Some((check.name, check.broken?))) {
         Some((invariant, detail)) => Err(CompileError::Unsound { invariant, detail }),
         None => Ok(db),
+    }
+}
+
+/// Of examples with the same parameters one is blended; the sources of the others say so.
+fn tell_of_twins(examples: &[MotionExample], space: &BlendSpace, sources: &mut [SourceRecord]) {
+    let twins = blend_space::twins(examples, space).into_iter().map(|pair| pair.map(|index| &examples[index]));
+    for [unused, played] in twins.filter(|[unused, _]| !unused.mirrored) {
+        let remark = format!("{} moves like {}, which is blended in its place", unused.name, played.name);
+        sources[unused.source as usize].warnings.push(remark);
     }
 }
 
