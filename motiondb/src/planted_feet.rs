@@ -78,6 +78,11 @@ impl CycleFeet {
         Self { points_m, contacts, phase_map: db.examples[example].phase_map }
     }
 
+    /// Both feet are planted in every row.
+    pub fn always_planted(&self) -> bool {
+        self.contacts.iter().flatten().all(|&contact| contact >= PLANTED_CONTACT)
+    }
+
     /// First row and length of each contact of one foot; one that passes phase 0 counts once.
     pub fn contacts(&self, side: usize) -> Vec<(usize, usize)> {
         let planted = |row: usize| self.contacts[side][row % PHASE_COUNT] >= PLANTED_CONTACT;
@@ -152,19 +157,29 @@ pub fn foot_slide(feet: &CycleFeet, velocity: DVec3) -> FootSlide {
 pub fn implied(feet: &CycleFeet) -> Option<Implied> {
     let planted = feet.planted();
     let (mut normal, mut right) = (DMat3::ZERO, DVec3::ZERO);
-    for point in &planted {
-        for (row, rate_mps) in point.equations() {
-            normal += DMat3::from_cols(row * row.x, row * row.y, row * row.z);
-            right -= row * rate_mps;
-        }
+    for (row, rate_mps) in planted.iter().flat_map(Planted::equations) {
+        normal += DMat3::from_cols(row * row.x, row * row.y, row * row.z);
+        right -= row * rate_mps;
     }
     let velocity = normal.inverse() * right;
-    let squares = planted.iter().flat_map(|point| point.equations()).map(|(row, rate_mps)| {
-        let off_mps = row.dot(velocity) + rate_mps;
-        off_mps * off_mps
-    });
-    let rest_mps = libm::sqrt(squares.sum::<f64>() / planted.len() as f64);
-    velocity.is_finite().then(|| Implied { parameters: Parameters::from_vec3(velocity.as_vec3()), rest_mps })
+    let implied =
+        Implied { parameters: Parameters::from_vec3(velocity.as_vec3()), rest_mps: rms_speed_mps(&planted, velocity) };
+    velocity.is_finite().then_some(implied)
+}
+
+impl Implied {
+    /// How fast the feet that stand by the implied root motion move by another, root mean square, m/s. Squares of
+    /// residuals add up about a least-squares solution.
+    pub fn misfit_mps(&self, feet: &CycleFeet, velocity: DVec3) -> f64 {
+        let all_mps = rms_speed_mps(&feet.planted(), velocity);
+        libm::sqrt((all_mps * all_mps - self.rest_mps * self.rest_mps).max(0.0))
+    }
+}
+
+/// Root mean square speed of planted contact points in the world.
+fn rms_speed_mps(planted: &[Planted], velocity: DVec3) -> f64 {
+    let speeds_mps = planted.iter().flat_map(Planted::equations).map(|(row, rate_mps)| row.dot(velocity) + rate_mps);
+    libm::sqrt(speeds_mps.map(|speed_mps| speed_mps * speed_mps).sum::<f64>() / planted.len() as f64)
 }
 
 impl Planted {

@@ -41,7 +41,7 @@ fn a_broken_invariant_is_read_but_not_loaded() {
     db.blend_space.covered_share = 0.5;
     file::write(&path, &db).unwrap();
     assert!(file::read(&path).is_ok());
-    let invariant = "simplices_cover_the_examples";
+    let invariant = "simplices_tile_the_hull";
     assert!(matches!(file::load(&path), Err(FileError::Invariant { invariant: found, .. }) if found == invariant));
 }
 

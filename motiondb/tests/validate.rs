@@ -2,10 +2,12 @@
 
 mod support;
 
-use glam::{Quat, Vec2, Vec3};
+use glam::{Quat, Vec2};
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
+use motiondb::planted_feet::{CycleFeet, foot_slide};
 use motiondb::skeleton::JOINT_COUNT;
 use motiondb::validate::validate;
+use motiondb::velocity_hull::Construction;
 use support::small_db;
 
 /// Fails unless exactly this invariant is the first that a fault breaks.
@@ -28,17 +30,15 @@ fn a_sound_database_holds_every_invariant() {
 #[test]
 fn faults_that_do_not_depend_on_each_other_are_all_named() {
     let mut db = small_db();
-    db.examples[0].planted_share = -1.0;
+    db.examples[1].planted_share = 0.9;
     db.blend_space.covered_share = 0.9;
     let broken = validate(&db).into_iter().filter(|check| check.broken.is_some()).map(|check| check.name);
-    assert_eq!(broken.collect::<Vec<_>>(), ["key_times_lie_in_the_cycle", "simplices_cover_the_examples"]);
+    assert_eq!(broken.collect::<Vec<_>>(), ["planted_feet_slide_as_stored", "simplices_tile_the_hull"]);
 }
 
 #[test]
 fn faults_of_structure_are_named() {
     check_breaks("has_examples", |db| db.examples.clear());
-    check_breaks("skeleton_is_a_body", |db| db.skeleton.offsets_m[3].x = f32::NAN);
-    check_breaks("skeleton_is_a_body", |db| db.skeleton.segment_radii_m[0] = 0.0);
     check_breaks("rows_are_complete", |db| db.rows.rotations.truncate(100));
     check_breaks("rows_are_complete", |db| db.rows.contacts.push([1.0; 2]));
     check_breaks("indices_are_in_range", |db| db.examples[1].source = 7);
@@ -49,37 +49,84 @@ fn faults_of_structure_are_named() {
 }
 
 #[test]
-fn faults_of_examples_are_named() {
+fn faults_of_values_are_named() {
+    check_breaks("skeleton_is_a_body", |db| db.skeleton.offsets_m[3].x = f32::NAN);
+    check_breaks("skeleton_is_a_body", |db| db.skeleton.offsets_m[3].x = 20.0);
+    check_breaks("skeleton_is_a_body", |db| db.skeleton.segment_radii_m[0] = 0.0);
+    check_breaks("skeleton_is_a_body", |db| db.skeleton.limits_rad[4].swap(0, 1));
+    check_breaks("skeleton_is_a_body", |db| db.skeleton.feet[1].measured_m[2].z = f32::NEG_INFINITY);
+    check_breaks("sources_are_finite", |db| db.sources[0].speed_mps = f32::NAN);
+    check_breaks("sources_are_finite", |db| db.sources[0].frame_rate_hz = 0.0);
+    check_breaks("windows_are_ordered", |db| db.examples[0].window_s = [2.0, 1.0]);
+    check_breaks("windows_are_ordered", |db| db.examples[0].window_s = [0.0, f32::INFINITY]);
     check_breaks("parameters_are_human", |db| db.examples[0].parameters.speed_mps = f32::INFINITY);
     check_breaks("parameters_are_human", |db| db.examples[0].parameters.turn_rate_rad_s = 90.0);
     check_breaks("phase_maps_rise", |db| db.examples[1].phase_map.left_share = 0.9);
     check_breaks("phase_maps_rise", |db| db.examples[1].phase_map.period_s = f32::NAN);
-    check_breaks("key_times_lie_in_the_cycle", |db| db.examples[1].key_times_s = Some([0.1, 0.2, 0.3, 1.5]));
-    check_breaks("key_times_lie_in_the_cycle", |db| db.examples[1].planted_share = 1.2);
     check_breaks("rows_are_finite", |db| db.rows.pelvis_m[70].z = f32::NAN);
     check_breaks("rows_are_finite", |db| db.rows.contacts[3][1] = -0.1);
     check_breaks("rotations_are_unit_and_aligned", |db| db.rows.rotations[100] = Quat::from_xyzw(0.0, 0.0, 0.0, 0.5));
     check_breaks("rotations_are_unit_and_aligned", |db| db.rows.rotations[100] = -db.rows.rotations[100]);
+}
+
+#[test]
+fn faults_of_the_motion_are_named() {
     check_breaks("cycles_close", |db| {
         let pelvis = db.rows.rotations.iter_mut().step_by(JOINT_COUNT).take(PHASE_COUNT);
         pelvis.enumerate().for_each(|(phase, rotation)| *rotation = Quat::from_rotation_x(0.02 * phase as f32));
     });
+    let walk = PHASE_COUNT..2 * PHASE_COUNT;
+    check_breaks("landmarks_are_mid_stances", |db| db.rows.contacts[walk.clone()].rotate_left(PHASE_COUNT / 2));
+    check_breaks("landmarks_are_mid_stances", |db| db.rows.contacts[walk.clone()].rotate_left(PHASE_COUNT / 6));
+    check_breaks("landmarks_are_mid_stances", |db| db.rows.contacts[walk.clone()].fill([1.0; 2]));
+    check_breaks("landmarks_are_mid_stances", |db| db.examples[1].key_times_s = None);
+    check_breaks("landmarks_are_mid_stances", |db| db.rows.contacts[20][0] = 0.0);
+    check_breaks("key_times_end_contacts", |db| db.examples[1].key_times_s = Some([0.1, 0.2, 0.3, 1.5]));
+    check_breaks("key_times_end_contacts", |db| {
+        db.examples[1].key_times_s.as_mut().expect("it steps").swap(0, 2);
+    });
+    check_breaks("planted_feet_slide_as_stored", |db| db.examples[1].planted_share = 1.2);
+    check_breaks("planted_feet_slide_as_stored", |db| db.examples[1].planted_slide_cm_s += 0.2);
+}
+
+#[test]
+fn a_speed_that_the_feet_do_not_confirm_is_named() {
+    for factor in [0.75, 1.25, -1.0] {
+        let mut db = small_db();
+        let mut forged = db.examples[1].parameters;
+        forged.speed_mps *= factor;
+        db.examples[1].parameters = forged;
+        let feet = CycleFeet::of(&db, 1, &db.posed_rows(1));
+        db.examples[1].planted_slide_cm_s = foot_slide(&feet, forged.to_vec3().as_dvec3()).slide_cm_s as f32;
+        let broken = validate(&db).into_iter().find(|check| check.broken.is_some()).expect("the speed is forged");
+        assert_eq!(broken.name, "parameters_follow_from_the_motion");
+    }
 }
 
 #[test]
 fn faults_of_derived_sets_are_named() {
     check_breaks("hulls_are_clockwise_and_convex", |db| db.velocity_hull.turning_mps.reverse());
     check_breaks("hulls_are_clockwise_and_convex", |db| db.velocity_hull.holding_mps.clear());
-    check_breaks("hulls_hold_their_examples", |db| db.examples[1].parameters.speed_mps = 3.0);
-    check_breaks("sharp_turn_edges_hold_the_origin", |db| {
+    check_breaks("hulls_are_clockwise_and_convex", |db| {
+        let twice = [&db.velocity_hull.turning_mps[..], &db.velocity_hull.turning_mps].concat();
+        db.velocity_hull.turning_mps = twice;
+    });
+    check_breaks("hulls_wrap_their_examples", |db| db.velocity_hull.holding_mps[1].x = 1.0);
+    check_breaks("hulls_wrap_their_examples", |db| db.velocity_hull.holding_mps[1].x = 1.4);
+    check_breaks("hulls_wrap_their_examples", |db| db.velocity_hull.turning_mps[2].x = 1.4);
+    check_breaks("hulls_wrap_their_examples", |db| db.velocity_hull.construction = Construction::Paper);
+    check_breaks("sharp_turns_wrap_the_turning_examples", |db| {
         db.velocity_hull.sharp_turn_edges_mps = vec![[Vec2::new(-0.1, 0.5), Vec2::new(-0.5, -0.1)]];
     });
-    check_breaks("simplices_cover_the_examples", |db| db.blend_space.covered_share = 0.9);
-    check_breaks("simplices_cover_the_examples", |db| db.blend_space.axis_ranges[0] = Vec3::NAN.x);
+    check_breaks("simplices_tile_the_hull", |db| db.blend_space.covered_share = 0.9);
+    check_breaks("simplices_tile_the_hull", |db| db.blend_space.axis_ranges[0] = f32::NAN);
+    check_breaks("simplices_tile_the_hull", |db| db.blend_space.simplices = vec![0, 1, 2, 2, 1, 0]);
     let pairs = |db: &mut MotionDb, pairs_s: &[[f32; 2]]| {
         db.correspondence.as_mut().expect("the small database has one").pairs_s = pairs_s.to_vec();
     };
     check_breaks("correspondences_are_cyclic", |db| pairs(db, &[]));
     check_breaks("correspondences_are_cyclic", |db| pairs(db, &[[0.2, 0.3], [0.4, 0.2], [0.6, 0.5]]));
     check_breaks("correspondences_are_cyclic", |db| pairs(db, &[[0.2, 0.3], [9.0, 0.4]]));
+    check_breaks("correspondences_are_cyclic", |db| pairs(db, &[[0.2, 0.3], [0.4, 0.4]]));
+    check_breaks("correspondences_are_cyclic", |db| db.correspondence = None);
 }

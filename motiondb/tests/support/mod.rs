@@ -1,6 +1,7 @@
-//! A database small enough to write down: three cycles of a stiff body.
-
-use std::f32::consts::TAU;
+//! A database small enough to write down: a body on two stiff legs stands, walks and turns.
+//!
+//! While a foot is planted, its ankle stays where it is in the world as the root moves on along its arc; in between it
+//! swings back in a straight line.
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
@@ -8,18 +9,24 @@ use motiondb::correspondence::Correspondence;
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows, SourceRecord};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
-use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
+use motiondb::planted_feet::{CycleFeet, foot_slide};
+use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
 use motiondb::velocity_hull::{Construction, VelocityHull};
 
-/// Standing, a walk and a walking turn that all swing every joint by a tenth of a radian.
+/// Thigh and shank, metres.
+const LEG_M: f32 = 0.84;
+/// Rows before and after its mid-stance in which a foot is planted.
+const STANCE_ROWS: i32 = 19;
+
+/// Standing, a walk and a walking turn.
 pub(crate) fn small_db() -> MotionDb {
     let parameters = [[0.0, 0.0, 0.0], [1.2, 0.0, 0.0], [0.8, 1.0, 0.0]];
     let names = ["stand", "turn_none", "turn_one"];
     let examples: Vec<MotionExample> = names.iter().zip(parameters).map(|(name, at)| example(name, at)).collect();
-    MotionDb {
+    let mut db = MotionDb {
         skeleton: skeleton(),
         sources: vec![source()],
-        rows: rows(examples.len()),
+        rows: rows(&examples),
         velocity_hull: VelocityHull {
             construction: Construction::default(),
             turning_mps: vec![Vec2::ZERO, Vec2::new(0.8 * libm::cosf(1.0), 0.8 * libm::sinf(1.0)), Vec2::new(1.2, 0.0)],
@@ -38,7 +45,9 @@ pub(crate) fn small_db() -> MotionDb {
             pairs_s: vec![[0.2, 0.8], [0.4, 0.1], [0.9, 0.6]],
         }),
         examples,
-    }
+    };
+    (0..db.examples.len()).for_each(|index| measure(&mut db, index));
+    db
 }
 
 fn example(name: &str, [speed_mps, turn_rate_rad_s, strafe_mps]: [f32; 3]) -> MotionExample {
@@ -49,9 +58,22 @@ fn example(name: &str, [speed_mps, turn_rate_rad_s, strafe_mps]: [f32; 3]) -> Mo
         mirrored: false,
         parameters: Parameters { speed_mps, turn_rate_rad_s, strafe_mps },
         phase_map: PhaseMap { period_s: 1.0, left_share: 0.5 },
-        key_times_s: Some([0.1, 0.2, 0.6, 0.7]),
+        key_times_s: None,
         planted_slide_cm_s: 0.0,
-        planted_share: 0.6,
+        planted_share: 1.0,
+    }
+}
+
+/// Fills in what the rows tell.
+fn measure(db: &mut MotionDb, index: usize) {
+    let feet = CycleFeet::of(db, index, &db.posed_rows(index));
+    let example = &mut db.examples[index];
+    let slide = foot_slide(&feet, example.parameters.to_vec3().as_dvec3());
+    (example.planted_slide_cm_s, example.planted_share) = (slide.slide_cm_s as f32, slide.planted_share as f32);
+    let time_s = |phase: f64| example.phase_map.time_s(phase.rem_euclid(1.0) as f32);
+    let stances = [Side::Right, Side::Left].map(|side| feet.stance(side));
+    if let [Some([right_lands, right_leaves]), Some([left_lands, left_leaves])] = stances {
+        example.key_times_s = Some([right_leaves, right_lands, left_leaves, left_lands].map(time_s));
     }
 }
 
@@ -71,11 +93,13 @@ fn source() -> SourceRecord {
 
 fn skeleton() -> Skeleton {
     let mut offsets_m = [Vec3::new(0.0, 0.0, 0.1); JOINT_COUNT];
-    for side in 0..2 {
-        offsets_m[Joint::SHANKS[side].index()] = Vec3::new(0.0, 0.0, -0.42);
-        offsets_m[Joint::FEET[side].index()] = Vec3::new(0.0, 0.0, -0.42);
+    for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
+        offsets_m[Joint::THIGHS[side].index()] = Vec3::new(0.0, sign * 0.1, 0.0);
+        offsets_m[Joint::SHANKS[side].index()] = Vec3::new(0.0, 0.0, -0.5 * LEG_M);
+        offsets_m[Joint::FEET[side].index()] = Vec3::new(0.0, 0.0, -0.5 * LEG_M);
+        offsets_m[Joint::TOES[side].index()] = Vec3::ZERO;
     }
-    let foot = Foot { heel_m: Vec3::NEG_Z, ball_m: Vec3::X, toe_tip_m: Vec3::X, measured_m: [Vec3::ZERO; 3] };
+    let foot = Foot { heel_m: Vec3::ZERO, ball_m: Vec3::ZERO, toe_tip_m: Vec3::ZERO, measured_m: [Vec3::ZERO; 3] };
     Skeleton {
         offsets_m,
         segment_ends_m: offsets_m,
@@ -85,12 +109,47 @@ fn skeleton() -> Skeleton {
     }
 }
 
-fn rows(examples: usize) -> Rows {
-    let phases = (0..examples * PHASE_COUNT).map(|row| (row % PHASE_COUNT) as f32 / PHASE_COUNT as f32);
-    let swing = |phase: f32| Quat::from_rotation_y(0.1 * libm::sinf(TAU * phase));
-    Rows {
-        rotations: phases.clone().flat_map(|phase| [swing(phase); JOINT_COUNT]).collect(),
-        pelvis_m: phases.clone().map(|_| Vec3::new(0.0, 0.0, 0.9)).collect(),
-        contacts: phases.map(|phase| [f32::from(u8::from(phase < 0.6)), 1.0]).collect(),
+fn rows(examples: &[MotionExample]) -> Rows {
+    let mut rows = Rows::default();
+    for (example, row) in examples.iter().flat_map(|example| (0..PHASE_COUNT).map(move |row| (example, row))) {
+        let legs = [0, 1].map(|side| leg(example, row as i32, side));
+        let mut rotations = [Quat::IDENTITY; JOINT_COUNT];
+        for (side, (swing, _)) in legs.iter().enumerate() {
+            rotations[Joint::THIGHS[side].index()] = *swing;
+            rotations[Joint::FEET[side].index()] = swing.inverse();
+        }
+        rows.rotations.extend(rotations);
+        rows.pelvis_m.push(Vec3::new(0.0, 0.0, LEG_M));
+        rows.contacts.push(legs.map(|(_, contact)| contact));
     }
+    rows
+}
+
+/// How a leg is turned in a row, and whether its foot is planted.
+fn leg(example: &MotionExample, row: i32, side: usize) -> (Quat, f32) {
+    if example.parameters == Parameters::default() {
+        return (Quat::IDENTITY, 1.0);
+    }
+    let (rows, half) = (PHASE_COUNT as i32, PHASE_COUNT as i32 / 2);
+    let since_middle = (row + if side == 0 { 0 } else { half }).rem_euclid(rows) - half;
+    let place_m = |rows: i32| planted_m(example, rows as f32 / PHASE_COUNT as f32, side);
+    let is_planted = since_middle.abs() <= STANCE_ROWS;
+    let ankle_m = if is_planted {
+        place_m(since_middle)
+    } else {
+        let share = (since_middle - STANCE_ROWS).rem_euclid(rows) as f32 / (rows - 2 * STANCE_ROWS) as f32;
+        place_m(STANCE_ROWS).lerp(place_m(-STANCE_ROWS), share)
+    };
+    let along_m = ankle_m.extend(-(LEG_M * LEG_M - ankle_m.length_squared()).sqrt());
+    (Quat::from_rotation_arc(Vec3::NEG_Z, along_m / LEG_M), f32::from(u8::from(is_planted)))
+}
+
+/// The ankle against its hip, a time after mid-stance.
+fn planted_m(example: &MotionExample, time_s: f32, side: usize) -> Vec2 {
+    let hip_m = Vec2::new(0.0, if side == 0 { 0.1 } else { -0.1 });
+    let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = example.parameters;
+    let half_rad = 0.5 * turn_rate_rad_s * time_s;
+    let chord = if half_rad == 0.0 { 1.0 } else { half_rad.sin() / half_rad };
+    let root_m = Vec2::from_angle(half_rad).rotate(Vec2::new(speed_mps, strafe_mps)) * time_s * chord;
+    Vec2::from_angle(-2.0 * half_rad).rotate(hip_m - root_m) - hip_m
 }

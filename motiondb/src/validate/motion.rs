@@ -1,0 +1,127 @@
+//! What the stored motion itself says of an example: where its cycle closes, when its feet land and leave, how fast its
+//! root goes (`definitions.md`, "Phase", "Key times", "Planted-foot slide"; [`crate::planted_feet`]).
+
+use super::{Outcome, each, ensure};
+use crate::motion_db::{MotionDb, PHASE_COUNT};
+use crate::parameters::Parameters;
+use crate::planted_feet::{CycleFeet, foot_slide, implied};
+use crate::skeleton::{JOINT_COUNT, Side};
+
+/// A seam between the last row and the first this many times the cycle's own greatest step is a jump …
+const SEAM_LIMIT: f32 = 2.0;
+/// … unless it is nothing at all, radians.
+const SEAM_MIN_RAD: f32 = 1e-3;
+/// A landmark lies this near to the middle of its contact, over the contact's length: 0.17 at most on real clips, whose
+/// landmarks are taken of the whole step, short slips included, and contacts of what stands still.
+const LANDMARK_TOLERANCE: f64 = 0.25;
+/// Key times are found before contacts are rounded to `f32`, over the period.
+const KEY_TIME_TOLERANCE: f64 = 1e-5;
+/// And so are slides, cm/s, and shares.
+const SLIDE_TOLERANCE_CM_S: f64 = 0.05;
+const SHARE_TOLERANCE: f64 = 1e-6;
+/// How far planted feet may move in the mean though the root moves as stored, m/s: this, a share of the body's speed,
+/// and as much as they move with no root motion at all explaining it. Real clips: up to 70 % of it; a speed that is
+/// stored a quarter too high or low exceeds it.
+const MISFIT_MPS: f64 = 0.02;
+const MISFIT_SHARE: f64 = 0.08;
+
+/// The step from the last row to the first is no larger than twice the largest within the cycle.
+pub(super) fn cycles_close(db: &MotionDb) -> Outcome {
+    each(db, |index, _| {
+        let step = |phase: usize| {
+            let (here, next) = (db.rows.rotations(index, phase), db.rows.rotations(index, (phase + 1) % PHASE_COUNT));
+            (0..JOINT_COUNT).map(|joint| here[joint].angle_between(next[joint])).fold(0.0, f32::max)
+        };
+        let largest = (0..PHASE_COUNT - 1).map(step).fold(0.0, f32::max);
+        let seam = step(PHASE_COUNT - 1);
+        ensure(seam <= SEAM_LIMIT * largest + SEAM_MIN_RAD, || {
+            format!("the seam turns a joint by {seam} rad, the cycle by at most {largest} a row")
+        })
+    })
+}
+
+/// Phase 0 lies in the middle of a right contact, phase ½ in the middle of a left one; who stands never lifts a foot and
+/// never moves.
+pub(super) fn landmarks_are_mid_stances(db: &MotionDb) -> Outcome {
+    each(db, |index, example| {
+        let feet = CycleFeet::of(db, index, &[]);
+        if example.key_times_s.is_some() {
+            return landmarks_agree(&feet);
+        }
+        let stands = example.parameters == Parameters::default() && feet.always_planted();
+        ensure(stands, || "it has no key times, but does not stand".into())
+    })
+}
+
+/// Why the motion of a cycle that steps contradicts its landmarks or its parameters, if so: what a compiler must not put
+/// into a database.
+pub fn contradiction(feet: &CycleFeet, parameters: Parameters) -> Option<String> {
+    landmarks_agree(feet).and_then(|()| parameters_agree(feet, parameters)).err()
+}
+
+fn landmarks_agree(feet: &CycleFeet) -> Outcome {
+    for (side, landmark) in [(Side::Right, 0.0), (Side::Left, 0.5)] {
+        let [landing_s, leaving_s] = stance_s(feet, side)?;
+        let off_s = 0.5 * (landing_s + leaving_s) - f64::from(feet.phase_map.time_s(landmark));
+        let off = off_s.abs() / (leaving_s - landing_s);
+        ensure(off <= LANDMARK_TOLERANCE, || {
+            format!("the {side:?} foot's mid-stance is {:.0} % of its contact from phase {landmark}", 100.0 * off)
+        })?;
+    }
+    Ok(())
+}
+
+/// When the contact about a foot's landmark begins and ends, seconds from phase 0.
+fn stance_s(feet: &CycleFeet, side: Side) -> Result<[f64; 2], String> {
+    let stance = feet.stance(side).ok_or_else(|| format!("the {side:?} foot has no contact about its mid-stance"))?;
+    Ok(stance.map(|phase| f64::from(feet.phase_map.time_s(phase as f32))))
+}
+
+/// Key times are when the contact rows pass ½ at both ends of the contacts that hold the landmarks.
+pub(super) fn key_times_end_contacts(db: &MotionDb) -> Outcome {
+    each(db, |index, example| {
+        let Some(key_times_s) = example.key_times_s else { return Ok(()) };
+        let feet = CycleFeet::of(db, index, &[]);
+        let ([right_landing_s, right_leaving_s], [left_landing_s, left_leaving_s]) =
+            (stance_s(&feet, Side::Right)?, stance_s(&feet, Side::Left)?);
+        let period_s = f64::from(example.phase_map.period_s);
+        let found_s = [right_leaving_s, right_landing_s, left_leaving_s, left_landing_s];
+        let agrees = |(stored_s, found_s): (&f32, f64)| {
+            let off = (f64::from(*stored_s) - found_s) / period_s;
+            (0.0..example.phase_map.period_s).contains(stored_s) && (off - libm::round(off)).abs() <= KEY_TIME_TOLERANCE
+        };
+        ensure(key_times_s.iter().zip(found_s).all(agrees), || {
+            format!("{key_times_s:?} s are stored, contacts end at {found_s:?} s, but for periods of {period_s} s")
+        })
+    })
+}
+
+/// Slide and planted share, measured on the stored rows, are those that are stored.
+pub(super) fn planted_feet_slide_as_stored(db: &MotionDb) -> Outcome {
+    each(db, |index, example| {
+        let feet = CycleFeet::of(db, index, &db.posed_rows(index));
+        let found = foot_slide(&feet, example.parameters.to_vec3().as_dvec3());
+        let slide_off = found.slide_cm_s - f64::from(example.planted_slide_cm_s);
+        let share_off = found.planted_share - f64::from(example.planted_share);
+        ensure(slide_off.abs() <= SLIDE_TOLERANCE_CM_S && share_off.abs() <= SHARE_TOLERANCE, || {
+            let (slide, share) = (example.planted_slide_cm_s, example.planted_share);
+            format!("{slide} cm/s over {share} are stored, the rows give {found:?}")
+        })
+    })
+}
+
+/// The root motion for which the planted feet stand best is the stored one, as far as they stand at all.
+pub(super) fn parameters_follow_from_the_motion(db: &MotionDb) -> Outcome {
+    each(db, |index, example| parameters_agree(&CycleFeet::of(db, index, &db.posed_rows(index)), example.parameters))
+}
+
+fn parameters_agree(feet: &CycleFeet, stored: Parameters) -> Outcome {
+    let velocity = stored.to_vec3().as_dvec3();
+    let Some(implied) = implied(feet) else { return Ok(()) };
+    let misfit_mps = implied.misfit_mps(feet, velocity);
+    let tolerance_mps = MISFIT_MPS + MISFIT_SHARE * libm::hypot(velocity.x, velocity.z) + implied.rest_mps;
+    ensure(misfit_mps <= tolerance_mps, || {
+        let told = implied.parameters;
+        format!("{stored:?}, but planted feet tell {told:?}: {misfit_mps:.3} m/s apart, over {tolerance_mps:.3}")
+    })
+}
