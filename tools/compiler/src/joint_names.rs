@@ -12,6 +12,7 @@ pub(crate) enum Part {
     Thigh,
     Shank,
     Foot,
+    /// All of the foot that is not the ankle.
     Toe,
     Clavicle,
     UpperArm,
@@ -39,8 +40,8 @@ const PARTS: [(&[&str], &[Part]); 18] = [
     (&["twist", "share", "roll", "pole", "target", "helper", "slot"], &[Part::Helper]),
     (&["upleg", "upperleg", "thigh", "buttock", "femur"], &[Part::Thigh]),
     (&["lowerleg", "lowleg", "loleg", "knee", "shin", "calf", "tibia", "shank"], &[Part::Shank]),
-    (&["toe", "ball"], &[Part::Toe]),
-    (&["foot", "ankle", "heel"], &[Part::Foot]),
+    (&["toe", "ball", "heel"], &[Part::Toe]),
+    (&["foot", "ankle"], &[Part::Foot]),
     (&["thumb", "index", "middle", "mid", "ring", "pinky", "finger"], &[Part::Finger]),
     (&["forearm", "lowerarm", "lowarm", "loarm", "elbow", "ulna", "radius"], &[Part::Forearm]),
     (&["upperarm", "uparm", "shldr", "humerus"], &[Part::UpperArm]),
@@ -63,6 +64,23 @@ pub(crate) fn hints(name: &str) -> NameHints {
     let parts =
         PARTS.iter().find(|(keys, _)| keys.iter().any(|key| joined.contains(key))).map_or(&[][..], |(_, parts)| parts);
     NameHints { side: words.iter().find_map(|word| side(word)), parts: parts.to_vec() }
+}
+
+/// What two mirrored joints' names differ in, by its first letters: left and right in English and German, in Japanese
+/// and Chinese, French, Italian, Spanish, Portuguese and Slavic languages.
+const SIDE_INITIALS: [(char, char); 7] =
+    [('l', 'r'), ('左', '右'), ('g', 'd'), ('s', 'd'), ('i', 'd'), ('e', 'd'), ('l', 'p')];
+
+/// The sides of two mirrored joints, told by what is left of their names without what they share at either end.
+pub(crate) fn sides(first: &str, second: &str) -> Option<[Side; 2]> {
+    let [first, second] = [first, second].map(|name| name.to_lowercase().chars().collect::<Vec<char>>());
+    let unlike = first.iter().zip(&second).position(|(a, b)| a != b)?;
+    let initials = (first[unlike], second[unlike]);
+    if SIDE_INITIALS.contains(&initials) {
+        Some([Side::Left, Side::Right])
+    } else {
+        SIDE_INITIALS.contains(&(initials.1, initials.0)).then_some([Side::Right, Side::Left])
+    }
 }
 
 fn is_side(word: &str) -> bool {

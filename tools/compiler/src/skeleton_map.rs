@@ -5,24 +5,25 @@
 //! the path between them; neck and head hang from the chest beside the arms. Left and right come from names, else from where the toes
 //! point. A body is human when its trunk stands over its legs: a quadruped's does not.
 
-use glam::DVec3;
 use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
 
+use crate::body_plan::{self, TOE_DISTANCE, farthest, middle};
 use crate::error::{Refusal, Setting};
 use crate::joint_names::Part;
-use crate::limb::{Limb, LimbPair, Shape};
+use crate::limb::{Limb, LimbPair};
+use crate::shape::Shape;
 use crate::source_clip::SourceClip;
 use crate::take::JointMap;
 
 /// Least mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders). People walk and run at 0.9–1, crouch
 /// and bow at 0.64; a fox walks at 0.1 and gallops at 0.28.
 const UPRIGHT_COSINE: f64 = 0.45;
-/// The shortest arms, over the legs (people 0.65): what is shorter is a pair of fingers.
-const ARM_OVER_LEG: f64 = 0.25;
+/// Fingertips are at most this share of the arm from the wrist (people 0.33), toe tips this share of the leg from the
+/// ball: what is farther off is held or worn.
+const HAND_REACH: f64 = 0.6;
+const FOOT_REACH: f64 = 0.4;
 /// More joints than any rig with face and fingers (165 in the development set).
 pub(crate) const MAX_JOINTS: usize = 4096;
-/// A toe joint is at least this share of the shank away from the ankle.
-const TOE_DISTANCE: f64 = 0.12;
 /// Knees and elbows are bones' ends: their bones' lengths vary less than this (translating knees of `misc/ezgi_walk1`: 5 %).
 const LOOSE_BONE: f64 = 0.15;
 
@@ -46,6 +47,8 @@ pub struct Roles {
     pub soles: [Option<[usize; 3]>; 2],
     /// `[left, right]`: the heel's own joint, where the clip has one.
     pub heels: [Option<usize>; 2],
+    /// Names call left what stands on the right: the file is mirrored, and sides are as the body stands.
+    pub names_belied: bool,
 }
 
 impl Roles {
@@ -73,17 +76,25 @@ pub fn find_roles(clip: &SourceClip, known: &JointMap) -> Result<Roles, Refusal>
     }
     let shape = Shape::new(clip);
     let (known_legs, known_arms) = (known_pair(&shape, known, LEGS)?, known_pair(&shape, known, ARMS)?);
-    let mut legs = known_legs.clone().map_or_else(|| find_legs(&shape), Ok)?;
-    let mut arms = known_arms.clone().map_or_else(|| find_arms(&shape, &legs), Ok)?;
+    let [mut legs, mut arms] = body_plan::find(&shape, known_legs.clone(), known_arms.clone())?;
+    if known_legs.is_none() {
+        check_bones(&shape, &legs)?;
+    }
     check_upright(&shape, &legs, &arms)?;
-    if known_legs.is_none() && legs_swapped(&shape, &legs, &arms) {
+    let (swapped, belied) = body_plan::legs_swapped(&shape, &legs, &arms);
+    if known_legs.is_none() && swapped {
         legs.limbs.swap(0, 1);
     }
-    if known_arms.is_none() && arms_swapped(&shape, &legs, &arms) {
+    if known_arms.is_none() && body_plan::arms_swapped(&shape, &legs, &arms) {
         arms.limbs.swap(0, 1);
     }
-    let mut roles =
-        Roles { joints: [None; JOINT_COUNT], ends: [None; JOINT_COUNT], soles: [None; 2], heels: [None; 2] };
+    let mut roles = Roles {
+        joints: [None; JOINT_COUNT],
+        ends: [None; JOINT_COUNT],
+        soles: [None; 2],
+        heels: [None; 2],
+        names_belied: known_legs.is_none() && belied,
+    };
     assign_limbs(&shape, &mut roles, &legs, &arms);
     assign_trunk(&shape, &mut roles, &legs, &arms);
     for (role, known) in roles.joints.iter_mut().zip(known) {
@@ -113,45 +124,19 @@ fn known_pair(shape: &Shape, known: &JointMap, roles: [[Joint; 3]; 2]) -> Result
     Ok(Some(LimbPair::known(shape, joints)))
 }
 
-fn find_legs(shape: &Shape) -> Result<LimbPair, Refusal> {
-    let pair = shape.best_pair([Part::Thigh, Part::Shank, Part::Foot], |_| true);
-    let Some(pair) = pair else {
-        let reason = "no two mirrored limbs with hip, knee and ankle among the joints".to_owned();
-        return Err(Refusal::NoLegs { reason });
-    };
-    for limb in &pair.limbs {
+fn check_bones(shape: &Shape, legs: &LimbPair) -> Result<(), Refusal> {
+    for limb in &legs.limbs {
         let [hip, knee, ankle] = limb.joints;
         if shape.looseness(hip, knee).max(shape.looseness(knee, ankle)) > LOOSE_BONE {
             let name = &shape.clip.joints[knee].name;
             return Err(Refusal::NoLegs { reason: format!("the bones at `{name}` change their length") });
         }
     }
-    Ok(pair)
-}
-
-fn find_arms(shape: &Shape, legs: &LimbPair) -> Result<LimbPair, Refusal> {
-    let taken: Vec<usize> = legs.limbs.iter().flat_map(|limb| shape.subtree(limb.joints[0])).collect();
-    let above: Vec<usize> = legs.limbs.iter().flat_map(|limb| shape.ancestors(limb.joints[0])).collect();
-    let free = |joint: usize| !taken.contains(&joint) && !above.contains(&joint);
-    let long_enough = |pair: &LimbPair| pair.limbs[0].length >= ARM_OVER_LEG * legs.limbs[0].length;
-    shape.best_pair([Part::UpperArm, Part::Forearm, Part::Hand], free).filter(long_enough).ok_or_else(|| {
-        Refusal::NoArms { reason: "no two mirrored limbs with shoulder, elbow and wrist beside the legs".to_owned() }
-    })
-}
-
-fn middle(shape: &Shape, frame: usize, pair: &LimbPair, bone: usize) -> DVec3 {
-    let [first, second] = pair.limbs.each_ref().map(|limb| shape.clip.position(frame, limb.joints[bone]));
-    0.5 * (first + second)
+    Ok(())
 }
 
 fn check_upright(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> Result<(), Refusal> {
-    let tips = legs.limbs.each_ref().map(|limb| toe_tip(shape, limb));
-    let toes = |frame: usize| 0.5 * tips.map(|tip| shape.clip.position(frame, tip)).into_iter().sum::<DVec3>();
-    let legs_up = shape.mean_vector(|frame| middle(shape, frame, legs, 0) - toes(frame));
-    let cosine = shape.mean(|frame| {
-        let trunk = middle(shape, frame, arms, 0) - middle(shape, frame, legs, 0);
-        legs_up.normalize_or_zero().dot(trunk.normalize_or_zero())
-    });
+    let cosine = body_plan::upright_cosine(shape, legs, arms);
     if cosine < UPRIGHT_COSINE {
         let degrees = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
         let reason =
@@ -159,46 +144,6 @@ fn check_upright(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> Result<(), 
         return Err(Refusal::NotUpright { reason });
     }
     Ok(())
-}
-
-/// Whether the pair stands as right, left. By names where they say; else left is where up × forward points.
-fn legs_swapped(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> bool {
-    if let Some(side) = shape.hints[legs.limbs[0].joints[1]].side {
-        return side == Side::Right;
-    }
-    let tips = legs.limbs.each_ref().map(|limb| toe_tip(shape, limb));
-    let lateral = shape.mean(|frame| {
-        let up = middle(shape, frame, arms, 0) - middle(shape, frame, legs, 2);
-        let forward: DVec3 =
-            legs.limbs.iter().zip(tips).map(|(limb, tip)| toe_direction(shape, frame, limb, tip)).sum();
-        let across =
-            shape.clip.position(frame, legs.limbs[0].joints[0]) - shape.clip.position(frame, legs.limbs[1].joints[0]);
-        up.cross(forward).normalize_or_zero().dot(across)
-    });
-    lateral < 0.0
-}
-
-/// Arms without sides in their names lie on the side of the leg that is nearer in the pelvis–chest frame: across the same way.
-fn arms_swapped(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> bool {
-    if let Some(side) = shape.hints[arms.limbs[0].joints[1]].side {
-        return side == Side::Right;
-    }
-    let across = |frame: usize, pair: &LimbPair| {
-        shape.clip.position(frame, pair.limbs[0].joints[0]) - shape.clip.position(frame, pair.limbs[1].joints[0])
-    };
-    shape.mean(|frame| across(frame, legs).dot(across(frame, arms))) < 0.0
-}
-
-/// The joint of a foot that is farthest from the ankle; the ankle where there is none.
-fn toe_tip(shape: &Shape, limb: &Limb) -> usize {
-    farthest(shape, limb.joints[2], |_| true).unwrap_or(limb.joints[2])
-}
-
-/// From the ankle to the end of the foot, or, where there is no foot, the way the knee points off the leg's line.
-fn toe_direction(shape: &Shape, frame: usize, limb: &Limb, tip: usize) -> DVec3 {
-    let [hip, knee, ankle] = limb.joints.map(|joint| shape.clip.position(frame, joint));
-    let end = shape.clip.position(frame, tip);
-    if (end - ankle).length() > TOE_DISTANCE * limb.length { end - ankle } else { knee - 0.5 * (hip + ankle) }
 }
 
 fn assign_limbs(shape: &Shape, roles: &mut Roles, legs: &LimbPair, arms: &LimbPair) {
@@ -212,7 +157,8 @@ fn assign_limbs(shape: &Shape, roles: &mut Roles, legs: &LimbPair, arms: &LimbPa
         let above = shape.ancestors(shoulder).into_iter().skip(1).take_while(|&joint| joint != arms.fork).last();
         roles.joints[CLAVICLES[side].index()] = above;
         let hand = arms.limbs[side].joints[2];
-        roles.ends[ARMS[side][2].index()] = farthest(shape, hand, |joint| !shape.says(joint, Part::Helper));
+        roles.ends[ARMS[side][2].index()] =
+            farthest(shape, hand, HAND_REACH * arms.limbs[side].length, |joint| !shape.says(joint, Part::Helper));
         assign_foot(shape, roles, side, &legs.limbs[side]);
     }
 }
@@ -228,7 +174,7 @@ fn assign_foot(shape: &Shape, roles: &mut Roles, side: usize, leg: &Limb) {
     let toe = below.iter().copied().find(|joint| on_foot(joint) && far(joint));
     let Some(toe) = toe else { return };
     roles.joints[Joint::TOES[side].index()] = Some(toe);
-    roles.ends[Joint::TOES[side].index()] = farthest(shape, toe, |joint| on_foot(&joint));
+    roles.ends[Joint::TOES[side].index()] = farthest(shape, toe, FOOT_REACH * leg.length, |joint| on_foot(&joint));
 }
 
 /// Leaf joints named `…Sole` for heel, ball and toe tip.
@@ -240,13 +186,6 @@ fn soles(shape: &Shape, foot: &[usize]) -> Option<[usize; 3]> {
         })
     };
     Some([named("heel")?, named("ball")?, named("toe")?])
-}
-
-/// The joint below (or an end site) that is farthest away, if it is away at all.
-fn farthest(shape: &Shape, from: usize, counts: impl Fn(usize) -> bool) -> Option<usize> {
-    let below = shape.subtree(from).into_iter().skip(1).filter(|&joint| counts(joint));
-    let far = below.max_by(|&a, &b| shape.distance(from, a).total_cmp(&shape.distance(from, b)))?;
-    (shape.distance(from, far) > 1e-9).then_some(far)
 }
 
 fn assign_trunk(shape: &Shape, roles: &mut Roles, legs: &LimbPair, arms: &LimbPair) {

@@ -134,7 +134,12 @@ fn every_locomotion_clip_imports_with_its_measured_parameters_axes_and_units() {
 fn what_is_no_human_motion_is_refused_by_name_and_reason() {
     let Some(folder) = mocap("what_is_no_human_motion_is_refused_by_name_and_reason") else { return };
     for animation in import(&folder.join("gltf/Fox.glb")).unwrap() {
-        assert!(matches!(animation.outcome, Err(Refusal::NotUpright { .. })), "{}", animation.clip);
+        assert!(
+            matches!(animation.outcome, Err(Refusal::NotUpright { .. })),
+            "{}: {:?}",
+            animation.clip,
+            animation.outcome.map(|human| human.source)
+        );
     }
     for toy in ["bvh_anim_test_simple.bvh", "rotation_first_root.bvh"] {
         let imports = import(&folder.join("quirks").join(toy)).unwrap();

@@ -1,0 +1,52 @@
+//! Claims about files that nobody here has seen: one performer in the skeletons, axes, units, channels and habits of
+//! other tools, with twist bones, props, skirts, hair and wings, imports as what it is.
+//!
+//! The performer is a bundled clip, its parameters those of `assets/clips/README.md`. Some hundred combinations run
+//! always; `cargo test --test zoo -- --ignored` runs thousands.
+
+mod zoo {
+    pub(crate) mod body;
+    pub(crate) mod combination;
+    pub(crate) mod file;
+    pub(crate) mod names;
+    pub(crate) mod rig;
+}
+
+use std::collections::BTreeMap;
+
+use zoo::combination::{Combination, Dice};
+
+fn check_all(seeds: std::ops::Range<u64>) {
+    let mut failures: Vec<String> = Vec::new();
+    let mut by_word: BTreeMap<String, [usize; 2]> = BTreeMap::new();
+    let count = seeds.end - seeds.start;
+    for seed in seeds {
+        let combination = Combination::thrown(&mut Dice::new(seed));
+        let outcome = combination.check();
+        for word in combination.words() {
+            by_word.entry(word).or_default()[usize::from(outcome.is_err())] += 1;
+        }
+        failures
+            .extend(outcome.err().map(|problem| format!("{seed}: {problem}\n    {}", combination.words().join(", "))));
+    }
+    for (word, [good, bad]) in &by_word {
+        if *bad > 0 {
+            println!("{bad:5} of {:5} {word}", good + bad);
+        }
+    }
+    let shown = failures.iter().take(40).cloned().collect::<Vec<_>>().join("\n");
+    assert!(failures.is_empty(), "{} of {count} failed:\n{shown}", failures.len());
+}
+
+#[test]
+fn every_tools_human_imports_as_what_it_is() {
+    check_all(0..100);
+}
+
+#[test]
+#[ignore = "minutes: thousands of combinations"]
+fn thousands_of_combinations_import_as_what_they_are() {
+    let [first, last] =
+        ["ZOO_FIRST", "ZOO_LAST"].map(|name| std::env::var(name).ok().and_then(|text| text.parse().ok()));
+    check_all(first.unwrap_or(0)..last.unwrap_or(5000));
+}

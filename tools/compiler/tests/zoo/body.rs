@@ -1,0 +1,156 @@
+//! The motion that every rig of the zoo performs: a bundled clip, its parameters known from `assets/clips/README.md`,
+//! as places and turns of the performer's parts. Metres; x to the left, y up, z forward.
+
+use std::path::Path;
+
+use glam::{DQuat, DVec3};
+use motiondb_compiler::bvh;
+
+pub(crate) const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
+
+/// The performer's parts, by their names in the bundled clips; a parent before its children.
+pub(crate) const PARTS: [&str; 22] = [
+    "Hips",
+    "Spine",
+    "Spine1",
+    "Spine2",
+    "Neck",
+    "Head",
+    "LeftShoulder",
+    "LeftArm",
+    "LeftForeArm",
+    "LeftHand",
+    "RightShoulder",
+    "RightArm",
+    "RightForeArm",
+    "RightHand",
+    "LeftUpLeg",
+    "LeftLeg",
+    "LeftFoot",
+    "LeftToeBase",
+    "RightUpLeg",
+    "RightLeg",
+    "RightFoot",
+    "RightToeBase",
+];
+const PARENTS: [usize; 22] = [0, 0, 1, 2, 3, 4, 3, 6, 7, 8, 3, 10, 11, 12, 0, 14, 15, 16, 0, 18, 19, 20];
+
+/// The number of a part.
+pub(crate) fn part(name: &str) -> usize {
+    PARTS.iter().position(|part| *part == name).expect("a name of PARTS")
+}
+
+/// A clip, its frames at any rate.
+#[derive(Clone)]
+pub(crate) struct Performance {
+    pub frame_rate_hz: f64,
+    /// Of each part from its parent, in the parent's frame.
+    pub offsets_m: [DVec3; 22],
+    pub poses: Vec<Pose>,
+    /// Forward speed, m/s; turn rate, degrees a second; speed to the left, m/s.
+    pub truth: [f64; 3],
+}
+
+#[derive(Clone)]
+pub(crate) struct Pose {
+    pub hips_m: DVec3,
+    /// Against the T-pose that faces z.
+    pub turns: [DQuat; 22],
+}
+
+impl Performance {
+    /// `walk_110` …, at 30 frames a second.
+    pub(crate) fn read(clip: &str) -> Self {
+        let path = Path::new(CLIPS).join(format!("{clip}.bvh"));
+        let source = bvh::read(&path, &std::fs::read(&path).unwrap()).unwrap();
+        let joints = PARTS.map(|name| source.joints.iter().position(|joint| joint.name == name).unwrap());
+        let pose = |frame: usize| Pose {
+            hips_m: 0.01 * source.position(frame, joints[0]),
+            turns: joints.map(|joint| source.orientation(frame, joint)),
+        };
+        let offset = |part: usize| {
+            let parent = joints[PARENTS[part]];
+            let bone = source.position(0, joints[part]) - source.position(0, parent);
+            0.01 * (source.orientation(0, parent).inverse() * bone)
+        };
+        Self {
+            frame_rate_hz: source.frame_rate_hz,
+            offsets_m: std::array::from_fn(offset),
+            poses: (0..source.frame_count()).map(pose).collect(),
+            truth: truth(clip),
+        }
+    }
+
+    /// Where the parts are.
+    pub(crate) fn places_m(&self, pose: &Pose) -> [DVec3; 22] {
+        let mut places = [pose.hips_m; 22];
+        for part in 1..22 {
+            let parent = PARENTS[part];
+            places[part] = places[parent] + pose.turns[parent] * self.offsets_m[part];
+        }
+        places
+    }
+
+    /// The same seconds at another rate.
+    pub(crate) fn resampled(&self, frame_rate_hz: f64) -> Self {
+        let count = ((self.poses.len() - 1) as f64 * frame_rate_hz / self.frame_rate_hz) as usize + 1;
+        let pose = |frame: usize| {
+            let at = frame as f64 * self.frame_rate_hz / frame_rate_hz;
+            let first = (at as usize).min(self.poses.len() - 2);
+            self.poses[first].lerp(&self.poses[first + 1], at - first as f64)
+        };
+        Self { frame_rate_hz, poses: (0..count).map(pose).collect(), ..self.clone() }
+    }
+
+    /// Everything seen in a mirror, left and right exchanged: another true clip.
+    pub(crate) fn mirrored(&self) -> Self {
+        let opposite = |part: usize| {
+            let name = PARTS[part];
+            if name.starts_with("Left") {
+                part + 4
+            } else if name.starts_with("Right") {
+                part - 4
+            } else {
+                part
+            }
+        };
+        let turn = |turn: DQuat| DQuat::from_xyzw(turn.x, -turn.y, -turn.z, turn.w);
+        let flip = DVec3::new(-1.0, 1.0, 1.0);
+        let pose = |pose: &Pose| Pose {
+            hips_m: flip * pose.hips_m,
+            turns: std::array::from_fn(|part| turn(pose.turns[opposite(part)])),
+        };
+        let [forward, turn_rate, left] = self.truth;
+        Self {
+            offsets_m: std::array::from_fn(|part| flip * self.offsets_m[opposite(part)]),
+            poses: self.poses.iter().map(pose).collect(),
+            truth: [forward, -turn_rate, -left],
+            ..*self
+        }
+    }
+
+    /// The pose of all offsets, standing where the first frame does.
+    pub(crate) fn t_pose(&self) -> Pose {
+        let hips_m = self.poses[0].hips_m;
+        let facing = self.poses[0].turns[0] * DVec3::Z;
+        let turn = DQuat::from_rotation_y(facing.x.atan2(facing.z));
+        Pose { hips_m: hips_m.with_y(0.93), turns: [turn; 22] }
+    }
+}
+
+impl Pose {
+    pub(crate) fn lerp(&self, other: &Self, share: f64) -> Self {
+        Self {
+            hips_m: self.hips_m.lerp(other.hips_m, share),
+            turns: std::array::from_fn(|part| self.turns[part].slerp(other.turns[part], share)),
+        }
+    }
+}
+
+/// The row of the README.
+fn truth(clip: &str) -> [f64; 3] {
+    let table = std::fs::read_to_string(Path::new(CLIPS).join("README.md")).unwrap();
+    let row = table.lines().find(|line| line.starts_with(&format!("| {clip}."))).unwrap();
+    let number = |column: usize| row.split('|').nth(column).unwrap().trim().parse::<f64>().unwrap();
+    [number(2), number(3), number(4)]
+}
