@@ -4,7 +4,7 @@
 //! the payload (u32), payload. Nothing is allocated or decoded before all four agree with the bytes that are there.
 
 /// Bytes before the payload.
-const HEADER_LENGTH: usize = 24;
+pub const HEADER_LENGTH: usize = 24;
 /// Bytes of the header that the checksum covers.
 const CHECKED_LENGTH: usize = 20;
 
@@ -12,7 +12,7 @@ const CHECKED_LENGTH: usize = 20;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ContainerError {
     /// Foreign content.
-    #[error("it does not begin with the mark of such a file")]
+    #[error("it does not begin with the mark (magic) of such a file")]
     Magic,
     /// Written by another version.
     #[error("it has format version {found}; this program reads version {wanted}")]
@@ -23,7 +23,7 @@ pub enum ContainerError {
         wanted: u32,
     },
     /// Fewer or more bytes than the header promises.
-    #[error("it should hold {promised} bytes after its header, but holds {present}")]
+    #[error("its length is wrong: after its header it should hold {promised} bytes, but holds {present}")]
     Length {
         /// By the header.
         promised: u64,

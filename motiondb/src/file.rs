@@ -7,7 +7,8 @@ use crate::container::{self, ContainerError};
 use crate::motion_db::MotionDb;
 use crate::{atomic_file, input_file, validate};
 
-const MAGIC: [u8; 8] = *b"FBCROWDB";
+/// The mark that a database file begins with.
+pub const MAGIC: [u8; 8] = *b"FBCROWDB";
 /// Format version (`definitions.md`, "Files").
 pub const VERSION: u32 = 1;
 /// Decoding stops past this many bytes: 4096 examples of 64 rows are 100 MB.
@@ -41,7 +42,10 @@ pub enum FileError {
         source: ContainerError,
     },
     /// A whole container whose payload is no database.
-    #[error("{path}: not a readable motion database: {reason}; compile it again with `fbcrowd compile`")]
+    #[error(
+        "{path}: not a readable motion database: its content cannot be decoded: {reason}; compile it again with \
+         `fbcrowd compile`"
+    )]
     Decode {
         /// The file.
         path: PathBuf,
