@@ -62,13 +62,13 @@ pub(crate) enum Style {
 
 /// A leg in the sagittal plane, degrees.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LegFlexion {
+pub struct LegFlexion {
     /// Of the thigh against the vertical, forward positive: hip flexion less pelvic tilt.
-    pub(crate) thigh_deg: f64,
+    pub thigh_deg: f64,
     /// Of the knee.
-    pub(crate) knee_deg: f64,
+    pub knee_deg: f64,
     /// Dorsiflexion of the ankle.
-    pub(crate) ankle_deg: f64,
+    pub ankle_deg: f64,
 }
 
 impl Style {
