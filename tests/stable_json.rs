@@ -121,3 +121,49 @@ fn measure_and_the_timing_report_keep_their_keys() {
     assert!(measures["mean_time_to_goal_s"].is_null());
     assert_eq!(fs::read_to_string(&trajectories).unwrap().lines().count(), 31);
 }
+
+#[test]
+fn compile_reports_every_clip_once_with_quality_stages_and_what_to_do() {
+    let folder = folder("compile_keys");
+    let broken = folder.join("broken.bvh");
+    fs::write(&broken, "no clip").unwrap();
+    let database = folder.join("motion.fbdb");
+    let arguments = ["compile", text(&broken), "assets/clips/side_060_left.bvh", "-o", text(&database), "--json"];
+    let report = fbcrowd(&arguments).expect_code(1).json();
+    let of_report = [
+        "output",
+        "example_count",
+        "mirror_count",
+        "simplex_count",
+        "refused",
+        "unused",
+        "warnings",
+        "used",
+        "quality",
+        "findings",
+        "coverage",
+        "stages",
+        "next",
+    ];
+    check_keys(&report, &of_report);
+    check_keys(&report["refused"][0], &["file", "clip", "reason"]);
+    check_keys(&report["used"][0], &["file", "clip", "examples"]);
+    let of_example = ["name", "mirrored", "window_s", "speed_mps", "turn_rate_rad_s", "strafe_mps"];
+    check_keys(&report["used"][0]["examples"][0], &of_example);
+    let of_quality = [
+        "example",
+        "planted_slide_cm_s",
+        "planted_share",
+        "seam_angle_ratio",
+        "seam_velocity_ratio",
+        "penetration_mm",
+        "knee_flexion_min_deg",
+        "leg_extension_max",
+        "range_excess_deg",
+        "range_excess_joint",
+    ];
+    check_keys(&report["quality"][0], &of_quality);
+    check_keys(&report["stages"][0], &["name", "seconds"]);
+    assert_eq!((&report["example_count"], &report["mirror_count"]), (&Value::from(2), &Value::from(1)));
+    assert_eq!(report["used"].as_array().map(Vec::len), Some(1));
+}

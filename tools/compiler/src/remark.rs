@@ -4,8 +4,10 @@
 
 /// Begins the reason why a clip gives no example.
 pub const NO_EXAMPLE: &str = "no example: ";
+/// Ends the remark that a gait is too fast or too slow for any human.
+pub const FRAME_TIME_QUESTION: &str = "is the frame time true?";
 /// What the compiler does with every clip like it: nothing is wrong.
-const ROUTINE: [&str; 3] = ["taken as 0", "come out of a T-pose", "is a separate pose and is not used"];
+const ROUTINE: [&str; 4] = ["taken as 0", "and are not used", "and is not used", "left out"];
 
 /// How much a remark matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -2,18 +2,19 @@
 
 use std::path::PathBuf;
 
-use motiondb::motion_db::MotionDb;
 use motiondb::velocity_hull::Construction;
 use motiondb_compiler::compile::{self, Compiled};
+use motiondb_compiler::compile_error::CompileError;
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
 use motiondb_compiler::manifest::Manifest;
-use motiondb_compiler::refused::Refused;
 use motiondb_compiler::progress::Event;
+use motiondb_compiler::refused::Refused;
 
 use crate::failure::{Answer, Failure};
 use crate::output;
 use crate::progress::Progress;
+use crate::stages::Stopwatch;
 
 /// A folder's file of this name says what of its clips need not be found.
 const MANIFEST: &str = "manifest.toml";
@@ -61,17 +62,19 @@ pub(crate) struct Overrides {
     pub(crate) velocity_hull: Option<Construction>,
 }
 
-/// Compiles clips; what was refused is said on standard error, and makes the answer no.
-pub(crate) fn compile(paths: &[PathBuf], overrides: &Overrides) -> Result<(MotionDb, Answer), Failure> {
+/// Compiles clips; `stopwatch` takes the time of each stage.
+pub(crate) fn compile(paths: &[PathBuf], overrides: &Overrides, stopwatch: &Stopwatch) -> Result<Compiled, Failure> {
     let mut manifest = manifest(paths)?;
     if let Some(construction) = overrides.velocity_hull {
         manifest.options.velocity_hull = construction;
     }
     let progress = Progress::new("clips", manifest.takes.len());
-    let compiled = compile::compile_manifest(&manifest, &|event| advance(&progress, event));
+    let compiled = compile::compile_manifest(&manifest, &|event| {
+        stopwatch.watch(event);
+        advance(&progress, event);
+    });
     progress.finish();
-    let Compiled { db, refused } = compiled?;
-    Ok((db, say_refused(&refused)))
+    Ok(compiled?)
 }
 
 /// Imports clips without making a database of them.
@@ -82,7 +85,7 @@ pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Answer), Fail
     progress.finish();
     let (clips, refused) = imported?;
     if clips.is_empty() {
-        return Err(Failure::bad(refused.iter().map(Refused::to_string).collect::<Vec<_>>().join("\n")));
+        return Err(CompileError::NoExample { reasons: refused }.into());
     }
     Ok((clips, say_refused(&refused)))
 }
@@ -94,9 +97,15 @@ fn advance(progress: &Progress, event: Event) {
     }
 }
 
-fn say_refused(refused: &[Refused]) -> Answer {
+/// Says on standard error what was refused, which makes the answer no.
+pub(crate) fn say_refused(refused: &[Refused]) -> Answer {
     for message in refused {
         output::say(&format!("refused: {message}"));
     }
+    answer(refused)
+}
+
+/// Whether all was used.
+pub(crate) fn answer(refused: &[Refused]) -> Answer {
     if refused.is_empty() { Answer::Yes } else { Answer::No }
 }

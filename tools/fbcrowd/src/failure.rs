@@ -9,7 +9,7 @@ use motiondb::source_text::Invalid;
 use motiondb_compiler::compile_error::CompileError;
 use motiondb_compiler::manifest_error::ManifestError;
 
-use crate::output;
+use crate::{compile_text, output};
 
 /// The text around a mistake is shown only where all its lines are shorter: nobody reads longer ones.
 const SHOWN_LINE_BYTES: usize = 1_000;
@@ -86,6 +86,11 @@ impl From<CompileError> for Failure {
     fn from(error: CompileError) -> Self {
         match error {
             CompileError::Manifest(error) => error.into(),
+            // The reporter would wrap the list.
+            CompileError::NoExample { reasons } => {
+                output::say(&compile_text::reasons(reasons));
+                Self::bad("no clip gives an example; give clips of steady walking, running, turning or standing")
+            }
             other => Self::bad(other.to_string()),
         }
     }

@@ -4,15 +4,21 @@
 //! yes; 1 the answer is no, or an output was written though some input was refused; 2 bad usage or input, nothing
 //! written.
 
+mod advice;
 mod cmd;
+mod compile_report;
+mod compile_text;
 mod compiling;
+mod example_table;
 mod failure;
+mod grouping;
 mod leave_one_out;
 mod output;
 mod progress;
 mod rendering;
 mod report;
 mod simulation;
+mod stages;
 
 use std::process::ExitCode;
 
@@ -41,6 +47,7 @@ enum Command {
     Simulate(cmd::simulate::Args),
     Measure(cmd::measure::Args),
     Render(cmd::render::Args),
+    Bench(cmd::bench::Args),
     Completions(cmd::completions::Args),
 }
 
@@ -63,6 +70,7 @@ fn dispatch(command: Command) -> Result<Answer, Failure> {
         Command::Simulate(args) => cmd::simulate::run(&args),
         Command::Measure(args) => cmd::measure::run(&args),
         Command::Render(args) => cmd::render::run(&args),
+        Command::Bench(args) => cmd::bench::run(&args),
         Command::Completions(args) => cmd::completions::run(&args),
     }
 }

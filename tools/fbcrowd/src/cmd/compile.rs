@@ -1,13 +1,17 @@
 //! `fbcrowd compile`: clips in, motion database out.
 
+use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
+use motiondb::file;
 use motiondb::velocity_hull::Construction;
-use motiondb::{coverage, file};
+use motiondb_compiler::compile::Compiled;
 
+use crate::compile_report::CompileReport;
 use crate::compiling::{self, Overrides};
 use crate::failure::{Answer, Failure};
-use crate::output;
+use crate::stages::Stopwatch;
+use crate::{compile_text, output};
 
 /// Compile motion clips into a database.
 ///
@@ -28,6 +32,15 @@ pub(crate) struct Args {
     /// Write nothing where any input is refused.
     #[arg(long)]
     strict: bool,
+    /// Print the report as JSON: `output, example_count, mirror_count, simplex_count, refused[] {file, clip, reason},
+    /// unused[] {file, clip, reason}` (human clips that give no example), `warnings[] {file, clip, note, text}` (a note
+    /// asks for nothing), `used[] {file, clip, examples[] {name, mirrored, window_s, speed_mps, turn_rate_rad_s,
+    /// strafe_mps}}`, `quality[] {example, planted_slide_cm_s, planted_share, seam_angle_ratio, seam_velocity_ratio,
+    /// penetration_mm, knee_flexion_min_deg, leg_extension_max, range_excess_deg, range_excess_joint}`, `findings[]
+    /// {example, measure, value, threshold, unit, sentence}`, `coverage[] {lack, sentence}`, `stages[] {name, seconds}`,
+    /// `next[]`.
+    #[arg(long)]
+    json: bool,
     /// How the motions bound velocities, whatever the manifest says.
     #[arg(long, value_enum, value_name = "SETS")]
     velocity_hull: Option<VelocitySets>,
@@ -54,26 +67,24 @@ impl From<VelocitySets> for Construction {
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     output::spare(&args.output, args.clips.iter().map(PathBuf::as_path))?;
     let overrides = Overrides { velocity_hull: args.velocity_hull.map(Construction::from) };
-    let (db, answer) = compiling::compile(&args.clips, &overrides)?;
+    let stopwatch = Stopwatch::default();
+    let Compiled { db, refused } = compiling::compile(&args.clips, &overrides, &stopwatch)?;
+    // On a terminal the report says it.
+    let answer = if args.strict || !io::stdout().is_terminal() {
+        compiling::say_refused(&refused)
+    } else {
+        compiling::answer(&refused)
+    };
     if args.strict && answer == Answer::No {
         return Err(Failure::bad("some input was refused, and --strict allows none; repair it or leave it out"));
     }
+    stopwatch.begin("writing");
     file::write(&args.output, &db)?;
-    for source in &db.sources {
-        for warning in &source.warnings {
-            output::say(&format!("warning: {} {}: {warning}", source.file, source.clip));
-        }
+    let report = CompileReport::new(&args.output, &db, refused, stopwatch.finish());
+    if args.json {
+        output::print_json(&report)?;
+    } else {
+        output::print(&compile_text::text(&report))?;
     }
-    for thin in coverage::coverage(&db) {
-        output::say(&format!("note: {}", thin.sentence));
-    }
-    let mirrors = db.examples.iter().filter(|example| example.mirrored).count();
-    output::print(&format!(
-        "{}: {} examples ({mirrors} of them mirrored) from {} clips, {} simplices",
-        args.output.display(),
-        db.examples.len(),
-        db.sources.len(),
-        db.blend_space.simplices().count(),
-    ))?;
     Ok(answer)
 }

@@ -1,5 +1,6 @@
 //! One file a subcommand: its arguments, and a `run` that does nothing but lead from one stage to the next.
 
+pub(crate) mod bench;
 pub(crate) mod clips;
 pub(crate) mod compile;
 pub(crate) mod completions;

@@ -7,12 +7,14 @@ use fbcrowd_render::sequence::{Format, SequenceOptions};
 use fbcrowd_sim::metrics;
 use fbcrowd_sim::scenario_file::{self, MotionSource};
 use motiondb::file;
+use motiondb_compiler::compile::Compiled;
 
 use crate::cmd::measure;
 use crate::compiling::{self, Overrides};
 use crate::failure::{Answer, Failure};
 use crate::rendering::Rendered;
 use crate::simulation::Timings;
+use crate::stages::Stopwatch;
 use crate::{output, rendering, simulation};
 
 /// Compile a scenario's clips, simulate it, and render it.
@@ -59,7 +61,8 @@ fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Fa
         }
         MotionSource::Clips(path) => path,
     };
-    let (db, answer) = compiling::compile(&[clips], &Overrides::default())?;
+    let Compiled { db, refused } = compiling::compile(&[clips], &Overrides::default(), &Stopwatch::default())?;
+    let answer = compiling::say_refused(&refused);
     fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     let path = folder.join("motion.fbdb");
     file::write(&path, &db)?;

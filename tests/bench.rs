@@ -1,0 +1,66 @@
+//! `fbcrowd bench` through the built binary: what it prints, and which exit code it ends with.
+
+mod support;
+
+use std::fs;
+
+use serde_json::Value;
+use support::{fbcrowd, folder, repository, shared, text};
+
+/// Fails unless there are bars, each with its keys, and the exit code is what they say.
+#[track_caller]
+fn check_bars(arguments: &[&str]) -> Value {
+    let outcome = fbcrowd(arguments);
+    let found = outcome.json();
+    let bars = found["bars"].as_array().expect("bars");
+    assert!(!bars.is_empty());
+    for bar in bars {
+        let mut keys: Vec<&str> = bar.as_object().expect("an object").keys().map(String::as_str).collect();
+        keys.sort_unstable();
+        assert_eq!(keys, ["limit", "measured", "met", "name"]);
+    }
+    let met = bars.iter().all(|bar| bar["met"] == true);
+    outcome.expect_code(if met { 0 } else { 1 });
+    found
+}
+
+#[test]
+fn compiling_a_folder_is_timed_and_gives_the_same_bytes_for_any_threads_and_order() {
+    let clips = folder("bench_compile");
+    for clip in ["walk_080.bvh", "walk_110.bvh", "idle.bvh"] {
+        fs::copy(repository().join("assets/clips").join(clip), clips.join(clip)).unwrap();
+    }
+    let found = check_bars(&["bench", "compile", "--mocap", text(&clips), "--json"]);
+    assert_eq!(found["examples"], 3);
+    assert!(found["bars"].as_array().unwrap().iter().all(|bar| bar["met"] == true), "{found}");
+    assert!(found["goals"][0]["measured"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn importing_is_measured_against_an_index_of_truths() {
+    let clips = folder("bench_import");
+    fs::copy(repository().join("assets/clips/walk_110.bvh"), clips.join("walk.bvh")).unwrap();
+    let index = |speed: &str| {
+        let header = "file,clip,duration_s,up,m_per_unit,v_fwd_mps,turn_degps,v_left_mps,implied_fwd_mps,implied_left_mps,locomotion";
+        fs::write(clips.join("index.csv"), format!("{header}\nwalk.bvh,,4.8,+Y,0.01,{speed},0.0,0.0,,,yes\n")).unwrap();
+        check_bars(&["bench", "import", "--mocap", text(&clips), "--json"])
+    };
+    let right = index("1.1");
+    assert_eq!(right["bars"][0]["met"], true, "{right}");
+    let wrong = index("1.3");
+    assert_eq!(wrong["bars"][0]["met"], false, "{wrong}");
+    assert!(wrong["rows"][0]["excess"].as_f64().unwrap() > 1.0);
+}
+
+#[test]
+fn a_folder_without_index_is_bad_input() {
+    let clips = folder("bench_no_index");
+    fbcrowd(&["bench", "import", "--mocap", text(&clips)]).expect_code(2).says(&["index.csv"]);
+}
+
+#[test]
+fn leaving_out_is_measured_on_three_sets() {
+    let Some(mocap) = shared("leaving_out_is_measured_on_three_sets", "mocap") else { return };
+    let found = check_bars(&["bench", "leave-one-out", "--mocap", text(&mocap), "--json"]);
+    assert_eq!(found["sets"].as_array().unwrap().len(), 3);
+}

@@ -1,0 +1,50 @@
+//! How fast BVH files are read, against `bvh_anim` alone: the same bytes, the same run, turn about.
+//!
+//! Ours is bytes to [`crate::source_clip::SourceClip`]: checked, parsed and posed. `bvh_anim` by itself only parses. It
+//! panics on some files that are read here, or takes their memory by what they claim: those it gets in the canonical
+//! text that the importer makes for it.
+
+use std::hint::black_box;
+use std::path::Path;
+
+use crate::error::ImportError;
+use crate::{bvh, bvh_prepass, quiet_unwind};
+
+/// Seconds that both readers took for one file, the median of several times.
+#[derive(Clone, Copy, Debug)]
+pub struct Race {
+    /// Bytes to `SourceClip`.
+    pub ours_s: f64,
+    /// `bvh_anim`.
+    pub alone_s: f64,
+}
+
+/// Reads a file's bytes some times with both readers; `clock` tells the seconds since some moment.
+///
+/// # Errors
+/// Where the file is no BVH.
+pub fn race(file: &Path, bytes: &[u8], times: usize, clock: &dyn Fn() -> f64) -> Result<Race, ImportError> {
+    let clip = bvh::read(file, bytes)?;
+    let canonical = bvh_prepass::check(bytes).map(|checked| checked.text.into_bytes()).unwrap_or_default();
+    // A lying `Frames:` is warned of; one that claims terabytes would end the process.
+    let survives =
+        clip.warnings.is_empty() && quiet_unwind::catch(|| bvh_anim::from_bytes(bytes).is_ok()) == Some(true);
+    let digestible = if survives { bytes } else { &canonical };
+    let (mut ours_s, mut alone_s) = (Vec::new(), Vec::new());
+    for _ in 0..times {
+        ours_s.push(seconds(clock, || drop(black_box(bvh::read(file, bytes)))));
+        alone_s.push(seconds(clock, || drop(black_box(bvh_anim::from_bytes(digestible)))));
+    }
+    Ok(Race { ours_s: median(ours_s), alone_s: median(alone_s) })
+}
+
+fn seconds(clock: &dyn Fn() -> f64, work: impl FnOnce()) -> f64 {
+    let start_s = clock();
+    work();
+    clock() - start_s
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}

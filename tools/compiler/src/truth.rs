@@ -1,0 +1,162 @@
+//! How near an import comes to what others measured: the `index.csv` of a folder of clips, row by row.
+//!
+//! A row holds a clip's (v_f, ω_t, ω_s) as an independent script measured them (m/s, °/s, m/s; of clips that tread on
+//! the spot `implied_*`, the speed at which their stance feet slide back), its up axis and its unit. Tolerances are
+//! those of `definitions.md`: max(3 %, 0.03 m/s), max(3 °/s, 15°/duration), 0.04 m/s; three times that in place; clips
+//! under a second are not judged.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::{fs, io};
+
+use motiondb::motion_db::SourceRecord;
+use motiondb::skeleton::{JOINT_COUNT, Joint};
+
+use crate::error::Refusal;
+use crate::human_clip::HumanClip;
+use crate::skeleton_map::find_roles;
+use crate::source_clip::SourceClip;
+use crate::{source_parameters, units};
+
+/// Rigs of which `mocap/index.csv` took the elbows for shoulders: its script's pattern `arm(left|l)$` also matches
+/// `LowerArm_L` and `lowerarm.l`, and its widest pair wins.
+const ELBOWS_AS_SHOULDERS: [&str; 4] = ["bandai_namco/", "gltf/kaykit", "gltf/RobotExpressive", "makehuman/"];
+/// Shorter clips tell too little.
+const JUDGED_FROM_S: f64 = 1.0;
+/// Units agree to this share.
+const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// One row of human locomotion.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    /// Relative to the folder.
+    pub file: String,
+    /// Clip within the file.
+    pub clip: String,
+    /// Seconds.
+    pub duration_s: f64,
+    /// `+X` … `-Z`.
+    pub up_axis: String,
+    /// Metres per unit.
+    pub metres_per_unit: f64,
+    /// (v_f, ω_t, ω_s), m/s, °/s, m/s.
+    pub measured: [f64; 3],
+    /// The same where the clip treads on the spot.
+    pub implied: [f64; 3],
+}
+
+/// What an import made of a row.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// (v_f, ω_t, ω_s), m/s, °/s, m/s.
+    pub found: [f64; 3],
+    /// What it should be.
+    pub wanted: [f64; 3],
+    /// How far it may be off.
+    pub tolerances: [f64; 3],
+    /// The clip is long enough.
+    pub is_judged: bool,
+    /// Up axis and unit are right.
+    pub units_hold: bool,
+}
+
+impl Judgement {
+    /// The greatest of the three differences, over its tolerance.
+    pub fn excess(&self) -> f64 {
+        (0..3).map(|k| (self.found[k] - self.wanted[k]).abs() / self.tolerances[k]).fold(0.0, f64::max)
+    }
+
+    /// Whether no difference passes its tolerance.
+    pub fn holds(&self) -> bool {
+        self.excess() <= 1.0
+    }
+}
+
+impl Truth {
+    /// Whether the row's own shoulders were elbows.
+    pub fn is_by_elbows(&self) -> bool {
+        ELBOWS_AS_SHOULDERS.iter().any(|rig| self.file.starts_with(rig))
+    }
+
+    /// Judges an imported clip.
+    pub fn judge(&self, human: &HumanClip) -> Judgement {
+        let SourceRecord { speed_mps, turn_rate_rad_s, strafe_mps, .. } = human.source;
+        let found = [speed_mps, turn_rate_rad_s.to_degrees(), strafe_mps].map(f64::from);
+        let treads = human.in_place_mps.is_some();
+        let wanted = if treads { self.implied } else { self.measured };
+        let wider = if treads { 3.0 } else { 1.0 };
+        let tolerances = [f64::max(0.03 * wanted[0].abs(), 0.03), f64::max(3.0, 15.0 / self.duration_s), 0.04];
+        Judgement {
+            found,
+            wanted,
+            tolerances: tolerances.map(|tolerance| wider * tolerance),
+            is_judged: self.duration_s >= JUDGED_FROM_S,
+            units_hold: human.source.up_axis == self.up_axis
+                && (f64::from(human.source.metres_per_unit) / self.metres_per_unit - 1.0).abs() < UNIT_TOLERANCE,
+        }
+    }
+}
+
+/// (v_f, ω_t, ω_s), m/s, °/s, m/s, of a clip with its elbows taken for shoulders.
+///
+/// # Errors
+/// Where it is no human's.
+pub fn by_elbows(clip: SourceClip) -> Result<[f64; 3], Refusal> {
+    let mut roles = find_roles(&clip, &[None; JOINT_COUNT])?;
+    let (clip, _) = units::to_metres_z_up(clip, &roles);
+    for (shoulder, elbow) in [(Joint::LeftUpperArm, Joint::LeftForearm), (Joint::RightUpperArm, Joint::RightForearm)] {
+        roles.joints[shoulder.index()] = roles.joints[elbow.index()];
+    }
+    let whole = source_parameters::measure(&clip, &roles);
+    Ok([whole.speed_mps, whole.turn_rate_rad_s.to_degrees(), whole.strafe_mps])
+}
+
+/// The rows of human locomotion of a folder's `index.csv`.
+///
+/// # Errors
+/// Where the file cannot be read, or lacks a column.
+pub fn read(folder: &Path) -> io::Result<Vec<Truth>> {
+    let path = folder.join("index.csv");
+    let text = fs::read_to_string(&path)?;
+    let mut lines = text.lines().map(fields);
+    let header = lines.next().unwrap_or_default();
+    let rows = lines.map(|fields| header.iter().cloned().zip(fields).collect::<Row>());
+    let human = rows.filter(|row| row.get("locomotion").is_some_and(|value| value == "yes"));
+    human.map(|row| truth(&row)).collect()
+}
+
+/// Values by column.
+type Row = BTreeMap<String, String>;
+
+fn truth(row: &Row) -> io::Result<Truth> {
+    let text = |column: &str| {
+        let missing = || io::Error::other(format!("index.csv has no column `{column}` in a row of locomotion"));
+        row.get(column).cloned().ok_or_else(missing)
+    };
+    // Some are empty: no speed is implied where a clip moves by itself.
+    let number = |column: &str| Ok::<f64, io::Error>(text(column)?.parse().unwrap_or(0.0));
+    let turn_deg_s = number("turn_degps")?;
+    Ok(Truth {
+        file: text("file")?,
+        clip: text("clip")?,
+        duration_s: number("duration_s")?,
+        up_axis: text("up")?,
+        metres_per_unit: number("m_per_unit")?,
+        measured: [number("v_fwd_mps")?, turn_deg_s, number("v_left_mps")?],
+        implied: [number("implied_fwd_mps")?, turn_deg_s, number("implied_left_mps")?],
+    })
+}
+
+/// The fields of one line; quotes protect commas.
+fn fields(line: &str) -> Vec<String> {
+    let (mut fields, mut is_quoted) = (vec![String::new()], false);
+    for letter in line.chars() {
+        match (letter, fields.last_mut()) {
+            ('"', _) => is_quoted = !is_quoted,
+            (',', _) if !is_quoted => fields.push(String::new()),
+            (letter, Some(field)) => field.push(letter),
+            (_, None) => {}
+        }
+    }
+    fields
+}

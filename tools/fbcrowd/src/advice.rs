@@ -1,0 +1,44 @@
+//! What to do after a compilation, in the order of what it would gain.
+
+use motiondb_compiler::remark::FRAME_TIME_QUESTION;
+
+use crate::compile_report::CompileReport;
+use crate::compile_text::title;
+
+/// Clips that an advice names.
+const NAMED: usize = 3;
+
+/// One sentence each; the commands in them can be copied.
+pub(crate) fn next(report: &CompileReport) -> Vec<String> {
+    let output = &report.output;
+    let mut next = Vec::new();
+    if !report.refused.is_empty() {
+        next.push("Repair what is refused, or leave it out: `skip = true` in its table of a manifest.toml.".to_owned());
+    }
+    let lying: Vec<String> = report
+        .warnings
+        .iter()
+        .filter(|warning| warning.text.contains(FRAME_TIME_QUESTION))
+        .map(|warning| title(&warning.file, &warning.clip))
+        .collect();
+    if !lying.is_empty() {
+        next.push(format!("Where a frame time lies, give `frame_rate_hz` in a manifest.toml: {}.", named(&lying)));
+    }
+    if !report.findings.is_empty() || report.warnings.iter().any(|warning| !warning.note) {
+        next.push(format!("Look at what is doubtful: fbcrowd inspect {output} --plots out/plots"));
+    }
+    if !report.coverage.is_empty() {
+        next.push("Add clips where the set is thin; without them bodies do what is nearest.".to_owned());
+    }
+    next.push(format!("See how well each example follows from the others: fbcrowd inspect {output} --leave-one-out"));
+    next.push(format!("Let a crowd walk: fbcrowd simulate SCENARIO.toml --db {output} -o crowd.fbrec"));
+    next
+}
+
+fn named(titles: &[String]) -> String {
+    let shown = titles.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
+    match titles.len().saturating_sub(NAMED) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}

@@ -1,0 +1,241 @@
+//! `fbcrowd bench import`: other people's clips against what others measured in them, and how fast they are read.
+
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use motiondb_compiler::import::{self, Import};
+use motiondb_compiler::reading_speed::{self, Race};
+use motiondb_compiler::source_clip::SourceClip;
+use motiondb_compiler::truth::{self, Judgement, Truth};
+use motiondb_compiler::{bvh, gltf};
+use serde::Serialize;
+
+use super::Mocap;
+use super::bar::{Bar, Found, Goal, conclude};
+use crate::failure::{Answer, Failure};
+use crate::progress::Progress;
+
+/// Reading each file so often lets the median forget a neighbour's work.
+const READINGS: usize = 5;
+/// Rows that are shown, worst first; JSON has all.
+const SHOWN_ROWS: usize = 12;
+
+/// Import every clip of human locomotion in DIR/index.csv and compare with what stands there.
+///
+/// In JSON `rows[] {file, clip, found, wanted, excess, judged, units_hold, by_elbows, refused}`: found and wanted are
+/// (v_f m/s, turn rate °/s, side speed m/s); excess is the greatest difference over its tolerance, null where the clip is
+/// refused; by_elbows is the excess of the same clip measured with its elbows for shoulders, as the index was by mistake
+/// on some rigs, else null.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  fbcrowd bench import --mocap ../shared/mocap --json")]
+pub(super) struct Args {
+    #[command(flatten)]
+    mocap: Mocap,
+}
+
+#[derive(Serialize)]
+struct Details {
+    rows: Vec<Row>,
+    /// Of judged rows, those within tolerance of the index as it is.
+    share_of_index: Option<f64>,
+    files_read: usize,
+    megabytes_read: f64,
+}
+
+#[derive(Serialize)]
+struct Row {
+    file: String,
+    clip: String,
+    found: Option<[f64; 3]>,
+    wanted: Option<[f64; 3]>,
+    excess: Option<f64>,
+    judged: bool,
+    units_hold: bool,
+    by_elbows: Option<f64>,
+    refused: Option<String>,
+}
+
+pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
+    let folder = &args.mocap.mocap;
+    let unreadable = |error| Failure::bad(format!("{}/index.csv: {error}", folder.display()));
+    let truths = truth::read(folder).map_err(unreadable)?;
+    let mut rows = judged(folder, &truths);
+    rows.sort_by(|a, b| b.distance().total_cmp(&a.distance()));
+    let reading = reading(folder)?;
+
+    let judged: Vec<&Row> = rows.iter().filter(|row| row.judged).collect();
+    let share_of_index = share(&judged, |row| row.excess.is_some_and(|excess| excess <= 1.0));
+    let share_by_same_joints = share(&judged, |row| row.distance() <= 1.0);
+    let units = share(&rows.iter().collect::<Vec<_>>(), |row| row.units_hold);
+    let found = Found {
+        details: Details {
+            share_of_index,
+            files_read: reading.files,
+            megabytes_read: reading.bytes as f64 / 1e6,
+            rows,
+        },
+        goals: vec![Goal {
+            name: "reading BVH, MB/s",
+            measured: Some(reading.bytes as f64 / 1e6 / reading.race.ours_s),
+            goal: 70.0,
+        }],
+        bars: vec![
+            Bar::at_least(
+                "share of clips within tolerance, measured at the joints that the index took",
+                0.95,
+                share_by_same_joints,
+            ),
+            Bar::at_least("share of clips with the right up axis and unit", 1.0, units),
+            Bar::at_least("speed of reading BVH over bvh_anim alone", 0.7, reading.race.alone_s / reading.race.ours_s),
+        ],
+    };
+    conclude(&found, &text(&found.details), args.mocap.json)
+}
+
+impl Row {
+    /// Off by so many tolerances, by the joints that the index took; a refused clip by more than any other.
+    fn distance(&self) -> f64 {
+        self.by_elbows.or(self.excess).unwrap_or(f64::INFINITY)
+    }
+}
+
+fn share(rows: &[&Row], holds: impl Fn(&Row) -> bool) -> Option<f64> {
+    let holding = rows.iter().filter(|row| holds(row)).count();
+    (!rows.is_empty()).then(|| holding as f64 / rows.len() as f64)
+}
+
+/// Every row of the index, in its order; each file is read once.
+fn judged(folder: &Path, truths: &[Truth]) -> Vec<Row> {
+    let mut by_file: BTreeMap<&str, Vec<&Truth>> = BTreeMap::new();
+    truths.iter().for_each(|truth| by_file.entry(&truth.file).or_default().push(truth));
+    let progress = Progress::new("clips", by_file.len());
+    let mut rows = Vec::new();
+    for (file, truths) in by_file {
+        let path = folder.join(file);
+        match import::import(&path) {
+            Ok(imports) => rows.extend(truths.into_iter().map(|truth| row(truth, &path, &imports))),
+            Err(error) => rows.extend(truths.into_iter().map(|truth| refused(truth, error.to_string()))),
+        }
+        progress.advance();
+    }
+    progress.finish();
+    rows
+}
+
+fn row(truth: &Truth, path: &Path, imports: &[Import]) -> Row {
+    let Some(import) = imports.iter().find(|import| import.clip == truth.clip) else {
+        return refused(truth, "the file holds no such clip".to_owned());
+    };
+    let human = match &import.outcome {
+        Ok(human) => human,
+        Err(refusal) => return refused(truth, refusal.to_string()),
+    };
+    let judgement = truth.judge(human);
+    let elbows = truth.is_by_elbows().then(|| source(path, &truth.clip)).flatten();
+    let found = elbows.and_then(|clip| truth::by_elbows(clip).ok());
+    let by_elbows = found.map(|found| Judgement { found, ..judgement.clone() }.excess());
+    Row {
+        file: truth.file.clone(),
+        clip: truth.clip.clone(),
+        found: Some(judgement.found),
+        wanted: Some(judgement.wanted),
+        excess: Some(judgement.excess()),
+        judged: judgement.is_judged,
+        units_hold: judgement.units_hold,
+        by_elbows,
+        refused: None,
+    }
+}
+
+fn refused(truth: &Truth, reason: String) -> Row {
+    Row {
+        file: truth.file.clone(),
+        clip: truth.clip.clone(),
+        found: None,
+        wanted: None,
+        excess: None,
+        judged: true,
+        units_hold: false,
+        by_elbows: None,
+        refused: Some(reason),
+    }
+}
+
+/// The clip as its file tells it.
+fn source(path: &Path, clip: &str) -> Option<SourceClip> {
+    let bytes = fs::read(path).ok()?;
+    if path.extension() == Some(OsStr::new("bvh")) {
+        return bvh::read(path, &bytes).ok();
+    }
+    gltf::read(path, &bytes).ok()?.into_iter().find(|source| source.clip == clip)
+}
+
+/// All BVH files of a folder that can be read.
+struct Reading {
+    race: Race,
+    files: usize,
+    bytes: usize,
+}
+
+fn reading(folder: &Path) -> Result<Reading, Failure> {
+    let files = import::clip_files(folder).map_err(|error| Failure::bad(error.to_string()))?;
+    let files: Vec<PathBuf> = files.into_iter().filter(|file| file.extension() == Some(OsStr::new("bvh"))).collect();
+    let progress = Progress::new("readings", files.len());
+    let start = Instant::now();
+    let clock = || start.elapsed().as_secs_f64();
+    let mut all = Reading { race: Race { ours_s: 0.0, alone_s: 0.0 }, files: 0, bytes: 0 };
+    for file in &files {
+        let bytes = fs::read(file).map_err(|error| Failure::bad(format!("{}: {error}", file.display())))?;
+        if let Ok(Race { ours_s, alone_s }) = reading_speed::race(file, &bytes, READINGS, &clock) {
+            all.race.ours_s += ours_s;
+            all.race.alone_s += alone_s;
+            all.files += 1;
+            all.bytes += bytes.len();
+        }
+        progress.advance();
+    }
+    progress.finish();
+    Ok(all)
+}
+
+fn text(details: &Details) -> String {
+    let mut text = "farthest off, in tolerances (found, measured by others; m/s, °/s, m/s)\n".to_owned();
+    for row in details.rows.iter().take(SHOWN_ROWS) {
+        text += &format!("  {:5.2}  {} {}{}\n", row.distance(), row.file, row.clip, verdict(row));
+    }
+    let elbows: Vec<&Row> = details.rows.iter().filter(|row| row.by_elbows.is_some()).collect();
+    let differ = elbows.iter().filter(|row| row.excess.is_some_and(|excess| excess > 1.0));
+    let percent = details.share_of_index.map_or_else(|| "–".to_owned(), |share| format!("{:.1} %", 100.0 * share));
+    text += &format!(
+        "\nThe index took the elbows for shoulders on {} rows; they are judged with the same joints. Against the index as it\n\
+         is, {percent} of all judged rows are within tolerance; of those {} these are off:\n",
+        elbows.len(),
+        elbows.len(),
+    );
+    for row in differ {
+        text += &format!(
+            "  {} {}: {:.2} tolerances, by elbows {:.2}\n",
+            row.file,
+            row.clip,
+            row.excess.unwrap_or(0.0),
+            row.distance()
+        );
+    }
+    text + &format!(
+        "\nread {} BVH files, {:.1} MB, the median of {READINGS} times each\n",
+        details.files_read, details.megabytes_read
+    )
+}
+
+fn verdict(row: &Row) -> String {
+    let (Some(found), Some(wanted)) = (row.found, row.wanted) else {
+        return format!(": {}", row.refused.clone().unwrap_or_default());
+    };
+    let units = if row.units_hold { "" } else { "; other axis or unit" };
+    let judged = if row.judged { "" } else { "; too short to judge" };
+    let elbows = if row.by_elbows.is_some() { "; by elbows" } else { "" };
+    format!(": {found:.2?}, {wanted:.2?}{elbows}{judged}{units}")
+}

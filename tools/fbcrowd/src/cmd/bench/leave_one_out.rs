@@ -1,0 +1,111 @@
+//! `fbcrowd bench leave-one-out`: does blending carry over to motions that a database does not hold?
+
+use std::path::{Path, PathBuf};
+
+use motiondb::motion_db::MotionDb;
+use motiondb_compiler::compile;
+use motiondb_compiler::import::{self, import_bytes};
+use serde::Serialize;
+
+use super::Mocap;
+use super::bar::{Bar, Found, conclude};
+use crate::failure::{Answer, Failure};
+use crate::leave_one_out::{LeaveOneOut, leave_one_out};
+
+/// The twelve recordings that make the paper's 19 examples (`FbCrowd` §6; Shapiro 2011).
+const MARINE: [&str; 12] = [
+    "Idle01",
+    "Jog01",
+    "Meander01",
+    "Run01",
+    "RunCircleRt01",
+    "RunTightCircleRt01",
+    "StrafeFastRt01",
+    "StrafeSlowRt01",
+    "Turn360Rt01",
+    "Walk01",
+    "WalkCircleRt01",
+    "WalkTightCircleRt01",
+];
+
+/// Leave out one example after the other of the Marine, Bandai Namco and bundled sets.
+///
+/// In JSON `sets[] {name, leave_one_out}`, as `fbcrowd inspect --leave-one-out` has it.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  fbcrowd bench leave-one-out --mocap ../shared/mocap")]
+pub(super) struct Args {
+    #[command(flatten)]
+    mocap: Mocap,
+}
+
+#[derive(Serialize)]
+struct Details {
+    sets: Vec<Set>,
+}
+
+#[derive(Serialize)]
+struct Set {
+    name: &'static str,
+    leave_one_out: LeaveOneOut,
+}
+
+pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
+    let folder = &args.mocap.mocap;
+    let marine: Vec<PathBuf> =
+        MARINE.iter().map(|name| folder.join(format!("smartbody_converted/ChrMarine_{name}.bvh"))).collect();
+    let set = |name, db: MotionDb| Set { name, leave_one_out: leave_one_out(&db) };
+    let sets = vec![
+        set("Marine", of_files(&marine)?),
+        set("Bandai Namco", of_files(&clip_files(&folder.join("bandai_namco"))?)?),
+        set("bundled", bundled()?),
+    ];
+    let all = || sets.iter().flat_map(|set| &set.leave_one_out.examples);
+    let better = all().filter(|found| found.blended_rmse_m < found.nearest_rmse_m).count();
+    let share = (all().count() > 0).then(|| better as f64 / all().count() as f64);
+    let bars = vec![
+        Bar::at_least("share of examples that the blend meets better than the nearest example", 0.75, share),
+        Bar::at_most(
+            "median RMSE of the Marine set, m",
+            0.05,
+            sets[0].leave_one_out.median_blended_rmse_m.map(f64::from),
+        ),
+    ];
+    let found = Found { details: Details { sets }, goals: Vec::new(), bars };
+    conclude(&found, &text(&found.details), args.mocap.json)
+}
+
+fn clip_files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    import::clip_files(folder).map_err(|error| Failure::bad(error.to_string()))
+}
+
+fn of_files(files: &[PathBuf]) -> Result<MotionDb, Failure> {
+    Ok(compile::compile_files(files, &|_| ())?.db)
+}
+
+/// The bundled clips as the generator writes them.
+fn bundled() -> Result<MotionDb, Failure> {
+    let mut clips = Vec::new();
+    for clip in clipgen::generate().into_iter().filter(|file| !file.name.ends_with(".md")) {
+        let imports = import_bytes(Path::new(&clip.name), &clip.bytes);
+        let imports = imports.map_err(|error| Failure::bad(error.to_string()))?;
+        clips.extend(imports.into_iter().filter_map(|import| import.outcome.ok()));
+    }
+    Ok(compile::compile(clips, &compile::Options::default(), &|_| ())?)
+}
+
+fn text(details: &Details) -> String {
+    let line = |set: &Set| {
+        let found = &set.leave_one_out;
+        let better = found.examples.iter().filter(|found| found.blended_rmse_m < found.nearest_rmse_m).count();
+        let cm = |median: Option<f32>| median.map_or_else(|| "–".to_owned(), |median| format!("{:.1}", 100.0 * median));
+        format!(
+            "{:<14}{better:3} of {:3} examples better by the blend; median {} cm, nearest {} cm; {} on the hull's corners\n",
+            set.name,
+            found.examples.len(),
+            cm(found.median_blended_rmse_m),
+            cm(found.median_nearest_rmse_m),
+            found.outside.len(),
+        )
+    };
+    details.sets.iter().map(line).collect()
+}

@@ -1,0 +1,50 @@
+//! `fbcrowd bench`: is the compiler as good and as fast as it should be? One file a bench.
+
+mod bar;
+mod compile;
+mod import;
+mod leave_one_out;
+
+use std::path::PathBuf;
+
+use crate::failure::{Answer, Failure};
+
+/// Measure against the bars that a release must meet.
+///
+/// Every bench can print JSON: what it measured, then `goals[] {name, measured, goal}` (times and sizes, which depend on
+/// the machine) and last `bars[] {name, measured, limit, met}`. Exit code 0: every bar is met; 1: one is missed; 2: what
+/// is to be measured cannot be read.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Examples:\n  fbcrowd bench import --mocap ../shared/mocap\n  fbcrowd bench compile --mocap my/clips --json"
+)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    bench: Bench,
+}
+
+#[derive(clap::Subcommand)]
+enum Bench {
+    Import(import::Args),
+    Compile(compile::Args),
+    LeaveOneOut(leave_one_out::Args),
+}
+
+/// What every bench on other people's clips is told.
+#[derive(clap::Args)]
+struct Mocap {
+    /// The folder of clips.
+    #[arg(long, value_name = "DIR", default_value = "../shared/mocap")]
+    mocap: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+    match &args.bench {
+        Bench::Import(args) => import::run(args),
+        Bench::Compile(args) => compile::run(args),
+        Bench::LeaveOneOut(args) => leave_one_out::run(args),
+    }
+}

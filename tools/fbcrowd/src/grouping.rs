@@ -1,0 +1,81 @@
+//! Many sentences that differ in one number, told as one: `turn rate 1.1 to 2.8 deg/s taken as 0 (9)`.
+
+use std::collections::BTreeMap;
+
+/// Sentences alike but for their first number, and what each was said of.
+pub(crate) struct Group {
+    before: String,
+    after: String,
+    /// As they were written, least and greatest; none in sentences without a number.
+    range: Option<[String; 2]>,
+    /// In the order in which they came.
+    pub(crate) subjects: Vec<String>,
+}
+
+impl Group {
+    /// The sentence, with the range of its number.
+    pub(crate) fn sentence(&self) -> String {
+        match &self.range {
+            None => self.before.clone(),
+            Some([least, greatest]) if least == greatest => format!("{}{least}{}", self.before, self.after),
+            Some([least, greatest]) => format!("{}{least} to {greatest}{}", self.before, self.after),
+        }
+    }
+}
+
+/// Groups pairs of subject and sentence; the largest groups first.
+pub(crate) fn group(said: impl IntoIterator<Item = (String, String)>) -> Vec<Group> {
+    let mut groups: BTreeMap<(String, String), Group> = BTreeMap::new();
+    for (subject, sentence) in said {
+        let (before, number, after) = around_number(&sentence);
+        let new = || Group { before: before.to_owned(), after: after.to_owned(), range: None, subjects: Vec::new() };
+        let group = groups.entry((before.to_owned(), after.to_owned())).or_insert_with(new);
+        group.subjects.push(subject);
+        if !number.is_empty() {
+            widen(&mut group.range, number);
+        }
+    }
+    let mut groups: Vec<Group> = groups.into_values().collect();
+    groups.sort_by_key(|group| std::cmp::Reverse(group.subjects.len()));
+    groups
+}
+
+/// What stands before the first number, the number, and the rest.
+fn around_number(sentence: &str) -> (&str, &str, &str) {
+    let Some(digit) = sentence.find(|letter: char| letter.is_ascii_digit()) else { return (sentence, "", "") };
+    let start = if sentence[..digit].ends_with('-') { digit - 1 } else { digit };
+    let end = sentence[digit..].find(|letter: char| !letter.is_ascii_digit() && letter != '.');
+    let end = end.map_or(sentence.len(), |length| digit + length);
+    (&sentence[..start], &sentence[start..end], &sentence[end..])
+}
+
+fn widen(range: &mut Option<[String; 2]>, number: &str) {
+    let value = |text: &str| text.parse::<f64>().unwrap_or(0.0);
+    let [least, greatest] = range.get_or_insert_with(|| [number.to_owned(), number.to_owned()]);
+    if value(number) < value(least) {
+        *least = number.to_owned();
+    }
+    if value(number) > value(greatest) {
+        *greatest = number.to_owned();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(sentences: &[&str], wanted: &[(&str, usize)]) {
+        let groups = group(sentences.iter().map(|&sentence| ("clip".to_owned(), sentence.to_owned())));
+        let found: Vec<(String, usize)> = groups.iter().map(|group| (group.sentence(), group.subjects.len())).collect();
+        let wanted: Vec<(String, usize)> = wanted.iter().map(|&(text, count)| (text.to_owned(), count)).collect();
+        assert_eq!(found, wanted);
+    }
+
+    #[test]
+    fn sentences_that_differ_in_one_number_are_one_with_its_range() {
+        check(
+            &["turn -2.2 deg/s", "no step", "turn 1.6 deg/s", "turn 0.3 deg/s", "1 frame", "1 frame"],
+            &[("turn -2.2 to 1.6 deg/s", 3), ("1 frame", 2), ("no step", 1)],
+        );
+    }
+}
