@@ -8,7 +8,9 @@
 use glam::Vec3;
 use serde::Serialize;
 
-use crate::blend_space::{Locator, Shares};
+use crate::blend_space::{BlendSpace, Shares};
+use crate::lattice::{FLAT_SHARE, LEAST_RANGES};
+use crate::locator::Locator;
 use crate::motion_db::MotionDb;
 use crate::parameters::Parameters;
 use crate::skeleton::Side;
@@ -28,11 +30,8 @@ const TURN_RADIUS_MAX_M: f32 = 1.5;
 const SPEED_GAP_MPS: f32 = 0.75;
 /// The same for turn rates: from straight on to a tight bend, 60 °/s.
 const TURN_GAP_RAD_S: f32 = 60.0 * std::f32::consts::PI / 180.0;
-/// A query is inside the hull where the shares reach it to this part of each axis's range: as far as the compiler's
-/// quantisation moves a point.
+/// A query is inside the hull where the shares reach it to this part of each axis's range.
 const REACHED_SHARE: f32 = 5e-4;
-/// And along an axis without range to this much, m/s and rad/s: what the compiler takes for no range.
-const REACHED_FLAT: f32 = 1e-3;
 /// Halvings that find the fastest turn to a millionth of the range.
 const HALVINGS: u32 = 20;
 
@@ -90,8 +89,19 @@ pub fn locate_inside(db: &MotionDb, locator: &Locator, query: Parameters) -> Opt
     let shares = locator.locate(query);
     let terms = shares.examples.into_iter().zip(shares.shares);
     let reached: Vec3 = terms.map(|(example, share)| share * db.examples[example as usize].parameters.to_vec3()).sum();
-    let tolerance = Vec3::from(db.blend_space.axis_ranges.map(|range| (REACHED_SHARE * range).max(REACHED_FLAT)));
+    let tolerance = reach_tolerance(&db.blend_space);
     (reached - query.to_vec3()).abs().cmple(tolerance).all().then_some(shares)
+}
+
+/// How far off the shares may be along each axis: noise along those that are dropped, and along all that a flat set
+/// leans on.
+fn reach_tolerance(space: &BlendSpace) -> Vec3 {
+    let ranged = space.axis_ranges.iter().filter(|range| **range > 0.0).count();
+    let share = if ranged == space.dimension as usize { REACHED_SHARE } else { FLAT_SHARE };
+    Vec3::from_array(std::array::from_fn(|axis| match space.axis_ranges[axis] {
+        0.0 => LEAST_RANGES[axis],
+        range => share * range,
+    }))
 }
 
 /// The database's own locator.

@@ -13,8 +13,8 @@ use crate::parameters::Parameters;
 const STEPS: f64 = (1 << 20) as f64;
 /// Differences below these are no range: what the compiler's snapping takes for a gait's noise, m/s, rad/s (3 °/s), m/s.
 pub const LEAST_RANGES: [f32; 3] = [0.05, 0.0524, 0.1];
-/// A set that is nowhere thicker than a fiftieth of an axis is flat: some centimetres a second.
-const FLAT_STEPS: f64 = STEPS / 50.0;
+/// A set that is nowhere thicker than this part of an axis's range is flat: some centimetres a second.
+pub const FLAT_SHARE: f32 = 0.02;
 /// Examples nearer than 2⁻⁹ of a range are twins: one is a corner for both, for between them a blend would jump. So an
 /// example that is no corner may lie this far outside the hull of the corners.
 pub const TWIN_STEPS: f64 = STEPS / 512.0;
@@ -82,7 +82,7 @@ fn spanning_simplex(points: &[[i64; 3]]) -> (Vec<usize>, Vec<DVec3>) {
         let off_flat = |index| directions.iter().fold(offset(index), |off, along| off.reject_from_normalized(*along));
         let offs = (0..points.len()).map(|index| (index, off_flat(index)));
         match offs.max_by(|(_, a), (_, b)| a.length_squared().total_cmp(&b.length_squared())) {
-            Some((index, off)) if off.length() > FLAT_STEPS => {
+            Some((index, off)) if off.length() > STEPS * f64::from(FLAT_SHARE) => {
                 span.push(index);
                 directions.push(off.normalize());
             }

@@ -2,8 +2,8 @@
 //!
 //! In reading order: whose body ([`skeleton`]), how it is posed ([`pose`]) and how far its joints turn
 //! ([`joint_ranges`]), how a clip moves ([`parameters`]) and when ([`phase_map`]), which velocities it allows
-//! ([`velocity_hull`], [`wrapping_polygon`], `FbCrowd` §4.1), how clips blend ([`blend_space`], §5), where synthesis may switch
-//! ([`correspondence`], §5, Eq. 10), the database itself ([`motion_db`]), what its feet do on the ground
+//! ([`velocity_hull`], [`wrapping_polygon`], `FbCrowd` §4.1), how clips blend ([`blend_space`], [`locator`], §5), where
+//! synthesis may switch ([`correspondence`], §5, Eq. 10), the database itself ([`motion_db`]), what its feet do on the ground
 //! ([`planted_feet`]), its invariants ([`validate`]; of the blend space [`tiling`], on the [`lattice`]), how good its
 //! examples are ([`quality`]), where it is thin ([`coverage`]) and its file ([`mod@file`]).
 //!
@@ -16,17 +16,21 @@ pub mod container;
 pub mod correspondence;
 pub mod coverage;
 pub mod file;
+mod grid;
 pub mod input_file;
 pub mod joint_ranges;
 pub mod lattice;
+pub mod locator;
 pub mod motion_db;
 pub mod parameters;
 pub mod phase_map;
 pub mod planted_feet;
 pub mod pose;
 pub mod quality;
+mod simplex;
 pub mod skeleton;
 pub mod source_text;
+mod surface;
 pub mod tiling;
 pub mod validate;
 pub mod velocity_hull;

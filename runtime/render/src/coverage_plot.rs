@@ -6,8 +6,8 @@
 //! hull: bodies do not move like that.
 
 use glam::{Vec2, Vec3};
-use motiondb::blend_space::Locator;
 use motiondb::coverage::{coverage, locate_inside, locator};
+use motiondb::locator::Locator;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use tiny_skia::Pixmap;

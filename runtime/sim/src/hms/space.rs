@@ -3,7 +3,8 @@
 //! Parameters are (v_f, ω_t, ω_s), m/s and rad/s; an example without steps *stands*.
 
 use glam::{Vec2, Vec3};
-use motiondb::blend_space::{Locator, Shares};
+use motiondb::blend_space::Shares;
+use motiondb::locator::Locator;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 

@@ -1,0 +1,143 @@
+//! Which tetrahedra may hold a point: cells of a grid over their box, each with a list of those that reach into it.
+//!
+//! A query looks into one cell, in constant time. Cells are about as many as tetrahedra, so the lists stay short; the
+//! work of building them is bounded whatever is read from a file.
+
+use glam::DVec3;
+
+use crate::simplex::Simplex;
+
+/// Cells to a tetrahedron: more make shorter lists, and more memory.
+const CELLS_PER_SIMPLEX: f64 = 16.0;
+/// Most pairs of a cell and a tetrahedron to be looked at: 16 MB of lists at worst.
+const MOST_PAIRS: f64 = (1 << 22) as f64;
+
+/// Lists of tetrahedra by cell.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid {
+    cells: Cells,
+    /// Where each cell's list begins in `lists`, and where the last one ends.
+    starts: Vec<u32>,
+    lists: Vec<u32>,
+}
+
+/// A box cut into equal cells, `side` along each axis.
+#[derive(Clone, Copy, Debug)]
+struct Cells {
+    least: DVec3,
+    greatest: DVec3,
+    side: usize,
+    per_unit: DVec3,
+}
+
+impl Grid {
+    pub(crate) fn new(simplices: &[Simplex]) -> Self {
+        let mut side = libm::cbrt(CELLS_PER_SIMPLEX * simplices.len() as f64) as usize + 1;
+        let mut cells = Cells::around(simplices, side);
+        while side > 1 && simplices.iter().map(|simplex| cells.in_box_of(simplex)).sum::<f64>() > MOST_PAIRS {
+            side /= 2;
+            cells = Cells::around(simplices, side);
+        }
+        let mut pairs: Vec<(usize, u32)> = Vec::new();
+        for (number, simplex) in (0..).zip(simplices) {
+            cells.reached_by(simplex, |cell| pairs.push((cell, number)));
+        }
+        pairs.sort_unstable();
+        let start = |cell: usize| pairs.partition_point(|pair| pair.0 < cell) as u32;
+        Self {
+            cells,
+            starts: (0..=side * side * side).map(start).collect(),
+            lists: pairs.iter().map(|pair| pair.1).collect(),
+        }
+    }
+
+    /// Tetrahedra that may hold a point.
+    pub(crate) fn near(&self, point: DVec3) -> &[u32] {
+        let Some(cell) = self.cells.holding(point) else { return &[] };
+        &self.lists[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+}
+
+impl Cells {
+    fn around(simplices: &[Simplex], side: usize) -> Self {
+        let both = |[least, greatest]: [DVec3; 2], other: [DVec3; 2]| [least.min(other[0]), greatest.max(other[1])];
+        let [least, greatest] = simplices.iter().map(Simplex::bounds).reduce(both).unwrap_or_default();
+        Self { least, greatest, side, per_unit: side as f64 / (greatest - least) }
+    }
+
+    fn holding(&self, point: DVec3) -> Option<usize> {
+        let is_within = (point.cmpge(self.least) & point.cmple(self.greatest)).all();
+        is_within.then(|| self.index(self.place(point)))
+    }
+
+    /// Of a point within the box.
+    fn place(&self, point: DVec3) -> [usize; 3] {
+        let cells = (point - self.least) * self.per_unit;
+        cells.to_array().map(|x| (x as usize).min(self.side - 1))
+    }
+
+    fn index(&self, [x, y, z]: [usize; 3]) -> usize {
+        x + self.side * (y + self.side * z)
+    }
+
+    /// Number of cells that the simplex's own box touches.
+    fn in_box_of(&self, simplex: &Simplex) -> f64 {
+        let [first, last] = simplex.bounds().map(|corner| self.place(corner));
+        (0..3).map(|axis| (last[axis] - first[axis] + 1) as f64).product()
+    }
+
+    fn reached_by(&self, simplex: &Simplex, mut reached: impl FnMut(usize)) {
+        let [first, last] = simplex.bounds().map(|corner| self.place(corner));
+        let half = 0.5 * self.per_unit.recip();
+        for z in first[2]..=last[2] {
+            for y in first[1]..=last[1] {
+                for x in first[0]..=last[0] {
+                    let centre = self.least + half * (2.0 * DVec3::new(x as f64, y as f64, z as f64) + 1.0);
+                    if simplex.reaches_into(centre, half) {
+                        reached(self.index([x, y, z]));
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn soup(points: &[[i8; 3]], corners: &[[usize; 4]], count: usize) -> Vec<Simplex> {
+        let points: Vec<DVec3> = points.iter().map(|at| DVec3::from_array(at.map(f64::from))).collect();
+        let examples = |corners: &[usize; 4]| corners[..count].iter().map(|k| (k % points.len()) as u32).collect();
+        let simplices = corners.iter().map(|corners| -> Vec<u32> { examples(corners) });
+        simplices.map(|corners| Simplex::new(&corners, &points)).filter(|simplex| !simplex.is_sliver()).collect()
+    }
+
+    proptest! {
+        /// Whether they fit together or overlap; queries on a lattice meet corners, edges, faces and cells' walls.
+        #[test]
+        fn a_cell_lists_every_tetrahedron_that_holds_one_of_its_points(
+            points in prop::collection::vec(prop::array::uniform3(-3i8..4), 4..12),
+            corners in prop::collection::vec(prop::array::uniform4(0usize..12), 0..40),
+            query in prop::array::uniform3(-16i8..17),
+        ) {
+            let (simplices, point) = (soup(&points, &corners, 4), DVec3::from_array(query.map(f64::from)) * 0.25);
+            let grid = Grid::new(&simplices);
+            let listed = |index: &usize| grid.near(point).contains(&(*index as u32));
+            let missed = |index: &usize| simplices[*index].shares_within(point).is_some() && !listed(index);
+            prop_assert_eq!((0..simplices.len()).find(missed), None);
+        }
+    }
+
+    #[test]
+    fn needles_across_everything_take_bounded_memory() {
+        let needles = |k: usize| {
+            let high = k as f64 * 1e-4;
+            let points = [[0.0, 0.0, high], [1.0, 1.0, 1.0 - high], [1.0, 0.9, 0.5], [0.9, 1.0, 0.5 + high]];
+            Simplex::new(&[0, 1, 2, 3], &points.map(DVec3::from_array))
+        };
+        let grid = Grid::new(&(0..6000).map(needles).collect::<Vec<_>>());
+        assert!(grid.lists.len() as f64 <= MOST_PAIRS && grid.cells.side > 1);
+    }
+}

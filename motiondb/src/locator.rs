@@ -1,0 +1,140 @@
+//! The shares of examples at a query: of the simplex that holds it, or of the hull's nearest point (`FbCrowd` §5;
+//! `definitions.md`, "Axes").
+//!
+//! A [grid](crate::grid) names the few tetrahedra that may hold the query; where none does, it is outside, and a tree
+//! over the hull's [surface](crate::surface) finds the nearest point. A set of fewer dimensions fills no space: it is
+//! all surface. Shares move continuously with the query, also across the hull. No memory is taken.
+
+use glam::DVec3;
+
+use crate::blend_space::{BlendSpace, MAX_CORNERS, Shares};
+use crate::grid::Grid;
+use crate::parameters::Parameters;
+use crate::simplex::Simplex;
+use crate::surface::Surface;
+
+/// Finds the simplex of a query; made once a database is loaded.
+#[derive(Clone, Debug)]
+pub struct Locator {
+    metric_scale: DVec3,
+    tetrahedra: Vec<Simplex>,
+    grid: Grid,
+    surface: Surface,
+}
+
+impl Locator {
+    /// `parameters` are those of the database's examples, by index.
+    pub fn new(space: &BlendSpace, parameters: &[Parameters]) -> Self {
+        let metric_scale = space.metric_scale();
+        let points: Vec<DVec3> = parameters.iter().map(|at| at.to_vec3().as_dvec3() * metric_scale).collect();
+        let simplices = space.simplices().map(|corners| Simplex::new(corners, &points));
+        let simplices: Vec<Simplex> = simplices.filter(|simplex| !simplex.is_sliver()).collect();
+        let (tetrahedra, surface) = match space.dimension as usize + 1 {
+            MAX_CORNERS => {
+                let boundary = boundary(&simplices, &points);
+                (simplices, boundary)
+            }
+            _ => (Vec::new(), simplices),
+        };
+        Self { metric_scale, grid: Grid::new(&tetrahedra), tetrahedra, surface: Surface::new(surface) }
+    }
+
+    /// Shares at a query; outside the hull, those of its nearest point. A query that is not finite gets the first
+    /// example.
+    pub fn locate(&self, query: Parameters) -> Shares {
+        let point = query.to_vec3().as_dvec3() * self.metric_scale;
+        let mut near = self.grid.near(point).iter();
+        let holding = near.find_map(|&number| self.tetrahedra[number as usize].shares_within(point));
+        holding.unwrap_or_else(|| self.surface.nearest(point).shares())
+    }
+}
+
+/// Facets that belong to one simplex only.
+fn boundary(simplices: &[Simplex], points: &[DVec3]) -> Vec<Simplex> {
+    let mut facets: Vec<Vec<u32>> = simplices.iter().flat_map(Simplex::facets).collect();
+    facets.sort_unstable();
+    let alone = facets.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
+    let facets = alone.map(|same| Simplex::new(&same[0], points));
+    facets.filter(|facet| !facet.is_sliver()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+    use proptest::prelude::*;
+
+    fn parameters(points: &[[f32; 3]]) -> Vec<Parameters> {
+        points.iter().map(|&at| Parameters::from_vec3(Vec3::from(at))).collect()
+    }
+
+    fn reached(shares: &Shares, parameters: &[Parameters]) -> Vec3 {
+        (0..4).map(|k| parameters[shares.examples[k] as usize].to_vec3() * shares.shares[k]).sum()
+    }
+
+    fn locate(locator: &Locator, query: [f32; 3]) -> Shares {
+        locator.locate(Parameters::from_vec3(Vec3::from(query)))
+    }
+
+    /// A box of eight examples cut into six tetrahedra around its main diagonal.
+    fn box_of_eight() -> (Locator, Vec<Parameters>) {
+        let corner = |k: u32| [(k & 1) as f32 * 2.0, (k >> 1 & 1) as f32, (k >> 2 & 1) as f32 * 0.5];
+        let paths = [[1, 3], [1, 5], [2, 3], [2, 6], [4, 5], [4, 6]];
+        let simplices = paths.iter().flat_map(|&[a, b]| [0, a, b, 7]).collect();
+        let space = BlendSpace { dimension: 3, axis_ranges: [2.0, 1.0, 0.5], simplices, covered_share: 1.0 };
+        let parameters = parameters(&(0..8).map(corner).collect::<Vec<_>>());
+        (Locator::new(&space, &parameters), parameters)
+    }
+
+    proptest! {
+        #[test]
+        fn inside_the_hull_shares_reach_the_query_and_outside_its_nearest_point(
+            x in -2.0f32..4.0, y in -1.0f32..2.0, z in -0.5f32..1.0,
+        ) {
+            let (locator, parameters) = box_of_eight();
+            let shares = locate(&locator, [x, y, z]);
+            let nearest = Vec3::new(x.clamp(0.0, 2.0), y.clamp(0.0, 1.0), z.clamp(0.0, 0.5));
+            prop_assert!((shares.shares.iter().sum::<f32>() - 1.0).abs() < 1e-6);
+            prop_assert!(shares.shares.iter().all(|share| (0.0..=1.0).contains(share)));
+            prop_assert!(reached(&shares, &parameters).distance(nearest) < 1e-6, "{shares:?}");
+        }
+    }
+
+    #[test]
+    fn flat_and_tiny_sets_answer_with_their_nearest_point() {
+        let point = BlendSpace { dimension: 0, axis_ranges: [0.0; 3], simplices: vec![0], covered_share: 1.0 };
+        let alone = locate(&Locator::new(&point, &parameters(&[[1.1, 0.0, 0.0]])), [3.0, 0.0, 0.0]);
+        assert_eq!((alone.examples[0], alone.shares[0]), (0, 1.0));
+
+        let line =
+            BlendSpace { dimension: 1, axis_ranges: [2.0, 0.0, 0.0], simplices: vec![0, 1, 1, 2], covered_share: 1.0 };
+        let locator = Locator::new(&line, &parameters(&[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]));
+        let middle = locate(&locator, [1.25, 3.0, -1.0]);
+        assert_eq!(middle.examples[..2], [1, 2]);
+        assert!((middle.shares[0] - 0.75).abs() < 1e-6);
+        assert_eq!(locate(&locator, [9.0, 0.0, 0.0]).examples[0], 2);
+    }
+
+    #[test]
+    fn an_example_s_own_parameters_are_its_own() {
+        let (locator, parameters) = box_of_eight();
+        for (index, &at) in parameters.iter().enumerate() {
+            let shares = locator.locate(at);
+            let own = shares.examples.iter().zip(shares.shares).find(|&(&example, _)| example == index as u32);
+            assert!(own.is_some_and(|(_, share)| share > 0.999_999), "{shares:?}");
+        }
+    }
+
+    #[test]
+    fn whatever_is_asked_the_shares_are_finite() {
+        let (locator, _) = box_of_eight();
+        for wild in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, f32::MIN_POSITIVE] {
+            for query in [[wild, 0.0, 0.0], [0.0, wild, wild], [wild; 3]] {
+                let sum: f32 = locate(&locator, query).shares.iter().sum();
+                assert!((sum - 1.0).abs() < 1e-6, "{query:?}");
+            }
+        }
+        let nothing = Locator::new(&BlendSpace::default(), &[]);
+        assert_eq!(locate(&nothing, [0.0; 3]).shares, [1.0, 0.0, 0.0, 0.0]);
+    }
+}

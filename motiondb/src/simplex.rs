@@ -1,0 +1,185 @@
+//! A simplex of one to four corners in the metric of the blend space, and its point nearest to a query.
+//!
+//! Offsets from the first corner become shares of the others through the dual basis of the edges, the rows of the
+//! pseudo-inverse (EᵀE)⁻¹Eᵀ: one formula for tetrahedra, triangles, segments and points. Where a share is negative, the
+//! nearest point lies on the facet opposite to such a corner.
+
+use glam::DVec3;
+
+use crate::blend_space::{MAX_CORNERS, Shares};
+
+/// A simplex with an edge this many times longer than its height is a sliver: what `f64` makes of it is rounding, and
+/// the gap that it leaves is too thin to see.
+const SLIVER: f64 = 1e9;
+/// A share this far below 0 is rounding, not outside; wider than the error of `f64` in the thinnest simplex.
+const INSIDE_TOLERANCE: f64 = 1e-6;
+
+/// Corners, and the rows that turn an offset from the first into the shares of the others.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Simplex {
+    examples: [u32; MAX_CORNERS],
+    corners: [DVec3; MAX_CORNERS],
+    count: usize,
+    rows: [DVec3; 3],
+}
+
+/// A point of a simplex.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest {
+    /// From the query, squared, in the metric.
+    pub(crate) distance_squared: f64,
+    examples: [u32; MAX_CORNERS],
+    shares: [f64; MAX_CORNERS],
+}
+
+impl Simplex {
+    /// `points` are those of all examples.
+    pub(crate) fn new(examples: &[u32], points: &[DVec3]) -> Self {
+        let mut simplex = Self {
+            examples: [0; MAX_CORNERS],
+            corners: [DVec3::ZERO; MAX_CORNERS],
+            count: examples.len(),
+            rows: [DVec3::ZERO; 3],
+        };
+        for (k, &example) in examples.iter().enumerate() {
+            simplex.examples[k] = example;
+            simplex.corners[k] = points[example as usize];
+        }
+        simplex.rows = dual_edges(&simplex);
+        simplex
+    }
+
+    fn edge(&self, k: usize) -> DVec3 {
+        self.corners[k] - self.corners[0]
+    }
+
+    pub(crate) fn is_sliver(&self) -> bool {
+        !(1..self.count).all(|k| self.rows[k - 1].length() * self.edge(k).length() < SLIVER)
+    }
+
+    /// Least and greatest coordinates.
+    pub(crate) fn bounds(&self) -> [DVec3; 2] {
+        let corners = || self.corners[..self.count].iter().copied();
+        [corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max)]
+    }
+
+    /// The facet opposite to a corner.
+    fn facet(&self, left_out: usize) -> Self {
+        let mut facet = *self;
+        facet.count -= 1;
+        for k in left_out..facet.count {
+            facet.examples[k] = self.examples[k + 1];
+            facet.corners[k] = self.corners[k + 1];
+        }
+        facet.rows = dual_edges(&facet);
+        facet
+    }
+
+    /// Whether some of a box may lie within: not where a share is negative in all of it.
+    pub(crate) fn reaches_into(&self, centre: DVec3, half: DVec3) -> bool {
+        let shares = self.shares(centre);
+        let first = -(self.rows[0] + self.rows[1] + self.rows[2]);
+        let slopes = [first, self.rows[0], self.rows[1], self.rows[2]];
+        (0..self.count).all(|k| shares[k] + slopes[k].abs().dot(half) >= -INSIDE_TOLERANCE)
+    }
+
+    /// Shares at a point that lies within.
+    pub(crate) fn shares_within(&self, point: DVec3) -> Option<Shares> {
+        let shares = self.shares(point);
+        let within = shares[..self.count].iter().all(|&share| share >= -INSIDE_TOLERANCE);
+        within.then(|| {
+            let clamped = shares.map(|share| share.max(0.0));
+            let sum: f64 = clamped.iter().sum();
+            Shares { examples: self.examples, shares: clamped.map(|share| (share * sum.recip()) as f32) }
+        })
+    }
+
+    /// Corners of each facet, sorted.
+    pub(crate) fn facets(&self) -> impl Iterator<Item = Vec<u32>> {
+        (0..self.count).map(|left_out| {
+            let facet = self.facet(left_out);
+            let mut examples = facet.examples[..facet.count].to_vec();
+            examples.sort_unstable();
+            examples
+        })
+    }
+
+    /// Takes its point nearest to `point` where that is nearer than what is known.
+    pub(crate) fn approach(&self, point: DVec3, nearest: &mut Nearest) {
+        let shares = self.shares(point);
+        let foot: DVec3 = (0..self.count).map(|k| self.corners[k] * shares[k]).sum();
+        let distance_squared = foot.distance_squared(point);
+        if distance_squared >= nearest.distance_squared {
+            return; // all of its plane is farther
+        }
+        let mut beyond = (0..self.count).filter(|&k| shares[k] < 0.0).peekable();
+        if beyond.peek().is_none() {
+            *nearest = Nearest { distance_squared, examples: self.examples, shares };
+        }
+        beyond.for_each(|k| self.facet(k).approach(point, nearest));
+    }
+
+    /// Barycentric coordinates of the point's projection onto the simplex's own plane, line or space.
+    fn shares(&self, point: DVec3) -> [f64; MAX_CORNERS] {
+        let offset = point - self.corners[0];
+        let [b, c, d] = self.rows.map(|row| row.dot(offset));
+        [1.0 - b - c - d, b, c, d]
+    }
+}
+
+impl Nearest {
+    /// Where nothing has been found: the first example, out of reach.
+    pub(crate) const NOTHING: Self =
+        Self { distance_squared: f64::INFINITY, examples: [0; MAX_CORNERS], shares: [1.0, 0.0, 0.0, 0.0] };
+
+    pub(crate) fn shares(&self) -> Shares {
+        let mut examples = self.examples;
+        let shares = self.shares.map(|share| share as f32);
+        (0..MAX_CORNERS).filter(|&k| shares[k] == 0.0).for_each(|k| examples[k] = 0);
+        Shares { examples, shares }
+    }
+}
+
+/// The dual basis of up to three edges: row k gives 1 on edge k and 0 on the others.
+fn dual_edges(simplex: &Simplex) -> [DVec3; 3] {
+    let [a, b, c] = [1, 2, 3].map(|k| simplex.edge(k));
+    match simplex.count {
+        2 => [a / a.length_squared(), DVec3::ZERO, DVec3::ZERO],
+        3 => {
+            let normal = a.cross(b);
+            let scale = normal.length_squared().recip();
+            [b.cross(normal) * scale, normal.cross(a) * scale, DVec3::ZERO]
+        }
+        4 => {
+            let scale = a.dot(b.cross(c)).recip();
+            [b.cross(c) * scale, c.cross(a) * scale, a.cross(b) * scale]
+        }
+        _ => [DVec3::ZERO; 3],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// x is the nearest point of a convex set to p where no corner c lies further towards p: (p − x)·(c − x) ≤ 0.
+        #[test]
+        fn no_corner_of_a_simplex_lies_nearer_than_its_nearest_point(
+            corners in prop::collection::vec(prop::array::uniform3(-3i8..4), 1..5),
+            query in prop::array::uniform3(-9.0f64..9.0),
+        ) {
+            let points: Vec<DVec3> = corners.iter().map(|at| DVec3::from_array(at.map(f64::from))).collect();
+            let simplex = Simplex::new(&(0..points.len() as u32).collect::<Vec<_>>(), &points);
+            prop_assume!(!simplex.is_sliver());
+            let point = DVec3::from_array(query);
+            let mut nearest = Nearest::NOTHING;
+            simplex.approach(point, &mut nearest);
+            let shares = nearest.shares();
+            let found: DVec3 = (0..4).map(|k| points[shares.examples[k] as usize] * f64::from(shares.shares[k])).sum();
+            prop_assert!((found.distance(point) - nearest.distance_squared.sqrt()).abs() < 1e-5);
+            prop_assert!(points.iter().all(|&corner| (point - found).dot(corner - found) < 1e-4));
+        }
+    }
+}
