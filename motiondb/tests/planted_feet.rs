@@ -1,0 +1,89 @@
+//! What planted feet tell of the root's motion, and the figures of motion's quality.
+
+mod support;
+
+use glam::{DVec3, Quat};
+use motiondb::motion_db::{MotionDb, PHASE_COUNT};
+use motiondb::planted_feet::{CycleFeet, foot_slide, implied};
+use motiondb::quality::{lint, quality};
+use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
+use support::small_db;
+
+const WALK: usize = 1;
+const TURN: usize = 2;
+
+fn feet(db: &MotionDb, example: usize) -> CycleFeet {
+    CycleFeet::of(db, example, &db.posed_rows(example))
+}
+
+#[test]
+fn feet_that_stand_tell_the_roots_motion() {
+    let db = small_db();
+    for example in [WALK, TURN] {
+        let (found, stored) = (implied(&feet(&db, example)).unwrap(), db.examples[example].parameters);
+        assert!(found.parameters.to_vec3().distance(stored.to_vec3()) < 2e-3, "{found:?}, not {stored:?}");
+        assert!(found.rest_mps < 1e-3, "{found:?}");
+    }
+}
+
+#[test]
+fn a_wrong_root_motion_is_the_slide_of_the_feet_and_their_misfit() {
+    let db = small_db();
+    let (feet, off_mps) = (feet(&db, TURN), DVec3::new(0.1, 0.0, 0.0));
+    let velocity = db.examples[TURN].parameters.to_vec3().as_dvec3();
+    assert!(foot_slide(&feet, velocity).slide_cm_s < 0.05);
+    assert!((foot_slide(&feet, velocity + off_mps).slide_cm_s - 10.0).abs() < 0.1);
+    assert!((implied(&feet).unwrap().misfit_mps(&feet, velocity + off_mps) - 0.1).abs() < 1e-3);
+}
+
+#[test]
+fn a_contact_that_passes_phase_0_counts_once_and_ends_where_its_row_passes_a_half() {
+    let mut db = small_db();
+    let contacts = &mut db.rows.contacts[WALK * PHASE_COUNT..(WALK + 1) * PHASE_COUNT];
+    contacts[20][1] = 0.25;
+    let feet = feet(&db, WALK);
+    assert_eq!(feet.contacts(Side::Right.index()), [(45, 39)]);
+    let [landing, leaving] = feet.stance(Side::Right).unwrap();
+    // From 1 at row 19 to 0.25 at row 20; from 1 at row −19 to 0 before it.
+    assert!((leaving - (19.0 + 0.5 / 0.75) / 64.0).abs() < 1e-12 && (landing + 19.5 / 64.0).abs() < 1e-12);
+    assert!(!feet.always_planted());
+}
+
+/// Fails unless this fault, and nothing else, is found in the walk.
+#[track_caller]
+fn check_finds(measures: &[&str], fault: impl Fn(&mut MotionDb)) {
+    let mut db = small_db();
+    let before: Vec<&str> = lint(&db).iter().map(|finding| finding.measure).collect();
+    fault(&mut db);
+    let found = lint(&db);
+    let new = found.iter().filter(|finding| !before.contains(&finding.measure));
+    assert!(new.clone().all(|finding| finding.example == db.examples[WALK].name), "{found:?}");
+    assert_eq!(new.map(|finding| finding.measure).collect::<Vec<_>>(), measures);
+}
+
+fn rotations(db: &mut MotionDb, joint: Joint) -> impl Iterator<Item = (usize, &mut Quat)> {
+    let rows = db.rows.rotations[WALK * PHASE_COUNT * JOINT_COUNT..].iter_mut().skip(joint.index());
+    rows.step_by(JOINT_COUNT).take(PHASE_COUNT).enumerate()
+}
+
+#[test]
+fn every_fault_of_motion_is_found_by_its_measure() {
+    check_finds(&[], |_| ());
+    check_finds(&["planted_slide_cm_s"], |db| db.examples[WALK].planted_slide_cm_s = 16.0);
+    check_finds(&["planted_share"], |db| db.examples[WALK].planted_share = 0.3);
+    check_finds(&["penetration_mm"], |db| db.rows.pelvis_m[WALK * PHASE_COUNT + 5].z -= 0.2);
+    check_finds(&["range_excess_deg"], |db| {
+        rotations(db, Joint::LeftForearm).for_each(|(_, rotation)| *rotation = Quat::from_rotation_x(2.5));
+    });
+    check_finds(&["seam_angle_ratio", "seam_velocity_ratio"], |db| {
+        let drift = |row: usize| Quat::from_rotation_z(0.01 * row as f32);
+        rotations(db, Joint::SpineUpper).for_each(|(row, rotation)| *rotation = drift(row));
+    });
+}
+
+#[test]
+fn stiff_legs_are_stretched_and_standing_ones_at_rest() {
+    let figures = quality(&small_db());
+    assert!((figures[0].leg_extension_max - 1.0).abs() < 1e-6 && figures[0].knee_flexion_min_deg.abs() < 1e-3);
+    assert_eq!((figures[0].seam_angle_ratio, figures[0].planted_share), (0.0, 1.0));
+}
