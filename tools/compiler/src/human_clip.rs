@@ -115,6 +115,13 @@ impl HumanJoints {
         self.foot_points_m(side, body.measured_m[side])
     }
 
+    /// The points of one foot that touch and leave the ground: the heel on the sole, ball and toe tip where slide is
+    /// measured.
+    pub fn landing_points_m(&self, body: &HumanBody, side: usize) -> [DVec3; 3] {
+        let ([heel, ..], [_, ball, tip]) = (body.soles_m[side], body.measured_m[side]);
+        self.foot_points_m(side, [heel, ball, tip])
+    }
+
     fn foot_points_m(&self, side: usize, [heel, ball, tip]: [DVec3; 3]) -> [DVec3; 3] {
         let (foot, toe) = (Joint::FEET[side].index(), Joint::TOES[side].index());
         let on_foot = |offset: DVec3| self.positions_m[foot] + self.orientations[foot] * offset;

@@ -2,9 +2,9 @@
 //!
 //! [`manifest`] → [`take`] → import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] →
 //! [`human_clip::HumanClip`] → [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] →
-//! [`contacts`], [`gait`], [`stride`], [`steady_window`], [`stride_alignment`] → [`pose_mean`], [`cycle::GaitCycle`]
-//! (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`], [`velocity_hull`], [`blend_space`],
-//! [`correspondence`] → [`motiondb::motion_db::MotionDb`]
+//! [`contacts`], [`stance`], [`gait`], [`stride`], [`steady_window`], [`stride_alignment`] → [`pose_mean`],
+//! [`cycle::GaitCycle`] (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`],
+//! [`velocity_hull`], [`blend_space`], [`correspondence`] → [`motiondb::motion_db::MotionDb`]
 
 mod analysis;
 mod anchors;
@@ -54,6 +54,7 @@ pub mod skeleton_map;
 mod soles;
 pub mod source_clip;
 pub mod source_parameters;
+pub mod stance;
 pub mod standing;
 pub mod steady_window;
 pub mod stride;

@@ -1,0 +1,247 @@
+//! Contacts → stances: the instants at which a foot touches the ground and leaves it, finer than frames.
+//!
+//! Slide needs to know in which frames a foot is planted; an event of the gait is one instant. Between swing and stance
+//! the contact point ([`crate::contacts`]) is slow *and* low no more: (h/h₀)² + (v/v₀)² = 1, where h is its height over
+//! where it is in this contact and v its speed in space. Heels strike behind the ankle: the heel is one of the sole here.
+//! Frames of the clip, metres, seconds.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::contacts::runs;
+use crate::root_motion::percentile;
+
+/// A foot on the ground that stands still is no higher than this over where it is in this contact, metres: in some
+/// captures it sinks by as much through a stance …
+const HEIGHT_MAX_M: f64 = 0.05;
+/// … and at its height no faster than this and a share of the body's speed, m/s: fitted to hand labels of a walk, a run,
+/// a side-step, a backward walk and a walk at 120 Hz (`tests/gait_events`).
+const SPEED_MAX_MPS: f64 = 0.2;
+const SPEED_MAX_SHARE: f64 = 0.15;
+/// Speeds are taken over this time, heights are averaged over it: the frame of the slowest clips, so that 120 frames a
+/// second say the same as 30.
+const SPAN_S: f64 = 1.0 / 30.0;
+/// Within one contact a point's planted height is this percentile of its heights.
+const PLANTED_PERCENTILE: f64 = 0.1;
+/// The feet of noisy captures slide all the time: one is planted up to this multiple of its median speed in a contact,
+/// where that is more than the limit.
+const SLIDE_RATIO_MAX: f64 = 2.0;
+/// A shorter lift is no swing, seconds, as in [`crate::contacts`].
+const LIFT_MIN_S: f64 = 0.1;
+/// An end is looked for in steps of a frame over this.
+const TICKS_PER_FRAME: usize = 8;
+/// A landing foot may slip or bounce once more for less than this, seconds; swings last 0.3 s and more.
+const SLIP_MAX_S: f64 = 0.05;
+
+/// One contact of a foot with the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stance {
+    /// Heel strike, or whatever touches first, frames; −∞ where it lies before the clip.
+    pub strike_frame: f64,
+    /// Toe-off, or whatever leaves last, frames; ∞ where it lies after the clip.
+    pub off_frame: f64,
+}
+
+impl Stance {
+    /// Of a foot that never leaves the ground.
+    pub const ALWAYS: Self = Self { strike_frame: f64::NEG_INFINITY, off_frame: f64::INFINITY };
+
+    /// How deep a frame lies in this stance: frames to its nearer end, negative outside.
+    pub fn depth_frames(&self, frame: f64) -> f64 {
+        (frame - self.strike_frame).min(self.off_frame - frame)
+    }
+}
+
+/// The stances of one foot, in order of time: one for each contact in `planted`. `feet` holds the heel on the sole, ball
+/// and toe tip, a value a frame.
+pub fn find(feet: &[[DVec3; 3]], planted: &[bool], frame_rate_hz: f64, body_speed_mps: f64) -> Vec<Stance> {
+    let runs = runs(planted);
+    let speed_max_mps = SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps;
+    let last = ticks(feet.len().saturating_sub(1));
+    // Ends may be looked for up to the middle of the swing before or after.
+    let middle = |swing: (bool, usize, usize)| (ticks(swing.1) + ticks(swing.2 - 1)) / 2;
+    let contacts = runs.iter().enumerate().filter(|(_, run)| run.0);
+    let stances = contacts.map(|(index, &(_, start, end))| {
+        let contact = Contact::over(feet, start..end, frame_rate_hz, speed_max_mps);
+        let frames = [ticks(start), ticks(end - 1)];
+        let earliest = if index < 2 { 0 } else { middle(runs[index - 1]) };
+        let latest = if index + 2 < runs.len() { middle(runs[index + 1]) } else { last };
+        let strike_frame = contact.end(frames[1], frames[0], earliest);
+        let off_frame = contact.end(frames[0], frames[1], latest);
+        Stance {
+            strike_frame: if strike_frame > 0.0 { strike_frame } else { f64::NEG_INFINITY },
+            off_frame: if off_frame < frame_of(last) { off_frame } else { f64::INFINITY },
+        }
+    });
+    joined(stances, LIFT_MIN_S * frame_rate_hz)
+}
+
+/// Stances with less than a swing between them are one.
+fn joined(stances: impl Iterator<Item = Stance>, lift_frames: f64) -> Vec<Stance> {
+    let mut joined: Vec<Stance> = Vec::new();
+    for stance in stances {
+        match joined.last_mut() {
+            Some(before) if stance.strike_frame - before.off_frame < lift_frames => before.off_frame = stance.off_frame,
+            _ => joined.push(stance),
+        }
+    }
+    joined
+}
+
+/// Steps in which ends are looked for, from the clip's first frame to this one.
+fn ticks(frame: usize) -> isize {
+    (frame * TICKS_PER_FRAME) as isize
+}
+
+fn frame_of(tick: isize) -> f64 {
+    tick as f64 / TICKS_PER_FRAME as f64
+}
+
+/// One contact of a foot while its ends are looked for.
+struct Contact<'a> {
+    feet: &'a [[DVec3; 3]],
+    /// Where its points are while it is planted.
+    heights_m: [f64; 3],
+    frame_rate_hz: f64,
+    speed_max_mps: f64,
+}
+
+impl<'a> Contact<'a> {
+    fn over(feet: &'a [[DVec3; 3]], frames: Range<usize>, frame_rate_hz: f64, speed_max_mps: f64) -> Self {
+        let heights_m = [0, 1, 2].map(|point| {
+            let mut heights: Vec<f64> = feet[frames.clone()].iter().map(|foot| foot[point].z).collect();
+            percentile(&mut heights, PLANTED_PERCENTILE)
+        });
+        let mut contact = Self { feet, heights_m, frame_rate_hz, speed_max_mps };
+        let mut speeds: Vec<f64> = frames.map(|frame| contact.contact_point(frame as f64).1).collect();
+        contact.speed_max_mps = speed_max_mps.max(SLIDE_RATIO_MAX * percentile(&mut speeds, 0.5));
+        contact
+    }
+
+    /// The frame at which a contact known from tick `inner` to `outer` ends: `outer` moves inward until it is planted,
+    /// then outward, over slips, until it is no more; `bound` at the farthest.
+    fn end(&self, inner: isize, outer: isize, bound: isize) -> f64 {
+        let outward = (bound - inner).signum();
+        let is_planted = |tick: isize| self.excess(frame_of(tick)) < 1.0;
+        let mut edge = outer;
+        while edge != inner && !is_planted(edge) {
+            edge -= outward;
+        }
+        if !is_planted(edge) {
+            return frame_of(outer) + 0.5 * outward as f64;
+        }
+        let slip_ticks = (SLIP_MAX_S * self.frame_rate_hz * TICKS_PER_FRAME as f64) as isize + 1;
+        let mut tick = edge;
+        while tick != bound && (tick - edge).abs() < slip_ticks {
+            tick += outward;
+            if is_planted(tick) {
+                edge = tick;
+            }
+        }
+        if edge == bound { frame_of(bound) } else { self.crossing(edge, edge + outward) }
+    }
+
+    /// Where, between a planted tick and the next that is not, the foot is planted no more.
+    fn crossing(&self, inside: isize, outside: isize) -> f64 {
+        let [within, beyond] = [inside, outside].map(|tick| self.excess(frame_of(tick)));
+        let share = ((1.0 - within) / (beyond - within)).clamp(0.0, 1.0);
+        frame_of(inside) + share * (frame_of(outside) - frame_of(inside))
+    }
+
+    /// How far the contact point is beyond being planted: 1 at the end of a contact, less within.
+    fn excess(&self, frame: f64) -> f64 {
+        let (height_m, speed_mps) = self.contact_point(frame);
+        let (height, speed) = (height_m / HEIGHT_MAX_M, speed_mps / self.speed_max_mps);
+        height * height + speed * speed
+    }
+
+    /// Height of the lowest of the foot's points over where it is planted, and its speed; of several as low the
+    /// slowest.
+    fn contact_point(&self, frame: f64) -> (f64, f64) {
+        let last_frame = (self.feet.len() - 1) as f64;
+        let half_frames = 0.5 * (SPAN_S * self.frame_rate_hz).max(1.0);
+        let [before, after] = [-half_frames, half_frames].map(|frames| (frame + frames).clamp(0.0, last_frame));
+        let span_s = (after - before) / self.frame_rate_hz;
+        let [from_m, at_m, to_m] = [before, frame, after].map(|frame| self.points_m(frame));
+        let point = |point: usize| {
+            let height_m = 0.25 * (from_m[point].z + 2.0 * at_m[point].z + to_m[point].z) - self.heights_m[point];
+            (height_m.max(0.0), to_m[point].distance(from_m[point]) / span_s)
+        };
+        let lower = |a: (f64, f64), b: (f64, f64)| if b < a { b } else { a };
+        lower(lower(point(0), point(1)), point(2))
+    }
+
+    /// The foot's points between frames, linearly.
+    fn points_m(&self, frame: f64) -> [DVec3; 3] {
+        let base = (frame as usize).min(self.feet.len().saturating_sub(2));
+        let next = (base + 1).min(self.feet.len() - 1);
+        [0, 1, 2].map(|point| self.feet[base][point].lerp(self.feet[next][point], frame - base as f64))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contacts;
+    use crate::human_clip::HumanPose;
+    use crate::synthetic::{self, Walk};
+
+    /// Millimetres to either side, the same at every call.
+    fn jitter_m(frame: usize, point: usize, amplitude_m: f64) -> DVec3 {
+        let noise = |axis: usize| {
+            let seed = libm::sin((frame * 9 + point * 3 + axis) as f64 * 12.9898) * 43758.5453;
+            amplitude_m * (2.0 * (seed - libm::floor(seed)) - 1.0)
+        };
+        DVec3::new(noise(0), noise(1), noise(2))
+    }
+
+    /// The synthetic walker's right foot: planted for 0.3 of a period of 1.1 s before and after 0.37, 1.37 … of it.
+    fn check_events(frame_rate_hz: f64, amplitude_m: f64, tolerance_s: f64) {
+        let clip = synthetic::walk("walk", Walk { frame_rate_hz, ..Walk::default() });
+        let foot = |(frame, pose): (usize, &HumanPose)| {
+            let points = pose.forward_kinematics(&clip.body).landing_points_m(&clip.body, 1);
+            [0, 1, 2].map(|point| points[point] + jitter_m(frame, point, amplitude_m))
+        };
+        let feet: Vec<[DVec3; 3]> = clip.frames.iter().enumerate().map(foot).collect();
+        let contacts = contacts::find(&feet, frame_rate_hz, 1.2, 1.0);
+        let stances = find(&feet, &contacts.planted, frame_rate_hz, 1.2);
+        assert_eq!(stances.len(), 4, "{stances:?}");
+        for (step, stance) in stances.iter().enumerate() {
+            let events_s = [stance.strike_frame, stance.off_frame].map(|frame| frame / frame_rate_hz);
+            let wanted_s = [0.07, 0.67].map(|cycles| 1.1 * (cycles + step as f64));
+            for (found_s, wanted_s) in events_s.into_iter().zip(wanted_s) {
+                let off_s = if found_s.is_finite() { found_s - wanted_s } else { 0.0 };
+                assert!(off_s.abs() < tolerance_s, "step {step} at {frame_rate_hz} Hz: {found_s} s, not {wanted_s} s");
+            }
+        }
+    }
+
+    #[test]
+    fn events_are_found_between_frames() {
+        for frame_rate_hz in [24.0, 25.0, 30.0, 50.0, 60.0, 100.0, 120.0] {
+            check_events(frame_rate_hz, 0.0, 0.02);
+        }
+    }
+
+    #[test]
+    fn jitter_moves_events_by_less_than_a_frame_at_30() {
+        for frame_rate_hz in [24.0, 30.0, 60.0, 120.0] {
+            for amplitude_m in [0.001, 0.002, 0.003] {
+                check_events(frame_rate_hz, amplitude_m, 1.0 / 30.0);
+            }
+        }
+    }
+
+    #[test]
+    fn a_contact_that_the_clip_cuts_has_no_such_end() {
+        let feet = vec![[DVec3::ZERO; 3]; 30];
+        assert_eq!(find(&feet, &[true; 30], 30.0, 0.0), [Stance::ALWAYS]);
+    }
+
+    #[test]
+    fn frames_are_as_deep_in_a_stance_as_its_nearer_end_is_far() {
+        let stance = Stance { strike_frame: 4.0, off_frame: 20.5 };
+        assert_eq!([3.0, 6.0, 18.0, 22.0].map(|frame| stance.depth_frames(frame)), [-1.0, 2.0, 2.5, -1.5]);
+    }
+}
