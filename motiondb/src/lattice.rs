@@ -80,7 +80,8 @@ fn spanning_simplex(points: &[[i64; 3]]) -> (Vec<usize>, Vec<DVec3>) {
     let (mut span, mut directions) = (vec![0], Vec::<DVec3>::new());
     while directions.len() < 3 {
         let off_flat = |index| directions.iter().fold(offset(index), |off, along| off.reject_from_normalized(*along));
-        let offs = (0..points.len()).map(|index| (index, off_flat(index)));
+        // Backwards, for of equals the last is taken.
+        let offs = (0..points.len()).rev().map(|index| (index, off_flat(index)));
         match offs.max_by(|(_, a), (_, b)| a.length_squared().total_cmp(&b.length_squared())) {
             Some((index, off)) if off.length() > STEPS * f64::from(FLAT_SHARE) => {
                 span.push(index);

@@ -96,12 +96,9 @@ impl Simplex {
 
     /// Corners of each facet, sorted.
     pub(crate) fn facets(&self) -> impl Iterator<Item = Vec<u32>> {
-        (0..self.count).map(|left_out| {
-            let facet = self.facet(left_out);
-            let mut examples = facet.examples[..facet.count].to_vec();
-            examples.sort_unstable();
-            examples
-        })
+        let mut sorted = self.examples[..self.count].to_vec();
+        sorted.sort_unstable();
+        (0..self.count).map(move |left_out| [&sorted[..left_out], &sorted[left_out + 1..]].concat())
     }
 
     /// Takes its point nearest to `point` where that is nearer than what is known.
