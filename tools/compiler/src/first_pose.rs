@@ -1,8 +1,10 @@
-//! A separate first pose: many files begin with a T-pose and jump from it into the motion, or blend out of it over some
-//! frames (PFNN: 40).
+//! Poses that are no part of the motion: many files begin with a T-pose and jump from it into the motion, stand in it
+//! for seconds while a suit is calibrated, or blend out of it over some frames (PFNN: 40); some end in one.
 //!
-//! A jump is cut off. A blend stays, since it is a motion, but is told: an example is made from a steady window and
-//! leaves it out.
+//! All are cut off. Whole-clip parameters are measured between the two cuts: a single foreign frame spoils them, a
+//! blend or a calibration is a part of the clip. The clip is in metres, Z up.
+
+use std::ops::Range;
 
 use glam::DVec3;
 use motiondb::skeleton::Joint;
@@ -20,8 +22,10 @@ const FRAMES_MIN: usize = 11;
 /// past 45°.
 const SPREAD_COSINE: f64 = 0.87;
 const LOWERED_COSINE: f64 = 0.71;
+/// What is left without the T-poses must hold a stride, s; else they stay.
+const LEFT_MIN_S: f64 = 1.0;
 
-/// Drops a first frame from which the pose jumps; the clip is in metres, Z up.
+/// Drops a first frame from which the pose jumps.
 pub(crate) fn drop_separate_first_pose(clip: &mut SourceClip, roles: &Roles) {
     if clip.frame_count() < FRAMES_MIN {
         return;
@@ -30,14 +34,45 @@ pub(crate) fn drop_separate_first_pose(clip: &mut SourceClip, roles: &Roles) {
     let mut steps: Vec<f64> = (1..clip.frame_count()).map(|frame| pose_step(clip, roles, &joints, frame)).collect();
     let first = steps.remove(0);
     steps.sort_by(f64::total_cmp);
-    if first > JUMP_TIMES_MEDIAN * steps[steps.len() / 2] + JUMP_MIN_M {
+    let jumps = first > JUMP_TIMES_MEDIAN * steps[steps.len() / 2] + JUMP_MIN_M;
+    let drops_arms = spread(clip, roles, 0) > SPREAD_COSINE && spread(clip, roles, 1) < LOWERED_COSINE;
+    if jumps || drops_arms {
         clip.keep_frames(1..clip.frame_count());
         clip.warnings.push("the first frame is a separate pose and is not used".to_owned());
     }
-    if spread(clip, roles, 0) > SPREAD_COSINE {
-        let lowered = (1..clip.frame_count()).find(|&frame| spread(clip, roles, frame) < LOWERED_COSINE);
-        clip.warnings.extend(lowered.map(|frames| format!("the first {frames} frames come out of a T-pose")));
+}
+
+/// Drops the T-poses in which a clip begins and ends, with the way out of the one and into the other.
+pub(crate) fn drop_t_poses(clip: &mut SourceClip, roles: &Roles) {
+    let count = clip.frame_count();
+    let spreads: Vec<f64> = (0..count).map(|frame| spread(clip, roles, frame)).collect();
+    let first = t_pose_frames(spreads.iter().copied());
+    let last = t_pose_frames(spreads.iter().rev().copied());
+    let (Some(first), Some(last)) = (first, last) else { return };
+    let kept: Range<usize> = first..count.saturating_sub(last).max(first);
+    let fits = kept.len() >= FRAMES_MIN && kept.len() as f64 >= LEFT_MIN_S * clip.frame_rate_hz;
+    let then = if fits { " and are not used" } else { "" };
+    if first > 0 {
+        clip.warnings.push(format!("the first {first} frames come out of a T-pose{then}"));
     }
+    if last > 0 {
+        clip.warnings.push(format!("the last {last} frames go into a T-pose{then}"));
+    }
+    if fits {
+        clip.keep_frames(kept);
+    }
+}
+
+/// How many frames it takes from a T-pose until the arms are where they usually are; none in one all along.
+fn t_pose_frames(mut spreads: impl Iterator<Item = f64> + Clone) -> Option<usize> {
+    if spreads.clone().next().is_none_or(|spread| spread <= SPREAD_COSINE) {
+        return Some(0);
+    }
+    let lowered = spreads.clone().position(|spread| spread < LOWERED_COSINE)?;
+    let mut usual: Vec<f64> = spreads.clone().skip(lowered).collect();
+    usual.sort_by(f64::total_cmp);
+    let median = usual[usual.len() / 2];
+    spreads.position(|spread| spread < LOWERED_COSINE && spread <= median)
 }
 
 /// Cosine between the shoulder line and the arm that is farther from it.

@@ -3,8 +3,8 @@
 //! # Steps
 //! read ([`crate::bvh`], [`crate::gltf`]) → what a manifest corrects ([`crate::take`]) → roles ([`crate::skeleton_map`])
 //! and facing (`facing`) → metres, Z up ([`crate::units`]) → no separate first pose (`first_pose`) → whole-clip
-//! parameters ([`crate::source_parameters`]) → a plausible gait (`plausibility`) → canonical humanoid (`retarget`) → a
-//! plausible body.
+//! parameters ([`crate::source_parameters`]) → no T-poses (`first_pose`) → a plausible gait (`plausibility`) → canonical
+//! humanoid (`retarget`) → a plausible body.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -135,11 +135,17 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
     if let Some(forward) = settings.forward {
         facing::face(&clip, &mut roles, forward)?;
     }
+    if roles.names_belied {
+        clip.warnings.push("left and right are exchanged: toes and knees point the other way".to_owned());
+    }
     let (mut clip, units) = units::to_metres_z_up(clip, &roles);
     if settings.frames.is_none() {
         first_pose::drop_separate_first_pose(&mut clip, &roles);
     }
     let whole = source_parameters::measure(&clip, &roles);
+    if settings.frames.is_none() {
+        first_pose::drop_t_poses(&mut clip, &roles);
+    }
     clip.warnings.extend(plausibility::implausible_gait(&clip, &roles, &whole));
     let mut human = retarget::to_human(&clip, &roles, &units, whole, name);
     human.choices.mirror = settings.mirror;

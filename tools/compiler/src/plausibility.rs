@@ -1,24 +1,28 @@
 //! Whether a gait and a body can be true.
 //!
-//! Of a gait: the ratio of step length to cadence, which people keep at 0.6–0.7 cm/(step/min) over all speeds, slow or
-//! running (`facts/motion.md` §4). A lying `Frame Time:` scales it by the square of the lie: the CMU run 02_03 at 1/25
-//! s instead of 1/120 s comes out at 11.
+//! Of a gait: its cadence, and the ratio of step length to cadence, which people keep at 0.6–0.7 cm/(step/min) over all
+//! speeds, slow or running (`facts/motion.md` §4). A lying `Frame Time:` scales both: the CMU run 02_03 at 1/25 s instead
+//! of 1/120 s comes out at 4. Legs of another length step longer by that length, at a cadence of its root less.
 
 use motiondb::skeleton::Joint;
 
 use crate::error::Refusal;
 use crate::human_clip::HumanBody;
+use crate::remark::FRAME_TIME_QUESTION;
 use crate::root_motion::leg_length_m;
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;
-use crate::source_parameters::{WholeClip, facing_rad};
-use crate::units::{HUMAN_LEG_M, leg_length};
+use crate::source_parameters::{WholeClip, facing_rad, median};
+use crate::units::{HUMAN_LEG_M, leg_length, middle};
 
 /// Plausible walk ratios, cm/(step/min), for a person's leg. Clips of the development set: 0.27 (careful small steps)
 /// to 1.1 (sprint).
 const WALK_RATIO_CM_MIN: std::ops::RangeInclusive<f64> = 0.15..=2.0;
-/// Slower clips stand, turn or side-step, m/s.
-const SPEED_MIN_MPS: f64 = 0.4;
+/// The fastest steps a minute, for a person's leg (sprinters: 290).
+const CADENCE_MAX_PER_MIN: f64 = 320.0;
+/// Feet nearer along the facing do not step but stand, turn or side-step; shorter steps say nothing, m.
+const LEAD_MIN_M: f64 = 0.06;
+const STEP_MIN_M: f64 = 0.2;
 /// Fewer steps say nothing.
 const STEPS_MIN: usize = 3;
 
@@ -48,36 +52,48 @@ pub(crate) fn impossible_body(body: &HumanBody) -> Option<Refusal> {
     Some(Refusal::Disproportionate { reason })
 }
 
-/// The warning, where steps and speed do not go together.
+/// The warning, where steps are none of a human's.
 pub(crate) fn implausible_gait(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Option<String> {
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
-    let speed_mps = whole.speed_mps.abs() / scale;
-    let passings = passings(clip, roles);
-    let [first, .., last] = passings[..] else { return None };
-    let steps = passings.len() - 1;
-    if speed_mps < SPEED_MIN_MPS || steps < STEPS_MIN {
+    let passings = passings(clip, roles, LEAD_MIN_M * scale);
+    let steps: Vec<(usize, usize)> = passings.windows(2).map(|pair| (pair[0], pair[1])).collect();
+    if steps.len() < STEPS_MIN {
         return None;
     }
-    let steps_per_s = steps as f64 * clip.frame_rate_hz / (last - first) as f64;
-    let step_cm = 100.0 * speed_mps / steps_per_s;
-    let walk_ratio = step_cm / (60.0 * steps_per_s);
-    (!WALK_RATIO_CM_MIN.contains(&walk_ratio)).then(|| {
-        format!(
-            "steps of {step_cm:.0} cm, {:.0} a minute, are no human gait: is the frame time true?",
-            60.0 * steps_per_s
-        )
+    let step_s = median(steps.iter().map(|(from, to)| (to - from) as f64)) / clip.frame_rate_hz;
+    let hips = |frame: usize| middle(clip, roles, Joint::THIGHS, frame).truncate();
+    let step_m = match whole.in_place {
+        true => whole.speed_mps.abs() * step_s,
+        false => median(steps.iter().map(|&(from, to)| (hips(to) - hips(from)).length())),
+    };
+    let (human_step_cm, human_cadence) = (100.0 * step_m / scale, 60.0 / step_s * scale.sqrt());
+    let is_human = human_step_cm < 100.0 * STEP_MIN_M
+        || human_cadence < CADENCE_MAX_PER_MIN && WALK_RATIO_CM_MIN.contains(&(human_step_cm / human_cadence));
+    (!is_human).then(|| {
+        let [step_cm, cadence] = [100.0 * step_m, 60.0 / step_s];
+        format!("steps of {step_cm:.0} cm, {cadence:.0} a minute, are no human gait: {FRAME_TIME_QUESTION}")
     })
 }
 
-/// The frames in which one foot passes the other along the facing: once a step.
-fn passings(clip: &SourceClip, roles: &Roles) -> Vec<usize> {
-    let lead = |frame: usize| {
+/// The frames in which one foot passes the other along the facing, once a step, and leads it by `lead_m` before the next.
+fn passings(clip: &SourceClip, roles: &Roles, lead_m: f64) -> Vec<usize> {
+    let mut passings = Vec::new();
+    let (mut leading, mut crossed) = (0.0, 0);
+    for frame in 0..clip.frame_count() {
         let [left, right] = Joint::FEET.map(|foot| clip.position(frame, roles.required(foot)));
         let facing = facing_rad(clip, roles, frame);
-        (left - right).x * libm::cos(facing) + (left - right).y * libm::sin(facing)
-    };
-    let leads: Vec<f64> = (0..clip.frame_count()).map(lead).collect();
-    (1..leads.len()).filter(|&frame| (leads[frame - 1] < 0.0) != (leads[frame] < 0.0)).collect()
+        let lead = (left - right).x * libm::cos(facing) + (left - right).y * libm::sin(facing);
+        if lead * leading <= 0.0 && crossed == 0 {
+            crossed = frame;
+        } else if lead * leading > 0.0 {
+            crossed = 0;
+        }
+        if lead.abs() > lead_m && lead * leading <= 0.0 {
+            passings.extend((leading != 0.0).then_some(crossed));
+            (leading, crossed) = (lead, 0);
+        }
+    }
+    passings
 }
 
 #[cfg(test)]

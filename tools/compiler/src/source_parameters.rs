@@ -124,7 +124,8 @@ fn ground_velocity(clip: &SourceClip, joint: usize, frame: usize) -> DVec2 {
     step.truncate() * clip.frame_rate_hz / (after - before) as f64
 }
 
-fn median(values: impl Iterator<Item = f64>) -> f64 {
+/// The middle value; the mean of the two middle ones of an even number.
+pub(crate) fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut sorted: Vec<f64> = values.collect();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;

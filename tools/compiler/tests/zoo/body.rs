@@ -129,6 +129,73 @@ impl Performance {
         }
     }
 
+    /// Stands in a T-pose first, then goes over into the motion.
+    pub(crate) fn stand_before(&mut self, stand_s: f64, blend_s: f64) {
+        let (stand, first) = (self.t_pose(), self.poses[0].clone());
+        let mut poses = self.transition(&stand, &first, stand_s, blend_s);
+        self.dilute(poses.len());
+        poses.append(&mut self.poses);
+        self.poses = poses;
+    }
+
+    /// Goes over into a T-pose at the end and stands in it.
+    pub(crate) fn stand_after(&mut self, stand_s: f64, blend_s: f64) {
+        let last = self.poses[self.poses.len() - 1].clone();
+        let facing = last.turns[0] * DVec3::Z;
+        let turn = DQuat::from_rotation_y(facing.x.atan2(facing.z));
+        let stand = Pose { hips_m: last.hips_m.with_y(0.93), turns: [turn; 22] };
+        let mut poses = self.transition(&stand, &last, stand_s, blend_s);
+        poses.reverse();
+        self.dilute(poses.len());
+        self.poses.append(&mut poses);
+    }
+
+    fn transition(&self, stand: &Pose, to: &Pose, stand_s: f64, blend_s: f64) -> Vec<Pose> {
+        let [stood, blended] = [stand_s, blend_s].map(|time_s| (time_s * self.frame_rate_hz).round() as usize);
+        let blend = (0..blended).map(|frame| stand.lerp(to, (frame + 1) as f64 / (blended + 1) as f64));
+        std::iter::repeat_n(stand.clone(), stood).chain(blend).collect()
+    }
+
+    /// Whole-clip means count the frames that stand; a single one is known to be left out.
+    fn dilute(&mut self, standing: usize) {
+        if standing > 1 {
+            let share = (self.poses.len() - 1) as f64 / (self.poses.len() + standing - 1) as f64;
+            self.truth = self.truth.map(|value| value * share);
+        }
+    }
+
+    /// The T-pose goes over into the motion while that moves on.
+    pub(crate) fn blend_out(&mut self, blend_s: f64) {
+        let stand = self.t_pose();
+        let frames = (blend_s * self.frame_rate_hz).ceil();
+        for (frame, pose) in self.poses.iter_mut().enumerate().take(frames as usize) {
+            let facing = pose.turns[0] * DVec3::Z;
+            let turn = DQuat::from_rotation_y(facing.x.atan2(facing.z));
+            let stand = Pose { hips_m: pose.hips_m, turns: [turn; 22], ..stand.clone() };
+            *pose = stand.lerp(pose, frame as f64 / frames);
+        }
+    }
+
+    /// Takes out the straight way that the hips make from the first to the last frame; turning clips stay.
+    pub(crate) fn stay_in_place(&mut self) {
+        if self.truth[1] != 0.0 {
+            return;
+        }
+        let last = self.poses.len() - 1;
+        let way_m = (self.poses[last].hips_m - self.poses[0].hips_m).with_y(0.0);
+        for (frame, pose) in self.poses.iter_mut().enumerate() {
+            pose.hips_m -= way_m * frame as f64 / last as f64;
+        }
+    }
+
+    /// The ground rises by so much along the way.
+    pub(crate) fn slope(&mut self, slope: f64) {
+        let start_m = self.poses[0].hips_m;
+        for pose in &mut self.poses {
+            pose.hips_m.y += slope * (pose.hips_m - start_m).with_y(0.0).length();
+        }
+    }
+
     /// The pose of all offsets, standing where the first frame does.
     pub(crate) fn t_pose(&self) -> Pose {
         let hips_m = self.poses[0].hips_m;

@@ -59,3 +59,10 @@ fn names(rows: &[&'static str]) -> Names {
         is_biped: kind == "biped",
     }
 }
+
+impl Names {
+    /// Whether its names tell left from right.
+    pub(crate) fn says_sides(&self) -> bool {
+        !["A", "1", ""].contains(&self.sides[0]) && self.sides != ["B", "A"]
+    }
+}
