@@ -73,6 +73,15 @@ pub enum Refusal {
         /// Frames there are.
         frames: usize,
     },
+    /// An animation of shapes, materials or props.
+    #[error("no joint moves: it animates shapes, materials or props; export the skeleton's motion")]
+    Motionless,
+    /// This clip's part of the file breaks the format.
+    #[error("{reason}")]
+    Malformed {
+        /// Where, what is wrong and what to do.
+        reason: String,
+    },
     /// No pair of limbs with hip, knee and ankle.
     #[error("no human legs: {reason}; only clips of a walking human skeleton can be used")]
     NoLegs {

@@ -10,13 +10,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use motiondb::input_file;
+use rayon::prelude::*;
 
 use crate::error::{ImportError, MIN_FRAMES, Refusal, Setting};
+use crate::gltf::GltfFile;
 use crate::human_clip::{HumanClip, HumanPose};
 use crate::skeleton_map::find_roles;
 use crate::source_clip::SourceClip;
 use crate::take::{Settings, Take};
-use crate::{bvh, facing, first_pose, gltf, plausibility, retarget, source_parameters, units};
+use crate::{bvh, facing, first_pose, plausibility, retarget, source_parameters, units};
 
 /// One clip of a file: a human motion, or why it is none.
 #[derive(Clone, Debug)]
@@ -57,29 +59,50 @@ pub fn import_bytes(path: &Path, bytes: &[u8]) -> Result<Vec<Import>, ImportErro
 
 fn import_read(take: &Take, bytes: &[u8]) -> Result<Vec<Import>, ImportError> {
     let path = take.path.as_path();
-    let clips = match Format::of(path).ok_or_else(|| ImportError::UnknownFormat { file: path.to_owned() })? {
-        Format::Bvh => vec![bvh::read(path, bytes)?],
-        Format::Gltf => gltf::read(path, bytes)?,
-    };
-    let several = clips.len() > 1;
-    let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let label = take.settings.name.clone().unwrap_or(stem);
-    let Some(animation) = &take.animation else {
-        return Ok(clips.into_iter().map(|clip| import_clip(clip, take, &label, several)).collect());
-    };
-    let only_name = several && take.settings.name.is_none();
-    let names: Vec<String> = clips.iter().map(|clip| clip.clip.clone()).collect();
-    let found = clips.into_iter().find(|clip| clip.clip == *animation);
-    Ok(vec![found.map_or_else(
-        || Import { file: file_name(path), clip: animation.clone(), outcome: Err(no_animation(animation, &names)) },
-        |clip| import_clip(clip, take, &label, only_name),
-    )])
+    match Format::of(path).ok_or_else(|| ImportError::UnknownFormat { file: path.to_owned() })? {
+        Format::Bvh => import_bvh(take, bvh::read(path, bytes)?),
+        Format::Gltf => import_gltf(take, &GltfFile::open(path, bytes)?),
+    }
 }
 
-fn no_animation(animation: &str, names: &[String]) -> Refusal {
+fn import_bvh(take: &Take, clip: SourceClip) -> Result<Vec<Import>, ImportError> {
+    Ok(vec![match &take.animation {
+        Some(animation) => no_animation(take, animation, &[""]),
+        None => import_clip(clip, take, false),
+    }])
+}
+
+/// Clip by clip: of thousands of animations only their people are kept. One that is malformed hides no other, unless
+/// all are.
+fn import_gltf(take: &Take, file: &GltfFile) -> Result<Vec<Import>, ImportError> {
+    let several = file.len() > 1;
+    if let Some(animation) = &take.animation {
+        let Some(index) = (0..file.len()).find(|&index| file.name(index) == animation) else {
+            let names: Vec<&str> = (0..file.len()).map(|index| file.name(index)).collect();
+            return Ok(vec![no_animation(take, animation, &names)]);
+        };
+        return Ok(vec![import_clip(file.clip(index)?, take, several && take.settings.name.is_none())]);
+    }
+    let read = |index| file.clip(index).map(|clip| import_clip(clip, take, several));
+    let mut imports: Vec<_> = (0..file.len()).into_par_iter().map(read).collect();
+    if let Some(malformed) = imports.iter().position(Result::is_err).filter(|_| imports.iter().all(Result::is_err)) {
+        return imports.swap_remove(malformed).map(|import| vec![import]);
+    }
+    let refused = |index, error: ImportError| Import {
+        file: file_name(&take.path),
+        clip: file.name(index).to_owned(),
+        outcome: Err(Refusal::Malformed { reason: error.reason() }),
+    };
+    let or_refused = |(index, import): (usize, Result<_, _>)| import.unwrap_or_else(|error| refused(index, error));
+    Ok(imports.into_iter().enumerate().map(or_refused).collect())
+}
+
+fn no_animation(take: &Take, animation: &str, names: &[&str]) -> Import {
     let names = if *names == [""] { "a motion without name".to_owned() } else { names.join(", ") };
     let reason = format!("there is no animation `{animation}`, but {names}");
-    Refusal::Setting { setting: Setting::Animation, reason, remedy: "name what is there, or remove the key" }
+    let remedy = "name what is there, or remove the key";
+    let outcome = Err(Refusal::Setting { setting: Setting::Animation, reason, remedy });
+    Import { file: file_name(&take.path), clip: animation.to_owned(), outcome }
 }
 
 fn file_name(path: &Path) -> String {
@@ -121,12 +144,17 @@ impl Format {
     }
 }
 
-fn import_clip(clip: SourceClip, take: &Take, label: &str, several: bool) -> Import {
-    let name = if several { format!("{label} {}", clip.clip) } else { label.to_owned() };
+fn import_clip(clip: SourceClip, take: &Take, several: bool) -> Import {
+    let stem = take.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let label = take.settings.name.clone().unwrap_or(stem);
+    let name = if several { format!("{label} {}", clip.clip) } else { label };
     Import { file: clip.file.clone(), clip: clip.clip.clone(), outcome: to_human(clip, &take.settings, name) }
 }
 
 fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<HumanClip, Refusal> {
+    if clip.frame_count() == 0 {
+        return Err(Refusal::Motionless);
+    }
     settings.correct(&mut clip)?;
     if clip.frame_count() < MIN_FRAMES {
         return Err(Refusal::TooShort { frames: clip.frame_count() });
