@@ -1,57 +1,169 @@
-//! HumanClip → what its example will be made of: the clip on the target skeleton, its gait, its mean stride; or why it
-//! gives none.
+//! HumanClip → what its examples will be made of: the clip on the target skeleton, its steady windows, the mean stride
+//! of each; or why it gives none.
 //!
 //! A folder may hold anything: dances, jumps, deaths. What steps or stands steadily may still be no model of standing
 //! on the ground, and then gives no example either.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
+use crate::arc::Rates;
 use crate::cycle::{self, GaitCycle};
 use crate::foot_slide;
-use crate::gait::{self, Gait, GaitAnalysis};
+use crate::gait::{self, Gait, GaitAnalysis, Window};
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::remark::NO_EXAMPLE;
 use crate::root_motion::{self, GroundedClip, leg_length_m};
-use crate::{parameterize, unroll};
+use crate::stance::Stance;
+use crate::{parameterize, selection, unroll};
 
 /// Whoever walks, crouched or on hands, has the pelvis above this, m.
 const PELVIS_HEIGHT_MIN_M: f64 = 0.01;
 /// Why a clip in which it is elsewhere is no example.
 const STRAY: &str = "the pelvis is where no legs could carry it";
 
-/// A clip on the target skeleton, its gait found and, where it steps, its mean stride.
+/// A clip on the target skeleton and those of its steady windows that may become examples.
 pub(crate) struct Analyzed {
     pub grounded: GroundedClip,
     pub gait: GaitAnalysis,
-    pub stepping: Option<GaitCycle>,
+    /// The longest first.
+    pub windows: Vec<SteadyWindow>,
+    /// Of the clip as a whole.
     pub warnings: Vec<String>,
+    pub left_out: LeftOut,
+}
+
+/// How many steady windows of a clip give no example beside others.
+#[derive(Default)]
+pub(crate) struct LeftOut {
+    /// Their feet slide, or are hardly planted.
+    pub doubtful: usize,
+    /// Another window is as good or better.
+    pub near_equal: usize,
+}
+
+/// A steady window of a clip.
+pub(crate) struct SteadyWindow {
+    /// First and last second, counted from the file's first frame.
+    pub window_s: [f64; 2],
+    pub motion: Motion,
+    /// How far from a clean cycle it is, see [`selection`].
+    pub flaws: f64,
+    /// It is worth a warning: good enough for a clip's only example, but not for one more.
+    pub is_doubtful: bool,
+    /// What should be said of it if it becomes an example.
+    pub remarks: Vec<String>,
+}
+
+/// What the body does in a window.
+pub(crate) enum Motion {
+    /// It steps: the mean stride.
+    Steps(Box<GaitCycle>),
+    /// It stands in these frames; its cycle waits for the period of m_sp.
+    Stands(Range<usize>),
+}
+
+impl SteadyWindow {
+    /// The mean stride of a body that steps.
+    pub(crate) fn stepping(&self) -> Option<&GaitCycle> {
+        match &self.motion {
+            Motion::Steps(cycle) => Some(cycle),
+            Motion::Stands(_) => None,
+        }
+    }
+
+    /// The root's rates.
+    pub(crate) fn rates(&self) -> Rates {
+        self.stepping().map_or_else(Rates::default, |cycle| cycle.rates)
+    }
+}
+
+impl Analyzed {
+    /// What is to be said of the clip: on the whole, of its first window, of each other one with its time.
+    pub(crate) fn remarks(&self) -> Vec<String> {
+        let mut remarks = self.warnings.clone();
+        for (index, window) in self.windows.iter().enumerate() {
+            let at = if index == 0 { String::new() } else { format!("from {:.1} s: ", window.window_s[0]) };
+            remarks.extend(window.remarks.iter().map(|remark| format!("{at}{remark}")));
+        }
+        remarks.extend(self.left_out.remark());
+        remarks
+    }
+}
+
+impl LeftOut {
+    fn remark(&self) -> Option<String> {
+        let [doubtful, near_equal] = [self.doubtful, self.near_equal];
+        let windows = |count: usize| format!("{count} more steady window{}", if count == 1 { "" } else { "s" });
+        match (doubtful, near_equal) {
+            (0, 0) => None,
+            (0, _) => Some(format!("{}, near-equal to examples, left out", windows(near_equal))),
+            (_, 0) => Some(format!("{} with sliding feet left out", windows(doubtful))),
+            _ => Some(format!(
+                "{}, {near_equal} near-equal to examples and {doubtful} with sliding feet, left out",
+                windows(doubtful + near_equal)
+            )),
+        }
+    }
 }
 
 /// Analyses one clip.
 pub(crate) fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
     let grounded = unroll::unroll(root_motion::ground(clip, body), body);
-    let mut gait = gait::analyze(&grounded, body);
-    let heights_m = grounded.poses.iter().map(|pose| DVec3::Z * pose.pelvis_m.z);
-    if matches!(gait.gait, Gait::Stands) && strays(heights_m, body) {
-        gait.gait = Gait::Unsteady(STRAY);
-    }
-    let (mut stepping, mut warnings) = (None, Vec::new());
-    match &gait.gait {
-        Gait::Steps(strides) => {
-            let mut cycle = cycle::mean_stride(&grounded, body, &gait.planted, strides);
-            warnings = parameterize::snap(&mut cycle);
-            match unfit(&cycle, body) {
-                Some(reason) => warnings.push(format!("{NO_EXAMPLE}{reason}")),
-                None => {
-                    warnings.extend(foot_slide::lint(&cycle, body));
-                    stepping = Some(cycle);
-                }
-            }
+    let gait = gait::analyze(&grounded, body);
+    let (mut windows, mut warnings) = (Vec::new(), Vec::new());
+    let (found, mut reason) = match &gait.windows {
+        Ok(found) => (found.as_slice(), None),
+        Err(reason) => (&[][..], Some((*reason).to_owned())),
+    };
+    for window in found {
+        match steady_window(clip, &grounded, body, &gait.stances[window.reading], window) {
+            Ok(steady) => windows.push(steady),
+            Err(unfit) => reason = reason.or(Some(unfit)),
         }
-        Gait::Unsteady(reason) => warnings.push(format!("{NO_EXAMPLE}{reason}")),
-        Gait::Stands => {}
     }
-    Analyzed { grounded, gait, stepping, warnings }
+    if let (Some(reason), []) = (reason, &windows[..]) {
+        warnings.push(format!("{NO_EXAMPLE}{reason}"));
+    }
+    let left_out = selection::keep_best(&mut windows);
+    Analyzed { grounded, gait, windows, warnings, left_out }
+}
+
+/// A window's mean stride, or why it is unfit.
+fn steady_window(
+    clip: &HumanClip,
+    grounded: &GroundedClip,
+    body: &HumanBody,
+    stances: &[Vec<Stance>; 2],
+    window: &Window,
+) -> Result<SteadyWindow, String> {
+    let last_frame = (clip.frames.len() - 1) as f64;
+    let second = |frame: f64| (clip.first_frame as f64 + frame.clamp(0.0, last_frame)) / clip.frame_rate_hz;
+    let window_s = window.frames.map(second);
+    match &window.gait {
+        Gait::Stands(frames) => {
+            let heights_m = grounded.poses[frames.clone()].iter().map(|pose| DVec3::Z * pose.pelvis_m.z);
+            if strays(heights_m, body) {
+                return Err(STRAY.to_owned());
+            }
+            let flaws = selection::flaws_of_rest(window_s[1] - window_s[0]);
+            let motion = Motion::Stands(frames.clone());
+            Ok(SteadyWindow { window_s, motion, flaws, is_doubtful: false, remarks: Vec::new() })
+        }
+        Gait::Steps(strides) => {
+            let mut cycle = cycle::mean_stride(grounded, body, stances, strides);
+            let mut remarks = parameterize::snap(&mut cycle);
+            if let Some(reason) = unfit(&cycle, body) {
+                return Err(reason);
+            }
+            let doubts = foot_slide::lint(&cycle, body);
+            let is_doubtful = !doubts.is_empty();
+            remarks.extend(doubts);
+            let flaws = selection::flaws_of_strides(strides, &cycle, body);
+            Ok(SteadyWindow { window_s, motion: Motion::Steps(Box::new(cycle)), flaws, is_doubtful, remarks })
+        }
+    }
 }
 
 /// Why a cycle must not be blended with others, if so.

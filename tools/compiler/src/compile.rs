@@ -13,20 +13,18 @@ use motiondb::velocity_hull::Construction;
 use rayon::prelude::*;
 
 use crate::analysis::{Analyzed, analyze};
-use crate::arc::Rates;
 use crate::compile_error::CompileError;
 use crate::cycle::{GaitCycle, NamedCycle};
-use crate::gait::Gait;
-use crate::human_clip::{Choices, HumanBody, HumanClip};
+use crate::human_clip::{HumanBody, HumanClip};
 use crate::import::{self, Import};
 use crate::manifest::Manifest;
 use crate::manifest_error::ManifestError;
 use crate::progress::{Event, Observer};
 use crate::refused::Refused;
-use crate::{blend_space, correspondence, mirror, names, parameterize, rows, standing, target_skeleton, velocity_hull};
-
-/// Period of standing clips where none steps, seconds.
-const STANDING_PERIOD_S: f64 = 1.0;
+use crate::{
+    blend_space, correspondence, duplicates, named_cycles, names, parameterize, rows, selection, target_skeleton,
+    velocity_hull,
+};
 
 /// A database, and the input that it could not use.
 #[derive(Clone, Debug)]
@@ -119,98 +117,31 @@ pub fn compile(mut clips: Vec<HumanClip>, options: &Options, tell: &Observer) ->
     }
     let body = target_skeleton::choose(&clips);
     tell(Event::Stage("analysis of gaits"));
-    let analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
-    let period_s = standing_period_s(chosen_cycle(&clips, &analyzed)?, &analyzed);
-    let mut sources: Vec<SourceRecord> = clips.iter().map(|clip| clip.source.clone()).collect();
-    let mut cycles = close(&clips, analyzed, &body, period_s, &mut sources);
-    add_mirrors(&mut cycles);
-    names::tell_apart(cycles.iter_mut().map(|cycle| &mut cycle.name));
+    let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
+    tell(Event::Stage("selection"));
+    duplicates::set_aside(&clips, &mut analyzed);
+    selection::keep_what_adds(&mut analyzed);
+    let mut sources: Vec<SourceRecord> = clips.iter().zip(&analyzed).map(|(clip, found)| record(clip, found)).collect();
+    let mut cycles = named_cycles::close(&clips, analyzed, &body)?;
+    selection::limit(&mut cycles, options.max_examples, &mut sources);
+    named_cycles::add_mirrors(&mut cycles);
     cycles.sort_by(|a, b| a.name.cmp(&b.name));
     assemble(cycles, sources, &body, options, tell)
 }
 
-/// The records of clips with what a compilation would say of each, in the order of a database.
-pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SourceRecord> {
-    sort(&mut clips);
-    if clips.is_empty() {
-        return Vec::new();
-    }
-    let body = target_skeleton::choose(&clips);
-    let record = |clip: &HumanClip| {
-        let mut source = clip.source.clone();
-        source.warnings.extend(analyze(clip, &body).warnings);
-        source
-    };
-    clips.par_iter().map(record).collect()
+/// The record of a clip, with what was found in it.
+pub(crate) fn record(clip: &HumanClip, found: &Analyzed) -> SourceRecord {
+    let mut source = clip.source.clone();
+    source.warnings.extend(found.remarks());
+    source
 }
 
 /// Into the order of a database, which no folder and no argument changes: files of one name go by what they hold. Clips
 /// of one name are told apart in that order.
-fn sort(clips: &mut [HumanClip]) {
+pub(crate) fn sort(clips: &mut [HumanClip]) {
     let names = |clip: &HumanClip| (clip.source.file.clone(), clip.source.clip.clone(), clip.name.clone());
     clips.sort_by(|a, b| names(a).cmp(&names(b)).then_with(|| a.by_content(b)));
     names::tell_apart(clips.iter_mut().map(|clip| &mut clip.name));
-}
-
-/// The cycle of the clip that a manifest chose as m_sp, if any.
-fn chosen_cycle<'a>(clips: &[HumanClip], analyzed: &'a [Analyzed]) -> Result<Option<&'a GaitCycle>, CompileError> {
-    let chosen = clips.iter().zip(analyzed).find(|(clip, _)| clip.choices.is_semi_procedural);
-    let Some((clip, found)) = chosen else { return Ok(None) };
-    found.stepping.as_ref().map(Some).ok_or_else(|| CompileError::NotStepping { name: clip.name.clone() })
-}
-
-/// The period of m_sp, which standing clips take over.
-fn standing_period_s(chosen: Option<&GaitCycle>, analyzed: &[Analyzed]) -> f64 {
-    if let Some(cycle) = chosen {
-        return f64::from(cycle.phase_map.period_s);
-    }
-    let stepping: Vec<&GaitCycle> = analyzed.iter().filter_map(|found| found.stepping.as_ref()).collect();
-    let rates: Vec<Rates> = stepping.iter().map(|cycle| cycle.rates).collect();
-    let chosen = correspondence::semi_procedural(&rates);
-    chosen.map_or(STANDING_PERIOD_S, |index| f64::from(stepping[index].phase_map.period_s))
-}
-
-/// The cycles of all clips, standing ones now too; their warnings go to their sources.
-fn close(
-    clips: &[HumanClip],
-    analyzed: Vec<Analyzed>,
-    body: &HumanBody,
-    period_s: f64,
-    sources: &mut [SourceRecord],
-) -> Vec<NamedCycle> {
-    let mut cycles = Vec::new();
-    for (index, (clip, found)) in clips.iter().zip(analyzed).enumerate() {
-        sources[index].warnings.extend(found.warnings);
-        let cycle = match found.gait.gait {
-            Gait::Stands => Some(standing::standing_cycle(&found.grounded, body, period_s)),
-            _ => found.stepping,
-        };
-        if let Some(cycle) = cycle {
-            let (name, choices) = (clip.name.clone(), clip.choices);
-            let window_s = [clip.first_frame, clip.first_frame + clip.frames.len() - 1];
-            let window_s = window_s.map(|frame| frame as f64 / clip.frame_rate_hz);
-            cycles.push(NamedCycle { name, source: index as u32, window_s, mirrored: false, choices, cycle });
-        }
-    }
-    cycles
-}
-
-/// Appends the mirrors that a manifest wants, else those of one-sided cycles that have no counterpart.
-fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
-    let rates: Vec<_> = cycles.iter().map(|named| named.cycle.rates).collect();
-    let mirrors: Vec<NamedCycle> = cycles
-        .iter()
-        .filter(|named| named.choices.mirror.unwrap_or_else(|| mirror::wants_mirror(&named.cycle.rates, &rates)))
-        .map(|named| NamedCycle {
-            name: format!("{}_mirrored", named.name),
-            source: named.source,
-            window_s: named.window_s,
-            mirrored: true,
-            choices: Choices::default(),
-            cycle: mirror::mirror(&named.cycle),
-        })
-        .collect();
-    cycles.extend(mirrors);
 }
 
 /// The database of cycles sorted by name.
@@ -231,18 +162,18 @@ fn assemble(
     tell(Event::Stage("blend space"));
     let blend_space = blend_space::build(&examples);
     tell_of_twins(&examples, &blend_space, &mut sources);
-    tell(Event::Stage("correspondence times"));
-    let correspondence = correspondence::build(&examples, &cycles, body, blend_space.axis_ranges, chosen);
     tell(Event::Stage("assembly"));
-    let db = MotionDb {
+    let mut db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
-        correspondence,
+        correspondence: None,
         velocity_hull: velocity_hull::build(&examples, options.velocity_hull),
         rows: rows::flatten(&cycles),
         blend_space,
         examples,
         sources,
     };
+    tell(Event::Stage("correspondence times"));
+    db.correspondence = correspondence::find(&db, chosen);
     tell(Event::Stage("validation"));
     match validate(&db).into_iter().find_map(|check| Some((check.name, check.broken?))) {
         Some((invariant, detail)) => Err(CompileError::Unsound { invariant, detail }),
@@ -262,6 +193,7 @@ fn tell_of_twins(examples: &[MotionExample], space: &BlendSpace, sources: &mut [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arc::Rates;
     use crate::synthetic::{Walk, idle, walk};
 
     fn set() -> Vec<HumanClip> {

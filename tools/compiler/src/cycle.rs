@@ -15,6 +15,7 @@ use crate::arc::Rates;
 use crate::human_clip::{Choices, HumanBody, HumanPose};
 use crate::pose_mean::pose_mean;
 use crate::root_motion::GroundedClip;
+use crate::stance::Stance;
 use crate::stride::Stride;
 
 /// Rows that a stride is faded over at each end, where the clip reaches that far: an eighth of a cycle.
@@ -52,12 +53,14 @@ pub struct NamedCycle {
     pub mirrored: bool,
     /// What a manifest makes of it.
     pub choices: Choices,
+    /// How far from a clean cycle the window was that it was made from; the least is the best ([`crate::selection`]).
+    pub flaws: f64,
     /// The cycle.
     pub cycle: GaitCycle,
 }
 
 /// The mean of whole strides.
-pub fn mean_stride(clip: &GroundedClip, body: &HumanBody, planted: &[Vec<bool>; 2], strides: &[Stride]) -> GaitCycle {
+pub fn mean_stride(clip: &GroundedClip, body: &HumanBody, stances: &[Vec<Stance>; 2], strides: &[Stride]) -> GaitCycle {
     let frames: f64 = strides.iter().map(|stride| stride.period_frames).sum();
     let mean = |value: fn(&Stride) -> f64| strides.iter().map(|s| value(s) * s.period_frames).sum::<f64>() / frames;
     let rates = Rates {
@@ -67,10 +70,9 @@ pub fn mean_stride(clip: &GroundedClip, body: &HumanBody, planted: &[Vec<bool>; 
     };
     let period_s = frames / strides.len() as f64 / clip.frame_rate_hz;
     let phase_map = PhaseMap { period_s: period_s as f32, left_share: mean(|s| s.left_share) as f32 };
-    let contact_depths_s = planted.each_ref().map(|planted| contact_depths_s(planted, clip.frame_rate_hz));
     let (mut parts, mut depths_s) = (vec![Vec::new(); PHASE_COUNT], vec![[0.0; 2]; PHASE_COUNT]);
     for stride in strides {
-        let reader = StrideReader { clip, body, contact_depths_s: &contact_depths_s, stride };
+        let reader = StrideReader { clip, body, stances, stride };
         add_stride(&mut parts, &mut depths_s, &reader, 1.0 / strides.len() as f64);
     }
     let rows = parts.iter().map(|parts| pose_mean(parts, body)).collect();
@@ -92,21 +94,6 @@ impl GaitCycle {
     }
 }
 
-/// How deep each frame lies in a contact: seconds to its nearest end, negative outside. The mean of this over strides
-/// ends each contact at the mean of its ends; a mean of planted or not would stretch contacts to where only half of the
-/// strides have them.
-fn contact_depths_s(planted: &[bool], frame_rate_hz: f64) -> Vec<f64> {
-    let edges: Vec<f64> = (1..planted.len())
-        .filter(|&frame| planted[frame] != planted[frame - 1])
-        .map(|frame| frame as f64 - 0.5)
-        .collect();
-    let depth_s = |frame: usize| {
-        let frames = edges.iter().map(|edge| (frame as f64 - edge).abs()).fold(f64::INFINITY, f64::min);
-        (frames / frame_rate_hz).min(DEPTH_MAX_S) * if planted[frame] { 1.0 } else { -1.0 }
-    };
-    (0..planted.len()).map(depth_s).collect()
-}
-
 /// Contact of a foot at a depth: ½ at the end of a contact.
 fn contact(depth_s: f64) -> f64 {
     (0.5 + depth_s / CONTACT_RAMP_S).clamp(0.0, 1.0)
@@ -116,7 +103,7 @@ fn contact(depth_s: f64) -> f64 {
 struct StrideReader<'a> {
     clip: &'a GroundedClip,
     body: &'a HumanBody,
-    contact_depths_s: &'a [Vec<f64>; 2],
+    stances: &'a [Vec<Stance>; 2],
     stride: &'a Stride,
 }
 
@@ -133,13 +120,15 @@ impl StrideReader<'_> {
         self.stride.arc.relative(&self.clip.pose_at(frame, self.body), time_s)
     }
 
-    /// How deep each foot is in a contact, between frames linearly, seconds (see [`contact_depths_s`]).
+    /// How deep each foot is in a stance: seconds to its nearer end, negative outside. The mean of this over strides
+    /// ends each contact at the mean of its ends; a mean of planted or not would stretch contacts to where only half of
+    /// the strides have them.
     fn contact_depths_s(&self, phase: f64) -> [f64; 2] {
-        let frame = self.frame(phase).max(0.0);
-        [0, 1].map(|side| {
-            let depth_s = |frame: usize| self.contact_depths_s[side][frame.min(self.contact_depths_s[side].len() - 1)];
-            let (base, share) = (frame as usize, frame - libm::floor(frame));
-            depth_s(base) + share * (depth_s(base + 1) - depth_s(base))
+        let frame = self.frame(phase);
+        self.stances.each_ref().map(|stances| {
+            let depths = stances.iter().map(|stance| stance.depth_frames(frame));
+            let deepest_s = depths.fold(f64::NEG_INFINITY, f64::max) / self.clip.frame_rate_hz;
+            deepest_s.clamp(-DEPTH_MAX_S, DEPTH_MAX_S)
         })
     }
 

@@ -1,19 +1,12 @@
-//! Planted-foot slide of a cycle (`definitions.md`): mean horizontal speed of the contact point over the middle 80 % of
-//! each contact.
-//!
-//! A foot is planted where its contact row is at least ½; its contact point is the lowest of three, as in
-//! [`crate::contacts`].
+//! Planted-foot slide of a cycle, measured as in the database ([`motiondb::planted_feet`]), and what to think of it.
 
 use glam::DVec3;
-use motiondb::motion_db::PHASE_COUNT;
+use motiondb::planted_feet::{self, CycleFeet, FootSlide};
+use motiondb::validate;
 
-use crate::arc::Arc;
-use crate::contacts::lowest_points;
 use crate::cycle::GaitCycle;
-use crate::human_clip::HumanBody;
+use crate::human_clip::{HumanBody, HumanJoints};
 
-/// Cut from each end of a contact, as a share of it.
-const TRIMMED_SHARE: f64 = 0.1;
 /// More slide than this is worth a warning: clean walks have 3–8 cm/s, runs 6 cm/s more for each m/s
 /// (`definitions.md`).
 const SUSPECT_SLIDE_CM_S: f64 = 12.0;
@@ -26,54 +19,42 @@ const EXCESSIVE_SLIDE_CM_S: f64 = 25.0;
 const EXCESSIVE_SLIDE_SHARE: f64 = 0.2;
 /// Nor is there one where feet are planted for less than this share of the cycle; sprinters' are for 0.22.
 const NO_STANCE_SHARE: f64 = 0.14;
-/// A foot is planted from this contact on.
-pub const PLANTED: f64 = 0.5;
-
-/// What the planted feet of a cycle do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FootSlide {
-    /// Mean speed of planted contact points, cm/s.
-    pub slide_cm_s: f64,
-    /// Share of the cycle that a foot is planted, mean of both.
-    pub planted_share: f64,
-}
 
 /// Slide and planted share of both feet, the cycle repeated along its arc.
 pub fn measure(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
-    let (mut speeds, mut planted_rows) = (Vec::new(), 0);
-    for side in 0..2 {
-        let feet: Vec<[DVec3; 3]> =
-            cycle.rows.iter().map(|row| row.forward_kinematics(body).measured_points_m(body, side)).collect();
-        let lowest = lowest_points(&feet, PHASE_COUNT);
-        for (start, length) in contacts(cycle, side) {
-            planted_rows += length;
-            let trim = (TRIMMED_SHARE * length as f64 + 0.5) as usize;
-            for row in start + trim..start + length - trim {
-                speeds.push(point_speed_mps(cycle, &feet, lowest[row % PHASE_COUNT].0, row as isize));
-            }
-        }
-    }
-    let slide_cm_s = if speeds.is_empty() { 0.0 } else { 100.0 * speeds.iter().sum::<f64>() / speeds.len() as f64 };
-    FootSlide { slide_cm_s, planted_share: planted_rows as f64 / (2 * PHASE_COUNT) as f64 }
+    let rates = cycle.rates;
+    let velocity = DVec3::new(rates.speed_mps, rates.turn_rate_rad_s, rates.strafe_mps);
+    planted_feet::foot_slide(&feet(cycle, body), velocity)
 }
 
-/// Why a cycle shows no stance that a crowd could be made of, if so.
+/// The feet of a cycle as the database will have them.
+pub fn feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
+    let joints: Vec<HumanJoints> = cycle.rows.iter().map(|row| row.forward_kinematics(body)).collect();
+    CycleFeet {
+        points_m: [0, 1].map(|side| joints.iter().map(|joints| joints.measured_points_m(body, side)).collect()),
+        contacts: [0, 1].map(|side| cycle.contacts.iter().map(|contact| contact[side]).collect()),
+        phase_map: cycle.phase_map,
+    }
+}
+
+/// Why a cycle shows no stance that a crowd could be made of, if so; or one that contradicts its landmarks or its root.
 pub fn excess(cycle: &GaitCycle, body: &HumanBody) -> Option<String> {
     let FootSlide { slide_cm_s, planted_share } = measure(cycle, body);
     let speed_cm_s = 100.0 * libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
     if planted_share < NO_STANCE_SHARE {
         return Some(format!("its feet are planted for only {:.0} % of the cycle", 100.0 * planted_share));
     }
-    (slide_cm_s > EXCESSIVE_SLIDE_CM_S.max(EXCESSIVE_SLIDE_SHARE * speed_cm_s))
-        .then(|| format!("its planted feet slide by {slide_cm_s:.0} cm/s"))
+    if slide_cm_s > EXCESSIVE_SLIDE_CM_S.max(EXCESSIVE_SLIDE_SHARE * speed_cm_s) {
+        return Some(format!("its planted feet slide by {slide_cm_s:.0} cm/s"));
+    }
+    validate::contradiction(&feet(cycle, body), cycle.rates.to_parameters())
 }
 
 /// Warnings for a cycle whose feet are no model of standing on the ground.
 pub fn lint(cycle: &GaitCycle, body: &HumanBody) -> Vec<String> {
     let FootSlide { slide_cm_s, planted_share } = measure(cycle, body);
-    let speed_mps = libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
     let mut warnings = Vec::new();
-    if slide_cm_s > SUSPECT_SLIDE_CM_S + SUSPECT_SLIDE_CM_S_PER_MPS * speed_mps {
+    if slide_cm_s > suspect_slide_cm_s(cycle) {
         warnings.push(format!("planted feet slide by {slide_cm_s:.0} cm/s"));
     }
     if planted_share < SUSPECT_SHARE {
@@ -82,27 +63,9 @@ pub fn lint(cycle: &GaitCycle, body: &HumanBody) -> Vec<String> {
     warnings
 }
 
-/// First row and length of each contact of one foot; one that passes phase 0 counts once.
-pub fn contacts(cycle: &GaitCycle, side: usize) -> Vec<(usize, usize)> {
-    let planted = |row: usize| cycle.contacts[row % PHASE_COUNT][side] >= PLANTED;
-    if (0..PHASE_COUNT).all(planted) {
-        return vec![(0, PHASE_COUNT)];
-    }
-    (0..PHASE_COUNT)
-        .filter(|&row| planted(row) && !planted(row + PHASE_COUNT - 1))
-        .map(|row| (row, (row..).take_while(|&row| planted(row)).count()))
-        .collect()
-}
-
-/// Horizontal world speed of one contact point at a row.
-fn point_speed_mps(cycle: &GaitCycle, feet: &[[DVec3; 3]], point: usize, row: isize) -> f64 {
-    let arc = Arc { rates: cycle.rates, ..Arc::default() };
-    let at = |row: isize| {
-        let time_s = cycle.row_time_s(row);
-        (arc.to_world(feet[GaitCycle::wrap(row)][point], time_s), time_s)
-    };
-    let ((before_m, before_s), (after_m, after_s)) = (at(row - 1), at(row + 1));
-    (after_m - before_m).truncate().length() / (after_s - before_s)
+/// The slide from which on it is worth a warning, of a cycle's speed, cm/s.
+pub fn suspect_slide_cm_s(cycle: &GaitCycle) -> f64 {
+    SUSPECT_SLIDE_CM_S + SUSPECT_SLIDE_CM_S_PER_MPS * libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! GroundedClip → what the feet do: contacts, steps and their landmarks, standing (`definitions.md`, "Phase").
 //!
 //! Phase 0 is the middle of a right contact, phase ½ the middle of a left one. Between landmarks lie strides
-//! ([`crate::stride`]), of which the steady ones ([`crate::steady_window`]) make an example. Times are in frames of the
+//! ([`crate::stride`]), of which the steady ones ([`crate::steady_window`]) make examples. Times are in frames of the
 //! clip.
 
 use std::ops::Range;
@@ -12,42 +12,45 @@ use motiondb::skeleton::Side;
 use crate::contacts::{self, runs};
 use crate::human_clip::HumanBody;
 use crate::root_motion::{GroundedClip, percentile};
-use crate::steady_window::{round_of_strides, steady_window};
+use crate::stance::{self, Stance};
+use crate::standing;
+use crate::steady_window::{Steps, round_of_strides, steady_windows};
 use crate::stride::{BodyTrack, Landmark, Stride, stride};
 use crate::stride_alignment::align;
 
 /// Multiples of the contact limits of the definition that are tried.
 const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
-/// A body stands that moves slower than this, with its feet planted for nearly all of the clip.
-const STANDING_SPEED_MPS: f64 = 0.06;
-const STANDING_SHARE_MIN: f64 = 0.95;
-/// And whose joints move slower than this in the mean: who breathes and shifts weight stands (0.003–0.02), who dances
-/// does not.
-const STANDING_STIR_MPS: f64 = 0.06;
-/// Shorter clips are poses.
-const STANDING_MIN_S: f64 = 0.5;
 
-/// What the feet do in a clip.
+/// What the feet do in a steady part of a clip.
 #[derive(Clone, Debug)]
 pub enum Gait {
     /// Steady strides, one after the other.
     Steps(Vec<Stride>),
-    /// A body that stands, both feet planted.
-    Stands,
-    /// Neither: why, for the report.
-    Unsteady(&'static str),
+    /// Frames in which the body stands, both feet planted.
+    Stands(Range<usize>),
+}
+
+/// A steady part of a clip.
+#[derive(Clone, Debug)]
+pub struct Window {
+    /// Its gait.
+    pub gait: Gait,
+    /// Which of [`GaitAnalysis::stances`] shows it.
+    pub reading: usize,
+    /// Its first and its last frame, of a loop counted in one round.
+    pub frames: [f64; 2],
 }
 
 /// A clip's contacts and gait.
 #[derive(Clone, Debug)]
 pub struct GaitAnalysis {
-    /// Planted or not, `[left, right]`, a value a frame.
-    pub planted: [Vec<bool>; 2],
-    /// Steps, standing or neither.
-    pub gait: Gait,
+    /// When each foot stands on the ground, `[left, right]`: its contacts as defined, then more and more leniently.
+    pub stances: [[Vec<Stance>; 2]; LENIENCES.len()],
+    /// Steady parts, disjoint in time, the longest first and standing last; or why there is none.
+    pub windows: Result<Vec<Window>, &'static str>,
 }
 
-/// Finds contacts, landmarks and the steady window.
+/// Finds contacts, landmarks and the steady windows.
 ///
 /// Contacts are those of the definition where they show the most strides; the feet of noisy captures are let slide and
 /// lift more, as little as it takes.
@@ -58,49 +61,92 @@ pub fn analyze(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysis {
         track.joints.iter().map(|joints| joints.measured_points_m(body, side)).collect::<Vec<[DVec3; 3]>>()
     });
     let speed_mps = track.mean_speed_mps();
-    let analyses = LENIENCES.map(|lenience| {
-        let contacts = [0, 1].map(|side| contacts::find(&feet[side], clip.frame_rate_hz, speed_mps, lenience));
-        let planted = contacts.each_ref().map(|contacts| contacts.planted.clone());
-        let stepping = contacts.map(|contacts| contacts.stepping);
-        let gait = if stands(&planted, &track) { Gait::Stands } else { steps(&stepping, &track, clip.loop_frames) };
-        GaitAnalysis { planted, gait }
+    let contacts = LENIENCES
+        .map(|lenience| [0, 1].map(|side| contacts::find(&feet[side], clip.frame_rate_hz, speed_mps, lenience)));
+    let planted = contacts.each_ref().map(|feet| feet.each_ref().map(|contacts| contacts.planted.clone()));
+    let steps = contacts.map(|feet| steps(&feet.map(|contacts| contacts.stepping), &track));
+    let windows = windows(&planted, &steps, &track, clip.loop_frames);
+    let feet = [0, 1].map(|side| {
+        track.joints.iter().map(|joints| joints.landing_points_m(body, side)).collect::<Vec<[DVec3; 3]>>()
     });
-    // The first of the best: `max_by_key` alone would take the last.
-    let best = analyses.into_iter().rev().max_by_key(|analysis| analysis.gait.rank());
-    best.expect("there is at least one lenience")
+    let stances = planted.map(|planted| {
+        [0, 1].map(|side| stance::find(&feet[side], &planted[side], clip.frame_rate_hz, speed_mps))
+    });
+    GaitAnalysis { stances, windows }
 }
 
-impl Gait {
-    /// More whole strides are better; standing is sure where it is seen at all.
-    fn rank(&self) -> usize {
-        match self {
-            Self::Unsteady(_) => 0,
-            Self::Steps(strides) => strides.len(),
-            Self::Stands => usize::MAX,
-        }
+impl GaitAnalysis {
+    /// Of each foot, as the longest steady window shows it; as defined where there is none.
+    pub fn clearest_stances(&self) -> &[Vec<Stance>; 2] {
+        let reading = self.windows.as_ref().ok().and_then(|windows| windows.first()).map_or(0, |window| window.reading);
+        &self.stances[reading]
     }
 }
 
-fn stands(planted: &[Vec<bool>; 2], track: &BodyTrack) -> bool {
-    let share = |side: &Vec<bool>| side.iter().filter(|planted| **planted).count() as f64 / side.len() as f64;
-    track.joints.len() as f64 >= STANDING_MIN_S * track.frame_rate_hz
-        && track.net_speed_mps() < STANDING_SPEED_MPS
-        && track.mean_joint_speed_mps() < STANDING_STIR_MPS
-        && planted.iter().all(|side| share(side) >= STANDING_SHARE_MIN)
+/// A clip that stands, a loop, or whatever is steady in a capture.
+fn windows(
+    planted: &[[Vec<bool>; 2]],
+    steps: &[Steps],
+    track: &BodyTrack,
+    loop_frames: Option<usize>,
+) -> Result<Vec<Window>, &'static str> {
+    let frames = 0..track.joints.len();
+    if let Some(reading) = planted.iter().position(|planted| standing::stands(planted, track)) {
+        return Ok(vec![Window::standing(frames, reading, 0)]);
+    }
+    if let Some(window) = loop_frames.and_then(|round| whole_round(steps, round, track)) {
+        return Ok(vec![window]);
+    }
+    // A loop that is not steady is a capture that ends as it began: its middle copy has all of it.
+    let frames = loop_frames.map_or(frames, |round| round..2 * round + 1);
+    let before = loop_frames.unwrap_or(0);
+    let mut windows: Vec<Window> = steady_windows(steps, [frames.start as f64, (frames.end - 1) as f64])
+        .into_iter()
+        .map(|window| Window::stepping(align(&window.strides, track), window.reading, before))
+        .collect();
+    windows.extend(planted.iter().enumerate().find_map(|(reading, planted)| {
+        Some(Window::standing(standing::longest_rest(planted, track, frames.clone())?, reading, before))
+    }));
+    if windows.is_empty() { Err(why_unsteady(&steps[0])) } else { Ok(windows) }
 }
 
-fn steps(stepping: &[Vec<bool>; 2], track: &BodyTrack, loop_frames: Option<usize>) -> Gait {
+impl Window {
+    /// Strides of a clip with some frames before what was given.
+    fn stepping(strides: Vec<Stride>, reading: usize, before: usize) -> Self {
+        let frames = [strides[0].first_frame(), strides[strides.len() - 1].last_frame()];
+        Self { gait: Gait::Steps(strides), reading, frames: frames.map(|frame| frame - before as f64) }
+    }
+
+    /// A rest in a clip with some frames before what was given.
+    fn standing(rest: Range<usize>, reading: usize, before: usize) -> Self {
+        let frames = [rest.start - before, rest.end - 1 - before].map(|frame| frame as f64);
+        Self { gait: Gait::Stands(rest), reading, frames }
+    }
+}
+
+/// All strides of a loop, by the first reading that shows the most.
+fn whole_round(steps: &[Steps], round: usize, track: &BodyTrack) -> Option<Window> {
+    let rounds = steps.iter().enumerate().filter_map(|(reading, steps)| {
+        Some((reading, round_of_strides(steps, round as f64).filter(|strides| !strides.is_empty())?))
+    });
+    // `max_by_key` alone would take the last.
+    let (reading, strides) = rounds.rev().max_by_key(|(_, strides)| strides.len())?;
+    Some(Window { gait: Gait::Steps(align(&strides, track)), reading, frames: [0.0, round as f64] })
+}
+
+fn steps(stepping: &[Vec<bool>; 2], track: &BodyTrack) -> Steps {
     let landmarks = landmarks(stepping);
-    let strides: Vec<Option<Stride>> = landmarks.windows(3).map(|marks| stride(marks, stepping, track)).collect();
-    let window = match loop_frames {
-        Some(round) => round_of_strides(&strides, &landmarks, round as f64),
-        None => steady_window(&strides),
-    };
-    match window {
-        Some(strides) if !strides.is_empty() => Gait::Steps(align(&strides, track)),
-        _ if landmarks.is_empty() => Gait::Unsteady("no step, and the body does not stand still"),
-        _ if strides.iter().all(Option::is_none) => Gait::Unsteady("no whole stride with one step of each foot"),
-        _ => Gait::Unsteady("no steady stride"),
+    let strides = landmarks.windows(3).map(|marks| stride(marks, stepping, track)).collect();
+    Steps { landmarks, strides }
+}
+
+fn why_unsteady(steps: &Steps) -> &'static str {
+    if steps.landmarks.is_empty() {
+        "no step, and the body does not stand still"
+    } else if steps.strides.iter().all(Option::is_none) {
+        "no whole stride with one step of each foot"
+    } else {
+        "no steady stride"
     }
 }
 
@@ -146,11 +192,7 @@ mod tests {
     use crate::synthetic::{self, Walk};
 
     fn strides(walk: Walk) -> Vec<Stride> {
-        let clip = synthetic::walk("walk", walk);
-        match analyze(&ground(&clip, &clip.body), &clip.body).gait {
-            Gait::Steps(strides) => strides,
-            other => panic!("{other:?}"),
-        }
+        synthetic::strides_of(&synthetic::walk("walk", walk))
     }
 
     #[test]
@@ -172,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn of_a_clip_that_speeds_up_only_the_steady_part_counts() {
+    fn a_clip_that_speeds_up_has_a_steady_window_before_and_one_after() {
         let clip = |speed_mps| {
             synthetic::walk("walk", Walk { rates: Rates { speed_mps, ..Rates::default() }, ..Walk::default() })
         };
@@ -183,13 +225,19 @@ mod tests {
         let mut both = slow;
         both.frames.truncate(240);
         both.frames.extend(fast.frames);
-        let Gait::Steps(strides) = analyze(&ground(&both, &both.body), &both.body).gait else { panic!("no steps") };
-        assert!(strides.iter().all(|stride| (stride.arc.rates.speed_mps - 0.5).abs() < 0.02), "{strides:?}");
+        let windows = analyze(&ground(&both, &both.body), &both.body).windows.unwrap();
+        let [before, after] = &windows[..] else { panic!("{windows:?}") };
+        for (window, frames, speed_mps) in [(before, 0.0..=245.0, 0.5), (after, 235.0..=440.0, 1.1)] {
+            let Gait::Steps(strides) = &window.gait else { panic!("{window:?}") };
+            assert!(strides.iter().all(|stride| (stride.arc.rates.speed_mps - speed_mps).abs() < 0.02), "{window:?}");
+            assert!(window.frames.iter().all(|frame| frames.contains(frame)), "{window:?}");
+        }
     }
 
     #[test]
     fn a_body_that_stands_makes_no_steps() {
         let clip = synthetic::idle("idle", 3.0);
-        assert!(matches!(analyze(&ground(&clip, &clip.body), &clip.body).gait, Gait::Stands));
+        let windows = analyze(&ground(&clip, &clip.body), &clip.body).windows.unwrap();
+        assert!(matches!(windows[..], [Window { gait: Gait::Stands(_), frames: [0.0, 180.0], .. }]), "{windows:?}");
     }
 }

@@ -37,6 +37,8 @@ pub struct Choices {
     pub is_semi_procedural: bool,
     /// All examples have its body.
     pub is_target_skeleton: bool,
+    /// It is the part of its file that the manifest cuts out.
+    pub is_cut: bool,
 }
 
 /// Bones of one performer in the canonical rest pose (see [`motiondb::skeleton`]), metres.
@@ -136,6 +138,12 @@ impl HumanJoints {
         };
         let right = across(Joint::THIGHS) + across(Joint::UPPER_ARMS);
         libm::atan2(right.x, -right.y)
+    }
+
+    /// How far the joints have gone to another pose, in the mean, metres.
+    pub fn mean_distance_m(&self, other: &Self) -> f64 {
+        let distances = self.positions_m.iter().zip(&other.positions_m).map(|(from, to)| from.distance(*to));
+        distances.sum::<f64>() / JOINT_COUNT as f64
     }
 
     /// Midpoint of the hips.

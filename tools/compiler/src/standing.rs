@@ -1,38 +1,94 @@
-//! A clip whose body stands → GaitCycle without steps: both feet planted, the root at rest (`definitions.md`,
-//! "Example").
+//! A body that stands: where in a clip it does, and its GaitCycle without steps: both feet planted, the root at rest
+//! (`definitions.md`, "Example").
 //!
 //! Its period is that of m_sp, so that idle and walk share one clock; of all windows of that length the calmest is
-//! taken, the one whose ends are most alike, and closed like a stride.
+//! taken, the one whose ends are most alike, and closed like a stride. Times are in frames of the clip.
+
+use std::ops::Range;
 
 use glam::DVec2;
 
 use crate::arc::{Arc, Rates};
+use crate::contacts::runs;
 use crate::cycle::{GaitCycle, mean_stride};
 use crate::human_clip::{HumanBody, HumanJoints};
 use crate::root_motion::GroundedClip;
-use crate::stride::Stride;
+use crate::stance::Stance;
+use crate::stride::{BodyTrack, Stride};
 
+/// A body stands that moves slower than this …
+const STANDING_SPEED_MPS: f64 = 0.06;
+/// … and whose joints move slower than this in the mean: who breathes and shifts weight stands (0.003–0.02), who dances
+/// does not.
+const STANDING_STIR_MPS: f64 = 0.06;
+/// A clip stands as a whole with its feet planted for nearly all of it.
+const STANDING_SHARE_MIN: f64 = 0.95;
+/// Shorter clips are poses.
+const STANDING_MIN_S: f64 = 0.5;
+/// Speeds within a capture are taken over this time: a pause between two steps is none of standing.
+const REST_SPAN_S: f64 = 0.5;
+/// And a body rests in it for this long at least: longer than a stride of m_sp, so that what is left of the step before
+/// and comes of the next is not the idle.
+const REST_MIN_S: f64 = 1.5;
 /// Weight of a joint's velocity beside its place where poses are compared: as far as it gets in this time.
 const VELOCITY_WEIGHT_S: f64 = 0.1;
 
-/// The calmest cycle of a standing clip. A clip shorter than the period is played slower.
-pub fn standing_cycle(clip: &GroundedClip, body: &HumanBody, period_s: f64) -> GaitCycle {
-    let joints: Vec<HumanJoints> = clip.poses.iter().map(|pose| pose.forward_kinematics(body)).collect();
+/// Whether the whole clip stands.
+pub fn stands(planted: &[Vec<bool>; 2], track: &BodyTrack) -> bool {
+    let share = |side: &Vec<bool>| side.iter().filter(|planted| **planted).count() as f64 / side.len() as f64;
+    track.joints.len() as f64 >= STANDING_MIN_S * track.frame_rate_hz
+        && track.net_speed_mps() < STANDING_SPEED_MPS
+        && track.mean_joint_speed_mps() < STANDING_STIR_MPS
+        && planted.iter().all(|side| share(side) >= STANDING_SHARE_MIN)
+}
+
+/// The longest rest of a body that goes about, between two frames.
+pub fn longest_rest(planted: &[Vec<bool>; 2], track: &BodyTrack, frames: Range<usize>) -> Option<Range<usize>> {
+    let still = still_frames(track);
+    let rests: Vec<bool> = frames.clone().map(|frame| planted[0][frame] && planted[1][frame] && still[frame]).collect();
+    let long = REST_MIN_S * track.frame_rate_hz;
+    runs(&rests)
+        .into_iter()
+        .filter(|&(rests, start, end)| rests && (end - start) as f64 > long)
+        .map(|(_, start, end)| frames.start + start..frames.start + end)
+        // The first of the longest: `max_by_key` alone would take the last.
+        .rev()
+        .max_by_key(ExactSizeIterator::len)
+}
+
+/// Whether hips and joints are at rest about each frame.
+fn still_frames(track: &BodyTrack) -> Vec<bool> {
+    let mut path_m = vec![0.0];
+    for pair in track.joints.windows(2) {
+        path_m.push(path_m[path_m.len() - 1] + pair[0].mean_distance_m(&pair[1]));
+    }
+    let half = ((0.5 * REST_SPAN_S * track.frame_rate_hz) as usize).max(1);
+    let is_still = |frame: usize| {
+        let (before, after) = (frame.saturating_sub(half), (frame + half).min(path_m.len() - 1));
+        let span_s = (after - before) as f64 / track.frame_rate_hz;
+        path_m[after] - path_m[before] < STANDING_STIR_MPS * span_s
+            && track.hips_m[after].distance(track.hips_m[before]) < STANDING_SPEED_MPS * span_s
+    };
+    (0..path_m.len()).map(is_still).collect()
+}
+
+/// The calmest cycle of frames in which a clip stands. Frames shorter than the period are played slower.
+pub fn standing_cycle(clip: &GroundedClip, body: &HumanBody, frames: Range<usize>, period_s: f64) -> GaitCycle {
+    let first = frames.start;
+    let joints: Vec<HumanJoints> = clip.poses[frames].iter().map(|pose| pose.forward_kinematics(body)).collect();
     let length = ((period_s * clip.frame_rate_hz) as usize).clamp(1, joints.len() - 1);
     let start = (0..joints.len() - length)
         .min_by(|a, b| unrest(&joints, *a, length, clip).total_cmp(&unrest(&joints, *b, length, clip)))
         .unwrap_or(0);
     let window = &joints[start..start + length];
     let stride = Stride {
-        zero_frame: start as f64,
-        start_phase: 0.0,
+        zero_frame: (first + start) as f64,
         period_frames: (period_s * clip.frame_rate_hz).min(length as f64),
         left_share: 0.5,
         arc: Arc { start_m: mean_hips_m(window), facing_rad: mean_facing_rad(window), rates: Rates::default() },
-        step_speeds_mps: [0.0; 2],
+        ..Stride::default()
     };
-    let planted = [vec![true; joints.len()], vec![true; joints.len()]];
-    let mut cycle = mean_stride(clip, body, &planted, &[stride]);
+    let mut cycle = mean_stride(clip, body, &[vec![Stance::ALWAYS], vec![Stance::ALWAYS]], &[stride]);
     cycle.phase_map.period_s = period_s as f32;
     cycle.steps = false;
     cycle

@@ -1,5 +1,9 @@
-//! Which strides of a clip make its example: all of a loop, else the longest run that is steady (`definitions.md`,
-//! "Example").
+//! Which strides of a clip make examples: all of a loop, else every run that is steady, the longest first
+//! (`definitions.md`, "Example").
+//!
+//! A long capture walks, turns, hesitates, goes on faster: each part of it in which the strides are alike is a window of
+//! its own. Windows are taken greedily, the longest of the clip, then the longest of what it leaves before and after
+//! itself, so that they are disjoint. Times are in frames of the clip.
 
 use crate::stride::{Landmark, Stride};
 
@@ -12,44 +16,117 @@ const STEADY_PERIOD_SHARE: f64 = 0.15;
 /// Speeds of the two steps of a lone stride differ by at most this, or this share of their mean.
 const STEP_SPEED_MPS: f64 = 0.2;
 const STEP_SPEED_SHARE: f64 = 0.25;
+/// And so do their turn rates: a straight run sways by as much as this from step to step, a walk by half of it.
+const STEP_TURN_RAD_S: f64 = 60.0 * std::f64::consts::PI / 180.0;
+/// Landmarks lie on frames and half-way between; rounding must not tell one from itself, or from its copy one round
+/// later.
+const SAME_FRAME: f64 = 0.25;
 
-/// Of a loop all strides of one round, from the first landmark of its middle copy.
-pub fn round_of_strides(strides: &[Option<Stride>], landmarks: &[Landmark], round: f64) -> Option<Vec<Stride>> {
-    // Rounding must not tell a landmark from its copy one round later.
-    let first = landmarks.iter().position(|mark| mark.frame >= round - 0.25)?;
-    let past = landmarks.iter().position(|mark| mark.frame >= 2.0 * round - 0.25)?;
+/// The steps of a clip as one reading of its contacts shows them.
+#[derive(Clone, Debug)]
+pub struct Steps {
+    /// Middles of all contacts, in order of time.
+    pub landmarks: Vec<Landmark>,
+    /// The stride over each three successive landmarks, where it is one.
+    pub strides: Vec<Option<Stride>>,
+}
+
+/// A steady part of a clip.
+#[derive(Clone, Debug)]
+pub struct SteadyWindow {
+    /// Which reading of the contacts shows it.
+    pub reading: usize,
+    /// Its strides, end to end.
+    pub strides: Vec<Stride>,
+    /// The greatest deviation of any of them from their mean, 1 at the limit.
+    deviation: f64,
+}
+
+/// Of a loop all strides of one round, from the first landmark of its middle copy, if they are alike.
+pub fn round_of_strides(steps: &Steps, round: f64) -> Option<Vec<Stride>> {
+    let first = steps.landmarks.iter().position(|mark| mark.frame >= round - SAME_FRAME)?;
+    let past = steps.landmarks.iter().position(|mark| mark.frame >= 2.0 * round - SAME_FRAME)?;
     let whole = (past - first).is_multiple_of(2) && past > first;
     if !whole {
         return None;
     }
-    (first..past).step_by(2).map(|index| strides.get(index).copied().flatten()).collect()
+    (first..past).step_by(2).map(|index| steps.strides.get(index).copied().flatten()).collect()
 }
 
-/// The longest run of strides, end to end, that are like their mean; of several as long, the steadiest.
-pub fn steady_window(strides: &[Option<Stride>]) -> Option<Vec<Stride>> {
+/// All steady windows between two frames, the longest first; of several as long the steadiest, then the first. Of
+/// several readings of the contacts the first that shows a window longest counts.
+pub fn steady_windows(readings: &[Steps], [first, last]: [f64; 2]) -> Vec<SteadyWindow> {
+    let mut windows: Vec<SteadyWindow> = Vec::new();
+    let mut spans = vec![[first, last]];
+    while let Some(span) = spans.pop() {
+        let found = readings.iter().enumerate().filter_map(|(reading, steps)| longest(steps, reading, span));
+        // The first of the longest: `max_by_key` alone would take the last.
+        let Some(window) = found.rev().max_by_key(|window| window.strides.len()) else { continue };
+        let [start, end] = window.frames();
+        spans.extend([[span[0], start], [end, span[1]]]);
+        windows.push(window);
+    }
+    windows.sort_by(|a, b| {
+        b.strides
+            .len()
+            .cmp(&a.strides.len())
+            .then(a.deviation.total_cmp(&b.deviation))
+            .then(a.starts().total_cmp(&b.starts()))
+    });
+    windows
+}
+
+impl SteadyWindow {
+    fn starts(&self) -> f64 {
+        self.frames()[0]
+    }
+
+    /// Its first and its last landmark.
+    pub fn frames(&self) -> [f64; 2] {
+        [self.strides[0].first_frame(), self.strides[self.strides.len() - 1].last_frame()]
+    }
+}
+
+/// The longest run of strides within a span that are like their mean; of several as long, the steadiest.
+fn longest(steps: &Steps, reading: usize, [start, end]: [f64; 2]) -> Option<SteadyWindow> {
+    let from = steps.landmarks.partition_point(|mark| mark.frame < start - SAME_FRAME);
+    let past = steps.landmarks.partition_point(|mark| mark.frame <= end + SAME_FRAME).saturating_sub(2);
+    let strides = steps.strides.get(from..past).unwrap_or_default();
     let mut best: Option<(usize, f64, usize)> = None;
     for first in 0..strides.len() {
-        let mut window = Window::default();
+        let mut run = Run::default();
         // Every stride counts for steadiness, also those that begin with the other foot; every second one goes into the
         // mean.
         for (length, stride) in strides[first..].iter().map_while(Option::as_ref).enumerate() {
-            window.add(stride);
-            let Some(deviation) = window.deviation().filter(|_| length.is_multiple_of(2)) else { continue };
-            let alone = length == 0;
+            run.add(stride);
+            if run.is_hopeless() {
+                break;
+            }
+            let deviation = if length == 0 { unevenness(stride) } else { run.deviation() };
             let longer = best.is_none_or(|best| (length, -deviation) > (best.0, -best.1));
-            if longer && !(alone && speeds_up(stride.step_speeds_mps)) {
+            if length.is_multiple_of(2) && deviation <= 1.0 && longer {
                 best = Some((length, deviation, first));
             }
         }
     }
-    let (length, _, first) = best?;
-    Some(strides[first..=first + length].iter().step_by(2).flatten().copied().collect())
+    let (length, deviation, first) = best?;
+    let strides = strides[first..=first + length].iter().step_by(2).flatten().copied().collect();
+    Some(SteadyWindow { reading, strides, deviation })
+}
+
+/// How unlike the two steps of a lone stride are, 1 at the limit: with no other stride to compare with, a body that goes
+/// much faster in one step than in the other starts or stops.
+fn unevenness(stride: &Stride) -> f64 {
+    let [first_mps, second_mps] = stride.step_speeds_mps;
+    let [first_rad_s, second_rad_s] = stride.step_turn_rates_rad_s;
+    let limit_mps = STEP_SPEED_MPS.max(STEP_SPEED_SHARE * 0.5 * (first_mps + second_mps));
+    ((second_mps - first_mps).abs() / limit_mps).max((second_rad_s - first_rad_s).abs() / STEP_TURN_RAD_S)
 }
 
 /// Some strides, one after the other: what they have in common. Grows by a stride at a time, so that long takes are
 /// quick.
 #[derive(Default)]
-struct Window {
+struct Run {
     strides: usize,
     speed_mps: Spread,
     strafe_mps: Spread,
@@ -57,7 +134,7 @@ struct Window {
     period_frames: Spread,
 }
 
-impl Window {
+impl Run {
     fn add(&mut self, stride: &Stride) {
         self.strides += 1;
         self.speed_mps.add(stride.arc.rates.speed_mps);
@@ -66,21 +143,33 @@ impl Window {
         self.period_frames.add(stride.period_frames);
     }
 
-    /// The greatest deviation of any stride from the mean, 1 at the limit; none beyond.
-    fn deviation(&self) -> Option<f64> {
+    /// The greatest deviation of any stride from the mean, 1 at the limit.
+    fn deviation(&self) -> f64 {
         let mean = |spread: &Spread| spread.sum / self.strides as f64;
         let deviation = |spread: &Spread, limit: f64| {
             let mean = mean(spread);
             (spread.greatest - mean).max(mean - spread.least) / limit
         };
-        let speed_mps = libm::hypot(mean(&self.speed_mps), mean(&self.strafe_mps));
-        let speed_limit_mps = STEADY_SPEED_MPS.max(STEADY_SPEED_SHARE * speed_mps);
-        let greatest = deviation(&self.speed_mps, speed_limit_mps)
+        let speed_limit_mps = speed_limit_mps(mean(&self.speed_mps), mean(&self.strafe_mps));
+        deviation(&self.speed_mps, speed_limit_mps)
             .max(deviation(&self.strafe_mps, speed_limit_mps))
             .max(deviation(&self.turn_rate_rad_s, STEADY_TURN_RAD_S))
-            .max(deviation(&self.period_frames, STEADY_PERIOD_SHARE * mean(&self.period_frames)));
-        (greatest <= 1.0).then_some(greatest)
+            .max(deviation(&self.period_frames, STEADY_PERIOD_SHARE * mean(&self.period_frames)))
     }
+
+    /// No stride more can make it steady again: its ends lie three limits apart where two are too many, and ends that
+    /// move on widen the limits by less than they move.
+    fn is_hopeless(&self) -> bool {
+        let speed_limit_mps = speed_limit_mps(self.speed_mps.farthest(), self.strafe_mps.farthest());
+        self.speed_mps.width() > 3.0 * speed_limit_mps
+            || self.strafe_mps.width() > 3.0 * speed_limit_mps
+            || self.turn_rate_rad_s.width() > 3.0 * STEADY_TURN_RAD_S
+            || self.period_frames.width() > 3.0 * STEADY_PERIOD_SHARE * self.period_frames.farthest()
+    }
+}
+
+fn speed_limit_mps(speed_mps: f64, strafe_mps: f64) -> f64 {
+    STEADY_SPEED_MPS.max(STEADY_SPEED_SHARE * libm::hypot(speed_mps, strafe_mps))
 }
 
 /// Sum and ends of one value.
@@ -102,10 +191,13 @@ impl Spread {
         self.least = self.least.min(value);
         self.greatest = self.greatest.max(value);
     }
-}
 
-/// Whether a body goes much faster in one step than in the other: with no other stride to compare with, it starts or
-/// stops.
-fn speeds_up([first, second]: [f64; 2]) -> bool {
-    (second - first).abs() > STEP_SPEED_MPS.max(STEP_SPEED_SHARE * 0.5 * (first + second))
+    fn width(&self) -> f64 {
+        self.greatest - self.least
+    }
+
+    /// The end that is farther from 0.
+    fn farthest(&self) -> f64 {
+        self.greatest.abs().max(self.least.abs())
+    }
 }

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
 
 use glam::{DQuat, DVec2};
-use motiondb::skeleton::{JOINT_COUNT, Side};
+use motiondb::skeleton::Side;
 
 use crate::arc::{Arc, RootSample};
 use crate::human_clip::HumanJoints;
@@ -23,9 +23,8 @@ const DOUBLE_SUPPORT_MAX: f64 = 0.45;
 /// A stride that neither goes nor turns this far treads on the spot, which is no locomotion: metres, 10°.
 const STRIDE_TRAVEL_M: f64 = 0.05;
 const STRIDE_TURN_RAD: f64 = 10.0 * PI / 180.0;
-/// Root mean square distance of the joints between both ends of a stride, relative to the root; steps of real people: 1
-/// to 6 cm.
-const STRIDE_GAP_M: f64 = 0.1;
+/// A stride leaves less open than this; steps of real people: 1 to 6 cm.
+pub const STRIDE_GAP_M: f64 = 0.1;
 /// Samples of a stride's root, uniform in time.
 const ROOT_SAMPLES: usize = 64;
 
@@ -39,7 +38,7 @@ pub struct Landmark {
 }
 
 /// One whole stride of a clip.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Stride {
     /// Frame of phase 0; before the stride's first landmark where that is a left one.
     pub zero_frame: f64,
@@ -53,6 +52,10 @@ pub struct Stride {
     pub arc: Arc,
     /// Speed of the hips in its first and its second step, m/s.
     pub step_speeds_mps: [f64; 2],
+    /// Change of the facing in its first and its second step, rad/s.
+    pub step_turn_rates_rad_s: [f64; 2],
+    /// Root mean square distance of the joints between both its ends, relative to the root: what it leaves open, m.
+    pub gap_m: f64,
 }
 
 /// Where the body is, frame by frame.
@@ -88,9 +91,8 @@ impl BodyTrack {
 
     /// Mean speed of all joints, m/s.
     pub fn mean_joint_speed_mps(&self) -> f64 {
-        let steps = self.joints.windows(2).flat_map(|pair| pair[0].positions_m.iter().zip(&pair[1].positions_m));
-        let path: f64 = steps.map(|(from, to)| from.distance(*to)).sum();
-        path * self.frame_rate_hz / ((self.joints.len().max(2) - 1) * JOINT_COUNT) as f64
+        let path: f64 = self.joints.windows(2).map(|pair| pair[0].mean_distance_m(&pair[1])).sum();
+        path * self.frame_rate_hz / (self.joints.len().max(2) - 1) as f64
     }
 
     /// From the first frame to the last as the crow flies, m/s.
@@ -119,7 +121,7 @@ pub fn stride(marks: &[Landmark], stepping: &[Vec<bool>; 2], body: &BodyTrack) -
         return None;
     }
     let stride = Stride::over(&[*first, *middle, *last], body);
-    (goes_somewhere(&stride, body) && closes(&stride, body)).then_some(stride)
+    (goes_somewhere(&stride, body) && stride.gap_m < STRIDE_GAP_M).then_some(stride)
 }
 
 impl Stride {
@@ -132,16 +134,33 @@ impl Stride {
             Side::Left => (middle.frame - period_frames, 0.5, 1.0 - half_share),
         };
         let arc = arc(body, first.frame, period_frames).shifted((zero_frame - first.frame) / body.frame_rate_hz);
-        let step_speeds_mps = [[first, middle], [middle, last]].map(|[from, to]| {
-            let path_m = body.at(from.frame, 0.0).hips_m.distance(body.at(to.frame, 0.0).hips_m);
-            path_m * body.frame_rate_hz / (to.frame - from.frame)
+        let steps = [[first, middle], [middle, last]].map(|[from, to]| {
+            (body.at(from.frame, 0.0), body.at(to.frame, 0.0), body.frame_rate_hz / (to.frame - from.frame))
         });
-        Self { zero_frame, start_phase, period_frames, left_share, arc, step_speeds_mps }
+        let step_speeds_mps = steps.map(|(from, to, per_s)| from.hips_m.distance(to.hips_m) * per_s);
+        let step_turn_rates_rad_s = steps.map(|(from, to, per_s)| (to.facing_rad - from.facing_rad) * per_s);
+        let mut stride = Self {
+            zero_frame,
+            start_phase,
+            period_frames,
+            left_share,
+            arc,
+            step_speeds_mps,
+            step_turn_rates_rad_s,
+            gap_m: 0.0,
+        };
+        stride.gap_m = gap_m(&stride, body);
+        stride
     }
 
     /// Its first landmark.
     pub fn first_frame(&self) -> f64 {
         if self.start_phase == 0.0 { self.zero_frame } else { self.zero_frame + self.left_share * self.period_frames }
+    }
+
+    /// Its last landmark, of the same foot.
+    pub fn last_frame(&self) -> f64 {
+        self.first_frame() + self.period_frames
     }
 
     /// The other foot's landmark.
@@ -161,8 +180,8 @@ fn arc(body: &BodyTrack, first_frame: f64, period_frames: f64) -> Arc {
     Arc::fit(&samples)
 }
 
-/// Whether the body is at the end of a stride as it was at its beginning.
-fn closes(stride: &Stride, body: &BodyTrack) -> bool {
+/// How far the body is at the end of a stride from where it was at its beginning.
+fn gap_m(stride: &Stride, body: &BodyTrack) -> f64 {
     let first_frame = stride.first_frame();
     let local = |frame: f64| {
         let index = ((frame + 0.5) as usize).min(body.joints.len() - 1);
@@ -172,7 +191,7 @@ fn closes(stride: &Stride, body: &BodyTrack) -> bool {
     };
     let (first, last) = (local(first_frame), local(first_frame + stride.period_frames));
     let squares: f64 = first.iter().zip(&last).map(|(a, b)| a.distance_squared(*b)).sum();
-    squares < STRIDE_GAP_M * STRIDE_GAP_M * first.len() as f64
+    (squares / first.len() as f64).sqrt()
 }
 
 fn goes_somewhere(stride: &Stride, body: &BodyTrack) -> bool {

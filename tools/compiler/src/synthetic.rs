@@ -12,6 +12,7 @@ use crate::gait::{self, Gait};
 use crate::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
 use crate::leg_ik::place_ankle;
 use crate::root_motion::ground;
+use crate::stride::Stride;
 
 /// Ankle over the sole.
 const ANKLE_M: f64 = 0.09;
@@ -159,6 +160,14 @@ fn place_foot(pose: &mut HumanPose, walk: &Walk, body: &HumanBody, arc: &Arc, si
 pub(crate) fn cycle_of(clip: &HumanClip) -> GaitCycle {
     let grounded = ground(clip, &clip.body);
     let analysis = gait::analyze(&grounded, &clip.body);
-    let Gait::Steps(strides) = &analysis.gait else { panic!("{:?}", analysis.gait) };
-    mean_stride(&grounded, &clip.body, &analysis.planted, strides)
+    let first = &analysis.windows.unwrap()[0];
+    let Gait::Steps(strides) = &first.gait else { panic!("{first:?}") };
+    mean_stride(&grounded, &clip.body, &analysis.stances[first.reading], strides)
+}
+
+/// The strides of a clip's longest window.
+pub(crate) fn strides_of(clip: &HumanClip) -> Vec<Stride> {
+    let first = gait::analyze(&ground(clip, &clip.body), &clip.body).windows.unwrap().swap_remove(0);
+    let Gait::Steps(strides) = first.gait else { panic!("{first:?}") };
+    strides
 }

@@ -118,7 +118,7 @@ impl Seam {
 mod tests {
     use super::*;
     use crate::arc::Rates;
-    use crate::gait::{self, Gait};
+    use crate::gait::{self, Gait, Window};
     use crate::root_motion::ground;
     use crate::synthetic::{self, Walk};
 
@@ -133,7 +133,8 @@ mod tests {
         let clip = synthetic::walk("loop", whole(2.0));
         let unrolled = unroll(ground(&clip, &clip.body), &clip.body);
         assert_eq!(unrolled.loop_frames, Some(132));
-        let Gait::Steps(strides) = gait::analyze(&unrolled, &clip.body).gait else { panic!("no steps") };
+        let windows = gait::analyze(&unrolled, &clip.body).windows.unwrap();
+        let [Window { gait: Gait::Steps(strides), .. }] = &windows[..] else { panic!("{windows:?}") };
         assert_eq!(strides.len(), 2);
         for stride in strides {
             assert!((stride.arc.rates.speed_mps - 0.7).abs() < 0.01, "{stride:?}");
