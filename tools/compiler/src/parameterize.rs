@@ -9,11 +9,13 @@
 use std::f64::consts::PI;
 
 use glam::DQuat;
-use motiondb::motion_db::{MotionExample, PHASE_COUNT};
+use motiondb::motion_db::MotionExample;
+use motiondb::planted_feet::CycleFeet;
+use motiondb::skeleton::Side;
 
 use crate::arc::{Rates, rotation};
 use crate::cycle::{GaitCycle, NamedCycle};
-use crate::foot_slide::{self, PLANTED};
+use crate::foot_slide;
 use crate::human_clip::HumanBody;
 
 /// Slower turning is gait noise (`definitions.md`, "Example"): 3 °/s.
@@ -61,7 +63,7 @@ fn face_along_travel(cycle: &mut GaitCycle) {
 /// The example of a cycle.
 pub fn example(named: &NamedCycle, body: &HumanBody) -> MotionExample {
     let cycle = &named.cycle;
-    let foot_slide = foot_slide::measure(cycle, body);
+    let (feet, slide) = (foot_slide::feet(cycle, body), foot_slide::measure(cycle, body));
     MotionExample {
         name: named.name.clone(),
         source: named.source,
@@ -69,31 +71,20 @@ pub fn example(named: &NamedCycle, body: &HumanBody) -> MotionExample {
         mirrored: named.mirrored,
         parameters: cycle.rates.to_parameters(),
         phase_map: cycle.phase_map,
-        key_times_s: if cycle.steps { key_times_s(cycle) } else { None },
-        planted_slide_cm_s: foot_slide.slide_cm_s as f32,
-        planted_share: foot_slide.planted_share as f32,
+        key_times_s: if cycle.steps { key_times_s(&feet) } else { None },
+        planted_slide_cm_s: slide.slide_cm_s as f32,
+        planted_share: slide.planted_share as f32,
     }
 }
 
 /// [right toe-off, right heel strike, left toe-off, left heel strike]: where the contact that holds each foot's
 /// mid-stance ends and begins.
-fn key_times_s(cycle: &GaitCycle) -> Option<[f32; 4]> {
-    let half = PHASE_COUNT as isize / 2;
-    let right = [crossing(cycle, 1, 0, 1)?, crossing(cycle, 1, 0, -1)?];
-    let left = [crossing(cycle, 0, half, 1)?, crossing(cycle, 0, half, -1)?];
-    Some([right[0], right[1], left[0], left[1]].map(|phase| within_period(cycle, phase)))
-}
-
-/// Phase at which a foot's contact falls below ½, going from a row forward or backward; none if it never does.
-fn crossing(cycle: &GaitCycle, side: usize, from: isize, step: isize) -> Option<f32> {
-    let contact = |row: isize| cycle.contacts[GaitCycle::wrap(row)][side];
-    let last = (0..PHASE_COUNT as isize).map(|rows| from + rows * step).find(|row| contact(row + step) < PLANTED)?;
-    let (inside, outside) = (contact(last), contact(last + step));
-    let share = if inside > outside { ((inside - PLANTED) / (inside - outside)).clamp(0.0, 1.0) } else { 0.0 };
-    Some(((last as f64 + step as f64 * share) / PHASE_COUNT as f64) as f32)
-}
-
-fn within_period(cycle: &GaitCycle, phase: f32) -> f32 {
-    let time_s = cycle.phase_map.time_s(phase.rem_euclid(1.0));
-    if time_s < cycle.phase_map.period_s { time_s } else { 0.0 }
+fn key_times_s(feet: &CycleFeet) -> Option<[f32; 4]> {
+    let ([right_strike, right_off], [left_strike, left_off]) = (feet.stance(Side::Right)?, feet.stance(Side::Left)?);
+    let period_s = feet.phase_map.period_s;
+    let within_period = |phase: f64| {
+        let time_s = feet.phase_map.time_s(phase.rem_euclid(1.0) as f32);
+        if time_s < period_s { time_s } else { 0.0 }
+    };
+    Some([right_off, right_strike, left_off, left_strike].map(within_period))
 }
