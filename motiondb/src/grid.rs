@@ -1,18 +1,19 @@
-//! Which tetrahedra may hold a point: cells of a grid over their box, each with a list of those that reach into it.
+//! Which simplices may hold a point: cells of a grid over their box, each with a list of those that reach into it.
 //!
-//! A query looks into one cell, in constant time. Cells are about as many as tetrahedra, so the lists stay short; the
-//! work of building them is bounded whatever is read from a file.
+//! A query looks into one cell, in constant time. Cells are many times as many as simplices, so the lists stay short;
+//! the work of building them is bounded whatever is read from a file. Along a dropped axis the box has no extent, and
+//! all is in its first cells.
 
 use glam::DVec3;
 
 use crate::simplex::Simplex;
 
-/// Cells to a tetrahedron: more make shorter lists, and more memory.
+/// Cells to a simplex: more make shorter lists, and more memory.
 const CELLS_PER_SIMPLEX: f64 = 16.0;
-/// Most pairs of a cell and a tetrahedron to be looked at: 16 MB of lists at worst.
+/// Most pairs of a cell and a simplex to be looked at: 16 MB of lists at worst.
 const MOST_PAIRS: f64 = (1 << 22) as f64;
 
-/// Lists of tetrahedra by cell.
+/// Lists of simplices by cell.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
     cells: Cells,
@@ -51,7 +52,7 @@ impl Grid {
         }
     }
 
-    /// Tetrahedra that may hold a point.
+    /// Simplices that may hold a point.
     pub(crate) fn near(&self, point: DVec3) -> &[u32] {
         let Some(cell) = self.cells.holding(point) else { return &[] };
         &self.lists[self.starts[cell] as usize..self.starts[cell + 1] as usize]
@@ -117,7 +118,7 @@ mod tests {
     proptest! {
         /// Whether they fit together or overlap; queries on a lattice meet corners, edges, faces and cells' walls.
         #[test]
-        fn a_cell_lists_every_tetrahedron_that_holds_one_of_its_points(
+        fn a_cell_lists_every_simplex_that_holds_one_of_its_points(
             points in prop::collection::vec(prop::array::uniform3(-3i8..4), 4..12),
             corners in prop::collection::vec(prop::array::uniform4(0usize..12), 0..40),
             query in prop::array::uniform3(-16i8..17),

@@ -1,9 +1,10 @@
 //! The shares of examples at a query: of the simplex that holds it, or of the hull's nearest point (`FbCrowd` §5;
 //! `definitions.md`, "Axes").
 //!
-//! A [grid](crate::grid) names the few tetrahedra that may hold the query; where none does, it is outside, and a tree
-//! over the hull's [surface](crate::surface) finds the nearest point. A set of fewer dimensions fills no space: it is
-//! all surface. Shares move continuously with the query, also across the hull. No memory is taken.
+//! A [grid](crate::grid) names the few simplices that may hold the query; where none does, it is outside, and a tree
+//! over the hull's [surface](crate::surface) finds the nearest point. A set of fewer dimensions than its axes lies
+//! askew in their space and fills none of it: it is all surface. Shares move continuously with the query, also across
+//! the hull. No memory is taken.
 
 use glam::DVec3;
 
@@ -17,7 +18,8 @@ use crate::surface::Surface;
 #[derive(Clone, Debug)]
 pub struct Locator {
     metric_scale: DVec3,
-    tetrahedra: Vec<Simplex>,
+    /// Those that fill space, without slivers.
+    simplices: Vec<Simplex>,
     grid: Grid,
     surface: Surface,
 }
@@ -29,14 +31,14 @@ impl Locator {
         let points: Vec<DVec3> = parameters.iter().map(|at| at.to_vec3().as_dvec3() * metric_scale).collect();
         let simplices = space.simplices().map(|corners| Simplex::new(corners, &points));
         let simplices: Vec<Simplex> = simplices.filter(|simplex| !simplex.is_sliver()).collect();
-        let (tetrahedra, surface) = match space.dimension as usize + 1 {
-            MAX_CORNERS => {
-                let boundary = boundary(&simplices, &points);
-                (simplices, boundary)
-            }
-            _ => (Vec::new(), simplices),
+        let axes = space.axis_ranges.iter().filter(|range| **range > 0.0).count();
+        let (simplices, surface) = if axes == space.dimension as usize {
+            let boundary = boundary(&simplices, &points);
+            (simplices, boundary)
+        } else {
+            (Vec::new(), simplices)
         };
-        Self { metric_scale, grid: Grid::new(&tetrahedra), tetrahedra, surface: Surface::new(surface) }
+        Self { metric_scale, grid: Grid::new(&simplices), simplices, surface: Surface::new(surface) }
     }
 
     /// Shares at a query; outside the hull, those of its nearest point. A query that is not finite gets the first
@@ -44,7 +46,7 @@ impl Locator {
     pub fn locate(&self, query: Parameters) -> Shares {
         let point = query.to_vec3().as_dvec3() * self.metric_scale;
         let mut near = self.grid.near(point).iter();
-        let holding = near.find_map(|&number| self.tetrahedra[number as usize].shares_within(point));
+        let holding = near.find_map(|&number| self.simplices[number as usize].shares_within(point));
         holding.unwrap_or_else(|| self.surface.nearest(point).shares())
     }
 }

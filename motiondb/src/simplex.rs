@@ -94,11 +94,12 @@ impl Simplex {
         })
     }
 
-    /// Corners of each facet, sorted.
+    /// Corners of each facet, sorted; a point has none.
     pub(crate) fn facets(&self) -> impl Iterator<Item = Vec<u32>> {
         let mut sorted = self.examples[..self.count].to_vec();
         sorted.sort_unstable();
-        (0..self.count).map(move |left_out| [&sorted[..left_out], &sorted[left_out + 1..]].concat())
+        let facets = if self.count > 1 { self.count } else { 0 };
+        (0..facets).map(move |left_out| [&sorted[..left_out], &sorted[left_out + 1..]].concat())
     }
 
     /// Takes its point nearest to `point` where that is nearer than what is known.
