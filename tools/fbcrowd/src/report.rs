@@ -5,6 +5,7 @@ use glam::Vec2;
 use motiondb::coverage::{self, ThinPlace};
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::velocity_hull::{Construction, VelocityHull};
+use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 use serde::Serialize;
 
 use crate::leave_one_out::{LeaveOneOut, LeftOut};
@@ -12,7 +13,7 @@ use crate::leave_one_out::{LeaveOneOut, LeftOut};
 /// Clips without a database.
 #[derive(Serialize)]
 pub(crate) struct SourcesReport {
-    pub(crate) sources: Vec<SourceRecord>,
+    pub(crate) sources: Vec<SurveyedSource>,
 }
 
 /// A whole database.
@@ -187,13 +188,13 @@ fn corners(polygon: &[Vec2]) -> String {
 }
 
 /// Clips as a table.
-pub(crate) fn sources_text(sources: &[SourceRecord]) -> String {
+pub(crate) fn sources_text(surveyed: &[SurveyedSource]) -> String {
     let name = |source: &SourceRecord| format!("{} {}", source.file, source.clip).trim_end().to_owned();
-    let width = sources.iter().map(|source| name(source).chars().count()).max().unwrap_or(0).max(4);
-    let mut text = format!("{:<width$}  speed m/s  turn °/s  strafe m/s  up  m per unit     Hz\n", "clip");
-    for source in sources {
+    let width = surveyed.iter().map(|found| name(&found.source).chars().count()).max().unwrap_or(0).max(4);
+    let mut text = format!("{:<width$}  speed m/s  turn °/s  strafe m/s  up  m per unit     Hz  gait\n", "clip");
+    for SurveyedSource { source, gait } in surveyed {
         text += &format!(
-            "{:<width$}  {:9.3}  {:8.1}  {:10.3}  {}  {:10.6}  {:5.1}\n",
+            "{:<width$}  {:9.3}  {:8.1}  {:10.3}  {}  {:10.6}  {:5.1}  {}\n",
             name(source),
             source.speed_mps,
             source.turn_rate_rad_s.to_degrees(),
@@ -201,9 +202,24 @@ pub(crate) fn sources_text(sources: &[SourceRecord]) -> String {
             source.up_axis,
             source.metres_per_unit,
             source.frame_rate_hz,
+            gait_text(gait),
         );
     }
-    text + &sources.iter().map(warnings_text).collect::<String>()
+    text + &surveyed.iter().map(|found| warnings_text(&found.source)).collect::<String>()
+}
+
+/// "12 steps, 58 % planted"; "stands"; "3 steps, 61 % planted, unsteady".
+fn gait_text(gait: &SourceGait) -> String {
+    let steps = match gait.step_count() {
+        1 => "1 step".to_owned(),
+        count => format!("{count} steps"),
+    };
+    let text = format!("{steps}, {:.0} % planted", 100.0 * gait.planted_share);
+    match gait.kind {
+        GaitKind::Steps => text,
+        GaitKind::Stands => "stands".to_owned(),
+        GaitKind::Unsteady => format!("{text}, unsteady"),
+    }
 }
 
 fn warnings_text(source: &SourceRecord) -> String {

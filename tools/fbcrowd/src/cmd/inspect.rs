@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use fbcrowd_render::database_plots::write_database_plots;
 use motiondb::file;
-use motiondb_compiler::compile;
+use motiondb_compiler::survey::survey;
 
 use crate::compiling;
 use crate::failure::{Answer, Failure};
@@ -22,7 +22,10 @@ pub(crate) struct Args {
     #[arg(required = true, value_name = "FILE.fbdb|CLIPS")]
     input: Vec<PathBuf>,
     /// Print JSON: `sources[] {file, clip, speed_mps, turn_rate_rad_s, strafe_mps, up_axis, metres_per_unit,
-    /// frame_rate_hz, warnings[]}`; of a database also `examples[] {name, source, clip, window_s, mirrored, speed_mps,
+    /// frame_rate_hz, warnings[]}`; of clips each with `gait {kind, reason, planted_share, right[] {strike_s, toe_off_s},
+    /// left[] {strike_s, toe_off_s}}`: kind is "steps", "stands" or "unsteady" (with a reason), strikes and toe-offs are
+    /// those of the whole clip, in seconds from the file's first frame, null where the clip begins or ends within the
+    /// contact; of a database also `examples[] {name, source, clip, window_s, mirrored, speed_mps,
     /// turn_rate_rad_s, strafe_mps, duration_s, key_times_s, planted_slide_cm_s, planted_share}`, `velocity_hull
     /// {construction, turning_mps[][2], holding_mps[][2], sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension, simplices[][],
     /// covered_share}`, `correspondence {semi_procedural, blending, pairs_s[][2]}` or null, and `coverage[] {lack,
@@ -78,7 +81,7 @@ fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
         return Err(Failure::bad(message));
     }
     let (clips, answer) = compiling::import(clips)?;
-    let report = SourcesReport { sources: compile::survey(clips) };
+    let report = SourcesReport { sources: survey(clips) };
     if args.json {
         output::print_json(&report)?;
     } else {

@@ -1,0 +1,133 @@
+//! Clips → what a user is told of them without a database: each source's record, and its gait in the source's own time.
+//!
+//! All contacts of the clip are told, not only those of the steady part that an example is made of. Seconds from the
+//! file's first frame, so that they compare with labels that others made on the same file.
+
+use motiondb::motion_db::SourceRecord;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::analysis::{Analyzed, analyze};
+use crate::compile;
+use crate::gait::Gait;
+use crate::human_clip::{HumanBody, HumanClip};
+use crate::stance::Stance;
+use crate::target_skeleton;
+
+/// A clip, and what its feet do.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SurveyedSource {
+    /// As a database would hold it.
+    #[serde(flatten)]
+    pub source: SourceRecord,
+    /// Its gait.
+    pub gait: SourceGait,
+}
+
+/// What the feet do in a whole clip.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SourceGait {
+    /// Steps, standing or neither.
+    pub kind: GaitKind,
+    /// Why neither.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<&'static str>,
+    /// Share of the clip that a foot is planted, mean of both.
+    pub planted_share: f32,
+    /// Contacts of the right foot, in order of time.
+    pub right: Vec<ContactTimes>,
+    /// Of the left foot.
+    pub left: Vec<ContactTimes>,
+}
+
+/// What a clip shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum GaitKind {
+    /// Steady strides.
+    Steps,
+    /// A body that stands.
+    Stands,
+    /// Nothing that an example could be made of.
+    Unsteady,
+}
+
+/// When a foot touched the ground and when it left it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ContactTimes {
+    /// Heel strike, or whatever touched first; none where the clip begins later.
+    pub strike_s: Option<f32>,
+    /// Toe-off, or whatever left last; none where the clip ends before.
+    pub toe_off_s: Option<f32>,
+}
+
+impl SourceGait {
+    /// Times that a foot was put down.
+    pub fn step_count(&self) -> usize {
+        self.right.iter().chain(&self.left).filter(|contact| contact.strike_s.is_some()).count()
+    }
+}
+
+/// What is found in clips, with what a compilation would say of each, in the order of a database.
+pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
+    compile::sort(&mut clips);
+    if clips.is_empty() {
+        return Vec::new();
+    }
+    let body = target_skeleton::choose(&clips);
+    clips.par_iter().map(|clip| survey_clip(clip, &body)).collect()
+}
+
+fn survey_clip(clip: &HumanClip, body: &HumanBody) -> SurveyedSource {
+    let analyzed = analyze(clip, body);
+    SurveyedSource { source: compile::record(clip, &analyzed), gait: source_gait(&analyzed, clip.first_frame) }
+}
+
+fn source_gait(analyzed: &Analyzed, first_frame: usize) -> SourceGait {
+    let (kind, reason) = match &analyzed.gait.windows {
+        Ok(windows) if windows.iter().any(|window| matches!(window.gait, Gait::Steps(_))) => (GaitKind::Steps, None),
+        Ok(_) => (GaitKind::Stands, None),
+        Err(reason) => (GaitKind::Unsteady, Some(*reason)),
+    };
+    let shown = Shown::of(analyzed, first_frame);
+    let stances = analyzed.gait.clearest_stances();
+    let [left_share, right_share] = stances.each_ref().map(|stances| shown.planted_share(stances));
+    let [left, right] = stances.each_ref().map(|stances| shown.contacts(stances));
+    SourceGait { kind, reason, planted_share: (0.5 * (left_share + right_share)) as f32, right, left }
+}
+
+/// The frames of an analysed clip that the file itself has: all, or the middle copy of an unrolled loop.
+struct Shown {
+    start: f64,
+    end: f64,
+    /// Frames of the file before `start`.
+    first_frame: usize,
+    frame_rate_hz: f64,
+}
+
+impl Shown {
+    fn of(analyzed: &Analyzed, first_frame: usize) -> Self {
+        let clip = &analyzed.grounded;
+        let frames = clip.loop_frames.map_or([0, clip.poses.len() - 1], |round| [round, 2 * round]);
+        let [start, end] = frames.map(|frame| frame as f64);
+        Self { start, end, first_frame, frame_rate_hz: clip.frame_rate_hz }
+    }
+
+    fn contacts(&self, stances: &[Stance]) -> Vec<ContactTimes> {
+        let in_file_s = |frame: f64| ((frame - self.start + self.first_frame as f64) / self.frame_rate_hz) as f32;
+        let contact = |stance: &Stance| ContactTimes {
+            strike_s: (stance.strike_frame >= self.start).then(|| in_file_s(stance.strike_frame)),
+            toe_off_s: (stance.off_frame <= self.end).then(|| in_file_s(stance.off_frame)),
+        };
+        stances.iter().filter(|stance| self.overlap(stance) > 0.0).map(contact).collect()
+    }
+
+    fn planted_share(&self, stances: &[Stance]) -> f64 {
+        stances.iter().map(|stance| self.overlap(stance).max(0.0)).sum::<f64>() / (self.end - self.start)
+    }
+
+    /// Frames of a stance that are shown; negative where it lies elsewhere.
+    fn overlap(&self, stance: &Stance) -> f64 {
+        stance.off_frame.min(self.end) - stance.strike_frame.max(self.start)
+    }
+}
