@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-use crate::blend_space::{BlendSpace, MAX_CORNERS, Shares};
+use crate::blend_space::{BlendSpace, Shares};
 use crate::grid::Grid;
 use crate::parameters::Parameters;
 use crate::simplex::Simplex;
