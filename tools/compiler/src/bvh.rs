@@ -1,18 +1,19 @@
-//! BVH → [`SourceClip`]: the values through `bvh_anim`, the forward kinematics here.
+//! BVH → [`SourceClip`]: the hierarchy through `bvh_anim`, the numbers as they were checked, the forward kinematics here.
 //!
-//! A joint's frame is its parent's, translated by OFFSET (or by its position channels), then rotated by its rotation channels in the
-//! order in which the file lists them. Angles in degrees.
+//! A joint's frame is its parent's, translated by OFFSET (or by its position channels), then rotated by its rotation
+//! channels in the order in which the file lists them. Angles in degrees.
 //!
-//! Position channels may replace OFFSET (Bandai, LaFAN1) or be relative to it (iClone). On the joints that carry the whole body (from
-//! the root down to the first fork) the two differ by a constant displacement of everything, which levelling on the ground removes later;
-//! on bones the channel's mean decides: near OFFSET it replaces, near zero it adds.
+//! Position channels may replace OFFSET (Bandai, LaFAN1) or be relative to it (iClone). On the joints that carry the
+//! whole body (from the root down to the first fork) the two differ by a constant displacement of everything, which
+//! levelling on the ground removes later; on bones the channel's mean decides: near OFFSET it replaces, near zero it
+//! adds.
 
 use std::path::Path;
 
-use bvh_anim::{Axis, Bvh, Channel, Frame};
+use bvh_anim::{Axis, Bvh, Channel};
 use glam::{DQuat, DVec3};
 
-use crate::bvh_prepass::{self, CheckedBvh, CheckedJoint};
+use crate::bvh_prepass::{self, CheckedBvh, CheckedJoint, Motion};
 use crate::error::ImportError;
 use crate::source_clip::{SourceClip, SourceJoint};
 
@@ -27,29 +28,29 @@ pub fn read(file: &Path, bytes: &[u8]) -> Result<SourceClip, ImportError> {
         problem: flaw.problem,
         remedy: flaw.remedy,
     })?;
-    let bvh = bvh_anim::from_str(&checked.text).map_err(|error| ImportError::Bvh {
+    let bvh = bvh_anim::from_str(&checked.text(0)).map_err(|error| ImportError::Bvh {
         file: file.to_owned(),
         line: 1,
         problem: error.to_string(),
         remedy: "export the clip again",
     })?;
-    Ok(posed(file, &checked, &bvh))
+    Ok(posed(file, checked, &bvh))
 }
 
-fn posed(file: &Path, checked: &CheckedBvh, bvh: &Bvh) -> SourceClip {
-    // Once: each look-up by number in `bvh_anim` walks over all frames before it.
-    let frames: Vec<&Frame> = bvh.frames().collect();
-    let movers = movers(checked, bvh, &frames);
-    let mut positions = Vec::with_capacity(frames.len() * movers.len());
-    let mut orientations = Vec::with_capacity(frames.len() * movers.len());
+fn posed(file: &Path, checked: CheckedBvh, bvh: &Bvh) -> SourceClip {
+    let Motion { frame_time_s, values, rows } = &checked.motion;
+    let frames = values.chunks(values.len() / rows);
+    let movers = movers(&checked, bvh);
+    let mut positions = Vec::with_capacity(rows * movers.len());
+    let mut orientations: Vec<DQuat> = Vec::with_capacity(rows * movers.len());
     for frame in frames {
         let start = positions.len();
         for (mover, joint) in movers.iter().zip(&checked.joints) {
             let (offset, rotation) = mover.local(frame);
-            let (position, orientation) = match joint.parent {
+            let (position, orientation) = match joint.parent.map(|parent| start + parent) {
                 Some(parent) => {
-                    let turn: DQuat = orientations[start + parent];
-                    (positions[start + parent] + turn * offset, turn * rotation)
+                    let turn = orientations[parent];
+                    (positions[parent] + turn * offset, if joint.is_end { turn } else { turn * rotation })
                 }
                 None => (offset, rotation),
             };
@@ -62,12 +63,12 @@ fn posed(file: &Path, checked: &CheckedBvh, bvh: &Bvh) -> SourceClip {
         clip: String::new(),
         joints: checked.joints.iter().map(source_joint).collect(),
         first_frame: 0,
-        frame_rate_hz: 1.0 / bvh.frame_time().as_secs_f64().max(1e-6),
+        frame_rate_hz: 1.0 / frame_time_s,
         positions,
         orientations,
         up_axis: None,
         metres_per_unit: None,
-        warnings: checked.warnings.clone(),
+        warnings: checked.warnings,
     }
 }
 
@@ -78,43 +79,50 @@ fn source_joint(joint: &CheckedJoint) -> SourceJoint {
 /// How one joint moves within its parent's frame.
 struct Mover {
     offset: DVec3,
-    channels: Vec<Channel>,
+    steps: Vec<Step>,
     /// Position channels add to the offset instead of replacing it.
     relative: bool,
 }
 
+/// What one channel does.
+struct Step {
+    /// In its row.
+    column: usize,
+    is_position: bool,
+    axis: usize,
+}
+
 impl Mover {
-    fn local(&self, frame: &Frame) -> (DVec3, DQuat) {
+    fn local(&self, row: &[f64]) -> (DVec3, DQuat) {
         let (mut offset, mut rotation) = (self.offset, DQuat::IDENTITY);
-        for channel in &self.channels {
-            let value = f64::from(frame[channel]);
-            let axis = axis_index(channel);
-            if channel.channel_type().is_position() {
-                offset[axis] = if self.relative { self.offset[axis] + value } else { value };
+        for step in &self.steps {
+            let value = row[step.column];
+            if step.is_position {
+                offset[step.axis] = if self.relative { self.offset[step.axis] + value } else { value };
             } else {
-                rotation *= DQuat::from_axis_angle(DVec3::AXES[axis], value.to_radians());
+                rotation *= DQuat::from_axis_angle(DVec3::AXES[step.axis], value.to_radians());
             }
         }
         (offset, rotation)
     }
 }
 
-fn axis_index(channel: &Channel) -> usize {
-    match channel.channel_type().axis() {
+fn step(channel: &Channel) -> Step {
+    let axis = match channel.channel_type().axis() {
         Axis::X => 0,
         Axis::Y => 1,
         Axis::Z => 2,
-    }
+    };
+    Step { column: channel.motion_index(), is_position: channel.channel_type().is_position(), axis }
 }
 
-fn movers(checked: &CheckedBvh, bvh: &Bvh, frames: &[&Frame]) -> Vec<Mover> {
-    let joints: Vec<_> = bvh.joints().collect();
-    let mut read = joints.iter().map(|joint| joint.data().channels().to_vec());
+fn movers(checked: &CheckedBvh, bvh: &Bvh) -> Vec<Mover> {
+    let mut read = bvh.joints().map(|joint| joint.data().channels().iter().map(step).collect::<Vec<Step>>());
     let carriers = carriers(&checked.joints);
     let mover = |(index, joint): (usize, &CheckedJoint)| {
-        let channels = if joint.is_end { Vec::new() } else { read.next().unwrap_or_default() };
-        let relative = index >= carriers && is_relative(joint.offset, &channels, frames);
-        Mover { offset: joint.offset, channels, relative }
+        let steps = if joint.is_end { Vec::new() } else { read.next().unwrap_or_default() };
+        let relative = index >= carriers && is_relative(joint.offset, &steps, &checked.motion);
+        Mover { offset: joint.offset, steps, relative }
     };
     checked.joints.iter().enumerate().map(mover).collect()
 }
@@ -125,11 +133,11 @@ fn carriers(joints: &[CheckedJoint]) -> usize {
     1 + (0..joints.len()).take_while(|&joint| children(joint) == 1).count()
 }
 
-fn is_relative(offset: DVec3, channels: &[Channel], frames: &[&Frame]) -> bool {
+fn is_relative(offset: DVec3, steps: &[Step], motion: &Motion) -> bool {
     let mut mean = offset;
-    for channel in channels.iter().filter(|channel| channel.channel_type().is_position()) {
-        let sum: f64 = frames.iter().map(|frame| f64::from(frame[channel])).sum();
-        mean[axis_index(channel)] = sum / frames.len() as f64;
+    for step in steps.iter().filter(|step| step.is_position) {
+        let column = motion.values.iter().skip(step.column).step_by(motion.values.len() / motion.rows);
+        mean[step.axis] = column.sum::<f64>() / motion.rows as f64;
     }
     mean.length() < (mean - offset).length()
 }

@@ -1,13 +1,15 @@
-//! Reads a BVH text strictly, so that `bvh_anim` is only ever given a canonical one.
+//! Reads a BVH text strictly: the motion's numbers at once, the hierarchy into a canonical one for `bvh_anim`.
 //!
-//! `bvh_anim` cuts joint names at blanks and colons, drops leaves without an End Site, panics on a BOM or a nameless joint and allocates
-//! whatever `Frames:` claims. Here every statement is checked first; joints are renamed `j0`, `j1` … (the real names are kept), every leaf
-//! gets an End Site, `Frames:` becomes the number of rows that are really there, and nothing is larger than the bytes of the file pay for.
+//! `bvh_anim` cuts joint names at blanks and colons, drops leaves without an End Site, panics on a BOM or a nameless
+//! joint and allocates whatever `Frames:` claims. Here every statement is checked first; joints are renamed `j0`, `j1` …
+//! (the real names are kept), every leaf gets an End Site, and nothing is larger than the bytes of the file pay for. Its
+//! numbers are f32, and it would read each a second time: those are kept as they are checked.
 
 use std::fmt::Write as _;
 
 use glam::DVec3;
 
+use crate::decimal;
 use crate::skeleton_map::MAX_JOINTS;
 
 /// Deepest nesting of joints: deeper is no skeleton (the deepest real one, with face and fingers: 24).
@@ -23,10 +25,12 @@ const MAX_VALUE: f64 = 1e8;
 /// A checked BVH.
 #[derive(Debug)]
 pub(crate) struct CheckedBvh {
-    /// The canonical text.
-    pub text: String,
+    /// The canonical hierarchy.
+    pub hierarchy: String,
     /// Joints and end sites in file order; joint `j<N>` of the text is the N-th that is no end site.
     pub joints: Vec<CheckedJoint>,
+    /// The motion section.
+    pub motion: Motion,
     /// Lying or missing counts.
     pub warnings: Vec<String>,
 }
@@ -68,8 +72,23 @@ pub(crate) fn check(bytes: &[u8]) -> Result<CheckedBvh, Flaw> {
     let (joints, motion_line) = hierarchy(&mut lines)?;
     let mut warnings = Vec::new();
     let motion = motion(lines, motion_line, &joints, &mut warnings)?;
-    let text = canonical_text(&joints, &motion);
-    Ok(CheckedBvh { text, joints, warnings })
+    Ok(CheckedBvh { hierarchy: canonical_hierarchy(&joints), joints, motion, warnings })
+}
+
+impl CheckedBvh {
+    /// The canonical text of the first frames.
+    pub(crate) fn text(&self, frames: usize) -> String {
+        let Motion { frame_time_s, values, rows } = &self.motion;
+        let frames = frames.min(*rows);
+        let mut text = format!("{}MOTION\nFrames: {frames}\nFrame Time: {frame_time_s}\n", self.hierarchy);
+        for row in values.chunks(values.len() / rows).take(frames) {
+            for value in row {
+                let _ = write!(text, "{value} ");
+            }
+            text.push('\n');
+        }
+        text
+    }
 }
 
 /// The lines that are not blank, with their numbers from 1; LF, CRLF and bare CR all end a line.
@@ -233,8 +252,8 @@ fn channel(line: usize, word: &str) -> Result<&'static str, Flaw> {
 }
 
 fn number(line: usize, word: &str) -> Result<f64, Flaw> {
-    match word.parse::<f64>() {
-        Ok(value) if value.abs() <= MAX_VALUE => Ok(value),
+    match decimal::number(word) {
+        Some(value) if value.abs() <= MAX_VALUE => Ok(value),
         _ => flaw(line, format!("`{}` is not a finite, sensible number", shown(word)), "repair the value"),
     }
 }
@@ -244,10 +263,15 @@ fn shown(word: &str) -> String {
     word.chars().take(40).collect()
 }
 
-struct Motion {
-    frame_time_s: f64,
-    values: Vec<f64>,
-    rows: usize,
+/// The motion section.
+#[derive(Debug)]
+pub(crate) struct Motion {
+    /// Seconds.
+    pub frame_time_s: f64,
+    /// Row by row, in the order of the joints' channels.
+    pub values: Vec<f64>,
+    /// At least one.
+    pub rows: usize,
 }
 
 fn motion<'a>(
@@ -305,7 +329,7 @@ fn row_values<'a>(
     let mut lines = lines.peekable();
     while let Some((line, text)) = lines.next() {
         let before = values.len();
-        for word in text.split_whitespace() {
+        for word in text.split_ascii_whitespace() {
             values.push(number(line, word)?);
         }
         let found = values.len() - before;
@@ -320,7 +344,7 @@ fn row_values<'a>(
     Ok(values)
 }
 
-fn canonical_text(joints: &[CheckedJoint], motion: &Motion) -> String {
+fn canonical_hierarchy(joints: &[CheckedJoint]) -> String {
     let mut text = String::from("HIERARCHY\n");
     let mut open: Vec<usize> = Vec::new();
     let mut is_leaf = vec![true; joints.len()];
@@ -339,13 +363,6 @@ fn canonical_text(joints: &[CheckedJoint], motion: &Motion) -> String {
     }
     while let Some(joint) = open.pop() {
         close(&mut text, is_leaf[joint]);
-    }
-    let _ = writeln!(text, "MOTION\nFrames: {}\nFrame Time: {}", motion.rows, motion.frame_time_s);
-    for row in motion.values.chunks(motion.values.len() / motion.rows) {
-        for value in row {
-            let _ = write!(text, "{value} ");
-        }
-        text.push('\n');
     }
     text
 }
