@@ -1,5 +1,6 @@
 //! Clips to a database, with progress and a line for all that was refused: what `compile`, `inspect` and `run` share.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use motiondb::velocity_hull::Construction;
@@ -60,6 +61,7 @@ fn manifest(paths: &[PathBuf]) -> Result<Manifest, Failure> {
 #[derive(Default)]
 pub(crate) struct Overrides {
     pub(crate) velocity_hull: Option<Construction>,
+    pub(crate) max_examples: Option<NonZeroUsize>,
 }
 
 /// Compiles clips; `stopwatch` takes the time of each stage.
@@ -68,6 +70,7 @@ pub(crate) fn compile(paths: &[PathBuf], overrides: &Overrides, stopwatch: &Stop
     if let Some(construction) = overrides.velocity_hull {
         manifest.options.velocity_hull = construction;
     }
+    manifest.options.max_examples = overrides.max_examples.or(manifest.options.max_examples);
     let progress = Progress::new("clips", manifest.takes.len());
     let compiled = compile::compile_manifest(&manifest, &|event| {
         stopwatch.watch(event);

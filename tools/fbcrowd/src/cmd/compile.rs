@@ -1,6 +1,7 @@
 //! `fbcrowd compile`: clips in, motion database out.
 
 use std::io::{self, IsTerminal};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use motiondb::file;
@@ -41,6 +42,10 @@ pub(crate) struct Args {
     /// `next[]`.
     #[arg(long)]
     json: bool,
+    /// Most examples, mirrors not counted, whatever the manifest says: m_sp, one that stands and those that reach
+    /// farthest come first.
+    #[arg(long, value_name = "N")]
+    max_examples: Option<NonZeroUsize>,
     /// How the motions bound velocities, whatever the manifest says.
     #[arg(long, value_enum, value_name = "SETS")]
     velocity_hull: Option<VelocitySets>,
@@ -66,7 +71,8 @@ impl From<VelocitySets> for Construction {
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     output::spare(&args.output, args.clips.iter().map(PathBuf::as_path))?;
-    let overrides = Overrides { velocity_hull: args.velocity_hull.map(Construction::from) };
+    let overrides =
+        Overrides { velocity_hull: args.velocity_hull.map(Construction::from), max_examples: args.max_examples };
     let stopwatch = Stopwatch::default();
     let Compiled { db, refused } = compiling::compile(&args.clips, &overrides, &stopwatch)?;
     // On a terminal the report says it.
