@@ -1,0 +1,345 @@
+//! glTF as it is found in the wild, written here: each feature reads as the plain document does, or is refused by name.
+
+#[path = "gltf/document.rs"]
+mod document;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use document::{BODY, Document, FRAMES, check_walks, human, root, rotation};
+use motiondb_compiler::error::Refusal;
+use motiondb_compiler::import::{import, import_bytes};
+use serde_json::json;
+
+/// Short and normalised quaternions of one joint.
+fn shorts(joint: usize) -> Vec<u8> {
+    let short = |value: f32| ((value * 32_767.0).round() as i16).to_le_bytes();
+    (0..FRAMES).flat_map(|frame| rotation(joint, frame)).flat_map(short).collect()
+}
+
+/// Index of the accessor that a channel of the first animation puts out.
+fn output(document: &Document, channel: usize) -> usize {
+    document.json["animations"][0]["samplers"][channel]["output"].as_u64().unwrap() as usize
+}
+
+fn names(document: &Document) -> Vec<String> {
+    document.imports().into_iter().map(|import| import.clip).collect()
+}
+
+#[test]
+fn text_and_binary_read_alike() {
+    let walker = Document::walker();
+    let plain = walker.only();
+    check_walks(&plain);
+    let binary = import_bytes(Path::new("walk.glb"), &walker.glb()).unwrap().remove(0);
+    assert_eq!(human(binary).frames, plain.frames);
+}
+
+#[test]
+fn integer_quaternions_are_fractions() {
+    let mut walker = Document::walker();
+    for joint in 0..BODY.len() {
+        let view = walker.view(&shorts(joint));
+        let accessor = output(&walker, joint);
+        walker.json["accessors"][accessor]["bufferView"] = json!(view);
+        walker.json["accessors"][accessor]["componentType"] = json!(5122);
+        walker.json["accessors"][accessor]["normalized"] = json!(true);
+    }
+    check_walks(&walker.only());
+}
+
+#[test]
+fn sparse_accessors_replace_what_stands_below_them_and_zeros_where_nothing_does() {
+    let plain = Document::walker().only();
+    for has_base in [true, false] {
+        let mut walker = Document::walker();
+        let (knee, every) = (2, 0..FRAMES);
+        let indices: Vec<u8> = every.clone().flat_map(|frame| (frame as u16).to_le_bytes()).collect();
+        let turns: Vec<u8> = every.flat_map(|frame| rotation(knee, frame)).flat_map(f32::to_le_bytes).collect();
+        let (indices, values) = (walker.view(&indices), walker.view(&turns));
+        let accessor = output(&walker, knee);
+        let base = output(&walker, knee + 1);
+        let base = walker.json["accessors"][base]["bufferView"].clone();
+        let object = walker.json["accessors"][accessor].as_object_mut().unwrap();
+        object.remove("bufferView");
+        if has_base {
+            object.insert("bufferView".into(), base);
+        }
+        let indices = json!({ "bufferView": indices, "componentType": 5123 });
+        object.insert(
+            "sparse".into(),
+            json!({ "count": FRAMES, "indices": indices, "values": { "bufferView": values } }),
+        );
+        assert_eq!(walker.only().frames, plain.frames, "{has_base}");
+    }
+}
+
+#[test]
+fn matrices_scales_and_moving_nodes_above_the_skeleton_are_followed() {
+    // Blender's armature: Z up, centimetres.
+    let mut scaled = Document::walker();
+    scaled.json["nodes"][0]["rotation"] = json!([0, 0, 0, 1]);
+    scaled.put_below(json!({ "name": "Armature", "matrix": [0.5,0,0,0, 0,0.5,0,0, 0,0,0.5,0, 3,0,7,1] }), 0);
+    let half = scaled.only();
+    assert!((half.source.speed_mps - 0.6).abs() < 0.01, "{:?}", half.source);
+
+    // The way is animated above the skeleton, which stays.
+    let mut carried = Document::walker();
+    let armature = carried.put_below(json!({ "name": "Armature" }), 0);
+    let places: Vec<f32> = (0..FRAMES).flat_map(|frame| [0.0, 0.0, root(frame)[2]]).collect();
+    let output = carried.floats("VEC3", &places);
+    let last = carried.json["animations"][0]["channels"].as_array().unwrap().len() - 1;
+    carried.json["animations"][0]["samplers"][last]["output"] = json!(output);
+    carried.json["animations"][0]["channels"][last]["target"]["node"] = json!(armature);
+    check_walks(&carried.only());
+
+    // A body that an animator stretched.
+    let mut stretched = Document::walker();
+    stretched.put_below(json!({ "name": "Armature", "scale": [1.0, 1.1, 1.0] }), 0);
+    check_walks(&stretched.only());
+}
+
+#[test]
+fn a_mirrored_body_walks_forward() {
+    let mut mirrored = Document::walker();
+    mirrored.put_below(json!({ "name": "Armature", "scale": [-1, 1, 1] }), 0);
+    check_walks(&mirrored.only());
+}
+
+#[test]
+fn late_keys_single_keys_and_steps_are_keys() {
+    let mut late = Document::walker();
+    let times: Vec<f32> = (0..FRAMES).map(|frame| 5.0 + frame as f32 / 30.0).collect();
+    let input = late.floats("SCALAR", &times);
+    for sampler in late.json["animations"][0]["samplers"].as_array_mut().unwrap() {
+        sampler["input"] = json!(input);
+    }
+    check_walks(&late.only());
+
+    let mut single = Document::walker();
+    let (input, output) = (single.floats("SCALAR", &[0.5]), single.floats("VEC4", &[0.0, 0.0, 0.0, 1.0]));
+    let chest = &mut single.json["animations"][0]["samplers"][10];
+    *chest = json!({ "input": input, "output": output, "interpolation": "STEP" });
+    check_walks(&single.only());
+}
+
+#[test]
+fn cameras_and_props_neither_lengthen_a_clip_nor_become_one() {
+    let mut document = Document::walker();
+    document.push("cameras", json!({ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1 } }));
+    let camera = document.push("nodes", json!({ "name": "Camera", "camera": 0 }));
+    let (input, output) = (document.floats("SCALAR", &[0.0, 60.0]), document.floats("VEC3", &[0.0; 6]));
+    document.channel(0, camera, "translation", input, output);
+    check_walks(&document.only());
+}
+
+#[test]
+fn each_body_of_a_file_is_a_clip_of_its_own() {
+    for have_skins in [false, true] {
+        for share_a_root in [false, true] {
+            // Bodies in one tree are told apart by their skins.
+            if share_a_root && !have_skins {
+                continue;
+            }
+            let mut two = Document::empty();
+            let bodies = ["", "_B"].map(|suffix| two.add_body(suffix));
+            if have_skins {
+                bodies.iter().for_each(|&first| two.add_skin(first));
+            }
+            if share_a_root {
+                two.push("nodes", json!({ "name": "Scene", "children": bodies }));
+            }
+            two.add_walk("first", &bodies[..1]);
+            two.add_walk("second", &bodies[1..]);
+            two.add_walk("both", &bodies);
+            assert_eq!(names(&two), ["first", "second", "both Hips", "both Hips_B"], "{have_skins} {share_a_root}");
+            two.imports().into_iter().for_each(|import| check_walks(&human(import)));
+        }
+    }
+}
+
+#[test]
+fn several_skins_of_one_skeleton_are_one_body() {
+    let mut document = Document::walker();
+    document.add_skin(0);
+    document.push("skins", json!({ "joints": [17, 18] }));
+    document.push("skins", json!({ "joints": (0..BODY.len()).collect::<Vec<_>>() }));
+    check_walks(&document.only());
+}
+
+#[test]
+fn animations_of_one_name_and_of_none_are_told_apart() {
+    let mut document = Document::walker();
+    document.add_walk("walk", &[0]);
+    document.add_walk("walk_2", &[0]);
+    let unnamed = document.add_walk("", &[0]);
+    document.json["animations"][unnamed].as_object_mut().unwrap().remove("name");
+    assert_eq!(names(&document), ["walk", "walk_3", "walk_2", "animation 3"]);
+    let clips: Vec<String> = document.imports().into_iter().map(|import| human(import).name).collect();
+    assert_eq!(clips, ["walk walk", "walk walk_3", "walk walk_2", "walk animation 3"]);
+}
+
+#[test]
+fn joints_of_one_name_and_of_none_are_understood_by_their_shape() {
+    let (mut nameless, mut alike) = (Document::walker(), Document::walker());
+    for joint in 0..BODY.len() {
+        nameless.json["nodes"][joint].as_object_mut().unwrap().remove("name");
+        alike.json["nodes"][joint]["name"] = json!("joint");
+    }
+    check_walks(&nameless.only());
+    check_walks(&alike.only());
+}
+
+#[test]
+fn what_moves_no_joint_is_refused_by_name_and_hides_no_walk() {
+    let mut document = Document::walker();
+    let (input, output) = (document.floats("SCALAR", &[0.0, 1.0]), document.floats("SCALAR", &[0.0, 1.0]));
+    let smile = document.push("animations", json!({ "name": "smile", "channels": [], "samplers": [] }));
+    document.channel(smile, 18, "weights", input, output);
+    let mut imports = document.imports();
+    assert_eq!(imports[1].outcome.clone().unwrap_err(), Refusal::Motionless);
+    assert_eq!(imports[1].clip, "smile");
+    check_walks(&human(imports.remove(0)));
+}
+
+#[test]
+fn animation_pointers_are_passed_over_with_a_word() {
+    let mut document = Document::walker();
+    document.json["extensionsUsed"] = json!(["KHR_animation_pointer"]);
+    let pointer = json!({ "pointer": "/materials/0/alphaCutoff" });
+    document.json["animations"][0]["channels"].as_array_mut().unwrap().push(json!({
+        "sampler": 0, "target": { "path": "pointer", "extensions": { "KHR_animation_pointer": pointer } },
+    }));
+    let clip = document.only();
+    check_walks(&clip);
+    assert!(clip.source.warnings.iter().any(|warning| warning.contains("KHR_animation_pointer")));
+}
+
+#[test]
+fn compressed_meshes_are_no_matter_and_compressed_animations_are_refused() {
+    let mut meshes = Document::walker();
+    meshes.json["extensionsRequired"] =
+        json!(["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"]);
+    meshes.push("accessors", json!({ "componentType": 5126, "count": 3, "type": "VEC3" }));
+    let position = meshes.json["accessors"].as_array().unwrap().len() - 1;
+    meshes.push("meshes", json!({ "primitives": [{ "attributes": { "POSITION": position } }] }));
+    meshes.push(
+        "buffers",
+        json!({ "byteLength": 36, "extensions": { "EXT_meshopt_compression": { "fallback": true } } }),
+    );
+    check_walks(&meshes.only());
+
+    let mut packed = meshes;
+    for view in packed.json["bufferViews"].as_array_mut().unwrap() {
+        view["buffer"] = json!(1);
+    }
+    packed.json["buffers"][1]["byteLength"] = json!(packed.bytes.len());
+    let message = import_bytes(Path::new("walk.gltf"), &packed.gltf()).unwrap_err().to_string();
+    assert!(message.contains("walk.gltf, buffer 1") && message.contains("compressed"), "{message}");
+}
+
+#[test]
+fn avatars_in_vrm_are_bodies() {
+    for extension in ["VRM", "VRMC_vrm"] {
+        let mut avatar = Document::walker();
+        avatar.json["extensionsUsed"] = json!([extension]);
+        avatar.json["extensions"] = json!({ extension: { "specVersion": "1.0", "humanoid": { "humanBones": {} } } });
+        let bones = [
+            "Hips",
+            "L_UpperLeg",
+            "L_LowerLeg",
+            "L_Foot",
+            "L_ToeBase",
+            "R_UpperLeg",
+            "R_LowerLeg",
+            "R_Foot",
+            "R_ToeBase",
+            "Spine",
+            "Chest",
+            "L_UpperArm",
+            "L_LowerArm",
+            "L_Hand",
+            "R_UpperArm",
+            "R_LowerArm",
+            "R_Hand",
+            "Neck",
+            "Head",
+        ];
+        for (joint, bone) in bones.iter().enumerate() {
+            avatar.json["nodes"][joint]["name"] =
+                json!(format!("J_Bip_{}{bone}", if bone.contains('_') { "" } else { "C_" }));
+        }
+        check_walks(&avatar.only());
+    }
+}
+
+#[test]
+fn a_malformed_animation_hides_no_other() {
+    let mut document = Document::walker();
+    let second = document.add_walk("broken", &[0]);
+    document.json["animations"][second]["samplers"][3]["output"] = json!(100_000);
+    let long = document.add_walk("endless", &[0]);
+    let (input, output) = (document.floats("SCALAR", &[0.0, 1e9]), document.floats("VEC4", &[0.0; 8]));
+    document.channel(long, 3, "rotation", input, output);
+    let mut imports = document.imports();
+    for (import, word) in imports[1..].iter().zip(["accessor 100000", "longer than"]) {
+        let refusal = import.outcome.clone().unwrap_err();
+        assert!(
+            matches!(&refusal, Refusal::Malformed { reason } if reason.contains(word)),
+            "{}: {refusal}",
+            import.clip
+        );
+    }
+    check_walks(&human(imports.remove(0)));
+}
+
+/// An empty folder of the test's own.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+#[test]
+fn buffers_are_found_beside_the_document_and_named_where_they_are_missing() {
+    let folder = folder("gltf_buffers");
+    let walker = Document::walker();
+    fs::create_dir(folder.join("data")).unwrap();
+    fs::write(folder.join("data/my walk.bin"), &walker.bytes).unwrap();
+    let file = folder.join("walk.gltf");
+    fs::write(&file, walker.gltf_with("data/my%20walk.bin")).unwrap();
+    check_walks(&human(import(&file).unwrap().remove(0)));
+    fs::write(&file, walker.gltf_with("data/your%20walk.bin")).unwrap();
+    let message = import(&file).unwrap_err().to_string();
+    assert!(message.contains("walk.gltf, buffer 0") && message.contains("data/your walk.bin"), "{message}");
+}
+
+#[test]
+fn buffers_outside_the_documents_folder_are_not_read() {
+    let folder = folder("gltf_escape");
+    let walker = Document::walker();
+    fs::write(folder.join("walk.bin"), &walker.bytes).unwrap();
+    let inside = folder.join("inside");
+    fs::create_dir(&inside).unwrap();
+    let absolute = folder.join("walk.bin").display().to_string();
+    for uri in ["../walk.bin", "a/../../walk.bin", "%2e%2e/walk.bin", "..\\walk.bin", "file:../walk.bin", &absolute] {
+        fs::write(inside.join("walk.gltf"), walker.gltf_with(uri)).unwrap();
+        let message = import(&inside.join("walk.gltf")).unwrap_err().to_string();
+        assert!(message.contains("outside"), "{uri}: {message}");
+    }
+}
+
+#[test]
+fn a_thousand_animations_are_a_thousand_clips_in_order() {
+    let mut document = Document::walker();
+    let walk = document.json["animations"][0].clone();
+    for number in 1..1_000 {
+        let mut another = walk.clone();
+        another["name"] = json!(format!("walk {number}"));
+        document.push("animations", another);
+    }
+    let imports = document.imports();
+    assert_eq!((imports.len(), imports[999].clip.as_str()), (1_000, "walk 999"));
+    imports.into_iter().for_each(|import| check_walks(&human(import)));
+}
