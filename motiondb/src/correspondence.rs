@@ -1,10 +1,22 @@
-//! Correspondence times T between the semi-procedural clip and the blending clip (`FbCrowd` §5, Eq. 10).
+//! Correspondence times T between two examples (`FbCrowd` §5, Eq. 10): where synthesis may switch from one to the other.
+//!
+//! The pairs of T are the local minima of the pose distance D ([`crate::pose_distance`]) on the torus of both cycles,
+//! as far as they are at most [`THRESHOLD_RATIO`] times the least; a cell is a minimum where none of the eight around it
+//! is lower. Of minima that cannot all be passed in turn (monotone and cyclic in both) the greatest number is kept, and
+//! of equal numbers those with the least sum of distances. Every step (from one mid-stance to the other) of either
+//! cycle has a pair; where it has no minimum, the most alike poses of a step of one and a step of the other stand in,
+//! as few as can be. The table from B to A is that from A to B with its columns exchanged.
+//!
+//! A body that stands has no steps of its own: its half-cycles count as steps, and each step of the other has a pair
+//! with some time of standing.
 
 use serde::{Deserialize, Serialize};
 
-/// Weight of a joint's velocity beside its place where poses are compared: as far as it gets in this time, a
-/// transition's first instants, seconds.
-pub const VELOCITY_WEIGHT_S: f64 = 0.1;
+use crate::motion_db::{MotionDb, PHASE_COUNT};
+use crate::pose_distance::{Distances, distances_m};
+
+/// A minimum counts up to this multiple of the least distance of all.
+pub const THRESHOLD_RATIO: f32 = 1.5;
 
 /// Where m_sp and m_mb are most alike, so that synthesis may switch from one to the other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,4 +27,161 @@ pub struct Correspondence {
     pub blending: u32,
     /// [t_sp, t_mb], seconds from phase 0 of each cycle, in order of t_sp; cyclic and monotone in both.
     pub pairs_s: Vec<[f32; 2]>,
+}
+
+/// Two poses that are alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alike {
+    /// Seconds from phase 0 of each cycle.
+    pub times_s: [f32; 2],
+    /// D, metres.
+    pub distance_m: f32,
+}
+
+/// T between two examples, in order of the first's times.
+pub fn table(db: &MotionDb, from: usize, to: usize) -> Vec<Alike> {
+    if from > to {
+        let mut table = table(db, to, from);
+        for alike in &mut table {
+            alike.times_s.reverse();
+        }
+        table.sort_by(|a, b| a.times_s[0].total_cmp(&b.times_s[0]));
+        return table;
+    }
+    let distances_m = distances_m(db, from, to);
+    let time_s = |example: usize, row: usize| db.examples[example].phase_map.time_s(row as f32 / PHASE_COUNT as f32);
+    let alike = |Cell { rows: [row, other_row], distance_m }: Cell| Alike {
+        times_s: [time_s(from, row), time_s(to, other_row)],
+        distance_m,
+    };
+    correspond(&distances_m).into_iter().map(alike).collect()
+}
+
+/// A pair of stored phases.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Cell {
+    rows: [usize; 2],
+    distance_m: f32,
+}
+
+/// The pairs of T, in order of the first's rows.
+fn correspond(distances_m: &Distances) -> Vec<Cell> {
+    let minima = minima(distances_m);
+    let stand_ins = stand_ins(distances_m).into_iter().filter(|cell| !minima.contains(cell));
+    let candidates: Vec<Candidate> = minima
+        .iter()
+        .map(|&cell| Candidate { cell, is_minimum: true })
+        .chain(stand_ins.map(|cell| Candidate { cell, is_minimum: false }))
+        .collect();
+    let mut best: Option<Chain> = None;
+    for &first in &candidates {
+        let chain = best_chain_from(first, &candidates);
+        if let Some(chain) = chain.filter(|chain| best.as_ref().is_none_or(|best| chain.is_better(best))) {
+            best = Some(chain);
+        }
+    }
+    let mut cells = best.map_or_else(Vec::new, |chain| chain.cells);
+    cells.sort_by_key(|cell| cell.rows);
+    cells
+}
+
+/// Local minima under the threshold. Of equal neighbours the first counts.
+fn minima(distances_m: &Distances) -> Vec<Cell> {
+    let least_m = distances_m.iter().flatten().copied().fold(f32::INFINITY, f32::min);
+    let rows = (0..PHASE_COUNT).flat_map(|row| (0..PHASE_COUNT).map(move |other_row| [row, other_row]));
+    let cells = rows.map(|rows| Cell { rows, distance_m: distances_m[rows[0]][rows[1]] });
+    let is_minimum = |cell: &Cell| {
+        neighbours(cell.rows).all(|[row, other_row]| {
+            let around_m = distances_m[row][other_row];
+            cell.distance_m < around_m || (cell.distance_m == around_m && cell.rows < [row, other_row])
+        })
+    };
+    cells.filter(|cell| cell.distance_m <= THRESHOLD_RATIO * least_m && is_minimum(cell)).collect()
+}
+
+/// The eight cells around one, on the torus.
+fn neighbours([row, other_row]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
+    let around = [PHASE_COUNT - 1, 0, 1];
+    let all = around.into_iter().flat_map(move |down| around.map(|aside| [down, aside]));
+    all.filter(|shift| *shift != [0, 0])
+        .map(move |[down, aside]| [(row + down) % PHASE_COUNT, (other_row + aside) % PHASE_COUNT])
+}
+
+/// The most alike poses of each step of one and each step of the other.
+fn stand_ins(distances_m: &Distances) -> Vec<Cell> {
+    const HALF: usize = PHASE_COUNT / 2;
+    let blocks = [0, HALF].into_iter().flat_map(|first| [0, HALF].map(|other_first| [first, other_first]));
+    let best = |[first, other_first]: [usize; 2]| {
+        let cells = (first..first + HALF)
+            .flat_map(|row| (other_first..other_first + HALF).map(move |other_row| [row, other_row]))
+            .map(|rows| Cell { rows, distance_m: distances_m[rows[0]][rows[1]] });
+        cells.min_by(|a, b| a.distance_m.total_cmp(&b.distance_m)).expect("a step has rows")
+    };
+    blocks.map(best).collect()
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    cell: Cell,
+    is_minimum: bool,
+}
+
+/// Cells that can be passed in turn.
+#[derive(Clone, Debug)]
+struct Chain {
+    cells: Vec<Cell>,
+    minima: usize,
+    sum_m: f32,
+    /// A bit for each half of each cycle.
+    steps: usize,
+}
+
+/// Bits of [`Chain::steps`]: both halves of both cycles.
+const ALL_STEPS: usize = 0b1111;
+
+impl Chain {
+    fn with(&self, next: &Candidate) -> Self {
+        let [row, other_row] = next.cell.rows.map(|row| usize::from(row >= PHASE_COUNT / 2));
+        let mut chain = self.clone();
+        chain.cells.push(next.cell);
+        chain.minima += usize::from(next.is_minimum);
+        chain.sum_m += next.cell.distance_m;
+        chain.steps |= 0b01 << row | 0b0100 << other_row;
+        chain
+    }
+
+    /// More minima, fewer stand-ins, nearer poses.
+    fn is_better(&self, other: &Self) -> bool {
+        let lengths = |chain: &Self| (chain.minima, std::cmp::Reverse(chain.cells.len()));
+        lengths(self).cmp(&lengths(other)).then(other.sum_m.total_cmp(&self.sum_m)).is_gt()
+    }
+}
+
+/// The best chain that starts at a candidate, goes once round both cycles and serves every step; none where there is
+/// none. Longest rising subsequence, counted from the first cell, kept apart by the steps that are served.
+fn best_chain_from(first: Candidate, candidates: &[Candidate]) -> Option<Chain> {
+    let from_first = |cell: &Cell| {
+        let offset = |axis: usize| (cell.rows[axis] + PHASE_COUNT - first.cell.rows[axis]) % PHASE_COUNT;
+        [offset(0), offset(1)]
+    };
+    let mut later: Vec<([usize; 2], &Candidate)> =
+        candidates.iter().map(|candidate| (from_first(&candidate.cell), candidate)).collect();
+    later.retain(|([row, other_row], _)| *row > 0 && *other_row > 0);
+    later.sort_by_key(|(offsets, _)| *offsets);
+    let start = Chain { cells: Vec::new(), minima: 0, sum_m: 0.0, steps: 0 }.with(&first);
+    let mut ends: Vec<([usize; 2], Vec<Chain>)> = vec![([0, 0], vec![start])];
+    for (offsets, candidate) in later {
+        let mut best: Vec<Chain> = Vec::new();
+        let before = ends.iter().filter(|(end, _)| end[0] < offsets[0] && end[1] < offsets[1]);
+        for chain in before.flat_map(|(_, chains)| chains).map(|chain| chain.with(candidate)) {
+            match best.iter_mut().find(|other| other.steps == chain.steps) {
+                Some(other) if chain.is_better(other) => *other = chain,
+                Some(_) => {}
+                None => best.push(chain),
+            }
+        }
+        ends.push((offsets, best));
+    }
+    let complete = ends.into_iter().flat_map(|(_, chains)| chains).filter(|chain| chain.steps == ALL_STEPS);
+    complete.reduce(|best, chain| if chain.is_better(&best) { chain } else { best })
 }

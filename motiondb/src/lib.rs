@@ -26,6 +26,7 @@ pub mod parameters;
 pub mod phase_map;
 pub mod planted_feet;
 pub mod pose;
+pub mod pose_distance;
 pub mod quality;
 mod simplex;
 pub mod skeleton;

@@ -177,6 +177,7 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
     clip.warnings.extend(plausibility::implausible_gait(&clip, &roles, &whole));
     let mut human = retarget::to_human(&clip, &roles, &units, whole, name);
     human.choices.mirror = settings.mirror;
+    human.choices.is_cut = settings.frames.is_some();
     let finite = |pose: &HumanPose| pose.pelvis_m.is_finite() && pose.rotations.iter().all(|turn| turn.is_finite());
     if !human.frames.iter().all(finite) {
         return Err(Refusal::Degenerate);

@@ -1,0 +1,292 @@
+//! The same take twice: under another name, at another frame rate, with a lying frame time, on another skeleton, as a
+//! part of the other or mirrored. One of the two gives examples.
+//!
+//! Every pair of clips is screened by the legs' directions ([`crate::performance`]) at all lags that leave most of the
+//! shorter clip covered; what comes near is compared exactly, in steps of 1/120 s. Two clips are one take where limbs,
+//! trunk and head move alike *and* the facing turns and swings alike: the first alone cannot tell made-up walks, the
+//! second alone no regular walkers.
+//!
+//! Measured over all pairs of 151 clips of 14 sources: retargeted copies have r up to 0.22 (a run of 1.4 s, CMU 02_03,
+//! on two skeletons), plain and mirrored ones up to 0.05; of different takes whose facings agree the nearest are a left
+//! and a right turn of one performer (0.28); regular walks of one performer stay above 0.29.
+
+use std::cmp::{Ordering, Reverse};
+use std::f64::consts::PI;
+
+use rayon::prelude::*;
+
+use crate::analysis::Analyzed;
+use crate::human_clip::HumanClip;
+use crate::performance::{self, LEG_DIRECTION_COUNT, Likeness, Performance};
+use crate::remark::{FRAME_TIME_QUESTION, NO_EXAMPLE};
+
+/// Rates at which pairs are screened and compared, Hz; the second is a multiple of the first.
+const SCREEN_HZ: f64 = 20.0;
+const EXACT_STEPS: isize = 6;
+/// Share of the shorter clip that both must show.
+const OVERLAP_SHARE: f64 = 0.8;
+/// Greatest r of one take, and at the coarse lags of the screening: half a step, 25 ms, costs a run of 2 strides/s 0.3.
+const UNLIKENESS_MAX: f64 = 0.23;
+const SCREEN_MAX: f64 = 0.45;
+/// Shorter overlaps must be the more alike, in proportion, s: about a stride tells little of a performer.
+const SURE_S: f64 = 1.2;
+/// Clips that stir less have no course to compare: 0.2°.
+const MOVEMENT_MIN_RAD: f64 = 0.2 * PI / 180.0;
+/// Facings of one take: retargeting changes the size of their swing, hardly its course (0.95 and more).
+const FACING_CORRELATION_MIN: f64 = 0.9;
+/// And turn alike within what the whole clip's turn rate is judged by (`definitions.md`): 3 °/s or 15° over the clip.
+const TURN_DIFFERENCE_RAD_S: f64 = 3.0 * PI / 180.0;
+const TURN_DIFFERENCE_RAD: f64 = 15.0 * PI / 180.0;
+/// Frames of one clip per frame of the other that are tried where the frame counts fit and the times do not.
+const FRAME_RATIOS: [f64; 3] = [0.5, 1.0, 2.0];
+/// How far counts may be off (trimmed ends), and how far times must be, as a share.
+const COUNT_TOLERANCE: f64 = 0.1;
+const TIME_TOLERANCE: f64 = 0.05;
+/// Clips whose lengths differ by less are equally long, s.
+const SAME_LENGTH_S: f64 = 0.1;
+
+/// Two clips of one take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// Indices of the clips, ascending.
+    pub clips: [usize; 2],
+    /// One is the other's mirror image.
+    pub mirrored: bool,
+    /// Their frames agree, their frame times do not.
+    pub times_differ: bool,
+    /// r of [`crate::performance`].
+    pub unlikeness: f64,
+}
+
+/// What becomes of a clip.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Verdict {
+    /// Another clip of the take gives the examples.
+    pub is_surplus: bool,
+    /// What its record says.
+    pub remarks: Vec<String>,
+}
+
+/// Takes their examples from clips of whose takes others give them, and says of every clip which others show its take.
+pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [Analyzed]) {
+    let gives_example: Vec<bool> = analyzed.iter().map(|found| !found.windows.is_empty()).collect();
+    for (found, verdict) in analyzed.iter_mut().zip(verdicts(clips, &gives_example)) {
+        if verdict.is_surplus {
+            found.windows.clear();
+        }
+        found.warnings.extend(verdict.remarks);
+    }
+}
+
+/// A verdict for each clip. Of one take the best clip that gives an example does: one that a manifest gives a part to,
+/// one whose frame time is plausible, the longer, the one with more frames a second, the first by name.
+pub fn verdicts(clips: &[HumanClip], gives_example: &[bool]) -> Vec<Verdict> {
+    let pairs = pairs(clips);
+    let mut verdicts = vec![Verdict::default(); clips.len()];
+    let mut by_worth: Vec<usize> = (0..clips.len()).collect();
+    by_worth.sort_by(|&a, &b| worth(&clips[a]).cmp(&worth(&clips[b])).then(a.cmp(&b)));
+    for (rank, &clip) in by_worth.iter().enumerate() {
+        let better = |other: usize| by_worth[..rank].contains(&other);
+        for pair in pairs.iter().filter(|pair| pair.clips.contains(&clip)) {
+            let other = if pair.clips[0] == clip { pair.clips[1] } else { pair.clips[0] };
+            if better(other) && gives_example[other] && !verdicts[other].is_surplus {
+                verdicts[clip].is_surplus = true;
+            }
+        }
+    }
+    for pair in &pairs {
+        for (clip, other) in [(pair.clips[0], pair.clips[1]), (pair.clips[1], pair.clips[0])] {
+            let remark = remark(pair, &clips[other], verdicts[clip].is_surplus, verdicts[other].is_surplus);
+            verdicts[clip].remarks.push(remark);
+        }
+    }
+    verdicts
+}
+
+fn remark(pair: &Pair, other: &HumanClip, is_surplus: bool, other_is_surplus: bool) -> String {
+    let mirrored = if pair.mirrored { ", mirrored" } else { "" };
+    let timed = if pair.times_differ { ", at another frame time" } else { "" };
+    let same = format!("the same take as {}{mirrored}{timed}", title(other));
+    match (is_surplus, other_is_surplus) {
+        (true, false) => format!("{NO_EXAMPLE}{same}"),
+        (false, true) => format!("{same}; no example is made of that one"),
+        _ => same,
+    }
+}
+
+fn title(clip: &HumanClip) -> String {
+    format!("{} {}", clip.source.file, clip.source.clip).trim_end().to_owned()
+}
+
+/// Ascending from the best; equals go in the clips' order.
+fn worth(clip: &HumanClip) -> impl Ord {
+    let lies = clip.source.warnings.iter().any(|warning| warning.ends_with(FRAME_TIME_QUESTION));
+    let length = libm::round(clip.frames.len() as f64 / clip.frame_rate_hz / SAME_LENGTH_S) as u64;
+    let chosen = Reverse((clip.choices.is_semi_procedural, clip.choices.is_target_skeleton));
+    (chosen, lies, Reverse(length), Reverse(clip.frame_rate_hz.to_bits()), clip.name.clone())
+}
+
+/// Every two clips of one take, in the clips' order.
+pub fn pairs(clips: &[HumanClip]) -> Vec<Pair> {
+    let entries: Vec<Entry> = clips.par_iter().map(|clip| Entry::new(Performance::of(clip))).collect();
+    let with_later = |first: usize| {
+        let later = first + 1..entries.len();
+        let apart = |second: &usize| !are_parts_of_one_file(&clips[first], &clips[*second]);
+        let pair = |second: usize| pair(&entries, [first, second]);
+        later.filter(apart).filter_map(pair).collect::<Vec<Pair>>()
+    };
+    (0..entries.len()).into_par_iter().flat_map_iter(with_later).collect()
+}
+
+/// Whoever cuts a capture in a manifest wants both parts.
+fn are_parts_of_one_file(a: &HumanClip, b: &HumanClip) -> bool {
+    let file = |clip: &HumanClip| (clip.source.file.clone(), clip.source.clip.clone());
+    (a.choices.is_cut || b.choices.is_cut) && file(a) == file(b)
+}
+
+/// The most alike of all ways to lay two clips over each other, where that is one take.
+fn pair(entries: &[Entry], clips: [usize; 2]) -> Option<Pair> {
+    let [one, other] = clips.map(|clip| &entries[clip]);
+    let as_told =
+        [false, true].into_iter().filter_map(|mirrored| Some((laid_over(one, other, mirrored)?, mirrored, false)));
+    let retimed: Vec<Entry> = retimed(&one.performance, &other.performance).map(Entry::new).collect();
+    let by_frames = retimed.iter().flat_map(|other| {
+        [false, true].into_iter().filter_map(move |mirrored| Some((laid_over(one, other, mirrored)?, mirrored, true)))
+    });
+    let found = as_told.chain(by_frames).filter(|(likeness, ..)| is_one_take(likeness));
+    let nearest = found.min_by(|(a, ..), (b, ..)| a.unlikeness.total_cmp(&b.unlikeness));
+    nearest.map(|(likeness, mirrored, times_differ)| Pair {
+        clips,
+        mirrored,
+        times_differ,
+        unlikeness: likeness.unlikeness,
+    })
+}
+
+fn is_one_take(found: &Likeness) -> bool {
+    let limit = UNLIKENESS_MAX * (found.overlap_s / SURE_S).min(1.0);
+    found.unlikeness <= limit
+        && found.movement_rad >= MOVEMENT_MIN_RAD
+        && found.facing_correlation.is_none_or(|correlation| correlation >= FACING_CORRELATION_MIN)
+        && turn_alike(found)
+}
+
+fn turn_alike(found: &Likeness) -> bool {
+    found.turn_difference_rad_s <= TURN_DIFFERENCE_RAD_S.max(TURN_DIFFERENCE_RAD / found.overlap_s)
+}
+
+/// The second at the rate that its frames have if they are the first's, where its own frame time says otherwise.
+fn retimed<'a>(one: &'a Performance, other: &'a Performance) -> impl Iterator<Item = Performance> + 'a {
+    let counts = [one, other].map(|performance| performance.directions.len() as f64);
+    let fits = move |ratio: &f64| {
+        let count_off = (counts[1] / (ratio * counts[0]) - 1.0).abs();
+        let time_off = (other.rate_hz / (ratio * one.rate_hz) - 1.0).abs();
+        count_off < COUNT_TOLERANCE && time_off > TIME_TOLERANCE
+    };
+    FRAME_RATIOS.into_iter().filter(fits).map(|ratio| Performance { rate_hz: ratio * one.rate_hz, ..other.clone() })
+}
+
+/// The exact likeness at the best lag; none where the screening finds none.
+fn laid_over(one: &Entry, other: &Entry, mirrored: bool) -> Option<Likeness> {
+    let lag = nearest_lag(&one.outlines[0], &other.outlines[usize::from(mirrored)])?;
+    let coarse = performance::compare(&one.coarse[0], &other.coarse[usize::from(mirrored)], lag)?;
+    if coarse.unlikeness > SCREEN_MAX || !turn_alike(&coarse) {
+        return None;
+    }
+    let rate_hz = SCREEN_HZ * EXACT_STEPS as f64;
+    let other = if mirrored { other.performance.mirrored() } else { other.performance.clone() };
+    let (one, other) = (one.performance.sampled(rate_hz), other.sampled(rate_hz));
+    let around = (lag - 1) * EXACT_STEPS..=(lag + 1) * EXACT_STEPS;
+    let found = around.filter_map(|lag| performance::compare(&one, &other, lag));
+    found.min_by(|a, b| a.unlikeness.total_cmp(&b.unlikeness))
+}
+
+/// A clip, ready for screening.
+struct Entry {
+    performance: Performance,
+    /// At the screening's rate, as it is and mirrored.
+    coarse: [Performance; 2],
+    outlines: [Outline; 2],
+}
+
+impl Entry {
+    fn new(performance: Performance) -> Self {
+        let told = performance.sampled(SCREEN_HZ);
+        let mirrored = told.mirrored();
+        Self { outlines: [Outline::of(&told), Outline::of(&mirrored)], coarse: [told, mirrored], performance }
+    }
+}
+
+/// Numbers a sample: of each direction of the legs how far it points forward and to the left.
+const WIDTH: usize = 2 * LEG_DIRECTION_COUNT;
+
+/// The legs' directions about their mean over the clip, with running sums of them and of their squares.
+struct Outline {
+    samples: Vec<[f32; WIDTH]>,
+    sums: Vec<[f32; WIDTH]>,
+    squares: Vec<f32>,
+}
+
+impl Outline {
+    fn of(performance: &Performance) -> Self {
+        let flat =
+            |row: &performance::Directions| std::array::from_fn(|index| row[index / 2].to_array()[index % 2] as f32);
+        let mut samples: Vec<[f32; WIDTH]> = performance.directions.iter().map(flat).collect();
+        let count = samples.len() as f32;
+        let total = samples.iter().fold([0.0; WIDTH], |sum, row| plus(&sum, row));
+        for row in &mut samples {
+            *row = std::array::from_fn(|index| row[index] - total[index] / count);
+        }
+        let (mut sums, mut squares) = (vec![[0.0; WIDTH]], vec![0.0]);
+        for (index, row) in samples.iter().enumerate() {
+            sums.push(plus(&sums[index], row));
+            squares.push(squares[index] + product(row, row));
+        }
+        Self { samples, sums, squares }
+    }
+
+    /// The sum over samples, and the sum of squares about their mean.
+    fn moments(&self, from: usize, count: usize) -> ([f32; WIDTH], f32) {
+        let (before, after) = (&self.sums[from], &self.sums[from + count]);
+        let sum = std::array::from_fn(|index| after[index] - before[index]);
+        let about_mean = self.squares[from + count] - self.squares[from] - product(&sum, &sum) / count as f32;
+        (sum, about_mean.max(0.0))
+    }
+}
+
+fn plus(a: &[f32; WIDTH], b: &[f32; WIDTH]) -> [f32; WIDTH] {
+    std::array::from_fn(|index| a[index] + b[index])
+}
+
+fn product(a: &[f32; WIDTH], b: &[f32; WIDTH]) -> f32 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The lag, in samples of the screening, at which the legs are most alike; none where they never are.
+fn nearest_lag(one: &Outline, other: &Outline) -> Option<isize> {
+    let (count, other_count) = (one.samples.len() as isize, other.samples.len() as isize);
+    let least = ((count.min(other_count) as f64 * OVERLAP_SHARE) as isize).max(1);
+    let found = (least - other_count..=count - least).filter_map(|lag| Some((lag, leg_unlikeness(one, other, lag)?)));
+    found.min_by(|a, b| a.1.partial_cmp(&b.1).unwrap_or(Ordering::Equal)).map(|(lag, _)| lag)
+}
+
+/// r² of the legs; none where it is beyond the limit.
+fn leg_unlikeness(one: &Outline, other: &Outline, lag: isize) -> Option<f32> {
+    const LIMIT: f32 = (SCREEN_MAX * SCREEN_MAX) as f32;
+    let (from, other_from, count) = performance::overlap(one.samples.len(), other.samples.len(), lag)?;
+    let ((sum_a, of_a), (sum_b, of_b)) = (one.moments(from, count), other.moments(other_from, count));
+    let geometric = libm::sqrtf(of_a * of_b);
+    // By Cauchy and Schwarz no lag makes up for movements of different size.
+    if of_a + of_b - 2.0 * geometric > LIMIT * geometric {
+        return None;
+    }
+    let mut products = [0.0; WIDTH];
+    for (a, b) in one.samples[from..from + count].iter().zip(&other.samples[other_from..other_from + count]) {
+        for index in 0..WIDTH {
+            products[index] += a[index] * b[index];
+        }
+    }
+    let between = products.iter().sum::<f32>() - product(&sum_a, &sum_b) / count as f32;
+    let unlikeness = (of_a + of_b - 2.0 * between) / geometric;
+    (unlikeness <= LIMIT).then_some(unlikeness)
+}
