@@ -127,6 +127,9 @@ fn what_is_left_out_is_blended_from_the_others_without_its_mirror() {
         assert!(!mix.iter().any(|part| part["name"].as_str().unwrap().starts_with(name)), "{example}");
         assert!(!example["nearest"].as_str().unwrap().starts_with(name), "{example}");
         assert!(number(example, "blended_rmse_m") < 0.05, "{example}");
+        let joints_m = example["joint_blended_rmse_m"].as_array().unwrap().iter().map(|joint| joint.as_f64().unwrap());
+        let mean_square_m2 = joints_m.map(|joint_m| joint_m * joint_m).sum::<f64>() / 22.0;
+        assert!((mean_square_m2.sqrt() - number(example, "blended_rmse_m")).abs() < 1e-6, "{example}");
     }
     assert!(number(found, "blended_better_share") >= 0.75, "{found}");
 }
@@ -137,5 +140,6 @@ fn a_set_that_needs_each_of_its_examples_leaves_none_out() {
     let report = fbcrowd(&["inspect", text(&database), "--leave-one-out", "--json"]).expect_code(0).json();
     assert_eq!(report["leave_one_out"]["outside"][0], "walk_110");
     assert!(report["leave_one_out"]["median_blended_rmse_m"].is_null());
+    assert_eq!(report["leave_one_out"]["per_joint"].as_array().unwrap().len(), 0);
     fbcrowd(&["inspect", "assets/clips/walk_110.bvh", "--leave-one-out"]).expect_code(2).says(&["fbcrowd compile"]);
 }

@@ -66,9 +66,22 @@ fn leaving_out_keeps_its_keys() {
     let database = compile(&clips, &folder("leave_one_out_keys"));
     let report = fbcrowd(&["inspect", text(&database), "--leave-one-out", "--json"]).expect_code(0).json();
     let found = &report["leave_one_out"];
-    let of_all = ["examples", "outside", "blended_better_share", "median_blended_rmse_m", "median_nearest_rmse_m"];
+    let of_all = [
+        "examples",
+        "outside",
+        "blended_better_share",
+        "median_blended_rmse_m",
+        "median_nearest_rmse_m",
+        "median_joint_blended_rmse_m",
+        "median_joint_nearest_rmse_m",
+        "per_joint",
+    ];
     check_keys(found, &of_all);
-    check_keys(&found["examples"][0], &["name", "blended_rmse_m", "nearest_rmse_m", "nearest", "mix"]);
+    let of_example =
+        ["name", "blended_rmse_m", "nearest_rmse_m", "joint_blended_rmse_m", "joint_nearest_rmse_m", "nearest", "mix"];
+    check_keys(&found["examples"][0], &of_example);
+    check_keys(&found["per_joint"][0], &["joint", "median_blended_rmse_m", "median_nearest_rmse_m"]);
+    assert_eq!(found["per_joint"][0]["joint"], "pelvis");
     check_keys(&found["examples"][0]["mix"][0], &["name", "share"]);
     assert_eq!(found["examples"][0]["name"], "walk_080");
 }

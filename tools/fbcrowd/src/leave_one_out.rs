@@ -6,18 +6,21 @@
 //! frame,
 //!
 //! ```text
-//! RMSE = √( mean over 64 uniform phases and 22 joints of |x_j(φ) − x'_j(φ)|² ),
+//! RMSE_j = √( mean over 64 uniform phases of |x_j(φ) − x'_j(φ)|² )     of one joint,
+//! RMSE   = √( mean over 22 joints of RMSE_j² )                         of the body,
 //! ```
 //!
 //! x' once the blend's, once those of the nearest other example (each axis divided by its range over the others) at
-//! the same phase. Mirrored examples are not asked for themselves: mirrors count once.
+//! the same phase. Whether a blend is the better one is decided by the body's, in which the joints that are furthest
+//! off, the hands, count most; the median of all RMSE_j says how far off a joint usually is. Mirrored examples are not
+//! asked for themselves: mirrors count once.
 
 use fbcrowd_sim::hms::blending::Mix;
 use motiondb::blend_space::Locator;
 use motiondb::coverage::{locate_inside, locator};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
 use motiondb::pose::Pose;
-use motiondb::skeleton::{JOINT_COUNT, Skeleton};
+use motiondb::skeleton::{JOINT_COUNT, Joint, Skeleton};
 use motiondb_compiler::blend_space;
 use serde::Serialize;
 
@@ -25,10 +28,13 @@ use serde::Serialize;
 #[derive(Debug, PartialEq, Serialize)]
 pub(crate) struct LeftOut {
     pub(crate) name: String,
-    /// Against the blend of the others, metres.
+    /// The body against the blend of the others, metres.
     pub(crate) blended_rmse_m: f32,
-    /// Against the nearest of the others, metres.
+    /// The body against the nearest of the others, metres.
     pub(crate) nearest_rmse_m: f32,
+    /// RMSE_j, in the order of `per_joint`, metres.
+    pub(crate) joint_blended_rmse_m: [f32; JOINT_COUNT],
+    pub(crate) joint_nearest_rmse_m: [f32; JOINT_COUNT],
     pub(crate) nearest: String,
     /// The blend's examples, with their shares of time, greatest first.
     pub(crate) mix: Vec<Part>,
@@ -40,6 +46,15 @@ pub(crate) struct Part {
     pub(crate) share: f32,
 }
 
+/// One joint over all examples that were left out.
+#[derive(Debug, PartialEq, Serialize)]
+pub(crate) struct JointError {
+    pub(crate) joint: &'static str,
+    /// Medians of RMSE_j over the examples, metres.
+    pub(crate) median_blended_rmse_m: f32,
+    pub(crate) median_nearest_rmse_m: f32,
+}
+
 /// Every recorded example inside the hull of the others, and what stands for it where it is missing.
 #[derive(Debug, PartialEq, Serialize)]
 pub(crate) struct LeaveOneOut {
@@ -48,9 +63,14 @@ pub(crate) struct LeaveOneOut {
     pub(crate) outside: Vec<String>,
     /// Share of the examples that the blend meets better than the nearest example; null without any.
     pub(crate) blended_better_share: Option<f32>,
-    /// Median over the examples, metres; null without any.
+    /// Median of the bodies' RMSE over the examples, metres; null without any.
     pub(crate) median_blended_rmse_m: Option<f32>,
     pub(crate) median_nearest_rmse_m: Option<f32>,
+    /// Median of RMSE_j over joints and examples, metres; null without any.
+    pub(crate) median_joint_blended_rmse_m: Option<f32>,
+    pub(crate) median_joint_nearest_rmse_m: Option<f32>,
+    /// Every joint, in storage order; empty without any example.
+    pub(crate) per_joint: Vec<JointError>,
 }
 
 /// Leaves out one recorded example after the other.
@@ -65,11 +85,23 @@ pub(crate) fn leave_one_out(db: &MotionDb) -> LeaveOneOut {
     let better = examples.iter().filter(|found| found.blended_rmse_m < found.nearest_rmse_m).count();
     LeaveOneOut {
         blended_better_share: (!examples.is_empty()).then(|| better as f32 / examples.len() as f32),
-        median_blended_rmse_m: median(examples.iter().map(|found| found.blended_rmse_m).collect()),
-        median_nearest_rmse_m: median(examples.iter().map(|found| found.nearest_rmse_m).collect()),
+        median_blended_rmse_m: median(examples.iter().map(|found| found.blended_rmse_m)),
+        median_nearest_rmse_m: median(examples.iter().map(|found| found.nearest_rmse_m)),
+        median_joint_blended_rmse_m: median(examples.iter().flat_map(|found| found.joint_blended_rmse_m)),
+        median_joint_nearest_rmse_m: median(examples.iter().flat_map(|found| found.joint_nearest_rmse_m)),
+        per_joint: Joint::ALL.into_iter().filter_map(|joint| joint_error(&examples, joint)).collect(),
         examples,
         outside,
     }
+}
+
+/// None without examples.
+fn joint_error(examples: &[LeftOut], joint: Joint) -> Option<JointError> {
+    Some(JointError {
+        joint: joint.name(),
+        median_blended_rmse_m: median(examples.iter().map(|found| found.joint_blended_rmse_m[joint.index()]))?,
+        median_nearest_rmse_m: median(examples.iter().map(|found| found.joint_nearest_rmse_m[joint.index()]))?,
+    })
 }
 
 /// None where the others' hull does not hold the example.
@@ -90,10 +122,15 @@ fn left_out(db: &MotionDb, index: usize) -> Option<LeftOut> {
         let phase = row as f32 / PHASE_COUNT as f32;
         mix.weights(&others, phase).pose(&others, phase)
     };
+    let recorded = |row: usize| stored(db, index, row);
+    let joint_blended_rmse_m = joint_rmse_m(&db.skeleton, recorded, blended);
+    let joint_nearest_rmse_m = joint_rmse_m(&db.skeleton, recorded, |row| stored(&others, nearest, row));
     Some(LeftOut {
         name: example.name.clone(),
-        blended_rmse_m: rmse_m(&db.skeleton, |row| stored(db, index, row), blended),
-        nearest_rmse_m: rmse_m(&db.skeleton, |row| stored(db, index, row), |row| stored(&others, nearest, row)),
+        blended_rmse_m: body_rmse_m(&joint_blended_rmse_m),
+        nearest_rmse_m: body_rmse_m(&joint_nearest_rmse_m),
+        joint_blended_rmse_m,
+        joint_nearest_rmse_m,
         nearest: name(nearest),
         mix: parts,
     })
@@ -101,8 +138,8 @@ fn left_out(db: &MotionDb, index: usize) -> Option<LeftOut> {
 
 /// The database rebuilt without an example and its mirror, as far as blending goes.
 fn without(db: &MotionDb, example: &MotionExample) -> MotionDb {
-    let mirror = format!("{}_mirrored", example.name);
-    let is_kept = |other: &MotionExample| other.name != example.name && !(other.mirrored && other.name == mirror);
+    // The example itself and its mirror: the same stretch of the same source.
+    let is_kept = |other: &MotionExample| (other.source, other.window_s) != (example.source, example.window_s);
     let kept: Vec<usize> = (0..db.examples.len()).filter(|&index| is_kept(&db.examples[index])).collect();
     let examples: Vec<MotionExample> = kept.iter().map(|&index| db.examples[index].clone()).collect();
     let rows = |index: &usize| index * PHASE_COUNT..(index + 1) * PHASE_COUNT;
@@ -134,16 +171,29 @@ fn stored(db: &MotionDb, example: usize, row: usize) -> Pose {
     Pose { pelvis_m: db.rows.pelvis_m[example * PHASE_COUNT + row], rotations: *db.rows.rotations(example, row) }
 }
 
-/// Root mean square distance of joints over the stored phases, metres.
-fn rmse_m(skeleton: &Skeleton, recorded: impl Fn(usize) -> Pose, other: impl Fn(usize) -> Pose) -> f32 {
-    let squared = |row: usize| {
+/// RMSE_j of every joint, metres.
+fn joint_rmse_m(
+    skeleton: &Skeleton,
+    recorded: impl Fn(usize) -> Pose,
+    other: impl Fn(usize) -> Pose,
+) -> [f32; JOINT_COUNT] {
+    let mut squares = [0.0; JOINT_COUNT];
+    for row in 0..PHASE_COUNT {
         let [a, b] = [recorded(row), other(row)].map(|pose| pose.forward_kinematics(skeleton).positions_m);
-        a.iter().zip(&b).map(|(a, b)| f64::from(a.distance_squared(*b))).sum::<f64>()
-    };
-    ((0..PHASE_COUNT).map(squared).sum::<f64>() / (PHASE_COUNT * JOINT_COUNT) as f64).sqrt() as f32
+        for (joint, square) in squares.iter_mut().enumerate() {
+            *square += f64::from(a[joint].distance_squared(b[joint]));
+        }
+    }
+    squares.map(|square| (square / PHASE_COUNT as f64).sqrt() as f32)
 }
 
-fn median(mut values: Vec<f32>) -> Option<f32> {
+/// RMSE of the body from those of its joints, metres.
+fn body_rmse_m(joint_rmse_m: &[f32; JOINT_COUNT]) -> f32 {
+    (joint_rmse_m.iter().map(|joint| joint * joint).sum::<f32>() / JOINT_COUNT as f32).sqrt()
+}
+
+fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
+    let mut values: Vec<f32> = values.collect();
     values.sort_by(f32::total_cmp);
     let middle = values.len() / 2;
     match values.len() {

@@ -13,6 +13,7 @@ mod example_table;
 mod failure;
 mod grouping;
 mod leave_one_out;
+mod leave_one_out_text;
 mod output;
 mod progress;
 mod rendering;

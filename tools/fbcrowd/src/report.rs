@@ -8,7 +8,8 @@ use motiondb::velocity_hull::{Construction, VelocityHull};
 use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 use serde::Serialize;
 
-use crate::leave_one_out::{LeaveOneOut, LeftOut};
+use crate::leave_one_out::LeaveOneOut;
+use crate::leave_one_out_text;
 
 /// Clips without a database.
 #[derive(Serialize)]
@@ -135,7 +136,7 @@ pub(crate) fn database_text(report: &DatabaseReport) -> String {
     );
     text += &correspondence_text(report);
     text += &coverage_text(report);
-    text += &report.leave_one_out.as_ref().map(leave_one_out_text).unwrap_or_default();
+    text += &report.leave_one_out.as_ref().map(leave_one_out_text::text).unwrap_or_default();
     let warned = report.sources.iter().filter(|source| !source.warnings.is_empty());
     text + &warned.map(warnings_text).collect::<String>()
 }
@@ -152,35 +153,6 @@ fn coverage_text(report: &DatabaseReport) -> String {
     }
     let lines: String = report.coverage.iter().map(|thin| format!("  {}\n", thin.sentence)).collect();
     format!("\nwhere the set is thin\n{lines}\n")
-}
-
-/// RMSE in cm: the blend's, the nearest example's, and who they are.
-fn leave_one_out_text(found: &LeaveOneOut) -> String {
-    let width = found.examples.iter().map(|left_out| left_out.name.chars().count()).max().unwrap_or(0).max(8);
-    let mut text = format!("{:<width$}  blend cm  nearest cm  nearest example, then the blend's shares\n", "left out");
-    for left_out in &found.examples {
-        text += &format!(
-            "{:<width$}  {:8.1}  {:10.1}  {}; {}\n",
-            left_out.name,
-            100.0 * left_out.blended_rmse_m,
-            100.0 * left_out.nearest_rmse_m,
-            left_out.nearest,
-            shares(left_out),
-        );
-    }
-    if let (Some(share), Some(blended_m), Some(nearest_m)) =
-        (found.blended_better_share, found.median_blended_rmse_m, found.median_nearest_rmse_m)
-    {
-        text += &format!("{:<width$}  {:8.1}  {:10.1}  ", "median", 100.0 * blended_m, 100.0 * nearest_m);
-        text += &format!("the blend is nearer for {:.0} % of {}\n", 100.0 * share, found.examples.len());
-    }
-    text + &format!("corners of the hull, which no blend reaches: {}\n\n", found.outside.join(", "))
-}
-
-fn shares(left_out: &LeftOut) -> String {
-    let counting = left_out.mix.iter().filter(|part| part.share >= 0.005);
-    let parts = counting.map(|part| format!("{:.0} % {}", 100.0 * part.share, part.name));
-    parts.collect::<Vec<_>>().join(", ")
 }
 
 fn corners(polygon: &[Vec2]) -> String {

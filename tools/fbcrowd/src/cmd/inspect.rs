@@ -38,10 +38,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
     /// Rebuild a database without each of its recorded examples (and its mirror), blend at its parameters, and compare:
-    /// root-mean-square distance of the joints over the cycle, beside that of the nearest other example. In JSON
-    /// `leave_one_out {examples[] {name, blended_rmse_m, nearest_rmse_m, nearest, mix[] {name, share}}, outside[],
-    /// blended_better_share, median_blended_rmse_m, median_nearest_rmse_m}`; `outside` are corners of the hull, which
-    /// nothing else reaches.
+    /// root-mean-square distance over the cycle, of all joints and of each by itself, beside that of the nearest other
+    /// example. In JSON `leave_one_out {examples[] {name, blended_rmse_m, nearest_rmse_m, joint_blended_rmse_m[22],
+    /// joint_nearest_rmse_m[22], nearest, mix[] {name, share}}, outside[], blended_better_share, median_blended_rmse_m,
+    /// median_nearest_rmse_m, median_joint_blended_rmse_m, median_joint_nearest_rmse_m, per_joint[] {joint,
+    /// median_blended_rmse_m, median_nearest_rmse_m}}`; `joint_…` in the order of `per_joint`; `median_joint_…` over all
+    /// joints of all examples; `outside` are corners of the hull, which nothing else reaches.
     #[arg(long)]
     leave_one_out: bool,
 }
