@@ -58,7 +58,7 @@ pub(crate) fn test_db() -> MotionDb {
     }
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
     db.velocity_hull = hull(&parameters);
-    db.blend_space = delaunay(&parameters);
+    db.blend_space = motiondb_compiler::blend_space::build(&db.examples);
     db
 }
 
@@ -206,47 +206,4 @@ fn clockwise_hull(points: Vec<Vec2>) -> Vec<Vec2> {
         }
         corners.push(next);
     }
-}
-
-/// Every simplex whose circumsphere holds no other point; heights are joggled, so that no five points share a sphere.
-fn delaunay(parameters: &[Parameters]) -> BlendSpace {
-    let axis = |of: fn(&Parameters) -> f32| {
-        let values = parameters.iter().map(of);
-        values.clone().fold(f32::MIN, f32::max) - values.fold(f32::MAX, f32::min)
-    };
-    let mut space = BlendSpace {
-        dimension: 3,
-        axis_ranges: [axis(|p| p.speed_mps), axis(|p| p.turn_rate_rad_s), axis(|p| p.strafe_mps)],
-        simplices: Vec::new(),
-        covered_share: 1.0,
-    };
-    let points: Vec<Vec3> = parameters.iter().map(|&point| space.scaled(point)).collect();
-    let count = points.len();
-    let heights: Vec<f32> =
-        points.iter().enumerate().map(|(k, p)| p.length_squared() + 1e-3 * (k as f32 * 0.7).sin()).collect();
-    for a in 0..count {
-        for b in a + 1..count {
-            for c in b + 1..count {
-                for d in c + 1..count {
-                    if is_delaunay([a, b, c, d], &points, &heights) {
-                        space.simplices.extend([a, b, c, d].map(|corner| corner as u32));
-                    }
-                }
-            }
-        }
-    }
-    space
-}
-
-/// No other point lies under the hyperplane through the four lifted corners.
-fn is_delaunay(corners: [usize; 4], points: &[Vec3], heights: &[f32]) -> bool {
-    let [o, a, b, c] = corners;
-    let edges = glam::Mat3::from_cols(points[a] - points[o], points[b] - points[o], points[c] - points[o]);
-    if edges.determinant().abs() < 1e-5 {
-        return false;
-    }
-    let rises = Vec3::new(heights[a] - heights[o], heights[b] - heights[o], heights[c] - heights[o]);
-    let slope = edges.transpose().inverse() * rises;
-    let under = |k: usize| heights[k] < heights[o] + slope.dot(points[k] - points[o]) - 1e-6;
-    (0..points.len()).all(|k| corners.contains(&k) || !under(k))
 }
