@@ -61,7 +61,8 @@ pub fn mirror(cycle: &GaitCycle) -> GaitCycle {
     }
 }
 
-fn mirror_pose(pose: &HumanPose) -> HumanPose {
+/// The pose in the mirror y = 0.
+pub(crate) fn mirror_pose(pose: &HumanPose) -> HumanPose {
     let mut rotations = [DQuat::IDENTITY; JOINT_COUNT];
     for joint in Joint::ALL {
         let DQuat { x, y, z, w } = pose.rotations[joint.index()];
