@@ -77,7 +77,7 @@ fn faults_of_the_motion_are_named() {
     });
     let walk = PHASE_COUNT..2 * PHASE_COUNT;
     check_breaks("landmarks_are_mid_stances", |db| db.rows.contacts[walk.clone()].rotate_left(PHASE_COUNT / 2));
-    check_breaks("landmarks_are_mid_stances", |db| db.rows.contacts[walk.clone()].rotate_left(PHASE_COUNT / 6));
+    check_breaks("landmarks_are_mid_stances", |db| db.rows.contacts[walk.clone()].rotate_left(PHASE_COUNT / 7));
     check_breaks("landmarks_are_mid_stances", |db| db.rows.contacts[walk.clone()].fill([1.0; 2]));
     check_breaks("landmarks_are_mid_stances", |db| db.examples[1].key_times_s = None);
     check_breaks("landmarks_are_mid_stances", |db| db.rows.contacts[20][0] = 0.0);
