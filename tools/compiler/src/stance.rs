@@ -12,13 +12,16 @@ use glam::DVec3;
 use crate::contacts::runs;
 use crate::root_motion::percentile;
 
-/// A foot on the ground that stands still is no higher than this over where it is in this contact, metres: in some
-/// captures it sinks by as much through a stance …
-const HEIGHT_MAX_M: f64 = 0.05;
-/// … and at its height no faster than this and a share of the body's speed, m/s: fitted to hand labels of a walk, a run,
-/// a side-step, a backward walk and a walk at 120 Hz (`tests/gait_events`).
+/// A foot that stands still on the ground is no higher than this over where it is in this contact, metres. Where it
+/// leaves, as in [`crate::contacts`]; in some captures it lands higher and sinks by up to this through a stance.
+const OFF_HEIGHT_MAX_M: f64 = 0.025;
+const STRIKE_HEIGHT_MAX_M: f64 = 0.05;
+/// A foot at its height is no faster than this and a share of the body's speed, m/s: fitted to hand labels of a walk, a
+/// run, a side-step, a backward walk and a walk at 120 Hz (`tests/gait_events`) …
 const SPEED_MAX_MPS: f64 = 0.2;
 const SPEED_MAX_SHARE: f64 = 0.15;
+/// … or than this share of it where a runner's toe drags as it pushes off.
+const DRAG_MAX_SHARE: f64 = 0.25;
 /// Speeds are taken over this time, heights are averaged over it: the frame of the slowest clips, so that 120 frames a
 /// second say the same as 30.
 const SPAN_S: f64 = 1.0 / 30.0;
@@ -57,18 +60,18 @@ impl Stance {
 /// and toe tip, a value a frame.
 pub fn find(feet: &[[DVec3; 3]], planted: &[bool], frame_rate_hz: f64, body_speed_mps: f64) -> Vec<Stance> {
     let runs = runs(planted);
-    let speed_max_mps = SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps;
+    let [at_strike, at_off] = [Limits::at_strike(body_speed_mps), Limits::at_off(body_speed_mps)];
     let last = ticks(feet.len().saturating_sub(1));
     // Ends may be looked for up to the middle of the swing before or after.
     let middle = |swing: (bool, usize, usize)| (ticks(swing.1) + ticks(swing.2 - 1)) / 2;
     let contacts = runs.iter().enumerate().filter(|(_, run)| run.0);
     let stances = contacts.map(|(index, &(_, start, end))| {
-        let contact = Contact::over(feet, start..end, frame_rate_hz, speed_max_mps);
+        let contact = Contact::over(feet, start..end, frame_rate_hz);
         let frames = [ticks(start), ticks(end - 1)];
         let earliest = if index < 2 { 0 } else { middle(runs[index - 1]) };
         let latest = if index + 2 < runs.len() { middle(runs[index + 1]) } else { last };
-        let strike_frame = contact.end(frames[1], frames[0], earliest);
-        let off_frame = contact.end(frames[0], frames[1], latest);
+        let strike_frame = contact.end(&at_strike, frames[1], frames[0], earliest);
+        let off_frame = contact.end(&at_off, frames[0], frames[1], latest);
         Stance {
             strike_frame: if strike_frame > 0.0 { strike_frame } else { f64::NEG_INFINITY },
             off_frame: if off_frame < frame_of(last) { off_frame } else { f64::INFINITY },
@@ -98,32 +101,50 @@ fn frame_of(tick: isize) -> f64 {
     tick as f64 / TICKS_PER_FRAME as f64
 }
 
+/// How high and how fast a foot on the ground may be.
+struct Limits {
+    height_m: f64,
+    speed_mps: f64,
+}
+
+impl Limits {
+    fn at_strike(body_speed_mps: f64) -> Self {
+        Self { height_m: STRIKE_HEIGHT_MAX_M, speed_mps: SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps }
+    }
+
+    fn at_off(body_speed_mps: f64) -> Self {
+        let speed_mps = Self::at_strike(body_speed_mps).speed_mps.max(DRAG_MAX_SHARE * body_speed_mps);
+        Self { height_m: OFF_HEIGHT_MAX_M, speed_mps }
+    }
+}
+
 /// One contact of a foot while its ends are looked for.
 struct Contact<'a> {
     feet: &'a [[DVec3; 3]],
     /// Where its points are while it is planted.
     heights_m: [f64; 3],
+    /// How fast its contact point slides meanwhile, median.
+    slide_mps: f64,
     frame_rate_hz: f64,
-    speed_max_mps: f64,
 }
 
 impl<'a> Contact<'a> {
-    fn over(feet: &'a [[DVec3; 3]], frames: Range<usize>, frame_rate_hz: f64, speed_max_mps: f64) -> Self {
+    fn over(feet: &'a [[DVec3; 3]], frames: Range<usize>, frame_rate_hz: f64) -> Self {
         let heights_m = [0, 1, 2].map(|point| {
             let mut heights: Vec<f64> = feet[frames.clone()].iter().map(|foot| foot[point].z).collect();
             percentile(&mut heights, PLANTED_PERCENTILE)
         });
-        let mut contact = Self { feet, heights_m, frame_rate_hz, speed_max_mps };
+        let mut contact = Self { feet, heights_m, slide_mps: 0.0, frame_rate_hz };
         let mut speeds: Vec<f64> = frames.map(|frame| contact.contact_point(frame as f64).1).collect();
-        contact.speed_max_mps = speed_max_mps.max(SLIDE_RATIO_MAX * percentile(&mut speeds, 0.5));
+        contact.slide_mps = percentile(&mut speeds, 0.5);
         contact
     }
 
     /// The frame at which a contact known from tick `inner` to `outer` ends: `outer` moves inward until it is planted,
     /// then outward, over slips, until it is no more; `bound` at the farthest.
-    fn end(&self, inner: isize, outer: isize, bound: isize) -> f64 {
+    fn end(&self, limits: &Limits, inner: isize, outer: isize, bound: isize) -> f64 {
         let outward = (bound - inner).signum();
-        let is_planted = |tick: isize| self.excess(frame_of(tick)) < 1.0;
+        let is_planted = |tick: isize| self.excess(limits, tick) < 1.0;
         let mut edge = outer;
         while edge != inner && !is_planted(edge) {
             edge -= outward;
@@ -139,20 +160,21 @@ impl<'a> Contact<'a> {
                 edge = tick;
             }
         }
-        if edge == bound { frame_of(bound) } else { self.crossing(edge, edge + outward) }
+        if edge == bound { frame_of(bound) } else { self.crossing(limits, edge, edge + outward) }
     }
 
     /// Where, between a planted tick and the next that is not, the foot is planted no more.
-    fn crossing(&self, inside: isize, outside: isize) -> f64 {
-        let [within, beyond] = [inside, outside].map(|tick| self.excess(frame_of(tick)));
+    fn crossing(&self, limits: &Limits, inside: isize, outside: isize) -> f64 {
+        let [within, beyond] = [inside, outside].map(|tick| self.excess(limits, tick));
         let share = ((1.0 - within) / (beyond - within)).clamp(0.0, 1.0);
         frame_of(inside) + share * (frame_of(outside) - frame_of(inside))
     }
 
     /// How far the contact point is beyond being planted: 1 at the end of a contact, less within.
-    fn excess(&self, frame: f64) -> f64 {
-        let (height_m, speed_mps) = self.contact_point(frame);
-        let (height, speed) = (height_m / HEIGHT_MAX_M, speed_mps / self.speed_max_mps);
+    fn excess(&self, limits: &Limits, tick: isize) -> f64 {
+        let (height_m, speed_mps) = self.contact_point(frame_of(tick));
+        let speed_max_mps = limits.speed_mps.max(SLIDE_RATIO_MAX * self.slide_mps);
+        let (height, speed) = (height_m / limits.height_m, speed_mps / speed_max_mps);
         height * height + speed * speed
     }
 
