@@ -185,3 +185,120 @@ fn best_chain_from(first: Candidate, candidates: &[Candidate]) -> Option<Chain> 
     let complete = ends.into_iter().flat_map(|(_, chains)| chains).filter(|chain| chain.steps == ALL_STEPS);
     complete.reduce(|best, chain| if chain.is_better(&best) { chain } else { best })
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f32::consts::TAU;
+
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A torus of hills: waves of few periods, each with its size, periods round both cycles and phases.
+    fn hills(waves: &[(f32, [u8; 2], [f32; 2])]) -> Distances {
+        let height = |row: usize, other_row: usize| {
+            let wave = |&(size, periods, shifts): &(f32, [u8; 2], [f32; 2])| {
+                let angle = |axis: usize, row: usize| {
+                    TAU * (f32::from(periods[axis]) * row as f32 / PHASE_COUNT as f32 + shifts[axis])
+                };
+                size * (libm::cosf(angle(0, row)) * libm::cosf(angle(1, other_row)))
+            };
+            4.0 + waves.iter().map(wave).sum::<f32>()
+        };
+        (0..PHASE_COUNT).map(|row| std::array::from_fn(|other_row| height(row, other_row))).collect()
+    }
+
+    /// Whether cells, in order of their rows, rise in both cycles and go round each once.
+    fn is_cyclic(cells: &[Cell]) -> bool {
+        let ways = |axis: usize| -> usize {
+            let pairs = cells.iter().zip(cells.iter().cycle().skip(1));
+            // From a cell to itself is once round.
+            let way = |(a, b): (&Cell, &Cell)| (b.rows[axis] + PHASE_COUNT - a.rows[axis] - 1) % PHASE_COUNT + 1;
+            pairs.map(way).sum()
+        };
+        ways(0) == PHASE_COUNT && ways(1) == PHASE_COUNT
+    }
+
+    fn serves_every_step(cells: &[Cell]) -> bool {
+        let serves = |axis: usize, late: bool| cells.iter().any(|cell| (cell.rows[axis] >= PHASE_COUNT / 2) == late);
+        [0, 1].iter().all(|&axis| serves(axis, false) && serves(axis, true))
+    }
+
+    /// The most minima that any set of them and of stand-ins holds which is cyclic and serves every step; all sets are
+    /// tried.
+    fn most_minima(minima: &[Cell], stand_ins: &[Cell]) -> usize {
+        let all: Vec<Cell> = minima.iter().chain(stand_ins).copied().collect();
+        let chosen = |set: usize| {
+            let mut cells: Vec<Cell> = (0..all.len()).filter(|bit| set >> bit & 1 == 1).map(|bit| all[bit]).collect();
+            cells.sort_by_key(|cell| cell.rows);
+            cells
+        };
+        let sets = (1usize..1 << all.len()).filter(|set| {
+            let cells = chosen(*set);
+            is_cyclic(&cells) && serves_every_step(&cells)
+        });
+        sets.map(|set| (set & ((1 << minima.len()) - 1)).count_ones() as usize).max().unwrap()
+    }
+
+    fn wave() -> impl Strategy<Value = (f32, [u8; 2], [f32; 2])> {
+        (0.2f32..1.0, [0u8..4, 0u8..4], [0.0f32..1.0, 0.0f32..1.0])
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn minima_are_all_cells_under_the_threshold_that_none_around_them_undercuts(
+            waves in prop::collection::vec(wave(), 1..5),
+        ) {
+            let hills = hills(&waves);
+            let least = hills.iter().flatten().copied().fold(f32::INFINITY, f32::min);
+            let found = minima(&hills);
+            for row in 0..PHASE_COUNT {
+                for other_row in 0..PHASE_COUNT {
+                    let around = |down: usize, aside: usize| {
+                        hills[(row + PHASE_COUNT - 1 + down) % PHASE_COUNT][(other_row + PHASE_COUNT - 1 + aside) % PHASE_COUNT]
+                    };
+                    let here = around(1, 1);
+                    let lower = (0..9).filter(|k| *k != 4 && around(k / 3, k % 3) <= here).count();
+                    let is_strict = lower == 0 && here <= THRESHOLD_RATIO * least;
+                    prop_assert!(!is_strict || found.iter().any(|cell| cell.rows == [row, other_row]));
+                }
+            }
+            prop_assert!(found.iter().all(|cell| cell.distance_m <= THRESHOLD_RATIO * least));
+        }
+
+        #[test]
+        fn pairs_are_cyclic_serve_every_step_and_keep_as_many_minima_as_can_be(
+            waves in prop::collection::vec(wave(), 1..5),
+        ) {
+            let hills = hills(&waves);
+            let found = correspond(&hills);
+            prop_assert!(is_cyclic(&found) && serves_every_step(&found), "{found:?}");
+            let minima = minima(&hills);
+            prop_assume!(minima.len() < 9);
+            let stand_ins: Vec<Cell> = stand_ins(&hills).into_iter().filter(|cell| !minima.contains(cell)).collect();
+            let kept = found.iter().filter(|cell| minima.contains(cell)).count();
+            prop_assert_eq!(kept, most_minima(&minima, &stand_ins), "{:?} of {:?}", found, minima);
+        }
+
+        #[test]
+        fn exchanging_the_cycles_exchanges_the_columns(waves in prop::collection::vec(wave(), 2..5)) {
+            let hills = hills(&waves);
+            let exchanged: Distances =
+                (0..PHASE_COUNT).map(|row| std::array::from_fn(|other_row| hills[other_row][row])).collect();
+            let sum = |cells: &[Cell]| cells.iter().map(|cell| cell.distance_m).sum::<f32>();
+            let (one, other) = (correspond(&hills), correspond(&exchanged));
+            prop_assert_eq!(one.len(), other.len());
+            prop_assert!((sum(&one) - sum(&other)).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn a_cycle_corresponds_to_itself_at_equal_times() {
+        let apart = |row: usize, other_row: usize| (TAU * (row as f32 - other_row as f32) / PHASE_COUNT as f32).cos();
+        let ring: Distances =
+            (0..PHASE_COUNT).map(|row| std::array::from_fn(|other_row| 1.0 - apart(row, other_row))).collect();
+        let found = correspond(&ring);
+        assert!(found.len() > 1 && found.iter().all(|cell| cell.rows[0] == cell.rows[1]), "{found:?}");
+    }
+}
