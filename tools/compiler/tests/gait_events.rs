@@ -1,0 +1,228 @@
+//! Heel strikes and toe-offs against labels that were set by eye on curves, before any detector's output was seen
+//! (`gait_events/labels.csv`; the clips are test input only).
+//!
+//! Of the 94 labels those of `set` "tune" were looked at when the limits of `stance.rs` were chosen, those of "check" at
+//! the end. Labels are uncertain themselves: by half a frame at 30 frames a second, by up to four (33 ms) at 120.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use motiondb_compiler::human_clip::HumanClip;
+use motiondb_compiler::import;
+use motiondb_compiler::root_motion::ground;
+use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
+use motiondb_compiler::take::Take;
+
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
+const LABELS: &str = include_str!("gait_events/labels.csv");
+/// One frame of the slowest captures, seconds.
+const FRAME_S: f64 = 1.0 / 30.0;
+
+/// One labelled event.
+struct Label {
+    file: String,
+    clip: String,
+    frame_rate_hz: f64,
+    is_checked: bool,
+    side: String,
+    event: String,
+    frame: f64,
+    uncertain_frames: f64,
+}
+
+/// A label and how far the event that was found lies after it, frames of the source.
+struct Found {
+    label: Label,
+    error_frames: f64,
+}
+
+fn labels() -> impl Iterator<Item = Label> {
+    LABELS.lines().filter(|line| !line.starts_with('#')).skip(1).map(|row| {
+        let [file, clip, rate, set, side, event, frame, uncertain] = row.split(',').collect::<Vec<_>>()[..] else {
+            panic!("{row}");
+        };
+        let [frame_rate_hz, frame, uncertain_frames] = [rate, frame, uncertain].map(|text| text.parse().unwrap());
+        let [file, clip, side, event] = [file, clip, side, event].map(str::to_owned);
+        Label { file, clip, frame_rate_hz, is_checked: set == "check", side, event, frame, uncertain_frames }
+    })
+}
+
+fn human_clip(file: &str, clip: &str) -> HumanClip {
+    let found = import::import_take(&Take::from(PathBuf::from(FOLDER).join(file))).unwrap();
+    found.into_iter().find(|import| import.clip == clip).unwrap().outcome.unwrap()
+}
+
+fn gait(clip: HumanClip) -> SourceGait {
+    survey(vec![clip]).remove(0).gait
+}
+
+/// Times of one kind of event, seconds.
+fn times_s(gait: &SourceGait, side: &str, event: &str) -> Vec<f64> {
+    let contacts = if side == "right" { &gait.right } else { &gait.left };
+    let time_s = |contact: &ContactTimes| if event == "strike" { contact.strike_s } else { contact.toe_off_s };
+    contacts.iter().filter_map(time_s).map(f64::from).collect()
+}
+
+/// From the nearest of some times to another.
+fn nearest_error_s(times_s: &[f64], wanted_s: f64) -> f64 {
+    let errors = times_s.iter().map(|time_s| time_s - wanted_s);
+    errors.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(f64::INFINITY)
+}
+
+/// All labels with the errors of what is found, or a note that the clips are not here.
+fn found(test: &str) -> Option<Vec<Found>> {
+    if !Path::new(FOLDER).is_dir() {
+        println!("SKIPPED {test}: {FOLDER} is missing");
+        return None;
+    }
+    let mut gaits: BTreeMap<(String, String), SourceGait> = BTreeMap::new();
+    let error = |label: Label| {
+        let key = (label.file.clone(), label.clip.clone());
+        let gait = gaits.entry(key).or_insert_with(|| gait(human_clip(&label.file, &label.clip)));
+        let times_s = times_s(gait, &label.side, &label.event);
+        let error_frames = nearest_error_s(&times_s, label.frame / label.frame_rate_hz) * label.frame_rate_hz;
+        Found { label, error_frames }
+    };
+    Some(labels().map(error).collect())
+}
+
+/// Fails unless this share of the errors is within the limit; says which are not.
+#[track_caller]
+fn check_share(errors: &[&Found], limit_frames: impl Fn(&Label) -> f64, share_min: f64) {
+    let beyond: Vec<String> = errors
+        .iter()
+        .filter(|found| found.error_frames.abs() > limit_frames(&found.label))
+        .map(|Found { label, error_frames }| {
+            format!("{} {} {} at {}: {error_frames:+.2} frames", label.file, label.side, label.event, label.frame)
+        })
+        .collect();
+    let share = 1.0 - beyond.len() as f64 / errors.len() as f64;
+    assert!(share >= share_min, "{:.0} % of {}; not:\n{}", 100.0 * share, errors.len(), beyond.join("\n"));
+}
+
+/// Mean and standard deviation of errors by frame rate, kind of event and set, for the log.
+fn print_errors(found: &[Found]) {
+    let mut groups: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+    for Found { label, error_frames } in found {
+        let set = if label.is_checked { "check" } else { "tune" };
+        let group = format!("{:3.0} Hz {:6} {set:5}", label.frame_rate_hz, label.event);
+        groups.entry(group).or_default().push(*error_frames);
+    }
+    for (group, errors) in groups {
+        let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+        let variance = errors.iter().map(|error| (error - mean) * (error - mean)).sum::<f64>() / errors.len() as f64;
+        println!("{group} n {:2}: {mean:+.2} ± {:.2} frames", errors.len(), variance.sqrt());
+    }
+}
+
+#[test]
+fn events_are_within_a_source_frame_of_the_labels_at_30_frames_a_second() {
+    let Some(found) = found("events_are_within_a_source_frame_of_the_labels_at_30_frames_a_second") else { return };
+    print_errors(&found);
+    let at_30: Vec<&Found> = found.iter().filter(|found| found.label.frame_rate_hz < 31.0).collect();
+    assert!(at_30.len() > 70, "{}", at_30.len());
+    check_share(&at_30, |_| 1.0, 0.95);
+    let checked: Vec<&Found> = at_30.into_iter().filter(|found| found.label.is_checked).collect();
+    check_share(&checked, |_| 1.0, 1.0);
+}
+
+#[test]
+fn events_are_within_33_ms_of_what_the_labels_leave_open_at_any_rate() {
+    let Some(found) = found("events_are_within_33_ms_of_what_the_labels_leave_open_at_any_rate") else { return };
+    let limit = |label: &Label| FRAME_S * label.frame_rate_hz + label.uncertain_frames;
+    check_share(&found.iter().collect::<Vec<_>>(), limit, 0.98);
+}
+
+#[test]
+fn neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole() {
+    let Some(found) = found("neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole") else { return };
+    for event in ["strike", "off"] {
+        let errors_s: Vec<f64> = found
+            .iter()
+            .filter(|found| found.label.event == event)
+            .map(|found| found.error_frames / found.label.frame_rate_hz)
+            .collect();
+        let mean_s = errors_s.iter().sum::<f64>() / errors_s.len() as f64;
+        assert!(mean_s.abs() < 0.3 * FRAME_S, "{event}: {mean_s:+.4} s");
+    }
+}
+
+/// The labelled clips that travel.
+fn clips() -> BTreeMap<String, HumanClip> {
+    labels()
+        .filter(|label| label.clip.is_empty())
+        .map(|label| (label.file.clone(), human_clip(&label.file, "")))
+        .collect()
+}
+
+/// Fails unless a changed clip has nearly all events of the clip where they were, to within 33 ms.
+#[track_caller]
+fn check_same_events(name: &str, clip: &HumanClip, changed: HumanClip) {
+    let (before, after) = (gait(clip.clone()), gait(changed));
+    let (mut count, mut moved) = (0, Vec::new());
+    for side in ["left", "right"] {
+        for event in ["strike", "off"] {
+            let found_s = times_s(&after, side, event);
+            for time_s in times_s(&before, side, event) {
+                let error_s = nearest_error_s(&found_s, time_s);
+                count += 1;
+                if error_s.abs() > FRAME_S {
+                    moved.push(format!("{side} {event} at {time_s:.3} s by {error_s:+.3} s"));
+                }
+            }
+        }
+    }
+    // The weakest touches of a capture, or two of a run whose feet slide all the time, may be lost or found.
+    assert!(moved.len() <= 2 + count / 20, "{name}: of {count} events moved\n{}", moved.join("\n"));
+}
+
+/// The clip at another frame rate, poses between frames as the compiler reads them.
+fn resampled(clip: &HumanClip, frame_rate_hz: f64) -> HumanClip {
+    let grounded = ground(clip, &clip.body);
+    let duration_s = (clip.frames.len() - 1) as f64 / clip.frame_rate_hz;
+    let frames = (0..=(duration_s * frame_rate_hz) as usize)
+        .map(|frame| grounded.pose_at(frame as f64 / frame_rate_hz * clip.frame_rate_hz, &clip.body))
+        .collect();
+    HumanClip { frames, frame_rate_hz, ..clip.clone() }
+}
+
+/// The clip with its body, and all it carries, up to some millimetres aside, anew in every frame.
+fn shaken(clip: &HumanClip, amplitude_m: f64) -> HumanClip {
+    let mut shaken = clip.clone();
+    let mut state = 1_u64;
+    let mut noise_m = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        amplitude_m * ((state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0)
+    };
+    for pose in &mut shaken.frames {
+        pose.pelvis_m += glam::DVec3::new(noise_m(), noise_m(), noise_m());
+    }
+    shaken
+}
+
+#[test]
+fn events_stay_where_they_are_at_other_frame_rates() {
+    if !Path::new(FOLDER).is_dir() {
+        println!("SKIPPED events_stay_where_they_are_at_other_frame_rates: {FOLDER} is missing");
+        return;
+    }
+    for (name, clip) in clips() {
+        let clip = HumanClip { first_frame: 0, ..clip };
+        for frame_rate_hz in [24.0, 30.0, 60.0, 120.0] {
+            check_same_events(&format!("{name} at {frame_rate_hz} Hz"), &clip, resampled(&clip, frame_rate_hz));
+        }
+    }
+}
+
+#[test]
+fn events_stay_where_they_are_in_noise() {
+    if !Path::new(FOLDER).is_dir() {
+        println!("SKIPPED events_stay_where_they_are_in_noise: {FOLDER} is missing");
+        return;
+    }
+    for (name, clip) in clips() {
+        for amplitude_m in [0.001, 0.002, 0.003] {
+            check_same_events(&format!("{name} ± {amplitude_m} m"), &clip, shaken(&clip, amplitude_m));
+        }
+    }
+}
