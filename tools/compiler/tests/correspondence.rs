@@ -1,0 +1,65 @@
+//! Correspondence tables between any two examples of the bundled clips.
+
+use std::path::Path;
+
+use motiondb::correspondence::{Alike, THRESHOLD_RATIO, table};
+use motiondb::motion_db::MotionDb;
+use motiondb::pose_distance::distances_m;
+use motiondb_compiler::compile::compile_manifest;
+use motiondb_compiler::import::clip_files;
+use motiondb_compiler::manifest::Manifest;
+
+const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
+
+fn bundled() -> MotionDb {
+    let files = clip_files(Path::new(BUNDLED)).unwrap();
+    compile_manifest(&Manifest::of_files(&files), &|_| ()).unwrap().db
+}
+
+/// Every table between two different examples.
+fn tables(db: &MotionDb) -> impl Iterator<Item = ([usize; 2], Vec<Alike>)> + '_ {
+    let count = db.examples.len();
+    let pairs = (0..count * count).map(move |pair| [pair / count, pair % count]).filter(|[from, to]| from != to);
+    pairs.map(|pair| (pair, table(db, pair[0], pair[1])))
+}
+
+#[test]
+fn every_table_is_monotone_cyclic_and_serves_every_step_of_both() {
+    let db = bundled();
+    for (pair, table) in tables(&db) {
+        for (axis, &example) in pair.iter().enumerate() {
+            let times_s: Vec<f32> = table.iter().map(|alike| alike.times_s[axis]).collect();
+            let falls = (0..times_s.len()).filter(|&k| times_s[(k + 1) % times_s.len()] <= times_s[k]).count();
+            assert_eq!(falls, 1, "{pair:?}: {times_s:?}");
+            let map = db.examples[example].phase_map;
+            for step in 0..2 {
+                let serves = |time_s: &f32| (map.phase(time_s + 1e-4) >= 0.5) == (step == 1);
+                assert!(times_s.iter().any(serves), "{pair:?}: {times_s:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_way_back_has_the_same_pairs() {
+    let db = bundled();
+    for ([from, to], table) in tables(&db).filter(|([from, to], _)| from < to) {
+        let mut back = motiondb::correspondence::table(&db, to, from);
+        back.iter_mut().for_each(|alike| alike.times_s.reverse());
+        back.sort_by(|a, b| a.times_s[0].total_cmp(&b.times_s[0]));
+        assert_eq!(back, table);
+    }
+}
+
+#[test]
+fn the_stored_table_is_that_of_m_sp_and_m_mb_and_holds_their_nearest_poses() {
+    let db = bundled();
+    let stored = db.correspondence.as_ref().unwrap();
+    let [sp, mb] = [stored.semi_procedural, stored.blending].map(|index| index as usize);
+    let table = table(&db, sp, mb);
+    assert_eq!(stored.pairs_s, table.iter().map(|alike| alike.times_s).collect::<Vec<_>>());
+    let least_m = distances_m(&db, sp, mb).into_iter().flatten().fold(f32::INFINITY, f32::min);
+    let nearest_m = table.iter().map(|alike| alike.distance_m).fold(f32::INFINITY, f32::min);
+    assert_eq!(nearest_m, least_m);
+    assert!(table.iter().all(|alike| alike.distance_m <= THRESHOLD_RATIO * least_m), "{table:?}");
+}
