@@ -123,10 +123,12 @@ pub(crate) fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
             Err(unfit) => reason = reason.or(Some(unfit)),
         }
     }
-    if let (Some(reason), []) = (reason, &windows[..]) {
-        warnings.push(format!("{NO_EXAMPLE}{reason}"));
+    let unfit = found.len() - windows.len();
+    let mut left_out = selection::keep_best(&mut windows);
+    match (reason, windows.is_empty()) {
+        (Some(reason), true) => warnings.push(format!("{NO_EXAMPLE}{reason}")),
+        _ => left_out.doubtful += unfit,
     }
-    let left_out = selection::keep_best(&mut windows);
     Analyzed { grounded, gait, windows, warnings, left_out }
 }
 

@@ -94,17 +94,13 @@ fn near_equal(a: &SteadyWindow, b: &SteadyWindow) -> bool {
 }
 
 fn in_cells(rates: &Rates) -> DVec3 {
-    let scale = DVec3::new(CELL_SPEED_MPS, CELL_TURN_RAD_S, CELL_SPEED_MPS);
-    axes(rates) / scale
+    let cells = DVec3::new(CELL_SPEED_MPS, CELL_TURN_RAD_S, CELL_SPEED_MPS);
+    DVec3::new(rates.speed_mps, rates.turn_rate_rad_s, rates.strafe_mps) / cells
 }
 
 /// The middle of the cell of some rates. Straight ahead and standing are middles.
 fn cell(rates: &Rates) -> DVec3 {
     in_cells(rates).round()
-}
-
-fn axes(rates: &Rates) -> DVec3 {
-    DVec3::new(rates.speed_mps, rates.turn_rate_rad_s, rates.strafe_mps)
 }
 
 /// Keeps at most so many cycles; the sources of the others say so.
@@ -134,15 +130,14 @@ fn spread(cycles: &[NamedCycle], most: usize) -> Vec<usize> {
     while kept.len() < most {
         let farthest = |pool: &dyn Fn(usize) -> bool| {
             let left = (0..cycles.len()).filter(|index| !kept.contains(index) && pool(*index));
-            // The last of the greatest would be the worse name.
+            // The first of the farthest: `max_by` alone would take the last.
             left.rev().max_by(|a, b| gaps[*a].total_cmp(&gaps[*b]).then(cycles[*b].flaws.total_cmp(&cycles[*a].flaws)))
         };
         let next = first.next().or_else(|| farthest(&|index| ends.contains(&index))).or_else(|| farthest(&|_| true));
         let Some(next) = next else { break };
         kept.push(next);
         for (gap, place) in gaps.iter_mut().zip(&places) {
-            let mirrored = places[next] * DVec3::new(1.0, -1.0, -1.0);
-            *gap = gap.min(place.distance(places[next])).min(place.distance(mirrored));
+            *gap = gap.min(place.distance(places[next])).min(place.distance(mirrored(places[next])));
         }
     }
     kept
@@ -162,21 +157,139 @@ fn best(cycles: &[NamedCycle], meant: impl Fn(&NamedCycle) -> bool) -> Option<us
     indices.min_by(|a, b| cycles[*a].flaws.total_cmp(&cycles[*b].flaws))
 }
 
-/// (v_f, ω_t, ω_s) of each cycle, divided by the ranges over all of them.
+/// (v_f, ω_t, ω_s) of each cycle, divided by the ranges over all of them and their mirrors; 0 where all lie within a
+/// cell, which is no range.
 fn normalised(cycles: &[NamedCycle]) -> Vec<DVec3> {
-    let places: Vec<DVec3> = cycles.iter().map(|named| axes(&named.cycle.rates)).collect();
-    let least = places.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let ranges = places.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max) - least;
-    let scale = ranges.map(|range| if range > 0.0 { 1.0 / range } else { 0.0 });
-    places.into_iter().map(|place| place * scale).collect()
+    let places: Vec<DVec3> = cycles.iter().map(|named| in_cells(&named.cycle.rates)).collect();
+    let both = || places.iter().flat_map(|place| [*place, mirrored(*place)]);
+    let ranges = both().fold(DVec3::NEG_INFINITY, DVec3::max) - both().fold(DVec3::INFINITY, DVec3::min);
+    let scale = ranges.map(|range| if range > 1.0 { 1.0 / range } else { 0.0 });
+    places.iter().map(|place| *place * scale).collect()
 }
 
-/// The cycles that go farthest in any of 26 directions: along the axes and between them.
+fn mirrored(place: DVec3) -> DVec3 {
+    place * DVec3::new(1.0, -1.0, -1.0)
+}
+
+/// The cycles that go farthest, themselves or by their mirrors, in any of 26 directions: along the axes and between
+/// them.
 fn ends(places: &[DVec3]) -> Vec<usize> {
-    let signs = [-1.0, 0.0, 1.0];
-    let directions = signs.iter().flat_map(|&x| signs.iter().flat_map(move |&y| signs.map(|z| DVec3::new(x, y, z))));
+    let has_range = |axis: usize| places.iter().any(|place| place[axis] != 0.0);
+    let signs = |axis: usize| if has_range(axis) { &[-1.0, 0.0, 1.0][..] } else { &[0.0] };
+    let directions = signs(0)
+        .iter()
+        .flat_map(|&x| signs(1).iter().flat_map(move |&y| signs(2).iter().map(move |&z| DVec3::new(x, y, z))));
     let farthest = |direction: DVec3| {
-        (0..places.len()).rev().max_by(|a, b| places[*a].dot(direction).total_cmp(&places[*b].dot(direction)))
+        let reach = |index: usize| places[index].dot(direction).max(mirrored(places[index]).dot(direction));
+        // The first of the farthest: `max_by` alone would take the last.
+        (0..places.len()).rev().max_by(|a, b| reach(*a).total_cmp(&reach(*b)))
     };
     directions.filter(|direction| *direction != DVec3::ZERO).filter_map(farthest).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use motiondb::motion_db::{MotionDb, MotionExample};
+
+    use super::*;
+    use crate::compile::{Options, compile};
+    use crate::human_clip::HumanClip;
+    use crate::synthetic::{Walk, idle, performance, walk};
+
+    fn walking(speed_mps: f64, turn_rate_rad_s: f64, duration_s: f64) -> HumanClip {
+        let rates = Rates { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
+        walk("part", Walk { rates, duration_s, ..Walk::default() })
+    }
+
+    /// Another walk of that name, with a cadence of its own: no second copy of the same take.
+    fn named(name: &str, speed_mps: f64, turn_rate_rad_s: f64, period_s: f64) -> HumanClip {
+        let rates = Rates { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
+        walk(name, Walk { rates, period_s, ..Walk::default() })
+    }
+
+    fn compiled(clips: Vec<HumanClip>, most: usize) -> MotionDb {
+        let options = Options { max_examples: NonZeroUsize::new(most), ..Options::default() };
+        compile(clips, &options, &|_| ()).unwrap()
+    }
+
+    fn recorded(db: &MotionDb) -> Vec<&MotionExample> {
+        db.examples.iter().filter(|example| !example.mirrored).collect()
+    }
+
+    fn check(example: &MotionExample, name: &str, parameters: [f32; 3], window_s: [f32; 2]) {
+        assert_eq!(example.name, name);
+        let found = example.parameters.to_vec3().to_array();
+        assert!(found.iter().zip(parameters).all(|(found, wanted)| (found - wanted).abs() < 0.04), "{example:?}");
+        let [start_s, end_s] = example.window_s;
+        assert!(start_s >= window_s[0] - 0.1 && end_s <= window_s[1] + 0.1, "{example:?}");
+        assert!(end_s - start_s > 0.4 * (window_s[1] - window_s[0]), "{example:?}");
+    }
+
+    #[test]
+    fn a_performance_gives_an_example_of_each_steady_part_named_by_its_second() {
+        let parts = [walking(0.7, 0.0, 6.0), idle("part", 3.0), walking(1.3, 0.0, 5.0), walking(0.8, 0.8, 4.0)];
+        let db = compiled(vec![performance("capture", &parts)], 0);
+        let [slow, rest, fast, turn] = recorded(&db)[..] else { panic!("{:#?}", db.examples) };
+        check(slow, "capture", [0.7, 0.0, 0.0], [0.0, 6.0]);
+        check(rest, &format!("capture@{:04.1}s", rest.window_s[0]), [0.0; 3], [6.0, 9.0]);
+        check(fast, &format!("capture@{:04.1}s", fast.window_s[0]), [1.3, 0.0, 0.0], [9.0, 14.1]);
+        check(turn, &format!("capture@{:04.1}s", turn.window_s[0]), [0.8, 0.8, 0.0], [14.0, 18.1]);
+        assert_eq!(rest.key_times_s, None);
+        assert!(db.examples.iter().any(|example| example.name == format!("{}_mirrored", turn.name)));
+    }
+
+    /// A walk at 1.2 m/s whose root gets ahead of its feet.
+    fn sliding(duration_s: f64) -> HumanClip {
+        let mut clip = walking(1.2, 0.0, duration_s);
+        let ahead_m = clip.frames[1].pelvis_m - clip.frames[0].pelvis_m;
+        let ahead_m = ahead_m.with_z(0.0).normalize() * 0.1 / clip.frame_rate_hz;
+        clip.frames.iter_mut().enumerate().for_each(|(frame, pose)| pose.pelvis_m += ahead_m * frame as f64);
+        clip
+    }
+
+    #[test]
+    fn of_near_equal_windows_the_one_with_the_fewest_flaws_stays() {
+        let between = walking(0.7, 0.9, 4.0);
+        for parts in
+            [[walking(1.2, 0.0, 4.0), between.clone(), sliding(5.0)], [sliding(5.0), between, walking(1.2, 0.0, 4.0)]]
+        {
+            let db = compiled(vec![performance("capture", &parts)], 0);
+            let straight: Vec<_> = recorded(&db).into_iter().filter(|e| e.parameters.turn_rate_rad_s == 0.0).collect();
+            assert_eq!(straight.len(), 1, "{straight:#?}");
+            assert!(straight[0].planted_slide_cm_s < 2.0, "{straight:?}");
+            let said = |warning: &String| warning.contains("near-equal") && warning.ends_with("left out");
+            assert!(db.sources[0].warnings.iter().any(said), "{:?}", db.sources);
+        }
+    }
+
+    #[test]
+    fn clips_keep_their_own_examples_but_windows_beyond_them_must_add_to_the_set() {
+        let capture = performance("capture", &[walking(1.2, 0.0, 6.0), walking(0.7, 0.9, 4.0)]);
+        let clips = [named("walk", 1.2, 0.0, 1.0), named("same", 1.25, 0.0, 1.2), named("turn", 0.7, 0.85, 1.0)];
+        let db = compiled([capture].into_iter().chain(clips).collect(), 0);
+        let names: Vec<&str> = recorded(&db).iter().map(|example| example.name.as_str()).collect();
+        assert_eq!(names, ["capture", "same", "turn", "walk"]);
+    }
+
+    #[test]
+    fn a_limited_set_keeps_the_walk_the_idle_and_what_reaches_farthest() {
+        let speeds = [0.5, 0.7, 0.9, 1.1, 1.2, 1.3, 1.5];
+        let mut clips: Vec<HumanClip> = speeds
+            .iter()
+            .map(|speed_mps| named(&format!("v{speed_mps}"), *speed_mps, 0.0, 1.5 - 0.4 * speed_mps))
+            .collect();
+        clips.extend([named("turn", 0.6, 0.9, 1.0), named("bend", 0.6, 0.5, 1.2)]);
+        clips.push(idle("idle", 3.0));
+        for (most, wanted) in [(1, &["v1.2"][..]), (2, &["idle", "v1.2"]), (4, &["idle", "turn", "v1.2", "v1.5"])] {
+            let db = compiled(clips.clone(), most);
+            let found: Vec<&str> = recorded(&db).iter().map(|example| example.name.as_str()).collect();
+            assert_eq!(found, wanted);
+            let left_out = |warning: &String| warning.starts_with("max_examples = ");
+            assert_eq!(
+                db.sources.iter().flat_map(|source| &source.warnings).filter(|w| left_out(w)).count(),
+                10 - most
+            );
+        }
+        assert_eq!(recorded(&compiled(clips, 10)).len(), 10);
+    }
 }

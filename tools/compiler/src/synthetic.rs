@@ -94,6 +94,24 @@ pub(crate) fn idle(name: &str, duration_s: f64) -> HumanClip {
     clip(name, body, poses, 60.0)
 }
 
+/// One performance of several clips: each begins where the one before ends, facing as it did.
+pub(crate) fn performance(name: &str, parts: &[HumanClip]) -> HumanClip {
+    let mut frames: Vec<HumanPose> = Vec::new();
+    for part in parts {
+        let first = part.frames[0].forward_kinematics(&part.body);
+        let last = frames.last().unwrap_or(&part.frames[0]).forward_kinematics(&part.body);
+        let turn = DQuat::from_rotation_z(last.facing_rad() - first.facing_rad());
+        let moved = |place_m: DVec3| last.hips_m().with_z(0.0) + turn * (place_m - first.hips_m().with_z(0.0));
+        frames.extend(part.frames.iter().map(|pose| {
+            let mut pose = pose.clone();
+            pose.pelvis_m = moved(pose.pelvis_m);
+            pose.rotations[0] = turn * pose.rotations[0];
+            pose
+        }));
+    }
+    clip(name, parts[0].body.clone(), frames, parts[0].frame_rate_hz)
+}
+
 fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64) -> HumanClip {
     let source = SourceRecord {
         file: format!("{name}.bvh"),
