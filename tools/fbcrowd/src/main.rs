@@ -9,6 +9,7 @@ mod cmd;
 mod compile_report;
 mod compile_text;
 mod compiling;
+mod correspondence_between;
 mod example_table;
 mod failure;
 mod grouping;

@@ -8,6 +8,7 @@ use motiondb::velocity_hull::{Construction, VelocityHull};
 use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 use serde::Serialize;
 
+use crate::correspondence_between::Between;
 use crate::leave_one_out::LeaveOneOut;
 use crate::leave_one_out_text;
 
@@ -29,6 +30,8 @@ pub(crate) struct DatabaseReport {
     /// Where asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) leave_one_out: Option<LeaveOneOut>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) correspondence_between: Option<Between>,
 }
 
 #[derive(Serialize)]
@@ -81,6 +84,7 @@ impl DatabaseReport {
             }),
             coverage: coverage::coverage(db),
             leave_one_out: None,
+            correspondence_between: None,
         }
     }
 }
@@ -135,6 +139,7 @@ pub(crate) fn database_text(report: &DatabaseReport) -> String {
         100.0 * report.blend_space.covered_share,
     );
     text += &correspondence_text(report);
+    text += &report.correspondence_between.as_ref().map(Between::text).unwrap_or_default();
     text += &coverage_text(report);
     text += &report.leave_one_out.as_ref().map(leave_one_out_text::text).unwrap_or_default();
     let warned = report.sources.iter().filter(|source| !source.warnings.is_empty());

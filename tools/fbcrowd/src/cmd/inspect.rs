@@ -3,19 +3,22 @@
 use std::path::{Path, PathBuf};
 
 use fbcrowd_render::database_plots::write_database_plots;
-use motiondb::file;
+use motiondb::file::{self, FileError};
 use motiondb_compiler::survey::survey;
 
 use crate::compiling;
+use crate::correspondence_between::Between;
 use crate::failure::{Answer, Failure};
 use crate::leave_one_out::leave_one_out;
 use crate::output;
 use crate::report::{self, DatabaseReport, SourcesReport};
 
 /// Show what a database holds, or what was found in clips.
+///
+/// Exit code 0: shown; 1: an invariant of the database is broken, or some clip was refused; 2: nothing can be read.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd inspect motion.fbdb --plots out/plots\n  fbcrowd inspect motion.fbdb --leave-one-out\n  fbcrowd inspect my/clips --json"
+    after_help = "Examples:\n  fbcrowd inspect motion.fbdb --plots out/plots\n  fbcrowd inspect motion.fbdb --leave-one-out\n  fbcrowd inspect motion.fbdb --correspondence walk_110 run_350\n  fbcrowd inspect my/clips --json"
 )]
 pub(crate) struct Args {
     /// A database, or clips: files or folders.
@@ -46,6 +49,12 @@ pub(crate) struct Args {
     /// joints of all examples; `outside` are corners of the hull, which nothing else reaches.
     #[arg(long)]
     leave_one_out: bool,
+    /// Where synthesis could switch between any two examples of a database: times at which their poses (places and
+    /// velocities of the joints) are alike. In JSON `correspondence_between {from, to, pairs_s[][2], distances_m[]}`; with
+    /// --plots also a picture of that pair's distances. A body that stands has no steps: each step of the other meets
+    /// some time of standing.
+    #[arg(long, num_args = 2, value_names = ["FROM", "TO"])]
+    correspondence: Option<Vec<String>>,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
@@ -58,13 +67,26 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
-    let (db, _) = file::load(path)?;
+    let db = match file::load(path) {
+        Ok((db, _)) => db,
+        // It could be read, and the answer is no.
+        Err(broken @ FileError::Invariant { .. }) => {
+            output::say(&broken.to_string());
+            return Ok(Answer::No);
+        }
+        Err(unreadable) => return Err(unreadable.into()),
+    };
+    let between = args.correspondence.as_ref().map(|names| Between::new(&db, names)).transpose()?;
     if let Some(folder) = &args.plots {
-        for picture in write_database_plots(&db, folder)? {
+        let pictures = write_database_plots(&db, folder)?;
+        for picture in
+            pictures.into_iter().chain(between.as_ref().map(|between| between.draw(&db, folder)).transpose()?)
+        {
             output::say(&format!("drew {}", picture.display()));
         }
     }
     let mut report = DatabaseReport::new(&db);
+    report.correspondence_between = between;
     report.leave_one_out = args.leave_one_out.then(|| leave_one_out(&db));
     if args.json {
         output::print_json(&report)?;
@@ -80,6 +102,11 @@ fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
     }
     if args.leave_one_out {
         let message = "--leave-one-out takes a database apart; compile the clips first with `fbcrowd compile`";
+        return Err(Failure::bad(message));
+    }
+    if args.correspondence.is_some() {
+        let message =
+            "--correspondence compares examples of a database; compile the clips first with `fbcrowd compile`";
         return Err(Failure::bad(message));
     }
     let (clips, answer) = compiling::import(clips)?;

@@ -1,0 +1,104 @@
+//! Where synthesis could switch between any two examples (`FbCrowd` §5, Eq. 10): the table, its JSON and its picture.
+
+use std::path::{Path, PathBuf};
+
+use fbcrowd_render::png_frame;
+use fbcrowd_render::pose_distance_plot::pose_distances_between;
+use motiondb::correspondence::table;
+use motiondb::motion_db::MotionDb;
+use serde::Serialize;
+
+use crate::failure::Failure;
+
+/// Names that are shown where there is none as given.
+const NEAR_NAMES: usize = 5;
+
+/// The table of two examples.
+#[derive(Serialize)]
+pub(crate) struct Between {
+    from: String,
+    to: String,
+    pairs_s: Vec<[f32; 2]>,
+    distances_m: Vec<f32>,
+    #[serde(skip)]
+    examples: [usize; 2],
+    #[serde(skip)]
+    stands: Vec<String>,
+}
+
+impl Between {
+    /// The table of the two examples that are named.
+    pub(crate) fn new(db: &MotionDb, names: &[String]) -> Result<Self, Failure> {
+        let [from, to] = names else { return Err(Failure::bad("--correspondence takes the names of two examples")) };
+        let examples = [find(db, from)?, find(db, to)?];
+        let table = table(db, examples[0], examples[1]);
+        let stands =
+            examples.map(|index| &db.examples[index]).into_iter().filter(|example| example.key_times_s.is_none());
+        Ok(Self {
+            from: from.clone(),
+            to: to.clone(),
+            pairs_s: table.iter().map(|alike| alike.times_s).collect(),
+            distances_m: table.iter().map(|alike| alike.distance_m).collect(),
+            examples,
+            stands: stands.map(|example| example.name.clone()).collect(),
+        })
+    }
+
+    /// Draws the distances of all poses into a folder that exists; returns the picture.
+    pub(crate) fn draw(&self, db: &MotionDb, folder: &Path) -> Result<PathBuf, Failure> {
+        let path = folder.join("pose_distance_between.png");
+        png_frame::write(&path, &pose_distances_between(db, self.examples))?;
+        Ok(path)
+    }
+
+    /// The table for people.
+    pub(crate) fn text(&self) -> String {
+        let mut text = format!("\nalike in {} and {}\n  from s    to s  distance cm\n", self.from, self.to);
+        for ([from_s, to_s], distance_m) in self.pairs_s.iter().zip(&self.distances_m) {
+            text += &format!("{from_s:8.3}{to_s:8.3}{:13.1}\n", 100.0 * distance_m);
+        }
+        for name in &self.stands {
+            text += &format!("{name} stands and has no steps: its times are those of standing that are most alike\n");
+        }
+        text
+    }
+}
+
+/// The example of a name.
+fn find(db: &MotionDb, name: &str) -> Result<usize, Failure> {
+    let found = db.examples.iter().position(|example| example.name == name);
+    found.ok_or_else(|| {
+        let mut near: Vec<&str> = db.examples.iter().map(|example| example.name.as_str()).collect();
+        near.sort_by_key(|other| edits(&name.to_lowercase(), &other.to_lowercase()));
+        near.truncate(NEAR_NAMES);
+        Failure::bad(format!("no example is called `{name}`; near it are {}", near.join(", ")))
+    })
+}
+
+/// Letters to be put in, taken out or changed (Levenshtein). To go on where a name ends costs nothing: a part of a name
+/// is near it.
+fn edits(name: &str, other: &str) -> usize {
+    let mut costs: Vec<usize> = vec![0; other.chars().count() + 1];
+    for (row, letter) in name.chars().enumerate() {
+        let mut diagonal = costs[0];
+        costs[0] = row + 1;
+        for (column, other_letter) in other.chars().enumerate() {
+            let change = diagonal + usize::from(letter != other_letter);
+            diagonal = costs[column + 1];
+            costs[column + 1] = change.min(diagonal + 1).min(costs[column] + 1);
+        }
+    }
+    costs.into_iter().min().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_of_a_name_is_nearer_than_another_name() {
+        assert_eq!(edits("walk", "ChrMarine_Walk01".to_lowercase().as_str()), 0);
+        assert_eq!(edits("wlak_110", "walk_110"), 2);
+        assert!(edits("walk_11", "walk_110") < edits("walk_11", "run_350"));
+    }
+}
