@@ -64,3 +64,11 @@ fn leaving_out_is_measured_on_three_sets() {
     let found = check_bars(&["bench", "leave-one-out", "--mocap", text(&mocap), "--json"]);
     assert_eq!(found["sets"].as_array().unwrap().len(), 3);
 }
+
+#[test]
+fn gait_events_are_measured_against_hand_labels() {
+    let Some(mocap) = shared("gait_events_are_measured_against_hand_labels", "mocap") else { return };
+    let found = check_bars(&["bench", "gait", "--mocap", text(&mocap), "--json"]);
+    assert!(found["events"].as_array().unwrap().len() >= 80);
+    assert!(found["sets"][0]["median_error_frames"].as_f64().unwrap() < 2.0, "{}", found["sets"]);
+}

@@ -207,7 +207,7 @@ fn text(details: &Details) -> String {
         text += &format!("  {:5.2}  {} {}{}\n", row.distance(), row.file, row.clip, verdict(row));
     }
     let elbows: Vec<&Row> = details.rows.iter().filter(|row| row.by_elbows.is_some()).collect();
-    let differ = elbows.iter().filter(|row| row.excess.is_some_and(|excess| excess > 1.0));
+    let differ = elbows.iter().filter(|row| row.judged && row.excess.is_some_and(|excess| excess > 1.0));
     let percent = details.share_of_index.map_or_else(|| "–".to_owned(), |share| format!("{:.1} %", 100.0 * share));
     text += &format!(
         "\nThe index took the elbows for shoulders on {} rows; they are judged with the same joints. Against the index as it\n\

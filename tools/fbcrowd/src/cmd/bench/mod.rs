@@ -2,6 +2,7 @@
 
 mod bar;
 mod compile;
+mod gait;
 mod import;
 mod leave_one_out;
 
@@ -28,6 +29,7 @@ enum Bench {
     Import(import::Args),
     Compile(compile::Args),
     LeaveOneOut(leave_one_out::Args),
+    Gait(gait::Args),
 }
 
 /// What every bench on other people's clips is told.
@@ -46,5 +48,6 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Bench::Import(args) => import::run(args),
         Bench::Compile(args) => compile::run(args),
         Bench::LeaveOneOut(args) => leave_one_out::run(args),
+        Bench::Gait(args) => gait::run(args),
     }
 }
