@@ -6,7 +6,6 @@
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
-pub use crate::locator::Locator;
 use crate::parameters::Parameters;
 
 /// Most corners of a simplex.

@@ -211,7 +211,7 @@ fn sorted(simplex: &Simplex) -> Simplex {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use motiondb::blend_space::Locator;
+    use motiondb::locator::Locator;
     use motiondb::phase_map::PhaseMap;
     use motiondb::tiling::tiling_fault;
     use proptest::prelude::*;

@@ -16,8 +16,8 @@
 //! asked for themselves: mirrors count once.
 
 use fbcrowd_sim::hms::blending::Mix;
-use motiondb::blend_space::Locator;
 use motiondb::coverage::{locate_inside, locator};
+use motiondb::locator::Locator;
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
 use motiondb::pose::Pose;
 use motiondb::skeleton::{JOINT_COUNT, Joint, Skeleton};

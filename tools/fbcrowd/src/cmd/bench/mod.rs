@@ -1,6 +1,7 @@
 //! `fbcrowd bench`: is the compiler as good and as fast as it should be? One file a bench.
 
 mod bar;
+mod blend_space;
 mod compile;
 mod gait;
 mod import;
@@ -26,6 +27,7 @@ pub(crate) struct Args {
 
 #[derive(clap::Subcommand)]
 enum Bench {
+    BlendSpace(blend_space::Args),
     Import(import::Args),
     Compile(compile::Args),
     LeaveOneOut(leave_one_out::Args),
@@ -45,6 +47,7 @@ struct Mocap {
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     match &args.bench {
+        Bench::BlendSpace(args) => blend_space::run(args),
         Bench::Import(args) => import::run(args),
         Bench::Compile(args) => compile::run(args),
         Bench::LeaveOneOut(args) => leave_one_out::run(args),
