@@ -245,3 +245,33 @@ fn a_place_that_cannot_be_written_is_named() {
     fbcrowd(&["clips", "--out", text(&file.join("clips"))]).expect_code(2).says(&["a_file"]);
     assert_eq!(files(&folder), ["a_file"]);
 }
+
+#[test]
+fn any_two_examples_correspond_by_name_and_a_wrong_name_shows_those_near_it() {
+    let folder = folder("correspondence");
+    let clips = support::repository().join("assets/clips");
+    for (clip, name) in [("walk_080.bvh", "slow walk.bvh"), ("run_350.bvh", "run.bvh"), ("idle.bvh", "idle.bvh")] {
+        fs::copy(clips.join(clip), folder.join(name)).unwrap();
+    }
+    let database = compile(&[text(&folder).to_owned()], &folder);
+    let table = |from: &str, to: &str| {
+        let report =
+            fbcrowd(&["inspect", text(&database), "--json", "--correspondence", from, to]).expect_code(0).json();
+        let between = report["correspondence_between"].clone();
+        assert_eq!((&between["from"], &between["to"]), (&from.into(), &to.into()));
+        let pairs = between["pairs_s"].as_array().unwrap().clone();
+        assert_eq!(between["distances_m"].as_array().unwrap().len(), pairs.len());
+        pairs.iter().map(|pair| [pair[0].as_f64().unwrap(), pair[1].as_f64().unwrap()]).collect::<Vec<[f64; 2]>>()
+    };
+    let mut back = table("run", "slow walk");
+    back.iter_mut().for_each(|pair| pair.reverse());
+    back.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    assert_eq!(table("slow walk", "run"), back);
+    let plots = folder.join("plots");
+    let shown = fbcrowd(&["inspect", text(&database), "--correspondence", "run", "idle", "--plots", text(&plots)]);
+    assert!(shown.expect_code(0).stdout.contains("idle stands and has no steps"));
+    assert!(plots.join("pose_distance_between.png").is_file());
+    let unknown = fbcrowd(&["inspect", text(&database), "--correspondence", "slow wlak", "run"]);
+    unknown.expect_code(2).says(&["no example is called `slow wlak`; near it are slow walk"]);
+    fbcrowd(&["inspect", text(&folder), "--correspondence", "run", "idle"]).expect_code(2).says(&["compile the clips"]);
+}
