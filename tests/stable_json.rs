@@ -61,6 +61,22 @@ fn inspect_lists_examples_sources_velocity_sets_simplices_and_correspondences() 
 }
 
 #[test]
+fn inspecting_clips_tells_the_gait_of_each_in_its_own_time() {
+    let report = fbcrowd(&["inspect", "assets/clips/walk_110.bvh", "assets/clips/idle.bvh", "--json"]);
+    let report = report.expect_code(0).json();
+    check_keys(&report, &["sources"]);
+    let [idle, walk] = [0, 1].map(|source| &report["sources"][source]["gait"]);
+    check_keys(walk, &["kind", "planted_share", "right", "left"]);
+    assert_eq!((&idle["kind"], &walk["kind"]), (&Value::from("stands"), &Value::from("steps")));
+    for contact in ["right", "left"].iter().flat_map(|side| walk[*side].as_array().unwrap()) {
+        check_keys(contact, &["strike_s", "toe_off_s"]);
+        let [strike_s, toe_off_s] = ["strike_s", "toe_off_s"].map(|event| contact[event].as_f64());
+        assert!(strike_s.is_some() || toe_off_s.is_some(), "{contact}");
+        assert!(strike_s.zip(toe_off_s).is_none_or(|(strike_s, toe_off_s)| strike_s < toe_off_s), "{contact}");
+    }
+}
+
+#[test]
 fn leaving_out_keeps_its_keys() {
     let clips = ["walk_050", "walk_080", "walk_110"].map(|clip| format!("assets/clips/{clip}.bvh"));
     let database = compile(&clips, &folder("leave_one_out_keys"));
