@@ -1,13 +1,22 @@
 //! What is said of a clip in [`motiondb::motion_db::SourceRecord::warnings`], and how much of it a user need read.
 //!
-//! Records hold plain sentences; two phrases tell their weight, and whoever writes a remark of that weight uses them.
+//! Records hold plain sentences; some phrases tell their weight, and whoever writes a remark of that weight uses them.
 
 /// Begins the reason why a clip gives no example.
 pub const NO_EXAMPLE: &str = "no example: ";
 /// Ends the remark that a gait is too fast or too slow for any human.
 pub const FRAME_TIME_QUESTION: &str = "is the frame time true?";
-/// What the compiler does with every clip like it: nothing is wrong.
-const ROUTINE: [&str; 4] = ["taken as 0", "and are not used", "and is not used", "left out"];
+/// Ends what the compiler does with every clip like it: nothing is wrong.
+const ROUTINE: [&str; 6] = [
+    "taken as 0",
+    "and are not used",
+    "and is not used",
+    "left out",
+    "is blended in its place",
+    "no example is made of that one",
+];
+/// Begins what is told of clips that are alike, whether or not one of them is left out for it.
+const ALIKE: &str = "the same take as";
 
 /// How much a remark matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,7 +33,7 @@ pub enum Weight {
 pub fn weight(remark: &str) -> Weight {
     if remark.starts_with(NO_EXAMPLE) {
         Weight::NoExample
-    } else if ROUTINE.iter().any(|routine| remark.ends_with(routine)) {
+    } else if ROUTINE.iter().any(|routine| remark.ends_with(routine)) || remark.starts_with(ALIKE) {
         Weight::Note
     } else {
         Weight::Warning

@@ -100,17 +100,21 @@ impl CompileReport {
     }
 
     fn add(&mut self, source: &SourceRecord, examples: Vec<Example>) {
-        let (file, clip) = (source.file.clone(), source.clip.clone());
-        for warning in &source.warnings {
-            let (file, clip) = (file.clone(), clip.clone());
-            match (weight(warning), examples.is_empty()) {
-                (Weight::NoExample, true) => self.unused.push(Reason { file, clip, reason: bare(warning).to_owned() }),
-                (weight, _) => {
-                    self.warnings.push(Remark { file, clip, note: weight == Weight::Note, text: warning.clone() });
-                }
-            }
-        }
-        if !examples.is_empty() {
+        let (file, clip) = (&source.file, &source.clip);
+        let remark = |text: &String| Remark {
+            file: file.clone(),
+            clip: clip.clone(),
+            note: weight(text) == Weight::Note,
+            text: bare(text).to_owned(),
+        };
+        let (reasons, remarks): (Vec<&String>, Vec<&String>) =
+            source.warnings.iter().partition(|text| examples.is_empty() && weight(text) == Weight::NoExample);
+        self.warnings.extend(remarks.into_iter().map(remark));
+        let (file, clip) = (file.clone(), clip.clone());
+        if examples.is_empty() {
+            let reasons: Vec<&str> = reasons.into_iter().map(|text| bare(text)).collect();
+            self.unused.push(Reason { file, clip, reason: reasons.join("; ") });
+        } else {
             self.used.push(Used { file, clip, examples });
         }
     }
