@@ -3,7 +3,7 @@
 //! [`manifest`] → [`take`] → import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] →
 //! [`human_clip::HumanClip`] → [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] →
 //! [`contacts`], [`stance`], [`gait`], [`stride`], [`steady_window`], [`stride_alignment`] → [`pose_mean`],
-//! [`cycle::GaitCycle`] (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`mirror`] → [`rows`],
+//! [`cycle::GaitCycle`] (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`duplicates`] → [`mirror`] → [`rows`],
 //! [`velocity_hull`], [`blend_space`], [`correspondence`] → [`motiondb::motion_db::MotionDb`]
 
 mod analysis;

@@ -8,11 +8,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::analysis::{Analyzed, analyze};
-use crate::compile;
 use crate::gait::Gait;
-use crate::human_clip::{HumanBody, HumanClip};
+use crate::human_clip::HumanClip;
 use crate::stance::Stance;
-use crate::target_skeleton;
+use crate::{compile, duplicates, target_skeleton};
 
 /// A clip, and what its feet do.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -75,12 +74,13 @@ pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
         return Vec::new();
     }
     let body = target_skeleton::choose(&clips);
-    clips.par_iter().map(|clip| survey_clip(clip, &body)).collect()
-}
-
-fn survey_clip(clip: &HumanClip, body: &HumanBody) -> SurveyedSource {
-    let analyzed = analyze(clip, body);
-    SurveyedSource { source: compile::record(clip, &analyzed), gait: source_gait(&analyzed, clip.first_frame) }
+    let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
+    duplicates::set_aside(&clips, &mut analyzed);
+    let surveyed = |(clip, found): (&HumanClip, &Analyzed)| SurveyedSource {
+        source: compile::record(clip, found),
+        gait: source_gait(found, clip.first_frame),
+    };
+    clips.iter().zip(&analyzed).map(surveyed).collect()
 }
 
 fn source_gait(analyzed: &Analyzed, first_frame: usize) -> SourceGait {

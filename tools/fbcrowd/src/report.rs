@@ -30,6 +30,7 @@ pub(crate) struct DatabaseReport {
     /// Where asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) leave_one_out: Option<LeaveOneOut>,
+    /// Where asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) correspondence_between: Option<Between>,
 }
