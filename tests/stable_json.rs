@@ -103,6 +103,57 @@ fn leaving_out_keeps_its_keys() {
 }
 
 #[test]
+fn validate_lists_checks_findings_and_figures() {
+    let database = repository().join("tests/golden/version_1.fbdb");
+    let report = fbcrowd(&["validate", text(&database), "--json"]).expect_code(0).json();
+    check_keys(&report, &["valid", "checks", "findings", "quality"]);
+    assert_eq!(report["valid"], true);
+    let checks = report["checks"].as_array().unwrap();
+    checks.iter().for_each(|check| check_keys(check, &["name", "holds", "detail"]));
+    let names: Vec<&str> = checks.iter().map(|check| check["name"].as_str().unwrap()).collect();
+    let invariants = [
+        "checksum",
+        "has_examples",
+        "rows_are_complete",
+        "indices_are_in_range",
+        "names_are_unique",
+        "skeleton_is_a_body",
+        "sources_are_finite",
+        "windows_are_ordered",
+        "parameters_are_human",
+        "phase_maps_rise",
+        "rows_are_finite",
+        "rotations_are_unit_and_aligned",
+        "cycles_close",
+        "landmarks_are_mid_stances",
+        "key_times_end_contacts",
+        "planted_feet_slide_as_stored",
+        "parameters_follow_from_the_motion",
+        "hulls_are_clockwise_and_convex",
+        "hulls_wrap_their_examples",
+        "half_planes_agree_with_the_hulls",
+        "sharp_turns_wrap_the_turning_examples",
+        "simplices_tile_the_hull",
+        "correspondences_are_cyclic",
+    ];
+    assert_eq!(names, invariants);
+    let figures = [
+        "example",
+        "planted_slide_cm_s",
+        "planted_share",
+        "seam_angle_ratio",
+        "seam_velocity_ratio",
+        "penetration_mm",
+        "knee_flexion_min_deg",
+        "leg_extension_max",
+        "range_excess_deg",
+        "range_excess_joint",
+    ];
+    check_keys(&report["quality"][0], &figures);
+    assert_eq!(report["quality"][0]["example"], "idle");
+}
+
+#[test]
 fn measure_and_the_timing_report_keep_their_keys() {
     let folder = folder("measure_keys");
     let database = compile(&["assets/clips/walk_110.bvh".to_owned()], &folder);

@@ -55,7 +55,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Failure> {
     let clips = match motion {
         MotionSource::Database(path) => {
-            file::read(&path)?; // before anything is written
+            file::load(&path)?; // before anything is written
             fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
             return Ok((path, Answer::Yes));
         }

@@ -6,6 +6,7 @@ mod compile;
 mod gait;
 mod import;
 mod leave_one_out;
+mod soak;
 
 use std::path::PathBuf;
 
@@ -32,6 +33,7 @@ enum Bench {
     Compile(compile::Args),
     LeaveOneOut(leave_one_out::Args),
     Gait(gait::Args),
+    Soak(soak::Args),
 }
 
 /// What every bench on other people's clips is told.
@@ -52,5 +54,6 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Bench::Compile(args) => compile::run(args),
         Bench::LeaveOneOut(args) => leave_one_out::run(args),
         Bench::Gait(args) => gait::run(args),
+        Bench::Soak(args) => soak::run(args),
     }
 }
