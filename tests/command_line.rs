@@ -18,7 +18,9 @@ fn scenario(folder: &Path, content: &str) -> String {
 
 #[test]
 fn every_command_explains_itself_with_an_example() {
-    for command in ["run", "compile", "validate", "inspect", "clips", "simulate", "measure", "render", "bench", "completions"] {
+    for command in
+        ["run", "compile", "validate", "inspect", "clips", "simulate", "measure", "render", "bench", "completions"]
+    {
         let help = fbcrowd(&[command, "--help"]).expect_code(0);
         assert!(help.stdout.contains("Example"), "{command}:\n{}", help.stdout);
     }
