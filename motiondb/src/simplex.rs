@@ -28,6 +28,8 @@ pub(crate) struct Simplex {
 pub(crate) struct Nearest {
     /// From the query, squared, in the metric.
     pub(crate) distance_squared: f64,
+    /// The point itself; NaN where nothing has been found.
+    pub(crate) foot: DVec3,
     examples: [u32; MAX_CORNERS],
     shares: [f64; MAX_CORNERS],
 }
@@ -104,6 +106,10 @@ impl Simplex {
 
     /// Takes its point nearest to `point` where that is nearer than what is known.
     pub(crate) fn approach(&self, point: DVec3, nearest: &mut Nearest) {
+        let towards = point - nearest.foot;
+        if self.corners[..self.count].iter().all(|&corner| (corner - nearest.foot).dot(towards) <= 0.0) {
+            return; // all of it lies behind what is known
+        }
         let shares = self.shares(point);
         let foot: DVec3 = (0..self.count).map(|k| self.corners[k] * shares[k]).sum();
         let distance_squared = foot.distance_squared(point);
@@ -112,7 +118,7 @@ impl Simplex {
         }
         let mut beyond = (0..self.count).filter(|&k| shares[k] < 0.0).peekable();
         if beyond.peek().is_none() {
-            *nearest = Nearest { distance_squared, examples: self.examples, shares };
+            *nearest = Nearest { distance_squared, foot, examples: self.examples, shares };
         }
         beyond.for_each(|k| self.facet(k).approach(point, nearest));
     }
@@ -127,8 +133,12 @@ impl Simplex {
 
 impl Nearest {
     /// Where nothing has been found: the first example, out of reach.
-    pub(crate) const NOTHING: Self =
-        Self { distance_squared: f64::INFINITY, examples: [0; MAX_CORNERS], shares: [1.0, 0.0, 0.0, 0.0] };
+    pub(crate) const NOTHING: Self = Self {
+        distance_squared: f64::INFINITY,
+        foot: DVec3::NAN,
+        examples: [0; MAX_CORNERS],
+        shares: [1.0, 0.0, 0.0, 0.0],
+    };
 
     pub(crate) fn shares(&self) -> Shares {
         let mut examples = self.examples;

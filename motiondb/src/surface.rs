@@ -58,7 +58,7 @@ impl Surface {
                     children.swap(0, 1);
                 }
                 for (distance_squared, child) in children {
-                    if distance_squared < nearest.distance_squared {
+                    if distance_squared < nearest.distance_squared && !self.nodes[child].lies_behind(nearest, point) {
                         self.search(child, point, nearest);
                     }
                 }
@@ -70,6 +70,13 @@ impl Surface {
 impl Node {
     fn distance_squared(&self, point: DVec3) -> f64 {
         point.clamp(self.least, self.greatest).distance_squared(point)
+    }
+
+    /// Whether no point of the box lies further towards `point` than the nearest one so far: then none is nearer.
+    fn lies_behind(&self, nearest: &Nearest, point: DVec3) -> bool {
+        let towards = point - nearest.foot;
+        let foremost = DVec3::select(towards.cmpgt(DVec3::ZERO), self.greatest, self.least);
+        (foremost - nearest.foot).dot(towards) <= 0.0
     }
 }
 
