@@ -7,11 +7,16 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use motiondb::motion_db::PHASE_COUNT;
+use motiondb::phase_map::PhaseMap;
+use motiondb_compiler::cycle::{GaitCycle, mean_stride};
+use motiondb_compiler::gait::{self, Gait};
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
 use motiondb_compiler::root_motion::ground;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
 use motiondb_compiler::take::Take;
+use motiondb_compiler::unroll::unroll;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
 const LABELS: &str = include_str!("gait_events/labels.csv");
@@ -52,7 +57,7 @@ fn human_clip(file: &str, clip: &str) -> HumanClip {
     found.into_iter().find(|import| import.clip == clip).unwrap().outcome.unwrap()
 }
 
-fn gait(clip: HumanClip) -> SourceGait {
+fn surveyed(clip: HumanClip) -> SourceGait {
     survey(vec![clip]).remove(0).gait
 }
 
@@ -78,7 +83,7 @@ fn found(test: &str) -> Option<Vec<Found>> {
     let mut gaits: BTreeMap<(String, String), SourceGait> = BTreeMap::new();
     let error = |label: Label| {
         let key = (label.file.clone(), label.clip.clone());
-        let gait = gaits.entry(key).or_insert_with(|| gait(human_clip(&label.file, &label.clip)));
+        let gait = gaits.entry(key).or_insert_with(|| surveyed(human_clip(&label.file, &label.clip)));
         let times_s = times_s(gait, &label.side, &label.event);
         let error_frames = nearest_error_s(&times_s, label.frame / label.frame_rate_hz) * label.frame_rate_hz;
         Found { label, error_frames }
@@ -147,6 +152,59 @@ fn neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole() {
     }
 }
 
+/// Frames of the clip at which the events of its mean cycle come in each of its strides, by kind of event.
+fn key_frames(clip: &HumanClip) -> BTreeMap<(&'static str, &'static str), Vec<f64>> {
+    let grounded = unroll(ground(clip, &clip.body), &clip.body);
+    let analysis = gait::analyze(&grounded, &clip.body);
+    let shown = grounded.loop_frames.unwrap_or(0) as f64;
+    let mut frames: BTreeMap<_, Vec<f64>> = BTreeMap::new();
+    for window in analysis.windows.iter().flatten() {
+        let Gait::Steps(strides) = &window.gait else { continue };
+        let cycle = mean_stride(&grounded, &clip.body, &analysis.stances[window.reading], strides);
+        for (side, name, landmark) in [(0, "left", PHASE_COUNT / 2), (1, "right", 0)] {
+            for (event, step) in [("strike", PHASE_COUNT - 1), ("off", 1)] {
+                let phase = key_phase(&cycle, side, landmark, step);
+                frames.entry((name, event)).or_default().extend(strides.iter().flat_map(|stride| {
+                    let map = PhaseMap { period_s: 1.0, left_share: stride.left_share as f32 };
+                    let frame = stride.zero_frame + stride.period_frames * f64::from(map.time_s(phase));
+                    // The clip's own frames, and a stride's events beyond its landmarks.
+                    [-1.0, 0.0, 1.0].map(|turn| frame + turn * stride.period_frames - shown + clip.first_frame as f64)
+                }));
+            }
+        }
+    }
+    frames
+}
+
+/// Where, going from the row of a mid-stance, the contact of a foot falls below ½.
+fn key_phase(cycle: &GaitCycle, side: usize, landmark: usize, step: usize) -> f32 {
+    let contact = |rows: usize| cycle.contacts[(landmark + rows * step) % PHASE_COUNT][side];
+    let inside = (0..PHASE_COUNT).find(|rows| contact(rows + 1) < 0.5).unwrap();
+    let rows = inside as f64 + (contact(inside) - 0.5) / (contact(inside) - contact(inside + 1));
+    let direction = if step == 1 { 1.0 } else { -1.0 };
+    ((landmark as f64 + direction * rows) / PHASE_COUNT as f64) as f32
+}
+
+#[test]
+fn the_mean_cycles_key_times_are_near_the_labels_of_its_strides() {
+    let Some(found) = found("the_mean_cycles_key_times_are_near_the_labels_of_its_strides") else { return };
+    let mut keys = BTreeMap::new();
+    let of_cycle = |Found { label, .. }: Found| {
+        let frames = keys
+            .entry((label.file.clone(), label.clip.clone()))
+            .or_insert_with(|| key_frames(&human_clip(&label.file, &label.clip)));
+        let (_, frames) = frames.iter().find(|((side, event), _)| *side == label.side && *event == label.event)?;
+        let error_frames = nearest_error_s(frames, label.frame);
+        // Labels of strides that are not in the window say nothing of its mean.
+        (error_frames.abs() < 0.1 * label.frame_rate_hz).then_some(Found { label, error_frames })
+    };
+    let of_cycles: Vec<Found> = found.into_iter().filter_map(of_cycle).collect();
+    print_errors(&of_cycles);
+    assert!(of_cycles.len() > 70, "{}", of_cycles.len());
+    let limit = |label: &Label| FRAME_S * label.frame_rate_hz + label.uncertain_frames;
+    check_share(&of_cycles.iter().collect::<Vec<_>>(), limit, 0.95);
+}
+
 /// The labelled clips that travel.
 fn clips() -> BTreeMap<String, HumanClip> {
     labels()
@@ -158,7 +216,7 @@ fn clips() -> BTreeMap<String, HumanClip> {
 /// Fails unless a changed clip has nearly all events of the clip where they were, to within 33 ms.
 #[track_caller]
 fn check_same_events(name: &str, clip: &HumanClip, changed: HumanClip) {
-    let (before, after) = (gait(clip.clone()), gait(changed));
+    let (before, after) = (surveyed(clip.clone()), surveyed(changed));
     let (mut count, mut moved) = (0, Vec::new());
     for side in ["left", "right"] {
         for event in ["strike", "off"] {
