@@ -55,7 +55,7 @@ impl<'a> Document<'a> {
     /// Reads a file's bytes, and the buffers beside it.
     pub(crate) fn open(file: &Path, bytes: &'a [u8]) -> Result<Self, Flaw> {
         let unwound = || flaw("document", "the document contradicts itself", "check it with the glTF validator");
-        let (root, chunk, left_out) = quiet_unwind::catch(|| parse(bytes)).unwrap_or_else(unwound)?;
+        let Parsed { root, chunk, left_out } = quiet_unwind::catch(|| parse(bytes)).unwrap_or_else(unwound)?;
         let mut document = Self { buffers: vec![None; root.buffers.len()], root, byte_count: bytes.len(), left_out };
         for index in document.used_buffers() {
             let Some(buffer) = document.root.buffers.get(index) else { continue };
@@ -96,8 +96,16 @@ impl<'a> Document<'a> {
     }
 }
 
-/// The JSON, checked, the chunk of a GLB file, and whether channels without node were left out.
-fn parse(bytes: &[u8]) -> Result<(Root, Option<Cow<'_, [u8]>>, bool), Flaw> {
+/// What a file's own bytes hold.
+struct Parsed<'a> {
+    root: Root,
+    /// The binary one of a GLB file.
+    chunk: Option<Cow<'a, [u8]>>,
+    /// Channels were left out that name no node.
+    left_out: bool,
+}
+
+fn parse(bytes: &[u8]) -> Result<Parsed<'_>, Flaw> {
     let shown = |error: &dyn std::error::Error| Flaw {
         place: "document".to_owned(),
         problem: error.to_string().trim_end_matches([';', ' ']).chars().take(SHOWN_LETTERS).collect(),
@@ -114,7 +122,7 @@ fn parse(bytes: &[u8]) -> Result<(Root, Option<Cow<'_, [u8]>>, bool), Flaw> {
         Err(error) => (without_nodeless_channels(&json).ok_or_else(|| shown(&error))?, true),
     };
     check(&root)?;
-    Ok((root, chunk, left_out))
+    Ok(Parsed { root, chunk, left_out })
 }
 
 /// The document without the channels that name no node, as those of KHR_animation_pointer; none where it has no such
