@@ -27,6 +27,8 @@ const HIP_FROM_FORK: f64 = 0.5;
 /// weight of such a limb.
 const STIFF_COSINE: f64 = 1e-4;
 const STIFF_WEIGHT: f64 = 0.4;
+/// Standard deviation of the place of whoever makes a way, over the leg: a straight way of a leg's length.
+const WAY_MIN: f64 = 0.3;
 /// A toe joint is at least this share of the shank away from the ankle.
 pub(crate) const TOE_DISTANCE: f64 = 0.12;
 /// Cosine past which toes, and also knees, belie the sides that names give.
@@ -143,6 +145,18 @@ fn bending_weight(shape: &Shape, pair: &LimbPair) -> f64 {
 pub(crate) fn upright_cosine(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> f64 {
     let legs_up = legs_up(shape, legs).normalize_or_zero();
     shape.mean(|frame| legs_up.dot((middle(shape, frame, arms, 0) - middle(shape, frame, legs, 0)).normalize_or_zero()))
+}
+
+/// How much of the way that a body makes, where it makes one, lies along its own length, from feet to shoulders: 1 for
+/// people who crawl, swim or climb.
+pub(crate) fn share_along_itself(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> f64 {
+    let hips = |frame: usize| middle(shape, frame, legs, 0);
+    let centre = shape.mean_vector(hips);
+    let length = shape.mean_vector(|frame| middle(shape, frame, arms, 0) - middle(shape, frame, legs, 2));
+    let length = length.normalize_or_zero();
+    let way = shape.mean(|frame| (hips(frame) - centre).length_squared()).sqrt();
+    let along = shape.mean(|frame| (hips(frame) - centre).dot(length).powi(2)).sqrt();
+    if way > WAY_MIN * legs.limbs[0].length { along / way } else { 0.0 }
 }
 
 /// From the toes to the hips, on the average.

@@ -18,6 +18,8 @@ use crate::take::JointMap;
 /// Least mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders). People walk and run at 0.9–1, crouch
 /// and bow at 0.64; a fox walks at 0.1 and gallops at 0.28.
 const UPRIGHT_COSINE: f64 = 0.45;
+/// Whose way lies along the line from feet to shoulders (cosine of 37°) does not walk; stairs: 0.6, bent double: 0.65.
+const ALONG_ITSELF_MAX: f64 = 0.8;
 /// Fingertips are at most this share of the arm from the wrist (people 0.33), toe tips this share of the leg from the
 /// ball: what is farther off is held or worn.
 const HAND_REACH: f64 = 0.6;
@@ -141,6 +143,10 @@ fn check_upright(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> Result<(), 
         let degrees = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
         let reason =
             format!("the trunk lies {degrees:.0}° off the legs' direction, as a quadruped's or a crawling body's");
+        return Err(Refusal::NotUpright { reason });
+    }
+    if body_plan::share_along_itself(shape, legs, arms) > ALONG_ITSELF_MAX {
+        let reason = "it moves along its own length, as a crawling, swimming or climbing body".to_owned();
         return Err(Refusal::NotUpright { reason });
     }
     Ok(())

@@ -7,12 +7,16 @@
 mod zoo {
     pub(crate) mod body;
     pub(crate) mod combination;
+    pub(crate) mod creatures;
     pub(crate) mod file;
     pub(crate) mod names;
     pub(crate) mod rig;
 }
 
 use std::collections::BTreeMap;
+use std::path::Path;
+
+use motiondb_compiler::import::import_bytes;
 
 use zoo::combination::{Combination, Dice};
 
@@ -41,6 +45,17 @@ fn check_all(seeds: std::ops::Range<u64>) {
 #[test]
 fn every_tools_human_imports_as_what_it_is() {
     check_all(0..100);
+}
+
+#[test]
+fn what_walks_on_four_or_eight_legs_or_none_is_refused() {
+    let imported = |creature: &zoo::creatures::Creature| {
+        let imports = import_bytes(Path::new("creature.bvh"), creature.text().as_bytes()).unwrap();
+        imports[0].outcome.as_ref().err().map(ToString::to_string)
+    };
+    let creatures = zoo::creatures::all();
+    let taken: Vec<&str> = creatures.iter().filter(|it| imported(it).is_none()).map(|it| it.name).collect();
+    assert!(taken.is_empty(), "{taken:?}");
 }
 
 #[test]

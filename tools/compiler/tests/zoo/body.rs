@@ -166,12 +166,11 @@ impl Performance {
 
     /// The T-pose goes over into the motion while that moves on.
     pub(crate) fn blend_out(&mut self, blend_s: f64) {
-        let stand = self.t_pose();
         let frames = (blend_s * self.frame_rate_hz).ceil();
         for (frame, pose) in self.poses.iter_mut().enumerate().take(frames as usize) {
             let facing = pose.turns[0] * DVec3::Z;
             let turn = DQuat::from_rotation_y(facing.x.atan2(facing.z));
-            let stand = Pose { hips_m: pose.hips_m, turns: [turn; 22], ..stand.clone() };
+            let stand = Pose { hips_m: pose.hips_m, turns: [turn; 22] };
             *pose = stand.lerp(pose, frame as f64 / frames);
         }
     }

@@ -265,7 +265,7 @@ impl Combination {
         let wanted: Vec<&str> = match self.take {
             Take::TPoseFirst => vec!["separate pose"],
             Take::BlendsOut(_) => vec!["out of a T-pose and are not used"],
-            Take::Calibrated([_, after_s]) if after_s == 0.0 => vec!["out of a T-pose and are not used"],
+            Take::Calibrated([_, 0.0]) => vec!["out of a T-pose and are not used"],
             Take::Calibrated(_) => vec!["out of a T-pose and are not used", "into a T-pose and are not used"],
             Take::LeftHanded if self.names.says_sides() => vec!["exchanged"],
             Take::Lying(_) => vec!["frame time"],
