@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use motiondb::motion_db::MotionDb;
 use motiondb_compiler::compile;
-use motiondb_compiler::import::{self, import_bytes};
+use motiondb_compiler::import;
 use serde::Serialize;
 
 use super::Mocap;
 use super::bar::{Bar, Found, conclude};
+use super::bundled::bundled;
 use crate::failure::{Answer, Failure};
 use crate::leave_one_out::{LeaveOneOut, leave_one_out};
 
@@ -80,17 +81,6 @@ fn clip_files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 fn of_files(files: &[PathBuf]) -> Result<MotionDb, Failure> {
     Ok(compile::compile_files(files, &|_| ())?.db)
-}
-
-/// The bundled clips as the generator writes them.
-fn bundled() -> Result<MotionDb, Failure> {
-    let mut clips = Vec::new();
-    for clip in clipgen::generate().into_iter().filter(|file| !file.name.ends_with(".md")) {
-        let imports = import_bytes(Path::new(&clip.name), &clip.bytes);
-        let imports = imports.map_err(|error| Failure::bad(error.to_string()))?;
-        clips.extend(imports.into_iter().filter_map(|import| import.outcome.ok()));
-    }
-    Ok(compile::compile(clips, &compile::Options::default(), &|_| ())?)
 }
 
 fn text(details: &Details) -> String {

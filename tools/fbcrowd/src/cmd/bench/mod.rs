@@ -2,6 +2,8 @@
 
 mod bar;
 mod blend_space;
+mod bundled;
+mod clips;
 mod compile;
 mod gait;
 mod import;
@@ -30,6 +32,7 @@ pub(crate) struct Args {
 enum Bench {
     BlendSpace(blend_space::Args),
     Import(import::Args),
+    Clips(clips::Args),
     Compile(compile::Args),
     LeaveOneOut(leave_one_out::Args),
     Gait(gait::Args),
@@ -51,6 +54,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     match &args.bench {
         Bench::BlendSpace(args) => blend_space::run(args),
         Bench::Import(args) => import::run(args),
+        Bench::Clips(args) => clips::run(args),
         Bench::Compile(args) => compile::run(args),
         Bench::LeaveOneOut(args) => leave_one_out::run(args),
         Bench::Gait(args) => gait::run(args),
