@@ -14,6 +14,9 @@ use crate::rotation::{about_x, about_y, about_z, share_of, wave};
 
 /// The foremost hand comes this much before the trunk is turned farthest, share of the stride: opposite to the thigh.
 const ARM_LEAD: f64 = 0.05;
+/// The left arm swings farther than the right, right- or left-handed: of 334 adults walking at their own speed by some
+/// 20 % in the mean (Killeen et al. 2018, *Sci. Rep.* 8, doi 10.1038/s41598-018-31151-9); each by this share.
+const LEFT_ARM_SHARE: f64 = 0.10;
 /// The elbow's greatest bend comes after the shoulder's, share of the stride.
 const ELBOW_LAG: f64 = 0.04;
 /// The trunk nods twice a stride, forward as each foot takes the load, radians.
@@ -71,10 +74,10 @@ pub(crate) fn in_gait(gait: &Gait, style: &UpperBodySwing, cycle_phase: f64) -> 
         chest_roll_rad: -CHEST_BANK_SHARE * style.bank_rad - CHEST_LIST_SHARE * gait.pelvis.list_rad * list_wave,
         head_yaw_rad: style.look_rad,
         head_roll_rad: -0.4 * style.bank_rad,
-        arms: [0.5, 0.0].map(|foremost| {
+        arms: [(0.5, 1.0 + LEFT_ARM_SHARE), (0.0, 1.0 - LEFT_ARM_SHARE)].map(|(foremost, share)| {
             let since = cycle_phase - foremost - gait.yaw_peak + ARM_LEAD;
             Arm {
-                flexion_rad: style.arm_mean_rad + style.arm_swing_rad * wave(since),
+                flexion_rad: style.arm_mean_rad + share * style.arm_swing_rad * wave(since),
                 out_rad: style.arm_out_rad,
                 elbow_rad: style.elbow_rad + style.elbow_swing_rad * wave(since - ELBOW_LAG),
             }

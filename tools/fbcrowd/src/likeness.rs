@@ -27,7 +27,7 @@ struct Kind {
     holds: fn(&Parameters) -> bool,
 }
 
-/// Straight: as gait noise leaves it, 10 °/s and 0.15 m/s aside. Walks are those that people choose; turns are walked.
+/// Straight: as gait noise leaves it, 10 °/s and a tenth of the speed aside. Walks are those that people choose; turns are walked.
 const KINDS: [Kind; 6] = [
     Kind {
         name: "walks",
@@ -62,7 +62,7 @@ const KINDS: [Kind; 6] = [
 ];
 
 fn is_straight(found: &Parameters) -> bool {
-    found.turn_rate_rad_s.abs() < 10_f32.to_radians() && found.strafe_mps.abs() < 0.15
+    found.turn_rate_rad_s.abs() < 10_f32.to_radians() && found.strafe_mps.abs() < 0.1 * found.speed_mps
 }
 
 /// A clip of one kind, and its nearest of others.
