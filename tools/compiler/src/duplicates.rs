@@ -11,29 +11,28 @@
 //! facings swing in antiphase), a left and a right turn of one performer (0.28) and walks of one performer (0.29 and
 //! more). The limit lies in the middle of the gap.
 
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
 use crate::analysis::Analyzed;
 use crate::human_clip::HumanClip;
-use crate::performance::{self, LEG_DIRECTION_COUNT, Likeness, Performance};
+use crate::outline::{Outline, SCREEN_MAX, nearest_lag};
+use crate::performance::{self, Likeness, Performance};
 use crate::remark::{FRAME_TIME_QUESTION, NO_EXAMPLE};
 
-/// Rates at which pairs are screened and compared, Hz; the second is a multiple of the first.
+/// Rate at which pairs are screened, Hz, and exact lags in one of its steps.
 const SCREEN_HZ: f64 = 20.0;
 const EXACT_STEPS: isize = 6;
-/// Share of the shorter clip that both must show.
-const OVERLAP_SHARE: f64 = 0.8;
-/// Greatest r of one take, and at the coarse lags of the screening: half a step, 25 ms, costs a run of 2 strides/s 0.3.
+/// Greatest r of one take.
 const UNLIKENESS_MAX: f64 = 0.23;
-const SCREEN_MAX: f64 = 0.45;
 /// Shorter overlaps must be the more alike, in proportion, s: about a stride tells little of a performer.
 const SURE_S: f64 = 1.2;
 /// Clips that stir less have no course to compare: 0.2°.
 const MOVEMENT_MIN_RAD: f64 = 0.2 * PI / 180.0;
-/// Facings of one take: retargeting changes the size of their swing, hardly its course (0.95 and more).
+/// Facings of one take: retargeting changes the size of their swing, hardly its course (0.97 and more); at the lags of
+/// the screening less.
 const FACING_CORRELATION_MIN: f64 = 0.9;
 const SCREEN_CORRELATION_MIN: f64 = 0.75;
 /// And turn alike within what the whole clip's turn rate is judged by (`definitions.md`): 3 °/s or 15° over the clip.
@@ -149,13 +148,12 @@ fn are_parts_of_one_file(a: &HumanClip, b: &HumanClip) -> bool {
 /// The most alike of all ways to lay two clips over each other, where that is one take.
 fn pair(entries: &[Entry], clips: [usize; 2]) -> Option<Pair> {
     let [one, other] = clips.map(|clip| &entries[clip]);
-    let as_told =
-        [false, true].into_iter().filter_map(|mirrored| Some((laid_over(one, other, mirrored)?, mirrored, false)));
     let retimed: Vec<Entry> = retimed(&one.performance, &other.performance).map(Entry::new).collect();
-    let by_frames = retimed.iter().flat_map(|other| {
-        [false, true].into_iter().filter_map(move |mirrored| Some((laid_over(one, other, mirrored)?, mirrored, true)))
-    });
-    let found = as_told.chain(by_frames).filter(|(likeness, ..)| is_one_take(likeness));
+    let others = std::iter::once((other, false)).chain(retimed.iter().map(|other| (other, true)));
+    let ways = others.flat_map(|(other, times_differ)| [false, true].map(|mirrored| (other, mirrored, times_differ)));
+    let laid = ways
+        .filter_map(|(other, mirrored, times_differ)| Some((laid_over(one, other, mirrored)?, mirrored, times_differ)));
+    let found = laid.filter(|(likeness, ..)| is_one_take(likeness));
     let nearest = found.min_by(|(a, ..), (b, ..)| a.unlikeness.total_cmp(&b.unlikeness));
     nearest.map(|(likeness, mirrored, times_differ)| Pair {
         clips,
@@ -218,80 +216,6 @@ impl Entry {
         let mirrored = told.mirrored();
         Self { outlines: [Outline::of(&told), Outline::of(&mirrored)], coarse: [told, mirrored], performance }
     }
-}
-
-/// Numbers a sample: of each direction of the legs how far it points forward and to the left.
-const WIDTH: usize = 2 * LEG_DIRECTION_COUNT;
-
-/// The legs' directions about their mean over the clip, with running sums of them and of their squares.
-struct Outline {
-    samples: Vec<[f32; WIDTH]>,
-    sums: Vec<[f32; WIDTH]>,
-    squares: Vec<f32>,
-}
-
-impl Outline {
-    fn of(performance: &Performance) -> Self {
-        let flat =
-            |row: &performance::Directions| std::array::from_fn(|index| row[index / 2].to_array()[index % 2] as f32);
-        let mut samples: Vec<[f32; WIDTH]> = performance.directions.iter().map(flat).collect();
-        let count = samples.len() as f32;
-        let total = samples.iter().fold([0.0; WIDTH], |sum, row| plus(&sum, row));
-        for row in &mut samples {
-            *row = std::array::from_fn(|index| row[index] - total[index] / count);
-        }
-        let (mut sums, mut squares) = (vec![[0.0; WIDTH]], vec![0.0]);
-        for (index, row) in samples.iter().enumerate() {
-            sums.push(plus(&sums[index], row));
-            squares.push(squares[index] + product(row, row));
-        }
-        Self { samples, sums, squares }
-    }
-
-    /// The sum over samples, and the sum of squares about their mean.
-    fn moments(&self, from: usize, count: usize) -> ([f32; WIDTH], f32) {
-        let (before, after) = (&self.sums[from], &self.sums[from + count]);
-        let sum = std::array::from_fn(|index| after[index] - before[index]);
-        let about_mean = self.squares[from + count] - self.squares[from] - product(&sum, &sum) / count as f32;
-        (sum, about_mean.max(0.0))
-    }
-}
-
-fn plus(a: &[f32; WIDTH], b: &[f32; WIDTH]) -> [f32; WIDTH] {
-    std::array::from_fn(|index| a[index] + b[index])
-}
-
-fn product(a: &[f32; WIDTH], b: &[f32; WIDTH]) -> f32 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// The lag, in samples of the screening, at which the legs are most alike; none where they never are.
-fn nearest_lag(one: &Outline, other: &Outline) -> Option<isize> {
-    let (count, other_count) = (one.samples.len() as isize, other.samples.len() as isize);
-    let least = ((count.min(other_count) as f64 * OVERLAP_SHARE) as isize).max(1);
-    let found = (least - other_count..=count - least).filter_map(|lag| Some((lag, leg_unlikeness(one, other, lag)?)));
-    found.min_by(|a, b| a.1.partial_cmp(&b.1).unwrap_or(Ordering::Equal)).map(|(lag, _)| lag)
-}
-
-/// r² of the legs; none where it is beyond the limit.
-fn leg_unlikeness(one: &Outline, other: &Outline, lag: isize) -> Option<f32> {
-    const LIMIT: f32 = (SCREEN_MAX * SCREEN_MAX) as f32;
-    let (from, other_from, count) = performance::overlap(one.samples.len(), other.samples.len(), lag)?;
-    let ((sum_a, of_a), (sum_b, of_b)) = (one.moments(from, count), other.moments(other_from, count));
-    let geometric = libm::sqrtf(of_a * of_b);
-    // By Cauchy and Schwarz no lag makes up for movements of different size.
-    if of_a + of_b - 2.0 * geometric > LIMIT * geometric {
-        return None;
-    }
-    let mut products = [0.0; WIDTH];
-    for (a, b) in one.samples[from..from + count].iter().zip(&other.samples[other_from..other_from + count]) {
-        for index in 0..WIDTH {
-            products[index] += a[index] * b[index];
-        }
-    }
-    let between = products.iter().sum::<f32>() - product(&sum_a, &sum_b) / count as f32;
-    let unlikeness = (of_a + of_b - 2.0 * between) / geometric;
-    (unlikeness <= LIMIT).then_some(unlikeness)
 }
 
 #[cfg(test)]

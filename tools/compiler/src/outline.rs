@@ -1,0 +1,86 @@
+//! The screening of [`crate::duplicates`]: where in time the legs of two performances are most alike, fast.
+//!
+//! r² of [`crate::performance`], of the legs alone, forward and to the left: with running sums of the samples and of
+//! their squares only the sum of products is left to be computed at each lag, and movements of different size are passed
+//! over.
+
+use crate::performance::{self, LEG_DIRECTION_COUNT, Performance};
+
+/// Greatest r that is worth an exact comparison: half a step of the screening's lag, 25 ms, costs a run of two strides a
+/// second 0.3, retargeting 0.2.
+pub(crate) const SCREEN_MAX: f64 = 0.45;
+/// Share of the shorter clip that both must show.
+const OVERLAP_SHARE: f64 = 0.8;
+/// Numbers a sample: of each direction of the legs how far it points forward and to the left.
+const WIDTH: usize = 2 * LEG_DIRECTION_COUNT;
+
+/// The legs' directions about their mean over the clip, with running sums of them and of their squares.
+pub(crate) struct Outline {
+    samples: Vec<[f32; WIDTH]>,
+    sums: Vec<[f32; WIDTH]>,
+    squares: Vec<f32>,
+}
+
+impl Outline {
+    pub(crate) fn of(performance: &Performance) -> Self {
+        let flat =
+            |row: &performance::Directions| std::array::from_fn(|index| row[index / 2].to_array()[index % 2] as f32);
+        let mut samples: Vec<[f32; WIDTH]> = performance.directions.iter().map(flat).collect();
+        let count = samples.len() as f32;
+        let total = samples.iter().fold([0.0; WIDTH], |sum, row| plus(&sum, row));
+        for row in &mut samples {
+            *row = std::array::from_fn(|index| row[index] - total[index] / count);
+        }
+        let (mut sums, mut squares) = (vec![[0.0; WIDTH]], vec![0.0]);
+        for (index, row) in samples.iter().enumerate() {
+            sums.push(plus(&sums[index], row));
+            squares.push(squares[index] + product(row, row));
+        }
+        Self { samples, sums, squares }
+    }
+
+    /// The sum over samples, and the sum of squares about their mean.
+    fn moments(&self, from: usize, count: usize) -> ([f32; WIDTH], f32) {
+        let (before, after) = (&self.sums[from], &self.sums[from + count]);
+        let sum = std::array::from_fn(|index| after[index] - before[index]);
+        let about_mean = self.squares[from + count] - self.squares[from] - product(&sum, &sum) / count as f32;
+        (sum, about_mean.max(0.0))
+    }
+}
+
+fn plus(a: &[f32; WIDTH], b: &[f32; WIDTH]) -> [f32; WIDTH] {
+    std::array::from_fn(|index| a[index] + b[index])
+}
+
+fn product(a: &[f32; WIDTH], b: &[f32; WIDTH]) -> f32 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The lag, in samples of the screening, at which the legs are most alike; none where they never are.
+pub(crate) fn nearest_lag(one: &Outline, other: &Outline) -> Option<isize> {
+    let (count, other_count) = (one.samples.len() as isize, other.samples.len() as isize);
+    let least = ((count.min(other_count) as f64 * OVERLAP_SHARE) as isize).max(1);
+    let found = (least - other_count..=count - least).filter_map(|lag| Some((lag, leg_unlikeness(one, other, lag)?)));
+    found.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(lag, _)| lag)
+}
+
+/// r² of the legs; none where it is beyond the limit.
+fn leg_unlikeness(one: &Outline, other: &Outline, lag: isize) -> Option<f32> {
+    const LIMIT: f32 = (SCREEN_MAX * SCREEN_MAX) as f32;
+    let (from, other_from, count) = performance::overlap(one.samples.len(), other.samples.len(), lag)?;
+    let ((sum_a, of_a), (sum_b, of_b)) = (one.moments(from, count), other.moments(other_from, count));
+    let geometric = libm::sqrtf(of_a * of_b);
+    // By Cauchy and Schwarz no lag makes up for movements of different size.
+    if of_a + of_b - 2.0 * geometric > LIMIT * geometric {
+        return None;
+    }
+    let mut products = [0.0; WIDTH];
+    for (a, b) in one.samples[from..from + count].iter().zip(&other.samples[other_from..other_from + count]) {
+        for index in 0..WIDTH {
+            products[index] += a[index] * b[index];
+        }
+    }
+    let between = products.iter().sum::<f32>() - product(&sum_a, &sum_b) / count as f32;
+    let unlikeness = (of_a + of_b - 2.0 * between) / geometric;
+    (unlikeness <= LIMIT).then_some(unlikeness)
+}
