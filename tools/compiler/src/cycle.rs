@@ -2,16 +2,14 @@
 //! "Example").
 //!
 //! Each stride is read along its own arc, at the times t(φ) of [`motiondb::phase_map`], through both of its landmarks.
-//! What is left open between its ends is spread evenly over the stride, so that planted feet feel it least, and both
-//! ends are faded into what the clip does just outside the stride, so that velocities close as well. Root frame: x
-//! forward, y left, metres, seconds.
+//! What is left open between its ends is taken out ([`crate::closing`]), and both ends are faded into what the clip does
+//! just outside the stride, so that velocities close as well. Root frame: x forward, y left, metres, seconds.
 
-use glam::{DQuat, DVec3};
 use motiondb::motion_db::PHASE_COUNT;
 use motiondb::phase_map::PhaseMap;
-use motiondb::skeleton::JOINT_COUNT;
 
 use crate::arc::Rates;
+use crate::closing::Gap;
 use crate::human_clip::{Choices, HumanBody, HumanPose};
 use crate::pose_mean::pose_mean;
 use crate::root_motion::GroundedClip;
@@ -143,34 +141,11 @@ impl StrideReader<'_> {
     }
 }
 
-/// What a stride leaves open: its last pose against its first.
-struct Gap {
-    pelvis_m: DVec3,
-    rotations: [DVec3; JOINT_COUNT],
-}
-
-impl Gap {
-    fn between(first: &HumanPose, last: &HumanPose) -> Self {
-        let rotations = std::array::from_fn(|joint| {
-            let gap = last.rotations[joint] * first.rotations[joint].inverse();
-            (if gap.w < 0.0 { -gap } else { gap }).to_scaled_axis()
-        });
-        Self { pelvis_m: last.pelvis_m - first.pelvis_m, rotations }
-    }
-
-    /// Takes a share of the gap out of a pose.
-    fn take_out(&self, pose: &mut HumanPose, share: f64) {
-        pose.pelvis_m -= self.pelvis_m * share;
-        for (rotation, gap) in pose.rotations.iter_mut().zip(&self.rotations) {
-            *rotation = DQuat::from_scaled_axis(-*gap * share) * *rotation;
-        }
-    }
-}
-
 /// Adds one stride, closed, to the parts of the mean of all.
 fn add_stride(rows: &mut [Vec<(f64, HumanPose)>], depths_s: &mut [[f64; 2]], reader: &StrideReader, share: f64) {
     let start = reader.stride.start_phase;
-    let gap = Gap::between(&reader.pose(start), &reader.pose(start + 1.0));
+    let contacts = |along: f64| reader.contact_depths_s(start + along).map(contact);
+    let gap = Gap::between(&reader.pose(start), &reader.pose(start + 1.0), reader.body, contacts);
     let fade = reader.fade();
     for (row, (parts, depth_s)) in rows.iter_mut().zip(depths_s).enumerate() {
         let phase = row as f64 / PHASE_COUNT as f64;
@@ -179,9 +154,7 @@ fn add_stride(rows: &mut [Vec<(f64, HumanPose)>], depths_s: &mut [[f64; 2]], rea
             if weight == 0.0 {
                 continue;
             }
-            let mut part = reader.pose(phase);
-            gap.take_out(&mut part, phase - start - 0.5);
-            parts.push((weight, part));
+            parts.push((weight, gap.taken_out(&reader.pose(phase), phase - start, reader.body)));
             let depths_s = reader.contact_depths_s(phase);
             depth_s[0] += weight * depths_s[0];
             depth_s[1] += weight * depths_s[1];
@@ -223,6 +196,7 @@ fn lower_to_ground(cycle: &mut GaitCycle, body: &HumanBody) {
 
 #[cfg(test)]
 mod tests {
+    use glam::DQuat;
     use motiondb::skeleton::Joint;
 
     use super::*;
