@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::coverage::RUN_MPS;
 use crate::joint_ranges::JOINT_RANGES_DEG;
 use crate::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
+use crate::parameters::Parameters;
 use crate::pose::Joints;
 use crate::skeleton::{JOINT_COUNT, Joint, Skeleton};
 
@@ -192,53 +193,76 @@ fn range_excess_deg(db: &MotionDb, example: usize) -> (f32, Joint) {
 
 /// What lies beyond its thresholds.
 fn findings(found: &ExampleQuality, example: &MotionExample) -> Vec<Finding> {
-    let runs = example.parameters.speed_mps.hypot(example.parameters.strafe_mps) >= RUN_MPS;
-    let (gait, slide_max_cm_s, share) = match example.key_times_s {
-        None => ("standing", WALKING_SLIDE_MAX_CM_S, STANDING_SHARE),
-        Some(_) if runs => ("running", RUNNING_SLIDE_MAX_CM_S, RUNNING_SHARE),
-        Some(_) => ("walking", WALKING_SLIDE_MAX_CM_S, WALKING_SHARE),
-    };
-    let judge = |measure, unit, value: f32, [least, greatest]: [f32; 2], say: &dyn Fn(f32) -> String| {
+    let limits = contact_limits(found, example).into_iter().chain(seam_limits(found)).chain(body_limits(found));
+    limits.filter_map(|limit| limit.finding(&found.example)).collect()
+}
+
+/// A figure, the range that it should lie in, and what to say where it does not.
+struct Limit {
+    measure: &'static str,
+    unit: &'static str,
+    value: f32,
+    range: [f32; 2],
+    sentence: String,
+}
+
+impl Limit {
+    fn finding(self, example: &str) -> Option<Finding> {
+        let Self { measure, unit, value, range: [least, greatest], sentence } = self;
         let threshold = if value < least { least } else { greatest };
         let is_beyond = value < least || value > greatest;
-        let finding =
-            || Finding { example: found.example.clone(), measure, value, threshold, unit, sentence: say(threshold) };
-        is_beyond.then(finding)
+        is_beyond.then(|| Finding { example: example.to_owned(), measure, value, threshold, unit, sentence })
+    }
+}
+
+fn up_to(greatest: f32) -> [f32; 2] {
+    [f32::NEG_INFINITY, greatest]
+}
+
+fn contact_limits(found: &ExampleQuality, example: &MotionExample) -> [Limit; 2] {
+    let Parameters { speed_mps, strafe_mps, .. } = example.parameters;
+    let (gait, slide_max_cm_s, [least, most]) = match example.key_times_s {
+        None => ("standing", WALKING_SLIDE_MAX_CM_S, STANDING_SHARE),
+        Some(_) if libm::hypotf(speed_mps, strafe_mps) < RUN_MPS => ("walking", WALKING_SLIDE_MAX_CM_S, WALKING_SHARE),
+        Some(_) => ("running", RUNNING_SLIDE_MAX_CM_S, RUNNING_SHARE),
     };
-    let up_to = |greatest: f32| [f32::NEG_INFINITY, greatest];
+    let (slide_cm_s, share) = (found.planted_slide_cm_s, found.planted_share);
+    let slide =
+        format!("planted feet slide by {slide_cm_s:.0} cm/s; {gait} clips should stay under {slide_max_cm_s:.0}");
+    let [has, from, to] = [share, least, most].map(|share| 100.0 * share);
+    let planted =
+        format!("a foot is planted for {has:.0} % of the cycle; {gait} clips should have {from:.0} to {to:.0} %");
+    let limit = |measure, unit, value, range, sentence| Limit { measure, unit, value, range, sentence };
     [
-        judge("planted_slide_cm_s", "cm/s", found.planted_slide_cm_s, up_to(slide_max_cm_s), &|limit| {
-            format!("planted feet slide by {:.0} cm/s; {gait} clips should stay under {limit:.0}", found.planted_slide_cm_s)
-        }),
-        judge("planted_share", "", found.planted_share, share, &|limit| {
-            let [has, should] = [found.planted_share, limit].map(|share| 100.0 * share);
-            let side = if found.planted_share < limit { "at least" } else { "at most" };
-            format!("a foot is planted for {has:.0} % of the cycle; {gait} it should be for {side} {should:.0}")
-        }),
-        judge("seam_angle_ratio", "", found.seam_angle_ratio, up_to(SEAM_ANGLE_MAX), &|limit| {
-            let times = found.seam_angle_ratio;
-            format!("the pose jumps where the cycle closes, by {times:.1} usual steps; up to {limit:.0} go unseen")
-        }),
-        judge("seam_velocity_ratio", "", found.seam_velocity_ratio, up_to(SEAM_VELOCITY_MAX), &|limit| {
-            let times = found.seam_velocity_ratio;
-            format!("the motion jerks where the cycle closes, {times:.1} times as much as elsewhere; up to {limit:.0} goes unseen")
-        }),
-        judge("penetration_mm", "mm", found.penetration_mm, up_to(PENETRATION_MAX_MM), &|limit| {
-            format!("a sole sinks {:.0} mm into the ground; {limit:.0} is what shoes hide", found.penetration_mm)
-        }),
-        judge("knee_flexion_min_deg", "deg", found.knee_flexion_min_deg, [KNEE_FLEXION_MIN_DEG, f32::INFINITY], &|limit| {
-            let flexed = found.knee_flexion_min_deg;
-            format!("a knee straightens to {flexed:.1}° of flexion; below {limit:.0} it snaps or bends backward")
-        }),
-        judge("leg_extension_max", "", found.leg_extension_max, up_to(LEG_EXTENSION_MAX), &|_| {
-            "a leg is stretched to its full length; it may be too short for the clip's steps".to_owned()
-        }),
-        judge("range_excess_deg", "deg", found.range_excess_deg, up_to(RANGE_EXCESS_MAX_DEG), &|_| {
-            let (joint, beyond) = (found.range_excess_joint, found.range_excess_deg);
-            format!("{joint} turns {beyond:.0}° beyond the range of people's")
-        }),
+        limit("planted_slide_cm_s", "cm/s", slide_cm_s, up_to(slide_max_cm_s), slide),
+        limit("planted_share", "", share, [least, most], planted),
     ]
-    .into_iter()
-    .flatten()
-    .collect()
+}
+
+fn seam_limits(found: &ExampleQuality) -> [Limit; 2] {
+    let [angle, velocity] = [found.seam_angle_ratio, found.seam_velocity_ratio];
+    let limit =
+        |measure, value, greatest, sentence| Limit { measure, unit: "", value, range: up_to(greatest), sentence };
+    let jumps = format!("the pose jumps where the cycle closes, by {angle:.1} times a usual step");
+    let jerks = format!("the motion jerks where the cycle closes, {velocity:.1} times as much as elsewhere");
+    [
+        limit("seam_angle_ratio", angle, SEAM_ANGLE_MAX, jumps),
+        limit("seam_velocity_ratio", velocity, SEAM_VELOCITY_MAX, jerks),
+    ]
+}
+
+fn body_limits(found: &ExampleQuality) -> [Limit; 4] {
+    let (sunk_mm, flexed_deg) = (found.penetration_mm, found.knee_flexion_min_deg);
+    let (joint, excess_deg) = (found.range_excess_joint, found.range_excess_deg);
+    let limit = |measure, unit, value, range, sentence| Limit { measure, unit, value, range, sentence };
+    let sinks = format!("a sole sinks {sunk_mm:.0} mm into the ground");
+    let straightens = format!("a knee straightens to {flexed_deg:.1}° of flexion: it snaps or bends backward");
+    let stretched = "a leg is stretched to its full length; it may be too short for the clip's steps".to_owned();
+    let turns = format!("{joint} turns {excess_deg:.0}° beyond the range of people's");
+    [
+        limit("penetration_mm", "mm", sunk_mm, up_to(PENETRATION_MAX_MM), sinks),
+        limit("knee_flexion_min_deg", "deg", flexed_deg, [KNEE_FLEXION_MIN_DEG, f32::INFINITY], straightens),
+        limit("leg_extension_max", "", found.leg_extension_max, up_to(LEG_EXTENSION_MAX), stretched),
+        limit("range_excess_deg", "deg", excess_deg, up_to(RANGE_EXCESS_MAX_DEG), turns),
+    ]
 }

@@ -63,7 +63,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     } else {
         output::print(&text(&report))?;
     }
-    let is_yes = report.valid && !(args.strict && !report.findings.is_empty());
+    let is_yes = report.valid && (report.findings.is_empty() || !args.strict);
     Ok(if is_yes { Answer::Yes } else { Answer::No })
 }
 
