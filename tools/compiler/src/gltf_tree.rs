@@ -12,6 +12,9 @@ use crate::gltf_document::{Flaw, flaw};
 /// of three joints each.
 const BODY_NODES_MIN: usize = 10;
 
+/// More bodies than this are a crowd or a heap of things, and are not told apart.
+const BODIES_MAX: usize = 64;
+
 /// The nodes of a document.
 pub(crate) struct Tree {
     /// Node by place.
@@ -72,7 +75,7 @@ impl Tree {
         Ok(tree)
     }
 
-    /// The bodies of a document; all nodes where none stands out.
+    /// The bodies of a document; all nodes where none stands out, or too many do.
     pub(crate) fn bodies(&self, root: &Root) -> Vec<Body> {
         let mut bodies = Vec::new();
         let tops = self.skin_tops(root);
@@ -84,7 +87,8 @@ impl Tree {
                 bodies.push(Body { name: self.name(root, start), places: (start..end).collect() });
             }
         }
-        if bodies.is_empty() {
+        if bodies.is_empty() || bodies.len() > BODIES_MAX {
+            bodies.clear();
             bodies.push(Body { name: String::new(), places: (0..self.order.len()).collect() });
         }
         bodies
