@@ -11,7 +11,7 @@ use glam::DVec3;
 use crate::arc::Rates;
 use crate::cycle::{self, GaitCycle};
 use crate::foot_slide;
-use crate::gait::{self, Gait, GaitAnalysis, Window};
+use crate::gait::{self, Gait, Window};
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::remark::NO_EXAMPLE;
 use crate::root_motion::{self, GroundedClip, leg_length_m};
@@ -26,7 +26,6 @@ const STRAY: &str = "the pelvis is where no legs could carry it";
 /// A clip on the target skeleton and those of its steady windows that may become examples.
 pub(crate) struct Analyzed {
     pub grounded: GroundedClip,
-    pub gait: GaitAnalysis,
     /// The longest first.
     pub windows: Vec<SteadyWindow>,
     /// Of the clip as a whole.
@@ -129,7 +128,7 @@ pub(crate) fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
         (Some(reason), true) => warnings.push(format!("{NO_EXAMPLE}{reason}")),
         _ => left_out.doubtful += unfit,
     }
-    Analyzed { grounded, gait, windows, warnings, left_out }
+    Analyzed { grounded, windows, warnings, left_out }
 }
 
 /// A window's mean stride, or why it is unfit.

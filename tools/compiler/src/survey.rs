@@ -1,17 +1,19 @@
 //! Clips → what a user is told of them without a database: each source's record, and its gait in the source's own time.
 //!
-//! All contacts of the clip are told, not only those of the steady part that an example is made of. Seconds from the
-//! file's first frame, so that they compare with labels that others made on the same file.
+//! The gait is that of the performer's own body, whatever clips lie beside this one: all contacts of the clip, not only
+//! those of the steady part that an example is made of. Seconds from the file's first frame, so that they compare with
+//! labels that others made on the same file.
 
 use motiondb::motion_db::SourceRecord;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::analysis::{Analyzed, analyze};
-use crate::gait::Gait;
+use crate::gait::{self, Gait};
 use crate::human_clip::HumanClip;
+use crate::root_motion::{self, GroundedClip};
 use crate::stance::Stance;
-use crate::{compile, duplicates, target_skeleton};
+use crate::{compile, duplicates, target_skeleton, unroll};
 
 /// A clip, and what its feet do.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -78,19 +80,21 @@ pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
     duplicates::set_aside(&clips, &mut analyzed);
     let surveyed = |(clip, found): (&HumanClip, &Analyzed)| SurveyedSource {
         source: compile::record(clip, found),
-        gait: source_gait(found, clip.first_frame),
+        gait: source_gait(clip),
     };
-    clips.iter().zip(&analyzed).map(surveyed).collect()
+    clips.par_iter().zip(&analyzed).map(surveyed).collect()
 }
 
-fn source_gait(analyzed: &Analyzed, first_frame: usize) -> SourceGait {
-    let (kind, reason) = match &analyzed.gait.windows {
+fn source_gait(clip: &HumanClip) -> SourceGait {
+    let grounded = unroll::unroll(root_motion::ground(clip, &clip.body), &clip.body);
+    let analysis = gait::analyze(&grounded, &clip.body);
+    let (kind, reason) = match &analysis.windows {
         Ok(windows) if windows.iter().any(|window| matches!(window.gait, Gait::Steps(_))) => (GaitKind::Steps, None),
         Ok(_) => (GaitKind::Stands, None),
         Err(reason) => (GaitKind::Unsteady, Some(*reason)),
     };
-    let shown = Shown::of(analyzed, first_frame);
-    let stances = analyzed.gait.clearest_stances();
+    let shown = Shown::of(&grounded, clip.first_frame);
+    let stances = analysis.clearest_stances();
     let [left_share, right_share] = stances.each_ref().map(|stances| shown.planted_share(stances));
     let [left, right] = stances.each_ref().map(|stances| shown.contacts(stances));
     SourceGait { kind, reason, planted_share: (0.5 * (left_share + right_share)) as f32, right, left }
@@ -106,8 +110,7 @@ struct Shown {
 }
 
 impl Shown {
-    fn of(analyzed: &Analyzed, first_frame: usize) -> Self {
-        let clip = &analyzed.grounded;
+    fn of(clip: &GroundedClip, first_frame: usize) -> Self {
         let frames = clip.loop_frames.map_or([0, clip.poses.len() - 1], |round| [round, 2 * round]);
         let [start, end] = frames.map(|frame| frame as f64);
         Self { start, end, first_frame, frame_rate_hz: clip.frame_rate_hz }
@@ -123,7 +126,7 @@ impl Shown {
     }
 
     fn planted_share(&self, stances: &[Stance]) -> f64 {
-        stances.iter().map(|stance| self.overlap(stance).max(0.0)).sum::<f64>() / (self.end - self.start)
+        stances.iter().fold(0.0, |sum, stance| sum + self.overlap(stance).max(0.0)) / (self.end - self.start)
     }
 
     /// Frames of a stance that are shown; negative where it lies elsewhere.
