@@ -49,6 +49,10 @@ pub(crate) fn find(
     known_legs: Option<LimbPair>,
     known_arms: Option<LimbPair>,
 ) -> Result<[LimbPair; 2], Refusal> {
+    let (known_legs, known_arms) = match (known_legs, known_arms) {
+        (Some(legs), Some(arms)) => return Ok([legs, arms]),
+        known => known,
+    };
     let legs = match known_legs {
         Some(pair) => vec![(1.0, pair)],
         None => likely_legs(shape, limb::pairs(shape, [Part::Thigh, Part::Shank, Part::Foot])),
@@ -102,15 +106,16 @@ fn best_arms<'a>(shape: &Shape, legs: &LimbPair, arms: &'a [LimbPair]) -> Option
 fn standing_weight(shape: &Shape, pair: &LimbPair) -> f64 {
     let up = shape.mean_vector(|frame| middle(shape, frame, pair, 0) - middle(shape, frame, pair, 2));
     let up = up.normalize_or_zero();
-    let own: Vec<usize> = pair.limbs.iter().flat_map(|limb| shape.subtree(limb.joints[1])).collect();
+    let own = pair.limbs.each_ref().map(|limb| shape.subtree(limb.joints[1]));
     let above = shape.ancestors(pair.fork);
-    let is_other = |joint: &usize| !own.contains(joint) && !above.contains(joint);
+    let is_other = |joint: &usize| !above.contains(joint) && own.iter().all(|own| !own.contains(joint));
     let others: Vec<usize> = (0..shape.children.len()).filter(is_other).collect();
     let lowest = |frame: usize, joints: &[usize]| {
         joints.iter().map(|&joint| shape.clip.position(frame, joint).dot(up)).fold(f64::INFINITY, f64::min)
     };
     let length = pair.limbs[0].length.max(1e-12);
-    let gap = shape.mean(|frame| (lowest(frame, &own) - lowest(frame, &others)).max(0.0)) / length;
+    let over = |own: &[usize]| shape.mean(|frame| (lowest(frame, own) - lowest(frame, &others)).max(0.0));
+    let gap = f64::max(over(&own[0]), over(&own[1])) / length;
     let apart = shape.distance(pair.fork, pair.limbs[0].joints[0]) / length;
     (1.0 - gap).max(HANGING_WEIGHT) * libm::exp(-0.5 * (apart / HIP_FROM_FORK).powi(2)) * bending_weight(shape, pair)
 }

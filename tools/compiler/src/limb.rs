@@ -24,6 +24,9 @@ const PARTED_FOOT_LOOSENESS: f64 = 0.12;
 const LONGEST_CHAIN: usize = 16;
 /// Limbs of one fork that are paired, best first: a hand with all its fingers gives some dozens.
 const MOST_LIMBS: usize = 256;
+/// Pairs of one fork, and of all, that are looked at, best first: what no real rig reaches and no made-up one exceeds.
+const MOST_PAIRS_OF_A_FORK: usize = 512;
+const MOST_PAIRS: usize = 4096;
 /// Weight of passing over a joint that is named as a part of a limb: not a twist bone (Bandai's `UpperArm` beside
 /// `Shoulder`).
 const SKIPPED_PART_WEIGHT: f64 = 0.5;
@@ -93,6 +96,7 @@ pub(crate) fn pairs(shape: &Shape, parts: [Part; 3]) -> Vec<LimbPair> {
     let forks = (0..shape.children.len()).filter(|&fork| shape.children[fork].len() > 1);
     let mut pairs: Vec<LimbPair> = forks.flat_map(|fork| pairs_of(shape, fork, parts)).collect();
     pairs.sort_by(|a, b| b.score().total_cmp(&a.score()));
+    pairs.truncate(MOST_PAIRS);
     pairs
 }
 
@@ -123,12 +127,16 @@ fn pairs_of(shape: &Shape, fork: usize, parts: [Part; 3]) -> Vec<LimbPair> {
         .collect();
     limbs.sort_by(|(_, a), (_, b)| b.score.total_cmp(&a.score));
     limbs.truncate(MOST_LIMBS);
-    let pair = |(index, (child, first)): (usize, &(usize, Limb))| {
-        let others = limbs[index + 1..].iter().filter(|(other, second)| other != child && first.is_like(second));
-        let pairs = others.map(|(_, second)| LimbPair { fork, limbs: [first.clone(), second.clone()] });
-        pairs.filter(|pair| !pair.is_on_one_side(shape)).collect::<Vec<_>>()
-    };
-    limbs.iter().enumerate().flat_map(pair).collect()
+    let mut places: Vec<(usize, usize)> = (0..limbs.len())
+        .flat_map(|first| (first + 1..limbs.len()).map(move |second| (first, second)))
+        .filter(|&(first, second)| limbs[first].0 != limbs[second].0 && limbs[first].1.is_like(&limbs[second].1))
+        .collect();
+    let score = |&(first, second): &(usize, usize)| limbs[first].1.score + limbs[second].1.score;
+    places.sort_by(|a, b| score(b).total_cmp(&score(a)));
+    places.truncate(MOST_PAIRS_OF_A_FORK);
+    let pair = |(first, second): (usize, usize)| [first, second].map(|place| limbs[place].1.clone());
+    let pairs = places.into_iter().map(|places| LimbPair { fork, limbs: pair(places) });
+    pairs.filter(|pair| !pair.is_on_one_side(shape)).collect()
 }
 
 /// Every i < j < k on a way down from a child that could be a limb.
