@@ -14,11 +14,11 @@ const SEAM_MIN_RAD: f32 = 1e-3;
 /// A landmark lies in its contact and this near to its middle, over the cycle: real clips' landmarks are taken of the
 /// whole step, contacts of what stands still, which in a jog is its later part (0.1).
 const LANDMARK_TOLERANCE: f64 = 0.125;
-/// Key times are found before contacts are rounded to `f32`, over the period.
+/// Key times and shares are off by the rounding of `f32`, over the period and the cycle.
 const KEY_TIME_TOLERANCE: f64 = 1e-5;
-/// And so are slides, cm/s, and shares.
-const SLIDE_TOLERANCE_CM_S: f64 = 0.05;
 const SHARE_TOLERANCE: f64 = 1e-6;
+/// So are slides, cm/s; where two points of a foot are equally low, rounding also chooses between them.
+const SLIDE_TOLERANCE_CM_S: f64 = 0.2;
 /// How far planted feet may move in the mean though the root moves as stored, m/s: this, a share of the body's speed,
 /// and as much as they move with no root motion at all explaining it. Real clips: up to 85 % of it; a speed that is
 /// stored a quarter too high or low exceeds it where feet slide by less than 8 % of it.

@@ -27,12 +27,12 @@ pub fn measure(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
     planted_feet::foot_slide(&feet(cycle, body), velocity)
 }
 
-/// The feet of a cycle as the database will have them.
+/// The feet of a cycle as the database will have them: whether a foot is planted is read from contacts as they are stored.
 pub fn feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
     let joints: Vec<HumanJoints> = cycle.rows.iter().map(|row| row.forward_kinematics(body)).collect();
     CycleFeet {
         points_m: [0, 1].map(|side| joints.iter().map(|joints| joints.measured_points_m(body, side)).collect()),
-        contacts: [0, 1].map(|side| cycle.contacts.iter().map(|contact| contact[side]).collect()),
+        contacts: [0, 1].map(|side| cycle.contacts.iter().map(|contact| f64::from(contact[side] as f32)).collect()),
         phase_map: cycle.phase_map,
     }
 }
