@@ -1,0 +1,108 @@
+//! Long captures give an example of each of their steady windows, and windows are where they are said to be (real clips,
+//! test input only; `windows.csv` holds the parameters of each second as others measured them).
+
+use std::path::Path;
+
+use motiondb::motion_db::{MotionDb, MotionExample};
+use motiondb_compiler::compile::compile_files;
+
+const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
+/// Shorter windows say little about the seconds that they lie in.
+const WINDOW_MIN_S: f32 = 1.9;
+/// An example may differ from the mean of its seconds, which are unsmoothed and begin and end elsewhere in the stride:
+/// m/s, °/s, m/s.
+const LIMITS: [f32; 3] = [0.1, 12.0, 0.1];
+
+/// The database of one clip, or a note that it is not here.
+fn compiled(test: &str, file: &str) -> Option<MotionDb> {
+    let path = Path::new(MOCAP).join(file);
+    if !path.is_file() {
+        println!("SKIPPED {test}: {} is missing", path.display());
+        return None;
+    }
+    Some(compile_files(&[path], &|_| ()).unwrap().db)
+}
+
+fn recorded(db: &MotionDb) -> Vec<&MotionExample> {
+    db.examples.iter().filter(|example| !example.mirrored).collect()
+}
+
+/// v_f (m/s), ω_t (°/s), ω_s (m/s) of each second of a clip.
+fn seconds(file: &str) -> Vec<[f32; 3]> {
+    let text = std::fs::read_to_string(Path::new(MOCAP).join("windows.csv")).unwrap();
+    let rows = text.lines().filter(|line| line.starts_with(file));
+    let values = |row: &str| row.split(',').skip(2).map(|value| value.parse::<f32>().unwrap()).collect::<Vec<f32>>();
+    rows.map(|row| values(row).try_into().unwrap()).collect()
+}
+
+/// The mean of the seconds that a window overlaps, weighted by the overlap.
+fn mean_of(seconds: &[[f32; 3]], [start_s, end_s]: [f32; 2]) -> [f32; 3] {
+    let (mut sum, mut weight) = ([0.0; 3], 0.0);
+    for (second, values) in seconds.iter().enumerate() {
+        let overlap = (end_s.min(second as f32 + 1.0) - start_s.max(second as f32)).max(0.0);
+        weight += overlap;
+        sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += overlap * value);
+    }
+    sum.map(|sum| sum / weight)
+}
+
+#[test]
+fn windows_of_captures_agree_with_the_seconds_that_they_lie_in() {
+    let test = "windows_of_captures_agree_with_the_seconds_that_they_lie_in";
+    let files = [
+        "lafan1_skeleton/egg_walking.bvh",
+        "bandai_namco/dataset-1_walk_normal_001.bvh",
+        "bandai_namco/dataset-1_walk-back_active_001.bvh",
+        "bandai_namco/dataset-1_walk-left_masculinity_001.bvh",
+        "bandai_namco/dataset-2_walk_active_001.bvh",
+        "bandai_namco/dataset-2_walk-turn-left_masculine_001.bvh",
+    ];
+    for file in files {
+        let Some(db) = compiled(test, file) else { return };
+        let (examples, seconds) = (recorded(&db), seconds(file));
+        let long = examples.iter().filter(|e| e.window_s[1] - e.window_s[0] > WINDOW_MIN_S);
+        for example in long {
+            let found = example.parameters;
+            let found = [found.speed_mps, found.turn_rate_rad_s.to_degrees(), found.strafe_mps];
+            let wanted = mean_of(&seconds, example.window_s);
+            let near =
+                found.iter().zip(wanted).zip(LIMITS).all(|((found, wanted), limit)| (found - wanted).abs() < limit);
+            assert!(near, "{} {:?}: {found:?}, not {wanted:?}", example.name, example.window_s);
+        }
+        assert!(examples.iter().any(|e| e.window_s[1] - e.window_s[0] > WINDOW_MIN_S), "{file}: {examples:?}");
+    }
+}
+
+#[test]
+fn a_capture_of_changing_speed_gives_a_rich_set() {
+    let Some(db) = compiled("a_capture_of_changing_speed_gives_a_rich_set", "pfnn/LocomotionFlat04_000.bvh") else {
+        return;
+    };
+    let examples = recorded(&db);
+    assert!(examples.len() >= 5, "{examples:#?}");
+    assert!(examples.iter().any(|example| example.name == "LocomotionFlat04_000"));
+    for (index, example) in examples.iter().enumerate() {
+        let [start_s, end_s] = example.window_s;
+        assert!(start_s >= 0.0 && end_s <= 20.24 && end_s - start_s > 0.4, "{example:?}");
+        let own = example.name == "LocomotionFlat04_000";
+        assert!(own || example.name == format!("LocomotionFlat04_000@{start_s:04.1}s"), "{example:?}");
+        let apart = |other: &&&MotionExample| other.window_s[0] >= end_s - 0.05 || other.window_s[1] <= start_s + 0.05;
+        assert_eq!(examples.iter().filter(apart).count(), examples.len() - 1, "window {index} overlaps another");
+        assert!(example.planted_slide_cm_s < 12.0 + 8.0 * example.parameters.speed_mps, "{example:?}");
+    }
+    let rates = || examples.iter().map(|example| example.parameters.turn_rate_rad_s.to_degrees());
+    let speeds = || examples.iter().map(|example| example.parameters.speed_mps);
+    assert!(rates().fold(f32::INFINITY, f32::min) < -150.0 && rates().fold(0.0, f32::max) > 120.0, "{examples:#?}");
+    assert!(speeds().fold(f32::INFINITY, f32::min) < 0.6 && speeds().fold(0.0, f32::max) > 1.6, "{examples:#?}");
+}
+
+#[test]
+fn windows_of_one_walk_that_turns_and_turns_back_are_all_found() {
+    let test = "windows_of_one_walk_that_turns_and_turns_back_are_all_found";
+    let Some(db) = compiled(test, "lafan1_skeleton/egg_walking.bvh") else { return };
+    let near = |turn_deg_s: f32| {
+        let turns = recorded(&db).into_iter().map(|example| example.parameters.turn_rate_rad_s.to_degrees());
+        turns.into_iter().any(|found| (found - turn_deg_s).abs() < 12.0)
+    };
+    assert!([87.0, -85.0, -126.0, -192.0, 119.0, 10.0].into_iter().all(near), "{:#?}", db.examples);
+}
