@@ -66,12 +66,10 @@ pub fn analyze(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysis {
     let planted = contacts.each_ref().map(|feet| feet.each_ref().map(|contacts| contacts.planted.clone()));
     let steps = contacts.map(|feet| steps(&feet.map(|contacts| contacts.stepping), &track));
     let windows = windows(&planted, &steps, &track, clip.loop_frames);
-    let feet = [0, 1].map(|side| {
-        track.joints.iter().map(|joints| joints.landing_points_m(body, side)).collect::<Vec<[DVec3; 3]>>()
-    });
-    let stances = planted.map(|planted| {
-        [0, 1].map(|side| stance::find(&feet[side], &planted[side], clip.frame_rate_hz, speed_mps))
-    });
+    let feet = [0, 1]
+        .map(|side| track.joints.iter().map(|joints| joints.landing_points_m(body, side)).collect::<Vec<[DVec3; 3]>>());
+    let stances = planted
+        .map(|planted| [0, 1].map(|side| stance::find(&feet[side], &planted[side], clip.frame_rate_hz, speed_mps)));
     GaitAnalysis { stances, windows }
 }
 

@@ -2,9 +2,10 @@
 //!
 //! [`manifest`] → [`take`] → import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] →
 //! [`human_clip::HumanClip`] → [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] →
-//! [`contacts`], [`stance`], [`gait`], [`stride`], [`steady_window`], [`stride_alignment`] → [`pose_mean`],
-//! [`cycle::GaitCycle`] (or [`standing`]) → [`parameterize`], [`foot_slide`] → [`duplicates`] → [`mirror`] → [`rows`],
-//! [`velocity_hull`], [`blend_space`], [`correspondence`] → [`motiondb::motion_db::MotionDb`]
+//! [`contacts`], [`stance`], [`gait`], [`stride`], [`steady_window`], [`stride_alignment`] → [`pose_mean`], `closing`,
+//! [`cycle::GaitCycle`] (or [`standing`]) → [`foot_slide`], [`duplicates`], `selection` → `named_cycles`, [`mirror`] →
+//! [`parameterize`], [`rows`], [`velocity_hull`], [`blend_space`], [`correspondence`] →
+//! [`motiondb::motion_db::MotionDb`]
 
 mod analysis;
 mod anchors;
