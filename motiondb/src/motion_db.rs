@@ -43,7 +43,7 @@ impl MotionDb {
 /// One closed cycle: one stride, right and left step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionExample {
-    /// Unique in the database: the clip's name, `_mirrored` appended to mirrors.
+    /// Unique in the database: the clip's name, `@12.4s` appended to windows after its first, `_mirrored` to mirrors.
     pub name: String,
     /// Index into [`MotionDb::sources`].
     pub source: u32,
