@@ -4,7 +4,9 @@
 //! A folder may hold a hundred clips and a file thousands: sentences that differ in one number are told once, and long
 //! lists end early (`--json` has all).
 
+use motiondb::motion_db::SourceRecord;
 use motiondb_compiler::refused::Refused;
+use motiondb_compiler::remark::{Weight, bare, weight};
 
 use crate::compile_report::{CompileReport, Reason};
 use crate::example_table;
@@ -36,6 +38,20 @@ pub(crate) fn text(report: &CompileReport) -> String {
 pub(crate) fn reasons(reasons: Vec<Refused>) -> String {
     let reasons: Vec<Reason> = reasons.into_iter().map(Reason::from).collect();
     section("no example", grouped(reasons.iter().map(said)))
+}
+
+/// What is said of clips, by weight: which give no example, what is doubtful, what is only noted.
+pub(crate) fn remarks<'a>(sources: impl Iterator<Item = &'a SourceRecord> + Clone) -> String {
+    let of_weight = |wanted: Weight| {
+        let said = |source: &'a SourceRecord| {
+            let texts = source.warnings.iter().filter(move |text| weight(text) == wanted);
+            texts.map(|text| (title(&source.file, &source.clip), bare(text).to_owned()))
+        };
+        grouped(sources.clone().flat_map(said))
+    };
+    section("no example", of_weight(Weight::NoExample))
+        + &section("warnings", of_weight(Weight::Warning))
+        + &section("notes: nothing to do", of_weight(Weight::Note))
 }
 
 /// What scripts read.

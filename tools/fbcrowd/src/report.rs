@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::correspondence_between::Between;
 use crate::leave_one_out::LeaveOneOut;
-use crate::leave_one_out_text;
+use crate::{compile_text, leave_one_out_text};
 
 /// Clips without a database.
 #[derive(Serialize)]
@@ -143,8 +143,7 @@ pub(crate) fn database_text(report: &DatabaseReport) -> String {
     text += &report.correspondence_between.as_ref().map(Between::text).unwrap_or_default();
     text += &coverage_text(report);
     text += &report.leave_one_out.as_ref().map(leave_one_out_text::text).unwrap_or_default();
-    let warned = report.sources.iter().filter(|source| !source.warnings.is_empty());
-    text + &warned.map(warnings_text).collect::<String>()
+    text + &compile_text::remarks(report.sources.iter())
 }
 
 fn correspondence_text(report: &DatabaseReport) -> String {
@@ -183,7 +182,7 @@ pub(crate) fn sources_text(surveyed: &[SurveyedSource]) -> String {
             gait_text(gait),
         );
     }
-    text + &surveyed.iter().map(|found| warnings_text(&found.source)).collect::<String>()
+    text + &compile_text::remarks(surveyed.iter().map(|found| &found.source))
 }
 
 /// "12 steps, 58 % planted"; "stands"; "3 steps, 61 % planted, unsteady".
@@ -198,8 +197,4 @@ fn gait_text(gait: &SourceGait) -> String {
         GaitKind::Stands => "stands".to_owned(),
         GaitKind::Unsteady => format!("{text}, unsteady"),
     }
-}
-
-fn warnings_text(source: &SourceRecord) -> String {
-    source.warnings.iter().map(|warning| format!("warning: {} {}: {warning}\n", source.file, source.clip)).collect()
 }
