@@ -124,7 +124,10 @@ impl StrideReader<'_> {
     fn contact_depths_s(&self, phase: f64) -> [f64; 2] {
         let frame = self.frame(phase);
         self.stances.each_ref().map(|stances| {
-            let depths = stances.iter().map(|stance| stance.depth_frames(frame));
+            // Of stances in order of time none is nearer than the last that has begun and the next.
+            let next = stances.partition_point(|stance| stance.strike_frame <= frame);
+            let nearest = &stances[next.saturating_sub(1)..(next + 1).min(stances.len())];
+            let depths = nearest.iter().map(|stance| stance.depth_frames(frame));
             let deepest_s = depths.fold(f64::NEG_INFINITY, f64::max) / self.clip.frame_rate_hz;
             deepest_s.clamp(-DEPTH_MAX_S, DEPTH_MAX_S)
         })
