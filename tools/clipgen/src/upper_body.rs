@@ -29,6 +29,9 @@ const CHEST_BANK_SHARE: f64 = 0.85;
 /// radian of the elbow.
 const ARM_INWARD_RAD: f64 = 0.24;
 const ARM_INWARD_PER_ELBOW: f64 = 0.13;
+/// Shares of the lower and the middle spine in a twist: of the 45° to a side that people's trunks allow (AAOS, *Joint
+/// Motion*, 1965), the lumbar vertebrae give a few, the upper thoracic ones most.
+const SPINE_TWIST_SHARES: [f64; 2] = [1.0 / 9.0, 1.0 / 3.0];
 /// Clavicles follow the arm by this share.
 const CLAVICLE_SHARE: f64 = 0.12;
 /// A relaxed wrist, radians.
@@ -90,13 +93,20 @@ impl UpperBody {
     pub(crate) fn write(&self, pelvis: &PelvisPose, rotations: &mut [DQuat; JOINT_COUNT]) {
         let chest = about_x(self.chest_roll_rad) * about_z(self.chest_yaw_rad) * about_y(self.chest_pitch_rad);
         let head = about_x(self.head_roll_rad) * about_z(self.head_yaw_rad) * about_y(GAZE_DOWN_RAD);
-        let spine = share_of(pelvis.rotation.inverse() * chest, 1.0 / 3.0);
-        rotations[SPINE..=CHEST].fill(spine);
+        rotations[SPINE..=CHEST].copy_from_slice(&spine(pelvis.rotation.inverse() * chest));
         rotations[NECK..=HEAD].fill(share_of(chest.inverse() * head, 0.5));
         for (side, arm) in self.arms.iter().enumerate() {
             arm.write(side, self.chest_yaw_rad, chest, rotations);
         }
     }
+}
+
+/// The spine's three joints, from pelvis to chest: bends are shared evenly, twists as they allow.
+fn spine(whole: DQuat) -> [DQuat; 3] {
+    let twist_rad = 2.0 * libm::atan2(whole.z, whole.w);
+    let bend = share_of(whole * about_z(-twist_rad), 1.0 / 3.0);
+    let [lower, middle] = [0, 1].map(|joint| bend * about_z(SPINE_TWIST_SHARES[joint] * twist_rad));
+    [lower, middle, (lower * middle).inverse() * whole]
 }
 
 impl Arm {
