@@ -106,14 +106,8 @@ impl Cells {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simplex::soup;
     use proptest::prelude::*;
-
-    fn soup(points: &[[i8; 3]], corners: &[[usize; 4]], count: usize) -> Vec<Simplex> {
-        let points: Vec<DVec3> = points.iter().map(|at| DVec3::from_array(at.map(f64::from))).collect();
-        let examples = |corners: &[usize; 4]| corners[..count].iter().map(|k| (k % points.len()) as u32).collect();
-        let simplices = corners.iter().map(|corners| -> Vec<u32> { examples(corners) });
-        simplices.map(|corners| Simplex::new(&corners, &points)).filter(|simplex| !simplex.is_sliver()).collect()
-    }
 
     proptest! {
         /// Whether they fit together or overlap; queries on a lattice meet corners, edges, faces and cells' walls.

@@ -136,6 +136,15 @@ mod tests {
                 assert!((sum - 1.0).abs() < 1e-6, "{query:?}");
             }
         }
+        let point = BlendSpace { dimension: 0, axis_ranges: [0.0; 3], simplices: vec![0], covered_share: 1.0 };
+        let alone = Locator::new(&point, &parameters(&[[1.1, 0.0, 0.0]]));
+        let askew =
+            BlendSpace { dimension: 1, axis_ranges: [1.0, 1.0, 0.0], simplices: vec![0, 1], covered_share: 1.0 };
+        let segment = Locator::new(&askew, &parameters(&[[0.0; 3], [1.0, 1.0, 0.0]]));
+        for wild in [f32::NAN, f32::INFINITY, f32::MAX] {
+            assert_eq!(locate(&alone, [wild, 0.0, wild]).shares, [1.0, 0.0, 0.0, 0.0], "{wild}");
+            assert!((locate(&segment, [wild, 0.0, wild]).shares.iter().sum::<f32>() - 1.0).abs() < 1e-6, "{wild}");
+        }
         let nothing = Locator::new(&BlendSpace::default(), &[]);
         assert_eq!(locate(&nothing, [0.0; 3]).shares, [1.0, 0.0, 0.0, 0.0]);
     }

@@ -166,6 +166,15 @@ fn dual_edges(simplex: &Simplex) -> [DVec3; 3] {
     }
 }
 
+/// Simplices of `count` corners each among some points, as they come: they may cross, or lie on each other.
+#[cfg(test)]
+pub(crate) fn soup(points: &[[i8; 3]], corners: &[[usize; 4]], count: usize) -> Vec<Simplex> {
+    let points: Vec<DVec3> = points.iter().map(|at| DVec3::from_array(at.map(f64::from))).collect();
+    let examples = |corners: &[usize; 4]| corners[..count].iter().map(|k| (k % points.len()) as u32).collect();
+    let simplices = corners.iter().map(|corners| -> Vec<u32> { examples(corners) });
+    simplices.map(|corners| Simplex::new(&corners, &points)).filter(|simplex| !simplex.is_sliver()).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -39,10 +39,10 @@ impl Surface {
         Self { facets, nodes }
     }
 
-    /// Its point nearest to a finite `point`; of an empty surface, [`Nearest::NOTHING`].
+    /// Its point nearest to `point`; [`Nearest::NOTHING`] of an empty surface, and where `point` is not finite.
     pub(crate) fn nearest(&self, point: DVec3) -> Nearest {
         let mut nearest = Nearest::NOTHING;
-        if !self.nodes.is_empty() {
+        if !self.nodes.is_empty() && point.is_finite() {
             self.search(0, point, &mut nearest);
         }
         nearest
@@ -104,14 +104,8 @@ fn grow(nodes: &mut Vec<Node>, facets: &mut [Simplex], first: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simplex::soup;
     use proptest::prelude::*;
-
-    fn soup(points: &[[i8; 3]], corners: &[[usize; 4]], count: usize) -> Vec<Simplex> {
-        let points: Vec<DVec3> = points.iter().map(|at| DVec3::from_array(at.map(f64::from))).collect();
-        let examples = |corners: &[usize; 4]| corners[..count].iter().map(|k| (k % points.len()) as u32).collect();
-        let simplices = corners.iter().map(|corners| -> Vec<u32> { examples(corners) });
-        simplices.map(|corners| Simplex::new(&corners, &points)).filter(|simplex| !simplex.is_sliver()).collect()
-    }
 
     proptest! {
         /// Whether they fit together or cross, are needles or lie on each other.

@@ -15,25 +15,33 @@ const SAME_DIRECTION_RAD: f64 = 3.0 * TAU / 360.0;
 const STANDING_MPS: f64 = 1e-3;
 
 /// The outermost point per direction, clockwise from straight behind: a polygon that is star-shaped about the origin.
+///
+/// Points are taken from the farthest in, each where no farther one has its direction: neither the side that one begins
+/// at nor the seam behind counts, so a mirrored set has the mirrored polygon.
 fn wrapping_polygon(points: &[Vec2]) -> Vec<Vec2> {
-    let mut sorted: Vec<(f64, Vec2)> = points
+    let mut directed: Vec<(f64, Vec2)> = points
         .iter()
         .filter(|point| f64::from(point.length()) > STANDING_MPS)
         .map(|&point| (libm::atan2(f64::from(point.y), f64::from(point.x)), point))
         .collect();
-    sorted.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.length().total_cmp(&b.1.length())));
-    let mut polygon: Vec<(f64, Vec2)> = Vec::new();
-    for (angle, point) in sorted {
-        match polygon.last_mut() {
-            Some((last, outermost)) if *last - angle < SAME_DIRECTION_RAD => {
-                if point.length() > outermost.length() {
-                    (*last, *outermost) = (angle, point);
-                }
-            }
-            _ => polygon.push((angle, point)),
+    directed.sort_by(|a, b| b.1.length().total_cmp(&a.1.length()).then(b.0.total_cmp(&a.0)));
+    let mut outermost: Vec<(f64, Vec2)> = Vec::new();
+    for (angle, point) in directed {
+        let hides = |(other_angle, other): &(f64, Vec2)| {
+            *other == point || (apart_rad(*other_angle, angle) < SAME_DIRECTION_RAD && other.length() > point.length())
+        };
+        if !outermost.iter().any(hides) {
+            outermost.push((angle, point));
         }
     }
-    polygon.into_iter().map(|(_, point)| point).collect()
+    outermost.sort_by(|a, b| b.0.total_cmp(&a.0));
+    outermost.into_iter().map(|(_, point)| point).collect()
+}
+
+/// Between two directions, the shorter way round.
+fn apart_rad(one_rad: f64, other_rad: f64) -> f64 {
+    let apart_rad = (one_rad - other_rad).abs();
+    apart_rad.min(TAU - apart_rad)
 }
 
 /// Edges of the turning points' wrapping polygon with an end beyond ±90° (the red lines of Fig. 3b), each from its
@@ -52,6 +60,7 @@ pub fn sharp_turn_edges(turning_points_mps: &[Vec2]) -> Vec<[Vec2; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn the_wrapping_polygon_keeps_the_fastest_of_each_direction_and_its_rear_edges_are_sharp_turns() {
@@ -65,5 +74,26 @@ mod tests {
         assert!(polygon.contains(&at(3.9, 0.0)) && !polygon.contains(&at(1.1, 0.0)));
         // 79→97, 97→150, 150→168 on each side, and 168→−168 behind.
         assert_eq!(sharp_turn_edges(&points).len(), 7);
+    }
+
+    proptest! {
+        #[test]
+        fn mirrored_turns_have_mirrored_edges_whatever_lies_close_together(
+            turns in prop::collection::vec((1u8..40, 60i16..180), 1..12),
+        ) {
+            let at = |&(speed, degrees): &(u8, i16)| Vec2::from_angle(f32::from(degrees).to_radians()) * f32::from(speed);
+            let left: Vec<Vec2> = turns.iter().map(at).collect();
+            let across = |point: &Vec2| Vec2::new(point.x, -point.y);
+            let both: Vec<Vec2> = left.iter().copied().chain(left.iter().map(across)).collect();
+            let polygon = wrapping_polygon(&both);
+            prop_assert!(polygon.iter().all(|point| polygon.contains(&across(point))), "{polygon:?}");
+        }
+    }
+
+    #[test]
+    fn straight_behind_is_one_direction_from_both_sides() {
+        let at = |speed: f32, degrees: f32| Vec2::from_angle(degrees.to_radians()) * speed;
+        let points = [at(1.0, 90.0), at(0.2, 179.5), at(1.0, -179.5), at(1.0, -90.0)];
+        assert_eq!(wrapping_polygon(&points), [points[0], points[3], points[2]]);
     }
 }
