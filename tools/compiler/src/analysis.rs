@@ -11,12 +11,12 @@ use glam::DVec3;
 use crate::arc::Rates;
 use crate::cycle::{self, GaitCycle};
 use crate::foot_slide;
-use crate::gait::{self, Gait, Window};
+use crate::gait::{Gait, Window};
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::remark::NO_EXAMPLE;
-use crate::root_motion::{self, GroundedClip, leg_length_m};
+use crate::root_motion::{GroundedClip, leg_length_m};
 use crate::stance::Stance;
-use crate::{parameterize, selection, unroll};
+use crate::{parameterize, performer, selection};
 
 /// Whoever walks, crouched or on hands, has the pelvis above this, m.
 const PELVIS_HEIGHT_MIN_M: f64 = 0.01;
@@ -109,15 +109,15 @@ impl LeftOut {
 
 /// Analyses one clip.
 pub(crate) fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
-    let grounded = unroll::unroll(root_motion::ground(clip, body), body);
-    let gait = gait::analyze(&grounded, body);
+    let performer = performer::analyze(clip);
+    let grounded = performer.clip_on(clip, body);
     let (mut windows, mut warnings) = (Vec::new(), Vec::new());
-    let (found, mut reason) = match &gait.windows {
-        Ok(found) => (found.as_slice(), None),
-        Err(reason) => (&[][..], Some((*reason).to_owned())),
+    let (found, mut reason) = match performer.windows_on(&grounded, body) {
+        Ok(found) => (found, None),
+        Err(reason) => (Vec::new(), Some(reason.to_owned())),
     };
-    for window in found {
-        match steady_window(clip, &grounded, body, &gait.stances[window.reading], window) {
+    for window in &found {
+        match steady_window(clip, &grounded, body, &performer.gait.stances[window.reading], window) {
             Ok(steady) => windows.push(steady),
             Err(unfit) => reason = reason.or(Some(unfit)),
         }

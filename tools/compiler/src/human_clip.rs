@@ -91,7 +91,25 @@ impl HumanClip {
     }
 }
 
+impl HumanBody {
+    /// The same proportions in another size.
+    pub fn scaled(&self, scale: f64) -> Self {
+        let points = |feet: [[DVec3; 3]; 2]| feet.map(|foot| foot.map(|point| point * scale));
+        Self {
+            offsets_m: self.offsets_m.map(|offset| offset * scale),
+            segment_ends_m: self.segment_ends_m.map(|end| end * scale),
+            soles_m: points(self.soles_m),
+            measured_m: points(self.measured_m),
+        }
+    }
+}
+
 impl HumanPose {
+    /// The same pose of a body in another size.
+    pub fn scaled(&self, scale: f64) -> Self {
+        Self { pelvis_m: self.pelvis_m * scale, rotations: self.rotations }
+    }
+
     /// Every joint in the frame of the pelvis's position.
     pub fn forward_kinematics(&self, body: &HumanBody) -> HumanJoints {
         let mut joints = HumanJoints { positions_m: [self.pelvis_m; JOINT_COUNT], orientations: self.rotations };

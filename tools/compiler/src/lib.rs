@@ -2,9 +2,9 @@
 //!
 //! [`manifest`] → [`take`] → import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] →
 //! [`human_clip::HumanClip`] → [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] →
-//! [`contacts`], [`stance`], [`gait`], [`stride`], [`steady_window`], [`stride_alignment`] → [`pose_mean`], `closing`,
-//! [`cycle::GaitCycle`] (or [`standing`]) → [`foot_slide`], [`duplicates`], `selection` → `named_cycles`, [`mirror`] →
-//! [`parameterize`], [`rows`], [`velocity_hull`], [`blend_space`], [`correspondence`] →
+//! [`contacts`], [`stance`], [`gait`], [`stride`], [`steady_window`], [`stride_alignment`], [`performer`] →
+//! [`pose_mean`], `closing`, [`cycle::GaitCycle`] (or [`standing`]) → [`foot_slide`], [`duplicates`], `selection` →
+//! `named_cycles`, [`mirror`] → [`parameterize`], [`rows`], [`velocity_hull`], [`blend_space`], [`correspondence`] →
 //! [`motiondb::motion_db::MotionDb`]
 
 mod analysis;
@@ -51,6 +51,7 @@ mod names;
 mod outline;
 pub mod parameterize;
 mod performance;
+pub mod performer;
 mod plausibility;
 pub mod pose_mean;
 pub mod progress;

@@ -14,7 +14,7 @@ use crate::human_clip::{HumanBody, HumanClip, HumanJoints, HumanPose};
 use crate::leg_ik;
 use crate::pose_mean::pose_between;
 
-/// Bones nearer than this are the same bones: no inverse kinematics for rounding errors.
+/// Bones nearer than this, once scaled, are the same bones: no inverse kinematics for rounding errors.
 const SAME_BONE_M: f64 = 5e-4;
 /// A performer whose bones are all as long as the target's, to this much, is the target himself in another clip.
 const SAME_LENGTH_M: f64 = 5e-3;
@@ -36,12 +36,12 @@ pub struct GroundedClip {
 /// Puts a clip on the target body and on the ground.
 pub fn ground(clip: &HumanClip, body: &HumanBody) -> GroundedClip {
     let scale = leg_length_m(body) / leg_length_m(&clip.body);
-    let same_bones = clip.body.offsets_m.iter().zip(&body.offsets_m).all(|(a, b)| (*a - *b).length() <= SAME_BONE_M);
-    let mut poses: Vec<HumanPose> = clip
-        .frames
-        .iter()
-        .map(|pose| if same_bones { pose.clone() } else { retarget(pose, &clip.body, body, scale) })
-        .collect();
+    let is_same = |(own, other): (&DVec3, &DVec3)| (*own * scale - *other).length() <= SAME_BONE_M;
+    let same_bones = clip.body.offsets_m.iter().zip(&body.offsets_m).all(is_same);
+    let posed = |pose: &HumanPose| {
+        if same_bones { pose.scaled(scale) } else { retarget(pose, &clip.body, body, scale) }
+    };
+    let mut poses: Vec<HumanPose> = clip.frames.iter().map(posed).collect();
     lower_to_floor(&mut poses, body);
     if let Some(ground_speed) = clip.in_place_mps {
         travel(&mut poses, body, ground_speed.extend(0.0) * scale, clip.frame_rate_hz);
@@ -61,7 +61,7 @@ pub fn leg_length_m(body: &HumanBody) -> f64 {
 /// The pose with the target's bones: scaled, rotations kept, ankles at their scaled places over their own soles.
 fn retarget(pose: &HumanPose, source: &HumanBody, target: &HumanBody, scale: f64) -> HumanPose {
     let wanted = pose.forward_kinematics(source);
-    let mut posed = HumanPose { pelvis_m: pose.pelvis_m * scale, rotations: pose.rotations };
+    let mut posed = pose.scaled(scale);
     for side in 0..2 {
         let foot = Joint::FEET[side].index();
         let sole_m = target.soles_m[side][0].z - source.soles_m[side][0].z * scale;

@@ -153,6 +153,17 @@ impl Stride {
         stride
     }
 
+    /// The landmarks that it lies between.
+    pub fn landmarks(&self) -> [Landmark; 3] {
+        let side = if self.start_phase == 0.0 { Side::Right } else { Side::Left };
+        let landmark = |side: Side, frame: f64| Landmark { side, frame };
+        [
+            landmark(side, self.first_frame()),
+            landmark(side.other(), self.middle_frame()),
+            landmark(side, self.last_frame()),
+        ]
+    }
+
     /// Its first landmark.
     pub fn first_frame(&self) -> f64 {
         if self.start_phase == 0.0 { self.zero_frame } else { self.zero_frame + self.left_share * self.period_frames }

@@ -9,11 +9,12 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::analysis::{Analyzed, analyze};
-use crate::gait::{self, Gait};
+use crate::gait::Gait;
 use crate::human_clip::HumanClip;
-use crate::root_motion::{self, GroundedClip};
+use crate::performer::{self, Performer};
+use crate::root_motion::GroundedClip;
 use crate::stance::Stance;
-use crate::{compile, duplicates, target_skeleton, unroll};
+use crate::{compile, duplicates, target_skeleton};
 
 /// A clip, and what its feet do.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -86,8 +87,7 @@ pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
 }
 
 fn source_gait(clip: &HumanClip) -> SourceGait {
-    let grounded = unroll::unroll(root_motion::ground(clip, &clip.body), &clip.body);
-    let analysis = gait::analyze(&grounded, &clip.body);
+    let Performer { clip: grounded, gait: analysis, .. } = performer::analyze(clip);
     let (kind, reason) = match &analysis.windows {
         Ok(windows) if windows.iter().any(|window| matches!(window.gait, Gait::Steps(_))) => (GaitKind::Steps, None),
         Ok(_) => (GaitKind::Stands, None),

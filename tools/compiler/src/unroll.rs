@@ -21,21 +21,29 @@ const ROUNDS: usize = 3;
 /// Shorter clips are poses, not loops.
 const ROUND_MIN_S: f64 = 0.3;
 
-/// The clip three times round where it is a loop, else unchanged. Some loops end one frame before they would repeat
-/// their first pose.
-pub fn unroll(mut clip: GroundedClip, body: &HumanBody) -> GroundedClip {
-    let [first, .., before, last] = clip.poses.as_slice() else { return clip };
-    let next = next_pose(before, last);
-    let (last_gap_m, next_gap_m) = (loop_gap_m(first, last, body), loop_gap_m(first, &next, body));
-    if last_gap_m.min(next_gap_m) > LOOP_GAP_M {
-        return clip;
+/// The clip three times round where it is a loop, else unchanged.
+pub fn unroll(clip: GroundedClip, body: &HumanBody) -> GroundedClip {
+    match round_frames(&clip, body) {
+        Some(round) => repeat(clip, body, round),
+        None => clip,
     }
-    if next_gap_m < LEFT_OUT_RATIO * last_gap_m {
-        clip.poses.push(next);
-    }
-    let round = clip.poses.len() - 1;
-    if (round as f64) < ROUND_MIN_S * clip.frame_rate_hz {
-        return clip;
+}
+
+/// Frames of one round of a clip that is a loop. Some loops end one frame before they would repeat their first pose.
+fn round_frames(clip: &GroundedClip, body: &HumanBody) -> Option<usize> {
+    let [first, .., before, last] = clip.poses.as_slice() else { return None };
+    let next_gap_m = loop_gap_m(first, &next_pose(before, last), body);
+    let last_gap_m = loop_gap_m(first, last, body);
+    let is_left_out = next_gap_m < LEFT_OUT_RATIO * last_gap_m;
+    let round = clip.poses.len() - usize::from(!is_left_out);
+    let is_loop = last_gap_m.min(next_gap_m) <= LOOP_GAP_M && round as f64 >= ROUND_MIN_S * clip.frame_rate_hz;
+    is_loop.then_some(round)
+}
+
+/// The clip, known to be a loop of so many frames, three times round. The frame after its last may close it.
+pub fn repeat(mut clip: GroundedClip, body: &HumanBody, round: usize) -> GroundedClip {
+    if let ([.., before, last], true) = (clip.poses.as_slice(), round == clip.poses.len()) {
+        clip.poses.push(next_pose(before, last));
     }
     let seam = Seam::between(&clip.poses[0], &clip.poses[round], body);
     let closed: Vec<HumanPose> =

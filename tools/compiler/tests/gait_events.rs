@@ -11,13 +11,13 @@ use std::path::{Path, PathBuf};
 use motiondb::motion_db::PHASE_COUNT;
 use motiondb::phase_map::PhaseMap;
 use motiondb_compiler::cycle::{GaitCycle, mean_stride};
-use motiondb_compiler::gait::{self, Gait};
+use motiondb_compiler::gait::Gait;
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
+use motiondb_compiler::performer::{self, Performer};
 use motiondb_compiler::root_motion::ground;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
 use motiondb_compiler::take::Take;
-use motiondb_compiler::unroll::unroll;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
 const LABELS: &str = include_str!("gait_events/labels.csv");
@@ -155,13 +155,12 @@ fn neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole() {
 
 /// Frames of the clip at which the events of its mean cycle come in each of its strides, by kind of event.
 fn key_frames(clip: &HumanClip) -> BTreeMap<(&'static str, &'static str), Vec<f64>> {
-    let grounded = unroll(ground(clip, &clip.body), &clip.body);
-    let analysis = gait::analyze(&grounded, &clip.body);
+    let Performer { body, clip: grounded, gait: analysis } = performer::analyze(clip);
     let shown = grounded.loop_frames.unwrap_or(0) as f64;
     let mut frames: BTreeMap<_, Vec<f64>> = BTreeMap::new();
     for window in analysis.windows.iter().flatten() {
         let Gait::Steps(strides) = &window.gait else { continue };
-        let cycle = mean_stride(&grounded, &clip.body, &analysis.stances[window.reading], strides);
+        let cycle = mean_stride(&grounded, &body, &analysis.stances[window.reading], strides);
         for (side, name, landmark) in [(0, "left", PHASE_COUNT / 2), (1, "right", 0)] {
             for (event, step) in [("strike", PHASE_COUNT - 1), ("off", 1)] {
                 let phase = key_phase(&cycle, side, landmark, step);
