@@ -1,48 +1,21 @@
 //! The same take twice: under another name, at another frame rate, with a lying frame time, on another skeleton, as a
 //! part of the other or mirrored. One of the two gives examples.
 //!
-//! Every pair of clips is screened by the legs' directions ([`crate::performance`]) at all lags that leave most of the
-//! shorter clip covered; what comes near is compared exactly, in steps of 1/120 s. Two clips are one take where limbs,
-//! trunk and head move alike *and* the facing turns and swings alike: the first alone cannot tell made-up walks, the
-//! second alone no regular walkers.
-//!
-//! Measured over all pairs of 151 clips of 14 sources: retargeted copies have r up to 0.19 (a run of 1.4 s, CMU 02_03, on
-//! two skeletons), all others up to 0.07. Of different takes the nearest are two made-up straight walks (0.26, but their
-//! facings swing in antiphase), a left and a right turn of one performer (0.28) and walks of one performer (0.29 and
-//! more). The limit lies in the middle of the gap.
+//! [`crate::take_search`] chooses which clips are compared, [`crate::same_take`] decides of two clips.
 
 use std::cmp::Reverse;
-use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
 use crate::analysis::Analyzed;
 use crate::human_clip::HumanClip;
-use crate::outline::{Outline, SCREEN_MAX, nearest_lag};
-use crate::performance::{self, Likeness, Performance};
+use crate::performance::Performance;
 use crate::remark::{FRAME_TIME_QUESTION, NO_EXAMPLE};
+use crate::same_take::Entry;
+use crate::take_search::{self, Found};
 
-/// Rate at which pairs are screened, Hz, and exact lags in one of its steps.
-const SCREEN_HZ: f64 = 20.0;
-const EXACT_STEPS: isize = 6;
-/// Greatest r of one take.
-const UNLIKENESS_MAX: f64 = 0.23;
-/// Shorter overlaps must be the more alike, in proportion, s: about a stride tells little of a performer.
-const SURE_S: f64 = 1.2;
-/// Clips that stir less have no course to compare: 0.2°.
-const MOVEMENT_MIN_RAD: f64 = 0.2 * PI / 180.0;
-/// Facings of one take: retargeting changes the size of their swing, hardly its course (0.97 and more); at the lags of
-/// the screening less.
-const FACING_CORRELATION_MIN: f64 = 0.9;
-const SCREEN_CORRELATION_MIN: f64 = 0.75;
-/// And turn alike within what the whole clip's turn rate is judged by (`definitions.md`): 3 °/s or 15° over the clip.
-const TURN_DIFFERENCE_RAD_S: f64 = 3.0 * PI / 180.0;
-const TURN_DIFFERENCE_RAD: f64 = 15.0 * PI / 180.0;
-/// Frames of one clip per frame of the other that are tried where the frame counts fit and the times do not.
-const FRAME_RATIOS: [f64; 3] = [0.5, 1.0, 2.0];
-/// How far counts may be off (trimmed ends), and how far times must be, as a share.
-const COUNT_TOLERANCE: f64 = 0.1;
-const TIME_TOLERANCE: f64 = 0.05;
+/// Clips of its take that a clip's record names; the others are counted.
+const NAMED_MAX: usize = 8;
 /// Clips whose lengths differ by less are equally long, s.
 const SAME_LENGTH_S: f64 = 0.1;
 
@@ -82,26 +55,44 @@ pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [Analyzed]) {
 /// A verdict for each clip. Of one take the best clip that gives an example does: one that a manifest gives a part to,
 /// one whose frame time is plausible, the longer, the one with more frames a second, the first by name.
 pub fn verdicts(clips: &[HumanClip], gives_example: &[bool]) -> Vec<Verdict> {
-    let pairs = pairs(clips);
-    let mut verdicts = vec![Verdict::default(); clips.len()];
-    let mut by_worth: Vec<usize> = (0..clips.len()).collect();
-    by_worth.sort_by(|&a, &b| worth(&clips[a]).cmp(&worth(&clips[b])).then(a.cmp(&b)));
-    for (rank, &clip) in by_worth.iter().enumerate() {
-        let better = |other: usize| by_worth[..rank].contains(&other);
-        for pair in pairs.iter().filter(|pair| pair.clips.contains(&clip)) {
-            let other = if pair.clips[0] == clip { pair.clips[1] } else { pair.clips[0] };
-            if better(other) && gives_example[other] && !verdicts[other].is_surplus {
-                verdicts[clip].is_surplus = true;
-            }
-        }
-    }
+    let order = by_worth(clips, gives_example);
+    let pairs = pairs_by(clips, &order);
+    let mut others = vec![Vec::new(); clips.len()];
     for pair in &pairs {
-        for (clip, other) in [(pair.clips[0], pair.clips[1]), (pair.clips[1], pair.clips[0])] {
-            let remark = remark(pair, &clips[other], verdicts[clip].is_surplus, verdicts[other].is_surplus);
-            verdicts[clip].remarks.push(remark);
-        }
+        others[pair.clips[0]].push((pair.clips[1], pair));
+        others[pair.clips[1]].push((pair.clips[0], pair));
+    }
+    let mut verdicts = vec![Verdict::default(); clips.len()];
+    let mut is_better = vec![false; clips.len()];
+    for &clip in &order {
+        let shows_it =
+            |&(other, _): &(usize, &Pair)| is_better[other] && gives_example[other] && !verdicts[other].is_surplus;
+        verdicts[clip].is_surplus = others[clip].iter().any(shows_it);
+        is_better[clip] = true;
+    }
+    let surplus: Vec<bool> = verdicts.iter().map(|verdict| verdict.is_surplus).collect();
+    for (clip, others) in others.iter().enumerate() {
+        verdicts[clip].remarks = remarks(clips, &surplus, clip, others);
     }
     verdicts
+}
+
+/// The clips from the best on.
+fn by_worth(clips: &[HumanClip], gives_example: &[bool]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..clips.len()).collect();
+    order.sort_by_cached_key(|&clip| (!gives_example[clip], worth(&clips[clip]), clip));
+    order
+}
+
+/// What is said of a clip's take.
+fn remarks(clips: &[HumanClip], surplus: &[bool], clip: usize, others: &[(usize, &Pair)]) -> Vec<String> {
+    // Those that give the example come first: they are the reason.
+    let (shown, rest): (Vec<_>, Vec<_>) =
+        others.iter().copied().partition(|(other, _)| surplus[clip] && !surplus[*other]);
+    let named = shown.into_iter().chain(rest).take(NAMED_MAX);
+    let said = named.map(|(other, pair)| remark(pair, &clips[other], surplus[clip], surplus[other]));
+    let more = others.len().saturating_sub(NAMED_MAX);
+    said.chain((more > 0).then(|| format!("the same take as {more} more clips"))).collect()
 }
 
 fn remark(pair: &Pair, other: &HumanClip, is_surplus: bool, other_is_surplus: bool) -> String {
@@ -127,95 +118,28 @@ fn worth(clip: &HumanClip) -> impl Ord {
     (chosen, lies, Reverse(length), Reverse(clip.frame_rate_hz.to_bits()), clip.name.clone())
 }
 
-/// Every two clips of one take, in the clips' order.
+/// Every two clips of one take, in the clips' order; of a take of very many clips not every two ([`crate::take_search`]).
 pub fn pairs(clips: &[HumanClip]) -> Vec<Pair> {
+    pairs_by(clips, &by_worth(clips, &vec![true; clips.len()]))
+}
+
+fn pairs_by(clips: &[HumanClip], order: &[usize]) -> Vec<Pair> {
     let entries: Vec<Entry> = clips.par_iter().map(|clip| Entry::new(Performance::of(clip))).collect();
-    let with_later = |first: usize| {
-        let later = first + 1..entries.len();
-        let apart = |second: &usize| !are_parts_of_one_file(&clips[first], &clips[*second]);
-        let pair = |second: usize| pair(&entries, [first, second]);
-        later.filter(apart).filter_map(pair).collect::<Vec<Pair>>()
+    let found = take_search::search(&entries, order, |a, b| !are_parts_of_one_file(&clips[a], &clips[b]));
+    let pair = |(better, worse, how): Found| Pair {
+        clips: [better.min(worse), better.max(worse)],
+        mirrored: how.mirrored,
+        times_differ: how.times_differ,
+        unlikeness: how.unlikeness,
     };
-    (0..entries.len()).into_par_iter().flat_map_iter(with_later).collect()
+    let mut pairs: Vec<Pair> = found.into_iter().map(pair).collect();
+    pairs.sort_by_key(|pair| pair.clips);
+    pairs
 }
 
 /// Whoever cuts a capture in a manifest wants both parts.
 fn are_parts_of_one_file(a: &HumanClip, b: &HumanClip) -> bool {
-    let file = |clip: &HumanClip| (clip.source.file.clone(), clip.source.clip.clone());
-    (a.choices.is_cut || b.choices.is_cut) && file(a) == file(b)
-}
-
-/// The most alike of all ways to lay two clips over each other, where that is one take.
-fn pair(entries: &[Entry], clips: [usize; 2]) -> Option<Pair> {
-    let [one, other] = clips.map(|clip| &entries[clip]);
-    let retimed: Vec<Entry> = retimed(&one.performance, &other.performance).map(Entry::new).collect();
-    let others = std::iter::once((other, false)).chain(retimed.iter().map(|other| (other, true)));
-    let ways = others.flat_map(|(other, times_differ)| [false, true].map(|mirrored| (other, mirrored, times_differ)));
-    let laid = ways
-        .filter_map(|(other, mirrored, times_differ)| Some((laid_over(one, other, mirrored)?, mirrored, times_differ)));
-    let found = laid.filter(|(likeness, ..)| is_one_take(likeness));
-    let nearest = found.min_by(|(a, ..), (b, ..)| a.unlikeness.total_cmp(&b.unlikeness));
-    nearest.map(|(likeness, mirrored, times_differ)| Pair {
-        clips,
-        mirrored,
-        times_differ,
-        unlikeness: likeness.unlikeness,
-    })
-}
-
-fn is_one_take(found: &Likeness) -> bool {
-    let limit = UNLIKENESS_MAX * (found.overlap_s / SURE_S).min(1.0);
-    found.unlikeness <= limit
-        && found.movement_rad >= MOVEMENT_MIN_RAD
-        && found.facing_correlation.is_none_or(|correlation| correlation >= FACING_CORRELATION_MIN)
-        && turn_alike(found)
-}
-
-fn turn_alike(found: &Likeness) -> bool {
-    found.turn_difference_rad_s <= TURN_DIFFERENCE_RAD_S.max(TURN_DIFFERENCE_RAD / found.overlap_s)
-}
-
-/// The second at the rate that its frames have if they are the first's, where its own frame time says otherwise.
-fn retimed<'a>(one: &'a Performance, other: &'a Performance) -> impl Iterator<Item = Performance> + 'a {
-    let counts = [one, other].map(|performance| performance.directions.len() as f64);
-    let fits = move |ratio: &f64| {
-        let count_off = (counts[1] / (ratio * counts[0]) - 1.0).abs();
-        let time_off = (other.rate_hz / (ratio * one.rate_hz) - 1.0).abs();
-        count_off < COUNT_TOLERANCE && time_off > TIME_TOLERANCE
-    };
-    FRAME_RATIOS.into_iter().filter(fits).map(|ratio| Performance { rate_hz: ratio * one.rate_hz, ..other.clone() })
-}
-
-/// The exact likeness at the best lag; none where the screening finds none.
-fn laid_over(one: &Entry, other: &Entry, mirrored: bool) -> Option<Likeness> {
-    let lag = nearest_lag(&one.outlines[0], &other.outlines[usize::from(mirrored)])?;
-    let coarse = performance::compare(&one.coarse[0], &other.coarse[usize::from(mirrored)], lag)?;
-    let swings_alike = coarse.facing_correlation.is_none_or(|correlation| correlation > SCREEN_CORRELATION_MIN);
-    if coarse.unlikeness > SCREEN_MAX || !swings_alike || !turn_alike(&coarse) {
-        return None;
-    }
-    let rate_hz = SCREEN_HZ * EXACT_STEPS as f64;
-    let other = if mirrored { other.performance.mirrored() } else { other.performance.clone() };
-    let (one, other) = (one.performance.sampled(rate_hz), other.sampled(rate_hz));
-    let around = (lag - 1) * EXACT_STEPS..=(lag + 1) * EXACT_STEPS;
-    let found = around.filter_map(|lag| performance::compare(&one, &other, lag));
-    found.min_by(|a, b| a.unlikeness.total_cmp(&b.unlikeness))
-}
-
-/// A clip, ready for screening.
-struct Entry {
-    performance: Performance,
-    /// At the screening's rate, as it is and mirrored.
-    coarse: [Performance; 2],
-    outlines: [Outline; 2],
-}
-
-impl Entry {
-    fn new(performance: Performance) -> Self {
-        let told = performance.sampled(SCREEN_HZ);
-        let mirrored = told.mirrored();
-        Self { outlines: [Outline::of(&told), Outline::of(&mirrored)], coarse: [told, mirrored], performance }
-    }
+    (a.choices.is_cut || b.choices.is_cut) && a.source.file == b.source.file && a.source.clip == b.source.clip
 }
 
 #[cfg(test)]

@@ -62,6 +62,7 @@ pub mod remark;
 mod retarget;
 pub mod root_motion;
 pub mod rows;
+mod same_take;
 mod selection;
 mod shape;
 pub mod skeleton_map;
@@ -77,6 +78,7 @@ pub mod survey;
 #[cfg(test)]
 mod synthetic;
 pub mod take;
+mod take_search;
 pub mod target_skeleton;
 pub mod truth;
 pub mod units;

@@ -14,8 +14,15 @@ const OVERLAP_SHARE: f64 = 0.8;
 /// Numbers a sample: of each direction of the legs how far it points forward and to the left.
 const WIDTH: usize = 2 * LEG_DIRECTION_COUNT;
 
+const LIMIT: f32 = (SCREEN_MAX * SCREEN_MAX) as f32;
+/// Samples of a second.
+const SECOND: usize = 20;
+/// Clips of fewer samples have no second in their middle that all lags leave covered.
+const MIDDLE_MIN: usize = 34;
+
 /// The legs' directions about their mean over the clip, with running sums of them and of their squares.
 pub(crate) struct Outline {
+    seconds: Vec<Second>,
     samples: Vec<[f32; WIDTH]>,
     sums: Vec<[f32; WIDTH]>,
     squares: Vec<f32>,
@@ -36,7 +43,23 @@ impl Outline {
             sums.push(plus(&sums[index], row));
             squares.push(squares[index] + product(row, row));
         }
-        Self { samples, sums, squares }
+        let mut outline = Self { seconds: Vec::new(), samples, sums, squares };
+        outline.seconds =
+            (0..(outline.samples.len() + 1).saturating_sub(SECOND)).map(|from| outline.second(from)).collect();
+        outline
+    }
+
+    fn second(&self, from: usize) -> Second {
+        let scale = libm::sqrtf(2.0 / SECOND as f32);
+        let mut wave = [0.0; WIDTH];
+        for (sample, row) in self.samples[from..from + SECOND].iter().enumerate() {
+            let (sine, cosine) = libm::sincosf(std::f32::consts::TAU * sample as f32 / SECOND as f32);
+            for direction in 0..LEG_DIRECTION_COUNT {
+                wave[2 * direction] += scale * cosine * row[2 * direction];
+                wave[2 * direction + 1] += scale * sine * row[2 * direction];
+            }
+        }
+        Second { wave, size: libm::sqrtf(self.moments(from, SECOND).1) }
     }
 
     /// The sum over samples, and the sum of squares about their mean.
@@ -56,17 +79,52 @@ fn product(a: &[f32; WIDTH], b: &[f32; WIDTH]) -> f32 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// The second from a sample on, in short: r² of the legs over a second is at least
+///
+/// ```text
+/// |wave − wave'|² / (size · size'),
+/// ```
+///
+/// since the waves are orthogonal projections.
+#[derive(Clone, Copy)]
+struct Second {
+    /// How the directions swing forward with a period of a second: cosine and sine of each.
+    wave: [f32; WIDTH],
+    /// Root of the sum of all squares about the mean.
+    size: f32,
+}
+
+impl Second {
+    fn may_be_alike(&self, other: &Second) -> bool {
+        let squares = self.wave.iter().zip(&other.wave).map(|(a, b)| (a - b) * (a - b));
+        squares.sum::<f32>() <= LIMIT * self.size * other.size
+    }
+}
+
 /// The lag, in samples of the screening, at which the legs are most alike; none where they never are.
 pub(crate) fn nearest_lag(one: &Outline, other: &Outline) -> Option<isize> {
     let (count, other_count) = (one.samples.len() as isize, other.samples.len() as isize);
     let least = ((count.min(other_count) as f64 * OVERLAP_SHARE) as isize).max(1);
-    let found = (least - other_count..=count - least).filter_map(|lag| Some((lag, leg_unlikeness(one, other, lag)?)));
-    found.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(lag, _)| lag)
+    let of_short = |(short, long): (&Outline, &Outline), sign: isize| {
+        let offsets = least - short.samples.len() as isize..=long.samples.len() as isize - least;
+        let found = offsets.filter(|&offset| middle_may_be_alike(short, long, offset));
+        let found = found.filter_map(|offset| Some((sign * offset, leg_unlikeness(one, other, sign * offset)?)));
+        found.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(lag, _)| lag)
+    };
+    if count < other_count { of_short((one, other), -1) } else { of_short((other, one), 1) }
+}
+
+/// Whether the second in the middle of the shorter may be what the longer shows there.
+fn middle_may_be_alike(short: &Outline, long: &Outline, offset: isize) -> bool {
+    if short.samples.len() < MIDDLE_MIN {
+        return true;
+    }
+    let middle = (short.samples.len() - SECOND) / 2;
+    short.seconds[middle].may_be_alike(&long.seconds[(middle as isize + offset) as usize])
 }
 
 /// r² of the legs; none where it is beyond the limit.
 fn leg_unlikeness(one: &Outline, other: &Outline, lag: isize) -> Option<f32> {
-    const LIMIT: f32 = (SCREEN_MAX * SCREEN_MAX) as f32;
     let (from, other_from, count) = performance::overlap(one.samples.len(), other.samples.len(), lag)?;
     let ((sum_a, of_a), (sum_b, of_b)) = (one.moments(from, count), other.moments(other_from, count));
     let geometric = libm::sqrtf(of_a * of_b);
