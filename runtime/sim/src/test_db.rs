@@ -58,7 +58,7 @@ pub(crate) fn test_db() -> MotionDb {
     }
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
     db.velocity_hull = hull(&parameters);
-    db.blend_space = motiondb_compiler::blend_space::build(&db.examples);
+    db.blend_space = motiondb_compiler::blend_space::build(&parameters);
     db
 }
 

@@ -17,17 +17,15 @@ use std::cmp::Ordering;
 use glam::Vec3;
 use motiondb::blend_space::{BlendSpace, MAX_CORNERS};
 use motiondb::lattice::{Lattice, LatticePoint, TWIN_STEPS, signed_volume};
-use motiondb::motion_db::MotionExample;
 use motiondb::parameters::Parameters;
 
 /// Stands for the point at infinity among the corners of a simplex.
 const INFINITY: usize = usize::MAX;
 
-/// Triangulates the examples' parameters in as many dimensions as they span. Of examples that all but coincide one is a
-/// corner ([`twins`]). Without finite parameters there are no simplices.
-pub fn build(examples: &[MotionExample]) -> BlendSpace {
-    let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
-    let Some(lattice) = Lattice::new(&parameters) else { return BlendSpace::default() };
+/// Triangulates the `parameters` of examples in as many dimensions as they span. Of examples that all but coincide one
+/// is a corner ([`twins`]). Without finite parameters there are no simplices.
+pub fn build(parameters: &[Parameters]) -> BlendSpace {
+    let Some(lattice) = Lattice::new(parameters) else { return BlendSpace::default() };
     let triangulation = Triangulation::new(&lattice);
     BlendSpace {
         dimension: lattice.dimension as u32,
@@ -38,16 +36,16 @@ pub fn build(examples: &[MotionExample]) -> BlendSpace {
 }
 
 /// Examples that are no corner, each with the corner that is played in its place.
-pub fn twins(examples: &[MotionExample], space: &BlendSpace) -> Vec<[usize; 2]> {
-    let scaled = |index: usize| -> Vec3 { space.scaled(examples[index].parameters) };
-    let mut is_corner = vec![false; examples.len()];
+pub(crate) fn twins(parameters: &[Parameters], space: &BlendSpace) -> Vec<[usize; 2]> {
+    let scaled = |index: usize| -> Vec3 { space.scaled(parameters[index]) };
+    let mut is_corner = vec![false; parameters.len()];
     space.simplices.iter().for_each(|&corner| is_corner[corner as usize] = true);
     let nearest = |index: usize| {
         let distance = |corner: usize| scaled(corner).distance_squared(scaled(index));
-        let corners = (0..examples.len()).filter(|&corner| is_corner[corner]);
+        let corners = (0..parameters.len()).filter(|&corner| is_corner[corner]);
         corners.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).map(|corner| [index, corner])
     };
-    (0..examples.len()).filter(|&index| !is_corner[index]).filter_map(nearest).collect()
+    (0..parameters.len()).filter(|&index| !is_corner[index]).filter_map(nearest).collect()
 }
 
 /// A point to be a corner.
@@ -212,27 +210,16 @@ fn sorted(simplex: &Simplex) -> Simplex {
 mod tests {
     use super::*;
     use motiondb::locator::Locator;
-    use motiondb::phase_map::PhaseMap;
     use motiondb::tiling::tiling_fault;
     use proptest::prelude::*;
 
-    fn example(point: [f32; 3]) -> MotionExample {
-        MotionExample {
-            name: String::new(),
-            source: 0,
-            window_s: [0.0, 1.0],
-            mirrored: false,
-            parameters: Parameters::from_vec3(Vec3::from(point)),
-            phase_map: PhaseMap { period_s: 1.0, left_share: 0.5 },
-            key_times_s: None,
-            planted_slide_cm_s: 0.0,
-            planted_share: 0.0,
-        }
+    fn parameters(points: &[[f32; 3]]) -> Vec<Parameters> {
+        points.iter().map(|&point| Parameters::from_vec3(Vec3::from(point))).collect()
     }
 
     fn built(points: &[[f32; 3]]) -> (BlendSpace, Vec<Parameters>) {
-        let examples: Vec<MotionExample> = points.iter().map(|&point| example(point)).collect();
-        (build(&examples), examples.iter().map(|example| example.parameters).collect())
+        let parameters = parameters(points);
+        (build(&parameters), parameters)
     }
 
     /// The simplices tile the hull, no lifted plane has a point below it, and every random mixture of examples is
@@ -306,10 +293,9 @@ mod tests {
     #[test]
     fn of_twins_one_is_a_corner_and_the_other_is_told() {
         let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.001, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]];
-        let examples: Vec<MotionExample> = points.iter().map(|&point| example(point)).collect();
-        let space = build(&examples);
+        let (space, parameters) = built(&points);
         assert_eq!(space.simplices.len(), 3);
-        assert_eq!(twins(&examples, &space), [[1, 2], [4, 0]]);
+        assert_eq!(twins(&parameters, &space), [[1, 2], [4, 0]]);
     }
 
     #[test]

@@ -6,8 +6,8 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use motiondb::blend_space::BlendSpace;
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
+use motiondb::parameters::Parameters;
 use motiondb::validate::validate;
 use motiondb::velocity_hull::Construction;
 use rayon::prelude::*;
@@ -160,8 +160,9 @@ fn assemble(
     let chosen = named.iter().position(|named| named.choices.is_semi_procedural);
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
     tell(Event::Stage("blend space"));
-    let blend_space = blend_space::build(&examples);
-    tell_of_twins(&examples, &blend_space, &mut sources);
+    let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
+    let blend_space = blend_space::build(&parameters);
+    tell_of_twins(&blend_space::twins(&parameters, &blend_space), &examples, &mut sources);
     tell(Event::Stage("assembly"));
     let mut db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
@@ -182,8 +183,8 @@ fn assemble(
 }
 
 /// Of examples with the same parameters one is blended; the sources of the others say so.
-fn tell_of_twins(examples: &[MotionExample], space: &BlendSpace, sources: &mut [SourceRecord]) {
-    let twins = blend_space::twins(examples, space).into_iter().map(|pair| pair.map(|index| &examples[index]));
+fn tell_of_twins(twins: &[[usize; 2]], examples: &[MotionExample], sources: &mut [SourceRecord]) {
+    let twins = twins.iter().map(|pair| pair.map(|index| &examples[index]));
     for [unused, played] in twins.filter(|[unused, _]| !unused.mirrored) {
         let remark = format!("{} moves like {}, which is blended in its place", unused.name, played.name);
         sources[unused.source as usize].warnings.push(remark);

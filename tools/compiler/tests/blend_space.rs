@@ -4,9 +4,7 @@
 use glam::Vec3;
 use motiondb::blend_space::{BlendSpace, Shares};
 use motiondb::locator::Locator;
-use motiondb::motion_db::MotionExample;
 use motiondb::parameters::Parameters;
-use motiondb::phase_map::PhaseMap;
 use motiondb_compiler::blend_space::build;
 use proptest::prelude::*;
 
@@ -18,22 +16,8 @@ struct Set {
 
 fn set(points: &[Vec3]) -> Set {
     let parameters: Vec<Parameters> = points.iter().map(|&point| Parameters::from_vec3(point)).collect();
-    let space = build(&parameters.iter().map(|&parameters| example(parameters)).collect::<Vec<_>>());
+    let space = build(&parameters);
     Set { locator: Locator::new(&space, &parameters), space, parameters }
-}
-
-fn example(parameters: Parameters) -> MotionExample {
-    MotionExample {
-        name: String::new(),
-        source: 0,
-        window_s: [0.0, 1.0],
-        mirrored: false,
-        parameters,
-        phase_map: PhaseMap { period_s: 1.0, left_share: 0.5 },
-        key_times_s: None,
-        planted_slide_cm_s: 0.0,
-        planted_share: 0.0,
-    }
 }
 
 fn random(count: usize, seed: u32) -> Vec<Vec3> {

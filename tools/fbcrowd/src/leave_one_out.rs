@@ -17,12 +17,13 @@
 
 use fbcrowd_sim::hms::blending::Mix;
 use motiondb::coverage::{locate_inside, locator};
-use motiondb::locator::Locator;
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
 use motiondb::pose::Pose;
 use motiondb::skeleton::{JOINT_COUNT, Joint, Skeleton};
 use motiondb_compiler::blend_space;
 use serde::Serialize;
+
+use crate::statistics::{median, share};
 
 /// One example, left out.
 #[derive(Debug, PartialEq, Serialize)]
@@ -38,6 +39,13 @@ pub(crate) struct LeftOut {
     pub(crate) nearest: String,
     /// The blend's examples, with their shares of time, greatest first.
     pub(crate) mix: Vec<Part>,
+}
+
+impl LeftOut {
+    /// Whether the blend of the others meets the body better than the nearest of them.
+    pub(crate) fn blend_is_better(&self) -> bool {
+        self.blended_rmse_m < self.nearest_rmse_m
+    }
 }
 
 #[derive(Debug, PartialEq, Serialize)]
@@ -82,9 +90,8 @@ pub(crate) fn leave_one_out(db: &MotionDb) -> LeaveOneOut {
             None => outside.push(example.name.clone()),
         }
     }
-    let better = examples.iter().filter(|found| found.blended_rmse_m < found.nearest_rmse_m).count();
     LeaveOneOut {
-        blended_better_share: (!examples.is_empty()).then(|| better as f32 / examples.len() as f32),
+        blended_better_share: share(examples.iter(), |found| found.blend_is_better()).map(|share| share as f32),
         median_blended_rmse_m: median(examples.iter().map(|found| found.blended_rmse_m)),
         median_nearest_rmse_m: median(examples.iter().map(|found| found.nearest_rmse_m)),
         median_joint_blended_rmse_m: median(examples.iter().flat_map(|found| found.joint_blended_rmse_m)),
@@ -111,7 +118,7 @@ fn left_out(db: &MotionDb, index: usize) -> Option<LeftOut> {
     if others.examples.is_empty() {
         return None;
     }
-    let locator: Locator = locator(&others);
+    let locator = locator(&others);
     let mix = Mix::new(&locate_inside(&others, &locator, example.parameters)?);
     let nearest = nearest(&others, example);
     let name = |index: usize| others.examples[index].name.clone();
@@ -153,7 +160,7 @@ fn without(db: &MotionDb, example: &MotionExample) -> MotionDb {
             contacts: kept.iter().flat_map(|index| db.rows.contacts[rows(index)].iter().copied()).collect(),
         },
         velocity_hull: db.velocity_hull.clone(),
-        blend_space: if examples.is_empty() { db.blend_space.clone() } else { blend_space::build(&examples) },
+        blend_space: blend_space::build(&examples.iter().map(|example| example.parameters).collect::<Vec<_>>()),
         correspondence: None,
         examples,
     }
@@ -190,15 +197,4 @@ fn joint_rmse_m(
 /// RMSE of the body from those of its joints, metres.
 fn body_rmse_m(joint_rmse_m: &[f32; JOINT_COUNT]) -> f32 {
     (joint_rmse_m.iter().map(|joint| joint * joint).sum::<f32>() / JOINT_COUNT as f32).sqrt()
-}
-
-fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
-    let mut values: Vec<f32> = values.collect();
-    values.sort_by(f32::total_cmp);
-    let middle = values.len() / 2;
-    match values.len() {
-        0 => None,
-        odd if odd % 2 == 1 => Some(values[middle]),
-        _ => Some(0.5 * (values[middle - 1] + values[middle])),
-    }
 }

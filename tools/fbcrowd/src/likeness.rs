@@ -16,6 +16,7 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::pose_sequence::PoseSequence;
+use crate::statistics::median;
 
 /// Kinds with fewer source folders are told, but nothing is asked of them.
 const SOURCES_MIN: usize = 3;
@@ -27,7 +28,8 @@ struct Kind {
     holds: fn(&Parameters) -> bool,
 }
 
-/// Straight: as gait noise leaves it, 10 °/s and a tenth of the speed aside. Walks are those that people choose; turns are walked.
+/// Straight: as gait noise leaves it, 10 °/s and a tenth of the speed aside. Walks are those that people choose; turns
+/// are walked.
 const KINDS: [Kind; 6] = [
     Kind {
         name: "walks",
@@ -161,7 +163,7 @@ fn kind_of_gait(kind: &Kind, real: &[Motion], ours: &[Motion]) -> KindOfGait {
         kind: kind.name,
         bar: kind.bar,
         sources: sources.len(),
-        median_deg: median(measured.iter().map(|found| found.distance_deg).collect()),
+        median_deg: median(measured.iter().map(|found| found.distance_deg)),
         real: measured,
         bundled: ours.filter_map(|motion| nearest(motion, real.iter())).collect(),
     }
@@ -190,10 +192,4 @@ fn nearest<'a>(motion: &Motion, others: impl Iterator<Item = &'a &'a Motion>) ->
         nearest: other.clip.clone(),
         nearest_source: other.source.clone(),
     })
-}
-
-fn median(mut values: Vec<f32>) -> Option<f32> {
-    values.sort_by(f32::total_cmp);
-    let upper = *values.get(values.len() / 2)?;
-    Some(if values.len() % 2 == 1 { upper } else { 0.5 * (values[values.len() / 2 - 1] + upper) })
 }

@@ -24,6 +24,7 @@ mod rendering;
 mod report;
 mod simulation;
 mod stages;
+mod statistics;
 
 use std::process::ExitCode;
 

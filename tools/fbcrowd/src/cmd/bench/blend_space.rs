@@ -6,9 +6,7 @@ use std::time::Instant;
 use fbcrowd_sim::split_mix::SplitMix64;
 use glam::{DVec3, Vec3};
 use motiondb::locator::Locator;
-use motiondb::motion_db::MotionExample;
 use motiondb::parameters::Parameters;
-use motiondb::phase_map::PhaseMap;
 use motiondb_compiler::blend_space::build;
 use serde::Serialize;
 
@@ -69,8 +67,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
 fn measured(examples: usize) -> Set {
     let mut random = SplitMix64::new(1, examples as u64);
     let parameters = drawn(&mut random, examples, 1.0);
-    let set: Vec<MotionExample> = parameters.iter().copied().map(example).collect();
-    let (build_s, space) = timed(|| build(&set));
+    let (build_s, space) = timed(|| build(&parameters));
     let (load_s, locator) = timed(|| Locator::new(&space, &parameters));
     let mut query_ns = |around: f64| {
         let queries = drawn(&mut random, QUERIES, around);
@@ -85,20 +82,6 @@ fn drawn(random: &mut SplitMix64, count: usize, around: f64) -> Vec<Parameters> 
     let axis = |half_range: f64, random: &mut SplitMix64| random.within(around * half_range) as f32;
     let point = |_| Vec3::from_array(HALF_RANGES.to_array().map(|half_range| axis(half_range, random)));
     (0..count).map(point).map(Parameters::from_vec3).collect()
-}
-
-fn example(parameters: Parameters) -> MotionExample {
-    MotionExample {
-        name: String::new(),
-        source: 0,
-        window_s: [0.0, 1.0],
-        mirrored: false,
-        parameters,
-        phase_map: PhaseMap { period_s: 1.0, left_share: 0.5 },
-        key_times_s: None,
-        planted_slide_cm_s: 0.0,
-        planted_share: 0.0,
-    }
 }
 
 fn timed<T>(work: impl FnOnce() -> T) -> (f64, T) {

@@ -12,8 +12,9 @@ use serde::Serialize;
 use super::Mocap;
 use super::bar::{Bar, Found, conclude};
 use crate::failure::{Answer, Failure};
+use crate::statistics::share;
 
-/// Labels are met within so many frames of the source …
+/// Labels are met within so many frames of the source, or within what the labeller was unsure of where that is more.
 const FRAMES: f64 = 1.0;
 /// Events that are shown, worst first; JSON has all.
 const SHOWN_EVENTS: usize = 10;
@@ -78,10 +79,9 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     }
     events.sort_by(|a, b| b.distance().total_cmp(&a.distance()));
     let sets = sets(&events);
-    let within = events.iter().filter(|event| event.is_met()).count();
-    let share = (!events.is_empty()).then(|| within as f64 / events.len() as f64);
+    let within = share(events.iter(), |event| event.is_met());
     let name = "share of events within a source frame, or within what the labeller was unsure of";
-    let bars = vec![Bar::at_least(name, 1.0, share)];
+    let bars = vec![Bar::at_least(name, 1.0, within)];
     let found = Found { details: Details { events, sets }, goals: Vec::new(), bars };
     conclude(&found, &text(&found.details), args.mocap.json)
 }
@@ -141,16 +141,14 @@ fn sets(events: &[Event]) -> Vec<Set> {
     let mut by_name: BTreeMap<&str, Vec<&Event>> = BTreeMap::new();
     events.iter().for_each(|event| by_name.entry(&event.set).or_default().push(event));
     let set = |(name, events): (&str, Vec<&Event>)| {
-        let share = |is_met: &dyn Fn(&Event) -> bool| {
-            events.iter().filter(|event| is_met(event)).count() as f64 / events.len() as f64
-        };
+        let share = |is_met: fn(&Event) -> bool| share(events.iter(), |event| is_met(event)).unwrap_or_default();
         // In order of distance, as all are.
         let median = events[events.len() / 2].distance();
         Set {
             name: name.to_owned(),
             events: events.len(),
-            within_share: share(&Event::is_met),
-            within_one_frame_share: share(&|event| event.distance() <= FRAMES),
+            within_share: share(Event::is_met),
+            within_one_frame_share: share(|event| event.distance() <= FRAMES),
             median_error_frames: median.is_finite().then_some(median),
         }
     };

@@ -17,6 +17,7 @@ use super::Mocap;
 use super::bar::{Bar, Found, Goal, conclude};
 use crate::failure::{Answer, Failure};
 use crate::progress::Progress;
+use crate::statistics::share;
 
 /// Reading each file so often lets the median forget a neighbour's work.
 const READINGS: usize = 5;
@@ -25,10 +26,11 @@ const SHOWN_ROWS: usize = 12;
 
 /// Import every clip of human locomotion in DIR/index.csv and compare with what stands there.
 ///
-/// In JSON `rows[] {file, clip, found, wanted, excess, judged, units_hold, by_elbows, refused}`: found and wanted are
-/// (v_f m/s, turn rate °/s, side speed m/s); excess is the greatest difference over its tolerance, null where the clip is
-/// refused; by_elbows is the excess of the same clip measured with its elbows for shoulders, as the index was by mistake
-/// on some rigs, else null.
+/// In JSON `rows[] {file, clip, found, wanted, excess, judged, units_hold, by_elbows, refused}, share_of_index,
+/// files_read, megabytes_read`: found and wanted are (v_f m/s, turn rate °/s, side speed m/s); excess is the greatest
+/// difference over its tolerance, null where the clip is refused; by_elbows is the excess of the same clip measured with
+/// its elbows for shoulders, as the index was by mistake on some rigs, else null; share_of_index is that of the judged
+/// rows within tolerance of the index as it is.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd bench import --mocap ../shared/mocap --json")]
 pub(super) struct Args {
@@ -66,10 +68,10 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     rows.sort_by(|a, b| b.distance().total_cmp(&a.distance()));
     let reading = reading(folder)?;
 
-    let judged: Vec<&Row> = rows.iter().filter(|row| row.judged).collect();
-    let share_of_index = share(&judged, |row| row.excess.is_some_and(|excess| excess <= 1.0));
-    let share_by_same_joints = share(&judged, |row| row.distance() <= 1.0);
-    let units = share(&rows.iter().collect::<Vec<_>>(), |row| row.units_hold);
+    let judged = || rows.iter().filter(|row| row.judged);
+    let share_of_index = share(judged(), |row| row.excess.is_some_and(|excess| excess <= 1.0));
+    let share_by_same_joints = share(judged(), |row| row.distance() <= 1.0);
+    let units = share(rows.iter(), |row| row.units_hold);
     let found = Found {
         details: Details {
             share_of_index,
@@ -100,11 +102,6 @@ impl Row {
     fn distance(&self) -> f64 {
         self.by_elbows.or(self.excess).unwrap_or(f64::INFINITY)
     }
-}
-
-fn share(rows: &[&Row], holds: impl Fn(&Row) -> bool) -> Option<f64> {
-    let holding = rows.iter().filter(|row| holds(row)).count();
-    (!rows.is_empty()).then(|| holding as f64 / rows.len() as f64)
 }
 
 /// Every row of the index, in its order; each file is read once.

@@ -12,6 +12,7 @@ use super::bar::{Bar, Found, conclude};
 use super::bundled::bundled;
 use crate::failure::{Answer, Failure};
 use crate::leave_one_out::{LeaveOneOut, leave_one_out};
+use crate::statistics::share;
 
 /// The twelve recordings that make the paper's 19 examples (`FbCrowd` §6; Shapiro 2011).
 const MARINE: [&str; 12] = [
@@ -60,13 +61,12 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
         set("Bandai Namco", of_files(&clip_files(&folder.join("bandai_namco"))?)?),
         set("bundled", bundled()?),
     ];
-    let all = || sets.iter().flat_map(|set| &set.leave_one_out.examples);
-    let better = all().filter(|found| found.blended_rmse_m < found.nearest_rmse_m).count();
-    let share = (all().count() > 0).then(|| better as f64 / all().count() as f64);
+    let all = sets.iter().flat_map(|set| &set.leave_one_out.examples);
+    let better = share(all, |found| found.blend_is_better());
     let marine = &sets[0].leave_one_out;
     let (marine_rmse_m, marine_joint_m) = (marine.median_blended_rmse_m, marine.median_joint_blended_rmse_m);
     let bars = vec![
-        Bar::at_least("share of examples that the blend meets better than the nearest example", 0.75, share),
+        Bar::at_least("share of examples that the blend meets better than the nearest example", 0.75, better),
         // "5 cm per joint" can be read both ways: the root mean square over all joints, or the median joint.
         Bar::at_most("median over the Marine set of the RMSE over all joints, m", 0.05, marine_rmse_m.map(f64::from)),
         Bar::at_most("median over the Marine set of the RMSE of each joint, m", 0.05, marine_joint_m.map(f64::from)),
@@ -86,7 +86,7 @@ fn of_files(files: &[PathBuf]) -> Result<MotionDb, Failure> {
 fn text(details: &Details) -> String {
     let line = |set: &Set| {
         let found = &set.leave_one_out;
-        let better = found.examples.iter().filter(|found| found.blended_rmse_m < found.nearest_rmse_m).count();
+        let better = found.examples.iter().filter(|found| found.blend_is_better()).count();
         let cm = |median: Option<f32>| median.map_or_else(|| "–".to_owned(), |median| format!("{:.1}", 100.0 * median));
         let medians =
             |blended: Option<f32>, nearest: Option<f32>| format!("{} cm, nearest {} cm", cm(blended), cm(nearest));

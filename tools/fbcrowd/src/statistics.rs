@@ -1,0 +1,32 @@
+//! Figures of many figures: the median, and the share of which something holds.
+
+/// The middle value, of an even number the mean of the two in the middle; none of none.
+pub(crate) fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
+    let mut sorted: Vec<f32> = values.collect();
+    sorted.sort_by(f32::total_cmp);
+    let upper = *sorted.get(sorted.len() / 2)?;
+    Some(if sorted.len() % 2 == 1 { upper } else { 0.5 * (sorted[sorted.len() / 2 - 1] + upper) })
+}
+
+/// The share of all for which something holds; none where there is nothing.
+pub(crate) fn share<T>(all: impl Iterator<Item = T>, holds: impl Fn(&T) -> bool) -> Option<f64> {
+    let (mut count, mut holding) = (0_usize, 0_usize);
+    for one in all {
+        count += 1;
+        holding += usize::from(holds(&one));
+    }
+    (count > 0).then(|| holding as f64 / count as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians_lie_in_the_middle_and_shares_count_what_holds() {
+        assert_eq!(median([3.0, 1.0, 2.0].into_iter()), Some(2.0));
+        assert_eq!(median([4.0, 1.0, 2.0, 3.0].into_iter()), Some(2.5));
+        assert_eq!(share([1, 2, 3, 4].into_iter(), |number| number % 2 == 0), Some(0.5));
+        assert_eq!((median(std::iter::empty()), share(std::iter::empty::<u8>(), |_| true)), (None, None));
+    }
+}
