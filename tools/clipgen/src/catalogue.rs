@@ -65,7 +65,7 @@ const ROWS: &[Row] = &[
     ("turn_090_left", Kind::Walk, (0.65, 90.0, 0.0), 129, 4),
     ("turn_130_left", Kind::Walk, (0.45, 130.0, 0.0), 121, 4),
     ("jog_turn_060_left", Kind::Run, (2.3, 60.0, 0.0), 89, 4),
-    ("jog_turn_110_left", Kind::Run, (1.9, 110.0, 0.0), 85, 4),
+    ("jog_turn_110_left", Kind::Run, (1.75, 110.0, 0.0), 85, 4),
     ("spin_090_left", Kind::StepAbout(0.095), (0.0, 90.0, 0.0), 121, 4),
     ("spin_170_left", Kind::StepAbout(0.100), (0.0, 170.0, 0.0), 81, 4),
     ("side_035_left", Kind::StepAbout(0.155), (0.0, 0.0, 0.35), 145, 4),

@@ -14,7 +14,7 @@ use crate::foot_roll::Foot;
 use crate::footsteps::{Footprint, leg_phase};
 use crate::legs;
 use crate::pelvis::{self, Height, PelvisPose};
-use crate::rotation::{about_y, about_z};
+use crate::rotation::{about_x, about_y, about_z};
 use crate::swing::{Stance, Swing};
 use crate::upper_body;
 use crate::variation::Variation;
@@ -141,7 +141,7 @@ impl<'a> Cycle<'a> {
 pub(crate) fn write_leg(pelvis: &PelvisPose, foot: &Foot, side: usize, rotations: &mut [DQuat; JOINT_COUNT]) {
     let knee_yaw_rad = pelvis.yaw_rad + KNEE_TOWARDS_FOOT * (foot.yaw_rad - pelvis.yaw_rad);
     let leg = legs::solve(pelvis::hip_m(pelvis, side), foot.ankle_m, knee_yaw_rad);
-    let sole = about_z(foot.yaw_rad) * about_y(-foot.pitch_rad);
+    let sole = about_z(foot.yaw_rad) * about_x(foot.roll_rad) * about_y(-foot.pitch_rad);
     rotations[THIGHS[side]] = pelvis.rotation.inverse() * leg.thigh;
     rotations[SHANKS[side]] = leg.thigh.inverse() * leg.shank;
     rotations[FEET[side]] = leg.shank.inverse() * sole;

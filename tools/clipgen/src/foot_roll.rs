@@ -25,6 +25,8 @@ pub(crate) struct Foot {
     pub(crate) yaw_rad: f64,
     /// Toes up, radians.
     pub(crate) pitch_rad: f64,
+    /// Left side up, radians; 0 on the ground.
+    pub(crate) roll_rad: f64,
     /// Toes up against the foot, radians.
     pub(crate) toe_bend_rad: f64,
 }
@@ -64,6 +66,7 @@ impl FootRoll {
             ankle_m: ground_m.extend(ankle.y),
             yaw_rad: print.yaw_rad,
             pitch_rad,
+            roll_rad: 0.0,
             toe_bend_rad: self.toe_pitch_rad(p, toe_off) - pitch_rad,
         }
     }

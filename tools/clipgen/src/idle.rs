@@ -57,6 +57,7 @@ fn standing_foot(sign: f64) -> Foot {
         ankle_m: DVec3::new(ANKLE_X_M, sign * HALF_WIDTH_M, ANKLE_HEIGHT_M),
         yaw_rad: sign * TOE_OUT_RAD,
         pitch_rad: 0.0,
+        roll_rad: 0.0,
         toe_bend_rad: 0.0,
     }
 }

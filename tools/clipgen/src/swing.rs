@@ -20,6 +20,8 @@ const TOE_UP_SHARE: f64 = 0.4;
 /// m.
 const RUNNING_CLEARANCE_M: f64 = 0.03;
 const RUNNING_CLEAR_FROM_TO: [f64; 2] = [0.25, 0.80];
+/// In the air a foot hangs from its shank and takes part in a turn's bank, at mid-swing by this share.
+const SWING_BANK_SHARE: f64 = 0.5;
 /// Step of the one-sided slopes, share of the stride.
 const SLOPE_STEP: f64 = 1e-4;
 
@@ -102,7 +104,8 @@ impl Swing {
         let lift_m = self.hump_m * hump(gait, s);
         z += gait.style_share * (shape[1] - chord[1]) + (1.0 - gait.style_share * TOE_UP_SHARE) * lift_m;
         pitch_rad += gait.style_share * (shape[2] - chord[2] + TOE_UP_SHARE * lift_m / TOE_TIP_X_M);
-        Foot { ankle_m: DVec3::new(x, y, z), yaw_rad, pitch_rad, toe_bend_rad }
+        let roll_rad = -SWING_BANK_SHARE * gait.upper_body.bank_rad * 16.0 * s * s * (1.0 - s) * (1.0 - s);
+        Foot { ankle_m: DVec3::new(x, y, z), yaw_rad, pitch_rad, roll_rad, toe_bend_rad }
     }
 
     /// The strike is an impact: until then the foot moves on forward and down, and its sole is not yet slapping down.

@@ -49,7 +49,7 @@ const KINDS: [Kind; 6] = [
     Kind {
         name: "turns",
         bar: "turns: bundled to the nearest real, at most the median from real to real, degrees",
-        holds: |found| (0.3..1.8).contains(&found.speed_mps) && found.turn_rate_rad_s.abs() > 20_f32.to_radians(),
+        holds: |found| (0.3..1.6).contains(&found.speed_mps) && found.turn_rate_rad_s.abs() > 20_f32.to_radians(),
     },
     Kind {
         name: "side-steps",
