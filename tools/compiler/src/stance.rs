@@ -12,16 +12,19 @@ use glam::DVec3;
 use crate::contacts::runs;
 use crate::root_motion::percentile;
 
-/// A foot that stands still on the ground is no higher than this over where it is in this contact, metres. Where it
-/// leaves, as in [`crate::contacts`]; in some captures it lands higher and sinks by up to this through a stance.
-const OFF_HEIGHT_MAX_M: f64 = 0.025;
+/// A foot that stands still on the ground is no higher than this over where it is in this contact, metres. It leaves
+/// about where it stood; in some captures it lands higher and sinks by up to this through a stance.
 const STRIKE_HEIGHT_MAX_M: f64 = 0.05;
+const OFF_HEIGHT_MAX_M: f64 = 0.03;
 /// A foot at its height is no faster than this and a share of the body's speed, m/s: fitted to hand labels of a walk, a
-/// run, a side-step, a backward walk and a walk at 120 Hz (`tests/gait_events`) …
-const SPEED_MAX_MPS: f64 = 0.2;
-const SPEED_MAX_SHARE: f64 = 0.15;
-/// … or than this share of it where a runner's toe drags as it pushes off.
-const DRAG_MAX_SHARE: f64 = 0.25;
+/// run, a side-step, a backward walk and a walk at 120 Hz (`tests/gait_events`). At the same height and speed the last
+/// of these still stands where a walk at 30 Hz has left: no limits meet both.
+const STRIKE_SPEED_MAX_MPS: f64 = 0.15;
+const STRIKE_SPEED_MAX_SHARE: f64 = 0.2;
+const OFF_SPEED_MAX_MPS: f64 = 0.1;
+const OFF_SPEED_MAX_SHARE: f64 = 0.23;
+/// A runner's toe drags as it pushes off, but no foot leaves faster than this, m/s.
+const DRAG_MAX_MPS: f64 = 0.8;
 /// Speeds are taken over this time, heights are averaged over it: the frame of the slowest clips, so that 120 frames a
 /// second say the same as 30.
 const SPAN_S: f64 = 1.0 / 30.0;
@@ -29,13 +32,14 @@ const SPAN_S: f64 = 1.0 / 30.0;
 const PLANTED_PERCENTILE: f64 = 0.1;
 /// The feet of noisy captures slide all the time: one is planted up to this multiple of its median speed in a contact,
 /// where that is more than the limit.
-const SLIDE_RATIO_MAX: f64 = 2.0;
+const STRIKE_SLIDE_RATIO_MAX: f64 = 1.0;
+const OFF_SLIDE_RATIO_MAX: f64 = 1.5;
 /// A shorter lift is no swing, seconds, as in [`crate::contacts`].
 const LIFT_MIN_S: f64 = 0.1;
 /// An end is looked for in steps of a frame over this.
 const TICKS_PER_FRAME: usize = 8;
 /// A landing foot may slip or bounce once more for less than this, seconds; swings last 0.3 s and more.
-const SLIP_MAX_S: f64 = 0.05;
+const SLIP_MAX_S: f64 = 0.03;
 
 /// One contact of a foot with the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,16 +109,22 @@ fn frame_of(tick: isize) -> f64 {
 struct Limits {
     height_m: f64,
     speed_mps: f64,
+    /// Its speed over its median speed in the contact.
+    slide_ratio: f64,
 }
 
 impl Limits {
     fn at_strike(body_speed_mps: f64) -> Self {
-        Self { height_m: STRIKE_HEIGHT_MAX_M, speed_mps: SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps }
+        Self {
+            height_m: STRIKE_HEIGHT_MAX_M,
+            speed_mps: STRIKE_SPEED_MAX_MPS + STRIKE_SPEED_MAX_SHARE * body_speed_mps,
+            slide_ratio: STRIKE_SLIDE_RATIO_MAX,
+        }
     }
 
     fn at_off(body_speed_mps: f64) -> Self {
-        let speed_mps = Self::at_strike(body_speed_mps).speed_mps.max(DRAG_MAX_SHARE * body_speed_mps);
-        Self { height_m: OFF_HEIGHT_MAX_M, speed_mps }
+        let speed_mps = (OFF_SPEED_MAX_MPS + OFF_SPEED_MAX_SHARE * body_speed_mps).min(DRAG_MAX_MPS);
+        Self { height_m: OFF_HEIGHT_MAX_M, speed_mps, slide_ratio: OFF_SLIDE_RATIO_MAX }
     }
 }
 
@@ -173,7 +183,7 @@ impl<'a> Contact<'a> {
     /// How far the contact point is beyond being planted: 1 at the end of a contact, less within.
     fn excess(&self, limits: &Limits, tick: isize) -> f64 {
         let (height_m, speed_mps) = self.contact_point(frame_of(tick));
-        let speed_max_mps = limits.speed_mps.max(SLIDE_RATIO_MAX * self.slide_mps);
+        let speed_max_mps = limits.speed_mps.max(limits.slide_ratio * self.slide_mps);
         let (height, speed) = (height_m / limits.height_m, speed_mps / speed_max_mps);
         height * height + speed * speed
     }

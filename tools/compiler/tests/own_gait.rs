@@ -1,0 +1,57 @@
+//! A clip's gait is its performer's, whatever other clips lie beside it (real clips are test input only).
+
+use std::path::{Path, PathBuf};
+
+use motiondb::motion_db::{MotionExample, PHASE_COUNT};
+use motiondb_compiler::compile::compile_files;
+
+const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
+const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
+/// Performers of unlike proportions, each with soles of his own.
+const CLIPS: [&str; 6] = [
+    "bandai_namco/dataset-1_walk_normal_001.bvh",
+    "bandai_namco/dataset-1_walk-back_masculinity_001.bvh",
+    "smartbody_converted/ChrMarine_Walk01.bvh",
+    "smartbody_converted/ChrMarine_Jog01.bvh",
+    "smartbody_converted/ChrMarine_WalkCircleRt01.bvh",
+    "cmu_cgspeed/02_01.bvh",
+];
+
+/// The recorded examples of some clips that step.
+fn examples(files: &[PathBuf]) -> Vec<MotionExample> {
+    let examples = compile_files(files, &|_| ()).unwrap().db.examples;
+    examples.into_iter().filter(|example| !example.mirrored && example.key_times_s.is_some()).collect()
+}
+
+/// Fails unless an example's key times are those of the same clip compiled alone, to within a row.
+#[track_caller]
+fn check_same_key_times(alone: &MotionExample, beside: &MotionExample) {
+    let period_s = alone.phase_map.period_s;
+    assert!((beside.phase_map.period_s - period_s).abs() < 1e-3, "{alone:?}, beside others {beside:?}");
+    let row_s = period_s / PHASE_COUNT as f32;
+    for (alone_s, beside_s) in alone.key_times_s.unwrap().into_iter().zip(beside.key_times_s.unwrap()) {
+        let off_s = (alone_s - beside_s).abs();
+        assert!(off_s.min(period_s - off_s) < row_s, "{alone:?}, beside others {beside:?}");
+    }
+}
+
+#[test]
+fn key_times_do_not_depend_on_what_else_is_compiled() {
+    let mut files: Vec<PathBuf> = CLIPS.iter().map(|file| Path::new(MOCAP).join(file)).collect();
+    if let Some(missing) = files.iter().find(|file| !file.is_file()) {
+        println!("SKIPPED key_times_do_not_depend_on_what_else_is_compiled: {} is missing", missing.display());
+        return;
+    }
+    let alone: Vec<MotionExample> = files.iter().flat_map(|file| examples(std::slice::from_ref(file))).collect();
+    files.extend(["walk_110.bvh", "walk_050.bvh", "run_350.bvh"].map(|file| Path::new(BUNDLED).join(file)));
+    let beside = examples(&files);
+    let mut compared = 0;
+    for alone in &alone {
+        // Of captures with several windows some may add nothing beside others.
+        if let Some(beside) = beside.iter().find(|example| example.name == alone.name) {
+            check_same_key_times(alone, beside);
+            compared += 1;
+        }
+    }
+    assert!(compared >= CLIPS.len(), "{compared} of {}", alone.len());
+}
