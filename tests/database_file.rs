@@ -125,11 +125,18 @@ fn figures_beyond_their_thresholds_are_warnings_unless_strict() {
 }
 
 #[test]
-fn a_thousand_damaged_and_forged_databases_are_refused_or_harmless() {
+fn whatever_is_read_survives_damage_forgery_and_mutation() {
     let database = golden("fbdb");
-    let arguments = ["bench", "soak", text(&database), "--count", "800", "--forged", "200", "--json"];
+    let counts = ["--count", "800", "--forged", "200", "--mutated", "100"];
+    let arguments = [&["bench", "soak", text(&database), "--json"], &counts[..]].concat();
     let found = fbcrowd(&arguments).expect_code(0).json();
-    assert_eq!((&found["refused"], &found["harmful"]), (&800.into(), &0.into()));
+    let kinds = found["kinds"].as_array().unwrap();
+    assert_eq!((kinds.len(), &kinds[0]["refused"]), (7, &800.into()), "{found}");
+    for kind in kinds {
+        let count = |key: &str| kind[key].as_u64().unwrap();
+        assert_eq!(count("refused") + count("used"), count("copies"), "{kind}");
+        assert!(count("refused") > 0 && (count("used") > 0 || kind == &kinds[0]), "{kind}");
+    }
 }
 
 /// Examples of a database whose feet do not confirm a speed that is stored a quarter off, the slide with it.

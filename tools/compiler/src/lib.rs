@@ -46,6 +46,7 @@ pub mod manifest;
 pub mod manifest_error;
 mod manifest_table;
 pub mod mirror;
+pub mod mutation;
 mod named_cycles;
 mod names;
 mod outline;

@@ -24,7 +24,7 @@ const ELBOWS_AS_SHOULDERS: [&str; 4] = ["bandai_namco/", "gltf/kaykit", "gltf/Ro
 /// Shorter clips tell too little.
 const JUDGED_FROM_S: f64 = 1.0;
 /// Units agree to this share.
-const UNIT_TOLERANCE: f64 = 1e-3;
+const UNIT_TOLERANCE: f64 = 1e-5;
 
 /// One row of human locomotion.
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
-//! Claims about the import: real clips made by others against their independently measured truth, and hand-written files against malice.
+//! Claims about the import: real clips made by others against their independently measured truth, and hand-written files
+//! against malice.
 //!
-//! The real clips are test input only and lie outside the repository (`/work/shared/mocap`, truth in its `index.csv`); tests that need them
-//! say SKIPPED and pass where they are missing.
+//! The real clips are test input only and lie outside the repository (`/work/shared/mocap`, truth in its `index.csv`);
+//! tests that need them say SKIPPED and pass where they are missing.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
@@ -13,13 +13,10 @@ use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import::{Import, clip_files, import, import_bytes};
 use motiondb_compiler::skeleton_map::find_roles;
 use motiondb_compiler::source_clip::SourceClip;
-use motiondb_compiler::{bvh, gltf, source_parameters, units};
+use motiondb_compiler::truth::{self, Truth};
+use motiondb_compiler::{bvh, gltf, units};
 
 const MOCAP: &str = "/work/shared/mocap";
-
-/// The rigs of whose joints `index.csv` took the elbows for shoulders: its script's pattern `arm(left|l)$` also matches `LowerArm_L` and
-/// `lowerarm.l`, and its widest pair wins. Judged here with the same joints, so that all else is compared.
-const ELBOWS_AS_SHOULDERS: [&str; 4] = ["bandai_namco/", "gltf/kaykit", "gltf/RobotExpressive", "makehuman/"];
 
 fn mocap(test: &str) -> Option<PathBuf> {
     let folder = Path::new(MOCAP);
@@ -30,41 +27,14 @@ fn mocap(test: &str) -> Option<PathBuf> {
     Some(folder.to_owned())
 }
 
-/// A row of the index by column name.
-type Row = BTreeMap<String, String>;
-
-fn index(folder: &Path) -> Vec<Row> {
-    let text = std::fs::read_to_string(folder.join("index.csv")).unwrap();
-    let mut lines = text.lines().map(csv_fields);
-    let header = lines.next().unwrap();
-    lines.map(|fields| header.iter().cloned().zip(fields).collect()).collect()
+fn locomotion(folder: &Path) -> Vec<Truth> {
+    truth::read(folder).unwrap()
 }
 
-fn csv_fields(line: &str) -> Vec<String> {
-    let mut fields = vec![String::new()];
-    let mut quoted = false;
-    for letter in line.chars() {
-        match letter {
-            '"' => quoted = !quoted,
-            ',' if !quoted => fields.push(String::new()),
-            _ => fields.last_mut().unwrap().push(letter),
-        }
-    }
-    fields
-}
-
-fn number(row: &Row, column: &str) -> f64 {
-    row[column].parse().unwrap_or(0.0)
-}
-
-fn locomotion(folder: &Path) -> Vec<Row> {
-    index(folder).into_iter().filter(|row| row["locomotion"] == "yes").collect()
-}
-
-fn imported(folder: &Path, row: &Row) -> HumanClip {
-    let imports = import(&folder.join(&row["file"])).unwrap_or_else(|error| panic!("{error}"));
-    let found = imports.into_iter().find(|import| import.clip == row["clip"]).expect("the clip is in the file");
-    found.outcome.unwrap_or_else(|refusal| panic!("{} {}: {refusal}", row["file"], row["clip"]))
+fn imported(folder: &Path, row: &Truth) -> HumanClip {
+    let imports = import(&folder.join(&row.file)).unwrap_or_else(|error| panic!("{error}"));
+    let found = imports.into_iter().find(|import| import.clip == row.clip).expect("the clip is in the file");
+    found.outcome.unwrap_or_else(|refusal| panic!("{} {}: {refusal}", row.file, row.clip))
 }
 
 fn source(path: &Path, clip: &str) -> SourceClip {
@@ -76,48 +46,14 @@ fn source(path: &Path, clip: &str) -> SourceClip {
     clips.into_iter().find(|source| source.clip == clip).unwrap()
 }
 
-/// v_f, ω_t (degrees), ω_s as the index measured them.
-fn measured_as_the_index_does(folder: &Path, row: &Row, human: &HumanClip) -> [f64; 3] {
-    let record = &human.source;
-    let ours = [record.speed_mps, record.turn_rate_rad_s.to_degrees(), record.strafe_mps].map(f64::from);
-    if !ELBOWS_AS_SHOULDERS.iter().any(|rig| row["file"].starts_with(rig)) {
-        return ours;
+/// What is off in one clip by the tolerances of `definitions.md`, measured at the joints that the index took.
+fn misses(folder: &Path, row: &Truth) -> Option<String> {
+    let mut judgement = row.judge(&imported(folder, row));
+    if row.is_by_elbows() {
+        judgement.found = truth::by_elbows(source(&folder.join(&row.file), &row.clip)).unwrap();
     }
-    let clip = source(&folder.join(&row["file"]), &row["clip"]);
-    let mut roles = find_roles(&clip, &[None; JOINT_COUNT]).unwrap();
-    let (clip, _) = units::to_metres_z_up(clip, &roles);
-    for (shoulder, elbow) in [(Joint::LeftUpperArm, Joint::LeftForearm), (Joint::RightUpperArm, Joint::RightForearm)] {
-        roles.joints[shoulder.index()] = roles.joints[elbow.index()];
-    }
-    let whole = source_parameters::measure(&clip, &roles);
-    [whole.speed_mps, whole.turn_rate_rad_s.to_degrees(), whole.strafe_mps]
-}
-
-/// What is off in one clip by the tolerances of `definitions.md`.
-fn misses(folder: &Path, row: &Row) -> Option<String> {
-    let human = imported(folder, row);
-    let treads = human.in_place_mps.is_some();
-    let columns = if treads { ["implied_fwd_mps", "implied_left_mps"] } else { ["v_fwd_mps", "v_left_mps"] };
-    let truth = [number(row, columns[0]), number(row, "turn_degps"), number(row, columns[1])];
-    let ours = measured_as_the_index_does(folder, row, &human);
-    let duration_s = number(row, "duration_s");
-    let wider = if treads { 3.0 } else { 1.0 };
-    let tolerances = [
-        wider * f64::max(0.03 * truth[0].abs(), 0.03),
-        wider * f64::max(3.0, 15.0 / duration_s),
-        wider * f64::max(0.03 * truth[2].abs(), 0.04),
-    ];
-    let judged = duration_s >= 1.0;
-    let off = judged && (0..3).any(|k| (ours[k] - truth[k]).abs() > tolerances[k]);
-    let record = &human.source;
-    let other_units =
-        record.up_axis != row["up"] || (f64::from(record.metres_per_unit) - number(row, "m_per_unit")).abs() > 1e-6;
-    (off || other_units).then(|| {
-        format!(
-            "{} {}: {ours:.3?}, not {truth:.3?}; {} {}",
-            row["file"], row["clip"], record.up_axis, record.metres_per_unit
-        )
-    })
+    let is_off = judgement.is_judged && !judgement.holds();
+    (is_off || !judgement.units_hold).then(|| format!("{} {}: {judgement:.3?}", row.file, row.clip))
 }
 
 #[test]
@@ -167,7 +103,7 @@ fn a_lying_frame_time_and_a_separate_first_pose_are_told() {
     );
     for row in locomotion(&folder) {
         let warnings = imported(&folder, &row).source.warnings;
-        assert!(!warnings.iter().any(|warning| warning.contains("frame time")), "{} {warnings:?}", row["file"]);
+        assert!(!warnings.iter().any(|warning| warning.contains("frame time")), "{} {warnings:?}", row.file);
     }
 }
 
@@ -211,11 +147,11 @@ fn retargeted_joints_stand_where_the_sources_do() {
     let upper = [Joint::Head, Joint::LeftUpperArm, Joint::RightUpperArm, Joint::LeftHand, Joint::RightHand];
     for row in locomotion(&folder) {
         let human = imported(&folder, &row);
-        let path = folder.join(&row["file"]);
+        let path = folder.join(&row.file);
         let groups: [&[Joint]; 3] = [&Joint::THIGHS, &legs, &upper];
-        let off = groups.map(|joints| farthest_off(&path, &row["clip"], &human, joints));
-        let limits = distance_limits(&row["file"]);
-        assert!((0..3).all(|group| off[group] < limits[group]), "{} {}: {off:?} m", row["file"], row["clip"]);
+        let off = groups.map(|joints| farthest_off(&path, &row.clip, &human, joints));
+        let limits = distance_limits(&row.file);
+        assert!((0..3).all(|group| off[group] < limits[group]), "{} {}: {off:?} m", row.file, row.clip);
     }
 }
 
@@ -224,7 +160,7 @@ fn knees_and_elbows_flex_feet_stand_flat_and_bodies_upright() {
     let Some(folder) = mocap("knees_and_elbows_flex_feet_stand_flat_and_bodies_upright") else { return };
     for row in locomotion(&folder) {
         let human = imported(&folder, &row);
-        let name = format!("{} {}", row["file"], row["clip"]);
+        let name = format!("{} {}", row.file, row.clip);
         let mean =
             |value: &dyn Fn(usize) -> f64| (0..human.frames.len()).map(value).sum::<f64>() / human.frames.len() as f64;
         let turn = |frame: usize, joint: Joint| human.frames[frame].rotations[joint.index()].to_scaled_axis();

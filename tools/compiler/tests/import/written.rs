@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use base64::Engine;
+use motiondb_compiler::mutation::{Edit, mutated};
 use proptest::prelude::*;
 
 use super::{import_bytes, only};
@@ -238,23 +239,9 @@ fn gltf_that_claims_more_than_it_has_is_refused() {
     check(r#""componentType":5126"#, r#""componentType":5123"#);
 }
 
-/// Replaces, drops or repeats some bytes.
-fn mutated(bytes: &[u8], edits: &[(prop::sample::Index, u8, u8)]) -> Vec<u8> {
-    let mut bytes = bytes.to_vec();
-    for (place, kind, value) in edits {
-        let at = place.index(bytes.len());
-        match kind % 4 {
-            0 => bytes[at] = *value,
-            1 => drop(bytes.drain(at..(at + usize::from(*value)).min(bytes.len() - 1))),
-            2 => bytes.insert(at, b"0-{}\n.e: "[usize::from(*value) % 9]),
-            _ => bytes[at] = b'9',
-        }
-    }
-    bytes
-}
-
-fn edits() -> impl Strategy<Value = Vec<(prop::sample::Index, u8, u8)>> {
-    prop::collection::vec(any::<(prop::sample::Index, u8, u8)>(), 1..6)
+fn edits() -> impl Strategy<Value = Vec<Edit>> {
+    let edit = any::<(u64, u8, u32)>().prop_map(|(place, kind, value)| Edit { place, kind, value });
+    prop::collection::vec(edit, 1..6)
 }
 
 proptest! {

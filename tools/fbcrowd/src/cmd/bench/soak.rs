@@ -1,62 +1,66 @@
-//! `fbcrowd bench soak`: does a database that was damaged or forged ever pass, or end the program?
+//! `fbcrowd bench soak`: does anything that FbCrowd reads, damaged, forged or mutated, ever end the program, take for
+//! ever or do harm?
 //!
-//! Damage: one byte altered, or the file cut anywhere; the checksum must catch every one. Forgery: bytes of the payload
-//! altered and sealed with a right checksum, so that decoding and every invariant are reached; what still counts as a
-//! sound database must move bodies like one.
+//! One file a kind of input. Each copy draws its own random numbers from a seed of its own, the run's seed plus its
+//! number, so that one copy can be made again alone.
 
-use std::ops::AddAssign;
+mod clip;
+mod database;
+mod draw;
+mod recording;
+mod scratch;
+mod text_file;
+
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Instant;
 
-use fbcrowd_sim::params::Params;
-use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
-use fbcrowd_sim::split_mix::SplitMix64;
-use fbcrowd_sim::step::Simulation;
-use glam::Vec2;
-use motiondb::container::{self, HEADER_LENGTH};
 use motiondb::motion_db::MotionDb;
 use motiondb::{file, validate};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use self::draw::Draw;
+use self::scratch::Scratch;
 use super::bar::{Bar, Found, conclude};
+use super::bundled::bundled;
 use crate::failure::{Answer, Failure};
 use crate::output;
 use crate::progress::Progress;
 
-/// Steps for which a forged database that seems sound is simulated: a second, about a stride.
-const STEPS: usize = 30;
-/// Skeleton, sources and examples of a small database are as long as this, sets and simplices too.
-const END_BYTES: usize = 4096;
-/// Four bytes that hurt where a number, an index or a length is meant.
-const HOSTILE: [u32; 8] = [
-    0,
-    1,
-    u32::MAX,
-    i32::MAX as u32,
-    f32::NAN.to_bits(),
-    f32::INFINITY.to_bits(),
-    (-1.0_f32).to_bits(),
-    1e30_f32.to_bits(),
-];
+/// No copy may take longer, as no input of a fuzz target may.
+const LONGEST_S: f64 = 10.0;
+const DAMAGED: &str = "damaged databases";
 
-/// Damage and forge a database thousands of times; every damaged one must be refused, and none may end the program.
+/// Damage, forge and mutate thousands of copies of whatever is read; each must be refused or do no harm.
 ///
-/// In JSON `damaged, refused, forged, undecodable, unsound, harmless, harmful`.
+/// Damaged databases: one byte altered, or cut anywhere; the checksum must refuse every one. Forged ones: altered and
+/// sealed with a right checksum; what is used must move bodies. BVH and GLB files, manifests, scenarios and recordings:
+/// bytes altered, dropped, repeated or inserted, numbers replaced, lengths and checksums set right or not; what is used
+/// must give sound databases and finite bodies. All begin with the bundled clips.
+///
+/// In JSON `seed, kinds[] {name, copies, refused, used, harmful, panics, slow, slowest_s}, finds[] {kind, seed, what}`.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  fbcrowd bench soak motion.fbdb --count 10000")]
+#[command(after_help = "\
+Examples:
+  fbcrowd bench soak
+  fbcrowd bench soak motion.fbdb --count 100000 --forged 10000 --mutated 0
+  fbcrowd bench soak --seed 4711 --count 1 --forged 1 --mutated 1    # a copy that was found, again")]
 pub(super) struct Args {
-    /// A sound database.
+    /// A sound database; else that of the bundled clips.
     #[arg(value_name = "FILE.fbdb")]
-    database: PathBuf,
-    /// Damaged copies.
+    database: Option<PathBuf>,
+    /// Damaged databases.
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     count: usize,
-    /// Forged copies, which take longer.
+    /// Forged databases, which take longer.
     #[arg(long, value_name = "N", default_value_t = 1_000)]
     forged: usize,
-    /// Which bytes are altered, and how.
+    /// Mutated files of each other kind.
+    #[arg(long, value_name = "N", default_value_t = 1_000)]
+    mutated: usize,
+    /// Which bytes are altered, and how: of a copy the seed plus its number from 0.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Print JSON.
@@ -64,151 +68,163 @@ pub(super) struct Args {
     json: bool,
 }
 
-/// What became of the copies.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+/// What became of one copy.
+enum Fate {
+    Refused,
+    Used,
+    /// Used though it is not sound.
+    Harmful(&'static str),
+}
+
+/// One kind of input: a copy is made from its draws, and read.
+struct Kind<'a> {
+    name: &'static str,
+    copies: usize,
+    attempt: Box<dyn Fn(&mut Draw) -> Fate + Sync + 'a>,
+}
+
+#[derive(Serialize)]
 struct Details {
-    damaged: usize,
+    seed: u64,
+    kinds: Vec<Tally>,
+    finds: Vec<Find>,
+}
+
+#[derive(Serialize)]
+struct Tally {
+    name: &'static str,
+    copies: usize,
     refused: usize,
-    forged: usize,
-    /// No database by its form.
-    undecodable: usize,
-    /// An invariant caught it.
-    unsound: usize,
-    /// Sound, and it moved bodies like a sound one.
-    harmless: usize,
-    /// Sound, but bodies got nowhere or the program would have ended.
+    used: usize,
     harmful: usize,
+    panics: usize,
+    /// Copies over [`LONGEST_S`].
+    slow: usize,
+    slowest_s: f64,
+}
+
+/// A copy that is not as it should be.
+#[derive(Serialize)]
+struct Find {
+    kind: &'static str,
+    seed: u64,
+    what: &'static str,
 }
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
-    let bytes = file::to_bytes(&file::load(&args.database)?.0);
-    let details = soak(&bytes, args);
-    let count = |count: usize| count as f64;
-    let found = Found {
-        details,
-        goals: Vec::new(),
-        bars: vec![
-            Bar::at_least("damaged databases refused", count(args.count), count(details.refused)),
-            Bar::at_most("forged databases that do harm", 0.0, count(details.harmful)),
-        ],
+    let db = match &args.database {
+        Some(path) => file::load(path)?.0,
+        None => bundled()?,
     };
-    conclude(&found, &text(&details), args.json)
+    let scratch = Scratch::new()?;
+    let found = soak(&kinds(args, &Arc::new(db), &scratch)?, args.seed);
+    let total = |count: fn(&Tally) -> usize| found.kinds.iter().map(count).sum::<usize>() as f64;
+    let refused = found.kinds.iter().find(|kind| kind.name == DAMAGED).map(|kind| kind.refused as f64);
+    let bars = vec![
+        Bar::at_least("damaged databases refused", args.count as f64, refused),
+        Bar::at_most("copies that end the program", 0.0, total(|kind| kind.panics)),
+        Bar::at_most("copies that take longer than 10 s", 0.0, total(|kind| kind.slow)),
+        Bar::at_most("copies that are used and do harm", 0.0, total(|kind| kind.harmful)),
+    ];
+    let text = text(&found);
+    conclude(&Found { details: found, goals: Vec::new(), bars }, &text, args.json)
 }
 
-/// Damages and forges a database; each copy draws its own random numbers.
-fn soak(bytes: &[u8], args: &Args) -> Details {
-    let progress = Progress::new("copies", args.count + args.forged);
-    let copy = |index: usize| {
-        let mut random = SplitMix64::new(args.seed, index as u64);
-        let attempt = || if index < args.count { damage(bytes, &mut random) } else { forge(bytes, &mut random) };
-        let outcome = catch_unwind(AssertUnwindSafe(attempt));
-        progress.advance();
-        // The panic's own message names its place.
-        outcome.unwrap_or_else(|_| {
-            output::say(&format!("copy {index} of seed {} ends the program", args.seed));
-            Details { harmful: 1, ..Details::default() }
-        })
-    };
-    let outcomes: Vec<Details> = (0..args.count + args.forged).into_par_iter().map(copy).collect();
-    progress.finish();
-    let mut sum = Details::default();
-    outcomes.into_iter().for_each(|outcome| sum += outcome);
-    sum
+fn kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Result<Vec<Kind<'a>>, Failure> {
+    let bytes = Arc::new(file::to_bytes(db));
+    let forged = Arc::clone(&bytes);
+    let (bvh, glb) = (clip::bundled(".bvh"), clip::bundled(".glb"));
+    let recording = recording::bytes(db, scratch)?;
+    text_file::write_clips(scratch)?;
+    let crowd = Arc::clone(db);
+    let kind = |name, copies, attempt| Kind { name, copies, attempt };
+    Ok(vec![
+        kind(DAMAGED, args.count, Box::new(move |draw: &mut Draw| database::damage(&bytes, draw))),
+        kind("forged databases", args.forged, Box::new(move |draw: &mut Draw| database::forge(&forged, draw))),
+        kind("BVH", args.mutated, Box::new(move |draw: &mut Draw| clip::bvh(&bvh, draw))),
+        kind("GLB", args.mutated, Box::new(move |draw: &mut Draw| clip::glb(&glb, draw))),
+        kind("manifests", args.mutated, Box::new(|draw: &mut Draw| text_file::manifest(scratch, draw))),
+        kind("scenarios", args.mutated, Box::new(move |draw: &mut Draw| text_file::scenario(&crowd, scratch, draw))),
+        kind("recordings", args.mutated, Box::new(move |draw: &mut Draw| recording::read(&recording, scratch, draw))),
+    ])
 }
 
-/// Alters one byte or cuts the file.
-fn damage(bytes: &[u8], random: &mut SplitMix64) -> Details {
-    let mut copy = bytes.to_vec();
-    let place = below(copy.len(), random);
-    if random.next_u64().is_multiple_of(2) {
-        copy.truncate(place);
-    } else {
-        copy[place] ^= 1 + below(255, random) as u8;
+fn soak(kinds: &[Kind], seed: u64) -> Details {
+    let progress = Progress::new("copies", kinds.iter().map(|kind| kind.copies).sum());
+    let mut found = Details { seed, kinds: Vec::new(), finds: Vec::new() };
+    for (stream, kind) in kinds.iter().enumerate() {
+        let copy = |index: usize| {
+            let seed = seed.wrapping_add(index as u64);
+            let outcome = tried(kind, &mut Draw::new(seed, stream as u64));
+            progress.advance();
+            (seed, outcome)
+        };
+        let outcomes: Vec<(u64, Outcome)> = (0..kind.copies).into_par_iter().map(copy).collect();
+        found.add(kind, &outcomes);
     }
-    let refused = file::from_bytes(Path::new("damaged"), &copy).is_err();
-    Details { damaged: 1, refused: usize::from(refused), ..Details::default() }
+    progress.finish();
+    found
 }
 
-/// Alters the payload and seals it anew.
-fn forge(bytes: &[u8], random: &mut SplitMix64) -> Details {
-    let mut payload = bytes[HEADER_LENGTH..].to_vec();
-    let place = forged_place(payload.len() - size_of::<u32>(), random);
-    match random.next_u64() % 3 {
-        0 => payload[place] ^= 1 + below(255, random) as u8,
-        1 => payload[place..place + 4].copy_from_slice(&HOSTILE[below(HOSTILE.len(), random)].to_le_bytes()),
-        _ => {
-            let from = below(payload.len() - size_of::<u32>(), random);
-            payload.copy_within(from..from + 4, place);
+/// A copy's fate, none where it panicked, and its time.
+struct Outcome {
+    fate: Option<Fate>,
+    seconds: f64,
+}
+
+/// The panic's own message, on standard error, names its place.
+fn tried(kind: &Kind, draw: &mut Draw) -> Outcome {
+    let start = Instant::now();
+    let fate = catch_unwind(AssertUnwindSafe(|| (kind.attempt)(draw))).ok();
+    Outcome { fate, seconds: start.elapsed().as_secs_f64() }
+}
+
+impl Outcome {
+    fn fault(&self) -> Option<&'static str> {
+        match &self.fate {
+            None => Some("ends the program"),
+            Some(Fate::Harmful(what)) => Some(what),
+            Some(_) => (self.seconds > LONGEST_S).then_some("takes longer than 10 s"),
         }
     }
-    let forged = Details { forged: 1, ..Details::default() };
-    let sealed = container::seal(file::MAGIC, file::VERSION, &payload);
-    let Ok((db, _)) = file::from_bytes(Path::new("forged"), &sealed) else {
-        return Details { undecodable: 1, ..forged };
-    };
-    if validate::validate(&db).iter().any(|check| check.broken.is_some()) {
-        return Details { unsound: 1, ..forged };
-    }
-    if moves_bodies(db) { Details { harmless: 1, ..forged } } else { Details { harmful: 1, ..forged } }
 }
 
-/// Anywhere; every other time near an end, where all stands that is not rows of poses.
-fn forged_place(limit: usize, random: &mut SplitMix64) -> usize {
-    let (anywhere, near) = (below(limit, random), below(limit.min(END_BYTES), random));
-    match random.next_u64() % 4 {
-        0 => near,
-        1 => limit - 1 - near,
-        _ => anywhere,
-    }
-}
-
-/// Whether bodies that cross each other's way stay somewhere.
-fn moves_bodies(db: MotionDb) -> bool {
-    let mut simulation = Simulation::new(Arc::new(db), &crossing());
-    (0..STEPS).for_each(|_| simulation.step(&mut |_| ()));
-    simulation.frames().iter().all(|agent| agent.root.position_m.is_finite() && agent.pose.pelvis_m.is_finite())
-}
-
-/// Four bodies on the sides of a square, each with its goal on the other side.
-fn crossing() -> Scenario {
-    let agent = |position_m: Vec2| AgentSpec {
-        position_m,
-        facing_rad: (-position_m).to_angle(),
-        goals_m: vec![-position_m],
-        radius_m: 0.25,
-        preferred_speed_mps: 1.33,
-    };
-    Scenario {
-        name: "crossing".to_owned(),
-        duration_s: 1.0,
-        dt_s: 1.0 / 30.0,
-        seed: 1,
-        agents: [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y].map(|side| agent(2.0 * side)).to_vec(),
-        obstacles_m: Vec::new(),
-        params: Params::default(),
-        view: View::default(),
+impl Details {
+    fn add(&mut self, kind: &Kind, outcomes: &[(u64, Outcome)]) {
+        for (seed, what) in outcomes.iter().filter_map(|(seed, outcome)| Some((*seed, outcome.fault()?))) {
+            output::say(&format!("{}, seed {seed}: {what}", kind.name));
+            self.finds.push(Find { kind: kind.name, seed, what });
+        }
+        let count = |is: fn(&Outcome) -> bool| outcomes.iter().filter(|(_, outcome)| is(outcome)).count();
+        self.kinds.push(Tally {
+            name: kind.name,
+            copies: kind.copies,
+            refused: count(|outcome| matches!(outcome.fate, Some(Fate::Refused))),
+            used: count(|outcome| matches!(outcome.fate, Some(Fate::Used))),
+            harmful: count(|outcome| matches!(outcome.fate, Some(Fate::Harmful(_)))),
+            panics: count(|outcome| outcome.fate.is_none()),
+            slow: count(|outcome| outcome.seconds > LONGEST_S),
+            slowest_s: outcomes.iter().map(|(_, outcome)| outcome.seconds).fold(0.0, f64::max),
+        });
     }
 }
 
-fn below(limit: usize, random: &mut SplitMix64) -> usize {
-    (random.next_u64() % limit as u64) as usize
-}
-
-impl AddAssign for Details {
-    fn add_assign(&mut self, other: Self) {
-        self.damaged += other.damaged;
-        self.refused += other.refused;
-        self.forged += other.forged;
-        self.undecodable += other.undecodable;
-        self.unsound += other.unsound;
-        self.harmless += other.harmless;
-        self.harmful += other.harmful;
+/// What is used must be sound: none of the invariants of `fbcrowd validate` broken.
+fn judged(db: &MotionDb) -> Fate {
+    match validate::validate(db).iter().any(|check| check.broken.is_some()) {
+        true => Fate::Harmful("gives a database with a broken invariant"),
+        false => Fate::Used,
     }
 }
 
 fn text(found: &Details) -> String {
-    format!(
-        "damaged  {}, of them refused {}\nforged   {}: {} cannot be decoded, {} break an invariant, {} do no harm, {} do\n",
-        found.damaged, found.refused, found.forged, found.undecodable, found.unsound, found.harmless, found.harmful,
-    )
+    let mut text = "                    copies  refused    used  harmful  panics  slowest s\n".to_owned();
+    for kind in &found.kinds {
+        let Tally { name, copies, refused, used, harmful, panics, slowest_s, .. } = kind;
+        text += &format!("{name:<18}{copies:8}{refused:9}{used:8}{harmful:9}{panics:8}{slowest_s:11.2}\n");
+    }
+    for Find { kind, seed, what } in &found.finds {
+        text += &format!("{kind}: {what}; again with --seed {seed} --count 1 --forged 1 --mutated 1\n");
+    }
+    text
 }
