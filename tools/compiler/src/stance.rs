@@ -38,8 +38,10 @@ const OFF_SLIDE_RATIO_MAX: f64 = 1.5;
 const LIFT_MIN_S: f64 = 0.1;
 /// An end is looked for in steps of a frame over this.
 const TICKS_PER_FRAME: usize = 8;
-/// A landing foot may slip or bounce once more for less than this, seconds; swings last 0.3 s and more.
-const SLIP_MAX_S: f64 = 0.03;
+/// A landing foot may slip or bounce once more for less than this, a leaving one drag, seconds; swings last 0.3 s and
+/// more.
+const STRIKE_SLIP_MAX_S: f64 = 0.05;
+const OFF_SLIP_MAX_S: f64 = 0.03;
 
 /// One contact of a foot with the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,6 +113,8 @@ struct Limits {
     speed_mps: f64,
     /// Its speed over its median speed in the contact.
     slide_ratio: f64,
+    /// How long it may be beyond these limits meanwhile.
+    slip_s: f64,
 }
 
 impl Limits {
@@ -119,12 +123,13 @@ impl Limits {
             height_m: STRIKE_HEIGHT_MAX_M,
             speed_mps: STRIKE_SPEED_MAX_MPS + STRIKE_SPEED_MAX_SHARE * body_speed_mps,
             slide_ratio: STRIKE_SLIDE_RATIO_MAX,
+            slip_s: STRIKE_SLIP_MAX_S,
         }
     }
 
     fn at_off(body_speed_mps: f64) -> Self {
         let speed_mps = (OFF_SPEED_MAX_MPS + OFF_SPEED_MAX_SHARE * body_speed_mps).min(DRAG_MAX_MPS);
-        Self { height_m: OFF_HEIGHT_MAX_M, speed_mps, slide_ratio: OFF_SLIDE_RATIO_MAX }
+        Self { height_m: OFF_HEIGHT_MAX_M, speed_mps, slide_ratio: OFF_SLIDE_RATIO_MAX, slip_s: OFF_SLIP_MAX_S }
     }
 }
 
@@ -162,7 +167,7 @@ impl<'a> Contact<'a> {
         if !is_planted(edge) {
             return frame_of(outer) + 0.5 * outward as f64;
         }
-        let slip_ticks = (SLIP_MAX_S * self.frame_rate_hz * TICKS_PER_FRAME as f64) as isize + 1;
+        let slip_ticks = (limits.slip_s * self.frame_rate_hz * TICKS_PER_FRAME as f64) as isize + 1;
         let mut tick = edge;
         while tick != bound && (tick - edge).abs() < slip_ticks {
             tick += outward;
