@@ -1,8 +1,8 @@
 //! Two-bone leg inverse kinematics: puts an ankle where it should be and keeps the foot's orientation.
 //!
-//! Three steps: bend the knee about its own axis until hip to ankle has the wanted length; swing the whole leg onto the
-//! target by the shortest arc; turn the foot back to the orientation that it had. Positions and orientations are those
-//! of the pose's own frame.
+//! Three steps: bend the knee about its own axis, forward, until hip to ankle has the wanted length; swing the whole leg
+//! onto the target by the shortest arc; turn the foot back to the orientation that it had. Positions and orientations
+//! are those of the pose's own frame.
 
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::Joint;
@@ -11,8 +11,13 @@ use crate::human_clip::{HumanBody, HumanJoints, HumanPose};
 
 /// The leg never straightens beyond this share of thigh plus shank: near 1 the knee's angle changes without bound.
 const REACH_MAX: f64 = 0.9995;
-/// Nor folds closer than this multiple of their difference.
+/// From this share on, a knee flexed by 10°, it straightens less and less, so that the knee does not stop with a jerk.
+/// That takes 1 mm from a leg that would be straight.
+const REACH_SOFT: f64 = 0.9965;
+/// Nor does it fold closer than this multiple of their difference.
 const REACH_MIN: f64 = 1.01;
+/// Weight of the thigh's own axis in that of a straight knee, against the sine of the flexion of a bent one: 3°.
+const STRAIGHT_LEAN: f64 = 0.05;
 
 /// Moves one ankle to `target_m`, or as near as the leg reaches; the foot keeps its orientation.
 pub fn place_ankle(pose: &mut HumanPose, body: &HumanBody, side: usize, target_m: DVec3) {
@@ -20,10 +25,10 @@ pub fn place_ankle(pose: &mut HumanPose, body: &HumanBody, side: usize, target_m
     let [thigh, shank, foot] = [Joint::THIGHS[side].index(), Joint::SHANKS[side].index(), Joint::FEET[side].index()];
     let (hip_m, knee_m, ankle_m) = (joints.positions_m[thigh], joints.positions_m[shank], joints.positions_m[foot]);
 
-    let bend = DQuat::from_axis_angle(
-        knee_axis(&joints, side),
-        knee_angle_change(knee_m - hip_m, ankle_m - knee_m, (target_m - hip_m).length()),
-    );
+    let (thigh_m, shank_m) = (knee_m - hip_m, ankle_m - knee_m);
+    let flexion_rad = knee_flexion_rad(thigh_m.length(), shank_m.length(), (target_m - hip_m).length());
+    let flexed = DQuat::from_axis_angle(knee_axis(&joints, side), flexion_rad) * thigh_m.normalize();
+    let bend = DQuat::from_rotation_arc(shank_m.normalize(), flexed);
     let bent_ankle_m = knee_m + bend * (ankle_m - knee_m);
     let swing = DQuat::from_rotation_arc((bent_ankle_m - hip_m).normalize(), (target_m - hip_m).normalize());
 
@@ -41,21 +46,26 @@ fn knee_axis(joints: &HumanJoints, side: usize) -> DVec3 {
     let thigh = position(Joint::SHANKS[side]) - position(Joint::THIGHS[side]);
     let shank = position(Joint::FEET[side]) - position(Joint::SHANKS[side]);
     let left = joints.orientations[Joint::THIGHS[side].index()] * DVec3::Y;
-    // A nearly straight leg has no plane of its own: lean on the thigh's axis, by an amount that a bent knee does not
-    // feel.
     let normal = thigh.cross(shank) / (thigh.length() * shank.length());
-    let normal = if normal.dot(left) < 0.0 { -normal } else { normal };
-    let axis = normal + 0.05 * left;
+    // A nearly straight leg has no plane of its own: lean on the thigh's axis, by an amount that a bent knee does not
+    // feel. A knee that bends backward is turned forward; what it bends sideways stays, so that its axis never jumps.
+    let (along, straight) = (normal.dot(left), 1.0 - normal.length());
+    let lean = STRAIGHT_LEAN * straight * straight * straight * straight;
+    let axis = normal + left * (along.abs() - along + lean);
     (axis - thigh * (axis.dot(thigh) / thigh.length_squared())).normalize()
 }
 
-/// How much more the knee must flex for hip and ankle to be `reach_m` apart.
-fn knee_angle_change(thigh: DVec3, shank: DVec3, reach_m: f64) -> f64 {
-    let (a, b) = (thigh.length(), shank.length());
-    let reach = reach_m.clamp(REACH_MIN * (a - b).abs(), REACH_MAX * (a + b));
-    let cos_wanted = (reach * reach - a * a - b * b) / (2.0 * a * b);
-    let cos_now = thigh.dot(shank) / (a * b);
-    libm::acos(cos_wanted.clamp(-1.0, 1.0)) - libm::acos(cos_now.clamp(-1.0, 1.0))
+/// How far the knee must flex for hip and ankle to be `reach_m` apart.
+fn knee_flexion_rad(thigh_m: f64, shank_m: f64, reach_m: f64) -> f64 {
+    let (a, b) = (thigh_m, shank_m);
+    let reach = softened(reach_m.max(REACH_MIN * (a - b).abs()), a + b);
+    libm::acos(((reach * reach - a * a - b * b) / (2.0 * a * b)).clamp(-1.0, 1.0))
+}
+
+/// A reach that nears [`REACH_MAX`] of a whole leg ever more slowly, at first as fast as it is asked to.
+fn softened(reach_m: f64, leg_m: f64) -> f64 {
+    let (from_m, room_m) = (REACH_SOFT * leg_m, (REACH_MAX - REACH_SOFT) * leg_m);
+    if reach_m <= from_m { reach_m } else { from_m + room_m * (1.0 - libm::exp((from_m - reach_m) / room_m)) }
 }
 
 #[cfg(test)]
@@ -98,5 +108,39 @@ mod tests {
         let ankle_m = pose.forward_kinematics(&clip.body).positions_m[Joint::LeftFoot.index()] - hip_m;
         assert!(ankle_m.normalize().dot(DVec3::new(0.0, 0.3, -2.0).normalize()) > 0.999_99);
         assert!((ankle_m.length() - 0.84).abs() < 2e-3, "{}", ankle_m.length());
+    }
+
+    #[test]
+    fn a_knee_that_bends_backward_and_sideways_is_bent_forward_without_a_jump() {
+        let clip = synthetic::walk("walk", Walk::default());
+        let [thigh, shank, foot] = [Joint::LeftThigh, Joint::LeftShank, Joint::LeftFoot].map(Joint::index);
+        let knee_m = |flexion_rad: f64| {
+            let mut pose = clip.frames[0].clone();
+            pose.rotations[shank] = DQuat::from_rotation_x(0.03) * DQuat::from_rotation_y(flexion_rad);
+            let target_m = pose.forward_kinematics(&clip.body).positions_m[foot];
+            place_ankle(&mut pose, &clip.body, 0, target_m);
+            let placed = pose.forward_kinematics(&clip.body);
+            let [hip_m, knee_m, ankle_m] = [thigh, shank, foot].map(|joint| placed.positions_m[joint]);
+            let bulge = (knee_m - hip_m).cross(ankle_m - knee_m);
+            assert!(bulge.dot(placed.orientations[thigh] * DVec3::Y) > 0.0, "{flexion_rad}: {bulge}");
+            assert!(ankle_m.distance(target_m) < 2e-3, "{flexion_rad}: {ankle_m}, not {target_m}");
+            knee_m
+        };
+        for step in -150..150 {
+            let flexion_rad = 0.001 * f64::from(step);
+            let off_m = knee_m(flexion_rad).distance(knee_m(flexion_rad + 0.001));
+            assert!(off_m < 2e-3, "{flexion_rad}: {off_m} m");
+        }
+    }
+
+    #[test]
+    fn a_leg_straightens_without_a_jerk() {
+        let steps: Vec<f64> = (0..400).map(|step| softened(0.8 + 0.0001 * f64::from(step), 0.83)).collect();
+        assert!(steps.windows(2).all(|pair| pair[0] < pair[1]) && steps[399] <= REACH_MAX * 0.83);
+        let flexion = |reach_m: f64| 2.0 * libm::acos(reach_m / 0.83);
+        for near in steps.windows(3) {
+            let change = flexion(near[0]) - 2.0 * flexion(near[1]) + flexion(near[2]);
+            assert!(change.abs() < 1e-3, "{near:?}: {change}");
+        }
     }
 }
