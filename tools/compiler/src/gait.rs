@@ -186,8 +186,10 @@ fn middle(contact: &Range<usize>, frames: usize, half: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::arc::Rates;
+    use crate::human_clip::HumanPose;
     use crate::root_motion::ground;
     use crate::synthetic::{self, Walk};
+    use crate::unroll::unroll;
 
     fn strides(walk: Walk) -> Vec<Stride> {
         synthetic::strides_of(&synthetic::walk("walk", walk))
@@ -229,6 +231,33 @@ mod tests {
             let Gait::Steps(strides) = &window.gait else { panic!("{window:?}") };
             assert!(strides.iter().all(|stride| (stride.arc.rates.speed_mps - speed_mps).abs() < 0.02), "{window:?}");
             assert!(window.frames.iter().all(|frame| frames.contains(frame)), "{window:?}");
+        }
+    }
+
+    #[test]
+    fn a_loop_that_speeds_up_is_taken_for_its_steady_parts() {
+        let clip = |speed_mps| {
+            let rates = Rates { speed_mps, ..Rates::default() };
+            synthetic::walk("loop", Walk { rates, duration_s: 4.4, ..Walk::default() }).frames
+        };
+        let mut both = synthetic::walk("loop", Walk::default());
+        both.frames.clear();
+        for part in [clip(0.6), clip(1.0), clip(0.6)] {
+            let from_m = both.frames.pop().map_or(part[0].pelvis_m, |last: HumanPose| last.pelvis_m);
+            let off_m = from_m - part[0].pelvis_m;
+            both.frames.extend(part.into_iter().map(|pose| HumanPose { pelvis_m: pose.pelvis_m + off_m, ..pose }));
+        }
+        both.frames.truncate(2 * 264 + 1);
+        let unrolled = unroll(ground(&both, &both.body), &both.body);
+        assert!(unrolled.loop_frames.is_some());
+        let windows = analyze(&unrolled, &both.body).windows.unwrap();
+        let speeds_mps = windows.iter().filter_map(|window| match &window.gait {
+            Gait::Steps(strides) => Some(strides[0].arc.rates.speed_mps),
+            Gait::Stands(_) => None,
+        });
+        let speeds_mps: Vec<f64> = speeds_mps.collect();
+        for wanted in [0.6, 1.0] {
+            assert!(speeds_mps.iter().any(|speed| (speed - wanted).abs() < 0.1), "{speeds_mps:?}");
         }
     }
 

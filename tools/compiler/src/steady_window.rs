@@ -50,7 +50,15 @@ pub fn round_of_strides(steps: &Steps, round: f64) -> Option<Vec<Stride>> {
     if !whole {
         return None;
     }
-    (first..past).step_by(2).map(|index| steps.strides.get(index).copied().flatten()).collect()
+    let strides = (first..past).step_by(2).map(|index| steps.strides.get(index).copied().flatten());
+    strides.collect::<Option<Vec<Stride>>>().filter(|strides| are_alike(strides))
+}
+
+/// A round that goes faster in one part than in another is none to take the mean of.
+fn are_alike(strides: &[Stride]) -> bool {
+    let mut run = Run::default();
+    strides.iter().for_each(|stride| run.add(stride));
+    run.deviation() <= 1.0
 }
 
 /// All steady windows between two frames, the longest first; of several as long the steadiest, then the first. Of
