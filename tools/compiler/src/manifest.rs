@@ -128,12 +128,23 @@ impl Manifest {
     }
 
     fn named<'a>(&self, clips: &'a mut [HumanClip], name: &Spanned<String>) -> Result<&'a mut HumanClip, Invalid> {
-        let Some(index) = clips.iter().position(|clip| clip.name == *name.get_ref()) else {
-            let names: Vec<&str> = clips.iter().map(|clip| clip.name.as_str()).collect();
-            let message = format!("no clip is called `{}`; there are {}", name.get_ref(), names.join(", "));
-            return Err(self.source.invalid(name.span(), message, "name one of these"));
-        };
-        Ok(&mut clips[index])
+        match clips.iter().position(|clip| clip.name == *name.get_ref()) {
+            Some(index) => Ok(&mut clips[index]),
+            None => Err(self.unknown(clips, name)),
+        }
+    }
+
+    /// That there is no clip of a name, which may be that of one of a clip's windows.
+    fn unknown(&self, clips: &[HumanClip], name: &Spanned<String>) -> Invalid {
+        let names: Vec<&str> = clips.iter().map(|clip| clip.name.as_str()).collect();
+        let window_of = name.get_ref().rsplit_once('@').map(|(clip, _)| clip).filter(|clip| names.contains(clip));
+        if let Some(clip) = window_of {
+            let message = format!("`{}` is a window of the clip `{clip}`, not a clip", name.get_ref());
+            let remedy = "name the clip, whose first window counts, or give it the `frames` of this one";
+            return self.source.invalid(name.span(), message, remedy);
+        }
+        let message = format!("no clip is called `{}`; there are {}", name.get_ref(), names.join(", "));
+        self.source.invalid(name.span(), message, "name one of these")
     }
 
     /// That the clip chosen as m_sp has no steps.

@@ -170,6 +170,8 @@ fn mistakes_are_shown_where_they_stand() {
     check_refused("missing", "[[clips]]\npath = 'run.bvh'\n", "'run.bvh'", &["run.bvh"]);
     check_refused("whole", "[[clips]]\npath = '.'\nframes = [1, 9]\n", "[1, 9]", &["folder"]);
     check_refused("m_sp", "semi_procedural = 'run'\n", "'run'", &["`run`", "walk_110"]);
+    let window = "semi_procedural = 'walk_110@02.0s'\n";
+    check_refused("window", window, "'walk_110@02.0s'", &["a window of the clip `walk_110`"]);
     check_refused("body", "target_skeleton = 'giant'\n", "'giant'", &["`giant`", "walk_110"]);
     check_refused("standing", "semi_procedural = 'idle'\n", "'idle'", &["no example that steps"]);
 }
