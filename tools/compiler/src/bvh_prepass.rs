@@ -156,8 +156,9 @@ impl HierarchyReader {
     }
 
     fn root(&mut self, line: usize, name: &str) -> Result<(), Flaw> {
-        if !self.joints.is_empty() {
-            return flaw(line, "a second ROOT", "export one body to a file");
+        if let Some(first) = self.joints.first() {
+            let problem = format!("a second ROOT, `{}`, beside `{}`: two bodies", shown(name), shown(&first.name));
+            return flaw(line, problem, "export each to a file of its own");
         }
         self.announce(line, name.to_owned(), None, false)
     }

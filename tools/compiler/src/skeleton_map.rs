@@ -1,9 +1,10 @@
-//! Automatic joint roles: which source joint plays which canonical one, by hierarchy, geometry and name; and the refusal, with its
-//! reason, of what is no human body.
+//! Automatic joint roles: which source joint plays which canonical one, by hierarchy, geometry and name; and the refusal,
+//! with its reason, of what is no human body.
 //!
-//! Legs are the best limb pair of all; arms the best pair elsewhere; the pelvis is the legs' fork, the chest the arms' fork, the spine
-//! the path between them; neck and head hang from the chest beside the arms. Left and right come from names, else from where the toes
-//! point. A body is human when its trunk stands over its legs: a quadruped's does not.
+//! Legs and arms are the two limb pairs that go together best (`body_plan`); the pelvis is the legs' fork, the chest the
+//! arms' fork, the spine the path between them; neck and head hang from the chest beside the arms. Left and right come
+//! from names unless toes and knees belie them; without names from where the toes point. A body is human when its trunk
+//! stands over its legs (a quadruped's does not) and its way does not lie along its own length.
 
 use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
 

@@ -18,8 +18,16 @@ const END_S: f64 = 0.25;
 const IN_PLACE_EXTENT_M: f64 = 0.35;
 /// A stance foot that slides faster than this treads, m/s; slower feet stand (idle) or turn on the spot.
 const TREAD_MIN_MPS: f64 = 0.2;
-/// Share of the frames, by height of the lower foot, that count as stance.
+/// Share of the frames, by height of the lowest joint of the feet, that count as stance.
 const STANCE_SHARE: f64 = 0.6;
+/// Feet of which no joint is nearer to the height at which it stands are in flight, m for a person's leg; of a run a tenth
+/// at least is.
+const FLIGHT_LIFT_M: f64 = 0.03;
+const FLIGHT_SHARE_MIN: f64 = 0.1;
+/// v²/(g·leg) under which nobody runs, however drawn characters hop: people change over at 0.5 (R. McN. Alexander, 1989),
+/// and ankles tell a run's speed up to 15 % low.
+const RUN_FROUDE_MIN: f64 = 0.35;
+const GRAVITY_MPS2: f64 = 9.81;
 
 /// v_f, ω_t, ω_s of a whole clip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,22 +107,53 @@ fn extent_m(points: &[DVec2]) -> f64 {
     (most - least).length()
 }
 
-/// The ground speed at which the stance foot would stand: minus the median velocity of the lower ankle while it is low.
+/// The ground speed at which the stance foot would stand. A walker's is told by the lower ankle; the ankles of a runner in
+/// flight are low before they land: of a runner it is the ankle or ball that is lifted least.
 fn stance_slide(clip: &SourceClip, roles: &Roles, facings: &[f64]) -> DVec2 {
-    let frames = clip.frame_count();
-    let feet = Joint::FEET.map(|foot| roles.required(foot));
-    let lower = |frame: usize| {
-        let [left, right] = feet.map(|foot| clip.position(frame, foot).z);
-        if left <= right { (feet[0], left) } else { (feet[1], right) }
-    };
-    let mut heights: Vec<f64> = (0..frames).map(|frame| lower(frame).1).collect();
-    heights.sort_by(f64::total_cmp);
-    let stance_height = heights[((frames - 1) as f64 * STANCE_SHARE) as usize];
-    let slides: Vec<DVec2> = (0..frames)
-        .filter(|&frame| lower(frame).1 <= stance_height)
-        .map(|frame| in_body(-ground_velocity(clip, lower(frame).0, frame), heading(facings[frame])))
-        .collect();
+    let ankles = Joint::FEET.map(|foot| (roles.required(foot), 0.0));
+    let walked = slide_of(clip, facings, lowest(clip, &ankles));
+    let joints = Joint::FEET.into_iter().chain(Joint::TOES).filter_map(|joint| roles.joints[joint.index()]);
+    let contacts: Vec<(usize, f64)> = joints.map(|joint| (joint, planted_height(clip, joint))).collect();
+    let lifted = lowest(clip, &contacts);
+    let leg_m = leg_length(clip, roles);
+    let flights = lifted.iter().filter(|low| low.height_m > FLIGHT_LIFT_M * leg_m / HUMAN_LEG_M).count();
+    let runs = flights as f64 > FLIGHT_SHARE_MIN * lifted.len() as f64
+        && walked.length_squared() > RUN_FROUDE_MIN * GRAVITY_MPS2 * leg_m;
+    if runs { slide_of(clip, facings, lifted) } else { walked }
+}
+
+/// Minus the median velocity of what is lowest, while it is low.
+fn slide_of(clip: &SourceClip, facings: &[f64], mut stance: Vec<Lowest>) -> DVec2 {
+    stance.sort_by(|a, b| a.height_m.total_cmp(&b.height_m));
+    stance.truncate(1 + ((stance.len() - 1) as f64 * STANCE_SHARE) as usize);
+    let slide = |low: &Lowest| in_body(-ground_velocity(clip, low.joint, low.frame), heading(facings[low.frame]));
+    let slides: Vec<DVec2> = stance.iter().map(slide).collect();
     DVec2::new(median(slides.iter().map(|slide| slide.x)), median(slides.iter().map(|slide| slide.y)))
+}
+
+/// The lowest joint of the feet in a frame.
+struct Lowest {
+    frame: usize,
+    joint: usize,
+    height_m: f64,
+}
+
+/// In every frame the joint that is lowest, each over its own zero.
+fn lowest(clip: &SourceClip, joints: &[(usize, f64)]) -> Vec<Lowest> {
+    let at = |frame: usize, &(joint, zero): &(usize, f64)| Lowest {
+        frame,
+        joint,
+        height_m: clip.position(frame, joint).z - zero,
+    };
+    let lowest = |frame| joints.iter().map(|joint| at(frame, joint)).min_by(|a, b| a.height_m.total_cmp(&b.height_m));
+    (0..clip.frame_count()).filter_map(lowest).collect()
+}
+
+/// Height of a joint of a foot while that stands: the lowest twentieth, as `planted_slide.py`.
+fn planted_height(clip: &SourceClip, joint: usize) -> f64 {
+    let mut heights: Vec<f64> = (0..clip.frame_count()).map(|frame| clip.position(frame, joint).z).collect();
+    heights.sort_by(f64::total_cmp);
+    heights[(heights.len() - 1) / 20]
 }
 
 /// By central differences, one-sided at the ends, m/s.

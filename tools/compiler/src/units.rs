@@ -1,7 +1,8 @@
 //! The source's up axis and unit, found from the posed body, and the clip in metres, Z up.
 //!
-//! Zero poses and OFFSETs do not tell (LaFAN1's bones all lie along +X, iClone's zero pose along Z): up is where the shoulders are from the
-//! feet on the average of all frames. The unit is the one that brings thigh + shank nearest to a person's.
+//! Zero poses and OFFSETs do not tell (LaFAN1's bones all lie along +X, iClone's zero pose along Z): up is where the
+//! shoulders are from the feet on the average of all frames. The unit is the one that brings thigh + shank nearest to a
+//! person's.
 
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::Joint;

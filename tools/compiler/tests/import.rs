@@ -235,5 +235,7 @@ fn only(imports: Result<Vec<Import>, motiondb_compiler::error::ImportError>) -> 
     imports.unwrap_or_else(|error| panic!("{error}")).remove(0).outcome.unwrap_or_else(|refusal| panic!("{refusal}"))
 }
 
+#[path = "import/on_the_spot.rs"]
+mod on_the_spot;
 #[path = "import/written.rs"]
 mod written;

@@ -156,8 +156,7 @@ impl Combination {
             1 if clip != "idle" => Take::BlendsOut(0.2 + 0.4 * dice.unit()),
             2 => Take::Calibrated([dice.unit() + 0.5, 0.0]),
             3 => Take::Calibrated([4.0 * dice.unit(), 3.0 * dice.unit()]),
-            // A third of a run is flight, in which no foot tells the speed of the ground: 10 to 15 % off.
-            4 if !clip.starts_with("run") && !clip.starts_with("jog") => Take::InPlace,
+            4 => Take::InPlace,
             5 => Take::LeftHanded,
             6 => Take::Sloping(0.5 * dice.unit() - 0.25),
             // Slow walks four times slower are not impossible.
