@@ -12,7 +12,7 @@ use tiny_skia::Pixmap;
 use crate::contact_sheet::{self, contact_sheet};
 use crate::coverage_plot::coverage_slices;
 use crate::error::RenderError;
-use crate::gait_plot::gait_events;
+use crate::gait_plot::{self, gait_events};
 use crate::parameter_plot::parameter_space;
 use crate::png_frame;
 use crate::pose_distance_plot::pose_distances;
@@ -28,7 +28,6 @@ pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>
         ("velocity_space.png", velocity_space(db)),
         ("parameter_space.png", parameter_space(db)),
         ("coverage.png", coverage_slices(db)),
-        ("gait_events.png", gait_events(db)),
     ];
     let write = |(name, plot): (String, Pixmap)| {
         let path = folder.join(name);
@@ -36,9 +35,11 @@ pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>
     };
     let correspondences = pose_distances(db).map(|plot| ("pose_distance.png", plot));
     let single = always.into_iter().chain(correspondences).map(|(name, plot)| (name.to_owned(), plot));
-    let sheets = sheets(db.examples.len(), contact_sheet::SHEET_EXAMPLES)
+    let gaits = sheets(db.examples.len(), gait_plot::SHEET_EXAMPLES)
+        .map(|(number, examples)| (format!("gait_events{number}.png"), gait_events(db, examples)));
+    let bodies = sheets(db.examples.len(), contact_sheet::SHEET_EXAMPLES)
         .map(|(number, examples)| (format!("contact_sheet{number}.png"), contact_sheet(db, examples)));
-    single.chain(sheets).map(write).collect()
+    single.chain(gaits).chain(bodies).map(write).collect()
 }
 
 /// What distinguishes each sheet's name, and its examples.

@@ -2,7 +2,10 @@
 //! four key times.
 //!
 //! Of each sole the lowest point is drawn, its speed is that over the ground: with root velocity v and turn rate ω a
-//! point p of the root frame moves by v + ω·perp(p) + dp/dt.
+//! point p of the root frame moves by v + ω·perp(p) + dp/dt. A sheet holds three dozen examples; more go on further
+//! sheets.
+
+use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
@@ -12,12 +15,13 @@ use tiny_skia::Pixmap;
 
 use crate::axis::Axis;
 use crate::mark::Mark;
-use crate::palette::{INK, Rgb};
+use crate::palette::{INK, SIDES};
 use crate::plot::{Figure, Line, Panel, line};
 use crate::text::Anchor;
 
-/// Panels side by side.
+/// Panels side by side, and examples on a sheet.
 const COLUMNS: usize = 3;
+pub(crate) const SHEET_EXAMPLES: usize = 36;
 /// Width and height of one example with its surroundings, pixels.
 const CELL_PX: Vec2 = Vec2::new(800.0, 720.0);
 /// Left, top, width, height of the axes of the heights within it, pixels …
@@ -26,8 +30,6 @@ const HEIGHT_PANEL_PX: [f32; 4] = [120.0, 90.0, 650.0, 270.0];
 const SPEED_PANEL_PX: [f32; 4] = [120.0, 470.0, 650.0, 160.0];
 /// Height of the sheet's head, pixels.
 const HEAD_PX: f32 = 180.0;
-/// Left foot: green; right foot: violet, as port and starboard would have it.
-const FOOT_COLOURS: [Rgb; 2] = [Rgb::new(0.13, 0.55, 0.30), Rgb::new(0.52, 0.27, 0.68)];
 /// Height of both feet's contact bars over the axis's lower end, share of the axis.
 const BAR_SHARES: [f32; 2] = [0.10, 0.04];
 /// Room below the heights, for the bars, and above, for the key times' names, share of their range.
@@ -42,9 +44,9 @@ const KEY_NAMES: [&str; 4] = ["R off", "R strike", "L off", "L strike"];
 /// The foot that each key time speaks of, as an index of a `[left, right]` pair.
 const KEY_SIDES: [usize; 4] = [1, 1, 0, 0];
 
-/// The gait plot of a database.
-pub fn gait_events(db: &MotionDb) -> Pixmap {
-    let rows = db.examples.len().div_ceil(COLUMNS);
+/// The gait plot of some examples of a database.
+pub fn gait_events(db: &MotionDb, examples: Range<usize>) -> Pixmap {
+    let rows = examples.len().div_ceil(COLUMNS);
     let size = [COLUMNS as f32 * CELL_PX.x, HEAD_PX + rows as f32 * CELL_PX.y];
     let mut figure = Figure::new(size[0] as u32, size[1] as u32);
     figure.title(
@@ -52,21 +54,21 @@ pub fn gait_events(db: &MotionDb) -> Pixmap {
         Vec2::new(HEIGHT_PANEL_PX[0], 70.0),
     );
     let legend = [
-        (Mark::Disc, FOOT_COLOURS[0], "left foot"),
-        (Mark::Disc, FOOT_COLOURS[1], "right foot"),
+        (Mark::Disc, SIDES[0], "left foot"),
+        (Mark::Disc, SIDES[1], "right foot"),
         (Mark::Bar, INK, "planted"),
         (Mark::Dashes, INK, "key times: toe-offs and heel strikes"),
     ];
     figure.legend(Vec2::new(HEIGHT_PANEL_PX[0] + 10.0, 130.0), &legend);
-    for example in 0..db.examples.len() {
-        draw_example(&mut figure, db, example);
+    for (cell, example) in examples.enumerate() {
+        draw_example(&mut figure, db, example, cell);
     }
     figure.pixmap
 }
 
-fn draw_example(figure: &mut Figure, db: &MotionDb, index: usize) {
+fn draw_example(figure: &mut Figure, db: &MotionDb, index: usize, cell: usize) {
     let example = &db.examples[index];
-    let corner = Vec2::new((index % COLUMNS) as f32 * CELL_PX.x, HEAD_PX + (index / COLUMNS) as f32 * CELL_PX.y);
+    let corner = Vec2::new((cell % COLUMNS) as f32 * CELL_PX.x, HEAD_PX + (cell / COLUMNS) as f32 * CELL_PX.y);
     let soles = Side::BOTH.map(|side| sole_curves(db, index, side));
     let [heights_m, speeds_mps] = [0, 1].map(|curve| soles.each_ref().map(|sole| sole[curve].as_slice()));
     let mut panel = |[left, top, width, height]: [f32; 4], value: Axis| {
@@ -83,7 +85,7 @@ fn draw_example(figure: &mut Figure, db: &MotionDb, index: usize) {
         for (panel, curves) in [(&height_panel, heights_m), (&speed_panel, speeds_mps)] {
             let points = curves[side.index()].iter().enumerate();
             let points = points.map(|(row, value)| Vec2::new(time_s(example, row), *value));
-            figure.polyline(panel, points, line(FOOT_COLOURS[side.index()], 2.4));
+            figure.polyline(panel, points, line(SIDES[side.index()], 2.4));
         }
         draw_contacts(figure, &height_panel, db, index, side);
     }
@@ -139,7 +141,7 @@ fn draw_contacts(figure: &mut Figure, panel: &Panel, db: &MotionDb, example: usi
     let planted = |row: usize| db.rows.contacts[example * PHASE_COUNT + row % PHASE_COUNT][side.index()] >= PLANTED;
     for row in (0..PHASE_COUNT).filter(|row| planted(*row) && planted(row + 1)) {
         let ends = [row, row + 1].map(|row| Vec2::new(time_s(&db.examples[example], row), height_m));
-        figure.polyline(panel, ends, line(FOOT_COLOURS[side.index()], 6.0));
+        figure.polyline(panel, ends, line(SIDES[side.index()], 6.0));
     }
 }
 
@@ -148,7 +150,7 @@ fn draw_key_times(figure: &mut Figure, panel: &Panel, example: &MotionExample, n
     let [_, value] = &panel.axes;
     for (key, time_s) in key_times_s.into_iter().enumerate() {
         let ends = [Vec2::new(time_s, value.low), Vec2::new(time_s, value.high)];
-        let colour = FOOT_COLOURS[KEY_SIDES[key]];
+        let colour = SIDES[KEY_SIDES[key]];
         figure.polyline(panel, ends, Line { dashed: true, opacity: 0.8, ..line(colour, 1.3) });
         // Events come close together: their names stand on two levels.
         let at = panel.to_px(ends[1]) + Vec2::new(4.0, 18.0 + 20.0 * (key % 2) as f32);

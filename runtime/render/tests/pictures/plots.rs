@@ -63,8 +63,9 @@ fn inked_share(pixmap: &Pixmap) -> f64 {
 fn databases_of_one_and_of_many_examples_are_drawn() {
     for speeds_mps in [&[0.0][..], &[0.0, 1.0, 1.4]] {
         let db = database(speeds_mps);
-        let sheet = |db: &MotionDb| contact_sheet(db, 0..db.examples.len());
-        for plot in [velocity_space, parameter_space, coverage_slices, sheet, gait_events] {
+        let bodies = |db: &MotionDb| contact_sheet(db, 0..db.examples.len());
+        let gaits = |db: &MotionDb| gait_events(db, 0..db.examples.len());
+        for plot in [velocity_space, parameter_space, coverage_slices, bodies, gaits] {
             let drawn = plot(&db);
             assert!((0.003..0.5).contains(&inked_share(&drawn)), "{}", inked_share(&drawn));
             assert!(drawn == plot(&db), "drawing again gives another picture");
@@ -89,11 +90,11 @@ fn pose_distances_are_drawn_where_there_are_correspondences() {
 
 #[test]
 fn many_examples_go_on_further_sheets() {
-    let speeds_mps: Vec<f32> = (0..25).map(|n| 0.1 * n as f32).collect();
+    let speeds_mps: Vec<f32> = (0..37).map(|n| 0.1 * n as f32).collect();
     let folder = support::Scratch::new("sheets");
     let files = write_database_plots(&database(&speeds_mps), folder.path()).unwrap();
-    let sheets = files.iter().filter(|file| file.to_string_lossy().contains("contact_sheet")).count();
-    assert_eq!(sheets, 2, "{files:?}");
+    let sheets = |name: &str| files.iter().filter(|file| file.to_string_lossy().contains(name)).count();
+    assert_eq!([sheets("contact_sheet"), sheets("gait_events")], [2, 2], "{files:?}");
 }
 
 #[test]
