@@ -1,7 +1,7 @@
 //! The same take twice: under another name, at another frame rate, with a lying frame time, on another skeleton, as a
 //! part of the other or mirrored. One of the two gives examples.
 //!
-//! [`crate::take_search`] chooses which clips are compared, [`crate::same_take`] decides of two clips.
+//! `take_search` chooses which clips are compared, `same_take` decides of two clips.
 
 use std::cmp::Reverse;
 
@@ -12,7 +12,7 @@ use crate::human_clip::HumanClip;
 use crate::performance::Performance;
 use crate::remark::{FRAME_TIME_QUESTION, NO_EXAMPLE};
 use crate::same_take::Entry;
-use crate::take_search::{self, Found};
+use crate::take_search::{self, Found, LIST_MAX, Search};
 
 /// Clips of its take that a clip's record names; the others are counted.
 const NAMED_MAX: usize = 8;
@@ -28,7 +28,7 @@ pub struct Pair {
     pub mirrored: bool,
     /// Their frames agree, their frame times do not.
     pub times_differ: bool,
-    /// r of [`crate::performance`].
+    /// r of `performance`.
     pub unlikeness: f64,
 }
 
@@ -56,7 +56,8 @@ pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [Analyzed]) {
 /// one whose frame time is plausible, the longer, the one with more frames a second, the first by name.
 pub fn verdicts(clips: &[HumanClip], gives_example: &[bool]) -> Vec<Verdict> {
     let order = by_worth(clips, gives_example);
-    let pairs = pairs_by(clips, &order);
+    let search = searched(clips, &order);
+    let pairs = in_order(&search.found);
     let mut others = vec![Vec::new(); clips.len()];
     for pair in &pairs {
         others[pair.clips[0]].push((pair.clips[1], pair));
@@ -73,6 +74,10 @@ pub fn verdicts(clips: &[HumanClip], gives_example: &[bool]) -> Vec<Verdict> {
     let surplus: Vec<bool> = verdicts.iter().map(|verdict| verdict.is_surplus).collect();
     for (clip, others) in others.iter().enumerate() {
         verdicts[clip].remarks = remarks(clips, &surplus, clip, others);
+    }
+    for clip in search.beyond_list {
+        let remark = format!("too many clips: whether it is the same take is known of the {LIST_MAX} best only");
+        verdicts[clip].remarks.push(remark);
     }
     verdicts
 }
@@ -118,21 +123,24 @@ fn worth(clip: &HumanClip) -> impl Ord {
     (chosen, lies, Reverse(length), Reverse(clip.frame_rate_hz.to_bits()), clip.name.clone())
 }
 
-/// Every two clips of one take, in the clips' order; of a take of very many clips not every two ([`crate::take_search`]).
+/// Every two clips of one take, in the clips' order; of a take of very many clips not every two (`take_search`).
 pub fn pairs(clips: &[HumanClip]) -> Vec<Pair> {
-    pairs_by(clips, &by_worth(clips, &vec![true; clips.len()]))
+    in_order(&searched(clips, &by_worth(clips, &vec![true; clips.len()])).found)
 }
 
-fn pairs_by(clips: &[HumanClip], order: &[usize]) -> Vec<Pair> {
+fn searched(clips: &[HumanClip], order: &[usize]) -> Search {
     let entries: Vec<Entry> = clips.par_iter().map(|clip| Entry::new(Performance::of(clip))).collect();
-    let found = take_search::search(&entries, order, |a, b| !are_parts_of_one_file(&clips[a], &clips[b]));
-    let pair = |(better, worse, how): Found| Pair {
+    take_search::search(&entries, order, |a, b| !are_parts_of_one_file(&clips[a], &clips[b]))
+}
+
+fn in_order(found: &[Found]) -> Vec<Pair> {
+    let pair = |&(better, worse, how): &Found| Pair {
         clips: [better.min(worse), better.max(worse)],
         mirrored: how.mirrored,
         times_differ: how.times_differ,
         unlikeness: how.unlikeness,
     };
-    let mut pairs: Vec<Pair> = found.into_iter().map(pair).collect();
+    let mut pairs: Vec<Pair> = found.iter().map(pair).collect();
     pairs.sort_by_key(|pair| pair.clips);
     pairs
 }
@@ -227,6 +235,19 @@ mod tests {
         let mut chosen = walk("chosen", Walk { duration_s: 3.7, ..bend() });
         chosen.choices.is_target_skeleton = true;
         check(chosen, true, ["a", "b"]);
+    }
+
+    #[test]
+    fn of_hundreds_of_copies_one_gives_the_example_and_the_records_stay_short() {
+        let copy = |index: usize| {
+            let mut clip = walk(&format!("{index:03}"), bend());
+            clip.frames.drain(..index % 23);
+            if index % 3 == 1 { mirrored(clip) } else { clip }
+        };
+        let clips: Vec<HumanClip> = (0..300).map(copy).collect();
+        let verdicts = verdicts(&clips, &[true; 300]);
+        assert_eq!(verdicts.iter().filter(|verdict| !verdict.is_surplus).count(), 1);
+        assert!(verdicts.iter().all(|verdict| (1..=NAMED_MAX + 1).contains(&verdict.remarks.len())), "{verdicts:?}");
     }
 
     #[test]

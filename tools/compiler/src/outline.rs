@@ -2,7 +2,7 @@
 //!
 //! r² of [`crate::performance`], of the legs alone, forward and to the left: with running sums of the samples and of
 //! their squares only the sum of products is left to be computed at each lag, and movements of different size are passed
-//! over.
+//! over. Most lags are passed over by less: by a few seconds of the shorter clip, told in eight numbers each.
 
 use crate::performance::{self, LEG_DIRECTION_COUNT, Performance};
 
@@ -13,15 +13,15 @@ pub(crate) const SCREEN_MAX: f64 = 0.45;
 const OVERLAP_SHARE: f64 = 0.8;
 /// Numbers a sample: of each direction of the legs how far it points forward and to the left.
 const WIDTH: usize = 2 * LEG_DIRECTION_COUNT;
-
+/// Greatest r².
 const LIMIT: f32 = (SCREEN_MAX * SCREEN_MAX) as f32;
-/// Samples of a second.
+/// Samples of a second, and how many seconds of a long clip are looked at before all of it is.
 const SECOND: usize = 20;
-/// Clips of fewer samples have no second in their middle that all lags leave covered.
-const MIDDLE_MIN: usize = 34;
+const SECONDS_MAX: usize = 8;
 
 /// The legs' directions about their mean over the clip, with running sums of them and of their squares.
 pub(crate) struct Outline {
+    /// From each sample on that a second is left of.
     seconds: Vec<Second>,
     samples: Vec<[f32; WIDTH]>,
     sums: Vec<[f32; WIDTH]>,
@@ -94,17 +94,10 @@ struct Second {
     size: f32,
 }
 
-impl Second {
-    fn may_be_alike(&self, other: &Second) -> bool {
-        let squares = self.wave.iter().zip(&other.wave).map(|(a, b)| (a - b) * (a - b));
-        squares.sum::<f32>() <= LIMIT * self.size * other.size
-    }
-}
-
 /// The lag, in samples of the screening, at which the legs are most alike; none where they never are.
 pub(crate) fn nearest_lag(one: &Outline, other: &Outline) -> Option<isize> {
     let (count, other_count) = (one.samples.len() as isize, other.samples.len() as isize);
-    let least = ((count.min(other_count) as f64 * OVERLAP_SHARE) as isize).max(1);
+    let least = least_overlap(one.samples.len().min(other.samples.len())) as isize;
     let of_short = |(short, long): (&Outline, &Outline), sign: isize| {
         let offsets = least - short.samples.len() as isize..=long.samples.len() as isize - least;
         let found = offsets.filter(|&offset| middle_may_be_alike(short, long, offset));
@@ -114,13 +107,30 @@ pub(crate) fn nearest_lag(one: &Outline, other: &Outline) -> Option<isize> {
     if count < other_count { of_short((one, other), -1) } else { of_short((other, one), 1) }
 }
 
-/// Whether the second in the middle of the shorter may be what the longer shows there.
+/// Whether the seconds in the middle of the shorter, taken together, may be what the longer shows there: a rest among
+/// them, all noise, weighs nothing.
 fn middle_may_be_alike(short: &Outline, long: &Outline, offset: isize) -> bool {
-    if short.samples.len() < MIDDLE_MIN {
-        return true;
+    let (mut between, mut sizes) = (0.0, 0.0);
+    for from in middle_seconds(short.samples.len()) {
+        let (a, b) = (&short.seconds[from], &long.seconds[(from as isize + offset) as usize]);
+        between += a.wave.iter().zip(&b.wave).map(|(a, b)| (a - b) * (a - b)).sum::<f32>();
+        sizes += a.size * b.size;
     }
-    let middle = (short.samples.len() - SECOND) / 2;
-    short.seconds[middle].may_be_alike(&long.seconds[(middle as isize + offset) as usize])
+    between <= LIMIT * sizes
+}
+
+/// Where the seconds begin that are looked at: spread over the part of a clip that every lag leaves covered; none in
+/// clips of less than 1.7 s.
+fn middle_seconds(count: usize) -> impl Iterator<Item = usize> {
+    let covered = (2 * least_overlap(count)).saturating_sub(count);
+    let seconds = (covered / SECOND).min(SECONDS_MAX);
+    let apart = covered / seconds.max(1);
+    (0..seconds).map(move |index| (count - seconds * apart) / 2 + index * apart)
+}
+
+/// Samples of the shorter clip that both must show.
+fn least_overlap(count: usize) -> usize {
+    ((count as f64 * OVERLAP_SHARE) as usize).max(1)
 }
 
 /// r² of the legs; none where it is beyond the limit.

@@ -6,7 +6,8 @@
 //! every two clips of a take of ordinary size are still compared.
 //!
 //! Clips that are no copies all come on the list: their cost grows with the square of their number, but at a rate of
-//! some microseconds a pair ([`crate::outline`]).
+//! some microseconds a pair ([`crate::outline`]), until the list is full; from then on clips are only compared with it,
+//! and it is told which.
 
 use std::collections::BTreeMap;
 
@@ -16,6 +17,8 @@ use crate::same_take::{Entry, Match, Sought};
 
 /// Clips of one take that later ones are compared with.
 pub(crate) const LISTED_MAX: usize = 8;
+/// Longest list: 8 million pairs, half a minute.
+pub(crate) const LIST_MAX: usize = 4000;
 /// Clips that are compared at once: as many as are listed, within these bounds. Within a batch each is compared with
 /// each, which is wasted on what a longer list would have settled.
 const BATCH_MIN: usize = 4;
@@ -24,8 +27,14 @@ const BATCH_MAX: usize = 256;
 /// Two clips that were found to be one take: the better one, the other, and how.
 pub(crate) type Found = (usize, usize, Match);
 
+/// What was found, and which clips no later one was compared with since the list was full.
+pub(crate) struct Search {
+    pub(crate) found: Vec<Found>,
+    pub(crate) beyond_list: Vec<usize>,
+}
+
 /// Pairs of one take. `order` are the clips from the best on; `may_pair` says which are compared at all.
-pub(crate) fn search(entries: &[Entry], order: &[usize], may_pair: impl Fn(usize, usize) -> bool + Sync) -> Vec<Found> {
+pub(crate) fn search(entries: &[Entry], order: &[usize], may_pair: impl Fn(usize, usize) -> bool + Sync) -> Search {
     let (mut list, mut found, mut rest) = (List::default(), Vec::new(), order);
     let compare = |sought: &mut Sought, better: usize, clip: usize| {
         if may_pair(better, clip) { sought.compare(&entries[better]).map(|how| (better, clip, how)) } else { None }
@@ -51,7 +60,7 @@ pub(crate) fn search(entries: &[Entry], order: &[usize], may_pair: impl Fn(usize
         found.extend(on_list.into_iter().chain(in_batch).flatten());
         open.iter().for_each(|&clip| list.add(clip, &found[new..]));
     }
-    found
+    Search { found, beyond_list: list.beyond }
 }
 
 /// What comes up to the first that is meant, and that one.
@@ -72,6 +81,8 @@ struct List {
     first: BTreeMap<usize, usize>,
     /// Listed clips of the take of each first clip.
     counts: BTreeMap<usize, usize>,
+    /// Clips that found it full.
+    beyond: Vec<usize>,
 }
 
 impl List {
@@ -86,9 +97,25 @@ impl List {
         if better.clone().any(|better| self.settles(better)) {
             return;
         }
+        if self.clips.len() == LIST_MAX {
+            self.beyond.push(clip);
+            return;
+        }
         let first = better.find_map(|better| self.first.get(&better).copied()).unwrap_or(clip);
         self.clips.push(clip);
         self.first.insert(clip, first);
         *self.counts.entry(first).or_default() += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_finds_the_list_full_is_told() {
+        let mut list = List::default();
+        (0..LIST_MAX + 2).for_each(|clip| list.add(clip, &[]));
+        assert_eq!((list.clips.len(), list.beyond), (LIST_MAX, vec![LIST_MAX, LIST_MAX + 1]));
     }
 }
