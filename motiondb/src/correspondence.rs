@@ -1,9 +1,10 @@
-//! Correspondence times T between two examples (`FbCrowd` §5, Eq. 10): where synthesis may switch from one to the other.
+//! Correspondence times T between two examples (`FbCrowd` §5, Eq. 10): where synthesis may switch from one to the
+//! other.
 //!
 //! The pairs of T are the local minima of the pose distance D ([`crate::pose_distance`]) on the torus of both cycles,
-//! as far as they are at most [`THRESHOLD_RATIO`] times the least; a cell is a minimum where none of the eight around it
-//! is lower. Of minima that cannot all be passed in turn (monotone and cyclic in both) the greatest number is kept, and
-//! of equal numbers those with the least sum of distances. Every step (from one mid-stance to the other) of either
+//! as far as they are at most [`THRESHOLD_RATIO`] times the least; a cell is a minimum where none of the eight around
+//! it is lower. Of minima that cannot all be passed in turn (monotone and cyclic in both) the greatest number is kept,
+//! and of equal numbers those with the least sum of distances. Every step (from one mid-stance to the other) of either
 //! cycle has a pair; where it has no minimum, the most alike poses of a step of one and a step of the other stand in,
 //! as few as can be. The table from B to A is that from A to B with its columns exchanged.
 //!

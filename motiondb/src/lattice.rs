@@ -1,17 +1,20 @@
-//! The examples' parameters as whole numbers, where every question of side is decided exactly (`definitions.md`, "Axes").
+//! The examples' parameters as whole numbers, where every question of side is decided exactly (`definitions.md`,
+//! "Axes").
 //!
-//! Each axis of (v_f, ω_t, ω_s) is divided by its range over the examples and rounded to 2⁻²⁰ of it. The compiler builds
-//! its simplices on these points, and [`crate::tiling`] proves them there: no rounding, no tolerance. An axis without
-//! range is dropped; a set that lies flat within a gait's noise counts as flat, and is seen along the axis that it
-//! leans on least, so that points off the flat stand in it.
+//! Each axis of (v_f, ω_t, ω_s) is divided by its range over the examples and rounded to 2⁻²⁰ of it. The compiler
+//! builds its simplices on these points, and [`crate::tiling`] proves them there: no rounding, no tolerance. An axis
+//! without range is dropped; a set that lies flat within a gait's noise counts as flat, and is seen along the axis that
+//! it leans on least, so that points off the flat stand in it.
 
 use glam::DVec3;
 
 use crate::parameters::Parameters;
 
-/// Whole numbers to an axis's range: finer than an `f32` far from 0. Determinants of four lifted points stay below 2¹²⁷.
+/// Whole numbers to an axis's range: finer than an `f32` far from 0. Determinants of four lifted points stay below
+/// 2¹²⁷.
 const STEPS: f64 = (1 << 20) as f64;
-/// Differences below these are no range: what the compiler's snapping takes for a gait's noise, m/s, rad/s (3 °/s), m/s.
+/// Differences below these are no range: what the compiler's snapping takes for a gait's noise, m/s, rad/s (3 °/s),
+/// m/s.
 pub const LEAST_RANGES: [f32; 3] = [0.05, 0.0524, 0.1];
 /// A set that is nowhere thicker than this part of an axis's range is flat: some centimetres a second.
 pub const FLAT_SHARE: f32 = 0.02;

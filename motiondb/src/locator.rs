@@ -1,8 +1,8 @@
 //! The shares of examples at a query: of the simplex that holds it, or of the hull's nearest point (`FbCrowd` §5;
 //! `definitions.md`, "Axes").
 //!
-//! A [grid](crate::grid) names the few simplices that may hold the query; where none does, it is outside, and a tree
-//! over the hull's [surface](crate::surface) finds the nearest point. A set of fewer dimensions than its axes lies
+//! A `grid` names the few simplices that may hold the query; where none does, it is outside, and a tree
+//! over the hull's `surface` finds the nearest point. A set of fewer dimensions than its axes lies
 //! askew in their space and fills none of it: it is all surface. Shares move continuously with the query, also across
 //! the hull. No memory is taken.
 

@@ -9,8 +9,8 @@
 //! v + ω·perp(p) + dp/dt = 0,
 //! ```
 //!
-//! two equations a row for three unknowns: the rows alone tell (v_f, ω_t, ω_s), by least squares. Root frame: x forward,
-//! y left; metres, seconds.
+//! two equations a row for three unknowns: the rows alone tell (v_f, ω_t, ω_s), by least squares. Root frame: x
+//! forward, y left; metres, seconds.
 
 use glam::{DMat3, DVec2, DVec3};
 

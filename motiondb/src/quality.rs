@@ -14,7 +14,8 @@ use crate::parameters::Parameters;
 use crate::pose::Joints;
 use crate::skeleton::{JOINT_COUNT, Joint, Skeleton};
 
-/// Planted feet of clean walks slide by 2–8 cm/s, fast side-steps by 12, noisy walks by up to 18 (`definitions.md`), cm/s.
+/// Planted feet of clean walks slide by 2–8 cm/s, fast side-steps by 12, noisy walks by up to 18 (`definitions.md`),
+/// cm/s.
 const WALKING_SLIDE_MAX_CM_S: f32 = 15.0;
 /// Of runs: 6.5 in a circle, 22 hand-keyed, 28 at 3.9 m/s (`definitions.md`), cm/s.
 const RUNNING_SLIDE_MAX_CM_S: f32 = 30.0;
@@ -39,8 +40,8 @@ const KNEE_FLEXION_MIN_DEG: f32 = 1.0;
 /// The compiler's leg inverse kinematics ends at 0.9995, a knee flexed by 3.6°; a longer leg came from a clip, hip to
 /// ankle over thigh plus shank.
 const LEG_EXTENSION_MAX: f32 = 0.9997;
-/// Published ranges are of slow, unforced motion, and rigs share out a bend of the spine as they like: sound clips exceed
-/// them by up to 42°, degrees.
+/// Published ranges are of slow, unforced motion, and rigs share out a bend of the spine as they like: sound clips
+/// exceed them by up to 42°, degrees.
 const RANGE_EXCESS_MAX_DEG: f32 = 45.0;
 
 /// The figures of one example.

@@ -11,8 +11,8 @@ pub(super) fn simplices_tile_the_hull(db: &MotionDb) -> Outcome {
     tiling_fault(&db.blend_space, &parameters).map_or(Ok(()), Err)
 }
 
-/// There are correspondences where two examples step; m_sp and m_mb are two such; pairs lie in their cycles, rise in t_sp, and rise in t_mb but for one wrap;
-/// each step of m_sp has at least one.
+/// There are correspondences where two examples step; m_sp and m_mb are two such; pairs lie in their cycles, rise in
+/// t_sp, and rise in t_mb but for one wrap; each step of m_sp has at least one.
 pub(super) fn correspondences_are_cyclic(db: &MotionDb) -> Outcome {
     let stepping = db.examples.iter().filter(|example| example.key_times_s.is_some()).count();
     let Some(found) = &db.correspondence else {

@@ -1,11 +1,11 @@
 //! Every invariant of a database, by name. The runtime relies on all of them, so [`crate::file::load`] refuses what
 //! breaks one.
 //!
-//! Three tiers, each of which the next relies on: structure ([`structure`]: lengths and indices), values ([`values`]:
-//! what a number, a rotation or a pose may be), and what must follow from the values: the motion's own account of each
-//! example ([`motion`]), the velocity sets ([`velocity_sets`], `FbCrowd` §4.1), simplices and correspondences
-//! ([`blending`], §5). Of a broken tier all faults are named, of the structure the first; later tiers are left out.
-//! The doc of each function is the invariant.
+//! Three tiers, each of which the next relies on: `structure` (lengths and indices), `values` (what a number, a
+//! rotation or a pose may be), and what must follow from the values: the motion's own account of each example
+//! (`motion`), the velocity sets (`velocity_sets`, `FbCrowd` §4.1), simplices and correspondences (`blending`, §5). Of
+//! a broken tier all faults are named, of the structure the first; later tiers are left out. The doc of each function
+//! is the invariant.
 
 mod blending;
 mod motion;

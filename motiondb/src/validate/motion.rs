@@ -40,8 +40,8 @@ pub(super) fn cycles_close(db: &MotionDb) -> Outcome {
     })
 }
 
-/// Phase 0 lies in the middle of a right contact, phase ½ in the middle of a left one; who stands never lifts a foot and
-/// never moves.
+/// Phase 0 lies in the middle of a right contact, phase ½ in the middle of a left one; who stands never lifts a foot
+/// and never moves.
 pub(super) fn landmarks_are_mid_stances(db: &MotionDb) -> Outcome {
     each(db, |index, example| {
         let feet = CycleFeet::of(db, index, &[]);
@@ -53,8 +53,8 @@ pub(super) fn landmarks_are_mid_stances(db: &MotionDb) -> Outcome {
     })
 }
 
-/// Why the motion of a cycle that steps contradicts its landmarks or its parameters, if so: what a compiler must not put
-/// into a database.
+/// Why the motion of a cycle that steps contradicts its landmarks or its parameters, if so: what a compiler must not
+/// put into a database.
 pub fn contradiction(feet: &CycleFeet, parameters: Parameters) -> Option<String> {
     landmarks_agree(feet).and_then(|()| parameters_agree(feet, parameters)).err()
 }

@@ -4,7 +4,7 @@
 //! of a gait (`cadence`); where the feet stand (`footsteps`), roll (`foot_roll`) and swing (`swing`); the pelvis over
 //! them (`pelvis`), the legs between (`legs`), trunk, head and arms (`upper_body`), no two strides alike (`variation`);
 //! all assembled (`cycle`) or standing (`idle`); the list of clips (`catalogue`) and their files (`bvh_writer`;
-//! `body_mesh`, `glb_buffer` and `glb_writer`; `readme`). What the result is held against: [`reference`].
+//! `body_mesh`, `glb_buffer` and `glb_writer`; `readme`). What the result is held against: [`mod@reference`].
 //!
 //! Every byte follows from this source: no input, no clock, no seed but the clips' names, trigonometry through `libm`.
 

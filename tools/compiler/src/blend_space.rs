@@ -23,7 +23,7 @@ use motiondb::parameters::Parameters;
 const INFINITY: usize = usize::MAX;
 
 /// Triangulates the `parameters` of examples in as many dimensions as they span. Of examples that all but coincide one
-/// is a corner ([`twins`]). Without finite parameters there are no simplices.
+/// is a corner (`twins`). Without finite parameters there are no simplices.
 pub fn build(parameters: &[Parameters]) -> BlendSpace {
     let Some(lattice) = Lattice::new(parameters) else { return BlendSpace::default() };
     let triangulation = Triangulation::new(&lattice);

@@ -2,7 +2,7 @@
 //! "Example").
 //!
 //! Each stride is read along its own arc, at the times t(φ) of [`motiondb::phase_map`], through both of its landmarks.
-//! What is left open between its ends is taken out ([`crate::closing`]), and both ends are faded into what the clip does
+//! What is left open between its ends is taken out (`closing`), and both ends are faded into what the clip does
 //! just outside the stride, so that velocities close as well. Root frame: x forward, y left, metres, seconds.
 
 use motiondb::motion_db::PHASE_COUNT;
@@ -51,7 +51,7 @@ pub struct NamedCycle {
     pub mirrored: bool,
     /// What a manifest makes of it.
     pub choices: Choices,
-    /// How far from a clean cycle the window was that it was made from; the least is the best ([`crate::selection`]).
+    /// How far from a clean cycle the window was that it was made from; the least is the best (`selection`).
     pub flaws: f64,
     /// The cycle.
     pub cycle: GaitCycle,

@@ -1,4 +1,5 @@
-//! Steady windows → NamedCycle: standing ones closed with the period of m_sp, each with its own name, and their mirrors.
+//! Steady windows → NamedCycle: standing ones closed with the period of m_sp, each with its own name, and their
+//! mirrors.
 //!
 //! A clip's first window has the clip's name. Further ones tell the second of the file at which they begin,
 //! `capture@07.3s`, with as many digits as the clip's last second has, so that they sort by time.

@@ -22,15 +22,15 @@ use crate::foot_slide;
 use crate::human_clip::HumanBody;
 use crate::stride::{STRIDE_GAP_M, Stride};
 
-/// A cell of the grid: twice what strides of one steady window may differ from their mean ([`crate::steady_window`]). Two
-/// windows of one cell say no more than two strides of one window.
+/// A cell of the grid: twice what strides of one steady window may differ from their mean ([`crate::steady_window`]).
+/// Two windows of one cell say no more than two strides of one window.
 const CELL_SPEED_MPS: f64 = 0.25;
 const CELL_TURN_RAD_S: f64 = 30.0 * PI / 180.0;
 /// A rest of this length is as good as a lone stride.
 const REST_S: f64 = 1.0;
 
-/// The flaws of a mean stride, a term each for what it leaves open before it is closed, for slide, for its distance from
-/// the cell's middle and for the strides that it is not the mean of; each is 1 where it could hardly be worse.
+/// The flaws of a mean stride, a term each for what it leaves open before it is closed, for slide, for its distance
+/// from the cell's middle and for the strides that it is not the mean of; each is 1 where it could hardly be worse.
 pub(crate) fn flaws_of_strides(strides: &[Stride], cycle: &GaitCycle, body: &HumanBody) -> f64 {
     let count = strides.len() as f64;
     let gap_m = strides.iter().map(|stride| stride.gap_m).sum::<f64>() / count;
@@ -118,8 +118,8 @@ pub(crate) fn limit(cycles: &mut Vec<NamedCycle>, most: Option<NonZeroUsize>, so
     });
 }
 
-/// So many of the cycles: m_sp, one that stands, the ends of the set, then the rest, each time the one farthest from all
-/// before and their mirrors.
+/// So many of the cycles: m_sp, one that stands, the ends of the set, then the rest, each time the one farthest from
+/// all before and their mirrors.
 fn spread(cycles: &[NamedCycle], most: usize) -> Vec<usize> {
     let places = normalised(cycles);
     let ends = ends(&places);

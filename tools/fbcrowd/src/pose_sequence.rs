@@ -18,7 +18,8 @@ use motiondb::skeleton::{JOINT_COUNT, Joint};
 /// Bones that turn against the pelvis.
 const BONES: usize = JOINT_COUNT - 4;
 
-/// Unit vectors along the bones of one cycle in the pelvis's frame; a bone without length is zero and counts for nothing.
+/// Unit vectors along the bones of one cycle in the pelvis's frame; a bone without length is zero and counts for
+/// nothing.
 #[derive(Clone, Debug)]
 pub(crate) struct PoseSequence {
     directions: Vec<[Vec3; BONES]>,

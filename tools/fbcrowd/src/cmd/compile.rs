@@ -16,8 +16,8 @@ use crate::{compile_text, output};
 
 /// Compile motion clips into a database.
 ///
-/// Units, axes, joints, cycles and parameters are found; a manifest overrides what it names. Exit code 0: all clips were
-/// used; 1: the database was written, but some input was refused; 2: nothing was written.
+/// Units, axes, joints, cycles and parameters are found; a manifest overrides what it names. Exit code 0: all clips
+/// were used; 1: the database was written, but some input was refused; 2: nothing was written.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd compile assets/clips -o motion.fbdb\n  fbcrowd compile walk.bvh run.glb -o motion.fbdb\n  \
@@ -38,8 +38,8 @@ pub(crate) struct Args {
     /// asks for nothing), `used[] {file, clip, examples[] {name, mirrored, window_s, speed_mps, turn_rate_rad_s,
     /// strafe_mps}}`, `quality[] {example, planted_slide_cm_s, planted_share, seam_angle_ratio, seam_velocity_ratio,
     /// penetration_mm, knee_flexion_min_deg, leg_extension_max, range_excess_deg, range_excess_joint}`, `findings[]
-    /// {example, measure, value, threshold, unit, sentence}`, `coverage[] {lack, sentence}`, `stages[] {name, seconds}`,
-    /// `next[]`.
+    /// {example, measure, value, threshold, unit, sentence}`, `coverage[] {lack, sentence}`, `stages[] {name,
+    /// seconds}`, `next[]`.
     #[arg(long)]
     json: bool,
     /// Most examples, mirrors not counted, whatever the manifest says: m_sp, one that stands and those that reach

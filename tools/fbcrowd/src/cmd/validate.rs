@@ -11,8 +11,8 @@ use crate::output;
 
 /// Check every invariant of a motion database, and how good its motion is.
 ///
-/// Exit code 0: all invariants hold; 1: one is broken, or with --strict a figure is beyond its threshold; 2: the file is
-/// no readable database (the message names what is wrong: its mark, version, length, checksum or content).
+/// Exit code 0: all invariants hold; 1: one is broken, or with --strict a figure is beyond its threshold; 2: the file
+/// is no readable database (the message names what is wrong: its mark, version, length, checksum or content).
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd validate out/antipodal/motion.fbdb\n  fbcrowd validate motion.fbdb --strict --json"
@@ -24,8 +24,8 @@ pub(crate) struct Args {
     /// Print `{valid, checks[] {name, holds, detail}, findings[] {example, measure, value, threshold, unit, sentence},
     /// quality[] {example, planted_slide_cm_s, planted_share, seam_angle_ratio, seam_velocity_ratio, penetration_mm,
     /// knee_flexion_min_deg, leg_extension_max, range_excess_deg, range_excess_joint}}`: invariants; figures beyond
-    /// their thresholds (mirrors are passed over); all figures, mirrors too. A seam is measured in the cycle's own median
-    /// step; a leg's extension in its length. Where an invariant is broken there are no figures.
+    /// their thresholds (mirrors are passed over); all figures, mirrors too. A seam is measured in the cycle's own
+    /// median step; a leg's extension in its length. Where an invariant is broken there are no figures.
     #[arg(long)]
     json: bool,
     /// Answer no where a figure is beyond its threshold, too.

@@ -27,8 +27,8 @@ const GROWTH: f64 = 4.0;
 
 /// Time queries of ever larger blend spaces.
 ///
-/// In JSON `sets[] {examples, simplices, build_s, load_s, within_ns, around_ns}`: queries from within the examples' box,
-/// and from three times around it, which mostly go to the hull's nearest point.
+/// In JSON `sets[] {examples, simplices, build_s, load_s, within_ns, around_ns}`: queries from within the examples'
+/// box, and from three times around it, which mostly go to the hull's nearest point.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd bench blend-space --json")]
 pub(super) struct Args {

@@ -1,7 +1,7 @@
 //! `fbcrowd bench clips`: are the bundled clips what they claim to be, and what people do?
 //!
-//! Everything is measured on the compiled clips, as the compiler measures anybody's: [`motiondb::quality`], the examples'
-//! own parameters and key times, and with `--mocap` their likeness to real clips ([`crate::likeness`]).
+//! Everything is measured on the compiled clips, as the compiler measures anybody's: [`motiondb::quality`], the
+//! examples' own parameters and key times, and with `--mocap` their likeness to real clips ([`crate::likeness`]).
 
 use std::path::PathBuf;
 
@@ -25,9 +25,9 @@ const ADULT_MPS: f64 = 0.85;
 
 /// Hold the bundled clips against what their names claim, what is published of people and, with --mocap, real clips.
 ///
-/// In JSON `clips[] {name, off_claim, quality, gait, off_published_deg[3]}` (`off_claim`: the greatest miss of a parameter
-/// over what is allowed; hip, knee, ankle) and `kinds[] {kind, sources, median_deg, real[], bundled[]}`, both lists
-/// `{clip, source, distance_deg, nearest, nearest_source}`.
+/// In JSON `clips[] {name, off_claim, quality, gait, off_published_deg[3]}` (`off_claim`: the greatest miss of a
+/// parameter over what is allowed; hip, knee, ankle) and `kinds[] {kind, sources, median_deg, real[], bundled[]}`, both
+/// lists `{clip, source, distance_deg, nearest, nearest_source}`.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  fbcrowd bench clips\n  fbcrowd bench clips --mocap ../shared/mocap")]
 pub(super) struct Args {

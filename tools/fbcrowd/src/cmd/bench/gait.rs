@@ -21,10 +21,10 @@ const SHOWN_EVENTS: usize = 10;
 
 /// Compare the gait events of clips with labels: a file of lines `file,clip,fps,set,side,event,frame,pm`.
 ///
-/// `frame` is where the event (`strike` or `off`) was seen and `pm` how unsure that is, in frames of the source; what the
-/// labeller was unsure of is met within that. In JSON `events[] {file, clip, set, side, event, frame, unsure_frames,
-/// error_frames}` and `sets[] {name, events, within_share, within_one_frame_share, median_error_frames}`; an error is null
-/// where there is no such event.
+/// `frame` is where the event (`strike` or `off`) was seen and `pm` how unsure that is, in frames of the source; what
+/// the labeller was unsure of is met within that. In JSON `events[] {file, clip, set, side, event, frame,
+/// unsure_frames, error_frames}` and `sets[] {name, events, within_share, within_one_frame_share,
+/// median_error_frames}`; an error is null where there is no such event.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd bench gait --mocap ../shared/mocap --json")]
 pub(super) struct Args {

@@ -28,9 +28,9 @@ const SHOWN_ROWS: usize = 12;
 ///
 /// In JSON `rows[] {file, clip, found, wanted, excess, judged, units_hold, by_elbows, refused}, share_of_index,
 /// files_read, megabytes_read`: found and wanted are (v_f m/s, turn rate °/s, side speed m/s); excess is the greatest
-/// difference over its tolerance, null where the clip is refused; by_elbows is the excess of the same clip measured with
-/// its elbows for shoulders, as the index was by mistake on some rigs, else null; share_of_index is that of the judged
-/// rows within tolerance of the index as it is.
+/// difference over its tolerance, null where the clip is refused; by_elbows is the excess of the same clip measured
+/// with its elbows for shoulders, as the index was by mistake on some rigs, else null; share_of_index is that of the
+/// judged rows within tolerance of the index as it is.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd bench import --mocap ../shared/mocap --json")]
 pub(super) struct Args {

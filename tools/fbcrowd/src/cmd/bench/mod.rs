@@ -16,9 +16,9 @@ use crate::failure::{Answer, Failure};
 
 /// Measure against the bars that a release must meet.
 ///
-/// Every bench can print JSON: what it measured, then `goals[] {name, measured, goal}` (times and sizes, which depend on
-/// the machine) and last `bars[] {name, measured, limit, met}`. Exit code 0: every bar is met; 1: one is missed; 2: what
-/// is to be measured cannot be read.
+/// Every bench can print JSON: what it measured, then `goals[] {name, measured, goal}` (times and sizes, which depend
+/// on the machine) and last `bars[] {name, measured, limit, met}`. Exit code 0: every bar is met; 1: one is missed; 2:
+/// what is to be measured cannot be read.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd bench import --mocap ../shared/mocap\n  fbcrowd bench compile --mocap my/clips --json"
