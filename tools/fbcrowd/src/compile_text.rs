@@ -15,6 +15,9 @@ use crate::grouping::group;
 /// Lines of a section, and clips named in a sentence; what follows is counted.
 const SHOWN_LINES: usize = 100;
 const SHOWN_CLIPS: usize = 12;
+/// Seam and jerk are ratios to the cycle's own median step, of its pose and of its velocity.
+const EXAMPLES: &str =
+    "examples, worst first (! beyond its threshold; seam, jerk: in the cycle's usual step; leg: in its length)";
 /// Columns of a line.
 const WIDTH: usize = 110;
 
@@ -25,7 +28,7 @@ pub(crate) fn text(report: &CompileReport) -> String {
         section("refused", grouped(report.refused.iter().map(said))),
         section("no example", grouped(report.unused.iter().map(said))),
         section("warnings", warnings(report)),
-        section("examples, worst first (! beyond its threshold)", example_table::lines(report)),
+        section(EXAMPLES, example_table::lines(report)),
         section("quality", grouped(findings(report))),
         section("notes: nothing to do", grouped(notes(report))),
         section("where the set is thin", report.coverage.iter().map(|thin| thin.sentence.clone()).collect()),
@@ -58,8 +61,12 @@ pub(crate) fn remarks<'a>(sources: impl Iterator<Item = &'a SourceRecord> + Clon
 fn last_line(report: &CompileReport) -> String {
     let clips = report.used.len() + report.unused.len();
     format!(
-        "{}: {} examples ({} of them mirrored) from {clips} clips, {} simplices",
-        report.output, report.example_count, report.mirror_count, report.simplex_count,
+        "{}: {} ({} of them mirrored) from {}, {}",
+        report.output,
+        counted(report.example_count, "example"),
+        report.mirror_count,
+        counted(clips, "clip"),
+        simplices(report.simplex_count),
     )
 }
 
@@ -78,10 +85,7 @@ fn headline(report: &CompileReport) -> String {
         counted(report.example_count, "example"),
         report.example_count - report.mirror_count,
         report.mirror_count,
-        match report.simplex_count {
-            1 => "1 simplex".to_owned(),
-            several => format!("{several} simplices"),
-        },
+        simplices(report.simplex_count),
     );
     let total_s: f64 = report.stages.iter().map(|stage| stage.seconds).sum();
     let stages = report.stages.iter().map(|stage| format!("{} {:.2}", stage.name, stage.seconds));
@@ -90,6 +94,10 @@ fn headline(report: &CompileReport) -> String {
 
 fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+fn simplices(count: usize) -> String {
+    if count == 1 { "1 simplex".to_owned() } else { format!("{count} simplices") }
 }
 
 /// A file and its clip, as one name.

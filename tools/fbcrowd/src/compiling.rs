@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use motiondb::velocity_hull::Construction;
 use motiondb_compiler::compile::{self, Compiled};
-use motiondb_compiler::compile_error::CompileError;
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
 use motiondb_compiler::manifest::Manifest;
@@ -87,10 +86,11 @@ pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Answer), Fail
     let imported = compile::import_manifest(&manifest, &|event| advance(&progress, event));
     progress.finish();
     let (clips, refused) = imported?;
+    let answer = say_refused(&refused);
     if clips.is_empty() {
-        return Err(CompileError::NoExample { reasons: refused }.into());
+        return Err(Failure::bad("none of the clips can be used; give clips of a walking human skeleton"));
     }
-    Ok((clips, say_refused(&refused)))
+    Ok((clips, answer))
 }
 
 /// Progress counts imported files: what comes after takes no time worth a bar.

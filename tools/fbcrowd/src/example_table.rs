@@ -20,7 +20,7 @@ pub(crate) fn lines(report: &CompileReport) -> Vec<String> {
     rows.sort_by(|a, b| b.findings.len().cmp(&a.findings.len()).then(slide(b).total_cmp(&slide(a))));
     let width = rows.iter().map(|row| row.example.name.chars().count()).max().unwrap_or(0).max(7);
     let head = format!(
-        "{:<width$}  window s       m/s    °/s  aside  slide cm/s  planted %  seam  jerk  sinks mm  knee °  leg",
+        "{:<width$}  window s       m/s    °/s  aside m/s  slide cm/s  planted %  seam  jerk  sinks mm  knee °  leg",
         "example"
     );
     std::iter::once(head).chain(rows.iter().map(|row| row.line(width))).collect()
@@ -49,13 +49,13 @@ impl Row<'_> {
         let (example, quality) = (self.example, self.quality);
         let mark = |measure: &str| if self.findings.contains(&measure) { '!' } else { ' ' };
         let does = format!(
-            "{:<width$}  {:>4.1} – {:<5.1}  {:6.2}  {:5.0}  {:5.2}",
+            "{:<width$}  {:>4.1} – {:<5.1}  {:6.2}  {:5.0}  {:9.2}",
             example.name,
             example.window_s[0],
             example.window_s[1],
-            unsigned_zero(example.speed_mps),
-            unsigned_zero(example.turn_rate_rad_s.to_degrees()),
-            unsigned_zero(example.strafe_mps),
+            unsigned_zero(example.speed_mps, 2),
+            unsigned_zero(example.turn_rate_rad_s.to_degrees(), 0),
+            unsigned_zero(example.strafe_mps, 2),
         );
         let is = format!(
             "{:9.1}{}  {:8.0}{}  {:4.1}{} {:4.1}{} {:8.0}{}  {:5.0}{}  {:4.2}{}",
@@ -80,7 +80,7 @@ impl Row<'_> {
     }
 }
 
-/// What is shown as 0 is shown without sign.
-fn unsigned_zero(value: f32) -> f32 {
-    if value.abs() < 0.005 { 0.0 } else { value }
+/// What is shown as 0, with so many digits after the point, is shown without sign.
+pub(crate) fn unsigned_zero(value: f32, digits: i32) -> f32 {
+    if value.abs() <= 0.5 * 10.0_f32.powi(-digits) { 0.0 } else { value }
 }

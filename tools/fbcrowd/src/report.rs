@@ -9,6 +9,7 @@ use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 use serde::Serialize;
 
 use crate::correspondence_between::Between;
+use crate::example_table::unsigned_zero;
 use crate::leave_one_out::LeaveOneOut;
 use crate::{compile_text, leave_one_out_text};
 
@@ -118,9 +119,9 @@ pub(crate) fn database_text(report: &DatabaseReport) -> String {
         text += &format!(
             "{:<width$}  {:9.3}  {:8.1}  {:10.3}  {:8.3}  {:10.2}  {:6.0} %\n",
             example.name,
-            example.speed_mps,
-            example.turn_rate_rad_s.to_degrees(),
-            example.strafe_mps,
+            unsigned_zero(example.speed_mps, 3),
+            unsigned_zero(example.turn_rate_rad_s.to_degrees(), 1),
+            unsigned_zero(example.strafe_mps, 3),
             example.duration_s,
             example.planted_slide_cm_s,
             100.0 * example.planted_share,
@@ -161,7 +162,8 @@ fn coverage_text(report: &DatabaseReport) -> String {
 }
 
 fn corners(polygon: &[Vec2]) -> String {
-    polygon.iter().map(|corner| format!("({:.2}, {:.2})", corner.x, corner.y)).collect::<Vec<_>>().join(" ")
+    let corner = |corner: &Vec2| format!("({:.2}, {:.2})", unsigned_zero(corner.x, 2), unsigned_zero(corner.y, 2));
+    polygon.iter().map(corner).collect::<Vec<_>>().join(" ")
 }
 
 /// Clips as a table.
@@ -173,9 +175,9 @@ pub(crate) fn sources_text(surveyed: &[SurveyedSource]) -> String {
         text += &format!(
             "{:<width$}  {:9.3}  {:8.1}  {:10.3}  {}  {:10.6}  {:5.1}  {}\n",
             name(source),
-            source.speed_mps,
-            source.turn_rate_rad_s.to_degrees(),
-            source.strafe_mps,
+            unsigned_zero(source.speed_mps, 3),
+            unsigned_zero(source.turn_rate_rad_s.to_degrees(), 1),
+            unsigned_zero(source.strafe_mps, 3),
             source.up_axis,
             source.metres_per_unit,
             source.frame_rate_hz,

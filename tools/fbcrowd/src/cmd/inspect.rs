@@ -25,15 +25,15 @@ pub(crate) struct Args {
     #[arg(required = true, value_name = "FILE.fbdb|CLIPS")]
     input: Vec<PathBuf>,
     /// Print JSON: `sources[] {file, clip, speed_mps, turn_rate_rad_s, strafe_mps, up_axis, metres_per_unit,
-    /// frame_rate_hz, warnings[]}`; of clips each with `gait {kind, reason, planted_share, right[] {strike_s, toe_off_s},
-    /// left[] {strike_s, toe_off_s}}`: kind is "steps", "stands" or "unsteady" (with a reason), strikes and toe-offs are
-    /// those of the whole clip, in seconds from the file's first frame, null where the clip begins or ends within the
-    /// contact; of a database also `examples[] {name, source, clip, window_s, mirrored, speed_mps,
+    /// frame_rate_hz, warnings[]}`; of clips each with `gait {kind, reason, planted_share, right[] {strike_s,
+    /// toe_off_s}, left[] {strike_s, toe_off_s}}`: kind is "steps", "stands" or "unsteady" (with a reason), strikes and
+    /// toe-offs are those of the whole clip, in seconds from the file's first frame, null where the clip begins or ends
+    /// within the contact; of a database also `examples[] {name, source, clip, window_s, mirrored, speed_mps,
     /// turn_rate_rad_s, strafe_mps, duration_s, key_times_s, planted_slide_cm_s, planted_share}`, `velocity_hull
-    /// {construction, turning_mps[][2], holding_mps[][2], sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension, simplices[][],
-    /// covered_share}`, `correspondence {semi_procedural, blending, pairs_s[][2]}` or null, and `coverage[] {lack,
-    /// sentence}`: where the set is thin. Key times: right toe-off, right heel strike, left toe-off, left heel strike,
-    /// from right mid-stance.
+    /// {construction, turning_mps[][2], holding_mps[][2], sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension,
+    /// simplices[][], covered_share}`, `correspondence {semi_procedural, blending, pairs_s[][2]}` or null, and
+    /// `coverage[] {lack, sentence}`: where the set is thin. Key times: right toe-off, right heel strike, left toe-off,
+    /// left heel strike, from right mid-stance.
     #[arg(long)]
     json: bool,
     /// Write pictures of a database: velocity sets, parameters, where they are thin, bodies, steps, and how alike the
@@ -45,25 +45,30 @@ pub(crate) struct Args {
     /// example. In JSON `leave_one_out {examples[] {name, blended_rmse_m, nearest_rmse_m, joint_blended_rmse_m[22],
     /// joint_nearest_rmse_m[22], nearest, mix[] {name, share}}, outside[], blended_better_share, median_blended_rmse_m,
     /// median_nearest_rmse_m, median_joint_blended_rmse_m, median_joint_nearest_rmse_m, per_joint[] {joint,
-    /// median_blended_rmse_m, median_nearest_rmse_m}}`; `joint_…` in the order of `per_joint`; `median_joint_…` over all
-    /// joints of all examples; `outside` are corners of the hull, which nothing else reaches.
+    /// median_blended_rmse_m, median_nearest_rmse_m}}`; `joint_…` in the order of `per_joint`; `median_joint_…` over
+    /// all joints of all examples; `outside` are corners of the hull, which nothing else reaches.
     #[arg(long)]
     leave_one_out: bool,
     /// Where synthesis could switch between any two examples of a database: times at which their poses (places and
-    /// velocities of the joints) are alike. In JSON `correspondence_between {from, to, pairs_s[][2], distances_m[]}`; with
-    /// --plots also a picture of that pair's distances. A body that stands has no steps: each step of the other meets
-    /// some time of standing.
+    /// velocities of the joints) are alike. In JSON `correspondence_between {from, to, pairs_s[][2], distances_m[]}`;
+    /// with --plots also a picture of that pair's distances. A body that stands has no steps: each step of the other
+    /// meets some time of standing.
     #[arg(long, num_args = 2, value_names = ["FROM", "TO"])]
     correspondence: Option<Vec<String>>,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     match args.input.as_slice() {
-        [database] if database.extension().is_some_and(|extension| extension == "fbdb") => {
-            inspect_database(args, database)
+        [database] if is_database(database) => inspect_database(args, database),
+        inputs if inputs.iter().any(|input| is_database(input)) => {
+            Err(Failure::bad("a database is shown alone; inspect one at a time, and clips by themselves"))
         }
         clips => inspect_clips(args, clips),
     }
+}
+
+fn is_database(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "fbdb")
 }
 
 fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
