@@ -58,14 +58,16 @@ pub fn leg_length_m(body: &HumanBody) -> f64 {
     0.5 * (leg(0) + leg(1))
 }
 
-/// The pose with the target's bones: scaled, rotations kept, ankles at their scaled places over their own soles.
+/// The pose with the target's bones: scaled, rotations kept, ankles at their scaled places over their own soles. The hips
+/// rise with the ankles, so that legs stay as straight as they were.
 fn retarget(pose: &HumanPose, source: &HumanBody, target: &HumanBody, scale: f64) -> HumanPose {
     let wanted = pose.forward_kinematics(source);
     let mut posed = pose.scaled(scale);
+    let raised_m = [0, 1].map(|side| source.soles_m[side][0].z * scale - target.soles_m[side][0].z);
+    posed.pelvis_m.z += 0.5 * (raised_m[0] + raised_m[1]);
     for side in 0..2 {
         let foot = Joint::FEET[side].index();
-        let sole_m = target.soles_m[side][0].z - source.soles_m[side][0].z * scale;
-        let ankle_m = wanted.positions_m[foot] * scale - DVec3::Z * sole_m;
+        let ankle_m = wanted.positions_m[foot] * scale + DVec3::Z * raised_m[side];
         leg_ik::place_ankle(&mut posed, target, side, ankle_m);
         if is_same_performer(source, target) {
             align_foot(&mut posed, source, target, side);
