@@ -45,6 +45,27 @@ fn a_missing_clip_is_named_and_nothing_is_written() {
 }
 
 #[test]
+fn a_database_replaces_no_clip_that_it_is_made_of() {
+    let folder = folder("over_a_clip");
+    let clip = folder.join("walk.bvh");
+    fs::copy(support::repository().join(WALK), &clip).unwrap();
+    let before = fs::read(&clip).unwrap();
+    fbcrowd(&["compile", text(&folder), "-o", text(&clip)]).expect_code(2).says(&["walk.bvh", "another place"]);
+    assert!(fs::read(&clip).unwrap() == before);
+}
+
+#[test]
+fn clips_that_a_manifest_passes_over_are_counted() {
+    let folder = folder("passed_over");
+    for name in ["walk.bvh", "other.bvh"] {
+        fs::copy(support::repository().join(WALK), folder.join(name)).unwrap();
+    }
+    fs::write(folder.join("manifest.toml"), "[[clips]]\npath = 'walk.bvh'\n").unwrap();
+    let database = folder.join("motion.fbdb");
+    fbcrowd(&["compile", text(&folder), "-o", text(&database)]).expect_code(0).says(&["1 more below its folder"]);
+}
+
+#[test]
 fn a_malformed_clip_is_refused_by_line_and_the_rest_still_compiles() {
     let folder = folder("malformed_clip");
     let walk = fs::read_to_string(support::repository().join(WALK)).unwrap();

@@ -107,12 +107,16 @@ impl LeftOut {
     }
 }
 
+/// Why a clip that nobody can have walked gives none.
+const IMPOSSIBLE: &str = "no human moves so; give `frame_rate_hz` in a manifest.toml";
+
 /// Analyses one clip.
 pub(crate) fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
     let performer = performer::analyze(clip);
     let grounded = performer.clip_on(clip, body);
     let (mut windows, mut warnings) = (Vec::new(), Vec::new());
     let (found, mut reason) = match performer.windows_on(&grounded, body) {
+        Ok(_) if clip.is_impossible() => (Vec::new(), Some(IMPOSSIBLE.to_owned())),
         Ok(found) => (found, None),
         Err(reason) => (Vec::new(), Some(reason.to_owned())),
     };

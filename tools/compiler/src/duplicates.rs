@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use crate::analysis::Analyzed;
 use crate::human_clip::HumanClip;
 use crate::performance::Performance;
-use crate::remark::{FRAME_TIME_QUESTION, NO_EXAMPLE};
+use crate::remark::{ANOTHER_FRAME_TIME, NO_EXAMPLE};
 use crate::same_take::Entry;
 use crate::take_search::{self, Found, LIST_MAX, Search};
 
@@ -102,7 +102,7 @@ fn remarks(clips: &[HumanClip], surplus: &[bool], clip: usize, others: &[(usize,
 
 fn remark(pair: &Pair, other: &HumanClip, is_surplus: bool, other_is_surplus: bool) -> String {
     let mirrored = if pair.mirrored { ", mirrored" } else { "" };
-    let timed = if pair.times_differ { ", at another frame time" } else { "" };
+    let timed = if pair.times_differ { format!(", {ANOTHER_FRAME_TIME}") } else { String::new() };
     let same = format!("the same take as {}{mirrored}{timed}", title(other));
     match (is_surplus, other_is_surplus) {
         (true, false) => format!("{NO_EXAMPLE}{same}"),
@@ -117,10 +117,17 @@ fn title(clip: &HumanClip) -> String {
 
 /// Ascending from the best; equals go in the clips' order.
 fn worth(clip: &HumanClip) -> impl Ord {
-    let lies = clip.source.warnings.iter().any(|warning| warning.ends_with(FRAME_TIME_QUESTION));
+    let is_in_place = clip.in_place_mps.is_some();
     let length = libm::round(clip.frames.len() as f64 / clip.frame_rate_hz / SAME_LENGTH_S) as u64;
     let chosen = Reverse((clip.choices.is_semi_procedural, clip.choices.is_target_skeleton));
-    (chosen, lies, Reverse(length), Reverse(clip.frame_rate_hz.to_bits()), clip.name.clone())
+    (
+        chosen,
+        clip.is_impossible(),
+        is_in_place,
+        Reverse(length),
+        Reverse(clip.frame_rate_hz.to_bits()),
+        clip.name.clone(),
+    )
 }
 
 /// Every two clips of one take, in the clips' order; of a take of very many clips not every two (`take_search`).

@@ -6,6 +6,8 @@ use glam::{DQuat, DVec2, DVec3};
 use motiondb::motion_db::SourceRecord;
 use motiondb::skeleton::{JOINT_COUNT, Joint};
 
+use crate::remark::FRAME_TIME_QUESTION;
+
 /// A clip after import: canonical joints, metres, Z up, right-handed, f64.
 #[derive(Clone, Debug)]
 pub struct HumanClip {
@@ -101,6 +103,13 @@ impl HumanBody {
             soles_m: points(self.soles_m),
             measured_m: points(self.measured_m),
         }
+    }
+}
+
+impl HumanClip {
+    /// Its gait was found too fast or too slow for any human: its frame time lies, and with it all speeds.
+    pub(crate) fn is_impossible(&self) -> bool {
+        self.source.warnings.iter().any(|warning| warning.ends_with(FRAME_TIME_QUESTION))
     }
 }
 

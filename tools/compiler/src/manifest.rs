@@ -54,6 +54,8 @@ pub struct Manifest {
     pub takes: Vec<Take>,
     /// What is wanted of the whole set.
     pub options: Options,
+    /// Clips below its folder that its tables neither name nor skip: they are not used.
+    pub unnamed: usize,
     source: SourceText,
     semi_procedural: Option<Spanned<String>>,
     target_skeleton: Option<Spanned<String>>,
@@ -95,7 +97,8 @@ impl Manifest {
         let takes = takes(&source, &file.clips)?;
         let options = Options { max_examples: file.max_examples, velocity_hull: file.velocity_hull };
         let (semi_procedural, target_skeleton) = (file.semi_procedural, file.target_skeleton);
-        Ok(Self { takes, options, source, semi_procedural, target_skeleton })
+        let unnamed = unnamed(&source, &file.clips, &takes);
+        Ok(Self { takes, options, unnamed, source, semi_procedural, target_skeleton })
     }
 
     /// Files of which nothing is said.
@@ -180,7 +183,7 @@ fn takes(source: &SourceText, tables: &[Spanned<Table>]) -> Result<Vec<Take>, Ma
     };
     for table in tables {
         let given = &table.get_ref().path;
-        let path = tidy(&source.beside(given.get_ref()));
+        let path = path_of(source, table);
         if !or_here(&path).exists() {
             let message = format!("there is no {}", path.display());
             return Err(source.invalid(given.span(), message, "the path is relative to the manifest").into());
@@ -203,6 +206,22 @@ fn takes(source: &SourceText, tables: &[Spanned<Table>]) -> Result<Vec<Take>, Ma
     let mut takes: Vec<Take> = takes.into_iter().map(|(path, own)| take(path, own, &folders)).collect();
     takes.sort_by(|a, b| (a.path.file_name(), &a.path).cmp(&(b.path.file_name(), &b.path)));
     Ok(takes)
+}
+
+/// How many clips below the manifest's folder its tables leave out without a word.
+fn unnamed(source: &SourceText, tables: &[Spanned<Table>], takes: &[Take]) -> usize {
+    let skipped: Vec<PathBuf> =
+        tables.iter().filter(|table| table.get_ref().skip).map(|table| path_of(source, table)).collect();
+    let is_known = |file: &PathBuf| {
+        takes.iter().any(|take| take.path == *file) || skipped.iter().any(|path| file.starts_with(path))
+    };
+    let files = clip_files(&tidy(&source.beside(Path::new("")))).unwrap_or_default();
+    files.iter().filter(|file| !is_known(file)).count()
+}
+
+/// The file or folder of a table.
+fn path_of(source: &SourceText, table: &Spanned<Table>) -> PathBuf {
+    tidy(&source.beside(table.get_ref().path.get_ref()))
 }
 
 /// A file with what its folders' tables and then its own say of it.

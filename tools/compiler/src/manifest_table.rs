@@ -28,7 +28,7 @@ pub(crate) struct Table {
     pub skip: bool,
     animation: Option<Spanned<String>>,
     name: Option<Spanned<String>>,
-    frames: Option<Spanned<[usize; 2]>>,
+    frames: Option<Spanned<FrameRange>>,
     metres_per_unit: Option<Spanned<f64>>,
     up: Option<Axis>,
     forward: Option<Spanned<Axis>>,
@@ -36,6 +36,19 @@ pub(crate) struct Table {
     #[serde(default)]
     joints: BTreeMap<Spanned<String>, Spanned<String>>,
     mirror: Option<bool>,
+}
+
+/// First and last frame, and nothing more.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(try_from = "Vec<usize>")]
+struct FrameRange([usize; 2]);
+
+impl TryFrom<Vec<usize>> for FrameRange {
+    type Error = &'static str;
+
+    fn try_from(frames: Vec<usize>) -> Result<Self, Self::Error> {
+        frames.try_into().map(Self).map_err(|_| "frames are two numbers: the first and the last, counted from 1")
+    }
 }
 
 impl Table {
@@ -51,7 +64,7 @@ impl Table {
         within(&self.metres_per_unit, UNIT_M, "metres_per_unit")?;
         within(&self.frame_rate_hz, FRAME_RATE_HZ, "frame_rate_hz")?;
         if let Some(frames) = &self.frames {
-            let [first, last] = *frames.get_ref();
+            let FrameRange([first, last]) = *frames.get_ref();
             if first == 0 || first >= last {
                 let help = "write the first and the last frame, counted from 1";
                 return Err(source.invalid(
@@ -113,7 +126,10 @@ impl Table {
         let values = &mut take.places.values;
         let settings = &mut take.settings;
         put(&mut take.animation, self.animation.as_ref(), Setting::Animation, values);
-        put(&mut settings.frames, self.frames.as_ref(), Setting::Frames, values);
+        if let Some(frames) = &self.frames {
+            settings.frames = Some(frames.get_ref().0);
+            values.insert(Setting::Frames, frames.span());
+        }
         put(&mut settings.forward, self.forward.as_ref(), Setting::Forward, values);
         for (role, name) in &self.joints {
             let Some(role) = role_named(role.get_ref()) else { continue };

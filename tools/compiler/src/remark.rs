@@ -6,6 +6,8 @@
 pub const NO_EXAMPLE: &str = "no example: ";
 /// Ends the remark that a gait is too fast or too slow for any human.
 pub const FRAME_TIME_QUESTION: &str = "is the frame time true?";
+/// Tells that of two copies of a take one has a frame time that is not true.
+pub const ANOTHER_FRAME_TIME: &str = "at another frame time: one of both is wrong";
 /// Ends what the compiler does with every clip like it: nothing is wrong.
 const ROUTINE: [&str; 6] = [
     "taken as 0",
@@ -33,6 +35,8 @@ pub enum Weight {
 pub fn weight(remark: &str) -> Weight {
     if remark.starts_with(NO_EXAMPLE) {
         Weight::NoExample
+    } else if remark.contains(ANOTHER_FRAME_TIME) {
+        Weight::Warning
     } else if ROUTINE.iter().any(|routine| remark.ends_with(routine)) || remark.starts_with(ALIKE) {
         Weight::Note
     } else {

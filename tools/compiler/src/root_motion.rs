@@ -65,9 +65,9 @@ fn retarget(pose: &HumanPose, source: &HumanBody, target: &HumanBody, scale: f64
     let mut posed = pose.scaled(scale);
     let raised_m = [0, 1].map(|side| source.soles_m[side][0].z * scale - target.soles_m[side][0].z);
     posed.pelvis_m.z += 0.5 * (raised_m[0] + raised_m[1]);
-    for side in 0..2 {
+    for (side, raised_m) in raised_m.into_iter().enumerate() {
         let foot = Joint::FEET[side].index();
-        let ankle_m = wanted.positions_m[foot] * scale + DVec3::Z * raised_m[side];
+        let ankle_m = wanted.positions_m[foot] * scale + DVec3::Z * raised_m;
         leg_ik::place_ankle(&mut posed, target, side, ankle_m);
         if is_same_performer(source, target) {
             align_foot(&mut posed, source, target, side);

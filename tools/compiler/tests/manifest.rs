@@ -99,6 +99,15 @@ fn unit_axis_and_frame_rate_are_those_of_the_manifest() {
 }
 
 #[test]
+fn a_clip_that_nobody_can_have_walked_gives_no_example() {
+    let lying = "[[clips]]\npath = '.'\n[[clips]]\npath = 'walk_110.bvh'\nframe_rate_hz = 1.0\n";
+    let db = compiled("impossible", lying);
+    assert!(!names(&db).contains(&"walk_110"), "{:?}", names(&db));
+    let source = db.sources.iter().find(|source| source.file == "walk_110.bvh").unwrap();
+    assert!(source.warnings.iter().any(|warning| warning.contains("frame_rate_hz")), "{source:?}");
+}
+
+#[test]
 fn two_parts_of_one_capture_are_two_clips() {
     let part =
         |name: &str, frames: &str| format!("[[clips]]\npath = 'walk_110.bvh'\nname = '{name}'\nframes = {frames}\n");
@@ -157,6 +166,7 @@ fn mistakes_are_shown_where_they_stand() {
     check("axis", "up = 'Q'\n", "'Q'", &["no axis"]);
     check("frames", "frames = [1, 99999]\n", "[1, 99999]", &["walk_110.bvh", "99999", "1 to"]);
     check("backwards", "frames = [9, 3]\n", "[9, 3]", &["from frame 9 to 3"]);
+    check("three", "frames = [1, 9, 3]\n", "[1, 9, 3]", &["the first and the last"]);
     check("unit", "metres_per_unit = 0.0\n", "0.0", &["metres_per_unit"]);
     check("rate", "frame_rate_hz = nan\n", "nan", &["frame_rate_hz"]);
     check("animated", "animation = 'Run'\n", "'Run'", &["`Run`"]);

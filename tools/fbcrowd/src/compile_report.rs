@@ -79,7 +79,7 @@ impl CompileReport {
             output: output.display().to_string(),
             example_count: db.examples.len(),
             mirror_count: db.examples.iter().filter(|example| example.mirrored).count(),
-            simplex_count: db.blend_space.simplices().count(),
+            simplex_count: db.blend_space.simplices().filter(|corners| corners.len() > 1).count(),
             refused: refused.into_iter().map(Reason::from).collect(),
             unused: Vec::new(),
             warnings: Vec::new(),

@@ -1,7 +1,7 @@
 //! Clips to a database, with progress and a line for all that was refused: what `compile`, `inspect` and `run` share.
 
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use motiondb::velocity_hull::Construction;
 use motiondb_compiler::compile::{self, Compiled};
@@ -46,6 +46,12 @@ fn manifest(paths: &[PathBuf]) -> Result<Manifest, Failure> {
             return Err(Failure::bad(format!("{both}; write one that names the folders of both")));
         }
     };
+    if manifest.unnamed > 0 {
+        let others = manifest.unnamed;
+        output::say(&format!(
+            "note: the manifest names its clips; {others} more below its folder are not used (a table with path = \".\" takes all)"
+        ));
+    }
     manifest.add_files(&files);
     match (manifest.takes.is_empty(), paths.first()) {
         (true, Some(folder)) => Err(Failure::bad(format!(
@@ -63,9 +69,18 @@ pub(crate) struct Overrides {
     pub(crate) max_examples: Option<NonZeroUsize>,
 }
 
-/// Compiles clips; `stopwatch` takes the time of each stage.
-pub(crate) fn compile(paths: &[PathBuf], overrides: &Overrides, stopwatch: &Stopwatch) -> Result<Compiled, Failure> {
+/// Compiles clips for a database that goes to `output`, which must be none of them; `stopwatch` takes the time of each
+/// stage.
+pub(crate) fn compile(
+    paths: &[PathBuf],
+    output: &Path,
+    overrides: &Overrides,
+    stopwatch: &Stopwatch,
+) -> Result<Compiled, Failure> {
     let mut manifest = manifest(paths)?;
+    let manifests: Vec<PathBuf> = paths.iter().map(|path| path.join(MANIFEST)).collect();
+    let clips = manifest.takes.iter().map(|take| &take.path);
+    output::spare(output, paths.iter().chain(&manifests).chain(clips).map(PathBuf::as_path))?;
     if let Some(construction) = overrides.velocity_hull {
         manifest.options.velocity_hull = construction;
     }

@@ -29,15 +29,15 @@ pub(crate) fn lines(report: &CompileReport) -> Vec<String> {
 fn rows(report: &CompileReport) -> Vec<Row<'_>> {
     let mut rows = Vec::new();
     for used in &report.used {
-        let is_mirrored = used.examples.iter().any(|example| example.mirrored);
         for example in used.examples.iter().filter(|example| !example.mirrored) {
             let Some(quality) = report.quality.iter().find(|quality| quality.example == example.name) else { continue };
+            let is_its_mirror = |other: &&Example| other.mirrored && other.window_s == example.window_s;
             let findings = report.findings.iter().filter(|finding| finding.example == example.name);
             rows.push(Row {
                 example,
                 quality,
                 findings: findings.map(|finding| finding.measure).collect(),
-                is_mirrored,
+                is_mirrored: used.examples.iter().any(|other| is_its_mirror(&other)),
             });
         }
     }

@@ -59,7 +59,7 @@ impl Failure {
     pub(crate) fn report(self) -> ExitCode {
         match self {
             Self::Bad(report) => {
-                output::say(&format!("Error: {report:?}"));
+                output::say_styled(&format!("Error: {report:?}"));
                 ExitCode::from(2)
             }
             Self::ReaderGone => ExitCode::SUCCESS,

@@ -9,7 +9,18 @@ use crate::failure::Failure;
 
 /// Says something on standard error; where nobody reads it (`2>&1 | head -1`), the work goes on.
 pub(crate) fn say(message: &str) {
+    say_styled(&printable(message));
+}
+
+/// As [`say`], with colours.
+pub(crate) fn say_styled(message: &str) {
     let _ = writeln!(io::stderr(), "{message}");
+}
+
+/// Without the control characters that a file's name may hold: a terminal would obey them.
+fn printable(text: &str) -> String {
+    let is_harmless = |c: char| !c.is_control() || c == '\n' || c == '\t';
+    text.chars().map(|c| if is_harmless(c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
 }
 
 /// That a file to be written is none of those to be read, which it would replace.
@@ -26,7 +37,7 @@ pub(crate) fn spare<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path
 
 /// Prints a result.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    match writeln!(io::stdout(), "{}", text.trim_end()) {
+    match writeln!(io::stdout(), "{}", printable(text.trim_end())) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Err(Failure::ReaderGone),
         Err(error) => Err(Failure::bad(format!("cannot write to standard output: {error}"))),

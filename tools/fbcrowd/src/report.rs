@@ -76,7 +76,13 @@ impl DatabaseReport {
             velocity_hull: db.velocity_hull.clone(),
             blend_space: BlendSpace {
                 dimension: db.blend_space.dimension,
-                simplices: db.blend_space.simplices().map(<[u32]>::to_vec).collect(),
+                // A lone example is a point to the runtime, no simplex to people.
+                simplices: db
+                    .blend_space
+                    .simplices()
+                    .filter(|corners| corners.len() > 1)
+                    .map(<[u32]>::to_vec)
+                    .collect(),
                 covered_share: db.blend_space.covered_share,
             },
             correspondence: db.correspondence.as_ref().map(|found| Correspondence {

@@ -70,11 +70,10 @@ impl From<VelocitySets> for Construction {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    output::spare(&args.output, args.clips.iter().map(PathBuf::as_path))?;
     let overrides =
         Overrides { velocity_hull: args.velocity_hull.map(Construction::from), max_examples: args.max_examples };
     let stopwatch = Stopwatch::default();
-    let Compiled { db, refused } = compiling::compile(&args.clips, &overrides, &stopwatch)?;
+    let Compiled { db, refused } = compiling::compile(&args.clips, &args.output, &overrides, &stopwatch)?;
     // On a terminal the report says it.
     let answer = if args.strict || !io::stdout().is_terminal() {
         compiling::say_refused(&refused)

@@ -61,10 +61,10 @@ fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Fa
         }
         MotionSource::Clips(path) => path,
     };
-    let Compiled { db, refused } = compiling::compile(&[clips], &Overrides::default(), &Stopwatch::default())?;
+    let path = folder.join("motion.fbdb");
+    let Compiled { db, refused } = compiling::compile(&[clips], &path, &Overrides::default(), &Stopwatch::default())?;
     let answer = compiling::say_refused(&refused);
     fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
-    let path = folder.join("motion.fbdb");
     file::write(&path, &db)?;
     Ok((path, answer))
 }
