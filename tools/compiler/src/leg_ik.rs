@@ -11,9 +11,9 @@ use crate::human_clip::{HumanBody, HumanJoints, HumanPose};
 
 /// The leg never straightens beyond this share of thigh plus shank: near 1 the knee's angle changes without bound.
 const REACH_MAX: f64 = 0.9995;
-/// From this share on, a knee flexed by 10°, it straightens less and less, so that the knee does not stop with a jerk.
-/// That takes 1 mm from a leg that would be straight.
-const REACH_SOFT: f64 = 0.9965;
+/// From this share on, a knee flexed by 6°, it straightens less and less, so that the knee does not stop with a jerk.
+/// That takes half a millimetre from a leg that would be straight.
+const REACH_SOFT: f64 = 0.9985;
 /// Nor does it fold closer than this multiple of their difference.
 const REACH_MIN: f64 = 1.01;
 /// Weight of the thigh's own axis in that of a straight knee, against the sine of the flexion of a bent one: 3°.
