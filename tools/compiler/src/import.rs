@@ -174,6 +174,7 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
     if settings.frames.is_none() {
         first_pose::drop_t_poses(&mut clip, &roles);
     }
+    clip.warnings.extend(plausibility::implausible_size(&clip, &roles));
     clip.warnings.extend(plausibility::implausible_gait(&clip, &roles, &whole));
     let mut human = retarget::to_human(&clip, &roles, &units, whole, name);
     human.choices.mirror = settings.mirror;

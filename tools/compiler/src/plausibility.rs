@@ -33,6 +33,17 @@ const LEG_BONE_SHARE_MIN: f64 = 0.15;
 /// Longest other bone, or foot, over the leg. People: 0.5 (upper trunk); drawn characters with large heads: 1.
 const BONE_OVER_LEG_MAX: f64 = 1.5;
 
+/// Thigh plus shank of people from the age of four on (some 0.4 m) to the tallest, m.
+const HUMAN_LEG_RANGE_M: std::ops::RangeInclusive<f64> = 0.38..=1.2;
+
+/// The warning, where no human has legs of that length: speeds are as wrong as the unit then.
+pub(crate) fn implausible_size(clip: &SourceClip, roles: &Roles) -> Option<String> {
+    let leg_m = leg_length(clip, roles);
+    (!HUMAN_LEG_RANGE_M.contains(&leg_m)).then(|| {
+        format!("thigh and shank are {leg_m:.2} m long: no human's; if the unit is wrong, give `metres_per_unit`")
+    })
+}
+
 /// The refusal, where bones are none of a body that could walk.
 pub(crate) fn impossible_body(body: &HumanBody) -> Option<Refusal> {
     let leg_m = leg_length_m(body);

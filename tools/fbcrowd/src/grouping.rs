@@ -40,13 +40,23 @@ pub(crate) fn group(said: impl IntoIterator<Item = (String, String)>) -> Vec<Gro
     groups
 }
 
-/// What stands before the first number, the number, and the rest.
+/// What stands before the first number, the number, and the rest. Digits within a word, a file's name say, are no number.
 fn around_number(sentence: &str) -> (&str, &str, &str) {
-    let Some(digit) = sentence.find(|letter: char| letter.is_ascii_digit()) else { return (sentence, "", "") };
-    let start = if sentence[..digit].ends_with('-') { digit - 1 } else { digit };
-    let end = sentence[digit..].find(|letter: char| !letter.is_ascii_digit() && letter != '.');
-    let end = end.map_or(sentence.len(), |length| digit + length);
-    (&sentence[..start], &sentence[start..end], &sentence[end..])
+    let is_part = |letter: char| letter.is_ascii_digit() || letter == '.' || letter == '-';
+    let is_within_word = |letter: char| letter.is_alphanumeric() || letter == '_' || letter == '/';
+    let mut start = 0;
+    while let Some(first) = sentence[start..].find(is_part) {
+        start += first;
+        let length = sentence[start..].find(|letter: char| !is_part(letter)).unwrap_or(sentence.len() - start);
+        let (before, number, after) =
+            (&sentence[..start], &sentence[start..start + length], &sentence[start + length..]);
+        let stands_alone = !before.ends_with(is_within_word) && !after.starts_with(is_within_word);
+        if stands_alone && number.parse::<f64>().is_ok() {
+            return (before, number, after);
+        }
+        start += length;
+    }
+    (sentence, "", "")
 }
 
 fn widen(range: &mut Option<[String; 2]>, number: &str) {
@@ -77,5 +87,11 @@ mod tests {
             &["turn -2.2 deg/s", "no step", "turn 1.6 deg/s", "turn 0.3 deg/s", "1 frame", "1 frame"],
             &[("turn -2.2 to 1.6 deg/s", 3), ("1 frame", 2), ("no step", 1)],
         );
+    }
+
+    #[test]
+    fn digits_of_names_are_no_numbers() {
+        let twins = ["the same take as fps8.bvh", "the same take as fps60.bvh", "the same take as 002_01.bvh"];
+        check(&twins, &[(twins[2], 1), (twins[1], 1), (twins[0], 1)]);
     }
 }
