@@ -64,6 +64,13 @@ pub struct MotionExample {
     pub planted_share: f32,
 }
 
+impl MotionExample {
+    /// Whether both were made from the same stretch of the same source: an example and its mirror.
+    pub fn is_of_one_window_with(&self, other: &Self) -> bool {
+        self.source == other.source && self.window_s == other.window_s
+    }
+}
+
 /// Poses of all examples at [`PHASE_COUNT`] uniform phases, flat: index (example · 64 + phase), then joint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rows {

@@ -176,6 +176,23 @@ mod tests {
     }
 
     #[test]
+    fn a_target_with_higher_ankles_keeps_the_legs_as_straight_as_they_were() {
+        let clip = synthetic::walk("walk", Walk::default());
+        let mut target = clip.body.clone();
+        target.soles_m.iter_mut().flatten().for_each(|sole_m| sole_m.z -= 0.05);
+        target.offsets_m[Joint::Head.index()].z += 0.05; // other bones, or nothing is retargeted
+        let reaches_m = |body: &HumanBody| -> Vec<f64> {
+            let reach_m = |pose: &HumanPose| {
+                let joints = pose.forward_kinematics(body);
+                joints.positions_m[Joint::THIGHS[0].index()].distance(joints.positions_m[Joint::FEET[0].index()])
+            };
+            ground(&clip, body).poses.iter().map(reach_m).collect()
+        };
+        let off_m = reaches_m(&clip.body).into_iter().zip(reaches_m(&target)).map(|(own, found)| (own - found).abs());
+        assert!(off_m.fold(0.0, f64::max) < 2e-3);
+    }
+
+    #[test]
     fn feet_stand_at_zero_wherever_the_clip_had_its_floor() {
         let mut clip = synthetic::walk("walk", Walk::default());
         clip.frames.iter_mut().for_each(|pose| pose.pelvis_m.z += 0.4);

@@ -145,8 +145,7 @@ fn left_out(db: &MotionDb, index: usize) -> Option<LeftOut> {
 
 /// The database rebuilt without an example and its mirror, as far as blending goes.
 fn without(db: &MotionDb, example: &MotionExample) -> MotionDb {
-    // The example itself and its mirror: the same stretch of the same source.
-    let is_kept = |other: &MotionExample| (other.source, other.window_s) != (example.source, example.window_s);
+    let is_kept = |other: &MotionExample| !other.is_of_one_window_with(example);
     let kept: Vec<usize> = (0..db.examples.len()).filter(|&index| is_kept(&db.examples[index])).collect();
     let examples: Vec<MotionExample> = kept.iter().map(|&index| db.examples[index].clone()).collect();
     let rows = |index: &usize| index * PHASE_COUNT..(index + 1) * PHASE_COUNT;

@@ -138,8 +138,8 @@ fn motions(db: &MotionDb) -> Vec<Motion> {
     let steps = |example: &&MotionExample| example.key_times_s.is_some() && !example.mirrored;
     let motion = |example: &MotionExample| {
         let file = PathBuf::from(&db.sources[example.source as usize].file);
-        let own = |other: &MotionExample| other.name.strip_suffix("_mirrored").unwrap_or(&other.name) == example.name;
-        let sequences = (0..db.examples.len()).filter(|&index| own(&db.examples[index]));
+        let own = |index: &usize| db.examples[*index].is_of_one_window_with(example);
+        let sequences = (0..db.examples.len()).filter(own);
         Motion {
             source: file.parent().map_or_else(String::new, |folder| folder.display().to_string()),
             capture: example.source,

@@ -161,6 +161,8 @@ impl Clip {
         self.gait.as_ref()?.adults(self.claim.speed_mps)
     }
 
+    /// With both feet's stances from one pair of key times this is half of what the feet differ by; how long both stand
+    /// is judged by the adults' bands.
     fn toe_off_miss(&self) -> Option<f64> {
         let gait = self.gait.as_ref().filter(|_| self.off_published_deg.is_some())?;
         let wanted = 0.5 + 0.5 * gait.double_support_share;
