@@ -84,6 +84,17 @@ pub struct Query {
     pub radius_m: f32,
     /// No neighbour lies farther.
     pub range_m: f32,
+    /// Who comes first.
+    pub ranking: Ranking,
+}
+
+/// What makes one neighbour matter more than another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ranking {
+    /// Distance / (closing speed + 1 m/s): MCN.
+    Approach,
+    /// Distance alone: what RVO2 does.
+    Distance,
 }
 
 impl Nearest {
@@ -192,7 +203,10 @@ impl Neighbours {
             return;
         }
         let [column, row] = self.cell_of(query.position_m);
-        let closing_mps = query.velocity_mps.length() + self.speed_max_mps;
+        let closing_mps = match query.ranking {
+            Ranking::Approach => query.velocity_mps.length() + self.speed_max_mps,
+            Ranking::Distance => 0.0,
+        };
         for ring in 0..self.columns.max(self.rows) {
             // A ring's cells lie behind all rings inside it.
             let closest_m = ring.saturating_sub(1) as f32 * self.cell_m;
@@ -224,7 +238,10 @@ impl Neighbours {
             if distance_squared > reach_m * reach_m {
                 continue;
             }
-            let velocity_mps = query.velocity_mps - self.velocities_mps[place];
+            let velocity_mps = match query.ranking {
+                Ranking::Approach => query.velocity_mps - self.velocities_mps[place],
+                Ranking::Distance => Vec2::ZERO,
+            };
             let rank_s = rank_s(offset_m, distance_squared.sqrt(), velocity_mps);
             let agent = self.agents[place];
             if rank_s <= nearest.worst_s() && agent as usize != query.agent {
@@ -276,7 +293,10 @@ mod tests {
             .map(|other| (positions_m[other] - query.position_m, other))
             .filter(|(offset_m, _)| offset_m.length_squared() <= query.range_m * query.range_m)
             .map(|(offset_m, other)| {
-                let velocity_mps = query.velocity_mps - velocities_mps[other];
+                let velocity_mps = match query.ranking {
+                    Ranking::Approach => query.velocity_mps - velocities_mps[other],
+                    Ranking::Distance => Vec2::ZERO,
+                };
                 (rank_s(offset_m, offset_m.length(), velocity_mps), other as u32)
             })
             .collect();
@@ -285,6 +305,11 @@ mod tests {
     }
 
     fn check(positions_m: &[Vec2], velocities_mps: &[Vec2], range_m: f32) {
+        check_ranked(Ranking::Approach, positions_m, velocities_mps, range_m);
+        check_ranked(Ranking::Distance, positions_m, velocities_mps, range_m);
+    }
+
+    fn check_ranked(ranking: Ranking, positions_m: &[Vec2], velocities_mps: &[Vec2], range_m: f32) {
         let radii_m = vec![0.25; positions_m.len()];
         let mut neighbours = Neighbours::default();
         neighbours.rebuild(positions_m, velocities_mps, &radii_m);
@@ -296,6 +321,7 @@ mod tests {
                 velocity_mps: velocities_mps[agent],
                 radius_m: radii_m[agent],
                 range_m,
+                ranking,
             };
             neighbours.nearest(&query, &mut nearest);
             let found: Vec<u32> = nearest.as_slice().iter().map(|neighbour| neighbour.agent).collect();
@@ -342,9 +368,12 @@ mod tests {
         velocities_mps.push(-Vec2::X);
         let mut neighbours = Neighbours::default();
         neighbours.rebuild(&positions_m, &velocities_mps, &[0.25; 12]);
-        let query = Query { agent: 0, position_m: Vec2::ZERO, velocity_mps: Vec2::X, radius_m: 0.25, range_m: 10.0 };
-        let mut nearest = Nearest::default();
-        neighbours.nearest(&query, &mut nearest);
-        assert!(nearest.as_slice().iter().any(|neighbour| neighbour.agent == 11));
+        for (ranking, taken) in [(Ranking::Approach, true), (Ranking::Distance, false)] {
+            let (position_m, velocity_mps) = (Vec2::ZERO, Vec2::X);
+            let query = Query { agent: 0, position_m, velocity_mps, radius_m: 0.25, range_m: 10.0, ranking };
+            let mut nearest = Nearest::default();
+            neighbours.nearest(&query, &mut nearest);
+            assert_eq!(nearest.as_slice().iter().any(|neighbour| neighbour.agent == 11), taken);
+        }
     }
 }

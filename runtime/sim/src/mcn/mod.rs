@@ -28,7 +28,7 @@ use self::linear_program::Solution;
 use self::orca::Disc;
 use self::orientation::{Orientation, Walk};
 use self::params::McnParams;
-use crate::neighbours::{Nearest, Neighbours, Query};
+use crate::neighbours::{Nearest, Neighbours, Query, Ranking};
 use crate::obstacles::{NearEdge, Obstacles, nearest_on_segment};
 use crate::plan::{Plan, Stance, VelocitySet};
 
@@ -123,8 +123,14 @@ pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scrat
 fn look_around(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) {
     let own = disc(world, agent);
     let range_m = params.neighbour_range_m;
-    let query =
-        Query { agent, position_m: own.position_m, velocity_mps: own.velocity_mps, radius_m: own.radius_m, range_m };
+    let query = Query {
+        agent,
+        position_m: own.position_m,
+        velocity_mps: own.velocity_mps,
+        radius_m: own.radius_m,
+        range_m,
+        ranking: Ranking::Approach,
+    };
     world.neighbours.nearest(&query, &mut scratch.nearest);
     scratch.nearest.sort_by_time_to_collision();
     let wall_range_m = own.radius_m + params.obstacle_time_horizon_s * WALL_SPEED_MPS;

@@ -7,7 +7,7 @@ use fbcrowd_sim::mcn::half_plane::HalfPlane;
 use fbcrowd_sim::mcn::orca::{self, Disc};
 use fbcrowd_sim::mcn::params::McnParams;
 use fbcrowd_sim::mcn::{self, Scratch, World, linear_program};
-use fbcrowd_sim::neighbours::{Nearest, Neighbours, Query};
+use fbcrowd_sim::neighbours::{Nearest, Neighbours, Query, Ranking};
 use fbcrowd_sim::obstacles::Obstacles;
 use fbcrowd_sim::plan::{Plan, Stance};
 use glam::Vec2;
@@ -145,8 +145,10 @@ impl Crowd {
         };
         for agent in 0..self.plans.len() {
             let Disc { position_m, velocity_mps, radius_m } = disc(agent);
-            self.neighbours
-                .nearest(&Query { agent, position_m, velocity_mps, radius_m, range_m: RANGE_M }, &mut nearest);
+            self.neighbours.nearest(
+                &Query { agent, position_m, velocity_mps, radius_m, range_m: RANGE_M, ranking: Ranking::Distance },
+                &mut nearest,
+            );
             let half_plane =
                 |other: u32| orca::agent_half_plane(&disc(agent), &disc(other as usize), 0.5, other, HORIZON_S, dt_s);
             let found: Vec<HalfPlane> =
