@@ -1,18 +1,22 @@
-//! Who is near: a grid sorted by cell, whose cell follows the crowd's density.
+//! Who is near: a search over grids that follow the crowd's density.
 //!
-//! Agents lie in cell order as structures of arrays, so a row of cells is one run of memory. A search visits square
-//! rings of cells from the inside out and stops when no farther ring can hold a better neighbour. The answer does not
-//! depend on the grid.
+//! Agents lie in cell order as structures of arrays, so a row of cells is one run of memory and is ranked several
+//! agents at once. A search visits squares of cells from the inside out and stops when no cell outside can hold a
+//! better neighbour. The answer does not depend on the grids.
 //!
 //! The nearest ten by distance alone can drop the fast approacher (`FbCrowd` §4.4, **Open**), so the speed at which the
 //! distance closes has a say: agents are ranked by a time, distance / (closing speed + 1 m/s). The time to collision
 //! itself does not serve. It jumps to infinity as soon as an agent is avoided, who then would drop out, be met again,
 //! and so on in turns. World, metres, seconds.
 
+mod grid;
+
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use glam::Vec2;
 
+use self::grid::{Layout, Run, Window};
 use crate::mcn::time_to_collision::disc_with_disc;
 
 /// Neighbours taken: the number of the benchmark protocol and of RVO2 (`facts/planning.md` §3).
@@ -20,53 +24,46 @@ pub const NEIGHBOUR_COUNT: usize = 10;
 /// Speed at which those who keep their distance might come, m/s. Of two at equal distance, one who comes straight on at
 /// walking speed, 1.33 m/s against ours, ranks as if nearer by a factor of 3.7.
 const APPROACH_MPS: f32 = 1.0;
-/// Agents to a cell, on average; from 1 to 3 the time of a search hardly changes.
-const AGENTS_PER_CELL: f32 = 2.0;
-/// Least side of a cell, m: the diameter of a body.
-const CELL_MIN_M: f32 = 0.5;
+/// Agents ranked at once: two vectors of the narrowest x86-64.
+const LANES: usize = 8;
+/// The key of nobody: after every key of finite rank.
+const NOBODY: u64 = key(f32::INFINITY, 0);
 
 /// One neighbour found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neighbour {
     /// Index of the agent.
     pub agent: u32,
-    /// Between the discs at their present velocities; infinite where they do not meet, 0 where they overlap.
-    pub time_to_collision_s: f32,
+    /// p_j − p_i.
+    pub offset_m: Vec2,
+    /// v_i − v_j: what closes the offset.
+    pub velocity_mps: Vec2,
+    /// r_i + r_j.
+    pub radius_m: f32,
     /// Between the centres.
     pub distance_m: f32,
+    /// Between the discs at their present velocities; infinite where they do not meet, 0 where they overlap.
+    pub time_to_collision_s: f32,
 }
 
 /// At most [`NEIGHBOUR_COUNT`] neighbours, best rank first, ties by index.
 #[derive(Clone, Debug, Default)]
 pub struct Nearest {
+    keys: [u64; NEIGHBOUR_COUNT],
     found: Vec<Neighbour>,
-    candidates: Vec<Candidate>,
-}
-
-/// All that the search itself needs to know of an agent.
-#[derive(Clone, Copy, Debug)]
-struct Candidate {
-    rank_s: f32,
-    agent: u32,
-    /// Index in cell order.
-    place: u32,
 }
 
 /// The agents, sorted by cell.
 #[derive(Clone, Debug, Default)]
 pub struct Neighbours {
-    origin_m: Vec2,
-    cell_m: f32,
-    columns: usize,
-    rows: usize,
-    /// Index of each cell's first agent, row by row, and the number of agents.
-    starts: Vec<u32>,
-    /// Cell of each agent, in index order.
-    cells: Vec<u32>,
-    /// From here on in cell order.
-    agents: Vec<u32>,
-    positions_m: Vec<Vec2>,
-    velocities_mps: Vec<Vec2>,
+    layout: Layout,
+    /// Place of each agent in cell order, by index.
+    places: Vec<u32>,
+    // In cell order, and LANES more that are nowhere.
+    x_m: Vec<f32>,
+    y_m: Vec<f32>,
+    velocities_x_mps: Vec<f32>,
+    velocities_y_mps: Vec<f32>,
     radii_m: Vec<f32>,
     speed_max_mps: f32,
 }
@@ -78,7 +75,7 @@ pub struct Query {
     pub agent: usize,
     /// Centre of the search.
     pub position_m: Vec2,
-    /// For the times to collision.
+    /// For ranks and times to collision.
     pub velocity_mps: Vec2,
     /// For the times to collision.
     pub radius_m: f32,
@@ -97,6 +94,12 @@ pub enum Ranking {
     Distance,
 }
 
+/// Rank and index in one number, so that ties are broken by comparing once: ranks are not negative, and such floats
+/// stand in the order of their bits.
+const fn key(rank: f32, agent: u32) -> u64 {
+    ((rank.to_bits() as u64) << 32) | agent as u64
+}
+
 impl Nearest {
     /// Best rank first.
     pub fn as_slice(&self) -> &[Neighbour] {
@@ -109,176 +112,175 @@ impl Nearest {
         self.found.sort_unstable_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal));
     }
 
-    /// Takes a candidate in where it belongs.
-    fn offer(&mut self, candidate: Candidate) {
-        let before = |other: &Candidate| (other.rank_s, other.agent) < (candidate.rank_s, candidate.agent);
-        let place = self.candidates.iter().rposition(before).map_or(0, |index| index + 1);
-        if place < NEIGHBOUR_COUNT {
-            self.candidates.truncate(NEIGHBOUR_COUNT - 1);
-            self.candidates.insert(place, candidate);
+    /// Takes a key in where it belongs, if it does: each place keeps its own key, takes the new one, or its
+    /// predecessor's.
+    fn offer(&mut self, key: u64) {
+        for place in (1..NEIGHBOUR_COUNT).rev() {
+            self.keys[place] = self.keys[place - 1].max(self.keys[place].min(key));
         }
+        self.keys[0] = self.keys[0].min(key);
     }
 
-    /// Rank that a candidate has to beat, s.
-    fn worst_s(&self) -> f32 {
-        if self.candidates.len() < NEIGHBOUR_COUNT {
-            f32::INFINITY
-        } else {
-            self.candidates[NEIGHBOUR_COUNT - 1].rank_s
-        }
+    /// The rank that a candidate must not exceed.
+    fn worst(&self) -> f32 {
+        f32::from_bits((self.keys[NEIGHBOUR_COUNT - 1] >> 32) as u32)
     }
 }
 
 impl Neighbours {
     /// Sorts the agents into cells.
     pub fn rebuild(&mut self, positions_m: &[Vec2], velocities_mps: &[Vec2], radii_m: &[f32]) {
-        self.lay_out(positions_m);
-        self.sort(positions_m);
-        let agents = &self.agents;
-        gather(&mut self.positions_m, agents, positions_m);
-        gather(&mut self.velocities_mps, agents, velocities_mps);
-        gather(&mut self.radii_m, agents, radii_m);
+        self.layout.rebuild(positions_m);
+        let agents = &self.layout.agents;
+        self.places.resize(agents.len(), 0);
+        for (place, &agent) in agents.iter().enumerate() {
+            self.places[agent as usize] = place as u32;
+        }
+        gather(&mut self.x_m, agents, |agent| positions_m[agent].x, f32::INFINITY);
+        gather(&mut self.y_m, agents, |agent| positions_m[agent].y, f32::INFINITY);
+        gather(&mut self.velocities_x_mps, agents, |agent| velocities_mps[agent].x, 0.0);
+        gather(&mut self.velocities_y_mps, agents, |agent| velocities_mps[agent].y, 0.0);
+        gather(&mut self.radii_m, agents, |agent| radii_m[agent], 0.0);
         self.speed_max_mps = velocities_mps.iter().map(|velocity| velocity.length()).fold(0.0, f32::max);
     }
 
-    /// Chooses the cell: the box of all agents, [`AGENTS_PER_CELL`] to a cell on average.
-    fn lay_out(&mut self, positions_m: &[Vec2]) {
-        let least_m = positions_m.iter().copied().fold(Vec2::INFINITY, Vec2::min);
-        let most_m = positions_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max);
-        let size_m = (most_m - least_m).max(Vec2::ZERO);
-        let count = positions_m.len().max(1) as f32;
-        let by_density_m = (size_m.x * size_m.y * AGENTS_PER_CELL / count).sqrt();
-        // A long file of agents has no area; its length over their number bounds the number of cells.
-        let by_length_m = (size_m.x + size_m.y) / count;
-        self.cell_m = by_density_m.max(by_length_m).max(CELL_MIN_M);
-        self.origin_m = if positions_m.is_empty() { Vec2::ZERO } else { least_m };
-        self.columns = (size_m.x / self.cell_m) as usize + 1;
-        self.rows = (size_m.y / self.cell_m) as usize + 1;
-    }
-
-    /// Counting sort by cell; within a cell the agents stay in order of index.
-    fn sort(&mut self, positions_m: &[Vec2]) {
-        self.cells.clear();
-        for &position_m in positions_m {
-            let [column, row] = self.cell_of(position_m);
-            self.cells.push((row * self.columns + column) as u32);
-        }
-        self.starts.clear();
-        self.starts.resize(self.columns * self.rows + 1, 0);
-        for &cell in &self.cells {
-            self.starts[cell as usize + 1] += 1;
-        }
-        for cell in 1..self.starts.len() {
-            self.starts[cell] += self.starts[cell - 1];
-        }
-        // Each start runs through its cell, until it is the next one's; one place to the right, all are right again.
-        self.agents.clear();
-        self.agents.resize(self.cells.len(), 0);
-        for (agent, &cell) in self.cells.iter().enumerate() {
-            let place = &mut self.starts[cell as usize];
-            self.agents[*place as usize] = agent as u32;
-            *place += 1;
-        }
-        self.starts.rotate_right(1);
-        self.starts[0] = 0;
-    }
-
-    /// Column and row of a position; positions outside the grid belong to its border.
-    fn cell_of(&self, position_m: Vec2) -> [usize; 2] {
-        let cell = (position_m - self.origin_m) / self.cell_m;
-        [(cell.x as usize).min(self.columns - 1), (cell.y as usize).min(self.rows - 1)]
+    /// All agents in cell order. Whoever takes them in this order finds the neighbours of one in the cache for the
+    /// next.
+    pub fn in_cell_order(&self) -> &[u32] {
+        &self.layout.agents
     }
 
     /// The best-ranked agents within range.
     pub fn nearest(&self, query: &Query, nearest: &mut Nearest) {
-        nearest.candidates.clear();
-        self.search(query, nearest);
+        nearest.keys = [NOBODY; NEIGHBOUR_COUNT];
+        if !self.places.is_empty() {
+            self.search(0, query, nearest);
+        }
         nearest.found.clear();
-        nearest.found.extend(nearest.candidates.iter().map(|candidate| self.neighbour(candidate, query)));
+        let found = nearest.keys.iter().take_while(|&&key| key < NOBODY);
+        nearest.found.extend(found.map(|&key| self.neighbour(key as u32, query)));
     }
 
-    /// Visits the rings of cells around the query, until none can hold a better candidate.
-    fn search(&self, query: &Query, nearest: &mut Nearest) {
-        if self.agents.is_empty() {
+    /// Visits ever larger squares of a grid's cells around the query, until no cell outside can hold a better
+    /// candidate.
+    fn search(&self, grid: usize, query: &Query, nearest: &mut Nearest) {
+        let grid = &self.layout.grids[grid];
+        if grid.distance_m(query.position_m) > self.reach_m(query, nearest) {
             return;
         }
-        let [column, row] = self.cell_of(query.position_m);
-        let closing_mps = match query.ranking {
-            Ranking::Approach => query.velocity_mps.length() + self.speed_max_mps,
-            Ranking::Distance => 0.0,
-        };
-        for ring in 0..self.columns.max(self.rows) {
-            // A ring's cells lie behind all rings inside it.
-            let closest_m = ring.saturating_sub(1) as f32 * self.cell_m;
-            if closest_m > reach_m(query, closing_mps, nearest) {
-                break;
+        let centre = grid.cell_of(query.position_m);
+        let (mut ring, mut visited) = (1, None);
+        loop {
+            let square = Window::around(centre, ring);
+            let reached = square.and(&grid.within(query.position_m, self.reach_m(query, nearest)));
+            for row in reached.rows[0]..=reached.rows[1] {
+                for columns in unvisited(reached.columns, row, visited) {
+                    self.layout.runs(grid, row, columns, |run| match run {
+                        Run::Places(places) => self.scan(places, query, nearest),
+                        Run::Grid(inner) => self.search(inner, query, nearest),
+                    });
+                }
             }
-            let rows = row.saturating_sub(ring)..=(row + ring).min(self.rows - 1);
-            for visited in rows {
-                if visited.abs_diff(row) == ring {
-                    let columns = [column.saturating_sub(ring), (column + ring).min(self.columns - 1)];
-                    self.scan(visited, columns, query, closing_mps, nearest);
-                } else {
-                    let sides = [column.checked_sub(ring), Some(column + ring).filter(|&side| side < self.columns)];
-                    for side in sides.into_iter().flatten() {
-                        self.scan(visited, [side, side], query, closing_mps, nearest);
-                    }
+            let within = grid.within(query.position_m, self.reach_m(query, nearest));
+            if within.and(&square) == within {
+                return;
+            }
+            (ring, visited) = (2 * ring, Some(square));
+        }
+    }
+
+    /// Offers the agents of some places, a few at a time.
+    fn scan(&self, places: Range<usize>, query: &Query, nearest: &mut Nearest) {
+        for first in places.clone().step_by(LANES) {
+            let ranks = self.ranks(first, query);
+            let worst = nearest.worst();
+            // Those whom nobody of the own place can beat: agents in one place stand in order of index.
+            if worst == 0.0 {
+                return;
+            }
+            if !ranks.iter().any(|&rank| rank <= worst) {
+                continue;
+            }
+            for (place, rank) in (first..places.end).zip(ranks) {
+                let agent = self.layout.agents[place];
+                if rank <= nearest.worst() && agent as usize != query.agent {
+                    nearest.offer(key(rank, agent));
                 }
             }
         }
     }
 
-    /// Offers the agents of a run of cells of one row.
-    fn scan(&self, row: usize, columns: [usize; 2], query: &Query, closing_mps: f32, nearest: &mut Nearest) {
-        let [first, last] = columns.map(|column| row * self.columns + column);
-        let mut reach_m = reach_m(query, closing_mps, nearest);
-        for place in self.starts[first] as usize..self.starts[last + 1] as usize {
-            let offset_m = self.positions_m[place] - query.position_m;
-            let distance_squared = offset_m.length_squared();
-            if distance_squared > reach_m * reach_m {
-                continue;
+    /// Ranks of the agents from a place on: a time in s, or a squared distance in m²; infinite beyond the range.
+    #[inline]
+    fn ranks(&self, first: usize, query: &Query) -> [f32; LANES] {
+        let lanes = |values: &[f32]| -> [f32; LANES] { std::array::from_fn(|lane| values[first..first + LANES][lane]) };
+        let x_m = lanes(&self.x_m).map(|x_m| x_m - query.position_m.x);
+        let y_m = lanes(&self.y_m).map(|y_m| y_m - query.position_m.y);
+        let squared: [f32; LANES] = std::array::from_fn(|lane| x_m[lane] * x_m[lane] + y_m[lane] * y_m[lane]);
+        let ranks = match query.ranking {
+            Ranking::Distance => squared,
+            Ranking::Approach => {
+                let vx_mps = lanes(&self.velocities_x_mps).map(|x_mps| query.velocity_mps.x - x_mps);
+                let vy_mps = lanes(&self.velocities_y_mps).map(|y_mps| query.velocity_mps.y - y_mps);
+                std::array::from_fn(|lane| {
+                    approach_s(squared[lane], x_m[lane] * vx_mps[lane] + y_m[lane] * vy_mps[lane])
+                })
             }
-            let velocity_mps = match query.ranking {
-                Ranking::Approach => query.velocity_mps - self.velocities_mps[place],
-                Ranking::Distance => Vec2::ZERO,
-            };
-            let rank_s = rank_s(offset_m, distance_squared.sqrt(), velocity_mps);
-            let agent = self.agents[place];
-            if rank_s <= nearest.worst_s() && agent as usize != query.agent {
-                nearest.offer(Candidate { rank_s, agent, place: place as u32 });
-                reach_m = self::reach_m(query, closing_mps, nearest);
-            }
-        }
+        };
+        let range_squared = query.range_m * query.range_m;
+        std::array::from_fn(|lane| if squared[lane] <= range_squared { ranks[lane] } else { f32::INFINITY })
     }
 
-    /// What there is to know of a chosen candidate.
-    fn neighbour(&self, candidate: &Candidate, query: &Query) -> Neighbour {
-        let place = candidate.place as usize;
-        let offset_m = self.positions_m[place] - query.position_m;
-        let velocity_mps = query.velocity_mps - self.velocities_mps[place];
+    /// Beyond this distance nobody beats the worst candidate, even straight on and as fast as the fastest.
+    fn reach_m(&self, query: &Query, nearest: &Nearest) -> f32 {
+        let worst = nearest.worst();
+        let reach_m = match query.ranking {
+            Ranking::Distance => worst.sqrt(),
+            Ranking::Approach => worst * (query.velocity_mps.length() + self.speed_max_mps + APPROACH_MPS),
+        };
+        // A hair more, for rounding.
+        (1.000_001 * reach_m).min(query.range_m)
+    }
+
+    /// What there is to know of one chosen.
+    fn neighbour(&self, agent: u32, query: &Query) -> Neighbour {
+        let place = self.places[agent as usize] as usize;
+        let offset_m = Vec2::new(self.x_m[place], self.y_m[place]) - query.position_m;
+        let velocity_mps = query.velocity_mps - Vec2::new(self.velocities_x_mps[place], self.velocities_y_mps[place]);
+        let radius_m = query.radius_m + self.radii_m[place];
         Neighbour {
-            agent: candidate.agent,
-            time_to_collision_s: disc_with_disc(offset_m, velocity_mps, query.radius_m + self.radii_m[place]),
+            agent,
+            offset_m,
+            velocity_mps,
+            radius_m,
             distance_m: offset_m.length(),
+            time_to_collision_s: disc_with_disc(offset_m, velocity_mps, radius_m),
         }
     }
 }
 
-/// Beyond this distance nobody beats the worst candidate, even straight on and as fast as the fastest.
-fn reach_m(query: &Query, closing_mps: f32, nearest: &Nearest) -> f32 {
-    (nearest.worst_s() * (closing_mps + APPROACH_MPS)).min(query.range_m)
+/// Distance / (closing speed + 1 m/s), s, multiplied out so that nobody in the same place has a rank but 0: the square
+/// of the distance, and offset · velocity.
+fn approach_s(distance_squared: f32, closing: f32) -> f32 {
+    let closing = if closing > 0.0 { closing } else { 0.0 };
+    let across = closing + APPROACH_MPS * distance_squared.sqrt();
+    distance_squared / if across > f32::MIN_POSITIVE { across } else { f32::MIN_POSITIVE }
 }
 
-/// Distance / (closing speed + 1 m/s); `velocity` is the searcher's against the other's.
-fn rank_s(offset_m: Vec2, distance_m: f32, velocity_mps: Vec2) -> f32 {
-    let closing_mps = (velocity_mps.dot(offset_m) / distance_m.max(f32::MIN_POSITIVE)).max(0.0);
-    distance_m / (closing_mps + APPROACH_MPS)
+/// The columns of a row that were not visited: those left and those right of a window, or all.
+fn unvisited([first, last]: [i32; 2], row: i32, visited: Option<Window>) -> impl Iterator<Item = [i32; 2]> {
+    let crossed = visited.filter(|window| (window.rows[0]..=window.rows[1]).contains(&row));
+    let sides = match crossed {
+        Some(Window { columns: [left, right], .. }) => [[first, last.min(left - 1)], [first.max(right + 1), last]],
+        None => [[first, last], [0, -1]],
+    };
+    sides.into_iter().filter(|[first, last]| first <= last)
 }
 
-/// The values of the agents in cell order.
-fn gather<T: Copy>(sorted: &mut Vec<T>, agents: &[u32], values: &[T]) {
+/// The values of the agents in cell order, and [`LANES`] times `beyond`.
+fn gather(sorted: &mut Vec<f32>, agents: &[u32], value: impl Fn(usize) -> f32, beyond: f32) {
     sorted.clear();
-    sorted.extend(agents.iter().map(|&agent| values[agent as usize]));
+    sorted.extend(agents.iter().map(|&agent| value(agent as usize)).chain([beyond; LANES]));
 }
 
 #[cfg(test)]
@@ -293,11 +295,12 @@ mod tests {
             .map(|other| (positions_m[other] - query.position_m, other))
             .filter(|(offset_m, _)| offset_m.length_squared() <= query.range_m * query.range_m)
             .map(|(offset_m, other)| {
-                let velocity_mps = match query.ranking {
-                    Ranking::Approach => query.velocity_mps - velocities_mps[other],
-                    Ranking::Distance => Vec2::ZERO,
+                let closing = (query.velocity_mps - velocities_mps[other]).dot(offset_m);
+                let rank = match query.ranking {
+                    Ranking::Approach => approach_s(offset_m.length_squared(), closing),
+                    Ranking::Distance => offset_m.length_squared(),
                 };
-                (rank_s(offset_m, offset_m.length(), velocity_mps), other as u32)
+                (rank, other as u32)
             })
             .collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
