@@ -64,7 +64,7 @@ fn inspect_lists_examples_sources_velocity_sets_simplices_and_correspondences() 
 fn inspecting_clips_tells_the_gait_of_each_in_its_own_time() {
     let report = fbcrowd(&["inspect", "assets/clips/walk_110.bvh", "assets/clips/idle.bvh", "--json"]);
     let report = report.expect_code(0).json();
-    check_keys(&report, &["sources"]);
+    check_keys(&report, &["sources", "refused"]);
     let [idle, walk] = [0, 1].map(|source| &report["sources"][source]["gait"]);
     check_keys(walk, &["kind", "planted_share", "right", "left"]);
     assert_eq!((&idle["kind"], &walk["kind"]), (&Value::from("stands"), &Value::from("steps")));
@@ -186,11 +186,19 @@ fn measure_and_the_timing_report_keep_their_keys() {
         "steps",
         "dt_s",
         "collision_rate",
+        "minimum_separation_m",
         "mean_acceleration_mps2",
         "mean_acceleration_before_arrival_mps2",
         "arrived",
         "stalled",
         "mean_time_to_goal_s",
+        "path_over_straight_line",
+        "strafing_share",
+        "stepping_back_share",
+        "body_penetration_mm",
+        "body_penetration_touching_mm",
+        "body_penetration_max_mm",
+        "body_touching_share",
         "planted_slide_cm_s",
         "examples_slide_cm_s",
         "planted_share",
@@ -246,4 +254,33 @@ fn compile_reports_every_clip_once_with_quality_stages_and_what_to_do() {
     check_keys(&report["stages"][0], &["name", "seconds"]);
     assert_eq!((&report["example_count"], &report["mirror_count"]), (&Value::from(2), &Value::from(1)));
     assert_eq!(report["used"].as_array().map(Vec::len), Some(1));
+}
+
+#[test]
+fn programs_are_told_why_nothing_was_written() {
+    let folder = folder("nothing_written");
+    let (broken, walk) = (folder.join("broken.bvh"), folder.join("walk_110.bvh"));
+    fs::write(&broken, "no clip").unwrap();
+    fs::copy(repository().join("assets/clips/walk_110.bvh"), &walk).unwrap();
+    let half_a_step = "[[clips]]\npath = 'walk_110.bvh'\nframes = [1, 15]\n[[clips]]\npath = 'broken.bvh'\n";
+    fs::write(folder.join("manifest.toml"), half_a_step).unwrap();
+    let database = folder.join("motion.fbdb");
+    let compile = |arguments: &[&str]| {
+        let outcome = fbcrowd(&[&["compile", "--json", "-o", text(&database)], arguments].concat()).expect_code(2);
+        let report = outcome.json();
+        assert!(report["output"].is_null() && !database.exists(), "{report}");
+        assert_eq!(report["refused"][0]["file"], text(&broken));
+        assert!(!report["next"].as_array().unwrap().is_empty());
+        outcome.says(&["broken.bvh"]);
+        report
+    };
+    let none = compile(&[text(&folder)]);
+    assert_eq!(none["unused"][0]["file"], "walk_110.bvh");
+    assert!(none["unused"][0]["reason"].as_str().is_some_and(|reason| reason.len() > 10), "{none}");
+    let strict = compile(&[text(&broken), text(&walk), "--strict"]);
+    assert_eq!((&strict["example_count"], &strict["unused"].as_array().unwrap().len()), (&1.into(), &0));
+
+    let inspected = fbcrowd(&["inspect", text(&broken), "--json"]).expect_code(2).json();
+    check_keys(&inspected, &["sources", "refused"]);
+    check_keys(&inspected["refused"][0], &["file", "clip", "reason"]);
 }

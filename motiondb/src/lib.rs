@@ -24,6 +24,7 @@ pub mod lattice;
 pub mod locator;
 pub mod motion_db;
 pub mod parameters;
+mod parser_words;
 pub mod phase_map;
 pub mod planted_feet;
 pub mod pose;

@@ -7,6 +7,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::input_file;
+use crate::parser_words::in_plain_words;
 
 /// A million agents take a tenth of it.
 const TEXT_MAX_BYTES: u64 = 1 << 30;
@@ -74,15 +75,9 @@ impl SourceText {
         Invalid { path, text, span, message, help: help.to_owned() }
     }
 
-    /// A mistake that the parser found, with the help that its message asks for.
+    /// A mistake that the parser found, in plain words.
     pub fn unparsed(&self, span: Option<Range<usize>>, message: &str) -> Invalid {
-        let help = if message.starts_with("unknown field") {
-            "correct the key or remove it"
-        } else if message.starts_with("missing field") {
-            "add the key"
-        } else {
-            "correct the value"
-        };
+        let (message, help) = in_plain_words(message);
         self.invalid(span.unwrap_or(0..0), message, help)
     }
 }

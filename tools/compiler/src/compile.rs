@@ -50,10 +50,11 @@ pub fn compile_files(files: &[PathBuf], tell: &Observer) -> Result<Compiled, Com
 pub fn compile_manifest(manifest: &Manifest, tell: &Observer) -> Result<Compiled, CompileError> {
     let (clips, refused) = import_manifest(manifest, tell)?;
     if clips.is_empty() && !refused.is_empty() {
-        return Err(CompileError::NoExample { reasons: refused });
+        return Err(CompileError::NoExample { refused, sources: Vec::new() });
     }
     match compile(clips, &manifest.options, tell) {
         Err(CompileError::NotStepping { .. }) => Err(ManifestError::from(manifest.not_stepping()).into()),
+        Err(CompileError::NoExample { sources, .. }) => Err(CompileError::NoExample { refused, sources }),
         compiled => Ok(Compiled { db: compiled?, refused }),
     }
 }
@@ -153,7 +154,7 @@ fn assemble(
     tell: &Observer,
 ) -> Result<MotionDb, CompileError> {
     if named.is_empty() {
-        return Err(CompileError::no_example(&sources));
+        return Err(CompileError::NoExample { refused: Vec::new(), sources });
     }
     tell(Event::Stage("parameters"));
     let examples: Vec<MotionExample> = named.iter().map(|named| parameterize::example(named, body)).collect();

@@ -13,10 +13,15 @@ pub enum CompileError {
     #[error("no clips; name *.bvh, *.glb or *.gltf files or a folder that holds some")]
     NoClips,
     /// Every clip was read, none walks or stands.
-    #[error("no clip gives an example: {}; give clips of steady walking, running, turning or standing", all(reasons))]
+    #[error(
+        "no clip gives an example: {}; give clips of steady walking, running, turning or standing",
+        all(refused, sources)
+    )]
     NoExample {
-        /// Of each file or clip, why.
-        reasons: Vec<Refused>,
+        /// Files and clips that are no human motion, and why.
+        refused: Vec<Refused>,
+        /// Those that are, with what is said of each.
+        sources: Vec<SourceRecord>,
     },
     /// What was compiled is no sound database: the clips hold something that no earlier stage knew to refuse.
     #[error(
@@ -39,17 +44,11 @@ pub enum CompileError {
     },
 }
 
-impl CompileError {
-    /// With the reasons from the sources' warnings.
-    pub(crate) fn no_example(sources: &[SourceRecord]) -> Self {
-        let reason = |source: &SourceRecord| {
-            let last = source.warnings.last().cloned().unwrap_or_default();
-            Refused { file: source.file.clone(), clip: source.clip.clone(), reason: remark::bare(&last).to_owned() }
-        };
-        Self::NoExample { reasons: sources.iter().map(reason).collect() }
-    }
-}
-
-fn all(reasons: &[Refused]) -> String {
-    reasons.iter().map(Refused::to_string).collect::<Vec<String>>().join("; ")
+fn all(refused: &[Refused], sources: &[SourceRecord]) -> String {
+    let of_source = |source: &SourceRecord| {
+        let remarks = source.warnings.iter().map(|text| remark::bare(text)).collect::<Vec<&str>>();
+        Refused { file: source.file.clone(), clip: source.clip.clone(), reason: remarks.join("; ") }
+    };
+    let all = refused.iter().cloned().chain(sources.iter().map(of_source));
+    all.map(|reason| reason.to_string()).collect::<Vec<String>>().join("; ")
 }

@@ -10,20 +10,24 @@ const NAMED: usize = 3;
 
 /// One sentence each; the commands in them can be copied.
 pub(crate) fn next(report: &CompileReport) -> Vec<String> {
-    let output = &report.output;
     let mut next = Vec::new();
     if !report.refused.is_empty() {
         next.push("Repair what is refused, or leave it out: `skip = true` in its table of a manifest.toml.".to_owned());
     }
-    let lying: Vec<String> = report
-        .warnings
-        .iter()
-        .filter(|warning| warning.text.contains(FRAME_TIME_QUESTION))
-        .map(|warning| title(&warning.file, &warning.clip))
-        .collect();
+    let lying = lying(report);
     if !lying.is_empty() {
         next.push(format!("Where a frame time lies, give `frame_rate_hz` in a manifest.toml: {}.", named(&lying)));
     }
+    if report.example_count == 0 {
+        next.push("Give clips of steady walking, running, turning or standing.".to_owned());
+    }
+    next.extend(report.output.iter().flat_map(|output| with_database(report, output)));
+    next
+}
+
+/// What can be done with what was written.
+fn with_database(report: &CompileReport, output: &str) -> Vec<String> {
+    let mut next = Vec::new();
     if !report.findings.is_empty() || report.warnings.iter().any(|warning| !warning.note) {
         next.push(format!("Look at what is doubtful: fbcrowd inspect {output} --plots out/plots"));
     }
@@ -33,6 +37,12 @@ pub(crate) fn next(report: &CompileReport) -> Vec<String> {
     next.push(format!("See how well each example follows from the others: fbcrowd inspect {output} --leave-one-out"));
     next.push(format!("Let a crowd walk: fbcrowd simulate SCENARIO.toml --db {output} -o crowd.fbrec"));
     next
+}
+
+/// Clips whose gait no human has.
+fn lying(report: &CompileReport) -> Vec<String> {
+    let lying = report.warnings.iter().filter(|warning| warning.text.contains(FRAME_TIME_QUESTION));
+    lying.map(|warning| title(&warning.file, &warning.clip)).collect()
 }
 
 fn named(titles: &[String]) -> String {

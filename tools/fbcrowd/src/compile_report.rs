@@ -16,9 +16,10 @@ use crate::advice;
 use crate::stages::Stage;
 
 /// Field names carry their units.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(crate) struct CompileReport {
-    pub(crate) output: String,
+    /// Null where nothing was written.
+    pub(crate) output: Option<String>,
     pub(crate) example_count: usize,
     pub(crate) mirror_count: usize,
     pub(crate) simplex_count: usize,
@@ -73,28 +74,34 @@ pub(crate) struct Example {
 }
 
 impl CompileReport {
-    /// Of a database that was just written to `output`.
-    pub(crate) fn new(output: &Path, db: &MotionDb, refused: Vec<Refused>, stages: Vec<Stage>) -> Self {
+    /// Of a database that was written to `output`, or to nowhere where a refusal is final.
+    pub(crate) fn new(output: Option<&Path>, db: &MotionDb, refused: Vec<Refused>, stages: Vec<Stage>) -> Self {
         let mut report = Self {
-            output: output.display().to_string(),
+            output: output.map(|path| path.display().to_string()),
             example_count: db.examples.len(),
             mirror_count: db.examples.iter().filter(|example| example.mirrored).count(),
             simplex_count: db.blend_space.simplices().filter(|corners| corners.len() > 1).count(),
             refused: refused.into_iter().map(Reason::from).collect(),
-            unused: Vec::new(),
-            warnings: Vec::new(),
-            used: Vec::new(),
             quality: quality::quality(db),
             findings: quality::lint(db),
             coverage: coverage::coverage(db),
             stages,
-            next: Vec::new(),
+            ..Self::default()
         };
         for (index, source) in db.sources.iter().enumerate() {
             let examples: Vec<Example> =
                 db.examples.iter().filter(|example| example.source as usize == index).map(Example::from).collect();
             report.add(source, examples);
         }
+        report.next = advice::next(&report);
+        report
+    }
+
+    /// Of clips of which none gives an example.
+    pub(crate) fn without_examples(refused: Vec<Refused>, sources: &[SourceRecord]) -> Self {
+        let refused = refused.into_iter().map(Reason::from).collect();
+        let mut report = Self { refused, ..Self::default() };
+        sources.iter().for_each(|source| report.add(source, Vec::new()));
         report.next = advice::next(&report);
         report
     }

@@ -5,7 +5,6 @@
 //! lists end early (`--json` has all).
 
 use motiondb::motion_db::SourceRecord;
-use motiondb_compiler::refused::Refused;
 use motiondb_compiler::remark::{Weight, bare, weight};
 
 use crate::compile_report::{CompileReport, Reason};
@@ -38,9 +37,10 @@ pub(crate) fn text(report: &CompileReport) -> String {
 }
 
 /// Of clips of which none gives an example, why.
-pub(crate) fn reasons(reasons: Vec<Refused>) -> String {
-    let reasons: Vec<Reason> = reasons.into_iter().map(Reason::from).collect();
-    section("no example", grouped(reasons.iter().map(said)))
+pub(crate) fn reasons(report: &CompileReport) -> String {
+    section("refused", grouped(report.refused.iter().map(said)))
+        + &section("no example", grouped(report.unused.iter().map(said)))
+        + &section("warnings", warnings(report))
 }
 
 /// What is said of clips, by weight: which give no example, what is doubtful, what is only noted.
@@ -62,7 +62,7 @@ fn last_line(report: &CompileReport) -> String {
     let clips = report.used.len() + report.unused.len();
     format!(
         "{}: {} ({} of them mirrored) from {}, {}",
-        report.output,
+        report.output.as_deref().unwrap_or("nothing written"),
         counted(report.example_count, "example"),
         report.mirror_count,
         counted(clips, "clip"),

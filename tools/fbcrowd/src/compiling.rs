@@ -95,17 +95,12 @@ pub(crate) fn compile(
 }
 
 /// Imports clips without making a database of them.
-pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Answer), Failure> {
+pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Vec<Refused>), Failure> {
     let manifest = manifest(paths)?;
     let progress = Progress::new("clips", manifest.takes.len());
     let imported = compile::import_manifest(&manifest, &|event| advance(&progress, event));
     progress.finish();
-    let (clips, refused) = imported?;
-    let answer = say_refused(&refused);
-    if clips.is_empty() {
-        return Err(Failure::bad("none of the clips can be used; give clips of a walking human skeleton"));
-    }
-    Ok((clips, answer))
+    Ok(imported?)
 }
 
 /// Progress counts imported files: what comes after takes no time worth a bar.
@@ -115,12 +110,11 @@ fn advance(progress: &Progress, event: Event) {
     }
 }
 
-/// Says on standard error what was refused, which makes the answer no.
-pub(crate) fn say_refused(refused: &[Refused]) -> Answer {
+/// Says on standard error what was refused.
+pub(crate) fn say_refused(refused: &[Refused]) {
     for message in refused {
         output::say(&format!("refused: {message}"));
     }
-    answer(refused)
 }
 
 /// Whether all was used.

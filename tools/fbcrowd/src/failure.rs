@@ -5,10 +5,13 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
+use motiondb::motion_db::SourceRecord;
 use motiondb::source_text::Invalid;
 use motiondb_compiler::compile_error::CompileError;
 use motiondb_compiler::manifest_error::ManifestError;
+use motiondb_compiler::refused::Refused;
 
+use crate::compile_report::CompileReport;
 use crate::{compile_text, output};
 
 /// The text around a mistake is shown only where all its lines are shorter: nobody reads longer ones.
@@ -28,6 +31,13 @@ pub(crate) enum Answer {
 pub(crate) enum Failure {
     /// Exit code 2, with the message.
     Bad(miette::Report),
+    /// Exit code 2, with what is wrong with each clip.
+    NoExample {
+        /// What is no human motion.
+        refused: Vec<Refused>,
+        /// What is.
+        sources: Vec<SourceRecord>,
+    },
     /// Whoever read standard output has gone: nobody is left to tell.
     ReaderGone,
 }
@@ -62,6 +72,12 @@ impl Failure {
                 output::say_styled(&format!("Error: {report:?}"));
                 ExitCode::from(2)
             }
+            Self::NoExample { refused, sources } => {
+                // The reporter would wrap the list.
+                output::say(&compile_text::reasons(&CompileReport::without_examples(refused, &sources)));
+                Self::bad("no clip gives an example; give clips of steady walking, running, turning or standing")
+                    .report()
+            }
             Self::ReaderGone => ExitCode::SUCCESS,
         }
     }
@@ -86,11 +102,7 @@ impl From<CompileError> for Failure {
     fn from(error: CompileError) -> Self {
         match error {
             CompileError::Manifest(error) => error.into(),
-            // The reporter would wrap the list.
-            CompileError::NoExample { reasons } => {
-                output::say(&compile_text::reasons(reasons));
-                Self::bad("no clip gives an example; give clips of steady walking, running, turning or standing")
-            }
+            CompileError::NoExample { refused, sources } => Self::NoExample { refused, sources },
             other => Self::bad(other.to_string()),
         }
     }

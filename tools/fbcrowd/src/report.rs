@@ -5,9 +5,11 @@ use glam::Vec2;
 use motiondb::coverage::{self, ThinPlace};
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::velocity_hull::{Construction, VelocityHull};
+use motiondb_compiler::refused::Refused;
 use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 use serde::Serialize;
 
+use crate::compile_report::Reason;
 use crate::correspondence_between::Between;
 use crate::example_table::unsigned_zero;
 use crate::leave_one_out::LeaveOneOut;
@@ -17,6 +19,13 @@ use crate::{compile_text, leave_one_out_text};
 #[derive(Serialize)]
 pub(crate) struct SourcesReport {
     pub(crate) sources: Vec<SurveyedSource>,
+    refused: Vec<Reason>,
+}
+
+impl SourcesReport {
+    pub(crate) fn new(sources: Vec<SurveyedSource>, refused: Vec<Refused>) -> Self {
+        Self { sources, refused: refused.into_iter().map(Reason::from).collect() }
+    }
 }
 
 /// A whole database.

@@ -33,10 +33,10 @@ impl Stopwatch {
         }
     }
 
-    /// The last stage is done: all, in the order in which they began.
-    pub(crate) fn finish(self) -> Vec<Stage> {
+    /// All stages in the order in which they began; the last ends now.
+    pub(crate) fn finish(&self) -> Vec<Stage> {
         let end = Instant::now();
-        let begun = self.begun.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let begun = self.begun.lock().unwrap_or_else(PoisonError::into_inner);
         let ends = begun.iter().skip(1).map(|(_, next)| *next).chain([end]);
         let stage = |(&(name, start), end): (&(&'static str, Instant), Instant)| Stage {
             name,

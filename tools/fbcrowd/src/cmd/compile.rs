@@ -33,13 +33,13 @@ pub(crate) struct Args {
     /// Write nothing where any input is refused.
     #[arg(long)]
     strict: bool,
-    /// Print the report as JSON: `output, example_count, mirror_count, simplex_count, refused[] {file, clip, reason},
-    /// unused[] {file, clip, reason}` (human clips that give no example), `warnings[] {file, clip, note, text}` (a note
-    /// asks for nothing), `used[] {file, clip, examples[] {name, mirrored, window_s, speed_mps, turn_rate_rad_s,
-    /// strafe_mps}}`, `quality[] {example, planted_slide_cm_s, planted_share, seam_angle_ratio, seam_velocity_ratio,
-    /// penetration_mm, knee_flexion_min_deg, leg_extension_max, range_excess_deg, range_excess_joint}`, `findings[]
-    /// {example, measure, value, threshold, unit, sentence}`, `coverage[] {lack, sentence}`, `stages[] {name,
-    /// seconds}`, `next[]`.
+    /// Print the report as JSON, with exit code 2 too: `output` (null where nothing was written), `example_count,
+    /// mirror_count, simplex_count, refused[] {file, clip, reason}, unused[] {file, clip, reason}` (human clips that
+    /// give no example), `warnings[] {file, clip, note, text}` (a note asks for nothing), `used[] {file, clip,
+    /// examples[] {name, mirrored, window_s, speed_mps, turn_rate_rad_s, strafe_mps}}`, `quality[] {example,
+    /// planted_slide_cm_s, planted_share, seam_angle_ratio, seam_velocity_ratio, penetration_mm, knee_flexion_min_deg,
+    /// leg_extension_max, range_excess_deg, range_excess_joint}`, `findings[] {example, measure, value, threshold,
+    /// unit, sentence}`, `coverage[] {lack, sentence}`, `stages[] {name, seconds}`, `next[]`.
     #[arg(long)]
     json: bool,
     /// Most examples, mirrors not counted, whatever the manifest says: m_sp, one that stands and those that reach
@@ -73,23 +73,37 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let overrides =
         Overrides { velocity_hull: args.velocity_hull.map(Construction::from), max_examples: args.max_examples };
     let stopwatch = Stopwatch::default();
-    let Compiled { db, refused } = compiling::compile(&args.clips, &args.output, &overrides, &stopwatch)?;
-    // On a terminal the report says it.
-    let answer = if args.strict || !io::stdout().is_terminal() {
-        compiling::say_refused(&refused)
-    } else {
-        compiling::answer(&refused)
-    };
+    let compiled = compiling::compile(&args.clips, &args.output, &overrides, &stopwatch);
+    if let Err(Failure::NoExample { refused, sources }) = &compiled
+        && args.json
+    {
+        output::print_json(&CompileReport::without_examples(refused.clone(), sources))?;
+    }
+    let compiled = compiled?;
+    let answer = compiling::answer(&compiled.refused);
     if args.strict && answer == Answer::No {
-        return Err(Failure::bad("some input was refused, and --strict allows none; repair it or leave it out"));
+        return refuse(args, compiled, &stopwatch);
+    }
+    // On a terminal the report says it.
+    if !io::stdout().is_terminal() {
+        compiling::say_refused(&compiled.refused);
     }
     stopwatch.begin("writing");
-    file::write(&args.output, &db)?;
-    let report = CompileReport::new(&args.output, &db, refused, stopwatch.finish());
+    file::write(&args.output, &compiled.db)?;
+    let report = CompileReport::new(Some(&args.output), &compiled.db, compiled.refused, stopwatch.finish());
     if args.json {
         output::print_json(&report)?;
     } else {
         output::print(&compile_text::text(&report))?;
     }
     Ok(answer)
+}
+
+/// Says what was refused, and that it is final.
+fn refuse(args: &Args, Compiled { db, refused }: Compiled, stopwatch: &Stopwatch) -> Result<Answer, Failure> {
+    compiling::say_refused(&refused);
+    if args.json {
+        output::print_json(&CompileReport::new(None, &db, refused, stopwatch.finish()))?;
+    }
+    Err(Failure::bad("some input was refused, and --strict allows none; repair it or leave it out"))
 }

@@ -28,7 +28,7 @@ pub(crate) struct Args {
     /// frame_rate_hz, warnings[]}`; of clips each with `gait {kind, reason, planted_share, right[] {strike_s,
     /// toe_off_s}, left[] {strike_s, toe_off_s}}`: kind is "steps", "stands" or "unsteady" (with a reason), strikes and
     /// toe-offs are those of the whole clip, in seconds from the file's first frame, null where the clip begins or ends
-    /// within the contact; of a database also `examples[] {name, source, clip, window_s, mirrored, speed_mps,
+    /// within the contact; and `refused[] {file, clip, reason}`; of a database also `examples[] {name, source, clip, window_s, mirrored, speed_mps,
     /// turn_rate_rad_s, strafe_mps, duration_s, key_times_s, planted_slide_cm_s, planted_share}`, `velocity_hull
     /// {construction, turning_mps[][2], holding_mps[][2], sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension,
     /// simplices[][], covered_share}`, `correspondence {semi_procedural, blending, pairs_s[][2]}` or null, and
@@ -114,12 +114,17 @@ fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
             "--correspondence compares examples of a database; compile the clips first with `fbcrowd compile`";
         return Err(Failure::bad(message));
     }
-    let (clips, answer) = compiling::import(clips)?;
-    let report = SourcesReport { sources: survey(clips) };
+    let (clips, refused) = compiling::import(clips)?;
+    compiling::say_refused(&refused);
+    let (is_empty, answer) = (clips.is_empty(), compiling::answer(&refused));
+    let report = SourcesReport::new(survey(clips), refused);
     if args.json {
         output::print_json(&report)?;
-    } else {
+    } else if !is_empty {
         output::print(&report::sources_text(&report.sources))?;
+    }
+    if is_empty {
+        return Err(Failure::bad("none of the clips can be used; give clips of a walking human skeleton"));
     }
     Ok(answer)
 }

@@ -63,10 +63,10 @@ fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Fa
     };
     let path = folder.join("motion.fbdb");
     let Compiled { db, refused } = compiling::compile(&[clips], &path, &Overrides::default(), &Stopwatch::default())?;
-    let answer = compiling::say_refused(&refused);
+    compiling::say_refused(&refused);
     fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     file::write(&path, &db)?;
-    Ok((path, answer))
+    Ok((path, compiling::answer(&refused)))
 }
 
 /// Frames of an earlier and longer run would follow on this one's last.

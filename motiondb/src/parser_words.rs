@@ -1,0 +1,109 @@
+//! What a parser of TOML says, in the words of whoever wrote the text: no names of types, and what to write instead.
+
+/// What the parser wants, by its words: the types of numbers first, so that `f64` is not looked for in a text's own
+/// words.
+const WANTED: [(&str, &str); 15] = [
+    ("a nonzero usize", "a whole number from 1 on"),
+    ("a nonzero u32", "a whole number from 1 on"),
+    ("usize", "a whole number from 0 on"),
+    ("u64", "a whole number from 0 on"),
+    ("u32", "a whole number from 0 on"),
+    ("u16", "a whole number from 0 to 65535"),
+    ("i64", "a whole number"),
+    ("f64", "a number"),
+    ("f32", "a number"),
+    ("a boolean", "true or false"),
+    ("a string", "a text in quotes"),
+    ("path string", "a text in quotes"),
+    ("string or table", "a text in quotes"),
+    ("a sequence", "a list in brackets"),
+    ("a map", "a table of keys and values"),
+];
+/// Mistakes of spelling, by how the parser's sentence about them begins: what is wrong, and what to do.
+const SPELLING: [(&str, &str, &str); 8] = [
+    ("string values must be quoted", "this is no value", "write a number, true, false, or a text in quotes"),
+    ("invalid basic string", "the text does not end in its line", "close it with a quote: \""),
+    ("missing escaped value", "a \\ in a text stands for more than itself", "write paths with /, or with \\\\"),
+    ("key with no value", "a key stands here without a value", "write key = value"),
+    ("duplicate key", "the key stands twice", "keep one of both"),
+    ("unclosed inline table", "the table is not closed", "close it with }"),
+    ("unclosed", "the bracket is not closed", "close it with ] as often as it is opened"),
+    ("unexpected key or value", "the line should have ended here", "begin a new line, or remove what follows"),
+];
+
+/// A parser's sentence in plain words, and what to do.
+pub(crate) fn in_plain_words(message: &str) -> (String, &'static str) {
+    if let Some((_, mistake, help)) = SPELLING.iter().find(|(begin, ..)| message.starts_with(begin)) {
+        return ((*mistake).to_owned(), help);
+    }
+    if message.starts_with("unknown field") {
+        return (message.to_owned(), "correct the key or remove it");
+    }
+    if let Some(key) = message.strip_prefix("missing field ") {
+        return (format!("the key {key} is missing"), "add the key");
+    }
+    let after = |begin: &str| message.strip_prefix(begin)?.split_once(", expected ");
+    if let Some((count, wanted)) = after("invalid length ") {
+        return (format!("{} wanted here, not {count} values", plainly_wanted(wanted)), "correct the value");
+    }
+    match after("invalid type: ").or_else(|| after("invalid value: ")) {
+        Some(("map", "a sequence")) => {
+            ("a list of tables is wanted here, not one table".to_owned(), "head each with double brackets: [[ ]]")
+        }
+        Some((found, wanted)) => {
+            (format!("{} wanted here, not {}", plainly_wanted(wanted), plainly_found(found)), "correct the value")
+        }
+        None => (message.replacen("unknown variant", "unknown value", 1), "correct the value"),
+    }
+}
+
+/// What is wanted, with its verb.
+fn plainly_wanted(wanted: &str) -> String {
+    let is_of_several = wanted.starts_with("the ");
+    let plain = match WANTED.iter().find(|(words, _)| *words == wanted) {
+        Some((_, plain)) => plain,
+        None if wanted.starts_with("struct ") => "a table of keys and values",
+        None => wanted,
+    };
+    format!("{plain} {}", if is_of_several { "are" } else { "is" })
+}
+
+fn plainly_found(found: &str) -> &str {
+    let kinds = ["integer ", "floating point ", "boolean ", "string "];
+    match found {
+        "map" => "a table",
+        "sequence" => "a list",
+        _ => kinds.iter().find_map(|kind| found.strip_prefix(kind)).unwrap_or(found),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_of_a_type_reaches_the_reader() {
+        let check = |message: &str, plain: &str| assert_eq!(in_plain_words(message).0, plain);
+        check(
+            "invalid value: integer `0`, expected a nonzero usize",
+            "a whole number from 1 on is wanted here, not `0`",
+        );
+        check("invalid type: string \"cm\", expected f64", "a number is wanted here, not \"cm\"");
+        check("invalid type: map, expected a sequence", "a list of tables is wanted here, not one table");
+        check(
+            "invalid type: string \"a\", expected struct Table",
+            "a table of keys and values is wanted here, not \"a\"",
+        );
+        check("invalid length 3, expected an array of length 2", "an array of length 2 is wanted here, not 3 values");
+        check("missing field `path`", "the key `path` is missing");
+        check("unknown variant `papper`, expected `paper`", "unknown value `papper`, expected `paper`");
+    }
+
+    #[test]
+    fn a_missing_bracket_is_to_be_closed_and_no_value_to_be_corrected() {
+        let help = |message: &str| in_plain_words(message).1;
+        assert_eq!(help("unclosed array table, expected `]`"), "close it with ] as often as it is opened");
+        assert_eq!(help("invalid basic string, expected `\"`"), "close it with a quote: \"");
+        assert_eq!(help("key with no value, expected `=`"), "write key = value");
+    }
+}
