@@ -1,4 +1,5 @@
-//! Collisions of discs over whole steps (`FbCrowd` App. 11, Eqs. 16 and 17, corrected).
+//! Collisions of discs over whole steps, and how near their centres ever come (`FbCrowd` App. 11, Eqs. 16 and 17,
+//! corrected).
 
 use glam::{DVec2, Vec2};
 
@@ -11,6 +12,7 @@ pub struct Collisions {
     /// Agents by where along the crowd's longer side begins what they sweep in a step; hardly changes from one step to the next, so sorting stays cheap.
     order: Vec<usize>,
     penetration: f64,
+    least_distance_m: f64,
 }
 
 /// What a disc sweeps in one step, world, metres.
@@ -25,7 +27,7 @@ impl Collisions {
     /// No steps yet; radii in index order, metres.
     pub fn new(radii_m: impl Iterator<Item = f32>) -> Self {
         let radii_m: Vec<f64> = radii_m.map(f64::from).collect();
-        Self { order: (0..radii_m.len()).collect(), radii_m, penetration: 0.0 }
+        Self { order: (0..radii_m.len()).collect(), radii_m, penetration: 0.0, least_distance_m: f64::INFINITY }
     }
 
     /// Adds one step, given every root before and after it, world, metres.
@@ -39,10 +41,22 @@ impl Collisions {
         let axis = longer_side(before_m.iter().copied());
         self.order.sort_by(|&a, &b| sweeps[a].low_m(axis).total_cmp(&sweeps[b].low_m(axis)).then(a.cmp(&b)));
         for (rank, &a) in self.order.iter().enumerate() {
-            let high_m = sweeps[a].high_m(axis);
-            let near = self.order[rank + 1..].iter().take_while(|&&b| sweeps[b].low_m(axis) < high_m);
-            self.penetration += near.map(|&b| penetration(&sweeps[a], &sweeps[b])).sum::<f64>();
+            for &b in &self.order[rank + 1..] {
+                // From here on all are farther apart than the nearest two ever were.
+                if sweeps[b].low_m(axis) - sweeps[a].high_m(axis) >= self.least_distance_m {
+                    break;
+                }
+                let distance_m = least_distance_m(&sweeps[a], &sweeps[b]);
+                let reach_m = sweeps[a].radius_m + sweeps[b].radius_m;
+                self.penetration += (1.0 - distance_m / reach_m).max(0.0); // Eq. 17: PD
+                self.least_distance_m = self.least_distance_m.min(distance_m);
+            }
         }
+    }
+
+    /// How near two centres ever came, metres; none of a single agent or before the first step.
+    pub fn least_distance_m(&self) -> Option<f64> {
+        self.least_distance_m.is_finite().then_some(self.least_distance_m)
     }
 
     /// Eq. 17: C, the mean over T steps and N agents of the pairs' penetration depths.
@@ -61,15 +75,14 @@ impl Sweep {
     }
 }
 
-/// PD, 0 to 1: how deep two discs come into each other while both move straight and evenly.
-fn penetration(a: &Sweep, b: &Sweep) -> f64 {
+/// How near two centres come while both move straight and evenly, metres.
+fn least_distance_m(a: &Sweep, b: &Sweep) -> f64 {
     let position_m = a.start_m - b.start_m;
     let displacement_m = a.displacement_m - b.displacement_m;
     let length_squared = displacement_m.length_squared();
     let share =
         if length_squared > 0.0 { (-position_m.dot(displacement_m) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
-    let least_m = (position_m + share * displacement_m).length(); // Eq. 16
-    (1.0 - least_m / (a.radius_m + b.radius_m)).max(0.0)
+    (position_m + share * displacement_m).length() // Eq. 16
 }
 
 #[cfg(test)]
@@ -95,6 +108,18 @@ mod tests {
     }
 
     #[test]
+    fn the_least_distance_is_that_between_centres_on_their_way() {
+        let mut collisions = Collisions::new([0.1; 3].into_iter());
+        assert_eq!(collisions.least_distance_m(), None);
+        let far = Vec2::new(50.0, 50.0);
+        collisions
+            .push(&[Vec2::new(-1.0, 0.0), Vec2::new(0.0, 3.0), far], &[Vec2::new(1.0, 0.0), Vec2::new(0.0, 3.0), far]);
+        assert_eq!(collisions.least_distance_m(), Some(3.0));
+        collisions.push(&[Vec2::ZERO, Vec2::new(0.0, 4.0), far], &[Vec2::ZERO, Vec2::new(0.0, 4.0), far]);
+        assert_eq!(collisions.least_distance_m(), Some(3.0));
+    }
+
+    #[test]
     fn discs_at_rest_collide_by_their_overlap() {
         let places = [Vec2::ZERO, Vec2::new(0.25, 0.0)];
         assert_eq!(rate(&[0.25; 2], &places, &places), 0.25);
@@ -111,17 +136,22 @@ mod tests {
             let before: Vec<Vec2> = agents.iter().map(|a| Vec2::new(a.0, a.1)).collect();
             let after: Vec<Vec2> = agents.iter().map(|a| Vec2::new(a.0 + a.2, a.1 + a.3)).collect();
             let radii: Vec<f32> = agents.iter().map(|a| a.4).collect();
-            let mut brute = 0.0;
+            let (mut brute, mut brute_m) = (0.0, f32::INFINITY);
             for i in 0..agents.len() {
                 for j in i + 1..agents.len() {
                     let at = |k: usize, share: f32| before[k].lerp(after[k], share);
                     let distance = |moment: u32| at(i, moment as f32 / 2000.0).distance(at(j, moment as f32 / 2000.0));
                     let least = (0..=2000).map(distance).fold(f32::INFINITY, f32::min);
                     brute += f64::from((1.0 - least / (radii[i] + radii[j])).max(0.0));
+                    brute_m = brute_m.min(least);
                 }
             }
-            let found = rate(&radii, &before, &after) * agents.len() as f64;
+            let mut collisions = Collisions::new(radii.into_iter());
+            collisions.push(&before, &after);
+            let found = collisions.rate(1) * agents.len() as f64;
             prop_assert!((found - brute).abs() < 1e-3 * (1.0 + brute), "{found} against {brute}");
+            let found_m = collisions.least_distance_m().map_or(f32::INFINITY, |found_m| found_m as f32);
+            prop_assert!(found_m == brute_m || (found_m - brute_m).abs() < 1e-3, "{found_m} m against {brute_m} m");
         }
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod agents;
 pub mod angle;
+pub mod body_penetration;
 pub mod cns;
 pub mod collision_rate;
 pub mod hms;
@@ -27,6 +28,7 @@ pub mod scenario_error;
 pub mod scenario_file;
 mod scenario_point;
 pub mod scenario_ranges;
+pub mod segment_distance;
 pub mod split_mix;
 pub mod step;
 

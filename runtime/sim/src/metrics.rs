@@ -1,21 +1,27 @@
-//! What a recording shows in numbers (`FbCrowd` App. 11; `definitions.md`, "measure"), streamed: two frames at a time.
+//! What a simulation shows in numbers (`FbCrowd` App. 11; `definitions.md`, "measure"), streamed: two frames at a time.
 //!
-//! Collisions stand in [`collision_rate`](crate::collision_rate), accelerations, arrivals and tracking in [`root_measures`](crate::root_measures),
-//! foot slide in [`planted_slide`](crate::planted_slide). Positions are those of the root as synthesised.
+//! Collisions of discs stand in [`collision_rate`](crate::collision_rate), those of bodies in
+//! [`body_penetration`](crate::body_penetration), accelerations, arrivals, detours and tracking in
+//! [`root_measures`](crate::root_measures), foot slide in [`planted_slide`](crate::planted_slide). Positions are those of
+//! the root as synthesised.
 
 use std::io::{self, Write};
 
 use glam::Vec2;
+use motiondb::pose::Joints;
+use motiondb::skeleton::Skeleton;
 use serde::Serialize;
 
+use crate::body_penetration::BodyPenetration;
 use crate::collision_rate::Collisions;
 use crate::planted_slide::PlantedSlide;
 use crate::recording::Recording;
 use crate::recording_error::RecordingError;
 use crate::recording_frame::AgentFrame;
 use crate::root_measures::RootMeasures;
+use crate::scenario::Scenario;
 
-/// The figures of one recording, under the names of `measure --json`.
+/// The figures of one simulation, under the names of `measure --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measures {
     /// N.
@@ -26,6 +32,8 @@ pub struct Measures {
     pub dt_s: f32,
     /// C: Eq. 17.
     pub collision_rate: f64,
+    /// Least distance between the centres of any two discs, Eq. 16; none of a single agent.
+    pub minimum_separation_m: Option<f64>,
     /// A: Eq. 18, over all agents and steps.
     pub mean_acceleration_mps2: f64,
     /// The same over the steps before each agent's arrival: waiting at the goal does not dilute it.
@@ -36,6 +44,20 @@ pub struct Measures {
     pub stalled: usize,
     /// Over the agents that arrived; none where nobody did.
     pub mean_time_to_goal_s: Option<f64>,
+    /// Path walked until the arrival over the straight way, waypoints included; mean over the agents that arrived.
+    pub path_over_straight_line: Option<f64>,
+    /// Share of the steps before each agent's arrival in which it walks sidewards at held facing.
+    pub strafing_share: f64,
+    /// Share of the steps before each agent's arrival in which it walks backward at held facing.
+    pub stepping_back_share: f64,
+    /// Deepest overlap of the capsules of two bodies, summed over pairs and steps, per agent and step.
+    pub body_penetration_mm: f64,
+    /// Its mean over the pairs and steps in which bodies touch; none where none ever did.
+    pub body_penetration_touching_mm: Option<f64>,
+    /// Greatest of all.
+    pub body_penetration_max_mm: f64,
+    /// Share of agents and steps in which a body touches another.
+    pub body_touching_share: f64,
     /// Of planted feet; none where no foot was planted.
     pub planted_slide_cm_s: Option<f64>,
     /// Of the examples that the bodies were blended from, over the same contacts.
@@ -46,45 +68,109 @@ pub struct Measures {
     pub root_tracking_error_m: f64,
 }
 
+/// Figures on their way: takes frames one by one and keeps one, so that a crowd is measured while it runs.
+#[derive(Debug)]
+pub struct Measuring {
+    skeleton: Skeleton,
+    dt_s: f32,
+    steps: usize,
+    before: Vec<AgentFrame>,
+    /// Of one frame, in the roots' frames.
+    joints: Vec<Joints>,
+    collisions: Collisions,
+    roots: RootMeasures,
+    slide: PlantedSlide,
+    bodies: BodyPenetration,
+}
+
+impl Measuring {
+    /// At the start of a scenario, with every agent in index order.
+    pub fn new(skeleton: &Skeleton, scenario: &Scenario, start: &[AgentFrame]) -> Self {
+        let (agents, dt_s) = (&scenario.agents, scenario.dt_s);
+        let mut measuring = Self {
+            skeleton: skeleton.clone(),
+            dt_s,
+            steps: 0,
+            before: start.to_vec(),
+            joints: Vec::with_capacity(agents.len()),
+            collisions: Collisions::new(agents.iter().map(|agent| agent.radius_m)),
+            roots: RootMeasures::new(agents, start, dt_s),
+            slide: PlantedSlide::new(skeleton, agents.len(), dt_s),
+            bodies: BodyPenetration::new(skeleton, agents.len()),
+        };
+        measuring.pose(start);
+        measuring.slide.push(start, &measuring.joints);
+        measuring
+    }
+
+    /// Adds one step, given every agent after it, in index order.
+    pub fn push(&mut self, after: &[AgentFrame]) {
+        self.steps += 1;
+        self.pose(after);
+        self.collisions.push(&roots_m(&self.before), &roots_m(after));
+        self.roots.push(&self.before, after);
+        self.slide.push(after, &self.joints);
+        self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
+        self.before.clear();
+        self.before.extend_from_slice(after);
+    }
+
+    /// Whether every agent has come to its goal.
+    pub fn all_arrived(&self) -> bool {
+        self.roots.arrived() == self.before.len()
+    }
+
+    /// After the last frame.
+    pub fn finish(self) -> Measures {
+        let (slide, bodies) = (self.slide.finish(), self.bodies.finish());
+        Measures {
+            agents: self.before.len(),
+            steps: self.steps,
+            dt_s: self.dt_s,
+            collision_rate: self.collisions.rate(self.steps),
+            minimum_separation_m: self.collisions.least_distance_m(),
+            mean_acceleration_mps2: self.roots.mean_acceleration_mps2(),
+            mean_acceleration_before_arrival_mps2: self.roots.mean_acceleration_before_arrival_mps2(),
+            arrived: self.roots.arrived(),
+            stalled: self.roots.stalled(),
+            mean_time_to_goal_s: self.roots.mean_time_to_goal_s(),
+            path_over_straight_line: self.roots.path_over_straight_line(),
+            strafing_share: self.roots.strafing_share(),
+            stepping_back_share: self.roots.stepping_back_share(),
+            body_penetration_mm: bodies.mean_mm,
+            body_penetration_touching_mm: bodies.touching_mm,
+            body_penetration_max_mm: bodies.greatest_mm,
+            body_touching_share: bodies.touching_share,
+            planted_slide_cm_s: slide.slide_cm_s,
+            examples_slide_cm_s: slide.examples_slide_cm_s,
+            planted_share: slide.planted_share,
+            root_tracking_error_m: self.roots.root_tracking_error_m(),
+        }
+    }
+
+    fn pose(&mut self, agents: &[AgentFrame]) {
+        self.joints.clear();
+        self.joints.extend(agents.iter().map(|agent| agent.pose.forward_kinematics(&self.skeleton)));
+    }
+}
+
 /// Reads a recording once, from its first frame to its last.
 ///
 /// # Errors
 /// Where a frame cannot be read.
 pub fn measure(recording: &Recording) -> Result<Measures, RecordingError> {
-    let scenario = &recording.header().scenario;
-    let (agents, dt_s) = (&scenario.agents, scenario.dt_s);
-    let (mut before, mut after) = (Vec::new(), Vec::new());
-    recording.read_frame(0, &mut before)?;
-    let mut collisions = Collisions::new(agents.iter().map(|agent| agent.radius_m));
-    let mut roots = RootMeasures::new(agents, &before, dt_s);
-    let mut slide = PlantedSlide::new(&recording.header().skeleton, agents.len(), dt_s);
-    slide.push(&before);
+    let header = recording.header();
+    let mut agents = Vec::new();
+    recording.read_frame(0, &mut agents)?;
+    let mut measuring = Measuring::new(&header.skeleton, &header.scenario, &agents);
     for frame in 1..recording.frame_count() {
-        recording.read_frame(frame, &mut after)?;
-        collisions.push(&roots_m(&before), &roots_m(&after));
-        roots.push(&before, &after);
-        slide.push(&after);
-        std::mem::swap(&mut before, &mut after);
+        recording.read_frame(frame, &mut agents)?;
+        measuring.push(&agents);
     }
-    let (steps, slide) = (recording.frame_count() - 1, slide.finish());
-    Ok(Measures {
-        agents: agents.len(),
-        steps,
-        dt_s,
-        collision_rate: collisions.rate(steps),
-        mean_acceleration_mps2: roots.mean_acceleration_mps2(),
-        mean_acceleration_before_arrival_mps2: roots.mean_acceleration_before_arrival_mps2(),
-        arrived: roots.arrived(),
-        stalled: roots.stalled(),
-        mean_time_to_goal_s: roots.mean_time_to_goal_s(),
-        planted_slide_cm_s: slide.slide_cm_s,
-        examples_slide_cm_s: slide.examples_slide_cm_s,
-        planted_share: slide.planted_share,
-        root_tracking_error_m: roots.root_tracking_error_m(),
-    })
+    Ok(measuring.finish())
 }
 
-/// A line a frame, from the start on: `x y` of each agent's root in index order, metres, to the micrometre.
+/// A line a frame, from the start on, as [`write_roots`] has it.
 ///
 /// # Errors
 /// Where writing fails or, as the source of the error, a frame cannot be read.
@@ -92,10 +178,18 @@ pub fn write_trajectories(recording: &Recording, out: &mut impl Write) -> io::Re
     let mut agents = Vec::new();
     for frame in 0..recording.frame_count() {
         recording.read_frame(frame, &mut agents).map_err(io::Error::other)?;
-        let places = roots_m(&agents).into_iter().map(|root_m| format!("{:.6} {:.6}", root_m.x, root_m.y));
-        writeln!(out, "{}", places.collect::<Vec<String>>().join(" "))?;
+        write_roots(&agents, out)?;
     }
     Ok(())
+}
+
+/// One line: `x y` of each agent's root in index order, metres, to the micrometre.
+///
+/// # Errors
+/// Where writing fails.
+pub fn write_roots(agents: &[AgentFrame], out: &mut impl Write) -> io::Result<()> {
+    let places = roots_m(agents).into_iter().map(|root_m| format!("{:.6} {:.6}", root_m.x, root_m.y));
+    writeln!(out, "{}", places.collect::<Vec<String>>().join(" "))
 }
 
 fn roots_m(agents: &[AgentFrame]) -> Vec<Vec2> {

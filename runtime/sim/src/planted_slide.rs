@@ -82,10 +82,10 @@ impl PlantedSlide {
         }
     }
 
-    /// Adds one frame: every agent, in index order.
-    pub fn push(&mut self, agents: &[AgentFrame]) {
-        for (index, agent) in agents.iter().enumerate() {
-            for (side, foot) in foot_frames(&self.skeleton, agent).into_iter().enumerate() {
+    /// Adds one frame: every agent, and its joints in its root's frame, in index order.
+    pub fn push(&mut self, agents: &[AgentFrame], joints: &[Joints]) {
+        for (index, (agent, joints)) in agents.iter().zip(joints).enumerate() {
+            for (side, foot) in foot_frames(&self.skeleton, agent, joints).into_iter().enumerate() {
                 self.foot_frames += 1;
                 self.planted_foot_frames += usize::from(foot.planted);
                 let ended = self.feet[index][side].push(foot, self.dt_s);
@@ -152,10 +152,9 @@ fn sample(earlier: Option<FootFrame>, at: FootFrame, next: Option<FootFrame>, dt
 }
 
 /// `[left, right]`.
-fn foot_frames(skeleton: &Skeleton, agent: &AgentFrame) -> [FootFrame; 2] {
-    let joints = agent.pose.forward_kinematics(skeleton);
+fn foot_frames(skeleton: &Skeleton, agent: &AgentFrame, joints: &Joints) -> [FootFrame; 2] {
     [0, 1].map(|side| {
-        let (points_m, planted_heights_m) = contact_points_m(skeleton, &joints, side);
+        let (points_m, planted_heights_m) = contact_points_m(skeleton, joints, side);
         let height_m = |point: usize| points_m[point].z - planted_heights_m[point];
         let lowest = (1..3).fold(0, |best, point| if height_m(point) < height_m(best) { point } else { best });
         FootFrame {

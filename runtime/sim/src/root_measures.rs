@@ -1,15 +1,18 @@
-//! How agents get on: acceleration, arrival, stalling, tracking (`FbCrowd` App. 11, Eq. 18, corrected; `definitions.md`, "measure").
+//! How agents get on: acceleration, arrival, stalling, detours, side-steps, tracking (`FbCrowd` App. 11, Eq. 18,
+//! corrected; `definitions.md`, "measure").
 //!
-//! Velocities are differences of the synthesised root, whose path is ripple-free. Agents start from rest, so T steps have T accelerations.
+//! Velocities are differences of the synthesised root, whose path is ripple-free. Agents start from rest, so T steps
+//! have T accelerations. World, metres, seconds.
 
 use glam::DVec2;
 
+use crate::plan::VelocitySet;
 use crate::recording_frame::AgentFrame;
 use crate::scenario::AgentSpec;
 
 /// An agent whose root comes this near to its last goal has arrived, m.
 const ARRIVAL_M: f64 = 0.5;
-/// Slower than this for [`STALL_S`] before arriving is stalling, m/s.
+/// Slower than this for [`STALL_S`] before arriving is stalling, and no side-step, m/s.
 const STALL_SPEED_MPS: f64 = 0.1;
 /// How long, s.
 const STALL_S: f64 = 5.0;
@@ -23,6 +26,8 @@ pub struct RootMeasures {
     acceleration: Mean,
     acceleration_before_arrival: Mean,
     tracking_error: Mean,
+    strafing: Mean,
+    stepping_back: Mean,
 }
 
 /// A sum on its way to a mean.
@@ -34,11 +39,24 @@ pub struct Mean {
 
 #[derive(Debug)]
 struct Walker {
+    /// Start and waypoints, without the last.
+    way_m: Vec<DVec2>,
     goal_m: DVec2,
     velocity_mps: DVec2,
+    /// Walked before the arrival, m.
+    path_m: f64,
+    /// Walked over the straight way from the start over the waypoints to the place of arrival.
+    path_over_straight: Option<f64>,
     arrival_s: Option<f64>,
     slow_steps: usize,
     stalled: bool,
+}
+
+/// How an agent walks while the planner holds its facing (§4.5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sidewards {
+    Strafing,
+    SteppingBack,
 }
 
 impl Mean {
@@ -60,8 +78,16 @@ impl RootMeasures {
         for (walker, frame) in walkers.iter_mut().zip(start) {
             walker.arrive(frame, 0.0);
         }
-        let [acceleration, acceleration_before_arrival, tracking_error] = [Mean::default(); 3];
-        Self { dt_s: dt_s.into(), steps: 0, walkers, acceleration, acceleration_before_arrival, tracking_error }
+        Self {
+            dt_s: dt_s.into(),
+            steps: 0,
+            walkers,
+            acceleration: Mean::default(),
+            acceleration_before_arrival: Mean::default(),
+            tracking_error: Mean::default(),
+            strafing: Mean::default(),
+            stepping_back: Mean::default(),
+        }
     }
 
     /// Adds one step, given every agent before and after it.
@@ -75,6 +101,10 @@ impl RootMeasures {
             self.acceleration.add(acceleration_mps2); // Eq. 18
             if walker.arrival_s.is_none() {
                 self.acceleration_before_arrival.add(acceleration_mps2);
+                let sidewards = walker.sidewards(after);
+                self.strafing.add(f64::from(sidewards == Some(Sidewards::Strafing)));
+                self.stepping_back.add(f64::from(sidewards == Some(Sidewards::SteppingBack)));
+                walker.path_m += displacement_m.length();
                 walker.watch_for_stall(self.dt_s);
             }
             let planned_m = DVec2::from(after.planned_mps) * self.dt_s;
@@ -110,21 +140,68 @@ impl RootMeasures {
 
     /// Over the agents that arrived; none where nobody did.
     pub fn mean_time_to_goal_s(&self) -> Option<f64> {
-        let mut mean = Mean::default();
-        self.walkers.iter().filter_map(|walker| walker.arrival_s).for_each(|arrival_s| mean.add(arrival_s));
-        (mean.count > 0).then(|| mean.value())
+        mean(self.walkers.iter().filter_map(|walker| walker.arrival_s))
     }
+
+    /// Mean over the agents that arrived of the length of their paths until then over that of the straight way; none
+    /// where nobody arrived, or nobody had a way to go.
+    pub fn path_over_straight_line(&self) -> Option<f64> {
+        mean(self.walkers.iter().filter_map(|walker| walker.path_over_straight))
+    }
+
+    /// Share of the steps before each agent's arrival in which it walks sidewards at held facing.
+    pub fn strafing_share(&self) -> f64 {
+        self.strafing.value()
+    }
+
+    /// Share of the steps before each agent's arrival in which it walks backward at held facing.
+    pub fn stepping_back_share(&self) -> f64 {
+        self.stepping_back.value()
+    }
+}
+
+/// None of nothing.
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut mean = Mean::default();
+    values.for_each(|value| mean.add(value));
+    (mean.count > 0).then(|| mean.value())
 }
 
 impl Walker {
     fn new(agent: &AgentSpec) -> Self {
-        let goal_m = DVec2::from(agent.goals_m.last().copied().unwrap_or(agent.position_m));
-        Self { goal_m, velocity_mps: DVec2::ZERO, arrival_s: None, slow_steps: 0, stalled: false }
+        let mut way_m: Vec<DVec2> = agent.goals_m.iter().copied().map(DVec2::from).collect();
+        let start_m = DVec2::from(agent.position_m);
+        let goal_m = way_m.pop().unwrap_or(start_m);
+        way_m.insert(0, start_m);
+        Self {
+            way_m,
+            goal_m,
+            velocity_mps: DVec2::ZERO,
+            path_m: 0.0,
+            path_over_straight: None,
+            arrival_s: None,
+            slow_steps: 0,
+            stalled: false,
+        }
     }
 
     fn arrive(&mut self, frame: &AgentFrame, now_s: f64) {
         if self.arrival_s.is_none() && position_m(frame).distance(self.goal_m) < ARRIVAL_M {
             self.arrival_s = Some(now_s);
+            let corners_m = self.way_m.iter().copied().chain([position_m(frame)]);
+            let straight_m: f64 = corners_m.clone().skip(1).zip(corners_m).map(|(to, from)| from.distance(to)).sum();
+            self.path_over_straight = (straight_m > 0.0).then(|| self.path_m / straight_m);
+        }
+    }
+
+    /// How the agent walks, unless it follows its facing or stands.
+    fn sidewards(&self, after: &AgentFrame) -> Option<Sidewards> {
+        let walks = self.velocity_mps.length() >= STALL_SPEED_MPS;
+        let ahead = self.velocity_mps.dot(DVec2::from(after.root.forward())) >= 0.0;
+        match after.set {
+            VelocitySet::Holding if walks && ahead => Some(Sidewards::Strafing),
+            VelocitySet::Holding if walks => Some(Sidewards::SteppingBack),
+            _ => None,
         }
     }
 

@@ -4,10 +4,11 @@ mod common;
 
 use common::{agent, folder, header, record, standing_at};
 use fbcrowd_sim::metrics::{Measures, measure, write_trajectories};
+use fbcrowd_sim::plan::VelocitySet;
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::recording_frame::AgentFrame;
 use glam::{Quat, Vec2, Vec3};
-use motiondb::skeleton::Joint;
+use motiondb::skeleton::{Joint, Skeleton};
 
 const DT_S: f32 = 0.1;
 
@@ -68,6 +69,67 @@ fn two_agents_on_one_place_collide_all_the_time() {
     let header = header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([9.0, 0.0], [5.0, 0.0])], DT_S);
     let frames = vec![vec![standing_at(Vec2::ONE); 2]; 8];
     check(measured("collide", &header, &frames).collision_rate, 0.5);
+}
+
+#[test]
+fn separation_is_the_least_distance_of_centres_between_frames_too() {
+    let header = header(vec![agent([-1.0, 0.2], [5.0, 0.0]), agent([0.0, 0.0], [5.0, 0.0])], DT_S);
+    let frames: Vec<_> = [-1.0, 1.0, 3.0].map(|x| vec![standing_at(Vec2::new(x, 0.2)), standing_at(Vec2::ZERO)]).into();
+    check(measured("separation", &header, &frames).minimum_separation_m.unwrap(), 0.2);
+    assert_eq!(measured("alone", &walker(9.0), &path([0.0, 1.0])).minimum_separation_m, None);
+}
+
+#[test]
+fn a_detour_is_longer_than_the_straight_way_until_the_arrival() {
+    // 3 m aside, then 4 m along x to the place of arrival, 5 m from the start over the hypotenuse; what follows does not count.
+    let mut places: Vec<Vec2> = (0..=30).map(|step| Vec2::new(0.0, 0.1 * step as f32)).collect();
+    places.extend((1..=40).map(|step| Vec2::new(0.1 * step as f32, 3.0)));
+    places.extend((1..=20).map(|step| Vec2::new(4.0, 3.0 - 0.1 * step as f32)));
+    let frames: Vec<_> = places.into_iter().map(|place| vec![standing_at(place)]).collect();
+    let header = |agent| header(vec![agent], DT_S);
+    let direct = header(agent([0.0, 0.0], [4.49, 3.0]));
+    check(measured("detour", &direct, &frames).path_over_straight_line.unwrap(), 7.0 / 5.0);
+    let mut over_corner = agent([0.0, 0.0], [0.0, 3.0]);
+    over_corner.goals_m.push(Vec2::new(4.49, 3.0));
+    check(measured("waypoint", &header(over_corner), &frames).path_over_straight_line.unwrap(), 1.0);
+}
+
+#[test]
+fn strafing_and_stepping_back_are_walking_at_held_facing() {
+    // Facing x: ten steps to the left, five backward, five forward, five standing, all but the forward ones at held facing.
+    let moves = [(10, Vec2::Y), (5, Vec2::NEG_X), (5, Vec2::X), (5, Vec2::ZERO)];
+    let (mut place, mut frames) = (Vec2::ZERO, vec![vec![standing_at(Vec2::ZERO)]]);
+    for (count, direction) in moves {
+        for _ in 0..count {
+            place += 0.1 * direction;
+            let set = if direction == Vec2::X { VelocitySet::Turning } else { VelocitySet::Holding };
+            frames.push(vec![AgentFrame { set, ..standing_at(place) }]);
+        }
+    }
+    let measures = measured("sidewards", &walker(50.0), &frames);
+    check(measures.strafing_share, 10.0 / 25.0);
+    check(measures.stepping_back_share, 5.0 / 25.0);
+}
+
+#[test]
+fn bodies_are_in_each_other_by_the_deepest_overlap_of_their_capsules() {
+    let header = header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([9.0, 0.0], [5.0, 0.0])], DT_S);
+    let pair = |y: f32| vec![standing_at(Vec2::ZERO), standing_at(Vec2::new(0.0, y))];
+    // Every bone is 7 cm along x with a radius of 6 cm, so side by side the outermost of both decide.
+    let widest_m = widest_m(&header.skeleton);
+    let frames = vec![pair(3.0), pair(2.0 * widest_m + 0.11), pair(2.0 * widest_m + 0.13)];
+    let measures = measured("bodies", &header, &frames);
+    check(measures.body_penetration_max_mm, 10.0);
+    check(measures.body_penetration_touching_mm.unwrap(), 10.0);
+    check(measures.body_penetration_mm, 10.0 / (2.0 * 2.0));
+    check(measures.body_touching_share, 0.5);
+    assert_eq!(measured("apart", &header, &vec![pair(3.0); 3]).body_penetration_touching_mm, None);
+}
+
+/// How far aside of the root the outermost bone lies.
+fn widest_m(skeleton: &Skeleton) -> f32 {
+    let joints = standing_at(Vec2::ZERO).pose.forward_kinematics(skeleton);
+    joints.positions_m.iter().map(|position_m| position_m.y).fold(0.0, f32::max)
 }
 
 /// A left foot planted in frames 10 to 29 that slides at 3 cm/s, but at 50 cm/s in the first and the last of them.

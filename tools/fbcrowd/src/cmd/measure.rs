@@ -10,16 +10,19 @@ use motiondb::atomic_file::AtomicFile;
 use crate::failure::{Answer, Failure};
 use crate::output;
 
-/// Measure collisions, acceleration, arrivals, foot slide and tracking of a recording.
+/// Measure collisions, acceleration, arrivals, detours, bodies' overlap, foot slide and tracking of a recording.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd measure out/antipodal/antipodal.fbrec --json")]
 pub(crate) struct Args {
     /// The recording.
     #[arg(value_name = "FILE.fbrec")]
     recording: PathBuf,
-    /// Print JSON: `agents, steps, dt_s, collision_rate` (Eq. 17), `mean_acceleration_mps2` (Eq. 18),
-    /// `mean_acceleration_before_arrival_mps2, arrived, stalled, mean_time_to_goal_s, planted_slide_cm_s,
-    /// examples_slide_cm_s, planted_share, root_tracking_error_m`; null where nothing arrived or stood.
+    /// Print JSON: `agents, steps, dt_s, collision_rate` (Eq. 17), `minimum_separation_m` (of centres, Eq. 16),
+    /// `mean_acceleration_mps2` (Eq. 18), `mean_acceleration_before_arrival_mps2, arrived, stalled,
+    /// mean_time_to_goal_s, path_over_straight_line, strafing_share, stepping_back_share, body_penetration_mm` (deepest
+    /// overlap of capsules, summed over pairs, per agent and step), `body_penetration_touching_mm` (mean of those that
+    /// touch), `body_penetration_max_mm, body_touching_share, planted_slide_cm_s, examples_slide_cm_s, planted_share,
+    /// root_tracking_error_m`; null where nobody arrived, touched or stood.
     #[arg(long)]
     json: bool,
     /// Write a line a step: x y of each agent's root, metres.
@@ -58,7 +61,20 @@ pub(crate) fn text(measures: &Measures) -> String {
     [
         ("agents", format!("{}", measures.agents)),
         ("steps", format!("{} of {:.4} s", measures.steps, measures.dt_s)),
-        ("collisions C", format!("{:.5}", measures.collision_rate)),
+        (
+            "collisions C",
+            format!("{:.5}, centres {} apart", measures.collision_rate, optional(measures.minimum_separation_m, "m")),
+        ),
+        (
+            "bodies",
+            format!(
+                "{:.3} mm into each other, {} where they touch ({:.2} % of the time), {:.0} mm at most",
+                measures.body_penetration_mm,
+                optional(measures.body_penetration_touching_mm, "mm"),
+                100.0 * measures.body_touching_share,
+                measures.body_penetration_max_mm
+            ),
+        ),
         (
             "acceleration A",
             format!(
@@ -68,6 +84,15 @@ pub(crate) fn text(measures: &Measures) -> String {
         ),
         ("arrived", format!("{} of {}, {} stalled", measures.arrived, measures.agents, measures.stalled)),
         ("mean time to goal", optional(measures.mean_time_to_goal_s, "s")),
+        (
+            "path",
+            format!(
+                "{}, {:.1} % of the time strafing, {:.1} % stepping back",
+                optional(measures.path_over_straight_line, "× the straight way"),
+                100.0 * measures.strafing_share,
+                100.0 * measures.stepping_back_share
+            ),
+        ),
         (
             "planted-foot slide",
             format!(

@@ -1,0 +1,245 @@
+//! How far bodies reach into each other, which the paper never measured: its discs (App. 11, Eqs. 16 and 17) stand for
+//! bodies whose arms swing beyond them and whose sides do not fill them.
+//!
+//! A body is a capsule a bone, as the recording's skeleton has it (trunk, head, limbs). The depth of a pair of bodies in a
+//! frame is the deepest overlap of a capsule of one with a capsule of the other: the sum of both radii less the distance
+//! of the bones ([`segment_distance`](crate::segment_distance)). Frames are looked at as they are, without the way
+//! between them.
+//!
+//! Bodies are swept along the crowd's longer side; of a pair whose boxes meet, only capsules whose own boxes meet are
+//! compared. World axes, metres; capsules relative to their root, so that the distance from the origin costs no precision.
+
+use glam::{DVec2, Quat, Vec2, Vec3};
+use motiondb::pose::{Joints, Root};
+use motiondb::skeleton::{JOINT_COUNT, Skeleton};
+
+use crate::scenario_check::longer_side;
+use crate::segment_distance::{Segment, distance_m};
+
+/// Sums depths over all pairs, frame by frame.
+#[derive(Debug)]
+pub struct BodyPenetration {
+    skeleton: Skeleton,
+    /// Agents by where their bodies begin along the crowd's longer side; hardly changes from one frame to the next.
+    order: Vec<usize>,
+    bodies: Vec<Body>,
+    touches: Vec<bool>,
+    agent_frames: usize,
+    touching_agent_frames: usize,
+    touching_pair_frames: usize,
+    depth_m: f64,
+    greatest_m: f64,
+}
+
+/// What is told of a whole recording, millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Penetration {
+    /// Depths of all pairs, summed over frames, per agent and frame: what Eq. 17 is for discs.
+    pub mean_mm: f64,
+    /// Mean depth of the pairs that touch, over the frames in which they do; none where nobody ever touched another.
+    pub touching_mm: Option<f64>,
+    /// Greatest depth of any pair in any frame.
+    pub greatest_mm: f64,
+    /// Share of agents and frames in which a body touches another.
+    pub touching_share: f64,
+}
+
+/// A posed body.
+#[derive(Clone, Debug)]
+struct Body {
+    position_m: Vec2,
+    capsules: [Capsule; JOINT_COUNT],
+    reach: Reach,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Capsule {
+    bone: Segment,
+    radius_m: f32,
+    reach: Reach,
+}
+
+/// A box about a capsule or a body, relative to its root.
+#[derive(Clone, Copy, Debug)]
+struct Reach {
+    low_m: Vec3,
+    high_m: Vec3,
+}
+
+impl BodyPenetration {
+    /// No frames yet.
+    pub fn new(skeleton: &Skeleton, agent_count: usize) -> Self {
+        Self {
+            skeleton: skeleton.clone(),
+            order: (0..agent_count).collect(),
+            bodies: Vec::with_capacity(agent_count),
+            touches: Vec::new(),
+            agent_frames: 0,
+            touching_agent_frames: 0,
+            touching_pair_frames: 0,
+            depth_m: 0.0,
+            greatest_m: 0.0,
+        }
+    }
+
+    /// Adds one frame: every agent's root, and its joints in the root's frame, in index order.
+    pub fn push<'a>(&mut self, agents: impl Iterator<Item = (&'a Root, &'a Joints)>) {
+        self.bodies.clear();
+        self.bodies.extend(agents.map(|(root, joints)| Body::new(&self.skeleton, root, joints)));
+        let axis = longer_side(self.bodies.iter().map(|body| body.position_m));
+        let bodies = &self.bodies;
+        self.order.sort_by(|&a, &b| bodies[a].low_m(axis).total_cmp(&bodies[b].low_m(axis)).then(a.cmp(&b)));
+        self.touches.clear();
+        self.touches.resize(bodies.len(), false);
+        for rank in 0..self.order.len() {
+            self.meet_followers(rank, axis);
+        }
+        self.agent_frames += self.bodies.len();
+        self.touching_agent_frames += self.touches.iter().filter(|&&touches| touches).count();
+    }
+
+    /// Compares one body with those that begin before it ends.
+    fn meet_followers(&mut self, rank: usize, axis: usize) {
+        let a = self.order[rank];
+        let high_m = self.bodies[a].high_m(axis);
+        for &b in &self.order[rank + 1..] {
+            if self.bodies[b].low_m(axis) >= high_m {
+                break;
+            }
+            let depth_m = f64::from(depth_m(&self.bodies[a], &self.bodies[b]));
+            if depth_m > 0.0 {
+                self.touches[a] = true;
+                self.touches[b] = true;
+                self.touching_pair_frames += 1;
+                self.depth_m += depth_m;
+                self.greatest_m = self.greatest_m.max(depth_m);
+            }
+        }
+    }
+
+    /// After the last frame.
+    pub fn finish(&self) -> Penetration {
+        let touching = self.touching_pair_frames;
+        Penetration {
+            mean_mm: 1e3 * self.depth_m / self.agent_frames.max(1) as f64,
+            touching_mm: (touching > 0).then(|| 1e3 * self.depth_m / touching as f64),
+            greatest_mm: 1e3 * self.greatest_m,
+            touching_share: self.touching_agent_frames as f64 / self.agent_frames.max(1) as f64,
+        }
+    }
+}
+
+impl Body {
+    fn new(skeleton: &Skeleton, root: &Root, joints: &Joints) -> Self {
+        let turn = Quat::from_rotation_z(root.facing_rad);
+        let capsules = std::array::from_fn(|joint| {
+            let from_m = joints.positions_m[joint];
+            let to_m = from_m + joints.orientations[joint] * skeleton.segment_ends_m[joint];
+            Capsule::new(Segment { from_m: turn * from_m, to_m: turn * to_m }, skeleton.segment_radii_m[joint])
+        });
+        let reach = capsules.iter().map(|capsule: &Capsule| capsule.reach).fold(Reach::NOTHING, Reach::with);
+        Self { position_m: root.position_m, capsules, reach }
+    }
+
+    fn low_m(&self, axis: usize) -> f32 {
+        self.position_m[axis] + self.reach.low_m[axis]
+    }
+
+    fn high_m(&self, axis: usize) -> f32 {
+        self.position_m[axis] + self.reach.high_m[axis]
+    }
+}
+
+impl Capsule {
+    fn new(bone: Segment, radius_m: f32) -> Self {
+        let [low_m, high_m] = [bone.from_m.min(bone.to_m) - radius_m, bone.from_m.max(bone.to_m) + radius_m];
+        Self { bone, radius_m, reach: Reach { low_m, high_m } }
+    }
+
+    fn shifted(&self, offset_m: Vec3) -> Self {
+        let bone = Segment { from_m: self.bone.from_m + offset_m, to_m: self.bone.to_m + offset_m };
+        Self { bone, radius_m: self.radius_m, reach: self.reach.shifted(offset_m) }
+    }
+}
+
+impl Reach {
+    const NOTHING: Self = Self { low_m: Vec3::INFINITY, high_m: Vec3::NEG_INFINITY };
+
+    fn with(self, other: Self) -> Self {
+        Self { low_m: self.low_m.min(other.low_m), high_m: self.high_m.max(other.high_m) }
+    }
+
+    fn shifted(self, offset_m: Vec3) -> Self {
+        Self { low_m: self.low_m + offset_m, high_m: self.high_m + offset_m }
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        self.low_m.cmplt(other.high_m).all() && other.low_m.cmplt(self.high_m).all()
+    }
+}
+
+/// The deepest overlap of a capsule of one body with one of the other; 0 where they do not touch.
+fn depth_m(a: &Body, b: &Body) -> f32 {
+    let offset_m = (DVec2::from(b.position_m) - DVec2::from(a.position_m)).as_vec2().extend(0.0);
+    if !a.reach.meets(&b.reach.shifted(offset_m)) {
+        return 0.0;
+    }
+    let mut deepest_m: f32 = 0.0;
+    for other in b.capsules.iter().map(|capsule| capsule.shifted(offset_m)) {
+        if !a.reach.meets(&other.reach) {
+            continue;
+        }
+        for one in a.capsules.iter().filter(|one| one.reach.meets(&other.reach)) {
+            deepest_m = deepest_m.max(one.radius_m + other.radius_m - distance_m(&one.bone, &other.bone));
+        }
+    }
+    deepest_m
+}
+
+#[cfg(test)]
+mod tests {
+    use motiondb::pose::Pose;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::test_db::test_db;
+
+    /// A body in any posture.
+    fn body() -> impl Strategy<Value = (Root, Pose)> {
+        let place = (-1.5_f32..1.5, -1.5_f32..1.5, -4.0_f32..4.0);
+        let turns = proptest::collection::vec((-1.0_f32..1.0, -1.0_f32..1.0, -1.0_f32..1.0), JOINT_COUNT);
+        (place, turns).prop_map(|((x, y, facing_rad), turns)| {
+            let rotations = std::array::from_fn(|joint| Quat::from_scaled_axis(Vec3::from(turns[joint])).normalize());
+            (Root { position_m: Vec2::new(x, y), facing_rad }, Pose { pelvis_m: Vec3::new(0.0, 0.0, 0.9), rotations })
+        })
+    }
+
+    /// Every capsule against every capsule, in the world.
+    fn brute_m(skeleton: &Skeleton, [a, b]: [&(Root, Joints); 2]) -> f32 {
+        let capsule = |(root, joints): &(Root, Joints), joint: usize| {
+            let end_m = joints.positions_m[joint] + joints.orientations[joint] * skeleton.segment_ends_m[joint];
+            Segment { from_m: root.to_world(joints.positions_m[joint]), to_m: root.to_world(end_m) }
+        };
+        let depth_m = |(i, j): (usize, usize)| {
+            skeleton.segment_radii_m[i] + skeleton.segment_radii_m[j] - distance_m(&capsule(a, i), &capsule(b, j))
+        };
+        (0..JOINT_COUNT).flat_map(|i| (0..JOINT_COUNT).map(move |j| (i, j))).map(depth_m).fold(0.0, f32::max)
+    }
+
+    proptest! {
+        #[test]
+        fn the_sweep_finds_what_brute_force_finds(bodies in proptest::collection::vec(body(), 2..12)) {
+            let skeleton = test_db().skeleton;
+            let posed: Vec<(Root, Joints)> =
+                bodies.iter().map(|(root, pose)| (*root, pose.forward_kinematics(&skeleton))).collect();
+            let mut found = BodyPenetration::new(&skeleton, posed.len());
+            found.push(posed.iter().map(|(root, joints)| (root, joints)));
+            let pairs = (0..posed.len()).flat_map(|i| (i + 1..posed.len()).map(move |j| (i, j)));
+            let depths_m: Vec<f32> = pairs.map(|(i, j)| brute_m(&skeleton, [&posed[i], &posed[j]])).collect();
+            let (sum_m, greatest_m) = (depths_m.iter().sum::<f32>(), depths_m.iter().copied().fold(0.0, f32::max));
+            let found = found.finish();
+            prop_assert!((found.mean_mm * posed.len() as f64 - 1e3 * f64::from(sum_m)).abs() < 0.02);
+            prop_assert!((found.greatest_mm - 1e3 * f64::from(greatest_m)).abs() < 0.01);
+        }
+    }
+}
