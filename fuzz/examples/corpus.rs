@@ -5,7 +5,9 @@ use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::params::Params;
+use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::recording_frame::AgentFrame;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
@@ -95,6 +97,8 @@ fn record(path: &Path) {
         duration_s: 1.0,
         dt_s: 0.5,
         seed: 1,
+        planner: Planner::default(),
+        coupling: Coupling::default(),
         agents: vec![agent(0.0), agent(2.0)],
         obstacles_m: vec![vec![Vec2::new(9.0, 9.0), Vec2::new(10.0, 9.0), Vec2::new(9.0, 10.0)]],
         params: Params::default(),

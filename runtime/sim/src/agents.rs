@@ -6,6 +6,7 @@
 use glam::Vec2;
 use motiondb::pose::Root;
 
+use crate::cns::Coupling;
 use crate::hms::{Body, Motion, Synthesis};
 use crate::path::Progress;
 use crate::plan::{Plan, Stance};
@@ -67,7 +68,10 @@ impl Agents {
         };
         for (index, agent) in scenario.agents.iter().enumerate() {
             let root = Root { position_m: agent.position_m, facing_rad: agent.facing_rad };
-            let (body, synthesis) = Body::standing(motion, root, start_phase(scenario.seed, index as u64));
+            let (body, mut synthesis) = Body::standing(motion, root, start_phase(scenario.seed, index as u64));
+            if scenario.coupling == Coupling::Discs {
+                synthesis.contacts = [0.0; 2];
+            }
             agents.bodies.push(body);
             agents.stances.push(synthesis.stance);
             agents.syntheses.push(synthesis);

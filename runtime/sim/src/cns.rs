@@ -3,9 +3,28 @@
 
 use glam::Vec2;
 use motiondb::pose::Root;
+use serde::{Deserialize, Serialize};
 
 use crate::agents::Agents;
 use crate::obstacles::Obstacles;
+use crate::plan::Plan;
+
+/// What moves the discs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Coupling {
+    /// The paper's: bodies follow the plans, and discs the bodies.
+    #[default]
+    TwoWay,
+    /// Bodies off: each disc moves as planned and faces as planned at once, to compare planners alone. A recording shows
+    /// bodies that stand and glide, no foot of which is planted.
+    Discs,
+}
+
+/// The root of a disc that moves as planned.
+pub fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
+    Root { position_m: root.position_m + dt_s * plan.velocity_mps, facing_rad: plan.facing_rad }
+}
 
 /// The root kept out of walls, whatever the body wanted.
 pub fn outside_walls(root: Root, radius_m: f32, obstacles: &Obstacles) -> Root {

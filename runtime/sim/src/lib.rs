@@ -13,6 +13,7 @@ pub mod obstacles;
 pub mod params;
 pub mod path;
 pub mod plan;
+pub mod planner;
 pub mod planted_slide;
 pub mod polygon;
 pub mod recording;
@@ -20,6 +21,7 @@ pub mod recording_chunk;
 pub mod recording_error;
 pub mod recording_frame;
 pub mod recording_packing;
+pub mod rivals;
 pub mod root_measures;
 pub mod scenario;
 mod scenario_agents;
@@ -31,6 +33,7 @@ pub mod scenario_ranges;
 pub mod segment_distance;
 pub mod split_mix;
 pub mod step;
+pub mod world;
 
 #[cfg(test)]
 mod test_db;

@@ -5,13 +5,19 @@ use serde::{Deserialize, Serialize};
 
 use crate::hms::params::HmsParams;
 use crate::mcn::params::McnParams;
+use crate::rivals::orca::OrcaParams;
+use crate::rivals::social_force::SocialForceParams;
 
-/// Tunables of planner and synthesis.
+/// Tunables of the planners and of synthesis.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
-    /// `[params.planner]`
+    /// `[params.planner]`: MCN's.
     pub planner: McnParams,
+    /// `[params.orca]`
+    pub orca: OrcaParams,
+    /// `[params.social_force]`
+    pub social_force: SocialForceParams,
     /// `[params.synthesis]`
     pub synthesis: HmsParams,
 }

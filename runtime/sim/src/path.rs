@@ -20,6 +20,16 @@ const BRAKING_MPS2: f32 = 1.0;
 /// Over the last stretch the speed falls with the distance: this much time is left, s.
 const STOPPING_TIME_S: f32 = 0.5;
 
+/// How an agent slows down before its last goal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Braking {
+    /// As a body can: evenly, then it stays, until it is pushed away.
+    Evenly,
+    /// As a disc can, which stops at once: at full speed, until the goal lies within this time, s; it never rests. The
+    /// protocol of `facts/planning.md` §3.
+    Within(f32),
+}
+
 /// How far an agent has got on its way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Progress {
@@ -30,9 +40,8 @@ pub struct Progress {
 }
 
 /// v_pref at a position, m/s.
-pub fn preferred_mps(agent: &AgentSpec, position_m: Vec2, progress: &mut Progress) -> Vec2 {
-    let Some(last_m) = agent.goals_m.last() else { return Vec2::ZERO };
-    let last = agent.goals_m.len() - 1;
+pub fn preferred_mps(agent: &AgentSpec, position_m: Vec2, braking: Braking, progress: &mut Progress) -> Vec2 {
+    let Some(last) = agent.goals_m.len().checked_sub(1) else { return Vec2::ZERO };
     while (progress.next as usize) < last
         && position_m.distance(agent.goals_m[progress.next as usize]) < WAYPOINT_RADIUS_M
     {
@@ -40,11 +49,13 @@ pub fn preferred_mps(agent: &AgentSpec, position_m: Vec2, progress: &mut Progres
     }
     let to_goal_m = agent.goals_m[progress.next as usize] - position_m;
     let is_last = progress.next as usize == last;
-    progress.arrived = is_last && position_m.distance(*last_m) < arrival_radius_m(progress.arrived);
-    if progress.arrived {
-        return Vec2::ZERO;
-    }
-    let speed_mps = if is_last { braking_speed_mps(to_goal_m.length()) } else { f32::INFINITY };
+    progress.arrived = is_last && to_goal_m.length() < arrival_radius_m(progress.arrived);
+    let speed_mps = match braking {
+        _ if !is_last => f32::INFINITY,
+        Braking::Evenly if progress.arrived => 0.0,
+        Braking::Evenly => braking_speed_mps(to_goal_m.length()),
+        Braking::Within(time_s) => to_goal_m.length() / time_s,
+    };
     to_goal_m.normalize_or_zero() * speed_mps.min(agent.preferred_speed_mps)
 }
 
@@ -80,7 +91,7 @@ mod tests {
         let agent = agent(&[Vec2::new(3.0, 0.0), Vec2::new(3.0, 4.0)]);
         let (mut position_m, mut progress, mut nearest_first_m) = (Vec2::ZERO, Progress::default(), f32::INFINITY);
         for _ in 0..300 {
-            position_m += preferred_mps(&agent, position_m, &mut progress) / 30.0;
+            position_m += preferred_mps(&agent, position_m, Braking::Evenly, &mut progress) / 30.0;
             nearest_first_m = nearest_first_m.min(position_m.distance(agent.goals_m[0]));
         }
         assert!(nearest_first_m < WAYPOINT_RADIUS_M);
@@ -92,7 +103,7 @@ mod tests {
         let agent = agent(&[Vec2::new(5.0, 0.0)]);
         let (mut position_m, mut progress, mut speed_mps, dt_s) = (Vec2::ZERO, Progress::default(), 1.3, 0.01);
         while !progress.arrived {
-            let next_mps = preferred_mps(&agent, position_m, &mut progress).length();
+            let next_mps = preferred_mps(&agent, position_m, Braking::Evenly, &mut progress).length();
             assert!(progress.arrived || speed_mps - next_mps <= 1.02 * BRAKING_MPS2 * dt_s, "{speed_mps} {next_mps}");
             position_m.x += next_mps * dt_s;
             speed_mps = next_mps;
@@ -101,6 +112,6 @@ mod tests {
 
     #[test]
     fn an_agent_without_goals_stays() {
-        assert_eq!(preferred_mps(&agent(&[]), Vec2::ONE, &mut Progress::default()), Vec2::ZERO);
+        assert_eq!(preferred_mps(&agent(&[]), Vec2::ONE, Braking::Evenly, &mut Progress::default()), Vec2::ZERO);
     }
 }

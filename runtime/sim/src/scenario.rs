@@ -3,7 +3,9 @@
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+use crate::cns::Coupling;
 use crate::params::Params;
+use crate::planner::Planner;
 use crate::scenario_point;
 
 /// What is simulated. A recording carries it whole.
@@ -17,6 +19,10 @@ pub struct Scenario {
     pub dt_s: f32,
     /// Seed of everything random.
     pub seed: u64,
+    /// Who plans.
+    pub planner: Planner,
+    /// What moves the discs.
+    pub coupling: Coupling,
     /// In index order.
     pub agents: Vec<AgentSpec>,
     /// Simple polygons, corners counter-clockwise, world, metres; agents stay outside.

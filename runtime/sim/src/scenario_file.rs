@@ -9,9 +9,11 @@
 //! name = "antipodal"                  # the file's stem
 //! dt_s = 0.0333333                    # 1/30
 //! seed = 1                            # of everything random
+//! planner = "mcn"                     # or "orca", "social_force": see `planner.rs`
+//! coupling = "two_way"                # or "discs", without bodies: see `cns.rs`
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
-//! [params.planner]
+//! [params.planner]                    # MCN's; see `params.rs` for all sections
 //! [params.synthesis]
 //! [view]
 //! ```
@@ -25,7 +27,9 @@ use motiondb::source_text::SourceText;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::cns::Coupling;
 use crate::params::Params;
+use crate::planner::Planner;
 use crate::polygon::signed_area_m2;
 use crate::scenario::{AgentSpec, Scenario, View};
 use crate::scenario_agents::{Complaint, Group, Groups, Journey, Kind, check_size, parse_lines};
@@ -56,6 +60,10 @@ struct ScenarioFile {
     duration_s: Spanned<f32>,
     dt_s: Option<Spanned<f32>>,
     seed: Option<u64>,
+    #[serde(default)]
+    planner: Planner,
+    #[serde(default)]
+    coupling: Coupling,
     agents: Spanned<Groups>,
     #[serde(default)]
     obstacles: Vec<Spanned<Obstacle>>,
@@ -94,6 +102,8 @@ pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError
         duration_s: *file.duration_s.get_ref(),
         dt_s: file.dt_s.as_ref().map_or(STEP_S, |dt_s| *dt_s.get_ref()),
         seed: file.seed.unwrap_or(SEED),
+        planner: file.planner,
+        coupling: file.coupling,
         agents: placed.agents,
         obstacles_m: file.obstacles.iter().map(|obstacle| counter_clockwise(&obstacle.get_ref().polygon_m)).collect(),
         params: file.params.clone(),

@@ -16,15 +16,16 @@ use motiondb::motion_db::MotionDb;
 use rayon::prelude::*;
 
 use crate::agents::Agents;
-use crate::cns;
+use crate::cns::{self, Coupling};
 use crate::hms::Motion;
 use crate::hms::space::Space;
-use crate::mcn::{self, Scratch, World};
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
-use crate::path;
+use crate::path::{self, Braking};
+use crate::planner::{self, Scratch};
 use crate::recording_frame::{AgentFrame, Mode};
 use crate::scenario::Scenario;
+use crate::world::World;
 
 /// Agents that one thread takes at a time, with one scratch: enough to outweigh the hand-over, few enough to share out
 /// 100 agents.
@@ -97,9 +98,14 @@ impl Simulation {
     }
 
     fn follow_paths(&mut self) {
+        let braking = match self.scenario.coupling {
+            Coupling::TwoWay => Braking::Evenly,
+            Coupling::Discs => Braking::Within(self.scenario.dt_s),
+        };
         for (index, spec) in self.scenario.agents.iter().enumerate() {
             let position_m = self.agents.positions_m[index];
-            self.agents.preferred_mps[index] = path::preferred_mps(spec, position_m, &mut self.agents.progress[index]);
+            self.agents.preferred_mps[index] =
+                path::preferred_mps(spec, position_m, braking, &mut self.agents.progress[index]);
         }
     }
 
@@ -119,23 +125,29 @@ impl Simulation {
             hull: &self.db.velocity_hull,
             dt_s: self.scenario.dt_s,
         };
-        let params = &self.scenario.params.planner;
+        let Scenario { planner, params, .. } = &self.scenario;
         let chunks = agents.plans.par_chunks_mut(CHUNK).zip(&mut self.scratches).enumerate();
         chunks.for_each(|(chunk, (plans, scratch))| {
             for (offset, plan) in plans.iter_mut().enumerate() {
-                *plan = mcn::plan(&world, chunk * CHUNK + offset, params, scratch);
+                *plan = planner::plan(*planner, &world, chunk * CHUNK + offset, params, scratch);
             }
         });
     }
 
     fn synthesize(&mut self) {
         let motion = Motion { db: &self.db, space: &self.space, params: &self.scenario.params.synthesis };
-        let (agents, obstacles, dt_s) = (&mut self.agents, &self.obstacles, self.scenario.dt_s);
+        let (agents, obstacles) = (&mut self.agents, &self.obstacles);
+        let Scenario { coupling, dt_s, .. } = self.scenario;
         let bodies = agents.bodies.par_iter_mut().with_min_len(CHUNK).zip(&mut agents.syntheses);
         bodies.zip(&agents.plans).zip(&agents.radii_m).for_each(|(((body, synthesis), plan), &radius_m)| {
-            body.advance(&motion, plan, dt_s);
+            match coupling {
+                Coupling::TwoWay => body.advance(&motion, plan, dt_s),
+                Coupling::Discs => body.root = cns::as_planned(body.root, plan, dt_s),
+            }
             body.root = cns::outside_walls(body.root, radius_m, obstacles);
-            *synthesis = body.synthesize(&motion, dt_s);
+            if coupling == Coupling::TwoWay {
+                *synthesis = body.synthesize(&motion, dt_s);
+            }
         });
     }
 
@@ -166,6 +178,7 @@ mod tests {
 
     use super::*;
     use crate::params::Params;
+    use crate::planner::Planner;
     use crate::scenario::{AgentSpec, View};
     use crate::test_db::test_db;
 
@@ -187,6 +200,8 @@ mod tests {
             duration_s: 30.0,
             dt_s: 1.0 / 30.0,
             seed: 1,
+            planner: Planner::default(),
+            coupling: Coupling::default(),
             agents: (0..count).map(agent).collect(),
             obstacles_m: Vec::new(),
             params: Params::default(),

@@ -3,7 +3,9 @@
 use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
 
+use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::params::Params;
+use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::recording_frame::AgentFrame;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
@@ -101,6 +103,8 @@ fn header(agents: Vec<AgentSpec>, view: View) -> Header {
         duration_s: 1.6,
         dt_s: 0.1,
         seed: 1,
+        planner: Planner::default(),
+        coupling: Coupling::default(),
         agents,
         obstacles_m: vec![
             block(-2.8, 1.3).to_vec(),

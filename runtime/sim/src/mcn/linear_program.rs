@@ -43,13 +43,25 @@ pub fn solve(
     speed_max_mps: f32,
     projected: &mut Vec<HalfPlane>,
 ) -> Solution {
+    solve_alike(half_planes, half_planes.len(), optimal_mps, speed_max_mps, projected)
+}
+
+/// The same without ranks, as in plain ORCA: where they are infeasible, all after the first `hard_max` yield alike.
+pub fn solve_alike(
+    half_planes: &[HalfPlane],
+    hard_max: usize,
+    optimal_mps: Vec2,
+    speed_max_mps: f32,
+    projected: &mut Vec<HalfPlane>,
+) -> Solution {
     let nearest = optimal_mps.clamp_length_max(speed_max_mps);
     match incremental(half_planes, nearest, Objective::Nearest(optimal_mps), speed_max_mps) {
         Ok(velocity_mps) => Solution { velocity_mps, feasible_prefix: half_planes.len() },
-        Err((prefix, start_mps)) => Solution {
-            velocity_mps: least_violation(half_planes, prefix, start_mps, speed_max_mps, projected),
-            feasible_prefix: prefix,
-        },
+        Err((prefix, start_mps)) => {
+            let hard = prefix.min(hard_max);
+            let velocity_mps = least_violation(half_planes, hard, start_mps, speed_max_mps, projected);
+            Solution { velocity_mps, feasible_prefix: hard }
+        }
     }
 }
 
@@ -219,6 +231,15 @@ mod tests {
     fn projects_nothing_without_half_planes() {
         let solution = solve(&[], Vec2::new(0.3, -1.2), SPEED_MAX_MPS, &mut Vec::new());
         assert_eq!(solution, Solution { velocity_mps: Vec2::new(0.3, -1.2), feasible_prefix: 0 });
+    }
+
+    #[test]
+    fn without_ranks_all_but_the_hard_ones_yield_alike() {
+        let [ahead, back] = [1.0, -1.0].map(|x| HalfPlane::behind(x * Vec2::X, -x * Vec2::X, Source::Agent(0)));
+        let aside = HalfPlane::behind(0.5 * Vec2::Y, -Vec2::Y, Source::Obstacle(0));
+        let solution = solve_alike(&[aside, ahead, back], 1, Vec2::ZERO, SPEED_MAX_MPS, &mut Vec::new());
+        assert_eq!(solution.feasible_prefix, 1);
+        assert!(solution.velocity_mps.x.abs() < 1e-4 && solution.velocity_mps.y >= 0.5 - 1e-4, "{solution:?}");
     }
 
     #[test]

@@ -21,84 +21,25 @@ pub mod stance;
 pub mod time_to_collision;
 
 use glam::Vec2;
-use motiondb::velocity_hull::{Construction, VelocityHull};
+use motiondb::velocity_hull::Construction;
 
-use self::half_plane::HalfPlane;
 use self::linear_program::Solution;
-use self::orca::Disc;
 use self::orientation::{Orientation, Walk};
 use self::params::McnParams;
-use crate::neighbours::{Nearest, Neighbours, Query, Ranking};
-use crate::obstacles::{NearEdge, Obstacles, nearest_on_segment};
-use crate::plan::{Plan, Stance, VelocitySet};
+use crate::neighbours::Ranking;
+use crate::obstacles::nearest_on_segment;
+use crate::plan::{Plan, VelocitySet};
+use crate::planner::{Scratch, look_around, time_to_collision_s};
+use crate::world::World;
 
 /// Greatest speed at which a wall is looked for ahead, m/s: a run.
 const WALL_SPEED_MPS: f32 = 4.0;
 
-/// Everything that a plan depends on, as it stood at the end of the last step. Slices are by agent.
-#[derive(Clone, Copy, Debug)]
-pub struct World<'a> {
-    /// Of the synthesised roots, m.
-    pub positions_m: &'a [Vec2],
-    /// Of the synthesised roots, m/s.
-    pub velocities_mps: &'a [Vec2],
-    /// Of the synthesised roots, rad.
-    pub facings_rad: &'a [f32],
-    /// Of the bounding discs, m.
-    pub radii_m: &'a [f32],
-    /// v_pref, m/s.
-    pub preferred_mps: &'a [Vec2],
-    /// How each body stands.
-    pub stances: &'a [Stance],
-    /// [`Plan::strafing_s`] of the last step.
-    pub strafing_s: &'a [f32],
-    /// [`Plan::stepping_back_s`] of the last step.
-    pub stepping_back_s: &'a [f32],
-    /// Built from the same positions, velocities and radii.
-    pub neighbours: &'a Neighbours,
-    /// The walls.
-    pub obstacles: &'a Obstacles,
-    /// The database's velocity sets.
-    pub hull: &'a VelocityHull,
-    /// Step, s.
-    pub dt_s: f32,
-}
-
-/// Working memory of one thread. After [`plan`] it tells why the velocity was chosen.
-#[derive(Clone, Debug, Default)]
-pub struct Scratch {
-    nearest: Nearest,
-    edges: Vec<NearEdge>,
-    agents_m: Vec<Vec2>,
-    walls_m: Vec<Vec2>,
-    of_walls: Vec<HalfPlane>,
-    of_agents: Vec<HalfPlane>,
-    half_planes: Vec<HalfPlane>,
-    projected: Vec<HalfPlane>,
-    adapted_mps: Vec2,
-    feasible_prefix: usize,
-}
-
-impl Scratch {
-    /// The half-planes of the last plan, by rank: walls, stance, sharp turns, hull, agents by time to collision.
-    pub fn half_planes(&self) -> &[HalfPlane] {
-        &self.half_planes
-    }
-
-    /// How many of them, from the first, are satisfied together; those after them yielded.
-    pub fn feasible_prefix(&self) -> usize {
-        self.feasible_prefix
-    }
-
-    /// v_op of the last plan, m/s.
-    pub fn adapted_mps(&self) -> Vec2 {
-        self.adapted_mps
-    }
-}
-
 /// Plans one agent's next velocity and facing.
 pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> Plan {
-    look_around(world, agent, params, scratch);
+    let wall_range_m = params.obstacle_time_horizon_s * WALL_SPEED_MPS;
+    look_around(world, agent, Ranking::Approach, params.neighbour_range_m, wall_range_m, scratch);
+    scratch.nearest.sort_by_time_to_collision();
     let density = adapt(world, agent, params, scratch);
     avoid(world, agent, params, scratch);
     let turning = choose(world, agent, VelocitySet::Turning, params, scratch);
@@ -111,7 +52,7 @@ pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scrat
     Plan {
         velocity_mps: chosen.velocity_mps,
         facing_rad: libm::atan2f(orientation.facing.y, orientation.facing.x),
-        time_to_collision_s: time_to_collision_s(world, agent, world.velocities_mps[agent], scratch),
+        time_to_collision_s: time_to_collision_s(world, agent, scratch),
         density,
         set: orientation.set,
         strafing_s: orientation.strafing_s,
@@ -119,46 +60,26 @@ pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scrat
     }
 }
 
-/// Who and what is near: the neighbours, soonest collision first, and the wall's edges, nearest first.
-fn look_around(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) {
-    let own = disc(world, agent);
-    let range_m = params.neighbour_range_m;
-    let query = Query {
-        agent,
-        position_m: own.position_m,
-        velocity_mps: own.velocity_mps,
-        radius_m: own.radius_m,
-        range_m,
-        ranking: Ranking::Approach,
-    };
-    world.neighbours.nearest(&query, &mut scratch.nearest);
-    scratch.nearest.sort_by_time_to_collision();
-    let wall_range_m = own.radius_m + params.obstacle_time_horizon_s * WALL_SPEED_MPS;
-    world.obstacles.near(own.position_m, wall_range_m, &mut scratch.edges);
-}
-
 /// §4.3: v_op into the scratch; returns the density met.
 fn adapt(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> f32 {
-    let own = disc(world, agent);
+    let own = world.disc(agent);
     let preferred_mps = kept_right(world, agent, params, scratch);
+    let law = params.power_law();
     let of_agents: Vec2 = scratch
         .nearest
         .as_slice()
         .iter()
         .map(|neighbour| {
-            let other = disc(world, neighbour.agent as usize);
+            let other = world.disc(neighbour.agent as usize);
             let offset_m = other.position_m - own.position_m;
             let velocity_mps = own.velocity_mps - other.velocity_mps;
-            social_force::agent_force_mps2(offset_m, velocity_mps, own.radius_m + other.radius_m, params)
+            social_force::agent_force_mps2(offset_m, velocity_mps, own.radius_m + other.radius_m, &law)
         })
         .sum();
     let of_walls: Vec2 = scratch
         .edges
         .iter()
-        .map(|near| {
-            let corners_m = world.obstacles.ends_m(near.edge).map(|end_m| end_m - own.position_m);
-            social_force::wall_force_mps2(corners_m, own.velocity_mps, own.radius_m, params)
-        })
+        .map(|near| social_force::wall_force_mps2(world.edge_m(agent, near.edge), own.velocity_mps, own.radius_m, &law))
         .sum();
     let adapted_mps =
         social_force::adapted_mps(own.velocity_mps, preferred_mps, of_agents + of_walls, world.dt_s, params);
@@ -191,13 +112,13 @@ fn gather_density(world: &World, agent: usize, scratch: &mut Scratch) {
 
 /// Eq. 12: the half-planes of walls and agents.
 fn avoid(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) {
-    let own = disc(world, agent);
+    let own = world.disc(agent);
     scratch.of_walls.clear();
     let (edges, horizon_s) = (&scratch.edges, params.obstacle_time_horizon_s);
     orca_obstacles::obstacle_half_planes(world.obstacles, edges, &own, horizon_s, &mut scratch.of_walls);
     scratch.of_agents.clear();
     scratch.of_agents.extend(scratch.nearest.as_slice().iter().map(|neighbour| {
-        let other = disc(world, neighbour.agent as usize);
+        let other = world.disc(neighbour.agent as usize);
         let share = orca::share(&own, &other);
         orca::agent_half_plane(&own, &other, share, neighbour.agent, params.time_horizon_s, world.dt_s)
     }));
@@ -205,7 +126,7 @@ fn avoid(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch)
 
 /// Eqs. 13, 14: all half-planes by rank, what never yields first, and the best velocity.
 fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scratch: &mut Scratch) -> Solution {
-    let forward = forward(world, agent);
+    let forward = world.forward(agent);
     let (corners_mps, source) = motion_constraints::set(world.hull, set);
     let half_planes = &mut scratch.half_planes;
     half_planes.clear();
@@ -224,7 +145,7 @@ fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scr
 /// §4.5, given the velocity that the turning set allows.
 fn orient(world: &World, agent: usize, velocity_mps: Vec2, params: &McnParams, scratch: &mut Scratch) -> Orientation {
     let walk = Walk {
-        forward: forward(world, agent),
+        forward: world.forward(agent),
         preferred_mps: world.preferred_mps[agent],
         velocity_mps,
         strafing_s: world.strafing_s[agent],
@@ -240,20 +161,11 @@ fn orient(world: &World, agent: usize, velocity_mps: Vec2, params: &McnParams, s
     orientation::decide(&walk, holds, world.dt_s, params)
 }
 
-/// Least time to collision with a neighbour or a wall, for a velocity, s.
-fn time_to_collision_s(world: &World, agent: usize, velocity_mps: Vec2, scratch: &Scratch) -> f32 {
-    let own = disc(world, agent);
-    let with_walls = scratch.edges.iter().map(|near| {
-        let corners_m = world.obstacles.ends_m(near.edge).map(|end_m| end_m - own.position_m);
-        time_to_collision::disc_with_segment(corners_m, velocity_mps, own.radius_m)
-    });
-    with_walls.fold(time_to_collision_with_agents_s(world, agent, velocity_mps, scratch), f32::min)
-}
-
+/// Least time to collision with a neighbour, for a velocity, s.
 fn time_to_collision_with_agents_s(world: &World, agent: usize, velocity_mps: Vec2, scratch: &Scratch) -> f32 {
-    let own = disc(world, agent);
+    let own = world.disc(agent);
     let with_agents = scratch.nearest.as_slice().iter().map(|neighbour| {
-        let other = disc(world, neighbour.agent as usize);
+        let other = world.disc(neighbour.agent as usize);
         let radius_m = own.radius_m + other.radius_m;
         time_to_collision::disc_with_disc(
             other.position_m - own.position_m,
@@ -264,23 +176,15 @@ fn time_to_collision_with_agents_s(world: &World, agent: usize, velocity_mps: Ve
     with_agents.fold(f32::INFINITY, f32::min)
 }
 
-fn disc(world: &World, agent: usize) -> Disc {
-    Disc {
-        position_m: world.positions_m[agent],
-        velocity_mps: world.velocities_mps[agent],
-        radius_m: world.radii_m[agent],
-    }
-}
-
-fn forward(world: &World, agent: usize) -> Vec2 {
-    let (sin, cos) = libm::sincosf(world.facings_rad[agent]);
-    Vec2::new(cos, sin)
-}
-
 #[cfg(test)]
 mod tests {
+    use motiondb::velocity_hull::VelocityHull;
+
     use super::half_plane::Source;
     use super::*;
+    use crate::neighbours::Neighbours;
+    use crate::obstacles::Obstacles;
+    use crate::plan::Stance;
 
     /// A scene of agents that face and want +x at 1.3 m/s, and all the rest that a world borrows.
     struct Scene {

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::social_force::PowerLaw;
+
 /// Tunables of the planner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -68,5 +70,12 @@ impl Default for McnParams {
             strafing_limit_s: 1.0,
             stepping_back_limit_s: 2.0,
         }
+    }
+}
+
+impl McnParams {
+    /// Eq. 11's constants.
+    pub fn power_law(&self) -> PowerLaw {
+        PowerLaw { strength: self.interaction_strength, horizon_s: self.interaction_horizon_s }
     }
 }

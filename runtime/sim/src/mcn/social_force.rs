@@ -18,6 +18,15 @@ const OVERLAP_RADIUS_SHARE: f32 = 0.99;
 /// Floor of the time to collision, s: keeps the force finite; far inside the reach of the clamp on the acceleration.
 const TIME_MIN_S: f32 = 1e-2;
 
+/// The interaction's two constants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PowerLaw {
+    /// k, m².
+    pub strength: f32,
+    /// τ_0, s: interactions that lie farther ahead fade.
+    pub horizon_s: f32,
+}
+
 /// Eq. 9, one explicit step from the present velocity, the acceleration limited; `forces` is Σ f_ij + Σ f_iW.
 pub fn adapted_mps(velocity_mps: Vec2, preferred_mps: Vec2, forces_mps2: Vec2, dt_s: f32, params: &McnParams) -> Vec2 {
     let driving_mps2 = (preferred_mps - velocity_mps) / params.relaxation_s;
@@ -26,7 +35,7 @@ pub fn adapted_mps(velocity_mps: Vec2, preferred_mps: Vec2, forces_mps2: Vec2, d
 }
 
 /// Eq. 11: the force on disc i from disc j; `offset` p_j − p_i, `velocity` v_i − v_j, `radius` r_i + r_j.
-pub fn agent_force_mps2(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, params: &McnParams) -> Vec2 {
+pub fn agent_force_mps2(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, law: &PowerLaw) -> Vec2 {
     // Overlapping discs count as touching (the authors' code).
     let radius_m = radius_m.min(OVERLAP_RADIUS_SHARE * offset_m.length());
     let time_s = disc_with_disc(offset_m, velocity_mps, radius_m);
@@ -38,26 +47,26 @@ pub fn agent_force_mps2(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, param
     let approach = velocity_mps.dot(offset_m);
     let root = (approach * approach - speed_squared * (offset_m.length_squared() - radius_m * radius_m)).sqrt();
     let along = velocity_mps - (approach * velocity_mps - speed_squared * offset_m) / root;
-    -steepness(time_s, params) / speed_squared * along
+    -steepness(time_s, law) / speed_squared * along
 }
 
 /// f_iW: the force from a segment; `corners` relative to the disc's centre.
-pub fn wall_force_mps2(corners_m: [Vec2; 2], velocity_mps: Vec2, radius_m: f32, params: &McnParams) -> Vec2 {
+pub fn wall_force_mps2(corners_m: [Vec2; 2], velocity_mps: Vec2, radius_m: f32, law: &PowerLaw) -> Vec2 {
     let side_s = disc_with_side(corners_m, velocity_mps, radius_m);
     let ends_s = corners_m.map(|corner_m| disc_with_disc(corner_m, velocity_mps, radius_m));
     if side_s > ends_s[0].min(ends_s[1]) || side_s.is_infinite() {
         let nearer = usize::from(ends_s[1] < ends_s[0]);
-        return agent_force_mps2(corners_m[nearer], velocity_mps, radius_m, params);
+        return agent_force_mps2(corners_m[nearer], velocity_mps, radius_m, law);
     }
     let along = (corners_m[1] - corners_m[0]).normalize();
-    steepness(side_s, params) / velocity_mps.perp_dot(along) * along.perp()
+    steepness(side_s, law) / velocity_mps.perp_dot(along) * along.perp()
 }
 
 /// −dE/dτ = k e^(−τ/τ_0) τ⁻² (2/τ + 1/τ_0).
-fn steepness(time_s: f32, params: &McnParams) -> f32 {
+fn steepness(time_s: f32, law: &PowerLaw) -> f32 {
     let time_s = time_s.max(TIME_MIN_S);
-    let energy = params.interaction_strength * libm::expf(-time_s / params.interaction_horizon_s) / (time_s * time_s);
-    energy * (2.0 / time_s + 1.0 / params.interaction_horizon_s)
+    let energy = law.strength * libm::expf(-time_s / law.horizon_s) / (time_s * time_s);
+    energy * (2.0 / time_s + 1.0 / law.horizon_s)
 }
 
 #[cfg(test)]
@@ -67,15 +76,16 @@ mod tests {
     use super::*;
     use crate::mcn::time_to_collision::disc_with_segment;
 
+    const LAW: PowerLaw = PowerLaw { strength: 1.5, horizon_s: 3.0 };
+
     fn vector(bound: f32) -> impl Strategy<Value = Vec2> {
         (-bound..bound, -bound..bound).prop_map(Vec2::from)
     }
 
     /// E(τ) = k τ⁻² e^(−τ/τ_0), in f64 from here on, so that its differences mean something.
     fn energy(time_s: f32) -> f64 {
-        let (time_s, params) = (f64::from(time_s), McnParams::default());
-        f64::from(params.interaction_strength) / (time_s * time_s)
-            * (-time_s / f64::from(params.interaction_horizon_s)).exp()
+        let time_s = f64::from(time_s);
+        f64::from(LAW.strength) / (time_s * time_s) * (-time_s / f64::from(LAW.horizon_s)).exp()
     }
 
     /// −∇E over the own position, by central differences.
@@ -99,7 +109,7 @@ mod tests {
             offset in vector(4.0), velocity in vector(2.0), radius in 0.3f32..0.8,
         ) {
             let time_s = |moved| disc_with_disc(offset - moved, velocity, radius);
-            let force_mps2 = agent_force_mps2(offset, velocity, radius, &McnParams::default());
+            let force_mps2 = agent_force_mps2(offset, velocity, radius, &LAW);
             let now_s = time_s(Vec2::ZERO);
             prop_assert!(now_s.is_finite() || force_mps2 == Vec2::ZERO);
             // Near a graze the slope is without bound and differences mean nothing.
@@ -115,7 +125,7 @@ mod tests {
             prop_assume!(first.distance(second) > 0.5);
             let time_s = |moved, radius_m| disc_with_segment([first - moved, second - moved], velocity, radius_m);
             let exact_s = time_s(Vec2::ZERO, radius);
-            let force_mps2 = wall_force_mps2([first, second], velocity, radius, &McnParams::default());
+            let force_mps2 = wall_force_mps2([first, second], velocity, radius, &LAW);
             prop_assert!(exact_s.is_finite() || force_mps2 == Vec2::ZERO);
             if (0.3..8.0).contains(&exact_s) && time_s(Vec2::ZERO, 0.93 * radius) < exact_s * 1.3 {
                 check(force_mps2, downhill(|moved| time_s(moved, radius)));
@@ -128,13 +138,13 @@ mod tests {
         let params = McnParams { response_s: 0.0, ..McnParams::default() };
         let adapted = adapted_mps(Vec2::X, Vec2::new(1.0, 0.54), Vec2::ZERO, 0.1, &params);
         assert!(adapted.distance(Vec2::new(1.0, 0.1)) < 1e-6);
-        assert_eq!(agent_force_mps2(Vec2::X, -Vec2::X, 0.5, &params), Vec2::ZERO);
+        assert_eq!(agent_force_mps2(Vec2::X, -Vec2::X, 0.5, &LAW), Vec2::ZERO);
     }
 
     #[test]
     fn overlapping_agents_push_apart_without_bound_or_nan() {
-        let force = agent_force_mps2(Vec2::new(0.2, 0.0), Vec2::X, 0.5, &McnParams::default());
+        let force = agent_force_mps2(Vec2::new(0.2, 0.0), Vec2::X, 0.5, &LAW);
         assert!(force.is_finite() && force.x < -1.0);
-        assert!(agent_force_mps2(Vec2::ZERO, Vec2::X, 0.5, &McnParams::default()).is_finite());
+        assert!(agent_force_mps2(Vec2::ZERO, Vec2::X, 0.5, &LAW).is_finite());
     }
 }

@@ -6,10 +6,12 @@ use std::time::{Duration, Instant};
 use fbcrowd_sim::mcn::half_plane::HalfPlane;
 use fbcrowd_sim::mcn::orca::{self, Disc};
 use fbcrowd_sim::mcn::params::McnParams;
-use fbcrowd_sim::mcn::{self, Scratch, World, linear_program};
+use fbcrowd_sim::mcn::{self, linear_program};
 use fbcrowd_sim::neighbours::{Nearest, Neighbours, Query, Ranking};
 use fbcrowd_sim::obstacles::Obstacles;
 use fbcrowd_sim::plan::{Plan, Stance};
+use fbcrowd_sim::planner::Scratch;
+use fbcrowd_sim::world::World;
 use glam::Vec2;
 use motiondb::velocity_hull::VelocityHull;
 

@@ -1,0 +1,103 @@
+//! Who plans: MCN (`FbCrowd` §4), or one of the two rivals that Table 1 sets beside it, all from the same [`World`].
+
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+use crate::mcn;
+use crate::mcn::half_plane::HalfPlane;
+use crate::mcn::time_to_collision::disc_with_segment;
+use crate::neighbours::{Nearest, Query, Ranking};
+use crate::obstacles::NearEdge;
+use crate::params::Params;
+use crate::plan::Plan;
+use crate::rivals::{orca, social_force};
+use crate::world::World;
+
+/// The planner of a scenario.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Planner {
+    /// Motion-constrained navigation, §4.
+    #[default]
+    Mcn,
+    /// Optimal reciprocal collision avoidance as it was published: van den Berg et al. 2011.
+    Orca,
+    /// Social forces by the universal power law: Karamouzas, Skinner, Guy 2014.
+    SocialForce,
+}
+
+/// Working memory of one thread. After [`plan`] it tells why the velocity was chosen.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    pub(crate) nearest: Nearest,
+    pub(crate) edges: Vec<NearEdge>,
+    pub(crate) half_planes: Vec<HalfPlane>,
+    pub(crate) projected: Vec<HalfPlane>,
+    pub(crate) adapted_mps: Vec2,
+    pub(crate) feasible_prefix: usize,
+    // MCN's own: what its density filter feels, and half-planes that both its velocity sets take over.
+    pub(crate) agents_m: Vec<Vec2>,
+    pub(crate) walls_m: Vec<Vec2>,
+    pub(crate) of_walls: Vec<HalfPlane>,
+    pub(crate) of_agents: Vec<HalfPlane>,
+}
+
+impl Scratch {
+    /// The half-planes of the last plan, by rank: walls, stance, sharp turns, hull, agents by time to collision. None
+    /// for social forces.
+    pub fn half_planes(&self) -> &[HalfPlane] {
+        &self.half_planes
+    }
+
+    /// How many of them, from the first, are satisfied together; those after them yielded.
+    pub fn feasible_prefix(&self) -> usize {
+        self.feasible_prefix
+    }
+
+    /// v_op of the last plan, m/s; v_pref itself where the planner does not adapt it.
+    pub fn adapted_mps(&self) -> Vec2 {
+        self.adapted_mps
+    }
+}
+
+/// Plans one agent's next velocity and facing.
+pub fn plan(planner: Planner, world: &World, agent: usize, params: &Params, scratch: &mut Scratch) -> Plan {
+    match planner {
+        Planner::Mcn => mcn::plan(world, agent, &params.planner, scratch),
+        Planner::Orca => orca::plan(world, agent, &params.orca, scratch),
+        Planner::SocialForce => social_force::plan(world, agent, &params.social_force, scratch),
+    }
+}
+
+/// Finds an agent's neighbours and, nearest first, the walls' edges within `wall_range` of its disc.
+pub(crate) fn look_around(
+    world: &World,
+    agent: usize,
+    ranking: Ranking,
+    range_m: f32,
+    wall_range_m: f32,
+    scratch: &mut Scratch,
+) {
+    let own = world.disc(agent);
+    let query = Query {
+        agent,
+        position_m: own.position_m,
+        velocity_mps: own.velocity_mps,
+        radius_m: own.radius_m,
+        range_m,
+        ranking,
+    };
+    world.neighbours.nearest(&query, &mut scratch.nearest);
+    world.obstacles.near(own.position_m, own.radius_m + wall_range_m, &mut scratch.edges);
+}
+
+/// Least time to collision, at the present velocities, with whom and what [`look_around`] found, s.
+pub(crate) fn time_to_collision_s(world: &World, agent: usize, scratch: &Scratch) -> f32 {
+    let own = world.disc(agent);
+    let with_agents = scratch.nearest.as_slice().iter().map(|neighbour| neighbour.time_to_collision_s);
+    let with_walls = scratch
+        .edges
+        .iter()
+        .map(|near| disc_with_segment(world.edge_m(agent, near.edge), own.velocity_mps, own.radius_m));
+    with_agents.chain(with_walls).fold(f32::INFINITY, f32::min)
+}

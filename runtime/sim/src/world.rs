@@ -1,0 +1,63 @@
+//! What a planner may know: every agent and wall as the last step left them.
+//!
+//! Frozen while all are planned, so agents may be planned in any order and on any thread. World axes, metres, seconds,
+//! radians; slices are by agent.
+
+use glam::Vec2;
+use motiondb::velocity_hull::VelocityHull;
+
+use crate::mcn::orca::Disc;
+use crate::neighbours::Neighbours;
+use crate::obstacles::Obstacles;
+use crate::plan::Stance;
+
+/// Everything that a plan depends on.
+#[derive(Clone, Copy, Debug)]
+pub struct World<'a> {
+    /// Of the synthesised roots, m.
+    pub positions_m: &'a [Vec2],
+    /// Of the synthesised roots, m/s.
+    pub velocities_mps: &'a [Vec2],
+    /// Of the synthesised roots, rad.
+    pub facings_rad: &'a [f32],
+    /// Of the bounding discs, m.
+    pub radii_m: &'a [f32],
+    /// v_pref, m/s.
+    pub preferred_mps: &'a [Vec2],
+    /// How each body stands.
+    pub stances: &'a [Stance],
+    /// [`Plan::strafing_s`](crate::plan::Plan::strafing_s) of the last step.
+    pub strafing_s: &'a [f32],
+    /// [`Plan::stepping_back_s`](crate::plan::Plan::stepping_back_s) of the last step.
+    pub stepping_back_s: &'a [f32],
+    /// Built from the same positions, velocities and radii.
+    pub neighbours: &'a Neighbours,
+    /// The walls.
+    pub obstacles: &'a Obstacles,
+    /// The database's velocity sets.
+    pub hull: &'a VelocityHull,
+    /// Step, s.
+    pub dt_s: f32,
+}
+
+impl World<'_> {
+    /// An agent's bounding disc.
+    pub fn disc(&self, agent: usize) -> Disc {
+        Disc {
+            position_m: self.positions_m[agent],
+            velocity_mps: self.velocities_mps[agent],
+            radius_m: self.radii_m[agent],
+        }
+    }
+
+    /// Unit vector along an agent's facing.
+    pub fn forward(&self, agent: usize) -> Vec2 {
+        let (sin, cos) = libm::sincosf(self.facings_rad[agent]);
+        Vec2::new(cos, sin)
+    }
+
+    /// The ends of a wall's edge, relative to an agent's centre.
+    pub fn edge_m(&self, agent: usize, edge: u32) -> [Vec2; 2] {
+        self.obstacles.ends_m(edge).map(|end_m| end_m - self.positions_m[agent])
+    }
+}
