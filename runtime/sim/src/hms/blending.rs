@@ -203,7 +203,7 @@ impl Weights {
 }
 
 /// The stored rows beside a phase, and their shares.
-fn two_rows(phase: f32) -> ([usize; 2], [f32; 2]) {
+pub(super) fn two_rows(phase: f32) -> ([usize; 2], [f32; 2]) {
     let position = phase * PHASE_COUNT as f32;
     let row = libm::floorf(position);
     let share = position - row;

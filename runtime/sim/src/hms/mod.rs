@@ -16,11 +16,14 @@
 pub mod asked;
 pub mod blending;
 pub mod feet;
+pub mod foot_path;
 pub mod gait;
 pub mod ik;
+pub mod inertialization;
 pub mod owed;
 pub mod params;
 pub mod pelvis;
+pub mod semi_procedural;
 pub mod space;
 
 use glam::{Vec2, Vec3};

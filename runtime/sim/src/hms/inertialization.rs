@@ -1,0 +1,139 @@
+//! What difference of pose a switch of synthesis leaves is carried away by inertialisation (Bollo 2018): the body goes
+//! on as it moved, and the difference dies out on top of the new synthesis. Only the new one is computed; nothing is
+//! cross-faded.
+//!
+//! A difference is a rotation vector per joint and an offset of the pelvis, each with its rate; each decays like a
+//! critically damped spring, which begins at that rate, so neither pose nor velocity jumps. Radians, metres, seconds.
+
+use glam::{Quat, Vec3};
+use motiondb::pose::Pose;
+use motiondb::skeleton::JOINT_COUNT;
+
+/// Rate of the springs, 1/s: 9 % of a difference is left after 0.4 s, a step.
+const RATE_HZ: f32 = 10.0;
+/// Less than this of a difference is none, rad and m.
+const NEGLIGIBLE: f32 = 1e-4;
+/// A rate is a difference over this time before the switch, s.
+pub const LOOK_BACK_S: f32 = 1.0 / 120.0;
+
+/// A difference of two poses: of the pelvis, m, and of each joint's rotation, as a vector, rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Difference {
+    pelvis_m: Vec3,
+    rotations_rad: [Vec3; JOINT_COUNT],
+}
+
+/// The difference that is left, and its rate; none where there is nothing left.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inertia(Option<[Difference; 2]>);
+
+impl Inertia {
+    /// Takes up the difference of a switch. `old` and `new` are the poses of both syntheses now and [`LOOK_BACK_S`]
+    /// ago, as they were without what is left.
+    pub fn begin(&mut self, old: [&Pose; 2], new: [&Pose; 2]) {
+        let [now, before] = [0, 1].map(|time| Difference::between(old[time], new[time]));
+        let rate = now.combined(1.0 / LOOK_BACK_S, &before, -1.0 / LOOK_BACK_S);
+        self.0 = Some(match &self.0 {
+            Some([left, left_rate]) => [left.combined(1.0, &now, 1.0), left_rate.combined(1.0, &rate, 1.0)],
+            None => [now, rate],
+        });
+    }
+
+    /// Lets a step pass and adds what is then left to the pose of the new synthesis.
+    pub fn carry(&mut self, pose: &mut Pose, dt_s: f32) {
+        let Some([left, rate]) = &self.0 else { return };
+        // The critically damped spring, exactly over a step.
+        let decay = libm::expf(-RATE_HZ * dt_s);
+        let pull = rate.combined(1.0, left, RATE_HZ);
+        let after = [left.combined(decay, &pull, decay * dt_s), rate.combined(decay, &pull, -decay * dt_s * RATE_HZ)];
+        after[0].add_to(pose);
+        self.0 = after.iter().any(|part| part.greatest() > NEGLIGIBLE).then_some(after);
+    }
+}
+
+impl Difference {
+    fn between(old: &Pose, new: &Pose) -> Self {
+        let mut rotations_rad = [Vec3::ZERO; JOINT_COUNT];
+        for (vector, (old, new)) in rotations_rad.iter_mut().zip(old.rotations.iter().zip(&new.rotations)) {
+            let turn = *old * new.conjugate();
+            *vector = if turn.w < 0.0 { -turn } else { turn }.to_scaled_axis();
+        }
+        Self { pelvis_m: old.pelvis_m - new.pelvis_m, rotations_rad }
+    }
+
+    /// Of both, each times its factor.
+    fn combined(&self, factor: f32, other: &Self, other_factor: f32) -> Self {
+        let mut sum = Self {
+            pelvis_m: factor * self.pelvis_m + other_factor * other.pelvis_m,
+            rotations_rad: self.rotations_rad,
+        };
+        for (own, other) in sum.rotations_rad.iter_mut().zip(&other.rotations_rad) {
+            *own = factor * *own + other_factor * *other;
+        }
+        sum
+    }
+
+    fn add_to(&self, pose: &mut Pose) {
+        pose.pelvis_m += self.pelvis_m;
+        for (rotation, vector) in pose.rotations.iter_mut().zip(&self.rotations_rad) {
+            *rotation = (Quat::from_scaled_axis(*vector) * *rotation).normalize();
+        }
+    }
+
+    fn greatest(&self) -> f32 {
+        self.rotations_rad.iter().fold(self.pelvis_m.length(), |greatest, vector| greatest.max(vector.length()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bent(angle_rad: f32) -> Pose {
+        Pose {
+            pelvis_m: Vec3::new(0.0, 0.1 * angle_rad, 0.9),
+            rotations: [Quat::from_rotation_y(angle_rad); JOINT_COUNT],
+        }
+    }
+
+    fn angle_rad(pose: &Pose) -> f32 {
+        pose.rotations[3].to_scaled_axis().y
+    }
+
+    #[test]
+    fn goes_on_at_the_old_speed_and_ends_in_the_new_synthesis() {
+        let speed_rad_s = 1.5;
+        let before = 0.3 - speed_rad_s * LOOK_BACK_S;
+        let mut inertia = Inertia::default();
+        inertia.begin([&bent(0.3), &bent(before)], [&bent(0.0), &bent(0.0)]);
+        let dt_s = 1.0 / 240.0;
+        let shown: Vec<f32> = (0..480)
+            .map(|_| {
+                let mut pose = bent(0.0);
+                inertia.carry(&mut pose, dt_s);
+                angle_rad(&pose)
+            })
+            .collect();
+        assert!((shown[0] - (0.3 + speed_rad_s * dt_s)).abs() < 3e-3, "{}", shown[0]);
+        let steps = shown.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>();
+        assert!(steps.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 1.2e-3));
+        assert!(shown[96] < 0.1 && shown[479].abs() < 1e-3 && inertia == Inertia::default());
+    }
+
+    #[test]
+    fn a_switch_within_a_switch_adds_up() {
+        let mut inertia = Inertia::default();
+        inertia.begin([&bent(0.2); 2], [&bent(0.0); 2]);
+        inertia.begin([&bent(0.0); 2], [&bent(-0.1); 2]);
+        let mut pose = bent(-0.1);
+        inertia.carry(&mut pose, 0.0);
+        assert!((angle_rad(&pose) - 0.2).abs() < 1e-4);
+    }
+
+    #[test]
+    fn without_a_switch_nothing_is_added() {
+        let mut pose = bent(0.4);
+        Inertia::default().carry(&mut pose, 0.1);
+        assert_eq!(pose, bent(0.4));
+    }
+}
