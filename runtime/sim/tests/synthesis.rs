@@ -1,7 +1,9 @@
 //! Claims about synthesised bodies on compiled clips: the bundled ones, and real motion capture where it is at hand.
 
+mod clips;
+
 use std::f32::consts::FRAC_PI_2;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use fbcrowd_sim::hms::params::HmsParams;
@@ -17,45 +19,11 @@ use glam::{Quat, Vec2};
 use motiondb::motion_db::MotionDb;
 use motiondb::pose::Root;
 use motiondb::skeleton::Joint;
-use motiondb_compiler::compile::compile_files;
+
+use crate::clips::{bundled, marine};
 
 const DT_S: f32 = 1.0 / 30.0;
 const SECONDS: f32 = 16.0;
-/// The recordings that make the paper's 19 examples (`motion.md` §1).
-const MARINE: [&str; 12] = [
-    "Idle01",
-    "Meander01",
-    "Walk01",
-    "Jog01",
-    "Run01",
-    "WalkCircleRt01",
-    "WalkTightCircleRt01",
-    "RunCircleRt01",
-    "RunTightCircleRt01",
-    "Turn360Rt01",
-    "StrafeSlowRt01",
-    "StrafeFastRt01",
-];
-
-fn bundled() -> MotionDb {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/clips");
-    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
-    compiled(files.filter(|file| file.extension().is_some_and(|extension| extension == "bvh")).collect())
-}
-
-fn marine(test: &str) -> Option<MotionDb> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/mocap/smartbody_converted");
-    if !folder.is_dir() {
-        println!("SKIPPED {test}: no recordings at {}", folder.display());
-        return None;
-    }
-    Some(compiled(MARINE.iter().map(|clip| folder.join(format!("ChrMarine_{clip}.bvh"))).collect()))
-}
-
-fn compiled(files: Vec<PathBuf>) -> MotionDb {
-    compile_files(&files, &|_| {}).unwrap().db
-}
-
 /// Starts, turns both ways, a side-step, a step back, and a stop: every change of speed and direction.
 fn errand(time_s: f32, root: &Root) -> Plan {
     let towards = |angle_rad: f32, speed_mps: f32| Plan {
@@ -96,7 +64,9 @@ fn go(db: &MotionDb, mut see: impl FnMut(&Root, &Synthesis)) -> Slide {
                 ..AgentFrame::default()
             }
         });
-        slide.push(&frames.collect::<Vec<_>>());
+        let frames: Vec<AgentFrame> = frames.collect();
+        let joints: Vec<_> = frames.iter().map(|frame| frame.pose.forward_kinematics(&db.skeleton)).collect();
+        slide.push(&frames, &joints);
     }
     slide.finish()
 }

@@ -187,7 +187,7 @@ impl SemiProcedural {
             let foot = &self.feet[row][side];
             since_s += if index < 2 { weight } else { -weight } * foot.since_s;
             place_m += weight * foot.place_m;
-            orientation = orientation + foot.orientation * weight;
+            orientation += foot.orientation * weight;
         }
         let sign = Side::BOTH[side].sign();
         let carried = moved(&Root::default(), &parameters, since_s / self.cadence(parameters));
@@ -226,7 +226,7 @@ impl SemiProcedural {
 fn mean(db: &MotionDb, example: usize) -> [Quat; JOINT_COUNT] {
     let mut mean = [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT];
     for row in 0..PHASE_COUNT {
-        mean.iter_mut().zip(db.rows.rotations(example, row)).for_each(|(sum, rotation)| *sum = *sum + *rotation);
+        mean.iter_mut().zip(db.rows.rotations(example, row)).for_each(|(sum, rotation)| *sum += *rotation);
     }
     mean.map(Quat::normalize)
 }

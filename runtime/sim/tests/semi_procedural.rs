@@ -1,0 +1,151 @@
+//! Claims about semi-procedural locomotion on compiled clips: one cycle walks as it is asked, on feet that hold.
+
+mod clips;
+
+use fbcrowd_sim::hms::semi_procedural::SemiProcedural;
+use glam::Vec3;
+use motiondb::motion_db::{MotionDb, PHASE_COUNT};
+use motiondb::parameters::Parameters;
+use motiondb::planted_feet::{CycleFeet, foot_slide, implied};
+use motiondb::pose::Joints;
+use motiondb::skeleton::Joint;
+
+use crate::clips::{bundled, marine};
+
+/// Ways to walk: v_f m/s, ω_t °/s, ω_s m/s.
+const WAYS: [[f32; 3]; 22] = [
+    [0.2, 0.0, 0.0],
+    [0.5, 0.0, 0.0],
+    [0.8, 0.0, 0.0],
+    [1.4, 0.0, 0.0],
+    [1.8, 0.0, 0.0],
+    [2.2, 0.0, 0.0],
+    [0.9, 60.0, 0.0],
+    [0.9, -60.0, 0.0],
+    [0.7, 90.0, 0.0],
+    [0.5, -130.0, 0.0],
+    [0.0, 90.0, 0.0],
+    [0.0, -170.0, 0.0],
+    [0.0, 0.0, 0.35],
+    [0.0, 0.0, -0.6],
+    [0.0, 0.0, 1.2],
+    [0.8, 0.0, 0.4],
+    [1.1, 0.0, -0.3],
+    [-0.4, 0.0, 0.0],
+    [-0.8, 0.0, 0.0],
+    [-1.1, 0.0, 0.0],
+    [-0.6, 45.0, 0.0],
+    [-0.5, 0.0, -0.4],
+];
+
+struct Cycle {
+    parameters: Parameters,
+    cadence: f32,
+    joints: Vec<Joints>,
+    feet: CycleFeet,
+}
+
+fn parameters([speed_mps, turn_rate_deg_s, strafe_mps]: [f32; 3]) -> Parameters {
+    Parameters { speed_mps, turn_rate_rad_s: turn_rate_deg_s.to_radians(), strafe_mps }
+}
+
+fn semi_procedural(db: &MotionDb) -> SemiProcedural {
+    SemiProcedural::new(db, db.correspondence.as_ref().unwrap().semi_procedural as usize).unwrap()
+}
+
+fn cycle(db: &MotionDb, semi: &SemiProcedural, parameters: Parameters) -> Cycle {
+    let phases: Vec<f32> = (0..PHASE_COUNT).map(|row| row as f32 / PHASE_COUNT as f32).collect();
+    let joints: Vec<Joints> =
+        phases.iter().map(|&phase| semi.pose(db, parameters, phase).forward_kinematics(&db.skeleton)).collect();
+    let points_m = [0, 1].map(|side| {
+        let points_m = |joints: &Joints| joints.measured_points_m(&db.skeleton, side).map(Vec3::as_dvec3);
+        joints.iter().map(points_m).collect()
+    });
+    let contacts =
+        [0, 1].map(|side| phases.iter().map(|&phase| f64::from(semi.contacts(db, parameters, phase)[side])).collect());
+    let feet = CycleFeet { points_m, contacts, phase_map: semi.phase_map(parameters) };
+    Cycle { parameters, cadence: semi.cadence(parameters), joints, feet }
+}
+
+fn cycles(db: &MotionDb) -> Vec<Cycle> {
+    let semi = semi_procedural(db);
+    WAYS.iter().map(|&way| cycle(db, &semi, parameters(way))).collect()
+}
+
+/// Share of the travel that is aside, where a foot's roll and its reverse are averaged: they turn about different points
+/// of the sole, so the mean slips by some millimetres, for the foot hold to take out.
+fn aside(parameters: Parameters) -> f32 {
+    let travel_mps = parameters.speed_mps.hypot(parameters.strafe_mps);
+    parameters.strafe_mps.abs() / travel_mps.max(f32::MIN_POSITIVE)
+}
+
+#[test]
+fn at_its_own_parameters_m_sp_is_left_as_it_is() {
+    for db in [Some(bundled()), marine("m_sp")].into_iter().flatten() {
+        let semi = semi_procedural(&db);
+        let own = cycle(&db, &semi, db.examples[semi.example].parameters);
+        for (deformed, recorded) in own.joints.iter().zip(db.posed_rows(semi.example)) {
+            for (a, b) in deformed.positions_m.iter().zip(recorded.positions_m) {
+                assert!(a.distance(b) < 2e-3, "{a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn planted_feet_hold_whatever_the_speed_direction_and_turn() {
+    for db in [Some(bundled()), marine("planted feet")].into_iter().flatten() {
+        let source_cm_s = db.examples[semi_procedural(&db).example].planted_slide_cm_s;
+        for cycle in cycles(&db) {
+            let slide = foot_slide(&cycle.feet, cycle.parameters.to_vec3().as_dvec3());
+            let bar_cm_s = f64::from(cycle.cadence * (source_cm_s + 0.1 + 1.8 * aside(cycle.parameters)));
+            assert!(slide.slide_cm_s <= bar_cm_s, "{:?}: {slide:?}, {bar_cm_s} cm/s", cycle.parameters);
+            assert!((0.55..0.7).contains(&slide.planted_share), "{:?}: {slide:?}", cycle.parameters);
+        }
+    }
+}
+
+#[test]
+fn the_feet_tell_the_parameters_that_were_asked() {
+    for cycle in cycles(&bundled()) {
+        let found = implied(&cycle.feet).unwrap().parameters;
+        let off = found.to_vec3() - cycle.parameters.to_vec3();
+        let turn_bar_rad_s = (0.2 + 1.2 * aside(cycle.parameters)).to_radians();
+        let off_mps = off.x.abs().max(off.z.abs());
+        assert!(off_mps < 0.005 && off.y.abs() < turn_bar_rad_s, "{off} {:?}", cycle.parameters);
+    }
+}
+
+#[test]
+fn legs_do_not_cross_nor_overstretch_and_soles_stay_above_the_ground() {
+    let db = bundled();
+    for cycle in cycles(&db) {
+        for joints in &cycle.joints {
+            let [left_m, right_m] = Joint::FEET.map(|foot| joints.positions_m[foot.index()]);
+            assert!(left_m.y - right_m.y > 0.04, "{:?}: {left_m} {right_m}", cycle.parameters);
+            let soles_m = [0, 1].map(|side| joints.sole_points_m(&db.skeleton, side));
+            let lowest_m = soles_m.iter().flatten().fold(f32::INFINITY, |low, point_m| low.min(point_m.z));
+            assert!(lowest_m > -0.005, "{:?}: {lowest_m} m", cycle.parameters);
+            for side in 0..2 {
+                let flexion_deg = knee_flexion_deg(joints, side);
+                assert!(flexion_deg > 3.0, "{:?}: {flexion_deg}°", cycle.parameters);
+            }
+        }
+    }
+}
+
+fn knee_flexion_deg(joints: &Joints, side: usize) -> f32 {
+    let [hip_m, knee_m, ankle_m] =
+        [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]].map(|joint| joints.positions_m[joint.index()]);
+    (knee_m - hip_m).angle_between(ankle_m - knee_m).to_degrees()
+}
+
+#[test]
+fn nothing_wild_breaks_a_pose() {
+    let db = bundled();
+    let semi = semi_procedural(&db);
+    for way in [[0.0; 3], [9.0, 0.0, 0.0], [-9.0, 2000.0, 7.0], [0.0, -4000.0, 0.0], [0.0, 0.0, 50.0]] {
+        let cycle = cycle(&db, &semi, parameters(way));
+        assert!(cycle.joints.iter().all(|joints| joints.positions_m.iter().all(|at_m| at_m.is_finite())));
+    }
+}
