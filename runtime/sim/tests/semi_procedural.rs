@@ -110,7 +110,7 @@ fn the_feet_tell_the_parameters_that_were_asked() {
     for cycle in cycles(&bundled()) {
         let found = implied(&cycle.feet).unwrap().parameters;
         let off = found.to_vec3() - cycle.parameters.to_vec3();
-        let turn_bar_rad_s = (0.2 + 1.2 * aside(cycle.parameters)).to_radians();
+        let turn_bar_rad_s = cycle.cadence * (0.2 + 1.2 * aside(cycle.parameters)).to_radians();
         let off_mps = off.x.abs().max(off.z.abs());
         assert!(off_mps < 0.005 && off.y.abs() < turn_bar_rad_s, "{off} {:?}", cycle.parameters);
     }
