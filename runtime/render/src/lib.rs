@@ -5,8 +5,8 @@
 //! [`shade`] → limbs ([`body`], painted by [`cone`], coloured by [`palette`]) → writing ([`overlay`], [`text`]) → the
 //! picture ([`top_view`]) → files ([`png_frame`], [`exr_frame`], all of them by [`sequence`]).
 //!
-//! Plots stand on a small kit ([`plot`], [`axis`], [`mark`], `name_places`): everybody's paths ([`trajectories`]); of
-//! a database its velocity sets ([`velocity_plot`]), blend space ([`parameter_plot`]) and where it is thin
+//! Plots stand on a small kit ([`plot`], [`axis`], [`mark`], `name_places`): everybody's paths ([`trajectories`]), those
+//! of several runs beside each other ([`side_by_side`]), figures of many runs ([`comparison_plot`]); of a database its velocity sets ([`velocity_plot`]), blend space ([`parameter_plot`]) and where it is thin
 //! ([`coverage_plot`]), bodies and sticks ([`contact_sheet`], `stick`), steps ([`gait_plot`]) and correspondences
 //! ([`pose_distance_plot`]), all of them by [`database_plots`].
 //!
@@ -15,6 +15,7 @@
 
 pub mod axis;
 pub mod body;
+pub mod comparison_plot;
 pub mod cone;
 pub mod contact_sheet;
 pub mod coverage_plot;
@@ -36,6 +37,7 @@ pub mod png_frame;
 pub mod pose_distance_plot;
 pub mod sequence;
 pub mod shade;
+pub mod side_by_side;
 mod stick;
 pub mod text;
 pub mod top_view;

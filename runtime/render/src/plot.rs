@@ -132,6 +132,20 @@ impl Figure {
         panel
     }
 
+    /// As [`Self::panel`], with names across instead of numbers: name i is centred on i.
+    pub fn panel_of_groups(&mut self, rect_px: [f32; 4], names: &[&str], value: Axis) -> Panel {
+        let across = Axis { label: String::new(), low: -0.5, high: names.len() as f32 - 0.5 };
+        let panel = Panel { rect_px: rect_px.map(f32::round), axes: [across, value], cut: self.cut(rect_px) };
+        self.draw_ticks_up(&panel);
+        self.draw_frame(&panel);
+        let base = rect_px[1] + rect_px[3] + 1.35 * self.face.size_px;
+        for (index, name) in names.iter().enumerate() {
+            let x = panel.to_px(Vec2::new(index as f32, 0.0)).x;
+            self.text(name, Vec2::new(x, base), Anchor::Centre);
+        }
+        panel
+    }
+
     fn cut(&self, [left, top, width, height]: [f32; 4]) -> Option<Mask> {
         let mut mask = Mask::new(self.pixmap.width(), self.pixmap.height())?;
         let frame = PathBuilder::from_rect(Rect::from_xywh(left, top, width, height)?);

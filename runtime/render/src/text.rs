@@ -11,7 +11,7 @@ use crate::cone;
 use crate::palette::Rgb;
 
 /// Characters beyond ASCII that our pictures write.
-const SYMBOLS: &str = "°·–²−ωφ×…";
+const SYMBOLS: &str = "°·–²−ωφ×…±µ";
 /// Where the light face's thin strokes are thickened: coverage is raised by this factor.
 const STROKE_GAIN: f32 = 1.35;
 

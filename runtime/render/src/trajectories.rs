@@ -2,6 +2,7 @@
 //! goal.
 
 use fbcrowd_sim::recording::Header;
+use fbcrowd_sim::scenario::AgentSpec;
 use glam::Vec2;
 use tiny_skia::Pixmap;
 
@@ -30,7 +31,8 @@ const FEW_AGENTS: usize = 60;
 
 /// The plot of a whole recording.
 pub fn trajectories(header: &Header, tracks: &Tracks) -> Pixmap {
-    let [low, high] = shown_m(header, tracks);
+    let corners_m = header.scenario.obstacles_m.iter().flatten().copied();
+    let [low, high] = shown_m(&header.scenario.agents, tracks.positions_m.iter().copied().chain(corners_m));
     let [left, top, width] = PANEL_LEFT_TOP_WIDTH_PX;
     let [least, greatest] = PANEL_HEIGHTS_PX;
     let height = (width * (high.y - low.y) / (high.x - low.x)).round().clamp(least, greatest);
@@ -42,7 +44,7 @@ pub fn trajectories(header: &Header, tracks: &Tracks) -> Pixmap {
     let axes = equal_units(rect_px, [axis("x, m", low.x, high.x), axis("y, m", low.y, high.y)]);
     let panel = figure.panel(rect_px, axes);
     draw_obstacles(&mut figure, &panel, header);
-    draw_paths(&mut figure, &panel, header, tracks);
+    draw_paths(&mut figure, &panel, &header.scenario.agents, tracks);
     figure.pixmap
 }
 
@@ -51,11 +53,10 @@ fn title(header: &Header, tracks: &Tracks) -> String {
     format!("{}: paths of {} agents in {duration_s:.1} s", header.scenario.name, tracks.agent_count)
 }
 
-/// Paths and goals, and obstacles with them.
-fn shown_m(header: &Header, tracks: &Tracks) -> [Vec2; 2] {
-    let goals = header.scenario.agents.iter().flat_map(|agent| agent.goals_m.iter());
-    let corners = header.scenario.obstacles_m.iter().flatten();
-    let [low, high] = bounds_m(tracks.positions_m.iter().chain(goals).chain(corners).copied());
+/// All goals and whatever else is drawn, with room around.
+pub(crate) fn shown_m(agents: &[AgentSpec], drawn_m: impl Iterator<Item = Vec2>) -> [Vec2; 2] {
+    let goals_m = agents.iter().flat_map(|agent| agent.goals_m.iter().copied());
+    let [low, high] = bounds_m(drawn_m.chain(goals_m));
     [low - MARGIN_M, high + MARGIN_M]
 }
 
@@ -68,13 +69,13 @@ fn draw_obstacles(figure: &mut Figure, panel: &Panel, header: &Header) {
 }
 
 /// Paths below, then all marks, so that no path crosses a mark.
-fn draw_paths(figure: &mut Figure, panel: &Panel, header: &Header, tracks: &Tracks) {
+pub(crate) fn draw_paths(figure: &mut Figure, panel: &Panel, agents: &[AgentSpec], tracks: &Tracks) {
     let many = usize::from(tracks.agent_count > FEW_AGENTS);
     for agent in 0..tracks.agent_count {
         let style = Line { opacity: 0.85, ..line(line_colour(agent), PATH_PX[many]) };
         figure.polyline(panel, tracks.agent_m(agent), style);
     }
-    for (agent, spec) in header.scenario.agents.iter().enumerate() {
+    for (agent, spec) in agents.iter().enumerate() {
         let colour = line_colour(agent);
         if let Some(goal_m) = spec.goals_m.last() {
             figure.mark(panel, *goal_m, Mark::Cross, MARK_PX[many], colour);

@@ -143,6 +143,21 @@ impl Group {
         Ok(places_m.into_iter().map(|place_m| self.journey(place_m)).collect())
     }
 
+    /// A table that says nothing of its agents.
+    pub(crate) fn plain() -> Self {
+        Self {
+            at_m: None,
+            circle: None,
+            grid: None,
+            file: None,
+            goals_m: None,
+            goal_offset_m: None,
+            facing_deg: None,
+            radius_m: radius_m(),
+            preferred_speed_mps: preferred_speed_mps(),
+        }
+    }
+
     /// With all that the table says of its agents besides their journeys.
     pub(crate) fn agents(&self, journeys: Vec<Journey>) -> Vec<AgentSpec> {
         journeys.into_iter().map(|(position_m, goals_m)| self.agent(position_m, goals_m)).collect()

@@ -182,13 +182,24 @@ fn journeys(
     }
 }
 
+/// The agents of lines `x y goal_x goal_y`, with the default disc and speed, each facing its goal.
+///
+/// # Errors
+/// Where a line is none.
+pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioError> {
+    Ok(Group::plain().agents(journeys_of_lines(lines)?))
+}
+
 fn read_lines(source: &SourceText, name: &Spanned<String>) -> Result<Vec<Journey>, ScenarioError> {
     let path = source.beside(Path::new(name.get_ref()));
     if !path.is_file() {
         let message = format!("there is no file {}", path.display());
         return Err(source.invalid(name.span(), message, "the path is relative to the scenario file").into());
     }
-    let lines = read_text(&path)?;
+    journeys_of_lines(&read_text(&path)?)
+}
+
+fn journeys_of_lines(lines: &SourceText) -> Result<Vec<Journey>, ScenarioError> {
     parse_lines(&lines.text)
         .map_err(|(span, message)| lines.invalid(span, message, "each line is `x y goal_x goal_y`, in metres").into())
 }

@@ -1,4 +1,4 @@
-//! Figures of many figures: the median, and the share of which something holds.
+//! Figures of many figures: the median, mean and spread, and the share of which something holds.
 
 /// The middle value, of an even number the mean of the two in the middle; none of none.
 pub(crate) fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
@@ -6,6 +6,22 @@ pub(crate) fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
     sorted.sort_by(f32::total_cmp);
     let upper = *sorted.get(sorted.len() / 2)?;
     Some(if sorted.len() % 2 == 1 { upper } else { 0.5 * (sorted[sorted.len() / 2 - 1] + upper) })
+}
+
+/// Mean and standard deviation of a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Spread {
+    pub(crate) mean: f64,
+    /// With n − 1; 0 of a single value.
+    pub(crate) deviation: f64,
+}
+
+/// None of none.
+pub(crate) fn spread(values: impl Iterator<Item = f64> + Clone) -> Option<Spread> {
+    let count = values.clone().count();
+    let mean = values.clone().sum::<f64>() / count as f64;
+    let squares = values.map(|value| (value - mean) * (value - mean)).sum::<f64>();
+    (count > 0).then(|| Spread { mean, deviation: (squares / count.saturating_sub(1).max(1) as f64).sqrt() })
 }
 
 /// The share of all for which something holds; none where there is nothing.
@@ -27,6 +43,9 @@ mod tests {
         assert_eq!(median([3.0, 1.0, 2.0].into_iter()), Some(2.0));
         assert_eq!(median([4.0, 1.0, 2.0, 3.0].into_iter()), Some(2.5));
         assert_eq!(share([1, 2, 3, 4].into_iter(), |number| number % 2 == 0), Some(0.5));
+        assert_eq!(spread([1.0, 2.0, 3.0].into_iter()), Some(Spread { mean: 2.0, deviation: 1.0 }));
+        assert_eq!(spread([4.0].into_iter()), Some(Spread { mean: 4.0, deviation: 0.0 }));
+        assert_eq!(spread(std::iter::empty()), None);
         assert_eq!((median(std::iter::empty()), share(std::iter::empty::<u8>(), |_| true)), (None, None));
     }
 }

@@ -1,5 +1,7 @@
 //! What a bench demands: bars, which decide the exit code, and goals, which depend on the machine and do not.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use crate::failure::{Answer, Failure};
@@ -8,7 +10,7 @@ use crate::output;
 /// One figure that must hold wherever it is measured: a quality, or a ratio of two times of one run.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Bar {
-    pub(super) name: &'static str,
+    pub(super) name: Cow<'static, str>,
     /// Null where there was nothing to measure: the bar is missed then.
     pub(super) measured: Option<f64>,
     pub(super) limit: f64,
@@ -18,14 +20,27 @@ pub(super) struct Bar {
 }
 
 impl Bar {
-    pub(super) fn at_least(name: &'static str, limit: f64, measured: impl Into<Option<f64>>) -> Self {
-        let measured = measured.into();
-        Self { name, measured, limit, met: measured.is_some_and(|measured| measured >= limit), sign: '≥' }
+    pub(super) fn at_least(name: impl Into<Cow<'static, str>>, limit: f64, measured: impl Into<Option<f64>>) -> Self {
+        Self::new(name.into(), '≥', limit, measured.into(), |measured| measured >= limit)
     }
 
-    pub(super) fn at_most(name: &'static str, limit: f64, measured: impl Into<Option<f64>>) -> Self {
-        let measured = measured.into();
-        Self { name, measured, limit, met: measured.is_some_and(|measured| measured <= limit), sign: '≤' }
+    pub(super) fn at_most(name: impl Into<Cow<'static, str>>, limit: f64, measured: impl Into<Option<f64>>) -> Self {
+        Self::new(name.into(), '≤', limit, measured.into(), |measured| measured <= limit)
+    }
+
+    /// Less than a rival's figure, or as nothing as it.
+    pub(super) fn below(name: impl Into<Cow<'static, str>>, limit: f64, measured: impl Into<Option<f64>>) -> Self {
+        Self::new(name.into(), '<', limit, measured.into(), |measured| measured < limit || measured == 0.0)
+    }
+
+    fn new(
+        name: Cow<'static, str>,
+        sign: char,
+        limit: f64,
+        measured: Option<f64>,
+        meets: impl FnOnce(f64) -> bool,
+    ) -> Self {
+        Self { name, measured, limit, met: measured.is_some_and(meets), sign }
     }
 
     fn line(&self) -> String {
@@ -51,9 +66,13 @@ impl Goal {
     }
 }
 
-/// Four digits that count.
+/// As many digits as count.
 fn figure(value: f64) -> String {
-    let digits = if value.abs() < 10.0 { 3 } else { 1 };
+    let digits = match value.abs() {
+        0.0 | 0.01..10.0 => 3,
+        small if small < 0.01 => 6,
+        _ => 1,
+    };
     let text = format!("{value:.digits$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
@@ -87,10 +106,12 @@ mod tests {
     fn a_bar_without_a_measurement_is_missed() {
         assert!(!Bar::at_least("share", 0.9, None).met && !Bar::at_most("rmse", 0.05, f64::NAN).met);
         assert!(Bar::at_least("share", 0.9, 0.9).met && Bar::at_most("rmse", 0.05, 0.04).met);
+        assert!(!Bar::below("collisions", 0.1, 0.1).met && Bar::below("collisions", 0.0, 0.0).met);
     }
 
     #[test]
     fn figures_keep_what_counts() {
         assert_eq!([0.95, 20.0, 0.04567, 123.44].map(figure), ["0.95", "20", "0.046", "123.4"]);
+        assert_eq!([0.0, 0.000_123_4, -0.000_02].map(figure), ["0", "0.000123", "-0.00002"]);
     }
 }

@@ -1,14 +1,21 @@
-//! `fbcrowd bench`: is the compiler as good and as fast as it should be? One file a bench.
+//! `fbcrowd bench`: are compiler and planner as good and as fast as they should be? One file a bench.
 
 mod bar;
 mod blend_space;
 mod bundled;
 mod clips;
 mod compile;
+mod contest;
+mod figure7;
 mod gait;
 mod import;
 mod leave_one_out;
+mod scenes;
 mod soak;
+mod table1;
+mod table1_discs;
+mod table1_plots;
+mod table1_text;
 
 use std::path::PathBuf;
 
@@ -37,6 +44,8 @@ enum Bench {
     LeaveOneOut(leave_one_out::Args),
     Gait(gait::Args),
     Soak(soak::Args),
+    Table1(table1::Args),
+    Figure7(figure7::Args),
 }
 
 /// What every bench on other people's clips is told.
@@ -59,5 +68,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Bench::LeaveOneOut(args) => leave_one_out::run(args),
         Bench::Gait(args) => gait::run(args),
         Bench::Soak(args) => soak::run(args),
+        Bench::Table1(args) => table1::run(args),
+        Bench::Figure7(args) => figure7::run(args),
     }
 }
