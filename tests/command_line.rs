@@ -55,14 +55,12 @@ fn a_database_replaces_no_clip_that_it_is_made_of() {
 }
 
 #[test]
-fn clips_that_a_manifest_passes_over_are_counted() {
-    let folder = folder("passed_over");
-    for name in ["walk.bvh", "other.bvh"] {
-        fs::copy(support::repository().join(WALK), folder.join(name)).unwrap();
-    }
-    fs::write(folder.join("manifest.toml"), "[[clips]]\npath = 'walk.bvh'\n").unwrap();
+fn a_manifest_that_skips_all_is_named() {
+    let folder = folder("skips_all");
+    fs::copy(support::repository().join(WALK), folder.join("walk.bvh")).unwrap();
+    fs::write(folder.join("manifest.toml"), "[[clips]]\npath = '.'\nskip = true\n").unwrap();
     let database = folder.join("motion.fbdb");
-    fbcrowd(&["compile", text(&folder), "-o", text(&database)]).expect_code(0).says(&["1 more below its folder"]);
+    fbcrowd(&["compile", text(&folder), "-o", text(&database)]).expect_code(2).says(&["manifest.toml", "skip fewer"]);
 }
 
 #[test]
@@ -93,6 +91,7 @@ fn a_manifest_is_found_in_its_folder_and_followed() {
     compile(wrong, &folder).expect_code(2).says(&["manifest.toml:3", "Nack", "LeftUpLeg"]);
     assert_eq!(files(&folder), ["idle.bvh", "manifest.toml", "walk_110.bvh"]);
     let stroll = wrong.replace("joints = { neck = \"Nack\" }", "name = \"stroll\"");
+    let stroll = format!("[[clips]]\npath = \"idle.bvh\"\nskip = true\n{stroll}");
     for input in [folder.clone(), folder.join("manifest.toml")] {
         compile(&stroll, &input).expect_code(0);
         let shown = fbcrowd(&["inspect", text(&database), "--json"]).expect_code(0).json();

@@ -53,7 +53,9 @@ pub fn compile_manifest(manifest: &Manifest, tell: &Observer) -> Result<Compiled
         return Err(CompileError::NoExample { refused, sources: Vec::new() });
     }
     match compile(clips, &manifest.options, tell) {
-        Err(CompileError::NotStepping { .. }) => Err(ManifestError::from(manifest.not_stepping()).into()),
+        Err(CompileError::NotStepping { stepping, .. }) => {
+            Err(ManifestError::from(manifest.not_stepping(&stepping)).into())
+        }
         Err(CompileError::NoExample { sources, .. }) => Err(CompileError::NoExample { refused, sources }),
         compiled => Ok(Compiled { db: compiled?, refused }),
     }

@@ -37,10 +37,12 @@ pub enum CompileError {
     #[error(transparent)]
     Manifest(#[from] ManifestError),
     /// The clip that was chosen as m_sp.
-    #[error("{name} is to be m_sp, but gives no example that steps; choose a straight walk")]
+    #[error("{name} is to be m_sp, but gives no such example that steps; choose a straight walk")]
     NotStepping {
         /// Its name.
         name: String,
+        /// Its examples that step, where another window was chosen.
+        stepping: Vec<String>,
     },
 }
 

@@ -37,6 +37,8 @@ pub struct Choices {
     pub mirror: Option<bool>,
     /// Its example is m_sp.
     pub is_semi_procedural: bool,
+    /// Which of its examples that is: the one that begins at this tenth of a second of the file; the first where none.
+    pub semi_procedural_tenth: Option<u32>,
     /// All examples have its body.
     pub is_target_skeleton: bool,
     /// It is the part of its file that the manifest cuts out.

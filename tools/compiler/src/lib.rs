@@ -49,6 +49,7 @@ pub mod mirror;
 pub mod mutation;
 mod named_cycles;
 mod names;
+pub mod near_names;
 mod outline;
 pub mod parameterize;
 mod performance;

@@ -3,14 +3,14 @@
 //!
 //! ```toml
 //! #:schema ../manifest.schema.json
-//! # All of it may be left out. Unless [[clips]] name what is used, it is all below the manifest's folder.
+//! # All of it may be left out. Every clip below the manifest's folder is used; tables say more of some.
 //! semi_procedural = "walk"            # m_sp, by the name of its example
 //! target_skeleton = "walk"            # whose body all examples share
 //! max_examples = 40                   # of near-equal ones the best are kept; mirrors not counted
 //! velocity_hull = "paper"             # the paper's own construction alone; else "turning_and_holding"
 //!
 //! [[clips]]
-//! path = "."                          # a folder: what holds for all clips below it; relative to this file
+//! path = "."                          # a folder: holds for all clips below it; relative to this file
 //! metres_per_unit = 0.01
 //! frame_rate_hz = 60.0
 //! up = "+Y"
@@ -29,7 +29,8 @@
 //! skip = true
 //! ```
 //!
-//! Of the folders that hold a file, later tables count more; the file's own counts most.
+//! A file's own table counts most, then its innermost folder's; of two of one folder the later. So `path = "."` with
+//! `skip = true` leaves only what other tables name.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -45,7 +46,11 @@ use crate::human_clip::HumanClip;
 use crate::import;
 use crate::manifest_error::ManifestError;
 use crate::manifest_table::Table;
+use crate::near_names::nearest_first;
 use crate::take::Take;
+
+/// Names that are shown where there is none as given.
+const NEAR_NAMES: usize = 5;
 
 /// What is to be compiled, and how.
 #[derive(Clone, Debug, Default)]
@@ -54,8 +59,6 @@ pub struct Manifest {
     pub takes: Vec<Take>,
     /// What is wanted of the whole set.
     pub options: Options,
-    /// Clips below its folder that its tables neither name nor skip: they are not used.
-    pub unnamed: usize,
     source: SourceText,
     semi_procedural: Option<Spanned<String>>,
     target_skeleton: Option<Spanned<String>>,
@@ -97,8 +100,7 @@ impl Manifest {
         let takes = takes(&source, &file.clips)?;
         let options = Options { max_examples: file.max_examples, velocity_hull: file.velocity_hull };
         let (semi_procedural, target_skeleton) = (file.semi_procedural, file.target_skeleton);
-        let unnamed = unnamed(&source, &file.clips, &takes);
-        Ok(Self { takes, options, unnamed, source, semi_procedural, target_skeleton })
+        Ok(Self { takes, options, source, semi_procedural, target_skeleton })
     }
 
     /// Files of which nothing is said.
@@ -122,38 +124,42 @@ impl Manifest {
     /// Where there is no clip of a name.
     pub(crate) fn choose(&self, clips: &mut [HumanClip]) -> Result<(), ManifestError> {
         if let Some(name) = &self.semi_procedural {
-            self.named(clips, name)?.choices.is_semi_procedural = true;
+            let (clip, tenth) = self.named(clips, name)?;
+            clips[clip].choices.is_semi_procedural = true;
+            clips[clip].choices.semi_procedural_tenth = tenth;
         }
         if let Some(name) = &self.target_skeleton {
-            self.named(clips, name)?.choices.is_target_skeleton = true;
+            let (clip, _) = self.named(clips, name)?;
+            clips[clip].choices.is_target_skeleton = true;
         }
         Ok(())
     }
 
-    fn named<'a>(&self, clips: &'a mut [HumanClip], name: &Spanned<String>) -> Result<&'a mut HumanClip, Invalid> {
-        match clips.iter().position(|clip| clip.name == *name.get_ref()) {
-            Some(index) => Ok(&mut clips[index]),
-            None => Err(self.unknown(clips, name)),
-        }
+    /// The clip of a name; where it is the name of one of a clip's further windows (`capture@12.6s`), also the tenth of
+    /// a second at which that begins.
+    fn named(&self, clips: &[HumanClip], name: &Spanned<String>) -> Result<(usize, Option<u32>), Invalid> {
+        let called = |name: &str| clips.iter().position(|clip| clip.name == name);
+        let window = || {
+            let (clip, start) = name.get_ref().rsplit_once('@')?;
+            let start_s: f64 = start.strip_suffix('s')?.parse().ok()?;
+            Some((called(clip)?, Some(libm::round(10.0 * start_s) as u32)))
+        };
+        called(name.get_ref()).map(|clip| (clip, None)).or_else(window).ok_or_else(|| {
+            let mut near = nearest_first(name.get_ref(), clips.iter().map(|clip| clip.name.as_str()));
+            near.truncate(NEAR_NAMES);
+            let message = format!("no clip is called `{}`; near it are {}", name.get_ref(), near.join(", "));
+            self.source.invalid(name.span(), message, "name one of these")
+        })
     }
 
-    /// That there is no clip of a name, which may be that of one of a clip's windows.
-    fn unknown(&self, clips: &[HumanClip], name: &Spanned<String>) -> Invalid {
-        let names: Vec<&str> = clips.iter().map(|clip| clip.name.as_str()).collect();
-        let window_of = name.get_ref().rsplit_once('@').map(|(clip, _)| clip).filter(|clip| names.contains(clip));
-        if let Some(clip) = window_of {
-            let message = format!("`{}` is a window of the clip `{clip}`, not a clip", name.get_ref());
-            let remedy = "name the clip, whose first window counts, or give it the `frames` of this one";
-            return self.source.invalid(name.span(), message, remedy);
-        }
-        let message = format!("no clip is called `{}`; there are {}", name.get_ref(), names.join(", "));
-        self.source.invalid(name.span(), message, "name one of these")
-    }
-
-    /// That the clip chosen as m_sp has no steps.
-    pub(crate) fn not_stepping(&self) -> Invalid {
+    /// That the example chosen as m_sp has no steps, or is none of `stepping`, those of its clip.
+    pub(crate) fn not_stepping(&self, stepping: &[String]) -> Invalid {
         let span = self.semi_procedural.as_ref().map_or(0..0, Spanned::span);
-        self.source.invalid(span, "this clip gives no example that steps", "name a straight walk")
+        if stepping.is_empty() {
+            return self.source.invalid(span, "this clip gives no example that steps", "name a straight walk");
+        }
+        let message = format!("this is no example that steps; this clip gives {}", stepping.join(", "));
+        self.source.invalid(span, message, "name one of these")
     }
 
     /// Why a clip is refused.
@@ -171,68 +177,54 @@ impl Manifest {
     }
 }
 
-/// Every clip that tables name, or all below the manifest's folder where there is no table.
+/// Every clip below the manifest's folder or named by a table, but for those whose innermost table skips them.
 fn takes(source: &SourceText, tables: &[Spanned<Table>]) -> Result<Vec<Take>, ManifestError> {
-    let mut takes = Vec::new();
-    let mut folders: Vec<(PathBuf, &Spanned<Table>)> = Vec::new();
-    let mut skipped = Vec::new();
-    let mut files = if tables.iter().all(|table| table.get_ref().skip) {
-        clip_files(&tidy(&source.beside(Path::new(""))))?
-    } else {
-        Vec::new()
-    };
+    let (mut files, mut folders, mut own) = (Vec::new(), Vec::new(), Vec::new());
     for table in tables {
-        let given = &table.get_ref().path;
-        let path = path_of(source, table);
-        if !or_here(&path).exists() {
-            let message = format!("there is no {}", path.display());
-            return Err(source.invalid(given.span(), message, "the path is relative to the manifest").into());
-        }
-        if table.get_ref().skip {
-            skipped.push(path);
-        } else if or_here(&path).is_dir() {
+        let path = existing(source, table)?;
+        if or_here(&path).is_dir() {
             table.get_ref().check_folder(source)?;
             files.extend(clip_files(&path)?);
             folders.push((path, table));
         } else {
-            takes.push((path, Some(table)));
+            own.push((path, Some(table)));
         }
     }
-    files.retain(|file| !takes.iter().any(|(path, _)| path == file));
+    files.extend(clip_files(&tidy(&source.beside(Path::new(""))))?);
+    // What is told last counts most: the innermost folder's table.
+    folders.sort_by_key(|(folder, _)| folder.components().count());
+    files.retain(|file| !own.iter().any(|(path, _)| path == file));
     files.sort();
     files.dedup();
-    takes.extend(files.into_iter().map(|file| (file, None)));
-    takes.retain(|(path, _)| !skipped.iter().any(|skipped| path.starts_with(skipped)));
-    let mut takes: Vec<Take> = takes.into_iter().map(|(path, own)| take(path, own, &folders)).collect();
+    let all = own.into_iter().chain(files.into_iter().map(|file| (file, None)));
+    let mut takes: Vec<Take> = all.filter_map(|(path, own)| take(path, own, &folders)).collect();
     takes.sort_by(|a, b| (a.path.file_name(), &a.path).cmp(&(b.path.file_name(), &b.path)));
     Ok(takes)
 }
 
-/// How many clips below the manifest's folder its tables leave out without a word.
-fn unnamed(source: &SourceText, tables: &[Spanned<Table>], takes: &[Take]) -> usize {
-    let skipped: Vec<PathBuf> =
-        tables.iter().filter(|table| table.get_ref().skip).map(|table| path_of(source, table)).collect();
-    let is_known = |file: &PathBuf| {
-        takes.iter().any(|take| take.path == *file) || skipped.iter().any(|path| file.starts_with(path))
-    };
-    let files = clip_files(&tidy(&source.beside(Path::new("")))).unwrap_or_default();
-    files.iter().filter(|file| !is_known(file)).count()
-}
-
 /// The file or folder of a table.
-fn path_of(source: &SourceText, table: &Spanned<Table>) -> PathBuf {
-    tidy(&source.beside(table.get_ref().path.get_ref()))
+fn existing(source: &SourceText, table: &Spanned<Table>) -> Result<PathBuf, Invalid> {
+    let given = &table.get_ref().path;
+    let path = tidy(&source.beside(given.get_ref()));
+    if or_here(&path).exists() {
+        return Ok(path);
+    }
+    let message = format!("there is no {}", path.display());
+    Err(source.invalid(given.span(), message, "the path is relative to the manifest"))
 }
 
-/// A file with what its folders' tables and then its own say of it.
-fn take(path: PathBuf, own: Option<&Spanned<Table>>, folders: &[(PathBuf, &Spanned<Table>)]) -> Take {
+/// A file with what its folders' tables and then its own say of it; none where the last of them skips it.
+fn take(path: PathBuf, own: Option<&Spanned<Table>>, folders: &[(PathBuf, &Spanned<Table>)]) -> Option<Take> {
     let around = folders.iter().filter(|(folder, _)| path.starts_with(folder)).map(|(_, table)| *table);
     let tables: Vec<&Spanned<Table>> = around.chain(own).collect();
+    if tables.last().is_some_and(|table| table.get_ref().skip) {
+        return None;
+    }
     let mut take = Take::from(path);
     for table in tables {
         table.get_ref().tell(table.span(), &mut take);
     }
-    take
+    Some(take)
 }
 
 fn clip_files(folder: &Path) -> Result<Vec<PathBuf>, ManifestError> {

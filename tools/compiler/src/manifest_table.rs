@@ -74,10 +74,20 @@ impl Table {
                 ));
             }
         }
-        if let Some(name) = self.name.as_ref().filter(|name| name.get_ref().trim().is_empty()) {
+        self.check_name(source)?;
+        self.check_joints(source)
+    }
+
+    fn check_name(&self, source: &SourceText) -> Result<(), Invalid> {
+        let Some(name) = &self.name else { return Ok(()) };
+        if name.get_ref().trim().is_empty() {
             return Err(source.invalid(name.span(), "the name is empty", "give it a name, or remove the key"));
         }
-        self.check_joints(source)
+        if name.get_ref().contains(char::is_control) {
+            let message = "the name holds a line break or another control character";
+            return Err(source.invalid(name.span(), message, "write letters, digits, spaces and punctuation"));
+        }
+        Ok(())
     }
 
     fn check_joints(&self, source: &SourceText) -> Result<(), Invalid> {

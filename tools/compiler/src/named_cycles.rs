@@ -32,8 +32,8 @@ pub(crate) fn close(
                 Motion::Steps(cycle) => *cycle,
                 Motion::Stands(frames) => standing::standing_cycle(&grounded, body, frames, period_s),
             };
-            let name = if index == 0 { clip.name.clone() } else { window_name(clip, window_s[0]) };
-            let is_semi_procedural = clip.choices.is_semi_procedural && index == 0;
+            let name = window_name(clip, index, window_s);
+            let is_semi_procedural = is_chosen(clip, index, window_s);
             let choices = Choices { is_semi_procedural, ..clip.choices };
             cycles.push(NamedCycle { name, source: source as u32, window_s, mirrored: false, choices, flaws, cycle });
         }
@@ -42,19 +42,36 @@ pub(crate) fn close(
     Ok(cycles)
 }
 
-/// The name of a window that is not its clip's first.
-fn window_name(clip: &HumanClip, start_s: f64) -> String {
+/// The name of a clip's window: of the first the clip's own.
+fn window_name(clip: &HumanClip, index: usize, window_s: [f64; 2]) -> String {
+    if index == 0 {
+        return clip.name.clone();
+    }
     let last_s = (clip.first_frame + clip.frames.len()) as f64 / clip.frame_rate_hz;
     let width = format!("{last_s:.1}").len();
-    format!("{}@{start_s:0width$.1}s", clip.name)
+    format!("{}@{:0width$.1}s", clip.name, window_s[0])
 }
 
-/// The cycle of the clip that a manifest chose as m_sp, if any.
+/// Whether a manifest chose a window of a clip as m_sp.
+fn is_chosen(clip: &HumanClip, index: usize, window_s: [f64; 2]) -> bool {
+    let is_named = match clip.choices.semi_procedural_tenth {
+        None => index == 0,
+        Some(tenth) => format!("{:.1}", window_s[0]) == format!("{:.1}", f64::from(tenth) / 10.0),
+    };
+    clip.choices.is_semi_procedural && is_named
+}
+
+/// The cycle that a manifest chose as m_sp, if any.
 fn chosen_cycle<'a>(clips: &[HumanClip], analyzed: &'a [Analyzed]) -> Result<Option<&'a GaitCycle>, CompileError> {
     let chosen = clips.iter().zip(analyzed).find(|(clip, _)| clip.choices.is_semi_procedural);
     let Some((clip, found)) = chosen else { return Ok(None) };
-    let first = found.windows.first().and_then(SteadyWindow::stepping);
-    first.map(Some).ok_or_else(|| CompileError::NotStepping { name: clip.name.clone() })
+    let windows = || found.windows.iter().enumerate();
+    let named = windows().find(|(index, window)| is_chosen(clip, *index, window.window_s));
+    named.and_then(|(_, window)| window.stepping()).map(Some).ok_or_else(|| {
+        let stepping = windows().filter(|(_, window)| window.stepping().is_some());
+        let names = stepping.map(|(index, window)| window_name(clip, index, window.window_s)).collect();
+        CompileError::NotStepping { name: clip.name.clone(), stepping: names }
+    })
 }
 
 /// The period of m_sp, which standing clips take over.
@@ -85,4 +102,31 @@ pub(crate) fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
         .collect();
     cycles.extend(mirrors);
     names::tell_apart(cycles.iter_mut().map(|cycle| &mut cycle.name));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compile::{Options, compile};
+    use crate::synthetic::{Walk, performance, walk};
+
+    #[test]
+    fn a_further_window_can_be_chosen_as_the_walk_that_is_deformed() {
+        let walking = |speed_mps, duration_s| {
+            let rates = Rates { speed_mps, ..Rates::default() };
+            walk("part", Walk { rates, duration_s, ..Walk::default() })
+        };
+        let mut capture = performance("capture", &[walking(1.2, 7.0), walking(0.7, 4.0)]);
+        let compiled = |capture: &HumanClip| compile(vec![capture.clone()], &Options::default(), &|_| ());
+        let found = compiled(&capture).unwrap();
+        let [first, second] = &found.examples[..] else { panic!("{:?}", found.examples) };
+        assert_eq!(found.correspondence.unwrap().semi_procedural, 0, "{first:?}");
+        capture.choices.is_semi_procedural = true;
+        capture.choices.semi_procedural_tenth = Some((10.0 * second.window_s[0]).round() as u32);
+        let chosen = compiled(&capture).unwrap();
+        assert_eq!(chosen.correspondence.unwrap().semi_procedural, 1, "{second:?}");
+        capture.choices.semi_procedural_tenth = Some(999);
+        let Err(CompileError::NotStepping { stepping, .. }) = compiled(&capture) else { panic!("accepted") };
+        assert_eq!(stepping, [first.name.clone(), second.name.clone()]);
+    }
 }

@@ -9,6 +9,7 @@ use motiondb::skeleton::{JOINT_COUNT, Joint};
 
 use crate::axis::Axis;
 use crate::error::{Refusal, Setting};
+use crate::near_names::nearest_first;
 use crate::source_clip::SourceClip;
 
 /// Source joint by canonical role, where a manifest names it.
@@ -91,7 +92,7 @@ impl Settings {
         for (&role, name) in &self.joints {
             let found = clip.joints.iter().position(|joint| joint.name == *name);
             map[role.index()] = Some(found.ok_or_else(|| {
-                let names: Vec<&str> = clip.joints.iter().map(|joint| joint.name.as_str()).collect();
+                let names = nearest_first(name, clip.joints.iter().map(|joint| joint.name.as_str()));
                 let reason = format!("{} has no joint `{name}`; it has {}", title(clip), names.join(", "));
                 Refusal::Setting { setting: Setting::Joint(role), reason, remedy: "name one of these" }
             })?);

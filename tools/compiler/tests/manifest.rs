@@ -15,6 +15,8 @@ use proptest::prelude::*;
 const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 const SCHEMA: &str = include_str!("../../../assets/manifest.schema.json");
 const ALL_KEYS: &str = include_str!("../../../fuzz/corpus/manifest/all_keys.toml");
+/// Of the folder nothing but what further tables name.
+const ONLY: &str = "[[clips]]\npath = '.'\nskip = true\n";
 const LEGS: &str = "left_thigh = 'LeftUpLeg'\nleft_shank = 'LeftLeg'\nleft_foot = 'LeftFoot'\n\
                     right_thigh = 'RightUpLeg'\nright_shank = 'RightLeg'\nright_foot = 'RightFoot'\n";
 
@@ -72,11 +74,22 @@ fn an_empty_manifest_takes_all_below_its_folder() {
 }
 
 #[test]
-fn named_clips_are_all_that_is_taken_and_bear_their_labels() {
+fn a_table_says_more_of_a_clip_and_leaves_the_others_in_use() {
     let manifest = "[[clips]]\npath = 'walk_110.bvh'\nname = 'stroll'\n\n[[clips]]\npath = './inner/walk_180.bvh'\n";
-    assert_eq!(names(&compiled("named", manifest)), ["stroll", "walk_180"]);
-    let animation = "[[clips]]\npath = 'walk_140.glb'\nanimation = 'walk_140'\nname = 'march'\n";
-    assert_eq!(names(&compiled("animation", animation)), ["march"]);
+    let all = ["idle", "stroll", "turn_090_left", "turn_090_left_mirrored", "walk_140", "walk_180"];
+    assert_eq!(names(&compiled("named", manifest)), all);
+    let animation = format!("{ONLY}[[clips]]\npath = 'walk_140.glb'\nanimation = 'walk_140'\nname = 'march'\n");
+    assert_eq!(names(&compiled("animation", &animation)), ["march"]);
+}
+
+#[test]
+fn the_innermost_table_decides_what_is_skipped() {
+    let one = format!("{ONLY}[[clips]]\npath = 'walk_110.bvh'\nskip = false\n");
+    assert_eq!(names(&compiled("only_one", &one)), ["walk_110"]);
+    let inner = format!("[[clips]]\npath = 'inner'\n{ONLY}");
+    assert_eq!(names(&compiled("only_inner", &inner)), ["walk_180"]);
+    let but_one = "[[clips]]\npath = 'inner'\nskip = true\n[[clips]]\npath = 'inner/walk_180.bvh'\nname = 'march'\n";
+    assert!(names(&compiled("but_one", but_one)).contains(&"march"));
 }
 
 #[test]
@@ -93,8 +106,8 @@ fn unit_axis_and_frame_rate_are_those_of_the_manifest() {
         let wanted_mps = before.speed_mps * 1.1 * frame_rate_hz / before.frame_rate_hz;
         assert!((told.speed_mps - wanted_mps).abs() < 0.02 * wanted_mps, "{told:?}, not {wanted_mps}");
     }
-    let lying = "[[clips]]\npath = 'walk_110.bvh'\nup = '+X'\n";
-    let error = compile(&folder("lying", lying)).unwrap_err().to_string();
+    let lying = format!("{ONLY}[[clips]]\npath = 'walk_110.bvh'\nup = '+X'\n");
+    let error = compile(&folder("lying", &lying)).unwrap_err().to_string();
     assert!(error.contains("no legs could carry"), "the axis is believed: {error}");
 }
 
@@ -111,7 +124,7 @@ fn a_clip_that_nobody_can_have_walked_gives_no_example() {
 fn two_parts_of_one_capture_are_two_clips() {
     let part =
         |name: &str, frames: &str| format!("[[clips]]\npath = 'walk_110.bvh'\nname = '{name}'\nframes = {frames}\n");
-    let db = compiled("parts", &format!("{}{}", part("second", "[20, 120]"), part("first", "[1, 100]")));
+    let db = compiled("parts", &format!("{ONLY}{}{}", part("second", "[20, 120]"), part("first", "[1, 100]")));
     assert_eq!(names(&db), ["first", "second"]);
     assert_eq!(db.sources.len(), 2);
 }
@@ -150,8 +163,9 @@ fn a_joint_map_finds_the_same_body_under_other_names() {
 #[test]
 fn a_facing_exchanges_left_and_right_only_where_they_were_found_wrongly() {
     let speed_mps = |test: &str, forward: &str| {
-        let db =
-            compile(&folder(test, &format!("[[clips]]\npath = 'walk_110.bvh'\nforward = '{forward}'\n"))).unwrap().db;
+        let db = compile(&folder(test, &format!("{ONLY}[[clips]]\npath = 'walk_110.bvh'\nforward = '{forward}'\n")))
+            .unwrap()
+            .db;
         db.sources[0].speed_mps
     };
     let speeds = [speed_mps("facing", "+Z"), speed_mps("backing", "-Z")];
@@ -178,10 +192,13 @@ fn mistakes_are_shown_where_they_stand() {
     let tangled = format!("[clips.joints]\n{}", LEGS.replace("'LeftFoot'", "'LeftHand'"));
     check("tangled", &tangled, "'LeftHand'", &["`LeftHand`", "`LeftLeg`"]);
     check_refused("missing", "[[clips]]\npath = 'run.bvh'\n", "'run.bvh'", &["run.bvh"]);
+    check("name", "name = \"a\\nb\"\n", "\"a\\nb\"", &["control character"]);
+    check("count", "frames = [1.5, 60]\n", "1.5", &["a whole number"]);
+    check_refused("zero", "max_examples = 0\n", "0", &["from 1 on"]);
     check_refused("whole", "[[clips]]\npath = '.'\nframes = [1, 9]\n", "[1, 9]", &["folder"]);
     check_refused("m_sp", "semi_procedural = 'run'\n", "'run'", &["`run`", "walk_110"]);
     let window = "semi_procedural = 'walk_110@02.0s'\n";
-    check_refused("window", window, "'walk_110@02.0s'", &["a window of the clip `walk_110`"]);
+    check_refused("window", window, "'walk_110@02.0s'", &["no example that steps", "walk_110"]);
     check_refused("body", "target_skeleton = 'giant'\n", "'giant'", &["`giant`", "walk_110"]);
     check_refused("standing", "semi_procedural = 'idle'\n", "'idle'", &["no example that steps"]);
 }

@@ -46,20 +46,18 @@ fn manifest(paths: &[PathBuf]) -> Result<Manifest, Failure> {
             return Err(Failure::bad(format!("{both}; write one that names the folders of both")));
         }
     };
-    if manifest.unnamed > 0 {
-        let others = manifest.unnamed;
-        output::say(&format!(
-            "note: the manifest names its clips; {others} more below its folder are not used (a table with path = \".\" takes all)"
-        ));
-    }
     manifest.add_files(&files);
-    match (manifest.takes.is_empty(), paths.first()) {
-        (true, Some(folder)) => Err(Failure::bad(format!(
-            "{}: no *.bvh, *.glb or *.gltf below it; name another folder or the clips themselves",
-            folder.display()
-        ))),
-        _ => Ok(manifest),
+    if !manifest.takes.is_empty() {
+        return Ok(manifest);
     }
+    Err(Failure::bad(match (&manifests[..], paths) {
+        ([manifest, ..], _) => format!("{}: leaves no clip to use; skip fewer", manifest.display()),
+        ([], [folder, ..]) => {
+            let folder = folder.display();
+            format!("{folder}: no *.bvh, *.glb or *.gltf below it; name another folder or the clips themselves")
+        }
+        ([], []) => "no clips; name files or folders".to_owned(),
+    }))
 }
 
 /// What the command line wants of the whole set; it counts more than a manifest.

@@ -6,6 +6,7 @@ use fbcrowd_render::png_frame;
 use fbcrowd_render::pose_distance_plot::pose_distances_between;
 use motiondb::correspondence::table;
 use motiondb::motion_db::MotionDb;
+use motiondb_compiler::near_names::nearest_first;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -68,37 +69,8 @@ impl Between {
 fn find(db: &MotionDb, name: &str) -> Result<usize, Failure> {
     let found = db.examples.iter().position(|example| example.name == name);
     found.ok_or_else(|| {
-        let mut near: Vec<&str> = db.examples.iter().map(|example| example.name.as_str()).collect();
-        near.sort_by_key(|other| edits(&name.to_lowercase(), &other.to_lowercase()));
+        let mut near = nearest_first(name, db.examples.iter().map(|example| example.name.as_str()));
         near.truncate(NEAR_NAMES);
         Failure::bad(format!("no example is called `{name}`; near it are {}", near.join(", ")))
     })
-}
-
-/// Letters to be put in, taken out or changed (Levenshtein). To go on where a name ends costs nothing: a part of a name
-/// is near it.
-fn edits(name: &str, other: &str) -> usize {
-    let mut costs: Vec<usize> = vec![0; other.chars().count() + 1];
-    for (row, letter) in name.chars().enumerate() {
-        let mut diagonal = costs[0];
-        costs[0] = row + 1;
-        for (column, other_letter) in other.chars().enumerate() {
-            let change = diagonal + usize::from(letter != other_letter);
-            diagonal = costs[column + 1];
-            costs[column + 1] = change.min(diagonal + 1).min(costs[column] + 1);
-        }
-    }
-    costs.into_iter().min().unwrap_or_default()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_part_of_a_name_is_nearer_than_another_name() {
-        assert_eq!(edits("walk", "ChrMarine_Walk01".to_lowercase().as_str()), 0);
-        assert_eq!(edits("wlak_110", "walk_110"), 2);
-        assert!(edits("walk_11", "walk_110") < edits("walk_11", "run_350"));
-    }
 }
