@@ -43,6 +43,8 @@ pub enum Mode {
     /// Motion blending.
     #[default]
     Blending = 0,
+    /// Semi-procedural locomotion.
+    SemiProcedural = 1,
 }
 
 impl Default for AgentFrame {

@@ -139,6 +139,7 @@ fn take_metres(rest: &mut &[u8]) -> Result<f32, &'static str> {
 fn unpack_mode(code: u8) -> Result<Mode, &'static str> {
     match code {
         0 => Ok(Mode::Blending),
+        1 => Ok(Mode::SemiProcedural),
         _ => Err("the mode is unknown"),
     }
 }

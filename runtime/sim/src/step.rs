@@ -18,12 +18,13 @@ use rayon::prelude::*;
 use crate::agents::Agents;
 use crate::cns::{self, Coupling};
 use crate::hms::Motion;
+use crate::hms::hybrid::Hybrid;
 use crate::hms::space::Space;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::path::{self, Braking};
 use crate::planner::{self, Scratch};
-use crate::recording_frame::{AgentFrame, Mode};
+use crate::recording_frame::AgentFrame;
 use crate::scenario::Scenario;
 use crate::world::World;
 
@@ -51,6 +52,7 @@ pub enum Stage {
 pub struct Simulation {
     db: Arc<MotionDb>,
     space: Space,
+    hybrid: Option<Hybrid>,
     scenario: Scenario,
     obstacles: Obstacles,
     neighbours: Neighbours,
@@ -61,8 +63,8 @@ pub struct Simulation {
 impl Simulation {
     /// At time 0: every agent stands at its start.
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
-        let space = Space::new(&db);
-        let motion = Motion { db: &db, space: &space, params: &scenario.params.synthesis };
+        let (space, hybrid) = (Space::new(&db), Hybrid::new(&db));
+        let motion = Motion { db: &db, space: &space, hybrid: hybrid.as_ref(), params: &scenario.params.synthesis };
         let agents = Agents::new(scenario, &motion);
         let mut simulation = Self {
             obstacles: Obstacles::new(&scenario.obstacles_m),
@@ -71,6 +73,7 @@ impl Simulation {
             scenario: scenario.clone(),
             agents,
             space,
+            hybrid,
             db,
         };
         simulation.record();
@@ -135,7 +138,12 @@ impl Simulation {
     }
 
     fn synthesize(&mut self) {
-        let motion = Motion { db: &self.db, space: &self.space, params: &self.scenario.params.synthesis };
+        let motion = Motion {
+            db: &self.db,
+            space: &self.space,
+            hybrid: self.hybrid.as_ref(),
+            params: &self.scenario.params.synthesis,
+        };
         let (agents, obstacles) = (&mut self.agents, &self.obstacles);
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let bodies = agents.bodies.par_iter_mut().with_min_len(CHUNK).zip(&mut agents.syntheses);
@@ -160,7 +168,7 @@ impl Simulation {
                 preferred_mps: agents.preferred_mps[index],
                 planned_mps: plan.velocity_mps,
                 phase: body.phase,
-                mode: Mode::Blending,
+                mode: body.mode,
                 contacts: synthesis.contacts,
                 set: plan.set,
                 strafing_s: plan.strafing_s,

@@ -59,6 +59,7 @@ pub(crate) fn test_db() -> MotionDb {
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
     db.velocity_hull = hull(&parameters);
     db.blend_space = motiondb_compiler::blend_space::build(&parameters);
+    db.correspondence = motiondb_compiler::correspondence::find(&db, None);
     db
 }
 

@@ -47,7 +47,7 @@ fn errand(time_s: f32, root: &Root) -> Plan {
 /// One body at each of eight phases goes on the errand; `see` is shown every step.
 fn go(db: &MotionDb, mut see: impl FnMut(&Root, &Synthesis)) -> Slide {
     let (space, params) = (Space::new(db), HmsParams::default());
-    let motion = Motion { db, space: &space, params: &params };
+    let motion = Motion { db, space: &space, hybrid: None, params: &params };
     let start = |index: usize| Body::standing(&motion, Root::default(), index as f32 / 8.0);
     let mut bodies: Vec<Body> = (0..8).map(|index| start(index).0).collect();
     let mut slide = PlantedSlide::new(&db.skeleton, bodies.len(), DT_S);

@@ -16,10 +16,10 @@
 //! space of parameters: the body passes the examples between.
 
 use glam::Vec2;
-use motiondb::blend_space::Shares;
 use motiondb::parameters::Parameters;
 
 use super::params::HmsParams;
+use super::semi_procedural::SemiProcedural;
 use super::space::Space;
 use crate::angle::wrap_rad;
 use crate::plan::Plan;
@@ -36,12 +36,22 @@ pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) ->
     Parameters { speed_mps: wanted_mps.x, turn_rate_rad_s, strafe_mps: wanted_mps.y }
 }
 
-/// Shares of the point on the straight way from `now` to `goal` that a body may reach in one step.
-pub fn step_towards(now: Parameters, goal: Parameters, space: &Space, params: &HmsParams, dt_s: f32) -> Shares {
+/// What a plan asks of semi-procedural locomotion, which can do it: the planned velocity itself, whatever the facing.
+pub fn asked_exactly(plan: &Plan, facing_rad: f32, semi_procedural: &SemiProcedural, params: &HmsParams) -> Parameters {
+    if !(plan.velocity_mps.is_finite() && plan.facing_rad.is_finite()) {
+        return Parameters::default();
+    }
+    let local_mps = Vec2::from_angle(-facing_rad).rotate(plan.velocity_mps);
+    let turn_rate_rad_s = wrap_rad(plan.facing_rad - facing_rad) / params.turn_time_s;
+    semi_procedural.reachable(Parameters { speed_mps: local_mps.x, turn_rate_rad_s, strafe_mps: local_mps.y })
+}
+
+/// The point on the straight way from `now` to `goal` that a body may reach in one step.
+pub fn step_towards(now: Parameters, goal: Parameters, params: &HmsParams, dt_s: f32) -> Parameters {
     let change = goal.to_vec3() - now.to_vec3();
     let speed_change_mps = Vec2::new(change.x, change.z).length();
     let within = |change: f32, change_max: f32| if change <= change_max { 1.0 } else { change_max / change };
     let fraction = within(speed_change_mps, params.acceleration_max_mps2 * dt_s)
         .min(within(change.y.abs(), params.turn_acceleration_max_rad_s2 * dt_s));
-    space.locate(Parameters::from_vec3(now.to_vec3() + fraction * change))
+    Parameters::from_vec3(now.to_vec3() + fraction * change)
 }

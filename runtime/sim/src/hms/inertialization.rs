@@ -11,6 +11,8 @@ use motiondb::skeleton::JOINT_COUNT;
 
 /// Rate of the springs, 1/s: 9 % of a difference is left after 0.4 s, a step.
 const RATE_HZ: f32 = 10.0;
+/// By then a difference has died out, s.
+pub const CARRIED_S: f32 = 0.4;
 /// Less than this of a difference is none, rad and m.
 const NEGLIGIBLE: f32 = 1e-4;
 /// A rate is a difference over this time before the switch, s.

@@ -4,13 +4,13 @@
 //!
 //! 1. [`owed`], [`asked`], [`gait`]: the plan as (v_f, ω_t, ω_s), smoothed; what of it the body can do, standing or
 //!    stepping; and how far it gets in one step;
-//! 2. [`blending`]: the shares of the examples follow; phase and root move, the root exactly along its arc;
-//! 3. the pose is sampled at the new phase;
+//! 2. [`blending`] or [`semi_procedural`]: what is played follows; phase and root move, the root exactly along its arc;
+//!    [`mode`] tells which is wanted, and at the next pair of [`hybrid`] synthesis changes hands;
+//! 3. the pose is sampled at the new phase ([`playing`]); [`inertialization`] carries away what a switch left;
 //! 4. [`feet`]: planted feet are held;
 //! 5. [`pelvis`], [`ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach them.
 //!
-//! There is one mode, motion blending; the hybrid switch (§3.4.1) will choose between it and semi-procedural
-//! locomotion. The root frame has x forward, y left, z up, its origin on the ground under the ripple-free root; metres,
+//! The root frame has x forward, y left, z up, its origin on the ground under the ripple-free root; metres,
 //! seconds, radians.
 
 pub mod asked;
@@ -18,11 +18,14 @@ pub mod blending;
 pub mod feet;
 pub mod foot_path;
 pub mod gait;
+pub mod hybrid;
 pub mod ik;
 pub mod inertialization;
+pub mod mode;
 pub mod owed;
 pub mod params;
 pub mod pelvis;
+pub mod playing;
 pub mod semi_procedural;
 pub mod space;
 
@@ -32,16 +35,21 @@ use motiondb::parameters::Parameters;
 use motiondb::pose::{Joints, Pose, Root};
 use motiondb::skeleton::{Joint, Skeleton};
 
-use self::blending::{Mix, Weights};
+use self::blending::Mix;
 use self::feet::{FootHold, PosedFoot};
 use self::gait::Gait;
+use self::hybrid::Hybrid;
 use self::ik::FootTarget;
+use self::inertialization::{Inertia, LOOK_BACK_S};
+use self::mode::{Choice, Thresholds};
 use self::owed::Owed;
 use self::params::HmsParams;
+use self::playing::Playing;
+use self::semi_procedural::SemiProcedural;
 use self::space::Space;
 use crate::angle::wrap_rad;
 use crate::plan::{Plan, Stance, StanceFoot};
-use crate::recording_frame::PLANTED_CONTACT;
+use crate::recording_frame::{Mode, PLANTED_CONTACT};
 
 /// Feet this near to where a standing body has them are under it, m: half a small step.
 const GATHERED_M: f32 = 0.18;
@@ -60,6 +68,8 @@ const LIFT_OFF_PHASE: f32 = 0.15;
 /// A first step aside, or into a turn, is made by the foot on that side, unless that foot is ahead of the other by
 /// this, m.
 const OPEN_SIDE_M: f32 = 0.1;
+/// Semi-procedural locomotion ends where the examples can take over within this, m/s and rad/s.
+const SWITCH_SLACK: f32 = 0.05;
 /// A first pose is given this long to settle on its feet, s.
 const SETTLING_S: f32 = 1.0;
 
@@ -70,6 +80,8 @@ pub struct Motion<'a> {
     pub db: &'a MotionDb,
     /// Its blend space.
     pub space: &'a Space,
+    /// What hybrid synthesis needs of it; without, bodies only blend.
+    pub hybrid: Option<&'a Hybrid>,
     /// Tunables.
     pub params: &'a HmsParams,
 }
@@ -81,8 +93,14 @@ pub struct Body {
     pub root: Root,
     /// φ.
     pub phase: f32,
-    /// Examples in play.
+    /// Synthesis in force.
+    pub mode: Mode,
+    /// Examples in play, while it blends.
     pub mix: Mix,
+    /// What m_sp is deformed to, otherwise.
+    walking: Parameters,
+    choice: Choice,
+    inertia: Inertia,
     gait: Gait,
     owed: Owed,
     /// What the plans of the last moments asked for.
@@ -112,37 +130,113 @@ impl Body {
         let mut body = Self {
             root,
             phase,
+            mode: Mode::Blending,
             mix,
+            walking: Parameters::default(),
+            choice: Choice::BLENDING,
+            inertia: Inertia::default(),
             gait: Gait::STANDING,
             owed: Owed::default(),
             intended: Parameters::default(),
             walked_mps: Vec2::ZERO,
             feet: Default::default(),
         };
-        let weights = mix.weights(motion.db, phase);
-        let joints = weights.pose(motion.db, phase).forward_kinematics(&motion.db.skeleton);
+        let playing = body.playing(motion);
+        let joints = playing.pose(motion, phase).forward_kinematics(&motion.db.skeleton);
         body.feet = [0, 1].map(|side| FootHold::new(&body.posed_foot(&joints, &motion.db.skeleton, side)));
-        let synthesis = body.pose(motion, &weights, SETTLING_S);
+        let synthesis = body.synthesize(motion, SETTLING_S);
         (body, synthesis)
     }
 
-    /// Steps 1 and 2: shares, phase and root follow the plan. The root may then be kept out of walls, before
+    /// Steps 1 and 2: what is played, phase and root follow the plan. The root may then be kept out of walls, before
     /// [`Self::synthesize`].
     pub fn advance(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
         let plan = self.owed.settle(plan, self.walked_mps, dt_s);
-        self.intend(asked::asked(&plan, self.root.facing_rad, motion.space, motion.params), dt_s);
+        let before = self.phase;
+        match (self.mode, motion.hybrid) {
+            (Mode::SemiProcedural, Some(hybrid)) => self.deform(motion, &hybrid.semi_procedural, &plan, dt_s),
+            _ => self.blend(motion, &plan, dt_s),
+        }
+        if let Some(hybrid) = motion.hybrid {
+            self.choose(motion, hybrid, &plan, dt_s);
+            self.switch(motion, hybrid, before);
+        }
+    }
+
+    /// Motion blending: shares, phase and root.
+    fn blend(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
+        self.intend(asked::asked(plan, self.root.facing_rad, motion.space, motion.params), dt_s);
         let now = self.mix.parameters(motion.db);
         let nearest = motion.space.nearest(self.intended);
         if self.gait.follow(nearest.idle_share, self.feet_gathered(motion), dt_s) {
             self.phase = self.first_step_phase(motion);
         }
         let goal = gait::goal(nearest, now, self.gait, motion.space);
-        let shares = asked::step_towards(now, goal, motion.space, motion.params, dt_s);
+        let shares = motion.space.locate(asked::step_towards(now, goal, motion.params, dt_s));
         self.mix.approach(&shares, dt_s / motion.params.share_change_s);
-        let moved = moved(&self.root, &self.mix.parameters(motion.db), dt_s);
-        self.walked_mps = (moved.position_m - self.root.position_m) / dt_s;
+        self.move_root(&self.mix.parameters(motion.db), dt_s);
         self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * dt_s);
+    }
+
+    /// Semi-procedural locomotion: parameters, phase and root. On the way back to blending it makes for what the
+    /// examples can do.
+    fn deform(&mut self, motion: &Motion, semi_procedural: &SemiProcedural, plan: &Plan, dt_s: f32) {
+        self.intend(asked::asked_exactly(plan, self.root.facing_rad, semi_procedural, motion.params), dt_s);
+        let goal = match self.choice.mode {
+            Mode::SemiProcedural => self.intended,
+            Mode::Blending => motion.space.nearest(self.intended).parameters,
+        };
+        self.walking = asked::step_towards(self.walking, goal, motion.params, dt_s);
+        self.move_root(&{ self.walking }, dt_s);
+        let map = semi_procedural.phase_map(self.walking);
+        let middle = self.phase + 0.5 * dt_s * map.rate_hz(self.phase);
+        let next = self.phase + dt_s * map.rate_hz(middle);
+        self.phase = next - libm::floorf(next);
+    }
+
+    fn move_root(&mut self, parameters: &Parameters, dt_s: f32) {
+        let moved = moved(&self.root, parameters, dt_s);
+        self.walked_mps = (moved.position_m - self.root.position_m) / dt_s;
         self.root = moved;
+    }
+
+    /// §3.4.1: which synthesis is wanted.
+    fn choose(&mut self, motion: &Motion, hybrid: &Hybrid, plan: &Plan, dt_s: f32) {
+        let thresholds = Thresholds { transition_s: hybrid.transition_s, density: motion.params.density_threshold };
+        let walks = !self.gait.stands && motion.space.nearest(self.intended).idle_share < gait::IDLE_SHARE_MAX;
+        self.choice.follow(plan, walks, &thresholds, dt_s);
+    }
+
+    /// App. 10: at a pair of T, synthesis changes hands at the velocity that the body has, and the difference of poses
+    /// is left to inertia. The paper moves its weights to m_mb alone first, since it cannot begin at another velocity: at
+    /// the very moment that a collision threatens, its body walks at m_mb's.
+    fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32) {
+        let (from, to) = (self.mode, self.choice.mode);
+        let settled = || motion.space.nearest(self.walking).parameters.to_vec3().distance(self.walking.to_vec3());
+        if from == to || from == Mode::SemiProcedural && settled() > SWITCH_SLACK {
+            return;
+        }
+        let Some(jump) = hybrid.jump(from, before, self.phase) else { return };
+        let old = self.poses(motion);
+        match to {
+            Mode::SemiProcedural => self.walking = self.mix.parameters(motion.db),
+            Mode::Blending => self.mix = Mix::new(&motion.space.locate(self.walking)),
+        }
+        let jumped = self.phase + jump;
+        (self.mode, self.phase) = (to, jumped - libm::floorf(jumped));
+        let new = self.poses(motion);
+        self.inertia.begin(old.each_ref(), new.each_ref());
+    }
+
+    /// What is played, now and [`LOOK_BACK_S`] ago.
+    fn poses(&self, motion: &Motion) -> [Pose; 2] {
+        let playing = self.playing(motion);
+        let before = self.phase - LOOK_BACK_S * playing.phase_rate_hz(self.phase);
+        [self.phase, before - libm::floorf(before)].map(|phase| playing.pose(motion, phase))
+    }
+
+    fn playing<'a>(&self, motion: &Motion<'a>) -> Playing<'a> {
+        Playing::new(motion, self)
     }
 
     /// What is asked, smoothed.
@@ -189,14 +283,11 @@ impl Body {
 
     /// Steps 3 to 5: the pose at the present phase and root.
     pub fn synthesize(&mut self, motion: &Motion, dt_s: f32) -> Synthesis {
-        let weights = self.mix.weights(motion.db, self.phase);
-        self.pose(motion, &weights, dt_s)
-    }
-
-    fn pose(&mut self, motion: &Motion, weights: &Weights, dt_s: f32) -> Synthesis {
         let skeleton = &motion.db.skeleton;
-        let mut pose = weights.pose(motion.db, self.phase);
-        let contacts = weights.contacts(motion.db, self.phase);
+        let playing = self.playing(motion);
+        let mut pose = playing.pose(motion, self.phase);
+        self.inertia.carry(&mut pose, dt_s);
+        let contacts = playing.contacts(motion, self.phase);
         let mut joints = pose.forward_kinematics(skeleton);
 
         let targets = [0, 1].map(|side| self.hold_foot(&joints, skeleton, side, contacts[side], dt_s));
@@ -212,8 +303,8 @@ impl Body {
         Synthesis {
             pose,
             contacts,
-            stance: self.stance(motion.db, weights, contacts, &soles_m),
-            examples_slide_cm_s: weights.examples_slide_cm_s(motion.db),
+            stance: self.stance(motion, &playing, contacts, &soles_m),
+            examples_slide_cm_s: playing.examples_slide_cm_s(motion),
         }
     }
 
@@ -235,7 +326,7 @@ impl Body {
     }
 
     /// The single stance foot, if there is one.
-    fn stance(&self, db: &MotionDb, weights: &Weights, contacts: [f32; 2], soles_m: &[[Vec3; 3]; 2]) -> Stance {
+    fn stance(&self, motion: &Motion, playing: &Playing, contacts: [f32; 2], soles_m: &[[Vec3; 3]; 2]) -> Stance {
         let planted = contacts.map(|contact| contact >= PLANTED_CONTACT);
         if planted[0] == planted[1] {
             return Stance { foot: None };
@@ -248,7 +339,7 @@ impl Body {
             ball_m,
             toe_m,
             swing_m: self.root.forward().rotate(soles_m[1 - side][1].truncate()),
-            time_to_landing_s: weights.time_to_landing_s(db, self.phase, 1 - side, PLANTED_CONTACT),
+            time_to_landing_s: playing.time_to_landing_s(motion, self.phase, 1 - side),
         };
         Stance { foot: Some(foot) }
     }

@@ -16,10 +16,19 @@ pub struct HmsParams {
     /// acceleration above; longer tracks worse (a turn of 90° at 1.3 m/s: 1.4 s and 1.2 m off the planned velocity at
     /// 0.3, 2.9 s and 2.1 m at 1).
     pub turn_time_s: f32,
+    /// d_thresh of Eq. 1, as the density filter counts, 1/m: where more people are about, semi-procedural locomotion
+    /// follows the planner more closely than a blend.
+    pub density_threshold: f32,
 }
 
 impl Default for HmsParams {
     fn default() -> Self {
-        Self { acceleration_max_mps2: 3.0, turn_acceleration_max_rad_s2: 8.0, share_change_s: 0.25, turn_time_s: 0.3 }
+        Self {
+            acceleration_max_mps2: 3.0,
+            turn_acceleration_max_rad_s2: 8.0,
+            share_change_s: 0.25,
+            turn_time_s: 0.3,
+            density_threshold: 0.6,
+        }
     }
 }

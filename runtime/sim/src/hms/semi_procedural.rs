@@ -38,6 +38,13 @@ const BACKWARD: f32 = 1.4;
 const TURNING_M: f32 = 1.0;
 /// Cadence over that of m_sp: from a stroll's to a shuffle's.
 const CADENCE: [f32; 2] = [0.6, 2.2];
+/// Greatest speeds ahead, back and aside, over that of m_sp, where legs neither over-stretch nor hurry (`fbcrowd bench
+/// reach`) …
+const AHEAD_MAX: f32 = 2.0;
+const BACKWARD_MAX: f32 = 1.1;
+const ASIDE_MAX: f32 = 1.1;
+/// … and the greatest turn rate, rad/s: 170 °/s.
+const TURN_MAX_RAD_S: f32 = 3.0;
 /// Least clearance between ankles that pass each other aside, m: a foot's width.
 const GAP_M: f32 = 0.1;
 /// From ankle to toe tip, m: what reaches across where a foot points inward.
@@ -63,6 +70,8 @@ pub struct SemiProcedural {
     parameters: Parameters,
     phase_map: PhaseMap,
     feet: Vec<[Foothold; 2]>,
+    /// Phases from mid-stance to each foot's landing, and to its leaving; the former negative.
+    contacts: [[f32; 2]; 2],
     /// Mean height of the hips, m.
     hips_m: f32,
     /// Mean of each joint over the cycle.
@@ -93,6 +102,10 @@ impl SemiProcedural {
             parameters: found.parameters,
             phase_map: found.phase_map,
             hips_m: (0..PHASE_COUNT).map(|row| db.rows.pose(example, row).pelvis_m.z).sum::<f32>() / PHASE_COUNT as f32,
+            contacts: [[key_times_s[3], key_times_s[2]], [key_times_s[1], key_times_s[0]]].map(|[strike_s, off_s]| {
+                let phase = |time_s| found.phase_map.phase(time_s);
+                [phase(strike_s), phase(off_s)]
+            }),
             mean: mean(db, example),
             apart_s: greatest(|[left, right]| (left.since_s - right.since_s).abs()),
             track_m: -greatest(|[left, right]| right.place_m.y - left.place_m.y),
@@ -127,6 +140,26 @@ impl SemiProcedural {
         };
         let [forward, reversed] = [0, 1].map(of_one);
         [0, 1].map(|side| libm::powf(forward[side], shares[0]) * libm::powf(reversed[side], shares[1]))
+    }
+
+    /// Seconds until a swinging foot lands: where it does in the cycle or, in reversed time, where it leaves.
+    pub fn time_to_landing_s(&self, parameters: Parameters, phase: f32, side: usize) -> f32 {
+        let [forward, reversed] = directions(parameters);
+        let [strike, off] = self.contacts[side];
+        let ahead = |landing: f32| (landing - phase).rem_euclid(1.0);
+        (forward * ahead(strike) + reversed * ahead(1.0 - off)) / self.phase_map(parameters).rate_hz(phase)
+    }
+
+    /// The nearest parameters that m_sp can be deformed to.
+    pub fn reachable(&self, parameters: Parameters) -> Parameters {
+        let ends_mps = if parameters.speed_mps < 0.0 { BACKWARD_MAX } else { AHEAD_MAX } * self.parameters.speed_mps;
+        let aside_max_mps = ASIDE_MAX * self.parameters.speed_mps;
+        let reach = Vec2::new(parameters.speed_mps / ends_mps, parameters.strafe_mps / aside_max_mps).length().max(1.0);
+        Parameters {
+            speed_mps: parameters.speed_mps / reach,
+            turn_rate_rad_s: parameters.turn_rate_rad_s.clamp(-TURN_MAX_RAD_S, TURN_MAX_RAD_S),
+            strafe_mps: parameters.strafe_mps / reach,
+        }
     }
 
     /// The deformed pose.
