@@ -112,7 +112,7 @@ fn knees_neither_snap_nor_lock() {
         for side in 0..2 {
             assert!(earlier[side] > 0.1, "{} rad", earlier[side]); // the leg at its full length has 0.09
             let speed_rad_s = (later[side] - earlier[side]).abs() / DT_S;
-            assert!(speed_rad_s < 9.0, "{speed_rad_s} rad/s"); // a brisk walker's swing has 7
+            assert!(speed_rad_s < 10.0, "{speed_rad_s} rad/s"); // a runner's swing has 8.5, turning about from a step back 9.7
         }
     }
 }

@@ -1,0 +1,120 @@
+//! Claims about the hybrid switch on compiled clips: bodies change synthesis and nobody sees it.
+
+mod clips;
+
+use std::f32::consts::FRAC_PI_2;
+
+use fbcrowd_sim::hms::hybrid::Hybrid;
+use fbcrowd_sim::hms::params::HmsParams;
+use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::{Body, Motion};
+use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::recording_frame::Mode;
+use glam::{Vec2, Vec3};
+use motiondb::motion_db::MotionDb;
+use motiondb::pose::Root;
+
+use crate::clips::{bundled, marine};
+
+const DT_S: f32 = 1.0 / 60.0;
+
+/// One step of a body: synthesis in force, root, joints in the root frame.
+struct Step {
+    mode: Mode,
+    root: Root,
+    joints_m: Vec<Vec3>,
+}
+
+/// A body walks by a plan of time and root.
+fn walk(db: &MotionDb, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Step> {
+    let (space, hybrid, params) = (Space::new(db), Hybrid::new(db).unwrap(), HmsParams::default());
+    let motion = Motion { db, space: &space, hybrid: Some(&hybrid), params: &params };
+    let (mut body, _) = Body::standing(&motion, Root::default(), 0.3);
+    (0..(seconds / DT_S) as usize)
+        .map(|step| {
+            body.advance(&motion, &plan(step as f32 * DT_S, &body.root), DT_S);
+            let joints = body.synthesize(&motion, DT_S).pose.forward_kinematics(&db.skeleton);
+            Step { mode: body.mode, root: body.root, joints_m: joints.positions_m.to_vec() }
+        })
+        .collect()
+}
+
+fn towards(angle_rad: f32, speed_mps: f32, time_to_collision_s: f32) -> Plan {
+    Plan {
+        velocity_mps: Vec2::from_angle(angle_rad) * speed_mps,
+        facing_rad: angle_rad,
+        time_to_collision_s,
+        ..Plan::default()
+    }
+}
+
+/// Every two seconds a collision threatens, or does no more.
+fn threat_s(time_s: f32) -> f32 {
+    if (time_s / 2.0) as usize % 2 == 1 { 0.5 } else { f32::INFINITY }
+}
+
+/// Greatest acceleration of a joint in the root frame, in each step, m/s².
+fn peaks_mps2(steps: &[Step]) -> Vec<f32> {
+    let acceleration = |three: &[Step]| {
+        let joints = three[0].joints_m.iter().zip(&three[1].joints_m).zip(&three[2].joints_m);
+        joints.map(|((&a, &b), &c)| (a - 2.0 * b + c).length() / (DT_S * DT_S)).fold(0.0, f32::max)
+    };
+    steps.windows(3).map(acceleration).collect()
+}
+
+/// Steps at which the synthesis changes.
+fn switches(steps: &[Step]) -> Vec<usize> {
+    (1..steps.len()).filter(|&step| steps[step].mode != steps[step - 1].mode).collect()
+}
+
+#[test]
+fn a_switch_jerks_no_joint_more_than_walking_does() {
+    for (name, db) in [("bundled", Some(bundled())), ("marine", marine("switch"))] {
+        let Some(db) = db else { continue };
+        for speed_mps in [0.8, 1.1, 1.5] {
+            let greatest = |peaks: &[f32]| peaks.iter().copied().fold(0.0, f32::max);
+            let steady = [f32::INFINITY, 0.5].map(|threat_s| {
+                let steps = walk(&db, 12.0, |_, _| towards(0.0, speed_mps, threat_s));
+                greatest(&peaks_mps2(&steps[300..]))
+            });
+            let hybrid = walk(&db, 24.0, |time_s, _| towards(0.0, speed_mps, threat_s(time_s)));
+            let (peaks, switches) = (peaks_mps2(&hybrid), switches(&hybrid));
+            assert!(switches.len() >= 8, "{} switches", switches.len());
+            let worst_mps2 = switches.iter().map(|&step| greatest(&peaks[step - 5..step + 20])).fold(0.0, f32::max);
+            println!("{name} {speed_mps} m/s: {worst_mps2:.0} m/s² at switches, {steady:.0?} in either synthesis");
+            assert!(worst_mps2 <= 1.5 * steady[0].max(steady[1]), "{name} {speed_mps}: {worst_mps2}, {steady:?} m/s²");
+        }
+    }
+}
+
+#[test]
+fn the_root_neither_jumps_nor_stumbles_at_a_switch() {
+    let db = bundled();
+    let steps = walk(&db, 24.0, |time_s, _| towards(0.0, 1.2, threat_s(time_s)));
+    let speeds_mps: Vec<f32> =
+        steps.windows(2).map(|pair| pair[1].root.position_m.distance(pair[0].root.position_m) / DT_S).collect();
+    let accelerations = speeds_mps.windows(2).map(|pair| (pair[1] - pair[0]).abs() / DT_S);
+    assert!(accelerations.fold(0.0, f32::max) < 3.1);
+    assert!(speeds_mps[240..].iter().all(|speed_mps| (speed_mps - 1.2).abs() < 0.1));
+}
+
+#[test]
+fn under_threat_a_body_does_what_is_planned_while_it_turns() {
+    // A planned velocity aside of the facing that is still turning: blends cannot, m_sp can.
+    let plan = |time_s: f32, _: &Root| towards(if time_s < 6.0 { 0.0 } else { FRAC_PI_2 }, 1.1, 0.5);
+    let steps = walk(&bundled(), 12.0, plan);
+    assert_eq!(steps[360].mode, Mode::SemiProcedural);
+    let turned = steps[360 + 60].root.position_m - steps[360].root.position_m;
+    assert!(turned.y > 0.6, "{turned} m in a second");
+}
+
+#[test]
+fn who_stops_under_threat_stands() {
+    let db = bundled();
+    let plan = |time_s: f32, root: &Root| {
+        if time_s < 5.0 { towards(0.0, 1.1, 0.5) } else { towards(root.facing_rad, 0.0, 0.5) }
+    };
+    let steps = walk(&db, 12.0, plan);
+    assert!(steps[200].mode == Mode::SemiProcedural && steps[700].mode == Mode::Blending);
+    assert!(steps[600].root.position_m.distance(steps[710].root.position_m) < 0.02);
+}
