@@ -2,9 +2,11 @@
 
 pub mod agents;
 pub mod angle;
+pub mod around;
 pub mod body_penetration;
 pub mod cns;
 pub mod collision_rate;
+pub mod decay;
 pub mod hms;
 pub mod mcn;
 pub mod metrics;

@@ -11,21 +11,23 @@
 
 mod grid;
 
-use std::cmp::Ordering;
 use std::ops::Range;
 
 use glam::Vec2;
 
-use self::grid::{Layout, Run, Window};
-use crate::mcn::time_to_collision::disc_with_disc;
+use self::grid::{Grid, Layout, Run, Window};
+use crate::around::Around;
 
 /// Neighbours taken: the number of the benchmark protocol and of RVO2 (`facts/planning.md` §3).
 pub const NEIGHBOUR_COUNT: usize = 10;
 /// Speed at which those who keep their distance might come, m/s. Of two at equal distance, one who comes straight on at
 /// walking speed, 1.33 m/s against ours, ranks as if nearer by a factor of 3.7.
 const APPROACH_MPS: f32 = 1.0;
-/// Agents ranked at once: two vectors of the narrowest x86-64.
-const LANES: usize = 8;
+/// Agents ranked at once: a vector of the narrowest x86-64.
+const VECTOR: usize = 4;
+/// What is guessed of the worst rank, as a multiple of the last searcher's: of a time, and of a squared distance.
+const GUESS: f32 = 1.25;
+const GUESS_SQUARED: f32 = 1.8;
 /// The key of nobody: after every key of finite rank.
 const NOBODY: u64 = key(f32::INFINITY, 0);
 
@@ -51,6 +53,9 @@ pub struct Neighbour {
 pub struct Nearest {
     keys: [u64; NEIGHBOUR_COUNT],
     found: Vec<Neighbour>,
+    around: Around,
+    /// Working memory.
+    ranks: Vec<f32>,
 }
 
 /// The agents, sorted by cell.
@@ -59,13 +64,24 @@ pub struct Neighbours {
     layout: Layout,
     /// Place of each agent in cell order, by index.
     places: Vec<u32>,
-    // In cell order, and LANES more that are nowhere.
+    // In cell order, and a vector more that is nowhere.
     x_m: Vec<f32>,
     y_m: Vec<f32>,
     velocities_x_mps: Vec<f32>,
     velocities_y_mps: Vec<f32>,
     radii_m: Vec<f32>,
     speed_max_mps: f32,
+}
+
+/// A search under way.
+struct Search<'a> {
+    query: &'a Query,
+    /// Greatest speed at which anybody might come nearer, and [`APPROACH_MPS`].
+    closing_mps: f32,
+    /// The best so far.
+    keys: &'a mut [u64; NEIGHBOUR_COUNT],
+    /// Working memory.
+    ranks: &'a mut Vec<f32>,
 }
 
 /// Who searches.
@@ -100,30 +116,34 @@ const fn key(rank: f32, agent: u32) -> u64 {
     ((rank.to_bits() as u64) << 32) | agent as u64
 }
 
+/// The rank of a key.
+const fn rank(key: u64) -> f32 {
+    f32::from_bits((key >> 32) as u32)
+}
+
 impl Nearest {
     /// Best rank first.
     pub fn as_slice(&self) -> &[Neighbour] {
         &self.found
     }
 
-    /// Puts those first that are met first (`FbCrowd` §4.4); those never met stay in order of distance. Ties by index.
+    /// The same in lanes, in order of rank whatever the order of the slice.
+    pub fn around(&self) -> &Around {
+        &self.around
+    }
+
+    /// Puts those first that are met first (`FbCrowd` §4.4); those never met stay in order of distance. Ties by rank.
     pub fn sort_by_time_to_collision(&mut self) {
-        let key = |neighbour: &Neighbour| (neighbour.time_to_collision_s, neighbour.distance_m, neighbour.agent);
-        self.found.sort_unstable_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal));
+        // Floats that are not negative stand in the order of their bits.
+        self.found.sort_by_key(|neighbour| {
+            let [time, distance] = [neighbour.time_to_collision_s, neighbour.distance_m].map(f32::to_bits);
+            (u64::from(time) << 32) | u64::from(distance)
+        });
     }
 
-    /// Takes a key in where it belongs, if it does: each place keeps its own key, takes the new one, or its
-    /// predecessor's.
-    fn offer(&mut self, key: u64) {
-        for place in (1..NEIGHBOUR_COUNT).rev() {
-            self.keys[place] = self.keys[place - 1].max(self.keys[place].min(key));
-        }
-        self.keys[0] = self.keys[0].min(key);
-    }
-
-    /// The rank that a candidate must not exceed.
+    /// The worst rank found.
     fn worst(&self) -> f32 {
-        f32::from_bits((self.keys[NEIGHBOUR_COUNT - 1] >> 32) as u32)
+        rank(self.keys[NEIGHBOUR_COUNT - 1])
     }
 }
 
@@ -136,11 +156,11 @@ impl Neighbours {
         for (place, &agent) in agents.iter().enumerate() {
             self.places[agent as usize] = place as u32;
         }
-        gather(&mut self.x_m, agents, |agent| positions_m[agent].x, f32::INFINITY);
-        gather(&mut self.y_m, agents, |agent| positions_m[agent].y, f32::INFINITY);
-        gather(&mut self.velocities_x_mps, agents, |agent| velocities_mps[agent].x, 0.0);
-        gather(&mut self.velocities_y_mps, agents, |agent| velocities_mps[agent].y, 0.0);
-        gather(&mut self.radii_m, agents, |agent| radii_m[agent], 0.0);
+        gather(&mut self.x_m, agents, |agent| positions_m[agent].x);
+        gather(&mut self.y_m, agents, |agent| positions_m[agent].y);
+        gather(&mut self.velocities_x_mps, agents, |agent| velocities_mps[agent].x);
+        gather(&mut self.velocities_y_mps, agents, |agent| velocities_mps[agent].y);
+        gather(&mut self.radii_m, agents, |agent| radii_m[agent]);
         self.speed_max_mps = velocities_mps.iter().map(|velocity| velocity.length()).fold(0.0, f32::max);
     }
 
@@ -151,116 +171,161 @@ impl Neighbours {
     }
 
     /// The best-ranked agents within range.
+    ///
+    /// Whoever asked last with the same working memory was most likely near, so its worst rank is a good guess of how
+    /// far to look. Where it was too low, the search is made again without.
     pub fn nearest(&self, query: &Query, nearest: &mut Nearest) {
-        nearest.keys = [NOBODY; NEIGHBOUR_COUNT];
-        if !self.places.is_empty() {
-            self.search(0, query, nearest);
+        let guess = match query.ranking {
+            Ranking::Approach => GUESS * nearest.worst(),
+            Ranking::Distance => GUESS_SQUARED * nearest.worst(),
+        };
+        let mut ranks = std::mem::take(&mut nearest.ranks);
+        for nobody in [key(guess, u32::MAX), NOBODY] {
+            nearest.keys = [nobody; NEIGHBOUR_COUNT];
+            let closing_mps = query.velocity_mps.length() + self.speed_max_mps + APPROACH_MPS;
+            let mut search = Search { query, closing_mps, keys: &mut nearest.keys, ranks: &mut ranks };
+            self.search(0, nobody < NOBODY, &mut search);
+            if nearest.keys[NEIGHBOUR_COUNT - 1] < nobody {
+                break;
+            }
         }
+        nearest.ranks = ranks;
+        self.tell(query, nearest);
+    }
+
+    /// What there is to know of those found.
+    fn tell(&self, query: &Query, nearest: &mut Nearest) {
+        nearest.around = Around::default();
+        let found = nearest.keys.iter().take_while(|&&key| key < NOBODY).count();
+        for lane in 0..found {
+            let place = self.places[nearest.keys[lane] as u32 as usize] as usize;
+            let offset_m = Vec2::new(self.x_m[place], self.y_m[place]) - query.position_m;
+            let velocity_mps =
+                query.velocity_mps - Vec2::new(self.velocities_x_mps[place], self.velocities_y_mps[place]);
+            nearest.around.put(lane, offset_m, velocity_mps, query.radius_m + self.radii_m[place]);
+        }
+        let times_s = nearest.around.times_to_collision_s(Vec2::ZERO);
         nearest.found.clear();
-        let found = nearest.keys.iter().take_while(|&&key| key < NOBODY);
-        nearest.found.extend(found.map(|&key| self.neighbour(key as u32, query)));
+        nearest
+            .found
+            .extend((0..found).map(|lane| nearest.around.neighbour(lane, nearest.keys[lane] as u32, times_s[lane])));
     }
 
     /// Visits ever larger squares of a grid's cells around the query, until no cell outside can hold a better
-    /// candidate.
-    fn search(&self, grid: usize, query: &Query, nearest: &mut Nearest) {
-        let grid = &self.layout.grids[grid];
-        if grid.distance_m(query.position_m) > self.reach_m(query, nearest) {
+    /// candidate. As soon as enough are found, or `guessed`, it is known how far the last one has to reach.
+    fn search(&self, grid: usize, guessed: bool, search: &mut Search) {
+        let Some(grid) = self.layout.grids.get(grid) else { return };
+        let position_m = search.query.position_m;
+        if grid.distance_m(position_m) > search.reach_m() {
             return;
         }
-        let centre = grid.cell_of(query.position_m);
-        let (mut ring, mut visited) = (1, None);
+        let reached = grid.within(position_m, search.reach_m());
+        let nearby = Window::around(grid.cell_of(position_m), 1);
+        let (mut square, mut visited) = (if guessed { reached } else { nearby }, None);
         loop {
-            let square = Window::around(centre, ring);
-            let reached = square.and(&grid.within(query.position_m, self.reach_m(query, nearest)));
-            for row in reached.rows[0]..=reached.rows[1] {
-                for columns in unvisited(reached.columns, row, visited) {
-                    self.layout.runs(grid, row, columns, |run| match run {
-                        Run::Places(places) => self.scan(places, query, nearest),
-                        Run::Grid(inner) => self.search(inner, query, nearest),
-                    });
-                }
-            }
-            let within = grid.within(query.position_m, self.reach_m(query, nearest));
-            if within.and(&square) == within {
+            let reached = grid.within(position_m, search.reach_m());
+            self.visit(grid, &reached.and(&square), visited, search);
+            let reached = grid.within(position_m, search.reach_m());
+            if reached.and(&square) == reached {
                 return;
             }
-            (ring, visited) = (2 * ring, Some(square));
+            let enough = search.keys[NEIGHBOUR_COUNT - 1] < NOBODY;
+            (square, visited) = (if enough { reached } else { square.doubled() }, Some(square));
         }
     }
 
-    /// Offers the agents of some places, a few at a time.
-    fn scan(&self, places: Range<usize>, query: &Query, nearest: &mut Nearest) {
-        for first in places.clone().step_by(LANES) {
-            let ranks = self.ranks(first, query);
-            let worst = nearest.worst();
-            // Those whom nobody of the own place can beat: agents in one place stand in order of index.
-            if worst == 0.0 {
-                return;
+    /// Offers whoever is in the cells of a window that were not visited.
+    fn visit(&self, grid: &Grid, window: &Window, visited: Option<Window>, search: &mut Search) {
+        for row in window.rows[0]..=window.rows[1] {
+            for columns in unvisited(window.columns, row, visited) {
+                self.layout.runs(grid, row, columns, |run| match run {
+                    Run::Places(places) => self.scan(places, search),
+                    Run::Grid(inner) => self.search(inner, false, search),
+                });
             }
-            if !ranks.iter().any(|&rank| rank <= worst) {
-                continue;
-            }
-            for (place, rank) in (first..places.end).zip(ranks) {
+        }
+    }
+
+    /// Offers the agents of a run of places.
+    fn scan(&self, places: Range<usize>, search: &mut Search) {
+        // All those found are in the query's own place, and agents in one place stand in order of index.
+        if search.worst() == 0.0 {
+            return;
+        }
+        self.rank(places.clone(), search.query, search.ranks);
+        for (lane, place) in places.enumerate() {
+            if search.ranks[lane] <= search.worst() {
                 let agent = self.layout.agents[place];
-                if rank <= nearest.worst() && agent as usize != query.agent {
-                    nearest.offer(key(rank, agent));
+                if agent as usize != search.query.agent {
+                    search.offer(key(search.ranks[lane], agent));
                 }
             }
         }
     }
 
-    /// Ranks of the agents from a place on: a time in s, or a squared distance in m²; infinite beyond the range.
-    #[inline]
-    fn ranks(&self, first: usize, query: &Query) -> [f32; LANES] {
-        let lanes = |values: &[f32]| -> [f32; LANES] { std::array::from_fn(|lane| values[first..first + LANES][lane]) };
-        let x_m = lanes(&self.x_m).map(|x_m| x_m - query.position_m.x);
-        let y_m = lanes(&self.y_m).map(|y_m| y_m - query.position_m.y);
-        let squared: [f32; LANES] = std::array::from_fn(|lane| x_m[lane] * x_m[lane] + y_m[lane] * y_m[lane]);
-        let ranks = match query.ranking {
-            Ranking::Distance => squared,
-            Ranking::Approach => {
-                let vx_mps = lanes(&self.velocities_x_mps).map(|x_mps| query.velocity_mps.x - x_mps);
-                let vy_mps = lanes(&self.velocities_y_mps).map(|y_mps| query.velocity_mps.y - y_mps);
-                std::array::from_fn(|lane| {
-                    approach_s(squared[lane], x_m[lane] * vx_mps[lane] + y_m[lane] * vy_mps[lane])
-                })
+    /// Ranks of the agents of a run of places, and of a few more: times in s, or squared distances in m²; infinite
+    /// beyond the range. The loops have no branch, so the compiler makes vector instructions of them.
+    fn rank(&self, places: Range<usize>, query: &Query, ranks: &mut Vec<f32>) {
+        // Whole vectors: what is left over would be ranked one by one.
+        let count = places.len().next_multiple_of(VECTOR);
+        let places = places.start..places.start + count;
+        if ranks.len() < count {
+            ranks.resize(count, 0.0);
+        }
+        let ranks = &mut ranks[..count];
+        let (x_m, y_m) = (&self.x_m[places.clone()][..count], &self.y_m[places.clone()][..count]);
+        let x_mps = &self.velocities_x_mps[places.clone()][..count];
+        let y_mps = &self.velocities_y_mps[places][..count];
+        let Query { position_m, velocity_mps, range_m, ranking, .. } = *query;
+        let within = |rank: f32, squared: f32| if squared <= range_m * range_m { rank } else { f32::INFINITY };
+        match ranking {
+            Ranking::Distance => {
+                for lane in 0..count {
+                    let (x_m, y_m) = (x_m[lane] - position_m.x, y_m[lane] - position_m.y);
+                    let squared = x_m * x_m + y_m * y_m;
+                    ranks[lane] = within(squared, squared);
+                }
             }
-        };
-        let range_squared = query.range_m * query.range_m;
-        std::array::from_fn(|lane| if squared[lane] <= range_squared { ranks[lane] } else { f32::INFINITY })
-    }
-
-    /// Beyond this distance nobody beats the worst candidate, even straight on and as fast as the fastest.
-    fn reach_m(&self, query: &Query, nearest: &Nearest) -> f32 {
-        let worst = nearest.worst();
-        let reach_m = match query.ranking {
-            Ranking::Distance => worst.sqrt(),
-            Ranking::Approach => worst * (query.velocity_mps.length() + self.speed_max_mps + APPROACH_MPS),
-        };
-        // A hair more, for rounding.
-        (1.000_001 * reach_m).min(query.range_m)
-    }
-
-    /// What there is to know of one chosen.
-    fn neighbour(&self, agent: u32, query: &Query) -> Neighbour {
-        let place = self.places[agent as usize] as usize;
-        let offset_m = Vec2::new(self.x_m[place], self.y_m[place]) - query.position_m;
-        let velocity_mps = query.velocity_mps - Vec2::new(self.velocities_x_mps[place], self.velocities_y_mps[place]);
-        let radius_m = query.radius_m + self.radii_m[place];
-        Neighbour {
-            agent,
-            offset_m,
-            velocity_mps,
-            radius_m,
-            distance_m: offset_m.length(),
-            time_to_collision_s: disc_with_disc(offset_m, velocity_mps, radius_m),
+            Ranking::Approach => {
+                for lane in 0..count {
+                    let (x_m, y_m) = (x_m[lane] - position_m.x, y_m[lane] - position_m.y);
+                    let (x_mps, y_mps) = (velocity_mps.x - x_mps[lane], velocity_mps.y - y_mps[lane]);
+                    let squared = x_m * x_m + y_m * y_m;
+                    ranks[lane] = within(approach_s(squared, x_m * x_mps + y_m * y_mps), squared);
+                }
+            }
         }
     }
 }
 
-/// Distance / (closing speed + 1 m/s), s, multiplied out so that nobody in the same place has a rank but 0: the square
-/// of the distance, and offset · velocity.
+impl Search<'_> {
+    /// Takes a key in where it belongs, if it does: each place keeps its own key, takes the new one, or its
+    /// predecessor's.
+    fn offer(&mut self, key: u64) {
+        for place in (1..NEIGHBOUR_COUNT).rev() {
+            self.keys[place] = self.keys[place - 1].max(self.keys[place].min(key));
+        }
+        self.keys[0] = self.keys[0].min(key);
+    }
+
+    /// The rank that a candidate must not exceed.
+    fn worst(&self) -> f32 {
+        rank(self.keys[NEIGHBOUR_COUNT - 1])
+    }
+
+    /// Beyond this distance nobody beats the worst candidate, even straight on and as fast as the fastest.
+    fn reach_m(&self) -> f32 {
+        let reach_m = match self.query.ranking {
+            Ranking::Distance => self.worst().sqrt(),
+            Ranking::Approach => self.worst() * self.closing_mps,
+        };
+        // A hair more, for rounding.
+        (1.000_001 * reach_m).min(self.query.range_m)
+    }
+}
+
+/// Distance / (closing speed + 1 m/s), s, multiplied out so that nobody in the same place has a rank but 0: from the
+/// square of the distance, and offset · velocity.
 fn approach_s(distance_squared: f32, closing: f32) -> f32 {
     let closing = if closing > 0.0 { closing } else { 0.0 };
     let across = closing + APPROACH_MPS * distance_squared.sqrt();
@@ -277,10 +342,10 @@ fn unvisited([first, last]: [i32; 2], row: i32, visited: Option<Window>) -> impl
     sides.into_iter().filter(|[first, last]| first <= last)
 }
 
-/// The values of the agents in cell order, and [`LANES`] times `beyond`.
-fn gather(sorted: &mut Vec<f32>, agents: &[u32], value: impl Fn(usize) -> f32, beyond: f32) {
+/// A figure of the agents in cell order, and a vector of nobody's.
+fn gather(sorted: &mut Vec<f32>, agents: &[u32], value: impl Fn(usize) -> f32) {
     sorted.clear();
-    sorted.extend(agents.iter().map(|&agent| value(agent as usize)).chain([beyond; LANES]));
+    sorted.extend(agents.iter().map(|&agent| value(agent as usize)).chain([0.0; VECTOR]));
 }
 
 #[cfg(test)]

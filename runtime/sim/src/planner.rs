@@ -35,8 +35,7 @@ pub struct Scratch {
     pub(crate) projected: Vec<HalfPlane>,
     pub(crate) adapted_mps: Vec2,
     pub(crate) feasible_prefix: usize,
-    // MCN's own: what its density filter feels, and half-planes that both its velocity sets take over.
-    pub(crate) agents_m: Vec<Vec2>,
+    // MCN's own: walls that its density filter feels, and half-planes that both its velocity sets take over.
     pub(crate) walls_m: Vec<Vec2>,
     pub(crate) of_walls: Vec<HalfPlane>,
     pub(crate) of_agents: Vec<HalfPlane>,

@@ -9,6 +9,8 @@
 use glam::Vec2;
 
 use super::params::McnParams;
+use crate::around::{Around, LANES};
+use crate::decay::decay;
 
 /// Menge: distance of the critical point, m.
 const AHEAD_M: f32 = 1.0;
@@ -22,7 +24,7 @@ const WALL_SIGMA_M: f32 = 0.75;
 const SPACE: f32 = 0.48;
 /// Neighbours farther than this are not felt, m; with all of them the diagram would stall the crowd
 /// (`facts/planning.md` §2).
-pub(crate) const RANGE_M: f32 = 5.0;
+const RANGE_M: f32 = 5.0;
 /// 1/√2π.
 const GAUSS: f32 = 0.398_942_3;
 /// Cosine and sine of the arc's directions: 0, ±20°, ±40°.
@@ -43,40 +45,51 @@ pub struct Filtered {
     pub density: f32,
 }
 
-/// Scales v_op down to what the density ahead allows, on the arc around it. `agents` and `walls` are offsets from the
-/// agent's centre.
-pub fn filter(velocity_mps: Vec2, agents_m: &[Vec2], walls_m: &[Vec2], params: &McnParams) -> Filtered {
+/// Scales v_op down to what the density ahead allows, on the arc around it. `walls` are offsets from the agent's centre.
+pub fn filter(velocity_mps: Vec2, agents: &Around, walls_m: &[Vec2], params: &McnParams) -> Filtered {
     let speed_mps = velocity_mps.length();
     let ahead = velocity_mps.normalize_or_zero();
-    let density = density_ahead(ahead, agents_m, walls_m);
-    if speed_mps <= speed_limit_mps(density, params) {
+    let density = density_ahead(ahead, agents, walls_m);
+    let ahead_mps = speed_limit_mps(density, params);
+    if speed_mps <= ahead_mps {
         return Filtered { velocity_mps, density };
     }
-    let mut sum_mps = Vec2::ZERO;
-    let mut weights = 0.0;
+    let (mut directions, mut sum_mps, mut weights) = (Vec2::ZERO, 0.0, 0.0);
     for turned in ARC {
         let direction = turned.rotate(ahead);
-        let allowed_mps = speed_mps.min(speed_limit_mps(density_ahead(direction, agents_m, walls_m), params));
+        let allowed_mps = speed_mps.min(speed_limit_mps(density_ahead(direction, agents, walls_m), params));
         let progress = turned.x * allowed_mps / speed_mps;
         let weight = progress * progress * progress * progress;
-        sum_mps += weight * allowed_mps * direction;
+        directions += weight * direction;
+        sum_mps += weight * allowed_mps;
         weights += weight;
     }
-    Filtered { velocity_mps: sum_mps / weights.max(f32::MIN_POSITIVE), density }
+    // The arc has its say by as much as the way ahead is closed, so that nothing jumps where it begins to be.
+    let closed = 1.0 - ahead_mps / speed_mps;
+    let direction = ahead.lerp(directions.normalize_or(ahead), closed).normalize_or(ahead);
+    let allowed_mps = ahead_mps + closed * (sum_mps / weights - ahead_mps);
+    Filtered { velocity_mps: allowed_mps * direction, density }
 }
 
 /// ρ at the critical point along a unit direction, 1/m.
-pub fn density_ahead(ahead: Vec2, agents_m: &[Vec2], walls_m: &[Vec2]) -> f32 {
-    let share = |offset_m: &Vec2, sigma_m: f32| {
-        let from_critical_m = *offset_m - AHEAD_M * ahead;
-        let distance_squared = from_critical_m.dot(ahead) * from_critical_m.dot(ahead)
-            + SIDEWAYS * SIDEWAYS * from_critical_m.perp_dot(ahead) * from_critical_m.perp_dot(ahead);
-        // A wall has its own σ in the exponent and the agents' in the normaliser, as in Menge.
-        libm::expf(-distance_squared / (2.0 * sigma_m * sigma_m)) * GAUSS / AGENT_SIGMA_M
+pub fn density_ahead(ahead: Vec2, agents: &Around, walls_m: &[Vec2]) -> f32 {
+    let agent = |lane: usize| {
+        let offset_m = Vec2::new(agents.x_m[lane], agents.y_m[lane]);
+        let share = share(offset_m, ahead, AGENT_SIGMA_M);
+        if offset_m.length_squared() <= RANGE_M * RANGE_M { share } else { 0.0 }
     };
-    let of_agents: f32 = agents_m.iter().map(|offset_m| share(offset_m, AGENT_SIGMA_M)).sum();
-    let of_walls: f32 = walls_m.iter().map(|offset_m| share(offset_m, WALL_SIGMA_M)).sum();
-    of_agents + of_walls
+    let of_agents: [f32; LANES] = std::array::from_fn(agent);
+    let of_walls = walls_m.iter().map(|&offset_m| share(offset_m, ahead, WALL_SIGMA_M));
+    of_agents.into_iter().chain(of_walls).sum::<f32>() * GAUSS / AGENT_SIGMA_M
+}
+
+/// What one adds to ρ, but for the normaliser: a wall has its own σ in the exponent and the agents' in the normaliser, as
+/// in Menge.
+#[inline]
+fn share(offset_m: Vec2, ahead: Vec2, sigma_m: f32) -> f32 {
+    let from_critical_m = offset_m - AHEAD_M * ahead;
+    let (along_m, across_m) = (from_critical_m.dot(ahead), SIDEWAYS * from_critical_m.perp_dot(ahead));
+    decay((along_m * along_m + across_m * across_m) * (0.5 / (sigma_m * sigma_m)))
 }
 
 /// The fundamental diagram: v_max = S² / (½ (1 + buffer)/factor)², never below the floor.
@@ -89,6 +102,13 @@ pub fn speed_limit_mps(density: f32, params: &McnParams) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// As many as there are lanes for.
+    fn around(places_m: &[Vec2]) -> Around {
+        let mut around = Around::default();
+        places_m.iter().enumerate().for_each(|(lane, &place_m)| around.put(lane, place_m, Vec2::ZERO, 0.5));
+        around
+    }
 
     /// The ten nearest of a square lattice of a density, 1/m².
     fn lattice(per_m2: f32) -> Vec<Vec2> {
@@ -111,7 +131,8 @@ mod tests {
             .filter(|place| place.length() <= 1.0)
             .map(|place| radius_m * place)
             .collect();
-        density_ahead(Vec2::X, &places, &[]) * 10.0 / places.len() as f32
+        let of_some = |places_m: &[Vec2]| density_ahead(Vec2::X, &around(places_m), &[]);
+        places.chunks(LANES).map(of_some).sum::<f32>() * 10.0 / places.len() as f32
     }
 
     #[test]
@@ -126,17 +147,17 @@ mod tests {
     #[test]
     fn a_free_way_is_left_alone_and_nobody_is_stalled() {
         let params = McnParams::default();
-        let free = filter(Vec2::new(1.3, 0.2), &[Vec2::new(-2.0, 0.0)], &[], &params);
+        let free = filter(Vec2::new(1.3, 0.2), &around(&[Vec2::new(-2.0, 0.0)]), &[], &params);
         assert_eq!(free.velocity_mps, Vec2::new(1.3, 0.2));
-        let jam = filter(Vec2::new(1.3, 0.0), &lattice(8.0), &[], &params);
+        let jam = filter(Vec2::new(1.3, 0.0), &around(&lattice(8.0)), &[], &params);
         assert!(jam.velocity_mps.length() > 0.8 * params.density_speed_min_mps && jam.velocity_mps.length() < 0.5);
-        assert_eq!(filter(Vec2::ZERO, &lattice(8.0), &[], &params).velocity_mps, Vec2::ZERO);
+        assert_eq!(filter(Vec2::ZERO, &around(&lattice(8.0)), &[], &params).velocity_mps, Vec2::ZERO);
     }
 
     #[test]
     fn leans_to_the_emptier_side() {
         let crowd_on_the_left: Vec<Vec2> = (0..8).map(|index| Vec2::new(0.6 + 0.2 * index as f32, 0.5)).collect();
-        let filtered = filter(Vec2::new(1.3, 0.0), &crowd_on_the_left, &[], &McnParams::default());
+        let filtered = filter(Vec2::new(1.3, 0.0), &around(&crowd_on_the_left), &[], &McnParams::default());
         assert!(filtered.velocity_mps.y < -0.02 && filtered.velocity_mps.x > 0.2, "{filtered:?}");
     }
 }

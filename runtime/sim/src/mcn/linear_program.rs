@@ -93,9 +93,12 @@ fn on_line(line: &HalfPlane, earlier: &[HalfPlane], objective: Objective, speed_
                 return None;
             }
         } else if slope > 0.0 {
-            most = most.min(reach / slope);
-        } else {
-            least = least.max(reach / slope);
+            // A quotient only where it tightens the stretch.
+            if reach < most * slope {
+                most = reach / slope;
+            }
+        } else if reach < least * slope {
+            least = reach / slope;
         }
         if least > most {
             return None;

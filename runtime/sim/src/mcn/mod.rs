@@ -23,10 +23,11 @@ pub mod time_to_collision;
 use glam::Vec2;
 use motiondb::velocity_hull::Construction;
 
-use self::linear_program::Solution;
+use self::half_plane::{HalfPlane, Source};
+use self::linear_program::{Solution, solve_alike};
 use self::orientation::{Orientation, Walk};
-use self::params::McnParams;
-use crate::neighbours::Ranking;
+use self::params::{McnParams, StanceForm};
+use crate::neighbours::{Neighbour, Ranking};
 use crate::obstacles::nearest_on_segment;
 use crate::plan::{Plan, VelocitySet};
 use crate::planner::{Scratch, look_around, time_to_collision_s};
@@ -38,8 +39,11 @@ const WALL_SPEED_MPS: f32 = 4.0;
 /// Plans one agent's next velocity and facing.
 pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> Plan {
     let wall_range_m = params.obstacle_time_horizon_s * WALL_SPEED_MPS;
-    look_around(world, agent, Ranking::Approach, params.neighbour_range_m, wall_range_m, scratch);
-    scratch.nearest.sort_by_time_to_collision();
+    let ranking = if params.parts.order { Ranking::Approach } else { Ranking::Distance };
+    look_around(world, agent, ranking, params.neighbour_range_m, wall_range_m, scratch);
+    if params.parts.order {
+        scratch.nearest.sort_by_time_to_collision();
+    }
     let density = adapt(world, agent, params, scratch);
     avoid(world, agent, params, scratch);
     let turning = choose(world, agent, VelocitySet::Turning, params, scratch);
@@ -62,52 +66,57 @@ pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scrat
 
 /// §4.3: v_op into the scratch; returns the density met.
 fn adapt(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> f32 {
-    let own = world.disc(agent);
-    let preferred_mps = kept_right(world, agent, params, scratch);
-    let law = params.power_law();
-    let of_agents: Vec2 = scratch
-        .nearest
-        .as_slice()
-        .iter()
-        .map(|neighbour| {
-            let other = world.disc(neighbour.agent as usize);
-            let offset_m = other.position_m - own.position_m;
-            let velocity_mps = own.velocity_mps - other.velocity_mps;
-            social_force::agent_force_mps2(offset_m, velocity_mps, own.radius_m + other.radius_m, &law)
-        })
-        .sum();
-    let of_walls: Vec2 = scratch
+    let mut adapted_mps = kept_right(world, agent, params, scratch);
+    if params.parts.adaptation {
+        let (velocity_mps, forces_mps2) = (world.velocities_mps[agent], forces_mps2(world, agent, params, scratch));
+        adapted_mps = social_force::adapted_mps(velocity_mps, adapted_mps, forces_mps2, world.dt_s, params);
+    }
+    gather_walls(world, agent, scratch);
+    let filtered = density::filter(adapted_mps, scratch.nearest.around(), &scratch.walls_m, params);
+    scratch.adapted_mps = if params.parts.density_filter { filtered.velocity_mps } else { adapted_mps };
+    filtered.density
+}
+
+/// Σ f_ij + Σ f_iW.
+fn forces_mps2(world: &World, agent: usize, params: &McnParams, scratch: &Scratch) -> Vec2 {
+    let (own, law) = (world.disc(agent), params.power_law());
+    let met = |neighbour: &&Neighbour| neighbour.time_to_collision_s.is_finite();
+    let of_agents = scratch.nearest.as_slice().iter().filter(met).map(|neighbour| {
+        social_force::agent_force_mps2(neighbour.offset_m, neighbour.velocity_mps, neighbour.radius_m, &law)
+    });
+    let of_walls = scratch
         .edges
         .iter()
-        .map(|near| social_force::wall_force_mps2(world.edge_m(agent, near.edge), own.velocity_mps, own.radius_m, &law))
-        .sum();
-    let adapted_mps =
-        social_force::adapted_mps(own.velocity_mps, preferred_mps, of_agents + of_walls, world.dt_s, params);
-    gather_density(world, agent, scratch);
-    let filtered = density::filter(adapted_mps, &scratch.agents_m, &scratch.walls_m, params);
-    scratch.adapted_mps = filtered.velocity_mps;
-    filtered.density
+        .map(|near| social_force::wall_force_mps2(world.edge_m(agent, near.edge), own.velocity_mps, own.radius_m, &law));
+    of_agents.chain(of_walls).sum()
 }
 
 /// v_pref, turned to the right the more, the sooner it would meet an obstruction. All give way to the same side, so two
 /// who meet head-on pass.
 fn kept_right(world: &World, agent: usize, params: &McnParams, scratch: &Scratch) -> Vec2 {
     let preferred_mps = world.preferred_mps[agent];
-    let met_s = time_to_collision_with_agents_s(world, agent, preferred_mps, scratch);
-    let urgency = (1.0 - met_s / params.time_horizon_s).max(0.0);
+    if !params.parts.keep_right {
+        return preferred_mps;
+    }
+    let change_mps = preferred_mps - world.velocities_mps[agent];
+    let urgency = |neighbour: &Neighbour| head_on(neighbour, change_mps) * (1.0 - time_to_collision::disc_with_disc(neighbour.offset_m, neighbour.velocity_mps + change_mps, neighbour.radius_m) / params.time_horizon_s).max(0.0);
+    let urgency = scratch.nearest.as_slice().iter().map(urgency).fold(0.0, f32::max);
     let (sin, cos) = libm::sincosf(-params.keep_right_rad * urgency);
     Vec2::new(cos, sin).rotate(preferred_mps)
 }
 
-/// Offsets of the agents and of the walls' nearest points within the density filter's range.
-fn gather_density(world: &World, agent: usize, scratch: &mut Scratch) {
-    let position_m = world.positions_m[agent];
-    scratch.agents_m.clear();
-    let close = scratch.nearest.as_slice().iter().filter(|neighbour| neighbour.distance_m <= density::RANGE_M);
-    scratch.agents_m.extend(close.map(|neighbour| world.positions_m[neighbour.agent as usize] - position_m));
+/// How far from a graze.
+fn head_on(neighbour: &Neighbour, change_mps: Vec2) -> f32 {
+    let velocity_mps = neighbour.velocity_mps + change_mps;
+    let miss_m = neighbour.offset_m.perp_dot(velocity_mps) / velocity_mps.length().max(f32::MIN_POSITIVE);
+    (1.0 - miss_m * miss_m / (neighbour.radius_m * neighbour.radius_m)).max(0.0)
+}
+
+/// Offsets of the walls' nearest points, for the density filter.
+fn gather_walls(world: &World, agent: usize, scratch: &mut Scratch) {
     scratch.walls_m.clear();
-    let ends_m = scratch.edges.iter().map(|near| world.obstacles.ends_m(near.edge));
-    scratch.walls_m.extend(ends_m.map(|[from_m, to_m]| nearest_on_segment(position_m, from_m, to_m) - position_m));
+    let edges_m = scratch.edges.iter().map(|near| world.edge_m(agent, near.edge));
+    scratch.walls_m.extend(edges_m.map(|[from_m, to_m]| nearest_on_segment(Vec2::ZERO, from_m, to_m)));
 }
 
 /// Eq. 12: the half-planes of walls and agents.
@@ -118,28 +127,44 @@ fn avoid(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch)
     orca_obstacles::obstacle_half_planes(world.obstacles, edges, &own, horizon_s, &mut scratch.of_walls);
     scratch.of_agents.clear();
     scratch.of_agents.extend(scratch.nearest.as_slice().iter().map(|neighbour| {
-        let other = world.disc(neighbour.agent as usize);
-        let share = orca::share(&own, &other);
-        orca::agent_half_plane(&own, &other, share, neighbour.agent, params.time_horizon_s, world.dt_s)
+        let share = if params.parts.keep_right { orca::share(own.velocity_mps, neighbour) } else { orca::HALF };
+        orca::agent_half_plane(own.velocity_mps, neighbour, share, params.time_horizon_s, world.dt_s)
     }));
 }
 
 /// Eqs. 13, 14: all half-planes by rank, what never yields first, and the best velocity.
 fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scratch: &mut Scratch) -> Solution {
-    let forward = world.forward(agent);
+    let (forward, parts) = (world.forward(agent), &params.parts);
     let (corners_mps, source) = motion_constraints::set(world.hull, set);
     let half_planes = &mut scratch.half_planes;
     half_planes.clear();
     half_planes.extend_from_slice(&scratch.of_walls);
-    half_planes.extend(stance::half_plane(&world.stances[agent], params.stance_twist_rad));
-    if set == VelocitySet::Turning {
+    half_planes.extend(of_stance(world, agent, params));
+    if parts.sharp_turns && set == VelocitySet::Turning {
         let edges_mps = &world.hull.sharp_turn_edges_mps;
         motion_constraints::sharp_turn_half_planes(edges_mps, forward, world.preferred_mps[agent], half_planes);
     }
-    motion_constraints::hull_half_planes(corners_mps, forward, source, half_planes);
+    if parts.hull {
+        motion_constraints::hull_half_planes(corners_mps, forward, source, half_planes);
+    }
+    let hard_max = if parts.order { usize::MAX } else { half_planes.len() };
     half_planes.extend_from_slice(&scratch.of_agents);
     let speed_max_mps = motion_constraints::speed_max_mps(corners_mps);
-    linear_program::solve(half_planes, scratch.adapted_mps, speed_max_mps, &mut scratch.projected)
+    solve_alike(half_planes, hard_max, scratch.adapted_mps, speed_max_mps, &mut scratch.projected)
+}
+
+/// C_bm.
+fn of_stance(world: &World, agent: usize, params: &McnParams) -> Option<HalfPlane> {
+    let stance = &world.stances[agent];
+    match params.parts.stance {
+        StanceForm::Landing => stance::half_plane(stance, params.stance_twist_rad),
+        StanceForm::Radial => {
+            let own = world.disc(agent);
+            let segment_m = stance::radial_segment_m(stance, own.radius_m)?;
+            orca_obstacles::segment_half_plane(segment_m, &own, params.obstacle_time_horizon_s, Source::Stance)
+        }
+        StanceForm::Off => None,
+    }
 }
 
 /// §4.5, given the velocity that the turning set allows.
@@ -152,8 +177,12 @@ fn orient(world: &World, agent: usize, velocity_mps: Vec2, params: &McnParams, s
         stepping_back_s: world.stepping_back_s[agent],
     };
     let corners_mps = &world.hull.holding_mps;
+    if !params.parts.orientation {
+        return orientation::along_the_velocity(&walk);
+    }
     // The paper knows no stepping back: its set was spanned by bodies that turn.
-    let may_hold = world.hull.construction != Construction::Paper || walk.preferred_mps.dot(velocity_mps) >= 0.0;
+    let back_pedalling = params.parts.back_pedalling && world.hull.construction != Construction::Paper;
+    let may_hold = back_pedalling || walk.preferred_mps.dot(velocity_mps) >= 0.0;
     let holds = |facing| {
         let outside_mps = motion_constraints::outside_mps(corners_mps, facing, velocity_mps, &mut scratch.projected);
         may_hold && outside_mps <= orientation::HOLDING_SLACK_MPS
@@ -161,26 +190,10 @@ fn orient(world: &World, agent: usize, velocity_mps: Vec2, params: &McnParams, s
     orientation::decide(&walk, holds, world.dt_s, params)
 }
 
-/// Least time to collision with a neighbour, for a velocity, s.
-fn time_to_collision_with_agents_s(world: &World, agent: usize, velocity_mps: Vec2, scratch: &Scratch) -> f32 {
-    let own = world.disc(agent);
-    let with_agents = scratch.nearest.as_slice().iter().map(|neighbour| {
-        let other = world.disc(neighbour.agent as usize);
-        let radius_m = own.radius_m + other.radius_m;
-        time_to_collision::disc_with_disc(
-            other.position_m - own.position_m,
-            velocity_mps - other.velocity_mps,
-            radius_m,
-        )
-    });
-    with_agents.fold(f32::INFINITY, f32::min)
-}
-
 #[cfg(test)]
 mod tests {
     use motiondb::velocity_hull::VelocityHull;
 
-    use super::half_plane::Source;
     use super::*;
     use crate::neighbours::Neighbours;
     use crate::obstacles::Obstacles;

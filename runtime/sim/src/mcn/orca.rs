@@ -12,6 +12,7 @@
 use glam::Vec2;
 
 use super::half_plane::{HalfPlane, Source};
+use crate::neighbours::Neighbour;
 
 /// A disc in motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,29 +25,29 @@ pub struct Disc {
     pub radius_m: f32,
 }
 
+/// Share of u that each of two takes who are alike.
+pub const HALF: f32 = 0.5;
 /// Share of u that an agent takes of whom it meets from the left beyond one half, and less of whom from the right.
 const YIELD_TO_LEFT: f32 = 0.2;
 /// Speeds in sum below which nobody comes from a side, m/s.
 const STANDING_MPS: f32 = 0.1;
 
-/// The share of u that `own` takes, ½ on average: more where `other` comes from its left, as in a roundabout of those
-/// who keep right.
+/// The share of u that i takes, ½ on average: more where j comes from its left, as in a roundabout of those who keep
+/// right.
 ///
 /// The shares of both add up to 1, so together they still avoid each other. With ½ each, those who meet at a centre
 /// from all around brake alike until they stand. The sine of the angle between p and v_i + v_j changes its sign when i
 /// and j are exchanged.
-pub fn share(own: &Disc, other: &Disc) -> f32 {
-    let offset_m = other.position_m - own.position_m;
-    let speeds_mps = own.velocity_mps.length() + other.velocity_mps.length();
-    let from_right = offset_m.perp_dot(own.velocity_mps + other.velocity_mps);
-    0.5 - YIELD_TO_LEFT * from_right / (offset_m.length() * speeds_mps.max(STANDING_MPS)).max(f32::MIN_POSITIVE)
+pub fn share(own_mps: Vec2, other: &Neighbour) -> f32 {
+    let other_mps = own_mps - other.velocity_mps;
+    let speeds_mps = own_mps.length_squared().sqrt() + other_mps.length_squared().sqrt();
+    let from_right = other.offset_m.perp_dot(own_mps + other_mps);
+    HALF - YIELD_TO_LEFT * from_right / (other.distance_m * speeds_mps.max(STANDING_MPS)).max(f32::MIN_POSITIVE)
 }
 
-/// C_ij: the velocities of `own` that do their share of avoiding `other`, which is agent `index`, for `horizon`.
-pub fn agent_half_plane(own: &Disc, other: &Disc, share: f32, index: u32, horizon_s: f32, dt_s: f32) -> HalfPlane {
-    let offset_m = other.position_m - own.position_m;
-    let velocity_mps = own.velocity_mps - other.velocity_mps;
-    let radius_m = own.radius_m + other.radius_m;
+/// C_ij: the velocities of i, which walks at `own`, that do their share of avoiding j for `horizon`.
+pub fn agent_half_plane(own_mps: Vec2, other: &Neighbour, share: f32, horizon_s: f32, dt_s: f32) -> HalfPlane {
+    let Neighbour { offset_m, velocity_mps, radius_m, .. } = *other;
     let (direction, change_mps) = if offset_m.length_squared() <= radius_m * radius_m {
         leave_cut_off(offset_m, velocity_mps, radius_m, dt_s)
     } else if projects_on_cut_off(offset_m, velocity_mps, radius_m, horizon_s) {
@@ -54,7 +55,7 @@ pub fn agent_half_plane(own: &Disc, other: &Disc, share: f32, index: u32, horizo
     } else {
         leave_leg(offset_m, velocity_mps, radius_m, horizon_s)
     };
-    HalfPlane { point_mps: own.velocity_mps + share * change_mps, direction, source: Source::Agent(index) }
+    HalfPlane { point_mps: own_mps + share * change_mps, direction, source: Source::Agent(other.agent) }
 }
 
 /// Whether the cut-off disc's front, between the two tangent points, is nearest to the relative velocity.
@@ -67,7 +68,7 @@ fn projects_on_cut_off(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, horizo
 /// Cases 1 and 2: direction of the line and u, out of the cut-off disc of `time`.
 fn leave_cut_off(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, time_s: f32) -> (Vec2, Vec2) {
     let from_centre = velocity_mps - offset_m / time_s;
-    let distance = from_centre.length();
+    let distance = from_centre.length_squared().sqrt();
     // Two discs on the same spot with the same velocity have no direction to part in: any fixed one serves.
     let outward = if distance > 0.0 { from_centre / distance } else { Vec2::X };
     (-outward.perp(), (radius_m / time_s - distance) * outward)
@@ -75,17 +76,17 @@ fn leave_cut_off(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, time_s: f32)
 
 /// Case 3: direction of the line and u, out over the leg on the relative velocity's side.
 fn leave_leg(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, horizon_s: f32) -> (Vec2, Vec2) {
-    let [left, right] = tangents(offset_m, radius_m);
     let passes_left = offset_m.perp_dot(velocity_mps - offset_m / horizon_s) > 0.0;
-    let direction = if passes_left { left } else { -right };
+    let direction = if passes_left { tangent(offset_m, radius_m) } else { -tangent(offset_m, -radius_m) };
     (direction, velocity_mps.dot(direction) * direction - velocity_mps)
 }
 
-/// Unit directions from the origin along the left and the right tangent of a disc; it must not contain the origin.
-pub(crate) fn tangents(centre_m: Vec2, radius_m: f32) -> [Vec2; 2] {
+/// Unit direction from the origin along the left tangent of a disc, the right one for a negative radius; the disc must
+/// not contain the origin.
+pub(crate) fn tangent(centre_m: Vec2, radius_m: f32) -> Vec2 {
     let distance_squared = centre_m.length_squared();
     let leg_m = (distance_squared - radius_m * radius_m).max(0.0).sqrt();
-    [radius_m, -radius_m].map(|side_m| Vec2::new(leg_m, side_m).rotate(centre_m) / distance_squared)
+    Vec2::new(leg_m, radius_m).rotate(centre_m) / distance_squared
 }
 
 #[cfg(test)]
@@ -110,8 +111,25 @@ mod tests {
         })
     }
 
+    fn seen(own: &Disc, other: &Disc) -> Neighbour {
+        let offset_m = other.position_m - own.position_m;
+        let velocity_mps = own.velocity_mps - other.velocity_mps;
+        let radius_m = own.radius_m + other.radius_m;
+        Neighbour {
+            agent: 0,
+            offset_m,
+            velocity_mps,
+            radius_m,
+            distance_m: offset_m.length(),
+            time_to_collision_s: disc_with_disc(offset_m, velocity_mps, radius_m),
+        }
+    }
+
     fn both_half_planes(own: &Disc, other: &Disc) -> [HalfPlane; 2] {
-        [(own, other), (other, own)].map(|(a, b)| agent_half_plane(a, b, share(a, b), 0, HORIZON_S, DT_S))
+        [(own, other), (other, own)].map(|(a, b)| {
+            let b = seen(a, b);
+            agent_half_plane(a.velocity_mps, &b, share(a.velocity_mps, &b), HORIZON_S, DT_S)
+        })
     }
 
     proptest! {
@@ -145,7 +163,7 @@ mod tests {
             if met_s <= 0.0 || met_s >= HORIZON_S {
                 return Ok(());
             }
-            let half_plane = agent_half_plane(&own, &other, 1.0, 0, HORIZON_S, DT_S);
+            let half_plane = agent_half_plane(own.velocity_mps, &seen(&own, &other), 1.0, HORIZON_S, DT_S);
             let change_mps = half_plane.violation_mps(own.velocity_mps);
             for step in 0..360 {
                 let (sin, cos) = libm::sincosf((step as f32).to_radians());
@@ -156,7 +174,7 @@ mod tests {
 
         #[test]
         fn shares_add_up_to_one(own in disc(), other in disc()) {
-            let [first, second] = [share(&own, &other), share(&other, &own)];
+            let [first, second] = [(&own, &other), (&other, &own)].map(|(a, b)| share(a.velocity_mps, &seen(a, b)));
             prop_assert!((first + second - 1.0).abs() < 1e-5 && (0.29..0.71).contains(&first));
         }
 
@@ -178,6 +196,7 @@ mod tests {
     fn who_comes_from_the_left_is_given_more() {
         let own = Disc { position_m: Vec2::ZERO, velocity_mps: Vec2::X, radius_m: 0.25 };
         let from_left = Disc { position_m: Vec2::new(2.0, 2.0), velocity_mps: -Vec2::Y, radius_m: 0.25 };
+        let share = |a: &Disc, b: &Disc| share(a.velocity_mps, &seen(a, b));
         assert!(share(&own, &from_left) > 0.6 && share(&from_left, &own) < 0.4);
     }
 }

@@ -16,7 +16,7 @@
 use glam::Vec2;
 
 use super::half_plane::{HalfPlane, Source};
-use super::orca::{Disc, tangents};
+use super::orca::{Disc, tangent};
 use crate::obstacles::{NearEdge, Obstacles};
 
 /// Slack of the test whether an edge is covered, m/s; RVO2's.
@@ -67,6 +67,16 @@ pub fn obstacle_half_planes(
             found.extend(half_plane);
         }
     }
+}
+
+/// The half-plane of a wall without thickness that stands alone, from and to relative to the disc's centre.
+pub fn segment_half_plane([from_m, to_m]: [Vec2; 2], own: &Disc, horizon_s: f32, source: Source) -> Option<HalfPlane> {
+    // The disc is on the outer side, the right one.
+    let [left_m, right_m] = if from_m.perp_dot(to_m) >= 0.0 { [to_m, from_m] } else { [from_m, to_m] };
+    let along = (right_m - left_m).try_normalize()?;
+    let left = End { offset_m: left_m, convex: true, incoming: -along, outgoing: along };
+    let right = End { offset_m: right_m, convex: true, incoming: along, outgoing: -along };
+    edge_half_plane([left, right], own, horizon_s, source)
 }
 
 fn seen_from(obstacles: &Obstacles, edge: u32, position_m: Vec2) -> [End; 2] {
@@ -137,7 +147,7 @@ fn left_leg(end: &End, radius_m: f32) -> Leg {
     if !end.convex {
         return Leg { direction: -end.outgoing, foreign: false };
     }
-    let direction = tangents(end.offset_m, radius_m)[0];
+    let direction = tangent(end.offset_m, radius_m);
     let foreign = direction.perp_dot(-end.incoming) >= 0.0;
     Leg { direction: if foreign { -end.incoming } else { direction }, foreign }
 }
@@ -146,7 +156,7 @@ fn right_leg(end: &End, radius_m: f32) -> Leg {
     if !end.convex {
         return Leg { direction: end.incoming, foreign: false };
     }
-    let direction = tangents(end.offset_m, radius_m)[1];
+    let direction = tangent(end.offset_m, -radius_m);
     let foreign = direction.perp_dot(end.outgoing) <= 0.0;
     Leg { direction: if foreign { end.outgoing } else { direction }, foreign }
 }

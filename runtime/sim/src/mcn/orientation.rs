@@ -82,6 +82,16 @@ pub fn decide(walk: &Walk, holds: impl FnOnce(Vec2) -> bool, dt_s: f32, params: 
     if in_time && holds(wanted) { hold(walk, wanted, steps_back, dt_s) } else { turn(walk, walked, params) }
 }
 
+/// Without §4.5: the facing follows v_i, or is kept where the body stands.
+pub fn along_the_velocity(walk: &Walk) -> Orientation {
+    Orientation {
+        facing: direction(walk.velocity_mps).unwrap_or(walk.forward),
+        set: VelocitySet::Turning,
+        strafing_s: 0.0,
+        stepping_back_s: 0.0,
+    }
+}
+
 /// The facing is, or comes to be, where the body walks, or the body stands.
 fn rest(walk: &Walk, facing: Vec2, dt_s: f32, params: &McnParams) -> Orientation {
     let aligned = facing.dot(walk.forward) >= ALIGNED_COS;

@@ -4,6 +4,59 @@ use serde::{Deserialize, Serialize};
 
 use super::social_force::PowerLaw;
 
+/// The parts of MCN, each of which can be taken out to see what it is good for: `[params.planner.parts]`. All out, MCN
+/// is plain ORCA, but for its horizon and a body's greatest speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Parts {
+    /// §4.3: social forces make v_op of v_pref.
+    pub adaptation: bool,
+    /// §4.3: v_op is no faster than the crowd ahead allows.
+    pub density_filter: bool,
+    /// §4.1: velocities that the database can realise.
+    pub hull: bool,
+    /// §4.1: the sharp-turn edges.
+    pub sharp_turns: bool,
+    /// §4.2: where the stance foot lets the body go.
+    pub stance: StanceForm,
+    /// §4.4: whoever is met sooner matters more, in being taken for a neighbour and in yielding last.
+    pub order: bool,
+    /// §4.5: the facing may stay on v_pref; else it follows the velocity.
+    pub orientation: bool,
+    /// Stepping back at held facing, which the paper lacks.
+    pub back_pedalling: bool,
+    /// Keeping right, which resolves symmetric encounters.
+    pub keep_right: bool,
+}
+
+/// How the stance foot limits the velocity (§4.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StanceForm {
+    /// Where the swing foot lands.
+    Landing,
+    /// The paper's: a wall before the disc, in the direction of the stance foot (Eqs. 7, 8).
+    Radial,
+    /// Not at all.
+    Off,
+}
+
+impl Default for Parts {
+    fn default() -> Self {
+        Self {
+            adaptation: true,
+            density_filter: true,
+            hull: true,
+            sharp_turns: true,
+            stance: StanceForm::Landing,
+            order: true,
+            orientation: true,
+            back_pedalling: true,
+            keep_right: true,
+        }
+    }
+}
+
 /// Tunables of the planner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -40,6 +93,8 @@ pub struct McnParams {
     pub strafing_limit_s: f32,
     /// Longest contiguous stepping back at held facing, s.
     pub stepping_back_limit_s: f32,
+    /// What of it all is in force.
+    pub parts: Parts,
 }
 
 impl Default for McnParams {
@@ -69,6 +124,7 @@ impl Default for McnParams {
             stance_twist_rad: 0.35,
             strafing_limit_s: 1.0,
             stepping_back_limit_s: 2.0,
+            parts: Parts::default(),
         }
     }
 }

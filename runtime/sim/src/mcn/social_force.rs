@@ -12,9 +12,6 @@ use glam::Vec2;
 use super::params::McnParams;
 use super::time_to_collision::{disc_with_disc, disc_with_side};
 
-/// Discs that overlap are shrunk to this share of their distance, so that their time to collision is short, and not 0.
-const OVERLAP_RADIUS_SHARE: f32 = 0.99;
-
 /// Floor of the time to collision, s: keeps the force finite; far inside the reach of the clamp on the acceleration.
 const TIME_MIN_S: f32 = 1e-2;
 
@@ -36,10 +33,11 @@ pub fn adapted_mps(velocity_mps: Vec2, preferred_mps: Vec2, forces_mps2: Vec2, d
 
 /// Eq. 11: the force on disc i from disc j; `offset` p_j − p_i, `velocity` v_i − v_j, `radius` r_i + r_j.
 pub fn agent_force_mps2(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, law: &PowerLaw) -> Vec2 {
-    // Overlapping discs count as touching (the authors' code).
-    let radius_m = radius_m.min(OVERLAP_RADIUS_SHARE * offset_m.length());
+    // Discs that overlap shrink to as much as they overlap: the authors' code, and the figures of `facts/planning.md`
+    // §3 come out. Those that overlap by more than half are left to the collision's half-plane.
+    let distance_m = offset_m.length();
+    let radius_m = if distance_m < radius_m { radius_m - distance_m } else { radius_m };
     let time_s = disc_with_disc(offset_m, velocity_mps, radius_m);
-    // On the same spot there is no direction to be pushed in; the collision's half-plane parts them.
     if time_s <= 0.0 || time_s.is_infinite() {
         return Vec2::ZERO;
     }
@@ -143,8 +141,9 @@ mod tests {
 
     #[test]
     fn overlapping_agents_push_apart_without_bound_or_nan() {
-        let force = agent_force_mps2(Vec2::new(0.2, 0.0), Vec2::X, 0.5, &LAW);
-        assert!(force.is_finite() && force.x < -1.0);
-        assert!(agent_force_mps2(Vec2::ZERO, Vec2::X, 0.5, &LAW).is_finite());
+        let force_mps2 = agent_force_mps2(Vec2::new(0.3, 0.0), Vec2::X, 0.5, &LAW);
+        assert!(force_mps2.is_finite() && force_mps2.x < -1.0);
+        assert_eq!(agent_force_mps2(Vec2::new(0.2, 0.0), Vec2::X, 0.5, &LAW), Vec2::ZERO);
+        assert_eq!(agent_force_mps2(Vec2::ZERO, Vec2::X, 0.5, &LAW), Vec2::ZERO);
     }
 }

@@ -4,15 +4,20 @@
 //! The printed construction cannot hold (`paper/fbcrowd.md`, §4.2, **Erratum** and **Open**). What is limited here is
 //! where the swing foot *lands*: until then it moves with the root, so v·n_b ≤ clearance / time to landing, where n_b
 //! points outward, away from the swing side, and the clearance is the swing foot's distance from the stance foot's
-//! line. n_b is first turned by the twist that the stance foot allows in place. World axes, metres, seconds.
+//! line. n_b is first turned by the twist that the stance foot allows in place. The paper's radial form (Eqs. 7, 8)
+//! stays for comparison. World axes, metres, seconds.
 
 use glam::Vec2;
 
 use super::half_plane::{HalfPlane, Source};
+use crate::obstacles::nearest_on_segment;
 use crate::plan::{Stance, StanceFoot};
 
 /// A landing is never nearer than this, s; below it the bound says nothing that a body could still follow.
 const TIME_TO_LANDING_MIN_S: f32 = 0.02;
+
+/// Halvings that find k: to a ten-thousandth of what it lies within.
+const RADIAL_HALVINGS: u32 = 14;
 
 /// C_bm; none while not exactly one foot carries the body.
 pub fn half_plane(stance: &Stance, twist_rad: f32) -> Option<HalfPlane> {
@@ -23,6 +28,26 @@ pub fn half_plane(stance: &Stance, twist_rad: f32) -> Option<HalfPlane> {
     let (sin, cos) = libm::sincosf(twist_rad * left_sign(&foot));
     let twisted = Vec2::new(cos, sin).rotate(outward);
     Some(HalfPlane::behind(speed_mps * twisted, twisted, Source::Stance))
+}
+
+/// Eqs. 7, 8: the segment from k·St_h to k·St_h + St_o, k just so great that the segment lies outside the disc, about
+/// whose centre it is told.
+pub fn radial_segment_m(stance: &Stance, radius_m: f32) -> Option<[Vec2; 2]> {
+    let foot = stance.foot?;
+    let along_m = foot.toe_m - foot.heel_m;
+    let segment_m = |scale: f32| [scale * foot.heel_m, scale * foot.heel_m + along_m];
+    // The distance of the segment from the centre is a convex function of k that begins at 0, so it grows.
+    let (mut inside, mut outside) = (0.0, (radius_m + along_m.length()) / foot.heel_m.length());
+    if !f32::is_finite(outside) {
+        return None;
+    }
+    for _ in 0..RADIAL_HALVINGS {
+        let middle = 0.5 * (inside + outside);
+        let [from_m, to_m] = segment_m(middle);
+        let clear = nearest_on_segment(Vec2::ZERO, from_m, to_m).length() > radius_m;
+        *(if clear { &mut outside } else { &mut inside }) = middle;
+    }
+    Some(segment_m(outside))
 }
 
 /// n_b before the twist: left of a left foot, right of a right one; none for a foot without length.
@@ -93,6 +118,21 @@ pub(super) mod tests {
     fn the_twist_allows_more_to_a_walker_and_nothing_to_a_side_step() {
         check(&on_left_foot(), 0.35, Vec2::new(1.4, 0.8), true);
         check(&on_left_foot(), 0.35, Vec2::new(0.0, 0.6), false);
+    }
+
+    #[test]
+    fn the_radial_segment_lies_just_outside_the_disc_parallel_to_the_foot() {
+        for heel_x in [-0.3, -0.1, 0.0, 0.2] {
+            let mut foot = on_left_foot();
+            let shift_m = Vec2::new(heel_x - foot.heel_m.x, 0.0);
+            (foot.heel_m, foot.toe_m) = (foot.heel_m + shift_m, foot.toe_m + shift_m);
+            let [from_m, to_m] = radial_segment_m(&Stance { foot: Some(foot) }, 0.25).unwrap();
+            let distance_m = nearest_on_segment(Vec2::ZERO, from_m, to_m).length();
+            assert!((0.25..0.251).contains(&distance_m), "{distance_m}");
+            assert!((to_m - from_m).distance(foot.toe_m - foot.heel_m) < 1e-5);
+            assert!(from_m.perp_dot(foot.heel_m).abs() < 1e-5);
+        }
+        assert!(radial_segment_m(&Stance::default(), 0.25).is_none());
     }
 
     #[test]

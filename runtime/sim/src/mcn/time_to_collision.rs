@@ -11,19 +11,19 @@ use crate::obstacles::nearest_on_segment;
 const SPEED_SQUARED_MIN: f32 = 1e-5;
 
 /// Disc i meets disc j: `offset` p_j − p_i, `velocity` v_i − v_j, `radius` r_i + r_j.
+///
+/// Without a branch, so that many are computed at once.
+#[inline]
 pub fn disc_with_disc(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32) -> f32 {
     let gap = offset_m.length_squared() - radius_m * radius_m;
-    if gap <= 0.0 {
-        return 0.0;
-    }
     let speed_squared = velocity_mps.length_squared();
     let approach = velocity_mps.dot(offset_m);
     let discriminant = approach * approach - speed_squared * gap;
-    if approach <= 0.0 || discriminant <= 0.0 || speed_squared < SPEED_SQUARED_MIN {
-        return f32::INFINITY;
-    }
     // (b − √D)/a with the difference taken out, which cancels when the discs nearly touch.
-    gap / (approach + discriminant.sqrt())
+    let time_s = gap / (approach + discriminant.sqrt());
+    let meets = (approach > 0.0) & (discriminant > 0.0) & (speed_squared >= SPEED_SQUARED_MIN);
+    let ahead_s = if meets { time_s } else { f32::INFINITY };
+    if gap <= 0.0 { 0.0 } else { ahead_s }
 }
 
 /// A disc meets a segment: `corners` are its ends relative to the disc's centre.

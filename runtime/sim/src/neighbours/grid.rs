@@ -83,6 +83,15 @@ impl Window {
         Self { columns: [column - ring, column + ring], rows: [row - ring, row + ring] }
     }
 
+    /// With as much again on each side.
+    pub(super) fn doubled(&self) -> Self {
+        let wider = |[first, last]: [i32; 2]| {
+            let more = (last - first) / 2 + 1;
+            [first.saturating_sub(more), last.saturating_add(more)]
+        };
+        Self { columns: wider(self.columns), rows: wider(self.rows) }
+    }
+
     /// The cells of both.
     pub(super) fn and(&self, other: &Self) -> Self {
         let both = |a: [i32; 2], b: [i32; 2]| [a[0].max(b[0]), a[1].min(b[1])];

@@ -8,15 +8,12 @@ use serde::{Deserialize, Serialize};
 
 use super::facing_the_way;
 use crate::mcn::linear_program::solve_alike;
-use crate::mcn::orca::agent_half_plane;
+use crate::mcn::orca::{HALF, agent_half_plane};
 use crate::mcn::orca_obstacles::obstacle_half_planes;
 use crate::neighbours::Ranking;
 use crate::plan::Plan;
 use crate::planner::{Scratch, look_around};
 use crate::world::World;
-
-/// Each of two who meet takes half of the change.
-const SHARE: f32 = 0.5;
 
 /// Tunables of plain ORCA, `[params.orca]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,8 +52,7 @@ pub fn plan(world: &World, agent: usize, params: &OrcaParams, scratch: &mut Scra
     obstacle_half_planes(world.obstacles, &scratch.edges, &own, params.obstacle_time_horizon_s, half_planes);
     let walls = half_planes.len();
     half_planes.extend(scratch.nearest.as_slice().iter().map(|neighbour| {
-        let other = world.disc(neighbour.agent as usize);
-        agent_half_plane(&own, &other, SHARE, neighbour.agent, params.time_horizon_s, world.dt_s)
+        agent_half_plane(own.velocity_mps, neighbour, HALF, params.time_horizon_s, world.dt_s)
     }));
     scratch.adapted_mps = world.preferred_mps[agent];
     let solution = solve_alike(half_planes, walls, scratch.adapted_mps, params.speed_max_mps, &mut scratch.projected);

@@ -4,8 +4,10 @@
 //! dv/dt = clamp( (v_pref − v)/T + Σ_j f_ij + Σ_W f_iW )
 //! ```
 //!
-//! by explicit Euler steps. The law is stiff: its authors step by 5 ms, and at 0.1 s it shakes. A step may therefore be
-//! cut into sub-steps, in which the others move on as they did. World axes, metres, seconds; masses are 1.
+//! by explicit Euler steps, from everybody within range. The law is stiff: its authors step by 5 ms, and at 0.1 s it
+//! shakes. A step may therefore be cut into sub-steps, in which the others move on as they did. Whoever is within range
+//! is searched for among all agents, which suits crowds of the size that Table 1 has. World axes, metres, seconds;
+//! masses are 1.
 
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -81,8 +83,11 @@ fn forces_mps2(
 ) -> Vec2 {
     let law = PowerLaw { strength: params.interaction_strength, horizon_s: params.interaction_horizon_s };
     let moved_m = own.position_m - world.positions_m[agent];
-    let of_agents = scratch.nearest.as_slice().iter().map(|neighbour| {
-        let other = world.disc(neighbour.agent as usize);
+    let near = |other: &usize| {
+        *other != agent && world.positions_m[*other].distance(world.positions_m[agent]) < params.neighbour_range_m
+    };
+    let of_agents = (0..world.positions_m.len()).filter(near).map(|other| {
+        let other = world.disc(other);
         let offset_m = other.position_m + later_s * other.velocity_mps - own.position_m;
         agent_force_mps2(offset_m, own.velocity_mps - other.velocity_mps, own.radius_m + other.radius_m, &law)
     });
