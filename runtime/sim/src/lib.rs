@@ -6,6 +6,7 @@ pub mod around;
 pub mod body_penetration;
 pub mod cns;
 pub mod collision_rate;
+pub mod crowd;
 pub mod decay;
 pub mod hms;
 pub mod mcn;

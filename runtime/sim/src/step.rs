@@ -17,19 +17,19 @@ use rayon::prelude::*;
 
 use crate::agents::Agents;
 use crate::cns::{self, Coupling};
+use crate::crowd::plan_all;
 use crate::hms::Motion;
 use crate::hms::hybrid::Hybrid;
 use crate::hms::space::Space;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::path::{self, Braking};
-use crate::planner::{self, Scratch};
+use crate::plan::Plan;
 use crate::recording_frame::AgentFrame;
 use crate::scenario::Scenario;
 use crate::world::World;
 
-/// Agents that one thread takes at a time, with one scratch: enough to outweigh the hand-over, few enough to share out
-/// 100 agents.
+/// Bodies that one thread takes at a time: enough to outweigh the hand-over, few enough to share out 100.
 const CHUNK: usize = 16;
 
 /// A stage of a step, for whoever measures.
@@ -56,7 +56,8 @@ pub struct Simulation {
     scenario: Scenario,
     obstacles: Obstacles,
     neighbours: Neighbours,
-    scratches: Vec<Scratch>,
+    /// Working memory of planning.
+    planned: Vec<Plan>,
     agents: Agents,
 }
 
@@ -69,7 +70,7 @@ impl Simulation {
         let mut simulation = Self {
             obstacles: Obstacles::new(&scenario.obstacles_m),
             neighbours: Neighbours::default(),
-            scratches: vec![Scratch::default(); agents.positions_m.len().div_ceil(CHUNK)],
+            planned: Vec::new(),
             scenario: scenario.clone(),
             agents,
             space,
@@ -112,9 +113,10 @@ impl Simulation {
         }
     }
 
-    fn plan(&mut self) {
-        let agents = &mut self.agents;
-        let world = World {
+    /// What planners may know of the present. The neighbours are those of the last step's beginning.
+    pub fn world(&self) -> World<'_> {
+        let agents = &self.agents;
+        World {
             positions_m: &agents.positions_m,
             velocities_mps: &agents.velocities_mps,
             facings_rad: &agents.facings_rad,
@@ -127,14 +129,15 @@ impl Simulation {
             obstacles: &self.obstacles,
             hull: &self.db.velocity_hull,
             dt_s: self.scenario.dt_s,
-        };
+        }
+    }
+
+    fn plan(&mut self) {
+        let mut plans = std::mem::take(&mut self.agents.plans);
+        let mut planned = std::mem::take(&mut self.planned);
         let Scenario { planner, params, .. } = &self.scenario;
-        let chunks = agents.plans.par_chunks_mut(CHUNK).zip(&mut self.scratches).enumerate();
-        chunks.for_each(|(chunk, (plans, scratch))| {
-            for (offset, plan) in plans.iter_mut().enumerate() {
-                *plan = planner::plan(*planner, &world, chunk * CHUNK + offset, params, scratch);
-            }
-        });
+        plan_all(*planner, &self.world(), params, &mut planned, &mut plans);
+        (self.agents.plans, self.planned) = (plans, planned);
     }
 
     fn synthesize(&mut self) {
