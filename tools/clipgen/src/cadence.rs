@@ -17,11 +17,12 @@ use crate::published_curves::Style;
 /// Frames a second of every clip.
 pub(crate) const FRAME_RATE_HZ: f64 = 30.0;
 const GRAVITY_MPS2: f64 = 9.81;
-/// In a turn the body leans inward as one: the feet go outward by this height times the lean's tangent, m. Less than
-/// the hips' .92 m, for the trunk banks as well.
-const LEAN_ARM_M: f64 = 0.70;
+/// In a turn the body leans inward: the feet go outward by this height times the lean's tangent, m. Less than the hips'
+/// .92 m, for the trunk banks over them; so much less that in the tightest jog no ankle everts beyond its 20° (AAOS
+/// 1965).
+const LEAN_ARM_M: f64 = 0.56;
 /// How much earlier a foot leaves the ground in turns, share of the stride per rad/s.
-const TURN_TOE_OFF_S: f64 = 0.010;
+const TURN_TOE_OFF_S: f64 = 0.013;
 
 /// The least sway of a body that steps about, m.
 const STEP_SWAY_M: f64 = 0.025;
@@ -98,6 +99,8 @@ pub(crate) struct UpperBodySwing {
     pub(crate) lean_rad: f64,
     /// Into the turn, from the centripetal acceleration; left positive.
     pub(crate) bank_rad: f64,
+    /// Of the trunk behind a side-step, as the leading foot lands; left side up.
+    pub(crate) side_lag_rad: f64,
     /// Of the head, into the way it goes; left positive.
     pub(crate) look_rad: f64,
     /// Yaw of the chest against the pelvis's.
@@ -236,9 +239,11 @@ pub(crate) fn step_about(root: RootMotion, stride_frames: f64, half_width_m: f64
         },
         upper_body: UpperBodySwing {
             chest_yaw_rad: 0.02,
+            lean_rad: (2.5 + 4.0 * haste * haste).to_radians(),
+            side_lag_rad: 6_f64.to_radians() * (root.strafe_mps / 0.35).clamp(-1.0, 1.0) * (1.0 - 0.5 * haste),
             arm_swing_rad: (1.5 + 3.0 * haste).to_radians(),
             arm_out_rad: 12_f64.to_radians(),
-            elbow_rad: (16.0 + 16.0 * haste).to_radians(),
+            elbow_rad: (18.0 + 25.0 * haste * haste).to_radians(),
             elbow_swing_rad: 0.05 * haste,
             ..walk.upper_body
         },
@@ -293,7 +298,8 @@ fn walking_upper_body(root: &RootMotion) -> UpperBodySwing {
     UpperBodySwing {
         lean_rad: by_speed([2.0, 2.2, 2.6, 3.2, 5.0]),
         bank_rad: libm::atan(root.speed_mps * root.turn_rate_rad_s / GRAVITY_MPS2),
-        look_rad: (0.22 * root.turn_rate_rad_s).clamp(-0.45, 0.45),
+        side_lag_rad: 0.0,
+        look_rad: look_rad(root),
         chest_yaw_rad: by_speed([2.0, 2.6, 3.4, 4.2, 5.5]),
         arm_mean_rad: by_speed([-2.0, -3.5, -5.5, -7.0, -8.0]),
         arm_swing_rad: by_speed([6.0, 10.0, 15.0, 19.0, 24.0]),
@@ -301,6 +307,12 @@ fn walking_upper_body(root: &RootMotion) -> UpperBodySwing {
         elbow_rad: by_speed([14.0, 16.0, 19.0, 23.0, 34.0]),
         elbow_swing_rad: by_speed([3.0, 5.0, 7.0, 9.0, 13.0]),
     }
+}
+
+/// Into a turn, and half-way towards where a sideways way leads.
+fn look_rad(root: &RootMotion) -> f64 {
+    let aside_rad = libm::atan2(root.strafe_mps, root.speed_mps.abs());
+    (0.22 * root.turn_rate_rad_s).clamp(-0.45, 0.45) + (0.5 * aside_rad).clamp(-0.4, 0.4)
 }
 
 /// Linear between knots, constant beyond them.

@@ -5,9 +5,9 @@
 
 use crate::body::Pose;
 use crate::cadence::{self, FRAME_RATE_HZ, Gait};
-use crate::cycle::{self, Film};
 use crate::footsteps::RootMotion;
 use crate::idle;
+use crate::stepping::{self, Film};
 use crate::variation::Variation;
 
 /// One clip.
@@ -128,7 +128,7 @@ impl Clip {
         match &self.recipe {
             Recipe::Idle => idle::frames(),
             Recipe::Steps { gait, strides, film } => {
-                cycle::frames(gait, *strides, *film, &Variation::of_clip(self.name, *strides))
+                stepping::frames(gait, *film, &Variation::of_clip(self.name, *strides))
             }
         }
     }

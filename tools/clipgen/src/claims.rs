@@ -10,6 +10,8 @@ use crate::body::{ARMS, FEET, JOINT_COUNT, SHANKS, THIGHS, TOES};
 use crate::cadence::FRAME_RATE_HZ;
 use crate::catalogue::{Clip, Recipe, clips};
 use crate::generate;
+use crate::rotation::wrapped;
+use crate::variation::Variation;
 
 /// Below this, feet move so slowly before a strike and after a toe-off that they count as planted for longer, m/s: for
 /// the 68 % of Schwartz's very slow walkers and a frame, 2 % of the cycle.
@@ -208,12 +210,13 @@ fn straight_walks_keep_to_adult_bands_of_cadence_and_stride() {
 #[test]
 fn walking_joints_follow_the_published_curves_within_five_degrees() {
     for clip in clips().iter().filter(|clip| clip.name.starts_with("walk_")) {
-        let Recipe::Steps { gait, .. } = &clip.recipe else { panic!("{} does not step", clip.name) };
+        let Recipe::Steps { gait, strides, .. } = &clip.recipe else { panic!("{} does not step", clip.name) };
+        let variation = Variation::of_clip(clip.name, *strides);
         let frames = frames(clip);
         let strides = &frames[1..];
         let mut squares = [0.0; 3];
         for (frame, joints) in strides.iter().enumerate() {
-            let p = crate::rotation::wrapped(gait.yaw_peak + (frame + 1) as f64 / gait.stride_frames);
+            let p = wrapped(gait.yaw_peak + variation.strides_after((frame + 1) as f64 / gait.stride_frames));
             let published = gait.style.flexion(p, gait.toe_off);
             let pitch_deg = |from: usize, to: usize| {
                 let bone = joints[to] - joints[from];

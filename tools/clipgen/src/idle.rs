@@ -6,10 +6,10 @@
 use glam::{DQuat, DVec3};
 
 use crate::body::{ANKLE_HEIGHT_M, CLAVICLES, HEIGHT_M, JOINT_COUNT, Pose};
-use crate::cycle::write_leg;
 use crate::foot_roll::Foot;
 use crate::pelvis::PelvisPose;
 use crate::rotation::{about_x, about_z, wave};
+use crate::stepping::write_leg;
 use crate::upper_body::{Arm, UpperBody};
 
 /// Frames of the clip's period.

@@ -1,10 +1,11 @@
 //! The generator of the bundled clips: human locomotion made from gait science, nobody's motion capture.
 //!
 //! In reading order: whose body (`body`), what is published of its joints (`published_curves`) and what a speed makes
-//! of a gait (`cadence`); where the feet stand (`footsteps`), roll (`foot_roll`) and swing (`swing`); the pelvis over
-//! them (`pelvis`), the legs between (`legs`), trunk, head and arms (`upper_body`), no two strides alike (`variation`);
-//! all assembled (`cycle`) or standing (`idle`); the list of clips (`catalogue`) and their files (`bvh_writer`;
-//! `body_mesh`, `glb_buffer` and `glb_writer`; `readme`). What the result is held against: [`mod@reference`].
+//! of a gait (`cadence`); no two strides alike (`variation`); where the feet stand (`footsteps`, `steps`), roll
+//! (`foot_roll`) and swing (`swing`); the pelvis over them (`pelvis`), the legs between (`legs`), trunk, head and arms
+//! (`upper_body`); all assembled (`stepping`) or standing (`idle`); the list of clips (`catalogue`) and their files
+//! (`bvh_writer`; `body_mesh`, `glb_buffer` and `glb_writer`; `readme`). What the result is held against:
+//! [`mod@reference`].
 //!
 //! Every byte follows from this source: no input, no clock, no seed but the clips' names, trigonometry through `libm`.
 
@@ -15,7 +16,6 @@ mod cadence;
 mod catalogue;
 #[cfg(test)]
 mod claims;
-mod cycle;
 mod foot_roll;
 mod footsteps;
 mod glb_buffer;
@@ -27,6 +27,8 @@ mod published_curves;
 mod readme;
 pub mod reference;
 mod rotation;
+mod stepping;
+mod steps;
 mod swing;
 mod upper_body;
 mod variation;

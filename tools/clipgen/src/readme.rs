@@ -16,9 +16,10 @@ Y up, Z forward, X to the body's left, 30 frames a second, a body of 1.75 m (pro
 Winter, *Biomechanics and Motor Control of Human Movement*). Most files are BVH, in centimetres; one clip of every
 kind is GLB (glTF 2.0, metres) with a skinned body, so that whoever runs the default set runs both importers. No clip
 is there twice. Every clip is a whole number of strides of a steady gait (3 to 6; a stride need not be a whole number
-of frames); its **last frame is its first one, moved on** by those strides: for a loop leave it out. Arms, trunk and
-gaze change a little from stride to stride, feet and pelvis do not. Leaf joints `…HeelSole`, `…BallSole`, `…ToeSole`
-lie on the soles. Turns and side-steps are to the left; the compiler mirrors them.
+of frames); its **last frame is its first one, moved on** by those strides: for a loop leave it out. No two strides of
+a clip are the same: their time, length and width, the foot's lift, pelvis, trunk, arms and gaze vary as people's do
+(`variation.rs`), about the steady gait that the table lists. Leaf joints `…HeelSole`, `…BallSole`, `…ToeSole` lie on
+the soles. Turns and side-steps are to the left; the compiler mirrors them.
 
 v_f forward, ω_t counter-clockwise, ω_s to the left. The step length is that along the path of the root.
 
@@ -29,7 +30,8 @@ v_f forward, ω_t counter-clockwise, ω_s to the left. The step length is that a
 const SOURCES: &str = "
 Sources: joint curves, foot angles and pelvis amplitudes by speed, Schwartz, Rozumalski and Trost 2008 (*J. Biomech.*
 41); cadence, step length and double support, adults of 18–29 years as in `cadence.rs`; arms and trunk as in
-`upper_body.rs`.
+`upper_body.rs`; variation from stride to stride, Hausdorff et al. 1999, Beauchet et al. 2009 and Skiadopoulos et al.
+2020 as in `variation.rs`.
 ";
 
 /// The file's bytes.

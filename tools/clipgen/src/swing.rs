@@ -1,27 +1,32 @@
 //! The foot in the air: from where and how it left the ground to where and how it will strike.
 //!
-//! Six coordinates (ankle x, y, z, yaw, pitch, toe bend) run as cubic Hermite curves that meet place and velocity of
-//! both contacts. To them is added the published swing, less its own Hermite curve: a shape that vanishes with its
-//! slope at both ends, so that contacts stay exact and the knee's fold, the toes' clearance and the foot's dorsiflexion
-//! are those of people. What clearance is then still missing is added as a hump.
+//! Five coordinates (ankle x, y, z, yaw, pitch) run as cubic Hermite curves that meet place and velocity of both
+//! contacts; the toes' bend likewise, but with a rest on its way. To them is added the published swing, less its own
+//! Hermite curve: a shape that vanishes with its slope at both ends, so that contacts stay exact and the knee's fold,
+//! the toes' clearance and the foot's dorsiflexion are those of people. What clearance is then still missing is added
+//! as a hump.
 
 use glam::DVec3;
 
 use crate::body::TOE_TIP_X_M;
 use crate::cadence::Gait;
 use crate::foot_roll::Foot;
-use crate::footsteps::{Footprint, RootMotion};
+use crate::steps::Stance;
 
 /// Least clearance of the sole in mid-swing: toes pass 1.3 cm over the ground, m.
 const CLEARANCE_M: f64 = 0.013;
 /// Share of the added lift of the toes that the ankle's dorsiflexion gives, the rest being the knee's and the hip's.
-const TOE_UP_SHARE: f64 = 0.4;
+const TOE_UP_SHARE: f64 = 0.6;
 /// Runners' toes, still pointing down as the shank swings through, pass higher: from and to these shares of the swing,
 /// m.
 const RUNNING_CLEARANCE_M: f64 = 0.03;
 const RUNNING_CLEAR_FROM_TO: [f64; 2] = [0.25, 0.80];
 /// In the air a foot hangs from its shank and takes part in a turn's bank, at mid-swing by this share.
-const SWING_BANK_SHARE: f64 = 0.5;
+const SWING_BANK_SHARE: f64 = 0.7;
+/// Toes spring back after toe-off, until this share of the swing, and stay a little up (people's: 25° up when the heel
+/// strikes, Perry, *Gait Analysis*, ch. 4; ours are level again by then), radians.
+const TOES_BACK_AT: f64 = 0.5;
+const TOES_UP_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 /// Step of the one-sided slopes, share of the stride.
 const SLOPE_STEP: f64 = 1e-4;
 
@@ -36,6 +41,7 @@ const IMPACT_PITCH_SHARE: f64 = 0.15;
 
 /// Ankle x, y, z (m), yaw, pitch, toe bend (radians).
 type Coordinates = [f64; 6];
+const TOES: usize = 5;
 
 /// One leg's swing.
 #[derive(Clone, Debug)]
@@ -46,38 +52,19 @@ pub(crate) struct Swing {
     hump_m: f64,
 }
 
-/// A foot's stance, from which swings start and in which they end.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Stance<'a> {
-    /// The gait.
-    pub(crate) gait: &'a Gait,
-    /// The footprint at mid-stance.
-    pub(crate) mid_print: Footprint,
-}
-
-impl Stance<'_> {
-    /// The foot at leg phase `p` from strike; seen from the root of then.
-    pub(crate) fn foot(&self, p: f64) -> Foot {
-        let gait = self.gait;
-        let root: &RootMotion = &gait.root;
-        let print = self.mid_print.seen_later(root, (p - gait.mid_stance()) * gait.period_s());
-        gait.roll.standing(&print, p, gait.toe_off)
-    }
-}
-
 impl Swing {
-    /// The swing between two stances of the same leg; `hip_height_m` by leg phase.
-    pub(crate) fn between(stance: &Stance, hip_height_m: &dyn Fn(f64) -> f64) -> Self {
-        let gait = stance.gait;
-        let foot = |p: f64| coordinates(&stance.foot(p));
+    /// The swing between two stances of a leg; `hip_height_m` by leg phase since the strike of the first.
+    pub(crate) fn between(from: &Stance, to: &Stance, hip_height_m: &dyn Fn(f64) -> f64) -> Self {
+        let gait = from.steps.gait;
+        let [leaving, arriving] = [from, to].map(|stance| |p: f64| coordinates(&stance.foot(p)));
         let published = |p: f64| published_coordinates(gait, p, hip_height_m);
         let mut swing = Self {
             toe_off: gait.toe_off,
             feet: Hermite {
-                ends: [foot(gait.toe_off), foot(0.0)],
+                ends: [leaving(gait.toe_off), arriving(0.0)],
                 slopes: [
-                    slope(&foot, gait.toe_off, gait.toe_off - SLOPE_STEP, gait),
-                    slope(&foot, SLOPE_STEP, 0.0, gait),
+                    slope(&leaving, gait.toe_off, gait.toe_off - SLOPE_STEP, gait),
+                    slope(&arriving, SLOPE_STEP, 0.0, gait),
                 ],
             },
             published: Hermite {
@@ -90,21 +77,22 @@ impl Swing {
             hump_m: gait.lift_m * (1.0 - gait.style_share),
         };
         swing.arrive_with_impact(gait);
-        swing.hump_m += swing.missing_clearance_m(gait, hip_height_m);
+        swing.hump_m += swing.missing_clearance_m(gait, hip_height_m) + to.lift_m();
         swing
     }
 
     /// The foot at leg phase `p` in [toe-off, 1].
     pub(crate) fn foot(&self, gait: &Gait, p: f64, hip_height_m: &dyn Fn(f64) -> f64) -> Foot {
         let s = (p - self.toe_off) / (1.0 - self.toe_off);
-        let [mut x, y, mut z, yaw_rad, mut pitch_rad, toe_bend_rad] = self.feet.at(s);
+        let [mut x, y, mut z, yaw_rad, mut pitch_rad, _] = self.feet.at(s);
+        let toe_bend_rad = self.feet.by_way_of(gait.style_share * TOES_UP_RAD, TOES, s);
         let shape = published_coordinates(gait, p, hip_height_m);
         let chord = self.published.at(s);
         x += gait.style_share * (shape[0] - chord[0]);
         let lift_m = self.hump_m * hump(gait, s);
         z += gait.style_share * (shape[1] - chord[1]) + (1.0 - gait.style_share * TOE_UP_SHARE) * lift_m;
         pitch_rad += gait.style_share * (shape[2] - chord[2] + TOE_UP_SHARE * lift_m / TOE_TIP_X_M);
-        let roll_rad = -SWING_BANK_SHARE * gait.upper_body.bank_rad * 16.0 * s * s * (1.0 - s) * (1.0 - s);
+        let roll_rad = -SWING_BANK_SHARE * gait.upper_body.bank_rad * 4.0 * s * (1.0 - s);
         Foot { ankle_m: DVec3::new(x, y, z), yaw_rad, pitch_rad, roll_rad, toe_bend_rad }
     }
 
@@ -144,6 +132,20 @@ impl<const N: usize> Hermite<N> {
         std::array::from_fn(|i| {
             start * self.ends[0][i] + end * self.ends[1][i] + leave * self.slopes[0][i] + arrive * self.slopes[1][i]
         })
+    }
+}
+
+impl Hermite<6> {
+    /// One coordinate that is at rest at [`TOES_BACK_AT`].
+    fn by_way_of(&self, resting: f64, i: usize, s: f64) -> f64 {
+        let (end, length, since) = match s < TOES_BACK_AT {
+            true => (0, TOES_BACK_AT, s),
+            false => (1, 1.0 - TOES_BACK_AT, 1.0 - s),
+        };
+        let (u, rest) = (since / length, 1.0 - since / length);
+        let outward_slope = if end == 0 { self.slopes[0][i] } else { -self.slopes[1][i] };
+        let leaving = rest * rest * ((1.0 + 2.0 * u) * self.ends[end][i] + u * length * outward_slope);
+        leaving + u * u * (3.0 - 2.0 * u) * resting
     }
 }
 

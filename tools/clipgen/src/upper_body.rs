@@ -23,8 +23,9 @@ const ELBOW_LAG: f64 = 0.04;
 const NOD_RAD: f64 = 0.012;
 /// The chest dips towards the stance side by this share of the pelvis's list, radians.
 const CHEST_LIST_SHARE: f64 = 0.60;
-/// Share of a turn's bank that the chest takes; the legs take as much, the feet being set outward.
-const CHEST_BANK_SHARE: f64 = 0.85;
+/// Shares of a turn's bank that chest and head take; the legs take what is left of it (`cadence::LEAN_ARM_M`).
+const CHEST_BANK_SHARE: f64 = 0.90;
+const HEAD_BANK_SHARE: f64 = 0.40;
 /// Upper arms turn inward, so that the hands swing towards the midline, the more the elbow is bent: radians, and per
 /// radian of the elbow.
 const ARM_INWARD_RAD: f64 = 0.24;
@@ -74,9 +75,10 @@ pub(crate) fn in_gait(gait: &Gait, style: &UpperBodySwing, cycle_phase: f64) -> 
     UpperBody {
         chest_yaw_rad: style.chest_yaw_rad * chest_wave,
         chest_pitch_rad: style.lean_rad + NOD_RAD * wave(2.0 * cycle_phase - 0.2),
-        chest_roll_rad: -CHEST_BANK_SHARE * style.bank_rad - CHEST_LIST_SHARE * gait.pelvis.list_rad * list_wave,
+        chest_roll_rad: -CHEST_BANK_SHARE * style.bank_rad - CHEST_LIST_SHARE * gait.pelvis.list_rad * list_wave
+            + style.side_lag_rad * 0.5 * (1.0 + wave(cycle_phase)),
         head_yaw_rad: style.look_rad,
-        head_roll_rad: -0.4 * style.bank_rad,
+        head_roll_rad: -HEAD_BANK_SHARE * style.bank_rad,
         arms: [(0.5, 1.0 + LEFT_ARM_SHARE), (0.0, 1.0 - LEFT_ARM_SHARE)].map(|(foremost, share)| {
             let since = cycle_phase - foremost - gait.yaw_peak + ARM_LEAD;
             Arm {

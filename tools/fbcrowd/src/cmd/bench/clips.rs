@@ -103,49 +103,51 @@ impl Details {
     }
 
     fn clip_bars(&self) -> Vec<Bar> {
+        [&self.claim_bars()[..], &self.ground_bars(), &self.body_bars(), &self.gait_bars()].concat()
+    }
+
+    fn claim_bars(&self) -> [Bar; 2] {
+        let share = self.clips.len() as f64 / claims().len() as f64;
+        let off = self.greatest(|clip| Some(clip.off_claim));
+        [
+            Bar::at_least("bundled clips that give an example, share", 1.0, share),
+            Bar::at_most("parameters off what the name claims, over what is allowed", 1.0, off),
+        ]
+    }
+
+    fn ground_bars(&self) -> [Bar; 3] {
         let slide = |runs: bool| {
             self.greatest(|clip| (clip.claim.runs == runs).then_some(f64::from(clip.quality.planted_slide_cm_s)))
         };
-        let runs_duty =
-            |clip: &Clip| clip.gait.as_ref().filter(|_| clip.claim.runs).map(|gait| mean(gait.stance_shares));
-        vec![
-            Bar::at_least(
-                "bundled clips that give an example, share",
-                1.0,
-                self.clips.len() as f64 / claims().len() as f64,
-            ),
-            Bar::at_most(
-                "parameters off what the name claims, over what is allowed",
-                1.0,
-                self.greatest(|clip| Some(clip.off_claim)),
-            ),
+        let sunk_mm = self.greatest(|clip| Some(clip.quality.penetration_mm.into()));
+        [
             Bar::at_most("planted-foot slide of walks, turns, side-steps and backward walks, cm/s", 1.0, slide(false)),
             Bar::at_most("planted-foot slide of jogs and runs, cm/s", 3.0, slide(true)),
-            Bar::at_most("ground penetration, mm", 5.0, self.greatest(|clip| Some(clip.quality.penetration_mm.into()))),
-            Bar::at_most(
-                "loop seam over the cycle's median step",
-                1.2,
-                self.greatest(|clip| Some(clip.quality.seam_angle_ratio.into())),
-            ),
-            Bar::at_least(
-                "flexion of a knee, degrees",
-                1.0,
-                self.least(|clip| Some(clip.quality.knee_flexion_min_deg.into())),
-            ),
-            Bar::at_most(
-                "joints past human range, degrees",
-                0.0,
-                self.greatest(|clip| Some(clip.quality.range_excess_deg.into())),
-            ),
+            Bar::at_most("ground penetration, mm", 5.0, sunk_mm),
+        ]
+    }
+
+    fn body_bars(&self) -> [Bar; 3] {
+        let seam = self.greatest(|clip| Some(clip.quality.seam_angle_ratio.into()));
+        let knee_deg = self.least(|clip| Some(clip.quality.knee_flexion_min_deg.into()));
+        let excess_deg = self.greatest(|clip| Some(clip.quality.range_excess_deg.into()));
+        [
+            Bar::at_most("loop seam over the cycle's median step", 1.2, seam),
+            Bar::at_least("flexion of a knee, degrees", 1.0, knee_deg),
+            Bar::at_most("joints past human range, degrees", 0.0, excess_deg),
+        ]
+    }
+
+    fn gait_bars(&self) -> [Bar; 5] {
+        let duty = |clip: &Clip| clip.gait.as_ref().filter(|_| clip.claim.runs).map(|gait| mean(gait.stance_shares));
+        let off_deg = self.greatest(|clip| clip.off_published_deg.map(|off| off.into_iter().fold(0.0, f64::max)));
+        let toe_off_miss = self.greatest(Clip::toe_off_miss);
+        [
             Bar::at_most("straight walks from 0.85 m/s that no published adults walk", 0.0, self.walks_of_nobody()),
-            Bar::at_most("toe-off off 50 % + half the double support, share", 0.03, self.greatest(Clip::toe_off_miss)),
-            Bar::at_least("duty factor of a run", 0.30, self.least(runs_duty)),
-            Bar::at_most("duty factor of a run, at most", 0.45, self.greatest(runs_duty)),
-            Bar::at_most(
-                "straight walks off the published hip, knee or ankle, RMS, degrees",
-                5.0,
-                self.greatest(|clip| clip.off_published_deg.map(|off| off.into_iter().fold(0.0, f64::max))),
-            ),
+            Bar::at_most("toe-off off 50 % + half the double support, share", 0.03, toe_off_miss),
+            Bar::at_least("duty factor of a run", 0.30, self.least(duty)),
+            Bar::at_most("duty factor of a run, at most", 0.45, self.greatest(duty)),
+            Bar::at_most("straight walks off the published hip, knee or ankle, RMS, degrees", 5.0, off_deg),
         ]
     }
 
