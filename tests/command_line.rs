@@ -33,6 +33,7 @@ fn bad_usage_ends_with_code_2() {
     fbcrowd(&["compile"]).expect_code(2);
     fbcrowd(&["render", "missing.fbrec", "-o", "out/x", "--format", "bmp"]).expect_code(2);
     fbcrowd(&["validate", "missing.fbdb", "--threads", "0"]).expect_code(2);
+    fbcrowd(&["compile", WALK, "-o", "out/x", "--max-examples", "0"]).expect_code(2).says(&["whole number from 1 on"]);
 }
 
 #[test]
@@ -61,6 +62,16 @@ fn a_manifest_that_skips_all_is_named() {
     fs::write(folder.join("manifest.toml"), "[[clips]]\npath = '.'\nskip = true\n").unwrap();
     let database = folder.join("motion.fbdb");
     fbcrowd(&["compile", text(&folder), "-o", text(&database)]).expect_code(2).says(&["manifest.toml", "skip fewer"]);
+}
+
+#[test]
+fn what_is_neither_a_database_nor_a_clip_is_told_so() {
+    let folder = folder("neither");
+    for (name, words) in [("picture.png", "neither a database"), ("crowd.fbrec", "fbcrowd measure")] {
+        let path = folder.join(name);
+        fs::write(&path, "anything").unwrap();
+        fbcrowd(&["inspect", text(&path)]).expect_code(2).says(&[name, words]);
+    }
 }
 
 #[test]

@@ -142,5 +142,7 @@ fn a_set_that_needs_each_of_its_examples_leaves_none_out() {
     assert_eq!(report["leave_one_out"]["outside"][0], "walk_110");
     assert!(report["leave_one_out"]["median_blended_rmse_m"].is_null());
     assert_eq!(report["leave_one_out"]["per_joint"].as_array().unwrap().len(), 0);
+    let shown = fbcrowd(&["inspect", text(&database), "--leave-one-out"]).expect_code(0).stdout;
+    assert!(shown.contains("no example can be left out"), "{shown}");
     fbcrowd(&["inspect", "assets/clips/walk_110.bvh", "--leave-one-out"]).expect_code(2).says(&["fbcrowd compile"]);
 }

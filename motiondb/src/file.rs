@@ -112,11 +112,9 @@ pub fn read(path: &Path) -> Result<(MotionDb, u32), FileError> {
 /// All but [`FileError::Unwritable`].
 pub fn load(path: &Path) -> Result<(MotionDb, u32), FileError> {
     let (db, checksum) = read(path)?;
-    match validate::validate(&db).into_iter().find(|check| check.broken.is_some()) {
-        Some(validate::Check { name, broken: Some(detail) }) => {
-            Err(FileError::Invariant { path: path.to_owned(), invariant: name, detail })
-        }
-        _ => Ok((db, checksum)),
+    match validate::first_broken(&db) {
+        Some((invariant, detail)) => Err(FileError::Invariant { path: path.to_owned(), invariant, detail }),
+        None => Ok((db, checksum)),
     }
 }
 

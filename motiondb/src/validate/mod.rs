@@ -80,6 +80,11 @@ pub fn validate(db: &MotionDb) -> Vec<Check> {
     checks
 }
 
+/// The first invariant that a database breaks, and where and how; none of a sound one.
+pub fn first_broken(db: &MotionDb) -> Option<(&'static str, String)> {
+    validate(db).into_iter().find_map(|check| Some((check.name, check.broken?)))
+}
+
 fn ensure(holds: bool, detail: impl FnOnce() -> String) -> Outcome {
     if holds { Ok(()) } else { Err(detail()) }
 }

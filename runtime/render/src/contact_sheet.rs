@@ -98,7 +98,8 @@ fn draw_head(figure: &mut Figure, left: f32) {
 
 /// Name, numbers and ground of one example.
 fn draw_words(figure: &mut Figure, db: &MotionDb, example: usize, corner: Vec2) {
-    figure.text(&db.examples[example].name, corner + Vec2::new(GAP_PX, -70.0), Anchor::Left);
+    let name = figure.fitted(&db.examples[example].name, NAMES_PX - 2.0 * GAP_PX);
+    figure.text(&name, corner + Vec2::new(GAP_PX, -70.0), Anchor::Left);
     draw_numbers(figure, &db.examples[example], corner + Vec2::new(GAP_PX, -40.0));
     for view in 0..VIEWS.len() {
         let left = corner.x + NAMES_PX + view as f32 * STRIP_PX;

@@ -28,6 +28,8 @@ const CELL_PX: Vec2 = Vec2::new(800.0, 720.0);
 const HEIGHT_PANEL_PX: [f32; 4] = [120.0, 90.0, 650.0, 270.0];
 /// … and of the speeds below them.
 const SPEED_PANEL_PX: [f32; 4] = [120.0, 470.0, 650.0, 160.0];
+/// Between an axis's label and the example's name, pixels.
+const NAME_GAP_PX: f32 = 40.0;
 /// Height of the sheet's head, pixels.
 const HEAD_PX: f32 = 180.0;
 /// Height of both feet's contact bars over the axis's lower end, share of the axis.
@@ -78,7 +80,8 @@ fn draw_example(figure: &mut Figure, db: &MotionDb, index: usize, cell: usize) {
     let height_panel = panel(HEIGHT_PANEL_PX, height_axis(heights_m));
     let speed_panel = panel(SPEED_PANEL_PX, speed_axis(speeds_mps));
     let [left, top, width, _] = HEIGHT_PANEL_PX;
-    figure.text(&example.name, corner + Vec2::new(left + width, top - 16.0), Anchor::Right);
+    let name = figure.fitted(&example.name, width - figure.width_px(&height_panel.axes[1].label) - NAME_GAP_PX);
+    figure.text(&name, corner + Vec2::new(left + width, top - 16.0), Anchor::Right);
     draw_key_times(figure, &height_panel, example, &KEY_NAMES);
     draw_key_times(figure, &speed_panel, example, &[""; 4]);
     for side in Side::BOTH {

@@ -19,33 +19,66 @@ const WIDTH_PX: u32 = 2900;
 const PANEL_TOP_AND_HEIGHT_PX: [f32; 2] = [220.0, 760.0];
 /// Left edge of the first panel, width of each, and distance from one to the next, pixels.
 const PANEL_LEFT_WIDTH_STEP_PX: [f32; 3] = [120.0, 820.0, 930.0];
-/// Columns of the key, under the panels.
-const KEY_COLUMNS: usize = 5;
-/// First line of the key, and distance of its columns and lines, pixels.
+/// First line of the key under the panels, and distance of its lines, pixels.
 const KEY_TOP_PX: f32 = 1130.0;
-const KEY_STEP_PX: Vec2 = Vec2::new(550.0, 42.0);
+const KEY_LINE_PX: f32 = 42.0;
+/// Least width of its columns, and what a mark and the gap to the next column take of it, pixels.
+const KEY_COLUMN_PX: f32 = 550.0;
+const KEY_MARK_PX: f32 = 70.0;
 /// The two axes of each panel: v_f and ω_t, v_f and ω_s, ω_t and ω_s.
 const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 const AXIS_NAMES: [&str; 3] = ["forward speed v_f, m/s", "turn rate ω_t, °/s", "side speed ω_s, m/s"];
 
 /// The plot of a database's blend space.
 pub fn parameter_space(db: &MotionDb) -> Pixmap {
-    let key_lines = recorded(db).count().div_ceil(KEY_COLUMNS);
-    let mut figure = Figure::new(WIDTH_PX, (KEY_TOP_PX + key_lines as f32 * KEY_STEP_PX.y) as u32);
+    let key = Key::new(db);
+    let mut figure = Figure::new(WIDTH_PX, (KEY_TOP_PX + key.lines as f32 * KEY_LINE_PX) as u32);
     figure.title(&title(db), Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0], 80.0));
     let legend = [(Mark::Disc, INK, "recorded, numbers in the key below"), (Mark::Ring, INK, "its mirrored twin")];
     figure.legend(Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0] + 10.0, 134.0), &legend);
     for (index, view) in VIEWS.into_iter().enumerate() {
         draw_view(&mut figure, db, index, view);
     }
-    draw_key(&mut figure, db, key_lines);
+    key.draw(&mut figure, db);
     figure.pixmap
+}
+
+/// Numbers and names of the recorded examples, column by column; as many columns as the longest name leaves.
+struct Key {
+    /// Index of the example, and what is said of it.
+    entries: Vec<(usize, String)>,
+    lines: usize,
+    column_px: f32,
+}
+
+impl Key {
+    fn new(db: &MotionDb) -> Self {
+        let face = Figure::new(1, 1);
+        let room_px = WIDTH_PX as f32 - PANEL_LEFT_WIDTH_STEP_PX[0];
+        let entry = |(index, example): (usize, &MotionExample)| {
+            (index, face.fitted(&format!("{index}  {}", example.name), room_px - KEY_MARK_PX))
+        };
+        let entries: Vec<(usize, String)> = recorded(db).map(entry).collect();
+        let widest_px = entries.iter().map(|(_, text)| face.width_px(text)).fold(0.0, f32::max);
+        let column_px = (widest_px + KEY_MARK_PX).max(KEY_COLUMN_PX).min(room_px);
+        let columns = (room_px / column_px) as usize;
+        Self { lines: entries.len().div_ceil(columns.max(1)), entries, column_px }
+    }
+
+    fn draw(&self, figure: &mut Figure, db: &MotionDb) {
+        for (place, (index, text)) in self.entries.iter().enumerate() {
+            let [column, line] = [place / self.lines, place % self.lines].map(|step| step as f32);
+            let at = Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0] + column * self.column_px, KEY_TOP_PX + line * KEY_LINE_PX);
+            figure.legend(at, &[(Mark::Disc, example_colour(db, &db.examples[*index]), text)]);
+        }
+    }
 }
 
 fn title(db: &MotionDb) -> String {
     let space = &db.blend_space;
     let (dimension, covered) = (space.dimension, 100.0 * space.covered_share);
-    let simplices = space.simplices.len() / (dimension as usize + 1);
+    // A lone example is a point to the runtime, no simplex to people.
+    let simplices = space.simplices().filter(|corners| corners.len() > 1).count();
     let counts = format!("{} examples, {simplices} simplices of dimension {dimension}", db.examples.len());
     format!("Blend space: {counts}, {covered:.1} % of the hull covered")
 }
@@ -59,16 +92,6 @@ fn recorded(db: &MotionDb) -> impl Iterator<Item = (usize, &MotionExample)> {
 fn example_colour(db: &MotionDb, example: &MotionExample) -> Rgb {
     let first = db.examples.iter().position(|other| other.source == example.source);
     line_colour(first.unwrap_or_default())
-}
-
-/// Numbers and names, column by column.
-fn draw_key(figure: &mut Figure, db: &MotionDb, lines: usize) {
-    for (place, (index, example)) in recorded(db).enumerate() {
-        let step = Vec2::new((place / lines) as f32, (place % lines) as f32) * KEY_STEP_PX;
-        let at = Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0], KEY_TOP_PX) + step;
-        let text = format!("{index}  {}", example.name);
-        figure.legend(at, &[(Mark::Disc, example_colour(db, example), &text)]);
-    }
 }
 
 fn draw_view(figure: &mut Figure, db: &MotionDb, index: usize, view: [usize; 2]) {

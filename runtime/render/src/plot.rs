@@ -22,6 +22,8 @@ const TICK_PX: f32 = 8.0;
 const LEGEND_MARK_PX: f32 = 9.0;
 /// Points nearer to each other than this share one note, pixels.
 const SAME_POINT_PX: f32 = 5.0;
+/// Widest note, share of its panel: of dozens of points that fall together not all are named.
+const NOTE_MAX_SHARE: f32 = 0.4;
 /// Opacity of the paper under a name: lines behind it stay faintly visible.
 const NAME_BACKING: f32 = 0.75;
 
@@ -78,9 +80,20 @@ impl Figure {
         Self { pixmap, title_face, face, note_face }
     }
 
-    /// Writes a heading, its baseline's left end at a place on the sheet.
+    /// Writes a heading, its baseline's left end at a place on the sheet; it ends before the sheet does.
     pub fn title(&mut self, text: &str, at_px: Vec2) {
-        self.title_face.draw(&mut self.pixmap, text, at_px, Anchor::Left, INK);
+        let text = self.title_face.fitted(text, self.pixmap.width() as f32 - at_px.x - self.title_face.size_px);
+        self.title_face.draw(&mut self.pixmap, &text, at_px, Anchor::Left, INK);
+    }
+
+    /// As much of a line of text as so many pixels hold.
+    pub fn fitted(&self, text: &str, width_px: f32) -> String {
+        self.face.fitted(text, width_px)
+    }
+
+    /// Width of a line of text, pixels.
+    pub fn width_px(&self, text: &str) -> f32 {
+        self.face.width_px(text)
     }
 
     /// Writes a line of text at a place on the sheet.
@@ -97,7 +110,10 @@ impl Figure {
     /// name are only kept free. Names that stand far off are tied to their points by a line.
     pub fn names(&mut self, panel: &Panel, names: &[(Vec2, &str)]) {
         let points: Vec<Vec2> = names.iter().map(|(point, _)| panel.to_px(*point)).collect();
-        let notes = joined_names(names.iter().map(|(_, name)| *name).zip(&points));
+        let mut notes = joined_names(names.iter().map(|(_, name)| *name).zip(&points));
+        for (_, text) in &mut notes {
+            *text = self.note_face.fitted(text, NOTE_MAX_SHARE * panel.rect_px[2]);
+        }
         let size = |text: &str| Vec2::new(self.note_face.width_px(text), self.note_face.size_px);
         let sizes: Vec<(Vec2, Vec2)> = notes.iter().map(|(point, text)| (*point, size(text))).collect();
         let places = place_names(&sizes, &points, &NamePlace::within(panel.rect_px));

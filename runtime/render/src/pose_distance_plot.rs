@@ -33,7 +33,8 @@ pub fn pose_distances(db: &MotionDb) -> Option<Pixmap> {
 /// The plot of any two examples with the pairs that are found for them.
 pub fn pose_distances_between(db: &MotionDb, examples: [usize; 2]) -> Pixmap {
     let pairs_s: Vec<[f32; 2]> = table(db, examples[0], examples[1]).iter().map(|alike| alike.times_s).collect();
-    draw(db, "Where two examples are alike: distance of poses, and correspondences", examples, ["", ""], &pairs_s)
+    let [from, to] = examples.map(|index| db.examples[index].name.as_str());
+    draw(db, &format!("Where {from} and {to} are alike"), examples, ["", ""], &pairs_s)
 }
 
 /// `roles` are said before the examples' names.

@@ -58,6 +58,21 @@ impl Typeface {
         self.glyphs_of(text).map(|glyph| glyph.advance_px).sum()
     }
 
+    /// A text no wider than so many pixels: of a longer one the middle gives way to `…`, since names that begin alike
+    /// often end otherwise.
+    pub fn fitted(&self, text: &str, width_px: f32) -> String {
+        let letters: Vec<char> = text.chars().collect();
+        let shortened = |kept: usize| {
+            let (head, tail) = (kept.div_ceil(2), kept / 2);
+            letters[..head].iter().chain(['…'].iter()).chain(&letters[letters.len() - tail..]).collect::<String>()
+        };
+        if self.width_px(text) <= width_px {
+            return text.to_owned();
+        }
+        let fitting = (0..letters.len()).rev().map(shortened).find(|text| self.width_px(text) <= width_px);
+        fitting.unwrap_or_default()
+    }
+
     /// Writes with the baseline at `at_px`.
     pub fn draw(&self, pixmap: &mut Pixmap, text: &str, at_px: Vec2, anchor: Anchor, colour: Rgb) {
         let share = match anchor {
@@ -110,5 +125,20 @@ impl Glyph {
                 *pixel = cone::to_pixel(cone::to_vec(*pixel).lerp(colour, f32::from(*covered) / 255.0));
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_too_wide_loses_its_middle_and_another_nothing() {
+        let face = Typeface::new(20.0);
+        let long = "dataset-1_walk_normal_001_mirrored";
+        let fitted = face.fitted(long, 0.5 * face.width_px(long));
+        assert!(face.width_px(&fitted) <= 0.5 * face.width_px(long), "{fitted}");
+        assert!(fitted.starts_with("dataset") && fitted.contains('…') && fitted.ends_with("rored"), "{fitted}");
+        assert_eq!((face.fitted("walk", 500.0), face.fitted("walk", 1.0)), ("walk".to_owned(), String::new()));
     }
 }

@@ -83,7 +83,7 @@ pub(crate) fn compile(
         manifest.options.velocity_hull = construction;
     }
     manifest.options.max_examples = overrides.max_examples.or(manifest.options.max_examples);
-    let progress = Progress::new("clips", manifest.takes.len());
+    let progress = Progress::new("files", manifest.takes.len());
     let compiled = compile::compile_manifest(&manifest, &|event| {
         stopwatch.watch(event);
         advance(&progress, event);
@@ -95,7 +95,7 @@ pub(crate) fn compile(
 /// Imports clips without making a database of them.
 pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Vec<Refused>), Failure> {
     let manifest = manifest(paths)?;
-    let progress = Progress::new("clips", manifest.takes.len());
+    let progress = Progress::new("files", manifest.takes.len());
     let imported = compile::import_manifest(&manifest, &|event| advance(&progress, event));
     progress.finish();
     Ok(imported?)

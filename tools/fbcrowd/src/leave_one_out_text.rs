@@ -9,6 +9,12 @@ const JOINTS_PER_LINE: usize = 4;
 
 /// Table of examples, medians, joints, and what no blend reaches.
 pub(crate) fn text(found: &LeaveOneOut) -> String {
+    if found.examples.is_empty() {
+        let corners = found.outside.join(", ");
+        return format!(
+            "no example can be left out: each is a corner of the hull, which no blend reaches: {corners}\n\n"
+        );
+    }
     let width = found.examples.iter().map(|left_out| left_out.name.chars().count()).max().unwrap_or(0).max(12);
     let mut text = format!("{:<width$}  blend cm  nearest cm  nearest example, then the blend's shares\n", "left out");
     for left_out in &found.examples {

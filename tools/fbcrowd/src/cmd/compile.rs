@@ -44,11 +44,15 @@ pub(crate) struct Args {
     json: bool,
     /// Most examples, mirrors not counted, whatever the manifest says: m_sp, one that stands and those that reach
     /// farthest come first.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = from_one_on)]
     max_examples: Option<NonZeroUsize>,
     /// How the motions bound velocities, whatever the manifest says.
     #[arg(long, value_enum, value_name = "SETS")]
     velocity_hull: Option<VelocitySets>,
+}
+
+fn from_one_on(text: &str) -> Result<NonZeroUsize, &'static str> {
+    text.parse().map_err(|_| "a whole number from 1 on is wanted")
 }
 
 /// [`Construction`] on the command line.

@@ -63,8 +63,24 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         inputs if inputs.iter().any(|input| is_database(input)) => {
             Err(Failure::bad("a database is shown alone; inspect one at a time, and clips by themselves"))
         }
-        clips => inspect_clips(args, clips),
+        clips => {
+            clips.iter().try_for_each(|path| check_kind(path))?;
+            inspect_clips(args, clips)
+        }
     }
+}
+
+/// That a file may be one of clips; whether there is any is seen when it is read.
+fn check_kind(path: &Path) -> Result<(), Failure> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    if !path.is_file() || ["bvh", "glb", "gltf", "toml"].contains(&extension.as_str()) {
+        return Ok(());
+    }
+    let what = match extension.as_str() {
+        "fbrec" => "a recording; `fbcrowd measure` and `fbcrowd render` show it",
+        _ => "neither a database (*.fbdb) nor a clip (*.bvh, *.glb, *.gltf)",
+    };
+    Err(Failure::bad(format!("{}: {what}", path.display())))
 }
 
 fn is_database(path: &Path) -> bool {
