@@ -26,9 +26,9 @@ pub fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
     Root { position_m: root.position_m + dt_s * plan.velocity_mps, facing_rad: plan.facing_rad }
 }
 
-/// The root kept out of walls, whatever the body wanted.
-pub fn outside_walls(root: Root, radius_m: f32, obstacles: &Obstacles) -> Root {
-    Root { position_m: obstacles.clamp_outside(root.position_m, radius_m), ..root }
+/// The root kept out of walls, and on its side of them, whatever the body wanted; it stood at `from` before the step.
+pub fn outside_walls(from_m: Vec2, root: Root, radius_m: f32, obstacles: &Obstacles) -> Root {
+    Root { position_m: obstacles.clamp_way(from_m, root.position_m, radius_m), ..root }
 }
 
 /// Hands the bodies back to the planner.

@@ -36,6 +36,8 @@ pub mod scenario_ranges;
 pub mod segment_distance;
 pub mod split_mix;
 pub mod step;
+pub mod wild_program;
+pub mod wild_world;
 pub mod world;
 
 #[cfg(test)]

@@ -1,11 +1,14 @@
 //! Walls: simple polygons whose edges the planner avoids and whose insides no root enters.
 //!
 //! Each corner knows its neighbours, the unit direction of the edge that leaves it, and whether the polygon is convex
-//! there, as van den Berg et al. 2011 need. Corners run counter-clockwise, so the inside is on an edge's left. World,
-//! metres.
+//! there, as van den Berg et al. 2011 need. Corners run counter-clockwise, so the inside is on an edge's left. What is
+//! near is found through a grid of edges. World, metres.
 
-use glam::Vec2;
+mod edge_grid;
 
+use glam::{DVec2, Vec2};
+
+use self::edge_grid::EdgeGrid;
 use crate::polygon::signed_area_m2;
 
 /// Rounds of pushing a disc out: one for each wall of a niche, and one more.
@@ -41,25 +44,22 @@ pub struct NearEdge {
 #[derive(Clone, Debug, Default)]
 pub struct Obstacles {
     corners: Vec<Corner>,
-    polygons: Vec<Polygon>,
-}
-
-/// A run of corners and its bounding box.
-#[derive(Clone, Copy, Debug)]
-struct Polygon {
-    first: usize,
-    end: usize,
-    least_m: Vec2,
-    most_m: Vec2,
+    /// Index of each polygon's first corner, and the number of corners.
+    polygons: Vec<usize>,
+    /// Polygon of each corner.
+    polygon_of: Vec<u32>,
+    grid: EdgeGrid,
 }
 
 impl Obstacles {
     /// Takes over simple polygons of three corners or more, either way round; repeated corners are dropped.
     pub fn new(polygons_m: &[Vec<Vec2>]) -> Self {
-        let mut obstacles = Self::default();
+        let mut obstacles = Self { polygons: vec![0], ..Self::default() };
         for points_m in polygons_m {
             obstacles.add(points_m);
         }
+        let ends_m: Vec<[Vec2; 2]> = (0..obstacles.corners.len()).map(|edge| obstacles.ends_m(edge as u32)).collect();
+        obstacles.grid = EdgeGrid::new(&ends_m);
         obstacles
     }
 
@@ -77,9 +77,8 @@ impl Obstacles {
         }
         let (first, count) = (self.corners.len(), points_m.len());
         self.corners.extend((0..count).map(|index| corner(&points_m, index, first)));
-        let least_m = points_m.iter().copied().fold(Vec2::INFINITY, Vec2::min);
-        let most_m = points_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max);
-        self.polygons.push(Polygon { first, end: first + count, least_m, most_m });
+        self.polygon_of.resize(self.corners.len(), self.polygons.len() as u32 - 1);
+        self.polygons.push(self.corners.len());
     }
 
     /// Every corner; an edge is known by the corner that it leaves.
@@ -96,22 +95,67 @@ impl Obstacles {
     /// The edges within `range` that show their outer side to the position, nearest first, ties by index.
     pub fn near(&self, position_m: Vec2, range_m: f32, found: &mut Vec<NearEdge>) {
         found.clear();
-        for polygon in self.polygons.iter().filter(|polygon| polygon.reaches(position_m, range_m)) {
-            for edge in polygon.first..polygon.end {
-                let [from_m, to_m] = self.ends_m(edge as u32);
-                let distance_m = position_m.distance(nearest_on_segment(position_m, from_m, to_m));
-                let faces = self.corners[edge].direction.perp_dot(position_m - from_m) < 0.0;
-                if faces && distance_m <= range_m {
-                    found.push(NearEdge { edge: edge as u32, distance_m });
-                }
+        for edge in self.grid.within(position_m - range_m, position_m + range_m) {
+            let [from_m, to_m] = self.ends_m(edge);
+            let distance_m = position_m.distance(nearest_on_segment(position_m, from_m, to_m));
+            let faces = self.corners[edge as usize].direction.perp_dot(position_m - from_m) < 0.0;
+            if faces && distance_m <= range_m {
+                found.push(NearEdge { edge, distance_m });
             }
         }
         found.sort_unstable_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.edge.cmp(&b.edge)));
+        found.dedup();
     }
 
     /// Whether a point lies inside a polygon.
     pub fn contains(&self, point_m: Vec2) -> bool {
-        self.polygons.iter().any(|polygon| polygon.reaches(point_m, 0.0) && self.is_inside(polygon, point_m))
+        !self.around(point_m).is_empty()
+    }
+
+    /// The polygons that a point lies inside of, by the even-odd rule along a ray in +x.
+    fn around(&self, point_m: Vec2) -> Vec<u32> {
+        let crosses = |edge: &u32| {
+            let [from_m, to_m] = self.ends_m(*edge);
+            let straddles = (from_m.y > point_m.y) != (to_m.y > point_m.y);
+            straddles && (side(from_m, to_m, point_m) > 0.0) == (to_m.y > from_m.y)
+        };
+        let mut crossed: Vec<u32> = self.grid.beyond(point_m).filter(crosses).collect();
+        crossed.sort_unstable();
+        crossed.dedup();
+        let polygon_of = |edge: &u32| self.polygon_of[*edge as usize];
+        let polygons = crossed.chunk_by(|a, b| polygon_of(a) == polygon_of(b));
+        polygons.filter(|edges| edges.len() % 2 == 1).map(|edges| polygon_of(&edges[0])).collect()
+    }
+
+    /// Where a disc ends up that would go from one position to another: outside all walls, as [`Self::clamp_outside`]
+    /// puts it, and on the side of them where it was. Whoever is in a wall may leave that one on any side.
+    pub fn clamp_way(&self, from_m: Vec2, to_m: Vec2, radius_m: f32) -> Vec2 {
+        let within = self.around(from_m);
+        let free = |to_m: &Vec2| {
+            let ends_well = self.around(*to_m).iter().all(|polygon| within.contains(polygon));
+            ends_well && self.crossings(from_m, *to_m, &within).next().is_none()
+        };
+        let direct_m = self.clamp_outside(to_m, radius_m);
+        let stopped_m = || {
+            let share = self.crossings(from_m, to_m, &within).fold(1.0, f64::min) as f32;
+            let before_m = OUTSIDE_M * (to_m - from_m).normalize_or_zero();
+            self.clamp_outside(from_m.lerp(to_m, share) - before_m, radius_m)
+        };
+        Some(direct_m).filter(free).or_else(|| Some(stopped_m()).filter(free)).unwrap_or(from_m)
+    }
+
+    /// Shares of a straight way at which it leads through the edges of polygons, `within` left out.
+    fn crossings(&self, from_m: Vec2, to_m: Vec2, within: &[u32]) -> impl Iterator<Item = f64> {
+        let edges = self.grid.within(from_m.min(to_m), from_m.max(to_m));
+        let others = edges.filter(|&edge| !within.contains(&self.polygon_of[edge as usize]));
+        others.filter_map(move |edge| {
+            let [a_m, b_m] = self.ends_m(edge);
+            let [before, after] = [from_m, to_m].map(|end_m| side(a_m, b_m, end_m));
+            let apart = side(from_m, to_m, a_m) * side(from_m, to_m, b_m);
+            // An edge that the way begins on is not led through, but one that it ends on is.
+            let passes = (before > 0.0 && after <= 0.0) || (before < 0.0 && after >= 0.0);
+            (passes && apart <= 0.0).then(|| before / (before - after))
+        })
     }
 
     /// The position nearby at which a disc touches no wall. In a gap too narrow for the disc its centre stays outside
@@ -119,66 +163,63 @@ impl Obstacles {
     pub fn clamp_outside(&self, position_m: Vec2, radius_m: f32) -> Vec2 {
         let mut clamped_m = position_m;
         for _ in 0..CLAMP_ROUNDS {
+            let before_m = clamped_m;
             clamped_m = self.pushed_out(clamped_m, radius_m);
+            if clamped_m == before_m {
+                return clamped_m;
+            }
         }
         self.pushed_out(clamped_m, OUTSIDE_M)
     }
 
-    /// One round over all polygons.
+    /// One round over all polygons nearby.
     fn pushed_out(&self, position_m: Vec2, radius_m: f32) -> Vec2 {
-        let mut position_m = position_m;
-        for polygon in &self.polygons {
-            if polygon.reaches(position_m, radius_m) {
-                position_m = self.out_of(polygon, position_m, radius_m);
-            }
-        }
-        position_m
+        let near = self.grid.within(position_m - radius_m, position_m + radius_m);
+        let mut polygons: Vec<u32> = near.map(|edge| self.polygon_of[edge as usize]).collect();
+        polygons.extend(self.around(position_m));
+        polygons.sort_unstable();
+        polygons.dedup();
+        polygons.into_iter().fold(position_m, |position_m, polygon| self.out_of(polygon, position_m, radius_m))
     }
 
     /// Moves a disc away from a polygon, over the edge nearest to its centre.
-    fn out_of(&self, polygon: &Polygon, position_m: Vec2, radius_m: f32) -> Vec2 {
-        let (edge, touched_m) = self.nearest_edge(polygon, position_m);
+    fn out_of(&self, polygon: u32, position_m: Vec2, radius_m: f32) -> Vec2 {
+        let inside = self.around(position_m).contains(&polygon);
+        let Some((edge, touched_m)) = self.nearest_edge(polygon, position_m, radius_m, inside) else {
+            return position_m;
+        };
         let away_m = position_m - touched_m;
-        let inside = self.is_inside(polygon, position_m);
         if !inside && away_m.length_squared() >= radius_m * radius_m {
             return position_m;
         }
-        let outward = -self.corners[edge].direction.perp();
+        let outward = -self.corners[edge as usize].direction.perp();
         let away = if inside { -away_m } else { away_m };
         touched_m + radius_m * away.normalize_or(outward)
     }
 
-    /// The polygon's edge nearest to a position, and the point of it that is.
-    fn nearest_edge(&self, polygon: &Polygon, position_m: Vec2) -> (usize, Vec2) {
-        let mut best = (polygon.first, self.corners[polygon.first].point_m);
-        for edge in polygon.first..polygon.end {
-            let [from_m, to_m] = self.ends_m(edge as u32);
-            let point_m = nearest_on_segment(position_m, from_m, to_m);
-            if point_m.distance_squared(position_m) < best.1.distance_squared(position_m) {
-                best = (edge, point_m);
-            }
-        }
-        best
-    }
-
-    /// Even-odd rule along a ray in +x.
-    fn is_inside(&self, polygon: &Polygon, point_m: Vec2) -> bool {
-        let crosses = |edge: &usize| {
-            let [from_m, to_m] = self.ends_m(*edge as u32);
-            let straddles = (from_m.y > point_m.y) != (to_m.y > point_m.y);
-            let left_of_edge = (to_m - from_m).perp_dot(point_m - from_m) > 0.0;
-            straddles && left_of_edge == (to_m.y > from_m.y)
+    /// A polygon's edge nearest to a position, and the point of it that is: of all edges, or of those near the disc.
+    fn nearest_edge(&self, polygon: u32, position_m: Vec2, radius_m: f32, of_all: bool) -> Option<(u32, Vec2)> {
+        let [first, end] = [0, 1].map(|next| self.polygons[polygon as usize + next] as u32);
+        let touched = |edge: u32| {
+            let [from_m, to_m] = self.ends_m(edge);
+            (edge, nearest_on_segment(position_m, from_m, to_m))
         };
-        (polygon.first..polygon.end).filter(crosses).count() % 2 == 1
+        let nearer = |a: &(u32, Vec2), b: &(u32, Vec2)| {
+            let [a_m2, b_m2] = [a, b].map(|(_, point_m)| point_m.distance_squared(position_m));
+            a_m2.total_cmp(&b_m2).then(a.0.cmp(&b.0))
+        };
+        if of_all {
+            return (first..end).map(touched).min_by(nearer);
+        }
+        let near = self.grid.within(position_m - radius_m, position_m + radius_m);
+        near.filter(|edge| (first..end).contains(edge)).map(touched).min_by(nearer)
     }
 }
 
-impl Polygon {
-    /// Whether a disc may touch the polygon.
-    fn reaches(&self, position_m: Vec2, radius_m: f32) -> bool {
-        let nearest_m = position_m.clamp(self.least_m, self.most_m);
-        nearest_m.distance_squared(position_m) <= radius_m * radius_m
-    }
+/// Positive where a point lies left of the line from a to b; in f64, where the sign can be trusted.
+fn side(from_m: Vec2, to_m: Vec2, point_m: Vec2) -> f64 {
+    let [from_m, to_m, point_m] = [from_m, to_m, point_m].map(DVec2::from);
+    (to_m - from_m).perp_dot(point_m - from_m)
 }
 
 /// Corner `index` of a polygon whose first corner gets the index `first`.
@@ -265,6 +306,25 @@ mod tests {
                 let close = position_m.distance(nearest_on_segment(position_m, from_m, to_m)) <= 1.0;
                 prop_assert_eq!(found.iter().any(|near| near.edge == edge), right && close);
             }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        #[test]
+        fn no_way_leads_through_a_wall_however_far_and_thin(
+            x in -1.0f32..5.0, y in -1.0f32..4.0, east in -30.0f32..30.0, north in -30.0f32..30.0, thin in 0.001f32..0.3,
+        ) {
+            let wall = |x: f32| vec![Vec2::new(x, -9.0), Vec2::new(x + thin, -9.0), Vec2::new(x + thin, 9.0), Vec2::new(x, 9.0)];
+            let obstacles = Obstacles::new(&[wall(1.0), wall(2.0), wall(2.2)]);
+            let from_m = Vec2::new(x, y);
+            prop_assume!(!obstacles.contains(from_m));
+            let ended_m = obstacles.clamp_way(from_m, from_m + Vec2::new(east, north), RADIUS_M);
+            prop_assert!(!obstacles.contains(ended_m));
+            let room = |at_m: Vec2| [1.0, 2.0, 2.2].iter().filter(|&&x| at_m.x > x + 0.5 * thin).count();
+            let around = ended_m.y.abs() > 9.0;
+            prop_assert!(around || room(from_m) == room(ended_m), "{from_m} {ended_m}");
         }
     }
 

@@ -151,11 +151,12 @@ impl Simulation {
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let bodies = agents.bodies.par_iter_mut().with_min_len(CHUNK).zip(&mut agents.syntheses);
         bodies.zip(&agents.plans).zip(&agents.radii_m).for_each(|(((body, synthesis), plan), &radius_m)| {
+            let from_m = body.root.position_m;
             match coupling {
                 Coupling::TwoWay => body.advance(&motion, plan, dt_s),
                 Coupling::Discs => body.root = cns::as_planned(body.root, plan, dt_s),
             }
-            body.root = cns::outside_walls(body.root, radius_m, obstacles);
+            body.root = cns::outside_walls(from_m, body.root, radius_m, obstacles);
             if coupling == Coupling::TwoWay {
                 *synthesis = body.synthesize(&motion, dt_s);
             }
