@@ -67,6 +67,12 @@ fn flaw<T>(line: usize, problem: impl Into<String>, remedy: &'static str) -> Res
 
 /// Checks the bytes of a BVH file and rewrites them canonically.
 pub(crate) fn check(bytes: &[u8]) -> Result<CheckedBvh, Flaw> {
+    if bytes.is_empty() {
+        return flaw(1, "the file is empty", "export the clip again");
+    }
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return flaw(1, "the text is UTF-16", "save it as UTF-8 or plain ASCII");
+    }
     let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let mut lines = numbered_lines(&text);
     let (joints, motion_line) = hierarchy(&mut lines)?;

@@ -82,6 +82,17 @@ pub enum Refusal {
         /// Where, what is wrong and what to do.
         reason: String,
     },
+    /// Positions of joints alone.
+    #[error("no joint turns: its motion is in the joints' positions alone; export the joints' rotations")]
+    Unturned,
+    /// Several people in one skeleton.
+    #[error("two bodies under one root, `{first}` and `{second}`; export each to a file of its own")]
+    TwoBodies {
+        /// The joint that carries the first.
+        first: String,
+        /// The joint that carries the second.
+        second: String,
+    },
     /// No pair of limbs with hip, knee and ankle.
     #[error("no human legs: {reason}; only clips of a walking human skeleton can be used")]
     NoLegs {

@@ -11,6 +11,7 @@ use motiondb::skeleton::Joint;
 
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;
+use crate::standing::{STANDING_MIN_S, STANDING_STIR_MPS};
 use crate::units::middle;
 
 /// The first step is a jump where it is this many times the median step and 5 cm more.
@@ -22,7 +23,8 @@ const FRAMES_MIN: usize = 11;
 /// past 45°.
 const SPREAD_COSINE: f64 = 0.87;
 const LOWERED_COSINE: f64 = 0.71;
-/// What is left without the T-poses must hold a stride, s; else they stay.
+/// What is left without the T-poses must hold a stride, s, or, of a body that stands, as much as makes an idle; else they
+/// stay.
 const LEFT_MIN_S: f64 = 1.0;
 
 /// Drops a first frame from which the pose jumps.
@@ -50,7 +52,7 @@ pub(crate) fn drop_t_poses(clip: &mut SourceClip, roles: &Roles) {
     let last = t_pose_frames(spreads.iter().rev().copied());
     let (Some(first), Some(last)) = (first, last) else { return };
     let kept: Range<usize> = first..count.saturating_sub(last).max(first);
-    let fits = kept.len() >= FRAMES_MIN && kept.len() as f64 >= LEFT_MIN_S * clip.frame_rate_hz;
+    let fits = kept.len() >= FRAMES_MIN && kept.len() as f64 >= left_min_s(clip, roles, &kept) * clip.frame_rate_hz;
     let then = if fits { " and are not used" } else { "" };
     if first > 0 {
         clip.warnings.push(format!("the first {first} frames come out of a T-pose{then}"));
@@ -61,6 +63,14 @@ pub(crate) fn drop_t_poses(clip: &mut SourceClip, roles: &Roles) {
     if fits {
         clip.keep_frames(kept);
     }
+}
+
+fn left_min_s(clip: &SourceClip, roles: &Roles, kept: &Range<usize>) -> f64 {
+    let joints: Vec<usize> = roles.joints.iter().flatten().copied().collect();
+    let step = |frame: usize, joint: usize| clip.position(frame, joint).distance(clip.position(frame - 1, joint));
+    let way_m: f64 = kept.clone().skip(1).flat_map(|frame| joints.iter().map(move |&joint| step(frame, joint))).sum();
+    let stir_mps = way_m * clip.frame_rate_hz / (joints.len() * kept.len()).max(1) as f64;
+    if stir_mps < STANDING_STIR_MPS { STANDING_MIN_S } else { LEFT_MIN_S }
 }
 
 /// How many frames it takes from a T-pose until the arms are where they usually are; none in one all along.

@@ -54,6 +54,7 @@ pub(crate) struct Transform {
 impl<'a> Document<'a> {
     /// Reads a file's bytes, and the buffers beside it.
     pub(crate) fn open(file: &Path, bytes: &'a [u8]) -> Result<Self, Flaw> {
+        check_is_gltf(bytes)?;
         let unwound = || flaw("document", "the document contradicts itself", "check it with the glTF validator");
         let Parsed { root, chunk, left_out } = quiet_unwind::catch(|| parse(bytes)).unwrap_or_else(unwound)?;
         let mut document = Self { buffers: vec![None; root.buffers.len()], root, byte_count: bytes.len(), left_out };
@@ -94,6 +95,23 @@ impl<'a> Document<'a> {
         }
         views.into_iter().filter_map(|view| Some(self.root.buffer_views.get(view)?.buffer.value())).collect()
     }
+}
+
+/// What is no glTF at all, by its first bytes: an upload that was cut off, a download that was never unpacked.
+fn check_is_gltf(bytes: &[u8]) -> Result<(), Flaw> {
+    if bytes.is_empty() {
+        return flaw("byte 0", "the file is empty", "export the clip again");
+    }
+    if bytes.starts_with(b"PK\x03\x04") {
+        return flaw("byte 0", "the file is a zip archive", "unpack it");
+    }
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return flaw("byte 0", "the text is UTF-16", "save it as UTF-8");
+    }
+    if bytes.starts_with(b"\xef\xbb\xbf") {
+        return flaw("byte 0", "the text begins with a byte order mark", "save it as UTF-8 without one");
+    }
+    Ok(())
 }
 
 /// What a file's own bytes hold.

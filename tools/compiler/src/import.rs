@@ -3,22 +3,31 @@
 //! # Steps
 //! read ([`crate::bvh`], [`crate::gltf`]) → what a manifest corrects ([`crate::take`]) → roles ([`crate::skeleton_map`])
 //! and facing (`facing`) → metres, Z up ([`crate::units`]) → no separate first pose (`first_pose`) → whole-clip
-//! parameters ([`crate::source_parameters`]) → no T-poses (`first_pose`) → a plausible gait (`plausibility`) → canonical
+//! parameters ([`crate::source_parameters`]) → no T-poses (`first_pose`) → a plausible gait (`plausibility`) on
+//! level ground (`carried`) → canonical
 //! humanoid (`retarget`) → a plausible body.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use motiondb::input_file;
+use motiondb::skeleton::Joint;
 use rayon::prelude::*;
 
 use crate::error::{ImportError, MIN_FRAMES, Refusal, Setting};
 use crate::gltf::GltfFile;
 use crate::human_clip::{HumanClip, HumanPose};
-use crate::skeleton_map::find_roles;
+use crate::skeleton_map::{Roles, find_roles};
 use crate::source_clip::SourceClip;
 use crate::take::{Settings, Take};
-use crate::{bvh, facing, first_pose, plausibility, retarget, source_parameters, units};
+use crate::{bvh, carried, facing, first_pose, plausibility, retarget, source_parameters, units};
+
+/// Cosine of half the least angle that is a turn (0.05°), and the least swing of a leg, over its length.
+const UNTURNED: f64 = 1.0 - 1e-7;
+const SWING_MIN: f64 = 0.02;
+/// What is said of a file whose names belie its body, and how to say it otherwise.
+const EXCHANGED: &str = "left and right are exchanged: toes and knees point the other way, as in a left-handed file; if \
+                         the names are right, give `joints` in a manifest.toml";
 
 /// One clip of a file: a human motion, or why it is none.
 #[derive(Clone, Debug)]
@@ -151,6 +160,18 @@ fn import_clip(clip: SourceClip, take: &Take, several: bool) -> Import {
     Import { file: clip.file.clone(), clip: clip.clip.clone(), outcome: to_human(clip, &take.settings, name) }
 }
 
+/// Whether joints move and none turns: a file of positions alone, from which no limb's twist can be told.
+fn is_unturned(clip: &SourceClip, roles: &Roles) -> bool {
+    let joints: Vec<usize> = roles.joints.iter().flatten().copied().collect();
+    let turns =
+        |frame: usize, joint: usize| clip.orientation(frame, joint).dot(clip.orientation(0, joint)).abs() < UNTURNED;
+    let [hip, foot] = [Joint::LeftThigh, Joint::LeftFoot].map(|joint| roles.required(joint));
+    let leg = |frame: usize| clip.position(frame, foot) - clip.position(frame, hip);
+    let swings = |frame: usize| leg(frame).distance(leg(0)) > SWING_MIN * leg(0).length();
+    let mut frames = 0..clip.frame_count();
+    !frames.clone().any(|frame| joints.iter().any(|&joint| turns(frame, joint))) && frames.any(swings)
+}
+
 fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<HumanClip, Refusal> {
     if clip.frame_count() == 0 {
         return Err(Refusal::Motionless);
@@ -160,11 +181,14 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
         return Err(Refusal::TooShort { frames: clip.frame_count() });
     }
     let mut roles = find_roles(&clip, &settings.joint_map(&clip)?)?;
+    if is_unturned(&clip, &roles) {
+        return Err(Refusal::Unturned);
+    }
     if let Some(forward) = settings.forward {
         facing::face(&clip, &mut roles, forward)?;
     }
     if roles.names_belied {
-        clip.warnings.push("left and right are exchanged: toes and knees point the other way".to_owned());
+        clip.warnings.push(EXCHANGED.to_owned());
     }
     let (mut clip, units) = units::to_metres_z_up(clip, &roles);
     if settings.frames.is_none() {
@@ -176,6 +200,7 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
     }
     clip.warnings.extend(plausibility::implausible_size(&clip, &roles));
     clip.warnings.extend(plausibility::implausible_gait(&clip, &roles, &whole));
+    clip.warnings.extend(carried::remark(&clip, &roles, &whole));
     let mut human = retarget::to_human(&clip, &roles, &units, whole, name);
     human.choices.mirror = settings.mirror;
     human.choices.is_cut = settings.frames.is_some();

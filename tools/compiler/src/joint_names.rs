@@ -36,7 +36,8 @@ const LEFT_WORDS: [&str; 4] = ["l", "left", "lf", "lft"];
 const RIGHT_WORDS: [&str; 5] = ["r", "right", "rt", "rgt", "rght"];
 
 /// Compound before simple: the first line that matches a name's words (joined without gaps) gives its parts.
-const PARTS: [(&[&str], &[Part]); 18] = [
+/// The Japanese ones are those of MikuMikuDance's models.
+const PARTS: [(&[&str], &[Part]); 29] = [
     (&["twist", "share", "roll", "pole", "target", "helper", "slot"], &[Part::Helper]),
     (&["upleg", "upperleg", "thigh", "buttock", "femur"], &[Part::Thigh]),
     (&["lowerleg", "lowleg", "loleg", "knee", "shin", "calf", "tibia", "shank"], &[Part::Shank]),
@@ -54,7 +55,18 @@ const PARTS: [(&[&str], &[Part]); 18] = [
     (&["neck"], &[Part::Neck]),
     (&["eye", "jaw", "tongue", "teeth", "hair", "brow", "lip", "cheek"], &[Part::Helper]),
     (&["head", "skull"], &[Part::Head]),
-    (&["ik"], &[Part::Helper]),
+    (&["ik", "ｉｋ", "捩", "キャンセル"], &[Part::Helper]),
+    (&["つま先"], &[Part::Toe]),
+    (&["足首"], &[Part::Foot]),
+    (&["手首"], &[Part::Hand]),
+    (&["指"], &[Part::Finger]),
+    (&["ひざ"], &[Part::Shank]),
+    (&["ひじ"], &[Part::Forearm]),
+    (&["足"], &[Part::Thigh]),
+    (&["腕"], &[Part::UpperArm]),
+    (&["肩"], &[Part::Clavicle]),
+    (&["首"], &[Part::Neck]),
+    (&["頭"], &[Part::Head]),
 ];
 
 /// Reads the hints of a name.
@@ -156,5 +168,9 @@ mod tests {
         check("torso_head", None, Part::Head);
         check("rTorso_Clavicle", Some(Side::Right), Part::Clavicle);
         check("UpArm_L", Some(Side::Left), Part::UpperArm);
+        check("右足首", None, Part::Foot);
+        check("左ひざ", None, Part::Shank);
+        check("足ＩＫ.L", Some(Side::Left), Part::Helper);
+        check("首", None, Part::Neck);
     }
 }

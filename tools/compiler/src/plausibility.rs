@@ -4,6 +4,7 @@
 //! speeds, slow or running (`facts/motion.md` §4). A lying `Frame Time:` scales both: the CMU run 02_03 at 1/25 s instead
 //! of 1/120 s comes out at 4. Legs of another length step longer by that length, at a cadence of its root less.
 
+use glam::DVec2;
 use motiondb::skeleton::Joint;
 
 use crate::error::Refusal;
@@ -13,6 +14,7 @@ use crate::root_motion::leg_length_m;
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;
 use crate::source_parameters::{WholeClip, facing_rad, median};
+use crate::tread;
 use crate::units::{HUMAN_LEG_M, leg_length, middle};
 
 /// Plausible walk ratios, cm/(step/min), for a person's leg. Clips of the development set: 0.27 (careful small steps)
@@ -20,8 +22,12 @@ use crate::units::{HUMAN_LEG_M, leg_length, middle};
 const WALK_RATIO_CM_MIN: std::ops::RangeInclusive<f64> = 0.15..=2.0;
 /// The fastest steps a minute, for a person's leg (sprinters: 290).
 const CADENCE_MAX_PER_MIN: f64 = 320.0;
+/// The fastest steps a minute of a walk (race walkers: 190 to 220), and the share of the time from which on the ball of a
+/// foot stands as in a walk: there from 12 to 60 % of the cycle, in jogs for 0.4 of it (`facts/motion.md` §3, §5).
+const WALK_CADENCE_MAX_PER_MIN: f64 = 225.0;
+const WALK_PLANTED_SHARE: f64 = 0.45;
 /// Feet nearer along the facing do not step but stand, turn or side-step; shorter steps say nothing, m.
-const LEAD_MIN_M: f64 = 0.06;
+pub(crate) const LEAD_MIN_M: f64 = 0.06;
 const STEP_MIN_M: f64 = 0.2;
 /// Fewer steps say nothing.
 const STEPS_MIN: usize = 3;
@@ -78,16 +84,24 @@ pub(crate) fn implausible_gait(clip: &SourceClip, roles: &Roles, whole: &WholeCl
         false => median(steps.iter().map(|&(from, to)| (hips(to) - hips(from)).length())),
     };
     let (human_step_cm, human_cadence) = (100.0 * step_m / scale, 60.0 / step_s * scale.sqrt());
+    let cadence_max = if walks(clip, roles, whole) { WALK_CADENCE_MAX_PER_MIN } else { CADENCE_MAX_PER_MIN };
     let is_human = human_step_cm < 100.0 * STEP_MIN_M
-        || human_cadence < CADENCE_MAX_PER_MIN && WALK_RATIO_CM_MIN.contains(&(human_step_cm / human_cadence));
+        || human_cadence < cadence_max && WALK_RATIO_CM_MIN.contains(&(human_step_cm / human_cadence));
     (!is_human).then(|| {
         let [step_cm, cadence] = [100.0 * step_m, 60.0 / step_s];
         format!("steps of {step_cm:.0} cm, {cadence:.0} a minute, are no human gait: {FRAME_TIME_QUESTION}")
     })
 }
 
+/// Whether feet stand as long as a walker's.
+fn walks(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> bool {
+    let speeds = DVec2::new(whole.speed_mps, whole.strafe_mps);
+    let (ground, body_mps) = if whole.in_place { (speeds, 0.0) } else { (DVec2::ZERO, speeds.length()) };
+    tread::planted_share(clip, roles, ground, body_mps).is_some_and(|share| share > WALK_PLANTED_SHARE)
+}
+
 /// The frames in which one foot passes the other along the facing, once a step, and leads it by `lead_m` before the next.
-fn passings(clip: &SourceClip, roles: &Roles, lead_m: f64) -> Vec<usize> {
+pub(crate) fn passings(clip: &SourceClip, roles: &Roles, lead_m: f64) -> Vec<usize> {
     let mut passings = Vec::new();
     let (mut leading, mut crossed) = (0.0, 0);
     for frame in 0..clip.frame_count() {

@@ -6,10 +6,9 @@
 //! Clips that tread on the spot get the ground speed at which their stance feet stand still. World frame, metres,
 //! radians, Z up.
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use motiondb::skeleton::{JOINT_COUNT, Joint};
 
-use crate::arc::rotation;
 use crate::human_clip::{HumanBody, HumanClip, HumanJoints, HumanPose};
 use crate::leg_ik;
 use crate::pose_mean::pose_between;
@@ -18,6 +17,8 @@ use crate::pose_mean::pose_between;
 const SAME_BONE_M: f64 = 5e-4;
 /// A performer whose bones are all as long as the target's, to this much, is the target himself in another clip.
 const SAME_LENGTH_M: f64 = 5e-3;
+/// A facing is taken over this time: about a stride, over which its sway has no mean.
+const FACING_SPAN_S: f64 = 1.0;
 /// Of the lowest sole points of all frames, the share that lies below the floor: flight lifts many, noise drops a few.
 const FLOOR_PERCENTILE: f64 = 0.1;
 
@@ -44,7 +45,7 @@ pub fn ground(clip: &HumanClip, body: &HumanBody) -> GroundedClip {
     let mut poses: Vec<HumanPose> = clip.frames.iter().map(posed).collect();
     lower_to_floor(&mut poses, body);
     if let Some(ground_speed) = clip.in_place_mps {
-        travel(&mut poses, body, ground_speed.extend(0.0) * scale, clip.frame_rate_hz);
+        travel(&mut poses, body, ground_speed * scale, clip.frame_rate_hz);
     }
     align_hemispheres(&mut poses);
     GroundedClip { frame_rate_hz: clip.frame_rate_hz, poses, loop_frames: None }
@@ -106,18 +107,19 @@ fn lowest_sole_m(joints: &HumanJoints, body: &HumanBody) -> f64 {
     points.map(|point| point.z).fold(f64::INFINITY, f64::min)
 }
 
-/// Adds the ground speed of a clip that treads on the spot, along its mean facing.
-fn travel(poses: &mut [HumanPose], body: &HumanBody, ground_speed_mps: DVec3, frame_rate_hz: f64) {
-    let across: DVec3 = poses
-        .iter()
-        .map(|pose| {
-            let (sin, cos) = libm::sincos(pose.forward_kinematics(body).facing_rad());
-            DVec3::new(cos, sin, 0.0)
-        })
-        .sum();
-    let step_m = rotation(libm::atan2(across.y, across.x)) * ground_speed_mps.truncate() / frame_rate_hz;
+/// Adds the ground speed of a clip that treads on the spot, along the facing of each moment; its sway within a stride
+/// falls out.
+fn travel(poses: &mut [HumanPose], body: &HumanBody, ground_speed_mps: DVec2, frame_rate_hz: f64) {
+    let facing = |pose: &HumanPose| DVec2::from_angle(pose.forward_kinematics(body).facing_rad());
+    let facings: Vec<DVec2> = poses.iter().map(facing).collect();
+    let half = (0.5 * FACING_SPAN_S * frame_rate_hz) as usize;
+    let mut place_m = DVec2::ZERO;
     for (frame, pose) in poses.iter_mut().enumerate() {
-        pose.pelvis_m += (step_m * frame as f64).extend(0.0);
+        pose.pelvis_m += place_m.extend(0.0);
+        // The same span before and after, or a turn would be late at one end and early at the other.
+        let half = half.min(frame).min(facings.len() - 1 - frame);
+        let forward = facings[frame - half..=frame + half].iter().sum::<DVec2>().normalize_or(facings[frame]);
+        place_m += forward.rotate(ground_speed_mps) / frame_rate_hz;
     }
 }
 

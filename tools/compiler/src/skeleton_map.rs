@@ -15,6 +15,7 @@ use crate::limb::{Limb, LimbPair};
 use crate::shape::Shape;
 use crate::source_clip::SourceClip;
 use crate::take::JointMap;
+use crate::two_bodies;
 
 /// Least mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders). People walk and run at 0.9–1, crouch
 /// and bow at 0.64; a fox walks at 0.1 and gallops at 0.28.
@@ -74,6 +75,26 @@ impl Roles {
 /// # Errors
 /// [`Refusal`] for what has no human legs, no arms, or does not stand upright, or is known wrongly.
 pub fn find_roles(clip: &SourceClip, known: &JointMap) -> Result<Roles, Refusal> {
+    if known.iter().all(Option::is_none) {
+        two_bodies::refuse(clip)?;
+    }
+    let found = find_by_names(clip, known);
+    // Names that stand twice were copied from one side to the other: the shape alone may tell more.
+    if found.is_err() && has_doubled_names(clip) {
+        return find_by_names(&two_bodies::nameless(clip), known).or(found);
+    }
+    found
+}
+
+fn has_doubled_names(clip: &SourceClip) -> bool {
+    let mut names: Vec<&str> = clip.joints.iter().filter(|joint| !joint.is_end).map(|joint| &*joint.name).collect();
+    names.retain(|name| !name.is_empty());
+    names.sort_unstable();
+    names.windows(2).any(|pair| pair[0] == pair[1])
+}
+
+/// One try; [`Refusal`] as [`find_roles`].
+pub(crate) fn find_by_names(clip: &SourceClip, known: &JointMap) -> Result<Roles, Refusal> {
     if clip.joints.len() > MAX_JOINTS {
         return Err(Refusal::NoLegs { reason: format!("{} joints are no body's", clip.joints.len()) });
     }

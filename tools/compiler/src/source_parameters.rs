@@ -2,32 +2,25 @@
 //! unsmoothed.
 //!
 //! Hip midpoint against the facing of hips and shoulders. ω_t is the change of the facing between its means over the
-//! first and the last quarter second. A clip that treads on the spot takes v_f and ω_s from the median backward slide
-//! of its stance foot.
+//! first and the last quarter second. A clip that treads on the spot takes v_f and ω_s from the slide of its stance feet
+//! ([`crate::tread`]).
 
 use glam::DVec2;
 use motiondb::skeleton::Joint;
 
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;
+use crate::tread;
 use crate::units::{HUMAN_LEG_M, leg_length, middle};
 
 /// Seconds at either end over which the facing is averaged.
 const END_S: f64 = 0.25;
 /// Hips that stay within this much of a person's leg stay in place, m.
 const IN_PLACE_EXTENT_M: f64 = 0.35;
+/// And so do hips that wander farther, at less than this share of the speed at which the feet tread.
+const IN_PLACE_SHARE: f64 = 0.1;
 /// A stance foot that slides faster than this treads, m/s; slower feet stand (idle) or turn on the spot.
 const TREAD_MIN_MPS: f64 = 0.2;
-/// Share of the frames, by height of the lowest joint of the feet, that count as stance.
-const STANCE_SHARE: f64 = 0.6;
-/// Feet of which no joint is nearer to the height at which it stands are in flight, m for a person's leg; of a run a tenth
-/// at least is.
-const FLIGHT_LIFT_M: f64 = 0.03;
-const FLIGHT_SHARE_MIN: f64 = 0.1;
-/// v²/(g·leg) under which nobody runs, however drawn characters hop: people change over at 0.5 (R. McN. Alexander, 1989),
-/// and ankles tell a run's speed up to 15 % low.
-const RUN_FROUDE_MIN: f64 = 0.35;
-const GRAVITY_MPS2: f64 = 9.81;
 
 /// v_f, ω_t, ω_s of a whole clip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,10 +42,12 @@ pub fn measure(clip: &SourceClip, roles: &Roles) -> WholeClip {
     let facings = unwrapped(frames.map(|frame| facing_rad(clip, roles, frame)));
     let turn_rate_rad_s = turn_rate(&facings, clip.frame_rate_hz);
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
-    let treading = (extent_m(&hips) < IN_PLACE_EXTENT_M * scale)
-        .then(|| stance_slide(clip, roles, &facings))
-        .filter(|slide| slide.length() > TREAD_MIN_MPS * scale);
-    let velocity = treading.unwrap_or_else(|| mean_velocity(&hips, &facings, clip.frame_rate_hz));
+    let moved = mean_velocity(&hips, &facings, clip.frame_rate_hz);
+    let treading = Some(tread::ground_velocity(clip, roles)).filter(|slide| {
+        let stays = extent_m(&hips) < IN_PLACE_EXTENT_M * scale || moved.length() < IN_PLACE_SHARE * slide.length();
+        stays && slide.length() > TREAD_MIN_MPS * scale
+    });
+    let velocity = treading.unwrap_or(moved);
     WholeClip { speed_mps: velocity.x, turn_rate_rad_s, strafe_mps: velocity.y, in_place: treading.is_some() }
 }
 
@@ -84,12 +79,12 @@ fn turn_rate(facings: &[f64], frame_rate_hz: f64) -> f64 {
     (mean(&facings[frames - count..]) - mean(&facings[..count])) / span_s
 }
 
-fn heading(angle_rad: f64) -> DVec2 {
+pub(crate) fn heading(angle_rad: f64) -> DVec2 {
     DVec2::new(libm::cos(angle_rad), libm::sin(angle_rad))
 }
 
 /// A ground vector in the body's frame: along the facing, to its left.
-fn in_body(vector: DVec2, forward: DVec2) -> DVec2 {
+pub(crate) fn in_body(vector: DVec2, forward: DVec2) -> DVec2 {
     DVec2::new(vector.dot(forward), forward.perp_dot(vector))
 }
 
@@ -105,62 +100,6 @@ fn extent_m(points: &[DVec2]) -> f64 {
     let least = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let most = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     (most - least).length()
-}
-
-/// The ground speed at which the stance foot would stand. A walker's is told by the lower ankle; the ankles of a runner in
-/// flight are low before they land: of a runner it is the ankle or ball that is lifted least.
-fn stance_slide(clip: &SourceClip, roles: &Roles, facings: &[f64]) -> DVec2 {
-    let ankles = Joint::FEET.map(|foot| (roles.required(foot), 0.0));
-    let walked = slide_of(clip, facings, lowest(clip, &ankles));
-    let joints = Joint::FEET.into_iter().chain(Joint::TOES).filter_map(|joint| roles.joints[joint.index()]);
-    let contacts: Vec<(usize, f64)> = joints.map(|joint| (joint, planted_height(clip, joint))).collect();
-    let lifted = lowest(clip, &contacts);
-    let leg_m = leg_length(clip, roles);
-    let flights = lifted.iter().filter(|low| low.height_m > FLIGHT_LIFT_M * leg_m / HUMAN_LEG_M).count();
-    let runs = flights as f64 > FLIGHT_SHARE_MIN * lifted.len() as f64
-        && walked.length_squared() > RUN_FROUDE_MIN * GRAVITY_MPS2 * leg_m;
-    if runs { slide_of(clip, facings, lifted) } else { walked }
-}
-
-/// Minus the median velocity of what is lowest, while it is low.
-fn slide_of(clip: &SourceClip, facings: &[f64], mut stance: Vec<Lowest>) -> DVec2 {
-    stance.sort_by(|a, b| a.height_m.total_cmp(&b.height_m));
-    stance.truncate(1 + ((stance.len() - 1) as f64 * STANCE_SHARE) as usize);
-    let slide = |low: &Lowest| in_body(-ground_velocity(clip, low.joint, low.frame), heading(facings[low.frame]));
-    let slides: Vec<DVec2> = stance.iter().map(slide).collect();
-    DVec2::new(median(slides.iter().map(|slide| slide.x)), median(slides.iter().map(|slide| slide.y)))
-}
-
-/// The lowest joint of the feet in a frame.
-struct Lowest {
-    frame: usize,
-    joint: usize,
-    height_m: f64,
-}
-
-/// In every frame the joint that is lowest, each over its own zero.
-fn lowest(clip: &SourceClip, joints: &[(usize, f64)]) -> Vec<Lowest> {
-    let at = |frame: usize, &(joint, zero): &(usize, f64)| Lowest {
-        frame,
-        joint,
-        height_m: clip.position(frame, joint).z - zero,
-    };
-    let lowest = |frame| joints.iter().map(|joint| at(frame, joint)).min_by(|a, b| a.height_m.total_cmp(&b.height_m));
-    (0..clip.frame_count()).filter_map(lowest).collect()
-}
-
-/// Height of a joint of a foot while that stands: the lowest twentieth, as `planted_slide.py`.
-fn planted_height(clip: &SourceClip, joint: usize) -> f64 {
-    let mut heights: Vec<f64> = (0..clip.frame_count()).map(|frame| clip.position(frame, joint).z).collect();
-    heights.sort_by(f64::total_cmp);
-    heights[(heights.len() - 1) / 20]
-}
-
-/// By central differences, one-sided at the ends, m/s.
-fn ground_velocity(clip: &SourceClip, joint: usize, frame: usize) -> DVec2 {
-    let (before, after) = (frame.saturating_sub(1), (frame + 1).min(clip.frame_count() - 1));
-    let step = clip.position(after, joint) - clip.position(before, joint);
-    step.truncate() * clip.frame_rate_hz / (after - before) as f64
 }
 
 /// The middle value; the mean of the two middle ones of an even number.

@@ -20,11 +20,11 @@ use crate::stride::{BodyTrack, Stride};
 const STANDING_SPEED_MPS: f64 = 0.06;
 /// … and whose joints move slower than this in the mean: who breathes and shifts weight stands (0.003–0.02), who dances
 /// does not.
-const STANDING_STIR_MPS: f64 = 0.06;
+pub(crate) const STANDING_STIR_MPS: f64 = 0.06;
 /// A clip stands as a whole with its feet planted for nearly all of it.
 const STANDING_SHARE_MIN: f64 = 0.95;
 /// Shorter clips are poses.
-const STANDING_MIN_S: f64 = 0.5;
+pub(crate) const STANDING_MIN_S: f64 = 0.5;
 /// Speeds within a capture are taken over this time: a pause between two steps is none of standing.
 const REST_SPAN_S: f64 = 0.5;
 /// And a body rests in it for this long at least: longer than a stride of m_sp, so that what is left of the step before

@@ -235,6 +235,8 @@ fn only(imports: Result<Vec<Import>, motiondb_compiler::error::ImportError>) -> 
     imports.unwrap_or_else(|error| panic!("{error}")).remove(0).outcome.unwrap_or_else(|refusal| panic!("{refusal}"))
 }
 
+#[path = "import/doubtful.rs"]
+mod doubtful;
 #[path = "import/on_the_spot.rs"]
 mod on_the_spot;
 #[path = "import/written.rs"]

@@ -53,7 +53,7 @@ fn root(frame: usize) -> [f64; 3] {
     [0.0, 92.0, 4.0 * frame as f64]
 }
 
-fn bvh_text() -> String {
+pub(super) fn bvh_text() -> String {
     let mut text = String::from("HIERARCHY\n");
     let mut open = Vec::new();
     for (joint, (name, parent, [x, y, z])) in BODY.iter().enumerate() {
