@@ -122,7 +122,7 @@ pub fn compile(mut clips: Vec<HumanClip>, options: &Options, tell: &Observer) ->
     tell(Event::Stage("analysis of gaits"));
     let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
     tell(Event::Stage("selection"));
-    duplicates::set_aside(&clips, &mut analyzed);
+    duplicates::set_aside(&clips, &mut analyzed, &body);
     selection::keep_what_adds(&mut analyzed);
     let mut sources: Vec<SourceRecord> = clips.iter().zip(&analyzed).map(|(clip, found)| record(clip, found)).collect();
     let mut cycles = named_cycles::close(&clips, analyzed, &body)?;

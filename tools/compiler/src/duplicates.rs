@@ -1,155 +1,127 @@
 //! The same take twice: under another name, at another frame rate, with a lying frame time, on another skeleton, as a
-//! part of the other or mirrored. One of the two gives examples.
+//! part of the other or mirrored. Of each stretch one of the clips gives the example.
 //!
-//! `take_search` chooses which clips are compared, `same_take` decides of two clips.
-
-use std::cmp::Reverse;
+//! `take_search` chooses which clips are compared, `same_take` decides of two clips, `shared_stretches` which of their
+//! windows give examples. Here all of it is put together, and said.
 
 use rayon::prelude::*;
 
+use crate::alignment::Alignment;
 use crate::analysis::Analyzed;
-use crate::human_clip::HumanClip;
+use crate::frame_times::Neighbours;
+use crate::human_clip::{HumanBody, HumanClip};
 use crate::performance::Performance;
 use crate::remark::{ANOTHER_FRAME_TIME, NO_EXAMPLE};
 use crate::same_take::Entry;
-use crate::take_search::{self, Found, LIST_MAX, Search};
+use crate::shared_stretches::{self, Chosen, Mark};
+use crate::take_search::{self, LIST_MAX, Search};
 
-/// Clips of its take that a clip's record names; the others are counted.
+/// Clips that a sentence names; the others are counted.
 const NAMED_MAX: usize = 8;
-/// Clips whose lengths differ by less are equally long, s.
-const SAME_LENGTH_S: f64 = 0.1;
 
 /// Two clips of one take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// Indices of the clips, ascending.
+    /// Indices of the clips.
     pub clips: [usize; 2],
-    /// One is the other's mirror image.
-    pub mirrored: bool,
-    /// Their frames agree, their frame times do not.
-    pub times_differ: bool,
+    /// The second on the first.
+    pub alignment: Alignment,
     /// r of `performance`.
     pub unlikeness: f64,
 }
 
-/// What becomes of a clip.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Verdict {
-    /// Another clip of the take gives the examples.
-    pub is_surplus: bool,
-    /// What its record says.
-    pub remarks: Vec<String>,
-}
-
-/// Takes their examples from clips of whose takes others give them, and says of every clip which others show its take.
-pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [Analyzed]) {
+/// Takes from each clip the windows that a better copy of its take gives the examples of, and says so.
+pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [Analyzed], body: &HumanBody) {
     let gives_example: Vec<bool> = analyzed.iter().map(|found| !found.windows.is_empty()).collect();
-    for (found, verdict) in analyzed.iter_mut().zip(verdicts(clips, &gives_example)) {
-        if verdict.is_surplus {
-            found.windows.clear();
-        }
-        found.warnings.extend(verdict.remarks);
-    }
-}
-
-/// A verdict for each clip. Of one take the best clip that gives an example does: one that a manifest gives a part to,
-/// one whose frame time is plausible, the longer, the one with more frames a second, the first by name.
-pub fn verdicts(clips: &[HumanClip], gives_example: &[bool]) -> Vec<Verdict> {
-    let order = by_worth(clips, gives_example);
-    let search = searched(clips, &order);
-    let pairs = in_order(&search.found);
-    let mut others = vec![Vec::new(); clips.len()];
-    for pair in &pairs {
-        others[pair.clips[0]].push((pair.clips[1], pair));
-        others[pair.clips[1]].push((pair.clips[0], pair));
-    }
-    let mut verdicts = vec![Verdict::default(); clips.len()];
-    let mut is_better = vec![false; clips.len()];
-    for &clip in &order {
-        let shows_it =
-            |&(other, _): &(usize, &Pair)| is_better[other] && gives_example[other] && !verdicts[other].is_surplus;
-        verdicts[clip].is_surplus = others[clip].iter().any(shows_it);
-        is_better[clip] = true;
-    }
-    let surplus: Vec<bool> = verdicts.iter().map(|verdict| verdict.is_surplus).collect();
-    for (clip, others) in others.iter().enumerate() {
-        verdicts[clip].remarks = remarks(clips, &surplus, clip, others);
+    let search = search(clips, &gives_example);
+    let neighbours = neighbours(clips.len(), &found_pairs(&search));
+    let may_pair = |a: usize, b: usize| !are_parts_of_one_file(&clips[a], &clips[b]);
+    let chosen = shared_stretches::choose(clips, analyzed, &neighbours, body, may_pair);
+    for (clip, found) in analyzed.iter_mut().enumerate() {
+        found.warnings.extend(remarks(clips, &chosen, clip));
+        let mut aside = chosen.aside[clip].iter();
+        found.windows.retain(|_| aside.next().is_some_and(Option::is_none));
     }
     for clip in search.beyond_list {
-        let remark = format!("too many clips: whether it is the same take is known of the {LIST_MAX} best only");
-        verdicts[clip].remarks.push(remark);
+        let remark = format!("too many clips: whether it is the same take is known of the {LIST_MAX} longest only");
+        analyzed[clip].warnings.push(remark);
     }
-    verdicts
-}
-
-/// The clips from the best on.
-fn by_worth(clips: &[HumanClip], gives_example: &[bool]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..clips.len()).collect();
-    order.sort_by_cached_key(|&clip| (!gives_example[clip], worth(&clips[clip]), clip));
-    order
-}
-
-/// What is said of a clip's take.
-fn remarks(clips: &[HumanClip], surplus: &[bool], clip: usize, others: &[(usize, &Pair)]) -> Vec<String> {
-    // Those that give the example come first: they are the reason.
-    let (shown, rest): (Vec<_>, Vec<_>) =
-        others.iter().copied().partition(|(other, _)| surplus[clip] && !surplus[*other]);
-    let named = shown.into_iter().chain(rest).take(NAMED_MAX);
-    let said = named.map(|(other, pair)| remark(pair, &clips[other], surplus[clip], surplus[other]));
-    let more = others.len().saturating_sub(NAMED_MAX);
-    said.chain((more > 0).then(|| format!("the same take as {more} more clips"))).collect()
-}
-
-fn remark(pair: &Pair, other: &HumanClip, is_surplus: bool, other_is_surplus: bool) -> String {
-    let mirrored = if pair.mirrored { ", mirrored" } else { "" };
-    let timed = if pair.times_differ { format!(", {ANOTHER_FRAME_TIME}") } else { String::new() };
-    let same = format!("the same take as {}{mirrored}{timed}", title(other));
-    match (is_surplus, other_is_surplus) {
-        (true, false) => format!("{NO_EXAMPLE}{same}"),
-        (false, true) => format!("{same}; no example is made of that one"),
-        _ => same,
-    }
-}
-
-fn title(clip: &HumanClip) -> String {
-    format!("{} {}", clip.source.file, clip.source.clip).trim_end().to_owned()
-}
-
-/// Ascending from the best; equals go in the clips' order.
-fn worth(clip: &HumanClip) -> impl Ord {
-    let is_in_place = clip.in_place_mps.is_some();
-    let length = libm::round(clip.frames.len() as f64 / clip.frame_rate_hz / SAME_LENGTH_S) as u64;
-    let chosen = Reverse((clip.choices.is_semi_procedural, clip.choices.is_target_skeleton));
-    (
-        chosen,
-        clip.is_impossible(),
-        is_in_place,
-        Reverse(length),
-        Reverse(clip.frame_rate_hz.to_bits()),
-        clip.name.clone(),
-    )
 }
 
 /// Every two clips of one take, in the clips' order; of a take of very many clips not every two (`take_search`).
 pub fn pairs(clips: &[HumanClip]) -> Vec<Pair> {
-    in_order(&searched(clips, &by_worth(clips, &vec![true; clips.len()])).found)
-}
-
-fn searched(clips: &[HumanClip], order: &[usize]) -> Search {
-    let entries: Vec<Entry> = clips.par_iter().map(|clip| Entry::new(Performance::of(clip))).collect();
-    take_search::search(&entries, order, |a, b| !are_parts_of_one_file(&clips[a], &clips[b]))
-}
-
-fn in_order(found: &[Found]) -> Vec<Pair> {
-    let pair = |&(better, worse, how): &Found| Pair {
-        clips: [better.min(worse), better.max(worse)],
-        mirrored: how.mirrored,
-        times_differ: how.times_differ,
-        unlikeness: how.unlikeness,
-    };
-    let mut pairs: Vec<Pair> = found.iter().map(pair).collect();
+    let mut pairs = found_pairs(&search(clips, &vec![true; clips.len()]));
     pairs.sort_by_key(|pair| pair.clips);
     pairs
+}
+
+/// Compares the clips, the longest first, those without examples only with the others.
+fn search(clips: &[HumanClip], gives_example: &[bool]) -> Search {
+    let duration_s = |clip: usize| clips[clip].frames.len() as f64 / clips[clip].frame_rate_hz;
+    let mut order: Vec<usize> = (0..clips.len()).collect();
+    order.sort_by(|&a, &b| gives_example[b].cmp(&gives_example[a]).then(duration_s(b).total_cmp(&duration_s(a))));
+    let entries: Vec<Entry> = clips.par_iter().map(|clip| Entry::new(Performance::of(clip))).collect();
+    let may_pair =
+        |better: usize, other: usize| gives_example[better] && !are_parts_of_one_file(&clips[better], &clips[other]);
+    take_search::search(&entries, &order, may_pair)
+}
+
+/// Each pair with its clips in ascending order.
+fn found_pairs(search: &Search) -> Vec<Pair> {
+    let pair = |&(better, other, found): &take_search::Found| match better < other {
+        true => Pair { clips: [better, other], alignment: found.alignment, unlikeness: found.unlikeness },
+        false => Pair { clips: [other, better], alignment: found.alignment.inverse(), unlikeness: found.unlikeness },
+    };
+    search.found.iter().map(pair).collect()
+}
+
+/// Of each clip those of its take, and how it lies on them.
+fn neighbours(count: usize, pairs: &[Pair]) -> Neighbours {
+    let mut neighbours = vec![Vec::new(); count];
+    for Pair { clips: [first, second], alignment, .. } in pairs {
+        neighbours[*second].push((*first, *alignment));
+        neighbours[*first].push((*second, alignment.inverse()));
+    }
+    neighbours
+}
+
+/// What is said of a clip: which other gives its examples; or, of the one that does, whose frame times differ.
+fn remarks(clips: &[HumanClip], chosen: &Chosen, clip: usize) -> Vec<String> {
+    let windows = &chosen.aside[clip];
+    let aside: Vec<&Mark> = windows.iter().flatten().collect();
+    let same = |mark: &Mark| same_take(&title(&clips[mark.giver]), &mark.alignment);
+    let own = match (&aside[..], windows.len()) {
+        ([], 0) => chosen.marks[clip].first().map(same),
+        ([], _) => None,
+        ([first, ..], all) if aside.len() == all => Some(format!("{NO_EXAMPLE}{}", same(first))),
+        ([_], _) => Some(format!("{}: 1 steady window left out", same(aside[0]))),
+        ([first, ..], _) => Some(format!("{}: {} steady windows left out", same(first), aside.len())),
+    };
+    own.into_iter().chain(of_other_times(clips, chosen, clip)).collect()
+}
+
+/// What is said of a clip that gives the example of a take which others tell at another frame time.
+fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<String> {
+    let tells_otherwise = |&clip: &usize| {
+        chosen.marks[clip].first().is_some_and(|mark| mark.giver == giver && mark.alignment.times_differ())
+    };
+    let others: Vec<usize> = (0..clips.len()).filter(tells_otherwise).collect();
+    let mut names: Vec<String> = others.iter().take(NAMED_MAX).map(|&clip| title(&clips[clip])).collect();
+    if others.len() > NAMED_MAX {
+        names.push(format!("{} more", others.len() - NAMED_MAX));
+    }
+    let times = Alignment { pace: f64::INFINITY, ..Alignment::SAME };
+    (!names.is_empty()).then(|| same_take(&names.join(", "), &times))
+}
+
+fn same_take(title: &str, alignment: &Alignment) -> String {
+    let mirrored = if alignment.mirrored { ", mirrored" } else { "" };
+    let timed = if alignment.times_differ() { format!(", {ANOTHER_FRAME_TIME}") } else { String::new() };
+    format!("the same take as {title}{mirrored}{timed}")
+}
+
+fn title(clip: &HumanClip) -> String {
+    format!("{} {}", clip.source.file, clip.source.clip).trim_end().to_owned()
 }
 
 /// Whoever cuts a capture in a manifest wants both parts.
@@ -160,10 +132,12 @@ fn are_parts_of_one_file(a: &HumanClip, b: &HumanClip) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::analyze;
     use crate::arc::Rates;
     use crate::human_clip::HumanPose;
     use crate::mirror::mirror_pose;
-    use crate::synthetic::{Walk, idle, walk};
+    use crate::synthetic::{Walk, idle, performance, walk};
+    use crate::target_skeleton;
 
     fn bend() -> Walk {
         Walk {
@@ -178,8 +152,8 @@ mod tests {
     fn check_one_take(one: HumanClip, other: HumanClip, mirrored: bool, times_differ: bool) {
         let found = pairs(&[one, other]);
         assert_eq!(found.len(), 1);
-        let Pair { mirrored: is_mirrored, times_differ: differ, unlikeness, .. } = found[0];
-        assert_eq!((is_mirrored, differ), (mirrored, times_differ), "{found:?}");
+        let Pair { alignment, unlikeness, .. } = found[0];
+        assert_eq!((alignment.mirrored, alignment.times_differ()), (mirrored, times_differ), "{found:?}");
         assert!(unlikeness < 0.1, "{found:?}");
     }
 
@@ -223,38 +197,95 @@ mod tests {
         assert_eq!(pairs(&clips), []);
     }
 
-    #[test]
-    fn the_chosen_the_true_the_longer_and_the_finer_take_gives_the_examples() {
-        let told = || walk("told", bend());
-        let check = |better: HumanClip, gives: bool, names: [&str; 2]| {
-            let mut clips = [told(), better];
-            clips[1].name = names[1].into();
-            clips[0].name = names[0].into();
-            let verdicts = verdicts(&clips, &[true, gives]);
-            let surplus: Vec<bool> = verdicts.iter().map(|verdict| verdict.is_surplus).collect();
-            assert_eq!(surplus, if gives { [true, false] } else { [false, true] }, "{verdicts:?}");
-            let [first, second] = [0, 1].map(|clip| verdicts[clip].remarks.join("; "));
-            assert!(first.contains("the same take as") && second.contains("the same take as"), "{first}, {second}");
-        };
-        check(walk("longer", Walk { duration_s: 4.3, ..bend() }), true, ["a", "b"]);
-        check(walk("finer", Walk { frame_rate_hz: 120.0, ..bend() }), true, ["a", "b"]);
-        check(told(), true, ["b", "a"]);
-        let mut chosen = walk("chosen", Walk { duration_s: 3.7, ..bend() });
-        chosen.choices.is_target_skeleton = true;
-        check(chosen, true, ["a", "b"]);
+    /// Second at which each window begins that is left of each clip, and what is said of the clip.
+    fn left(clips: &[HumanClip]) -> Vec<(Vec<f64>, Vec<String>)> {
+        let body = target_skeleton::choose(clips);
+        let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
+        set_aside(clips, &mut analyzed, &body);
+        let start_s = |found: &Analyzed| found.windows.iter().map(|window| window.window_s[0]).collect();
+        analyzed.into_iter().map(|found| (start_s(&found), found.warnings)).collect()
+    }
+
+    /// Of the plain bend and another clip the other gives the example, and the bend's record tells it.
+    #[track_caller]
+    fn check_gives(other: HumanClip, how: &str) {
+        let mut clips = [walk("bend", bend()), other];
+        clips.iter_mut().for_each(|clip| clip.source.file = format!("{}.bvh", clip.name));
+        let wanted = format!("no example: the same take as {}.bvh{how}", clips[1].name);
+        for clips in [clips.clone(), [clips[1].clone(), clips[0].clone()]] {
+            let left = left(&clips);
+            for (clip, (windows, said)) in clips.iter().zip(left) {
+                let is_bend = clip.name == "bend";
+                assert_eq!((windows.len(), said.contains(&wanted)), (usize::from(!is_bend), is_bend), "{said:?}");
+            }
+        }
     }
 
     #[test]
-    fn of_hundreds_of_copies_one_gives_the_example_and_the_records_stay_short() {
+    fn the_chosen_the_travelling_the_longer_and_the_finer_take_gives_the_example() {
+        check_gives(walk("longer", Walk { duration_s: 4.4, ..bend() }), "");
+        check_gives(walk("finer", Walk { frame_rate_hz: 120.0, ..bend() }), "");
+        let mut chosen = walk("chosen", Walk { duration_s: 3.6, ..bend() });
+        chosen.choices.is_target_skeleton = true;
+        check_gives(chosen, "");
+    }
+
+    #[test]
+    fn of_two_frame_times_the_one_at_which_legs_swing_as_people_s_do_gives_the_example() {
+        let told = || walk("told", Walk { duration_s: 8.0, ..bend() });
+        for share in [0.5, 2.0] {
+            let mut lying = walk("lying", Walk { duration_s: 8.1, ..bend() });
+            lying.frame_rate_hz *= share;
+            for clips in [[told(), lying.clone()], [lying, told()]] {
+                for (clip, (windows, said)) in clips.iter().zip(left(&clips)) {
+                    assert_eq!(windows.len(), usize::from(clip.name == "told"), "{} {said:?}", clip.name);
+                    assert!(said.iter().any(|said| said.contains(ANOTHER_FRAME_TIME)), "{said:?}");
+                }
+            }
+        }
+    }
+
+    /// The root gets ahead of the feet from a frame on.
+    fn sliding_from(mut clip: HumanClip, first: usize) -> HumanClip {
+        let ahead_m = 0.35 / clip.frame_rate_hz;
+        clip.frames.iter_mut().skip(first).enumerate().for_each(|(frame, pose)| {
+            pose.pelvis_m.x += ahead_m * frame as f64;
+        });
+        clip
+    }
+
+    #[test]
+    fn what_only_the_lesser_copy_shows_cleanly_gives_its_example() {
+        let turn = Rates { speed_mps: 0.6, turn_rate_rad_s: 0.9, strafe_mps: 0.0 };
+        let parts =
+            [walk("part", Walk { duration_s: 6.0, ..Walk::default() }), walk("part", Walk { rates: turn, ..bend() })];
+        let clean = performance("clean", &parts);
+        let longer = [&parts[..], &[idle("part", 2.0)]].concat();
+        let spoiled = sliding_from(performance("spoiled", &longer), 355);
+        let left = left(&[clean, spoiled]);
+        let [(of_clean, said), (of_spoiled, _)] = &left[..] else { panic!("{left:?}") };
+        assert!(of_clean.iter().any(|start_s| *start_s > 5.0), "{left:?}");
+        assert_eq!(of_clean.iter().chain(of_spoiled).filter(|start_s| **start_s < 5.0).count(), 1, "{left:?}");
+        assert!(said.is_empty() || said[0].starts_with("the same take as"), "{left:?}");
+    }
+
+    #[test]
+    fn of_hundreds_of_copies_one_gives_the_example_and_each_other_names_it_once() {
         let copy = |index: usize| {
             let mut clip = walk(&format!("{index:03}"), bend());
+            clip.source.file = clip.name.clone();
             clip.frames.drain(..index % 23);
             if index % 3 == 1 { mirrored(clip) } else { clip }
         };
         let clips: Vec<HumanClip> = (0..300).map(copy).collect();
-        let verdicts = verdicts(&clips, &[true; 300]);
-        assert_eq!(verdicts.iter().filter(|verdict| !verdict.is_surplus).count(), 1);
-        assert!(verdicts.iter().all(|verdict| (1..=NAMED_MAX + 1).contains(&verdict.remarks.len())), "{verdicts:?}");
+        let left = left(&clips);
+        let givers: Vec<usize> = (0..300).filter(|&clip| !left[clip].0.is_empty()).collect();
+        assert_eq!(givers.len(), 1);
+        let named = format!("no example: the same take as {}", clips[givers[0]].name);
+        for (clip, (_, said)) in left.iter().enumerate().filter(|(clip, _)| *clip != givers[0]) {
+            assert!(matches!(&said[..], [said] if said.starts_with(&named)), "{clip}: {said:?}");
+        }
+        assert_eq!(left[givers[0]].1, [] as [&str; 0]);
     }
 
     #[test]

@@ -7,6 +7,7 @@
 //! `named_cycles`, [`mirror`] → [`parameterize`], [`rows`], [`velocity_hull`], [`blend_space`], [`correspondence`] →
 //! [`motiondb::motion_db::MotionDb`]
 
+pub mod alignment;
 mod analysis;
 mod anchors;
 pub mod anthropometry;
@@ -30,6 +31,7 @@ pub mod error;
 mod facing;
 mod first_pose;
 pub mod foot_slide;
+mod frame_times;
 pub mod gait;
 pub mod gltf;
 mod gltf_accessor;
@@ -68,6 +70,7 @@ pub mod rows;
 mod same_take;
 mod selection;
 mod shape;
+mod shared_stretches;
 pub mod skeleton_map;
 mod soles;
 pub mod source_clip;
@@ -75,6 +78,7 @@ pub mod source_parameters;
 pub mod stance;
 pub mod standing;
 pub mod steady_window;
+mod stir;
 pub mod stride;
 pub mod stride_alignment;
 pub mod survey;

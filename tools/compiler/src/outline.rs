@@ -44,16 +44,17 @@ impl Outline {
             squares.push(squares[index] + product(row, row));
         }
         let mut outline = Self { seconds: Vec::new(), samples, sums, squares };
-        outline.seconds =
-            (0..(outline.samples.len() + 1).saturating_sub(SECOND)).map(|from| outline.second(from)).collect();
+        let angle = |sample: usize| std::f32::consts::TAU * sample as f32 / SECOND as f32;
+        let circle = std::array::from_fn(|sample| libm::sincosf(angle(sample)));
+        let starts = 0..(outline.samples.len() + 1).saturating_sub(SECOND);
+        outline.seconds = starts.map(|from| outline.second(from, &circle)).collect();
         outline
     }
 
-    fn second(&self, from: usize) -> Second {
+    fn second(&self, from: usize, circle: &[(f32, f32); SECOND]) -> Second {
         let scale = libm::sqrtf(2.0 / SECOND as f32);
         let mut wave = [0.0; WIDTH];
-        for (sample, row) in self.samples[from..from + SECOND].iter().enumerate() {
-            let (sine, cosine) = libm::sincosf(std::f32::consts::TAU * sample as f32 / SECOND as f32);
+        for (row, (sine, cosine)) in self.samples[from..from + SECOND].iter().zip(circle) {
             for direction in 0..LEG_DIRECTION_COUNT {
                 wave[2 * direction] += scale * cosine * row[2 * direction];
                 wave[2 * direction + 1] += scale * sine * row[2 * direction];
@@ -122,10 +123,15 @@ fn middle_may_be_alike(short: &Outline, long: &Outline, offset: isize) -> bool {
 /// Where the seconds begin that are looked at: spread over the part of a clip that every lag leaves covered; none in
 /// clips of less than 1.7 s.
 fn middle_seconds(count: usize) -> impl Iterator<Item = usize> {
-    let covered = (2 * least_overlap(count)).saturating_sub(count);
+    let covered = covered(count);
     let seconds = (covered / SECOND).min(SECONDS_MAX);
     let apart = covered / seconds.max(1);
     (0..seconds).map(move |index| (count - seconds * apart) / 2 + index * apart)
+}
+
+/// Samples in the middle of a clip of so many that every lag leaves covered, where it is the shorter.
+pub(crate) fn covered(count: usize) -> usize {
+    (2 * least_overlap(count)).saturating_sub(count)
 }
 
 /// Samples of the shorter clip that both must show.

@@ -35,7 +35,7 @@ const BONES: [[Joint; 2]; DIRECTION_COUNT - 1] = [
     [Joint::Pelvis, Joint::Neck],
 ];
 /// Which direction each becomes in a mirror.
-const MIRRORED: [usize; DIRECTION_COUNT] = [1, 0, 3, 2, 5, 4, 6, 7];
+pub(crate) const MIRRORED: [usize; DIRECTION_COUNT] = [1, 0, 3, 2, 5, 4, 6, 7];
 
 /// Unit vectors at one time.
 pub(crate) type Directions = [DVec3; DIRECTION_COUNT];

@@ -9,13 +9,12 @@ pub const FRAME_TIME_QUESTION: &str = "is the frame time true?";
 /// Tells that of two copies of a take one has a frame time that is not true.
 pub const ANOTHER_FRAME_TIME: &str = "at another frame time: one of both is wrong";
 /// Ends what the compiler does with every clip like it: nothing is wrong.
-const ROUTINE: [&str; 6] = [
+const ROUTINE: [&str; 5] = [
     "taken as 0",
     "and are not used",
     "and is not used",
     "left out",
     "is blended in its place",
-    "no example is made of that one",
 ];
 /// Begins what is told of clips that are alike, whether or not one of them is left out for it.
 const ALIKE: &str = "the same take as";

@@ -12,8 +12,10 @@
 
 use std::f64::consts::PI;
 
-use crate::outline::{Outline, SCREEN_MAX, nearest_lag};
+use crate::alignment::Alignment;
+use crate::outline::{self, Outline, SCREEN_MAX, nearest_lag};
 use crate::performance::{self, Likeness, Performance};
+use crate::stir::Stirs;
 
 /// Rate at which pairs are screened, Hz, and exact lags in one of its steps.
 pub(crate) const SCREEN_HZ: f64 = 20.0;
@@ -40,8 +42,9 @@ const TIME_TOLERANCE: f64 = 0.05;
 /// How two clips are one take.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Match {
-    pub(crate) mirrored: bool,
-    pub(crate) times_differ: bool,
+    /// The other on the better one.
+    pub(crate) alignment: Alignment,
+    /// r of [`crate::performance`].
     pub(crate) unlikeness: f64,
 }
 
@@ -52,61 +55,50 @@ pub(crate) struct Entry {
     coarse: Performance,
     /// As it is and mirrored.
     outlines: [Outline; 2],
+    stirs: Stirs,
 }
 
 impl Entry {
     pub(crate) fn new(performance: Performance) -> Self {
         let coarse = performance.sampled(SCREEN_HZ);
-        Self { outlines: [Outline::of(&coarse), Outline::of(&coarse.mirrored())], coarse, performance }
+        let outlines = [Outline::of(&coarse), Outline::of(&coarse.mirrored())];
+        Self { outlines, stirs: Stirs::of(&coarse, outline::covered), coarse, performance }
     }
 }
 
-/// A clip that others are searched for; at other frame times, too, as the others ask for them.
-pub(crate) struct Sought<'a> {
-    told: &'a Entry,
-    retimed: Vec<Entry>,
+/// The most alike of all ways to lay a clip over a better one, where that is one take. The better one's frame time is
+/// believed.
+pub(crate) fn compare(better: &Entry, other: &Entry) -> Option<Match> {
+    let told = ways(better, other, 1.0);
+    let rate_hz = other.performance.rate_hz;
+    let retimed = rates_of_same_frames(better, other).filter_map(|rate| {
+        ways(better, &Entry::new(Performance { rate_hz: rate, ..other.performance.clone() }), rate_hz / rate)
+    });
+    told.into_iter().chain(retimed).min_by(|a, b| a.unlikeness.total_cmp(&b.unlikeness))
 }
 
-impl<'a> Sought<'a> {
-    pub(crate) fn new(told: &'a Entry) -> Self {
-        Self { told, retimed: Vec::new() }
-    }
+/// The better way of two to lay a clip over another: as it is or mirrored.
+fn ways(one: &Entry, other: &Entry, pace: f64) -> Option<Match> {
+    let laid = [false, true].into_iter().filter_map(|mirrored| {
+        let (found, start_s) = laid_over(one, other, mirrored).filter(|(found, _)| is_one_take(found))?;
+        let alignment = Alignment { mirrored, start_s, pace };
+        Some(Match { alignment, unlikeness: found.unlikeness })
+    });
+    laid.min_by(|a, b| a.unlikeness.total_cmp(&b.unlikeness))
+}
 
-    /// The most alike of all ways to lay this clip over another, where that is one take. The other's frame time is the
-    /// one that is believed.
-    pub(crate) fn compare(&mut self, one: &Entry) -> Option<Match> {
-        let retimed = self.retime(&one.performance);
-        let others = std::iter::once((self.told, false)).chain(retimed.iter().map(|&at| (&self.retimed[at], true)));
-        let ways =
-            others.flat_map(|(other, times_differ)| [false, true].map(|mirrored| (other, mirrored, times_differ)));
-        let laid = ways.filter_map(|(other, mirrored, times_differ)| {
-            let found = laid_over(one, other, mirrored).filter(is_one_take)?;
-            Some(Match { mirrored, times_differ, unlikeness: found.unlikeness })
-        });
-        laid.min_by(|a, b| a.unlikeness.total_cmp(&b.unlikeness))
-    }
-
-    /// Where this clip is kept at the rates that its frames have if they are the other's, where its own frame time says
-    /// otherwise.
-    fn retime(&mut self, one: &Performance) -> Vec<usize> {
-        let told = &self.told.performance;
-        let counts = [one, told].map(|performance| performance.directions.len() as f64);
-        let fits = |ratio: &f64| {
-            let count_off = (counts[1] / (ratio * counts[0]) - 1.0).abs();
-            let time_off = (told.rate_hz / (ratio * one.rate_hz) - 1.0).abs();
-            count_off < COUNT_TOLERANCE && time_off > TIME_TOLERANCE
-        };
-        let rates_hz = FRAME_RATIOS.into_iter().filter(fits).map(|ratio| ratio * one.rate_hz);
-        let kept = &mut self.retimed;
-        rates_hz
-            .map(|rate_hz| {
-                kept.iter().position(|entry| entry.performance.rate_hz == rate_hz).unwrap_or_else(|| {
-                    kept.push(Entry::new(Performance { rate_hz, ..told.clone() }));
-                    kept.len() - 1
-                })
-            })
-            .collect()
-    }
+/// The rates that a clip's frames have if they are the other's, where its own frame time says otherwise.
+fn rates_of_same_frames(one: &Entry, told: &Entry) -> impl Iterator<Item = f64> {
+    let may_be = [false, true].into_iter().any(|mirrored| told.stirs.may_have_the_same_frames(&one.stirs, mirrored));
+    let (one, told) = (&one.performance, &told.performance);
+    let counts = [one, told].map(|performance| performance.directions.len() as f64);
+    let (one_hz, told_hz) = (one.rate_hz, told.rate_hz);
+    let fits = move |ratio: &f64| {
+        let count_off = (counts[1] / (ratio * counts[0]) - 1.0).abs();
+        let time_off = (told_hz / (ratio * one_hz) - 1.0).abs();
+        may_be && count_off < COUNT_TOLERANCE && time_off > TIME_TOLERANCE
+    };
+    FRAME_RATIOS.into_iter().filter(fits).map(move |ratio| ratio * one_hz)
 }
 
 fn is_one_take(found: &Likeness) -> bool {
@@ -121,8 +113,11 @@ fn turn_alike(found: &Likeness) -> bool {
     found.turn_difference_rad_s <= TURN_DIFFERENCE_RAD_S.max(TURN_DIFFERENCE_RAD / found.overlap_s)
 }
 
-/// The exact likeness at the best lag; none where the screening finds none.
-fn laid_over(one: &Entry, other: &Entry, mirrored: bool) -> Option<Likeness> {
+/// The exact likeness at the best lag, and that lag in seconds; none where the screening finds none.
+fn laid_over(one: &Entry, other: &Entry, mirrored: bool) -> Option<(Likeness, f64)> {
+    if !other.stirs.may_be_alike(&one.stirs, mirrored) {
+        return None;
+    }
     let lag = nearest_lag(&one.outlines[0], &other.outlines[usize::from(mirrored)])?;
     let turned = |told: &Performance| if mirrored { told.mirrored() } else { told.clone() };
     let coarse = performance::compare(&one.coarse, &turned(&other.coarse), lag)?;
@@ -133,6 +128,6 @@ fn laid_over(one: &Entry, other: &Entry, mirrored: bool) -> Option<Likeness> {
     let rate_hz = SCREEN_HZ * EXACT_STEPS as f64;
     let (one, other) = (one.performance.sampled(rate_hz), turned(&other.performance).sampled(rate_hz));
     let around = (lag - 1) * EXACT_STEPS..=(lag + 1) * EXACT_STEPS;
-    let found = around.filter_map(|lag| performance::compare(&one, &other, lag));
-    found.min_by(|a, b| a.unlikeness.total_cmp(&b.unlikeness))
+    let found = around.filter_map(|lag| Some((performance::compare(&one, &other, lag)?, lag as f64 / rate_hz)));
+    found.min_by(|(a, _), (b, _)| a.unlikeness.total_cmp(&b.unlikeness))
 }

@@ -34,9 +34,13 @@ const REST_S: f64 = 1.0;
 pub(crate) fn flaws_of_strides(strides: &[Stride], cycle: &GaitCycle, body: &HumanBody) -> f64 {
     let count = strides.len() as f64;
     let gap_m = strides.iter().map(|stride| stride.gap_m).sum::<f64>() / count;
-    let off = in_cells(&cycle.rates) - cell(&cycle.rates);
     let slide = foot_slide::measure(cycle, body).slide_cm_s / foot_slide::suspect_slide_cm_s(cycle);
-    gap_m / STRIDE_GAP_M + slide + 2.0 * off.abs().max_element() + 1.0 / count
+    gap_m / STRIDE_GAP_M + slide + off_middle(&cycle.rates) + 1.0 / count
+}
+
+/// The distance from the cell's middle, 1 at its border.
+pub(crate) fn off_middle(rates: &Rates) -> f64 {
+    2.0 * (in_cells(rates) - cell(rates)).abs().max_element()
 }
 
 /// The flaws of a rest: the longer, the calmer its calmest part.
@@ -88,9 +92,13 @@ fn is_standing(window: &SteadyWindow) -> bool {
     matches!(window.motion, Motion::Stands(_))
 }
 
-/// Whether two windows differ by no more than half a cell in every axis, wherever the cells' borders lie.
 fn near_equal(a: &SteadyWindow, b: &SteadyWindow) -> bool {
-    is_standing(a) == is_standing(b) && (in_cells(&a.rates()) - in_cells(&b.rates())).abs().max_element() <= 0.5
+    is_standing(a) == is_standing(b) && near_equal_rates(&a.rates(), &b.rates())
+}
+
+/// Whether rates differ by no more than half a cell in every axis, wherever the cells' borders lie.
+pub(crate) fn near_equal_rates(a: &Rates, b: &Rates) -> bool {
+    (in_cells(a) - in_cells(b)).abs().max_element() <= 0.5
 }
 
 fn in_cells(rates: &Rates) -> DVec3 {
@@ -125,17 +133,19 @@ fn spread(cycles: &[NamedCycle], most: usize) -> Vec<usize> {
     let ends = ends(&places);
     let first = [semi_procedural(cycles), best(cycles, |named| !named.cycle.steps)].into_iter().flatten();
     let mut kept = Vec::new();
+    let mut is_kept = vec![false; cycles.len()];
     let mut gaps = vec![f64::INFINITY; cycles.len()];
     let mut first = first.take(most).collect::<Vec<usize>>().into_iter();
     while kept.len() < most {
         let farthest = |pool: &dyn Fn(usize) -> bool| {
-            let left = (0..cycles.len()).filter(|index| !kept.contains(index) && pool(*index));
+            let left = (0..cycles.len()).filter(|&index| !is_kept[index] && pool(index));
             // The first of the farthest: `max_by` alone would take the last.
             left.rev().max_by(|a, b| gaps[*a].total_cmp(&gaps[*b]).then(cycles[*b].flaws.total_cmp(&cycles[*a].flaws)))
         };
         let next = first.next().or_else(|| farthest(&|index| ends.contains(&index))).or_else(|| farthest(&|_| true));
         let Some(next) = next else { break };
         kept.push(next);
+        is_kept[next] = true;
         for (gap, place) in gaps.iter_mut().zip(&places) {
             *gap = gap.min(place.distance(places[next])).min(place.distance(mirrored(places[next])));
         }

@@ -78,7 +78,7 @@ pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
     }
     let body = target_skeleton::choose(&clips);
     let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
-    duplicates::set_aside(&clips, &mut analyzed);
+    duplicates::set_aside(&clips, &mut analyzed, &body);
     let surveyed = |(clip, found): (&HumanClip, &Analyzed)| SurveyedSource {
         source: compile::record(clip, found),
         gait: source_gait(clip),

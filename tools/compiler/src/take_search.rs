@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::same_take::{Entry, Match, Sought};
+use crate::same_take::{self, Entry, Match};
 
 /// Clips of one take that later ones are compared with.
 pub(crate) const LISTED_MAX: usize = 8;
@@ -36,25 +36,22 @@ pub(crate) struct Search {
 /// Pairs of one take. `order` are the clips from the best on; `may_pair` says which are compared at all.
 pub(crate) fn search(entries: &[Entry], order: &[usize], may_pair: impl Fn(usize, usize) -> bool + Sync) -> Search {
     let (mut list, mut found, mut rest) = (List::default(), Vec::new(), order);
-    let compare = |sought: &mut Sought, better: usize, clip: usize| {
-        if may_pair(better, clip) { sought.compare(&entries[better]).map(|how| (better, clip, how)) } else { None }
+    let compare = |better: usize, clip: usize| {
+        let how = || same_take::compare(&entries[better], &entries[clip]);
+        if may_pair(better, clip) { how().map(|how| (better, clip, how)) } else { None }
     };
     while !rest.is_empty() {
         let (batch, later) = rest.split_at(list.clips.len().clamp(BATCH_MIN, BATCH_MAX).min(rest.len()));
         rest = later;
         let on_list = |&clip: &usize| {
-            let mut sought = Sought::new(&entries[clip]);
-            let all = list.clips.iter().filter_map(|&better| compare(&mut sought, better, clip));
+            let all = list.clips.iter().filter_map(|&better| compare(better, clip));
             through_first(all, |(better, ..)| list.settles(*better))
         };
         let on_list: Vec<Vec<Found>> = batch.par_iter().map(on_list).collect();
         let is_open = |matches: &Vec<Found>| !matches.last().is_some_and(|(better, ..)| list.settles(*better));
         let open = batch.iter().zip(&on_list).filter(|(_, matches)| is_open(matches));
         let open: Vec<usize> = open.map(|(&clip, _)| clip).collect();
-        let in_batch = |place: usize| {
-            let mut sought = Sought::new(&entries[open[place]]);
-            open[..place].iter().filter_map(|&better| compare(&mut sought, better, open[place])).collect()
-        };
+        let in_batch = |place: usize| open[..place].iter().filter_map(|&better| compare(better, open[place])).collect();
         let in_batch: Vec<Vec<Found>> = (0..open.len()).into_par_iter().map(in_batch).collect();
         let new = found.len();
         found.extend(on_list.into_iter().chain(in_batch).flatten());

@@ -1,7 +1,7 @@
 //! The same take twice, among clips that others made, and among the bundled ones.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use motiondb::motion_db::MotionDb;
 use motiondb_compiler::compile::compile_manifest;
@@ -41,9 +41,9 @@ fn found(clips: &[HumanClip]) -> Vec<[String; 3]> {
     let told = pairs(clips).into_iter().map(|pair| {
         let mut names = pair.clips.map(|clip| clips[clip].name.clone());
         names.sort();
-        let how = if pair.mirrored {
+        let how = if pair.alignment.mirrored {
             "mirrored"
-        } else if pair.times_differ {
+        } else if pair.alignment.times_differ() {
             "other times"
         } else {
             "same"
@@ -74,52 +74,99 @@ fn among_151_clips_of_others_and_ours_only_the_same_takes_are_found() {
     assert_eq!(found(&clips), wanted);
 }
 
-/// A folder with a bundled clip as it is and changed, compiled.
-fn compiled(test: &str, clip: &str, change: impl Fn(&str) -> String) -> MotionDb {
+/// A folder with two changes of a bundled clip, compiled.
+fn compiled(test: &str, clip: &str, changes: [&dyn Fn(&str) -> String; 2]) -> MotionDb {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("duplicates").join(test);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
     let text = fs::read_to_string(Path::new(BUNDLED).join(clip)).unwrap();
-    let files: Vec<PathBuf> = ["told.bvh", "twice.bvh"].iter().map(|name| folder.join(name)).collect();
-    fs::write(&files[0], &text).unwrap();
-    fs::write(&files[1], change(&text)).unwrap();
+    let files = ["one.bvh", "other.bvh"].map(|name| folder.join(name));
+    files.iter().zip(changes).for_each(|(file, change)| fs::write(file, change(&text)).unwrap());
     compile_manifest(&Manifest::of_files(&files), &|_| ()).unwrap().db
 }
 
-/// One of the two gives examples, and both say so.
+/// Of both changes, whichever comes first by name, the second gives the example, and the first's record says so.
 #[track_caller]
-fn check_said(db: &MotionDb, giving: &str, how: &str) {
-    let names: Vec<&str> = db.examples.iter().filter(|example| !example.mirrored).map(|e| e.name.as_str()).collect();
-    assert_eq!(names, [giving], "{:?}", db.sources);
-    for source in &db.sources {
-        let other = if source.file == "told.bvh" { "twice.bvh" } else { "told.bvh" };
-        let said = format!("the same take as {other}{how}");
-        let surplus = format!("no example: {said}");
-        let wanted =
-            if source.file.starts_with(giving) { format!("{said}; no example is made of that one") } else { surplus };
+fn check_second_gives(test: &str, clip: &str, changes: [&dyn Fn(&str) -> String; 2], how: &str) {
+    let [first, second] = changes;
+    for (changes, giving, surplus) in [([first, second], "other", "one"), ([second, first], "one", "other")] {
+        let db = compiled(&format!("{test}_{giving}"), clip, changes);
+        let recorded = db.examples.iter().filter(|example| !example.mirrored);
+        assert_eq!(recorded.map(|example| &example.name).collect::<Vec<_>>(), [giving], "{:?}", db.sources);
+        let source = db.sources.iter().find(|source| source.file.starts_with(surplus)).unwrap();
+        let wanted = format!("no example: the same take as {giving}.bvh{how}");
         assert!(source.warnings.contains(&wanted), "{:?} lack {wanted}", source.warnings);
     }
 }
 
-/// Every second frame, at half the rate; or every frame at that rate.
-fn at_half_rate(text: &str, thinned: bool) -> String {
-    let (head, motion) = text.split_once("Frame Time:").unwrap();
-    let mut lines = motion.lines();
-    let frame_time_s: f64 = lines.next().unwrap().trim().parse().unwrap();
-    let rows: Vec<&str> = lines.step_by(if thinned { 2 } else { 1 }).collect();
-    let (hierarchy, _) = head.split_once("Frames:").unwrap();
-    format!("{hierarchy}Frames: {}\nFrame Time: {}\n{}\n", rows.len(), 2.0 * frame_time_s, rows.join("\n"))
+/// The head up to `Frames:`, the frame time and the rows of a file.
+fn taken_apart(text: &str) -> (&str, f64, Vec<Vec<f64>>) {
+    let (hierarchy, motion) = text.split_once("Frames:").unwrap();
+    let mut lines = motion.lines().skip(1);
+    let (_, frame_time) = lines.next().unwrap().split_once(':').unwrap();
+    let values = |line: &str| line.split_whitespace().map(|value| value.parse().unwrap()).collect();
+    (hierarchy, frame_time.trim().parse().unwrap(), lines.map(values).collect())
+}
+
+fn written(hierarchy: &str, frame_time_s: f64, rows: &[Vec<f64>]) -> String {
+    let line = |row: &Vec<f64>| row.iter().map(f64::to_string).collect::<Vec<String>>().join(" ");
+    let lines: Vec<String> = rows.iter().map(line).collect();
+    format!("{hierarchy}Frames: {}\nFrame Time: {frame_time_s}\n{}\n", rows.len(), lines.join("\n"))
+}
+
+/// Every second frame, at half the rate.
+fn thinned(text: &str) -> String {
+    let (hierarchy, frame_time_s, rows) = taken_apart(text);
+    written(hierarchy, 2.0 * frame_time_s, &rows.into_iter().step_by(2).collect::<Vec<_>>())
+}
+
+/// Every frame, at half the rate: twice as long.
+fn slowed(text: &str) -> String {
+    let (hierarchy, frame_time_s, rows) = taken_apart(text);
+    written(hierarchy, 2.0 * frame_time_s, &rows)
+}
+
+/// The same steps on the spot, or up a slope of a twentieth.
+fn moved(text: &str, travels: f64, climbs: f64) -> String {
+    let (hierarchy, frame_time_s, mut rows) = taken_apart(text);
+    let last = rows.len() - 1;
+    let way = [0, 2].map(|channel| rows[last][channel] - rows[0][channel]);
+    let length = way[0].hypot(way[1]);
+    for (frame, row) in rows.iter_mut().enumerate() {
+        let along = frame as f64 / last as f64;
+        row[0] -= (1.0 - travels) * along * way[0];
+        row[2] -= (1.0 - travels) * along * way[1];
+        row[1] += climbs * along * length;
+    }
+    written(hierarchy, frame_time_s, &rows)
 }
 
 #[test]
 fn a_copy_of_a_file_gives_no_second_example() {
-    check_said(&compiled("copy", "walk_110.bvh", str::to_owned), "told", "");
-    check_said(&compiled("idle", "idle.bvh", str::to_owned), "told", "");
+    for clip in ["walk_110.bvh", "idle.bvh"] {
+        let db = compiled(&format!("copy_{clip}"), clip, [&str::to_owned, &str::to_owned]);
+        assert_eq!(db.examples.iter().filter(|example| !example.mirrored).count(), 1, "{:?}", db.sources);
+        assert_eq!(db.sources[1].warnings, ["no example: the same take as one.bvh"]);
+    }
 }
 
 #[test]
 fn of_two_frame_rates_the_higher_gives_the_example() {
-    check_said(&compiled("thinned", "turn_060_left.bvh", |text| at_half_rate(text, true)), "told", "");
-    let slowed = compiled("slowed", "walk_080.bvh", |text| at_half_rate(text, false));
-    assert!(slowed.sources[0].warnings[0].contains("the same take as twice.bvh, at another frame time"));
+    check_second_gives("thinned", "turn_060_left.bvh", [&thinned, &str::to_owned], "");
+}
+
+#[test]
+fn of_two_frame_times_the_one_of_a_human_s_gait_gives_the_example() {
+    for clip in ["walk_110.bvh", "walk_180.bvh", "run_350.bvh", "side_060_left.bvh"] {
+        let how = ", at another frame time: one of both is wrong";
+        check_second_gives(&format!("slowed_{clip}"), clip, [&slowed, &str::to_owned], how);
+    }
+}
+
+#[test]
+fn a_walk_gives_the_example_rather_than_its_copy_on_a_treadmill_or_up_a_slope() {
+    let in_place = |text: &str| moved(text, 0.0, 0.0);
+    let uphill = |text: &str| moved(text, 1.0, 0.05);
+    check_second_gives("in_place", "walk_110.bvh", [&in_place, &str::to_owned], "");
+    check_second_gives("uphill", "walk_110.bvh", [&uphill, &str::to_owned], "");
 }
