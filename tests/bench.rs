@@ -72,3 +72,15 @@ fn gait_events_are_measured_against_hand_labels() {
     assert!(found["events"].as_array().unwrap().len() >= 80);
     assert!(found["sets"][0]["median_error_frames"].as_f64().unwrap() < 2.0, "{}", found["sets"]);
 }
+
+#[test]
+fn planning_is_timed_beside_orca_and_its_neighbour_query() {
+    let found = check_bars(&["bench", "plan", "--largest", "1000", "--json"]);
+    let crowds = found["crowds"].as_array().unwrap();
+    assert_eq!(crowds.iter().map(|crowd| crowd["agents"].as_u64().unwrap()).collect::<Vec<_>>(), [100, 1000]);
+    for crowd in crowds {
+        let microseconds = |key: &str| crowd[key].as_f64().unwrap();
+        assert!(0.0 < microseconds("query_us") && microseconds("query_us") < microseconds("orca_us"), "{crowd}");
+        assert!(microseconds("orca_us") < microseconds("mcn_us") && microseconds("mcn_us") < 100.0, "{crowd}");
+    }
+}

@@ -127,12 +127,14 @@ fn figures_beyond_their_thresholds_are_warnings_unless_strict() {
 #[test]
 fn whatever_is_read_survives_damage_forgery_and_mutation() {
     let database = golden("fbdb");
-    let counts = ["--count", "800", "--forged", "200", "--mutated", "100"];
+    let counts = ["--count", "800", "--forged", "200", "--mutated", "100", "--worlds", "2000", "--programs", "500"];
     let arguments = [&["bench", "soak", text(&database), "--json"], &counts[..]].concat();
     let found = fbcrowd(&arguments).expect_code(0).json();
     let kinds = found["kinds"].as_array().unwrap();
-    assert_eq!((kinds.len(), &kinds[0]["refused"]), (7, &800.into()), "{found}");
-    for kind in kinds {
+    assert_eq!((kinds.len(), &kinds[0]["refused"]), (9, &800.into()), "{found}");
+    let (read, drawn) = kinds.split_at(7);
+    assert!(drawn.iter().all(|kind| kind["used"] == kind["copies"]), "{found}");
+    for kind in read {
         let count = |key: &str| kind[key].as_u64().unwrap();
         assert_eq!(count("refused") + count("used"), count("copies"), "{kind}");
         assert!(count("refused") > 0 && (count("used") > 0 || kind == &kinds[0]), "{kind}");

@@ -10,6 +10,7 @@ mod figure7;
 mod gait;
 mod import;
 mod leave_one_out;
+mod plan;
 mod scenes;
 mod soak;
 mod table1;
@@ -43,6 +44,7 @@ enum Bench {
     Compile(compile::Args),
     LeaveOneOut(leave_one_out::Args),
     Gait(gait::Args),
+    Plan(plan::Args),
     Soak(soak::Args),
     Table1(table1::Args),
     Figure7(figure7::Args),
@@ -67,6 +69,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Bench::Compile(args) => compile::run(args),
         Bench::LeaveOneOut(args) => leave_one_out::run(args),
         Bench::Gait(args) => gait::run(args),
+        Bench::Plan(args) => plan::run(args),
         Bench::Soak(args) => soak::run(args),
         Bench::Table1(args) => table1::run(args),
         Bench::Figure7(args) => figure7::run(args),

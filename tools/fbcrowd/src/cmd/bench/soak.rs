@@ -1,7 +1,8 @@
-//! `fbcrowd bench soak`: does anything that FbCrowd reads, damaged, forged or mutated, ever end the program, take for
-//! ever or do harm?
+//! `fbcrowd bench soak`: does anything that FbCrowd reads, damaged, forged or mutated, or any world that it is put in,
+//! ever end the program, take for ever or do harm?
 //!
-//! One file a kind of input. Each copy draws its own random numbers from a seed of its own, the run's seed plus its
+//! One file a kind of input; worlds and linear programs are drawn and judged by [`fbcrowd_sim::wild_world`] and
+//! [`fbcrowd_sim::wild_program`]. Each copy draws its own random numbers from a seed of its own, the run's seed plus its
 //! number, so that one copy can be made again alone.
 
 mod clip;
@@ -16,7 +17,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
+use fbcrowd_sim::params::Params;
+use fbcrowd_sim::wild_program;
+use fbcrowd_sim::wild_world::WildWorld;
 use motiondb::motion_db::MotionDb;
+use motiondb::velocity_hull::VelocityHull;
 use motiondb::{file, validate};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -38,15 +43,18 @@ const DAMAGED: &str = "damaged databases";
 /// Damaged databases: one byte altered, or cut anywhere; the checksum must refuse every one. Forged ones: altered and
 /// sealed with a right checksum; what is used must move bodies. BVH and GLB files, manifests, scenarios and recordings:
 /// bytes altered, dropped, repeated or inserted, numbers replaced, lengths and checksums set right or not; what is used
-/// must give sound databases and finite bodies. All begin with the bundled clips.
+/// must give sound databases and finite bodies. All begin with the bundled clips. Wild worlds: agents and obstacles
+/// piled, far off, fast, tiny, huge, on edges and in walls; each planner must plan numbers, keep its greatest speed and
+/// lead nobody through a wall. Linear programs: feasible or not, opposite, parallel but for rounding; no velocity that is
+/// tried may be better than the one found.
 ///
 /// In JSON `seed, kinds[] {name, copies, refused, used, harmful, panics, slow, slowest_s}, finds[] {kind, seed, what}`.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
   fbcrowd bench soak
-  fbcrowd bench soak motion.fbdb --count 100000 --forged 10000 --mutated 0
-  fbcrowd bench soak --seed 4711 --count 1 --forged 1 --mutated 1    # a copy that was found, again")]
+  fbcrowd bench soak motion.fbdb --count 100000 --forged 10000 --mutated 0 --worlds 0 --programs 0
+  fbcrowd bench soak --seed 4711 --count 1 --forged 1 --mutated 1 --worlds 1 --programs 1    # a find, again")]
 pub(super) struct Args {
     /// A sound database; else that of the bundled clips.
     #[arg(value_name = "FILE.fbdb")]
@@ -60,7 +68,13 @@ pub(super) struct Args {
     /// Mutated files of each other kind.
     #[arg(long, value_name = "N", default_value_t = 1_000)]
     mutated: usize,
-    /// Which bytes are altered, and how: of a copy the seed plus its number from 0.
+    /// Wild worlds.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    worlds: usize,
+    /// Linear programs.
+    #[arg(long, value_name = "N", default_value_t = 100_000)]
+    programs: usize,
+    /// Which bytes are altered, and how, and what is drawn: of a copy the seed plus its number from 0.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Print JSON.
@@ -124,7 +138,11 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
         Bar::at_least("damaged databases refused", args.count as f64, refused),
         Bar::at_most("copies that end the program", 0.0, total(|kind| kind.panics)),
         Bar::at_most("copies that take longer than 10 s", 0.0, total(|kind| kind.slow)),
-        Bar::at_most("copies that are used and do harm", 0.0, total(|kind| kind.harmful)),
+        Bar::at_most(
+            "copies that are used and do harm, worlds and programs with a fault",
+            0.0,
+            total(|kind| kind.harmful),
+        ),
     ];
     let text = text(&found);
     conclude(&Found { details: found, goals: Vec::new(), bars }, &text, args.json)
@@ -136,7 +154,7 @@ fn kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Result<Ve
     let (bvh, glb) = (clip::bundled(".bvh"), clip::bundled(".glb"));
     let recording = recording::bytes(db, scratch)?;
     text_file::write_clips(scratch)?;
-    let crowd = Arc::clone(db);
+    let (crowd, hull) = (Arc::clone(db), db.velocity_hull.clone());
     let kind = |name, copies, attempt| Kind { name, copies, attempt };
     Ok(vec![
         kind(DAMAGED, args.count, Box::new(move |draw: &mut Draw| database::damage(&bytes, draw))),
@@ -146,7 +164,19 @@ fn kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Result<Ve
         kind("manifests", args.mutated, Box::new(|draw: &mut Draw| text_file::manifest(scratch, draw))),
         kind("scenarios", args.mutated, Box::new(move |draw: &mut Draw| text_file::scenario(&crowd, scratch, draw))),
         kind("recordings", args.mutated, Box::new(move |draw: &mut Draw| recording::read(&recording, scratch, draw))),
+        kind("wild worlds", args.worlds, Box::new(move |draw: &mut Draw| wild_world(&hull, draw))),
+        kind("linear programs", args.programs, Box::new(|draw: &mut Draw| fate(wild_program::fault(draw.seed(), 0)))),
     ])
+}
+
+/// Draws a world and plans in it.
+fn wild_world(hull: &VelocityHull, draw: &mut Draw) -> Fate {
+    let world = WildWorld::drawn(draw.seed(), 0);
+    fate(world.fault(hull, &Params::default()).map(|(_, what)| what))
+}
+
+fn fate(fault: Option<&'static str>) -> Fate {
+    fault.map_or(Fate::Used, Fate::Harmful)
 }
 
 fn soak(kinds: &[Kind], seed: u64) -> Details {
@@ -224,7 +254,9 @@ fn text(found: &Details) -> String {
         text += &format!("{name:<18}{copies:8}{refused:9}{used:8}{harmful:9}{panics:8}{slowest_s:11.2}\n");
     }
     for Find { kind, seed, what } in &found.finds {
-        text += &format!("{kind}: {what}; again with --seed {seed} --count 1 --forged 1 --mutated 1\n");
+        text += &format!(
+            "{kind}: {what}; again with --seed {seed} --count 1 --forged 1 --mutated 1 --worlds 1 --programs 1\n"
+        );
     }
     text
 }

@@ -16,6 +16,11 @@ impl Draw {
         Self(SplitMix64::new(seed, stream))
     }
 
+    /// The seed of something that draws for itself.
+    pub(super) fn seed(&mut self) -> u64 {
+        self.0.next_u64()
+    }
+
     /// A number below a limit, which is not 0.
     pub(super) fn below(&mut self, limit: usize) -> usize {
         (self.0.next_u64() % limit as u64) as usize

@@ -1,0 +1,276 @@
+//! `fbcrowd bench plan`: what planning costs, and whether it costs the same in every crowd (issue 5, "Numbers").
+//!
+//! Discs of 0.3 agents/m², each bound for the point opposite, walk with their bodies until they are well mixed. Then the
+//! simulation is halted every second, and from the same frozen world MCN, with all its constraints, our own ORCA and
+//! ORCA's neighbour query alone are timed in turns, each with the sorting of the agents into cells. Ratios are formed
+//! within a turn, so that whatever else the machine does weighs on both alike; medians count.
+
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::Instant;
+
+use fbcrowd_sim::cns::Coupling;
+use fbcrowd_sim::crowd::plan_all;
+use fbcrowd_sim::neighbours::{Nearest, Neighbours, Query, Ranking};
+use fbcrowd_sim::params::Params;
+use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::planner::Planner;
+use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
+use fbcrowd_sim::split_mix::SplitMix64;
+use fbcrowd_sim::step::Simulation;
+use fbcrowd_sim::world::World;
+use glam::Vec2;
+use rayon::ThreadPool;
+use serde::Serialize;
+
+use super::bar::{Bar, Found, Goal, conclude};
+use super::bundled::bundled;
+use crate::failure::{Answer, Failure};
+use crate::progress::Progress;
+use crate::statistics::median;
+
+/// Crowds that are timed; the bar on growth is from the second to the last.
+const CROWDS: [usize; 4] = [100, 1_000, 10_000, 100_000];
+/// Agents of a square metre, and how far each is off its place of the lattice, as a share of the spacing: those of
+/// `../shared/bench`.
+const DENSITY_PER_M2: f32 = 0.3;
+const JITTER: f64 = 0.2;
+const RADIUS_M: f32 = 0.25;
+const SPEED_MPS: f32 = 1.33;
+/// The protocol's step (`facts/planning.md` §3).
+const DT_S: f32 = 0.1;
+/// Steps until all walk and meet, and from halt to halt.
+const WARM_UP: usize = 30;
+const BETWEEN: usize = 10;
+const HALTS: usize = 3;
+/// Turns at each halt.
+const TURNS: usize = 5;
+/// A small crowd is planned so often that a turn has this many plans.
+const PLANS: usize = 20_000;
+/// Limits of the bars, and the goal in µs (issue 5, "Numbers").
+const MCN_OVER_ORCA: f64 = 1.5;
+const ORCA_OVER_QUERY: f64 = 2.0;
+const GROWTH: f64 = 1.3;
+const TWO_THREADS: f64 = 1.6;
+const GOAL_US: f64 = 1.5;
+
+/// Time the planning of ever larger crowds.
+///
+/// In JSON `crowds[] {agents, query_us, orca_us, mcn_us, mcn_two_threads_us, mcn_over_orca, orca_over_query,
+/// two_threads}`: microseconds per agent and step, sorting into cells included, and the medians of the ratios.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  fbcrowd bench plan --json")]
+pub(super) struct Args {
+    /// Leave crowds larger than this out.
+    #[arg(long, value_name = "N", default_value_t = CROWDS[3])]
+    largest: usize,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Details {
+    crowds: Vec<Crowd>,
+}
+
+#[derive(Serialize)]
+struct Crowd {
+    agents: usize,
+    query_us: f32,
+    orca_us: f32,
+    mcn_us: f32,
+    mcn_two_threads_us: f32,
+    mcn_over_orca: f32,
+    orca_over_query: f32,
+    two_threads: f32,
+}
+
+/// Times of one turn, µs per agent and step.
+struct Turn {
+    query_us: f32,
+    orca_us: f32,
+    mcn_us: f32,
+    mcn_two_threads_us: f32,
+}
+
+/// Threads that plan.
+struct Pools {
+    one: ThreadPool,
+    two: ThreadPool,
+}
+
+pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
+    let db = Arc::new(bundled()?);
+    let pools = Pools { one: pool(1)?, two: pool(2)? };
+    let sizes: Vec<usize> = CROWDS.into_iter().filter(|&agents| agents <= args.largest).collect();
+    let mut simulations: Vec<Simulation> =
+        sizes.iter().map(|&agents| Simulation::new(Arc::clone(&db), &disc(agents))).collect();
+    let turns = timed(&mut simulations, &pools);
+    let crowds: Vec<Crowd> = sizes.iter().zip(&turns).filter_map(|(&agents, turns)| crowd(agents, turns)).collect();
+    let bars = bars(&crowds);
+    let goals = crowds.iter().find(|crowd| crowd.agents == CROWDS[1]);
+    let goals = goals.map(|crowd| Goal {
+        name: "planning 1,000 agents, µs per agent-step",
+        measured: Some(f64::from(crowd.mcn_us)),
+        goal: GOAL_US,
+    });
+    let found = Found { details: Details { crowds }, goals: goals.into_iter().collect(), bars };
+    conclude(&found, &text(&found.details), args.json)
+}
+
+/// The turns of each simulation. All crowds take turns at every halt, so that growth is measured in the same minute.
+fn timed(simulations: &mut [Simulation], pools: &Pools) -> Vec<Vec<Turn>> {
+    let mut turns: Vec<Vec<Turn>> = simulations.iter().map(|_| Vec::new()).collect();
+    let progress = Progress::new("halts", HALTS);
+    for halt in 0..HALTS {
+        for simulation in simulations.iter_mut() {
+            let steps = if halt == 0 { WARM_UP } else { BETWEEN };
+            (0..steps).for_each(|_| simulation.step(&mut |_| ()));
+        }
+        for _ in 0..TURNS {
+            for (simulation, turns) in simulations.iter().zip(&mut turns) {
+                turns.push(turn(&simulation.world(), pools));
+            }
+        }
+        progress.advance();
+    }
+    progress.finish();
+    turns
+}
+
+fn turn(world: &World, pools: &Pools) -> Turn {
+    let plan = |planner| move |world: &World| plan_once(planner, world);
+    Turn {
+        query_us: microseconds(world, &pools.one, query_once),
+        orca_us: microseconds(world, &pools.one, plan(Planner::Orca)),
+        mcn_us: microseconds(world, &pools.one, plan(Planner::Mcn)),
+        mcn_two_threads_us: microseconds(world, &pools.two, plan(Planner::Mcn)),
+    }
+}
+
+/// Of the sorting into cells and some work upon it, per agent.
+fn microseconds(world: &World, pool: &ThreadPool, work: impl Fn(&World) + Sync) -> f32 {
+    let agents = world.positions_m.len();
+    let repeats = PLANS.div_ceil(agents);
+    let mut neighbours = Neighbours::default();
+    pool.install(|| {
+        let start = Instant::now();
+        for _ in 0..repeats {
+            neighbours.rebuild(world.positions_m, world.velocities_mps, world.radii_m);
+            work(&World { neighbours: &neighbours, ..*world });
+        }
+        start.elapsed().as_secs_f32() * 1e6 / (repeats * agents) as f32
+    })
+}
+
+fn plan_once(planner: Planner, world: &World) {
+    let mut plans = vec![Plan::default(); world.positions_m.len()];
+    plan_all(planner, world, &Params::default(), &mut Vec::new(), &mut plans);
+    black_box(plans);
+}
+
+/// The searches of ORCA.
+fn query_once(world: &World) {
+    let mut nearest = Nearest::default();
+    for &agent in world.neighbours.in_cell_order() {
+        let disc = world.disc(agent as usize);
+        let query = Query {
+            agent: agent as usize,
+            position_m: disc.position_m,
+            velocity_mps: disc.velocity_mps,
+            radius_m: disc.radius_m,
+            range_m: Params::default().orca.neighbour_range_m,
+            ranking: Ranking::Distance,
+        };
+        world.neighbours.nearest(&query, &mut nearest);
+        black_box(&nearest);
+    }
+}
+
+fn crowd(agents: usize, turns: &[Turn]) -> Option<Crowd> {
+    let of = |figure: fn(&Turn) -> f32| median(turns.iter().map(figure));
+    Some(Crowd {
+        agents,
+        query_us: of(|turn| turn.query_us)?,
+        orca_us: of(|turn| turn.orca_us)?,
+        mcn_us: of(|turn| turn.mcn_us)?,
+        mcn_two_threads_us: of(|turn| turn.mcn_two_threads_us)?,
+        mcn_over_orca: of(|turn| turn.mcn_us / turn.orca_us)?,
+        orca_over_query: of(|turn| turn.orca_us / turn.query_us)?,
+        two_threads: of(|turn| turn.mcn_us / turn.mcn_two_threads_us)?,
+    })
+}
+
+fn bars(crowds: &[Crowd]) -> Vec<Bar> {
+    // 100 agents meet in the middle within the time, and are no steady crowd.
+    let steady: Vec<&Crowd> = crowds.iter().filter(|crowd| crowd.agents >= CROWDS[1]).collect();
+    let worst = |figure: fn(&Crowd) -> f32, worse: fn(f64, f64) -> f64| {
+        steady.iter().map(|crowd| f64::from(figure(crowd))).reduce(worse)
+    };
+    let growth = steady.first().zip(steady.last()).map(|(first, last)| f64::from(last.mcn_us / first.mcn_us));
+    vec![
+        Bar::at_most("MCN over ORCA", MCN_OVER_ORCA, worst(|crowd| crowd.mcn_over_orca, f64::max)),
+        Bar::at_most("ORCA over its neighbour query", ORCA_OVER_QUERY, worst(|crowd| crowd.orca_over_query, f64::max)),
+        Bar::at_most("growth per agent from 1,000 to the largest crowd", GROWTH, growth),
+        Bar::at_least("speed of two threads over one", TWO_THREADS, worst(|crowd| crowd.two_threads, f64::min)),
+    ]
+}
+
+/// A jittered lattice in a disc; each is bound for the point opposite.
+fn disc(agents: usize) -> Scenario {
+    let spacing_m = DENSITY_PER_M2.sqrt().recip();
+    let half = ((agents as f32).sqrt() * 0.6) as i32 + 3;
+    let place = |index: i32| spacing_m * (index as f32 + 0.5);
+    let mut places_m: Vec<Vec2> =
+        (-half..half).flat_map(|x| (-half..half).map(move |y| Vec2::new(place(x), place(y)))).collect();
+    places_m.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    let mut random = SplitMix64::new(1, agents as u64);
+    let mut jitter_m = || spacing_m * random.within(JITTER) as f32;
+    let agents = places_m.into_iter().take(agents).map(|place_m| agent(place_m + Vec2::new(jitter_m(), jitter_m())));
+    Scenario {
+        name: "disc".to_owned(),
+        duration_s: 60.0,
+        dt_s: DT_S,
+        seed: 1,
+        planner: Planner::Mcn,
+        coupling: Coupling::TwoWay,
+        agents: agents.collect(),
+        obstacles_m: Vec::new(),
+        params: Params::default(),
+        view: View::default(),
+    }
+}
+
+fn agent(position_m: Vec2) -> AgentSpec {
+    AgentSpec {
+        position_m,
+        facing_rad: (-position_m).to_angle(),
+        goals_m: vec![-position_m],
+        radius_m: RADIUS_M,
+        preferred_speed_mps: SPEED_MPS,
+    }
+}
+
+fn pool(threads: usize) -> Result<ThreadPool, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| Failure::bad(format!("cannot start {threads} threads: {error}")))
+}
+
+fn text(details: &Details) -> String {
+    let head = "         agents  query µs  ORCA µs  MCN µs  on two threads  MCN/ORCA  ORCA/query  two threads\n";
+    let line = |crowd: &Crowd| {
+        format!(
+            "{:15}{:10.2}{:9.2}{:8.2}{:16.2}{:10.2}{:12.2}{:13.2}\n",
+            crowd.agents,
+            crowd.query_us,
+            crowd.orca_us,
+            crowd.mcn_us,
+            crowd.mcn_two_threads_us,
+            crowd.mcn_over_orca,
+            crowd.orca_over_query,
+            crowd.two_threads,
+        )
+    };
+    head.to_owned() + &details.crowds.iter().map(line).collect::<String>()
+}
