@@ -131,12 +131,14 @@ fn second_axis(tracks: &Tracks, joint: Joint, frame: usize) -> Option<DVec3> {
     }
 }
 
-/// All frames; for feet and toes those in which they lie flat.
+/// All frames; for feet and toes those in which both lie flat: a toe's joint alone is often lowest as the foot rolls off
+/// over it, when toes are bent.
 fn axis_frames(tracks: &Tracks, joint: Joint) -> Vec<usize> {
     let side = side(joint).index();
     match joint {
-        Joint::LeftFoot | Joint::RightFoot => flat_frames(tracks, &[Joint::FEET[side], Joint::TOES[side]]),
-        Joint::LeftToe | Joint::RightToe => flat_frames(tracks, &[Joint::TOES[side]]),
+        Joint::LeftFoot | Joint::RightFoot | Joint::LeftToe | Joint::RightToe => {
+            flat_frames(tracks, &[Joint::FEET[side], Joint::TOES[side]])
+        }
         _ => (0..tracks.positions_m.len()).collect(),
     }
 }

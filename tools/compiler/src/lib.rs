@@ -31,6 +31,7 @@ pub mod error;
 mod facing;
 mod first_pose;
 pub mod foot_slide;
+mod footing;
 mod frame_times;
 pub mod gait;
 pub mod gltf;

@@ -7,9 +7,11 @@
 //! children, toys and giants. Poses and root motion are those of the body that a database has: frames correspond one to
 //! one. Frames of the clip, metres, seconds.
 
+use crate::footing;
 use crate::gait::{self, Gait, GaitAnalysis, Window};
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::root_motion::{self, GroundedClip, leg_length_m};
+use crate::stance;
 use crate::stride::{BodyTrack, Stride};
 use crate::unroll;
 
@@ -36,9 +38,14 @@ pub fn analyze(clip: &HumanClip) -> Performer {
 }
 
 impl Performer {
-    /// The same clip on another body, unrolled where his is.
+    /// The same clip on another body, whose soles do not sink, unrolled where his is.
     pub fn clip_on(&self, clip: &HumanClip, body: &HumanBody) -> GroundedClip {
-        let grounded = root_motion::ground(clip, body);
+        let mut grounded = root_motion::ground(clip, body);
+        let first_frame = self.clip.loop_frames.unwrap_or(0);
+        let stances = self.gait.clearest_stances();
+        footing::stand(&mut grounded.poses, body, |side, frame| {
+            stance::stands_at(&stances[side], (first_frame + frame) as f64)
+        });
         match self.clip.loop_frames {
             Some(round) => unroll::repeat(grounded, body, round),
             None => grounded,

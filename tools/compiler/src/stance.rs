@@ -3,7 +3,11 @@
 //! Slide needs to know in which frames a foot is planted; an event of the gait is one instant. Between swing and stance
 //! the contact point ([`crate::contacts`]) is slow *and* low no more: (h/h₀)² + (v/v₀)² = 1, where h is its height over
 //! where it is in this contact and v its speed in space. Heels strike behind the ankle: the heel is one of the sole here.
-//! Frames of the clip, metres, seconds.
+//!
+//! A foot that rolls off over its toes may creep before it leaves, more so in captures of 120 frames a second, where
+//! markers on the shoe tremble. So a toe-off is no earlier than the onset of the swing: a leg swings nearly as a
+//! pendulum and gathers speed evenly, so that the tangent to its speed where that grows fastest leads back to the instant
+//! of release, whatever the frame rate and however fast the step. Frames of the clip, metres, seconds.
 
 use std::ops::Range;
 
@@ -36,6 +40,12 @@ const STRIKE_SLIDE_RATIO_MAX: f64 = 1.0;
 const OFF_SLIDE_RATIO_MAX: f64 = 1.5;
 /// A shorter lift is no swing, seconds, as in [`crate::contacts`].
 const LIFT_MIN_S: f64 = 0.1;
+/// A foot swings from this share of its greatest speed up to mid-swing on; it has gathered that within this time, seconds.
+/// Events hardly move for shares from 0.3 to 0.4; below, it may still creep, above, runners' shanks fold.
+const SWING_SPEED_SHARE: f64 = 1.0 / 3.0;
+const SWING_ONSET_S: f64 = 0.08;
+/// A foot creeps for no longer than this before it swings, seconds: what does is dragged, or turns on the spot.
+const CREEP_MAX_S: f64 = 0.05;
 /// An end is looked for in steps of a frame over this.
 const TICKS_PER_FRAME: usize = 8;
 /// A landing foot may slip or bounce once more for less than this, a leaving one drag, seconds; swings last 0.3 s and
@@ -62,6 +72,12 @@ impl Stance {
     }
 }
 
+/// Whether a foot with these stances, in order of time, stands at a frame.
+pub fn stands_at(stances: &[Stance], frame: f64) -> bool {
+    let begun = stances.partition_point(|stance| stance.strike_frame <= frame);
+    stances[..begun].last().is_some_and(|stance| frame <= stance.off_frame)
+}
+
 /// The stances of one foot, in order of time: one for each contact in `planted`. `feet` holds the heel on the sole, ball
 /// and toe tip, a value a frame.
 pub fn find(feet: &[[DVec3; 3]], planted: &[bool], frame_rate_hz: f64, body_speed_mps: f64) -> Vec<Stance> {
@@ -77,7 +93,7 @@ pub fn find(feet: &[[DVec3; 3]], planted: &[bool], frame_rate_hz: f64, body_spee
         let earliest = if index < 2 { 0 } else { middle(runs[index - 1]) };
         let latest = if index + 2 < runs.len() { middle(runs[index + 1]) } else { last };
         let strike_frame = contact.end(&at_strike, frames[1], frames[0], earliest);
-        let off_frame = contact.end(&at_off, frames[0], frames[1], latest);
+        let off_frame = contact.release(contact.end(&at_off, frames[0], frames[1], latest), latest);
         Stance {
             strike_frame: if strike_frame > 0.0 { strike_frame } else { f64::NEG_INFINITY },
             off_frame: if off_frame < frame_of(last) { off_frame } else { f64::INFINITY },
@@ -193,20 +209,63 @@ impl<'a> Contact<'a> {
         height * height + speed * speed
     }
 
+    /// When a foot that creeps from a frame on begins to swing, if it soon does so.
+    fn release(&self, creeps_frame: f64, bound: isize) -> f64 {
+        let swings_frame = self.swing_onset((creeps_frame * TICKS_PER_FRAME as f64) as isize, bound);
+        let latest_frame = frame_of(bound).min(creeps_frame + CREEP_MAX_S * self.frame_rate_hz);
+        swings_frame.min(latest_frame).max(creeps_frame)
+    }
+
+    /// The frame to which the tangent to the speed of heel and ball, of whichever is slower, leads back from where a
+    /// swing gathers speed fastest; −∞ where nothing swings between two ticks.
+    fn swing_onset(&self, from: isize, to: isize) -> f64 {
+        let speed_mps = |tick: isize| {
+            let speeds_mps = self.speeds_mps(frame_of(tick));
+            speeds_mps[0].min(speeds_mps[1])
+        };
+        let fastest_mps = (from..=to).map(speed_mps).fold(0.0, f64::max);
+        let swings = (from..=to).find(|&tick| speed_mps(tick) >= SWING_SPEED_SHARE * fastest_mps).unwrap_or(to);
+        let half_ticks = (self.half_span_frames() * TICKS_PER_FRAME as f64) as isize;
+        let gain_mps = |tick: isize| speed_mps(tick + half_ticks) - speed_mps(tick - half_ticks);
+        let before = swings - (SWING_ONSET_S * self.frame_rate_hz * TICKS_PER_FRAME as f64) as isize;
+        let steepest = (before..=swings).max_by(|a, b| gain_mps(*a).total_cmp(&gain_mps(*b))).unwrap_or(swings);
+        let gain_per_frame_mps = gain_mps(steepest) / (2.0 * frame_of(half_ticks));
+        if gain_per_frame_mps > 0.0 {
+            frame_of(steepest) - speed_mps(steepest) / gain_per_frame_mps
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
     /// Height of the lowest of the foot's points over where it is planted, and its speed; of several as low the
     /// slowest.
     fn contact_point(&self, frame: f64) -> (f64, f64) {
-        let last_frame = (self.feet.len() - 1) as f64;
-        let half_frames = 0.5 * (SPAN_S * self.frame_rate_hz).max(1.0);
-        let [before, after] = [-half_frames, half_frames].map(|frames| (frame + frames).clamp(0.0, last_frame));
-        let span_s = (after - before) / self.frame_rate_hz;
-        let [from_m, at_m, to_m] = [before, frame, after].map(|frame| self.points_m(frame));
+        let half_frames = self.half_span_frames();
+        let [from_m, at_m, to_m] =
+            [-half_frames, 0.0, half_frames].map(|frames| self.points_m(self.clamped(frame + frames)));
+        let speeds_mps = self.speeds_mps(frame);
         let point = |point: usize| {
             let height_m = 0.25 * (from_m[point].z + 2.0 * at_m[point].z + to_m[point].z) - self.heights_m[point];
-            (height_m.max(0.0), to_m[point].distance(from_m[point]) / span_s)
+            (height_m.max(0.0), speeds_mps[point])
         };
         let lower = |a: (f64, f64), b: (f64, f64)| if b < a { b } else { a };
         lower(lower(point(0), point(1)), point(2))
+    }
+
+    /// Speeds in space of the foot's points.
+    fn speeds_mps(&self, frame: f64) -> [f64; 3] {
+        let half_frames = self.half_span_frames();
+        let [before, after] = [-half_frames, half_frames].map(|frames| self.clamped(frame + frames));
+        let (from_m, to_m) = (self.points_m(before), self.points_m(after));
+        [0, 1, 2].map(|point| to_m[point].distance(from_m[point]) * self.frame_rate_hz / (after - before))
+    }
+
+    fn half_span_frames(&self) -> f64 {
+        0.5 * (SPAN_S * self.frame_rate_hz).max(1.0)
+    }
+
+    fn clamped(&self, frame: f64) -> f64 {
+        frame.clamp(0.0, (self.feet.len() - 1) as f64)
     }
 
     /// The foot's points between frames, linearly.
@@ -270,6 +329,26 @@ mod tests {
         }
     }
 
+    /// A foot at rest that creeps at 0.45 m/s from 0.45 s on, lifts and swings from 0.5 s on, and lands at 0.9 s.
+    fn creeping_foot(time_s: f64) -> [DVec3; 3] {
+        let [creeps_s, swings_s] = [(time_s.min(0.9) - 0.45).max(0.0), (time_s.min(0.9) - 0.5).max(0.0)];
+        let phase = std::f64::consts::TAU * swings_s / 0.4;
+        let ahead_m = 0.45 * (creeps_s - swings_s) + 0.6 * (swings_s / 0.4 - libm::sin(phase) / std::f64::consts::TAU);
+        let place_m = DVec3::new(ahead_m, 0.0, 0.04 * (1.0 - libm::cos(phase)));
+        [0.0, 0.15, 0.22].map(|along_m| place_m + DVec3::X * along_m)
+    }
+
+    #[test]
+    fn a_foot_that_creeps_leaves_the_ground_when_it_swings() {
+        for frame_rate_hz in [30.0, 60.0, 120.0] {
+            let feet: Vec<[DVec3; 3]> =
+                (0..(1.6 * frame_rate_hz) as usize).map(|frame| creeping_foot(frame as f64 / frame_rate_hz)).collect();
+            let contacts = contacts::find(&feet, frame_rate_hz, 1.2, 1.0);
+            let off_s = find(&feet, &contacts.planted, frame_rate_hz, 1.2)[0].off_frame / frame_rate_hz;
+            assert!((off_s - 0.5).abs() < 1.0 / 30.0, "at {frame_rate_hz} Hz: {off_s} s");
+        }
+    }
+
     #[test]
     fn a_contact_that_the_clip_cuts_has_no_such_end() {
         let feet = vec![[DVec3::ZERO; 3]; 30];
@@ -280,5 +359,6 @@ mod tests {
     fn frames_are_as_deep_in_a_stance_as_its_nearer_end_is_far() {
         let stance = Stance { strike_frame: 4.0, off_frame: 20.5 };
         assert_eq!([3.0, 6.0, 18.0, 22.0].map(|frame| stance.depth_frames(frame)), [-1.0, 2.0, 2.5, -1.5]);
+        assert_eq!([3.0, 6.0, 18.0, 22.0].map(|frame| stands_at(&[stance], frame)), [false, true, true, false]);
     }
 }

@@ -140,6 +140,14 @@ fn events_are_within_33_ms_of_what_the_labels_leave_open_at_any_rate() {
 }
 
 #[test]
+fn events_are_within_33_ms_of_the_labels_at_120_frames_a_second() {
+    let Some(found) = found("events_are_within_33_ms_of_the_labels_at_120_frames_a_second") else { return };
+    let at_120: Vec<&Found> = found.iter().filter(|found| found.label.frame_rate_hz > 119.0).collect();
+    assert!(at_120.len() > 15, "{}", at_120.len());
+    check_share(&at_120, |label| FRAME_S * label.frame_rate_hz, 1.0);
+}
+
+#[test]
 fn neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole() {
     let Some(found) = found("neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole") else { return };
     for event in ["strike", "off"] {
