@@ -74,6 +74,56 @@ fn gait_events_are_measured_against_hand_labels() {
 }
 
 #[test]
+fn planners_meet_in_the_scenes_of_a_folder() {
+    let folder = folder("bench_table1");
+    let scenes = folder.join("scenes");
+    fs::create_dir_all(&scenes).unwrap();
+    for seed in 1..=3 {
+        fs::write(scenes.join(format!("pair_s{seed}.txt")), format!("-3 0.{seed} 3 0.{seed}\n3 0 -3 0\n")).unwrap();
+    }
+    let (paths, plots) = (folder.join("paths"), folder.join("plots"));
+    let outputs = ["--trajectories", text(&paths), "--plots", text(&plots), "--json"];
+    let arguments = [&["bench", "table1", "--scenes", text(&scenes), "--seeds", "1,3"], &outputs[..]].concat();
+    let found = check_bars(&arguments);
+    assert_eq!((&found["scenes"][0]["scene"], &found["scenes"][0]["agents"]), (&"pair".into(), &2.into()));
+    let planners = found["scenes"][0]["planners"].as_array().unwrap();
+    let names: Vec<&Value> = planners.iter().map(|planner| &planner["planner"]).collect();
+    assert_eq!(names, ["mcn", "orca", "social_force", "social_force_20_substeps"]);
+    for planner in planners {
+        for key in ["collision_rate", "mean_acceleration_mps2", "mean_acceleration_before_arrival_mps2"] {
+            assert!(planner[key].is_f64() && planner[format!("{key}_sd")].is_f64(), "{key} of {planner}");
+        }
+        for key in ["arrived_share", "mean_time_to_goal_s", "body_penetration_mm", "plan_microseconds_per_agent_step"] {
+            assert!(planner[key].is_f64(), "{key} of {planner}");
+        }
+        assert!(planner["stalled"].is_u64());
+        let seeds: Vec<&Value> = planner["runs"].as_array().unwrap().iter().map(|run| &run["seed"]).collect();
+        assert_eq!(seeds, [1, 3]);
+    }
+    let lines = fs::read_to_string(paths.join("pair_s3_orca.txt")).unwrap();
+    assert_eq!((lines.lines().count(), fs::read_dir(&paths).unwrap().count()), (601, 8));
+    assert_eq!(lines.lines().next().unwrap(), "-3.000000 0.300000 3.000000 0.000000");
+    assert!(plots.join("table1.png").is_file() && plots.join("pair_s1.png").is_file());
+}
+
+#[test]
+fn a_scene_whose_agents_overlap_is_bad_input() {
+    let scenes = folder("bench_overlap");
+    fs::write(scenes.join("crowded.txt"), "0 0 5 0\n0.2 0 9 0\n").unwrap();
+    fbcrowd(&["bench", "table1", "--scenes", text(&scenes)]).expect_code(2).says(&["crowded.txt", "overlap"]);
+    fs::write(scenes.join("crowded.txt"), "0 0 5\n").unwrap();
+    fbcrowd(&["bench", "table1", "--scenes", text(&scenes)]).expect_code(2).says(&["crowded.txt", "x y goal_x goal_y"]);
+}
+
+#[test]
+fn the_antipodal_circle_is_drawn_for_three_planners() {
+    let picture = folder("bench_figure7").join("figure7.png");
+    let found = check_bars(&["bench", "figure7", "-o", text(&picture), "--json"]);
+    assert_eq!(found["scenes"][0]["planners"].as_array().unwrap().len(), 3);
+    assert!(picture.is_file());
+}
+
+#[test]
 fn planning_is_timed_beside_orca_and_its_neighbour_query() {
     let found = check_bars(&["bench", "plan", "--largest", "1000", "--json"]);
     let crowds = found["crowds"].as_array().unwrap();

@@ -115,9 +115,9 @@ impl Measuring {
         self.before.extend_from_slice(after);
     }
 
-    /// Whether every agent has come to its goal.
-    pub fn all_arrived(&self) -> bool {
-        self.roots.arrived() == self.before.len()
+    /// Whether every agent is near its last goal now; one that was and has been pushed away is not.
+    pub fn all_are_at_goals(&self) -> bool {
+        self.roots.all_are_at_goals(&self.before)
     }
 
     /// After the last frame.

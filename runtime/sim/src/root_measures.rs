@@ -128,6 +128,11 @@ impl RootMeasures {
         self.tracking_error.value()
     }
 
+    /// Whether every agent is within 0.5 m of its last goal in a frame.
+    pub fn all_are_at_goals(&self, agents: &[AgentFrame]) -> bool {
+        self.walkers.iter().zip(agents).all(|(walker, frame)| walker.is_at_goal(frame))
+    }
+
     /// Agents that came within 0.5 m of their last goal at any time.
     pub fn arrived(&self) -> usize {
         self.walkers.iter().filter(|walker| walker.arrival_s.is_some()).count()
@@ -185,8 +190,12 @@ impl Walker {
         }
     }
 
+    fn is_at_goal(&self, frame: &AgentFrame) -> bool {
+        position_m(frame).distance(self.goal_m) < ARRIVAL_M
+    }
+
     fn arrive(&mut self, frame: &AgentFrame, now_s: f64) {
-        if self.arrival_s.is_none() && position_m(frame).distance(self.goal_m) < ARRIVAL_M {
+        if self.arrival_s.is_none() && self.is_at_goal(frame) {
             self.arrival_s = Some(now_s);
             let corners_m = self.way_m.iter().copied().chain([position_m(frame)]);
             let straight_m: f64 = corners_m.clone().skip(1).zip(corners_m).map(|(to, from)| from.distance(to)).sum();

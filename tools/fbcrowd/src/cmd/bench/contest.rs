@@ -48,8 +48,8 @@ pub(super) const SOCIAL_FORCE_20: Contestant =
 #[derive(Clone, Debug, Default)]
 pub(super) struct Protocol {
     pub(super) coupling: Coupling,
-    /// Ends a run with the last arrival instead of after 60 s.
-    pub(super) until_all_arrive: bool,
+    /// Ends a run as soon as all are at their goals at once, instead of after 60 s.
+    pub(super) until_all_are_at_goals: bool,
     /// Keeps the paths, to draw them.
     pub(super) keeps_tracks: bool,
     /// Where to write the paths.
@@ -112,7 +112,7 @@ fn run(db: &Arc<MotionDb>, scene: &Scene, contestant: &Contestant, protocol: &Pr
     paths.push(simulation.frames())?;
     let mut measuring = Measuring::new(&db.skeleton, &scenario, simulation.frames());
     let (mut planning, mut steps) = (Duration::ZERO, 0);
-    while steps < step_count(&scenario) && !(protocol.until_all_arrive && measuring.all_arrived()) {
+    while steps < step_count(&scenario) && !(protocol.until_all_are_at_goals && measuring.all_are_at_goals()) {
         planning += advance(&mut simulation);
         steps += 1;
         measuring.push(simulation.frames());
