@@ -23,10 +23,12 @@ pub(super) fn text(details: &Details) -> String {
 fn table(scene: &SceneFigures) -> String {
     let seeds = scene.planners.first().map_or(0, |planner| planner.runs.len());
     let seeds = format!("{seeds} seed{}", if seeds == 1 { "" } else { "s" });
+    let of_paper = PAPER.iter().any(|(of_scene, ..)| *of_scene == scene.scene);
     let head = format!(
-        "{}: {} agents, {seeds}, mean ± deviation, the paper's in brackets\n{:<26}{:<27}{:<25}{:<17}{:>8}{:>9}{:>15}{:>17}{:>9}\n",
+        "{}: {} agents, {seeds}, mean ± deviation{}\n{:<26}{:<27}{:<25}{:<17}{:>8}{:>9}{:>15}{:>17}{:>9}\n",
         scene.scene,
         scene.agents,
+        if of_paper { ", the paper's in brackets" } else { "" },
         "planner",
         "C",
         "A, m/s²",
