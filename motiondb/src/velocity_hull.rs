@@ -77,9 +77,9 @@ pub fn half_planes(corners_mps: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
         [first, second] => Some(widened(first, second)),
         _ => None,
     };
+    let corner = move |k: usize| rectangle.map_or_else(|| corners_mps[k], |corners| corners[k]);
     let count = rectangle.map_or(corners_mps.len(), |corners| corners.len());
-    let corner = move |k: usize| rectangle.map_or_else(|| corners_mps[k % count], |corners| corners[k % count]);
-    (0..count).filter_map(move |k| half_plane(corner(k), corner(k + 1)))
+    (0..count).filter_map(move |k| half_plane(corner(k), corner(if k + 1 == count { 0 } else { k + 1 })))
 }
 
 /// p = v_i, d = (v_i − v_{i+1})/‖v_i − v_{i+1}‖; none for an edge without length.

@@ -22,12 +22,11 @@ use crate::around::Around;
 pub const NEIGHBOUR_COUNT: usize = 10;
 /// Speed at which those who keep their distance might come, m/s. Of two at equal distance, one who comes straight on at
 /// walking speed, 1.33 m/s against ours, ranks as if nearer by a factor of 3.7.
-const APPROACH_MPS: f32 = 1.0;
+pub(crate) const APPROACH_MPS: f32 = 1.0;
 /// Agents ranked at once: a vector of the narrowest x86-64.
 const VECTOR: usize = 4;
-/// What is guessed of the worst rank, as a multiple of the last searcher's: of a time, and of a squared distance.
+/// What is guessed of the worst rank, as a multiple of the last searcher's.
 const GUESS: f32 = 1.25;
-const GUESS_SQUARED: f32 = 1.8;
 /// The key of nobody: after every key of finite rank.
 const NOBODY: u64 = key(f32::INFINITY, 0);
 
@@ -172,17 +171,17 @@ impl Neighbours {
 
     /// The best-ranked agents within range.
     ///
-    /// Whoever asked last with the same working memory was most likely near, so its worst rank is a good guess of how
-    /// far to look. Where it was too low, the search is made again without.
+    /// Approachers are searched for far around, and whoever asked last with the same working memory was most likely
+    /// near: its worst rank is a good guess of how far to look. Where it was too low, the search is made again without.
     pub fn nearest(&self, query: &Query, nearest: &mut Nearest) {
         let guess = match query.ranking {
             Ranking::Approach => GUESS * nearest.worst(),
-            Ranking::Distance => GUESS_SQUARED * nearest.worst(),
+            Ranking::Distance => 0.0,
         };
         let mut ranks = std::mem::take(&mut nearest.ranks);
-        for nobody in [key(guess, u32::MAX), NOBODY] {
+        for nobody in [key(guess, u32::MAX), NOBODY].into_iter().filter(|&nobody| rank(nobody) > 0.0) {
             nearest.keys = [nobody; NEIGHBOUR_COUNT];
-            let closing_mps = query.velocity_mps.length() + self.speed_max_mps + APPROACH_MPS;
+            let closing_mps = query.velocity_mps.length_squared().sqrt() + self.speed_max_mps + APPROACH_MPS;
             let mut search = Search { query, closing_mps, keys: &mut nearest.keys, ranks: &mut ranks };
             self.search(0, nobody < NOBODY, &mut search);
             if nearest.keys[NEIGHBOUR_COUNT - 1] < nobody {
@@ -248,16 +247,23 @@ impl Neighbours {
 
     /// Offers the agents of a run of places.
     fn scan(&self, places: Range<usize>, search: &mut Search) {
+        let mut worst = search.worst();
         // All those found are in the query's own place, and agents in one place stand in order of index.
-        if search.worst() == 0.0 {
+        if worst == 0.0 {
             return;
         }
         self.rank(places.clone(), search.query, search.ranks);
-        for (lane, place) in places.enumerate() {
-            if search.ranks[lane] <= search.worst() {
+        let ranks = search.ranks.chunks_exact(VECTOR);
+        for (ranks, first) in ranks.zip(places.clone().step_by(VECTOR)) {
+            // Nearly always nobody is better, which is told for all at once.
+            if !ranks.iter().fold(false, |any, &rank| any | (rank <= worst)) {
+                continue;
+            }
+            for (&rank, place) in ranks.iter().zip(first..places.end) {
                 let agent = self.layout.agents[place];
-                if agent as usize != search.query.agent {
-                    search.offer(key(search.ranks[lane], agent));
+                if rank <= worst && agent as usize != search.query.agent {
+                    offer(search.keys, key(rank, agent));
+                    worst = self::rank(search.keys[NEIGHBOUR_COUNT - 1]);
                 }
             }
         }
@@ -269,9 +275,7 @@ impl Neighbours {
         // Whole vectors: what is left over would be ranked one by one.
         let count = places.len().next_multiple_of(VECTOR);
         let places = places.start..places.start + count;
-        if ranks.len() < count {
-            ranks.resize(count, 0.0);
-        }
+        ranks.resize(count, 0.0);
         let ranks = &mut ranks[..count];
         let (x_m, y_m) = (&self.x_m[places.clone()][..count], &self.y_m[places.clone()][..count]);
         let x_mps = &self.velocities_x_mps[places.clone()][..count];
@@ -298,16 +302,15 @@ impl Neighbours {
     }
 }
 
-impl Search<'_> {
-    /// Takes a key in where it belongs, if it does: each place keeps its own key, takes the new one, or its
-    /// predecessor's.
-    fn offer(&mut self, key: u64) {
-        for place in (1..NEIGHBOUR_COUNT).rev() {
-            self.keys[place] = self.keys[place - 1].max(self.keys[place].min(key));
-        }
-        self.keys[0] = self.keys[0].min(key);
+/// Takes a key in where it belongs, if it does: each place keeps its own key, takes the new one, or its predecessor's.
+fn offer(keys: &mut [u64; NEIGHBOUR_COUNT], key: u64) {
+    for place in (1..NEIGHBOUR_COUNT).rev() {
+        keys[place] = keys[place - 1].max(keys[place].min(key));
     }
+    keys[0] = keys[0].min(key);
+}
 
+impl Search<'_> {
     /// The rank that a candidate must not exceed.
     fn worst(&self) -> f32 {
         rank(self.keys[NEIGHBOUR_COUNT - 1])
