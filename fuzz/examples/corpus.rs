@@ -104,7 +104,7 @@ fn record(path: &Path) {
         params: Params::default(),
         view: View::default(),
     };
-    let header = Header { database_checksum: 7, skeleton: support::small_db().skeleton, scenario };
+    let header = Header::new(&support::small_db(), 7, scenario);
     let mut recorder = Recorder::create(path, &header).expect("the corpus can be written");
     for _ in 0..3 {
         recorder.push(&[AgentFrame::default(), AgentFrame::default()]).expect("finite agents");

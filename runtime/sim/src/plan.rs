@@ -3,13 +3,36 @@
 //!
 //! MCN and HMS never see each other; only `step.rs` sees both.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
+
+use crate::recording_frame::PLANTED_CONTACT;
 
 /// What synthesis tells the planner: how the body stands (`FbCrowd` §4.2).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stance {
     /// The foot that carries the body alone; none while both feet or no foot stand.
     pub foot: Option<StanceFoot>,
+}
+
+impl Stance {
+    /// How a body that faces `forward` stands on its soles (heel, ball and toe tip of each foot, in the root's frame,
+    /// metres), given the contact of each foot and when a swing foot would land, by its side.
+    pub fn on_soles(
+        soles_m: &[[Vec3; 3]; 2],
+        forward: Vec2,
+        contacts: [f32; 2],
+        time_to_landing_s: impl FnOnce(usize) -> f32,
+    ) -> Self {
+        let planted = contacts.map(|contact| contact >= PLANTED_CONTACT);
+        if planted[0] == planted[1] {
+            return Self { foot: None };
+        }
+        let side = usize::from(planted[1]);
+        let [heel_m, ball_m, toe_m] = soles_m[side].map(|point| forward.rotate(point.truncate()));
+        let swing_m = forward.rotate(soles_m[1 - side][1].truncate());
+        let time_to_landing_s = time_to_landing_s(1 - side);
+        Self { foot: Some(StanceFoot { side, heel_m, ball_m, toe_m, swing_m, time_to_landing_s }) }
+    }
 }
 
 /// A single stance foot, on the ground, relative to the root's position, in world axes, metres.

@@ -18,7 +18,9 @@ use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use glam::Vec3;
 use motiondb::atomic_file::AtomicFile;
+use motiondb::motion_db::MotionDb;
 use motiondb::skeleton::Skeleton;
+use motiondb::velocity_hull::VelocityHull;
 use serde::{Deserialize, Serialize};
 
 use crate::recording_chunk::{CHUNK_HEAD_BYTES, ChunkFile, Kind, write_chunk};
@@ -40,6 +42,8 @@ const INDEX: Kind = *b"INDX";
 const TAIL: Kind = *b"TAIL";
 /// Longer is no bone, m, and greater no angle of a joint, rad.
 const SKELETON_MAX_M: f32 = 10.0;
+/// No body of whatever size comes near, m/s.
+const SPEED_MAX_MPS: f32 = 100.0;
 /// No header of a million agents with waypoints comes near; bincode refuses to decode beyond it.
 const HEADER_LIMIT_BYTES: usize = 1 << 30;
 
@@ -50,8 +54,18 @@ pub struct Header {
     pub database_checksum: u32,
     /// The bodies: bones, soles, capsules.
     pub skeleton: Skeleton,
+    /// What the database lets a body walk at: with it, any step can be planned again.
+    pub velocity_hull: VelocityHull,
     /// The whole scenario: agents, obstacles, parameters, dt, view.
     pub scenario: Scenario,
+}
+
+impl Header {
+    /// Of a scenario that bodies from a database play.
+    pub fn new(db: &MotionDb, database_checksum: u32, scenario: Scenario) -> Self {
+        let (skeleton, velocity_hull) = (db.skeleton.clone(), db.velocity_hull.clone());
+        Self { database_checksum, skeleton, velocity_hull, scenario }
+    }
 }
 
 /// Writes a recording; without [`Recorder::finish`] nothing is left.
@@ -213,6 +227,9 @@ fn decode_header(file: &ChunkFile) -> Result<Header, RecordingError> {
     if !is_bodily(&header.skeleton) {
         return Err(file.damaged(HEAD_BYTE, "the skeleton is no body's"));
     }
+    if !is_walkable(&header.velocity_hull) {
+        return Err(file.damaged(HEAD_BYTE, "the velocities are no body's"));
+    }
     Ok(header)
 }
 
@@ -225,6 +242,12 @@ fn is_bodily(skeleton: &Skeleton) -> bool {
     let limits = skeleton.limits_rad.iter().flatten().copied();
     vectors.chain(limits).chain(points_m).all(near)
         && skeleton.segment_radii_m.iter().all(|radius_m| (0.0..=SKELETON_MAX_M).contains(radius_m))
+}
+
+/// Whether every velocity is finite and no faster than anybody runs.
+fn is_walkable(hull: &VelocityHull) -> bool {
+    let corners_mps = hull.turning_mps.iter().chain(&hull.holding_mps).chain(hull.sharp_turn_edges_mps.as_flattened());
+    corners_mps.copied().all(|corner_mps| corner_mps.is_finite() && corner_mps.length() <= SPEED_MAX_MPS)
 }
 
 /// Where each frame's chunk begins.

@@ -24,6 +24,8 @@ pub struct AgentFrame {
     pub mode: Mode,
     /// Blended contact Σ w·c of each foot, `[left, right]`; planted from [`PLANTED_CONTACT`] on.
     pub contacts: [f32; 2],
+    /// Seconds until the swing foot lands, where a single foot stands; else 0.
+    pub time_to_landing_s: f32,
     /// Velocity set in force.
     pub set: VelocitySet,
     /// Contiguous time strafing, s.
@@ -56,6 +58,7 @@ impl Default for AgentFrame {
             phase: 0.0,
             mode: Mode::Blending,
             contacts: [1.0; 2],
+            time_to_landing_s: 0.0,
             set: VelocitySet::Turning,
             strafing_s: 0.0,
             stepping_back_s: 0.0,

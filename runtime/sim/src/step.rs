@@ -174,6 +174,7 @@ impl Simulation {
                 phase: body.phase,
                 mode: body.mode,
                 contacts: synthesis.contacts,
+                time_to_landing_s: synthesis.stance.foot.map_or(0.0, |foot| foot.time_to_landing_s),
                 set: plan.set,
                 strafing_s: plan.strafing_s,
                 stepping_back_s: plan.stepping_back_s,

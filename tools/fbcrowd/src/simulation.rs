@@ -64,7 +64,7 @@ pub(crate) fn simulate(
     recording: &Path,
 ) -> Result<Timings, Failure> {
     let steps = (scenario.duration_s / scenario.dt_s).round() as usize;
-    let header = Header { database_checksum, skeleton: db.skeleton.clone(), scenario };
+    let header = Header::new(&db, database_checksum, scenario);
     let bad = |error: fbcrowd_sim::recording_error::RecordingError| Failure::bad(error.to_string());
     let mut recorder = Recorder::create(recording, &header).map_err(bad)?;
     let mut simulation = Simulation::new(Arc::new(db), &header.scenario);

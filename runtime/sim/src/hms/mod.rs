@@ -48,7 +48,7 @@ use self::playing::Playing;
 use self::semi_procedural::SemiProcedural;
 use self::space::Space;
 use crate::angle::wrap_rad;
-use crate::plan::{Plan, Stance, StanceFoot};
+use crate::plan::{Plan, Stance};
 use crate::recording_frame::{Mode, PLANTED_CONTACT};
 
 /// Feet this near to where a standing body has them are under it, m: half a small step.
@@ -303,7 +303,9 @@ impl Body {
         Synthesis {
             pose,
             contacts,
-            stance: self.stance(motion, &playing, contacts, &soles_m),
+            stance: Stance::on_soles(&soles_m, self.root.forward(), contacts, |swing| {
+                playing.time_to_landing_s(motion, self.phase, swing)
+            }),
             examples_slide_cm_s: playing.examples_slide_cm_s(motion),
         }
     }
@@ -323,25 +325,6 @@ impl Body {
             ankle_m: self.root.to_world(joints.positions_m[Joint::FEET[side].index()]),
             sole_m: joints.sole_points_m(skeleton, side).map(|point| self.root.to_world(point)),
         }
-    }
-
-    /// The single stance foot, if there is one.
-    fn stance(&self, motion: &Motion, playing: &Playing, contacts: [f32; 2], soles_m: &[[Vec3; 3]; 2]) -> Stance {
-        let planted = contacts.map(|contact| contact >= PLANTED_CONTACT);
-        if planted[0] == planted[1] {
-            return Stance { foot: None };
-        }
-        let side = usize::from(planted[1]);
-        let [heel_m, ball_m, toe_m] = soles_m[side].map(|point| self.root.forward().rotate(point.truncate()));
-        let foot = StanceFoot {
-            side,
-            heel_m,
-            ball_m,
-            toe_m,
-            swing_m: self.root.forward().rotate(soles_m[1 - side][1].truncate()),
-            time_to_landing_s: playing.time_to_landing_s(motion, self.phase, 1 - side),
-        };
-        Stance { foot: Some(foot) }
     }
 }
 

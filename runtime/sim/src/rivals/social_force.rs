@@ -13,6 +13,7 @@ use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 use super::facing_the_way;
+use crate::mcn::half_plane::Source;
 use crate::mcn::orca::Disc;
 use crate::mcn::social_force::{PowerLaw, agent_force_mps2, wall_force_mps2};
 use crate::neighbours::Ranking;
@@ -53,6 +54,15 @@ impl Default for SocialForceParams {
     }
 }
 
+/// A push, and who or what pushes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Force {
+    /// An agent or an obstacle.
+    pub source: Source,
+    /// World axes, m/s².
+    pub acceleration_mps2: Vec2,
+}
+
 /// Plans one agent's next velocity; its facing follows.
 pub fn plan(world: &World, agent: usize, params: &SocialForceParams, scratch: &mut Scratch) -> Plan {
     let range_m = params.neighbour_range_m;
@@ -63,7 +73,8 @@ pub fn plan(world: &World, agent: usize, params: &SocialForceParams, scratch: &m
     let substep_s = world.dt_s / params.substeps as f32;
     let mut own = world.disc(agent);
     for substep in 0..params.substeps {
-        let forces_mps2 = forces_mps2(world, agent, &own, substep as f32 * substep_s, params, scratch);
+        let forces = forces_on(world, agent, &own, substep as f32 * substep_s, params, scratch);
+        let forces_mps2: Vec2 = forces.map(|force| force.acceleration_mps2).sum();
         let driving_mps2 = (world.preferred_mps[agent] - own.velocity_mps) / params.relaxation_s;
         let acceleration_mps2 = (driving_mps2 + forces_mps2).clamp_length_max(params.acceleration_max_mps2);
         own.velocity_mps += substep_s * acceleration_mps2;
@@ -72,28 +83,36 @@ pub fn plan(world: &World, agent: usize, params: &SocialForceParams, scratch: &m
     facing_the_way(world, agent, own.velocity_mps, scratch)
 }
 
-/// Σ_j f_ij + Σ_W f_iW on a disc, `later` into the step.
-fn forces_mps2(
+/// f_ij and f_iW on an agent as a step begins.
+pub(crate) fn forces(world: &World, agent: usize, params: &SocialForceParams, scratch: &Scratch) -> Vec<Force> {
+    forces_on(world, agent, &world.disc(agent), 0.0, params, scratch).collect()
+}
+
+/// f_ij and f_iW on the agent's disc, `later` into the step.
+fn forces_on(
     world: &World,
     agent: usize,
     own: &Disc,
     later_s: f32,
     params: &SocialForceParams,
     scratch: &Scratch,
-) -> Vec2 {
+) -> impl Iterator<Item = Force> {
     let law = PowerLaw { strength: params.interaction_strength, horizon_s: params.interaction_horizon_s };
     let moved_m = own.position_m - world.positions_m[agent];
-    let near = |other: &usize| {
+    let near = move |other: &usize| {
         *other != agent && world.positions_m[*other].distance(world.positions_m[agent]) < params.neighbour_range_m
     };
-    let of_agents = (0..world.positions_m.len()).filter(near).map(|other| {
-        let other = world.disc(other);
+    let of_agents = (0..world.positions_m.len()).filter(near).map(move |index| {
+        let other = world.disc(index);
         let offset_m = other.position_m + later_s * other.velocity_mps - own.position_m;
-        agent_force_mps2(offset_m, own.velocity_mps - other.velocity_mps, own.radius_m + other.radius_m, &law)
+        let (velocity_mps, radius_m) = (own.velocity_mps - other.velocity_mps, own.radius_m + other.radius_m);
+        let acceleration_mps2 = agent_force_mps2(offset_m, velocity_mps, radius_m, &law);
+        Force { source: Source::Agent(index as u32), acceleration_mps2 }
     });
-    let of_walls = scratch.edges.iter().map(|near| {
+    let of_walls = scratch.edges.iter().map(move |near| {
         let ends_m = world.edge_m(agent, near.edge).map(|end_m| end_m - moved_m);
-        wall_force_mps2(ends_m, own.velocity_mps, own.radius_m, &law)
+        let acceleration_mps2 = wall_force_mps2(ends_m, own.velocity_mps, own.radius_m, &law);
+        Force { source: Source::Obstacle(near.edge), acceleration_mps2 }
     });
-    of_agents.chain(of_walls).sum()
+    of_agents.chain(of_walls)
 }

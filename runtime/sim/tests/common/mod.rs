@@ -11,6 +11,7 @@ use fbcrowd_sim::recording_frame::AgentFrame;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use glam::{Vec2, Vec3};
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
+use motiondb::velocity_hull::VelocityHull;
 
 /// A man of 1.75 m in plain numbers.
 pub fn skeleton() -> Skeleton {
@@ -61,7 +62,7 @@ pub fn header(agents: Vec<AgentSpec>, dt_s: f32) -> Header {
         params: Params::default(),
         view: View::default(),
     };
-    Header { database_checksum: 7, skeleton: skeleton(), scenario }
+    Header { database_checksum: 7, skeleton: skeleton(), velocity_hull: VelocityHull::default(), scenario }
 }
 
 /// A body standing upright at a place.

@@ -28,7 +28,7 @@ pub(super) fn bytes(db: &Arc<MotionDb>, scratch: &Scratch) -> Result<Vec<u8>, Fa
 }
 
 fn record(db: &Arc<MotionDb>, path: &Path) -> Result<(), RecordingError> {
-    let header = Header { database_checksum: 0, skeleton: db.skeleton.clone(), scenario: database::crossing() };
+    let header = Header::new(db, 0, database::crossing());
     let mut simulation = Simulation::new(Arc::clone(db), &header.scenario);
     let mut recorder = Recorder::create(path, &header)?;
     for _ in 0..STEPS {

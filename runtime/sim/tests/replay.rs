@@ -1,0 +1,83 @@
+//! A recording holds all that the planner went by: any step of it can be planned again, with the same outcome.
+
+mod clips;
+mod common;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use fbcrowd_sim::planner::Planner;
+use fbcrowd_sim::reasons::Reasons;
+use fbcrowd_sim::recording::{Header, Recorder, Recording};
+use fbcrowd_sim::replay::Replay;
+use fbcrowd_sim::scenario::Scenario;
+use fbcrowd_sim::scenario_file;
+use fbcrowd_sim::step::Simulation;
+use motiondb::motion_db::MotionDb;
+
+/// What the packing of poses and times to landing may change where the stance foot limits a velocity, m/s: 0.1 mm at the
+/// sole, 0.1 s before landing. Measured: 0.04 mm/s.
+const STANCE_TOLERANCE_MPS: f32 = 1e-3;
+
+fn scenario(name: &str, planner: Planner, duration_s: f32) -> Scenario {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/scenarios/{name}.toml"));
+    let (scenario, _) = scenario_file::read(&file).unwrap();
+    Scenario { planner, duration_s, ..scenario }
+}
+
+fn recorded(db: &Arc<MotionDb>, scenario: Scenario) -> Recording {
+    let path = common::folder(&format!("replay_{}_{:?}_{}", scenario.name, scenario.planner, scenario.duration_s))
+        .join("run.fbrec");
+    let steps = (scenario.duration_s / scenario.dt_s) as usize;
+    let mut simulation = Simulation::new(Arc::clone(db), &scenario);
+    let mut recorder = Recorder::create(&path, &Header::new(db, 0, scenario)).unwrap();
+    recorder.push(simulation.frames()).unwrap();
+    for _ in 0..steps {
+        simulation.step(&mut |_| {});
+        recorder.push(simulation.frames()).unwrap();
+    }
+    recorder.finish().unwrap();
+    Recording::open(&path).unwrap()
+}
+
+/// Every plan of a recording comes out again: bit for bit, unless a body on one foot has its stance to go by.
+fn check(recording: &Recording) {
+    let replay = Replay::new(recording);
+    let Scenario { planner, params, name, .. } = &recording.header().scenario;
+    for frame in 0..replay.step_count() {
+        let step = replay.step(frame).unwrap();
+        let world = step.world();
+        for (agent, after) in step.after.iter().enumerate() {
+            let plan = Reasons::new(*planner, &world, agent, params).plan;
+            let has_stance = *planner == Planner::Mcn && world.stances[agent].foot.is_some();
+            let tolerance_mps = if has_stance { STANCE_TOLERANCE_MPS } else { 0.0 };
+            let off_mps = plan.velocity_mps.distance(after.planned_mps);
+            assert!(off_mps <= tolerance_mps, "{name}, frame {frame}, agent {agent}: {off_mps} m/s");
+            assert_eq!(
+                (plan.set, plan.strafing_s),
+                (after.set, after.strafing_s),
+                "{name}, frame {frame}, agent {agent}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_step_of_a_recording_is_planned_again_with_the_same_outcome() {
+    let db = Arc::new(clips::bundled());
+    for (name, planner, duration_s) in [
+        ("antipodal", Planner::Mcn, 16.0),
+        ("bottleneck", Planner::Mcn, 16.0),
+        ("antipodal", Planner::Orca, 10.0),
+        ("bottleneck", Planner::Orca, 10.0),
+        ("bottleneck", Planner::SocialForce, 6.0),
+    ] {
+        check(&recorded(&db, scenario(name, planner, duration_s)));
+    }
+}
+
+#[test]
+fn so_it_is_with_bodies_from_motion_capture() {
+    let Some(db) = clips::marine("so_it_is_with_bodies_from_motion_capture") else { return };
+    check(&recorded(&Arc::new(db), scenario("antipodal", Planner::Mcn, 12.0)));
+}
