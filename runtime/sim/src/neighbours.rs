@@ -10,12 +10,14 @@
 //! and so on in turns. World, metres, seconds.
 
 mod grid;
+mod rank;
 
 use std::ops::Range;
 
 use glam::Vec2;
 
 use self::grid::{Grid, Layout, Run, Window};
+use self::rank::{NOBODY, VECTOR, key, offer, rank_of};
 use crate::around::Around;
 
 /// Neighbours taken: the number of the benchmark protocol and of RVO2 (`facts/planning.md` §3).
@@ -23,12 +25,8 @@ pub const NEIGHBOUR_COUNT: usize = 10;
 /// Speed at which those who keep their distance might come, m/s. Of two at equal distance, one who comes straight on at
 /// walking speed, 1.33 m/s against ours, ranks as if nearer by a factor of 3.7.
 pub(crate) const APPROACH_MPS: f32 = 1.0;
-/// Agents ranked at once: a vector of the narrowest x86-64.
-const VECTOR: usize = 4;
 /// What is guessed of the worst rank, as a multiple of the last searcher's.
 const GUESS: f32 = 1.25;
-/// The key of nobody: after every key of finite rank.
-const NOBODY: u64 = key(f32::INFINITY, 0);
 
 /// One neighbour found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,17 +107,6 @@ pub enum Ranking {
     Distance,
 }
 
-/// Rank and index in one number, so that ties are broken by comparing once: ranks are not negative, and such floats
-/// stand in the order of their bits.
-const fn key(rank: f32, agent: u32) -> u64 {
-    ((rank.to_bits() as u64) << 32) | agent as u64
-}
-
-/// The rank of a key.
-const fn rank(key: u64) -> f32 {
-    f32::from_bits((key >> 32) as u32)
-}
-
 impl Nearest {
     /// Best rank first.
     pub fn as_slice(&self) -> &[Neighbour] {
@@ -142,7 +129,7 @@ impl Nearest {
 
     /// The worst rank found.
     fn worst(&self) -> f32 {
-        rank(self.keys[NEIGHBOUR_COUNT - 1])
+        rank_of(self.keys[NEIGHBOUR_COUNT - 1])
     }
 }
 
@@ -179,7 +166,7 @@ impl Neighbours {
             Ranking::Distance => 0.0,
         };
         let mut ranks = std::mem::take(&mut nearest.ranks);
-        for nobody in [key(guess, u32::MAX), NOBODY].into_iter().filter(|&nobody| rank(nobody) > 0.0) {
+        for nobody in [key(guess, u32::MAX), NOBODY].into_iter().filter(|&nobody| rank_of(nobody) > 0.0) {
             nearest.keys = [nobody; NEIGHBOUR_COUNT];
             let closing_mps = query.velocity_mps.length_squared().sqrt() + self.speed_max_mps + APPROACH_MPS;
             let mut search = Search { query, closing_mps, keys: &mut nearest.keys, ranks: &mut ranks };
@@ -252,7 +239,7 @@ impl Neighbours {
         if worst == 0.0 {
             return;
         }
-        self.rank(places.clone(), search.query, search.ranks);
+        self.rank_all(&places, search.query, search.ranks);
         let ranks = search.ranks.chunks_exact(VECTOR);
         for (ranks, first) in ranks.zip(places.clone().step_by(VECTOR)) {
             // Nearly always nobody is better, which is told for all at once.
@@ -263,57 +250,31 @@ impl Neighbours {
                 let agent = self.layout.agents[place];
                 if rank <= worst && agent as usize != search.query.agent {
                     offer(search.keys, key(rank, agent));
-                    worst = self::rank(search.keys[NEIGHBOUR_COUNT - 1]);
+                    worst = rank_of(search.keys[NEIGHBOUR_COUNT - 1]);
                 }
             }
         }
     }
 
-    /// Ranks of the agents of a run of places, and of a few more: times in s, or squared distances in m²; infinite
-    /// beyond the range. The loops have no branch, so the compiler makes vector instructions of them.
-    fn rank(&self, places: Range<usize>, query: &Query, ranks: &mut Vec<f32>) {
-        // Whole vectors: what is left over would be ranked one by one.
-        let count = places.len().next_multiple_of(VECTOR);
-        let places = places.start..places.start + count;
-        ranks.resize(count, 0.0);
-        let ranks = &mut ranks[..count];
-        let (x_m, y_m) = (&self.x_m[places.clone()][..count], &self.y_m[places.clone()][..count]);
-        let x_mps = &self.velocities_x_mps[places.clone()][..count];
-        let y_mps = &self.velocities_y_mps[places][..count];
-        let Query { position_m, velocity_mps, range_m, ranking, .. } = *query;
-        let within = |rank: f32, squared: f32| if squared <= range_m * range_m { rank } else { f32::INFINITY };
-        match ranking {
-            Ranking::Distance => {
-                for lane in 0..count {
-                    let (x_m, y_m) = (x_m[lane] - position_m.x, y_m[lane] - position_m.y);
-                    let squared = x_m * x_m + y_m * y_m;
-                    ranks[lane] = within(squared, squared);
-                }
-            }
+    /// Ranks of the agents of a run of places, and of a few more: what a vector leaves over would be ranked one by one.
+    fn rank_all(&self, places: &Range<usize>, query: &Query, ranks: &mut Vec<f32>) {
+        let places = places.start..places.start + places.len().next_multiple_of(VECTOR);
+        let (x_m, y_m) = (&self.x_m[places.clone()], &self.y_m[places.clone()]);
+        ranks.resize(places.len(), 0.0);
+        match query.ranking {
+            Ranking::Distance => rank::by_distance(x_m, y_m, query, ranks),
             Ranking::Approach => {
-                for lane in 0..count {
-                    let (x_m, y_m) = (x_m[lane] - position_m.x, y_m[lane] - position_m.y);
-                    let (x_mps, y_mps) = (velocity_mps.x - x_mps[lane], velocity_mps.y - y_mps[lane]);
-                    let squared = x_m * x_m + y_m * y_m;
-                    ranks[lane] = within(approach_s(squared, x_m * x_mps + y_m * y_mps), squared);
-                }
+                let velocities = (&self.velocities_x_mps[places.clone()], &self.velocities_y_mps[places]);
+                rank::by_approach((x_m, y_m), velocities, query, ranks);
             }
         }
     }
-}
-
-/// Takes a key in where it belongs, if it does: each place keeps its own key, takes the new one, or its predecessor's.
-fn offer(keys: &mut [u64; NEIGHBOUR_COUNT], key: u64) {
-    for place in (1..NEIGHBOUR_COUNT).rev() {
-        keys[place] = keys[place - 1].max(keys[place].min(key));
-    }
-    keys[0] = keys[0].min(key);
 }
 
 impl Search<'_> {
     /// The rank that a candidate must not exceed.
     fn worst(&self) -> f32 {
-        rank(self.keys[NEIGHBOUR_COUNT - 1])
+        rank_of(self.keys[NEIGHBOUR_COUNT - 1])
     }
 
     /// Beyond this distance nobody beats the worst candidate, even straight on and as fast as the fastest.
@@ -325,14 +286,6 @@ impl Search<'_> {
         // A hair more, for rounding.
         (1.000_001 * reach_m).min(self.query.range_m)
     }
-}
-
-/// Distance / (closing speed + 1 m/s), s, multiplied out so that nobody in the same place has a rank but 0: from the
-/// square of the distance, and offset · velocity.
-fn approach_s(distance_squared: f32, closing: f32) -> f32 {
-    let closing = if closing > 0.0 { closing } else { 0.0 };
-    let across = closing + APPROACH_MPS * distance_squared.sqrt();
-    distance_squared / if across > f32::MIN_POSITIVE { across } else { f32::MIN_POSITIVE }
 }
 
 /// The columns of a row that were not visited: those left and those right of a window, or all.
@@ -365,7 +318,7 @@ mod tests {
             .map(|(offset_m, other)| {
                 let closing = (query.velocity_mps - velocities_mps[other]).dot(offset_m);
                 let rank = match query.ranking {
-                    Ranking::Approach => approach_s(offset_m.length_squared(), closing),
+                    Ranking::Approach => rank::approach_s(offset_m.length_squared(), closing),
                     Ranking::Distance => offset_m.length_squared(),
                 };
                 (rank, other as u32)
