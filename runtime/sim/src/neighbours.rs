@@ -376,6 +376,21 @@ mod tests {
         }
     }
 
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        #[test]
+        fn finds_the_same_in_a_pile_and_among_the_fast(
+            mut positions in vectors(15.0, 260), mut velocities in vectors(1.5, 260), fast in vectors(1e4, 2),
+            pile in vectors(0.05, 200),
+        ) {
+            // More than a cell of the outer grid bears, so they get a grid of their own.
+            positions[60..].copy_from_slice(&pile);
+            velocities[59..61].copy_from_slice(&fast);
+            check(&positions, &velocities, 10.0);
+        }
+    }
+
     #[test]
     fn breaks_ties_by_index_and_bears_coinciding_agents() {
         check(&[Vec2::ZERO; 30], &[Vec2::ZERO; 30], 10.0);
