@@ -64,7 +64,7 @@ pub struct Simulation {
 impl Simulation {
     /// At time 0: every agent stands at its start.
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
-        let (space, hybrid) = (Space::new(&db), Hybrid::new(&db));
+        let (space, hybrid) = (Space::new(&db), Hybrid::new(&db, scenario.params.synthesis.modes));
         let motion = Motion { db: &db, space: &space, hybrid: hybrid.as_ref(), params: &scenario.params.synthesis };
         let agents = Agents::new(scenario, &motion);
         let mut simulation = Self {

@@ -4,6 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use fbcrowd_sim::hms::hybrid::Hybrid;
+use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::scenario_error::ScenarioError;
@@ -63,6 +65,7 @@ pub(crate) fn simulate(
     scenario: Scenario,
     recording: &Path,
 ) -> Result<Timings, Failure> {
+    check_horizon(&db, &scenario)?;
     let steps = (scenario.duration_s / scenario.dt_s).round() as usize;
     let header = Header::new(&db, database_checksum, scenario);
     let bad = |error: fbcrowd_sim::recording_error::RecordingError| Failure::bad(error.to_string());
@@ -80,6 +83,21 @@ pub(crate) fn simulate(
     progress.finish();
     recorder.finish().map_err(bad)?;
     Ok(stopwatch.timings(header.scenario.agents.len(), steps, header.scenario.dt_s))
+}
+
+/// §3.4.1: the planner must look further ahead than a change of synthesis takes.
+fn check_horizon(db: &MotionDb, scenario: &Scenario) -> Result<(), Failure> {
+    let horizon_s = scenario.params.planner.time_horizon_s;
+    match Hybrid::new(db, scenario.params.synthesis.modes) {
+        Some(Hybrid { transition_s, .. }) if scenario.planner == Planner::Mcn && horizon_s <= transition_s => {
+            Err(Failure::bad(format!(
+                "the planner looks {horizon_s} s ahead, but with this database a change of synthesis takes up to \
+                 {transition_s:.2} s; give `time_horizon_s` more than that under [params.planner], or \
+                 `modes = \"blending\"` under [params.synthesis]"
+            )))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Time per stage; path and neighbours count as planning.

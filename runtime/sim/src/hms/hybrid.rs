@@ -4,6 +4,7 @@
 use motiondb::motion_db::MotionDb;
 
 use super::inertialization::CARRIED_S;
+use super::params::Modes;
 use super::semi_procedural::SemiProcedural;
 use crate::recording_frame::Mode;
 
@@ -19,9 +20,9 @@ pub struct Hybrid {
 }
 
 impl Hybrid {
-    /// None where the database has no m_sp that could be deformed.
-    pub fn new(db: &MotionDb) -> Option<Self> {
-        let found = db.correspondence.as_ref()?;
+    /// None where bodies are only to blend, or the database has no m_sp that could be deformed.
+    pub fn new(db: &MotionDb, modes: Modes) -> Option<Self> {
+        let found = db.correspondence.as_ref().filter(|_| modes != Modes::Blending)?;
         let examples = [found.semi_procedural, found.blending].map(|example| example as usize);
         let maps = examples.map(|example| &db.examples[example].phase_map);
         let pairs: Vec<[f32; 2]> =
@@ -61,7 +62,7 @@ mod tests {
 
     #[test]
     fn synthesis_switches_where_poses_are_alike_and_nowhere_else() {
-        let hybrid = Hybrid::new(&test_db()).unwrap();
+        let hybrid = Hybrid::new(&test_db(), Modes::Hybrid).unwrap();
         let steps = 400;
         let jumps: Vec<f32> = (0..steps)
             .filter_map(|step| hybrid.jump(Mode::Blending, step as f32 / 400.0, (step + 1) as f32 / 400.0))
@@ -69,6 +70,11 @@ mod tests {
         assert_eq!(jumps.len(), hybrid.pairs.len());
         assert!(jumps.iter().all(|jump| (jump + 0.5).rem_euclid(1.0) - 0.5 < 0.1));
         assert!(hybrid.transition_s > CARRIED_S && hybrid.transition_s < CARRIED_S + 1.3);
+    }
+
+    #[test]
+    fn who_is_only_to_blend_has_no_hybrid() {
+        assert!(Hybrid::new(&test_db(), Modes::Blending).is_none());
     }
 
     #[test]

@@ -202,7 +202,8 @@ impl Body {
 
     /// §3.4.1: which synthesis is wanted.
     fn choose(&mut self, motion: &Motion, hybrid: &Hybrid, plan: &Plan, dt_s: f32) {
-        let thresholds = Thresholds { transition_s: hybrid.transition_s, density: motion.params.density_threshold };
+        let HmsParams { modes, density_threshold, .. } = *motion.params;
+        let thresholds = Thresholds { modes, transition_s: hybrid.transition_s, density: density_threshold };
         let walks = !self.gait.stands && motion.space.nearest(self.intended).idle_share < gait::IDLE_SHARE_MAX;
         self.choice.follow(plan, walks, &thresholds, dt_s);
     }

@@ -2,10 +2,25 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Which syntheses a body may use (`FbCrowd` §7 compares them on its obstacle course).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Modes {
+    /// Both, by Eq. 1.
+    #[default]
+    Hybrid,
+    /// Motion blending alone.
+    Blending,
+    /// Semi-procedural locomotion alone, but for standing.
+    SemiProcedural,
+}
+
 /// Tunables of the synthesis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct HmsParams {
+    /// Which syntheses a body may use.
+    pub modes: Modes,
     /// Greatest change of the root's velocity in the body's frame, m/s². People brake and start with up to about 3.
     pub acceleration_max_mps2: f32,
     /// Greatest change of the turn rate, rad/s².
@@ -24,6 +39,7 @@ pub struct HmsParams {
 impl Default for HmsParams {
     fn default() -> Self {
         Self {
+            modes: Modes::Hybrid,
             acceleration_max_mps2: 3.0,
             turn_acceleration_max_rad_s2: 8.0,
             share_change_s: 0.25,

@@ -21,7 +21,7 @@ use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
 use motiondb::pose::{Pose, Root};
-use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
+use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
 
 use super::blending::two_rows;
 use super::foot_path::{Foothold, foot_path};
@@ -171,7 +171,12 @@ impl SemiProcedural {
         let lean_rad = lean_rad(parameters);
         lean(&mut pose, lean_rad);
         let outward_m = -self.hips_m * libm::tanf(lean_rad);
-        let feet = [0, 1].map(|side| self.carried_foot(parameters, &instant, side, outward_m));
+        let contacts = self.contacts(db, parameters, phase);
+        let feet = [0, 1].map(|side| {
+            let mut foot = self.mixed_foot(&instant, side);
+            foot.place_m += contacts[side] * instant.slip() * self.slip_m(&db.skeleton, &foot, side);
+            self.carried_foot(parameters, &foot, side, outward_m)
+        });
         for (thigh, (_, yaw_rad)) in Joint::THIGHS.into_iter().zip(feet) {
             let rotation = &mut pose.rotations[thigh.index()];
             *rotation = Quat::from_rotation_z(KNEE_YAW * yaw_rad) * *rotation;
@@ -207,32 +212,47 @@ impl SemiProcedural {
         }
     }
 
-    /// Where a foot's place has been carried to, and the yaw that its foot has got by it.
-    fn carried_foot(
-        &self,
-        parameters: Parameters,
-        instant: &Instant,
-        side: usize,
-        outward_m: f32,
-    ) -> (FootTarget, f32) {
-        let (mut since_s, mut place_m, mut orientation) = (0.0, Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0));
+    fn mixed_foot(&self, instant: &Instant, side: usize) -> Foothold {
+        let nothing = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+        let mut mixed = Foothold { since_s: 0.0, place_m: Vec3::ZERO, orientation: nothing };
         for (index, (row, weight)) in instant.rows().into_iter().enumerate() {
             let foot = &self.feet[row][side];
-            since_s += if index < 2 { weight } else { -weight } * foot.since_s;
-            place_m += weight * foot.place_m;
-            orientation += foot.orientation * weight;
+            mixed.since_s += if index < 2 { weight } else { -weight } * foot.since_s;
+            mixed.place_m += weight * foot.place_m;
+            mixed.orientation += foot.orientation * weight;
         }
+        Foothold { orientation: mixed.orientation.normalize(), ..mixed }
+    }
+
+    /// A foot's roll and its reverse turn about ball and heel: their mean slips. This far back to where the lower of
+    /// both was at mid-stance.
+    fn slip_m(&self, skeleton: &Skeleton, foot: &Foothold, side: usize) -> Vec3 {
+        let Foot { heel_m, ball_m, .. } = skeleton.feet[side];
+        let [heel_off_m, ball_off_m] = [heel_m, ball_m].map(|point_m| foot.orientation * point_m);
+        let (point_m, off_m) = if heel_off_m.z < ball_off_m.z { (heel_m, heel_off_m) } else { (ball_m, ball_off_m) };
+        let resting = self.resting(side);
+        let slip_m = resting.place_m + resting.orientation * point_m - foot.place_m - off_m;
+        Vec3::new(slip_m.x, slip_m.y, 0.0)
+    }
+
+    /// A foot at its mid-stance.
+    fn resting(&self, side: usize) -> &Foothold {
+        &self.feet[if side == 0 { PHASE_COUNT / 2 } else { 0 }][side]
+    }
+
+    /// Where a foot's place has been carried to, and the yaw that its foot has got by it.
+    fn carried_foot(&self, parameters: Parameters, foot: &Foothold, side: usize, outward_m: f32) -> (FootTarget, f32) {
         let sign = Side::BOTH[side].sign();
-        let carried = moved(&Root::default(), &parameters, since_s / self.cadence(parameters));
+        let carried = moved(&Root::default(), &parameters, foot.since_s / self.cadence(parameters));
         let toe_out_rad = sign * self.toe_out_rad(parameters);
         let yaw_rad = toe_out_rad - carried.facing_rad;
-        let middle_m = self.feet[if side == 0 { PHASE_COUNT / 2 } else { 0 }][side].place_m;
+        let middle_m = self.resting(side).place_m;
         let place_m = middle_m
-            + Quat::from_rotation_z(toe_out_rad) * (place_m - middle_m)
+            + Quat::from_rotation_z(toe_out_rad) * (foot.place_m - middle_m)
             + Vec3::new(0.0, outward_m + sign * self.widening_m(parameters), 0.0);
         let target = FootTarget {
             ankle_m: to_root(&carried, place_m),
-            orientation: Quat::from_rotation_z(yaw_rad) * orientation.normalize(),
+            orientation: Quat::from_rotation_z(yaw_rad) * foot.orientation,
         };
         (target, yaw_rad)
     }
@@ -275,6 +295,11 @@ impl Instant {
     fn new(parameters: Parameters, phase: f32) -> Self {
         let reversed = 1.0 - phase;
         Self { phases: [phase, reversed - libm::floorf(reversed)], shares: directions(parameters) }
+    }
+
+    /// How much of a slip there is to take back: 0 in either direction of time alone, 1 between both.
+    fn slip(&self) -> f32 {
+        4.0 * self.shares[0] * self.shares[1]
     }
 
     /// The stored rows about the phase, then those about the reversed one, and their weights.

@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 
 use fbcrowd_render::trails::Tracks;
 use fbcrowd_sim::cns::Coupling;
+use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::metrics::{Measures, Measuring, write_roots};
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planner::Planner;
@@ -48,6 +49,7 @@ pub(super) const SOCIAL_FORCE_20: Contestant =
 #[derive(Clone, Debug, Default)]
 pub(super) struct Protocol {
     pub(super) coupling: Coupling,
+    pub(super) modes: Modes,
     /// Ends a run as soon as all are at their goals at once, instead of after 60 s.
     pub(super) until_all_are_at_goals: bool,
     /// Keeps the paths, to draw them.
@@ -106,6 +108,7 @@ fn in_threads<T: Send>(work: impl Fn() -> Vec<T> + Sync) -> Result<Vec<T>, Failu
 fn run(db: &Arc<MotionDb>, scene: &Scene, contestant: &Contestant, protocol: &Protocol) -> Result<Run, Failure> {
     let mut params = Params::default();
     params.social_force.substeps = contestant.substeps;
+    params.synthesis.modes = protocol.modes;
     let scenario = scene.scenario(contestant.planner, protocol.coupling, params);
     let mut simulation = Simulation::new(Arc::clone(db), &scenario);
     let mut paths = Paths::begin(scene, contestant, protocol)?;

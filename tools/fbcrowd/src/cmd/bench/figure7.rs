@@ -4,12 +4,13 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use fbcrowd_sim::hms::params::Modes;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
 use super::contest::{Contestant, MCN, ORCA, Protocol, SOCIAL_FORCE, run_all};
 use super::scenes::{self, Scene};
-use super::table1::{SceneFigures, blending_database, figures};
+use super::table1::{SceneFigures, database, figures};
 use super::table1_plots::write_paths;
 use crate::failure::{Answer, Failure};
 
@@ -44,9 +45,9 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     if let Some(folder) = args.output.parent() {
         fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     }
-    let db = Arc::new(blending_database(args.database.as_deref())?);
+    let db = Arc::new(database(args.database.as_deref())?);
     let scenes: Vec<Scene> = scenes::bundled(&[SEED])?.into_iter().filter(|scene| scene.name == SCENE).collect();
-    let protocol = Protocol { keeps_tracks: true, ..Protocol::default() };
+    let protocol = Protocol { modes: Modes::Blending, keeps_tracks: true, ..Protocol::default() };
     let runs = run_all(&db, &scenes, &CONTESTANTS, &protocol)?;
     for scene in &scenes {
         write_paths(&args.output, scene, &CONTESTANTS, &runs)?;

@@ -7,6 +7,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::metrics::Measures;
 use motiondb::file;
 use motiondb::motion_db::MotionDb;
@@ -56,6 +57,9 @@ pub(super) struct Args {
     /// Write the table as a picture, and the paths of each scene's first seed.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+    /// Let bodies change between blending and semi-procedural locomotion instead of blending alone.
+    #[arg(long)]
+    hybrid: bool,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -106,9 +110,14 @@ pub(super) struct RunFigures {
 }
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
-    let db = Arc::new(blending_database(args.database.as_deref())?);
-    let protocol =
-        Protocol { keeps_tracks: args.plots.is_some(), trajectories: args.trajectories.clone(), ..Protocol::default() };
+    let db = Arc::new(database(args.database.as_deref())?);
+    let protocol = Protocol {
+        // As in the paper's comparison; none of the planners gains by the hybrid.
+        modes: if args.hybrid { Modes::Hybrid } else { Modes::Blending },
+        keeps_tracks: args.plots.is_some(),
+        trajectories: args.trajectories.clone(),
+        ..Protocol::default()
+    };
     if args.discs {
         return table1_discs::run(&db, &args.seeds, protocol, args.json);
     }
@@ -126,11 +135,9 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     conclude(&Found { goals: goals(&details), details, bars }, &text, args.json)
 }
 
-/// Bodies that are blended alone, as in the paper's comparison: without correspondences synthesis stays with blending,
-/// however near a collision is, and none of the planners gains by the hybrid.
-pub(super) fn blending_database(path: Option<&Path>) -> Result<MotionDb, Failure> {
-    let db = path.map_or_else(bundled, |path| Ok(file::load(path)?.0))?;
-    Ok(MotionDb { correspondence: None, ..db })
+/// The database at a path, or that of the bundled clips.
+pub(super) fn database(path: Option<&Path>) -> Result<MotionDb, Failure> {
+    path.map_or_else(bundled, |path| Ok(file::load(path)?.0))
 }
 
 /// Averages runs that came by scene and contestant over the seeds of each scene's name, in order of first appearance.
