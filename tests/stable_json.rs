@@ -7,6 +7,20 @@ use std::fs;
 use serde_json::Value;
 use support::{compile, fbcrowd, folder, repository, text};
 
+/// What is told of an example's motion, by `compile` and by `validate`.
+const QUALITY: [&str; 10] = [
+    "example",
+    "planted_slide_cm_s",
+    "planted_share",
+    "seam_angle_ratio",
+    "seam_velocity_ratio",
+    "penetration_mm",
+    "knee_flexion_min_deg",
+    "leg_extension_max",
+    "range_excess_deg",
+    "range_excess_joint",
+];
+
 /// Fails unless an object has exactly these keys.
 #[track_caller]
 fn check_keys(value: &Value, keys: &[&str]) {
@@ -137,19 +151,7 @@ fn validate_lists_checks_findings_and_figures() {
         "correspondences_are_cyclic",
     ];
     assert_eq!(names, invariants);
-    let figures = [
-        "example",
-        "planted_slide_cm_s",
-        "planted_share",
-        "seam_angle_ratio",
-        "seam_velocity_ratio",
-        "penetration_mm",
-        "knee_flexion_min_deg",
-        "leg_extension_max",
-        "range_excess_deg",
-        "range_excess_joint",
-    ];
-    check_keys(&report["quality"][0], &figures);
+    check_keys(&report["quality"][0], &QUALITY);
     assert_eq!(report["quality"][0]["example"], "idle");
 }
 
@@ -238,19 +240,7 @@ fn compile_reports_every_clip_once_with_quality_stages_and_what_to_do() {
     check_keys(&report["used"][0], &["file", "clip", "examples"]);
     let of_example = ["name", "mirrored", "window_s", "speed_mps", "turn_rate_rad_s", "strafe_mps"];
     check_keys(&report["used"][0]["examples"][0], &of_example);
-    let of_quality = [
-        "example",
-        "planted_slide_cm_s",
-        "planted_share",
-        "seam_angle_ratio",
-        "seam_velocity_ratio",
-        "penetration_mm",
-        "knee_flexion_min_deg",
-        "leg_extension_max",
-        "range_excess_deg",
-        "range_excess_joint",
-    ];
-    check_keys(&report["quality"][0], &of_quality);
+    check_keys(&report["quality"][0], &QUALITY);
     check_keys(&report["stages"][0], &["name", "seconds"]);
     assert_eq!((&report["example_count"], &report["mirror_count"]), (&Value::from(2), &Value::from(1)));
     assert_eq!(report["used"].as_array().map(Vec::len), Some(1));

@@ -123,6 +123,10 @@ fn straight(db: &MotionDb) -> impl Iterator<Item = f32> {
 fn gaits(db: &MotionDb) -> Vec<ThinPlace> {
     let stands = db.examples.iter().any(|example| example.key_times_s.is_none());
     let fastest_mps = straight(db).fold(0.0, f32::max);
+    let runs = match fastest_mps > 0.0 {
+        true => format!("No clip runs straight on: the fastest makes {fastest_mps:.2} m/s."),
+        false => "No clip runs straight on.".to_owned(),
+    };
     let lacks = [
         (stands, Lack::Standing, "No clip stands: bodies never stop.".to_owned()),
         (
@@ -130,11 +134,7 @@ fn gaits(db: &MotionDb) -> Vec<ThinPlace> {
             Lack::Walking,
             "No clip walks straight on.".to_owned(),
         ),
-        (
-            fastest_mps >= RUN_MPS,
-            Lack::Running,
-            format!("No clip runs straight on: the fastest makes {fastest_mps:.2} m/s."),
-        ),
+        (fastest_mps >= RUN_MPS, Lack::Running, runs),
         (
             straight(db).any(|speed| speed < -MOVES_MPS),
             Lack::Backward,

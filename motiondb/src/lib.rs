@@ -22,6 +22,7 @@ pub mod input_file;
 pub mod joint_ranges;
 pub mod lattice;
 pub mod locator;
+pub mod median;
 pub mod motion_db;
 pub mod parameters;
 mod parser_words;

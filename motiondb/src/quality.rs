@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::coverage::RUN_MPS;
 use crate::joint_ranges::JOINT_RANGES_DEG;
+use crate::median::median;
 use crate::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
 use crate::parameters::Parameters;
 use crate::pose::Joints;
@@ -137,17 +138,16 @@ fn seam(turns: &[[Vec3; JOINT_COUNT]]) -> [f32; 2] {
         .map(|row| rms(turns[row].iter().zip(before(row)).map(|(after, before)| after - before)))
         .collect();
     let last = PHASE_COUNT - 1;
-    [angles[last] / median(&angles), changes[last].max(changes[0]) / median(&changes)]
+    [angles[last] / usual_step(&angles), changes[last].max(changes[0]) / usual_step(&changes)]
 }
 
 fn rms(vectors: impl Iterator<Item = Vec3>) -> f32 {
     libm::sqrtf(vectors.map(Vec3::length_squared).sum::<f32>() / JOINT_COUNT as f32)
 }
 
-fn median(steps: &[f32]) -> f32 {
-    let mut sorted = steps.to_vec();
-    sorted.sort_by(f32::total_cmp);
-    sorted[sorted.len() / 2].max(SEAM_STEP_MIN_RAD)
+fn usual_step(steps: &[f32]) -> f32 {
+    let median = median(steps.iter().copied().map(f64::from)).unwrap_or_default() as f32;
+    median.max(SEAM_STEP_MIN_RAD)
 }
 
 fn penetration_mm(rows: &[Joints], skeleton: &Skeleton) -> f32 {

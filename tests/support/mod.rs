@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use motiondb_compiler::truth::marine_files;
 use serde_json::Value;
 
 /// What a command did.
@@ -91,27 +92,10 @@ pub fn shared(test: &str, name: &str) -> Option<PathBuf> {
     None
 }
 
-/// The twelve recordings that make the paper's 19 examples (`FbCrowd` §6; Shapiro 2011).
-pub const MARINE: [&str; 12] = [
-    "Idle01",
-    "Jog01",
-    "Meander01",
-    "Run01",
-    "RunCircleRt01",
-    "RunTightCircleRt01",
-    "StrafeFastRt01",
-    "StrafeSlowRt01",
-    "Turn360Rt01",
-    "Walk01",
-    "WalkCircleRt01",
-    "WalkTightCircleRt01",
-];
-
-/// Paths of the twelve.
+/// Paths of the twelve recordings that make the paper's 19 examples.
 pub fn marine_clips(test: &str) -> Option<Vec<String>> {
-    let folder = shared(test, "mocap/smartbody_converted")?;
-    let path = |name: &&str| text(&folder.join(format!("ChrMarine_{name}.bvh"))).to_owned();
-    Some(MARINE.iter().map(path).collect())
+    let mocap = shared(test, "mocap")?;
+    Some(marine_files(&mocap).iter().map(|path| text(path).to_owned()).collect())
 }
 
 /// Compiles clips into `folder/motion.fbdb`.

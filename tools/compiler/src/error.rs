@@ -68,11 +68,8 @@ impl ImportError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// Nothing to measure.
-    #[error("only {frames} frame(s): a motion needs at least {MIN_FRAMES}; export the whole clip")]
-    TooShort {
-        /// Frames there are.
-        frames: usize,
-    },
+    #[error("only one frame: a motion needs at least {MIN_FRAMES}; export the whole clip")]
+    TooShort,
     /// An animation of shapes, materials or props.
     #[error("no joint moves: it animates shapes, materials or props; export the skeleton's motion")]
     Motionless,

@@ -7,12 +7,13 @@
 
 use std::collections::VecDeque;
 
+use motiondb::median::median;
+
 use crate::alignment::Alignment;
 use crate::analysis::{Analyzed, SteadyWindow};
 use crate::foot_slide;
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::root_motion::leg_length_m;
-use crate::source_parameters::median;
 use crate::units::HUMAN_LEG_M;
 
 /// Swing of a person's foot, s: the median over 102 examples of walking, running, side-stepping, turning and going
@@ -37,9 +38,7 @@ pub(crate) fn implausibilities(
             let told_s = analyzed[clip].windows.iter().filter_map(|window| swing_s(window, body));
             told_s.map(move |swing_s| pace * swing_s / leg)
         });
-        let swings: Vec<f64> = swings.collect();
-        if !swings.is_empty() {
-            let swing_s = median(swings.into_iter());
+        if let Some(swing_s) = median(swings) {
             take.iter().for_each(|&(clip, pace)| implausible[clip] = libm::log(swing_s / pace / HUMAN_SWING_S).abs());
         }
     }

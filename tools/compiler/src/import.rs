@@ -157,6 +157,8 @@ fn import_clip(clip: SourceClip, take: &Take, several: bool) -> Import {
     let stem = take.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let label = take.settings.name.clone().unwrap_or(stem);
     let name = if several { format!("{label} {}", clip.clip) } else { label };
+    // It heads the lines of tables.
+    let name = name.replace(char::is_control, "_");
     Import { file: clip.file.clone(), clip: clip.clip.clone(), outcome: to_human(clip, &take.settings, name) }
 }
 
@@ -178,7 +180,7 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
     }
     settings.correct(&mut clip)?;
     if clip.frame_count() < MIN_FRAMES {
-        return Err(Refusal::TooShort { frames: clip.frame_count() });
+        return Err(Refusal::TooShort);
     }
     let mut roles = find_roles(&clip, &settings.joint_map(&clip)?)?;
     if is_unturned(&clip, &roles) {

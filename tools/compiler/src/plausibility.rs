@@ -5,6 +5,7 @@
 //! of 1/120 s comes out at 4. Legs of another length step longer by that length, at a cadence of its root less.
 
 use glam::DVec2;
+use motiondb::median::median;
 use motiondb::skeleton::Joint;
 
 use crate::error::Refusal;
@@ -13,7 +14,7 @@ use crate::remark::FRAME_TIME_QUESTION;
 use crate::root_motion::leg_length_m;
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;
-use crate::source_parameters::{WholeClip, facing_rad, median};
+use crate::source_parameters::{WholeClip, facing_rad};
 use crate::tread;
 use crate::units::{HUMAN_LEG_M, leg_length, middle};
 
@@ -77,11 +78,11 @@ pub(crate) fn implausible_gait(clip: &SourceClip, roles: &Roles, whole: &WholeCl
     if steps.len() < STEPS_MIN {
         return None;
     }
-    let step_s = median(steps.iter().map(|(from, to)| (to - from) as f64)) / clip.frame_rate_hz;
+    let step_s = median(steps.iter().map(|(from, to)| (to - from) as f64))? / clip.frame_rate_hz;
     let hips = |frame: usize| middle(clip, roles, Joint::THIGHS, frame).truncate();
     let step_m = match whole.in_place {
         true => whole.speed_mps.abs() * step_s,
-        false => median(steps.iter().map(|&(from, to)| (hips(to) - hips(from)).length())),
+        false => median(steps.iter().map(|&(from, to)| (hips(to) - hips(from)).length()))?,
     };
     let (human_step_cm, human_cadence) = (100.0 * step_m / scale, 60.0 / step_s * scale.sqrt());
     let cadence_max = if walks(clip, roles, whole) { WALK_CADENCE_MAX_PER_MIN } else { CADENCE_MAX_PER_MIN };

@@ -7,6 +7,8 @@
 use std::hint::black_box;
 use std::path::Path;
 
+use motiondb::median;
+
 use crate::error::ImportError;
 use crate::{bvh, bvh_prepass, quiet_unwind};
 
@@ -35,6 +37,7 @@ pub fn race(file: &Path, bytes: &[u8], times: usize, clock: &dyn Fn() -> f64) ->
         ours_s.push(seconds(clock, || drop(black_box(bvh::read(file, bytes)))));
         alone_s.push(seconds(clock, || drop(black_box(bvh_anim::from_bytes(digestible)))));
     }
+    let median = |times_s: Vec<f64>| median::median(times_s).unwrap_or(f64::NAN);
     Ok(Race { ours_s: median(ours_s), alone_s: median(alone_s) })
 }
 
@@ -42,9 +45,4 @@ fn seconds(clock: &dyn Fn() -> f64, work: impl FnOnce()) -> f64 {
     let start_s = clock();
     work();
     clock() - start_s
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

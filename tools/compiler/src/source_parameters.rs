@@ -101,11 +101,3 @@ fn extent_m(points: &[DVec2]) -> f64 {
     let most = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     (most - least).length()
 }
-
-/// The middle value; the mean of the two middle ones of an even number.
-pub(crate) fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
-}

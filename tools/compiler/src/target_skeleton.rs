@@ -5,6 +5,7 @@
 
 use glam::{DVec3, Vec3};
 use motiondb::joint_ranges::JOINT_RANGES_DEG;
+use motiondb::median::median;
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
 
 use crate::anthropometry::SEGMENT_RADII_PER_STATURE;
@@ -23,8 +24,8 @@ pub fn choose(clips: &[HumanClip]) -> HumanBody {
     };
     let candidates = [bodies_of(&|clip| clip.choices.is_target_skeleton), bodies_of(&human), bodies_of(&|_| true)];
     let bodies = candidates.into_iter().find(|bodies| !bodies.is_empty()).unwrap_or_default();
-    let offsets_m = symmetric(&std::array::from_fn(|joint| median(&bodies, |body| body.offsets_m[joint])));
-    let segment_ends_m = symmetric(&std::array::from_fn(|joint| median(&bodies, |body| body.segment_ends_m[joint])));
+    let offsets_m = symmetric(&std::array::from_fn(|joint| middle(&bodies, |body| body.offsets_m[joint])));
+    let segment_ends_m = symmetric(&std::array::from_fn(|joint| middle(&bodies, |body| body.segment_ends_m[joint])));
     let soles_m = median_feet(&bodies, |body| body.soles_m);
     // One body is measured in one way: on the sole where every clip shows it, else at the joints of those that do not.
     let at_joints: Vec<&HumanBody> = bodies.iter().copied().filter(|body| body.measured_m != body.soles_m).collect();
@@ -33,13 +34,9 @@ pub fn choose(clips: &[HumanClip]) -> HumanBody {
 }
 
 /// Median of each component.
-fn median(bodies: &[&HumanBody], vector: impl Fn(&HumanBody) -> DVec3) -> DVec3 {
-    DVec3::from_array(std::array::from_fn(|axis| {
-        let mut values: Vec<f64> = bodies.iter().map(|body| vector(body)[axis]).collect();
-        values.sort_by(f64::total_cmp);
-        let count = values.len();
-        0.5 * (values[(count - 1) / 2] + values[count / 2])
-    }))
+fn middle(bodies: &[&HumanBody], vector: impl Fn(&HumanBody) -> DVec3) -> DVec3 {
+    let component = |axis: usize| median(bodies.iter().map(|body| vector(body)[axis]));
+    DVec3::from_array([0, 1, 2].map(|axis| component(axis).expect("a set of clips has a body")))
 }
 
 const MIRROR: DVec3 = DVec3::new(1.0, -1.0, 1.0);
@@ -51,8 +48,8 @@ fn symmetric(vectors: &[DVec3; JOINT_COUNT]) -> [DVec3; JOINT_COUNT] {
 
 /// Median points of both feet, each averaged with its mirror image.
 fn median_feet(bodies: &[&HumanBody], points: impl Fn(&HumanBody) -> [[DVec3; 3]; 2]) -> [[DVec3; 3]; 2] {
-    let median = |side: usize, point: usize| median(bodies, |body| points(body)[side][point]);
-    [0, 1].map(|side| [0, 1, 2].map(|point| 0.5 * (median(side, point) + MIRROR * median(1 - side, point))))
+    let middle = |side: usize, point: usize| middle(bodies, |body| points(body)[side][point]);
+    [0, 1].map(|side| [0, 1, 2].map(|point| 0.5 * (middle(side, point) + MIRROR * middle(1 - side, point))))
 }
 
 /// The database's skeleton: bones, girths by stature, joint limits that hold every cycle.

@@ -17,12 +17,13 @@
 use std::ops::Range;
 
 use glam::DVec2;
+use motiondb::median::median;
 use motiondb::skeleton::Joint;
 
 use crate::contacts::runs;
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;
-use crate::source_parameters::{facing_rad, heading, in_body, median};
+use crate::source_parameters::{facing_rad, heading, in_body};
 use crate::units::{HUMAN_LEG_M, leg_length};
 
 /// A ball higher than this over where it stands has no vote, m for a person's leg. Twice the definition's height of
@@ -135,7 +136,8 @@ impl<'a> Tread<'a> {
         stance.sort_by(|a, b| a.0.total_cmp(&b.0));
         stance.truncate(1 + ((stance.len() - 1) as f64 * ANKLE_STANCE_SHARE) as usize);
         let slides: Vec<DVec2> = stance.iter().map(|&(_, frame, ankle)| self.slide(ankle, frame)).collect();
-        DVec2::new(median(slides.iter().map(|slide| slide.x)), median(slides.iter().map(|slide| slide.y)))
+        let middle = |axis: usize| median(slides.iter().map(|slide| slide[axis])).unwrap_or_default();
+        DVec2::new(middle(0), middle(1))
     }
 
     fn planted_height(&self, joint: usize) -> f64 {

@@ -6,7 +6,7 @@
 //! under a second are not judged.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use motiondb::motion_db::SourceRecord;
@@ -25,6 +25,22 @@ const ELBOWS_AS_SHOULDERS: [&str; 4] = ["bandai_namco/", "gltf/kaykit", "gltf/Ro
 const JUDGED_FROM_S: f64 = 1.0;
 /// Units agree to this share.
 const UNIT_TOLERANCE: f64 = 1e-5;
+
+/// The recordings that make the paper's 19 examples (`FbCrowd` §6; Shapiro 2011).
+const MARINE: [&str; 12] = [
+    "Idle01",
+    "Jog01",
+    "Meander01",
+    "Run01",
+    "RunCircleRt01",
+    "RunTightCircleRt01",
+    "StrafeFastRt01",
+    "StrafeSlowRt01",
+    "Turn360Rt01",
+    "Walk01",
+    "WalkCircleRt01",
+    "WalkTightCircleRt01",
+];
 
 /// One row of human locomotion.
 #[derive(Clone, Debug)]
@@ -109,6 +125,11 @@ pub fn by_elbows(clip: SourceClip) -> Result<[f64; 3], Refusal> {
     }
     let whole = source_parameters::measure(&clip, &roles);
     Ok([whole.speed_mps, whole.turn_rate_rad_s.to_degrees(), whole.strafe_mps])
+}
+
+/// The paper's own clips, of a folder of clips.
+pub fn marine_files(mocap: &Path) -> Vec<PathBuf> {
+    MARINE.iter().map(|name| mocap.join(format!("smartbody_converted/ChrMarine_{name}.bvh"))).collect()
 }
 
 /// The rows of human locomotion of a folder's `index.csv`.

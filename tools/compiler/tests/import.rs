@@ -82,7 +82,7 @@ fn what_is_no_human_motion_is_refused_by_name_and_reason() {
         assert!(matches!(imports[0].outcome, Err(Refusal::NoLegs { .. })), "{toy}");
     }
     let arm = import(&folder.join("quirks/arm_no_newline.bvh")).unwrap();
-    assert!(matches!(arm[0].outcome, Err(Refusal::TooShort { frames: 1 })));
+    assert!(matches!(arm[0].outcome, Err(Refusal::TooShort)));
     for (file, place) in [("no_frames_header.bvh", "line "), ("no_motion_section_b.bvh", "line 185")] {
         let message = import(&folder.join("quirks").join(file)).unwrap_err().to_string();
         assert!(message.contains(file) && message.contains(place), "{message}");

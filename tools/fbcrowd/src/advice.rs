@@ -34,7 +34,11 @@ fn with_database(report: &CompileReport, output: &str) -> Vec<String> {
     if !report.coverage.is_empty() {
         next.push("Add clips where the set is thin; without them bodies do what is nearest.".to_owned());
     }
-    next.push(format!("See how well each example follows from the others: fbcrowd inspect {output} --leave-one-out"));
+    if report.example_count - report.mirror_count > 2 {
+        next.push(format!(
+            "See how near each comes to a blend of the others: fbcrowd inspect {output} --leave-one-out"
+        ));
+    }
     next.push(format!("Let a crowd walk: fbcrowd simulate SCENARIO.toml --db {output} -o crowd.fbrec"));
     next
 }

@@ -10,6 +10,7 @@ use motiondb_compiler::remark::{Weight, bare, weight};
 use crate::compile_report::{CompileReport, Reason};
 use crate::example_table;
 use crate::grouping::group;
+use crate::output::one_line;
 
 /// Lines of a section, and clips named in a sentence; what follows is counted.
 const SHOWN_LINES: usize = 100;
@@ -26,10 +27,10 @@ pub(crate) fn text(report: &CompileReport) -> String {
         headline(report),
         section("refused", grouped(report.refused.iter().map(said))),
         section("no example", grouped(report.unused.iter().map(said))),
-        section("warnings", warnings(report)),
+        section("warnings", grouped(remarked(report, Weight::Warning))),
         section(EXAMPLES, example_table::lines(report)),
         section("quality", grouped(findings(report))),
-        section("notes: nothing to do", grouped(notes(report))),
+        section("notes: nothing to do", grouped(remarked(report, Weight::Note))),
         section("where the set is thin", report.coverage.iter().map(|thin| thin.sentence.clone()).collect()),
         section("next", report.next.clone()),
     ];
@@ -40,7 +41,7 @@ pub(crate) fn text(report: &CompileReport) -> String {
 pub(crate) fn reasons(report: &CompileReport) -> String {
     section("refused", grouped(report.refused.iter().map(said)))
         + &section("no example", grouped(report.unused.iter().map(said)))
-        + &section("warnings", warnings(report))
+        + &section("warnings", grouped(remarked(report, Weight::Warning)))
 }
 
 /// What is said of clips, by weight: which give no example, what is doubtful, what is only noted.
@@ -63,41 +64,40 @@ fn last_line(report: &CompileReport) -> String {
     format!(
         "{}: {} ({} of them mirrored) from {}, {}",
         report.output.as_deref().unwrap_or("nothing written"),
-        counted(report.example_count, "example"),
+        counted(report.example_count, "example", "examples"),
         report.mirror_count,
-        counted(clips, "clip"),
-        simplices(report.simplex_count),
+        counted(clips, "clip", "clips"),
+        counted(report.simplex_count, "simplex", "simplices"),
     )
 }
 
 fn headline(report: &CompileReport) -> String {
     let all = report.used.len() + report.unused.len() + report.refused.len();
-    let warned = warnings(report).len();
+    let mut warned: Vec<String> = remarked(report, Weight::Warning).map(|(clip, _)| clip).collect();
+    warned.dedup();
     let counts = format!(
-        "{}: {} used, {} without example, {} refused; {warned} with warnings\n",
-        counted(all, "clip"),
+        "{}: {} used, {} without example, {} refused; {} with warnings\n",
+        counted(all, "clip", "clips"),
         report.used.len(),
         report.unused.len(),
         report.refused.len(),
+        warned.len(),
     );
     let made = format!(
         "{}: {} recorded, {} mirrored; {}\n",
-        counted(report.example_count, "example"),
+        counted(report.example_count, "example", "examples"),
         report.example_count - report.mirror_count,
         report.mirror_count,
-        simplices(report.simplex_count),
+        counted(report.simplex_count, "simplex", "simplices"),
     );
     let total_s: f64 = report.stages.iter().map(|stage| stage.seconds).sum();
     let stages = report.stages.iter().map(|stage| format!("{} {:.2}", stage.name, stage.seconds));
     counts + &made + &format!("{total_s:.2} s: {}\n", stages.collect::<Vec<_>>().join(", "))
 }
 
-fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
-
-fn simplices(count: usize) -> String {
-    if count == 1 { "1 simplex".to_owned() } else { format!("{count} simplices") }
+/// "1 simplex", "2 simplices".
+pub(crate) fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 /// A file and its clip, as one name.
@@ -114,7 +114,7 @@ fn section(head: &str, lines: Vec<String>) -> String {
     if lines.is_empty() {
         return String::new();
     }
-    let shown = lines.iter().take(SHOWN_LINES).map(|line| format!("  {line}\n")).collect::<String>();
+    let shown: String = lines.iter().take(SHOWN_LINES).map(|line| format!("  {}\n", one_line(line))).collect();
     let more = match lines.len().saturating_sub(SHOWN_LINES) {
         0 => String::new(),
         more => format!("  … and {more} more: --json has all\n"),
@@ -151,24 +151,12 @@ fn wrapped(names: &[String]) -> Vec<String> {
     lines
 }
 
-/// One line a clip.
-fn warnings(report: &CompileReport) -> Vec<String> {
-    let mut lines: Vec<(String, Vec<&str>)> = Vec::new();
-    for warning in report.warnings.iter().filter(|warning| !warning.note) {
-        let title = title(&warning.file, &warning.clip);
-        match lines.last_mut() {
-            Some((clip, texts)) if *clip == title => texts.push(&warning.text),
-            _ => lines.push((title, vec![&warning.text])),
-        }
-    }
-    lines.into_iter().map(|(title, texts)| format!("{title}: {}", texts.join("; "))).collect()
-}
-
 fn findings(report: &CompileReport) -> impl Iterator<Item = (String, String)> {
     report.findings.iter().map(|finding| (finding.example.clone(), finding.sentence.clone()))
 }
 
-fn notes(report: &CompileReport) -> impl Iterator<Item = (String, String)> {
-    let notes = report.warnings.iter().filter(|warning| warning.note);
-    notes.map(|note| (title(&note.file, &note.clip), note.text.clone()))
+/// Clips, and what is said of them: in warning, or only noted.
+fn remarked(report: &CompileReport, weight: Weight) -> impl Iterator<Item = (String, String)> {
+    let remarks = report.warnings.iter().filter(move |remark| remark.note == (weight == Weight::Note));
+    remarks.map(|remark| (title(&remark.file, &remark.clip), remark.text.clone()))
 }

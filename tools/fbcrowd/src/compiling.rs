@@ -21,23 +21,7 @@ const MANIFEST: &str = "manifest.toml";
 
 /// The clips that paths mean, each once: files as they are, folders by their manifest, else by what lies below them.
 fn manifest(paths: &[PathBuf]) -> Result<Manifest, Failure> {
-    let (mut files, mut manifests) = (Vec::new(), Vec::new());
-    for path in paths {
-        let inside = path.join(MANIFEST);
-        if path.extension().is_some_and(|extension| extension == "toml") {
-            manifests.push(path.clone());
-        } else if inside.is_file() {
-            manifests.push(inside);
-        } else if path.is_dir() {
-            files.extend(import::clip_files(path).map_err(|error| Failure::bad(error.to_string()))?);
-        } else {
-            files.push(path.clone());
-        }
-    }
-    files.sort();
-    files.dedup();
-    manifests.sort();
-    manifests.dedup();
+    let (files, manifests) = files_and_manifests(paths)?;
     let mut manifest = match &manifests[..] {
         [] => Manifest::default(),
         [only] => Manifest::read(only)?,
@@ -58,6 +42,28 @@ fn manifest(paths: &[PathBuf]) -> Result<Manifest, Failure> {
         }
         ([], []) => "no clips; name files or folders".to_owned(),
     }))
+}
+
+/// What paths mean, sorted.
+fn files_and_manifests(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), Failure> {
+    let (mut files, mut manifests) = (Vec::new(), Vec::new());
+    for path in paths {
+        let inside = path.join(MANIFEST);
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            manifests.push(path.clone());
+        } else if inside.is_file() {
+            manifests.push(inside);
+        } else if path.is_dir() {
+            files.extend(import::clip_files(path).map_err(|error| Failure::bad(error.to_string()))?);
+        } else {
+            files.push(path.clone());
+        }
+    }
+    for paths in [&mut files, &mut manifests] {
+        paths.sort();
+        paths.dedup();
+    }
+    Ok((files, manifests))
 }
 
 /// What the command line wants of the whole set; it counts more than a manifest.

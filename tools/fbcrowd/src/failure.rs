@@ -16,6 +16,8 @@ use crate::{compile_text, output};
 
 /// The text around a mistake is shown only where all its lines are shorter: nobody reads longer ones.
 const SHOWN_LINE_BYTES: usize = 1_000;
+/// Where all that was named is refused.
+pub(crate) const NO_HUMAN: &str = "none of the clips can be used; give clips of a walking human skeleton";
 
 /// The answer of a command that could do its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,19 +47,19 @@ pub(crate) enum Failure {
 impl Failure {
     /// Bad usage or input; the message names what, where and the remedy.
     pub(crate) fn bad(message: impl Into<String>) -> Self {
-        Self::Bad(miette::Report::msg(message.into()))
+        Self::Bad(Report::msg(output::one_line(&message.into())))
     }
 
     /// A mistake in a scenario or a manifest, shown where it stands.
     pub(crate) fn mistake(invalid: Invalid) -> Self {
-        let place = format!("{}:{}", invalid.path.display(), invalid.line());
-        let mistake = MietteDiagnostic::new(format!("{place}: {}", invalid.message)).with_help(&invalid.help);
+        let message = format!("{}:{}: {}", invalid.path.display(), invalid.line(), invalid.message);
+        let mistake = MietteDiagnostic::new(output::one_line(&message)).with_help(&invalid.help);
         if invalid.text.lines().any(|line| line.len() > SHOWN_LINE_BYTES) {
             return Self::Bad(Report::new(mistake));
         }
-        let name = invalid.path.display().to_string();
+        let name = output::one_line(&invalid.path.display().to_string());
         let mistake = mistake.with_label(LabeledSpan::underline(invalid.span));
-        Self::Bad(Report::new(mistake).with_source_code(NamedSource::new(name, invalid.text)))
+        Self::Bad(Report::new(mistake).with_source_code(NamedSource::new(name, shown(&invalid.text))))
     }
 
     /// A file or folder that the system would not let us write.
@@ -69,18 +71,33 @@ impl Failure {
     pub(crate) fn report(self) -> ExitCode {
         match self {
             Self::Bad(report) => {
-                output::say_styled(&format!("Error: {report:?}"));
+                output::say_text(&format!("Error: {report:?}"));
                 ExitCode::from(2)
             }
             Self::NoExample { refused, sources } => {
                 // The reporter would wrap the list.
-                output::say(&compile_text::reasons(&CompileReport::without_examples(refused, &sources)));
-                Self::bad("no clip gives an example; give clips of steady walking, running, turning or standing")
-                    .report()
+                let advice = match sources.is_empty() {
+                    true => NO_HUMAN,
+                    false => "no clip gives an example; give clips of steady walking, running, turning or standing",
+                };
+                output::say_text(&compile_text::reasons(&CompileReport::without_examples(refused, &sources)));
+                Self::bad(advice).report()
             }
             Self::ReaderGone => ExitCode::SUCCESS,
         }
     }
+}
+
+/// A text as it may be shown: what a terminal would obey is blotted out, at the same length in bytes.
+fn shown(text: &str) -> String {
+    let blotted = |letter: char| match letter {
+        '\n' | '\t' => letter,
+        '\r' => ' ',
+        letter if !letter.is_control() => letter,
+        letter if letter.is_ascii() => '?',
+        _ => '·',
+    };
+    text.chars().map(blotted).collect()
 }
 
 impl From<motiondb::file::FileError> for Failure {

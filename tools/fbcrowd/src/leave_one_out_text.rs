@@ -12,18 +12,22 @@ pub(crate) fn text(found: &LeaveOneOut) -> String {
     if found.examples.is_empty() {
         let corners = found.outside.join(", ");
         return format!(
-            "no example can be left out: each is a corner of the hull, which no blend reaches: {corners}\n\n"
+            "\nno example can be left out: each is a corner of the hull, which no blend reaches: {corners}\n"
         );
     }
     let width = found.examples.iter().map(|left_out| left_out.name.chars().count()).max().unwrap_or(0).max(12);
-    let mut text = format!("{:<width$}  blend cm  nearest cm  nearest example, then the blend's shares\n", "left out");
+    let mut text =
+        format!("\n{:<width$}  blend cm  nearest cm  nearest example, then the blend's shares\n", "left out");
     for left_out in &found.examples {
         let who = format!("{}; {}", left_out.nearest, shares(left_out));
         text += &line(&left_out.name, width, left_out.blended_rmse_m, left_out.nearest_rmse_m, &who);
     }
     text += &medians(found, width).unwrap_or_default();
     text += &joints(&found.per_joint);
-    text + &format!("corners of the hull, which no blend reaches: {}\n\n", found.outside.join(", "))
+    if !found.outside.is_empty() {
+        text += &format!("corners of the hull, which no blend reaches: {}\n", found.outside.join(", "));
+    }
+    text
 }
 
 fn line(name: &str, width: usize, blended_m: f32, nearest_m: f32, rest: &str) -> String {

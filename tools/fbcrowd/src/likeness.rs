@@ -24,43 +24,24 @@ const SOURCES_MIN: usize = 3;
 /// A kind of gait, by its parameters.
 struct Kind {
     name: &'static str,
-    bar: &'static str,
     holds: fn(&Parameters) -> bool,
 }
 
 /// Straight: as gait noise leaves it, 10 °/s and a tenth of the speed aside. Walks are those that people choose; turns
 /// are walked.
 const KINDS: [Kind; 6] = [
-    Kind {
-        name: "walks",
-        bar: "walks: bundled to the nearest real, at most the median from real to real, degrees",
-        holds: |found| (1.0..1.5).contains(&found.speed_mps) && is_straight(found),
-    },
-    Kind {
-        name: "jogs",
-        bar: "jogs: bundled to the nearest real, at most the median from real to real, degrees",
-        holds: |found| (1.9..3.0).contains(&found.speed_mps) && is_straight(found),
-    },
-    Kind {
-        name: "runs",
-        bar: "runs: bundled to the nearest real, at most the median from real to real, degrees",
-        holds: |found| (3.0..6.0).contains(&found.speed_mps) && is_straight(found),
-    },
+    Kind { name: "walks", holds: |found| (1.0..1.5).contains(&found.speed_mps) && is_straight(found) },
+    Kind { name: "jogs", holds: |found| (1.9..3.0).contains(&found.speed_mps) && is_straight(found) },
+    Kind { name: "runs", holds: |found| (3.0..6.0).contains(&found.speed_mps) && is_straight(found) },
     Kind {
         name: "turns",
-        bar: "turns: bundled to the nearest real, at most the median from real to real, degrees",
         holds: |found| (0.3..1.6).contains(&found.speed_mps) && found.turn_rate_rad_s.abs() > 20_f32.to_radians(),
     },
     Kind {
         name: "side-steps",
-        bar: "side-steps: bundled to the nearest real, at most the median from real to real, degrees",
         holds: |found| found.strafe_mps.abs() > 0.2 && found.speed_mps.abs() < found.strafe_mps.abs(),
     },
-    Kind {
-        name: "backward walks",
-        bar: "backward walks: bundled to the nearest real, at most the median from real to real, degrees",
-        holds: |found| found.speed_mps < -0.2,
-    },
+    Kind { name: "backward walks", holds: |found| found.speed_mps < -0.2 },
 ];
 
 fn is_straight(found: &Parameters) -> bool {
@@ -81,9 +62,6 @@ pub(crate) struct Nearest {
 #[derive(Debug, Serialize)]
 pub(crate) struct KindOfGait {
     pub(crate) kind: &'static str,
-    /// What its bar is called.
-    #[serde(skip)]
-    pub(crate) bar: &'static str,
     /// Real clips, each against those of other sources.
     pub(crate) real: Vec<Nearest>,
     /// Source folders that have the kind.
@@ -161,7 +139,6 @@ fn kind_of_gait(kind: &Kind, real: &[Motion], ours: &[Motion]) -> KindOfGait {
     sources.dedup();
     KindOfGait {
         kind: kind.name,
-        bar: kind.bar,
         sources: sources.len(),
         median_deg: median(measured.iter().map(|found| found.distance_deg)),
         real: measured,

@@ -7,20 +7,29 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 
-/// Says something on standard error; where nobody reads it (`2>&1 | head -1`), the work goes on.
-pub(crate) fn say(message: &str) {
-    say_styled(&printable(message));
+/// Says one line on standard error; where nobody reads it (`2>&1 | head -1`), the work goes on.
+pub(crate) fn say(line: &str) {
+    say_text(&one_line(line));
 }
 
-/// As [`say`], with colours.
-pub(crate) fn say_styled(message: &str) {
-    let _ = writeln!(io::stderr(), "{message}");
+/// As [`say`], of lines that a terminal may have as they are.
+pub(crate) fn say_text(lines: &str) {
+    let _ = writeln!(io::stderr(), "{lines}");
 }
 
-/// Without the control characters that a file's name may hold: a terminal would obey them.
-fn printable(text: &str) -> String {
-    let is_harmless = |c: char| !c.is_control() || c == '\n' || c == '\t';
-    text.chars().map(|c| if is_harmless(c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
+/// A name, or a sentence that tells one, on one line: see [`harmless`].
+pub(crate) fn one_line(text: &str) -> String {
+    harmless(text, &[])
+}
+
+/// Control characters that a file's name may hold, but for those that are `kept`, as JSON escapes them (`\u001b`): a
+/// terminal would obey them.
+fn harmless(text: &str, kept: &[char]) -> String {
+    let escaped = |letter: char| match letter.is_control() && !kept.contains(&letter) {
+        true => format!("\\u{:04x}", u32::from(letter)),
+        false => letter.to_string(),
+    };
+    text.chars().map(escaped).collect()
 }
 
 /// That a file to be written is none of those to be read, which it would replace.
@@ -37,7 +46,7 @@ pub(crate) fn spare<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path
 
 /// Prints a result.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    match writeln!(io::stdout(), "{}", printable(text.trim_end())) {
+    match writeln!(io::stdout(), "{}", harmless(text.trim_end(), &['\n', '\t'])) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Err(Failure::ReaderGone),
         Err(error) => Err(Failure::bad(format!("cannot write to standard output: {error}"))),
@@ -52,4 +61,15 @@ pub(crate) fn print_json(result: &impl Serialize) -> Result<(), Failure> {
 /// Indented JSON.
 pub(crate) fn to_json(result: &impl Serialize) -> String {
     serde_json::to_string_pretty(result).expect("plain structs with string keys serialise")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_moves_the_cursor_or_begins_a_line() {
+        assert_eq!(one_line("a\nb\u{1b}[31m\u{9b}é"), "a\\u000ab\\u001b[31m\\u009bé");
+        assert_eq!(harmless("a\nb\r", &['\n']), "a\nb\\u000d");
+    }
 }

@@ -10,9 +10,11 @@ use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 use serde::Serialize;
 
 use crate::compile_report::Reason;
+use crate::compile_text::{counted, title};
 use crate::correspondence_between::Between;
 use crate::example_table::unsigned_zero;
 use crate::leave_one_out::LeaveOneOut;
+use crate::output::one_line;
 use crate::{compile_text, leave_one_out_text};
 
 /// Clips without a database.
@@ -128,9 +130,23 @@ impl Example {
 
 /// The database as tables.
 pub(crate) fn database_text(report: &DatabaseReport) -> String {
-    let width = report.examples.iter().map(|example| example.name.chars().count()).max().unwrap_or(0).max(7);
+    let sections = [
+        examples_text(&report.examples),
+        sets_text(&report.velocity_hull),
+        blend_space_text(&report.blend_space),
+        correspondence_text(report.correspondence.as_ref()),
+        report.correspondence_between.as_ref().map(Between::text).unwrap_or_default(),
+        coverage_text(&report.coverage),
+        report.leave_one_out.as_ref().map(leave_one_out_text::text).unwrap_or_default(),
+        compile_text::remarks(report.sources.iter()),
+    ];
+    sections.concat()
+}
+
+fn examples_text(examples: &[Example]) -> String {
+    let width = width(examples.iter().map(|example| example.name.as_str()), "example");
     let mut text = format!("{:<width$}  speed m/s  turn °/s  strafe m/s  period s  slide cm/s  planted\n", "example");
-    for example in &report.examples {
+    for example in examples {
         text += &format!(
             "{:<width$}  {:9.3}  {:8.1}  {:10.3}  {:8.3}  {:10.2}  {:6.0} %\n",
             example.name,
@@ -142,38 +158,38 @@ pub(crate) fn database_text(report: &DatabaseReport) -> String {
             100.0 * example.planted_share,
         );
     }
-    let hull = &report.velocity_hull;
-    text += &format!("\nturning set, m/s    {}\n", corners(&hull.turning_mps));
-    text += &match hull.construction {
+    text
+}
+
+fn sets_text(hull: &VelocityHull) -> String {
+    let holding = match hull.construction {
         Construction::TurningAndHolding => format!("holding set, m/s    {}\n", corners(&hull.holding_mps)),
         Construction::Paper => "holding set         the turning set (the paper's construction)\n".into(),
     };
-    text += &format!("sharp-turn edges    {}\n", hull.sharp_turn_edges_mps.len());
-    text += &format!(
-        "blend space         {} simplices in {} dimensions, {:.1} % of the hull\n",
-        report.blend_space.simplices.len(),
-        report.blend_space.dimension,
-        100.0 * report.blend_space.covered_share,
-    );
-    text += &correspondence_text(report);
-    text += &report.correspondence_between.as_ref().map(Between::text).unwrap_or_default();
-    text += &coverage_text(report);
-    text += &report.leave_one_out.as_ref().map(leave_one_out_text::text).unwrap_or_default();
-    text + &compile_text::remarks(report.sources.iter())
+    let turning = format!("\nturning set, m/s    {}\n", corners(&hull.turning_mps));
+    turning + &holding + &format!("sharp-turn edges    {}\n", hull.sharp_turn_edges_mps.len())
 }
 
-fn correspondence_text(report: &DatabaseReport) -> String {
-    let Some(found) = &report.correspondence else { return "correspondences     none\n".into() };
+fn blend_space_text(space: &BlendSpace) -> String {
+    if space.dimension == 0 {
+        return "blend space         a single point: nothing to blend\n".into();
+    }
+    let simplices = counted(space.simplices.len(), "simplex", "simplices");
+    let dimensions = counted(space.dimension as usize, "dimension", "dimensions");
+    format!("blend space         {simplices} in {dimensions}, {:.1} % of the hull\n", 100.0 * space.covered_share)
+}
+
+fn correspondence_text(correspondence: Option<&Correspondence>) -> String {
+    let Some(found) = correspondence else { return "correspondences     none\n".into() };
     let pairs: Vec<String> = found.pairs_s.iter().map(|[sp, mb]| format!("{sp:.3}/{mb:.3}")).collect();
     format!("correspondences, s  {} / {}: {}\n", found.semi_procedural, found.blending, pairs.join("  "))
 }
 
-fn coverage_text(report: &DatabaseReport) -> String {
-    if report.coverage.is_empty() {
-        return "\nthin                nowhere\n".into();
-    }
-    let lines: String = report.coverage.iter().map(|thin| format!("  {}\n", thin.sentence)).collect();
-    format!("\nwhere the set is thin\n{lines}\n")
+fn coverage_text(coverage: &[ThinPlace]) -> String {
+    let nowhere = coverage.is_empty().then_some("nowhere");
+    let sentences = nowhere.into_iter().chain(coverage.iter().map(|thin| thin.sentence.as_str()));
+    let lines: String = sentences.map(|sentence| format!("  {sentence}\n")).collect();
+    format!("\nwhere the set is thin\n{lines}")
 }
 
 fn corners(polygon: &[Vec2]) -> String {
@@ -183,13 +199,13 @@ fn corners(polygon: &[Vec2]) -> String {
 
 /// Clips as a table.
 pub(crate) fn sources_text(surveyed: &[SurveyedSource]) -> String {
-    let name = |source: &SourceRecord| format!("{} {}", source.file, source.clip).trim_end().to_owned();
-    let width = surveyed.iter().map(|found| name(&found.source).chars().count()).max().unwrap_or(0).max(4);
+    let names: Vec<String> =
+        surveyed.iter().map(|found| one_line(&title(&found.source.file, &found.source.clip))).collect();
+    let width = width(names.iter().map(String::as_str), "clip");
     let mut text = format!("{:<width$}  speed m/s  turn °/s  strafe m/s  up  m per unit     Hz  gait\n", "clip");
-    for SurveyedSource { source, gait } in surveyed {
+    for (name, SurveyedSource { source, gait }) in names.iter().zip(surveyed) {
         text += &format!(
-            "{:<width$}  {:9.3}  {:8.1}  {:10.3}  {}  {:10.6}  {:5.1}  {}\n",
-            name(source),
+            "{name:<width$}  {:9.3}  {:8.1}  {:10.3}  {}  {:10.6}  {:5.1}  {}\n",
             unsigned_zero(source.speed_mps, 3),
             unsigned_zero(source.turn_rate_rad_s.to_degrees(), 1),
             unsigned_zero(source.strafe_mps, 3),
@@ -202,12 +218,14 @@ pub(crate) fn sources_text(surveyed: &[SurveyedSource]) -> String {
     text + &compile_text::remarks(surveyed.iter().map(|found| &found.source))
 }
 
+/// Columns that names and the head above them take.
+fn width<'a>(names: impl Iterator<Item = &'a str>, head: &str) -> usize {
+    names.map(|name| name.chars().count()).fold(head.len(), usize::max)
+}
+
 /// "12 steps, 58 % planted"; "stands"; "3 steps, 61 % planted, unsteady".
 fn gait_text(gait: &SourceGait) -> String {
-    let steps = match gait.step_count() {
-        1 => "1 step".to_owned(),
-        count => format!("{count} steps"),
-    };
+    let steps = counted(gait.step_count(), "step", "steps");
     let text = format!("{steps}, {:.0} % planted", 100.0 * gait.planted_share);
     match gait.kind {
         GaitKind::Steps => text,

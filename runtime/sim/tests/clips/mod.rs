@@ -5,22 +5,7 @@ use std::path::{Path, PathBuf};
 
 use motiondb::motion_db::MotionDb;
 use motiondb_compiler::compile::compile_files;
-
-/// The recordings that make the paper's 19 examples (`motion.md` §1).
-const MARINE: [&str; 12] = [
-    "Idle01",
-    "Meander01",
-    "Walk01",
-    "Jog01",
-    "Run01",
-    "WalkCircleRt01",
-    "WalkTightCircleRt01",
-    "RunCircleRt01",
-    "RunTightCircleRt01",
-    "Turn360Rt01",
-    "StrafeSlowRt01",
-    "StrafeFastRt01",
-];
+use motiondb_compiler::truth::marine_files;
 
 /// The bundled clips that are BVH.
 pub fn bundled() -> MotionDb {
@@ -31,12 +16,12 @@ pub fn bundled() -> MotionDb {
 
 /// The paper's clips; none where they are not at hand.
 pub fn marine(test: &str) -> Option<MotionDb> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/mocap/smartbody_converted");
-    if !folder.is_dir() {
-        println!("SKIPPED {test}: no recordings at {}", folder.display());
+    let mocap = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/mocap");
+    if !mocap.is_dir() {
+        println!("SKIPPED {test}: no recordings at {}", mocap.display());
         return None;
     }
-    Some(compiled(MARINE.iter().map(|clip| folder.join(format!("ChrMarine_{clip}.bvh"))).collect()))
+    Some(compiled(marine_files(&mocap)))
 }
 
 fn compiled(files: Vec<PathBuf>) -> MotionDb {

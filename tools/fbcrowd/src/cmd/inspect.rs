@@ -8,7 +8,7 @@ use motiondb_compiler::survey::survey;
 
 use crate::compiling;
 use crate::correspondence_between::Between;
-use crate::failure::{Answer, Failure};
+use crate::failure::{Answer, Failure, NO_HUMAN};
 use crate::leave_one_out::leave_one_out;
 use crate::output;
 use crate::report::{self, DatabaseReport, SourcesReport};
@@ -140,7 +140,7 @@ fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
         output::print(&report::sources_text(&report.sources))?;
     }
     if is_empty {
-        return Err(Failure::bad("none of the clips can be used; give clips of a walking human skeleton"));
+        return Err(Failure::bad(NO_HUMAN));
     }
     Ok(answer)
 }

@@ -57,53 +57,62 @@ fn write_trajectories(recording: &Recording, path: &Path) -> io::Result<()> {
 
 /// Figures for people, one a line.
 pub(crate) fn text(measures: &Measures) -> String {
-    let optional = |value: Option<f64>, unit: &str| value.map_or("–".into(), |value| format!("{value:.2} {unit}"));
     [
         ("agents", format!("{}", measures.agents)),
         ("steps", format!("{} of {:.4} s", measures.steps, measures.dt_s)),
-        (
-            "collisions C",
-            format!("{:.5}, centres {} apart", measures.collision_rate, optional(measures.minimum_separation_m, "m")),
-        ),
-        (
-            "bodies",
-            format!(
-                "{:.3} mm into each other, {} where they touch ({:.2} % of the time), {:.0} mm at most",
-                measures.body_penetration_mm,
-                optional(measures.body_penetration_touching_mm, "mm"),
-                100.0 * measures.body_touching_share,
-                measures.body_penetration_max_mm
-            ),
-        ),
-        (
-            "acceleration A",
-            format!(
-                "{:.3} m/s², before arrival {:.3} m/s²",
-                measures.mean_acceleration_mps2, measures.mean_acceleration_before_arrival_mps2
-            ),
-        ),
+        ("collisions C", collisions(measures)),
+        ("bodies", bodies(measures)),
+        ("acceleration A", acceleration(measures)),
         ("arrived", format!("{} of {}, {} stalled", measures.arrived, measures.agents, measures.stalled)),
         ("mean time to goal", optional(measures.mean_time_to_goal_s, "s")),
-        (
-            "path",
-            format!(
-                "{}, {:.1} % of the time strafing, {:.1} % stepping back",
-                optional(measures.path_over_straight_line, "× the straight way"),
-                100.0 * measures.strafing_share,
-                100.0 * measures.stepping_back_share
-            ),
-        ),
-        (
-            "planted-foot slide",
-            format!(
-                "{}, of the examples {}, planted {:.0} %",
-                optional(measures.planted_slide_cm_s, "cm/s"),
-                optional(measures.examples_slide_cm_s, "cm/s"),
-                100.0 * measures.planted_share
-            ),
-        ),
+        ("path", path(measures)),
+        ("planted-foot slide", slide(measures)),
         ("root tracking error", format!("{:.2} mm a step", 1000.0 * measures.root_tracking_error_m)),
     ]
     .map(|(name, value)| format!("{name:<25}{value}\n"))
     .concat()
+}
+
+fn optional(value: Option<f64>, unit: &str) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.2} {unit}"))
+}
+
+fn collisions(measures: &Measures) -> String {
+    let apart = optional(measures.minimum_separation_m, "m");
+    format!("{:.5}, centres {apart} apart", measures.collision_rate)
+}
+
+fn bodies(measures: &Measures) -> String {
+    format!(
+        "{:.3} mm into each other, {} where they touch ({:.2} % of the time), {:.0} mm at most",
+        measures.body_penetration_mm,
+        optional(measures.body_penetration_touching_mm, "mm"),
+        100.0 * measures.body_touching_share,
+        measures.body_penetration_max_mm
+    )
+}
+
+fn acceleration(measures: &Measures) -> String {
+    format!(
+        "{:.3} m/s², before arrival {:.3} m/s²",
+        measures.mean_acceleration_mps2, measures.mean_acceleration_before_arrival_mps2
+    )
+}
+
+fn path(measures: &Measures) -> String {
+    format!(
+        "{}, {:.1} % of the time strafing, {:.1} % stepping back",
+        optional(measures.path_over_straight_line, "× the straight way"),
+        100.0 * measures.strafing_share,
+        100.0 * measures.stepping_back_share
+    )
+}
+
+fn slide(measures: &Measures) -> String {
+    format!(
+        "{}, of the examples {}, planted {:.0} %",
+        optional(measures.planted_slide_cm_s, "cm/s"),
+        optional(measures.examples_slide_cm_s, "cm/s"),
+        100.0 * measures.planted_share
+    )
 }

@@ -176,7 +176,8 @@ impl Clip {
 fn kind_bar(kind: &KindOfGait) -> Option<Bar> {
     let median_deg = kind.median_deg.filter(|_| kind.is_judged())?;
     let farthest = kind.bundled.iter().map(|found| f64::from(found.distance_deg)).max_by(f64::total_cmp);
-    Some(Bar::at_most(kind.bar, f64::from(median_deg), farthest))
+    let name = format!("{}: bundled to the nearest real, at most the median from real to real, degrees", kind.kind);
+    Some(Bar::at_most(name, f64::from(median_deg), farthest))
 }
 
 fn mean([left, right]: [f64; 2]) -> f64 {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use motiondb::motion_db::MotionDb;
 use motiondb_compiler::compile;
 use motiondb_compiler::import;
+use motiondb_compiler::truth::marine_files;
 use serde::Serialize;
 
 use super::Mocap;
@@ -13,22 +14,6 @@ use super::bundled::bundled;
 use crate::failure::{Answer, Failure};
 use crate::leave_one_out::{LeaveOneOut, leave_one_out};
 use crate::statistics::share;
-
-/// The twelve recordings that make the paper's 19 examples (`FbCrowd` §6; Shapiro 2011).
-const MARINE: [&str; 12] = [
-    "Idle01",
-    "Jog01",
-    "Meander01",
-    "Run01",
-    "RunCircleRt01",
-    "RunTightCircleRt01",
-    "StrafeFastRt01",
-    "StrafeSlowRt01",
-    "Turn360Rt01",
-    "Walk01",
-    "WalkCircleRt01",
-    "WalkTightCircleRt01",
-];
 
 /// Leave out one example after the other of the Marine, Bandai Namco and bundled sets.
 ///
@@ -53,11 +38,9 @@ struct Set {
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let folder = &args.mocap.mocap;
-    let marine: Vec<PathBuf> =
-        MARINE.iter().map(|name| folder.join(format!("smartbody_converted/ChrMarine_{name}.bvh"))).collect();
     let set = |name, db: MotionDb| Set { name, leave_one_out: leave_one_out(&db) };
     let sets = vec![
-        set("Marine", of_files(&marine)?),
+        set("Marine", of_files(&marine_files(folder))?),
         set("Bandai Namco", of_files(&clip_files(&folder.join("bandai_namco"))?)?),
         set("bundled", bundled()?),
     ];
