@@ -34,7 +34,7 @@ pub struct Scratch {
     pub(crate) half_planes: Vec<HalfPlane>,
     pub(crate) projected: Vec<HalfPlane>,
     pub(crate) adapted_mps: Vec2,
-    pub(crate) feasible_prefix: usize,
+    pub(crate) satisfied: usize,
     // MCN's own: walls that its density filter feels, and half-planes that both its velocity sets take over.
     pub(crate) walls_m: Vec<Vec2>,
     pub(crate) of_walls: Vec<HalfPlane>,
@@ -42,15 +42,15 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// The half-planes of the last plan, by rank: walls, stance, sharp turns, hull, agents by time to collision. None
+    /// The half-planes of the last plan, by rank: walls, stance, sharp turns, hull, agents by urgency. None
     /// for social forces.
     pub fn half_planes(&self) -> &[HalfPlane] {
         &self.half_planes
     }
 
-    /// How many of them, from the first, are satisfied together; those after them yielded.
-    pub fn feasible_prefix(&self) -> usize {
-        self.feasible_prefix
+    /// How many of them, from the first, are satisfied for certain; those after them may have yielded.
+    pub fn satisfied(&self) -> usize {
+        self.satisfied
     }
 
     /// v_op of the last plan, m/s; v_pref itself where the planner does not adapt it.

@@ -22,15 +22,16 @@ pub fn fault(seed: u64, stream: u64) -> Option<&'static str> {
     let mut random = SplitMix64::new(seed, stream);
     let half_planes = drawn(&mut random);
     let optimal_mps = vector(&mut random, 3.0);
-    let solution = solve(&half_planes, optimal_mps, SPEED_MAX_MPS, &mut Vec::new());
+    let firm = (random.next_u64() % (half_planes.len() as u64 + 1)) as usize;
+    let solution = solve(&half_planes, firm, optimal_mps, SPEED_MAX_MPS, &mut Vec::new());
     judged(&half_planes, optimal_mps, &solution)
 }
 
-/// The solution of the 2D program is no worse than any velocity tried; a prefix ends where there is no room for the next
-/// half-plane; the solution keeps the prefix, and violates the rest no more than any velocity that keeps it.
+/// The solution of the 2D program is no worse than any velocity tried; where it finds none, there is none; the solution
+/// then keeps what it claims to keep, and violates the rest no more than any velocity that keeps it.
 fn judged(half_planes: &[HalfPlane], optimal_mps: Vec2, solution: &Solution) -> Option<&'static str> {
-    let Solution { velocity_mps, feasible_prefix } = *solution;
-    let (hard, soft) = half_planes.split_at(feasible_prefix);
+    let Solution { velocity_mps, satisfied } = *solution;
+    let (hard, soft) = half_planes.split_at(satisfied);
     if !velocity_mps.is_finite() || velocity_mps.length() > SPEED_MAX_MPS + SLACK_MPS {
         return Some("finds a velocity beyond the greatest speed");
     }
@@ -42,7 +43,7 @@ fn judged(half_planes: &[HalfPlane], optimal_mps: Vec2, solution: &Solution) -> 
             let better_by_mps = velocity_mps.distance(optimal_mps) - tried_mps.distance(optimal_mps);
             (better_by_mps > SLACK_MPS).then_some("misses a velocity nearer to the best")
         }
-        Some(next) if next.violation_mps(tried_mps) < -SLACK_MPS => Some("gives a half-plane up that could be kept"),
+        Some(_) if worst_mps(soft, tried_mps) < -SLACK_MPS => Some("gives half-planes up that could be kept"),
         Some(_) => {
             let better_by_mps = worst_mps(soft, velocity_mps) - worst_mps(soft, tried_mps);
             (better_by_mps > SLACK_MPS).then_some("misses a velocity that violates less")
@@ -111,8 +112,8 @@ mod tests {
     #[test]
     fn wrong_solutions_are_found_out() {
         let half_planes = [behind(0.0, 0.5)];
-        let judged = |x, feasible_prefix| {
-            let solution = Solution { velocity_mps: Vec2::new(x, 0.0), feasible_prefix };
+        let judged = |x, satisfied| {
+            let solution = Solution { velocity_mps: Vec2::new(x, 0.0), satisfied };
             judged(&half_planes, Vec2::X, &solution).is_some()
         };
         assert!(!judged(0.5, 1) && judged(0.6, 1) && judged(0.3, 1) && judged(0.5, 0));

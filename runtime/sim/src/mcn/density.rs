@@ -45,8 +45,9 @@ pub struct Filtered {
     pub density: f32,
 }
 
-/// Scales v_op down to what the density ahead allows, on the arc around it. `walls` are offsets from the agent's centre.
-pub fn filter(velocity_mps: Vec2, agents: &Around, walls_m: &[Vec2], params: &McnParams) -> Filtered {
+/// Scales v_op down to what the density ahead allows, on the arc around it, for who walks at `now` m/s. `walls` are
+/// offsets from the agent's centre.
+pub fn filter(velocity_mps: Vec2, now_mps: f32, agents: &Around, walls_m: &[Vec2], params: &McnParams) -> Filtered {
     let speed_mps = velocity_mps.length();
     let ahead = velocity_mps.normalize_or_zero();
     let density = density_ahead(ahead, agents, walls_m);
@@ -68,7 +69,10 @@ pub fn filter(velocity_mps: Vec2, agents: &Around, walls_m: &[Vec2], params: &Mc
     let closed = 1.0 - ahead_mps / speed_mps;
     let direction = ahead.lerp(directions.normalize_or(ahead), closed).normalize_or(ahead);
     let allowed_mps = ahead_mps + closed * (sum_mps / weights - ahead_mps);
-    Filtered { velocity_mps: allowed_mps * direction, density }
+    // A limit is taken up as v_pref is (Eq. 9), not at once: the density flickers as neighbours come and go.
+    let left = 1.0 - (params.response_s / params.relaxation_s).min(1.0);
+    let eased_mps = allowed_mps + left * (now_mps - allowed_mps).max(0.0);
+    Filtered { velocity_mps: eased_mps.min(speed_mps) * direction, density }
 }
 
 /// ρ at the critical point along a unit direction, 1/m.
@@ -147,17 +151,17 @@ mod tests {
     #[test]
     fn a_free_way_is_left_alone_and_nobody_is_stalled() {
         let params = McnParams::default();
-        let free = filter(Vec2::new(1.3, 0.2), &around(&[Vec2::new(-2.0, 0.0)]), &[], &params);
+        let free = filter(Vec2::new(1.3, 0.2), 0.0, &around(&[Vec2::new(-2.0, 0.0)]), &[], &params);
         assert_eq!(free.velocity_mps, Vec2::new(1.3, 0.2));
-        let jam = filter(Vec2::new(1.3, 0.0), &around(&lattice(8.0)), &[], &params);
+        let jam = filter(Vec2::new(1.3, 0.0), 0.0, &around(&lattice(8.0)), &[], &params);
         assert!(jam.velocity_mps.length() > 0.8 * params.density_speed_min_mps && jam.velocity_mps.length() < 0.5);
-        assert_eq!(filter(Vec2::ZERO, &around(&lattice(8.0)), &[], &params).velocity_mps, Vec2::ZERO);
+        assert_eq!(filter(Vec2::ZERO, 0.0, &around(&lattice(8.0)), &[], &params).velocity_mps, Vec2::ZERO);
     }
 
     #[test]
     fn leans_to_the_emptier_side() {
         let crowd_on_the_left: Vec<Vec2> = (0..8).map(|index| Vec2::new(0.6 + 0.2 * index as f32, 0.5)).collect();
-        let filtered = filter(Vec2::new(1.3, 0.0), &around(&crowd_on_the_left), &[], &McnParams::default());
+        let filtered = filter(Vec2::new(1.3, 0.0), 0.0, &around(&crowd_on_the_left), &[], &McnParams::default());
         assert!(filtered.velocity_mps.y < -0.02 && filtered.velocity_mps.x > 0.2, "{filtered:?}");
     }
 }

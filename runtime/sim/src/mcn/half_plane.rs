@@ -31,12 +31,19 @@ pub struct HalfPlane {
     pub direction: Vec2,
     /// Why it is there.
     pub source: Source,
+    /// How much its violation counts against others' where some must be violated: more, the less it shall yield.
+    pub weight: f32,
 }
 
 impl HalfPlane {
     /// The half-plane behind `point`, seen along the unit vector `outward`, which points to the forbidden side.
     pub fn behind(point_mps: Vec2, outward: Vec2, source: Source) -> Self {
-        Self { point_mps, direction: outward.perp(), source }
+        Self::new(point_mps, outward.perp(), source)
+    }
+
+    /// The half-plane on the left of a line, of weight 1.
+    pub fn new(point_mps: Vec2, direction: Vec2, source: Source) -> Self {
+        Self { point_mps, direction, source, weight: 1.0 }
     }
 
     /// Distance of a velocity from the permitted side, m/s; negative inside.

@@ -10,6 +10,7 @@
 
 pub mod density;
 pub mod half_plane;
+pub mod keep_right;
 pub mod linear_program;
 pub mod motion_constraints;
 pub mod orca;
@@ -24,10 +25,10 @@ use glam::Vec2;
 use motiondb::velocity_hull::Construction;
 
 use self::half_plane::{HalfPlane, Source};
-use self::linear_program::{Solution, solve_alike};
+use self::linear_program::Solution;
 use self::orientation::{Orientation, Walk};
 use self::params::{McnParams, StanceForm};
-use crate::neighbours::{Neighbour, Ranking};
+use crate::neighbours::{APPROACH_MPS, Neighbour, Ranking};
 use crate::obstacles::nearest_on_segment;
 use crate::plan::{Plan, VelocitySet};
 use crate::planner::{Scratch, look_around, time_to_collision_s};
@@ -35,15 +36,18 @@ use crate::world::World;
 
 /// Greatest speed at which a wall is looked for ahead, m/s: a run.
 const WALL_SPEED_MPS: f32 = 4.0;
+/// From here on somebody counts as walking, m/s: a slow walk. Measured with people 0.8 m apart: at half of it one in
+/// two hundred does not arrive.
+const SLOW_WALK_MPS: f32 = 0.6;
+/// Whoever may be met after this time counts half as much as who is touched, s: what a walker needs to react. Half and
+/// three times as much make no difference that the scenes of Table 1 would show.
+const REACTION_S: f32 = 0.3;
 
 /// Plans one agent's next velocity and facing.
 pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> Plan {
     let wall_range_m = params.obstacle_time_horizon_s * WALL_SPEED_MPS;
     let ranking = if params.parts.order { Ranking::Approach } else { Ranking::Distance };
     look_around(world, agent, ranking, params.neighbour_range_m, wall_range_m, scratch);
-    if params.parts.order {
-        scratch.nearest.sort_by_time_to_collision();
-    }
     let density = adapt(world, agent, params, scratch);
     avoid(world, agent, params, scratch);
     let turning = choose(world, agent, VelocitySet::Turning, params, scratch);
@@ -52,7 +56,7 @@ pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scrat
         VelocitySet::Turning => turning,
         VelocitySet::Holding => choose(world, agent, VelocitySet::Holding, params, scratch),
     };
-    scratch.feasible_prefix = chosen.feasible_prefix;
+    scratch.satisfied = chosen.satisfied;
     Plan {
         velocity_mps: chosen.velocity_mps,
         facing_rad: libm::atan2f(orientation.facing.y, orientation.facing.x),
@@ -66,13 +70,17 @@ pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scrat
 
 /// §4.3: v_op into the scratch; returns the density met.
 fn adapt(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> f32 {
-    let mut adapted_mps = kept_right(world, agent, params, scratch);
+    let (velocity_mps, mut adapted_mps) = (world.velocities_mps[agent], world.preferred_mps[agent]);
+    if params.parts.keep_right {
+        adapted_mps = keep_right::kept_right(adapted_mps, velocity_mps, scratch.nearest.around(), params);
+    }
     if params.parts.adaptation {
-        let (velocity_mps, forces_mps2) = (world.velocities_mps[agent], forces_mps2(world, agent, params, scratch));
+        let forces_mps2 = forces_mps2(world, agent, params, scratch);
         adapted_mps = social_force::adapted_mps(velocity_mps, adapted_mps, forces_mps2, world.dt_s, params);
     }
     gather_walls(world, agent, scratch);
-    let filtered = density::filter(adapted_mps, scratch.nearest.around(), &scratch.walls_m, params);
+    let filtered =
+        density::filter(adapted_mps, velocity_mps.length(), scratch.nearest.around(), &scratch.walls_m, params);
     scratch.adapted_mps = if params.parts.density_filter { filtered.velocity_mps } else { adapted_mps };
     filtered.density
 }
@@ -84,32 +92,10 @@ fn forces_mps2(world: &World, agent: usize, params: &McnParams, scratch: &Scratc
     let of_agents = scratch.nearest.as_slice().iter().filter(met).map(|neighbour| {
         social_force::agent_force_mps2(neighbour.offset_m, neighbour.velocity_mps, neighbour.radius_m, &law)
     });
-    let of_walls = scratch
-        .edges
-        .iter()
-        .map(|near| social_force::wall_force_mps2(world.edge_m(agent, near.edge), own.velocity_mps, own.radius_m, &law));
+    let of_walls = scratch.edges.iter().map(|near| {
+        social_force::wall_force_mps2(world.edge_m(agent, near.edge), own.velocity_mps, own.radius_m, &law)
+    });
     of_agents.chain(of_walls).sum()
-}
-
-/// v_pref, turned to the right the more, the sooner it would meet an obstruction. All give way to the same side, so two
-/// who meet head-on pass.
-fn kept_right(world: &World, agent: usize, params: &McnParams, scratch: &Scratch) -> Vec2 {
-    let preferred_mps = world.preferred_mps[agent];
-    if !params.parts.keep_right {
-        return preferred_mps;
-    }
-    let change_mps = preferred_mps - world.velocities_mps[agent];
-    let urgency = |neighbour: &Neighbour| head_on(neighbour, change_mps) * (1.0 - time_to_collision::disc_with_disc(neighbour.offset_m, neighbour.velocity_mps + change_mps, neighbour.radius_m) / params.time_horizon_s).max(0.0);
-    let urgency = scratch.nearest.as_slice().iter().map(urgency).fold(0.0, f32::max);
-    let (sin, cos) = libm::sincosf(-params.keep_right_rad * urgency);
-    Vec2::new(cos, sin).rotate(preferred_mps)
-}
-
-/// How far from a graze.
-fn head_on(neighbour: &Neighbour, change_mps: Vec2) -> f32 {
-    let velocity_mps = neighbour.velocity_mps + change_mps;
-    let miss_m = neighbour.offset_m.perp_dot(velocity_mps) / velocity_mps.length().max(f32::MIN_POSITIVE);
-    (1.0 - miss_m * miss_m / (neighbour.radius_m * neighbour.radius_m)).max(0.0)
 }
 
 /// Offsets of the walls' nearest points, for the density filter.
@@ -128,8 +114,25 @@ fn avoid(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch)
     scratch.of_agents.clear();
     scratch.of_agents.extend(scratch.nearest.as_slice().iter().map(|neighbour| {
         let share = if params.parts.keep_right { orca::share(own.velocity_mps, neighbour) } else { orca::HALF };
-        orca::agent_half_plane(own.velocity_mps, neighbour, share, params.time_horizon_s, world.dt_s)
+        let horizon_s = horizon_against_s(own.velocity_mps - neighbour.velocity_mps, params);
+        let half_plane = orca::agent_half_plane(own.velocity_mps, neighbour, share, horizon_s, world.dt_s);
+        HalfPlane { weight: if params.parts.order { urgency(neighbour) } else { 1.0 }, ..half_plane }
     }));
+}
+
+/// τ against somebody who moves at `other`: whoever stands is a wall, and is avoided no earlier. With τ itself, nobody gets
+/// through the gaps between those who stand at their goals: at rest each of them bounds the approach to gap/τ.
+fn horizon_against_s(other_mps: Vec2, params: &McnParams) -> f32 {
+    let walks = (other_mps.length() / SLOW_WALK_MPS).min(1.0);
+    params.obstacle_time_horizon_s + walks * (params.time_horizon_s - params.obstacle_time_horizon_s)
+}
+
+/// The order of yielding (App. 9.4): 1 for whoever is touched, less the later somebody may be met. Time to collision
+/// itself jumps to infinity as soon as somebody is avoided; this is the time that the neighbours' ranking goes by.
+fn urgency(neighbour: &Neighbour) -> f32 {
+    let gap_m = (neighbour.distance_m - neighbour.radius_m).max(0.0);
+    let closing = neighbour.velocity_mps.dot(neighbour.offset_m) / neighbour.distance_m.max(f32::MIN_POSITIVE);
+    REACTION_S / (REACTION_S + gap_m / (closing.max(0.0) + APPROACH_MPS))
 }
 
 /// Eqs. 13, 14: all half-planes by rank, what never yields first, and the best velocity.
@@ -147,10 +150,10 @@ fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scr
     if parts.hull {
         motion_constraints::hull_half_planes(corners_mps, forward, source, half_planes);
     }
-    let hard_max = if parts.order { usize::MAX } else { half_planes.len() };
+    let firm = half_planes.len();
     half_planes.extend_from_slice(&scratch.of_agents);
     let speed_max_mps = motion_constraints::speed_max_mps(corners_mps);
-    solve_alike(half_planes, hard_max, scratch.adapted_mps, speed_max_mps, &mut scratch.projected)
+    linear_program::solve(half_planes, firm, scratch.adapted_mps, speed_max_mps, &mut scratch.projected)
 }
 
 /// C_bm.

@@ -45,12 +45,13 @@ pub fn outside_mps(corners_mps: &[Vec2], forward: Vec2, velocity_mps: Vec2, scra
 
 /// The greatest speed of a set, m/s.
 pub fn speed_max_mps(corners_mps: &[Vec2]) -> f32 {
-    corners_mps.iter().map(|corner_mps| corner_mps.length()).fold(HALF_WIDTH_MPS, f32::max)
+    let squared = corners_mps.iter().map(|corner_mps| corner_mps.length_squared());
+    squared.fold(HALF_WIDTH_MPS * HALF_WIDTH_MPS, f32::max).sqrt()
 }
 
 /// From the agent's frame to the world's axes.
 fn rotated((point_mps, direction): (Vec2, Vec2), forward: Vec2, source: Source) -> HalfPlane {
-    HalfPlane { point_mps: forward.rotate(point_mps), direction: forward.rotate(direction), source }
+    HalfPlane::new(forward.rotate(point_mps), forward.rotate(direction), source)
 }
 
 #[cfg(test)]

@@ -55,7 +55,7 @@ pub fn agent_half_plane(own_mps: Vec2, other: &Neighbour, share: f32, horizon_s:
     } else {
         leave_leg(offset_m, velocity_mps, radius_m, horizon_s)
     };
-    HalfPlane { point_mps: own_mps + share * change_mps, direction, source: Source::Agent(other.agent) }
+    HalfPlane::new(own_mps + share * change_mps, direction, Source::Agent(other.agent))
 }
 
 /// Whether the cut-off disc's front, between the two tangent points, is nearest to the relative velocity.

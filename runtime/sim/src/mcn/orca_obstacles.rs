@@ -200,7 +200,7 @@ impl Shadow {
 
     /// Parallel to a leg or to the cut-off line, r/τ off it.
     fn off_line(&self, side: usize, direction: Vec2, source: Source) -> HalfPlane {
-        HalfPlane { point_mps: self.corners_mps[side] + self.radius_mps * direction.perp(), direction, source }
+        HalfPlane::new(self.corners_mps[side] + self.radius_mps * direction.perp(), direction, source)
     }
 }
 

@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn strafing_ends_at_its_limit_and_starts_anew_only_after_a_rest() {
         let aside = Vec2::new(0.3, 0.4);
-        let (spent, orientation) = walk_on(walk(aside), 1.5);
+        let (spent, orientation) = walk_on(walk(aside), McnParams::default().strafing_limit_s + 0.5);
         assert_eq!(orientation.facing, aside.normalize());
         let (restless, _) = walk_on(Walk { velocity_mps: Vec2::X, ..spent }, 0.5);
         assert_eq!(decided(&Walk { velocity_mps: aside, ..restless }, true).set, VelocitySet::Turning);

@@ -1,12 +1,14 @@
 //! The planners that the paper compares MCN with (`FbCrowd` §7, Table 1), as their authors published them.
 //!
-//! Neither knows of bodies: a plan is a velocity, and the facing follows it.
+//! Neither knows of bodies: a plan is a velocity, and the facing follows it. What Eq. 1 asks for, time to collision and
+//! density, is told as MCN tells it, so that the same bodies follow.
 
 pub mod orca;
 pub mod social_force;
 
 use glam::Vec2;
 
+use crate::mcn::density::density_ahead;
 use crate::plan::Plan;
 use crate::planner::{Scratch, time_to_collision_s};
 use crate::world::World;
@@ -21,6 +23,7 @@ fn facing_the_way(world: &World, agent: usize, velocity_mps: Vec2, scratch: &Scr
         velocity_mps,
         facing_rad: if walks { libm::atan2f(velocity_mps.y, velocity_mps.x) } else { world.facings_rad[agent] },
         time_to_collision_s: time_to_collision_s(world, agent, scratch),
+        density: density_ahead(velocity_mps.normalize_or_zero(), scratch.nearest.around(), &[]),
         ..Plan::default()
     }
 }

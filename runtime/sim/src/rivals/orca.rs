@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::facing_the_way;
-use crate::mcn::linear_program::solve_alike;
+use crate::mcn::linear_program::solve;
 use crate::mcn::orca::{HALF, agent_half_plane};
 use crate::mcn::orca_obstacles::obstacle_half_planes;
 use crate::neighbours::Ranking;
@@ -51,11 +51,15 @@ pub fn plan(world: &World, agent: usize, params: &OrcaParams, scratch: &mut Scra
     half_planes.clear();
     obstacle_half_planes(world.obstacles, &scratch.edges, &own, params.obstacle_time_horizon_s, half_planes);
     let walls = half_planes.len();
-    half_planes.extend(scratch.nearest.as_slice().iter().map(|neighbour| {
-        agent_half_plane(own.velocity_mps, neighbour, HALF, params.time_horizon_s, world.dt_s)
-    }));
+    half_planes.extend(
+        scratch
+            .nearest
+            .as_slice()
+            .iter()
+            .map(|neighbour| agent_half_plane(own.velocity_mps, neighbour, HALF, params.time_horizon_s, world.dt_s)),
+    );
     scratch.adapted_mps = world.preferred_mps[agent];
-    let solution = solve_alike(half_planes, walls, scratch.adapted_mps, params.speed_max_mps, &mut scratch.projected);
-    scratch.feasible_prefix = solution.feasible_prefix;
+    let solution = solve(half_planes, walls, scratch.adapted_mps, params.speed_max_mps, &mut scratch.projected);
+    scratch.satisfied = solution.satisfied;
     facing_the_way(world, agent, solution.velocity_mps, scratch)
 }

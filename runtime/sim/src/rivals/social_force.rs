@@ -68,7 +68,7 @@ pub fn plan(world: &World, agent: usize, params: &SocialForceParams, scratch: &m
     let range_m = params.neighbour_range_m;
     look_around(world, agent, Ranking::Distance, range_m, range_m, scratch);
     scratch.half_planes.clear();
-    scratch.feasible_prefix = 0;
+    scratch.satisfied = 0;
     scratch.adapted_mps = world.preferred_mps[agent];
     let substep_s = world.dt_s / params.substeps as f32;
     let mut own = world.disc(agent);

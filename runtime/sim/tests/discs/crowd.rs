@@ -3,14 +3,13 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use fbcrowd_sim::mcn::half_plane::HalfPlane;
-use fbcrowd_sim::mcn::orca::{self, Disc};
-use fbcrowd_sim::mcn::params::McnParams;
-use fbcrowd_sim::mcn::{self, linear_program};
-use fbcrowd_sim::neighbours::{Nearest, Neighbours, Query, Ranking};
+use fbcrowd_sim::neighbours::Neighbours;
 use fbcrowd_sim::obstacles::Obstacles;
+use fbcrowd_sim::params::Params;
+use fbcrowd_sim::path::{Braking, Progress, preferred_mps};
 use fbcrowd_sim::plan::{Plan, Stance};
-use fbcrowd_sim::planner::Scratch;
+use fbcrowd_sim::planner::{Planner, Scratch, plan};
+use fbcrowd_sim::scenario::AgentSpec;
 use fbcrowd_sim::world::World;
 use glam::Vec2;
 use motiondb::velocity_hull::VelocityHull;
@@ -18,12 +17,7 @@ use motiondb::velocity_hull::VelocityHull;
 /// Protocol of `facts/planning.md` §3.
 pub(crate) const RADIUS_M: f32 = 0.25;
 const SPEED_MPS: f32 = 1.33;
-const SPEED_MAX_MPS: f32 = 2.0;
-const HORIZON_S: f32 = 5.0;
-const RANGE_M: f32 = 10.0;
 const ARRIVED_M: f32 = 0.5;
-/// A walker slows down within this time of its goal, s: as long as Eq. 9 needs to take a slower velocity up, twice.
-const SLOWING_S: f32 = 1.0;
 /// Stalled: under this speed, m/s, for this long, s.
 const STALL: (f32, f32) = (0.1, 5.0);
 
@@ -36,19 +30,21 @@ pub(crate) enum Body {
     Lagging(f32, f32),
 }
 
-/// Who plans.
-pub(crate) enum Planner<'a> {
-    /// Only the half-planes of other agents: what RVO2 does.
-    Orca,
-    /// The whole of §4.
-    Mcn(&'a McnParams, &'a VelocityHull, &'a Obstacles),
+/// Who plans, and amid what.
+#[derive(Clone, Copy)]
+pub(crate) struct Setting<'a> {
+    pub(crate) planner: Planner,
+    pub(crate) params: &'a Params,
+    pub(crate) hull: &'a VelocityHull,
+    pub(crate) walls: &'a Obstacles,
+    pub(crate) body: Body,
+    pub(crate) dt_s: f32,
 }
 
 pub(crate) struct Crowd {
     positions_m: Vec<Vec2>,
-    goals_m: Vec<Vec2>,
-    /// Where all walk first whose x is less than its.
-    door_m: Option<Vec2>,
+    agents: Vec<AgentSpec>,
+    progress: Vec<Progress>,
     velocities_mps: Vec<Vec2>,
     facings_rad: Vec<f32>,
     radii_m: Vec<f32>,
@@ -83,20 +79,28 @@ pub(crate) fn read_scene(name: &str) -> Option<Vec<(Vec2, Vec2)>> {
 }
 
 impl Crowd {
+    /// Agents from here to there, all through the door first, if there is one.
     pub(crate) fn new(agents: &[(Vec2, Vec2)], door_m: Option<Vec2>) -> Self {
         let count = agents.len();
-        let facing = |(from, to): &(Vec2, Vec2)| libm::atan2f(to.y - from.y, to.x - from.x);
+        let spec = |&(from_m, to_m): &(Vec2, Vec2)| AgentSpec {
+            position_m: from_m,
+            facing_rad: libm::atan2f(to_m.y - from_m.y, to_m.x - from_m.x),
+            goals_m: door_m.into_iter().chain([to_m]).collect(),
+            radius_m: RADIUS_M,
+            preferred_speed_mps: SPEED_MPS,
+        };
+        let agents: Vec<AgentSpec> = agents.iter().map(spec).collect();
         Self {
-            positions_m: agents.iter().map(|agent| agent.0).collect(),
-            goals_m: agents.iter().map(|agent| agent.1).collect(),
-            door_m,
+            positions_m: agents.iter().map(|agent| agent.position_m).collect(),
             velocities_mps: vec![Vec2::ZERO; count],
-            facings_rad: agents.iter().map(facing).collect(),
+            facings_rad: agents.iter().map(|agent| agent.facing_rad).collect(),
             radii_m: vec![RADIUS_M; count],
             plans: vec![Plan::default(); count],
             neighbours: Neighbours::default(),
+            progress: vec![Progress::default(); count],
             slow_s: vec![0.0; count],
             arrivals_s: vec![None; count],
+            agents,
         }
     }
 
@@ -106,14 +110,15 @@ impl Crowd {
         self
     }
 
-    /// Runs until all have arrived, or the time is over.
-    pub(crate) fn run(&mut self, planner: &Planner, body: Body, dt_s: f32, duration_s: f32) -> Figures {
+    /// Runs until all are at their goals at once, or the time is over.
+    pub(crate) fn run(&mut self, setting: &Setting, duration_s: f32) -> Figures {
+        let &Setting { body, dt_s, .. } = setting;
         let mut figures = Figures::default();
         let mut planning = Duration::ZERO;
         let mut steps = 0;
-        while steps as f32 * dt_s < duration_s && self.arrivals_s.iter().any(Option::is_none) {
+        while steps as f32 * dt_s < duration_s && !(0..self.agents.len()).all(|agent| self.is_home(agent)) {
             let start = Instant::now();
-            self.plan(planner, dt_s);
+            self.plan(setting);
             planning += start.elapsed();
             figures.collisions += self.advance(body, dt_s, &mut figures.acceleration_mps2);
             figures.trails_m.push(self.positions_m.clone());
@@ -130,40 +135,10 @@ impl Crowd {
         figures
     }
 
-    fn plan(&mut self, planner: &Planner, dt_s: f32) {
+    fn plan(&mut self, setting: &Setting) {
         self.neighbours.rebuild(&self.positions_m, &self.velocities_mps, &self.radii_m);
-        match planner {
-            Planner::Orca => self.plan_orca(dt_s),
-            Planner::Mcn(params, hull, obstacles) => self.plan_mcn(params, hull, obstacles, dt_s),
-        }
-    }
-
-    fn plan_orca(&mut self, dt_s: f32) {
-        let (mut nearest, mut projected) = (Nearest::default(), Vec::new());
-        let disc = |agent: usize| Disc {
-            position_m: self.positions_m[agent],
-            velocity_mps: self.velocities_mps[agent],
-            radius_m: self.radii_m[agent],
-        };
-        for agent in 0..self.plans.len() {
-            let Disc { position_m, velocity_mps, radius_m } = disc(agent);
-            self.neighbours.nearest(
-                &Query { agent, position_m, velocity_mps, radius_m, range_m: RANGE_M, ranking: Ranking::Distance },
-                &mut nearest,
-            );
-            let half_plane =
-                |other: u32| orca::agent_half_plane(&disc(agent), &disc(other as usize), 0.5, other, HORIZON_S, dt_s);
-            let found: Vec<HalfPlane> =
-                nearest.as_slice().iter().map(|neighbour| half_plane(neighbour.agent)).collect();
-            let preferred_mps = self.preferred_mps(agent, dt_s);
-            let solution = linear_program::solve(&found, preferred_mps, SPEED_MAX_MPS, &mut projected);
-            self.plans[agent].velocity_mps = solution.velocity_mps;
-        }
-    }
-
-    fn plan_mcn(&mut self, params: &McnParams, hull: &VelocityHull, obstacles: &Obstacles, dt_s: f32) {
         let count = self.plans.len();
-        let preferred_mps: Vec<Vec2> = (0..count).map(|agent| self.preferred_mps(agent, SLOWING_S)).collect();
+        let preferred_mps = self.follow_paths(setting);
         let strafing_s: Vec<f32> = self.plans.iter().map(|plan| plan.strafing_s).collect();
         let stepping_back_s: Vec<f32> = self.plans.iter().map(|plan| plan.stepping_back_s).collect();
         let world = World {
@@ -176,21 +151,22 @@ impl Crowd {
             strafing_s: &strafing_s,
             stepping_back_s: &stepping_back_s,
             neighbours: &self.neighbours,
-            obstacles,
-            hull,
-            dt_s,
+            obstacles: setting.walls,
+            hull: setting.hull,
+            dt_s: setting.dt_s,
         };
         let mut scratch = Scratch::default();
-        self.plans = (0..count).map(|agent| mcn::plan(&world, agent, params, &mut scratch)).collect();
+        let mut planned = |agent| plan(setting.planner, &world, agent, setting.params, &mut scratch);
+        self.plans = (0..count).map(&mut planned).collect();
     }
 
-    /// Towards the door, or the goal, slower within `slowing` of it.
-    fn preferred_mps(&self, agent: usize, slowing_s: f32) -> Vec2 {
-        let before = |door_m: &Vec2| self.positions_m[agent].x < door_m.x;
-        if let Some(door_m) = self.door_m.filter(before) {
-            return (door_m - self.positions_m[agent]).normalize_or_zero() * SPEED_MPS;
-        }
-        ((self.goals_m[agent] - self.positions_m[agent]) / slowing_s).clamp_length_max(SPEED_MPS)
+    fn follow_paths(&mut self, setting: &Setting) -> Vec<Vec2> {
+        let braking = match setting.body {
+            Body::Ideal => Braking::Within(setting.dt_s),
+            Body::Lagging(..) => Braking::Evenly,
+        };
+        let agents = self.agents.iter().zip(&self.positions_m).zip(&mut self.progress);
+        agents.map(|((agent, &position_m), progress)| preferred_mps(agent, position_m, braking, progress)).collect()
     }
 
     /// Moves everyone; returns Σ PD (Eqs. 16, 17) of the step and adds the accelerations.
@@ -226,10 +202,15 @@ impl Crowd {
         sum
     }
 
+    fn is_home(&self, agent: usize) -> bool {
+        let goal_m = *self.agents[agent].goals_m.last().unwrap();
+        self.positions_m[agent].distance(goal_m) <= ARRIVED_M
+    }
+
     /// Arrivals and stalls.
     fn notice(&mut self, time_s: f32, dt_s: f32) {
         for agent in 0..self.positions_m.len() {
-            if self.arrivals_s[agent].is_none() && self.positions_m[agent].distance(self.goals_m[agent]) <= ARRIVED_M {
+            if self.arrivals_s[agent].is_none() && self.is_home(agent) {
                 self.arrivals_s[agent] = Some(time_s);
             }
             let slow = self.velocities_mps[agent].length() < STALL.0 && self.arrivals_s[agent].is_none();
