@@ -38,12 +38,14 @@ const BACKWARD: f32 = 1.4;
 const TURNING_M: f32 = 1.0;
 /// Cadence over that of m_sp: from a stroll's to a shuffle's.
 const CADENCE: [f32; 2] = [0.6, 2.2];
-/// Greatest speeds ahead, back and aside, over that of m_sp, where legs neither over-stretch nor hurry (`fbcrowd bench
-/// reach`) …
+/// Greatest speeds ahead, back and aside, over that of m_sp; `fbcrowd bench reach` measures where legs would cross,
+/// over-stretch or crouch, which is further out in every direction.
 const AHEAD_MAX: f32 = 2.0;
 const BACKWARD_MAX: f32 = 1.1;
 const ASIDE_MAX: f32 = 1.1;
-/// … and the greatest turn rate, rad/s: 170 °/s.
+/// The body leans into a turn, and its feet stand outward: at this turn rate the greatest speeds are halved, rad/s …
+const TURN_HALF_RAD_S: f32 = 2.5;
+/// … and it turns no faster than this, rad/s: 170 °/s.
 const TURN_MAX_RAD_S: f32 = 3.0;
 /// Least clearance between ankles that pass each other aside, m: a foot's width.
 const GAP_M: f32 = 0.1;
@@ -150,14 +152,16 @@ impl SemiProcedural {
         (forward * ahead(strike) + reversed * ahead(1.0 - off)) / self.phase_map(parameters).rate_hz(phase)
     }
 
-    /// The nearest parameters that m_sp can be deformed to.
+    /// The nearest parameters that m_sp is deformed to: an ellipse of speeds, the smaller the faster it turns.
     pub fn reachable(&self, parameters: Parameters) -> Parameters {
-        let ends_mps = if parameters.speed_mps < 0.0 { BACKWARD_MAX } else { AHEAD_MAX } * self.parameters.speed_mps;
-        let aside_max_mps = ASIDE_MAX * self.parameters.speed_mps;
-        let reach = Vec2::new(parameters.speed_mps / ends_mps, parameters.strafe_mps / aside_max_mps).length().max(1.0);
+        let turn_rate_rad_s = parameters.turn_rate_rad_s.clamp(-TURN_MAX_RAD_S, TURN_MAX_RAD_S);
+        let scale_mps = self.parameters.speed_mps / (1.0 + turn_rate_rad_s.abs() / TURN_HALF_RAD_S);
+        let end_mps = if parameters.speed_mps < 0.0 { BACKWARD_MAX } else { AHEAD_MAX } * scale_mps;
+        let aside_end_mps = ASIDE_MAX * scale_mps;
+        let reach = Vec2::new(parameters.speed_mps / end_mps, parameters.strafe_mps / aside_end_mps).length().max(1.0);
         Parameters {
             speed_mps: parameters.speed_mps / reach,
-            turn_rate_rad_s: parameters.turn_rate_rad_s.clamp(-TURN_MAX_RAD_S, TURN_MAX_RAD_S),
+            turn_rate_rad_s,
             strafe_mps: parameters.strafe_mps / reach,
         }
     }

@@ -11,6 +11,7 @@ mod gait;
 mod import;
 mod leave_one_out;
 mod plan;
+mod reach;
 mod scenes;
 mod soak;
 mod table1;
@@ -45,6 +46,7 @@ enum Bench {
     LeaveOneOut(leave_one_out::Args),
     Gait(gait::Args),
     Plan(plan::Args),
+    Reach(reach::Args),
     Soak(soak::Args),
     Table1(table1::Args),
     Figure7(figure7::Args),
@@ -70,6 +72,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Bench::LeaveOneOut(args) => leave_one_out::run(args),
         Bench::Gait(args) => gait::run(args),
         Bench::Plan(args) => plan::run(args),
+        Bench::Reach(args) => reach::run(args),
         Bench::Soak(args) => soak::run(args),
         Bench::Table1(args) => table1::run(args),
         Bench::Figure7(args) => figure7::run(args),
