@@ -18,6 +18,10 @@ use super::half_plane::HalfPlane;
 /// Lines whose directions' cross product is below this count as parallel; RVO2's own limit, far above f32 rounding.
 const PARALLEL: f32 = 1e-5;
 
+/// Parallel lines that leave no room between them, but by less than this, count as touching, m/s: so much may a tilt
+/// that counts as parallel make up at a run.
+const TOUCHING_MPS: f32 = 8.0 * PARALLEL;
+
 /// What the programs found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution {
@@ -75,13 +79,19 @@ fn incremental(
 
 /// The 1D program: the objective's best point of a line, within the disc and the half-planes before it.
 fn on_line(line: &HalfPlane, earlier: &[HalfPlane], objective: Objective, speed_max_mps: f32) -> Option<Vec2> {
-    let (mut least, mut most) = chord(line, speed_max_mps)?;
+    // From the line's point nearest to rest, however far off the point that it is given by: else rounding would lead
+    // beyond the greatest speed.
+    let across = line.direction.perp();
+    let offset_mps = across.dot(line.point_mps);
+    let foot_mps = offset_mps * across;
+    let mut most = half_chord(offset_mps, speed_max_mps)?;
+    let mut least = -most;
     for other in earlier {
         let slope = line.direction.perp_dot(other.direction);
-        let reach = other.direction.perp_dot(line.point_mps - other.point_mps);
+        let reach = other.direction.perp_dot(foot_mps - other.point_mps);
         if slope.abs() <= PARALLEL {
             // The tolerance keeps a set without width, whose two sides coincide, from being lost to rounding.
-            if reach < -PARALLEL {
+            if reach < -TOUCHING_MPS {
                 return None;
             }
         } else if slope > 0.0 {
@@ -97,18 +107,17 @@ fn on_line(line: &HalfPlane, earlier: &[HalfPlane], objective: Objective, speed_
         }
     }
     let along = match objective {
-        Objective::Nearest(target_mps) => line.direction.dot(target_mps - line.point_mps).clamp(least, most),
+        Objective::Nearest(target_mps) => line.direction.dot(target_mps).clamp(least, most),
         Objective::Furthest(direction) if direction.dot(line.direction) > 0.0 => most,
         Objective::Furthest(_) => least,
     };
-    Some(line.point_mps + along * line.direction)
+    Some(foot_mps + along * line.direction)
 }
 
-/// The stretch of a line inside the disc of `speed_max`.
-fn chord(line: &HalfPlane, speed_max_mps: f32) -> Option<(f32, f32)> {
-    let middle = -line.point_mps.dot(line.direction);
-    let discriminant = middle * middle + speed_max_mps * speed_max_mps - line.point_mps.length_squared();
-    (discriminant >= 0.0).then(|| (middle - discriminant.sqrt(), middle + discriminant.sqrt()))
+/// Half of the stretch of a line inside the disc of `speed_max`; the line passes rest at a distance.
+fn half_chord(offset_mps: f32, speed_max_mps: f32) -> Option<f32> {
+    let squared = (speed_max_mps - offset_mps) * (speed_max_mps + offset_mps);
+    (squared >= 0.0).then(|| squared.sqrt())
 }
 
 /// The 3D program: with the first `hard` half-planes kept, the velocity whose greatest weighted violation of the others
