@@ -102,8 +102,14 @@ fn on_line(line: &HalfPlane, earlier: &[HalfPlane], objective: Objective, speed_
         } else if reach < least * slope {
             least = reach / slope;
         }
+        // The bounds of lines that are nearly parallel are quotients of roundings: a stretch is empty where the line
+        // that empties it would be violated by more than that.
         if least > most {
-            return None;
+            if (least - most) * slope.abs() > TOUCHING_MPS {
+                return None;
+            }
+            let kept = if slope > 0.0 { least } else { most };
+            (least, most) = (kept, kept);
         }
     }
     let along = match objective {
