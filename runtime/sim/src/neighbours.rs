@@ -113,18 +113,9 @@ impl Nearest {
         &self.found
     }
 
-    /// The same in lanes, in order of rank whatever the order of the slice.
+    /// The same in lanes.
     pub fn around(&self) -> &Around {
         &self.around
-    }
-
-    /// Puts those first that are met first (`FbCrowd` §4.4); those never met stay in order of distance. Ties by rank.
-    pub fn sort_by_time_to_collision(&mut self) {
-        // Floats that are not negative stand in the order of their bits.
-        self.found.sort_by_key(|neighbour| {
-            let [time, distance] = [neighbour.time_to_collision_s, neighbour.distance_m].map(f32::to_bits);
-            (u64::from(time) << 32) | u64::from(distance)
-        });
     }
 
     /// The worst rank found.

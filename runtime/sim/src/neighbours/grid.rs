@@ -250,12 +250,13 @@ mod tests {
         let mut random = SplitMix64::new(1, 0);
         let crowd: Vec<Vec2> = (0..COUNT).map(|_| within(&mut random, 100.0)).collect();
         check(&crowd);
-        let two_cities = |agent: usize| within(&mut random, 30.0) + Vec2::splat(if agent % 2 == 0 { 0.0 } else { 1e4 });
+        let two_cities =
+            |agent: usize| within(&mut random, 30.0) + Vec2::splat(if agent.is_multiple_of(2) { 0.0 } else { 1e4 });
         check(&(0..COUNT).map(two_cities).collect::<Vec<_>>());
         let mut stragglers = crowd.clone();
         (0..12).for_each(|power| stragglers[power] = Vec2::splat(200.0 * 2.0_f32.powi(power as i32)));
         check(&stragglers);
-        let pile = |agent: usize| within(&mut random, if agent % 2 == 0 { 1e-3 } else { 100.0 });
+        let pile = |agent: usize| within(&mut random, if agent.is_multiple_of(2) { 1e-3 } else { 100.0 });
         check(&(0..COUNT).map(pile).collect::<Vec<_>>());
     }
 
