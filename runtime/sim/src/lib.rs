@@ -2,14 +2,18 @@
 
 pub mod agents;
 pub mod angle;
+pub mod arching;
 pub mod around;
 pub mod body_penetration;
 pub mod cns;
 pub mod collision_rate;
 pub mod crowd;
 pub mod decay;
+pub mod gate;
 pub mod hms;
+pub mod lanes;
 pub mod mcn;
+pub mod measured_section;
 pub mod metrics;
 pub mod neighbours;
 pub mod obstacles;

@@ -92,13 +92,20 @@ struct Placed {
 /// # Errors
 /// Where a file cannot be read or says something that cannot be simulated.
 pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
-    let source = read_text(path)?;
+    of_text(&read_text(path)?)
+}
+
+/// As [`read`], of a text that lies at hand; files that it names are sought beside its path.
+///
+/// # Errors
+/// Where it says something that cannot be simulated, or a file cannot be read.
+pub fn of_text(source: &SourceText) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
     let file: ScenarioFile =
         toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message()))?;
-    let motion = motion_source(&source, &file)?;
-    let placed = place_agents(&source, &file)?;
+    let motion = motion_source(source, &file)?;
+    let placed = place_agents(source, &file)?;
     let scenario = Scenario {
-        name: file.name.as_ref().map_or_else(|| stem(path), |name| name.get_ref().clone()),
+        name: file.name.as_ref().map_or_else(|| stem(&source.path), |name| name.get_ref().clone()),
         duration_s: *file.duration_s.get_ref(),
         dt_s: file.dt_s.as_ref().map_or(STEP_S, |dt_s| *dt_s.get_ref()),
         seed: file.seed.unwrap_or(SEED),
@@ -109,7 +116,7 @@ pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(View::default, |view| view.get_ref().clone()),
     };
-    check(&scenario).map_err(|broken| fault(&source, &file, &placed.spans, broken))?;
+    check(&scenario).map_err(|broken| fault(source, &file, &placed.spans, broken))?;
     Ok((scenario, motion))
 }
 
