@@ -42,6 +42,7 @@ pub mod scenario_ranges;
 pub mod segment_distance;
 pub mod split_mix;
 pub mod step;
+pub mod turned_world;
 pub mod wild_program;
 pub mod wild_world;
 pub mod world;
