@@ -31,6 +31,8 @@ const OBSTACLES_MAX: usize = 10_000;
 const TUNABLE_MAX: f64 = 1e6;
 /// The shortest step; nothing is timed finer.
 const TIME_MIN_S: f64 = 1e-3;
+/// Of social forces: from the step itself to hundredths of the shortest one.
+const SUBSTEPS: RangeInclusive<u32> = 1..=1_000;
 /// Past 8K; each thread holds a picture or two.
 const PICTURE_PIXELS: RangeInclusive<u32> = 16..=8_192;
 const PICTURE_WIDTH_M: RangeInclusive<f32> = 0.01..=2.0 * COORDINATE_MAX_M;
@@ -118,7 +120,8 @@ fn check_params(params: &Params) -> Result<(), Fault> {
             within(&Place::Parameter(section.clone(), key.clone()), key, number, &(least..=TUNABLE_MAX), DEFAULT)?;
         }
     }
-    Ok(())
+    let substeps = Place::Parameter("social_force".into(), "substeps".into());
+    within(&substeps, "substeps", params.social_force.substeps, &SUBSTEPS, DEFAULT)
 }
 
 fn check_agent(place: &Place, agent: &AgentSpec) -> Result<(), Fault> {

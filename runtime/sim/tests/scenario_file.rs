@@ -8,6 +8,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use common::folder;
+use fbcrowd_sim::cns::Coupling;
+use fbcrowd_sim::hms::params::Modes;
+use fbcrowd_sim::mcn::params::StanceForm;
+use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::scenario_error::{Invalid, ScenarioError};
 use fbcrowd_sim::scenario_file::{MotionSource, read};
@@ -174,6 +178,29 @@ fn numbers_out_of_range_are_shown_where_they_stand() {
     let tunables = "[params.planner]\ntime_horizon_s = 0.0\n";
     check_refused("tunable", &format!("{HEAD}{ONE}{tunables}"), "0.0", "time_horizon_s is 0, not between");
     check_refused("nobody", &format!("{HEAD}agents = []"), "[]", "the number of agents is 0");
+}
+
+#[test]
+fn planner_coupling_and_syntheses_are_the_scenarios_choice() {
+    let given = "planner = \"social_force\"\ncoupling = \"discs\"\n";
+    let params =
+        "[params.planner.parts]\nhull = false\nstance = \"radial\"\n[params.synthesis]\nmodes = \"blending\"\n";
+    let chosen = scenario("rivals", &format!("{given}{ONE}{params}"));
+    assert_eq!((chosen.planner, chosen.coupling), (Planner::SocialForce, Coupling::Discs));
+    let parts = &chosen.params.planner.parts;
+    assert!(!parts.hull && parts.stance == StanceForm::Radial && parts.order);
+    assert_eq!(chosen.params.synthesis.modes, Modes::Blending);
+    let plain = scenario("plain", ONE);
+    assert_eq!((plain.planner, plain.coupling), (Planner::Mcn, Coupling::TwoWay));
+}
+
+#[test]
+fn unknown_planners_are_refused_with_those_that_there_are() {
+    let text = format!("{HEAD}planner = \"rvo\"\n{ONE}");
+    check_refused("rvo", &text, "\"rvo\"", "`mcn`, `orca`, `social_force`");
+    let none = "substeps = 0";
+    let text = format!("{HEAD}{ONE}[params.social_force]\n{none}\n");
+    check_refused("substeps", &text, "0", "substeps is 0, not between 1 and 1000");
 }
 
 #[test]
