@@ -33,6 +33,7 @@ fn bad_usage_ends_with_code_2() {
     fbcrowd(&["compile"]).expect_code(2);
     fbcrowd(&["render", "missing.fbrec", "-o", "out/x", "--format", "bmp"]).expect_code(2);
     fbcrowd(&["validate", "missing.fbdb", "--threads", "0"]).expect_code(2);
+    fbcrowd(&["validate", "missing.fbdb", "--threads", "60000"]).expect_code(2).says(&["1024"]);
     fbcrowd(&["compile", WALK, "-o", "out/x", "--max-examples", "0"]).expect_code(2).says(&["whole number from 1 on"]);
 }
 
@@ -53,6 +54,22 @@ fn a_database_replaces_no_clip_that_it_is_made_of() {
     let before = fs::read(&clip).unwrap();
     fbcrowd(&["compile", text(&folder), "-o", text(&clip)]).expect_code(2).says(&["walk.bvh", "another place"]);
     assert!(fs::read(&clip).unwrap() == before);
+}
+
+#[test]
+fn no_file_name_colours_or_breaks_what_is_printed() {
+    let folder = folder("control_characters");
+    let database = folder.join("motion.fbdb");
+    fs::copy(support::repository().join(WALK), folder.join("a\u{1b}[31m\nb.bvh")).unwrap();
+    fs::write(folder.join("c\u{1b}[31m\nd.bvh"), "no clip").unwrap();
+    let compiled = fbcrowd(&["compile", text(&folder), "-o", text(&database)]).expect_code(1);
+    let inspected = fbcrowd(&["inspect", text(&folder)]).expect_code(1);
+    let shown = fbcrowd(&["inspect", text(&database)]).expect_code(0);
+    for outcome in [compiled, inspected, shown] {
+        let printed = outcome.stdout + &outcome.stderr;
+        let is_broken = printed.lines().any(|line| line.starts_with("b.bvh") || line.starts_with("d.bvh"));
+        assert!(!is_broken && !printed.contains('\u{1b}'), "{printed}");
+    }
 }
 
 #[test]

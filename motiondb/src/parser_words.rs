@@ -20,9 +20,10 @@ const WANTED: [(&str, &str); 15] = [
     ("a map", "a table of keys and values"),
 ];
 /// Mistakes of spelling, by how the parser's sentence about them begins: what is wrong, and what to do.
-const SPELLING: [(&str, &str, &str); 8] = [
+const SPELLING: [(&str, &str, &str); 9] = [
     ("string values must be quoted", "this is no value", "write a number, true, false, or a text in quotes"),
     ("invalid basic string", "the text does not end in its line", "close it with a quote: \""),
+    ("invalid literal string", "the text does not end in its line", "close it with a quote: '"),
     ("missing escaped value", "a \\ in a text stands for more than itself", "write paths with /, or with \\\\"),
     ("key with no value", "a key stands here without a value", "write key = value"),
     ("duplicate key", "the key stands twice", "keep one of both"),

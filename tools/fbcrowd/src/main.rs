@@ -32,6 +32,9 @@ use clap::{Parser, Subcommand};
 
 use crate::failure::{Answer, Failure};
 
+/// More than any machine has cores; tens of thousands would keep it from all other work.
+const THREADS_MAX: i64 = 1024;
+
 /// Clips to a motion database, a database to a crowd, a crowd to pictures.
 #[derive(Parser)]
 #[command(name = "fbcrowd", version, max_term_width = 110, arg_required_else_help = true)]
@@ -39,7 +42,7 @@ struct Cli {
     #[command(subcommand)]
     command: Command,
     /// Threads to use; all cores by default. Every output is the same for any number.
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=THREADS_MAX))]
     threads: Option<u16>,
 }
 

@@ -28,12 +28,12 @@ pub(crate) struct Args {
     /// frame_rate_hz, warnings[]}`; of clips each with `gait {kind, reason, planted_share, right[] {strike_s,
     /// toe_off_s}, left[] {strike_s, toe_off_s}}`: kind is "steps", "stands" or "unsteady" (with a reason), strikes and
     /// toe-offs are those of the whole clip, in seconds from the file's first frame, null where the clip begins or ends
-    /// within the contact; and `refused[] {file, clip, reason}`; of a database also `examples[] {name, source, clip, window_s, mirrored, speed_mps,
-    /// turn_rate_rad_s, strafe_mps, duration_s, key_times_s, planted_slide_cm_s, planted_share}`, `velocity_hull
-    /// {construction, turning_mps[][2], holding_mps[][2], sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension,
-    /// simplices[][], covered_share}`, `correspondence {semi_procedural, blending, pairs_s[][2]}` or null, and
-    /// `coverage[] {lack, sentence}`: where the set is thin. Key times: right toe-off, right heel strike, left toe-off,
-    /// left heel strike, from right mid-stance.
+    /// within the contact; and `refused[] {file, clip, reason}`; of a database also `examples[] {name, source, clip,
+    /// window_s, mirrored, speed_mps, turn_rate_rad_s, strafe_mps, duration_s, key_times_s, planted_slide_cm_s,
+    /// planted_share}`, `velocity_hull {construction, turning_mps[][2], holding_mps[][2],
+    /// sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension, simplices[][], covered_share}`, `correspondence
+    /// {semi_procedural, blending, pairs_s[][2]}` or null, and `coverage[] {lack, sentence}`: where the set is thin. Key
+    /// times: right toe-off, right heel strike, left toe-off, left heel strike, from right mid-stance.
     #[arg(long)]
     json: bool,
     /// Write pictures of a database: velocity sets, parameters, where they are thin, bodies, steps, and how alike the
