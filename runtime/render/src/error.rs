@@ -56,6 +56,27 @@ pub enum RenderError {
         /// Last frame of the recording.
         last: u32,
     },
+    /// An overlay of an agent that the recording does not have.
+    #[error("agent {agent}: the recording has {count}, 0 to {}; name one of these (each picture with an overlay tells their numbers)", count.saturating_sub(1))]
+    NoSuchAgent {
+        /// The agent asked for.
+        agent: usize,
+        /// Agents in the recording.
+        count: usize,
+    },
+    /// More overlays than a picture has room for.
+    #[error(
+        "{asked} agents are too many panels for one picture, which has room for {room}; render some of them at a time"
+    )]
+    TooManyPanels {
+        /// Panels asked for.
+        asked: usize,
+        /// Panels that fit beside the scene.
+        room: usize,
+    },
+    /// An overlay of a recording in which nothing was planned.
+    #[error("the recording holds no step, so nothing was planned; simulate for at least one step")]
+    NoStep,
     /// The recording holds no frame at all.
     #[error("the recording holds no frame; simulate for at least one step")]
     EmptyRecording,

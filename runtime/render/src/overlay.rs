@@ -64,9 +64,14 @@ impl Overlay {
     /// Each agent's index beside it.
     pub fn draw_labels(&self, pixmap: &mut Pixmap, agents: &[AgentFrame]) {
         for (index, agent) in agents.iter().enumerate() {
-            let beside = self.framing.to_px(agent.root.position_m + LABEL_OFFSET_M);
-            self.label_face.draw_with_halo(pixmap, &index.to_string(), beside, Anchor::Left, [INK, GROUND]);
+            self.draw_label(pixmap, index, agent.root.position_m);
         }
+    }
+
+    /// One agent's index beside it.
+    pub fn draw_label(&self, pixmap: &mut Pixmap, index: usize, position_m: Vec2) {
+        let beside = self.framing.to_px(position_m + LABEL_OFFSET_M);
+        self.label_face.draw_with_halo(pixmap, &index.to_string(), beside, Anchor::Left, [INK, GROUND]);
     }
 }
 

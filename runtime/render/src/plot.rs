@@ -18,8 +18,8 @@ const LETTERS_PX: [f32; 3] = [36.0, 25.0, 19.0];
 /// Width of axes and grid lines, and length of ticks, pixels.
 const HAIRLINE_PX: f32 = 1.0;
 const TICK_PX: f32 = 8.0;
-/// Radius of the marks of a legend, pixels.
-const LEGEND_MARK_PX: f32 = 9.0;
+/// Radius of the marks of a legend, share of its letters' height.
+const LEGEND_MARK: f32 = 0.36;
 /// Points nearer to each other than this share one note, pixels.
 const SAME_POINT_PX: f32 = 5.0;
 /// Widest note, share of its panel: of dozens of points that fall together not all are named.
@@ -73,10 +73,15 @@ impl Panel {
 impl Figure {
     /// An empty sheet; sides are 1 to 16384 pixels.
     pub fn new(width_px: u32, height_px: u32) -> Self {
+        Self::with_letters(width_px, height_px, 1.0)
+    }
+
+    /// As [`Self::new`], with letters of another size, as a multiple of the usual one.
+    pub fn with_letters(width_px: u32, height_px: u32, size: f32) -> Self {
         let side = |side_px: u32| side_px.clamp(1, crate::framing::MAX_SIDE_PX);
         let mut pixmap = Pixmap::new(side(width_px), side(height_px)).expect("the sides are clamped to what it takes");
         pixmap.fill(to_color(PAPER, 1.0));
-        let [title_face, face, note_face] = LETTERS_PX.map(Typeface::new);
+        let [title_face, face, note_face] = LETTERS_PX.map(|letters_px| Typeface::new(size * letters_px));
         Self { pixmap, title_face, face, note_face }
     }
 
@@ -212,6 +217,18 @@ impl Figure {
         }
     }
 
+    /// Many lines of two ends each, as one.
+    pub fn hatching(&mut self, panel: &Panel, strokes: impl IntoIterator<Item = [Vec2; 2]>, line: Line) {
+        let mut path = PathBuilder::new();
+        for [from, to] in strokes.into_iter().map(|ends| ends.map(|end| panel.to_px(end))) {
+            path.move_to(from.x, from.y);
+            path.line_to(to.x, to.y);
+        }
+        if let Some(path) = path.finish() {
+            self.stroke(panel, &path, line);
+        }
+    }
+
     /// A filled polygon with an outline in the same colour.
     pub fn polygon(&mut self, panel: &Panel, corners: impl IntoIterator<Item = Vec2>, fill_opacity: f32, line: Line) {
         if let Some(path) = path(panel, corners, true) {
@@ -234,7 +251,7 @@ impl Figure {
         let mut pen_px = at_px;
         for (mark, colour, text) in entries {
             let size = self.face.size_px;
-            mark.draw(&mut self.pixmap, pen_px - Vec2::new(0.0, 0.32 * size), LEGEND_MARK_PX, *colour);
+            mark.draw(&mut self.pixmap, pen_px - Vec2::new(0.0, 0.32 * size), LEGEND_MARK * size, *colour);
             pen_px.x += 0.8 * size;
             self.text(text, pen_px, Anchor::Left);
             pen_px.x += self.face.width_px(text) + 1.6 * size;

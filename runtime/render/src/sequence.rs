@@ -12,8 +12,10 @@ use rayon::prelude::*;
 
 use crate::error::RenderError;
 use crate::frame_range::{FIRST_FRAME, FrameRange};
+use crate::overlay_constraints::ConstraintOverlay;
 use crate::playback::{picture_count, picture_time_s, read_tracks, sample};
 use crate::top_view::{FrameBuffers, TopView};
+use crate::trails::Tracks;
 use crate::{exr_frame, png_frame};
 
 /// File format of a sequence.
@@ -47,6 +49,14 @@ pub struct SequenceOptions {
     pub format: Format,
     /// All frames where absent.
     pub frames: Option<FrameRange>,
+    /// Agents whose constraints are drawn beside the scene.
+    pub constraints_of: Vec<usize>,
+}
+
+/// What all pictures of a sequence are drawn with.
+struct Views<'a> {
+    top: TopView<'a>,
+    overlay: Option<ConstraintOverlay<'a>>,
 }
 
 /// Renders a recording from above; `progress` hears, from any thread, how many of how many frames are done. Returns the
@@ -61,20 +71,31 @@ pub fn render_sequence(
 ) -> Result<Vec<PathBuf>, RenderError> {
     let numbers = numbers(recording, options.frames.as_ref())?;
     let tracks = read_tracks(recording)?;
-    let view = TopView::new(recording.header(), &tracks)?;
+    let views = Views::new(recording, &tracks, &options.constraints_of)?;
     make_folder(&options.folder)?;
     let done = AtomicUsize::new(0);
     numbers
         .par_iter()
         .map_init(
-            || view.buffers(),
+            || views.top.buffers(),
             |buffers, number| {
-                let path = render_frame(recording, &view, buffers, options, *number)?;
+                let path = render_frame(recording, &views, buffers, options, *number)?;
                 progress(done.fetch_add(1, Ordering::Relaxed) + 1, numbers.len());
                 Ok(path)
             },
         )
         .collect()
+}
+
+impl<'a> Views<'a> {
+    fn new(recording: &'a Recording, tracks: &'a Tracks, constraints_of: &[usize]) -> Result<Self, RenderError> {
+        let top = TopView::new(recording.header(), tracks)?;
+        let overlay = match constraints_of {
+            [] => None,
+            agents => Some(ConstraintOverlay::new(recording, top.framing(), agents)?),
+        };
+        Ok(Self { top, overlay })
+    }
 }
 
 fn numbers(recording: &Recording, frames: Option<&FrameRange>) -> Result<Vec<u32>, RenderError> {
@@ -91,14 +112,16 @@ fn make_folder(folder: &Path) -> Result<(), RenderError> {
 
 fn render_frame(
     recording: &Recording,
-    view: &TopView<'_>,
+    views: &Views<'_>,
     buffers: &mut FrameBuffers,
     options: &SequenceOptions,
     number: u32,
 ) -> Result<PathBuf, RenderError> {
     let time_s = picture_time_s(recording, number - FIRST_FRAME);
     let agents = sample(recording, time_s)?;
-    let pixmap = view.draw(buffers, time_s as f32, &agents);
+    let scene = views.top.draw(buffers, time_s as f32, &agents);
+    let overlaid = views.overlay.as_ref().map(|overlay| overlay.draw(scene, time_s)).transpose()?;
+    let pixmap = overlaid.as_ref().unwrap_or(scene);
     let path = options.folder.join(format!("{}.{number:04}.{}", options.name, options.format.extension()));
     match options.format {
         Format::Png => png_frame::write(&path, pixmap)?,

@@ -62,6 +62,11 @@ impl<'a> TopView<'a> {
         Ok(Self { header, tracks, framing, background, looks, overlay: Overlay::new(&framing) })
     }
 
+    /// Which part of the world is shown.
+    pub fn framing(&self) -> &Framing {
+        &self.framing
+    }
+
     /// Memory for drawing frames one after the other.
     pub fn buffers(&self) -> FrameBuffers {
         FrameBuffers { canvas: Canvas::new(self.background.clone()), shade: ShadeMask::new(&self.framing) }

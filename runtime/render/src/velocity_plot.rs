@@ -17,9 +17,9 @@ const SHEET_PX: [u32; 2] = [1600, 1400];
 /// Left, top, width, height of the axes on it, pixels.
 const PANEL_PX: [f32; 4] = [130.0, 190.0, 1410.0, 1080.0];
 /// Turning set: a blue; holding set: an ochre; sharp-turn edges: a red, as in the paper.
-const TURNING: Rgb = Rgb::new(0.16, 0.40, 0.72);
-const HOLDING: Rgb = Rgb::new(0.78, 0.52, 0.10);
-const SHARP_TURN: Rgb = Rgb::new(0.80, 0.16, 0.16);
+pub(crate) const TURNING: Rgb = Rgb::new(0.16, 0.40, 0.72);
+pub(crate) const HOLDING: Rgb = Rgb::new(0.78, 0.52, 0.10);
+pub(crate) const SHARP_TURN: Rgb = Rgb::new(0.80, 0.16, 0.16);
 
 /// The plot of a database's velocity sets.
 pub fn velocity_space(db: &MotionDb) -> Pixmap {

@@ -7,6 +7,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
+use fbcrowd_render::overlay_constraints::ConstraintOverlay;
 use fbcrowd_render::playback::{read_tracks, sample};
 use fbcrowd_render::png_frame;
 use fbcrowd_render::top_view::TopView;
@@ -39,6 +40,12 @@ fn pictures() -> Vec<(&'static str, Pixmap)> {
         let view = TopView::new(&header, &tracks).unwrap();
         view.draw(&mut view.buffers(), time_s as f32, &sample(&recording, time_s).unwrap()).clone()
     };
+    let overlaid = |agents: &[usize], time_s: f64| {
+        let view = TopView::new(recording.header(), &tracks).unwrap();
+        let overlay = ConstraintOverlay::new(&recording, view.framing(), agents).unwrap();
+        let bodies = sample(&recording, time_s).unwrap();
+        overlay.draw(view.draw(&mut view.buffers(), time_s as f32, &bodies), time_s).unwrap()
+    };
     let view = recording.header().scenario.view.clone();
     let near = View { width: 240, height: 135, width_m: Some(2.4), labels: false, ..view.clone() };
     let far = View { width_m: Some(26.0), labels: false, ..view.clone() };
@@ -49,6 +56,7 @@ fn pictures() -> Vec<(&'static str, Pixmap)> {
         ("top_near.png", top_view(near, 1.2)),
         ("top_far.png", top_view(far, 1.2)),
         ("top_dots.png", top_view(dots, 1.2)),
+        ("overlay_constraints.png", overlaid(&[2], 1.0)),
         ("trajectories.png", quarter(&trajectories(recording.header(), &tracks))),
     ]
 }

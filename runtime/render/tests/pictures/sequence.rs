@@ -14,9 +14,15 @@ use fbcrowd_sim::recording::Recording;
 
 use crate::support::{self, Scratch};
 
-fn options(folder: &Path, format: Format, frames: Option<&str>) -> SequenceOptions {
+pub(crate) fn options(folder: &Path, format: Format, frames: Option<&str>) -> SequenceOptions {
     let frames = frames.map(|frames| frames.parse().unwrap());
-    SequenceOptions { folder: folder.to_owned(), name: "walkers".to_owned(), format, frames }
+    SequenceOptions {
+        folder: folder.to_owned(),
+        name: "walkers".to_owned(),
+        format,
+        frames,
+        constraints_of: Vec::new(),
+    }
 }
 
 fn recording(folder: &Path) -> Recording {

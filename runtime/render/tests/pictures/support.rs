@@ -12,6 +12,7 @@ use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use glam::{Quat, Vec2, Vec3};
 use motiondb::pose::{Pose, Root};
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
+use motiondb::velocity_hull::VelocityHull;
 
 /// Walking speed of every walker, m/s.
 const SPEED_MPS: f32 = 1.3;
@@ -74,9 +75,30 @@ fn walking(phase: f32) -> Pose {
     Pose { pelvis_m: Vec3::new(0.0, 0.02 * (TAU * phase).cos(), 0.9), rotations }
 }
 
-/// A walker at a place, facing somewhere.
+/// A walker at a place, facing somewhere, on one foot.
 fn walker(position_m: Vec2, facing_rad: f32, phase: f32) -> AgentFrame {
-    AgentFrame { root: Root { position_m, facing_rad }, phase, pose: walking(phase), ..AgentFrame::default() }
+    AgentFrame {
+        root: Root { position_m, facing_rad },
+        phase,
+        contacts: if (phase + 0.25).fract() < 0.5 { [0.0, 1.0] } else { [1.0, 0.0] },
+        time_to_landing_s: 0.2,
+        pose: walking(phase),
+        ..AgentFrame::default()
+    }
+}
+
+/// Walks, slow turns on the spot, and a little to the side and back.
+fn velocity_hull() -> VelocityHull {
+    let corners = |points: &[[f32; 2]]| points.iter().copied().map(Vec2::from).collect();
+    VelocityHull {
+        turning_mps: corners(&[[1.8, 0.0], [0.9, -0.9], [-0.6, -0.4], [-0.6, 0.4], [0.9, 0.9]]),
+        holding_mps: corners(&[[1.8, 0.0], [0.0, -0.7], [-0.8, 0.0], [0.0, 0.7]]),
+        sharp_turn_edges_mps: vec![
+            [[-0.1, 0.2], [-0.6, 0.4]].map(Vec2::from),
+            [[-0.6, -0.4], [-0.1, -0.2]].map(Vec2::from),
+        ],
+        ..VelocityHull::default()
+    }
 }
 
 /// Agents on a circle, each bound for the opposite point, passing left of the centre on gentle arcs.
@@ -113,7 +135,7 @@ fn header(agents: Vec<AgentSpec>, view: View) -> Header {
         params: Params::default(),
         view,
     };
-    Header { database_checksum: 0, skeleton: skeleton(), scenario }
+    Header { database_checksum: 0, skeleton: skeleton(), velocity_hull: velocity_hull(), scenario }
 }
 
 /// All agents of a scene after some seconds: each walks towards its goal on an arc that bulges to its right.
@@ -127,7 +149,8 @@ pub(crate) fn frame(header: &Header, time_s: f32) -> Vec<AgentFrame> {
         let position_m = agent.position_m + way * share - bulge * way.normalize().perp();
         let facing_rad = (way.normalize() - slope * way.normalize().perp()).to_angle();
         let phase = (STRIDE_HZ * time_s + 0.37 * index as f32).fract();
-        walker(position_m, facing_rad, phase)
+        let preferred_mps = SPEED_MPS * (goal - position_m).normalize_or_zero();
+        AgentFrame { preferred_mps, ..walker(position_m, facing_rad, phase) }
     };
     header.scenario.agents.iter().enumerate().map(walk).collect()
 }
@@ -140,10 +163,14 @@ pub(crate) fn golden_header() -> Header {
 
 /// Writes the scene of the golden pictures as a recording.
 pub(crate) fn write_recording(path: &Path) {
-    let header = golden_header();
-    let mut recorder = Recorder::create(path, &header).unwrap();
-    for step in 0..=16 {
-        recorder.push(&frame(&header, step as f32 * header.scenario.dt_s)).unwrap();
+    write_steps(path, &golden_header(), 16);
+}
+
+/// Writes some steps of a scene as a recording.
+pub(crate) fn write_steps(path: &Path, header: &Header, steps: usize) {
+    let mut recorder = Recorder::create(path, header).unwrap();
+    for step in 0..=steps {
+        recorder.push(&frame(header, step as f32 * header.scenario.dt_s)).unwrap();
     }
     recorder.finish().unwrap();
 }

@@ -12,7 +12,7 @@ use crate::{output, rendering};
 /// Render a recording to a frame sequence.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd render crossing.fbrec -o frames\n  fbcrowd render crossing.fbrec -o frames --format exr --frames 1001-1100x2"
+    after_help = "Examples:\n  fbcrowd render crossing.fbrec -o frames\n  fbcrowd render crossing.fbrec -o frames --format exr --frames 1001-1100x2\n  fbcrowd render crossing.fbrec -o why --overlay constraints --agent 3 --frames 1090-1120"
 )]
 pub(crate) struct Args {
     /// The recording.
@@ -30,6 +30,12 @@ pub(crate) struct Args {
     /// Frames, as in `1001-1100`, `1001-1100x2`, `1010,1020`; all by default.
     #[arg(long, value_name = "RANGE")]
     frames: Option<FrameRange>,
+    /// Draw beside the scene why agents go where they go; name them with --agent.
+    #[arg(long, value_enum, value_name = "WHAT")]
+    overlay: Option<OverlayArg>,
+    /// An agent for the overlay, from 0; repeat it, or write 3,7, for several panels.
+    #[arg(long, value_name = "N", value_delimiter = ',', requires = "overlay")]
+    agent: Vec<usize>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -43,6 +49,12 @@ enum FormatArg {
     Exr,
 }
 
+#[derive(Clone, Copy, ValueEnum)]
+enum OverlayArg {
+    /// The velocity space of each agent named: all that limited its plan, what it wanted, planned and walked.
+    Constraints,
+}
+
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let ViewArg::Top = args.view;
     let recording = rendering::open(&args.recording)?;
@@ -54,6 +66,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
             FormatArg::Exr => Format::Exr,
         },
         frames: args.frames.clone(),
+        constraints_of: constraints_of(args, recording.header().scenario.agents.len())?,
     };
     let rendered = rendering::render(&recording, &options)?;
     output::print(&format!(
@@ -63,4 +76,14 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         rendered.ms_per_frame
     ))?;
     Ok(Answer::Yes)
+}
+
+fn constraints_of(args: &Args, count: usize) -> Result<Vec<usize>, Failure> {
+    match args.overlay {
+        Some(OverlayArg::Constraints) if args.agent.is_empty() => Err(Failure::bad(format!(
+            "--overlay constraints draws the velocity space of an agent, and none is named; add --agent N (0 to {})",
+            count.saturating_sub(1)
+        ))),
+        Some(OverlayArg::Constraints) | None => Ok(args.agent.clone()),
+    }
 }

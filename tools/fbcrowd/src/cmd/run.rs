@@ -43,7 +43,13 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let recording = rendering::open(&recording_path)?;
     let measures = metrics::measure(&recording).map_err(|error| Failure::bad(error.to_string()))?;
     rendering::plot_trajectories(&recording, &folder.join("trajectories.png"))?;
-    let options = SequenceOptions { folder: folder.join("frames"), name, format: Format::Png, frames: None };
+    let options = SequenceOptions {
+        folder: folder.join("frames"),
+        name,
+        format: Format::Png,
+        frames: None,
+        constraints_of: Vec::new(),
+    };
     remove_frames(&options).map_err(|error| Failure::unwritable(&options.folder, &error))?;
     let rendered = rendering::render(&recording, &options)?;
 
