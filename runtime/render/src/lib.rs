@@ -8,7 +8,8 @@
 //! files ([`png_frame`], [`exr_frame`], all of them by [`sequence`]).
 //!
 //! Plots stand on a small kit ([`plot`], [`axis`], [`mark`], `name_places`): everybody's paths ([`trajectories`]), those
-//! of several runs beside each other ([`side_by_side`]), figures of many runs ([`comparison_plot`]); of a database its velocity sets ([`velocity_plot`]), blend space ([`parameter_plot`]) and where it is thin
+//! of several runs beside each other ([`side_by_side`]), figures of many runs ([`comparison_plot`]), points against a
+//! published curve ([`diagram_plot`]); of a database its velocity sets ([`velocity_plot`]), blend space ([`parameter_plot`]) and where it is thin
 //! ([`coverage_plot`]), bodies and sticks ([`contact_sheet`], `stick`), steps ([`gait_plot`]) and correspondences
 //! ([`pose_distance_plot`]), all of them by [`database_plots`].
 //!
@@ -23,6 +24,7 @@ mod constraint_key;
 pub mod contact_sheet;
 pub mod coverage_plot;
 pub mod database_plots;
+pub mod diagram_plot;
 pub mod error;
 pub mod exr_frame;
 pub mod frame_range;

@@ -305,10 +305,10 @@ fn missing_files_are_named() {
 #[test]
 fn the_scenarios_that_come_along_are_sound() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenarios");
-    let agents = ["antipodal", "crossing", "bottleneck", "course"].map(|name| {
+    let agents = ["antipodal", "crossing", "bottleneck", "counterflow", "course"].map(|name| {
         let (scenario, _) = read(&folder.join(name).with_extension("toml")).unwrap();
         assert_eq!(scenario.name, name);
         scenario.agents.len()
     });
-    assert_eq!(agents, [17, 30, 20, 1]);
+    assert_eq!(agents, [17, 30, 72, 180, 1]);
 }

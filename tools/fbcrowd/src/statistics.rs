@@ -6,7 +6,7 @@ pub(crate) fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
 }
 
 /// Mean and standard deviation of a sample.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub(crate) struct Spread {
     pub(crate) mean: f64,
     /// With n − 1; 0 of a single value.

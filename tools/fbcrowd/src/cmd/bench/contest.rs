@@ -32,7 +32,7 @@ use crate::progress::Progress;
 pub(super) struct Contestant {
     /// In tables, JSON and names of files.
     pub(super) name: &'static str,
-    planner: Planner,
+    pub(super) planner: Planner,
     /// Of social forces.
     substeps: u32,
 }
@@ -78,20 +78,30 @@ pub(super) fn run_all(
     if let Some(folder) = &protocol.trajectories {
         fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     }
-    let (next, progress) = (AtomicUsize::new(0), Progress::new("runs", scenes.len() * contestants.len()));
+    let runs = each_alone(scenes.len() * contestants.len(), |index| {
+        run(db, &scenes[index / contestants.len()], &contestants[index % contestants.len()], protocol)
+    });
+    runs?.into_iter().collect()
+}
+
+/// So many runs shared out among threads; what they gave by index.
+pub(super) fn each_alone<T: Send>(count: usize, run: impl Fn(usize) -> T + Sync) -> Result<Vec<T>, Failure> {
+    let (next, progress) = (AtomicUsize::new(0), Progress::new("runs", count));
     let work = || {
         let mut done = Vec::new();
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(scene) = scenes.get(index / contestants.len()) else { return done };
-            done.push((index, run(db, scene, &contestants[index % contestants.len()], protocol)));
+            if index >= count {
+                return done;
+            }
+            done.push((index, run(index)));
             progress.advance();
         }
     };
     let mut runs = in_threads(work)?;
     progress.finish();
     runs.sort_by_key(|(index, _)| *index);
-    runs.into_iter().map(|(_, run)| run).collect()
+    Ok(runs.into_iter().map(|(_, run)| run).collect())
 }
 
 /// Does the same work in as many threads as may be used, each with a pool of its own that has no other.
@@ -130,7 +140,7 @@ fn run(db: &Arc<MotionDb>, scene: &Scene, contestant: &Contestant, protocol: &Pr
     })
 }
 
-fn step_count(scenario: &Scenario) -> usize {
+pub(super) fn step_count(scenario: &Scenario) -> usize {
     (scenario.duration_s / scenario.dt_s).round() as usize
 }
 

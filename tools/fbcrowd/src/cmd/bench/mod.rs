@@ -6,18 +6,23 @@ mod bundled;
 mod clips;
 mod compile;
 mod contest;
+mod emergence;
 mod figure7;
 mod gait;
 mod import;
 mod leave_one_out;
 mod plan;
 mod reach;
+mod rimea;
+mod rimea_cases;
+mod rimea_more;
 mod scenes;
 mod soak;
 mod table1;
 mod table1_discs;
 mod table1_plots;
 mod table1_text;
+mod watch;
 
 use std::path::PathBuf;
 
@@ -50,6 +55,8 @@ enum Bench {
     Soak(soak::Args),
     Table1(table1::Args),
     Figure7(figure7::Args),
+    Rimea(rimea::Args),
+    Emergence(emergence::Args),
 }
 
 /// What every bench on other people's clips is told.
@@ -76,5 +83,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Bench::Soak(args) => soak::run(args),
         Bench::Table1(args) => table1::run(args),
         Bench::Figure7(args) => figure7::run(args),
+        Bench::Rimea(args) => rimea::run(args),
+        Bench::Emergence(args) => emergence::run(args),
     }
 }
