@@ -2,11 +2,11 @@
 //!
 //! In reading order: whose body ([`skeleton`]), how it is posed ([`pose`]) and how far its joints turn
 //! ([`joint_ranges`]), how a clip moves ([`parameters`]) and when ([`phase_map`]), which velocities it allows
-//! ([`velocity_hull`], [`wrapping_polygon`], `FbCrowd` §4.1), how clips blend ([`blend_space`], [`locator`], §5), where
-//! synthesis may switch ([`correspondence`] by [`pose_distance`], §5, Eq. 10), the database itself ([`motion_db`]),
-//! what its feet do on the ground ([`planted_feet`]), its invariants ([`validate`]; of the blend space [`tiling`], on
-//! the [`lattice`]), how good its examples are ([`quality`]), where it is thin ([`coverage`]) and its file
-//! ([`mod@file`]).
+//! ([`velocity_hull`], [`wrapping_polygon`], `FbCrowd` §4.1), how clips blend ([`blend_space`], [`locator`], §5),
+//! where synthesis may switch ([`correspondence`] by [`pose_distance`], §5, Eq. 10), the database itself
+//! ([`motion_db`]) with what is said of its clips ([`remark`]), what its feet do on the ground ([`planted_feet`]), its
+//! invariants ([`validate`]; of the blend space [`tiling`], on the [`lattice`]), how good its examples are
+//! ([`quality`]), where it is thin ([`coverage`]) and its file ([`mod@file`]).
 //!
 //! Conventions: metres, seconds, radians; x and y on the ground, z up, right-handed. A body's frame: x forward, y left.
 //! Angles are counter-clockwise seen from above. Pairs of sides are `[left, right]`.
@@ -31,6 +31,7 @@ pub mod planted_feet;
 pub mod pose;
 pub mod pose_distance;
 pub mod quality;
+pub mod remark;
 mod simplex;
 pub mod skeleton;
 pub mod source_text;

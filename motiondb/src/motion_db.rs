@@ -8,6 +8,7 @@ use crate::correspondence::Correspondence;
 use crate::parameters::Parameters;
 use crate::phase_map::PhaseMap;
 use crate::pose::{Joints, Pose};
+use crate::remark::Remark;
 use crate::skeleton::{JOINT_COUNT, Skeleton};
 use crate::velocity_hull::VelocityHull;
 
@@ -115,5 +116,5 @@ pub struct SourceRecord {
     /// Frames a second.
     pub frame_rate_hz: f32,
     /// Whatever a user should know: lying headers, no steady cycle, snapped parameters.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }

@@ -7,15 +7,17 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use motiondb::motion_db::SourceRecord;
+use motiondb::remark::{Kind, Remark};
 
 use crate::arc::Rates;
 use crate::cycle::{self, GaitCycle};
 use crate::foot_slide;
 use crate::gait::{Gait, Window};
 use crate::human_clip::{HumanBody, HumanClip};
-use crate::remark::NO_EXAMPLE;
 use crate::root_motion::{GroundedClip, leg_length_m};
 use crate::stance::Stance;
+use crate::stride::Stride;
 use crate::{parameterize, performer, selection};
 
 /// Whoever walks, crouched or on hands, has the pelvis above this, m.
@@ -29,7 +31,7 @@ pub(crate) struct Analyzed {
     /// The longest first.
     pub windows: Vec<SteadyWindow>,
     /// Of the clip as a whole.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
     pub left_out: LeftOut,
 }
 
@@ -52,7 +54,7 @@ pub(crate) struct SteadyWindow {
     /// It is worth a warning: good enough for a clip's only example, but not for one more.
     pub is_doubtful: bool,
     /// What should be said of it if it becomes an example.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
 }
 
 /// What the body does in a window.
@@ -79,31 +81,35 @@ impl SteadyWindow {
 }
 
 impl Analyzed {
-    /// What is to be said of the clip: on the whole, of its first window, of each other one with its time.
-    pub(crate) fn remarks(&self) -> Vec<String> {
-        let mut remarks = self.warnings.clone();
+    /// The record of the clip, with what is to be said of it on the whole, of its first window, of each other one with
+    /// its time.
+    pub(crate) fn record(&self, clip: &HumanClip) -> SourceRecord {
+        let mut record = clip.source.clone();
+        let remarks = &mut record.warnings;
+        remarks.extend(self.warnings.iter().cloned());
         for (index, window) in self.windows.iter().enumerate() {
             let at = if index == 0 { String::new() } else { format!("from {:.1} s: ", window.window_s[0]) };
-            remarks.extend(window.remarks.iter().map(|remark| format!("{at}{remark}")));
+            remarks.extend(window.remarks.iter().map(|remark| remark.kind.remark(format!("{at}{}", remark.text))));
         }
         remarks.extend(self.left_out.remark());
-        remarks
+        record
     }
 }
 
 impl LeftOut {
-    fn remark(&self) -> Option<String> {
+    fn remark(&self) -> Option<Remark> {
         let [doubtful, near_equal] = [self.doubtful, self.near_equal];
         let windows = |count: usize| format!("{count} more steady window{}", if count == 1 { "" } else { "s" });
-        match (doubtful, near_equal) {
-            (0, 0) => None,
-            (0, _) => Some(format!("{}, near-equal to examples, left out", windows(near_equal))),
-            (_, 0) => Some(format!("{} with sliding feet left out", windows(doubtful))),
-            _ => Some(format!(
+        let text = match (doubtful, near_equal) {
+            (0, 0) => return None,
+            (0, _) => format!("{}, near-equal to examples, left out", windows(near_equal)),
+            (_, 0) => format!("{} with sliding feet left out", windows(doubtful)),
+            _ => format!(
                 "{}, {near_equal} near-equal to examples and {doubtful} with sliding feet, left out",
                 windows(doubtful + near_equal)
-            )),
-        }
+            ),
+        };
+        Some(Kind::LeftOut.remark(text))
     }
 }
 
@@ -129,7 +135,7 @@ pub(crate) fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
     let unfit = found.len() - windows.len();
     let mut left_out = selection::keep_best(&mut windows);
     match (reason, windows.is_empty()) {
-        (Some(reason), true) => warnings.push(format!("{NO_EXAMPLE}{reason}")),
+        (Some(reason), true) => warnings.push(Kind::NoExample.remark(reason)),
         _ => left_out.doubtful += unfit,
     }
     Analyzed { grounded, windows, warnings, left_out }
@@ -147,28 +153,51 @@ fn steady_window(
     let second = |frame: f64| (clip.first_frame as f64 + frame.clamp(0.0, last_frame)) / clip.frame_rate_hz;
     let window_s = window.frames.map(second);
     match &window.gait {
-        Gait::Stands(frames) => {
-            let heights_m = grounded.poses[frames.clone()].iter().map(|pose| DVec3::Z * pose.pelvis_m.z);
-            if strays(heights_m, body) {
-                return Err(STRAY.to_owned());
-            }
-            let flaws = selection::flaws_of_rest(window_s[1] - window_s[0]);
-            let motion = Motion::Stands(frames.clone());
-            Ok(SteadyWindow { window_s, motion, flaws, is_doubtful: false, remarks: Vec::new() })
-        }
+        Gait::Stands(frames) => rest(grounded, body, frames, window_s),
         Gait::Steps(strides) => {
-            let mut cycle = cycle::mean_stride(grounded, body, stances, strides);
-            let mut remarks = parameterize::snap(&mut cycle);
-            if let Some(reason) = unfit(&cycle, body) {
-                return Err(reason);
-            }
-            let doubts = foot_slide::lint(&cycle, body);
-            let is_doubtful = !doubts.is_empty();
-            remarks.extend(doubts);
-            let flaws = selection::flaws_of_strides(strides, &cycle, body);
-            Ok(SteadyWindow { window_s, motion: Motion::Steps(Box::new(cycle)), flaws, is_doubtful, remarks })
+            let cycle = cycle::mean_stride(grounded, body, stances, strides);
+            stepping(cycle, body, strides, window_s)
         }
     }
+}
+
+/// A window in which the body stands.
+fn rest(
+    grounded: &GroundedClip,
+    body: &HumanBody,
+    frames: &Range<usize>,
+    window_s: [f64; 2],
+) -> Result<SteadyWindow, String> {
+    let heights_m = grounded.poses[frames.clone()].iter().map(|pose| DVec3::Z * pose.pelvis_m.z);
+    if strays(heights_m, body) {
+        return Err(STRAY.to_owned());
+    }
+    let flaws = selection::flaws_of_rest(window_s[1] - window_s[0]);
+    Ok(SteadyWindow {
+        window_s,
+        motion: Motion::Stands(frames.clone()),
+        flaws,
+        is_doubtful: false,
+        remarks: Vec::new(),
+    })
+}
+
+/// A window of strides, by their mean.
+fn stepping(
+    mut cycle: GaitCycle,
+    body: &HumanBody,
+    strides: &[Stride],
+    window_s: [f64; 2],
+) -> Result<SteadyWindow, String> {
+    let mut remarks = parameterize::snap(&mut cycle);
+    if let Some(reason) = unfit(&cycle, body) {
+        return Err(reason);
+    }
+    let doubts = foot_slide::lint(&cycle, body);
+    let is_doubtful = !doubts.is_empty();
+    remarks.extend(doubts);
+    let flaws = selection::flaws_of_strides(strides, &cycle, body);
+    Ok(SteadyWindow { window_s, motion: Motion::Steps(Box::new(cycle)), flaws, is_doubtful, remarks })
 }
 
 /// Why a cycle must not be blended with others, if so.

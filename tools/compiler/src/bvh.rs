@@ -13,7 +13,8 @@ use std::path::Path;
 use bvh_anim::{Axis, Bvh, Channel};
 use glam::{DQuat, DVec3};
 
-use crate::bvh_prepass::{self, CheckedBvh, CheckedJoint, Motion};
+use crate::bvh_hierarchy::CheckedJoint;
+use crate::bvh_prepass::{self, CheckedBvh, Motion};
 use crate::error::ImportError;
 use crate::source_clip::{SourceClip, SourceJoint};
 

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
+use motiondb::remark::{Kind, Remark};
 use motiondb::skeleton::Joint;
 
 use crate::plausibility::{LEAD_MIN_M, passings};
@@ -41,12 +42,12 @@ const LOW_SHARE: f64 = 0.05;
 const TURN_MIN_S: f64 = 1.0;
 
 /// The warning, where something else than feet on level ground moves the body.
-pub(crate) fn remark(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Option<String> {
+pub(crate) fn remark(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Option<Remark> {
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
     let steps = passings(clip, roles, LEAD_MIN_M * scale).len();
     let body = Body { clip, roles, scale, steps };
     let moves = (!whole.in_place).then(|| body.climbs().or_else(|| body.slides(whole))).flatten();
-    moves.or_else(|| body.is_turned(whole)).or_else(|| body.jumps())
+    moves.or_else(|| body.is_turned(whole)).or_else(|| body.jumps()).map(|told| Kind::Ground.remark(told))
 }
 
 struct Body<'a> {

@@ -1,5 +1,11 @@
 //! The compiler: clips in, motion database out, one line a stage.
 //!
+//! # Steps
+//! import ([`clip_set`]) → the body that all examples share ([`target_skeleton`]) → steady windows and their mean
+//! strides (`analysis`) → of one take one copy ([`duplicates`]) and of near-equal windows the best (`selection`) → closed
+//! cycles and their mirrors (`named_cycles`) → (v_f, ω_t, ω_s) and key times ([`parameterize`]) → [`blend_space`],
+//! [`velocity_hull`], [`correspondence`] → [`MotionDb`], valid.
+//!
 //! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted
 //! by file and clip name, examples by their own name, and parallel stages collect in that order.
 
@@ -8,6 +14,7 @@ use std::path::PathBuf;
 
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::parameters::Parameters;
+use motiondb::remark::Kind;
 use motiondb::validate::first_broken;
 use motiondb::velocity_hull::Construction;
 use rayon::prelude::*;
@@ -16,13 +23,12 @@ use crate::analysis::{Analyzed, analyze};
 use crate::compile_error::CompileError;
 use crate::cycle::{GaitCycle, NamedCycle};
 use crate::human_clip::{HumanBody, HumanClip};
-use crate::import::{self, Import};
 use crate::manifest::Manifest;
 use crate::manifest_error::ManifestError;
 use crate::progress::{Event, Observer};
 use crate::refused::Refused;
 use crate::{
-    blend_space, correspondence, duplicates, named_cycles, names, parameterize, rows, selection, target_skeleton,
+    blend_space, clip_set, correspondence, duplicates, named_cycles, parameterize, rows, selection, target_skeleton,
     velocity_hull,
 };
 
@@ -33,6 +39,15 @@ pub struct Compiled {
     pub db: MotionDb,
     /// Each file or clip that was refused, in order of file name.
     pub refused: Vec<Refused>,
+}
+
+/// What a user wants of the whole set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Most recorded examples, mirrors not counted; all where none.
+    pub max_examples: Option<NonZeroUsize>,
+    /// Which examples bound which velocities.
+    pub velocity_hull: Construction,
 }
 
 /// Imports files, compiles their clips.
@@ -48,7 +63,7 @@ pub fn compile_files(files: &[PathBuf], tell: &Observer) -> Result<Compiled, Com
 /// # Errors
 /// As [`compile_files`], and where the manifest says of a clip what is not so.
 pub fn compile_manifest(manifest: &Manifest, tell: &Observer) -> Result<Compiled, CompileError> {
-    let (clips, refused) = import_manifest(manifest, tell)?;
+    let (clips, refused) = clip_set::import(manifest, tell)?;
     if clips.is_empty() && !refused.is_empty() {
         return Err(CompileError::NoExample { refused, sources: Vec::new() });
     }
@@ -61,90 +76,30 @@ pub fn compile_manifest(manifest: &Manifest, tell: &Observer) -> Result<Compiled
     }
 }
 
-/// The human clips of a manifest, imported in parallel, and each file or clip that gives none; both in order of file
-/// name. Clips of one name are told apart.
-///
-/// # Errors
-/// Where the manifest says of a clip what is not so.
-pub fn import_manifest(manifest: &Manifest, tell: &Observer) -> Result<(Vec<HumanClip>, Vec<Refused>), ManifestError> {
-    tell(Event::Stage("import"));
-    let imports: Vec<_> = manifest
-        .takes
-        .par_iter()
-        .map(|take| {
-            let import = import::import_take(take);
-            tell(Event::Imported(&take.path));
-            import
-        })
-        .collect();
-    let (mut clips, mut refused) = (Vec::new(), Vec::new());
-    for (take, import) in manifest.takes.iter().zip(imports) {
-        let file = take.path.display().to_string();
-        match import {
-            Err(error) => refused.push(Refused { file, clip: String::new(), reason: error.reason() }),
-            Ok(found) => {
-                for Import { clip, outcome, .. } in found {
-                    match outcome {
-                        Ok(human) => clips.push(human),
-                        Err(refusal) => {
-                            let reason = manifest.reason(take, refusal)?;
-                            refused.push(Refused { file: file.clone(), clip, reason });
-                        }
-                    }
-                }
-            }
-        }
-    }
-    sort(&mut clips);
-    manifest.choose(&mut clips)?;
-    Ok((clips, refused))
-}
-
-/// What a user wants of the whole set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Options {
-    /// Most recorded examples, mirrors not counted; all where none.
-    pub max_examples: Option<NonZeroUsize>,
-    /// Which examples bound which velocities.
-    pub velocity_hull: Construction,
-}
-
 /// Compiles clips into a database.
 ///
 /// # Errors
 /// Where no clip gives an example, or the database is unsound.
 pub fn compile(mut clips: Vec<HumanClip>, options: &Options, tell: &Observer) -> Result<MotionDb, CompileError> {
-    sort(&mut clips);
     if clips.is_empty() {
         return Err(CompileError::NoClips);
     }
+    clip_set::sort(&mut clips);
     let body = target_skeleton::choose(&clips);
     tell(Event::Stage("analysis of gaits"));
     let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
     tell(Event::Stage("selection"));
     duplicates::set_aside(&clips, &mut analyzed, &body);
     selection::keep_what_adds(&mut analyzed);
-    let mut sources: Vec<SourceRecord> = clips.iter().zip(&analyzed).map(|(clip, found)| record(clip, found)).collect();
+    let mut sources: Vec<SourceRecord> = clips.iter().zip(&analyzed).map(|(clip, found)| found.record(clip)).collect();
     let mut cycles = named_cycles::close(&clips, analyzed, &body)?;
     selection::limit(&mut cycles, options.max_examples, &mut sources);
     named_cycles::add_mirrors(&mut cycles);
     cycles.sort_by(|a, b| a.name.cmp(&b.name));
-    assemble(cycles, sources, &body, options, tell)
-}
-
-/// The record of a clip, with what was found in it.
-pub(crate) fn record(clip: &HumanClip, found: &Analyzed) -> SourceRecord {
-    let mut source = clip.source.clone();
-    source.warnings.extend(found.remarks());
-    source
-}
-
-/// Into the order of a database, which no folder and no argument changes: files of one name go by what they hold. Clips
-/// of one name are told apart in that order.
-pub(crate) fn sort(clips: &mut [HumanClip]) {
-    let names = |clip: &HumanClip| (clip.source.file.clone(), clip.source.clip.clone(), clip.name.clone());
-    clips.sort_by(|a, b| names(a).cmp(&names(b)).then_with(|| a.by_content(b)));
-    names::tell_apart(clips.iter_mut().map(|clip| &mut clip.name));
+    if cycles.is_empty() {
+        return Err(CompileError::NoExample { refused: Vec::new(), sources });
+    }
+    sound(assemble(cycles, sources, &body, options, tell), tell)
 }
 
 /// The database of cycles sorted by name.
@@ -154,10 +109,7 @@ fn assemble(
     body: &HumanBody,
     options: &Options,
     tell: &Observer,
-) -> Result<MotionDb, CompileError> {
-    if named.is_empty() {
-        return Err(CompileError::NoExample { refused: Vec::new(), sources });
-    }
+) -> MotionDb {
     tell(Event::Stage("parameters"));
     let examples: Vec<MotionExample> = named.iter().map(|named| parameterize::example(named, body)).collect();
     let chosen = named.iter().position(|named| named.choices.is_semi_procedural);
@@ -178,6 +130,11 @@ fn assemble(
     };
     tell(Event::Stage("correspondence times"));
     db.correspondence = correspondence::find(&db, chosen);
+    db
+}
+
+/// A database that holds every invariant.
+fn sound(db: MotionDb, tell: &Observer) -> Result<MotionDb, CompileError> {
     tell(Event::Stage("validation"));
     match first_broken(&db) {
         Some((invariant, detail)) => Err(CompileError::Unsound { invariant, detail }),
@@ -190,7 +147,7 @@ fn tell_of_twins(twins: &[[usize; 2]], examples: &[MotionExample], sources: &mut
     let twins = twins.iter().map(|pair| pair.map(|index| &examples[index]));
     for [unused, played] in twins.filter(|[unused, _]| !unused.mirrored) {
         let remark = format!("{} moves like {}, which is blended in its place", unused.name, played.name);
-        sources[unused.source as usize].warnings.push(remark);
+        sources[unused.source as usize].warnings.push(Kind::Twin.remark(remark));
     }
 }
 

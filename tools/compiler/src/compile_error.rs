@@ -4,7 +4,6 @@ use motiondb::motion_db::SourceRecord;
 
 use crate::manifest_error::ManifestError;
 use crate::refused::Refused;
-use crate::remark;
 
 /// No database could be made.
 #[derive(Debug, thiserror::Error)]
@@ -48,7 +47,7 @@ pub enum CompileError {
 
 fn all(refused: &[Refused], sources: &[SourceRecord]) -> String {
     let of_source = |source: &SourceRecord| {
-        let remarks = source.warnings.iter().map(|text| remark::bare(text)).collect::<Vec<&str>>();
+        let remarks: Vec<&str> = source.warnings.iter().map(|remark| remark.text.as_str()).collect();
         Refused { file: source.file.clone(), clip: source.clip.clone(), reason: remarks.join("; ") }
     };
     let all = refused.iter().cloned().chain(sources.iter().map(of_source));

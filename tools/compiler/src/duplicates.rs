@@ -4,6 +4,7 @@
 //! `take_search` chooses which clips are compared, `same_take` decides of two clips, `shared_stretches` which of their
 //! windows give examples. Here all of it is put together, and said.
 
+use motiondb::remark::{Kind, Remark};
 use rayon::prelude::*;
 
 use crate::alignment::Alignment;
@@ -11,7 +12,6 @@ use crate::analysis::Analyzed;
 use crate::frame_times::Neighbours;
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::performance::Performance;
-use crate::remark::{ANOTHER_FRAME_TIME, NO_EXAMPLE};
 use crate::same_take::Entry;
 use crate::shared_stretches::{self, Chosen, Mark};
 use crate::take_search::{self, LIST_MAX, Search};
@@ -44,7 +44,7 @@ pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [Analyzed], body: &H
     }
     for clip in search.beyond_list {
         let remark = format!("too many clips: whether it is the same take is known of the {LIST_MAX} longest only");
-        analyzed[clip].warnings.push(remark);
+        analyzed[clip].warnings.push(Kind::Uncompared.remark(remark));
     }
 }
 
@@ -86,22 +86,22 @@ fn neighbours(count: usize, pairs: &[Pair]) -> Neighbours {
 }
 
 /// What is said of a clip: which other gives its examples; or, of the one that does, whose frame times differ.
-fn remarks(clips: &[HumanClip], chosen: &Chosen, clip: usize) -> Vec<String> {
+fn remarks(clips: &[HumanClip], chosen: &Chosen, clip: usize) -> Vec<Remark> {
     let windows = &chosen.aside[clip];
     let aside: Vec<&Mark> = windows.iter().flatten().collect();
     let same = |mark: &Mark| same_take(&title(&clips[mark.giver]), &mark.alignment);
     let own = match (&aside[..], windows.len()) {
         ([], 0) => chosen.marks[clip].first().map(same),
         ([], _) => None,
-        ([first, ..], all) if aside.len() == all => Some(format!("{NO_EXAMPLE}{}", same(first))),
-        ([_], _) => Some(format!("{}: 1 steady window left out", same(aside[0]))),
-        ([first, ..], _) => Some(format!("{}: {} steady windows left out", same(first), aside.len())),
+        ([first, ..], all) if aside.len() == all => Some(Kind::NoExample.remark(same(first).text)),
+        ([only], _) => Some(also(same(only), ": 1 steady window left out")),
+        ([first, ..], _) => Some(also(same(first), &format!(": {} steady windows left out", aside.len()))),
     };
     own.into_iter().chain(of_other_times(clips, chosen, clip)).collect()
 }
 
 /// What is said of a clip that gives the example of a take which others tell at another frame time.
-fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<String> {
+fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<Remark> {
     let tells_otherwise = |&clip: &usize| {
         chosen.marks[clip].first().is_some_and(|mark| mark.giver == giver && mark.alignment.times_differ())
     };
@@ -114,10 +114,17 @@ fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<
     (!names.is_empty()).then(|| same_take(&names.join(", "), &times))
 }
 
-fn same_take(title: &str, alignment: &Alignment) -> String {
+fn same_take(title: &str, alignment: &Alignment) -> Remark {
     let mirrored = if alignment.mirrored { ", mirrored" } else { "" };
-    let timed = if alignment.times_differ() { format!(", {ANOTHER_FRAME_TIME}") } else { String::new() };
-    format!("the same take as {title}{mirrored}{timed}")
+    let (kind, timed) = match alignment.times_differ() {
+        true => (Kind::OtherTime, ", at another frame time: one of both is wrong"),
+        false => (Kind::SameTake, ""),
+    };
+    kind.remark(format!("the same take as {title}{mirrored}{timed}"))
+}
+
+fn also(remark: Remark, more: &str) -> Remark {
+    Remark { text: remark.text + more, ..remark }
 }
 
 fn title(clip: &HumanClip) -> String {
@@ -203,7 +210,8 @@ mod tests {
         let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
         set_aside(clips, &mut analyzed, &body);
         let start_s = |found: &Analyzed| found.windows.iter().map(|window| window.window_s[0]).collect();
-        analyzed.into_iter().map(|found| (start_s(&found), found.warnings)).collect()
+        let said = |found: &Analyzed| found.warnings.iter().map(Remark::to_string).collect();
+        analyzed.iter().map(|found| (start_s(found), said(found))).collect()
     }
 
     /// Of the plain bend and another clip the other gives the example, and the bend's record tells it.
@@ -239,7 +247,7 @@ mod tests {
             for clips in [[told(), lying.clone()], [lying, told()]] {
                 for (clip, (windows, said)) in clips.iter().zip(left(&clips)) {
                     assert_eq!(windows.len(), usize::from(clip.name == "told"), "{} {said:?}", clip.name);
-                    assert!(said.iter().any(|said| said.contains(ANOTHER_FRAME_TIME)), "{said:?}");
+                    assert!(said.iter().any(|said| said.contains("at another frame time")), "{said:?}");
                 }
             }
         }

@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use motiondb::remark::Kind;
 use motiondb::skeleton::Joint;
 
 use crate::skeleton_map::Roles;
@@ -40,7 +41,7 @@ pub(crate) fn drop_separate_first_pose(clip: &mut SourceClip, roles: &Roles) {
     let drops_arms = spread(clip, roles, 0) > SPREAD_COSINE && spread(clip, roles, 1) < LOWERED_COSINE;
     if jumps || drops_arms {
         clip.keep_frames(1..clip.frame_count());
-        clip.warnings.push("the first frame is a separate pose and is not used".to_owned());
+        clip.warnings.push(Kind::Cut.remark("the first frame is a separate pose and is not used"));
     }
 }
 
@@ -53,12 +54,12 @@ pub(crate) fn drop_t_poses(clip: &mut SourceClip, roles: &Roles) {
     let (Some(first), Some(last)) = (first, last) else { return };
     let kept: Range<usize> = first..count.saturating_sub(last).max(first);
     let fits = kept.len() >= FRAMES_MIN && kept.len() as f64 >= left_min_s(clip, roles, &kept) * clip.frame_rate_hz;
-    let then = if fits { " and are not used" } else { "" };
+    let (kind, then) = if fits { (Kind::Cut, " and are not used") } else { (Kind::TPose, "") };
     if first > 0 {
-        clip.warnings.push(format!("the first {first} frames come out of a T-pose{then}"));
+        clip.warnings.push(kind.remark(format!("the first {first} frames come out of a T-pose{then}")));
     }
     if last > 0 {
-        clip.warnings.push(format!("the last {last} frames go into a T-pose{then}"));
+        clip.warnings.push(kind.remark(format!("the last {last} frames go into a T-pose{then}")));
     }
     if fits {
         clip.keep_frames(kept);

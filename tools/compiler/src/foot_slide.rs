@@ -2,16 +2,13 @@
 
 use glam::DVec3;
 use motiondb::planted_feet::{self, CycleFeet, FootSlide};
-use motiondb::validate;
+use motiondb::remark::{Kind, Remark};
+use motiondb::{quality, validate};
 
 use crate::cycle::GaitCycle;
 use crate::human_clip::{HumanBody, HumanJoints};
 
-/// More slide than this is worth a warning: clean walks have 3–8 cm/s, runs 6 cm/s more for each m/s
-/// (`definitions.md`).
-const SUSPECT_SLIDE_CM_S: f64 = 12.0;
-const SUSPECT_SLIDE_CM_S_PER_MPS: f64 = 8.0;
-/// And so is a foot planted for less of the cycle than in a sprint.
+/// A foot planted for less of the cycle than in a sprint is worth a warning.
 const SUSPECT_SHARE: f64 = 0.2;
 /// More slide than this, and than this share of the body's speed, is no stance at all: blended into a crowd it drags
 /// all feet. Noisy captures: 18 cm/s; hand-keyed runs: 7 % (`definitions.md`).
@@ -51,21 +48,23 @@ pub fn excess(cycle: &GaitCycle, body: &HumanBody) -> Option<String> {
 }
 
 /// Warnings for a cycle whose feet are no model of standing on the ground.
-pub fn lint(cycle: &GaitCycle, body: &HumanBody) -> Vec<String> {
+pub fn lint(cycle: &GaitCycle, body: &HumanBody) -> Vec<Remark> {
     let FootSlide { slide_cm_s, planted_share } = measure(cycle, body);
     let mut warnings = Vec::new();
-    if slide_cm_s > suspect_slide_cm_s(cycle) {
-        warnings.push(format!("planted feet slide by {slide_cm_s:.0} cm/s"));
+    if relative_slide(cycle, body) > 1.0 {
+        warnings.push(Kind::Feet.remark(format!("planted feet slide by {slide_cm_s:.0} cm/s")));
     }
     if planted_share < SUSPECT_SHARE {
-        warnings.push(format!("feet are planted for only {:.0} % of the cycle", 100.0 * planted_share));
+        let told = format!("feet are planted for only {:.0} % of the cycle", 100.0 * planted_share);
+        warnings.push(Kind::Feet.remark(told));
     }
     warnings
 }
 
-/// The slide from which on it is worth a warning, of a cycle's speed, cm/s.
-pub fn suspect_slide_cm_s(cycle: &GaitCycle) -> f64 {
-    SUSPECT_SLIDE_CM_S + SUSPECT_SLIDE_CM_S_PER_MPS * libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps)
+/// The slide of a cycle over that from which on it is suspect.
+pub fn relative_slide(cycle: &GaitCycle, body: &HumanBody) -> f64 {
+    let speed_mps = libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
+    measure(cycle, body).slide_cm_s / f64::from(quality::suspect_slide_cm_s(speed_mps as f32))
 }
 
 #[cfg(test)]

@@ -9,11 +9,12 @@
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
+use motiondb::remark::Kind;
 
 use crate::error::ImportError;
 use crate::gltf_accessor;
 use crate::gltf_document::{Document, Flaw, Transform, flaw};
-use crate::gltf_plan::{Plan, plans, sources};
+use crate::gltf_plan::{Plan, Span, plans, sources};
 use crate::gltf_track::{self, Track};
 use crate::gltf_tree::{Body, Tree};
 use crate::source_clip::{SourceClip, SourceJoint};
@@ -89,19 +90,7 @@ impl<'a> GltfFile<'a> {
         let body = &self.bodies[plan.body];
         let tracks = tracks(&self.document, plan.animation, &body.is_in(&self.tree))?;
         let local_parents = body.parents(&self.tree);
-        let count = body.places.len();
-        let (mut positions, mut orientations) = (Vec::new(), Vec::new());
-        positions.reserve_exact(span.frames * count);
-        orientations.reserve_exact(span.frames * count);
-        let mut locals = self.rest.clone();
-        for frame in 0..span.frames {
-            let time_s = span.start_s + frame as f64 / FRAME_RATE_HZ;
-            tracks.iter().for_each(|track| track.apply(time_s, &mut locals[track.node]));
-            for global in self.globals(body, &local_parents, &locals) {
-                positions.push(global.w_axis.truncate());
-                orientations.push(orientation(DMat3::from_mat4(global)));
-            }
-        }
+        let (positions, orientations) = self.frames(body, &local_parents, &tracks, &span);
         let joint = |(place, &parent): (&usize, &Option<usize>)| SourceJoint {
             name: self.document.root.nodes[self.tree.order[*place]].name.clone().unwrap_or_default(),
             parent,
@@ -117,8 +106,31 @@ impl<'a> GltfFile<'a> {
             orientations,
             up_axis: None,
             metres_per_unit: Some(1.0),
-            warnings: if self.document.left_out { vec![LEFT_OUT.to_owned()] } else { Vec::new() },
+            warnings: if self.document.left_out { vec![Kind::Cut.remark(LEFT_OUT)] } else { Vec::new() },
         })
+    }
+
+    /// Global positions and orientations, frame-major.
+    fn frames(
+        &self,
+        body: &Body,
+        parents: &[Option<usize>],
+        tracks: &[Track],
+        span: &Span,
+    ) -> (Vec<DVec3>, Vec<DQuat>) {
+        let (mut positions, mut orientations) = (Vec::new(), Vec::new());
+        positions.reserve_exact(span.frames * parents.len());
+        orientations.reserve_exact(span.frames * parents.len());
+        let mut locals = self.rest.clone();
+        for frame in 0..span.frames {
+            let time_s = span.start_s + frame as f64 / FRAME_RATE_HZ;
+            tracks.iter().for_each(|track| track.apply(time_s, &mut locals[track.node]));
+            for global in self.globals(body, parents, &locals) {
+                positions.push(global.w_axis.truncate());
+                orientations.push(orientation(DMat3::from_mat4(global)));
+            }
+        }
+        (positions, orientations)
     }
 
     /// One frame's global matrices, in the body's order.

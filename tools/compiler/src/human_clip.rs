@@ -4,9 +4,8 @@ use std::cmp::Ordering;
 
 use glam::{DQuat, DVec2, DVec3};
 use motiondb::motion_db::SourceRecord;
+use motiondb::remark::Kind;
 use motiondb::skeleton::{JOINT_COUNT, Joint};
-
-use crate::remark::FRAME_TIME_QUESTION;
 
 /// A clip after import: canonical joints, metres, Z up, right-handed, f64.
 #[derive(Clone, Debug)]
@@ -111,7 +110,7 @@ impl HumanBody {
 impl HumanClip {
     /// Its gait was found too fast or too slow for any human: its frame time lies, and with it all speeds.
     pub(crate) fn is_impossible(&self) -> bool {
-        self.source.warnings.iter().any(|warning| warning.ends_with(FRAME_TIME_QUESTION))
+        self.source.warnings.iter().any(|remark| remark.kind == Kind::FrameTime)
     }
 }
 

@@ -4,13 +4,13 @@
 //! read ([`crate::bvh`], [`crate::gltf`]) → what a manifest corrects ([`crate::take`]) → roles ([`crate::skeleton_map`])
 //! and facing (`facing`) → metres, Z up ([`crate::units`]) → no separate first pose (`first_pose`) → whole-clip
 //! parameters ([`crate::source_parameters`]) → no T-poses (`first_pose`) → a plausible gait (`plausibility`) on
-//! level ground (`carried`) → canonical
-//! humanoid (`retarget`) → a plausible body.
+//! level ground (`carried`) → canonical humanoid (`retarget`) → a plausible body.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use motiondb::input_file;
+use motiondb::remark::Kind;
 use motiondb::skeleton::Joint;
 use rayon::prelude::*;
 
@@ -19,6 +19,7 @@ use crate::gltf::GltfFile;
 use crate::human_clip::{HumanClip, HumanPose};
 use crate::skeleton_map::{Roles, find_roles};
 use crate::source_clip::SourceClip;
+use crate::source_parameters::WholeClip;
 use crate::take::{Settings, Take};
 use crate::{bvh, carried, facing, first_pose, plausibility, retarget, source_parameters, units};
 
@@ -190,25 +191,35 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
         facing::face(&clip, &mut roles, forward)?;
     }
     if roles.names_belied {
-        clip.warnings.push(EXCHANGED.to_owned());
+        clip.warnings.push(Kind::Sides.remark(EXCHANGED));
     }
     let (mut clip, units) = units::to_metres_z_up(clip, &roles);
-    if settings.frames.is_none() {
-        first_pose::drop_separate_first_pose(&mut clip, &roles);
-    }
-    let whole = source_parameters::measure(&clip, &roles);
-    if settings.frames.is_none() {
-        first_pose::drop_t_poses(&mut clip, &roles);
-    }
+    let whole = measured(&mut clip, &roles, settings);
     clip.warnings.extend(plausibility::implausible_size(&clip, &roles));
     clip.warnings.extend(plausibility::implausible_gait(&clip, &roles, &whole));
     clip.warnings.extend(carried::remark(&clip, &roles, &whole));
     let mut human = retarget::to_human(&clip, &roles, &units, whole, name);
     human.choices.mirror = settings.mirror;
     human.choices.is_cut = settings.frames.is_some();
-    let finite = |pose: &HumanPose| pose.pelvis_m.is_finite() && pose.rotations.iter().all(|turn| turn.is_finite());
-    if !human.frames.iter().all(finite) {
+    if !human.frames.iter().all(is_finite) {
         return Err(Refusal::Degenerate);
     }
     plausibility::impossible_body(&human.body).map_or(Ok(human), Err)
+}
+
+/// Cuts off what is no part of the motion, unless a manifest does; measures it before its T-poses go.
+fn measured(clip: &mut SourceClip, roles: &Roles, settings: &Settings) -> WholeClip {
+    let is_cut = settings.frames.is_some();
+    if !is_cut {
+        first_pose::drop_separate_first_pose(clip, roles);
+    }
+    let whole = source_parameters::measure(clip, roles);
+    if !is_cut {
+        first_pose::drop_t_poses(clip, roles);
+    }
+    whole
+}
+
+fn is_finite(pose: &HumanPose) -> bool {
+    pose.pelvis_m.is_finite() && pose.rotations.iter().all(|turn| turn.is_finite())
 }

@@ -1,39 +1,35 @@
 //! Motion clips in, motion database out: one file per stage, in `compile.rs` one line per stage.
 //!
-//! [`manifest`] → [`take`] → import ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] → [`skeleton_map`] →
-//! [`human_clip::HumanClip`] → [`target_skeleton`], [`root_motion`], [`unroll`] → [`root_motion::GroundedClip`] →
-//! [`contacts`], [`stance`], [`gait`], [`stride`], [`steady_window`], [`stride_alignment`], [`performer`] →
-//! [`pose_mean`], `closing`, [`cycle::GaitCycle`] (or [`standing`]) → [`foot_slide`], [`duplicates`], `selection` →
-//! `named_cycles`, [`mirror`] → [`parameterize`], [`rows`], [`velocity_hull`], [`blend_space`], [`correspondence`] →
-//! [`motiondb::motion_db::MotionDb`]
+//! [`manifest`] → [`take`] → [`clip_set`], [`mod@import`] ([`bvh`], [`gltf`]) → [`source_clip::SourceClip`] →
+//! [`skeleton_map`] → [`human_clip::HumanClip`] → [`target_skeleton`], [`root_motion`], [`unroll`] →
+//! [`root_motion::GroundedClip`] → [`contacts`], [`stance`], [`gait`], [`stride`], [`steady_window`],
+//! [`stride_alignment`], [`performer`] → [`pose_mean`], `closing`, [`cycle::GaitCycle`] (or [`standing`]) →
+//! [`foot_slide`], [`duplicates`], `selection` → `named_cycles`, [`mirror`] → [`parameterize`], [`rows`],
+//! [`velocity_hull`], [`blend_space`], [`correspondence`] → [`motiondb::motion_db::MotionDb`]
+//!
+//! The modules below stand in this order, a paragraph for each part of the way.
 
-pub mod alignment;
-mod analysis;
-mod anchors;
-pub mod anthropometry;
-pub mod arc;
-pub mod axis;
-pub mod blend_space;
-mod body_plan;
-pub mod bvh;
-mod bvh_prepass;
-mod calibration;
-mod carried;
-mod closing;
+// The pipeline, and what it tells while it runs and where it fails.
 pub mod compile;
 pub mod compile_error;
-pub mod contacts;
-pub mod correspondence;
-pub mod cycle;
+pub mod progress;
+pub mod refused;
+
+// What is to be compiled: a manifest's tables, or every clip of a folder.
+pub mod clip_set;
+pub mod manifest;
+pub mod manifest_error;
+mod manifest_table;
+mod names;
+pub mod near_names;
+pub mod take;
+
+// Files → SourceClip: global positions and orientations of named joints.
+pub mod bvh;
+mod bvh_hierarchy;
+mod bvh_prepass;
 mod decimal;
-pub mod duplicates;
 pub mod error;
-mod facing;
-mod first_pose;
-pub mod foot_slide;
-mod footing;
-mod frame_times;
-pub mod gait;
 pub mod gltf;
 mod gltf_accessor;
 mod gltf_buffers;
@@ -41,56 +37,84 @@ mod gltf_document;
 mod gltf_plan;
 mod gltf_track;
 mod gltf_tree;
-pub mod human_clip;
 pub mod import;
-mod joint_names;
-pub mod leg_ik;
-mod limb;
-pub mod manifest;
-pub mod manifest_error;
-mod manifest_table;
-pub mod mirror;
-pub mod mutation;
-mod named_cycles;
-mod names;
-pub mod near_names;
-mod outline;
-pub mod parameterize;
-mod performance;
-pub mod performer;
-mod plausibility;
-pub mod pose_mean;
-pub mod progress;
 mod quiet_unwind;
-pub mod reading_speed;
-pub mod refused;
-pub mod remark;
-mod retarget;
-pub mod root_motion;
-pub mod rows;
-mod same_take;
-mod selection;
-mod shape;
-mod shared_stretches;
-pub mod skeleton_map;
-mod soles;
 pub mod source_clip;
+
+// Whose joints they are: the roles of a human body, by shape and motion first, by names second.
+mod body_plan;
+mod facing;
+mod joint_names;
+mod limb;
+mod shape;
+pub mod skeleton_map;
+mod two_bodies;
+
+// SourceClip → HumanClip: metres, Z up, the motion alone, whole-clip parameters, doubts, the canonical humanoid.
+mod anchors;
+pub mod axis;
+mod calibration;
+mod carried;
+mod first_pose;
+pub mod human_clip;
+mod plausibility;
+mod retarget;
+mod soles;
 pub mod source_parameters;
+mod tread;
+pub mod units;
+
+// One body for all, and a root that travels on it.
+pub mod anthropometry;
+pub mod arc;
+pub mod leg_ik;
+pub mod root_motion;
+pub mod target_skeleton;
+pub mod unroll;
+
+// Gait: contacts, stances, strides and the steady windows of them.
+pub mod contacts;
+mod footing;
+pub mod gait;
+pub mod performer;
 pub mod stance;
 pub mod standing;
 pub mod steady_window;
-mod stir;
 pub mod stride;
+
+// A window's mean stride as a closed cycle, phase 0 at right mid-stance.
+mod analysis;
+mod closing;
+pub mod cycle;
+pub mod foot_slide;
+pub mod pose_mean;
 pub mod stride_alignment;
+
+// Which windows give examples: of one take one copy, of near-equal ones the best, by name, with mirrors.
+pub mod alignment;
+pub mod duplicates;
+mod frame_times;
+pub mod mirror;
+mod named_cycles;
+mod outline;
+mod performance;
+mod same_take;
+mod selection;
+mod shared_stretches;
+mod stir;
+mod take_search;
+
+// Cycles → MotionDb.
+pub mod blend_space;
+pub mod correspondence;
+pub mod parameterize;
+pub mod rows;
+pub mod velocity_hull;
+
+// What is told of clips without a database, and how well this crate does its work.
+pub mod mutation;
+pub mod reading_speed;
 pub mod survey;
 #[cfg(test)]
 mod synthetic;
-pub mod take;
-mod take_search;
-pub mod target_skeleton;
-mod tread;
 pub mod truth;
-mod two_bodies;
-pub mod units;
-pub mod unroll;
-pub mod velocity_hull;

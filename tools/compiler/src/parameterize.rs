@@ -11,6 +11,7 @@ use std::f64::consts::PI;
 use glam::DQuat;
 use motiondb::motion_db::MotionExample;
 use motiondb::planted_feet::CycleFeet;
+use motiondb::remark::{Kind, Remark};
 use motiondb::skeleton::Side;
 
 use crate::arc::{Rates, rotation};
@@ -29,7 +30,7 @@ const NOTICED_RAD_S: f64 = 1.0 * PI / 180.0;
 const NOTICED_MPS: f64 = 0.03;
 
 /// Takes gait noise out of a cycle's rates; says what was taken, if anyone could notice.
-pub fn snap(cycle: &mut GaitCycle) -> Vec<String> {
+pub fn snap(cycle: &mut GaitCycle) -> Vec<Remark> {
     let found = cycle.rates;
     let mut said = Vec::new();
     if found.turn_rate_rad_s.abs() >= SNAPPED_TURN_RAD_S {
@@ -37,12 +38,13 @@ pub fn snap(cycle: &mut GaitCycle) -> Vec<String> {
     }
     cycle.rates.turn_rate_rad_s = 0.0;
     if found.turn_rate_rad_s.abs() > NOTICED_RAD_S {
-        said.push(format!("turn rate {:.1} deg/s taken as 0", found.turn_rate_rad_s.to_degrees()));
+        let taken = format!("turn rate {:.1} deg/s taken as 0", found.turn_rate_rad_s.to_degrees());
+        said.push(Kind::Snapped.remark(taken));
     }
     if found.strafe_mps.abs() < SNAPPED_STRAFE_MPS && found.speed_mps.abs() > GOING_MPS {
         face_along_travel(cycle);
         if found.strafe_mps.abs() > NOTICED_MPS {
-            said.push(format!("side speed {:.3} m/s taken as 0", found.strafe_mps));
+            said.push(Kind::Snapped.remark(format!("side speed {:.3} m/s taken as 0", found.strafe_mps)));
         }
     }
     said

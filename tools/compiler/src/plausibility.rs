@@ -6,11 +6,11 @@
 
 use glam::DVec2;
 use motiondb::median::median;
+use motiondb::remark::{Kind, Remark};
 use motiondb::skeleton::Joint;
 
 use crate::error::Refusal;
 use crate::human_clip::HumanBody;
-use crate::remark::FRAME_TIME_QUESTION;
 use crate::root_motion::leg_length_m;
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;
@@ -23,9 +23,10 @@ use crate::units::{HUMAN_LEG_M, leg_length, middle};
 const WALK_RATIO_CM_MIN: std::ops::RangeInclusive<f64> = 0.15..=2.0;
 /// The fastest steps a minute, for a person's leg (sprinters: 290).
 const CADENCE_MAX_PER_MIN: f64 = 320.0;
-/// The fastest steps a minute of a walk (race walkers: 190 to 220), and the share of the time from which on the ball of a
-/// foot stands as in a walk: there from 12 to 60 % of the cycle, in jogs for 0.4 of it (`facts/motion.md` §3, §5).
-const WALK_CADENCE_MAX_PER_MIN: f64 = 225.0;
+/// The fastest steps a minute of a walk (race walkers over 20 km: 3.1 to 3.5 a second), and the share of the time from
+/// which on the ball of a foot stands as in a walk: there from 12 to 60 % of the cycle, in jogs for 0.4 of it
+/// (`facts/motion.md` §3, §5).
+const WALK_CADENCE_MAX_PER_MIN: f64 = 215.0;
 const WALK_PLANTED_SHARE: f64 = 0.45;
 /// Feet nearer along the facing do not step but stand, turn or side-step; shorter steps say nothing, m.
 pub(crate) const LEAD_MIN_M: f64 = 0.06;
@@ -44,10 +45,11 @@ const BONE_OVER_LEG_MAX: f64 = 1.5;
 const HUMAN_LEG_RANGE_M: std::ops::RangeInclusive<f64> = 0.38..=1.2;
 
 /// The warning, where no human has legs of that length: speeds are as wrong as the unit then.
-pub(crate) fn implausible_size(clip: &SourceClip, roles: &Roles) -> Option<String> {
+pub(crate) fn implausible_size(clip: &SourceClip, roles: &Roles) -> Option<Remark> {
     let leg_m = leg_length(clip, roles);
     (!HUMAN_LEG_RANGE_M.contains(&leg_m)).then(|| {
-        format!("thigh and shank are {leg_m:.2} m long: no human's; if the unit is wrong, give `metres_per_unit`")
+        let body = format!("thigh and shank are {leg_m:.2} m long: no human's");
+        Kind::Size.remark(body + "; if the unit is wrong, give `metres_per_unit`")
     })
 }
 
@@ -71,14 +73,15 @@ pub(crate) fn impossible_body(body: &HumanBody) -> Option<Refusal> {
 }
 
 /// The warning, where steps are none of a human's.
-pub(crate) fn implausible_gait(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Option<String> {
+pub(crate) fn implausible_gait(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Option<Remark> {
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
     let passings = passings(clip, roles, LEAD_MIN_M * scale);
     let steps: Vec<(usize, usize)> = passings.windows(2).map(|pair| (pair[0], pair[1])).collect();
     if steps.len() < STEPS_MIN {
         return None;
     }
-    let step_s = median(steps.iter().map(|(from, to)| (to - from) as f64))? / clip.frame_rate_hz;
+    // By strides: frames are too coarse for single steps, and limbs may be unequal.
+    let step_s = median(passings.windows(3).map(|stride| (stride[2] - stride[0]) as f64))? / (2.0 * clip.frame_rate_hz);
     let hips = |frame: usize| middle(clip, roles, Joint::THIGHS, frame).truncate();
     let step_m = match whole.in_place {
         true => whole.speed_mps.abs() * step_s,
@@ -90,7 +93,8 @@ pub(crate) fn implausible_gait(clip: &SourceClip, roles: &Roles, whole: &WholeCl
         || human_cadence < cadence_max && WALK_RATIO_CM_MIN.contains(&(human_step_cm / human_cadence));
     (!is_human).then(|| {
         let [step_cm, cadence] = [100.0 * step_m, 60.0 / step_s];
-        format!("steps of {step_cm:.0} cm, {cadence:.0} a minute, are no human gait: {FRAME_TIME_QUESTION}")
+        let gait = format!("steps of {step_cm:.0} cm, {cadence:.0} a minute, are no human gait");
+        Kind::FrameTime.remark(gait + ": is the frame time true?")
     })
 }
 

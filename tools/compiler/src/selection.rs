@@ -13,6 +13,7 @@ use std::num::NonZeroUsize;
 
 use glam::DVec3;
 use motiondb::motion_db::SourceRecord;
+use motiondb::remark::Kind;
 
 use crate::analysis::{Analyzed, LeftOut, Motion, SteadyWindow};
 use crate::arc::Rates;
@@ -34,8 +35,7 @@ const REST_S: f64 = 1.0;
 pub(crate) fn flaws_of_strides(strides: &[Stride], cycle: &GaitCycle, body: &HumanBody) -> f64 {
     let count = strides.len() as f64;
     let gap_m = strides.iter().map(|stride| stride.gap_m).sum::<f64>() / count;
-    let slide = foot_slide::measure(cycle, body).slide_cm_s / foot_slide::suspect_slide_cm_s(cycle);
-    gap_m / STRIDE_GAP_M + slide + off_middle(&cycle.rates) + 1.0 / count
+    gap_m / STRIDE_GAP_M + foot_slide::relative_slide(cycle, body) + off_middle(&cycle.rates) + 1.0 / count
 }
 
 /// The distance from the cell's middle, 1 at its border.
@@ -120,7 +120,7 @@ pub(crate) fn limit(cycles: &mut Vec<NamedCycle>, most: Option<NonZeroUsize>, so
         let keep = index.next().is_some_and(|index: usize| keeps.contains(&index));
         if !keep {
             let remark = format!("max_examples = {most}: {} left out", named.name);
-            sources[named.source as usize].warnings.push(remark);
+            sources[named.source as usize].warnings.push(Kind::LeftOut.remark(remark));
         }
         keep
     });
@@ -200,6 +200,7 @@ fn ends(places: &[DVec3]) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use motiondb::motion_db::{MotionDb, MotionExample};
+    use motiondb::remark::Remark;
 
     use super::*;
     use crate::compile::{Options, compile};
@@ -267,7 +268,7 @@ mod tests {
             let straight: Vec<_> = recorded(&db).into_iter().filter(|e| e.parameters.turn_rate_rad_s == 0.0).collect();
             assert_eq!(straight.len(), 1, "{straight:#?}");
             assert!(straight[0].planted_slide_cm_s < 2.0, "{straight:?}");
-            let said = |warning: &String| warning.contains("near-equal") && warning.ends_with("left out");
+            let said = |remark: &Remark| remark.kind == Kind::LeftOut && remark.text.contains("near-equal");
             assert!(db.sources[0].warnings.iter().any(said), "{:?}", db.sources);
         }
     }
@@ -294,7 +295,7 @@ mod tests {
             let db = compiled(clips.clone(), most);
             let found: Vec<&str> = recorded(&db).iter().map(|example| example.name.as_str()).collect();
             assert_eq!(found, wanted);
-            let left_out = |warning: &String| warning.starts_with("max_examples = ");
+            let left_out = |remark: &Remark| remark.text.starts_with("max_examples = ");
             assert_eq!(
                 db.sources.iter().flat_map(|source| &source.warnings).filter(|w| left_out(w)).count(),
                 10 - most

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use glam::{DQuat, DVec3};
+use motiondb::remark::Remark;
 
 use crate::axis::Axis;
 
@@ -42,7 +43,7 @@ pub struct SourceClip {
     /// The axis that points up where the manifest says it; else it is found.
     pub up_axis: Option<Axis>,
     /// What was odd in the file.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 impl SourceClip {

@@ -14,7 +14,7 @@ use crate::human_clip::HumanClip;
 use crate::performer::{self, Performer};
 use crate::root_motion::GroundedClip;
 use crate::stance::Stance;
-use crate::{compile, duplicates, target_skeleton};
+use crate::{clip_set, duplicates, target_skeleton};
 
 /// A clip, and what its feet do.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -72,17 +72,15 @@ impl SourceGait {
 
 /// What is found in clips, with what a compilation would say of each, in the order of a database.
 pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
-    compile::sort(&mut clips);
+    clip_set::sort(&mut clips);
     if clips.is_empty() {
         return Vec::new();
     }
     let body = target_skeleton::choose(&clips);
     let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
     duplicates::set_aside(&clips, &mut analyzed, &body);
-    let surveyed = |(clip, found): (&HumanClip, &Analyzed)| SurveyedSource {
-        source: compile::record(clip, found),
-        gait: source_gait(clip),
-    };
+    let surveyed =
+        |(clip, found): (&HumanClip, &Analyzed)| SurveyedSource { source: found.record(clip), gait: source_gait(clip) };
     clips.par_iter().zip(&analyzed).map(surveyed).collect()
 }
 

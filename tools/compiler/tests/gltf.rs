@@ -212,7 +212,7 @@ fn animation_pointers_are_passed_over_with_a_word() {
     }));
     let clip = document.only();
     check_walks(&clip);
-    assert!(clip.source.warnings.iter().any(|warning| warning.contains("KHR_animation_pointer")));
+    assert!(clip.source.warnings.iter().any(|warning| warning.text.contains("KHR_animation_pointer")));
 }
 
 #[test]

@@ -117,7 +117,7 @@ fn a_clip_that_nobody_can_have_walked_gives_no_example() {
     let db = compiled("impossible", lying);
     assert!(!names(&db).contains(&"walk_110"), "{:?}", names(&db));
     let source = db.sources.iter().find(|source| source.file == "walk_110.bvh").unwrap();
-    assert!(source.warnings.iter().any(|warning| warning.contains("frame_rate_hz")), "{source:?}");
+    assert!(source.warnings.iter().any(|warning| warning.text.contains("frame_rate_hz")), "{source:?}");
 }
 
 #[test]

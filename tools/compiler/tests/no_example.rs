@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use motiondb::remark::Weight;
 use motiondb_compiler::compile::compile_files;
 
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
@@ -13,7 +14,7 @@ fn check_none(files: &[PathBuf], clips: &[&str]) {
     for clip in clips {
         assert!(!db.examples.iter().any(|example| example.name.contains(clip)), "{clip} gave an example");
         let source = db.sources.iter().find(|source| source.file.contains(clip) || source.clip.contains(clip)).unwrap();
-        let told = source.warnings.iter().any(|warning| warning.starts_with("no example: "));
+        let told = source.warnings.iter().any(|remark| remark.weight() == Weight::NoExample);
         assert!(told, "{clip}: {:?}", source.warnings);
     }
 }

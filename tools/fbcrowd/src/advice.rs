@@ -1,6 +1,6 @@
 //! What to do after a compilation, in the order of what it would gain.
 
-use motiondb_compiler::remark::FRAME_TIME_QUESTION;
+use motiondb::remark::Kind;
 
 use crate::compile_report::CompileReport;
 use crate::compile_text::title;
@@ -45,7 +45,7 @@ fn with_database(report: &CompileReport, output: &str) -> Vec<String> {
 
 /// Clips whose gait no human has.
 fn lying(report: &CompileReport) -> Vec<String> {
-    let lying = report.warnings.iter().filter(|warning| warning.text.contains(FRAME_TIME_QUESTION));
+    let lying = report.warnings.iter().filter(|warning| warning.kind == Kind::FrameTime);
     lying.map(|warning| title(&warning.file, &warning.clip)).collect()
 }
 

@@ -8,8 +8,8 @@ use std::path::Path;
 use motiondb::coverage::{self, ThinPlace};
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::quality::{self, ExampleQuality, Finding};
+use motiondb::remark::{self, Kind, Weight};
 use motiondb_compiler::refused::Refused;
-use motiondb_compiler::remark::{Weight, bare, weight};
 use serde::Serialize;
 
 use crate::advice;
@@ -49,6 +49,8 @@ pub(crate) struct Reason {
 pub(crate) struct Remark {
     pub(crate) file: String,
     pub(crate) clip: String,
+    #[serde(skip)]
+    pub(crate) kind: Kind,
     /// Nothing to do.
     pub(crate) note: bool,
     pub(crate) text: String,
@@ -108,18 +110,19 @@ impl CompileReport {
 
     fn add(&mut self, source: &SourceRecord, examples: Vec<Example>) {
         let (file, clip) = (&source.file, &source.clip);
-        let remark = |text: &String| Remark {
+        let remark = |told: &remark::Remark| Remark {
             file: file.clone(),
             clip: clip.clone(),
-            note: weight(text) == Weight::Note,
-            text: bare(text).to_owned(),
+            kind: told.kind,
+            note: told.weight() == Weight::Note,
+            text: told.text.clone(),
         };
-        let (reasons, remarks): (Vec<&String>, Vec<&String>) =
-            source.warnings.iter().partition(|text| examples.is_empty() && weight(text) == Weight::NoExample);
+        let (reasons, remarks): (Vec<&remark::Remark>, Vec<&remark::Remark>) =
+            source.warnings.iter().partition(|told| examples.is_empty() && told.weight() == Weight::NoExample);
         self.warnings.extend(remarks.into_iter().map(remark));
         let (file, clip) = (file.clone(), clip.clone());
         if examples.is_empty() {
-            let reasons: Vec<&str> = reasons.into_iter().map(|text| bare(text)).collect();
+            let reasons: Vec<&str> = reasons.into_iter().map(|told| told.text.as_str()).collect();
             self.unused.push(Reason { file, clip, reason: reasons.join("; ") });
         } else {
             self.used.push(Used { file, clip, examples });

@@ -5,7 +5,7 @@
 //! lists end early (`--json` has all).
 
 use motiondb::motion_db::SourceRecord;
-use motiondb_compiler::remark::{Weight, bare, weight};
+use motiondb::remark::Weight;
 
 use crate::compile_report::{CompileReport, Reason};
 use crate::example_table;
@@ -48,8 +48,8 @@ pub(crate) fn reasons(report: &CompileReport) -> String {
 pub(crate) fn remarks<'a>(sources: impl Iterator<Item = &'a SourceRecord> + Clone) -> String {
     let of_weight = |wanted: Weight| {
         let said = |source: &'a SourceRecord| {
-            let texts = source.warnings.iter().filter(move |text| weight(text) == wanted);
-            texts.map(|text| (title(&source.file, &source.clip), bare(text).to_owned()))
+            let told = source.warnings.iter().filter(move |remark| remark.weight() == wanted);
+            told.map(|remark| (title(&source.file, &source.clip), remark.text.clone()))
         };
         grouped(sources.clone().flat_map(said))
     };

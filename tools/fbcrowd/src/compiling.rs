@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use motiondb::velocity_hull::Construction;
+use motiondb_compiler::clip_set;
 use motiondb_compiler::compile::{self, Compiled};
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
@@ -102,7 +103,7 @@ pub(crate) fn compile(
 pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Vec<Refused>), Failure> {
     let manifest = manifest(paths)?;
     let progress = Progress::new("files", manifest.takes.len());
-    let imported = compile::import_manifest(&manifest, &|event| advance(&progress, event));
+    let imported = clip_set::import(&manifest, &|event| advance(&progress, event));
     progress.finish();
     Ok(imported?)
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use motiondb::remark::Kind;
 use motiondb_compiler::axis::Axis;
 use motiondb_compiler::error::{ImportError, Refusal};
 use motiondb_compiler::import::{Import, import_bytes, import_take};
@@ -31,7 +32,7 @@ fn rows(edit: impl Fn(usize, &mut Vec<f64>)) -> String {
 #[track_caller]
 fn check_told(text: &str, words: &str) {
     let warnings = imported(text).unwrap_or_else(|refusal| panic!("{refusal}")).source.warnings;
-    assert!(warnings.iter().any(|warning| warning.contains(words)), "{warnings:?} do not say {words:?}");
+    assert!(warnings.iter().any(|warning| warning.text.contains(words)), "{warnings:?} do not say {words:?}");
 }
 
 #[track_caller]
@@ -58,6 +59,19 @@ fn what_moves_a_body_beside_its_feet_on_level_ground_is_told() {
         row[1] += 40.0 * (0.3 * frame as f64).sin().max(0.0);
     };
     check_told(&rows(jumped), "both feet leave the ground together, by 4");
+}
+
+#[test]
+fn a_walk_at_twice_its_rate_is_told_by_its_cadence_and_a_jog_is_not() {
+    let said = |clip: &str, rate: f64| {
+        let path = Path::new(super::on_the_spot::BUNDLED).join(clip).with_extension("bvh");
+        let settings = Settings { frame_rate_hz: Some(30.0 * rate), ..Settings::default() };
+        let human = import_take(&Take { settings, ..Take::from(path) }).unwrap().remove(0).outcome.unwrap();
+        human.source.warnings.iter().any(|remark| remark.kind == Kind::FrameTime)
+    };
+    // 133 steps a minute; a walk at twice fewer than 107 goes as race walkers do.
+    assert_eq!([said("walk_180", 1.0), said("walk_180", 2.0)], [false, true]);
+    assert!(!said("jog_240", 1.0) && !said("run_350", 1.0));
 }
 
 #[test]

@@ -13,7 +13,7 @@ use motiondb_compiler::units;
 
 use super::{locomotion, mocap, source};
 
-const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
+pub(super) const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 
 /// Straight clips of every gait: name, v_f and ω_s in m/s (`assets/clips/README.md`).
 const STRAIGHT: [(&str, [f64; 2]); 10] = [
@@ -108,9 +108,11 @@ fn found_held(clip: &SourceClip, roles: &Roles, frame_rate_hz: f64, held: Held) 
     measure(&clip, roles)
 }
 
-/// Truth is what the same code measures before the way is taken out. A share of the real clips stays out: hips held in
-/// every frame lose their surge, and in the stances of runs hips are slower than between them; of strongly uneven ones
-/// (a run of 1.2 s, a limping one) one foot tells more than the other.
+/// Truth is what the same code measures before the way is taken out. Of 384 cases 41 are out, 37 of them with hips held in
+/// every frame. Those lose their surge, and in the stances of runs hips are slower than between them: five runs of
+/// Bandai and CMU's 002_03 come out 8 to 13 % slow (25 cases, three rates of each or more; the limit is 9 %), six walks 8
+/// to 12 % (11 cases, four of them of 007_04). Of uneven clips one foot tells more than the other: angry_13, a run of 1.2
+/// s, goes 0.4 m/s aside (4 cases), Marine's Run and RunCircle 0.12 to 0.13 m/s where 0.12 is the limit.
 #[test]
 fn real_gaits_held_in_place_go_as_fast_as_they_did_at_every_frame_rate() {
     const IN_PLACE_TIMES: f64 = 3.0;

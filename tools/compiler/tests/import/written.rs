@@ -174,7 +174,7 @@ fn lying_counts_are_told_and_the_rows_used() {
         let text = bvh_text().replace("Frames: 40", lie);
         let clip = only(import_bytes(Path::new("walk.bvh"), text.as_bytes()));
         assert_eq!(clip.frames.len(), FRAMES);
-        assert!(clip.source.warnings[0].contains("Frames:"), "{:?}", clip.source.warnings);
+        assert!(clip.source.warnings[0].text.contains("Frames:"), "{:?}", clip.source.warnings);
     }
     let cut = bvh_text();
     let clip = only(import_bytes(Path::new("walk.bvh"), &cut.as_bytes()[..cut.len() - 20]));

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
+use motiondb::remark::Remark;
 use motiondb::skeleton::{JOINT_COUNT, Joint};
 use motiondb_compiler::import::import_bytes;
 use motiondb_compiler::skeleton_map::find_roles;
@@ -263,7 +264,7 @@ impl Combination {
     }
 
     /// That all is said that must be, and nothing else.
-    fn check_warnings(&self, warnings: &[String]) -> Result<(), String> {
+    fn check_warnings(&self, warnings: &[Remark]) -> Result<(), String> {
         let wanted: Vec<&str> = match self.take {
             Take::TPoseFirst => vec!["separate pose"],
             Take::BlendsOut(_) => vec!["out of a T-pose and are not used"],
@@ -276,8 +277,8 @@ impl Combination {
             Take::Sloping(_) => return Ok(()),
             _ => Vec::new(),
         };
-        let all = wanted.iter().all(|words| warnings.iter().any(|warning| warning.contains(words)));
-        let only = warnings.iter().all(|warning| wanted.iter().any(|words| warning.contains(words)));
+        let all = wanted.iter().all(|words| warnings.iter().any(|warning| warning.text.contains(words)));
+        let only = warnings.iter().all(|warning| wanted.iter().any(|words| warning.text.contains(words)));
         (all && only).then_some(()).ok_or_else(|| format!("{warnings:?}, not {wanted:?}"))
     }
 
