@@ -113,10 +113,11 @@ fn assemble(
     tell(Event::Stage("parameters"));
     let examples: Vec<MotionExample> = named.iter().map(|named| parameterize::example(named, body)).collect();
     let chosen = named.iter().position(|named| named.choices.is_semi_procedural);
+    let flaws: Vec<f64> = named.iter().map(|named| named.flaws).collect();
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
     tell(Event::Stage("blend space"));
     let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
-    let blend_space = blend_space::build(&parameters);
+    let blend_space = blend_space::build_of_best(&parameters, &flaws);
     tell_of_twins(&blend_space::twins(&parameters, &blend_space), &examples, &mut sources);
     tell(Event::Stage("assembly"));
     let mut db = MotionDb {
@@ -142,7 +143,7 @@ fn sound(db: MotionDb, tell: &Observer) -> Result<MotionDb, CompileError> {
     }
 }
 
-/// Of examples with the same parameters one is blended; the sources of the others say so.
+/// Of examples with the same parameters the best is blended; the sources of the others say so.
 fn tell_of_twins(twins: &[[usize; 2]], examples: &[MotionExample], sources: &mut [SourceRecord]) {
     let twins = twins.iter().map(|pair| pair.map(|index| &examples[index]));
     for [unused, played] in twins.filter(|[unused, _]| !unused.mirrored) {
