@@ -16,7 +16,7 @@ use crate::pose::Joints;
 use crate::skeleton::{JOINT_COUNT, Joint, Skeleton};
 
 /// Planted feet of clean walks slide by 2–8 cm/s, of runs by 6 cm/s more for each m/s (`definitions.md`): 12.4 of fast
-/// side-steps, 22 and 28 of runs at 3 and 3.9 m/s. Of 79 clips of twelve sources two drawn ones slide more than this.
+/// side-steps, 22 and 28 of runs at 3 and 3.9 m/s. Of 84 examples of 65 clips three slide more, two of them drawn.
 const SUSPECT_SLIDE_CM_S: f32 = 10.0;
 const SUSPECT_SLIDE_CM_S_PER_MPS: f32 = 6.0;
 /// Share of the cycle that a foot is planted. Walks have 0.45–0.65 (`definitions.md`), noisy ones label less, creeping
