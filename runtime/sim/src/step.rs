@@ -262,6 +262,26 @@ mod tests {
     }
 
     #[test]
+    fn discs_move_exactly_as_planned_and_keep_out_of_walls() {
+        let mut scenario = antipodal(6, 4.0);
+        scenario.coupling = Coupling::Discs;
+        scenario.obstacles_m = vec![[(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(Vec2::from).to_vec()];
+        let mut simulation = Simulation::new(Arc::new(test_db()), &scenario);
+        for _ in 0..300 {
+            let before = simulation.frames().to_vec();
+            simulation.step(&mut |_| {});
+            for (before, after) in before.iter().zip(simulation.frames()) {
+                let planned_m = before.root.position_m + scenario.dt_s * after.planned_mps;
+                let position_m = after.root.position_m;
+                let is_near = planned_m.abs().max_element() < 0.8;
+                assert!(is_near || position_m == planned_m, "{position_m} instead of {planned_m}");
+                let pushed_m = simulation.obstacles.clamp_outside(position_m, 0.25).distance(position_m);
+                assert!(pushed_m < 1e-3, "{position_m} lies {pushed_m} m in the wall");
+            }
+        }
+    }
+
+    #[test]
     fn stages_are_told_in_the_order_of_the_paper() {
         let mut told = Vec::new();
         Simulation::new(Arc::new(test_db()), &antipodal(2, 3.0)).step(&mut |stage| told.push(stage));

@@ -7,7 +7,7 @@
 use glam::Vec2;
 
 use crate::mcn::half_plane::{HalfPlane, Source};
-use crate::mcn::linear_program::{Solution, solve};
+use crate::mcn::linear_program::{Solution, solve, yielding};
 use crate::split_mix::SplitMix64;
 
 const SPEED_MAX_MPS: f32 = 2.0;
@@ -24,14 +24,15 @@ pub fn fault(seed: u64, stream: u64) -> Option<&'static str> {
     let optimal_mps = vector(&mut random, 3.0);
     let firm = (random.next_u64() % (half_planes.len() as u64 + 1)) as usize;
     let solution = solve(&half_planes, firm, optimal_mps, SPEED_MAX_MPS, &mut Vec::new());
-    judged(&half_planes, optimal_mps, &solution)
+    judged(&half_planes, firm, optimal_mps, &solution)
 }
 
 /// The solution of the 2D program is no worse than any velocity tried; where it finds none, there is none; the solution
-/// then keeps what it claims to keep, and violates the rest no more than any velocity that keeps it.
-fn judged(half_planes: &[HalfPlane], optimal_mps: Vec2, solution: &Solution) -> Option<&'static str> {
+/// then keeps what it claims to keep, and violates what yields no more than any velocity that keeps it.
+fn judged(half_planes: &[HalfPlane], firm: usize, optimal_mps: Vec2, solution: &Solution) -> Option<&'static str> {
     let Solution { velocity_mps, satisfied } = *solution;
-    let (hard, soft) = half_planes.split_at(satisfied);
+    let hard = &half_planes[..satisfied];
+    let soft = &half_planes[yielding(half_planes.len(), firm, satisfied)];
     if !velocity_mps.is_finite() || velocity_mps.length() > SPEED_MAX_MPS + SLACK_MPS {
         return Some("finds a velocity beyond the greatest speed");
     }
@@ -114,7 +115,7 @@ mod tests {
         let half_planes = [behind(0.0, 0.5)];
         let judged = |x, satisfied| {
             let solution = Solution { velocity_mps: Vec2::new(x, 0.0), satisfied };
-            judged(&half_planes, Vec2::X, &solution).is_some()
+            judged(&half_planes, 0, Vec2::X, &solution).is_some()
         };
         assert!(!judged(0.5, 1) && judged(0.6, 1) && judged(0.3, 1) && judged(0.5, 0));
     }

@@ -153,10 +153,39 @@ fn in_column(index: usize) -> Vec2 {
 
 fn check_walls(name: &str, agents: &[(Vec2, Vec2)], place: &Place) {
     let figures = check(name, agents, place, 0.01);
+    check_outside(name, &figures, &place.walls);
+}
+
+fn check_outside(name: &str, figures: &Figures, walls: &Obstacles) {
     for position_m in figures.trails_m.iter().flatten() {
-        let pushed_m = place.walls.clamp_outside(*position_m, RADIUS_M).distance(*position_m);
+        let pushed_m = walls.clamp_outside(*position_m, RADIUS_M).distance(*position_m);
         assert!(pushed_m < 0.05, "{name}: {position_m} lies {pushed_m} m in a wall");
     }
+}
+
+#[test]
+fn two_pass_head_on_in_a_corridor_of_little_more_than_their_widths() {
+    let walls = Obstacles::new(&[rectangle([-6.0, 0.6], [6.0, 1.0]), rectangle([-6.0, -1.0], [6.0, -0.6])]);
+    check_walls("corridor of 1.2 m", &antipodal(2, 4.0), &Place { walls, door_m: None });
+}
+
+/// Ideal discs in steps of 0.1 s, whose goals lie behind a wall that none of them gets round: nothing but the plan
+/// keeps them out of it.
+fn check_kept_before(name: &str, wall_m: Vec<Vec2>, agents: &[(Vec2, Vec2)]) {
+    let (params, hull, walls) = (Params::default(), hull(), Obstacles::new(&[wall_m]));
+    let setting = Setting { body: Body::Ideal, dt_s: 0.1, ..setting(&params, &hull, &walls) };
+    let figures = Crowd::new(agents, None).run(&setting, 15.0);
+    check_outside(name, &figures, &walls);
+    assert!(figures.trails_m.iter().flatten().all(|position_m| position_m.x < 0.0), "{name}: someone gets through");
+}
+
+#[test]
+fn no_step_of_a_tenth_of_a_second_is_planned_through_a_thin_wall_or_into_a_concave_corner() {
+    let abreast = [-0.6, 0.0, 0.6].map(|y| (Vec2::new(-3.0, y), Vec2::new(3.0, y)));
+    check_kept_before("thin wall", rectangle([0.0, -8.0], [0.02, 8.0]), &abreast);
+    let corner = [[-6.0, 0.0], [0.0, 0.0], [0.0, -6.0], [0.5, -6.0], [0.5, 0.5], [-6.0, 0.5]].map(Vec2::from).to_vec();
+    let into_it = [[-3.0, -3.0], [-2.2, -3.0], [-3.0, -2.2]].map(|from| (Vec2::from(from), Vec2::new(3.0, 3.0)));
+    check_kept_before("concave corner", corner, &into_it);
 }
 
 #[test]

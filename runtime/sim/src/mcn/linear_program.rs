@@ -4,12 +4,17 @@
 //! The first `firm` half-planes must not yield, the others may. The **2D program** (van den Berg et al. 2011) is
 //! incremental: it adds one half-plane after the other and, where the optimum so far is cut off, moves it to the new
 //! line. The line at which it fails ends the longest feasible prefix. The firm ones of that prefix stay hard, and the
-//! **3D program** minimises the greatest *weighted* violation of the rest. In the plain minimax of van den Berg et al.
-//! the order of agents does not act (`paper/fbcrowd.md`, §4.4, **Open**). To keep the longest prefix hard and relax the
-//! rest makes it act, but the velocity jumps whenever the prefix changes by one (through bodies, in the four-way
-//! crossing, a fifth more acceleration and twice the overlap); weights that change smoothly make it act smoothly.
+//! **3D program** minimises the greatest *weighted* violation of those that must yield: of the agents, or, where the
+//! firm ones are infeasible among themselves, of the firm ones from the failure on, against which no agent is weighed.
+//!
+//! In the plain minimax of van den Berg et al. the order of agents does not act (`paper/fbcrowd.md`, §4.4, **Open**). To
+//! keep the longest prefix hard and relax the rest makes it act, but the velocity jumps whenever the prefix changes by
+//! one (through bodies, in the four-way crossing, a fifth more acceleration and twice the overlap); weights that change
+//! smoothly make it act smoothly.
 //!
 //! World axes, m/s. Within a disc of `speed_max`, which bounds the programs and nothing else.
+
+use std::ops::Range;
 
 use glam::Vec2;
 
@@ -40,7 +45,8 @@ enum Objective {
     Furthest(Vec2),
 }
 
-/// Eq. 14: argmin ‖v − v_op‖ over the half-planes; where they are infeasible, all but the first `firm` may yield.
+/// Eq. 14: argmin ‖v − v_op‖ over the half-planes; where they are infeasible, all but the first `firm` yield, and the
+/// last of those only where they exclude each other.
 ///
 /// `projected` is working memory.
 pub fn solve(
@@ -55,10 +61,16 @@ pub fn solve(
         Ok(velocity_mps) => Solution { velocity_mps, satisfied: half_planes.len() },
         Err((prefix, start_mps)) => {
             let hard = prefix.min(firm);
-            let velocity_mps = least_violation(half_planes, hard, start_mps, speed_max_mps, projected);
+            let weighed = &half_planes[..yielding(half_planes.len(), firm, hard).end];
+            let velocity_mps = least_violation(weighed, hard, start_mps, speed_max_mps, projected);
             Solution { velocity_mps, satisfied: hard }
         }
     }
+}
+
+/// Which of `count` half-planes share the violation where only the first `satisfied` are kept.
+pub(crate) fn yielding(count: usize, firm: usize, satisfied: usize) -> Range<usize> {
+    satisfied..if satisfied < firm { firm } else { count }
 }
 
 /// The 2D program. On failure, the length of the longest feasible prefix and its optimum.
@@ -203,12 +215,13 @@ mod tests {
     }
 
     /// The 2D optimum is no worse than any velocity tried; where there is none, a velocity that keeps the hard ones
-    /// violates one of the others, and the 3D optimum does so least.
+    /// violates one of those that yield, and the 3D optimum does so least.
     fn check(half_planes: &[HalfPlane], firm: usize, optimal_mps: Vec2) {
         let solution = solve(half_planes, firm, optimal_mps, SPEED_MAX_MPS, &mut Vec::new());
         let Solution { velocity_mps, satisfied } = solution;
         assert!(satisfied == half_planes.len() || satisfied <= firm);
-        let (hard, soft) = half_planes.split_at(satisfied);
+        let hard = &half_planes[..satisfied];
+        let soft = &half_planes[yielding(half_planes.len(), firm, satisfied)];
         assert!(worst(hard, velocity_mps) < 6e-3, "{solution:?}");
         assert!(velocity_mps.length() < SPEED_MAX_MPS + 1e-3);
         for tried_mps in grid().filter(|&tried_mps| worst(hard, tried_mps) <= 0.0) {
@@ -243,6 +256,23 @@ mod tests {
                 half_plane.point_mps += 0.8 * half_plane.direction.perp();
             }
             check(&half_planes, firm, optimal);
+        }
+    }
+
+    #[test]
+    fn agents_are_not_weighed_against_firm_ones_that_exclude_each_other() {
+        let behind = |outward: Vec2, reach_mps: f32, source| HalfPlane::behind(reach_mps * outward, outward, source);
+        // The wall wants 0.2 m/s back, the hull at least 0.1 m/s ahead.
+        let wall = behind(Vec2::X, -0.2, Source::Obstacle(0));
+        let hull = [(-Vec2::X, -0.1), (Vec2::Y, 0.5), (-Vec2::Y, 0.5)];
+        let hull = hull.map(|(outward, reach_mps)| behind(outward, reach_mps, Source::TurningHull));
+        let firm = [wall, hull[0], hull[1], hull[2]];
+        let solved = |half_planes: &[HalfPlane]| solve(half_planes, 4, Vec2::ZERO, SPEED_MAX_MPS, &mut Vec::new());
+        for away in [Vec2::X, -Vec2::X, Vec2::Y] {
+            let agent = HalfPlane { weight: 100.0, ..behind(-away, -1.5, Source::Agent(0)) };
+            let crowded = [firm.as_slice(), &[agent]].concat();
+            assert_eq!(solved(&crowded), solved(&firm));
+            check(&crowded, 4, Vec2::ZERO);
         }
     }
 

@@ -39,8 +39,8 @@ const WALL_SPEED_MPS: f32 = 4.0;
 /// From here on somebody counts as walking, m/s: a slow walk. Measured with people 0.8 m apart: at half of it one in
 /// two hundred does not arrive.
 const SLOW_WALK_MPS: f32 = 0.6;
-/// Whoever may be met after this time counts half as much as who is touched, s: what a walker needs to react. Half and
-/// three times as much make no difference that the scenes of Table 1 would show.
+/// Whoever may be met after this time counts half as much as who is touched, s: what a walker needs to react. Of 0.1, 0.3
+/// and 1 s, tried in the four-way crossing of Table 1 alone, A came to between 0.304 and 0.323 m/s².
 const REACTION_S: f32 = 0.3;
 
 /// Plans one agent's next velocity and facing.

@@ -10,7 +10,7 @@
 use glam::Vec2;
 
 use super::params::McnParams;
-use super::time_to_collision::{disc_with_disc, disc_with_side};
+use super::time_to_collision::{disc_with_disc, disc_with_side, discriminant};
 
 /// Floor of the time to collision, s: keeps the force finite; far inside the reach of the clamp on the acceleration.
 const TIME_MIN_S: f32 = 1e-2;
@@ -43,7 +43,7 @@ pub fn agent_force_mps2(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, law: 
     }
     let speed_squared = velocity_mps.length_squared();
     let approach = velocity_mps.dot(offset_m);
-    let root = (approach * approach - speed_squared * (offset_m.length_squared() - radius_m * radius_m)).sqrt();
+    let root = discriminant(offset_m, velocity_mps, radius_m).sqrt();
     let along = velocity_mps - (approach * velocity_mps - speed_squared * offset_m) / root;
     -steepness(time_s, law) / speed_squared * along
 }

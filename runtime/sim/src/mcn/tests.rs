@@ -127,6 +127,7 @@ fn steps_aside_at_held_facing_when_pushed_gently() {
     assert!(plan.velocity_mps.y < -0.1 && plan.strafing_s > 0.0, "{plan:?}");
     assert_eq!((plan.set, plan.facing_rad), (VelocitySet::Holding, 0.0), "{plan:?}");
 }
+
 #[test]
 fn steps_back_from_who_comes_too_near_but_turns_away_by_the_papers_construction() {
     let mut scene = Scene::new(&[[0.0, 0.0], [0.55, 0.0]]);
@@ -214,6 +215,32 @@ fn pressed() -> Scene {
     let closing = [[0.0, 0.0], [-0.8, 0.0], [0.9, 0.0], [0.0, 0.8], [0.0, -1.3]];
     scene.velocities_mps = closing.map(Vec2::from).to_vec();
     scene
+}
+
+/// Seen in a mirror along the way.
+fn mirrored(scene: &Scene) -> Scene {
+    let flipped = |vectors: &[Vec2]| vectors.iter().map(|vector| *vector * Vec2::new(1.0, -1.0)).collect();
+    Scene {
+        positions_m: flipped(&scene.positions_m),
+        velocities_mps: flipped(&scene.velocities_mps),
+        preferred_mps: flipped(&scene.preferred_mps),
+        ..scene.clone()
+    }
+}
+
+// All else is blind to sides: keeping right turns v_pref and shares the avoiding out, and only so do those who are
+// alike pass each other. (Discs on one spot with one velocity also part along +x; no walker begins so.)
+#[test]
+fn a_mirrored_scene_gives_the_mirrored_plan_but_for_keeping_right() {
+    let off_mps = |scene: &Scene| {
+        let [seen, in_mirror] = [scene, &mirrored(scene)].map(|scene| scene.plan(&mut Scratch::default()).velocity_mps);
+        (seen * Vec2::new(1.0, -1.0)).distance(in_mirror)
+    };
+    for mut scene in [met(), dense(), pressed()] {
+        scene.params.planner.parts.keep_right = false;
+        assert!(off_mps(&scene) < 1e-4, "{}", off_mps(&scene));
+    }
+    assert!(off_mps(&met()) > 0.05);
 }
 
 #[test]

@@ -18,12 +18,20 @@ pub fn disc_with_disc(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32) -> f32 
     let gap = offset_m.length_squared() - radius_m * radius_m;
     let speed_squared = velocity_mps.length_squared();
     let approach = velocity_mps.dot(offset_m);
-    let discriminant = approach * approach - speed_squared * gap;
+    let discriminant = discriminant(offset_m, velocity_mps, radius_m);
     // (b − √D)/a with the difference taken out, which cancels when the discs nearly touch.
     let time_s = gap / (approach + discriminant.sqrt());
     let meets = (approach > 0.0) & (discriminant > 0.0) & (speed_squared >= SPEED_SQUARED_MIN);
     let ahead_s = if meets { time_s } else { f32::INFINITY };
     if gap <= 0.0 { 0.0 } else { ahead_s }
+}
+
+/// b² − a c of the quadratic a t² − 2 b t + c = 0 for the time of contact, as r² v² − (v × p)²: near a graze, where it is
+/// all but 0, b² and a c would be a hundred times as great as both of these, and their rounding with them.
+#[inline]
+pub(crate) fn discriminant(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32) -> f32 {
+    let miss = velocity_mps.perp_dot(offset_m);
+    radius_m * radius_m * velocity_mps.length_squared() - miss * miss
 }
 
 /// A disc meets a segment: `corners` are its ends relative to the disc's centre.
