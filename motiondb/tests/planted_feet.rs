@@ -69,7 +69,7 @@ fn rotations(db: &mut MotionDb, joint: Joint) -> impl Iterator<Item = (usize, &m
 #[test]
 fn every_fault_of_motion_is_found_by_its_measure() {
     check_finds(&[], |_| ());
-    check_finds(&["planted_slide_cm_s"], |db| db.examples[WALK].planted_slide_cm_s = 16.0);
+    check_finds(&["planted_slide_cm_s"], |db| db.examples[WALK].planted_slide_cm_s = 20.0);
     check_finds(&["planted_share"], |db| db.examples[WALK].planted_share = 0.3);
     check_finds(&["penetration_mm"], |db| db.rows.pelvis_m[WALK * PHASE_COUNT + 5].z -= 0.2);
     check_finds(&["range_excess_deg"], |db| {

@@ -3,13 +3,15 @@
 //!
 //! Each stride is read along its own arc, at the times t(φ) of [`motiondb::phase_map`], through both of its landmarks.
 //! What is left open between its ends is taken out (`closing`), and both ends are faded into what the clip does
-//! just outside the stride, so that velocities close as well. Root frame: x forward, y left, metres, seconds.
+//! just outside the stride, so that velocities close as well. At last the cycle is put on the ground (`footing`): strides
+//! differ, and where their feet are averaged or closed a sole may sink. Root frame: x forward, y left, metres, seconds.
 
 use motiondb::motion_db::PHASE_COUNT;
 use motiondb::phase_map::PhaseMap;
 
 use crate::arc::Rates;
 use crate::closing::Gap;
+use crate::footing;
 use crate::human_clip::{Choices, HumanBody, HumanPose};
 use crate::pose_mean::pose_mean;
 use crate::root_motion::GroundedClip;
@@ -77,6 +79,7 @@ pub fn mean_stride(clip: &GroundedClip, body: &HumanBody, stances: &[Vec<Stance>
     let contacts = depths_s.iter().map(|depths_s| depths_s.map(contact)).collect();
     let mut cycle = GaitCycle { rows, contacts, phase_map, rates, steps: true };
     lower_to_ground(&mut cycle, body);
+    footing::lift_soles(&mut cycle.rows, body);
     cycle
 }
 
@@ -199,10 +202,11 @@ fn lower_to_ground(cycle: &mut GaitCycle, body: &HumanBody) {
 
 #[cfg(test)]
 mod tests {
-    use glam::DQuat;
+    use glam::{DQuat, DVec3};
     use motiondb::skeleton::Joint;
 
     use super::*;
+    use crate::leg_ik::place_ankle;
     use crate::synthetic::{self, Walk, cycle_of};
 
     #[test]
@@ -223,6 +227,22 @@ mod tests {
         let spine_step = |row: usize| spine(row).angle_between(spine(row + 1));
         assert!(largest < 0.2, "{largest}");
         assert!((0..PHASE_COUNT).all(|row| spine_step(row) < 0.004), "the drift is left in one place");
+    }
+
+    #[test]
+    fn no_sole_sinks_though_one_foot_stands_higher_than_the_other() {
+        let mut clip = synthetic::walk("walk", Walk::default());
+        for pose in &mut clip.frames {
+            let ankle_m = pose.forward_kinematics(&clip.body).positions_m[Joint::LeftFoot.index()];
+            place_ankle(pose, &clip.body, 0, ankle_m + 0.04 * DVec3::Z);
+        }
+        let cycle = cycle_of(&clip);
+        let soles = cycle.rows.iter().flat_map(|row| {
+            let joints = row.forward_kinematics(&clip.body);
+            [0, 1].map(|side| joints.sole_points_m(&clip.body, side))
+        });
+        let lowest_m = soles.flatten().map(|point| point.z).fold(f64::INFINITY, f64::min);
+        assert!(lowest_m > -0.011, "{lowest_m} m");
     }
 
     #[test]

@@ -1,8 +1,12 @@
 //! Poses on the target skeleton → poses whose planted feet stand on the ground at z = 0 and whose feet never sink.
 //!
-//! First the clip is shifted so that planted soles lie on the ground, half of the time a little over it. A foot of other proportions, or one whose rig cannot bend its toes, rolls off through the ground: its toe tip comes
-//! down where the performer's own was up. People's toes bend instead. So an ankle rises until heel and ball are on the
-//! ground, knees giving way, and then the toes bend up until their tip is. World frame, Z up, metres, radians.
+//! First the clip is shifted so that planted soles lie on the ground, half of the time a little over it. A foot of other
+//! proportions, or one whose rig cannot bend its toes, rolls off through the ground: its toe tip comes down where the
+//! performer's own was up. People's toes bend instead. So an ankle rises until heel and ball are on the ground, knees
+//! giving way, and then the toes bend up until their tip is; where they cannot bend so far, the ankle rises for the rest.
+//! World frame, Z up, metres, radians.
+
+use std::ops::Range;
 
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::Joint;
@@ -16,6 +20,10 @@ const SOLE_GIVES_M: f64 = 0.01;
 /// Toes bend up by 60° at most as a foot rolls off (published range of the first metatarsophalangeal joint: 60–70°),
 /// rad.
 const TOE_BEND_MAX_RAD: f64 = 60.0 * std::f64::consts::PI / 180.0;
+
+/// Of heel, ball and toe tip those that stand before the toes bend, and all.
+const HEEL_AND_BALL: Range<usize> = 0..2;
+const WHOLE_SOLE: Range<usize> = 0..3;
 
 /// Puts the feet on the ground; `is_planted` tells of a side and a frame whether that foot stands.
 pub(crate) fn stand(poses: &mut [HumanPose], body: &HumanBody, is_planted: impl Fn(usize, usize) -> bool) {
@@ -35,19 +43,21 @@ fn lower_to_ground(poses: &mut [HumanPose], body: &HumanBody, is_planted: impl F
 }
 
 /// Lifts heels, balls and toe tips that lie deeper than a sole gives.
-fn lift_soles(poses: &mut [HumanPose], body: &HumanBody) {
+pub(crate) fn lift_soles(poses: &mut [HumanPose], body: &HumanBody) {
     for pose in poses {
         for side in 0..2 {
-            raise_foot(pose, body, side);
+            raise_foot(pose, body, side, HEEL_AND_BALL);
             bend_toes(pose, body, side);
+            raise_foot(pose, body, side, WHOLE_SOLE);
         }
     }
 }
 
-fn raise_foot(pose: &mut HumanPose, body: &HumanBody, side: usize) {
+/// Raises an ankle until some of heel, ball and toe tip are on the ground.
+fn raise_foot(pose: &mut HumanPose, body: &HumanBody, side: usize, points: Range<usize>) {
     let joints = pose.forward_kinematics(body);
-    let [heel_m, ball_m, _] = joints.sole_points_m(body, side);
-    let sunk_m = -SOLE_GIVES_M - heel_m.z.min(ball_m.z);
+    let lowest_m = joints.sole_points_m(body, side)[points].iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
+    let sunk_m = -SOLE_GIVES_M - lowest_m;
     if sunk_m > 0.0 {
         let ankle_m = joints.positions_m[Joint::FEET[side].index()];
         leg_ik::place_ankle(pose, body, side, ankle_m + DVec3::Z * sunk_m);
@@ -113,7 +123,7 @@ mod tests {
 
     #[test]
     fn toes_bend_up_where_they_would_sink() {
-        for pitch_rad in [0.2, 0.4, 0.6] {
+        for pitch_rad in [0.2, 0.4, 0.6, 1.5] {
             let mut clip = walk();
             for pose in &mut clip.frames {
                 Joint::TOES.iter().for_each(|toe| pose.rotations[toe.index()] = DQuat::from_rotation_y(pitch_rad));

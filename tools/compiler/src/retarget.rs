@@ -5,7 +5,7 @@
 //! between roles, bones of the trunk that the source splits otherwise and joints with position channels all end up
 //! where the source puts them. At last the body is moved down or up so that its soles stand on z = 0.
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use motiondb::motion_db::SourceRecord;
 use motiondb::skeleton::{JOINT_COUNT, Joint};
 
@@ -33,14 +33,10 @@ pub(crate) fn to_human(
     name: String,
 ) -> HumanClip {
     let leg_m = leg_length(clip, roles);
-    let frames = 0..clip.frame_count();
-    let forward: Vec<DVec3> = frames
-        .clone()
-        .map(|frame| facing_rad(clip, roles, frame))
-        .map(|angle| DVec3::new(libm::cos(angle), libm::sin(angle), 0.0))
-        .collect();
+    let forward = forward(clip, roles);
     let anchors = anchors(clip, roles, &forward, leg_m);
-    let positions_m: Vec<[DVec3; JOINT_COUNT]> = frames.map(|frame| positions(clip, roles, &anchors, frame)).collect();
+    let positions_m: Vec<[DVec3; JOINT_COUNT]> =
+        (0..clip.frame_count()).map(|frame| positions(clip, roles, &anchors, frame)).collect();
     let tracks = Tracks { clip, roles, anchors: &anchors, positions_m: &positions_m, forward: &forward };
     let mut orientations = calibrated(&tracks);
     for (turns, positions) in orientations.iter_mut().zip(&positions_m) {
@@ -48,14 +44,7 @@ pub(crate) fn to_human(
     }
     let offsets_m = mean_offsets(&positions_m, &orientations);
     let soles = soles::find(&tracks, &orientations, leg_m);
-    let mut frames: Vec<HumanPose> = positions_m
-        .iter()
-        .zip(&orientations)
-        .map(|(positions, orientations)| pose(&offsets_m, positions, orientations))
-        .collect();
-    for frame in &mut frames {
-        frame.pelvis_m.z -= soles.ground_m;
-    }
+    let frames = poses(&offsets_m, &positions_m, &orientations, soles.ground_m);
     HumanClip {
         name,
         source: record(clip, units, whole),
@@ -63,9 +52,15 @@ pub(crate) fn to_human(
         frame_rate_hz: clip.frame_rate_hz,
         body: body(&tracks, &orientations, offsets_m, soles, leg_m),
         frames,
-        in_place_mps: whole.in_place.then(|| glam::DVec2::new(whole.speed_mps, whole.strafe_mps)),
+        in_place_mps: whole.in_place.then(|| DVec2::new(whole.speed_mps, whole.strafe_mps)),
         choices: Choices::default(),
     }
+}
+
+/// The body's facing in every frame, on the ground.
+fn forward(clip: &SourceClip, roles: &Roles) -> Vec<DVec3> {
+    let facing = |frame: usize| DVec2::from_angle(facing_rad(clip, roles, frame)).extend(0.0);
+    (0..clip.frame_count()).map(facing).collect()
 }
 
 /// All canonical joints in one frame. The pelvis is the hips' midpoint itself, also where the hips are not rigid.
@@ -93,6 +88,21 @@ fn mean_offsets(positions_m: &[[DVec3; JOINT_COUNT]], orientations: &[[DQuat; JO
         };
         positions_m.iter().zip(orientations).map(local).sum::<DVec3>() / positions_m.len() as f64
     })
+}
+
+/// The pose of every frame, over the ground at z = 0.
+fn poses(
+    offsets_m: &[DVec3; JOINT_COUNT],
+    positions_m: &[[DVec3; JOINT_COUNT]],
+    orientations: &[[DQuat; JOINT_COUNT]],
+    ground_m: f64,
+) -> Vec<HumanPose> {
+    let posed = |(positions, turns): (&[DVec3; JOINT_COUNT], &[DQuat; JOINT_COUNT])| {
+        let mut pose = pose(offsets_m, positions, turns);
+        pose.pelvis_m.z -= ground_m;
+        pose
+    };
+    positions_m.iter().zip(orientations).map(posed).collect()
 }
 
 /// Aims every bone with one child, parents first, and takes the local rotations.
