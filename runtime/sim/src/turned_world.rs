@@ -110,7 +110,7 @@ fn stance(random: &mut SplitMix64) -> Stance {
     let [heel_m, ball_m, toe_m, swing_m] = [point_m(), point_m(), point_m(), point_m()];
     let (side, time_to_landing_s) = ((random.next_u64() % 2) as usize, 0.1 + random.within(0.3).abs() as f32);
     let foot = StanceFoot { side, heel_m, ball_m, toe_m, swing_m, time_to_landing_s };
-    Stance { foot: (random.next_u64() % 2 == 0).then_some(foot) }
+    Stance { foot: random.next_u64().is_multiple_of(2).then_some(foot) }
 }
 
 fn turned_stance(stance: &Stance, turn: Vec2) -> Stance {
