@@ -1,8 +1,8 @@
 //! `fbcrowd bench soak`: does anything that FbCrowd reads, damaged, forged or mutated, or any world that it is put in,
 //! ever end the program, take for ever or do harm?
 //!
-//! One file a kind of input; worlds and linear programs are drawn and judged by [`fbcrowd_sim::wild_world`] and
-//! [`fbcrowd_sim::wild_program`]. Each copy draws its own random numbers from a seed of its own, the run's seed plus its
+//! One file a kind of input; worlds, turned scenes and linear programs are drawn and judged by
+//! [`fbcrowd_sim::wild_world`], [`fbcrowd_sim::turned_world`] and [`fbcrowd_sim::wild_program`]. Each copy draws its own random numbers from a seed of its own, the run's seed plus its
 //! number, so that one copy can be made again alone.
 
 mod clip;
@@ -18,6 +18,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use fbcrowd_sim::params::Params;
+use fbcrowd_sim::turned_world;
 use fbcrowd_sim::wild_program;
 use fbcrowd_sim::wild_world::WildWorld;
 use motiondb::motion_db::MotionDb;
@@ -45,7 +46,8 @@ const DAMAGED: &str = "damaged databases";
 /// bytes altered, dropped, repeated or inserted, numbers replaced, lengths and checksums set right or not; what is used
 /// must give sound databases and finite bodies. All begin with the bundled clips. Wild worlds: agents and obstacles
 /// piled, far off, fast, tiny, huge, on edges and in walls; each planner must plan numbers, keep its greatest speed and
-/// lead nobody through a wall. Linear programs: feasible or not, opposite, parallel but for rounding; no velocity that is
+/// lead nobody through a wall. Turned scenes: everyday ones, turned and moved; the velocity that MCN or ORCA plans must
+/// turn with them within 1e-4 m/s. Linear programs: feasible or not, opposite, parallel but for rounding; no velocity that is
 /// tried may be better than the one found.
 ///
 /// In JSON `seed, kinds[] {name, copies, refused, used, harmful, panics, slow, slowest_s}, finds[] {kind, seed, what}`.
@@ -53,8 +55,8 @@ const DAMAGED: &str = "damaged databases";
 #[command(after_help = "\
 Examples:
   fbcrowd bench soak
-  fbcrowd bench soak motion.fbdb --count 100000 --forged 10000 --mutated 0 --worlds 0 --programs 0
-  fbcrowd bench soak --seed 4711 --count 1 --forged 1 --mutated 1 --worlds 1 --programs 1    # a find, again")]
+  fbcrowd bench soak motion.fbdb --count 100000 --forged 10000 --mutated 0 --worlds 0 --turned 0 --programs 0
+  fbcrowd bench soak --seed 4711 --count 1 --forged 1 --mutated 1 --worlds 1 --turned 1 --programs 1    # a find, again")]
 pub(super) struct Args {
     /// A sound database; else that of the bundled clips.
     #[arg(value_name = "FILE.fbdb")]
@@ -71,6 +73,9 @@ pub(super) struct Args {
     /// Wild worlds.
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     worlds: usize,
+    /// Turned scenes.
+    #[arg(long, value_name = "N", default_value_t = 10_000)]
+    turned: usize,
     /// Linear programs.
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     programs: usize,
@@ -139,7 +144,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
         Bar::at_most("copies that end the program", 0.0, total(|kind| kind.panics)),
         Bar::at_most("copies that take longer than 10 s", 0.0, total(|kind| kind.slow)),
         Bar::at_most(
-            "copies that are used and do harm, worlds and programs with a fault",
+            "copies that are used and do harm; worlds, scenes and programs with a fault",
             0.0,
             total(|kind| kind.harmful),
         ),
@@ -154,7 +159,8 @@ fn kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Result<Ve
     let (bvh, glb) = (clip::bundled(".bvh"), clip::bundled(".glb"));
     let recording = recording::bytes(db, scratch)?;
     text_file::write_clips(scratch)?;
-    let (crowd, hull) = (Arc::clone(db), db.velocity_hull.clone());
+    let (crowd, hull, turned_hull) = (Arc::clone(db), db.velocity_hull.clone(), db.velocity_hull.clone());
+    let turned = move |draw: &mut Draw| fate(turned_world::fault(&turned_hull, draw.seed(), 0));
     let kind = |name, copies, attempt| Kind { name, copies, attempt };
     Ok(vec![
         kind(DAMAGED, args.count, Box::new(move |draw: &mut Draw| database::damage(&bytes, draw))),
@@ -165,6 +171,7 @@ fn kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Result<Ve
         kind("scenarios", args.mutated, Box::new(move |draw: &mut Draw| text_file::scenario(&crowd, scratch, draw))),
         kind("recordings", args.mutated, Box::new(move |draw: &mut Draw| recording::read(&recording, scratch, draw))),
         kind("wild worlds", args.worlds, Box::new(move |draw: &mut Draw| wild_world(&hull, draw))),
+        kind("turned scenes", args.turned, Box::new(turned)),
         kind("linear programs", args.programs, Box::new(|draw: &mut Draw| fate(wild_program::fault(draw.seed(), 0)))),
     ])
 }
@@ -255,7 +262,7 @@ fn text(found: &Details) -> String {
     }
     for Find { kind, seed, what } in &found.finds {
         text += &format!(
-            "{kind}: {what}; again with --seed {seed} --count 1 --forged 1 --mutated 1 --worlds 1 --programs 1\n"
+            "{kind}: {what}; again with --seed {seed} --count 1 --forged 1 --mutated 1 --worlds 1 --turned 1 --programs 1\n"
         );
     }
     text
