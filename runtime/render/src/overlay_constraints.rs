@@ -2,8 +2,8 @@
 //! Figs. 3 to 5.
 //!
 //! The step that begins in the picture's frame is planned again from the recording alone ([`Replay`]), so a picture
-//! shows what the planner went by, not what is remembered of it. The scene, marked ([`crate::overlay_scene`]), stands
-//! at the left; panels ([`crate::velocity_panel`]) follow to its right, one an agent. In the last frame, from which no
+//! shows what the planner went by, not what is remembered of it. The scene, marked (`overlay_scene.rs`), stands
+//! at the left; panels (`velocity_panel.rs`) follow to its right, one an agent. In the last frame, from which no
 //! step leads on, the step that led there is shown.
 
 use fbcrowd_sim::planner::Planner;
