@@ -3,7 +3,7 @@
 //!
 //! Hip midpoint against the facing of hips and shoulders. ω_t is the change of the facing between its means over the
 //! first and the last quarter second. A clip that treads on the spot takes v_f and ω_s from the slide of its stance feet
-//! ([`crate::tread`]).
+//! (`tread.rs`).
 
 use glam::DVec2;
 use motiondb::skeleton::Joint;
