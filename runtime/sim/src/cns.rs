@@ -19,6 +19,8 @@ pub enum Coupling {
     /// Bodies off: each disc moves as planned and faces as planned at once, to compare planners alone. A recording shows
     /// bodies that stand and glide, no foot of which is planted.
     Discs,
+    /// The user study's rival: discs move as planned, and bodies follow them exactly; see [`crate::decoupled`].
+    Decoupled,
 }
 
 /// The root of a disc that moves as planned.

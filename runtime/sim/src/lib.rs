@@ -9,6 +9,7 @@ pub mod cns;
 pub mod collision_rate;
 pub mod crowd;
 pub mod decay;
+pub mod decoupled;
 pub mod gate;
 pub mod hms;
 pub mod lanes;

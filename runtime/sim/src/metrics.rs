@@ -66,6 +66,11 @@ pub struct Measures {
     pub planted_share: f64,
     /// Mean distance between the synthesised root and where the planned velocity would have brought it in a step.
     pub root_tracking_error_m: f64,
+    /// The greatest such distance of any agent in any step.
+    pub root_tracking_worst_m: f64,
+    /// Mean angle between facing and travel, over the steps before each agent's arrival in which it walks and is not to
+    /// side-step or step back.
+    pub heading_error_deg: f64,
 }
 
 /// Figures on their way: takes frames one by one and keeps one, so that a crowd is measured while it runs.
@@ -145,6 +150,8 @@ impl Measuring {
             examples_slide_cm_s: slide.examples_slide_cm_s,
             planted_share: slide.planted_share,
             root_tracking_error_m: self.roots.root_tracking_error_m(),
+            root_tracking_worst_m: self.roots.root_tracking_worst_m(),
+            heading_error_deg: self.roots.heading_error_deg(),
         }
     }
 

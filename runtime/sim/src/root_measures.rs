@@ -26,6 +26,8 @@ pub struct RootMeasures {
     acceleration: Mean,
     acceleration_before_arrival: Mean,
     tracking_error: Mean,
+    tracking_worst_m: f64,
+    heading_error_deg: Mean,
     strafing: Mean,
     stepping_back: Mean,
 }
@@ -85,6 +87,8 @@ impl RootMeasures {
             acceleration: Mean::default(),
             acceleration_before_arrival: Mean::default(),
             tracking_error: Mean::default(),
+            tracking_worst_m: 0.0,
+            heading_error_deg: Mean::default(),
             strafing: Mean::default(),
             stepping_back: Mean::default(),
         }
@@ -104,11 +108,16 @@ impl RootMeasures {
                 let sidewards = walker.sidewards(after);
                 self.strafing.add(f64::from(sidewards == Some(Sidewards::Strafing)));
                 self.stepping_back.add(f64::from(sidewards == Some(Sidewards::SteppingBack)));
+                if after.set == VelocitySet::Turning && velocity_mps.length() >= STALL_SPEED_MPS {
+                    self.heading_error_deg.add(heading_error_deg(displacement_m, before, after));
+                }
                 walker.path_m += displacement_m.length();
                 walker.watch_for_stall(self.dt_s);
             }
             let planned_m = DVec2::from(after.planned_mps) * self.dt_s;
-            self.tracking_error.add(displacement_m.distance(planned_m));
+            let tracking_error_m = displacement_m.distance(planned_m);
+            self.tracking_error.add(tracking_error_m);
+            self.tracking_worst_m = self.tracking_worst_m.max(tracking_error_m);
             walker.arrive(after, self.steps as f64 * self.dt_s);
         }
     }
@@ -126,6 +135,17 @@ impl RootMeasures {
     /// Mean distance between the synthesised root and where the planned velocity would have brought it, m.
     pub fn root_tracking_error_m(&self) -> f64 {
         self.tracking_error.value()
+    }
+
+    /// The greatest such distance, m.
+    pub fn root_tracking_worst_m(&self) -> f64 {
+        self.tracking_worst_m
+    }
+
+    /// Mean angle between facing and travel over the steps before each agent's arrival in which it walks and is not to
+    /// side-step or step back, degrees.
+    pub fn heading_error_deg(&self) -> f64 {
+        self.heading_error_deg.value()
     }
 
     /// Whether every agent is within 0.5 m of its last goal in a frame.
@@ -220,6 +240,12 @@ impl Walker {
         // Half a step of tolerance, since dt is not exact in binary.
         self.stalled |= (self.slow_steps as f64 + 0.5) * dt_s >= STALL_S;
     }
+}
+
+/// Angle between the way of a step and the facing in its middle.
+fn heading_error_deg(displacement_m: DVec2, before: &AgentFrame, after: &AgentFrame) -> f64 {
+    let facing = DVec2::from(before.root.forward() + after.root.forward());
+    libm::fabs(libm::atan2(facing.perp_dot(displacement_m), facing.dot(displacement_m))).to_degrees()
 }
 
 fn position_m(frame: &AgentFrame) -> DVec2 {

@@ -4,6 +4,7 @@ use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 use crate::cns::Coupling;
+use crate::hms::params::Modes;
 use crate::params::Params;
 use crate::planner::Planner;
 use crate::scenario_point;
@@ -31,6 +32,16 @@ pub struct Scenario {
     pub params: Params,
     /// The picture.
     pub view: View,
+}
+
+impl Scenario {
+    /// The syntheses that bodies may use: those that follow a path planned before them only blend.
+    pub fn modes(&self) -> Modes {
+        match self.coupling {
+            Coupling::TwoWay => self.params.synthesis.modes,
+            Coupling::Discs | Coupling::Decoupled => Modes::Blending,
+        }
+    }
 }
 
 /// One agent at its start.

@@ -10,7 +10,7 @@
 //! dt_s = 0.0333333                    # 1/30
 //! seed = 1                            # of everything random
 //! planner = "mcn"                     # or "orca", "social_force": see `planner.rs`
-//! coupling = "two_way"                # or "discs", without bodies: see `cns.rs`
+//! coupling = "two_way"                # or "decoupled", "discs": see `cns.rs`
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
 //! [params.planner]                    # MCN's; see `params.rs` for all sections

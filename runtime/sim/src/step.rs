@@ -18,6 +18,7 @@ use rayon::prelude::*;
 use crate::agents::Agents;
 use crate::cns::{self, Coupling};
 use crate::crowd::plan_all;
+use crate::decoupled;
 use crate::hms::Motion;
 use crate::hms::hybrid::Hybrid;
 use crate::hms::space::Space;
@@ -64,7 +65,7 @@ pub struct Simulation {
 impl Simulation {
     /// At time 0: every agent stands at its start.
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
-        let (space, hybrid) = (Space::new(&db), Hybrid::new(&db, scenario.params.synthesis.modes));
+        let (space, hybrid) = (Space::new(&db), Hybrid::new(&db, scenario.modes()));
         let motion = Motion { db: &db, space: &space, hybrid: hybrid.as_ref(), params: &scenario.params.synthesis };
         let agents = Agents::new(scenario, &motion);
         let mut simulation = Self {
@@ -103,7 +104,7 @@ impl Simulation {
 
     fn follow_paths(&mut self) {
         let braking = match self.scenario.coupling {
-            Coupling::TwoWay => Braking::Evenly,
+            Coupling::TwoWay | Coupling::Decoupled => Braking::Evenly,
             Coupling::Discs => Braking::Within(self.scenario.dt_s),
         };
         for (index, spec) in self.scenario.agents.iter().enumerate() {
@@ -151,13 +152,16 @@ impl Simulation {
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let bodies = agents.bodies.par_iter_mut().with_min_len(CHUNK).zip(&mut agents.syntheses);
         bodies.zip(&agents.plans).zip(&agents.radii_m).for_each(|(((body, synthesis), plan), &radius_m)| {
-            let from_m = body.root.position_m;
+            let from = body.root;
             match coupling {
                 Coupling::TwoWay => body.advance(&motion, plan, dt_s),
-                Coupling::Discs => body.root = cns::as_planned(body.root, plan, dt_s),
+                Coupling::Discs | Coupling::Decoupled => body.root = cns::as_planned(from, plan, dt_s),
             }
-            body.root = cns::outside_walls(from_m, body.root, radius_m, obstacles);
-            if coupling == Coupling::TwoWay {
+            body.root = cns::outside_walls(from.position_m, body.root, radius_m, obstacles);
+            if coupling == Coupling::Decoupled {
+                decoupled::follow(body, &motion, from, dt_s);
+            }
+            if coupling != Coupling::Discs {
                 *synthesis = body.synthesize(&motion, dt_s);
             }
         });
@@ -190,8 +194,10 @@ mod tests {
     use glam::Vec2;
 
     use super::*;
+    use crate::angle::wrap_rad;
     use crate::params::Params;
     use crate::planner::Planner;
+    use crate::recording_frame::Mode;
     use crate::scenario::{AgentSpec, View};
     use crate::test_db::test_db;
 
@@ -277,6 +283,24 @@ mod tests {
                 assert!(is_near || position_m == planned_m, "{position_m} instead of {planned_m}");
                 let pushed_m = simulation.obstacles.clamp_outside(position_m, 0.25).distance(position_m);
                 assert!(pushed_m < 1e-3, "{position_m} lies {pushed_m} m in the wall");
+            }
+        }
+    }
+
+    #[test]
+    fn decoupled_bodies_are_where_their_discs_are_planned_and_turn_no_faster_than_examples() {
+        let mut scenario = antipodal(17, 4.0);
+        (scenario.planner, scenario.coupling) = (Planner::Orca, Coupling::Decoupled);
+        let db = test_db();
+        let turn_max_rad = Space::new(&db).turn_rate_max_rad_s * scenario.dt_s;
+        let mut simulation = Simulation::new(Arc::new(db), &scenario);
+        for _ in 0..300 {
+            let before = simulation.frames().to_vec();
+            simulation.step(&mut |_| {});
+            for (before, after) in before.iter().zip(simulation.frames()) {
+                assert_eq!(after.root.position_m, before.root.position_m + scenario.dt_s * after.planned_mps);
+                let turned_rad = wrap_rad(after.root.facing_rad - before.root.facing_rad);
+                assert!(turned_rad.abs() <= 1.001 * turn_max_rad && after.mode == Mode::Blending);
             }
         }
     }

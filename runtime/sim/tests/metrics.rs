@@ -62,6 +62,22 @@ fn tracking_error_is_the_distance_to_where_the_plan_would_have_led() {
         frame[0].planned_mps = Vec2::new(1.0, 0.5);
     }
     check(measured("tracking", &walker(9.0), &frames).root_tracking_error_m, 0.05);
+    frames[2][0].planned_mps = Vec2::new(1.0, 2.0);
+    check(measured("worst", &walker(9.0), &frames).root_tracking_worst_m, 0.2);
+}
+
+#[test]
+fn a_heading_error_is_facing_away_from_the_travel_without_being_meant_to() {
+    // Three steps at 60° to the facing, of which one is a side-step, and one ahead.
+    let aside = 0.1 * Vec2::from_angle(std::f32::consts::FRAC_PI_3);
+    let moves = [(aside, VelocitySet::Turning); 2];
+    let moves = moves.into_iter().chain([(aside, VelocitySet::Holding), (0.1 * Vec2::X, VelocitySet::Turning)]);
+    let (mut place, mut frames) = (Vec2::ZERO, vec![vec![standing_at(Vec2::ZERO)]]);
+    for (moved, set) in moves {
+        place += moved;
+        frames.push(vec![AgentFrame { set, ..standing_at(place) }]);
+    }
+    check(measured("heading", &walker(50.0), &frames).heading_error_deg, 40.0);
 }
 
 #[test]

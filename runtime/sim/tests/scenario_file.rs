@@ -190,6 +190,8 @@ fn planner_coupling_and_syntheses_are_the_scenarios_choice() {
     let parts = &chosen.params.planner.parts;
     assert!(!parts.hull && parts.stance == StanceForm::Radial && parts.order);
     assert_eq!(chosen.params.synthesis.modes, Modes::Blending);
+    let decoupled = scenario("decoupled", &format!("planner = \"orca\"\ncoupling = \"decoupled\"\n{ONE}"));
+    assert_eq!((decoupled.coupling, decoupled.modes()), (Coupling::Decoupled, Modes::Blending));
     let plain = scenario("plain", ONE);
     assert_eq!((plain.planner, plain.coupling), (Planner::Mcn, Coupling::TwoWay));
 }

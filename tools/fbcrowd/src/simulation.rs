@@ -88,7 +88,7 @@ pub(crate) fn simulate(
 /// §3.4.1: the planner must look further ahead than a change of synthesis takes.
 fn check_horizon(db: &MotionDb, scenario: &Scenario) -> Result<(), Failure> {
     let horizon_s = scenario.params.planner.time_horizon_s;
-    match Hybrid::new(db, scenario.params.synthesis.modes) {
+    match Hybrid::new(db, scenario.modes()) {
         Some(Hybrid { transition_s, .. }) if scenario.planner == Planner::Mcn && horizon_s <= transition_s => {
             Err(Failure::bad(format!(
                 "the planner looks {horizon_s} s ahead, but with this database a change of synthesis takes up to \

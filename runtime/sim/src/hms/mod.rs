@@ -194,6 +194,15 @@ impl Body {
         self.phase = next - libm::floorf(next);
     }
 
+    /// Blends what the examples have nearest to a step that others have decided, from the root where the body was to where
+    /// it is (see [`crate::decoupled`]).
+    pub(crate) fn follow(&mut self, motion: &Motion, from: Root, dt_s: f32) {
+        let parameters = went(&from, &self.root, dt_s);
+        self.mix.approach(&motion.space.locate(parameters), dt_s / motion.params.share_change_s);
+        self.walked_mps = (self.root.position_m - from.position_m) / dt_s;
+        self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * dt_s);
+    }
+
     fn move_root(&mut self, parameters: &Parameters, dt_s: f32) {
         let moved = moved(&self.root, parameters, dt_s);
         self.walked_mps = (moved.position_m - self.root.position_m) / dt_s;
@@ -332,12 +341,24 @@ impl Body {
 /// The root after a step at constant parameters: exactly along its arc, whose chord lies at half the turn.
 fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
     let half_turn_rad = 0.5 * dt_s * parameters.turn_rate_rad_s;
-    let chord = if half_turn_rad.abs() > 1e-3 { libm::sinf(half_turn_rad) / half_turn_rad } else { 1.0 };
-    let local_m = Vec2::new(parameters.speed_mps, parameters.strafe_mps) * dt_s * chord;
+    let local_m = Vec2::new(parameters.speed_mps, parameters.strafe_mps) * dt_s * chord(half_turn_rad);
     Root {
         position_m: root.position_m + Vec2::from_angle(root.facing_rad + half_turn_rad).rotate(local_m),
         facing_rad: wrap_rad(root.facing_rad + 2.0 * half_turn_rad),
     }
+}
+
+/// The parameters whose arc leads from one root to another in a step: the inverse of [`moved`].
+fn went(from: &Root, to: &Root, dt_s: f32) -> Parameters {
+    let half_turn_rad = 0.5 * wrap_rad(to.facing_rad - from.facing_rad);
+    let local_m = Vec2::from_angle(-from.facing_rad - half_turn_rad).rotate(to.position_m - from.position_m);
+    let local_mps = local_m / (dt_s * chord(half_turn_rad));
+    Parameters { speed_mps: local_mps.x, turn_rate_rad_s: 2.0 * half_turn_rad / dt_s, strafe_mps: local_mps.y }
+}
+
+/// Chord over arc, by half the angle between its ends.
+fn chord(half_turn_rad: f32) -> f32 {
+    if half_turn_rad.abs() > 1e-3 { libm::sinf(half_turn_rad) / half_turn_rad } else { 1.0 }
 }
 
 /// A point of the world in the root frame.

@@ -184,6 +184,15 @@ fn a_body_that_stops_stands_upright_with_its_feet_under_it() {
 }
 
 #[test]
+fn the_way_from_one_root_to_another_is_the_inverse_of_a_move() {
+    let from = Root { position_m: Vec2::new(3.0, -1.0), facing_rad: 3.0 };
+    for parameters in [Vec3::new(1.2, 1.5, -0.3), Vec3::new(-0.5, 0.0, 0.2)].map(Parameters::from_vec3) {
+        let found = super::went(&from, &super::moved(&from, &parameters, DT_S), DT_S);
+        assert!(found.to_vec3().distance(parameters.to_vec3()) < 1e-4, "{found:?}");
+    }
+}
+
+#[test]
 fn straight_stays_straight() {
     let walk = walk(10.0, DT_S, |_, _| towards(0.0, 1.1));
     assert!(walk.steps.iter().all(|(root, _)| root.position_m.y.abs() < 1e-4 && root.facing_rad.abs() < 1e-4));

@@ -22,7 +22,7 @@ pub(crate) struct Args {
     /// mean_time_to_goal_s, path_over_straight_line, strafing_share, stepping_back_share, body_penetration_mm` (deepest
     /// overlap of capsules, summed over pairs, per agent and step), `body_penetration_touching_mm` (mean of those that
     /// touch), `body_penetration_max_mm, body_touching_share, planted_slide_cm_s, examples_slide_cm_s, planted_share,
-    /// root_tracking_error_m`; null where nobody arrived, touched or stood.
+    /// root_tracking_error_m, root_tracking_worst_m` (of any step), `heading_error_deg` (facing against travel); null where nobody arrived, touched or stood.
     #[arg(long)]
     json: bool,
     /// Write a line a step: x y of each agent's root, metres.
@@ -67,7 +67,8 @@ pub(crate) fn text(measures: &Measures) -> String {
         ("mean time to goal", optional(measures.mean_time_to_goal_s, "s")),
         ("path", path(measures)),
         ("planted-foot slide", slide(measures)),
-        ("root tracking error", format!("{:.2} mm a step", 1000.0 * measures.root_tracking_error_m)),
+        ("root tracking error", tracking(measures)),
+        ("facing off the travel", format!("{:.1}°", measures.heading_error_deg)),
     ]
     .map(|(name, value)| format!("{name:<25}{value}\n"))
     .concat()
@@ -115,4 +116,9 @@ fn slide(measures: &Measures) -> String {
         optional(measures.examples_slide_cm_s, "cm/s"),
         100.0 * measures.planted_share
     )
+}
+
+fn tracking(measures: &Measures) -> String {
+    let [mean_mm, worst_mm] = [measures.root_tracking_error_m, measures.root_tracking_worst_m].map(|error| 1e3 * error);
+    format!("{mean_mm:.2} mm a step, {worst_mm:.0} mm at most")
 }

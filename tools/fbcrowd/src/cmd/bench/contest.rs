@@ -23,7 +23,7 @@ use glam::Vec2;
 use motiondb::atomic_file::AtomicFile;
 use motiondb::motion_db::MotionDb;
 
-use super::scenes::Scene;
+use super::scenes::{self, Scene};
 use crate::failure::Failure;
 use crate::progress::Progress;
 
@@ -46,8 +46,9 @@ pub(super) const SOCIAL_FORCE_20: Contestant =
     Contestant { name: "social_force_20_substeps", planner: Planner::SocialForce, substeps: 20 };
 
 /// How all of them run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Protocol {
+    pub(super) dt_s: f32,
     pub(super) coupling: Coupling,
     pub(super) modes: Modes,
     /// Ends a run as soon as all are at their goals at once, instead of after 60 s.
@@ -56,6 +57,20 @@ pub(super) struct Protocol {
     pub(super) keeps_tracks: bool,
     /// Where to write the paths.
     pub(super) trajectories: Option<PathBuf>,
+}
+
+impl Default for Protocol {
+    /// That of Table 1 (`definitions.md`), with our bodies.
+    fn default() -> Self {
+        Self {
+            dt_s: scenes::STEP_S,
+            coupling: Coupling::default(),
+            modes: Modes::default(),
+            until_all_are_at_goals: false,
+            keeps_tracks: false,
+            trajectories: None,
+        }
+    }
 }
 
 /// What one run gave.
@@ -119,7 +134,7 @@ fn run(db: &Arc<MotionDb>, scene: &Scene, contestant: &Contestant, protocol: &Pr
     let mut params = Params::default();
     params.social_force.substeps = contestant.substeps;
     params.synthesis.modes = protocol.modes;
-    let scenario = scene.scenario(contestant.planner, protocol.coupling, params);
+    let scenario = Scenario { dt_s: protocol.dt_s, ..scene.scenario(contestant.planner, protocol.coupling, params) };
     let mut simulation = Simulation::new(Arc::clone(db), &scenario);
     let mut paths = Paths::begin(scene, contestant, protocol)?;
     paths.push(simulation.frames())?;

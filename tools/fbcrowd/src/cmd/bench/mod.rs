@@ -6,6 +6,7 @@ mod bundled;
 mod clips;
 mod compile;
 mod contest;
+mod coupled;
 mod emergence;
 mod figure7;
 mod gait;
@@ -57,6 +58,7 @@ enum Bench {
     Figure7(figure7::Args),
     Rimea(rimea::Args),
     Emergence(emergence::Args),
+    Coupled(coupled::Args),
 }
 
 /// What every bench on other people's clips is told.
@@ -85,5 +87,6 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Bench::Figure7(args) => figure7::run(args),
         Bench::Rimea(args) => rimea::run(args),
         Bench::Emergence(args) => emergence::run(args),
+        Bench::Coupled(args) => coupled::run(args),
     }
 }

@@ -1,6 +1,7 @@
 //! Scenes for planners to meet in: lines `x y goal_x goal_y`, metres, a file a scene and seed (`NAME_s1.txt`).
 //!
-//! Those of Table 1 are compiled in (`assets/scenarios/table1`), so that no bench depends on the folder it is run in.
+//! Those of Table 1 and of the user study are compiled in (`assets/scenarios/table1`, `study`), so that no bench depends
+//! on the folder it is run in.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,17 +17,17 @@ use motiondb::source_text::SourceText;
 use crate::failure::Failure;
 
 /// Step and time of the comparison (`definitions.md`, "Table 1").
-const STEP_S: f32 = 0.1;
+pub(super) const STEP_S: f32 = 0.1;
 const DURATION_S: f32 = 60.0;
 
 /// The bundled files: stem and text.
 macro_rules! bundled {
-    ($($stem:literal),* $(,)?) => {
-        [$(($stem, include_str!(concat!("../../../../../assets/scenarios/table1/", $stem, ".txt")))),*]
+    ($folder:literal: $($stem:literal),* $(,)?) => {
+        [$(($stem, include_str!(concat!("../../../../../assets/scenarios/", $folder, "/", $stem, ".txt")))),*]
     };
 }
 
-const BUNDLED: [(&str, &str); 20] = bundled![
+const BUNDLED: [(&str, &str); 20] = bundled!["table1":
     "cross2_30_s1",
     "cross2_30_s2",
     "cross2_30_s3",
@@ -48,6 +49,10 @@ const BUNDLED: [(&str, &str); 20] = bundled![
     "circle_17_s4",
     "circle_17_s5",
 ];
+
+/// The second scene of the paper's user study; the first is the circle above.
+const STUDY: [(&str, &str); 5] =
+    bundled!["study": "bidir_18_s1", "bidir_18_s2", "bidir_18_s3", "bidir_18_s4", "bidir_18_s5"];
 
 /// Agents at their starts, for one seed.
 #[derive(Clone, Debug)]
@@ -79,8 +84,17 @@ impl Scene {
 
 /// The scenes of Table 1 and the antipodal circle, in the paper's order, of some seeds or of all.
 pub(super) fn bundled(seeds: &[u64]) -> Result<Vec<Scene>, Failure> {
-    let text = |(stem, text): &(&str, &str)| SourceText { path: PathBuf::from(stem), text: (*text).to_owned() };
     scenes(BUNDLED.iter().map(text), seeds)
+}
+
+/// The scenes of the paper's user study (§7): the antipodal circle of 17, and two groups of nine head-on.
+pub(super) fn study(seeds: &[u64]) -> Result<Vec<Scene>, Failure> {
+    let circle = BUNDLED.iter().filter(|(stem, _)| stem.starts_with("circle_17"));
+    scenes(circle.chain(&STUDY).map(text), seeds)
+}
+
+fn text((stem, text): &(&str, &str)) -> SourceText {
+    SourceText { path: PathBuf::from(stem), text: (*text).to_owned() }
 }
 
 /// Every scene file of a folder, by name, of some seeds or of all.
@@ -138,6 +152,7 @@ mod tests {
             assert!(found.iter().all(|scene| scene.agents.len() == agents));
         }
         assert_eq!(bundled(&[2, 4]).unwrap().len(), 8);
+        assert_eq!(study(&[3]).unwrap().iter().map(|scene| scene.agents.len()).collect::<Vec<_>>(), [17, 18]);
     }
 
     #[test]
