@@ -2,6 +2,7 @@
 
 mod bar;
 mod blend_space;
+mod bodies;
 mod bundled;
 mod clips;
 mod compile;
@@ -46,6 +47,7 @@ pub(crate) struct Args {
 #[derive(clap::Subcommand)]
 enum Bench {
     BlendSpace(blend_space::Args),
+    Bodies(bodies::Args),
     Import(import::Args),
     Clips(clips::Args),
     Compile(compile::Args),
@@ -75,6 +77,7 @@ struct Mocap {
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     match &args.bench {
         Bench::BlendSpace(args) => blend_space::run(args),
+        Bench::Bodies(args) => bodies::run(args),
         Bench::Import(args) => import::run(args),
         Bench::Clips(args) => clips::run(args),
         Bench::Compile(args) => compile::run(args),
