@@ -5,7 +5,9 @@
 //! Analytic, by the law of cosines; the leg stays in its plane, which turns with the line from hip to ankle, so the
 //! knee remains the hinge that the pose had.
 
-use glam::{Mat3, Quat, Vec3};
+use std::f32::consts::PI;
+
+use glam::{Quat, Vec3};
 use motiondb::pose::{Joints, Pose};
 use motiondb::skeleton::{Joint, Skeleton};
 
@@ -17,6 +19,8 @@ const FLEXION_MARGIN: f32 = 1.001;
 /// A straight leg has no plane; this much of the thigh's forward axis is added to the knee's offset, so that it bends
 /// forward, metres.
 const KNEE_BIAS_M: f32 = 1e-3;
+/// Square of twice the cosine of half an angle, from which on two directions have no axis that rounding leaves: π − 1 mrad.
+const OPPOSITE: f32 = 1e-6;
 
 /// Where one foot shall be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,31 +32,32 @@ pub struct FootTarget {
 }
 
 /// Moves one leg of `pose`, and of `joints` (its forward kinematics), to the target, or as near as the leg reaches.
+///
+/// In its own plane each bone turns from where it lies to where the law of cosines wants it; then the plane turns from the
+/// old line between hip and ankle to the new one.
 pub fn reach(pose: &mut Pose, joints: &mut Joints, skeleton: &Skeleton, side: usize, target: &FootTarget) {
     let [thigh, shank, foot, toe] =
         [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side], Joint::TOES[side]].map(Joint::index);
     let [hip_m, knee_m, ankle_m] = [thigh, shank, foot].map(|joint| joints.positions_m[joint]);
     let bones_m = [skeleton.offsets_m[shank].length(), skeleton.offsets_m[foot].length()];
 
+    let to_target_m = target.ankle_m - hip_m;
     let old_line = (ankle_m - hip_m).normalize_or(Vec3::NEG_Z);
-    let new_line = (target.ankle_m - hip_m).normalize_or(old_line);
+    let new_line = to_target_m.normalize_or(old_line);
     let forward = joints.orientations[thigh] * Vec3::X;
-    let old_pole = across(knee_m - hip_m + KNEE_BIAS_M * forward, old_line);
-    let new_pole = across(Quat::from_rotation_arc(old_line, new_line) * old_pole, new_line);
+    let pole = across(knee_m - hip_m + KNEE_BIAS_M * forward, old_line);
+    let distance_m = reachable_m(bones_m, to_target_m.length());
+    let (along_m, aside_m) = knee_offset_m(bones_m, distance_m);
+    let bent_thigh_m = along_m * old_line + aside_m * pole;
+    let bent_shank_m = distance_m * old_line - bent_thigh_m;
 
-    let (along_m, aside_m) = knee_offset_m(bones_m, (target.ankle_m - hip_m).length());
-    let new_knee_m = hip_m + along_m * new_line + aside_m * new_pole;
-    let new_ankle_m = hip_m + reachable_m(bones_m, (target.ankle_m - hip_m).length()) * new_line;
+    let swing = turn(old_line, new_line);
+    let thigh_turned = swing * turn(knee_m - hip_m, bent_thigh_m) * joints.orientations[thigh];
+    let shank_turned = swing * turn(ankle_m - knee_m, bent_shank_m) * joints.orientations[shank];
 
-    let (old_normal, new_normal) = (old_line.cross(old_pole), new_line.cross(new_pole));
-    let turn = |old_bone, new_bone| bone_turn((old_bone, old_normal), (new_bone, new_normal));
-    let pelvis = joints.orientations[Joint::Pelvis.index()];
-    let thigh_turned = (turn(knee_m - hip_m, new_knee_m - hip_m) * joints.orientations[thigh]).normalize();
-    let shank_turned = (turn(ankle_m - knee_m, new_ankle_m - new_knee_m) * joints.orientations[shank]).normalize();
-
-    pose.rotations[thigh] = pelvis.inverse() * thigh_turned;
-    pose.rotations[shank] = thigh_turned.inverse() * shank_turned;
-    pose.rotations[foot] = shank_turned.inverse() * target.orientation;
+    pose.rotations[thigh] = joints.orientations[Joint::Pelvis.index()].conjugate() * thigh_turned;
+    pose.rotations[shank] = thigh_turned.conjugate() * shank_turned;
+    pose.rotations[foot] = shank_turned.conjugate() * target.orientation;
     joints.orientations[thigh] = thigh_turned;
     joints.orientations[shank] = shank_turned;
     joints.orientations[foot] = target.orientation;
@@ -69,9 +74,8 @@ fn reachable_m([thigh_m, shank_m]: [f32; 2], distance_m: f32) -> f32 {
 }
 
 /// The knee along the line from hip to ankle, and aside of it, by the law of cosines.
-fn knee_offset_m(bones_m: [f32; 2], distance_m: f32) -> (f32, f32) {
-    let [thigh_m, shank_m] = bones_m;
-    let distance_m = reachable_m(bones_m, distance_m).max(f32::EPSILON);
+fn knee_offset_m([thigh_m, shank_m]: [f32; 2], distance_m: f32) -> (f32, f32) {
+    let distance_m = distance_m.max(f32::EPSILON);
     let along_m = 0.5 * (distance_m + (thigh_m * thigh_m - shank_m * shank_m) / distance_m);
     (along_m, libm::sqrtf((thigh_m * thigh_m - along_m * along_m).max(0.0)))
 }
@@ -81,14 +85,19 @@ fn across(vector: Vec3, line: Vec3) -> Vec3 {
     (vector - line * vector.dot(line)).normalize_or(line.any_orthonormal_vector())
 }
 
-/// The rotation that takes one bone, and the normal of its leg's plane, to another.
-fn bone_turn(old: (Vec3, Vec3), new: (Vec3, Vec3)) -> Quat {
-    let frame = |(bone, normal): (Vec3, Vec3)| {
-        let bone = bone.normalize_or(Vec3::NEG_Z);
-        let normal = across(normal, bone);
-        Mat3::from_cols(bone, normal, bone.cross(normal))
-    };
-    Quat::from_mat3(&(frame(new) * frame(old).transpose()))
+/// The shortest rotation from the direction of one vector to that of another. Exact for the smallest angles, unlike what
+/// calls them nothing; for opposite vectors about any axis across, for none at all none.
+fn turn(from: Vec3, to: Vec3) -> Quat {
+    let lengths = libm::sqrtf(from.length_squared() * to.length_squared());
+    let (cross, one_and_cosine) = (from.cross(to), lengths + from.dot(to));
+    let half = Quat::from_xyzw(cross.x, cross.y, cross.z, one_and_cosine);
+    if half.length_squared() > OPPOSITE * lengths * lengths {
+        half.normalize()
+    } else if lengths > 0.0 {
+        Quat::from_axis_angle(from.normalize().any_orthonormal_vector(), PI)
+    } else {
+        Quat::IDENTITY
+    }
 }
 
 #[cfg(test)]

@@ -34,7 +34,7 @@ const BODIES: usize = 1_000;
 /// Steps until all play what they are asked for, and of one turn.
 const WARM_UP: usize = 90;
 const STEPS: usize = 20;
-const TURNS: usize = 9;
+const TURNS: usize = 60;
 const DT_S: f32 = 1.0 / 30.0;
 /// What bodies are asked for: speed, turn rate and strafe at most this far from their middle.
 const SPEED_MPS: [f32; 2] = [1.2, 0.4];
