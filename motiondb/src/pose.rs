@@ -25,10 +25,37 @@ impl Root {
         Vec2::new(cos, sin)
     }
 
+    /// Its frame, for many points.
+    pub fn frame(&self) -> RootFrame {
+        RootFrame { position_m: self.position_m, forward: self.forward() }
+    }
+
     /// A point of the root frame in the world.
     pub fn to_world(&self, point_m: Vec3) -> Vec3 {
-        let ground = self.position_m + self.forward().rotate(point_m.truncate());
-        ground.extend(point_m.z)
+        self.frame().to_world(point_m)
+    }
+}
+
+/// The root frame in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RootFrame {
+    /// Its origin on the ground, world, metres.
+    pub position_m: Vec2,
+    /// Its x axis, a unit vector.
+    pub forward: Vec2,
+}
+
+impl RootFrame {
+    /// A point of the root frame in the world.
+    pub fn to_world(&self, point_m: Vec3) -> Vec3 {
+        let ground_m = self.position_m + self.forward.rotate(point_m.truncate());
+        ground_m.extend(point_m.z)
+    }
+
+    /// A point of the world in the root frame.
+    pub fn to_local(&self, point_m: Vec3) -> Vec3 {
+        let back = Vec2::new(self.forward.x, -self.forward.y);
+        back.rotate(point_m.truncate() - self.position_m).extend(point_m.z)
     }
 }
 

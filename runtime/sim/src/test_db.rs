@@ -15,6 +15,7 @@ use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
 use motiondb::velocity_hull::{Construction, VelocityHull, is_holding, is_turning, turning_point_mps};
 
 use crate::hms::ik::{FootTarget, reach};
+use crate::hms::leg::legs;
 
 /// Share of a cycle that a foot stands.
 pub(crate) const DUTY: f32 = 0.6;
@@ -84,10 +85,10 @@ fn append_rows(db: &mut MotionDb, index: usize) {
         let phase = row as f32 / PHASE_COUNT as f32;
         let feet = [0, 1].map(|side| foot(&example, phase, side));
         let mut pose = Pose { pelvis_m: Vec3::new(0.0, 0.0, PELVIS_M), rotations: [Quat::IDENTITY; JOINT_COUNT] };
-        let mut joints = pose.forward_kinematics(&db.skeleton);
+        let mut legs = legs(&pose, &db.skeleton);
         for (side, (target, toe_bend_rad, _)) in feet.iter().enumerate() {
             pose.rotations[Joint::TOES[side].index()] = Quat::from_rotation_y(-toe_bend_rad);
-            reach(&mut pose, &mut joints, &db.skeleton, side, target);
+            reach(&mut pose, &mut legs[side], &db.skeleton, side, target);
         }
         db.rows.pelvis_m.push(pose.pelvis_m);
         db.rows.rotations.extend(pose.rotations.map(|rotation| if rotation.w < 0.0 { -rotation } else { rotation }));

@@ -8,8 +8,10 @@
 use std::f32::consts::PI;
 
 use glam::{Quat, Vec3};
-use motiondb::pose::{Joints, Pose};
+use motiondb::pose::Pose;
 use motiondb::skeleton::{Joint, Skeleton};
+
+use super::leg::Leg;
 
 /// Greatest share of the leg's length from hip to ankle: beyond it the knee angle changes infinitely fast (`motion.md`
 /// §2).
@@ -31,20 +33,20 @@ pub struct FootTarget {
     pub orientation: Quat,
 }
 
-/// Moves one leg of `pose`, and of `joints` (its forward kinematics), to the target, or as near as the leg reaches.
+/// Moves one leg, and its joints in `pose`, to the target, or as near as it reaches.
 ///
 /// In its own plane each bone turns from where it lies to where the law of cosines wants it; then the plane turns from the
 /// old line between hip and ankle to the new one.
-pub fn reach(pose: &mut Pose, joints: &mut Joints, skeleton: &Skeleton, side: usize, target: &FootTarget) {
-    let [thigh, shank, foot, toe] =
-        [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side], Joint::TOES[side]].map(Joint::index);
-    let [hip_m, knee_m, ankle_m] = [thigh, shank, foot].map(|joint| joints.positions_m[joint]);
+pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, target: &FootTarget) {
+    let [thigh, shank, foot, toe] = Leg::joints(side);
+    let [hip_m, knee_m, ankle_m, _] = leg.positions_m;
     let bones_m = [skeleton.offsets_m[shank].length(), skeleton.offsets_m[foot].length()];
 
     let to_target_m = target.ankle_m - hip_m;
     let old_line = (ankle_m - hip_m).normalize_or(Vec3::NEG_Z);
     let new_line = to_target_m.normalize_or(old_line);
-    let forward = joints.orientations[thigh] * Vec3::X;
+    let [old_thigh, old_shank, ..] = leg.orientations;
+    let forward = old_thigh * Vec3::X;
     let pole = across(knee_m - hip_m + KNEE_BIAS_M * forward, old_line);
     let distance_m = reachable_m(bones_m, to_target_m.length());
     let (along_m, aside_m) = knee_offset_m(bones_m, distance_m);
@@ -52,19 +54,19 @@ pub fn reach(pose: &mut Pose, joints: &mut Joints, skeleton: &Skeleton, side: us
     let bent_shank_m = distance_m * old_line - bent_thigh_m;
 
     let swing = turn(old_line, new_line);
-    let thigh_turned = swing * turn(knee_m - hip_m, bent_thigh_m) * joints.orientations[thigh];
-    let shank_turned = swing * turn(ankle_m - knee_m, bent_shank_m) * joints.orientations[shank];
+    let thigh_turned = swing * turn(knee_m - hip_m, bent_thigh_m) * old_thigh;
+    let shank_turned = swing * turn(ankle_m - knee_m, bent_shank_m) * old_shank;
 
-    pose.rotations[thigh] = joints.orientations[Joint::Pelvis.index()].conjugate() * thigh_turned;
+    pose.rotations[thigh] = pose.rotations[Joint::Pelvis.index()].conjugate() * thigh_turned;
     pose.rotations[shank] = thigh_turned.conjugate() * shank_turned;
     pose.rotations[foot] = shank_turned.conjugate() * target.orientation;
-    joints.orientations[thigh] = thigh_turned;
-    joints.orientations[shank] = shank_turned;
-    joints.orientations[foot] = target.orientation;
-    joints.orientations[toe] = target.orientation * pose.rotations[toe];
-    joints.positions_m[shank] = hip_m + thigh_turned * skeleton.offsets_m[shank];
-    joints.positions_m[foot] = joints.positions_m[shank] + shank_turned * skeleton.offsets_m[foot];
-    joints.positions_m[toe] = joints.positions_m[foot] + target.orientation * skeleton.offsets_m[toe];
+    let knee_m = hip_m + thigh_turned * skeleton.offsets_m[shank];
+    let ankle_m = knee_m + shank_turned * skeleton.offsets_m[foot];
+    let toe_m = ankle_m + target.orientation * skeleton.offsets_m[toe];
+    *leg = Leg {
+        positions_m: [hip_m, knee_m, ankle_m, toe_m],
+        orientations: [thigh_turned, shank_turned, target.orientation, target.orientation * pose.rotations[toe]],
+    };
 }
 
 /// The distance from hip to ankle that a leg can have, nearest to the asked one.
@@ -109,14 +111,13 @@ mod tests {
     use crate::test_db::skeleton;
 
     /// A standing body with one knee bent by `bend_rad`, and the leg reached out to the target.
-    fn reached(side: usize, bend_rad: f32, target: &FootTarget) -> (Pose, Joints, Joints) {
+    fn reached(side: usize, bend_rad: f32, target: &FootTarget) -> (Pose, Leg) {
         let skeleton = skeleton();
         let mut pose = Pose { pelvis_m: skeleton.offsets_m[0], rotations: [Quat::IDENTITY; JOINT_COUNT] };
         pose.rotations[Joint::SHANKS[side].index()] = Quat::from_rotation_y(bend_rad);
-        let before = pose.forward_kinematics(&skeleton);
-        let mut joints = before;
-        reach(&mut pose, &mut joints, &skeleton, side, target);
-        (pose, before, joints)
+        let mut leg = Leg::new(&pose, &skeleton, side);
+        reach(&mut pose, &mut leg, &skeleton, side, target);
+        (pose, leg)
     }
 
     proptest! {
@@ -125,14 +126,14 @@ mod tests {
             x in -1.5f32..1.5, y in -1.5f32..1.5, z in -1.0f32..2.0, bend_rad in 0.0f32..1.5, side in 0usize..2,
         ) {
             let target = FootTarget { ankle_m: Vec3::new(x, y, z), orientation: Quat::from_rotation_z(0.4) };
-            let (pose, _, joints) = reached(side, bend_rad, &target);
-            let [hip_m, ankle_m] = [Joint::THIGHS[side], Joint::FEET[side]].map(|joint| joints.positions_m[joint.index()]);
+            let (pose, leg) = reached(side, bend_rad, &target);
+            let (hip_m, ankle_m) = (leg.hip_m(), leg.ankle_m());
             let nearest_m = hip_m
                 + (target.ankle_m - hip_m).normalize() * reachable_m([0.42, 0.42], target.ankle_m.distance(hip_m));
             prop_assert!(ankle_m.distance(nearest_m) < 1e-4, "{ankle_m} {nearest_m}");
-            prop_assert!(joints.orientations[Joint::FEET[side].index()].angle_between(target.orientation) < 1e-3);
-            let again = pose.forward_kinematics(&skeleton());
-            prop_assert!(again.positions_m.iter().zip(joints.positions_m).all(|(a, b)| a.distance(b) < 1e-4));
+            prop_assert!(leg.foot().angle_between(target.orientation) < 1e-3);
+            let again = Leg::new(&pose, &skeleton(), side);
+            prop_assert!(again.positions_m.iter().zip(leg.positions_m).all(|(a, b)| a.distance(b) < 1e-4));
         }
     }
 
@@ -143,10 +144,9 @@ mod tests {
         pose.rotations[Joint::THIGHS[0].index()] = Quat::from_rotation_y(-0.5) * Quat::from_rotation_z(0.2);
         pose.rotations[Joint::SHANKS[0].index()] = Quat::from_rotation_y(0.9);
         let before = pose;
-        let mut joints = pose.forward_kinematics(&skeleton);
-        let foot = Joint::FEET[0].index();
-        let target = FootTarget { ankle_m: joints.positions_m[foot], orientation: joints.orientations[foot] };
-        reach(&mut pose, &mut joints, &skeleton, 0, &target);
+        let mut leg = Leg::new(&pose, &skeleton, 0);
+        let target = FootTarget { ankle_m: leg.ankle_m(), orientation: leg.foot() };
+        reach(&mut pose, &mut leg, &skeleton, 0, &target);
         for (before, after) in before.rotations.iter().zip(pose.rotations) {
             assert!(before.angle_between(after) < 2e-3);
         }
@@ -155,14 +155,14 @@ mod tests {
     #[test]
     fn a_straight_leg_bends_its_knee_forward() {
         let target = FootTarget { ankle_m: Vec3::new(0.0, 0.1, 0.3), orientation: Quat::IDENTITY };
-        let (_, _, joints) = reached(0, 0.0, &target);
-        assert!(joints.positions_m[Joint::LeftShank.index()].x > 0.1);
+        let (_, leg) = reached(0, 0.0, &target);
+        assert!(leg.positions_m[1].x > 0.1);
     }
 
     #[test]
     fn a_target_in_the_hip_itself_is_no_catastrophe() {
         let hip_m = skeleton().offsets_m[0] + skeleton().offsets_m[Joint::LeftThigh.index()];
-        let (pose, _, _) = reached(0, 0.0, &FootTarget { ankle_m: hip_m, orientation: Quat::IDENTITY });
+        let (pose, _) = reached(0, 0.0, &FootTarget { ankle_m: hip_m, orientation: Quat::IDENTITY });
         assert!(pose.rotations.iter().all(|rotation| rotation.is_normalized()));
     }
 }

@@ -21,6 +21,7 @@ pub mod gait;
 pub mod hybrid;
 pub mod ik;
 pub mod inertialization;
+pub mod leg;
 pub mod mode;
 pub mod owed;
 pub mod params;
@@ -29,11 +30,11 @@ pub mod playing;
 pub mod semi_procedural;
 pub mod space;
 
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
-use motiondb::pose::{Joints, Pose, Root};
-use motiondb::skeleton::{Joint, Skeleton};
+use motiondb::pose::{Pose, Root, RootFrame};
+use motiondb::skeleton::Skeleton;
 
 use self::blending::Mix;
 use self::feet::{FootHold, PosedFoot};
@@ -41,6 +42,7 @@ use self::gait::Gait;
 use self::hybrid::Hybrid;
 use self::ik::FootTarget;
 use self::inertialization::{Inertia, LOOK_BACK_S};
+use self::leg::{Leg, legs};
 use self::mode::{Choice, Thresholds};
 use self::owed::Owed;
 use self::params::HmsParams;
@@ -142,8 +144,9 @@ impl Body {
             feet: Default::default(),
         };
         let playing = body.playing(motion);
-        let joints = playing.pose(motion, phase).forward_kinematics(&motion.db.skeleton);
-        body.feet = [0, 1].map(|side| FootHold::new(&body.posed_foot(&joints, &motion.db.skeleton, side)));
+        let legs = legs(&playing.pose(motion, phase), &motion.db.skeleton);
+        let frame = root.frame();
+        body.feet = [0, 1].map(|side| FootHold::new(&posed_foot(&frame, &legs[side], &motion.db.skeleton, side)));
         let synthesis = body.synthesize(motion, SETTLING_S);
         (body, synthesis)
     }
@@ -260,9 +263,9 @@ impl Body {
     /// that is further behind, or on the side to which it goes, so that the other foot is under it and not a step away.
     fn first_step_phase(&self, motion: &Motion) -> f32 {
         let velocity_mps = Vec2::new(self.intended.speed_mps, self.intended.strafe_mps);
-        let way = velocity_mps.normalize_or_zero();
+        let (way, frame) = (velocity_mps.normalize_or_zero(), self.root.frame());
         let ahead_m = [0, 1].map(|side| {
-            let ball_m = to_root(&self.root, self.feet[side].ball_m()) - motion.space.standing_balls_m[side];
+            let ball_m = frame.to_local(self.feet[side].ball_m()) - motion.space.standing_balls_m[side];
             ball_m.truncate().dot(way)
         });
         let to_left = way.y + self.intended.turn_rate_rad_s / motion.space.turn_rate_max_rad_s;
@@ -272,8 +275,9 @@ impl Body {
 
     /// Whether both feet are on the ground, and near enough to where a standing body has them.
     fn feet_gathered(&self, motion: &Motion) -> bool {
+        let frame = self.root.frame();
         let gathered = |side: usize| {
-            let standing_m = self.root.to_world(motion.space.standing_balls_m[side]);
+            let standing_m = frame.to_world(motion.space.standing_balls_m[side]);
             let off_m = (self.feet[side].ball_m() - standing_m).truncate();
             self.feet[side].planted() && off_m.length() < GATHERED_M
         };
@@ -298,43 +302,38 @@ impl Body {
         let mut pose = playing.pose(motion, self.phase);
         self.inertia.carry(&mut pose, dt_s);
         let contacts = playing.contacts(motion, self.phase);
-        let mut joints = pose.forward_kinematics(skeleton);
+        let (frame, mut legs) = (self.root.frame(), legs(&pose, skeleton));
 
-        let targets = [0, 1].map(|side| self.hold_foot(&joints, skeleton, side, contacts[side], dt_s));
-        pelvis::lower(&mut pose, &mut joints, skeleton, &targets);
-        for (side, target) in targets.iter().enumerate() {
-            ik::reach(&mut pose, &mut joints, skeleton, side, target);
+        let targets = [0, 1].map(|side| {
+            let posed = posed_foot(&frame, &legs[side], skeleton, side);
+            let held = self.feet[side].step(&posed, contacts[side] >= PLANTED_CONTACT, dt_s);
+            FootTarget { ankle_m: frame.to_local(held.ankle_m), orientation: held.twist * legs[side].foot() }
+        });
+        pelvis::lower(&mut pose, &mut legs, skeleton, &targets);
+        for (side, (leg, target)) in legs.iter_mut().zip(&targets).enumerate() {
+            ik::reach(&mut pose, leg, skeleton, side, target);
         }
 
-        let soles_m = [0, 1].map(|side| joints.sole_points_m(skeleton, side));
+        let soles_m = [0, 1].map(|side| legs[side].sole_points_m(skeleton, side));
         for (hold, sole_m) in self.feet.iter_mut().zip(soles_m) {
-            hold.placed(sole_m.map(|point| self.root.to_world(point)), dt_s);
+            hold.placed(sole_m.map(|point| frame.to_world(point)), dt_s);
         }
         Synthesis {
             pose,
             contacts,
-            stance: Stance::on_soles(&soles_m, self.root.forward(), contacts, |swing| {
+            stance: Stance::on_soles(&soles_m, frame.forward, contacts, |swing| {
                 playing.time_to_landing_s(motion, self.phase, swing)
             }),
             examples_slide_cm_s: playing.examples_slide_cm_s(motion),
         }
     }
+}
 
-    /// The target of one foot in the root frame.
-    fn hold_foot(&mut self, joints: &Joints, skeleton: &Skeleton, side: usize, contact: f32, dt_s: f32) -> FootTarget {
-        let posed = self.posed_foot(joints, skeleton, side);
-        let held = self.feet[side].step(&posed, contact >= PLANTED_CONTACT, dt_s);
-        FootTarget {
-            ankle_m: to_root(&self.root, held.ankle_m),
-            orientation: held.twist * joints.orientations[Joint::FEET[side].index()],
-        }
-    }
-
-    fn posed_foot(&self, joints: &Joints, skeleton: &Skeleton, side: usize) -> PosedFoot {
-        PosedFoot {
-            ankle_m: self.root.to_world(joints.positions_m[Joint::FEET[side].index()]),
-            sole_m: joints.sole_points_m(skeleton, side).map(|point| self.root.to_world(point)),
-        }
+/// A foot as a leg has it, in the world.
+fn posed_foot(frame: &RootFrame, leg: &Leg, skeleton: &Skeleton, side: usize) -> PosedFoot {
+    PosedFoot {
+        ankle_m: frame.to_world(leg.ankle_m()),
+        sole_m: leg.sole_points_m(skeleton, side).map(|point| frame.to_world(point)),
     }
 }
 
@@ -359,12 +358,6 @@ fn went(from: &Root, to: &Root, dt_s: f32) -> Parameters {
 /// Chord over arc, by half the angle between its ends.
 fn chord(half_turn_rad: f32) -> f32 {
     if half_turn_rad.abs() > 1e-3 { libm::sinf(half_turn_rad) / half_turn_rad } else { 1.0 }
-}
-
-/// A point of the world in the root frame.
-fn to_root(root: &Root, point_m: Vec3) -> Vec3 {
-    let forward = root.forward();
-    Vec2::new(forward.x, -forward.y).rotate(point_m.truncate() - root.position_m).extend(point_m.z)
 }
 
 #[cfg(test)]

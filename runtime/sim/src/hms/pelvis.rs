@@ -12,10 +12,11 @@
 //! asks for. It depends on this step's pose alone. All vectors are in the root frame (x forward, y left, z up), metres.
 
 use glam::Vec3;
-use motiondb::pose::{Joints, Pose};
-use motiondb::skeleton::{Joint, Skeleton};
+use motiondb::pose::Pose;
+use motiondb::skeleton::Skeleton;
 
 use super::ik::FootTarget;
+use super::leg::Leg;
 
 /// Straightest a leg may be before the pelvis comes down for it, as a share of its length; straighter only where the
 /// pose is.
@@ -28,41 +29,43 @@ const DROP_MAX_M: f32 = 0.12;
 /// s, m: less than what the hips bob in walking. With 0.01 knees snap at stops.
 const SOFTNESS_M: f32 = 0.02;
 
-/// Lowers the pelvis of `pose`, and with it all of `joints`, its forward kinematics.
-pub fn lower(pose: &mut Pose, joints: &mut Joints, skeleton: &Skeleton, targets: &[FootTarget; 2]) {
+/// Lowers the pelvis of `pose`, and with it both legs.
+pub fn lower(pose: &mut Pose, legs: &mut [Leg; 2], skeleton: &Skeleton, targets: &[FootTarget; 2]) {
     let [left_m, right_m] = [0, 1].map(|side| {
-        let own_m = needed_m(joints, skeleton, side, joints.positions_m[Joint::FEET[side].index()]).min(0.0);
-        asked_m(needed_m(joints, skeleton, side, targets[side].ankle_m), own_m)
+        let leg = &legs[side];
+        let own_m = needed_m(leg, skeleton, side, leg.ankle_m()).min(0.0);
+        asked_m(needed_m(leg, skeleton, side, targets[side].ankle_m), own_m)
     });
     let drop_m = libm::cbrtf(left_m * left_m * left_m + right_m * right_m * right_m).min(DROP_MAX_M);
     pose.pelvis_m.z -= drop_m;
-    joints.positions_m.iter_mut().for_each(|position_m| position_m.z -= drop_m);
+    legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.z -= drop_m);
 }
 
 /// What one leg asks for, of what it needs to reach its target and its own foot.
 fn asked_m(target_m: f32, own_m: f32) -> f32 {
     // Beyond the furthest descent nothing changes, and nothing overflows.
-    let soft_m = |needed_m: f32| SOFTNESS_M * libm::logf(1.0 + libm::expf(needed_m.min(2.0 * DROP_MAX_M) / SOFTNESS_M));
-    let (target_m, own_m) = (soft_m(target_m), soft_m(own_m));
-    (target_m - own_m * libm::expf(2.0 * (own_m - target_m) / SOFTNESS_M)).max(0.0)
+    let grown = |needed_m: f32| 1.0 + libm::expf(needed_m.min(2.0 * DROP_MAX_M) / SOFTNESS_M);
+    let (target, own) = (grown(target_m), grown(own_m));
+    let fading = own / target;
+    SOFTNESS_M * (libm::logf(target) - libm::logf(own) * fading * fading).max(0.0)
 }
 
 /// How far the hip must come down for its leg to reach an ankle's place without stretching more than the pose does; negative
 /// if it reaches.
-fn needed_m(joints: &Joints, skeleton: &Skeleton, side: usize, ankle_m: Vec3) -> f32 {
-    let [thigh, shank, foot] = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]].map(Joint::index);
-    let hip_m = joints.positions_m[thigh];
+fn needed_m(leg: &Leg, skeleton: &Skeleton, side: usize, ankle_m: Vec3) -> f32 {
+    let [_, shank, foot, _] = Leg::joints(side);
     let leg_m = skeleton.offsets_m[shank].length() + skeleton.offsets_m[foot].length();
-    let reach_m = joints.positions_m[foot].distance(hip_m).clamp(EXTENSION * leg_m, EXTENSION_MAX * leg_m);
-    let to_foot_m = ankle_m - hip_m;
+    let reach_m = leg.ankle_m().distance(leg.hip_m()).clamp(EXTENSION * leg_m, EXTENSION_MAX * leg_m);
+    let to_foot_m = ankle_m - leg.hip_m();
     -to_foot_m.z - libm::sqrtf((reach_m * reach_m - to_foot_m.truncate().length_squared()).max(0.0))
 }
 
 #[cfg(test)]
 mod tests {
     use glam::{Quat, Vec3};
-    use motiondb::skeleton::JOINT_COUNT;
+    use motiondb::skeleton::{JOINT_COUNT, Joint};
 
+    use super::super::leg::legs;
     use super::*;
     use crate::test_db::skeleton;
 
@@ -74,14 +77,14 @@ mod tests {
         for shank in Joint::SHANKS {
             pose.rotations[shank.index()] = Quat::from_rotation_y(flexion_rad);
         }
-        let mut joints = pose.forward_kinematics(&skeleton);
+        let mut legs = legs(&pose, &skeleton);
         let target = |side: usize, x: f32| FootTarget {
-            ankle_m: joints.positions_m[Joint::FEET[side].index()] + Vec3::new(x, 0.0, 0.0),
+            ankle_m: legs[side].ankle_m() + Vec3::new(x, 0.0, 0.0),
             orientation: Quat::IDENTITY,
         };
         let targets = [target(0, 0.0), target(1, -behind_m)];
-        let needed_m = needed_m(&joints, &skeleton, 1, targets[1].ankle_m);
-        lower(&mut pose, &mut joints, &skeleton, &targets);
+        let needed_m = needed_m(&legs[1], &skeleton, 1, targets[1].ankle_m);
+        lower(&mut pose, &mut legs, &skeleton, &targets);
         (skeleton.offsets_m[0].z - pose.pelvis_m.z, needed_m)
     }
 

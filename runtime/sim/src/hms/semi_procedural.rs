@@ -26,7 +26,8 @@ use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
 use super::blending::two_rows;
 use super::foot_path::{Foothold, foot_path};
 use super::ik::{self, FootTarget};
-use super::{moved, pelvis, to_root};
+use super::leg::legs;
+use super::{moved, pelvis};
 
 /// Side-steps are short and quick: a m/s aside counts this much more towards the cadence than one ahead. The bundled
 /// side-steps of 0.35 and 0.6 m/s, 99 and 132 steps a minute, say 3.1 and 3.2.
@@ -185,11 +186,11 @@ impl SemiProcedural {
             let rotation = &mut pose.rotations[thigh.index()];
             *rotation = Quat::from_rotation_z(KNEE_YAW * yaw_rad) * *rotation;
         }
-        let mut joints = pose.forward_kinematics(&db.skeleton);
+        let mut legs = legs(&pose, &db.skeleton);
         let targets = feet.map(|(target, _)| target);
-        pelvis::lower(&mut pose, &mut joints, &db.skeleton, &targets);
-        for (side, target) in targets.iter().enumerate() {
-            ik::reach(&mut pose, &mut joints, &db.skeleton, side, target);
+        pelvis::lower(&mut pose, &mut legs, &db.skeleton, &targets);
+        for (side, (leg, target)) in legs.iter_mut().zip(&targets).enumerate() {
+            ik::reach(&mut pose, leg, &db.skeleton, side, target);
         }
         pose
     }
@@ -255,7 +256,7 @@ impl SemiProcedural {
             + Quat::from_rotation_z(toe_out_rad) * (foot.place_m - middle_m)
             + Vec3::new(0.0, outward_m + sign * self.widening_m(parameters), 0.0);
         let target = FootTarget {
-            ankle_m: to_root(&carried, place_m),
+            ankle_m: carried.frame().to_local(place_m),
             orientation: Quat::from_rotation_z(yaw_rad) * foot.orientation,
         };
         (target, yaw_rad)

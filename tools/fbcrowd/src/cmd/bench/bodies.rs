@@ -34,7 +34,7 @@ const BODIES: usize = 1_000;
 /// Steps until all play what they are asked for, and of one turn.
 const WARM_UP: usize = 90;
 const STEPS: usize = 20;
-const TURNS: usize = 60;
+const TURNS: usize = 9;
 const DT_S: f32 = 1.0 / 30.0;
 /// What bodies are asked for: speed, turn rate and strafe at most this far from their middle.
 const SPEED_MPS: [f32; 2] = [1.2, 0.4];
@@ -131,9 +131,8 @@ impl Walkers {
         let motion = Motion { db, space, hybrid: hybrid.as_ref(), params: &params };
         let mut random = SplitMix64::new(1, 0);
         let mut within = |range: f32| random.within(f64::from(range)) as f32;
-        let bodies = (0..BODIES)
-            .map(|index| Body::standing(&motion, Root::default(), index as f32 / BODIES as f32).0)
-            .collect();
+        let bodies =
+            (0..BODIES).map(|index| Body::standing(&motion, Root::default(), index as f32 / BODIES as f32).0).collect();
         let asked = (0..BODIES)
             .map(|_| {
                 let velocity_mps = Vec2::new(SPEED_MPS[0] + within(SPEED_MPS[1]), within(STRAFE_MPS));
