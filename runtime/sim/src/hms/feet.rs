@@ -15,12 +15,19 @@ use crate::angle::wrap_rad;
 
 /// Rate of the spring that lets a foot go, 1/s: of a hold, 4 % is left after 0.25 s, before the foot lands again.
 const RELEASE_RATE_HZ: f32 = 20.0;
-/// Rate at which a planted sole comes down to the ground and a lifted one gives up its lift, 1/s.
-const LIFT_RATE_HZ: f32 = 20.0;
+/// Rate of the spring by which a planted sole comes down to the ground and a swinging one rises to its clearance, 1/s.
+const LIFT_RATE_HZ: f32 = 40.0;
+/// A foot that lands while it still moves over the ground, since the body changes its speed, comes to rest in this time,
+/// s: within the tenth of a stance in which it rolls on. At once would jerk the knee.
+const LANDING_TIME_S: f32 = 0.012;
 /// Toe clearance of a swinging foot (`motion.md` §5): blends with standing lower the swing, and would drag the toes …
 const CLEARANCE_M: f32 = 0.013;
-/// … in full from this speed, m/s; a foot that leaves or lands moves slowly.
+/// … in full from this speed, m/s; a foot that leaves or lands moves slowly …
 const CLEARANCE_SPEED_MPS: f32 = 1.0;
+/// … and gently: from so far above it on a foot is lifted, m, …
+const CLEARANCE_SOFTNESS_M: f32 = 0.003;
+/// … by its mean speed over this time, s: between two rows of the database a foot has one speed.
+const SPEED_TIME_S: f32 = 0.03;
 /// Greatest shift: the leg of a step that is broken off half-way; beyond it the foot slides, metres.
 const SHIFT_MAX_M: f32 = 0.35;
 /// Greatest twist of a foot against the pose's: people twist the stance foot, and pivot on it beyond about 45°
@@ -54,13 +61,20 @@ impl PosedFoot {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FootHold {
     planted: bool,
+    /// The sole point that was lowest.
+    lowest: usize,
     /// c.
     shift_m: Vec2,
     shift_mps: Vec2,
     /// ψ.
     twist_rad: f32,
     twist_rad_s: f32,
+    /// Speed over the ground that is left of landing.
+    landing_mps: Vec2,
     lift_m: f32,
+    lift_mps: f32,
+    /// Of the pose's foot in the step before.
+    height_m: f32,
     heading_rad: f32,
     sole_m: [Vec3; 3],
     speed_mps: f32,
@@ -78,21 +92,23 @@ pub struct HeldFoot {
 impl FootHold {
     /// A foot that stands as the pose has it.
     pub fn new(posed: &PosedFoot) -> Self {
-        Self { heading_rad: posed.heading_rad(), sole_m: posed.sole_m, ..Self::default() }
+        let (lowest, height_m) = posed.lowest();
+        Self { lowest, height_m, heading_rad: posed.heading_rad(), sole_m: posed.sole_m, ..Self::default() }
     }
 
     /// Moves the hold by one step; `posed` is the foot of the blended pose.
     pub fn step(&mut self, posed: &PosedFoot, planted: bool, dt_s: f32) -> HeldFoot {
         let heading_rad = posed.heading_rad();
         let (lowest, height_m) = posed.lowest();
-        self.planted = planted;
-        if planted {
+        // A foot lands where the pose has it now, somewhere within the step: only from then on it is held.
+        if planted && self.planted {
             self.hold(posed, lowest, wrap_rad(heading_rad - self.heading_rad), dt_s);
         } else {
             self.release(dt_s);
+            self.land(posed, lowest, dt_s);
         }
-        self.heading_rad = heading_rad;
-        self.lift(height_m, planted, dt_s);
+        (self.planted, self.lowest, self.heading_rad) = (planted, lowest, heading_rad);
+        self.lift(height_m, dt_s);
         HeldFoot {
             ankle_m: posed.ankle_m + self.shift_m.extend(self.lift_m),
             twist: Quat::from_rotation_z(self.twist_rad),
@@ -116,7 +132,8 @@ impl FootHold {
 
     /// Takes note of the foot as the leg could place it.
     pub fn placed(&mut self, sole_m: [Vec3; 3], dt_s: f32) {
-        self.speed_mps = (sole_m[1] - self.sole_m[1]).truncate().length() / dt_s;
+        let speed_mps = (sole_m[1] - self.sole_m[1]).truncate().length() / dt_s;
+        self.speed_mps += (1.0 - libm::expf(-dt_s / SPEED_TIME_S)) * (speed_mps - self.speed_mps);
         self.sole_m = sole_m;
     }
 
@@ -124,14 +141,35 @@ impl FootHold {
     fn hold(&mut self, posed: &PosedFoot, lowest: usize, turned_rad: f32, dt_s: f32) {
         let before = (self.shift_m, self.twist_rad);
         self.twist_rad = (self.twist_rad - turned_rad).clamp(-TWIST_MAX_RAD, TWIST_MAX_RAD);
-        let (ankle_m, point_m) = (posed.ankle_m.truncate(), posed.sole_m[lowest].truncate());
-        let unshifted_m = ankle_m + Vec2::from_angle(self.twist_rad).rotate(point_m - ankle_m);
-        self.shift_m = (self.sole_m[lowest].truncate() - unshifted_m).clamp_length_max(SHIFT_MAX_M);
+        let decay = libm::expf(-dt_s / LANDING_TIME_S);
+        let slipped_m = LANDING_TIME_S * (1.0 - decay) * self.landing_mps;
+        self.landing_mps *= decay;
+        self.shift_m = (self.rests_m(lowest) + slipped_m - self.twisted_m(posed, lowest)).clamp_length_max(SHIFT_MAX_M);
         self.shift_mps = (self.shift_m - before.0) / dt_s;
         self.twist_rad_s = (self.twist_rad - before.1) / dt_s;
     }
 
-    /// The critically damped spring, exactly over a step.
+    /// Notes how fast the foot moves, should it land: as much as is left of it where it landed half a step ago.
+    fn land(&mut self, posed: &PosedFoot, lowest: usize, dt_s: f32) {
+        let moved_m = self.twisted_m(posed, lowest) + self.shift_m - self.sole_m[lowest].truncate();
+        self.landing_mps = libm::expf(-0.5 * dt_s / LANDING_TIME_S) / dt_s * moved_m;
+    }
+
+    /// A point of the pose's sole, twisted about the ankle.
+    fn twisted_m(&self, posed: &PosedFoot, point: usize) -> Vec2 {
+        let (ankle_m, point_m) = (posed.ankle_m.truncate(), posed.sole_m[point].truncate());
+        ankle_m + Vec2::from_angle(self.twist_rad).rotate(point_m - ankle_m)
+    }
+
+    /// Where a sole point that is lowest now came to rest. One that took over within the step did so while both touched
+    /// the ground: it lies a sole's length from where the one before it rested.
+    fn rests_m(&self, lowest: usize) -> Vec2 {
+        let rested_m = self.sole_m[self.lowest];
+        let along_m = self.sole_m[lowest] - rested_m;
+        rested_m.truncate() + along_m.truncate().normalize_or_zero() * along_m.length()
+    }
+
+    /// Towards no shift and no twist.
     fn release(&mut self, dt_s: f32) {
         let decay = libm::expf(-RELEASE_RATE_HZ * dt_s);
         let pull_mps = self.shift_mps + RELEASE_RATE_HZ * self.shift_m;
@@ -142,13 +180,27 @@ impl FootHold {
         self.twist_rad_s = decay * (self.twist_rad_s - RELEASE_RATE_HZ * dt_s * pull_rad_s);
     }
 
-    /// A planted sole settles on the ground, a swinging one on the pose's height; none goes below the ground or drags
-    /// along it.
-    fn lift(&mut self, height_m: f32, planted: bool, dt_s: f32) {
+    /// A planted sole settles on the ground, whatever the pose's height does, and a swinging one on the pose's height, or
+    /// its clearance; none goes below the ground. What is off decays like a critically damped spring.
+    fn lift(&mut self, height_m: f32, dt_s: f32) {
+        let (before_m, wanted_m) = (self.wanted_lift_m(self.height_m), self.wanted_lift_m(height_m));
+        let wanted_mps = (wanted_m - before_m) / dt_s;
+        let (off_m, off_mps) = (self.lift_m - before_m, self.lift_mps - wanted_mps);
         let decay = libm::expf(-LIFT_RATE_HZ * dt_s);
-        let gap_m = self.sole_m.iter().fold(f32::INFINITY, |low, point| low.min(point.z));
-        let wanted_m = if planted { decay * gap_m - height_m } else { decay * self.lift_m };
-        let clearance_m = if planted { 0.0 } else { CLEARANCE_M * (self.speed_mps / CLEARANCE_SPEED_MPS).min(1.0) };
-        self.lift_m = wanted_m.max(clearance_m - height_m);
+        let pull_mps = off_mps + LIFT_RATE_HZ * off_m;
+        let before_m = self.lift_m;
+        self.lift_m = (wanted_m + decay * (off_m + dt_s * pull_mps)).max(-height_m);
+        self.lift_mps = (self.lift_m - before_m) / dt_s;
+        self.height_m = height_m;
+    }
+
+    fn wanted_lift_m(&self, height_m: f32) -> f32 {
+        if self.planted {
+            return -height_m;
+        }
+        let clearance_m = CLEARANCE_M * (self.speed_mps / CLEARANCE_SPEED_MPS).min(1.0);
+        // A foot far above it wants none, and one far below is lifted by what it lacks.
+        let lacks = ((clearance_m - height_m) / CLEARANCE_SOFTNESS_M).min(50.0);
+        CLEARANCE_SOFTNESS_M * libm::log1pf(libm::expf(lacks))
     }
 }

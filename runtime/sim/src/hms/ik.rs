@@ -47,7 +47,7 @@ pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, t
     let new_line = to_target_m.normalize_or(old_line);
     let [old_thigh, old_shank, ..] = leg.orientations;
     let forward = old_thigh * Vec3::X;
-    let pole = across(knee_m - hip_m + KNEE_BIAS_M * forward, old_line);
+    let pole = forward_pole(knee_m - hip_m + KNEE_BIAS_M * forward, forward, old_line);
     let distance_m = reachable_m(bones_m, to_target_m.length());
     let (along_m, aside_m) = knee_offset_m(bones_m, distance_m);
     let bent_thigh_m = along_m * old_line + aside_m * pole;
@@ -80,6 +80,13 @@ fn knee_offset_m([thigh_m, shank_m]: [f32; 2], distance_m: f32) -> (f32, f32) {
     let distance_m = distance_m.max(f32::EPSILON);
     let along_m = 0.5 * (distance_m + (thigh_m * thigh_m - shank_m * shank_m) / distance_m);
     (along_m, libm::sqrtf((thigh_m * thigh_m - along_m * along_m).max(0.0)))
+}
+
+/// The side of the line from hip to ankle to which the knee bends: that of the pose, but forward. A pose whose knee is
+/// hyperextended (what is left of a switch may do that) has it behind the line, on the same hinge.
+fn forward_pole(knee: Vec3, forward: Vec3, line: Vec3) -> Vec3 {
+    let (pole, forward) = (across(knee, line), across(forward, line));
+    pole - 2.0 * pole.dot(forward).min(0.0) * forward
 }
 
 /// The unit part of a vector across a unit line; any such direction where the vector lies along the line.

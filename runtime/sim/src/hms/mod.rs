@@ -172,7 +172,7 @@ impl Body {
         let now = self.mix.parameters(motion.db);
         let nearest = motion.space.nearest(self.intended);
         if self.gait.follow(nearest.idle_share, self.feet_gathered(motion), dt_s) {
-            self.phase = self.first_step_phase(motion);
+            self.jump(motion, |body| body.phase = body.first_step_phase(motion));
         }
         let goal = gait::goal(nearest, now, self.gait, motion.space);
         let shares = motion.space.locate(asked::step_towards(now, goal, motion.params, dt_s));
@@ -189,7 +189,11 @@ impl Body {
             Mode::SemiProcedural => self.intended,
             Mode::Blending => motion.space.nearest(self.intended).parameters,
         };
-        self.walking = asked::step_towards(self.walking, goal, motion.params, dt_s);
+        let next = asked::step_towards(self.walking, goal, motion.params, dt_s);
+        if semi_procedural::turns_about(self.walking, next) {
+            self.jump(motion, |body| body.walking = next);
+        }
+        self.walking = next;
         self.move_root(&{ self.walking }, dt_s);
         let map = semi_procedural.phase_map(self.walking);
         let middle = self.phase + 0.5 * dt_s * map.rate_hz(self.phase);
@@ -230,13 +234,20 @@ impl Body {
             return;
         }
         let Some(jump) = hybrid.jump(from, before, self.phase) else { return };
+        self.jump(motion, |body| {
+            match to {
+                Mode::SemiProcedural => body.walking = body.mix.parameters(motion.db),
+                Mode::Blending => body.mix = Mix::new(&motion.space.locate(body.walking)),
+            }
+            let jumped = body.phase + jump;
+            (body.mode, body.phase) = (to, jumped - libm::floorf(jumped));
+        });
+    }
+
+    /// Changes what is played at once, and leaves the difference of poses to inertia.
+    fn jump(&mut self, motion: &Motion, change: impl FnOnce(&mut Self)) {
         let old = self.poses(motion);
-        match to {
-            Mode::SemiProcedural => self.walking = self.mix.parameters(motion.db),
-            Mode::Blending => self.mix = Mix::new(&motion.space.locate(self.walking)),
-        }
-        let jumped = self.phase + jump;
-        (self.mode, self.phase) = (to, jumped - libm::floorf(jumped));
+        change(self);
         let new = self.poses(motion);
         self.inertia.begin(old.each_ref(), new.each_ref());
     }

@@ -58,11 +58,13 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// Weight-averaged planted-foot slide of the examples in use, cm/s.
+    /// Weight-averaged planted-foot slide of the examples in use, at the cadence at which they are played, cm/s.
     pub fn examples_slide_cm_s(&self, motion: &Motion) -> f32 {
         match self {
             Self::Blend(weights) => weights.examples_slide_cm_s(motion.db),
-            Self::Deform(semi_procedural, _) => motion.db.examples[semi_procedural.example].planted_slide_cm_s,
+            Self::Deform(semi_procedural, parameters) => {
+                semi_procedural.cadence(*parameters) * motion.db.examples[semi_procedural.example].planted_slide_cm_s
+            }
         }
     }
 }

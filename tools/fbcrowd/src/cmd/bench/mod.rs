@@ -14,6 +14,10 @@ mod gait;
 mod import;
 mod leave_one_out;
 mod plan;
+mod quality;
+mod quality_errands;
+mod quality_measures;
+mod quality_walk;
 mod reach;
 mod rimea;
 mod rimea_cases;
@@ -54,6 +58,7 @@ enum Bench {
     LeaveOneOut(leave_one_out::Args),
     Gait(gait::Args),
     Plan(plan::Args),
+    Quality(quality::Args),
     Reach(reach::Args),
     Soak(soak::Args),
     Table1(table1::Args),
@@ -84,6 +89,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Bench::LeaveOneOut(args) => leave_one_out::run(args),
         Bench::Gait(args) => gait::run(args),
         Bench::Plan(args) => plan::run(args),
+        Bench::Quality(args) => quality::run(args),
         Bench::Reach(args) => reach::run(args),
         Bench::Soak(args) => soak::run(args),
         Bench::Table1(args) => table1::run(args),

@@ -1,0 +1,155 @@
+//! `fbcrowd bench quality`: do bodies stay human, whatever they are asked and however long a step is?
+//!
+//! Bodies go on errands ([`super::quality_errands`]): steady walks, and changes of speed and direction, by blending, by
+//! semi-procedural locomotion and by both. Each is measured ([`super::quality_measures`]) at four lengths of a step.
+
+use std::path::PathBuf;
+
+use fbcrowd_sim::hms::params::Modes;
+use motiondb::motion_db::MotionDb;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::bar::{Bar, Found, conclude};
+use super::quality_errands::{Errand, errands};
+use super::quality_measures::{Figures, example_peaks_mps2, figures};
+use super::quality_walk::Stage;
+use super::table1::database;
+use crate::failure::{Answer, Failure};
+
+/// The lengths of a step, s: motion capture's, film's and games', and the planner's.
+const DTS_S: [f32; 4] = [1.0 / 120.0, 1.0 / 60.0, 1.0 / 30.0, 0.1];
+const SYNTHESES: [Modes; 3] = [Modes::Blending, Modes::SemiProcedural, Modes::Hybrid];
+/// Planted feet slide no more than this, steady and through a change, or than the examples do where they slide more, cm/s.
+const SLIDE_CM_S: [f64; 2] = [1.5, 3.0];
+
+/// Measure planted feet, knees, accelerations and smoothness of bodies on errands.
+///
+/// In JSON `walks[] {errand, steady, synthesis, dt_s, figures…}`.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  fbcrowd bench quality\n  fbcrowd bench quality --db motion.fbdb --json")]
+pub(super) struct Args {
+    /// The database; that of the bundled clips by default.
+    #[arg(long = "db", value_name = "FILE.fbdb")]
+    database: Option<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Details {
+    walks: Vec<WalkFigures>,
+}
+
+/// One errand by one synthesis at one dt.
+#[derive(Serialize)]
+struct WalkFigures {
+    errand: &'static str,
+    steady: bool,
+    synthesis: Modes,
+    dt_s: f32,
+    #[serde(flatten)]
+    figures: Figures,
+}
+
+pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
+    let db = database(args.database.as_deref())?;
+    let walks: Vec<WalkFigures> = SYNTHESES.iter().flat_map(|&synthesis| walks(&db, synthesis)).collect();
+    let bars = bars(&walks);
+    let details = Details { walks };
+    let text = text(&details);
+    conclude(&Found { details, goals: Vec::new(), bars }, &text, args.json)
+}
+
+fn walks(db: &MotionDb, synthesis: Modes) -> Vec<WalkFigures> {
+    let stage = Stage::new(db, synthesis);
+    let errands = errands(db);
+    let tried: Vec<(&Errand, f32)> = errands.iter().flat_map(|errand| DTS_S.map(|dt_s| (errand, dt_s))).collect();
+    tried
+        .into_par_iter()
+        .map(|(errand, dt_s)| {
+            let peaks_mps2 = example_peaks_mps2(db, &stage.space, dt_s);
+            let figures = figures(&stage.walk(errand, dt_s), errand, &db.skeleton, &peaks_mps2);
+            WalkFigures { errand: errand.name, steady: errand.steady, synthesis, dt_s, figures }
+        })
+        .collect()
+}
+
+fn bars(walks: &[WalkFigures]) -> Vec<Bar> {
+    let greatest = |of: &dyn Fn(&WalkFigures) -> Option<f64>| walks.iter().filter_map(of).reduce(f64::max);
+    let least = |of: &dyn Fn(&WalkFigures) -> Option<f64>| walks.iter().filter_map(of).reduce(f64::min);
+    let slide = |walk: &WalkFigures| walk.figures.slide_cm_s / walk.slide_limit_cm_s();
+    let steady = |walk: &WalkFigures| walk.steady.then(|| slide(walk));
+    let changing = |walk: &WalkFigures| (!walk.steady).then(|| slide(walk));
+    let lost_share = |walk: &WalkFigures| Some(walk.figures.examples_planted_share - walk.figures.planted_share);
+    vec![
+        Bar::at_most("planted-foot slide, steady, over 1.5 cm/s or the examples'", 1.0, greatest(&steady)),
+        Bar::at_most("planted-foot slide through a change, over 3 cm/s or the examples'", 1.0, greatest(&changing)),
+        Bar::at_most("planted share lost against the examples", 0.1, greatest(&lost_share)),
+        Bar::at_least("planted soles on the ground", 0.9, least(&|walk| Some(walk.figures.grounded_share))),
+        Bar::at_most("penetration, mm", 5.0, greatest(&|walk| Some(walk.figures.penetration_mm))),
+        Bar::at_least("least flexion of a knee, degrees", 0.0, least(&|walk| Some(walk.figures.knee_min_deg))),
+        Bar::at_most(
+            "joint acceleration at a switch over the clips'",
+            1.5,
+            greatest(&|walk| walk.figures.switch_acceleration_ratio),
+        ),
+        Bar::at_most("root beyond the rows", 0.05, greatest(&|walk| Some(walk.figures.correction_share))),
+    ]
+}
+
+impl WalkFigures {
+    fn slide_limit_cm_s(&self) -> f64 {
+        SLIDE_CM_S[usize::from(!self.steady)].max(self.figures.examples_slide_cm_s)
+    }
+}
+
+/// A line an errand and synthesis: slide at each dt, everything else at its worst.
+fn text(details: &Details) -> String {
+    let mut text = format!("{:<32}", "slide in cm/s at dt");
+    for dt_s in DTS_S {
+        text += &format!("{:>7}", format!("1/{:.0}", 1.0 / dt_s));
+    }
+    text += "   of  share   of ground sunk mm clear mm knee min °  rad/s foot m/s ankles m  accel switch  beyond  hurry  sparc\n";
+    details.walks.chunks(DTS_S.len()).for_each(|walks| text += &line(walks));
+    text
+}
+
+fn line(walks: &[WalkFigures]) -> String {
+    let greatest =
+        |of: fn(&Figures) -> f64| walks.iter().map(|walk| of(&walk.figures)).fold(f64::NEG_INFINITY, f64::max);
+    let least = |of: fn(&Figures) -> f64| walks.iter().map(|walk| of(&walk.figures)).fold(f64::INFINITY, f64::min);
+    let mut line = format!("{:<17}{:<15}", walks[0].errand, word(walks[0].synthesis));
+    for walk in walks {
+        line += &format!("{:>7.2}", walk.figures.slide_cm_s);
+    }
+    let switch = walks.iter().filter_map(|walk| walk.figures.switch_acceleration_ratio).reduce(f64::max);
+    line += &format!(
+        "{:>5.1} {:>6.2} {:>4.2} {:>6.2} {:>7.1} {:>8.1} {:>10.1} {:>6.1} {:>8.1} {:>8.2} {:>6.2} {:>6} {:>7.3} {:>6.3} {:>6.2}\n",
+        greatest(|figures| figures.examples_slide_cm_s),
+        least(|figures| figures.planted_share),
+        greatest(|figures| figures.examples_planted_share),
+        least(|figures| figures.grounded_share),
+        greatest(|figures| figures.penetration_mm),
+        least(|figures| figures.clearance_mm),
+        least(|figures| figures.knee_min_deg),
+        greatest(|figures| figures.knee_speed_max_rad_s),
+        greatest(|figures| figures.foot_speed_max_mps),
+        least(|figures| figures.ankles_apart_m),
+        greatest(|figures| figures.acceleration_ratio),
+        switch.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.2}")),
+        greatest(|figures| figures.correction_share),
+        greatest(|figures| figures.hurry_share),
+        least(|figures| figures.sparc),
+    );
+    line
+}
+
+fn word(synthesis: Modes) -> &'static str {
+    match synthesis {
+        Modes::Blending => "blending",
+        Modes::SemiProcedural => "semi-procedural",
+        Modes::Hybrid => "hybrid",
+    }
+}

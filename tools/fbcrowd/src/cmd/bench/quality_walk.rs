@@ -1,0 +1,130 @@
+//! Bodies that go on an errand, alone on open ground, and what is kept of every step for the measures.
+
+use fbcrowd_sim::hms::hybrid::Hybrid;
+use fbcrowd_sim::hms::params::{HmsParams, Modes};
+use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::{Body, Motion};
+use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::recording_frame::{AgentFrame, Mode};
+use motiondb::motion_db::MotionDb;
+use motiondb::parameters::Parameters;
+use motiondb::pose::{Joints, Root};
+
+use super::quality_errands::Errand;
+
+/// Bodies on each errand …
+const BODIES: usize = 8;
+/// … which set out this long before one another, s: eight make a stride of 1.1 s.
+const APART_S: f32 = 0.14;
+/// In hybrid synthesis a collision threatens for so long, and then for so long it does not, s.
+const THREAT_S: f32 = 2.0;
+
+/// One database, ready.
+pub(super) struct Stage<'a> {
+    pub(super) db: &'a MotionDb,
+    pub(super) space: Space,
+    pub(super) params: HmsParams,
+    pub(super) hybrid: Option<Hybrid>,
+}
+
+/// One body after one step.
+pub(super) struct Step {
+    pub(super) frame: AgentFrame,
+    pub(super) joints: Joints,
+    /// Planted share of the examples in use, by their shares of time.
+    pub(super) examples_planted_share: f32,
+    /// The examples in use.
+    pub(super) examples: Vec<usize>,
+    /// Of the root in this step, m/s.
+    pub(super) speed_mps: f32,
+    /// The speed that the rows as they were played tell of, less the root's, m/s.
+    pub(super) correction_mps: f32,
+}
+
+/// All bodies of an errand.
+pub(super) struct Walk {
+    pub(super) dt_s: f32,
+    pub(super) bodies: Vec<Vec<Step>>,
+}
+
+impl<'a> Stage<'a> {
+    pub(super) fn new(db: &'a MotionDb, modes: Modes) -> Self {
+        let params = HmsParams { modes, ..HmsParams::default() };
+        Self { db, space: Space::new(db), params, hybrid: Hybrid::new(db, modes) }
+    }
+
+    fn motion(&self) -> Motion<'_> {
+        Motion { db: self.db, space: &self.space, hybrid: self.hybrid.as_ref(), params: &self.params }
+    }
+
+    /// Every body goes on the errand in steps of dt.
+    pub(super) fn walk(&self, errand: &Errand, dt_s: f32) -> Walk {
+        let bodies = (0..BODIES).map(|index| self.walk_one(errand, APART_S * index as f32, dt_s)).collect();
+        Walk { dt_s, bodies }
+    }
+
+    fn walk_one(&self, errand: &Errand, early_s: f32, dt_s: f32) -> Vec<Step> {
+        let (mut body, _) = Body::standing(&self.motion(), Root::default(), early_s);
+        (0..(errand.seconds() / dt_s).round() as usize)
+            .map(|step| {
+                let plan = self.plan(errand, step as f32 * dt_s, early_s, &body);
+                self.step(&mut body, &plan, dt_s)
+            })
+            .collect()
+    }
+
+    fn plan(&self, errand: &Errand, time_s: f32, early_s: f32, body: &Body) -> Plan {
+        let threat = self.params.modes == Modes::SemiProcedural || (time_s / THREAT_S).rem_euclid(2.0) >= 1.0;
+        let asked = errand.ask(time_s, early_s).plan(&body.root, body.mode == Mode::Blending, &self.params);
+        Plan { time_to_collision_s: if threat { 0.5 } else { f32::INFINITY }, ..asked }
+    }
+
+    fn step(&self, body: &mut Body, plan: &Plan, dt_s: f32) -> Step {
+        let (motion, before) = (self.motion(), *body);
+        body.advance(&motion, plan, dt_s);
+        let synthesis = body.synthesize(&motion, dt_s);
+        let frame = AgentFrame {
+            root: body.root,
+            planned_mps: plan.velocity_mps,
+            phase: body.phase,
+            mode: body.mode,
+            contacts: synthesis.contacts,
+            examples_slide_cm_s: synthesis.examples_slide_cm_s,
+            pose: synthesis.pose,
+            ..AgentFrame::default()
+        };
+        let examples = self.examples(body);
+        let planted_shares = examples.iter().map(|&(example, share)| share * self.db.examples[example].planted_share);
+        Step {
+            examples_planted_share: planted_shares.sum(),
+            examples: examples.into_iter().map(|(example, _)| example).collect(),
+            joints: synthesis.pose.forward_kinematics(&self.db.skeleton),
+            speed_mps: (body.root.position_m - before.root.position_m).length() / dt_s,
+            correction_mps: self.correction_mps(&before, body, dt_s),
+            frame,
+        }
+    }
+
+    /// (example, share of time) of what a body plays.
+    fn examples(&self, body: &Body) -> Vec<(usize, f32)> {
+        match (body.mode, &self.hybrid) {
+            (Mode::SemiProcedural, Some(hybrid)) => vec![(hybrid.semi_procedural.example, 1.0)],
+            _ => body.mix.entries().iter().map(|&(example, share)| (example as usize, share)).collect(),
+        }
+    }
+
+    /// Rows that are played faster or slower than their time (a phase that catches up) tell of another speed than the
+    /// root has. Semi-procedural locomotion moves its feet by the root, whatever the phase.
+    fn correction_mps(&self, before: &Body, after: &Body, dt_s: f32) -> f32 {
+        if (before.mode, after.mode) != (Mode::Blending, Mode::Blending) {
+            return 0.0;
+        }
+        let walked_mps = (after.root.position_m - before.root.position_m).length() / dt_s;
+        let middle = before.phase + 0.5 * dt_s * after.mix.phase_rate_hz(self.db, before.phase);
+        let due = dt_s * after.mix.phase_rate_hz(self.db, middle);
+        let passed = (after.phase - before.phase).rem_euclid(1.0);
+        let Parameters { speed_mps, strafe_mps, .. } = after.mix.parameters(self.db);
+        let played = if walked_mps > 0.0 && due > 0.0 { passed / due } else { 1.0 };
+        speed_mps.hypot(strafe_mps) * played - walked_mps
+    }
+}
