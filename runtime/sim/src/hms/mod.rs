@@ -6,7 +6,8 @@
 //!    stepping; and how far it gets in one step;
 //! 2. [`blending`] or [`semi_procedural`]: what is played follows; phase and root move, the root exactly along its arc;
 //!    [`mode`] tells which is wanted, and at the next pair of [`hybrid`] synthesis changes hands;
-//! 3. the pose is sampled at the new phase ([`playing`]); [`inertialization`] carries away what a switch left;
+//! 3. the pose is sampled at the new phase ([`playing`]); [`inertialization`] carries away what a switch left; head and
+//!    chest turn first ([`gaze`]);
 //! 4. [`feet`]: planted feet are held;
 //! 5. [`pelvis`], [`ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach them.
 //!
@@ -18,6 +19,7 @@ pub mod blending;
 pub mod feet;
 pub mod foot_path;
 pub mod gait;
+pub mod gaze;
 pub mod hybrid;
 pub mod ik;
 pub mod inertialization;
@@ -39,6 +41,7 @@ use motiondb::skeleton::Skeleton;
 use self::blending::Mix;
 use self::feet::{FootHold, PosedFoot};
 use self::gait::Gait;
+use self::gaze::Gaze;
 use self::hybrid::Hybrid;
 use self::ik::FootTarget;
 use self::inertialization::{Inertia, LOOK_BACK_S};
@@ -104,6 +107,7 @@ pub struct Body {
     choice: Choice,
     inertia: Inertia,
     gait: Gait,
+    gaze: Gaze,
     owed: Owed,
     /// What the plans of the last moments asked for.
     intended: Parameters,
@@ -138,6 +142,7 @@ impl Body {
             choice: Choice::BLENDING,
             inertia: Inertia::default(),
             gait: Gait::STANDING,
+            gaze: Gaze::default(),
             owed: Owed::default(),
             intended: Parameters::default(),
             walked_mps: Vec2::ZERO,
@@ -164,6 +169,7 @@ impl Body {
             self.choose(motion, hybrid, &plan, dt_s);
             self.switch(motion, hybrid, before);
         }
+        self.gaze.follow(&plan, &self.root, dt_s);
     }
 
     /// Motion blending: shares, phase and root.
@@ -312,6 +318,7 @@ impl Body {
         let playing = self.playing(motion);
         let mut pose = playing.pose(motion, self.phase);
         self.inertia.carry(&mut pose, dt_s);
+        self.gaze.turn(&mut pose, skeleton);
         let contacts = playing.contacts(motion, self.phase);
         let (frame, mut legs) = (self.root.frame(), legs(&pose, skeleton));
 

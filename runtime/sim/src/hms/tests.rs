@@ -6,6 +6,7 @@ use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
+use motiondb::skeleton::Joint;
 use proptest::prelude::*;
 
 use super::asked;
@@ -189,6 +190,24 @@ fn the_way_from_one_root_to_another_is_the_inverse_of_a_move() {
     for parameters in [Vec3::new(1.2, 1.5, -0.3), Vec3::new(-0.5, 0.0, 0.2)].map(Parameters::from_vec3) {
         let found = super::went(&from, &super::moved(&from, &parameters, DT_S), DT_S);
         assert!(found.to_vec3().distance(parameters.to_vec3()) < 1e-4, "{found:?}");
+    }
+}
+
+#[test]
+fn the_head_leads_the_body_into_a_turn_by_a_fifth_to_half_a_second() {
+    for (dt_s, angle_rad) in [(1.0 / 60.0, FRAC_PI_2), (DT_S, -0.8), (0.1, FRAC_PI_2), (DT_S, -2.0)] {
+        let walk = walk(6.0, dt_s, |time_s, _| towards(if time_s < 2.0 { 0.0 } else { angle_rad }, 1.2));
+        let [body_s, head_s] = [0, 1].map(|of_head| {
+            let halfway = |(root, synthesis): &(Root, Synthesis)| {
+                let joints = synthesis.pose.forward_kinematics(&walk.db.skeleton);
+                let ahead = joints.orientations[Joint::Head.index()] * Vec3::X;
+                let head_rad = ahead.y.atan2(ahead.x) * of_head as f32;
+                (root.facing_rad + head_rad) / angle_rad > 0.5
+            };
+            walk.steps.iter().position(halfway).unwrap() as f32 * dt_s
+        });
+        let lead_s = body_s - head_s;
+        assert!(lead_s > 0.2 - dt_s && lead_s < 0.5 + dt_s, "dt {dt_s}, {angle_rad} rad: {lead_s} s");
     }
 }
 
