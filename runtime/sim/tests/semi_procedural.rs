@@ -2,6 +2,7 @@
 
 mod clips;
 
+use fbcrowd_sim::hms::deformation::Deformation;
 use fbcrowd_sim::hms::semi_procedural::SemiProcedural;
 use glam::Vec3;
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
@@ -54,16 +55,17 @@ fn semi_procedural(db: &MotionDb) -> SemiProcedural {
 }
 
 fn cycle(db: &MotionDb, semi: &SemiProcedural, parameters: Parameters) -> Cycle {
+    let deformed = Deformation::new(semi, parameters);
     let phases: Vec<f32> = (0..PHASE_COUNT).map(|row| row as f32 / PHASE_COUNT as f32).collect();
     let joints: Vec<Joints> =
-        phases.iter().map(|&phase| semi.pose(db, parameters, phase).forward_kinematics(&db.skeleton)).collect();
+        phases.iter().map(|&phase| deformed.pose(db, phase).forward_kinematics(&db.skeleton)).collect();
     let points_m = [0, 1].map(|side| {
         let points_m = |joints: &Joints| joints.measured_points_m(&db.skeleton, side).map(Vec3::as_dvec3);
         joints.iter().map(points_m).collect()
     });
     let contacts =
-        [0, 1].map(|side| phases.iter().map(|&phase| f64::from(semi.contacts(db, parameters, phase)[side])).collect());
-    let feet = CycleFeet { points_m, contacts, phase_map: semi.phase_map(parameters) };
+        [0, 1].map(|side| phases.iter().map(|&phase| f64::from(deformed.contacts(db, phase)[side])).collect());
+    let feet = CycleFeet { points_m, contacts, phase_map: deformed.phase_map() };
     Cycle { parameters, cadence: semi.cadence(parameters), joints, feet }
 }
 

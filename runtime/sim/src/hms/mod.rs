@@ -16,6 +16,7 @@
 
 pub mod asked;
 pub mod blending;
+pub mod deformation;
 pub mod feet;
 pub mod foot_path;
 pub mod gait;
@@ -39,6 +40,7 @@ use motiondb::pose::{Pose, Root, RootFrame};
 use motiondb::skeleton::Skeleton;
 
 use self::blending::Mix;
+use self::deformation::Deformation;
 use self::feet::{FootHold, PosedFoot};
 use self::gait::Gait;
 use self::gaze::Gaze;
@@ -196,12 +198,12 @@ impl Body {
             Mode::Blending => motion.space.nearest(self.intended).parameters,
         };
         let next = asked::step_towards(self.walking, goal, motion.params, dt_s);
-        if semi_procedural::turns_about(self.walking, next) {
+        if deformation::turns_about(self.walking, next) {
             self.jump(motion, |body| body.walking = next);
         }
         self.walking = next;
         self.move_root(&{ self.walking }, dt_s);
-        let map = semi_procedural.phase_map(self.walking);
+        let map = Deformation::new(semi_procedural, self.walking).phase_map();
         let middle = self.phase + 0.5 * dt_s * map.rate_hz(self.phase);
         let next = self.phase + dt_s * map.rate_hz(middle);
         self.phase = next - libm::floorf(next);

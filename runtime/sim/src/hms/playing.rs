@@ -1,10 +1,9 @@
 //! What a body plays: a mix of examples, or m_sp deformed. Both give poses, contacts and a phase rate at any phase.
 
-use motiondb::parameters::Parameters;
 use motiondb::pose::Pose;
 
 use super::blending::Weights;
-use super::semi_procedural::SemiProcedural;
+use super::deformation::Deformation;
 use super::{Body, Motion};
 use crate::recording_frame::{Mode, PLANTED_CONTACT};
 
@@ -14,14 +13,16 @@ pub enum Playing<'a> {
     /// Motion blending.
     Blend(Weights),
     /// Semi-procedural locomotion.
-    Deform(&'a SemiProcedural, Parameters),
+    Deform(Deformation<'a>),
 }
 
 impl<'a> Playing<'a> {
     /// What a body plays now.
     pub fn new(motion: &Motion<'a>, body: &Body) -> Self {
         match (body.mode, motion.hybrid) {
-            (Mode::SemiProcedural, Some(hybrid)) => Self::Deform(&hybrid.semi_procedural, body.walking),
+            (Mode::SemiProcedural, Some(hybrid)) => {
+                Self::Deform(Deformation::new(&hybrid.semi_procedural, body.walking))
+            }
             _ => Self::Blend(body.mix.weights(motion.db, body.phase)),
         }
     }
@@ -30,7 +31,7 @@ impl<'a> Playing<'a> {
     pub fn pose(&self, motion: &Motion, phase: f32) -> Pose {
         match self {
             Self::Blend(weights) => weights.pose(motion.db, phase),
-            Self::Deform(semi_procedural, parameters) => semi_procedural.pose(motion.db, *parameters, phase),
+            Self::Deform(deformation) => deformation.pose(motion.db, phase),
         }
     }
 
@@ -38,7 +39,7 @@ impl<'a> Playing<'a> {
     pub fn contacts(&self, motion: &Motion, phase: f32) -> [f32; 2] {
         match self {
             Self::Blend(weights) => weights.contacts(motion.db, phase),
-            Self::Deform(semi_procedural, parameters) => semi_procedural.contacts(motion.db, *parameters, phase),
+            Self::Deform(deformation) => deformation.contacts(motion.db, phase),
         }
     }
 
@@ -46,7 +47,7 @@ impl<'a> Playing<'a> {
     pub fn phase_rate_hz(&self, phase: f32) -> f32 {
         match self {
             Self::Blend(weights) => weights.phase_rate_hz,
-            Self::Deform(semi_procedural, parameters) => semi_procedural.phase_map(*parameters).rate_hz(phase),
+            Self::Deform(deformation) => deformation.phase_map().rate_hz(phase),
         }
     }
 
@@ -54,7 +55,7 @@ impl<'a> Playing<'a> {
     pub fn time_to_landing_s(&self, motion: &Motion, phase: f32, side: usize) -> f32 {
         match self {
             Self::Blend(weights) => weights.time_to_landing_s(motion.db, phase, side, PLANTED_CONTACT),
-            Self::Deform(semi_procedural, parameters) => semi_procedural.time_to_landing_s(*parameters, phase, side),
+            Self::Deform(deformation) => deformation.time_to_landing_s(phase, side),
         }
     }
 
@@ -62,9 +63,7 @@ impl<'a> Playing<'a> {
     pub fn examples_slide_cm_s(&self, motion: &Motion) -> f32 {
         match self {
             Self::Blend(weights) => weights.examples_slide_cm_s(motion.db),
-            Self::Deform(semi_procedural, parameters) => {
-                semi_procedural.cadence(*parameters) * motion.db.examples[semi_procedural.example].planted_slide_cm_s
-            }
+            Self::Deform(deformation) => deformation.examples_slide_cm_s(motion.db),
         }
     }
 }

@@ -1,0 +1,275 @@
+//! m_sp deformed to some (v_f, ω_t, ω_s): phases, contacts and poses of the walk at exactly these (`FbCrowd` §5;
+//! [`super::semi_procedural`] tells how).
+//!
+//! - The cadence shares a change of speed with the stride: both grow with its root, so their ratio keeps (walk ratio).
+//! - Backward gait is nearly forward gait in reversed time (`motion.md` §5). Phases 0 and ½ are mid-stances, so −φ is the
+//!   cycle reversed; walking backward plays it, and the mean of both, whose legs swing neither way, steps aside.
+//! - The places move apart for side-steps and turns, so that legs do not cross, and outward where the body leans.
+//! - Hips, trunk and arms swing as much as the stride is long.
+//!
+//! Root frame: x forward, y left, z up, metres; seconds; radians.
+
+use std::f32::consts::FRAC_PI_2;
+
+use glam::{Quat, Vec2, Vec3};
+use motiondb::motion_db::{MotionDb, PHASE_COUNT};
+use motiondb::parameters::Parameters;
+use motiondb::phase_map::PhaseMap;
+use motiondb::pose::{Pose, Root};
+use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
+
+use super::blending::two_rows;
+use super::foot_path::Foothold;
+use super::ik::{self, FootTarget};
+use super::leg::legs;
+use super::semi_procedural::SemiProcedural;
+use super::{moved, pelvis};
+
+/// Least clearance between ankles that pass each other aside, m: a foot's width.
+const GAP_M: f32 = 0.1;
+/// From ankle to toe tip, m: what reaches across where a foot points inward.
+const FOOT_M: f32 = 0.2;
+/// Share of half the turn between two landings by which feet point outward.
+const TOE_OUT: f32 = 0.7;
+/// Share of a foot's yaw that its knee follows; the ankle does the rest.
+const KNEE_YAW: f32 = 0.7;
+/// Share of the angle between travel and facing by which hips twist towards the travel.
+const HIP_TWIST: f32 = 0.3;
+/// Swing of hips, trunk and arms over that of m_sp, at least and at most.
+const SWING: [f32; 2] = [0.3, 1.3];
+/// A change of the shares of time by more than this within a step is one of pose: at 1 m/s nobody turns his travel so far.
+const TURN_ABOUT: f32 = 0.1;
+/// Gravity, m/s²: a body on an arc leans by atan(v·ω/g).
+const GRAVITY_MPS2: f32 = 9.81;
+/// Nobody leans further, rad: about 20°.
+const LEAN_MAX_RAD: f32 = 0.35;
+
+/// m_sp at some parameters: all that a walk depends on besides its phase.
+#[derive(Clone, Copy, Debug)]
+pub struct Deformation<'a> {
+    of: &'a SemiProcedural,
+    parameters: Parameters,
+    /// Over that of m_sp.
+    cadence: f32,
+    /// Shares of time played forward and backward.
+    directions: [f32; 2],
+    /// Swing of hips, trunk and arms over that of m_sp.
+    swing: f32,
+    /// Positive to the left.
+    lean_rad: f32,
+    /// Of either foot: in a turn feet open and close rather than point inward.
+    toe_out_rad: f32,
+    /// How far each place moves outward, so that the legs do not cross where they step aside or turn, m.
+    widening_m: f32,
+}
+
+/// One instant of m_sp, played forward and backward at once.
+struct Instant {
+    phases: [f32; 2],
+    shares: [f32; 2],
+}
+
+impl<'a> Deformation<'a> {
+    /// To parameters that [`SemiProcedural::reachable`] would leave as they are.
+    pub fn new(of: &'a SemiProcedural, parameters: Parameters) -> Self {
+        let cadence = of.cadence(parameters);
+        let travel_mps = Vec2::new(parameters.speed_mps, parameters.strafe_mps).length();
+        // Angle by which the root turns between the landings of both feet, at most.
+        let turn_apart_rad = of.apart_s * parameters.turn_rate_rad_s.abs() / cadence;
+        let aside_m = of.apart_s * parameters.strafe_mps.abs() / cadence;
+        let turning_m = FOOT_M * libm::sinf((0.5 * turn_apart_rad).min(FRAC_PI_2));
+        Self {
+            of,
+            parameters,
+            cadence,
+            directions: directions(parameters),
+            swing: (travel_mps / (of.parameters.speed_mps * cadence)).clamp(SWING[0], SWING[1]),
+            lean_rad: lean_rad(parameters),
+            toe_out_rad: TOE_OUT * 0.5 * turn_apart_rad,
+            widening_m: (0.5 * (aside_m + turning_m + GAP_M - of.track_m)).max(0.0),
+        }
+    }
+
+    /// Phase to time. Reversed time exchanges the half-strides.
+    pub fn phase_map(&self) -> PhaseMap {
+        let ([forward, reversed], map) = (self.directions, &self.of.phase_map);
+        PhaseMap {
+            period_s: map.period_s / self.cadence,
+            left_share: 0.5 + (map.left_share - 0.5) * (forward - reversed),
+        }
+    }
+
+    /// Contact of each foot, `[left, right]`: a foot is planted that stands in the cycle and in its reverse.
+    pub fn contacts(&self, db: &MotionDb, phase: f32) -> [f32; 2] {
+        let Instant { phases, shares } = self.instant(phase);
+        let of_one = |index: usize| {
+            let (rows, shares) = two_rows(phases[index]);
+            let row = |row: usize| Vec2::from(db.rows.contacts[self.of.example * PHASE_COUNT + row]);
+            (shares[0] * row(rows[0]) + shares[1] * row(rows[1])).to_array()
+        };
+        let [forward, reversed] = [0, 1].map(of_one);
+        [0, 1].map(|side| libm::powf(forward[side], shares[0]) * libm::powf(reversed[side], shares[1]))
+    }
+
+    /// Seconds until a swinging foot lands: where it does in the cycle or, in reversed time, where it leaves.
+    pub fn time_to_landing_s(&self, phase: f32, side: usize) -> f32 {
+        let [forward, reversed] = self.directions;
+        let [strike, off] = self.of.contacts[side];
+        let ahead = |landing: f32| (landing - phase).rem_euclid(1.0);
+        (forward * ahead(strike) + reversed * ahead(1.0 - off)) / self.phase_map().rate_hz(phase)
+    }
+
+    /// Planted-foot slide of m_sp, at the cadence at which it is played, cm/s.
+    pub fn examples_slide_cm_s(&self, db: &MotionDb) -> f32 {
+        self.cadence * db.examples[self.of.example].planted_slide_cm_s
+    }
+
+    /// The pose.
+    pub fn pose(&self, db: &MotionDb, phase: f32) -> Pose {
+        let instant = self.instant(phase);
+        let mut pose = self.mixed_pose(db, &instant);
+        self.calm(&mut pose);
+        twist(&mut pose, self.parameters);
+        lean(&mut pose, self.lean_rad);
+        let feet = self.feet(db, phase, &instant);
+        for (thigh, (_, yaw_rad)) in Joint::THIGHS.into_iter().zip(feet) {
+            let rotation = &mut pose.rotations[thigh.index()];
+            *rotation = Quat::from_rotation_z(KNEE_YAW * yaw_rad) * *rotation;
+        }
+        let mut legs = legs(&pose, &db.skeleton);
+        let targets = feet.map(|(target, _)| target);
+        pelvis::lower(&mut pose, &mut legs, &db.skeleton, &targets);
+        for (side, (leg, target)) in legs.iter_mut().zip(&targets).enumerate() {
+            ik::reach(&mut pose, leg, &db.skeleton, side, target);
+        }
+        pose
+    }
+
+    /// Where the feet are to be, and their yaw.
+    fn feet(&self, db: &MotionDb, phase: f32, instant: &Instant) -> [(FootTarget, f32); 2] {
+        let slip = instant.slip();
+        let slipping = if slip > 0.0 { self.contacts(db, phase).map(|contact| slip * contact) } else { [0.0; 2] };
+        let outward_m = -self.of.hips_m * libm::tanf(self.lean_rad);
+        [0, 1].map(|side| {
+            let mut foot = self.mixed_foot(instant, side);
+            foot.place_m += slipping[side] * self.slip_m(&db.skeleton, &foot, side);
+            self.carried_foot(&foot, side, outward_m)
+        })
+    }
+
+    fn instant(&self, phase: f32) -> Instant {
+        let reversed = 1.0 - phase;
+        Instant { phases: [phase, reversed - libm::floorf(reversed)], shares: self.directions }
+    }
+
+    fn mixed_pose(&self, db: &MotionDb, instant: &Instant) -> Pose {
+        let mut pose = Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
+        for (row, weight) in instant.rows() {
+            pose.pelvis_m += weight * db.rows.pelvis_m[self.of.example * PHASE_COUNT + row];
+            for (sum, rotation) in pose.rotations.iter_mut().zip(db.rows.rotations(self.of.example, row)) {
+                *sum += *rotation * weight;
+            }
+        }
+        // Rows share a hemisphere, so a sum is never near zero.
+        pose.rotations.iter_mut().for_each(|rotation| *rotation = rotation.normalize());
+        pose
+    }
+
+    /// Hips, trunk and arms swing less about their means where strides are shorter, and more where they are longer.
+    fn calm(&self, pose: &mut Pose) {
+        for (rotation, mean) in pose.rotations.iter_mut().zip(&self.of.mean).take(Joint::LeftThigh.index()) {
+            *rotation = (*mean * (1.0 - self.swing) + *rotation * self.swing).normalize();
+        }
+    }
+
+    fn mixed_foot(&self, instant: &Instant, side: usize) -> Foothold {
+        let nothing = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+        let mut mixed = Foothold { since_s: 0.0, place_m: Vec3::ZERO, orientation: nothing };
+        for (index, (row, weight)) in instant.rows().into_iter().enumerate() {
+            let foot = &self.of.feet[row][side];
+            mixed.since_s += if index < 2 { weight } else { -weight } * foot.since_s;
+            mixed.place_m += weight * foot.place_m;
+            mixed.orientation += foot.orientation * weight;
+        }
+        Foothold { orientation: mixed.orientation.normalize(), ..mixed }
+    }
+
+    /// A foot's roll and its reverse turn about ball and heel: their mean slips. This far back to where the lower of
+    /// both was at mid-stance.
+    fn slip_m(&self, skeleton: &Skeleton, foot: &Foothold, side: usize) -> Vec3 {
+        let Foot { heel_m, ball_m, .. } = skeleton.feet[side];
+        let [heel_off_m, ball_off_m] = [heel_m, ball_m].map(|point_m| foot.orientation * point_m);
+        let (point_m, off_m) = if heel_off_m.z < ball_off_m.z { (heel_m, heel_off_m) } else { (ball_m, ball_off_m) };
+        let resting = self.of.resting(side);
+        let slip_m = resting.place_m + resting.orientation * point_m - foot.place_m - off_m;
+        Vec3::new(slip_m.x, slip_m.y, 0.0)
+    }
+
+    /// Where a foot's place has been carried to, and the yaw that its foot has got by it.
+    fn carried_foot(&self, foot: &Foothold, side: usize, outward_m: f32) -> (FootTarget, f32) {
+        let sign = Side::BOTH[side].sign();
+        let carried = moved(&Root::default(), &self.parameters, foot.since_s / self.cadence);
+        let toe_out_rad = sign * self.toe_out_rad;
+        let yaw_rad = toe_out_rad - carried.facing_rad;
+        let middle_m = self.of.resting(side).place_m;
+        let place_m = middle_m
+            + Quat::from_rotation_z(toe_out_rad) * (foot.place_m - middle_m)
+            + Vec3::new(0.0, outward_m + sign * self.widening_m, 0.0);
+        let target = FootTarget {
+            ankle_m: carried.frame().to_local(place_m),
+            orientation: Quat::from_rotation_z(yaw_rad) * foot.orientation,
+        };
+        (target, yaw_rad)
+    }
+}
+
+impl Instant {
+    /// How much of a slip there is to take back: 0 in either direction of time alone, 1 between both.
+    fn slip(&self) -> f32 {
+        4.0 * self.shares[0] * self.shares[1]
+    }
+
+    /// The stored rows about the phase, then those about the reversed one, and their weights.
+    fn rows(&self) -> [(usize, f32); 4] {
+        let [forward, reversed] = [0, 1].map(|index| {
+            let (rows, shares) = two_rows(self.phases[index]);
+            [0, 1].map(|row| (rows[row], shares[row] * self.shares[index]))
+        });
+        [forward[0], forward[1], reversed[0], reversed[1]]
+    }
+}
+
+/// Whether a step from one to the other turns the gait about: where the travel passes through rest, or near it, what is
+/// played forward is all at once played backward.
+pub fn turns_about(from: Parameters, to: Parameters) -> bool {
+    let [from, to] = [from, to].map(directions);
+    (to[0] - from[0]).abs() > TURN_ABOUT
+}
+
+/// Shares of time played forward and backward: the nearer to backward, the more of reversed time.
+fn directions(parameters: Parameters) -> [f32; 2] {
+    let travel = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
+    let ahead = if travel == Vec2::ZERO { 1.0 } else { travel.x / travel.length() };
+    [0.5 + 0.5 * ahead, 0.5 - 0.5 * ahead]
+}
+
+/// Hips turn towards the travel, or against a travel behind; the spine turns back, so that the chest keeps the facing.
+fn twist(pose: &mut Pose, parameters: Parameters) {
+    let travel = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
+    let twice = 2.0 * travel.x * travel.y / travel.length_squared().max(f32::MIN_POSITIVE);
+    let hips = Quat::from_rotation_z(0.5 * HIP_TWIST * twice);
+    let [pelvis, spine] = [Joint::Pelvis, Joint::SpineLower].map(Joint::index);
+    pose.rotations[pelvis] = hips * pose.rotations[pelvis];
+    pose.rotations[spine] = hips.inverse() * pose.rotations[spine];
+}
+
+/// Positive to the left.
+fn lean_rad(parameters: Parameters) -> f32 {
+    libm::atanf(parameters.speed_mps * parameters.turn_rate_rad_s / GRAVITY_MPS2).clamp(-LEAN_MAX_RAD, LEAN_MAX_RAD)
+}
+
+/// The body leans about its hips, which stay over the root: the feet stand outward.
+fn lean(pose: &mut Pose, lean_rad: f32) {
+    pose.rotations[0] = Quat::from_rotation_x(-lean_rad) * pose.rotations[0];
+    pose.pelvis_m.z *= libm::cosf(lean_rad);
+}
