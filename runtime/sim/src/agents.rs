@@ -22,7 +22,7 @@ const START_PHASE_STREAM: u64 = 1 << 32;
 pub struct Agents {
     /// Centres of the discs: the synthesised roots, m.
     pub positions_m: Vec<Vec2>,
-    /// Of the synthesised roots over the last step, m/s.
+    /// Of the synthesised roots over the last step, or what a body is committed to, m/s.
     pub velocities_mps: Vec<Vec2>,
     /// Of the synthesised roots, rad.
     pub facings_rad: Vec<f32>,
@@ -77,6 +77,23 @@ impl Agents {
             agents.syntheses.push(synthesis);
         }
         agents
+    }
+
+    /// What all arrays take together, bytes; nothing in them points to more.
+    pub fn size_bytes(&self) -> usize {
+        let Self { positions_m, velocities_mps, facings_rad, radii_m, progress, preferred_mps, plans, .. } = self;
+        let Self { strafing_s, stepping_back_s, bodies, syntheses, stances, frames, .. } = self;
+        let of_planning = size_of_val(&**positions_m)
+            + size_of_val(&**velocities_mps)
+            + size_of_val(&**facings_rad)
+            + size_of_val(&**radii_m)
+            + size_of_val(&**progress)
+            + size_of_val(&**preferred_mps)
+            + size_of_val(&**plans)
+            + size_of_val(&**strafing_s)
+            + size_of_val(&**stepping_back_s)
+            + size_of_val(&**stances);
+        of_planning + size_of_val(&**bodies) + size_of_val(&**syntheses) + size_of_val(&**frames)
     }
 }
 

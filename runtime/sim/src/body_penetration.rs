@@ -129,12 +129,17 @@ impl BodyPenetration {
     }
 }
 
+/// The bone of a joint, in the frame of the joints.
+pub(crate) fn bone(skeleton: &Skeleton, joints: &Joints, joint: usize) -> Segment {
+    let from_m = joints.positions_m[joint];
+    Segment { from_m, to_m: from_m + joints.orientations[joint] * skeleton.segment_ends_m[joint] }
+}
+
 impl Body {
     fn new(skeleton: &Skeleton, root: &Root, joints: &Joints) -> Self {
         let turn = Quat::from_rotation_z(root.facing_rad);
         let capsules = std::array::from_fn(|joint| {
-            let from_m = joints.positions_m[joint];
-            let to_m = from_m + joints.orientations[joint] * skeleton.segment_ends_m[joint];
+            let Segment { from_m, to_m } = bone(skeleton, joints, joint);
             Capsule::new(Segment { from_m: turn * from_m, to_m: turn * to_m }, skeleton.segment_radii_m[joint])
         });
         let reach = capsules.iter().map(|capsule: &Capsule| capsule.reach).fold(Reach::NOTHING, Reach::with);

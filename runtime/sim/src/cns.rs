@@ -37,7 +37,7 @@ pub fn outside_walls(from_m: Vec2, root: Root, radius_m: f32, obstacles: &Obstac
 pub fn synchronize(agents: &mut Agents, dt_s: f32) {
     for (index, body) in agents.bodies.iter().enumerate() {
         let moved_m: Vec2 = body.root.position_m - agents.positions_m[index];
-        agents.velocities_mps[index] = moved_m / dt_s;
+        agents.velocities_mps[index] = body.committed_mps.unwrap_or(moved_m / dt_s);
         agents.positions_m[index] = body.root.position_m;
         agents.facings_rad[index] = body.root.facing_rad;
         agents.stances[index] = agents.syntheses[index].stance;

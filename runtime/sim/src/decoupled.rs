@@ -2,23 +2,24 @@
 //! blending based synthesis method which exactly followed the 2D trajectory".
 //!
 //! The disc moves exactly as planned, whatever a body could do, and the body is carried along: its root is the disc's
-//! place, it turns towards the planned facing, which for ORCA is the direction of travel, and it plays what the examples
-//! have nearest to the (v_f, ω_t, ω_s) of each step. ORCA looks at nothing of a body, so planning step by step is planning
-//! first. The paper does not say how its bodies turned. Ours turn as in two-way coupling, by the angle left over T_turn and
-//! no faster than the fastest example: facing the direction of travel at every instant, a disc that is pushed about would
-//! spin its body by up to 180° within a step. All else is as in two-way coupling too, the hold of planted feet by IK
-//! included, so that only the coupling is compared. Where the path asks for what the examples lack, feet must slide.
+//! place, it turns towards the planned facing, which for ORCA is the direction of travel, and its pose is blended of what
+//! the examples have nearest to the (v_f, ω_t, ω_s) of each step. Where they lack it, feet slide: none is held by IK, which
+//! is ours, not the paper's. ORCA looks at nothing of a body, so planning step by step is planning first.
+//!
+//! How its bodies turn the paper does not say. Here as in two-way coupling, by the angle left over T_turn and no faster
+//! than the fastest example: a disc that is pushed about turns its direction of travel by up to 180° within a step, and a
+//! body that faced it at every instant would spin.
 
 use motiondb::pose::Root;
 
 use crate::angle::wrap_rad;
-use crate::hms::{Body, Motion};
+use crate::hms::{Body, Motion, Synthesis};
 
 /// Lets a body follow its disc, which has moved `from` a root to where the body's root is now and faces as planned.
-pub fn follow(body: &mut Body, motion: &Motion, from: Root, dt_s: f32) {
+pub fn follow(body: &mut Body, motion: &Motion, from: Root, dt_s: f32) -> Synthesis {
     let left_rad = wrap_rad(body.root.facing_rad - from.facing_rad);
     let share = (dt_s / motion.params.turn_time_s).min(1.0);
     let turn_max_rad = motion.space.turn_rate_max_rad_s * dt_s;
     body.root.facing_rad = wrap_rad(from.facing_rad + (share * left_rad).clamp(-turn_max_rad, turn_max_rad));
-    body.follow(motion, from, dt_s);
+    body.follow(motion, from, dt_s)
 }

@@ -44,6 +44,7 @@ pub mod segment_distance;
 pub mod split_mix;
 pub mod step;
 pub mod turned_world;
+pub mod wall_contact;
 pub mod wild_program;
 pub mod wild_world;
 pub mod world;

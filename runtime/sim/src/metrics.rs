@@ -20,6 +20,7 @@ use crate::recording_error::RecordingError;
 use crate::recording_frame::AgentFrame;
 use crate::root_measures::RootMeasures;
 use crate::scenario::Scenario;
+use crate::wall_contact::WallContact;
 
 /// The figures of one simulation, under the names of `measure --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -58,6 +59,12 @@ pub struct Measures {
     pub body_penetration_max_mm: f64,
     /// Share of agents and steps in which a body touches another.
     pub body_touching_share: f64,
+    /// Share of agents and frames in which a disc is held at a wall.
+    pub wall_disc_share: f64,
+    /// Share of agents and frames in which a body reaches into a wall.
+    pub wall_body_share: f64,
+    /// The deepest of it.
+    pub wall_body_max_mm: f64,
     /// Of planted feet; none where no foot was planted.
     pub planted_slide_cm_s: Option<f64>,
     /// Of the examples that the bodies were blended from, over the same contacts.
@@ -86,6 +93,7 @@ pub struct Measuring {
     roots: RootMeasures,
     slide: PlantedSlide,
     bodies: BodyPenetration,
+    walls: WallContact,
 }
 
 impl Measuring {
@@ -102,6 +110,7 @@ impl Measuring {
             roots: RootMeasures::new(agents, start, dt_s),
             slide: PlantedSlide::new(skeleton, agents.len(), dt_s),
             bodies: BodyPenetration::new(skeleton, agents.len()),
+            walls: WallContact::new(skeleton, scenario),
         };
         measuring.pose(start);
         measuring.slide.push(start, &measuring.joints);
@@ -116,6 +125,7 @@ impl Measuring {
         self.roots.push(&self.before, after);
         self.slide.push(after, &self.joints);
         self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
+        self.walls.push(after, &self.joints);
         self.before.clear();
         self.before.extend_from_slice(after);
     }
@@ -127,7 +137,7 @@ impl Measuring {
 
     /// After the last frame.
     pub fn finish(self) -> Measures {
-        let (slide, bodies) = (self.slide.finish(), self.bodies.finish());
+        let (slide, bodies, walls) = (self.slide.finish(), self.bodies.finish(), self.walls.finish());
         Measures {
             agents: self.before.len(),
             steps: self.steps,
@@ -146,6 +156,9 @@ impl Measuring {
             body_penetration_touching_mm: bodies.touching_mm,
             body_penetration_max_mm: bodies.greatest_mm,
             body_touching_share: bodies.touching_share,
+            wall_disc_share: walls.disc_share,
+            wall_body_share: walls.body_share,
+            wall_body_max_mm: walls.greatest_depth_mm,
             planted_slide_cm_s: slide.slide_cm_s,
             examples_slide_cm_s: slide.examples_slide_cm_s,
             planted_share: slide.planted_share,

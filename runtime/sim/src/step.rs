@@ -33,6 +33,9 @@ use crate::world::World;
 /// Bodies that one thread takes at a time: enough to outweigh the hand-over, few enough to share out 100.
 const CHUNK: usize = 16;
 
+/// What the sorted grids of [`Neighbours`] hold of an agent: place, velocity, radius, rank and cells, some of them twice.
+const GRID_BYTES: usize = 64;
+
 /// A stage of a step, for whoever measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
@@ -85,6 +88,14 @@ impl Simulation {
     /// What a recording keeps of the present, by agent.
     pub fn frames(&self) -> &[AgentFrame] {
         &self.agents.frames
+    }
+
+    /// What each agent holds in memory, bytes: its place in all arrays, its start and its waypoints.
+    pub fn bytes_per_agent(&self) -> usize {
+        let specs = &self.scenario.agents;
+        let goals: usize = specs.iter().map(|agent| size_of_val(&*agent.goals_m)).sum();
+        let held = self.agents.size_bytes() + size_of_val(&*self.planned) + size_of_val(&**specs) + goals;
+        held / specs.len().max(1) + GRID_BYTES
     }
 
     /// Advances by the scenario's dt; `finished` hears the end of each stage.
@@ -158,11 +169,10 @@ impl Simulation {
                 Coupling::Discs | Coupling::Decoupled => body.root = cns::as_planned(from, plan, dt_s),
             }
             body.root = cns::outside_walls(from.position_m, body.root, radius_m, obstacles);
-            if coupling == Coupling::Decoupled {
-                decoupled::follow(body, &motion, from, dt_s);
-            }
-            if coupling != Coupling::Discs {
-                *synthesis = body.synthesize(&motion, dt_s);
+            match coupling {
+                Coupling::TwoWay => *synthesis = body.synthesize(&motion, dt_s),
+                Coupling::Decoupled => *synthesis = decoupled::follow(body, &motion, from, dt_s),
+                Coupling::Discs => {}
             }
         });
     }
@@ -190,7 +200,7 @@ impl Simulation {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use glam::Vec2;
 
     use super::*;
@@ -202,7 +212,7 @@ mod tests {
     use crate::test_db::test_db;
 
     /// Agents on a circle, each bound for the opposite point.
-    fn antipodal(count: usize, radius_m: f32) -> Scenario {
+    pub(crate) fn antipodal(count: usize, radius_m: f32) -> Scenario {
         let agent = |index: usize| {
             let angle_rad = std::f32::consts::TAU * index as f32 / count as f32;
             let position_m = Vec2::from_angle(angle_rad) * radius_m;

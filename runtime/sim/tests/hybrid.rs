@@ -5,7 +5,8 @@ mod clips;
 use std::f32::consts::FRAC_PI_2;
 
 use fbcrowd_sim::hms::hybrid::Hybrid;
-use fbcrowd_sim::hms::params::HmsParams;
+use fbcrowd_sim::hms::inertialization::CARRIED_S;
+use fbcrowd_sim::hms::params::{HmsParams, Transition};
 use fbcrowd_sim::hms::space::Space;
 use fbcrowd_sim::hms::{Body, Motion};
 use fbcrowd_sim::plan::Plan;
@@ -27,9 +28,12 @@ struct Step {
 
 /// A body walks by a plan of time and root.
 fn walk(db: &MotionDb, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Step> {
-    let (space, params) = (Space::new(db), HmsParams::default());
-    let hybrid = Hybrid::new(db, params.modes).unwrap();
-    let motion = Motion { db, space: &space, hybrid: Some(&hybrid), params: &params };
+    walk_by(db, &HmsParams::default(), seconds, plan)
+}
+
+fn walk_by(db: &MotionDb, params: &HmsParams, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Step> {
+    let (space, hybrid) = (Space::new(db), Hybrid::new(db, params.modes).unwrap());
+    let motion = Motion { db, space: &space, hybrid: Some(&hybrid), params };
     let (mut body, _) = Body::standing(&motion, Root::default(), 0.3);
     (0..(seconds / DT_S) as usize)
         .map(|step| {
@@ -87,6 +91,36 @@ fn a_switch_jerks_no_joint_half_as_much_again_as_its_clips_do() {
             println!("{name} {speed_mps} m/s: {worst_mps2:.0} m/s² at switches, {clips_mps2:.0?} in the clips");
             assert!(worst_mps2 <= 1.5 * greatest(&clips_mps2), "{name} {speed_mps}: {worst_mps2}, {clips_mps2:?} m/s²");
         }
+    }
+}
+
+#[test]
+fn no_change_of_synthesis_takes_longer_than_t_trans() {
+    for (name, db) in [("bundled", Some(bundled())), ("marine", marine("t_trans"))] {
+        let Some(db) = db else { continue };
+        let transition_s = Hybrid::new(&db, HmsParams::default().modes).unwrap().transition_s;
+        for speed_mps in [0.8, 1.1, 1.5] {
+            let steps = walk(&db, 24.0, |time_s, _| towards(0.0, speed_mps, threat_s(time_s)));
+            // Threats come and go every two seconds, and are answered by the next switch.
+            let waited_s = switches(&steps).into_iter().map(|step| step as f32 * DT_S % 2.0);
+            let longest_s = waited_s.fold(0.0, f32::max) + CARRIED_S;
+            println!("{name} {speed_mps} m/s: {longest_s:.2} s, t_trans {transition_s:.2} s");
+            assert!(longest_s <= transition_s + DT_S, "{name} {speed_mps}: {longest_s} s, {transition_s} s");
+        }
+    }
+}
+
+#[test]
+fn on_the_papers_way_synthesis_changes_hands_at_the_velocity_of_m_mb() {
+    let db = bundled();
+    let m_mb = db.examples[db.correspondence.as_ref().unwrap().blending as usize].parameters;
+    let params = HmsParams { transition: Transition::ThroughMMb, ..HmsParams::default() };
+    let steps = walk_by(&db, &params, 24.0, |time_s, _| towards(0.0, 1.5, threat_s(time_s)));
+    let switches = switches(&steps);
+    assert!(switches.len() >= 8, "{} switches", switches.len());
+    for step in switches {
+        let speed_mps = steps[step].root.position_m.distance(steps[step - 1].root.position_m) / DT_S;
+        assert!((speed_mps - m_mb.speed_mps).abs() < 0.06, "{speed_mps} m/s at a switch");
     }
 }
 

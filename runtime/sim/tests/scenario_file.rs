@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use common::folder;
 use fbcrowd_sim::cns::Coupling;
-use fbcrowd_sim::hms::params::Modes;
+use fbcrowd_sim::hms::params::{Modes, Transition};
 use fbcrowd_sim::mcn::params::StanceForm;
 use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::scenario::Scenario;
@@ -183,13 +183,13 @@ fn numbers_out_of_range_are_shown_where_they_stand() {
 #[test]
 fn planner_coupling_and_syntheses_are_the_scenarios_choice() {
     let given = "planner = \"social_force\"\ncoupling = \"discs\"\n";
-    let params =
-        "[params.planner.parts]\nhull = false\nstance = \"radial\"\n[params.synthesis]\nmodes = \"blending\"\n";
+    let params = "[params.planner.parts]\nhull = false\nstance = \"radial\"\n[params.synthesis]\nmodes = \"blending\"\ntransition = \"through_m_mb\"\n";
     let chosen = scenario("rivals", &format!("{given}{ONE}{params}"));
     assert_eq!((chosen.planner, chosen.coupling), (Planner::SocialForce, Coupling::Discs));
     let parts = &chosen.params.planner.parts;
     assert!(!parts.hull && parts.stance == StanceForm::Radial && parts.order);
-    assert_eq!(chosen.params.synthesis.modes, Modes::Blending);
+    let synthesis = &chosen.params.synthesis;
+    assert_eq!((synthesis.modes, synthesis.transition), (Modes::Blending, Transition::ThroughMMb));
     let decoupled = scenario("decoupled", &format!("planner = \"orca\"\ncoupling = \"decoupled\"\n{ONE}"));
     assert_eq!((decoupled.coupling, decoupled.modes()), (Coupling::Decoupled, Modes::Blending));
     let plain = scenario("plain", ONE);

@@ -2,6 +2,7 @@
 //! switch, and how long a switch may take.
 
 use motiondb::motion_db::MotionDb;
+use motiondb::parameters::Parameters;
 
 use super::inertialization::CARRIED_S;
 use super::params::Modes;
@@ -13,6 +14,8 @@ use crate::recording_frame::Mode;
 pub struct Hybrid {
     /// m_sp.
     pub semi_procedural: SemiProcedural,
+    /// How m_mb walks.
+    pub blending: Parameters,
     /// T as phases [φ_sp, φ_mb], in order.
     pairs: Vec<[f32; 2]>,
     /// t_trans, s: the longest wait for a pair, and the time in which the difference of poses dies out.
@@ -30,6 +33,7 @@ impl Hybrid {
         let period_s = maps[0].period_s.max(maps[1].period_s);
         Some(Self {
             semi_procedural: SemiProcedural::new(db, examples[0])?,
+            blending: db.examples[examples[1]].parameters,
             transition_s: longest_gap(&pairs)? * period_s + CARRIED_S,
             pairs,
         })

@@ -50,7 +50,7 @@ use self::inertialization::{Inertia, LOOK_BACK_S};
 use self::leg::{Leg, legs};
 use self::mode::{Choice, Thresholds};
 use self::owed::Owed;
-use self::params::HmsParams;
+use self::params::{HmsParams, Transition};
 use self::playing::Playing;
 use self::semi_procedural::SemiProcedural;
 use self::space::Space;
@@ -115,6 +115,8 @@ pub struct Body {
     intended: Parameters,
     /// Velocity of the last step, world, m/s.
     walked_mps: Vec2,
+    /// The velocity that it will have whatever is planned, world, m/s: on the paper's way from one synthesis to the other.
+    pub committed_mps: Option<Vec2>,
     feet: [FootHold; 2],
 }
 
@@ -148,6 +150,7 @@ impl Body {
             owed: Owed::default(),
             intended: Parameters::default(),
             walked_mps: Vec2::ZERO,
+            committed_mps: None,
             feet: Default::default(),
         };
         let playing = body.playing(motion);
@@ -172,6 +175,15 @@ impl Body {
             self.switch(motion, hybrid, before);
         }
         self.gaze.follow(&plan, &self.root, dt_s);
+        self.committed_mps = self
+            .detour(motion)
+            .map(|way| Vec2::from_angle(self.root.facing_rad).rotate(Vec2::new(way.speed_mps, way.strafe_mps)));
+    }
+
+    /// What the paper's way from one synthesis to the other leads through: m_mb.
+    fn detour(&self, motion: &Motion) -> Option<Parameters> {
+        let changes = self.mode != self.choice.mode && motion.params.transition == Transition::ThroughMMb;
+        motion.hybrid.filter(|_| changes).map(|hybrid| hybrid.blending)
     }
 
     /// Motion blending: shares, phase and root.
@@ -182,7 +194,7 @@ impl Body {
         if self.gait.follow(nearest.idle_share, self.feet_gathered(motion), dt_s) {
             self.jump(motion, |body| body.phase = body.first_step_phase(motion));
         }
-        let goal = gait::goal(nearest, now, self.gait, motion.space);
+        let goal = self.detour(motion).unwrap_or_else(|| gait::goal(nearest, now, self.gait, motion.space));
         let shares = motion.space.locate(asked::step_towards(now, goal, motion.params, dt_s));
         self.mix.approach(&shares, dt_s / motion.params.share_change_s);
         self.move_root(&self.mix.parameters(motion.db), dt_s);
@@ -195,7 +207,7 @@ impl Body {
         self.intend(asked::asked_exactly(plan, self.root.facing_rad, semi_procedural, motion.params), dt_s);
         let goal = match self.choice.mode {
             Mode::SemiProcedural => self.intended,
-            Mode::Blending => motion.space.nearest(self.intended).parameters,
+            Mode::Blending => self.detour(motion).unwrap_or_else(|| motion.space.nearest(self.intended).parameters),
         };
         let next = asked::step_towards(self.walking, goal, motion.params, dt_s);
         if deformation::turns_about(self.walking, next) {
@@ -210,12 +222,15 @@ impl Body {
     }
 
     /// Blends what the examples have nearest to a step that others have decided, from the root where the body was to where
-    /// it is (see [`crate::decoupled`]).
-    pub(crate) fn follow(&mut self, motion: &Motion, from: Root, dt_s: f32) {
+    /// it is (see [`crate::decoupled`]); the pose is as blended, no foot is held.
+    pub(crate) fn follow(&mut self, motion: &Motion, from: Root, dt_s: f32) -> Synthesis {
         let parameters = went(&from, &self.root, dt_s);
         self.mix.approach(&motion.space.locate(parameters), dt_s / motion.params.share_change_s);
-        self.walked_mps = (self.root.position_m - from.position_m) / dt_s;
-        self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * dt_s);
+        self.phase = self.mix.advance_phase(motion.db, self.phase, dt_s);
+        let playing = self.playing(motion);
+        let pose = playing.pose(motion, self.phase);
+        let contacts = playing.contacts(motion, self.phase);
+        self.told(motion, &playing, pose, contacts, &legs(&pose, &motion.db.skeleton))
     }
 
     fn move_root(&mut self, parameters: &Parameters, dt_s: f32) {
@@ -233,12 +248,11 @@ impl Body {
     }
 
     /// App. 10: at a pair of T, synthesis changes hands at the velocity that the body has, and the difference of poses
-    /// is left to inertia. The paper moves its weights to m_mb alone first, since it cannot begin at another velocity: at
-    /// the very moment that a collision threatens, its body walks at m_mb's.
+    /// is left to inertia. The paper moves its weights to m_mb alone first ([`Transition::ThroughMMb`]), since it cannot
+    /// begin at another velocity: at the very moment that a collision threatens, its body walks at m_mb's.
     fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32) {
         let (from, to) = (self.mode, self.choice.mode);
-        let settled = || motion.space.nearest(self.walking).parameters.to_vec3().distance(self.walking.to_vec3());
-        if from == to || from == Mode::SemiProcedural && settled() > SWITCH_SLACK {
+        if from == to || !self.may_switch(motion) {
             return;
         }
         let Some(jump) = hybrid.jump(from, before, self.phase) else { return };
@@ -258,6 +272,17 @@ impl Body {
         change(self);
         let new = self.poses(motion);
         self.inertia.begin(old.each_ref(), new.each_ref());
+    }
+
+    /// Whether the body walks as the other synthesis can.
+    fn may_switch(&self, motion: &Motion) -> bool {
+        let (now, there) = match (self.mode, self.detour(motion)) {
+            (Mode::Blending, None) => return true,
+            (Mode::Blending, Some(there)) => (self.mix.parameters(motion.db), there),
+            (Mode::SemiProcedural, Some(there)) => (self.walking, there),
+            (Mode::SemiProcedural, None) => (self.walking, motion.space.nearest(self.walking).parameters),
+        };
+        now.to_vec3().distance(there.to_vec3()) <= SWITCH_SLACK
     }
 
     /// What is played, now and [`LOOK_BACK_S`] ago.
@@ -334,14 +359,19 @@ impl Body {
             ik::reach(&mut pose, leg, skeleton, side, target);
         }
 
-        let soles_m = [0, 1].map(|side| legs[side].sole_points_m(skeleton, side));
-        for (hold, sole_m) in self.feet.iter_mut().zip(soles_m) {
-            hold.placed(sole_m.map(|point| frame.to_world(point)), dt_s);
+        for (side, hold) in self.feet.iter_mut().enumerate() {
+            hold.placed(legs[side].sole_points_m(skeleton, side).map(|point| frame.to_world(point)), dt_s);
         }
+        self.told(motion, &playing, pose, contacts, &legs)
+    }
+
+    /// What is told of a pose.
+    fn told(&self, motion: &Motion, playing: &Playing, pose: Pose, contacts: [f32; 2], legs: &[Leg; 2]) -> Synthesis {
+        let soles_m = [0, 1].map(|side| legs[side].sole_points_m(&motion.db.skeleton, side));
         Synthesis {
             pose,
             contacts,
-            stance: Stance::on_soles(&soles_m, frame.forward, contacts, |swing| {
+            stance: Stance::on_soles(&soles_m, self.root.forward(), contacts, |swing| {
                 playing.time_to_landing_s(motion, self.phase, swing)
             }),
             examples_slide_cm_s: playing.examples_slide_cm_s(motion),

@@ -15,12 +15,25 @@ pub enum Modes {
     SemiProcedural,
 }
 
+/// How synthesis changes hands (App. 10); `fbcrowd bench course` measures both.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Transition {
+    /// At the next pair of T, at the velocity that the body has; what differs is left to inertia.
+    #[default]
+    Direct,
+    /// The paper's: first at m_mb's velocity, on m_mb alone where it blends; the planner sees the body committed to it.
+    ThroughMMb,
+}
+
 /// Tunables of the synthesis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct HmsParams {
     /// Which syntheses a body may use.
     pub modes: Modes,
+    /// How a body changes from one to the other.
+    pub transition: Transition,
     /// Greatest change of the root's velocity in the body's frame, m/s². People brake and start with up to about 3.
     pub acceleration_max_mps2: f32,
     /// Greatest change of the turn rate, rad/s².
@@ -40,6 +53,7 @@ impl Default for HmsParams {
     fn default() -> Self {
         Self {
             modes: Modes::Hybrid,
+            transition: Transition::Direct,
             acceleration_max_mps2: 3.0,
             turn_acceleration_max_rad_s2: 8.0,
             share_change_s: 0.25,

@@ -43,6 +43,10 @@ const SLOW_WALK_MPS: f32 = 0.6;
 /// and 1 s, tried in the four-way crossing of Table 1 alone, A came to between 0.304 and 0.323 m/s².
 const REACTION_S: f32 = 0.3;
 
+/// What a disc keeps from walls, m: a body follows its plan to within a centimetre a step (issue 6), and would touch a corner that
+/// its disc grazes.
+const WALL_MARGIN_M: f32 = 0.01;
+
 /// Plans one agent's next velocity and facing.
 pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> Plan {
     let wall_range_m = params.obstacle_time_horizon_s * WALL_SPEED_MPS;
@@ -110,7 +114,8 @@ fn avoid(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch)
     let own = world.disc(agent);
     scratch.of_walls.clear();
     let (edges, horizon_s) = (&scratch.edges, params.obstacle_time_horizon_s);
-    orca_obstacles::obstacle_half_planes(world.obstacles, edges, &own, horizon_s, &mut scratch.of_walls);
+    let wider = orca::Disc { radius_m: own.radius_m + WALL_MARGIN_M, ..own };
+    orca_obstacles::obstacle_half_planes(world.obstacles, edges, &wider, horizon_s, &mut scratch.of_walls);
     scratch.of_agents.clear();
     scratch.of_agents.extend(scratch.nearest.as_slice().iter().map(|neighbour| {
         let share = if params.parts.keep_right { orca::share(own.velocity_mps, neighbour) } else { orca::HALF };

@@ -21,7 +21,8 @@ pub(crate) struct Args {
     /// `mean_acceleration_mps2` (Eq. 18), `mean_acceleration_before_arrival_mps2, arrived, stalled,
     /// mean_time_to_goal_s, path_over_straight_line, strafing_share, stepping_back_share, body_penetration_mm` (deepest
     /// overlap of capsules, summed over pairs, per agent and step), `body_penetration_touching_mm` (mean of those that
-    /// touch), `body_penetration_max_mm, body_touching_share, planted_slide_cm_s, examples_slide_cm_s, planted_share,
+    /// touch), `body_penetration_max_mm, body_touching_share, wall_disc_share` (of agents and steps that a wall holds),
+    /// `wall_body_share` (whose bodies reach into one), `wall_body_max_mm, planted_slide_cm_s, examples_slide_cm_s, planted_share,
     /// root_tracking_error_m, root_tracking_worst_m` (of any step), `heading_error_deg` (facing against travel); null where nobody arrived, touched or stood.
     #[arg(long)]
     json: bool,
@@ -62,6 +63,7 @@ pub(crate) fn text(measures: &Measures) -> String {
         ("steps", format!("{} of {:.4} s", measures.steps, measures.dt_s)),
         ("collisions C", collisions(measures)),
         ("bodies", bodies(measures)),
+        ("walls", walls(measures)),
         ("acceleration A", acceleration(measures)),
         ("arrived", format!("{} of {}, {} stalled", measures.arrived, measures.agents, measures.stalled)),
         ("mean time to goal", optional(measures.mean_time_to_goal_s, "s")),
@@ -121,4 +123,13 @@ fn slide(measures: &Measures) -> String {
 fn tracking(measures: &Measures) -> String {
     let [mean_mm, worst_mm] = [measures.root_tracking_error_m, measures.root_tracking_worst_m].map(|error| 1e3 * error);
     format!("{mean_mm:.2} mm a step, {worst_mm:.0} mm at most")
+}
+
+fn walls(measures: &Measures) -> String {
+    format!(
+        "discs held {:.2} % of the time, bodies in them {:.2} %, {:.0} mm at most",
+        100.0 * measures.wall_disc_share,
+        100.0 * measures.wall_body_share,
+        measures.wall_body_max_mm
+    )
 }

@@ -1,0 +1,140 @@
+//! How often, and how deep, discs and bodies touch walls (`FbCrowd` §7, the obstacle course).
+//!
+//! A disc touches a wall where it is nearer than its radius and [`TOUCH_M`]: the synthesised root is kept outside
+//! ([`crate::cns::outside_walls`]), so a disc that would go further in lies at its radius exactly. A body touches where
+//! a capsule of it does; walls stand upright, so its bone is taken from above. Frames are looked at as they are. World
+//! axes, metres.
+
+use glam::Vec3;
+use motiondb::pose::{Joints, Root};
+use motiondb::skeleton::{Joint, Skeleton};
+
+use crate::body_penetration::bone;
+use crate::obstacles::{NearEdge, Obstacles};
+use crate::recording_frame::AgentFrame;
+use crate::scenario::Scenario;
+use crate::segment_distance::{Segment, distance_m};
+
+/// Rounding of a disc that is kept at a wall, m.
+const TOUCH_M: f32 = 1e-4;
+/// No capsule reaches further from its root: an arm held out, m.
+const REACH_M: f32 = 1.2;
+
+/// Counts frame by frame.
+#[derive(Debug)]
+pub struct WallContact {
+    skeleton: Skeleton,
+    obstacles: Obstacles,
+    radii_m: Vec<f32>,
+    agent_frames: usize,
+    touching_discs: usize,
+    touching_bodies: usize,
+    greatest_depth_m: f32,
+}
+
+/// What is told of a whole recording; nothing where there are no walls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contacts {
+    /// Share of agents and frames in which a disc is held at a wall.
+    pub disc_share: f64,
+    /// Share of agents and frames in which a body reaches into a wall.
+    pub body_share: f64,
+    /// The deepest of it, mm.
+    pub greatest_depth_mm: f64,
+}
+
+impl WallContact {
+    /// No frames yet.
+    pub fn new(skeleton: &Skeleton, scenario: &Scenario) -> Self {
+        Self {
+            skeleton: skeleton.clone(),
+            obstacles: Obstacles::new(&scenario.obstacles_m),
+            radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
+            agent_frames: 0,
+            touching_discs: 0,
+            touching_bodies: 0,
+            greatest_depth_m: 0.0,
+        }
+    }
+
+    /// Adds one frame: every agent, and its joints in its root's frame, in index order.
+    pub fn push(&mut self, agents: &[AgentFrame], joints: &[Joints]) {
+        self.agent_frames += agents.len();
+        let mut near = Vec::new();
+        for ((agent, joints), &radius_m) in agents.iter().zip(joints).zip(&self.radii_m) {
+            self.obstacles.near(agent.root.position_m, REACH_M.max(radius_m + TOUCH_M), &mut near);
+            let Some(nearest) = near.first() else { continue };
+            self.touching_discs += usize::from(nearest.distance_m < radius_m + TOUCH_M);
+            let depth_m = self.depth_m(&agent.root, joints, &near);
+            self.touching_bodies += usize::from(depth_m > 0.0);
+            self.greatest_depth_m = self.greatest_depth_m.max(depth_m);
+        }
+    }
+
+    /// After the last frame.
+    pub fn finish(&self) -> Contacts {
+        let share = |count: usize| count as f64 / self.agent_frames.max(1) as f64;
+        Contacts {
+            disc_share: share(self.touching_discs),
+            body_share: share(self.touching_bodies),
+            greatest_depth_mm: 1e3 * f64::from(self.greatest_depth_m),
+        }
+    }
+
+    /// How deep the deepest capsule reaches into a wall.
+    fn depth_m(&self, root: &Root, joints: &Joints, near: &[NearEdge]) -> f32 {
+        let depths_m = Joint::ALL.iter().map(|joint| {
+            let bone = bone(&self.skeleton, joints, joint.index());
+            let from_above = |point_m: Vec3| root.to_world(point_m).truncate().extend(0.0);
+            let bone = Segment { from_m: from_above(bone.from_m), to_m: from_above(bone.to_m) };
+            let radius_m = self.skeleton.segment_radii_m[joint.index()];
+            let to_wall_m = near.iter().map(|near| {
+                let [from_m, to_m] = self.obstacles.ends_m(near.edge).map(|end_m| end_m.extend(0.0));
+                distance_m(&bone, &Segment { from_m, to_m })
+            });
+            let distance_m = to_wall_m.fold(f32::INFINITY, f32::min);
+            let is_inside = [bone.from_m, bone.to_m].iter().any(|end_m| self.obstacles.contains(end_m.truncate()));
+            if is_inside { radius_m + distance_m } else { radius_m - distance_m }
+        });
+        depths_m.fold(0.0, f32::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec2;
+
+    use super::*;
+    use crate::test_db::test_db;
+
+    /// Shares of one standing body beside a wall that begins at x = 0, its root at x = −`clear_m`.
+    fn beside(clear_m: f32) -> Contacts {
+        let (db, mut scenario) = (test_db(), crate::step::tests::antipodal(1, 4.0));
+        scenario.obstacles_m = vec![[(0.0, -5.0), (1.0, -5.0), (1.0, 5.0), (0.0, 5.0)].map(Vec2::from).to_vec()];
+        let root = Root { position_m: Vec2::new(-clear_m, 0.0), facing_rad: 0.0 };
+        let frame = AgentFrame { root, pose: db.rows.pose(0, 0), ..AgentFrame::default() };
+        let mut contact = WallContact::new(&db.skeleton, &scenario);
+        contact.push(&[frame], &[frame.pose.forward_kinematics(&db.skeleton)]);
+        contact.finish()
+    }
+
+    /// How far the body reaches ahead of its root.
+    fn ahead_m() -> f32 {
+        let db = test_db();
+        let joints = db.rows.pose(0, 0).forward_kinematics(&db.skeleton);
+        let reach_m = |joint: &Joint| {
+            let Segment { from_m, to_m } = bone(&db.skeleton, &joints, joint.index());
+            from_m.x.max(to_m.x) + db.skeleton.segment_radii_m[joint.index()]
+        };
+        Joint::ALL.iter().map(reach_m).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn a_body_touches_by_its_capsules_and_a_disc_at_its_radius() {
+        let radius_m = 0.25;
+        assert_eq!(beside(2.0), Contacts { disc_share: 0.0, body_share: 0.0, greatest_depth_mm: 0.0 });
+        assert_eq!((beside(radius_m).disc_share, beside(radius_m + 0.01).disc_share), (1.0, 0.0));
+        assert_eq!((beside(ahead_m() - 0.01).body_share, beside(ahead_m() + 0.01).body_share), (1.0, 0.0));
+        assert!((beside(ahead_m() - 0.01).greatest_depth_mm - 10.0).abs() < 0.1);
+    }
+}
