@@ -11,7 +11,7 @@ use crate::palette::INK;
 use crate::plot::Figure;
 use crate::text::Anchor;
 use crate::trails::Tracks;
-use crate::trajectories::{draw_paths, shown_m};
+use crate::trajectories::{draw_obstacles, draw_paths, shown_m};
 
 /// Width of one panel's axes and the room left of them, pixels.
 const PANEL_PX: f32 = 760.0;
@@ -36,9 +36,9 @@ pub struct Way<'a> {
 }
 
 /// The sheet; every panel shows the same part of the world.
-pub fn side_by_side(title: &str, agents: &[AgentSpec], ways: &[Way]) -> Pixmap {
-    let drawn_m = ways.iter().flat_map(|way| way.tracks.positions_m.iter().copied());
-    let [low, high] = shown_m(agents, drawn_m);
+pub fn side_by_side(title: &str, agents: &[AgentSpec], obstacles_m: &[Vec<Vec2>], ways: &[Way]) -> Pixmap {
+    let walked_m = ways.iter().flat_map(|way| way.tracks.positions_m.iter().copied());
+    let [low, high] = shown_m(agents, walked_m.chain(obstacles_m.iter().flatten().copied()));
     let [least, greatest] = PANEL_HEIGHTS_PX;
     let height = (PANEL_PX * (high.y - low.y) / (high.x - low.x)).round().clamp(least, greatest);
     let lines = ways.iter().map(|way| way.notes.len()).max().unwrap_or(0) as f32;
@@ -52,6 +52,7 @@ pub fn side_by_side(title: &str, agents: &[AgentSpec], ways: &[Way]) -> Pixmap {
         let axis = |label: &str, low: f32, high: f32| Axis { label: label.to_owned(), low, high };
         let axes = equal_units(rect_px, [axis("x, m", low.x, high.x), axis("y, m", low.y, high.y)]);
         let panel = figure.panel(rect_px, axes);
+        draw_obstacles(&mut figure, &panel, obstacles_m);
         draw_paths(&mut figure, &panel, agents, way.tracks);
         let centre = left + 0.5 * PANEL_PX;
         figure.text(&way.heading, Vec2::new(centre, ABOVE_PX - 14.0), Anchor::Centre);

@@ -43,7 +43,7 @@ pub fn trajectories(header: &Header, tracks: &Tracks) -> Pixmap {
     let rect_px = [left, top, width, height];
     let axes = equal_units(rect_px, [axis("x, m", low.x, high.x), axis("y, m", low.y, high.y)]);
     let panel = figure.panel(rect_px, axes);
-    draw_obstacles(&mut figure, &panel, header);
+    draw_obstacles(&mut figure, &panel, &header.scenario.obstacles_m);
     draw_paths(&mut figure, &panel, &header.scenario.agents, tracks);
     figure.pixmap
 }
@@ -60,8 +60,8 @@ pub(crate) fn shown_m(agents: &[AgentSpec], drawn_m: impl Iterator<Item = Vec2>)
     [low - MARGIN_M, high + MARGIN_M]
 }
 
-fn draw_obstacles(figure: &mut Figure, panel: &Panel, header: &Header) {
-    for corners in &header.scenario.obstacles_m {
+pub(crate) fn draw_obstacles(figure: &mut Figure, panel: &Panel, obstacles_m: &[Vec<Vec2>]) {
+    for corners in obstacles_m {
         figure.polygon(panel, corners.iter().copied(), 1.0, line(GRID_COARSE, 1.0));
         let closed = corners.iter().chain(corners.first()).copied();
         figure.polyline(panel, closed, line(OBSTACLE_RIM, 3.0));

@@ -28,26 +28,38 @@ pub(crate) struct PoseSequence {
 impl PoseSequence {
     /// Of one example of a database.
     pub(crate) fn of(db: &MotionDb, example: usize) -> Self {
-        let directions = |joints: &Joints| {
-            let to_pelvis = joints.orientations[Joint::Pelvis.index()].inverse();
-            let mut bones = Joint::ALL.iter().filter_map(|joint| {
-                let parent = joint.parent().filter(|parent| *parent != Joint::Pelvis)?;
-                let bone_m = joints.positions_m[joint.index()] - joints.positions_m[parent.index()];
-                Some((to_pelvis * bone_m).normalize_or_zero())
-            });
-            std::array::from_fn(|_| bones.next().unwrap_or_default())
-        };
         Self { directions: db.posed_rows(example).iter().map(directions).collect() }
     }
 
     /// D, degrees.
     pub(crate) fn distance_deg(&self, other: &Self) -> f32 {
-        let squared = |(a, b): (&Vec3, &Vec3)| {
-            let angle_deg = if *a == Vec3::ZERO || *b == Vec3::ZERO { 0.0 } else { a.angle_between(*b).to_degrees() };
-            f64::from(angle_deg * angle_deg)
-        };
-        let rows = self.directions.iter().zip(&other.directions);
-        let sum: f64 = rows.map(|(a, b)| a.iter().zip(b).map(squared).sum::<f64>()).sum();
+        let sum: f64 = self.directions.iter().zip(&other.directions).map(|(a, b)| squared_deg2(a, b)).sum();
         (sum / (PHASE_COUNT * BONES) as f64).sqrt() as f32
     }
+
+    /// D of one pose to the nearest of the cycle, degrees.
+    pub(crate) fn to_pose_deg(&self, joints: &Joints) -> f32 {
+        let pose = directions(joints);
+        let nearest = self.directions.iter().map(|row| squared_deg2(row, &pose)).fold(f64::INFINITY, f64::min);
+        (nearest / BONES as f64).sqrt() as f32
+    }
+}
+
+fn directions(joints: &Joints) -> [Vec3; BONES] {
+    let to_pelvis = joints.orientations[Joint::Pelvis.index()].inverse();
+    let mut bones = Joint::ALL.iter().filter_map(|joint| {
+        let parent = joint.parent().filter(|parent| *parent != Joint::Pelvis)?;
+        let bone_m = joints.positions_m[joint.index()] - joints.positions_m[parent.index()];
+        Some((to_pelvis * bone_m).normalize_or_zero())
+    });
+    std::array::from_fn(|_| bones.next().unwrap_or_default())
+}
+
+/// Σ over bones of ∠(d_a, d_b)².
+fn squared_deg2(a: &[Vec3; BONES], b: &[Vec3; BONES]) -> f64 {
+    let squared = |(a, b): (&Vec3, &Vec3)| {
+        let angle_deg = if *a == Vec3::ZERO || *b == Vec3::ZERO { 0.0 } else { a.angle_between(*b).to_degrees() };
+        f64::from(angle_deg * angle_deg)
+    };
+    a.iter().zip(b).map(squared).sum()
 }

@@ -8,7 +8,9 @@ mod clips;
 mod compile;
 mod contest;
 mod coupled;
+mod course;
 mod emergence;
+mod figure6;
 mod figure7;
 mod gait;
 mod import;
@@ -66,6 +68,8 @@ enum Bench {
     Rimea(rimea::Args),
     Emergence(emergence::Args),
     Coupled(coupled::Args),
+    Course(course::Args),
+    Figure6(figure6::Args),
 }
 
 /// What every bench on other people's clips is told.
@@ -97,5 +101,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Bench::Rimea(args) => rimea::run(args),
         Bench::Emergence(args) => emergence::run(args),
         Bench::Coupled(args) => coupled::run(args),
+        Bench::Course(args) => course::run(args),
+        Bench::Figure6(args) => figure6::run(args),
     }
 }

@@ -242,7 +242,8 @@ fn disc(agents: usize) -> Scenario {
     }
 }
 
-fn agent(position_m: Vec2) -> AgentSpec {
+/// Bound for the point opposite.
+pub(super) fn agent(position_m: Vec2) -> AgentSpec {
     AgentSpec {
         position_m,
         facing_rad: (-position_m).to_angle(),
@@ -252,7 +253,7 @@ fn agent(position_m: Vec2) -> AgentSpec {
     }
 }
 
-fn pool(threads: usize) -> Result<ThreadPool, Failure> {
+pub(super) fn pool(threads: usize) -> Result<ThreadPool, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(|error| Failure::bad(format!("cannot start {threads} threads: {error}")))
 }

@@ -34,7 +34,7 @@ pub(super) fn write_paths(path: &Path, scene: &Scene, contestants: &[Contestant]
     let seconds = runs.first().map_or(0.0, |run| run.measures.steps as f32 * run.measures.dt_s);
     let Scene { name, seed, agents } = scene;
     let title = format!("{name}, seed {seed}: paths of {} agents in {seconds:.0} s", agents.len());
-    png_frame::write(path, &side_by_side(&title, agents, &ways)).map_err(bad)
+    png_frame::write(path, &side_by_side(&title, agents, &[], &ways)).map_err(bad)
 }
 
 fn way<'a>(contestant: &Contestant, run: &'a Run) -> Way<'a> {

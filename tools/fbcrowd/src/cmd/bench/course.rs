@@ -1,0 +1,207 @@
+//! `fbcrowd bench course`: narrow, sharply turning passages by motion blending alone, by semi-procedural locomotion alone
+//! and by both, the paper's obstacle course (§7.1).
+//!
+//! The paper's claim: blending collides in tight corners, semi-procedural locomotion looks mechanical, hybrid synthesis
+//! does neither. Measured until the agent is at its goal: how often its disc is held at a wall and its body reaches into
+//! one, and how far its poses lie from the database: the RMS angle of bones to the nearest pose of any example
+//! ([`PoseSequence`](crate::pose_sequence::PoseSequence)).
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use fbcrowd_render::png_frame;
+use fbcrowd_render::side_by_side::{Way, side_by_side};
+use fbcrowd_render::trails::Tracks;
+use fbcrowd_sim::hms::params::{Modes, Transition};
+use fbcrowd_sim::metrics::{Measures, Measuring};
+use fbcrowd_sim::recording_frame::Mode;
+use fbcrowd_sim::scenario::Scenario;
+use fbcrowd_sim::step::Simulation;
+use glam::Vec2;
+use motiondb::motion_db::MotionDb;
+use serde::Serialize;
+
+use super::bar::{Bar, Found, conclude};
+use super::contest::{each_alone, step_count};
+use super::table1::database;
+use super::watch::{scenario, scenario_text};
+use crate::failure::{Answer, Failure};
+use crate::pose_sequence::PoseSequence;
+
+const COURSE: (&str, &str) = scenario_text!("course.toml");
+/// The last is the paper's way from one synthesis to the other, beside ours.
+const WAYS: [(&str, Modes, Transition); 4] = [
+    ("blending", Modes::Blending, Transition::Direct),
+    ("semi_procedural", Modes::SemiProcedural, Transition::Direct),
+    ("hybrid", Modes::Hybrid, Transition::Direct),
+    ("hybrid_through_m_mb", Modes::Hybrid, Transition::ThroughMMb),
+];
+
+/// Walk the obstacle course by blending alone, by semi-procedural locomotion alone and by both.
+///
+/// In JSON `picture`, its file, and `ways[] {synthesis, arrived, time_s, wall_disc_share, wall_body_share,
+/// wall_body_max_mm, pose_distance_deg, semi_procedural_share, acceleration_mps2, planted_slide_cm_s}`.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Examples:\n  fbcrowd bench course -o course.png\n  fbcrowd bench course --db motion.fbdb --json"
+)]
+pub(super) struct Args {
+    /// The picture of the three paths.
+    #[arg(short, long, value_name = "FILE.png", default_value = "out/course.png")]
+    output: PathBuf,
+    /// The database that the bodies come from; the bundled clips by default.
+    #[arg(long = "db", value_name = "FILE.fbdb")]
+    database: Option<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Details {
+    picture: PathBuf,
+    ways: Vec<Walked>,
+}
+
+/// The course by one synthesis.
+#[derive(Serialize)]
+struct Walked {
+    synthesis: &'static str,
+    arrived: bool,
+    /// Until at the goal, or the end.
+    time_s: f64,
+    /// Share of the time in which the disc is held at a wall.
+    wall_disc_share: f64,
+    /// Share of the time in which the body reaches into a wall.
+    wall_body_share: f64,
+    wall_body_max_mm: f64,
+    /// RMS over time.
+    pose_distance_deg: f64,
+    /// Share of the time in semi-procedural locomotion.
+    semi_procedural_share: f64,
+    acceleration_mps2: f64,
+    planted_slide_cm_s: Option<f64>,
+    #[serde(skip)]
+    tracks: Tracks,
+}
+
+pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
+    let db = Arc::new(database(args.database.as_deref())?);
+    let scenario = scenario(COURSE)?;
+    let ways = each_alone(WAYS.len(), |index| walk(&db, &scenario, WAYS[index]))?;
+    draw(&args.output, &scenario, &ways)?;
+    let details = Details { picture: args.output.clone(), ways };
+    let (bars, text) = (bars(&details.ways), text(&details));
+    conclude(&Found { details, goals: Vec::new(), bars }, &text, args.json)
+}
+
+fn walk(
+    db: &Arc<MotionDb>,
+    scenario: &Scenario,
+    (synthesis, modes, transition): (&'static str, Modes, Transition),
+) -> Walked {
+    let mut scenario = scenario.clone();
+    (scenario.params.synthesis.modes, scenario.params.synthesis.transition) = (modes, transition);
+    let examples: Vec<PoseSequence> = (0..db.examples.len()).map(|example| PoseSequence::of(db, example)).collect();
+    let mut simulation = Simulation::new(Arc::clone(db), &scenario);
+    let mut measuring = Measuring::new(&db.skeleton, &scenario, simulation.frames());
+    let root_m = |simulation: &Simulation| simulation.frames()[0].root.position_m;
+    let mut positions_m: Vec<Vec2> = vec![root_m(&simulation)];
+    let (mut squared_deg2, mut deformed_steps) = (0.0, 0);
+    while positions_m.len() <= step_count(&scenario) && !measuring.all_are_at_goals() {
+        simulation.step(&mut |_| {});
+        measuring.push(simulation.frames());
+        positions_m.push(root_m(&simulation));
+        let frame = &simulation.frames()[0];
+        let joints = frame.pose.forward_kinematics(&db.skeleton);
+        let to_example_deg = examples.iter().map(|example| example.to_pose_deg(&joints));
+        squared_deg2 += f64::from(to_example_deg.fold(f32::INFINITY, f32::min)).powi(2);
+        deformed_steps += usize::from(frame.mode == Mode::SemiProcedural);
+    }
+    let measures: Measures = measuring.finish();
+    let steps = measures.steps.max(1) as f64;
+    Walked {
+        synthesis,
+        arrived: measures.arrived == 1,
+        time_s: steps * f64::from(scenario.dt_s),
+        wall_disc_share: measures.wall_disc_share,
+        wall_body_share: measures.wall_body_share,
+        wall_body_max_mm: measures.wall_body_max_mm,
+        pose_distance_deg: (squared_deg2 / steps).sqrt(),
+        semi_procedural_share: deformed_steps as f64 / steps,
+        acceleration_mps2: measures.mean_acceleration_before_arrival_mps2,
+        planted_slide_cm_s: measures.planted_slide_cm_s,
+        tracks: Tracks { agent_count: 1, dt_s: scenario.dt_s, positions_m },
+    }
+}
+
+/// The paths from above, side by side.
+fn draw(path: &Path, scenario: &Scenario, ways: &[Walked]) -> Result<(), Failure> {
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
+    }
+    let ways: Vec<Way> = ways.iter().map(way).collect();
+    let sheet = side_by_side("The obstacle course by each synthesis", &scenario.agents, &scenario.obstacles_m, &ways);
+    png_frame::write(path, &sheet).map_err(|error| Failure::bad(error.to_string()))
+}
+
+fn way(walked: &Walked) -> Way<'_> {
+    Way {
+        heading: walked.synthesis.replace('_', " "),
+        notes: vec![
+            format!("{} in {:.1} s", if walked.arrived { "arrives" } else { "does not arrive" }, walked.time_s),
+            format!("at a wall {:.1} % of the time", 100.0 * walked.wall_disc_share),
+            format!("poses {:.1}° from the examples", walked.pose_distance_deg),
+        ],
+        tracks: &walked.tracks,
+    }
+}
+
+fn bars(ways: &[Walked]) -> Vec<Bar> {
+    let [_, semi_procedural, hybrid, _] = ways else { return Vec::new() };
+    vec![
+        Bar::at_least("hybrid arrives", 1.0, f64::from(u8::from(hybrid.arrived))),
+        Bar::at_most("semi-procedural disc held at a wall, share of time", 0.0, semi_procedural.wall_disc_share),
+        Bar::at_most("hybrid disc held at a wall, share of time", 0.0, hybrid.wall_disc_share),
+        Bar::at_most("semi-procedural body in a wall, share of time", 0.0, semi_procedural.wall_body_share),
+        Bar::at_most("hybrid body in a wall, share of time", semi_procedural.wall_body_share, hybrid.wall_body_share),
+        Bar::below(
+            "hybrid poses from the examples, below semi-procedural, °",
+            semi_procedural.pose_distance_deg,
+            hybrid.pose_distance_deg,
+        ),
+    ]
+}
+
+fn text(details: &Details) -> String {
+    let head = format!(
+        "{:<21}{:>9}{:>9}{:>12}{:>12}{:>12}{:>12}{:>14}{:>10}{:>14}\n",
+        "synthesis",
+        "arrives",
+        "time, s",
+        "disc, %",
+        "body, %",
+        "body, mm",
+        "poses, °",
+        "deformed, %",
+        "A, m/s²",
+        "slide, cm/s"
+    );
+    let line = |walked: &Walked| {
+        format!(
+            "{:<21}{:>9}{:>9.1}{:>12.1}{:>12.1}{:>12.0}{:>12.2}{:>14.0}{:>10.3}{:>14}\n",
+            walked.synthesis,
+            if walked.arrived { "yes" } else { "no" },
+            walked.time_s,
+            100.0 * walked.wall_disc_share,
+            100.0 * walked.wall_body_share,
+            walked.wall_body_max_mm,
+            walked.pose_distance_deg,
+            100.0 * walked.semi_procedural_share,
+            walked.acceleration_mps2,
+            walked.planted_slide_cm_s.map_or_else(|| "–".to_owned(), |slide| format!("{slide:.2}")),
+        )
+    };
+    head + &details.ways.iter().map(line).collect::<String>() + &format!("written: {}\n", details.picture.display())
+}
