@@ -134,3 +134,32 @@ fn planning_is_timed_beside_orca_and_its_neighbour_query() {
         assert!(microseconds("orca_us") < microseconds("mcn_us") && microseconds("mcn_us") < 100.0, "{crowd}");
     }
 }
+
+#[test]
+fn the_obstacle_course_is_walked_by_every_synthesis_and_drawn() {
+    let picture = folder("bench_course").join("course.png");
+    let found = check_bars(&["bench", "course", "-o", text(&picture), "--json"]);
+    let names: Vec<&str> =
+        found["ways"].as_array().unwrap().iter().map(|way| way["synthesis"].as_str().unwrap()).collect();
+    assert_eq!(names, ["blending", "semi_procedural", "hybrid", "hybrid_through_m_mb"]);
+    assert!(found["bars"].as_array().unwrap().iter().all(|bar| bar["met"] == true), "{found}");
+    assert!(picture.is_file());
+}
+
+#[test]
+fn coupled_bodies_touch_each_other_less_and_slide_less_than_the_studys_rival() {
+    let found = check_bars(&["bench", "coupled", "--json"]);
+    for bar in found["bars"].as_array().unwrap() {
+        let name = bar["name"].as_str().unwrap();
+        if name.contains("bodies") || name.contains("slide") {
+            assert_eq!(bar["met"], true, "{bar}");
+        }
+    }
+}
+
+#[test]
+fn the_stages_of_a_frame_are_timed_for_each_circle() {
+    let found = check_bars(&["bench", "figure6", "--largest", "100", "--json"]);
+    assert_eq!(found["circles"].as_array().unwrap().len(), 4);
+    assert!(found["bytes_per_agent"].as_u64().unwrap() <= 4096);
+}

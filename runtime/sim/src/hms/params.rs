@@ -23,6 +23,7 @@ pub enum Transition {
     #[default]
     Direct,
     /// The paper's: first at m_mb's velocity, on m_mb alone where it blends; the planner sees the body committed to it.
+    /// t_trans does not count the time until that velocity is reached.
     ThroughMMb,
 }
 

@@ -5,10 +5,11 @@
 //! moments whatever else the machine does; medians of the turns count. A small circle is stepped so often that a turn has
 //! [`AGENT_STEPS`] agent-steps. Coupling holds the making of the frame that a recording would keep, not its packing.
 
-use std::path::PathBuf;
+use std::f32::consts::TAU;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use std::{f32::consts::TAU, fs};
 
 use fbcrowd_render::comparison_plot::{Comparison, Measure, comparison};
 use fbcrowd_render::png_frame;
@@ -227,7 +228,7 @@ impl Circle {
 fn bars(details: &Details) -> Vec<Bar> {
     let large = || details.circles.iter().filter(|circle| circle.agents >= LARGE);
     let synthesis_us = |circle: &Circle| circle.per_agent_us(circle.hms_ms);
-    let growth = large().next().zip(large().last()).map(|(first, last)| synthesis_us(last) / synthesis_us(first));
+    let growth = large().next().zip(large().next_back()).map(|(first, last)| synthesis_us(last) / synthesis_us(first));
     let two_threads = large().map(|circle| f64::from(circle.two_threads)).reduce(f64::min);
     vec![
         Bar::at_least("speed of two threads over one, from 1,000 on", TWO_THREADS, two_threads),
@@ -259,7 +260,7 @@ fn goals(details: &Details) -> Vec<Goal> {
 }
 
 /// Every turn a dot, by circle and stage.
-fn draw(path: &PathBuf, circles: &[Circle]) -> Result<(), Failure> {
+fn draw(path: &Path, circles: &[Circle]) -> Result<(), Failure> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     }
