@@ -150,7 +150,7 @@ fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scr
     half_planes.extend(of_stance(world, agent, params));
     if parts.sharp_turns && set == VelocitySet::Turning {
         let edges_mps = &world.hull.sharp_turn_edges_mps;
-        motion_constraints::sharp_turn_half_planes(edges_mps, forward, world.preferred_mps[agent], half_planes);
+        half_planes.extend(motion_constraints::sharp_turn_half_plane(edges_mps, forward, world.preferred_mps[agent]));
     }
     if parts.hull {
         motion_constraints::hull_half_planes(corners_mps, forward, source, half_planes);

@@ -1,9 +1,12 @@
 //! Half-planes of the velocities that the motion database can realise (`FbCrowd` §4.1, Eqs. 2–5; `definitions.md`).
 //!
 //! The turning set limits a body whose facing follows its velocity, the holding set one that holds its facing. Both are
-//! convex, clockwise, and count the origin; each edge gives one half-plane, rotated by the agent's facing. While v_pref
-//! lies more than 90° off the facing, the wrapping polygon's sharp-turn edges on the side of the turn join the turning
-//! set.
+//! convex, clockwise, and count the origin; each edge gives one half-plane, rotated by the agent's facing.
+//!
+//! While v_pref lies more than 90° off the facing, the sharp-turn edge of the wrapping polygon that the turn meets joins
+//! the turning set: the one whose cone, seen from rest, holds v_pref. The polygon is star-shaped but not convex, so an
+//! edge tells permitted from forbidden velocities in its own cone only. Beyond it, its line may cut off what the polygon
+//! holds; all edges of a side at once forbid most of that side, and walking on ahead with it.
 
 use glam::Vec2;
 use motiondb::velocity_hull::{HALF_WIDTH_MPS, VelocityHull, half_plane, half_planes};
@@ -16,16 +19,16 @@ pub fn hull_half_planes(corners_mps: &[Vec2], forward: Vec2, source: Source, fou
     found.extend(half_planes(corners_mps).map(|half_plane| rotated(half_plane, forward, source)));
 }
 
-/// Appends the sharp-turn edges for a v_pref more than 90° off the facing; none otherwise.
-pub fn sharp_turn_half_planes(edges_mps: &[[Vec2; 2]], forward: Vec2, preferred_mps: Vec2, found: &mut Vec<HalfPlane>) {
-    if preferred_mps.dot(forward) >= 0.0 {
-        return;
+/// The half-plane of the sharp-turn edge that a v_pref more than 90° off the facing meets; none otherwise, nor where the
+/// polygon has no edge that way.
+pub fn sharp_turn_half_plane(edges_mps: &[[Vec2; 2]], forward: Vec2, preferred_mps: Vec2) -> Option<HalfPlane> {
+    let wanted_mps = Vec2::new(forward.dot(preferred_mps), forward.perp_dot(preferred_mps));
+    if wanted_mps.x >= 0.0 {
+        return None;
     }
-    let turns_left = forward.perp_dot(preferred_mps) > 0.0;
-    let on_the_side_of_the_turn = |end: &Vec2| end.x < 0.0 && if turns_left { end.y >= 0.0 } else { end.y <= 0.0 };
-    for edge in edges_mps.iter().filter(|edge| edge.iter().any(on_the_side_of_the_turn)) {
-        found.extend(half_plane(edge[0], edge[1]).map(|half_plane| rotated(half_plane, forward, Source::SharpTurn)));
-    }
+    let holds = |[from, to]: &&[Vec2; 2]| from.perp_dot(wanted_mps) <= 0.0 && wanted_mps.perp_dot(*to) <= 0.0;
+    let [from, to] = edges_mps.iter().find(holds)?;
+    half_plane(*from, *to).map(|half_plane| rotated(half_plane, forward, Source::SharpTurn))
 }
 
 /// The corners of a set and the source that its half-planes carry.
@@ -90,15 +93,52 @@ mod tests {
         }
     }
 
-    #[test]
-    fn sharp_turns_bind_only_on_the_side_of_a_turn_of_more_than_90_degrees() {
-        let left = [Vec2::new(-0.4, 0.01), Vec2::new(0.0, 0.8)];
-        let right = [Vec2::new(0.0, -0.8), Vec2::new(-0.4, -0.01)];
-        for (preferred, count) in [(Vec2::X, 0), (Vec2::new(-1.0, 0.5), 1), (Vec2::new(-1.0, -0.5), 1)] {
-            let mut half_planes = Vec::new();
-            sharp_turn_half_planes(&[left, right], Vec2::X, preferred, &mut half_planes);
-            assert_eq!(half_planes.len(), count, "{preferred}");
-            assert!(permits(&half_planes, Vec2::ZERO));
+    /// A side's sharp turns as the bundled clips have them: slow on the tightest, fast on the one before, slow at 90°.
+    const LEFT: [Vec2; 4] = [Vec2::new(-0.3, 0.35), Vec2::new(-0.6, 1.6), Vec2::new(-0.01, 0.65), Vec2::new(1.1, 2.0)];
+
+    /// Edges of the wrapping polygon, clockwise from the left side's through ahead to that behind.
+    fn sharp_turn_edges() -> Vec<[Vec2; 2]> {
+        let right = LEFT.map(|corner| corner * Vec2::new(1.0, -1.0));
+        let left_edges = LEFT.windows(2).map(|edge| [edge[0], edge[1]]);
+        let right_edges = right.windows(2).rev().map(|edge| [edge[1], edge[0]]);
+        left_edges.chain(right_edges).chain([[right[0], LEFT[0]]]).collect()
+    }
+
+    /// Whether a velocity lies in a triangle that rest spans with an edge.
+    fn in_the_polygon(velocity_mps: Vec2) -> bool {
+        let left_of = |from: Vec2, to: Vec2| (to - from).perp_dot(velocity_mps - from) >= 0.0;
+        sharp_turn_edges()
+            .iter()
+            .any(|&[from, to]| left_of(to, from) && left_of(from, Vec2::ZERO) && left_of(Vec2::ZERO, to))
+    }
+
+    proptest! {
+        #[test]
+        fn towards_v_pref_a_sharp_turn_permits_just_what_the_wrapping_polygon_holds(
+            facing in -4.0f32..4.0, turn in 1.6f32..std::f32::consts::PI, left in any::<bool>(), speed_mps in 0.01f32..2.0,
+        ) {
+            let [forward, wanted] = [0.0, if left { turn } else { -turn }].map(|turn| Vec2::from_angle(facing + turn));
+            let half_plane = sharp_turn_half_plane(&sharp_turn_edges(), forward, wanted);
+            let local_mps = |speed_mps: f32| speed_mps * Vec2::from_angle(if left { turn } else { -turn });
+            prop_assume!(in_the_polygon(local_mps(speed_mps + 1e-3)) == in_the_polygon(local_mps(speed_mps - 1e-3)));
+            let permitted = half_plane.is_none_or(|half_plane| half_plane.violation_mps(speed_mps * wanted) <= 0.0);
+            prop_assert_eq!(permitted, in_the_polygon(local_mps(speed_mps)));
         }
+    }
+
+    #[test]
+    fn a_sharp_turn_leaves_standing_and_walking_on_ahead_alone() {
+        let edges_mps = sharp_turn_edges();
+        for preferred_mps in [Vec2::new(-0.7, 0.9), Vec2::new(-1.0, -1.2), -Vec2::X] {
+            let half_plane = sharp_turn_half_plane(&edges_mps, Vec2::X, preferred_mps).unwrap();
+            assert!(permits(&[half_plane], Vec2::ZERO) && permits(&[half_plane], 1.4 * Vec2::X), "{preferred_mps}");
+        }
+    }
+
+    #[test]
+    fn no_sharp_turn_binds_a_turn_of_less_than_90_degrees_or_where_no_edge_lies() {
+        let edges_mps = sharp_turn_edges();
+        assert!(sharp_turn_half_plane(&edges_mps, Vec2::X, Vec2::new(0.01, 1.0)).is_none());
+        assert!(sharp_turn_half_plane(&edges_mps[..3], Vec2::X, Vec2::new(-1.0, -0.5)).is_none());
     }
 }
