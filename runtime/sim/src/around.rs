@@ -45,13 +45,25 @@ impl Around {
         self.radius_m[lane] = radius_m;
     }
 
+    /// p_j − p_i of a lane.
+    #[inline]
+    pub fn offset_m(&self, lane: usize) -> Vec2 {
+        Vec2::new(self.x_m[lane], self.y_m[lane])
+    }
+
+    /// v_i − v_j of a lane.
+    #[inline]
+    pub fn velocity_mps(&self, lane: usize) -> Vec2 {
+        Vec2::new(self.velocity_x_mps[lane], self.velocity_y_mps[lane])
+    }
+
     /// A lane as one neighbour, met after a time.
     pub(crate) fn neighbour(&self, lane: usize, agent: u32, time_to_collision_s: f32) -> Neighbour {
-        let offset_m = Vec2::new(self.x_m[lane], self.y_m[lane]);
+        let offset_m = self.offset_m(lane);
         Neighbour {
             agent,
             offset_m,
-            velocity_mps: Vec2::new(self.velocity_x_mps[lane], self.velocity_y_mps[lane]),
+            velocity_mps: self.velocity_mps(lane),
             radius_m: self.radius_m[lane],
             distance_m: offset_m.length_squared().sqrt(),
             time_to_collision_s,
@@ -61,9 +73,7 @@ impl Around {
     /// Times to collision, were i's velocity changed by `change`, s; infinite where nobody is met.
     pub fn times_to_collision_s(&self, change_mps: Vec2) -> Lanes {
         std::array::from_fn(|lane| {
-            let offset_m = Vec2::new(self.x_m[lane], self.y_m[lane]);
-            let velocity_mps = Vec2::new(self.velocity_x_mps[lane], self.velocity_y_mps[lane]) + change_mps;
-            disc_with_disc(offset_m, velocity_mps, self.radius_m[lane])
+            disc_with_disc(self.offset_m(lane), self.velocity_mps(lane) + change_mps, self.radius_m[lane])
         })
     }
 

@@ -8,6 +8,7 @@
 
 use glam::Vec2;
 
+use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::plan::Stance;
@@ -21,6 +22,7 @@ use crate::world::World;
 pub struct Replay<'a> {
     recording: &'a Recording,
     obstacles: Obstacles,
+    constraints: MotionConstraints,
     radii_m: Vec<f32>,
 }
 
@@ -50,6 +52,7 @@ impl<'a> Replay<'a> {
         let scenario = &recording.header().scenario;
         Self {
             recording,
+            constraints: MotionConstraints::new(&recording.header().velocity_hull),
             obstacles: Obstacles::new(&scenario.obstacles_m),
             radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
         }
@@ -128,7 +131,7 @@ impl RecordedStep<'_> {
             stepping_back_s: &self.stepping_back_s,
             neighbours: &self.neighbours,
             obstacles: &self.replay.obstacles,
-            hull: &self.header().velocity_hull,
+            constraints: &self.replay.constraints,
             dt_s: self.header().scenario.dt_s,
         }
     }

@@ -22,6 +22,7 @@ use crate::decoupled;
 use crate::hms::Motion;
 use crate::hms::hybrid::Hybrid;
 use crate::hms::space::Space;
+use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::path::{self, Braking};
@@ -59,6 +60,7 @@ pub struct Simulation {
     hybrid: Option<Hybrid>,
     scenario: Scenario,
     obstacles: Obstacles,
+    constraints: MotionConstraints,
     neighbours: Neighbours,
     /// Working memory of planning.
     planned: Vec<Plan>,
@@ -73,6 +75,7 @@ impl Simulation {
         let agents = Agents::new(scenario, &motion);
         let mut simulation = Self {
             obstacles: Obstacles::new(&scenario.obstacles_m),
+            constraints: MotionConstraints::new(&db.velocity_hull),
             neighbours: Neighbours::default(),
             planned: Vec::new(),
             scenario: scenario.clone(),
@@ -139,7 +142,7 @@ impl Simulation {
             stepping_back_s: &agents.stepping_back_s,
             neighbours: &self.neighbours,
             obstacles: &self.obstacles,
-            hull: &self.db.velocity_hull,
+            constraints: &self.constraints,
             dt_s: self.scenario.dt_s,
         }
     }

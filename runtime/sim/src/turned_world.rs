@@ -8,6 +8,7 @@
 use glam::Vec2;
 use motiondb::velocity_hull::VelocityHull;
 
+use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::params::Params;
@@ -86,6 +87,7 @@ impl Scene {
         let (radii_m, obstacles) = (vec![0.25; AGENTS], Obstacles::new(&self.polygons_m));
         let mut neighbours = Neighbours::default();
         neighbours.rebuild(&self.positions_m, &self.velocities_mps, &radii_m);
+        let constraints = MotionConstraints::new(hull);
         let world = World {
             positions_m: &self.positions_m,
             velocities_mps: &self.velocities_mps,
@@ -97,7 +99,7 @@ impl Scene {
             stepping_back_s: &self.held_s[1],
             neighbours: &neighbours,
             obstacles: &obstacles,
-            hull,
+            constraints: &constraints,
             dt_s: 0.1,
         };
         plan(planner, &world, 0, &Params::default(), &mut Scratch::default())

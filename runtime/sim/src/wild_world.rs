@@ -9,11 +9,11 @@ use motiondb::pose::Root;
 use motiondb::velocity_hull::VelocityHull;
 
 use crate::cns::{as_planned, outside_walls};
-use crate::mcn::motion_constraints;
+use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::params::Params;
-use crate::plan::{Plan, Stance, StanceFoot};
+use crate::plan::{Plan, Stance, StanceFoot, VelocitySet};
 use crate::planner::{self, Planner, Scratch};
 use crate::polygon;
 use crate::split_mix::SplitMix64;
@@ -74,7 +74,8 @@ impl WildWorld {
         let mut neighbours = Neighbours::default();
         neighbours.rebuild(&self.positions_m, &self.velocities_mps, &self.radii_m);
         let obstacles = Obstacles::new(&self.polygons_m);
-        let world = self.world(&neighbours, &obstacles, hull);
+        let constraints = MotionConstraints::new(hull);
+        let world = self.world(&neighbours, &obstacles, &constraints);
         let mut scratch = Scratch::default();
         let agents = 0..self.positions_m.len();
         let planners = [Planner::Mcn, Planner::Orca, Planner::SocialForce];
@@ -87,7 +88,12 @@ impl WildWorld {
         })
     }
 
-    fn world<'a>(&'a self, neighbours: &'a Neighbours, obstacles: &'a Obstacles, hull: &'a VelocityHull) -> World<'a> {
+    fn world<'a>(
+        &'a self,
+        neighbours: &'a Neighbours,
+        obstacles: &'a Obstacles,
+        constraints: &'a MotionConstraints,
+    ) -> World<'a> {
         World {
             positions_m: &self.positions_m,
             velocities_mps: &self.velocities_mps,
@@ -99,7 +105,7 @@ impl WildWorld {
             stepping_back_s: &self.stepping_back_s,
             neighbours,
             obstacles,
-            hull,
+            constraints,
             dt_s: self.dt_s,
         }
     }
@@ -130,8 +136,8 @@ impl WildWorld {
 fn speed_limit_mps(planner: Planner, world: &World, agent: usize, params: &Params) -> f32 {
     match planner {
         Planner::Mcn => {
-            let of = |corners_mps: &[Vec2]| motion_constraints::speed_max_mps(corners_mps);
-            of(&world.hull.turning_mps).max(of(&world.hull.holding_mps))
+            let of = |set| world.constraints.set(set).speed_max_mps;
+            of(VelocitySet::Turning).max(of(VelocitySet::Holding))
         }
         Planner::Orca => params.orca.speed_max_mps,
         Planner::SocialForce => {

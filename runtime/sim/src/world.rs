@@ -4,8 +4,8 @@
 //! radians; slices are by agent.
 
 use glam::Vec2;
-use motiondb::velocity_hull::VelocityHull;
 
+use crate::mcn::motion_constraints::MotionConstraints;
 use crate::mcn::orca::Disc;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
@@ -34,8 +34,8 @@ pub struct World<'a> {
     pub neighbours: &'a Neighbours,
     /// The walls.
     pub obstacles: &'a Obstacles,
-    /// The database's velocity sets.
-    pub hull: &'a VelocityHull,
+    /// Of the database's velocity sets.
+    pub constraints: &'a MotionConstraints,
     /// Step, s.
     pub dt_s: f32,
 }

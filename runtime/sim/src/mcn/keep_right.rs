@@ -25,9 +25,8 @@ pub fn kept_right(preferred_mps: Vec2, velocity_mps: Vec2, around: &Around, para
 /// How squarely each would be met, were the velocity changed: 1 head-on, 0 at a graze and beyond.
 fn squareness(around: &Around, change_mps: Vec2) -> Lanes {
     std::array::from_fn(|lane| {
-        let offset_m = Vec2::new(around.x_m[lane], around.y_m[lane]);
-        let velocity_mps = Vec2::new(around.velocity_x_mps[lane], around.velocity_y_mps[lane]) + change_mps;
-        let miss = offset_m.perp_dot(velocity_mps) / around.radius_m[lane];
+        let velocity_mps = around.velocity_mps(lane) + change_mps;
+        let miss = around.offset_m(lane).perp_dot(velocity_mps) / around.radius_m[lane];
         (1.0 - miss * miss / velocity_mps.length_squared().max(f32::MIN_POSITIVE)).max(0.0)
     })
 }

@@ -28,6 +28,7 @@ use self::half_plane::{HalfPlane, Source};
 use self::linear_program::Solution;
 use self::orientation::{Orientation, Walk};
 use self::params::{McnParams, StanceForm};
+use crate::around::{Around, LANES, Lanes};
 use crate::neighbours::{APPROACH_MPS, Neighbour, Ranking};
 use crate::obstacles::nearest_on_segment;
 use crate::plan::{Plan, VelocitySet};
@@ -54,6 +55,7 @@ pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scrat
     look_around(world, agent, ranking, params.neighbour_range_m, wall_range_m, scratch);
     let density = adapt(world, agent, params, scratch);
     avoid(world, agent, params, scratch);
+    scratch.forward = world.forward(agent);
     let turning = choose(world, agent, VelocitySet::Turning, params, scratch);
     let orientation = orient(world, agent, turning.velocity_mps, params, scratch);
     let chosen = match orientation.set {
@@ -116,49 +118,62 @@ fn avoid(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch)
     let (edges, horizon_s) = (&scratch.edges, params.obstacle_time_horizon_s);
     let wider = orca::Disc { radius_m: own.radius_m + WALL_MARGIN_M, ..own };
     orca_obstacles::obstacle_half_planes(world.obstacles, edges, &wider, horizon_s, &mut scratch.of_walls);
+    // What differs between neighbours is found for all of them at once.
+    let around = scratch.nearest.around();
+    let shares = if params.parts.keep_right { orca::shares(own.velocity_mps, around) } else { [orca::HALF; LANES] };
+    let weights = if params.parts.order { urgencies(around) } else { [1.0; LANES] };
+    let horizons_s = horizons_against_s(own.velocity_mps, around, params);
     scratch.of_agents.clear();
-    scratch.of_agents.extend(scratch.nearest.as_slice().iter().map(|neighbour| {
-        let share = if params.parts.keep_right { orca::share(own.velocity_mps, neighbour) } else { orca::HALF };
-        let horizon_s = horizon_against_s(own.velocity_mps - neighbour.velocity_mps, params);
+    scratch.of_agents.extend(scratch.nearest.as_slice().iter().enumerate().map(|(lane, neighbour)| {
+        let (share, horizon_s) = (shares[lane], horizons_s[lane]);
         let half_plane = orca::agent_half_plane(own.velocity_mps, neighbour, share, horizon_s, world.dt_s);
-        HalfPlane { weight: if params.parts.order { urgency(neighbour) } else { 1.0 }, ..half_plane }
+        HalfPlane { weight: weights[lane], ..half_plane }
     }));
 }
 
-/// τ against somebody who moves at `other`: whoever stands is a wall, and is avoided no earlier. With τ itself, nobody gets
-/// through the gaps between those who stand at their goals: at rest each of them bounds the approach to gap/τ.
-fn horizon_against_s(other_mps: Vec2, params: &McnParams) -> f32 {
-    let walks = (other_mps.length() / SLOW_WALK_MPS).min(1.0);
-    params.obstacle_time_horizon_s + walks * (params.time_horizon_s - params.obstacle_time_horizon_s)
+/// τ against each: whoever stands is a wall, and is avoided no earlier. With τ itself, nobody gets through the gaps
+/// between those who stand at their goals: at rest each of them bounds the approach to gap/τ.
+fn horizons_against_s(own_mps: Vec2, around: &Around, params: &McnParams) -> Lanes {
+    std::array::from_fn(|lane| {
+        let other_mps = own_mps - around.velocity_mps(lane);
+        let walks = (other_mps.length_squared().sqrt() / SLOW_WALK_MPS).min(1.0);
+        params.obstacle_time_horizon_s + walks * (params.time_horizon_s - params.obstacle_time_horizon_s)
+    })
 }
 
 /// The order of yielding (App. 9.4): 1 for whoever is touched, less the later somebody may be met. Time to collision
 /// itself jumps to infinity as soon as somebody is avoided; this is the time that the neighbours' ranking goes by.
-fn urgency(neighbour: &Neighbour) -> f32 {
-    let gap_m = (neighbour.distance_m - neighbour.radius_m).max(0.0);
-    let closing = neighbour.velocity_mps.dot(neighbour.offset_m) / neighbour.distance_m.max(f32::MIN_POSITIVE);
-    REACTION_S / (REACTION_S + gap_m / (closing.max(0.0) + APPROACH_MPS))
+fn urgencies(around: &Around) -> Lanes {
+    std::array::from_fn(|lane| {
+        let offset_m = around.offset_m(lane);
+        let distance_m = offset_m.length_squared().sqrt();
+        let gap_m = (distance_m - around.radius_m[lane]).max(0.0);
+        let closing = around.velocity_mps(lane).dot(offset_m) / distance_m.max(f32::MIN_POSITIVE);
+        REACTION_S / (REACTION_S + gap_m / (closing.max(0.0) + APPROACH_MPS))
+    })
 }
 
 /// Eqs. 13, 14: all half-planes by rank, what never yields first, and the best velocity.
 fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scratch: &mut Scratch) -> Solution {
-    let (forward, parts) = (world.forward(agent), &params.parts);
-    let (corners_mps, source) = motion_constraints::set(world.hull, set);
+    let forward = scratch.forward;
+    let (parts, allowed) = (&params.parts, world.constraints.set(set));
+    let source = match set {
+        VelocitySet::Turning => Source::TurningHull,
+        VelocitySet::Holding => Source::HoldingHull,
+    };
     let half_planes = &mut scratch.half_planes;
     half_planes.clear();
     half_planes.extend_from_slice(&scratch.of_walls);
     half_planes.extend(of_stance(world, agent, params));
     if parts.sharp_turns && set == VelocitySet::Turning {
-        let edges_mps = &world.hull.sharp_turn_edges_mps;
-        half_planes.extend(motion_constraints::sharp_turn_half_plane(edges_mps, forward, world.preferred_mps[agent]));
+        half_planes.extend(world.constraints.sharp_turn(forward, world.preferred_mps[agent]));
     }
     if parts.hull {
-        motion_constraints::hull_half_planes(corners_mps, forward, source, half_planes);
+        half_planes.extend(allowed.half_planes(forward, source));
     }
     let firm = half_planes.len();
     half_planes.extend_from_slice(&scratch.of_agents);
-    let speed_max_mps = motion_constraints::speed_max_mps(corners_mps);
-    linear_program::solve(half_planes, firm, scratch.adapted_mps, speed_max_mps, &mut scratch.projected)
+    linear_program::solve(half_planes, firm, scratch.adapted_mps, allowed.speed_max_mps, &mut scratch.projected)
 }
 
 /// C_bm.
@@ -176,25 +191,22 @@ fn of_stance(world: &World, agent: usize, params: &McnParams) -> Option<HalfPlan
 }
 
 /// §4.5, given the velocity that the turning set allows.
-fn orient(world: &World, agent: usize, velocity_mps: Vec2, params: &McnParams, scratch: &mut Scratch) -> Orientation {
+fn orient(world: &World, agent: usize, velocity_mps: Vec2, params: &McnParams, scratch: &Scratch) -> Orientation {
     let walk = Walk {
-        forward: world.forward(agent),
+        forward: scratch.forward,
         preferred_mps: world.preferred_mps[agent],
         velocity_mps,
         strafing_s: world.strafing_s[agent],
         stepping_back_s: world.stepping_back_s[agent],
     };
-    let corners_mps = &world.hull.holding_mps;
     if !params.parts.orientation {
         return orientation::along_the_velocity(&walk);
     }
     // The paper knows no stepping back: its set was spanned by bodies that turn.
-    let back_pedalling = params.parts.back_pedalling && world.hull.construction != Construction::Paper;
+    let back_pedalling = params.parts.back_pedalling && world.constraints.construction != Construction::Paper;
     let may_hold = back_pedalling || walk.preferred_mps.dot(velocity_mps) >= 0.0;
-    let holds = |facing| {
-        let outside_mps = motion_constraints::outside_mps(corners_mps, facing, velocity_mps, &mut scratch.projected);
-        may_hold && outside_mps <= orientation::HOLDING_SLACK_MPS
-    };
+    let held = world.constraints.set(VelocitySet::Holding);
+    let holds = |facing| may_hold && held.outside_mps(facing, velocity_mps) <= orientation::HOLDING_SLACK_MPS;
     orientation::decide(&walk, holds, world.dt_s, params)
 }
 

@@ -9,47 +9,88 @@
 //! holds; all edges of a side at once forbid most of that side, and walking on ahead with it.
 
 use glam::Vec2;
-use motiondb::velocity_hull::{HALF_WIDTH_MPS, VelocityHull, half_plane, half_planes};
+use motiondb::velocity_hull::{Construction, HALF_WIDTH_MPS, VelocityHull, half_plane, half_planes};
 
 use super::half_plane::{HalfPlane, Source};
 use crate::plan::VelocitySet;
 
-/// Eqs. 4, 5: appends a set's half-planes, in world axes; `forward` is the agent's facing.
-pub fn hull_half_planes(corners_mps: &[Vec2], forward: Vec2, source: Source, found: &mut Vec<HalfPlane>) {
-    found.extend(half_planes(corners_mps).map(|half_plane| rotated(half_plane, forward, source)));
+/// What a database's velocity sets forbid, in the agent's frame, ready to be rotated: found once, used by every plan.
+#[derive(Clone, Debug)]
+pub struct MotionConstraints {
+    /// How the sets were built.
+    pub construction: Construction,
+    turning: ConvexSet,
+    holding: ConvexSet,
+    sharp_turn_edges_mps: Vec<[Vec2; 2]>,
 }
 
-/// The half-plane of the sharp-turn edge that a v_pref more than 90° off the facing meets; none otherwise, nor where the
-/// polygon has no edge that way.
-pub fn sharp_turn_half_plane(edges_mps: &[[Vec2; 2]], forward: Vec2, preferred_mps: Vec2) -> Option<HalfPlane> {
-    let wanted_mps = Vec2::new(forward.dot(preferred_mps), forward.perp_dot(preferred_mps));
-    if wanted_mps.x >= 0.0 {
-        return None;
+/// A convex set of velocities in the agent's frame.
+#[derive(Clone, Debug)]
+pub struct ConvexSet {
+    /// Eqs. 4, 5: a point and a unit direction for each edge; permitted is the left.
+    half_planes: Vec<(Vec2, Vec2)>,
+    /// The greatest speed, m/s.
+    pub speed_max_mps: f32,
+}
+
+impl MotionConstraints {
+    /// The constraints of a database.
+    pub fn new(hull: &VelocityHull) -> Self {
+        Self {
+            construction: hull.construction,
+            turning: ConvexSet::new(&hull.turning_mps),
+            holding: ConvexSet::new(&hull.holding_mps),
+            sharp_turn_edges_mps: hull.sharp_turn_edges_mps.clone(),
+        }
     }
-    let holds = |[from, to]: &&[Vec2; 2]| from.perp_dot(wanted_mps) <= 0.0 && wanted_mps.perp_dot(*to) <= 0.0;
-    let [from, to] = edges_mps.iter().find(holds)?;
-    half_plane(*from, *to).map(|half_plane| rotated(half_plane, forward, Source::SharpTurn))
-}
 
-/// The corners of a set and the source that its half-planes carry.
-pub fn set(hull: &VelocityHull, set: VelocitySet) -> (&[Vec2], Source) {
-    match set {
-        VelocitySet::Turning => (&hull.turning_mps, Source::TurningHull),
-        VelocitySet::Holding => (&hull.holding_mps, Source::HoldingHull),
+    /// One of the two sets.
+    pub fn set(&self, set: VelocitySet) -> &ConvexSet {
+        match set {
+            VelocitySet::Turning => &self.turning,
+            VelocitySet::Holding => &self.holding,
+        }
+    }
+
+    /// The half-plane of the sharp-turn edge that a v_pref more than 90° off the facing meets; none otherwise, nor where
+    /// the polygon has no edge that way.
+    pub fn sharp_turn(&self, forward: Vec2, preferred_mps: Vec2) -> Option<HalfPlane> {
+        let wanted_mps = local(preferred_mps, forward);
+        if wanted_mps.x >= 0.0 {
+            return None;
+        }
+        let holds = |[from, to]: &&[Vec2; 2]| from.perp_dot(wanted_mps) <= 0.0 && wanted_mps.perp_dot(*to) <= 0.0;
+        let [from, to] = self.sharp_turn_edges_mps.iter().find(holds)?;
+        half_plane(*from, *to).map(|half_plane| rotated(half_plane, forward, Source::SharpTurn))
     }
 }
 
-/// How far outside a set a velocity lies, m/s, for a body that faces `forward`; negative inside.
-pub fn outside_mps(corners_mps: &[Vec2], forward: Vec2, velocity_mps: Vec2, scratch: &mut Vec<HalfPlane>) -> f32 {
-    scratch.clear();
-    hull_half_planes(corners_mps, forward, Source::HoldingHull, scratch);
-    scratch.iter().map(|half_plane| half_plane.violation_mps(velocity_mps)).fold(f32::NEG_INFINITY, f32::max)
+impl ConvexSet {
+    /// The set of some corners, clockwise.
+    pub fn new(corners_mps: &[Vec2]) -> Self {
+        let squared = corners_mps.iter().map(|corner_mps| corner_mps.length_squared());
+        Self {
+            half_planes: half_planes(corners_mps).collect(),
+            speed_max_mps: squared.fold(HALF_WIDTH_MPS * HALF_WIDTH_MPS, f32::max).sqrt(),
+        }
+    }
+
+    /// The set's half-planes in world axes; `forward` is the agent's facing.
+    pub fn half_planes(&self, forward: Vec2, source: Source) -> impl Iterator<Item = HalfPlane> {
+        self.half_planes.iter().map(move |&half_plane| rotated(half_plane, forward, source))
+    }
+
+    /// How far outside a velocity lies, m/s, for a body that faces `forward`; negative inside.
+    pub fn outside_mps(&self, forward: Vec2, velocity_mps: Vec2) -> f32 {
+        let velocity_mps = local(velocity_mps, forward);
+        let outside_mps = |&(point_mps, direction): &(Vec2, Vec2)| direction.perp_dot(point_mps - velocity_mps);
+        self.half_planes.iter().map(outside_mps).fold(f32::NEG_INFINITY, f32::max)
+    }
 }
 
-/// The greatest speed of a set, m/s.
-pub fn speed_max_mps(corners_mps: &[Vec2]) -> f32 {
-    let squared = corners_mps.iter().map(|corner_mps| corner_mps.length_squared());
-    squared.fold(HALF_WIDTH_MPS * HALF_WIDTH_MPS, f32::max).sqrt()
+/// From the world's axes to the agent's frame.
+fn local(velocity_mps: Vec2, forward: Vec2) -> Vec2 {
+    Vec2::new(forward.dot(velocity_mps), forward.perp_dot(velocity_mps))
 }
 
 /// From the agent's frame to the world's axes.
@@ -70,14 +111,28 @@ mod tests {
         half_planes.iter().all(|half_plane| half_plane.violation_mps(velocity_mps) <= 0.0)
     }
 
+    fn world_half_planes(corners_mps: &[Vec2], forward: Vec2) -> Vec<HalfPlane> {
+        ConvexSet::new(corners_mps).half_planes(forward, Source::TurningHull).collect()
+    }
+
     proptest! {
+        #[test]
+        fn a_velocity_is_as_far_outside_in_the_agents_frame_as_in_the_worlds(
+            facing in -4.0f32..4.0, x in -3.0f32..3.0, y in -3.0f32..3.0,
+        ) {
+            let (forward, velocity_mps) = (Vec2::from_angle(facing), Vec2::new(x, y));
+            let in_world = world_half_planes(&KITE, forward);
+            let in_world_mps = in_world.iter().map(|half_plane| half_plane.violation_mps(velocity_mps));
+            let in_world_mps = in_world_mps.fold(f32::NEG_INFINITY, f32::max);
+            prop_assert!((ConvexSet::new(&KITE).outside_mps(forward, velocity_mps) - in_world_mps).abs() < 1e-5);
+        }
+
         #[test]
         fn permits_the_inside_of_the_rotated_set(facing in -4.0f32..4.0, x in -3.0f32..3.0, y in -3.0f32..3.0) {
             let (sin, cos) = libm::sincosf(facing);
             let local = Vec2::new(x, y);
             let inside = y.abs() / 0.8 + if x > 0.0 { x / 2.0 } else { -x / 0.4 } <= 1.0;
-            let mut half_planes = Vec::new();
-            hull_half_planes(&KITE, Vec2::new(cos, sin), Source::TurningHull, &mut half_planes);
+            let half_planes = world_half_planes(&KITE, Vec2::new(cos, sin));
             let edge = (y.abs() / 0.8 + if x > 0.0 { x / 2.0 } else { -x / 0.4 } - 1.0).abs() < 1e-4;
             prop_assert!(edge || permits(&half_planes, Vec2::new(cos, sin).rotate(local)) == inside);
         }
@@ -86,8 +141,7 @@ mod tests {
     #[test]
     fn a_set_of_one_or_two_corners_permits_standing_and_walking_along_it() {
         for corners_mps in [vec![Vec2::new(1.2, 0.0)], vec![Vec2::ZERO, Vec2::new(1.2, 0.0)]] {
-            let mut half_planes = Vec::new();
-            hull_half_planes(&corners_mps, Vec2::Y, Source::TurningHull, &mut half_planes);
+            let half_planes = world_half_planes(&corners_mps, Vec2::Y);
             assert!(permits(&half_planes, Vec2::ZERO) && permits(&half_planes, Vec2::new(0.0, 1.2)));
             assert!(!permits(&half_planes, Vec2::new(0.1, 0.6)) && !permits(&half_planes, Vec2::new(0.0, -0.1)));
         }
@@ -104,6 +158,10 @@ mod tests {
         left_edges.chain(right_edges).chain([[right[0], LEFT[0]]]).collect()
     }
 
+    fn sharp_turns(edges_mps: &[[Vec2; 2]]) -> MotionConstraints {
+        MotionConstraints::new(&VelocityHull { sharp_turn_edges_mps: edges_mps.to_vec(), ..VelocityHull::default() })
+    }
+
     /// Whether a velocity lies in a triangle that rest spans with an edge.
     fn in_the_polygon(velocity_mps: Vec2) -> bool {
         let left_of = |from: Vec2, to: Vec2| (to - from).perp_dot(velocity_mps - from) >= 0.0;
@@ -118,7 +176,7 @@ mod tests {
             facing in -4.0f32..4.0, turn in 1.6f32..std::f32::consts::PI, left in any::<bool>(), speed_mps in 0.01f32..2.0,
         ) {
             let [forward, wanted] = [0.0, if left { turn } else { -turn }].map(|turn| Vec2::from_angle(facing + turn));
-            let half_plane = sharp_turn_half_plane(&sharp_turn_edges(), forward, wanted);
+            let half_plane = sharp_turns(&sharp_turn_edges()).sharp_turn(forward, wanted);
             let local_mps = |speed_mps: f32| speed_mps * Vec2::from_angle(if left { turn } else { -turn });
             prop_assume!(in_the_polygon(local_mps(speed_mps + 1e-3)) == in_the_polygon(local_mps(speed_mps - 1e-3)));
             let permitted = half_plane.is_none_or(|half_plane| half_plane.violation_mps(speed_mps * wanted) <= 0.0);
@@ -130,7 +188,7 @@ mod tests {
     fn a_sharp_turn_leaves_standing_and_walking_on_ahead_alone() {
         let edges_mps = sharp_turn_edges();
         for preferred_mps in [Vec2::new(-0.7, 0.9), Vec2::new(-1.0, -1.2), -Vec2::X] {
-            let half_plane = sharp_turn_half_plane(&edges_mps, Vec2::X, preferred_mps).unwrap();
+            let half_plane = sharp_turns(&edges_mps).sharp_turn(Vec2::X, preferred_mps).unwrap();
             assert!(permits(&[half_plane], Vec2::ZERO) && permits(&[half_plane], 1.4 * Vec2::X), "{preferred_mps}");
         }
     }
@@ -138,7 +196,7 @@ mod tests {
     #[test]
     fn no_sharp_turn_binds_a_turn_of_less_than_90_degrees_or_where_no_edge_lies() {
         let edges_mps = sharp_turn_edges();
-        assert!(sharp_turn_half_plane(&edges_mps, Vec2::X, Vec2::new(0.01, 1.0)).is_none());
-        assert!(sharp_turn_half_plane(&edges_mps[..3], Vec2::X, Vec2::new(-1.0, -0.5)).is_none());
+        assert!(sharp_turns(&edges_mps).sharp_turn(Vec2::X, Vec2::new(0.01, 1.0)).is_none());
+        assert!(sharp_turns(&edges_mps[..3]).sharp_turn(Vec2::X, Vec2::new(-1.0, -0.5)).is_none());
     }
 }

@@ -12,6 +12,7 @@
 use glam::Vec2;
 
 use super::half_plane::{HalfPlane, Source};
+use crate::around::{Around, Lanes};
 use crate::neighbours::Neighbour;
 
 /// A disc in motion.
@@ -32,17 +33,22 @@ const YIELD_TO_LEFT: f32 = 0.2;
 /// Speeds in sum below which nobody comes from a side, m/s.
 const STANDING_MPS: f32 = 0.1;
 
-/// The share of u that i takes, ½ on average: more where j comes from its left, as in a roundabout of those who keep
+/// The shares of u that i takes, ½ on average: more where j comes from its left, as in a roundabout of those who keep
 /// right.
 ///
 /// The shares of both add up to 1, so together they still avoid each other. With ½ each, those who meet at a centre
 /// from all around brake alike until they stand. The sine of the angle between p and v_i + v_j changes its sign when i
 /// and j are exchanged.
-pub fn share(own_mps: Vec2, other: &Neighbour) -> f32 {
-    let other_mps = own_mps - other.velocity_mps;
-    let speeds_mps = own_mps.length_squared().sqrt() + other_mps.length_squared().sqrt();
-    let from_right = other.offset_m.perp_dot(own_mps + other_mps);
-    HALF - YIELD_TO_LEFT * from_right / (other.distance_m * speeds_mps.max(STANDING_MPS)).max(f32::MIN_POSITIVE)
+pub fn shares(own_mps: Vec2, around: &Around) -> Lanes {
+    let own_speed_mps = own_mps.length_squared().sqrt();
+    std::array::from_fn(|lane| {
+        let offset_m = around.offset_m(lane);
+        let other_mps = own_mps - around.velocity_mps(lane);
+        let speeds_mps = own_speed_mps + other_mps.length_squared().sqrt();
+        let from_right = offset_m.perp_dot(own_mps + other_mps);
+        let scale = offset_m.length_squared().sqrt() * speeds_mps.max(STANDING_MPS);
+        HALF - YIELD_TO_LEFT * from_right / scale.max(f32::MIN_POSITIVE)
+    })
 }
 
 /// C_ij: the velocities of i, which walks at `own`, that do their share of avoiding j for `horizon`.
@@ -125,11 +131,15 @@ mod tests {
         }
     }
 
+    fn share(own: &Disc, other: &Disc) -> f32 {
+        let (seen, mut around) = (seen(own, other), Around::default());
+        around.put(0, seen.offset_m, seen.velocity_mps, seen.radius_m);
+        shares(own.velocity_mps, &around)[0]
+    }
+
     fn both_half_planes(own: &Disc, other: &Disc) -> [HalfPlane; 2] {
-        [(own, other), (other, own)].map(|(a, b)| {
-            let b = seen(a, b);
-            agent_half_plane(a.velocity_mps, &b, share(a.velocity_mps, &b), HORIZON_S, DT_S)
-        })
+        [(own, other), (other, own)]
+            .map(|(a, b)| agent_half_plane(a.velocity_mps, &seen(a, b), share(a, b), HORIZON_S, DT_S))
     }
 
     proptest! {
@@ -174,7 +184,7 @@ mod tests {
 
         #[test]
         fn shares_add_up_to_one(own in disc(), other in disc()) {
-            let [first, second] = [(&own, &other), (&other, &own)].map(|(a, b)| share(a.velocity_mps, &seen(a, b)));
+            let [first, second] = [(&own, &other), (&other, &own)].map(|(a, b)| share(a, b));
             prop_assert!((first + second - 1.0).abs() < 1e-5 && (0.29..0.71).contains(&first));
         }
 
@@ -196,7 +206,6 @@ mod tests {
     fn who_comes_from_the_left_is_given_more() {
         let own = Disc { position_m: Vec2::ZERO, velocity_mps: Vec2::X, radius_m: 0.25 };
         let from_left = Disc { position_m: Vec2::new(2.0, 2.0), velocity_mps: -Vec2::Y, radius_m: 0.25 };
-        let share = |a: &Disc, b: &Disc| share(a.velocity_mps, &seen(a, b));
         assert!(share(&own, &from_left) > 0.6 && share(&from_left, &own) < 0.4);
     }
 }

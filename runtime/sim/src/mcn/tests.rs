@@ -2,6 +2,7 @@
 
 use motiondb::velocity_hull::VelocityHull;
 
+use super::motion_constraints::MotionConstraints;
 use super::params::Parts;
 use super::*;
 use crate::neighbours::Neighbours;
@@ -70,7 +71,7 @@ impl Scene {
             stepping_back_s: &vec![0.0; count],
             neighbours: &neighbours,
             obstacles: &self.obstacles,
-            hull: &hull,
+            constraints: &MotionConstraints::new(&hull),
             dt_s: 0.1,
         };
         plan(planner, &world, 0, &self.params, scratch)

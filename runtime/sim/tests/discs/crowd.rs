@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use fbcrowd_sim::mcn::motion_constraints::MotionConstraints;
 use fbcrowd_sim::neighbours::Neighbours;
 use fbcrowd_sim::obstacles::Obstacles;
 use fbcrowd_sim::params::Params;
@@ -152,7 +153,7 @@ impl Crowd {
             stepping_back_s: &stepping_back_s,
             neighbours: &self.neighbours,
             obstacles: setting.walls,
-            hull: setting.hull,
+            constraints: &MotionConstraints::new(setting.hull),
             dt_s: setting.dt_s,
         };
         let mut scratch = Scratch::default();
