@@ -8,7 +8,6 @@
 //! that the driving force, drawn alike, would end at v_pref.
 
 use fbcrowd_sim::mcn::half_plane::{HalfPlane, Source};
-use fbcrowd_sim::mcn::motion_constraints;
 use fbcrowd_sim::plan::VelocitySet;
 use fbcrowd_sim::planner::Planner;
 use glam::Vec2;
@@ -152,8 +151,9 @@ impl VelocitySpace<'_> {
     fn draw_sets(&mut self) {
         let hull = &self.planned.step.header().velocity_hull;
         let forward = self.forward();
-        for set in [VelocitySet::Holding, VelocitySet::Turning] {
-            let (corners_mps, source) = motion_constraints::set(hull, set);
+        let sets = [(VelocitySet::Holding, &hull.holding_mps), (VelocitySet::Turning, &hull.turning_mps)];
+        for (set, corners_mps) in sets {
+            let source = Source::from(set);
             let in_force = self.half_planes().any(|half_plane| half_plane.source == source);
             let (fill, width_px, opacity) = if in_force { (0.10, 3.0, 1.0) } else { (0.03, 1.2, 0.6) };
             let outline = Line { opacity, ..self.line(colour(source), width_px) };

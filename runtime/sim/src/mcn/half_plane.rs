@@ -5,6 +5,8 @@
 
 use glam::Vec2;
 
+use crate::plan::VelocitySet;
+
 /// What a half-plane stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
@@ -20,6 +22,16 @@ pub enum Source {
     HoldingHull,
     /// Another agent, by index: C_ij.
     Agent(u32),
+}
+
+impl From<VelocitySet> for Source {
+    /// What the edges of a set carry.
+    fn from(set: VelocitySet) -> Self {
+        match set {
+            VelocitySet::Turning => Self::TurningHull,
+            VelocitySet::Holding => Self::HoldingHull,
+        }
+    }
 }
 
 /// Velocities on the left of a directed line.

@@ -157,10 +157,6 @@ fn urgencies(around: &Around) -> Lanes {
 fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scratch: &mut Scratch) -> Solution {
     let forward = scratch.forward;
     let (parts, allowed) = (&params.parts, world.constraints.set(set));
-    let source = match set {
-        VelocitySet::Turning => Source::TurningHull,
-        VelocitySet::Holding => Source::HoldingHull,
-    };
     let half_planes = &mut scratch.half_planes;
     half_planes.clear();
     half_planes.extend_from_slice(&scratch.of_walls);
@@ -169,7 +165,7 @@ fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scr
         half_planes.extend(world.constraints.sharp_turn(forward, world.preferred_mps[agent]));
     }
     if parts.hull {
-        half_planes.extend(allowed.half_planes(forward, source));
+        half_planes.extend(allowed.half_planes(forward, set.into()));
     }
     let firm = half_planes.len();
     half_planes.extend_from_slice(&scratch.of_agents);
