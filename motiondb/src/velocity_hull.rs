@@ -28,7 +28,7 @@ pub enum Construction {
     /// The paper's alone, for comparison: the turning set bounds every velocity, side-stepping and backward examples
     /// bound none, and bodies do not step back. What the paper leaves open is as in the other: which side speeds count
     /// as 0, that the origin counts (the paper's own set has a standing example there), how the wrapping polygon is
-    /// built, and that of its sharp-turn edges only those on the side of the turn apply.
+    /// built, and that of its sharp-turn edges only the one that the turn meets applies.
     Paper,
 }
 

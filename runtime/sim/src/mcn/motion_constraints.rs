@@ -185,12 +185,18 @@ mod tests {
     }
 
     #[test]
-    fn a_sharp_turn_leaves_standing_and_walking_on_ahead_alone() {
+    fn the_edge_that_a_tight_turn_meets_leaves_standing_and_walking_on_alone_which_the_next_does_not() {
         let edges_mps = sharp_turn_edges();
-        for preferred_mps in [Vec2::new(-0.7, 0.9), Vec2::new(-1.0, -1.2), -Vec2::X] {
-            let half_plane = sharp_turns(&edges_mps).sharp_turn(Vec2::X, preferred_mps).unwrap();
-            assert!(permits(&[half_plane], Vec2::ZERO) && permits(&[half_plane], 1.4 * Vec2::X), "{preferred_mps}");
+        let permits_walking = |half_plane: HalfPlane| {
+            assert!(permits(&[half_plane], Vec2::ZERO));
+            permits(&[half_plane], 1.4 * Vec2::X)
+        };
+        for preferred_mps in [Vec2::new(-0.7, 0.9), Vec2::new(-0.7, -0.9), -Vec2::X] {
+            let met = sharp_turns(&edges_mps).sharp_turn(Vec2::X, preferred_mps).unwrap();
+            assert!(permits_walking(met), "{preferred_mps}");
         }
+        let next = half_plane(edges_mps[1][0], edges_mps[1][1]).unwrap();
+        assert!(!permits_walking(rotated(next, Vec2::X, Source::SharpTurn)));
     }
 
     #[test]
