@@ -58,7 +58,12 @@ impl Scene {
             construction: self.construction,
             turning_mps: kite(1.8, 1.0, 0.5),
             holding_mps: kite(1.8, 0.8, 0.8),
-            sharp_turn_edges_mps: vec![[Vec2::new(-0.1, 0.2), Vec2::new(0.0, 1.0)]],
+            // Behind, nothing is faster than 0.1 m/s.
+            sharp_turn_edges_mps: vec![
+                [Vec2::new(-0.1, 0.2), Vec2::new(0.0, 1.0)],
+                [Vec2::new(0.0, -1.0), Vec2::new(-0.1, -0.2)],
+                [Vec2::new(-0.1, -0.2), Vec2::new(-0.1, 0.2)],
+            ],
         };
         let world = World {
             positions_m: &self.positions_m,
