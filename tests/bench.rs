@@ -163,3 +163,18 @@ fn the_stages_of_a_frame_are_timed_for_each_circle() {
     assert_eq!(found["circles"].as_array().unwrap().len(), 4);
     assert!(found["bytes_per_agent"].as_u64().unwrap() <= 4096);
 }
+
+#[test]
+fn bodies_of_three_walks_do_what_is_asked_and_follow() {
+    let clips = folder("bench_blend");
+    for clip in ["walk_080.bvh", "walk_110.bvh", "walk_140.bvh"] {
+        fs::copy(repository().join("assets/clips").join(clip), clips.join(clip)).unwrap();
+    }
+    let database = clips.join("walks.fbdb");
+    fbcrowd(&["compile", text(&clips), "-o", text(&database)]).expect_code(0);
+    let blend = check_bars(&["bench", "blend", "--db", text(&database), "--json"]);
+    assert_eq!(blend["runs"].as_array().unwrap().len(), 3);
+    assert!(blend["runs"][0]["points"].as_array().unwrap().len() > 8);
+    let tracking = check_bars(&["bench", "tracking", "--db", text(&database), "--json"]);
+    assert!(tracking["changes"].as_array().unwrap().len() >= 3 * 6, "{tracking}");
+}

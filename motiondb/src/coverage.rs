@@ -128,7 +128,7 @@ fn gaits(db: &MotionDb) -> Vec<ThinPlace> {
         false => "No clip runs straight on.".to_owned(),
     };
     let lacks = [
-        (stands, Lack::Standing, "No clip stands: bodies never stop.".to_owned()),
+        (stands, Lack::Standing, "No clip stands: bodies stand as in the middle of their slowest steps.".to_owned()),
         (
             straight(db).any(|speed| (MOVES_MPS..RUN_MPS).contains(&speed)),
             Lack::Walking,

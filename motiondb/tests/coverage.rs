@@ -40,7 +40,7 @@ fn a_single_walk_lacks_all_but_walking() {
     check(
         &set(&[[1.2, 0.0, 0.0]], 0, &[0]),
         &[
-            (Lack::Standing, "No clip stands: bodies never stop."),
+            (Lack::Standing, "No clip stands: bodies stand as in the middle of their slowest steps."),
             (Lack::Running, "No clip runs straight on: the fastest makes 1.20 m/s."),
             (Lack::Backward, "No clip walks straight back: bodies cannot step back."),
             (Lack::WalkingTurns, "At walking speed (1.20 m/s) nothing turns to either side."),

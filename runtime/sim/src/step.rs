@@ -22,6 +22,7 @@ use crate::decoupled;
 use crate::hms::Motion;
 use crate::hms::hybrid::Hybrid;
 use crate::hms::space::Space;
+use crate::hms::standing;
 use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
@@ -70,6 +71,7 @@ pub struct Simulation {
 impl Simulation {
     /// At time 0: every agent stands at its start.
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
+        let db = standing::provided(db);
         let (space, hybrid) = (Space::new(&db), Hybrid::new(&db, scenario.modes()));
         let motion = Motion { db: &db, space: &space, hybrid: hybrid.as_ref(), params: &scenario.params.synthesis };
         let agents = Agents::new(scenario, &motion);

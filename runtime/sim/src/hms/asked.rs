@@ -15,7 +15,7 @@
 //! turns. The root then moves from what it does towards what is asked at limited accelerations, straight through the
 //! space of parameters: the body passes the examples between.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
 
 use super::params::HmsParams;
@@ -30,28 +30,51 @@ pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) ->
         return Parameters::default();
     }
     let turn_rad = wrap_rad(plan.facing_rad - facing_rad);
-    let velocity_mps = plan.velocity_mps.clamp_length_max(space.speed_max_mps);
-    let wanted_mps = Vec2::from_angle(-plan.facing_rad).rotate(velocity_mps) * libm::cosf(turn_rad).max(0.0);
+    let velocity_mps = plan.velocity_mps * libm::cosf(turn_rad).max(0.0);
+    let wanted_mps = Vec2::from_angle(-plan.facing_rad).rotate(velocity_mps.clamp_length_max(space.speed_max_mps));
     let turn_rate_rad_s = (turn_rad / params.turn_time_s).clamp(-space.turn_rate_max_rad_s, space.turn_rate_max_rad_s);
-    Parameters { speed_mps: wanted_mps.x, turn_rate_rad_s, strafe_mps: wanted_mps.y }
+    // Who has no side-steps is asked for none: the nearest to them that turning clips have leads elsewhere.
+    let [right_mps, left_mps] = space.strafe_mps;
+    Parameters { speed_mps: wanted_mps.x, turn_rate_rad_s, strafe_mps: wanted_mps.y.clamp(right_mps, left_mps) }
 }
 
-/// What a plan asks of semi-procedural locomotion, which can do it: the planned velocity itself, whatever the facing.
-pub fn asked_exactly(plan: &Plan, facing_rad: f32, semi_procedural: &SemiProcedural, params: &HmsParams) -> Parameters {
+/// What a plan asks of semi-procedural locomotion, which can do it: the planned velocity itself, whatever the facing. The
+/// body turns by `turning_rad` meanwhile, and its way lies along the facing at half of that.
+pub fn asked_exactly(
+    plan: &Plan,
+    facing_rad: f32,
+    turning_rad: f32,
+    semi_procedural: &SemiProcedural,
+    params: &HmsParams,
+) -> Parameters {
     if !(plan.velocity_mps.is_finite() && plan.facing_rad.is_finite()) {
         return Parameters::default();
     }
-    let local_mps = Vec2::from_angle(-facing_rad).rotate(plan.velocity_mps);
+    let local_mps = Vec2::from_angle(-facing_rad - 0.5 * turning_rad).rotate(plan.velocity_mps);
     let turn_rate_rad_s = wrap_rad(plan.facing_rad - facing_rad) / params.turn_time_s;
     semi_procedural.reachable(Parameters { speed_mps: local_mps.x, turn_rate_rad_s, strafe_mps: local_mps.y })
 }
 
 /// The point on the straight way from `now` to `goal` that a body may reach in one step.
 pub fn step_towards(now: Parameters, goal: Parameters, params: &HmsParams, dt_s: f32) -> Parameters {
+    let [of_velocity, of_turn] = fractions(now, goal, params, dt_s);
     let change = goal.to_vec3() - now.to_vec3();
-    let speed_change_mps = Vec2::new(change.x, change.z).length();
+    Parameters::from_vec3(now.to_vec3() + of_velocity.min(of_turn) * change)
+}
+
+/// The same, turning and walking each as far as it may: m_sp knows no examples between.
+pub fn step_apart(now: Parameters, goal: Parameters, params: &HmsParams, dt_s: f32) -> Parameters {
+    let [of_velocity, of_turn] = fractions(now, goal, params, dt_s);
+    let change = goal.to_vec3() - now.to_vec3();
+    Parameters::from_vec3(now.to_vec3() + Vec3::new(of_velocity, of_turn, of_velocity) * change)
+}
+
+/// How much of a change of velocity, and of one of turn rate, a body may make in one step.
+fn fractions(now: Parameters, goal: Parameters, params: &HmsParams, dt_s: f32) -> [f32; 2] {
+    let change = goal.to_vec3() - now.to_vec3();
     let within = |change: f32, change_max: f32| if change <= change_max { 1.0 } else { change_max / change };
-    let fraction = within(speed_change_mps, params.acceleration_max_mps2 * dt_s)
-        .min(within(change.y.abs(), params.turn_acceleration_max_rad_s2 * dt_s));
-    Parameters::from_vec3(now.to_vec3() + fraction * change)
+    [
+        within(Vec2::new(change.x, change.z).length(), params.acceleration_max_mps2 * dt_s),
+        within(change.y.abs(), params.turn_acceleration_max_rad_s2 * dt_s),
+    ]
 }

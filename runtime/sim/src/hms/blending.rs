@@ -25,17 +25,20 @@ pub const MIX_MAX: usize = 8;
 /// Shares under this are let go, so that an example that has faded out is no longer sampled.
 const SHARE_MIN: f32 = 1e-4;
 
-/// The examples that a body plays, with their shares of time; sparse, without heap.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// The examples that a body plays, with their shares of time, and how fast; sparse, without heap.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mix {
     entries: [(u32, f32); MIX_MAX],
     count: usize,
+    /// Of the examples' own time, 1 but for the slowest steps ([`super::gait`]): root and phase are slowed alike, so
+    /// planted feet hold.
+    pace: f32,
 }
 
 impl Mix {
     /// Exactly these shares.
     pub fn new(shares: &Shares) -> Self {
-        let mut mix = Self::default();
+        let mut mix = Self { entries: Default::default(), count: 0, pace: 1.0 };
         mix.add(shares, 1.0);
         mix
     }
@@ -50,20 +53,18 @@ impl Mix {
         self.entries().iter().find(|entry| entry.0 == example).map_or(0.0, |entry| entry.1)
     }
 
-    /// Moves towards the target by at most `change_max`, counted as the sum of shares that change hands; a full change
-    /// is 1.
-    pub fn approach(&mut self, target: &Shares, change_max: f32) {
-        let change = self.change_to(target);
-        let fraction = if change <= change_max { 1.0 } else { change_max / change };
+    /// Moves the given fraction of the way to target shares and pace.
+    pub fn approach(&mut self, target: &Shares, pace: f32, fraction: f32) {
         self.entries[..self.count].iter_mut().for_each(|entry| entry.1 *= 1.0 - fraction);
         self.add(target, fraction);
         self.prune();
+        self.pace += fraction * (pace - self.pace);
     }
 
-    /// Sum of shares that must change hands to reach the target.
-    fn change_to(&self, target: &Shares) -> f32 {
-        let of_target = |example| entries_of(target).find(|entry| entry.0 == example).map_or(0.0, |entry| entry.1);
-        self.entries().iter().map(|&(example, share)| (share - of_target(example)).max(0.0)).sum()
+    /// (example, change of its share) on the way to the target.
+    pub fn changes_to(&self, target: &Shares) -> impl Iterator<Item = (u32, f32)> {
+        let leaving = self.entries().iter().map(|&(example, share)| (example, -share));
+        leaving.chain(entries_of(target))
     }
 
     /// Adds shares times a factor; where there is no room, the least share gives way.
@@ -95,19 +96,17 @@ impl Mix {
         self.entries[..kept].iter_mut().for_each(|entry| entry.1 /= sum);
     }
 
-    /// Root velocity: Σ u_i·(v_f, ω_t, ω_s)_i.
+    /// Root velocity: Σ u_i·(v_f, ω_t, ω_s)_i, at the pace.
     pub fn parameters(&self, db: &MotionDb) -> Parameters {
         let sum =
             self.entries().iter().map(|&(example, share)| share * db.examples[example as usize].parameters.to_vec3());
-        Parameters::from_vec3(sum.fold(Vec3::ZERO, |sum, term| sum + term))
+        Parameters::from_vec3(self.pace * sum.fold(Vec3::ZERO, |sum, term| sum + term))
     }
 
-    /// φ' = Σ u_i·r_i(φ), 1/s.
+    /// φ' = Σ u_i·r_i(φ), at the pace, 1/s.
     pub fn phase_rate_hz(&self, db: &MotionDb, phase: f32) -> f32 {
-        self.entries()
-            .iter()
-            .map(|&(example, share)| share * db.examples[example as usize].phase_map.rate_hz(phase))
-            .sum()
+        let rate_hz = |example: u32| db.examples[example as usize].phase_map.rate_hz(phase);
+        self.pace * self.entries().iter().map(|&(example, share)| share * rate_hz(example)).sum::<f32>()
     }
 
     /// The phase in [0, 1) after a step, by the midpoint rule.
@@ -119,13 +118,13 @@ impl Mix {
 
     /// Pose weights: w_i = u_i·r_i(φ) / φ'.
     pub fn weights(&self, db: &MotionDb, phase: f32) -> Weights {
-        let mut weights = Weights { entries: self.entries, count: self.count, phase_rate_hz: 0.0 };
-        for entry in &mut weights.entries[..self.count] {
+        let (mut entries, mut sum_hz) = (self.entries, 0.0);
+        for entry in &mut entries[..self.count] {
             entry.1 *= db.examples[entry.0 as usize].phase_map.rate_hz(phase);
-            weights.phase_rate_hz += entry.1;
+            sum_hz += entry.1;
         }
-        weights.entries[..self.count].iter_mut().for_each(|entry| entry.1 /= weights.phase_rate_hz);
-        weights
+        entries[..self.count].iter_mut().for_each(|entry| entry.1 /= sum_hz);
+        Weights { entries, count: self.count, phase_rate_hz: self.pace * sum_hz }
     }
 }
 

@@ -3,8 +3,9 @@
 //! Mixing a little step into idle lifts no foot: by the blended contact (`definitions.md`, "Planted-foot slide") both
 //! feet stay planted as long as standing has the greater share. So a body stands, or it takes at least the steps of a
 //! mix with [`IDLE_SHARE_MAX`] of standing; and it does not freeze in mid-stride, but takes such small steps until its
-//! feet are under it.
+//! feet are under it. Slower still, it takes those least steps in less than their own time, down to [`PACE_MIN`].
 
+use motiondb::blend_space::Shares;
 use motiondb::parameters::Parameters;
 
 use super::space::{Nearest, Space};
@@ -12,12 +13,14 @@ use super::space::{Nearest, Space};
 /// Greatest share of standing examples in a body that steps: with more, the blended contact of a swinging foot would
 /// not fall below ½.
 pub const IDLE_SHARE_MAX: f32 = 0.35;
+/// Slowest that the least steps are taken: a cadence of half a stroll's.
+const PACE_MIN: f32 = 0.3;
 /// A standing body starts where the asked parameters hold less standing than this …
-const START_IDLE_SHARE: f32 = 0.8;
+pub const START_IDLE_SHARE: f32 = 0.8;
 /// … and a stepping one stops where they hold more than this. A planner that approaches its preferred velocity from the
 /// present one keeps asking for some 0.45 of the least steps' 0.65: a body that is to stop must take that, an idle
 /// share of 0.71, for standing …
-const STOP_IDLE_SHARE: f32 = 0.65;
+const STOP_IDLE_SHARE: f32 = 0.82;
 /// … but either lasts for this long, about a step, s, for the planner goes on to speak of the velocity before …
 const GAIT_TIME_S: f32 = 0.4;
 /// … unless it is asked to stand in earnest: then not even a direction is left.
@@ -55,6 +58,11 @@ impl Gait {
         self.since_s += dt_s;
         start
     }
+
+    /// Whether the body is to stand as soon as its feet are under it.
+    fn gathers(&self) -> bool {
+        self.gathering_s > 0.0
+    }
 }
 
 /// The parameters to make for: `nearest`, what the database has of what is asked, at steps no smaller than the least;
@@ -65,8 +73,19 @@ pub fn goal(nearest: Nearest, now: Parameters, gait: Gait, space: &Space) -> Par
     }
     let slowing = || space.nearest(Parameters::from_vec3(SLOWING * now.to_vec3()));
     let goal = if nearest.idle_share > HALT_IDLE_SHARE { slowing() } else { nearest };
+    let slowest = if gait.gathers() { 1.0 } else { PACE_MIN };
     // Standing lies at the origin: scaling by this leaves that share of it.
     let stepping_share = (1.0 - goal.idle_share).max(1.0 - HALT_IDLE_SHARE);
-    let scale = ((1.0 - IDLE_SHARE_MAX) / stepping_share).max(1.0);
+    let scale = (slowest * (1.0 - IDLE_SHARE_MAX) / stepping_share).max(1.0);
     Parameters::from_vec3(scale * goal.parameters.to_vec3())
+}
+
+/// What to play for some parameters: shares, and their pace.
+pub fn steps(parameters: Parameters, gait: Gait, space: &Space) -> (Shares, f32) {
+    let stepping_share = 1.0 - space.nearest(parameters).idle_share;
+    if gait.stands || stepping_share >= 1.0 - IDLE_SHARE_MAX || stepping_share <= 0.0 {
+        return (space.locate(parameters), 1.0);
+    }
+    let pace = stepping_share / (1.0 - IDLE_SHARE_MAX);
+    (space.locate(Parameters::from_vec3(parameters.to_vec3() / pace)), pace.max(PACE_MIN))
 }

@@ -24,14 +24,17 @@ pub mod gaze;
 pub mod hybrid;
 pub mod ik;
 pub mod inertialization;
+pub mod intention;
 pub mod leg;
 pub mod mode;
 pub mod owed;
 pub mod params;
 pub mod pelvis;
 pub mod playing;
+pub mod pursuit;
 pub mod semi_procedural;
 pub mod space;
+pub mod standing;
 
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
@@ -47,6 +50,7 @@ use self::gaze::Gaze;
 use self::hybrid::Hybrid;
 use self::ik::FootTarget;
 use self::inertialization::{Inertia, LOOK_BACK_S};
+use self::intention::Intention;
 use self::leg::{Leg, legs};
 use self::mode::{Choice, Thresholds};
 use self::owed::Owed;
@@ -66,9 +70,6 @@ const CATCH_UP_TIME_S: f32 = 0.2;
 const HURRY_MAX: f32 = 0.4;
 /// A body slower than this hardly moves its feet by its phase, m/s.
 const HURRY_SPEED_MIN_MPS: f32 = 0.4;
-/// A plan reaches the body with this lag, s. Two who give way to each other change their plans at every step, and a
-/// body that followed at once would tremble.
-const INTENTION_TIME_S: f32 = 0.05;
 /// Phase of the first step before the swinging foot's passing of the other: it is lifted there, and passes when
 /// stepping has faded in.
 const LIFT_OFF_PHASE: f32 = 0.15;
@@ -112,7 +113,7 @@ pub struct Body {
     gaze: Gaze,
     owed: Owed,
     /// What the plans of the last moments asked for.
-    intended: Parameters,
+    intention: Intention,
     /// Velocity of the last step, world, m/s.
     walked_mps: Vec2,
     /// The velocity that it will have whatever is planned, world, m/s: on the paper's way from one synthesis to the other.
@@ -148,7 +149,7 @@ impl Body {
             gait: Gait::STANDING,
             gaze: Gaze::default(),
             owed: Owed::default(),
-            intended: Parameters::default(),
+            intention: Intention::default(),
             walked_mps: Vec2::ZERO,
             committed_mps: None,
             feet: Default::default(),
@@ -188,15 +189,15 @@ impl Body {
 
     /// Motion blending: shares, phase and root.
     fn blend(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
-        self.intend(asked::asked(plan, self.root.facing_rad, motion.space, motion.params), dt_s);
+        let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
+        self.intention.follow(asked, self.gait.stands, dt_s);
         let now = self.mix.parameters(motion.db);
-        let nearest = motion.space.nearest(self.intended);
+        let nearest = motion.space.nearest(self.intention.parameters);
         if self.gait.follow(nearest.idle_share, self.feet_gathered(motion), dt_s) {
             self.jump(motion, |body| body.phase = body.first_step_phase(motion));
         }
         let goal = self.detour(motion).unwrap_or_else(|| gait::goal(nearest, now, self.gait, motion.space));
-        let shares = motion.space.locate(asked::step_towards(now, goal, motion.params, dt_s));
-        self.mix.approach(&shares, dt_s / motion.params.share_change_s);
+        pursuit::follow(&mut self.mix, goal, self.gait, motion, dt_s);
         self.move_root(&self.mix.parameters(motion.db), dt_s);
         self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * dt_s);
     }
@@ -204,12 +205,17 @@ impl Body {
     /// Semi-procedural locomotion: parameters, phase and root. On the way back to blending it makes for what the
     /// examples can do.
     fn deform(&mut self, motion: &Motion, semi_procedural: &SemiProcedural, plan: &Plan, dt_s: f32) {
-        self.intend(asked::asked_exactly(plan, self.root.facing_rad, semi_procedural, motion.params), dt_s);
+        let turning_rad = dt_s * self.walking.turn_rate_rad_s;
+        self.intention.turned(turning_rad);
+        let facing_rad = self.root.facing_rad;
+        let asked = asked::asked_exactly(plan, facing_rad, turning_rad, semi_procedural, motion.params);
+        self.intention.follow(asked, false, dt_s);
+        let intended = self.intention.parameters;
         let goal = match self.choice.mode {
-            Mode::SemiProcedural => self.intended,
-            Mode::Blending => self.detour(motion).unwrap_or_else(|| motion.space.nearest(self.intended).parameters),
+            Mode::SemiProcedural => intended,
+            Mode::Blending => self.detour(motion).unwrap_or_else(|| motion.space.nearest(intended).parameters),
         };
-        let next = asked::step_towards(self.walking, goal, motion.params, dt_s);
+        let next = asked::step_apart(self.walking, goal, motion.params, dt_s);
         if deformation::turns_about(self.walking, next) {
             self.jump(motion, |body| body.walking = next);
         }
@@ -225,7 +231,8 @@ impl Body {
     /// it is (see [`crate::decoupled`]); the pose is as blended, no foot is held.
     pub(crate) fn follow(&mut self, motion: &Motion, from: Root, dt_s: f32) -> Synthesis {
         let parameters = went(&from, &self.root, dt_s);
-        self.mix.approach(&motion.space.locate(parameters), dt_s / motion.params.share_change_s);
+        let shares = motion.space.locate(parameters);
+        self.mix.approach(&shares, 1.0, pursuit::fraction(&self.mix, &shares, motion, dt_s));
         self.phase = self.mix.advance_phase(motion.db, self.phase, dt_s);
         let playing = self.playing(motion);
         let pose = playing.pose(motion, self.phase);
@@ -243,7 +250,8 @@ impl Body {
     fn choose(&mut self, motion: &Motion, hybrid: &Hybrid, plan: &Plan, dt_s: f32) {
         let HmsParams { modes, density_threshold, .. } = *motion.params;
         let thresholds = Thresholds { modes, transition_s: hybrid.transition_s, density: density_threshold };
-        let walks = !self.gait.stands && motion.space.nearest(self.intended).idle_share < gait::IDLE_SHARE_MAX;
+        let walks =
+            !self.gait.stands && motion.space.nearest(self.intention.parameters).idle_share < gait::IDLE_SHARE_MAX;
         self.choice.follow(plan, walks, &thresholds, dt_s);
     }
 
@@ -296,23 +304,16 @@ impl Body {
         Playing::new(motion, self)
     }
 
-    /// What is asked, smoothed.
-    fn intend(&mut self, asked: Parameters, dt_s: f32) {
-        let follow = 1.0 - libm::expf(-dt_s / INTENTION_TIME_S);
-        let (intended, asked) = (self.intended.to_vec3(), asked.to_vec3());
-        self.intended = Parameters::from_vec3(intended + follow * (asked - intended));
-    }
-
     /// A standing body is free in its phase (standing hardly moves): its first step begins with the lift of the foot
     /// that is further behind, or on the side to which it goes, so that the other foot is under it and not a step away.
     fn first_step_phase(&self, motion: &Motion) -> f32 {
-        let velocity_mps = Vec2::new(self.intended.speed_mps, self.intended.strafe_mps);
-        let (way, frame) = (velocity_mps.normalize_or_zero(), self.root.frame());
+        let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = self.intention.parameters;
+        let (way, frame) = (Vec2::new(speed_mps, strafe_mps).normalize_or_zero(), self.root.frame());
         let ahead_m = [0, 1].map(|side| {
             let ball_m = frame.to_local(self.feet[side].ball_m()) - motion.space.standing_balls_m[side];
             ball_m.truncate().dot(way)
         });
-        let to_left = way.y + self.intended.turn_rate_rad_s / motion.space.turn_rate_max_rad_s;
+        let to_left = way.y + turn_rate_rad_s / motion.space.turn_rate_max_rad_s;
         let passing = if ahead_m[0] - ahead_m[1] < OPEN_SIDE_M * to_left { 1.0 } else { 0.5 };
         passing - LIFT_OFF_PHASE
     }

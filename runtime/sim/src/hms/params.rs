@@ -39,8 +39,9 @@ pub struct HmsParams {
     pub acceleration_max_mps2: f32,
     /// Greatest change of the turn rate, rad/s².
     pub turn_acceleration_max_rad_s2: f32,
-    /// Least time for the shares of the examples to change hands completely, s: slim simplices would else flip poses.
-    pub share_change_s: f32,
+    /// Fastest that ankles and wrists move because shares change hands, root mean square over the cycle, m/s: slim
+    /// simplices would else flip poses. Changes between like examples are quick, however many lie on the way.
+    pub pose_change_max_mps: f32,
     /// T_turn: the turn rate is the angle to the wanted facing divided by this time, s. Shorter overshoots at the turn
     /// acceleration above; longer tracks worse (a turn of 90° at 1.3 m/s: 1.4 s and 1.2 m off the planned velocity at
     /// 0.3, 2.9 s and 2.1 m at 1).
@@ -57,7 +58,7 @@ impl Default for HmsParams {
             transition: Transition::Direct,
             acceleration_max_mps2: 3.0,
             turn_acceleration_max_rad_s2: 8.0,
-            share_change_s: 0.25,
+            pose_change_max_mps: 0.7,
             turn_time_s: 0.3,
             density_threshold: 0.6,
         }

@@ -269,7 +269,8 @@ proptest! {
             gait.follow(nearest.idle_share, true, DT_S);
             let goal = gait::goal(nearest, mix.parameters(&db), gait, &space);
             let towards = asked::step_towards(mix.parameters(&db), goal, &params, DT_S);
-            mix.approach(&space.locate(towards), 0.1);
+            let (shares, pace) = gait::steps(towards, gait, &space);
+            mix.approach(&shares, pace, 0.5);
         }
         let steps = Mix::new(&space.locate(asked)).share(0) < 0.35;
         prop_assert!(!steps || mix.parameters(&db).to_vec3().distance(asked.to_vec3()) < 1e-3);

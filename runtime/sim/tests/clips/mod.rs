@@ -1,5 +1,6 @@
 //! Databases for tests: of the bundled clips, and of real motion capture where it is at hand.
 #![allow(unreachable_pub, reason = "each test target uses it as its own")]
+#![allow(dead_code, reason = "each test target uses its own part")]
 
 use std::path::{Path, PathBuf};
 
@@ -16,12 +17,23 @@ pub fn bundled() -> MotionDb {
 
 /// The paper's clips; none where they are not at hand.
 pub fn marine(test: &str) -> Option<MotionDb> {
+    marine_clips(test).map(compiled)
+}
+
+/// The paper's clips but for those whose file names hold a word.
+pub fn marine_without(test: &str, word: &str) -> Option<MotionDb> {
+    let files = marine_clips(test)?;
+    let is_kept = |file: &PathBuf| !file.file_name().is_some_and(|name| name.to_string_lossy().contains(word));
+    Some(compiled(files.into_iter().filter(is_kept).collect()))
+}
+
+fn marine_clips(test: &str) -> Option<Vec<PathBuf>> {
     let mocap = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/mocap");
     if !mocap.is_dir() {
         println!("SKIPPED {test}: no recordings at {}", mocap.display());
         return None;
     }
-    Some(compiled(marine_files(&mocap)))
+    Some(marine_files(&mocap))
 }
 
 fn compiled(files: Vec<PathBuf>) -> MotionDb {

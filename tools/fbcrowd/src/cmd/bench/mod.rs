@@ -1,6 +1,7 @@
 //! `fbcrowd bench`: are compiler and planner as good and as fast as they should be? One file a bench.
 
 mod bar;
+mod blend;
 mod blend_space;
 mod bodies;
 mod bundled;
@@ -30,6 +31,8 @@ mod table1;
 mod table1_discs;
 mod table1_plots;
 mod table1_text;
+mod tracking;
+mod walker;
 mod watch;
 
 use std::path::PathBuf;
@@ -52,6 +55,7 @@ pub(crate) struct Args {
 
 #[derive(clap::Subcommand)]
 enum Bench {
+    Blend(blend::Args),
     BlendSpace(blend_space::Args),
     Bodies(bodies::Args),
     Import(import::Args),
@@ -63,6 +67,7 @@ enum Bench {
     Quality(quality::Args),
     Reach(reach::Args),
     Soak(soak::Args),
+    Tracking(tracking::Args),
     Table1(table1::Args),
     Figure7(figure7::Args),
     Rimea(rimea::Args),
@@ -85,6 +90,7 @@ struct Mocap {
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     match &args.bench {
+        Bench::Blend(args) => blend::run(args),
         Bench::BlendSpace(args) => blend_space::run(args),
         Bench::Bodies(args) => bodies::run(args),
         Bench::Import(args) => import::run(args),
@@ -96,6 +102,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Bench::Quality(args) => quality::run(args),
         Bench::Reach(args) => reach::run(args),
         Bench::Soak(args) => soak::run(args),
+        Bench::Tracking(args) => tracking::run(args),
         Bench::Table1(args) => table1::run(args),
         Bench::Figure7(args) => figure7::run(args),
         Bench::Rimea(args) => rimea::run(args),

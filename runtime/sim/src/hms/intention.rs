@@ -1,0 +1,112 @@
+//! What a body means to do: what its plans ask for, without their trembling.
+//!
+//! Two who give way to each other change their plans at every step, and a body that followed at once would tremble; one
+//! that always lagged would fall behind a plan that really changes. So the lag depends on how steadily the plans change
+//! (the "1 € filter": Casiez, Roussel, Vogel 2012). With x what is asked and y what is intended, per axis of (v_f, ω_t,
+//! ω_s), m/s and rad/s,
+//!
+//! ```text
+//! r' = (x' − r)/T_r,   y' = (x − y)/τ,   τ = τ_0/(1 + |r|/r_0).
+//! ```
+
+use glam::{Vec2, Vec3};
+use motiondb::parameters::Parameters;
+
+/// τ_0: lag behind plans that change to and fro, s.
+const LAG_S: f32 = 0.15;
+/// r_0: the lag halves at this steady change, m/s² and rad/s².
+const RATE: f32 = 1.0;
+/// T_r: a change that lasts this long is steady, s: longer than two steps of 0.1 s, in which plans go to and fro.
+const STEADY_S: f32 = 0.15;
+
+/// Follows what is asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Intention {
+    /// y.
+    pub parameters: Parameters,
+    /// x of the last step.
+    asked: Vec3,
+    /// r.
+    rate: Vec3,
+}
+
+impl Intention {
+    /// Takes up what is asked now. A body that stands does not tremble: it needs no lag.
+    pub fn follow(&mut self, asked: Parameters, stands: bool, dt_s: f32) {
+        let asked = asked.to_vec3();
+        self.rate += within(STEADY_S, dt_s) * ((asked - self.asked) / dt_s - self.rate);
+        self.asked = asked;
+        let lag_s = LAG_S / (1.0 + self.rate.length() / RATE);
+        let share = if stands { 1.0 } else { within(lag_s, dt_s) };
+        let intended = self.parameters.to_vec3();
+        self.parameters = Parameters::from_vec3(intended + share * (asked - intended));
+    }
+
+    /// The facing has turned under velocities that are meant in the world.
+    pub fn turned(&mut self, by_rad: f32) {
+        let back = Vec2::from_angle(-by_rad);
+        let turned = |vector: Vec3| {
+            let velocity = back.rotate(Vec2::new(vector.x, vector.z));
+            Vec3::new(velocity.x, vector.y, velocity.y)
+        };
+        self.parameters = Parameters::from_vec3(turned(self.parameters.to_vec3()));
+        (self.asked, self.rate) = (turned(self.asked), turned(self.rate));
+    }
+}
+
+/// How much of the way a lag goes in a step.
+fn within(time_s: f32, dt_s: f32) -> f32 {
+    1.0 - libm::expf(-dt_s / time_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Speeds intended, where these are asked step by step.
+    fn intended_mps(dt_s: f32, asked_mps: impl Iterator<Item = f32>) -> Vec<f32> {
+        let mut intention = Intention::default();
+        let follow = |speed_mps| {
+            intention.follow(Parameters { speed_mps, ..Parameters::default() }, false, dt_s);
+            intention.parameters.speed_mps
+        };
+        asked_mps.map(follow).collect()
+    }
+
+    #[test]
+    fn plans_that_go_to_and_fro_are_calmed() {
+        for dt_s in [1.0 / 120.0, 1.0 / 30.0, 0.1] {
+            let speeds_mps = intended_mps(dt_s, (0..200).map(|step| if step % 2 == 0 { 1.2 } else { 1.0 }));
+            let swing_mps = (speeds_mps[199] - speeds_mps[198]).abs();
+            assert!(swing_mps < 0.13, "dt {dt_s}: {swing_mps} m/s of 0.2");
+        }
+    }
+
+    #[test]
+    fn a_plan_that_changes_steadily_is_followed_closely() {
+        for dt_s in [1.0 / 120.0, 1.0 / 30.0, 0.1] {
+            let speed_mps = |step: usize| (2.5 * step as f32 * dt_s).min(1.0);
+            let steps = (2.0 / dt_s) as usize;
+            let intended_mps = intended_mps(dt_s, (0..steps).map(speed_mps));
+            let behind_m: f32 = (0..steps).map(|step| dt_s * (speed_mps(step) - intended_mps[step])).sum();
+            assert!(behind_m < 0.06, "dt {dt_s}: {behind_m} m");
+        }
+    }
+
+    #[test]
+    fn a_velocity_that_rests_in_the_world_needs_no_following_in_a_turn() {
+        let mut intention = Intention::default();
+        let asked = |facing_rad: f32| Parameters {
+            speed_mps: libm::cosf(facing_rad),
+            turn_rate_rad_s: 0.0,
+            strafe_mps: -libm::sinf(facing_rad),
+        };
+        intention.follow(asked(0.0), true, 0.1);
+        for step in 1..20 {
+            intention.turned(0.1);
+            let asked = asked(0.1 * step as f32);
+            intention.follow(asked, false, 0.1);
+            assert!((intention.parameters.to_vec3() - asked.to_vec3()).length() < 1e-4);
+        }
+    }
+}
