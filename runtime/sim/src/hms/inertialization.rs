@@ -41,6 +41,11 @@ impl Inertia {
         });
     }
 
+    /// Whether a difference is left.
+    pub fn carries(&self) -> bool {
+        self.0.is_some()
+    }
+
     /// Lets a step pass and adds what is then left to the pose of the new synthesis.
     pub fn carry(&mut self, pose: &mut Pose, dt_s: f32) {
         let Some([left, rate]) = &self.0 else { return };

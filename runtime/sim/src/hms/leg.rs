@@ -56,6 +56,11 @@ impl Leg {
         let [_, _, foot, toe] = self.orientations;
         [ankle_m + foot * sole.heel_m, ankle_m + foot * sole.ball_m, toe_m + toe * sole.toe_tip_m]
     }
+
+    /// Height of the lowest of them, m.
+    pub fn sole_height_m(&self, skeleton: &Skeleton, side: usize) -> f32 {
+        self.sole_points_m(skeleton, side).into_iter().fold(f32::INFINITY, |lowest_m, point_m| lowest_m.min(point_m.z))
+    }
 }
 
 /// Both legs, `[left, right]`.

@@ -78,6 +78,9 @@ const LIFT_OFF_PHASE: f32 = 0.15;
 const OPEN_SIDE_M: f32 = 0.1;
 /// Semi-procedural locomotion ends where the examples can take over within this, m/s and rad/s.
 const SWITCH_SLACK: f32 = 0.05;
+/// A foot that what is left of a switch holds up further than this does not stand: contacts of clips are told by the same
+/// height (`definitions.md`, "Planted-foot slide"), m.
+const HELD_UP_M: f32 = 0.025;
 /// A first pose is given this long to settle on its feet, s.
 const SETTLING_S: f32 = 1.0;
 
@@ -345,6 +348,7 @@ impl Body {
         let skeleton = &motion.db.skeleton;
         let playing = self.playing(motion);
         let mut pose = playing.pose(motion, self.phase);
+        let played = self.inertia.carries().then(|| legs(&pose, skeleton));
         self.inertia.carry(&mut pose, dt_s);
         self.gaze.turn(&mut pose, skeleton);
         let contacts = playing.contacts(motion, self.phase);
@@ -352,7 +356,8 @@ impl Body {
 
         let targets = [0, 1].map(|side| {
             let posed = posed_foot(&frame, &legs[side], skeleton, side);
-            let held = self.feet[side].step(&posed, contacts[side] >= PLANTED_CONTACT, dt_s);
+            let held_up = played.is_some_and(|played| held_up(&played[side], &legs[side], skeleton, side));
+            let held = self.feet[side].step(&posed, contacts[side] >= PLANTED_CONTACT && !held_up, dt_s);
             FootTarget { ankle_m: frame.to_local(held.ankle_m), orientation: held.twist * legs[side].foot() }
         });
         pelvis::lower(&mut pose, &mut legs, skeleton, &targets);
@@ -378,6 +383,12 @@ impl Body {
             examples_slide_cm_s: playing.examples_slide_cm_s(motion),
         }
     }
+}
+
+/// Whether what is left of a switch keeps a foot off the ground where the new synthesis has it as `played`. To put it down
+/// at once would be the jerk that inertia is there to avoid.
+fn held_up(played: &Leg, carried: &Leg, skeleton: &Skeleton, side: usize) -> bool {
+    carried.sole_height_m(skeleton, side) - played.sole_height_m(skeleton, side).max(0.0) > HELD_UP_M
 }
 
 /// A foot as a leg has it, in the world.
