@@ -76,7 +76,7 @@ const LIFT_OFF_PHASE: f32 = 0.15;
 /// A first step aside, or into a turn, is made by the foot on that side, unless that foot is ahead of the other by
 /// this, m.
 const OPEN_SIDE_M: f32 = 0.1;
-/// Semi-procedural locomotion ends where the examples can take over within this, m/s and rad/s.
+/// One synthesis gives way where the other can take over within this, m/s and rad/s.
 const SWITCH_SLACK: f32 = 0.05;
 /// A foot that what is left of a switch holds up further than this does not stand: contacts of clips are told by the same
 /// height (`definitions.md`, "Planted-foot slide"), m.
@@ -190,7 +190,7 @@ impl Body {
         motion.hybrid.filter(|_| changes).map(|hybrid| hybrid.blending)
     }
 
-    /// Motion blending: shares, phase and root.
+    /// Motion blending: shares, phase and root. On the way to semi-procedural locomotion it makes for what m_sp can do.
     fn blend(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
         let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
         self.intention.follow(asked, self.gait.stands, dt_s);
@@ -200,6 +200,10 @@ impl Body {
             self.jump(motion, |body| body.phase = body.first_step_phase(motion));
         }
         let goal = self.detour(motion).unwrap_or_else(|| gait::goal(nearest, now, self.gait, motion.space));
+        let goal = match (self.choice.mode, motion.hybrid) {
+            (Mode::SemiProcedural, Some(hybrid)) => hybrid.semi_procedural.reachable(goal),
+            _ => goal,
+        };
         pursuit::follow(&mut self.mix, goal, self.gait, motion, dt_s);
         self.move_root(&self.mix.parameters(motion.db), dt_s);
         self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * dt_s);
@@ -263,7 +267,7 @@ impl Body {
     /// begin at another velocity: at the very moment that a collision threatens, its body walks at m_mb's.
     fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32) {
         let (from, to) = (self.mode, self.choice.mode);
-        if from == to || !self.may_switch(motion) {
+        if from == to || !self.may_switch(motion, hybrid) {
             return;
         }
         let Some(jump) = hybrid.jump(from, before, self.phase) else { return };
@@ -286,14 +290,21 @@ impl Body {
     }
 
     /// Whether the body walks as the other synthesis can.
-    fn may_switch(&self, motion: &Motion) -> bool {
-        let (now, there) = match (self.mode, self.detour(motion)) {
-            (Mode::Blending, None) => return true,
-            (Mode::Blending, Some(there)) => (self.mix.parameters(motion.db), there),
-            (Mode::SemiProcedural, Some(there)) => (self.walking, there),
-            (Mode::SemiProcedural, None) => (self.walking, motion.space.nearest(self.walking).parameters),
-        };
+    fn may_switch(&self, motion: &Motion, hybrid: &Hybrid) -> bool {
+        let now = self.parameters(motion.db);
+        let there = self.detour(motion).unwrap_or_else(|| match self.mode {
+            Mode::Blending => hybrid.semi_procedural.reachable(now),
+            Mode::SemiProcedural => motion.space.nearest(now).parameters,
+        });
         now.to_vec3().distance(there.to_vec3()) <= SWITCH_SLACK
+    }
+
+    /// The root's motion in the body's frame, as what is played has it.
+    fn parameters(&self, db: &MotionDb) -> Parameters {
+        match self.mode {
+            Mode::Blending => self.mix.parameters(db),
+            Mode::SemiProcedural => self.walking,
+        }
     }
 
     /// What is played, now and [`LOOK_BACK_S`] ago.

@@ -27,8 +27,9 @@ const TURNING_M: f32 = 1.0;
 /// Cadence over that of m_sp: from a stroll's to a shuffle's.
 const CADENCE: [f32; 2] = [0.6, 2.2];
 /// Greatest speeds ahead, back and aside, over that of m_sp; `fbcrowd bench reach` measures where legs would cross,
-/// over-stretch or crouch, which is further out in every direction.
-const AHEAD_MAX: f32 = 2.0;
+/// over-stretch or crouch, which is further out in every direction. Ahead, of a walk of 1.1 m/s: people run from 2 m/s on
+/// (`motion.md` §4).
+const AHEAD_MAX: f32 = 1.8;
 const BACKWARD_MAX: f32 = 1.1;
 const ASIDE_MAX: f32 = 1.1;
 /// The body leans into a turn, and its feet stand outward: at this turn rate the greatest speeds are halved, rad/s …
