@@ -18,9 +18,9 @@ use super::leg::Leg;
 const EXTENSION_MAX: f32 = 0.999;
 /// Least distance from hip to ankle, as a multiple of the bones' difference in length (`motion.md` §2).
 const FLEXION_MARGIN: f32 = 1.001;
-/// A straight leg has no plane; this much of the thigh's forward axis is added to the knee's offset, so that it bends
-/// forward, metres.
-const KNEE_BIAS_M: f32 = 1e-3;
+/// A straight leg has no plane, and what bends it bends it forward: its knee counts as this far before the line from hip to
+/// ankle, m. With a millimetre, where what is left of a switch straightens a leg, the knee swings out aside.
+const KNEE_AHEAD_M: f32 = 0.02;
 /// Square of twice the cosine of half an angle, from which on two directions have no axis that rounding leaves: π − 1 mrad.
 const OPPOSITE: f32 = 1e-6;
 
@@ -47,7 +47,7 @@ pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, t
     let new_line = to_target_m.normalize_or(old_line);
     let [old_thigh, old_shank, ..] = leg.orientations;
     let forward = old_thigh * Vec3::X;
-    let pole = forward_pole(knee_m - hip_m + KNEE_BIAS_M * forward, forward, old_line);
+    let pole = forward_pole(knee_m - hip_m, forward, old_line);
     let distance_m = reachable_m(bones_m, to_target_m.length());
     let (along_m, aside_m) = knee_offset_m(bones_m, distance_m);
     let bent_thigh_m = along_m * old_line + aside_m * pole;
@@ -84,9 +84,11 @@ fn knee_offset_m([thigh_m, shank_m]: [f32; 2], distance_m: f32) -> (f32, f32) {
 
 /// The side of the line from hip to ankle to which the knee bends: that of the pose, but forward. A pose whose knee is
 /// hyperextended (what is left of a switch may do that) has it behind the line, on the same hinge.
-fn forward_pole(knee: Vec3, forward: Vec3, line: Vec3) -> Vec3 {
-    let (pole, forward) = (across(knee, line), across(forward, line));
-    pole - 2.0 * pole.dot(forward).min(0.0) * forward
+fn forward_pole(knee_m: Vec3, forward: Vec3, line: Vec3) -> Vec3 {
+    let forward = across(forward, line);
+    let ahead_m = knee_m.dot(forward);
+    let aside_m = knee_m - knee_m.dot(line) * line - ahead_m * forward;
+    (aside_m + libm::hypotf(ahead_m, KNEE_AHEAD_M) * forward).normalize()
 }
 
 /// The unit part of a vector across a unit line; any such direction where the vector lies along the line.
