@@ -37,8 +37,8 @@ const KNEE_YAW: f32 = 0.7;
 const HIP_TWIST: f32 = 0.3;
 /// Swing of hips, trunk and arms over that of m_sp, at least and at most.
 const SWING: [f32; 2] = [0.3, 1.3];
-/// A change of the shares of time by more than this within a step is one of pose: at 1 m/s nobody turns his travel so far.
-const TURN_ABOUT: f32 = 0.1;
+/// Ways of travel further apart than this (29°) are others: at 1 m/s nobody turns his so far in a tenth of a second.
+const TURN_ABOUT: f32 = 0.5;
 /// Gravity, m/s²: a body on an arc leans by atan(v·ω/g).
 const GRAVITY_MPS2: f32 = 9.81;
 /// Nobody leans further, rad: about 20°.
@@ -239,11 +239,11 @@ impl Instant {
     }
 }
 
-/// Whether a step from one to the other turns the gait about: where the travel passes through rest, or near it, what is
-/// played forward is all at once played backward.
+/// Whether a step from one to the other turns the travel about: where it passes through rest, or near it, what is played
+/// forward, or with hips to the left, is all at once played otherwise.
 pub fn turns_about(from: Parameters, to: Parameters) -> bool {
-    let [from, to] = [from, to].map(directions);
-    (to[0] - from[0]).abs() > TURN_ABOUT
+    let way = |parameters: Parameters| Vec2::new(parameters.speed_mps, parameters.strafe_mps).normalize_or(Vec2::X);
+    way(from).distance(way(to)) > TURN_ABOUT
 }
 
 /// Shares of time played forward and backward: the nearer to backward, the more of reversed time.
