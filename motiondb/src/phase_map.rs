@@ -34,7 +34,18 @@ impl PhaseMap {
 
     /// dφ/dt, 1/s.
     pub fn rate_hz(&self, phase: f32) -> f32 {
-        1.0 / (self.period_s * (1.0 + (self.left_share - 0.5) * PI * libm::sinf(TAU * phase)))
+        self.rate_at_hz(Self::sine(phase))
+    }
+
+    /// sin 2πφ, which the rates of all cycles at one phase share.
+    pub fn sine(phase: f32) -> f32 {
+        libm::sinf(TAU * phase)
+    }
+
+    /// dφ/dt, 1/s, where sin 2πφ has this value.
+    #[inline]
+    pub fn rate_at_hz(&self, sine: f32) -> f32 {
+        1.0 / (self.period_s * (1.0 + (self.left_share - 0.5) * PI * sine))
     }
 
     /// The phase in [0, 1) at a time, which may lie in another cycle.

@@ -17,6 +17,7 @@ use glam::{Quat, Vec3};
 use motiondb::blend_space::Shares;
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::parameters::Parameters;
+use motiondb::phase_map::PhaseMap;
 use motiondb::pose::Pose;
 use motiondb::skeleton::JOINT_COUNT;
 
@@ -59,6 +60,12 @@ impl Mix {
         self.add(target, fraction);
         self.prune();
         self.pace += fraction * (pace - self.pace);
+    }
+
+    /// Sum of the shares that change hands on the way to the target.
+    pub fn change_to(&self, target: &Shares) -> f32 {
+        let of_target = |example| entries_of(target).find(|entry| entry.0 == example).map_or(0.0, |entry| entry.1);
+        self.entries().iter().map(|&(example, share)| (share - of_target(example)).max(0.0)).sum()
     }
 
     /// (example, change of its share) on the way to the target.
@@ -105,7 +112,8 @@ impl Mix {
 
     /// φ' = Σ u_i·r_i(φ), at the pace, 1/s.
     pub fn phase_rate_hz(&self, db: &MotionDb, phase: f32) -> f32 {
-        let rate_hz = |example: u32| db.examples[example as usize].phase_map.rate_hz(phase);
+        let sine = PhaseMap::sine(phase);
+        let rate_hz = |example: u32| db.examples[example as usize].phase_map.rate_at_hz(sine);
         self.pace * self.entries().iter().map(|&(example, share)| share * rate_hz(example)).sum::<f32>()
     }
 
@@ -118,9 +126,9 @@ impl Mix {
 
     /// Pose weights: w_i = u_i·r_i(φ) / φ'.
     pub fn weights(&self, db: &MotionDb, phase: f32) -> Weights {
-        let (mut entries, mut sum_hz) = (self.entries, 0.0);
+        let (mut entries, mut sum_hz, sine) = (self.entries, 0.0, PhaseMap::sine(phase));
         for entry in &mut entries[..self.count] {
-            entry.1 *= db.examples[entry.0 as usize].phase_map.rate_hz(phase);
+            entry.1 *= db.examples[entry.0 as usize].phase_map.rate_at_hz(sine);
             sum_hz += entry.1;
         }
         entries[..self.count].iter_mut().for_each(|entry| entry.1 /= sum_hz);

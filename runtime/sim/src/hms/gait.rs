@@ -82,9 +82,10 @@ pub fn goal(nearest: Nearest, now: Parameters, gait: Gait, space: &Space) -> Par
 
 /// What to play for some parameters: shares, and their pace.
 pub fn steps(parameters: Parameters, gait: Gait, space: &Space) -> (Shares, f32) {
-    let stepping_share = 1.0 - space.nearest(parameters).idle_share;
+    let nearest = space.nearest(parameters);
+    let stepping_share = 1.0 - nearest.idle_share;
     if gait.stands || stepping_share >= 1.0 - IDLE_SHARE_MAX || stepping_share <= 0.0 {
-        return (space.locate(parameters), 1.0);
+        return (nearest.shares, 1.0);
     }
     let pace = stepping_share / (1.0 - IDLE_SHARE_MAX);
     (space.locate(Parameters::from_vec3(parameters.to_vec3() / pace)), pace.max(PACE_MIN))

@@ -57,7 +57,7 @@ use self::owed::Owed;
 use self::params::{HmsParams, Transition};
 use self::playing::Playing;
 use self::semi_procedural::SemiProcedural;
-use self::space::Space;
+use self::space::{Nearest, Space};
 use crate::angle::wrap_rad;
 use crate::plan::{Plan, Stance};
 use crate::recording_frame::{Mode, PLANTED_CONTACT};
@@ -170,12 +170,12 @@ impl Body {
     pub fn advance(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
         let plan = self.owed.settle(plan, self.walked_mps, dt_s);
         let before = self.phase;
-        match (self.mode, motion.hybrid) {
+        let nearest = match (self.mode, motion.hybrid) {
             (Mode::SemiProcedural, Some(hybrid)) => self.deform(motion, &hybrid.semi_procedural, &plan, dt_s),
             _ => self.blend(motion, &plan, dt_s),
-        }
+        };
         if let Some(hybrid) = motion.hybrid {
-            self.choose(motion, hybrid, &plan, dt_s);
+            self.choose(motion, hybrid, &plan, nearest.idle_share, dt_s);
             self.switch(motion, hybrid, before);
         }
         self.gaze.follow(&plan, &self.root, dt_s);
@@ -191,7 +191,8 @@ impl Body {
     }
 
     /// Motion blending: shares, phase and root. On the way to semi-procedural locomotion it makes for what m_sp can do.
-    fn blend(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
+    /// Returns what the examples have nearest to what is asked.
+    fn blend(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) -> Nearest {
         let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
         self.intention.follow(asked, self.gait.stands, dt_s);
         let now = self.mix.parameters(motion.db);
@@ -207,20 +208,22 @@ impl Body {
         pursuit::follow(&mut self.mix, goal, self.gait, motion, dt_s);
         self.move_root(&self.mix.parameters(motion.db), dt_s);
         self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * dt_s);
+        nearest
     }
 
     /// Semi-procedural locomotion: parameters, phase and root. On the way back to blending it makes for what the
-    /// examples can do.
-    fn deform(&mut self, motion: &Motion, semi_procedural: &SemiProcedural, plan: &Plan, dt_s: f32) {
+    /// examples can do. Returns what they have nearest to what is asked.
+    fn deform(&mut self, motion: &Motion, semi_procedural: &SemiProcedural, plan: &Plan, dt_s: f32) -> Nearest {
         let turning_rad = dt_s * self.walking.turn_rate_rad_s;
         self.intention.turned(turning_rad);
         let facing_rad = self.root.facing_rad;
         let asked = asked::asked_exactly(plan, facing_rad, turning_rad, semi_procedural, motion.params);
         self.intention.follow(asked, false, dt_s);
         let intended = self.intention.parameters;
+        let nearest = motion.space.nearest(intended);
         let goal = match self.choice.mode {
             Mode::SemiProcedural => intended,
-            Mode::Blending => self.detour(motion).unwrap_or_else(|| motion.space.nearest(intended).parameters),
+            Mode::Blending => self.detour(motion).unwrap_or(nearest.parameters),
         };
         let next = asked::step_apart(self.walking, goal, motion.params, dt_s);
         if deformation::turns_about(self.walking, next) {
@@ -232,6 +235,7 @@ impl Body {
         let middle = self.phase + 0.5 * dt_s * map.rate_hz(self.phase);
         let next = self.phase + dt_s * map.rate_hz(middle);
         self.phase = next - libm::floorf(next);
+        nearest
     }
 
     /// Blends what the examples have nearest to a step that others have decided, from the root where the body was to where
@@ -253,12 +257,11 @@ impl Body {
         self.root = moved;
     }
 
-    /// §3.4.1: which synthesis is wanted.
-    fn choose(&mut self, motion: &Motion, hybrid: &Hybrid, plan: &Plan, dt_s: f32) {
+    /// §3.4.1: which synthesis is wanted, where what is asked holds so much standing.
+    fn choose(&mut self, motion: &Motion, hybrid: &Hybrid, plan: &Plan, idle_share: f32, dt_s: f32) {
         let HmsParams { modes, density_threshold, .. } = *motion.params;
         let thresholds = Thresholds { modes, transition_s: hybrid.transition_s, density: density_threshold };
-        let walks =
-            !self.gait.stands && motion.space.nearest(self.intention.parameters).idle_share < gait::IDLE_SHARE_MAX;
+        let walks = !self.gait.stands && idle_share < gait::IDLE_SHARE_MAX;
         self.choice.follow(plan, walks, &thresholds, dt_s);
     }
 

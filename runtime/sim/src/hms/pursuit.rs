@@ -41,7 +41,10 @@ pub fn follow(mix: &mut Mix, goal: Parameters, gait: Gait, motion: &Motion, dt_s
 
 /// How much of the way to some shares the pose may go in a step.
 pub fn fraction(mix: &Mix, shares: &Shares, motion: &Motion, dt_s: f32) -> f32 {
-    let change_m = motion.space.pose_change_m(mix.changes_to(shares));
     let change_max_m = motion.params.pose_change_max_mps * dt_s;
+    if motion.space.pose_change_max_m(mix.change_to(shares)) <= change_max_m {
+        return 1.0;
+    }
+    let change_m = motion.space.pose_change_m(mix.changes_to(shares));
     if change_m <= change_max_m { 1.0 } else { change_max_m / change_m }
 }

@@ -29,6 +29,8 @@ pub struct Space {
     points: Vec<Parameters>,
     stands: Vec<bool>,
     landmarks_m: Vec<Landmarks>,
+    /// Greatest distance of an example's landmarks from the root, root mean square, metres.
+    landmarks_reach_m: f32,
     /// What an axis is divided by in distances; 0 drops it.
     scale: Vec3,
     /// The example that stands though it belongs to no simplex ([`super::standing`]).
@@ -50,6 +52,8 @@ pub struct Nearest {
     pub parameters: Parameters,
     /// Share of standing examples in it.
     pub idle_share: f32,
+    /// Of the examples that make it.
+    pub shares: Shares,
 }
 
 impl Space {
@@ -58,6 +62,7 @@ impl Space {
         let points: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
         let greatest = |of: fn(&Parameters) -> f32| points.iter().map(of).fold(0.0, f32::max);
         let stands: Vec<bool> = db.examples.iter().map(|example| example.key_times_s.is_none()).collect();
+        let landmarks_m: Vec<Landmarks> = (0..db.examples.len()).map(|example| landmarks_m(db, example)).collect();
         let mut space = Self {
             standing_balls_m: Default::default(),
             standing_apart: standing_apart(db, &stands),
@@ -66,7 +71,8 @@ impl Space {
             strafe_mps: strafe_mps(&points),
             turn_rate_max_rad_s: greatest(|point| point.turn_rate_rad_s.abs()),
             speed_max_mps: greatest(|point| Vec2::new(point.speed_mps, point.strafe_mps).length()),
-            landmarks_m: (0..db.examples.len()).map(|example| landmarks_m(db, example)).collect(),
+            landmarks_reach_m: landmarks_m.iter().map(root_mean_square_m).fold(0.0, f32::max),
+            landmarks_m,
             locator: Locator::new(&db.blend_space, &points),
             points,
         };
@@ -84,7 +90,12 @@ impl Space {
                 *sum_m += change * *landmark_m;
             }
         }
-        libm::sqrtf(sum_m.iter().map(|sum_m| sum_m.length_squared()).sum::<f32>() / LANDMARKS as f32)
+        root_mean_square_m(&sum_m)
+    }
+
+    /// More than that cannot be, where so many shares change hands.
+    pub fn pose_change_max_m(&self, changed: f32) -> f32 {
+        2.0 * changed * self.landmarks_reach_m
     }
 
     /// Shares at a point, or at the nearest one that the database has.
@@ -127,8 +138,13 @@ impl Space {
     pub fn nearest(&self, parameters: Parameters) -> Nearest {
         let shares = self.locate(parameters);
         let idle = shares.examples.into_iter().zip(shares.shares).filter(|entry| self.stands[entry.0 as usize]);
-        Nearest { parameters: Parameters::from_vec3(self.sum(&shares)), idle_share: idle.map(|entry| entry.1).sum() }
+        let idle_share = idle.map(|entry| entry.1).sum();
+        Nearest { parameters: Parameters::from_vec3(self.sum(&shares)), idle_share, shares }
     }
+}
+
+fn root_mean_square_m(landmarks_m: &Landmarks) -> f32 {
+    libm::sqrtf(landmarks_m.iter().map(|landmark_m| landmark_m.length_squared()).sum::<f32>() / LANDMARKS as f32)
 }
 
 fn strafe_mps(points: &[Parameters]) -> [f32; 2] {
