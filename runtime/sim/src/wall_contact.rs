@@ -1,6 +1,6 @@
 //! How often, and how deep, discs and bodies touch walls (`FbCrowd` §7, the obstacle course).
 //!
-//! A disc touches a wall where it is nearer than its radius and [`TOUCH_M`]: the synthesised root is kept outside
+//! A disc touches a wall where it is nearer than its radius and `TOUCH_M`: the synthesised root is kept outside
 //! ([`crate::cns::outside_walls`]), so a disc that would go further in lies at its radius exactly. A body touches where
 //! a capsule of it does; walls stand upright, so its bone is taken from above. Frames are looked at as they are. World
 //! axes, metres.

@@ -4,7 +4,7 @@
 //! The paper's claim: blending collides in tight corners, semi-procedural locomotion looks mechanical, hybrid synthesis
 //! does neither. Measured until the agent is at its goal: how often its disc is held at a wall and its body reaches into
 //! one, and how far its poses lie from the database: the RMS angle of bones to the nearest pose of any example
-//! ([`PoseSequence`](crate::pose_sequence::PoseSequence)).
+//! ([`PoseSequence`]).
 
 use std::fs;
 use std::path::{Path, PathBuf};
