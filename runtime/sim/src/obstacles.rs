@@ -144,6 +144,11 @@ impl Obstacles {
         Some(direct_m).filter(free).or_else(|| Some(stopped_m()).filter(free)).unwrap_or(from_m)
     }
 
+    /// Whether a straight way leads through no wall.
+    pub fn is_free(&self, from_m: Vec2, to_m: Vec2) -> bool {
+        self.crossings(from_m, to_m, &[]).next().is_none()
+    }
+
     /// Shares of a straight way at which it leads through the edges of polygons, `within` left out.
     fn crossings(&self, from_m: Vec2, to_m: Vec2, within: &[u32]) -> impl Iterator<Item = f64> {
         let edges = self.grid.within(from_m.min(to_m), from_m.max(to_m));

@@ -1,15 +1,22 @@
 //! The way to the goal: v_pref along ordered waypoints (`FbCrowd` §3, stage 2; the navigation mesh comes later).
 //!
 //! An agent heads for its next waypoint at its preferred speed, takes the one after as soon as it is near, brakes
-//! evenly before the last and then stays there. World, metres, seconds.
+//! evenly before the last and then stays there. Crowds shove: whoever is shoved past a waypoint goes on, and whoever is
+//! shoved behind a wall after it goes round by the waypoint again. World, metres, seconds.
 
 use glam::Vec2;
 
+use crate::obstacles::Obstacles;
 use crate::scenario::AgentSpec;
 
 /// A waypoint is passed within this distance: the arrival radius of the definitions, and about the turning circle of a
 /// walk.
 const WAYPOINT_RADIUS_M: f32 = 0.5;
+/// Within this distance it is passed also by who is beyond it: two people abreast fill a waypoint's radius, and a third
+/// who rounds a corner beside them would come back for it.
+const BESIDE_M: f32 = 1.0;
+/// A passed waypoint is gone back to from no farther than this: a crowd shoves its people by a few bodies' widths.
+const SHOVED_M: f32 = 3.0;
 /// The last goal is reached within this distance, half a step …
 const GOAL_RADIUS_M: f32 = 0.2;
 /// … and sought again only when an agent is pushed away further than this: with 0.4 m the bodies of slow databases,
@@ -40,23 +47,50 @@ pub struct Progress {
 }
 
 /// v_pref at a position, m/s.
-pub fn preferred_mps(agent: &AgentSpec, position_m: Vec2, braking: Braking, progress: &mut Progress) -> Vec2 {
+pub fn preferred_mps(
+    agent: &AgentSpec,
+    position_m: Vec2,
+    obstacles: &Obstacles,
+    braking: Braking,
+    progress: &mut Progress,
+) -> Vec2 {
     let Some(last) = agent.goals_m.len().checked_sub(1) else { return Vec2::ZERO };
-    while (progress.next as usize) < last
-        && position_m.distance(agent.goals_m[progress.next as usize]) < WAYPOINT_RADIUS_M
-    {
+    while (progress.next as usize) < last && has_passed(agent, progress.next as usize, position_m) {
         progress.next += 1;
     }
-    let to_goal_m = agent.goals_m[progress.next as usize] - position_m;
-    let is_last = progress.next as usize == last;
-    progress.arrived = is_last && to_goal_m.length() < arrival_radius_m(progress.arrived);
+    let next = progress.next as usize;
+    let to_goal_m = agent.goals_m[next] - position_m;
+    progress.arrived = next == last && to_goal_m.length() < arrival_radius_m(progress.arrived);
+    if let Some(round_m) = way_round_m(agent, next, position_m, obstacles) {
+        return (round_m - position_m).normalize_or_zero() * agent.preferred_speed_mps;
+    }
     let speed_mps = match braking {
-        _ if !is_last => f32::INFINITY,
+        _ if next < last => f32::INFINITY,
         Braking::Evenly if progress.arrived => 0.0,
         Braking::Evenly => braking_speed_mps(to_goal_m.length()),
         Braking::Within(time_s) => to_goal_m.length() / time_s,
     };
     to_goal_m.normalize_or_zero() * speed_mps.min(agent.preferred_speed_mps)
+}
+
+/// Whether a waypoint that is not the last one is near, or lies a little aside and behind: behind the line through it
+/// that halves the angle of the ways to and from it.
+fn has_passed(agent: &AgentSpec, waypoint: usize, position_m: Vec2) -> bool {
+    let waypoint_m = agent.goals_m[waypoint];
+    let before_m = waypoint.checked_sub(1).map_or(agent.position_m, |before| agent.goals_m[before]);
+    let [to, from] = [waypoint_m - before_m, agent.goals_m[waypoint + 1] - waypoint_m].map(Vec2::normalize_or_zero);
+    let beyond_m = position_m - waypoint_m;
+    let radius_m = if beyond_m.dot(to + from) > 0.0 { BESIDE_M } else { WAYPOINT_RADIUS_M };
+    beyond_m.length() < radius_m
+}
+
+/// The waypoint passed last, for who has been shoved to where a wall hides the next one. Where a wall hides it from the
+/// waypoint too, the ways were meant so.
+fn way_round_m(agent: &AgentSpec, next: usize, position_m: Vec2, obstacles: &Obstacles) -> Option<Vec2> {
+    let (passed_m, next_m) = (agent.goals_m[next.checked_sub(1)?], agent.goals_m[next]);
+    let sees = |from_m, to_m| obstacles.is_free(from_m, to_m);
+    let shoved = position_m.distance(passed_m) < SHOVED_M && !sees(position_m, next_m);
+    (shoved && sees(position_m, passed_m) && sees(passed_m, next_m)).then_some(passed_m)
 }
 
 fn arrival_radius_m(arrived: bool) -> f32 {
@@ -86,12 +120,16 @@ mod tests {
         }
     }
 
+    fn open() -> Obstacles {
+        Obstacles::default()
+    }
+
     #[test]
     fn waypoints_are_taken_in_order_and_the_last_one_is_stayed_at() {
         let agent = agent(&[Vec2::new(3.0, 0.0), Vec2::new(3.0, 4.0)]);
         let (mut position_m, mut progress, mut nearest_first_m) = (Vec2::ZERO, Progress::default(), f32::INFINITY);
         for _ in 0..300 {
-            position_m += preferred_mps(&agent, position_m, Braking::Evenly, &mut progress) / 30.0;
+            position_m += preferred_mps(&agent, position_m, &open(), Braking::Evenly, &mut progress) / 30.0;
             nearest_first_m = nearest_first_m.min(position_m.distance(agent.goals_m[0]));
         }
         assert!(nearest_first_m < WAYPOINT_RADIUS_M);
@@ -103,7 +141,7 @@ mod tests {
         let agent = agent(&[Vec2::new(5.0, 0.0)]);
         let (mut position_m, mut progress, mut speed_mps, dt_s) = (Vec2::ZERO, Progress::default(), 1.3, 0.01);
         while !progress.arrived {
-            let next_mps = preferred_mps(&agent, position_m, Braking::Evenly, &mut progress).length();
+            let next_mps = preferred_mps(&agent, position_m, &open(), Braking::Evenly, &mut progress).length();
             assert!(progress.arrived || speed_mps - next_mps <= 1.02 * BRAKING_MPS2 * dt_s, "{speed_mps} {next_mps}");
             position_m.x += next_mps * dt_s;
             speed_mps = next_mps;
@@ -112,6 +150,33 @@ mod tests {
 
     #[test]
     fn an_agent_without_goals_stays() {
-        assert_eq!(preferred_mps(&agent(&[]), Vec2::ONE, Braking::Evenly, &mut Progress::default()), Vec2::ZERO);
+        assert_eq!(
+            preferred_mps(&agent(&[]), Vec2::ONE, &open(), Braking::Evenly, &mut Progress::default()),
+            Vec2::ZERO
+        );
+    }
+
+    #[test]
+    fn who_rounds_a_corner_beside_its_waypoint_goes_on_and_who_is_not_round_it_does_not() {
+        let agent = agent(&[Vec2::new(11.0, 1.0), Vec2::new(11.0, 12.0)]);
+        for (position_m, next) in
+            [([10.8, 1.8], 1), ([11.8, 1.3], 1), ([10.2, 1.3], 0), ([10.2, 2.2], 0), ([1.0, 3.0], 0)]
+        {
+            let mut progress = Progress::default();
+            preferred_mps(&agent, Vec2::from(position_m), &open(), Braking::Evenly, &mut progress);
+            assert_eq!(progress.next, next, "{position_m:?}");
+        }
+    }
+
+    #[test]
+    fn who_is_shoved_aside_after_the_waypoint_in_a_door_goes_through_the_door() {
+        let post_m = [(0.0, 0.5), (0.4, 0.5), (0.4, 5.0), (0.0, 5.0)].map(Vec2::from).to_vec();
+        let (obstacles, agent) = (Obstacles::new(&[post_m]), agent(&[Vec2::new(-0.4, 0.0), Vec2::new(60.0, 0.0)]));
+        let mut progress = Progress { next: 1, arrived: false };
+        let mut heading_for = |x_m, y_m| {
+            preferred_mps(&agent, Vec2::new(x_m, y_m), &obstacles, Braking::Evenly, &mut progress).normalize()
+        };
+        assert!(heading_for(-0.5, 1.5).distance(Vec2::new(0.1, -1.5).normalize()) < 1e-6);
+        assert!(heading_for(-0.5, 0.3).x > 0.99 && heading_for(0.6, 1.5).x > 0.99);
     }
 }

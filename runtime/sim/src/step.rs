@@ -126,7 +126,7 @@ impl Simulation {
         for (index, spec) in self.scenario.agents.iter().enumerate() {
             let position_m = self.agents.positions_m[index];
             self.agents.preferred_mps[index] =
-                path::preferred_mps(spec, position_m, braking, &mut self.agents.progress[index]);
+                path::preferred_mps(spec, position_m, &self.obstacles, braking, &mut self.agents.progress[index]);
         }
     }
 

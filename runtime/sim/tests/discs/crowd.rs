@@ -167,7 +167,9 @@ impl Crowd {
             Body::Lagging(..) => Braking::Evenly,
         };
         let agents = self.agents.iter().zip(&self.positions_m).zip(&mut self.progress);
-        agents.map(|((agent, &position_m), progress)| preferred_mps(agent, position_m, braking, progress)).collect()
+        agents
+            .map(|((agent, &position_m), progress)| preferred_mps(agent, position_m, setting.walls, braking, progress))
+            .collect()
     }
 
     /// Moves everyone; returns Σ PD (Eqs. 16, 17) of the step and adds the accelerations.
