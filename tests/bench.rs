@@ -167,7 +167,7 @@ fn the_stages_of_a_frame_are_timed_for_each_circle() {
 #[test]
 fn bodies_of_three_walks_do_what_is_asked_and_follow() {
     let clips = folder("bench_blend");
-    for clip in ["walk_080.bvh", "walk_110.bvh", "walk_140.bvh"] {
+    for clip in ["walk_080.bvh", "walk_110.bvh", "walk_140.glb"] {
         fs::copy(repository().join("assets/clips").join(clip), clips.join(clip)).unwrap();
     }
     let database = clips.join("walks.fbdb");
