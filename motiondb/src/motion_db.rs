@@ -94,6 +94,25 @@ impl Rows {
     pub fn pose(&self, example: usize, phase: usize) -> Pose {
         Pose { pelvis_m: self.pelvis_m[example * PHASE_COUNT + phase], rotations: *self.rotations(example, phase) }
     }
+
+    /// The weighted sum of rows (example, phase, weight), whose weights sum to 1.
+    pub fn blended(&self, rows: impl IntoIterator<Item = (usize, usize, f32)>) -> Pose {
+        let mut pose = Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
+        for (example, phase, weight) in rows {
+            pose.pelvis_m += weight * self.pelvis_m[example * PHASE_COUNT + phase];
+            for (sum, rotation) in pose.rotations.iter_mut().zip(self.rotations(example, phase)) {
+                *sum += *rotation * weight;
+            }
+        }
+        // Rows share a hemisphere, so a sum is never near zero.
+        pose.rotations.iter_mut().for_each(|rotation| *rotation = rotation.normalize());
+        pose
+    }
+
+    /// The mean over a cycle.
+    pub fn mean_pose(&self, example: usize) -> Pose {
+        self.blended((0..PHASE_COUNT).map(|phase| (example, phase, 1.0 / PHASE_COUNT as f32)))
+    }
 }
 
 /// What was found in one source clip. Parameters are whole-clip means on the source's own skeleton (`definitions.md`).

@@ -13,13 +13,12 @@
 //! w_i·v_i/r_i·φ' = Σ u_i·v_i a second in the blend: with the ground. Poses are weighted sums of rows (frames:
 //! [`motiondb::pose`]), between two rows linear.
 
-use glam::{Quat, Vec3};
+use glam::Vec3;
 use motiondb::blend_space::Shares;
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
 use motiondb::pose::Pose;
-use motiondb::skeleton::JOINT_COUNT;
 
 /// Examples that one body may mix: a simplex of four, and another that fades out.
 pub const MIX_MAX: usize = 8;
@@ -158,21 +157,12 @@ impl Weights {
 
     /// The blended pose.
     pub fn pose(&self, db: &MotionDb, phase: f32) -> Pose {
-        let mut pose = Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
         let (rows, shares) = two_rows(phase);
-        for &(example, weight) in self.entries() {
-            for (row, share) in rows.into_iter().zip(shares) {
-                let weight = weight * share;
-                pose.pelvis_m += weight * db.rows.pelvis_m[example as usize * PHASE_COUNT + row];
-                let rotations = db.rows.rotations(example as usize, row);
-                for (sum, rotation) in pose.rotations.iter_mut().zip(rotations) {
-                    *sum += *rotation * weight;
-                }
-            }
-        }
-        // Rows share a hemisphere, so a sum is never near zero.
-        pose.rotations.iter_mut().for_each(|rotation| *rotation = rotation.normalize());
-        pose
+        db.rows.blended(
+            self.entries()
+                .iter()
+                .flat_map(|&(example, weight)| [0, 1].map(|row| (example as usize, rows[row], weight * shares[row]))),
+        )
     }
 
     /// The blended contact Σ w_i·c_i of each foot.

@@ -16,7 +16,7 @@ use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
 use motiondb::pose::{Pose, Root};
-use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
+use motiondb::skeleton::{Foot, Joint, Side, Skeleton};
 
 use super::blending::two_rows;
 use super::foot_path::Foothold;
@@ -127,7 +127,7 @@ impl<'a> Deformation<'a> {
     /// The pose.
     pub fn pose(&self, db: &MotionDb, phase: f32) -> Pose {
         let instant = self.instant(phase);
-        let mut pose = self.mixed_pose(db, &instant);
+        let mut pose = db.rows.blended(instant.rows().map(|(row, weight)| (self.of.example, row, weight)));
         self.calm(&mut pose);
         twist(&mut pose, self.parameters);
         lean(&mut pose, self.lean_rad);
@@ -160,19 +160,6 @@ impl<'a> Deformation<'a> {
     fn instant(&self, phase: f32) -> Instant {
         let reversed = 1.0 - phase;
         Instant { phases: [phase, reversed - libm::floorf(reversed)], shares: self.directions }
-    }
-
-    fn mixed_pose(&self, db: &MotionDb, instant: &Instant) -> Pose {
-        let mut pose = Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
-        for (row, weight) in instant.rows() {
-            pose.pelvis_m += weight * db.rows.pelvis_m[self.of.example * PHASE_COUNT + row];
-            for (sum, rotation) in pose.rotations.iter_mut().zip(db.rows.rotations(self.of.example, row)) {
-                *sum += *rotation * weight;
-            }
-        }
-        // Rows share a hemisphere, so a sum is never near zero.
-        pose.rotations.iter_mut().for_each(|rotation| *rotation = rotation.normalize());
-        pose
     }
 
     /// Hips, trunk and arms swing less about their means where strides are shorter, and more where they are longer.

@@ -64,7 +64,7 @@ impl SemiProcedural {
     pub fn new(db: &MotionDb, example: usize) -> Option<Self> {
         let found = &db.examples[example];
         let key_times_s = found.key_times_s.filter(|_| found.parameters.speed_mps > 0.0)?;
-        let rows = db.posed_rows(example);
+        let (rows, mean) = (db.posed_rows(example), db.rows.mean_pose(example));
         let [left, right] = [0, 1].map(|side| foot_path(found, key_times_s, side, &rows));
         let feet: Vec<[Foothold; 2]> = left.into_iter().zip(right).map(|(left, right)| [left, right]).collect();
         let greatest = |value: fn(&[Foothold; 2]) -> f32| feet.iter().map(value).fold(f32::NEG_INFINITY, f32::max);
@@ -72,12 +72,12 @@ impl SemiProcedural {
             example,
             parameters: found.parameters,
             phase_map: found.phase_map,
-            hips_m: (0..PHASE_COUNT).map(|row| db.rows.pose(example, row).pelvis_m.z).sum::<f32>() / PHASE_COUNT as f32,
+            hips_m: mean.pelvis_m.z,
             contacts: [[key_times_s[3], key_times_s[2]], [key_times_s[1], key_times_s[0]]].map(|[strike_s, off_s]| {
                 let phase = |time_s| found.phase_map.phase(time_s);
                 [phase(strike_s), phase(off_s)]
             }),
-            mean: mean(db, example),
+            mean: mean.rotations,
             apart_s: greatest(|[left, right]| (left.since_s - right.since_s).abs()),
             track_m: -greatest(|[left, right]| right.place_m.y - left.place_m.y),
             feet,
@@ -110,13 +110,4 @@ impl SemiProcedural {
     pub(super) fn resting(&self, side: usize) -> &Foothold {
         &self.feet[if side == 0 { PHASE_COUNT / 2 } else { 0 }][side]
     }
-}
-
-/// Rows share a hemisphere, so a sum is never near zero.
-fn mean(db: &MotionDb, example: usize) -> [Quat; JOINT_COUNT] {
-    let mut mean = [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT];
-    for row in 0..PHASE_COUNT {
-        mean.iter_mut().zip(db.rows.rotations(example, row)).for_each(|(sum, rotation)| *sum += *rotation);
-    }
-    mean.map(Quat::normalize)
 }

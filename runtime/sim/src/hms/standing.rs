@@ -6,12 +6,10 @@
 
 use std::sync::Arc;
 
-use glam::{Quat, Vec3};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
 use motiondb::pose::Pose;
-use motiondb::skeleton::JOINT_COUNT;
 
 use super::ik::{self, FootTarget};
 use super::leg::{Leg, legs};
@@ -59,7 +57,7 @@ fn with_standing(db: &MotionDb, example: usize) -> MotionDb {
 
 /// Each leg as at its mid-stance, the mean of the cycle above them, and the feet where they stood.
 fn standing_pose(db: &MotionDb, example: usize) -> Pose {
-    let mut pose = mean_pose(db, example);
+    let mut pose = db.rows.mean_pose(example);
     let poses = MID_STANCES.map(|row| db.rows.pose(example, row));
     let targets = [0, 1].map(|side| {
         Leg::joints(side).into_iter().for_each(|joint| pose.rotations[joint] = poses[side].rotations[joint]);
@@ -76,16 +74,4 @@ fn standing_pose(db: &MotionDb, example: usize) -> Pose {
         *rotation = if rotation.dot(*row) < 0.0 { -*rotation } else { *rotation };
     }
     pose
-}
-
-/// Rows share a hemisphere, so a sum is never near zero.
-fn mean_pose(db: &MotionDb, example: usize) -> Pose {
-    let mut mean = Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
-    for row in 0..PHASE_COUNT {
-        let pose = db.rows.pose(example, row);
-        mean.pelvis_m += pose.pelvis_m / PHASE_COUNT as f32;
-        mean.rotations.iter_mut().zip(pose.rotations).for_each(|(sum, rotation)| *sum += rotation);
-    }
-    mean.rotations.iter_mut().for_each(|rotation| *rotation = rotation.normalize());
-    mean
 }

@@ -18,10 +18,9 @@ use fbcrowd_sim::hms::space::Space;
 use fbcrowd_sim::hms::{Body, Motion};
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::split_mix::SplitMix64;
-use glam::{Quat, Vec2, Vec3};
+use glam::Vec2;
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::pose::{Joints, Pose, Root};
-use motiondb::skeleton::JOINT_COUNT;
+use motiondb::pose::{Joints, Root};
 use serde::Serialize;
 
 use super::bar::{Bar, Found, Goal, conclude};
@@ -162,15 +161,8 @@ fn plain(db: &MotionDb, bodies: &[Body]) {
 }
 
 fn four_rows(db: &MotionDb, entries: &[(u32, f32)], row: usize) -> Joints {
-    let mut pose = Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
-    for &(example, weight) in entries.iter().cycle().take(4) {
-        pose.pelvis_m += weight * db.rows.pelvis_m[example as usize * PHASE_COUNT + row];
-        for (sum, rotation) in pose.rotations.iter_mut().zip(db.rows.rotations(example as usize, row)) {
-            *sum += *rotation * weight;
-        }
-    }
-    pose.rotations.iter_mut().for_each(|rotation| *rotation = rotation.normalize());
-    pose.forward_kinematics(&db.skeleton)
+    let rows = entries.iter().cycle().take(4).map(|&(example, weight)| (example as usize, row, weight));
+    db.rows.blended(rows).forward_kinematics(&db.skeleton)
 }
 
 /// Of [`STEPS`] steps of all bodies, per body and step.
