@@ -9,7 +9,7 @@ use glam::DVec3;
 use crate::simplex::Simplex;
 
 /// Cells to a simplex: more make shorter lists, and more memory.
-const CELLS_PER_SIMPLEX: f64 = 16.0;
+const CELLS_PER_SIMPLEX: f64 = 64.0;
 /// Most pairs of a cell and a simplex to be looked at: 16 MB of lists at worst.
 const MOST_PAIRS: f64 = (1 << 22) as f64;
 
