@@ -138,7 +138,7 @@ impl<'a> Deformation<'a> {
         }
         let mut legs = legs(&pose, &db.skeleton);
         let targets = feet.map(|(target, _)| target);
-        pelvis::lower(&mut pose, &mut legs, &db.skeleton, &targets);
+        pelvis::lower(&mut pose, &mut legs, &targets);
         for (side, (leg, target)) in legs.iter_mut().zip(&targets).enumerate() {
             ik::reach(&mut pose, leg, &db.skeleton, side, target);
         }

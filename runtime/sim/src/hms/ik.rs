@@ -40,22 +40,19 @@ pub struct FootTarget {
 pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, target: &FootTarget) {
     let [thigh, shank, foot, toe] = Leg::joints(side);
     let [hip_m, knee_m, ankle_m, _] = leg.positions_m;
-    let bones_m = [skeleton.offsets_m[shank].length(), skeleton.offsets_m[foot].length()];
-
-    let to_target_m = target.ankle_m - hip_m;
-    let old_line = (ankle_m - hip_m).normalize_or(Vec3::NEG_Z);
-    let new_line = to_target_m.normalize_or(old_line);
     let [old_thigh, old_shank, ..] = leg.orientations;
-    let forward = old_thigh * Vec3::X;
-    let pole = forward_pole(knee_m - hip_m, forward, old_line);
-    let distance_m = reachable_m(bones_m, to_target_m.length());
-    let (along_m, aside_m) = knee_offset_m(bones_m, distance_m);
-    let bent_thigh_m = along_m * old_line + aside_m * pole;
-    let bent_shank_m = distance_m * old_line - bent_thigh_m;
+    let (thigh_m, shank_m, line_m) = (knee_m - hip_m, ankle_m - knee_m, ankle_m - hip_m);
+    let to_target_m = target.ankle_m - hip_m;
 
-    let swing = turn(old_line, new_line);
-    let thigh_turned = swing * turn(knee_m - hip_m, bent_thigh_m) * old_thigh;
-    let shank_turned = swing * turn(ankle_m - knee_m, bent_shank_m) * old_shank;
+    let line = line_m.normalize_or(Vec3::NEG_Z);
+    let distance_m = reachable_m(leg.bones_m, to_target_m.length());
+    let (along_m, aside_m) = knee_offset_m(leg.bones_m, distance_m);
+    let bent_thigh_m = along_m * line + aside_m * forward_pole(thigh_m, old_thigh * Vec3::X, line);
+    let bent_shank_m = distance_m * line - bent_thigh_m;
+
+    let swing = turn(line_m, to_target_m);
+    let thigh_turned = (swing * turn(thigh_m, bent_thigh_m) * old_thigh).normalize();
+    let shank_turned = (swing * turn(shank_m, bent_shank_m) * old_shank).normalize();
 
     pose.rotations[thigh] = pose.rotations[Joint::Pelvis.index()].conjugate() * thigh_turned;
     pose.rotations[shank] = thigh_turned.conjugate() * shank_turned;
@@ -63,10 +60,8 @@ pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, t
     let knee_m = hip_m + thigh_turned * skeleton.offsets_m[shank];
     let ankle_m = knee_m + shank_turned * skeleton.offsets_m[foot];
     let toe_m = ankle_m + target.orientation * skeleton.offsets_m[toe];
-    *leg = Leg {
-        positions_m: [hip_m, knee_m, ankle_m, toe_m],
-        orientations: [thigh_turned, shank_turned, target.orientation, target.orientation * pose.rotations[toe]],
-    };
+    leg.positions_m = [hip_m, knee_m, ankle_m, toe_m];
+    leg.orientations = [thigh_turned, shank_turned, target.orientation, target.orientation * pose.rotations[toe]];
 }
 
 /// The distance from hip to ankle that a leg can have, nearest to the asked one.
@@ -85,25 +80,21 @@ fn knee_offset_m([thigh_m, shank_m]: [f32; 2], distance_m: f32) -> (f32, f32) {
 /// The side of the line from hip to ankle to which the knee bends: that of the pose, but forward. A pose whose knee is
 /// hyperextended (what is left of a switch may do that) has it behind the line, on the same hinge.
 fn forward_pole(knee_m: Vec3, forward: Vec3, line: Vec3) -> Vec3 {
-    let forward = across(forward, line);
-    let ahead_m = knee_m.dot(forward);
-    let aside_m = knee_m - knee_m.dot(line) * line - ahead_m * forward;
-    (aside_m + libm::hypotf(ahead_m, KNEE_AHEAD_M) * forward).normalize()
+    let across = |vector: Vec3| vector - line * vector.dot(line);
+    let forward = across(forward).try_normalize().unwrap_or_else(|| line.any_orthonormal_vector());
+    let off_m = across(knee_m);
+    let ahead_m = off_m.dot(forward);
+    (off_m + (libm::sqrtf(ahead_m * ahead_m + KNEE_AHEAD_M * KNEE_AHEAD_M) - ahead_m) * forward).normalize()
 }
 
-/// The unit part of a vector across a unit line; any such direction where the vector lies along the line.
-fn across(vector: Vec3, line: Vec3) -> Vec3 {
-    (vector - line * vector.dot(line)).normalize_or(line.any_orthonormal_vector())
-}
-
-/// The shortest rotation from the direction of one vector to that of another. Exact for the smallest angles, unlike what
-/// calls them nothing; for opposite vectors about any axis across, for none at all none.
+/// The shortest rotation from the direction of one vector to that of another, of any length. Exact for the smallest angles,
+/// unlike what calls them nothing; for opposite vectors about any axis across, for none at all none.
 fn turn(from: Vec3, to: Vec3) -> Quat {
     let lengths = libm::sqrtf(from.length_squared() * to.length_squared());
     let (cross, one_and_cosine) = (from.cross(to), lengths + from.dot(to));
     let half = Quat::from_xyzw(cross.x, cross.y, cross.z, one_and_cosine);
     if half.length_squared() > OPPOSITE * lengths * lengths {
-        half.normalize()
+        half
     } else if lengths > 0.0 {
         Quat::from_axis_angle(from.normalize().any_orthonormal_vector(), PI)
     } else {

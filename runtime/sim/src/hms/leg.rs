@@ -13,6 +13,8 @@ pub struct Leg {
     pub positions_m: [Vec3; 4],
     /// Of thigh, shank, foot and toes.
     pub orientations: [Quat; 4],
+    /// Lengths of thigh and shank.
+    pub bones_m: [f32; 2],
 }
 
 impl Leg {
@@ -25,8 +27,10 @@ impl Leg {
     /// As posed.
     pub fn new(pose: &Pose, skeleton: &Skeleton, side: usize) -> Self {
         let (mut position_m, mut orientation) = (pose.pelvis_m, pose.rotations[Joint::Pelvis.index()]);
-        let mut leg = Self { positions_m: [position_m; 4], orientations: [orientation; 4] };
-        for (below, joint) in Self::joints(side).into_iter().enumerate() {
+        let joints = Self::joints(side);
+        let bones_m = [joints[1], joints[2]].map(|below| skeleton.offsets_m[below].length());
+        let mut leg = Self { positions_m: [position_m; 4], orientations: [orientation; 4], bones_m };
+        for (below, joint) in joints.into_iter().enumerate() {
             position_m += orientation * skeleton.offsets_m[joint];
             orientation *= pose.rotations[joint];
             (leg.positions_m[below], leg.orientations[below]) = (position_m, orientation);

@@ -374,7 +374,7 @@ impl Body {
             let held = self.feet[side].step(&posed, contacts[side] >= PLANTED_CONTACT && !held_up, dt_s);
             FootTarget { ankle_m: frame.to_local(held.ankle_m), orientation: held.twist * legs[side].foot() }
         });
-        pelvis::lower(&mut pose, &mut legs, skeleton, &targets);
+        pelvis::lower(&mut pose, &mut legs, &targets);
         for (side, (leg, target)) in legs.iter_mut().zip(&targets).enumerate() {
             ik::reach(&mut pose, leg, skeleton, side, target);
         }

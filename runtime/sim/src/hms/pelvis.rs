@@ -13,7 +13,6 @@
 
 use glam::Vec3;
 use motiondb::pose::Pose;
-use motiondb::skeleton::Skeleton;
 
 use super::ik::FootTarget;
 use super::leg::Leg;
@@ -30,11 +29,11 @@ const DROP_MAX_M: f32 = 0.12;
 const SOFTNESS_M: f32 = 0.02;
 
 /// Lowers the pelvis of `pose`, and with it both legs.
-pub fn lower(pose: &mut Pose, legs: &mut [Leg; 2], skeleton: &Skeleton, targets: &[FootTarget; 2]) {
+pub fn lower(pose: &mut Pose, legs: &mut [Leg; 2], targets: &[FootTarget; 2]) {
     let [left_m, right_m] = [0, 1].map(|side| {
         let leg = &legs[side];
-        let own_m = needed_m(leg, skeleton, side, leg.ankle_m()).min(0.0);
-        asked_m(needed_m(leg, skeleton, side, targets[side].ankle_m), own_m)
+        let own_m = needed_m(leg, leg.ankle_m()).min(0.0);
+        asked_m(needed_m(leg, targets[side].ankle_m), own_m)
     });
     let drop_m = libm::cbrtf(left_m * left_m * left_m + right_m * right_m * right_m).min(DROP_MAX_M);
     pose.pelvis_m.z -= drop_m;
@@ -52,9 +51,8 @@ fn asked_m(target_m: f32, own_m: f32) -> f32 {
 
 /// How far the hip must come down for its leg to reach an ankle's place without stretching more than the pose does; negative
 /// if it reaches.
-fn needed_m(leg: &Leg, skeleton: &Skeleton, side: usize, ankle_m: Vec3) -> f32 {
-    let [_, shank, foot, _] = Leg::joints(side);
-    let leg_m = skeleton.offsets_m[shank].length() + skeleton.offsets_m[foot].length();
+fn needed_m(leg: &Leg, ankle_m: Vec3) -> f32 {
+    let leg_m = leg.bones_m[0] + leg.bones_m[1];
     let reach_m = leg.ankle_m().distance(leg.hip_m()).clamp(EXTENSION * leg_m, EXTENSION_MAX * leg_m);
     let to_foot_m = ankle_m - leg.hip_m();
     -to_foot_m.z - libm::sqrtf((reach_m * reach_m - to_foot_m.truncate().length_squared()).max(0.0))
@@ -83,8 +81,8 @@ mod tests {
             orientation: Quat::IDENTITY,
         };
         let targets = [target(0, 0.0), target(1, -behind_m)];
-        let needed_m = needed_m(&legs[1], &skeleton, 1, targets[1].ankle_m);
-        lower(&mut pose, &mut legs, &skeleton, &targets);
+        let needed_m = needed_m(&legs[1], targets[1].ankle_m);
+        lower(&mut pose, &mut legs, &targets);
         (skeleton.offsets_m[0].z - pose.pelvis_m.z, needed_m)
     }
 

@@ -65,7 +65,7 @@ fn standing_pose(db: &MotionDb, example: usize) -> Pose {
         FootTarget { ankle_m: leg.ankle_m(), orientation: leg.foot() }
     });
     let mut legs = legs(&pose, &db.skeleton);
-    pelvis::lower(&mut pose, &mut legs, &db.skeleton, &targets);
+    pelvis::lower(&mut pose, &mut legs, &targets);
     for (side, (leg, target)) in legs.iter_mut().zip(&targets).enumerate() {
         ik::reach(&mut pose, leg, &db.skeleton, side, target);
     }
