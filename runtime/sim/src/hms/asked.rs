@@ -58,8 +58,11 @@ pub fn asked_exactly(
 /// The point on the straight way from `now` to `goal` that a body may reach in one step.
 pub fn step_towards(now: Parameters, goal: Parameters, params: &HmsParams, dt_s: f32) -> Parameters {
     let [of_velocity, of_turn] = fractions(now, goal, params, dt_s);
-    let change = goal.to_vec3() - now.to_vec3();
-    Parameters::from_vec3(now.to_vec3() + of_velocity.min(of_turn) * change)
+    let fraction = of_velocity.min(of_turn);
+    if fraction == 1.0 {
+        return goal; // without rounding: what lies there is known already
+    }
+    Parameters::from_vec3(now.to_vec3() + fraction * (goal.to_vec3() - now.to_vec3()))
 }
 
 /// The same, turning and walking each as far as it may: m_sp knows no examples between.

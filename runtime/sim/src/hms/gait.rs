@@ -69,7 +69,7 @@ impl Gait {
 /// none where the body stands. `now`, what it does, gives the direction where it gathers its feet.
 pub fn goal(nearest: Nearest, now: Parameters, gait: Gait, space: &Space) -> Parameters {
     if gait.stands {
-        return space.nearest(Parameters::default()).parameters;
+        return space.standing.parameters;
     }
     let slowing = || space.nearest(Parameters::from_vec3(SLOWING * now.to_vec3()));
     let goal = if nearest.idle_share > HALT_IDLE_SHARE { slowing() } else { nearest };
@@ -80,13 +80,12 @@ pub fn goal(nearest: Nearest, now: Parameters, gait: Gait, space: &Space) -> Par
     Parameters::from_vec3(scale * goal.parameters.to_vec3())
 }
 
-/// What to play for some parameters: shares, and their pace.
-pub fn steps(parameters: Parameters, gait: Gait, space: &Space) -> (Shares, f32) {
-    let nearest = space.nearest(parameters);
+/// What to play for parameters that the database has: shares, and their pace.
+pub fn steps(nearest: &Nearest, gait: Gait, space: &Space) -> (Shares, f32) {
     let stepping_share = 1.0 - nearest.idle_share;
     if gait.stands || stepping_share >= 1.0 - IDLE_SHARE_MAX || stepping_share <= 0.0 {
         return (nearest.shares, 1.0);
     }
     let pace = stepping_share / (1.0 - IDLE_SHARE_MAX);
-    (space.locate(Parameters::from_vec3(parameters.to_vec3() / pace)), pace.max(PACE_MIN))
+    (space.locate(Parameters::from_vec3(nearest.parameters.to_vec3() / pace)), pace.max(PACE_MIN))
 }

@@ -140,7 +140,7 @@ pub struct Synthesis {
 impl Body {
     /// A body that stands at `root`, its cycle at `phase`.
     pub fn standing(motion: &Motion, root: Root, phase: f32) -> (Self, Synthesis) {
-        let mix = Mix::new(&motion.space.standing());
+        let mix = Mix::new(&motion.space.standing.shares);
         let mut body = Self {
             root,
             phase,
@@ -205,7 +205,7 @@ impl Body {
             (Mode::SemiProcedural, Some(hybrid)) => hybrid.semi_procedural.reachable(goal),
             _ => goal,
         };
-        pursuit::follow(&mut self.mix, goal, self.gait, motion, dt_s);
+        pursuit::follow(&mut self.mix, goal, &nearest, self.gait, motion, dt_s);
         self.move_root(&self.mix.parameters(motion.db), dt_s);
         self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * dt_s);
         nearest

@@ -10,6 +10,7 @@ use motiondb::parameters::Parameters;
 
 use super::blending::Mix;
 use super::gait::{self, Gait};
+use super::space::Nearest;
 use super::{Motion, asked};
 
 /// A mix to move to, and how much of it may be taken up in this step.
@@ -21,20 +22,21 @@ struct Target {
     gone: f32,
 }
 
-/// Moves the mix by one step towards `goal`.
-pub fn follow(mix: &mut Mix, goal: Parameters, gait: Gait, motion: &Motion, dt_s: f32) {
+/// Moves the mix by one step towards `goal`. What is nearest to one point, mostly the goal itself, is known already.
+pub fn follow(mix: &mut Mix, goal: Parameters, known: &Nearest, gait: Gait, motion: &Motion, dt_s: f32) {
     let now = mix.parameters(motion.db);
     let next = asked::step_towards(now, goal, motion.params, dt_s);
     let way = goal.to_vec3() - now.to_vec3();
     let step = (next.to_vec3() - now.to_vec3()).length() / way.length().max(f32::MIN_POSITIVE);
     let target = |at: Parameters, part: f32| {
-        let (shares, pace) = gait::steps(at, gait, motion.space);
+        let nearest = if at == known.parameters { *known } else { motion.space.nearest(at) };
+        let (shares, pace) = gait::steps(&nearest, gait, motion.space);
         // No faster than the root may accelerate.
         let fraction = fraction(mix, &shares, motion, dt_s).min(step / part.max(f32::MIN_POSITIVE)).min(1.0);
         Target { shares, pace, fraction, gone: fraction * part }
     };
     let near = target(next, step);
-    let far = (near.fraction < 1.0).then(|| target(goal, 1.0)).filter(|far| far.gone > near.gone);
+    let far = (near.fraction < 1.0 && next != goal).then(|| target(goal, 1.0)).filter(|far| far.gone > near.gone);
     let Target { shares, pace, fraction, .. } = far.unwrap_or(near);
     mix.approach(&shares, pace, fraction);
 }

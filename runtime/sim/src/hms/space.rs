@@ -41,12 +41,14 @@ pub struct Space {
     pub speed_max_mps: f32,
     /// Greatest side speeds without a turn, to the right (not positive) and to the left, m/s.
     pub strafe_mps: [f32; 2],
+    /// Standing still, or whatever the database has that is slowest.
+    pub standing: Nearest,
     /// The balls of the feet of a standing body in the root frame, `[left, right]`, metres.
     pub standing_balls_m: [Vec3; 2],
 }
 
 /// What the database has nearest to a query.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Nearest {
     /// The query itself, where it lies inside the hull.
     pub parameters: Parameters,
@@ -64,6 +66,7 @@ impl Space {
         let stands: Vec<bool> = db.examples.iter().map(|example| example.key_times_s.is_none()).collect();
         let landmarks_m: Vec<Landmarks> = (0..db.examples.len()).map(|example| landmarks_m(db, example)).collect();
         let mut space = Self {
+            standing: Nearest::default(),
             standing_balls_m: Default::default(),
             standing_apart: standing_apart(db, &stands),
             stands,
@@ -76,7 +79,8 @@ impl Space {
             locator: Locator::new(&db.blend_space, &points),
             points,
         };
-        let standing = Mix::new(&space.standing()).weights(db, 0.0).pose(db, 0.0);
+        space.standing = space.nearest(Parameters::default());
+        let standing = Mix::new(&space.standing.shares).weights(db, 0.0).pose(db, 0.0);
         let joints = standing.forward_kinematics(&db.skeleton);
         space.standing_balls_m = [0, 1].map(|side| joints.sole_points_m(&db.skeleton, side)[1]);
         space
@@ -127,11 +131,6 @@ impl Space {
     fn sum(&self, shares: &Shares) -> Vec3 {
         let examples = shares.examples.into_iter().zip(shares.shares);
         examples.map(|(example, share)| share * self.points[example as usize].to_vec3()).sum()
-    }
-
-    /// Shares of standing still, or of whatever the database has that is slowest.
-    pub fn standing(&self) -> Shares {
-        self.locate(Parameters::default())
     }
 
     /// The nearest point that the database has.

@@ -262,14 +262,14 @@ proptest! {
         let sum: f32 = weights[1..].iter().sum();
         let terms = db.examples[1..].iter().zip(&weights[1..]).map(|(example, weight)| example.parameters.to_vec3() * *weight);
         let asked = Parameters::from_vec3(terms.sum::<Vec3>() / sum * (1.0 - 0.1 * weights[0]));
-        let mut mix = Mix::new(&space.standing());
+        let mut mix = Mix::new(&space.standing.shares);
         let mut gait = Gait::STANDING;
         for _ in 0..120 {
             let nearest = space.nearest(asked);
             gait.follow(nearest.idle_share, true, DT_S);
             let goal = gait::goal(nearest, mix.parameters(&db), gait, &space);
             let towards = asked::step_towards(mix.parameters(&db), goal, &params, DT_S);
-            let (shares, pace) = gait::steps(towards, gait, &space);
+            let (shares, pace) = gait::steps(&space.nearest(towards), gait, &space);
             mix.approach(&shares, pace, 0.5);
         }
         let steps = Mix::new(&space.locate(asked)).share(0) < 0.35;
