@@ -23,6 +23,7 @@ use crate::hms::Motion;
 use crate::hms::hybrid::Hybrid;
 use crate::hms::space::Space;
 use crate::hms::standing;
+use crate::hms::time_step::TimeStep;
 use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
@@ -166,16 +167,17 @@ impl Simulation {
         };
         let (agents, obstacles) = (&mut self.agents, &self.obstacles);
         let Scenario { coupling, dt_s, .. } = self.scenario;
+        let time_step = TimeStep::new(dt_s);
         let bodies = agents.bodies.par_iter_mut().with_min_len(CHUNK).zip(&mut agents.syntheses);
         bodies.zip(&agents.plans).zip(&agents.radii_m).for_each(|(((body, synthesis), plan), &radius_m)| {
             let from = body.root;
             match coupling {
-                Coupling::TwoWay => body.advance(&motion, plan, dt_s),
+                Coupling::TwoWay => body.advance(&motion, plan, &time_step),
                 Coupling::Discs | Coupling::Decoupled => body.root = cns::as_planned(from, plan, dt_s),
             }
             body.root = cns::outside_walls(from.position_m, body.root, radius_m, obstacles);
             match coupling {
-                Coupling::TwoWay => *synthesis = body.synthesize(&motion, dt_s),
+                Coupling::TwoWay => *synthesis = body.synthesize(&motion, &time_step),
                 Coupling::Decoupled => *synthesis = decoupled::follow(body, &motion, from, dt_s),
                 Coupling::Discs => {}
             }

@@ -8,6 +8,7 @@ use fbcrowd_sim::hms::hybrid::Hybrid;
 use fbcrowd_sim::hms::inertialization::CARRIED_S;
 use fbcrowd_sim::hms::params::{HmsParams, Transition};
 use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::time_step::TimeStep;
 use fbcrowd_sim::hms::{Body, Motion};
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::recording_frame::Mode;
@@ -35,10 +36,11 @@ fn walk_by(db: &MotionDb, params: &HmsParams, seconds: f32, plan: impl Fn(f32, &
     let (space, hybrid) = (Space::new(db), Hybrid::new(db, params.modes).unwrap());
     let motion = Motion { db, space: &space, hybrid: Some(&hybrid), params };
     let (mut body, _) = Body::standing(&motion, Root::default(), 0.3);
+    let time_step = TimeStep::new(DT_S);
     (0..(seconds / DT_S) as usize)
         .map(|step| {
-            body.advance(&motion, &plan(step as f32 * DT_S, &body.root), DT_S);
-            let joints = body.synthesize(&motion, DT_S).pose.forward_kinematics(&db.skeleton);
+            body.advance(&motion, &plan(step as f32 * DT_S, &body.root), &time_step);
+            let joints = body.synthesize(&motion, &time_step).pose.forward_kinematics(&db.skeleton);
             Step { mode: body.mode, root: body.root, joints_m: joints.positions_m.to_vec() }
         })
         .collect()

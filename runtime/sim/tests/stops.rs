@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use fbcrowd_sim::hms::params::HmsParams;
 use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::time_step::TimeStep;
 use fbcrowd_sim::hms::{Body, Motion, Synthesis, standing};
 use fbcrowd_sim::plan::Plan;
 use glam::{Vec2, Vec3};
@@ -50,9 +51,10 @@ fn go(db: &MotionDb, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Ste
         Step { root: body.root, contacts: synthesis.contacts, soles_m }
     };
     let mut steps = vec![step(&body, &first)];
+    let time_step = TimeStep::new(DT_S);
     for index in 0..(seconds / DT_S) as usize {
-        body.advance(&motion, &plan(index as f32 * DT_S, &body.root), DT_S);
-        let synthesis = body.synthesize(&motion, DT_S);
+        body.advance(&motion, &plan(index as f32 * DT_S, &body.root), &time_step);
+        let synthesis = body.synthesize(&motion, &time_step);
         steps.push(step(&body, &synthesis));
     }
     steps

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use fbcrowd_sim::hms::params::HmsParams;
 use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::time_step::TimeStep;
 use fbcrowd_sim::hms::{Body, Motion, Synthesis};
 use fbcrowd_sim::obstacles::Obstacles;
 use fbcrowd_sim::plan::Plan;
@@ -51,10 +52,11 @@ fn go(db: &MotionDb, mut see: impl FnMut(&Root, &Synthesis)) -> Slide {
     let start = |index: usize| Body::standing(&motion, Root::default(), index as f32 / 8.0);
     let mut bodies: Vec<Body> = (0..8).map(|index| start(index).0).collect();
     let mut slide = PlantedSlide::new(&db.skeleton, bodies.len(), DT_S);
+    let time_step = TimeStep::new(DT_S);
     for step in 0..(SECONDS / DT_S) as usize {
         let frames = bodies.iter_mut().map(|body| {
-            body.advance(&motion, &errand(step as f32 * DT_S, &body.root), DT_S);
-            let synthesis = body.synthesize(&motion, DT_S);
+            body.advance(&motion, &errand(step as f32 * DT_S, &body.root), &time_step);
+            let synthesis = body.synthesize(&motion, &time_step);
             see(&body.root, &synthesis);
             AgentFrame {
                 root: body.root,

@@ -11,15 +11,17 @@
 
 use glam::{Quat, Vec2, Vec3};
 
+use super::time_step::TimeStep;
 use crate::angle::wrap_rad;
+use crate::decay::soft_maximum;
 
 /// Rate of the spring that lets a foot go, 1/s: of a hold, 4 % is left after 0.25 s, before the foot lands again.
-const RELEASE_RATE_HZ: f32 = 20.0;
+pub(super) const RELEASE_RATE_HZ: f32 = 20.0;
 /// Rate of the spring by which a planted sole comes down to the ground and a swinging one rises to its clearance, 1/s.
-const LIFT_RATE_HZ: f32 = 40.0;
+pub(super) const LIFT_RATE_HZ: f32 = 40.0;
 /// A foot that lands while it still moves over the ground, since the body changes its speed, comes to rest in this time,
 /// s: within the tenth of a stance in which it rolls on. At once would jerk the knee.
-const LANDING_TIME_S: f32 = 0.012;
+pub(super) const LANDING_TIME_S: f32 = 0.012;
 /// Toe clearance of a swinging foot (`motion.md` §5): blends with standing lower the swing, and would drag the toes …
 const CLEARANCE_M: f32 = 0.013;
 /// … in full from this speed, m/s; a foot that leaves or lands moves slowly …
@@ -27,7 +29,7 @@ const CLEARANCE_SPEED_MPS: f32 = 1.0;
 /// … and gently: from so far above it on a foot is lifted, m, …
 const CLEARANCE_SOFTNESS_M: f32 = 0.003;
 /// … by its mean speed over this time, s: between two rows of the database a foot has one speed.
-const SPEED_TIME_S: f32 = 0.03;
+pub(super) const SPEED_TIME_S: f32 = 0.03;
 /// Greatest shift: the leg of a step that is broken off half-way; beyond it the foot slides, metres.
 const SHIFT_MAX_M: f32 = 0.35;
 /// Greatest twist of a foot against the pose's: people twist the stance foot, and pivot on it beyond about 45°
@@ -97,18 +99,18 @@ impl FootHold {
     }
 
     /// Moves the hold by one step; `posed` is the foot of the blended pose.
-    pub fn step(&mut self, posed: &PosedFoot, planted: bool, dt_s: f32) -> HeldFoot {
+    pub fn step(&mut self, posed: &PosedFoot, planted: bool, step: &TimeStep) -> HeldFoot {
         let heading_rad = posed.heading_rad();
         let (lowest, height_m) = posed.lowest();
         // A foot lands where the pose has it now, somewhere within the step: only from then on it is held.
         if planted && self.planted {
-            self.hold(posed, lowest, wrap_rad(heading_rad - self.heading_rad), dt_s);
+            self.hold(posed, lowest, wrap_rad(heading_rad - self.heading_rad), step);
         } else {
-            self.release(dt_s);
-            self.land(posed, lowest, dt_s);
+            self.release(step);
+            self.land(posed, lowest, step);
         }
         (self.planted, self.lowest, self.heading_rad) = (planted, lowest, heading_rad);
-        self.lift(height_m, dt_s);
+        self.lift(height_m, step);
         HeldFoot {
             ankle_m: posed.ankle_m + self.shift_m.extend(self.lift_m),
             twist: Quat::from_rotation_z(self.twist_rad),
@@ -131,28 +133,28 @@ impl FootHold {
     }
 
     /// Takes note of the foot as the leg could place it.
-    pub fn placed(&mut self, sole_m: [Vec3; 3], dt_s: f32) {
-        let speed_mps = (sole_m[1] - self.sole_m[1]).truncate().length() / dt_s;
-        self.speed_mps += (1.0 - libm::expf(-dt_s / SPEED_TIME_S)) * (speed_mps - self.speed_mps);
+    pub fn placed(&mut self, sole_m: [Vec3; 3], step: &TimeStep) {
+        let speed_mps = (sole_m[1] - self.sole_m[1]).truncate().length() / step.dt_s;
+        self.speed_mps += (1.0 - step.foot_speed) * (speed_mps - self.speed_mps);
         self.sole_m = sole_m;
     }
 
     /// Cancels the foot's turning, then the motion of its lowest point, which twists about the ankle.
-    fn hold(&mut self, posed: &PosedFoot, lowest: usize, turned_rad: f32, dt_s: f32) {
+    fn hold(&mut self, posed: &PosedFoot, lowest: usize, turned_rad: f32, step: &TimeStep) {
         let before = (self.shift_m, self.twist_rad);
         self.twist_rad = (self.twist_rad - turned_rad).clamp(-TWIST_MAX_RAD, TWIST_MAX_RAD);
-        let decay = libm::expf(-dt_s / LANDING_TIME_S);
+        let [decay, _] = step.landing;
         let slipped_m = LANDING_TIME_S * (1.0 - decay) * self.landing_mps;
         self.landing_mps *= decay;
         self.shift_m = (self.rests_m(lowest) + slipped_m - self.twisted_m(posed, lowest)).clamp_length_max(SHIFT_MAX_M);
-        self.shift_mps = (self.shift_m - before.0) / dt_s;
-        self.twist_rad_s = (self.twist_rad - before.1) / dt_s;
+        self.shift_mps = (self.shift_m - before.0) / step.dt_s;
+        self.twist_rad_s = (self.twist_rad - before.1) / step.dt_s;
     }
 
     /// Notes how fast the foot moves, should it land: as much as is left of it where it landed half a step ago.
-    fn land(&mut self, posed: &PosedFoot, lowest: usize, dt_s: f32) {
+    fn land(&mut self, posed: &PosedFoot, lowest: usize, step: &TimeStep) {
         let moved_m = self.twisted_m(posed, lowest) + self.shift_m - self.sole_m[lowest].truncate();
-        self.landing_mps = libm::expf(-0.5 * dt_s / LANDING_TIME_S) / dt_s * moved_m;
+        self.landing_mps = step.landing[1] / step.dt_s * moved_m;
     }
 
     /// A point of the pose's sole, twisted about the ankle.
@@ -170,27 +172,20 @@ impl FootHold {
     }
 
     /// Towards no shift and no twist.
-    fn release(&mut self, dt_s: f32) {
-        let decay = libm::expf(-RELEASE_RATE_HZ * dt_s);
-        let pull_mps = self.shift_mps + RELEASE_RATE_HZ * self.shift_m;
-        self.shift_m = decay * (self.shift_m + dt_s * pull_mps);
-        self.shift_mps = decay * (self.shift_mps - RELEASE_RATE_HZ * dt_s * pull_mps);
-        let pull_rad_s = self.twist_rad_s + RELEASE_RATE_HZ * self.twist_rad;
-        self.twist_rad = decay * (self.twist_rad + dt_s * pull_rad_s);
-        self.twist_rad_s = decay * (self.twist_rad_s - RELEASE_RATE_HZ * dt_s * pull_rad_s);
+    fn release(&mut self, step: &TimeStep) {
+        (self.shift_m, self.shift_mps) = step.release.pass(self.shift_m, self.shift_mps);
+        (self.twist_rad, self.twist_rad_s) = step.release.pass(self.twist_rad, self.twist_rad_s);
     }
 
     /// A planted sole settles on the ground, whatever the pose's height does, and a swinging one on the pose's height, or
     /// its clearance; none goes below the ground. What is off decays like a critically damped spring.
-    fn lift(&mut self, height_m: f32, dt_s: f32) {
-        let (before_m, wanted_m) = (self.wanted_lift_m(self.height_m), self.wanted_lift_m(height_m));
-        let wanted_mps = (wanted_m - before_m) / dt_s;
-        let (off_m, off_mps) = (self.lift_m - before_m, self.lift_mps - wanted_mps);
-        let decay = libm::expf(-LIFT_RATE_HZ * dt_s);
-        let pull_mps = off_mps + LIFT_RATE_HZ * off_m;
+    fn lift(&mut self, height_m: f32, step: &TimeStep) {
+        let [before_m, wanted_m] = [self.height_m, height_m].map(|height_m| self.wanted_lift_m(height_m));
+        let wanted_mps = (wanted_m - before_m) / step.dt_s;
+        let (off_m, _) = step.lift.pass(self.lift_m - before_m, self.lift_mps - wanted_mps);
         let before_m = self.lift_m;
-        self.lift_m = (wanted_m + decay * (off_m + dt_s * pull_mps)).max(-height_m);
-        self.lift_mps = (self.lift_m - before_m) / dt_s;
+        self.lift_m = (wanted_m + off_m).max(-height_m);
+        self.lift_mps = (self.lift_m - before_m) / step.dt_s;
         self.height_m = height_m;
     }
 
@@ -200,7 +195,6 @@ impl FootHold {
         }
         let clearance_m = CLEARANCE_M * (self.speed_mps / CLEARANCE_SPEED_MPS).min(1.0);
         // A foot far above it wants none, and one far below is lifted by what it lacks.
-        let lacks = ((clearance_m - height_m) / CLEARANCE_SOFTNESS_M).min(50.0);
-        CLEARANCE_SOFTNESS_M * libm::log1pf(libm::expf(lacks))
+        CLEARANCE_SOFTNESS_M * soft_maximum((clearance_m - height_m) / CLEARANCE_SOFTNESS_M)
     }
 }

@@ -13,13 +13,14 @@ use glam::{Quat, Vec2};
 use motiondb::pose::{Pose, Root};
 use motiondb::skeleton::{Joint, Skeleton};
 
+use super::time_step::TimeStep;
 use crate::angle::wrap_rad;
 use crate::plan::Plan;
 
 /// Eyes do what is further aside, rad: of turns by 90° and more the head shows some 45° against the trunk.
 const GAZE_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
 /// Rate of the spring, 1/s. From straight ahead to the greatest angle the head then turns at 200 °/s, as in a glance.
-const RATE_HZ: f32 = 12.0;
+pub(super) const RATE_HZ: f32 = 12.0;
 /// Who walks aside at this speed looks halfway to where he goes, m/s: a walk's.
 const LOOK_SPEED_MPS: f32 = 1.2;
 /// A gaze this near to the facing is along it, rad.
@@ -37,13 +38,10 @@ pub struct Gaze {
 
 impl Gaze {
     /// Lets a step pass, in which the gaze makes for what a plan asks of a body at `root`; exactly over a step.
-    pub fn follow(&mut self, plan: &Plan, root: &Root, dt_s: f32) {
+    pub fn follow(&mut self, plan: &Plan, root: &Root, step: &TimeStep) {
         let wanted_rad = wanted_rad(plan, root.facing_rad);
-        let off_rad = self.angle_rad - wanted_rad;
-        let decay = libm::expf(-RATE_HZ * dt_s);
-        let pull_rad_s = self.rate_rad_s + RATE_HZ * off_rad;
-        self.angle_rad = wanted_rad + decay * (off_rad + dt_s * pull_rad_s);
-        self.rate_rad_s = decay * (self.rate_rad_s - RATE_HZ * dt_s * pull_rad_s);
+        let (off_rad, rate_rad_s) = step.gaze.pass(self.angle_rad - wanted_rad, self.rate_rad_s);
+        (self.angle_rad, self.rate_rad_s) = (wanted_rad + off_rad, rate_rad_s);
     }
 
     /// Turns chest and head of a pose, as far as its joints go.
@@ -91,7 +89,7 @@ mod tests {
         let mut gaze = Gaze::default();
         (0..(seconds / dt_s).round() as usize)
             .map(|step| {
-                gaze.follow(&plan(step as f32 * dt_s), &Root::default(), dt_s);
+                gaze.follow(&plan(step as f32 * dt_s), &Root::default(), &TimeStep::new(dt_s));
                 gaze
             })
             .collect()

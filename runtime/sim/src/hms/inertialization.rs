@@ -9,8 +9,10 @@ use glam::{Quat, Vec3};
 use motiondb::pose::Pose;
 use motiondb::skeleton::JOINT_COUNT;
 
+use super::time_step::TimeStep;
+
 /// Rate of the springs, 1/s: 9 % of a difference is left after 0.4 s, a step.
-const RATE_HZ: f32 = 10.0;
+pub(super) const RATE_HZ: f32 = 10.0;
 /// By then a difference has died out, s.
 pub const CARRIED_S: f32 = 0.4;
 /// Less than this of a difference is none, rad and m.
@@ -47,14 +49,16 @@ impl Inertia {
     }
 
     /// Lets a step pass and adds what is then left to the pose of the new synthesis.
-    pub fn carry(&mut self, pose: &mut Pose, dt_s: f32) {
-        let Some([left, rate]) = &self.0 else { return };
-        // The critically damped spring, exactly over a step.
-        let decay = libm::expf(-RATE_HZ * dt_s);
-        let pull = rate.combined(1.0, left, RATE_HZ);
-        let after = [left.combined(decay, &pull, decay * dt_s), rate.combined(decay, &pull, -decay * dt_s * RATE_HZ)];
-        after[0].add_to(pose);
-        self.0 = after.iter().any(|part| part.greatest() > NEGLIGIBLE).then_some(after);
+    pub fn carry(&mut self, pose: &mut Pose, step: &TimeStep) {
+        let Some([left, rate]) = &mut self.0 else { return };
+        (left.pelvis_m, rate.pelvis_m) = step.inertia.pass(left.pelvis_m, rate.pelvis_m);
+        for (left, rate) in left.rotations_rad.iter_mut().zip(&mut rate.rotations_rad) {
+            (*left, *rate) = step.inertia.pass(*left, *rate);
+        }
+        left.add_to(pose);
+        if left.greatest().max(rate.greatest()) <= NEGLIGIBLE {
+            self.0 = None;
+        }
     }
 }
 
@@ -88,7 +92,8 @@ impl Difference {
     }
 
     fn greatest(&self) -> f32 {
-        self.rotations_rad.iter().fold(self.pelvis_m.length(), |greatest, vector| greatest.max(vector.length()))
+        let squared = self.rotations_rad.iter().map(|vector| vector.length_squared());
+        libm::sqrtf(squared.fold(self.pelvis_m.length_squared(), f32::max))
     }
 }
 
@@ -117,7 +122,7 @@ mod tests {
         let shown: Vec<f32> = (0..480)
             .map(|_| {
                 let mut pose = bent(0.0);
-                inertia.carry(&mut pose, dt_s);
+                inertia.carry(&mut pose, &TimeStep::new(dt_s));
                 angle_rad(&pose)
             })
             .collect();
@@ -133,14 +138,14 @@ mod tests {
         inertia.begin([&bent(0.2); 2], [&bent(0.0); 2]);
         inertia.begin([&bent(0.0); 2], [&bent(-0.1); 2]);
         let mut pose = bent(-0.1);
-        inertia.carry(&mut pose, 0.0);
+        inertia.carry(&mut pose, &TimeStep::new(0.0));
         assert!((angle_rad(&pose) - 0.2).abs() < 1e-4);
     }
 
     #[test]
     fn without_a_switch_nothing_is_added() {
         let mut pose = bent(0.4);
-        Inertia::default().carry(&mut pose, 0.1);
+        Inertia::default().carry(&mut pose, &TimeStep::new(0.1));
         assert_eq!(pose, bent(0.4));
     }
 }

@@ -12,12 +12,14 @@
 use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
 
+use super::time_step::TimeStep;
+
 /// τ_0: lag behind plans that change to and fro, s.
 const LAG_S: f32 = 0.15;
 /// r_0: the lag halves at this steady change, m/s² and rad/s².
 const RATE: f32 = 1.0;
 /// T_r: a change that lasts this long is steady, s: longer than two steps of 0.1 s, in which plans go to and fro.
-const STEADY_S: f32 = 0.15;
+pub(super) const STEADY_S: f32 = 0.15;
 
 /// Follows what is asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,12 +34,12 @@ pub struct Intention {
 
 impl Intention {
     /// Takes up what is asked now. A body that stands does not tremble: it needs no lag.
-    pub fn follow(&mut self, asked: Parameters, stands: bool, dt_s: f32) {
+    pub fn follow(&mut self, asked: Parameters, stands: bool, step: &TimeStep) {
         let asked = asked.to_vec3();
-        self.rate += within(STEADY_S, dt_s) * ((asked - self.asked) / dt_s - self.rate);
+        self.rate += (1.0 - step.steady) * ((asked - self.asked) / step.dt_s - self.rate);
         self.asked = asked;
         let lag_s = LAG_S / (1.0 + self.rate.length() / RATE);
-        let share = if stands { 1.0 } else { within(lag_s, dt_s) };
+        let share = if stands { 1.0 } else { 1.0 - libm::expf(-step.dt_s / lag_s) };
         let intended = self.parameters.to_vec3();
         self.parameters = Parameters::from_vec3(intended + share * (asked - intended));
     }
@@ -54,11 +56,6 @@ impl Intention {
     }
 }
 
-/// How much of the way a lag goes in a step.
-fn within(time_s: f32, dt_s: f32) -> f32 {
-    1.0 - libm::expf(-dt_s / time_s)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,7 +64,7 @@ mod tests {
     fn intended_mps(dt_s: f32, asked_mps: impl Iterator<Item = f32>) -> Vec<f32> {
         let mut intention = Intention::default();
         let follow = |speed_mps| {
-            intention.follow(Parameters { speed_mps, ..Parameters::default() }, false, dt_s);
+            intention.follow(Parameters { speed_mps, ..Parameters::default() }, false, &TimeStep::new(dt_s));
             intention.parameters.speed_mps
         };
         asked_mps.map(follow).collect()
@@ -101,11 +98,11 @@ mod tests {
             turn_rate_rad_s: 0.0,
             strafe_mps: -libm::sinf(facing_rad),
         };
-        intention.follow(asked(0.0), true, 0.1);
+        intention.follow(asked(0.0), true, &TimeStep::new(0.1));
         for step in 1..20 {
             intention.turned(0.1);
             let asked = asked(0.1 * step as f32);
-            intention.follow(asked, false, 0.1);
+            intention.follow(asked, false, &TimeStep::new(0.1));
             assert!((intention.parameters.to_vec3() - asked.to_vec3()).length() < 1e-4);
         }
     }

@@ -35,6 +35,7 @@ pub mod pursuit;
 pub mod semi_procedural;
 pub mod space;
 pub mod standing;
+pub mod time_step;
 
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
@@ -58,6 +59,7 @@ use self::params::{HmsParams, Transition};
 use self::playing::Playing;
 use self::semi_procedural::SemiProcedural;
 use self::space::{Nearest, Space};
+use self::time_step::TimeStep;
 use crate::angle::wrap_rad;
 use crate::plan::{Plan, Stance};
 use crate::recording_frame::{Mode, PLANTED_CONTACT};
@@ -161,24 +163,24 @@ impl Body {
         let legs = legs(&playing.pose(motion, phase), &motion.db.skeleton);
         let frame = root.frame();
         body.feet = [0, 1].map(|side| FootHold::new(&posed_foot(&frame, &legs[side], &motion.db.skeleton, side)));
-        let synthesis = body.synthesize(motion, SETTLING_S);
+        let synthesis = body.synthesize(motion, &TimeStep::new(SETTLING_S));
         (body, synthesis)
     }
 
     /// Steps 1 and 2: what is played, phase and root follow the plan. The root may then be kept out of walls, before
     /// [`Self::synthesize`].
-    pub fn advance(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) {
-        let plan = self.owed.settle(plan, self.walked_mps, dt_s);
+    pub fn advance(&mut self, motion: &Motion, plan: &Plan, step: &TimeStep) {
+        let plan = self.owed.settle(plan, self.walked_mps, step);
         let before = self.phase;
         let nearest = match (self.mode, motion.hybrid) {
-            (Mode::SemiProcedural, Some(hybrid)) => self.deform(motion, &hybrid.semi_procedural, &plan, dt_s),
-            _ => self.blend(motion, &plan, dt_s),
+            (Mode::SemiProcedural, Some(hybrid)) => self.deform(motion, &hybrid.semi_procedural, &plan, step),
+            _ => self.blend(motion, &plan, step),
         };
         if let Some(hybrid) = motion.hybrid {
-            self.choose(motion, hybrid, &plan, nearest.idle_share, dt_s);
+            self.choose(motion, hybrid, &plan, nearest.idle_share, step.dt_s);
             self.switch(motion, hybrid, before);
         }
-        self.gaze.follow(&plan, &self.root, dt_s);
+        self.gaze.follow(&plan, &self.root, step);
         self.committed_mps = self
             .detour(motion)
             .map(|way| Vec2::from_angle(self.root.facing_rad).rotate(Vec2::new(way.speed_mps, way.strafe_mps)));
@@ -192,12 +194,12 @@ impl Body {
 
     /// Motion blending: shares, phase and root. On the way to semi-procedural locomotion it makes for what m_sp can do.
     /// Returns what the examples have nearest to what is asked.
-    fn blend(&mut self, motion: &Motion, plan: &Plan, dt_s: f32) -> Nearest {
+    fn blend(&mut self, motion: &Motion, plan: &Plan, step: &TimeStep) -> Nearest {
         let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
-        self.intention.follow(asked, self.gait.stands, dt_s);
+        self.intention.follow(asked, self.gait.stands, step);
         let now = self.mix.parameters(motion.db);
         let nearest = motion.space.nearest(self.intention.parameters);
-        if self.gait.follow(nearest.idle_share, self.feet_gathered(motion), dt_s) {
+        if self.gait.follow(nearest.idle_share, self.feet_gathered(motion), step.dt_s) {
             self.jump(motion, |body| body.phase = body.first_step_phase(motion));
         }
         let goal = self.detour(motion).unwrap_or_else(|| gait::goal(nearest, now, self.gait, motion.space));
@@ -205,20 +207,21 @@ impl Body {
             (Mode::SemiProcedural, Some(hybrid)) => hybrid.semi_procedural.reachable(goal),
             _ => goal,
         };
-        pursuit::follow(&mut self.mix, goal, &nearest, self.gait, motion, dt_s);
-        self.move_root(&self.mix.parameters(motion.db), dt_s);
-        self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * dt_s);
+        pursuit::follow(&mut self.mix, goal, &nearest, self.gait, motion, step.dt_s);
+        self.move_root(&self.mix.parameters(motion.db), step.dt_s);
+        self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * step.dt_s);
         nearest
     }
 
     /// Semi-procedural locomotion: parameters, phase and root. On the way back to blending it makes for what the
     /// examples can do. Returns what they have nearest to what is asked.
-    fn deform(&mut self, motion: &Motion, semi_procedural: &SemiProcedural, plan: &Plan, dt_s: f32) -> Nearest {
+    fn deform(&mut self, motion: &Motion, semi_procedural: &SemiProcedural, plan: &Plan, step: &TimeStep) -> Nearest {
+        let dt_s = step.dt_s;
         let turning_rad = dt_s * self.walking.turn_rate_rad_s;
         self.intention.turned(turning_rad);
         let facing_rad = self.root.facing_rad;
         let asked = asked::asked_exactly(plan, facing_rad, turning_rad, semi_procedural, motion.params);
-        self.intention.follow(asked, false, dt_s);
+        self.intention.follow(asked, false, step);
         let intended = self.intention.parameters;
         let nearest = motion.space.nearest(intended);
         let goal = match self.choice.mode {
@@ -358,12 +361,12 @@ impl Body {
     }
 
     /// Steps 3 to 5: the pose at the present phase and root.
-    pub fn synthesize(&mut self, motion: &Motion, dt_s: f32) -> Synthesis {
+    pub fn synthesize(&mut self, motion: &Motion, step: &TimeStep) -> Synthesis {
         let skeleton = &motion.db.skeleton;
         let playing = self.playing(motion);
         let mut pose = playing.pose(motion, self.phase);
         let played = self.inertia.carries().then(|| legs(&pose, skeleton));
-        self.inertia.carry(&mut pose, dt_s);
+        self.inertia.carry(&mut pose, step);
         self.gaze.turn(&mut pose, skeleton);
         let contacts = playing.contacts(motion, self.phase);
         let (frame, mut legs) = (self.root.frame(), legs(&pose, skeleton));
@@ -371,7 +374,7 @@ impl Body {
         let targets = [0, 1].map(|side| {
             let posed = posed_foot(&frame, &legs[side], skeleton, side);
             let held_up = played.is_some_and(|played| held_up(&played[side], &legs[side], skeleton, side));
-            let held = self.feet[side].step(&posed, contacts[side] >= PLANTED_CONTACT && !held_up, dt_s);
+            let held = self.feet[side].step(&posed, contacts[side] >= PLANTED_CONTACT && !held_up, step);
             FootTarget { ankle_m: frame.to_local(held.ankle_m), orientation: held.twist * legs[side].foot() }
         });
         pelvis::lower(&mut pose, &mut legs, &targets);
@@ -380,7 +383,7 @@ impl Body {
         }
 
         for (side, hold) in self.feet.iter_mut().enumerate() {
-            hold.placed(legs[side].sole_points_m(skeleton, side).map(|point| frame.to_world(point)), dt_s);
+            hold.placed(legs[side].sole_points_m(skeleton, side).map(|point| frame.to_world(point)), step);
         }
         self.told(motion, &playing, pose, contacts, &legs)
     }

@@ -6,6 +6,7 @@
 
 use glam::Vec2;
 
+use super::time_step::TimeStep;
 use crate::plan::Plan;
 
 /// A plan slower than this is saved up, and paid at this speed, m/s: the body makes the least steps of it.
@@ -15,7 +16,7 @@ const STEP_M: f32 = 0.2;
 /// The most that is owed, m.
 const OWED_MAX_M: f32 = 0.25;
 /// What is owed is forgotten at this pace, s: less than 3 cm/s is no wish to move.
-const FORGETTING_TIME_S: f32 = 4.0;
+pub(super) const FORGETTING_TIME_S: f32 = 4.0;
 
 /// The distance owed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,14 +27,13 @@ pub struct Owed {
 
 impl Owed {
     /// The plan as the body takes it, given the velocity that its last step really had.
-    pub fn settle(&mut self, plan: &Plan, walked_mps: Vec2, dt_s: f32) -> Plan {
+    pub fn settle(&mut self, plan: &Plan, walked_mps: Vec2, step: &TimeStep) -> Plan {
         let creeps = plan.velocity_mps.length() < PAYING_SPEED_MPS;
         if !creeps {
             *self = Self::default();
             return *plan;
         }
-        let kept = libm::expf(-dt_s / FORGETTING_TIME_S);
-        let owed_m = kept * self.distance_m + dt_s * (plan.velocity_mps - walked_mps);
+        let owed_m = step.owed * self.distance_m + step.dt_s * (plan.velocity_mps - walked_mps);
         self.distance_m = owed_m.clamp_length_max(OWED_MAX_M);
         let wanted = self.distance_m.dot(plan.velocity_mps) > 0.0;
         self.paying = wanted && (self.paying || self.distance_m.length() > STEP_M);
@@ -51,7 +51,9 @@ mod tests {
     fn settled(speeds_mps: impl Iterator<Item = f32>) -> Vec<f32> {
         let mut owed = Owed::default();
         let plan = |speed_mps| Plan { velocity_mps: Vec2::new(speed_mps, 0.0), ..Plan::default() };
-        speeds_mps.map(|speed_mps| owed.settle(&plan(speed_mps), Vec2::ZERO, 0.1).velocity_mps.x).collect()
+        speeds_mps
+            .map(|speed_mps| owed.settle(&plan(speed_mps), Vec2::ZERO, &TimeStep::new(0.1)).velocity_mps.x)
+            .collect()
     }
 
     #[test]

@@ -16,6 +16,7 @@ use motiondb::pose::Pose;
 
 use super::ik::FootTarget;
 use super::leg::Leg;
+use crate::decay::{decay, soft_maximum};
 
 /// Straightest a leg may be before the pelvis comes down for it, as a share of its length; straighter only where the
 /// pose is.
@@ -30,23 +31,25 @@ const SOFTNESS_M: f32 = 0.02;
 
 /// Lowers the pelvis of `pose`, and with it both legs.
 pub fn lower(pose: &mut Pose, legs: &mut [Leg; 2], targets: &[FootTarget; 2]) {
-    let [left_m, right_m] = [0, 1].map(|side| {
-        let leg = &legs[side];
-        let own_m = needed_m(leg, leg.ankle_m()).min(0.0);
-        asked_m(needed_m(leg, targets[side].ankle_m), own_m)
-    });
+    let [left, right] = legs;
+    let [left_m, right_m] = asked_m([
+        [needed_m(left, targets[0].ankle_m), needed_m(left, left.ankle_m()).min(0.0)],
+        [needed_m(right, targets[1].ankle_m), needed_m(right, right.ankle_m()).min(0.0)],
+    ]);
     let drop_m = libm::cbrtf(left_m * left_m * left_m + right_m * right_m * right_m).min(DROP_MAX_M);
     pose.pelvis_m.z -= drop_m;
     legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.z -= drop_m);
 }
 
-/// What one leg asks for, of what it needs to reach its target and its own foot.
-fn asked_m(target_m: f32, own_m: f32) -> f32 {
-    // Beyond the furthest descent nothing changes, and nothing overflows.
-    let grown = |needed_m: f32| 1.0 + libm::expf(needed_m.min(2.0 * DROP_MAX_M) / SOFTNESS_M);
-    let (target, own) = (grown(target_m), grown(own_m));
-    let fading = own / target;
-    SOFTNESS_M * (libm::logf(target) - libm::logf(own) * fading * fading).max(0.0)
+/// What each leg asks for, of what it needs to reach its target and its own foot.
+fn asked_m([[left_m, own_left_m], [right_m, own_right_m]]: [[f32; 2]; 2]) -> [f32; 2] {
+    // All at once: vector instructions come of it.
+    let [left, right, own_left, own_right] =
+        [left_m, right_m, own_left_m, own_right_m].map(|needed_m| soft_maximum(needed_m / SOFTNESS_M));
+    [[left, own_left], [right, own_right]].map(|[target, own]| {
+        let more = (target - own).max(0.0);
+        SOFTNESS_M * (own + more - own * decay(2.0 * more))
+    })
 }
 
 /// How far the hip must come down for its leg to reach an ankle's place without stretching more than the pose does; negative

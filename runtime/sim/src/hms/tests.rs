@@ -14,6 +14,7 @@ use super::blending::Mix;
 use super::gait::{self, Gait};
 use super::params::HmsParams;
 use super::space::Space;
+use super::time_step::TimeStep;
 use super::{Body, Motion, Synthesis};
 use crate::plan::Plan;
 use crate::test_db::test_db;
@@ -35,9 +36,10 @@ fn walk_on(db: MotionDb, seconds: f32, dt_s: f32, plan: impl Fn(f32, &Root) -> P
     let motion = Motion { db: &db, space: &space, hybrid: None, params: &params };
     let (mut body, first) = Body::standing(&motion, Root::default(), 0.3);
     let mut steps = vec![(body.root, first)];
+    let time_step = TimeStep::new(dt_s);
     for step in 0..(seconds / dt_s) as usize {
-        body.advance(&motion, &plan(step as f32 * dt_s, &body.root), dt_s);
-        steps.push((body.root, body.synthesize(&motion, dt_s)));
+        body.advance(&motion, &plan(step as f32 * dt_s, &body.root), &time_step);
+        steps.push((body.root, body.synthesize(&motion, &time_step)));
     }
     Walk { db, steps }
 }

@@ -15,6 +15,7 @@ use std::time::Instant;
 use fbcrowd_sim::hms::hybrid::Hybrid;
 use fbcrowd_sim::hms::params::{HmsParams, Modes};
 use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::time_step::TimeStep;
 use fbcrowd_sim::hms::{Body, Motion};
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::split_mix::SplitMix64;
@@ -143,11 +144,12 @@ impl Walkers {
 
     fn step(&mut self, db: &MotionDb, space: &Space) {
         let motion = Motion { db, space, hybrid: self.hybrid.as_ref(), params: &self.params };
+        let time_step = TimeStep::new(DT_S);
         for (body, &(velocity_mps, ahead_rad)) in self.bodies.iter_mut().zip(&self.asked) {
             let facing_rad = body.root.facing_rad + ahead_rad;
             let velocity_mps = Vec2::from_angle(facing_rad).rotate(velocity_mps);
-            body.advance(&motion, &Plan { velocity_mps, facing_rad, ..Plan::default() }, DT_S);
-            black_box(body.synthesize(&motion, DT_S));
+            body.advance(&motion, &Plan { velocity_mps, facing_rad, ..Plan::default() }, &time_step);
+            black_box(body.synthesize(&motion, &time_step));
         }
     }
 }

@@ -3,6 +3,7 @@
 use fbcrowd_sim::hms::hybrid::Hybrid;
 use fbcrowd_sim::hms::params::{HmsParams, Modes};
 use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::time_step::TimeStep;
 use fbcrowd_sim::hms::{Body, Motion};
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::recording_frame::{AgentFrame, Mode};
@@ -81,8 +82,9 @@ impl<'a> Stage<'a> {
 
     fn step(&self, body: &mut Body, plan: &Plan, dt_s: f32) -> Step {
         let (motion, before) = (self.motion(), *body);
-        body.advance(&motion, plan, dt_s);
-        let synthesis = body.synthesize(&motion, dt_s);
+        let time_step = TimeStep::new(dt_s);
+        body.advance(&motion, plan, &time_step);
+        let synthesis = body.synthesize(&motion, &time_step);
         let frame = AgentFrame {
             root: body.root,
             planned_mps: plan.velocity_mps,

@@ -7,6 +7,7 @@ use fbcrowd_sim::hms::hybrid::Hybrid;
 use fbcrowd_sim::hms::params::{HmsParams, Modes};
 use fbcrowd_sim::hms::space::Space;
 use fbcrowd_sim::hms::standing;
+use fbcrowd_sim::hms::time_step::TimeStep;
 use fbcrowd_sim::hms::{Body, Motion};
 use fbcrowd_sim::plan::Plan;
 use glam::{Vec2, Vec3};
@@ -41,9 +42,10 @@ impl Studio {
         let motion = self.motion();
         let (mut body, _) = Body::standing(&motion, Root::default(), 0.0);
         let mut bodies = vec![body];
+        let time_step = TimeStep::new(dt_s);
         for step in 0..(seconds / dt_s).round() as usize {
-            body.advance(&motion, &plan(step as f32 * dt_s, &body.root), dt_s);
-            body.synthesize(&motion, dt_s);
+            body.advance(&motion, &plan(step as f32 * dt_s, &body.root), &time_step);
+            body.synthesize(&motion, &time_step);
             bodies.push(body);
         }
         bodies

@@ -1,0 +1,86 @@
+//! One step of time, and what it leaves of all that decays: computed once for all bodies.
+//!
+//! With r a rate, a critically damped spring `x'' = −2r·x' − r²·x` takes an offset x and its rate v, exactly over a step,
+//! to
+//!
+//! ```text
+//! x' = e^(−r·dt)·(x + dt·(v + r·x)),   v' = e^(−r·dt)·(v − r·dt·(v + r·x)).
+//! ```
+
+use std::ops::{Add, Mul, Sub};
+
+use super::{feet, gaze, inertialization, intention, owed};
+
+/// The length of a step, and its decays.
+#[derive(Clone, Copy, Debug)]
+pub struct TimeStep {
+    /// dt, seconds.
+    pub dt_s: f32,
+    /// What is left of a debt.
+    pub(super) owed: f32,
+    /// What is left of how steadily plans changed before.
+    pub(super) steady: f32,
+    pub(super) gaze: Spring,
+    pub(super) inertia: Spring,
+    pub(super) release: Spring,
+    pub(super) lift: Spring,
+    /// What is left of landing after a step, and after half of one.
+    pub(super) landing: [f32; 2],
+    /// What is left of how fast a foot moved before.
+    pub(super) foot_speed: f32,
+}
+
+impl TimeStep {
+    /// Of `dt_s` seconds.
+    pub fn new(dt_s: f32) -> Self {
+        let left = |time_s: f32| libm::expf(-dt_s / time_s);
+        let spring = |rate_hz: f32| Spring { decay: libm::expf(-rate_hz * dt_s), rate_hz, dt_s };
+        Self {
+            dt_s,
+            owed: left(owed::FORGETTING_TIME_S),
+            steady: left(intention::STEADY_S),
+            gaze: spring(gaze::RATE_HZ),
+            inertia: spring(inertialization::RATE_HZ),
+            release: spring(feet::RELEASE_RATE_HZ),
+            lift: spring(feet::LIFT_RATE_HZ),
+            landing: [feet::LANDING_TIME_S, 2.0 * feet::LANDING_TIME_S].map(left),
+            foot_speed: left(feet::SPEED_TIME_S),
+        }
+    }
+}
+
+/// A critically damped spring over one step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spring {
+    decay: f32,
+    rate_hz: f32,
+    dt_s: f32,
+}
+
+impl Spring {
+    /// What is left of an offset and of its rate, a second.
+    pub(super) fn pass<T>(&self, offset: T, rate: T) -> (T, T)
+    where
+        T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>,
+    {
+        let pull = rate + offset * self.rate_hz;
+        let passed = pull * self.dt_s;
+        ((offset + passed) * self.decay, (rate - passed * self.rate_hz) * self.decay)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_step_of_a_spring_is_as_good_as_many() {
+        let rate_hz = 12.0;
+        let passed = |steps: usize| {
+            let spring = Spring { decay: libm::expf(-rate_hz * 0.1 / steps as f32), rate_hz, dt_s: 0.1 / steps as f32 };
+            (0..steps).fold((0.4, -3.0), |(offset, rate), _| spring.pass(offset, rate))
+        };
+        let ((one, one_rate), (many, many_rate)) = (passed(1), passed(50));
+        assert!((one - many).abs() < 1e-5 && (one_rate - many_rate).abs() < 1e-4);
+    }
+}
