@@ -14,8 +14,8 @@ use motiondb::pose::Pose;
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
 use motiondb::velocity_hull::{Construction, VelocityHull, is_holding, is_turning, turning_point_mps};
 
-use crate::hms::ik::{FootTarget, reach};
-use crate::hms::leg::legs;
+use crate::hms::ik::reach;
+use crate::hms::leg::{FootPose, legs};
 
 /// Share of a cycle that a foot stands.
 pub(crate) const DUTY: f32 = 0.6;
@@ -97,7 +97,7 @@ fn append_rows(db: &mut MotionDb, index: usize) {
 }
 
 /// Target, toe bend and contact of one foot.
-fn foot(example: &MotionExample, phase: f32, side: usize) -> (FootTarget, f32, f32) {
+fn foot(example: &MotionExample, phase: f32, side: usize) -> (FootPose, f32, f32) {
     if example.key_times_s.is_none() {
         return (stance(example, 0.0, side, 0.0), 0.0, 1.0);
     }
@@ -125,14 +125,14 @@ fn pitch_rad(position: f32) -> f32 {
 }
 
 /// A standing foot, a time after mid-stance.
-fn stance(example: &MotionExample, time_s: f32, side: usize, pitch_rad: f32) -> FootTarget {
+fn stance(example: &MotionExample, time_s: f32, side: usize, pitch_rad: f32) -> FootPose {
     let turned = Quat::from_rotation_z(-example.parameters.turn_rate_rad_s * time_s);
     let pivot = if pitch_rad < 0.0 { HEEL_M } else { BALL_M };
     let at_middle = Vec3::new(0.0, if side == 0 { TRACK_M } else { -TRACK_M }, 0.08);
     let root = arc_m(&example.parameters, time_s).extend(0.0);
     let pitched = Quat::from_rotation_y(pitch_rad);
     let orientation = turned * pitched;
-    FootTarget { ankle_m: turned * (at_middle + pivot - root - pitched * pivot), orientation }
+    FootPose { ankle_m: turned * (at_middle + pivot - root - pitched * pivot), orientation }
 }
 
 /// Where the root gets in a time.
@@ -143,7 +143,7 @@ fn arc_m(parameters: &Parameters, time_s: f32) -> Vec2 {
 }
 
 /// A swinging foot, `share` of its swing done.
-fn swing(example: &MotionExample, middle: f32, share: f32, side: usize) -> (FootTarget, f32) {
+fn swing(example: &MotionExample, middle: f32, share: f32, side: usize) -> (FootPose, f32) {
     let end = |sign: f32, phase: f32| stance(example, time_from_s(example, middle, phase), side, pitch_rad(sign));
     let (from, to) = (end(1.0, 0.5 * DUTY), end(-1.0, -0.5 * DUTY));
     let small = 1e-3;
@@ -158,7 +158,7 @@ fn swing(example: &MotionExample, middle: f32, share: f32, side: usize) -> (Foot
         + lift;
     let smooth = 3.0 * s2 - 2.0 * s3;
     let pitch = pitch_rad(1.0) + (pitch_rad(-1.0) - pitch_rad(1.0)) * smooth;
-    (FootTarget { ankle_m, orientation: from.orientation.slerp(to.orientation, smooth) }, pitch)
+    (FootPose { ankle_m, orientation: from.orientation.slerp(to.orientation, smooth) }, pitch)
 }
 
 /// A person of 1.7 m in round numbers.

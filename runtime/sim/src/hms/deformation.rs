@@ -20,10 +20,10 @@ use motiondb::skeleton::{Foot, Joint, Side, Skeleton};
 
 use super::blending::two_rows;
 use super::foot_path::Foothold;
-use super::ik::{self, FootTarget};
-use super::leg::legs;
+use super::leg::FootPose;
+use super::moved;
+use super::posture::Posture;
 use super::semi_procedural::SemiProcedural;
-use super::{moved, pelvis};
 
 /// Least clearance between ankles that pass each other aside, m: a foot's width.
 const GAP_M: f32 = 0.1;
@@ -126,6 +126,13 @@ impl<'a> Deformation<'a> {
 
     /// The pose.
     pub fn pose(&self, db: &MotionDb, phase: f32) -> Pose {
+        let mut posture = self.posture(db, phase);
+        posture.bend_legs(&db.skeleton);
+        posture.pose
+    }
+
+    /// The pose before its legs have bent, and its feet.
+    pub fn posture(&self, db: &MotionDb, phase: f32) -> Posture {
         let instant = self.instant(phase);
         let mut pose = db.rows.blended(instant.rows().map(|(row, weight)| (self.of.example, row, weight)));
         self.calm(&mut pose);
@@ -136,17 +143,13 @@ impl<'a> Deformation<'a> {
             let rotation = &mut pose.rotations[thigh.index()];
             *rotation = Quat::from_rotation_z(KNEE_YAW * yaw_rad) * *rotation;
         }
-        let mut legs = legs(&pose, &db.skeleton);
-        let targets = feet.map(|(target, _)| target);
-        pelvis::lower(&mut pose, &mut legs, &targets);
-        for (side, (leg, target)) in legs.iter_mut().zip(&targets).enumerate() {
-            ik::reach(&mut pose, leg, &db.skeleton, side, target);
-        }
-        pose
+        let mut posture = Posture::new(pose, &db.skeleton);
+        posture.move_feet(feet.map(|(foot, _)| foot));
+        posture
     }
 
     /// Where the feet are to be, and their yaw.
-    fn feet(&self, db: &MotionDb, phase: f32, instant: &Instant) -> [(FootTarget, f32); 2] {
+    fn feet(&self, db: &MotionDb, phase: f32, instant: &Instant) -> [(FootPose, f32); 2] {
         let slip = instant.slip();
         let slipping = if slip > 0.0 { self.contacts(db, phase).map(|contact| slip * contact) } else { [0.0; 2] };
         let outward_m = -self.of.hips_m * libm::tanf(self.lean_rad);
@@ -193,7 +196,7 @@ impl<'a> Deformation<'a> {
     }
 
     /// Where a foot's place has been carried to, and the yaw that its foot has got by it.
-    fn carried_foot(&self, foot: &Foothold, side: usize, outward_m: f32) -> (FootTarget, f32) {
+    fn carried_foot(&self, foot: &Foothold, side: usize, outward_m: f32) -> (FootPose, f32) {
         let sign = Side::BOTH[side].sign();
         let carried = moved(&Root::default(), &self.parameters, foot.since_s / self.cadence);
         let toe_out_rad = sign * self.toe_out_rad;
@@ -202,7 +205,7 @@ impl<'a> Deformation<'a> {
         let place_m = middle_m
             + Quat::from_rotation_z(toe_out_rad) * (foot.place_m - middle_m)
             + Vec3::new(0.0, outward_m + sign * self.widening_m, 0.0);
-        let target = FootTarget {
+        let target = FootPose {
             ankle_m: carried.frame().to_local(place_m),
             orientation: Quat::from_rotation_z(yaw_rad) * foot.orientation,
         };

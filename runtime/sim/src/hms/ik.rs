@@ -11,7 +11,7 @@ use glam::{Quat, Vec3};
 use motiondb::pose::Pose;
 use motiondb::skeleton::{Joint, Skeleton};
 
-use super::leg::Leg;
+use super::leg::{FootPose, Leg};
 
 /// Greatest share of the leg's length from hip to ankle: beyond it the knee angle changes infinitely fast (`motion.md`
 /// §2).
@@ -24,22 +24,13 @@ const KNEE_AHEAD_M: f32 = 0.02;
 /// Square of twice the cosine of half an angle, from which on two directions have no axis that rounding leaves: π − 1 mrad.
 const OPPOSITE: f32 = 1e-6;
 
-/// Where one foot shall be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FootTarget {
-    /// The ankle.
-    pub ankle_m: Vec3,
-    /// Of the foot joint; the toes keep their bend.
-    pub orientation: Quat,
-}
-
 /// Moves one leg, and its joints in `pose`, to the target, or as near as it reaches.
 ///
 /// In its own plane each bone turns from where it lies to where the law of cosines wants it; then the plane turns from the
 /// old line between hip and ankle to the new one.
-pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, target: &FootTarget) {
-    let [thigh, shank, foot, toe] = Leg::joints(side);
-    let [hip_m, knee_m, ankle_m, _] = leg.positions_m;
+pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, target: &FootPose) {
+    let [thigh, shank, foot, _] = Leg::joints(side);
+    let [hip_m, knee_m, ankle_m] = leg.positions_m;
     let [old_thigh, old_shank, ..] = leg.orientations;
     let (thigh_m, shank_m, line_m) = (knee_m - hip_m, ankle_m - knee_m, ankle_m - hip_m);
     let to_target_m = target.ankle_m - hip_m;
@@ -59,9 +50,8 @@ pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, t
     pose.rotations[foot] = shank_turned.conjugate() * target.orientation;
     let knee_m = hip_m + thigh_turned * skeleton.offsets_m[shank];
     let ankle_m = knee_m + shank_turned * skeleton.offsets_m[foot];
-    let toe_m = ankle_m + target.orientation * skeleton.offsets_m[toe];
-    leg.positions_m = [hip_m, knee_m, ankle_m, toe_m];
-    leg.orientations = [thigh_turned, shank_turned, target.orientation, target.orientation * pose.rotations[toe]];
+    leg.positions_m = [hip_m, knee_m, ankle_m];
+    leg.orientations = [thigh_turned, shank_turned, target.orientation];
 }
 
 /// The distance from hip to ankle that a leg can have, nearest to the asked one.
@@ -111,7 +101,7 @@ mod tests {
     use crate::test_db::skeleton;
 
     /// A standing body with one knee bent by `bend_rad`, and the leg reached out to the target.
-    fn reached(side: usize, bend_rad: f32, target: &FootTarget) -> (Pose, Leg) {
+    fn reached(side: usize, bend_rad: f32, target: &FootPose) -> (Pose, Leg) {
         let skeleton = skeleton();
         let mut pose = Pose { pelvis_m: skeleton.offsets_m[0], rotations: [Quat::IDENTITY; JOINT_COUNT] };
         pose.rotations[Joint::SHANKS[side].index()] = Quat::from_rotation_y(bend_rad);
@@ -125,13 +115,13 @@ mod tests {
         fn the_ankle_reaches_its_target_or_stretches_towards_it(
             x in -1.5f32..1.5, y in -1.5f32..1.5, z in -1.0f32..2.0, bend_rad in 0.0f32..1.5, side in 0usize..2,
         ) {
-            let target = FootTarget { ankle_m: Vec3::new(x, y, z), orientation: Quat::from_rotation_z(0.4) };
+            let target = FootPose { ankle_m: Vec3::new(x, y, z), orientation: Quat::from_rotation_z(0.4) };
             let (pose, leg) = reached(side, bend_rad, &target);
-            let (hip_m, ankle_m) = (leg.hip_m(), leg.ankle_m());
+            let (hip_m, ankle_m) = (leg.hip_m(), leg.foot().ankle_m);
             let nearest_m = hip_m
                 + (target.ankle_m - hip_m).normalize() * reachable_m([0.42, 0.42], target.ankle_m.distance(hip_m));
             prop_assert!(ankle_m.distance(nearest_m) < 1e-4, "{ankle_m} {nearest_m}");
-            prop_assert!(leg.foot().angle_between(target.orientation) < 1e-3);
+            prop_assert!(leg.foot().orientation.angle_between(target.orientation) < 1e-3);
             let again = Leg::new(&pose, &skeleton(), side);
             prop_assert!(again.positions_m.iter().zip(leg.positions_m).all(|(a, b)| a.distance(b) < 1e-4));
         }
@@ -145,7 +135,7 @@ mod tests {
         pose.rotations[Joint::SHANKS[0].index()] = Quat::from_rotation_y(0.9);
         let before = pose;
         let mut leg = Leg::new(&pose, &skeleton, 0);
-        let target = FootTarget { ankle_m: leg.ankle_m(), orientation: leg.foot() };
+        let target = leg.foot();
         reach(&mut pose, &mut leg, &skeleton, 0, &target);
         for (before, after) in before.rotations.iter().zip(pose.rotations) {
             assert!(before.angle_between(after) < 2e-3);
@@ -154,7 +144,7 @@ mod tests {
 
     #[test]
     fn a_straight_leg_bends_its_knee_forward() {
-        let target = FootTarget { ankle_m: Vec3::new(0.0, 0.1, 0.3), orientation: Quat::IDENTITY };
+        let target = FootPose { ankle_m: Vec3::new(0.0, 0.1, 0.3), orientation: Quat::IDENTITY };
         let (_, leg) = reached(0, 0.0, &target);
         assert!(leg.positions_m[1].x > 0.1);
     }
@@ -162,7 +152,7 @@ mod tests {
     #[test]
     fn a_target_in_the_hip_itself_is_no_catastrophe() {
         let hip_m = skeleton().offsets_m[0] + skeleton().offsets_m[Joint::LeftThigh.index()];
-        let (pose, _) = reached(0, 0.0, &FootTarget { ankle_m: hip_m, orientation: Quat::IDENTITY });
+        let (pose, _) = reached(0, 0.0, &FootPose { ankle_m: hip_m, orientation: Quat::IDENTITY });
         assert!(pose.rotations.iter().all(|rotation| rotation.is_normalized()));
     }
 }

@@ -6,15 +6,24 @@ use glam::{Quat, Vec3};
 use motiondb::pose::Pose;
 use motiondb::skeleton::{Joint, Skeleton};
 
-/// One leg, from the hip down.
+/// One leg, from the hip down to the ankle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
-    /// Hip, knee, ankle and the ball's joint.
-    pub positions_m: [Vec3; 4],
-    /// Of thigh, shank, foot and toes.
-    pub orientations: [Quat; 4],
+    /// Hip, knee and ankle.
+    pub positions_m: [Vec3; 3],
+    /// Of thigh, shank and foot.
+    pub orientations: [Quat; 3],
     /// Lengths of thigh and shank.
     pub bones_m: [f32; 2],
+}
+
+/// Where a foot is, or shall be; the toes keep the bend that the pose has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FootPose {
+    /// The ankle.
+    pub ankle_m: Vec3,
+    /// Of the foot joint.
+    pub orientation: Quat,
 }
 
 impl Leg {
@@ -26,16 +35,19 @@ impl Leg {
 
     /// As posed.
     pub fn new(pose: &Pose, skeleton: &Skeleton, side: usize) -> Self {
-        let (mut position_m, mut orientation) = (pose.pelvis_m, pose.rotations[Joint::Pelvis.index()]);
-        let joints = Self::joints(side);
-        let bones_m = [joints[1], joints[2]].map(|below| skeleton.offsets_m[below].length());
-        let mut leg = Self { positions_m: [position_m; 4], orientations: [orientation; 4], bones_m };
-        for (below, joint) in joints.into_iter().enumerate() {
-            position_m += orientation * skeleton.offsets_m[joint];
-            orientation *= pose.rotations[joint];
-            (leg.positions_m[below], leg.orientations[below]) = (position_m, orientation);
+        let [thigh, shank, foot, _] = Self::joints(side);
+        let (rotations, offsets_m) = (&pose.rotations, &skeleton.offsets_m);
+        let pelvis = rotations[Joint::Pelvis.index()];
+        let hip_m = pose.pelvis_m + pelvis * offsets_m[thigh];
+        let thigh_turned = pelvis * rotations[thigh];
+        let knee_m = hip_m + thigh_turned * offsets_m[shank];
+        let shank_turned = thigh_turned * rotations[shank];
+        let ankle_m = knee_m + shank_turned * offsets_m[foot];
+        Self {
+            positions_m: [hip_m, knee_m, ankle_m],
+            orientations: [thigh_turned, shank_turned, shank_turned * rotations[foot]],
+            bones_m: [offsets_m[shank].length(), offsets_m[foot].length()],
         }
-        leg
     }
 
     /// The hip.
@@ -43,27 +55,18 @@ impl Leg {
         self.positions_m[0]
     }
 
-    /// The ankle.
-    pub fn ankle_m(&self) -> Vec3 {
-        self.positions_m[2]
+    /// Its foot.
+    pub fn foot(&self) -> FootPose {
+        FootPose { ankle_m: self.positions_m[2], orientation: self.orientations[2] }
     }
+}
 
-    /// Of the foot.
-    pub fn foot(&self) -> Quat {
-        self.orientations[2]
-    }
-
-    /// Heel, ball and toe tip on the sole.
-    pub fn sole_points_m(&self, skeleton: &Skeleton, side: usize) -> [Vec3; 3] {
-        let sole = &skeleton.feet[side];
-        let [_, _, ankle_m, toe_m] = self.positions_m;
-        let [_, _, foot, toe] = self.orientations;
-        [ankle_m + foot * sole.heel_m, ankle_m + foot * sole.ball_m, toe_m + toe * sole.toe_tip_m]
-    }
-
-    /// Height of the lowest of them, m.
-    pub fn sole_height_m(&self, skeleton: &Skeleton, side: usize) -> f32 {
-        self.sole_points_m(skeleton, side).into_iter().fold(f32::INFINITY, |lowest_m, point_m| lowest_m.min(point_m.z))
+impl FootPose {
+    /// Heel, ball and toe tip on the sole, where a pose bends the toes.
+    pub fn sole_points_m(&self, pose: &Pose, skeleton: &Skeleton, side: usize) -> [Vec3; 3] {
+        let (sole, [_, _, _, toe]) = (&skeleton.feet[side], Leg::joints(side));
+        let toe_tip_m = skeleton.offsets_m[toe] + pose.rotations[toe] * sole.toe_tip_m;
+        [sole.heel_m, sole.ball_m, toe_tip_m].map(|point_m| self.ankle_m + self.orientation * point_m)
     }
 }
 
@@ -84,13 +87,13 @@ mod tests {
             let pose = db.rows.pose(1, row);
             let joints = pose.forward_kinematics(&db.skeleton);
             for (side, leg) in legs(&pose, &db.skeleton).iter().enumerate() {
-                for (below, joint) in Leg::joints(side).into_iter().enumerate() {
+                for (below, joint) in Leg::joints(side).into_iter().take(3).enumerate() {
                     assert!(leg.positions_m[below].distance(joints.positions_m[joint]) < 1e-6);
                     assert!(leg.orientations[below].abs_diff_eq(joints.orientations[joint], 1e-6));
                 }
-                let soles_m =
-                    leg.sole_points_m(&db.skeleton, side).into_iter().zip(joints.sole_points_m(&db.skeleton, side));
-                assert!(soles_m.into_iter().all(|(leg_m, joints_m)| leg_m.distance(joints_m) < 1e-6));
+                let soles_m = leg.foot().sole_points_m(&pose, &db.skeleton, side).into_iter();
+                let mut both_m = soles_m.zip(joints.sole_points_m(&db.skeleton, side));
+                assert!(both_m.all(|(leg_m, joints_m)| leg_m.distance(joints_m) < 1e-6));
             }
         }
     }

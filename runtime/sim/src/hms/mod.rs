@@ -9,7 +9,7 @@
 //! 3. the pose is sampled at the new phase ([`playing`]); [`inertialization`] carries away what a switch left; head and
 //!    chest turn first ([`gaze`]);
 //! 4. [`feet`]: planted feet are held;
-//! 5. [`pelvis`], [`ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach them.
+//! 5. [`posture`], [`pelvis`], [`ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach them.
 //!
 //! The root frame has x forward, y left, z up, its origin on the ground under the ripple-free root; metres,
 //! seconds, radians.
@@ -31,17 +31,17 @@ pub mod owed;
 pub mod params;
 pub mod pelvis;
 pub mod playing;
+pub mod posture;
 pub mod pursuit;
 pub mod semi_procedural;
 pub mod space;
 pub mod standing;
 pub mod time_step;
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::pose::{Pose, Root, RootFrame};
-use motiondb::skeleton::Skeleton;
 
 use self::blending::Mix;
 use self::deformation::Deformation;
@@ -49,14 +49,14 @@ use self::feet::{FootHold, PosedFoot};
 use self::gait::Gait;
 use self::gaze::Gaze;
 use self::hybrid::Hybrid;
-use self::ik::FootTarget;
 use self::inertialization::{Inertia, LOOK_BACK_S};
 use self::intention::Intention;
-use self::leg::{Leg, legs};
+use self::leg::FootPose;
 use self::mode::{Choice, Thresholds};
 use self::owed::Owed;
 use self::params::{HmsParams, Transition};
 use self::playing::Playing;
+use self::posture::Posture;
 use self::semi_procedural::SemiProcedural;
 use self::space::{Nearest, Space};
 use self::time_step::TimeStep;
@@ -160,9 +160,10 @@ impl Body {
             feet: Default::default(),
         };
         let playing = body.playing(motion);
-        let legs = legs(&playing.pose(motion, phase), &motion.db.skeleton);
-        let frame = root.frame();
-        body.feet = [0, 1].map(|side| FootHold::new(&posed_foot(&frame, &legs[side], &motion.db.skeleton, side)));
+        let posture = Posture::new(playing.pose(motion, phase), &motion.db.skeleton);
+        let (frame, soles_m) = (root.frame(), posture.soles_m(&motion.db.skeleton));
+        let posed = |side: usize| posed_foot(&frame, posture.feet[side].ankle_m, soles_m[side]);
+        body.feet = [0, 1].map(|side| FootHold::new(&posed(side)));
         let synthesis = body.synthesize(motion, &TimeStep::new(SETTLING_S));
         (body, synthesis)
     }
@@ -251,7 +252,8 @@ impl Body {
         let playing = self.playing(motion);
         let pose = playing.pose(motion, self.phase);
         let contacts = playing.contacts(motion, self.phase);
-        self.told(motion, &playing, pose, contacts, &legs(&pose, &motion.db.skeleton))
+        let soles_m = Posture::new(pose, &motion.db.skeleton).soles_m(&motion.db.skeleton);
+        self.told(motion, &playing, pose, contacts, &soles_m)
     }
 
     fn move_root(&mut self, parameters: &Parameters, dt_s: f32) {
@@ -364,37 +366,54 @@ impl Body {
     pub fn synthesize(&mut self, motion: &Motion, step: &TimeStep) -> Synthesis {
         let skeleton = &motion.db.skeleton;
         let playing = self.playing(motion);
-        let mut pose = playing.pose(motion, self.phase);
-        let played = self.inertia.carries().then(|| legs(&pose, skeleton));
-        self.inertia.carry(&mut pose, step);
-        self.gaze.turn(&mut pose, skeleton);
+        let (mut posture, held_up) = self.carried(motion, &playing, step);
+        self.gaze.turn(&mut posture.pose, skeleton);
         let contacts = playing.contacts(motion, self.phase);
-        let (frame, mut legs) = (self.root.frame(), legs(&pose, skeleton));
+        let (frame, soles_m) = (self.root.frame(), posture.soles_m(skeleton));
 
-        let targets = [0, 1].map(|side| {
-            let posed = posed_foot(&frame, &legs[side], skeleton, side);
-            let held_up = played.is_some_and(|played| held_up(&played[side], &legs[side], skeleton, side));
-            let held = self.feet[side].step(&posed, contacts[side] >= PLANTED_CONTACT && !held_up, step);
-            FootTarget { ankle_m: frame.to_local(held.ankle_m), orientation: held.twist * legs[side].foot() }
+        let held = [0, 1].map(|side| {
+            let FootPose { ankle_m, orientation } = posture.feet[side];
+            let posed = posed_foot(&frame, ankle_m, soles_m[side]);
+            let held = self.feet[side].step(&posed, contacts[side] >= PLANTED_CONTACT && !held_up[side], step);
+            FootPose { ankle_m: frame.to_local(held.ankle_m), orientation: held.twist * orientation }
         });
-        pelvis::lower(&mut pose, &mut legs, &targets);
-        for (side, (leg, target)) in legs.iter_mut().zip(&targets).enumerate() {
-            ik::reach(&mut pose, leg, skeleton, side, target);
-        }
+        posture.move_feet(held);
+        posture.bend_legs(skeleton);
 
-        for (side, hold) in self.feet.iter_mut().enumerate() {
-            hold.placed(legs[side].sole_points_m(skeleton, side).map(|point| frame.to_world(point)), step);
+        let soles_m = posture.soles_m(skeleton);
+        for (hold, sole_m) in self.feet.iter_mut().zip(soles_m) {
+            hold.placed(sole_m.map(|point_m| frame.to_world(point_m)), step);
         }
-        self.told(motion, &playing, pose, contacts, &legs)
+        self.told(motion, &playing, posture.pose, contacts, &soles_m)
+    }
+
+    /// What is played, and what a switch has left on top of it; which feet that holds up.
+    fn carried(&mut self, motion: &Motion, playing: &Playing, step: &TimeStep) -> (Posture, [bool; 2]) {
+        if !self.inertia.carries() {
+            return (playing.posture(motion, self.phase), [false; 2]);
+        }
+        let skeleton = &motion.db.skeleton;
+        let mut pose = playing.pose(motion, self.phase);
+        let played_m = Posture::new(pose, skeleton).soles_m(skeleton);
+        self.inertia.carry(&mut pose, step);
+        let carried = Posture::new(pose, skeleton);
+        let carried_m = carried.soles_m(skeleton);
+        (carried, [0, 1].map(|side| held_up(&played_m[side], &carried_m[side])))
     }
 
     /// What is told of a pose.
-    fn told(&self, motion: &Motion, playing: &Playing, pose: Pose, contacts: [f32; 2], legs: &[Leg; 2]) -> Synthesis {
-        let soles_m = [0, 1].map(|side| legs[side].sole_points_m(&motion.db.skeleton, side));
+    fn told(
+        &self,
+        motion: &Motion,
+        playing: &Playing,
+        pose: Pose,
+        contacts: [f32; 2],
+        soles_m: &[[Vec3; 3]; 2],
+    ) -> Synthesis {
         Synthesis {
             pose,
             contacts,
-            stance: Stance::on_soles(&soles_m, self.root.forward(), contacts, |swing| {
+            stance: Stance::on_soles(soles_m, self.root.forward(), contacts, |swing| {
                 playing.time_to_landing_s(motion, self.phase, swing)
             }),
             examples_slide_cm_s: playing.examples_slide_cm_s(motion),
@@ -404,16 +423,14 @@ impl Body {
 
 /// Whether what is left of a switch keeps a foot off the ground where the new synthesis has it as `played`. To put it down
 /// at once would be the jerk that inertia is there to avoid.
-fn held_up(played: &Leg, carried: &Leg, skeleton: &Skeleton, side: usize) -> bool {
-    carried.sole_height_m(skeleton, side) - played.sole_height_m(skeleton, side).max(0.0) > HELD_UP_M
+fn held_up(played_m: &[Vec3; 3], carried_m: &[Vec3; 3]) -> bool {
+    let height_m = |sole_m: &[Vec3; 3]| sole_m.iter().fold(f32::INFINITY, |lowest_m, point_m| lowest_m.min(point_m.z));
+    height_m(carried_m) - height_m(played_m).max(0.0) > HELD_UP_M
 }
 
-/// A foot as a leg has it, in the world.
-fn posed_foot(frame: &RootFrame, leg: &Leg, skeleton: &Skeleton, side: usize) -> PosedFoot {
-    PosedFoot {
-        ankle_m: frame.to_world(leg.ankle_m()),
-        sole_m: leg.sole_points_m(skeleton, side).map(|point| frame.to_world(point)),
-    }
+/// A foot of the root frame, in the world.
+fn posed_foot(frame: &RootFrame, ankle_m: Vec3, sole_m: [Vec3; 3]) -> PosedFoot {
+    PosedFoot { ankle_m: frame.to_world(ankle_m), sole_m: sole_m.map(|point_m| frame.to_world(point_m)) }
 }
 
 /// The root after a step at constant parameters: exactly along its arc, whose chord lies at half the turn.

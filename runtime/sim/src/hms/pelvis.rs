@@ -11,11 +11,7 @@
 //! hips nor knee jerk as the leg comes to its end. The pelvis comes down by a little more than what the more exacting leg
 //! asks for. It depends on this step's pose alone. All vectors are in the root frame (x forward, y left, z up), metres.
 
-use glam::Vec3;
-use motiondb::pose::Pose;
-
-use super::ik::FootTarget;
-use super::leg::Leg;
+use super::leg::{FootPose, Leg};
 use crate::decay::{decay, soft_maximum};
 
 /// Straightest a leg may be before the pelvis comes down for it, as a share of its length; straighter only where the
@@ -29,20 +25,19 @@ const DROP_MAX_M: f32 = 0.12;
 /// s, m: less than what the hips bob in walking. With 0.01 knees snap at stops.
 const SOFTNESS_M: f32 = 0.02;
 
-/// Lowers the pelvis of `pose`, and with it both legs.
-pub fn lower(pose: &mut Pose, legs: &mut [Leg; 2], targets: &[FootTarget; 2]) {
-    let [left, right] = legs;
-    let [left_m, right_m] = asked_m([
-        [needed_m(left, targets[0].ankle_m), needed_m(left, left.ankle_m()).min(0.0)],
-        [needed_m(right, targets[1].ankle_m), needed_m(right, right.ankle_m()).min(0.0)],
-    ]);
-    let drop_m = libm::cbrtf(left_m * left_m * left_m + right_m * right_m * right_m).min(DROP_MAX_M);
-    pose.pelvis_m.z -= drop_m;
-    legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.z -= drop_m);
+/// How far the pelvis comes down where feet move from where the pose has them, m.
+pub fn drop_m(legs: &[Leg; 2], posed: &[FootPose; 2], feet: &[FootPose; 2]) -> f32 {
+    let needed_m = [0, 1].map(|side| {
+        let extent_m = extent_m(&legs[side], &posed[side]);
+        [&feet[side], &posed[side]].map(|foot| needed_m(&legs[side], extent_m, foot))
+    });
+    let [left_m, right_m] = asked_m(needed_m);
+    libm::cbrtf(left_m * left_m * left_m + right_m * right_m * right_m).min(DROP_MAX_M)
 }
 
 /// What each leg asks for, of what it needs to reach its target and its own foot.
 fn asked_m([[left_m, own_left_m], [right_m, own_right_m]]: [[f32; 2]; 2]) -> [f32; 2] {
+    let (own_left_m, own_right_m) = (own_left_m.min(0.0), own_right_m.min(0.0));
     // All at once: vector instructions come of it.
     let [left, right, own_left, own_right] =
         [left_m, right_m, own_left_m, own_right_m].map(|needed_m| soft_maximum(needed_m / SOFTNESS_M));
@@ -52,18 +47,22 @@ fn asked_m([[left_m, own_left_m], [right_m, own_right_m]]: [[f32; 2]; 2]) -> [f3
     })
 }
 
-/// How far the hip must come down for its leg to reach an ankle's place without stretching more than the pose does; negative
-/// if it reaches.
-fn needed_m(leg: &Leg, ankle_m: Vec3) -> f32 {
+/// How far a leg may stretch: no more than the pose does.
+fn extent_m(leg: &Leg, posed: &FootPose) -> f32 {
     let leg_m = leg.bones_m[0] + leg.bones_m[1];
-    let reach_m = leg.ankle_m().distance(leg.hip_m()).clamp(EXTENSION * leg_m, EXTENSION_MAX * leg_m);
-    let to_foot_m = ankle_m - leg.hip_m();
-    -to_foot_m.z - libm::sqrtf((reach_m * reach_m - to_foot_m.truncate().length_squared()).max(0.0))
+    posed.ankle_m.distance(leg.hip_m()).clamp(EXTENSION * leg_m, EXTENSION_MAX * leg_m)
+}
+
+/// How far the hip must come down for its leg to reach a foot; negative if it reaches.
+fn needed_m(leg: &Leg, extent_m: f32, foot: &FootPose) -> f32 {
+    let to_foot_m = foot.ankle_m - leg.hip_m();
+    -to_foot_m.z - libm::sqrtf((extent_m * extent_m - to_foot_m.truncate().length_squared()).max(0.0))
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::{Quat, Vec3};
+    use glam::Quat;
+    use motiondb::pose::Pose;
     use motiondb::skeleton::{JOINT_COUNT, Joint};
 
     use super::super::leg::legs;
@@ -78,15 +77,12 @@ mod tests {
         for shank in Joint::SHANKS {
             pose.rotations[shank.index()] = Quat::from_rotation_y(flexion_rad);
         }
-        let mut legs = legs(&pose, &skeleton);
-        let target = |side: usize, x: f32| FootTarget {
-            ankle_m: legs[side].ankle_m() + Vec3::new(x, 0.0, 0.0),
-            orientation: Quat::IDENTITY,
-        };
-        let targets = [target(0, 0.0), target(1, -behind_m)];
-        let needed_m = needed_m(&legs[1], targets[1].ankle_m);
-        lower(&mut pose, &mut legs, &targets);
-        (skeleton.offsets_m[0].z - pose.pelvis_m.z, needed_m)
+        let legs = legs(&pose, &skeleton);
+        let posed = legs.each_ref().map(Leg::foot);
+        let mut feet = posed;
+        feet[1].ankle_m.x -= behind_m;
+        let needed_m = needed_m(&legs[1], extent_m(&legs[1], &posed[1]), &feet[1]);
+        (drop_m(&legs, &posed, &feet), needed_m)
     }
 
     #[test]

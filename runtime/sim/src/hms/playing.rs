@@ -4,6 +4,7 @@ use motiondb::pose::Pose;
 
 use super::blending::Weights;
 use super::deformation::Deformation;
+use super::posture::Posture;
 use super::{Body, Motion};
 use crate::recording_frame::{Mode, PLANTED_CONTACT};
 
@@ -32,6 +33,14 @@ impl<'a> Playing<'a> {
         match self {
             Self::Blend(weights) => weights.pose(motion.db, phase),
             Self::Deform(deformation) => deformation.pose(motion.db, phase),
+        }
+    }
+
+    /// The pose, whose legs may not have bent yet, and its feet: whoever moves them bends legs once.
+    pub fn posture(&self, motion: &Motion, phase: f32) -> Posture {
+        match self {
+            Self::Blend(weights) => Posture::new(weights.pose(motion.db, phase), &motion.db.skeleton),
+            Self::Deform(deformation) => deformation.posture(motion.db, phase),
         }
     }
 

@@ -11,9 +11,8 @@ use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
 use motiondb::pose::Pose;
 
-use super::ik::{self, FootTarget};
-use super::leg::{Leg, legs};
-use super::pelvis;
+use super::leg::Leg;
+use super::posture::Posture;
 
 /// Rows of the mid-stance of the left foot and of the right one.
 const MID_STANCES: [usize; 2] = [PHASE_COUNT / 2, 0];
@@ -59,16 +58,14 @@ fn with_standing(db: &MotionDb, example: usize) -> MotionDb {
 fn standing_pose(db: &MotionDb, example: usize) -> Pose {
     let mut pose = db.rows.mean_pose(example);
     let poses = MID_STANCES.map(|row| db.rows.pose(example, row));
-    let targets = [0, 1].map(|side| {
+    let feet = [0, 1].map(|side| {
         Leg::joints(side).into_iter().for_each(|joint| pose.rotations[joint] = poses[side].rotations[joint]);
-        let leg = Leg::new(&poses[side], &db.skeleton, side);
-        FootTarget { ankle_m: leg.ankle_m(), orientation: leg.foot() }
+        Leg::new(&poses[side], &db.skeleton, side).foot()
     });
-    let mut legs = legs(&pose, &db.skeleton);
-    pelvis::lower(&mut pose, &mut legs, &targets);
-    for (side, (leg, target)) in legs.iter_mut().zip(&targets).enumerate() {
-        ik::reach(&mut pose, leg, &db.skeleton, side, target);
-    }
+    let mut posture = Posture::new(pose, &db.skeleton);
+    posture.move_feet(feet);
+    posture.bend_legs(&db.skeleton);
+    let mut pose = posture.pose;
     let hemisphere = db.rows.rotations(example, 0);
     for (rotation, row) in pose.rotations.iter_mut().zip(hemisphere) {
         *rotation = if rotation.dot(*row) < 0.0 { -*rotation } else { *rotation };

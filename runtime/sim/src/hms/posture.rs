@@ -1,0 +1,51 @@
+//! A pose, and feet that its legs do not reach yet: synthesis says where feet are to be, holding moves them, and the legs
+//! bend once, at the end.
+//!
+//! All vectors are in the root frame (x forward, y left, z up), metres.
+
+use glam::Vec3;
+use motiondb::pose::Pose;
+use motiondb::skeleton::Skeleton;
+
+use super::leg::{FootPose, Leg, legs};
+use super::{ik, pelvis};
+
+/// A pose, and where its feet are to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Posture {
+    /// The pose.
+    pub pose: Pose,
+    /// Its legs.
+    legs: [Leg; 2],
+    /// The feet, which its legs may not reach yet.
+    pub feet: [FootPose; 2],
+}
+
+impl Posture {
+    /// Feet as the pose has them.
+    pub fn new(pose: Pose, skeleton: &Skeleton) -> Self {
+        let legs = legs(&pose, skeleton);
+        Self { pose, feet: legs.each_ref().map(Leg::foot), legs }
+    }
+
+    /// Moves the feet; the pelvis comes down where a leg would have to stretch for it.
+    pub fn move_feet(&mut self, feet: [FootPose; 2]) {
+        let drop_m = pelvis::drop_m(&self.legs, &self.feet, &feet);
+        self.pose.pelvis_m.z -= drop_m;
+        self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.z -= drop_m);
+        self.feet = feet;
+    }
+
+    /// The legs reach their feet.
+    pub fn bend_legs(&mut self, skeleton: &Skeleton) {
+        for (side, (leg, foot)) in self.legs.iter_mut().zip(&mut self.feet).enumerate() {
+            ik::reach(&mut self.pose, leg, skeleton, side, foot);
+            *foot = leg.foot();
+        }
+    }
+
+    /// Heel, ball and toe tip of each sole.
+    pub fn soles_m(&self, skeleton: &Skeleton) -> [[Vec3; 3]; 2] {
+        [0, 1].map(|side| self.feet[side].sole_points_m(&self.pose, skeleton, side))
+    }
+}
