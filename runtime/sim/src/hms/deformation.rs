@@ -15,7 +15,7 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
-use motiondb::pose::{Pose, Root};
+use motiondb::pose::{Pose, Root, RootFrame};
 use motiondb::skeleton::{Foot, Joint, Side, Skeleton};
 
 use super::blending::two_rows;
@@ -24,6 +24,7 @@ use super::leg::FootPose;
 use super::moved;
 use super::posture::Posture;
 use super::semi_procedural::SemiProcedural;
+use crate::angle::{direction, yaw};
 
 /// Least clearance between ankles that pass each other aside, m: a foot's width.
 const GAP_M: f32 = 0.1;
@@ -41,26 +42,32 @@ const SWING: [f32; 2] = [0.3, 1.3];
 const TURN_ABOUT: f32 = 0.5;
 /// Gravity, m/s²: a body on an arc leans by atan(v·ω/g).
 const GRAVITY_MPS2: f32 = 9.81;
-/// Nobody leans further, rad: about 20°.
-const LEAN_MAX_RAD: f32 = 0.35;
+/// Nobody leans further: the tangent of 20°.
+const LEAN_MAX: f32 = 0.365;
 
 /// m_sp at some parameters: all that a walk depends on besides its phase.
 #[derive(Clone, Copy, Debug)]
 pub struct Deformation<'a> {
-    of: &'a SemiProcedural,
+    tempo: Tempo<'a>,
     parameters: Parameters,
-    /// Over that of m_sp.
-    cadence: f32,
-    /// Shares of time played forward and backward.
-    directions: [f32; 2],
     /// Swing of hips, trunk and arms over that of m_sp.
     swing: f32,
-    /// Positive to the left.
-    lean_rad: f32,
+    /// The lean's cosine and sine, the latter positive to the left.
+    lean: Vec2,
     /// Of either foot: in a turn feet open and close rather than point inward.
     toe_out_rad: f32,
     /// How far each place moves outward, so that the legs do not cross where they step aside or turn, m.
     widening_m: f32,
+}
+
+/// When m_sp is played, at some parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct Tempo<'a> {
+    of: &'a SemiProcedural,
+    /// Over that of m_sp.
+    cadence: f32,
+    /// Shares of time played forward and backward.
+    directions: [f32; 2],
 }
 
 /// One instant of m_sp, played forward and backward at once.
@@ -72,31 +79,25 @@ struct Instant {
 impl<'a> Deformation<'a> {
     /// To parameters that [`SemiProcedural::reachable`] would leave as they are.
     pub fn new(of: &'a SemiProcedural, parameters: Parameters) -> Self {
-        let cadence = of.cadence(parameters);
+        let tempo = Tempo::new(of, parameters);
         let travel_mps = Vec2::new(parameters.speed_mps, parameters.strafe_mps).length();
         // Angle by which the root turns between the landings of both feet, at most.
-        let turn_apart_rad = of.apart_s * parameters.turn_rate_rad_s.abs() / cadence;
-        let aside_m = of.apart_s * parameters.strafe_mps.abs() / cadence;
-        let turning_m = FOOT_M * libm::sinf((0.5 * turn_apart_rad).min(FRAC_PI_2));
+        let turn_apart_rad = of.apart_s * parameters.turn_rate_rad_s.abs() / tempo.cadence;
+        let aside_m = of.apart_s * parameters.strafe_mps.abs() / tempo.cadence;
+        let turning_m = FOOT_M * direction((0.5 * turn_apart_rad).min(FRAC_PI_2)).y;
         Self {
-            of,
+            tempo,
             parameters,
-            cadence,
-            directions: directions(parameters),
-            swing: (travel_mps / (of.parameters.speed_mps * cadence)).clamp(SWING[0], SWING[1]),
-            lean_rad: lean_rad(parameters),
+            swing: (travel_mps / (of.parameters.speed_mps * tempo.cadence)).clamp(SWING[0], SWING[1]),
+            lean: lean(parameters),
             toe_out_rad: TOE_OUT * 0.5 * turn_apart_rad,
             widening_m: (0.5 * (aside_m + turning_m + GAP_M - of.track_m)).max(0.0),
         }
     }
 
-    /// Phase to time. Reversed time exchanges the half-strides.
+    /// Phase to time.
     pub fn phase_map(&self) -> PhaseMap {
-        let ([forward, reversed], map) = (self.directions, &self.of.phase_map);
-        PhaseMap {
-            period_s: map.period_s / self.cadence,
-            left_share: 0.5 + (map.left_share - 0.5) * (forward - reversed),
-        }
+        self.tempo.phase_map()
     }
 
     /// Contact of each foot, `[left, right]`: a foot is planted that stands in the cycle and in its reverse.
@@ -104,7 +105,7 @@ impl<'a> Deformation<'a> {
         let Instant { phases, shares } = self.instant(phase);
         let of_one = |index: usize| {
             let (rows, shares) = two_rows(phases[index]);
-            let row = |row: usize| Vec2::from(db.rows.contacts[self.of.example * PHASE_COUNT + row]);
+            let row = |row: usize| Vec2::from(db.rows.contacts[self.tempo.of.example * PHASE_COUNT + row]);
             (shares[0] * row(rows[0]) + shares[1] * row(rows[1])).to_array()
         };
         let [forward, reversed] = [0, 1].map(of_one);
@@ -113,15 +114,15 @@ impl<'a> Deformation<'a> {
 
     /// Seconds until a swinging foot lands: where it does in the cycle or, in reversed time, where it leaves.
     pub fn time_to_landing_s(&self, phase: f32, side: usize) -> f32 {
-        let [forward, reversed] = self.directions;
-        let [strike, off] = self.of.contacts[side];
+        let [forward, reversed] = self.tempo.directions;
+        let [strike, off] = self.tempo.of.contacts[side];
         let ahead = |landing: f32| (landing - phase).rem_euclid(1.0);
         (forward * ahead(strike) + reversed * ahead(1.0 - off)) / self.phase_map().rate_hz(phase)
     }
 
     /// Planted-foot slide of m_sp, at the cadence at which it is played, cm/s.
     pub fn examples_slide_cm_s(&self, db: &MotionDb) -> f32 {
-        self.cadence * db.examples[self.of.example].planted_slide_cm_s
+        self.tempo.cadence * db.examples[self.tempo.of.example].planted_slide_cm_s
     }
 
     /// The pose.
@@ -134,49 +135,56 @@ impl<'a> Deformation<'a> {
     /// The pose before its legs have bent, and its feet.
     pub fn posture(&self, db: &MotionDb, phase: f32) -> Posture {
         let instant = self.instant(phase);
-        let mut pose = db.rows.blended(instant.rows().map(|(row, weight)| (self.of.example, row, weight)));
+        let mut pose = db.rows.blended(instant.rows().map(|(row, weight)| (self.tempo.of.example, row, weight)));
         self.calm(&mut pose);
         twist(&mut pose, self.parameters);
-        lean(&mut pose, self.lean_rad);
-        let feet = self.feet(db, phase, &instant);
+        self.lean_over(&mut pose);
+        let contacts = self.contacts(db, phase);
+        let feet = self.feet(&db.skeleton, contacts, &instant);
         for (thigh, (_, yaw_rad)) in Joint::THIGHS.into_iter().zip(feet) {
             let rotation = &mut pose.rotations[thigh.index()];
-            *rotation = Quat::from_rotation_z(KNEE_YAW * yaw_rad) * *rotation;
+            *rotation = yaw(KNEE_YAW * yaw_rad) * *rotation;
         }
-        let mut posture = Posture::new(pose, &db.skeleton);
+        let mut posture = Posture::new(pose, contacts, &db.skeleton);
         posture.move_feet(feet.map(|(foot, _)| foot));
         posture
     }
 
     /// Where the feet are to be, and their yaw.
-    fn feet(&self, db: &MotionDb, phase: f32, instant: &Instant) -> [(FootPose, f32); 2] {
+    fn feet(&self, skeleton: &Skeleton, contacts: [f32; 2], instant: &Instant) -> [(FootPose, f32); 2] {
         let slip = instant.slip();
-        let slipping = if slip > 0.0 { self.contacts(db, phase).map(|contact| slip * contact) } else { [0.0; 2] };
-        let outward_m = -self.of.hips_m * libm::tanf(self.lean_rad);
+        let outward_m = -self.tempo.of.hips_m * self.lean.y / self.lean.x;
         [0, 1].map(|side| {
             let mut foot = self.mixed_foot(instant, side);
-            foot.place_m += slipping[side] * self.slip_m(&db.skeleton, &foot, side);
+            foot.place_m += slip * contacts[side] * self.slip_m(skeleton, &foot, side);
             self.carried_foot(&foot, side, outward_m)
         })
     }
 
     fn instant(&self, phase: f32) -> Instant {
         let reversed = 1.0 - phase;
-        Instant { phases: [phase, reversed - libm::floorf(reversed)], shares: self.directions }
+        Instant { phases: [phase, reversed - libm::floorf(reversed)], shares: self.tempo.directions }
     }
 
     /// Hips, trunk and arms swing less about their means where strides are shorter, and more where they are longer.
     fn calm(&self, pose: &mut Pose) {
-        for (rotation, mean) in pose.rotations.iter_mut().zip(&self.of.mean).take(Joint::LeftThigh.index()) {
+        for (rotation, mean) in pose.rotations.iter_mut().zip(&self.tempo.of.mean).take(Joint::LeftThigh.index()) {
             *rotation = (*mean * (1.0 - self.swing) + *rotation * self.swing).normalize();
         }
+    }
+
+    /// The body leans about its hips, which stay over the root: the feet stand outward.
+    fn lean_over(&self, pose: &mut Pose) {
+        let half = (self.lean + Vec2::X).normalize();
+        pose.rotations[0] = Quat::from_xyzw(-half.y, 0.0, 0.0, half.x) * pose.rotations[0];
+        pose.pelvis_m.z *= self.lean.x;
     }
 
     fn mixed_foot(&self, instant: &Instant, side: usize) -> Foothold {
         let nothing = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
         let mut mixed = Foothold { since_s: 0.0, place_m: Vec3::ZERO, orientation: nothing };
         for (index, (row, weight)) in instant.rows().into_iter().enumerate() {
-            let foot = &self.of.feet[row][side];
+            let foot = &self.tempo.of.feet[row][side];
             mixed.since_s += if index < 2 { weight } else { -weight } * foot.since_s;
             mixed.place_m += weight * foot.place_m;
             mixed.orientation += foot.orientation * weight;
@@ -190,7 +198,7 @@ impl<'a> Deformation<'a> {
         let Foot { heel_m, ball_m, .. } = skeleton.feet[side];
         let [heel_off_m, ball_off_m] = [heel_m, ball_m].map(|point_m| foot.orientation * point_m);
         let (point_m, off_m) = if heel_off_m.z < ball_off_m.z { (heel_m, heel_off_m) } else { (ball_m, ball_off_m) };
-        let resting = self.of.resting(side);
+        let resting = self.tempo.of.resting(side);
         let slip_m = resting.place_m + resting.orientation * point_m - foot.place_m - off_m;
         Vec3::new(slip_m.x, slip_m.y, 0.0)
     }
@@ -198,18 +206,32 @@ impl<'a> Deformation<'a> {
     /// Where a foot's place has been carried to, and the yaw that its foot has got by it.
     fn carried_foot(&self, foot: &Foothold, side: usize, outward_m: f32) -> (FootPose, f32) {
         let sign = Side::BOTH[side].sign();
-        let carried = moved(&Root::default(), &self.parameters, foot.since_s / self.cadence);
+        let carried = moved(&Root::default(), &self.parameters, foot.since_s / self.tempo.cadence);
         let toe_out_rad = sign * self.toe_out_rad;
         let yaw_rad = toe_out_rad - carried.facing_rad;
-        let middle_m = self.of.resting(side).place_m;
+        let middle_m = self.tempo.of.resting(side).place_m;
         let place_m = middle_m
-            + Quat::from_rotation_z(toe_out_rad) * (foot.place_m - middle_m)
+            + yaw(toe_out_rad) * (foot.place_m - middle_m)
             + Vec3::new(0.0, outward_m + sign * self.widening_m, 0.0);
-        let target = FootPose {
-            ankle_m: carried.frame().to_local(place_m),
-            orientation: Quat::from_rotation_z(yaw_rad) * foot.orientation,
-        };
+        let frame = RootFrame { position_m: carried.position_m, forward: direction(carried.facing_rad) };
+        let target = FootPose { ankle_m: frame.to_local(place_m), orientation: yaw(yaw_rad) * foot.orientation };
         (target, yaw_rad)
+    }
+}
+
+impl<'a> Tempo<'a> {
+    /// Of m_sp at some parameters.
+    pub fn new(of: &'a SemiProcedural, parameters: Parameters) -> Self {
+        Self { of, cadence: of.cadence(parameters), directions: directions(parameters) }
+    }
+
+    /// Phase to time. Reversed time exchanges the half-strides.
+    pub fn phase_map(&self) -> PhaseMap {
+        let ([forward, reversed], map) = (self.directions, &self.of.phase_map);
+        PhaseMap {
+            period_s: map.period_s / self.cadence,
+            left_share: 0.5 + (map.left_share - 0.5) * (forward - reversed),
+        }
     }
 }
 
@@ -247,19 +269,14 @@ fn directions(parameters: Parameters) -> [f32; 2] {
 fn twist(pose: &mut Pose, parameters: Parameters) {
     let travel = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
     let twice = 2.0 * travel.x * travel.y / travel.length_squared().max(f32::MIN_POSITIVE);
-    let hips = Quat::from_rotation_z(0.5 * HIP_TWIST * twice);
+    let hips = yaw(0.5 * HIP_TWIST * twice);
     let [pelvis, spine] = [Joint::Pelvis, Joint::SpineLower].map(Joint::index);
     pose.rotations[pelvis] = hips * pose.rotations[pelvis];
-    pose.rotations[spine] = hips.inverse() * pose.rotations[spine];
+    pose.rotations[spine] = hips.conjugate() * pose.rotations[spine];
 }
 
-/// Positive to the left.
-fn lean_rad(parameters: Parameters) -> f32 {
-    libm::atanf(parameters.speed_mps * parameters.turn_rate_rad_s / GRAVITY_MPS2).clamp(-LEAN_MAX_RAD, LEAN_MAX_RAD)
-}
-
-/// The body leans about its hips, which stay over the root: the feet stand outward.
-fn lean(pose: &mut Pose, lean_rad: f32) {
-    pose.rotations[0] = Quat::from_rotation_x(-lean_rad) * pose.rotations[0];
-    pose.pelvis_m.z *= libm::cosf(lean_rad);
+/// Cosine and sine of the lean, the latter positive to the left.
+fn lean(parameters: Parameters) -> Vec2 {
+    let tangent = parameters.speed_mps * parameters.turn_rate_rad_s / GRAVITY_MPS2;
+    Vec2::new(1.0, tangent.clamp(-LEAN_MAX, LEAN_MAX)).normalize()
 }

@@ -12,7 +12,7 @@
 use glam::{Quat, Vec2, Vec3};
 
 use super::time_step::TimeStep;
-use crate::angle::wrap_rad;
+use crate::angle::{direction, wrap_rad, yaw};
 use crate::decay::soft_maximum;
 
 /// Rate of the spring that lets a foot go, 1/s: of a hold, 4 % is left after 0.25 s, before the foot lands again.
@@ -111,10 +111,7 @@ impl FootHold {
         }
         (self.planted, self.lowest, self.heading_rad) = (planted, lowest, heading_rad);
         self.lift(height_m, step);
-        HeldFoot {
-            ankle_m: posed.ankle_m + self.shift_m.extend(self.lift_m),
-            twist: Quat::from_rotation_z(self.twist_rad),
-        }
+        HeldFoot { ankle_m: posed.ankle_m + self.shift_m.extend(self.lift_m), twist: yaw(self.twist_rad) }
     }
 
     /// c of a planted foot.
@@ -160,7 +157,7 @@ impl FootHold {
     /// A point of the pose's sole, twisted about the ankle.
     fn twisted_m(&self, posed: &PosedFoot, point: usize) -> Vec2 {
         let (ankle_m, point_m) = (posed.ankle_m.truncate(), posed.sole_m[point].truncate());
-        ankle_m + Vec2::from_angle(self.twist_rad).rotate(point_m - ankle_m)
+        ankle_m + direction(self.twist_rad).rotate(point_m - ankle_m)
     }
 
     /// Where a sole point that is lowest now came to rest. One that took over within the step did so while both touched

@@ -47,12 +47,12 @@ impl Gait {
 
     /// Follows what is asked, with hysteresis; `feet_gathered` tells whether the body could stand as its feet are.
     /// Returns whether it now starts to step.
-    pub fn follow(&mut self, idle_share: f32, feet_gathered: bool, dt_s: f32) -> bool {
+    pub fn follow(&mut self, idle_share: f32, feet_gathered: impl FnOnce() -> bool, dt_s: f32) -> bool {
         let lasted = self.since_s >= GAIT_TIME_S;
         let stop = !self.stands && (lasted && idle_share > STOP_IDLE_SHARE || idle_share > HALT_IDLE_SHARE);
         let start = self.stands && lasted && idle_share < START_IDLE_SHARE;
         self.gathering_s = if stop { self.gathering_s + dt_s } else { 0.0 };
-        if start || stop && (feet_gathered || self.gathering_s > GATHERING_TIME_S) {
+        if start || stop && (self.gathering_s > GATHERING_TIME_S || feet_gathered()) {
             *self = Self { stands: !self.stands, since_s: 0.0, gathering_s: 0.0 };
         }
         self.since_s += dt_s;

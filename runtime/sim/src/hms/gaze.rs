@@ -9,12 +9,14 @@
 //! The angle is shared out over spine, neck and head, each within its limits. Root and legs know nothing of it. Radians,
 //! seconds; angles against the root's facing, counter-clockwise from above.
 
+use std::f32::consts::PI;
+
 use glam::{Quat, Vec2};
 use motiondb::pose::{Pose, Root};
 use motiondb::skeleton::{Joint, Skeleton};
 
 use super::time_step::TimeStep;
-use crate::angle::wrap_rad;
+use crate::angle::{wrap_rad, yaw};
 use crate::plan::Plan;
 
 /// Eyes do what is further aside, rad: of turns by 90° and more the head shows some 45° against the trunk.
@@ -52,12 +54,21 @@ impl Gaze {
         for (joint, share) in SHARES {
             let rotation = &mut pose.rotations[joint.index()];
             let [least, greatest] = skeleton.limits_rad[joint.index()];
-            let yaw_rad = yaw_rad(*rotation);
-            // A pose beyond a limit is left where it is.
-            let turned_rad = (yaw_rad + share * self.angle_rad).clamp(least.z.min(yaw_rad), greatest.z.max(yaw_rad));
-            *rotation = Quat::from_rotation_z(turned_rad - yaw_rad) * *rotation;
+            let turn_rad = within_limits_rad(share * self.angle_rad, *rotation, [least.z, greatest.z]);
+            *rotation = yaw(turn_rad) * *rotation;
         }
     }
+}
+
+/// As much of a turn as a joint's limits leave.
+fn within_limits_rad(turn_rad: f32, rotation: Quat, [least_rad, greatest_rad]: [f32; 2]) -> f32 {
+    // An arc is at most π/2 times its sine, so no yaw is greater than π·|z|: mostly far from the limits.
+    if PI * rotation.z.abs() + turn_rad.abs() <= greatest_rad.min(-least_rad) {
+        return turn_rad;
+    }
+    // A pose beyond a limit is left where it is.
+    let yaw_rad = yaw_rad(rotation);
+    (yaw_rad + turn_rad).clamp(least_rad.min(yaw_rad), greatest_rad.max(yaw_rad)) - yaw_rad
 }
 
 /// About the vertical, as joint limits count it.

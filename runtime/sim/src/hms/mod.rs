@@ -44,7 +44,7 @@ use motiondb::parameters::Parameters;
 use motiondb::pose::{Pose, Root, RootFrame};
 
 use self::blending::Mix;
-use self::deformation::Deformation;
+use self::deformation::Tempo;
 use self::feet::{FootHold, PosedFoot};
 use self::gait::Gait;
 use self::gaze::Gaze;
@@ -60,7 +60,7 @@ use self::posture::Posture;
 use self::semi_procedural::SemiProcedural;
 use self::space::{Nearest, Space};
 use self::time_step::TimeStep;
-use crate::angle::wrap_rad;
+use crate::angle::{direction, wrap_rad};
 use crate::plan::{Plan, Stance};
 use crate::recording_frame::{Mode, PLANTED_CONTACT};
 
@@ -160,7 +160,7 @@ impl Body {
             feet: Default::default(),
         };
         let playing = body.playing(motion);
-        let posture = Posture::new(playing.pose(motion, phase), &motion.db.skeleton);
+        let posture = playing.posture(motion, phase);
         let (frame, soles_m) = (root.frame(), posture.soles_m(&motion.db.skeleton));
         let posed = |side: usize| posed_foot(&frame, posture.feet[side].ankle_m, soles_m[side]);
         body.feet = [0, 1].map(|side| FootHold::new(&posed(side)));
@@ -200,7 +200,10 @@ impl Body {
         self.intention.follow(asked, self.gait.stands, step);
         let now = self.mix.parameters(motion.db);
         let nearest = motion.space.nearest(self.intention.parameters);
-        if self.gait.follow(nearest.idle_share, self.feet_gathered(motion), step.dt_s) {
+        let mut gait = self.gait;
+        let starts = gait.follow(nearest.idle_share, || self.feet_gathered(motion), step.dt_s);
+        self.gait = gait;
+        if starts {
             self.jump(motion, |body| body.phase = body.first_step_phase(motion));
         }
         let goal = self.detour(motion).unwrap_or_else(|| gait::goal(nearest, now, self.gait, motion.space));
@@ -235,7 +238,7 @@ impl Body {
         }
         self.walking = next;
         self.move_root(&{ self.walking }, dt_s);
-        let map = Deformation::new(semi_procedural, self.walking).phase_map();
+        let map = Tempo::new(semi_procedural, self.walking).phase_map();
         let middle = self.phase + 0.5 * dt_s * map.rate_hz(self.phase);
         let next = self.phase + dt_s * map.rate_hz(middle);
         self.phase = next - libm::floorf(next);
@@ -250,10 +253,9 @@ impl Body {
         self.mix.approach(&shares, 1.0, pursuit::fraction(&self.mix, &shares, motion, dt_s));
         self.phase = self.mix.advance_phase(motion.db, self.phase, dt_s);
         let playing = self.playing(motion);
-        let pose = playing.pose(motion, self.phase);
-        let contacts = playing.contacts(motion, self.phase);
-        let soles_m = Posture::new(pose, &motion.db.skeleton).soles_m(&motion.db.skeleton);
-        self.told(motion, &playing, pose, contacts, &soles_m)
+        let posture = playing.posture(motion, self.phase);
+        let soles_m = posture.soles_m(&motion.db.skeleton);
+        self.told(motion, &playing, &posture, &soles_m, self.root.forward())
     }
 
     fn move_root(&mut self, parameters: &Parameters, dt_s: f32) {
@@ -368,13 +370,13 @@ impl Body {
         let playing = self.playing(motion);
         let (mut posture, held_up) = self.carried(motion, &playing, step);
         self.gaze.turn(&mut posture.pose, skeleton);
-        let contacts = playing.contacts(motion, self.phase);
         let (frame, soles_m) = (self.root.frame(), posture.soles_m(skeleton));
 
         let held = [0, 1].map(|side| {
             let FootPose { ankle_m, orientation } = posture.feet[side];
             let posed = posed_foot(&frame, ankle_m, soles_m[side]);
-            let held = self.feet[side].step(&posed, contacts[side] >= PLANTED_CONTACT && !held_up[side], step);
+            let planted = posture.contacts[side] >= PLANTED_CONTACT && !held_up[side];
+            let held = self.feet[side].step(&posed, planted, step);
             FootPose { ankle_m: frame.to_local(held.ankle_m), orientation: held.twist * orientation }
         });
         posture.move_feet(held);
@@ -384,7 +386,7 @@ impl Body {
         for (hold, sole_m) in self.feet.iter_mut().zip(soles_m) {
             hold.placed(sole_m.map(|point_m| frame.to_world(point_m)), step);
         }
-        self.told(motion, &playing, posture.pose, contacts, &soles_m)
+        self.told(motion, &playing, &posture, &soles_m, frame.forward)
     }
 
     /// What is played, and what a switch has left on top of it; which feet that holds up.
@@ -393,27 +395,28 @@ impl Body {
             return (playing.posture(motion, self.phase), [false; 2]);
         }
         let skeleton = &motion.db.skeleton;
-        let mut pose = playing.pose(motion, self.phase);
-        let played_m = Posture::new(pose, skeleton).soles_m(skeleton);
-        self.inertia.carry(&mut pose, step);
-        let carried = Posture::new(pose, skeleton);
+        let mut posture = playing.posture(motion, self.phase);
+        posture.bend_legs(skeleton);
+        let played_m = posture.soles_m(skeleton);
+        self.inertia.carry(&mut posture.pose, step);
+        let carried = Posture::new(posture.pose, posture.contacts, skeleton);
         let carried_m = carried.soles_m(skeleton);
         (carried, [0, 1].map(|side| held_up(&played_m[side], &carried_m[side])))
     }
 
-    /// What is told of a pose.
+    /// What is told of a posture, of its soles in the root frame, which faces `forward`.
     fn told(
         &self,
         motion: &Motion,
         playing: &Playing,
-        pose: Pose,
-        contacts: [f32; 2],
+        posture: &Posture,
         soles_m: &[[Vec3; 3]; 2],
+        forward: Vec2,
     ) -> Synthesis {
         Synthesis {
-            pose,
-            contacts,
-            stance: Stance::on_soles(soles_m, self.root.forward(), contacts, |swing| {
+            pose: posture.pose,
+            contacts: posture.contacts,
+            stance: Stance::on_soles(soles_m, forward, posture.contacts, |swing| {
                 playing.time_to_landing_s(motion, self.phase, swing)
             }),
             examples_slide_cm_s: playing.examples_slide_cm_s(motion),
@@ -438,7 +441,7 @@ fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
     let half_turn_rad = 0.5 * dt_s * parameters.turn_rate_rad_s;
     let local_m = Vec2::new(parameters.speed_mps, parameters.strafe_mps) * dt_s * chord(half_turn_rad);
     Root {
-        position_m: root.position_m + Vec2::from_angle(root.facing_rad + half_turn_rad).rotate(local_m),
+        position_m: root.position_m + direction(root.facing_rad + half_turn_rad).rotate(local_m),
         facing_rad: wrap_rad(root.facing_rad + 2.0 * half_turn_rad),
     }
 }
@@ -453,7 +456,7 @@ fn went(from: &Root, to: &Root, dt_s: f32) -> Parameters {
 
 /// Chord over arc, by half the angle between its ends.
 fn chord(half_turn_rad: f32) -> f32 {
-    if half_turn_rad.abs() > 1e-3 { libm::sinf(half_turn_rad) / half_turn_rad } else { 1.0 }
+    if half_turn_rad.abs() > 1e-3 { direction(half_turn_rad).y / half_turn_rad } else { 1.0 }
 }
 
 #[cfg(test)]

@@ -39,16 +39,11 @@ impl<'a> Playing<'a> {
     /// The pose, whose legs may not have bent yet, and its feet: whoever moves them bends legs once.
     pub fn posture(&self, motion: &Motion, phase: f32) -> Posture {
         match self {
-            Self::Blend(weights) => Posture::new(weights.pose(motion.db, phase), &motion.db.skeleton),
+            Self::Blend(weights) => {
+                let (pose, contacts) = (weights.pose(motion.db, phase), weights.contacts(motion.db, phase));
+                Posture::new(pose, contacts, &motion.db.skeleton)
+            }
             Self::Deform(deformation) => deformation.posture(motion.db, phase),
-        }
-    }
-
-    /// The contact of each foot.
-    pub fn contacts(&self, motion: &Motion, phase: f32) -> [f32; 2] {
-        match self {
-            Self::Blend(weights) => weights.contacts(motion.db, phase),
-            Self::Deform(deformation) => deformation.contacts(motion.db, phase),
         }
     }
 

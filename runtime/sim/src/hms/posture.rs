@@ -19,13 +19,15 @@ pub struct Posture {
     legs: [Leg; 2],
     /// The feet, which its legs may not reach yet.
     pub feet: [FootPose; 2],
+    /// Contact of each.
+    pub contacts: [f32; 2],
 }
 
 impl Posture {
     /// Feet as the pose has them.
-    pub fn new(pose: Pose, skeleton: &Skeleton) -> Self {
+    pub fn new(pose: Pose, contacts: [f32; 2], skeleton: &Skeleton) -> Self {
         let legs = legs(&pose, skeleton);
-        Self { pose, feet: legs.each_ref().map(Leg::foot), legs }
+        Self { pose, feet: legs.each_ref().map(Leg::foot), legs, contacts }
     }
 
     /// Moves the feet; the pelvis comes down where a leg would have to stretch for it.

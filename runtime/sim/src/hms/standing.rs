@@ -62,7 +62,7 @@ fn standing_pose(db: &MotionDb, example: usize) -> Pose {
         Leg::joints(side).into_iter().for_each(|joint| pose.rotations[joint] = poses[side].rotations[joint]);
         Leg::new(&poses[side], &db.skeleton, side).foot()
     });
-    let mut posture = Posture::new(pose, &db.skeleton);
+    let mut posture = Posture::new(pose, [1.0; 2], &db.skeleton);
     posture.move_feet(feet);
     posture.bend_legs(&db.skeleton);
     let mut pose = posture.pose;

@@ -268,7 +268,7 @@ proptest! {
         let mut gait = Gait::STANDING;
         for _ in 0..120 {
             let nearest = space.nearest(asked);
-            gait.follow(nearest.idle_share, true, DT_S);
+            gait.follow(nearest.idle_share, || true, DT_S);
             let goal = gait::goal(nearest, mix.parameters(&db), gait, &space);
             let towards = asked::step_towards(mix.parameters(&db), goal, &params, DT_S);
             let (shares, pace) = gait::steps(&space.nearest(towards), gait, &space);
