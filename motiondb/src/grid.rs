@@ -1,4 +1,5 @@
-//! Which simplices may hold a point: cells of a grid over their box, each with a list of those that reach into it.
+//! Which simplices may hold a point: cells of a grid over their box, each with a list of those that reach into it, the
+//! likeliest first.
 //!
 //! A query looks into one cell, in constant time. Cells are many times as many as simplices, so the lists stay short;
 //! the work of building them is bounded whatever is read from a file. Along a dropped axis the box has no extent, and
@@ -39,16 +40,17 @@ impl Grid {
             side /= 2;
             cells = Cells::around(simplices, side);
         }
-        let mut pairs: Vec<(usize, u32)> = Vec::new();
+        let mut pairs: Vec<(usize, f64, u32)> = Vec::new();
         for (number, simplex) in (0..).zip(simplices) {
-            cells.reached_by(simplex, |cell| pairs.push((cell, number)));
+            cells.reached_by(simplex, |cell, depth| pairs.push((cell, depth, number)));
         }
-        pairs.sort_unstable();
+        // The deeper the cell's centre lies within, the sooner.
+        pairs.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)).then(a.2.cmp(&b.2)));
         let start = |cell: usize| pairs.partition_point(|pair| pair.0 < cell) as u32;
         Self {
             cells,
             starts: (0..=side * side * side).map(start).collect(),
-            lists: pairs.iter().map(|pair| pair.1).collect(),
+            lists: pairs.iter().map(|pair| pair.2).collect(),
         }
     }
 
@@ -87,15 +89,15 @@ impl Cells {
         (0..3).map(|axis| (last[axis] - first[axis] + 1) as f64).product()
     }
 
-    fn reached_by(&self, simplex: &Simplex, mut reached: impl FnMut(usize)) {
+    fn reached_by(&self, simplex: &Simplex, mut reached: impl FnMut(usize, f64)) {
         let [first, last] = simplex.bounds().map(|corner| self.place(corner));
         let half = 0.5 * self.per_unit.recip();
         for z in first[2]..=last[2] {
             for y in first[1]..=last[1] {
                 for x in first[0]..=last[0] {
                     let centre = self.least + half * (2.0 * DVec3::new(x as f64, y as f64, z as f64) + 1.0);
-                    if simplex.reaches_into(centre, half) {
-                        reached(self.index([x, y, z]));
+                    if let Some(depth) = simplex.depth_in_box(centre, half) {
+                        reached(self.index([x, y, z]), depth);
                     }
                 }
             }

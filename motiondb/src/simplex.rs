@@ -77,12 +77,13 @@ impl Simplex {
         facet
     }
 
-    /// Whether some of a box may lie within: not where a share is negative in all of it.
-    pub(crate) fn reaches_into(&self, centre: DVec3, half: DVec3) -> bool {
+    /// The least share at a box's centre; none where the box lies outside: where a share is negative in all of it.
+    pub(crate) fn depth_in_box(&self, centre: DVec3, half: DVec3) -> Option<f64> {
         let shares = self.shares(centre);
         let first = -(self.rows[0] + self.rows[1] + self.rows[2]);
         let slopes = [first, self.rows[0], self.rows[1], self.rows[2]];
-        (0..self.count).all(|k| shares[k] + slopes[k].abs().dot(half) >= -INSIDE_TOLERANCE)
+        let reaches = (0..self.count).all(|k| shares[k] + slopes[k].abs().dot(half) >= -INSIDE_TOLERANCE);
+        reaches.then(|| shares[..self.count].iter().copied().fold(f64::INFINITY, f64::min))
     }
 
     /// Shares at a point that lies within.
