@@ -35,10 +35,8 @@ pub struct Scratch {
     pub(crate) projected: Vec<HalfPlane>,
     pub(crate) adapted_mps: Vec2,
     pub(crate) satisfied: usize,
-    // MCN's own: where the body faces, walls that its density filter feels, and half-planes that both its velocity sets
-    // take over.
+    // MCN's own: where the body faces, and half-planes that both its velocity sets take over.
     pub(crate) forward: Vec2,
-    pub(crate) walls_m: Vec<Vec2>,
     pub(crate) of_walls: Vec<HalfPlane>,
     pub(crate) of_agents: Vec<HalfPlane>,
 }

@@ -1,5 +1,5 @@
-//! Everybody gives way to the right: v_pref turns there the more, the sooner and the more squarely it would meet
-//! somebody.
+//! Everybody gives way to the right: v_pref turns there the more, the sooner, the more squarely and the more people it
+//! would meet.
 //!
 //! Whoever is met head-on can be passed on either side, and two who are alike would choose alike, dodge alike and meet
 //! again: a circle or a corridor of exact symmetry deadlocks. A convention breaks the symmetry without chance, so
@@ -17,7 +17,7 @@ pub fn kept_right(preferred_mps: Vec2, velocity_mps: Vec2, around: &Around, para
     let times_s = around.times_to_collision_s(change_mps);
     let squareness = squareness(around, change_mps);
     let urgency = |lane: usize| squareness[lane] * (1.0 - times_s[lane] / params.time_horizon_s).max(0.0);
-    let urgency = (0..times_s.len()).map(urgency).fold(0.0, f32::max);
+    let urgency = (0..times_s.len()).map(urgency).sum::<f32>().min(1.0);
     let (sin, cos) = libm::sincosf(-params.keep_right_rad * urgency);
     Vec2::new(cos, sin).rotate(preferred_mps)
 }

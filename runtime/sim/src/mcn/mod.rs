@@ -30,7 +30,6 @@ use self::orientation::{Orientation, Walk};
 use self::params::{McnParams, StanceForm};
 use crate::around::{Around, LANES, Lanes};
 use crate::neighbours::{APPROACH_MPS, Neighbour, Ranking};
-use crate::obstacles::nearest_on_segment;
 use crate::plan::{Plan, VelocitySet};
 use crate::planner::{Scratch, look_around, time_to_collision_s};
 use crate::world::World;
@@ -44,9 +43,9 @@ const SLOW_WALK_MPS: f32 = 0.6;
 /// and 1 s, tried in the four-way crossing of Table 1 alone, A came to between 0.304 and 0.323 m/s².
 const REACTION_S: f32 = 0.3;
 
-/// What a disc keeps from walls, m: a body follows its plan to within a centimetre a step (issue 6), and would touch a corner that
-/// its disc grazes.
-const WALL_MARGIN_M: f32 = 0.01;
+/// What a disc keeps from walls, m: a body's root leaves its plan by up to 1.4 cm (in `bench course` at 0.8 to 2.2 m/s),
+/// and would touch a corner that its disc grazes.
+const WALL_MARGIN_M: f32 = 0.015;
 
 /// Plans one agent's next velocity and facing.
 pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> Plan {
@@ -84,9 +83,7 @@ fn adapt(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch)
         let forces_mps2 = forces_mps2(world, agent, params, scratch);
         adapted_mps = social_force::adapted_mps(velocity_mps, adapted_mps, forces_mps2, world.dt_s, params);
     }
-    gather_walls(world, agent, scratch);
-    let filtered =
-        density::filter(adapted_mps, velocity_mps.length(), scratch.nearest.around(), &scratch.walls_m, params);
+    let filtered = density::filter(adapted_mps, velocity_mps, scratch.nearest.around(), params);
     scratch.adapted_mps = if params.parts.density_filter { filtered.velocity_mps } else { adapted_mps };
     filtered.density
 }
@@ -102,13 +99,6 @@ fn forces_mps2(world: &World, agent: usize, params: &McnParams, scratch: &Scratc
         social_force::wall_force_mps2(world.edge_m(agent, near.edge), own.velocity_mps, own.radius_m, &law)
     });
     of_agents.chain(of_walls).sum()
-}
-
-/// Offsets of the walls' nearest points, for the density filter.
-fn gather_walls(world: &World, agent: usize, scratch: &mut Scratch) {
-    scratch.walls_m.clear();
-    let edges_m = scratch.edges.iter().map(|near| world.edge_m(agent, near.edge));
-    scratch.walls_m.extend(edges_m.map(|[from_m, to_m]| nearest_on_segment(Vec2::ZERO, from_m, to_m)));
 }
 
 /// Eq. 12: the half-planes of walls and agents.
