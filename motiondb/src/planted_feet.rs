@@ -18,7 +18,7 @@ use crate::motion_db::{MotionDb, PHASE_COUNT};
 use crate::parameters::Parameters;
 use crate::phase_map::PhaseMap;
 use crate::pose::Joints;
-use crate::skeleton::Side;
+use crate::skeleton::{Side, Skeleton};
 
 /// A foot is planted from this contact on.
 pub const PLANTED_CONTACT: f64 = 0.5;
@@ -67,15 +67,20 @@ struct Planted {
 }
 
 impl CycleFeet {
-    /// Of a stored example, `joints` being its posed rows.
-    pub fn of(db: &MotionDb, example: usize, joints: &[Joints]) -> Self {
+    /// Of a cycle's posed rows and the contacts `[left, right]` in each.
+    pub fn new(skeleton: &Skeleton, joints: &[Joints], contacts: &[[f32; 2]], phase_map: PhaseMap) -> Self {
         let points_m = [0, 1].map(|side| {
-            let points_m = |joints: &Joints| joints.measured_points_m(&db.skeleton, side).map(|point| point.as_dvec3());
+            let points_m = |joints: &Joints| joints.measured_points_m(skeleton, side).map(|point| point.as_dvec3());
             joints.iter().map(points_m).collect()
         });
-        let rows = &db.rows.contacts[example * PHASE_COUNT..(example + 1) * PHASE_COUNT];
-        let contacts = [0, 1].map(|side| rows.iter().map(|contact: &[f32; 2]| f64::from(contact[side])).collect());
-        Self { points_m, contacts, phase_map: db.examples[example].phase_map }
+        let contacts = [0, 1].map(|side| contacts.iter().map(|contact| f64::from(contact[side])).collect());
+        Self { points_m, contacts, phase_map }
+    }
+
+    /// Of a stored example, `joints` being its posed rows.
+    pub fn of(db: &MotionDb, example: usize, joints: &[Joints]) -> Self {
+        let contacts = &db.rows.contacts[example * PHASE_COUNT..(example + 1) * PHASE_COUNT];
+        Self::new(&db.skeleton, joints, contacts, db.examples[example].phase_map)
     }
 
     /// Both feet are planted in every row.

@@ -4,8 +4,7 @@ mod clips;
 
 use fbcrowd_sim::hms::deformation::Deformation;
 use fbcrowd_sim::hms::semi_procedural::SemiProcedural;
-use glam::Vec3;
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
+use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::planted_feet::{CycleFeet, foot_slide, implied};
 use motiondb::pose::Joints;
@@ -55,17 +54,7 @@ fn semi_procedural(db: &MotionDb) -> SemiProcedural {
 }
 
 fn cycle(db: &MotionDb, semi: &SemiProcedural, parameters: Parameters) -> Cycle {
-    let deformed = Deformation::new(semi, parameters);
-    let phases: Vec<f32> = (0..PHASE_COUNT).map(|row| row as f32 / PHASE_COUNT as f32).collect();
-    let joints: Vec<Joints> =
-        phases.iter().map(|&phase| deformed.pose(db, phase).forward_kinematics(&db.skeleton)).collect();
-    let points_m = [0, 1].map(|side| {
-        let points_m = |joints: &Joints| joints.measured_points_m(&db.skeleton, side).map(Vec3::as_dvec3);
-        joints.iter().map(points_m).collect()
-    });
-    let contacts =
-        [0, 1].map(|side| phases.iter().map(|&phase| f64::from(deformed.contacts(db, phase)[side])).collect());
-    let feet = CycleFeet { points_m, contacts, phase_map: deformed.phase_map() };
+    let (joints, feet) = Deformation::new(semi, parameters).cycle(db);
     Cycle { parameters, cadence: semi.cadence(parameters), joints, feet }
 }
 

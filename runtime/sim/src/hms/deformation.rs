@@ -15,7 +15,8 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
-use motiondb::pose::{Pose, Root, RootFrame};
+use motiondb::planted_feet::CycleFeet;
+use motiondb::pose::{Joints, Pose, Root, RootFrame};
 use motiondb::skeleton::{Foot, Joint, Side, Skeleton};
 
 use super::blending::two_rows;
@@ -100,8 +101,20 @@ impl<'a> Deformation<'a> {
         self.tempo.phase_map()
     }
 
+    /// The whole cycle, to be measured: its joints and its feet at each stored phase.
+    pub fn cycle(&self, db: &MotionDb) -> (Vec<Joints>, CycleFeet) {
+        let row = |row: usize| {
+            let mut posture = self.posture(db, row as f32 / PHASE_COUNT as f32);
+            posture.bend_legs(&db.skeleton);
+            (posture.pose.forward_kinematics(&db.skeleton), posture.contacts)
+        };
+        let (joints, contacts): (Vec<Joints>, Vec<[f32; 2]>) = (0..PHASE_COUNT).map(row).unzip();
+        let feet = CycleFeet::new(&db.skeleton, &joints, &contacts, self.phase_map());
+        (joints, feet)
+    }
+
     /// Contact of each foot, `[left, right]`: a foot is planted that stands in the cycle and in its reverse.
-    pub fn contacts(&self, db: &MotionDb, phase: f32) -> [f32; 2] {
+    fn contacts(&self, db: &MotionDb, phase: f32) -> [f32; 2] {
         let Instant { phases, shares } = self.instant(phase);
         let of_one = |index: usize| {
             let (rows, shares) = two_rows(phases[index]);

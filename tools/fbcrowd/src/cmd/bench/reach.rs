@@ -8,10 +8,10 @@ use std::path::PathBuf;
 
 use fbcrowd_sim::hms::deformation::Deformation;
 use fbcrowd_sim::hms::semi_procedural::SemiProcedural;
-use glam::{Vec2, Vec3};
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
+use glam::Vec2;
+use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
-use motiondb::planted_feet::{CycleFeet, foot_slide};
+use motiondb::planted_feet::foot_slide;
 use motiondb::pose::Joints;
 use motiondb::skeleton::Joint;
 use serde::Serialize;
@@ -136,12 +136,10 @@ fn way(
 
 /// What is wrong first with m_sp deformed to some parameters.
 fn fault(db: &MotionDb, semi_procedural: &SemiProcedural, lowest_m: f32, parameters: Parameters) -> Option<Fault> {
-    let deformed = Deformation::new(semi_procedural, parameters);
-    let phases = (0..PHASE_COUNT).map(|row| row as f32 / PHASE_COUNT as f32);
-    let joints: Vec<Joints> = phases.map(|phase| deformed.pose(db, phase).forward_kinematics(&db.skeleton)).collect();
+    let (joints, feet) = Deformation::new(semi_procedural, parameters).cycle(db);
     let source_cm_s = db.examples[semi_procedural.example].planted_slide_cm_s;
     let bar_cm_s = semi_procedural.cadence(parameters) * source_cm_s + SLIDE_CM_S;
-    let slide = foot_slide(&feet(db, &deformed, &joints), parameters.to_vec3().as_dvec3());
+    let slide = foot_slide(&feet, parameters.to_vec3().as_dvec3());
     let wrong = [
         (Fault::Slide, slide.slide_cm_s > f64::from(bar_cm_s)),
         (Fault::CrossedLegs, joints.iter().any(|joints| ankles_apart_m(joints) < ANKLES_MIN_M)),
@@ -149,18 +147,6 @@ fn fault(db: &MotionDb, semi_procedural: &SemiProcedural, lowest_m: f32, paramet
         (Fault::Crouch, joints.iter().any(|joints| hips_m(joints) < lowest_m - DROP_MAX_M)),
     ];
     wrong.into_iter().find_map(|(fault, is_so)| is_so.then_some(fault))
-}
-
-fn feet(db: &MotionDb, deformed: &Deformation, joints: &[Joints]) -> CycleFeet {
-    let points_m = [0, 1].map(|side| {
-        let of_one = |joints: &Joints| joints.measured_points_m(&db.skeleton, side).map(Vec3::as_dvec3);
-        joints.iter().map(of_one).collect()
-    });
-    let contacts = [0, 1].map(|side| {
-        let phases = (0..PHASE_COUNT).map(|row| row as f32 / PHASE_COUNT as f32);
-        phases.map(|phase| f64::from(deformed.contacts(db, phase)[side])).collect()
-    });
-    CycleFeet { points_m, contacts, phase_map: deformed.phase_map() }
 }
 
 fn hips_m(joints: &Joints) -> f32 {
