@@ -54,7 +54,7 @@ use self::intention::Intention;
 use self::leg::FootPose;
 use self::mode::{Choice, Thresholds};
 use self::owed::Owed;
-use self::params::{HmsParams, Transition};
+use self::params::{HmsParams, Modes, Transition};
 use self::playing::Playing;
 use self::posture::Posture;
 use self::semi_procedural::SemiProcedural;
@@ -267,7 +267,8 @@ impl Body {
     /// §3.4.1: which synthesis is wanted, where what is asked holds so much standing.
     fn choose(&mut self, motion: &Motion, hybrid: &Hybrid, plan: &Plan, idle_share: f32, dt_s: f32) {
         let HmsParams { modes, density_threshold, .. } = *motion.params;
-        let thresholds = Thresholds { modes, transition_s: hybrid.transition_s, density: density_threshold };
+        let alone = modes == Modes::SemiProcedural;
+        let thresholds = Thresholds { alone, transition_s: hybrid.transition_s, density: density_threshold };
         let walks = !self.gait.stands && idle_share < gait::IDLE_SHARE_MAX;
         self.choice.follow(plan, walks, &thresholds, dt_s);
     }

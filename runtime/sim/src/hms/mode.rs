@@ -8,7 +8,6 @@
 //! With hysteresis: the way back needs both with a margin, and each choice lasts for a while, so that a body does not
 //! flip at the boundary. A body that stands, or is to stand, blends: m_sp only walks.
 
-use super::params::Modes;
 use crate::plan::Plan;
 use crate::recording_frame::Mode;
 
@@ -30,8 +29,8 @@ pub struct Choice {
 /// What may be chosen, and where the thresholds of Eq. 1 lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thresholds {
-    /// Which syntheses there are.
-    pub modes: Modes,
+    /// Semi-procedural locomotion alone, for who walks.
+    pub alone: bool,
     /// t_trans, s.
     pub transition_s: f32,
     /// d_thresh, in the units of [`Plan::density`].
@@ -45,11 +44,10 @@ impl Choice {
     /// Follows a plan; `walks` tells whether the body walks and is to go on.
     pub fn follow(&mut self, plan: &Plan, walks: bool, thresholds: &Thresholds, dt_s: f32) {
         self.since_s += dt_s;
-        let wanted = match thresholds.modes {
-            _ if !walks => Mode::Blending,
-            Modes::Hybrid => self.by_threat(plan, thresholds),
-            Modes::Blending => Mode::Blending,
-            Modes::SemiProcedural => Mode::SemiProcedural,
+        let wanted = match (walks, thresholds.alone) {
+            (false, _) => Mode::Blending,
+            (true, true) => Mode::SemiProcedural,
+            (true, false) => self.by_threat(plan, thresholds),
         };
         if wanted != self.mode && (self.since_s >= DWELL_S || !walks) {
             *self = Self { mode: wanted, since_s: 0.0 };
@@ -72,7 +70,7 @@ impl Choice {
 mod tests {
     use super::*;
 
-    const THRESHOLDS: Thresholds = Thresholds { modes: Modes::Hybrid, transition_s: 1.0, density: 0.5 };
+    const THRESHOLDS: Thresholds = Thresholds { alone: false, transition_s: 1.0, density: 0.5 };
 
     fn plan(time_to_collision_s: f32, density: f32) -> Plan {
         Plan { time_to_collision_s, density, ..Plan::default() }
