@@ -1,13 +1,13 @@
 //! The state of all agents as a structure of arrays, in index order.
 //!
-//! World axes, metres, seconds, radians. What the planner reads of the bodies changes only in [`crate::cns`], after all
-//! have moved.
+//! World axes, metres, seconds, radians. What the planner reads of the bodies changes only after all have planned:
+//! the stance foot as they are synthesised, all else in [`crate::cns`].
 
 use glam::Vec2;
 use motiondb::pose::Root;
 
 use crate::cns::Coupling;
-use crate::hms::{Body, Motion, Synthesis};
+use crate::hms::{Body, Motion};
 use crate::path::Progress;
 use crate::plan::{Plan, Stance};
 use crate::recording_frame::AgentFrame;
@@ -40,11 +40,9 @@ pub struct Agents {
     pub stepping_back_s: Vec<f32>,
     /// Synthesis, from step to step.
     pub bodies: Vec<Body>,
-    /// What synthesis made of the step.
-    pub syntheses: Vec<Synthesis>,
     /// The stance foot that the planner sees.
     pub stances: Vec<Stance>,
-    /// What is recorded.
+    /// What is recorded; it holds the poses.
     pub frames: Vec<AgentFrame>,
 }
 
@@ -74,7 +72,7 @@ impl Agents {
             }
             agents.bodies.push(body);
             agents.stances.push(synthesis.stance);
-            agents.syntheses.push(synthesis);
+            agents.frames[index].show(&synthesis);
         }
         agents
     }
@@ -82,7 +80,7 @@ impl Agents {
     /// What all arrays take together, bytes; nothing in them points to more.
     pub fn size_bytes(&self) -> usize {
         let Self { positions_m, velocities_mps, facings_rad, radii_m, progress, preferred_mps, plans, .. } = self;
-        let Self { strafing_s, stepping_back_s, bodies, syntheses, stances, frames, .. } = self;
+        let Self { strafing_s, stepping_back_s, bodies, stances, frames, .. } = self;
         let of_planning = size_of_val(&**positions_m)
             + size_of_val(&**velocities_mps)
             + size_of_val(&**facings_rad)
@@ -93,7 +91,7 @@ impl Agents {
             + size_of_val(&**strafing_s)
             + size_of_val(&**stepping_back_s)
             + size_of_val(&**stances);
-        of_planning + size_of_val(&**bodies) + size_of_val(&**syntheses) + size_of_val(&**frames)
+        of_planning + size_of_val(&**bodies) + size_of_val(&**frames)
     }
 }
 

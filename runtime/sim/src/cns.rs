@@ -40,7 +40,6 @@ pub fn synchronize(agents: &mut Agents, dt_s: f32) {
         agents.velocities_mps[index] = body.committed_mps.unwrap_or(moved_m / dt_s);
         agents.positions_m[index] = body.root.position_m;
         agents.facings_rad[index] = body.root.facing_rad;
-        agents.stances[index] = agents.syntheses[index].stance;
         agents.strafing_s[index] = agents.plans[index].strafing_s;
         agents.stepping_back_s[index] = agents.plans[index].stepping_back_s;
     }

@@ -4,6 +4,7 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::pose::{Pose, Root};
 use motiondb::skeleton::JOINT_COUNT;
 
+use crate::hms::Synthesis;
 use crate::plan::VelocitySet;
 
 /// Blended contact Σ w·c from which a foot is planted (`definitions.md`, "Planted-foot slide").
@@ -47,6 +48,16 @@ pub enum Mode {
     Blending = 0,
     /// Semi-procedural locomotion.
     SemiProcedural = 1,
+}
+
+impl AgentFrame {
+    /// Takes up what synthesis made of a step.
+    pub fn show(&mut self, synthesis: &Synthesis) {
+        self.contacts = synthesis.contacts;
+        self.time_to_landing_s = synthesis.stance.foot.map_or(0.0, |foot| foot.time_to_landing_s);
+        self.examples_slide_cm_s = synthesis.examples_slide_cm_s;
+        self.pose = synthesis.pose;
+    }
 }
 
 impl Default for AgentFrame {

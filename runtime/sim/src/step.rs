@@ -168,39 +168,38 @@ impl Simulation {
         let (agents, obstacles) = (&mut self.agents, &self.obstacles);
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let time_step = TimeStep::new(dt_s);
-        let bodies = agents.bodies.par_iter_mut().with_min_len(CHUNK).zip(&mut agents.syntheses);
-        bodies.zip(&agents.plans).zip(&agents.radii_m).for_each(|(((body, synthesis), plan), &radius_m)| {
+        let bodies = agents.bodies.par_iter_mut().with_min_len(CHUNK).zip(&mut agents.stances).zip(&mut agents.frames);
+        bodies.zip(&agents.plans).zip(&agents.radii_m).for_each(|((((body, stance), frame), plan), &radius_m)| {
             let from = body.root;
             match coupling {
                 Coupling::TwoWay => body.advance(&motion, plan, &time_step),
                 Coupling::Discs | Coupling::Decoupled => body.root = cns::as_planned(from, plan, dt_s),
             }
             body.root = cns::outside_walls(from.position_m, body.root, radius_m, obstacles);
-            match coupling {
-                Coupling::TwoWay => *synthesis = body.synthesize(&motion, &time_step),
-                Coupling::Decoupled => *synthesis = decoupled::follow(body, &motion, from, dt_s),
-                Coupling::Discs => {}
-            }
+            let synthesis = match coupling {
+                Coupling::TwoWay => body.synthesize(&motion, &time_step),
+                Coupling::Decoupled => decoupled::follow(body, &motion, from, dt_s),
+                Coupling::Discs => return,
+            };
+            *stance = synthesis.stance;
+            frame.show(&synthesis);
         });
     }
 
     fn record(&mut self) {
         let agents = &mut self.agents;
         for (index, frame) in agents.frames.iter_mut().enumerate() {
-            let (body, synthesis, plan) = (&agents.bodies[index], &agents.syntheses[index], &agents.plans[index]);
+            let (body, plan) = (&agents.bodies[index], &agents.plans[index]);
             *frame = AgentFrame {
                 root: body.root,
                 preferred_mps: agents.preferred_mps[index],
                 planned_mps: plan.velocity_mps,
                 phase: body.phase,
                 mode: body.mode,
-                contacts: synthesis.contacts,
-                time_to_landing_s: synthesis.stance.foot.map_or(0.0, |foot| foot.time_to_landing_s),
                 set: plan.set,
                 strafing_s: plan.strafing_s,
                 stepping_back_s: plan.stepping_back_s,
-                examples_slide_cm_s: synthesis.examples_slide_cm_s,
-                pose: synthesis.pose,
+                ..*frame
             };
         }
     }
