@@ -113,16 +113,16 @@ impl Default for McnParams {
             response_s: 0.3,
             // About what people start and stop with unhurried. `facts/planning.md` §1: the authors' 20 shakes at steps of
             // 0.1 s. Measured through bodies on Table 1, from 1.0 to 2.5: the acceleration on the circle grows with it by a
-            // seventh; below 1.2 somebody stalls in the four-way crossing, and people wait before RiMEA 12's second door.
-            acceleration_max_mps2: 1.2,
+            // seventh; at 1.0 it grows again.
+            acceleration_max_mps2: 1.1,
             // Menge's PedVO (`facts/planning.md` §2). Between its two buffers, 0.5 and 0.9: from 0.8 on people walk as in
             // Weidmann's diagram (RiMEA test 4), and at 0.85 most of them get through a door in a second.
             density_factor: 1.57,
             density_buffer: 0.85,
             density_speed_min_mps: 0.3,
-            // 14°. Measured: at 0.2 a crowd of 1,000 with antipodal goals dissolves a fifth more slowly, without it
-            // circles deadlock; from 0.3 on the acceleration on the circle of Table 1 is above ORCA's.
-            keep_right_rad: 0.25,
+            // 17°. Measured: at 0.2 a crowd of 1,000 with antipodal goals dissolves a fifth more slowly, below 0.28 somebody
+            // stands for five seconds in a circle of exact symmetry; at 0.4 late comers stray about their goals.
+            keep_right_rad: 0.29,
             stance_twist_rad: 0.35,
             // Two strides. Measured: below, those who pass each other turn aside and back again, which costs more
             // acceleration than side-stepping on.
