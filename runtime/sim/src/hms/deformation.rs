@@ -122,7 +122,11 @@ impl<'a> Deformation<'a> {
             (shares[0] * row(rows[0]) + shares[1] * row(rows[1])).to_array()
         };
         let [forward, reversed] = [0, 1].map(of_one);
-        [0, 1].map(|side| libm::powf(forward[side], shares[0]) * libm::powf(reversed[side], shares[1]))
+        // Mostly both stand, or neither does.
+        [0, 1].map(|side| match [forward[side], reversed[side]] {
+            [both, same] if both == same => both,
+            [forward, reversed] => libm::powf(forward, shares[0]) * libm::powf(reversed, shares[1]),
+        })
     }
 
     /// Seconds until a swinging foot lands: where it does in the cycle or, in reversed time, where it leaves.
