@@ -37,9 +37,8 @@ const RANGE_M: f32 = 5.0;
 const CLEARING_MPS: f32 = 2.66;
 /// 1/√2π.
 const GAUSS: f32 = 0.398_942_3;
-/// Cosine and sine of the arc's directions: 0, ±20°, ±40°.
-const ARC: [Vec2; 5] = [
-    Vec2::new(1.0, 0.0),
+/// Cosine and sine of the arc's directions beside the way ahead: ±20°, ±40°.
+const ARC: [Vec2; 4] = [
     Vec2::new(0.939_692_6, 0.342_020_1),
     Vec2::new(0.939_692_6, -0.342_020_1),
     Vec2::new(0.766_044_4, 0.642_787_6),
@@ -60,17 +59,22 @@ pub fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, params: &McnPa
     let speed_mps = velocity_mps.length();
     let ahead = velocity_mps.normalize_or_zero();
     let weights = in_the_way(ahead, own_mps, agents);
-    let limit_mps = |direction| speed_limit_mps(weighed(direction, agents, &weights), params);
-    let (density, ahead_mps) = (density_ahead(ahead, agents), limit_mps(ahead));
+    let met = shares(ahead, agents);
+    let (density, ahead_mps) = (density(&met), speed_limit_mps(weighed(&met, &weights), params));
     if speed_mps <= ahead_mps {
         return Filtered { velocity_mps, density };
     }
-    let (mut directions, mut sum_mps, mut all) = (Vec2::ZERO, 0.0, 0.0);
+    let weight = |along: f32, allowed_mps: f32| {
+        let progress = along * allowed_mps / speed_mps;
+        progress * progress * progress * progress
+    };
+    let mut all = weight(1.0, ahead_mps);
+    let (mut directions, mut sum_mps) = (all * ahead, all * ahead_mps);
     for turned in ARC {
         let direction = turned.rotate(ahead);
-        let allowed_mps = speed_mps.min(limit_mps(direction));
-        let progress = turned.x * allowed_mps / speed_mps;
-        let weight = progress * progress * progress * progress;
+        let limit_mps = speed_limit_mps(weighed(&shares(direction, agents), &weights), params);
+        let allowed_mps = speed_mps.min(limit_mps);
+        let weight = weight(turned.x, allowed_mps);
         directions += weight * direction;
         sum_mps += weight * allowed_mps;
         all += weight;
@@ -87,19 +91,28 @@ pub fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, params: &McnPa
 
 /// ρ of all neighbours at the critical point along a unit direction, 1/m.
 pub fn density_ahead(ahead: Vec2, agents: &Around) -> f32 {
-    weighed(ahead, agents, &[1.0; LANES])
+    density(&shares(ahead, agents))
 }
 
-/// ρ at the critical point along a unit direction, each neighbour by its weight, 1/m.
-fn weighed(ahead: Vec2, agents: &Around, weights: &Lanes) -> f32 {
-    let shares: Lanes = std::array::from_fn(|lane| {
+/// What each neighbour adds to ρ at the critical point along a unit direction, but for the normaliser.
+fn shares(ahead: Vec2, agents: &Around) -> Lanes {
+    std::array::from_fn(|lane| {
         let offset_m = agents.offset_m(lane);
         let from_critical_m = offset_m - AHEAD_M * ahead;
         let (along_m, across_m) = (from_critical_m.dot(ahead), SIDEWAYS * from_critical_m.perp_dot(ahead));
         let share = decay((along_m * along_m + across_m * across_m) * (0.5 / (SIGMA_M * SIGMA_M)));
-        if offset_m.length_squared() <= RANGE_M * RANGE_M { weights[lane] * share } else { 0.0 }
-    });
-    shares.into_iter().sum::<f32>() * GAUSS / SIGMA_M
+        if offset_m.length_squared() <= RANGE_M * RANGE_M { share } else { 0.0 }
+    })
+}
+
+/// ρ of shares, 1/m.
+fn density(shares: &Lanes) -> f32 {
+    shares.iter().sum::<f32>() * GAUSS / SIGMA_M
+}
+
+/// The same, each by its weight.
+fn weighed(shares: &Lanes, weights: &Lanes) -> f32 {
+    density(&std::array::from_fn(|lane| weights[lane] * shares[lane]))
 }
 
 /// How much each neighbour counts for who would walk along `ahead`: the less, the faster it clears the way.
