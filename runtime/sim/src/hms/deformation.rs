@@ -142,13 +142,6 @@ impl<'a> Deformation<'a> {
         self.tempo.cadence * db.examples[self.tempo.of.example].planted_slide_cm_s
     }
 
-    /// The pose.
-    pub fn pose(&self, db: &MotionDb, phase: f32) -> Pose {
-        let mut posture = self.posture(db, phase);
-        posture.bend_legs(&db.skeleton);
-        posture.pose
-    }
-
     /// The pose before its legs have bent, and its feet.
     pub fn posture(&self, db: &MotionDb, phase: f32) -> Posture {
         let instant = self.instant(phase);

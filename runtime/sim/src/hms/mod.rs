@@ -322,7 +322,7 @@ impl Body {
     fn poses(&self, motion: &Motion) -> [Pose; 2] {
         let playing = self.playing(motion);
         let before = self.phase - LOOK_BACK_S * playing.phase_rate_hz(self.phase);
-        [self.phase, before - libm::floorf(before)].map(|phase| playing.pose(motion, phase))
+        [self.phase, before - libm::floorf(before)].map(|phase| playing.bent(motion, phase).pose)
     }
 
     fn playing<'a>(&self, motion: &Motion<'a>) -> Playing<'a> {
@@ -396,8 +396,7 @@ impl Body {
             return (playing.posture(motion, self.phase), [false; 2]);
         }
         let skeleton = &motion.db.skeleton;
-        let mut posture = playing.posture(motion, self.phase);
-        posture.bend_legs(skeleton);
+        let mut posture = playing.bent(motion, self.phase);
         let played_m = posture.soles_m(skeleton);
         self.inertia.carry(&mut posture.pose, step);
         let carried = Posture::new(posture.pose, posture.contacts, skeleton);

@@ -1,7 +1,5 @@
 //! What a body plays: a mix of examples, or m_sp deformed. Both give poses, contacts and a phase rate at any phase.
 
-use motiondb::pose::Pose;
-
 use super::blending::Weights;
 use super::deformation::Deformation;
 use super::posture::Posture;
@@ -28,12 +26,13 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// The pose.
-    pub fn pose(&self, motion: &Motion, phase: f32) -> Pose {
-        match self {
-            Self::Blend(weights) => weights.pose(motion.db, phase),
-            Self::Deform(deformation) => deformation.pose(motion.db, phase),
+    /// The pose on its feet. Those of examples are where their legs have them.
+    pub fn bent(&self, motion: &Motion, phase: f32) -> Posture {
+        let mut posture = self.posture(motion, phase);
+        if let Self::Deform(_) = self {
+            posture.bend_legs(&motion.db.skeleton);
         }
+        posture
     }
 
     /// The pose, whose legs may not have bent yet, and its feet: whoever moves them bends legs once.
