@@ -18,7 +18,7 @@
 use glam::Vec2;
 
 use super::params::McnParams;
-use crate::around::{Around, LANES, Lanes};
+use crate::around::{Around, Lanes};
 use crate::decay::decay;
 
 /// Menge: distance of the critical point, m.

@@ -20,7 +20,7 @@ use motiondb::pose::Root;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
-use super::table1::database;
+use super::bundled::database;
 use super::walker::{DT_S, Studio, achieved, turned_rad};
 use crate::failure::{Answer, Failure};
 

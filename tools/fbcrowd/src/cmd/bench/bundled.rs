@@ -1,12 +1,19 @@
-//! The database of the bundled clips, as the generator writes them: no bench depends on the folder it is run in.
+//! The database of a bench: a file, or that of the bundled clips, as the generator writes them, so that no bench depends
+//! on the folder it is run in.
 
 use std::path::Path;
 
+use motiondb::file;
 use motiondb::motion_db::MotionDb;
 use motiondb_compiler::compile;
 use motiondb_compiler::import::import_bytes;
 
 use crate::failure::Failure;
+
+/// The database at a path, or that of the bundled clips.
+pub(super) fn database(path: Option<&Path>) -> Result<MotionDb, Failure> {
+    path.map_or_else(bundled, |path| Ok(file::load(path)?.0))
+}
 
 /// Compiled with the compiler's own choices.
 pub(super) fn bundled() -> Result<MotionDb, Failure> {

@@ -14,9 +14,9 @@ use fbcrowd_sim::metrics::Measures;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
+use super::bundled::database;
 use super::contest::{MCN, ORCA, Protocol, Run, run_all};
 use super::scenes::{self, Scene};
-use super::table1::database;
 use crate::failure::{Answer, Failure};
 use crate::statistics::{Spread, spread};
 

@@ -23,8 +23,8 @@ use motiondb::motion_db::MotionDb;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
+use super::bundled::database;
 use super::contest::{each_alone, step_count};
-use super::table1::database;
 use super::watch::{scenario, scenario_text};
 use crate::failure::{Answer, Failure};
 use crate::pose_sequence::PoseSequence;

@@ -16,7 +16,7 @@ use motiondb::motion_db::MotionDb;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
-use super::bundled::bundled;
+use super::bundled::database;
 use super::contest::{Contestant, MCN, ORCA, SOCIAL_FORCE};
 use super::watch::{self, Watched, scenario_text};
 use crate::failure::{Answer, Failure};
@@ -108,7 +108,7 @@ struct Door {
 }
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
-    let db = Arc::new(args.database.as_deref().map_or_else(bundled, |path| Ok(motiondb::file::load(path)?.0))?);
+    let db = Arc::new(database(args.database.as_deref())?);
     let mut scenarios = Vec::new();
     for contestant in &PLANNERS {
         for file in [COUNTERFLOW, BOTTLENECK] {

@@ -25,8 +25,8 @@ use rayon::ThreadPool;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, Goal, conclude};
+use super::bundled::database;
 use super::plan::{agent, pool};
-use super::table1::database;
 use crate::failure::{Answer, Failure};
 use crate::progress::Progress;
 use crate::statistics::median;

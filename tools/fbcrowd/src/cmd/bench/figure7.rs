@@ -8,9 +8,10 @@ use fbcrowd_sim::hms::params::Modes;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
+use super::bundled::database;
 use super::contest::{Contestant, MCN, ORCA, Protocol, SOCIAL_FORCE, run_all};
 use super::scenes::{self, Scene};
-use super::table1::{SceneFigures, database, figures};
+use super::table1::{SceneFigures, figures};
 use super::table1_plots::write_paths;
 use crate::failure::{Answer, Failure};
 

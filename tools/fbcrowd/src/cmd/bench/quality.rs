@@ -11,10 +11,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
+use super::bundled::database;
 use super::quality_errands::{Errand, errands};
 use super::quality_measures::{Figures, example_peaks_mps2, figures};
 use super::quality_walk::Stage;
-use super::table1::database;
 use crate::failure::{Answer, Failure};
 
 /// The lengths of a step, s: motion capture's, film's and games', and the planner's.

@@ -17,7 +17,7 @@ use motiondb::skeleton::Joint;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
-use super::table1::database;
+use super::bundled::database;
 use crate::failure::{Answer, Failure};
 
 /// Directions of travel, from ahead on round by the left, degrees.

@@ -14,7 +14,7 @@ use glam::Vec2;
 use serde::Serialize;
 
 use super::bar::{Found, conclude};
-use super::bundled::bundled;
+use super::bundled::database;
 use super::rimea_cases::{CASES, Case, DIAGRAM_SCENARIO, DiagramPoint, Figure, diagram_points};
 use super::watch::{self, Watched};
 use crate::failure::{Answer, Failure};
@@ -57,7 +57,7 @@ struct Test {
 }
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
-    let db = Arc::new(args.database.as_deref().map_or_else(bundled, |path| Ok(motiondb::file::load(path)?.0))?);
+    let db = Arc::new(database(args.database.as_deref())?);
     let mut scenarios = Vec::new();
     for case in &CASES {
         let scenario = watch::scenario(case.file)?;

@@ -9,12 +9,11 @@ use std::sync::Arc;
 
 use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::metrics::Measures;
-use motiondb::file;
 use motiondb::motion_db::MotionDb;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, Goal, conclude};
-use super::bundled::bundled;
+use super::bundled::database;
 use super::contest::{Contestant, MCN, ORCA, Protocol, Run, SOCIAL_FORCE, SOCIAL_FORCE_20, run_all};
 use super::scenes::{self, Scene};
 use super::{table1_discs, table1_plots, table1_text};
@@ -133,11 +132,6 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let bars = details.scenes.iter().flat_map(bars).collect();
     let text = table1_text::text(&details);
     conclude(&Found { goals: goals(&details), details, bars }, &text, args.json)
-}
-
-/// The database at a path, or that of the bundled clips.
-pub(super) fn database(path: Option<&Path>) -> Result<MotionDb, Failure> {
-    path.map_or_else(bundled, |path| Ok(file::load(path)?.0))
 }
 
 /// Averages runs that came by scene and contestant over the seeds of each scene's name, in order of first appearance.
