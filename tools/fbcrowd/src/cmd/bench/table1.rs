@@ -4,12 +4,11 @@
 //! blending synthesis, figures of the synthesised roots, means over seeds. The bars are MCN's: C below both rivals', its
 //! acceleration before arrival too, everybody arrives, nobody stalls, and in time.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::metrics::Measures;
-use motiondb::motion_db::MotionDb;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, Goal, conclude};
