@@ -4,6 +4,7 @@ mod clips;
 
 use fbcrowd_sim::hms::deformation::Deformation;
 use fbcrowd_sim::hms::semi_procedural::SemiProcedural;
+use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::planted_feet::{CycleFeet, foot_slide, implied};
@@ -130,6 +131,15 @@ fn knee_flexion_deg(joints: &Joints, side: usize) -> f32 {
     let [hip_m, knee_m, ankle_m] =
         [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]].map(|joint| joints.positions_m[joint.index()]);
     (knee_m - hip_m).angle_between(ankle_m - knee_m).to_degrees()
+}
+
+#[test]
+fn a_gait_that_turns_about_beyond_its_end_stands_as_one_that_has_turned() {
+    let db = bundled();
+    let semi = semi_procedural(&db);
+    let back = parameters([-0.3, 0.0, 0.0]);
+    let contacts = |way| Deformation::going(&semi, back, way).contacts(&db, 0.3);
+    assert_eq!(contacts(Vec2::new(-1.4, 0.0)), contacts(Vec2::NEG_X));
 }
 
 #[test]

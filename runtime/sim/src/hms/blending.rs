@@ -20,8 +20,8 @@ use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
 use motiondb::pose::Pose;
 
-/// Examples that one body may mix: a simplex of four, and another that fades out.
-pub const MIX_MAX: usize = 8;
+/// Examples that one body may mix: a simplex of four, and others that fade out.
+pub const MIX_MAX: usize = 12;
 /// Shares under this are let go, so that an example that has faded out is no longer sampled.
 const SHARE_MIN: f32 = 1e-4;
 
@@ -39,7 +39,7 @@ impl Mix {
     /// Exactly these shares.
     pub fn new(shares: &Shares) -> Self {
         let mut mix = Self { entries: Default::default(), count: 0, pace: 1.0 };
-        mix.add(shares, 1.0);
+        mix.add(entries_of(shares), 1.0);
         mix
     }
 
@@ -55,8 +55,17 @@ impl Mix {
 
     /// Moves the given fraction of the way to target shares and pace.
     pub fn approach(&mut self, target: &Shares, pace: f32, fraction: f32) {
+        self.move_towards(entries_of(target), pace, fraction);
+    }
+
+    /// Moves the given fraction of the way to another mix.
+    pub fn ease(&mut self, target: &Self, fraction: f32) {
+        self.move_towards(target.entries().iter().copied(), target.pace, fraction);
+    }
+
+    fn move_towards(&mut self, entries: impl Iterator<Item = (u32, f32)>, pace: f32, fraction: f32) {
         self.entries[..self.count].iter_mut().for_each(|entry| entry.1 *= 1.0 - fraction);
-        self.add(target, fraction);
+        self.add(entries, fraction);
         self.prune();
         self.pace += fraction * (pace - self.pace);
     }
@@ -74,8 +83,8 @@ impl Mix {
     }
 
     /// Adds shares times a factor; where there is no room, the least share gives way.
-    fn add(&mut self, shares: &Shares, factor: f32) {
-        for (example, share) in entries_of(shares) {
+    fn add(&mut self, entries: impl Iterator<Item = (u32, f32)>, factor: f32) {
+        for (example, share) in entries {
             let share = share * factor;
             if let Some(entry) = self.entries[..self.count].iter_mut().find(|entry| entry.0 == example) {
                 entry.1 += share;

@@ -39,8 +39,8 @@ const KNEE_YAW: f32 = 0.7;
 const HIP_TWIST: f32 = 0.3;
 /// Swing of hips, trunk and arms over that of m_sp, at least and at most.
 const SWING: [f32; 2] = [0.3, 1.3];
-/// Ways of travel further apart than this (29°) are others: at 1 m/s nobody turns his so far in a tenth of a second.
-const TURN_ABOUT: f32 = 0.5;
+/// What is the same to both sides is rounded at none, where a body turns about, m/s and rad/s.
+const ROUNDING: f32 = 0.1;
 /// Gravity, m/s²: a body on an arc leans by atan(v·ω/g).
 const GRAVITY_MPS2: f32 = 9.81;
 /// Nobody leans further: the tangent of 20°.
@@ -67,7 +67,9 @@ pub struct Tempo<'a> {
     of: &'a SemiProcedural,
     /// Over that of m_sp.
     cadence: f32,
-    /// Shares of time played forward and backward.
+    /// Direction of travel; shorter than 1 while it turns about.
+    way: Vec2,
+    /// Shares of time played forward and backward: the nearer to backward, the more of reversed time.
     directions: [f32; 2],
 }
 
@@ -80,11 +82,16 @@ struct Instant {
 impl<'a> Deformation<'a> {
     /// To parameters that [`SemiProcedural::reachable`] would leave as they are.
     pub fn new(of: &'a SemiProcedural, parameters: Parameters) -> Self {
-        let tempo = Tempo::new(of, parameters);
+        Self::going(of, parameters, travel(parameters))
+    }
+
+    /// The same for a body that turns about: its gait still goes another way than its root.
+    pub fn going(of: &'a SemiProcedural, parameters: Parameters, way: Vec2) -> Self {
+        let tempo = Tempo::new(of, parameters, way);
         let travel_mps = Vec2::new(parameters.speed_mps, parameters.strafe_mps).length();
         // Angle by which the root turns between the landings of both feet, at most.
-        let turn_apart_rad = of.apart_s * parameters.turn_rate_rad_s.abs() / tempo.cadence;
-        let aside_m = of.apart_s * parameters.strafe_mps.abs() / tempo.cadence;
+        let turn_apart_rad = of.apart_s * rounded_size(parameters.turn_rate_rad_s) / tempo.cadence;
+        let aside_m = of.apart_s * rounded_size(parameters.strafe_mps) / tempo.cadence;
         let turning_m = FOOT_M * direction((0.5 * turn_apart_rad).min(FRAC_PI_2)).y;
         Self {
             tempo,
@@ -114,7 +121,7 @@ impl<'a> Deformation<'a> {
     }
 
     /// Contact of each foot, `[left, right]`: a foot is planted that stands in the cycle and in its reverse.
-    fn contacts(&self, db: &MotionDb, phase: f32) -> [f32; 2] {
+    pub fn contacts(&self, db: &MotionDb, phase: f32) -> [f32; 2] {
         let Instant { phases, shares } = self.instant(phase);
         let of_one = |index: usize| {
             let (rows, shares) = two_rows(phases[index]);
@@ -147,7 +154,7 @@ impl<'a> Deformation<'a> {
         let instant = self.instant(phase);
         let mut pose = db.rows.blended(instant.rows().map(|(row, weight)| (self.tempo.of.example, row, weight)));
         self.calm(&mut pose);
-        twist(&mut pose, self.parameters);
+        twist(&mut pose, self.tempo.way);
         self.lean_over(&mut pose);
         let contacts = self.contacts(db, phase);
         let feet = self.feet(&db.skeleton, contacts, &instant);
@@ -231,8 +238,11 @@ impl<'a> Deformation<'a> {
 
 impl<'a> Tempo<'a> {
     /// Of m_sp at some parameters.
-    pub fn new(of: &'a SemiProcedural, parameters: Parameters) -> Self {
-        Self { of, cadence: of.cadence(parameters), directions: directions(parameters) }
+    pub fn new(of: &'a SemiProcedural, parameters: Parameters, way: Vec2) -> Self {
+        // A spring may swing beyond its end.
+        let way = way.clamp_length_max(1.0);
+        let directions = [0.5 + 0.5 * way.x, 0.5 - 0.5 * way.x];
+        Self { of, cadence: of.cadence(parameters), way, directions }
     }
 
     /// Phase to time. Reversed time exchanges the half-strides.
@@ -261,28 +271,22 @@ impl Instant {
     }
 }
 
-/// Whether a step from one to the other turns the travel about: where it passes through rest, or near it, what is played
-/// forward, or with hips to the left, is all at once played otherwise.
-pub fn turns_about(from: Parameters, to: Parameters) -> bool {
-    let way = |parameters: Parameters| Vec2::new(parameters.speed_mps, parameters.strafe_mps).normalize_or(Vec2::X);
-    way(from).distance(way(to)) > TURN_ABOUT
-}
-
-/// Shares of time played forward and backward: the nearer to backward, the more of reversed time.
-fn directions(parameters: Parameters) -> [f32; 2] {
-    let travel = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
-    let ahead = if travel == Vec2::ZERO { 1.0 } else { travel.x / travel.length() };
-    [0.5 + 0.5 * ahead, 0.5 - 0.5 * ahead]
+/// Direction of travel; ahead for who rests.
+pub fn travel(parameters: Parameters) -> Vec2 {
+    Vec2::new(parameters.speed_mps, parameters.strafe_mps).normalize_or(Vec2::X)
 }
 
 /// Hips turn towards the travel, or against a travel behind; the spine turns back, so that the chest keeps the facing.
-fn twist(pose: &mut Pose, parameters: Parameters) {
-    let travel = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
-    let twice = 2.0 * travel.x * travel.y / travel.length_squared().max(f32::MIN_POSITIVE);
-    let hips = yaw(0.5 * HIP_TWIST * twice);
+fn twist(pose: &mut Pose, way: Vec2) {
+    let hips = yaw(HIP_TWIST * way.x * way.y);
     let [pelvis, spine] = [Joint::Pelvis, Joint::SpineLower].map(Joint::index);
     pose.rotations[pelvis] = hips * pose.rotations[pelvis];
     pose.rotations[spine] = hips.conjugate() * pose.rotations[spine];
+}
+
+/// The size of a value, without an edge at none.
+fn rounded_size(value: f32) -> f32 {
+    value * value / libm::sqrtf(value * value + ROUNDING * ROUNDING)
 }
 
 /// Cosine and sine of the lean, the latter positive to the left.

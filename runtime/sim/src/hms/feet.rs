@@ -4,8 +4,8 @@
 //! pose's foot drifts. A foot's *hold* is the rigid motion (horizontal shift c, twist ψ about the vertical, lift) that
 //! takes the pose's foot to the final one. While the foot is planted, c and ψ cancel the motion of the sole point that
 //! is lowest now and the turning of the foot: the contact point rests, and the foot still rolls, since its pitch is
-//! left to the pose. Off the ground c and ψ return to zero like a critically damped spring that starts at the speed
-//! they had, so the foot's velocity does not jump at toe-off.
+//! left to the pose. Off the ground c and ψ return to zero by a critically damped filter of the third order, which starts at
+//! the speed they had: neither the foot's velocity nor its acceleration jumps at toe-off.
 //!
 //! World, metres and radians; z is the height over the ground, the same in world and root frame.
 
@@ -15,17 +15,18 @@ use super::time_step::TimeStep;
 use crate::angle::{direction, wrap_rad, yaw};
 use crate::decay::soft_maximum;
 
-/// Rate of the spring that lets a foot go, 1/s: of a hold, 4 % is left after 0.25 s, before the foot lands again.
-pub(super) const RELEASE_RATE_HZ: f32 = 20.0;
-/// Rate of the spring by which a planted sole comes down to the ground and a swinging one rises to its clearance, 1/s.
-pub(super) const LIFT_RATE_HZ: f32 = 40.0;
+/// Rate of the filter that lets a foot go, 1/s: of a hold, 2 % is left after 0.25 s, before the foot lands again.
+pub(super) const RELEASE_RATE_HZ: f32 = 30.0;
+/// Rate of that by which a planted sole comes down to the ground and a swinging one rises to its clearance, 1/s.
+pub(super) const LIFT_RATE_HZ: f32 = 80.0;
 /// A foot that lands while it still moves over the ground, since the body changes its speed, comes to rest in this time,
 /// s: within the tenth of a stance in which it rolls on. At once would jerk the knee.
 pub(super) const LANDING_TIME_S: f32 = 0.012;
 /// Toe clearance of a swinging foot (`motion.md` §5): blends with standing lower the swing, and would drag the toes …
 const CLEARANCE_M: f32 = 0.013;
-/// … in full from this speed, m/s; a foot that leaves or lands moves slowly …
+/// … in full from this speed, m/s: a foot that leaves moves slowly; one that lands so soon, s, wants none …
 const CLEARANCE_SPEED_MPS: f32 = 1.0;
+pub(super) const LANDING_AHEAD_S: f32 = 0.06;
 /// … and gently: from so far above it on a foot is lifted, m, …
 const CLEARANCE_SOFTNESS_M: f32 = 0.003;
 /// … by its mean speed over this time, s: between two rows of the database a foot has one speed.
@@ -65,16 +66,14 @@ pub struct FootHold {
     planted: bool,
     /// The sole point that was lowest.
     lowest: usize,
-    /// c.
-    shift_m: Vec2,
-    shift_mps: Vec2,
-    /// ψ.
-    twist_rad: f32,
-    twist_rad_s: f32,
+    /// c, its rate and the rate of that, a second.
+    shift_m: [Vec2; 3],
+    /// ψ, likewise.
+    twist_rad: [f32; 3],
     /// Speed over the ground that is left of landing.
     landing_mps: Vec2,
-    lift_m: f32,
-    lift_mps: f32,
+    /// Lift, likewise.
+    lift_m: [f32; 3],
     /// Of the pose's foot in the step before.
     height_m: f32,
     heading_rad: f32,
@@ -98,8 +97,9 @@ impl FootHold {
         Self { lowest, height_m, heading_rad: posed.heading_rad(), sole_m: posed.sole_m, ..Self::default() }
     }
 
-    /// Moves the hold by one step; `posed` is the foot of the blended pose.
-    pub fn step(&mut self, posed: &PosedFoot, planted: bool, step: &TimeStep) -> HeldFoot {
+    /// Moves the hold by one step; `posed` is the foot of the blended pose, and `lands` its contact `LANDING_AHEAD_S` from
+    /// now.
+    pub fn step(&mut self, posed: &PosedFoot, planted: bool, lands: f32, step: &TimeStep) -> HeldFoot {
         let heading_rad = posed.heading_rad();
         let (lowest, height_m) = posed.lowest();
         // A foot lands where the pose has it now, somewhere within the step: only from then on it is held.
@@ -110,13 +110,13 @@ impl FootHold {
             self.land(posed, lowest, step);
         }
         (self.planted, self.lowest, self.heading_rad) = (planted, lowest, heading_rad);
-        self.lift(height_m, step);
-        HeldFoot { ankle_m: posed.ankle_m + self.shift_m.extend(self.lift_m), twist: yaw(self.twist_rad) }
+        self.lift(height_m, lands, step);
+        HeldFoot { ankle_m: posed.ankle_m + self.shift_m[0].extend(self.lift_m[0]), twist: yaw(self.twist_rad[0]) }
     }
 
     /// c of a planted foot.
     pub fn planted_shift_m(&self) -> Option<Vec2> {
-        self.planted.then_some(self.shift_m)
+        self.planted.then_some(self.shift_m[0])
     }
 
     /// The ball, in the world.
@@ -138,26 +138,26 @@ impl FootHold {
 
     /// Cancels the foot's turning, then the motion of its lowest point, which twists about the ankle.
     fn hold(&mut self, posed: &PosedFoot, lowest: usize, turned_rad: f32, step: &TimeStep) {
-        let before = (self.shift_m, self.twist_rad);
-        self.twist_rad = (self.twist_rad - turned_rad).clamp(-TWIST_MAX_RAD, TWIST_MAX_RAD);
+        let (before_m, before_rad) = (self.shift_m[0], self.twist_rad[0]);
+        let twist_rad = (before_rad - turned_rad).clamp(-TWIST_MAX_RAD, TWIST_MAX_RAD);
+        self.twist_rad = [twist_rad, (twist_rad - before_rad) / step.dt_s, 0.0];
         let [decay, _] = step.landing;
         let slipped_m = LANDING_TIME_S * (1.0 - decay) * self.landing_mps;
         self.landing_mps *= decay;
-        self.shift_m = (self.rests_m(lowest) + slipped_m - self.twisted_m(posed, lowest)).clamp_length_max(SHIFT_MAX_M);
-        self.shift_mps = (self.shift_m - before.0) / step.dt_s;
-        self.twist_rad_s = (self.twist_rad - before.1) / step.dt_s;
+        let shift_m = (self.rests_m(lowest) + slipped_m - self.twisted_m(posed, lowest)).clamp_length_max(SHIFT_MAX_M);
+        self.shift_m = [shift_m, (shift_m - before_m) / step.dt_s, Vec2::ZERO];
     }
 
     /// Notes how fast the foot moves, should it land: as much as is left of it where it landed half a step ago.
     fn land(&mut self, posed: &PosedFoot, lowest: usize, step: &TimeStep) {
-        let moved_m = self.twisted_m(posed, lowest) + self.shift_m - self.sole_m[lowest].truncate();
+        let moved_m = self.twisted_m(posed, lowest) + self.shift_m[0] - self.sole_m[lowest].truncate();
         self.landing_mps = step.landing[1] / step.dt_s * moved_m;
     }
 
     /// A point of the pose's sole, twisted about the ankle.
     fn twisted_m(&self, posed: &PosedFoot, point: usize) -> Vec2 {
         let (ankle_m, point_m) = (posed.ankle_m.truncate(), posed.sole_m[point].truncate());
-        ankle_m + direction(self.twist_rad).rotate(point_m - ankle_m)
+        ankle_m + direction(self.twist_rad[0]).rotate(point_m - ankle_m)
     }
 
     /// Where a sole point that is lowest now came to rest. One that took over within the step did so while both touched
@@ -170,27 +170,27 @@ impl FootHold {
 
     /// Towards no shift and no twist.
     fn release(&mut self, step: &TimeStep) {
-        (self.shift_m, self.shift_mps) = step.release.pass(self.shift_m, self.shift_mps);
-        (self.twist_rad, self.twist_rad_s) = step.release.pass(self.twist_rad, self.twist_rad_s);
+        self.shift_m = step.release.pass(self.shift_m);
+        self.twist_rad = step.release.pass(self.twist_rad);
     }
 
     /// A planted sole settles on the ground, whatever the pose's height does, and a swinging one on the pose's height, or
-    /// its clearance; none goes below the ground. What is off decays like a critically damped spring.
-    fn lift(&mut self, height_m: f32, step: &TimeStep) {
-        let [before_m, wanted_m] = [self.height_m, height_m].map(|height_m| self.wanted_lift_m(height_m));
+    /// its clearance; none goes below the ground. What is off dies out likewise.
+    fn lift(&mut self, height_m: f32, lands: f32, step: &TimeStep) {
+        let [before_m, wanted_m] = [self.height_m, height_m].map(|height_m| self.wanted_lift_m(height_m, lands));
         let wanted_mps = (wanted_m - before_m) / step.dt_s;
-        let (off_m, _) = step.lift.pass(self.lift_m - before_m, self.lift_mps - wanted_mps);
-        let before_m = self.lift_m;
-        self.lift_m = (wanted_m + off_m).max(-height_m);
-        self.lift_mps = (self.lift_m - before_m) / step.dt_s;
+        let [lifted_m, lifted_mps, lifted_mps2] = self.lift_m;
+        let [off_m, _, off_mps2] = step.lift.pass([lifted_m - before_m, lifted_mps - wanted_mps, lifted_mps2]);
+        let lift_m = (wanted_m + off_m).max(-height_m);
+        self.lift_m = [lift_m, (lift_m - lifted_m) / step.dt_s, off_mps2];
         self.height_m = height_m;
     }
 
-    fn wanted_lift_m(&self, height_m: f32) -> f32 {
+    fn wanted_lift_m(&self, height_m: f32, lands: f32) -> f32 {
         if self.planted {
             return -height_m;
         }
-        let clearance_m = CLEARANCE_M * (self.speed_mps / CLEARANCE_SPEED_MPS).min(1.0);
+        let clearance_m = CLEARANCE_M * (1.0 - lands) * (self.speed_mps / CLEARANCE_SPEED_MPS).min(1.0);
         // A foot far above it wants none, and one far below is lifted by what it lacks.
         CLEARANCE_SOFTNESS_M * soft_maximum((clearance_m - height_m) / CLEARANCE_SOFTNESS_M)
     }

@@ -48,16 +48,22 @@ impl Inertia {
         self.0.is_some()
     }
 
-    /// Lets a step pass and adds what is then left to the pose of the new synthesis.
-    pub fn carry(&mut self, pose: &mut Pose, step: &TimeStep) {
+    /// Lets a step pass.
+    pub fn pass(&mut self, step: &TimeStep) {
         let Some([left, rate]) = &mut self.0 else { return };
         (left.pelvis_m, rate.pelvis_m) = step.inertia.pass(left.pelvis_m, rate.pelvis_m);
         for (left, rate) in left.rotations_rad.iter_mut().zip(&mut rate.rotations_rad) {
             (*left, *rate) = step.inertia.pass(*left, *rate);
         }
-        left.add_to(pose);
         if left.greatest().max(rate.greatest()) <= NEGLIGIBLE {
             self.0 = None;
+        }
+    }
+
+    /// Adds what is left to the pose of the new synthesis.
+    pub fn add_to(&self, pose: &mut Pose) {
+        if let Some([left, _]) = &self.0 {
+            left.add_to(pose);
         }
     }
 }
@@ -121,8 +127,9 @@ mod tests {
         let dt_s = 1.0 / 240.0;
         let shown: Vec<f32> = (0..480)
             .map(|_| {
+                inertia.pass(&TimeStep::new(dt_s));
                 let mut pose = bent(0.0);
-                inertia.carry(&mut pose, &TimeStep::new(dt_s));
+                inertia.add_to(&mut pose);
                 angle_rad(&pose)
             })
             .collect();
@@ -138,14 +145,14 @@ mod tests {
         inertia.begin([&bent(0.2); 2], [&bent(0.0); 2]);
         inertia.begin([&bent(0.0); 2], [&bent(-0.1); 2]);
         let mut pose = bent(-0.1);
-        inertia.carry(&mut pose, &TimeStep::new(0.0));
+        inertia.add_to(&mut pose);
         assert!((angle_rad(&pose) - 0.2).abs() < 1e-4);
     }
 
     #[test]
     fn without_a_switch_nothing_is_added() {
         let mut pose = bent(0.4);
-        Inertia::default().carry(&mut pose, &TimeStep::new(0.1));
+        Inertia::default().add_to(&mut pose);
         assert_eq!(pose, bent(0.4));
     }
 }

@@ -33,9 +33,11 @@ pub mod pelvis;
 pub mod playing;
 pub mod posture;
 pub mod pursuit;
+pub mod seen;
 pub mod semi_procedural;
 pub mod space;
 pub mod standing;
+mod switching;
 pub mod time_step;
 
 use glam::{Vec2, Vec3};
@@ -45,18 +47,19 @@ use motiondb::pose::{Pose, Root, RootFrame};
 
 use self::blending::Mix;
 use self::deformation::Tempo;
-use self::feet::{FootHold, PosedFoot};
+use self::feet::{FootHold, LANDING_AHEAD_S, PosedFoot};
 use self::gait::Gait;
 use self::gaze::Gaze;
 use self::hybrid::Hybrid;
-use self::inertialization::{Inertia, LOOK_BACK_S};
+use self::inertialization::Inertia;
 use self::intention::Intention;
 use self::leg::FootPose;
-use self::mode::{Choice, Thresholds};
+use self::mode::Choice;
 use self::owed::Owed;
-use self::params::{HmsParams, Modes, Transition};
+use self::params::{HmsParams, Transition};
 use self::playing::Playing;
 use self::posture::Posture;
+use self::seen::Seen;
 use self::semi_procedural::SemiProcedural;
 use self::space::{Nearest, Space};
 use self::time_step::TimeStep;
@@ -78,8 +81,6 @@ const LIFT_OFF_PHASE: f32 = 0.15;
 /// A first step aside, or into a turn, is made by the foot on that side, unless that foot is ahead of the other by
 /// this, m.
 const OPEN_SIDE_M: f32 = 0.1;
-/// One synthesis gives way where the other can take over within this, m/s and rad/s.
-const SWITCH_SLACK: f32 = 0.05;
 /// A foot that what is left of a switch holds up further than this does not stand: contacts of clips are told by the same
 /// height (`definitions.md`, "Planted-foot slide"), m.
 const HELD_UP_M: f32 = 0.025;
@@ -112,6 +113,8 @@ pub struct Body {
     pub mix: Mix,
     /// What m_sp is deformed to, otherwise.
     walking: Parameters,
+    /// What is seen of either, and what was a moment ago.
+    pub seen: [Seen; 2],
     choice: Choice,
     inertia: Inertia,
     gait: Gait,
@@ -149,6 +152,7 @@ impl Body {
             mode: Mode::Blending,
             mix,
             walking: Parameters::default(),
+            seen: [Seen::going(mix, Parameters::default(), Vec2::X); 2],
             choice: Choice::BLENDING,
             inertia: Inertia::default(),
             gait: Gait::STANDING,
@@ -177,6 +181,9 @@ impl Body {
             (Mode::SemiProcedural, Some(hybrid)) => self.deform(motion, &hybrid.semi_procedural, &plan, step),
             _ => self.blend(motion, &plan, step),
         };
+        self.seen[1] = self.seen[0].follow(self.mode, &self.mix, self.walking, step);
+        // What is played has come to the end of the step; a switch leaves what it leaves there.
+        self.inertia.pass(step);
         if let Some(hybrid) = motion.hybrid {
             self.choose(motion, hybrid, &plan, nearest.idle_share, step.dt_s);
             self.switch(motion, hybrid, before);
@@ -232,15 +239,12 @@ impl Body {
             Mode::SemiProcedural => intended,
             Mode::Blending => self.detour(motion).unwrap_or(nearest.parameters),
         };
-        let next = asked::step_apart(self.walking, goal, motion.params, dt_s);
-        if deformation::turns_about(self.walking, next) {
-            self.jump(motion, |body| body.walking = next);
-        }
-        self.walking = next;
+        self.walking = asked::step_apart(self.walking, goal, motion.params, dt_s);
         self.move_root(&{ self.walking }, dt_s);
-        let map = Tempo::new(semi_procedural, self.walking).phase_map();
-        let middle = self.phase + 0.5 * dt_s * map.rate_hz(self.phase);
-        let next = self.phase + dt_s * map.rate_hz(middle);
+        let map = Tempo::new(semi_procedural, self.walking, self.seen[0].way).phase_map();
+        let hurried_s = self.hurry() * dt_s;
+        let middle = self.phase + 0.5 * hurried_s * map.rate_hz(self.phase);
+        let next = self.phase + hurried_s * map.rate_hz(middle);
         self.phase = next - libm::floorf(next);
         nearest
     }
@@ -251,6 +255,7 @@ impl Body {
         let parameters = went(&from, &self.root, dt_s);
         let shares = motion.space.locate(parameters);
         self.mix.approach(&shares, 1.0, pursuit::fraction(&self.mix, &shares, motion, dt_s));
+        self.seen[0].mix = self.mix;
         self.phase = self.mix.advance_phase(motion.db, self.phase, dt_s);
         let playing = self.playing(motion);
         let posture = playing.posture(motion, self.phase);
@@ -264,52 +269,6 @@ impl Body {
         self.root = moved;
     }
 
-    /// §3.4.1: which synthesis is wanted, where what is asked holds so much standing.
-    fn choose(&mut self, motion: &Motion, hybrid: &Hybrid, plan: &Plan, idle_share: f32, dt_s: f32) {
-        let HmsParams { modes, density_threshold, .. } = *motion.params;
-        let alone = modes == Modes::SemiProcedural;
-        let thresholds = Thresholds { alone, transition_s: hybrid.transition_s, density: density_threshold };
-        let walks = !self.gait.stands && idle_share < gait::IDLE_SHARE_MAX;
-        self.choice.follow(plan, walks, &thresholds, dt_s);
-    }
-
-    /// App. 10: at a pair of T, synthesis changes hands at the velocity that the body has, and the difference of poses
-    /// is left to inertia. The paper moves its weights to m_mb alone first ([`Transition::ThroughMMb`]), since it cannot
-    /// begin at another velocity: at the very moment that a collision threatens, its body walks at m_mb's.
-    fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32) {
-        let (from, to) = (self.mode, self.choice.mode);
-        if from == to || !self.may_switch(motion, hybrid) {
-            return;
-        }
-        let Some(jump) = hybrid.jump(from, before, self.phase) else { return };
-        self.jump(motion, |body| {
-            match to {
-                Mode::SemiProcedural => body.walking = body.mix.parameters(motion.db),
-                Mode::Blending => body.mix = Mix::new(&motion.space.locate(body.walking)),
-            }
-            let jumped = body.phase + jump;
-            (body.mode, body.phase) = (to, jumped - libm::floorf(jumped));
-        });
-    }
-
-    /// Changes what is played at once, and leaves the difference of poses to inertia.
-    fn jump(&mut self, motion: &Motion, change: impl FnOnce(&mut Self)) {
-        let old = self.poses(motion);
-        change(self);
-        let new = self.poses(motion);
-        self.inertia.begin(old.each_ref(), new.each_ref());
-    }
-
-    /// Whether the body walks as the other synthesis can.
-    fn may_switch(&self, motion: &Motion, hybrid: &Hybrid) -> bool {
-        let now = self.parameters(motion.db);
-        let there = self.detour(motion).unwrap_or_else(|| match self.mode {
-            Mode::Blending => hybrid.semi_procedural.reachable(now),
-            Mode::SemiProcedural => motion.space.nearest(now).parameters,
-        });
-        now.to_vec3().distance(there.to_vec3()) <= SWITCH_SLACK
-    }
-
     /// The root's motion in the body's frame, as what is played has it.
     fn parameters(&self, db: &MotionDb) -> Parameters {
         match self.mode {
@@ -318,15 +277,8 @@ impl Body {
         }
     }
 
-    /// What is played, now and [`LOOK_BACK_S`] ago.
-    fn poses(&self, motion: &Motion) -> [Pose; 2] {
-        let playing = self.playing(motion);
-        let before = self.phase - LOOK_BACK_S * playing.phase_rate_hz(self.phase);
-        [self.phase, before - libm::floorf(before)].map(|phase| playing.bent(motion, phase).pose)
-    }
-
     fn playing<'a>(&self, motion: &Motion<'a>) -> Playing<'a> {
-        Playing::new(motion, self)
+        Playing::new(motion, self.mode, &self.seen[0], self.phase)
     }
 
     /// A standing body is free in its phase (standing hardly moves): its first step begins with the lift of the foot
@@ -354,8 +306,8 @@ impl Body {
         gathered(0) && gathered(1)
     }
 
-    /// Factor on the phase rate. A body that speeds up within a step has its foot further back than the faster examples
-    /// have it at this phase: the phase catches up, and the foot meets the pose again before the leg must stretch;
+    /// Factor on the phase rate. A body that speeds up within a step has its foot further back than the faster steps have it
+    /// at this phase: the phase catches up, and the foot meets the pose again before the leg must stretch;
     /// likewise when it slows down.
     fn hurry(&self) -> f32 {
         let speed_squared = self.walked_mps.length_squared().max(HURRY_SPEED_MIN_MPS * HURRY_SPEED_MIN_MPS);
@@ -369,7 +321,12 @@ impl Body {
     pub fn synthesize(&mut self, motion: &Motion, step: &TimeStep) -> Synthesis {
         let skeleton = &motion.db.skeleton;
         let playing = self.playing(motion);
-        let (mut posture, held_up) = self.carried(motion, &playing, step);
+        let due =
+            Playing::new(motion, self.mode, &Seen::going(self.mix, self.seen[0].walking, self.seen[0].way), self.phase);
+        let (mut posture, held_up) = self.carried(motion, &playing);
+        posture.contacts = due.contacts(motion, self.phase);
+        let landing = self.phase + LANDING_AHEAD_S * playing.phase_rate_hz(self.phase);
+        let contacts_ahead = due.contacts(motion, landing - libm::floorf(landing));
         self.gaze.turn(&mut posture.pose, skeleton);
         let (frame, soles_m) = (self.root.frame(), posture.soles_m(skeleton));
 
@@ -377,7 +334,7 @@ impl Body {
             let FootPose { ankle_m, orientation } = posture.feet[side];
             let posed = posed_foot(&frame, ankle_m, soles_m[side]);
             let planted = posture.contacts[side] >= PLANTED_CONTACT && !held_up[side];
-            let held = self.feet[side].step(&posed, planted, step);
+            let held = self.feet[side].step(&posed, planted, contacts_ahead[side], step);
             FootPose { ankle_m: frame.to_local(held.ankle_m), orientation: held.twist * orientation }
         });
         posture.move_feet(held);
@@ -387,18 +344,18 @@ impl Body {
         for (hold, sole_m) in self.feet.iter_mut().zip(soles_m) {
             hold.placed(sole_m.map(|point_m| frame.to_world(point_m)), step);
         }
-        self.told(motion, &playing, &posture, &soles_m, frame.forward)
+        self.told(motion, &due, &posture, &soles_m, frame.forward)
     }
 
     /// What is played, and what a switch has left on top of it; which feet that holds up.
-    fn carried(&mut self, motion: &Motion, playing: &Playing, step: &TimeStep) -> (Posture, [bool; 2]) {
+    fn carried(&self, motion: &Motion, playing: &Playing) -> (Posture, [bool; 2]) {
         if !self.inertia.carries() {
             return (playing.posture(motion, self.phase), [false; 2]);
         }
         let skeleton = &motion.db.skeleton;
         let mut posture = playing.bent(motion, self.phase);
         let played_m = posture.soles_m(skeleton);
-        self.inertia.carry(&mut posture.pose, step);
+        self.inertia.add_to(&mut posture.pose);
         let carried = Posture::new(posture.pose, posture.contacts, skeleton);
         let carried_m = carried.soles_m(skeleton);
         (carried, [0, 1].map(|side| held_up(&played_m[side], &carried_m[side])))

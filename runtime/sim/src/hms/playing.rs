@@ -1,9 +1,10 @@
 //! What a body plays: a mix of examples, or m_sp deformed. Both give poses, contacts and a phase rate at any phase.
 
+use super::Motion;
 use super::blending::Weights;
 use super::deformation::Deformation;
 use super::posture::Posture;
-use super::{Body, Motion};
+use super::seen::Seen;
 use crate::recording_frame::{Mode, PLANTED_CONTACT};
 
 /// One synthesis at one phase.
@@ -16,13 +17,13 @@ pub enum Playing<'a> {
 }
 
 impl<'a> Playing<'a> {
-    /// What a body plays now.
-    pub fn new(motion: &Motion<'a>, body: &Body) -> Self {
-        match (body.mode, motion.hybrid) {
+    /// What is seen of a body at a phase.
+    pub fn new(motion: &Motion<'a>, mode: Mode, seen: &Seen, phase: f32) -> Self {
+        match (mode, motion.hybrid) {
             (Mode::SemiProcedural, Some(hybrid)) => {
-                Self::Deform(Deformation::new(&hybrid.semi_procedural, body.walking))
+                Self::Deform(Deformation::going(&hybrid.semi_procedural, seen.walking, seen.way))
             }
-            _ => Self::Blend(body.mix.weights(motion.db, body.phase)),
+            _ => Self::Blend(seen.mix.weights(motion.db, phase)),
         }
     }
 
@@ -43,6 +44,14 @@ impl<'a> Playing<'a> {
                 Posture::new(pose, contacts, &motion.db.skeleton)
             }
             Self::Deform(deformation) => deformation.posture(motion.db, phase),
+        }
+    }
+
+    /// The contact of each foot.
+    pub fn contacts(&self, motion: &Motion, phase: f32) -> [f32; 2] {
+        match self {
+            Self::Blend(weights) => weights.contacts(motion.db, phase),
+            Self::Deform(deformation) => deformation.contacts(motion.db, phase),
         }
     }
 

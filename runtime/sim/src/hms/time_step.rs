@@ -9,7 +9,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use super::{feet, gaze, inertialization, intention, owed};
+use super::{feet, gaze, inertialization, intention, owed, seen};
 
 /// The length of a step, and its decays.
 #[derive(Clone, Copy, Debug)]
@@ -20,10 +20,13 @@ pub struct TimeStep {
     pub(super) owed: f32,
     /// What is left of how steadily plans changed before.
     pub(super) steady: f32,
+    /// What is left of what was seen before.
+    pub(super) seen: f32,
+    pub(super) turn_about: Spring,
     pub(super) gaze: Spring,
     pub(super) inertia: Spring,
-    pub(super) release: Spring,
-    pub(super) lift: Spring,
+    pub(super) release: SoftSpring,
+    pub(super) lift: SoftSpring,
     /// What is left of landing after a step, and after half of one.
     pub(super) landing: [f32; 2],
     /// What is left of how fast a foot moved before.
@@ -35,14 +38,17 @@ impl TimeStep {
     pub fn new(dt_s: f32) -> Self {
         let left = |time_s: f32| libm::expf(-dt_s / time_s);
         let spring = |rate_hz: f32| Spring { decay: libm::expf(-rate_hz * dt_s), rate_hz, dt_s };
+        let soft_spring = |rate_hz: f32| SoftSpring(spring(rate_hz));
         Self {
             dt_s,
             owed: left(owed::FORGETTING_TIME_S),
             steady: left(intention::STEADY_S),
+            seen: left(seen::EASE_TIME_S),
+            turn_about: spring(seen::TURN_ABOUT_RATE_HZ),
             gaze: spring(gaze::RATE_HZ),
             inertia: spring(inertialization::RATE_HZ),
-            release: spring(feet::RELEASE_RATE_HZ),
-            lift: spring(feet::LIFT_RATE_HZ),
+            release: soft_spring(feet::RELEASE_RATE_HZ),
+            lift: soft_spring(feet::LIFT_RATE_HZ),
             landing: [feet::LANDING_TIME_S, 2.0 * feet::LANDING_TIME_S].map(left),
             foot_speed: left(feet::SPEED_TIME_S),
         }
@@ -69,9 +75,54 @@ impl Spring {
     }
 }
 
+/// A critically damped filter of the third order over one step: it lets go gently, where a spring pulls with r²·x at once.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SoftSpring(Spring);
+
+impl SoftSpring {
+    /// What is left of an offset, of its rate and of the rate of that, a second.
+    pub(super) fn pass<T>(&self, [offset, rate, acceleration]: [T; 3]) -> [T; 3]
+    where
+        T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>,
+    {
+        // (c₀ + c₁t + ½c₂t²)·e^(−r·t) and its derivatives.
+        let Spring { decay, rate_hz, dt_s } = self.0;
+        let c1 = rate + offset * rate_hz;
+        let c2 = acceleration + (rate + c1) * rate_hz;
+        let slope = c1 + c2 * dt_s;
+        let passed = offset + (c1 + slope) * (0.5 * dt_s);
+        let steeper = slope - passed * rate_hz;
+        [passed * decay, steeper * decay, (c2 - (slope + steeper) * rate_hz) * decay]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const OFFSETS: [f32; 3] = [0.4, -3.0, 5.0];
+
+    fn soft(rate_hz: f32, dt_s: f32) -> SoftSpring {
+        SoftSpring(Spring { decay: libm::expf(-rate_hz * dt_s), rate_hz, dt_s })
+    }
+
+    #[test]
+    fn one_step_of_a_soft_spring_is_as_good_as_many() {
+        let one = soft(12.0, 0.1).pass(OFFSETS);
+        let many = (0..20).fold(OFFSETS, |offsets, _| soft(12.0, 0.005).pass(offsets));
+        assert!(
+            one.iter().zip(many).all(|(one, many)| (one - many).abs() < 1e-4 * (1.0 + many.abs())),
+            "{one:?} {many:?}"
+        );
+    }
+
+    #[test]
+    fn a_soft_spring_lets_go_at_the_rates_that_there_were() {
+        let dt_s = 1e-3;
+        let [offset, rate, acceleration] = soft(12.0, dt_s).pass(OFFSETS);
+        assert!((offset - (OFFSETS[0] + dt_s * OFFSETS[1] + 0.5 * dt_s * dt_s * OFFSETS[2])).abs() < 1e-6);
+        assert!((rate - (OFFSETS[1] + dt_s * OFFSETS[2])).abs() < 2e-3 && (acceleration - OFFSETS[2]).abs() < 2.0);
+    }
 
     #[test]
     fn one_step_of_a_spring_is_as_good_as_many() {

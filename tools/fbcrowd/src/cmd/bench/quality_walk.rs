@@ -125,7 +125,7 @@ impl<'a> Stage<'a> {
         let middle = before.phase + 0.5 * dt_s * after.mix.phase_rate_hz(self.db, before.phase);
         let due = dt_s * after.mix.phase_rate_hz(self.db, middle);
         let passed = (after.phase - before.phase).rem_euclid(1.0);
-        let Parameters { speed_mps, strafe_mps, .. } = after.mix.parameters(self.db);
+        let Parameters { speed_mps, strafe_mps, .. } = after.seen[0].mix.parameters(self.db);
         let played = if walked_mps > 0.0 && due > 0.0 { passed / due } else { 1.0 };
         speed_mps.hypot(strafe_mps) * played - walked_mps
     }

@@ -1,0 +1,64 @@
+//! What is seen of what a body plays: the pose eases into what the root does.
+//!
+//! Shares and parameters change at limited rates, which begin and end at once; joints that moved with them would do so with
+//! a jerk. So the pose is that of a mix, and of an m_sp, that follow the root's with a short lag, over which planted feet
+//! are held. The root knows nothing of it: nothing is tracked later for it.
+
+use glam::Vec2;
+use motiondb::parameters::Parameters;
+
+use super::blending::Mix;
+use super::deformation::travel;
+use super::inertialization::LOOK_BACK_S;
+use super::time_step::TimeStep;
+use crate::recording_frame::Mode;
+
+/// The lag, s: a fifth of the time in which the fastest change of speed takes place.
+pub(super) const EASE_TIME_S: f32 = 0.05;
+
+/// Rate of the spring by which a gait turns about, 1/s: the legs swing the other way within a step.
+pub(super) const TURN_ABOUT_RATE_HZ: f32 = 10.0;
+
+/// A mix of examples, and what m_sp is deformed to.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// While a body blends.
+    pub mix: Mix,
+    /// Otherwise.
+    pub walking: Parameters,
+    /// Direction of travel that m_sp is deformed to. It lags behind a root that turns about at rest.
+    pub way: Vec2,
+    /// A second.
+    way_rate: Vec2,
+}
+
+impl Seen {
+    /// This, without turning about.
+    pub fn going(mix: Mix, walking: Parameters, way: Vec2) -> Self {
+        Self { mix, walking, way, way_rate: Vec2::ZERO }
+    }
+
+    /// Follows what the root does by a step. Returns what was seen [`LOOK_BACK_S`] before its end, or at its beginning.
+    pub fn follow(&mut self, mode: Mode, mix: &Mix, walking: Parameters, step: &TimeStep) -> Self {
+        let before = *self;
+        self.approach(mode, mix, walking, 1.0 - step.seen);
+        let way = travel(self.walking);
+        let (off, rate) = step.turn_about.pass(self.way - way, self.way_rate);
+        (self.way, self.way_rate) = (way + off, rate);
+        let mut lately = *self;
+        lately.approach(mode, &before.mix, before.walking, (LOOK_BACK_S / step.dt_s).min(1.0));
+        lately.way -= LOOK_BACK_S * rate;
+        lately
+    }
+
+    /// Moves the given fraction of the way to another.
+    fn approach(&mut self, mode: Mode, mix: &Mix, walking: Parameters, fraction: f32) {
+        match mode {
+            Mode::Blending => self.mix.ease(mix, fraction),
+            Mode::SemiProcedural => {
+                let change = walking.to_vec3() - self.walking.to_vec3();
+                self.walking = Parameters::from_vec3(self.walking.to_vec3() + fraction * change);
+            }
+        }
+    }
+}

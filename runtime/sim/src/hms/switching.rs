@@ -1,0 +1,104 @@
+//! How synthesis changes hands (`FbCrowd` §3.4.1, App. 10): when, at which phase, and what it leaves to inertia.
+
+use glam::Vec3;
+use motiondb::pose::Pose;
+
+use super::blending::Mix;
+use super::deformation::travel;
+use super::gait;
+use super::hybrid::Hybrid;
+use super::inertialization::LOOK_BACK_S;
+use super::mode::Thresholds;
+use super::params::{HmsParams, Modes};
+use super::playing::Playing;
+use super::seen::Seen;
+use super::{Body, Motion};
+use crate::plan::Plan;
+use crate::recording_frame::Mode;
+
+/// One synthesis gives way where the other can take over within this, m/s and rad/s.
+const SWITCH_SLACK: f32 = 0.05;
+/// Phases about a pair of T among which the one is taken where both syntheses are most alike.
+const NEAR_PHASES: [f32; 7] = [0.0, -0.02, 0.02, -0.04, 0.04, -0.06, 0.06];
+
+impl Body {
+    /// §3.4.1: which synthesis is wanted, where what is asked holds so much standing.
+    pub(super) fn choose(&mut self, motion: &Motion, hybrid: &Hybrid, plan: &Plan, idle_share: f32, dt_s: f32) {
+        let HmsParams { modes, density_threshold, .. } = *motion.params;
+        let alone = modes == Modes::SemiProcedural;
+        let thresholds = Thresholds { alone, transition_s: hybrid.transition_s, density: density_threshold };
+        let walks = !self.gait.stands && idle_share < gait::IDLE_SHARE_MAX;
+        self.choice.follow(plan, walks, &thresholds, dt_s);
+    }
+
+    /// App. 10: at a pair of T, synthesis changes hands at the velocity that the body has, and the difference of poses
+    /// is left to inertia. The paper moves its weights to m_mb alone first ([`Transition::ThroughMMb`]), since it cannot
+    /// begin at another velocity: at the very moment that a collision threatens, its body walks at m_mb's.
+    pub(super) fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32) {
+        let (from, to) = (self.mode, self.choice.mode);
+        if from == to || !self.may_switch(motion, hybrid) {
+            return;
+        }
+        let Some(jump) = hybrid.jump(from, before, self.phase) else { return };
+        let soles_m = self.playing(motion).posture(motion, self.phase).soles_m(&motion.db.skeleton);
+        self.jump(motion, |body| {
+            match to {
+                Mode::SemiProcedural => {
+                    body.walking = body.mix.parameters(motion.db);
+                    let way = travel(body.seen[0].mix.parameters(motion.db));
+                    body.seen = body.seen.map(|seen| Seen::going(seen.mix, seen.mix.parameters(motion.db), way));
+                }
+                Mode::Blending => {
+                    body.mix = Mix::new(&motion.space.locate(body.walking));
+                    // Its shares begin to change from here, at a speed of their own.
+                    let mix = Mix::new(&motion.space.locate(body.seen[0].walking));
+                    body.seen.iter_mut().for_each(|seen| seen.mix = mix);
+                }
+            }
+            body.mode = to;
+            body.phase = body.most_alike(motion, &soles_m, body.phase + jump);
+        });
+    }
+
+    /// The phase near another at which what is played has its feet nearest to these soles: T knows how m_mb is like m_sp, and
+    /// a mix or a run is so a little before or after.
+    fn most_alike(&self, motion: &Motion, soles_m: &[[Vec3; 3]; 2], near: f32) -> f32 {
+        let off_m2 = |phase: f32| {
+            let playing = Playing::new(motion, self.mode, &self.seen[0], phase);
+            let there_m = playing.posture(motion, phase).soles_m(&motion.db.skeleton);
+            let points = soles_m.as_flattened().iter().zip(there_m.as_flattened());
+            points.map(|(here_m, there_m)| here_m.distance_squared(*there_m)).sum::<f32>()
+        };
+        let phases = NEAR_PHASES.map(|off| near + off - libm::floorf(near + off));
+        let off_m2 = phases.map(off_m2);
+        let nearest = (1..phases.len()).fold(0, |best, at| if off_m2[at] < off_m2[best] { at } else { best });
+        phases[nearest]
+    }
+
+    /// Changes what is played at once, and leaves the difference of poses to inertia.
+    pub(super) fn jump(&mut self, motion: &Motion, change: impl FnOnce(&mut Self)) {
+        let old = self.poses(motion);
+        change(self);
+        let new = self.poses(motion);
+        self.inertia.begin(old.each_ref(), new.each_ref());
+    }
+
+    /// Whether the body walks as the other synthesis can.
+    fn may_switch(&self, motion: &Motion, hybrid: &Hybrid) -> bool {
+        let now = self.parameters(motion.db);
+        let there = self.detour(motion).unwrap_or_else(|| match self.mode {
+            Mode::Blending => hybrid.semi_procedural.reachable(now),
+            Mode::SemiProcedural => motion.space.nearest(now).parameters,
+        });
+        now.to_vec3().distance(there.to_vec3()) <= SWITCH_SLACK
+    }
+
+    /// What is played, now and [`LOOK_BACK_S`] ago.
+    fn poses(&self, motion: &Motion) -> [Pose; 2] {
+        let playing = self.playing(motion);
+        let before = self.phase - LOOK_BACK_S * playing.phase_rate_hz(self.phase);
+        let before = before - libm::floorf(before);
+        let lately = Playing::new(motion, self.mode, &self.seen[1], before);
+        [playing.bent(motion, self.phase).pose, lately.bent(motion, before).pose]
+    }
+}
