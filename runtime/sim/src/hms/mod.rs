@@ -321,10 +321,12 @@ impl Body {
     pub fn synthesize(&mut self, motion: &Motion, step: &TimeStep) -> Synthesis {
         let skeleton = &motion.db.skeleton;
         let playing = self.playing(motion);
-        let due =
-            Playing::new(motion, self.mode, &Seen::going(self.mix, self.seen[0].walking, self.seen[0].way), self.phase);
+        let due = self.due(motion);
         let (mut posture, held_up) = self.carried(motion, &playing);
-        posture.contacts = due.contacts(motion, self.phase);
+        if let Some(due) = &due {
+            posture.contacts = due.contacts(motion, self.phase);
+        }
+        let due = due.as_ref().unwrap_or(&playing);
         let landing = self.phase + LANDING_AHEAD_S * playing.phase_rate_hz(self.phase);
         let contacts_ahead = due.contacts(motion, landing - libm::floorf(landing));
         self.gaze.turn(&mut posture.pose, skeleton);
@@ -344,7 +346,12 @@ impl Body {
         for (hold, sole_m) in self.feet.iter_mut().zip(soles_m) {
             hold.placed(sole_m.map(|point_m| frame.to_world(point_m)), step);
         }
-        self.told(motion, &due, &posture, &soles_m, frame.forward)
+        self.told(motion, due, &posture, &soles_m, frame.forward)
+    }
+
+    /// The mix that the root has come to, whose time the contacts keep; m_sp's root does as it is seen to.
+    fn due<'a>(&self, motion: &Motion<'a>) -> Option<Playing<'a>> {
+        (self.mode == Mode::Blending).then(|| Playing::Blend(self.mix.weights(motion.db, self.phase)))
     }
 
     /// What is played, and what a switch has left on top of it; which feet that holds up.
