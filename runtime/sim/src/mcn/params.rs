@@ -116,13 +116,13 @@ impl Default for McnParams {
             // seventh; at 1.0 it grows again.
             acceleration_max_mps2: 1.1,
             // Menge's PedVO (`facts/planning.md` §2). Between its two buffers, 0.5 and 0.9: from 0.8 on people walk as in
-            // Weidmann's diagram (RiMEA test 4), and at 0.85 most of them get through a door in a second.
+            // Weidmann's diagram (RiMEA test 4); beyond, doors let fewer of them through.
             density_factor: 1.57,
-            density_buffer: 0.85,
+            density_buffer: 0.8,
             density_speed_min_mps: 0.3,
-            // 17°. Measured: at 0.2 a crowd of 1,000 with antipodal goals dissolves a fifth more slowly, below 0.28 somebody
+            // 16°. Measured: at 0.2 a crowd of 1,000 with antipodal goals dissolves a fifth more slowly, below 0.27 somebody
             // stands for five seconds in a circle of exact symmetry; at 0.4 late comers stray about their goals.
-            keep_right_rad: 0.29,
+            keep_right_rad: 0.28,
             stance_twist_rad: 0.35,
             // Two strides. Measured: below, those who pass each other turn aside and back again, which costs more
             // acceleration than side-stepping on.
