@@ -4,8 +4,9 @@
 //!
 //! 1. [`owed`], [`asked`], [`gait`]: the plan as (v_f, ω_t, ω_s), smoothed; what of it the body can do, standing or
 //!    stepping; and how far it gets in one step;
-//! 2. [`blending`] or [`semi_procedural`]: what is played follows; phase and root move, the root exactly along its arc;
-//!    [`mode`] tells which is wanted, and at the next pair of [`hybrid`] synthesis changes hands;
+//! 2. [`blending`] or [`semi_procedural`]: what is played follows ([`pursuit`]); phase and root move, the root exactly along
+//!    its arc; the pose eases into both ([`seen`]); [`mode`] tells which synthesis is wanted, and at the next pair of
+//!    [`hybrid`] it changes hands (`switching`);
 //! 3. the pose is sampled at the new phase ([`playing`]); [`inertialization`] carries away what a switch left; head and
 //!    chest turn first ([`gaze`]);
 //! 4. [`feet`]: planted feet are held;
@@ -219,7 +220,7 @@ impl Body {
             _ => goal,
         };
         pursuit::follow(&mut self.mix, goal, &nearest, self.gait, motion, step.dt_s);
-        self.move_root(&self.mix.parameters(motion.db), step.dt_s);
+        self.move_root(self.mix.parameters(motion.db), step.dt_s);
         self.phase = self.mix.advance_phase(motion.db, self.phase, self.hurry() * step.dt_s);
         nearest
     }
@@ -240,7 +241,7 @@ impl Body {
             Mode::Blending => self.detour(motion).unwrap_or(nearest.parameters),
         };
         self.walking = asked::step_apart(self.walking, goal, motion.params, dt_s);
-        self.move_root(&{ self.walking }, dt_s);
+        self.move_root(self.walking, dt_s);
         let map = Tempo::new(semi_procedural, self.walking, self.seen[0].way).phase_map();
         let hurried_s = self.hurry() * dt_s;
         let middle = self.phase + 0.5 * hurried_s * map.rate_hz(self.phase);
@@ -263,8 +264,8 @@ impl Body {
         self.told(motion, &playing, &posture, &soles_m, self.root.forward())
     }
 
-    fn move_root(&mut self, parameters: &Parameters, dt_s: f32) {
-        let moved = moved(&self.root, parameters, dt_s);
+    fn move_root(&mut self, parameters: Parameters, dt_s: f32) {
+        let moved = moved(&self.root, &parameters, dt_s);
         self.walked_mps = (moved.position_m - self.root.position_m) / dt_s;
         self.root = moved;
     }

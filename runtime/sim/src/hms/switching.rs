@@ -32,7 +32,7 @@ impl Body {
     }
 
     /// App. 10: at a pair of T, synthesis changes hands at the velocity that the body has, and the difference of poses
-    /// is left to inertia. The paper moves its weights to m_mb alone first ([`Transition::ThroughMMb`]), since it cannot
+    /// is left to inertia. The paper moves its weights to m_mb alone first ([`ThroughMMb`](super::params::Transition::ThroughMMb)), since it cannot
     /// begin at another velocity: at the very moment that a collision threatens, its body walks at m_mb's.
     pub(super) fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32) {
         let (from, to) = (self.mode, self.choice.mode);

@@ -112,16 +112,16 @@ impl Default for McnParams {
             relaxation_s: 0.54,
             response_s: 0.3,
             // About what people start and stop with unhurried. `facts/planning.md` §1: the authors' 20 shakes at steps of
-            // 0.1 s. Measured through bodies on Table 1, from 1.0 to 2.5: the acceleration on the circle grows with it by a
-            // seventh; at 1.0 it grows again.
+            // 0.1 s. Measured through bodies on Table 1, from 1.1 to 2.5: the acceleration on the circle grows with it by a
+            // seventh; below, nothing is gained.
             acceleration_max_mps2: 1.1,
             // Menge's PedVO (`facts/planning.md` §2). Between its two buffers, 0.5 and 0.9: from 0.8 on people walk as in
             // Weidmann's diagram (RiMEA test 4); beyond, doors let fewer of them through.
             density_factor: 1.57,
             density_buffer: 0.8,
             density_speed_min_mps: 0.3,
-            // 16°. Measured: at 0.2 a crowd of 1,000 with antipodal goals dissolves a fifth more slowly, below 0.27 somebody
-            // stands for five seconds in a circle of exact symmetry; at 0.4 late comers stray about their goals.
+            // 16°. Measured: at 0.2 a crowd of 1,000 with antipodal goals dissolves a fifth more slowly, up to 0.27 somebody
+            // may stand for five seconds in a circle of exact symmetry; at 0.4 late comers stray about their goals.
             keep_right_rad: 0.28,
             stance_twist_rad: 0.35,
             // Two strides. Measured: below, those who pass each other turn aside and back again, which costs more
