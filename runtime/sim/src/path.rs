@@ -1,6 +1,6 @@
 //! The way to the goal: v_pref along ordered waypoints (`FbCrowd` §3, stage 2; the navigation mesh comes later).
 //!
-//! An agent heads for its next waypoint at its preferred speed, takes the one after as soon as it is near, brakes
+//! An agent heads for its next waypoint at its preferred speed, rounds it on its way to the one after, brakes
 //! evenly before the last and then stays there. Crowds shove: whoever is shoved past a waypoint goes on, and whoever is
 //! shoved behind a wall after it goes round by the waypoint again. World, metres, seconds.
 
@@ -9,12 +9,18 @@ use glam::Vec2;
 use crate::obstacles::Obstacles;
 use crate::scenario::AgentSpec;
 
-/// A waypoint is passed within this distance: the arrival radius of the definitions, and about the turning circle of a
-/// walk.
-const WAYPOINT_RADIUS_M: f32 = 0.5;
-/// Within this distance it is passed also by who is beyond it: two people abreast fill a waypoint's radius, and a third
+/// Within this distance a waypoint is passed by who is beyond it: two people abreast fill the way about it, and a third
 /// who rounds a corner beside them would come back for it.
 const BESIDE_M: f32 = 1.0;
+/// Within this distance aside it is rounded in full; at [`BESIDE_M`], not at all.
+const ROUNDED_M: f32 = 0.5;
+/// Rounding begins this long before a waypoint, s: 0.9 m at a walk. Were v_pref to jump to the next leg instead, a right
+/// angle would nearly stop a walker (0.1 m/s; so, 0.6). Beginning at 1 s, bodies are slower through lanes of 1 m.
+const ROUNDING_S: f32 = 0.7;
+/// Cosine of the sharpest turn that is rounded, 120°: to turn back, a waypoint is walked to …
+const ROUNDED_COS: f32 = -0.5;
+/// … within this distance: the arrival radius of the definitions.
+const WAYPOINT_RADIUS_M: f32 = 0.5;
 /// A passed waypoint is gone back to from no farther than this: a crowd shoves its people by a few bodies' widths.
 const SHOVED_M: f32 = 3.0;
 /// The last goal is reached within this distance, half a step …
@@ -55,17 +61,20 @@ pub fn preferred_mps(
     progress: &mut Progress,
 ) -> Vec2 {
     let Some(last) = agent.goals_m.len().checked_sub(1) else { return Vec2::ZERO };
-    while (progress.next as usize) < last && has_passed(agent, progress.next as usize, position_m) {
-        progress.next += 1;
+    let mut next = progress.next as usize;
+    while next < last && Corner::new(agent, next).is_passed(position_m) {
+        next += 1;
     }
-    let next = progress.next as usize;
+    progress.next = next as u32;
     let to_goal_m = agent.goals_m[next] - position_m;
     progress.arrived = next == last && to_goal_m.length() < arrival_radius_m(progress.arrived);
     if let Some(round_m) = way_round_m(agent, next, position_m, obstacles) {
         return (round_m - position_m).normalize_or_zero() * agent.preferred_speed_mps;
     }
+    if next < last {
+        return Corner::new(agent, next).heading(position_m) * agent.preferred_speed_mps;
+    }
     let speed_mps = match braking {
-        _ if next < last => f32::INFINITY,
         Braking::Evenly if progress.arrived => 0.0,
         Braking::Evenly => braking_speed_mps(to_goal_m.length()),
         Braking::Within(time_s) => to_goal_m.length() / time_s,
@@ -73,15 +82,46 @@ pub fn preferred_mps(
     to_goal_m.normalize_or_zero() * speed_mps.min(agent.preferred_speed_mps)
 }
 
-/// Whether a waypoint that is not the last one is near, or lies a little aside and behind: behind the line through it
-/// that halves the angle of the ways to and from it.
-fn has_passed(agent: &AgentSpec, waypoint: usize, position_m: Vec2) -> bool {
-    let waypoint_m = agent.goals_m[waypoint];
-    let before_m = waypoint.checked_sub(1).map_or(agent.position_m, |before| agent.goals_m[before]);
-    let [to, from] = [waypoint_m - before_m, agent.goals_m[waypoint + 1] - waypoint_m].map(Vec2::normalize_or_zero);
-    let beyond_m = position_m - waypoint_m;
-    let radius_m = if beyond_m.dot(to + from) > 0.0 { BESIDE_M } else { WAYPOINT_RADIUS_M };
-    beyond_m.length() < radius_m
+/// A waypoint that is not the last one.
+struct Corner {
+    waypoint_m: Vec2,
+    after_m: Vec2,
+    /// Unit vector across the line that halves the angle of the ways to and from it, onwards; none where it is a turn
+    /// back.
+    onwards: Option<Vec2>,
+    /// Rounding begins this far before that line, m.
+    rounding_m: f32,
+}
+
+impl Corner {
+    fn new(agent: &AgentSpec, waypoint: usize) -> Self {
+        let [waypoint_m, after_m] = [agent.goals_m[waypoint], agent.goals_m[waypoint + 1]];
+        let before_m = waypoint.checked_sub(1).map_or(agent.position_m, |before| agent.goals_m[before]);
+        let [to, from] = [waypoint_m - before_m, after_m - waypoint_m].map(Vec2::normalize_or_zero);
+        let onwards = (to + from).try_normalize().filter(|_| to.dot(from) > ROUNDED_COS);
+        let rounding_m = ROUNDING_S * agent.preferred_speed_mps * onwards.map_or(0.0, |onwards| onwards.dot(to));
+        Self { waypoint_m, after_m, onwards, rounding_m }
+    }
+
+    /// Whether it is near, or lies a little aside and behind.
+    fn is_passed(&self, position_m: Vec2) -> bool {
+        let beyond_m = position_m - self.waypoint_m;
+        match self.onwards {
+            Some(onwards) => beyond_m.dot(onwards) > 0.0 && beyond_m.length() < BESIDE_M,
+            None => beyond_m.length() < WAYPOINT_RADIUS_M,
+        }
+    }
+
+    /// Unit direction of v_pref: to the waypoint, turning to the one after as the line through it comes near.
+    fn heading(&self, position_m: Vec2) -> Vec2 {
+        let [to, after] = [self.waypoint_m, self.after_m].map(|goal_m| (goal_m - position_m).normalize_or_zero());
+        let Some(onwards) = self.onwards else { return to };
+        let beyond_m = position_m - self.waypoint_m;
+        let before_m = -beyond_m.dot(onwards);
+        let near = if before_m > 0.0 { (1.0 - before_m / self.rounding_m).max(0.0) } else { 0.0 };
+        let abreast = ((BESIDE_M - beyond_m.perp_dot(onwards).abs()) / (BESIDE_M - ROUNDED_M)).clamp(0.0, 1.0);
+        to.lerp(after, near * abreast).normalize_or(to)
+    }
 }
 
 /// The waypoint passed last, for who has been shoved to where a wall hides the next one. Where a wall hides it from the
@@ -110,6 +150,8 @@ fn braking_speed_mps(distance_m: f32) -> f32 {
 mod tests {
     use super::*;
 
+    const DT_S: f32 = 1.0 / 30.0;
+
     fn agent(goals_m: &[Vec2]) -> AgentSpec {
         AgentSpec {
             position_m: Vec2::ZERO,
@@ -124,16 +166,36 @@ mod tests {
         Obstacles::default()
     }
 
+    /// v_pref at each step of a disc that follows it for a time, and how near to its first waypoint that leads it.
+    fn walked(agent: &AgentSpec, time_s: f32) -> (Vec<Vec2>, f32, Progress) {
+        let (mut position_m, mut progress, mut nearest_m) = (agent.position_m, Progress::default(), f32::INFINITY);
+        let mut step = || {
+            let preferred_mps = preferred_mps(agent, position_m, &open(), Braking::Evenly, &mut progress);
+            position_m += preferred_mps * DT_S;
+            nearest_m = nearest_m.min(position_m.distance(agent.goals_m[0]));
+            preferred_mps
+        };
+        let preferred_mps = (0..(time_s / DT_S) as usize).map(|_| step()).collect();
+        (preferred_mps, nearest_m, progress)
+    }
+
     #[test]
-    fn waypoints_are_taken_in_order_and_the_last_one_is_stayed_at() {
-        let agent = agent(&[Vec2::new(3.0, 0.0), Vec2::new(3.0, 4.0)]);
-        let (mut position_m, mut progress, mut nearest_first_m) = (Vec2::ZERO, Progress::default(), f32::INFINITY);
-        for _ in 0..300 {
-            position_m += preferred_mps(&agent, position_m, &open(), Braking::Evenly, &mut progress) / 30.0;
-            nearest_first_m = nearest_first_m.min(position_m.distance(agent.goals_m[0]));
+    fn waypoints_are_rounded_in_order_and_the_last_one_is_stayed_at() {
+        for turn_deg in [0.0_f32, 45.0, -90.0, 118.0] {
+            let after_m = Vec2::new(3.0, 0.0) + 4.0 * Vec2::from_angle(turn_deg.to_radians());
+            let (preferred_mps, nearest_m, progress) = walked(&agent(&[Vec2::new(3.0, 0.0), after_m]), 10.0);
+            assert!(nearest_m < 0.6 && progress.arrived, "{turn_deg}° {nearest_m} m");
+            for pair in preferred_mps.windows(2).take_while(|pair| pair[1] != Vec2::ZERO) {
+                assert!(pair[0].angle_to(pair[1]).abs() < 0.3, "{turn_deg}° {pair:?}");
+            }
         }
-        assert!(nearest_first_m < WAYPOINT_RADIUS_M);
-        assert!(progress.arrived && position_m.distance(agent.goals_m[1]) < GOAL_RADIUS_M);
+    }
+
+    #[test]
+    fn to_turn_back_a_waypoint_is_walked_to() {
+        let (preferred_mps, nearest_m, progress) = walked(&agent(&[Vec2::new(3.0, 0.0), Vec2::new(-2.0, 0.3)]), 10.0);
+        assert!(nearest_m < WAYPOINT_RADIUS_M && progress.arrived);
+        assert!(preferred_mps.iter().all(|preferred_mps| preferred_mps.y.abs() < 0.2));
     }
 
     #[test]
