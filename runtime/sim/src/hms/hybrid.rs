@@ -1,5 +1,9 @@
 //! What a database gives to hybrid synthesis (`FbCrowd` §5, App. 10): m_sp taken apart, the phases at which synthesis may
 //! switch, and how long a switch may take.
+//!
+//! Of T, the pairs about mid-stance are taken: one foot rests flat on the ground in both syntheses, the other passes it in
+//! the air, and neither lands nor leaves while the difference of poses is greatest. A foot that has to land on top of a
+//! difference meets the ground at another time and pitch than its pose does, and jerks the knee.
 
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
@@ -8,6 +12,10 @@ use super::inertialization::CARRIED_S;
 use super::params::Modes;
 use super::semi_procedural::SemiProcedural;
 use crate::recording_frame::Mode;
+
+/// Furthest from a mid-stance that synthesis switches, where T allows, in phases: the other foot leaves and lands about 0.2
+/// from it (`motion.md` §3), which leaves a tenth of a stride to either.
+const OFF_MID_STANCE: f32 = 0.1;
 
 /// Hybrid synthesis from one database.
 #[derive(Clone, Debug)]
@@ -28,8 +36,8 @@ impl Hybrid {
         let found = db.correspondence.as_ref().filter(|_| modes != Modes::Blending)?;
         let examples = [found.semi_procedural, found.blending].map(|example| example as usize);
         let maps = examples.map(|example| &db.examples[example].phase_map);
-        let pairs: Vec<[f32; 2]> =
-            found.pairs_s.iter().map(|times_s| [0, 1].map(|side| maps[side].phase(times_s[side]))).collect();
+        let pairs = found.pairs_s.iter().map(|times_s| [0, 1].map(|side| maps[side].phase(times_s[side])));
+        let pairs = about_mid_stances(pairs.collect());
         let period_s = maps[0].period_s.max(maps[1].period_s);
         Some(Self {
             semi_procedural: SemiProcedural::new(db, examples[0])?,
@@ -50,6 +58,13 @@ impl Hybrid {
         })?;
         Some(pair[1 - at] - pair[at])
     }
+}
+
+/// The pairs where legs pass each other; all, where there are none such.
+fn about_mid_stances(pairs: Vec<[f32; 2]>) -> Vec<[f32; 2]> {
+    let off = |phase: f32| (2.0 * phase - libm::roundf(2.0 * phase)).abs() / 2.0;
+    let near: Vec<[f32; 2]> = pairs.iter().copied().filter(|pair| off(pair[0]) <= OFF_MID_STANCE).collect();
+    if near.is_empty() { pairs } else { near }
 }
 
 /// The longest way from one pair to the next, in phases of m_sp; none without pairs.
@@ -79,6 +94,13 @@ mod tests {
     #[test]
     fn who_is_only_to_blend_has_no_hybrid() {
         assert!(Hybrid::new(&test_db(), Modes::Blending).is_none());
+    }
+
+    #[test]
+    fn pairs_about_mid_stances_are_preferred() {
+        let [early, left, late, right] = [[0.2, 0.2], [0.55, 0.5], [0.7, 0.7], [0.95, 0.9]];
+        assert_eq!(about_mid_stances(vec![early, left, late, right]), [left, right]);
+        assert_eq!(about_mid_stances(vec![early, late]), [early, late]);
     }
 
     #[test]

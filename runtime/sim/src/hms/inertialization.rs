@@ -11,8 +11,9 @@ use motiondb::skeleton::JOINT_COUNT;
 
 use super::time_step::TimeStep;
 
-/// Rate of the springs, 1/s: 9 % of a difference is left after 0.4 s, a step.
-pub(super) const RATE_HZ: f32 = 10.0;
+/// Rate of the springs, 1/s: from mid-stance, where synthesis changes hands, 14 % of a difference is left when the next
+/// foot lands (0.3 s), and 5 % after a step (0.4 s).
+pub(super) const RATE_HZ: f32 = 12.0;
 /// By then a difference has died out, s.
 pub const CARRIED_S: f32 = 0.4;
 /// Less than this of a difference is none, rad and m.

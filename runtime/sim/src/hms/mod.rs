@@ -58,6 +58,7 @@ use self::leg::FootPose;
 use self::mode::Choice;
 use self::owed::Owed;
 use self::params::{HmsParams, Transition};
+use self::pelvis::Descent;
 use self::playing::Playing;
 use self::posture::Posture;
 use self::seen::Seen;
@@ -128,6 +129,7 @@ pub struct Body {
     /// The velocity that it will have whatever is planned, world, m/s: on the paper's way from one synthesis to the other.
     pub committed_mps: Option<Vec2>,
     feet: [FootHold; 2],
+    descent: Descent,
 }
 
 /// A synthesised body.
@@ -163,6 +165,7 @@ impl Body {
             walked_mps: Vec2::ZERO,
             committed_mps: None,
             feet: Default::default(),
+            descent: Descent::default(),
         };
         let playing = body.playing(motion);
         let posture = playing.posture(motion, phase);
@@ -340,7 +343,7 @@ impl Body {
             let held = self.feet[side].step(&posed, planted, contacts_ahead[side], step);
             FootPose { ankle_m: frame.to_local(held.ankle_m), orientation: held.twist * orientation }
         });
-        posture.move_feet(held);
+        posture.move_feet_below(held, |asked_m| self.descent.follow(asked_m, step));
         posture.bend_legs(skeleton);
 
         let soles_m = posture.soles_m(skeleton);

@@ -9,9 +9,12 @@
 //!
 //! nothing where the foot is where the pose has it, never less than what is needed, and a little before it must: neither
 //! hips nor knee jerk as the leg comes to its end. The pelvis comes down by a little more than what the more exacting leg
-//! asks for. It depends on this step's pose alone. All vectors are in the root frame (x forward, y left, z up), metres.
+//! asks for. It comes down when it is asked to, and goes up again gently ([`Descent`]): a trailing foot that leaves the
+//! ground, or comes back under the body, asks for nothing from one step to the next, and hips that followed would shoot up.
+//! All vectors are in the root frame (x forward, y left, z up), metres.
 
 use super::leg::{FootPose, Leg};
+use super::time_step::TimeStep;
 use crate::decay::{decay, soft_maximum};
 
 /// Straightest a leg may be before the pelvis comes down for it, as a share of its length; straighter only where the
@@ -24,6 +27,24 @@ const EXTENSION_MAX: f32 = 0.9985;
 const DROP_MAX_M: f32 = 0.12;
 /// s, m: less than what the hips bob in walking. With 0.01 knees snap at stops.
 const SOFTNESS_M: f32 = 0.02;
+/// Rate of the filter by which the pelvis goes up again, 1/s: of a descent, an eighth is left after 0.25 s, a swing.
+pub(super) const RISE_RATE_HZ: f32 = 20.0;
+
+/// How far the pelvis has come down, m, its rate and the rate of that, a second.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Descent([f32; 3]);
+
+impl Descent {
+    /// How far the pelvis is to be down after a step that asks for so much.
+    pub fn follow(&mut self, asked_m: f32, step: &TimeStep) -> f32 {
+        let [before_m, ..] = self.0;
+        self.0 = match step.rise.pass(self.0) {
+            rising @ [rising_m, ..] if rising_m > asked_m => rising,
+            _ => [asked_m, (asked_m - before_m) / step.dt_s, 0.0],
+        };
+        self.0[0]
+    }
+}
 
 /// How far the pelvis comes down where feet move from where the pose has them, m.
 pub fn drop_m(legs: &[Leg; 2], posed: &[FootPose; 2], feet: &[FootPose; 2]) -> f32 {
@@ -97,6 +118,18 @@ mod tests {
     #[test]
     fn a_pose_whose_feet_are_where_they_should_be_is_left_as_it_is() {
         assert!(lowered_m(0.15, 0.0).0.abs() < 1e-6);
+    }
+
+    #[test]
+    fn goes_up_gently_when_a_foot_leaves_the_ground() {
+        let step = TimeStep::new(1.0 / 120.0);
+        let mut descent = Descent::default();
+        let asked_m = (0..120).map(|step| if (30..60).contains(&step) { 0.002 * (step - 30) as f32 } else { 0.0 });
+        let lowered_m: Vec<f32> = asked_m.clone().map(|asked_m| descent.follow(asked_m, &step)).collect();
+        assert!(asked_m.zip(&lowered_m).all(|(asked_m, &lowered_m)| lowered_m >= asked_m));
+        let rising = lowered_m[59..].windows(3);
+        let greatest_mps2 = rising.map(|three| (three[0] - 2.0 * three[1] + three[2]).abs() * 120.0 * 120.0);
+        assert!(greatest_mps2.fold(0.0, f32::max) < 12.0 && lowered_m[119] < 1e-3);
     }
 
     #[test]

@@ -32,7 +32,12 @@ impl Posture {
 
     /// Moves the feet; the pelvis comes down where a leg would have to stretch for it.
     pub fn move_feet(&mut self, feet: [FootPose; 2]) {
-        let drop_m = pelvis::drop_m(&self.legs, &self.feet, &feet);
+        self.move_feet_below(feet, |asked_m| asked_m);
+    }
+
+    /// The same with a pelvis that comes down as far as `descent` makes of what is asked for, m.
+    pub fn move_feet_below(&mut self, feet: [FootPose; 2], descent: impl FnOnce(f32) -> f32) {
+        let drop_m = descent(pelvis::drop_m(&self.legs, &self.feet, &feet));
         self.pose.pelvis_m.z -= drop_m;
         self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.z -= drop_m);
         self.feet = feet;

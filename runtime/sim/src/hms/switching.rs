@@ -50,9 +50,8 @@ impl Body {
                 }
                 Mode::Blending => {
                     body.mix = Mix::new(&motion.space.locate(body.walking));
-                    // Its shares begin to change from here, at a speed of their own.
-                    let mix = Mix::new(&motion.space.locate(body.seen[0].walking));
-                    body.seen.iter_mut().for_each(|seen| seen.mix = mix);
+                    // It goes on easing as it did.
+                    body.seen.iter_mut().for_each(|seen| seen.mix = Mix::new(&motion.space.locate(seen.walking)));
                 }
             }
             body.mode = to;

@@ -9,7 +9,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use super::{feet, gaze, inertialization, intention, owed, seen};
+use super::{feet, gaze, inertialization, intention, owed, pelvis, seen};
 
 /// The length of a step, and its decays.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +27,7 @@ pub struct TimeStep {
     pub(super) inertia: Spring,
     pub(super) release: SoftSpring,
     pub(super) lift: SoftSpring,
+    pub(super) rise: SoftSpring,
     /// What is left of landing after a step, and after half of one.
     pub(super) landing: [f32; 2],
     /// What is left of how fast a foot moved before.
@@ -49,6 +50,7 @@ impl TimeStep {
             inertia: spring(inertialization::RATE_HZ),
             release: soft_spring(feet::RELEASE_RATE_HZ),
             lift: soft_spring(feet::LIFT_RATE_HZ),
+            rise: soft_spring(pelvis::RISE_RATE_HZ),
             landing: [feet::LANDING_TIME_S, 2.0 * feet::LANDING_TIME_S].map(left),
             foot_speed: left(feet::SPEED_TIME_S),
         }
