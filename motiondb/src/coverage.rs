@@ -75,8 +75,8 @@ pub fn coverage(db: &MotionDb) -> Vec<ThinPlace> {
     let of_lacks = [
         gaits(db),
         walking_turns(db),
-        sides(db, Lack::TurningInPlace, turns_in_place, "turns in place", "bodies turn only while they go"),
-        sides(db, Lack::SideSteps, side_steps, "side-steps", "bodies make way only by turning"),
+        sides(db, Lack::TurningInPlace, turns_in_place, "turns in place", "bodies deform a walk for it"),
+        sides(db, Lack::SideSteps, side_steps, "side-steps", "bodies deform a walk for them"),
         speed_gaps(db),
         turn_gaps(db),
         side_gaps(db),
@@ -145,12 +145,13 @@ fn gaits(db: &MotionDb) -> Vec<ThinPlace> {
     missing.map(|(_, lack, sentence)| ThinPlace { lack, sentence }).collect()
 }
 
-/// How tightly a body turns at the speed of m_sp, on its wide sides.
+/// How tightly a body turns at the speed of m_sp, or of its only walk, on its wide sides.
 fn walking_turns(db: &MotionDb) -> Vec<ThinPlace> {
-    let Some(walk) = db.correspondence.as_ref().map(|found| db.examples[found.semi_procedural as usize].parameters)
-    else {
+    let m_sp = db.correspondence.as_ref().map(|found| found.semi_procedural as usize);
+    let Some(walk) = m_sp.or_else(|| db.examples.iter().position(|example| example.key_times_s.is_some())) else {
         return Vec::new();
     };
+    let walk = db.examples[walk].parameters;
     let locator = locator(db);
     let fastest_rad_s = Side::BOTH.map(|side| fastest_turn_rad_s(db, &locator, walk, side));
     let is_wide = |rate_rad_s: f32| rate_rad_s * TURN_RADIUS_MAX_M < walk.speed_mps.abs();

@@ -2,7 +2,8 @@
 //!
 //! In reading order: whose body ([`skeleton`]), how it is posed ([`pose`]) and how far its joints turn
 //! ([`joint_ranges`]), how a clip moves ([`parameters`]) and when ([`phase_map`]), which velocities it allows
-//! ([`velocity_hull`], [`wrapping_polygon`], `FbCrowd` §4.1), how clips blend ([`blend_space`], [`locator`], §5),
+//! ([`velocity_hull`], [`convex_hull`], [`wrapping_polygon`], `FbCrowd` §4.1), how clips blend ([`blend_space`] by
+//! [`triangulation`], [`locator`], §5),
 //! where synthesis may switch ([`correspondence`] by [`pose_distance`], §5, Eq. 10), the database itself
 //! ([`motion_db`]) with what is said of its clips ([`remark`]), what its feet do on the ground ([`planted_feet`]), its
 //! invariants ([`validate`]; of the blend space [`tiling`], on the [`lattice`]), how good its examples are
@@ -14,6 +15,7 @@
 pub mod atomic_file;
 pub mod blend_space;
 pub mod container;
+pub mod convex_hull;
 pub mod correspondence;
 pub mod coverage;
 pub mod file;
@@ -37,6 +39,7 @@ pub mod skeleton;
 pub mod source_text;
 mod surface;
 pub mod tiling;
+pub mod triangulation;
 pub mod validate;
 pub mod velocity_hull;
 pub mod wrapping_polygon;

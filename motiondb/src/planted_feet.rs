@@ -100,6 +100,18 @@ impl CycleFeet {
             .collect()
     }
 
+    /// [right toe-off, right heel strike, left toe-off, left heel strike], seconds from phase 0: where the contact that
+    /// holds each foot's mid-stance ends and begins; none where one has no such contact.
+    pub fn key_times_s(&self) -> Option<[f32; 4]> {
+        let ([right_strike, right_off], [left_strike, left_off]) =
+            (self.stance(Side::Right)?, self.stance(Side::Left)?);
+        let within_period = |phase: f64| {
+            let time_s = self.phase_map.time_s(phase.rem_euclid(1.0) as f32);
+            if time_s < self.phase_map.period_s { time_s } else { 0.0 }
+        };
+        Some([right_off, right_strike, left_off, left_strike].map(within_period))
+    }
+
     /// Phases at which the contact that holds a foot's mid-stance begins and ends, the first not after the landmark and
     /// the second not before it; none where the foot is not planted there, or always.
     pub fn stance(&self, side: Side) -> Option<[f64; 2]> {

@@ -6,7 +6,9 @@
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+use crate::convex_hull::clockwise_hull;
 use crate::parameters::Parameters;
+use crate::wrapping_polygon::sharp_turn_edges;
 
 /// Examples with at most this side speed count as ω_s = 0 (no measured clip has exactly that), m/s.
 pub const TURNING_STRAFE_MAX_MPS: f32 = 0.12;
@@ -45,6 +47,23 @@ pub struct VelocityHull {
     /// Edges of the wrapping polygon with an end beyond ±90°, each from its clockwise-first end: the inside is on the
     /// edge's right.
     pub sharp_turn_edges_mps: Vec<[Vec2; 2]>,
+}
+
+/// Both sets and the sharp-turn edges of a database's examples.
+pub fn build(parameters: &[Parameters], construction: Construction) -> VelocityHull {
+    let turning = parameters.iter().filter(|found| is_turning(found));
+    let turning: Vec<Vec2> = turning.map(turning_point_mps).collect();
+    let holding = parameters.iter().filter(|found| is_holding(found)).map(holding_point_mps);
+    let turning_mps = clockwise_hull(turning.iter().copied());
+    VelocityHull {
+        construction,
+        holding_mps: match construction {
+            Construction::TurningAndHolding => clockwise_hull(holding),
+            Construction::Paper => turning_mps.clone(),
+        },
+        turning_mps,
+        sharp_turn_edges_mps: sharp_turn_edges(&turning),
+    }
 }
 
 /// Eqs. 2, 3: the point of a turning example in the agent's frame, ω_t read as the heading reached after one second.

@@ -44,8 +44,8 @@ fn a_single_walk_lacks_all_but_walking() {
             (Lack::Running, "No clip runs straight on: the fastest makes 1.20 m/s."),
             (Lack::Backward, "No clip walks straight back: bodies cannot step back."),
             (Lack::WalkingTurns, "At walking speed (1.20 m/s) nothing turns to either side."),
-            (Lack::TurningInPlace, "No clip turns in place to either side: bodies turn only while they go."),
-            (Lack::SideSteps, "No clip side-steps to either side: bodies make way only by turning."),
+            (Lack::TurningInPlace, "No clip turns in place to either side: bodies deform a walk for it."),
+            (Lack::SideSteps, "No clip side-steps to either side: bodies deform a walk for them."),
         ],
     );
 }

@@ -21,8 +21,8 @@ use crate::crowd::plan_all;
 use crate::decoupled;
 use crate::hms::Motion;
 use crate::hms::hybrid::Hybrid;
+use crate::hms::repertoire;
 use crate::hms::space::Space;
-use crate::hms::standing;
 use crate::hms::time_step::TimeStep;
 use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
@@ -72,7 +72,7 @@ pub struct Simulation {
 impl Simulation {
     /// At time 0: every agent stands at its start.
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
-        let db = standing::provided(db);
+        let db = repertoire::complete(db);
         let (space, hybrid) = (Space::new(&db), Hybrid::new(&db, scenario.modes()));
         let motion = Motion { db: &db, space: &space, hybrid: hybrid.as_ref(), params: &scenario.params.synthesis };
         let agents = Agents::new(scenario, &motion);

@@ -12,7 +12,7 @@ use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
 use motiondb::pose::Pose;
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
-use motiondb::velocity_hull::{Construction, VelocityHull, is_holding, is_turning, turning_point_mps};
+use motiondb::velocity_hull::{self, Construction, VelocityHull};
 
 use crate::hms::ik::reach;
 use crate::hms::leg::{FootPose, legs};
@@ -58,8 +58,8 @@ pub(crate) fn test_db() -> MotionDb {
         append_rows(&mut db, index);
     }
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
-    db.velocity_hull = hull(&parameters);
-    db.blend_space = motiondb_compiler::blend_space::build(&parameters);
+    db.velocity_hull = velocity_hull::build(&parameters, Construction::default());
+    db.blend_space = motiondb::triangulation::build(&parameters);
     db.correspondence = motiondb_compiler::correspondence::find(&db, None);
     db
 }
@@ -180,32 +180,5 @@ pub(crate) fn skeleton() -> Skeleton {
         segment_radii_m: [0.05; JOINT_COUNT],
         limits_rad: [[Vec3::splat(-3.0), Vec3::splat(3.0)]; JOINT_COUNT],
         feet: [foot; 2],
-    }
-}
-
-fn hull(parameters: &[Parameters]) -> VelocityHull {
-    let turning = parameters.iter().filter(|point| is_turning(point)).map(turning_point_mps).collect();
-    let holding =
-        parameters.iter().filter(|point| is_holding(point)).map(|point| Vec2::new(point.speed_mps, point.strafe_mps));
-    VelocityHull {
-        construction: Construction::default(),
-        turning_mps: clockwise_hull(turning),
-        holding_mps: clockwise_hull(holding.collect()),
-        sharp_turn_edges_mps: Vec::new(),
-    }
-}
-
-/// Gift wrapping.
-fn clockwise_hull(points: Vec<Vec2>) -> Vec<Vec2> {
-    let first = points.iter().copied().min_by(|a, b| a.x.total_cmp(&b.x)).unwrap();
-    let mut corners = vec![first];
-    loop {
-        let corner = corners[corners.len() - 1];
-        let others = points.iter().copied().filter(|point| *point != corner);
-        let next = others.reduce(|a, b| if (a - corner).perp_dot(b - corner) > 1e-7 { b } else { a }).unwrap();
-        if next == first || corners.len() > points.len() {
-            return corners;
-        }
-        corners.push(next);
     }
 }

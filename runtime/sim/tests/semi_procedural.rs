@@ -55,7 +55,7 @@ fn semi_procedural(db: &MotionDb) -> SemiProcedural {
 }
 
 fn cycle(db: &MotionDb, semi: &SemiProcedural, parameters: Parameters) -> Cycle {
-    let (joints, feet) = Deformation::new(semi, parameters).cycle(db);
+    let (joints, feet) = Deformation::new(semi, parameters).measurable(db);
     Cycle { parameters, cadence: semi.cadence(parameters), joints, feet }
 }
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use fbcrowd_sim::hms::params::HmsParams;
 use fbcrowd_sim::hms::space::Space;
 use fbcrowd_sim::hms::time_step::TimeStep;
-use fbcrowd_sim::hms::{Body, Motion, Synthesis, standing};
+use fbcrowd_sim::hms::{Body, Motion, Synthesis, repertoire};
 use fbcrowd_sim::plan::Plan;
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
@@ -99,7 +99,7 @@ fn databases(test: &str) -> Vec<(&'static str, Arc<MotionDb>)> {
     for (name, without) in [("no idle", "Idle"), ("no turn on the spot", "Turn360"), ("no side-step", "Strafe")] {
         found.extend(marine_without(test, without).map(|db| (name, db)));
     }
-    found.into_iter().map(|(name, db)| (name, standing::provided(Arc::new(db)))).collect()
+    found.into_iter().map(|(name, db)| (name, repertoire::complete(Arc::new(db)))).collect()
 }
 
 /// Where the balls of the feet are, from the root, in its frame.

@@ -3,8 +3,8 @@
 //! # Steps
 //! import ([`clip_set`]) → the body that all examples share ([`target_skeleton`]) → steady windows and their mean
 //! strides (`analysis`) → of one take one copy ([`duplicates`]) and of near-equal windows the best (`selection`) → closed
-//! cycles and their mirrors (`named_cycles`) → (v_f, ω_t, ω_s) and key times ([`parameterize`]) → [`blend_space`],
-//! [`velocity_hull`], [`correspondence`] → [`MotionDb`], valid.
+//! cycles and their mirrors (`named_cycles`) → (v_f, ω_t, ω_s) and key times ([`parameterize`]) → blend space
+//! ([`motiondb::triangulation`]), velocity sets ([`velocity_hull`]), [`correspondence`] → [`MotionDb`], valid.
 //!
 //! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted
 //! by file and clip name, examples by their own name, and parallel stages collect in that order.
@@ -16,7 +16,7 @@ use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::parameters::Parameters;
 use motiondb::remark::Kind;
 use motiondb::validate::first_broken;
-use motiondb::velocity_hull::Construction;
+use motiondb::velocity_hull::{self, Construction};
 use rayon::prelude::*;
 
 use crate::analysis::{Analyzed, analyze};
@@ -28,8 +28,7 @@ use crate::manifest_error::ManifestError;
 use crate::progress::{Event, Observer};
 use crate::refused::Refused;
 use crate::{
-    blend_space, clip_set, correspondence, duplicates, named_cycles, parameterize, rows, selection, target_skeleton,
-    velocity_hull,
+    clip_set, correspondence, duplicates, named_cycles, parameterize, rows, selection, target_skeleton, twins,
 };
 
 /// A database, and the input that it could not use.
@@ -117,13 +116,13 @@ fn assemble(
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
     tell(Event::Stage("blend space"));
     let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
-    let blend_space = blend_space::build_of_best(&parameters, &flaws);
-    tell_of_twins(&blend_space::twins(&parameters, &blend_space), &examples, &mut sources);
+    let blend_space = twins::build_of_best(&parameters, &flaws);
+    tell_of_twins(&twins::twins(&parameters, &blend_space), &examples, &mut sources);
     tell(Event::Stage("assembly"));
     let mut db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
         correspondence: None,
-        velocity_hull: velocity_hull::build(&examples, options.velocity_hull),
+        velocity_hull: velocity_hull::build(&parameters, options.velocity_hull),
         rows: rows::flatten(&cycles),
         blend_space,
         examples,

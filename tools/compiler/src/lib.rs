@@ -5,7 +5,8 @@
 //! [`root_motion::GroundedClip`] → [`contacts`], [`stance`], [`gait`], [`stride`], [`steady_window`],
 //! [`stride_alignment`], [`performer`] → [`pose_mean`], `closing`, [`cycle::GaitCycle`] (or [`standing`]) →
 //! [`foot_slide`], [`duplicates`], `selection` → `named_cycles`, [`mirror`] → [`parameterize`], [`rows`],
-//! [`velocity_hull`], [`blend_space`], [`correspondence`] → [`motiondb::motion_db::MotionDb`]
+//! [`motiondb::velocity_hull`], `twins` → [`motiondb::triangulation`], [`correspondence`] →
+//! [`motiondb::motion_db::MotionDb`]
 //!
 //! The modules below stand in this order, a paragraph for each part of the way.
 
@@ -105,11 +106,10 @@ mod stir;
 mod take_search;
 
 // Cycles → MotionDb.
-pub mod blend_space;
 pub mod correspondence;
 pub mod parameterize;
 pub mod rows;
-pub mod velocity_hull;
+mod twins;
 
 // What is told of clips without a database, and how well this crate does its work.
 pub mod mutation;

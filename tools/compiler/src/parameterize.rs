@@ -10,9 +10,7 @@ use std::f64::consts::PI;
 
 use glam::DQuat;
 use motiondb::motion_db::MotionExample;
-use motiondb::planted_feet::CycleFeet;
 use motiondb::remark::{Kind, Remark};
-use motiondb::skeleton::Side;
 
 use crate::arc::{Rates, rotation};
 use crate::cycle::{GaitCycle, NamedCycle};
@@ -73,20 +71,8 @@ pub fn example(named: &NamedCycle, body: &HumanBody) -> MotionExample {
         mirrored: named.mirrored,
         parameters: cycle.rates.to_parameters(),
         phase_map: cycle.phase_map,
-        key_times_s: if cycle.steps { key_times_s(&feet) } else { None },
+        key_times_s: if cycle.steps { feet.key_times_s() } else { None },
         planted_slide_cm_s: slide.slide_cm_s as f32,
         planted_share: slide.planted_share as f32,
     }
-}
-
-/// [right toe-off, right heel strike, left toe-off, left heel strike]: where the contact that holds each foot's
-/// mid-stance ends and begins.
-fn key_times_s(feet: &CycleFeet) -> Option<[f32; 4]> {
-    let ([right_strike, right_off], [left_strike, left_off]) = (feet.stance(Side::Right)?, feet.stance(Side::Left)?);
-    let period_s = feet.phase_map.period_s;
-    let within_period = |phase: f64| {
-        let time_s = feet.phase_map.time_s(phase.rem_euclid(1.0) as f32);
-        if time_s < period_s { time_s } else { 0.0 }
-    };
-    Some([right_off, right_strike, left_off, left_strike].map(within_period))
 }

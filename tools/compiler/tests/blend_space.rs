@@ -5,7 +5,7 @@ use glam::Vec3;
 use motiondb::blend_space::{BlendSpace, Shares};
 use motiondb::locator::Locator;
 use motiondb::parameters::Parameters;
-use motiondb_compiler::blend_space::build;
+use motiondb::triangulation::build;
 use proptest::prelude::*;
 
 struct Set {

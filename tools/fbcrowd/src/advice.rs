@@ -32,7 +32,9 @@ fn with_database(report: &CompileReport, output: &str) -> Vec<String> {
         next.push(format!("Look at what is doubtful: fbcrowd inspect {output} --plots out/plots"));
     }
     if !report.coverage.is_empty() {
-        next.push("Add clips where the set is thin; without them bodies do what is nearest.".to_owned());
+        next.push(
+            "Add clips where the set is thin; without them bodies deform a walk, or do what is nearest.".to_owned(),
+        );
     }
     if report.example_count - report.mirror_count > 2 {
         next.push(format!(

@@ -20,7 +20,7 @@ use motiondb::coverage::{locate_inside, locator};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
 use motiondb::pose::Pose;
 use motiondb::skeleton::{JOINT_COUNT, Joint, Skeleton};
-use motiondb_compiler::blend_space;
+use motiondb::triangulation;
 use serde::Serialize;
 
 use crate::statistics::{median, share};
@@ -159,7 +159,7 @@ fn without(db: &MotionDb, example: &MotionExample) -> MotionDb {
             contacts: kept.iter().flat_map(|index| db.rows.contacts[rows(index)].iter().copied()).collect(),
         },
         velocity_hull: db.velocity_hull.clone(),
-        blend_space: blend_space::build(&examples.iter().map(|example| example.parameters).collect::<Vec<_>>()),
+        blend_space: triangulation::build(&examples.iter().map(|example| example.parameters).collect::<Vec<_>>()),
         correspondence: None,
         examples,
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use fbcrowd_sim::hms::hybrid::Hybrid;
+use fbcrowd_sim::hms::repertoire;
 use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::scenario::Scenario;
@@ -65,12 +66,13 @@ pub(crate) fn simulate(
     scenario: Scenario,
     recording: &Path,
 ) -> Result<Timings, Failure> {
+    let db = told_of_deformed(Arc::new(db));
     check_horizon(&db, &scenario)?;
     let steps = (scenario.duration_s / scenario.dt_s).round() as usize;
     let header = Header::new(&db, database_checksum, scenario);
     let bad = |error: fbcrowd_sim::recording_error::RecordingError| Failure::bad(error.to_string());
     let mut recorder = Recorder::create(recording, &header).map_err(bad)?;
-    let mut simulation = Simulation::new(Arc::new(db), &header.scenario);
+    let mut simulation = Simulation::new(db, &header.scenario);
     recorder.push(simulation.frames()).map_err(bad)?;
     let mut stopwatch = Stopwatch::default();
     let progress = Progress::new("steps", steps);
@@ -83,6 +85,16 @@ pub(crate) fn simulate(
     progress.finish();
     recorder.finish().map_err(bad)?;
     Ok(stopwatch.timings(header.scenario.agents.len(), steps, header.scenario.dt_s))
+}
+
+/// The database with which bodies can make way; says so where that is more than its clips.
+fn told_of_deformed(db: Arc<MotionDb>) -> Arc<MotionDb> {
+    let complete = repertoire::complete(Arc::clone(&db));
+    if let Some((walk, count)) = repertoire::deformed(&db, &complete) {
+        let lacking = "these clips lack ways of walking that a crowd needs (fbcrowd inspect names them)";
+        eprintln!("note: {lacking}; {walk} is deformed to {count} of them");
+    }
+    complete
 }
 
 /// §3.4.1: the planner must look further ahead than a change of synthesis takes.

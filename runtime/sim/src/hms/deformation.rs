@@ -108,14 +108,20 @@ impl<'a> Deformation<'a> {
         self.tempo.phase_map()
     }
 
-    /// The whole cycle, to be measured: its joints and its feet at each stored phase.
-    pub fn cycle(&self, db: &MotionDb) -> (Vec<Joints>, CycleFeet) {
+    /// The whole cycle: its postures at each stored phase.
+    pub fn cycle(&self, db: &MotionDb) -> Vec<Posture> {
         let row = |row: usize| {
             let mut posture = self.posture(db, row as f32 / PHASE_COUNT as f32);
             posture.bend_legs(&db.skeleton);
-            (posture.pose.forward_kinematics(&db.skeleton), posture.contacts)
+            posture
         };
-        let (joints, contacts): (Vec<Joints>, Vec<[f32; 2]>) = (0..PHASE_COUNT).map(row).unzip();
+        (0..PHASE_COUNT).map(row).collect()
+    }
+
+    /// The same, to be measured: joints and feet.
+    pub fn measurable(&self, db: &MotionDb) -> (Vec<Joints>, CycleFeet) {
+        let posed = |posture: Posture| (posture.pose.forward_kinematics(&db.skeleton), posture.contacts);
+        let (joints, contacts): (Vec<Joints>, Vec<[f32; 2]>) = self.cycle(db).into_iter().map(posed).unzip();
         let feet = CycleFeet::new(&db.skeleton, &joints, &contacts, self.phase_map());
         (joints, feet)
     }

@@ -34,6 +34,7 @@ pub mod pelvis;
 pub mod playing;
 pub mod posture;
 pub mod pursuit;
+pub mod repertoire;
 pub mod seen;
 pub mod semi_procedural;
 pub mod space;

@@ -199,7 +199,7 @@ mod tests {
         db.rows.rotations.drain(..PHASE_COUNT * motiondb::skeleton::JOINT_COUNT);
         db.examples.truncate(3);
         let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
-        db.blend_space = motiondb_compiler::blend_space::build(&parameters);
+        db.blend_space = motiondb::triangulation::build(&parameters);
         db
     }
 

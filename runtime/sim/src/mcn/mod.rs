@@ -55,7 +55,11 @@ pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scrat
     avoid(world, agent, params, scratch);
     scratch.forward = world.forward(agent);
     let turning = choose(world, agent, VelocitySet::Turning, params, scratch);
-    let orientation = orient(world, agent, turning.velocity_mps, params, scratch);
+    // Who would stand though it could side-step does that: a narrow turning set leaves nothing before a wall, or
+    // somebody, that the facing meets askew.
+    let stands = orientation::stands(turning.velocity_mps) && !orientation::stands(scratch.adapted_mps);
+    let going = if stands { choose(world, agent, VelocitySet::Holding, params, scratch) } else { turning };
+    let orientation = orient(world, agent, going.velocity_mps, params, scratch);
     let chosen = match orientation.set {
         VelocitySet::Turning => turning,
         VelocitySet::Holding => choose(world, agent, VelocitySet::Holding, params, scratch),

@@ -133,9 +133,13 @@ fn rested_s(spent_s: f32, limit_s: f32, dt_s: f32) -> f32 {
     if rest_is_over { 0.0 } else { left_s }
 }
 
+/// Whether a velocity has no direction to face.
+pub fn stands(velocity_mps: Vec2) -> bool {
+    velocity_mps.length() < STANDING_MPS
+}
+
 fn direction(velocity_mps: Vec2) -> Option<Vec2> {
-    let speed_mps = velocity_mps.length();
-    (speed_mps >= STANDING_MPS).then(|| velocity_mps / speed_mps)
+    (!stands(velocity_mps)).then(|| velocity_mps / velocity_mps.length())
 }
 
 #[cfg(test)]

@@ -21,10 +21,16 @@ struct Scene {
     stances: Vec<Stance>,
     obstacles: Obstacles,
     construction: Construction,
+    turning_mps: Vec<Vec2>,
     params: Params,
 }
 
 const WALK: Vec2 = Vec2::new(1.3, 0.0);
+
+/// Clockwise.
+fn kite(ahead: f32, aside: f32, back: f32) -> Vec<Vec2> {
+    vec![Vec2::new(ahead, 0.0), Vec2::new(0.0, -aside), Vec2::new(-back, 0.0), Vec2::new(0.0, aside)]
+}
 
 impl Scene {
     fn new(positions_m: &[[f32; 2]]) -> Self {
@@ -37,6 +43,7 @@ impl Scene {
             stances: vec![Stance::default(); count],
             obstacles: Obstacles::default(),
             construction: Construction::default(),
+            turning_mps: kite(1.8, 1.0, 0.5),
             params: Params::default(),
         }
     }
@@ -51,12 +58,9 @@ impl Scene {
         let radii_m = vec![0.25; count];
         let mut neighbours = Neighbours::default();
         neighbours.rebuild(&self.positions_m, &self.velocities_mps, &radii_m);
-        let kite = |ahead: f32, aside: f32, back: f32| {
-            vec![Vec2::new(ahead, 0.0), Vec2::new(0.0, -aside), Vec2::new(-back, 0.0), Vec2::new(0.0, aside)]
-        };
         let hull = VelocityHull {
             construction: self.construction,
-            turning_mps: kite(1.8, 1.0, 0.5),
+            turning_mps: self.turning_mps.clone(),
             holding_mps: kite(1.8, 0.8, 0.8),
             // Behind, nothing is faster than 0.1 m/s.
             sharp_turn_edges_mps: vec![
@@ -96,6 +100,19 @@ fn never_walks_faster_than_the_database_can() {
     scene.preferred_mps[0] = Vec2::new(4.0, 0.0);
     scene.velocities_mps[0] = Vec2::new(1.8, 0.0);
     assert!(scene.plan(&mut Scratch::default()).velocity_mps.distance(Vec2::new(1.8, 0.0)) < 1e-4);
+}
+
+#[test]
+fn who_meets_a_wall_askew_and_turns_wide_side_steps_along_it() {
+    let mut scene = Scene::new(&[[0.0, 0.0]]);
+    scene.turning_mps = vec![Vec2::ZERO, Vec2::new(1.5, 0.4), Vec2::new(1.5, -0.4)];
+    scene.obstacles = Obstacles::new(&[[(0.27, -3.0), (0.5, -3.0), (0.5, 3.0), (0.27, 3.0)].map(Vec2::from).to_vec()]);
+    scene.velocities_mps[0] = Vec2::ZERO;
+    scene.facings_rad[0] = std::f32::consts::FRAC_PI_4;
+    scene.preferred_mps[0] = Vec2::from_angle(scene.facings_rad[0]);
+    let plan = scene.plan(&mut Scratch::default());
+    assert!(plan.velocity_mps.y > 0.15 && plan.velocity_mps.x.abs() < 0.02, "{}", plan.velocity_mps);
+    assert_eq!((plan.set, plan.facing_rad), (VelocitySet::Holding, scene.facings_rad[0]));
 }
 
 #[test]

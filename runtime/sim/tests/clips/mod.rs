@@ -10,9 +10,27 @@ use motiondb_compiler::truth::marine_files;
 
 /// The bundled clips that are BVH.
 pub fn bundled() -> MotionDb {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/clips");
-    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    let files = std::fs::read_dir(bundled_folder()).unwrap().map(|entry| entry.unwrap().path());
     compiled(files.filter(|file| file.extension().is_some_and(|extension| extension == "bvh")).collect())
+}
+
+/// One of the bundled clips.
+pub fn bundled_alone(file: &str) -> MotionDb {
+    compiled(vec![bundled_folder().join(file)])
+}
+
+fn bundled_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/clips")
+}
+
+/// Other people's clips below a folder of the recordings, or in one file; none where they are not at hand.
+pub fn recorded(test: &str, path: &str) -> Option<MotionDb> {
+    let path = mocap(test)?.join(path);
+    let mut files = vec![path.clone()];
+    if path.is_dir() {
+        files = std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()).collect();
+    }
+    Some(compiled(files))
 }
 
 /// The paper's clips; none where they are not at hand.
@@ -28,12 +46,16 @@ pub fn marine_without(test: &str, word: &str) -> Option<MotionDb> {
 }
 
 fn marine_clips(test: &str) -> Option<Vec<PathBuf>> {
+    mocap(test).map(|mocap| marine_files(&mocap))
+}
+
+fn mocap(test: &str) -> Option<PathBuf> {
     let mocap = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/mocap");
     if !mocap.is_dir() {
         println!("SKIPPED {test}: no recordings at {}", mocap.display());
         return None;
     }
-    Some(marine_files(&mocap))
+    Some(mocap)
 }
 
 fn compiled(files: Vec<PathBuf>) -> MotionDb {

@@ -7,7 +7,7 @@ use fbcrowd_sim::split_mix::SplitMix64;
 use glam::{DVec3, Vec3};
 use motiondb::locator::Locator;
 use motiondb::parameters::Parameters;
-use motiondb_compiler::blend_space::build;
+use motiondb::triangulation::build;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, Goal, conclude};

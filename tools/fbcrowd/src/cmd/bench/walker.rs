@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use fbcrowd_sim::hms::hybrid::Hybrid;
 use fbcrowd_sim::hms::params::{HmsParams, Modes};
+use fbcrowd_sim::hms::repertoire;
 use fbcrowd_sim::hms::space::Space;
-use fbcrowd_sim::hms::standing;
 use fbcrowd_sim::hms::time_step::TimeStep;
 use fbcrowd_sim::hms::{Body, Motion};
 use fbcrowd_sim::plan::Plan;
@@ -28,7 +28,7 @@ pub(super) struct Studio {
 
 impl Studio {
     pub(super) fn new(db: MotionDb, modes: Modes) -> Self {
-        let db = standing::provided(Arc::new(db));
+        let db = repertoire::complete(Arc::new(db));
         let params = HmsParams { modes, ..HmsParams::default() };
         Self { space: Space::new(&db), hybrid: Hybrid::new(&db, modes), params, db }
     }

@@ -1,7 +1,7 @@
 //! Exact simplices over the examples' parameters (`FbCrowd` §5; `definitions.md`, "Axes").
 //!
 //! The Delaunay triangulation in one to three dimensions, by inserting one point after the other (Bowyer 1981, Watson
-//! 1981) on the [`motiondb::lattice`]. Lifted to h = |x|², the points' simplices are the lower facets of their hull: a
+//! 1981) on the [`crate::lattice`]. Lifted to h = |x|², the points' simplices are the lower facets of their hull: a
 //! new point p takes the place of those whose lifted plane it lies below,
 //!
 //! ```text
@@ -14,16 +14,15 @@
 
 use std::cmp::Ordering;
 
-use glam::Vec3;
-use motiondb::blend_space::{BlendSpace, MAX_CORNERS};
-use motiondb::lattice::{Lattice, LatticePoint, TWIN_STEPS, signed_volume};
-use motiondb::parameters::Parameters;
+use crate::blend_space::{BlendSpace, MAX_CORNERS};
+use crate::lattice::{Lattice, LatticePoint, TWIN_STEPS, signed_volume};
+use crate::parameters::Parameters;
 
 /// Stands for the point at infinity among the corners of a simplex.
 const INFINITY: usize = usize::MAX;
 
 /// Triangulates the `parameters` of examples in as many dimensions as they span. Of examples that all but coincide one
-/// is a corner (`twins`). Without finite parameters there are no simplices.
+/// is a corner. Without finite parameters there are no simplices.
 pub fn build(parameters: &[Parameters]) -> BlendSpace {
     let Some(lattice) = Lattice::new(parameters) else { return BlendSpace::default() };
     let triangulation = Triangulation::new(&lattice);
@@ -33,45 +32,6 @@ pub fn build(parameters: &[Parameters]) -> BlendSpace {
         simplices: triangulation.simplices_of_examples().concat(),
         covered_share: triangulation.covered_share(),
     }
-}
-
-/// As [`build`]; of twins the one with the fewest `flaws` is the corner, not the first.
-pub(crate) fn build_of_best(parameters: &[Parameters], flaws: &[f64]) -> BlendSpace {
-    let space = build(parameters);
-    let mut order: Vec<usize> = (0..parameters.len()).collect();
-    for [twin, corner] in twins(parameters, &space) {
-        if flaws[twin] < flaws[order[corner]] {
-            order.swap(twin, corner);
-        }
-    }
-    if order.is_sorted() {
-        return space;
-    }
-    // The better takes the other's place while the set is triangulated.
-    let best = build(&order.iter().map(|&example| parameters[example]).collect::<Vec<_>>());
-    let mut simplices: Vec<Vec<u32>> = best.simplices().map(|corners| in_place(corners, &order)).collect();
-    simplices.sort_unstable();
-    BlendSpace { simplices: simplices.concat(), ..best }
-}
-
-/// Corners by the examples that stand in their places.
-fn in_place(corners: &[u32], order: &[usize]) -> Vec<u32> {
-    let mut examples: Vec<u32> = corners.iter().map(|&corner| order[corner as usize] as u32).collect();
-    examples.sort_unstable();
-    examples
-}
-
-/// Examples that are no corner, each with the corner that is played in its place.
-pub(crate) fn twins(parameters: &[Parameters], space: &BlendSpace) -> Vec<[usize; 2]> {
-    let scaled = |index: usize| -> Vec3 { space.scaled(parameters[index]) };
-    let mut is_corner = vec![false; parameters.len()];
-    space.simplices.iter().for_each(|&corner| is_corner[corner as usize] = true);
-    let nearest = |index: usize| {
-        let distance = |corner: usize| scaled(corner).distance_squared(scaled(index));
-        let corners = (0..parameters.len()).filter(|&corner| is_corner[corner]);
-        corners.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).map(|corner| [index, corner])
-    };
-    (0..parameters.len()).filter(|&index| !is_corner[index]).filter_map(nearest).collect()
 }
 
 /// A point to be a corner.
@@ -234,10 +194,12 @@ fn sorted(simplex: &Simplex) -> Simplex {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use motiondb::locator::Locator;
-    use motiondb::tiling::tiling_fault;
+    use glam::Vec3;
     use proptest::prelude::*;
+
+    use super::*;
+    use crate::locator::Locator;
+    use crate::tiling::tiling_fault;
 
     fn parameters(points: &[[f32; 3]]) -> Vec<Parameters> {
         points.iter().map(|&point| Parameters::from_vec3(Vec3::from(point))).collect()
@@ -314,25 +276,6 @@ mod tests {
     fn strafes_within_noise_leave_a_flat_set() {
         let walks = grid(3, 3, 1).into_iter().enumerate().map(|(k, [x, y, _])| [x, y, 0.02 * (k as f32 * 0.7).sin()]);
         check(&walks.collect::<Vec<_>>(), 2);
-    }
-
-    #[test]
-    fn of_twins_one_is_a_corner_and_the_other_is_told() {
-        let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.001, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]];
-        let (space, parameters) = built(&points);
-        assert_eq!(space.simplices.len(), 3);
-        assert_eq!(twins(&parameters, &space), [[1, 2], [4, 0]]);
-    }
-
-    #[test]
-    fn of_twins_the_one_with_the_fewest_flaws_is_the_corner() {
-        let points =
-            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
-        let (_, parameters) = built(&points);
-        let best = build_of_best(&parameters, &[0.5, 0.1, 0.2, 0.1, 0.4, 0.3]);
-        assert_eq!(best.simplices, [1, 3, 5]);
-        assert_eq!(twins(&parameters, &best), [[0, 5], [2, 1], [4, 5]]);
-        assert_eq!(build_of_best(&parameters, &[0.0; 6]), build(&parameters));
     }
 
     #[test]

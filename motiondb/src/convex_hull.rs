@@ -1,32 +1,7 @@
-//! The velocity sets of a database (`FbCrowd` §4.1, Eqs. 2–5; `definitions.md`, "Velocity constraints").
-//!
-//! All polygons are in the agent's frame (x forward, y left, m/s), clockwise, and count the origin: standing is always
-//! possible.
+//! Convex hulls of velocities (`FbCrowd` §4.1).
 
 use glam::Vec2;
-use motiondb::motion_db::MotionExample;
-use motiondb::velocity_hull::{
-    Construction, VelocityHull, holding_point_mps, is_holding, is_turning, turning_point_mps,
-};
-use motiondb::wrapping_polygon::sharp_turn_edges;
 use robust::{Coord, orient2d};
-
-/// Both sets and the sharp-turn edges of a database's examples.
-pub fn build(examples: &[MotionExample], construction: Construction) -> VelocityHull {
-    let parameters = || examples.iter().map(|example| &example.parameters);
-    let turning: Vec<Vec2> = parameters().filter(|found| is_turning(found)).map(turning_point_mps).collect();
-    let holding = parameters().filter(|found| is_holding(found)).map(holding_point_mps);
-    let turning_mps = clockwise_hull(turning.iter().copied());
-    VelocityHull {
-        construction,
-        holding_mps: match construction {
-            Construction::TurningAndHolding => clockwise_hull(holding),
-            Construction::Paper => turning_mps.clone(),
-        },
-        turning_mps,
-        sharp_turn_edges_mps: sharp_turn_edges(&turning),
-    }
-}
 
 /// Convex hull of the points and the origin, clockwise, without corners on its edges (Andrew's monotone chain on exact
 /// predicates).
@@ -82,9 +57,8 @@ mod tests {
     }
 
     #[test]
-    fn straight_walks_alone_have_no_sharp_turns() {
+    fn straight_walks_alone_have_a_hull_without_area() {
         let points = [Vec2::new(0.8, 0.0), Vec2::new(1.4, 0.0)];
         assert_eq!(clockwise_hull(points.iter().copied()), vec![Vec2::ZERO, Vec2::new(1.4, 0.0)]);
-        assert!(sharp_turn_edges(&points).is_empty());
     }
 }
