@@ -6,6 +6,10 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Files begun by this process: two of one name must not share a temporary one.
+static BEGUN: AtomicU32 = AtomicU32::new(0);
 
 /// A file being written beside its final name; dropped without [`AtomicFile::commit`], it is removed.
 #[derive(Debug)]
@@ -16,7 +20,7 @@ pub struct AtomicFile {
 }
 
 impl AtomicFile {
-    /// Opens `.NAME.PID.tmp` beside `target`.
+    /// Opens `.NAME.PID.N.tmp` beside `target`.
     ///
     /// # Errors
     /// Where the folder cannot be written, or `target` exists and is no file: a folder, or a device that renaming would
@@ -27,7 +31,8 @@ impl AtomicFile {
         if fs::metadata(target).is_ok_and(|found| !found.is_file()) {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "what is there is no regular file"));
         }
-        let temporary = target.with_file_name(format!(".{}.{}.tmp", name.to_string_lossy(), std::process::id()));
+        let (process, begun) = (std::process::id(), BEGUN.fetch_add(1, Ordering::Relaxed));
+        let temporary = target.with_file_name(format!(".{}.{process}.{begun}.tmp", name.to_string_lossy()));
         let writer = Some(BufWriter::new(File::create(&temporary)?));
         Ok(Self { writer, temporary, target: target.to_owned() })
     }

@@ -107,7 +107,7 @@ impl Corner {
     fn is_passed(&self, position_m: Vec2) -> bool {
         let beyond_m = position_m - self.waypoint_m;
         match self.onwards {
-            Some(onwards) => beyond_m.dot(onwards) > 0.0 && beyond_m.length() < BESIDE_M,
+            Some(onwards) => beyond_m.dot(onwards) >= 0.0 && beyond_m.length() < BESIDE_M,
             None => beyond_m.length() < WAYPOINT_RADIUS_M,
         }
     }
@@ -189,6 +189,12 @@ mod tests {
                 assert!(pair[0].angle_to(pair[1]).abs() < 0.3, "{turn_deg}° {pair:?}");
             }
         }
+    }
+
+    #[test]
+    fn who_starts_on_a_waypoint_goes_on() {
+        let (_, _, progress) = walked(&agent(&[Vec2::ZERO, Vec2::ZERO, Vec2::new(5.0, 0.0)]), 10.0);
+        assert!(progress.arrived);
     }
 
     #[test]

@@ -272,7 +272,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn no_root_enters_a_wall_and_feet_hold_beside_it() {
+    fn no_root_enters_a_wall() {
         let mut scenario = antipodal(1, 4.0);
         let wall = [(-0.5, -6.0), (0.5, -6.0), (0.5, 6.0), (-0.5, 6.0)];
         scenario.obstacles_m = vec![wall.map(Vec2::from).to_vec()];

@@ -88,13 +88,17 @@ impl WallContact {
             let from_above = |point_m: Vec3| root.to_world(point_m).truncate().extend(0.0);
             let bone = Segment { from_m: from_above(bone.from_m), to_m: from_above(bone.to_m) };
             let radius_m = self.skeleton.segment_radii_m[joint.index()];
-            let to_wall_m = near.iter().map(|near| {
-                let [from_m, to_m] = self.obstacles.ends_m(near.edge).map(|end_m| end_m.extend(0.0));
-                distance_m(&bone, &Segment { from_m, to_m })
-            });
-            let distance_m = to_wall_m.fold(f32::INFINITY, f32::min);
-            let is_inside = [bone.from_m, bone.to_m].iter().any(|end_m| self.obstacles.contains(end_m.truncate()));
-            if is_inside { radius_m + distance_m } else { radius_m - distance_m }
+            let to_wall_m = |part: &Segment| {
+                let to_edge_m = near.iter().map(|near| {
+                    let [from_m, to_m] = self.obstacles.ends_m(near.edge).map(|end_m| end_m.extend(0.0));
+                    distance_m(part, &Segment { from_m, to_m })
+                });
+                to_edge_m.fold(f32::INFINITY, f32::min)
+            };
+            let ends_m = [bone.from_m, bone.to_m].into_iter();
+            let inside = ends_m.filter(|end_m| self.obstacles.contains(end_m.truncate()));
+            let depths_m = inside.map(|end_m| to_wall_m(&Segment { from_m: end_m, to_m: end_m }));
+            radius_m + depths_m.reduce(f32::max).unwrap_or_else(|| -to_wall_m(&bone))
         });
         depths_m.fold(0.0, f32::max)
     }
@@ -135,6 +139,10 @@ mod tests {
         assert_eq!(beside(2.0), Contacts { disc_share: 0.0, body_share: 0.0, greatest_depth_mm: 0.0 });
         assert_eq!((beside(radius_m).disc_share, beside(radius_m + 0.01).disc_share), (1.0, 0.0));
         assert_eq!((beside(ahead_m() - 0.01).body_share, beside(ahead_m() + 0.01).body_share), (1.0, 0.0));
-        assert!((beside(ahead_m() - 0.01).greatest_depth_mm - 10.0).abs() < 0.1);
+        // A foot half through the face of the wall, and all of it behind.
+        for deep_m in [0.01, 0.1, 0.2] {
+            let found_mm = beside(ahead_m() - deep_m).greatest_depth_mm;
+            assert!((found_mm - 1e3 * f64::from(deep_m)).abs() < 0.1, "{found_mm} mm at {deep_m} m");
+        }
     }
 }

@@ -104,7 +104,9 @@ fn no_change_of_synthesis_takes_longer_than_t_trans() {
         for speed_mps in [0.8, 1.1, 1.5] {
             let steps = walk(&db, 24.0, |time_s, _| towards(0.0, speed_mps, threat_s(time_s)));
             // Threats come and go every two seconds, and are answered by the next switch.
-            let waited_s = switches(&steps).into_iter().map(|step| step as f32 * DT_S % 2.0);
+            let switches = switches(&steps);
+            assert!(switches.len() >= 10, "{name} {speed_mps}: {} switches in 24 s", switches.len());
+            let waited_s = switches.into_iter().map(|step| step as f32 * DT_S % 2.0);
             let longest_s = waited_s.fold(0.0, f32::max) + CARRIED_S;
             println!("{name} {speed_mps} m/s: {longest_s:.2} s, t_trans {transition_s:.2} s");
             assert!(longest_s <= transition_s + DT_S, "{name} {speed_mps}: {longest_s} s, {transition_s} s");

@@ -109,7 +109,7 @@ fn said(reason: &Reason) -> (String, String) {
     (title(&reason.file, &reason.clip), reason.reason.clone())
 }
 
-/// Nothing, or a blank line, a head with the number of lines, and the lines.
+/// Nothing, or a blank line, a head, and the lines.
 fn section(head: &str, lines: Vec<String>) -> String {
     if lines.is_empty() {
         return String::new();

@@ -26,9 +26,11 @@ mod simulation;
 mod stages;
 mod statistics;
 
+use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use miette::MietteHandlerOpts;
 
 use crate::failure::{Answer, Failure};
 
@@ -62,6 +64,11 @@ enum Command {
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
+    if !io::stderr().is_terminal() {
+        // Whoever reads a log looks for whole lines.
+        let whole = || MietteHandlerOpts::new().wrap_lines(false).build();
+        miette::set_hook(Box::new(move |_| Box::new(whole()))).expect("set once");
+    }
     match use_threads(cli.threads).and_then(|()| dispatch(cli.command)) {
         Ok(Answer::Yes) => ExitCode::SUCCESS,
         Ok(Answer::No) => ExitCode::from(1),

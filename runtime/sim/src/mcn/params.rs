@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::social_force::PowerLaw;
 
 /// The parts of MCN, each of which can be taken out to see what it is good for: `[params.planner.parts]`. All out, MCN
-/// is plain ORCA, but for its horizon and a body's greatest speed.
+/// is plain ORCA, but for its horizon, a shorter one against who stands, a hair more distance to walls, and a body's
+/// greatest speed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Parts {

@@ -13,7 +13,7 @@ use crate::output;
 #[command(after_help = "Example:\n  fbcrowd clips --out assets/clips")]
 pub(crate) struct Args {
     /// The folder to write them to.
-    #[arg(short, long, value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_name = "DIR")]
     out: PathBuf,
 }
 

@@ -37,6 +37,10 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Some(given) => given.clone(),
         None => own_database(&args.scenario, motion?)?,
     };
+    if args.report.as_ref() == Some(&args.output) {
+        let file = args.output.display();
+        return Err(Failure::bad(format!("{file} cannot be both recording and report; give --report another name")));
+    }
     for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
         output::spare(written, [args.scenario.as_path(), &database])?;
     }

@@ -73,8 +73,8 @@ struct Details {
 struct Run {
     dt_s: f32,
     points: Vec<Point>,
-    straight_cm: f64,
-    circle_cm: f64,
+    straight_cm: Option<f64>,
+    circle_cm: Option<f64>,
     apart_cm: f64,
 }
 
@@ -148,24 +148,24 @@ fn had(studio: &Studio, ways: impl Iterator<Item = Parameters>) -> impl Iterator
 }
 
 /// Furthest off the line along which the body faced, over [`STRAIGHT_M`].
-fn straight_cm(studio: &Studio, dt_s: f32) -> f64 {
+fn straight_cm(studio: &Studio, dt_s: f32) -> Option<f64> {
     let ways = STRAIGHT_MPS.map(|speed_mps| Parameters { speed_mps, ..Parameters::default() });
     let furthest_cm = |way: Parameters| {
         let roots = started(studio, way, STRAIGHT_M / way.speed_mps, dt_s);
         let off_m = |root: &Root| roots[0].forward().perp_dot(root.position_m - roots[0].position_m).abs();
         100.0 * f64::from(roots.iter().map(off_m).fold(0.0, f32::max))
     };
-    had(studio, ways.into_iter()).map(furthest_cm).fold(0.0, f64::max)
+    had(studio, ways.into_iter()).map(furthest_cm).reduce(f64::max)
 }
 
 /// Furthest from where a circle began, once it has turned by 360°.
-fn circle_cm(studio: &Studio, dt_s: f32) -> f64 {
+fn circle_cm(studio: &Studio, dt_s: f32) -> Option<f64> {
     let way = |[speed_mps, turn_rate_rad_s]: [f32; 2]| Parameters { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
     let off_cm = |way: Parameters| {
         let roots = started(studio, way, TAU / way.turn_rate_rad_s.abs() + 0.5, dt_s);
         100.0 * f64::from(closed_m(&roots).distance(roots[0].position_m))
     };
-    had(studio, CIRCLES.map(way).into_iter()).map(off_cm).fold(0.0, f64::max)
+    had(studio, CIRCLES.map(way).into_iter()).map(off_cm).reduce(f64::max)
 }
 
 /// Where a root is when it has turned once, between two steps.
@@ -226,10 +226,11 @@ impl Point {
 }
 
 /// Mean and worst error over what is allowed, on one axis.
-fn excesses(run: &Run, axis: usize) -> [f64; 2] {
+fn excesses(run: &Run, axis: usize) -> [Option<f64>; 2] {
     let walked = || run.points.iter().filter(|point| point.is_walked());
-    let mean = walked().map(|point| point.excess(axis, &MEAN)).sum::<f64>() / walked().count().max(1) as f64;
-    [mean, walked().map(|point| point.excess(axis, &WORST)).fold(0.0, f64::max)]
+    let sum = walked().map(|point| point.excess(axis, &MEAN)).reduce(|sum, excess| sum + excess);
+    let mean = sum.map(|sum| sum / walked().count() as f64);
+    [mean, walked().map(|point| point.excess(axis, &WORST)).reduce(f64::max)]
 }
 
 fn bars(run: &Run) -> Vec<Bar> {

@@ -52,7 +52,7 @@ const WALK_MPS: f32 = 1.33;
     after_help = "Examples:\n  fbcrowd bench course -o course.png\n  fbcrowd bench course --db motion.fbdb --json"
 )]
 pub(super) struct Args {
-    /// The picture of the three paths.
+    /// The picture of the paths.
     #[arg(short, long, value_name = "FILE.png", default_value = "out/course.png")]
     output: PathBuf,
     /// The database that the bodies come from; the bundled clips by default.

@@ -68,7 +68,8 @@ pub(super) fn turned(played: &[Watched]) -> Judged {
     };
     let offs_m = || all_m.iter().skip(1).filter_map(off_m).map(f64::from);
     let arrived = played.iter().map(|played| played.measures.arrived).min();
-    let times_s: Vec<f64> = played.iter().filter_map(|played| played.measures.mean_time_to_goal_s).collect();
+    let times_s: Option<Vec<f64>> = played.iter().map(|played| played.measures.mean_time_to_goal_s).collect();
+    let times_s = times_s.unwrap_or_default();
     let off_time = times_s.iter().map(|time_s| (time_s / times_s[0] - 1.0).abs()).reduce(f64::max);
     let of_turns = TURNED_DEG.iter().zip(&times_s);
     let named_times =

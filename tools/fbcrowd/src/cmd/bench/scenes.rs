@@ -3,6 +3,7 @@
 //! Those of Table 1 and of the user study are compiled in (`assets/scenarios/table1`, `study`), so that no bench depends
 //! on the folder it is run in.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -109,19 +110,23 @@ pub(super) fn of_folder(folder: &Path, seeds: &[u64]) -> Result<Vec<Scene>, Fail
     }
     paths.sort();
     let texts = paths.iter().map(|path| SourceText::read(path).map_err(|error| bad(path, error)));
-    let found = scenes(texts.collect::<Result<Vec<SourceText>, Failure>>()?.into_iter(), seeds)?;
-    if found.is_empty() {
+    let texts = texts.collect::<Result<Vec<SourceText>, Failure>>()?;
+    if texts.is_empty() {
         let message = format!("{}: no scene there; give a folder of `NAME_s1.txt`", folder.display());
         return Err(Failure::bad(message));
     }
-    Ok(found)
+    scenes(texts.into_iter(), seeds)
 }
 
 fn scenes(texts: impl Iterator<Item = SourceText>, seeds: &[u64]) -> Result<Vec<Scene>, Failure> {
-    let is_asked = |scene: &Result<Scene, Failure>| {
-        scene.as_ref().map_or(true, |scene| seeds.is_empty() || seeds.contains(&scene.seed))
-    };
-    texts.map(|text| scene(&text)).filter(is_asked).collect()
+    let mut found = texts.map(|text| scene(&text)).collect::<Result<Vec<Scene>, Failure>>()?;
+    let there: BTreeSet<u64> = found.iter().map(|scene| scene.seed).collect();
+    if let Some(missing) = seeds.iter().find(|seed| !there.contains(seed)) {
+        let there: Vec<String> = there.iter().map(u64::to_string).collect();
+        return Err(Failure::bad(format!("no scene has seed {missing}; there are {}", there.join(", "))));
+    }
+    found.retain(|scene| seeds.is_empty() || seeds.contains(&scene.seed));
+    Ok(found)
 }
 
 fn scene(text: &SourceText) -> Result<Scene, Failure> {

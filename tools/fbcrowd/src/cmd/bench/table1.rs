@@ -47,7 +47,7 @@ pub(super) struct Args {
     #[arg(long = "db", value_name = "FILE.fbdb")]
     database: Option<PathBuf>,
     /// Compare the rivals without bodies with their published implementations instead.
-    #[arg(long, conflicts_with_all = ["scenes", "plots"])]
+    #[arg(long, conflicts_with_all = ["scenes", "plots", "hybrid"])]
     discs: bool,
     /// Write each run's root positions to `SCENE_s<seed>_PLANNER.txt`: a line a step, x y of each agent, metres.
     #[arg(long, value_name = "DIR")]
