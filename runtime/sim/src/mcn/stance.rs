@@ -22,12 +22,11 @@ const RADIAL_HALVINGS: u32 = 14;
 /// C_bm; none while not exactly one foot carries the body.
 pub fn half_plane(stance: &Stance, twist_rad: f32) -> Option<HalfPlane> {
     let foot = stance.foot?;
-    let outward = outward(&foot)?;
+    let (sin, cos) = libm::sincosf(twist_rad * left_sign(&foot));
+    let outward = Vec2::new(cos, sin).rotate(outward(&foot)?);
     let clearance_m = (foot.ball_m - foot.swing_m).dot(outward).max(0.0);
     let speed_mps = clearance_m / foot.time_to_landing_s.max(TIME_TO_LANDING_MIN_S);
-    let (sin, cos) = libm::sincosf(twist_rad * left_sign(&foot));
-    let twisted = Vec2::new(cos, sin).rotate(outward);
-    Some(HalfPlane::behind(speed_mps * twisted, twisted, Source::Stance))
+    Some(HalfPlane::behind(speed_mps * outward, outward, Source::Stance))
 }
 
 /// Eqs. 7, 8: the segment from k·St_h to k·St_h + St_o, k just so great that the segment lies outside the disc, about
