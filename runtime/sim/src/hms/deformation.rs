@@ -19,10 +19,10 @@ use motiondb::planted_feet::CycleFeet;
 use motiondb::pose::{Joints, Pose, Root, RootFrame};
 use motiondb::skeleton::{Foot, Joint, Side, Skeleton};
 
+use super::arc::moved;
 use super::blending::two_rows;
 use super::foot_path::Foothold;
 use super::leg::FootPose;
-use super::moved;
 use super::posture::Posture;
 use super::semi_procedural::SemiProcedural;
 use crate::angle::{direction, yaw};

@@ -17,7 +17,7 @@ use motiondb::motion_db::{MotionExample, PHASE_COUNT};
 use motiondb::pose::{Joints, Root};
 use motiondb::skeleton::Joint;
 
-use super::moved;
+use super::arc::moved;
 
 /// One foot at one phase.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! What a body plays: a mix of examples, or m_sp deformed. Both give poses, contacts and a phase rate at any phase.
 
 use super::Motion;
-use super::blending::Weights;
+use super::blending::{Mix, Weights};
 use super::deformation::Deformation;
 use super::posture::Posture;
 use super::seen::Seen;
@@ -10,20 +10,26 @@ use crate::recording_frame::{Mode, PLANTED_CONTACT};
 /// One synthesis at one phase.
 #[derive(Clone, Copy, Debug)]
 pub enum Playing<'a> {
-    /// Motion blending.
-    Blend(Weights),
+    /// Motion blending: the pose is that of the mix that is seen, and contacts keep the time of the one that the root has
+    /// come to. M_sp's root does as it is seen to.
+    Blend {
+        /// Of the mix that is seen.
+        seen: Weights,
+        /// Of that which is due.
+        due: Weights,
+    },
     /// Semi-procedural locomotion.
     Deform(Deformation<'a>),
 }
 
 impl<'a> Playing<'a> {
-    /// What is seen of a body at a phase.
-    pub fn new(motion: &Motion<'a>, mode: Mode, seen: &Seen, phase: f32) -> Self {
+    /// What is seen of a body at a phase, where its root has come to a mix.
+    pub fn new(motion: &Motion<'a>, mode: Mode, seen: &Seen, due: &Mix, phase: f32) -> Self {
         match (mode, motion.hybrid) {
             (Mode::SemiProcedural, Some(hybrid)) => {
                 Self::Deform(Deformation::going(&hybrid.semi_procedural, seen.walking, seen.way))
             }
-            _ => Self::Blend(seen.mix.weights(motion.db, phase)),
+            _ => Self::Blend { seen: seen.mix.weights(motion.db, phase), due: due.weights(motion.db, phase) },
         }
     }
 
@@ -39,9 +45,8 @@ impl<'a> Playing<'a> {
     /// The pose, whose legs may not have bent yet, and its feet: whoever moves them bends legs once.
     pub fn posture(&self, motion: &Motion, phase: f32) -> Posture {
         match self {
-            Self::Blend(weights) => {
-                let (pose, contacts) = (weights.pose(motion.db, phase), weights.contacts(motion.db, phase));
-                Posture::new(pose, contacts, &motion.db.skeleton)
+            Self::Blend { seen, due } => {
+                Posture::new(seen.pose(motion.db, phase), due.contacts(motion.db, phase), &motion.db.skeleton)
             }
             Self::Deform(deformation) => deformation.posture(motion.db, phase),
         }
@@ -50,7 +55,7 @@ impl<'a> Playing<'a> {
     /// The contact of each foot.
     pub fn contacts(&self, motion: &Motion, phase: f32) -> [f32; 2] {
         match self {
-            Self::Blend(weights) => weights.contacts(motion.db, phase),
+            Self::Blend { due, .. } => due.contacts(motion.db, phase),
             Self::Deform(deformation) => deformation.contacts(motion.db, phase),
         }
     }
@@ -58,7 +63,7 @@ impl<'a> Playing<'a> {
     /// φ', 1/s.
     pub fn phase_rate_hz(&self, phase: f32) -> f32 {
         match self {
-            Self::Blend(weights) => weights.phase_rate_hz,
+            Self::Blend { seen, .. } => seen.phase_rate_hz,
             Self::Deform(deformation) => deformation.phase_map().rate_hz(phase),
         }
     }
@@ -66,7 +71,7 @@ impl<'a> Playing<'a> {
     /// Seconds until a swinging foot lands.
     pub fn time_to_landing_s(&self, motion: &Motion, phase: f32, side: usize) -> f32 {
         match self {
-            Self::Blend(weights) => weights.time_to_landing_s(motion.db, phase, side, PLANTED_CONTACT),
+            Self::Blend { due, .. } => due.time_to_landing_s(motion.db, phase, side, PLANTED_CONTACT),
             Self::Deform(deformation) => deformation.time_to_landing_s(phase, side),
         }
     }
@@ -74,7 +79,7 @@ impl<'a> Playing<'a> {
     /// Weight-averaged planted-foot slide of the examples in use, at the cadence at which they are played, cm/s.
     pub fn examples_slide_cm_s(&self, motion: &Motion) -> f32 {
         match self {
-            Self::Blend(weights) => weights.examples_slide_cm_s(motion.db),
+            Self::Blend { due, .. } => due.examples_slide_cm_s(motion.db),
             Self::Deform(deformation) => deformation.examples_slide_cm_s(motion.db),
         }
     }

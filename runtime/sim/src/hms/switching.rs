@@ -63,7 +63,7 @@ impl Body {
     /// a mix or a run is so a little before or after.
     fn most_alike(&self, motion: &Motion, soles_m: &[[Vec3; 3]; 2], near: f32) -> f32 {
         let off_m2 = |phase: f32| {
-            let playing = Playing::new(motion, self.mode, &self.seen[0], phase);
+            let playing = Playing::new(motion, self.mode, &self.seen[0], &self.mix, phase);
             let there_m = playing.posture(motion, phase).soles_m(&motion.db.skeleton);
             let points = soles_m.as_flattened().iter().zip(there_m.as_flattened());
             points.map(|(here_m, there_m)| here_m.distance_squared(*there_m)).sum::<f32>()
@@ -97,7 +97,7 @@ impl Body {
         let playing = self.playing(motion);
         let before = self.phase - LOOK_BACK_S * playing.phase_rate_hz(self.phase);
         let before = before - libm::floorf(before);
-        let lately = Playing::new(motion, self.mode, &self.seen[1], before);
+        let lately = Playing::new(motion, self.mode, &self.seen[1], &self.mix, before);
         [playing.bent(motion, self.phase).pose, lately.bent(motion, before).pose]
     }
 }

@@ -187,15 +187,6 @@ fn a_body_that_stops_stands_upright_with_its_feet_under_it() {
 }
 
 #[test]
-fn the_way_from_one_root_to_another_is_the_inverse_of_a_move() {
-    let from = Root { position_m: Vec2::new(3.0, -1.0), facing_rad: 3.0 };
-    for parameters in [Vec3::new(1.2, 1.5, -0.3), Vec3::new(-0.5, 0.0, 0.2)].map(Parameters::from_vec3) {
-        let found = super::went(&from, &super::moved(&from, &parameters, DT_S), DT_S);
-        assert!(found.to_vec3().distance(parameters.to_vec3()) < 1e-4, "{found:?}");
-    }
-}
-
-#[test]
 fn the_head_leads_the_body_into_a_turn_by_a_fifth_to_half_a_second() {
     for (dt_s, angle_rad) in [(1.0 / 60.0, FRAC_PI_2), (DT_S, -0.8), (0.1, FRAC_PI_2), (DT_S, -2.0)] {
         let walk = walk(6.0, dt_s, |time_s, _| towards(if time_s < 2.0 { 0.0 } else { angle_rad }, 1.2));

@@ -9,7 +9,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use super::{feet, gaze, inertialization, intention, owed, pelvis, seen};
+use super::{feet, gaze, hurry, inertialization, intention, owed, pelvis, seen};
 
 /// The length of a step, and its decays.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +22,8 @@ pub struct TimeStep {
     pub(super) steady: f32,
     /// What is left of what was seen before.
     pub(super) seen: f32,
+    /// What is left of what a body was used to.
+    pub(super) habit: f32,
     pub(super) turn_about: Spring,
     pub(super) gaze: Spring,
     pub(super) inertia: Spring,
@@ -45,6 +47,7 @@ impl TimeStep {
             owed: left(owed::FORGETTING_TIME_S),
             steady: left(intention::STEADY_S),
             seen: left(seen::EASE_TIME_S),
+            habit: left(hurry::HABIT_TIME_S),
             turn_about: spring(seen::TURN_ABOUT_RATE_HZ),
             gaze: spring(gaze::RATE_HZ),
             inertia: spring(inertialization::RATE_HZ),
