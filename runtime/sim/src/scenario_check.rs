@@ -1,5 +1,6 @@
-//! What every scenario must keep, however it was made: numbers in range ([`scenario_ranges`](crate::scenario_ranges)), obstacles that are
-//! simple polygons, agents that stand apart from each other and outside obstacles, and whose goals do so too. World, metres.
+//! What every scenario must keep, however it was made: numbers in range ([`scenario_ranges`](crate::scenario_ranges)),
+//! obstacles that are simple polygons, agents that stand apart from each other and outside obstacles, and goals that
+//! lie outside them and can be reached. World, metres.
 
 use glam::{DVec2, Vec2};
 
@@ -11,6 +12,8 @@ use crate::scenario_ranges::check_ranges;
 const CORNERS_MAX: usize = 1_000;
 /// Thinner slivers have no inside, m².
 const AREA_MIN_M2: f64 = 1e-4;
+/// Whoever is as near to the last goal has arrived (`definitions.md`, "Command line"), m.
+const ARRIVAL_M: f64 = 0.5;
 /// Rounding of positions that are meant to touch, m.
 const TOUCH_M: f64 = 1e-4;
 
@@ -100,6 +103,9 @@ fn check_agents_clear_of_obstacles(scenario: &Scenario) -> Result<(), Fault> {
                 let message = format!("a goal of agent {index} lies inside obstacle {obstacle}");
                 return Place::Agent(index).fault(message, "move the goal to free ground");
             }
+            if let Some(goal_m) = agent.goals_m.last().filter(|goal_m| near(**goal_m)) {
+                check_reach(index, agent, obstacle, closest_distance_m(polygon_m, *goal_m))?;
+            }
         }
     }
     Ok(())
@@ -115,6 +121,17 @@ fn check_start(index: usize, agent: &AgentSpec, obstacle: usize, polygon_m: &[Ve
     } else {
         Ok(())
     }
+}
+
+fn check_reach(index: usize, agent: &AgentSpec, obstacle: usize, clear_m: f64) -> Result<(), Fault> {
+    let radius_m = f64::from(agent.radius_m);
+    if radius_m - clear_m < ARRIVAL_M {
+        return Ok(());
+    }
+    let message = format!(
+        "agent {index}, of radius {radius_m:.2} m, cannot come within {ARRIVAL_M} m of its goal, which lies {clear_m:.2} m from obstacle {obstacle}"
+    );
+    Place::Agent(index).fault(message, "move the goal away from the wall")
 }
 
 /// Sweeps along the crowd's longer side, so that thousands are quick, in a square or in line.

@@ -240,6 +240,13 @@ fn bodies_stand_apart_from_each_other_and_from_obstacles() {
         second,
         "a goal of agent 0 lies inside obstacle 0",
     );
+    let broad = "{ at_m = [0, 0], goals_m = [[5, 0]], radius_m = 0.6 }";
+    check_refused(
+        "goal_beside",
+        &format!("{HEAD}agents = [{broad}]\n[[obstacles]]\npolygon_m = [[5.05, -2], [6, -2], [6, 2], [5.05, 2]]\n"),
+        broad,
+        "agent 0, of radius 0.60 m, cannot come within 0.5 m of its goal, which lies 0.05 m from obstacle 0",
+    );
 }
 
 #[test]
