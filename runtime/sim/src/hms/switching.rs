@@ -49,9 +49,10 @@ impl Body {
                     body.seen = body.seen.map(|seen| Seen::going(seen.mix, seen.mix.parameters(motion.db), way));
                 }
                 Mode::Blending => {
-                    body.mix = Mix::new(&motion.space.locate(body.walking));
-                    // It goes on easing as it did.
-                    body.seen.iter_mut().for_each(|seen| seen.mix = Mix::new(&motion.space.locate(seen.walking)));
+                    let mix = Mix::new(&motion.space.locate(body.walking));
+                    body.mix = mix;
+                    // Nothing lags behind it yet: how the old pose was easing is left to inertia as well.
+                    body.seen.iter_mut().for_each(|seen| seen.mix = mix);
                 }
             }
             body.mode = to;
