@@ -124,10 +124,10 @@ impl Default for McnParams {
             // 16°. Measured: at 0.2 a crowd of 1,000 with antipodal goals dissolves a fifth more slowly, up to 0.27 somebody
             // may stand for five seconds in a circle of exact symmetry; at 0.4 late comers stray about their goals.
             keep_right_rad: 0.28,
-            // 40°: as far as a hip turns over a planted foot (American Academy of Orthopaedic Surgeons, 1965: 45° either
-            // way). Measured in the four-way crossing of Table 1: at 20° somebody stands for five seconds in two runs of
-            // five, from 30 to 60° nobody does.
-            stance_twist_rad: 0.7,
+            // 36°: as far as a hip turns over a planted foot (Roach, Miles 1991: 32 ± 8°). Measured in the four-way
+            // crossing of Table 1: at 20° somebody stands for five seconds in two runs of five, from 30 to 60° in none
+            // or one.
+            stance_twist_rad: 0.63,
             // Two strides. Measured: below, those who pass each other turn aside and back again, which costs more
             // acceleration than side-stepping on.
             strafing_limit_s: 2.5,

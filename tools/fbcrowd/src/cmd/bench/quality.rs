@@ -4,8 +4,10 @@
 //! semi-procedural locomotion and by both. Each is measured ([`super::quality_measures`]) at four lengths of a step.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use fbcrowd_sim::hms::params::Modes;
+use fbcrowd_sim::hms::repertoire;
 use motiondb::motion_db::MotionDb;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -54,7 +56,7 @@ struct WalkFigures {
 }
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
-    let db = database(args.database.as_deref())?;
+    let db = repertoire::complete(Arc::new(database(args.database.as_deref())?));
     let walks: Vec<WalkFigures> = SYNTHESES.iter().flat_map(|&synthesis| walks(&db, synthesis)).collect();
     let bars = bars(&walks);
     let details = Details { walks };
