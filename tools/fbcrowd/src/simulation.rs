@@ -15,6 +15,7 @@ use motiondb::motion_db::MotionDb;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::output;
 use crate::progress::Progress;
 
 /// Where the time of a simulation went. Never part of a recording.
@@ -92,7 +93,7 @@ fn told_of_deformed(db: Arc<MotionDb>) -> Arc<MotionDb> {
     let complete = repertoire::complete(Arc::clone(&db));
     if let Some((walk, count)) = repertoire::deformed(&db, &complete) {
         let lacking = "these clips lack ways of walking that a crowd needs (fbcrowd inspect names them)";
-        eprintln!("note: {lacking}; {walk} is deformed to {count} of them");
+        output::say(&format!("note: {lacking}; {walk} is deformed to {count} of them"));
     }
     complete
 }
