@@ -30,6 +30,19 @@ pub struct Correspondence {
     pub pairs_s: Vec<[f32; 2]>,
 }
 
+impl Correspondence {
+    /// m_sp as given, m_mb and T; none where no other cycle steps.
+    pub fn of(db: &MotionDb, semi_procedural: usize) -> Option<Self> {
+        let place = |example: usize| db.blend_space.scaled(db.examples[example].parameters);
+        let distance = |example: &usize| place(*example).distance_squared(place(semi_procedural));
+        let stepping = (0..db.examples.len()).filter(|&example| db.examples[example].key_times_s.is_some());
+        let others = stepping.filter(|&example| example != semi_procedural);
+        let blending = others.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let pairs_s = table(db, semi_procedural, blending).iter().map(|alike| alike.times_s).collect();
+        Some(Self { semi_procedural: semi_procedural as u32, blending: blending as u32, pairs_s })
+    }
+}
+
 /// Two poses that are alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alike {

@@ -95,6 +95,18 @@ impl Rows {
         Pose { pelvis_m: self.pelvis_m[example * PHASE_COUNT + phase], rotations: *self.rotations(example, phase) }
     }
 
+    /// Adds a row of a new example, in the hemisphere of the row (example, phase): no joint is turned so far from it that it
+    /// would belong into the other.
+    pub fn push_like(&mut self, (example, phase): (usize, usize), pose: &Pose, contacts: [f32; 2]) {
+        let mut rotations = pose.rotations;
+        for (rotation, like) in rotations.iter_mut().zip(self.rotations(example, phase)) {
+            *rotation = if rotation.dot(*like) < 0.0 { -*rotation } else { *rotation };
+        }
+        self.rotations.extend(rotations);
+        self.pelvis_m.push(pose.pelvis_m);
+        self.contacts.push(contacts);
+    }
+
     /// The weighted sum of rows (example, phase, weight), whose weights sum to 1.
     pub fn blended(&self, rows: impl IntoIterator<Item = (usize, usize, f32)>) -> Pose {
         let mut pose = Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };

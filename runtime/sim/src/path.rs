@@ -103,7 +103,7 @@ impl Corner {
         Self { waypoint_m, after_m, onwards, rounding_m }
     }
 
-    /// Whether it is near, or lies a little aside and behind.
+    /// Whether it lies behind, and no more than a little aside; where it is a turn back, whether it is near.
     fn is_passed(&self, position_m: Vec2) -> bool {
         let beyond_m = position_m - self.waypoint_m;
         match self.onwards {

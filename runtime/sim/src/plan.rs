@@ -1,5 +1,4 @@
-//! The four plain values that pass between planner and synthesis: stance, velocity, facing, mode (`FbCrowd` §3, Fig.
-//! 2).
+//! What passes between planner and synthesis (`FbCrowd` §3, Fig. 2): the plan one way, the stance foot the other.
 //!
 //! MCN and HMS never see each other; only `step.rs` sees both.
 

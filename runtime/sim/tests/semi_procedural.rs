@@ -55,7 +55,8 @@ fn semi_procedural(db: &MotionDb) -> SemiProcedural {
 }
 
 fn cycle(db: &MotionDb, semi: &SemiProcedural, parameters: Parameters) -> Cycle {
-    let (joints, feet) = Deformation::new(semi, parameters).measurable(db);
+    let deformation = Deformation::new(semi, parameters);
+    let (joints, feet) = deformation.measurable(&db.skeleton, &deformation.cycle(db));
     Cycle { parameters, cadence: semi.cadence(parameters), joints, feet }
 }
 

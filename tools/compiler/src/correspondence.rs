@@ -1,7 +1,7 @@
-//! m_sp, m_mb and their correspondence times T (`FbCrowd` §5; `definitions.md`). The times themselves are
-//! [`motiondb::correspondence`]'s.
+//! Which cycle becomes m_sp (`FbCrowd` §5; `definitions.md`). m_mb and the correspondence times T follow from it
+//! ([`motiondb::correspondence`]).
 
-use motiondb::correspondence::{Correspondence, table};
+use motiondb::correspondence::Correspondence;
 use motiondb::motion_db::MotionDb;
 use motiondb::velocity_hull::{HOLDING_TURN_MAX_RAD_S, TURNING_STRAFE_MAX_MPS};
 
@@ -29,12 +29,7 @@ pub fn find(db: &MotionDb, chosen: Option<usize>) -> Option<Correspondence> {
         (0..db.examples.len()).filter(|&index| db.examples[index].key_times_s.is_some()).collect();
     let rates: Vec<Rates> = stepping.iter().map(|&index| rates(db, index)).collect();
     let sp = chosen.or_else(|| Some(stepping[semi_procedural(&rates)?]))?;
-    let place = |index: usize| db.blend_space.scaled(db.examples[index].parameters);
-    let distance = |index: &usize| place(*index).distance_squared(place(sp));
-    let others = stepping.into_iter().filter(|index| *index != sp);
-    let mb = others.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let pairs_s = table(db, sp, mb).iter().map(|alike| alike.times_s).collect();
-    Some(Correspondence { semi_procedural: sp as u32, blending: mb as u32, pairs_s })
+    Correspondence::of(db, sp)
 }
 
 fn rates(db: &MotionDb, example: usize) -> Rates {

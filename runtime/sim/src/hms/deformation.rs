@@ -118,11 +118,11 @@ impl<'a> Deformation<'a> {
         (0..PHASE_COUNT).map(row).collect()
     }
 
-    /// The same, to be measured: joints and feet.
-    pub fn measurable(&self, db: &MotionDb) -> (Vec<Joints>, CycleFeet) {
-        let posed = |posture: Posture| (posture.pose.forward_kinematics(&db.skeleton), posture.contacts);
-        let (joints, contacts): (Vec<Joints>, Vec<[f32; 2]>) = self.cycle(db).into_iter().map(posed).unzip();
-        let feet = CycleFeet::new(&db.skeleton, &joints, &contacts, self.phase_map());
+    /// Its joints and feet, to be measured.
+    pub fn measurable(&self, skeleton: &Skeleton, cycle: &[Posture]) -> (Vec<Joints>, CycleFeet) {
+        let posed = |posture: &Posture| (posture.pose.forward_kinematics(skeleton), posture.contacts);
+        let (joints, contacts): (Vec<Joints>, Vec<[f32; 2]>) = cycle.iter().map(posed).unzip();
+        let feet = CycleFeet::new(skeleton, &joints, &contacts, self.phase_map());
         (joints, feet)
     }
 

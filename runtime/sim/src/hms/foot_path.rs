@@ -59,7 +59,7 @@ fn times_since_s(example: &MotionExample, key_times_s: [f32; 4], side: usize, an
     let after_middle_s = |time_s: f32| (time_s - middle_s).rem_euclid(map.period_s);
     let row_s = |row: usize| map.time_s((middle + row) as f32 / PHASE_COUNT as f32) - middle_s;
     let carried_m = |row: usize| (ankles_m[middle] - ankles_m[(middle + row) % PHASE_COUNT]).x;
-    // Rows from here on count from mid-stance to the next one.
+    // Rows from here on count from mid-stance to the next one. The roll begins with two, however early the foot leaves.
     let last = (0..PHASE_COUNT).take_while(|&row| row_s(row) <= after_middle_s(off_s)).count().max(2) - 1;
     let first = (0..PHASE_COUNT).take_while(|&row| row_s(row) < after_middle_s(strike_s)).count();
     let roll_at = |row: usize| {

@@ -8,8 +8,8 @@
 
 use std::sync::Arc;
 
-use glam::{Quat, Vec3};
-use motiondb::correspondence::{Correspondence, table};
+use glam::Vec3;
+use motiondb::correspondence::Correspondence;
 use motiondb::coverage::{Lack, coverage};
 use motiondb::motion_db::{MotionDb, MotionExample};
 use motiondb::parameters::Parameters;
@@ -76,7 +76,7 @@ fn with_deformed(db: &MotionDb, lacks: &[Lack]) -> Option<MotionDb> {
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
     db.blend_space = triangulation::build(&parameters);
     db.velocity_hull = velocity_hull::build(&parameters, db.velocity_hull.construction);
-    db.correspondence = db.correspondence.take().or_else(|| beside(&db, walk));
+    db.correspondence = db.correspondence.take().or_else(|| Correspondence::of(&db, walk));
     Some(db)
 }
 
@@ -85,7 +85,8 @@ fn push_deformed(db: &mut MotionDb, m_sp: &SemiProcedural, way: Vec3) {
     let steps = &db.examples[m_sp.example];
     let parameters = m_sp.reachable(Parameters::from_vec3(steps.parameters.speed_mps * way));
     let deformation = Deformation::new(m_sp, parameters);
-    let (_, feet) = deformation.measurable(db);
+    let cycle = deformation.cycle(db);
+    let (_, feet) = deformation.measurable(&db.skeleton, &cycle);
     let key_times_s = feet.key_times_s();
     if key_times_s.is_none() || contradiction(&feet, parameters).is_some() {
         return;
@@ -100,29 +101,12 @@ fn push_deformed(db: &mut MotionDb, m_sp: &SemiProcedural, way: Vec3) {
         planted_share: slide.planted_share as f32,
         ..steps.clone()
     };
-    for (row, posture) in deformation.cycle(db).into_iter().enumerate() {
-        // Deforming turns no joint so far that it would lie in m_sp's other hemisphere.
-        let aligned = posture.pose.rotations.iter().zip(db.rows.rotations(m_sp.example, row));
-        let aligned =
-            aligned.map(|(&rotation, of_m_sp)| if rotation.dot(*of_m_sp) < 0.0 { -rotation } else { rotation });
-        let aligned: Vec<Quat> = aligned.collect();
-        db.rows.rotations.extend(aligned);
-        db.rows.pelvis_m.push(posture.pose.pelvis_m);
-        db.rows.contacts.push(posture.contacts);
+    for (row, posture) in cycle.iter().enumerate() {
+        db.rows.push_like((m_sp.example, row), &posture.pose, posture.contacts);
     }
     db.examples.push(example);
 }
 
 fn in_words(Parameters { speed_mps, turn_rate_rad_s, strafe_mps }: Parameters) -> String {
     format!("{speed_mps:.2} m/s, {:.0} °/s, {strafe_mps:.2} m/s aside", turn_rate_rad_s.to_degrees())
-}
-
-/// m_sp and the cycle nearest to it.
-fn beside(db: &MotionDb, walk: usize) -> Option<Correspondence> {
-    let place = |example: usize| db.blend_space.scaled(db.examples[example].parameters);
-    let distance = |example: &usize| place(*example).distance_squared(place(walk));
-    let others = (0..db.examples.len()).filter(|&other| other != walk && db.examples[other].key_times_s.is_some());
-    let nearest = others.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let pairs_s = table(db, walk, nearest).iter().map(|alike| alike.times_s).collect();
-    Some(Correspondence { semi_procedural: walk as u32, blending: nearest as u32, pairs_s })
 }

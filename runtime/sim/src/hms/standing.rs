@@ -37,9 +37,7 @@ fn with_standing(db: &MotionDb, example: usize) -> MotionDb {
     let mut db = db.clone();
     let pose = standing_pose(&db, example);
     for _ in 0..PHASE_COUNT {
-        db.rows.rotations.extend(pose.rotations);
-        db.rows.pelvis_m.push(pose.pelvis_m);
-        db.rows.contacts.push([1.0; 2]);
+        db.rows.push_like((example, 0), &pose, [1.0; 2]);
     }
     let steps = &db.examples[example];
     db.examples.push(MotionExample {
@@ -65,10 +63,5 @@ fn standing_pose(db: &MotionDb, example: usize) -> Pose {
     let mut posture = Posture::new(pose, [1.0; 2], &db.skeleton);
     posture.move_feet(feet);
     posture.bend_legs(&db.skeleton);
-    let mut pose = posture.pose;
-    let hemisphere = db.rows.rotations(example, 0);
-    for (rotation, row) in pose.rotations.iter_mut().zip(hemisphere) {
-        *rotation = if rotation.dot(*row) < 0.0 { -*rotation } else { *rotation };
-    }
-    pose
+    posture.pose
 }

@@ -136,7 +136,8 @@ fn way(
 
 /// What is wrong first with m_sp deformed to some parameters.
 fn fault(db: &MotionDb, semi_procedural: &SemiProcedural, lowest_m: f32, parameters: Parameters) -> Option<Fault> {
-    let (joints, feet) = Deformation::new(semi_procedural, parameters).measurable(db);
+    let deformation = Deformation::new(semi_procedural, parameters);
+    let (joints, feet) = deformation.measurable(&db.skeleton, &deformation.cycle(db));
     let source_cm_s = db.examples[semi_procedural.example].planted_slide_cm_s;
     let bar_cm_s = semi_procedural.cadence(parameters) * source_cm_s + SLIDE_CM_S;
     let slide = foot_slide(&feet, parameters.to_vec3().as_dvec3());
