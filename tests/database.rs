@@ -82,7 +82,7 @@ fn an_in_place_gltf_clip_stands_beside_bvh_clips_at_its_stance_foots_speed() {
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
     let sources = report["sources"].as_array().unwrap();
-    // In place: three times the tolerances of definitions.md.
+    // In place: three times the tolerances of other clips (`motiondb_compiler::truth`).
     for (clip, speed) in [("Walk", 1.70), ("Run", 4.22)] {
         let found = sources.iter().find(|source| source["clip"] == clip).expect("the clip is listed");
         assert!(within(number(found, "speed_mps"), speed, 0.09, 0.09), "{found}");

@@ -1,4 +1,4 @@
-//! Simplices in (v_f, ω_t, ω_s), and shares of examples (`FbCrowd` §5; `definitions.md`, "Blend").
+//! Simplices in (v_f, ω_t, ω_s), and shares of examples (`FbCrowd` §5).
 //!
 //! Distances are taken after dividing each axis by its range over the examples: the metric. [`crate::locator`] finds
 //! the shares of a query, [`crate::tiling`] proves that the simplices fill the examples' hull.

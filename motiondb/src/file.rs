@@ -9,7 +9,7 @@ use crate::{atomic_file, input_file, validate};
 
 /// The mark that a database file begins with.
 pub const MAGIC: [u8; 8] = *b"FBCROWDB";
-/// Format version (`definitions.md`, "Files").
+/// Format version: readers refuse any other.
 pub const VERSION: u32 = 1;
 /// Decoding stops past this many bytes: 4096 examples of 64 rows are 100 MB.
 const PAYLOAD_LIMIT: usize = 1 << 30;

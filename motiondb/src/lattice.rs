@@ -1,5 +1,4 @@
-//! The examples' parameters as whole numbers, where every question of side is decided exactly (`definitions.md`,
-//! "Axes").
+//! The examples' parameters as whole numbers, where every question of side is decided exactly.
 //!
 //! Each axis of (v_f, ω_t, ω_s) is divided by its range over the examples and rounded to 2⁻²⁰ of it. The compiler
 //! builds its simplices on these points, and [`crate::tiling`] proves them there: no rounding, no tolerance. An axis

@@ -1,5 +1,5 @@
-//! The shares of examples at a query: of the simplex that holds it, or of the hull's nearest point (`FbCrowd` §5;
-//! `definitions.md`, "Axes").
+//! The shares of examples at a query: of the simplex that holds it, or of the hull's nearest point (`FbCrowd` §5).
+//! Distances are those of [`crate::blend_space`]'s metric.
 //!
 //! A `grid` names the few simplices that may hold the query; where none does, it is outside, and a tree
 //! over the hull's `surface` finds the nearest point. A set of fewer dimensions than its axes lies

@@ -127,7 +127,7 @@ impl Rows {
     }
 }
 
-/// What was found in one source clip. Parameters are whole-clip means on the source's own skeleton (`definitions.md`).
+/// What was found in one source clip. Parameters are whole-clip means on the source's own skeleton, before any scaling.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SourceRecord {
     /// File name without folders.

@@ -1,5 +1,5 @@
 //! What the feet of a closed cycle do on the ground: their contacts, how far they slide, how the root must move for
-//! them to stand (`definitions.md`, "Planted-foot slide", "Key times").
+//! them to stand.
 //!
 //! A foot is planted where its contact row is at least ½. Its contact point is the lowest of heel, ball and toe tip,
 //! each over its own planted height; slide is that point's mean horizontal speed over the middle 80 % of each contact.

@@ -15,19 +15,20 @@ use crate::parameters::Parameters;
 use crate::pose::Joints;
 use crate::skeleton::{JOINT_COUNT, Joint, Skeleton};
 
-/// Planted feet of clean walks slide by 2–8 cm/s, of runs by 6 cm/s more for each m/s (`definitions.md`): 12.4 of fast
-/// side-steps, 22 and 28 of runs at 3 and 3.9 m/s. Of 84 examples of 65 clips three slide more, two of them drawn.
+/// Planted feet of clean walks slide by 2–8 cm/s, of runs by 6 cm/s more for each m/s (`SmartBody`, Bandai Namco): 12.4
+/// of fast side-steps, 22 and 28 of runs at 3 and 3.9 m/s. Of 84 examples of 65 clips three slide more, two of them
+/// drawn.
 const SUSPECT_SLIDE_CM_S: f32 = 10.0;
 const SUSPECT_SLIDE_CM_S_PER_MPS: f32 = 6.0;
-/// Share of the cycle that a foot is planted. Walks have 0.45–0.65 (`definitions.md`), noisy ones label less, creeping
+/// Share of the cycle that a foot is planted. Walks of clean captures have 0.45–0.65, noisy ones label less, creeping
 /// ones more; runners who turn tightly, at walking speed, have 0.38.
 const WALKING_SHARE: [f32; 2] = [0.35, 0.8];
-/// Runs: 0.28–0.45 (`definitions.md`); sprinters 0.22.
+/// Runs of clean captures: 0.28–0.45; sprinters 0.22.
 const RUNNING_SHARE: [f32; 2] = [0.22, 0.5];
 /// Who stands lifts no foot for long.
 const STANDING_SHARE: [f32; 2] = [0.9, 1.0];
-/// The step over the seam, of angles and of velocities, over the cycle's own median step (`facts/motion.md` §7). Cycles
-/// without a visible seam: up to 1.5 and 2.8; with one, from 3 and 9 on.
+/// The step over the seam, of angles and of velocities, over the cycle's own median step. Cycles without a visible
+/// seam: up to 1.5 and 2.8; with one, from 3 and 9 on.
 const SEAM_ANGLE_MAX: f32 = 2.0;
 const SEAM_VELOCITY_MAX: f32 = 4.0;
 /// Smaller steps than this are not seen, so a calmer median counts as this much: 0.05° a joint and row.
@@ -35,7 +36,7 @@ const SEAM_STEP_MIN_RAD: f32 = 0.05 * std::f32::consts::PI / 180.0;
 /// The compiler lets a sole sink by 10 mm, as pads and shoes give; twice that is
 /// seen, mm.
 const PENETRATION_MAX_MM: f32 = 20.0;
-/// People land on a knee flexed by 3–5° (`facts/motion.md` §5); straighter it snaps, degrees.
+/// People land on a knee flexed by 3–5°; straighter it snaps, degrees.
 const KNEE_FLEXION_MIN_DEG: f32 = 1.0;
 /// The compiler's leg inverse kinematics ends at 0.9995, a knee flexed by 3.6°; a longer leg came from a clip, hip to
 /// ankle over thigh plus shank.

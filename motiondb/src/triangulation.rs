@@ -1,4 +1,4 @@
-//! Exact simplices over the examples' parameters (`FbCrowd` §5; `definitions.md`, "Axes").
+//! Exact simplices over the examples' parameters (`FbCrowd` §5).
 //!
 //! The Delaunay triangulation in one to three dimensions, by inserting one point after the other (Bowyer 1981, Watson
 //! 1981) on the [`crate::lattice`]. Lifted to h = |x|², the points' simplices are the lower facets of their hull: a

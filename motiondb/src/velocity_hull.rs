@@ -1,7 +1,8 @@
-//! The velocities that the database can realise (`FbCrowd` §4.1, Eqs. 2–5; `definitions.md`, "Velocity constraints").
+//! The velocities that the database can realise (`FbCrowd` §4.1, Eqs. 2–5).
 //!
-//! Both sets are convex polygons in the agent's frame (x forward, y left, m/s), corners clockwise, and count the
-//! origin.
+//! The turning set (the paper's) is that of velocities which the facing will follow, the holding set (ours: the paper
+//! bounds side-steps and steps back by the first alone) that of velocities at held facing. Both are convex polygons in
+//! the agent's frame (x forward, y left, m/s), corners clockwise, and count the origin.
 
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -24,7 +25,7 @@ pub const HALF_WIDTH_MPS: f32 = 0.01;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Construction {
-    /// A set for turning bodies and one for bodies that hold their facing (`definitions.md`).
+    /// A set for turning bodies and one for bodies that hold their facing.
     #[default]
     TurningAndHolding,
     /// The paper's alone, for comparison: the turning set bounds every velocity, side-stepping and backward examples

@@ -1,5 +1,4 @@
-//! The wrapping polygon of the turning examples and its sharp-turn edges (`FbCrowd` §4.1, Fig. 3b; `definitions.md`,
-//! "Velocity constraints").
+//! The wrapping polygon of the turning examples and its sharp-turn edges (`FbCrowd` §4.1, Fig. 3b).
 //!
 //! The convex hull of the turning set lets through velocities behind that no example shows; the wrapping polygon, which
 //! is star-shaped about the origin, does not. Agent's frame (x forward, y left), m/s.

@@ -1,5 +1,5 @@
 //! What the stored motion itself says of an example: where its cycle closes, when its feet land and leave, how fast its
-//! root goes (`definitions.md`, "Phase", "Key times", "Planted-foot slide"; [`crate::planted_feet`]).
+//! root goes ([`crate::planted_feet`]).
 
 use super::{Outcome, each, ensure};
 use crate::motion_db::{MotionDb, PHASE_COUNT};

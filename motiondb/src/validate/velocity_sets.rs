@@ -1,4 +1,4 @@
-//! The velocity sets are those of the examples (`FbCrowd` §4.1, Eqs. 2–5; `definitions.md`, "Velocity constraints").
+//! The velocity sets are those of the examples (`FbCrowd` §4.1, Eqs. 2–5; [`crate::velocity_hull`]).
 //!
 //! A polygon is the convex hull of points exactly where it is convex, its corners are among the points, and it holds
 //! them all: no second construction is needed to prove the compiler's. Agent's frame, m/s.

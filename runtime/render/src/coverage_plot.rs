@@ -2,8 +2,8 @@
 //! [`motiondb::coverage`].
 //!
 //! Colour says how unlike the motions are that meet there: the mean distance of the mixed examples from the asked
-//! parameters, Σ u_i·|p_i − p|, each axis divided by its range (`definitions.md`, "Axes"). White paper lies outside the
-//! hull: bodies do not move like that.
+//! parameters, Σ u_i·|p_i − p|, each axis divided by its range over the examples. White paper lies outside the hull:
+//! bodies do not move like that.
 
 use glam::{Vec2, Vec3};
 use motiondb::coverage::{coverage, locate_inside, locator};

@@ -39,7 +39,7 @@ const ROOM_SHARES: [f32; 2] = [0.24, 0.25];
 /// Least ranges shown: standing feet draw level lines, not noise, m and m/s.
 const MIN_RANGE_M: f32 = 0.05;
 const MIN_RANGE_MPS: f32 = 0.5;
-/// A foot is planted where its contact is at least this (`definitions.md`).
+/// A foot is planted where its contact is at least this, as in [`motiondb::planted_feet`].
 const PLANTED: f32 = 0.5;
 /// Names of the key times, in their order.
 const KEY_NAMES: [&str; 4] = ["R off", "R strike", "L off", "L strike"];

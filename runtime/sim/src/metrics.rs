@@ -1,4 +1,4 @@
-//! What a simulation shows in numbers (`FbCrowd` App. 11; `definitions.md`, "measure"), streamed: two frames at a time.
+//! What a simulation shows in numbers (`FbCrowd` App. 11), streamed: two frames at a time.
 //!
 //! Collisions of discs stand in [`collision_rate`](crate::collision_rate), those of bodies in
 //! [`body_penetration`](crate::body_penetration), accelerations, arrivals, detours and tracking in

@@ -20,7 +20,7 @@ use self::grid::{Grid, Layout, Run, Window};
 use self::rank::{NOBODY, VECTOR, key, offer, rank_of};
 use crate::around::Around;
 
-/// Neighbours taken: the number of the benchmark protocol and of RVO2 (`facts/planning.md` §3).
+/// Neighbours taken: as many as RVO2's own examples take (van den Berg et al. 2011).
 pub const NEIGHBOUR_COUNT: usize = 10;
 /// Speed at which those who keep their distance might come, m/s. Of two at equal distance, one who comes straight on at
 /// walking speed, 1.33 m/s against ours, ranks as if nearer by a factor of 3.7.

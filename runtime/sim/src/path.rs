@@ -39,7 +39,7 @@ pub enum Braking {
     /// As a body can: evenly, then it stays, until it is pushed away.
     Evenly,
     /// As a disc can, which stops at once: at full speed, until the goal lies within this time, s; it never rests. The
-    /// protocol of `facts/planning.md` §3.
+    /// protocol under which RVO2 is measured (`fbcrowd bench table1 --discs`).
     Within(f32),
 }
 

@@ -51,7 +51,7 @@ pub struct StanceFoot {
     pub time_to_landing_s: f32,
 }
 
-/// Which velocity set limits a plan (`definitions.md`, "Velocity constraints").
+/// Which velocity set limits a plan ([`motiondb::velocity_hull`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum VelocitySet {

@@ -1,8 +1,8 @@
-//! How far planted feet slide (`definitions.md`, "Planted-foot slide"): the mean horizontal speed of each foot's
-//! contact point over the middle 80 % of each contact, measured on the recorded pose, so after the leg IK.
+//! How far planted feet slide: the mean horizontal speed of each foot's contact point over the middle 80 % of each
+//! contact, measured on the recorded pose, so after the leg IK.
 //!
-//! As in `tools/planted_slide.py`, the reference for clips: central differences, contacts of less than 0.08 s left out.
-//! Only what is planted differs: here the blended contact of the database's rows (≥ ½), never a foot lock's own flag.
+//! As the compiler measures clips: central differences, contacts of less than 0.08 s left out. Only what is planted
+//! differs: here the blended contact of the database's rows (≥ ½), never a foot lock's own flag.
 
 use glam::{DVec2, Vec3};
 use motiondb::pose::{Joints, Root};

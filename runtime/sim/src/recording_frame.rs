@@ -1,4 +1,4 @@
-//! What a recording keeps of each agent and frame (`definitions.md`, "Files": at most 200 bytes before compression).
+//! What a recording keeps of each agent and frame, in at most 200 bytes before compression.
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::pose::{Pose, Root};
@@ -7,7 +7,7 @@ use motiondb::skeleton::JOINT_COUNT;
 use crate::hms::Synthesis;
 use crate::plan::VelocitySet;
 
-/// Blended contact Σ w·c from which a foot is planted (`definitions.md`, "Planted-foot slide").
+/// Blended contact Σ w·c from which a foot is planted.
 pub const PLANTED_CONTACT: f32 = 0.5;
 
 /// One agent in one frame, decoded.

@@ -1,4 +1,4 @@
-//! One agent and frame in 200 bytes (`definitions.md`, "Files": at most 200).
+//! One agent and frame in 200 bytes, before compression.
 //!
 //! | bytes | field |
 //! |---|---|

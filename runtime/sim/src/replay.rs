@@ -1,4 +1,4 @@
-//! Any step of a recording, as the planner saw it (`definitions.md`, "Files": a recording is complete enough for it).
+//! Any step of a recording, as the planner saw it: a recording is complete enough for it.
 //!
 //! Step k leads from frame k to frame k + 1. Places, facings, spent whiles and the stance foot are frame k's, velocities
 //! those that led to it; v_pref, which the step itself finds, stands in frame k + 1. All but the stance foot is kept bit

@@ -1,5 +1,5 @@
-//! How agents get on: acceleration, arrival, stalling, detours, side-steps, tracking (`FbCrowd` App. 11, Eq. 18,
-//! corrected; `definitions.md`, "measure").
+//! How agents get on: acceleration, arrival, stalling, detours, side-steps, tracking (`FbCrowd` App. 11, Eq. 18 with
+//! its sum over T steps: printed to N, and with one term too many).
 //!
 //! Velocities are differences of the synthesised root, whose path is ripple-free. Agents start from rest, so T steps
 //! have T accelerations. World, metres, seconds.

@@ -22,8 +22,9 @@ use crate::scenario_point::Point;
 use crate::scenario_ranges::{AGENTS_MAX, COORDINATE_MAX_M};
 use crate::split_mix::SplitMix64;
 
-/// Disc of an agent, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected trunk, and the radius of the
-/// protocol in which other planners were measured (`facts/planning.md` §3), so that figures compare.
+/// Disc of an agent, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected trunk, and
+/// the radius of the protocol of Table 1's scenes (`assets/scenarios/table1`), under which RVO2 was measured too, so
+/// that figures compare.
 const RADIUS_M: f32 = 0.25;
 /// Of the same protocol, m/s.
 const PREFERRED_SPEED_MPS: f32 = 1.33;

@@ -12,7 +12,7 @@ use crate::scenario_ranges::check_ranges;
 const CORNERS_MAX: usize = 1_000;
 /// Thinner slivers have no inside, m².
 const AREA_MIN_M2: f64 = 1e-4;
-/// Whoever is as near to the last goal has arrived (`definitions.md`, "Command line"), m.
+/// Whoever is as near to the last goal has arrived, as [`crate::root_measures`] has it, m.
 const ARRIVAL_M: f64 = 0.5;
 /// Rounding of positions that are meant to touch, m.
 const TOUCH_M: f64 = 1e-4;

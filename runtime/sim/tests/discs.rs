@@ -1,7 +1,7 @@
 //! Claims about the planner, on discs without bodies: who arrives, how often discs overlap, how smoothly they walk.
 //!
-//! Scenes and protocol of `facts/planning.md` §3, and encounters that deadlock where agents are alike. The body's part is a lag and a
-//! turning rate.
+//! Scenes and protocol of `assets/scenarios/table1`, and encounters that deadlock where agents are alike. The body's
+//! part is a lag and a turning rate.
 
 #[path = "discs/crowd.rs"]
 mod crowd;
@@ -14,7 +14,7 @@ use fbcrowd_sim::planner::Planner;
 use glam::Vec2;
 use motiondb::velocity_hull::{Construction, VelocityHull};
 
-use crate::crowd::{Body, Crowd, Figures, RADIUS_M, Setting, read_scene};
+use crate::crowd::{Body, Crowd, Figures, RADIUS_M, Setting, bundled_scene, read_scene};
 
 const DT_S: f32 = 1.0 / 30.0;
 /// A walker's: a third of a second to a new velocity, a right angle in three quarters.
@@ -83,10 +83,7 @@ fn check(name: &str, agents: &[(Vec2, Vec2)], place: &Place, collisions: f32) ->
 
 fn check_scenes(names: &[&str], collisions: f32) {
     for name in names {
-        match read_scene(name) {
-            Some(agents) => drop(check(name, &agents, &Place::default(), collisions)),
-            None => println!("SKIPPED {name}: no such scene in /work/shared/bench/scenes"),
-        }
+        check(name, &bundled_scene(name), &Place::default(), collisions);
     }
 }
 
@@ -104,12 +101,12 @@ fn rectangle(least: [f32; 2], most: [f32; 2]) -> Vec<Vec2> {
 
 #[test]
 fn everybody_crosses_the_antipodal_circle() {
-    check_scenes(&["circle_17.txt", "circle_17_s1.txt", "circle_17_s2.txt"], 0.001);
+    check_scenes(&["circle_17", "table1/circle_17_s1", "table1/circle_17_s2"], 0.001);
 }
 
 #[test]
 fn everybody_crosses_in_two_and_four_directions() {
-    check_scenes(&["cross2_30_s1.txt", "bidir_53_s1.txt", "bidir_53_s2.txt", "cross4_100_s1.txt"], 0.003);
+    check_scenes(&["table1/cross2_30_s1", "table1/bidir_53_s1", "table1/bidir_53_s2", "table1/cross4_100_s1"], 0.003);
 }
 
 #[test]
@@ -205,26 +202,22 @@ fn a_column_passes_a_door_of_a_metre_without_entering_its_walls() {
 }
 
 /// Mean over the five seeds of a scene, of discs that move as planned: C, and A with its standard deviation.
-fn rival_figures(scene: &str, planner: Planner, params: &Params) -> Option<[f32; 3]> {
+fn rival_figures(scene: &str, planner: Planner, params: &Params) -> [f32; 3] {
     let (hull, walls) = (hull(), Obstacles::default());
     let setting = Setting { planner, params, hull: &hull, walls: &walls, body: Body::Ideal, dt_s: 0.1 };
-    let run = |seed: u32| Some(Crowd::new(&read_scene(&format!("{scene}_s{seed}.txt"))?, None).run(&setting, 60.0));
-    let runs = (1..=5).map(run).collect::<Option<Vec<Figures>>>()?;
+    let agents = |seed: u32| bundled_scene(&format!("table1/{scene}_s{seed}"));
+    let runs: Vec<Figures> = (1..=5).map(|seed| Crowd::new(&agents(seed), None).run(&setting, 60.0)).collect();
     let mean = |value: &dyn Fn(&Figures) -> f32| runs.iter().map(value).sum::<f32>() / runs.len() as f32;
     let acceleration_mps2 = mean(&|figures| figures.acceleration_mps2);
     let variance = mean(&|figures| (figures.acceleration_mps2 - acceleration_mps2).powi(2));
     let collisions = mean(&|figures| figures.collisions);
     println!("{scene} {planner:?}: C {collisions:.4}, A {acceleration_mps2:.2} ± {:.2} m/s²", variance.sqrt());
-    Some([collisions, acceleration_mps2, variance.sqrt()])
+    [collisions, acceleration_mps2, variance.sqrt()]
 }
 
 fn check_rival(planner: Planner, expected: [(&str, [f32; 2], [f32; 2]); 3]) {
     for (scene, collisions, acceleration_mps2) in expected {
-        let Some(found) = rival_figures(scene, planner, &Params::default()) else {
-            println!("SKIPPED {scene}: no such scene in /work/shared/bench/scenes");
-            continue;
-        };
-        let [found_collisions, found_mps2, found_spread_mps2] = found;
+        let [found_collisions, found_mps2, found_spread_mps2] = rival_figures(scene, planner, &Params::default());
         assert!((found_collisions - collisions[0]).abs() <= collisions[1], "{scene}: C = {found_collisions}");
         // Both are means over five chaotic runs.
         let spread_mps2 = acceleration_mps2[1] + found_spread_mps2;
@@ -232,7 +225,8 @@ fn check_rival(planner: Planner, expected: [(&str, [f32; 2], [f32; 2]); 3]) {
     }
 }
 
-// Mean and spread over seeds of `facts/planning.md` §3; its C has four digits.
+// Mean and spread over seeds of RVO2 itself under this protocol, as in `fbcrowd bench table1 --discs`; C has four
+// digits.
 #[test]
 fn orca_gives_the_figures_of_rvo2() {
     check_rival(
@@ -259,9 +253,9 @@ fn social_forces_give_the_figures_of_the_authors_law() {
 
 #[test]
 fn a_thousand_in_a_disc_go_on_walking() {
-    let Some(agents) = read_scene("disc_1000.txt") else {
-        println!("SKIPPED disc_1000.txt: no such scene in /work/shared/bench/scenes");
-        return;
+    let scene = "../shared/bench/scenes/disc_1000.txt";
+    let Some(agents) = read_scene(scene) else {
+        return println!("SKIPPED a_thousand_in_a_disc_go_on_walking: no {scene} beside the repository");
     };
     let figures = simulate(&agents, &Place::default(), 15.0);
     report("disc_1000", &figures);

@@ -1,12 +1,12 @@
 //! What a speed makes of a gait: cadence, contact timing, foot angles, pelvis and arm amplitudes.
 //!
-//! Cadence and stride lie inside the adult ±1 SD bands of `facts/motion.md` §4 (18–29 years): at 1.1 m/s those of men
-//! walking slowly (86–101 steps/min, 1.18–1.48 m), at 1.4 of women walking normally (107–124, 1.31–1.53), at 1.8 of
-//! women walking fast (129–156, 1.56–1.84). Double support is 25, 23 and 19 % of the stride (bands 25–34, 20–28,
-//! 14–22); toe-off = 50 % + half of it; at 0.5 m/s it is planned as 31 and measured as 35 %, that of Schwartz's very slow
+//! Cadence and stride lie within one standard deviation of adults' means (18–29 years): at 1.1 m/s those of men walking
+//! slowly (86–101 steps/min, 1.18–1.48 m), at 1.4 of women walking normally (107–124, 1.31–1.53), at 1.8 of women
+//! walking fast (129–156, 1.56–1.84). Double support is 25, 23 and 19 % of the stride (bands 25–34, 20–28, 14–22);
+//! toe-off = 50 % + half of it; at 0.5 m/s it is planned as 31 and measured as 35 %, that of Schwartz's very slow
 //! walkers (36), at 0.8 m/s 28 and 30 %, between theirs and the slow ones' (24). Foot angles and pelvis amplitudes by
-//! v*: Schwartz et al. 2008. Shoulders swing farther back than forward (24° back, 8° forward at free speed: Perry, *Gait
-//! Analysis*, ch. 8).
+//! v*: Schwartz et al. 2008. Shoulders swing farther back than forward (24° back, 8° forward at free speed: Perry,
+//! *Gait Analysis*, ch. 8).
 //!
 //! A clip is a whole number of frames and of strides, but a stride is not one of frames: each is sampled at other
 //! moments, so that the mean over strides knows what lies between frames.

@@ -1,8 +1,8 @@
 //! What the bundled clips claim, measured on their own skeletons with this file's forward kinematics.
 //!
-//! Measures as in `definitions.md`: facing from hips and shoulders; slide of the lowest sole point over the middle 80 %
-//! of each contact, a foot being planted where that point is within 2.5 cm of the ground and slower than 0.25 m/s + 15
-//! % of the body's speed.
+//! Measures as in the compiler: facing from hips and shoulders; slide of the lowest sole point over the middle 80 % of
+//! each contact, a foot being planted where that point is within 2.5 cm of the ground and slower than 0.25 m/s + 15 %
+//! of the body's speed.
 
 use glam::{DVec2, DVec3};
 
@@ -188,8 +188,7 @@ fn no_joint_pops_between_frames() {
 
 #[test]
 fn straight_walks_keep_to_adult_bands_of_cadence_and_stride() {
-    // (speed m/s, cadence steps/min, stride m) of men slow, men or women normal, men or women fast: `facts/motion.md`
-    // §4, ±1 SD.
+    // (speed m/s, cadence steps/min, stride m) of men slow, men or women normal, men or women fast: 18–29 years, ±1 SD.
     let bands = [
         (0.85..=1.20, 86.0..=101.0, 1.18..=1.48),
         (1.20..=1.65, 99.0..=124.0, 1.31..=1.66),

@@ -1,4 +1,5 @@
-//! The root's path over one stride: an arc, followed uniformly in time (`definitions.md`, "Root trajectory").
+//! The root's path over one stride: an arc, followed uniformly in time. What else the pelvis does (sway, surge, bob,
+//! yaw) belongs to the pose, so that root velocities blend linearly and the planner sees no gait.
 //!
 //! With heading θ(t) = θ₀ + ω_t·t the root moves at (v_f, ω_s) in its own turning frame, so that
 //!

@@ -1,4 +1,4 @@
-//! Foot contacts of a clip, frame by frame: by height and by speed, as in the definition of planted-foot slide.
+//! Foot contacts of a clip, frame by frame: by height and by speed. Planted-foot slide is measured over them.
 //!
 //! A foot's contact point is the lowest of heel, ball and toe tip: on the sole where the clip had `…Sole` joints, else
 //! at the joints (ankle, ball, end of the toe), each over its own planted height. The foot is planted while that point
@@ -6,20 +6,19 @@
 
 use glam::DVec3;
 
-/// Over its planted height a planted point lifts less than this (`definitions.md`), metres.
+/// Over its planted height a planted point lifts less than this, metres.
 const HEIGHT_MAX_M: f64 = 0.025;
-/// Speed of a planted point: this, and a share of the body's speed for clips that slide as they run (`definitions.md`),
-/// m/s.
+/// Speed of a planted point: this, and a share of the body's speed for clips that slide as they run, m/s.
 const SPEED_MAX_MPS: f64 = 0.25;
 const SPEED_MAX_SHARE: f64 = 0.15;
-/// A point's planted height is this percentile of its heights (`definitions.md`).
+/// A point's planted height is this percentile of its heights: noise dips below it.
 const PLANTED_PERCENTILE: f64 = 0.05;
 /// It is found anew over this time: longer than a stride, so that every window holds a stance.
 const FLOOR_WINDOW_S: f64 = 1.6;
 /// Speeds are taken over ± this time, so that noise weighs the same at 24 and at 120 frames a second: one frame at 30.
 const SPEED_SPAN_S: f64 = 1.0 / 30.0;
 /// Seconds: a shorter touch is not planted, a shorter lift no swing (those last 0.3 s and more), a shorter contact no
-/// step (`definitions.md`).
+/// step.
 const TOUCH_MIN_S: f64 = 0.05;
 const LIFT_MIN_S: f64 = 0.1;
 const CONTACT_MIN_S: f64 = 0.08;

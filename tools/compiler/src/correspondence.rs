@@ -1,4 +1,4 @@
-//! Which cycle becomes m_sp (`FbCrowd` §5; `definitions.md`). m_mb and the correspondence times T follow from it
+//! Which cycle becomes m_sp (`FbCrowd` §5, which leaves it open). m_mb and the correspondence times T follow from it
 //! ([`motiondb::correspondence`]).
 
 use motiondb::correspondence::Correspondence;
@@ -7,7 +7,7 @@ use motiondb::velocity_hull::{HOLDING_TURN_MAX_RAD_S, TURNING_STRAFE_MAX_MPS};
 
 use crate::arc::Rates;
 
-/// m_sp is the straight walk nearest this speed (`definitions.md`), m/s.
+/// m_sp is the straight walk nearest this speed, at which people walk unhurried, m/s.
 const SEMI_PROCEDURAL_MPS: f64 = 1.2;
 
 /// m_sp among cycles that step: of the straight walks the one nearest 1.2 m/s, of all where none is straight.

@@ -1,5 +1,4 @@
-//! Strides → GaitCycle: the phase-aligned mean stride, closed without a seam, at 64 uniform phases (`definitions.md`,
-//! "Example").
+//! Strides → GaitCycle: the phase-aligned mean stride, closed without a seam, at 64 uniform phases.
 //!
 //! Each stride is read along its own arc, at the times t(φ) of [`motiondb::phase_map`], through both of its landmarks.
 //! What is left open between its ends is taken out (`closing`), and both ends are faded into what the clip does

@@ -11,7 +11,7 @@ use crate::human_clip::{HumanBody, HumanJoints};
 /// A foot planted for less of the cycle than in a sprint is worth a warning.
 const SUSPECT_SHARE: f64 = 0.2;
 /// More slide than this, and than this share of the body's speed, is no stance at all: blended into a crowd it drags
-/// all feet. Noisy captures: 18 cm/s; hand-keyed runs: 7 % (`definitions.md`).
+/// all feet. Noisy captures: 18 cm/s; hand-keyed runs: 7 %.
 const EXCESSIVE_SLIDE_CM_S: f64 = 25.0;
 const EXCESSIVE_SLIDE_SHARE: f64 = 0.2;
 /// Nor is there one where feet are planted for less than this share of the cycle; sprinters' are for 0.22.

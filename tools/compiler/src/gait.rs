@@ -1,4 +1,4 @@
-//! GroundedClip → what the feet do: contacts, steps and their landmarks, standing (`definitions.md`, "Phase").
+//! GroundedClip → what the feet do: contacts, steps and their landmarks, standing.
 //!
 //! Phase 0 is the middle of a right contact, phase ½ the middle of a left one. Between landmarks lie strides
 //! ([`crate::stride`]), of which the steady ones ([`crate::steady_window`]) make examples. Times are in frames of the

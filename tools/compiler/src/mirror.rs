@@ -1,4 +1,4 @@
-//! Mirrored examples: left and right exchanged, half a cycle later (`definitions.md`, "Mirroring").
+//! Mirrored examples: left and right exchanged, half a cycle later.
 //!
 //! A turn or a side-step serves both ways unless the set has its counterpart. Root frame: the mirror is the plane y =
 //! 0.
@@ -14,7 +14,7 @@ use crate::arc::Rates;
 use crate::cycle::GaitCycle;
 use crate::human_clip::HumanPose;
 
-/// An example that turns or side-steps by more than this is worth a mirror (`definitions.md`): 10 °/s, 0.15 m/s.
+/// An example that turns or side-steps by more than this is worth a mirror: 10 °/s, 0.15 m/s.
 const TURN_MIN_RAD_S: f64 = 10.0 * PI / 180.0;
 const STRAFE_MIN_MPS: f64 = 0.15;
 /// Another example this near to the mirrored rates is the counterpart: m/s (or this share of the speed), rad/s (or this

@@ -1,5 +1,4 @@
-//! GaitCycle → MotionExample: (v_f, ω_t, ω_s) freed of gait noise, key times, slide (`definitions.md`, "Example", "Key
-//! times").
+//! GaitCycle → MotionExample: (v_f, ω_t, ω_s) freed of gait noise, key times, slide.
 //!
 //! Snapping: an |ω_t| below 3 °/s is 0, and with it a small ω_s. What is snapped must not make planted feet slide, so a
 //! small ω_s is taken out by turning the root frame onto the direction of travel: the body then walks straight with its
@@ -17,9 +16,9 @@ use crate::cycle::{GaitCycle, NamedCycle};
 use crate::foot_slide;
 use crate::human_clip::HumanBody;
 
-/// Slower turning is gait noise (`definitions.md`, "Example"): 3 °/s.
+/// Slower turning is gait noise: 3 °/s.
 const SNAPPED_TURN_RAD_S: f64 = 3.0 * PI / 180.0;
-/// And so is a smaller side speed, m/s (`definitions.md`, "Example") …
+/// And so is a smaller side speed, m/s …
 const SNAPPED_STRAFE_MPS: f64 = 0.1;
 /// … of a body that goes somewhere: from here on the direction of travel is off the facing by 11° at most, m/s.
 const GOING_MPS: f64 = 0.5;

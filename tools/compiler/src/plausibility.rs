@@ -1,8 +1,9 @@
 //! Whether a gait and a body can be true.
 //!
-//! Of a gait: its cadence, and the ratio of step length to cadence, which people keep at 0.6–0.7 cm/(step/min) over all
-//! speeds, slow or running (`facts/motion.md` §4). A lying `Frame Time:` scales both: the CMU run 02_03 at 1/25 s instead
-//! of 1/120 s comes out at 4. Legs of another length step longer by that length, at a cadence of its root less.
+//! Of a gait: its cadence, and the ratio of step length to cadence, the walk ratio, which people keep at 0.6–0.7
+//! cm/(step/min) over most speeds (Sekiya and Nagasaki 1998). A lying `Frame Time:` scales both: the CMU run 02_03 at
+//! 1/25 s instead of 1/120 s comes out at 4. Legs of another length step longer by that length, at a cadence of its
+//! root less.
 
 use glam::DVec2;
 use motiondb::median::median;
@@ -24,8 +25,8 @@ const WALK_RATIO_CM_MIN: std::ops::RangeInclusive<f64> = 0.15..=2.0;
 /// The fastest steps a minute, for a person's leg (sprinters: 290).
 const CADENCE_MAX_PER_MIN: f64 = 320.0;
 /// The fastest steps a minute of a walk (race walkers over 20 km: 3.1 to 3.5 a second), and the share of the time from
-/// which on the ball of a foot stands as in a walk: there from 12 to 60 % of the cycle, in jogs for 0.4 of it
-/// (`facts/motion.md` §3, §5).
+/// which on the ball of a foot stands as in a walk: there from 12 to 60 % of the cycle (Perry, *Gait Analysis*), in
+/// jogs for 0.4 of it.
 const WALK_CADENCE_MAX_PER_MIN: f64 = 215.0;
 const WALK_PLANTED_SHARE: f64 = 0.45;
 /// Feet nearer along the facing do not step but stand, turn or side-step; shorter steps say nothing, m.

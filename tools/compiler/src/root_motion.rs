@@ -1,10 +1,9 @@
 //! HumanClip → GroundedClip: the performer's motion on the target skeleton, over the ground at z = 0, travelling as it
 //! was meant.
 //!
-//! Proportions (`definitions.md`, "Target skeleton"): the whole motion is scaled by the ratio of leg lengths, joint
-//! rotations are kept, and where the bones differ leg inverse kinematics puts the ankles back to their scaled places.
-//! Clips that tread on the spot get the ground speed at which their stance feet stand still. World frame, metres,
-//! radians, Z up.
+//! Proportions ([`crate::target_skeleton`]): the whole motion is scaled by the ratio of leg lengths, joint rotations
+//! are kept, and where the bones differ leg inverse kinematics puts the ankles back to their scaled places. Clips that
+//! tread on the spot get the ground speed at which their stance feet stand still. World frame, metres, radians, Z up.
 
 use glam::{DQuat, DVec2, DVec3};
 use motiondb::skeleton::{JOINT_COUNT, Joint};

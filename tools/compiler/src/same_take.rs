@@ -30,7 +30,7 @@ const MOVEMENT_MIN_RAD: f64 = 0.2 * PI / 180.0;
 /// the screening less.
 const FACING_CORRELATION_MIN: f64 = 0.9;
 const SCREEN_CORRELATION_MIN: f64 = 0.75;
-/// And turn alike within what the whole clip's turn rate is judged by (`definitions.md`): 3 °/s or 15° over the clip.
+/// And turn alike within what the whole clip's turn rate is judged by ([`crate::truth`]): 3 °/s or 15° over the clip.
 const TURN_DIFFERENCE_RAD_S: f64 = 3.0 * PI / 180.0;
 const TURN_DIFFERENCE_RAD: f64 = 15.0 * PI / 180.0;
 /// Frames of one clip per frame of the other that are tried where the frame counts fit and the times do not.

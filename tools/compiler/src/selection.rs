@@ -1,4 +1,4 @@
-//! Which steady windows become examples: of near-equal ones the best (issue 3), and of all at most so many.
+//! Which steady windows become examples: of near-equal ones the best, and of all at most so many.
 //!
 //! 1. Of the windows of one clip that lie in one cell of a grid in (v_f, ω_t, ω_s) the one with the fewest flaws stays:
 //!    least open between its ends, least slide, closest to the cell's middle, mean of the most strides. The longest of

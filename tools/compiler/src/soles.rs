@@ -54,7 +54,7 @@ fn measured(tracks: &Tracks, orientations: &[[DQuat; JOINT_COUNT]], side: usize,
         .map(|point| tracks.mean_in(carriers[point], orientations, |frame| tracks.clip.position(frame, joints[point])))
 }
 
-/// Height at which a point is planted: the lowest twentieth, as `planted_slide.py`.
+/// Height at which a point is planted: the lowest twentieth, as in [`crate::contacts`].
 fn planted(tracks: &Tracks, height_m: impl Fn(usize) -> f64) -> f64 {
     let mut heights: Vec<f64> = (0..tracks.positions_m.len()).map(height_m).collect();
     heights.sort_by(f64::total_cmp);

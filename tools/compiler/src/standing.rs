@@ -1,5 +1,4 @@
-//! A body that stands: where in a clip it does, and its GaitCycle without steps: both feet planted, the root at rest
-//! (`definitions.md`, "Example").
+//! A body that stands: where in a clip it does, and its GaitCycle without steps: both feet planted, the root at rest.
 //!
 //! Its period is that of m_sp, so that idle and walk share one clock; of all windows of that length the calmest is
 //! taken, the one whose ends are most alike, and closed like a stride. Times are in frames of the clip.

@@ -1,5 +1,4 @@
-//! Which strides of a clip make examples: all of a loop, else every run that is steady, the longest first
-//! (`definitions.md`, "Example").
+//! Which strides of a clip make examples: all of a loop, else every run that is steady, the longest first.
 //!
 //! A long capture walks, turns, hesitates, goes on faster: each part of it in which the strides are alike is a window of
 //! its own. Windows are taken greedily, the longest of the clip, then the longest of what it leaves before and after

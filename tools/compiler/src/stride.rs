@@ -15,7 +15,8 @@ use crate::human_clip::HumanJoints;
 
 /// A stride takes this long: sprints 0.45 s, the slowest shuffles 2.2 s.
 const PERIOD_S: RangeInclusive<f64> = 0.4..=2.5;
-/// Share of the period from the first landmark to the second: real clips .40–.60 (`definitions.md`, "Phase").
+/// Share of the period from the first landmark to the second: real clips .40–.60, for nobody's half-strides are quite
+/// equal.
 const HALF_SHARE: RangeInclusive<f64> = 0.32..=0.68;
 /// Both feet on the ground for a larger share of a stride: the body stops between steps. Very slow walking: 36 %
 /// (Schwartz et al. 2008).

@@ -1,4 +1,4 @@
-//! The body that a database's examples share (`definitions.md`, "Target skeleton").
+//! The body that a database's examples share.
 //!
 //! One performer keeps his proportions; of several the median is taken, bone by bone, left and right alike so that
 //! mirrored cycles fit. Rest pose and frames as in [`motiondb::skeleton`]; metres.

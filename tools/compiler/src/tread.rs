@@ -1,5 +1,5 @@
 //! The ground speed of a clip that treads on the spot: how fast the ground would have to pass under the body for its
-//! stance feet to stand still (`definitions.md`, "Whole-clip parameters").
+//! stance feet to stand still.
 //!
 //! The balls of the feet are what stands: flat on the ground from just after the heel's strike to toe-off, so that in a
 //! walk one of both always does. While they are low they vote for the ground velocity that would hold them; in the air
@@ -40,11 +40,12 @@ const SHIFTS_MAX: usize = 32;
 const SETTLED_MPS: f64 = 1e-6;
 /// Hip joints farther apart than this, over the leg, are no person's (0.14 to 0.25; drawn characters 0.8 and more).
 const HIPS_OVER_LEG_MAX: f64 = 0.45;
-/// The share of a contact at either end in which the foot may still land or already leave (`definitions.md`).
+/// The share of a contact at either end in which the foot may still land or already leave: slide is measured without
+/// it, too.
 const CONTACT_END_SHARE: f64 = 0.1;
 /// Share of the frames, by height of the lower ankle, that count as its stance.
 const ANKLE_STANCE_SHARE: f64 = 0.6;
-/// A foot stands at this percentile of its heights, as in `planted_slide.py`.
+/// A foot stands at this part of its heights, in order: the lowest twentieth, as in [`crate::contacts`].
 const PLANTED_PERCENTILE: usize = 20;
 /// Speeds are taken over ± this time, so that noise weighs the same at 24 and at 120 frames a second.
 const SPEED_SPAN_S: f64 = 1.0 / 30.0;

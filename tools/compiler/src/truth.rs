@@ -2,8 +2,8 @@
 //!
 //! A row holds a clip's (v_f, ω_t, ω_s) as an independent script measured them (m/s, °/s, m/s; of clips that tread on
 //! the spot `implied_*`, the speed at which their stance feet slide back), its up axis and its unit. Tolerances are
-//! those of `definitions.md`: max(3 %, 0.03 m/s), max(3 °/s, 15°/duration), 0.04 m/s; three times that in place; clips
-//! under a second are not judged.
+//! max(3 %, 0.03 m/s), max(3 °/s, 15°/duration: clips of less than two strides carry gait sway), 0.04 m/s; three times
+//! that in place; clips under a second are not judged.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -11,7 +11,7 @@ use crate::arc::rotation;
 use crate::human_clip::{HumanBody, HumanPose};
 use crate::root_motion::{GroundedClip, align_hemispheres};
 
-/// Every joint of the last pose this near to the first's, relative to the root: a loop (`definitions.md`, "Example").
+/// Every joint of the last pose this near to the first's, relative to the root: a loop.
 const LOOP_GAP_M: f64 = 0.04;
 /// The repeated frame is left out where the pose that would follow is this much nearer to the first than the last one
 /// is.

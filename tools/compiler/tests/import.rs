@@ -1,8 +1,8 @@
 //! Claims about the import: real clips made by others against their independently measured truth, and hand-written files
 //! against malice.
 //!
-//! The real clips are test input only and lie outside the repository (`/work/shared/mocap`, truth in its `index.csv`);
-//! tests that need them say SKIPPED and pass where they are missing.
+//! The real clips are test input only and lie outside the repository (`../shared/mocap` beside it, truth in its
+//! `index.csv`); tests that need them say SKIPPED and pass where they are missing.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ use motiondb_compiler::source_clip::SourceClip;
 use motiondb_compiler::truth::{self, Truth};
 use motiondb_compiler::{bvh, gltf, units};
 
-const MOCAP: &str = "/work/shared/mocap";
+const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
 
 fn mocap(test: &str) -> Option<PathBuf> {
     let folder = Path::new(MOCAP);
@@ -47,7 +47,7 @@ fn source(path: &Path, clip: &str) -> SourceClip {
     clips.into_iter().find(|source| source.clip == clip).unwrap()
 }
 
-/// What is off in one clip by the tolerances of `definitions.md`, measured at the joints that the index took.
+/// What is off in one clip by the tolerances of [`truth`], measured at the joints that the index took.
 fn misses(folder: &Path, row: &Truth) -> Option<String> {
     let mut judgement = row.judge(&imported(folder, row));
     if row.is_by_elbows() {

@@ -1,5 +1,5 @@
-//! The paper's own database: twelve recordings of `SmartBody`'s `ChrMarine`, nineteen examples (`facts/motion.md` §1;
-//! test input only).
+//! The paper's own database: twelve recordings of `SmartBody`'s `ChrMarine`, nineteen examples (`FbCrowd` §6; Shapiro
+//! 2011; test input only).
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -27,8 +27,8 @@ const TABLE: [(&str, [f32; 3]); 12] = [
     ("StrafeFastRt01", [0.941, 0.1, -1.808]),
 ];
 
-/// Planted-foot slide of the recordings by `tools/planted_slide.py`, cm/s, and what an example may slide more: the
-/// script trims short contacts by whole frames.
+/// Planted-foot slide of the recordings by an independent script, cm/s, and what an example may slide more: the script
+/// trims short contacts by whole frames.
 const SLIDES_CM_S: [(&str, f32); 11] = [
     ("Turn360Rt01", 1.7),
     ("Meander01", 2.6),

@@ -6,7 +6,7 @@ use motiondb::pose::Joints;
 use motiondb::skeleton::{Joint, Side};
 use serde::Serialize;
 
-/// Adults of 18–29 years, ±1 SD (`facts/motion.md` §4): who, speed m/s, cadence steps/min, stride m, double support.
+/// Adults of 18–29 years, their means ±1 SD: who, speed m/s, cadence steps/min, stride m, double support.
 type Band = (&'static str, [f64; 2], [f64; 2], [f64; 2], [f64; 2]);
 
 const ADULTS: [Band; 5] = [

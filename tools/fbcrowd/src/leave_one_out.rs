@@ -2,8 +2,8 @@
 //!
 //! For every recorded example whose (v_f, ω_t, ω_s) lies inside the hull of the others: the database is rebuilt without
 //! it *and its mirror* (simplices and axes' ranges anew; the other rows stay), and blended at its parameters by the
-//! runtime's own synthesis (`definitions.md`, "Blend": w_i ∝ u_i·r_i(φ)). With x_j(φ) the place of joint j in the root
-//! frame,
+//! runtime's own synthesis (`fbcrowd_sim::hms::blending`: w_i ∝ u_i·r_i(φ)). With x_j(φ) the place of joint j in the
+//! root frame,
 //!
 //! ```text
 //! RMSE_j = √( mean over 64 uniform phases of |x_j(φ) − x'_j(φ)|² )     of one joint,

@@ -1,5 +1,4 @@
-//! What `fbcrowd inspect` says: the stable JSON (`definitions.md`; field names carry their units) and the tables for
-//! people.
+//! What `fbcrowd inspect` says: the stable JSON (field names carry their units) and the tables for people.
 
 use glam::Vec2;
 use motiondb::coverage::{self, ThinPlace};

@@ -1,4 +1,4 @@
-//! Motion blending (`FbCrowd` §5; `definitions.md`, "Blend"): shares of time, pose weights, phase, pose.
+//! Motion blending (`FbCrowd` §5): shares of time, pose weights, phase, pose.
 //!
 //! The asked (v_f, ω_t, ω_s) has barycentric coordinates u among the examples, and u are shares of *time*: over a
 //! stretch of it, example i plays for u_i. So

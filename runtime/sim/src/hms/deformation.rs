@@ -2,8 +2,9 @@
 //! [`super::semi_procedural`] tells how).
 //!
 //! - The cadence shares a change of speed with the stride: both grow with its root, so their ratio keeps (walk ratio).
-//! - Backward gait is nearly forward gait in reversed time (`motion.md` §5). Phases 0 and ½ are mid-stances, so −φ is the
-//!   cycle reversed; walking backward plays it, and the mean of both, whose legs swing neither way, steps aside.
+//! - Backward gait is nearly forward gait in reversed time (Winter, Pluck, Yang 1989). Phases 0 and ½ are mid-stances,
+//!   so −φ is the cycle reversed; walking backward plays it, and the mean of both, whose legs swing neither way, steps
+//!   aside.
 //! - The places move apart for side-steps and turns, so that legs do not cross, and outward where the body leans.
 //! - Hips, trunk and arms swing as much as the stride is long.
 //!

@@ -22,7 +22,8 @@ pub(super) const LIFT_RATE_HZ: f32 = 80.0;
 /// A foot that lands while it still moves over the ground, since the body changes its speed, comes to rest in this time,
 /// s: within the tenth of a stance in which it rolls on. At once would jerk the knee.
 pub(super) const LANDING_TIME_S: f32 = 0.012;
-/// Toe clearance of a swinging foot (`motion.md` §5): blends with standing lower the swing, and would drag the toes …
+/// Toe clearance of a swinging foot in walking (Winter 1992): blends with standing lower the swing, and would drag the
+/// toes …
 const CLEARANCE_M: f32 = 0.013;
 /// … in full from this speed, m/s: a foot that leaves moves slowly; one that lands so soon, s, wants none …
 const CLEARANCE_SPEED_MPS: f32 = 1.0;
@@ -33,8 +34,7 @@ const CLEARANCE_SOFTNESS_M: f32 = 0.003;
 pub(super) const SPEED_TIME_S: f32 = 0.03;
 /// Greatest shift: the leg of a step that is broken off half-way; beyond it the foot slides, metres.
 const SHIFT_MAX_M: f32 = 0.35;
-/// Greatest twist of a foot against the pose's: people twist the stance foot, and pivot on it beyond about 45°
-/// (`motion.md` §2).
+/// Greatest twist of a foot against the pose's: people twist the stance foot, and pivot on it beyond about 45°.
 const TWIST_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
 
 /// A foot in the world.

@@ -1,9 +1,9 @@
 //! Standing or stepping: a body does not creep.
 //!
-//! Mixing a little step into idle lifts no foot: by the blended contact (`definitions.md`, "Planted-foot slide") both
-//! feet stay planted as long as standing has the greater share. So a body stands, or it takes at least the steps of a
-//! mix with [`IDLE_SHARE_MAX`] of standing; and it does not freeze in mid-stride, but takes such small steps until its
-//! feet are under it. Slower still, it takes those least steps in less than their own time, down to `PACE_MIN`.
+//! Mixing a little step into idle lifts no foot: by the blended contact Σ w·c both feet stay planted as long as
+//! standing has the greater share. So a body stands, or it takes at least the steps of a mix with [`IDLE_SHARE_MAX`] of
+//! standing; and it does not freeze in mid-stride, but takes such small steps until its feet are under it. Slower
+//! still, it takes those least steps in less than their own time, down to `PACE_MIN`.
 
 use motiondb::blend_space::Shares;
 use motiondb::parameters::Parameters;

@@ -1,4 +1,4 @@
-//! Head and chest turn first when the body will turn (`FbCrowd` has nothing of it; issue 6, "Feet and body").
+//! Head and chest turn first when the body will turn (`FbCrowd` has nothing of it).
 //!
 //! People turn the head into a turn before the body follows: by some 200 ms on curved paths (Grasso et al. 1996,
 //! *NeuroReport* 7, 1170–1174; Courtine and Schieppati 2003, *Eur. J. Neurosci.* 18, 177–190), and all the more the

@@ -18,7 +18,7 @@ const CATCH_UP_TIME_S: f32 = 0.2;
 const HURRY_MAX: f32 = 0.4;
 /// A body slower than this hardly moves its feet by its phase, m/s.
 const SPEED_MIN_MPS: f32 = 0.4;
-/// A body gets used to how far its feet are behind in this time, s: a stride at 100 steps a minute (`motion.md` §4).
+/// A body gets used to how far its feet are behind in this time, s: a stride at 100 steps a minute, an adult's walk.
 pub(super) const HABIT_TIME_S: f32 = 1.2;
 
 /// What a body is used to.

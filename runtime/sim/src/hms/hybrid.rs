@@ -13,8 +13,9 @@ use super::params::Modes;
 use super::semi_procedural::SemiProcedural;
 use crate::recording_frame::Mode;
 
-/// Furthest from a mid-stance that synthesis switches, where T allows, in phases: the other foot leaves and lands about 0.2
-/// from it (`motion.md` §3), which leaves a tenth of a stride to either.
+/// Furthest from a mid-stance that synthesis switches, where T allows, in phases: the other foot leaves and lands about
+/// 0.2 from it (at 12 and 50 % of the cycle, mid-stance at 31: Perry, *Gait Analysis*), which leaves a tenth of a
+/// stride to either.
 const OFF_MID_STANCE: f32 = 0.1;
 
 /// Hybrid synthesis from one database.

@@ -13,10 +13,9 @@ use motiondb::skeleton::{Joint, Skeleton};
 
 use super::leg::{FootPose, Leg};
 
-/// Greatest share of the leg's length from hip to ankle: beyond it the knee angle changes infinitely fast (`motion.md`
-/// §2).
+/// Greatest share of the leg's length from hip to ankle: a straight knee's angle changes infinitely fast.
 const EXTENSION_MAX: f32 = 0.999;
-/// Least distance from hip to ankle, as a multiple of the bones' difference in length (`motion.md` §2).
+/// Least distance from hip to ankle, as a multiple of the bones' difference in length: a folded one's does too.
 const FLEXION_MARGIN: f32 = 1.001;
 /// A straight leg has no plane, and what bends it bends it forward: its knee counts as this far before the line from hip to
 /// ankle, m. With a millimetre, where what is left of a switch straightens a leg, the knee swings out aside.

@@ -1,4 +1,4 @@
-//! The pelvis comes down where a leg would have to stretch to reach its foot (`motion.md` §2: "lower the pelvis").
+//! The pelvis comes down where a leg would have to stretch to reach its foot.
 //!
 //! With d and d⁰ the descents that a leg needs to reach its target and the pose's own foot, negative where it reaches, and
 //! S a soft maximum with none, each leg asks for

@@ -1,5 +1,5 @@
-//! Semi-procedural locomotion (`FbCrowd` §5; Juarez-Perez et al. 2014; recipe: `motion.md` §2): one cycle, m_sp,
-//! deformed so that the body walks at any nearby (v_f, ω_t, ω_s) exactly.
+//! Semi-procedural locomotion (`FbCrowd` §5, after Juarez-Perez et al. 2014): one cycle, m_sp, deformed so that the
+//! body walks at any nearby (v_f, ω_t, ω_s) exactly.
 //!
 //! The feet of m_sp are taken apart into places on the ground and times for which the root has carried them
 //! ([`super::foot_path`]). To walk otherwise, the same places are carried along the arc of *those* parameters, for since /
@@ -19,7 +19,7 @@ use super::foot_path::{Foothold, foot_path};
 /// Side-steps are short and quick: a m/s aside counts this much more towards the cadence than one ahead. The bundled
 /// side-steps of 0.35 and 0.6 m/s, 99 and 132 steps a minute, say 3.1 and 3.2.
 const ASIDE: f32 = 3.2;
-/// Backward strides are 0.7 of forward ones, at the same cadence (`motion.md` §5).
+/// Backward strides are 0.7 of forward ones, at the same cadence.
 const BACKWARD: f32 = 1.4;
 /// Turning on the spot at 1 rad/s takes the steps of a walk at this speed, m: the bundled turns of 90 and 170 °/s, 119
 /// and 178 steps a minute, say 1.0 and 1.2; turns in walking less.
@@ -27,8 +27,8 @@ const TURNING_M: f32 = 1.0;
 /// Cadence over that of m_sp: from a stroll's to a shuffle's.
 const CADENCE: [f32; 2] = [0.6, 2.2];
 /// Greatest speeds ahead, back and aside, over that of m_sp; `fbcrowd bench reach` measures where legs would cross,
-/// over-stretch or crouch, which is further out in every direction. Ahead, of a walk of 1.1 m/s: people run from 2 m/s on
-/// (`motion.md` §4).
+/// over-stretch or crouch, which is further out in every direction. Ahead, of a walk of 1.1 m/s: people run from 2 m/s
+/// on (Hreljac 1993).
 const AHEAD_MAX: f32 = 1.8;
 const BACKWARD_MAX: f32 = 1.1;
 const ASIDE_MAX: f32 = 1.1;

@@ -16,8 +16,8 @@ use super::{Body, Motion, Synthesis, pursuit};
 use crate::plan::Stance;
 use crate::recording_frame::PLANTED_CONTACT;
 
-/// A foot that what is left of a switch holds up further than this does not stand: contacts of clips are told by the same
-/// height (`definitions.md`, "Planted-foot slide"), m.
+/// A foot that what is left of a switch holds up further than this does not stand: the compiler tells contacts of clips
+/// by the same height, m.
 const HELD_UP_M: f32 = 0.025;
 /// A first pose is given this long to settle on its feet, s.
 const SETTLING_S: f32 = 1.0;

@@ -57,7 +57,7 @@ fn soles_m(walk: &Walk, side: usize) -> Vec<[Vec3; 3]> {
     walk.steps.iter().map(sole).collect()
 }
 
-/// Planted-foot slide, cm/s, and planted share, as `definitions.md` measures them.
+/// Planted-foot slide, cm/s, over the middle of each contact, and planted share, by the blended contacts.
 fn planted_slide(walk: &Walk, dt_s: f32) -> (f32, f32) {
     let (mut speeds, mut planted_steps) = (Vec::new(), 0);
     for side in 0..2 {

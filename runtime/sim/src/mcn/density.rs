@@ -29,11 +29,11 @@ const SIDEWAYS: f32 = 2.5;
 const SIGMA_M: f32 = 1.5;
 /// Menge: free space of a stride, S = SPACE/ρ.
 const SPACE: f32 = 0.48;
-/// Neighbours farther than this are not felt, m; with all of them the diagram would stall the crowd
-/// (`facts/planning.md` §2).
+/// Neighbours farther than this are not felt, m; with all of them, at one agent/m², people would walk at a third to
+/// half of Weidmann's speed, and stall.
 const RANGE_M: f32 = 5.0;
-/// Who moves aside or towards one as fast as this does not count, m/s: two walks (`facts/planning.md` §3), so that who
-/// comes or crosses at a walk counts half.
+/// Who moves aside or towards one as fast as this does not count, m/s: two walks of 1.33, so that who comes or crosses
+/// at a walk counts half.
 const CLEARING_MPS: f32 = 2.66;
 /// 1/√2π.
 const GAUSS: f32 = 0.398_942_3;

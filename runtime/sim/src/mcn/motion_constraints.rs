@@ -1,4 +1,4 @@
-//! Half-planes of the velocities that the motion database can realise (`FbCrowd` §4.1, Eqs. 2–5; `definitions.md`).
+//! Half-planes of the velocities that the motion database can realise (`FbCrowd` §4.1, Eqs. 2–5).
 //!
 //! The turning set limits a body whose facing follows its velocity, the holding set one that holds its facing. Both are
 //! convex, clockwise, and count the origin; each edge gives one half-plane, rotated by the agent's facing.

@@ -6,10 +6,10 @@
 //! ```
 //!
 //! To face v_pref while walking elsewhere is to side-step, so the first line also asks that the holding set, at that
-//! facing, holds v_i: a body that the database cannot move that way turns. `definitions.md` adds its mirror image,
-//! stepping back: v_pref·v_i < 0, a shorter while. Both whiles are contiguous, and start anew only after a rest at
-//! aligned facing: without it the facing would flicker. Where v_pref or v_i is 0, the facing is kept; but who stands
-//! and would walk elsewhere than ahead turns there.
+//! facing, holds v_i: a body that the database cannot move that way turns. Ours is its mirror image, stepping back:
+//! v_pref·v_i < 0, a shorter while. Both whiles are contiguous, and start anew only after a rest at aligned facing:
+//! without it the facing would flicker. Where v_pref or v_i is 0, the facing is kept; but who stands and would walk
+//! elsewhere than ahead turns there.
 
 use glam::Vec2;
 

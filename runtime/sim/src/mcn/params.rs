@@ -105,19 +105,19 @@ impl Default for McnParams {
             // overlap and acceleration grow below 3 and gain nothing above 4.
             time_horizon_s: 4.0,
             obstacle_time_horizon_s: 1.0,
-            // `facts/planning.md` §3.
+            // As far as Karamouzas, Skinner, Guy 2014 sense.
             neighbour_range_m: 10.0,
             // Karamouzas, Skinner, Guy 2014: k, τ_0 and the driving force's relaxation.
             interaction_strength: 1.5,
             interaction_horizon_s: 3.0,
             relaxation_s: 0.54,
             response_s: 0.3,
-            // About what people start and stop with unhurried. `facts/planning.md` §1: the authors' 20 shakes at steps of
-            // 0.1 s. Measured through bodies on Table 1, from 1.1 to 2.5: the acceleration on the circle grows with it by a
-            // seventh; below, nothing is gained.
+            // About what people start and stop with unhurried. The 20 of the power law's authors, whose steps are 5 ms,
+            // shakes at steps of 0.1 s. Measured through bodies on Table 1, from 1.1 to 2.5: the acceleration on the
+            // circle grows with it by a seventh; below, nothing is gained.
             acceleration_max_mps2: 1.1,
-            // Menge's PedVO (`facts/planning.md` §2). Between its two buffers, 0.5 and 0.9: from 0.8 on people walk as in
-            // Weidmann's diagram (RiMEA test 4); beyond, doors let fewer of them through.
+            // Menge's PedVO (Curtis, Best, Manocha 2016). Between its two buffers, 0.5 and 0.9: from 0.8 on people walk
+            // as in Weidmann's diagram (RiMEA test 4); beyond, doors let fewer of them through.
             density_factor: 1.57,
             density_buffer: 0.8,
             density_speed_min_mps: 0.3,

@@ -4,8 +4,8 @@
 //! E(τ) = k τ⁻² e^(−τ/τ_0) of their time to collision τ, in closed form. Walls act alike, on the capsule that a segment
 //! grown by the agent's radius makes. Masses are 1, so forces are accelerations, m/s².
 //!
-//! Integrated over many steps Eq. 9 is stiff and stalls crowds (`facts/planning.md` §1): it is evaluated afresh each
-//! step and only modulates v_pref.
+//! Integrated over many steps Eq. 9 is stiff and stalls crowds: it is evaluated afresh each step and only modulates
+//! v_pref.
 
 use glam::Vec2;
 
@@ -33,8 +33,8 @@ pub fn adapted_mps(velocity_mps: Vec2, preferred_mps: Vec2, forces_mps2: Vec2, d
 
 /// Eq. 11: the force on disc i from disc j; `offset` p_j − p_i, `velocity` v_i − v_j, `radius` r_i + r_j.
 pub fn agent_force_mps2(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, law: &PowerLaw) -> Vec2 {
-    // Discs that overlap shrink to as much as they overlap: the authors' code, and the figures of `facts/planning.md`
-    // §3 come out. Those that overlap by more than half are left to the collision's half-plane.
+    // Discs that overlap shrink to as much as they overlap: so does the authors' code, whose figures come out by
+    // `fbcrowd bench table1 --discs`. Those that overlap by more than half are left to the collision's half-plane.
     let distance_m = offset_m.length();
     let radius_m = if distance_m < radius_m { radius_m - distance_m } else { radius_m };
     let time_s = disc_with_disc(offset_m, velocity_mps, radius_m);

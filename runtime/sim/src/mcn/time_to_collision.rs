@@ -6,8 +6,7 @@ use glam::Vec2;
 
 use crate::obstacles::nearest_on_segment;
 
-/// Below this squared relative speed nothing approaches, (m/s)²: the limit of the authors' own code
-/// (`facts/planning.md` §1).
+/// Below this squared relative speed nothing approaches, (m/s)²: the limit of the authors' own code.
 const SPEED_SQUARED_MIN: f32 = 1e-5;
 
 /// Disc i meets disc j: `offset` p_j − p_i, `velocity` v_i − v_j, `radius` r_i + r_j.

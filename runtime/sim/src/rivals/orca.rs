@@ -32,7 +32,7 @@ pub struct OrcaParams {
 impl Default for OrcaParams {
     fn default() -> Self {
         Self {
-            // The protocol of `facts/planning.md` §3, where RVO2 was measured.
+            // The protocol under which RVO2 was measured (`fbcrowd bench table1 --discs`).
             time_horizon_s: 5.0,
             neighbour_range_m: 10.0,
             speed_max_mps: 2.0,

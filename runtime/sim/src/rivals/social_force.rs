@@ -1,4 +1,4 @@
-//! Social forces as an integrator: the universal power law of Karamouzas, Skinner, Guy 2014 (`facts/planning.md` §1).
+//! Social forces as an integrator: the universal power law of Karamouzas, Skinner, Guy 2014.
 //!
 //! ```text
 //! dv/dt = clamp( (v_pref − v)/T + Σ_j f_ij + Σ_W f_iW )
@@ -42,7 +42,7 @@ pub struct SocialForceParams {
 impl Default for SocialForceParams {
     fn default() -> Self {
         Self {
-            // Karamouzas, Skinner, Guy 2014 and their code (`facts/planning.md` §1).
+            // Karamouzas, Skinner, Guy 2014, and their published code.
             interaction_strength: 1.5,
             interaction_horizon_s: 3.0,
             relaxation_s: 0.54,

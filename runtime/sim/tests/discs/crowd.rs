@@ -15,7 +15,7 @@ use fbcrowd_sim::world::World;
 use glam::Vec2;
 use motiondb::velocity_hull::VelocityHull;
 
-/// Protocol of `facts/planning.md` §3.
+/// The protocol of `assets/scenarios/table1`.
 pub(crate) const RADIUS_M: f32 = 0.25;
 const SPEED_MPS: f32 = 1.33;
 const ARRIVED_M: f32 = 0.5;
@@ -55,7 +55,7 @@ pub(crate) struct Crowd {
     arrivals_s: Vec<Option<f32>>,
 }
 
-/// Metrics of `definitions.md`.
+/// `FbCrowd` App. 11's C and A, and who arrives or stalls.
 #[derive(Debug, Default)]
 pub(crate) struct Figures {
     pub(crate) collisions: f32,
@@ -68,15 +68,20 @@ pub(crate) struct Figures {
     pub(crate) trails_m: Vec<Vec<Vec2>>,
 }
 
-/// Lines `x y goal_x goal_y`; none where the file is missing.
-pub(crate) fn read_scene(name: &str) -> Option<Vec<(Vec2, Vec2)>> {
-    let path = Path::new("/work/shared/bench/scenes").join(name);
+/// One of the bundled scenes, from here to there.
+pub(crate) fn bundled_scene(name: &str) -> Vec<(Vec2, Vec2)> {
+    read_scene(&format!("assets/scenarios/{name}.txt")).expect("the repository has it")
+}
+
+/// Lines `x y goal_x goal_y` of a file, by its path from the repository; none where it is missing.
+pub(crate) fn read_scene(path: &str) -> Option<Vec<(Vec2, Vec2)>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
     let text = std::fs::read_to_string(path).ok()?;
     let agent = |line: &str| {
         let numbers: Vec<f32> = line.split_whitespace().map(|word| word.parse().unwrap()).collect();
         (Vec2::new(numbers[0], numbers[1]), Vec2::new(numbers[2], numbers[3]))
     };
-    Some(text.lines().map(agent).collect())
+    Some(text.lines().filter(|line| !line.starts_with('#')).map(agent).collect())
 }
 
 impl Crowd {

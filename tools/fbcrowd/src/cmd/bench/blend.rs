@@ -32,13 +32,13 @@ const SAME: f32 = 1e-3;
 /// A body gets this long to start, and is then watched for that long, s.
 const STARTING_S: f32 = 6.0;
 const WATCHED_S: f32 = 6.0;
-/// Allowed in the mean and at the worst (issue 6): a share of what is asked, or this much, m/s, rad/s, m/s.
+/// Allowed in the mean and at the worst: a share of what is asked, or this much, m/s, rad/s, m/s.
 const MEAN: Allowed = Allowed { share: 0.02, least: [0.02, 0.017_453, 0.02] };
 const WORST: Allowed = Allowed { share: 0.05, least: [0.04, 0.052_36, 0.04] };
 /// A straight walk is this long, at each of these speeds, where the database has them.
 const STRAIGHT_M: f32 = 50.0;
 const STRAIGHT_MPS: [f32; 4] = [0.5, 0.8, 1.2, 2.0];
-/// Off the straight line, and off the start of a circle: "within centimetres" (issue 6), cm.
+/// Off the straight line, and off the start of a circle, cm: less than is seen.
 const OFF_MAX_CM: f64 = 2.0;
 /// Circles are walked at each of these speeds and turn rates, where the database has them, m/s and rad/s.
 const CIRCLES: [[f32; 2]; 4] = [[0.6, 0.5], [0.8, 0.8], [0.8, -0.8], [1.2, 0.6]];

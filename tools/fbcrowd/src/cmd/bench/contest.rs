@@ -41,7 +41,7 @@ pub(super) const MCN: Contestant = Contestant { name: "mcn", planner: Planner::M
 pub(super) const ORCA: Contestant = Contestant { name: "orca", planner: Planner::Orca, substeps: 1 };
 pub(super) const SOCIAL_FORCE: Contestant =
     Contestant { name: "social_force", planner: Planner::SocialForce, substeps: 1 };
-/// The same forces, integrated as finely as their authors do (`facts/planning.md` §1).
+/// The same forces, integrated as finely as their authors do: in steps of 5 ms (Karamouzas, Skinner, Guy 2014).
 pub(super) const SOCIAL_FORCE_20: Contestant =
     Contestant { name: "social_force_20_substeps", planner: Planner::SocialForce, substeps: 20 };
 
@@ -60,7 +60,7 @@ pub(super) struct Protocol {
 }
 
 impl Default for Protocol {
-    /// That of Table 1 (`definitions.md`), with our bodies.
+    /// That of Table 1, with our bodies.
     fn default() -> Self {
         Self {
             dt_s: scenes::STEP_S,

@@ -40,7 +40,7 @@ const WAYS: [(&str, Modes, Transition); 4] = [
 
 /// Preferred speeds: a stroll, the walk of everybody else, and a hurry, m/s.
 const SPEEDS_MPS: [f32; 3] = [0.9, WALK_MPS, 1.9];
-/// The speed of the picture, m/s (`facts/planning.md` §3).
+/// The speed of the picture, m/s: that of Table 1's scenes.
 const WALK_MPS: f32 = 1.33;
 
 /// Walk the obstacle course by blending alone, by semi-procedural locomotion alone and by both.

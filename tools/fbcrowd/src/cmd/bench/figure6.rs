@@ -1,5 +1,5 @@
 //! `fbcrowd bench figure6`: what a frame costs in planning (MCN), synthesis (HMS) and coupling (CNS), for 10 to 10,000
-//! people on an antipodal circle: the paper's Fig. 6, and issue 6's "Speed".
+//! people on an antipodal circle: the paper's Fig. 6.
 //!
 //! All circles take turns, a frame of one thread and a frame of two after each other, so that ratios are of the same
 //! moments whatever else the machine does; medians of the turns count. A small circle is stepped so often that a turn has
@@ -34,7 +34,7 @@ use crate::statistics::median;
 /// Circles that are timed. The bars are on those from 1,000 on.
 const CIRCLES: [usize; 7] = [10, 17, 50, 100, 500, 1_000, 10_000];
 const LARGE: usize = 1_000;
-/// Those of `../shared/bench`: places along the circle, their jitter, the least radius.
+/// Those of `assets/scenarios/table1`: places along the circle, their jitter, the least radius.
 const SPACING_M: f32 = 1.5;
 const JITTER: f64 = 0.1;
 const RADIUS_MIN_M: f32 = 4.0;
@@ -45,7 +45,7 @@ const WARM_UP: usize = 30;
 const TURNS: usize = 25;
 /// Agent-steps of a turn, at least.
 const AGENT_STEPS: usize = 200;
-/// Limits of the bars (issue 6, "Speed") …
+/// Limits of the bars …
 const TWO_THREADS: f64 = 1.6;
 const GROWTH: f64 = 1.3;
 const BYTES: f64 = 4096.0;

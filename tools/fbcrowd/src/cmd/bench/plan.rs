@@ -1,4 +1,4 @@
-//! `fbcrowd bench plan`: what planning costs, and whether it costs the same in every crowd (issue 5, "Numbers").
+//! `fbcrowd bench plan`: what planning costs, and whether it costs the same in every crowd.
 //!
 //! Discs of 0.3 agents/m², each bound for the point opposite, walk with their bodies until they are well mixed. Then the
 //! simulation is halted every second, and from the same frozen world MCN, with all its constraints, our own ORCA and
@@ -31,13 +31,12 @@ use crate::statistics::median;
 
 /// Crowds that are timed; the bar on growth is from the second to the last.
 const CROWDS: [usize; 4] = [100, 1_000, 10_000, 100_000];
-/// Agents of a square metre, and how far each is off its place of the lattice, as a share of the spacing: those of
-/// `../shared/bench`.
+/// Agents of a square metre, and how far each is off its place of the lattice, as a share of the spacing.
 const DENSITY_PER_M2: f32 = 0.3;
 const JITTER: f64 = 0.2;
 const RADIUS_M: f32 = 0.25;
 const SPEED_MPS: f32 = 1.33;
-/// The protocol's step (`facts/planning.md` §3).
+/// The step of Table 1 (§7).
 const DT_S: f32 = 0.1;
 /// Steps until all walk and meet, and from halt to halt.
 const WARM_UP: usize = 30;
@@ -47,7 +46,7 @@ const HALTS: usize = 3;
 const TURNS: usize = 5;
 /// A small crowd is planned so often that a turn has this many plans.
 const PLANS: usize = 20_000;
-/// Limits of the bars, and the goal in µs (issue 5, "Numbers").
+/// Limits of the bars, and the goal in µs: about what RVO2 takes, neighbour query included.
 const MCN_OVER_ORCA: f64 = 1.5;
 const ORCA_OVER_QUERY: f64 = 2.0;
 const GROWTH: f64 = 1.3;

@@ -1,5 +1,5 @@
-//! What is measured on the bodies of an errand (`definitions.md`, "Planted-foot slide"; `motion.md` §7). Every figure is the
-//! worst of all bodies and measured stretches, at one dt.
+//! What is measured on the bodies of an errand. Every figure is the worst of all bodies and measured stretches, at one
+//! dt.
 
 use std::f64::consts::TAU;
 
@@ -230,7 +230,7 @@ fn ankles_apart_m(joints: &Joints) -> f32 {
     left_m.y - right_m.y
 }
 
-/// Spectral arc length of the root's speed (`motion.md` §7).
+/// Spectral arc length of the root's speed, SPARC (Balasubramanian et al. 2015).
 fn sparc(steps: &[Step], dt_s: f32) -> f64 {
     let dt_s = f64::from(dt_s);
     let speeds_mps: Vec<f64> = steps.iter().map(|step| f64::from(step.speed_mps)).collect();

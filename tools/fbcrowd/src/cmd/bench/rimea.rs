@@ -1,5 +1,5 @@
-//! `fbcrowd bench rimea`: the tests of the RiMEA guideline for evacuation analyses that concern walking on the level, and
-//! three of the kind (`facts/planning.md` §8), each a scenario file of `assets/scenarios`, through full bodies.
+//! `fbcrowd bench rimea`: the tests of the RiMEA guideline for evacuation analyses that concern walking on the level,
+//! and three of the kind, each a scenario file of `assets/scenarios`, through full bodies.
 //!
 //! What each of them measures and demands stands in [`rimea_cases`](super::rimea_cases).
 

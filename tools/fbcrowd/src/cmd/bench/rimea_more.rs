@@ -1,5 +1,5 @@
-//! Tests beside the guideline's, as users of such systems ask for them (`facts/planning.md` §7, §8): overtaking somebody who
-//! stands, stopping behind each other, and a whole scene turned. World, metres, seconds.
+//! Tests beside the guideline's, as users of such systems ask for them: overtaking somebody who stands, stopping behind
+//! each other, and a whole scene turned. World, metres, seconds.
 
 use glam::Vec2;
 

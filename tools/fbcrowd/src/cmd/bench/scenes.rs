@@ -17,7 +17,7 @@ use motiondb::source_text::SourceText;
 
 use crate::failure::Failure;
 
-/// Step and time of the comparison (`definitions.md`, "Table 1").
+/// Step and time of the comparison: the paper's step (§7); it names no time.
 pub(super) const STEP_S: f32 = 0.1;
 const DURATION_S: f32 = 60.0;
 

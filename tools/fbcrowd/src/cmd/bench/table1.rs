@@ -1,8 +1,8 @@
 //! `fbcrowd bench table1`: MCN against its two rivals through the same bodies, the paper's Table 1 (§7, App. 11).
 //!
-//! Protocol: `definitions.md`, "Table 1". 60 s in steps of 0.1 s for all, one set of tunables for all scenes, the same
-//! blending synthesis, figures of the synthesised roots, means over seeds. The bars are MCN's: C below both rivals', its
-//! acceleration before arrival too, everybody arrives, nobody stalls, and in time.
+//! Protocol: 60 s in steps of 0.1 s for all, one set of tunables for all scenes, the same blending synthesis, figures
+//! of the synthesised roots, means over seeds. The bars are MCN's: C below both rivals', its acceleration before
+//! arrival too, everybody arrives, nobody stalls, and in time.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,9 +20,9 @@ use crate::failure::{Answer, Failure};
 use crate::statistics::{Spread, spread};
 
 pub(super) const CONTESTANTS: [Contestant; 4] = [MCN, ORCA, SOCIAL_FORCE, SOCIAL_FORCE_20];
-/// MCN's mean time to goal over ORCA's (issue 5, "Numbers").
+/// MCN's mean time to goal over ORCA's, at most.
 const TIME_TO_GOAL_RATIO: f64 = 1.1;
-/// What planning shall take on a quiet core, µs (issue 5, "Numbers").
+/// What planning shall take on a quiet core, µs an agent and step: about what RVO2 takes, neighbour query included.
 const PLAN_GOAL_US: f64 = 1.5;
 
 /// Run MCN, ORCA and social forces through the same bodies, as the paper's Table 1 does.
@@ -194,7 +194,7 @@ impl RunFigures {
     }
 }
 
-/// What MCN must keep in one scene (issue 5, "Numbers"). The rivals run at dt; that with sub-steps stands beside them.
+/// What MCN must keep in one scene. The rivals run at dt; that with sub-steps stands beside them.
 fn bars(scene: &SceneFigures) -> Vec<Bar> {
     let [mcn, orca, social_force, _] = &scene.planners[..] else { return Vec::new() };
     let name = |what: &str| format!("{}: {what}", scene.scene);

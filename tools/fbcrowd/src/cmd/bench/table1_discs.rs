@@ -1,7 +1,8 @@
-//! `fbcrowd bench table1 --discs`: are the rivals real? Without bodies, our ORCA and social forces must reproduce RVO2 and
-//! the power law as their authors published them, measured under the same protocol (`facts/planning.md` §3): averaged
-//! until all agents are within 0.5 m of their goals, all at once, or 60 s. (Until each has been there once, RVO2's
-//! accelerations do not come out: late comers push those away who stand near their goals.)
+//! `fbcrowd bench table1 --discs`: are the rivals real? Without bodies, our ORCA and social forces must reproduce RVO2
+//! and the power law as their authors published them, measured under the same protocol
+//! (`assets/scenarios/table1/README.md`): averaged until all agents are within 0.5 m of their goals, all at once, or 60
+//! s. (Until each has been there once, RVO2's accelerations do not come out: late comers push those away who stand near
+//! their goals.)
 
 use std::sync::Arc;
 
@@ -35,7 +36,8 @@ const fn published(
     Published { scene, planner, collision_rate, acceleration_mps2 }
 }
 
-/// `facts/planning.md` §3: RVO2, and the power law by explicit Euler steps of dt.
+/// What the published code gave: RVO2 (van den Berg et al. 2011), and the power law (Karamouzas, Skinner, Guy 2014) by
+/// explicit Euler steps of dt.
 const PUBLISHED: [Published; 6] = [
     published("cross2_30", "orca", [0.0, 0.0], [0.31, 0.13]),
     published("bidir_53", "orca", [0.0, 0.0], [0.35, 0.10]),

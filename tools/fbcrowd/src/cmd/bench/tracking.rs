@@ -23,9 +23,9 @@ use super::bundled::database;
 use super::walker::{DT_S, Studio};
 use crate::failure::{Answer, Failure};
 
-/// Commands change by this at most, m/s² (issue 6), and turn rates by as much in rad/s².
+/// Commands change by this at most, m/s², and turn rates by as much in rad/s².
 const ACCELERATION_MPS2: f32 = 2.5;
-/// The bars (issue 6), cm: semi-procedural each step, blending after one cycle.
+/// The bars, cm: semi-procedural each step, blending after one cycle.
 const STEP_MAX_CM: f64 = 1.0;
 const BEHIND_MAX_CM: f64 = 5.0;
 /// Commands change when the body has walked for so long, and are watched for as long, s.

@@ -15,7 +15,7 @@ use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
 
-/// Steps of time in which the bars of synthesis shall hold (issue 6), s.
+/// Steps of time in which the bars of synthesis shall hold, s: a display's, a film's, and that of Table 1.
 pub(super) const DT_S: [f32; 3] = [1.0 / 120.0, 1.0 / 30.0, 0.1];
 
 /// A database, made ready for one synthesis.
