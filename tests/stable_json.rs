@@ -172,9 +172,9 @@ fn measure_and_the_timing_report_keep_their_keys() {
         "agents",
         "steps",
         "threads",
-        "planning_us_per_agent_step",
-        "synthesis_us_per_agent_step",
-        "coupling_us_per_agent_step",
+        "plan_microseconds_per_agent_step",
+        "synthesis_microseconds_per_agent_step",
+        "coupling_microseconds_per_agent_step",
         "times_real_time",
         "agents_per_core_in_real_time",
     ];

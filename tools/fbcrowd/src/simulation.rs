@@ -24,9 +24,9 @@ pub(crate) struct Timings {
     agents: usize,
     steps: usize,
     threads: usize,
-    planning_us_per_agent_step: f64,
-    synthesis_us_per_agent_step: f64,
-    coupling_us_per_agent_step: f64,
+    plan_microseconds_per_agent_step: f64,
+    synthesis_microseconds_per_agent_step: f64,
+    coupling_microseconds_per_agent_step: f64,
     /// Simulated time over the time that all stages took, recording left out.
     times_real_time: f64,
     /// Agents that one core carries in real time at this dt, counting every thread as busy throughout.
@@ -39,9 +39,9 @@ impl Timings {
         format!(
             "time per agent and step  planning {:.2} µs, synthesis {:.2} µs, coupling {:.2} µs\n\
              speed                    {:.1} × real time with {} thread{}; one core carries {:.0} agents in real time\n",
-            self.planning_us_per_agent_step,
-            self.synthesis_us_per_agent_step,
-            self.coupling_us_per_agent_step,
+            self.plan_microseconds_per_agent_step,
+            self.synthesis_microseconds_per_agent_step,
+            self.coupling_microseconds_per_agent_step,
             self.times_real_time,
             self.threads,
             if self.threads == 1 { "" } else { "s" },
@@ -147,9 +147,9 @@ impl Stopwatch {
             agents,
             steps,
             threads,
-            planning_us_per_agent_step: microseconds(self.planning),
-            synthesis_us_per_agent_step: microseconds(self.synthesis),
-            coupling_us_per_agent_step: microseconds(self.coupling),
+            plan_microseconds_per_agent_step: microseconds(self.planning),
+            synthesis_microseconds_per_agent_step: microseconds(self.synthesis),
+            coupling_microseconds_per_agent_step: microseconds(self.coupling),
             times_real_time,
             agents_per_core_in_real_time: times_real_time * agents as f64 / threads as f64,
         }

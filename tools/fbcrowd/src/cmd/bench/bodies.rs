@@ -46,8 +46,8 @@ const GOAL_US: f64 = 1.2;
 
 /// Time the synthesis of a body against the least that blending does.
 ///
-/// In JSON `examples_mixed`, the mean number in a mix, `plain_us`, `blending_us`, `semi_procedural_us`, microseconds a
-/// body and step, and `blending_over_plain`, `semi_procedural_over_plain`, medians of the ratios.
+/// In JSON `examples_mixed`, the mean number in a mix, `plain_microseconds_per_agent_step`, `blending_…`,
+/// `semi_procedural_…`, and `blending_over_plain`, `semi_procedural_over_plain`, medians of the ratios.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd bench bodies --json")]
 pub(super) struct Args {
@@ -59,9 +59,9 @@ pub(super) struct Args {
 #[derive(Serialize)]
 struct Details {
     examples_mixed: f32,
-    plain_us: Option<f32>,
-    blending_us: Option<f32>,
-    semi_procedural_us: Option<f32>,
+    plain_microseconds_per_agent_step: Option<f32>,
+    blending_microseconds_per_agent_step: Option<f32>,
+    semi_procedural_microseconds_per_agent_step: Option<f32>,
     blending_over_plain: Option<f32>,
     semi_procedural_over_plain: Option<f32>,
 }
@@ -100,9 +100,9 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let of = |figure: fn(&Turn) -> f32| median(turns.iter().map(figure));
     let details = Details {
         examples_mixed,
-        plain_us: of(|turn| turn.plain_us),
-        blending_us: of(|turn| turn.blending_us),
-        semi_procedural_us: of(|turn| turn.semi_procedural_us),
+        plain_microseconds_per_agent_step: of(|turn| turn.plain_us),
+        blending_microseconds_per_agent_step: of(|turn| turn.blending_us),
+        semi_procedural_microseconds_per_agent_step: of(|turn| turn.semi_procedural_us),
         blending_over_plain: of(|turn| turn.blending_us / turn.plain_us),
         semi_procedural_over_plain: of(|turn| turn.semi_procedural_us / turn.plain_us),
     };
@@ -111,8 +111,8 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let bar = |name, measured: Option<f32>| Bar::at_most(name, OVER_PLAIN, measured.map(f64::from));
     let found = Found {
         goals: vec![
-            goal("blending, µs a body and step", details.blending_us),
-            goal("semi-procedural, µs a body and step", details.semi_procedural_us),
+            goal("blending, µs a body and step", details.blending_microseconds_per_agent_step),
+            goal("semi-procedural, µs a body and step", details.semi_procedural_microseconds_per_agent_step),
         ],
         bars: vec![
             bar("blending over four rows and forward kinematics", details.blending_over_plain),
@@ -177,9 +177,9 @@ fn text(details: &Details) -> String {
     let figure = |value: Option<f32>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.2}"));
     format!(
         "µs a body and step: plain {}, blending {} ({:.1} examples mixed), semi-procedural {}\n",
-        figure(details.plain_us),
-        figure(details.blending_us),
+        figure(details.plain_microseconds_per_agent_step),
+        figure(details.blending_microseconds_per_agent_step),
         details.examples_mixed,
-        figure(details.semi_procedural_us),
+        figure(details.semi_procedural_microseconds_per_agent_step),
     )
 }

@@ -78,7 +78,7 @@ impl Default for Protocol {
 pub(super) struct Run {
     pub(super) seed: u64,
     pub(super) measures: Measures,
-    pub(super) plan_us_per_agent_step: f64,
+    pub(super) plan_microseconds_per_agent_step: f64,
     /// Empty unless kept.
     pub(super) tracks: Tracks,
 }
@@ -150,7 +150,7 @@ fn run(db: &Arc<MotionDb>, scene: &Scene, contestant: &Contestant, protocol: &Pr
     Ok(Run {
         seed: scene.seed,
         measures: measuring.finish(),
-        plan_us_per_agent_step: planning.as_secs_f64() * 1e6 / agent_steps,
+        plan_microseconds_per_agent_step: planning.as_secs_f64() * 1e6 / agent_steps,
         tracks: paths.finish(scenario.dt_s)?,
     })
 }

@@ -55,8 +55,8 @@ const GOAL_US: f64 = 1.5;
 
 /// Time the planning of ever larger crowds.
 ///
-/// In JSON `crowds[] {agents, query_us, orca_us, mcn_us, mcn_two_threads_us, mcn_over_orca, orca_over_query,
-/// two_threads}`: microseconds per agent and step, sorting into cells included, and the medians of the ratios.
+/// In JSON `crowds[] {agents, query_microseconds_per_agent_step, orca_…, mcn_…, mcn_two_threads_…, mcn_over_orca,
+/// orca_over_query, two_threads}`: times, sorting into cells included, and the medians of the ratios.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd bench plan --json")]
 pub(super) struct Args {
@@ -76,10 +76,10 @@ struct Details {
 #[derive(Serialize)]
 struct Crowd {
     agents: usize,
-    query_us: f32,
-    orca_us: f32,
-    mcn_us: f32,
-    mcn_two_threads_us: f32,
+    query_microseconds_per_agent_step: f32,
+    orca_microseconds_per_agent_step: f32,
+    mcn_microseconds_per_agent_step: f32,
+    mcn_two_threads_microseconds_per_agent_step: f32,
     mcn_over_orca: f32,
     orca_over_query: f32,
     two_threads: f32,
@@ -111,7 +111,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let goals = crowds.iter().find(|crowd| crowd.agents == CROWDS[1]);
     let goals = goals.map(|crowd| Goal {
         name: "planning 1,000 agents, µs per agent-step",
-        measured: Some(f64::from(crowd.mcn_us)),
+        measured: Some(f64::from(crowd.mcn_microseconds_per_agent_step)),
         goal: GOAL_US,
     });
     let found = Found { details: Details { crowds }, goals: goals.into_iter().collect(), bars };
@@ -191,10 +191,10 @@ fn crowd(agents: usize, turns: &[Turn]) -> Option<Crowd> {
     let of = |figure: fn(&Turn) -> f32| median(turns.iter().map(figure));
     Some(Crowd {
         agents,
-        query_us: of(|turn| turn.query_us)?,
-        orca_us: of(|turn| turn.orca_us)?,
-        mcn_us: of(|turn| turn.mcn_us)?,
-        mcn_two_threads_us: of(|turn| turn.mcn_two_threads_us)?,
+        query_microseconds_per_agent_step: of(|turn| turn.query_us)?,
+        orca_microseconds_per_agent_step: of(|turn| turn.orca_us)?,
+        mcn_microseconds_per_agent_step: of(|turn| turn.mcn_us)?,
+        mcn_two_threads_microseconds_per_agent_step: of(|turn| turn.mcn_two_threads_us)?,
         mcn_over_orca: of(|turn| turn.mcn_us / turn.orca_us)?,
         orca_over_query: of(|turn| turn.orca_us / turn.query_us)?,
         two_threads: of(|turn| turn.mcn_us / turn.mcn_two_threads_us)?,
@@ -207,7 +207,10 @@ fn bars(crowds: &[Crowd]) -> Vec<Bar> {
     let worst = |figure: fn(&Crowd) -> f32, worse: fn(f64, f64) -> f64| {
         steady.iter().map(|crowd| f64::from(figure(crowd))).reduce(worse)
     };
-    let growth = steady.first().zip(steady.last()).map(|(first, last)| f64::from(last.mcn_us / first.mcn_us));
+    let growth = steady
+        .first()
+        .zip(steady.last())
+        .map(|(first, last)| f64::from(last.mcn_microseconds_per_agent_step / first.mcn_microseconds_per_agent_step));
     vec![
         Bar::at_most("MCN over ORCA", MCN_OVER_ORCA, worst(|crowd| crowd.mcn_over_orca, f64::max)),
         Bar::at_most("ORCA over its neighbour query", ORCA_OVER_QUERY, worst(|crowd| crowd.orca_over_query, f64::max)),
@@ -263,10 +266,10 @@ fn text(details: &Details) -> String {
         format!(
             "{:15}{:10.2}{:9.2}{:8.2}{:16.2}{:10.2}{:12.2}{:13.2}\n",
             crowd.agents,
-            crowd.query_us,
-            crowd.orca_us,
-            crowd.mcn_us,
-            crowd.mcn_two_threads_us,
+            crowd.query_microseconds_per_agent_step,
+            crowd.orca_microseconds_per_agent_step,
+            crowd.mcn_microseconds_per_agent_step,
+            crowd.mcn_two_threads_microseconds_per_agent_step,
             crowd.mcn_over_orca,
             crowd.orca_over_query,
             crowd.two_threads,

@@ -179,7 +179,7 @@ fn planner_figures(planner: &'static str, runs: Vec<&Run>) -> PlannerFigures {
         mean_time_to_goal_s_sd: time_to_goal.map(|time| time.deviation),
         body_penetration_mm: bodies.mean,
         body_penetration_mm_sd: bodies.deviation,
-        plan_microseconds_per_agent_step: of(|run| run.plan_us_per_agent_step).mean,
+        plan_microseconds_per_agent_step: of(|run| run.plan_microseconds_per_agent_step).mean,
         runs: runs.into_iter().map(RunFigures::new).collect(),
     }
 }
@@ -189,7 +189,7 @@ impl RunFigures {
         Self {
             seed: run.seed,
             measures: run.measures.clone(),
-            plan_microseconds_per_agent_step: run.plan_us_per_agent_step,
+            plan_microseconds_per_agent_step: run.plan_microseconds_per_agent_step,
         }
     }
 }
