@@ -110,7 +110,7 @@ fn planners_meet_in_the_scenes_of_a_folder() {
 fn a_scene_whose_agents_overlap_is_bad_input() {
     let scenes = folder("bench_overlap");
     fs::write(scenes.join("crowded.txt"), "0 0 5 0\n0.2 0 9 0\n").unwrap();
-    fbcrowd(&["bench", "table1", "--scenes", text(&scenes)]).expect_code(2).says(&["crowded.txt", "overlap"]);
+    fbcrowd(&["bench", "table1", "--scenes", text(&scenes)]).expect_code(2).says(&["crowded.txt:2", "overlap"]);
     fs::write(scenes.join("crowded.txt"), "0 0 5\n").unwrap();
     fbcrowd(&["bench", "table1", "--scenes", text(&scenes)]).expect_code(2).says(&["crowded.txt", "x y goal_x goal_y"]);
 }

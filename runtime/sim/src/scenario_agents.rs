@@ -226,17 +226,23 @@ pub(crate) fn check_size(agents: usize, waypoints: usize) -> Result<(), Complain
 /// # Errors
 /// The bytes of the first line that is none, and what is wrong with it.
 pub(crate) fn parse_lines(text: &str) -> Result<Vec<Journey>, (Range<usize>, String)> {
-    let mut journeys = Vec::new();
-    let mut begin = 0;
-    for line in text.split_inclusive('\n') {
-        let content = line.split('#').next().unwrap_or_default().trim();
-        let span = begin..begin + line.trim_end().len();
-        begin += line.len();
-        if !content.is_empty() {
-            journeys.push(parse_line(content).map_err(|message| (span, message))?);
-        }
-    }
-    Ok(journeys)
+    lines(text).map(|(span, content)| parse_line(content).map_err(|message| (span, message))).collect()
+}
+
+/// The bytes of the line that an agent of such a file stands on.
+pub(crate) fn line_span(text: &str, agent: usize) -> Range<usize> {
+    lines(text).nth(agent).map_or(0..0, |(span, _)| span)
+}
+
+/// Each line that holds more than a comment: its bytes and what it says.
+fn lines(text: &str) -> impl Iterator<Item = (Range<usize>, &str)> {
+    let mut end = 0;
+    let lines = text.split_inclusive('\n').map(move |line| {
+        let begin = end;
+        end += line.len();
+        (begin..begin + line.trim_end().len(), line.split('#').next().unwrap_or_default().trim())
+    });
+    lines.filter(|(_, content)| !content.is_empty())
 }
 
 fn parse_line(content: &str) -> Result<Journey, String> {

@@ -41,7 +41,9 @@ pub enum Place {
     View,
     /// A tunable: section and key.
     Parameter(String, String),
-    /// An agent, by index.
+    /// Where an agent starts or goes, by its index.
+    Journey(usize),
+    /// What else is said of an agent, by its index: disc, speed and facing.
     Agent(usize),
     /// An obstacle, by index.
     Obstacle(usize),
@@ -101,7 +103,7 @@ fn check_agents_clear_of_obstacles(scenario: &Scenario) -> Result<(), Fault> {
             }
             if agent.goals_m.iter().any(|goal_m| near(*goal_m) && contains(polygon_m, *goal_m)) {
                 let message = format!("a goal of agent {index} lies inside obstacle {obstacle}");
-                return Place::Agent(index).fault(message, "move the goal to free ground");
+                return Place::Journey(index).fault(message, "move the goal to free ground");
             }
             if let Some(goal_m) = agent.goals_m.last().filter(|goal_m| near(**goal_m)) {
                 check_reach(index, agent, obstacle, closest_distance_m(polygon_m, *goal_m))?;
@@ -115,9 +117,9 @@ fn check_start(index: usize, agent: &AgentSpec, obstacle: usize, polygon_m: &[Ve
     let overlap_m = f64::from(agent.radius_m) - closest_distance_m(polygon_m, agent.position_m);
     let help = "move it until its whole disc stands on free ground";
     if contains(polygon_m, agent.position_m) {
-        Place::Agent(index).fault(format!("agent {index} stands inside obstacle {obstacle}"), help)
+        Place::Journey(index).fault(format!("agent {index} stands inside obstacle {obstacle}"), help)
     } else if overlap_m > TOUCH_M {
-        Place::Agent(index).fault(format!("agent {index} reaches {overlap_m:.2} m into obstacle {obstacle}"), help)
+        Place::Journey(index).fault(format!("agent {index} reaches {overlap_m:.2} m into obstacle {obstacle}"), help)
     } else {
         Ok(())
     }
@@ -131,7 +133,7 @@ fn check_reach(index: usize, agent: &AgentSpec, obstacle: usize, clear_m: f64) -
     let message = format!(
         "agent {index}, of radius {radius_m:.2} m, cannot come within {ARRIVAL_M} m of its goal, which lies {clear_m:.2} m from obstacle {obstacle}"
     );
-    Place::Agent(index).fault(message, "move the goal away from the wall")
+    Place::Journey(index).fault(message, "move the goal away from the wall")
 }
 
 /// Sweeps along the crowd's longer side, so that thousands are quick, in a square or in line.
@@ -146,7 +148,7 @@ fn check_agents_apart(agents: &[AgentSpec]) -> Result<(), Fault> {
             let overlap_m = overlap_m(&agents[a], &agents[b]);
             if overlap_m > TOUCH_M {
                 let message = format!("agents {} and {} overlap by {overlap_m:.2} m", a.min(b), a.max(b));
-                return Place::Agent(a.max(b)).fault(message, "start them at least the sum of their radii apart");
+                return Place::Journey(a.max(b)).fault(message, "start them at least the sum of their radii apart");
             }
         }
     }

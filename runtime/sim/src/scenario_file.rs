@@ -32,7 +32,7 @@ use crate::params::Params;
 use crate::planner::Planner;
 use crate::polygon::signed_area_m2;
 use crate::scenario::{AgentSpec, Scenario, View};
-use crate::scenario_agents::{Complaint, Group, Groups, Journey, Kind, check_size, parse_lines};
+use crate::scenario_agents::{Complaint, Group, Groups, Journey, Kind, check_size, line_span, parse_lines};
 use crate::scenario_check::{Fault, Place, check};
 use crate::scenario_error::ScenarioError;
 use crate::scenario_point::Point;
@@ -78,12 +78,19 @@ struct Obstacle {
     polygon_m: Vec<Point>,
 }
 
-/// Agents, and for each the place in the text that asked for it.
+/// Agents, and the tables that asked for them.
 #[derive(Default)]
 struct Placed {
     agents: Vec<AgentSpec>,
-    spans: Vec<Range<usize>>,
+    tables: Vec<Table>,
     waypoints: usize,
+}
+
+/// One table of agents: where it stands, the file of lines that it names, and the first of its agents.
+struct Table {
+    span: Range<usize>,
+    lines: Option<SourceText>,
+    first: usize,
 }
 
 /// Reads a scenario file and whatever agent files it names. Its motion is an error of its own, so that whoever brings a database need not
@@ -116,7 +123,7 @@ pub fn of_text(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Sc
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(View::default, |view| view.get_ref().clone()),
     };
-    check(&scenario).map_err(|broken| fault(source, &file, &placed.spans, broken))?;
+    check(&scenario).map_err(|broken| fault(source, &file, &placed.tables, broken))?;
     Ok((scenario, motion))
 }
 
@@ -161,32 +168,37 @@ fn place_agents(source: &SourceText, file: &ScenarioFile) -> Result<Placed, Scen
     for (stream, (span, group)) in file.agents.get_ref().0.iter().enumerate() {
         let span = span.clone().unwrap_or_else(|| file.agents.span());
         let random = SplitMix64::new(file.seed.unwrap_or(SEED), stream as u64);
-        let agents = group.agents(journeys(source, group, &span, random)?);
+        let (journeys, lines) = journeys(source, group, &span, random)?;
+        let agents = group.agents(journeys);
         placed.waypoints += agents.iter().map(|agent| agent.goals_m.len()).sum::<usize>();
         // After each table, so that many of them do not fill the memory first.
         if let Err((message, help)) = check_size(placed.agents.len() + agents.len(), placed.waypoints) {
             return Err(source.invalid(span, message, help).into());
         }
-        placed.spans.extend(std::iter::repeat_n(span, agents.len()));
+        placed.tables.push(Table { span, lines, first: placed.agents.len() });
         placed.agents.extend(agents);
     }
     Ok(placed)
 }
 
-/// From where to where the agents of one table walk.
+/// From where to where the agents of one table walk, and the file of lines that says so, where it names one.
 fn journeys(
     source: &SourceText,
     group: &Group,
     span: &Range<usize>,
     random: SplitMix64,
-) -> Result<Vec<Journey>, ScenarioError> {
+) -> Result<(Vec<Journey>, Option<SourceText>), ScenarioError> {
     let complain = |(message, help): Complaint| ScenarioError::from(source.invalid(span.clone(), message, help));
-    match group.kind().map_err(complain)? {
+    let journeys = match group.kind().map_err(complain)? {
         Kind::Single(at_m) => Ok(vec![group.journey(at_m)]),
-        Kind::Circle(circle) => circle.journeys().map_err(complain),
-        Kind::Grid(grid) => group.grid_journeys(grid, random).map_err(complain),
-        Kind::File(name) => read_lines(source, name),
-    }
+        Kind::Circle(circle) => circle.journeys(),
+        Kind::Grid(grid) => group.grid_journeys(grid, random),
+        Kind::File(name) => {
+            let lines = read_lines(source, name)?;
+            return Ok((journeys_of_lines(&lines)?, Some(lines)));
+        }
+    };
+    Ok((journeys.map_err(complain)?, None))
 }
 
 /// The agents of lines `x y goal_x goal_y`, with the default disc and speed, each facing its goal.
@@ -197,13 +209,22 @@ pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioErr
     Ok(Group::plain().agents(journeys_of_lines(lines)?))
 }
 
-fn read_lines(source: &SourceText, name: &Spanned<String>) -> Result<Vec<Journey>, ScenarioError> {
+/// A rule that agents of lines break, shown at the line that does.
+pub fn fault_of_lines(lines: &SourceText, fault: Fault) -> ScenarioError {
+    let span = match fault.place {
+        Place::Journey(agent) => line_span(&lines.text, agent),
+        _ => 0..0,
+    };
+    lines.invalid(span, fault.message, fault.help).into()
+}
+
+fn read_lines(source: &SourceText, name: &Spanned<String>) -> Result<SourceText, ScenarioError> {
     let path = source.beside(Path::new(name.get_ref()));
     if !path.is_file() {
         let message = format!("there is no file {}", path.display());
         return Err(source.invalid(name.span(), message, "the path is relative to the scenario file").into());
     }
-    journeys_of_lines(&read_text(&path)?)
+    read_text(&path)
 }
 
 fn journeys_of_lines(lines: &SourceText) -> Result<Vec<Journey>, ScenarioError> {
@@ -217,14 +238,21 @@ fn read_text(path: &Path) -> Result<SourceText, ScenarioError> {
 }
 
 /// Points at what breaks a rule.
-fn fault(source: &SourceText, file: &ScenarioFile, agents: &[Range<usize>], fault: Fault) -> ScenarioError {
+fn fault(source: &SourceText, file: &ScenarioFile, tables: &[Table], fault: Fault) -> ScenarioError {
+    // A table may have no agents; the last that begins no later than an agent has it.
+    let table = |agent: usize| &tables[tables.partition_point(|table| table.first <= agent) - 1];
+    if let Place::Journey(agent) = fault.place
+        && let Table { lines: Some(lines), first, .. } = table(agent)
+    {
+        return fault_of_lines(lines, Fault { place: Place::Journey(agent - first), ..fault });
+    }
     let span = match fault.place {
         Place::Name => file.name.as_ref().map_or(0..0, Spanned::span),
         Place::Duration => file.duration_s.span(),
         Place::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
         Place::View => file.view.as_ref().map_or(0..0, Spanned::span),
         Place::Parameter(section, key) => parameter_span(source, &section, &key),
-        Place::Agent(index) => agents[index].clone(),
+        Place::Journey(agent) | Place::Agent(agent) => table(agent).span.clone(),
         Place::Obstacle(index) => file.obstacles[index].span(),
         Place::Agents => file.agents.span(),
     };

@@ -63,7 +63,7 @@ pub fn check_ranges(scenario: &Scenario) -> Result<(), Fault> {
     )?;
     within(&Place::Obstacle(0), "the number of obstacles", obstacles_m.len(), &(0..=OBSTACLES_MAX), "give fewer")?;
     for (index, agent) in agents.iter().enumerate() {
-        check_agent(&Place::Agent(index), agent)?;
+        check_agent(index, agent)?;
     }
     obstacles_m.iter().enumerate().try_for_each(|(index, polygon_m)| check_points(&Place::Obstacle(index), polygon_m))
 }
@@ -124,10 +124,11 @@ fn check_params(params: &Params) -> Result<(), Fault> {
     within(&substeps, "substeps", params.social_force.substeps, &SUBSTEPS, DEFAULT)
 }
 
-fn check_agent(place: &Place, agent: &AgentSpec) -> Result<(), Fault> {
-    check_points(place, &[agent.position_m])?;
-    check_points(place, &agent.goals_m)?;
-    within(place, "the number of goals", agent.goals_m.len(), &(1..=GOALS_MAX), "say where the agent goes")?;
+fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), Fault> {
+    let (journey, place) = (&Place::Journey(index), &Place::Agent(index));
+    check_points(journey, &[agent.position_m])?;
+    check_points(journey, &agent.goals_m)?;
+    within(journey, "the number of goals", agent.goals_m.len(), &(1..=GOALS_MAX), "say where the agent goes")?;
     within(place, "the facing in radians", agent.facing_rad, &FACING_RAD, "leave it out to face the first goal")?;
     within(place, "radius_m", agent.radius_m, &RADIUS_M, "give the radius of a body's disc in metres")?;
     within(place, "preferred_speed_mps", agent.preferred_speed_mps, &SPEED_MPS, "people walk at about 1.3 m/s")

@@ -18,6 +18,7 @@ use fbcrowd_sim::scenario_file::{MotionSource, read};
 use glam::Vec2;
 
 const HEAD: &str = "clips = \".\"\nduration_s = 10\n";
+const BLOCK: &str = "[[20, 20], [22, 20], [22, 22], [20, 22]]";
 const ONE: &str = "agents = { at_m = [0, 0], goals_m = [[5, 0]] }\n";
 
 fn write(test: &str, text: &str) -> PathBuf {
@@ -133,6 +134,26 @@ fn mistakes_in_an_agent_file_are_shown_in_that_file() {
         let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
         check_points_at(&invalid, line, message);
     }
+}
+
+#[test]
+fn agents_that_cannot_stand_where_a_file_has_them_are_shown_at_their_line() {
+    let check = |agents: &str, a: &str, b: &str, file: &str, part: &str, message: &str| {
+        let path = write("crowded_lines", &format!("{HEAD}agents = [{agents}]\n[[obstacles]]\npolygon_m = {BLOCK}"));
+        fs::write(path.with_file_name("a.txt"), a).unwrap();
+        fs::write(path.with_file_name("b.txt"), b).unwrap();
+        let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
+        check_points_at(&invalid, part, message);
+        assert_eq!(invalid.path.file_name().unwrap(), file);
+    };
+    let agents = "{ file = \"a.txt\" }, { at_m = [9, 9], goals_m = [[5, 0]] }, { file = \"b.txt\" }";
+    let two = "0 0 5 0\n# x\n0 1 5 1\n";
+    check(agents, "0 0 5 0\n# x\n0 0.2 5 1\n", "0 5 5 5", "a.txt", "0 0.2 5 1", "agents 0 and 1 overlap");
+    check(agents, two, "\n0 5 5 5\n0 7 21 21 # in", "b.txt", "0 7 21 21 # in", "a goal of agent 4 lies inside");
+    check(agents, "", "\n0 5 5 5\n21 21 1 1", "b.txt", "21 21 1 1", "agent 2 stands inside obstacle 0");
+    // What the table says of them is wrong there.
+    let broad = "{ file = \"b.txt\", radius_m = 3 }";
+    check(&format!("{{ file = \"a.txt\" }}, {broad}"), two, "0 5 5 5", "scene.toml", broad, "radius_m is 3");
 }
 
 #[test]

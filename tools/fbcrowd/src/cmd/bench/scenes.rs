@@ -12,7 +12,7 @@ use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use fbcrowd_sim::scenario_check;
-use fbcrowd_sim::scenario_file::agents_of_lines;
+use fbcrowd_sim::scenario_file::{agents_of_lines, fault_of_lines};
 use motiondb::source_text::SourceText;
 
 use crate::failure::Failure;
@@ -134,8 +134,7 @@ fn scene(text: &SourceText) -> Result<Scene, Failure> {
     let (name, seed) = name_and_seed(&stem);
     let scene = Scene { name: name.to_owned(), seed, agents: agents_of_lines(text)? };
     let scenario = scene.scenario(Planner::default(), Coupling::default(), Params::default());
-    scenario_check::check(&scenario)
-        .map_err(|fault| Failure::bad(format!("{}: {}; {}", text.path.display(), fault.message, fault.help)))?;
+    scenario_check::check(&scenario).map_err(|fault| fault_of_lines(text, fault))?;
     Ok(scene)
 }
 
