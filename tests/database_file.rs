@@ -61,7 +61,8 @@ fn files_of_another_version_or_kind_are_refused_by_name() {
         let path = folder.join(name);
         fs::write(&path, bytes).unwrap();
         for command in ["validate", "inspect"] {
-            fbcrowd(&[command, text(&path)]).expect_code(2).says(&[name]).says(words);
+            let outcome = fbcrowd(&[command, text(&path), "--json"]).expect_code(2).says(&[name]).says(words);
+            assert_eq!(outcome.stdout, "", "{command}");
         }
     };
     let next = container::seal(file::MAGIC, file::VERSION + 1, payload);
@@ -96,6 +97,8 @@ fn a_broken_invariant_is_an_answer_of_no_and_nothing_to_simulate_with() {
     assert!(check("checksum") && check("rows_are_complete") && !check("simplices_tile_the_hull"));
     assert_eq!(report["valid"], false);
     fbcrowd(&["inspect", text(&database)]).expect_code(1).says(&["broken.fbdb", "simplices_tile_the_hull"]);
+    let report = fbcrowd(&["inspect", text(&database), "--json"]).expect_code(1).json();
+    assert_eq!(report["broken"]["invariant"], "simplices_tile_the_hull");
 
     // To simulate, a broken database is bad input: nothing is written.
     let scene = folder.join("scene.toml");

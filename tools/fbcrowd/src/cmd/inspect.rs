@@ -32,8 +32,9 @@ pub(crate) struct Args {
     /// window_s, mirrored, speed_mps, turn_rate_rad_s, strafe_mps, duration_s, key_times_s, planted_slide_cm_s,
     /// planted_share}`, `velocity_hull {construction, turning_mps[][2], holding_mps[][2],
     /// sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension, simplices[][], covered_share}`, `correspondence
-    /// {semi_procedural, blending, pairs_s[][2]}` or null, and `coverage[] {lack, sentence}`: where the set is thin. Key
-    /// times: right toe-off, right heel strike, left toe-off, left heel strike, from right mid-stance.
+    /// {semi_procedural, blending, pairs_s[][2]}` or null, and `coverage[] {lack, sentence}`: where the set is thin; of
+    /// one that breaks an invariant only `broken {invariant, detail}`. Key times: right toe-off, right heel strike, left
+    /// toe-off, left heel strike, from right mid-stance.
     #[arg(long)]
     json: bool,
     /// Write pictures of a database: velocity sets, parameters, where they are thin, bodies, steps, and how alike the
@@ -91,10 +92,7 @@ fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
     let db = match file::load(path) {
         Ok((db, _)) => db,
         // It could be read, and the answer is no.
-        Err(broken @ FileError::Invariant { .. }) => {
-            output::say(&broken.to_string());
-            return Ok(Answer::No);
-        }
+        Err(broken @ FileError::Invariant { .. }) => return say_broken(args, &broken),
         Err(unreadable) => return Err(unreadable.into()),
     };
     let between = args.correspondence.as_ref().map(|names| Between::new(&db, names)).transpose()?;
@@ -115,6 +113,14 @@ fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
         output::print(&report::database_text(&report))?;
     }
     Ok(Answer::Yes)
+}
+
+fn say_broken(args: &Args, broken: &FileError) -> Result<Answer, Failure> {
+    if let (true, FileError::Invariant { invariant, detail, .. }) = (args.json, broken) {
+        output::print_json(&serde_json::json!({ "broken": { "invariant": invariant, "detail": detail } }))?;
+    }
+    output::say(&broken.to_string());
+    Ok(Answer::No)
 }
 
 fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
