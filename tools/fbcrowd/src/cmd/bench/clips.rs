@@ -29,7 +29,7 @@ const ADULT_MPS: f64 = 0.85;
 /// parameter over what is allowed; hip, knee, ankle) and `kinds[] {kind, sources, median_deg, real[], bundled[]}`, both
 /// lists `{clip, source, distance_deg, nearest, nearest_source}`.
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  fbcrowd bench clips\n  fbcrowd bench clips --mocap ../shared/mocap")]
+#[command(after_help = "Examples:\n  fbcrowd bench clips\n  fbcrowd bench clips --mocap my/mocap")]
 pub(super) struct Args {
     /// Real clips, a folder a source.
     #[arg(long, value_name = "DIR")]

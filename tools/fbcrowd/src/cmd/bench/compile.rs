@@ -23,7 +23,7 @@ const GOAL_MB: f64 = 500.0;
 ///
 /// In JSON `files, examples, stages[] {name, seconds}`.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  fbcrowd bench compile --mocap ../shared/mocap")]
+#[command(after_help = "Example:\n  fbcrowd bench compile --mocap my/mocap")]
 pub(super) struct Args {
     #[command(flatten)]
     mocap: Mocap,

@@ -18,6 +18,9 @@ use crate::statistics::share;
 const FRAMES: f64 = 1.0;
 /// Events that are shown, worst first; JSON has all.
 const SHOWN_EVENTS: usize = 10;
+/// Labels that the compiler's tests check: where they stand, and what they say.
+const OWN_LABELS: (&str, &str) =
+    ("tools/compiler/tests/gait_events/labels.csv", include_str!("../../../../compiler/tests/gait_events/labels.csv"));
 
 /// Compare the gait events of clips with labels: a file of lines `file,clip,fps,set,side,event,frame,pm`.
 ///
@@ -26,13 +29,13 @@ const SHOWN_EVENTS: usize = 10;
 /// unsure_frames, error_frames}` and `sets[] {name, events, within_share, within_one_frame_share,
 /// median_error_frames}`; an error is null where there is no such event.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  fbcrowd bench gait --mocap ../shared/mocap --json")]
+#[command(after_help = "Example:\n  fbcrowd bench gait --mocap my/mocap --json")]
 pub(super) struct Args {
     #[command(flatten)]
     mocap: Mocap,
-    /// The labels.
-    #[arg(long, value_name = "FILE.csv", default_value = "tools/compiler/tests/gait_events/labels.csv")]
-    labels: PathBuf,
+    /// The labels, `file` being a path in the folder of clips; those of the compiler's tests by default.
+    #[arg(long, value_name = "FILE.csv")]
+    labels: Option<PathBuf>,
 }
 
 #[derive(Serialize)]
@@ -68,7 +71,10 @@ struct Set {
 }
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
-    let mut events = labels(&args.labels)?;
+    let mut events = match &args.labels {
+        Some(path) => labels(path, &read(path)?)?,
+        None => labels(Path::new(OWN_LABELS.0), OWN_LABELS.1)?,
+    };
     let mut gaits = BTreeMap::new();
     for event in &mut events {
         let key = (event.file.clone(), event.clip.clone());
@@ -86,8 +92,11 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     conclude(&found, &text(&found.details), args.mocap.json)
 }
 
-fn labels(path: &Path) -> Result<Vec<Event>, Failure> {
-    let text = fs::read_to_string(path).map_err(|error| Failure::bad(format!("{}: {error}", path.display())))?;
+fn read(path: &Path) -> Result<String, Failure> {
+    fs::read_to_string(path).map_err(|error| Failure::bad(format!("{}: {error}", path.display())))
+}
+
+fn labels(path: &Path, text: &str) -> Result<Vec<Event>, Failure> {
     let lines = text.lines().enumerate().filter(|(_, line)| !line.starts_with('#')).skip(1);
     let event = |(index, line): (usize, &str)| {
         let wrong =

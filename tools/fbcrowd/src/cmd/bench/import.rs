@@ -32,7 +32,7 @@ const SHOWN_ROWS: usize = 12;
 /// with its elbows for shoulders, as the index was by mistake on some rigs, else null; share_of_index is that of the
 /// judged rows within tolerance of the index as it is.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  fbcrowd bench import --mocap ../shared/mocap --json")]
+#[command(after_help = "Example:\n  fbcrowd bench import --mocap my/mocap --json")]
 pub(super) struct Args {
     #[command(flatten)]
     mocap: Mocap,

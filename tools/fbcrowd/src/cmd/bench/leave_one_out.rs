@@ -17,9 +17,11 @@ use crate::statistics::share;
 
 /// Leave out one example after the other of the Marine, Bandai Namco and bundled sets.
 ///
+/// The Marine clips are sought in the folder's `smartbody_converted`, Bandai Namco's in `bandai_namco`.
+///
 /// In JSON `sets[] {name, leave_one_out}`, as `fbcrowd inspect --leave-one-out` has it.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  fbcrowd bench leave-one-out --mocap ../shared/mocap")]
+#[command(after_help = "Example:\n  fbcrowd bench leave-one-out --mocap my/mocap")]
 pub(super) struct Args {
     #[command(flatten)]
     mocap: Mocap,

@@ -46,7 +46,7 @@ use crate::failure::{Answer, Failure};
 /// what is to be measured cannot be read.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd bench import --mocap ../shared/mocap\n  fbcrowd bench compile --mocap my/clips --json"
+    after_help = "Examples:\n  fbcrowd bench compile --mocap my/clips\n  fbcrowd bench table1 --json"
 )]
 pub(crate) struct Args {
     #[command(subcommand)]
@@ -80,8 +80,8 @@ enum Bench {
 /// What every bench on other people's clips is told.
 #[derive(clap::Args)]
 struct Mocap {
-    /// The folder of clips.
-    #[arg(long, value_name = "DIR", default_value = "../shared/mocap")]
+    /// The folder of clips: other people's recordings, which are no part of this repository.
+    #[arg(long, value_name = "DIR")]
     mocap: PathBuf,
     /// Print JSON.
     #[arg(long)]
