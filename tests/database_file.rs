@@ -131,7 +131,7 @@ fn figures_beyond_their_thresholds_are_warnings_unless_strict() {
 fn whatever_is_read_survives_damage_forgery_and_mutation() {
     let database = golden("fbdb");
     let counts = "--count 800 --forged 200 --mutated 100 --worlds 2000 --turned 500 --programs 500".split(' ');
-    let arguments: Vec<&str> = ["bench", "soak", text(&database), "--json"].into_iter().chain(counts).collect();
+    let arguments: Vec<&str> = ["bench", "soak", "--db", text(&database), "--json"].into_iter().chain(counts).collect();
     let found = fbcrowd(&arguments).expect_code(0).json();
     let kinds = found["kinds"].as_array().unwrap();
     assert_eq!((kinds.len(), &kinds[0]["refused"]), (10, &800.into()), "{found}");

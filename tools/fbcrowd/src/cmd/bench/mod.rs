@@ -45,9 +45,7 @@ use crate::failure::{Answer, Failure};
 /// on the machine) and last `bars[] {name, measured, limit, met}`. Exit code 0: every bar is met; 1: one is missed; 2:
 /// what is to be measured cannot be read.
 #[derive(clap::Args)]
-#[command(
-    after_help = "Examples:\n  fbcrowd bench compile --mocap my/clips\n  fbcrowd bench table1 --json"
-)]
+#[command(after_help = "Examples:\n  fbcrowd bench compile --mocap my/clips\n  fbcrowd bench table1 --json")]
 pub(crate) struct Args {
     #[command(subcommand)]
     bench: Bench,

@@ -55,11 +55,11 @@ const DAMAGED: &str = "damaged databases";
 #[command(after_help = "\
 Examples:
   fbcrowd bench soak
-  fbcrowd bench soak motion.fbdb --count 100000 --forged 10000 --mutated 0 --worlds 0 --turned 0 --programs 0
+  fbcrowd bench soak --db motion.fbdb --count 100000 --forged 10000 --mutated 0 --worlds 0 --turned 0 --programs 0
   fbcrowd bench soak --seed 4711 --count 1 --forged 1 --mutated 1 --worlds 1 --turned 1 --programs 1    # a find, again")]
 pub(super) struct Args {
-    /// A sound database; else that of the bundled clips.
-    #[arg(value_name = "FILE.fbdb")]
+    /// A sound database; that of the bundled clips by default.
+    #[arg(long = "db", value_name = "FILE.fbdb")]
     database: Option<PathBuf>,
     /// Damaged databases.
     #[arg(long, value_name = "N", default_value_t = 10_000)]
