@@ -40,7 +40,8 @@ const KNEE_YAW: f32 = 0.7;
 const HIP_TWIST: f32 = 0.3;
 /// Swing of hips, trunk and arms over that of m_sp, at least and at most.
 const SWING: [f32; 2] = [0.3, 1.3];
-/// What is the same to both sides is rounded at none, where a body turns about, m/s and rad/s.
+/// Sizes of side speeds and turn rates are rounded off below about this, m/s and rad/s: |x| has an edge at 0, and feet
+/// that move apart by it would jerk where a body changes sides.
 const ROUNDING: f32 = 0.1;
 /// Gravity, m/s²: a body on an arc leans by atan(v·ω/g).
 const GRAVITY_MPS2: f32 = 9.81;

@@ -4,8 +4,8 @@
 //! pose's foot drifts. A foot's *hold* is the rigid motion (horizontal shift c, twist ψ about the vertical, lift) that
 //! takes the pose's foot to the final one. While the foot is planted, c and ψ cancel the motion of the sole point that
 //! is lowest now and the turning of the foot: the contact point rests, and the foot still rolls, since its pitch is
-//! left to the pose. Off the ground c and ψ return to zero by a critically damped filter of the third order, which starts at
-//! the speed they had: neither the foot's velocity nor its acceleration jumps at toe-off.
+//! left to the pose. Off the ground c and ψ return to zero by a critically damped filter of the third order, which
+//! starts at the speed they had: neither the foot's velocity nor its acceleration jumps at toe-off.
 //!
 //! World, metres and radians; z is the height over the ground, the same in world and root frame.
 
@@ -17,22 +17,23 @@ use crate::decay::soft_maximum;
 
 /// Rate of the filter that lets a foot go, 1/s: of a hold, 2 % is left after 0.25 s, before the foot lands again.
 pub(super) const RELEASE_RATE_HZ: f32 = 30.0;
-/// Rate of that by which a planted sole comes down to the ground and a swinging one rises to its clearance, 1/s.
+/// Rate of the filter by which a planted sole comes down to the ground and a swinging one rises to its clearance, 1/s.
 pub(super) const LIFT_RATE_HZ: f32 = 80.0;
-/// A foot that lands while it still moves over the ground, since the body changes its speed, comes to rest in this time,
-/// s: within the tenth of a stance in which it rolls on. At once would jerk the knee.
+/// Time constant, s, by which a foot comes to rest that lands while it still moves over the ground, as where the body
+/// changes its speed: well within the tenth of a stance in which its sole rolls down. At once would jerk the knee.
 pub(super) const LANDING_TIME_S: f32 = 0.012;
-/// Toe clearance of a swinging foot in walking (Winter 1992): blends with standing lower the swing, and would drag the
-/// toes …
+/// Toe clearance of a swinging foot in walking, m (Winter 1992): blends with standing lower the swing, and would drag
+/// the toes.
 const CLEARANCE_M: f32 = 0.013;
-/// … in full from this speed, m/s: a foot that leaves moves slowly; one that lands so soon, s, wants none …
+/// A foot wants all of it from this speed on, m/s, and slower ones less: those that leave the ground begin slowly.
 const CLEARANCE_SPEED_MPS: f32 = 1.0;
+/// A foot that will land within this time wants none, s.
 pub(super) const LANDING_AHEAD_S: f32 = 0.06;
-/// … and gently: from so far above it on a foot is lifted, m, …
+/// A foot this far above its clearance begins to be lifted, m, so that lifting has no edge.
 const CLEARANCE_SOFTNESS_M: f32 = 0.003;
-/// … by its mean speed over this time, s: between two rows of the database a foot has one speed.
+/// Time over which a foot's speed is averaged, s: it is constant between two rows of the database, and jumps at each.
 pub(super) const SPEED_TIME_S: f32 = 0.03;
-/// Greatest shift: the leg of a step that is broken off half-way; beyond it the foot slides, metres.
+/// Greatest shift of a foot against the pose's, m: that of a step broken off half-way; beyond it the foot slides.
 const SHIFT_MAX_M: f32 = 0.35;
 /// Greatest twist of a foot against the pose's: people twist the stance foot, and pivot on it beyond about 45°.
 const TWIST_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
@@ -97,8 +98,8 @@ impl FootHold {
         Self { lowest, height_m, heading_rad: posed.heading_rad(), sole_m: posed.sole_m, ..Self::default() }
     }
 
-    /// Moves the hold by one step; `posed` is the foot of the blended pose, and `lands` its contact `LANDING_AHEAD_S` from
-    /// now.
+    /// Moves the hold by one step; `posed` is the foot of the blended pose, and `lands` its contact `LANDING_AHEAD_S`
+    /// from now.
     pub fn step(&mut self, posed: &PosedFoot, planted: bool, lands: f32, step: &TimeStep) -> HeldFoot {
         let heading_rad = posed.heading_rad();
         let (lowest, height_m) = posed.lowest();

@@ -17,17 +17,17 @@ pub const IDLE_SHARE_MAX: f32 = 0.35;
 const PACE_MIN: f32 = 0.3;
 /// A standing body starts where the asked parameters hold less standing than this …
 pub const START_IDLE_SHARE: f32 = 0.8;
-/// … and a stepping one stops where they hold more than this. A planner that approaches its preferred velocity from the
-/// present one keeps asking for some 0.45 of the least steps' 0.65: a body that is to stop must take that, an idle
-/// share of 0.71, for standing …
+/// … and a stepping one stops where they hold more than this: the slowest steps, 1 − `PACE_MIN`·(1 −
+/// [`IDLE_SHARE_MAX`]) = 0.805, lie between the two.
 const STOP_IDLE_SHARE: f32 = 0.82;
-/// … but either lasts for this long, about a step, s, for the planner goes on to speak of the velocity before …
+/// Standing and stepping last for this long, about a step, s, since a planner that leads on from the present velocity
+/// asks for it a while longer …
 const GAIT_TIME_S: f32 = 0.4;
-/// … unless it is asked to stand in earnest: then not even a direction is left.
+/// … but who is asked for more standing than this stops at once: not even a direction is left to step in.
 const HALT_IDLE_SHARE: f32 = 0.95;
 /// To stop, a body takes small steps until its feet are under it, for this long at most, s.
 const GATHERING_TIME_S: f32 = 1.2;
-/// While it does, it makes for this share of what it does, or for the least steps, whichever is more.
+/// Meanwhile it makes for this share of its present velocity, or for the least steps where those are more.
 const SLOWING: f32 = 0.25;
 
 /// Whether a body stands or steps.

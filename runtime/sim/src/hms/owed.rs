@@ -9,13 +9,13 @@ use glam::Vec2;
 use super::time_step::TimeStep;
 use crate::plan::Plan;
 
-/// A plan slower than this is saved up, and paid at this speed, m/s: the body makes the least steps of it.
+/// What is planned slower than this is saved up, and paid at this speed, m/s: about that of the least steps.
 const PAYING_SPEED_MPS: f32 = 0.35;
-/// A small step, m.
+/// Owed as much, a small step, the body takes it, m.
 const STEP_M: f32 = 0.2;
-/// The most that is owed, m.
+/// The most that is owed, m: who was held up for long makes up for no more than that step.
 const OWED_MAX_M: f32 = 0.25;
-/// What is owed is forgotten at this pace, s: less than 3 cm/s is no wish to move.
+/// What is owed is forgotten with this time constant, s: creeping slower than 5 cm/s never adds up to a step.
 pub(super) const FORGETTING_TIME_S: f32 = 4.0;
 
 /// The distance owed.
