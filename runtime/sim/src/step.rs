@@ -19,10 +19,8 @@ use crate::agents::Agents;
 use crate::cns::{self, Coupling};
 use crate::crowd::plan_all;
 use crate::decoupled;
-use crate::hms::Motion;
-use crate::hms::hybrid::Hybrid;
-use crate::hms::repertoire;
-use crate::hms::space::Space;
+use crate::hms::params::HmsParams;
+use crate::hms::studio::Studio;
 use crate::hms::time_step::TimeStep;
 use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
@@ -57,9 +55,7 @@ pub enum Stage {
 /// A running simulation.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    db: Arc<MotionDb>,
-    space: Space,
-    hybrid: Option<Hybrid>,
+    studio: Studio,
     scenario: Scenario,
     obstacles: Obstacles,
     constraints: MotionConstraints,
@@ -72,20 +68,16 @@ pub struct Simulation {
 impl Simulation {
     /// At time 0: every agent stands at its start.
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
-        let db = repertoire::complete(db);
-        let (space, hybrid) = (Space::new(&db), Hybrid::new(&db, scenario.modes()));
-        let motion = Motion { db: &db, space: &space, hybrid: hybrid.as_ref(), params: &scenario.params.synthesis };
-        let agents = Agents::new(scenario, &motion);
+        let studio = Studio::new(db, HmsParams { modes: scenario.modes(), ..scenario.params.synthesis.clone() });
+        let agents = Agents::new(scenario, &studio.motion());
         let mut simulation = Self {
             obstacles: Obstacles::new(&scenario.obstacles_m),
-            constraints: MotionConstraints::new(&db.velocity_hull),
+            constraints: MotionConstraints::new(&studio.db.velocity_hull),
             neighbours: Neighbours::default(),
             planned: Vec::new(),
             scenario: scenario.clone(),
             agents,
-            space,
-            hybrid,
-            db,
+            studio,
         };
         simulation.record();
         simulation
@@ -159,12 +151,7 @@ impl Simulation {
     }
 
     fn synthesize(&mut self) {
-        let motion = Motion {
-            db: &self.db,
-            space: &self.space,
-            hybrid: self.hybrid.as_ref(),
-            params: &self.scenario.params.synthesis,
-        };
+        let motion = self.studio.motion();
         let (agents, obstacles) = (&mut self.agents, &self.obstacles);
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let time_step = TimeStep::new(dt_s);
@@ -211,6 +198,7 @@ pub(crate) mod tests {
 
     use super::*;
     use crate::angle::wrap_rad;
+    use crate::hms::space::Space;
     use crate::params::Params;
     use crate::planner::Planner;
     use crate::recording_frame::Mode;

@@ -3,13 +3,12 @@
 mod clips;
 
 use std::f32::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 use fbcrowd_sim::hms::hybrid::Hybrid;
 use fbcrowd_sim::hms::inertialization::CARRIED_S;
 use fbcrowd_sim::hms::params::{HmsParams, Transition};
-use fbcrowd_sim::hms::space::Space;
-use fbcrowd_sim::hms::time_step::TimeStep;
-use fbcrowd_sim::hms::{Body, Motion};
+use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::recording_frame::Mode;
 use glam::{Vec2, Vec3};
@@ -29,21 +28,14 @@ struct Step {
 
 /// A body walks by a plan of time and root.
 fn walk(db: &MotionDb, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Step> {
-    walk_by(db, &HmsParams::default(), seconds, plan)
+    walk_by(db, HmsParams::default(), seconds, plan)
 }
 
-fn walk_by(db: &MotionDb, params: &HmsParams, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Step> {
-    let (space, hybrid) = (Space::new(db), Hybrid::new(db, params.modes).unwrap());
-    let motion = Motion { db, space: &space, hybrid: Some(&hybrid), params };
-    let (mut body, _) = Body::standing(&motion, Root::default(), 0.3);
-    let time_step = TimeStep::new(DT_S);
-    (0..(seconds / DT_S) as usize)
-        .map(|step| {
-            body.advance(&motion, &plan(step as f32 * DT_S, &body.root), &time_step);
-            let joints = body.synthesize(&motion, &time_step).pose.forward_kinematics(&db.skeleton);
-            Step { mode: body.mode, root: body.root, joints_m: joints.positions_m.to_vec() }
-        })
-        .collect()
+fn walk_by(db: &MotionDb, params: HmsParams, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Step> {
+    Studio::new(Arc::new(db.clone()), params).walk(0.3, seconds, DT_S, plan, |body, synthesis| {
+        let joints = synthesis.pose.forward_kinematics(&db.skeleton);
+        Step { mode: body.mode, root: body.root, joints_m: joints.positions_m.to_vec() }
+    })
 }
 
 fn towards(angle_rad: f32, speed_mps: f32, time_to_collision_s: f32) -> Plan {
@@ -119,7 +111,7 @@ fn on_the_papers_way_synthesis_changes_hands_at_the_velocity_of_m_mb() {
     let db = bundled();
     let m_mb = db.examples[db.correspondence.as_ref().unwrap().blending as usize].parameters;
     let params = HmsParams { transition: Transition::ThroughMMb, ..HmsParams::default() };
-    let steps = walk_by(&db, &params, 24.0, |time_s, _| towards(0.0, 1.5, threat_s(time_s)));
+    let steps = walk_by(&db, params, 24.0, |time_s, _| towards(0.0, 1.5, threat_s(time_s)));
     let switches = switches(&steps);
     assert!(switches.len() >= 8, "{} switches", switches.len());
     for step in switches {

@@ -5,10 +5,10 @@ mod clips;
 use std::f32::consts::TAU;
 use std::sync::Arc;
 
-use fbcrowd_sim::hms::params::HmsParams;
+use fbcrowd_sim::hms::asked::asking;
+use fbcrowd_sim::hms::params::{HmsParams, Modes};
 use fbcrowd_sim::hms::space::Space;
-use fbcrowd_sim::hms::time_step::TimeStep;
-use fbcrowd_sim::hms::{Body, Motion, Synthesis, repertoire};
+use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::plan::Plan;
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
@@ -40,32 +40,13 @@ struct Step {
     soles_m: [[Vec3; 3]; 2],
 }
 
-fn go(db: &MotionDb, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Step> {
-    let (space, params) = (Space::new(db), HmsParams::default());
-    let motion = Motion { db, space: &space, hybrid: None, params: &params };
-    let (mut body, first) = Body::standing(&motion, Root::default(), 0.0);
-    let step = |body: &Body, synthesis: &Synthesis| {
-        let joints = synthesis.pose.forward_kinematics(&db.skeleton);
-        let soles_m =
-            [0, 1].map(|side| joints.sole_points_m(&db.skeleton, side).map(|point| body.root.to_world(point)));
+fn go(studio: &Studio, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Step> {
+    let skeleton = &studio.db.skeleton;
+    studio.walk(0.0, seconds, DT_S, plan, |body, synthesis| {
+        let joints = synthesis.pose.forward_kinematics(skeleton);
+        let soles_m = [0, 1].map(|side| joints.sole_points_m(skeleton, side).map(|point| body.root.to_world(point)));
         Step { root: body.root, contacts: synthesis.contacts, soles_m }
-    };
-    let mut steps = vec![step(&body, &first)];
-    let time_step = TimeStep::new(DT_S);
-    for index in 0..(seconds / DT_S) as usize {
-        body.advance(&motion, &plan(index as f32 * DT_S, &body.root), &time_step);
-        let synthesis = body.synthesize(&motion, &time_step);
-        steps.push(step(&body, &synthesis));
-    }
-    steps
-}
-
-/// The plan that asks a body at `root` for these parameters.
-fn asking(way: Parameters, root: &Root) -> Plan {
-    let lead_rad = way.turn_rate_rad_s * HmsParams::default().turn_time_s;
-    let facing_rad = root.facing_rad + lead_rad;
-    let velocity_mps = Vec2::new(way.speed_mps, way.strafe_mps) / lead_rad.cos();
-    Plan { velocity_mps: Vec2::from_angle(facing_rad).rotate(velocity_mps), facing_rad, ..Plan::default() }
+    })
 }
 
 fn way([speed_mps, turn_rate_rad_s, strafe_mps]: [f32; 3]) -> Parameters {
@@ -92,14 +73,18 @@ fn faults_s(steps: &[Step]) -> [f32; 2] {
     longest_s
 }
 
+fn studio(db: MotionDb) -> Studio {
+    Studio::new(Arc::new(db), HmsParams { modes: Modes::Blending, ..HmsParams::default() })
+}
+
 /// Both, and the paper's clips without those that stand, turn on the spot, or side-step.
-fn databases(test: &str) -> Vec<(&'static str, Arc<MotionDb>)> {
+fn studios(test: &str) -> Vec<(&'static str, Studio)> {
     let mut found = vec![("bundled", bundled())];
     found.extend(marine(test).map(|db| ("marine", db)));
     for (name, without) in [("no idle", "Idle"), ("no turn on the spot", "Turn360"), ("no side-step", "Strafe")] {
         found.extend(marine_without(test, without).map(|db| (name, db)));
     }
-    found.into_iter().map(|(name, db)| (name, repertoire::complete(Arc::new(db)))).collect()
+    found.into_iter().map(|(name, db)| (name, studio(db))).collect()
 }
 
 /// Where the balls of the feet are, from the root, in its frame.
@@ -109,9 +94,10 @@ fn balls_m(step: &Step) -> [Vec2; 2] {
 }
 
 #[track_caller]
-fn check_stop(name: &str, db: &MotionDb, asked: [f32; 3], stop_s: f32) {
-    let plan = |time_s: f32, root: &Root| asking(way(if time_s < stop_s { asked } else { [0.0; 3] }), root);
-    let steps = go(db, stop_s + 3.0, plan);
+fn check_stop(name: &str, studio: &Studio, asked: [f32; 3], stop_s: f32) {
+    let asked_at = |time_s: f32| way(if time_s < stop_s { asked } else { [0.0; 3] });
+    let plan = |time_s: f32, root: &Root| asking(asked_at(time_s), root, &studio.params);
+    let steps = go(studio, stop_s + 3.0, plan);
     let after = &steps[(stop_s / DT_S) as usize..];
     let last = &after[after.len() - 1];
     let resting_s = DT_S * after.iter().filter(|step| step.root == last.root).count() as f32;
@@ -131,10 +117,10 @@ fn check_feet(name: &str, steps: &[Step]) {
 
 #[test]
 fn whoever_is_told_to_stop_finishes_the_step_and_stands_on_both_feet() {
-    for (name, db) in databases("whoever_is_told_to_stop_finishes_the_step_and_stands_on_both_feet") {
+    for (name, studio) in studios("whoever_is_told_to_stop_finishes_the_step_and_stands_on_both_feet") {
         for asked in WAYS {
             for moment in 0..MOMENTS {
-                check_stop(name, &db, asked, 4.0 + STRIDE_S * moment as f32 / MOMENTS as f32);
+                check_stop(name, &studio, asked, 4.0 + STRIDE_S * moment as f32 / MOMENTS as f32);
             }
         }
     }
@@ -142,11 +128,11 @@ fn whoever_is_told_to_stop_finishes_the_step_and_stands_on_both_feet() {
 
 #[test]
 fn whoever_stands_starts_in_every_direction() {
-    for (name, db) in databases("whoever_stands_starts_in_every_direction") {
+    for (name, studio) in studios("whoever_stands_starts_in_every_direction") {
         for direction in 0..8 {
             let angle_rad = TAU * direction as f32 / 8.0;
             let velocity_mps = 0.9 * Vec2::from_angle(angle_rad);
-            let steps = go(&db, 3.0, |_, _| Plan { velocity_mps, facing_rad: angle_rad, ..Plan::default() });
+            let steps = go(&studio, 3.0, |_, _| Plan { velocity_mps, facing_rad: angle_rad, ..Plan::default() });
             let gained_m = steps[steps.len() - 1].root.position_m.dot(Vec2::from_angle(angle_rad));
             // Of 2.7 m; turning about takes 1.5 s where nobody turns on the spot.
             assert!(gained_m > 0.9, "{name} towards {angle_rad}: {gained_m} m");
@@ -158,14 +144,16 @@ fn whoever_stands_starts_in_every_direction() {
 #[test]
 fn nobody_is_led_astray_by_a_side_step_that_no_clip_has() {
     let Some(db) = marine_without("nobody_is_led_astray_by_a_side_step_that_no_clip_has", "Strafe") else { return };
-    let steps = go(&db, 3.0, |_, _| Plan { velocity_mps: Vec2::new(0.0, 0.5), ..Plan::default() });
+    // As it is: completed, it has side-steps.
+    let studio = Studio { space: Space::new(&db), hybrid: None, params: HmsParams::default(), db: Arc::new(db) };
+    let steps = go(&studio, 3.0, |_, _| Plan { velocity_mps: Vec2::new(0.0, 0.5), ..Plan::default() });
     assert!(steps.iter().all(|step| step.root == Root::default()));
 }
 
 #[test]
 fn a_standing_body_made_of_steps_stands_upright_on_the_ground() {
-    for (name, db) in databases("a_standing_body_made_of_steps_stands_upright_on_the_ground") {
-        let step = &go(&db, 0.1, |_, root| asking(Parameters::default(), root))[5];
+    for (name, studio) in studios("a_standing_body_made_of_steps_stands_upright_on_the_ground") {
+        let step = &go(&studio, 0.1, |_, root| asking(Parameters::default(), root, &studio.params))[5];
         let heights_m = step.soles_m.as_flattened().iter().map(|point| point.z);
         let highest_m = heights_m.fold(0.0_f32, |highest_m, height_m| highest_m.max(height_m.abs()));
         assert!(highest_m < 0.04, "{name}: {:?}", step.soles_m);

@@ -6,10 +6,10 @@ use std::f32::consts::FRAC_PI_2;
 use std::path::Path;
 use std::sync::Arc;
 
-use fbcrowd_sim::hms::params::HmsParams;
-use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::params::{HmsParams, Modes};
+use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::hms::time_step::TimeStep;
-use fbcrowd_sim::hms::{Body, Motion, Synthesis};
+use fbcrowd_sim::hms::{Body, Synthesis};
 use fbcrowd_sim::obstacles::Obstacles;
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::planted_slide::{PlantedSlide, Slide};
@@ -47,8 +47,8 @@ fn errand(time_s: f32, root: &Root) -> Plan {
 
 /// One body at each of eight phases goes on the errand; `see` is shown every step.
 fn go(db: &MotionDb, mut see: impl FnMut(&Root, &Synthesis)) -> Slide {
-    let (space, params) = (Space::new(db), HmsParams::default());
-    let motion = Motion { db, space: &space, hybrid: None, params: &params };
+    let studio = Studio::new(Arc::new(db.clone()), HmsParams { modes: Modes::Blending, ..HmsParams::default() });
+    let motion = studio.motion();
     let start = |index: usize| Body::standing(&motion, Root::default(), index as f32 / 8.0);
     let mut bodies: Vec<Body> = (0..8).map(|index| start(index).0).collect();
     let mut slide = PlantedSlide::new(&db.skeleton, bodies.len(), DT_S);

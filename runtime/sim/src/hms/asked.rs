@@ -17,6 +17,7 @@
 
 use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
+use motiondb::pose::Root;
 
 use super::params::HmsParams;
 use super::semi_procedural::SemiProcedural;
@@ -36,6 +37,19 @@ pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) ->
     // Who has no side-steps is asked for none: the nearest to them that turning clips have leads elsewhere.
     let [right_mps, left_mps] = space.strafe_mps;
     Parameters { speed_mps: wanted_mps.x, turn_rate_rad_s, strafe_mps: wanted_mps.y.clamp(right_mps, left_mps) }
+}
+
+/// The plan by which a blending body at `root` is asked for exactly these parameters: the inverse of [`asked`].
+pub fn asking(asked: Parameters, root: &Root, params: &HmsParams) -> Plan {
+    let lead_rad = asked.turn_rate_rad_s * params.turn_time_s;
+    let facing_rad = root.facing_rad + lead_rad;
+    let velocity_mps = Vec2::new(asked.speed_mps, asked.strafe_mps) / lead_rad.cos();
+    Plan {
+        velocity_mps: Vec2::from_angle(facing_rad).rotate(velocity_mps),
+        facing_rad,
+        time_to_collision_s: f32::INFINITY,
+        ..Plan::default()
+    }
 }
 
 /// What a plan asks of semi-procedural locomotion, which can do it: the planned velocity itself, whatever the facing. The

@@ -45,6 +45,7 @@ pub mod seen;
 pub mod semi_procedural;
 pub mod space;
 pub mod standing;
+pub mod studio;
 mod switching;
 mod synthesize;
 pub mod time_step;

@@ -1,6 +1,7 @@
 //! Claims about whole bodies, on the analytic database of [`crate::test_db`].
 
 use std::f32::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
@@ -9,20 +10,20 @@ use motiondb::pose::Root;
 use motiondb::skeleton::Joint;
 use proptest::prelude::*;
 
+use super::Synthesis;
 use super::asked;
 use super::blending::Mix;
 use super::gait::{self, Gait};
-use super::params::HmsParams;
+use super::params::{HmsParams, Modes};
 use super::space::Space;
-use super::time_step::TimeStep;
-use super::{Body, Motion, Synthesis};
+use super::studio::Studio;
 use crate::plan::Plan;
 use crate::test_db::test_db;
 
 const DT_S: f32 = 1.0 / 30.0;
 
 struct Walk {
-    db: MotionDb,
+    db: Arc<MotionDb>,
     steps: Vec<(Root, Synthesis)>,
 }
 
@@ -32,16 +33,10 @@ fn walk(seconds: f32, dt_s: f32, plan: impl Fn(f32, &Root) -> Plan) -> Walk {
 }
 
 fn walk_on(db: MotionDb, seconds: f32, dt_s: f32, plan: impl Fn(f32, &Root) -> Plan) -> Walk {
-    let (space, params) = (Space::new(&db), HmsParams::default());
-    let motion = Motion { db: &db, space: &space, hybrid: None, params: &params };
-    let (mut body, first) = Body::standing(&motion, Root::default(), 0.3);
-    let mut steps = vec![(body.root, first)];
-    let time_step = TimeStep::new(dt_s);
-    for step in 0..(seconds / dt_s) as usize {
-        body.advance(&motion, &plan(step as f32 * dt_s, &body.root), &time_step);
-        steps.push((body.root, body.synthesize(&motion, &time_step)));
-    }
-    Walk { db, steps }
+    let params = HmsParams { modes: Modes::Blending, ..HmsParams::default() };
+    let studio = Studio::new(Arc::new(db), params);
+    let steps = studio.walk(0.3, seconds, dt_s, plan, |body, synthesis| (body.root, *synthesis));
+    Walk { db: studio.db, steps }
 }
 
 fn towards(angle_rad: f32, speed_mps: f32) -> Plan {

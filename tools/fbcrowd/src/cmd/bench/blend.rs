@@ -13,6 +13,7 @@ use std::path::PathBuf;
 
 use fbcrowd_sim::hms::gait::START_IDLE_SHARE;
 use fbcrowd_sim::hms::params::Modes;
+use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::plan::Plan;
 use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
@@ -21,7 +22,7 @@ use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
 use super::bundled::database;
-use super::walker::{DT_S, Studio, achieved, turned_rad};
+use super::walker::{DT_S, achieved, asked_roots, roots, studio, turned_rad};
 use crate::failure::{Answer, Failure};
 
 /// Grid points along each axis, and how far the grid is drawn in.
@@ -92,7 +93,7 @@ struct Allowed {
 }
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
-    let studio = Studio::new(database(args.database.as_deref())?, Modes::Blending);
+    let studio = studio(database(args.database.as_deref())?, Modes::Blending);
     let asked = grid(&studio);
     let finest = errand_roots(&studio, DT_S[0]);
     let measured = |dt_s: f32| Run {
@@ -127,7 +128,7 @@ fn grid(studio: &Studio) -> Vec<Parameters> {
 }
 
 fn point(studio: &Studio, asked: Parameters, dt_s: f32) -> Point {
-    let roots = studio.walk(STARTING_S + WATCHED_S, dt_s, |_, root| studio.plan_for(asked, root));
+    let roots = asked_roots(studio, STARTING_S + WATCHED_S, dt_s, |_| asked);
     let achieved = achieved(&roots[(STARTING_S / dt_s).round() as usize..], dt_s);
     Point {
         asked: asked.to_vec3().to_array(),
@@ -138,7 +139,7 @@ fn point(studio: &Studio, asked: Parameters, dt_s: f32) -> Point {
 
 /// Roots that walk as is asked of them, after the start.
 fn started(studio: &Studio, asked: Parameters, seconds: f32, dt_s: f32) -> Vec<Root> {
-    let mut roots = studio.walk(STARTING_S + seconds, dt_s, |_, root| studio.plan_for(asked, root));
+    let mut roots = asked_roots(studio, STARTING_S + seconds, dt_s, |_| asked);
     roots.split_off((STARTING_S / dt_s).round() as usize)
 }
 
@@ -204,7 +205,7 @@ fn errand(time_s: f32) -> Plan {
 /// Where the errand leads, every tenth of a second.
 fn errand_roots(studio: &Studio, dt_s: f32) -> Vec<Root> {
     // The middle of a step tells what is in force, whatever rounding makes of its beginning.
-    let roots = studio.walk(15.0, dt_s, |time_s, _| errand(time_s + 0.5 * dt_s));
+    let roots = roots(studio, 15.0, dt_s, |time_s, _| errand(time_s + 0.5 * dt_s));
     roots.into_iter().step_by((0.1 / dt_s).round() as usize).collect()
 }
 

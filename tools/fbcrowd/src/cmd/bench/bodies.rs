@@ -12,11 +12,10 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use fbcrowd_sim::hms::hybrid::Hybrid;
-use fbcrowd_sim::hms::params::{HmsParams, Modes};
-use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::Body;
+use fbcrowd_sim::hms::params::Modes;
+use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::hms::time_step::TimeStep;
-use fbcrowd_sim::hms::{Body, Motion};
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::split_mix::SplitMix64;
 use glam::Vec2;
@@ -26,6 +25,7 @@ use serde::Serialize;
 
 use super::bar::{Bar, Found, Goal, conclude};
 use super::bundled::bundled;
+use super::walker::studio;
 use crate::failure::{Answer, Failure};
 use crate::statistics::median;
 
@@ -69,8 +69,7 @@ struct Details {
 /// Bodies that play one synthesis, and what each is asked for: the velocity in its own frame, m/s, and how far ahead
 /// of its facing the wanted one is, rad.
 struct Walkers {
-    params: HmsParams,
-    hybrid: Option<Hybrid>,
+    studio: Studio,
     bodies: Vec<Body>,
     asked: Vec<(Vec2, f32)>,
 }
@@ -84,17 +83,16 @@ struct Turn {
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let db = bundled()?;
-    let space = Space::new(&db);
     let [mut blending, mut semi_procedural] =
-        [Modes::Blending, Modes::SemiProcedural].map(|modes| Walkers::new(&db, &space, modes));
-    (0..WARM_UP).for_each(|_| [&mut blending, &mut semi_procedural].into_iter().for_each(|it| it.step(&db, &space)));
+        [Modes::Blending, Modes::SemiProcedural].map(|modes| Walkers::new(studio(db.clone(), modes)));
+    (0..WARM_UP).for_each(|_| [&mut blending, &mut semi_procedural].into_iter().for_each(Walkers::step));
     let entries = |body: &Body| body.mix.entries().len() as f32;
     let examples_mixed = blending.bodies.iter().map(entries).sum::<f32>() / BODIES as f32;
     let turns: Vec<Turn> = (0..TURNS)
         .map(|_| Turn {
             plain_us: microseconds(|| plain(&db, &blending.bodies)),
-            blending_us: microseconds(|| blending.step(&db, &space)),
-            semi_procedural_us: microseconds(|| semi_procedural.step(&db, &space)),
+            blending_us: microseconds(|| blending.step()),
+            semi_procedural_us: microseconds(|| semi_procedural.step()),
         })
         .collect();
     let of = |figure: fn(&Turn) -> f32| median(turns.iter().map(figure));
@@ -124,10 +122,8 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 impl Walkers {
-    fn new(db: &MotionDb, space: &Space, modes: Modes) -> Self {
-        let params = HmsParams { modes, ..HmsParams::default() };
-        let hybrid = Hybrid::new(db, modes);
-        let motion = Motion { db, space, hybrid: hybrid.as_ref(), params: &params };
+    fn new(studio: Studio) -> Self {
+        let motion = studio.motion();
         let mut random = SplitMix64::new(1, 0);
         let mut within = |range: f32| random.within(f64::from(range)) as f32;
         let bodies =
@@ -135,15 +131,14 @@ impl Walkers {
         let asked = (0..BODIES)
             .map(|_| {
                 let velocity_mps = Vec2::new(SPEED_MPS[0] + within(SPEED_MPS[1]), within(STRAFE_MPS));
-                (velocity_mps, within(TURN_RATE_RAD_S) * params.turn_time_s)
+                (velocity_mps, within(TURN_RATE_RAD_S) * studio.params.turn_time_s)
             })
             .collect();
-        Self { params, hybrid, bodies, asked }
+        Self { bodies, asked, studio }
     }
 
-    fn step(&mut self, db: &MotionDb, space: &Space) {
-        let motion = Motion { db, space, hybrid: self.hybrid.as_ref(), params: &self.params };
-        let time_step = TimeStep::new(DT_S);
+    fn step(&mut self) {
+        let (motion, time_step) = (self.studio.motion(), TimeStep::new(DT_S));
         for (body, &(velocity_mps, ahead_rad)) in self.bodies.iter_mut().zip(&self.asked) {
             let facing_rad = body.root.facing_rad + ahead_rad;
             let velocity_mps = Vec2::from_angle(facing_rad).rotate(velocity_mps);

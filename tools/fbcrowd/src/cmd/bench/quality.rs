@@ -4,10 +4,8 @@
 //! semi-procedural locomotion and by both. Each is measured ([`super::quality_measures`]) at four lengths of a step.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use fbcrowd_sim::hms::params::Modes;
-use fbcrowd_sim::hms::repertoire;
 use motiondb::motion_db::MotionDb;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -16,7 +14,8 @@ use super::bar::{Bar, Found, conclude};
 use super::bundled::database;
 use super::quality_errands::{Errand, errands};
 use super::quality_measures::{Figures, example_peaks_mps2, figures};
-use super::quality_walk::Stage;
+use super::quality_walk::walk;
+use super::walker::studio;
 use crate::failure::{Answer, Failure};
 
 /// The lengths of a step, s: motion capture's, film's and games', and the planner's.
@@ -56,7 +55,7 @@ struct WalkFigures {
 }
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
-    let db = repertoire::complete(Arc::new(database(args.database.as_deref())?));
+    let db = database(args.database.as_deref())?;
     let walks: Vec<WalkFigures> = SYNTHESES.iter().flat_map(|&synthesis| walks(&db, synthesis)).collect();
     let bars = bars(&walks);
     let details = Details { walks };
@@ -65,14 +64,14 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 fn walks(db: &MotionDb, synthesis: Modes) -> Vec<WalkFigures> {
-    let stage = Stage::new(db, synthesis);
-    let errands = errands(db);
+    let studio = studio(db.clone(), synthesis);
+    let errands = errands(&studio.db);
     let tried: Vec<(&Errand, f32)> = errands.iter().flat_map(|errand| DTS_S.map(|dt_s| (errand, dt_s))).collect();
     tried
         .into_par_iter()
         .map(|(errand, dt_s)| {
-            let peaks_mps2 = example_peaks_mps2(db, &stage.space, dt_s);
-            let figures = figures(&stage.walk(errand, dt_s), errand, &db.skeleton, &peaks_mps2);
+            let peaks_mps2 = example_peaks_mps2(&studio.db, &studio.space, dt_s);
+            let figures = figures(&walk(&studio, errand, dt_s), errand, &db.skeleton, &peaks_mps2);
             WalkFigures { errand: errand.name, steady: errand.steady, synthesis, dt_s, figures }
         })
         .collect()

@@ -5,6 +5,7 @@
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
+use fbcrowd_sim::hms::asked::asking;
 use fbcrowd_sim::hms::params::HmsParams;
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::split_mix::SplitMix64;
@@ -58,23 +59,18 @@ pub(super) struct Errand {
 
 impl Ask {
     /// As a plan for a body at `root`. What is asked is exact in the body's frame: a blending body turns its velocity to
-    /// the wanted facing, which leads by the turn rate times T_turn, and takes its cosine.
+    /// the wanted facing, semi-procedural locomotion does not.
     pub(super) fn plan(self, root: &Root, turns_velocity: bool, params: &HmsParams) -> Plan {
         match self {
             Self::Stand => Plan { facing_rad: root.facing_rad, ..Plan::default() },
             Self::Towards { angle_rad, speed_mps } => {
                 Plan { velocity_mps: Vec2::from_angle(angle_rad) * speed_mps, facing_rad: angle_rad, ..Plan::default() }
             }
-            Self::Walk(Parameters { speed_mps, turn_rate_rad_s, strafe_mps }) => {
-                let lead_rad = turn_rate_rad_s * params.turn_time_s;
-                let facing_rad = root.facing_rad + lead_rad;
-                let velocity_mps = Vec2::new(speed_mps, strafe_mps);
-                let velocity_mps = if turns_velocity {
-                    Vec2::from_angle(facing_rad).rotate(velocity_mps) / lead_rad.cos()
-                } else {
-                    Vec2::from_angle(root.facing_rad).rotate(velocity_mps)
-                };
-                Plan { velocity_mps, facing_rad, ..Plan::default() }
+            Self::Walk(parameters) if turns_velocity => asking(parameters, root, params),
+            Self::Walk(parameters) => {
+                let local_mps = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
+                let velocity_mps = Vec2::from_angle(root.facing_rad).rotate(local_mps);
+                Plan { velocity_mps, ..asking(parameters, root, params) }
             }
         }
     }

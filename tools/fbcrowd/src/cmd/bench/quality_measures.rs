@@ -225,7 +225,8 @@ fn acceleration_mps2([before, at, after]: [&Joints; 3], dt_s: f32) -> f32 {
     joints.map(|((&a, &b), &c)| (a - 2.0 * b + c).length() / (dt_s * dt_s)).fold(0.0, f32::max)
 }
 
-fn ankles_apart_m(joints: &Joints) -> f32 {
+/// How far the left ankle is to the left of the right one.
+pub(super) fn ankles_apart_m(joints: &Joints) -> f32 {
     let [left_m, right_m] = Joint::FEET.map(|foot| joints.positions_m[foot.index()]);
     left_m.y - right_m.y
 }

@@ -1,17 +1,16 @@
 //! Bodies that go on an errand, alone on open ground, and what is kept of every step for the measures.
 
-use fbcrowd_sim::hms::hybrid::Hybrid;
-use fbcrowd_sim::hms::params::{HmsParams, Modes};
-use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::hms::Body;
+use fbcrowd_sim::hms::params::Modes;
+use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::hms::time_step::TimeStep;
-use fbcrowd_sim::hms::{Body, Motion};
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::recording_frame::{AgentFrame, Mode};
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::pose::{Joints, Root};
 
-use super::quality_errands::Errand;
+use super::quality_errands::{Ask, Errand};
 
 /// Bodies on each errand …
 const BODIES: usize = 8;
@@ -19,14 +18,6 @@ const BODIES: usize = 8;
 const APART_S: f32 = 0.14;
 /// In hybrid synthesis a collision threatens for so long, and then for so long it does not, s.
 const THREAT_S: f32 = 2.0;
-
-/// One database, ready.
-pub(super) struct Stage<'a> {
-    pub(super) db: &'a MotionDb,
-    pub(super) space: Space,
-    pub(super) params: HmsParams,
-    pub(super) hybrid: Option<Hybrid>,
-}
 
 /// One body after one step.
 pub(super) struct Step {
@@ -48,85 +39,75 @@ pub(super) struct Walk {
     pub(super) bodies: Vec<Vec<Step>>,
 }
 
-impl<'a> Stage<'a> {
-    pub(super) fn new(db: &'a MotionDb, modes: Modes) -> Self {
-        let params = HmsParams { modes, ..HmsParams::default() };
-        Self { db, space: Space::new(db), params, hybrid: Hybrid::new(db, modes) }
-    }
+/// Every body goes on the errand in steps of dt.
+pub(super) fn walk(studio: &Studio, errand: &Errand, dt_s: f32) -> Walk {
+    let bodies = (0..BODIES).map(|index| walk_one(studio, errand, APART_S * index as f32, dt_s)).collect();
+    Walk { dt_s, bodies }
+}
 
-    fn motion(&self) -> Motion<'_> {
-        Motion { db: self.db, space: &self.space, hybrid: self.hybrid.as_ref(), params: &self.params }
-    }
+fn walk_one(studio: &Studio, errand: &Errand, early_s: f32, dt_s: f32) -> Vec<Step> {
+    let (mut body, _) = Body::standing(&studio.motion(), Root::default(), early_s);
+    (0..(errand.seconds() / dt_s).round() as usize)
+        .map(|step| {
+            let plan = plan(studio, errand.ask(step as f32 * dt_s, early_s), step as f32 * dt_s, &body);
+            stepped(studio, &mut body, &plan, dt_s)
+        })
+        .collect()
+}
 
-    /// Every body goes on the errand in steps of dt.
-    pub(super) fn walk(&self, errand: &Errand, dt_s: f32) -> Walk {
-        let bodies = (0..BODIES).map(|index| self.walk_one(errand, APART_S * index as f32, dt_s)).collect();
-        Walk { dt_s, bodies }
-    }
+/// What is asked, under threat every other while.
+fn plan(studio: &Studio, ask: Ask, time_s: f32, body: &Body) -> Plan {
+    let threat = studio.params.modes == Modes::SemiProcedural || (time_s / THREAT_S).rem_euclid(2.0) >= 1.0;
+    let asked = ask.plan(&body.root, body.mode == Mode::Blending, &studio.params);
+    Plan { time_to_collision_s: if threat { 0.5 } else { f32::INFINITY }, ..asked }
+}
 
-    fn walk_one(&self, errand: &Errand, early_s: f32, dt_s: f32) -> Vec<Step> {
-        let (mut body, _) = Body::standing(&self.motion(), Root::default(), early_s);
-        (0..(errand.seconds() / dt_s).round() as usize)
-            .map(|step| {
-                let plan = self.plan(errand, step as f32 * dt_s, early_s, &body);
-                self.step(&mut body, &plan, dt_s)
-            })
-            .collect()
+fn stepped(studio: &Studio, body: &mut Body, plan: &Plan, dt_s: f32) -> Step {
+    let (motion, before) = (studio.motion(), *body);
+    let time_step = TimeStep::new(dt_s);
+    body.advance(&motion, plan, &time_step);
+    let synthesis = body.synthesize(&motion, &time_step);
+    let frame = AgentFrame {
+        root: body.root,
+        planned_mps: plan.velocity_mps,
+        phase: body.phase,
+        mode: body.mode,
+        contacts: synthesis.contacts,
+        examples_slide_cm_s: synthesis.examples_slide_cm_s,
+        pose: synthesis.pose,
+        ..AgentFrame::default()
+    };
+    let examples = examples(studio, body);
+    let planted_shares = examples.iter().map(|&(example, share)| share * studio.db.examples[example].planted_share);
+    Step {
+        examples_planted_share: planted_shares.sum(),
+        examples: examples.into_iter().map(|(example, _)| example).collect(),
+        joints: synthesis.pose.forward_kinematics(&studio.db.skeleton),
+        speed_mps: (body.root.position_m - before.root.position_m).length() / dt_s,
+        correction_mps: correction_mps(&studio.db, &before, body, dt_s),
+        frame,
     }
+}
 
-    fn plan(&self, errand: &Errand, time_s: f32, early_s: f32, body: &Body) -> Plan {
-        let threat = self.params.modes == Modes::SemiProcedural || (time_s / THREAT_S).rem_euclid(2.0) >= 1.0;
-        let asked = errand.ask(time_s, early_s).plan(&body.root, body.mode == Mode::Blending, &self.params);
-        Plan { time_to_collision_s: if threat { 0.5 } else { f32::INFINITY }, ..asked }
+/// (example, share of time) of what a body plays.
+fn examples(studio: &Studio, body: &Body) -> Vec<(usize, f32)> {
+    match (body.mode, &studio.hybrid) {
+        (Mode::SemiProcedural, Some(hybrid)) => vec![(hybrid.semi_procedural.example, 1.0)],
+        _ => body.mix.entries().iter().map(|&(example, share)| (example as usize, share)).collect(),
     }
+}
 
-    fn step(&self, body: &mut Body, plan: &Plan, dt_s: f32) -> Step {
-        let (motion, before) = (self.motion(), *body);
-        let time_step = TimeStep::new(dt_s);
-        body.advance(&motion, plan, &time_step);
-        let synthesis = body.synthesize(&motion, &time_step);
-        let frame = AgentFrame {
-            root: body.root,
-            planned_mps: plan.velocity_mps,
-            phase: body.phase,
-            mode: body.mode,
-            contacts: synthesis.contacts,
-            examples_slide_cm_s: synthesis.examples_slide_cm_s,
-            pose: synthesis.pose,
-            ..AgentFrame::default()
-        };
-        let examples = self.examples(body);
-        let planted_shares = examples.iter().map(|&(example, share)| share * self.db.examples[example].planted_share);
-        Step {
-            examples_planted_share: planted_shares.sum(),
-            examples: examples.into_iter().map(|(example, _)| example).collect(),
-            joints: synthesis.pose.forward_kinematics(&self.db.skeleton),
-            speed_mps: (body.root.position_m - before.root.position_m).length() / dt_s,
-            correction_mps: self.correction_mps(&before, body, dt_s),
-            frame,
-        }
+/// Rows that are played faster or slower than their time (a phase that catches up) tell of another speed than the
+/// root has. Semi-procedural locomotion moves its feet by the root, whatever the phase.
+fn correction_mps(db: &MotionDb, before: &Body, after: &Body, dt_s: f32) -> f32 {
+    if (before.mode, after.mode) != (Mode::Blending, Mode::Blending) {
+        return 0.0;
     }
-
-    /// (example, share of time) of what a body plays.
-    fn examples(&self, body: &Body) -> Vec<(usize, f32)> {
-        match (body.mode, &self.hybrid) {
-            (Mode::SemiProcedural, Some(hybrid)) => vec![(hybrid.semi_procedural.example, 1.0)],
-            _ => body.mix.entries().iter().map(|&(example, share)| (example as usize, share)).collect(),
-        }
-    }
-
-    /// Rows that are played faster or slower than their time (a phase that catches up) tell of another speed than the
-    /// root has. Semi-procedural locomotion moves its feet by the root, whatever the phase.
-    fn correction_mps(&self, before: &Body, after: &Body, dt_s: f32) -> f32 {
-        if (before.mode, after.mode) != (Mode::Blending, Mode::Blending) {
-            return 0.0;
-        }
-        let walked_mps = (after.root.position_m - before.root.position_m).length() / dt_s;
-        let middle = before.phase + 0.5 * dt_s * after.mix.phase_rate_hz(self.db, before.phase);
-        let due = dt_s * after.mix.phase_rate_hz(self.db, middle);
-        let passed = (after.phase - before.phase).rem_euclid(1.0);
-        let Parameters { speed_mps, strafe_mps, .. } = after.seen[0].mix.parameters(self.db);
-        let played = if walked_mps > 0.0 && due > 0.0 { passed / due } else { 1.0 };
-        speed_mps.hypot(strafe_mps) * played - walked_mps
-    }
+    let walked_mps = (after.root.position_m - before.root.position_m).length() / dt_s;
+    let middle = before.phase + 0.5 * dt_s * after.mix.phase_rate_hz(db, before.phase);
+    let due = dt_s * after.mix.phase_rate_hz(db, middle);
+    let passed = (after.phase - before.phase).rem_euclid(1.0);
+    let Parameters { speed_mps, strafe_mps, .. } = after.seen[0].mix.parameters(db);
+    let played = if walked_mps > 0.0 && due > 0.0 { passed / due } else { 1.0 };
+    speed_mps.hypot(strafe_mps) * played - walked_mps
 }

@@ -18,6 +18,7 @@ use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
 use super::bundled::database;
+use super::quality_measures::ankles_apart_m;
 use crate::failure::{Answer, Failure};
 
 /// Directions of travel, from ahead on round by the left, degrees.
@@ -152,12 +153,6 @@ fn fault(db: &MotionDb, semi_procedural: &SemiProcedural, lowest_m: f32, paramet
 
 fn hips_m(joints: &Joints) -> f32 {
     joints.positions_m[Joint::Pelvis.index()].z
-}
-
-/// How far the left ankle is to the left of the right one.
-fn ankles_apart_m(joints: &Joints) -> f32 {
-    let [left_m, right_m] = Joint::FEET.map(|foot| joints.positions_m[foot.index()]);
-    left_m.y - right_m.y
 }
 
 fn least_flexion_deg(joints: &Joints) -> f32 {

@@ -11,6 +11,7 @@ use std::path::PathBuf;
 
 use fbcrowd_sim::hms::Body;
 use fbcrowd_sim::hms::params::Modes;
+use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::recording_frame::Mode;
 use glam::{Vec2, Vec3};
@@ -20,7 +21,7 @@ use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
 use super::bundled::database;
-use super::walker::{DT_S, Studio};
+use super::walker::{DT_S, asked_roots, studio};
 use crate::failure::{Answer, Failure};
 
 /// Commands change by this at most, m/s², and turn rates by as much in rad/s².
@@ -96,8 +97,8 @@ struct Change {
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let db = database(args.database.as_deref())?;
-    let exact = Studio::new(db.clone(), Modes::SemiProcedural);
-    let blending = Studio::new(db, Modes::Blending);
+    let exact = studio(db.clone(), Modes::SemiProcedural);
+    let blending = studio(db, Modes::Blending);
     let (mut steps, mut changes) = (Vec::new(), Vec::new());
     for dt_s in DT_S {
         steps.extend(COMMANDS.map(|(name, command)| step(&exact, name, command, dt_s)));
@@ -123,10 +124,11 @@ fn curve(time_s: f32, speed_mps: f32, turn_rate_rad_s: f32) -> (Vec2, f32) {
 fn step(studio: &Studio, name: &'static str, command: Command, dt_s: f32) -> Step {
     // A step is commanded what is right in its middle.
     let at = |step: usize| command((step as f32 + 0.5) * dt_s - CHANGE_S);
-    let bodies = studio.bodies(CHANGE_S + WATCHED_S, dt_s, |time_s, _| {
+    let plan = |time_s: f32, _: &Root| {
         let (velocity_mps, facing_rad) = at((time_s / dt_s).round() as usize);
         Plan { velocity_mps, facing_rad, time_to_collision_s: f32::INFINITY, ..Plan::default() }
-    });
+    };
+    let bodies = studio.walk(0.0, CHANGE_S + WATCHED_S, dt_s, plan, |body, _| *body);
     let changed = (CHANGE_S / dt_s).round() as usize;
     let off_m = |(step, pair): (usize, &[Body])| {
         let moved_m = pair[1].root.position_m - pair[0].root.position_m;
@@ -152,7 +154,7 @@ fn change(studio: &Studio, from: Vec3, to: Vec3, dt_s: f32) -> Change {
     };
     let middle = |time_s: f32| asked(time_s + 0.5 * dt_s);
     let seconds = CHANGE_S + steady_s + cycle_s(studio, to);
-    let roots = studio.walk(seconds, dt_s, |time_s, root| studio.plan_for(middle(time_s), root));
+    let roots = asked_roots(studio, seconds, dt_s, middle);
     let changed = (CHANGE_S / dt_s).round() as usize;
     let told =
         (changed..roots.len() - 1).fold(roots[changed], |root, step| walked(&root, middle(step as f32 * dt_s), dt_s));
