@@ -25,14 +25,12 @@ pub enum RenderError {
         source: io::Error,
     },
     /// The view asks for a picture that cannot be drawn.
-    #[error("view.{key} = {value}: {remedy}")]
+    #[error("the scenario's [view]: {message}; {help}")]
     View {
-        /// Key in the scenario's `[view]`.
-        key: &'static str,
-        /// Its value.
-        value: String,
-        /// What is accepted.
-        remedy: &'static str,
+        /// The key, and what it lacks.
+        message: String,
+        /// What to do.
+        help: &'static str,
     },
     /// `--frames` is not of the grammar.
     #[error(

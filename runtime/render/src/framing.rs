@@ -5,6 +5,8 @@
 
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::scenario::View;
+use fbcrowd_sim::scenario_check::Fault;
+use fbcrowd_sim::scenario_ranges::check_view;
 use glam::Vec2;
 
 use crate::error::RenderError;
@@ -54,10 +56,10 @@ impl Framing {
 /// recording, so that the picture does not move), to goals and to obstacles.
 ///
 /// # Errors
-/// Where the view asks for an empty, a huge or an infinitely enlarged picture.
+/// Where the view is out of range: that of a recording that was opened is not.
 pub fn frame_recording(header: &Header, positions_m: &[Vec2]) -> Result<Framing, RenderError> {
     let view = &header.scenario.view;
-    check_view(view)?;
+    check_view(view).map_err(|Fault { message, help, .. }| RenderError::View { message, help })?;
     let agents = &header.scenario.agents;
     let starts = agents.iter().map(|agent| agent.position_m);
     let goals = agents.iter().flat_map(|agent| agent.goals_m.iter().copied());
@@ -83,22 +85,6 @@ fn fit(view: &View, [low_m, high_m]: [Vec2; 2]) -> Framing {
     let fitted_m = (2.0 * reach_m.x).max(2.0 * reach_m.y * aspect) * (1.0 + AIR_SHARE);
     let width_m = view.width_m.unwrap_or(fitted_m.max(MIN_WIDTH_M));
     Framing { width_px: view.width, height_px: view.height, centre_m, scale_px_m: view.width as f32 / width_m }
-}
-
-fn check_view(view: &View) -> Result<(), RenderError> {
-    let refuse = |key, value: String, remedy| Err(RenderError::View { key, value, remedy });
-    for (key, side) in [("width", view.width), ("height", view.height)] {
-        if side == 0 || side > MAX_SIDE_PX {
-            return refuse(key, side.to_string(), "pictures are 1 to 16384 pixels wide and high");
-        }
-    }
-    if let Some(width_m) = view.width_m.filter(|width_m| !(1e-3..=1e6).contains(width_m)) {
-        return refuse("width_m", width_m.to_string(), "give the metres across the picture, 0.001 to 1000000");
-    }
-    if !(1e-3..=1e4).contains(&view.frame_rate_hz) {
-        return refuse("frame_rate_hz", view.frame_rate_hz.to_string(), "give frames a second, 0.001 to 10000");
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -127,17 +113,5 @@ mod tests {
         let framing = fit(&view, [Vec2::ZERO, Vec2::ONE]);
         assert_eq!(framing.to_px(Vec2::new(2.0, 3.0)), Vec2::new(640.0, 360.0));
         assert_eq!(framing.scale_px_m, 20.0);
-    }
-
-    #[test]
-    fn impossible_views_are_refused_by_key() {
-        for view in [
-            View { width: 0, ..View::default() },
-            View { height: 100_000, ..View::default() },
-            View { width_m: Some(f32::NAN), ..View::default() },
-            View { frame_rate_hz: 0.0, ..View::default() },
-        ] {
-            assert!(matches!(check_view(&view), Err(RenderError::View { .. })), "{view:?}");
-        }
     }
 }

@@ -93,7 +93,11 @@ fn check_name(name: &str) -> Result<(), Fault> {
     Place::Name.fault(format!("{shown:?} cannot name a file"), help)
 }
 
-fn check_view(view: &View) -> Result<(), Fault> {
+/// That a view can be drawn.
+///
+/// # Errors
+/// The first number that is out of range.
+pub fn check_view(view: &View) -> Result<(), Fault> {
     within(&Place::View, "width", view.width, &PICTURE_PIXELS, DEFAULT)?;
     within(&Place::View, "height", view.height, &PICTURE_PIXELS, DEFAULT)?;
     within(&Place::View, "frame_rate_hz", view.frame_rate_hz, &FRAME_RATE_HZ, DEFAULT)?;

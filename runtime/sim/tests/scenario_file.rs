@@ -199,6 +199,9 @@ fn numbers_out_of_range_are_shown_where_they_stand() {
     let tunables = "[params.planner]\ntime_horizon_s = 0.0\n";
     check_refused("tunable", &format!("{HEAD}{ONE}{tunables}"), "0.0", "time_horizon_s is 0, not between");
     check_refused("nobody", &format!("{HEAD}agents = []"), "[]", "the number of agents is 0");
+    for view in ["width = 0", "height = 100000", "width_m = nan", "frame_rate_hz = 0.0"] {
+        check_refused("picture", &format!("{HEAD}{ONE}[view]\n{view}"), "[view]", "not between");
+    }
 }
 
 #[test]
