@@ -10,7 +10,8 @@ use crate::mcn::half_plane::{HalfPlane, Source};
 use crate::mcn::linear_program::{Solution, solve, yielding};
 use crate::split_mix::SplitMix64;
 
-const SPEED_MAX_MPS: f32 = 2.0;
+/// The greatest speed of every program, m/s.
+pub(crate) const SPEED_MAX_MPS: f32 = 2.0;
 const HALF_PLANES_MAX: u64 = 14;
 /// Spacing of the velocities that are tried, m/s.
 const GRID_MPS: f32 = 0.05;
@@ -28,8 +29,13 @@ pub fn fault(seed: u64, stream: u64) -> Option<&'static str> {
 }
 
 /// The solution of the 2D program is no worse than any velocity tried; where it finds none, there is none; the solution
-/// then keeps what it claims to keep, and violates what yields no more than any velocity that keeps it.
-fn judged(half_planes: &[HalfPlane], firm: usize, optimal_mps: Vec2, solution: &Solution) -> Option<&'static str> {
+/// then keeps what it claims to keep, and violates what yields, each by its weight, no more than any velocity that keeps it.
+pub(crate) fn judged(
+    half_planes: &[HalfPlane],
+    firm: usize,
+    optimal_mps: Vec2,
+    solution: &Solution,
+) -> Option<&'static str> {
     let Solution { velocity_mps, satisfied } = *solution;
     let hard = &half_planes[..satisfied];
     let soft = &half_planes[yielding(half_planes.len(), firm, satisfied)];
@@ -54,7 +60,8 @@ fn judged(half_planes: &[HalfPlane], firm: usize, optimal_mps: Vec2, solution: &
 
 /// The greatest violation.
 fn worst_mps(half_planes: &[HalfPlane], velocity_mps: Vec2) -> f32 {
-    half_planes.iter().map(|half_plane| half_plane.violation_mps(velocity_mps)).fold(f32::NEG_INFINITY, f32::max)
+    let weighed_mps = |half_plane: &HalfPlane| half_plane.weight * half_plane.violation_mps(velocity_mps);
+    half_planes.iter().map(weighed_mps).fold(f32::NEG_INFINITY, f32::max)
 }
 
 fn grid() -> impl Iterator<Item = Vec2> {
