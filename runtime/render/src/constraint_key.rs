@@ -1,9 +1,9 @@
 //! What stands beside a velocity space: what its colours mean, and the step in numbers.
 
+use fbcrowd_sim::hms::mode::Mode;
 use fbcrowd_sim::mcn::half_plane::{HalfPlane, Source};
 use fbcrowd_sim::plan::VelocitySet;
 use fbcrowd_sim::planner::Planner;
-use fbcrowd_sim::recording_frame::Mode;
 use glam::Vec2;
 
 use crate::axis::number;

@@ -9,6 +9,7 @@ use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
+use motiondb::planted_feet::PLANTED_CONTACT;
 use motiondb::pose::Pose;
 use motiondb::skeleton::Side;
 use tiny_skia::Pixmap;
@@ -39,8 +40,6 @@ const ROOM_SHARES: [f32; 2] = [0.24, 0.25];
 /// Least ranges shown: standing feet draw level lines, not noise, m and m/s.
 const MIN_RANGE_M: f32 = 0.05;
 const MIN_RANGE_MPS: f32 = 0.5;
-/// A foot is planted where its contact is at least this, as in [`motiondb::planted_feet`].
-const PLANTED: f32 = 0.5;
 /// Names of the key times, in their order.
 const KEY_NAMES: [&str; 4] = ["R off", "R strike", "L off", "L strike"];
 /// The foot that each key time speaks of, as an index of a `[left, right]` pair.
@@ -141,7 +140,9 @@ fn time_s(example: &MotionExample, row: usize) -> f32 {
 fn draw_contacts(figure: &mut Figure, panel: &Panel, db: &MotionDb, example: usize, side: Side) {
     let [_, height] = &panel.axes;
     let height_m = height.low + BAR_SHARES[side.index()] * (height.high - height.low);
-    let planted = |row: usize| db.rows.contacts[example * PHASE_COUNT + row % PHASE_COUNT][side.index()] >= PLANTED;
+    let planted = |row: usize| {
+        f64::from(db.rows.contacts[example * PHASE_COUNT + row % PHASE_COUNT][side.index()]) >= PLANTED_CONTACT
+    };
     for row in (0..PHASE_COUNT).filter(|row| planted(*row) && planted(row + 1)) {
         let ends = [row, row + 1].map(|row| Vec2::new(time_s(&db.examples[example], row), height_m));
         figure.polyline(panel, ends, line(SIDES[side.index()], 6.0));

@@ -3,8 +3,10 @@
 //! MCN and HMS never see each other; only `step.rs` sees both.
 
 use glam::{Vec2, Vec3};
+use motiondb::planted_feet;
 
-use crate::recording_frame::PLANTED_CONTACT;
+/// Blended contact Σ w·c from which a foot is planted.
+pub const PLANTED_CONTACT: f32 = planted_feet::PLANTED_CONTACT as f32;
 
 /// What synthesis tells the planner: how the body stands (`FbCrowd` §4.2).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

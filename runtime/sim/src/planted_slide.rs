@@ -8,7 +8,8 @@ use glam::{DVec2, Vec3};
 use motiondb::pose::{Joints, Root};
 use motiondb::skeleton::Skeleton;
 
-use crate::recording_frame::{AgentFrame, PLANTED_CONTACT};
+use crate::plan::PLANTED_CONTACT;
+use crate::recording_frame::AgentFrame;
 
 /// Of each end of a contact, left out: there the foot rolls on and off.
 const TRIMMED_SHARE: f64 = 0.1;

@@ -5,10 +5,8 @@ use motiondb::pose::{Pose, Root};
 use motiondb::skeleton::JOINT_COUNT;
 
 use crate::hms::Synthesis;
+use crate::hms::mode::Mode;
 use crate::plan::VelocitySet;
-
-/// Blended contact Σ w·c from which a foot is planted.
-pub const PLANTED_CONTACT: f32 = 0.5;
 
 /// One agent in one frame, decoded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +21,7 @@ pub struct AgentFrame {
     pub phase: f32,
     /// Synthesis in force.
     pub mode: Mode,
-    /// Blended contact Σ w·c of each foot, `[left, right]`; planted from [`PLANTED_CONTACT`] on.
+    /// Blended contact Σ w·c of each foot, `[left, right]`; planted from [`PLANTED_CONTACT`](crate::plan::PLANTED_CONTACT) on.
     pub contacts: [f32; 2],
     /// Seconds until the swing foot lands, where a single foot stands; else 0.
     pub time_to_landing_s: f32,
@@ -37,17 +35,6 @@ pub struct AgentFrame {
     pub examples_slide_cm_s: f32,
     /// The final pose, after IK, in the root's frame.
     pub pose: Pose,
-}
-
-/// Which synthesis made a pose (`FbCrowd` §3.4.1).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Mode {
-    /// Motion blending.
-    #[default]
-    Blending = 0,
-    /// Semi-procedural locomotion.
-    SemiProcedural = 1,
 }
 
 impl AgentFrame {

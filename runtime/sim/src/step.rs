@@ -198,10 +198,10 @@ pub(crate) mod tests {
 
     use super::*;
     use crate::angle::wrap_rad;
+    use crate::hms::mode::Mode;
     use crate::hms::space::Space;
     use crate::params::Params;
     use crate::planner::Planner;
-    use crate::recording_frame::Mode;
     use crate::scenario::{AgentSpec, View};
     use crate::test_db::test_db;
 

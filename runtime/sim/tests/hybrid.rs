@@ -7,10 +7,10 @@ use std::sync::Arc;
 
 use fbcrowd_sim::hms::hybrid::Hybrid;
 use fbcrowd_sim::hms::inertialization::CARRIED_S;
+use fbcrowd_sim::hms::mode::Mode;
 use fbcrowd_sim::hms::params::{HmsParams, Transition};
 use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::plan::Plan;
-use fbcrowd_sim::recording_frame::Mode;
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
 use motiondb::pose::Root;

@@ -9,13 +9,13 @@ use motiondb::parameters::Parameters;
 
 use super::arc::moved;
 use super::deformation::Tempo;
+use super::mode::Mode;
 use super::params::Transition;
 use super::semi_procedural::SemiProcedural;
 use super::space::Nearest;
 use super::time_step::TimeStep;
 use super::{Body, Motion, asked, gait, pursuit};
 use crate::plan::Plan;
-use crate::recording_frame::Mode;
 
 /// Feet this near to where a standing body has them are under it, m: half a small step.
 const GATHERED_M: f32 = 0.18;

@@ -9,9 +9,9 @@ use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 
 use super::inertialization::CARRIED_S;
+use super::mode::Mode;
 use super::params::Modes;
 use super::semi_procedural::SemiProcedural;
-use crate::recording_frame::Mode;
 
 /// Furthest from a mid-stance that synthesis switches, where T allows, in phases: the other foot leaves and lands about
 /// 0.2 from it (at 12 and 50 % of the cycle, mid-stance at 31: Perry, *Gait Analysis*), which leaves a tenth of a

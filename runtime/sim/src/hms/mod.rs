@@ -63,14 +63,13 @@ use self::hurry::Hurry;
 use self::hybrid::Hybrid;
 use self::inertialization::Inertia;
 use self::intention::Intention;
-use self::mode::Choice;
+use self::mode::{Choice, Mode};
 use self::owed::Owed;
 use self::params::HmsParams;
 use self::pelvis::Descent;
 use self::seen::Seen;
 use self::space::Space;
 use crate::plan::Stance;
-use crate::recording_frame::Mode;
 
 /// A database, ready for synthesis.
 #[derive(Clone, Copy, Debug)]

@@ -9,7 +9,6 @@
 //! flip at the boundary. A body that stands, or is to stand, blends: m_sp only walks.
 
 use crate::plan::Plan;
-use crate::recording_frame::Mode;
 
 /// On the way back to blending the time to collision must be this much longer than t_trans …
 const TIME_MARGIN: f32 = 1.3;
@@ -17,6 +16,17 @@ const TIME_MARGIN: f32 = 1.3;
 const DENSITY_MARGIN: f32 = 0.8;
 /// A choice lasts at least this long, s: a step.
 const DWELL_S: f32 = 0.6;
+
+/// Which synthesis made a pose (`FbCrowd` §3.4.1).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Mode {
+    /// Motion blending.
+    #[default]
+    Blending = 0,
+    /// Semi-procedural locomotion.
+    SemiProcedural = 1,
+}
 
 /// What was chosen, and how long ago.
 #[derive(Clone, Copy, Debug, PartialEq)]

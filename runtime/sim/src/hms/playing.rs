@@ -3,9 +3,10 @@
 use super::Motion;
 use super::blending::{Mix, Weights};
 use super::deformation::Deformation;
+use super::mode::Mode;
 use super::posture::Posture;
 use super::seen::Seen;
-use crate::recording_frame::{Mode, PLANTED_CONTACT};
+use crate::plan::PLANTED_CONTACT;
 
 /// One synthesis at one phase.
 #[derive(Clone, Copy, Debug)]

@@ -10,8 +10,8 @@ use motiondb::parameters::Parameters;
 use super::blending::Mix;
 use super::deformation::travel;
 use super::inertialization::LOOK_BACK_S;
+use super::mode::Mode;
 use super::time_step::TimeStep;
-use crate::recording_frame::Mode;
 
 /// The lag, s: a fifth of the time in which the fastest change of speed takes place.
 pub(super) const EASE_TIME_S: f32 = 0.05;

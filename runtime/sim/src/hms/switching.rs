@@ -8,13 +8,12 @@ use super::deformation::travel;
 use super::gait;
 use super::hybrid::Hybrid;
 use super::inertialization::LOOK_BACK_S;
-use super::mode::Thresholds;
+use super::mode::{Mode, Thresholds};
 use super::params::{HmsParams, Modes};
 use super::playing::Playing;
 use super::seen::Seen;
 use super::{Body, Motion};
 use crate::plan::Plan;
-use crate::recording_frame::Mode;
 
 /// One synthesis gives way where the other can take over within this, m/s and rad/s.
 const SWITCH_SLACK: f32 = 0.05;

@@ -13,8 +13,7 @@ use super::playing::Playing;
 use super::posture::Posture;
 use super::time_step::TimeStep;
 use super::{Body, Motion, Synthesis, pursuit};
-use crate::plan::Stance;
-use crate::recording_frame::PLANTED_CONTACT;
+use crate::plan::{PLANTED_CONTACT, Stance};
 
 /// A foot that what is left of a switch holds up further than this does not stand: the compiler tells contacts of clips
 /// by the same height, m.

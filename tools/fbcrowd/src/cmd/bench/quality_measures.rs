@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use fbcrowd_sim::hms::blending::Mix;
 use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::plan::PLANTED_CONTACT;
 use fbcrowd_sim::planted_slide::PlantedSlide;
-use fbcrowd_sim::recording_frame::PLANTED_CONTACT;
 use glam::Vec3;
 use motiondb::motion_db::MotionDb;
 use motiondb::pose::Joints;

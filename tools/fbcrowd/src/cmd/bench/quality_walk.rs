@@ -1,11 +1,12 @@
 //! Bodies that go on an errand, alone on open ground, and what is kept of every step for the measures.
 
 use fbcrowd_sim::hms::Body;
+use fbcrowd_sim::hms::mode::Mode;
 use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::hms::time_step::TimeStep;
 use fbcrowd_sim::plan::Plan;
-use fbcrowd_sim::recording_frame::{AgentFrame, Mode};
+use fbcrowd_sim::recording_frame::AgentFrame;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::pose::{Joints, Root};

@@ -10,10 +10,10 @@ use std::f32::consts::FRAC_PI_2;
 use std::path::PathBuf;
 
 use fbcrowd_sim::hms::Body;
+use fbcrowd_sim::hms::mode::Mode;
 use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::plan::Plan;
-use fbcrowd_sim::recording_frame::Mode;
 use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
