@@ -64,6 +64,17 @@ pub fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, params: &McnPa
     if speed_mps <= ahead_mps {
         return Filtered { velocity_mps, density };
     }
+    let limit_mps = |direction: Vec2| speed_limit_mps(weighed(&shares(direction, agents), &weights), params);
+    let (direction, allowed_mps) = on_the_arc(ahead, ahead_mps, speed_mps, limit_mps);
+    // A limit is taken up as v_pref is (Eq. 9), not at once: the density flickers as neighbours come and go.
+    let left = 1.0 - (params.response_s / params.relaxation_s).min(1.0);
+    let eased_mps = allowed_mps + left * (own_mps.length() - allowed_mps).max(0.0);
+    Filtered { velocity_mps: eased_mps.min(speed_mps) * direction, density }
+}
+
+/// The direction to take and the speed allowed there, for who would walk at `speed` m/s along `ahead`, where `ahead_mps`
+/// is allowed: the mean over the arc, each direction by the fourth power of the progress that its limit allows.
+fn on_the_arc(ahead: Vec2, ahead_mps: f32, speed_mps: f32, limit_mps: impl Fn(Vec2) -> f32) -> (Vec2, f32) {
     let weight = |along: f32, allowed_mps: f32| {
         let progress = along * allowed_mps / speed_mps;
         progress * progress * progress * progress
@@ -72,8 +83,7 @@ pub fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, params: &McnPa
     let (mut directions, mut sum_mps) = (all * ahead, all * ahead_mps);
     for turned in ARC {
         let direction = turned.rotate(ahead);
-        let limit_mps = speed_limit_mps(weighed(&shares(direction, agents), &weights), params);
-        let allowed_mps = speed_mps.min(limit_mps);
+        let allowed_mps = speed_mps.min(limit_mps(direction));
         let weight = weight(turned.x, allowed_mps);
         directions += weight * direction;
         sum_mps += weight * allowed_mps;
@@ -82,11 +92,7 @@ pub fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, params: &McnPa
     // The arc has its say by as much as the way ahead is closed, so that nothing jumps where it begins to be.
     let closed = 1.0 - ahead_mps / speed_mps;
     let direction = ahead.lerp(directions.normalize_or(ahead), closed).normalize_or(ahead);
-    let allowed_mps = ahead_mps + closed * (sum_mps / all - ahead_mps);
-    // A limit is taken up as v_pref is (Eq. 9), not at once: the density flickers as neighbours come and go.
-    let left = 1.0 - (params.response_s / params.relaxation_s).min(1.0);
-    let eased_mps = allowed_mps + left * (own_mps.length() - allowed_mps).max(0.0);
-    Filtered { velocity_mps: eased_mps.min(speed_mps) * direction, density }
+    (direction, ahead_mps + closed * (sum_mps / all - ahead_mps))
 }
 
 /// ρ of all neighbours at the critical point along a unit direction, 1/m.

@@ -130,12 +130,7 @@ fn edge_half_plane(ends: [End; 2], own: &Disc, horizon_s: f32, source: Source) -
     if oblique && !bearers[0].convex {
         return None;
     }
-    let shadow = Shadow {
-        corners_mps: bearers.map(|end| end.offset_m / horizon_s),
-        legs: [left_leg(&bearers[0], own.radius_m), right_leg(&bearers[1], own.radius_m)],
-        radius_mps: own.radius_m / horizon_s,
-    };
-    shadow.tangent(own.velocity_mps, left.outgoing, oblique, source)
+    Shadow::cast(&bearers, own.radius_m, horizon_s).tangent(own.velocity_mps, left.outgoing, oblique, source)
 }
 
 /// Case 2: no velocity towards what is touched.
@@ -162,6 +157,15 @@ fn right_leg(end: &End, radius_m: f32) -> Leg {
 }
 
 impl Shadow {
+    /// By the left and the right end that bear it.
+    fn cast(bearers: &[End; 2], radius_m: f32, horizon_s: f32) -> Self {
+        Self {
+            corners_mps: [0, 1].map(|side| bearers[side].offset_m / horizon_s),
+            legs: [left_leg(&bearers[0], radius_m), right_leg(&bearers[1], radius_m)],
+            radius_mps: radius_m / horizon_s,
+        }
+    }
+
     /// Case 4: the half-plane that touches the shadow nearest to the velocity; none on a foreign leg.
     fn tangent(&self, velocity_mps: Vec2, edge: Vec2, oblique: bool, source: Source) -> Option<HalfPlane> {
         let from_corner = self.corners_mps.map(|corner_mps| velocity_mps - corner_mps);

@@ -95,30 +95,40 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
             semi_procedural_us: microseconds(|| semi_procedural.step()),
         })
         .collect();
-    let of = |figure: fn(&Turn) -> f32| median(turns.iter().map(figure));
-    let details = Details {
-        examples_mixed,
-        plain_microseconds_per_agent_step: of(|turn| turn.plain_us),
-        blending_microseconds_per_agent_step: of(|turn| turn.blending_us),
-        semi_procedural_microseconds_per_agent_step: of(|turn| turn.semi_procedural_us),
-        blending_over_plain: of(|turn| turn.blending_us / turn.plain_us),
-        semi_procedural_over_plain: of(|turn| turn.semi_procedural_us / turn.plain_us),
-    };
-    let text = text(&details);
+    let details = Details::new(examples_mixed, &turns);
+    let (goals, bars, text) = (goals(&details), bars(&details), text(&details));
+    conclude(&Found { details, goals, bars }, &text, args.json)
+}
+
+impl Details {
+    /// Medians over turns.
+    fn new(examples_mixed: f32, turns: &[Turn]) -> Self {
+        let of = |figure: fn(&Turn) -> f32| median(turns.iter().map(figure));
+        Self {
+            examples_mixed,
+            plain_microseconds_per_agent_step: of(|turn| turn.plain_us),
+            blending_microseconds_per_agent_step: of(|turn| turn.blending_us),
+            semi_procedural_microseconds_per_agent_step: of(|turn| turn.semi_procedural_us),
+            blending_over_plain: of(|turn| turn.blending_us / turn.plain_us),
+            semi_procedural_over_plain: of(|turn| turn.semi_procedural_us / turn.plain_us),
+        }
+    }
+}
+
+fn goals(details: &Details) -> Vec<Goal> {
     let goal = |name, measured: Option<f32>| Goal { name, measured: measured.map(f64::from), goal: GOAL_US };
+    vec![
+        goal("blending, µs a body and step", details.blending_microseconds_per_agent_step),
+        goal("semi-procedural, µs a body and step", details.semi_procedural_microseconds_per_agent_step),
+    ]
+}
+
+fn bars(details: &Details) -> Vec<Bar> {
     let bar = |name, measured: Option<f32>| Bar::at_most(name, OVER_PLAIN, measured.map(f64::from));
-    let found = Found {
-        goals: vec![
-            goal("blending, µs a body and step", details.blending_microseconds_per_agent_step),
-            goal("semi-procedural, µs a body and step", details.semi_procedural_microseconds_per_agent_step),
-        ],
-        bars: vec![
-            bar("blending over four rows and forward kinematics", details.blending_over_plain),
-            bar("semi-procedural over four rows and forward kinematics", details.semi_procedural_over_plain),
-        ],
-        details,
-    };
-    conclude(&found, &text, args.json)
+    vec![
+        bar("blending over four rows and forward kinematics", details.blending_over_plain),
+        bar("semi-procedural over four rows and forward kinematics", details.semi_procedural_over_plain),
+    ]
 }
 
 impl Walkers {

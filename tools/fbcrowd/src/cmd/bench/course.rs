@@ -16,10 +16,12 @@ use fbcrowd_render::trails::Tracks;
 use fbcrowd_sim::hms::mode::Mode;
 use fbcrowd_sim::hms::params::{Modes, Transition};
 use fbcrowd_sim::metrics::{Measures, Measuring};
+use fbcrowd_sim::recording_frame::AgentFrame;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::step::Simulation;
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
+use motiondb::skeleton::Skeleton;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
@@ -114,21 +116,16 @@ fn walk(
     let mut scenario = scenario.clone();
     scenario.agents[0].preferred_speed_mps = preferred_mps;
     (scenario.params.synthesis.modes, scenario.params.synthesis.transition) = (modes, transition);
-    let examples: Vec<PoseSequence> = (0..db.examples.len()).map(|example| PoseSequence::of(db, example)).collect();
     let mut simulation = Simulation::new(Arc::clone(db), &scenario);
     let mut measuring = Measuring::new(&db.skeleton, &scenario, simulation.frames());
     let root_m = |simulation: &Simulation| simulation.frames()[0].root.position_m;
     let mut positions_m: Vec<Vec2> = vec![root_m(&simulation)];
-    let (mut squared_deg2, mut deformed_steps) = (0.0, 0);
+    let mut poses = Poses::beside(db);
     while positions_m.len() <= step_count(&scenario) && !measuring.all_are_at_goals() {
         simulation.step(&mut |_| {});
         measuring.push(simulation.frames());
         positions_m.push(root_m(&simulation));
-        let frame = &simulation.frames()[0];
-        let joints = frame.pose.forward_kinematics(&db.skeleton);
-        let to_example_deg = examples.iter().map(|example| example.to_pose_deg(&joints));
-        squared_deg2 += f64::from(to_example_deg.fold(f32::INFINITY, f32::min)).powi(2);
-        deformed_steps += usize::from(frame.mode == Mode::SemiProcedural);
+        poses.push(&simulation.frames()[0], &db.skeleton);
     }
     let measures: Measures = measuring.finish();
     let steps = measures.steps.max(1) as f64;
@@ -140,11 +137,32 @@ fn walk(
         wall_disc_share: measures.wall_disc_share,
         wall_body_share: measures.wall_body_share,
         wall_body_max_mm: measures.wall_body_max_mm,
-        pose_distance_deg: (squared_deg2 / steps).sqrt(),
-        semi_procedural_share: deformed_steps as f64 / steps,
+        pose_distance_deg: (poses.squared_deg2 / steps).sqrt(),
+        semi_procedural_share: poses.semi_procedural as f64 / steps,
         acceleration_mps2: measures.mean_acceleration_before_arrival_mps2,
         planted_slide_cm_s: measures.planted_slide_cm_s,
         tracks: Tracks { agent_count: 1, dt_s: scenario.dt_s, positions_m },
+    }
+}
+
+/// A body's poses beside the examples: squared distances from the nearest, summed, and how many m_sp made.
+struct Poses {
+    examples: Vec<PoseSequence>,
+    squared_deg2: f64,
+    semi_procedural: usize,
+}
+
+impl Poses {
+    fn beside(db: &MotionDb) -> Self {
+        let examples = (0..db.examples.len()).map(|example| PoseSequence::of(db, example)).collect();
+        Self { examples, squared_deg2: 0.0, semi_procedural: 0 }
+    }
+
+    fn push(&mut self, frame: &AgentFrame, skeleton: &Skeleton) {
+        let joints = frame.pose.forward_kinematics(skeleton);
+        let to_example_deg = self.examples.iter().map(|example| example.to_pose_deg(&joints));
+        self.squared_deg2 += f64::from(to_example_deg.fold(f32::INFINITY, f32::min)).powi(2);
+        self.semi_procedural += usize::from(frame.mode == Mode::SemiProcedural);
     }
 }
 
