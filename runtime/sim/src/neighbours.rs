@@ -4,10 +4,10 @@
 //! agents at once. A search visits squares of cells from the inside out and stops when no cell outside can hold a
 //! better neighbour. The answer does not depend on the grids.
 //!
-//! The nearest ten by distance alone can drop the fast approacher (`FbCrowd` §4.4, **Open**), so the speed at which the
-//! distance closes has a say: agents are ranked by a time, distance / (closing speed + 1 m/s). The time to collision
-//! itself does not serve. It jumps to infinity as soon as an agent is avoided, who then would drop out, be met again,
-//! and so on in turns. World, metres, seconds.
+//! The nearest ten by distance alone can drop the fast approacher (which `FbCrowd` §4.4 leaves open), so the speed at
+//! which the distance closes has a say: agents are ranked by a time, distance / (closing speed + 1 m/s). The time to
+//! collision itself does not serve. It jumps to infinity as soon as an agent is avoided, who then would drop out, be
+//! met again, and so on in turns. World, metres, seconds.
 
 mod grid;
 mod rank;

@@ -1,4 +1,5 @@
-//! Which synthesis moves a body (`FbCrowd` §3.4.1, Eq. 1 as corrected): motion blending unless there may be a collision.
+//! Which synthesis moves a body (`FbCrowd` §3.4.1, Eq. 1 as its text has it: printed with ttc ≤ t_trans): motion
+//! blending unless there may be a collision.
 //!
 //! ```text
 //! motion blending   if  ttc ≥ t_trans  and  d ≤ d_thresh            (1)

@@ -7,9 +7,9 @@
 //! **3D program** minimises the greatest *weighted* violation of those that must yield: of the agents, or, where the
 //! firm ones are infeasible among themselves, of the firm ones from the failure on, against which no agent is weighed.
 //!
-//! In the plain minimax of van den Berg et al. the order of agents does not act (`paper/fbcrowd.md`, §4.4, **Open**). To
-//! keep the longest prefix hard and relax the rest makes it act, but the velocity jumps whenever the prefix changes by
-//! one (through bodies, in the four-way crossing, a fifth more acceleration and twice the overlap); weights that change
+//! In the plain minimax of van den Berg et al. the order of agents does not act, which `FbCrowd` §4.4 wants. To keep
+//! the longest prefix hard and relax the rest makes it act, but the velocity jumps whenever the prefix changes by one
+//! (through bodies, in the four-way crossing, a fifth more acceleration and twice the overlap); weights that change
 //! smoothly make it act smoothly.
 //!
 //! World axes, m/s. Within a disc of `speed_max`, which bounds the programs and nothing else.

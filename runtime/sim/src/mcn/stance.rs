@@ -1,11 +1,12 @@
 //! The stance foot's half-plane: the swing foot must not land beyond the foot that carries the body (`FbCrowd` §4.2,
 //! Eq. 6).
 //!
-//! The printed construction cannot hold (`paper/fbcrowd.md`, §4.2, **Erratum** and **Open**). What is limited here is
-//! where the swing foot *lands*: until then it moves with the root, so v·n_b ≤ clearance / time to landing, where n_b
-//! points outward, away from the swing side, and the clearance is the swing foot's distance from the stance foot's
-//! line. n_b is first turned by the twist that the stance foot allows in place. The paper's radial form (Eqs. 7, 8)
-//! stays for comparison. World axes, metres, seconds.
+//! The printed construction cannot hold: Eqs. 7 and 8 put the stance foot's line outside the disc by a factor k = 1,
+//! but the foot is under the body, and where it is ahead any k brakes the walk. What is limited here is where the swing
+//! foot *lands*: until then it moves with the root, so v·n_b ≤ clearance / time to landing, where n_b points outward,
+//! away from the swing side, and the clearance is the swing foot's distance from the stance foot's line. n_b is first
+//! turned by the twist that the stance foot allows in place. The paper's radial form (Eqs. 7, 8) stays for comparison.
+//! World axes, metres, seconds.
 
 use glam::Vec2;
 
