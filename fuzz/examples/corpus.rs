@@ -1,4 +1,5 @@
-//! Writes the seeds that are too long to write by hand: `cargo run --example corpus`, in this folder. All of them are made here.
+//! Writes the seeds that are too long to write by hand: `cargo run --example corpus`, in this folder. All of them are
+//! made here.
 
 use std::fs;
 use std::path::Path;

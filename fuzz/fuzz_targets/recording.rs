@@ -1,4 +1,5 @@
-//! Any bytes as a recording: as they are, and with right checksums, index and tail, so that header and frames are reached.
+//! Any bytes as a recording: as they are, and with right checksums, index and tail, so that header and frames are
+//! reached.
 #![no_main]
 
 use std::fs;

@@ -1,5 +1,5 @@
-//! Figures of several contestants in several scenes: a panel a measure, a group a scene, a column a contestant; every run
-//! a dot, with a line over their mean ± standard deviation. Scales start at 0, since all measures do.
+//! Figures of several contestants in several scenes: a panel a measure, a group a scene, a column a contestant; every
+//! run a dot, with a line over their mean ± standard deviation. Scales start at 0, since all measures do.
 
 use glam::Vec2;
 use tiny_skia::Pixmap;

@@ -1,8 +1,8 @@
 //! Every example of a database as strips of bodies and, under them, of stick figures: from the side, from the front and
 //! from above, at eight phases of its cycle.
 //!
-//! The bodies are those of the top view, turned; the feet that carry weight stand on an underlined ground. A sheet holds
-//! two dozen examples; more go on further sheets.
+//! The bodies are those of the top view, turned; the feet that carry weight stand on an underlined ground. A sheet
+//! holds two dozen examples; more go on further sheets.
 
 use std::ops::Range;
 

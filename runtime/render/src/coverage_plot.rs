@@ -30,8 +30,8 @@ const CELL_PX: f32 = 10.0;
 /// First sentence, and distance of sentences, pixels.
 const SENTENCE_TOP_PX: f32 = 1120.0;
 const SENTENCE_STEP_PX: f32 = 40.0;
-/// The two axes of each slice: v_f and ω_t, v_f and ω_s, ω_t and ω_s. The third parameter is 0, but v_f that of m_sp: at
-/// v_f = 0 a set without backward clips has nothing to show.
+/// The two axes of each slice: v_f and ω_t, v_f and ω_s, ω_t and ω_s. The third parameter is 0, but v_f that of m_sp:
+/// at v_f = 0 a set without backward clips has nothing to show.
 const SLICES: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 const AXIS_NAMES: [&str; 3] = ["forward speed v_f, m/s", "turn rate ω_t, °/s", "side speed ω_s, m/s"];
 /// An example is shown in a slice that it lies this near to, share of the third parameter's range.

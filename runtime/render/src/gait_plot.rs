@@ -1,5 +1,5 @@
-//! When feet stand: for every example the height and the speed of both soles over the cycle, the contacts found, and the
-//! four key times.
+//! When feet stand: for every example the height and the speed of both soles over the cycle, the contacts found, and
+//! the four key times.
 //!
 //! Of each sole the lowest point is drawn, its speed is that over the ground: with root velocity v and turn rate ω a
 //! point p of the root frame moves by v + ω·perp(p) + dp/dt. A sheet holds three dozen examples; more go on further
@@ -106,8 +106,8 @@ fn speed_axis(speeds_mps: [&[f32]; 2]) -> Axis {
     Axis { label: "speed, m/s".to_owned(), low: 0.0, high: 1.08 * highest }
 }
 
-/// Height, m, and horizontal speed over the ground, m/s, of the lowest sole point at each stored phase, and at the first
-/// once more, which closes the cycle.
+/// Height, m, and horizontal speed over the ground, m/s, of the lowest sole point at each stored phase, and at the
+/// first once more, which closes the cycle.
 fn sole_curves(db: &MotionDb, example: usize, side: Side) -> [Vec<f32>; 2] {
     let soles: Vec<[Vec3; 3]> = (0..PHASE_COUNT).map(|phase| sole_points_m(db, example, phase, side)).collect();
     let lowest = |row: usize| {

@@ -7,11 +7,11 @@
 //! scene, `overlay_scene`; its velocity space, `velocity_panel`, `permitted`; legend and numbers, `constraint_key`) →
 //! files ([`png_frame`], [`exr_frame`], all of them by [`sequence`]).
 //!
-//! Plots stand on a small kit ([`plot`], [`axis`], [`mark`], `name_places`): everybody's paths ([`trajectories`]), those
-//! of several runs beside each other ([`side_by_side`]), figures of many runs ([`comparison_plot`]), points against a
-//! published curve ([`diagram_plot`]); of a database its velocity sets ([`velocity_plot`]), blend space ([`parameter_plot`]) and where it is thin
-//! ([`coverage_plot`]), bodies and sticks ([`contact_sheet`], `stick`), steps ([`gait_plot`]) and correspondences
-//! ([`pose_distance_plot`]), all of them by [`database_plots`].
+//! Plots stand on a small kit ([`plot`], [`axis`], [`mark`], `name_places`): everybody's paths ([`trajectories`]),
+//! those of several runs beside each other ([`side_by_side`]), figures of many runs ([`comparison_plot`]), points
+//! against a published curve ([`diagram_plot`]); of a database its velocity sets ([`velocity_plot`]), blend space
+//! ([`parameter_plot`]) and where it is thin ([`coverage_plot`]), bodies and sticks ([`contact_sheet`], `stick`), steps
+//! ([`gait_plot`]) and correspondences ([`pose_distance_plot`]), all of them by [`database_plots`].
 //!
 //! Conventions: world metres, x right and y up in the picture; pixels, x right and y down; colours sRGB-encoded, 0 to
 //! 1.

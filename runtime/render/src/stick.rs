@@ -1,5 +1,5 @@
-//! A posed skeleton as lines through its joints: the trunk in ink, the left side in green, the right in violet, and under
-//! each foot the line of its sole, heel to toe tip.
+//! A posed skeleton as lines through its joints: the trunk in ink, the left side in green, the right in violet, and
+//! under each foot the line of its sole, heel to toe tip.
 
 use glam::{Vec2, Vec3};
 use motiondb::pose::{Joints, Pose};

@@ -80,8 +80,8 @@ pub fn draw(pixmap: &mut Pixmap, framing: &Framing, tracks: &Tracks, trail: &Tra
     }
 }
 
-/// From the body backwards. Corners sit on fixed frames of the tracks, so that the ribbon does not crawl from picture to
-/// picture.
+/// From the body backwards. Corners sit on fixed frames of the tracks, so that the ribbon does not crawl from picture
+/// to picture.
 fn corners(framing: &Framing, tracks: &Tracks, trail: &Trail) -> Vec<Corner> {
     let Trail { agent, time_s, length_s, .. } = *trail;
     let stride = ((PIECE_PX / (BRISK_MPS * tracks.dt_s * framing.scale_px_m)).round() as usize).max(1);

@@ -1,5 +1,5 @@
-//! The velocity space of one agent in one step (the paper's Figs. 3 to 5): what its database, its stance foot, walls and
-//! others permit, what it wanted, what was planned, and what the body then did.
+//! The velocity space of one agent in one step (the paper's Figs. 3 to 5): what its database, its stance foot, walls
+//! and others permit, what it wanted, what was planned, and what the body then did.
 //!
 //! World axes, m/s, standing in the middle, so that directions are those of the scene beside it. A half-plane is a line
 //! with hatching on its forbidden side; thick where the planned velocity lies on it, dashed where it had to yield. What

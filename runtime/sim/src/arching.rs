@@ -1,9 +1,9 @@
 //! The shape of a crowd that waits before a door: does it stand in half a circle about it, as people do?
 //!
-//! The floor before the door is cut into equal sectors. People who fill a sector evenly up to a radius R stand 2R/3 away
-//! on average, so each sector's mean distance tells how far the crowd reaches in it; of a half-circle all reach equally
-//! far, of a queue one reaches far and the rest not at all. Rings about the door tell how closely people stand. World,
-//! metres, seconds.
+//! The floor before the door is cut into equal sectors. People who fill a sector evenly up to a radius R stand 2R/3
+//! away on average, so each sector's mean distance tells how far the crowd reaches in it; of a half-circle all reach
+//! equally far, of a queue one reaches far and the rest not at all. Rings about the door tell how closely people stand.
+//! World, metres, seconds.
 
 use std::f32::consts::PI;
 
@@ -15,8 +15,8 @@ pub const SECTORS: usize = 6;
 pub const RINGS: usize = 4;
 /// See [`RINGS`].
 pub const RING_M: f32 = 1.0;
-/// Slower than this somebody waits, m/s: the speed at 2.3 people/m² (Weidmann 1993), beyond the densities that still flow
-/// freely (Fruin's level of service E begins at 1.1 to 2.2).
+/// Slower than this somebody waits, m/s: the speed at 2.3 people/m² (Weidmann 1993), beyond the densities that still
+/// flow freely (Fruin's level of service E begins at 1.1 to 2.2).
 pub const WAITING_MPS: f32 = 0.5;
 /// Nobody farther away waits for this door, m.
 const REACH_M: f32 = 6.0;
@@ -51,8 +51,8 @@ impl Shape {
         self.reach_m.iter().sum::<f64>() / SECTORS as f64
     }
 
-    /// Standard deviation of the reach over its mean: 0 of a half-circle, √5 of a queue in one sector. None where nobody
-    /// waits.
+    /// Standard deviation of the reach over its mean: 0 of a half-circle, √5 of a queue in one sector. None where
+    /// nobody waits.
     pub fn unevenness(&self) -> Option<f64> {
         let radius_m = self.radius_m();
         let squares = self.reach_m.iter().map(|reach_m| (reach_m - radius_m) * (reach_m - radius_m)).sum::<f64>();

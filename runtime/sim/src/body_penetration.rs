@@ -1,13 +1,14 @@
 //! How far bodies reach into each other, which the paper never measured: its discs (App. 11, Eqs. 16 and 17) stand for
 //! bodies whose arms swing beyond them and whose sides do not fill them.
 //!
-//! A body is a capsule a bone, as the recording's skeleton has it (trunk, head, limbs). The depth of a pair of bodies in a
-//! frame is the deepest overlap of a capsule of one with a capsule of the other: the sum of both radii less the distance
-//! of the bones ([`segment_distance`](crate::segment_distance)). Frames are looked at as they are, without the way
-//! between them.
+//! A body is a capsule a bone, as the recording's skeleton has it (trunk, head, limbs). The depth of a pair of bodies
+//! in a frame is the deepest overlap of a capsule of one with a capsule of the other: the sum of both radii less the
+//! distance of the bones ([`segment_distance`](crate::segment_distance)). Frames are looked at as they are, without the
+//! way between them.
 //!
 //! Bodies are swept along the crowd's longer side; of a pair whose boxes meet, only capsules whose own boxes meet are
-//! compared. World axes, metres; capsules relative to their root, so that the distance from the origin costs no precision.
+//! compared. World axes, metres; capsules relative to their root, so that the distance from the origin costs no
+//! precision.
 
 use glam::{DVec2, Quat, Vec2, Vec3};
 use motiondb::pose::{Joints, Root};

@@ -16,8 +16,8 @@ pub enum Coupling {
     /// The paper's: bodies follow the plans, and discs the bodies.
     #[default]
     TwoWay,
-    /// Bodies off: each disc moves as planned and faces as planned at once, to compare planners alone. A recording shows
-    /// bodies that stand and glide, no foot of which is planted.
+    /// Bodies off: each disc moves as planned and faces as planned at once, to compare planners alone. A recording
+    /// shows bodies that stand and glide, no foot of which is planted.
     Discs,
     /// The user study's rival: discs move as planned, and bodies follow them exactly; see [`crate::decoupled`].
     Decoupled,

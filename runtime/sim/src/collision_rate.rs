@@ -9,7 +9,8 @@ use crate::scenario_check::longer_side;
 #[derive(Debug)]
 pub struct Collisions {
     radii_m: Vec<f64>,
-    /// Agents by where along the crowd's longer side begins what they sweep in a step; hardly changes from one step to the next, so sorting stays cheap.
+    /// Agents by where along the crowd's longer side begins what they sweep in a step; hardly changes from one step to
+    /// the next, so sorting stays cheap.
     order: Vec<usize>,
     penetration: f64,
     least_distance_m: f64,

@@ -1,10 +1,10 @@
 //! How far people who walk against each other have sorted themselves into lanes.
 //!
 //! The order parameter of Nowak and Schadschneider 2012 (Phys. Rev. E 85, 066128), which they took from Rex and Löwen
-//! 2007: among those in a person's band, itself included, `same` go its way and `opposite` against it; then φ is the mean
-//! over all people of ((same − opposite)/(same + opposite))². It is 1 of perfect lanes. Even a crowd without any order
-//! has some, φ_0, by chance; the reduced parameter (φ − φ_0)/(1 − φ_0) is 0 there, and negative where people are mixed
-//! better than chance would. Metres.
+//! 2007: among those in a person's band, itself included, `same` go its way and `opposite` against it; then φ is the
+//! mean over all people of ((same − opposite)/(same + opposite))². It is 1 of perfect lanes. Even a crowd without any
+//! order has some, φ_0, by chance; the reduced parameter (φ − φ_0)/(1 − φ_0) is 0 there, and negative where people are
+//! mixed better than chance would. Metres.
 
 /// Half the width of a band, m: the radius of a person's disc, so that a band is as wide as a person.
 const BAND_HALF_M: f32 = 0.25;
@@ -23,7 +23,8 @@ pub struct LaneWalker {
 pub struct LaneOrder {
     /// φ, 0 to 1.
     pub order: f64,
-    /// φ_0: what is expected where everybody in a band goes either way by chance, at the shares in which they are there.
+    /// φ_0: what is expected where everybody in a band goes either way by chance, at the shares in which they are
+    /// there.
     pub by_chance: f64,
 }
 

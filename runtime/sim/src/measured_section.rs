@@ -1,4 +1,5 @@
-//! Density and speed of whoever is in a rectangle of the floor, and Weidmann's fundamental diagram to compare them with.
+//! Density and speed of whoever is in a rectangle of the floor, and Weidmann's fundamental diagram to compare them
+//! with.
 //!
 //! The classical measurement: density is the number of people in the section over its area, speed the mean of theirs
 //! along the corridor; both averaged over the frames in which somebody is there, each weighted by how many. World,

@@ -2,8 +2,8 @@
 //!
 //! Collisions of discs stand in [`collision_rate`](crate::collision_rate), those of bodies in
 //! [`body_penetration`](crate::body_penetration), accelerations, arrivals, detours and tracking in
-//! [`root_measures`](crate::root_measures), foot slide in [`planted_slide`](crate::planted_slide). Positions are those of
-//! the root as synthesised.
+//! [`root_measures`](crate::root_measures), foot slide in [`planted_slide`](crate::planted_slide). Positions are those
+//! of the root as synthesised.
 
 use std::io::{self, Write};
 

@@ -14,8 +14,8 @@ use crate::scenario::AgentSpec;
 const BESIDE_M: f32 = 1.0;
 /// Within this distance aside it is rounded in full; at [`BESIDE_M`], not at all.
 const ROUNDED_M: f32 = 0.5;
-/// Rounding begins this long before a waypoint, s: 0.9 m at a walk. Were v_pref to jump to the next leg instead, a right
-/// angle would nearly stop a walker (0.1 m/s; so, 0.6). Beginning at 1 s, bodies are slower through lanes of 1 m.
+/// Rounding begins this long before a waypoint, s: 0.9 m at a walk. Were v_pref to jump to the next leg instead, a
+/// right angle would nearly stop a walker (0.1 m/s; so, 0.6). Beginning at 1 s, bodies are slower through lanes of 1 m.
 const ROUNDING_S: f32 = 0.7;
 /// Cosine of the sharpest turn that is rounded, 120°: to turn back, a waypoint is walked to …
 const ROUNDED_COS: f32 = -0.5;

@@ -143,8 +143,8 @@ impl FootTrack {
     }
 }
 
-/// The contact point's speed by central differences, one-sided at either end of the contact: in steps of 0.1 s a contact
-/// has so few frames that nothing is trimmed, and a foot that still swings one frame away does not slide.
+/// The contact point's speed by central differences, one-sided at either end of the contact: in steps of 0.1 s a
+/// contact has so few frames that nothing is trimmed, and a foot that still swings one frame away does not slide.
 fn sample(earlier: Option<FootFrame>, at: FootFrame, next: Option<FootFrame>, dt_s: f64) -> Sample {
     let [earlier, next] = [earlier, next].map(|frame| frame.filter(|frame| frame.planted));
     let steps = usize::from(earlier.is_some()) + usize::from(next.is_some());

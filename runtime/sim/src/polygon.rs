@@ -1,4 +1,5 @@
-//! Questions to a polygon of f32 corners, answered in f64 (whose products of differences are exact enough to trust a sign).
+//! Questions to a polygon of f32 corners, answered in f64 (whose products of differences are exact enough to trust a
+//! sign).
 
 use glam::{DVec2, Vec2};
 
@@ -48,7 +49,8 @@ fn side(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Whether two segments have a point in common: their ends lie on different sides of each other, or an end lies on the other segment.
+/// Whether two segments have a point in common: their ends lie on different sides of each other, or an end lies on the
+/// other segment.
 fn touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     let crossing = side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
     let on = |a: DVec2, b: DVec2, c: DVec2| side(a, b, c) == 0.0 && (a - c).dot(b - c) <= 0.0;

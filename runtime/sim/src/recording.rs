@@ -1,14 +1,17 @@
-//! `.fbrec`: a simulation, recorded frame by frame while it runs; self-contained, any frame readable without the others.
+//! `.fbrec`: a simulation, recorded frame by frame while it runs; self-contained, any frame readable without the
+//! others.
 //!
 //! A magic of 8 bytes (among them those that a transfer in text mode would change), the format version as u32, then
 //! [chunks](crate::recording_chunk), little-endian:
 //!
 //! - `HEAD` comes first: the [`Header`], bincode with fixed-size integers;
-//! - one `FRAM` a frame: zlib over the [packed](crate::recording_packing) agents, all their first bytes, all their second bytes, …;
+//! - one `FRAM` a frame: zlib over the [packed](crate::recording_packing) agents, all their first bytes, all their
+//!   second bytes, …;
 //! - `INDX`: the byte at which each `FRAM` begins, u64 each;
 //! - `TAIL` ends the file: the byte at which `INDX` begins, u64.
 //!
-//! Frame 0 is the start, frame k the state after k steps. The writer holds one frame and the offsets, the reader the header and the offsets.
+//! Frame 0 is the start, frame k the state after k steps. The writer holds one frame and the offsets, the reader the
+//! header and the offsets.
 
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};

@@ -21,7 +21,8 @@ pub struct AgentFrame {
     pub phase: f32,
     /// Synthesis in force.
     pub mode: Mode,
-    /// Blended contact Σ w·c of each foot, `[left, right]`; planted from [`PLANTED_CONTACT`](crate::plan::PLANTED_CONTACT) on.
+    /// Blended contact Σ w·c of each foot, `[left, right]`; planted from
+    /// [`PLANTED_CONTACT`](crate::plan::PLANTED_CONTACT) on.
     pub contacts: [f32; 2],
     /// Seconds until the swing foot lands, where a single foot stands; else 0.
     pub time_to_landing_s: f32,

@@ -11,9 +11,10 @@
 //! | 9 | pelvis x, y, z: 24 bits each over ±4 m (0.48 µm a step) |
 //! | 139 | rotations, smallest three: 18 bits a component for pelvis, thighs, shanks and feet (7 bytes), 15 for the others (6 bytes) |
 //!
-//! Little-endian throughout. A smallest-three component is off by at most δ = 2^−b/√2 (b bits), the rotation by at most 2√12·δ: 0.15 mrad
-//! at 15 bits, 0.02 mrad at 18. The pelvis and the chain down to the sole are packed finer than the other joints because their steps add up to
-//! foot slide: at 15 bits and a 16-bit pelvis a held sole jitters by 0.5 cm/s at 120 frames a second, so packed by less than 0.1 cm/s.
+//! Little-endian throughout. A smallest-three component is off by at most δ = 2^−b/√2 (b bits), the rotation by at most
+//! 2√12·δ: 0.15 mrad at 15 bits, 0.02 mrad at 18. The pelvis and the chain down to the sole are packed finer than the
+//! other joints because their steps add up to foot slide: at 15 bits and a 16-bit pelvis a held sole jitters by 0.5
+//! cm/s at 120 frames a second, so packed by less than 0.1 cm/s.
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::pose::{Pose, Root};
@@ -191,8 +192,8 @@ fn component_steps(bits: u32) -> f32 {
     ((1_u32 << (bits - 1)) - 1) as f32
 }
 
-/// Smallest three: of q and −q the one whose largest component is positive, without that component. From the low bits: its index, then
-/// the other three in order, each in steps over ±1/√2.
+/// Smallest three: of q and −q the one whose largest component is positive, without that component. From the low bits:
+/// its index, then the other three in order, each in steps over ±1/√2.
 fn pack_rotation(rotation: Quat, bits: u32) -> u64 {
     let components = rotation.normalize().to_array();
     let largest = (1..4).fold(0, |best, i| if components[i].abs() > components[best].abs() { i } else { best });

@@ -1,10 +1,11 @@
 //! Any step of a recording, as the planner saw it: a recording is complete enough for it.
 //!
-//! Step k leads from frame k to frame k + 1. Places, facings, spent whiles and the stance foot are frame k's, velocities
-//! those that led to it; v_pref, which the step itself finds, stands in frame k + 1. All but the stance foot is kept bit
-//! for bit: it comes from a packed pose and time to landing, and where it decides, so does their rounding (a tenth of a
-//! millimetre at the sole, so some mm/s of what is planned). What a body is committed to on the paper's way from one
-//! synthesis to the other (`transition = "through_m_mb"`) is not recorded: there the velocity walked stands. World axes, metres, seconds, radians.
+//! Step k leads from frame k to frame k + 1. Places, facings, spent whiles and the stance foot are frame k's,
+//! velocities those that led to it; v_pref, which the step itself finds, stands in frame k + 1. All but the stance foot
+//! is kept bit for bit: it comes from a packed pose and time to landing, and where it decides, so does their rounding
+//! (a tenth of a millimetre at the sole, so some mm/s of what is planned). What a body is committed to on the paper's
+//! way from one synthesis to the other (`transition = "through_m_mb"`) is not recorded: there the velocity walked
+//! stands. World axes, metres, seconds, radians.
 
 use glam::Vec2;
 

@@ -1,4 +1,5 @@
-//! The `agents` of a scenario file: one table or a list of tables, each of exactly one kind, and the agents that each stands for.
+//! The `agents` of a scenario file: one table or a list of tables, each of exactly one kind, and the agents that each
+//! stands for.
 //!
 //! | kind | its goals |
 //! |---|---|

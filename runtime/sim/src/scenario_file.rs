@@ -93,8 +93,8 @@ struct Table {
     first: usize,
 }
 
-/// Reads a scenario file and whatever agent files it names. Its motion is an error of its own, so that whoever brings a database need not
-/// have the one that the file names.
+/// Reads a scenario file and whatever agent files it names. Its motion is an error of its own, so that whoever brings a
+/// database need not have the one that the file names.
 ///
 /// # Errors
 /// Where a file cannot be read or says something that cannot be simulated.

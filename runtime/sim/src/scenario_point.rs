@@ -1,4 +1,5 @@
-//! A place in a scenario, `[x, y]`: exactly two numbers, of which glam's own reading would drop a third silently. World, metres.
+//! A place in a scenario, `[x, y]`: exactly two numbers, of which glam's own reading would drop a third silently.
+//! World, metres.
 //!
 //! Recordings hold places too, in the same order and without their number, so one reading serves both.
 

@@ -108,7 +108,8 @@ pub fn check_view(view: &View) -> Result<(), Fault> {
     check_points(&Place::View, view.centre_m.as_slice())
 }
 
-/// Names carry their units, so one rule serves all tunables: finite, times at least a millisecond (they divide), only angles negative.
+/// Names carry their units, so one rule serves all tunables: finite, times at least a millisecond (they divide), only
+/// angles negative.
 fn check_params(params: &Params) -> Result<(), Fault> {
     let Ok(sections) = toml::Table::try_from(params) else { return Ok(()) };
     for (section, table) in &sections {

@@ -5,8 +5,8 @@
 //! 1. both inside their segments: then they are the nearest points of the two lines, which are not parallel;
 //! 2. an end of one segment and its nearest point on the other (four cases, of which parallel segments need no more).
 //!
-//! Every candidate is a distance between points of the segments, so the least of them is right even where rounding makes
-//! a candidate useless (near-parallel lines, segments of no length).
+//! Every candidate is a distance between points of the segments, so the least of them is right even where rounding
+//! makes a candidate useless (near-parallel lines, segments of no length).
 
 use glam::Vec3;
 
@@ -96,7 +96,8 @@ mod tests {
         check(along_x, along_x, 0.0);
     }
 
-    /// The distance among 3 × 41 × 41 pairs of points, ever closer about the nearest: never below the truth, and near it.
+    /// The distance among 3 × 41 × 41 pairs of points, ever closer about the nearest: never below the truth, and near
+    /// it.
     fn sampled_m(a: &Segment, b: &Segment) -> f32 {
         let (mut centre, mut reach, mut least_m) = ([0.5, 0.5], 0.5, f32::INFINITY);
         for _ in 0..3 {
@@ -121,7 +122,8 @@ mod tests {
     proptest! {
         #[test]
         fn no_pair_of_points_is_nearer_and_one_is_as_near(a in (point(), point()), b in (point(), point()), shrink in 0.0_f32..1.0) {
-            // Shrinking one segment towards a point and the other towards parallel visits the cases that rounding hurts.
+            // Shrinking one segment towards a point and the other towards parallel visits the cases that rounding
+            // hurts.
             let a = Segment { from_m: a.0, to_m: a.0.lerp(a.1, shrink * shrink) };
             for b in [Segment { from_m: b.0, to_m: b.1 }, Segment { from_m: b.0, to_m: b.0 + a.along_m() + 1e-3 * b.1 }] {
                 let (found_m, sampled_m) = (distance_m(&a, &b), sampled_m(&a, &b));

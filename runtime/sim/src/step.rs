@@ -34,7 +34,8 @@ use crate::world::World;
 /// Bodies that one thread takes at a time: enough to outweigh the hand-over, few enough to share out 100.
 const CHUNK: usize = 16;
 
-/// What the sorted grids of [`Neighbours`] hold of an agent: place, velocity, radius, rank and cells, some of them twice.
+/// What the sorted grids of [`Neighbours`] hold of an agent: place, velocity, radius, rank and cells, some of them
+/// twice.
 const GRID_BYTES: usize = 64;
 
 /// A stage of a step, for whoever measures.

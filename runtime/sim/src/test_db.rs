@@ -1,7 +1,7 @@
 //! A motion database made in code, for tests: idle, three walks, turns, side-steps and a step back, with analytic legs.
 //!
-//! A foot stands still for [`DUTY`] of each cycle while the root moves on along its arc: it lands on the heel, rolls flat, and leaves over
-//! the ball; in between it swings on a cubic that meets both ends with their velocities.
+//! A foot stands still for [`DUTY`] of each cycle while the root moves on along its arc: it lands on the heel, rolls
+//! flat, and leaves over the ball; in between it swings on a cubic that meets both ends with their velocities.
 
 use std::f32::consts::TAU;
 

@@ -29,7 +29,8 @@ pub fn fault(seed: u64, stream: u64) -> Option<&'static str> {
 }
 
 /// The solution of the 2D program is no worse than any velocity tried; where it finds none, there is none; the solution
-/// then keeps what it claims to keep, and violates what yields, each by its weight, no more than any velocity that keeps it.
+/// then keeps what it claims to keep, and violates what yields, each by its weight, no more than any velocity that
+/// keeps it.
 pub(crate) fn judged(
     half_planes: &[HalfPlane],
     firm: usize,

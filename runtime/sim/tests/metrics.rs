@@ -32,7 +32,8 @@ fn check(found: f64, expected: f64) {
 
 #[test]
 fn acceleration_counts_the_start_from_rest_and_ends_at_the_arrival() {
-    // 1 m/s at once, kept for ten steps, then a stop: 10 m/s² twice in twenty steps, once in those nine before x = 0.9 > 1.4 − 0.5 − ε.
+    // 1 m/s at once, kept for ten steps, then a stop: 10 m/s² twice in twenty steps, once in those nine before x = 0.9
+    // > 1.4 − 0.5 − ε.
     let places = (0..=20).map(|step| 0.1 * step.min(10) as f32);
     let measures = measured("acceleration", &walker(1.39), &path(places));
     assert_eq!((measures.agents, measures.steps, measures.arrived, measures.stalled), (1, 20, 1, 0));
@@ -97,7 +98,8 @@ fn separation_is_the_least_distance_of_centres_between_frames_too() {
 
 #[test]
 fn a_detour_is_longer_than_the_straight_way_until_the_arrival() {
-    // 3 m aside, then 4 m along x to the place of arrival, 5 m from the start over the hypotenuse; what follows does not count.
+    // 3 m aside, then 4 m along x to the place of arrival, 5 m from the start over the hypotenuse; what follows does
+    // not count.
     let mut places: Vec<Vec2> = (0..=30).map(|step| Vec2::new(0.0, 0.1 * step as f32)).collect();
     places.extend((1..=40).map(|step| Vec2::new(0.1 * step as f32, 3.0)));
     places.extend((1..=20).map(|step| Vec2::new(4.0, 3.0 - 0.1 * step as f32)));
@@ -112,7 +114,8 @@ fn a_detour_is_longer_than_the_straight_way_until_the_arrival() {
 
 #[test]
 fn strafing_and_stepping_back_are_walking_at_held_facing() {
-    // Facing x: ten steps to the left, five backward, five forward, five standing, all but the forward ones at held facing.
+    // Facing x: ten steps to the left, five backward, five forward, five standing, all but the forward ones at held
+    // facing.
     let moves = [(10, Vec2::Y), (5, Vec2::NEG_X), (5, Vec2::X), (5, Vec2::ZERO)];
     let (mut place, mut frames) = (Vec2::ZERO, vec![vec![standing_at(Vec2::ZERO)]]);
     for (count, direction) in moves {
@@ -198,7 +201,8 @@ fn a_foot_that_rolls_over_its_toe_does_not_slide() {
 
 #[test]
 fn without_soles_the_joint_nearest_its_planted_height_is_the_contact_point() {
-    // Foot flat: ankle and ball are both at their planted heights, and the ankle comes first. Heel up: the ball, in place, takes over.
+    // Foot flat: ankle and ball are both at their planted heights, and the ankle comes first. Heel up: the ball, in
+    // place, takes over.
     let mut header = walker(9.0);
     let toe_end_m = header.skeleton.segment_ends_m[Joint::LeftToe.index()];
     let joints_m = [Vec3::ZERO, header.skeleton.offsets_m[Joint::LeftToe.index()], toe_end_m];

@@ -230,7 +230,8 @@ proptest! {
     }
 }
 
-/// Root mean square of what packing adds to the speed of a sole, cm/s, at 120 frames a second: two independent errors a difference.
+/// Root mean square of what packing adds to the speed of a sole, cm/s, at 120 frames a second: two independent errors a
+/// difference.
 fn packing_noise_cm_s(soles: impl Fn(&AgentFrame) -> [glam::Vec3; 3]) -> f64 {
     let mut frames = Vec::new();
     for index in 0..2000 {

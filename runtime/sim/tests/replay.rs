@@ -15,8 +15,8 @@ use fbcrowd_sim::scenario_file;
 use fbcrowd_sim::step::Simulation;
 use motiondb::motion_db::MotionDb;
 
-/// What the packing of poses and times to landing may change where the stance foot limits a velocity, m/s: 0.1 mm at the
-/// sole, 0.1 s before landing. Measured: 0.04 mm/s.
+/// What the packing of poses and times to landing may change where the stance foot limits a velocity, m/s: 0.1 mm at
+/// the sole, 0.1 s before landing. Measured: 0.04 mm/s.
 const STANCE_TOLERANCE_MPS: f32 = 1e-3;
 
 fn scenario(name: &str, planner: Planner, duration_s: f32) -> Scenario {

@@ -65,8 +65,8 @@ fn cycles(db: &MotionDb) -> Vec<Cycle> {
     WAYS.iter().map(|&way| cycle(db, &semi, parameters(way))).collect()
 }
 
-/// Share of the travel that is aside, where a foot's roll and its reverse are averaged: what slips as the contact passes
-/// from heel to ball is left for the foot hold to take out.
+/// Share of the travel that is aside, where a foot's roll and its reverse are averaged: what slips as the contact
+/// passes from heel to ball is left for the foot hold to take out.
 fn aside(parameters: Parameters) -> f32 {
     let travel_mps = parameters.speed_mps.hypot(parameters.strafe_mps);
     parameters.strafe_mps.abs() / travel_mps.max(f32::MIN_POSITIVE)

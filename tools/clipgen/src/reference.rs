@@ -32,8 +32,8 @@ pub fn claims() -> Vec<Claim> {
     catalogue::clips().iter().map(claim).collect()
 }
 
-/// Schwartz, Rozumalski and Trost (2008) at a speed, at a share of the cycle from the leg's heel strike, warped in time so
-/// that toe-off falls on `toe_off` (a share of the cycle too).
+/// Schwartz, Rozumalski and Trost (2008) at a speed, at a share of the cycle from the leg's heel strike, warped in time
+/// so that toe-off falls on `toe_off` (a share of the cycle too).
 pub fn published_walk(speed_mps: f64, since_strike: f64, toe_off: f64) -> LegFlexion {
     Style::walk(speed_mps).flexion(since_strike, toe_off)
 }

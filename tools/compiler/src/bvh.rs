@@ -1,4 +1,5 @@
-//! BVH → [`SourceClip`]: the hierarchy through `bvh_anim`, the numbers as they were checked, the forward kinematics here.
+//! BVH → [`SourceClip`]: the hierarchy through `bvh_anim`, the numbers as they were checked, the forward kinematics
+//! here.
 //!
 //! A joint's frame is its parent's, translated by OFFSET (or by its position channels), then rotated by its rotation
 //! channels in the order in which the file lists them. Angles in degrees.

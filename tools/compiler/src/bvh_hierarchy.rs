@@ -1,5 +1,5 @@
-//! The hierarchy of a BVH text: its statements, one by one, into joints, and those into a hierarchy that `bvh_anim` reads
-//! without a surprise.
+//! The hierarchy of a BVH text: its statements, one by one, into joints, and those into a hierarchy that `bvh_anim`
+//! reads without a surprise.
 
 use std::fmt::Write as _;
 

@@ -2,9 +2,9 @@
 //! `bvh_anim`.
 //!
 //! `bvh_anim` cuts joint names at blanks and colons, drops leaves without an End Site, panics on a BOM or a nameless
-//! joint and allocates whatever `Frames:` claims. Here every statement is checked first; joints are renamed `j0`, `j1` …
-//! (the real names are kept), every leaf gets an End Site, and nothing is larger than the bytes of the file pay for. Its
-//! numbers are f32, and it would read each a second time: those are kept as they are checked.
+//! joint and allocates whatever `Frames:` claims. Here every statement is checked first; joints are renamed `j0`, `j1`
+//! … (the real names are kept), every leaf gets an End Site, and nothing is larger than the bytes of the file pay for.
+//! Its numbers are f32, and it would read each a second time: those are kept as they are checked.
 
 use std::fmt::Write as _;
 

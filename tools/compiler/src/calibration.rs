@@ -131,8 +131,8 @@ fn second_axis(tracks: &Tracks, joint: Joint, frame: usize) -> Option<DVec3> {
     }
 }
 
-/// All frames; for feet and toes those in which both lie flat: a toe's joint alone is often lowest as the foot rolls off
-/// over it, when toes are bent.
+/// All frames; for feet and toes those in which both lie flat: a toe's joint alone is often lowest as the foot rolls
+/// off over it, when toes are bent.
 fn axis_frames(tracks: &Tracks, joint: Joint) -> Vec<usize> {
     let side = side(joint).index();
     match joint {

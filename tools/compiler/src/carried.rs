@@ -16,8 +16,8 @@ use crate::source_parameters::WholeClip;
 use crate::tread;
 use crate::units::{HUMAN_LEG_M, leg_length, middle};
 
-/// Steeper ground is none to blend into walks on the flat: 1 in 12 is the steepest that building codes (ADA 405.2) call a
-/// ramp for everybody.
+/// Steeper ground is none to blend into walks on the flat: 1 in 12 is the steepest that building codes (ADA 405.2) call
+/// a ramp for everybody.
 const SLOPE_MAX: f64 = 1.0 / 12.0;
 /// Feet that end nearer to the height at which they began say nothing of a slope, m for a person's leg.
 const RISE_MIN_M: f64 = 0.1;

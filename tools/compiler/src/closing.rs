@@ -2,8 +2,8 @@
 //!
 //! The gap of pelvis and joints is spread evenly over the stride. A foot that did the same would slide all through its
 //! stance, by the gap over the period: 10 to 30 cm/s in a lone stride of a curved walk. So a foot makes up its own gap
-//! while it swings, as a walker does, and stands in between; leg inverse kinematics brings it there, no farther from the
-//! hip than the clip has it, so that no knee is straighter than it was. Root frame, metres.
+//! while it swings, as a walker does, and stands in between; leg inverse kinematics brings it there, no farther from
+//! the hip than the clip has it, so that no knee is straighter than it was. Root frame, metres.
 
 use glam::{DQuat, DVec3};
 use motiondb::motion_db::PHASE_COUNT;

@@ -2,8 +2,8 @@
 //!
 //! # Steps
 //! import ([`clip_set`]) → the body that all examples share ([`target_skeleton`]) → steady windows and their mean
-//! strides (`analysis`) → of one take one copy ([`duplicates`]) and of near-equal windows the best (`selection`) → closed
-//! cycles and their mirrors (`named_cycles`) → (v_f, ω_t, ω_s) and key times ([`parameterize`]) → blend space
+//! strides (`analysis`) → of one take one copy ([`duplicates`]) and of near-equal windows the best (`selection`) →
+//! closed cycles and their mirrors (`named_cycles`) → (v_f, ω_t, ω_s) and key times ([`parameterize`]) → blend space
 //! ([`motiondb::triangulation`]), velocity sets ([`velocity_hull`]), [`correspondence`] → [`MotionDb`], valid.
 //!
 //! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted

@@ -2,7 +2,8 @@
 //! millions of short ones.
 //!
 //! Up to fifteen digits and a power of ten up to 10²² are both exact in an f64, so that one division rounds correctly
-//! (W. D. Clinger, *How to read floating point numbers accurately*, 1990). What is longer is left to the standard library.
+//! (W. D. Clinger, *How to read floating point numbers accurately*, 1990). What is longer is left to the standard
+//! library.
 
 /// More digits may not be exact in an f64.
 const MOST_DIGITS: usize = 15;

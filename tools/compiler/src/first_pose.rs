@@ -24,8 +24,8 @@ const FRAMES_MIN: usize = 11;
 /// past 45°.
 const SPREAD_COSINE: f64 = 0.87;
 const LOWERED_COSINE: f64 = 0.71;
-/// What is left without the T-poses must hold a stride, s, or, of a body that stands, as much as makes an idle; else they
-/// stay.
+/// What is left without the T-poses must hold a stride, s, or, of a body that stands, as much as makes an idle; else
+/// they stay.
 const LEFT_MIN_S: f64 = 1.0;
 
 /// Drops a first frame from which the pose jumps.

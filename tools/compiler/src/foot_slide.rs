@@ -24,7 +24,8 @@ pub fn measure(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
     planted_feet::foot_slide(&feet(cycle, body), velocity)
 }
 
-/// The feet of a cycle as the database will have them: whether a foot is planted is read from contacts as they are stored.
+/// The feet of a cycle as the database will have them: whether a foot is planted is read from contacts as they are
+/// stored.
 pub fn feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
     let joints: Vec<HumanJoints> = cycle.rows.iter().map(|row| row.forward_kinematics(body)).collect();
     CycleFeet {

@@ -1,10 +1,10 @@
 //! Poses on the target skeleton → poses whose planted feet stand on the ground at z = 0 and whose feet never sink.
 //!
-//! First the clip is shifted so that planted soles lie on the ground, half of the time a little over it. A foot of other
-//! proportions, or one whose rig cannot bend its toes, rolls off through the ground: its toe tip comes down where the
-//! performer's own was up. People's toes bend instead. So an ankle rises until heel and ball are on the ground, knees
-//! giving way, and then the toes bend up until their tip is; where they cannot bend so far, the ankle rises for the rest.
-//! World frame, Z up, metres, radians.
+//! First the clip is shifted so that planted soles lie on the ground, half of the time a little over it. A foot of
+//! other proportions, or one whose rig cannot bend its toes, rolls off through the ground: its toe tip comes down where
+//! the performer's own was up. People's toes bend instead. So an ankle rises until heel and ball are on the ground,
+//! knees giving way, and then the toes bend up until their tip is; where they cannot bend so far, the ankle rises for
+//! the rest. World frame, Z up, metres, radians.
 
 use std::ops::Range;
 

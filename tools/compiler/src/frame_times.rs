@@ -2,8 +2,8 @@
 //!
 //! A leg swings as a pendulum does: whatever the gait, people's feet are in the air for about as long at each step. So
 //! the swing, (1 − planted share)·period, tells the time without knowing the speed. Longer legs swing longer, by the
-//! root of their length. Of two copies of one take one frame time is wrong; the wrong one makes steps that swing too long
-//! or too short.
+//! root of their length. Of two copies of one take one frame time is wrong; the wrong one makes steps that swing too
+//! long or too short.
 
 use std::collections::VecDeque;
 

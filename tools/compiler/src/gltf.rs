@@ -1,8 +1,8 @@
 //! glTF → [`SourceClip`]s, one for an animation of a body, sampled at 30 frames a second from its first key.
 //!
-//! All nodes of a body count as joints, skinned or not. Scales above the joints (Mixamo 0.01, Blender 100) are multiplied
-//! into the positions; a joint's orientation is the rotation in its global matrix. glTF is metres, Y up by definition; up
-//! is measured all the same.
+//! All nodes of a body count as joints, skinned or not. Scales above the joints (Mixamo 0.01, Blender 100) are
+//! multiplied into the positions; a joint's orientation is the rotation in its global matrix. glTF is metres, Y up by
+//! definition; up is measured all the same.
 //!
 //! Clips are read one by one from the open file: a file of thousands of animations is never held as thousands of clips.
 

@@ -1,7 +1,8 @@
 //! The bytes of a glTF or GLB file as a document whose indices hold, with the buffers that its animations use.
 //!
-//! The `gltf` crate reads the JSON; its wrappers are not used: they panic on hostile documents, and look each accessor up
-//! from the first one on. Only what moves joints counts: what is wrong with meshes, or compressed there, is no matter.
+//! The `gltf` crate reads the JSON; its wrappers are not used: they panic on hostile documents, and look each accessor
+//! up from the first one on. Only what moves joints counts: what is wrong with meshes, or compressed there, is no
+//! matter.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;

@@ -9,8 +9,8 @@ use crate::gltf_track::{self, Source};
 use crate::gltf_tree::{Body, Tree};
 use crate::names;
 
-/// Most node-frames of a file, besides one for each of its bytes: 50 nodes for three minutes. A two-key track can claim any
-/// duration.
+/// Most node-frames of a file, besides one for each of its bytes: 50 nodes for three minutes. A two-key track can claim
+/// any duration.
 const FREE_NODE_FRAMES: usize = 300_000;
 
 /// One clip to be read.

@@ -1,10 +1,10 @@
 //! Clips in: from files and folders to [`HumanClip`]s.
 //!
 //! # Steps
-//! read ([`crate::bvh`], [`crate::gltf`]) → what a manifest corrects ([`crate::take`]) → roles ([`crate::skeleton_map`])
-//! and facing (`facing`) → metres, Z up ([`crate::units`]) → no separate first pose (`first_pose`) → whole-clip
-//! parameters ([`crate::source_parameters`]) → no T-poses (`first_pose`) → a plausible gait (`plausibility`) on
-//! level ground (`carried`) → canonical humanoid (`retarget`) → a plausible body.
+//! read ([`crate::bvh`], [`crate::gltf`]) → what a manifest corrects ([`crate::take`]) → roles
+//! ([`crate::skeleton_map`]) and facing (`facing`) → metres, Z up ([`crate::units`]) → no separate first pose
+//! (`first_pose`) → whole-clip parameters ([`crate::source_parameters`]) → no T-poses (`first_pose`) → a plausible gait
+//! (`plausibility`) on level ground (`carried`) → canonical humanoid (`retarget`) → a plausible body.
 
 use std::fs;
 use std::path::{Path, PathBuf};

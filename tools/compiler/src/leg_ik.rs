@@ -1,8 +1,8 @@
 //! Two-bone leg inverse kinematics: puts an ankle where it should be and keeps the foot's orientation.
 //!
-//! Three steps: bend the knee about its own axis, forward, until hip to ankle has the wanted length; swing the whole leg
-//! onto the target by the shortest arc; turn the foot back to the orientation that it had. Positions and orientations
-//! are those of the pose's own frame.
+//! Three steps: bend the knee about its own axis, forward, until hip to ankle has the wanted length; swing the whole
+//! leg onto the target by the shortest arc; turn the foot back to the orientation that it had. Positions and
+//! orientations are those of the pose's own frame.
 
 use glam::{DQuat, DVec3};
 use motiondb::skeleton::Joint;

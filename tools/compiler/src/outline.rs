@@ -1,13 +1,13 @@
 //! The screening of [`crate::duplicates`]: where in time the legs of two performances are most alike, fast.
 //!
 //! r² of [`crate::performance`], of the legs alone, forward and to the left: with running sums of the samples and of
-//! their squares only the sum of products is left to be computed at each lag, and movements of different size are passed
-//! over. Most lags are passed over by less: by a few seconds of the shorter clip, told in eight numbers each.
+//! their squares only the sum of products is left to be computed at each lag, and movements of different size are
+//! passed over. Most lags are passed over by less: by a few seconds of the shorter clip, told in eight numbers each.
 
 use crate::performance::{self, LEG_DIRECTION_COUNT, Performance};
 
-/// Greatest r that is worth an exact comparison: half a step of the screening's lag, 25 ms, costs a run of two strides a
-/// second 0.3, retargeting 0.2.
+/// Greatest r that is worth an exact comparison: half a step of the screening's lag, 25 ms, costs a run of two strides
+/// a second 0.3, retargeting 0.2.
 pub(crate) const SCREEN_MAX: f64 = 0.45;
 /// Share of the shorter clip that both must show.
 const OVERLAP_SHARE: f64 = 0.8;

@@ -2,10 +2,10 @@
 //! another body.
 //!
 //! When feet touch and leave the ground is what the performer did, with his own proportions and his own soles; on the
-//! feet of a database's skeleton his toe-off would come up to 0.1 s later. So contacts, landmarks and steady windows are
-//! found on his own body. It is scaled to a common leg length, so that limits of lengths and speeds mean the same of
-//! children, toys and giants. Poses and root motion are those of the body that a database has: frames correspond one to
-//! one. Frames of the clip, metres, seconds.
+//! feet of a database's skeleton his toe-off would come up to 0.1 s later. So contacts, landmarks and steady windows
+//! are found on his own body. It is scaled to a common leg length, so that limits of lengths and speeds mean the same
+//! of children, toys and giants. Poses and root motion are those of the body that a database has: frames correspond one
+//! to one. Frames of the clip, metres, seconds.
 
 use crate::footing;
 use crate::gait::{self, Gait, GaitAnalysis, Window};

@@ -106,7 +106,8 @@ fn walks(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> bool {
     tread::planted_share(clip, roles, ground, body_mps).is_some_and(|share| share > WALK_PLANTED_SHARE)
 }
 
-/// The frames in which one foot passes the other along the facing, once a step, and leads it by `lead_m` before the next.
+/// The frames in which one foot passes the other along the facing, once a step, and leads it by `lead_m` before the
+/// next.
 pub(crate) fn passings(clip: &SourceClip, roles: &Roles, lead_m: f64) -> Vec<usize> {
     let mut passings = Vec::new();
     let (mut leading, mut crossed) = (0.0, 0);

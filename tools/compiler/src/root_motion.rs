@@ -58,8 +58,8 @@ pub fn leg_length_m(body: &HumanBody) -> f64 {
     0.5 * (leg(0) + leg(1))
 }
 
-/// The pose with the target's bones: scaled, rotations kept, ankles at their scaled places over their own soles. The hips
-/// rise with the ankles, so that legs stay as straight as they were.
+/// The pose with the target's bones: scaled, rotations kept, ankles at their scaled places over their own soles. The
+/// hips rise with the ankles, so that legs stay as straight as they were.
 fn retarget(pose: &HumanPose, source: &HumanBody, target: &HumanBody, scale: f64) -> HumanPose {
     let wanted = pose.forward_kinematics(source);
     let mut posed = pose.scaled(scale);

@@ -1,14 +1,14 @@
 //! Two clips → whether they show one take, and how.
 //!
 //! A pair is screened by the legs' directions ([`crate::performance`]) at all lags that leave most of the shorter clip
-//! covered; what comes near is compared exactly, in steps of 1/120 s. Two clips are one take where limbs, trunk and head
-//! move alike *and* the facing turns and swings alike: the first alone cannot tell made-up walks, the second alone no
-//! regular walkers.
+//! covered; what comes near is compared exactly, in steps of 1/120 s. Two clips are one take where limbs, trunk and
+//! head move alike *and* the facing turns and swings alike: the first alone cannot tell made-up walks, the second alone
+//! no regular walkers.
 //!
-//! Measured over all pairs of 151 clips of 14 sources: retargeted copies have r up to 0.19 (a run of 1.4 s, CMU 02_03, on
-//! two skeletons), all others up to 0.07. Of different takes the nearest are two made-up straight walks (0.26, but their
-//! facings swing in antiphase), a left and a right turn of one performer (0.28) and walks of one performer (0.29 and
-//! more). The limit lies in the middle of the gap.
+//! Measured over all pairs of 151 clips of 14 sources: retargeted copies have r up to 0.19 (a run of 1.4 s, CMU 02_03,
+//! on two skeletons), all others up to 0.07. Of different takes the nearest are two made-up straight walks (0.26, but
+//! their facings swing in antiphase), a left and a right turn of one performer (0.28) and walks of one performer (0.29
+//! and more). The limit lies in the middle of the gap.
 
 use std::f64::consts::PI;
 

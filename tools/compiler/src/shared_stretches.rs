@@ -73,8 +73,8 @@ pub(crate) fn choose(
 }
 
 /// Clip and index of every window that has rivals, from the best on: one that a manifest chose; one whose frame time is
-/// a human's; one whose root travels; one beyond doubt; one with fewer flaws, wherever in its cell; one of a longer clip,
-/// then of more frames a second; the first.
+/// a human's; one whose root travels; one beyond doubt; one with fewer flaws, wherever in its cell; one of a longer
+/// clip, then of more frames a second; the first.
 fn by_worth(clips: &[HumanClip], analyzed: &[Analyzed], neighbours: &Neighbours, body: &HumanBody) -> Vec<[usize; 2]> {
     let implausible = frame_times::implausibilities(clips, analyzed, neighbours, body);
     let in_steps = |value: f64, step: f64| libm::round(value / step) as i64;

@@ -1,10 +1,10 @@
-//! Automatic joint roles: which source joint plays which canonical one, by hierarchy, geometry and name; and the refusal,
-//! with its reason, of what is no human body.
+//! Automatic joint roles: which source joint plays which canonical one, by hierarchy, geometry and name; and the
+//! refusal, with its reason, of what is no human body.
 //!
-//! Legs and arms are the two limb pairs that go together best (`body_plan`); the pelvis is the legs' fork, the chest the
-//! arms' fork, the spine the path between them; neck and head hang from the chest beside the arms. Left and right come
-//! from names unless toes and knees belie them; without names from where the toes point. A body is human when its trunk
-//! stands over its legs (a quadruped's does not) and its way does not lie along its own length.
+//! Legs and arms are the two limb pairs that go together best (`body_plan`); the pelvis is the legs' fork, the chest
+//! the arms' fork, the spine the path between them; neck and head hang from the chest beside the arms. Left and right
+//! come from names unless toes and knees belie them; without names from where the toes point. A body is human when its
+//! trunk stands over its legs (a quadruped's does not) and its way does not lie along its own length.
 
 use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
 
@@ -17,8 +17,8 @@ use crate::source_clip::SourceClip;
 use crate::take::JointMap;
 use crate::two_bodies;
 
-/// Least mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders). People walk and run at 0.9–1, crouch
-/// and bow at 0.64; a fox walks at 0.1 and gallops at 0.28.
+/// Least mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders). People walk and
+/// run at 0.9–1, crouch and bow at 0.64; a fox walks at 0.1 and gallops at 0.28.
 const UPRIGHT_COSINE: f64 = 0.45;
 /// Whose way lies along the line from feet to shoulders (cosine of 37°) does not walk; stairs: 0.6, bent double: 0.65.
 const ALONG_ITSELF_MAX: f64 = 0.8;
@@ -28,7 +28,8 @@ const HAND_REACH: f64 = 0.6;
 const FOOT_REACH: f64 = 0.4;
 /// More joints than any rig with face and fingers (165 in the development set).
 pub(crate) const MAX_JOINTS: usize = 4096;
-/// Knees and elbows are bones' ends: their bones' lengths vary less than this (translating knees of `misc/ezgi_walk1`: 5 %).
+/// Knees and elbows are bones' ends: their bones' lengths vary less than this (translating knees of `misc/ezgi_walk1`:
+/// 5 %).
 const LOOSE_BONE: f64 = 0.15;
 
 /// The roles of the limbs, from the trunk outwards, `[left, right]`.
@@ -56,7 +57,8 @@ pub struct Roles {
 }
 
 impl Roles {
-    /// The source joint of a role that [`find_roles`] never leaves out (pelvis, thigh, shank, foot, upper arm, forearm, hand).
+    /// The source joint of a role that [`find_roles`] never leaves out (pelvis, thigh, shank, foot, upper arm, forearm,
+    /// hand).
     pub fn required(&self, joint: Joint) -> usize {
         self.joints[joint.index()].expect("find_roles assigns it or refuses the clip")
     }

@@ -1,8 +1,8 @@
 //! Whole-clip parameters of a source: v_f, ω_t, ω_s on its own skeleton, unsmoothed.
 //!
 //! Hip midpoint against the facing of hips and shoulders. ω_t is the change of the facing between its means over the
-//! first and the last quarter second. A clip that treads on the spot takes v_f and ω_s from the slide of its stance feet
-//! (`tread.rs`).
+//! first and the last quarter second. A clip that treads on the spot takes v_f and ω_s from the slide of its stance
+//! feet (`tread.rs`).
 
 use glam::DVec2;
 use motiondb::skeleton::Joint;

@@ -2,12 +2,13 @@
 //!
 //! Slide needs to know in which frames a foot is planted; an event of the gait is one instant. Between swing and stance
 //! the contact point ([`crate::contacts`]) is slow *and* low no more: (h/h₀)² + (v/v₀)² = 1, where h is its height over
-//! where it is in this contact and v its speed in space. Heels strike behind the ankle: the heel is one of the sole here.
+//! where it is in this contact and v its speed in space. Heels strike behind the ankle: the heel is one of the sole
+//! here.
 //!
 //! A foot that rolls off over its toes may creep before it leaves, more so in captures of 120 frames a second, where
 //! markers on the shoe tremble. So a toe-off is no earlier than the onset of the swing: a leg swings nearly as a
-//! pendulum and gathers speed evenly, so that the tangent to its speed where that grows fastest leads back to the instant
-//! of release, whatever the frame rate and however fast the step. Frames of the clip, metres, seconds.
+//! pendulum and gathers speed evenly, so that the tangent to its speed where that grows fastest leads back to the
+//! instant of release, whatever the frame rate and however fast the step. Frames of the clip, metres, seconds.
 
 use std::ops::Range;
 
@@ -40,8 +41,8 @@ const STRIKE_SLIDE_RATIO_MAX: f64 = 1.0;
 const OFF_SLIDE_RATIO_MAX: f64 = 1.5;
 /// A shorter lift is no swing, seconds, as in [`crate::contacts`].
 const LIFT_MIN_S: f64 = 0.1;
-/// A foot swings from this share of its greatest speed up to mid-swing on; it has gathered that within this time, seconds.
-/// Events hardly move for shares from 0.3 to 0.4; below, it may still creep, above, runners' shanks fold.
+/// A foot swings from this share of its greatest speed up to mid-swing on; it has gathered that within this time,
+/// seconds. Events hardly move for shares from 0.3 to 0.4; below, it may still creep, above, runners' shanks fold.
 const SWING_SPEED_SHARE: f64 = 1.0 / 3.0;
 const SWING_ONSET_S: f64 = 0.08;
 /// A foot creeps for no longer than this before it swings, seconds: what does is dragged, or turns on the spot.
@@ -78,8 +79,8 @@ pub fn stands_at(stances: &[Stance], frame: f64) -> bool {
     stances[..begun].last().is_some_and(|stance| frame <= stance.off_frame)
 }
 
-/// The stances of one foot, in order of time: one for each contact in `planted`. `feet` holds the heel on the sole, ball
-/// and toe tip, a value a frame.
+/// The stances of one foot, in order of time: one for each contact in `planted`. `feet` holds the heel on the sole,
+/// ball and toe tip, a value a frame.
 pub fn find(feet: &[[DVec3; 3]], planted: &[bool], frame_rate_hz: f64, body_speed_mps: f64) -> Vec<Stance> {
     let runs = runs(planted);
     let [at_strike, at_off] = [Limits::at_strike(body_speed_mps), Limits::at_off(body_speed_mps)];

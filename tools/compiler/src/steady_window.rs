@@ -1,7 +1,7 @@
 //! Which strides of a clip make examples: all of a loop, else every run that is steady, the longest first.
 //!
-//! A long capture walks, turns, hesitates, goes on faster: each part of it in which the strides are alike is a window of
-//! its own. Windows are taken greedily, the longest of the clip, then the longest of what it leaves before and after
+//! A long capture walks, turns, hesitates, goes on faster: each part of it in which the strides are alike is a window
+//! of its own. Windows are taken greedily, the longest of the clip, then the longest of what it leaves before and after
 //! itself, so that they are disjoint. Times are in frames of the clip.
 
 use crate::stride::{Landmark, Stride};
@@ -121,8 +121,8 @@ fn longest(steps: &Steps, reading: usize, [start, end]: [f64; 2]) -> Option<Stea
     Some(SteadyWindow { reading, strides, deviation })
 }
 
-/// How unlike the two steps of a lone stride are, 1 at the limit: with no other stride to compare with, a body that goes
-/// much faster in one step than in the other starts or stops.
+/// How unlike the two steps of a lone stride are, 1 at the limit: with no other stride to compare with, a body that
+/// goes much faster in one step than in the other starts or stops.
 fn unevenness(stride: &Stride) -> f64 {
     let [first_mps, second_mps] = stride.step_speeds_mps;
     let [first_rad_s, second_rad_s] = stride.step_turn_rates_rad_s;

@@ -1,7 +1,7 @@
 //! Whether two performances stir enough alike to be worth a comparison at all lags: two short rows of numbers tell.
 //!
-//! The stir of a stretch is the root mean square, over its samples, by which each coordinate of each direction leaves its
-//! mean. Whatever the lag, the stirs a, b of two courses x, y lie no farther apart than the courses themselves,
+//! The stir of a stretch is the root mean square, over its samples, by which each coordinate of each direction leaves
+//! its mean. Whatever the lag, the stirs a, b of two courses x, y lie no farther apart than the courses themselves,
 //! |a − b| ≤ ‖x − y‖. The middle of the shorter clip is covered at every lag that is tried, so its stir must lie near the
 //! box of the stirs of all stretches of the other that are as long.
 
@@ -11,8 +11,8 @@ use crate::performance::{DIRECTION_COUNT, Directions, MIRRORED, Performance};
 const WIDTH: usize = 3 * DIRECTION_COUNT;
 /// Samples of the stretches that are told; clips whose covered middle is shorter tell nothing.
 const STRETCHES: [usize; 9] = [10, 14, 20, 28, 40, 56, 80, 112, 160];
-/// How far stirs of one take may lie apart, in stirs of the shorter clip. Of the copies in 151 clips they lie half as far
-/// apart as the courses themselves, up to 0.10 where r is 0.19; r may be 0.23.
+/// How far stirs of one take may lie apart, in stirs of the shorter clip. Of the copies in 151 clips they lie half as
+/// far apart as the courses themselves, up to 0.10 where r is 0.19; r may be 0.23.
 const APART_MAX: f64 = 0.2;
 /// The same of whole clips, of which one may miss a tenth.
 const WHOLE_APART_MAX: f64 = 0.25;

@@ -4,10 +4,10 @@
 //! The balls of the feet are what stands: flat on the ground from just after the heel's strike to toe-off, so that in a
 //! walk one of both always does. While they are low they vote for the ground velocity that would hold them; in the air
 //! they are low too, shortly before they land and after they leave, but at ever other speeds. The ground velocity is
-//! where the votes are densest (mean shift, Epanechnikov's kernel; Comaniciu and Meer 2002), each counting the more, the
-//! lower the ball is. What votes near it without a break is a contact, and the speeds are the mean over the middle 80 %
-//! of every contact, as the definitions judge slide. The mean, not the median: where the hips are held in every frame,
-//! feet slide slowest in mid-stance, which is where most of the frames are, and the median of a walk is 8 % low.
+//! where the votes are densest (mean shift, Epanechnikov's kernel; Comaniciu and Meer 2002), each counting the more,
+//! the lower the ball is. What votes near it without a break is a contact, and the speeds are the mean over the middle
+//! 80 % of every contact, as the definitions judge slide. The mean, not the median: where the hips are held in every
+//! frame, feet slide slowest in mid-stance, which is where most of the frames are, and the median of a walk is 8 % low.
 //!
 //! Drawn characters do not roll over their feet as people do. Of a body of no human proportions, or without toes, the
 //! lower ankle tells, while it is low, by the median.
@@ -29,8 +29,8 @@ use crate::units::{HUMAN_LEG_M, leg_length};
 /// A ball higher than this over where it stands has no vote, m for a person's leg. Twice the definition's height of
 /// contact: the toes of captured runs sink by 4 cm between landing and leaving.
 const VOTE_HEIGHT_M: f64 = 0.05;
-/// Reach of the kernel: the slide of a stance foot when the hips do not travel as the ground does, m/s, and share of the
-/// speed. (Contacts of the definition: 0.25 m/s and 15 %; hips surge by ± 0.15 m/s more.)
+/// Reach of the kernel: the slide of a stance foot when the hips do not travel as the ground does, m/s, and share of
+/// the speed. (Contacts of the definition: 0.25 m/s and 15 %; hips surge by ± 0.15 m/s more.)
 const REACH_MPS: f64 = 0.4;
 const REACH_SHARE: f64 = 0.15;
 /// So many votes, spread over the clip, are tried as the densest place.

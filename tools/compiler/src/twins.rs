@@ -6,7 +6,8 @@ use motiondb::blend_space::BlendSpace;
 use motiondb::parameters::Parameters;
 use motiondb::triangulation::build;
 
-/// The simplices over the `parameters` of examples; of twins the one with the fewest `flaws` is the corner, not the first.
+/// The simplices over the `parameters` of examples; of twins the one with the fewest `flaws` is the corner, not the
+/// first.
 pub(crate) fn build_of_best(parameters: &[Parameters], flaws: &[f64]) -> BlendSpace {
     let space = build(parameters);
     let mut order: Vec<usize> = (0..parameters.len()).collect();

@@ -1,5 +1,5 @@
-//! Long captures give an example of each of their steady windows, and windows are where they are said to be (real clips,
-//! test input only; `windows.csv` holds the parameters of each second as others measured them).
+//! Long captures give an example of each of their steady windows, and windows are where they are said to be (real
+//! clips, test input only; `windows.csv` holds the parameters of each second as others measured them).
 
 use std::path::Path;
 

@@ -1,9 +1,9 @@
 //! Heel strikes and toe-offs against labels that were set by eye on curves, before any detector's output was seen
 //! (`gait_events/labels.csv`; the clips are test input only).
 //!
-//! Of the 94 labels those of `set` "tune" were fitted when the limits of `stance.rs` were chosen first; those of "check"
-//! were measured against. Later limits were chosen so that none of either got worse: nothing here is unseen any more.
-//! Labels are uncertain themselves: by half a frame at 30 frames a second, by up to four (33 ms) at 120.
+//! Of the 94 labels those of `set` "tune" were fitted when the limits of `stance.rs` were chosen first; those of
+//! "check" were measured against. Later limits were chosen so that none of either got worse: nothing here is unseen any
+//! more. Labels are uncertain themselves: by half a frame at 30 frames a second, by up to four (33 ms) at 120.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

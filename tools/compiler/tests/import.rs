@@ -1,5 +1,5 @@
-//! Claims about the import: real clips made by others against their independently measured truth, and hand-written files
-//! against malice.
+//! Claims about the import: real clips made by others against their independently measured truth, and hand-written
+//! files against malice.
 //!
 //! The real clips are test input only and lie outside the repository (`../shared/mocap` beside it, truth in its
 //! `index.csv`); tests that need them say SKIPPED and pass where they are missing.
@@ -127,9 +127,10 @@ fn farthest_off(path: &Path, clip: &str, human: &HumanClip, joints: &[Joint]) ->
     farthest
 }
 
-/// Greatest distances of hips, of knees and ankles, and of head, shoulders and hands, metres. Rigid skeletons are met to the millimetre. In
-/// CMU's the hips turn about helpers within the pelvis; drawn characters stretch; `ezgi_walk1` translates its knees: there the mean body
-/// cannot follow the bones' lengths, but knees and ankles are aimed at all the same.
+/// Greatest distances of hips, of knees and ankles, and of head, shoulders and hands, metres. Rigid skeletons are met
+/// to the millimetre. In CMU's the hips turn about helpers within the pelvis; drawn characters stretch; `ezgi_walk1`
+/// translates its knees: there the mean body cannot follow the bones' lengths, but knees and ankles are aimed at all
+/// the same.
 fn distance_limits(file: &str) -> [f64; 3] {
     match file.split('/').next().unwrap() {
         "cmu_cgspeed" | "xia" => [3e-3, 1e-3, 5e-3],

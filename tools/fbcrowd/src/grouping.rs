@@ -40,7 +40,8 @@ pub(crate) fn group(said: impl IntoIterator<Item = (String, String)>) -> Vec<Gro
     groups
 }
 
-/// What stands before the first number, the number, and the rest. Digits within a word, a file's name say, are no number.
+/// What stands before the first number, the number, and the rest. Digits within a word, a file's name say, are no
+/// number.
 fn around_number(sentence: &str) -> (&str, &str, &str) {
     let is_part = |letter: char| letter.is_ascii_digit() || letter == '.' || letter == '-';
     let is_within_word = |letter: char| letter.is_alphanumeric() || letter == '_' || letter == '/';

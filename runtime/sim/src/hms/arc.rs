@@ -1,4 +1,5 @@
-//! The arc along which a root moves in a step, and its inverse: (v_f, ω_t, ω_s) rests over it, so the root is moved exactly.
+//! The arc along which a root moves in a step, and its inverse: (v_f, ω_t, ω_s) rests over it, so the root is moved
+//! exactly.
 //!
 //! World and agent frame of roots; metres, seconds, radians.
 

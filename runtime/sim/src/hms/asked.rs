@@ -52,8 +52,8 @@ pub fn asking(asked: Parameters, root: &Root, params: &HmsParams) -> Plan {
     }
 }
 
-/// What a plan asks of semi-procedural locomotion, which can do it: the planned velocity itself, whatever the facing. The
-/// body turns by `turning_rad` meanwhile, and its way lies along the facing at half of that.
+/// What a plan asks of semi-procedural locomotion, which can do it: the planned velocity itself, whatever the facing.
+/// The body turns by `turning_rad` meanwhile, and its way lies along the facing at half of that.
 pub fn asked_exactly(
     plan: &Plan,
     facing_rad: f32,

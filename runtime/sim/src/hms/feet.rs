@@ -175,8 +175,8 @@ impl FootHold {
         self.twist_rad = step.release.pass(self.twist_rad);
     }
 
-    /// A planted sole settles on the ground, whatever the pose's height does, and a swinging one on the pose's height, or
-    /// its clearance; none goes below the ground. What is off dies out likewise.
+    /// A planted sole settles on the ground, whatever the pose's height does, and a swinging one on the pose's height,
+    /// or its clearance; none goes below the ground. What is off dies out likewise.
     fn lift(&mut self, height_m: f32, lands: f32, step: &TimeStep) {
         let [before_m, wanted_m] = [self.height_m, height_m].map(|height_m| self.wanted_lift_m(height_m, lands));
         let wanted_mps = (wanted_m - before_m) / step.dt_s;

@@ -2,12 +2,12 @@
 //!
 //! People turn the head into a turn before the body follows: by some 200 ms on curved paths (Grasso et al. 1996,
 //! *NeuroReport* 7, 1170–1174; Courtine and Schieppati 2003, *Eur. J. Neurosci.* 18, 177–190), and all the more the
-//! sharper the turn (Sreenivasa et al. 2008, *Exp. Brain Res.* 191, 313–320). Here the *gaze*, an angle to the facing, makes
-//! for where the body is asked to face and to go, like a critically damped spring. Since a body turns by the angle to its
-//! wanted facing divided by T_turn (see [`super::asked`]), the gaze on a circle leads it by T_turn.
+//! sharper the turn (Sreenivasa et al. 2008, *Exp. Brain Res.* 191, 313–320). Here the *gaze*, an angle to the facing,
+//! makes for where the body is asked to face and to go, like a critically damped spring. Since a body turns by the
+//! angle to its wanted facing divided by T_turn (see [`super::asked`]), the gaze on a circle leads it by T_turn.
 //!
-//! The angle is shared out over spine, neck and head, each within its limits. Root and legs know nothing of it. Radians,
-//! seconds; angles against the root's facing, counter-clockwise from above.
+//! The angle is shared out over spine, neck and head, each within its limits. Root and legs know nothing of it.
+//! Radians, seconds; angles against the root's facing, counter-clockwise from above.
 
 use std::f32::consts::PI;
 
@@ -76,8 +76,8 @@ fn yaw_rad(rotation: Quat) -> f32 {
     if rotation.w < 0.0 { -rotation } else { rotation }.to_scaled_axis().z
 }
 
-/// The angle to where a body is asked to face and to go: ahead of the wanted facing, and the more to a side the faster it
-/// is to walk there. Nobody looks where he steps back to.
+/// The angle to where a body is asked to face and to go: ahead of the wanted facing, and the more to a side the faster
+/// it is to walk there. Nobody looks where he steps back to.
 fn wanted_rad(plan: &Plan, facing_rad: f32) -> f32 {
     let local_mps = Vec2::from_angle(-plan.facing_rad).rotate(plan.velocity_mps);
     let aside_rad = libm::atan2f(local_mps.y, local_mps.x.max(0.0) + LOOK_SPEED_MPS);

@@ -1,9 +1,9 @@
-//! What a database gives to hybrid synthesis (`FbCrowd` §5, App. 10): m_sp taken apart, the phases at which synthesis may
-//! switch, and how long a switch may take.
+//! What a database gives to hybrid synthesis (`FbCrowd` §5, App. 10): m_sp taken apart, the phases at which synthesis
+//! may switch, and how long a switch may take.
 //!
-//! Of T, the pairs about mid-stance are taken: one foot rests flat on the ground in both syntheses, the other passes it in
-//! the air, and neither lands nor leaves while the difference of poses is greatest. A foot that has to land on top of a
-//! difference meets the ground at another time and pitch than its pose does, and jerks the knee.
+//! Of T, the pairs about mid-stance are taken: one foot rests flat on the ground in both syntheses, the other passes it
+//! in the air, and neither lands nor leaves while the difference of poses is greatest. A foot that has to land on top
+//! of a difference meets the ground at another time and pitch than its pose does, and jerks the knee.
 
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
@@ -48,8 +48,8 @@ impl Hybrid {
         })
     }
 
-    /// Eqs. 10 and 15: how far the phase jumps where the cycle of `from` has just passed a pair; none where it has passed
-    /// none between these two phases.
+    /// Eqs. 10 and 15: how far the phase jumps where the cycle of `from` has just passed a pair; none where it has
+    /// passed none between these two phases.
     pub fn jump(&self, from: Mode, before: f32, now: f32) -> Option<f32> {
         let passed = (now - before).rem_euclid(1.0);
         let at = if from == Mode::SemiProcedural { 0 } else { 1 };

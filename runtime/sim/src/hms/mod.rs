@@ -4,16 +4,17 @@
 //!
 //! 1. [`owed`], [`asked`], [`intention`], [`gait`]: the plan as (v_f, ω_t, ω_s), smoothed; what of it the body can do,
 //!    standing or stepping; and how far it gets in one step;
-//! 2. [`blending`] or [`semi_procedural`]: what is played follows ([`pursuit`]); phase ([`hurry`]) and root move, the root
-//!    exactly along its arc; the pose eases into both ([`seen`]); [`mode`] tells which synthesis is wanted, and at the next
-//!    pair of [`hybrid`] it changes hands (`switching`).
+//! 2. [`blending`] or [`semi_procedural`]: what is played follows ([`pursuit`]); phase ([`hurry`]) and root move, the
+//!    root exactly along its arc; the pose eases into both ([`seen`]); [`mode`] tells which synthesis is wanted, and at
+//!    the next pair of [`hybrid`] it changes hands (`switching`).
 //!
 //! `synthesize`: the pose there.
 //!
 //! 3. It is sampled ([`playing`]); [`inertialization`] carries away what a switch left; head and chest turn first
 //!    ([`gaze`]);
 //! 4. [`feet`]: planted feet are held;
-//! 5. [`posture`], [`pelvis`], [`ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach them.
+//! 5. [`posture`], [`pelvis`], [`ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach
+//!    them.
 //!
 //! The root frame has x forward, y left, z up, its origin on the ground under the ripple-free root; metres,
 //! seconds, radians.
@@ -108,7 +109,8 @@ pub struct Body {
     intention: Intention,
     /// Velocity of the last step, world, m/s.
     walked_mps: Vec2,
-    /// The velocity that it will have whatever is planned, world, m/s: on the paper's way from one synthesis to the other.
+    /// The velocity that it will have whatever is planned, world, m/s: on the paper's way from one synthesis to the
+    /// other.
     pub committed_mps: Option<Vec2>,
     feet: [FootHold; 2],
     descent: Descent,

@@ -1,17 +1,17 @@
 //! The pelvis comes down where a leg would have to stretch to reach its foot.
 //!
-//! With d and d⁰ the descents that a leg needs to reach its target and the pose's own foot, negative where it reaches, and
-//! S a soft maximum with none, each leg asks for
+//! With d and d⁰ the descents that a leg needs to reach its target and the pose's own foot, negative where it reaches,
+//! and S a soft maximum with none, each leg asks for
 //!
 //! ```text
 //! S(d) − S(d⁰)·e^(2(S(d⁰) − S(d))/s),   S(d) = s·ln(1 + e^(d/s)),
 //! ```
 //!
-//! nothing where the foot is where the pose has it, never less than what is needed, and a little before it must: neither
-//! hips nor knee jerk as the leg comes to its end. The pelvis comes down by a little more than what the more exacting leg
-//! asks for. It comes down when it is asked to, and goes up again gently ([`Descent`]): a trailing foot that leaves the
-//! ground, or comes back under the body, asks for nothing from one step to the next, and hips that followed would shoot up.
-//! All vectors are in the root frame (x forward, y left, z up), metres.
+//! nothing where the foot is where the pose has it, never less than what is needed, and a little before it must:
+//! neither hips nor knee jerk as the leg comes to its end. The pelvis comes down by a little more than what the more
+//! exacting leg asks for. It comes down when it is asked to, and goes up again gently ([`Descent`]): a trailing foot
+//! that leaves the ground, or comes back under the body, asks for nothing from one step to the next, and hips that
+//! followed would shoot up. All vectors are in the root frame (x forward, y left, z up), metres.
 
 use super::leg::{FootPose, Leg};
 use super::time_step::TimeStep;

@@ -11,8 +11,8 @@ use crate::plan::PLANTED_CONTACT;
 /// One synthesis at one phase.
 #[derive(Clone, Copy, Debug)]
 pub enum Playing<'a> {
-    /// Motion blending: the pose is that of the mix that is seen, and contacts keep the time of the one that the root has
-    /// come to. M_sp's root does as it is seen to.
+    /// Motion blending: the pose is that of the mix that is seen, and contacts keep the time of the one that the root
+    /// has come to. M_sp's root does as it is seen to.
     Blend {
         /// Of the mix that is seen.
         seen: Weights,

@@ -1,10 +1,10 @@
-//! What bodies can do with a set of clips, in memory: all that the set shows, standing, and, where it cannot make way in a
-//! crowd, its walk deformed.
+//! What bodies can do with a set of clips, in memory: all that the set shows, standing, and, where it cannot make way
+//! in a crowd, its walk deformed.
 //!
 //! Many sets hold a few straight walks. Bodies that only blend them cannot turn, the planner is confined to a line of
 //! velocities, and a crowd runs into each other or stands. What such a set lacks, semi-procedural locomotion can do
-//! ([`super::deformation`]): cycles of m_sp deformed join the examples, and blend space and velocity sets are built anew.
-//! They never come into a file.
+//! ([`super::deformation`]): cycles of m_sp deformed join the examples, and blend space and velocity sets are built
+//! anew. They never come into a file.
 
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! What is seen of what a body plays: the pose eases into what the root does.
 //!
-//! Shares and parameters change at limited rates, which begin and end at once; joints that moved with them would do so with
-//! a jerk. So the pose is that of a mix, and of an m_sp, that follow the root's with a short lag, over which planted feet
-//! are held. The root knows nothing of it: nothing is tracked later for it.
+//! Shares and parameters change at limited rates, which begin and end at once; joints that moved with them would do so
+//! with a jerk. So the pose is that of a mix, and of an m_sp, that follow the root's with a short lag, over which
+//! planted feet are held. The root knows nothing of it: nothing is tracked later for it.
 
 use glam::Vec2;
 use motiondb::parameters::Parameters;

@@ -38,8 +38,8 @@ impl Studio {
         Motion { db: &self.db, space: &self.space, hybrid: self.hybrid.as_ref(), params: &self.params }
     }
 
-    /// A body that stands, its cycle at `phase`, follows a plan of time and root in steps of `dt_s`; what `see` makes of
-    /// it at first and after each step.
+    /// A body that stands, its cycle at `phase`, follows a plan of time and root in steps of `dt_s`; what `see` makes
+    /// of it at first and after each step.
     pub fn walk<T>(
         &self,
         phase: f32,

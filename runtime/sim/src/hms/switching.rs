@@ -31,8 +31,9 @@ impl Body {
     }
 
     /// App. 10: at a pair of T, synthesis changes hands at the velocity that the body has, and the difference of poses
-    /// is left to inertia. The paper moves its weights to m_mb alone first ([`ThroughMMb`](super::params::Transition::ThroughMMb)), since it cannot
-    /// begin at another velocity: at the very moment that a collision threatens, its body walks at m_mb's.
+    /// is left to inertia. The paper moves its weights to m_mb alone first
+    /// ([`ThroughMMb`](super::params::Transition::ThroughMMb)), since it cannot begin at another velocity: at the very
+    /// moment that a collision threatens, its body walks at m_mb's.
     pub(super) fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32) {
         let (from, to) = (self.mode, self.choice.mode);
         if from == to || !self.may_switch(motion, hybrid) {
@@ -59,8 +60,8 @@ impl Body {
         });
     }
 
-    /// The phase near another at which what is played has its feet nearest to these soles: T knows how m_mb is like m_sp, and
-    /// a mix or a run is so a little before or after.
+    /// The phase near another at which what is played has its feet nearest to these soles: T knows how m_mb is like
+    /// m_sp, and a mix or a run is so a little before or after.
     fn most_alike(&self, motion: &Motion, soles_m: &[[Vec3; 3]; 2], near: f32) -> f32 {
         let off_m2 = |phase: f32| {
             let playing = Playing::new(motion, self.mode, &self.seen[0], &self.mix, phase);

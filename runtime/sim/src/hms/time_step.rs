@@ -1,7 +1,7 @@
 //! One step of time, and what it leaves of all that decays: computed once for all bodies.
 //!
-//! With r a rate, a critically damped spring `x'' = −2r·x' − r²·x` takes an offset x and its rate v, exactly over a step,
-//! to
+//! With r a rate, a critically damped spring `x'' = −2r·x' − r²·x` takes an offset x and its rate v, exactly over a
+//! step, to
 //!
 //! ```text
 //! x' = e^(−r·dt)·(x + dt·(v + r·x)),   v' = e^(−r·dt)·(v − r·dt·(v + r·x)).
@@ -80,7 +80,8 @@ impl Spring {
     }
 }
 
-/// A critically damped filter of the third order over one step: it lets go gently, where a spring pulls with r²·x at once.
+/// A critically damped filter of the third order over one step: it lets go gently, where a spring pulls with r²·x at
+/// once.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SoftSpring(Spring);
 

@@ -10,8 +10,9 @@
 //! emergence` and `bench table1`:
 //! - Walls do not count. The diagram is of people who walk behind each other; a wall beside one's way is no queue, and
 //!   one ahead is avoided as a wall. Counted, the posts of a door keep people waiting before it.
-//! - Whoever clears the way counts for less: the diagram is of one-way flow, and those who come or cross have gone by the
-//!   time that one is there. Counted in full, they slow a crossing that collision avoidance passes through smoothly.
+//! - Whoever clears the way counts for less: the diagram is of one-way flow, and those who come or cross have gone by
+//!   the time that one is there. Counted in full, they slow a crossing that collision avoidance passes through
+//!   smoothly.
 //!
 //! World axes, metres, seconds.
 
@@ -72,8 +73,9 @@ pub fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, params: &McnPa
     Filtered { velocity_mps: eased_mps.min(speed_mps) * direction, density }
 }
 
-/// The direction to take and the speed allowed there, for who would walk at `speed` m/s along `ahead`, where `ahead_mps`
-/// is allowed: the mean over the arc, each direction by the fourth power of the progress that its limit allows.
+/// The direction to take and the speed allowed there, for who would walk at `speed` m/s along `ahead`, where
+/// `ahead_mps` is allowed: the mean over the arc, each direction by the fourth power of the progress that its limit
+/// allows.
 fn on_the_arc(ahead: Vec2, ahead_mps: f32, speed_mps: f32, limit_mps: impl Fn(Vec2) -> f32) -> (Vec2, f32) {
     let weight = |along: f32, allowed_mps: f32| {
         let progress = along * allowed_mps / speed_mps;

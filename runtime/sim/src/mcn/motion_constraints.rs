@@ -3,10 +3,10 @@
 //! The turning set limits a body whose facing follows its velocity, the holding set one that holds its facing. Both are
 //! convex, clockwise, and count the origin; each edge gives one half-plane, rotated by the agent's facing.
 //!
-//! While v_pref lies more than 90° off the facing, the sharp-turn edge of the wrapping polygon that the turn meets joins
-//! the turning set: the one whose cone, seen from rest, holds v_pref. The polygon is star-shaped but not convex, so an
-//! edge tells permitted from forbidden velocities in its own cone only. Beyond it, its line may cut off what the polygon
-//! holds; all edges of a side at once forbid most of that side, and walking on ahead with it.
+//! While v_pref lies more than 90° off the facing, the sharp-turn edge of the wrapping polygon that the turn meets
+//! joins the turning set: the one whose cone, seen from rest, holds v_pref. The polygon is star-shaped but not convex,
+//! so an edge tells permitted from forbidden velocities in its own cone only. Beyond it, its line may cut off what the
+//! polygon holds; all edges of a side at once forbid most of that side, and walking on ahead with it.
 
 use glam::Vec2;
 use motiondb::velocity_hull::{Construction, HALF_WIDTH_MPS, VelocityHull, half_plane, half_planes};
@@ -52,8 +52,8 @@ impl MotionConstraints {
         }
     }
 
-    /// The half-plane of the sharp-turn edge that a v_pref more than 90° off the facing meets; none otherwise, nor where
-    /// the polygon has no edge that way.
+    /// The half-plane of the sharp-turn edge that a v_pref more than 90° off the facing meets; none otherwise, nor
+    /// where the polygon has no edge that way.
     pub fn sharp_turn(&self, forward: Vec2, preferred_mps: Vec2) -> Option<HalfPlane> {
         let wanted_mps = local(preferred_mps, forward);
         if wanted_mps.x >= 0.0 {

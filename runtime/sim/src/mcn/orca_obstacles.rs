@@ -6,10 +6,12 @@
 //!
 //! 1. covered: the half-planes of nearer edges forbid the whole edge already; nothing to add;
 //! 2. contact: the disc overlaps the edge or one of its corners; it may only not go deeper;
-//! 3. shadow: the velocity obstacle is bounded by a *leg* from each corner and by a *cut-off* between them, at 1/τ of the distance. Seen
-//!    obliquely, one corner bears both legs. A leg never cuts into the neighbouring edge: it then runs along that edge and is *foreign*,
-//!    the neighbour will see to it. At a corner that is not convex the leg prolongs the edge itself;
-//! 4. the half-plane is tangent to the shadow where the present velocity is nearest to it: a cut-off corner, the cut-off line, or a leg.
+//! 3. shadow: the velocity obstacle is bounded by a *leg* from each corner and by a *cut-off* between them, at 1/τ of
+//!    the distance. Seen obliquely, one corner bears both legs. A leg never cuts into the neighbouring edge: it then
+//!    runs along that edge and is *foreign*, the neighbour will see to it. At a corner that is not convex the leg
+//!    prolongs the edge itself;
+//! 4. the half-plane is tangent to the shadow where the present velocity is nearest to it: a cut-off corner, the
+//!    cut-off line, or a leg.
 //!
 //! World axes, m and m/s.
 

@@ -121,8 +121,9 @@ impl Default for McnParams {
             density_factor: 1.57,
             density_buffer: 0.8,
             density_speed_min_mps: 0.3,
-            // 16°. Measured: at 0.2 a crowd of 1,000 with antipodal goals dissolves a fifth more slowly, up to 0.27 somebody
-            // may stand for five seconds in a circle of exact symmetry; at 0.4 late comers stray about their goals.
+            // 16°. Measured: at 0.2 a crowd of 1,000 with antipodal goals dissolves a fifth more slowly, up to 0.27
+            // somebody may stand for five seconds in a circle of exact symmetry; at 0.4 late comers stray about their
+            // goals.
             keep_right_rad: 0.28,
             // 36°: as far as a hip turns over a planted foot (Roach, Miles 1991: 32 ± 8°). Measured in the four-way
             // crossing of Table 1: at 20° somebody stands for five seconds in two runs of five, from 30 to 60° in none

@@ -25,8 +25,8 @@ pub fn disc_with_disc(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32) -> f32 
     if gap <= 0.0 { 0.0 } else { ahead_s }
 }
 
-/// b² − a c of the quadratic a t² − 2 b t + c = 0 for the time of contact, as r² v² − (v × p)²: near a graze, where it is
-/// all but 0, b² and a c would be a hundred times as great as both of these, and their rounding with them.
+/// b² − a c of the quadratic a t² − 2 b t + c = 0 for the time of contact, as r² v² − (v × p)²: near a graze, where it
+/// is all but 0, b² and a c would be a hundred times as great as both of these, and their rounding with them.
 #[inline]
 pub(crate) fn discriminant(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32) -> f32 {
     let miss = velocity_mps.perp_dot(offset_m);

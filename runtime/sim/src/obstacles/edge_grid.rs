@@ -1,7 +1,7 @@
 //! Which edges of walls are near: a grid, each of whose cells lists the edges that pass through it.
 //!
-//! Built once a scene. An edge is listed along its way, row by row, so a long one fills as many cells as it crosses, and
-//! not the box about it. World, metres.
+//! Built once a scene. An edge is listed along its way, row by row, so a long one fills as many cells as it crosses,
+//! and not the box about it. World, metres.
 
 use glam::Vec2;
 

@@ -1,4 +1,5 @@
-//! A crowd of discs that walk as planned, without bodies: moved by the planner alone, or through a lag and a turning rate like a body's.
+//! A crowd of discs that walk as planned, without bodies: moved by the planner alone, or through a lag and a turning
+//! rate like a body's.
 
 use std::path::Path;
 use std::time::{Duration, Instant};

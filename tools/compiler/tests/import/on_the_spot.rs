@@ -1,5 +1,5 @@
-//! Clips whose way is taken out tread on the spot as fast as they went: bundled ones of every gait, and real walks, runs,
-//! side-steps and turns of others, at several frame rates.
+//! Clips whose way is taken out tread on the spot as fast as they went: bundled ones of every gait, and real walks,
+//! runs, side-steps and turns of others, at several frame rates.
 
 use std::path::Path;
 
@@ -91,8 +91,8 @@ fn what_treads_on_the_spot_goes_as_fast_as_it_did() {
     assert!(bad.is_empty(), "{}", bad.join("\n"));
 }
 
-/// Clips that go on steadily: no starts, stops, single steps and captures of many speeds, whose mean is no speed at which
-/// any of their feet stands.
+/// Clips that go on steadily: no starts, stops, single steps and captures of many speeds, whose mean is no speed at
+/// which any of their feet stands.
 fn goes_steadily(row: &Truth) -> bool {
     const UNSTEADY: [&str; 8] = ["_To", "_Step", "Turn90", "Turn180", "Turn360", "ezgi", "pfnn", "lafan1"];
     let [forward_mps, _, left_mps] = row.measured;
@@ -108,11 +108,11 @@ fn found_held(clip: &SourceClip, roles: &Roles, frame_rate_hz: f64, held: Held) 
     measure(&clip, roles)
 }
 
-/// Truth is what the same code measures before the way is taken out. Of 384 cases 41 are out, 37 of them with hips held in
-/// every frame. Those lose their surge, and in the stances of runs hips are slower than between them: five runs of
-/// Bandai and CMU's 002_03 come out 8 to 13 % slow (25 cases, three rates of each or more; the limit is 9 %), six walks 8
-/// to 12 % (11 cases, four of them of 007_04). Of uneven clips one foot tells more than the other: angry_13, a run of 1.2
-/// s, goes 0.4 m/s aside (4 cases), Marine's Run and RunCircle 0.12 to 0.13 m/s where 0.12 is the limit.
+/// Truth is what the same code measures before the way is taken out. Of 384 cases 41 are out, 37 of them with hips held
+/// in every frame. Those lose their surge, and in the stances of runs hips are slower than between them: five runs of
+/// Bandai and CMU's 002_03 come out 8 to 13 % slow (25 cases, three rates of each or more; the limit is 9 %), six walks
+/// 8 to 12 % (11 cases, four of them of 007_04). Of uneven clips one foot tells more than the other: angry_13, a run of
+/// 1.2 s, goes 0.4 m/s aside (4 cases), Marine's Run and RunCircle 0.12 to 0.13 m/s where 0.12 is the limit.
 #[test]
 fn real_gaits_held_in_place_go_as_fast_as_they_did_at_every_frame_rate() {
     const IN_PLACE_TIMES: f64 = 3.0;

@@ -1,4 +1,5 @@
-//! What moves and is no walking human, made up: every joint swings a little, the whole moves on along z. Centimetres, Y up.
+//! What moves and is no walking human, made up: every joint swings a little, the whole moves on along z. Centimetres, Y
+//! up.
 
 use std::fmt::Write as _;
 

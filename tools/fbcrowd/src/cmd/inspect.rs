@@ -33,8 +33,8 @@ pub(crate) struct Args {
     /// planted_share}`, `velocity_hull {construction, turning_mps[][2], holding_mps[][2],
     /// sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension, simplices[][], covered_share}`, `correspondence
     /// {semi_procedural, blending, pairs_s[][2]}` or null, and `coverage[] {lack, sentence}`: where the set is thin; of
-    /// one that breaks an invariant only `broken {invariant, detail}`. Key times: right toe-off, right heel strike, left
-    /// toe-off, left heel strike, from right mid-stance.
+    /// one that breaks an invariant only `broken {invariant, detail}`. Key times: right toe-off, right heel strike,
+    /// left toe-off, left heel strike, from right mid-stance.
     #[arg(long)]
     json: bool,
     /// Write pictures of a database: velocity sets, parameters, where they are thin, bodies, steps, and how alike the

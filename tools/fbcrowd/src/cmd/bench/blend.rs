@@ -2,8 +2,8 @@
 //!
 //! A plan asks for (v_f, ω_t, ω_s); achieved are those of the synthesised root, once the body has started. The points
 //! asked lie on a grid over the box of the examples, and on the same grid drawn in towards standing, each taken to the
-//! nearest point that the database has. What is slower than the least steps is not walked: the body stands (`hms/gait.rs`),
-//! and such points are counted, not judged.
+//! nearest point that the database has. What is slower than the least steps is not walked: the body stands
+//! (`hms/gait.rs`), and such points are counted, not judged.
 //!
 //! The same roots tell whether a straight walk stays straight, whether a circle closes, and whether the step of time
 //! matters: one sequence of commands, walked in steps of every length, must lead to the same places.
@@ -43,16 +43,16 @@ const STRAIGHT_MPS: [f32; 4] = [0.5, 0.8, 1.2, 2.0];
 const OFF_MAX_CM: f64 = 2.0;
 /// Circles are walked at each of these speeds and turn rates, where the database has them, m/s and rad/s.
 const CIRCLES: [[f32; 2]; 4] = [[0.6, 0.5], [0.8, 0.8], [0.8, -0.8], [1.2, 0.6]];
-/// A command is heard at the beginning of a step, on average half a step late: the changes of velocity on the errand add
-/// up to this, m/s, and times half a step of time to what roots may be apart.
+/// A command is heard at the beginning of a step, on average half a step late: the changes of velocity on the errand
+/// add up to this, m/s, and times half a step of time to what roots may be apart.
 const ERRAND_CHANGES_MPS: f32 = 6.2;
 
 /// Measure whether blending bodies do what is asked, walk straight ahead, and close their circles.
 ///
 /// In JSON `runs[] {dt_s, points[] {asked[3], achieved[3], idle_share}, straight_cm, circle_cm, apart_cm}`: v_f in m/s,
 /// ω_t in rad/s, ω_s in m/s; how far off a straight line of 50 m and the start of a circle; how far from the roots that
-/// walk by the same commands in steps of 1/120 s. Points of which standing has a greater share than a body starts at are
-/// listed, not judged.
+/// walk by the same commands in steps of 1/120 s. Points of which standing has a greater share than a body starts at
+/// are listed, not judged.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  fbcrowd bench blend\n  fbcrowd bench blend --db motion.fbdb --json")]
 pub(super) struct Args {
@@ -182,7 +182,8 @@ fn closed_m(roots: &[Root]) -> Vec2 {
     roots[roots.len() - 1].position_m
 }
 
-/// Commands in the world that change at whole tenths of seconds: start, curve, dodge aside, slow down, stop, start anew.
+/// Commands in the world that change at whole tenths of seconds: start, curve, dodge aside, slow down, stop, start
+/// anew.
 fn errand(time_s: f32) -> Plan {
     let towards = |angle_rad: f32, speed_mps: f32| Plan {
         velocity_mps: Vec2::from_angle(angle_rad) * speed_mps,

@@ -1,5 +1,5 @@
-//! The database of a bench: a file, or that of the bundled clips, as the generator writes them, so that no bench depends
-//! on the folder it is run in.
+//! The database of a bench: a file, or that of the bundled clips, as the generator writes them, so that no bench
+//! depends on the folder it is run in.
 
 use std::path::Path;
 

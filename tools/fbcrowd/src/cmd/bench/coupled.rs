@@ -1,9 +1,10 @@
 //! `fbcrowd bench coupled`: what the coupling is good for, on the scenes of the paper's user study (§7).
 //!
 //! Coupled: MCN, hybrid synthesis, discs that follow their bodies. Decoupled: ORCA plans for discs alone, and blended
-//! bodies follow them exactly ([`fbcrowd_sim::decoupled`]). The same clips and scenes, steps of 1/30 s as in a film, until
-//! all are at their goals. The study asked 21 people for naturalness, collisions and artefacts; here these are the bodies'
-//! overlap, the slide of planted feet, the acceleration of the root, and how far people face away from where they go.
+//! bodies follow them exactly ([`fbcrowd_sim::decoupled`]). The same clips and scenes, steps of 1/30 s as in a film,
+//! until all are at their goals. The study asked 21 people for naturalness, collisions and artefacts; here these are
+//! the bodies' overlap, the slide of planted feet, the acceleration of the root, and how far people face away from
+//! where they go.
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -1,10 +1,11 @@
-//! `fbcrowd bench course`: narrow, sharply turning passages by motion blending alone, by semi-procedural locomotion alone
-//! and by both, the paper's obstacle course (§7.1).
+//! `fbcrowd bench course`: narrow, sharply turning passages by motion blending alone, by semi-procedural locomotion
+//! alone and by both, the paper's obstacle course (§7.1).
 //!
 //! The paper's claim: blending collides in tight corners, semi-procedural locomotion looks mechanical, hybrid synthesis
-//! does neither. Each walks the course at several speeds, because a corner is met in another phase of the stride at each.
-//! Measured until the agent is at its goal: how often its disc is held at a wall and its body reaches into one, and how
-//! far its poses lie from the database: the RMS angle of bones to the nearest pose of any example ([`PoseSequence`]).
+//! does neither. Each walks the course at several speeds, because a corner is met in another phase of the stride at
+//! each. Measured until the agent is at its goal: how often its disc is held at a wall and its body reaches into one,
+//! and how far its poses lie from the database: the RMS angle of bones to the nearest pose of any example
+//! ([`PoseSequence`]).
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -47,8 +48,9 @@ const WALK_MPS: f32 = 1.33;
 
 /// Walk the obstacle course by blending alone, by semi-procedural locomotion alone and by both.
 ///
-/// In JSON `picture`, its file, and `ways[] {synthesis, preferred_mps, arrived, time_s, wall_disc_share, wall_body_share,
-/// wall_body_max_mm, pose_distance_deg, semi_procedural_share, acceleration_mps2, planted_slide_cm_s}`.
+/// In JSON `picture`, its file, and `ways[] {synthesis, preferred_mps, arrived, time_s, wall_disc_share,
+/// wall_body_share, wall_body_max_mm, pose_distance_deg, semi_procedural_share, acceleration_mps2,
+/// planted_slide_cm_s}`.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd bench course -o course.png\n  fbcrowd bench course --db motion.fbdb --json"

@@ -1,5 +1,5 @@
-//! `fbcrowd bench emergence`: what nobody plans and a crowd does all the same (the paper's §7): lanes in two-way flow, and
-//! an arch of people before a door, through full bodies and under each planner.
+//! `fbcrowd bench emergence`: what nobody plans and a crowd does all the same (the paper's §7): lanes in two-way flow,
+//! and an arch of people before a door, through full bodies and under each planner.
 //!
 //! Both scenes are played for several seeds, because who meets whom is chaotic. World, metres, seconds.
 
@@ -29,7 +29,8 @@ const COUNTERFLOW: (&str, &str) = scenario_text!("counterflow.toml");
 const BOTTLENECK: (&str, &str) = scenario_text!("bottleneck.toml");
 /// Lanes are read in the middle of the corridor, where both crowds are all the while …
 const LANES_WITHIN_M: f32 = 6.0;
-/// … and are steady from here on: the crowds have walked through each other for 10 m; the first of them run out at 14 s.
+/// … and are steady from here on: the crowds have walked through each other for 10 m; the first of them run out at 14
+/// s.
 const LANES_STEADY_S: [f64; 2] = [8.0, 13.0];
 /// A crowd that starts as a chequerboard is nearer to perfect lanes than to chance.
 const LANES_ORDER: f64 = 0.5;

@@ -2,8 +2,9 @@
 //! people on an antipodal circle: the paper's Fig. 6.
 //!
 //! All circles take turns, a frame of one thread and a frame of two after each other, so that ratios are of the same
-//! moments whatever else the machine does; medians of the turns count. A small circle is stepped so often that a turn has
-//! [`AGENT_STEPS`] agent-steps. Coupling holds the making of the frame that a recording would keep, not its packing.
+//! moments whatever else the machine does; medians of the turns count. A small circle is stepped so often that a turn
+//! has [`AGENT_STEPS`] agent-steps. Coupling holds the making of the frame that a recording would keep, not its
+//! packing.
 
 use std::f32::consts::TAU;
 use std::fs;
@@ -56,8 +57,8 @@ const FRAMES_HZ: f64 = 30.0;
 
 /// Time the stages of a frame on ever larger circles.
 ///
-/// In JSON `circles[] {agents, mcn_ms, hms_ms, cns_ms, frame_ms, frame_two_threads_ms, two_threads}`: medians per frame,
-/// the stages on one thread; `bytes_per_agent`; `picture`, where one is asked for.
+/// In JSON `circles[] {agents, mcn_ms, hms_ms, cns_ms, frame_ms, frame_two_threads_ms, two_threads}`: medians per
+/// frame, the stages on one thread; `bytes_per_agent`; `picture`, where one is asked for.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  fbcrowd bench figure6 -o figure6.png\n  fbcrowd bench figure6 --json")]
 pub(super) struct Args {

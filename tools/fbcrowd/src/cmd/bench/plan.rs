@@ -1,9 +1,9 @@
 //! `fbcrowd bench plan`: what planning costs, and whether it costs the same in every crowd.
 //!
-//! Discs of 0.3 agents/m², each bound for the point opposite, walk with their bodies until they are well mixed. Then the
-//! simulation is halted every second, and from the same frozen world MCN, with all its constraints, our own ORCA and
-//! ORCA's neighbour query alone are timed in turns, each with the sorting of the agents into cells. Ratios are formed
-//! within a turn, so that whatever else the machine does weighs on both alike; medians count.
+//! Discs of 0.3 agents/m², each bound for the point opposite, walk with their bodies until they are well mixed. Then
+//! the simulation is halted every second, and from the same frozen world MCN, with all its constraints, our own ORCA
+//! and ORCA's neighbour query alone are timed in turns, each with the sorting of the agents into cells. Ratios are
+//! formed within a turn, so that whatever else the machine does weighs on both alike; medians count.
 
 use std::hint::black_box;
 use std::sync::Arc;

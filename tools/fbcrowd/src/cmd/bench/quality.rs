@@ -21,7 +21,8 @@ use crate::failure::{Answer, Failure};
 /// The lengths of a step, s: motion capture's, film's and games', and the planner's.
 const DTS_S: [f32; 4] = [1.0 / 120.0, 1.0 / 60.0, 1.0 / 30.0, 0.1];
 const SYNTHESES: [Modes; 3] = [Modes::Blending, Modes::SemiProcedural, Modes::Hybrid];
-/// Planted feet slide no more than this, steady and through a change, or than the examples do where they slide more, cm/s.
+/// Planted feet slide no more than this, steady and through a change, or than the examples do where they slide more,
+/// cm/s.
 const SLIDE_CM_S: [f64; 2] = [1.5, 3.0];
 
 /// Measure planted feet, knees, accelerations and smoothness of bodies on errands.

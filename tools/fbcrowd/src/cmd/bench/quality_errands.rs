@@ -1,7 +1,8 @@
 //! What bodies are asked to do while their quality is measured (`fbcrowd bench quality`): steady walks, and changes.
 //!
-//! An errand is a row of legs, each asked until a time. It begins with standing, which each body cuts short by a part of a
-//! step more than the one before, so that the changes to come meet every phase of the cycle. Metres, seconds, radians.
+//! An errand is a row of legs, each asked until a time. It begins with standing, which each body cuts short by a part
+//! of a step more than the one before, so that the changes to come meet every phase of the cycle. Metres, seconds,
+//! radians.
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
@@ -58,8 +59,8 @@ pub(super) struct Errand {
 }
 
 impl Ask {
-    /// As a plan for a body at `root`. What is asked is exact in the body's frame: a blending body turns its velocity to
-    /// the wanted facing, semi-procedural locomotion does not.
+    /// As a plan for a body at `root`. What is asked is exact in the body's frame: a blending body turns its velocity
+    /// to the wanted facing, semi-procedural locomotion does not.
     pub(super) fn plan(self, root: &Root, turns_velocity: bool, params: &HmsParams) -> Plan {
         match self {
             Self::Stand => Plan { facing_rad: root.facing_rad, ..Plan::default() },

@@ -39,8 +39,8 @@ const DROP_MAX_M: f32 = 0.1;
 
 /// Measure how far the clip of semi-procedural locomotion can be deformed.
 ///
-/// In JSON `m_sp`, `ways[] {direction_deg, turn_rate_deg_s, speed_mps, used_mps, ends_by}`: the greatest speed reached in
-/// each direction at each turn rate, the greatest that the synthesis asks for, and what ends it.
+/// In JSON `m_sp`, `ways[] {direction_deg, turn_rate_deg_s, speed_mps, used_mps, ends_by}`: the greatest speed reached
+/// in each direction at each turn rate, the greatest that the synthesis asks for, and what ends it.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  fbcrowd bench reach\n  fbcrowd bench reach --db motion.fbdb --json")]
 pub(super) struct Args {

@@ -26,8 +26,8 @@ const DRAWN_PIECES: usize = 64;
 
 /// Play the RiMEA guideline's tests of walking: speed, density, corners, bottlenecks, and three of the kind.
 ///
-/// In JSON `tests[] {test, scenario, criterion, figures[] {name, value}}` and `fundamental_diagram[] {per_m2, speed_mps,
-/// weidmann_mps}`, the points of test 4.
+/// In JSON `tests[] {test, scenario, criterion, figures[] {name, value}}` and `fundamental_diagram[] {per_m2,
+/// speed_mps, weidmann_mps}`, the points of test 4.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd bench rimea --plots out/plots")]
 pub(super) struct Args {

@@ -2,8 +2,8 @@
 //! in [`rimea_more`](super::rimea_more).
 //!
 //! The guideline (RiMEA 3.0, Annex) states tests 1, 6 and 12 as they stand here; of 4 and 7 it demands that figures are
-//! compared with those that went in or were published, and leaves the margin to whoever compares: ours stand below, with
-//! their reasons. World, metres, seconds.
+//! compared with those that went in or were published, and leaves the margin to whoever compares: ours stand below,
+//! with their reasons. World, metres, seconds.
 
 use fbcrowd_sim::arching::WaitingCrowd;
 use fbcrowd_sim::gate::Gate;

@@ -1,7 +1,7 @@
 //! Scenes for planners to meet in: lines `x y goal_x goal_y`, metres, a file a scene and seed (`NAME_s1.txt`).
 //!
-//! Those of Table 1 and of the user study are compiled in (`assets/scenarios/table1`, `study`), so that no bench depends
-//! on the folder it is run in.
+//! Those of Table 1 and of the user study are compiled in (`assets/scenarios/table1`, `study`), so that no bench
+//! depends on the folder it is run in.
 
 use std::collections::BTreeSet;
 use std::fs;

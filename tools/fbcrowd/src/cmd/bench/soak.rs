@@ -2,8 +2,8 @@
 //! ever end the program, take for ever or do harm?
 //!
 //! One file a kind of input; worlds, turned scenes and linear programs are drawn and judged by
-//! [`fbcrowd_sim::wild_world`], [`fbcrowd_sim::turned_world`] and [`fbcrowd_sim::wild_program`]. Each copy draws its own random numbers from a seed of its own, the run's seed plus its
-//! number, so that one copy can be made again alone.
+//! [`fbcrowd_sim::wild_world`], [`fbcrowd_sim::turned_world`] and [`fbcrowd_sim::wild_program`]. Each copy draws its
+//! own random numbers from a seed of its own, the run's seed plus its number, so that one copy can be made again alone.
 
 mod clip;
 mod database;
@@ -47,8 +47,8 @@ const DAMAGED: &str = "damaged databases";
 /// must give sound databases and finite bodies. All begin with the bundled clips. Wild worlds: agents and obstacles
 /// piled, far off, fast, tiny, huge, on edges and in walls; each planner must plan numbers, keep its greatest speed and
 /// lead nobody through a wall. Turned scenes: everyday ones, turned and moved; the velocity that MCN or ORCA plans must
-/// turn with them within 1e-4 m/s. Linear programs: feasible or not, opposite, parallel but for rounding; no velocity that is
-/// tried may be better than the one found.
+/// turn with them within 1e-4 m/s. Linear programs: feasible or not, opposite, parallel but for rounding; no velocity
+/// that is tried may be better than the one found.
 ///
 /// In JSON `seed, kinds[] {name, copies, refused, used, harmful, panics, slow, slowest_s}, finds[] {kind, seed, what}`.
 #[derive(clap::Args)]

@@ -1,10 +1,10 @@
 //! `fbcrowd bench tracking`: how closely does a root follow its commands (`FbCrowd` §5)?
 //!
-//! Commands accelerate by no more than [`ACCELERATION_MPS2`]. Semi-procedural locomotion is given velocities in the world,
-//! and judged by each step: how far the root is from where the command would have brought it from its last place.
-//! Blending is given (v_f, ω_t, ω_s), a change from one steady way to walk to another, and judged by how far its root has
-//! then fallen behind one that did exactly as told, a cycle after the command has become steady. A body that is to stop
-//! finishes its step: how far that leads is told, not judged.
+//! Commands accelerate by no more than [`ACCELERATION_MPS2`]. Semi-procedural locomotion is given velocities in the
+//! world, and judged by each step: how far the root is from where the command would have brought it from its last
+//! place. Blending is given (v_f, ω_t, ω_s), a change from one steady way to walk to another, and judged by how far its
+//! root has then fallen behind one that did exactly as told, a cycle after the command has become steady. A body that
+//! is to stop finishes its step: how far that leads is told, not judged.
 
 use std::f32::consts::FRAC_PI_2;
 use std::path::PathBuf;
