@@ -14,8 +14,8 @@ use glam::{DVec2, Quat, Vec2, Vec3};
 use motiondb::pose::{Joints, Root};
 use motiondb::skeleton::{JOINT_COUNT, Skeleton};
 
-use crate::scenario_check::longer_side;
 use crate::segment_distance::{Segment, distance_m};
+use crate::sweep::sort_along_longer_side;
 
 /// Sums depths over all pairs, frame by frame.
 #[derive(Debug)]
@@ -87,11 +87,11 @@ impl BodyPenetration {
     pub fn push<'a>(&mut self, agents: impl Iterator<Item = (&'a Root, &'a Joints)>) {
         self.bodies.clear();
         self.bodies.extend(agents.map(|(root, joints)| Body::new(&self.skeleton, root, joints)));
-        let axis = longer_side(self.bodies.iter().map(|body| body.position_m));
-        let bodies = &self.bodies;
-        self.order.sort_by(|&a, &b| bodies[a].low_m(axis).total_cmp(&bodies[b].low_m(axis)).then(a.cmp(&b)));
+        let places_m = self.bodies.iter().map(|body| body.position_m);
+        let low_m = |index: usize, axis: usize| self.bodies[index].low_m(axis).into();
+        let axis = sort_along_longer_side(&mut self.order, places_m, low_m);
         self.touches.clear();
-        self.touches.resize(bodies.len(), false);
+        self.touches.resize(self.bodies.len(), false);
         for rank in 0..self.order.len() {
             self.meet_followers(rank, axis);
         }

@@ -3,7 +3,7 @@
 
 use glam::{DVec2, Vec2};
 
-use crate::scenario_check::longer_side;
+use crate::sweep::sort_along_longer_side;
 
 /// Sums the penetration depths of all pairs, step by step.
 #[derive(Debug)]
@@ -39,8 +39,8 @@ impl Collisions {
             radius_m,
         };
         let sweeps: Vec<Sweep> = self.radii_m.iter().enumerate().map(sweep).collect();
-        let axis = longer_side(before_m.iter().copied());
-        self.order.sort_by(|&a, &b| sweeps[a].low_m(axis).total_cmp(&sweeps[b].low_m(axis)).then(a.cmp(&b)));
+        let low_m = |index: usize, axis: usize| sweeps[index].low_m(axis);
+        let axis = sort_along_longer_side(&mut self.order, before_m.iter().copied(), low_m);
         for (rank, &a) in self.order.iter().enumerate() {
             for &b in &self.order[rank + 1..] {
                 // From here on all are farther apart than the nearest two ever were.

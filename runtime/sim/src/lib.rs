@@ -43,6 +43,7 @@ pub mod scenario_ranges;
 pub mod segment_distance;
 pub mod split_mix;
 pub mod step;
+mod sweep;
 pub mod turned_world;
 pub mod wall_contact;
 pub mod wild_program;

@@ -7,6 +7,7 @@ use glam::{DVec2, Vec2};
 use crate::polygon::{closest_distance_m, contains, is_simple, signed_area_m2};
 use crate::scenario::{AgentSpec, Scenario};
 use crate::scenario_ranges::check_ranges;
+use crate::sweep::sort_along_longer_side;
 
 /// The test for self-intersection looks at every pair of edges.
 const CORNERS_MAX: usize = 1_000;
@@ -136,15 +137,14 @@ fn check_reach(index: usize, agent: &AgentSpec, obstacle: usize, clear_m: f64) -
     Place::Journey(index).fault(message, "move the goal away from the wall")
 }
 
-/// Sweeps along the crowd's longer side, so that thousands are quick, in a square or in line.
 fn check_agents_apart(agents: &[AgentSpec]) -> Result<(), Fault> {
-    let axis = longer_side(agents.iter().map(|agent| agent.position_m));
-    let left_m = |index: usize| agents[index].position_m[axis] - agents[index].radius_m;
+    let low_m = |index: usize, axis: usize| agents[index].position_m[axis] - agents[index].radius_m;
     let mut order: Vec<usize> = (0..agents.len()).collect();
-    order.sort_by(|&a, &b| left_m(a).total_cmp(&left_m(b)).then(a.cmp(&b)));
+    let places_m = agents.iter().map(|agent| agent.position_m);
+    let axis = sort_along_longer_side(&mut order, places_m, |index, axis| low_m(index, axis).into());
     for (rank, &a) in order.iter().enumerate() {
-        let right_m = agents[a].position_m[axis] + agents[a].radius_m;
-        for &b in order[rank + 1..].iter().take_while(|&&b| left_m(b) < right_m) {
+        let high_m = agents[a].position_m[axis] + agents[a].radius_m;
+        for &b in order[rank + 1..].iter().take_while(|&&b| low_m(b, axis) < high_m) {
             let overlap_m = overlap_m(&agents[a], &agents[b]);
             if overlap_m > TOUCH_M {
                 let message = format!("agents {} and {} overlap by {overlap_m:.2} m", a.min(b), a.max(b));
@@ -153,13 +153,6 @@ fn check_agents_apart(agents: &[AgentSpec]) -> Result<(), Fault> {
         }
     }
     Ok(())
-}
-
-/// The axis along which places are farther apart: 0 for x, 1 for y.
-pub(crate) fn longer_side(places_m: impl Iterator<Item = Vec2>) -> usize {
-    let start = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-    let (low_m, high_m) = places_m.fold(start, |(low_m, high_m), place_m| (low_m.min(place_m), high_m.max(place_m)));
-    (high_m - low_m).max_position()
 }
 
 fn overlap_m(a: &AgentSpec, b: &AgentSpec) -> f64 {

@@ -51,28 +51,29 @@ pub(crate) struct Args {
     bench: Bench,
 }
 
+// The compiler first, then speed, bodies, crowds, and what is wild.
 #[derive(clap::Subcommand)]
 enum Bench {
-    Blend(blend::Args),
-    BlendSpace(blend_space::Args),
-    Bodies(bodies::Args),
     Import(import::Args),
-    Clips(clips::Args),
     Compile(compile::Args),
     LeaveOneOut(leave_one_out::Args),
     Gait(gait::Args),
+    Clips(clips::Args),
+    BlendSpace(blend_space::Args),
     Plan(plan::Args),
-    Quality(quality::Args),
-    Reach(reach::Args),
-    Soak(soak::Args),
+    Bodies(bodies::Args),
+    Figure6(figure6::Args),
+    Blend(blend::Args),
     Tracking(tracking::Args),
+    Reach(reach::Args),
+    Quality(quality::Args),
     Table1(table1::Args),
     Figure7(figure7::Args),
+    Course(course::Args),
+    Coupled(coupled::Args),
     Rimea(rimea::Args),
     Emergence(emergence::Args),
-    Coupled(coupled::Args),
-    Course(course::Args),
-    Figure6(figure6::Args),
+    Soak(soak::Args),
 }
 
 /// What every bench on other people's clips is told.
@@ -88,25 +89,25 @@ struct Mocap {
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     match &args.bench {
-        Bench::Blend(args) => blend::run(args),
-        Bench::BlendSpace(args) => blend_space::run(args),
-        Bench::Bodies(args) => bodies::run(args),
         Bench::Import(args) => import::run(args),
-        Bench::Clips(args) => clips::run(args),
         Bench::Compile(args) => compile::run(args),
         Bench::LeaveOneOut(args) => leave_one_out::run(args),
         Bench::Gait(args) => gait::run(args),
+        Bench::Clips(args) => clips::run(args),
+        Bench::BlendSpace(args) => blend_space::run(args),
         Bench::Plan(args) => plan::run(args),
-        Bench::Quality(args) => quality::run(args),
-        Bench::Reach(args) => reach::run(args),
-        Bench::Soak(args) => soak::run(args),
+        Bench::Bodies(args) => bodies::run(args),
+        Bench::Figure6(args) => figure6::run(args),
+        Bench::Blend(args) => blend::run(args),
         Bench::Tracking(args) => tracking::run(args),
+        Bench::Reach(args) => reach::run(args),
+        Bench::Quality(args) => quality::run(args),
         Bench::Table1(args) => table1::run(args),
         Bench::Figure7(args) => figure7::run(args),
+        Bench::Course(args) => course::run(args),
+        Bench::Coupled(args) => coupled::run(args),
         Bench::Rimea(args) => rimea::run(args),
         Bench::Emergence(args) => emergence::run(args),
-        Bench::Coupled(args) => coupled::run(args),
-        Bench::Course(args) => course::run(args),
-        Bench::Figure6(args) => figure6::run(args),
+        Bench::Soak(args) => soak::run(args),
     }
 }
