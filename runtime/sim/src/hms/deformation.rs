@@ -171,7 +171,7 @@ impl<'a> Deformation<'a> {
             *rotation = yaw(KNEE_YAW * yaw_rad) * *rotation;
         }
         let mut posture = Posture::new(pose, contacts, &db.skeleton);
-        posture.move_feet(feet.map(|(foot, _)| foot));
+        posture.move_feet(feet.map(|(foot, _)| foot), &db.skeleton);
         posture
     }
 

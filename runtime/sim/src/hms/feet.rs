@@ -30,7 +30,7 @@ const CLEARANCE_SPEED_MPS: f32 = 1.0;
 /// A foot that will land within this time wants none, s.
 pub(super) const LANDING_AHEAD_S: f32 = 0.06;
 /// A foot this far above its clearance begins to be lifted, m, so that lifting has no edge.
-const CLEARANCE_SOFTNESS_M: f32 = 0.003;
+const CLEARANCE_SOFTNESS_M: f32 = 0.002;
 /// Time over which a foot's speed is averaged, s: it is constant between two rows of the database, and jumps at each.
 pub(super) const SPEED_TIME_S: f32 = 0.03;
 /// Greatest shift of a foot against the pose's, m: that of a step broken off half-way; beyond it the foot slides.

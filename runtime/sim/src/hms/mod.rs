@@ -10,7 +10,7 @@
 //!
 //! `synthesize`: the pose there.
 //!
-//! 3. It is sampled ([`playing`]); [`inertialization`] carries away what a switch left; head and chest turn first
+//! 3. It is sampled ([`playing`]; heels rise in long strides, [`heel_rise`]); [`inertialization`] carries away what a switch left; head and chest turn first
 //!    ([`gaze`]);
 //! 4. [`feet`]: planted feet are held;
 //! 5. [`posture`], [`pelvis`], [`ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach
@@ -28,6 +28,7 @@ pub mod feet;
 pub mod foot_path;
 pub mod gait;
 pub mod gaze;
+pub mod heel_rise;
 pub mod hurry;
 pub mod hybrid;
 pub mod ik;

@@ -4,7 +4,7 @@
 //! and S a soft maximum with none, each leg asks for
 //!
 //! ```text
-//! S(d) − S(d⁰)·e^(2(S(d⁰) − S(d))/s),   S(d) = s·ln(1 + e^(d/s)),
+//! S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²,   S(d) = ½(d + √(d² + 4s²)),
 //! ```
 //!
 //! nothing where the foot is where the pose has it, never less than what is needed, and a little before it must:
@@ -13,20 +13,22 @@
 //! that leaves the ground, or comes back under the body, asks for nothing from one step to the next, and hips that
 //! followed would shoot up. All vectors are in the root frame (x forward, y left, z up), metres.
 
+use glam::Vec2;
+
 use super::leg::{FootPose, Leg};
 use super::time_step::TimeStep;
-use crate::decay::{decay, soft_maximum};
+use crate::decay::soft_maximum;
 
 /// Straightest a leg may be before the pelvis comes down for it, as a share of its length; straighter only where the
 /// pose is.
-const EXTENSION: f32 = 0.99;
+pub(super) const EXTENSION: f32 = 0.99;
 /// Straightest of all, a knee flexed by 6°: a blend of straight legs may be straighter than any of them, and beyond it
 /// the knee would snap at the end of the leg.
 const EXTENSION_MAX: f32 = 0.9985;
 /// Furthest that the pelvis comes down, m.
 const DROP_MAX_M: f32 = 0.12;
 /// s, m: less than what the hips bob in walking. With 0.01 knees snap at stops.
-const SOFTNESS_M: f32 = 0.02;
+pub(super) const SOFTNESS_M: f32 = 0.014;
 /// Rate of the filter by which the pelvis goes up again, 1/s: of a descent, an eighth is left after 0.25 s, a swing.
 pub(super) const RISE_RATE_HZ: f32 = 20.0;
 
@@ -52,20 +54,15 @@ pub fn drop_m(legs: &[Leg; 2], posed: &[FootPose; 2], feet: &[FootPose; 2]) -> f
         let extent_m = extent_m(&legs[side], &posed[side]);
         [&feet[side], &posed[side]].map(|foot| needed_m(&legs[side], extent_m, foot))
     });
-    let [left_m, right_m] = asked_m(needed_m);
-    libm::cbrtf(left_m * left_m * left_m + right_m * right_m * right_m).min(DROP_MAX_M)
+    let [left_m, right_m] = needed_m.map(|[target_m, own_m]| asked_m(target_m, own_m));
+    libm::sqrtf(Vec2::new(left_m * left_m, right_m * right_m).length()).min(DROP_MAX_M)
 }
 
-/// What each leg asks for, of what it needs to reach its target and its own foot.
-fn asked_m([[left_m, own_left_m], [right_m, own_right_m]]: [[f32; 2]; 2]) -> [f32; 2] {
-    let (own_left_m, own_right_m) = (own_left_m.min(0.0), own_right_m.min(0.0));
-    // All at once: vector instructions come of it.
-    let [left, right, own_left, own_right] =
-        [left_m, right_m, own_left_m, own_right_m].map(|needed_m| soft_maximum(needed_m / SOFTNESS_M));
-    [[left, own_left], [right, own_right]].map(|[target, own]| {
-        let more = (target - own).max(0.0);
-        SOFTNESS_M * (own + more - own * decay(2.0 * more))
-    })
+/// What a leg asks for, of what it needs to reach its target and its own foot.
+fn asked_m(target_m: f32, own_m: f32) -> f32 {
+    let own = soft_maximum(own_m.min(0.0) / SOFTNESS_M);
+    let more = (soft_maximum(target_m / SOFTNESS_M) - own).max(0.0);
+    SOFTNESS_M * (own + more - own / ((1.0 + more) * (1.0 + more)))
 }
 
 /// How far a leg may stretch: no more than the pose does.

@@ -8,7 +8,7 @@ use motiondb::pose::Pose;
 use motiondb::skeleton::Skeleton;
 
 use super::leg::{FootPose, Leg, legs};
-use super::{ik, pelvis};
+use super::{heel_rise, ik, pelvis};
 
 /// A pose, and where its feet are to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,8 +30,12 @@ impl Posture {
         Self { pose, feet: legs.each_ref().map(Leg::foot), legs, contacts }
     }
 
-    /// Moves the feet; the pelvis comes down where a leg would have to stretch for it.
-    pub fn move_feet(&mut self, feet: [FootPose; 2]) {
+    /// Moves the feet; heels rise, and the pelvis comes down where a leg would have to stretch for it.
+    pub fn move_feet(&mut self, feet: [FootPose; 2], skeleton: &Skeleton) {
+        let risen = |side: usize| {
+            heel_rise::raised(&mut self.pose, skeleton, side, &self.legs[side], &self.feet[side], &feet[side])
+        };
+        let feet = [0, 1].map(risen);
         self.move_feet_below(feet, |asked_m| asked_m);
     }
 

@@ -33,8 +33,9 @@ const AHEAD_MAX: f32 = 1.8;
 const BACKWARD_MAX: f32 = 1.1;
 const ASIDE_MAX: f32 = 1.1;
 /// The body leans into a turn, and its feet stand outward: at this turn rate the greatest speeds are halved, rad/s. A walk
-/// of 1.2 m/s then takes bends of 2.5 m/s², 119 °/s; `fbcrowd bench reach` finds the legs' own limits further out …
-const TURN_HALF_RAD_S: f32 = 3.3;
+/// of 1.2 m/s then takes bends of 2.5 m/s², 119 °/s, though its facing lags behind its way by a third of a radian;
+/// `fbcrowd bench reach` holds it against what the legs can do …
+const TURN_HALF_RAD_S: f32 = 4.0;
 /// … and it turns no faster than this, rad/s: 170 °/s.
 const TURN_MAX_RAD_S: f32 = 3.0;
 

@@ -61,7 +61,7 @@ fn standing_pose(db: &MotionDb, example: usize) -> Pose {
         Leg::new(&poses[side], &db.skeleton, side).foot()
     });
     let mut posture = Posture::new(pose, [1.0; 2], &db.skeleton);
-    posture.move_feet(feet);
+    posture.move_feet(feet, &db.skeleton);
     posture.bend_legs(&db.skeleton);
     posture.pose
 }
