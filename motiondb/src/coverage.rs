@@ -75,13 +75,18 @@ pub fn coverage(db: &MotionDb) -> Vec<ThinPlace> {
     let of_lacks = [
         gaits(db),
         walking_turns(db),
-        sides(db, Lack::TurningInPlace, turns_in_place, "turns in place", "bodies deform a walk for it"),
-        sides(db, Lack::SideSteps, side_steps, "side-steps", "bodies deform a walk for them"),
+        sides(db, Lack::TurningInPlace, turns_in_place, "turns in place", "it"),
+        sides(db, Lack::SideSteps, side_steps, "side-steps", "them"),
         speed_gaps(db),
         turn_gaps(db),
         side_gaps(db),
     ];
     of_lacks.concat()
+}
+
+/// Whether any example steps ahead: without one bodies reach no goal.
+pub fn walks_ahead(db: &MotionDb) -> bool {
+    db.examples.iter().any(|example| example.key_times_s.is_some() && example.parameters.speed_mps > 0.0)
 }
 
 /// Shares of the examples at a query inside the hull of their parameters; none outside it. `locator` is the database's.
@@ -132,7 +137,10 @@ fn gaits(db: &MotionDb) -> Vec<ThinPlace> {
         (
             straight(db).any(|speed| (MOVES_MPS..RUN_MPS).contains(&speed)),
             Lack::Walking,
-            "No clip walks straight on.".to_owned(),
+            match walks_ahead(db) {
+                true => "No clip walks straight on.".to_owned(),
+                false => "No clip walks ahead: bodies reach no goal, and no walk can be deformed.".to_owned(),
+            },
         ),
         (fastest_mps >= RUN_MPS, Lack::Running, runs),
         (
@@ -202,17 +210,14 @@ fn side_steps(found: &Parameters, side: Side) -> bool {
 }
 
 /// That no example does something to one side or both.
-fn sides(
-    db: &MotionDb,
-    lack: Lack,
-    does: fn(&Parameters, Side) -> bool,
-    deed: &str,
-    consequence: &str,
-) -> Vec<ThinPlace> {
+fn sides(db: &MotionDb, lack: Lack, does: fn(&Parameters, Side) -> bool, deed: &str, deeds: &str) -> Vec<ThinPlace> {
     let done = Side::BOTH.map(|side| parameters(db).any(|found| does(&found, side)));
     let sentence = match done {
         [true, true] => return Vec::new(),
-        [false, false] => format!("No clip {deed} to either side: {consequence}."),
+        [false, false] if walks_ahead(db) => {
+            format!("No clip {deed} to either side: bodies deform a walk for {deeds}.")
+        }
+        [false, false] => format!("No clip {deed} to either side."),
         [false, true] => format!("No clip {deed} to the left."),
         [true, false] => format!("No clip {deed} to the right."),
     };

@@ -104,3 +104,14 @@ fn gaps_between_turns_and_side_speeds_are_said_once_for_both_sides() {
     let side_gap = "No clip goes aside at speeds between 0.00 and 0.90 m/s: steps between mix the two.";
     assert!(sentence(Lack::SideGap).eq([side_gap]), "{found:?}");
 }
+
+#[test]
+fn a_walk_backward_alone_reaches_no_goal() {
+    let found = coverage(&set(&[[-0.6, 0.0, 0.0]], 0, &[0]));
+    let sentence = |lack: Lack| found.iter().find(|thin| thin.lack == lack).map(|thin| thin.sentence.as_str());
+    assert_eq!(
+        sentence(Lack::Walking),
+        Some("No clip walks ahead: bodies reach no goal, and no walk can be deformed.")
+    );
+    assert_eq!(sentence(Lack::SideSteps), Some("No clip side-steps to either side."));
+}

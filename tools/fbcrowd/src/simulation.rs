@@ -11,6 +11,7 @@ use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::scenario_error::ScenarioError;
 use fbcrowd_sim::step::{Simulation, Stage};
+use motiondb::coverage;
 use motiondb::motion_db::MotionDb;
 use serde::Serialize;
 
@@ -90,6 +91,9 @@ pub(crate) fn simulate(
 
 /// The database with which bodies can make way; says so where that is more than its clips.
 fn told_of_deformed(db: Arc<MotionDb>) -> Arc<MotionDb> {
+    if !coverage::walks_ahead(&db) {
+        output::say("note: none of these clips walks ahead, so nobody will reach a goal; add a walk, and compile anew");
+    }
     let complete = repertoire::complete(Arc::clone(&db));
     if let Some((walk, count)) = repertoire::deformed(&db, &complete) {
         let lacking = "these clips lack ways of walking that a crowd needs (fbcrowd inspect names them)";
