@@ -63,7 +63,7 @@ impl Body {
         let now = self.mix.parameters(motion.db);
         let nearest = motion.space.nearest(self.intention.parameters);
         let mut gait = self.gait;
-        let starts = gait.follow(nearest.idle_share, || self.feet_gathered(motion), step.dt_s);
+        let starts = gait.follow(&nearest, || self.feet_gathered(motion), step.dt_s);
         self.gait = gait;
         if starts {
             self.jump(motion, |body| body.phase = body.first_step_phase(motion));

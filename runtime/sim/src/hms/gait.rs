@@ -5,6 +5,7 @@
 //! standing; and it does not freeze in mid-stride, but takes such small steps until its feet are under it. Slower
 //! still, it takes those least steps in less than their own time, down to `PACE_MIN`.
 
+use glam::Vec2;
 use motiondb::blend_space::Shares;
 use motiondb::parameters::Parameters;
 
@@ -20,6 +21,9 @@ pub const START_IDLE_SHARE: f32 = 0.8;
 /// … and a stepping one stops where they hold more than this: the slowest steps, 1 − `PACE_MIN`·(1 −
 /// [`IDLE_SHARE_MAX`]) = 0.805, lie between the two.
 const STOP_IDLE_SHARE: f32 = 0.82;
+/// A set without slow walks mixes its fast ones with so much standing that nobody would ever start: shares count as if
+/// the slowest walk made no more than this, m/s.
+const SLOWEST_MPS: f32 = 1.3;
 /// Standing and stepping last for this long, about a step, s, since a planner that leads on from the present velocity
 /// asks for it a while longer …
 const GAIT_TIME_S: f32 = 0.4;
@@ -45,9 +49,11 @@ impl Gait {
     /// At the start: standing, ready to go.
     pub const STANDING: Self = Self { stands: true, since_s: GAIT_TIME_S, gathering_s: 0.0 };
 
-    /// Follows what is asked, with hysteresis; `feet_gathered` tells whether the body could stand as its feet are.
+    /// Follows `nearest`, what the database has of what is asked, with hysteresis; `feet_gathered` tells whether the body could stand as its feet are.
     /// Returns whether it now starts to step.
-    pub fn follow(&mut self, idle_share: f32, feet_gathered: impl FnOnce() -> bool, dt_s: f32) -> bool {
+    pub fn follow(&mut self, nearest: &Nearest, feet_gathered: impl FnOnce() -> bool, dt_s: f32) -> bool {
+        let Parameters { speed_mps, strafe_mps, .. } = nearest.parameters;
+        let idle_share = nearest.idle_share.min(1.0 - Vec2::new(speed_mps, strafe_mps).length() / SLOWEST_MPS);
         let lasted = self.since_s >= GAIT_TIME_S;
         let stop = !self.stands && (lasted && idle_share > STOP_IDLE_SHARE || idle_share > HALT_IDLE_SHARE);
         let start = self.stands && lasted && idle_share < START_IDLE_SHARE;

@@ -15,7 +15,7 @@ use super::asked;
 use super::blending::Mix;
 use super::gait::{self, Gait};
 use super::params::{HmsParams, Modes};
-use super::space::Space;
+use super::space::{Nearest, Space};
 use super::studio::Studio;
 use crate::plan::Plan;
 use crate::test_db::test_db;
@@ -254,7 +254,7 @@ proptest! {
         let mut gait = Gait::STANDING;
         for _ in 0..120 {
             let nearest = space.nearest(asked);
-            gait.follow(nearest.idle_share, || true, DT_S);
+            gait.follow(&nearest, || true, DT_S);
             let goal = gait::goal(nearest, mix.parameters(&db), gait, &space);
             let towards = asked::step_towards(mix.parameters(&db), goal, &params, DT_S);
             let (shares, pace) = gait::steps(&space.nearest(towards), gait, &space);
@@ -276,4 +276,13 @@ proptest! {
             prop_assert!(synthesis.pose.rotations.iter().all(|rotation| rotation.is_normalized()));
         }
     }
+}
+
+#[test]
+fn bodies_without_slow_steps_start_too() {
+    // Half a second's acceleration, of which a walk at 4 m/s is a twelfth.
+    let parameters = Parameters { speed_mps: 0.33, ..Parameters::default() };
+    let nearest = Nearest { parameters, idle_share: 0.92, ..Nearest::default() };
+    let mut gait = Gait::STANDING;
+    assert!(gait.follow(&nearest, || true, DT_S));
 }
