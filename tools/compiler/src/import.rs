@@ -119,7 +119,8 @@ fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// Every `*.bvh`, `*.glb`, `*.gltf` below a folder, sorted by path.
+/// Every `*.bvh`, `*.glb`, `*.gltf` below a folder, sorted by path; not what is hidden by a dot in front, as the
+/// `._walk.bvh` beside each `walk.bvh` that a Mac packs.
 ///
 /// # Errors
 /// Where a folder cannot be read.
@@ -128,6 +129,9 @@ pub fn clip_files(folder: &Path) -> Result<Vec<PathBuf>, ImportError> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let entry = entry.map_err(unreadable)?;
+        if entry.file_name().as_encoded_bytes().starts_with(b".") {
+            continue;
+        }
         // A link to a folder is not followed: it may lead back here.
         if entry.file_type().map_err(unreadable)?.is_dir() {
             files.extend(clip_files(&entry.path())?);

@@ -4,6 +4,7 @@
 //! The real clips are test input only and lie outside the repository (`../shared/mocap` beside it, truth in its
 //! `index.csv`); tests that need them say SKIPPED and pass where they are missing.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
@@ -231,6 +232,18 @@ fn folders_list_their_clips_in_order() {
     let files = clip_files(&folder).unwrap();
     assert!(files.is_sorted() && files.len() > 80);
     assert!(files.iter().all(|file| ["bvh", "glb"].contains(&file.extension().unwrap().to_str().unwrap())));
+}
+
+#[test]
+fn hidden_files_are_no_clips() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hidden_files_are_no_clips");
+    for name in ["walk.bvh", "._walk.bvh", ".hidden/run.bvh", "__MACOSX/._walk.bvh", "sub/jog.glb"] {
+        let path = folder.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, "").unwrap();
+    }
+    let named = ["sub/jog.glb", "walk.bvh"].map(|name| folder.join(name));
+    assert_eq!(clip_files(&folder).unwrap(), named);
 }
 
 fn only(imports: Result<Vec<Import>, motiondb_compiler::error::ImportError>) -> HumanClip {
