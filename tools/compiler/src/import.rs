@@ -197,6 +197,9 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
     if roles.names_belied {
         clip.warnings.push(Kind::Sides.remark(EXCHANGED));
     }
+    if settings.metres_per_unit.is_none() {
+        plausibility::doubt_unit(&mut clip, &roles);
+    }
     let (mut clip, units) = units::to_metres_z_up(clip, &roles);
     let whole = measured(&mut clip, &roles, settings);
     clip.warnings.extend(plausibility::implausible_size(&clip, &roles));

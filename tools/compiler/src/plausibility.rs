@@ -54,6 +54,17 @@ pub(crate) fn implausible_size(clip: &SourceClip, roles: &Roles) -> Option<Remar
     })
 }
 
+/// Forgets the unit that the format says, and tells so, where nobody of that size could walk: it is found then.
+pub(crate) fn doubt_unit(clip: &mut SourceClip, roles: &Roles) {
+    let Some(metres_per_unit) = clip.metres_per_unit else { return };
+    let leg_m = metres_per_unit * leg_length(clip, roles);
+    if !LEG_M.contains(&leg_m) {
+        clip.metres_per_unit = None;
+        let body = format!("in the unit of its format thigh and shank are {leg_m:.2} m long: another is taken");
+        clip.warnings.push(Kind::Size.remark(body + "; if it is wrong, give `metres_per_unit`"));
+    }
+}
+
 /// The refusal, where bones are none of a body that could walk.
 pub(crate) fn impossible_body(body: &HumanBody) -> Option<Refusal> {
     let leg_m = leg_length_m(body);

@@ -100,6 +100,23 @@ fn matrices_scales_and_moving_nodes_above_the_skeleton_are_followed() {
 }
 
 #[test]
+fn a_unit_in_which_nobody_could_walk_is_found_instead() {
+    for (units_per_m, metres_per_unit) in [(100.0, 0.01), (1000.0, 0.001), (39.370_08, 0.0254)] {
+        let mut scaled = Document::walker();
+        scaled.put_below(json!({ "name": "Armature", "scale": [units_per_m, units_per_m, units_per_m] }), 0);
+        let record = scaled.only().source;
+        assert!((record.speed_mps - 1.2).abs() < 0.02 && record.metres_per_unit == metres_per_unit, "{record:?}");
+        assert!(record.warnings.iter().any(|warning| warning.text.contains("metres_per_unit")), "{record:?}");
+    }
+    // A toy and a giant are what they are.
+    for size in [0.2, 3.0] {
+        let mut scaled = Document::walker();
+        scaled.put_below(json!({ "name": "Armature", "scale": [size, size, size] }), 0);
+        assert_eq!(scaled.only().source.metres_per_unit, 1.0);
+    }
+}
+
+#[test]
 fn a_mirrored_body_walks_forward() {
     let mut mirrored = Document::walker();
     mirrored.put_below(json!({ "name": "Armature", "scale": [-1, 1, 1] }), 0);
