@@ -233,7 +233,14 @@ fn an_output_never_replaces_an_input_or_a_folder() {
     fbcrowd(&["simulate", &scene, "-o", text(&recording), "--report", text(&report)])
         .expect_code(2)
         .says(&["report.json"]);
-    assert_eq!(files(&folder), ["motion.fbdb", "scene.toml", "walk.bvh"]);
+    let spelt = folder.join("../replaced/./scene.fbrec");
+    fbcrowd(&["simulate", &scene, "-o", text(&recording), "--report", text(&spelt)])
+        .expect_code(2)
+        .says(&["both recording and report"]);
+    fs::write(folder.join("agents.txt"), "0 0 2 0\n").unwrap();
+    let scene = scenario(&folder, "duration_s = 0.1\ndatabase = \"motion.fbdb\"\nagents = { file = \"agents.txt\" }\n");
+    fbcrowd(&["simulate", &scene, "-o", text(&folder.join("agents.txt"))]).expect_code(2).says(&["agents.txt"]);
+    assert_eq!(files(&folder), ["agents.txt", "motion.fbdb", "scene.toml", "walk.bvh"]);
 }
 
 #[test]

@@ -43,7 +43,7 @@ pub(crate) struct Group {
     at_m: Option<Point>,
     circle: Option<Circle>,
     grid: Option<Grid>,
-    file: Option<Spanned<String>>,
+    pub(crate) file: Option<Spanned<String>>,
     goals_m: Option<Vec<Point>>,
     goal_offset_m: Option<Point>,
     facing_deg: Option<f32>,

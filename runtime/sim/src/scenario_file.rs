@@ -107,8 +107,7 @@ pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError
 /// # Errors
 /// Where it says something that cannot be simulated, or a file cannot be read.
 pub fn of_text(source: &SourceText) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
-    let file: ScenarioFile =
-        toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message()))?;
+    let file = parsed(source)?;
     let motion = motion_source(source, &file)?;
     let placed = place_agents(source, &file)?;
     let scenario = Scenario {
@@ -125,6 +124,21 @@ pub fn of_text(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Sc
     };
     check(&scenario).map_err(|broken| fault(source, &file, &placed.tables, broken))?;
     Ok((scenario, motion))
+}
+
+/// The files of lines that a scenario file names, which no output may replace.
+///
+/// # Errors
+/// Where it cannot be read or is no scenario file.
+pub fn agent_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
+    let source = read_text(path)?;
+    let file = parsed(&source)?;
+    let named = file.agents.get_ref().0.iter().filter_map(|(_, group)| group.file.as_ref());
+    Ok(named.map(|name| source.beside(Path::new(name.get_ref()))).collect())
+}
+
+fn parsed(source: &SourceText) -> Result<ScenarioFile, ScenarioError> {
+    Ok(toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message()))?)
 }
 
 fn stem(path: &Path) -> String {

@@ -44,6 +44,15 @@ pub(crate) fn spare<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path
     Ok(())
 }
 
+/// Whether two files to be written are one, however spelt; none need be there yet.
+pub(crate) fn is_same_place(one: &Path, other: &Path) -> bool {
+    let [one, other] = [one, other].map(|path| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        (folder.canonicalize().unwrap_or_else(|_| folder.to_owned()), path.file_name().map(ToOwned::to_owned))
+    });
+    one == other
+}
+
 /// Prints a result.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     match writeln!(io::stdout(), "{}", harmless(text.trim_end(), &['\n', '\t'])) {

@@ -38,12 +38,13 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Some(given) => given.clone(),
         None => own_database(&args.scenario, motion?)?,
     };
-    if args.report.as_ref() == Some(&args.output) {
+    if args.report.as_ref().is_some_and(|report| output::is_same_place(report, &args.output)) {
         let file = args.output.display();
         return Err(Failure::bad(format!("{file} cannot be both recording and report; give --report another name")));
     }
+    let inputs = [vec![args.scenario.clone(), database.clone()], scenario_file::agent_files(&args.scenario)?].concat();
     for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
-        output::spare(written, [args.scenario.as_path(), &database])?;
+        output::spare(written, inputs.iter().map(PathBuf::as_path))?;
     }
     let (db, checksum) = file::load(&database)?;
     // Opened before the long work, so that a place that cannot be written ends it early.
