@@ -132,7 +132,7 @@ impl Measuring {
 
     /// Whether every agent is near its last goal now; one that was and has been pushed away is not.
     pub fn all_are_at_goals(&self) -> bool {
-        self.roots.all_are_at_goals(&self.before)
+        self.roots.all_are_at_goals()
     }
 
     /// After the last frame.

@@ -52,6 +52,17 @@ pub struct Progress {
     pub arrived: bool,
 }
 
+impl Progress {
+    /// Counts the waypoints that it has passed where it is now; whether it heads for the last one.
+    pub fn pass(&mut self, agent: &AgentSpec, position_m: Vec2) -> bool {
+        let last = agent.goals_m.len().saturating_sub(1);
+        while (self.next as usize) < last && Corner::new(agent, self.next as usize).is_passed(position_m) {
+            self.next += 1;
+        }
+        self.next as usize == last
+    }
+}
+
 /// v_pref at a position, m/s.
 pub fn preferred_mps(
     agent: &AgentSpec,
@@ -60,18 +71,17 @@ pub fn preferred_mps(
     braking: Braking,
     progress: &mut Progress,
 ) -> Vec2 {
-    let Some(last) = agent.goals_m.len().checked_sub(1) else { return Vec2::ZERO };
-    let mut next = progress.next as usize;
-    while next < last && Corner::new(agent, next).is_passed(position_m) {
-        next += 1;
+    if agent.goals_m.is_empty() {
+        return Vec2::ZERO;
     }
-    progress.next = next as u32;
+    let to_last = progress.pass(agent, position_m);
+    let next = progress.next as usize;
     let to_goal_m = agent.goals_m[next] - position_m;
-    progress.arrived = next == last && to_goal_m.length() < arrival_radius_m(progress.arrived);
+    progress.arrived = to_last && to_goal_m.length() < arrival_radius_m(progress.arrived);
     if let Some(round_m) = way_round_m(agent, next, position_m, obstacles) {
         return (round_m - position_m).normalize_or_zero() * agent.preferred_speed_mps;
     }
-    if next < last {
+    if !to_last {
         return Corner::new(agent, next).heading(position_m) * agent.preferred_speed_mps;
     }
     let speed_mps = match braking {

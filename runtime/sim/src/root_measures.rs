@@ -6,11 +6,12 @@
 
 use glam::DVec2;
 
+use crate::path::Progress;
 use crate::plan::VelocitySet;
 use crate::recording_frame::AgentFrame;
 use crate::scenario::AgentSpec;
 
-/// An agent whose root comes this near to its last goal has arrived, m.
+/// An agent that has passed its waypoints has arrived where its root comes this near to its last goal, m.
 const ARRIVAL_M: f64 = 0.5;
 /// Slower than this for [`STALL_S`] before arriving is stalling, and no side-step, m/s.
 const STALL_SPEED_MPS: f64 = 0.1;
@@ -41,9 +42,10 @@ pub struct Mean {
 
 #[derive(Debug)]
 struct Walker {
-    /// Start and waypoints, without the last.
-    way_m: Vec<DVec2>,
-    goal_m: DVec2,
+    agent: AgentSpec,
+    /// Which waypoints it has passed: on a round trip it is near the last one before.
+    progress: Progress,
+    is_at_goal: bool,
     velocity_mps: DVec2,
     /// Walked before the arrival, m.
     path_m: f64,
@@ -148,12 +150,12 @@ impl RootMeasures {
         self.heading_error_deg.value()
     }
 
-    /// Whether every agent is within 0.5 m of its last goal in a frame.
-    pub fn all_are_at_goals(&self, agents: &[AgentFrame]) -> bool {
-        self.walkers.iter().zip(agents).all(|(walker, frame)| walker.is_at_goal(frame))
+    /// Whether every agent, its waypoints passed, is within 0.5 m of its last goal now.
+    pub fn all_are_at_goals(&self) -> bool {
+        self.walkers.iter().all(|walker| walker.is_at_goal)
     }
 
-    /// Agents that came within 0.5 m of their last goal at any time.
+    /// Agents that came within 0.5 m of their last goal at any time after their waypoints.
     pub fn arrived(&self) -> usize {
         self.walkers.iter().filter(|walker| walker.arrival_s.is_some()).count()
     }
@@ -194,13 +196,10 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
 
 impl Walker {
     fn new(agent: &AgentSpec) -> Self {
-        let mut way_m: Vec<DVec2> = agent.goals_m.iter().copied().map(DVec2::from).collect();
-        let start_m = DVec2::from(agent.position_m);
-        let goal_m = way_m.pop().unwrap_or(start_m);
-        way_m.insert(0, start_m);
         Self {
-            way_m,
-            goal_m,
+            agent: agent.clone(),
+            progress: Progress::default(),
+            is_at_goal: false,
             velocity_mps: DVec2::ZERO,
             path_m: 0.0,
             path_over_straight: None,
@@ -210,17 +209,23 @@ impl Walker {
         }
     }
 
-    fn is_at_goal(&self, frame: &AgentFrame) -> bool {
-        position_m(frame).distance(self.goal_m) < ARRIVAL_M
-    }
-
     fn arrive(&mut self, frame: &AgentFrame, now_s: f64) {
-        if self.arrival_s.is_none() && self.is_at_goal(frame) {
+        let to_last = self.progress.pass(&self.agent, frame.root.position_m);
+        let goal_m = self.agent.goals_m.last().copied().unwrap_or(self.agent.position_m);
+        self.is_at_goal = to_last && position_m(frame).distance(goal_m.into()) < ARRIVAL_M;
+        if self.arrival_s.is_none() && self.is_at_goal {
             self.arrival_s = Some(now_s);
-            let corners_m = self.way_m.iter().copied().chain([position_m(frame)]);
-            let straight_m: f64 = corners_m.clone().skip(1).zip(corners_m).map(|(to, from)| from.distance(to)).sum();
+            let straight_m = self.straight_way_m(position_m(frame));
             self.path_over_straight = (straight_m > 0.0).then(|| self.path_m / straight_m);
         }
+    }
+
+    /// From the start over the waypoints to a place near the last.
+    fn straight_way_m(&self, arrival_m: DVec2) -> f64 {
+        let waypoints_m = self.agent.goals_m.iter().take(self.progress.next as usize);
+        let corners_m = [&self.agent.position_m].into_iter().chain(waypoints_m).map(|&corner_m| DVec2::from(corner_m));
+        let corners_m = corners_m.chain([arrival_m]);
+        corners_m.clone().skip(1).zip(corners_m).map(|(to, from)| from.distance(to)).sum()
     }
 
     /// How the agent walks, unless it follows its facing or stands.

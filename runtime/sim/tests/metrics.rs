@@ -113,6 +113,16 @@ fn a_detour_is_longer_than_the_straight_way_until_the_arrival() {
 }
 
 #[test]
+fn a_round_trip_ends_after_its_waypoints_however_near_it_began_to_its_goal() {
+    let out_and_back_m = (0..=20).chain((0..20).rev()).map(|step| 0.1 * step as f32);
+    let mut there_and_back = agent([0.0, 0.0], [2.0, 0.0]);
+    there_and_back.goals_m.push(Vec2::new(0.03, 0.0));
+    let measures = measured("round_trip", &header(vec![there_and_back], DT_S), &path(out_and_back_m));
+    check(measures.mean_time_to_goal_s.unwrap(), 3.5);
+    check(measures.path_over_straight_line.unwrap(), 1.0);
+}
+
+#[test]
 fn strafing_and_stepping_back_are_walking_at_held_facing() {
     // Facing x: ten steps to the left, five backward, five forward, five standing, all but the forward ones at held
     // facing.
