@@ -140,7 +140,7 @@ fn steps(stepping: &[Vec<bool>; 2], track: &BodyTrack) -> Steps {
 
 fn why_unsteady(steps: &Steps) -> &'static str {
     if steps.landmarks.is_empty() {
-        "no step, and the body does not stand still"
+        "no foot both lands and leaves, and the body does not stand still"
     } else if steps.strides.iter().all(Option::is_none) {
         "no whole stride with one step of each foot"
     } else {
