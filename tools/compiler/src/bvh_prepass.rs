@@ -90,7 +90,10 @@ fn numbered_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 pub(crate) fn number(line: usize, word: &str) -> Result<f64, Flaw> {
     match decimal::number(word) {
         Some(value) if value.abs() <= MAX_VALUE => Ok(value),
-        _ => flaw(line, format!("`{}` is not a finite, sensible number", shown(word)), "repair the value"),
+        _ => {
+            let remedy = if word.contains(',') { "write points, not commas, in numbers" } else { "repair the value" };
+            flaw(line, format!("`{}` is not a finite, sensible number", shown(word)), remedy)
+        }
     }
 }
 

@@ -201,6 +201,13 @@ fn malformed_bvh_is_refused_at_its_line() {
 }
 
 #[test]
+fn decimal_commas_are_told() {
+    let text = bvh_text().replace('.', ",");
+    let message = import_bytes(Path::new("walk.bvh"), text.as_bytes()).unwrap_err().to_string();
+    assert!(message.contains("write points, not commas"), "{message}");
+}
+
+#[test]
 fn millions_of_blank_lines_are_passed_over_but_counted() {
     let text = format!("HIERARCHY{}nonsense", "\n".repeat(10_000_000));
     let message = import_bytes(Path::new("blank.bvh"), text.as_bytes()).unwrap_err().to_string();
