@@ -95,8 +95,8 @@ impl Rows {
         Pose { pelvis_m: self.pelvis_m[example * PHASE_COUNT + phase], rotations: *self.rotations(example, phase) }
     }
 
-    /// Adds a row of a new example, in the hemisphere of the row (example, phase): no joint is turned so far from it that it
-    /// would belong into the other.
+    /// Adds a row of a new example, in the hemisphere of the row (example, phase): no joint is turned so far from it
+    /// that it would belong into the other.
     pub fn push_like(&mut self, (example, phase): (usize, usize), pose: &Pose, contacts: [f32; 2]) {
         let mut rotations = pose.rotations;
         for (rotation, like) in rotations.iter_mut().zip(self.rotations(example, phase)) {

@@ -1,7 +1,7 @@
 //! The path of a foot in one cycle, taken apart into what the root does and what the foot does.
 //!
-//! Where a foot is, is told as a *place*, on the ground under the body at mid-stance, and a time *since* then, for which
-//! the root has carried it back along its arc:
+//! Where a foot is, is told as a *place*, on the ground under the body at mid-stance, and a time *since* then, for
+//! which the root has carried it back along its arc:
 //!
 //! ```text
 //! ankle(φ) = arc⁻¹(since(φ)) · place(φ)

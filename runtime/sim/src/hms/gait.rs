@@ -49,8 +49,8 @@ impl Gait {
     /// At the start: standing, ready to go.
     pub const STANDING: Self = Self { stands: true, since_s: GAIT_TIME_S, gathering_s: 0.0 };
 
-    /// Follows `nearest`, what the database has of what is asked, with hysteresis; `feet_gathered` tells whether the body could stand as its feet are.
-    /// Returns whether it now starts to step.
+    /// Follows `nearest`, what the database has of what is asked, with hysteresis; `feet_gathered` tells whether the
+    /// body could stand as its feet are. Returns whether it now starts to step.
     pub fn follow(&mut self, nearest: &Nearest, feet_gathered: impl FnOnce() -> bool, dt_s: f32) -> bool {
         let Parameters { speed_mps, strafe_mps, .. } = nearest.parameters;
         let idle_share = nearest.idle_share.min(1.0 - Vec2::new(speed_mps, strafe_mps).length() / SLOWEST_MPS);

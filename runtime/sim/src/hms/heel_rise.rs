@@ -1,16 +1,16 @@
 //! A heel rises before the hips come down: where the leg behind would have to stretch, its foot turns about its toes.
 //!
 //! So people keep their hips up in long strides (Kerrigan, Della Croce, Marciello, Riley 2000, "A refined view of the
-//! determinants of gait: significance of heel rise"); legs with flat feet would crouch. With ℓ what the leg lacks
-//! more than it does in the pose, u the direction from hip to ankle and t the joint of the toes seen from the ankle, the foot
-//! turns by
+//! determinants of gait: significance of heel rise"); legs with flat feet would crouch. With ℓ what the leg lacks more
+//! than it does in the pose, u the direction from hip to ankle and t the joint of the toes seen from the ankle, the
+//! foot turns by
 //!
 //! ```text
 //! ℓ/(u · (y × t)),   y the foot's axis to the left,
 //! ```
 //!
-//! to first order what brings its ankle as near to the hip as it must be, and no further than people do. Its toes stay as
-//! they are. All vectors are in the root frame (x forward, y left, z up), metres.
+//! to first order what brings its ankle as near to the hip as it must be, and no further than people do. Its toes stay
+//! as they are. All vectors are in the root frame (x forward, y left, z up), metres.
 
 use glam::{Quat, Vec3};
 use motiondb::pose::Pose;
@@ -22,7 +22,8 @@ use crate::decay::soft_maximum;
 
 /// Furthest that a heel rises for this, rad: half of what the foot turns by until it leaves in a quick walk.
 const RISE_MAX_RAD: f32 = 0.6;
-/// A leg counts as behind in full from this sine on, of its inclination along the foot, and not at all where it is upright.
+/// A leg counts as behind in full from this sine on, of its inclination along the foot, and not at all where it is
+/// upright.
 const BEHIND: f32 = 0.25;
 /// Least of what turning the foot by 1 rad shortens the leg by, m: a foot under its hip rises in vain.
 const SHORTENED_MIN_M: f32 = 0.05;

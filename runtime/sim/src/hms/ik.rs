@@ -17,16 +17,17 @@ use super::leg::{FootPose, Leg};
 const EXTENSION_MAX: f32 = 0.999;
 /// Least distance from hip to ankle, as a multiple of the bones' difference in length: a folded one's does too.
 const FLEXION_MARGIN: f32 = 1.001;
-/// A straight leg has no plane, and what bends it bends it forward: its knee counts as this far before the line from hip to
-/// ankle, m. With a millimetre, where what is left of a switch straightens a leg, the knee swings out aside.
+/// A straight leg has no plane, and what bends it bends it forward: its knee counts as this far before the line from
+/// hip to ankle, m. With a millimetre, where what is left of a switch straightens a leg, the knee swings out aside.
 const KNEE_AHEAD_M: f32 = 0.02;
-/// Square of twice the cosine of half an angle, from which on two directions have no axis that rounding leaves: π − 1 mrad.
+/// Square of twice the cosine of half an angle, from which on two directions have no axis that rounding leaves: π − 1
+/// mrad.
 const OPPOSITE: f32 = 1e-6;
 
 /// Moves one leg, and its joints in `pose`, to the target, or as near as it reaches.
 ///
-/// In its own plane each bone turns from where it lies to where the law of cosines wants it; then the plane turns from the
-/// old line between hip and ankle to the new one.
+/// In its own plane each bone turns from where it lies to where the law of cosines wants it; then the plane turns from
+/// the old line between hip and ankle to the new one.
 pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, target: &FootPose) {
     let [thigh, shank, foot, _] = Leg::joints(side);
     let [hip_m, knee_m, ankle_m] = leg.positions_m;
@@ -76,8 +77,8 @@ fn forward_pole(knee_m: Vec3, forward: Vec3, line: Vec3) -> Vec3 {
     (off_m + (libm::sqrtf(ahead_m * ahead_m + KNEE_AHEAD_M * KNEE_AHEAD_M) - ahead_m) * forward).normalize()
 }
 
-/// The shortest rotation from the direction of one vector to that of another, of any length. Exact for the smallest angles,
-/// unlike what calls them nothing; for opposite vectors about any axis across, for none at all none.
+/// The shortest rotation from the direction of one vector to that of another, of any length. Exact for the smallest
+/// angles, unlike what calls them nothing; for opposite vectors about any axis across, for none at all none.
 fn turn(from: Vec3, to: Vec3) -> Quat {
     let lengths = libm::sqrtf(from.length_squared() * to.length_squared());
     let (cross, one_and_cosine) = (from.cross(to), lengths + from.dot(to));

@@ -1,5 +1,5 @@
-//! A pose, and feet that its legs do not reach yet: synthesis says where feet are to be, holding moves them, and the legs
-//! bend once, at the end.
+//! A pose, and feet that its legs do not reach yet: synthesis says where feet are to be, holding moves them, and the
+//! legs bend once, at the end.
 //!
 //! All vectors are in the root frame (x forward, y left, z up), metres.
 

@@ -2,9 +2,9 @@
 //! body walks at any nearby (v_f, ω_t, ω_s) exactly.
 //!
 //! The feet of m_sp are taken apart into places on the ground and times for which the root has carried them
-//! ([`super::foot_path`]). To walk otherwise, the same places are carried along the arc of *those* parameters, for since /
-//! cadence: planted feet hold by construction, whatever the speed, direction and turn, and the swing stretches with the
-//! stride. Here m_sp is taken apart, and what of it can be reached is told; [`super::deformation`] walks.
+//! ([`super::foot_path`]). To walk otherwise, the same places are carried along the arc of *those* parameters, for
+//! since / cadence: planted feet hold by construction, whatever the speed, direction and turn, and the swing stretches
+//! with the stride. Here m_sp is taken apart, and what of it can be reached is told; [`super::deformation`] walks.
 //!
 //! Root frame: x forward, y left, z up, metres; seconds; radians.
 
@@ -32,8 +32,8 @@ const CADENCE: [f32; 2] = [0.6, 2.2];
 const AHEAD_MAX: f32 = 1.8;
 const BACKWARD_MAX: f32 = 1.1;
 const ASIDE_MAX: f32 = 1.1;
-/// The body leans into a turn, and its feet stand outward: at this turn rate the greatest speeds are halved, rad/s. A walk
-/// of 1.2 m/s then takes bends of 2.5 m/s², 119 °/s, though its facing lags behind its way by a third of a radian;
+/// The body leans into a turn, and its feet stand outward: at this turn rate the greatest speeds are halved, rad/s. A
+/// walk of 1.2 m/s then takes bends of 2.5 m/s², 119 °/s, though its facing lags behind its way by a third of a radian;
 /// `fbcrowd bench reach` holds it against what the legs can do …
 const TURN_HALF_RAD_S: f32 = 4.0;
 /// … and it turns no faster than this, rad/s: 170 °/s.

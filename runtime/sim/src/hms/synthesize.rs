@@ -1,7 +1,8 @@
 //! The second half of a step of synthesis: the pose at the phase and root that the body has come to.
 //!
-//! It is sampled, what a switch has left is added, head and chest turn, planted feet are held, the pelvis comes down where it
-//! must, and the legs reach the feet. Root frame (x forward, y left, z up) where nothing else is said; metres, seconds.
+//! It is sampled, what a switch has left is added, head and chest turn, planted feet are held, the pelvis comes down
+//! where it must, and the legs reach the feet. Root frame (x forward, y left, z up) where nothing else is said; metres,
+//! seconds.
 
 use glam::{Vec2, Vec3};
 use motiondb::pose::{Root, RootFrame};
@@ -58,8 +59,8 @@ impl Body {
         self.synthesize(motion, &TimeStep::new(SETTLING_S))
     }
 
-    /// Blends what the examples have nearest to a step that others have decided, from the root where the body was to where
-    /// it is (see [`crate::decoupled`]); the pose is as blended, no foot is held.
+    /// Blends what the examples have nearest to a step that others have decided, from the root where the body was to
+    /// where it is (see [`crate::decoupled`]); the pose is as blended, no foot is held.
     pub(crate) fn follow(&mut self, motion: &Motion, from: Root, dt_s: f32) -> Synthesis {
         let parameters = went(&from, &self.root, dt_s);
         let shares = motion.space.locate(parameters);
@@ -111,8 +112,8 @@ impl Body {
     }
 }
 
-/// Whether what is left of a switch keeps a foot off the ground where the new synthesis has it as `played`. To put it down
-/// at once would be the jerk that inertia is there to avoid.
+/// Whether what is left of a switch keeps a foot off the ground where the new synthesis has it as `played`. To put it
+/// down at once would be the jerk that inertia is there to avoid.
 fn held_up(played_m: &[Vec3; 3], carried_m: &[Vec3; 3]) -> bool {
     let height_m = |sole_m: &[Vec3; 3]| sole_m.iter().fold(f32::INFINITY, |lowest_m, point_m| lowest_m.min(point_m.z));
     height_m(carried_m) - height_m(played_m).max(0.0) > HELD_UP_M

@@ -32,7 +32,8 @@ const TOUCHING_MPS: f32 = 8.0 * PARALLEL;
 pub struct Solution {
     /// v_i, m/s.
     pub velocity_mps: Vec2,
-    /// How many of the half-planes, from the first, are satisfied for certain: all of them where the 2D program succeeded.
+    /// How many of the half-planes, from the first, are satisfied for certain: all of them where the 2D program
+    /// succeeded.
     pub satisfied: usize,
 }
 

@@ -39,11 +39,11 @@ const WALL_SPEED_MPS: f32 = 4.0;
 /// From here on somebody counts as walking, m/s: a slow walk. Measured with people 0.8 m apart: at half of it one in
 /// two hundred does not arrive.
 const SLOW_WALK_MPS: f32 = 0.6;
-/// Whoever may be met after this time counts half as much as who is touched, s: what a walker needs to react. Of 0.1, 0.3
-/// and 1 s, tried in the four-way crossing of Table 1 alone, A came to between 0.304 and 0.323 m/s².
+/// Whoever may be met after this time counts half as much as who is touched, s: what a walker needs to react. Of 0.1,
+/// 0.3 and 1 s, tried in the four-way crossing of Table 1 alone, A came to between 0.304 and 0.323 m/s².
 const REACTION_S: f32 = 0.3;
-/// What a disc keeps from walls, m: a body's root leaves its plan by up to 1.4 cm (through lanes of 1 to 1.2 m at 0.8 to
-/// 2.2 m/s), and would touch a corner that its disc grazes.
+/// What a disc keeps from walls, m: a body's root leaves its plan by up to 1.4 cm (through lanes of 1 to 1.2 m at 0.8
+/// to 2.2 m/s), and would touch a corner that its disc grazes.
 const WALL_MARGIN_M: f32 = 0.015;
 
 /// Plans one agent's next velocity and facing.
