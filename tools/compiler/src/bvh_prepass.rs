@@ -90,11 +90,17 @@ fn numbered_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 pub(crate) fn number(line: usize, word: &str) -> Result<f64, Flaw> {
     match decimal::number(word) {
         Some(value) if value.abs() <= MAX_VALUE => Ok(value),
-        _ => {
-            let remedy = if word.contains(',') { "write points, not commas, in numbers" } else { "repair the value" };
-            flaw(line, format!("`{}` is not a finite, sensible number", shown(word)), remedy)
-        }
+        _ => flaw(
+            line,
+            format!("`{}` is not a finite, sensible number", shown(word)),
+            remedy_of(word, "repair the value"),
+        ),
     }
+}
+
+/// What to do about what is no number; programs that write as their user's language does set commas.
+fn remedy_of(word: &str, otherwise: &'static str) -> &'static str {
+    if word.contains(',') { "write numbers with points, not commas" } else { otherwise }
 }
 
 /// A word of the file, short enough for a message.
@@ -155,7 +161,7 @@ fn header(line: Option<(usize, &str)>, motion_line: usize, words: &[&str]) -> Re
     }
     match value.trim().parse::<f64>() {
         Ok(value) if value.is_finite() => Ok((line, value)),
-        _ => flaw(line, format!("`{}` is not a number", shown(value.trim())), remedy),
+        _ => flaw(line, format!("`{}` is not a number", shown(value.trim())), remedy_of(value, remedy)),
     }
 }
 

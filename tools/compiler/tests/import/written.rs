@@ -202,9 +202,11 @@ fn malformed_bvh_is_refused_at_its_line() {
 
 #[test]
 fn decimal_commas_are_told() {
-    let text = bvh_text().replace('.', ",");
-    let message = import_bytes(Path::new("walk.bvh"), text.as_bytes()).unwrap_err().to_string();
-    assert!(message.contains("write points, not commas"), "{message}");
+    for (point, comma) in [("OFFSET 9", "OFFSET 9,0"), ("0.0333333333", "0,0333333333")] {
+        let text = bvh_text().replacen(point, comma, 1);
+        let message = import_bytes(Path::new("walk.bvh"), text.as_bytes()).unwrap_err().to_string();
+        assert!(message.ends_with("write numbers with points, not commas"), "{message}");
+    }
 }
 
 #[test]
