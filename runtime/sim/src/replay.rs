@@ -9,6 +9,7 @@
 
 use glam::Vec2;
 
+use crate::cns;
 use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
@@ -16,6 +17,7 @@ use crate::plan::Stance;
 use crate::recording::{Header, Recording};
 use crate::recording_error::RecordingError;
 use crate::recording_frame::AgentFrame;
+use crate::scenario::Scenario;
 use crate::world::World;
 
 /// A recording whose steps are looked at.
@@ -121,6 +123,7 @@ impl RecordedStep<'_> {
 
     /// What the planner saw.
     pub fn world(&self) -> World<'_> {
+        let Scenario { coupling, dt_s, .. } = self.header().scenario;
         World {
             positions_m: &self.positions_m,
             velocities_mps: &self.velocities_mps,
@@ -133,7 +136,8 @@ impl RecordedStep<'_> {
             neighbours: &self.neighbours,
             obstacles: &self.replay.obstacles,
             constraints: &self.replay.constraints,
-            dt_s: self.header().scenario.dt_s,
+            dt_s,
+            lead_s: cns::lead_s(coupling, dt_s),
         }
     }
 

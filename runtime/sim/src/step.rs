@@ -140,6 +140,7 @@ impl Simulation {
             obstacles: &self.obstacles,
             constraints: &self.constraints,
             dt_s: self.scenario.dt_s,
+            lead_s: cns::lead_s(self.scenario.coupling, self.scenario.dt_s),
         }
     }
 
@@ -257,6 +258,18 @@ pub(crate) mod tests {
             let off_m = frame.root.position_m.distance(agent.goals_m[0]);
             assert!(off_m < 0.5, "{off_m} m");
             assert_eq!(frame.contacts, [1.0; 2]);
+        }
+    }
+
+    #[test]
+    fn every_planner_gets_bodies_going_however_fine_the_steps() {
+        for planner in [Planner::Mcn, Planner::Orca, Planner::SocialForce] {
+            for dt_s in [1.0 / 120.0, 1.0 / 60.0, 0.1] {
+                let scenario = Scenario { planner, dt_s, ..antipodal(1, 4.0) };
+                let [frame] = simulated(&scenario, (2.0 / dt_s) as usize)[..] else { unreachable!() };
+                let walked_m = frame.root.position_m.distance(scenario.agents[0].position_m);
+                assert!(walked_m > 1.0, "{planner:?} in steps of {dt_s} s: {walked_m} m");
+            }
         }
     }
 

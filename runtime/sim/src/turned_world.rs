@@ -103,6 +103,7 @@ impl Scene {
             obstacles: &obstacles,
             constraints: &constraints,
             dt_s: 0.1,
+            lead_s: 0.1,
         };
         plan(planner, &world, 0, &Params::default(), &mut Scratch::default())
     }

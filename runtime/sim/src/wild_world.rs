@@ -107,6 +107,7 @@ impl WildWorld {
             obstacles,
             constraints,
             dt_s: self.dt_s,
+            lead_s: self.dt_s,
         }
     }
 

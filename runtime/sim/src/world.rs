@@ -38,6 +38,8 @@ pub struct World<'a> {
     pub constraints: &'a MotionConstraints,
     /// Step, s.
     pub dt_s: f32,
+    /// How far ahead of the velocities forces are integrated, s: [`crate::cns::lead_s`].
+    pub lead_s: f32,
 }
 
 impl World<'_> {

@@ -82,6 +82,7 @@ impl Scene {
             obstacles: &self.obstacles,
             constraints: &MotionConstraints::new(&hull),
             dt_s: 0.1,
+            lead_s: 0.1,
         };
         plan(planner, &world, 0, &self.params, scratch)
     }

@@ -4,7 +4,7 @@
 //! dv/dt = clamp( (v_pref − v)/T + Σ_j f_ij + Σ_W f_iW )
 //! ```
 //!
-//! by explicit Euler steps, from everybody within range. The law is stiff: its authors step by 5 ms, and at 0.1 s it
+//! by explicit Euler steps over [`World::lead_s`], from everybody within range. The law is stiff: its authors step by 5 ms, and at 0.1 s it
 //! shakes. A step may therefore be cut into sub-steps, in which the others move on as they did. Whoever is within range
 //! is searched for among all agents, which suits crowds of the size that Table 1 has. World axes, metres, seconds;
 //! masses are 1.
@@ -70,7 +70,7 @@ pub fn plan(world: &World, agent: usize, params: &SocialForceParams, scratch: &m
     scratch.half_planes.clear();
     scratch.satisfied = 0;
     scratch.adapted_mps = world.preferred_mps[agent];
-    let substep_s = world.dt_s / params.substeps as f32;
+    let substep_s = world.lead_s / params.substeps as f32;
     let mut own = world.disc(agent);
     for substep in 0..params.substeps {
         let forces = forces_on(world, agent, &own, substep as f32 * substep_s, params, scratch);
