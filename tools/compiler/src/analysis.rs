@@ -132,6 +132,9 @@ pub(crate) fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
             Err(unfit) => reason = reason.or(Some(unfit)),
         }
     }
+    if let Some(why) = performer.gait.lost_steps.filter(|_| !windows.is_empty()) {
+        warnings.push(Kind::LeftOut.remark(format!("only its rest is used: where it steps there is {why}")));
+    }
     let unfit = found.len() - windows.len();
     let mut left_out = selection::keep_best(&mut windows);
     match (reason, windows.is_empty()) {

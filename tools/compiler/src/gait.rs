@@ -21,6 +21,9 @@ use crate::stride_alignment::align;
 /// Multiples of the contact limits of the definition that are tried.
 const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
 
+/// A clip that rests and makes so many steps meant to walk: fewer shift its weight.
+const LOST_STEPS_MIN: usize = 3;
+
 /// What the feet do in a steady part of a clip.
 #[derive(Clone, Debug)]
 pub enum Gait {
@@ -48,6 +51,8 @@ pub struct GaitAnalysis {
     pub stances: [[Vec<Stance>; 2]; LENIENCES.len()],
     /// Steady parts, disjoint in time, the longest first and standing last; or why there is none.
     pub windows: Result<Vec<Window>, &'static str>,
+    /// Why no window steps, though the body does: of a clip that rests, too.
+    pub lost_steps: Option<&'static str>,
 }
 
 /// Finds contacts, landmarks and the steady windows.
@@ -70,7 +75,8 @@ pub fn analyze(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysis {
         .map(|side| track.joints.iter().map(|joints| joints.landing_points_m(body, side)).collect::<Vec<[DVec3; 3]>>());
     let stances = planted
         .map(|planted| [0, 1].map(|side| stance::find(&feet[side], &planted[side], clip.frame_rate_hz, speed_mps)));
-    GaitAnalysis { stances, windows }
+    let lost_steps = lost_steps(&windows, &steps[0]);
+    GaitAnalysis { stances, windows, lost_steps }
 }
 
 impl GaitAnalysis {
@@ -136,6 +142,12 @@ fn steps(stepping: &[Vec<bool>; 2], track: &BodyTrack) -> Steps {
     let landmarks = landmarks(stepping);
     let strides = landmarks.windows(3).map(|marks| stride(marks, stepping, track)).collect();
     Steps { landmarks, strides }
+}
+
+fn lost_steps(windows: &Result<Vec<Window>, &'static str>, steps: &Steps) -> Option<&'static str> {
+    let rests =
+        windows.as_ref().is_ok_and(|windows| windows.iter().all(|window| matches!(window.gait, Gait::Stands(_))));
+    (rests && steps.landmarks.len() >= LOST_STEPS_MIN).then(|| why_unsteady(steps))
 }
 
 fn why_unsteady(steps: &Steps) -> &'static str {
@@ -232,6 +244,20 @@ mod tests {
             assert!(strides.iter().all(|stride| (stride.arc.rates.speed_mps - speed_mps).abs() < 0.02), "{window:?}");
             assert!(window.frames.iter().all(|frame| frames.contains(frame)), "{window:?}");
         }
+    }
+
+    #[test]
+    fn a_rest_before_too_short_a_walk_tells_what_the_walk_lacks() {
+        let lost = |walked_s: f64| {
+            let mut clip = synthetic::walk("walk", Walk { duration_s: walked_s, ..Walk::default() });
+            let rest = vec![clip.frames[0].clone(); (2.0 * clip.frame_rate_hz) as usize];
+            clip.frames.splice(0..0, rest);
+            let found = analyze(&ground(&clip, &clip.body), &clip.body);
+            assert!(matches!(found.windows.unwrap().last().unwrap().gait, Gait::Stands(_)));
+            found.lost_steps
+        };
+        assert!(lost(1.4).is_some());
+        assert_eq!(lost(4.0), None);
     }
 
     #[test]
