@@ -84,6 +84,11 @@ impl Simulation {
         simulation
     }
 
+    /// What bodies move by: the database that was given, with what a crowd lacks in it.
+    pub fn database(&self) -> &MotionDb {
+        &self.studio.db
+    }
+
     /// What a recording keeps of the present, by agent.
     pub fn frames(&self) -> &[AgentFrame] {
         &self.agents.frames

@@ -68,13 +68,14 @@ pub(crate) fn simulate(
     scenario: Scenario,
     recording: &Path,
 ) -> Result<Timings, Failure> {
-    let db = told_of_deformed(Arc::new(db));
-    check_horizon(&db, &scenario)?;
+    let db = Arc::new(db);
+    let mut simulation = Simulation::new(Arc::clone(&db), &scenario);
+    tell_of_deformed(&db, simulation.database());
+    check_horizon(simulation.database(), &scenario)?;
     let steps = (scenario.duration_s / scenario.dt_s).round() as usize;
-    let header = Header::new(&db, database_checksum, scenario);
+    let header = Header::new(simulation.database(), database_checksum, scenario);
     let bad = |error: fbcrowd_sim::recording_error::RecordingError| Failure::bad(error.to_string());
     let mut recorder = Recorder::create(recording, &header).map_err(bad)?;
-    let mut simulation = Simulation::new(db, &header.scenario);
     recorder.push(simulation.frames()).map_err(bad)?;
     let mut stopwatch = Stopwatch::default();
     let progress = Progress::new("steps", steps);
@@ -89,17 +90,15 @@ pub(crate) fn simulate(
     Ok(stopwatch.timings(header.scenario.agents.len(), steps, header.scenario.dt_s))
 }
 
-/// The database with which bodies can make way; says so where that is more than its clips.
-fn told_of_deformed(db: Arc<MotionDb>) -> Arc<MotionDb> {
-    if !coverage::walks_ahead(&db) {
+/// Says where bodies move by more than the clips of their database, or can reach no goal with them.
+fn tell_of_deformed(db: &MotionDb, complete: &MotionDb) {
+    if !coverage::walks_ahead(db) {
         output::say("note: none of these clips walks ahead, so nobody will reach a goal; add a walk, and compile anew");
     }
-    let complete = repertoire::complete(Arc::clone(&db));
-    if let Some((walk, count)) = repertoire::deformed(&db, &complete) {
+    if let Some((walk, count)) = repertoire::deformed(db, complete) {
         let lacking = "these clips lack ways of walking that a crowd needs (fbcrowd inspect names them)";
         output::say(&format!("note: {lacking}; {walk} is deformed to {count} of them"));
     }
-    complete
 }
 
 /// §3.4.1: the planner must look further ahead than a change of synthesis takes.
