@@ -237,6 +237,13 @@ fn an_output_never_replaces_an_input_or_a_folder() {
     fbcrowd(&["simulate", &scene, "-o", text(&recording), "--report", text(&spelt)])
         .expect_code(2)
         .says(&["both recording and report"]);
+    fbcrowd(&["simulate", &scene, "-o", text(&recording)]).expect_code(0);
+    fbcrowd(&["measure", text(&recording), "--table", text(&recording)]).expect_code(2).says(&["scene.fbrec"]);
+    let table = folder.join("table");
+    fbcrowd(&["measure", text(&recording), "--table", text(&table), "--trajectories", text(&table)])
+        .expect_code(2)
+        .says(&["both trajectories and table"]);
+    fs::remove_file(&recording).unwrap();
     fs::write(folder.join("agents.txt"), "0 0 2 0\n").unwrap();
     let scene = scenario(&folder, "duration_s = 0.1\ndatabase = \"motion.fbdb\"\nagents = { file = \"agents.txt\" }\n");
     fbcrowd(&["simulate", &scene, "-o", text(&folder.join("agents.txt"))]).expect_code(2).says(&["agents.txt"]);

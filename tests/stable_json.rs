@@ -181,8 +181,9 @@ fn measure_and_the_timing_report_keep_their_keys() {
     check_keys(&timings, &of_timings);
 
     let trajectories = folder.join("roots.txt");
-    let measures = fbcrowd(&["measure", text(&recording), "--json", "--trajectories", text(&trajectories)]);
-    let measures = measures.expect_code(0).json();
+    let table = folder.join("roots.csv");
+    let outputs = ["--trajectories", text(&trajectories), "--table", text(&table)];
+    let measures = fbcrowd(&[&["measure", text(&recording), "--json"], &outputs[..]].concat()).expect_code(0).json();
     let of_measures = [
         "agents",
         "steps",
@@ -215,6 +216,7 @@ fn measure_and_the_timing_report_keep_their_keys() {
     assert_eq!((&measures["agents"], &measures["steps"]), (&Value::from(1), &Value::from(30)));
     assert!(measures["mean_time_to_goal_s"].is_null());
     assert_eq!(fs::read_to_string(&trajectories).unwrap().lines().count(), 31);
+    assert_eq!(fs::read_to_string(&table).unwrap().lines().count(), 1 + 31);
 }
 
 #[test]

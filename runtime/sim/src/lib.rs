@@ -1,9 +1,11 @@
 //! The simulation: one step in the order of the paper's Fig. 2, told in [`step`].
 
+pub mod agent_table;
 pub mod agents;
 pub mod angle;
 pub mod arching;
 pub mod around;
+pub mod arrival;
 pub mod body_penetration;
 pub mod cns;
 pub mod collision_rate;

@@ -6,13 +6,11 @@
 
 use glam::DVec2;
 
-use crate::path::Progress;
+use crate::arrival::Arrival;
 use crate::plan::VelocitySet;
 use crate::recording_frame::AgentFrame;
 use crate::scenario::AgentSpec;
 
-/// An agent that has passed its waypoints has arrived where its root comes this near to its last goal, m.
-const ARRIVAL_M: f64 = 0.5;
 /// Slower than this for [`STALL_S`] before arriving is stalling, and no side-step, m/s.
 const STALL_SPEED_MPS: f64 = 0.1;
 /// How long, s.
@@ -43,15 +41,12 @@ pub struct Mean {
 #[derive(Debug)]
 struct Walker {
     agent: AgentSpec,
-    /// Which waypoints it has passed: on a round trip it is near the last one before.
-    progress: Progress,
-    is_at_goal: bool,
+    arrival: Arrival,
     velocity_mps: DVec2,
     /// Walked before the arrival, m.
     path_m: f64,
     /// Walked over the straight way from the start over the waypoints to the place of arrival.
     path_over_straight: Option<f64>,
-    arrival_s: Option<f64>,
     slow_steps: usize,
     stalled: bool,
 }
@@ -105,7 +100,7 @@ impl RootMeasures {
             let acceleration_mps2 = (velocity_mps - walker.velocity_mps).length() / self.dt_s;
             walker.velocity_mps = velocity_mps;
             self.acceleration.add(acceleration_mps2); // Eq. 18
-            if walker.arrival_s.is_none() {
+            if walker.arrival.at_s.is_none() {
                 self.acceleration_before_arrival.add(acceleration_mps2);
                 let sidewards = walker.sidewards(after);
                 self.strafing.add(f64::from(sidewards == Some(Sidewards::Strafing)));
@@ -152,12 +147,12 @@ impl RootMeasures {
 
     /// Whether every agent, its waypoints passed, is within 0.5 m of its last goal now.
     pub fn all_are_at_goals(&self) -> bool {
-        self.walkers.iter().all(|walker| walker.is_at_goal)
+        self.walkers.iter().all(|walker| walker.arrival.is_at_goal)
     }
 
     /// Agents that came within 0.5 m of their last goal at any time after their waypoints.
     pub fn arrived(&self) -> usize {
-        self.walkers.iter().filter(|walker| walker.arrival_s.is_some()).count()
+        self.walkers.iter().filter(|walker| walker.arrival.at_s.is_some()).count()
     }
 
     /// Agents that stayed under 0.1 m/s for 5 s before arriving.
@@ -167,7 +162,7 @@ impl RootMeasures {
 
     /// Over the agents that arrived; none where nobody did.
     pub fn mean_time_to_goal_s(&self) -> Option<f64> {
-        mean(self.walkers.iter().filter_map(|walker| walker.arrival_s))
+        mean(self.walkers.iter().filter_map(|walker| walker.arrival.at_s))
     }
 
     /// Mean over the agents that arrived of the length of their paths until then over that of the straight way; none
@@ -198,23 +193,17 @@ impl Walker {
     fn new(agent: &AgentSpec) -> Self {
         Self {
             agent: agent.clone(),
-            progress: Progress::default(),
-            is_at_goal: false,
+            arrival: Arrival::default(),
             velocity_mps: DVec2::ZERO,
             path_m: 0.0,
             path_over_straight: None,
-            arrival_s: None,
             slow_steps: 0,
             stalled: false,
         }
     }
 
     fn arrive(&mut self, frame: &AgentFrame, now_s: f64) {
-        let to_last = self.progress.pass(&self.agent, frame.root.position_m);
-        let goal_m = self.agent.goals_m.last().copied().unwrap_or(self.agent.position_m);
-        self.is_at_goal = to_last && position_m(frame).distance(goal_m.into()) < ARRIVAL_M;
-        if self.arrival_s.is_none() && self.is_at_goal {
-            self.arrival_s = Some(now_s);
+        if self.arrival.follow(&self.agent, frame.root.position_m, now_s) {
             let straight_m = self.straight_way_m(position_m(frame));
             self.path_over_straight = (straight_m > 0.0).then(|| self.path_m / straight_m);
         }
@@ -222,7 +211,7 @@ impl Walker {
 
     /// From the start over the waypoints to a place near the last.
     fn straight_way_m(&self, arrival_m: DVec2) -> f64 {
-        let waypoints_m = self.agent.goals_m.iter().take(self.progress.next as usize);
+        let waypoints_m = self.agent.goals_m.iter().take(self.arrival.progress.next as usize);
         let corners_m = [&self.agent.position_m].into_iter().chain(waypoints_m).map(|&corner_m| DVec2::from(corner_m));
         let corners_m = corners_m.chain([arrival_m]);
         corners_m.clone().skip(1).zip(corners_m).map(|(to, from)| from.distance(to)).sum()

@@ -4,6 +4,7 @@
 
 use glam::{DVec2, Vec2};
 
+use crate::arrival::ARRIVAL_M;
 use crate::polygon::{closest_distance_m, contains, is_simple, signed_area_m2};
 use crate::scenario::{AgentSpec, Scenario};
 use crate::scenario_ranges::check_ranges;
@@ -13,8 +14,6 @@ use crate::sweep::sort_along_longer_side;
 const CORNERS_MAX: usize = 1_000;
 /// Thinner slivers have no inside, m².
 const AREA_MIN_M2: f64 = 1e-4;
-/// Whoever is as near to the last goal has arrived, as [`crate::root_measures`] has it, m.
-const ARRIVAL_M: f64 = 0.5;
 /// Rounding of positions that are meant to touch, m.
 const TOUCH_M: f64 = 1e-4;
 

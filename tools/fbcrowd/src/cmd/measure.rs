@@ -1,8 +1,10 @@
 //! `fbcrowd measure`: what a recording is worth in figures.
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
+use fbcrowd_sim::agent_table;
 use fbcrowd_sim::metrics::{self, Measures};
 use fbcrowd_sim::recording::Recording;
 use motiondb::atomic_file::AtomicFile;
@@ -12,7 +14,9 @@ use crate::output;
 
 /// Measure collisions, acceleration, arrivals, detours, bodies' overlap, foot slide and tracking of a recording.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  fbcrowd measure out/antipodal/antipodal.fbrec --json")]
+#[command(
+    after_help = "Examples:\n  fbcrowd measure out/antipodal/antipodal.fbrec --json\n  fbcrowd measure crossing.fbrec --table crossing.csv"
+)]
 pub(crate) struct Args {
     /// The recording.
     #[arg(value_name = "FILE.fbrec")]
@@ -30,17 +34,25 @@ pub(crate) struct Args {
     /// Write a line a step: x y of each agent's root, metres.
     #[arg(long, value_name = "OUT.txt")]
     trajectories: Option<PathBuf>,
+    /// Write CSV, a row per step and agent: `step` (0 is the start), `time_s, agent, x_m, y_m, facing_deg` (from the x
+    /// axis, counter-clockwise), `velocity_…` (of the root in the step before), `preferred_…` and `planned_x_mps,
+    /// …_y_mps, mode` (blending, semi_procedural), `velocity_set` (turning; holding the facing), `strafing_s,
+    /// stepping_back_s` (for how long), `phase` (of the gait), `left_contact, right_contact` (from 0.5 on the foot is
+    /// planted), `time_to_landing_s` (of the other), `arrived` (1 once it was within 0.5 m of its last goal).
+    #[arg(long, value_name = "OUT.csv")]
+    table: Option<PathBuf>,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let bad = |error: fbcrowd_sim::recording_error::RecordingError| Failure::bad(error.to_string());
     let recording = Recording::open(&args.recording).map_err(bad)?;
-    if let Some(path) = &args.trajectories {
-        output::spare(path, [args.recording.as_path()])?;
-    }
+    check_outputs(args)?;
     let measures = metrics::measure(&recording).map_err(bad)?;
     if let Some(path) = &args.trajectories {
-        write_trajectories(&recording, path).map_err(|error| Failure::unwritable(path, &error))?;
+        write(path, |out| metrics::write_trajectories(&recording, out))?;
+    }
+    if let Some(path) = &args.table {
+        write(path, |out| agent_table::write_table(&recording, out))?;
     }
     if args.json {
         output::print_json(&measures)?;
@@ -50,11 +62,26 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     Ok(Answer::Yes)
 }
 
-fn write_trajectories(recording: &Recording, path: &Path) -> io::Result<()> {
-    let mut file = AtomicFile::create(path)?;
-    metrics::write_trajectories(recording, file.writer())?;
-    file.writer().flush()?;
-    file.commit()
+/// That no file is written over the recording, or over another.
+fn check_outputs(args: &Args) -> Result<(), Failure> {
+    for path in [&args.trajectories, &args.table].into_iter().flatten() {
+        output::spare(path, [args.recording.as_path()])?;
+    }
+    match (&args.trajectories, &args.table) {
+        (Some(one), Some(other)) if output::is_same_place(one, other) => {
+            let file = one.display();
+            Err(Failure::bad(format!("{file} cannot be both trajectories and table; give --table another name")))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn write(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Failure> {
+    let written = AtomicFile::create(path).and_then(|mut file| {
+        content(file.writer())?;
+        file.commit()
+    });
+    written.map_err(|error| Failure::unwritable(path, &error))
 }
 
 /// Figures for people, one a line.

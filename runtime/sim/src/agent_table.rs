@@ -1,0 +1,97 @@
+//! A recording as a table that other programs read: a row per frame and agent, frame by frame, agents in index order.
+//! CSV as in RFC 4180: the first line names columns and units, commas part fields, lines end with CR LF, decimals have
+//! a point. World, metres, seconds, degrees counter-clockwise from the x axis.
+//!
+//! All is as recorded, but for two columns that follow from it as [`root_measures`](crate::root_measures) has them: the
+//! velocity is the root's displacement in the step that led to the frame, over dt, and `arrived` is 1 from the frame on
+//! in which an agent first comes within 0.5 m of its last goal.
+
+use std::io::{self, Write};
+
+use glam::Vec2;
+
+use crate::arrival::Arrival;
+use crate::hms::mode::Mode;
+use crate::plan::VelocitySet;
+use crate::recording::Recording;
+use crate::recording_frame::AgentFrame;
+
+/// In the order of their fields.
+const COLUMNS: [&str; 21] = [
+    "step",
+    "time_s",
+    "agent",
+    "x_m",
+    "y_m",
+    "facing_deg",
+    "velocity_x_mps",
+    "velocity_y_mps",
+    "preferred_x_mps",
+    "preferred_y_mps",
+    "planned_x_mps",
+    "planned_y_mps",
+    "mode",
+    "velocity_set",
+    "strafing_s",
+    "stepping_back_s",
+    "phase",
+    "left_contact",
+    "right_contact",
+    "time_to_landing_s",
+    "arrived",
+];
+
+/// Writes the table of a recording, from the start on, holding two frames.
+///
+/// # Errors
+/// Where writing fails or, as the source of the error, a frame cannot be read.
+pub fn write_table(recording: &Recording, out: &mut impl Write) -> io::Result<()> {
+    let scenario = &recording.header().scenario;
+    let mut arrivals = vec![Arrival::default(); scenario.agents.len()];
+    let (mut agents, mut before) = (Vec::new(), Vec::new());
+    write!(out, "{}\r\n", COLUMNS.join(","))?;
+    for step in 0..recording.frame_count() {
+        std::mem::swap(&mut agents, &mut before);
+        recording.read_frame(step, &mut agents).map_err(io::Error::other)?;
+        let time_s = step as f64 * f64::from(scenario.dt_s);
+        for (index, (frame, arrival)) in agents.iter().zip(&mut arrivals).enumerate() {
+            arrival.follow(&scenario.agents[index], frame.root.position_m, time_s);
+            // All start from rest.
+            let from_m = before.get(index).map_or(frame, |before: &AgentFrame| before).root.position_m;
+            let velocity_mps = (frame.root.position_m - from_m) / scenario.dt_s;
+            write!(out, "{step},{time_s:.6},{index},")?;
+            write_row(frame, velocity_mps, arrival.at_s.is_some(), out)?;
+        }
+    }
+    Ok(())
+}
+
+/// The fields after the agent's index.
+fn write_row(frame: &AgentFrame, velocity_mps: Vec2, has_arrived: bool, out: &mut impl Write) -> io::Result<()> {
+    let facing_deg = f64::from(frame.root.facing_rad).to_degrees();
+    write!(out, "{},{facing_deg:.4},", pair(frame.root.position_m))?;
+    write!(out, "{},{},{},", pair(velocity_mps), pair(frame.preferred_mps), pair(frame.planned_mps))?;
+    write!(out, "{},{},{:.6},{:.6},", mode(frame.mode), set(frame.set), frame.strafing_s, frame.stepping_back_s)?;
+    let [left, right] = frame.contacts;
+    let landing_s = frame.time_to_landing_s;
+    write!(out, "{:.6},{left:.6},{right:.6},{landing_s:.6},{}\r\n", frame.phase, u8::from(has_arrived))
+}
+
+/// To the micrometre, or µm/s.
+fn pair(vector: Vec2) -> String {
+    format!("{:.6},{:.6}", vector.x, vector.y)
+}
+
+fn mode(mode: Mode) -> &'static str {
+    match mode {
+        Mode::Blending => "blending",
+        Mode::SemiProcedural => "semi_procedural",
+    }
+}
+
+fn set(set: VelocitySet) -> &'static str {
+    match set {
+        VelocitySet::Turning => "turning",
+        VelocitySet::Holding => "holding",
+    }
+}
