@@ -24,3 +24,15 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     open(path)?.read_to_end(&mut bytes)?;
     Ok(bytes)
 }
+
+/// Whether bytes are a text in UTF-16, with or without byte order mark: without one, every other of the first is zero,
+/// which no UTF-8 has.
+pub fn is_utf16(bytes: &[u8]) -> bool {
+    match bytes {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
+        [a, b, c, d, ..] => {
+            matches!([a, b, c, d].map(|byte| *byte == 0), [true, false, true, false] | [false, true, false, true])
+        }
+        _ => false,
+    }
+}

@@ -56,7 +56,7 @@ impl SourceText {
         if fs::metadata(path)?.len() > TEXT_MAX_BYTES {
             return Err(io::Error::other("a text of more than 1 GiB"));
         }
-        let text = io::read_to_string(input_file::open(path)?)?;
+        let text = in_utf8(input_file::read(path)?).map_err(io::Error::other)?;
         // Some editors begin a text with a byte order mark.
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
         Ok(Self { path: path.to_owned(), text })
@@ -79,5 +79,34 @@ impl SourceText {
     pub fn unparsed(&self, span: Option<Range<usize>>, message: &str) -> Invalid {
         let (message, help) = in_plain_words(message);
         self.invalid(span.unwrap_or(0..0), message, help)
+    }
+}
+
+/// A text of another encoding is told as what it is.
+fn in_utf8(bytes: Vec<u8>) -> Result<String, String> {
+    if input_file::is_utf16(&bytes) {
+        return Err("the text is UTF-16, two bytes a letter".into());
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
+        format!("line {line} is not UTF-8")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_in_another_encoding_is_told_so_and_where() {
+        let wide = |bytes: fn(u16) -> [u8; 2]| "# a\n".encode_utf16().flat_map(bytes).collect::<Vec<u8>>();
+        for bytes in
+            [wide(u16::to_le_bytes), wide(u16::to_be_bytes), [vec![0xff, 0xfe], wide(u16::to_le_bytes)].concat()]
+        {
+            assert!(in_utf8(bytes).unwrap_err().contains("UTF-16"));
+        }
+        assert_eq!(in_utf8(b"a\n# caf\xe9\n".to_vec()), Err("line 2 is not UTF-8".to_owned()));
+        assert_eq!(in_utf8("é".into()), Ok("é".to_owned()));
     }
 }

@@ -9,7 +9,7 @@ pub use motiondb::source_text::Invalid;
 #[derive(Debug, thiserror::Error)]
 pub enum ScenarioError {
     /// The system refuses to read.
-    #[error("{}: cannot be read: {source}; check that the file exists and is text", path.display())]
+    #[error("{}: cannot be read: {source}; check that the file exists and is text in UTF-8", path.display())]
     Unreadable {
         /// The scenario file, or one that it names.
         path: PathBuf,

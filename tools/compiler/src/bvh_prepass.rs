@@ -8,6 +8,7 @@
 
 use std::fmt::Write as _;
 
+use motiondb::input_file;
 use motiondb::remark::{Kind, Remark};
 
 use crate::bvh_hierarchy::{CheckedJoint, canonical, hierarchy};
@@ -54,8 +55,8 @@ pub(crate) fn check(bytes: &[u8]) -> Result<CheckedBvh, Flaw> {
     if bytes.is_empty() {
         return flaw(1, "the file is empty", "export the clip again");
     }
-    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        return flaw(1, "the text is UTF-16", "save it as UTF-8 or plain ASCII");
+    if input_file::is_utf16(bytes) {
+        return flaw(1, "the text is UTF-16, two bytes a letter", "save it as UTF-8 or plain ASCII");
     }
     let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let mut lines = numbered_lines(&text);

@@ -11,6 +11,7 @@ use std::path::Path;
 use glam::{DMat4, DQuat, DVec3};
 use gltf::json::validation::{Error, Validate};
 use gltf::json::{self, Index, Root, buffer::View};
+use motiondb::input_file;
 
 use crate::gltf_track::normal;
 use crate::{gltf_buffers, gltf_track, quiet_unwind};
@@ -106,8 +107,8 @@ fn check_is_gltf(bytes: &[u8]) -> Result<(), Flaw> {
     if bytes.starts_with(b"PK\x03\x04") {
         return flaw("byte 0", "the file is a zip archive", "unpack it");
     }
-    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        return flaw("byte 0", "the text is UTF-16", "save it as UTF-8");
+    if input_file::is_utf16(bytes) {
+        return flaw("byte 0", "the text is UTF-16, two bytes a letter", "save it as UTF-8");
     }
     if bytes.starts_with(b"\xef\xbb\xbf") {
         return flaw("byte 0", "the text begins with a byte order mark", "save it as UTF-8 without one");

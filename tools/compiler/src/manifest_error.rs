@@ -11,7 +11,7 @@ use crate::error::ImportError;
 #[derive(Debug, thiserror::Error)]
 pub enum ManifestError {
     /// The system refuses to read it.
-    #[error("{}: cannot be read: {source}; check that the file exists and is text", path.display())]
+    #[error("{}: cannot be read: {source}; check that the file exists and is text in UTF-8", path.display())]
     Unreadable {
         /// The manifest.
         path: PathBuf,

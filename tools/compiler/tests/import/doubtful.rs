@@ -148,8 +148,10 @@ fn what_is_no_text_of_its_format_is_told_by_its_first_bytes() {
     };
     let wide: Vec<u8> = [0xff, 0xfe].into_iter().chain(bvh_text().encode_utf16().flat_map(u16::to_le_bytes)).collect();
     check("walk.bvh", &wide, "UTF-16");
+    check("walk.bvh", &wide[2..], "UTF-16");
     check("walk.bvh", b"", "the file is empty");
     check("walk.gltf", &wide, "UTF-16");
+    check("walk.gltf", &wide[2..], "UTF-16");
     check("walk.glb", b"", "the file is empty");
     check("walk.glb", b"PK\x03\x04....", "a zip archive");
 }
