@@ -21,8 +21,8 @@ pub(crate) const COORDINATE_MAX_M: f32 = 10_000.0;
 const RADIUS_M: RangeInclusive<f32> = 0.1..=1.0;
 /// From the slowest shuffle to a sprint.
 const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
-/// A few turns either way.
-const FACING_RAD: RangeInclusive<f32> = -100.0..=100.0;
+/// Ten turns either way.
+const FACING_DEG: RangeInclusive<f32> = -3_600.0..=3_600.0;
 /// Ten times the largest crowd that other simulators show.
 pub const AGENTS_MAX: usize = 1_000_000;
 const GOALS_MAX: usize = 10_000;
@@ -134,7 +134,9 @@ fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), Fault> {
     check_points(journey, &[agent.position_m])?;
     check_points(journey, &agent.goals_m)?;
     within(journey, "the number of goals", agent.goals_m.len(), &(1..=GOALS_MAX), "say where the agent goes")?;
-    within(place, "the facing in radians", agent.facing_rad, &FACING_RAD, "leave it out to face the first goal")?;
+    // As it was written: radians are rounded.
+    let facing_deg = (10.0 * agent.facing_rad.to_degrees()).round() / 10.0;
+    within(place, "facing_deg", facing_deg, &FACING_DEG, "leave it out to face the first goal")?;
     within(place, "radius_m", agent.radius_m, &RADIUS_M, "give the radius of a body's disc in metres")?;
     within(place, "preferred_speed_mps", agent.preferred_speed_mps, &SPEED_MPS, "people walk at about 1.3 m/s")
 }

@@ -192,6 +192,9 @@ fn numbers_out_of_range_are_shown_where_they_stand() {
     check_refused("duration", &format!("clips = \".\"\nduration_s = -1\n{ONE}"), "-1", "duration_s is -1");
     let radius = "{ at_m = [0, 0], goals_m = [[5, 0]], radius_m = -1 }";
     check_refused("radius", &format!("{HEAD}agents = {radius}"), radius, "radius_m is -1");
+    let dizzy = "{ at_m = [0, 0], goals_m = [[5, 0]], facing_deg = 100000 }";
+    let message = "facing_deg is 100000, not between -3600 and 3600";
+    check_refused("dizzy", &format!("{HEAD}agents = {dizzy}"), dizzy, message);
     let far = "{ at_m = [inf, 0], goals_m = [[5, 0]] }";
     check_refused("far", &format!("{HEAD}agents = [{far}]"), far, "no place within 10 km");
     let crowd = "{ circle = { count = 9000000000, radius_m = 1 } }";
