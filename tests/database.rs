@@ -2,6 +2,11 @@
 
 mod support;
 
+use std::sync::Arc;
+
+use fbcrowd_sim::hms::repertoire;
+use fbcrowd_sim::recording::Recording;
+use motiondb::file;
 use serde_json::Value;
 use support::{compile, fbcrowd, folder, marine_clips, shared, text};
 
@@ -145,4 +150,22 @@ fn a_set_that_needs_each_of_its_examples_leaves_none_out() {
     let shown = fbcrowd(&["inspect", text(&database), "--leave-one-out"]).expect_code(0).stdout;
     assert!(shown.contains("no example can be left out"), "{shown}");
     fbcrowd(&["inspect", "assets/clips/walk_110.bvh", "--leave-one-out"]).expect_code(2).says(&["fbcrowd compile"]);
+}
+
+#[test]
+fn a_simulation_deforms_the_walk_of_a_set_once_though_it_lacks_something_even_then() {
+    let folder = folder("deformed_once");
+    let database = compile(&["assets/clips/jog_turn_110_left.bvh".to_owned()], &folder);
+    let given = Arc::new(file::read(&database).unwrap().0);
+    let once = repertoire::complete(Arc::clone(&given));
+    let twice = repertoire::complete(Arc::clone(&once));
+    let [(_, once_count), (_, twice_count)] = [&once, &twice].map(|db| repertoire::deformed(&given, db).unwrap());
+    assert!(once_count < twice_count && once.velocity_hull != twice.velocity_hull, "this set would not tell");
+
+    let (scene, recording) = (folder.join("scene.toml"), folder.join("scene.fbrec"));
+    let one = "database = \"motion.fbdb\"\nduration_s = 0.1\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n";
+    std::fs::write(&scene, one).unwrap();
+    let simulated = fbcrowd(&["simulate", text(&scene), "-o", text(&recording)]).expect_code(0);
+    simulated.says(&[&format!("is deformed to {once_count} of them")]);
+    assert_eq!(Recording::open(&recording).unwrap().header().velocity_hull, once.velocity_hull);
 }
