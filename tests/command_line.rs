@@ -47,16 +47,6 @@ fn a_missing_clip_is_named_and_nothing_is_written() {
 }
 
 #[test]
-fn a_database_replaces_no_clip_that_it_is_made_of() {
-    let folder = folder("over_a_clip");
-    let clip = folder.join("walk.bvh");
-    fs::copy(support::repository().join(WALK), &clip).unwrap();
-    let before = fs::read(&clip).unwrap();
-    fbcrowd(&["compile", text(&folder), "-o", text(&clip)]).expect_code(2).says(&["walk.bvh", "another place"]);
-    assert!(fs::read(&clip).unwrap() == before);
-}
-
-#[test]
 fn no_file_name_colours_or_breaks_what_is_printed() {
     let folder = folder("control_characters");
     let database = folder.join("motion.fbdb");
@@ -214,43 +204,6 @@ fn whoever_brings_a_database_needs_no_clips() {
 }
 
 #[test]
-fn an_output_never_replaces_an_input_or_a_folder() {
-    let folder = folder("replaced");
-    let walk = folder.join("walk.bvh");
-    fs::copy(support::repository().join(WALK), &walk).unwrap();
-    let before = fs::read(&walk).unwrap();
-    fbcrowd(&["compile", text(&walk), "-o", text(&walk)]).expect_code(2).says(&["walk.bvh"]);
-    assert_eq!(fs::read(&walk).unwrap(), before);
-    fbcrowd(&["compile", WALK, "-o", text(&folder)]).expect_code(2).says(&["regular file"]);
-    let database = compile(&[WALK.to_owned()], &folder);
-    let scene = scenario(
-        &folder,
-        "duration_s = 0.1\ndatabase = \"motion.fbdb\"\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n",
-    );
-    fbcrowd(&["simulate", &scene, "-o", &scene]).expect_code(2).says(&["scene.toml"]);
-    fbcrowd(&["simulate", &scene, "-o", text(&database)]).expect_code(2).says(&["motion.fbdb"]);
-    let (recording, report) = (folder.join("scene.fbrec"), folder.join("no/report.json"));
-    fbcrowd(&["simulate", &scene, "-o", text(&recording), "--report", text(&report)])
-        .expect_code(2)
-        .says(&["report.json"]);
-    let spelt = folder.join("../replaced/./scene.fbrec");
-    fbcrowd(&["simulate", &scene, "-o", text(&recording), "--report", text(&spelt)])
-        .expect_code(2)
-        .says(&["both recording and report"]);
-    fbcrowd(&["simulate", &scene, "-o", text(&recording)]).expect_code(0);
-    fbcrowd(&["measure", text(&recording), "--table", text(&recording)]).expect_code(2).says(&["scene.fbrec"]);
-    let table = folder.join("table");
-    fbcrowd(&["measure", text(&recording), "--table", text(&table), "--trajectories", text(&table)])
-        .expect_code(2)
-        .says(&["both trajectories and table"]);
-    fs::remove_file(&recording).unwrap();
-    fs::write(folder.join("agents.txt"), "0 0 2 0\n").unwrap();
-    let scene = scenario(&folder, "duration_s = 0.1\ndatabase = \"motion.fbdb\"\nagents = { file = \"agents.txt\" }\n");
-    fbcrowd(&["simulate", &scene, "-o", text(&folder.join("agents.txt"))]).expect_code(2).says(&["agents.txt"]);
-    assert_eq!(files(&folder), ["agents.txt", "motion.fbdb", "scene.toml", "walk.bvh"]);
-}
-
-#[test]
 fn a_clip_named_twice_is_read_once() {
     let database = folder("twice").join("motion.fbdb");
     fbcrowd(&["compile", WALK, WALK, "-o", text(&database)]).expect_code(0);
@@ -297,17 +250,6 @@ fn work_goes_on_where_nobody_reads_what_it_says() {
         .status()
         .unwrap();
     assert!(status.success() && database.exists(), "{status}");
-}
-
-#[test]
-fn a_place_that_cannot_be_written_is_named() {
-    let folder = folder("unwritable");
-    let file = folder.join("a_file");
-    fs::write(&file, "not a folder").unwrap();
-    let inside = file.join("motion.fbdb");
-    fbcrowd(&["compile", WALK, "-o", text(&inside)]).expect_code(2).says(&["a_file"]);
-    fbcrowd(&["clips", "--out", text(&file.join("clips"))]).expect_code(2).says(&["a_file"]);
-    assert_eq!(files(&folder), ["a_file"]);
 }
 
 #[test]

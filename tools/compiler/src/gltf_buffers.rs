@@ -45,6 +45,12 @@ pub(crate) fn read<'a>(
     Ok(bytes)
 }
 
+/// The files beside a document that its URIs name.
+pub(crate) fn files_of(file: &Path, uris: &[String]) -> Vec<PathBuf> {
+    let linked = uris.iter().filter(|uri| !uri.starts_with("data:"));
+    linked.filter_map(|uri| beside(file, &percent_decoded(uri)?)).collect()
+}
+
 fn from_uri(file: &Path, place: &str, uri: &str, length: usize) -> Result<Vec<u8>, Flaw> {
     if let Some(data) = uri.strip_prefix("data:") {
         let decoded = data.split_once(";base64,").and_then(|(_, text)| BASE64.decode(text).ok());

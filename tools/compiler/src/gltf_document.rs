@@ -131,18 +131,32 @@ fn parse(bytes: &[u8]) -> Result<Parsed<'_>, Flaw> {
         problem: error.to_string().trim_end_matches([';', ' ']).chars().take(SHOWN_LETTERS).collect(),
         remedy: "check it with the glTF validator, or export it again",
     };
-    let (json, chunk) = if bytes.starts_with(b"glTF") {
-        let glb = gltf::Glb::from_slice(bytes).map_err(|error| shown(&error))?;
-        (glb.json, glb.bin)
-    } else {
-        (Cow::Borrowed(bytes), None)
-    };
+    let (json, chunk) = chunks(bytes).map_err(|error| shown(&error))?;
     let (root, left_out) = match json::deserialize::from_slice::<Root>(&json) {
         Ok(root) => (root, false),
         Err(error) => (without_nodeless_channels(&json).ok_or_else(|| shown(&error))?, true),
     };
     check(&root)?;
     Ok(Parsed { root, chunk, left_out })
+}
+
+/// The JSON of a file, and the binary chunk of a GLB file.
+type Chunks<'a> = (Cow<'a, [u8]>, Option<Cow<'a, [u8]>>);
+
+fn chunks(bytes: &[u8]) -> Result<Chunks<'_>, gltf::Error> {
+    if !bytes.starts_with(b"glTF") {
+        return Ok((Cow::Borrowed(bytes), None));
+    }
+    gltf::Glb::from_slice(bytes).map(|glb| (glb.json, glb.bin))
+}
+
+/// Where the buffers and pictures of a file lie, unless within it; none of what is no document.
+pub(crate) fn uris(bytes: &[u8]) -> Vec<String> {
+    let json = quiet_unwind::catch(|| chunks(bytes)).and_then(Result::ok);
+    let document: json::Value =
+        json.and_then(|(json, _)| json::deserialize::from_slice(&json).ok()).unwrap_or_default();
+    let parts = ["buffers", "images"].iter().filter_map(|part| document.get(part)?.as_array()).flatten();
+    parts.filter_map(|part| Some(part.get("uri")?.as_str()?.to_owned())).collect()
 }
 
 /// The document without the channels that name no node, as those of KHR_animation_pointer; none where it has no such

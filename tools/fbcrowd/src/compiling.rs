@@ -85,7 +85,8 @@ pub(crate) fn compile(
     let mut manifest = manifest(paths)?;
     let manifests: Vec<PathBuf> = paths.iter().map(|path| path.join(MANIFEST)).collect();
     let clips = manifest.takes.iter().map(|take| &take.path);
-    output::spare(output, paths.iter().chain(&manifests).chain(clips).map(PathBuf::as_path))?;
+    output::spare(output, paths.iter().chain(&manifests).chain(clips.clone()))?;
+    output::spare(output, clips.flat_map(|clip| import::linked_files(clip)))?;
     if let Some(construction) = overrides.velocity_hull {
         manifest.options.velocity_hull = construction;
     }

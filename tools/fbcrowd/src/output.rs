@@ -33,10 +33,10 @@ fn harmless(text: &str, kept: &[char]) -> String {
 }
 
 /// That a file to be written is none of those to be read, which it would replace.
-pub(crate) fn spare<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+pub(crate) fn spare(output: &Path, inputs: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<(), Failure> {
     let Ok(existing) = output.canonicalize() else { return Ok(()) };
     let mut inputs = inputs.into_iter();
-    if inputs.any(|input| input.canonicalize().is_ok_and(|input| input == existing)) {
+    if inputs.any(|input| input.as_ref().canonicalize().is_ok_and(|input| input == existing)) {
         let message =
             format!("{}: is to be read and cannot be written as well; choose another place", output.display());
         return Err(Failure::bad(message));

@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 /// That no file is written over the recording, or over another.
 fn check_outputs(args: &Args) -> Result<(), Failure> {
     for path in [&args.trajectories, &args.table].into_iter().flatten() {
-        output::spare(path, [args.recording.as_path()])?;
+        output::spare(path, [&args.recording])?;
     }
     match (&args.trajectories, &args.table) {
         (Some(one), Some(other)) if output::is_same_place(one, other) => {

@@ -44,7 +44,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     }
     let inputs = [vec![args.scenario.clone(), database.clone()], scenario_file::agent_files(&args.scenario)?].concat();
     for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
-        output::spare(written, inputs.iter().map(PathBuf::as_path))?;
+        output::spare(written, &inputs)?;
     }
     let (db, checksum) = file::load(&database)?;
     // Opened before the long work, so that a place that cannot be written ends it early.
