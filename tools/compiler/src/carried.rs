@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
+use motiondb::median::median;
 use motiondb::remark::{Kind, Remark};
 use motiondb::skeleton::Joint;
 
@@ -38,6 +39,11 @@ const STEP_LIFT_MIN_M: f64 = 0.03;
 const JUMP_LIFT_M: f64 = 0.12;
 /// Of the heights of a foot those at which it stands.
 const LOW_SHARE: f64 = 0.05;
+/// Nobody goes faster (Bolt, at his fastest: 12.4), m/s for a person's leg; a frame in which a body does so, farther than
+/// this, m, and farther by this factor than in most frames, is a leap from one take to another.
+const FASTEST_MPS: f64 = 12.5;
+const LEAP_MIN_M: f64 = 0.3;
+const LEAP_OVER_USUAL: f64 = 5.0;
 /// Shorter clips say nothing of what is missing in them, s.
 const TURN_MIN_S: f64 = 1.0;
 
@@ -47,7 +53,8 @@ pub(crate) fn remark(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Opt
     let steps = passings(clip, roles, LEAD_MIN_M * scale).len();
     let body = Body { clip, roles, scale, steps };
     let moves = (!whole.in_place).then(|| body.climbs().or_else(|| body.slides(whole))).flatten();
-    moves.or_else(|| body.is_turned(whole)).or_else(|| body.jumps()).map(|told| Kind::Ground.remark(told))
+    let moves = body.leaps().or(moves).or_else(|| body.is_turned(whole)).or_else(|| body.jumps());
+    moves.map(|told| Kind::Ground.remark(told))
 }
 
 struct Body<'a> {
@@ -60,6 +67,22 @@ struct Body<'a> {
 }
 
 impl Body<'_> {
+    /// Takes that were strung together, or a loop that was repeated without its way.
+    fn leaps(&self) -> Option<String> {
+        let hips = |frame: usize| middle(self.clip, self.roles, Joint::THIGHS, frame);
+        let ways_m: Vec<f64> =
+            (1..self.clip.frame_count()).map(|frame| hips(frame).distance(hips(frame - 1))).collect();
+        let usual_m = median(ways_m.iter().copied())?;
+        let fastest_m = FASTEST_MPS * self.scale.sqrt() / self.clip.frame_rate_hz;
+        let least_m = fastest_m.max(LEAP_MIN_M * self.scale).max(LEAP_OVER_USUAL * usual_m);
+        let leaps: Vec<usize> = (0..ways_m.len()).filter(|&frame| ways_m[frame] > least_m).collect();
+        let (&first, others) = leaps.split_first()?;
+        let (way_m, from) = (ways_m[first], self.clip.first_frame + first + 1);
+        let others = if others.is_empty() { String::new() } else { format!(" (and {} times more)", others.len()) };
+        let told = format!("the body leaps by {way_m:.1} m from frame {from} to the next{others}");
+        Some(told + ": its mean speeds count that; cut the file there, or name `frames` in a manifest.toml")
+    }
+
     fn climbs(&self) -> Option<String> {
         let [rise_m, way_m] = self.rise_and_way_m();
         let is_level = rise_m.abs() < RISE_MIN_M * self.scale || rise_m.abs() < SLOPE_MAX * way_m;

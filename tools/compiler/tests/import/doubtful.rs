@@ -59,6 +59,8 @@ fn what_moves_a_body_beside_its_feet_on_level_ground_is_told() {
         row[1] += 40.0 * (0.3 * frame as f64).sin().max(0.0);
     };
     check_told(&rows(jumped), "both feet leave the ground together, by 4");
+    let leapt = rows(|frame, row| row[2] += if frame < 20 { 0.0 } else { 300.0 });
+    check_told(&leapt, "the body leaps by 3.0 m from frame 20 to the next: its mean speeds");
 }
 
 #[test]
