@@ -134,7 +134,7 @@ fn motion<'a>(
         return flaw(line, problem, "write the seconds between two frames");
     }
     let channel_count: usize = joints.iter().map(|joint| joint.channels.len()).sum();
-    let values = row_values(lines, channel_count, warnings)?;
+    let values = row_values(lines, channel_count, claimed, warnings)?;
     let row_count = values.len().checked_div(channel_count).unwrap_or(0);
     if row_count == 0 {
         return flaw(motion_line, "there is not one whole row of motion", "export the clip with its motion");
@@ -166,16 +166,23 @@ fn header(line: Option<(usize, &str)>, motion_line: usize, words: &[&str]) -> Re
     }
 }
 
-/// All values, whole rows only: a last row cut short is dropped with a warning, any other odd row is an error.
+/// All values, whole rows only: a last row cut short is dropped with a warning, as are words after the `claimed` rows
+/// (what editors and exporters leave at the end); any other odd row is an error.
 fn row_values<'a>(
     lines: impl Iterator<Item = (usize, &'a str)>,
     channels: usize,
+    claimed: f64,
     warnings: &mut Vec<Remark>,
 ) -> Result<Vec<f64>, Flaw> {
     let mut values = Vec::new();
     let mut lines = lines.peekable();
     while let Some((line, text)) = lines.next() {
         let before = values.len();
+        let is_complete = before > 0 && before as f64 >= claimed * channels as f64;
+        if is_complete && text.split_ascii_whitespace().next().is_some_and(|word| decimal::number(word).is_none()) {
+            warnings.push(Kind::Cut.remark(format!("line {line}: what follows the motion is not used")));
+            break;
+        }
         for word in text.split_ascii_whitespace() {
             values.push(number(line, word)?);
         }

@@ -64,6 +64,15 @@ fn what_moves_a_body_beside_its_feet_on_level_ground_is_told() {
 }
 
 #[test]
+fn what_editors_and_exporters_leave_after_the_last_row_is_no_motion() {
+    for rest in ["\n# exported by 1.2\nEND OF FILE\n", "\u{1a}", "\0\0\0\0"] {
+        check_told(&format!("{}{rest}", bvh_text()), "what follows the motion is not used");
+    }
+    let early = bvh_text().replace("Frames: ", "Frames: 9") + "END OF FILE\n";
+    assert!(import_bytes(Path::new("clip.bvh"), early.as_bytes()).is_err());
+}
+
+#[test]
 fn a_walk_at_twice_its_rate_is_told_by_its_cadence_and_a_jog_is_not() {
     let said = |clip: &str, rate: f64| {
         let path = Path::new(super::on_the_spot::BUNDLED).join(clip).with_extension("bvh");
