@@ -104,6 +104,13 @@ fn check_is_gltf(bytes: &[u8]) -> Result<(), Flaw> {
     if bytes.is_empty() {
         return flaw("byte 0", "the file is empty", "export the clip again");
     }
+    if let [b'g', b'l', b'T', b'F', _, _, _, _, length @ ..] = bytes
+        && let Some(&length) = length.first_chunk()
+        && u32::from_le_bytes(length) as usize > bytes.len()
+    {
+        let problem = format!("the file is cut short: {} of {} bytes", bytes.len(), u32::from_le_bytes(length));
+        return flaw(format!("byte {}", bytes.len()), problem, "copy or export it again");
+    }
     if bytes.starts_with(b"PK\x03\x04") {
         return flaw("byte 0", "the file is a zip archive", "unpack it");
     }

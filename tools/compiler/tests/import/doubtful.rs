@@ -165,4 +165,5 @@ fn what_is_no_text_of_its_format_is_told_by_its_first_bytes() {
     check("walk.gltf", &wide[2..], "UTF-16");
     check("walk.glb", b"", "the file is empty");
     check("walk.glb", b"PK\x03\x04....", "a zip archive");
+    check("walk.glb", b"glTF\x02\0\0\0\xff\0\0\0....", "cut short: 16 of 255 bytes");
 }
