@@ -138,7 +138,13 @@ fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), Fault> {
     let facing_deg = (10.0 * agent.facing_rad.to_degrees()).round() / 10.0;
     within(place, "facing_deg", facing_deg, &FACING_DEG, "leave it out to face the first goal")?;
     within(place, "radius_m", agent.radius_m, &RADIUS_M, "give the radius of a body's disc in metres")?;
-    within(place, "preferred_speed_mps", agent.preferred_speed_mps, &SPEED_MPS, "people walk at about 1.3 m/s")
+    within(
+        place,
+        "preferred_speed_mps",
+        agent.preferred_speed_mps,
+        &SPEED_MPS,
+        "people walk at about 1.3 m/s; who stands has its start for a goal",
+    )
 }
 
 fn check_points(place: &Place, points_m: &[Vec2]) -> Result<(), Fault> {
