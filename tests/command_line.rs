@@ -191,6 +191,20 @@ fn mistakes_in_a_scenario_are_shown_where_they_stand() {
 }
 
 #[test]
+fn clips_and_databases_in_each_others_place_are_told_apart() {
+    let folder = folder("exchanged");
+    let agent = "duration_s = 1\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n";
+    fs::write(folder.join("motion.fbdb"), "anything").unwrap();
+    for (motion, words) in [
+        ("clips = \"motion.fbdb\"", ["scene.toml:1", "is a database", "write `database`"]),
+        ("database = \".\"", ["scene.toml:1", "is a folder", "write `clips`"]),
+    ] {
+        let scene = scenario(&folder, &format!("{motion}\n{agent}"));
+        fbcrowd(&["run", &scene, "-o", text(&folder.join("out"))]).expect_code(2).says(&words);
+    }
+}
+
+#[test]
 fn whoever_brings_a_database_needs_no_clips() {
     let folder = folder("own_database");
     let database = compile(&[WALK.to_owned()], &folder);

@@ -170,11 +170,17 @@ fn motion_source(
         }
     };
     let path = source.beside(given.get_ref());
-    if path.exists() {
-        return Ok(Ok(to_motion(path)));
-    }
-    let message = format!("there is no {}", path.display());
-    Ok(Err(source.invalid(given.span(), message, "the path is relative to the scenario file").into()))
+    let wrong = |what: &str, help| source.invalid(given.span(), format!("{} {what}", path.display()), help).into();
+    Ok(match to_motion(path.clone()) {
+        _ if !path.exists() => Err(wrong("is not there", "the path is relative to the scenario file")),
+        MotionSource::Clips(path) if path.extension().is_some_and(|extension| extension == "fbdb") => {
+            Err(wrong("is a database", "write `database` instead of `clips`"))
+        }
+        MotionSource::Database(path) if path.is_dir() => {
+            Err(wrong("is a folder", "write `clips` instead of `database`, or name a .fbdb file"))
+        }
+        motion => Ok(motion),
+    })
 }
 
 fn place_agents(source: &SourceText, file: &ScenarioFile) -> Result<Placed, ScenarioError> {
