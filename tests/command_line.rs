@@ -205,6 +205,21 @@ fn clips_and_databases_in_each_others_place_are_told_apart() {
 }
 
 #[test]
+fn who_has_not_arrived_because_of_a_wall_is_told() {
+    let folder = folder("before_a_wall");
+    compile(&[WALK.to_owned()], &folder);
+    let head = "database = \"motion.fbdb\"\nduration_s = 3\n";
+    let wall = "[[obstacles]]\npolygon_m = [[1, -3], [2, -3], [2, 3], [1, 3]]\n";
+    let notes = |agents: &str| {
+        let scene = scenario(&folder, &format!("{head}{agents}\n{wall}"));
+        let said = fbcrowd(&["simulate", &scene, "-o", text(&folder.join("scene.fbrec"))]).expect_code(0);
+        said.stderr.matches("agent 0 has a wall across its way to [4, 0]").count()
+    };
+    let goals = ["[[4, 0]]", "[[0, 4], [4, 4], [4, 0]]"];
+    assert_eq!(goals.map(|goals| notes(&format!("agents = {{ at_m = [0, 0], goals_m = {goals} }}"))), [1, 0]);
+}
+
+#[test]
 fn whoever_brings_a_database_needs_no_clips() {
     let folder = folder("own_database");
     let database = compile(&[WALK.to_owned()], &folder);

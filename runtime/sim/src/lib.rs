@@ -6,6 +6,7 @@ pub mod angle;
 pub mod arching;
 pub mod around;
 pub mod arrival;
+pub mod blocked_ways;
 pub mod body_penetration;
 pub mod cns;
 pub mod collision_rate;

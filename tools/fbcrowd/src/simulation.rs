@@ -4,10 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use fbcrowd_sim::blocked_ways::{BlockedWays, blocked_ways};
 use fbcrowd_sim::hms::hybrid::Hybrid;
 use fbcrowd_sim::hms::repertoire;
 use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::recording::{Header, Recorder};
+use fbcrowd_sim::recording_frame::AgentFrame;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::scenario_error::ScenarioError;
 use fbcrowd_sim::step::{Simulation, Stage};
@@ -87,6 +89,7 @@ pub(crate) fn simulate(
     }
     progress.finish();
     recorder.finish().map_err(bad)?;
+    tell_of_walls(&header.scenario, simulation.frames());
     Ok(stopwatch.timings(header.scenario.agents.len(), steps, header.scenario.dt_s))
 }
 
@@ -99,6 +102,16 @@ fn tell_of_deformed(db: &MotionDb, complete: &MotionDb) {
         let lacking = "these clips lack ways of walking that a crowd needs (fbcrowd inspect names them)";
         output::say(&format!("note: {lacking}; {walk} is deformed to {count} of them"));
     }
+}
+
+/// Says who has not arrived because of a wall.
+fn tell_of_walls(scenario: &Scenario, frames: &[AgentFrame]) {
+    let ends_m = frames.iter().map(|frame| frame.root.position_m);
+    let Some(BlockedWays { agent, waypoint, agents }) = blocked_ways(scenario, ends_m) else { return };
+    let [x, y] = scenario.agents[agent].goals_m[waypoint].to_array();
+    let others = if agents == 1 { String::new() } else { format!(" ({agents} agents have)") };
+    let remedy = "agents walk straight: who is to go round needs a waypoint beside it";
+    output::say(&format!("note: agent {agent} has a wall across its way to [{x}, {y}]{others}; {remedy}"));
 }
 
 /// §3.4.1: the planner must look further ahead than a change of synthesis takes.
