@@ -9,13 +9,13 @@ use crate::ground::fill_rect;
 use crate::palette::{GROUND, INK};
 use crate::text::{Anchor, Typeface};
 
-/// Height of letters in a picture of [`REFERENCE_HEIGHT_PX`], pixels; other pictures in proportion.
+/// Height of letters in a picture whose shorter side is [`REFERENCE_SIDE_PX`], pixels; other pictures in proportion.
 const LETTERS_PX: f32 = 15.0;
 /// Height of an agent's number, likewise.
 const LABEL_PX: f32 = 12.5;
 /// Least height of letters that can be read, pixels.
 const MIN_LETTERS_PX: f32 = 9.0;
-const REFERENCE_HEIGHT_PX: f32 = 720.0;
+const REFERENCE_SIDE_PX: f32 = 720.0;
 /// The scale bar takes at most this share of the picture's width.
 const BAR_SHARE: f32 = 0.14;
 /// Lengths that a scale bar may have, times a power of ten.
@@ -34,7 +34,7 @@ pub struct Overlay {
 impl Overlay {
     /// Letters sized for the picture.
     pub fn new(framing: &Framing) -> Self {
-        let share = framing.height_px as f32 / REFERENCE_HEIGHT_PX;
+        let share = framing.size_px().min_element() / REFERENCE_SIDE_PX;
         let face = |size_px: f32| Typeface::new((size_px * share).max(MIN_LETTERS_PX));
         Self { framing: *framing, face: face(LETTERS_PX), label_face: face(LABEL_PX) }
     }
@@ -84,6 +84,14 @@ fn bar_length_m(longest_m: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn letters_follow_the_shorter_side() {
+        let letters_px = |[width_px, height_px]: [u32; 2]| {
+            Overlay::new(&Framing { width_px, height_px, centre_m: Vec2::ZERO, scale_px_m: 40.0 }).face.size_px
+        };
+        assert_eq!([[1280, 720], [720, 1280], [200, 2000]].map(letters_px), [LETTERS_PX, LETTERS_PX, MIN_LETTERS_PX]);
+    }
 
     #[test]
     fn scale_bars_have_round_lengths() {
