@@ -57,10 +57,11 @@ pub(crate) fn find(
         Some(pair) => vec![(1.0, pair)],
         None => likely_legs(shape, limb::pairs(shape, [Part::Thigh, Part::Shank, Part::Foot])),
     };
-    if legs.is_empty() {
+    let Some((_, likeliest)) = legs.first() else {
         let reason = "no two mirrored limbs with hip, knee and ankle among the joints".to_owned();
         return Err(Refusal::NoLegs { reason });
-    }
+    };
+    let seeming = likeliest.limbs.each_ref().map(|limb| named(shape, limb)).join(" and ");
     let arms =
         known_arms.map_or_else(|| limb::pairs(shape, [Part::UpperArm, Part::Forearm, Part::Hand]), |pair| vec![pair]);
     let mut best: Option<(f64, [LimbPair; 2])> = None;
@@ -72,8 +73,14 @@ pub(crate) fn find(
         }
     }
     best.map(|(_, body)| body).ok_or_else(|| Refusal::NoArms {
-        reason: "no two mirrored limbs with shoulder, elbow and wrist beside the legs".to_owned(),
+        reason: format!("no two mirrored limbs with shoulder, elbow and wrist beside its seeming legs, {seeming}"),
     })
+}
+
+/// For messages: without knees or ankles the arms are the likeliest legs.
+fn named(shape: &Shape, limb: &Limb) -> String {
+    let [from, _, to] = limb.joints.map(|joint| shape.clip.joints[joint].name.as_str());
+    format!("`{from}` to `{to}`")
 }
 
 /// The best legs of every two branches of a fork, with their scores over the best of all.

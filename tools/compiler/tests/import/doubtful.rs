@@ -110,6 +110,21 @@ fn a_duet_under_one_root_is_refused_with_both_names() {
 }
 
 #[test]
+fn a_body_without_ankles_is_told_what_its_legs_seem_to_be() {
+    // A row begins with the root's place; each joint has three numbers.
+    let mut footless = rows(|_, row| {
+        row.drain(3 + 3 * 7..3 + 3 * 9);
+        row.drain(3 + 3 * 3..3 + 3 * 5);
+    });
+    for foot in ["JOINT LeftFoot", "JOINT RightFoot"] {
+        let start = footless.find(foot).unwrap();
+        let end = start + footless[start..].find("}\n}\n").unwrap() + "}\n}\n".len();
+        footless.replace_range(start..end, "");
+    }
+    check_refused(&footless, "beside its seeming legs, `Left Arm` to `LeftHand` and `Right Arm` to `RightHand`");
+}
+
+#[test]
 fn a_file_of_positions_alone_is_refused() {
     let clip = motiondb_compiler::bvh::read(Path::new("clip.bvh"), bvh_text().as_bytes()).unwrap();
     let text = bvh_text();
