@@ -9,8 +9,10 @@ use std::path::Path;
 /// # Errors
 /// Where the system refuses, or `path` is a folder, a device or a pipe (which opening alone would wait for).
 pub fn open(path: &Path) -> io::Result<File> {
-    if !fs::metadata(path)?.is_file() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
+    let found = fs::metadata(path)?;
+    if !found.is_file() {
+        let what = if found.is_dir() { "a folder, not a file" } else { "not a regular file" };
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
     }
     File::open(path)
 }
