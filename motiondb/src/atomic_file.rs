@@ -2,6 +2,9 @@
 //!
 //! Nothing is forced onto the disk: that would cost a frame as much as drawing it, and only a failing power supply
 //! would tell.
+//!
+//! Who is killed leaves a temporary file. Each is locked as long as it is written, so that [`sweep`] knows those that
+//! nobody writes any more.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -10,6 +13,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Files begun by this process: two of one name must not share a temporary one.
 static BEGUN: AtomicU32 = AtomicU32::new(0);
+
+/// Times that a file may be swept between being made and being locked: only by who begins to write the same name then.
+const SWEPT_MAX: usize = 8;
 
 /// A file being written beside its final name; dropped without [`AtomicFile::commit`], it is removed.
 #[derive(Debug)]
@@ -31,10 +37,18 @@ impl AtomicFile {
         if fs::metadata(target).is_ok_and(|found| !found.is_file()) {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "what is there is no regular file"));
         }
-        let (process, begun) = (std::process::id(), BEGUN.fetch_add(1, Ordering::Relaxed));
-        let temporary = target.with_file_name(format!(".{}.{process}.{begun}.tmp", name.to_string_lossy()));
-        let writer = Some(BufWriter::new(File::create(&temporary)?));
-        Ok(Self { writer, temporary, target: target.to_owned() })
+        for _ in 0..SWEPT_MAX {
+            let (process, begun) = (std::process::id(), BEGUN.fetch_add(1, Ordering::Relaxed));
+            let temporary = target.with_file_name(format!(".{}.{process}.{begun}.tmp", name.to_string_lossy()));
+            let file = File::create(&temporary)?;
+            // Where the system has no locks, nobody gets one and nothing is swept.
+            let _ = file.lock();
+            // Otherwise it was swept before it was locked; now it stays.
+            if temporary.exists() {
+                return Ok(Self { writer: Some(BufWriter::new(file)), temporary, target: target.to_owned() });
+            }
+        }
+        Err(io::Error::other("temporary files vanish as soon as they are made"))
     }
 
     /// The buffered file.
@@ -47,9 +61,9 @@ impl AtomicFile {
     /// # Errors
     /// Where flushing or renaming fails; the temporary file is removed.
     pub fn commit(mut self) -> io::Result<()> {
-        if let Some(writer) = self.writer.take() {
-            writer.into_inner().map_err(io::IntoInnerError::into_error)?;
-        }
+        let flushed = self.writer.take().map(BufWriter::into_inner).transpose();
+        // Locked until it has its name.
+        let _locked = flushed.map_err(io::IntoInnerError::into_error)?;
         fs::rename(&self.temporary, &self.target)
     }
 }
@@ -62,6 +76,25 @@ impl Drop for AtomicFile {
     }
 }
 
+/// Removes the temporary files of `target` that killed processes have left; none that is being written, by whomever.
+/// For what takes long to write: the whole folder is looked through.
+pub fn sweep(target: &Path) {
+    let (Some(name), Some(folder)) = (target.file_name(), target.parent()) else { return };
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let head = format!(".{}.", name.to_string_lossy());
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let file = entry.file_name();
+        let numbers = file.to_str().and_then(|file| file.strip_prefix(&head)?.strip_suffix(".tmp")?.split_once('.'));
+        let is_temporary =
+            numbers.is_some_and(|(process, begun)| [process, begun].iter().all(|n| n.parse::<u32>().is_ok()));
+        let unlocked = || File::options().write(true).open(entry.path()).ok().filter(|file| file.try_lock().is_ok());
+        if is_temporary && let Some(_locked) = unlocked() {
+            // What cannot be removed does no harm.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
 /// Writes all bytes under the final name or none.
 ///
 /// # Errors
@@ -70,4 +103,32 @@ pub fn write(target: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = AtomicFile::create(target)?;
     file.writer().write_all(bytes)?;
     file.commit()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_killed_process_left_is_swept_and_what_is_being_written_is_not() {
+        let folder = std::env::temp_dir().join(format!("fbcrowd_sweep_{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let target = folder.join("a.fbrec");
+        let kept = ["a.fbrec", ".a.fbrec.1.tmp", ".a.fbrec.x.0.tmp", ".b.fbrec.1.0.tmp", ".a.fbrec.1.0.tmp.txt"];
+        for name in kept.iter().chain(&[".a.fbrec.1.0.tmp", ".a.fbrec.4000000.12.tmp"]) {
+            fs::write(folder.join(name), "half").unwrap();
+        }
+        let mut written = AtomicFile::create(&target).unwrap();
+        sweep(&target);
+        written.writer().write_all(b"whole").unwrap();
+        written.commit().unwrap();
+        assert_eq!(fs::read(&target).unwrap(), b"whole");
+        let mut left: Vec<String> =
+            fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        left.sort();
+        let mut kept = kept.map(str::to_owned);
+        kept.sort();
+        assert_eq!(left, kept);
+        fs::remove_dir_all(&folder).unwrap();
+    }
 }

@@ -20,7 +20,7 @@ use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use glam::Vec3;
-use motiondb::atomic_file::AtomicFile;
+use motiondb::atomic_file::{self, AtomicFile};
 use motiondb::motion_db::MotionDb;
 use motiondb::skeleton::Skeleton;
 use motiondb::velocity_hull::VelocityHull;
@@ -94,6 +94,8 @@ impl Recorder {
         let fail = |source| RecordingError::Unwritable { path: path.to_owned(), source };
         let payload =
             bincode::serde::encode_to_vec(header, bincode_config()).map_err(|error| fail(io::Error::other(error)))?;
+        // Of a long run that was stopped, hundreds of megabytes would stay.
+        atomic_file::sweep(path);
         let mut file = AtomicFile::create(path).map_err(fail)?;
         file.writer().write_all(&MAGIC).map_err(fail)?;
         file.writer().write_all(&FORMAT_VERSION.to_le_bytes()).map_err(fail)?;
