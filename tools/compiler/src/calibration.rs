@@ -15,7 +15,7 @@
 //! | foot, toe | up while it is flat on the ground, +z | to the toe, +x |
 //!
 //! Hinge axes are cross products of the two bones, which weigh themselves by flexion, plus a little of what a straight
-//! limb would bend about.
+//! limb would bend about; of knees that stand straight, that alone.
 
 use glam::{DMat3, DQuat, DVec3};
 use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
@@ -26,6 +26,9 @@ use crate::source_clip::SourceClip;
 
 /// Share of a straight limb's presumed hinge in the mean: decides only where the limb hardly bends (sin of 3°).
 const STRAIGHT_HINGE: f64 = 0.05;
+/// A knee that bends less than this on the mean (sin of 5°) tells no hinge: standing, it gives back by as much, and the
+/// shank leans aside by as much, about other axes.
+const TELLING_KNEE: f64 = 0.087;
 /// Share of the frames, flattest first, in which a foot counts as flat on the ground.
 const FLAT_SHARE: f64 = 0.15;
 /// Bones shorter than this have no direction, m.
@@ -86,7 +89,12 @@ fn matched_axes(tracks: &Tracks, joint: Joint, orientations: &[[DQuat; JOINT_COU
     let like_parent =
         |frame: usize, rest: DVec3| joint.parent().map_or(rest, |parent| orientations[frame][parent.index()] * rest);
     let first = |frame: usize| first_axis(tracks, joint, frame).unwrap_or_else(|| like_parent(frame, first_rest));
-    let second = |frame: usize| second_axis(tracks, joint, frame).unwrap_or_else(|| like_parent(frame, second_rest));
+    let is_leg = matches!(joint, J::LeftThigh | J::RightThigh | J::LeftShank | J::RightShank);
+    let is_straight = is_leg && stands_straight(tracks, side);
+    let second = |frame: usize| match is_straight {
+        true => tracks.left(frame),
+        false => second_axis(tracks, joint, frame).unwrap_or_else(|| like_parent(frame, second_rest)),
+    };
     let frames = axis_frames(tracks, joint);
     [
         Matched { local: tracks.mean_local(joint, &frames, first), rest: first_rest },
@@ -108,7 +116,7 @@ fn first_axis(tracks: &Tracks, joint: Joint, frame: usize) -> Option<DVec3> {
 fn second_axis(tracks: &Tracks, joint: Joint, frame: usize) -> Option<DVec3> {
     use Joint as J;
     let side = side(joint).index();
-    let left = DVec3::Z.cross(tracks.forward[frame]);
+    let left = tracks.left(frame);
     match joint {
         J::Pelvis => {
             let [hips, shoulders] = [J::THIGHS, J::UPPER_ARMS].map(|pair| tracks.middle(pair, frame));
@@ -117,9 +125,7 @@ fn second_axis(tracks: &Tracks, joint: Joint, frame: usize) -> Option<DVec3> {
         J::SpineLower | J::SpineMiddle | J::SpineUpper | J::Neck | J::Head => Some(left),
         J::LeftClavicle | J::RightClavicle => Some(DVec3::Z),
         J::LeftThigh | J::RightThigh | J::LeftShank | J::RightShank => {
-            let [thigh, shank, foot] = [J::THIGHS[side], J::SHANKS[side], J::FEET[side]];
-            let bones = [tracks.direction(thigh, shank, frame)?, tracks.direction(shank, foot, frame)?];
-            Some(bones[0].cross(bones[1]) + STRAIGHT_HINGE * left)
+            Some(tracks.knee_hinge(side, frame)? + STRAIGHT_HINGE * left)
         }
         J::LeftFoot | J::RightFoot | J::LeftToe | J::RightToe => tracks.direction(J::FEET[side], J::TOES[side], frame),
         _ => {
@@ -129,6 +135,13 @@ fn second_axis(tracks: &Tracks, joint: Joint, frame: usize) -> Option<DVec3> {
             Some(bones[0].cross(bones[1]) + STRAIGHT_HINGE * bones[0].cross(tracks.forward[frame]))
         }
     }
+}
+
+/// Whether a knee hardly bends in the whole clip.
+fn stands_straight(tracks: &Tracks, side: Side) -> bool {
+    let bend = |frame: usize| tracks.knee_hinge(side.index(), frame).map_or(0.0, |hinge| hinge.dot(tracks.left(frame)));
+    let frames = tracks.positions_m.len();
+    (0..frames).map(bend).sum::<f64>() < TELLING_KNEE * frames as f64
 }
 
 /// All frames; for feet and toes those in which both lie flat: a toe's joint alone is often lowest as the foot rolls
@@ -173,6 +186,17 @@ impl Tracks<'_> {
     fn mean_local(&self, joint: Joint, frames: &[usize], direction: impl Fn(usize) -> DVec3) -> DVec3 {
         let sum: DVec3 = frames.iter().map(|&frame| self.source(joint, frame).inverse() * direction(frame)).sum();
         sum.try_normalize().unwrap_or(DVec3::Z)
+    }
+
+    /// The body's left on the ground.
+    fn left(&self, frame: usize) -> DVec3 {
+        DVec3::Z.cross(self.forward[frame])
+    }
+
+    /// What a leg bends about, as long as the sine of the bend.
+    fn knee_hinge(&self, side: usize, frame: usize) -> Option<DVec3> {
+        let [thigh, shank, foot] = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]];
+        Some(self.direction(thigh, shank, frame)?.cross(self.direction(shank, foot, frame)?))
     }
 
     fn middle(&self, pair: [Joint; 2], frame: usize) -> DVec3 {

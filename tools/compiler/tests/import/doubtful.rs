@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use motiondb::remark::Kind;
+use motiondb::skeleton::Joint;
 use motiondb_compiler::axis::Axis;
 use motiondb_compiler::error::{ImportError, Refusal};
 use motiondb_compiler::import::{Import, import_bytes, import_take};
@@ -83,6 +84,27 @@ fn a_walk_at_twice_its_rate_is_told_by_its_cadence_and_a_jog_is_not() {
     // 133 steps a minute; a walk at twice fewer than 107 goes as race walkers do.
     assert_eq!([said("walk_180", 1.0), said("walk_180", 2.0)], [false, true]);
     assert!(!said("jog_240", 1.0) && !said("run_350", 1.0));
+}
+
+#[test]
+fn thighs_of_who_stands_on_straight_knees_are_not_turned_by_what_these_give_back_or_aside() {
+    for (back_deg, aside_deg) in [(0.0, 0.0), (4.0, 0.0), (8.0, 0.0), (-4.0, 0.0), (0.0, 5.0), (2.0, -5.0)] {
+        let text = rows(|frame, row| {
+            row[2] = 0.01 * frame as f64;
+            row[3..].fill(0.0);
+            for knee in [2, 6] {
+                (row[3 + 3 * knee], row[3 + 3 * knee + 1]) = (aside_deg, back_deg);
+            }
+        });
+        let human = imported(&text).unwrap_or_else(|refusal| panic!("{refusal}"));
+        for thigh in Joint::THIGHS {
+            let turned_deg = human.frames[0].rotations[thigh.index()].to_scaled_axis().z.to_degrees();
+            assert!(
+                turned_deg.abs() < 30.0,
+                "{back_deg}° back, {aside_deg}° aside: {thigh:?} turned by {turned_deg:.0}°"
+            );
+        }
+    }
 }
 
 #[test]
