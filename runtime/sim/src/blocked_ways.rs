@@ -46,7 +46,7 @@ mod tests {
     use super::*;
     use crate::step::tests::antipodal;
 
-    /// The first blocked agent, its waypoint and how many there are, where only the last of them ends at its goal.
+    /// The first blocked agent, its waypoint and how many there are, where only agent 3 ends at its goal.
     fn check(scenario: &Scenario, expected: Option<[usize; 3]>) {
         let ends_m = scenario.agents.iter().enumerate().map(|(index, agent)| match index {
             3 => agent.goals_m[agent.goals_m.len() - 1],
