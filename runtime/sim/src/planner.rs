@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::mcn;
 use crate::mcn::half_plane::HalfPlane;
 use crate::mcn::time_to_collision::disc_with_segment;
-use crate::neighbours::{Nearest, Query, Ranking};
+use crate::neighbours::{AHEAD_S, Nearest, Query};
 use crate::obstacles::NearEdge;
 use crate::params::Params;
 use crate::plan::Plan;
@@ -59,7 +59,16 @@ impl Scratch {
     }
 }
 
-/// Plans one agent's next velocity and facing.
+/// How far ahead a planner's neighbours are ranked, s.
+pub fn ahead_s(planner: Planner, params: &Params) -> f32 {
+    match planner {
+        Planner::Mcn if params.planner.parts.order => AHEAD_S,
+        // By distance: as RVO2, and the authors of the power law, do.
+        Planner::Mcn | Planner::Orca | Planner::SocialForce => 0.0,
+    }
+}
+
+/// Plans one agent's next velocity and facing; the world's neighbours are sorted for [`ahead_s`].
 pub fn plan(planner: Planner, world: &World, agent: usize, params: &Params, scratch: &mut Scratch) -> Plan {
     match planner {
         Planner::Mcn => mcn::plan(world, agent, &params.planner, scratch),
@@ -69,23 +78,10 @@ pub fn plan(planner: Planner, world: &World, agent: usize, params: &Params, scra
 }
 
 /// Finds an agent's neighbours and, nearest first, the walls' edges within `wall_range` of its disc.
-pub(crate) fn look_around(
-    world: &World,
-    agent: usize,
-    ranking: Ranking,
-    range_m: f32,
-    wall_range_m: f32,
-    scratch: &mut Scratch,
-) {
+pub(crate) fn look_around(world: &World, agent: usize, range_m: f32, wall_range_m: f32, scratch: &mut Scratch) {
     let own = world.disc(agent);
-    let query = Query {
-        agent,
-        position_m: own.position_m,
-        velocity_mps: own.velocity_mps,
-        radius_m: own.radius_m,
-        range_m,
-        ranking,
-    };
+    let query =
+        Query { agent, position_m: own.position_m, velocity_mps: own.velocity_mps, radius_m: own.radius_m, range_m };
     world.neighbours.nearest(&query, &mut scratch.nearest);
     world.obstacles.near(own.position_m, own.radius_m + wall_range_m, &mut scratch.edges);
 }

@@ -14,6 +14,7 @@ use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::plan::Stance;
+use crate::planner::ahead_s;
 use crate::recording::{Header, Recording};
 use crate::recording_error::RecordingError;
 use crate::recording_frame::AgentFrame;
@@ -84,7 +85,8 @@ impl<'a> Replay<'a> {
         let positions_m: Vec<Vec2> = before.iter().map(|agent| agent.root.position_m).collect();
         let velocities_mps = self.velocities_mps(&earlier, &before);
         let mut neighbours = Neighbours::default();
-        neighbours.rebuild(&positions_m, &velocities_mps, &self.radii_m);
+        let Scenario { planner, params, .. } = &self.header().scenario;
+        neighbours.rebuild(&positions_m, &velocities_mps, &self.radii_m, ahead_s(*planner, params));
         Ok(RecordedStep {
             replay: self,
             frame,

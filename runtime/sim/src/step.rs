@@ -27,6 +27,7 @@ use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::path::{self, Braking};
 use crate::plan::Plan;
+use crate::planner::ahead_s;
 use crate::recording_frame::AgentFrame;
 use crate::scenario::Scenario;
 use crate::world::World;
@@ -106,7 +107,9 @@ impl Simulation {
     pub fn step(&mut self, finished: &mut dyn FnMut(Stage)) {
         self.follow_paths();
         finished(Stage::Path);
-        self.neighbours.rebuild(&self.agents.positions_m, &self.agents.velocities_mps, &self.agents.radii_m);
+        let Agents { positions_m, velocities_mps, radii_m, .. } = &self.agents;
+        let Scenario { planner, params, .. } = &self.scenario;
+        self.neighbours.rebuild(positions_m, velocities_mps, radii_m, ahead_s(*planner, params));
         finished(Stage::Neighbours);
         self.plan();
         finished(Stage::Planning);

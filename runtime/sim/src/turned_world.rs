@@ -15,7 +15,7 @@ use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::params::Params;
 use crate::plan::{Plan, Stance, StanceFoot};
-use crate::planner::{Planner, Scratch, plan};
+use crate::planner::{Planner, Scratch, ahead_s, plan};
 use crate::split_mix::SplitMix64;
 use crate::world::World;
 
@@ -87,8 +87,8 @@ impl Scene {
     /// The first agent's plan.
     fn planned(&self, planner: Planner, hull: &VelocityHull) -> Plan {
         let (radii_m, obstacles) = (vec![0.25; AGENTS], Obstacles::new(&self.polygons_m));
-        let mut neighbours = Neighbours::default();
-        neighbours.rebuild(&self.positions_m, &self.velocities_mps, &radii_m);
+        let (params, mut neighbours) = (Params::default(), Neighbours::default());
+        neighbours.rebuild(&self.positions_m, &self.velocities_mps, &radii_m, ahead_s(planner, &params));
         let constraints = MotionConstraints::new(hull);
         let world = World {
             positions_m: &self.positions_m,
@@ -105,7 +105,7 @@ impl Scene {
             dt_s: 0.1,
             lead_s: 0.1,
         };
-        plan(planner, &world, 0, &Params::default(), &mut Scratch::default())
+        plan(planner, &world, 0, &params, &mut Scratch::default())
     }
 }
 

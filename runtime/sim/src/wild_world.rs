@@ -71,16 +71,15 @@ impl WildWorld {
 
     /// What is wrong with what is planned in this world, by which planner; none where all is well.
     pub fn fault(&self, hull: &VelocityHull, params: &Params) -> Option<(Planner, &'static str)> {
-        let mut neighbours = Neighbours::default();
-        neighbours.rebuild(&self.positions_m, &self.velocities_mps, &self.radii_m);
         let obstacles = Obstacles::new(&self.polygons_m);
         let constraints = MotionConstraints::new(hull);
-        let world = self.world(&neighbours, &obstacles, &constraints);
-        let mut scratch = Scratch::default();
-        let agents = 0..self.positions_m.len();
+        let (mut neighbours, mut scratch) = (Neighbours::default(), Scratch::default());
         let planners = [Planner::Mcn, Planner::Orca, Planner::SocialForce];
         planners.into_iter().find_map(|planner| {
-            agents.clone().find_map(|agent| {
+            let ahead_s = planner::ahead_s(planner, params);
+            neighbours.rebuild(&self.positions_m, &self.velocities_mps, &self.radii_m, ahead_s);
+            let world = self.world(&neighbours, &obstacles, &constraints);
+            (0..self.positions_m.len()).find_map(|agent| {
                 let plan = planner::plan(planner, &world, agent, params, &mut scratch);
                 let limit_mps = speed_limit_mps(planner, &world, agent, params);
                 Some((planner, self.judged(agent, &plan, limit_mps, &obstacles)?))

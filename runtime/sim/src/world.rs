@@ -30,7 +30,7 @@ pub struct World<'a> {
     pub strafing_s: &'a [f32],
     /// [`Plan::stepping_back_s`](crate::plan::Plan::stepping_back_s) of the last step.
     pub stepping_back_s: &'a [f32],
-    /// Built from the same positions, velocities and radii.
+    /// Built from the same positions, velocities and radii, for [`crate::planner::ahead_s`] of who plans.
     pub neighbours: &'a Neighbours,
     /// The walls.
     pub obstacles: &'a Obstacles,

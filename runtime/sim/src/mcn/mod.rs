@@ -29,7 +29,7 @@ use self::linear_program::Solution;
 use self::orientation::{Orientation, Walk};
 use self::params::{McnParams, StanceForm};
 use crate::around::{Around, LANES, Lanes};
-use crate::neighbours::{APPROACH_MPS, Neighbour, Ranking};
+use crate::neighbours::Neighbour;
 use crate::plan::{Plan, VelocitySet};
 use crate::planner::{Scratch, look_around, time_to_collision_s};
 use crate::world::World;
@@ -42,15 +42,16 @@ const SLOW_WALK_MPS: f32 = 0.6;
 /// Whoever may be met after this time counts half as much as who is touched, s: what a walker needs to react. Of 0.1,
 /// 0.3 and 1 s, tried in the four-way crossing of Table 1 alone, A came to between 0.304 and 0.323 m/s².
 const REACTION_S: f32 = 0.3;
-/// What a disc keeps from walls, m: a body's root leaves its plan by up to 1.4 cm (through lanes of 1 to 1.2 m at 0.8
-/// to 2.2 m/s), and would touch a corner that its disc grazes.
-const WALL_MARGIN_M: f32 = 0.015;
+/// Speed at which those who keep their distance might come, m/s.
+const APPROACH_MPS: f32 = 1.0;
+/// What a disc keeps from walls, m: a body's root leaves its plan by about a centimetre, and would touch a corner that
+/// its disc grazes. With this, walls hold no disc in `fbcrowd bench course`.
+const WALL_MARGIN_M: f32 = 0.012;
 
 /// Plans one agent's next velocity and facing.
 pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> Plan {
     let wall_range_m = params.obstacle_time_horizon_s * WALL_SPEED_MPS;
-    let ranking = if params.parts.order { Ranking::Approach } else { Ranking::Distance };
-    look_around(world, agent, ranking, params.neighbour_range_m, wall_range_m, scratch);
+    look_around(world, agent, params.neighbour_range_m, wall_range_m, scratch);
     let density = adapt(world, agent, params, scratch);
     avoid(world, agent, params, scratch);
     scratch.forward = world.forward(agent);
@@ -135,7 +136,7 @@ fn horizons_against_s(own_mps: Vec2, around: &Around, params: &McnParams) -> Lan
 }
 
 /// The order of yielding (App. 9.4): 1 for whoever is touched, less the later somebody may be met. Time to collision
-/// itself jumps to infinity as soon as somebody is avoided; this is the time that the neighbours' ranking goes by.
+/// itself jumps to infinity as soon as somebody is avoided; this is the time to touch whoever came straight on.
 fn urgencies(around: &Around) -> Lanes {
     std::array::from_fn(|lane| {
         let offset_m = around.offset_m(lane);

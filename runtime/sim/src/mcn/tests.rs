@@ -9,7 +9,7 @@ use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::params::Params;
 use crate::plan::Stance;
-use crate::planner::{Planner, plan};
+use crate::planner::{Planner, ahead_s, plan};
 
 /// A scene of agents that face and want +x at 1.3 m/s, and all the rest that a world borrows.
 #[derive(Clone)]
@@ -57,7 +57,7 @@ impl Scene {
         let count = self.positions_m.len();
         let radii_m = vec![0.25; count];
         let mut neighbours = Neighbours::default();
-        neighbours.rebuild(&self.positions_m, &self.velocities_mps, &radii_m);
+        neighbours.rebuild(&self.positions_m, &self.velocities_mps, &radii_m, ahead_s(planner, &self.params));
         let hull = VelocityHull {
             construction: self.construction,
             turning_mps: self.turning_mps.clone(),

@@ -1,23 +1,25 @@
 //! Ranks of neighbours, many at once, and the ten best of them.
 //!
-//! The loops over lanes have no branch, so the compiler makes vector instructions of them. A rank is a time in s, or a
-//! squared distance in m²; it is infinite beyond the range.
+//! The loops over lanes have no branch, so the compiler makes vector instructions of them. Ranks are compared by their
+//! squares, m², which are infinite beyond the range.
 
-use super::{APPROACH_MPS, NEIGHBOUR_COUNT, Query};
+use glam::Vec2;
+
+use super::{LATER_SQUARED_M2PS2, NEIGHBOUR_COUNT, Query};
 
 /// Agents ranked at once: a vector of the narrowest x86-64.
 pub(super) const VECTOR: usize = 4;
 /// The key of nobody: after every key of finite rank.
 pub(super) const NOBODY: u64 = key(f32::INFINITY, 0);
 
-/// Rank and index in one number, so that ties are broken by comparing once: ranks are not negative, and such floats
-/// stand in the order of their bits.
-pub(super) const fn key(rank: f32, agent: u32) -> u64 {
-    ((rank.to_bits() as u64) << 32) | agent as u64
+/// A rank's square and an index in one number, so that ties are broken by comparing once: squares are not negative, and
+/// such floats stand in the order of their bits.
+pub(super) const fn key(squared: f32, agent: u32) -> u64 {
+    ((squared.to_bits() as u64) << 32) | agent as u64
 }
 
-/// The rank of a key.
-pub(super) const fn rank_of(key: u64) -> f32 {
+/// The square of a key's rank.
+pub(super) const fn squared_of(key: u64) -> f32 {
     f32::from_bits((key >> 32) as u32)
 }
 
@@ -29,7 +31,12 @@ pub(super) fn offer(keys: &mut [u64; NEIGHBOUR_COUNT], key: u64) {
     keys[0] = keys[0].min(key);
 }
 
-/// Squared distances.
+/// Which of a vector's ranks are no worse, a bit each.
+pub(super) fn better(ranks: &[f32], worst: f32) -> u32 {
+    ranks.iter().enumerate().fold(0, |better, (lane, &rank)| better | (u32::from(rank <= worst) << lane))
+}
+
+/// Of the distances.
 pub(super) fn by_distance(x_m: &[f32], y_m: &[f32], query: &Query, ranks: &mut [f32]) {
     for (rank, (x_m, y_m)) in ranks.iter_mut().zip(x_m.iter().zip(y_m)) {
         let (x_m, y_m) = (x_m - query.position_m.x, y_m - query.position_m.y);
@@ -38,19 +45,19 @@ pub(super) fn by_distance(x_m: &[f32], y_m: &[f32], query: &Query, ranks: &mut [
     }
 }
 
-/// Distance / (closing speed + 1 m/s).
+/// Of how near everybody comes within `ahead`.
 pub(super) fn by_approach(
     (x_m, y_m): (&[f32], &[f32]),
     (x_mps, y_mps): (&[f32], &[f32]),
     query: &Query,
+    ahead_s: f32,
     ranks: &mut [f32],
 ) {
     let velocities = x_mps.iter().zip(y_mps);
     for ((rank, (x_m, y_m)), (x_mps, y_mps)) in ranks.iter_mut().zip(x_m.iter().zip(y_m)).zip(velocities) {
-        let (x_m, y_m) = (x_m - query.position_m.x, y_m - query.position_m.y);
-        let (x_mps, y_mps) = (query.velocity_mps.x - x_mps, query.velocity_mps.y - y_mps);
-        let squared = x_m * x_m + y_m * y_m;
-        *rank = within(query, squared, approach_s(squared, x_m * x_mps + y_m * y_mps));
+        let offset_m = Vec2::new(x_m - query.position_m.x, y_m - query.position_m.y);
+        let velocity_mps = Vec2::new(query.velocity_mps.x - x_mps, query.velocity_mps.y - y_mps);
+        *rank = within(query, offset_m.length_squared(), approach(offset_m, velocity_mps, ahead_s));
     }
 }
 
@@ -58,10 +65,10 @@ fn within(query: &Query, distance_squared: f32, rank: f32) -> f32 {
     if distance_squared <= query.range_m * query.range_m { rank } else { f32::INFINITY }
 }
 
-/// Distance / (closing speed + 1 m/s), s, multiplied out so that nobody in the same place has a rank but 0: from the
-/// square of the distance, and offset · velocity.
-pub(super) fn approach_s(distance_squared: f32, closing: f32) -> f32 {
-    let closing = if closing > 0.0 { closing } else { 0.0 };
-    let across = closing + APPROACH_MPS * distance_squared.sqrt();
-    distance_squared / if across > f32::MIN_POSITIVE { across } else { f32::MIN_POSITIVE }
+/// The least of |p − t v|² + (c t)² within `ahead`.
+pub(super) fn approach(offset_m: Vec2, velocity_mps: Vec2, ahead_s: f32) -> f32 {
+    let time_s = offset_m.dot(velocity_mps) / (velocity_mps.length_squared() + LATER_SQUARED_M2PS2);
+    let time_s = if time_s > 0.0 { time_s } else { 0.0 };
+    let time_s = if time_s < ahead_s { time_s } else { ahead_s };
+    (offset_m - time_s * velocity_mps).length_squared() + LATER_SQUARED_M2PS2 * time_s * time_s
 }

@@ -10,7 +10,6 @@ use super::facing_the_way;
 use crate::mcn::linear_program::solve;
 use crate::mcn::orca::{HALF, agent_half_plane};
 use crate::mcn::orca_obstacles::obstacle_half_planes;
-use crate::neighbours::Ranking;
 use crate::plan::Plan;
 use crate::planner::{Scratch, look_around};
 use crate::world::World;
@@ -45,7 +44,7 @@ impl Default for OrcaParams {
 /// Plans one agent's next velocity; its facing follows.
 pub fn plan(world: &World, agent: usize, params: &OrcaParams, scratch: &mut Scratch) -> Plan {
     let wall_range_m = params.obstacle_time_horizon_s * params.speed_max_mps;
-    look_around(world, agent, Ranking::Distance, params.neighbour_range_m, wall_range_m, scratch);
+    look_around(world, agent, params.neighbour_range_m, wall_range_m, scratch);
     let own = world.disc(agent);
     let half_planes = &mut scratch.half_planes;
     half_planes.clear();

@@ -16,7 +16,6 @@ use super::facing_the_way;
 use crate::mcn::half_plane::Source;
 use crate::mcn::orca::Disc;
 use crate::mcn::social_force::{PowerLaw, agent_force_mps2, wall_force_mps2};
-use crate::neighbours::Ranking;
 use crate::plan::Plan;
 use crate::planner::{Scratch, look_around};
 use crate::world::World;
@@ -66,7 +65,7 @@ pub struct Force {
 /// Plans one agent's next velocity; its facing follows.
 pub fn plan(world: &World, agent: usize, params: &SocialForceParams, scratch: &mut Scratch) -> Plan {
     let range_m = params.neighbour_range_m;
-    look_around(world, agent, Ranking::Distance, range_m, range_m, scratch);
+    look_around(world, agent, range_m, range_m, scratch);
     scratch.half_planes.clear();
     scratch.satisfied = 0;
     scratch.adapted_mps = world.preferred_mps[agent];

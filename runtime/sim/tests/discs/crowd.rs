@@ -10,7 +10,7 @@ use fbcrowd_sim::obstacles::Obstacles;
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::path::{Braking, Progress, preferred_mps};
 use fbcrowd_sim::plan::{Plan, Stance};
-use fbcrowd_sim::planner::{Planner, Scratch, plan};
+use fbcrowd_sim::planner::{Planner, Scratch, ahead_s, plan};
 use fbcrowd_sim::scenario::AgentSpec;
 use fbcrowd_sim::world::World;
 use glam::Vec2;
@@ -143,7 +143,8 @@ impl Crowd {
     }
 
     fn plan(&mut self, setting: &Setting) {
-        self.neighbours.rebuild(&self.positions_m, &self.velocities_mps, &self.radii_m);
+        let ahead_s = ahead_s(setting.planner, setting.params);
+        self.neighbours.rebuild(&self.positions_m, &self.velocities_mps, &self.radii_m, ahead_s);
         let count = self.plans.len();
         let preferred_mps = self.follow_paths(setting);
         let strafing_s: Vec<f32> = self.plans.iter().map(|plan| plan.strafing_s).collect();

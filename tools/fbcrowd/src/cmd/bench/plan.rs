@@ -11,10 +11,10 @@ use std::time::Instant;
 
 use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::crowd::plan_all;
-use fbcrowd_sim::neighbours::{Nearest, Neighbours, Query, Ranking};
+use fbcrowd_sim::neighbours::{Nearest, Neighbours, Query};
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::plan::Plan;
-use fbcrowd_sim::planner::Planner;
+use fbcrowd_sim::planner::{Planner, ahead_s};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use fbcrowd_sim::split_mix::SplitMix64;
 use fbcrowd_sim::step::Simulation;
@@ -139,22 +139,24 @@ fn timed(simulations: &mut [Simulation], pools: &Pools) -> Vec<Vec<Turn>> {
 }
 
 fn turn(world: &World, pools: &Pools) -> Turn {
-    let plan = |planner| move |world: &World| plan_once(planner, world);
+    let plan = |planner, pool| microseconds(world, pool, planner, |world| plan_once(planner, world));
     Turn {
-        query_us: microseconds(world, &pools.one, query_once),
-        orca_us: microseconds(world, &pools.one, plan(Planner::Orca)),
-        mcn_us: microseconds(world, &pools.one, plan(Planner::Mcn)),
-        mcn_two_threads_us: microseconds(world, &pools.two, plan(Planner::Mcn)),
+        query_us: microseconds(world, &pools.one, Planner::Orca, query_once),
+        orca_us: plan(Planner::Orca, &pools.one),
+        mcn_us: plan(Planner::Mcn, &pools.one),
+        mcn_two_threads_us: plan(Planner::Mcn, &pools.two),
     }
 }
 
-/// Of the sorting into cells and some work upon it, per agent. The first time, which wakes the threads, does not count.
-fn microseconds(world: &World, pool: &ThreadPool, work: impl Fn(&World) + Sync) -> f32 {
+/// Of the sorting into cells for a planner and some work upon it, per agent. The first time, which wakes the threads,
+/// does not count.
+fn microseconds(world: &World, pool: &ThreadPool, planner: Planner, work: impl Fn(&World) + Sync) -> f32 {
+    let ahead_s = ahead_s(planner, &Params::default());
     let agents = world.positions_m.len();
     let repeats = PLANS.div_ceil(agents);
     let mut neighbours = Neighbours::default();
     let mut once = || {
-        neighbours.rebuild(world.positions_m, world.velocities_mps, world.radii_m);
+        neighbours.rebuild(world.positions_m, world.velocities_mps, world.radii_m, ahead_s);
         work(&World { neighbours: &neighbours, ..*world });
     };
     pool.install(|| {
@@ -182,7 +184,6 @@ fn query_once(world: &World) {
             velocity_mps: disc.velocity_mps,
             radius_m: disc.radius_m,
             range_m: Params::default().orca.neighbour_range_m,
-            ranking: Ranking::Distance,
         };
         world.neighbours.nearest(&query, &mut nearest);
         black_box(&nearest);
