@@ -6,6 +6,7 @@ mod common;
 use std::path::Path;
 use std::sync::Arc;
 
+use fbcrowd_sim::mcn::half_plane::Source;
 use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::reasons::Reasons;
 use fbcrowd_sim::recording::{Header, Recorder, Recording};
@@ -15,8 +16,8 @@ use fbcrowd_sim::scenario_file;
 use fbcrowd_sim::step::Simulation;
 use motiondb::motion_db::MotionDb;
 
-/// What the packing of poses and times to landing may change where the stance foot limits a velocity, m/s: 0.1 mm at
-/// the sole, 0.1 s before landing. Measured: 0.04 mm/s.
+/// How far the packing of poses and times to landing may shift the stance foot's half-plane, m/s: 0.1 mm at the sole,
+/// 0.1 s before landing. Measured: 0.3 mm/s.
 const STANCE_TOLERANCE_MPS: f32 = 1e-3;
 
 fn scenario(name: &str, planner: Planner, duration_s: f32) -> Scenario {
@@ -48,11 +49,9 @@ fn check(recording: &Recording) {
         let step = replay.step(frame).unwrap();
         let world = step.world();
         for (agent, after) in step.after.iter().enumerate() {
-            let plan = Reasons::new(*planner, &world, agent, params).plan;
-            let has_stance = *planner == Planner::Mcn && world.stances[agent].foot.is_some();
-            let tolerance_mps = if has_stance { STANCE_TOLERANCE_MPS } else { 0.0 };
-            let off_mps = plan.velocity_mps.distance(after.planned_mps);
-            assert!(off_mps <= tolerance_mps, "{name}, frame {frame}, agent {agent}: {off_mps} m/s");
+            let reasons = Reasons::new(*planner, &world, agent, params);
+            let (plan, off_mps) = (reasons.plan, reasons.plan.velocity_mps.distance(after.planned_mps));
+            assert!(off_mps <= tolerance_mps(&reasons), "{name}, frame {frame}, agent {agent}: {off_mps} m/s");
             assert_eq!(
                 (plan.set, plan.strafing_s),
                 (after.set, after.strafing_s),
@@ -60,6 +59,17 @@ fn check(recording: &Recording) {
             );
         }
     }
+}
+
+/// None without a stance foot; in the corner of its line with another, which it shifts along that other, the more the
+/// nearer their directions are.
+fn tolerance_mps(reasons: &Reasons) -> f32 {
+    let Some(stance) = reasons.half_planes.iter().find(|half_plane| half_plane.source == Source::Stance) else {
+        return 0.0;
+    };
+    let others = reasons.half_planes.iter().filter(|other| other.source != Source::Stance && reasons.binds(other));
+    let sine = others.map(|other| other.direction.perp_dot(stance.direction).abs()).fold(1.0, f32::min);
+    STANCE_TOLERANCE_MPS / sine
 }
 
 #[test]
