@@ -96,7 +96,7 @@ fn record(path: &Path) {
     let scenario = Scenario {
         name: "two".to_owned(),
         duration_s: 1.0,
-        dt_s: 0.5,
+        dt_s: 0.25,
         seed: 1,
         planner: Planner::default(),
         coupling: Coupling::default(),

@@ -10,7 +10,7 @@ use fbcrowd_sim::recording_frame::AgentFrame;
 use glam::Vec2;
 use motiondb::pose::Root;
 
-/// One who walks 1 m to the left of the x axis in two steps of half a second, and one who stands at its goal.
+/// One who walks half a metre to the left of the x axis in two steps of a quarter of a second, and one who stands at its goal.
 fn frames() -> Vec<Vec<AgentFrame>> {
     let walker = |y: f32| AgentFrame {
         root: Root { position_m: Vec2::new(2.0, y), facing_rad: std::f32::consts::FRAC_PI_2 },
@@ -25,11 +25,11 @@ fn frames() -> Vec<Vec<AgentFrame>> {
         stepping_back_s: 0.125,
         ..standing_at(Vec2::ZERO)
     };
-    [0.0, 0.5, 1.0].map(|y| vec![walker(y), standing_at(Vec2::new(9.0, -4.0))]).to_vec()
+    [0.0, 0.25, 0.5].map(|y| vec![walker(y), standing_at(Vec2::new(9.0, -4.0))]).to_vec()
 }
 
 fn table() -> String {
-    let header = header(vec![agent([2.0, 0.0], [2.0, 1.25]), agent([9.0, -4.0], [9.0, -4.0])], 0.5);
+    let header = header(vec![agent([2.0, 0.0], [2.0, 0.875]), agent([9.0, -4.0], [9.0, -4.0])], 0.25);
     let recording = record(&folder("agent_table").join("a.fbrec"), &header, &frames());
     let mut text = Vec::new();
     write_table(&recording, &mut text).unwrap();
@@ -45,10 +45,10 @@ fn the_table_has_a_named_column_for_each_field_and_a_row_per_frame_and_agent() {
     let field = |row: usize, name: &str| rows[row][rows[0].iter().position(|column| *column == name).unwrap()];
     let last_walker = [
         ("step", "2"),
-        ("time_s", "1.000000"),
+        ("time_s", "0.500000"),
         ("agent", "0"),
         ("x_m", "2.000000"),
-        ("y_m", "1.000000"),
+        ("y_m", "0.500000"),
         ("facing_deg", "90.0000"),
         ("velocity_x_mps", "0.000000"),
         ("velocity_y_mps", "1.000000"),

@@ -188,6 +188,7 @@ fn wrong_keys_and_types_are_shown_where_they_stand() {
 #[test]
 fn numbers_out_of_range_are_shown_where_they_stand() {
     check_refused("dt", &format!("{HEAD}dt_s = 0\n{ONE}"), "0", "dt_s is 0");
+    check_refused("coarse", &format!("{HEAD}dt_s = 0.5\n{ONE}"), "0.5", "dt_s is 0.5");
     check_refused("nan", &format!("{HEAD}dt_s = nan\n{ONE}"), "nan", "dt_s is NaN");
     check_refused("duration", &format!("clips = \".\"\nduration_s = -1\n{ONE}"), "-1", "duration_s is -1");
     let radius = "{ at_m = [0, 0], goals_m = [[5, 0]], radius_m = -1 }";
