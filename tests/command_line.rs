@@ -6,15 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use support::{compile, fbcrowd, files, folder, shared, text};
-
-const WALK: &str = "assets/clips/walk_110.bvh";
-
-fn scenario(folder: &Path, content: &str) -> String {
-    let path = folder.join("scene.toml");
-    fs::write(&path, content).unwrap();
-    text(&path).to_owned()
-}
+use support::{WALK, compile, fbcrowd, files, folder, scenario, shared, text};
 
 #[test]
 fn every_command_explains_itself_with_an_example() {

@@ -3,17 +3,8 @@
 mod support;
 
 use std::fs;
-use std::path::Path;
 
-use support::{compile, fbcrowd, files, folder, text};
-
-const WALK: &str = "assets/clips/walk_110.bvh";
-
-fn scenario(folder: &Path, content: &str) -> String {
-    let path = folder.join("scene.toml");
-    fs::write(&path, content).unwrap();
-    text(&path).to_owned()
-}
+use support::{WALK, compile, fbcrowd, files, folder, scenario, text};
 
 #[test]
 fn a_database_replaces_no_clip_that_it_is_made_of() {

@@ -8,6 +8,9 @@ use std::process::Command;
 use motiondb_compiler::truth::marine_files;
 use serde_json::Value;
 
+/// A bundled clip, from the repository's root.
+pub const WALK: &str = "assets/clips/walk_110.bvh";
+
 /// What a command did.
 pub struct Outcome {
     pub code: i32,
@@ -80,6 +83,13 @@ pub fn files(folder: &Path) -> Vec<String> {
 /// A path as an argument.
 pub fn text(path: &Path) -> &str {
     path.to_str().expect("the tests' paths are UTF-8")
+}
+
+/// Writes `folder/scene.toml`.
+pub fn scenario(folder: &Path, content: &str) -> String {
+    let path = folder.join("scene.toml");
+    fs::write(&path, content).unwrap();
+    text(&path).to_owned()
 }
 
 /// `../shared/NAME` beside the repository, or a line that says the test was skipped.

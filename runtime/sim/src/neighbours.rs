@@ -170,8 +170,8 @@ impl Neighbours {
     pub fn nearest(&self, query: &Query, nearest: &mut Nearest) {
         let guess = if self.ahead_s > 0.0 { GUESS * nearest.worst() } else { 0.0 };
         let centre_m = query.position_m + 0.5 * self.ahead_s * query.velocity_mps;
-        let half_path_m = 0.5 * self.ahead_s * (query.velocity_mps.length_squared().sqrt() + self.speed_max_mps);
-        let half_path_m = half_path_m + ROUNDING * (half_path_m + self.extent_m);
+        let speeds_mps = query.velocity_mps.length_squared().sqrt() + self.speed_max_mps;
+        let half_path_m = (1.0 + ROUNDING) * 0.5 * self.ahead_s * speeds_mps + ROUNDING * self.extent_m;
         let mut ranks = std::mem::take(&mut nearest.ranks);
         for nobody in [key(guess, u32::MAX), NOBODY].into_iter().filter(|&nobody| squared_of(nobody) > 0.0) {
             nearest.keys = [nobody; NEIGHBOUR_COUNT];

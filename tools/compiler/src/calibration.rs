@@ -91,9 +91,11 @@ fn matched_axes(tracks: &Tracks, joint: Joint, orientations: &[[DQuat; JOINT_COU
     let first = |frame: usize| first_axis(tracks, joint, frame).unwrap_or_else(|| like_parent(frame, first_rest));
     let is_leg = matches!(joint, J::LeftThigh | J::RightThigh | J::LeftShank | J::RightShank);
     let is_straight = is_leg && stands_straight(tracks, side);
-    let second = |frame: usize| match is_straight {
-        true => tracks.left(frame),
-        false => second_axis(tracks, joint, frame).unwrap_or_else(|| like_parent(frame, second_rest)),
+    let second = |frame: usize| {
+        if is_straight {
+            return tracks.left(frame);
+        }
+        second_axis(tracks, joint, frame).unwrap_or_else(|| like_parent(frame, second_rest))
     };
     let frames = axis_frames(tracks, joint);
     [

@@ -68,6 +68,7 @@ fn within(query: &Query, distance_squared: f32, rank: f32) -> f32 {
 /// The least of |p − t v|² + (c t)² within `ahead`.
 pub(super) fn approach(offset_m: Vec2, velocity_mps: Vec2, ahead_s: f32) -> f32 {
     let time_s = offset_m.dot(velocity_mps) / (velocity_mps.length_squared() + LATER_SQUARED_M2PS2);
+    // Compared like this, each line is one vector instruction.
     let time_s = if time_s > 0.0 { time_s } else { 0.0 };
     let time_s = if time_s < ahead_s { time_s } else { ahead_s };
     (offset_m - time_s * velocity_mps).length_squared() + LATER_SQUARED_M2PS2 * time_s * time_s
