@@ -2,6 +2,8 @@
 
 mod clips;
 
+use std::f32::consts::TAU;
+
 use fbcrowd_sim::hms::deformation::Deformation;
 use fbcrowd_sim::hms::semi_procedural::SemiProcedural;
 use glam::Vec2;
@@ -125,6 +127,24 @@ fn legs_do_not_cross_nor_overstretch_and_soles_stay_above_the_ground() {
                 assert!(flexion_deg > 3.0, "{:?}: {flexion_deg}°", cycle.parameters);
             }
         }
+    }
+}
+
+/// Greatest vertical acceleration of the hips, m/s², row by row.
+fn hips_mps2(cycle: &Cycle) -> f32 {
+    let row_s = cycle.feet.phase_map.period_s / cycle.joints.len() as f32;
+    let at_m = |row: usize| cycle.joints[row % cycle.joints.len()].positions_m[0].z;
+    let rows = 0..cycle.joints.len();
+    rows.map(|row| (at_m(row) - 2.0 * at_m(row + 1) + at_m(row + 2)).abs() / (row_s * row_s)).fold(0.0, f32::max)
+}
+
+#[test]
+fn hips_swing_with_the_stride_and_do_not_drop() {
+    for cycle in cycles(&bundled()).into_iter().filter(|cycle| cycle.parameters.speed_mps < 2.0) {
+        // What swings so far to either side twice a stride has this acceleration, m; people's hips swing by 2 to 3 cm.
+        let swing_m = 0.06 * (cycle.parameters.speed_mps / 1.4).max(1.0).powi(2);
+        let bar_mps2 = swing_m * (TAU * 2.0 / cycle.feet.phase_map.period_s).powi(2);
+        assert!(hips_mps2(&cycle) < bar_mps2, "{:?}: {} of {bar_mps2}", cycle.parameters, hips_mps2(&cycle));
     }
 }
 

@@ -36,7 +36,8 @@ impl Body {
             (Mode::SemiProcedural, Some(hybrid)) => self.deform(motion, &hybrid.semi_procedural, &plan, step),
             _ => self.blend(motion, &plan, step),
         };
-        self.seen[1] = self.seen[0].follow(self.mode, &self.mix, self.walking, step);
+        let [seen, lately] = &mut self.seen;
+        seen.follow(lately, self.mode, &self.mix, self.walking, step);
         // What is played has come to the end of the step; a switch leaves what it leaves there.
         self.inertia.pass(step);
         if let Some(hybrid) = motion.hybrid {

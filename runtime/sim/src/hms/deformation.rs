@@ -5,6 +5,7 @@
 //! - Backward gait is nearly forward gait in reversed time (Winter, Pluck, Yang 1989). Phases 0 and ½ are mid-stances,
 //!   so −φ is the cycle reversed; walking backward plays it, and the mean of both, whose legs swing neither way, steps
 //!   aside.
+//! - Hips swing down to where each foot lands ([`super::landing`]), and are as high over the straighter leg as in m_sp.
 //! - The places move apart for side-steps and turns, so that legs do not cross, and outward where the body leans.
 //! - Hips, trunk and arms swing as much as the stride is long.
 //!
@@ -23,7 +24,9 @@ use motiondb::skeleton::{Foot, Joint, Side, Skeleton};
 use super::arc::moved;
 use super::blending::two_rows;
 use super::foot_path::Foothold;
+use super::landing::lowering;
 use super::leg::FootPose;
+use super::pelvis;
 use super::posture::Posture;
 use super::semi_procedural::SemiProcedural;
 use crate::angle::{direction, yaw};
@@ -40,6 +43,8 @@ const KNEE_YAW: f32 = 0.7;
 const HIP_TWIST: f32 = 0.3;
 /// Swing of hips, trunk and arms over that of m_sp, at least and at most.
 const SWING: [f32; 2] = [0.3, 1.3];
+/// Of what hips must come down by for a foot that lands: they are low in time, and low until the other foot leaves.
+const LANDING_SHARE: f32 = 1.15;
 /// Sizes of side speeds and turn rates are rounded off below about this, m/s and rad/s: |x| has an edge at 0, and feet
 /// that move apart by it would jerk where a body changes sides.
 const ROUNDING: f32 = 0.1;
@@ -59,6 +64,8 @@ pub struct Deformation<'a> {
     lean: Vec2,
     /// Of either foot: in a turn feet open and close rather than point inward.
     toe_out_rad: f32,
+    /// How much lower than in m_sp the hips are where a foot lands, m.
+    lowered_m: f32,
     /// How far each place moves outward, so that the legs do not cross where they step aside or turn, m.
     widening_m: f32,
 }
@@ -95,14 +102,31 @@ impl<'a> Deformation<'a> {
         let turn_apart_rad = of.apart_s * rounded_size(parameters.turn_rate_rad_s) / tempo.cadence;
         let aside_m = of.apart_s * rounded_size(parameters.strafe_mps) / tempo.cadence;
         let turning_m = FOOT_M * direction((0.5 * turn_apart_rad).min(FRAC_PI_2)).y;
-        Self {
+        let level = Self {
             tempo,
             parameters,
             swing: (travel_mps / (of.parameters.speed_mps * tempo.cadence)).clamp(SWING[0], SWING[1]),
             lean: lean(parameters),
             toe_out_rad: TOE_OUT * 0.5 * turn_apart_rad,
+            lowered_m: 0.0,
             widening_m: (0.5 * (aside_m + turning_m + GAP_M - of.track_m)).max(0.0),
-        }
+        };
+        let lower_m = LANDING_SHARE * pelvis::softly_positive_m(level.landing_lower_m());
+        Self { lowered_m: lower_m.min(pelvis::DROP_MAX_M), ..level }
+    }
+
+    /// How much lower than in m_sp the hips must be where feet land, m, as if the root went straight on over them.
+    fn landing_lower_m(&self) -> f32 {
+        let went_mps = Vec2::new(self.parameters.speed_mps, self.parameters.strafe_mps) / self.tempo.cadence;
+        let aside_m = Vec2::new(0.0, self.leaning_m());
+        let [forward, reversed] =
+            self.tempo.of.landings.map(|foot| foot.lower_m(foot.ahead_s * went_mps + aside_m, self.widening_m));
+        self.tempo.directions[0] * forward + self.tempo.directions[1] * reversed
+    }
+
+    /// How far feet stand to the left, as the body leans over them.
+    fn leaning_m(&self) -> f32 {
+        -self.tempo.of.hips_m * self.lean.y / self.lean.x
     }
 
     /// Phase to time.
@@ -164,6 +188,7 @@ impl<'a> Deformation<'a> {
         self.calm(&mut pose);
         twist(&mut pose, self.tempo.way);
         self.lean_over(&mut pose);
+        pose.pelvis_m.z -= self.lowered_m * lowering(2.0 * (phase - self.tempo.of.lowest));
         let contacts = self.contacts(db, phase);
         let feet = self.feet(&db.skeleton, contacts, &instant);
         for (thigh, (_, yaw_rad)) in Joint::THIGHS.into_iter().zip(feet) {
@@ -178,11 +203,10 @@ impl<'a> Deformation<'a> {
     /// Where the feet are to be, and their yaw.
     fn feet(&self, skeleton: &Skeleton, contacts: [f32; 2], instant: &Instant) -> [(FootPose, f32); 2] {
         let slip = instant.slip();
-        let outward_m = -self.tempo.of.hips_m * self.lean.y / self.lean.x;
         [0, 1].map(|side| {
             let mut foot = self.mixed_foot(instant, side);
             foot.place_m += slip * contacts[side] * self.slip_m(skeleton, &foot, side);
-            self.carried_foot(&foot, side, outward_m)
+            self.carried_foot(&foot, side)
         })
     }
 
@@ -229,7 +253,7 @@ impl<'a> Deformation<'a> {
     }
 
     /// Where a foot's place has been carried to, and the yaw that its foot has got by it.
-    fn carried_foot(&self, foot: &Foothold, side: usize, outward_m: f32) -> (FootPose, f32) {
+    fn carried_foot(&self, foot: &Foothold, side: usize) -> (FootPose, f32) {
         let sign = Side::BOTH[side].sign();
         let carried = moved(&Root::default(), &self.parameters, foot.since_s / self.tempo.cadence);
         let toe_out_rad = sign * self.toe_out_rad;
@@ -237,7 +261,7 @@ impl<'a> Deformation<'a> {
         let middle_m = self.tempo.of.resting(side).place_m;
         let place_m = middle_m
             + yaw(toe_out_rad) * (foot.place_m - middle_m)
-            + Vec3::new(0.0, outward_m + sign * self.widening_m, 0.0);
+            + Vec3::new(0.0, self.leaning_m() + sign * self.widening_m, 0.0);
         let frame = RootFrame { position_m: carried.position_m, forward: direction(carried.facing_rad) };
         let target = FootPose { ankle_m: frame.to_local(place_m), orientation: yaw(yaw_rad) * foot.orientation };
         (target, yaw_rad)

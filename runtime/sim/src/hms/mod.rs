@@ -34,6 +34,7 @@ pub mod hybrid;
 pub mod ik;
 pub mod inertialization;
 pub mod intention;
+pub mod landing;
 pub mod leg;
 pub mod mode;
 pub mod owed;

@@ -1,17 +1,22 @@
-//! The pelvis comes down where a leg would have to stretch to reach its foot.
+//! How high the pelvis is over feet that are not where the pose has them.
 //!
 //! With d and d⁰ the descents that a leg needs to reach its target and the pose's own foot, negative where it reaches,
-//! and S a soft maximum with none, each leg asks for
+//! and S a soft maximum with none, s its softness,
 //!
 //! ```text
-//! S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²,   S(d) = ½(d + √(d² + 4s²)),
+//! S(d) = ½(d + √(d² + 4s²)),   ⌈a, b⌉ = b + S(a − b):
 //! ```
 //!
-//! nothing where the foot is where the pose has it, never less than what is needed, and a little before it must:
-//! neither hips nor knee jerk as the leg comes to its end. The pelvis comes down by a little more than what the more
-//! exacting leg asks for. It comes down when it is asked to, and goes up again gently ([`Descent`]): a trailing foot
-//! that leaves the ground, or comes back under the body, asks for nothing from one step to the next, and hips that
-//! followed would shoot up. All vectors are in the root frame (x forward, y left, z up), metres.
+//! - in another walk hips are as high over the straighter leg as they are in the clip: lower by D = ⌈d, d′⌉ − ⌈d⁰, d⁰′⌉
+//!   where that is positive, and higher by a share of it where legs would else bend more than they need;
+//! - over feet that are held they only come down. Each leg asks for S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing where
+//!   the foot is where the pose has it, never less than what is needed, and a little before it must, so that neither
+//!   hips nor knee jerk as the leg comes to its end. The pelvis comes down by a little more than what the more exacting
+//!   leg asks for. It does so when it is asked to, and goes up again gently ([`Descent`]): a trailing foot that leaves
+//!   the ground, or comes back under the body, asks for nothing from one step to the next, and hips that followed would
+//!   shoot up.
+//!
+//! All vectors are in the root frame (x forward, y left, z up), metres.
 
 use glam::Vec2;
 
@@ -26,9 +31,15 @@ pub(super) const EXTENSION: f32 = 0.99;
 /// the knee would snap at the end of the leg.
 const EXTENSION_MAX: f32 = 0.9985;
 /// Furthest that the pelvis comes down, m.
-const DROP_MAX_M: f32 = 0.12;
+pub(super) const DROP_MAX_M: f32 = 0.12;
 /// s, m: less than what the hips bob in walking. With 0.01 knees snap at stops.
 pub(super) const SOFTNESS_M: f32 = 0.014;
+/// Share by which hips are raised where legs would otherwise bend more than in the clip: with all of it, short strides
+/// would take them higher as feet land than at mid-stance.
+const RAISED: f32 = 0.45;
+/// Edges of what one leg or the other needs are rounded off below about this, m: what a knee has that is flexed by 15°,
+/// until its leg is straight.
+const ROUNDING_M: f32 = 0.006;
 /// Rate of the filter by which the pelvis goes up again, 1/s: of a descent, an eighth is left after 0.25 s, a swing.
 pub(super) const RISE_RATE_HZ: f32 = 20.0;
 
@@ -48,14 +59,35 @@ impl Descent {
     }
 }
 
+/// How much lower the pelvis is where feet are where another walk has them, m; negative where it is higher.
+pub fn lower_m(legs: &[Leg; 2], posed: &[FootPose; 2], feet: &[FootPose; 2]) -> f32 {
+    let [[left_m, left_own_m], [right_m, right_own_m]] = needs_m(legs, posed, feet);
+    let lower_m = greater_m(left_m, right_m) - greater_m(left_own_m, right_own_m);
+    (RAISED * lower_m + (1.0 - RAISED) * softly_positive_m(lower_m)).min(DROP_MAX_M)
+}
+
+/// The positive part of a length, without an edge: none at 0, and at most [`ROUNDING_M`] less than the length.
+pub fn softly_positive_m(length_m: f32) -> f32 {
+    ROUNDING_M * (soft_maximum(length_m / ROUNDING_M) - 1.0)
+}
+
+/// The greater of two lengths, without an edge.
+fn greater_m(one_m: f32, other_m: f32) -> f32 {
+    other_m + ROUNDING_M * soft_maximum((one_m - other_m) / ROUNDING_M)
+}
+
 /// How far the pelvis comes down where feet move from where the pose has them, m.
 pub fn drop_m(legs: &[Leg; 2], posed: &[FootPose; 2], feet: &[FootPose; 2]) -> f32 {
-    let needed_m = [0, 1].map(|side| {
+    let [left_m, right_m] = needs_m(legs, posed, feet).map(|[target_m, own_m]| asked_m(target_m, own_m));
+    libm::sqrtf(Vec2::new(left_m * left_m, right_m * right_m).length()).min(DROP_MAX_M)
+}
+
+/// d and d⁰ of each leg.
+fn needs_m(legs: &[Leg; 2], posed: &[FootPose; 2], feet: &[FootPose; 2]) -> [[f32; 2]; 2] {
+    [0, 1].map(|side| {
         let extent_m = extent_m(&legs[side], &posed[side]);
         [&feet[side], &posed[side]].map(|foot| needed_m(&legs[side], extent_m, foot))
-    });
-    let [left_m, right_m] = needed_m.map(|[target_m, own_m]| asked_m(target_m, own_m));
-    libm::sqrtf(Vec2::new(left_m * left_m, right_m * right_m).length()).min(DROP_MAX_M)
+    })
 }
 
 /// What a leg asks for, of what it needs to reach its target and its own foot.
@@ -115,6 +147,32 @@ mod tests {
     #[test]
     fn a_pose_whose_feet_are_where_they_should_be_is_left_as_it_is() {
         assert!(lowered_m(0.15, 0.0).0.abs() < 1e-6);
+    }
+
+    /// How much lower hips are where both feet of a body with flexed knees stand so far to either side of where its pose
+    /// has them.
+    fn spread_lower_m(flexion_rad: f32, spread_m: f32) -> f32 {
+        let skeleton = skeleton();
+        let mut pose = Pose { pelvis_m: skeleton.offsets_m[0], rotations: [Quat::IDENTITY; JOINT_COUNT] };
+        for shank in Joint::SHANKS {
+            pose.rotations[shank.index()] = Quat::from_rotation_y(flexion_rad);
+        }
+        let legs = legs(&pose, &skeleton);
+        let posed = legs.each_ref().map(Leg::foot);
+        let mut feet = posed;
+        feet[0].ankle_m.x += spread_m;
+        feet[1].ankle_m.x -= spread_m;
+        lower_m(&legs, &posed, &feet)
+    }
+
+    #[test]
+    fn another_walk_has_its_hips_as_high_over_the_straighter_leg_without_an_edge() {
+        assert!(spread_lower_m(0.15, 0.0).abs() < 1e-6 && spread_lower_m(0.6, 0.0).abs() < 1e-6);
+        let step_m = 0.005;
+        let lower_m: Vec<f32> = (0..60).map(|step| spread_lower_m(0.3, step as f32 * step_m)).collect();
+        assert!(lower_m.is_sorted() && lower_m[50] > 0.03);
+        let slopes: Vec<f32> = lower_m.windows(2).map(|pair| (pair[1] - pair[0]) / step_m).collect();
+        assert!(slopes.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.05), "{slopes:?}");
     }
 
     #[test]

@@ -30,21 +30,26 @@ impl Posture {
         Self { pose, feet: legs.each_ref().map(Leg::foot), legs, contacts }
     }
 
-    /// Moves the feet; heels rise, and the pelvis comes down where a leg would have to stretch for it.
+    /// Moves the feet to where another walk has them; heels rise, and the hips stay as high over the straighter leg.
     pub fn move_feet(&mut self, feet: [FootPose; 2], skeleton: &Skeleton) {
         let risen = |side: usize| {
             heel_rise::raised(&mut self.pose, skeleton, side, &self.legs[side], &self.feet[side], &feet[side])
         };
         let feet = [0, 1].map(risen);
-        self.move_feet_below(feet, |asked_m| asked_m);
+        self.lower(pelvis::lower_m(&self.legs, &self.feet, &feet));
+        self.feet = feet;
     }
 
-    /// The same with a pelvis that comes down as far as `descent` makes of what is asked for, m.
-    pub fn move_feet_below(&mut self, feet: [FootPose; 2], descent: impl FnOnce(f32) -> f32) {
-        let drop_m = descent(pelvis::drop_m(&self.legs, &self.feet, &feet));
+    /// Moves the feet by what holds them; the pelvis comes down where a leg would have to stretch for it, as far as
+    /// `descent` makes of what is asked for, m.
+    pub fn hold_feet(&mut self, feet: [FootPose; 2], descent: impl FnOnce(f32) -> f32) {
+        self.lower(descent(pelvis::drop_m(&self.legs, &self.feet, &feet)));
+        self.feet = feet;
+    }
+
+    fn lower(&mut self, drop_m: f32) {
         self.pose.pelvis_m.z -= drop_m;
         self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.z -= drop_m);
-        self.feet = feet;
     }
 
     /// The legs reach their feet.

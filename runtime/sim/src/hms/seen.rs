@@ -38,27 +38,31 @@ impl Seen {
         Self { mix, walking, way, way_rate: Vec2::ZERO }
     }
 
-    /// Follows what the root does by a step. Returns what was seen [`LOOK_BACK_S`] before its end, or at its beginning.
-    pub fn follow(&mut self, mode: Mode, mix: &Mix, walking: Parameters, step: &TimeStep) -> Self {
-        let before = *self;
-        self.approach(mode, mix, walking, 1.0 - step.seen);
+    /// Follows what the root does by a step; `lately` becomes what was seen [`LOOK_BACK_S`] before its end, or at its
+    /// beginning. Of either only what this synthesis shows.
+    pub fn follow(&mut self, lately: &mut Self, mode: Mode, mix: &Mix, walking: Parameters, step: &TimeStep) {
+        let (fraction, back) = (1.0 - step.seen, (LOOK_BACK_S / step.dt_s).min(1.0));
+        match mode {
+            Mode::Blending => {
+                let before = self.mix;
+                self.mix.ease(mix, fraction);
+                lately.mix = self.mix;
+                lately.mix.ease(&before, back);
+            }
+            Mode::SemiProcedural => {
+                let before = self.walking;
+                self.walking = part_way(before, walking, fraction);
+                lately.walking = part_way(self.walking, before, back);
+            }
+        }
         let way = travel(self.walking);
         let (off, rate) = step.turn_about.pass(self.way - way, self.way_rate);
         (self.way, self.way_rate) = (way + off, rate);
-        let mut lately = *self;
-        lately.approach(mode, &before.mix, before.walking, (LOOK_BACK_S / step.dt_s).min(1.0));
-        lately.way -= LOOK_BACK_S * rate;
-        lately
+        lately.way = self.way - LOOK_BACK_S * rate;
     }
+}
 
-    /// Moves the given fraction of the way to another.
-    fn approach(&mut self, mode: Mode, mix: &Mix, walking: Parameters, fraction: f32) {
-        match mode {
-            Mode::Blending => self.mix.ease(mix, fraction),
-            Mode::SemiProcedural => {
-                let change = walking.to_vec3() - self.walking.to_vec3();
-                self.walking = Parameters::from_vec3(self.walking.to_vec3() + fraction * change);
-            }
-        }
-    }
+/// The given fraction of the way from one to another.
+fn part_way(from: Parameters, to: Parameters, fraction: f32) -> Parameters {
+    Parameters::from_vec3(from.to_vec3() + fraction * (to.to_vec3() - from.to_vec3()))
 }

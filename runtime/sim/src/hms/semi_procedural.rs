@@ -15,6 +15,7 @@ use motiondb::phase_map::PhaseMap;
 use motiondb::skeleton::JOINT_COUNT;
 
 use super::foot_path::{Foothold, foot_path};
+use super::landing::Landing;
 
 /// Side-steps are short and quick: a m/s aside counts this much more towards the cadence than one ahead. The bundled
 /// side-steps of 0.35 and 0.6 m/s, 99 and 132 steps a minute, say 3.1 and 3.2.
@@ -51,6 +52,10 @@ pub struct SemiProcedural {
     pub(super) feet: Vec<[Foothold; 2]>,
     /// Phases from mid-stance to each foot's landing, and to its leaving; the former negative.
     pub(super) contacts: [[f32; 2]; 2],
+    /// In forward and in reversed time.
+    pub(super) landings: [Landing; 2],
+    /// How long after each mid-stance hips are lowest, in phases.
+    pub(super) lowest: f32,
     /// Mean height of the hips, m.
     pub(super) hips_m: f32,
     /// Mean of each joint over the cycle.
@@ -70,15 +75,20 @@ impl SemiProcedural {
         let [left, right] = [0, 1].map(|side| foot_path(found, key_times_s, side, &rows));
         let feet: Vec<[Foothold; 2]> = left.into_iter().zip(right).map(|(left, right)| [left, right]).collect();
         let greatest = |value: fn(&[Foothold; 2]) -> f32| feet.iter().map(value).fold(f32::NEG_INFINITY, f32::max);
+        let [right_off, right_strike, left_off, left_strike] = key_times_s.map(|time_s| found.phase_map.phase(time_s));
+        let contacts = [[left_strike, left_off], [right_strike, right_off]];
+        let landings = [
+            Landing::new(&rows, &feet, [left_strike, right_strike], false),
+            Landing::new(&rows, &feet, [left_off, right_off], true),
+        ];
         Some(Self {
             example,
             parameters: found.parameters,
             phase_map: found.phase_map,
             hips_m: mean.pelvis_m.z,
-            contacts: [[key_times_s[3], key_times_s[2]], [key_times_s[1], key_times_s[0]]].map(|[strike_s, off_s]| {
-                let phase = |time_s| found.phase_map.phase(time_s);
-                [phase(strike_s), phase(off_s)]
-            }),
+            contacts,
+            landings,
+            lowest: 0.5 * (landings[0].after_mid_stance + landings[1].after_mid_stance),
             mean: mean.rotations,
             apart_s: greatest(|[left, right]| (left.since_s - right.since_s).abs()),
             track_m: -greatest(|[left, right]| right.place_m.y - left.place_m.y),

@@ -40,7 +40,7 @@ impl Body {
             let held = self.feet[side].step(&posed, planted, contacts_ahead[side], step);
             FootPose { ankle_m: frame.to_local(held.ankle_m), orientation: held.twist * orientation }
         });
-        posture.move_feet_below(held, |asked_m| self.descent.follow(asked_m, step));
+        posture.hold_feet(held, |asked_m| self.descent.follow(asked_m, step));
         posture.bend_legs(skeleton);
 
         let soles_m = posture.soles_m(skeleton);
