@@ -7,9 +7,10 @@
 use std::ops::Range;
 
 use fbcrowd_sim::recording_frame::AgentFrame;
-use glam::{Mat3, Vec2, Vec3};
+use glam::{Mat3, Quat, Vec2, Vec3};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::pose::Pose;
+use motiondb::skeleton::{JOINT_COUNT, Joint, Skeleton};
 use tiny_skia::Pixmap;
 
 use crate::axis::number;
@@ -25,8 +26,9 @@ use crate::text::Anchor;
 const PHASES: usize = 8;
 /// Width and height of one body's cell, pixels.
 const CELL_PX: Vec2 = Vec2::new(94.0, 150.0);
-/// Pixels a metre.
+/// Pixels a metre, of bodies no taller than this, m; of giants so much fewer that they fit.
 const SCALE_PX_M: f32 = 66.0;
+const HEIGHT_MAX_M: f32 = 1.95;
 /// Height of the ground line over a cell's lower edge, pixels.
 const GROUND_PX: f32 = 18.0;
 /// Width of the column of names, height of the head row, gap between views, pixels.
@@ -123,12 +125,12 @@ fn draw_numbers(figure: &mut Figure, example: &MotionExample, at_px: Vec2) {
 }
 
 fn draw_bodies(paper: Pixmap, db: &MotionDb, corners: &[(usize, Vec2)]) -> Pixmap {
-    let mut canvas = Canvas::new(paper);
+    let (mut canvas, scale_px_m) = (Canvas::new(paper), scale_px_m(&db.skeleton));
     for &(example, corner) in corners {
         for cell in 0..PHASES {
             let parts = parts(db, example, cell);
             for (index, view) in VIEWS.iter().enumerate() {
-                draw_body(&mut canvas, &parts, view, corner + cell_px(index, cell));
+                draw_body(&mut canvas, &parts, view, scale_px_m, corner + cell_px(index, cell));
             }
         }
     }
@@ -136,15 +138,25 @@ fn draw_bodies(paper: Pixmap, db: &MotionDb, corners: &[(usize, Vec2)]) -> Pixma
 }
 
 fn draw_sticks(pixmap: &mut Pixmap, db: &MotionDb, example: usize, corner: Vec2) {
+    let scale_px_m = scale_px_m(&db.skeleton);
     for cell in 0..PHASES {
         let sticks = stick::sticks(&db.skeleton, &pose(db, example, cell));
         for (index, view) in VIEWS.iter().enumerate() {
             let at_px = corner + cell_px(index, cell);
-            let to_px =
-                |point_m: Vec3| at_px + SCALE_PX_M * Vec2::new(view.axes[0].dot(point_m), -view.axes[1].dot(point_m));
+            let to_px = |point_m: Vec3| {
+                let seen_m = Vec2::new(view.axes[0].dot(point_m), -view.axes[1].dot(point_m));
+                at_px + scale_px_m * seen_m
+            };
             sticks.iter().for_each(|stick| stick::draw(pixmap, stick, to_px));
         }
     }
+}
+
+fn scale_px_m(skeleton: &Skeleton) -> f32 {
+    let rest = Pose { pelvis_m: skeleton.offsets_m[Joint::Pelvis.index()], rotations: [Quat::IDENTITY; JOINT_COUNT] };
+    let crown_m = skeleton.segment_ends_m[Joint::Head.index()];
+    let height_m = rest.forward_kinematics(skeleton).point_m(Joint::Head, crown_m).z;
+    SCALE_PX_M * (HEIGHT_MAX_M / height_m).min(1.0)
 }
 
 /// The pose of an example in one cell of its strips, in the root frame.
@@ -163,16 +175,16 @@ fn parts(db: &MotionDb, example: usize, cell: usize) -> Vec<Part> {
 }
 
 /// Far parts first, as the top view paints low ones first.
-fn draw_body(canvas: &mut Canvas, parts: &[Part], view: &View, at_px: Vec2) {
+fn draw_body(canvas: &mut Canvas, parts: &[Part], view: &View, scale_px_m: f32, at_px: Vec2) {
     let to_view = Mat3::from_cols(view.axes[0], view.axes[1], view.axes[2]).transpose();
     let to_px = |point: Vec3| {
-        let seen = (to_view * point + Vec3::Z * DEPTH_OFFSET_M) * SCALE_PX_M;
+        let seen = (to_view * point + Vec3::Z * DEPTH_OFFSET_M) * scale_px_m;
         Vec3::new(at_px.x + seen.x, at_px.y - seen.y, seen.z)
     };
     let mut cones: Vec<(Cone, Vec3)> = parts
         .iter()
         .map(|part| {
-            (Cone { ends_px: part.ends_m.map(to_px), radii_px: part.radii_m.map(|r| r * SCALE_PX_M) }, part.colour)
+            (Cone { ends_px: part.ends_m.map(to_px), radii_px: part.radii_m.map(|r| r * scale_px_m) }, part.colour)
         })
         .collect();
     let depth = |cone: &Cone| cone.ends_px[0].z + cone.ends_px[1].z;

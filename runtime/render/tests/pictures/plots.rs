@@ -13,6 +13,7 @@ use motiondb::correspondence::Correspondence;
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
+use motiondb::skeleton::Skeleton;
 use motiondb::velocity_hull::VelocityHull;
 use tiny_skia::Pixmap;
 
@@ -57,6 +58,21 @@ fn database(speeds_mps: &[f32]) -> MotionDb {
 fn inked_share(pixmap: &Pixmap) -> f64 {
     let paper = pixmap.pixel(0, 0).unwrap();
     pixmap.pixels().iter().filter(|pixel| **pixel != paper).count() as f64 / pixmap.pixels().len() as f64
+}
+
+#[test]
+fn giants_fit_on_the_sheet() {
+    let sheet_of_bodies = |times: f32| {
+        let mut db = database(&[0.0, 1.0]);
+        let Skeleton { offsets_m, segment_ends_m, feet, .. } = &mut db.skeleton;
+        let feet = feet.iter_mut().flat_map(|foot| [&mut foot.heel_m, &mut foot.ball_m, &mut foot.toe_tip_m]);
+        let lengths = offsets_m.iter_mut().chain(segment_ends_m).chain(feet).chain(&mut db.rows.pelvis_m);
+        lengths.for_each(|length_m| *length_m *= times);
+        contact_sheet(&db, 0..2)
+    };
+    let shares = [1.0, 2.0, 5.0].map(|times| inked_share(&sheet_of_bodies(times)));
+    // Limbs are as thick on any body.
+    assert!(shares.iter().all(|share| (0.6..1.1).contains(&(share / shares[0]))), "{shares:?}");
 }
 
 #[test]
