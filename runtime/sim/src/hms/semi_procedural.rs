@@ -40,9 +40,6 @@ const TURN_HALF_RAD_S: f32 = 4.0;
 /// … and it turns no faster than this, rad/s: 170 °/s.
 const TURN_MAX_RAD_S: f32 = 3.0;
 
-/// Hips are lowest so much of a stride after a foot lands, as in the bundled walks: their weight is still coming down.
-const AFTER_LANDING: f32 = 0.02;
-
 /// m_sp, taken apart.
 #[derive(Clone, Debug)]
 pub struct SemiProcedural {
@@ -91,7 +88,7 @@ impl SemiProcedural {
             hips_m: mean.pelvis_m.z,
             contacts,
             landings,
-            lowest: AFTER_LANDING + 0.5 * (landings[0].after_mid_stance + landings[1].after_mid_stance),
+            lowest: 0.5 * (landings[0].after_mid_stance + landings[1].after_mid_stance),
             mean: mean.rotations,
             apart_s: greatest(|[left, right]| (left.since_s - right.since_s).abs()),
             track_m: -greatest(|[left, right]| right.place_m.y - left.place_m.y),
