@@ -10,8 +10,8 @@
 //!
 //! `synthesize`: the pose there.
 //!
-//! 3. It is sampled ([`playing`]; heels rise in long strides, [`heel_rise`]); [`inertialization`] carries away what a
-//!    switch left; head and chest turn first ([`gaze`]);
+//! 3. It is sampled ([`playing`]; in long strides heels rise, [`heel_rise`], and hips come down to each [`landing`]);
+//!    [`inertialization`] carries away what a switch left; head and chest turn first ([`gaze`]);
 //! 4. [`feet`]: planted feet are held;
 //! 5. [`posture`], [`pelvis`], [`ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach
 //!    them.

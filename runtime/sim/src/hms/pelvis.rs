@@ -119,16 +119,20 @@ mod tests {
     use super::*;
     use crate::test_db::skeleton;
 
-    /// Descent of a standing body, its knees flexed by an angle, whose right foot is left behind by a length, and the
-    /// descent that its leg needs.
-    fn lowered_m(flexion_rad: f32, behind_m: f32) -> (f32, f32) {
+    /// The legs of a standing body, its knees flexed by an angle, and its feet.
+    fn flexed(flexion_rad: f32) -> ([Leg; 2], [FootPose; 2]) {
         let skeleton = skeleton();
         let mut pose = Pose { pelvis_m: skeleton.offsets_m[0], rotations: [Quat::IDENTITY; JOINT_COUNT] };
         for shank in Joint::SHANKS {
             pose.rotations[shank.index()] = Quat::from_rotation_y(flexion_rad);
         }
         let legs = legs(&pose, &skeleton);
-        let posed = legs.each_ref().map(Leg::foot);
+        (legs, legs.each_ref().map(Leg::foot))
+    }
+
+    /// Its descent where its right foot is left behind by a length, and the descent that its leg needs.
+    fn lowered_m(flexion_rad: f32, behind_m: f32) -> (f32, f32) {
+        let (legs, posed) = flexed(flexion_rad);
         let mut feet = posed;
         feet[1].ankle_m.x -= behind_m;
         let needed_m = needed_m(&legs[1], extent_m(&legs[1], &posed[1]), &feet[1]);
@@ -149,16 +153,9 @@ mod tests {
         assert!(lowered_m(0.15, 0.0).0.abs() < 1e-6);
     }
 
-    /// How much lower hips are where both feet of a body with flexed knees stand so far to either side of where its pose
-    /// has them.
+    /// How much lower its hips are where another walk spreads its feet by so much to either side.
     fn spread_lower_m(flexion_rad: f32, spread_m: f32) -> f32 {
-        let skeleton = skeleton();
-        let mut pose = Pose { pelvis_m: skeleton.offsets_m[0], rotations: [Quat::IDENTITY; JOINT_COUNT] };
-        for shank in Joint::SHANKS {
-            pose.rotations[shank.index()] = Quat::from_rotation_y(flexion_rad);
-        }
-        let legs = legs(&pose, &skeleton);
-        let posed = legs.each_ref().map(Leg::foot);
+        let (legs, posed) = flexed(flexion_rad);
         let mut feet = posed;
         feet[0].ankle_m.x += spread_m;
         feet[1].ankle_m.x -= spread_m;
