@@ -66,7 +66,7 @@ pub fn lower_m(legs: &[Leg; 2], posed: &[FootPose; 2], feet: &[FootPose; 2]) -> 
     (RAISED * lower_m + (1.0 - RAISED) * softly_positive_m(lower_m)).min(DROP_MAX_M)
 }
 
-/// The positive part of a length, without an edge: none at 0, and at most 6 mm less than the length.
+/// The positive part of a length, m, without an edge: none at 0, and less than the length by no more than the rounding.
 pub fn softly_positive_m(length_m: f32) -> f32 {
     ROUNDING_M * (soft_maximum(length_m / ROUNDING_M) - 1.0)
 }
