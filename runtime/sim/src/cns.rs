@@ -23,19 +23,6 @@ pub enum Coupling {
     Decoupled,
 }
 
-/// Bodies take up a plan within about this time, s (`hms::intention`): the step of the paper's Table 1.
-const TAKEN_UP_S: f32 = 0.1;
-
-/// How far ahead of the present velocities a planner that integrates forces leads, s. Discs have their plan at the end
-/// of the step. Bodies lag: of what forces add within a fine step they would take up next to nothing, and one that
-/// stands would never start to step.
-pub fn lead_s(coupling: Coupling, dt_s: f32) -> f32 {
-    match coupling {
-        Coupling::TwoWay => dt_s.max(TAKEN_UP_S),
-        Coupling::Discs | Coupling::Decoupled => dt_s,
-    }
-}
-
 /// The root of a disc that moves as planned.
 pub fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
     Root { position_m: root.position_m + dt_s * plan.velocity_mps, facing_rad: plan.facing_rad }

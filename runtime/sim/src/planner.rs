@@ -9,7 +9,7 @@ use crate::mcn::time_to_collision::disc_with_segment;
 use crate::neighbours::{AHEAD_S, Nearest, Query};
 use crate::obstacles::NearEdge;
 use crate::params::Params;
-use crate::plan::Plan;
+use crate::plan::{Plan, VelocitySet};
 use crate::rivals::{orca, social_force};
 use crate::world::World;
 
@@ -31,10 +31,11 @@ pub enum Planner {
 pub struct Scratch {
     pub(crate) nearest: Nearest,
     pub(crate) edges: Vec<NearEdge>,
-    pub(crate) half_planes: Vec<HalfPlane>,
+    /// Of each velocity set's program, and the set that was chosen. Rivals have one program.
+    pub(crate) half_planes: [Vec<HalfPlane>; 2],
+    pub(crate) set: VelocitySet,
     pub(crate) projected: Vec<HalfPlane>,
     pub(crate) adapted_mps: Vec2,
-    pub(crate) satisfied: usize,
     // MCN's own: where the body faces, and half-planes that both its velocity sets take over.
     pub(crate) forward: Vec2,
     pub(crate) of_walls: Vec<HalfPlane>,
@@ -45,17 +46,7 @@ impl Scratch {
     /// The half-planes of the last plan, by rank: walls, stance, sharp turns, hull, agents by urgency. None
     /// for social forces.
     pub fn half_planes(&self) -> &[HalfPlane] {
-        &self.half_planes
-    }
-
-    /// How many of them, from the first, are satisfied for certain; those after them may have yielded.
-    pub fn satisfied(&self) -> usize {
-        self.satisfied
-    }
-
-    /// v_op of the last plan, m/s; v_pref itself where the planner does not adapt it.
-    pub fn adapted_mps(&self) -> Vec2 {
-        self.adapted_mps
+        &self.half_planes[self.set as usize]
     }
 }
 

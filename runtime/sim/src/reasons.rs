@@ -44,7 +44,7 @@ impl Reasons {
             plan,
             adapted_mps: scratch.adapted_mps,
             neighbours: scratch.nearest.as_slice().to_vec(),
-            half_planes: scratch.half_planes,
+            half_planes: scratch.half_planes().to_vec(),
             forces,
         }
     }

@@ -9,7 +9,7 @@
 
 use glam::Vec2;
 
-use crate::cns;
+use crate::cns::Coupling;
 use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
@@ -139,7 +139,7 @@ impl RecordedStep<'_> {
             obstacles: &self.replay.obstacles,
             constraints: &self.replay.constraints,
             dt_s,
-            lead_s: cns::lead_s(coupling, dt_s),
+            bodies: coupling == Coupling::TwoWay,
         }
     }
 

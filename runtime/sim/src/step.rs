@@ -148,7 +148,7 @@ impl Simulation {
             obstacles: &self.obstacles,
             constraints: &self.constraints,
             dt_s: self.scenario.dt_s,
-            lead_s: cns::lead_s(self.scenario.coupling, self.scenario.dt_s),
+            bodies: self.scenario.coupling == Coupling::TwoWay,
         }
     }
 

@@ -103,7 +103,7 @@ impl Scene {
             obstacles: &obstacles,
             constraints: &constraints,
             dt_s: 0.1,
-            lead_s: 0.1,
+            bodies: true,
         };
         plan(planner, &world, 0, &params, &mut Scratch::default())
     }

@@ -9,6 +9,7 @@ use motiondb::pose::Root;
 use motiondb::velocity_hull::VelocityHull;
 
 use crate::cns::{as_planned, outside_walls};
+use crate::mcn::half_plane::{HalfPlane, Source};
 use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
@@ -16,6 +17,7 @@ use crate::params::Params;
 use crate::plan::{Plan, Stance, StanceFoot, VelocitySet};
 use crate::planner::{self, Planner, Scratch};
 use crate::polygon;
+use crate::rivals::social_force::TAKEN_UP_S;
 use crate::split_mix::SplitMix64;
 use crate::world::World;
 
@@ -82,7 +84,8 @@ impl WildWorld {
             (0..self.positions_m.len()).find_map(|agent| {
                 let plan = planner::plan(planner, &world, agent, params, &mut scratch);
                 let limit_mps = speed_limit_mps(planner, &world, agent, params);
-                Some((planner, self.judged(agent, &plan, limit_mps, &obstacles)?))
+                let judged = self.judged(agent, &plan, limit_mps, &obstacles);
+                Some((planner, judged.or_else(|| misled(planner, &plan, scratch.half_planes()))?))
             })
         })
     }
@@ -106,7 +109,7 @@ impl WildWorld {
             obstacles,
             constraints,
             dt_s: self.dt_s,
-            lead_s: self.dt_s,
+            bodies: true,
         }
     }
 
@@ -132,6 +135,17 @@ impl WildWorld {
     }
 }
 
+/// What is wrong with the half-planes that are told with a plan.
+fn misled(planner: Planner, plan: &Plan, half_planes: &[HalfPlane]) -> Option<&'static str> {
+    let other = match plan.set {
+        VelocitySet::Turning => Source::HoldingHull,
+        VelocitySet::Holding => Source::TurningHull,
+    };
+    let has = |wanted: Source| half_planes.iter().any(|half_plane| half_plane.source == wanted);
+    let of_the_set = planner != Planner::Mcn || has(plan.set.into());
+    (!of_the_set || has(other)).then_some("tells the half-planes of another velocity set than its plan's")
+}
+
 /// The fastest that a planner may let an agent walk, m/s; social forces only accelerate it so much.
 fn speed_limit_mps(planner: Planner, world: &World, agent: usize, params: &Params) -> f32 {
     match planner {
@@ -141,7 +155,7 @@ fn speed_limit_mps(planner: Planner, world: &World, agent: usize, params: &Param
         }
         Planner::Orca => params.orca.speed_max_mps,
         Planner::SocialForce => {
-            world.velocities_mps[agent].length() + params.social_force.acceleration_max_mps2 * world.dt_s
+            world.velocities_mps[agent].length() + params.social_force.acceleration_max_mps2 * world.lead_s(TAKEN_UP_S)
         }
     }
 }

@@ -38,8 +38,8 @@ pub struct World<'a> {
     pub constraints: &'a MotionConstraints,
     /// Step, s.
     pub dt_s: f32,
-    /// How far ahead of the velocities forces are integrated, s: [`crate::cns::lead_s`].
-    pub lead_s: f32,
+    /// Whether bodies follow: they take a plan up later than at the end of the step.
+    pub bodies: bool,
 }
 
 impl World<'_> {
@@ -50,6 +50,13 @@ impl World<'_> {
             velocity_mps: self.velocities_mps[agent],
             radius_m: self.radii_m[agent],
         }
+    }
+
+    /// How far ahead of the present velocities forces lead, s, where bodies take a plan up within `taken_up` seconds.
+    /// Discs have theirs at the end of the step. Bodies lag: of what forces add within a fine step they would take up
+    /// next to nothing, and one that stands would never start to step.
+    pub fn lead_s(&self, taken_up_s: f32) -> f32 {
+        if self.bodies { taken_up_s.max(self.dt_s) } else { self.dt_s }
     }
 
     /// Unit vector along an agent's facing.

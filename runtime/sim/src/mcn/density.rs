@@ -55,8 +55,9 @@ pub struct Filtered {
     pub density: f32,
 }
 
-/// Scales v_op down to what the density ahead allows, on the arc around it, for who walks at `own` m/s.
-pub fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, params: &McnParams) -> Filtered {
+/// Scales v_op down to what the density ahead allows, on the arc around it, for who walks at `own` m/s and takes a plan
+/// up within `lead` seconds.
+pub fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, lead_s: f32, params: &McnParams) -> Filtered {
     let speed_mps = velocity_mps.length();
     let ahead = velocity_mps.normalize_or_zero();
     let weights = in_the_way(ahead, own_mps, agents);
@@ -68,7 +69,7 @@ pub fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, params: &McnPa
     let limit_mps = |direction: Vec2| speed_limit_mps(weighed(&shares(direction, agents), &weights), params);
     let (direction, allowed_mps) = on_the_arc(ahead, ahead_mps, speed_mps, limit_mps);
     // A limit is taken up as v_pref is (Eq. 9), not at once: the density flickers as neighbours come and go.
-    let left = 1.0 - (params.response_s / params.relaxation_s).min(1.0);
+    let left = 1.0 - (lead_s / params.relaxation_s).min(1.0);
     let eased_mps = allowed_mps + left * (own_mps.length() - allowed_mps).max(0.0);
     Filtered { velocity_mps: eased_mps.min(speed_mps) * direction, density }
 }
@@ -145,6 +146,8 @@ mod tests {
     use crate::measured_section::weidmann_mps;
     use crate::neighbours::NEIGHBOUR_COUNT;
 
+    const LEAD_S: f32 = 0.3;
+
     /// As many as there are lanes for.
     fn around(places_m: &[Vec2]) -> Around {
         let mut around = Around::default();
@@ -170,7 +173,7 @@ mod tests {
         let mut agents = around(places_m);
         let relative_mps = 1.3 * Vec2::X - others_mps;
         places_m.iter().enumerate().for_each(|(lane, &place_m)| agents.put(lane, place_m, relative_mps, 0.5));
-        filter(1.3 * Vec2::X, 1.3 * Vec2::X, &agents, &McnParams::default())
+        filter(1.3 * Vec2::X, 1.3 * Vec2::X, &agents, LEAD_S, &McnParams::default())
     }
 
     /// As near as RiMEA test 4 asks for, where the filter slows anybody: below 1.5/m² avoidance does.
@@ -186,11 +189,11 @@ mod tests {
     #[test]
     fn a_free_way_is_left_alone_and_nobody_is_stalled() {
         let params = McnParams::default();
-        let free = filter(Vec2::new(1.3, 0.2), Vec2::ZERO, &around(&[Vec2::new(-2.0, 0.0)]), &params);
+        let free = filter(Vec2::new(1.3, 0.2), Vec2::ZERO, &around(&[Vec2::new(-2.0, 0.0)]), LEAD_S, &params);
         assert_eq!(free.velocity_mps, Vec2::new(1.3, 0.2));
-        let jam = filter(Vec2::new(1.3, 0.0), Vec2::ZERO, &around(&staggered(8.0)), &params);
+        let jam = filter(Vec2::new(1.3, 0.0), Vec2::ZERO, &around(&staggered(8.0)), LEAD_S, &params);
         assert!(jam.velocity_mps.length() > 0.8 * params.density_speed_min_mps && jam.velocity_mps.length() < 0.5);
-        assert_eq!(filter(Vec2::ZERO, Vec2::ZERO, &around(&staggered(8.0)), &params).velocity_mps, Vec2::ZERO);
+        assert_eq!(filter(Vec2::ZERO, Vec2::ZERO, &around(&staggered(8.0)), LEAD_S, &params).velocity_mps, Vec2::ZERO);
     }
 
     #[test]
@@ -205,7 +208,8 @@ mod tests {
     #[test]
     fn leans_to_the_emptier_side() {
         let crowd_on_the_left: Vec<Vec2> = (0..8).map(|index| Vec2::new(0.6 + 0.2 * index as f32, 0.5)).collect();
-        let filtered = filter(Vec2::new(1.3, 0.0), Vec2::ZERO, &around(&crowd_on_the_left), &McnParams::default());
+        let filtered =
+            filter(Vec2::new(1.3, 0.0), Vec2::ZERO, &around(&crowd_on_the_left), LEAD_S, &McnParams::default());
         assert!(filtered.velocity_mps.y < -0.02 && filtered.velocity_mps.x > 0.2, "{filtered:?}");
     }
 }

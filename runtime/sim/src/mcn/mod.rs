@@ -25,7 +25,6 @@ use glam::Vec2;
 use motiondb::velocity_hull::Construction;
 
 use self::half_plane::{HalfPlane, Source};
-use self::linear_program::Solution;
 use self::orientation::{Orientation, Walk};
 use self::params::{McnParams, StanceForm};
 use crate::around::{Around, LANES, Lanes};
@@ -55,19 +54,21 @@ pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scrat
     let density = adapt(world, agent, params, scratch);
     avoid(world, agent, params, scratch);
     scratch.forward = world.forward(agent);
-    let turning = choose(world, agent, VelocitySet::Turning, params, scratch);
+    let turning_mps = choose(world, agent, VelocitySet::Turning, params, scratch);
     // Who would stand though it could side-step does that: a narrow turning set leaves nothing before a wall, or
     // somebody, that the facing meets askew.
-    let stands = orientation::stands(turning.velocity_mps) && !orientation::stands(scratch.adapted_mps);
-    let going = if stands { choose(world, agent, VelocitySet::Holding, params, scratch) } else { turning };
-    let orientation = orient(world, agent, going.velocity_mps, params, scratch);
-    let chosen = match orientation.set {
-        VelocitySet::Turning => turning,
-        VelocitySet::Holding => choose(world, agent, VelocitySet::Holding, params, scratch),
+    let stands = orientation::stands(turning_mps) && !orientation::stands(scratch.adapted_mps);
+    let holding_mps = stands.then(|| choose(world, agent, VelocitySet::Holding, params, scratch));
+    let orientation = orient(world, agent, holding_mps.unwrap_or(turning_mps), params, scratch);
+    scratch.set = orientation.set;
+    let velocity_mps = match orientation.set {
+        VelocitySet::Turning => turning_mps,
+        VelocitySet::Holding => {
+            holding_mps.unwrap_or_else(|| choose(world, agent, VelocitySet::Holding, params, scratch))
+        }
     };
-    scratch.satisfied = chosen.satisfied;
     Plan {
-        velocity_mps: chosen.velocity_mps,
+        velocity_mps,
         facing_rad: libm::atan2f(orientation.facing.y, orientation.facing.x),
         time_to_collision_s: time_to_collision_s(world, agent, scratch),
         density,
@@ -80,14 +81,15 @@ pub fn plan(world: &World, agent: usize, params: &McnParams, scratch: &mut Scrat
 /// §4.3: v_op into the scratch; returns the density met.
 fn adapt(world: &World, agent: usize, params: &McnParams, scratch: &mut Scratch) -> f32 {
     let (velocity_mps, mut adapted_mps) = (world.velocities_mps[agent], world.preferred_mps[agent]);
+    let lead_s = world.lead_s(params.response_s);
     if params.parts.keep_right {
         adapted_mps = keep_right::kept_right(adapted_mps, velocity_mps, scratch.nearest.around(), params);
     }
     if params.parts.adaptation {
         let forces_mps2 = forces_mps2(world, agent, params, scratch);
-        adapted_mps = social_force::adapted_mps(velocity_mps, adapted_mps, forces_mps2, world.dt_s, params);
+        adapted_mps = social_force::adapted_mps(velocity_mps, adapted_mps, forces_mps2, lead_s, params);
     }
-    let filtered = density::filter(adapted_mps, velocity_mps, scratch.nearest.around(), params);
+    let filtered = density::filter(adapted_mps, velocity_mps, scratch.nearest.around(), lead_s, params);
     scratch.adapted_mps = if params.parts.density_filter { filtered.velocity_mps } else { adapted_mps };
     filtered.density
 }
@@ -148,10 +150,10 @@ fn urgencies(around: &Around) -> Lanes {
 }
 
 /// Eqs. 13, 14: all half-planes by rank, what never yields first, and the best velocity.
-fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scratch: &mut Scratch) -> Solution {
+fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scratch: &mut Scratch) -> Vec2 {
     let forward = scratch.forward;
     let (parts, allowed) = (&params.parts, world.constraints.set(set));
-    let half_planes = &mut scratch.half_planes;
+    let half_planes = &mut scratch.half_planes[set as usize];
     half_planes.clear();
     half_planes.extend_from_slice(&scratch.of_walls);
     half_planes.extend(of_stance(world, agent, params));
@@ -164,6 +166,7 @@ fn choose(world: &World, agent: usize, set: VelocitySet, params: &McnParams, scr
     let firm = half_planes.len();
     half_planes.extend_from_slice(&scratch.of_agents);
     linear_program::solve(half_planes, firm, scratch.adapted_mps, allowed.speed_max_mps, &mut scratch.projected)
+        .velocity_mps
 }
 
 /// C_bm.

@@ -75,8 +75,9 @@ pub struct McnParams {
     pub interaction_horizon_s: f32,
     /// τ_0 of Eq. 9, s: time in which the preferred velocity is taken up.
     pub relaxation_s: f32,
-    /// Time for which the acceleration of Eq. 9 is applied to the present velocity, s; never less than a step. It is
+    /// Time for which the acceleration of Eq. 9 is applied to the velocity of a body, s; never less than a step. It is
     /// what a body needs to follow: with less, a body that lags would be slowed by Eq. 9's relaxation and by its own.
+    /// Discs do not lag, theirs is the step.
     pub response_s: f32,
     /// Greatest acceleration of Eq. 9, m/s².
     pub acceleration_max_mps2: f32,

@@ -24,11 +24,17 @@ pub struct PowerLaw {
     pub horizon_s: f32,
 }
 
-/// Eq. 9, one explicit step from the present velocity, the acceleration limited; `forces` is Σ f_ij + Σ f_iW.
-pub fn adapted_mps(velocity_mps: Vec2, preferred_mps: Vec2, forces_mps2: Vec2, dt_s: f32, params: &McnParams) -> Vec2 {
+/// Eq. 9, one explicit step of `lead` from the present velocity, the acceleration limited; `forces` is Σ f_ij + Σ f_iW.
+pub fn adapted_mps(
+    velocity_mps: Vec2,
+    preferred_mps: Vec2,
+    forces_mps2: Vec2,
+    lead_s: f32,
+    params: &McnParams,
+) -> Vec2 {
     let driving_mps2 = (preferred_mps - velocity_mps) / params.relaxation_s;
     let acceleration_mps2 = (driving_mps2 + forces_mps2).clamp_length_max(params.acceleration_max_mps2);
-    velocity_mps + params.response_s.max(dt_s) * acceleration_mps2
+    velocity_mps + lead_s * acceleration_mps2
 }
 
 /// Eq. 11: the force on disc i from disc j; `offset` p_j − p_i, `velocity` v_i − v_j, `radius` r_i + r_j.
@@ -133,7 +139,7 @@ mod tests {
 
     #[test]
     fn nobody_in_the_way_leaves_the_driving_force_alone() {
-        let params = McnParams { response_s: 0.0, ..McnParams::default() };
+        let params = McnParams::default();
         let adapted = adapted_mps(Vec2::X, Vec2::new(1.0, 0.54), Vec2::ZERO, 0.1, &params);
         assert!(adapted.distance(Vec2::new(1.0, 0.1)) < 1e-6);
         assert_eq!(agent_force_mps2(Vec2::X, -Vec2::X, 0.5, &LAW), Vec2::ZERO);

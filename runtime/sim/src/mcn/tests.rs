@@ -23,6 +23,8 @@ struct Scene {
     construction: Construction,
     turning_mps: Vec<Vec2>,
     params: Params,
+    dt_s: f32,
+    bodies: bool,
 }
 
 const WALK: Vec2 = Vec2::new(1.3, 0.0);
@@ -45,6 +47,8 @@ impl Scene {
             construction: Construction::default(),
             turning_mps: kite(1.8, 1.0, 0.5),
             params: Params::default(),
+            dt_s: 0.1,
+            bodies: true,
         }
     }
 
@@ -81,8 +85,8 @@ impl Scene {
             neighbours: &neighbours,
             obstacles: &self.obstacles,
             constraints: &MotionConstraints::new(&hull),
-            dt_s: 0.1,
-            lead_s: 0.1,
+            dt_s: self.dt_s,
+            bodies: self.bodies,
         };
         plan(planner, &world, 0, &self.params, scratch)
     }
@@ -93,6 +97,17 @@ fn alone_it_keeps_walking_as_it_wants() {
     let plan = Scene::new(&[[0.0, 0.0]]).plan(&mut Scratch::default());
     assert_eq!((plan.velocity_mps, plan.facing_rad, plan.set), (WALK, 0.0, VelocitySet::Turning));
     assert_eq!(plan.time_to_collision_s, f32::INFINITY);
+}
+
+#[test]
+fn a_disc_without_a_body_speeds_up_alike_in_steps_of_any_length() {
+    for dt_s in [1.0 / 120.0, 1.0 / 30.0, 0.1] {
+        let mut scene = Scene { dt_s, bodies: false, ..alone(WALK) };
+        scene.velocities_mps[0] = Vec2::ZERO;
+        scene.params.planner.acceleration_max_mps2 = 1.1;
+        let gained_mps2 = scene.plan(&mut Scratch::default()).velocity_mps / dt_s;
+        assert!(gained_mps2.distance(Vec2::new(1.1, 0.0)) < 1e-3, "dt {dt_s}: {gained_mps2}");
+    }
 }
 
 #[test]

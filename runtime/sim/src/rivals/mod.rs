@@ -23,7 +23,7 @@ fn facing_the_way(world: &World, agent: usize, velocity_mps: Vec2, scratch: &Scr
         velocity_mps,
         facing_rad: if walks { libm::atan2f(velocity_mps.y, velocity_mps.x) } else { world.facings_rad[agent] },
         time_to_collision_s: time_to_collision_s(world, agent, scratch),
-        density: density_ahead(velocity_mps.normalize_or_zero(), scratch.nearest.around()),
+        density: density_ahead(scratch.adapted_mps.normalize_or_zero(), scratch.nearest.around()),
         ..Plan::default()
     }
 }

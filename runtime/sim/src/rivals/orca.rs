@@ -10,7 +10,7 @@ use super::facing_the_way;
 use crate::mcn::linear_program::solve;
 use crate::mcn::orca::{HALF, agent_half_plane};
 use crate::mcn::orca_obstacles::obstacle_half_planes;
-use crate::plan::Plan;
+use crate::plan::{Plan, VelocitySet};
 use crate::planner::{Scratch, look_around};
 use crate::world::World;
 
@@ -46,7 +46,8 @@ pub fn plan(world: &World, agent: usize, params: &OrcaParams, scratch: &mut Scra
     let wall_range_m = params.obstacle_time_horizon_s * params.speed_max_mps;
     look_around(world, agent, params.neighbour_range_m, wall_range_m, scratch);
     let own = world.disc(agent);
-    let half_planes = &mut scratch.half_planes;
+    scratch.set = VelocitySet::Turning;
+    let half_planes = &mut scratch.half_planes[scratch.set as usize];
     half_planes.clear();
     obstacle_half_planes(world.obstacles, &scratch.edges, &own, params.obstacle_time_horizon_s, half_planes);
     let walls = half_planes.len();
@@ -59,6 +60,5 @@ pub fn plan(world: &World, agent: usize, params: &OrcaParams, scratch: &mut Scra
     );
     scratch.adapted_mps = world.preferred_mps[agent];
     let solution = solve(half_planes, walls, scratch.adapted_mps, params.speed_max_mps, &mut scratch.projected);
-    scratch.satisfied = solution.satisfied;
     facing_the_way(world, agent, solution.velocity_mps, scratch)
 }

@@ -4,10 +4,10 @@
 //! dv/dt = clamp( (v_pref − v)/T + Σ_j f_ij + Σ_W f_iW )
 //! ```
 //!
-//! by explicit Euler steps over [`World::lead_s`], from everybody within range. The law is stiff: its authors step by 5 ms, and at 0.1 s it
-//! shakes. A step may therefore be cut into sub-steps, in which the others move on as they did. Whoever is within range
-//! is searched for among all agents, which suits crowds of the size that Table 1 has. World axes, metres, seconds;
-//! masses are 1.
+//! by explicit Euler steps over [`World::lead_s`], from everybody within range. The law is stiff: its authors step by
+//! 5 ms, and at 0.1 s it shakes. A step may therefore be cut into sub-steps, in which the others move on as they did.
+//! Whoever is within range is searched for among all agents, which suits crowds of the size that Table 1 has. World
+//! axes, metres, seconds; masses are 1.
 
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -16,9 +16,12 @@ use super::facing_the_way;
 use crate::mcn::half_plane::Source;
 use crate::mcn::orca::Disc;
 use crate::mcn::social_force::{PowerLaw, agent_force_mps2, wall_force_mps2};
-use crate::plan::Plan;
+use crate::plan::{Plan, VelocitySet};
 use crate::planner::{Scratch, look_around};
 use crate::world::World;
+
+/// Bodies take up a plan within about this time, s (`hms::intention`): the step of the paper's Table 1.
+pub(crate) const TAKEN_UP_S: f32 = 0.1;
 
 /// Tunables of social forces, `[params.social_force]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -66,10 +69,10 @@ pub struct Force {
 pub fn plan(world: &World, agent: usize, params: &SocialForceParams, scratch: &mut Scratch) -> Plan {
     let range_m = params.neighbour_range_m;
     look_around(world, agent, range_m, range_m, scratch);
-    scratch.half_planes.clear();
-    scratch.satisfied = 0;
+    scratch.set = VelocitySet::Turning;
+    scratch.half_planes[scratch.set as usize].clear();
     scratch.adapted_mps = world.preferred_mps[agent];
-    let substep_s = world.lead_s / params.substeps as f32;
+    let substep_s = world.lead_s(TAKEN_UP_S) / params.substeps as f32;
     let mut own = world.disc(agent);
     for substep in 0..params.substeps {
         let forces = forces_on(world, agent, &own, substep as f32 * substep_s, params, scratch);

@@ -162,7 +162,7 @@ impl Crowd {
             obstacles: setting.walls,
             constraints: &MotionConstraints::new(setting.hull),
             dt_s: setting.dt_s,
-            lead_s: setting.dt_s,
+            bodies: matches!(setting.body, Body::Lagging(..)),
         };
         let mut scratch = Scratch::default();
         let mut planned = |agent| plan(setting.planner, &world, agent, setting.params, &mut scratch);
