@@ -172,7 +172,8 @@ impl Simulation {
                 Coupling::TwoWay => body.advance(&motion, plan, &time_step),
                 Coupling::Discs | Coupling::Decoupled => body.root = cns::as_planned(from, plan, dt_s),
             }
-            body.root = cns::outside_walls(from.position_m, body.root, radius_m, obstacles);
+            let kept = cns::outside_walls(from.position_m, body.root, radius_m, obstacles);
+            body.end_step(from.position_m, kept, dt_s);
             let synthesis = match coupling {
                 Coupling::TwoWay => body.synthesize(&motion, &time_step),
                 Coupling::Decoupled => decoupled::follow(body, &motion, from, dt_s),

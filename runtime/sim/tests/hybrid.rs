@@ -142,6 +142,18 @@ fn under_threat_a_body_does_what_is_planned_while_it_turns() {
 }
 
 #[test]
+fn who_starts_under_threat_steps_before_synthesis_changes_hands() {
+    let studio = Studio::new(Arc::new(bundled()), HmsParams::default());
+    for phase in (0..20).map(|phase| phase as f32 / 20.0) {
+        let plan = |time_s: f32, _: &Root| towards(0.0, if time_s < 0.5 { 0.0 } else { 1.2 }, 0.5);
+        let steps = studio.walk(phase, 3.0, DT_S, plan, |body, _| (body.mode, body.root.position_m));
+        let switch = (1..steps.len()).find(|&step| steps[step].0 == Mode::SemiProcedural).expect("a switch");
+        let moved_m = steps[switch - 1].1.distance(steps[switch - 2].1);
+        assert!(moved_m > 0.0, "phase {phase}: the first step is semi-procedural");
+    }
+}
+
+#[test]
 fn who_stops_under_threat_stands() {
     let db = bundled();
     let plan = |time_s: f32, root: &Root| {

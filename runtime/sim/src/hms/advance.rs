@@ -6,6 +6,7 @@
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
+use motiondb::pose::Root;
 
 use super::arc::moved;
 use super::deformation::Tempo;
@@ -27,12 +28,11 @@ const LIFT_OFF_PHASE: f32 = 0.15;
 const OPEN_SIDE_M: f32 = 0.1;
 
 impl Body {
-    /// Steps 1 and 2: what is played, phase and root follow the plan. The root may then be kept out of walls, before
-    /// [`Self::synthesize`].
+    /// Steps 1 and 2: what is played, phase and root follow the plan. The root may then be kept out of walls, by
+    /// [`Self::end_step`], before [`Self::synthesize`].
     pub fn advance(&mut self, motion: &Motion, plan: &Plan, step: &TimeStep) {
         let plan = self.owed.settle(plan, self.walked_mps, step);
-        let before = self.phase;
-        let nearest = match (self.mode, motion.hybrid) {
+        let (nearest, before) = match (self.mode, motion.hybrid) {
             (Mode::SemiProcedural, Some(hybrid)) => self.deform(motion, &hybrid.semi_procedural, &plan, step),
             _ => self.blend(motion, &plan, step),
         };
@@ -42,7 +42,7 @@ impl Body {
         self.inertia.pass(step);
         if let Some(hybrid) = motion.hybrid {
             self.choose(motion, hybrid, &plan, nearest.idle_share, step.dt_s);
-            self.switch(motion, hybrid, before);
+            self.switch(motion, hybrid, before, step);
         }
         self.gaze.follow(&plan, &self.root, step);
         self.committed_mps = self
@@ -57,8 +57,8 @@ impl Body {
     }
 
     /// Motion blending: shares, phase and root. On the way to semi-procedural locomotion it makes for what m_sp can do.
-    /// Returns what the examples have nearest to what is asked.
-    fn blend(&mut self, motion: &Motion, plan: &Plan, step: &TimeStep) -> Nearest {
+    /// Returns what the examples have nearest to what is asked, and the phase from which the step was walked.
+    fn blend(&mut self, motion: &Motion, plan: &Plan, step: &TimeStep) -> (Nearest, f32) {
         let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
         self.intention.follow(asked, self.gait.stands, step);
         let now = self.mix.parameters(motion.db);
@@ -67,7 +67,7 @@ impl Body {
         let starts = gait.follow(&nearest, || self.feet_gathered(motion), step.dt_s);
         self.gait = gait;
         if starts {
-            self.jump(motion, |body| body.phase = body.first_step_phase(motion));
+            self.jump(motion, step, |body| body.phase = body.first_step_phase(motion));
         }
         let goal = self.detour(motion).unwrap_or_else(|| gait::goal(nearest, now, self.gait, motion.space));
         let goal = match (self.choice.mode, motion.hybrid) {
@@ -76,14 +76,20 @@ impl Body {
         };
         pursuit::follow(&mut self.mix, goal, &nearest, self.gait, motion, step.dt_s);
         self.move_root(self.mix.parameters(motion.db), step.dt_s);
-        let hurried_s = self.hurried_s(step);
-        self.phase = self.mix.advance_phase(motion.db, self.phase, hurried_s);
-        nearest
+        let (before, hurried_s) = (self.phase, self.hurried_s(step));
+        self.phase = self.mix.advance_phase(motion.db, before, hurried_s);
+        (nearest, before)
     }
 
     /// Semi-procedural locomotion: parameters, phase and root. On the way back to blending it makes for what the
-    /// examples can do. Returns what they have nearest to what is asked.
-    fn deform(&mut self, motion: &Motion, semi_procedural: &SemiProcedural, plan: &Plan, step: &TimeStep) -> Nearest {
+    /// examples can do. Returns what [`Self::blend`] does.
+    fn deform(
+        &mut self,
+        motion: &Motion,
+        semi_procedural: &SemiProcedural,
+        plan: &Plan,
+        step: &TimeStep,
+    ) -> (Nearest, f32) {
         let dt_s = step.dt_s;
         let turning_rad = dt_s * self.walking.turn_rate_rad_s;
         self.intention.turned(turning_rad);
@@ -99,11 +105,17 @@ impl Body {
         self.walking = asked::step_apart(self.walking, goal, motion.params, dt_s);
         self.move_root(self.walking, dt_s);
         let map = Tempo::new(semi_procedural, self.walking, self.seen[0].way).phase_map();
-        let hurried_s = self.hurried_s(step);
-        let middle = self.phase + 0.5 * hurried_s * map.rate_hz(self.phase);
-        let next = self.phase + hurried_s * map.rate_hz(middle);
+        let (before, hurried_s) = (self.phase, self.hurried_s(step));
+        let middle = before + 0.5 * hurried_s * map.rate_hz(before);
+        let next = before + hurried_s * map.rate_hz(middle);
         self.phase = next - libm::floorf(next);
-        nearest
+        (nearest, before)
+    }
+
+    /// Puts the root where a step that began at `from` really ends, whoever keeps it there.
+    pub fn end_step(&mut self, from_m: Vec2, root: Root, dt_s: f32) {
+        self.walked_mps = (root.position_m - from_m) / dt_s;
+        self.root = root;
     }
 
     fn move_root(&mut self, parameters: Parameters, dt_s: f32) {

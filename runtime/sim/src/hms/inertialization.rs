@@ -18,8 +18,8 @@ pub(super) const RATE_HZ: f32 = 12.0;
 pub const CARRIED_S: f32 = 0.4;
 /// Less than this of a difference is none, rad and m.
 const NEGLIGIBLE: f32 = 1e-4;
-/// A rate is a difference over this time before the switch, s.
-pub const LOOK_BACK_S: f32 = 1.0 / 120.0;
+/// A rate is a difference over this time before the switch, or over the step where that is shorter, s.
+pub(super) const LOOK_BACK_S: f32 = 1.0 / 120.0;
 
 /// A difference of two poses: of the pelvis, m, and of each joint's rotation, as a vector, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,13 +33,13 @@ struct Difference {
 pub struct Inertia(Option<[Difference; 2]>);
 
 impl Inertia {
-    /// Takes up the difference of a switch. `old` and `new` are the poses of both syntheses now and [`LOOK_BACK_S`]
-    /// ago, as they were without what is left.
-    pub fn begin(&mut self, old: [&Pose; 2], new: [&Pose; 2]) {
+    /// Takes up the difference of a switch. `old` and `new` are the poses of both syntheses now and a moment ago, as they
+    /// were without what is left.
+    pub fn begin(&mut self, old: [&Pose; 2], new: [&Pose; 2], moment_s: f32) {
         let [now, before] = [0, 1].map(|time| Difference::between(old[time], new[time]));
-        let rate = now.combined(1.0 / LOOK_BACK_S, &before, -1.0 / LOOK_BACK_S);
+        let rate = now.combined(1.0 / moment_s, &before, -1.0 / moment_s);
         self.0 = Some(match &self.0 {
-            Some([left, left_rate]) => [left.combined(1.0, &now, 1.0), left_rate.combined(1.0, &rate, 1.0)],
+            Some([left, left_rate]) => [left.after(&now), left_rate.combined(1.0, &rate, 1.0)],
             None => [now, rate],
         });
     }
@@ -73,10 +73,18 @@ impl Difference {
     fn between(old: &Pose, new: &Pose) -> Self {
         let mut rotations_rad = [Vec3::ZERO; JOINT_COUNT];
         for (vector, (old, new)) in rotations_rad.iter_mut().zip(old.rotations.iter().zip(&new.rotations)) {
-            let turn = *old * new.conjugate();
-            *vector = if turn.w < 0.0 { -turn } else { turn }.to_scaled_axis();
+            *vector = rotation_vector(*old * new.conjugate());
         }
         Self { pelvis_m: old.pelvis_m - new.pelvis_m, rotations_rad }
+    }
+
+    /// Of both, this one on top of the other.
+    fn after(&self, other: &Self) -> Self {
+        let mut both = Self { pelvis_m: self.pelvis_m + other.pelvis_m, rotations_rad: self.rotations_rad };
+        for (own, other) in both.rotations_rad.iter_mut().zip(&other.rotations_rad) {
+            *own = rotation_vector(Quat::from_scaled_axis(*own) * Quat::from_scaled_axis(*other));
+        }
+        both
     }
 
     /// Of both, each times its factor.
@@ -104,6 +112,11 @@ impl Difference {
     }
 }
 
+/// The shorter way round.
+fn rotation_vector(turn: Quat) -> Vec3 {
+    if turn.w < 0.0 { -turn } else { turn }.to_scaled_axis()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -124,7 +137,7 @@ mod tests {
         let speed_rad_s = 1.5;
         let before = 0.3 - speed_rad_s * LOOK_BACK_S;
         let mut inertia = Inertia::default();
-        inertia.begin([&bent(0.3), &bent(before)], [&bent(0.0), &bent(0.0)]);
+        inertia.begin([&bent(0.3), &bent(before)], [&bent(0.0), &bent(0.0)], LOOK_BACK_S);
         let dt_s = 1.0 / 240.0;
         let shown: Vec<f32> = (0..480)
             .map(|_| {
@@ -143,11 +156,13 @@ mod tests {
     #[test]
     fn a_switch_within_a_switch_adds_up() {
         let mut inertia = Inertia::default();
-        inertia.begin([&bent(0.2); 2], [&bent(0.0); 2]);
-        inertia.begin([&bent(0.0); 2], [&bent(-0.1); 2]);
-        let mut pose = bent(-0.1);
+        let [shown, played, next] = [Quat::from_rotation_y(0.5), Quat::IDENTITY, Quat::from_rotation_x(0.6)]
+            .map(|rotation| Pose { rotations: [rotation; JOINT_COUNT], ..bent(0.0) });
+        inertia.begin([&shown; 2], [&played; 2], LOOK_BACK_S);
+        inertia.begin([&played; 2], [&next; 2], LOOK_BACK_S);
+        let mut pose = next;
         inertia.add_to(&mut pose);
-        assert!((angle_rad(&pose) - 0.2).abs() < 1e-4);
+        assert!(pose.rotations[3].angle_between(shown.rotations[3]) < 1e-3);
     }
 
     #[test]

@@ -9,7 +9,6 @@ use motiondb::parameters::Parameters;
 
 use super::blending::Mix;
 use super::deformation::travel;
-use super::inertialization::LOOK_BACK_S;
 use super::mode::Mode;
 use super::time_step::TimeStep;
 
@@ -38,10 +37,10 @@ impl Seen {
         Self { mix, walking, way, way_rate: Vec2::ZERO }
     }
 
-    /// Follows what the root does by a step; `lately` becomes what was seen [`LOOK_BACK_S`] before its end, or at its
-    /// beginning. Of either only what this synthesis shows.
+    /// Follows what the root does by a step; `lately` becomes what was seen a moment before its end. Of
+    /// either only what this synthesis shows.
     pub fn follow(&mut self, lately: &mut Self, mode: Mode, mix: &Mix, walking: Parameters, step: &TimeStep) {
-        let (fraction, back) = (1.0 - step.seen, (LOOK_BACK_S / step.dt_s).min(1.0));
+        let (fraction, back) = (1.0 - step.seen, step.look_back_s / step.dt_s);
         match mode {
             Mode::Blending => {
                 let before = self.mix;
@@ -58,7 +57,7 @@ impl Seen {
         let way = travel(self.walking);
         let (off, rate) = step.turn_about.pass(self.way - way, self.way_rate);
         (self.way, self.way_rate) = (way + off, rate);
-        lately.way = self.way - LOOK_BACK_S * rate;
+        lately.way = self.way - step.look_back_s * rate;
     }
 }
 

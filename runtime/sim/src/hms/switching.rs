@@ -7,11 +7,11 @@ use super::blending::Mix;
 use super::deformation::travel;
 use super::gait;
 use super::hybrid::Hybrid;
-use super::inertialization::LOOK_BACK_S;
 use super::mode::{Mode, Thresholds};
 use super::params::{HmsParams, Modes};
 use super::playing::Playing;
 use super::seen::Seen;
+use super::time_step::TimeStep;
 use super::{Body, Motion};
 use crate::plan::Plan;
 
@@ -34,14 +34,14 @@ impl Body {
     /// is left to inertia. The paper moves its weights to m_mb alone first
     /// ([`ThroughMMb`](super::params::Transition::ThroughMMb)), since it cannot begin at another velocity: at the very
     /// moment that a collision threatens, its body walks at m_mb's.
-    pub(super) fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32) {
+    pub(super) fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32, step: &TimeStep) {
         let (from, to) = (self.mode, self.choice.mode);
         if from == to || !self.may_switch(motion, hybrid) {
             return;
         }
         let Some(jump) = hybrid.jump(from, before, self.phase) else { return };
         let soles_m = self.playing(motion).posture(motion, self.phase).soles_m(&motion.db.skeleton);
-        self.jump(motion, |body| {
+        self.jump(motion, step, |body| {
             match to {
                 Mode::SemiProcedural => {
                     body.walking = body.mix.parameters(motion.db);
@@ -76,11 +76,11 @@ impl Body {
     }
 
     /// Changes what is played at once, and leaves the difference of poses to inertia.
-    pub(super) fn jump(&mut self, motion: &Motion, change: impl FnOnce(&mut Self)) {
-        let old = self.poses(motion);
+    pub(super) fn jump(&mut self, motion: &Motion, step: &TimeStep, change: impl FnOnce(&mut Self)) {
+        let old = self.poses(motion, step);
         change(self);
-        let new = self.poses(motion);
-        self.inertia.begin(old.each_ref(), new.each_ref());
+        let new = self.poses(motion, step);
+        self.inertia.begin(old.each_ref(), new.each_ref(), step.look_back_s);
     }
 
     /// Whether the body walks as the other synthesis can.
@@ -93,10 +93,10 @@ impl Body {
         now.to_vec3().distance(there.to_vec3()) <= SWITCH_SLACK
     }
 
-    /// What is played, now and [`LOOK_BACK_S`] ago.
-    fn poses(&self, motion: &Motion) -> [Pose; 2] {
+    /// What is played, now and a moment ago.
+    fn poses(&self, motion: &Motion, step: &TimeStep) -> [Pose; 2] {
         let playing = self.playing(motion);
-        let before = self.phase - LOOK_BACK_S * playing.phase_rate_hz(self.phase);
+        let before = self.phase - step.look_back_s * playing.phase_rate_hz(self.phase);
         let before = before - libm::floorf(before);
         let lately = Playing::new(motion, self.mode, &self.seen[1], &self.mix, before);
         [playing.bent(motion, self.phase).pose, lately.bent(motion, before).pose]

@@ -16,6 +16,8 @@ use super::{feet, gaze, hurry, inertialization, intention, owed, pelvis, seen};
 pub struct TimeStep {
     /// dt, seconds.
     pub dt_s: f32,
+    /// The moment before its end by which motion is told from poses, s.
+    pub(super) look_back_s: f32,
     /// What is left of a debt.
     pub(super) owed: f32,
     /// What is left of how steadily plans changed before.
@@ -44,6 +46,7 @@ impl TimeStep {
         let soft_spring = |rate_hz: f32| SoftSpring(spring(rate_hz));
         Self {
             dt_s,
+            look_back_s: inertialization::LOOK_BACK_S.min(dt_s),
             owed: left(owed::FORGETTING_TIME_S),
             steady: left(intention::STEADY_S),
             seen: left(seen::EASE_TIME_S),
