@@ -10,6 +10,7 @@ use motiondb::pose::Root;
 
 use super::arc::moved;
 use super::deformation::Tempo;
+use super::feet::FootHold;
 use super::mode::Mode;
 use super::params::Transition;
 use super::semi_procedural::SemiProcedural;
@@ -75,8 +76,7 @@ impl Body {
             _ => goal,
         };
         pursuit::follow(&mut self.mix, goal, &nearest, self.gait, motion, step.dt_s);
-        self.move_root(self.mix.parameters(motion.db), step.dt_s);
-        let (before, hurried_s) = (self.phase, self.hurried_s(step));
+        let (before, hurried_s) = (self.phase, self.move_root(self.mix.parameters(motion.db), step));
         self.phase = self.mix.advance_phase(motion.db, before, hurried_s);
         (nearest, before)
     }
@@ -103,9 +103,8 @@ impl Body {
             Mode::Blending => self.detour(motion).unwrap_or(nearest.parameters),
         };
         self.walking = asked::step_apart(self.walking, goal, motion.params, dt_s);
-        self.move_root(self.walking, dt_s);
+        let (before, hurried_s) = (self.phase, self.move_root(self.walking, step));
         let map = Tempo::new(semi_procedural, self.walking, self.seen[0].way).phase_map();
-        let (before, hurried_s) = (self.phase, self.hurried_s(step));
         let middle = before + 0.5 * hurried_s * map.rate_hz(before);
         let next = before + hurried_s * map.rate_hz(middle);
         self.phase = next - libm::floorf(next);
@@ -118,15 +117,16 @@ impl Body {
         self.root = root;
     }
 
-    fn move_root(&mut self, parameters: Parameters, dt_s: f32) {
-        let moved = moved(&self.root, &parameters, dt_s);
-        self.walked_mps = (moved.position_m - self.root.position_m) / dt_s;
+    /// Moves the root; returns the time that passes for the phase, s.
+    fn move_root(&mut self, parameters: Parameters, step: &TimeStep) -> f32 {
+        let moved = moved(&self.root, &parameters, step.dt_s);
+        self.walked_mps = (moved.position_m - self.root.position_m) / step.dt_s;
         self.root = moved;
-    }
-
-    /// The time that passes for the phase.
-    fn hurried_s(&mut self, step: &TimeStep) -> f32 {
-        step.dt_s * self.hurry.follow(&self.feet, self.walked_mps, step)
+        let carried_mps = |foot: &FootHold| {
+            let from_root_m = foot.ball_m().truncate() - self.root.position_m;
+            self.walked_mps + parameters.turn_rate_rad_s * from_root_m.perp()
+        };
+        step.dt_s * self.hurry.follow(&self.feet, carried_mps, step)
     }
 
     /// The root's motion in the body's frame, as what is played has it.

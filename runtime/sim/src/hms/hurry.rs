@@ -1,9 +1,18 @@
 //! How much faster than its own time a body plays, so that its phase catches up with its planted feet.
 //!
 //! A body that speeds up within a step has its foot further back than the faster steps have it at this phase: the phase
-//! hurries, and the foot meets the pose again before the leg must stretch; likewise when it slows down. But examples
-//! whose feet slip as they stand leave every foot behind a little, step by step: what a body is used to is no reason to
-//! hurry, or it would play all its life faster than its root goes.
+//! hurries, and the foot meets the pose again before the leg must stretch; likewise when it slows down. With c the shift
+//! of a planted foot against the pose's, and u the velocity at which the root would carry it along, feet are behind by
+//! the time that explains both shifts best,
+//!
+//! ```text
+//! t = −Σ c·u / Σ u²,
+//! ```
+//!
+//! so that in a turn the foot that goes further counts for more.
+//!
+//! But examples whose feet slip as they stand leave every foot behind a little, step by step: what a body is used to is
+//! no reason to hurry, or it would play all its life faster than its root goes.
 //!
 //! World, metres, seconds.
 
@@ -16,7 +25,7 @@ use super::time_step::TimeStep;
 const CATCH_UP_TIME_S: f32 = 0.2;
 /// Greatest change of the phase rate for it.
 const HURRY_MAX: f32 = 0.4;
-/// A body slower than this hardly moves its feet by its phase, m/s.
+/// A foot that is carried slower than this hardly moves by its phase, m/s.
 const SPEED_MIN_MPS: f32 = 0.4;
 /// A body gets used to how far its feet are behind in this time, s: a stride at 100 steps a minute, an adult's walk.
 pub(super) const HABIT_TIME_S: f32 = 1.2;
@@ -29,10 +38,10 @@ pub struct Hurry {
 }
 
 impl Hurry {
-    /// Factor on the phase rate of a body that walks at a velocity.
-    pub fn follow(&mut self, feet: &[FootHold; 2], walked_mps: Vec2, step: &TimeStep) -> f32 {
+    /// Factor on the phase rate of a body whose root would carry a foot along at `carried_mps`, world, m/s.
+    pub fn follow(&mut self, feet: &[FootHold; 2], carried_mps: impl Fn(&FootHold) -> Vec2, step: &TimeStep) -> f32 {
         let behind_max_s = HURRY_MAX * CATCH_UP_TIME_S;
-        let behind_s = behind_s(feet, walked_mps);
+        let behind_s = behind_s(feet, carried_mps);
         let unused_s = (behind_s - self.habit_s).clamp(-behind_max_s, behind_max_s);
         let usual_s = behind_s.clamp(-behind_max_s, behind_max_s);
         self.habit_s = usual_s + step.habit * (self.habit_s - usual_s);
@@ -40,12 +49,16 @@ impl Hurry {
     }
 }
 
-/// Time for which the planted feet would have to be carried back to be where the pose has them, at the mean.
-fn behind_s(feet: &[FootHold; 2], walked_mps: Vec2) -> f32 {
-    let planted = feet.iter().filter_map(FootHold::planted_shift_m);
-    let (sum_m, count) = planted.fold((Vec2::ZERO, 0.0), |(sum_m, count), shift_m| (sum_m + shift_m, count + 1.0));
-    let speed_squared = walked_mps.length_squared().max(SPEED_MIN_MPS * SPEED_MIN_MPS);
-    -sum_m.dot(walked_mps) / (speed_squared * f32::max(count, 1.0))
+/// t: for how long the planted feet would have to be carried back to be where the pose has them, s.
+fn behind_s(feet: &[FootHold; 2], carried_mps: impl Fn(&FootHold) -> Vec2) -> f32 {
+    let (mut back, mut square) = (0.0, 0.0);
+    for foot in feet {
+        let Some(shift_m) = foot.planted_shift_m() else { continue };
+        let carried_mps = carried_mps(foot);
+        back -= shift_m.dot(carried_mps);
+        square += carried_mps.length_squared().max(SPEED_MIN_MPS * SPEED_MIN_MPS);
+    }
+    back / square.max(SPEED_MIN_MPS * SPEED_MIN_MPS)
 }
 
 #[cfg(test)]
@@ -75,7 +88,7 @@ mod tests {
                 let moved_m = held.ankle_m - posed(time_s).ankle_m;
                 foot.placed(posed(time_s).sole_m.map(|point_m| point_m + moved_m), &step);
             });
-            hurry.follow(&feet, Vec2::X, &step)
+            hurry.follow(&feet, |_| Vec2::X, &step)
         };
         (0..(seconds / step.dt_s) as usize).map(&mut factor).collect()
     }
