@@ -14,6 +14,8 @@ use crate::sweep::sort_along_longer_side;
 const CORNERS_MAX: usize = 1_000;
 /// Thinner slivers have no inside, m².
 const AREA_MIN_M2: f64 = 1e-4;
+/// No disc whose centre is farther than this from an obstacle's box touches it, m.
+const NEAR_M: f32 = 1.0;
 /// Rounding of positions that are meant to touch, m.
 const TOUCH_M: f64 = 1e-4;
 
@@ -93,11 +95,13 @@ fn check_obstacles(obstacles_m: &[Vec<Vec2>]) -> Result<(), Fault> {
 }
 
 fn check_agents_clear_of_obstacles(scenario: &Scenario) -> Result<(), Fault> {
+    let agents = Abreast::new(&scenario.agents);
     for (obstacle, polygon_m) in scenario.obstacles_m.iter().enumerate() {
-        let low_m = polygon_m.iter().copied().fold(Vec2::INFINITY, Vec2::min);
-        let high_m = polygon_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max);
-        for (index, agent) in scenario.agents.iter().enumerate() {
-            let near = |point_m: Vec2| point_m.cmpge(low_m - 1.0).all() && point_m.cmple(high_m + 1.0).all();
+        let low_m = polygon_m.iter().copied().fold(Vec2::INFINITY, Vec2::min) - NEAR_M;
+        let high_m = polygon_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max) + NEAR_M;
+        let near = |point_m: Vec2| point_m.cmpge(low_m).all() && point_m.cmple(high_m).all();
+        for index in agents.between(low_m, high_m) {
+            let agent = &scenario.agents[index];
             if near(agent.position_m) {
                 check_start(index, agent, obstacle, polygon_m)?;
             }
@@ -111,6 +115,38 @@ fn check_agents_clear_of_obstacles(scenario: &Scenario) -> Result<(), Fault> {
         }
     }
     Ok(())
+}
+
+/// Agents by where they start and go along the scene's longer side: of a million agents and ten thousand obstacles only
+/// those that lie abreast are held against each other.
+struct Abreast {
+    axis: usize,
+    places: Vec<(f32, usize)>,
+}
+
+impl Abreast {
+    fn new(agents: &[AgentSpec]) -> Self {
+        let of_agent = |agent: &AgentSpec| [&[agent.position_m], &*agent.goals_m].concat();
+        let all: Vec<(Vec2, usize)> = agents
+            .iter()
+            .enumerate()
+            .flat_map(|(index, agent)| of_agent(agent).into_iter().map(move |at_m| (at_m, index)))
+            .collect();
+        let mut order: Vec<usize> = (0..all.len()).collect();
+        let along_m = |place: usize, axis: usize| f64::from(all[place].0[axis]);
+        let axis = sort_along_longer_side(&mut order, all.iter().map(|place| place.0), along_m);
+        Self { axis, places: order.into_iter().map(|place| (all[place].0[axis], all[place].1)).collect() }
+    }
+
+    /// Those, in order, that start or go between two corners of a box, or beside it.
+    fn between(&self, low_m: Vec2, high_m: Vec2) -> Vec<usize> {
+        let from = self.places.partition_point(|place| place.0 < low_m[self.axis]);
+        let to = self.places.partition_point(|place| place.0 <= high_m[self.axis]);
+        let mut agents: Vec<usize> = self.places[from..to].iter().map(|place| place.1).collect();
+        agents.sort_unstable();
+        agents.dedup();
+        agents
+    }
 }
 
 fn check_start(index: usize, agent: &AgentSpec, obstacle: usize, polygon_m: &[Vec2]) -> Result<(), Fault> {

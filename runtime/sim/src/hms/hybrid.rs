@@ -11,7 +11,7 @@ use motiondb::parameters::Parameters;
 use super::inertialization::CARRIED_S;
 use super::mode::Mode;
 use super::params::Modes;
-use super::semi_procedural::SemiProcedural;
+use super::semi_procedural::{CADENCE, SemiProcedural};
 
 /// Furthest from a mid-stance that synthesis switches, where T allows, in phases: the other foot leaves and lands about
 /// 0.2 from it (at 12 and 50 % of the cycle, mid-stance at 31: Perry, *Gait Analysis*), which leaves a tenth of a
@@ -27,7 +27,8 @@ pub struct Hybrid {
     pub blending: Parameters,
     /// T as phases [φ_sp, φ_mb], in order.
     pairs: Vec<[f32; 2]>,
-    /// t_trans, s: the longest wait for a pair, and the time in which the difference of poses dies out.
+    /// t_trans, s: the longest wait for a pair, at the slowest cadence, and the time in which the difference of poses
+    /// dies out.
     pub transition_s: f32,
 }
 
@@ -39,7 +40,7 @@ impl Hybrid {
         let maps = examples.map(|example| &db.examples[example].phase_map);
         let pairs = found.pairs_s.iter().map(|times_s| [0, 1].map(|side| maps[side].phase(times_s[side])));
         let pairs = about_mid_stances(pairs.collect());
-        let period_s = maps[0].period_s.max(maps[1].period_s);
+        let period_s = maps[0].period_s.max(maps[1].period_s) / CADENCE[0];
         Some(Self {
             semi_procedural: SemiProcedural::new(db, examples[0])?,
             blending: db.examples[examples[1]].parameters,
@@ -89,7 +90,7 @@ mod tests {
             .collect();
         assert_eq!(jumps.len(), hybrid.pairs.len());
         assert!(jumps.iter().all(|jump| ((jump + 0.5).rem_euclid(1.0) - 0.5).abs() < 0.1));
-        assert!(hybrid.transition_s > CARRIED_S && hybrid.transition_s < CARRIED_S + 1.3);
+        assert!(hybrid.transition_s > CARRIED_S && hybrid.transition_s < CARRIED_S + 1.3 / CADENCE[0]);
     }
 
     #[test]

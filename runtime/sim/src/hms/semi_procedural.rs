@@ -26,7 +26,7 @@ const BACKWARD: f32 = 1.4;
 /// and 178 steps a minute, say 1.0 and 1.2; turns in walking less.
 const TURNING_M: f32 = 1.0;
 /// Cadence over that of m_sp: from a stroll's to a shuffle's.
-const CADENCE: [f32; 2] = [0.6, 2.2];
+pub(super) const CADENCE: [f32; 2] = [0.6, 2.2];
 /// Greatest speeds ahead, back and aside, over that of m_sp; `fbcrowd bench reach` measures where legs would cross,
 /// over-stretch or crouch, which is further out in every direction. Ahead, of a walk of 1.1 m/s: people run from 2 m/s
 /// on (Hreljac 1993).
