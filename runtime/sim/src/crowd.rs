@@ -11,15 +11,33 @@ use crate::plan::Plan;
 use crate::planner::{self, Planner, Scratch};
 use crate::world::World;
 
-/// Agents that one thread takes at a time: enough to outweigh the hand-over, few enough to share out 100 agents.
-const CHUNK: usize = 16;
+/// Agents that one thread takes at a time, at least: enough to outweigh the hand-over, few enough to share out 100.
+const CHUNK_MIN: usize = 16;
+/// Chunks for each thread, of a great crowd: the last to be planned is waited for by less than a hundredth.
+const CHUNKS: usize = 64;
 
-/// Plans every agent; `plans` is by agent, `in_cell_order` is working memory.
-pub fn plan_all(planner: Planner, world: &World, params: &Params, in_cell_order: &mut Vec<Plan>, plans: &mut [Plan]) {
+/// Working memory, kept from step to step so that none is asked for in one.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    in_cell_order: Vec<Plan>,
+    /// Of each chunk.
+    scratches: Vec<Scratch>,
+}
+
+impl Memory {
+    /// Bytes that each agent has in it.
+    pub const BYTES_PER_AGENT: usize = size_of::<Plan>();
+}
+
+/// Plans every agent; `plans` is by agent.
+pub fn plan_all(planner: Planner, world: &World, params: &Params, memory: &mut Memory, plans: &mut [Plan]) {
     let agents = world.neighbours.in_cell_order();
+    let Memory { in_cell_order, scratches } = memory;
     in_cell_order.resize(agents.len(), Plan::default());
-    let chunks = in_cell_order.par_chunks_mut(CHUNK).zip(agents.par_chunks(CHUNK));
-    chunks.for_each_init(Scratch::default, |scratch, (planned, agents)| {
+    let chunk = agents.len().div_ceil(CHUNKS * rayon::current_num_threads()).max(CHUNK_MIN);
+    scratches.resize_with(agents.len().div_ceil(chunk), Scratch::default);
+    let chunks = in_cell_order.par_chunks_mut(chunk).zip(agents.par_chunks(chunk)).zip(scratches);
+    chunks.for_each(|((planned, agents), scratch)| {
         for (plan, &agent) in planned.iter_mut().zip(agents) {
             *plan = planner::plan(planner, world, agent as usize, params, scratch);
         }

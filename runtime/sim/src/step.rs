@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use crate::agents::Agents;
 use crate::cns::{self, Coupling};
-use crate::crowd::plan_all;
+use crate::crowd::{self, plan_all};
 use crate::decoupled;
 use crate::hms::params::HmsParams;
 use crate::hms::studio::Studio;
@@ -26,7 +26,6 @@ use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::path::{self, Braking};
-use crate::plan::Plan;
 use crate::planner::ahead_s;
 use crate::recording_frame::AgentFrame;
 use crate::scenario::Scenario;
@@ -62,8 +61,7 @@ pub struct Simulation {
     obstacles: Obstacles,
     constraints: MotionConstraints,
     neighbours: Neighbours,
-    /// Working memory of planning.
-    planned: Vec<Plan>,
+    planning: crowd::Memory,
     agents: Agents,
 }
 
@@ -76,7 +74,7 @@ impl Simulation {
             obstacles: Obstacles::new(&scenario.obstacles_m),
             constraints: MotionConstraints::new(&studio.db.velocity_hull),
             neighbours: Neighbours::default(),
-            planned: Vec::new(),
+            planning: crowd::Memory::default(),
             scenario: scenario.clone(),
             agents,
             studio,
@@ -99,8 +97,8 @@ impl Simulation {
     pub fn bytes_per_agent(&self) -> usize {
         let specs = &self.scenario.agents;
         let goals: usize = specs.iter().map(|agent| size_of_val(&*agent.goals_m)).sum();
-        let held = self.agents.size_bytes() + size_of_val(&*self.planned) + size_of_val(&**specs) + goals;
-        held / specs.len().max(1) + GRID_BYTES
+        let held = self.agents.size_bytes() + size_of_val(&**specs) + goals;
+        held / specs.len().max(1) + crowd::Memory::BYTES_PER_AGENT + GRID_BYTES
     }
 
     /// Advances by the scenario's dt; `finished` hears the end of each stage.
@@ -154,10 +152,10 @@ impl Simulation {
 
     fn plan(&mut self) {
         let mut plans = std::mem::take(&mut self.agents.plans);
-        let mut planned = std::mem::take(&mut self.planned);
+        let mut planning = std::mem::take(&mut self.planning);
         let Scenario { planner, params, .. } = &self.scenario;
-        plan_all(*planner, &self.world(), params, &mut planned, &mut plans);
-        (self.agents.plans, self.planned) = (plans, planned);
+        plan_all(*planner, &self.world(), params, &mut planning, &mut plans);
+        (self.agents.plans, self.planning) = (plans, planning);
     }
 
     fn synthesize(&mut self) {

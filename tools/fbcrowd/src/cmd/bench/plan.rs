@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use fbcrowd_sim::cns::Coupling;
-use fbcrowd_sim::crowd::plan_all;
+use fbcrowd_sim::crowd::{Memory, plan_all};
 use fbcrowd_sim::neighbours::{Nearest, Neighbours, Query};
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::plan::Plan;
@@ -139,7 +139,10 @@ fn timed(simulations: &mut [Simulation], pools: &Pools) -> Vec<Vec<Turn>> {
 }
 
 fn turn(world: &World, pools: &Pools) -> Turn {
-    let plan = |planner, pool| microseconds(world, pool, planner, |world| plan_once(planner, world));
+    let plan = |planner, pool| {
+        let mut memory = Memory::default();
+        microseconds(world, pool, planner, |world| plan_once(planner, world, &mut memory))
+    };
     Turn {
         query_us: microseconds(world, &pools.one, Planner::Orca, query_once),
         orca_us: plan(Planner::Orca, &pools.one),
@@ -149,8 +152,8 @@ fn turn(world: &World, pools: &Pools) -> Turn {
 }
 
 /// Of the sorting into cells for a planner and some work upon it, per agent. The first time, which wakes the threads,
-/// does not count.
-fn microseconds(world: &World, pool: &ThreadPool, planner: Planner, work: impl Fn(&World) + Sync) -> f32 {
+/// and fills the working memory, does not count.
+fn microseconds(world: &World, pool: &ThreadPool, planner: Planner, mut work: impl FnMut(&World) + Send) -> f32 {
     let ahead_s = ahead_s(planner, &Params::default());
     let agents = world.positions_m.len();
     let repeats = PLANS.div_ceil(agents);
@@ -167,9 +170,9 @@ fn microseconds(world: &World, pool: &ThreadPool, planner: Planner, work: impl F
     })
 }
 
-fn plan_once(planner: Planner, world: &World) {
+fn plan_once(planner: Planner, world: &World, memory: &mut Memory) {
     let mut plans = vec![Plan::default(); world.positions_m.len()];
-    plan_all(planner, world, &Params::default(), &mut Vec::new(), &mut plans);
+    plan_all(planner, world, &Params::default(), memory, &mut plans);
     black_box(plans);
 }
 
