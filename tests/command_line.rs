@@ -215,12 +215,17 @@ fn who_has_not_arrived_because_of_a_wall_is_told() {
 fn whoever_brings_a_database_needs_no_clips() {
     let folder = folder("own_database");
     let database = compile(&[WALK.to_owned()], &folder);
-    let scene =
-        scenario(&folder, "duration_s = 0.1\nclips = \"nowhere\"\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n");
     let recording = folder.join("scene.fbrec");
-    fbcrowd(&["simulate", &scene, "--db", text(&database), "-o", text(&recording)]).expect_code(0);
-    for command in [["simulate", &scene, "-o", text(&recording)], ["run", &scene, "-o", text(&folder)]] {
-        fbcrowd(&command).expect_code(2).says(&["scene.toml:2", "nowhere"]);
+    for (motion, words) in [
+        ("clips = \"nowhere\"", ["scene.toml:1", "nowhere", "relative to the scenario file"]),
+        ("", ["scene.toml:1", "neither `clips` nor `database`", "--db"]),
+    ] {
+        let lines = format!("{motion}\nduration_s = 0.1\nagents = {{ at_m = [0, 0], goals_m = [[2, 0]] }}\n");
+        let scene = scenario(&folder, &lines);
+        fbcrowd(&["simulate", &scene, "--db", text(&database), "-o", text(&recording)]).expect_code(0);
+        for command in [["simulate", &scene, "-o", text(&recording)], ["run", &scene, "-o", text(&folder)]] {
+            fbcrowd(&command).expect_code(2).says(&words);
+        }
     }
 }
 

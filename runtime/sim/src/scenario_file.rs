@@ -1,7 +1,8 @@
 //! A scenario in TOML: read, resolved to explicit agents, checked; every mistake is shown where it stands.
 //!
 //! ```toml
-//! clips = "../clips"                  # or database = "x.fbdb"; a folder, file or manifest, relative to this file
+//! clips = "../clips"                  # or database = "x.fbdb"; a folder, file or manifest, relative to this file;
+//!                                     # neither where whoever reads it brings a database
 //! duration_s = 30.0
 //! agents = { circle = { count = 17, radius_m = 4.0 } }    # or [[agents]] tables: see `scenario_agents.rs`
 //!
@@ -40,6 +41,8 @@ use crate::split_mix::SplitMix64;
 
 const STEP_S: f32 = 1.0 / 30.0;
 const SEED: u64 = 1;
+/// What to do about a scenario without motion.
+const NO_MOTION: &str = "add `clips = \"FOLDER\"` or `database = \"FILE.fbdb\"`, relative to this file, or bring a database with `fbcrowd simulate --db`";
 
 /// Where a scenario's motion comes from; apart from the [`Scenario`], so that no path gets into a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -153,7 +156,7 @@ fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {
     corners_m
 }
 
-/// What the file names, or that it is not there; the file itself is wrong unless it names exactly one.
+/// What the file names, or that it names nothing or what is not there; the file itself is wrong where it names two.
 fn motion_source(
     source: &SourceText,
     file: &ScenarioFile,
@@ -161,12 +164,10 @@ fn motion_source(
     let (given, to_motion): (_, fn(PathBuf) -> MotionSource) = match (&file.clips, &file.database) {
         (Some(clips), None) => (clips, MotionSource::Clips),
         (None, Some(database)) => (database, MotionSource::Database),
-        (clips, _) => {
-            let span = clips.as_ref().map_or(0..0, Spanned::span);
-            let message = "a scenario needs either `clips` or `database`";
-            return Err(source
-                .invalid(span, message, "name a folder of clips or a .fbdb file, relative to this file")
-                .into());
+        (None, None) => return Ok(Err(source.invalid(0..0, "names neither `clips` nor `database`", NO_MOTION).into())),
+        (Some(_), Some(database)) => {
+            let message = "names a database besides its clips";
+            return Err(source.invalid(database.span(), message, "remove either `clips` or `database`").into());
         }
     };
     let path = source.beside(given.get_ref());

@@ -329,8 +329,8 @@ fn a_short_text_that_asks_for_too_much_is_refused_before_it_is_made() {
 #[test]
 fn missing_files_are_named() {
     check_refused("no_clips", &format!("clips = \"gone\"\nduration_s = 1\n{ONE}"), "\"gone\"", "gone");
-    check_refused("no_motion", &format!("duration_s = 1\n{ONE}"), "", "either `clips` or `database`");
-    check_refused("both", &format!("{HEAD}database = \"x\"\n{ONE}"), "\".\"", "either `clips` or `database`");
+    check_refused("no_motion", &format!("duration_s = 1\n{ONE}"), "", "neither `clips` nor `database`");
+    check_refused("both", &format!("{HEAD}database = \"x\"\n{ONE}"), "\"x\"", "a database besides its clips");
     check_refused("no_lines", &format!("{HEAD}agents = {{ file = \"gone.txt\" }}"), "\"gone.txt\"", "there is no file");
     let error = read(Path::new("/nowhere/scene.toml")).unwrap_err();
     assert!(

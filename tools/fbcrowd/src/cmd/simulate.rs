@@ -20,7 +20,7 @@ pub(crate) struct Args {
     /// The scenario.
     #[arg(value_name = "SCENARIO.toml")]
     scenario: PathBuf,
-    /// The database; the scenario's own by default.
+    /// The database; by default the one that the scenario names, which needs no motion of its own where this is given.
     #[arg(long = "db", value_name = "FILE.fbdb")]
     database: Option<PathBuf>,
     /// The recording.
