@@ -122,6 +122,7 @@ pub(crate) fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
     let grounded = performer.clip_on(clip, body);
     let (mut windows, mut warnings) = (Vec::new(), Vec::new());
     let (found, mut reason) = match performer.windows_on(&grounded, body) {
+        _ if clip.is_ruled_out() => (Vec::new(), None),
         Ok(_) if clip.is_impossible() => (Vec::new(), Some(IMPOSSIBLE.to_owned())),
         Ok(found) => (found, None),
         Err(reason) => (Vec::new(), Some(reason.to_owned())),

@@ -108,6 +108,11 @@ impl HumanBody {
 }
 
 impl HumanClip {
+    /// It was found at import that it can give no example; its warnings tell why.
+    pub(crate) fn is_ruled_out(&self) -> bool {
+        self.source.warnings.iter().any(|remark| remark.kind == Kind::NoExample)
+    }
+
     /// Its gait was found too fast or too slow for any human: its frame time lies, and with it all speeds.
     pub(crate) fn is_impossible(&self) -> bool {
         self.source.warnings.iter().any(|remark| remark.kind == Kind::FrameTime)

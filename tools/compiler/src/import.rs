@@ -10,7 +10,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use motiondb::input_file;
-use motiondb::remark::Kind;
+use motiondb::remark::{Kind, Remark};
 use motiondb::skeleton::Joint;
 use rayon::prelude::*;
 
@@ -209,11 +209,14 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
     if settings.metres_per_unit.is_none() {
         plausibility::doubt_unit(&mut clip, &roles);
     }
+    let belied_up = plausibility::belied_up(&clip, &roles);
     let (mut clip, units) = units::to_metres_z_up(clip, &roles);
     let whole = measured(&mut clip, &roles, settings);
     clip.warnings.extend(plausibility::implausible_size(&clip, &roles));
-    clip.warnings.extend(plausibility::implausible_gait(&clip, &roles, &whole));
-    clip.warnings.extend(carried::remark(&clip, &roles, &whole));
+    match belied_up {
+        Some(belied) => clip.warnings.push(belied),
+        None => clip.warnings.extend(doubts_of_gait(&clip, &roles, &whole).into_iter().flatten()),
+    }
     let mut human = retarget::to_human(&clip, &roles, &units, whole, name);
     human.choices.mirror = settings.mirror;
     human.choices.is_cut = settings.frames.is_some();
@@ -234,6 +237,10 @@ fn measured(clip: &mut SourceClip, roles: &Roles, settings: &Settings) -> WholeC
         first_pose::drop_t_poses(clip, roles);
     }
     whole
+}
+
+fn doubts_of_gait(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> [Option<Remark>; 2] {
+    [plausibility::implausible_gait(clip, roles, whole), carried::remark(clip, roles, whole)]
 }
 
 fn is_finite(pose: &HumanPose) -> bool {

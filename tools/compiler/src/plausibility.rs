@@ -3,13 +3,14 @@
 //! Of a gait: its cadence, and the ratio of step length to cadence, the walk ratio, which people keep at 0.6–0.7
 //! cm/(step/min) over most speeds (Sekiya and Nagasaki 1998). A lying `Frame Time:` scales both: the CMU run 02_03 at
 //! 1/25 s instead of 1/120 s comes out at 4. Legs of another length step longer by that length, at a cadence of its
-//! root less.
+//! root less. Of a body: its size, its bones, and whether it stands.
 
 use glam::DVec2;
 use motiondb::median::median;
 use motiondb::remark::{Kind, Remark};
 use motiondb::skeleton::Joint;
 
+use crate::axis::Axis;
 use crate::error::Refusal;
 use crate::human_clip::HumanBody;
 use crate::root_motion::leg_length_m;
@@ -17,7 +18,7 @@ use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;
 use crate::source_parameters::{WholeClip, facing_rad};
 use crate::tread;
-use crate::units::{HUMAN_LEG_M, leg_length, middle};
+use crate::units::{HUMAN_LEG_M, found_up, leg_length, middle};
 
 /// Plausible walk ratios, cm/(step/min), for a person's leg. Clips of the development set: 0.27 (careful small steps)
 /// to 1.1 (sprint).
@@ -63,6 +64,16 @@ pub(crate) fn doubt_unit(clip: &mut SourceClip, roles: &Roles) {
         let body = format!("in the unit of its format thigh and shank are {leg_m:.2} m long: another is taken");
         clip.warnings.push(Kind::Size.remark(body + "; if it is wrong, give `metres_per_unit`"));
     }
+}
+
+/// Why a clip gives no example, where nobody stands upright along the axis that a manifest calls up.
+pub(crate) fn belied_up(clip: &SourceClip, roles: &Roles) -> Option<Remark> {
+    let (told, found) = (clip.up_axis?, found_up(clip, roles));
+    (told != found).then(|| {
+        let [told, found] = [told, found].map(Axis::name);
+        let stands = format!("the manifest says that up is {told}, but the body stands along {found}");
+        Kind::NoExample.remark(stands + "; correct `up`, or remove it")
+    })
 }
 
 /// The refusal, where bones are none of a body that could walk.

@@ -106,9 +106,24 @@ fn unit_axis_and_frame_rate_are_those_of_the_manifest() {
         let wanted_mps = before.speed_mps * 1.1 * frame_rate_hz / before.frame_rate_hz;
         assert!((told.speed_mps - wanted_mps).abs() < 0.02 * wanted_mps, "{told:?}, not {wanted_mps}");
     }
-    let lying = format!("{ONLY}[[clips]]\npath = 'walk_110.bvh'\nup = '+X'\n");
-    let error = compile(&folder("lying", &lying)).unwrap_err().to_string();
-    assert!(error.contains("no legs could carry"), "the axis is believed: {error}");
+}
+
+#[test]
+fn a_body_that_does_not_stand_along_the_manifests_up_is_told_so() {
+    for clip in ["walk_110.bvh", "walk_140.glb", "idle.bvh"] {
+        for up in ["+X", "-X", "-Y", "+Z", "-Z"] {
+            let lying = format!("{ONLY}[[clips]]\npath = '{clip}'\nup = '{up}'\n");
+            let error = compile(&folder("lying", &lying)).unwrap_err();
+            let CompileError::NoExample { sources, .. } = error else { panic!("{error}") };
+            let said: Vec<String> = sources[0].warnings.iter().map(ToString::to_string).collect();
+            assert_eq!(
+                said,
+                [format!(
+                    "no example: the manifest says that up is {up}, but the body stands along +Y; correct `up`, or remove it"
+                )]
+            );
+        }
+    }
 }
 
 #[test]
