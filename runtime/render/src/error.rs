@@ -9,7 +9,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum RenderError {
     /// The output folder can be neither found nor made.
-    #[error("{}: the output folder cannot be made: {source}; name another with -o, or allow writing there", folder.display())]
+    #[error("{}: the output folder cannot be made: {source}; name another, or allow writing there", folder.display())]
     Folder {
         /// The folder asked for.
         folder: PathBuf,

@@ -19,7 +19,7 @@ const REFERENCE_SIDE_PX: f32 = 720.0;
 /// The scale bar takes at most this share of the picture's width.
 const BAR_SHARE: f32 = 0.14;
 /// Lengths that a scale bar may have, times a power of ten.
-const BAR_STEPS: [f32; 3] = [5.0, 2.0, 1.0];
+const BAR_STEPS: [f64; 3] = [5.0, 2.0, 1.0];
 /// Distance of a label from its body's root, to the right and up, m.
 const LABEL_OFFSET_M: Vec2 = Vec2::new(0.26, 0.26);
 
@@ -43,7 +43,7 @@ impl Overlay {
     pub fn draw_scale_bar(&self, pixmap: &mut Pixmap) {
         let size = self.face.size_px;
         let length_m = bar_length_m(BAR_SHARE * self.framing.width_px as f32 / self.framing.scale_px_m);
-        let (length, line) = ((length_m * self.framing.scale_px_m).round(), (size / 10.0).round().max(1.0));
+        let (length, line) = ((length_m as f32 * self.framing.scale_px_m).round(), (size / 10.0).round().max(1.0));
         let [left, base] = [size, self.framing.height_px as f32 - size].map(f32::round);
         let tick = (0.4 * size).round();
         fill_rect(pixmap, [left, base - line, length, line], INK, 1.0);
@@ -75,9 +75,10 @@ impl Overlay {
     }
 }
 
-/// The greatest of 1, 2, 5, 10, … times any power of ten that is at most a length.
-fn bar_length_m(longest_m: f32) -> f32 {
-    let power = libm::powf(10.0, libm::floorf(libm::log10f(longest_m.max(1e-3))));
+/// The greatest of 1, 2, 5, 10, … times any power of ten that is at most a length; f64, so that it is written shortly.
+fn bar_length_m(longest_m: f32) -> f64 {
+    let longest_m = f64::from(longest_m);
+    let power = libm::pow(10.0, libm::floor(libm::log10(longest_m.max(1e-3))));
     BAR_STEPS.into_iter().map(|step| step * power).find(|length| *length <= longest_m).unwrap_or(power)
 }
 
@@ -95,8 +96,10 @@ mod tests {
 
     #[test]
     fn scale_bars_have_round_lengths() {
-        for (longest_m, length_m) in [(0.9, 0.5), (1.0, 1.0), (4.9, 2.0), (73.0, 50.0)] {
-            assert!((bar_length_m(longest_m) - length_m).abs() < 1e-4 * length_m);
+        for (longest_m, written) in
+            [(0.003, "0.002"), (0.07, "0.05"), (0.9, "0.5"), (1.0, "1"), (4.9, "2"), (73.0, "50"), (2500.0, "2000")]
+        {
+            assert_eq!(bar_length_m(longest_m).to_string(), written);
         }
     }
 }

@@ -50,7 +50,11 @@ pub fn trajectories(header: &Header, tracks: &Tracks) -> Pixmap {
 
 fn title(header: &Header, tracks: &Tracks) -> String {
     let duration_s = tracks.frame_count().saturating_sub(1) as f32 * tracks.dt_s;
-    format!("{}: paths of {} agents in {duration_s:.1} s", header.scenario.name, tracks.agent_count)
+    let paths = match tracks.agent_count {
+        1 => "path of 1 agent".to_owned(),
+        count => format!("paths of {count} agents"),
+    };
+    format!("{}: {paths} in {duration_s:.1} s", header.scenario.name)
 }
 
 /// All goals and whatever else is drawn, with room around.

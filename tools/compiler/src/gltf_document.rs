@@ -170,11 +170,14 @@ pub(crate) fn uris(bytes: &[u8]) -> Vec<String> {
 /// channel, or another flaw.
 fn without_nodeless_channels(json: &[u8]) -> Option<Root> {
     let mut document: json::Value = json::deserialize::from_slice(json).ok()?;
+    let mut left_out = false;
     for animation in document.get_mut("animations")?.as_array_mut()? {
         let channels = animation.get_mut("channels")?.as_array_mut()?;
+        let count = channels.len();
         channels.retain(|channel| channel.get("target").is_some_and(|target| target.get("node").is_some()));
+        left_out |= channels.len() < count;
     }
-    json::deserialize::from_value(document).ok()
+    left_out.then(|| json::deserialize::from_value(document).ok())?
 }
 
 /// That indices and types hold where they matter.

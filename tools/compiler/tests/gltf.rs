@@ -233,6 +233,14 @@ fn animation_pointers_are_passed_over_with_a_word() {
 }
 
 #[test]
+fn a_document_that_says_a_thing_twice_is_refused_for_that() {
+    let text = Document::walker().gltf();
+    let twice = String::from_utf8(text).unwrap().replacen('{', r#"{"asset": {"version": "2.0"}, "#, 1);
+    let error = import_bytes(Path::new("walk.gltf"), twice.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("duplicate field `asset`"), "{error}");
+}
+
+#[test]
 fn compressed_meshes_are_no_matter_and_compressed_animations_are_refused() {
     let mut meshes = Document::walker();
     meshes.json["extensionsRequired"] =

@@ -6,6 +6,7 @@ use clap::ValueEnum;
 use fbcrowd_render::frame_range::FrameRange;
 use fbcrowd_render::sequence::{Format, SequenceOptions};
 
+use crate::compile_text::counted;
 use crate::failure::{Answer, Failure};
 use crate::{output, rendering};
 
@@ -70,8 +71,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     };
     let rendered = rendering::render(&recording, &options)?;
     output::print(&format!(
-        "{} frames in {}, {:.1} ms a frame",
-        rendered.frames,
+        "{} in {}, {:.1} ms a frame",
+        counted(rendered.frames, "frame", "frames"),
         args.output.display(),
         rendered.ms_per_frame
     ))?;

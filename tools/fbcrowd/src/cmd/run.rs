@@ -10,6 +10,7 @@ use motiondb::file;
 use motiondb_compiler::compile::Compiled;
 
 use crate::cmd::measure;
+use crate::compile_text::counted;
 use crate::compiling::{self, Overrides};
 use crate::failure::{Answer, Failure};
 use crate::rendering::Rendered;
@@ -92,6 +93,6 @@ fn remove_frames(options: &SequenceOptions) -> io::Result<()> {
 }
 
 fn summary(measures: &str, timings: &Timings, rendered: &Rendered, folder: &Path) -> String {
-    let rendering = format!("{} frames, {:.1} ms a frame", rendered.frames, rendered.ms_per_frame);
+    let rendering = format!("{}, {:.1} ms a frame", counted(rendered.frames, "frame", "frames"), rendered.ms_per_frame);
     format!("{measures}{}{:<25}{rendering}\n{:<25}{}", timings.text(), "rendering", "written to", folder.display())
 }
