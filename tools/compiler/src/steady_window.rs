@@ -101,6 +101,10 @@ fn longest(steps: &Steps, reading: usize, [start, end]: [f64; 2]) -> Option<Stea
     let strides = steps.strides.get(from..past).unwrap_or_default();
     let mut best: Option<(usize, f64, usize)> = None;
     for first in 0..strides.len() {
+        // What is left is shorter than the longest: a day on a treadmill is one run, and takes one look.
+        if best.is_some_and(|(length, ..)| strides.len() - first <= length) {
+            break;
+        }
         let mut run = Run::default();
         // Every stride counts for steadiness, also those that begin with the other foot; every second one goes into the
         // mean.
@@ -206,5 +210,48 @@ impl Spread {
     /// The end that is farther from 0.
     fn farthest(&self) -> f64 {
         self.greatest.abs().max(self.least.abs())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motiondb::skeleton::Side;
+
+    const STEP_FRAMES: f64 = 15.0;
+
+    /// A walk whose strides go at these speeds, m/s; one begins with each step.
+    fn steps(speeds_mps: &[f64]) -> Steps {
+        let frame = |index: usize| STEP_FRAMES * index as f64;
+        let stride = |(index, &speed_mps): (usize, &f64)| {
+            let mut stride = Stride { zero_frame: frame(index), period_frames: 2.0 * STEP_FRAMES, ..Stride::default() };
+            stride.arc.rates.speed_mps = speed_mps;
+            Some(stride)
+        };
+        Steps {
+            landmarks: (0..speeds_mps.len() + 2)
+                .map(|index| Landmark { side: Side::BOTH[index % 2], frame: frame(index) })
+                .collect(),
+            strides: speeds_mps.iter().enumerate().map(stride).collect(),
+        }
+    }
+
+    fn check_windows(speeds_mps: &[f64], windows: &[[usize; 2]]) {
+        let end = STEP_FRAMES * (speeds_mps.len() + 1) as f64;
+        let found = steady_windows(&[steps(speeds_mps)], [0.0, end]);
+        let frames = |window: &[usize; 2]| window.map(|index| STEP_FRAMES * index as f64);
+        let found: Vec<[f64; 2]> = found.iter().map(SteadyWindow::frames).collect();
+        assert_eq!(found, windows.iter().map(frames).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn of_windows_as_long_the_steadiest_is_taken_first() {
+        check_windows(&[1.0, 1.05, 1.0, 3.0, 3.0, 3.0], &[[3, 7], [0, 2]]);
+        check_windows(&[1.0, 1.0, 1.0, 3.0, 3.05, 3.0], &[[0, 4], [4, 6]]);
+    }
+
+    #[test]
+    fn a_day_on_a_treadmill_is_one_window_and_takes_one_look() {
+        check_windows(&[1.2; 170_001], &[[0, 170_002]]);
     }
 }
