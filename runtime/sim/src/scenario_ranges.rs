@@ -90,7 +90,7 @@ fn check_name(name: &str) -> Result<(), Fault> {
         return Ok(());
     }
     let shown: String = name.chars().take(NAME_MAX_BYTES).collect();
-    let help = "set `name` to some letters and digits, without `/`, `\\` or a dot in front";
+    let help = "set `name` to letters and digits, at most 200 bytes of them, without `/`, `\\` or a dot in front";
     Place::Name.fault(format!("{shown:?} cannot name a file"), help)
 }
 
@@ -134,7 +134,13 @@ fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), Fault> {
     let (journey, place) = (&Place::Journey(index), &Place::Agent(index));
     check_points(journey, &[agent.position_m])?;
     check_points(journey, &agent.goals_m)?;
-    within(journey, "the number of goals", agent.goals_m.len(), &(1..=GOALS_MAX), "say where the agent goes")?;
+    within(
+        journey,
+        "the number of goals",
+        agent.goals_m.len(),
+        &(1..=GOALS_MAX),
+        "name the goal, and some waypoints before it",
+    )?;
     // As it was written: radians are rounded.
     let facing_deg = (10.0 * agent.facing_rad.to_degrees()).round() / 10.0;
     within(place, "facing_deg", facing_deg, &FACING_DEG, "leave it out to face the first goal")?;
