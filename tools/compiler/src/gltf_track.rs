@@ -16,7 +16,8 @@ pub(crate) struct Track {
     pub node: usize,
     property: Driven,
     interpolation: Interpolation,
-    /// Seconds, increasing.
+    /// Seconds, in order. Of keys at one time, which glTF forbids and tools write all the same, the last begins what
+    /// follows.
     times_s: Vec<f32>,
     /// A vector or quaternion a key; three (in-tangent, value, out-tangent) where the interpolation is cubic.
     values: Vec<f32>,
@@ -66,10 +67,10 @@ pub(crate) fn read(document: &Document, source: &Source) -> Result<Track, Flaw> 
     let Numbers { width, values } = gltf_accessor::numbers(document, output, property == Driven::Rotation)?;
     let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
     let is_right_width = width == if property == Driven::Rotation { 4 } else { 3 };
-    let is_increasing = times.values.windows(2).all(|pair| pair[0] < pair[1]);
+    let is_in_order = times.values.is_sorted();
     let is_finite = times.values.iter().chain(&values).all(|value| value.is_finite());
     let is_whole = values.len() == per_key * width * times.values.len();
-    if times.width != 1 || !is_right_width || !is_increasing || !is_finite || !is_whole {
+    if times.width != 1 || !is_right_width || !is_in_order || !is_finite || !is_whole {
         let problem = "keys are not finite, in order and one value each";
         return flaw(format!("accessors {input} and {output}"), problem, "export the animation again");
     }

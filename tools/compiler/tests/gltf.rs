@@ -141,6 +141,21 @@ fn late_keys_single_keys_and_steps_are_keys() {
 }
 
 #[test]
+fn two_keys_at_one_time_are_keys_and_keys_out_of_order_are_none() {
+    let with_times = |last_s: f32| {
+        let mut walker = Document::walker();
+        let mut times: Vec<f32> = (0..FRAMES).map(|frame| frame as f32 / 30.0).collect();
+        times[FRAMES - 1] = last_s;
+        let input = walker.floats("SCALAR", &times);
+        walker.json["animations"][0]["samplers"][2]["input"] = json!(input);
+        walker
+    };
+    check_walks(&with_times((FRAMES - 2) as f32 / 30.0).only());
+    let error = import_bytes(Path::new("walk.glb"), &with_times(0.0).glb()).unwrap_err().to_string();
+    assert!(error.contains("in order"), "{error}");
+}
+
+#[test]
 fn cameras_and_props_neither_lengthen_a_clip_nor_become_one() {
     let mut document = Document::walker();
     document.push("cameras", json!({ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.1 } }));
