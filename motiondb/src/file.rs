@@ -76,8 +76,7 @@ pub fn to_bytes(db: &MotionDb) -> Vec<u8> {
 /// # Errors
 /// [`FileError::Container`] and [`FileError::Decode`].
 pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<(MotionDb, u32), FileError> {
-    let (payload, checksum) = container::open(MAGIC, VERSION, bytes)
-        .map_err(|source| FileError::Container { path: path.to_owned(), source })?;
+    let (payload, checksum) = opened(path, bytes)?;
     let decode = |reason: String| FileError::Decode { path: path.to_owned(), reason };
     let (db, used) =
         bincode::serde::decode_from_slice(payload, encoding()).map_err(|error| decode(error.to_string()))?;
@@ -87,6 +86,10 @@ pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<(MotionDb, u32), FileErro
     Ok((db, checksum))
 }
 
+fn opened<'a>(path: &Path, bytes: &'a [u8]) -> Result<(&'a [u8], u32), FileError> {
+    container::open(MAGIC, VERSION, bytes).map_err(|source| FileError::Container { path: path.to_owned(), source })
+}
+
 /// Writes a database under its final name whole or not at all; returns the checksum of its file.
 ///
 /// # Errors
@@ -94,7 +97,7 @@ pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<(MotionDb, u32), FileErro
 pub fn write(path: &Path, db: &MotionDb) -> Result<u32, FileError> {
     let bytes = to_bytes(db);
     atomic_file::write(path, &bytes).map_err(|source| FileError::Unwritable { path: path.to_owned(), source })?;
-    Ok(from_bytes(path, &bytes)?.1)
+    Ok(opened(path, &bytes)?.1)
 }
 
 /// Reads a database without judging it: for `fbcrowd validate` and `inspect`.

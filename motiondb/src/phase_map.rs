@@ -56,8 +56,16 @@ impl PhaseMap {
         for _ in 0..8 {
             phase -= (self.time_s(phase) - target_s) * self.rate_hz(phase);
         }
-        phase - libm::floorf(phase)
+        wrapped(phase)
     }
+}
+
+/// The same phase in [0, 1).
+#[inline]
+pub fn wrapped(phase: f32) -> f32 {
+    let wrapped = phase - libm::floorf(phase);
+    // A little less than none is rounded to a whole cycle.
+    if wrapped < 1.0 { wrapped } else { 0.0 }
 }
 
 #[cfg(test)]

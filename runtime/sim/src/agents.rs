@@ -1,4 +1,5 @@
-//! The state of all agents as a structure of arrays, in index order.
+//! The state of all agents, in index order: what a planner reads of others is a structure of arrays; bodies, plans and
+//! frames, which nobody but their own agent's synthesis touches, are arrays of structures.
 //!
 //! World axes, metres, seconds, radians. What the planner reads of the bodies changes only after all have planned:
 //! the stance foot as they are synthesised, all else in [`crate::cns`].

@@ -6,6 +6,7 @@
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
+use motiondb::phase_map::wrapped;
 use motiondb::pose::Root;
 
 use super::arc::moved;
@@ -106,8 +107,7 @@ impl Body {
         let (before, hurried_s) = (self.phase, self.move_root(self.walking, step));
         let map = Tempo::new(semi_procedural, self.walking, self.seen[0].way).phase_map();
         let middle = before + 0.5 * hurried_s * map.rate_hz(before);
-        let next = before + hurried_s * map.rate_hz(middle);
-        self.phase = next - libm::floorf(next);
+        self.phase = wrapped(before + hurried_s * map.rate_hz(middle));
         (nearest, before)
     }
 

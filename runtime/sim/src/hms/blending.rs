@@ -17,7 +17,7 @@ use glam::Vec3;
 use motiondb::blend_space::Shares;
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::parameters::Parameters;
-use motiondb::phase_map::PhaseMap;
+use motiondb::phase_map::{PhaseMap, wrapped};
 use motiondb::pose::Pose;
 
 /// Examples that one body may mix: a simplex of four, and others that fade out.
@@ -128,8 +128,7 @@ impl Mix {
     /// The phase in [0, 1) after a step, by the midpoint rule.
     pub fn advance_phase(&self, db: &MotionDb, phase: f32, dt_s: f32) -> f32 {
         let middle = phase + 0.5 * dt_s * self.phase_rate_hz(db, phase);
-        let next = phase + dt_s * self.phase_rate_hz(db, middle);
-        next - libm::floorf(next)
+        wrapped(phase + dt_s * self.phase_rate_hz(db, middle))
     }
 
     /// Pose weights: w_i = u_i·r_i(φ) / φ'.

@@ -16,7 +16,7 @@ use std::f32::consts::FRAC_PI_2;
 use glam::{Quat, Vec2, Vec3};
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::parameters::Parameters;
-use motiondb::phase_map::PhaseMap;
+use motiondb::phase_map::{PhaseMap, wrapped};
 use motiondb::planted_feet::CycleFeet;
 use motiondb::pose::{Joints, Pose, Root, RootFrame};
 use motiondb::skeleton::{Foot, Joint, Side, Skeleton};
@@ -211,8 +211,7 @@ impl<'a> Deformation<'a> {
     }
 
     fn instant(&self, phase: f32) -> Instant {
-        let reversed = 1.0 - phase;
-        Instant { phases: [phase, reversed - libm::floorf(reversed)], shares: self.tempo.directions }
+        Instant { phases: [phase, wrapped(1.0 - phase)], shares: self.tempo.directions }
     }
 
     /// Hips, trunk and arms swing less about their means where strides are shorter, and more where they are longer.

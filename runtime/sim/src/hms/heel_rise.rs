@@ -28,23 +28,15 @@ const BEHIND: f32 = 0.25;
 /// Least of what turning the foot by 1 rad shortens the leg by, m: a foot under its hip rises in vain.
 const SHORTENED_MIN_M: f32 = 0.05;
 
-/// A foot whose heel has risen where its leg would have to stretch, with `posed` where the pose has it; the pose's toes
-/// bend.
-pub fn raised(
-    pose: &mut Pose,
-    skeleton: &Skeleton,
-    side: usize,
-    leg: &Leg,
-    posed: &FootPose,
-    foot: &FootPose,
-) -> FootPose {
+/// A foot whose heel has risen where its leg, which the pose has bent, would have to stretch; the pose's toes bend.
+pub fn raised(pose: &mut Pose, skeleton: &Skeleton, side: usize, leg: &Leg, foot: &FootPose) -> FootPose {
     let to_ankle_m = foot.ankle_m - leg.hip_m();
     let behind_m = -to_ankle_m.truncate().dot((foot.orientation * Vec3::X).truncate());
     if behind_m <= 0.0 {
         return *foot;
     }
     let length_m = to_ankle_m.length();
-    let lacking_m = (lacking_m(leg, length_m) - lacking_m(leg, posed.ankle_m.distance(leg.hip_m()))).max(0.0);
+    let lacking_m = (lacking_m(leg, length_m) - lacking_m(leg, leg.foot().ankle_m.distance(leg.hip_m()))).max(0.0);
     let [.., toe] = Leg::joints(side);
     let (axis, to_toes_m) = (foot.orientation * Vec3::Y, foot.orientation * skeleton.offsets_m[toe]);
     let shortened_m = (to_ankle_m.dot(axis.cross(to_toes_m)) / length_m).max(SHORTENED_MIN_M);
@@ -90,10 +82,9 @@ mod tests {
         let skeleton = skeleton();
         let mut pose = Pose { pelvis_m: skeleton.offsets_m[0], rotations: [Quat::IDENTITY; JOINT_COUNT] };
         let legs = legs(&pose, &skeleton);
-        let posed = legs[1].foot();
-        let mut foot = posed;
+        let mut foot = legs[1].foot();
         foot.ankle_m.x -= behind_m;
-        let risen = raised(&mut pose, &skeleton, 1, &legs[1], &posed, &foot);
+        let risen = raised(&mut pose, &skeleton, 1, &legs[1], &foot);
         (foot, risen, legs[1].hip_m())
     }
 

@@ -59,9 +59,10 @@ impl Descent {
     }
 }
 
-/// How much lower the pelvis is where feet are where another walk has them, m; negative where it is higher.
-pub fn lower_m(legs: &[Leg; 2], posed: &[FootPose; 2], feet: &[FootPose; 2]) -> f32 {
-    let [[left_m, left_own_m], [right_m, right_own_m]] = needs_m(legs, posed, feet);
+/// How much lower the pelvis is where feet are where another walk has them than over the pose's own, m; negative where
+/// it is higher.
+pub fn lower_m(legs: &[Leg; 2], feet: &[FootPose; 2]) -> f32 {
+    let [[left_m, left_own_m], [right_m, right_own_m]] = needs_m(legs, &legs.each_ref().map(Leg::foot), feet);
     let lower_m = greater_m(left_m, right_m) - greater_m(left_own_m, right_own_m);
     (RAISED * lower_m + (1.0 - RAISED) * softly_positive_m(lower_m)).min(DROP_MAX_M)
 }
@@ -155,11 +156,10 @@ mod tests {
 
     /// How much lower its hips are where another walk spreads its feet by so much to either side.
     fn spread_lower_m(flexion_rad: f32, spread_m: f32) -> f32 {
-        let (legs, posed) = flexed(flexion_rad);
-        let mut feet = posed;
+        let (legs, mut feet) = flexed(flexion_rad);
         feet[0].ankle_m.x += spread_m;
         feet[1].ankle_m.x -= spread_m;
-        lower_m(&legs, &posed, &feet)
+        lower_m(&legs, &feet)
     }
 
     #[test]

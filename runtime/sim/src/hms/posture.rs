@@ -32,11 +32,9 @@ impl Posture {
 
     /// Moves the feet to where another walk has them; heels rise, and the hips stay as high over the straighter leg.
     pub fn move_feet(&mut self, feet: [FootPose; 2], skeleton: &Skeleton) {
-        let risen = |side: usize| {
-            heel_rise::raised(&mut self.pose, skeleton, side, &self.legs[side], &self.feet[side], &feet[side])
-        };
+        let risen = |side: usize| heel_rise::raised(&mut self.pose, skeleton, side, &self.legs[side], &feet[side]);
         let feet = [0, 1].map(risen);
-        self.lower(pelvis::lower_m(&self.legs, &self.feet, &feet));
+        self.lower(pelvis::lower_m(&self.legs, &feet));
         self.feet = feet;
     }
 

@@ -50,7 +50,7 @@ pub struct SemiProcedural {
     pub(super) phase_map: PhaseMap,
     /// Of each row, `[left, right]`.
     pub(super) feet: Vec<[Foothold; 2]>,
-    /// Phases from mid-stance to each foot's landing, and to its leaving; the former negative.
+    /// Phases at which each foot lands and leaves.
     pub(super) contacts: [[f32; 2]; 2],
     /// In forward and in reversed time.
     pub(super) landings: [Landing; 2],

@@ -1,6 +1,7 @@
 //! How synthesis changes hands (`FbCrowd` §3.4.1, App. 10): when, at which phase, and what it leaves to inertia.
 
 use glam::Vec3;
+use motiondb::phase_map::wrapped;
 use motiondb::pose::Pose;
 
 use super::blending::Mix;
@@ -69,7 +70,7 @@ impl Body {
             let points = soles_m.as_flattened().iter().zip(there_m.as_flattened());
             points.map(|(here_m, there_m)| here_m.distance_squared(*there_m)).sum::<f32>()
         };
-        let phases = NEAR_PHASES.map(|off| near + off - libm::floorf(near + off));
+        let phases = NEAR_PHASES.map(|off| wrapped(near + off));
         let off_m2 = phases.map(off_m2);
         let nearest = (1..phases.len()).fold(0, |best, at| if off_m2[at] < off_m2[best] { at } else { best });
         phases[nearest]
@@ -96,8 +97,7 @@ impl Body {
     /// What is played, now and a moment ago.
     fn poses(&self, motion: &Motion, step: &TimeStep) -> [Pose; 2] {
         let playing = self.playing(motion);
-        let before = self.phase - step.look_back_s * playing.phase_rate_hz(self.phase);
-        let before = before - libm::floorf(before);
+        let before = wrapped(self.phase - step.look_back_s * playing.phase_rate_hz(self.phase));
         let lately = Playing::new(motion, self.mode, &self.seen[1], &self.mix, before);
         [playing.bent(motion, self.phase).pose, lately.bent(motion, before).pose]
     }

@@ -5,6 +5,7 @@
 //! seconds.
 
 use glam::{Vec2, Vec3};
+use motiondb::phase_map::wrapped;
 use motiondb::pose::{Root, RootFrame};
 
 use super::arc::went;
@@ -29,7 +30,7 @@ impl Body {
         let playing = self.playing(motion);
         let (mut posture, held_up) = self.carried(motion, &playing);
         let landing = self.phase + LANDING_AHEAD_S * playing.phase_rate_hz(self.phase);
-        let contacts_ahead = playing.contacts(motion, landing - libm::floorf(landing));
+        let contacts_ahead = playing.contacts(motion, wrapped(landing));
         self.gaze.turn(&mut posture.pose, skeleton);
         let (frame, soles_m) = (self.root.frame(), posture.soles_m(skeleton));
 

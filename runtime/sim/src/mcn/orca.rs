@@ -31,7 +31,7 @@ pub const HALF: f32 = 0.5;
 /// Share of u that an agent takes of whom it meets from the left beyond one half, and less of whom from the right.
 const YIELD_TO_LEFT: f32 = 0.2;
 /// Speeds in sum below which nobody comes from a side, m/s.
-const STANDING_MPS: f32 = 0.1;
+const SPEEDS_MIN_MPS: f32 = 0.1;
 
 /// The shares of u that i takes, ½ on average: more where j comes from its left, as in a roundabout of those who keep
 /// right.
@@ -46,7 +46,7 @@ pub fn shares(own_mps: Vec2, around: &Around) -> Lanes {
         let other_mps = own_mps - around.velocity_mps(lane);
         let speeds_mps = own_speed_mps + other_mps.length_squared().sqrt();
         let from_right = offset_m.perp_dot(own_mps + other_mps);
-        let scale = offset_m.length_squared().sqrt() * speeds_mps.max(STANDING_MPS);
+        let scale = offset_m.length_squared().sqrt() * speeds_mps.max(SPEEDS_MIN_MPS);
         HALF - YIELD_TO_LEFT * from_right / scale.max(f32::MIN_POSITIVE)
     })
 }

@@ -9,19 +9,20 @@ pub mod social_force;
 use glam::Vec2;
 
 use crate::mcn::density::density_ahead;
+use crate::mcn::orientation::stands;
 use crate::plan::Plan;
 use crate::planner::{Scratch, time_to_collision_s};
 use crate::world::World;
 
-/// Slower than this, a velocity has no direction to face, m/s.
-const STANDING_MPS: f32 = 0.1;
-
 /// Walks at a velocity, facing along it; who stands keeps its facing.
 fn facing_the_way(world: &World, agent: usize, velocity_mps: Vec2, scratch: &Scratch) -> Plan {
-    let walks = velocity_mps.length() >= STANDING_MPS;
     Plan {
         velocity_mps,
-        facing_rad: if walks { libm::atan2f(velocity_mps.y, velocity_mps.x) } else { world.facings_rad[agent] },
+        facing_rad: if stands(velocity_mps) {
+            world.facings_rad[agent]
+        } else {
+            libm::atan2f(velocity_mps.y, velocity_mps.x)
+        },
         time_to_collision_s: time_to_collision_s(world, agent, scratch),
         density: density_ahead(scratch.adapted_mps.normalize_or_zero(), scratch.nearest.around()),
         ..Plan::default()
