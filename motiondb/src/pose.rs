@@ -91,6 +91,13 @@ impl Pose {
         }
         joints
     }
+
+    /// How far a knee is flexed, the twist of its shank about its left axis: negative where it is hyperextended, rad.
+    pub fn knee_flexion_rad(&self, side: usize) -> f32 {
+        let shank = self.rotations[Joint::SHANKS[side].index()];
+        let shank = if shank.w < 0.0 { -shank } else { shank };
+        2.0 * libm::atan2f(shank.y, shank.w)
+    }
 }
 
 impl Joints {

@@ -160,15 +160,10 @@ fn penetration_mm(rows: &[Joints], skeleton: &Skeleton) -> f32 {
     1000.0 * soles.flatten().map(|point| -point.z).fold(0.0, f32::max)
 }
 
-/// Flexion is the twist of the shank about its left axis.
 fn knee_flexion_min_deg(db: &MotionDb, example: usize) -> f32 {
-    let knees =
-        (0..PHASE_COUNT).flat_map(|row| Joint::SHANKS.map(|shank| db.rows.rotations(example, row)[shank.index()]));
-    let flexion_rad = |knee: Quat| {
-        let knee = if knee.w < 0.0 { -knee } else { knee };
-        2.0 * libm::atan2f(knee.y, knee.w)
-    };
-    knees.map(flexion_rad).fold(f32::INFINITY, f32::min).to_degrees()
+    let poses = (0..PHASE_COUNT).map(|row| db.rows.pose(example, row));
+    let flexions_rad = poses.flat_map(|pose| [0, 1].map(|side| pose.knee_flexion_rad(side)));
+    flexions_rad.fold(f32::INFINITY, f32::min).to_degrees()
 }
 
 fn leg_extension_max(rows: &[Joints], skeleton: &Skeleton) -> f32 {

@@ -181,16 +181,10 @@ impl Figures {
     }
 
     fn knee(&mut self, steps: &[Step], side: usize, dt_s: f32) {
-        let flexions_rad: Vec<f32> = steps
-            .iter()
-            .map(|step| {
-                let knee = step.frame.pose.rotations[Joint::SHANKS[side].index()];
-                let knee = if knee.w < 0.0 { -knee } else { knee };
-                2.0 * knee.y.atan2(knee.w)
-            })
-            .collect();
+        let flexions_rad: Vec<f32> = steps.iter().map(|step| step.frame.pose.knee_flexion_rad(side)).collect();
+        let least_rad = flexions_rad.iter().copied().fold(f32::INFINITY, f32::min);
+        self.knee_min_deg = self.knee_min_deg.min(f64::from(least_rad.to_degrees()));
         for pair in flexions_rad.windows(2) {
-            self.knee_min_deg = self.knee_min_deg.min(f64::from(pair[1].to_degrees()));
             self.knee_speed_max_rad_s = self.knee_speed_max_rad_s.max(f64::from((pair[1] - pair[0]).abs() / dt_s));
         }
     }

@@ -12,7 +12,7 @@ use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::planted_feet::foot_slide;
-use motiondb::pose::Joints;
+use motiondb::pose::{Joints, Pose};
 use motiondb::skeleton::Joint;
 use serde::Serialize;
 
@@ -138,14 +138,15 @@ fn way(
 /// What is wrong first with m_sp deformed to some parameters.
 fn fault(db: &MotionDb, semi_procedural: &SemiProcedural, lowest_m: f32, parameters: Parameters) -> Option<Fault> {
     let deformation = Deformation::new(semi_procedural, parameters);
-    let (joints, feet) = deformation.measurable(&db.skeleton, &deformation.cycle(db));
+    let cycle = deformation.cycle(db);
+    let (joints, feet) = deformation.measurable(&db.skeleton, &cycle);
     let source_cm_s = db.examples[semi_procedural.example].planted_slide_cm_s;
     let bar_cm_s = semi_procedural.cadence(parameters) * source_cm_s + SLIDE_CM_S;
     let slide = foot_slide(&feet, parameters.to_vec3().as_dvec3());
     let wrong = [
         (Fault::Slide, slide.slide_cm_s > f64::from(bar_cm_s)),
         (Fault::CrossedLegs, joints.iter().any(|joints| ankles_apart_m(joints) < ANKLES_MIN_M)),
-        (Fault::StretchedKnee, joints.iter().any(|joints| least_flexion_deg(joints) < KNEE_MIN_DEG)),
+        (Fault::StretchedKnee, cycle.iter().any(|posture| least_flexion_deg(&posture.pose) < KNEE_MIN_DEG)),
         (Fault::Crouch, joints.iter().any(|joints| hips_m(joints) < lowest_m - DROP_MAX_M)),
     ];
     wrong.into_iter().find_map(|(fault, is_so)| is_so.then_some(fault))
@@ -155,13 +156,8 @@ fn hips_m(joints: &Joints) -> f32 {
     joints.positions_m[Joint::Pelvis.index()].z
 }
 
-fn least_flexion_deg(joints: &Joints) -> f32 {
-    let flexion_deg = |side: usize| {
-        let [hip_m, knee_m, ankle_m] = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]]
-            .map(|joint| joints.positions_m[joint.index()]);
-        (knee_m - hip_m).angle_between(ankle_m - knee_m).to_degrees()
-    };
-    flexion_deg(0).min(flexion_deg(1))
+fn least_flexion_deg(pose: &Pose) -> f32 {
+    pose.knee_flexion_rad(0).min(pose.knee_flexion_rad(1)).to_degrees()
 }
 
 /// A line a direction, a column a turn rate: the speed reached, what the synthesis uses of it, what ends it.

@@ -1,8 +1,8 @@
 //! A body alone, stepped as in a simulation: what the benches of synthesis let walk.
 
-use std::f32::consts::PI;
 use std::sync::Arc;
 
+use fbcrowd_sim::angle::wrap_rad;
 use fbcrowd_sim::hms::asked::asking;
 use fbcrowd_sim::hms::params::{HmsParams, Modes};
 use fbcrowd_sim::hms::studio::Studio;
@@ -37,7 +37,7 @@ pub(super) fn asked_roots(
 
 /// The angle by which a root turned in a step, rad.
 pub(super) fn turned_rad(before: &Root, after: &Root) -> f32 {
-    (after.facing_rad - before.facing_rad + PI).rem_euclid(2.0 * PI) - PI
+    wrap_rad(after.facing_rad - before.facing_rad)
 }
 
 /// What a root did over some steps: its mean (v_f, ω_t, ω_s), each step's way taken as an arc.
