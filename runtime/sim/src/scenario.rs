@@ -34,7 +34,28 @@ pub struct Scenario {
     pub view: View,
 }
 
+/// A film's step, s.
+const STEP_S: f32 = 1.0 / 30.0;
+/// As long as a run of Table 1 (`definitions.md`), s.
+const DURATION_S: f32 = 60.0;
+
 impl Scenario {
+    /// Agents on open ground, with everything else at its default; for who names what differs.
+    pub fn of(agents: Vec<AgentSpec>) -> Self {
+        Self {
+            name: String::new(),
+            duration_s: DURATION_S,
+            dt_s: STEP_S,
+            seed: 1,
+            planner: Planner::default(),
+            coupling: Coupling::default(),
+            agents,
+            obstacles_m: Vec::new(),
+            params: Params::default(),
+            view: View::default(),
+        }
+    }
+
     /// The syntheses that bodies may use: those that follow a path planned before them only blend.
     pub fn modes(&self) -> Modes {
         match self.coupling {

@@ -209,9 +209,8 @@ pub(crate) mod tests {
     use crate::angle::wrap_rad;
     use crate::hms::mode::Mode;
     use crate::hms::space::Space;
-    use crate::params::Params;
     use crate::planner::Planner;
-    use crate::scenario::{AgentSpec, View};
+    use crate::scenario::AgentSpec;
     use crate::test_db::test_db;
 
     /// Agents on a circle, each bound for the opposite point.
@@ -227,18 +226,7 @@ pub(crate) mod tests {
                 preferred_speed_mps: 1.3,
             }
         };
-        Scenario {
-            name: "antipodal".into(),
-            duration_s: 30.0,
-            dt_s: 1.0 / 30.0,
-            seed: 1,
-            planner: Planner::default(),
-            coupling: Coupling::default(),
-            agents: (0..count).map(agent).collect(),
-            obstacles_m: Vec::new(),
-            params: Params::default(),
-            view: View::default(),
-        }
+        Scenario { name: "antipodal".into(), duration_s: 30.0, ..Scenario::of((0..count).map(agent).collect()) }
     }
 
     fn simulated(scenario: &Scenario, steps: usize) -> Vec<AgentFrame> {

@@ -5,11 +5,8 @@ mod clips;
 
 use std::sync::Arc;
 
-use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::hms::repertoire::{complete, deformed};
-use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planner::Planner;
-use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
+use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::step::Simulation;
 use glam::Vec2;
 use motiondb::coverage::{Lack, coverage};
@@ -39,18 +36,7 @@ fn antipodal() -> Scenario {
             preferred_speed_mps: 1.3,
         }
     };
-    Scenario {
-        name: "antipodal".into(),
-        duration_s: DURATION_S,
-        dt_s: DT_S,
-        seed: 1,
-        planner: Planner::default(),
-        coupling: Coupling::default(),
-        agents: (0..AGENTS).map(agent).collect(),
-        obstacles_m: Vec::new(),
-        params: Params::default(),
-        view: View::default(),
-    }
+    Scenario { duration_s: DURATION_S, dt_s: DT_S, ..Scenario::of((0..AGENTS).map(agent).collect()) }
 }
 
 /// How many come to their goals.

@@ -3,9 +3,6 @@
 use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::cns::Coupling;
-use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::recording_frame::AgentFrame;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
@@ -124,16 +121,12 @@ fn header(agents: Vec<AgentSpec>, view: View) -> Header {
         name: "walkers".to_owned(),
         duration_s: 1.6,
         dt_s: 0.1,
-        seed: 1,
-        planner: Planner::default(),
-        coupling: Coupling::default(),
-        agents,
         obstacles_m: vec![
             block(-2.8, 1.3).to_vec(),
             vec![Vec2::new(2.4, -1.5), Vec2::new(3.5, -1.4), Vec2::new(2.7, -0.6)],
         ],
-        params: Params::default(),
         view,
+        ..Scenario::of(agents)
     };
     Header { database_checksum: 0, skeleton: skeleton(), velocity_hull: velocity_hull(), scenario }
 }

@@ -3,12 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::cns::Coupling;
-use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::recording::{Header, Recorder, Recording};
 use fbcrowd_sim::recording_frame::AgentFrame;
-use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
+use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use glam::{Vec2, Vec3};
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
 use motiondb::velocity_hull::VelocityHull;
@@ -54,13 +51,8 @@ pub fn header(agents: Vec<AgentSpec>, dt_s: f32) -> Header {
         name: "test".to_owned(),
         duration_s: 1.0,
         dt_s,
-        seed: 1,
-        planner: Planner::default(),
-        coupling: Coupling::default(),
-        agents,
         obstacles_m: vec![vec![Vec2::new(9.0, 9.0), Vec2::new(10.0, 9.0), Vec2::new(9.0, 10.0)]],
-        params: Params::default(),
-        view: View::default(),
+        ..Scenario::of(agents)
     };
     Header { database_checksum: 7, skeleton: skeleton(), velocity_hull: VelocityHull::default(), scenario }
 }

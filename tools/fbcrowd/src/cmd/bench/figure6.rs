@@ -15,10 +15,7 @@ use std::time::{Duration, Instant};
 
 use fbcrowd_render::comparison_plot::{Comparison, Measure, comparison};
 use fbcrowd_render::png_frame;
-use fbcrowd_sim::cns::Coupling;
-use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planner::Planner;
-use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
+use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::split_mix::SplitMix64;
 use fbcrowd_sim::step::{Simulation, Stage};
 use glam::Vec2;
@@ -143,19 +140,7 @@ fn simulation(db: &Arc<MotionDb>, agents: usize) -> Simulation {
         let angle_rad = TAU * index as f32 / agents as f32 + random.within(JITTER) as f32 * SPACING_M / radius_m;
         agent(radius_m * Vec2::from_angle(angle_rad))
     };
-    let agents: Vec<AgentSpec> = (0..agents).map(&mut place).collect();
-    let scenario = Scenario {
-        name: "circle".to_owned(),
-        duration_s: 60.0,
-        dt_s: DT_S,
-        seed: 1,
-        planner: Planner::Mcn,
-        coupling: Coupling::TwoWay,
-        agents,
-        obstacles_m: Vec::new(),
-        params: Params::default(),
-        view: View::default(),
-    };
+    let scenario = Scenario { dt_s: DT_S, ..Scenario::of((0..agents).map(&mut place).collect()) };
     let mut simulation = Simulation::new(Arc::clone(db), &scenario);
     (0..WARM_UP).for_each(|_| simulation.step(&mut |_| ()));
     simulation

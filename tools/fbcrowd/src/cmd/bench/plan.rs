@@ -9,13 +9,12 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
-use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::crowd::{Memory, plan_all};
 use fbcrowd_sim::neighbours::{Nearest, Neighbours, Query};
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::plan::Plan;
 use fbcrowd_sim::planner::{Planner, ahead_s};
-use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
+use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::split_mix::SplitMix64;
 use fbcrowd_sim::step::Simulation;
 use fbcrowd_sim::world::World;
@@ -236,18 +235,7 @@ fn disc(agents: usize) -> Scenario {
     let mut random = SplitMix64::new(1, agents as u64);
     let mut jitter_m = || spacing_m * random.within(JITTER) as f32;
     let agents = places_m.into_iter().take(agents).map(|place_m| agent(place_m + Vec2::new(jitter_m(), jitter_m())));
-    Scenario {
-        name: "disc".to_owned(),
-        duration_s: 60.0,
-        dt_s: DT_S,
-        seed: 1,
-        planner: Planner::Mcn,
-        coupling: Coupling::TwoWay,
-        agents: agents.collect(),
-        obstacles_m: Vec::new(),
-        params: Params::default(),
-        view: View::default(),
-    }
+    Scenario { dt_s: DT_S, ..Scenario::of(agents.collect()) }
 }
 
 /// Bound for the point opposite.

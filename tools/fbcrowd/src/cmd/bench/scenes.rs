@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planner::Planner;
-use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
+use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::scenario_check;
 use fbcrowd_sim::scenario_file::{agents_of_lines, fault_of_lines};
 use motiondb::source_text::SourceText;
@@ -68,18 +68,9 @@ pub(super) struct Scene {
 impl Scene {
     /// The scene under one planner; MCN's and the rivals' tunables are the same for all scenes.
     pub(super) fn scenario(&self, planner: Planner, coupling: Coupling, params: Params) -> Scenario {
-        Scenario {
-            name: self.name.clone(),
-            duration_s: DURATION_S,
-            dt_s: STEP_S,
-            seed: self.seed,
-            planner,
-            coupling,
-            agents: self.agents.clone(),
-            obstacles_m: Vec::new(),
-            params,
-            view: View::default(),
-        }
+        let (name, seed) = (self.name.clone(), self.seed);
+        let settled = Scenario::of(self.agents.clone());
+        Scenario { name, duration_s: DURATION_S, dt_s: STEP_S, seed, planner, coupling, params, ..settled }
     }
 }
 

@@ -3,10 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use fbcrowd_sim::cns::Coupling;
-use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planner::Planner;
-use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
+use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::step::Simulation;
 use glam::Vec2;
 use motiondb::container::{self, HEADER_LENGTH};
@@ -81,16 +78,6 @@ pub(super) fn crossing() -> Scenario {
         radius_m: 0.25,
         preferred_speed_mps: 1.33,
     };
-    Scenario {
-        name: "crossing".to_owned(),
-        duration_s: 1.0,
-        dt_s: 1.0 / 30.0,
-        seed: 1,
-        planner: Planner::default(),
-        coupling: Coupling::default(),
-        agents: [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y].map(|side| agent(2.0 * side)).to_vec(),
-        obstacles_m: Vec::new(),
-        params: Params::default(),
-        view: View::default(),
-    }
+    let agents = [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y].map(|side| agent(2.0 * side)).to_vec();
+    Scenario { name: "crossing".to_owned(), duration_s: 1.0, ..Scenario::of(agents) }
 }
