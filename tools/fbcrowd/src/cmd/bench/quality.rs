@@ -25,6 +25,9 @@ const SYNTHESES: [Modes; 3] = [Modes::Blending, Modes::SemiProcedural, Modes::Hy
 /// cm/s.
 const SLIDE_CM_S: [f64; 2] = [1.5, 3.0];
 
+/// The root moves this share of its speed beyond the rows, at most.
+const CORRECTION_SHARE: f64 = 0.05;
+
 /// Measure planted feet, knees, accelerations and smoothness of bodies on errands.
 ///
 /// In JSON `walks[] {errand, steady, synthesis, dt_s, figures…}`.
@@ -97,7 +100,11 @@ fn bars(walks: &[WalkFigures]) -> Vec<Bar> {
             1.5,
             greatest(&|walk| walk.figures.switch_acceleration_ratio),
         ),
-        Bar::at_most("root beyond the rows", 0.05, greatest(&|walk| Some(walk.figures.correction_share))),
+        Bar::at_most(
+            "root beyond the rows, mean size over the speed",
+            CORRECTION_SHARE,
+            greatest(&|walk| Some(walk.figures.correction_share)),
+        ),
     ]
 }
 
@@ -113,7 +120,7 @@ fn text(details: &Details) -> String {
     for dt_s in DTS_S {
         text += &format!("{:>7}", format!("1/{:.0}", 1.0 / dt_s));
     }
-    text += "   of  share   of ground sunk mm clear mm knee min °  rad/s foot m/s ankles m  accel switch  beyond  hurry  sparc\n";
+    text += "   of  share   of ground sunk mm clear mm knee min °  rad/s foot m/s ankles m  accel switch beyond m/s  share  signed  sparc\n";
     details.walks.chunks(DTS_S.len()).for_each(|walks| text += &line(walks));
     text
 }
@@ -127,8 +134,10 @@ fn line(walks: &[WalkFigures]) -> String {
         line += &format!("{:>7.2}", walk.figures.slide_cm_s);
     }
     let switch = walks.iter().filter_map(|walk| walk.figures.switch_acceleration_ratio).reduce(f64::max);
+    let signed = walks.iter().map(|walk| walk.figures.signed_correction_share);
+    let signed = signed.fold(0.0, |worst, share| if share.abs() > f64::abs(worst) { share } else { worst });
     line += &format!(
-        "{:>5.1} {:>6.2} {:>4.2} {:>6.2} {:>7.1} {:>8.1} {:>10.1} {:>6.1} {:>8.1} {:>8.2} {:>6.2} {:>6} {:>7.3} {:>6.3} {:>6.2}\n",
+        "{:>5.1} {:>6.2} {:>4.2} {:>6.2} {:>7.1} {:>8.1} {:>10.1} {:>6.1} {:>8.1} {:>8.2} {:>6.2} {:>6} {:>10.3} {:>6.3} {:>7.3} {:>6.2}\n",
         greatest(|figures| figures.examples_slide_cm_s),
         least(|figures| figures.planted_share),
         greatest(|figures| figures.examples_planted_share),
@@ -141,8 +150,9 @@ fn line(walks: &[WalkFigures]) -> String {
         least(|figures| figures.ankles_apart_m),
         greatest(|figures| figures.acceleration_ratio),
         switch.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.2}")),
+        greatest(|figures| figures.correction_mps),
         greatest(|figures| figures.correction_share),
-        greatest(|figures| figures.hurry_share),
+        signed,
         least(|figures| figures.sparc),
     );
     line

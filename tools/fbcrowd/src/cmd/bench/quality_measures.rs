@@ -57,10 +57,12 @@ pub(super) struct Figures {
     /// always, and about switches.
     pub(super) acceleration_ratio: f64,
     pub(super) switch_acceleration_ratio: Option<f64>,
-    /// What the root moves beyond the rows, over its speed: in the mean, …
+    /// What the root moves beyond the rows, as the phase catches up with the feet: the mean of its size, and that over
+    /// the mean speed.
+    pub(super) correction_mps: f64,
     pub(super) correction_share: f64,
-    /// … and in the mean of its size, as the phase catches up with the feet.
-    pub(super) hurry_share: f64,
+    /// Likewise with its sign, so that what is caught up on balances: how much faster the root goes in the long run.
+    pub(super) signed_correction_share: f64,
     /// Planted soles that stand on the ground, and all of them.
     #[serde(skip)]
     soles: [usize; 2],
@@ -96,8 +98,9 @@ pub(super) fn figures(walk: &Walk, errand: &Errand, skeleton: &Skeleton, peaks_m
     let all: Vec<&Step> = stretches.iter().flatten().copied().flatten().collect();
     let mean = |of: fn(&Step) -> f32| all.iter().map(|step| f64::from(of(step))).sum::<f64>() / all.len() as f64;
     let speed_mps = mean(|step| step.speed_mps).max(STILL_MPS);
-    figures.correction_share = mean(|step| step.correction_mps).abs() / speed_mps;
-    figures.hurry_share = mean(|step| step.correction_mps.abs()) / speed_mps;
+    figures.correction_mps = mean(|step| step.correction_mps.abs());
+    figures.correction_share = figures.correction_mps / speed_mps;
+    figures.signed_correction_share = -mean(|step| step.correction_mps) / speed_mps;
     figures.examples_planted_share = mean(|step| step.examples_planted_share);
     let planted = |step: &Step| 0.5 * step.planted().map(|planted| f32::from(u8::from(planted))).iter().sum::<f32>();
     figures.planted_share = all.iter().map(|step| f64::from(planted(step))).sum::<f64>() / all.len() as f64;

@@ -30,7 +30,7 @@ pub(super) struct Step {
     pub(super) examples: Vec<usize>,
     /// Of the root in this step, m/s.
     pub(super) speed_mps: f32,
-    /// The speed that the rows as they were played tell of, less the root's, m/s.
+    /// The speed that the rows tell of as they were played, less the root's, m/s.
     pub(super) correction_mps: f32,
 }
 
