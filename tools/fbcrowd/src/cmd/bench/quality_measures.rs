@@ -2,6 +2,7 @@
 //! dt.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use fbcrowd_sim::hms::blending::Mix;
 use fbcrowd_sim::hms::space::Space;
@@ -90,12 +91,15 @@ pub(super) fn example_peaks_mps2(db: &MotionDb, space: &Space, dt_s: f32) -> Vec
 /// Everything.
 pub(super) fn figures(walk: &Walk, errand: &Errand, skeleton: &Skeleton, peaks_mps2: &[f32]) -> Figures {
     let mut figures = Figures { knee_min_deg: 180.0, clearance_mm: 1e3, ankles_apart_m: 1.0, ..Figures::default() };
-    let stretches: Vec<Vec<&[Step]>> = errand.measured_s().iter().map(|&from_to_s| walk.stretch(from_to_s)).collect();
+    let stretches: Vec<Range<usize>> = errand.measured_s().iter().map(|&from_to_s| walk.stretch(from_to_s)).collect();
     for stretch in &stretches {
-        figures.feet(stretch, skeleton, walk.dt_s);
-        stretch.iter().for_each(|steps| figures.body(steps, skeleton, walk.dt_s, peaks_mps2));
+        let bodies: Vec<&[Step]> = walk.bodies.iter().map(|steps| &steps[stretch.clone()]).collect();
+        figures.feet(&bodies, skeleton, walk.dt_s);
+        bodies.iter().for_each(|steps| figures.body(steps, skeleton, walk.dt_s));
     }
-    let all: Vec<&Step> = stretches.iter().flatten().copied().flatten().collect();
+    walk.bodies.iter().for_each(|steps| figures.accelerations(steps, &stretches, walk.dt_s, peaks_mps2));
+    let measured = |steps| stretches.iter().flat_map(move |stretch| &Vec::as_slice(steps)[stretch.clone()]);
+    let all: Vec<&Step> = walk.bodies.iter().flat_map(measured).collect();
     let mean = |of: fn(&Step) -> f32| all.iter().map(|step| f64::from(of(step))).sum::<f64>() / all.len() as f64;
     let speed_mps = mean(|step| step.speed_mps).max(STILL_MPS);
     figures.correction_mps = mean(|step| step.correction_mps.abs());
@@ -110,10 +114,11 @@ pub(super) fn figures(walk: &Walk, errand: &Errand, skeleton: &Skeleton, peaks_m
 }
 
 impl Walk {
-    /// The steps of every body between two times.
-    fn stretch(&self, from_to_s: [f32; 2]) -> Vec<&[Step]> {
-        let [from, to] = from_to_s.map(|time_s| (time_s / self.dt_s).round() as usize);
-        self.bodies.iter().map(|steps| &steps[from.min(steps.len())..to.min(steps.len())]).collect()
+    /// The steps between two times, which every body has.
+    fn stretch(&self, from_to_s: [f32; 2]) -> Range<usize> {
+        let count = self.bodies.iter().map(Vec::len).min().unwrap_or(0);
+        let [from, to] = from_to_s.map(|time_s| ((time_s / self.dt_s).round() as usize).min(count));
+        from..to
     }
 }
 
@@ -131,8 +136,7 @@ impl Figures {
     /// Slide, over all bodies of a stretch.
     fn feet(&mut self, bodies: &[&[Step]], skeleton: &Skeleton, dt_s: f32) {
         let mut slide = PlantedSlide::new(skeleton, bodies.len(), dt_s);
-        let steps = bodies.iter().map(|steps| steps.len()).min().unwrap_or(0);
-        for step in 0..steps {
+        for step in 0..bodies.first().map_or(0, |steps| steps.len()) {
             let frames: Vec<_> = bodies.iter().map(|steps| steps[step].frame).collect();
             let joints: Vec<_> = bodies.iter().map(|steps| steps[step].joints).collect();
             slide.push(&frames, &joints);
@@ -145,15 +149,14 @@ impl Figures {
         }
     }
 
-    /// Everything else, of one body in a stretch.
-    fn body(&mut self, steps: &[Step], skeleton: &Skeleton, dt_s: f32, peaks_mps2: &[f32]) {
+    /// Everything else but accelerations, of one body in a stretch.
+    fn body(&mut self, steps: &[Step], skeleton: &Skeleton, dt_s: f32) {
         for side in 0..2 {
             self.foot(steps, skeleton, side, dt_s);
             self.knee(steps, side, dt_s);
         }
         let apart_m = steps.iter().map(|step| ankles_apart_m(&step.joints)).fold(f32::INFINITY, f32::min);
         self.ankles_apart_m = self.ankles_apart_m.min(f64::from(apart_m));
-        self.accelerations(steps, dt_s, peaks_mps2);
     }
 
     fn foot(&mut self, steps: &[Step], skeleton: &Skeleton, side: usize, dt_s: f32) {
@@ -192,28 +195,34 @@ impl Figures {
         }
     }
 
-    fn accelerations(&mut self, steps: &[Step], dt_s: f32, peaks_mps2: &[f32]) {
+    /// Of one body in the stretches. Ratios are those of its whole walk: a switch at the border of a stretch shows on
+    /// both sides of it.
+    fn accelerations(&mut self, steps: &[Step], stretches: &[Range<usize>], dt_s: f32, peaks_mps2: &[f32]) {
         let [before, after] = SWITCH_S.map(|seconds| (seconds / dt_s).ceil() as usize);
-        let peaks: Vec<f32> = steps
-            .iter()
-            .map(|step| step.examples.iter().map(|&example| peaks_mps2[example]).fold(0.0, f32::max))
-            .collect();
-        let ratios: Vec<f64> = steps
-            .windows(3)
-            .enumerate()
-            .map(|(first, three)| {
-                let greatest = acceleration_mps2([&three[0].joints, &three[1].joints, &three[2].joints], dt_s);
-                let about = &peaks[first.saturating_sub(after)..(first + after).min(peaks.len())];
-                f64::from(greatest / about.iter().copied().fold(0.0, f32::max))
-            })
-            .collect();
-        self.acceleration_ratio = ratios.iter().copied().fold(self.acceleration_ratio, f64::max);
-        for switch in (1..steps.len()).filter(|&step| steps[step].frame.mode != steps[step - 1].frame.mode) {
-            let about = &ratios[switch.saturating_sub(before).min(ratios.len())..(switch + after).min(ratios.len())];
-            let greatest = about.iter().copied().fold(self.switch_acceleration_ratio.unwrap_or(0.0), f64::max);
-            self.switch_acceleration_ratio = Some(greatest);
+        let ratios = acceleration_ratios(steps, after, dt_s, peaks_mps2);
+        for step in stretches.iter().cloned().flatten() {
+            self.acceleration_ratio = self.acceleration_ratio.max(ratios[step]);
+            if steps[step].frame.mode != steps[step - 1].frame.mode {
+                let about = &ratios[step.saturating_sub(before)..(step + after).min(steps.len())];
+                let greatest = about.iter().copied().fold(self.switch_acceleration_ratio.unwrap_or(0.0), f64::max);
+                self.switch_acceleration_ratio = Some(greatest);
+            }
         }
     }
+}
+
+/// By step: the greatest acceleration of a joint over that of the examples in use within so many steps; 0 at the ends.
+fn acceleration_ratios(steps: &[Step], within: usize, dt_s: f32, peaks_mps2: &[f32]) -> Vec<f64> {
+    let greatest = |values: &[f32]| values.iter().copied().fold(0.0, f32::max);
+    let peaks: Vec<f32> =
+        steps.iter().map(|step| step.examples.iter().map(|&example| peaks_mps2[example]).fold(0.0, f32::max)).collect();
+    let mut ratios = vec![0.0; steps.len()];
+    for (step, three) in (1_usize..).zip(steps.windows(3)) {
+        let about = &peaks[step.saturating_sub(within)..(step + within).min(peaks.len())];
+        let joints = [&three[0].joints, &three[1].joints, &three[2].joints];
+        ratios[step] = f64::from(acceleration_mps2(joints, dt_s) / greatest(about));
+    }
+    ratios
 }
 
 /// Of the joint that accelerates most, by second differences in the root's frame.
