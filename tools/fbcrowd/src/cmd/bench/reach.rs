@@ -23,8 +23,8 @@ use crate::failure::{Answer, Failure};
 
 /// Directions of travel, from ahead on round by the left, degrees.
 const DIRECTIONS_DEG: [f32; 12] = [0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 180.0, 210.0, 240.0, 270.0, 300.0, 330.0];
-/// Turn rates at which each direction is tried, degrees a second.
-const TURN_RATES_DEG_S: [f32; 5] = [0.0, 60.0, -60.0, 120.0, -120.0];
+/// Turn rates at which each direction is tried, up to the fastest that the synthesis turns, degrees a second.
+const TURN_RATES_DEG_S: [f32; 7] = [0.0, 60.0, -60.0, 120.0, -120.0, 170.0, -170.0];
 /// Speeds are tried in such steps, m/s, up to a sprint.
 const STEP_MPS: f32 = 0.1;
 const SPEED_MAX_MPS: f32 = 5.0;
@@ -39,8 +39,9 @@ const DROP_MAX_M: f32 = 0.1;
 
 /// Measure how far the clip of semi-procedural locomotion can be deformed.
 ///
-/// In JSON `m_sp`, `ways[] {direction_deg, turn_rate_deg_s, speed_mps, used_mps, ends_by}`: the greatest speed reached
-/// in each direction at each turn rate, the greatest that the synthesis asks for, and what ends it.
+/// In JSON `m_sp`, `ways[] {direction_deg, turn_rate_deg_s, speed_mps, ends_by, used_mps, wrong_where_used}`: the
+/// greatest speed reached in each direction at each turn rate and what ends it; the greatest that the synthesis asks
+/// for, and what is wrong there, if anything.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  fbcrowd bench reach\n  fbcrowd bench reach --db motion.fbdb --json")]
 pub(super) struct Args {
@@ -65,9 +66,19 @@ struct Way {
     turn_rate_deg_s: f32,
     /// Null where not even standing is reached.
     speed_mps: Option<f32>,
-    used_mps: f32,
     /// Null where nothing ends it.
     ends_by: Option<Fault>,
+    used_mps: f32,
+    /// Null where nothing is.
+    wrong_where_used: Option<Fault>,
+}
+
+impl Way {
+    /// Whether the border of what is used is reached, and everything within: the last step outward may pass it.
+    fn is_reached(&self) -> bool {
+        let within = self.speed_mps.is_some_and(|speed_mps| speed_mps + STEP_MPS >= self.used_mps);
+        within && self.wrong_where_used.is_none()
+    }
 }
 
 /// What is wrong with a deformed cycle.
@@ -91,8 +102,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
         .iter()
         .flat_map(|&turn| DIRECTIONS_DEG.map(|direction| way(&semi_procedural, &fault, direction, turn)))
         .collect();
-    let reached = ways.iter().filter(|way| way.speed_mps.is_some_and(|speed_mps| speed_mps + STEP_MPS >= way.used_mps));
-    let share = reached.count() as f64 / ways.len() as f64;
+    let share = ways.iter().filter(|way| way.is_reached()).count() as f64 / ways.len() as f64;
     let bars = vec![Bar::at_least("share of the ways that are used and reached", 1.0, share)];
     let details = Details { m_sp: db.examples[semi_procedural.example].name.clone(), ways };
     let text = text(&details);
@@ -121,8 +131,9 @@ fn way(
         direction_deg,
         turn_rate_deg_s,
         speed_mps: None,
-        used_mps: Vec2::new(used.speed_mps, used.strafe_mps).length(),
         ends_by: None,
+        used_mps: Vec2::new(used.speed_mps, used.strafe_mps).length(),
+        wrong_where_used: fault(used),
     };
     for step in 0..=(SPEED_MAX_MPS / STEP_MPS) as usize {
         let speed_mps = STEP_MPS * step as f32;
@@ -160,18 +171,20 @@ fn least_flexion_deg(pose: &Pose) -> f32 {
     pose.knee_flexion_rad(0).min(pose.knee_flexion_rad(1)).to_degrees()
 }
 
-/// A line a direction, a column a turn rate: the speed reached, what the synthesis uses of it, what ends it.
+/// A line a direction, a column a turn rate: the speed reached, what the synthesis uses of it, what ends it. What is
+/// used and not reached is marked.
 fn text(details: &Details) -> String {
-    let mut text = format!("m_sp {}: speed reached (used), m/s\ndirection", details.m_sp);
+    let mut text = format!("m_sp {}: speed reached (used; not reached!), m/s\ndirection", details.m_sp);
     for turn in TURN_RATES_DEG_S {
-        text += &format!("{:>27}", format!("{turn} °/s"));
+        text += &format!("{:>25}", format!("{turn} °/s"));
     }
     for (row, direction) in DIRECTIONS_DEG.iter().enumerate() {
         text += &format!("\n{direction:>7} °");
         for way in details.ways.iter().skip(row).step_by(DIRECTIONS_DEG.len()) {
             let reached = way.speed_mps.map_or_else(|| "–".to_owned(), |speed_mps| format!("{speed_mps:.1}"));
             let ends_by = way.ends_by.map_or("", Fault::word);
-            text += &format!("{:>27}", format!("{reached} ({:.1}) {ends_by}", way.used_mps));
+            let mark = if way.is_reached() { "" } else { "!" };
+            text += &format!("{:>25}", format!("{reached} ({:.2}{mark}) {ends_by}", way.used_mps));
         }
     }
     text + "\n"
