@@ -14,9 +14,9 @@ use motiondb::pose::{Joints, Root};
 use super::quality_errands::{Ask, Errand};
 
 /// Bodies on each errand …
-const BODIES: usize = 8;
+pub(super) const BODIES: usize = 8;
 /// … which set out this long before one another, s: eight make a stride of 1.1 s.
-const APART_S: f32 = 0.14;
+pub(super) const APART_S: f32 = 0.14;
 /// In hybrid synthesis a collision threatens for so long, and then for so long it does not, s.
 const THREAT_S: f32 = 2.0;
 

@@ -3,25 +3,26 @@
 //! Commands accelerate by no more than [`ACCELERATION_MPS2`]. Semi-procedural locomotion is given velocities in the
 //! world, and judged by each step: how far the root is from where the command would have brought it from its last
 //! place. Blending is given (v_f, ω_t, ω_s), a change from one steady way to walk to another, and judged by how far its
-//! root has then fallen behind one that did exactly as told, a cycle after the command has become steady. A body that
-//! is to stop finishes its step: how far that leads is told, not judged.
+//! root has then fallen behind one that did exactly as told, a cycle after the command has become steady. Each command
+//! comes at eight moments of the stride, of which the worst counts. Starts, and stops, for which a body finishes its
+//! step, have bars of their own: standing bodies are blended, whatever the synthesis.
 
-use std::f32::consts::FRAC_PI_2;
+use std::f32::consts::{FRAC_PI_2, PI};
 use std::path::PathBuf;
 
-use fbcrowd_sim::hms::Body;
-use fbcrowd_sim::hms::mode::Mode;
 use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::plan::Plan;
 use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};
 use super::bundled::database;
-use super::walker::{DT_S, asked_roots, studio};
+use super::quality_walk::{APART_S, BODIES};
+use super::walker::{DT_S, asked_roots, roots, studio};
 use crate::failure::{Answer, Failure};
 
 /// Commands change by this at most, m/s², and turn rates by as much in rad/s².
@@ -34,32 +35,48 @@ const CHANGE_S: f32 = 4.0;
 const WATCHED_S: f32 = 3.0;
 
 /// Ways to walk, (v_f, ω_t, ω_s), of which a blending body changes from one to another.
-const WAYS: [[f32; 3]; 7] = [
-    [0.0, 0.0, 0.0],
-    [0.8, 0.0, 0.0],
-    [1.1, 0.0, 0.0],
-    [1.4, 0.0, 0.0],
-    [0.8, 0.5, 0.0],
-    [0.8, -0.5, 0.0],
-    [0.8, 0.0, 0.2],
+const WAYS: [(&str, [f32; 3]); 13] = [
+    ("stand", [0.0, 0.0, 0.0]),
+    ("slow", [0.8, 0.0, 0.0]),
+    ("walk", [1.1, 0.0, 0.0]),
+    ("fast", [1.4, 0.0, 0.0]),
+    ("curve left", [0.8, 0.5, 0.0]),
+    ("curve right", [0.8, -0.5, 0.0]),
+    ("veer left", [0.8, 0.0, 0.2]),
+    ("veer right", [0.8, 0.0, -0.2]),
+    ("step left", [0.0, 0.0, 0.3]),
+    ("step right", [0.0, 0.0, -0.3]),
+    ("step back", [-0.5, 0.0, 0.0]),
+    ("turn left", [0.0, 1.5, 0.0]),
+    ("turn right", [0.0, -1.5, 0.0]),
 ];
 
 /// A velocity in the world and a facing, by the time since the command changed, s; before, what it is at 0.
 type Command = fn(f32) -> (Vec2, f32);
-const COMMANDS: [(&str, Command); 7] = [
-    ("start", |time_s| (Vec2::new(ramp(time_s, 0.0, 1.2), 0.0), 0.0)),
-    ("speed up", |time_s| (Vec2::new(ramp(time_s, 0.8, 1.4), 0.0), 0.0)),
-    ("slow down", |time_s| (Vec2::new(ramp(time_s, 1.4, 0.7), 0.0), 0.0)),
-    ("dodge", |time_s| (Vec2::new(1.0, ramp(time_s, 0.0, 0.4)), 0.0)),
-    ("step back", |time_s| (Vec2::new(ramp(time_s, 0.6, -0.5), 0.0), 0.0)),
-    ("wide curve", |time_s| curve(time_s, 1.2, 0.8)),
-    ("tight curve", |time_s| curve(time_s, 1.2, ACCELERATION_MPS2 / 1.2)),
+const COMMANDS: [(&str, Command); 17] = [
+    ("start", |time_s| (ramp(time_s, Vec2::ZERO, Vec2::new(1.2, 0.0)), 0.0)),
+    ("start to the left", |time_s| (ramp(time_s, Vec2::ZERO, Vec2::new(0.0, 0.4)), 0.0)),
+    ("start to the right", |time_s| (ramp(time_s, Vec2::ZERO, Vec2::new(0.0, -0.4)), 0.0)),
+    ("start backward", |time_s| (ramp(time_s, Vec2::ZERO, Vec2::new(-0.5, 0.0)), 0.0)),
+    ("turn on the spot", |time_s| (Vec2::ZERO, (1.5 * time_s).clamp(0.0, PI))),
+    ("speed up", |time_s| (ramp(time_s, Vec2::new(0.8, 0.0), Vec2::new(1.4, 0.0)), 0.0)),
+    ("slow down", |time_s| (ramp(time_s, Vec2::new(1.4, 0.0), Vec2::new(0.7, 0.0)), 0.0)),
+    ("stop", |time_s| (ramp(time_s, Vec2::new(1.2, 0.0), Vec2::ZERO), 0.0)),
+    ("dodge left", |time_s| (ramp(time_s, Vec2::new(1.0, 0.0), Vec2::new(1.0, 0.4)), 0.0)),
+    ("dodge right", |time_s| (ramp(time_s, Vec2::new(1.0, 0.0), Vec2::new(1.0, -0.4)), 0.0)),
+    ("step left", |time_s| (ramp(time_s, Vec2::new(0.6, 0.0), Vec2::new(0.0, 0.4)), 0.0)),
+    ("step right", |time_s| (ramp(time_s, Vec2::new(0.6, 0.0), Vec2::new(0.0, -0.4)), 0.0)),
+    ("step back", |time_s| (ramp(time_s, Vec2::new(0.6, 0.0), Vec2::new(-0.5, 0.0)), 0.0)),
+    ("wide curve left", |time_s| curve(time_s, 1.2, 0.8)),
+    ("wide curve right", |time_s| curve(time_s, 1.2, -0.8)),
+    ("tight curve left", |time_s| curve(time_s, 1.2, ACCELERATION_MPS2 / 1.2)),
+    ("tight curve right", |time_s| curve(time_s, 1.2, -ACCELERATION_MPS2 / 1.2)),
 ];
 
 /// Measure how closely roots follow their commands.
 ///
 /// In JSON `steps[] {dt_s, command, worst_cm}` of semi-procedural locomotion and `changes[] {dt_s, from[3], to[3],
-/// behind_cm}` of blending, (v_f, ω_t, ω_s) in m/s and rad/s.
+/// behind_cm}` of blending, (v_f, ω_t, ω_s) in m/s and rad/s, each the worst of eight moments of the stride.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  fbcrowd bench tracking\n  fbcrowd bench tracking --db motion.fbdb --json")]
 pub(super) struct Args {
@@ -82,8 +99,9 @@ struct Details {
 struct Step {
     dt_s: f32,
     command: &'static str,
-    /// Null where the body never walked so.
-    worst_cm: Option<f64>,
+    worst_cm: f64,
+    #[serde(skip)]
+    stands: Stands,
 }
 
 /// A change of what is asked of blending.
@@ -95,71 +113,103 @@ struct Change {
     behind_cm: f64,
 }
 
+/// Where a command leads from or to standing.
+#[derive(Clone, Copy, PartialEq)]
+enum Stands {
+    Never,
+    AtFirst,
+    AtLast,
+}
+
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let db = database(args.database.as_deref())?;
     let exact = studio(db.clone(), Modes::SemiProcedural);
     let blending = studio(db, Modes::Blending);
-    let (mut steps, mut changes) = (Vec::new(), Vec::new());
+    let ways = ways(&blending);
+    let (mut steps, mut changes): (Vec<Step>, Vec<Change>) = (Vec::new(), Vec::new());
     for dt_s in DT_S {
-        steps.extend(COMMANDS.map(|(name, command)| step(&exact, name, command, dt_s)));
-        changes.extend(ways(&blending).into_iter().map(|(from, to)| change(&blending, from, to, dt_s)));
+        steps.par_extend(COMMANDS.into_par_iter().map(|(name, command)| step(&exact, name, command, dt_s)));
+        changes.par_extend(pairs(&ways).into_par_iter().map(|(from, to)| change(&blending, from, to, dt_s)));
     }
     let bars = DT_S.iter().flat_map(|&dt_s| bars(&steps, &changes, dt_s)).collect();
     let details = Details { steps, changes };
-    let text = text(&details);
+    let text = text(&details, &ways);
     conclude(&Found { details, goals: Vec::new(), bars }, &text, args.json)
 }
 
-/// From one value to another at the greatest acceleration.
-fn ramp(time_s: f32, from: f32, to: f32) -> f32 {
-    from + (to - from).signum() * (ACCELERATION_MPS2 * time_s.max(0.0)).min((to - from).abs())
+/// From one velocity straight to another at the greatest acceleration.
+fn ramp(time_s: f32, from: Vec2, to: Vec2) -> Vec2 {
+    from.move_towards(to, ACCELERATION_MPS2 * time_s.max(0.0))
 }
 
-/// A right angle to the left, the facing along the velocity.
+/// A right angle, the facing along the velocity.
 fn curve(time_s: f32, speed_mps: f32, turn_rate_rad_s: f32) -> (Vec2, f32) {
-    let angle_rad = (turn_rate_rad_s * time_s).clamp(0.0, FRAC_PI_2);
+    let angle_rad = (turn_rate_rad_s * time_s.max(0.0)).clamp(-FRAC_PI_2, FRAC_PI_2);
     (Vec2::from_angle(angle_rad) * speed_mps, angle_rad)
 }
 
+/// Moments at which commands change: a part of a stride later each, s.
+fn moments_s() -> impl Iterator<Item = f32> {
+    (0..BODIES).map(|index| CHANGE_S + APART_S * index as f32)
+}
+
 fn step(studio: &Studio, name: &'static str, command: Command, dt_s: f32) -> Step {
+    let worst_m = moments_s().map(|change_s| worst_step_m(studio, command, change_s, dt_s)).fold(0.0, f32::max);
+    let stands = match (command(0.0).0, command(WATCHED_S).0) {
+        (Vec2::ZERO, _) => Stands::AtFirst,
+        (_, Vec2::ZERO) => Stands::AtLast,
+        _ => Stands::Never,
+    };
+    Step { dt_s, command: name, worst_cm: 100.0 * f64::from(worst_m), stands }
+}
+
+/// Furthest off after a step, from the moment on at which the command changes.
+fn worst_step_m(studio: &Studio, command: Command, change_s: f32, dt_s: f32) -> f32 {
     // A step is commanded what is right in its middle.
-    let at = |step: usize| command((step as f32 + 0.5) * dt_s - CHANGE_S);
+    let at = |step: usize| command((step as f32 + 0.5) * dt_s - change_s);
     let plan = |time_s: f32, _: &Root| {
         let (velocity_mps, facing_rad) = at((time_s / dt_s).round() as usize);
         Plan { velocity_mps, facing_rad, time_to_collision_s: f32::INFINITY, ..Plan::default() }
     };
-    let bodies = studio.walk(0.0, CHANGE_S + WATCHED_S, dt_s, plan, |body, _| *body);
-    let changed = (CHANGE_S / dt_s).round() as usize;
-    let off_m = |(step, pair): (usize, &[Body])| {
-        let moved_m = pair[1].root.position_m - pair[0].root.position_m;
+    let roots = roots(studio, change_s + WATCHED_S, dt_s, plan);
+    let off_m = |(step, pair): (usize, &[Root])| {
+        let moved_m = pair[1].position_m - pair[0].position_m;
         moved_m.distance(at(step).0 * dt_s)
     };
-    let steps = bodies.windows(2).enumerate().skip(changed).filter(|(_, pair)| pair[0].mode == Mode::SemiProcedural);
-    Step { dt_s, command: name, worst_cm: steps.map(off_m).reduce(f32::max).map(|worst_m| 100.0 * f64::from(worst_m)) }
+    roots.windows(2).enumerate().skip((change_s / dt_s).round() as usize).map(off_m).fold(0.0, f32::max)
 }
 
-/// Pairs of the ways that the database has.
-fn ways(studio: &Studio) -> Vec<(Vec3, Vec3)> {
-    let had = |way: &Vec3| studio.space.nearest(Parameters::from_vec3(*way)).parameters.to_vec3().distance(*way) < 1e-3;
-    let ways: Vec<Vec3> = WAYS.into_iter().map(Vec3::from).filter(had).collect();
-    let pairs = ways.iter().flat_map(|&from| ways.iter().map(move |&to| (from, to)));
+/// Those that the database has.
+fn ways(studio: &Studio) -> Vec<(&'static str, Vec3)> {
+    let had = |way: Vec3| studio.space.nearest(Parameters::from_vec3(way)).parameters.to_vec3().distance(way) < 1e-3;
+    WAYS.into_iter().map(|(name, way)| (name, Vec3::from(way))).filter(|&(_, way)| had(way)).collect()
+}
+
+/// Each with each other.
+fn pairs(ways: &[(&str, Vec3)]) -> Vec<(Vec3, Vec3)> {
+    let pairs = ways.iter().flat_map(|&(_, from)| ways.iter().map(move |&(_, to)| (from, to)));
     pairs.filter(|(from, to)| from != to).collect()
 }
 
 fn change(studio: &Studio, from: Vec3, to: Vec3, dt_s: f32) -> Change {
+    let behind_m = moments_s().map(|change_s| behind_m(studio, from, to, change_s, dt_s)).fold(0.0, f32::max);
+    Change { dt_s, from: from.to_array(), to: to.to_array(), behind_cm: 100.0 * f64::from(behind_m) }
+}
+
+/// How far behind a cycle after the change.
+fn behind_m(studio: &Studio, from: Vec3, to: Vec3, change_s: f32, dt_s: f32) -> f32 {
     let steady_s = (to - from).length() / ACCELERATION_MPS2;
     let asked = |time_s: f32| {
-        let done = ((time_s - CHANGE_S) / steady_s).clamp(0.0, 1.0);
+        let done = ((time_s - change_s) / steady_s).clamp(0.0, 1.0);
         Parameters::from_vec3(from.lerp(to, done))
     };
     let middle = |time_s: f32| asked(time_s + 0.5 * dt_s);
-    let seconds = CHANGE_S + steady_s + cycle_s(studio, to);
+    let seconds = change_s + steady_s + cycle_s(studio, to);
     let roots = asked_roots(studio, seconds, dt_s, middle);
-    let changed = (CHANGE_S / dt_s).round() as usize;
+    let changed = (change_s / dt_s).round() as usize;
     let told =
         (changed..roots.len() - 1).fold(roots[changed], |root, step| walked(&root, middle(step as f32 * dt_s), dt_s));
-    let behind_m = roots[roots.len() - 1].position_m.distance(told.position_m);
-    Change { dt_s, from: from.to_array(), to: to.to_array(), behind_cm: 100.0 * f64::from(behind_m) }
+    roots[roots.len() - 1].position_m.distance(told.position_m)
 }
 
 /// The cycle of a way to walk, s.
@@ -176,48 +226,60 @@ fn walked(root: &Root, told: Parameters, dt_s: f32) -> Root {
     Root { position_m: root.position_m + moved_m, facing_rad: root.facing_rad + dt_s * told.turn_rate_rad_s }
 }
 
-fn bars(steps: &[Step], changes: &[Change], dt_s: f32) -> [Bar; 3] {
-    let steps_cm = steps.iter().filter(|step| step.dt_s == dt_s).filter_map(|step| step.worst_cm);
-    let behind_cm = |stands: bool| {
-        let told = changes.iter().filter(|change| change.dt_s == dt_s && Vec3::from(change.to) != Vec3::ZERO);
-        let told = told.filter(|change| (Vec3::from(change.from) == Vec3::ZERO) == stands);
-        told.map(|change| change.behind_cm).reduce(f64::max)
-    };
-    [
-        Bar::at_most(
-            format!("semi-procedural, worst step of {dt_s:.4} s off its command, cm"),
-            STEP_MAX_CM,
-            steps_cm.reduce(f64::max),
-        ),
-        Bar::at_most(
-            format!("blending in steps of {dt_s:.4} s, behind one cycle after a change, cm"),
-            BEHIND_MAX_CM,
-            behind_cm(false),
-        ),
-        Bar::at_most(
-            format!("blending in steps of {dt_s:.4} s, behind one cycle after a start, cm"),
-            BEHIND_MAX_CM,
-            behind_cm(true),
-        ),
-    ]
+fn bars(steps: &[Step], changes: &[Change], dt_s: f32) -> Vec<Bar> {
+    let bars =
+        [(Stands::Never, "change"), (Stands::AtFirst, "start"), (Stands::AtLast, "stop")].map(|(stands, word)| {
+            let steps = steps.iter().filter(|step| step.dt_s == dt_s && step.stands == stands);
+            let changes = changes.iter().filter(|change| change.dt_s == dt_s && change.stands() == stands);
+            [
+                Bar::at_most(
+                    format!("semi-procedural, worst step of {dt_s:.4} s off its command in a {word}, cm"),
+                    STEP_MAX_CM,
+                    steps.map(|step| step.worst_cm).reduce(f64::max),
+                ),
+                Bar::at_most(
+                    format!("blending in steps of {dt_s:.4} s, behind one cycle after a {word}, cm"),
+                    BEHIND_MAX_CM,
+                    changes.map(|change| change.behind_cm).reduce(f64::max),
+                ),
+            ]
+        });
+    bars.into_iter().flatten().collect()
 }
 
-fn text(details: &Details) -> String {
+impl Change {
+    fn stands(&self) -> Stands {
+        match [self.from, self.to].map(|way| way == [0.0; 3]) {
+            [true, _] => Stands::AtFirst,
+            [_, true] => Stands::AtLast,
+            _ => Stands::Never,
+        }
+    }
+}
+
+/// A line a command; then for each dt a row a way to come from, a column a way to change to.
+fn text(details: &Details, ways: &[(&'static str, Vec3)]) -> String {
     let mut text = "semi-procedural, worst step off its command, cm, in steps of 1/120, 1/30 and 0.1 s\n".to_owned();
     for (name, _) in COMMANDS {
         let worst = details.steps.iter().filter(|step| step.command == name);
-        let worst: String = worst
-            .map(|step| step.worst_cm.map_or_else(|| "       –".to_owned(), |worst_cm| format!("{worst_cm:8.2}")))
-            .collect();
+        let worst: String = worst.map(|step| format!("{:8.2}", step.worst_cm)).collect();
         text += &format!("{name:>24}{worst}\n");
     }
-    text += "blending, behind after one cycle, cm, likewise\n";
-    let of_one = details.changes.len() / DT_S.len();
-    for index in 0..of_one {
-        let (from, to) = (details.changes[index].from, details.changes[index].to);
-        let behind = details.changes.iter().skip(index).step_by(of_one);
-        let behind: String = behind.map(|change| format!("{:8.2}", change.behind_cm)).collect();
-        text += &format!("{:>24}{behind}\n", format!("{from:.1?} to {to:.1?}"));
+    for dt_s in DT_S {
+        text += &format!("blending in steps of {dt_s:.4} s, behind after one cycle, cm: from row to column\n");
+        text += &format!("{:12}{}\n", "", ways.iter().map(|(name, _)| format!("{name:>12}")).collect::<String>());
+        for &(name, from) in ways {
+            let cells = ways.iter().map(|&(_, to)| format!("{:>12}", details.cell(from, to, dt_s)));
+            text += &format!("{name:>12}{}\n", cells.collect::<String>());
+        }
     }
     text
+}
+
+impl Details {
+    /// Empty on the diagonal.
+    fn cell(&self, from: Vec3, to: Vec3, dt_s: f32) -> String {
+        let is_it = |change: &&Change| change.dt_s == dt_s && (change.from, change.to) == (from.into(), to.into());
+        self.changes.iter().find(is_it).map_or_else(String::new, |change| format!("{:.2}", change.behind_cm))
+    }
 }
