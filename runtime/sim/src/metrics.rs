@@ -65,11 +65,11 @@ pub struct Measures {
     pub wall_body_share: f64,
     /// The deepest of it.
     pub wall_body_max_mm: f64,
-    /// Of planted feet; none where no foot was planted.
+    /// Of planted feet until each agent's arrival; none where no foot was planted.
     pub planted_slide_cm_s: Option<f64>,
     /// Of the examples that the bodies were blended from, over the same contacts.
     pub examples_slide_cm_s: Option<f64>,
-    /// Share of all feet and frames that are planted.
+    /// Share of all feet and frames until each agent's arrival that are planted.
     pub planted_share: f64,
     /// Mean distance between the synthesised root and where the planned velocity would have brought it in a step.
     pub root_tracking_error_m: f64,
@@ -113,7 +113,7 @@ impl Measuring {
             walls: WallContact::new(skeleton, scenario),
         };
         measuring.pose(start);
-        measuring.slide.push(start, &measuring.joints);
+        measuring.follow_feet(start);
         measuring
     }
 
@@ -122,8 +122,8 @@ impl Measuring {
         self.steps += 1;
         self.pose(after);
         self.collisions.push(&roots_m(&self.before), &roots_m(after));
+        self.follow_feet(after);
         self.roots.push(&self.before, after);
-        self.slide.push(after, &self.joints);
         self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
         self.walls.push(after, &self.joints);
         self.before.clear();
@@ -165,6 +165,15 @@ impl Measuring {
             root_tracking_error_m: self.roots.root_tracking_error_m(),
             root_tracking_worst_m: self.roots.root_tracking_worst_m(),
             heading_error_deg: self.roots.heading_error_deg(),
+        }
+    }
+
+    /// Those of who had not arrived before: waiting at the goal does not dilute their slide.
+    fn follow_feet(&mut self, agents: &[AgentFrame]) {
+        for (index, (agent, joints)) in agents.iter().zip(&self.joints).enumerate() {
+            if !self.roots.has_arrived(index) {
+                self.slide.push_one(index, agent, joints);
+            }
         }
     }
 

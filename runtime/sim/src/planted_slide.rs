@@ -86,12 +86,17 @@ impl PlantedSlide {
     /// Adds one frame: every agent, and its joints in its root's frame, in index order.
     pub fn push(&mut self, agents: &[AgentFrame], joints: &[Joints]) {
         for (index, (agent, joints)) in agents.iter().zip(joints).enumerate() {
-            for (side, foot) in foot_frames(&self.skeleton, agent, joints).into_iter().enumerate() {
-                self.foot_frames += 1;
-                self.planted_foot_frames += usize::from(foot.planted);
-                let ended = self.feet[index][side].push(foot, self.dt_s);
-                self.count(&ended);
-            }
+            self.push_one(index, agent, joints);
+        }
+    }
+
+    /// Adds one frame of one agent; who is not followed any more counts until then.
+    pub fn push_one(&mut self, index: usize, agent: &AgentFrame, joints: &Joints) {
+        for (side, foot) in foot_frames(&self.skeleton, agent, joints).into_iter().enumerate() {
+            self.foot_frames += 1;
+            self.planted_foot_frames += usize::from(foot.planted);
+            let ended = self.feet[index][side].push(foot, self.dt_s);
+            self.count(&ended);
         }
     }
 

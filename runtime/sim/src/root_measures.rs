@@ -150,6 +150,11 @@ impl RootMeasures {
         self.walkers.iter().all(|walker| walker.arrival.is_at_goal)
     }
 
+    /// Whether an agent has come to its last goal so far.
+    pub fn has_arrived(&self, agent: usize) -> bool {
+        self.walkers[agent].arrival.at_s.is_some()
+    }
+
     /// Agents that came within 0.5 m of their last goal at any time after their waypoints.
     pub fn arrived(&self) -> usize {
         self.walkers.iter().filter(|walker| walker.arrival.at_s.is_some()).count()

@@ -184,6 +184,19 @@ fn slide_is_measured_over_the_middle_of_each_contact() {
 }
 
 #[test]
+fn feet_that_stand_at_the_goal_do_not_dilute_the_slide() {
+    // Having arrived, the body stands on its left foot for as long as it walked.
+    let mut frames = sliding();
+    let there = AgentFrame { contacts: [1.0, 0.0], ..frames[39][0] };
+    frames.extend(vec![vec![there]; 40]);
+    let goal_x = there.root.position_m.x + 0.49;
+    let measures = measured("slide_arrived", &walker(goal_x), &frames);
+    assert_eq!(measures.arrived, 1);
+    check(measures.planted_slide_cm_s.unwrap(), 3.0);
+    check(measures.planted_share, 20.0 / 80.0);
+}
+
+#[test]
 fn a_contact_that_the_recording_cuts_short_counts_too() {
     let measures = measured("slide_cut", &walker(9.0), &sliding()[..27]);
     check(measures.planted_slide_cm_s.unwrap(), 3.0);

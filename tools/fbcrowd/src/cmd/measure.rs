@@ -27,8 +27,8 @@ pub(crate) struct Args {
     /// overlap of capsules, summed over pairs, per agent and step), `body_penetration_touching_mm` (mean of those that
     /// touch), `body_penetration_max_mm, body_touching_share, wall_disc_share` (of agents and steps that a wall holds),
     /// `wall_body_share` (whose bodies reach into one), `wall_body_max_mm, planted_slide_cm_s, examples_slide_cm_s,
-    /// planted_share, root_tracking_error_m, root_tracking_worst_m` (of any step), `heading_error_deg` (facing against
-    /// travel); null where nobody arrived, touched or stood.
+    /// planted_share` (all three before arrival), `root_tracking_error_m, root_tracking_worst_m` (of any step),
+    /// `heading_error_deg` (facing against travel); null where nobody arrived, touched or stood.
     #[arg(long)]
     json: bool,
     /// Write a line a step: x y of each agent's root, metres.
