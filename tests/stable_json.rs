@@ -211,6 +211,7 @@ fn measure_and_the_timing_report_keep_their_keys() {
         "root_tracking_error_m",
         "root_tracking_worst_m",
         "heading_error_deg",
+        "walking_heading_error_deg",
     ];
     check_keys(&measures, &of_measures);
     assert_eq!((&measures["agents"], &measures["steps"]), (&Value::from(1), &Value::from(30)));

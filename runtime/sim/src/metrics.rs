@@ -78,6 +78,8 @@ pub struct Measures {
     /// Mean angle between facing and travel, over the steps before each agent's arrival in which it walks and is not to
     /// side-step or step back.
     pub heading_error_deg: f64,
+    /// The same over all steps before arrival in which it walks, side-steps and steps back too.
+    pub walking_heading_error_deg: f64,
 }
 
 /// Figures on their way: takes frames one by one and keeps one, so that a crowd is measured while it runs.
@@ -165,6 +167,7 @@ impl Measuring {
             root_tracking_error_m: self.roots.root_tracking_error_m(),
             root_tracking_worst_m: self.roots.root_tracking_worst_m(),
             heading_error_deg: self.roots.heading_error_deg(),
+            walking_heading_error_deg: self.roots.walking_heading_error_deg(),
         }
     }
 

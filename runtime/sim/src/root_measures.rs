@@ -27,6 +27,7 @@ pub struct RootMeasures {
     tracking_error: Mean,
     tracking_worst_m: f64,
     heading_error_deg: Mean,
+    walking_heading_error_deg: Mean,
     strafing: Mean,
     stepping_back: Mean,
 }
@@ -86,6 +87,7 @@ impl RootMeasures {
             tracking_error: Mean::default(),
             tracking_worst_m: 0.0,
             heading_error_deg: Mean::default(),
+            walking_heading_error_deg: Mean::default(),
             strafing: Mean::default(),
             stepping_back: Mean::default(),
         }
@@ -105,8 +107,12 @@ impl RootMeasures {
                 let sidewards = walker.sidewards(after);
                 self.strafing.add(f64::from(sidewards == Some(Sidewards::Strafing)));
                 self.stepping_back.add(f64::from(sidewards == Some(Sidewards::SteppingBack)));
-                if after.set == VelocitySet::Turning && velocity_mps.length() >= STALL_SPEED_MPS {
-                    self.heading_error_deg.add(heading_error_deg(displacement_m, before, after));
+                if velocity_mps.length() >= STALL_SPEED_MPS {
+                    let error_deg = heading_error_deg(displacement_m, before, after);
+                    self.walking_heading_error_deg.add(error_deg);
+                    if after.set == VelocitySet::Turning {
+                        self.heading_error_deg.add(error_deg);
+                    }
                 }
                 walker.path_m += displacement_m.length();
                 walker.watch_for_stall(self.dt_s);
@@ -143,6 +149,11 @@ impl RootMeasures {
     /// side-step or step back, degrees.
     pub fn heading_error_deg(&self) -> f64 {
         self.heading_error_deg.value()
+    }
+
+    /// The same over all steps in which it walks, side-steps and steps back too.
+    pub fn walking_heading_error_deg(&self) -> f64 {
+        self.walking_heading_error_deg.value()
     }
 
     /// Whether every agent, its waypoints passed, is within 0.5 m of its last goal now.

@@ -78,7 +78,9 @@ fn a_heading_error_is_facing_away_from_the_travel_without_being_meant_to() {
         place += moved;
         frames.push(vec![AgentFrame { set, ..standing_at(place) }]);
     }
-    check(measured("heading", &walker(50.0), &frames).heading_error_deg, 40.0);
+    let measures = measured("heading", &walker(50.0), &frames);
+    check(measures.heading_error_deg, 40.0);
+    check(measures.walking_heading_error_deg, 45.0);
 }
 
 #[test]

@@ -28,7 +28,8 @@ pub(crate) struct Args {
     /// touch), `body_penetration_max_mm, body_touching_share, wall_disc_share` (of agents and steps that a wall holds),
     /// `wall_body_share` (whose bodies reach into one), `wall_body_max_mm, planted_slide_cm_s, examples_slide_cm_s,
     /// planted_share` (all three before arrival), `root_tracking_error_m, root_tracking_worst_m` (of any step),
-    /// `heading_error_deg` (facing against travel); null where nobody arrived, touched or stood.
+    /// `heading_error_deg` (facing against travel), `walking_heading_error_deg` (side-steps too); null where nobody
+    /// arrived, touched or stood.
     #[arg(long)]
     json: bool,
     /// Write a line a step: x y of each agent's root, metres.
@@ -98,7 +99,7 @@ pub(crate) fn text(measures: &Measures) -> String {
         ("path", path(measures)),
         ("planted-foot slide", slide(measures)),
         ("root tracking error", tracking(measures)),
-        ("facing off the travel", format!("{:.1}°", measures.heading_error_deg)),
+        ("facing off the travel", facing(measures)),
     ]
     .map(|(name, value)| format!("{name:<25}{value}\n"))
     .concat()
@@ -151,6 +152,11 @@ fn slide(measures: &Measures) -> String {
 fn tracking(measures: &Measures) -> String {
     let [mean_mm, worst_mm] = [measures.root_tracking_error_m, measures.root_tracking_worst_m].map(|error| 1e3 * error);
     format!("{mean_mm:.2} mm a step, {worst_mm:.0} mm at most")
+}
+
+fn facing(measures: &Measures) -> String {
+    let [meant_to, walking] = [measures.heading_error_deg, measures.walking_heading_error_deg];
+    format!("{meant_to:.1}°, with side-steps and steps back {walking:.1}°")
 }
 
 fn walls(measures: &Measures) -> String {

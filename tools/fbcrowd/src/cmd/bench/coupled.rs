@@ -68,13 +68,14 @@ struct Figure {
 /// Of a run: its name, whether less of it is better and asked for, and where it stands.
 type Kind = (&'static str, bool, fn(&Measures) -> Option<f64>);
 
-const KINDS: [Kind; 10] = [
+const KINDS: [Kind; 11] = [
     ("bodies in each other, mm", true, |found| Some(found.body_penetration_mm)),
     ("greatest, mm", false, |found| Some(found.body_penetration_max_mm)),
     ("slide of planted feet, cm/s", true, |found| found.planted_slide_cm_s),
     ("share of feet planted", false, |found| Some(found.planted_share)),
     ("acceleration, m/s²", true, |found| Some(found.mean_acceleration_before_arrival_mps2)),
     ("facing off the travel, °", true, |found| Some(found.heading_error_deg)),
+    ("with side-steps and steps back, °", false, |found| Some(found.walking_heading_error_deg)),
     ("collisions of discs C", false, |found| Some(found.collision_rate)),
     ("share that arrives", false, |found| Some(found.arrived as f64 / found.agents as f64)),
     ("mean time to goal, s", false, |found| found.mean_time_to_goal_s),
@@ -134,13 +135,13 @@ fn text(details: &Details) -> String {
 
 fn table(scene: &SceneFigures) -> String {
     let head =
-        format!("{:<34}{:>22}{:>22}\n", format!("{}, {} agents", scene.scene, scene.agents), "coupled", "decoupled");
+        format!("{:<36}{:>22}{:>22}\n", format!("{}, {} agents", scene.scene, scene.agents), "coupled", "decoupled");
     let cell = |spread: &Option<Spread>| {
         let cell = |Spread { mean, deviation }: &Spread| format!("{mean:.4} ± {deviation:.4}");
         spread.as_ref().map_or_else(|| "–".to_owned(), cell)
     };
     let line = |figure: &Figure| {
-        format!("{:<34}{:>22}{:>22}\n", figure.figure, cell(&figure.coupled), cell(&figure.decoupled))
+        format!("{:<36}{:>22}{:>22}\n", figure.figure, cell(&figure.coupled), cell(&figure.decoupled))
     };
     head + &scene.figures.iter().map(line).collect::<String>() + "\n"
 }
