@@ -159,9 +159,14 @@ fn coupled_bodies_touch_each_other_less_and_slide_less_than_the_studys_rival() {
 }
 
 #[test]
-fn the_stages_of_a_frame_are_timed_for_each_circle() {
-    let found = check_bars(&["bench", "figure6", "--largest", "100", "--json"]);
-    assert_eq!(found["circles"].as_array().unwrap().len(), 4);
+fn the_stages_of_a_frame_are_timed_for_each_circle_and_crowd() {
+    let found = check_bars(&["bench", "figure6", "--largest", "1000", "--json"]);
+    assert_eq!(found["circles"].as_array().unwrap().len(), 6);
+    assert_eq!(found["crowds"].as_array().unwrap().len(), 1);
+    assert!(found["crowds"][0]["deformed_share"].as_f64().unwrap() > 0.0, "{found}");
+    let growth =
+        found["bars"].as_array().unwrap().iter().filter(|bar| bar["name"].as_str().unwrap().contains("over 1,000"));
+    assert!(growth.into_iter().all(|bar| bar["measured"].is_null()), "{found}");
     assert!(found["bytes_per_agent"].as_u64().unwrap() <= 4096);
 }
 

@@ -12,6 +12,7 @@ mod coupled;
 mod course;
 mod emergence;
 mod figure6;
+mod figure6_scene;
 mod figure7;
 mod gait;
 mod import;

@@ -225,7 +225,7 @@ fn bars(crowds: &[Crowd]) -> Vec<Bar> {
 }
 
 /// A jittered lattice in a disc; each is bound for the point opposite.
-fn disc(agents: usize) -> Scenario {
+pub(super) fn disc(agents: usize) -> Scenario {
     let spacing_m = DENSITY_PER_M2.sqrt().recip();
     let half = ((agents as f32).sqrt() * 0.6) as i32 + 3;
     let place = |index: i32| spacing_m * (index as f32 + 0.5);
