@@ -12,6 +12,7 @@ use proptest::prelude::*;
 
 use super::Synthesis;
 use super::arc::went;
+use super::asked::asking;
 use super::blending::Mix;
 use super::gait::Gait;
 use super::params::{HmsParams, Modes};
@@ -250,12 +251,8 @@ proptest! {
         let terms = db.examples[1..].iter().zip(&weights[1..]).map(|(example, weight)| example.parameters.to_vec3() * *weight);
         let asked = Parameters::from_vec3(terms.sum::<Vec3>() / sum * (1.0 - 0.1 * weights[0]));
         prop_assume!(Mix::new(&Space::new(&db).locate(asked)).share(0) < 0.3);
-        let lead_s = HmsParams::default().turn_time_s;
-        let plan = |_: f32, root: &Root| Plan {
-            velocity_mps: root.forward().rotate(Vec2::new(asked.speed_mps, asked.strafe_mps)),
-            facing_rad: root.facing_rad + lead_s * asked.turn_rate_rad_s,
-            ..Plan::default()
-        };
+        let params = HmsParams::default();
+        let plan = |_: f32, root: &Root| asking(asked, root, &params);
         let roots: Vec<Root> = walk(6.0, DT_S, plan).steps[120..].iter().map(|step| step.0).collect();
         let went = roots.windows(2).map(|pair| went(&pair[0], &pair[1], DT_S).to_vec3());
         let mean = went.sum::<Vec3>() / (roots.len() - 1) as f32;
