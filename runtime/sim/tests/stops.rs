@@ -142,6 +142,28 @@ fn whoever_stands_starts_in_every_direction() {
 }
 
 #[test]
+fn whoever_is_asked_to_go_the_other_way_does_not_stay_at_rest_on_the_way_there() {
+    let studio = studio(bundled());
+    let reversals = [([-0.5, 0.0, 0.0], [1.4, 0.0, 0.0]), ([1.1, 0.0, 0.0], [-0.5, 0.0, 0.0])];
+    let sidewards = [([0.0, 0.0, 0.3], [0.0, 0.0, -0.3]), ([0.0, 0.0, -0.3], [0.0, 0.0, 0.3])];
+    for (from, to) in reversals.into_iter().chain(sidewards) {
+        let [from, to] = [Vec3::from(from), Vec3::from(to)];
+        let change_s = (to - from).length() / 2.5;
+        for (moment, dt_s) in (0..MOMENTS).flat_map(|moment| [1.0 / 120.0, DT_S, 0.1].map(|dt_s| (moment, dt_s))) {
+            let begin_s = 4.0 + STRIDE_S * moment as f32 / MOMENTS as f32;
+            let asked = |time_s: f32| from.lerp(to, ((time_s - begin_s) / change_s).clamp(0.0, 1.0));
+            let plan = |time_s: f32, root: &Root| asking(Parameters::from_vec3(asked(time_s)), root, &studio.params);
+            let seconds = begin_s + change_s + 1.0;
+            let roots = studio.walk(0.0, seconds, dt_s, plan, |body, _| body.root);
+            let [before, last] = [&roots[roots.len() - 2], &roots[roots.len() - 1]];
+            let gone_mps = (last.position_m - before.position_m) / dt_s;
+            let off_mps = gone_mps.distance(Vec2::new(to.x, to.z));
+            assert!(off_mps < 0.1, "from {from} to {to} at {begin_s} s in steps of {dt_s} s: goes at {gone_mps} m/s");
+        }
+    }
+}
+
+#[test]
 fn nobody_is_led_astray_by_a_side_step_that_no_clip_has() {
     let Some(db) = marine_without("nobody_is_led_astray_by_a_side_step_that_no_clip_has", "Strafe") else { return };
     // As it is: completed, it has side-steps.

@@ -65,8 +65,9 @@ impl Body {
         self.intention.follow(asked, self.gait.stands, step);
         let now = self.mix.parameters(motion.db);
         let nearest = motion.space.nearest(self.intention.parameters);
+        let ahead = self.intention.ahead(gait::PASSING_TIME_S);
         let mut gait = self.gait;
-        let starts = gait.follow(&nearest, || self.feet_gathered(motion), step.dt_s);
+        let starts = gait.follow(&nearest, ahead, || self.feet_gathered(motion), step.dt_s);
         self.gait = gait;
         if starts {
             self.jump(motion, step, |body| body.phase = body.first_step_phase(motion));

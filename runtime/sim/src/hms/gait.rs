@@ -15,7 +15,7 @@ use super::space::{Nearest, Space};
 /// not fall below ½.
 pub const IDLE_SHARE_MAX: f32 = 0.35;
 /// Slowest that the least steps are taken: a cadence of half a stroll's.
-const PACE_MIN: f32 = 0.3;
+pub const PACE_MIN: f32 = 0.3;
 /// A standing body starts where the asked parameters hold less standing than this …
 pub const START_IDLE_SHARE: f32 = 0.8;
 /// … and a stepping one stops where they hold more than this: the slowest steps, 1 − `PACE_MIN`·(1 −
@@ -29,6 +29,9 @@ const SLOWEST_MPS: f32 = 1.3;
 const GAIT_TIME_S: f32 = 0.4;
 /// … but who is asked for more standing than this stops at once: not even a direction is left to step in.
 const HALT_IDLE_SHARE: f32 = 0.95;
+/// Who will be asked to step after this time, if what is asked goes on to change as it does, passes by rest on its way
+/// to go elsewhere, s: from one side-step to the other at 2.5 m/s² that takes so long.
+pub const PASSING_TIME_S: f32 = 0.2;
 /// To stop, a body takes small steps until its feet are under it, for this long at most, s.
 const GATHERING_TIME_S: f32 = 1.2;
 /// Meanwhile it makes for this share of its present velocity, or for the least steps where those are more.
@@ -49,16 +52,22 @@ impl Gait {
     /// At the start: standing, ready to go.
     pub const STANDING: Self = Self { stands: true, since_s: GAIT_TIME_S, gathering_s: 0.0 };
 
-    /// Follows `nearest`, what the database has of what is asked, with hysteresis; `feet_gathered` tells whether the
-    /// body could stand as its feet are. Returns whether it now starts to step.
-    pub fn follow(&mut self, nearest: &Nearest, feet_gathered: impl FnOnce() -> bool, dt_s: f32) -> bool {
-        let Parameters { speed_mps, strafe_mps, .. } = nearest.parameters;
-        let idle_share = nearest.idle_share.min(1.0 - Vec2::new(speed_mps, strafe_mps).length() / SLOWEST_MPS);
+    /// Follows `nearest`, what the database has of what is asked, with hysteresis; `ahead` is what will be asked after
+    /// [`PASSING_TIME_S`], `feet_gathered` tells whether the body could stand as its feet are. Returns whether it now
+    /// starts to step.
+    pub fn follow(
+        &mut self,
+        nearest: &Nearest,
+        ahead: Parameters,
+        feet_gathered: impl FnOnce() -> bool,
+        dt_s: f32,
+    ) -> bool {
+        let idle_share = nearest.idle_share.min(slow_share(nearest.parameters));
         let lasted = self.since_s >= GAIT_TIME_S;
         let stop = !self.stands && (lasted && idle_share > STOP_IDLE_SHARE || idle_share > HALT_IDLE_SHARE);
         let start = self.stands && lasted && idle_share < START_IDLE_SHARE;
         self.gathering_s = if stop { self.gathering_s + dt_s } else { 0.0 };
-        if start || stop && (self.gathering_s > GATHERING_TIME_S || feet_gathered()) {
+        if start || self.gathering_s > GATHERING_TIME_S || stop && !passes_rest(ahead) && feet_gathered() {
             *self = Self { stands: !self.stands, since_s: 0.0, gathering_s: 0.0 };
         }
         self.since_s += dt_s;
@@ -69,6 +78,15 @@ impl Gait {
     fn gathers(&self) -> bool {
         self.gathering_s > 0.0
     }
+}
+
+/// The share of standing that a speed counts as, at least.
+fn slow_share(parameters: Parameters) -> f32 {
+    1.0 - Vec2::new(parameters.speed_mps, parameters.strafe_mps).length() / SLOWEST_MPS
+}
+
+fn passes_rest(ahead: Parameters) -> bool {
+    slow_share(ahead) < STOP_IDLE_SHARE
 }
 
 /// The parameters to make for: `nearest`, what the database has of what is asked, at steps no smaller than the least;

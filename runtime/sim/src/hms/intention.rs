@@ -51,6 +51,11 @@ impl Intention {
         self.parameters = Parameters::from_vec3(intended + share * (led - intended));
     }
 
+    /// What will be intended after a time, if it goes on to change as what is asked does.
+    pub fn ahead(&self, time_s: f32) -> Parameters {
+        Parameters::from_vec3(self.parameters.to_vec3() + time_s * self.rate)
+    }
+
     /// The facing has turned under velocities that are meant in the world.
     pub fn turned(&mut self, by_rad: f32) {
         let back = Vec2::from_angle(-by_rad);

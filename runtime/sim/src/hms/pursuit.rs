@@ -4,6 +4,8 @@
 //! The root moves straight from the parameters that the mix has towards those it makes for; the shares are those of the
 //! next point on that way, so a body passes the examples between. Where simplices are slim, poses differ much from one
 //! such point to the next, and following them would take for ever: then the shares move to those at the end of the way.
+//! They do so too where the way leads through rest, about which there are no steps so small: a body that goes the other
+//! way would else keep to the least steps of its first one.
 
 use motiondb::blend_space::Shares;
 use motiondb::parameters::Parameters;
@@ -36,7 +38,9 @@ pub fn follow(mix: &mut Mix, goal: Parameters, known: &Nearest, gait: Gait, moti
         Target { shares, pace, fraction, gone: fraction * part }
     };
     let near = target(next, step);
-    let far = (near.fraction < 1.0 && next != goal).then(|| target(goal, 1.0)).filter(|far| far.gone > near.gone);
+    let creeps = near.pace <= gait::PACE_MIN;
+    let far = (next != goal && (creeps || near.fraction < 1.0)).then(|| target(goal, 1.0));
+    let far = far.filter(|far| creeps || far.gone > near.gone);
     let Target { shares, pace, fraction, .. } = far.unwrap_or(near);
     mix.approach(&shares, pace, fraction);
 }
