@@ -10,7 +10,7 @@ use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::recording::{Header, Recorder};
-use fbcrowd_sim::recording_frame::AgentFrame;
+use fbcrowd_sim::recording::frame::AgentFrame;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use glam::Vec2;
 

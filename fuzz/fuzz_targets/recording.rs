@@ -5,10 +5,10 @@
 use std::fs;
 
 use fbcrowd_fuzz::on_disk;
-use fbcrowd_sim::metrics::measure;
+use fbcrowd_sim::measures::metrics::measure;
 use fbcrowd_sim::recording::Recording;
-use fbcrowd_sim::recording_chunk::{CHUNK_HEAD_BYTES, write_chunk};
-use fbcrowd_sim::recording_packing::{PACKED_BYTES, unpack};
+use fbcrowd_sim::recording::chunk::{CHUNK_HEAD_BYTES, write_chunk};
+use fbcrowd_sim::recording::packing::{PACKED_BYTES, unpack};
 use libfuzzer_sys::fuzz_target;
 
 /// Magic and version stand before the first chunk.

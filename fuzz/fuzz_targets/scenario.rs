@@ -4,7 +4,7 @@
 use std::fs;
 
 use fbcrowd_fuzz::on_disk;
-use fbcrowd_sim::scenario_file;
+use fbcrowd_sim::scenario;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -16,6 +16,6 @@ fuzz_target!(|bytes: &[u8]| {
 
 fn read(text: &[u8]) {
     let path = on_disk("toml", text);
-    let _ = scenario_file::read(&path);
+    let _ = scenario::file::read(&path);
     fs::remove_file(path).expect("it was written just now");
 }

@@ -3,7 +3,7 @@
 //! Bones come from forward kinematics, girths from the skeleton's `segment_radii_m`; what a capsule per bone does not
 //! give (a trunk broader than deep, a face, hair) is composed here from several. World metres, z up.
 
-use fbcrowd_sim::recording_frame::AgentFrame;
+use fbcrowd_sim::recording::frame::AgentFrame;
 use glam::Vec3;
 use motiondb::pose::Joints;
 use motiondb::skeleton::{Joint, Side, Skeleton};

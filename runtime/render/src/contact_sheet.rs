@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use fbcrowd_sim::recording_frame::AgentFrame;
+use fbcrowd_sim::recording::frame::AgentFrame;
 use glam::{Mat3, Quat, Vec2, Vec3};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::pose::Pose;

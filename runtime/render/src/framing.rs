@@ -5,8 +5,8 @@
 
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::scenario::View;
-use fbcrowd_sim::scenario_check::Fault;
-use fbcrowd_sim::scenario_ranges::check_view;
+use fbcrowd_sim::scenario::check::Fault;
+use fbcrowd_sim::scenario::ranges::check_view;
 use glam::Vec2;
 
 use crate::error::RenderError;

@@ -3,8 +3,8 @@
 use std::f32::consts::{PI, TAU};
 
 use fbcrowd_sim::recording::Recording;
-use fbcrowd_sim::recording_error::RecordingError;
-use fbcrowd_sim::recording_frame::AgentFrame;
+use fbcrowd_sim::recording::error::RecordingError;
+use fbcrowd_sim::recording::frame::AgentFrame;
 use glam::Vec2;
 use motiondb::pose::{Pose, Root};
 use rayon::prelude::*;

@@ -5,7 +5,7 @@
 //! so that frames can be drawn in any order and on any thread.
 
 use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::recording_frame::AgentFrame;
+use fbcrowd_sim::recording::frame::AgentFrame;
 use glam::{Vec2, Vec3};
 use tiny_skia::Pixmap;
 

@@ -11,7 +11,7 @@ use crate::cns::Coupling;
 use crate::hms::{Body, Motion};
 use crate::path::Progress;
 use crate::plan::{Plan, Stance};
-use crate::recording_frame::AgentFrame;
+use crate::recording::frame::AgentFrame;
 use crate::scenario::Scenario;
 use crate::split_mix::SplitMix64;
 

@@ -1,56 +1,34 @@
 //! The simulation: one step in the order of the paper's Fig. 2, told in [`step`].
 
-pub mod agent_table;
 pub mod agents;
 pub mod angle;
-pub mod arching;
 pub mod around;
 pub mod arrival;
 pub mod blocked_ways;
-pub mod body_penetration;
 pub mod cns;
-pub mod collision_rate;
 pub mod crowd;
 pub mod decay;
 pub mod decoupled;
-pub mod gate;
 pub mod hms;
-pub mod lanes;
 pub mod mcn;
-pub mod measured_section;
-pub mod metrics;
+pub mod measures;
 pub mod neighbours;
 pub mod obstacles;
 pub mod params;
 pub mod path;
 pub mod plan;
 pub mod planner;
-pub mod planted_slide;
 pub mod polygon;
 pub mod reasons;
 pub mod recording;
-pub mod recording_chunk;
-pub mod recording_error;
-pub mod recording_frame;
-pub mod recording_packing;
 pub mod replay;
 pub mod rivals;
-pub mod root_measures;
 pub mod scenario;
-mod scenario_agents;
-pub mod scenario_check;
-pub mod scenario_error;
-pub mod scenario_file;
-mod scenario_point;
-pub mod scenario_ranges;
 pub mod segment_distance;
 pub mod split_mix;
 pub mod step;
 mod sweep;
-pub mod turned_world;
-pub mod wall_contact;
-pub mod wild_program;
-pub mod wild_world;
+pub mod wild;
 pub mod world;
 
 #[cfg(test)]

@@ -2,16 +2,21 @@
 //! others.
 //!
 //! A magic of 8 bytes (among them those that a transfer in text mode would change), the format version as u32, then
-//! [chunks](crate::recording_chunk), little-endian:
+//! [chunks](crate::recording::chunk), little-endian:
 //!
 //! - `HEAD` comes first: the [`Header`], bincode with fixed-size integers;
-//! - one `FRAM` a frame: zlib over the [packed](crate::recording_packing) agents, all their first bytes, all their
+//! - one `FRAM` a frame: zlib over the [packed](crate::recording::packing) agents, all their first bytes, all their
 //!   second bytes, …;
 //! - `INDX`: the byte at which each `FRAM` begins, u64 each;
 //! - `TAIL` ends the file: the byte at which `INDX` begins, u64.
 //!
 //! Frame 0 is the start, frame k the state after k steps. The writer holds one frame and the offsets, the reader the
 //! header and the offsets.
+
+pub mod chunk;
+pub mod error;
+pub mod frame;
+pub mod packing;
 
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -26,12 +31,12 @@ use motiondb::skeleton::Skeleton;
 use motiondb::velocity_hull::VelocityHull;
 use serde::{Deserialize, Serialize};
 
-use crate::recording_chunk::{CHUNK_HEAD_BYTES, ChunkFile, Kind, write_chunk};
-use crate::recording_error::RecordingError;
-use crate::recording_frame::AgentFrame;
-use crate::recording_packing::{PACKED_BYTES, pack, unpack};
+use self::chunk::{CHUNK_HEAD_BYTES, ChunkFile, Kind, write_chunk};
+use self::error::RecordingError;
+use self::frame::AgentFrame;
+use self::packing::{PACKED_BYTES, pack, unpack};
 use crate::scenario::Scenario;
-use crate::scenario_ranges::check_ranges;
+use crate::scenario::ranges::check_ranges;
 
 /// Raised when a reader of the old version would misread the new one.
 pub const FORMAT_VERSION: u32 = 1;

@@ -15,9 +15,9 @@ use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::plan::Stance;
 use crate::planner::ahead_s;
+use crate::recording::error::RecordingError;
+use crate::recording::frame::AgentFrame;
 use crate::recording::{Header, Recording};
-use crate::recording_error::RecordingError;
-use crate::recording_frame::AgentFrame;
 use crate::scenario::Scenario;
 use crate::world::World;
 

@@ -1,5 +1,12 @@
 //! A scenario, resolved: every agent explicit, nothing that names a path.
 
+mod agents;
+pub mod check;
+pub mod error;
+pub mod file;
+mod point;
+pub mod ranges;
+
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +14,6 @@ use crate::cns::Coupling;
 use crate::hms::params::Modes;
 use crate::params::Params;
 use crate::planner::Planner;
-use crate::scenario_point;
 
 /// What is simulated. A recording carries it whole.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,7 +97,7 @@ pub struct View {
     /// Frames a second of the sequence; the recording is sampled at it.
     pub frame_rate_hz: f32,
     /// Centre of the picture, world, metres; framed automatically where absent.
-    #[serde(deserialize_with = "scenario_point::optional")]
+    #[serde(deserialize_with = "point::optional")]
     pub centre_m: Option<Vec2>,
     /// Metres across the picture's width; framed automatically where absent.
     pub width_m: Option<f32>,

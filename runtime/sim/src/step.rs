@@ -27,7 +27,7 @@ use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
 use crate::path::{self, Braking};
 use crate::planner::ahead_s;
-use crate::recording_frame::AgentFrame;
+use crate::recording::frame::AgentFrame;
 use crate::scenario::Scenario;
 use crate::world::World;
 

@@ -3,10 +3,10 @@
 mod common;
 
 use common::{agent, folder, header, record, standing_at};
-use fbcrowd_sim::metrics::{Measures, measure, write_trajectories};
+use fbcrowd_sim::measures::metrics::{Measures, measure, write_trajectories};
 use fbcrowd_sim::plan::VelocitySet;
 use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::recording_frame::AgentFrame;
+use fbcrowd_sim::recording::frame::AgentFrame;
 use glam::{Quat, Vec2, Vec3};
 use motiondb::skeleton::{Joint, Skeleton};
 

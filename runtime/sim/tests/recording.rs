@@ -6,10 +6,10 @@ use std::fs;
 use std::path::Path;
 
 use common::{agent, folder, header, record, standing_at};
+use fbcrowd_sim::recording::chunk::write_chunk;
+use fbcrowd_sim::recording::error::RecordingError;
+use fbcrowd_sim::recording::frame::AgentFrame;
 use fbcrowd_sim::recording::{Recorder, Recording};
-use fbcrowd_sim::recording_chunk::write_chunk;
-use fbcrowd_sim::recording_error::RecordingError;
-use fbcrowd_sim::recording_frame::AgentFrame;
 use glam::{Quat, Vec2};
 use motiondb::pose::Joints;
 use proptest::prelude::*;

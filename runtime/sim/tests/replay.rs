@@ -11,8 +11,7 @@ use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::reasons::Reasons;
 use fbcrowd_sim::recording::{Header, Recorder, Recording};
 use fbcrowd_sim::replay::Replay;
-use fbcrowd_sim::scenario::Scenario;
-use fbcrowd_sim::scenario_file;
+use fbcrowd_sim::scenario::{self, Scenario};
 use fbcrowd_sim::step::Simulation;
 use motiondb::motion_db::MotionDb;
 
@@ -22,7 +21,7 @@ const STANCE_TOLERANCE_MPS: f32 = 1e-3;
 
 fn scenario(name: &str, planner: Planner, duration_s: f32) -> Scenario {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/scenarios/{name}.toml"));
-    let (scenario, _) = scenario_file::read(&file).unwrap();
+    let (scenario, _) = scenario::file::read(&file).unwrap();
     Scenario { planner, duration_s, ..scenario }
 }
 

@@ -13,8 +13,8 @@ use fbcrowd_sim::hms::params::{Modes, Transition};
 use fbcrowd_sim::mcn::params::StanceForm;
 use fbcrowd_sim::planner::Planner;
 use fbcrowd_sim::scenario::Scenario;
-use fbcrowd_sim::scenario_error::{Invalid, ScenarioError};
-use fbcrowd_sim::scenario_file::{MotionSource, read};
+use fbcrowd_sim::scenario::error::{Invalid, ScenarioError};
+use fbcrowd_sim::scenario::file::{MotionSource, read};
 use glam::Vec2;
 
 const HEAD: &str = "clips = \".\"\nduration_s = 10\n";

@@ -10,11 +10,11 @@ use fbcrowd_sim::hms::params::{HmsParams, Modes};
 use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::hms::time_step::TimeStep;
 use fbcrowd_sim::hms::{Body, Synthesis};
+use fbcrowd_sim::measures::planted_slide::{PlantedSlide, Slide};
 use fbcrowd_sim::obstacles::Obstacles;
 use fbcrowd_sim::plan::Plan;
-use fbcrowd_sim::planted_slide::{PlantedSlide, Slide};
-use fbcrowd_sim::recording_frame::AgentFrame;
-use fbcrowd_sim::scenario_file;
+use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::scenario;
 use fbcrowd_sim::step::Simulation;
 use glam::{Quat, Vec2};
 use motiondb::motion_db::MotionDb;
@@ -133,7 +133,7 @@ fn a_body_that_has_stopped_rests() {
 #[test]
 fn everyone_leaves_the_room_and_no_root_comes_into_a_wall() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenarios/bottleneck.toml");
-    let (scenario, _) = scenario_file::read(&file).unwrap();
+    let (scenario, _) = scenario::file::read(&file).unwrap();
     let obstacles = Obstacles::new(&scenario.obstacles_m);
     let mut simulation = Simulation::new(Arc::new(bundled()), &scenario);
     let mut arrived = vec![false; scenario.agents.len()];

@@ -9,13 +9,16 @@
 //! levelling on the ground removes later; on bones the channel's mean decides: near OFFSET it replaces, near zero it
 //! adds.
 
+mod hierarchy;
+pub(crate) mod prepass;
+
 use std::path::Path;
 
 use bvh_anim::{Axis, Bvh, Channel};
 use glam::{DQuat, DVec3};
 
-use crate::bvh_hierarchy::CheckedJoint;
-use crate::bvh_prepass::{self, CheckedBvh, Motion};
+use self::hierarchy::CheckedJoint;
+use self::prepass::{CheckedBvh, Motion};
 use crate::error::ImportError;
 use crate::source_clip::{SourceClip, SourceJoint};
 
@@ -24,7 +27,7 @@ use crate::source_clip::{SourceClip, SourceJoint};
 /// # Errors
 /// [`ImportError::Bvh`] with the line that is malformed.
 pub fn read(file: &Path, bytes: &[u8]) -> Result<SourceClip, ImportError> {
-    let checked = bvh_prepass::check(bytes).map_err(|flaw| ImportError::Bvh {
+    let checked = prepass::check(bytes).map_err(|flaw| ImportError::Bvh {
         file: file.to_owned(),
         line: flaw.line,
         problem: flaw.problem,

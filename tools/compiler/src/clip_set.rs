@@ -7,7 +7,7 @@ use crate::error::ImportError;
 use crate::human_clip::HumanClip;
 use crate::import::{self, Import};
 use crate::manifest::Manifest;
-use crate::manifest_error::ManifestError;
+use crate::manifest::error::ManifestError;
 use crate::names;
 use crate::progress::{Event, Observer};
 use crate::refused::Refused;

@@ -24,7 +24,7 @@ use crate::compile_error::CompileError;
 use crate::cycle::{GaitCycle, NamedCycle};
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::manifest::Manifest;
-use crate::manifest_error::ManifestError;
+use crate::manifest::error::ManifestError;
 use crate::progress::{Event, Observer};
 use crate::refused::Refused;
 use crate::{

@@ -2,7 +2,7 @@
 
 use motiondb::motion_db::SourceRecord;
 
-use crate::manifest_error::ManifestError;
+use crate::manifest::error::ManifestError;
 use crate::refused::Refused;
 
 /// No database could be made.

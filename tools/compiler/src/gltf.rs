@@ -6,17 +6,23 @@
 //!
 //! Clips are read one by one from the open file: a file of thousands of animations is never held as thousands of clips.
 
+mod accessor;
+pub(crate) mod buffers;
+pub(crate) mod document;
+mod plan;
+mod track;
+mod tree;
+
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
 use motiondb::remark::Kind;
 
+use self::document::{Document, Flaw, Transform, flaw};
+use self::plan::{Plan, Span, plans, sources};
+use self::track::Track;
+use self::tree::{Body, Tree};
 use crate::error::ImportError;
-use crate::gltf_accessor;
-use crate::gltf_document::{Document, Flaw, Transform, flaw};
-use crate::gltf_plan::{Plan, Span, plans, sources};
-use crate::gltf_track::{self, Track};
-use crate::gltf_tree::{Body, Tree};
 use crate::source_clip::{SourceClip, SourceJoint};
 
 /// Sampling rate: that of most recorded clips; keys of animated characters are no denser.
@@ -150,14 +156,14 @@ fn tracks(document: &Document, animation: usize, is_in: &[bool]) -> Result<Vec<T
     let sources = sources(document, animation, is_in)?;
     let mut keys = 0_usize;
     for source in &sources {
-        keys = keys.saturating_add(gltf_accessor::count(document, source.input)?);
-        keys = keys.saturating_add(gltf_accessor::count(document, source.output)?);
+        keys = keys.saturating_add(accessor::count(document, source.input)?);
+        keys = keys.saturating_add(accessor::count(document, source.output)?);
     }
     if keys > FREE_KEYS.saturating_add(KEYS_PER_BYTE.saturating_mul(document.byte_count)) {
         let name = format!("animation {animation}");
         return flaw(name, "its tracks share their keys beyond measure", "export it with keys of their own");
     }
-    sources.iter().map(|source| gltf_track::read(document, source)).collect()
+    sources.iter().map(|source| track::read(document, source)).collect()
 }
 
 /// The right-handed frame along a matrix's first two axes: fixed to the bone, also under scales and mirrors.

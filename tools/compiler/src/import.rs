@@ -21,9 +21,7 @@ use crate::skeleton_map::{Roles, find_roles};
 use crate::source_clip::SourceClip;
 use crate::source_parameters::WholeClip;
 use crate::take::{Settings, Take};
-use crate::{
-    bvh, carried, facing, first_pose, gltf_buffers, gltf_document, plausibility, retarget, source_parameters, units,
-};
+use crate::{bvh, carried, facing, first_pose, gltf, plausibility, retarget, source_parameters, units};
 
 /// Cosine of half the least angle that is a turn (0.05°), and the least swing of a leg, over its length.
 const UNTURNED: f64 = 1.0 - 1e-7;
@@ -149,7 +147,7 @@ pub fn clip_files(folder: &Path) -> Result<Vec<PathBuf>, ImportError> {
 pub fn linked_files(path: &Path) -> Vec<PathBuf> {
     let Some(Format::Gltf) = Format::of(path) else { return Vec::new() };
     input_file::read(path)
-        .map_or_else(|_| Vec::new(), |bytes| gltf_buffers::files_of(path, &gltf_document::uris(&bytes)))
+        .map_or_else(|_| Vec::new(), |bytes| gltf::buffers::files_of(path, &gltf::document::uris(&bytes)))
 }
 
 enum Format {

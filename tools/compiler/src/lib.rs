@@ -19,25 +19,15 @@ pub mod refused;
 // What is to be compiled: a manifest's tables, or every clip of a folder.
 pub mod clip_set;
 pub mod manifest;
-pub mod manifest_error;
-mod manifest_table;
 mod names;
 pub mod near_names;
 pub mod take;
 
 // Files → SourceClip: global positions and orientations of named joints.
 pub mod bvh;
-mod bvh_hierarchy;
-mod bvh_prepass;
 mod decimal;
 pub mod error;
 pub mod gltf;
-mod gltf_accessor;
-mod gltf_buffers;
-mod gltf_document;
-mod gltf_plan;
-mod gltf_track;
-mod gltf_tree;
 pub mod import;
 mod quiet_unwind;
 pub mod source_clip;

@@ -32,6 +32,9 @@
 //! A file's own table counts most, then its innermost folder's; of two of one folder the later. So `path = "."` with
 //! `skip = true` leaves only what other tables name.
 
+pub mod error;
+mod table;
+
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -40,12 +43,12 @@ use motiondb::velocity_hull::Construction;
 use serde::Deserialize;
 use toml::Spanned;
 
+use self::error::ManifestError;
+use self::table::Table;
 use crate::compile::Options;
 use crate::error::Refusal;
 use crate::human_clip::HumanClip;
 use crate::import;
-use crate::manifest_error::ManifestError;
-use crate::manifest_table::Table;
 use crate::near_names::nearest_first;
 use crate::take::Take;
 

@@ -10,7 +10,7 @@ use std::path::Path;
 use motiondb::median;
 
 use crate::error::ImportError;
-use crate::{bvh, bvh_prepass, quiet_unwind};
+use crate::{bvh, quiet_unwind};
 
 /// Seconds that both readers took for one file, the median of several times.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ pub struct Race {
 /// Where the file is no BVH.
 pub fn race(file: &Path, bytes: &[u8], times: usize, clock: &dyn Fn() -> f64) -> Result<Race, ImportError> {
     let clip = bvh::read(file, bytes)?;
-    let canonical = bvh_prepass::check(bytes).map(|checked| checked.text(usize::MAX).into_bytes()).unwrap_or_default();
+    let canonical = bvh::prepass::check(bytes).map(|checked| checked.text(usize::MAX).into_bytes()).unwrap_or_default();
     // A lying `Frames:` is warned of; one that claims terabytes would end the process.
     let survives =
         clip.warnings.is_empty() && quiet_unwind::catch(|| bvh_anim::from_bytes(bytes).is_ok()) == Some(true);

@@ -9,7 +9,7 @@ use motiondb::source_text::{Invalid, SourceText};
 use motiondb_compiler::compile::{Compiled, compile_manifest};
 use motiondb_compiler::compile_error::CompileError;
 use motiondb_compiler::manifest::Manifest;
-use motiondb_compiler::manifest_error::ManifestError;
+use motiondb_compiler::manifest::error::ManifestError;
 use proptest::prelude::*;
 
 const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");

@@ -8,7 +8,7 @@ use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use motiondb::motion_db::SourceRecord;
 use motiondb::source_text::Invalid;
 use motiondb_compiler::compile_error::CompileError;
-use motiondb_compiler::manifest_error::ManifestError;
+use motiondb_compiler::manifest::error::ManifestError;
 use motiondb_compiler::refused::Refused;
 
 use crate::compile_report::CompileReport;

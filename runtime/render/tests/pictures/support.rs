@@ -3,8 +3,8 @@
 use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
 
+use fbcrowd_sim::recording::frame::AgentFrame;
 use fbcrowd_sim::recording::{Header, Recorder};
-use fbcrowd_sim::recording_frame::AgentFrame;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use glam::{Quat, Vec2, Vec3};
 use motiondb::pose::{Pose, Root};

@@ -143,7 +143,7 @@ pub fn speed_limit_mps(density: f32, params: &McnParams) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measured_section::weidmann_mps;
+    use crate::measures::measured_section::weidmann_mps;
     use crate::neighbours::NEIGHBOUR_COUNT;
 
     const LEAD_S: f32 = 0.3;

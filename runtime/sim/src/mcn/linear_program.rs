@@ -188,7 +188,7 @@ mod tests {
 
     use super::*;
     use crate::mcn::half_plane::Source;
-    use crate::wild_program::{SPEED_MAX_MPS, judged};
+    use crate::wild::program::{SPEED_MAX_MPS, judged};
 
     fn half_planes(counts: std::ops::Range<usize>) -> impl Strategy<Value = Vec<HalfPlane>> {
         let one = (0.0f32..std::f32::consts::TAU, -0.6f32..1.5, 0.2f32..3.0);

@@ -3,8 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
+use fbcrowd_sim::recording::frame::AgentFrame;
 use fbcrowd_sim::recording::{Header, Recorder, Recording};
-use fbcrowd_sim::recording_frame::AgentFrame;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use glam::{Vec2, Vec3};
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use fbcrowd_render::sequence::{Format, SequenceOptions};
-use fbcrowd_sim::metrics;
-use fbcrowd_sim::scenario_file::{self, MotionSource};
+use fbcrowd_sim::measures::metrics;
+use fbcrowd_sim::scenario;
+use fbcrowd_sim::scenario::file::MotionSource;
 use motiondb::file;
 use motiondb_compiler::compile::Compiled;
 
@@ -33,7 +34,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let (scenario, motion) = scenario_file::read(&args.scenario)?;
+    let (scenario, motion) = scenario::file::read(&args.scenario)?;
     let name = scenario.name.clone();
     let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let recording_path = folder.join(format!("{name}.fbrec"));

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::hms::params::Modes;
-use fbcrowd_sim::metrics::Measures;
+use fbcrowd_sim::measures::metrics::Measures;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, conclude};

@@ -7,9 +7,9 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_sim::arching::{SECTORS, Shape, WaitingCrowd};
-use fbcrowd_sim::gate::Gate;
-use fbcrowd_sim::lanes::{LaneOrder, LaneWalker, lane_order};
+use fbcrowd_sim::measures::arching::{SECTORS, Shape, WaitingCrowd};
+use fbcrowd_sim::measures::gate::Gate;
+use fbcrowd_sim::measures::lanes::{LaneOrder, LaneWalker, lane_order};
 use fbcrowd_sim::scenario::Scenario;
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;

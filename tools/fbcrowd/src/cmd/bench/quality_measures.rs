@@ -6,8 +6,8 @@ use std::ops::Range;
 
 use fbcrowd_sim::hms::blending::Mix;
 use fbcrowd_sim::hms::space::Space;
+use fbcrowd_sim::measures::planted_slide::PlantedSlide;
 use fbcrowd_sim::plan::PLANTED_CONTACT;
-use fbcrowd_sim::planted_slide::PlantedSlide;
 use glam::Vec3;
 use motiondb::motion_db::MotionDb;
 use motiondb::pose::Joints;

@@ -6,7 +6,7 @@ use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::hms::time_step::TimeStep;
 use fbcrowd_sim::plan::Plan;
-use fbcrowd_sim::recording_frame::AgentFrame;
+use fbcrowd_sim::recording::frame::AgentFrame;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::pose::{Joints, Root};

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use fbcrowd_render::diagram_plot::{Diagram, diagram};
 use fbcrowd_render::png_frame;
-use fbcrowd_sim::measured_section::weidmann_mps;
+use fbcrowd_sim::measures::measured_section::weidmann_mps;
 use glam::Vec2;
 use serde::Serialize;
 

@@ -5,9 +5,9 @@
 //! compared with those that went in or were published, and leaves the margin to whoever compares: ours stand below,
 //! with their reasons. World, metres, seconds.
 
-use fbcrowd_sim::arching::WaitingCrowd;
-use fbcrowd_sim::gate::Gate;
-use fbcrowd_sim::measured_section::{MeasuredSection, weidmann_mps};
+use fbcrowd_sim::measures::arching::WaitingCrowd;
+use fbcrowd_sim::measures::gate::Gate;
+use fbcrowd_sim::measures::measured_section::{MeasuredSection, weidmann_mps};
 use fbcrowd_sim::obstacles::Obstacles;
 use glam::Vec2;
 use serde::Serialize;

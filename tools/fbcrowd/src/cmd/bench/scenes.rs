@@ -10,9 +10,8 @@ use std::path::{Path, PathBuf};
 use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planner::Planner;
-use fbcrowd_sim::scenario::{AgentSpec, Scenario};
-use fbcrowd_sim::scenario_check;
-use fbcrowd_sim::scenario_file::{agents_of_lines, fault_of_lines};
+use fbcrowd_sim::scenario::file::{agents_of_lines, fault_of_lines};
+use fbcrowd_sim::scenario::{self, AgentSpec, Scenario};
 use motiondb::source_text::SourceText;
 
 use crate::failure::Failure;
@@ -125,7 +124,7 @@ fn scene(text: &SourceText) -> Result<Scene, Failure> {
     let (name, seed) = name_and_seed(&stem);
     let scene = Scene { name: name.to_owned(), seed, agents: agents_of_lines(text)? };
     let scenario = scene.scenario(Planner::default(), Coupling::default(), Params::default());
-    scenario_check::check(&scenario).map_err(|fault| fault_of_lines(text, fault))?;
+    scenario::check::check(&scenario).map_err(|fault| fault_of_lines(text, fault))?;
     Ok(scene)
 }
 

@@ -2,7 +2,7 @@
 //! ever end the program, take for ever or do harm?
 //!
 //! One file a kind of input; worlds, turned scenes and linear programs are drawn and judged by
-//! [`fbcrowd_sim::wild_world`], [`fbcrowd_sim::turned_world`] and [`fbcrowd_sim::wild_program`]. Each copy draws its
+//! [`fbcrowd_sim::wild::world`], [`fbcrowd_sim::wild::turned_world`] and [`fbcrowd_sim::wild::program`]. Each copy draws its
 //! own random numbers from a seed of its own, the run's seed plus its number, so that one copy can be made again alone.
 
 mod clip;
@@ -18,9 +18,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::turned_world;
-use fbcrowd_sim::wild_program;
-use fbcrowd_sim::wild_world::WildWorld;
+use fbcrowd_sim::wild;
+use fbcrowd_sim::wild::turned_world;
+use fbcrowd_sim::wild::world::WildWorld;
 use motiondb::motion_db::MotionDb;
 use motiondb::velocity_hull::VelocityHull;
 use motiondb::{file, validate};
@@ -172,7 +172,7 @@ fn kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Result<Ve
         kind("recordings", args.mutated, Box::new(move |draw: &mut Draw| recording::read(&recording, scratch, draw))),
         kind("wild worlds", args.worlds, Box::new(move |draw: &mut Draw| wild_world(&hull, draw))),
         kind("turned scenes", args.turned, Box::new(turned)),
-        kind("linear programs", args.programs, Box::new(|draw: &mut Draw| fate(wild_program::fault(draw.seed(), 0)))),
+        kind("linear programs", args.programs, Box::new(|draw: &mut Draw| fate(wild::program::fault(draw.seed(), 0)))),
     ])
 }
 

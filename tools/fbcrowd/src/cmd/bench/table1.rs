@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use fbcrowd_sim::hms::params::Modes;
-use fbcrowd_sim::metrics::Measures;
+use fbcrowd_sim::measures::metrics::Measures;
 use serde::Serialize;
 
 use super::bar::{Bar, Found, Goal, conclude};

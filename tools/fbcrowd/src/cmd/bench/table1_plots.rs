@@ -7,7 +7,7 @@ use fbcrowd_render::comparison_plot::{Comparison, Measure, comparison};
 use fbcrowd_render::error::RenderError;
 use fbcrowd_render::png_frame;
 use fbcrowd_render::side_by_side::{Way, side_by_side};
-use fbcrowd_sim::metrics::Measures;
+use fbcrowd_sim::measures::metrics::Measures;
 
 use super::contest::{Contestant, Run};
 use super::scenes::Scene;

@@ -9,10 +9,9 @@ use std::sync::Arc;
 use fbcrowd_render::png_frame;
 use fbcrowd_render::trails::Tracks;
 use fbcrowd_render::trajectories::trajectories;
-use fbcrowd_sim::metrics::{Measures, Measuring};
+use fbcrowd_sim::measures::metrics::{Measures, Measuring};
 use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::scenario::Scenario;
-use fbcrowd_sim::scenario_file;
+use fbcrowd_sim::scenario::{self, Scenario};
 use fbcrowd_sim::step::Simulation;
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
@@ -64,7 +63,7 @@ impl Watched {
 pub(super) fn scenario((path, text): (&str, &str)) -> Result<Scenario, Failure> {
     let text = SourceText { path: PathBuf::from(path), text: text.to_owned() };
     // The bench brings its own database, whatever the file names.
-    let (scenario, _) = scenario_file::of_text(&text)?;
+    let (scenario, _) = scenario::file::of_text(&text)?;
     Ok(scenario)
 }
 

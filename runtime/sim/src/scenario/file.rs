@@ -4,7 +4,7 @@
 //! clips = "../clips"                  # or database = "x.fbdb"; a folder, file or manifest, relative to this file;
 //!                                     # neither where whoever reads it brings a database
 //! duration_s = 30.0
-//! agents = { circle = { count = 17, radius_m = 4.0 } }    # or [[agents]] tables: see `scenario_agents.rs`
+//! agents = { circle = { count = 17, radius_m = 4.0 } }    # or [[agents]] tables: see `agents.rs` beside
 //!
 //! # All that follows may be left out.
 //! name = "antipodal"                  # the file's stem
@@ -28,15 +28,15 @@ use motiondb::source_text::SourceText;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::agents::{Complaint, Group, Groups, Journey, Kind, check_size, line_span, parse_lines};
+use super::check::{Fault, Place, check};
+use super::error::ScenarioError;
+use super::point::Point;
+use super::{AgentSpec, Scenario, View};
 use crate::cns::Coupling;
 use crate::params::Params;
 use crate::planner::Planner;
 use crate::polygon::signed_area_m2;
-use crate::scenario::{AgentSpec, Scenario, View};
-use crate::scenario_agents::{Complaint, Group, Groups, Journey, Kind, check_size, line_span, parse_lines};
-use crate::scenario_check::{Fault, Place, check};
-use crate::scenario_error::ScenarioError;
-use crate::scenario_point::Point;
 use crate::split_mix::SplitMix64;
 
 const STEP_S: f32 = 1.0 / 30.0;

@@ -18,9 +18,9 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use crate::scenario::AgentSpec;
-use crate::scenario_point::Point;
-use crate::scenario_ranges::{AGENTS_MAX, COORDINATE_MAX_M};
+use super::AgentSpec;
+use super::point::Point;
+use super::ranges::{AGENTS_MAX, COORDINATE_MAX_M};
 use crate::split_mix::SplitMix64;
 
 /// Disc of an agent, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected trunk, and

@@ -1,4 +1,4 @@
-//! Reads a BVH text strictly: the motion's numbers at once, the hierarchy (`bvh_hierarchy`) into a canonical one for
+//! Reads a BVH text strictly: the motion's numbers at once, the hierarchy (`hierarchy`) into a canonical one for
 //! `bvh_anim`.
 //!
 //! `bvh_anim` cuts joint names at blanks and colons, drops leaves without an End Site, panics on a BOM or a nameless
@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use motiondb::input_file;
 use motiondb::remark::{Kind, Remark};
 
-use crate::bvh_hierarchy::{CheckedJoint, canonical, hierarchy};
+use super::hierarchy::{CheckedJoint, canonical, hierarchy};
 use crate::decimal;
 
 /// Joint-frames for each number of the motion section. A joint has at least one channel in practice, end sites add one

@@ -1,8 +1,8 @@
 //! What a simulation shows in numbers (`FbCrowd` App. 11), streamed: two frames at a time.
 //!
-//! Collisions of discs stand in [`collision_rate`](crate::collision_rate), those of bodies in
-//! [`body_penetration`](crate::body_penetration), accelerations, arrivals, detours and tracking in
-//! [`root_measures`](crate::root_measures), foot slide in [`planted_slide`](crate::planted_slide). Positions are those
+//! Collisions of discs stand in [`collision_rate`](crate::measures::collision_rate), those of bodies in
+//! [`body_penetration`](crate::measures::body_penetration), accelerations, arrivals, detours and tracking in
+//! [`root_measures`](crate::measures::root_measures), foot slide in [`planted_slide`](crate::measures::planted_slide). Positions are those
 //! of the root as synthesised.
 
 use std::io::{self, Write};
@@ -12,15 +12,15 @@ use motiondb::pose::Joints;
 use motiondb::skeleton::Skeleton;
 use serde::Serialize;
 
-use crate::body_penetration::BodyPenetration;
-use crate::collision_rate::Collisions;
-use crate::planted_slide::PlantedSlide;
+use super::body_penetration::BodyPenetration;
+use super::collision_rate::Collisions;
+use super::planted_slide::PlantedSlide;
+use super::root_measures::RootMeasures;
+use super::wall_contact::WallContact;
 use crate::recording::Recording;
-use crate::recording_error::RecordingError;
-use crate::recording_frame::AgentFrame;
-use crate::root_measures::RootMeasures;
+use crate::recording::error::RecordingError;
+use crate::recording::frame::AgentFrame;
 use crate::scenario::Scenario;
-use crate::wall_contact::WallContact;
 
 /// The figures of one simulation, under the names of `measure --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]

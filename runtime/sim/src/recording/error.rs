@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use crate::recording::FORMAT_VERSION;
+use super::FORMAT_VERSION;
 
 /// Why a recording cannot be written or read.
 #[derive(Debug, thiserror::Error)]

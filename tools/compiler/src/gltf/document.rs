@@ -13,8 +13,9 @@ use gltf::json::validation::{Error, Validate};
 use gltf::json::{self, Index, Root, buffer::View};
 use motiondb::input_file;
 
-use crate::gltf_track::normal;
-use crate::{gltf_buffers, gltf_track, quiet_unwind};
+use super::track::normal;
+use super::{buffers, track};
+use crate::quiet_unwind;
 
 /// Flaws of one document that a message lists, and the letters of any other message.
 const SHOWN_FLAWS: usize = 3;
@@ -62,7 +63,7 @@ impl<'a> Document<'a> {
         let mut document = Self { buffers: vec![None; root.buffers.len()], root, byte_count: bytes.len(), left_out };
         for index in document.used_buffers() {
             let Some(buffer) = document.root.buffers.get(index) else { continue };
-            let read = gltf_buffers::read(file, index, buffer, chunk.as_ref())?;
+            let read = buffers::read(file, index, buffer, chunk.as_ref())?;
             document.byte_count += if let Cow::Owned(read) = &read { read.len() } else { 0 };
             document.buffers[index] = Some(read);
         }
@@ -86,8 +87,7 @@ impl<'a> Document<'a> {
     fn used_buffers(&self) -> BTreeSet<usize> {
         let mut views = BTreeSet::new();
         for animation in &self.root.animations {
-            let sources =
-                animation.channels.iter().filter_map(|channel| gltf_track::source(animation, channel).ok()?);
+            let sources = animation.channels.iter().filter_map(|channel| track::source(animation, channel).ok()?);
             for accessor in sources.flat_map(|source| [source.input, source.output]) {
                 let Some(accessor) = self.root.accessors.get(accessor) else { continue };
                 let sparse = accessor.sparse.iter();

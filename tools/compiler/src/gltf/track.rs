@@ -5,8 +5,8 @@ use glam::{DQuat, DVec3, DVec4};
 use gltf::json::animation::{Animation, Channel, Interpolation, Property};
 use gltf::json::validation::Checked;
 
-use crate::gltf_accessor::{self, Numbers};
-use crate::gltf_document::{Document, Flaw, Transform, flaw};
+use super::accessor::{self, Numbers};
+use super::document::{Document, Flaw, Transform, flaw};
 
 /// Key times are rounded to f32 in the file; a sample this short before a key is at it (matters where values step).
 const KEY_ROUNDING_S: f64 = 1e-5;
@@ -62,9 +62,9 @@ pub(crate) fn source(animation: &Animation, channel: &Channel) -> Result<Option<
 /// Reads a channel's keys.
 pub(crate) fn read(document: &Document, source: &Source) -> Result<Track, Flaw> {
     let Source { node, property, interpolation, input, output } = *source;
-    let times = gltf_accessor::numbers(document, input, false)?;
+    let times = accessor::numbers(document, input, false)?;
     // Rotations may be integers, and those are always fractions.
-    let Numbers { width, values } = gltf_accessor::numbers(document, output, property == Driven::Rotation)?;
+    let Numbers { width, values } = accessor::numbers(document, output, property == Driven::Rotation)?;
     let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
     let is_right_width = width == if property == Driven::Rotation { 4 } else { 3 };
     let is_in_order = times.values.is_sorted();

@@ -9,7 +9,7 @@ use motiondb::pose::{Joints, Root};
 use motiondb::skeleton::Skeleton;
 
 use crate::plan::PLANTED_CONTACT;
-use crate::recording_frame::AgentFrame;
+use crate::recording::frame::AgentFrame;
 
 /// Of each end of a contact, left out: there the foot rolls on and off.
 const TRIMMED_SHARE: f64 = 0.1;

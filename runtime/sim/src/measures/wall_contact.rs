@@ -9,9 +9,9 @@ use glam::Vec3;
 use motiondb::pose::{Joints, Root};
 use motiondb::skeleton::{Joint, Skeleton};
 
-use crate::body_penetration::bone;
+use super::body_penetration::bone;
 use crate::obstacles::{NearEdge, Obstacles};
-use crate::recording_frame::AgentFrame;
+use crate::recording::frame::AgentFrame;
 use crate::scenario::Scenario;
 use crate::segment_distance::{Segment, distance_m};
 

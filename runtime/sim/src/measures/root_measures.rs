@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use crate::arrival::Arrival;
 use crate::plan::VelocitySet;
-use crate::recording_frame::AgentFrame;
+use crate::recording::frame::AgentFrame;
 use crate::scenario::AgentSpec;
 
 /// Slower than this for [`STALL_S`] before arriving is stalling, and no side-step, m/s.

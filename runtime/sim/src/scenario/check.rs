@@ -1,13 +1,13 @@
-//! What every scenario must keep, however it was made: numbers in range ([`scenario_ranges`](crate::scenario_ranges)),
+//! What every scenario must keep, however it was made: numbers in range ([`ranges`](super::ranges)),
 //! obstacles that are simple polygons, agents that stand apart from each other and outside obstacles, and goals that
 //! lie outside them and can be reached. World, metres.
 
 use glam::{DVec2, Vec2};
 
+use super::ranges::check_ranges;
+use super::{AgentSpec, Scenario};
 use crate::arrival::ARRIVAL_M;
 use crate::polygon::{closest_distance_m, contains, is_simple, signed_area_m2};
-use crate::scenario::{AgentSpec, Scenario};
-use crate::scenario_ranges::check_ranges;
 use crate::sweep::sort_along_longer_side;
 
 /// The test for self-intersection looks at every pair of edges.

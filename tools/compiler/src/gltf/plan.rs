@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::gltf::FRAME_RATE_HZ;
-use crate::gltf_accessor;
-use crate::gltf_document::{Document, Flaw, flaw};
-use crate::gltf_track::{self, Source};
-use crate::gltf_tree::{Body, Tree};
+use super::FRAME_RATE_HZ;
+use super::accessor;
+use super::document::{Document, Flaw, flaw};
+use super::track::{self, Source};
+use super::tree::{Body, Tree};
 use crate::names;
 
 /// Most node-frames of a file, besides one for each of its bytes: 50 nodes for three minutes. A two-key track can claim
@@ -57,7 +57,7 @@ pub(crate) fn sources(document: &Document, animation: usize, is_in: &[bool]) -> 
     let animation = &document.root.animations[animation];
     let mut sources = Vec::new();
     for channel in &animation.channels {
-        let Some(source) = gltf_track::source(animation, channel)? else { continue };
+        let Some(source) = track::source(animation, channel)? else { continue };
         match is_in.get(source.node) {
             Some(true) => sources.push(source),
             Some(false) => {}
@@ -107,7 +107,7 @@ impl Spans<'_> {
         if let Some(&ends) = self.by_input.get(&input) {
             return Ok(ends);
         }
-        let times = gltf_accessor::numbers(self.document, input, false)?.values;
+        let times = accessor::numbers(self.document, input, false)?.values;
         let [Some(&first), Some(&last)] = [times.first(), times.last()] else {
             return flaw(format!("accessor {input}"), "it holds no key times", "export the animation again");
         };
