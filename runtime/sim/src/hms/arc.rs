@@ -10,7 +10,7 @@ use motiondb::pose::Root;
 use crate::angle::{direction, wrap_rad};
 
 /// The root after a step at constant parameters: exactly along its arc, whose chord lies at half the turn.
-pub(super) fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
+pub fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
     let half_turn_rad = 0.5 * dt_s * parameters.turn_rate_rad_s;
     let local_m = Vec2::new(parameters.speed_mps, parameters.strafe_mps) * dt_s * chord(half_turn_rad);
     Root {
@@ -20,7 +20,7 @@ pub(super) fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
 }
 
 /// The parameters whose arc leads from one root to another in a step: the inverse of [`moved`].
-pub(super) fn went(from: &Root, to: &Root, dt_s: f32) -> Parameters {
+pub fn went(from: &Root, to: &Root, dt_s: f32) -> Parameters {
     let half_turn_rad = 0.5 * wrap_rad(to.facing_rad - from.facing_rad);
     let local_m = Vec2::from_angle(-from.facing_rad - half_turn_rad).rotate(to.position_m - from.position_m);
     let local_mps = local_m / (dt_s * chord(half_turn_rad));

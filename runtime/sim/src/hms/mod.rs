@@ -20,7 +20,7 @@
 //! seconds, radians.
 
 mod advance;
-mod arc;
+pub mod arc;
 pub mod asked;
 pub mod blending;
 pub mod deformation;

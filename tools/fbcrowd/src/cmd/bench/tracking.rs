@@ -10,6 +10,7 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::path::PathBuf;
 
+use fbcrowd_sim::hms::arc::moved;
 use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::plan::Plan;
@@ -208,7 +209,7 @@ fn behind_m(studio: &Studio, from: Vec3, to: Vec3, change_s: f32, dt_s: f32) -> 
     let roots = asked_roots(studio, seconds, dt_s, middle);
     let changed = (change_s / dt_s).round() as usize;
     let told =
-        (changed..roots.len() - 1).fold(roots[changed], |root, step| walked(&root, middle(step as f32 * dt_s), dt_s));
+        (changed..roots.len() - 1).fold(roots[changed], |root, step| moved(&root, &middle(step as f32 * dt_s), dt_s));
     roots[roots.len() - 1].position_m.distance(told.position_m)
 }
 
@@ -217,13 +218,6 @@ fn cycle_s(studio: &Studio, way: Vec3) -> f32 {
     let shares = studio.space.locate(Parameters::from_vec3(way));
     let rates = shares.examples.iter().zip(shares.shares);
     1.0 / rates.map(|(&example, share)| share / studio.db.examples[example as usize].phase_map.period_s).sum::<f32>()
-}
-
-/// A root that does as told.
-fn walked(root: &Root, told: Parameters, dt_s: f32) -> Root {
-    let middle_rad = root.facing_rad + 0.5 * dt_s * told.turn_rate_rad_s;
-    let moved_m = Vec2::from_angle(middle_rad).rotate(Vec2::new(told.speed_mps, told.strafe_mps)) * dt_s;
-    Root { position_m: root.position_m + moved_m, facing_rad: root.facing_rad + dt_s * told.turn_rate_rad_s }
 }
 
 fn bars(steps: &[Step], changes: &[Change], dt_s: f32) -> Vec<Bar> {

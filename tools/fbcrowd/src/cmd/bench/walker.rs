@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use fbcrowd_sim::angle::wrap_rad;
+use fbcrowd_sim::hms::arc::went;
 use fbcrowd_sim::hms::asked::asking;
 use fbcrowd_sim::hms::params::{HmsParams, Modes};
 use fbcrowd_sim::hms::studio::Studio;
 use fbcrowd_sim::plan::Plan;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
@@ -42,13 +43,6 @@ pub(super) fn turned_rad(before: &Root, after: &Root) -> f32 {
 
 /// What a root did over some steps: its mean (v_f, ω_t, ω_s), each step's way taken as an arc.
 pub(super) fn achieved(roots: &[Root], dt_s: f32) -> Parameters {
-    let mut sum = Vec3::ZERO;
-    for pair in roots.windows(2) {
-        let half_turn_rad = 0.5 * turned_rad(&pair[0], &pair[1]);
-        let chord = if half_turn_rad.abs() > 1e-3 { half_turn_rad.sin() / half_turn_rad } else { 1.0 };
-        let moved_m = pair[1].position_m - pair[0].position_m;
-        let local_m = Vec2::from_angle(-pair[0].facing_rad - half_turn_rad).rotate(moved_m) / chord;
-        sum += Vec3::new(local_m.x, 2.0 * half_turn_rad, local_m.y);
-    }
-    Parameters::from_vec3(sum / (dt_s * (roots.len() - 1) as f32))
+    let went = roots.windows(2).map(|pair| went(&pair[0], &pair[1], dt_s).to_vec3());
+    Parameters::from_vec3(went.sum::<Vec3>() / (roots.len() - 1) as f32)
 }
