@@ -33,10 +33,13 @@ pub(super) const CADENCE: [f32; 2] = [0.6, 2.2];
 const AHEAD_MAX: f32 = 1.8;
 const BACKWARD_MAX: f32 = 1.1;
 const ASIDE_MAX: f32 = 1.1;
-/// The body leans into a turn, and its feet stand outward: at this turn rate the greatest speeds are halved, rad/s. A
-/// walk of 1.2 m/s then takes bends of 2.5 m/s², 119 °/s, though its facing lags behind its way by a third of a radian;
-/// `fbcrowd bench reach` holds it against what the legs can do …
-const TURN_HALF_RAD_S: f32 = 4.0;
+/// The body leans into a turn, and its feet stand outward: the greatest speeds ahead and back shrink with the turn rate,
+/// and would be none at this one, rad/s. A walk of 1.2 m/s then all but takes bends of 2.5 m/s², 119 °/s, its facing lagging
+/// behind its way by a third of a radian.
+const TURN_END_RAD_S: f32 = 6.9;
+/// Who steps aside in a turn spreads its legs for both: speeds aside shrink sooner. `fbcrowd bench reach` holds it
+/// against what the legs can do …
+const TURN_ASIDE_END_RAD_S: f32 = 4.8;
 /// … and it turns no faster than this, rad/s: 170 °/s.
 const TURN_MAX_RAD_S: f32 = 3.0;
 
@@ -107,9 +110,11 @@ impl SemiProcedural {
     /// The nearest parameters that m_sp is deformed to: an ellipse of speeds, the smaller the faster it turns.
     pub fn reachable(&self, parameters: Parameters) -> Parameters {
         let turn_rate_rad_s = parameters.turn_rate_rad_s.clamp(-TURN_MAX_RAD_S, TURN_MAX_RAD_S);
-        let scale_mps = self.parameters.speed_mps / (1.0 + turn_rate_rad_s.abs() / TURN_HALF_RAD_S);
-        let end_mps = if parameters.speed_mps < 0.0 { BACKWARD_MAX } else { AHEAD_MAX } * scale_mps;
-        let aside_end_mps = ASIDE_MAX * scale_mps;
+        let scaled_mps =
+            |turn_end_rad_s: f32| self.parameters.speed_mps * (1.0 - turn_rate_rad_s.abs() / turn_end_rad_s);
+        let ahead = if parameters.speed_mps < 0.0 { BACKWARD_MAX } else { AHEAD_MAX };
+        let end_mps = ahead * scaled_mps(TURN_END_RAD_S);
+        let aside_end_mps = ASIDE_MAX * scaled_mps(TURN_ASIDE_END_RAD_S);
         let reach = Vec2::new(parameters.speed_mps / end_mps, parameters.strafe_mps / aside_end_mps).length().max(1.0);
         Parameters {
             speed_mps: parameters.speed_mps / reach,
