@@ -1,5 +1,5 @@
-//! Who has not arrived because of a wall: agents walk straight from waypoint to waypoint, so one with a wall between two
-//! of them stands before it, unless it slips round. World, metres.
+//! Who has not arrived because of a wall: agents walk straight from waypoint to waypoint, so one with a wall between
+//! two of them stands before it, unless it slips round. World, metres.
 
 use glam::Vec2;
 

@@ -30,9 +30,9 @@ use crate::around::Around;
 
 /// Neighbours taken: as many as RVO2's own examples take (van den Berg et al. 2011).
 pub const NEIGHBOUR_COUNT: usize = 10;
-/// T of MCN, s: of two at equal distance, one who comes straight on at walking speed, 1.33 m/s against ours, ranks as if
-/// nearer by up to 4 m. Of 0.5, 1, 1.2 and 1.5 s, tried with a hundred people who cross 0.8 m and 1 m apart, A was least
-/// with the last.
+/// T of MCN, s: of two at equal distance, one who comes straight on at walking speed, 1.33 m/s against ours, ranks as
+/// if nearer by up to 4 m. Of 0.5, 1, 1.2 and 1.5 s, tried with a hundred people who cross 0.8 m and 1 m apart, A was
+/// least with the last.
 pub const AHEAD_S: f32 = 1.5;
 /// c², m²/s²: of those who would be met, who is met sooner comes first. 0.14 of eight values from 0.12 to 0.36: with it
 /// every bar of `fbcrowd bench table1`, `rimea` and `emergence` is met, while others miss one of them by chance.

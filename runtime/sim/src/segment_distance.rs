@@ -1,4 +1,5 @@
-//! The distance between two segments, exactly: the kernel of [`body_penetration`](crate::measures::body_penetration). Metres.
+//! The distance between two segments, exactly: the kernel of [`body_penetration`](crate::measures::body_penetration).
+//! Metres.
 //!
 //! The two nearest points of two segments are one of these:
 //!

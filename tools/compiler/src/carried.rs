@@ -39,8 +39,8 @@ const STEP_LIFT_MIN_M: f64 = 0.03;
 const JUMP_LIFT_M: f64 = 0.12;
 /// Of the heights of a foot those at which it stands.
 const LOW_SHARE: f64 = 0.05;
-/// Nobody goes faster (Bolt, at his fastest: 12.4), m/s for a person's leg; a frame in which a body does so, farther than
-/// this, m, and farther by this factor than in most frames, is a leap from one take to another.
+/// Nobody goes faster (Bolt, at his fastest: 12.4), m/s for a person's leg; a frame in which a body does so, farther
+/// than this, m, and farther by this factor than in most frames, is a leap from one take to another.
 const FASTEST_MPS: f64 = 12.5;
 const LEAP_MIN_M: f64 = 0.3;
 const LEAP_OVER_USUAL: f64 = 5.0;

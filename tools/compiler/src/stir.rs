@@ -2,8 +2,8 @@
 //!
 //! The stir of a stretch is the root mean square, over its samples, by which each coordinate of each direction leaves
 //! its mean. Whatever the lag, the stirs a, b of two courses x, y lie no farther apart than the courses themselves,
-//! |a − b| ≤ ‖x − y‖. The middle of the shorter clip is covered at every lag that is tried, so its stir must lie near the
-//! box of the stirs of all stretches of the other that are as long.
+//! |a − b| ≤ ‖x − y‖. The middle of the shorter clip is covered at every lag that is tried, so its stir must lie near
+//! the box of the stirs of all stretches of the other that are as long.
 
 use crate::performance::{DIRECTION_COUNT, Directions, MIRRORED, Performance};
 

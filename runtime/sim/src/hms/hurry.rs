@@ -1,9 +1,9 @@
 //! How much faster than its own time a body plays, so that its phase catches up with its planted feet.
 //!
 //! A body that speeds up within a step has its foot further back than the faster steps have it at this phase: the phase
-//! hurries, and the foot meets the pose again before the leg must stretch; likewise when it slows down. With c the shift
-//! of a planted foot against the pose's, and u the velocity at which the root would carry it along, feet are behind by
-//! the time that explains both shifts best,
+//! hurries, and the foot meets the pose again before the leg must stretch; likewise when it slows down. With c the
+//! shift of a planted foot against the pose's, and u the velocity at which the root would carry it along, feet are
+//! behind by the time that explains both shifts best,
 //!
 //! ```text
 //! t = −Σ c·u / Σ u²,

@@ -33,8 +33,8 @@ struct Difference {
 pub struct Inertia(Option<[Difference; 2]>);
 
 impl Inertia {
-    /// Takes up the difference of a switch. `old` and `new` are the poses of both syntheses now and a moment ago, as they
-    /// were without what is left.
+    /// Takes up the difference of a switch. `old` and `new` are the poses of both syntheses now and a moment ago, as
+    /// they were without what is left.
     pub fn begin(&mut self, old: [&Pose; 2], new: [&Pose; 2], moment_s: f32) {
         let [now, before] = [0, 1].map(|time| Difference::between(old[time], new[time]));
         let rate = now.combined(1.0 / moment_s, &before, -1.0 / moment_s);

@@ -33,9 +33,9 @@ pub(super) const CADENCE: [f32; 2] = [0.6, 2.2];
 const AHEAD_MAX: f32 = 1.8;
 const BACKWARD_MAX: f32 = 1.1;
 const ASIDE_MAX: f32 = 1.1;
-/// The body leans into a turn, and its feet stand outward: the greatest speeds ahead and back shrink with the turn rate,
-/// and would be none at this one, rad/s. A walk of 1.2 m/s then all but takes bends of 2.5 m/s², 119 °/s, its facing lagging
-/// behind its way by a third of a radian.
+/// The body leans into a turn, and its feet stand outward: the greatest speeds ahead and back shrink with the turn
+/// rate, and would be none at this one, rad/s. A walk of 1.2 m/s then all but takes bends of 2.5 m/s², 119 °/s, its
+/// facing lagging behind its way by a third of a radian.
 const TURN_END_RAD_S: f32 = 6.9;
 /// Who steps aside in a turn spreads its legs for both: speeds aside shrink sooner. `fbcrowd bench reach` holds it
 /// against what the legs can do …

@@ -117,9 +117,9 @@ impl Default for McnParams {
             // shakes at steps of 0.1 s. Measured through bodies on Table 1, from 1.1 to 2.5: the acceleration on the
             // circle grows with it by a seventh; below, nothing is gained.
             acceleration_max_mps2: 1.1,
-            // Menge's PedVO (Curtis, Best, Manocha 2016). Between its two buffers, 0.5 and 0.9: with this one people walk
-            // within 0.09 m/s of Weidmann's diagram (RiMEA test 4; at 0.8 within 0.16); beyond, doors let fewer of them
-            // through.
+            // Menge's PedVO (Curtis, Best, Manocha 2016). Between its two buffers, 0.5 and 0.9: with this one people
+            // walk within 0.09 m/s of Weidmann's diagram (RiMEA test 4; at 0.8 within 0.16); beyond, doors let fewer of
+            // them through.
             density_factor: 1.57,
             density_buffer: 0.84,
             density_speed_min_mps: 0.3,

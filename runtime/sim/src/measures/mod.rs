@@ -1,5 +1,5 @@
-//! What is measured of a crowd, frame by frame or of a whole recording: the figures of the paper's App. 11, of bodies, of
-//! pedestrian studies, and the table of a recording.
+//! What is measured of a crowd, frame by frame or of a whole recording: the figures of the paper's App. 11, of bodies,
+//! of pedestrian studies, and the table of a recording.
 
 pub mod agent_table;
 pub mod arching;

@@ -2,8 +2,9 @@
 //! ever end the program, take for ever or do harm?
 //!
 //! One file a kind of input; worlds, turned scenes and linear programs are drawn and judged by
-//! [`fbcrowd_sim::wild::world`], [`fbcrowd_sim::wild::turned_world`] and [`fbcrowd_sim::wild::program`]. Each copy draws its
-//! own random numbers from a seed of its own, the run's seed plus its number, so that one copy can be made again alone.
+//! [`fbcrowd_sim::wild::world`], [`fbcrowd_sim::wild::turned_world`] and [`fbcrowd_sim::wild::program`]. Each copy
+//! draws its own random numbers from a seed of its own, the run's seed plus its number, so that one copy can be made
+//! again alone.
 
 mod clip;
 mod database;
