@@ -4,6 +4,8 @@
 //! bounds side-steps and steps back by the first alone) that of velocities at held facing. Both are convex polygons in
 //! the agent's frame (x forward, y left, m/s), corners clockwise, and count the origin.
 
+use std::f32::consts::PI;
+
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -67,9 +69,10 @@ pub fn build(parameters: &[Parameters], construction: Construction) -> VelocityH
     }
 }
 
-/// Eqs. 2, 3: the point of a turning example in the agent's frame, ω_t read as the heading reached after one second.
+/// Eqs. 2, 3: the point of a turning example in the agent's frame, ω_t read as the heading reached after one second. Who
+/// turns faster than by half a turn a second has turned about, and comes round on no other side.
 pub fn turning_point_mps(parameters: &Parameters) -> Vec2 {
-    let (sin, cos) = libm::sincosf(parameters.turn_rate_rad_s);
+    let (sin, cos) = libm::sincosf(parameters.turn_rate_rad_s.clamp(-PI, PI));
     Vec2::new(cos, sin) * parameters.speed_mps
 }
 
@@ -112,4 +115,18 @@ fn widened(from_mps: Vec2, to_mps: Vec2) -> [Vec2; 4] {
     let along = (to_mps - from_mps).normalize_or(Vec2::X) * HALF_WIDTH_MPS;
     let left = along.perp();
     [from_mps - along + left, to_mps + along + left, to_mps + along - left, from_mps - along - left]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_turns_by_more_than_half_a_turn_comes_round_on_no_other_side() {
+        for (turn_deg_s, y_mps) in [(90.0_f32, 1.0), (170.0, 0.17), (200.0, 0.0), (-170.0, -0.17), (-300.0, 0.0)] {
+            let turn_rate_rad_s = turn_deg_s.to_radians();
+            let point_mps = turning_point_mps(&Parameters { speed_mps: 1.0, turn_rate_rad_s, strafe_mps: 0.0 });
+            assert!((point_mps.y - y_mps).abs() < 0.01, "{turn_deg_s} °/s: {point_mps}");
+        }
+    }
 }
