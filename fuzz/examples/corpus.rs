@@ -9,8 +9,8 @@ use base64::engine::general_purpose::STANDARD;
 use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planner::Planner;
-use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use glam::Vec2;
 

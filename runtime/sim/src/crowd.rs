@@ -25,8 +25,10 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Bytes that each agent has in it.
-    pub const BYTES_PER_AGENT: usize = size_of::<Plan>();
+    /// What it is, bytes.
+    pub fn size_bytes(&self) -> usize {
+        size_of_val(&*self.in_cell_order) + self.scratches.iter().map(Scratch::size_bytes).sum::<usize>()
+    }
 }
 
 /// Plans every agent; `plans` is by agent.

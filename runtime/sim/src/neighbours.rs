@@ -119,6 +119,11 @@ pub struct Query {
 }
 
 impl Nearest {
+    /// What its lists hold in memory, bytes.
+    pub(crate) fn lists_bytes(&self) -> usize {
+        self.found.capacity() * size_of::<Neighbour>() + self.ranks.capacity() * size_of::<f32>()
+    }
+
     /// Best rank first.
     pub fn as_slice(&self) -> &[Neighbour] {
         &self.found

@@ -31,8 +31,9 @@ pub enum Planner {
 pub struct Scratch {
     pub(crate) nearest: Nearest,
     pub(crate) edges: Vec<NearEdge>,
-    /// Of each velocity set's program, and the set that was chosen. Rivals have one program.
+    /// Of each velocity set's program; rivals have one.
     pub(crate) half_planes: [Vec<HalfPlane>; 2],
+    /// The set that was chosen.
     pub(crate) set: VelocitySet,
     pub(crate) projected: Vec<HalfPlane>,
     pub(crate) adapted_mps: Vec2,
@@ -47,6 +48,16 @@ impl Scratch {
     /// for social forces.
     pub fn half_planes(&self) -> &[HalfPlane] {
         &self.half_planes[self.set as usize]
+    }
+
+    /// What it holds in memory, bytes.
+    pub(crate) fn size_bytes(&self) -> usize {
+        let [turning, holding] = &self.half_planes;
+        let lists = [turning, holding, &self.projected, &self.of_walls, &self.of_agents];
+        let half_planes: usize = lists.iter().map(|list| list.capacity()).sum();
+        let half_planes = half_planes * size_of::<HalfPlane>();
+        let edges = self.edges.capacity() * size_of::<NearEdge>();
+        size_of_val(self) + self.nearest.lists_bytes() + half_planes + edges
     }
 }
 

@@ -97,8 +97,8 @@ impl Simulation {
     pub fn bytes_per_agent(&self) -> usize {
         let specs = &self.scenario.agents;
         let goals: usize = specs.iter().map(|agent| size_of_val(&*agent.goals_m)).sum();
-        let held = self.agents.size_bytes() + size_of_val(&**specs) + goals;
-        held / specs.len().max(1) + crowd::Memory::BYTES_PER_AGENT + GRID_BYTES
+        let held = self.agents.size_bytes() + self.planning.size_bytes() + size_of_val(&**specs) + goals;
+        held / specs.len().max(1) + GRID_BYTES
     }
 
     /// Advances by the scenario's dt; `finished` hears the end of each stage.

@@ -112,15 +112,12 @@ fn no_change_of_synthesis_takes_longer_than_t_trans() {
             let steps = walk(&db, seconds, |time_s, _| Plan { time_to_collision_s: threat_s(time_s), ..plan(time_s) });
             let switches = switches(&steps);
             // Each threat that comes, and each that goes, is answered by a switch of its own.
+            let lasts = (THREAT_S / DT_S) as usize;
             let waited_s = (1..(seconds / THREAT_S) as usize).map(|change| {
-                let changed = (change as f32 * THREAT_S / DT_S) as usize;
-                let answers: Vec<usize> = switches
-                    .iter()
-                    .copied()
-                    .filter(|step| (changed..changed + (THREAT_S / DT_S) as usize).contains(step))
-                    .collect();
+                let until_next = change * lasts..(change + 1) * lasts;
+                let answers: Vec<&usize> = switches.iter().filter(|step| until_next.contains(step)).collect();
                 assert_eq!(answers.len(), 1, "{name} {way}: at {} s", change as f32 * THREAT_S);
-                (answers[0] - changed) as f32 * DT_S
+                (answers[0] - until_next.start) as f32 * DT_S
             });
             let longest_s = waited_s.fold(0.0, f32::max) + CARRIED_S;
             println!("{name} {way}: {longest_s:.2} s, t_trans {transition_s:.2} s");

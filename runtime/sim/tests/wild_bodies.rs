@@ -83,7 +83,11 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn no_plan_however_wild_breaks_a_body(plans in prop::collection::vec(plan(), PLANS), plan_s in prop::sample::select(&PLAN_S), phase in 0.0f32..1.0) {
+    fn no_plan_however_wild_breaks_a_body(
+        plans in prop::collection::vec(plan(), PLANS),
+        plan_s in prop::sample::select(&PLAN_S),
+        phase in 0.0f32..1.0,
+    ) {
         for studio in &*STUDIOS {
             for dt_s in STEPS_S {
                 let found = fault(studio, &plans, plan_s, phase, dt_s);

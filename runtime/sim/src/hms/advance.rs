@@ -78,7 +78,8 @@ impl Body {
             _ => goal,
         };
         pursuit::follow(&mut self.mix, goal, &nearest, self.gait, motion, step.dt_s);
-        let (before, hurried_s) = (self.phase, self.move_root(self.mix.parameters(motion.db), step));
+        let before = self.phase;
+        let hurried_s = self.move_root(self.mix.parameters(motion.db), step);
         self.phase = self.mix.advance_phase(motion.db, before, hurried_s);
         (nearest, before)
     }
@@ -105,7 +106,8 @@ impl Body {
             Mode::Blending => self.detour(motion).unwrap_or(nearest.parameters),
         };
         self.walking = asked::step_apart(self.walking, goal, motion.params, dt_s);
-        let (before, hurried_s) = (self.phase, self.move_root(self.walking, step));
+        let before = self.phase;
+        let hurried_s = self.move_root(self.walking, step);
         let map = Tempo::new(semi_procedural, self.walking, self.seen[0].way).phase_map();
         let middle = before + 0.5 * hurried_s * map.rate_hz(before);
         self.phase = wrapped(before + hurried_s * map.rate_hz(middle));

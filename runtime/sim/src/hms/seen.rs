@@ -37,8 +37,8 @@ impl Seen {
         Self { mix, walking, way, way_rate: Vec2::ZERO }
     }
 
-    /// Follows what the root does by a step; `lately` becomes what was seen a moment before its end. Of
-    /// either only what this synthesis shows.
+    /// Follows what the root does by a step; `lately` becomes what was seen a moment before its end. Of either
+    /// only what this synthesis shows.
     pub fn follow(&mut self, lately: &mut Self, mode: Mode, mix: &Mix, walking: Parameters, step: &TimeStep) {
         let (fraction, back) = (1.0 - step.seen, step.look_back_s / step.dt_s);
         match mode {

@@ -19,8 +19,8 @@ use crate::plan::VelocitySet;
 /// Slower than this, a velocity has no direction to face, m/s.
 const STANDING_MPS: f32 = 0.1;
 /// Slower than this, the facing is held however long: in a throng people shuffle, their faces towards where they want
-/// to go. One who turned about for every half-step stood there facing elsewhere: in 8 of 30 four-way crossings (Table
-/// 1's, other seeds) somebody stood for 5 s, now in 2.
+/// to go. One who turned about for every half-step stood there facing elsewhere: then in 8 of 30 four-way crossings
+/// (Table 1's, other seeds) somebody stood for 5 s, with this in 2.
 const SHUFFLING_MPS: f32 = 0.4;
 /// A velocity within this angle of the facing is no side-step: 10°, as small as gait noise in the turn rate makes it
 /// look.

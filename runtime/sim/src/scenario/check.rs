@@ -1,6 +1,6 @@
-//! What every scenario must keep, however it was made: numbers in range ([`ranges`](super::ranges)),
-//! obstacles that are simple polygons, agents that stand apart from each other and outside obstacles, and goals that
-//! lie outside them and can be reached. World, metres.
+//! What every scenario must keep, however it was made: numbers in range ([`ranges`](super::ranges)), obstacles that are
+//! simple polygons, agents that stand apart from each other and outside obstacles, and goals that lie outside them and
+//! can be reached. World, metres.
 
 use glam::{DVec2, Vec2};
 
@@ -121,17 +121,16 @@ fn check_agents_clear_of_obstacles(scenario: &Scenario) -> Result<(), Fault> {
 /// those that lie abreast are held against each other.
 struct Abreast {
     axis: usize,
+    /// Along it, m, and whose; in order.
     places: Vec<(f32, usize)>,
 }
 
 impl Abreast {
     fn new(agents: &[AgentSpec]) -> Self {
-        let of_agent = |agent: &AgentSpec| [&[agent.position_m], &*agent.goals_m].concat();
-        let all: Vec<(Vec2, usize)> = agents
-            .iter()
-            .enumerate()
-            .flat_map(|(index, agent)| of_agent(agent).into_iter().map(move |at_m| (at_m, index)))
-            .collect();
+        let mut all: Vec<(Vec2, usize)> = Vec::new();
+        for (index, agent) in agents.iter().enumerate() {
+            all.extend([&agent.position_m].into_iter().chain(&agent.goals_m).map(|&at_m| (at_m, index)));
+        }
         let mut order: Vec<usize> = (0..all.len()).collect();
         let along_m = |place: usize, axis: usize| f64::from(all[place].0[axis]);
         let axis = sort_along_longer_side(&mut order, all.iter().map(|place| place.0), along_m);
