@@ -5,6 +5,7 @@
 //! frame.
 
 use glam::{DQuat, DVec3};
+use motiondb::median::median;
 use motiondb::skeleton::JOINT_COUNT;
 
 use crate::arc::rotation;
@@ -13,6 +14,9 @@ use crate::root_motion::{GroundedClip, align_hemispheres};
 
 /// Every joint of the last pose this near to the first's, relative to the root: a loop.
 const LOOP_GAP_M: f64 = 0.04;
+/// So is a clip whose last pose is nearer to its first than this share of what its own poses usually lie apart: short
+/// loops of few frames a second, whose keys do not fall on frames.
+const LOOP_GAP_STEPS: f64 = 0.5;
 /// The repeated frame is left out where the pose that would follow is this much nearer to the first than the last one
 /// is.
 const LEFT_OUT_RATIO: f64 = 0.5;
@@ -36,7 +40,9 @@ fn round_frames(clip: &GroundedClip, body: &HumanBody) -> Option<usize> {
     let last_gap_m = loop_gap_m(first, last, body);
     let is_left_out = next_gap_m < LEFT_OUT_RATIO * last_gap_m;
     let round = clip.poses.len() - usize::from(!is_left_out);
-    let is_loop = last_gap_m.min(next_gap_m) <= LOOP_GAP_M && round as f64 >= ROUND_MIN_S * clip.frame_rate_hz;
+    let usual_step_m = median(clip.poses.windows(2).map(|pair| loop_gap_m(&pair[0], &pair[1], body)))?;
+    let gap_max_m = LOOP_GAP_M.max(LOOP_GAP_STEPS * usual_step_m);
+    let is_loop = last_gap_m.min(next_gap_m) <= gap_max_m && round as f64 >= ROUND_MIN_S * clip.frame_rate_hz;
     is_loop.then_some(round)
 }
 
@@ -167,6 +173,16 @@ mod tests {
         let mut clip = synthetic::walk("loop", whole(2.0));
         clip.frames.pop();
         assert_eq!(unroll(ground(&clip, &clip.body), &clip.body).loop_frames, Some(132));
+    }
+
+    #[test]
+    fn a_loop_of_few_frames_may_end_a_part_of_a_frame_before_its_first_pose() {
+        let rates = Rates { speed_mps: 2.8, ..Rates::default() };
+        let run = Walk { rates, period_s: 0.555, duration_s: 0.555, frame_rate_hz: 24.0, ..Walk::default() };
+        let clip = synthetic::walk("loop", run);
+        let grounded = ground(&clip, &clip.body);
+        assert!(loop_gap_m(&grounded.poses[0], &grounded.poses[13], &clip.body) > LOOP_GAP_M);
+        assert_eq!(unroll(grounded, &clip.body).loop_frames, Some(13));
     }
 
     #[test]
