@@ -256,6 +256,23 @@ fn a_document_that_says_a_thing_twice_is_refused_for_that() {
 }
 
 #[test]
+fn only_what_a_reader_of_gltf_2_can_read_is_read() {
+    let with = |version: &str, least: Option<&str>| {
+        let mut document = Document::walker();
+        document.json["asset"] = json!({ "version": version, "minVersion": least });
+        document
+    };
+    for (version, least) in [("2.0", None), ("2.0", Some("2.0")), ("2.1", None), ("2.1", Some("2.0"))] {
+        check_walks(&with(version, least).only());
+    }
+    for (version, least) in [("1.0", None), ("3.0", None), ("2.1", Some("2.1"))] {
+        let message = import_bytes(Path::new("walk.gltf"), &with(version, least).gltf()).unwrap_err().to_string();
+        let needed = format!("walk.gltf, asset: it needs a reader of glTF {}; ", least.unwrap_or(version));
+        assert!(message.starts_with(&needed), "{message}");
+    }
+}
+
+#[test]
 fn compressed_meshes_are_no_matter_and_compressed_animations_are_refused() {
     let mut meshes = Document::walker();
     meshes.json["extensionsRequired"] =

@@ -12,6 +12,7 @@ use glam::{DMat4, DQuat, DVec3};
 use gltf::json::validation::{Error, Validate};
 use gltf::json::{self, Index, Root, buffer::View};
 use motiondb::input_file;
+use serde::Deserialize;
 
 use super::track::normal;
 use super::{buffers, track};
@@ -139,12 +140,31 @@ fn parse(bytes: &[u8]) -> Result<Parsed<'_>, Flaw> {
         remedy: "check it with the glTF validator, or export it again",
     };
     let (json, chunk) = chunks(bytes).map_err(|error| shown(&error))?;
+    check_version(&json)?;
     let (root, left_out) = match json::deserialize::from_slice::<Root>(&json) {
         Ok(root) => (root, false),
         Err(error) => (without_nodeless_channels(&json).ok_or_else(|| shown(&error))?, true),
     };
     check(&root)?;
     Ok(Parsed { root, chunk, left_out })
+}
+
+/// The part of a document that says which glTF it is.
+#[derive(Deserialize)]
+struct Versioned {
+    asset: json::Asset,
+}
+
+/// That it is glTF 2: a later 2.x too, unless it says that a reader of 2.0 cannot read it.
+fn check_version(json: &[u8]) -> Result<(), Flaw> {
+    // What else is wrong with it, reading all of it tells.
+    let Ok(Versioned { asset }) = json::deserialize::from_slice(json) else { return Ok(()) };
+    let is_read = match &asset.min_version {
+        Some(least) => least == "2.0",
+        None => asset.version.split('.').next() == Some("2"),
+    };
+    let needed = asset.min_version.unwrap_or(asset.version);
+    if is_read { Ok(()) } else { flaw("asset", format!("it needs a reader of glTF {needed}"), "export it as glTF 2.0") }
 }
 
 /// The JSON of a file, and the binary chunk of a GLB file.
