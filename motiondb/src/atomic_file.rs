@@ -3,6 +3,8 @@
 //! Nothing is forced onto the disk: that would cost a frame as much as drawing it, and only a failing power supply
 //! would tell.
 //!
+//! A link stays one: what it leads to is written.
+//!
 //! Who is killed leaves a temporary file. Each is locked as long as it is written, so that [`sweep`] knows those that
 //! nobody writes any more.
 
@@ -16,6 +18,9 @@ static BEGUN: AtomicU32 = AtomicU32::new(0);
 
 /// Times that a file may be swept between being made and being locked: only by who begins to write the same name then.
 const SWEPT_MAX: usize = 8;
+
+/// Links that are followed one after the other, as many as Linux follows: a circle of them comes to an end.
+const LINKS_MAX: usize = 40;
 
 /// A file being written beside its final name; dropped without [`AtomicFile::commit`], it is removed.
 #[derive(Debug)]
@@ -32,9 +37,10 @@ impl AtomicFile {
     /// Where the folder cannot be written, or `target` exists and is no file: a folder, or a device that renaming would
     /// replace.
     pub fn create(target: &Path) -> io::Result<Self> {
+        let target = followed(target);
         let name =
             target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
-        if fs::metadata(target).is_ok_and(|found| !found.is_file()) {
+        if fs::metadata(&target).is_ok_and(|found| !found.is_file()) {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "what is there is no regular file"));
         }
         for _ in 0..SWEPT_MAX {
@@ -45,7 +51,7 @@ impl AtomicFile {
             let _ = file.lock();
             // Otherwise it was swept before it was locked; now it stays.
             if temporary.exists() {
-                return Ok(Self { writer: Some(BufWriter::new(file)), temporary, target: target.to_owned() });
+                return Ok(Self { writer: Some(BufWriter::new(file)), temporary, target });
             }
         }
         Err(io::Error::other("temporary files vanish as soon as they are made"))
@@ -79,6 +85,7 @@ impl Drop for AtomicFile {
 /// Removes the temporary files of `target` that killed processes have left; none that is being written, by whomever.
 /// For what takes long to write: the whole folder is looked through.
 pub fn sweep(target: &Path) {
+    let target = followed(target);
     let (Some(name), Some(folder)) = (target.file_name(), target.parent()) else { return };
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let head = format!(".{}.", name.to_string_lossy());
@@ -95,6 +102,16 @@ pub fn sweep(target: &Path) {
     }
 }
 
+/// Where a link leads, though nothing be there yet; any other path as it is.
+fn followed(path: &Path) -> PathBuf {
+    let mut place = path.to_owned();
+    for _ in 0..LINKS_MAX {
+        let Ok(next) = fs::read_link(&place) else { break };
+        place = place.parent().unwrap_or(Path::new("")).join(next);
+    }
+    place
+}
+
 /// Writes all bytes under the final name or none.
 ///
 /// # Errors
@@ -108,6 +125,22 @@ pub fn write(target: &Path, bytes: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn what_a_link_leads_to_is_written_whether_it_is_there_or_not() {
+        let folder = std::env::temp_dir().join(format!("fbcrowd_links_{}", std::process::id()));
+        fs::create_dir_all(folder.join("disk")).unwrap();
+        let [link, far] = ["link", "far"].map(|name| folder.join(name));
+        std::os::unix::fs::symlink("far", &link).unwrap();
+        std::os::unix::fs::symlink("disk/a.fbdb", &far).unwrap();
+        for text in ["first", "second"] {
+            write(&link, text.as_bytes()).unwrap();
+            assert_eq!(fs::read_to_string(folder.join("disk/a.fbdb")).unwrap(), text);
+            assert!(link.is_symlink() && far.is_symlink());
+        }
+        fs::remove_dir_all(&folder).unwrap();
+    }
 
     #[test]
     fn what_a_killed_process_left_is_swept_and_what_is_being_written_is_not() {
