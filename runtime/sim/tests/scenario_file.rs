@@ -332,6 +332,7 @@ fn missing_files_are_named() {
     check_refused("no_motion", &format!("duration_s = 1\n{ONE}"), "", "neither `clips` nor `database`");
     check_refused("both", &format!("{HEAD}database = \"x\"\n{ONE}"), "\"x\"", "a database besides its clips");
     check_refused("no_lines", &format!("{HEAD}agents = {{ file = \"gone.txt\" }}"), "\"gone.txt\"", "there is no file");
+    check_refused("folder", &format!("{HEAD}agents = {{ file = \".\" }}"), "\".\"", "a folder, not a file");
     let error = read(Path::new("/nowhere/scene.toml")).unwrap_err();
     assert!(
         matches!(&error, ScenarioError::Unreadable { .. }) && error.to_string().starts_with("/nowhere/scene.toml: "),

@@ -20,6 +20,7 @@
 //! ```
 
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -241,11 +242,13 @@ pub fn fault_of_lines(lines: &SourceText, fault: Fault) -> ScenarioError {
 
 fn read_lines(source: &SourceText, name: &Spanned<String>) -> Result<SourceText, ScenarioError> {
     let path = source.beside(Path::new(name.get_ref()));
-    if !path.is_file() {
-        let message = format!("there is no file {}", path.display());
-        return Err(source.invalid(name.span(), message, "the path is relative to the scenario file").into());
-    }
-    read_text(&path)
+    SourceText::read(&path).map_err(|error| {
+        let message = match error.kind() {
+            ErrorKind::NotFound => format!("there is no file {}", path.display()),
+            _ => format!("{} cannot be read: {error}", path.display()),
+        };
+        source.invalid(name.span(), message, "the path is relative to the scenario file").into()
+    })
 }
 
 fn journeys_of_lines(lines: &SourceText) -> Result<Vec<Journey>, ScenarioError> {
