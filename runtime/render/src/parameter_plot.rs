@@ -75,9 +75,12 @@ impl Key {
 }
 
 fn title(db: &MotionDb) -> String {
+    if db.examples.len() == 1 {
+        return "Blend space: a single example, nothing to blend".to_owned();
+    }
     let space = &db.blend_space;
     let (dimension, covered) = (space.dimension, 100.0 * space.covered_share);
-    // A lone example is a point to the runtime, no simplex to people.
+    // A single point is a simplex to the runtime, to people it is none.
     let simplices = space.simplices().filter(|corners| corners.len() > 1).count();
     let counts = format!("{} examples, {simplices} simplices of dimension {dimension}", db.examples.len());
     format!("Blend space: {counts}, {covered:.1} % of the hull covered")

@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use super::Mocap;
 use super::bar::{Bar, Found, Goal, conclude};
+use crate::compile_text::counted;
 use crate::failure::{Answer, Failure};
 use crate::stages::{Stage, Stopwatch};
 
@@ -81,10 +82,10 @@ fn peak_memory_mb() -> Option<f64> {
 fn text(details: &Details, folder: &Path) -> String {
     let stages = details.stages.iter().map(|stage| format!("  {:<24}{:6.2} s\n", stage.name, stage.seconds));
     format!(
-        "{}: {} files, {} examples\n{}",
+        "{}: {}, {}\n{}",
         folder.display(),
-        details.files,
-        details.examples,
+        counted(details.files, "file", "files"),
+        counted(details.examples, "example", "examples"),
         stages.collect::<String>()
     )
 }
