@@ -23,6 +23,13 @@ pub enum Coupling {
     Decoupled,
 }
 
+impl Coupling {
+    /// Whether what is planned is carried out by bodies, which take it up later than a disc does.
+    pub fn plans_for_bodies(self) -> bool {
+        self == Self::TwoWay
+    }
+}
+
 /// The root of a disc that moves as planned.
 pub fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
     Root { position_m: root.position_m + dt_s * plan.velocity_mps, facing_rad: plan.facing_rad }

@@ -9,7 +9,6 @@
 
 use glam::Vec2;
 
-use crate::cns::Coupling;
 use crate::mcn::motion_constraints::MotionConstraints;
 use crate::neighbours::Neighbours;
 use crate::obstacles::Obstacles;
@@ -139,7 +138,7 @@ impl RecordedStep<'_> {
             obstacles: &self.replay.obstacles,
             constraints: &self.replay.constraints,
             dt_s,
-            bodies: coupling == Coupling::TwoWay,
+            bodies: coupling.plans_for_bodies(),
         }
     }
 

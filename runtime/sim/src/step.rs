@@ -146,7 +146,7 @@ impl Simulation {
             obstacles: &self.obstacles,
             constraints: &self.constraints,
             dt_s: self.scenario.dt_s,
-            bodies: self.scenario.coupling == Coupling::TwoWay,
+            bodies: self.scenario.coupling.plans_for_bodies(),
         }
     }
 
