@@ -13,6 +13,8 @@ use crate::source_clip::SourceClip;
 
 /// Thigh and shank of a person, m: the median of the recorded performers of the development set.
 pub const HUMAN_LEG_M: f64 = 0.84;
+/// Children are performers more often than giants are: a leg that is too long is so many times as far off.
+const TOO_LONG: f64 = 2.0;
 /// Metres, decimetres, centimetres, millimetres, inches, and the CMU files' 1/0.45 inch.
 const UNITS_M: [f64; 6] = [1.0, 0.1, 0.01, 0.001, 0.0254, 0.0564444];
 
@@ -65,6 +67,27 @@ pub(crate) fn leg_length(clip: &SourceClip, roles: &Roles) -> f64 {
 }
 
 fn nearest_unit(leg_units: f64) -> f64 {
-    let off = |unit: f64| libm::log(leg_units * unit / HUMAN_LEG_M).abs();
+    let off = |unit: f64| {
+        let log = libm::log(leg_units * unit / HUMAN_LEG_M);
+        f64::max(-log, TOO_LONG * log)
+    };
     UNITS_M.into_iter().min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap_or(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_unit_is_found_of_tall_people_and_of_children() {
+        for unit in UNITS_M {
+            for leg_m in [0.75, 0.84, 0.95] {
+                assert_eq!(nearest_unit(leg_m / unit), unit, "{leg_m} m in units of {unit} m");
+            }
+        }
+        // A child of five, recorded in inches; in 1/0.45 inch the same leg would be one of 1.14 m.
+        for unit in [1.0, 0.01, 0.001, 0.0254] {
+            assert_eq!(nearest_unit(0.515 / unit), unit, "in units of {unit} m");
+        }
+    }
 }
