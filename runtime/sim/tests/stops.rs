@@ -141,6 +141,22 @@ fn whoever_stands_starts_in_every_direction() {
     }
 }
 
+/// Asked to change its way from `begin_s` on, at 2.5 m/s²; holds its facing.
+fn changing(from: Vec3, to: Vec3, begin_s: f32) -> (f32, impl Fn(f32, &Root) -> Plan) {
+    let change_s = (to - from).length() / 2.5;
+    let asked = move |time_s: f32| from.lerp(to, ((time_s - begin_s) / change_s).clamp(0.0, 1.0));
+    let plan = move |time_s: f32, _: &Root| {
+        let Vec3 { x: ahead_mps, z: aside_mps, .. } = asked(time_s);
+        Plan { velocity_mps: Vec2::new(ahead_mps, aside_mps), ..Plan::default() }
+    };
+    (begin_s + change_s + 1.0, plan)
+}
+
+/// Moments of a stride, s.
+fn moments_s() -> impl Iterator<Item = f32> {
+    (0..MOMENTS).map(|moment| 4.0 + STRIDE_S * moment as f32 / MOMENTS as f32)
+}
+
 #[test]
 fn whoever_is_asked_to_go_the_other_way_does_not_stay_at_rest_on_the_way_there() {
     let studio = studio(bundled());
@@ -148,17 +164,37 @@ fn whoever_is_asked_to_go_the_other_way_does_not_stay_at_rest_on_the_way_there()
     let sidewards = [([0.0, 0.0, 0.3], [0.0, 0.0, -0.3]), ([0.0, 0.0, -0.3], [0.0, 0.0, 0.3])];
     for (from, to) in reversals.into_iter().chain(sidewards) {
         let [from, to] = [Vec3::from(from), Vec3::from(to)];
-        let change_s = (to - from).length() / 2.5;
-        for (moment, dt_s) in (0..MOMENTS).flat_map(|moment| [1.0 / 120.0, DT_S, 0.1].map(|dt_s| (moment, dt_s))) {
-            let begin_s = 4.0 + STRIDE_S * moment as f32 / MOMENTS as f32;
-            let asked = |time_s: f32| from.lerp(to, ((time_s - begin_s) / change_s).clamp(0.0, 1.0));
-            let plan = |time_s: f32, root: &Root| asking(Parameters::from_vec3(asked(time_s)), root, &studio.params);
-            let seconds = begin_s + change_s + 1.0;
+        for (begin_s, dt_s) in moments_s().flat_map(|moment_s| [1.0 / 120.0, DT_S, 0.1].map(|dt_s| (moment_s, dt_s))) {
+            let (seconds, plan) = changing(from, to, begin_s);
             let roots = studio.walk(0.0, seconds, dt_s, plan, |body, _| body.root);
             let [before, last] = [&roots[roots.len() - 2], &roots[roots.len() - 1]];
             let gone_mps = (last.position_m - before.position_m) / dt_s;
             let off_mps = gone_mps.distance(Vec2::new(to.x, to.z));
             assert!(off_mps < 0.1, "from {from} to {to} at {begin_s} s in steps of {dt_s} s: goes at {gone_mps} m/s");
+        }
+    }
+}
+
+/// How far hips come down below where they are in standing, m, the mean over the moments of a stride at which a body
+/// turns back.
+fn mean_lowering_m(studio: &Studio, from: Vec3, to: Vec3) -> f32 {
+    let lowering_m = |begin_s: f32| {
+        let (seconds, plan) = changing(from, to, begin_s);
+        let hips_m = studio.walk(0.0, seconds, DT_S, plan, |_, synthesis| synthesis.pose.pelvis_m.z);
+        hips_m[0] - hips_m[(begin_s / DT_S) as usize..].iter().copied().fold(f32::INFINITY, f32::min)
+    };
+    moments_s().map(lowering_m).sum::<f32>() / MOMENTS as f32
+}
+
+#[test]
+fn whoever_goes_back_the_way_it_came_does_so_on_the_feet_that_it_has() {
+    let [back, ahead] = [Vec3::new(-0.5, 0.0, 0.0), Vec3::new(1.1, 0.0, 0.0)];
+    for modes in [Modes::Blending, Modes::SemiProcedural] {
+        let studio = Studio::new(Arc::new(bundled()), HmsParams { modes, ..HmsParams::default() });
+        // On the wrong feet, as where phases go on: 10 and 12 cm, and 7 and 5.
+        for (from, to, limit_m) in [(back, ahead, 0.08), (ahead, back, 0.047)] {
+            let lowering_m = mean_lowering_m(&studio, from, to);
+            assert!(lowering_m < limit_m, "{modes:?} from {from} to {to}: hips come down by {lowering_m} m");
         }
     }
 }

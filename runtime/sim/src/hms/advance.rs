@@ -14,6 +14,7 @@ use super::deformation::Tempo;
 use super::feet::FootHold;
 use super::mode::Mode;
 use super::params::Transition;
+use super::seen::Seen;
 use super::semi_procedural::SemiProcedural;
 use super::space::Nearest;
 use super::time_step::TimeStep;
@@ -39,12 +40,15 @@ impl Body {
             _ => self.blend(motion, &plan, step),
         };
         let [seen, lately] = &mut self.seen;
-        seen.follow(lately, self.mode, &self.mix, self.walking, step);
+        let turns_back = seen.follow(lately, self.mode, &self.mix, self.walking, motion.db, step);
         // What is played has come to the end of the step; a switch leaves what it leaves there.
         self.inertia.pass(step);
         if let Some(hybrid) = motion.hybrid {
             self.choose(motion, hybrid, &plan, nearest.idle_share, step.dt_s);
             self.switch(motion, hybrid, before, step);
+        }
+        if turns_back {
+            self.jump(motion, step, Self::turn_back);
         }
         self.gaze.follow(&plan, &self.root, step);
         self.committed_mps = self
@@ -64,10 +68,10 @@ impl Body {
         let asked = asked::asked(plan, self.root.facing_rad, motion.space, motion.params);
         self.intention.follow(asked, self.gait.stands, step);
         let now = self.mix.parameters(motion.db);
-        let nearest = motion.space.nearest(self.intention.parameters);
-        let ahead = self.intention.ahead(gait::PASSING_TIME_S);
+        let (intended, ahead) = (self.intention.parameters, self.intention.ahead(gait::PASSING_TIME_S));
+        let nearest = self.gait.nearest(intended, ahead, motion.space);
         let mut gait = self.gait;
-        let starts = gait.follow(&nearest, ahead, || self.feet_gathered(motion), step.dt_s);
+        let starts = gait.follow(&nearest, || self.feet_gathered(motion), step.dt_s);
         self.gait = gait;
         if starts {
             self.jump(motion, step, |body| body.phase = body.first_step_phase(motion));
@@ -112,6 +116,12 @@ impl Body {
         let middle = before + 0.5 * hurried_s * map.rate_hz(before);
         self.phase = wrapped(before + hurried_s * map.rate_hz(middle));
         (nearest, before)
+    }
+
+    /// Plays the gait backward in time from now on.
+    fn turn_back(&mut self) {
+        self.phase = wrapped(1.0 - self.phase);
+        self.seen.iter_mut().for_each(Seen::turn_back);
     }
 
     /// Puts the root where a step that began at `from` really ends, whoever keeps it there.

@@ -52,26 +52,27 @@ impl Gait {
     /// At the start: standing, ready to go.
     pub const STANDING: Self = Self { stands: true, since_s: GAIT_TIME_S, gathering_s: 0.0 };
 
-    /// Follows `nearest`, what the database has of what is asked, with hysteresis; `ahead` is what will be asked after
-    /// [`PASSING_TIME_S`], `feet_gathered` tells whether the body could stand as its feet are. Returns whether it now
-    /// starts to step.
-    pub fn follow(
-        &mut self,
-        nearest: &Nearest,
-        ahead: Parameters,
-        feet_gathered: impl FnOnce() -> bool,
-        dt_s: f32,
-    ) -> bool {
+    /// Follows `nearest`, what the database has of what is asked, with hysteresis; `feet_gathered` tells whether the
+    /// body could stand as its feet are. Returns whether it now starts to step.
+    pub fn follow(&mut self, nearest: &Nearest, feet_gathered: impl FnOnce() -> bool, dt_s: f32) -> bool {
         let idle_share = nearest.idle_share.min(slow_share(nearest.parameters));
         let lasted = self.since_s >= GAIT_TIME_S;
         let stop = !self.stands && (lasted && idle_share > STOP_IDLE_SHARE || idle_share > HALT_IDLE_SHARE);
         let start = self.stands && lasted && idle_share < START_IDLE_SHARE;
         self.gathering_s = if stop { self.gathering_s + dt_s } else { 0.0 };
-        if start || self.gathering_s > GATHERING_TIME_S || stop && !passes_rest(ahead) && feet_gathered() {
+        if start || self.gathering_s > GATHERING_TIME_S || stop && feet_gathered() {
             *self = Self { stands: !self.stands, since_s: 0.0, gathering_s: 0.0 };
         }
         self.since_s += dt_s;
         start
+    }
+
+    /// What the database has nearest to what is asked of the body; where that is rest on the way to go elsewhere, to
+    /// `ahead`, what will be asked after [`PASSING_TIME_S`].
+    pub fn nearest(&self, asked: Parameters, ahead: Parameters, space: &Space) -> Nearest {
+        let nearest = space.nearest(asked);
+        let passes = !self.stands && nearest.idle_share > STOP_IDLE_SHARE && slow_share(ahead) < STOP_IDLE_SHARE;
+        if passes { space.nearest(ahead) } else { nearest }
     }
 
     /// Whether the body is to stand as soon as its feet are under it.
@@ -83,10 +84,6 @@ impl Gait {
 /// The share of standing that a speed counts as, at least.
 fn slow_share(parameters: Parameters) -> f32 {
     1.0 - Vec2::new(parameters.speed_mps, parameters.strafe_mps).length() / SLOWEST_MPS
-}
-
-fn passes_rest(ahead: Parameters) -> bool {
-    slow_share(ahead) < STOP_IDLE_SHARE
 }
 
 /// The parameters to make for: `nearest`, what the database has of what is asked, at steps no smaller than the least;

@@ -5,8 +5,8 @@
 //! 1. [`owed`], [`asked`], [`intention`], [`gait`]: the plan as (v_f, ω_t, ω_s), smoothed; what of it the body can do,
 //!    standing or stepping; and how far it gets in one step;
 //! 2. [`blending`] or [`semi_procedural`]: what is played follows ([`pursuit`]); phase ([`hurry`]) and root move, the
-//!    root exactly along its arc; the pose eases into both ([`seen`]); [`mode`] tells which synthesis is wanted, and at
-//!    the next pair of [`hybrid`] it changes hands (`switching`).
+//!    root exactly along its arc; the pose eases into both, and the gait turns back with the body ([`seen`]); [`mode`]
+//!    tells which synthesis is wanted, and at the next pair of [`hybrid`] it changes hands (`switching`).
 //!
 //! `synthesize`: the pose there.
 //!
@@ -142,7 +142,7 @@ impl Body {
             mode: Mode::Blending,
             mix,
             walking: Parameters::default(),
-            seen: [Seen::going(mix, Parameters::default(), Vec2::X); 2],
+            seen: [Seen::standing(mix); 2],
             choice: Choice::BLENDING,
             inertia: Inertia::default(),
             gait: Gait::STANDING,

@@ -3,12 +3,17 @@
 //! Shares and parameters change at limited rates, which begin and end at once; joints that moved with them would do so
 //! with a jerk. So the pose is that of a mix, and of an m_sp, that follow the root's with a short lag, over which
 //! planted feet are held. The root knows nothing of it: nothing is tracked later for it.
+//!
+//! A body that goes back the way it came would step with the wrong foot: one that has just landed behind it, walking
+//! backward, is about to leave the ground for who walks ahead. Gait the other way is nearly gait in reversed time
+//! (Winter, Pluck, Yang 1989), and phases 0 and ½ are mid-stances: so its phase φ becomes 1 − φ, at which its feet are
+//! where they were.
 
 use glam::Vec2;
+use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 
 use super::blending::Mix;
-use super::deformation::travel;
 use super::mode::Mode;
 use super::time_step::TimeStep;
 
@@ -25,39 +30,56 @@ pub struct Seen {
     pub mix: Mix,
     /// Otherwise.
     pub walking: Parameters,
-    /// Direction of travel that m_sp is deformed to. It lags behind a root that turns about at rest.
+    /// Direction of travel, to which m_sp is deformed. It lags behind one that turns about at rest.
     pub way: Vec2,
     /// A second.
     way_rate: Vec2,
 }
 
 impl Seen {
-    /// This, without turning about.
-    pub fn going(mix: Mix, walking: Parameters, way: Vec2) -> Self {
-        Self { mix, walking, way, way_rate: Vec2::ZERO }
+    /// A mix that stands.
+    pub fn standing(mix: Mix) -> Self {
+        Self { mix, walking: Parameters::default(), way: Vec2::X, way_rate: Vec2::ZERO }
     }
 
     /// Follows what the root does by a step; `lately` becomes what was seen a moment before its end. Of either
-    /// only what this synthesis shows.
-    pub fn follow(&mut self, lately: &mut Self, mode: Mode, mix: &Mix, walking: Parameters, step: &TimeStep) {
+    /// only what this synthesis shows. Returns whether it goes back the way it came.
+    pub fn follow(
+        &mut self,
+        lately: &mut Self,
+        mode: Mode,
+        mix: &Mix,
+        walking: Parameters,
+        db: &MotionDb,
+        step: &TimeStep,
+    ) -> bool {
         let (fraction, back) = (1.0 - step.seen, step.look_back_s / step.dt_s);
-        match mode {
+        let going = match mode {
             Mode::Blending => {
                 let before = self.mix;
                 self.mix.ease(mix, fraction);
                 lately.mix = self.mix;
                 lately.mix.ease(&before, back);
+                self.mix.parameters(db)
             }
             Mode::SemiProcedural => {
                 let before = self.walking;
                 self.walking = part_way(before, walking, fraction);
                 lately.walking = part_way(self.walking, before, back);
+                self.walking
             }
-        }
-        let way = travel(self.walking);
+        };
+        // Who rests keeps its way.
+        let way = Vec2::new(going.speed_mps, going.strafe_mps).normalize_or(self.way);
         let (off, rate) = step.turn_about.pass(self.way - way, self.way_rate);
         (self.way, self.way_rate) = (way + off, rate);
         lately.way = self.way - step.look_back_s * rate;
+        self.way.dot(way) < 0.0
+    }
+
+    /// The same legs go the other way.
+    pub fn turn_back(&mut self) {
+        (self.way, self.way_rate) = (-self.way, -self.way_rate);
     }
 }
 

@@ -5,13 +5,11 @@ use motiondb::phase_map::wrapped;
 use motiondb::pose::Pose;
 
 use super::blending::Mix;
-use super::deformation::travel;
 use super::gait;
 use super::hybrid::Hybrid;
 use super::mode::{Mode, Thresholds};
 use super::params::{HmsParams, Modes};
 use super::playing::Playing;
-use super::seen::Seen;
 use super::time_step::TimeStep;
 use super::{Body, Motion};
 use crate::plan::Plan;
@@ -46,8 +44,7 @@ impl Body {
             match to {
                 Mode::SemiProcedural => {
                     body.walking = body.mix.parameters(motion.db);
-                    let way = travel(body.seen[0].mix.parameters(motion.db));
-                    body.seen = body.seen.map(|seen| Seen::going(seen.mix, seen.mix.parameters(motion.db), way));
+                    body.seen.iter_mut().for_each(|seen| seen.walking = seen.mix.parameters(motion.db));
                 }
                 Mode::Blending => {
                     let mix = Mix::new(&motion.space.locate(body.walking));

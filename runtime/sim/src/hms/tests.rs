@@ -279,5 +279,5 @@ fn bodies_without_slow_steps_start_too() {
     let parameters = Parameters { speed_mps: 0.33, ..Parameters::default() };
     let nearest = Nearest { parameters, idle_share: 0.92, ..Nearest::default() };
     let mut gait = Gait::STANDING;
-    assert!(gait.follow(&nearest, parameters, || true, DT_S));
+    assert!(gait.follow(&nearest, || true, DT_S));
 }
