@@ -114,6 +114,9 @@ impl Obstacles {
 
     /// The polygons that a point lies inside of, by the even-odd rule along a ray in +x.
     fn around(&self, point_m: Vec2) -> Vec<u32> {
+        if self.corners.is_empty() {
+            return Vec::new();
+        }
         let crosses = |edge: &u32| {
             let [from_m, to_m] = self.ends_m(*edge);
             let straddles = (from_m.y > point_m.y) != (to_m.y > point_m.y);
@@ -130,6 +133,11 @@ impl Obstacles {
     /// Where a disc ends up that would go from one position to another: outside all walls, as [`Self::clamp_outside`]
     /// puts it, and on the side of them where it was. Whoever is in a wall may leave that one on any side.
     pub fn clamp_way(&self, from_m: Vec2, to_m: Vec2, radius_m: f32) -> Vec2 {
+        // Mostly no wall is near.
+        let mut near = self.grid.within(from_m.min(to_m) - radius_m, from_m.max(to_m) + radius_m);
+        if near.next().is_none() && self.around(to_m).is_empty() {
+            return to_m;
+        }
         let within = self.around(from_m);
         let free = |to_m: &Vec2| {
             let ends_well = self.around(*to_m).iter().all(|polygon| within.contains(polygon));
