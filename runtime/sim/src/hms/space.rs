@@ -2,6 +2,8 @@
 //!
 //! Parameters are (v_f, ω_t, ω_s), m/s and rad/s; an example without steps *stands*.
 
+use std::array::from_fn;
+
 use glam::{Vec2, Vec3};
 use motiondb::blend_space::{MAX_CORNERS, Shares};
 use motiondb::locator::Locator;
@@ -29,7 +31,7 @@ pub struct Space {
     points: Vec<Parameters>,
     stands: Vec<bool>,
     landmarks_m: Vec<Landmarks>,
-    /// Greatest distance of an example's landmarks from the root, root mean square, metres.
+    /// Greatest distance of an example's landmarks from their mean, root mean square, metres.
     landmarks_reach_m: f32,
     /// What an axis is divided by in distances; 0 drops it.
     scale: Vec3,
@@ -74,7 +76,7 @@ impl Space {
             strafe_mps: strafe_mps(&points),
             turn_rate_max_rad_s: greatest(|point| point.turn_rate_rad_s.abs()),
             speed_max_mps: greatest(|point| Vec2::new(point.speed_mps, point.strafe_mps).length()),
-            landmarks_reach_m: landmarks_m.iter().map(root_mean_square_m).fold(0.0, f32::max),
+            landmarks_reach_m: landmarks_reach_m(&landmarks_m),
             landmarks_m,
             locator: Locator::new(&db.blend_space, &points),
             points,
@@ -144,6 +146,15 @@ impl Space {
 
 fn root_mean_square_m(landmarks_m: &Landmarks) -> f32 {
     libm::sqrtf(landmarks_m.iter().map(|landmark_m| landmark_m.length_squared()).sum::<f32>() / LANDMARKS as f32)
+}
+
+/// Shares that change hands sum to none, so where landmarks are counted from makes no difference: from the mean of all
+/// examples they are nearest.
+fn landmarks_reach_m(landmarks_m: &[Landmarks]) -> f32 {
+    let count = landmarks_m.len() as f32;
+    let mean_m: Landmarks = from_fn(|at| landmarks_m.iter().map(|of_one_m| of_one_m[at] / count).sum());
+    let off_m = |of_one_m: &Landmarks| root_mean_square_m(&from_fn(|at| of_one_m[at] - mean_m[at]));
+    landmarks_m.iter().map(off_m).fold(0.0, f32::max)
 }
 
 fn strafe_mps(points: &[Parameters]) -> [f32; 2] {
