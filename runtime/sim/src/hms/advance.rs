@@ -14,7 +14,6 @@ use super::deformation::Tempo;
 use super::feet::FootHold;
 use super::mode::Mode;
 use super::params::Transition;
-use super::seen::Seen;
 use super::semi_procedural::SemiProcedural;
 use super::space::Nearest;
 use super::time_step::TimeStep;
@@ -39,8 +38,8 @@ impl Body {
             (Mode::SemiProcedural, Some(hybrid)) => self.deform(motion, &hybrid.semi_procedural, &plan, step),
             _ => self.blend(motion, &plan, step),
         };
-        let [seen, lately] = &mut self.seen;
-        let turns_back = seen.follow(lately, self.mode, &self.mix, self.walking, motion.db, step);
+        self.seen[1] = self.seen[0];
+        let turns_back = self.seen[0].follow(self.mode, &self.mix, self.walking, motion.db, step);
         // What is played has come to the end of the step; a switch leaves what it leaves there.
         self.inertia.pass(step);
         if let Some(hybrid) = motion.hybrid {
@@ -121,7 +120,7 @@ impl Body {
     /// Plays the gait backward in time from now on.
     fn turn_back(&mut self) {
         self.phase = wrapped(1.0 - self.phase);
-        self.seen.iter_mut().for_each(Seen::turn_back);
+        self.seen[0].turn_back();
     }
 
     /// Puts the root where a step that began at `from` really ends, whoever keeps it there.

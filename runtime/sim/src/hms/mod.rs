@@ -100,7 +100,7 @@ pub struct Body {
     pub mix: Mix,
     /// What m_sp is deformed to, otherwise.
     walking: Parameters,
-    /// What is seen of either, and what was a moment ago.
+    /// What is seen of either, and what was a step ago.
     pub seen: [Seen; 2],
     choice: Choice,
     inertia: Inertia,

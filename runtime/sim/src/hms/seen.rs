@@ -42,30 +42,17 @@ impl Seen {
         Self { mix, walking: Parameters::default(), way: Vec2::X, way_rate: Vec2::ZERO }
     }
 
-    /// Follows what the root does by a step; `lately` becomes what was seen a moment before its end. Of either
-    /// only what this synthesis shows. Returns whether it goes back the way it came.
-    pub fn follow(
-        &mut self,
-        lately: &mut Self,
-        mode: Mode,
-        mix: &Mix,
-        walking: Parameters,
-        db: &MotionDb,
-        step: &TimeStep,
-    ) -> bool {
-        let (fraction, back) = (1.0 - step.seen, step.look_back_s / step.dt_s);
+    /// Follows what the root does by a step: only what this synthesis shows. Returns whether it goes back the way it
+    /// came.
+    pub fn follow(&mut self, mode: Mode, mix: &Mix, walking: Parameters, db: &MotionDb, step: &TimeStep) -> bool {
+        let fraction = 1.0 - step.seen;
         let going = match mode {
             Mode::Blending => {
-                let before = self.mix;
                 self.mix.ease(mix, fraction);
-                lately.mix = self.mix;
-                lately.mix.ease(&before, back);
                 self.mix.parameters(db)
             }
             Mode::SemiProcedural => {
-                let before = self.walking;
-                self.walking = part_way(before, walking, fraction);
-                lately.walking = part_way(self.walking, before, back);
+                self.walking = part_way(self.walking, walking, fraction);
                 self.walking
             }
         };
@@ -73,13 +60,22 @@ impl Seen {
         let way = Vec2::new(going.speed_mps, going.strafe_mps).normalize_or(self.way);
         let (off, rate) = step.turn_about.pass(self.way - way, self.way_rate);
         (self.way, self.way_rate) = (way + off, rate);
-        lately.way = self.way - step.look_back_s * rate;
         self.way.dot(way) < 0.0
     }
 
     /// The same legs go the other way.
     pub fn turn_back(&mut self) {
         (self.way, self.way_rate) = (-self.way, -self.way_rate);
+    }
+
+    /// What was seen a moment before the end of the step that began with `before`.
+    pub fn lately(&self, before: &Self, step: &TimeStep) -> Self {
+        let back = step.look_back_s / step.dt_s;
+        let mut lately = *self;
+        lately.mix.ease(&before.mix, back);
+        lately.walking = part_way(self.walking, before.walking, back);
+        lately.way -= step.look_back_s * self.way_rate;
+        lately
     }
 }
 

@@ -35,10 +35,13 @@ impl Body {
     /// moment that a collision threatens, its body walks at m_mb's.
     pub(super) fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32, step: &TimeStep) {
         let (from, to) = (self.mode, self.choice.mode);
-        if from == to || !self.may_switch(motion, hybrid) {
+        if from == to {
             return;
         }
         let Some(jump) = hybrid.jump(from, before, self.phase) else { return };
+        if !self.may_switch(motion, hybrid) {
+            return;
+        }
         let soles_m = self.playing(motion).posture(motion, self.phase).soles_m(&motion.db.skeleton);
         self.jump(motion, step, |body| {
             match to {
@@ -95,7 +98,8 @@ impl Body {
     fn poses(&self, motion: &Motion, step: &TimeStep) -> [Pose; 2] {
         let playing = self.playing(motion);
         let before = wrapped(self.phase - step.look_back_s * playing.phase_rate_hz(self.phase));
-        let lately = Playing::new(motion, self.mode, &self.seen[1], &self.mix, before);
+        let [seen, last] = &self.seen;
+        let lately = Playing::new(motion, self.mode, &seen.lately(last, step), &self.mix, before);
         [playing.bent(motion, self.phase).pose, lately.bent(motion, before).pose]
     }
 }
