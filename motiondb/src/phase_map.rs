@@ -63,9 +63,10 @@ impl PhaseMap {
 /// The same phase in [0, 1).
 #[inline]
 pub fn wrapped(phase: f32) -> f32 {
-    let wrapped = phase - libm::floorf(phase);
+    let whole = phase as i32 as f32 - if phase < 0.0 { 1.0 } else { 0.0 };
+    let wrapped = phase - whole;
     // A little less than none is rounded to a whole cycle.
-    if wrapped < 1.0 { wrapped } else { 0.0 }
+    if (0.0..1.0).contains(&wrapped) { wrapped } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -210,8 +210,8 @@ impl Weights {
 /// The stored rows beside a phase, and their shares.
 pub(super) fn two_rows(phase: f32) -> ([usize; 2], [f32; 2]) {
     let position = phase * PHASE_COUNT as f32;
-    let row = libm::floorf(position);
-    let share = position - row;
-    let row = row as usize % PHASE_COUNT;
+    let row = position as usize;
+    let share = position - row as f32;
+    let row = row % PHASE_COUNT;
     ([row, (row + 1) % PHASE_COUNT], [1.0 - share, share])
 }
