@@ -1,28 +1,64 @@
-//! Angles, radians.
+//! Angles, radians, without a call where they are turned into directions and rotations.
 
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::{FRAC_2_PI, PI, TAU};
+use std::f64::consts::FRAC_PI_2;
 
-use glam::{Quat, Vec2};
+use glam::{Quat, Vec2, Vec3};
 
-/// Where five terms of Taylor's series suffice.
-const SMALL_RAD: f32 = 1.0;
+use crate::decay::WHOLE;
+
+/// Beyond this, quarters of a turn are no longer counted.
+const COUNTED_RAD: f32 = 1e5;
+/// Angles, and their squares, up to which five terms of Taylor's series suffice.
+const SMALL: f32 = 1.0;
 
 /// The same angle in [−π, π].
+#[inline]
 pub fn wrap_rad(angle_rad: f32) -> f32 {
+    if angle_rad.abs() < PI {
+        return angle_rad;
+    }
     (angle_rad - TAU * libm::roundf(angle_rad / TAU)).clamp(-PI, PI)
 }
 
-/// The unit vector at an angle. Most angles are small: for them Taylor's series, to rounding, without a call.
+/// The unit vector at an angle, to rounding. Most angles are small.
 #[inline]
 pub fn direction(angle_rad: f32) -> Vec2 {
-    if angle_rad.abs() > SMALL_RAD {
+    if angle_rad.abs() > SMALL {
+        return far_direction(angle_rad);
+    }
+    let (sine_share, cosine) = series(angle_rad * angle_rad);
+    Vec2::new(cosine, angle_rad * sine_share)
+}
+
+/// The same, quarters of a turn taken out first.
+fn far_direction(angle_rad: f32) -> Vec2 {
+    if angle_rad.abs() > COUNTED_RAD {
         return Vec2::from_angle(angle_rad);
     }
-    let square = angle_rad * angle_rad;
-    let series = |terms: [f32; 5]| terms.into_iter().rev().fold(0.0, |sum, term| sum * square + term);
-    let sine = angle_rad * series([1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5_040.0, 1.0 / 362_880.0]);
-    let cosine = 1.0 - square * series([0.5, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40_320.0, 1.0 / 3_628_800.0]);
-    Vec2::new(cosine, sine)
+    let counted = angle_rad * FRAC_2_PI + WHOLE;
+    let left_rad = (f64::from(angle_rad) - f64::from(counted - WHOLE) * FRAC_PI_2) as f32;
+    let (sine_share, cosine) = series(left_rad * left_rad);
+    let quarters = counted.to_bits();
+    // No branch: facings lie all around.
+    let (sine, cosine) = ((left_rad * sine_share).to_bits(), cosine.to_bits());
+    let exchanged = (sine ^ cosine) & (quarters & 1).wrapping_neg();
+    let signs = [quarters.wrapping_add(1), quarters].map(|quarters| (quarters & 2) << 30);
+    Vec2::new(f32::from_bits(cosine ^ exchanged ^ signs[0]), f32::from_bits(sine ^ exchanged ^ signs[1]))
+}
+
+/// The direction of one vector as seen from another, rad: mostly a small angle.
+#[inline]
+pub fn turned_rad(from: Vec2, to: Vec2) -> f32 {
+    let (across, along) = (from.perp_dot(to), from.dot(to));
+    if across.abs() > 0.25 * along {
+        return libm::atan2f(across, along);
+    }
+    // Neither has a direction where both are none.
+    let tangent = if along > 0.0 { across / along } else { 0.0 };
+    let square = tangent * tangent;
+    let terms = [1.0 / 9.0, -1.0 / 7.0, 0.2, -1.0 / 3.0, 1.0];
+    tangent * terms.into_iter().fold(0.0, |sum, term| sum * square + term)
 }
 
 /// A rotation about the vertical.
@@ -32,21 +68,63 @@ pub fn yaw(angle_rad: f32) -> Quat {
     Quat::from_xyzw(0.0, 0.0, half.y, half.x)
 }
 
+/// The rotation by a vector, axis × angle.
+#[inline]
+pub fn rotation(vector_rad: Vec3) -> Quat {
+    let square = 0.25 * vector_rad.length_squared();
+    if square > SMALL {
+        return Quat::from_scaled_axis(vector_rad);
+    }
+    let (sine_share, cosine) = series(square);
+    let half = 0.5 * sine_share * vector_rad;
+    Quat::from_xyzw(half.x, half.y, half.z, cosine)
+}
+
+/// Of a small angle, whose square is given: sine over angle, and cosine.
+#[inline]
+fn series(square: f32) -> (f32, f32) {
+    let sum = |terms: [f32; 5]| terms.into_iter().rev().fold(0.0, |sum, term| sum * square + term);
+    let sine_share = sum([1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5_040.0, 1.0 / 362_880.0]);
+    let cosine = 1.0 - square * sum([0.5, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40_320.0, 1.0 / 3_628_800.0]);
+    (sine_share, cosine)
+}
+
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     #[test]
     fn directions_are_sine_and_cosine_to_rounding() {
-        for step in -4000..=4000 {
+        for step in -40_000..=40_000 {
             let angle_rad = step as f32 * 1e-3;
             let (sine, cosine) = f64::from(angle_rad).sin_cos();
             let found = direction(angle_rad);
             assert!(
-                (f64::from(found.y) - sine).abs() < 1e-7 && (f64::from(found.x) - cosine).abs() < 1e-7,
+                (f64::from(found.y) - sine).abs() < 1.2e-7 && (f64::from(found.x) - cosine).abs() < 1.2e-7,
                 "{angle_rad}"
             );
         }
+        assert!(direction(1e9).is_normalized());
         assert!(!direction(f32::NAN).is_finite() && !direction(f32::INFINITY).is_finite());
+    }
+
+    #[test]
+    fn angles_between_directions_are_told_all_around() {
+        for step in -3_141..=3_141 {
+            let (from, turned) = (direction(2.0), step as f32 * 1e-3);
+            assert!((turned_rad(3.0 * from, 0.2 * direction(2.0 + turned)) - turned).abs() < 1e-6, "{turned}");
+        }
+        assert_eq!(turned_rad(Vec2::ZERO, Vec2::X), 0.0);
+    }
+
+    proptest! {
+        #[test]
+        fn rotations_are_those_of_their_vectors(x in -2.0f32..2.0, y in -2.0f32..2.0, z in -2.0f32..2.0) {
+            let vector_rad = Vec3::new(x, y, z);
+            let (found, told) = (rotation(vector_rad), Quat::from_scaled_axis(vector_rad));
+            prop_assert!((found - told).length() < 3e-7, "{found} {told}");
+        }
     }
 }

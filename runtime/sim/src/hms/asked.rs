@@ -22,7 +22,7 @@ use motiondb::pose::Root;
 use super::params::HmsParams;
 use super::semi_procedural::SemiProcedural;
 use super::space::Space;
-use crate::angle::wrap_rad;
+use crate::angle::{direction, wrap_rad};
 use crate::plan::Plan;
 
 /// What a plan asks of a body that faces `facing_rad`; anything not finite asks to stand.
@@ -31,8 +31,8 @@ pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) ->
         return Parameters::default();
     }
     let turn_rad = wrap_rad(plan.facing_rad - facing_rad);
-    let velocity_mps = plan.velocity_mps * libm::cosf(turn_rad).max(0.0);
-    let wanted_mps = Vec2::from_angle(-plan.facing_rad).rotate(velocity_mps.clamp_length_max(space.speed_max_mps));
+    let velocity_mps = plan.velocity_mps * direction(turn_rad).x.max(0.0);
+    let wanted_mps = direction(-plan.facing_rad).rotate(velocity_mps.clamp_length_max(space.speed_max_mps));
     let turn_rate_rad_s = (turn_rad / params.turn_time_s).clamp(-space.turn_rate_max_rad_s, space.turn_rate_max_rad_s);
     // Who has no side-steps is asked for none: the nearest to them that turning clips have leads elsewhere.
     let [right_mps, left_mps] = space.strafe_mps;
@@ -64,7 +64,7 @@ pub fn asked_exactly(
     if !(plan.velocity_mps.is_finite() && plan.facing_rad.is_finite()) {
         return Parameters::default();
     }
-    let local_mps = Vec2::from_angle(-facing_rad - 0.5 * turning_rad).rotate(plan.velocity_mps);
+    let local_mps = direction(-facing_rad - 0.5 * turning_rad).rotate(plan.velocity_mps);
     let turn_rate_rad_s = wrap_rad(plan.facing_rad - facing_rad) / params.turn_time_s;
     semi_procedural.reachable(Parameters { speed_mps: local_mps.x, turn_rate_rad_s, strafe_mps: local_mps.y })
 }

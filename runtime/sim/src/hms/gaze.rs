@@ -11,12 +11,12 @@
 
 use std::f32::consts::PI;
 
-use glam::{Quat, Vec2};
+use glam::Quat;
 use motiondb::pose::{Pose, Root};
 use motiondb::skeleton::{Joint, Skeleton};
 
 use super::time_step::TimeStep;
-use crate::angle::{wrap_rad, yaw};
+use crate::angle::{direction, wrap_rad, yaw};
 use crate::plan::Plan;
 
 /// Eyes do what is further aside, rad: of turns by 90° and more the head shows some 45° against the trunk.
@@ -79,7 +79,7 @@ fn yaw_rad(rotation: Quat) -> f32 {
 /// The angle to where a body is asked to face and to go: ahead of the wanted facing, and the more to a side the faster
 /// it is to walk there. Nobody looks where he steps back to.
 fn wanted_rad(plan: &Plan, facing_rad: f32) -> f32 {
-    let local_mps = Vec2::from_angle(-plan.facing_rad).rotate(plan.velocity_mps);
+    let local_mps = direction(-plan.facing_rad).rotate(plan.velocity_mps);
     let aside_rad = libm::atan2f(local_mps.y, local_mps.x.max(0.0) + LOOK_SPEED_MPS);
     let wanted_rad = wrap_rad(plan.facing_rad + aside_rad - facing_rad).clamp(-GAZE_MAX_RAD, GAZE_MAX_RAD);
     if wanted_rad.is_finite() { wanted_rad } else { 0.0 }
@@ -87,7 +87,7 @@ fn wanted_rad(plan: &Plan, facing_rad: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
+    use glam::{Vec2, Vec3};
     use motiondb::skeleton::JOINT_COUNT;
 
     use super::*;

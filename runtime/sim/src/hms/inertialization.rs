@@ -10,6 +10,7 @@ use motiondb::pose::Pose;
 use motiondb::skeleton::JOINT_COUNT;
 
 use super::time_step::TimeStep;
+use crate::angle::rotation;
 
 /// Rate of the springs, 1/s: from mid-stance, where synthesis changes hands, 14 % of a difference is left when the next
 /// foot lands (0.3 s), and 5 % after a step (0.4 s).
@@ -21,12 +22,10 @@ const NEGLIGIBLE: f32 = 1e-4;
 /// A rate is a difference over this time before the switch, or over the step where that is shorter, s.
 pub(super) const LOOK_BACK_S: f32 = 1.0 / 120.0;
 
-/// A difference of two poses: of the pelvis, m, and of each joint's rotation, as a vector, rad.
+/// A difference of two poses: of the pelvis, m, then of each joint's rotation, as a vector, rad. Of plain numbers, so
+/// that vector instructions come of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Difference {
-    pelvis_m: Vec3,
-    rotations_rad: [Vec3; JOINT_COUNT],
-}
+struct Difference([[f32; 3]; 1 + JOINT_COUNT]);
 
 /// The difference that is left, and its rate; none where there is nothing left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,8 +51,7 @@ impl Inertia {
     /// Lets a step pass.
     pub fn pass(&mut self, step: &TimeStep) {
         let Some([left, rate]) = &mut self.0 else { return };
-        (left.pelvis_m, rate.pelvis_m) = step.inertia.pass(left.pelvis_m, rate.pelvis_m);
-        for (left, rate) in left.rotations_rad.iter_mut().zip(&mut rate.rotations_rad) {
+        for (left, rate) in left.values_mut().iter_mut().zip(rate.values_mut()) {
             (*left, *rate) = step.inertia.pass(*left, *rate);
         }
         if left.greatest().max(rate.greatest()) <= NEGLIGIBLE {
@@ -71,44 +69,47 @@ impl Inertia {
 
 impl Difference {
     fn between(old: &Pose, new: &Pose) -> Self {
-        let mut rotations_rad = [Vec3::ZERO; JOINT_COUNT];
-        for (vector, (old, new)) in rotations_rad.iter_mut().zip(old.rotations.iter().zip(&new.rotations)) {
-            *vector = rotation_vector(*old * new.conjugate());
+        let mut vectors = [(old.pelvis_m - new.pelvis_m).to_array(); 1 + JOINT_COUNT];
+        for (vector, (old, new)) in vectors[1..].iter_mut().zip(old.rotations.iter().zip(&new.rotations)) {
+            *vector = rotation_vector(*old * new.conjugate()).to_array();
         }
-        Self { pelvis_m: old.pelvis_m - new.pelvis_m, rotations_rad }
+        Self(vectors)
     }
 
     /// Of both, this one on top of the other.
     fn after(&self, other: &Self) -> Self {
-        let mut both = Self { pelvis_m: self.pelvis_m + other.pelvis_m, rotations_rad: self.rotations_rad };
-        for (own, other) in both.rotations_rad.iter_mut().zip(&other.rotations_rad) {
-            *own = rotation_vector(Quat::from_scaled_axis(*own) * Quat::from_scaled_axis(*other));
+        let mut both = self.combined(1.0, other, 1.0);
+        for (both, (own, other)) in both.0.iter_mut().zip(self.0.iter().zip(&other.0)).skip(1) {
+            let [own, other] = [own, other].map(|vector_rad| rotation(Vec3::from(*vector_rad)));
+            *both = rotation_vector(own * other).to_array();
         }
         both
     }
 
     /// Of both, each times its factor.
     fn combined(&self, factor: f32, other: &Self, other_factor: f32) -> Self {
-        let mut sum = Self {
-            pelvis_m: factor * self.pelvis_m + other_factor * other.pelvis_m,
-            rotations_rad: self.rotations_rad,
-        };
-        for (own, other) in sum.rotations_rad.iter_mut().zip(&other.rotations_rad) {
+        let mut sum = *self;
+        for (own, other) in sum.values_mut().iter_mut().zip(other.0.as_flattened()) {
             *own = factor * *own + other_factor * *other;
         }
         sum
     }
 
     fn add_to(&self, pose: &mut Pose) {
-        pose.pelvis_m += self.pelvis_m;
-        for (rotation, vector) in pose.rotations.iter_mut().zip(&self.rotations_rad) {
-            *rotation = (Quat::from_scaled_axis(*vector) * *rotation).normalize();
+        pose.pelvis_m += Vec3::from(self.0[0]);
+        for (posed, vector_rad) in pose.rotations.iter_mut().zip(&self.0[1..]) {
+            *posed = rotation(Vec3::from(*vector_rad)) * *posed;
         }
     }
 
+    /// The greatest of its values.
     fn greatest(&self) -> f32 {
-        let squared = self.rotations_rad.iter().map(|vector| vector.length_squared());
-        libm::sqrtf(squared.fold(self.pelvis_m.length_squared(), f32::max))
+        // Sizes are in the order of their bits.
+        f32::from_bits(self.0.as_flattened().iter().fold(0, |greatest, value| greatest.max(value.abs().to_bits())))
+    }
+
+    fn values_mut(&mut self) -> &mut [f32] {
+        self.0.as_flattened_mut()
     }
 }
 

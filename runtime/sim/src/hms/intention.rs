@@ -16,6 +16,8 @@ use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
 
 use super::time_step::TimeStep;
+use crate::angle::direction;
+use crate::decay::decay;
 
 /// τ_0: lag behind plans that change to and fro, s.
 const LAG_S: f32 = 0.15;
@@ -49,8 +51,8 @@ impl Intention {
         let change = (asked - self.asked) / step.dt_s;
         self.rate += (1.0 - step.steady) * (change - self.rate);
         (self.asked, self.change) = (asked, change.clamp_length_max(CHANGE_MAX));
-        let lag_s = LAG_S / (1.0 + self.rate.length() / RATE);
-        let share = if stands { 1.0 } else { 1.0 - libm::expf(-step.dt_s / lag_s) };
+        let lags = step.dt_s / LAG_S * (1.0 + self.rate.length() / RATE);
+        let share = if stands { 1.0 } else { 1.0 - decay(lags) };
         let intended = self.parameters.to_vec3();
         let led = asked + 0.5 * (LEAD_STEP_S - step.dt_s).max(0.0) * self.steady_rate();
         self.parameters = Parameters::from_vec3(intended + share * (led - intended));
@@ -69,7 +71,7 @@ impl Intention {
 
     /// The facing has turned under velocities that are meant in the world.
     pub fn turned(&mut self, by_rad: f32) {
-        let back = Vec2::from_angle(-by_rad);
+        let back = direction(-by_rad);
         let turned = |vector: Vec3| {
             let velocity = back.rotate(Vec2::new(vector.x, vector.z));
             Vec3::new(velocity.x, vector.y, velocity.y)
