@@ -12,7 +12,7 @@
 use glam::{Quat, Vec2, Vec3};
 
 use super::time_step::TimeStep;
-use crate::angle::{direction, wrap_rad, yaw};
+use crate::angle::{direction, turned_rad, yaw};
 use crate::decay::soft_maximum;
 
 /// Rate of the filter that lets a foot go, 1/s: of a hold, 2 % is left after 0.25 s, before the foot lands again.
@@ -48,10 +48,9 @@ pub struct PosedFoot {
 }
 
 impl PosedFoot {
-    /// Direction from heel to ball on the ground.
-    fn heading_rad(&self) -> f32 {
-        let along = self.sole_m[1] - self.sole_m[0];
-        libm::atan2f(along.y, along.x)
+    /// From heel to ball on the ground.
+    fn heading_m(&self) -> Vec2 {
+        (self.sole_m[1] - self.sole_m[0]).truncate()
     }
 
     /// Index of the point that touches the ground, and its height.
@@ -77,7 +76,7 @@ pub struct FootHold {
     lift_m: [f32; 3],
     /// Of the pose's foot in the step before.
     height_m: f32,
-    heading_rad: f32,
+    heading_m: Vec2,
     sole_m: [Vec3; 3],
     speed_mps: f32,
 }
@@ -95,22 +94,22 @@ impl FootHold {
     /// A foot that stands as the pose has it.
     pub fn new(posed: &PosedFoot) -> Self {
         let (lowest, height_m) = posed.lowest();
-        Self { lowest, height_m, heading_rad: posed.heading_rad(), sole_m: posed.sole_m, ..Self::default() }
+        Self { lowest, height_m, heading_m: posed.heading_m(), sole_m: posed.sole_m, ..Self::default() }
     }
 
     /// Moves the hold by one step; `posed` is the foot of the blended pose, and `lands` its contact `LANDING_AHEAD_S`
     /// from now.
     pub fn step(&mut self, posed: &PosedFoot, planted: bool, lands: f32, step: &TimeStep) -> HeldFoot {
-        let heading_rad = posed.heading_rad();
+        let heading_m = posed.heading_m();
         let (lowest, height_m) = posed.lowest();
         // A foot lands where the pose has it now, somewhere within the step: only from then on it is held.
         if planted && self.planted {
-            self.hold(posed, lowest, wrap_rad(heading_rad - self.heading_rad), step);
+            self.hold(posed, lowest, turned_rad(self.heading_m, heading_m), step);
         } else {
             self.release(step);
             self.land(posed, lowest, step);
         }
-        (self.planted, self.lowest, self.heading_rad) = (planted, lowest, heading_rad);
+        (self.planted, self.lowest, self.heading_m) = (planted, lowest, heading_m);
         self.lift(height_m, lands, step);
         HeldFoot { ankle_m: posed.ankle_m + self.shift_m[0].extend(self.lift_m[0]), twist: yaw(self.twist_rad[0]) }
     }
