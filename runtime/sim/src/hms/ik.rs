@@ -20,9 +20,8 @@ const FLEXION_MARGIN: f32 = 1.001;
 /// A straight leg has no plane, and what bends it bends it forward: its knee counts as this far before the line from
 /// hip to ankle, m. With a millimetre, where what is left of a switch straightens a leg, the knee swings out aside.
 const KNEE_AHEAD_M: f32 = 0.02;
-/// Square of twice the cosine of half an angle, from which on two directions have no axis that rounding leaves: π − 1
-/// mrad.
-const OPPOSITE: f32 = 1e-6;
+/// 1 and the cosine of an angle, from which on two directions have no axis that rounding leaves: π − 1 mrad.
+const OPPOSITE: f32 = 5e-7;
 
 /// Moves one leg, and its joints in `pose`, to the target, or as near as it reaches.
 ///
@@ -35,15 +34,17 @@ pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, t
     let (thigh_m, shank_m, line_m) = (knee_m - hip_m, ankle_m - knee_m, ankle_m - hip_m);
     let to_target_m = target.ankle_m - hip_m;
 
-    let line = line_m.normalize_or(Vec3::NEG_Z);
-    let distance_m = reachable_m(leg.bones_m, to_target_m.length());
+    let (line_length_m, target_length_m) = (line_m.length(), to_target_m.length());
+    let line = if line_length_m > 0.0 { line_m / line_length_m } else { Vec3::NEG_Z };
+    let distance_m = reachable_m(leg.bones_m, target_length_m);
     let (along_m, aside_m) = knee_offset_m(leg.bones_m, distance_m);
     let bent_thigh_m = along_m * line + aside_m * forward_pole(thigh_m, old_thigh * Vec3::X, line);
     let bent_shank_m = distance_m * line - bent_thigh_m;
 
-    let swing = turn(line_m, to_target_m);
-    let thigh_turned = (swing * turn(thigh_m, bent_thigh_m) * old_thigh).normalize();
-    let shank_turned = (swing * turn(shank_m, bent_shank_m) * old_shank).normalize();
+    let swing = turn(line_m, to_target_m, line_length_m * target_length_m);
+    let [thigh_length_m, shank_length_m] = leg.bones_m;
+    let thigh_turned = (swing * turn(thigh_m, bent_thigh_m, thigh_length_m * thigh_length_m) * old_thigh).normalize();
+    let shank_turned = (swing * turn(shank_m, bent_shank_m, shank_length_m * shank_length_m) * old_shank).normalize();
 
     pose.rotations[thigh] = pose.rotations[Joint::Pelvis.index()].conjugate() * thigh_turned;
     pose.rotations[shank] = thigh_turned.conjugate() * shank_turned;
@@ -77,14 +78,13 @@ fn forward_pole(knee_m: Vec3, forward: Vec3, line: Vec3) -> Vec3 {
     (off_m + (libm::sqrtf(ahead_m * ahead_m + KNEE_AHEAD_M * KNEE_AHEAD_M) - ahead_m) * forward).normalize()
 }
 
-/// The shortest rotation from the direction of one vector to that of another, of any length. Exact for the smallest
-/// angles, unlike what calls them nothing; for opposite vectors about any axis across, for none at all none.
-fn turn(from: Vec3, to: Vec3) -> Quat {
-    let lengths = libm::sqrtf(from.length_squared() * to.length_squared());
+/// The shortest rotation from the direction of one vector to that of another, of any length, given the product of both
+/// lengths. Exact for the smallest angles, unlike what calls them nothing; for opposite vectors about any axis across,
+/// for none at all none.
+fn turn(from: Vec3, to: Vec3, lengths: f32) -> Quat {
     let (cross, one_and_cosine) = (from.cross(to), lengths + from.dot(to));
-    let half = Quat::from_xyzw(cross.x, cross.y, cross.z, one_and_cosine);
-    if half.length_squared() > OPPOSITE * lengths * lengths {
-        half
+    if one_and_cosine > OPPOSITE * lengths {
+        Quat::from_xyzw(cross.x, cross.y, cross.z, one_and_cosine)
     } else if lengths > 0.0 {
         Quat::from_axis_angle(from.normalize().any_orthonormal_vector(), PI)
     } else {
