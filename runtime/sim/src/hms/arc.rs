@@ -5,7 +5,7 @@
 
 use glam::Vec2;
 use motiondb::parameters::Parameters;
-use motiondb::pose::Root;
+use motiondb::pose::{Root, RootFrame};
 
 use crate::angle::{direction, wrap_rad};
 
@@ -19,6 +19,14 @@ pub fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
     }
 }
 
+/// The frame of a root that went so from the origin, and the direction at half its turn.
+pub fn carried(parameters: &Parameters, time_s: f32) -> (RootFrame, Vec2) {
+    let half_turn_rad = 0.5 * time_s * parameters.turn_rate_rad_s;
+    let half_turn = direction(half_turn_rad);
+    let local_m = Vec2::new(parameters.speed_mps, parameters.strafe_mps) * time_s * chord(half_turn_rad);
+    (RootFrame { position_m: half_turn.rotate(local_m), forward: half_turn.rotate(half_turn) }, half_turn)
+}
+
 /// The parameters whose arc leads from one root to another in a step: the inverse of [`moved`].
 pub fn went(from: &Root, to: &Root, dt_s: f32) -> Parameters {
     let half_turn_rad = 0.5 * wrap_rad(to.facing_rad - from.facing_rad);
@@ -28,6 +36,7 @@ pub fn went(from: &Root, to: &Root, dt_s: f32) -> Parameters {
 }
 
 /// Chord over arc, by half the angle between its ends.
+#[inline]
 fn chord(half_turn_rad: f32) -> f32 {
     if half_turn_rad.abs() > 1e-3 { direction(half_turn_rad).y / half_turn_rad } else { 1.0 }
 }

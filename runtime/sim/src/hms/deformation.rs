@@ -18,10 +18,10 @@ use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::{PhaseMap, wrapped};
 use motiondb::planted_feet::CycleFeet;
-use motiondb::pose::{Joints, Pose, Root, RootFrame};
+use motiondb::pose::{Joints, Pose};
 use motiondb::skeleton::{Foot, Joint, Side, Skeleton};
 
-use super::arc::moved;
+use super::arc::carried;
 use super::blending::two_rows;
 use super::foot_path::Foothold;
 use super::landing::lowering;
@@ -190,24 +190,22 @@ impl<'a> Deformation<'a> {
         self.lean_over(&mut pose);
         pose.pelvis_m.z -= self.lowered_m * lowering(2.0 * (phase - self.tempo.of.lowest));
         let contacts = self.contacts(db, phase);
-        let feet = self.feet(&db.skeleton, contacts, &instant);
-        for (thigh, (_, yaw_rad)) in Joint::THIGHS.into_iter().zip(feet) {
-            let rotation = &mut pose.rotations[thigh.index()];
-            *rotation = yaw(KNEE_YAW * yaw_rad) * *rotation;
-        }
+        let feet = [0, 1].map(|side| {
+            let (foot, yaw_rad) = self.foot(&db.skeleton, contacts[side], &instant, side);
+            let thigh = &mut pose.rotations[Joint::THIGHS[side].index()];
+            *thigh = yaw(KNEE_YAW * yaw_rad) * *thigh;
+            foot
+        });
         let mut posture = Posture::new(pose, contacts, &db.skeleton);
-        posture.move_feet(feet.map(|(foot, _)| foot), &db.skeleton);
+        posture.move_feet(feet, &db.skeleton);
         posture
     }
 
-    /// Where the feet are to be, and their yaw.
-    fn feet(&self, skeleton: &Skeleton, contacts: [f32; 2], instant: &Instant) -> [(FootPose, f32); 2] {
-        let slip = instant.slip();
-        [0, 1].map(|side| {
-            let mut foot = self.mixed_foot(instant, side);
-            foot.place_m += slip * contacts[side] * self.slip_m(skeleton, &foot, side);
-            self.carried_foot(&foot, side)
-        })
+    /// Where a foot is to be, and its yaw.
+    fn foot(&self, skeleton: &Skeleton, contact: f32, instant: &Instant, side: usize) -> (FootPose, f32) {
+        let mut foot = self.mixed_foot(instant, side);
+        foot.place_m += instant.slip() * contact * self.slip_m(skeleton, &foot, side);
+        self.carried_foot(&foot, side)
     }
 
     fn instant(&self, phase: f32) -> Instant {
@@ -254,16 +252,19 @@ impl<'a> Deformation<'a> {
     /// Where a foot's place has been carried to, and the yaw that its foot has got by it.
     fn carried_foot(&self, foot: &Foothold, side: usize) -> (FootPose, f32) {
         let sign = Side::BOTH[side].sign();
-        let carried = moved(&Root::default(), &self.parameters, foot.since_s / self.tempo.cadence);
+        let since_s = foot.since_s / self.tempo.cadence;
+        let (carried, half_turn) = carried(&self.parameters, since_s);
         let toe_out_rad = sign * self.toe_out_rad;
-        let yaw_rad = toe_out_rad - carried.facing_rad;
+        let half_toe_out = direction(0.5 * toe_out_rad);
+        let half_yaw = Vec2::new(half_turn.x, -half_turn.y).rotate(half_toe_out);
         let middle_m = self.tempo.of.resting(side).place_m;
+        let off_m = foot.place_m - middle_m;
         let place_m = middle_m
-            + yaw(toe_out_rad) * (foot.place_m - middle_m)
+            + half_toe_out.rotate(half_toe_out).rotate(off_m.truncate()).extend(off_m.z)
             + Vec3::new(0.0, self.leaning_m() + sign * self.widening_m, 0.0);
-        let frame = RootFrame { position_m: carried.position_m, forward: direction(carried.facing_rad) };
-        let target = FootPose { ankle_m: frame.to_local(place_m), orientation: yaw(yaw_rad) * foot.orientation };
-        (target, yaw_rad)
+        let orientation = Quat::from_xyzw(0.0, 0.0, half_yaw.y, half_yaw.x) * foot.orientation;
+        let target = FootPose { ankle_m: carried.to_local(place_m), orientation };
+        (target, toe_out_rad - since_s * self.parameters.turn_rate_rad_s)
     }
 }
 
