@@ -32,11 +32,11 @@ const SHORTENED_MIN_M: f32 = 0.05;
 pub fn raised(pose: &mut Pose, skeleton: &Skeleton, side: usize, leg: &Leg, foot: &FootPose) -> FootPose {
     let to_ankle_m = foot.ankle_m - leg.hip_m();
     let behind_m = -to_ankle_m.truncate().dot((foot.orientation * Vec3::X).truncate());
-    if behind_m <= 0.0 {
+    let (length_m, posed_m) = (to_ankle_m.length(), leg.foot().ankle_m.distance(leg.hip_m()));
+    if behind_m <= 0.0 || length_m <= posed_m {
         return *foot;
     }
-    let length_m = to_ankle_m.length();
-    let lacking_m = (lacking_m(leg, length_m) - lacking_m(leg, leg.foot().ankle_m.distance(leg.hip_m()))).max(0.0);
+    let lacking_m = lacking_m(leg, length_m) - lacking_m(leg, posed_m);
     let [.., toe] = Leg::joints(side);
     let (axis, to_toes_m) = (foot.orientation * Vec3::Y, foot.orientation * skeleton.offsets_m[toe]);
     let shortened_m = (to_ankle_m.dot(axis.cross(to_toes_m)) / length_m).max(SHORTENED_MIN_M);

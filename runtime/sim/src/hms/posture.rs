@@ -30,6 +30,12 @@ impl Posture {
         Self { pose, feet: legs.each_ref().map(Leg::foot), legs, contacts }
     }
 
+    /// Legs and feet are where the pose has them.
+    pub fn take_feet(&mut self, skeleton: &Skeleton) {
+        self.legs = legs(&self.pose, skeleton);
+        self.feet = self.legs.each_ref().map(Leg::foot);
+    }
+
     /// Moves the feet to where another walk has them; heels rise, and the hips stay as high over the straighter leg.
     pub fn move_feet(&mut self, feet: [FootPose; 2], skeleton: &Skeleton) {
         let risen = |side: usize| heel_rise::raised(&mut self.pose, skeleton, side, &self.legs[side], &feet[side]);

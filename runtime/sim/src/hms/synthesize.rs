@@ -7,6 +7,7 @@
 use glam::{Vec2, Vec3};
 use motiondb::phase_map::wrapped;
 use motiondb::pose::{Root, RootFrame};
+use motiondb::skeleton::Skeleton;
 
 use super::arc::went;
 use super::feet::{FootHold, LANDING_AHEAD_S, PosedFoot};
@@ -28,7 +29,9 @@ impl Body {
     pub fn synthesize(&mut self, motion: &Motion, step: &TimeStep) -> Synthesis {
         let skeleton = &motion.db.skeleton;
         let playing = self.playing(motion);
-        let (mut posture, held_up) = self.carried(motion, &playing);
+        let carries = self.inertia.carries();
+        let mut posture = if carries { playing.bent(motion, self.phase) } else { playing.posture(motion, self.phase) };
+        let held_up = if carries { self.carry(&mut posture, skeleton) } else { [false; 2] };
         let landing = self.phase + LANDING_AHEAD_S * playing.phase_rate_hz(self.phase);
         let contacts_ahead = playing.contacts(motion, wrapped(landing));
         self.gaze.turn(&mut posture.pose, skeleton);
@@ -79,18 +82,13 @@ impl Body {
         Playing::new(motion, self.mode, &self.seen[0], &self.mix, self.phase)
     }
 
-    /// What is played, and what a switch has left on top of it; which feet that holds up.
-    fn carried(&self, motion: &Motion, playing: &Playing) -> (Posture, [bool; 2]) {
-        if !self.inertia.carries() {
-            return (playing.posture(motion, self.phase), [false; 2]);
-        }
-        let skeleton = &motion.db.skeleton;
-        let mut posture = playing.bent(motion, self.phase);
+    /// Puts what a switch has left on top of what is played; tells which feet that holds up.
+    fn carry(&self, posture: &mut Posture, skeleton: &Skeleton) -> [bool; 2] {
         let played_m = posture.soles_m(skeleton);
         self.inertia.add_to(&mut posture.pose);
-        let carried = Posture::new(posture.pose, posture.contacts, skeleton);
-        let carried_m = carried.soles_m(skeleton);
-        (carried, [0, 1].map(|side| held_up(&played_m[side], &carried_m[side])))
+        posture.take_feet(skeleton);
+        let carried_m = posture.soles_m(skeleton);
+        [0, 1].map(|side| held_up(&played_m[side], &carried_m[side]))
     }
 
     /// What is told of a posture, of its soles in the root frame, which faces `forward`.
