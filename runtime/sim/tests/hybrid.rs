@@ -47,6 +47,8 @@ fn towards(angle_rad: f32, speed_mps: f32, time_to_collision_s: f32) -> Plan {
     }
 }
 
+/// Steps sample a stride here and there: clips and switches are seen for as long, s.
+const SECONDS: f32 = 24.0;
 /// Each time after this long a collision threatens, or does no more, s.
 const THREAT_S: f32 = 2.0;
 
@@ -77,10 +79,10 @@ fn a_switch_jerks_no_joint_half_as_much_again_as_its_clips_do() {
             let greatest = |peaks: &[f32]| peaks.iter().copied().fold(0.0, f32::max);
             // The clips in use: those blended at this speed, and m_sp at its own.
             let clips_mps2 = [(speed_mps, f32::INFINITY), (own_mps, 0.5)].map(|(speed_mps, threat_s)| {
-                let steps = walk(&db, 12.0, |_, _| towards(0.0, speed_mps, threat_s));
+                let steps = walk(&db, SECONDS, |_, _| towards(0.0, speed_mps, threat_s));
                 greatest(&peaks_mps2(&steps[300..]))
             });
-            let hybrid = walk(&db, 24.0, |time_s, _| towards(0.0, speed_mps, threat_s(time_s)));
+            let hybrid = walk(&db, SECONDS, |time_s, _| towards(0.0, speed_mps, threat_s(time_s)));
             let (peaks, switches) = (peaks_mps2(&hybrid), switches(&hybrid));
             assert!(switches.len() >= 8, "{} switches", switches.len());
             let worst_mps2 = switches.iter().map(|&step| greatest(&peaks[step - 5..step + 20])).fold(0.0, f32::max);
