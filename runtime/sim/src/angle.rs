@@ -1,14 +1,9 @@
-//! Angles, radians, without a call where they are turned into directions and rotations.
+//! Angles, radians; small ones are turned into directions and rotations without a call.
 
-use std::f32::consts::{FRAC_2_PI, PI, TAU};
-use std::f64::consts::FRAC_PI_2;
+use std::f32::consts::{PI, TAU};
 
 use glam::{Quat, Vec2, Vec3};
 
-use crate::decay::WHOLE;
-
-/// Beyond this, quarters of a turn are no longer counted.
-const COUNTED_RAD: f32 = 1e5;
 /// Angles, and their squares, up to which five terms of Taylor's series suffice.
 const SMALL: f32 = 1.0;
 
@@ -25,26 +20,10 @@ pub fn wrap_rad(angle_rad: f32) -> f32 {
 #[inline]
 pub fn direction(angle_rad: f32) -> Vec2 {
     if angle_rad.abs() > SMALL {
-        return far_direction(angle_rad);
+        return Vec2::from_angle(angle_rad);
     }
     let (sine_share, cosine) = series(angle_rad * angle_rad);
     Vec2::new(cosine, angle_rad * sine_share)
-}
-
-/// The same, quarters of a turn taken out first.
-fn far_direction(angle_rad: f32) -> Vec2 {
-    if angle_rad.abs() > COUNTED_RAD {
-        return Vec2::from_angle(angle_rad);
-    }
-    let counted = angle_rad * FRAC_2_PI + WHOLE;
-    let left_rad = (f64::from(angle_rad) - f64::from(counted - WHOLE) * FRAC_PI_2) as f32;
-    let (sine_share, cosine) = series(left_rad * left_rad);
-    let quarters = counted.to_bits();
-    // No branch: facings lie all around.
-    let (sine, cosine) = ((left_rad * sine_share).to_bits(), cosine.to_bits());
-    let exchanged = (sine ^ cosine) & (quarters & 1).wrapping_neg();
-    let signs = [quarters.wrapping_add(1), quarters].map(|quarters| (quarters & 2) << 30);
-    Vec2::new(f32::from_bits(cosine ^ exchanged ^ signs[0]), f32::from_bits(sine ^ exchanged ^ signs[1]))
 }
 
 /// The direction of one vector as seen from another, rad: mostly a small angle.
@@ -102,7 +81,7 @@ mod tests {
             let (sine, cosine) = f64::from(angle_rad).sin_cos();
             let found = direction(angle_rad);
             assert!(
-                (f64::from(found.y) - sine).abs() < 1.2e-7 && (f64::from(found.x) - cosine).abs() < 1.2e-7,
+                (f64::from(found.y) - sine).abs() < 1e-7 && (f64::from(found.x) - cosine).abs() < 1e-7,
                 "{angle_rad}"
             );
         }

@@ -6,7 +6,7 @@
 use std::f32::consts::{LN_2, LOG2_E};
 
 /// 1.5 · 2²³: added to a small number it leaves the nearest whole number in the lowest bits.
-pub(crate) const WHOLE: f32 = 12_582_912.0;
+const WHOLE: f32 = 12_582_912.0;
 /// The least power of two that is not denormal.
 const POWER_MIN: f32 = -126.0;
 
