@@ -83,3 +83,33 @@ impl Seen {
 fn part_way(from: Parameters, to: Parameters, fraction: f32) -> Parameters {
     Parameters::from_vec3(from.to_vec3() + fraction * (to.to_vec3() - from.to_vec3()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_db::test_db;
+
+    /// How often the gait of a body turns back whose velocity changes evenly, m/s ahead and to the left.
+    fn turns_back(from_mps: Vec2, to_mps: Vec2) -> usize {
+        let (db, step, mix) = (test_db(), TimeStep::new(1.0 / 60.0), Mix::new(&Default::default()));
+        let mut seen = Seen::standing(mix);
+        let mut turns_back = |share: f32| {
+            let Vec2 { x: speed_mps, y: strafe_mps } = from_mps.lerp(to_mps, share.clamp(0.0, 1.0));
+            let walking = Parameters { speed_mps, strafe_mps, ..Parameters::default() };
+            let turns_back = seen.follow(Mode::SemiProcedural, &mix, walking, &db, &step);
+            if turns_back {
+                seen.turn_back();
+            }
+            turns_back
+        };
+        (-60..120).filter(|&index| turns_back(index as f32 / 40.0)).count()
+    }
+
+    #[test]
+    fn the_gait_turns_back_once_with_the_body_and_not_where_it_turns_aside_or_stops() {
+        let (ahead_mps, left_mps) = (Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.5));
+        assert_eq!(turns_back(ahead_mps, -0.5 * ahead_mps), 1);
+        assert_eq!(turns_back(left_mps, -left_mps), 1);
+        assert_eq!([left_mps, Vec2::ZERO, 0.5 * ahead_mps].map(|to_mps| turns_back(ahead_mps, to_mps)), [0; 3]);
+    }
+}
