@@ -1,4 +1,5 @@
-//! Claims about starts and stops on compiled clips: no step is left in mid-air, no foot is dragged.
+//! Claims about starts, stops and turning back on compiled clips: no step is left in mid-air, no foot is dragged, and
+//! who goes the other way does so on the feet that it has.
 
 mod clips;
 

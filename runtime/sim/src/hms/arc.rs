@@ -12,9 +12,9 @@ use crate::angle::{direction, wrap_rad};
 /// The root after a step at constant parameters: exactly along its arc, whose chord lies at half the turn.
 pub fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
     let half_turn_rad = 0.5 * dt_s * parameters.turn_rate_rad_s;
-    let local_m = Vec2::new(parameters.speed_mps, parameters.strafe_mps) * dt_s * chord(half_turn_rad);
+    let along_m = along_chord_m(parameters, dt_s, half_turn_rad);
     Root {
-        position_m: root.position_m + direction(root.facing_rad + half_turn_rad).rotate(local_m),
+        position_m: root.position_m + direction(root.facing_rad + half_turn_rad).rotate(along_m),
         facing_rad: wrap_rad(root.facing_rad + 2.0 * half_turn_rad),
     }
 }
@@ -23,8 +23,8 @@ pub fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
 pub fn carried(parameters: &Parameters, time_s: f32) -> (RootFrame, Vec2) {
     let half_turn_rad = 0.5 * time_s * parameters.turn_rate_rad_s;
     let half_turn = direction(half_turn_rad);
-    let local_m = Vec2::new(parameters.speed_mps, parameters.strafe_mps) * time_s * chord(half_turn_rad);
-    (RootFrame { position_m: half_turn.rotate(local_m), forward: half_turn.rotate(half_turn) }, half_turn)
+    let along_m = along_chord_m(parameters, time_s, half_turn_rad);
+    (RootFrame { position_m: half_turn.rotate(along_m), forward: half_turn.rotate(half_turn) }, half_turn)
 }
 
 /// The parameters whose arc leads from one root to another in a step: the inverse of [`moved`].
@@ -33,6 +33,12 @@ pub fn went(from: &Root, to: &Root, dt_s: f32) -> Parameters {
     let local_m = Vec2::from_angle(-from.facing_rad - half_turn_rad).rotate(to.position_m - from.position_m);
     let local_mps = local_m / (dt_s * chord(half_turn_rad));
     Parameters { speed_mps: local_mps.x, turn_rate_rad_s: 2.0 * half_turn_rad / dt_s, strafe_mps: local_mps.y }
+}
+
+/// How far an arc leads, in the frame that faces along its chord, m.
+#[inline]
+fn along_chord_m(parameters: &Parameters, time_s: f32, half_turn_rad: f32) -> Vec2 {
+    Vec2::new(parameters.speed_mps, parameters.strafe_mps) * time_s * chord(half_turn_rad)
 }
 
 /// Chord over arc, by half the angle between its ends.

@@ -91,7 +91,7 @@ struct Instant {
 impl<'a> Deformation<'a> {
     /// To parameters that [`SemiProcedural::reachable`] would leave as they are.
     pub fn new(of: &'a SemiProcedural, parameters: Parameters) -> Self {
-        Self::going(of, parameters, travel(parameters))
+        Self::going(of, parameters, travel(parameters, Vec2::X))
     }
 
     /// The same for a body that turns about: its gait still goes another way than its root.
@@ -255,6 +255,7 @@ impl<'a> Deformation<'a> {
         let since_s = foot.since_s / self.tempo.cadence;
         let (carried, half_turn) = carried(&self.parameters, since_s);
         let toe_out_rad = sign * self.toe_out_rad;
+        // A rotation is made of the direction at half its angle: here out by the toes, and back by the turn.
         let half_toe_out = direction(0.5 * toe_out_rad);
         let half_yaw = Vec2::new(half_turn.x, -half_turn.y).rotate(half_toe_out);
         let middle_m = self.tempo.of.resting(side).place_m;
@@ -303,9 +304,9 @@ impl Instant {
     }
 }
 
-/// Direction of travel; ahead for who rests.
-pub fn travel(parameters: Parameters) -> Vec2 {
-    Vec2::new(parameters.speed_mps, parameters.strafe_mps).normalize_or(Vec2::X)
+/// Direction of travel; `resting` where there is none.
+pub(super) fn travel(parameters: Parameters, resting: Vec2) -> Vec2 {
+    Vec2::new(parameters.speed_mps, parameters.strafe_mps).normalize_or(resting)
 }
 
 /// Hips turn towards the travel, or against a travel behind; the spine turns back, so that the chest keeps the facing.

@@ -14,6 +14,7 @@ use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 
 use super::blending::Mix;
+use super::deformation::travel;
 use super::mode::Mode;
 use super::time_step::TimeStep;
 
@@ -57,7 +58,7 @@ impl Seen {
             }
         };
         // Who rests keeps its way.
-        let way = Vec2::new(going.speed_mps, going.strafe_mps).normalize_or(self.way);
+        let way = travel(going, self.way);
         let (off, rate) = step.turn_about.pass(self.way - way, self.way_rate);
         (self.way, self.way_rate) = (way + off, rate);
         self.way.dot(way) < 0.0
