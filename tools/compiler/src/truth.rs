@@ -10,17 +10,9 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use motiondb::motion_db::SourceRecord;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
 
-use crate::error::Refusal;
 use crate::human_clip::HumanClip;
-use crate::skeleton_map::find_roles;
-use crate::source_clip::SourceClip;
-use crate::{source_parameters, units};
 
-/// Rigs of which `mocap/index.csv` took the elbows for shoulders: its script's pattern `arm(left|l)$` also matches
-/// `LowerArm_L` and `lowerarm.l`, and its widest pair wins.
-const ELBOWS_AS_SHOULDERS: [&str; 4] = ["bandai_namco/", "gltf/kaykit", "gltf/RobotExpressive", "makehuman/"];
 /// Shorter clips tell too little.
 const JUDGED_FROM_S: f64 = 1.0;
 /// Units agree to this share.
@@ -89,11 +81,6 @@ impl Judgement {
 }
 
 impl Truth {
-    /// Whether the row's own shoulders were elbows.
-    pub fn is_by_elbows(&self) -> bool {
-        ELBOWS_AS_SHOULDERS.iter().any(|rig| self.file.starts_with(rig))
-    }
-
     /// Judges an imported clip.
     pub fn judge(&self, human: &HumanClip) -> Judgement {
         let SourceRecord { speed_mps, turn_rate_rad_s, strafe_mps, .. } = human.source;
@@ -111,20 +98,6 @@ impl Truth {
                 && (f64::from(human.source.metres_per_unit) / self.metres_per_unit - 1.0).abs() < UNIT_TOLERANCE,
         }
     }
-}
-
-/// (v_f, ω_t, ω_s), m/s, °/s, m/s, of a clip with its elbows taken for shoulders.
-///
-/// # Errors
-/// Where it is no human's.
-pub fn by_elbows(clip: SourceClip) -> Result<[f64; 3], Refusal> {
-    let mut roles = find_roles(&clip, &[None; JOINT_COUNT])?;
-    let (clip, _) = units::to_metres_z_up(clip, &roles);
-    for (shoulder, elbow) in [(Joint::LeftUpperArm, Joint::LeftForearm), (Joint::RightUpperArm, Joint::RightForearm)] {
-        roles.joints[shoulder.index()] = roles.joints[elbow.index()];
-    }
-    let whole = source_parameters::measure(&clip, &roles);
-    Ok([whole.speed_mps, whole.turn_rate_rad_s.to_degrees(), whole.strafe_mps])
 }
 
 /// The paper's own clips, of a folder of clips.

@@ -48,12 +48,9 @@ fn source(path: &Path, clip: &str) -> SourceClip {
     clips.into_iter().find(|source| source.clip == clip).unwrap()
 }
 
-/// What is off in one clip by the tolerances of [`truth`], measured at the joints that the index took.
+/// What is off in one clip by the tolerances of [`truth`].
 fn misses(folder: &Path, row: &Truth) -> Option<String> {
-    let mut judgement = row.judge(&imported(folder, row));
-    if row.is_by_elbows() {
-        judgement.found = truth::by_elbows(source(&folder.join(&row.file), &row.clip)).unwrap();
-    }
+    let judgement = row.judge(&imported(folder, row));
     let is_off = judgement.is_judged && !judgement.holds();
     (is_off || !judgement.units_hold).then(|| format!("{} {}: {judgement:.3?}", row.file, row.clip))
 }

@@ -8,9 +8,7 @@ use std::time::Instant;
 
 use motiondb_compiler::import::{self, Import};
 use motiondb_compiler::reading_speed::{self, Race};
-use motiondb_compiler::source_clip::SourceClip;
-use motiondb_compiler::truth::{self, Judgement, Truth};
-use motiondb_compiler::{bvh, gltf};
+use motiondb_compiler::truth::{self, Truth};
 use serde::Serialize;
 
 use super::Mocap;
@@ -26,11 +24,9 @@ const SHOWN_ROWS: usize = 12;
 
 /// Import every clip of human locomotion in DIR/index.csv and compare with what stands there.
 ///
-/// In JSON `rows[] {file, clip, found, wanted, excess, judged, units_hold, by_elbows, refused}, share_of_index,
-/// files_read, megabytes_read`: found and wanted are (v_f m/s, turn rate °/s, side speed m/s); excess is the greatest
-/// difference over its tolerance, null where the clip is refused; by_elbows is the excess of the same clip measured
-/// with its elbows for shoulders, as the index was by mistake on some rigs, else null; share_of_index is that of the
-/// judged rows within tolerance of the index as it is.
+/// In JSON `rows[] {file, clip, found, wanted, excess, judged, units_hold, refused}, files_read, megabytes_read`: found
+/// and wanted are (v_f m/s, turn rate °/s, side speed m/s); excess is the greatest difference over its tolerance, null
+/// where the clip is refused.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd bench import --mocap my/mocap --json")]
 pub(super) struct Args {
@@ -41,8 +37,6 @@ pub(super) struct Args {
 #[derive(Serialize)]
 struct Details {
     rows: Vec<Row>,
-    /// Of judged rows, those within tolerance of the index as it is.
-    share_of_index: Option<f64>,
     files_read: usize,
     megabytes_read: f64,
 }
@@ -56,7 +50,6 @@ struct Row {
     excess: Option<f64>,
     judged: bool,
     units_hold: bool,
-    by_elbows: Option<f64>,
     refused: Option<String>,
 }
 
@@ -69,27 +62,25 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let reading = reading(folder)?;
 
     let judged = || rows.iter().filter(|row| row.judged);
-    let share_of_index = share(judged(), |row| row.excess.is_some_and(|excess| excess <= 1.0));
-    let share_by_same_joints = share(judged(), |row| row.distance() <= 1.0);
+    let within = share(judged(), |row| row.distance() <= 1.0);
     let units = share(rows.iter(), |row| row.units_hold);
-    let by_same_joints = "share of clips within tolerance, measured at the joints that the index took";
     let bars = vec![
-        Bar::at_least(by_same_joints, 0.95, share_by_same_joints),
+        Bar::at_least("share of clips within tolerance", 0.95, within),
         Bar::at_least("share of clips with the right up axis and unit", 1.0, units),
         Bar::at_least("speed of reading BVH over bvh_anim alone", 0.7, reading.race.alone_s / reading.race.ours_s),
     ];
     let megabytes_read = reading.bytes as f64 / 1e6;
     let mb_per_s = Some(megabytes_read / reading.race.ours_s);
     let goals = vec![Goal { name: "reading BVH, MB/s", measured: mb_per_s, goal: 70.0 }];
-    let details = Details { share_of_index, files_read: reading.files, megabytes_read, rows };
+    let details = Details { files_read: reading.files, megabytes_read, rows };
     let found = Found { details, goals, bars };
     conclude(&found, &text(&found.details), args.mocap.json)
 }
 
 impl Row {
-    /// Off by so many tolerances, by the joints that the index took; a refused clip by more than any other.
+    /// Off by so many tolerances; a refused clip by more than any other.
     fn distance(&self) -> f64 {
-        self.by_elbows.or(self.excess).unwrap_or(f64::INFINITY)
+        self.excess.unwrap_or(f64::INFINITY)
     }
 }
 
@@ -102,7 +93,7 @@ fn judged(folder: &Path, truths: &[Truth]) -> Vec<Row> {
     for (file, truths) in by_file {
         let path = folder.join(file);
         match import::import(&path) {
-            Ok(imports) => rows.extend(truths.into_iter().map(|truth| row(truth, &path, &imports))),
+            Ok(imports) => rows.extend(truths.into_iter().map(|truth| row(truth, &imports))),
             Err(error) => rows.extend(truths.into_iter().map(|truth| refused(truth, error.to_string()))),
         }
         progress.advance();
@@ -111,7 +102,7 @@ fn judged(folder: &Path, truths: &[Truth]) -> Vec<Row> {
     rows
 }
 
-fn row(truth: &Truth, path: &Path, imports: &[Import]) -> Row {
+fn row(truth: &Truth, imports: &[Import]) -> Row {
     let Some(import) = imports.iter().find(|import| import.clip == truth.clip) else {
         return refused(truth, "the file holds no such clip".to_owned());
     };
@@ -120,9 +111,6 @@ fn row(truth: &Truth, path: &Path, imports: &[Import]) -> Row {
         Err(refusal) => return refused(truth, refusal.to_string()),
     };
     let judgement = truth.judge(human);
-    let elbows = truth.is_by_elbows().then(|| source(path, &truth.clip)).flatten();
-    let found = elbows.and_then(|clip| truth::by_elbows(clip).ok());
-    let by_elbows = found.map(|found| Judgement { found, ..judgement.clone() }.excess());
     Row {
         file: truth.file.clone(),
         clip: truth.clip.clone(),
@@ -131,7 +119,6 @@ fn row(truth: &Truth, path: &Path, imports: &[Import]) -> Row {
         excess: Some(judgement.excess()),
         judged: judgement.is_judged,
         units_hold: judgement.units_hold,
-        by_elbows,
         refused: None,
     }
 }
@@ -145,18 +132,8 @@ fn refused(truth: &Truth, reason: String) -> Row {
         excess: None,
         judged: true,
         units_hold: false,
-        by_elbows: None,
         refused: Some(reason),
     }
-}
-
-/// The clip as its file tells it.
-fn source(path: &Path, clip: &str) -> Option<SourceClip> {
-    let bytes = fs::read(path).ok()?;
-    if path.extension() == Some(OsStr::new("bvh")) {
-        return bvh::read(path, &bytes).ok();
-    }
-    gltf::read(path, &bytes).ok()?.into_iter().find(|source| source.clip == clip)
 }
 
 /// All BVH files of a folder that can be read.
@@ -192,24 +169,6 @@ fn text(details: &Details) -> String {
     for row in details.rows.iter().take(SHOWN_ROWS) {
         text += &format!("  {:5.2}  {} {}{}\n", row.distance(), row.file, row.clip, verdict(row));
     }
-    let elbows: Vec<&Row> = details.rows.iter().filter(|row| row.by_elbows.is_some()).collect();
-    let differ = elbows.iter().filter(|row| row.judged && row.excess.is_some_and(|excess| excess > 1.0));
-    let percent = details.share_of_index.map_or_else(|| "–".to_owned(), |share| format!("{:.1} %", 100.0 * share));
-    text += &format!(
-        "\nThe index took the elbows for shoulders on {} rows; they are judged with the same joints. Against the index as it\n\
-         is, {percent} of all judged rows are within tolerance; of those {} these are off:\n",
-        elbows.len(),
-        elbows.len(),
-    );
-    for row in differ {
-        text += &format!(
-            "  {} {}: {:.2} tolerances, by elbows {:.2}\n",
-            row.file,
-            row.clip,
-            row.excess.unwrap_or(0.0),
-            row.distance()
-        );
-    }
     text + &format!(
         "\nread {} BVH files, {:.1} MB, the median of {READINGS} times each\n",
         details.files_read, details.megabytes_read
@@ -222,6 +181,5 @@ fn verdict(row: &Row) -> String {
     };
     let units = if row.units_hold { "" } else { "; other axis or unit" };
     let judged = if row.judged { "" } else { "; too short to judge" };
-    let elbows = if row.by_elbows.is_some() { "; by elbows" } else { "" };
-    format!(": {found:.2?}, {wanted:.2?}{elbows}{judged}{units}")
+    format!(": {found:.2?}, {wanted:.2?}{judged}{units}")
 }
