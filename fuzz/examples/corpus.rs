@@ -6,9 +6,9 @@ use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use fbcrowd_sim::cns::Coupling;
+use fbcrowd_sim::coupling::body_to_disc::Coupling;
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planner::Planner;
+use fbcrowd_sim::planning::planner::Planner;
 use fbcrowd_sim::recording::frame::AgentFrame;
 use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};

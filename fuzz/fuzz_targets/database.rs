@@ -5,8 +5,8 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use motiondb::container::{self, HEADER_LENGTH};
 use motiondb::{file, quality, validate};
+use motiondb::container::{self, HEADER_LENGTH};
 
 fuzz_target!(|bytes: &[u8]| {
     let path = Path::new("any.fbdb");

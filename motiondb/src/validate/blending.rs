@@ -1,9 +1,9 @@
 //! Simplices and correspondence times (`FbCrowd` §5, Eq. 10).
 
-use super::{Outcome, ensure};
 use crate::motion_db::MotionDb;
 use crate::parameters::Parameters;
 use crate::tiling::tiling_fault;
+use crate::validate::{Outcome, ensure};
 
 /// The simplices are disjoint and fill the convex hull of the examples' parameters; see [`crate::tiling`].
 pub(super) fn simplices_tile_the_hull(db: &MotionDb) -> Outcome {

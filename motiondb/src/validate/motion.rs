@@ -1,11 +1,11 @@
 //! What the stored motion itself says of an example: where its cycle closes, when its feet land and leave, how fast its
 //! root goes ([`crate::planted_feet`]).
 
-use super::{Outcome, each, ensure};
 use crate::motion_db::{MotionDb, PHASE_COUNT};
 use crate::parameters::Parameters;
 use crate::planted_feet::{CycleFeet, foot_slide, implied};
 use crate::skeleton::{JOINT_COUNT, Side};
+use crate::validate::{Outcome, each, ensure};
 
 /// A seam between the last row and the first this many times the cycle's own greatest step is a jump …
 const SEAM_LIMIT: f32 = 2.0;

@@ -1,8 +1,8 @@
 //! Lengths, indices and names: what all else relies on.
 
-use super::{Outcome, each, ensure};
 use crate::motion_db::{MotionDb, PHASE_COUNT};
 use crate::skeleton::JOINT_COUNT;
+use crate::validate::{Outcome, each, ensure};
 
 /// There is at least one example.
 pub(super) fn has_examples(db: &MotionDb) -> Outcome {

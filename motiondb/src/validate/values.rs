@@ -3,10 +3,10 @@
 use std::f32::consts::PI;
 use std::ops::RangeInclusive;
 
-use super::{Outcome, each, ensure};
 use crate::motion_db::{MotionDb, PHASE_COUNT};
 use crate::phase_map::MAX_ASYMMETRY;
 use crate::skeleton::{JOINT_COUNT, Joint};
+use crate::validate::{Outcome, each, ensure};
 
 /// A rotation's length may be off 1 by rounding.
 const UNIT_TOLERANCE: f32 = 1e-3;

@@ -5,8 +5,8 @@
 
 use glam::Vec2;
 
-use super::{Outcome, ensure};
 use crate::motion_db::MotionDb;
+use crate::validate::{Outcome, ensure};
 use crate::velocity_hull::{Construction, half_planes, holding_point_mps, is_holding, is_turning, turning_point_mps};
 use crate::wrapping_polygon;
 

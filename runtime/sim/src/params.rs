@@ -3,10 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::hms::params::HmsParams;
-use crate::mcn::params::McnParams;
-use crate::rivals::orca::OrcaParams;
-use crate::rivals::social_force::SocialForceParams;
+use crate::planning::baselines::orca::OrcaParams;
+use crate::planning::baselines::social_force::SocialForceParams;
+use crate::planning::mcn::params::McnParams;
+use crate::synthesis::params::HmsParams;
 
 /// Tunables of the planners and of synthesis.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

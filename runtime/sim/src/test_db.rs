@@ -14,8 +14,8 @@ use motiondb::pose::Pose;
 use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
 use motiondb::velocity_hull::{self, Construction, VelocityHull};
 
-use crate::hms::ik::reach;
-use crate::hms::leg::{FootPose, legs};
+use crate::synthesis::pose::ik::reach;
+use crate::synthesis::pose::leg::{FootPose, legs};
 
 /// Share of a cycle that a foot stands.
 pub(crate) const DUTY: f32 = 0.6;

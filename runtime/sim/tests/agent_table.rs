@@ -3,10 +3,10 @@
 mod common;
 
 use common::{agent, folder, header, record, standing_at};
-use fbcrowd_sim::hms::mode::Mode;
 use fbcrowd_sim::measures::agent_table::write_table;
-use fbcrowd_sim::plan::VelocitySet;
+use fbcrowd_sim::planning::plan::VelocitySet;
 use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::synthesis::hybrid::mode::Mode;
 use glam::Vec2;
 use motiondb::pose::Root;
 

@@ -8,9 +8,9 @@ mod crowd;
 
 use std::f32::consts::TAU;
 
-use fbcrowd_sim::obstacles::Obstacles;
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planner::Planner;
+use fbcrowd_sim::planning::planner::Planner;
+use fbcrowd_sim::world::obstacles::Obstacles;
 use glam::Vec2;
 use motiondb::velocity_hull::{Construction, VelocityHull};
 

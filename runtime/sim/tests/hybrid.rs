@@ -5,12 +5,12 @@ mod clips;
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use fbcrowd_sim::hms::hybrid::Hybrid;
-use fbcrowd_sim::hms::inertialization::CARRIED_S;
-use fbcrowd_sim::hms::mode::Mode;
-use fbcrowd_sim::hms::params::{HmsParams, Transition};
-use fbcrowd_sim::hms::studio::Studio;
-use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::planning::plan::Plan;
+use fbcrowd_sim::synthesis::hybrid::inertialization::CARRIED_S;
+use fbcrowd_sim::synthesis::hybrid::mode::Mode;
+use fbcrowd_sim::synthesis::hybrid::switch_points::Hybrid;
+use fbcrowd_sim::synthesis::library::context::Studio;
+use fbcrowd_sim::synthesis::params::{HmsParams, Transition};
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
 use motiondb::pose::Root;

@@ -4,7 +4,7 @@ mod common;
 
 use common::{agent, folder, header, record, standing_at};
 use fbcrowd_sim::measures::metrics::{Measures, measure, write_trajectories};
-use fbcrowd_sim::plan::VelocitySet;
+use fbcrowd_sim::planning::plan::VelocitySet;
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::recording::frame::AgentFrame;
 use glam::{Quat, Vec2, Vec3};

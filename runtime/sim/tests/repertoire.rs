@@ -5,9 +5,9 @@ mod clips;
 
 use std::sync::Arc;
 
-use fbcrowd_sim::hms::repertoire::{complete, deformed};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
-use fbcrowd_sim::step::Simulation;
+use fbcrowd_sim::simulation::Simulation;
+use fbcrowd_sim::synthesis::library::augmented_database::{complete, deformed};
 use glam::Vec2;
 use motiondb::coverage::{Lack, coverage};
 use motiondb::motion_db::MotionDb;

@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use common::folder;
-use fbcrowd_sim::cns::Coupling;
-use fbcrowd_sim::hms::params::{Modes, Transition};
-use fbcrowd_sim::mcn::params::StanceForm;
-use fbcrowd_sim::planner::Planner;
+use fbcrowd_sim::coupling::body_to_disc::Coupling;
+use fbcrowd_sim::planning::mcn::params::StanceForm;
+use fbcrowd_sim::planning::planner::Planner;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::scenario::error::{Invalid, ScenarioError};
 use fbcrowd_sim::scenario::file::{MotionSource, read};
+use fbcrowd_sim::synthesis::params::{Modes, Transition};
 use glam::Vec2;
 
 const HEAD: &str = "clips = \".\"\nduration_s = 10\n";

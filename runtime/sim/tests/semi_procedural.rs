@@ -4,8 +4,8 @@ mod clips;
 
 use std::f32::consts::TAU;
 
-use fbcrowd_sim::hms::deformation::Deformation;
-use fbcrowd_sim::hms::semi_procedural::SemiProcedural;
+use fbcrowd_sim::synthesis::semi_procedural::base_walk::SemiProcedural;
+use fbcrowd_sim::synthesis::semi_procedural::deformation::Deformation;
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;

@@ -6,11 +6,11 @@ mod clips;
 use std::f32::consts::TAU;
 use std::sync::Arc;
 
-use fbcrowd_sim::hms::asked::asking;
-use fbcrowd_sim::hms::params::{HmsParams, Modes};
-use fbcrowd_sim::hms::space::Space;
-use fbcrowd_sim::hms::studio::Studio;
-use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::planning::plan::Plan;
+use fbcrowd_sim::synthesis::blending::blend_space::Space;
+use fbcrowd_sim::synthesis::command::blend_query::asking;
+use fbcrowd_sim::synthesis::library::context::Studio;
+use fbcrowd_sim::synthesis::params::{HmsParams, Modes};
 use glam::{Vec2, Vec3};
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;

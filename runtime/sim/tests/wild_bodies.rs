@@ -5,9 +5,9 @@ mod clips;
 use std::f32::consts::PI;
 use std::sync::{Arc, LazyLock};
 
-use fbcrowd_sim::hms::params::{HmsParams, Modes};
-use fbcrowd_sim::hms::studio::Studio;
-use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::planning::plan::Plan;
+use fbcrowd_sim::synthesis::library::context::Studio;
+use fbcrowd_sim::synthesis::params::{HmsParams, Modes};
 use glam::Vec2;
 use motiondb::skeleton::Joint;
 use proptest::prelude::*;

@@ -8,13 +8,12 @@ use glam::DQuat;
 use crate::body::{FEET, JOINT_COUNT, Pose, SHANKS, THIGHS, TOES};
 use crate::cadence::{FRAME_RATE_HZ, Gait};
 use crate::foot_roll::Foot;
-use crate::legs;
 use crate::pelvis::{self, Height, PelvisPose};
 use crate::rotation::{about_x, about_y, about_z};
 use crate::steps::Steps;
 use crate::swing::Swing;
-use crate::upper_body;
 use crate::variation::Variation;
+use crate::{legs, upper_body};
 
 /// The knee points between the pelvis's and the foot's direction, by this share towards the foot's.
 const KNEE_TOWARDS_FOOT: f64 = 0.6;

@@ -12,13 +12,12 @@ use motiondb::remark::{Kind, Remark};
 
 use crate::arc::Rates;
 use crate::cycle::{self, GaitCycle};
-use crate::foot_slide;
 use crate::gait::{Gait, Window};
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::root_motion::{GroundedClip, leg_length_m};
 use crate::stance::Stance;
 use crate::stride::Stride;
-use crate::{parameterize, performer, selection};
+use crate::{foot_slide, parameterize, performer, selection};
 
 /// Whoever walks, crouched or on hands, has the pelvis above this, m.
 const PELVIS_HEIGHT_MIN_M: f64 = 0.01;

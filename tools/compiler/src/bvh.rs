@@ -17,8 +17,8 @@ use std::path::Path;
 use bvh_anim::{Axis, Bvh, Channel};
 use glam::{DQuat, DVec3};
 
-use self::hierarchy::CheckedJoint;
-use self::prepass::{CheckedBvh, Motion};
+use crate::bvh::hierarchy::CheckedJoint;
+use crate::bvh::prepass::{CheckedBvh, Motion};
 use crate::error::ImportError;
 use crate::source_clip::{SourceClip, SourceJoint};
 

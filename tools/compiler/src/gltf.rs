@@ -18,11 +18,11 @@ use std::path::Path;
 use glam::{DMat3, DMat4, DQuat, DVec3};
 use motiondb::remark::Kind;
 
-use self::document::{Document, Flaw, Transform, flaw};
-use self::plan::{Plan, Span, plans, sources};
-use self::track::Track;
-use self::tree::{Body, Tree};
 use crate::error::ImportError;
+use crate::gltf::document::{Document, Flaw, Transform, flaw};
+use crate::gltf::plan::{Plan, Span, plans, sources};
+use crate::gltf::track::Track;
+use crate::gltf::tree::{Body, Tree};
 use crate::source_clip::{SourceClip, SourceJoint};
 
 /// Sampling rate: that of most recorded clips; keys of animated characters are no denser.

@@ -15,13 +15,13 @@ use motiondb::skeleton::Joint;
 use rayon::prelude::*;
 
 use crate::error::{ImportError, MIN_FRAMES, Refusal, Setting};
-use crate::gltf::GltfFile;
+use crate::gltf::{self, GltfFile};
 use crate::human_clip::{HumanClip, HumanPose};
 use crate::skeleton_map::{Roles, find_roles};
 use crate::source_clip::SourceClip;
-use crate::source_parameters::WholeClip;
+use crate::source_parameters::{self, WholeClip};
 use crate::take::{Settings, Take};
-use crate::{bvh, carried, facing, first_pose, gltf, plausibility, retarget, source_parameters, units};
+use crate::{bvh, carried, facing, first_pose, plausibility, retarget, units};
 
 /// Cosine of half the least angle that is a turn (0.05°), and the least swing of a leg, over its length.
 const UNTURNED: f64 = 1.0 - 1e-7;

@@ -43,12 +43,12 @@ use motiondb::velocity_hull::Construction;
 use serde::Deserialize;
 use toml::Spanned;
 
-use self::error::ManifestError;
-use self::table::Table;
 use crate::compile::Options;
 use crate::error::Refusal;
 use crate::human_clip::HumanClip;
 use crate::import;
+use crate::manifest::error::ManifestError;
+use crate::manifest::table::Table;
 use crate::near_names::nearest_first;
 use crate::take::Take;
 

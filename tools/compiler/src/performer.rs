@@ -7,13 +7,11 @@
 //! of children, toys and giants. Poses and root motion are those of the body that a database has: frames correspond one
 //! to one. Frames of the clip, metres, seconds.
 
-use crate::footing;
 use crate::gait::{self, Gait, GaitAnalysis, Window};
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::root_motion::{self, GroundedClip, leg_length_m};
-use crate::stance;
 use crate::stride::{BodyTrack, Stride};
-use crate::unroll;
+use crate::{footing, stance, unroll};
 
 /// Thigh plus shank at which gaits are looked at, metres: that of the captures whose events were labelled by hand.
 const LEG_M: f64 = 0.8;

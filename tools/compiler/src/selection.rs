@@ -17,11 +17,10 @@ use motiondb::remark::Kind;
 
 use crate::analysis::{Analyzed, LeftOut, Motion, SteadyWindow};
 use crate::arc::Rates;
-use crate::correspondence;
 use crate::cycle::{GaitCycle, NamedCycle};
-use crate::foot_slide;
 use crate::human_clip::HumanBody;
 use crate::stride::{STRIDE_GAP_M, Stride};
+use crate::{correspondence, foot_slide};
 
 /// A cell of the grid: twice what strides of one steady window may differ from their mean ([`crate::steady_window`]).
 /// Two windows of one cell say no more than two strides of one window.

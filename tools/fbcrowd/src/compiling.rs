@@ -4,13 +4,12 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use motiondb::velocity_hull::Construction;
-use motiondb_compiler::clip_set;
 use motiondb_compiler::compile::{self, Compiled};
 use motiondb_compiler::human_clip::HumanClip;
-use motiondb_compiler::import;
 use motiondb_compiler::manifest::Manifest;
 use motiondb_compiler::progress::Event;
 use motiondb_compiler::refused::Refused;
+use motiondb_compiler::{clip_set, import};
 
 use crate::failure::{Answer, Failure};
 use crate::output;

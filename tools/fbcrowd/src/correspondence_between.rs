@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use fbcrowd_render::png_frame;
-use fbcrowd_render::pose_distance_plot::pose_distances_between;
+use fbcrowd_render::plots::database::pose_distances::pose_distances_between;
+use fbcrowd_render::raster::png_frame;
 use motiondb::correspondence::table;
 use motiondb::motion_db::MotionDb;
 use motiondb_compiler::near_names::nearest_first;

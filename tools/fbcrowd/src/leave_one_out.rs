@@ -2,7 +2,7 @@
 //!
 //! For every recorded example whose (v_f, ω_t, ω_s) lies inside the hull of the others: the database is rebuilt without
 //! it *and its mirror* (simplices and axes' ranges anew; the other rows stay), and blended at its parameters by the
-//! runtime's own synthesis (`fbcrowd_sim::hms::blending`: w_i ∝ u_i·r_i(φ)). With x_j(φ) the place of joint j in the
+//! runtime's own synthesis (`fbcrowd_sim::synthesis::blending::mix`: w_i ∝ u_i·r_i(φ)). With x_j(φ) the place of joint j in the
 //! root frame,
 //!
 //! ```text
@@ -15,7 +15,7 @@
 //! off, the hands, count most; the median of all RMSE_j says how far off a joint usually is. Mirrored examples are not
 //! asked for themselves: mirrors count once.
 
-use fbcrowd_sim::hms::blending::Mix;
+use fbcrowd_sim::synthesis::blending::mix::Mix;
 use motiondb::coverage::{locate_inside, locator};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
 use motiondb::pose::Pose;

@@ -9,12 +9,12 @@ use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 use serde::Serialize;
 
 use crate::compile_report::Reason;
-use crate::compile_text::{counted, title};
+use crate::compile_text::{self, counted, title};
 use crate::correspondence_between::Between;
 use crate::example_table::unsigned_zero;
 use crate::leave_one_out::LeaveOneOut;
+use crate::leave_one_out_text;
 use crate::output::one_line;
-use crate::{compile_text, leave_one_out_text};
 
 /// Clips without a database.
 #[derive(Serialize)]

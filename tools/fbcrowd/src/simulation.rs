@@ -4,15 +4,15 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use fbcrowd_sim::blocked_ways::{BlockedWays, blocked_ways};
-use fbcrowd_sim::hms::hybrid::Hybrid;
-use fbcrowd_sim::hms::repertoire;
-use fbcrowd_sim::planner::Planner;
+use fbcrowd_sim::planning::planner::Planner;
 use fbcrowd_sim::recording::frame::AgentFrame;
 use fbcrowd_sim::recording::{Header, Recorder};
+use fbcrowd_sim::route::blocked_paths::{BlockedWays, blocked_ways};
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::scenario::error::ScenarioError;
-use fbcrowd_sim::step::{Simulation, Stage};
+use fbcrowd_sim::simulation::{Simulation, Stage};
+use fbcrowd_sim::synthesis::hybrid::switch_points::Hybrid;
+use fbcrowd_sim::synthesis::library::augmented_database;
 use motiondb::coverage;
 use motiondb::motion_db::MotionDb;
 use serde::Serialize;
@@ -98,7 +98,7 @@ fn tell_of_deformed(db: &MotionDb, complete: &MotionDb) {
     if !coverage::walks_ahead(db) {
         output::say("note: none of these clips walks ahead, so nobody will reach a goal; add a walk, and compile anew");
     }
-    if let Some((walk, count)) = repertoire::deformed(db, complete) {
+    if let Some((walk, count)) = augmented_database::deformed(db, complete) {
         let lacking = "these clips lack ways of walking that a crowd needs (fbcrowd inspect names them)";
         output::say(&format!("note: {lacking}; {walk} is deformed to {count} of them"));
     }

@@ -1,12 +1,12 @@
 //! Plots of a database draw whatever a valid database may hold, always alike.
 
-use fbcrowd_render::contact_sheet::contact_sheet;
-use fbcrowd_render::coverage_plot::coverage_slices;
-use fbcrowd_render::database_plots::write_database_plots;
-use fbcrowd_render::gait_plot::gait_events;
-use fbcrowd_render::parameter_plot::parameter_space;
-use fbcrowd_render::pose_distance_plot::pose_distances;
-use fbcrowd_render::velocity_plot::velocity_space;
+use fbcrowd_render::plots::database::all_plots::write_database_plots;
+use fbcrowd_render::plots::database::contact_sheet::contact_sheet;
+use fbcrowd_render::plots::database::coverage::coverage_slices;
+use fbcrowd_render::plots::database::gait_events::gait_events;
+use fbcrowd_render::plots::database::parameter_space::parameter_space;
+use fbcrowd_render::plots::database::pose_distances::pose_distances;
+use fbcrowd_render::plots::database::velocity_space::velocity_space;
 use glam::Vec2;
 use motiondb::blend_space::BlendSpace;
 use motiondb::correspondence::Correspondence;

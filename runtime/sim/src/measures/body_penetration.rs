@@ -3,7 +3,7 @@
 //!
 //! A body is a capsule a bone, as the recording's skeleton has it (trunk, head, limbs). The depth of a pair of bodies
 //! in a frame is the deepest overlap of a capsule of one with a capsule of the other: the sum of both radii less the
-//! distance of the bones ([`segment_distance`](crate::segment_distance)). Frames are looked at as they are, without the
+//! distance of the bones ([`segment_distance`](crate::maths::segment_distance)). Frames are looked at as they are, without the
 //! way between them.
 //!
 //! Bodies are swept along the crowd's longer side; of a pair whose boxes meet, only capsules whose own boxes meet are
@@ -14,8 +14,8 @@ use glam::{DVec2, Quat, Vec2, Vec3};
 use motiondb::pose::{Joints, Root};
 use motiondb::skeleton::{JOINT_COUNT, Skeleton};
 
-use crate::segment_distance::{Segment, distance_m};
-use crate::sweep::sort_along_longer_side;
+use crate::maths::segment_distance::{Segment, distance_m};
+use crate::maths::sweep::sort_along_longer_side;
 
 /// Sums depths over all pairs, frame by frame.
 #[derive(Debug)]

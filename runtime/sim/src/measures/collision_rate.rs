@@ -3,7 +3,7 @@
 
 use glam::{DVec2, Vec2};
 
-use crate::sweep::sort_along_longer_side;
+use crate::maths::sweep::sort_along_longer_side;
 
 /// Sums the penetration depths of all pairs, step by step.
 #[derive(Debug)]

@@ -62,7 +62,7 @@ fn squared_by_chance(others: f64, same_way: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::split_mix::SplitMix64;
+    use crate::maths::random::SplitMix64;
 
     fn walkers(count: usize, goes_forward: impl Fn(usize, f32) -> bool) -> Vec<LaneWalker> {
         let mut random = SplitMix64::new(1, 0);

@@ -1,8 +1,8 @@
 //! What a simulation shows in numbers (`FbCrowd` App. 11), streamed: two frames at a time.
 //!
-//! Collisions of discs stand in [`collision_rate`](super::collision_rate), those of bodies in
-//! [`body_penetration`](super::body_penetration), accelerations, arrivals, detours and tracking in
-//! [`root_measures`](super::root_measures), foot slide in [`planted_slide`](super::planted_slide). Positions are those
+//! Collisions of discs stand in [`collision_rate`](crate::measures::collision_rate), those of bodies in
+//! [`body_penetration`](crate::measures::body_penetration), accelerations, arrivals, detours and tracking in
+//! [`root_measures`](crate::measures::root_measures), foot slide in [`planted_slide`](crate::measures::planted_slide). Positions are those
 //! of the root as synthesised.
 
 use std::io::{self, Write};
@@ -12,11 +12,11 @@ use motiondb::pose::Joints;
 use motiondb::skeleton::Skeleton;
 use serde::Serialize;
 
-use super::body_penetration::BodyPenetration;
-use super::collision_rate::Collisions;
-use super::planted_slide::PlantedSlide;
-use super::root_measures::RootMeasures;
-use super::wall_contact::WallContact;
+use crate::measures::body_penetration::BodyPenetration;
+use crate::measures::collision_rate::Collisions;
+use crate::measures::planted_slide::PlantedSlide;
+use crate::measures::root_measures::RootMeasures;
+use crate::measures::wall_contact::WallContact;
 use crate::recording::Recording;
 use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;

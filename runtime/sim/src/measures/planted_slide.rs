@@ -8,7 +8,7 @@ use glam::{DVec2, Vec3};
 use motiondb::pose::{Joints, Root};
 use motiondb::skeleton::Skeleton;
 
-use crate::plan::PLANTED_CONTACT;
+use crate::planning::plan::PLANTED_CONTACT;
 use crate::recording::frame::AgentFrame;
 
 /// Of each end of a contact, left out: there the foot rolls on and off.

@@ -6,9 +6,9 @@
 
 use glam::DVec2;
 
-use crate::arrival::Arrival;
-use crate::plan::VelocitySet;
+use crate::planning::plan::VelocitySet;
 use crate::recording::frame::AgentFrame;
+use crate::route::arrival::Arrival;
 use crate::scenario::AgentSpec;
 
 /// Slower than this for [`STALL_S`] before arriving is stalling, and no side-step, m/s.

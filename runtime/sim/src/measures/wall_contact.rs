@@ -1,7 +1,7 @@
 //! How often, and how deep, discs and bodies touch walls (`FbCrowd` §7, the obstacle course).
 //!
 //! A disc touches a wall where it is nearer than its radius and `TOUCH_M`: the synthesised root is kept outside
-//! ([`crate::cns::outside_walls`]), so a disc that would go further in lies at its radius exactly. A body touches where
+//! ([`crate::coupling::body_to_disc::outside_walls`]), so a disc that would go further in lies at its radius exactly. A body touches where
 //! a capsule of it does; walls stand upright, so its bone is taken from above. Frames are looked at as they are. World
 //! axes, metres.
 
@@ -9,11 +9,11 @@ use glam::Vec3;
 use motiondb::pose::{Joints, Root};
 use motiondb::skeleton::{Joint, Skeleton};
 
-use super::body_penetration::bone;
-use crate::obstacles::{NearEdge, Obstacles};
+use crate::maths::segment_distance::{Segment, distance_m};
+use crate::measures::body_penetration::bone;
 use crate::recording::frame::AgentFrame;
 use crate::scenario::Scenario;
-use crate::segment_distance::{Segment, distance_m};
+use crate::world::obstacles::{NearEdge, Obstacles};
 
 /// Rounding of a disc that is kept at a wall, m.
 const TOUCH_M: f32 = 1e-4;
@@ -113,7 +113,7 @@ mod tests {
 
     /// Shares of one standing body beside a wall that begins at x = 0, its root at x = −`clear_m`.
     fn beside(clear_m: f32) -> Contacts {
-        let (db, mut scenario) = (test_db(), crate::step::tests::antipodal(1, 4.0));
+        let (db, mut scenario) = (test_db(), crate::simulation::tests::antipodal(1, 4.0));
         scenario.obstacles_m = vec![[(0.0, -5.0), (1.0, -5.0), (1.0, 5.0), (0.0, 5.0)].map(Vec2::from).to_vec()];
         let root = Root { position_m: Vec2::new(-clear_m, 0.0), facing_rad: 0.0 };
         let frame = AgentFrame { root, pose: db.rows.pose(0, 0), ..AgentFrame::default() };

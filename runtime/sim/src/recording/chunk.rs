@@ -9,7 +9,7 @@ use std::sync::{Mutex, PoisonError};
 
 use motiondb::input_file;
 
-use super::error::RecordingError;
+use crate::recording::error::RecordingError;
 
 /// Bytes of a chunk before its payload.
 pub const CHUNK_HEAD_BYTES: u64 = 12;

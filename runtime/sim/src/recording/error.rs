@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use super::FORMAT_VERSION;
+use crate::recording::FORMAT_VERSION;
 
 /// Why a recording cannot be written or read.
 #[derive(Debug, thiserror::Error)]

@@ -4,9 +4,9 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::pose::{Pose, Root};
 use motiondb::skeleton::JOINT_COUNT;
 
-use crate::hms::Synthesis;
-use crate::hms::mode::Mode;
-use crate::plan::VelocitySet;
+use crate::planning::plan::VelocitySet;
+use crate::synthesis::Synthesis;
+use crate::synthesis::hybrid::mode::Mode;
 
 /// One agent in one frame, decoded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct AgentFrame {
     /// Synthesis in force.
     pub mode: Mode,
     /// Blended contact Σ w·c of each foot, `[left, right]`; planted from
-    /// [`PLANTED_CONTACT`](crate::plan::PLANTED_CONTACT) on.
+    /// [`PLANTED_CONTACT`](crate::planning::plan::PLANTED_CONTACT) on.
     pub contacts: [f32; 2],
     /// Seconds until the swing foot lands, where a single foot stands; else 0.
     pub time_to_landing_s: f32,

@@ -20,9 +20,9 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::pose::{Pose, Root};
 use motiondb::skeleton::{JOINT_COUNT, Joint};
 
-use super::frame::AgentFrame;
-use crate::hms::mode::Mode;
-use crate::plan::VelocitySet;
+use crate::planning::plan::VelocitySet;
+use crate::recording::frame::AgentFrame;
+use crate::synthesis::hybrid::mode::Mode;
 
 /// Bytes of one agent in one frame before compression.
 pub const PACKED_BYTES: usize = 11 * 4 + 2 * 2 + 3 + 1 + 3 * 3 + FINE_JOINTS * 7 + (JOINT_COUNT - FINE_JOINTS) * 6;

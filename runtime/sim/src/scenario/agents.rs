@@ -18,10 +18,10 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use super::AgentSpec;
-use super::point::Point;
-use super::ranges::{AGENTS_MAX, COORDINATE_MAX_M};
-use crate::split_mix::SplitMix64;
+use crate::maths::random::SplitMix64;
+use crate::scenario::AgentSpec;
+use crate::scenario::point::Point;
+use crate::scenario::ranges::{AGENTS_MAX, COORDINATE_MAX_M};
 
 /// Disc of an agent, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected trunk, and
 /// the radius of the protocol of Table 1's scenes (`assets/scenarios/table1`), under which RVO2 was measured too, so

@@ -1,14 +1,14 @@
-//! What every scenario must keep, however it was made: numbers in range ([`ranges`](super::ranges)), obstacles that are
+//! What every scenario must keep, however it was made: numbers in range ([`ranges`](crate::scenario::ranges)), obstacles that are
 //! simple polygons, agents that stand apart from each other and outside obstacles, and goals that lie outside them and
 //! can be reached. World, metres.
 
 use glam::{DVec2, Vec2};
 
-use super::ranges::check_ranges;
-use super::{AgentSpec, Scenario};
-use crate::arrival::ARRIVAL_M;
-use crate::polygon::{closest_distance_m, contains, is_simple, signed_area_m2};
-use crate::sweep::sort_along_longer_side;
+use crate::maths::polygon::{closest_distance_m, contains, is_simple, signed_area_m2};
+use crate::maths::sweep::sort_along_longer_side;
+use crate::route::arrival::ARRIVAL_M;
+use crate::scenario::ranges::check_ranges;
+use crate::scenario::{AgentSpec, Scenario};
 
 /// The test for self-intersection looks at every pair of edges.
 const CORNERS_MAX: usize = 1_000;

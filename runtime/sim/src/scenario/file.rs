@@ -29,16 +29,16 @@ use motiondb::source_text::SourceText;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::agents::{Complaint, Group, Groups, Journey, Kind, check_size, line_span, parse_lines};
-use super::check::{Fault, Place, check};
-use super::error::ScenarioError;
-use super::point::Point;
-use super::{AgentSpec, Scenario, View};
-use crate::cns::Coupling;
+use crate::coupling::body_to_disc::Coupling;
+use crate::maths::polygon::signed_area_m2;
+use crate::maths::random::SplitMix64;
 use crate::params::Params;
-use crate::planner::Planner;
-use crate::polygon::signed_area_m2;
-use crate::split_mix::SplitMix64;
+use crate::planning::planner::Planner;
+use crate::scenario::agents::{Complaint, Group, Groups, Journey, Kind, check_size, line_span, parse_lines};
+use crate::scenario::check::{Fault, Place, check};
+use crate::scenario::error::ScenarioError;
+use crate::scenario::point::Point;
+use crate::scenario::{AgentSpec, Scenario, View};
 
 const STEP_S: f32 = 1.0 / 30.0;
 const SEED: u64 = 1;

@@ -5,9 +5,9 @@ use std::ops::RangeInclusive;
 
 use glam::Vec2;
 
-use super::check::{Fault, Place};
-use super::{AgentSpec, Scenario, View};
 use crate::params::Params;
+use crate::scenario::check::{Fault, Place};
+use crate::scenario::{AgentSpec, Scenario, View};
 
 /// Of a name in bytes: with a frame number and an ending it still names a file.
 const NAME_MAX_BYTES: usize = 200;

@@ -6,9 +6,9 @@
 
 use glam::Vec2;
 
-use crate::mcn::half_plane::{HalfPlane, Source};
-use crate::mcn::linear_program::{Solution, solve, yielding};
-use crate::split_mix::SplitMix64;
+use crate::maths::random::SplitMix64;
+use crate::planning::orca::half_plane::{HalfPlane, Source};
+use crate::planning::orca::linear_program::{Solution, solve, yielding};
 
 /// The greatest speed of every program, m/s.
 pub(crate) const SPEED_MAX_MPS: f32 = 2.0;

@@ -10,14 +10,14 @@
 use glam::Vec2;
 use motiondb::velocity_hull::VelocityHull;
 
-use crate::mcn::motion_constraints::MotionConstraints;
-use crate::neighbours::Neighbours;
-use crate::obstacles::Obstacles;
+use crate::maths::random::SplitMix64;
 use crate::params::Params;
-use crate::plan::{Plan, Stance, StanceFoot};
-use crate::planner::{Planner, Scratch, ahead_s, plan};
-use crate::split_mix::SplitMix64;
-use crate::world::World;
+use crate::planning::mcn::motion_constraints::MotionConstraints;
+use crate::planning::plan::{Plan, Stance, StanceFoot};
+use crate::planning::planner::{Planner, Scratch, ahead_s, plan};
+use crate::planning::world_view::World;
+use crate::world::neighbours::Neighbours;
+use crate::world::obstacles::Obstacles;
 
 /// Agents of a scene, the planning one first.
 const AGENTS: usize = 8;

@@ -8,18 +8,18 @@ use glam::{DVec2, Vec2};
 use motiondb::pose::Root;
 use motiondb::velocity_hull::VelocityHull;
 
-use crate::cns::{as_planned, outside_walls};
-use crate::mcn::half_plane::{HalfPlane, Source};
-use crate::mcn::motion_constraints::MotionConstraints;
-use crate::neighbours::Neighbours;
-use crate::obstacles::Obstacles;
+use crate::coupling::body_to_disc::{as_planned, outside_walls};
+use crate::maths::polygon;
+use crate::maths::random::SplitMix64;
 use crate::params::Params;
-use crate::plan::{Plan, Stance, StanceFoot, VelocitySet};
-use crate::planner::{self, Planner, Scratch};
-use crate::polygon;
-use crate::rivals::social_force::TAKEN_UP_S;
-use crate::split_mix::SplitMix64;
-use crate::world::World;
+use crate::planning::baselines::social_force::TAKEN_UP_S;
+use crate::planning::mcn::motion_constraints::MotionConstraints;
+use crate::planning::orca::half_plane::{HalfPlane, Source};
+use crate::planning::plan::{Plan, Stance, StanceFoot, VelocitySet};
+use crate::planning::planner::{self, Planner, Scratch};
+use crate::planning::world_view::World;
+use crate::world::neighbours::Neighbours;
+use crate::world::obstacles::Obstacles;
 
 /// Agents of a world.
 const AGENTS: std::ops::RangeInclusive<usize> = 2..=30;

@@ -4,15 +4,15 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use fbcrowd_sim::mcn::motion_constraints::MotionConstraints;
-use fbcrowd_sim::neighbours::Neighbours;
-use fbcrowd_sim::obstacles::Obstacles;
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::path::{Braking, Progress, preferred_mps};
-use fbcrowd_sim::plan::{Plan, Stance};
-use fbcrowd_sim::planner::{Planner, Scratch, ahead_s, plan};
+use fbcrowd_sim::planning::mcn::motion_constraints::MotionConstraints;
+use fbcrowd_sim::planning::plan::{Plan, Stance};
+use fbcrowd_sim::planning::planner::{Planner, Scratch, ahead_s, plan};
+use fbcrowd_sim::planning::world_view::World;
+use fbcrowd_sim::route::path::{Braking, Progress, preferred_mps};
 use fbcrowd_sim::scenario::AgentSpec;
-use fbcrowd_sim::world::World;
+use fbcrowd_sim::world::neighbours::Neighbours;
+use fbcrowd_sim::world::obstacles::Obstacles;
 use glam::Vec2;
 use motiondb::velocity_hull::VelocityHull;
 

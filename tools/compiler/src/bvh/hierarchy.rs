@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use glam::DVec3;
 
-use super::prepass::{Flaw, flaw, number, shown};
+use crate::bvh::prepass::{Flaw, flaw, number, shown};
 use crate::skeleton_map::MAX_JOINTS;
 
 /// Deepest nesting of joints: deeper is no skeleton (the deepest real one, with face and fingers: 24).

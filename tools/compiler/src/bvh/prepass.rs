@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use motiondb::input_file;
 use motiondb::remark::{Kind, Remark};
 
-use super::hierarchy::{CheckedJoint, canonical, hierarchy};
+use crate::bvh::hierarchy::{CheckedJoint, canonical, hierarchy};
 use crate::decimal;
 
 /// Joint-frames for each number of the motion section. A joint has at least one channel in practice, end sites add one

@@ -4,7 +4,7 @@ use gltf::json::accessor::{ComponentType, GenericComponentType, IndexComponentTy
 use gltf::json::validation::Checked;
 use gltf::json::{Accessor, Index, buffer::View};
 
-use super::document::{Document, Flaw, flaw};
+use crate::gltf::document::{Document, Flaw, flaw};
 
 /// Elements of `width` numbers each, one after the other.
 pub(crate) struct Numbers {

@@ -13,7 +13,7 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use gltf::json;
 use motiondb::input_file;
 
-use super::document::{Flaw, flaw};
+use crate::gltf::document::{Flaw, flaw};
 
 /// Some exporters leave the padding out.
 const BASE64: GeneralPurpose = GeneralPurpose::new(

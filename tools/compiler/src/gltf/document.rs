@@ -14,8 +14,8 @@ use gltf::json::{self, Index, Root, buffer::View};
 use motiondb::input_file;
 use serde::Deserialize;
 
-use super::track::normal;
-use super::{buffers, track};
+use crate::gltf::buffers;
+use crate::gltf::track::{self, normal};
 use crate::quiet_unwind;
 
 /// Flaws of one document that a message lists, and the letters of any other message.

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::FRAME_RATE_HZ;
-use super::accessor;
-use super::document::{Document, Flaw, flaw};
-use super::track::{self, Source};
-use super::tree::{Body, Tree};
+use crate::gltf::document::{Document, Flaw, flaw};
+use crate::gltf::track::{self, Source};
+use crate::gltf::tree::{Body, Tree};
+use crate::gltf::{FRAME_RATE_HZ, accessor};
 use crate::names;
 
 /// Most node-frames of a file, besides one for each of its bytes: 50 nodes for three minutes. A two-key track can claim

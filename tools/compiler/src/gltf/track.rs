@@ -5,8 +5,8 @@ use glam::{DQuat, DVec3, DVec4};
 use gltf::json::animation::{Animation, Channel, Interpolation, Property};
 use gltf::json::validation::Checked;
 
-use super::accessor::{self, Numbers};
-use super::document::{Document, Flaw, Transform, flaw};
+use crate::gltf::accessor::{self, Numbers};
+use crate::gltf::document::{Document, Flaw, Transform, flaw};
 
 /// Key times are rounded to f32 in the file; a sample this short before a key is at it (matters where values step).
 const KEY_ROUNDING_S: f64 = 1e-5;

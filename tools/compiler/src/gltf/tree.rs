@@ -6,7 +6,7 @@
 
 use gltf::json::Root;
 
-use super::document::{Flaw, flaw};
+use crate::gltf::document::{Flaw, flaw};
 
 /// A tree of fewer nodes that no skin uses is a prop, a camera, a light or a control: a body has two legs and two arms
 /// of three joints each.

@@ -5,9 +5,10 @@ use std::path::Path;
 use glam::{DQuat, DVec3};
 use motiondb::remark::Remark;
 use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb_compiler::axis::Axis;
+use motiondb_compiler::bvh;
 use motiondb_compiler::import::import_bytes;
 use motiondb_compiler::skeleton_map::find_roles;
-use motiondb_compiler::{axis::Axis, bvh};
 
 use super::body::Performance;
 use super::file::{self, File, RootOffset};

@@ -2,16 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use fbcrowd_render::database_plots::write_database_plots;
+use fbcrowd_render::plots::database::all_plots::write_database_plots;
 use motiondb::file::{self, FileError};
 use motiondb_compiler::survey::survey;
 
-use crate::compiling;
 use crate::correspondence_between::Between;
 use crate::failure::{Answer, Failure, NO_HUMAN};
 use crate::leave_one_out::leave_one_out;
-use crate::output;
 use crate::report::{self, DatabaseReport, SourcesReport};
+use crate::{compiling, output};
 
 /// Show what a database holds, or what was found in clips.
 ///

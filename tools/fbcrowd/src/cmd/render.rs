@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use fbcrowd_render::frame_range::FrameRange;
-use fbcrowd_render::sequence::{Format, SequenceOptions};
+use fbcrowd_render::top_view::frame_range::FrameRange;
+use fbcrowd_render::top_view::sequence::{Format, SequenceOptions};
 
 use crate::compile_text::counted;
 use crate::failure::{Answer, Failure};

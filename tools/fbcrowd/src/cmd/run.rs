@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use fbcrowd_render::sequence::{Format, SequenceOptions};
+use fbcrowd_render::top_view::sequence::{Format, SequenceOptions};
 use fbcrowd_sim::measures::metrics;
 use fbcrowd_sim::scenario;
 use fbcrowd_sim::scenario::file::MotionSource;
@@ -14,10 +14,10 @@ use crate::cmd::measure;
 use crate::compile_text::counted;
 use crate::compiling::{self, Overrides};
 use crate::failure::{Answer, Failure};
-use crate::rendering::Rendered;
-use crate::simulation::Timings;
+use crate::output;
+use crate::rendering::{self, Rendered};
+use crate::simulation::{self, Timings};
 use crate::stages::Stopwatch;
-use crate::{output, rendering, simulation};
 
 /// Compile a scenario's clips, simulate it, and render it.
 ///

@@ -9,8 +9,8 @@ use motiondb::atomic_file::AtomicFile;
 use motiondb::file;
 
 use crate::failure::{Answer, Failure};
-use crate::simulation::Timings;
-use crate::{output, simulation};
+use crate::output;
+use crate::simulation::{self, Timings};
 
 /// Simulate a scenario on a compiled database.
 #[derive(clap::Args)]

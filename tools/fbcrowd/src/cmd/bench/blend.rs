@@ -11,18 +11,18 @@
 use std::f32::consts::{FRAC_PI_2, TAU};
 use std::path::PathBuf;
 
-use fbcrowd_sim::hms::gait::START_IDLE_SHARE;
-use fbcrowd_sim::hms::params::Modes;
-use fbcrowd_sim::hms::studio::Studio;
-use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::planning::plan::Plan;
+use fbcrowd_sim::synthesis::command::stand_or_step::START_IDLE_SHARE;
+use fbcrowd_sim::synthesis::library::context::Studio;
+use fbcrowd_sim::synthesis::params::Modes;
 use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, conclude};
-use super::bundled::database;
-use super::walker::{DT_S, achieved, asked_roots, roots, studio, turned_rad};
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::walker::{DT_S, achieved, asked_roots, roots, studio, turned_rad};
 use crate::failure::{Answer, Failure};
 
 /// Grid points along each axis, and how far the grid is drawn in.

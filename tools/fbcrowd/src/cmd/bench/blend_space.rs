@@ -3,14 +3,14 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use fbcrowd_sim::split_mix::SplitMix64;
+use fbcrowd_sim::maths::random::SplitMix64;
 use glam::{DVec3, Vec3};
 use motiondb::locator::Locator;
 use motiondb::parameters::Parameters;
 use motiondb::triangulation::build;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, Goal, conclude};
+use crate::cmd::bench::bar::{Bar, Found, Goal, conclude};
 use crate::failure::{Answer, Failure};
 
 /// From the paper's set to the windows of long captures.

@@ -12,20 +12,20 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use fbcrowd_sim::hms::Body;
-use fbcrowd_sim::hms::params::Modes;
-use fbcrowd_sim::hms::studio::Studio;
-use fbcrowd_sim::hms::time_step::TimeStep;
-use fbcrowd_sim::plan::Plan;
-use fbcrowd_sim::split_mix::SplitMix64;
+use fbcrowd_sim::maths::random::SplitMix64;
+use fbcrowd_sim::planning::plan::Plan;
+use fbcrowd_sim::synthesis::Body;
+use fbcrowd_sim::synthesis::library::context::Studio;
+use fbcrowd_sim::synthesis::params::Modes;
+use fbcrowd_sim::synthesis::time_step::TimeStep;
 use glam::Vec2;
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::pose::{Joints, Root};
 use serde::Serialize;
 
-use super::bar::{Bar, Found, Goal, conclude};
-use super::bundled::bundled;
-use super::walker::studio;
+use crate::cmd::bench::bar::{Bar, Found, Goal, conclude};
+use crate::cmd::bench::bundled::bundled;
+use crate::cmd::bench::walker::studio;
 use crate::failure::{Answer, Failure};
 use crate::statistics::median;
 

@@ -11,8 +11,8 @@ use motiondb::parameters::Parameters;
 use motiondb::quality::{ExampleQuality, quality};
 use serde::Serialize;
 
-use super::bar::{Bar, Found, conclude};
-use super::bundled::bundled;
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::bundled;
 use crate::failure::{Answer, Failure};
 use crate::gait_figures::{GaitFigures, off_published_walk_deg};
 use crate::likeness::{KindOfGait, likeness};

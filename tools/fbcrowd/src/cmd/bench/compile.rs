@@ -5,13 +5,12 @@ use std::path::Path;
 use std::time::Instant;
 
 use motiondb::file;
-use motiondb_compiler::compile;
-use motiondb_compiler::import;
 use motiondb_compiler::manifest::Manifest;
+use motiondb_compiler::{compile, import};
 use serde::Serialize;
 
-use super::Mocap;
-use super::bar::{Bar, Found, Goal, conclude};
+use crate::cmd::bench::Mocap;
+use crate::cmd::bench::bar::{Bar, Found, Goal, conclude};
 use crate::compile_text::counted;
 use crate::failure::{Answer, Failure};
 use crate::stages::{Stage, Stopwatch};

@@ -1,7 +1,7 @@
 //! `fbcrowd bench coupled`: what the coupling is good for, on the scenes of the paper's user study (§7).
 //!
 //! Coupled: MCN, hybrid synthesis, discs that follow their bodies. Decoupled: ORCA plans for discs alone, and blended
-//! bodies follow them exactly ([`fbcrowd_sim::decoupled`]). The same clips and scenes, steps of 1/30 s as in a film,
+//! bodies follow them exactly ([`fbcrowd_sim::coupling::decoupled`]). The same clips and scenes, steps of 1/30 s as in a film,
 //! until all are at their goals. The study asked 21 people for naturalness, collisions and artefacts; here these are
 //! the bodies' overlap, the slide of planted feet, the acceleration of the root, and how far people face away from
 //! where they go.
@@ -9,15 +9,15 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use fbcrowd_sim::cns::Coupling;
-use fbcrowd_sim::hms::params::Modes;
+use fbcrowd_sim::coupling::body_to_disc::Coupling;
 use fbcrowd_sim::measures::metrics::Measures;
+use fbcrowd_sim::synthesis::params::Modes;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, conclude};
-use super::bundled::database;
-use super::contest::{MCN, ORCA, Protocol, Run, run_all};
-use super::scenes::{self, Scene};
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::contest::{MCN, ORCA, Protocol, Run, run_all};
+use crate::cmd::bench::scenes::{self, Scene};
 use crate::failure::{Answer, Failure};
 use crate::statistics::{Spread, spread};
 

@@ -11,24 +11,24 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_render::png_frame;
-use fbcrowd_render::side_by_side::{Way, side_by_side};
-use fbcrowd_render::trails::Tracks;
-use fbcrowd_sim::hms::mode::Mode;
-use fbcrowd_sim::hms::params::{Modes, Transition};
+use fbcrowd_render::plots::crowd::side_by_side::{Way, side_by_side};
+use fbcrowd_render::raster::png_frame;
+use fbcrowd_render::top_view::trails::Tracks;
 use fbcrowd_sim::measures::metrics::{Measures, Measuring};
 use fbcrowd_sim::recording::frame::AgentFrame;
 use fbcrowd_sim::scenario::Scenario;
-use fbcrowd_sim::step::Simulation;
+use fbcrowd_sim::simulation::Simulation;
+use fbcrowd_sim::synthesis::hybrid::mode::Mode;
+use fbcrowd_sim::synthesis::params::{Modes, Transition};
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::skeleton::Skeleton;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, conclude};
-use super::bundled::database;
-use super::contest::{each_alone, step_count};
-use super::watch::{scenario, scenario_text};
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::contest::{each_alone, step_count};
+use crate::cmd::bench::watch::{scenario, scenario_text};
 use crate::failure::{Answer, Failure};
 use crate::pose_sequence::PoseSequence;
 

@@ -15,10 +15,10 @@ use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, conclude};
-use super::bundled::database;
-use super::contest::{Contestant, MCN, ORCA, SOCIAL_FORCE};
-use super::watch::{self, Watched, scenario_text};
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::contest::{Contestant, MCN, ORCA, SOCIAL_FORCE};
+use crate::cmd::bench::watch::{self, Watched, scenario_text};
 use crate::failure::{Answer, Failure};
 use crate::statistics::{Spread, spread};
 

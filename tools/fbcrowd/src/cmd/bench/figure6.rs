@@ -16,15 +16,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use fbcrowd_render::comparison_plot::{Comparison, Measure, comparison};
-use fbcrowd_render::png_frame;
+use fbcrowd_render::plots::crowd::comparison::{Comparison, Measure, comparison};
+use fbcrowd_render::raster::png_frame;
 use rayon::ThreadPool;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, Goal, conclude};
-use super::bundled::database;
-use super::figure6_scene::Scene;
-use super::plan::pool;
+use crate::cmd::bench::bar::{Bar, Found, Goal, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::figure6_scene::Scene;
+use crate::cmd::bench::plan::pool;
 use crate::failure::{Answer, Failure};
 use crate::progress::Progress;
 use crate::statistics::median;

@@ -6,15 +6,15 @@ use std::f32::consts::TAU;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use fbcrowd_sim::hms::mode::Mode;
+use fbcrowd_sim::maths::random::SplitMix64;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
-use fbcrowd_sim::split_mix::SplitMix64;
-use fbcrowd_sim::step::{Simulation, Stage};
+use fbcrowd_sim::simulation::{Simulation, Stage};
+use fbcrowd_sim::synthesis::hybrid::mode::Mode;
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 
-use super::figure6::TURNS;
-use super::plan::{agent, disc};
+use crate::cmd::bench::figure6::TURNS;
+use crate::cmd::bench::plan::{agent, disc};
 
 /// Those of `assets/scenarios/table1`: places along the circle, their jitter, the least radius.
 const SPACING_M: f32 = 1.5;

@@ -4,15 +4,15 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use fbcrowd_sim::hms::params::Modes;
+use fbcrowd_sim::synthesis::params::Modes;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, conclude};
-use super::bundled::database;
-use super::contest::{Contestant, MCN, ORCA, Protocol, SOCIAL_FORCE, run_all};
-use super::scenes::{self, Scene};
-use super::table1::{SceneFigures, figures};
-use super::table1_plots::write_paths;
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::contest::{Contestant, MCN, ORCA, Protocol, SOCIAL_FORCE, run_all};
+use crate::cmd::bench::scenes::{self, Scene};
+use crate::cmd::bench::table1::{SceneFigures, figures};
+use crate::cmd::bench::table1_plots::write_paths;
 use crate::failure::{Answer, Failure};
 
 const CONTESTANTS: [Contestant; 3] = [MCN, ORCA, SOCIAL_FORCE];

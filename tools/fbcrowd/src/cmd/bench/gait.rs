@@ -9,8 +9,8 @@ use motiondb_compiler::import;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
 use serde::Serialize;
 
-use super::Mocap;
-use super::bar::{Bar, Found, conclude};
+use crate::cmd::bench::Mocap;
+use crate::cmd::bench::bar::{Bar, Found, conclude};
 use crate::failure::{Answer, Failure};
 use crate::statistics::share;
 

@@ -11,8 +11,8 @@ use motiondb_compiler::reading_speed::{self, Race};
 use motiondb_compiler::truth::{self, Truth};
 use serde::Serialize;
 
-use super::Mocap;
-use super::bar::{Bar, Found, Goal, conclude};
+use crate::cmd::bench::Mocap;
+use crate::cmd::bench::bar::{Bar, Found, Goal, conclude};
 use crate::failure::{Answer, Failure};
 use crate::progress::Progress;
 use crate::statistics::share;

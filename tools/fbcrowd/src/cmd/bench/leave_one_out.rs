@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use motiondb::motion_db::MotionDb;
-use motiondb_compiler::compile;
-use motiondb_compiler::import;
 use motiondb_compiler::truth::marine_files;
+use motiondb_compiler::{compile, import};
 use serde::Serialize;
 
-use super::Mocap;
-use super::bar::{Bar, Found, conclude};
-use super::bundled::bundled;
+use crate::cmd::bench::Mocap;
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::bundled;
 use crate::failure::{Answer, Failure};
 use crate::leave_one_out::{LeaveOneOut, leave_one_out};
 use crate::statistics::share;

@@ -1,21 +1,21 @@
 //! `fbcrowd bench quality`: do bodies stay human, whatever they are asked and however long a step is?
 //!
-//! Bodies go on errands ([`super::quality_errands`]): steady walks, and changes of speed and direction, by blending, by
-//! semi-procedural locomotion and by both. Each is measured ([`super::quality_measures`]) at four lengths of a step.
+//! Bodies go on errands ([`crate::cmd::bench::quality_errands`]): steady walks, and changes of speed and direction, by blending, by
+//! semi-procedural locomotion and by both. Each is measured ([`crate::cmd::bench::quality_measures`]) at four lengths of a step.
 
 use std::path::PathBuf;
 
-use fbcrowd_sim::hms::params::Modes;
+use fbcrowd_sim::synthesis::params::Modes;
 use motiondb::motion_db::MotionDb;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, conclude};
-use super::bundled::database;
-use super::quality_errands::{Errand, errands};
-use super::quality_measures::{Figures, example_peaks_mps2, figures};
-use super::quality_walk::walk;
-use super::walker::studio;
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::quality_errands::{Errand, errands};
+use crate::cmd::bench::quality_measures::{Figures, example_peaks_mps2, figures};
+use crate::cmd::bench::quality_walk::walk;
+use crate::cmd::bench::walker::studio;
 use crate::failure::{Answer, Failure};
 
 /// The lengths of a step, s: motion capture's, film's and games', and the planner's.

@@ -6,10 +6,10 @@
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
-use fbcrowd_sim::hms::asked::asking;
-use fbcrowd_sim::hms::params::HmsParams;
-use fbcrowd_sim::plan::Plan;
-use fbcrowd_sim::split_mix::SplitMix64;
+use fbcrowd_sim::maths::random::SplitMix64;
+use fbcrowd_sim::planning::plan::Plan;
+use fbcrowd_sim::synthesis::command::blend_query::asking;
+use fbcrowd_sim::synthesis::params::HmsParams;
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;

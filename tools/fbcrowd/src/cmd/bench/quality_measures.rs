@@ -4,18 +4,18 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use fbcrowd_sim::hms::blending::Mix;
-use fbcrowd_sim::hms::space::Space;
 use fbcrowd_sim::measures::planted_slide::PlantedSlide;
-use fbcrowd_sim::plan::PLANTED_CONTACT;
+use fbcrowd_sim::planning::plan::PLANTED_CONTACT;
+use fbcrowd_sim::synthesis::blending::blend_space::Space;
+use fbcrowd_sim::synthesis::blending::mix::Mix;
 use glam::Vec3;
 use motiondb::motion_db::MotionDb;
 use motiondb::pose::Joints;
 use motiondb::skeleton::{Joint, Skeleton};
 use serde::Serialize;
 
-use super::quality_errands::Errand;
-use super::quality_walk::{Step, Walk};
+use crate::cmd::bench::quality_errands::Errand;
+use crate::cmd::bench::quality_walk::{Step, Walk};
 
 /// Of each end of a contact, left out.
 const TRIMMED_SHARE: f64 = 0.1;

@@ -1,17 +1,17 @@
 //! Bodies that go on an errand, alone on open ground, and what is kept of every step for the measures.
 
-use fbcrowd_sim::hms::Body;
-use fbcrowd_sim::hms::mode::Mode;
-use fbcrowd_sim::hms::params::Modes;
-use fbcrowd_sim::hms::studio::Studio;
-use fbcrowd_sim::hms::time_step::TimeStep;
-use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::planning::plan::Plan;
 use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::synthesis::Body;
+use fbcrowd_sim::synthesis::hybrid::mode::Mode;
+use fbcrowd_sim::synthesis::library::context::Studio;
+use fbcrowd_sim::synthesis::params::Modes;
+use fbcrowd_sim::synthesis::time_step::TimeStep;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::pose::{Joints, Root};
 
-use super::quality_errands::{Ask, Errand};
+use crate::cmd::bench::quality_errands::{Ask, Errand};
 
 /// Bodies on each errand …
 pub(super) const BODIES: usize = 8;

@@ -6,8 +6,8 @@
 
 use std::path::PathBuf;
 
-use fbcrowd_sim::hms::deformation::Deformation;
-use fbcrowd_sim::hms::semi_procedural::SemiProcedural;
+use fbcrowd_sim::synthesis::semi_procedural::base_walk::SemiProcedural;
+use fbcrowd_sim::synthesis::semi_procedural::deformation::Deformation;
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
@@ -16,9 +16,9 @@ use motiondb::pose::{Joints, Pose};
 use motiondb::skeleton::Joint;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, conclude};
-use super::bundled::database;
-use super::quality_measures::ankles_apart_m;
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::quality_measures::ankles_apart_m;
 use crate::failure::{Answer, Failure};
 
 /// Directions of travel, from ahead on round by the left, degrees.

@@ -1,22 +1,22 @@
 //! `fbcrowd bench rimea`: the tests of the RiMEA guideline for evacuation analyses that concern walking on the level,
 //! and three of the kind, each a scenario file of `assets/scenarios`, through full bodies.
 //!
-//! What each of them measures and demands stands in [`rimea_cases`](super::rimea_cases).
+//! What each of them measures and demands stands in [`rimea_cases`](crate::cmd::bench::rimea_cases).
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_render::diagram_plot::{Diagram, diagram};
-use fbcrowd_render::png_frame;
+use fbcrowd_render::plots::crowd::fundamental_diagram::{Diagram, diagram};
+use fbcrowd_render::raster::png_frame;
 use fbcrowd_sim::measures::measured_section::weidmann_mps;
 use glam::Vec2;
 use serde::Serialize;
 
-use super::bar::{Found, conclude};
-use super::bundled::database;
-use super::rimea_cases::{CASES, Case, DIAGRAM_SCENARIO, DiagramPoint, Figure, diagram_points};
-use super::watch::{self, Watched};
+use crate::cmd::bench::bar::{Found, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::rimea_cases::{CASES, Case, DIAGRAM_SCENARIO, DiagramPoint, Figure, diagram_points};
+use crate::cmd::bench::watch::{self, Watched};
 use crate::failure::{Answer, Failure};
 
 /// Weidmann's curve is drawn from and to here, 1/m².

@@ -1,5 +1,5 @@
 //! What `fbcrowd bench rimea` plays, measures and demands: a case a test; those that are not the guideline's are judged
-//! in [`rimea_more`](super::rimea_more).
+//! in [`rimea_more`](crate::cmd::bench::rimea_more).
 //!
 //! The guideline (RiMEA 3.0, Annex) states tests 1, 6 and 12 as they stand here; of 4 and 7 it demands that figures are
 //! compared with those that went in or were published, and leaves the margin to whoever compares: ours stand below,
@@ -8,13 +8,13 @@
 use fbcrowd_sim::measures::arching::WaitingCrowd;
 use fbcrowd_sim::measures::gate::Gate;
 use fbcrowd_sim::measures::measured_section::{MeasuredSection, weidmann_mps};
-use fbcrowd_sim::obstacles::Obstacles;
+use fbcrowd_sim::world::obstacles::Obstacles;
 use glam::Vec2;
 use serde::Serialize;
 
-use super::bar::Bar;
-use super::rimea_more::{TURNED_DEG, overtaking, queue, turned};
-use super::watch::{Watched, scenario_text};
+use crate::cmd::bench::bar::Bar;
+use crate::cmd::bench::rimea_more::{TURNED_DEG, overtaking, queue, turned};
+use crate::cmd::bench::watch::{Watched, scenario_text};
 use crate::statistics::{Spread, spread};
 
 /// Test 1: 40 m at 1.33 m/s ± 5 %, and the span that the guideline allows besides, s.

@@ -3,9 +3,9 @@
 
 use glam::Vec2;
 
-use super::bar::Bar;
-use super::rimea_cases::{Judged, TOUCH_M, figure, overlap_m};
-use super::watch::Watched;
+use crate::cmd::bench::bar::Bar;
+use crate::cmd::bench::rimea_cases::{Judged, TOUCH_M, figure, overlap_m};
+use crate::cmd::bench::watch::Watched;
 
 /// Overtaking: path over the straight way; a body's width aside over 10 m makes 1.003, a hesitation more.
 const DETOUR: f64 = 1.05;

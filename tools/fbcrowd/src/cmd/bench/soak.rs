@@ -19,19 +19,18 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::wild;
-use fbcrowd_sim::wild::turned_world;
 use fbcrowd_sim::wild::world::WildWorld;
+use fbcrowd_sim::wild::{self, turned_world};
 use motiondb::motion_db::MotionDb;
 use motiondb::velocity_hull::VelocityHull;
 use motiondb::{file, validate};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use self::draw::Draw;
-use self::scratch::Scratch;
-use super::bar::{Bar, Found, conclude};
-use super::bundled::bundled;
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::bundled;
+use crate::cmd::bench::soak::draw::Draw;
+use crate::cmd::bench::soak::scratch::Scratch;
 use crate::failure::{Answer, Failure};
 use crate::output;
 use crate::progress::Progress;

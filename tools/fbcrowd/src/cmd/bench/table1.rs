@@ -7,15 +7,15 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::measures::metrics::Measures;
+use fbcrowd_sim::synthesis::params::Modes;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, Goal, conclude};
-use super::bundled::database;
-use super::contest::{Contestant, MCN, ORCA, Protocol, Run, SOCIAL_FORCE, SOCIAL_FORCE_20, run_all};
-use super::scenes::{self, Scene};
-use super::{table1_discs, table1_plots, table1_text};
+use crate::cmd::bench::bar::{Bar, Found, Goal, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::contest::{Contestant, MCN, ORCA, Protocol, Run, SOCIAL_FORCE, SOCIAL_FORCE_20, run_all};
+use crate::cmd::bench::scenes::{self, Scene};
+use crate::cmd::bench::{table1_discs, table1_plots, table1_text};
 use crate::failure::{Answer, Failure};
 use crate::statistics::{Spread, spread};
 

@@ -6,13 +6,13 @@
 
 use std::sync::Arc;
 
-use fbcrowd_sim::cns::Coupling;
+use fbcrowd_sim::coupling::body_to_disc::Coupling;
 use motiondb::motion_db::MotionDb;
 
-use super::bar::{Bar, Found, conclude};
-use super::contest::{Contestant, ORCA, Protocol, SOCIAL_FORCE, run_all};
-use super::scenes::{self, Scene};
-use super::table1::{Details, PlannerFigures, SceneFigures, figures};
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::contest::{Contestant, ORCA, Protocol, SOCIAL_FORCE, run_all};
+use crate::cmd::bench::scenes::{self, Scene};
+use crate::cmd::bench::table1::{Details, PlannerFigures, SceneFigures, figures};
 use crate::failure::{Answer, Failure};
 
 const RIVALS: [Contestant; 2] = [ORCA, SOCIAL_FORCE];

@@ -3,15 +3,15 @@
 use std::fs;
 use std::path::Path;
 
-use fbcrowd_render::comparison_plot::{Comparison, Measure, comparison};
 use fbcrowd_render::error::RenderError;
-use fbcrowd_render::png_frame;
-use fbcrowd_render::side_by_side::{Way, side_by_side};
+use fbcrowd_render::plots::crowd::comparison::{Comparison, Measure, comparison};
+use fbcrowd_render::plots::crowd::side_by_side::{Way, side_by_side};
+use fbcrowd_render::raster::png_frame;
 use fbcrowd_sim::measures::metrics::Measures;
 
-use super::contest::{Contestant, Run};
-use super::scenes::Scene;
-use super::table1::{CONTESTANTS, Details, RunFigures};
+use crate::cmd::bench::contest::{Contestant, Run};
+use crate::cmd::bench::scenes::Scene;
+use crate::cmd::bench::table1::{CONTESTANTS, Details, RunFigures};
 use crate::failure::Failure;
 
 /// Writes both kinds into a folder: `table1.png` and `SCENE_s<seed>.png`.

@@ -1,6 +1,6 @@
 //! The comparison as a table for people, the paper's figures beside ours.
 
-use super::table1::{Details, PlannerFigures, SceneFigures};
+use crate::cmd::bench::table1::{Details, PlannerFigures, SceneFigures};
 
 /// The paper's Table 1: scene, planner, C, A in m/s² (over all steps; it has no acceleration before arrival).
 const PAPER: [(&str, &str, f64, f64); 9] = [

@@ -10,20 +10,20 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::path::PathBuf;
 
-use fbcrowd_sim::hms::arc::moved;
-use fbcrowd_sim::hms::params::Modes;
-use fbcrowd_sim::hms::studio::Studio;
-use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::maths::arc::moved;
+use fbcrowd_sim::planning::plan::Plan;
+use fbcrowd_sim::synthesis::library::context::Studio;
+use fbcrowd_sim::synthesis::params::Modes;
 use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::bar::{Bar, Found, conclude};
-use super::bundled::database;
-use super::quality_walk::{APART_S, BODIES};
-use super::walker::{DT_S, asked_roots, roots, studio};
+use crate::cmd::bench::bar::{Bar, Found, conclude};
+use crate::cmd::bench::bundled::database;
+use crate::cmd::bench::quality_walk::{APART_S, BODIES};
+use crate::cmd::bench::walker::{DT_S, asked_roots, roots, studio};
 use crate::failure::{Answer, Failure};
 
 /// Commands change by this at most, m/s², and turn rates by as much in rad/s².

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use fbcrowd_sim::angle::wrap_rad;
-use fbcrowd_sim::hms::arc::went;
-use fbcrowd_sim::hms::asked::asking;
-use fbcrowd_sim::hms::params::{HmsParams, Modes};
-use fbcrowd_sim::hms::studio::Studio;
-use fbcrowd_sim::plan::Plan;
+use fbcrowd_sim::maths::angle::wrap_rad;
+use fbcrowd_sim::maths::arc::went;
+use fbcrowd_sim::planning::plan::Plan;
+use fbcrowd_sim::synthesis::command::blend_query::asking;
+use fbcrowd_sim::synthesis::library::context::Studio;
+use fbcrowd_sim::synthesis::params::{HmsParams, Modes};
 use glam::Vec3;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;

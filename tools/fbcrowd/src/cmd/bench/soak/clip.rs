@@ -6,7 +6,7 @@ use motiondb_compiler::compile::{Options, compile};
 use motiondb_compiler::import::import_bytes;
 use motiondb_compiler::mutation::mutated;
 
-use super::{Draw, Fate, judged};
+use crate::cmd::bench::soak::{Draw, Fate, judged};
 
 /// A GLB's magic, version and length, then the length and kind of its JSON.
 const GLB_HEAD: usize = 20;

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
-use fbcrowd_sim::step::Simulation;
+use fbcrowd_sim::simulation::Simulation;
 use glam::Vec2;
 use motiondb::container::{self, HEADER_LENGTH};
 use motiondb::motion_db::MotionDb;
 use motiondb::{file, validate};
 
-use super::{Draw, Fate};
+use crate::cmd::bench::soak::{Draw, Fate};
 
 /// Steps for which bodies are simulated: a second, about a stride.
 const STEPS: usize = 30;

@@ -8,12 +8,12 @@ use fbcrowd_sim::measures::metrics::measure;
 use fbcrowd_sim::recording::chunk::{CHUNK_HEAD_BYTES, Kind, write_chunk};
 use fbcrowd_sim::recording::error::RecordingError;
 use fbcrowd_sim::recording::{Header, Recorder, Recording};
-use fbcrowd_sim::step::Simulation;
+use fbcrowd_sim::simulation::Simulation;
 use motiondb::motion_db::MotionDb;
 use motiondb_compiler::mutation::mutated;
 
-use super::scratch::Scratch;
-use super::{Draw, Fate, database};
+use crate::cmd::bench::soak::scratch::Scratch;
+use crate::cmd::bench::soak::{Draw, Fate, database};
 use crate::failure::Failure;
 
 /// Magic and version stand before the first chunk.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::Draw;
+use crate::cmd::bench::soak::Draw;
 use crate::failure::Failure;
 
 /// A temporary folder of this process.

@@ -9,8 +9,8 @@ use motiondb_compiler::compile::compile_manifest;
 use motiondb_compiler::manifest::Manifest;
 use motiondb_compiler::mutation::mutated;
 
-use super::scratch::Scratch;
-use super::{Draw, Fate, database, judged};
+use crate::cmd::bench::soak::scratch::Scratch;
+use crate::cmd::bench::soak::{Draw, Fate, database, judged};
 use crate::failure::Failure;
 
 /// The clips that the manifest names.

@@ -1,0 +1,51 @@
+//! All plots of a database, as `inspect --plots` writes them.
+//!
+//! Pictures of single examples go on several sheets where there are many: `contact_sheet.png`, `contact_sheet_2.png` …
+
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use motiondb::motion_db::MotionDb;
+use tiny_skia::Pixmap;
+
+use crate::error::RenderError;
+use crate::plots::database::contact_sheet::{self, contact_sheet};
+use crate::plots::database::coverage::coverage_slices;
+use crate::plots::database::gait_events::{self, gait_events};
+use crate::plots::database::parameter_space::parameter_space;
+use crate::plots::database::pose_distances::pose_distances;
+use crate::plots::database::velocity_space::velocity_space;
+use crate::raster::png_frame;
+
+/// Writes every plot of a database into a folder, which is made if missing; returns the files.
+///
+/// # Errors
+/// Where the folder or a file cannot be written.
+pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>, RenderError> {
+    fs::create_dir_all(folder).map_err(|source| RenderError::Folder { folder: folder.to_owned(), source })?;
+    let always = [
+        ("velocity_space.png", velocity_space(db)),
+        ("parameter_space.png", parameter_space(db)),
+        ("coverage.png", coverage_slices(db)),
+    ];
+    let write = |(name, plot): (String, Pixmap)| {
+        let path = folder.join(name);
+        png_frame::write(&path, &plot).map(|()| path)
+    };
+    let correspondences = pose_distances(db).map(|plot| ("pose_distance.png", plot));
+    let single = always.into_iter().chain(correspondences).map(|(name, plot)| (name.to_owned(), plot));
+    let gaits = sheets(db.examples.len(), gait_events::SHEET_EXAMPLES)
+        .map(|(number, examples)| (format!("gait_events{number}.png"), gait_events(db, examples)));
+    let bodies = sheets(db.examples.len(), contact_sheet::SHEET_EXAMPLES)
+        .map(|(number, examples)| (format!("contact_sheet{number}.png"), contact_sheet(db, examples)));
+    single.chain(gaits).chain(bodies).map(write).collect()
+}
+
+/// What distinguishes each sheet's name, and its examples.
+fn sheets(examples: usize, each: usize) -> impl Iterator<Item = (String, Range<usize>)> {
+    (0..examples.div_ceil(each)).map(move |sheet| {
+        let number = if sheet == 0 { String::new() } else { format!("_{}", sheet + 1) };
+        (number, sheet * each..examples.min((sheet + 1) * each))
+    })
+}

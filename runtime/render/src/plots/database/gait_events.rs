@@ -1,0 +1,163 @@
+//! When feet stand: for every example the height and the speed of both soles over the cycle, the contacts found, and
+//! the four key times.
+//!
+//! Of each sole the lowest point is drawn, its speed is that over the ground: with root velocity v and turn rate ω a
+//! point p of the root frame moves by v + ω·perp(p) + dp/dt. A sheet holds three dozen examples; more go on further
+//! sheets.
+
+use std::ops::Range;
+
+use glam::{Vec2, Vec3};
+use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
+use motiondb::planted_feet::PLANTED_CONTACT;
+use motiondb::pose::Pose;
+use motiondb::skeleton::Side;
+use tiny_skia::Pixmap;
+
+use crate::plots::chart::axis::Axis;
+use crate::plots::chart::mark::Mark;
+use crate::plots::chart::plot::{Figure, Line, Panel, line};
+use crate::raster::palette::{INK, SIDES};
+use crate::raster::text::Anchor;
+
+/// Panels side by side, and examples on a sheet.
+const COLUMNS: usize = 3;
+pub(crate) const SHEET_EXAMPLES: usize = 36;
+/// Width and height of one example with its surroundings, pixels.
+const CELL_PX: Vec2 = Vec2::new(800.0, 720.0);
+/// Left, top, width, height of the axes of the heights within it, pixels …
+const HEIGHT_PANEL_PX: [f32; 4] = [120.0, 90.0, 650.0, 270.0];
+/// … and of the speeds below them.
+const SPEED_PANEL_PX: [f32; 4] = [120.0, 470.0, 650.0, 160.0];
+/// Between an axis's label and the example's name, pixels.
+const NAME_GAP_PX: f32 = 40.0;
+/// Height of the sheet's head, pixels.
+const HEAD_PX: f32 = 180.0;
+/// Height of both feet's contact bars over the axis's lower end, share of the axis.
+const BAR_SHARES: [f32; 2] = [0.10, 0.04];
+/// Room below the heights, for the bars, and above, for the key times' names, share of their range.
+const ROOM_SHARES: [f32; 2] = [0.24, 0.25];
+/// Least ranges shown: standing feet draw level lines, not noise, m and m/s.
+const MIN_RANGE_M: f32 = 0.05;
+const MIN_RANGE_MPS: f32 = 0.5;
+/// Names of the key times, in their order.
+const KEY_NAMES: [&str; 4] = ["R off", "R strike", "L off", "L strike"];
+/// The foot that each key time speaks of, as an index of a `[left, right]` pair.
+const KEY_SIDES: [usize; 4] = [1, 1, 0, 0];
+
+/// The gait plot of some examples of a database.
+pub fn gait_events(db: &MotionDb, examples: Range<usize>) -> Pixmap {
+    let rows = examples.len().div_ceil(COLUMNS);
+    let size = [COLUMNS as f32 * CELL_PX.x, HEAD_PX + rows as f32 * CELL_PX.y];
+    let mut figure = Figure::new(size[0] as u32, size[1] as u32);
+    figure.title(
+        "Lowest point of each sole, its speed over the ground, contacts and key times",
+        Vec2::new(HEIGHT_PANEL_PX[0], 70.0),
+    );
+    let legend = [
+        (Mark::Disc, SIDES[0], "left foot"),
+        (Mark::Disc, SIDES[1], "right foot"),
+        (Mark::Bar, INK, "planted"),
+        (Mark::Dashes, INK, "key times: toe-offs and heel strikes"),
+    ];
+    figure.legend(Vec2::new(HEIGHT_PANEL_PX[0] + 10.0, 130.0), &legend);
+    for (cell, example) in examples.enumerate() {
+        draw_example(&mut figure, db, example, cell);
+    }
+    figure.pixmap
+}
+
+fn draw_example(figure: &mut Figure, db: &MotionDb, index: usize, cell: usize) {
+    let example = &db.examples[index];
+    let corner = Vec2::new((cell % COLUMNS) as f32 * CELL_PX.x, HEAD_PX + (cell / COLUMNS) as f32 * CELL_PX.y);
+    let soles = Side::BOTH.map(|side| sole_curves(db, index, side));
+    let [heights_m, speeds_mps] = [0, 1].map(|curve| soles.each_ref().map(|sole| sole[curve].as_slice()));
+    let mut panel = |[left, top, width, height]: [f32; 4], value: Axis| {
+        let time = Axis { label: "time, s".to_owned(), low: 0.0, high: example.phase_map.period_s };
+        figure.panel([corner.x + left, corner.y + top, width, height], [time, value])
+    };
+    let height_panel = panel(HEIGHT_PANEL_PX, height_axis(heights_m));
+    let speed_panel = panel(SPEED_PANEL_PX, speed_axis(speeds_mps));
+    let [left, top, width, _] = HEIGHT_PANEL_PX;
+    let name = figure.fitted(&example.name, width - figure.width_px(&height_panel.axes[1].label) - NAME_GAP_PX);
+    figure.text(&name, corner + Vec2::new(left + width, top - 16.0), Anchor::Right);
+    draw_key_times(figure, &height_panel, example, &KEY_NAMES);
+    draw_key_times(figure, &speed_panel, example, &[""; 4]);
+    for side in Side::BOTH {
+        for (panel, curves) in [(&height_panel, heights_m), (&speed_panel, speeds_mps)] {
+            let points = curves[side.index()].iter().enumerate();
+            let points = points.map(|(row, value)| Vec2::new(time_s(example, row), *value));
+            figure.polyline(panel, points, line(SIDES[side.index()], 2.4));
+        }
+        draw_contacts(figure, &height_panel, db, index, side);
+    }
+}
+
+fn height_axis(heights_m: [&[f32]; 2]) -> Axis {
+    let all = heights_m.into_iter().flatten();
+    let [low, high] = all.fold([0.0_f32; 2], |[low, high], height| [low.min(*height), high.max(*height)]);
+    let range = (high - low).max(MIN_RANGE_M);
+    let [below, above] = ROOM_SHARES.map(|share| share * range);
+    Axis { label: "height, m".to_owned(), low: low - below, high: low + range + above }
+}
+
+fn speed_axis(speeds_mps: [&[f32]; 2]) -> Axis {
+    let highest = speeds_mps.into_iter().flatten().copied().fold(MIN_RANGE_MPS, f32::max);
+    Axis { label: "speed, m/s".to_owned(), low: 0.0, high: 1.08 * highest }
+}
+
+/// Height, m, and horizontal speed over the ground, m/s, of the lowest sole point at each stored phase, and at the
+/// first once more, which closes the cycle.
+fn sole_curves(db: &MotionDb, example: usize, side: Side) -> [Vec<f32>; 2] {
+    let soles: Vec<[Vec3; 3]> = (0..PHASE_COUNT).map(|phase| sole_points_m(db, example, phase, side)).collect();
+    let lowest = |row: usize| {
+        let points_m = soles[row % PHASE_COUNT];
+        (0..3).min_by(|a, b| points_m[*a].z.total_cmp(&points_m[*b].z)).unwrap_or(0)
+    };
+    let height_m = |row: usize| soles[row % PHASE_COUNT][lowest(row)].z;
+    let speed_mps = |row: usize| {
+        let (point, found) = (lowest(row), &db.examples[example]);
+        let at_m = |row: usize| soles[row % PHASE_COUNT][point].truncate();
+        let steps_s = [row + PHASE_COUNT - 1, row + PHASE_COUNT + 1].map(|row| time_s(found, row));
+        let in_root_mps = (at_m(row + 1) - at_m(row + PHASE_COUNT - 1)) / (steps_s[1] - steps_s[0]);
+        let root_mps = Vec2::new(found.parameters.speed_mps, found.parameters.strafe_mps);
+        (root_mps + found.parameters.turn_rate_rad_s * at_m(row).perp() + in_root_mps).length()
+    };
+    [(0..=PHASE_COUNT).map(height_m).collect(), (0..=PHASE_COUNT).map(speed_mps).collect()]
+}
+
+fn sole_points_m(db: &MotionDb, example: usize, phase: usize, side: Side) -> [Vec3; 3] {
+    let pelvis_m = db.rows.pelvis_m[example * PHASE_COUNT + phase];
+    let joints = Pose { pelvis_m, rotations: *db.rows.rotations(example, phase) }.forward_kinematics(&db.skeleton);
+    joints.sole_points_m(&db.skeleton, side.index())
+}
+
+fn time_s(example: &MotionExample, row: usize) -> f32 {
+    example.phase_map.time_s(row as f32 / PHASE_COUNT as f32)
+}
+
+/// A bar below the curves wherever the foot is planted.
+fn draw_contacts(figure: &mut Figure, panel: &Panel, db: &MotionDb, example: usize, side: Side) {
+    let [_, height] = &panel.axes;
+    let height_m = height.low + BAR_SHARES[side.index()] * (height.high - height.low);
+    let planted = |row: usize| {
+        f64::from(db.rows.contacts[example * PHASE_COUNT + row % PHASE_COUNT][side.index()]) >= PLANTED_CONTACT
+    };
+    for row in (0..PHASE_COUNT).filter(|row| planted(*row) && planted(row + 1)) {
+        let ends = [row, row + 1].map(|row| Vec2::new(time_s(&db.examples[example], row), height_m));
+        figure.polyline(panel, ends, line(SIDES[side.index()], 6.0));
+    }
+}
+
+fn draw_key_times(figure: &mut Figure, panel: &Panel, example: &MotionExample, names: &[&str; 4]) {
+    let Some(key_times_s) = example.key_times_s else { return };
+    let [_, value] = &panel.axes;
+    for (key, time_s) in key_times_s.into_iter().enumerate() {
+        let ends = [Vec2::new(time_s, value.low), Vec2::new(time_s, value.high)];
+        let colour = SIDES[KEY_SIDES[key]];
+        figure.polyline(panel, ends, Line { dashed: true, opacity: 0.8, ..line(colour, 1.3) });
+        // Events come close together: their names stand on two levels.
+        let at = panel.to_px(ends[1]) + Vec2::new(4.0, 18.0 + 20.0 * (key % 2) as f32);
+        figure.note(names[key], at, Anchor::Left, INK);
+    }
+}

@@ -1,0 +1,146 @@
+//! Writing on pictures: glyphs rasterised once per size by fontdue, from a font that a crate brings along.
+
+use std::collections::BTreeMap;
+
+use epaint_default_fonts::UBUNTU_LIGHT;
+use fontdue::{Font, FontSettings};
+use glam::Vec2;
+use tiny_skia::Pixmap;
+
+use crate::raster::palette::Rgb;
+use crate::raster::tapered_capsule;
+
+/// Characters beyond ASCII that our pictures write.
+const SYMBOLS: &str = "°·–²−ωφ×…±µ";
+/// Where the light face's thin strokes are thickened: coverage is raised by this factor.
+const STROKE_GAIN: f32 = 1.35;
+
+/// Which point of a text stands at the place given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    /// The left end.
+    Left,
+    /// The middle.
+    Centre,
+    /// The right end.
+    Right,
+}
+
+/// A font at one size, ready to draw.
+#[derive(Clone, Debug)]
+pub struct Typeface {
+    /// Height of a line's letters from descender to ascender, pixels.
+    pub size_px: f32,
+    glyphs: BTreeMap<char, Glyph>,
+}
+
+#[derive(Clone, Debug)]
+struct Glyph {
+    advance_px: f32,
+    /// Left and top edge of the coverage against the pen on the baseline, y down.
+    corner_px: [i32; 2],
+    width: usize,
+    coverage: Vec<u8>,
+}
+
+impl Typeface {
+    /// Rasterises every character at a size.
+    pub fn new(size_px: f32) -> Self {
+        let font = Font::from_bytes(UBUNTU_LIGHT, FontSettings { scale: size_px, ..FontSettings::default() })
+            .expect("the font is compiled in and known to parse");
+        let characters = (' '..='~').chain(SYMBOLS.chars());
+        let glyphs = characters.map(|character| (character, Glyph::new(&font, character, size_px))).collect();
+        Self { size_px, glyphs }
+    }
+
+    /// How far the pen moves, pixels.
+    pub fn width_px(&self, text: &str) -> f32 {
+        self.glyphs_of(text).map(|glyph| glyph.advance_px).sum()
+    }
+
+    /// A text no wider than so many pixels: of a longer one the middle gives way to `…`, since names that begin alike
+    /// often end otherwise.
+    pub fn fitted(&self, text: &str, width_px: f32) -> String {
+        let letters: Vec<char> = text.chars().collect();
+        let shortened = |kept: usize| {
+            let (head, tail) = (kept.div_ceil(2), kept / 2);
+            letters[..head].iter().chain(['…'].iter()).chain(&letters[letters.len() - tail..]).collect::<String>()
+        };
+        if self.width_px(text) <= width_px {
+            return text.to_owned();
+        }
+        let fitting = (0..letters.len()).rev().map(shortened).find(|text| self.width_px(text) <= width_px);
+        fitting.unwrap_or_default()
+    }
+
+    /// Writes with the baseline at `at_px`.
+    pub fn draw(&self, pixmap: &mut Pixmap, text: &str, at_px: Vec2, anchor: Anchor, colour: Rgb) {
+        let share = match anchor {
+            Anchor::Left => 0.0,
+            Anchor::Centre => 0.5,
+            Anchor::Right => 1.0,
+        };
+        let mut pen_px = at_px.x - share * self.width_px(text);
+        for glyph in self.glyphs_of(text) {
+            glyph.draw(pixmap, [pen_px.round() as i32, at_px.y.round() as i32], colour);
+            pen_px += glyph.advance_px;
+        }
+    }
+
+    /// Writes with a one-pixel halo, to stay readable over bodies and lines.
+    pub fn draw_with_halo(&self, pixmap: &mut Pixmap, text: &str, at_px: Vec2, anchor: Anchor, [ink, halo]: [Rgb; 2]) {
+        for shift in [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y, Vec2::ONE, Vec2::NEG_ONE] {
+            self.draw(pixmap, text, at_px + shift, anchor, halo);
+        }
+        self.draw(pixmap, text, at_px, anchor, ink);
+    }
+
+    fn glyphs_of<'a>(&'a self, text: &'a str) -> impl Iterator<Item = &'a Glyph> {
+        // A character that the font lacks shows as a question mark, never as a hole.
+        text.chars().filter_map(|character| self.glyphs.get(&character).or_else(|| self.glyphs.get(&'?')))
+    }
+}
+
+impl Glyph {
+    fn new(font: &Font, character: char, size_px: f32) -> Self {
+        let (metrics, mut coverage) = font.rasterize(character, size_px);
+        for value in &mut coverage {
+            *value = (f32::from(*value) * STROKE_GAIN).min(255.0) as u8;
+        }
+        let corner_px = [metrics.xmin, -(metrics.ymin + metrics.height as i32)];
+        Self { advance_px: metrics.advance_width, corner_px, width: metrics.width, coverage }
+    }
+
+    fn draw(&self, pixmap: &mut Pixmap, pen_px: [i32; 2], colour: Rgb) {
+        let (width, height) = (pixmap.width() as usize, pixmap.height() as usize);
+        let place = |pen: i32, corner: i32, step: usize, side: usize| {
+            usize::try_from(pen.saturating_add(corner).saturating_add(step as i32)).ok().filter(|at| *at < side)
+        };
+        let pixels = tapered_capsule::pixels_mut(pixmap);
+        for (row, line) in self.coverage.chunks(self.width.max(1)).enumerate() {
+            let Some(y) = place(pen_px[1], self.corner_px[1], row, height) else { continue };
+            for (column, covered) in line.iter().enumerate().filter(|(_, covered)| **covered > 0) {
+                let Some(x) = place(pen_px[0], self.corner_px[0], column, width) else { continue };
+                let pixel = &mut pixels[y * width + x];
+                *pixel = tapered_capsule::to_pixel(
+                    tapered_capsule::to_vec(*pixel).lerp(colour, f32::from(*covered) / 255.0),
+                );
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_too_wide_loses_its_middle_and_another_nothing() {
+        let face = Typeface::new(20.0);
+        let long = "dataset-1_walk_normal_001_mirrored";
+        let fitted = face.fitted(long, 0.5 * face.width_px(long));
+        assert!(face.width_px(&fitted) <= 0.5 * face.width_px(long), "{fitted}");
+        assert!(fitted.starts_with("dataset") && fitted.contains('…') && fitted.ends_with("rored"), "{fitted}");
+        assert_eq!((face.fitted("walk", 500.0), face.fitted("walk", 1.0)), ("walk".to_owned(), String::new()));
+    }
+}

@@ -1,0 +1,122 @@
+//! A recording at any time: frames of the picture's rate from frames of the simulation's step.
+
+use std::f32::consts::{PI, TAU};
+
+use fbcrowd_sim::recording::Recording;
+use fbcrowd_sim::recording::error::RecordingError;
+use fbcrowd_sim::recording::frame::AgentFrame;
+use glam::Vec2;
+use motiondb::pose::{Pose, Root};
+use rayon::prelude::*;
+
+use crate::error::RenderError;
+use crate::top_view::trails::Tracks;
+
+/// A picture's time this near a recorded frame, in steps, takes that frame as it is: pictures at the simulation's own
+/// rate show exactly what was simulated.
+const SAME_FRAME_STEPS: f64 = 1e-3;
+
+/// Most positions kept of a recording: 256 MiB, a thousand agents for 18 minutes at every step.
+const MAX_TRACK_POINTS: usize = 1 << 25;
+
+/// Number of pictures that a recording gives at its view's frame rate, the first at time 0.
+pub fn picture_count(recording: &Recording) -> u32 {
+    let steps = recording.frame_count().saturating_sub(1);
+    let scenario = &recording.header().scenario;
+    let duration_s = steps as f64 * f64::from(scenario.dt_s);
+    (duration_s * f64::from(scenario.view.frame_rate_hz) + SAME_FRAME_STEPS) as u32 + 1
+}
+
+/// Time of a picture, counted from 0, s.
+pub fn picture_time_s(recording: &Recording, picture: u32) -> f64 {
+    f64::from(picture) / f64::from(recording.header().scenario.view.frame_rate_hz)
+}
+
+/// Every agent's root over the whole recording: in every frame, or in every so many-th, so that a long recording of
+/// many agents takes no more than 256 MiB.
+///
+/// # Errors
+/// Where the recording has no frame or one cannot be read.
+pub fn read_tracks(recording: &Recording) -> Result<Tracks, RenderError> {
+    if recording.frame_count() == 0 {
+        return Err(RenderError::EmptyRecording);
+    }
+    let scenario = &recording.header().scenario;
+    let agent_count = scenario.agents.len();
+    let stride = track_stride(recording.frame_count(), agent_count);
+    let kept = recording.frame_count().div_ceil(stride);
+    let mut positions_m = vec![Vec2::ZERO; kept * agent_count];
+    let frames = positions_m.par_chunks_mut(agent_count.max(1)).enumerate();
+    frames.try_for_each_init(Vec::new, |agents, (index, positions_m)| {
+        recording.read_frame(index * stride, agents)?;
+        for (position_m, agent) in positions_m.iter_mut().zip(agents) {
+            *position_m = agent.root.position_m;
+        }
+        Ok::<(), RecordingError>(())
+    })?;
+    Ok(Tracks { agent_count, dt_s: scenario.dt_s * stride as f32, positions_m })
+}
+
+/// Every how many-th frame is kept.
+fn track_stride(frame_count: usize, agent_count: usize) -> usize {
+    frame_count.saturating_mul(agent_count).div_ceil(MAX_TRACK_POINTS).max(1)
+}
+
+/// All agents at a time; between two recorded frames, both blended.
+///
+/// # Errors
+/// Where a frame cannot be read.
+pub fn sample(recording: &Recording, time_s: f64) -> Result<Vec<AgentFrame>, RecordingError> {
+    let step = time_s / f64::from(recording.header().scenario.dt_s);
+    let nearest = step.round();
+    let last = recording.frame_count().saturating_sub(1);
+    let mut agents = Vec::new();
+    if (step - nearest).abs() < SAME_FRAME_STEPS || step >= last as f64 {
+        recording.read_frame((nearest as usize).min(last), &mut agents)?;
+        return Ok(agents);
+    }
+    let mut later = Vec::new();
+    recording.read_frame(step as usize, &mut agents)?;
+    recording.read_frame(step as usize + 1, &mut later)?;
+    let share = step.fract() as f32;
+    Ok(agents.iter().zip(&later).map(|(agent, next)| blend(agent, next, share)).collect())
+}
+
+/// The body between two frames; what is no part of the body stays that of the earlier one.
+fn blend(agent: &AgentFrame, next: &AgentFrame, share: f32) -> AgentFrame {
+    let (from, to) = (agent.root.facing_rad, next.root.facing_rad);
+    let turn_rad = (to - from + PI).rem_euclid(TAU) - PI;
+    let rotation = |joint: usize| agent.pose.rotations[joint].lerp(next.pose.rotations[joint], share);
+    AgentFrame {
+        root: Root {
+            position_m: agent.root.position_m.lerp(next.root.position_m, share),
+            facing_rad: from + share * turn_rad,
+        },
+        pose: Pose {
+            pelvis_m: agent.pose.pelvis_m.lerp(next.pose.pelvis_m, share),
+            rotations: std::array::from_fn(rotation),
+        },
+        ..*agent
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tracks_keep_every_frame_until_memory_is_full() {
+        for (frames, agents, stride) in [(1, 0, 1), (540, 17, 1), (18_000, 1_000, 1), (18_000, 10_000, 6)] {
+            assert_eq!(track_stride(frames, agents), stride, "{frames} {agents}");
+        }
+    }
+
+    #[test]
+    fn blended_facing_takes_the_shorter_way() {
+        let at = |facing_rad: f32| AgentFrame { root: Root { facing_rad, ..Root::default() }, ..AgentFrame::default() };
+        for (from, to, middle) in [(3.0, -3.0, PI), (0.2, -0.2, 0.0), (7.0, 7.2, 7.1)] {
+            let found = blend(&at(from), &at(to), 0.5).root.facing_rad;
+            assert!((found - middle).abs() < 1e-4, "{from} {to} {found}");
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Where everyone has walked: all root positions of a recording, and the fading ribbon behind each body.
+
+use glam::Vec2;
+use tiny_skia::Pixmap;
+
+use crate::raster::palette::Rgb;
+use crate::raster::tapered_capsule::{self, Window};
+use crate::top_view::framing::Framing;
+
+/// Width of a trail at the body and at its end, m.
+const WIDTH_M: [f32; 2] = [0.075, 0.025];
+/// Least width, pixels: below it a trail would break into dots.
+const MIN_WIDTH_PX: f32 = 1.2;
+/// Opacity at the body; it falls to none at the end.
+const OPACITY: f32 = 0.60;
+/// Shortest piece worth drawing, pixels: bends of a walk show no corners at it.
+const PIECE_PX: f32 = 6.0;
+/// A brisk walk, m/s, by which [`PIECE_PX`] becomes a number of frames.
+const BRISK_MPS: f32 = 1.5;
+
+/// Root positions of every agent, at even times from 0 on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tracks {
+    /// Agents in each frame.
+    pub agent_count: usize,
+    /// Seconds between frames.
+    pub dt_s: f32,
+    /// Frame after frame, in each the agents by index; world, metres.
+    pub positions_m: Vec<Vec2>,
+}
+
+impl Tracks {
+    /// Number of frames.
+    pub fn frame_count(&self) -> usize {
+        self.positions_m.len().checked_div(self.agent_count).unwrap_or(0)
+    }
+
+    /// All agents in one frame.
+    pub fn frame_m(&self, frame: usize) -> &[Vec2] {
+        &self.positions_m[frame * self.agent_count..][..self.agent_count]
+    }
+
+    /// One agent over all frames.
+    pub fn agent_m(&self, agent: usize) -> impl Iterator<Item = Vec2> {
+        self.positions_m.iter().skip(agent).step_by(self.agent_count.max(1)).copied()
+    }
+}
+
+/// The trail of one agent at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trail {
+    /// Index of the agent.
+    pub agent: usize,
+    /// Now, s.
+    pub time_s: f32,
+    /// Where the agent stands now, world, m.
+    pub position_m: Vec2,
+    /// How far back the trail reaches, s.
+    pub length_s: f32,
+    /// Colour of the ribbon.
+    pub colour: Rgb,
+}
+
+/// One corner of a ribbon.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    at_px: Vec2,
+    /// 0 at the body, 1 at the trail's end.
+    age: f32,
+}
+
+/// Draws a trail over an opaque picture.
+pub fn draw(pixmap: &mut Pixmap, framing: &Framing, tracks: &Tracks, trail: &Trail) {
+    let corners = corners(framing, tracks, trail);
+    for index in 1..corners.len() {
+        let before = index.checked_sub(2).map(|before| corners[before].at_px);
+        let after = corners.get(index + 1).map(|corner| corner.at_px);
+        let piece = Piece::new(framing, [corners[index - 1], corners[index]], [before, after]);
+        piece.paint(pixmap, trail.colour);
+    }
+}
+
+/// From the body backwards. Corners sit on fixed frames of the tracks, so that the ribbon does not crawl from picture
+/// to picture.
+fn corners(framing: &Framing, tracks: &Tracks, trail: &Trail) -> Vec<Corner> {
+    let Trail { agent, time_s, length_s, .. } = *trail;
+    let stride = ((PIECE_PX / (BRISK_MPS * tracks.dt_s * framing.scale_px_m)).round() as usize).max(1);
+    let newest = ((time_s / tracks.dt_s) as usize).min(tracks.frame_count().saturating_sub(1));
+    let oldest = ((time_s - length_s).max(0.0) / tracks.dt_s).ceil() as usize;
+    let mut corners = vec![Corner { at_px: framing.to_px(trail.position_m), age: 0.0 }];
+    for frame in (oldest..=newest).rev().filter(|frame| frame % stride == 0) {
+        let at_px = framing.to_px(tracks.frame_m(frame)[agent]);
+        let age = (time_s - frame as f32 * tracks.dt_s) / length_s;
+        let moved = corners.last().is_none_or(|last| last.at_px.distance_squared(at_px) > 0.01);
+        if moved && at_px.is_finite() {
+            corners.push(Corner { at_px, age });
+        }
+    }
+    corners
+}
+
+/// The ribbon between two corners. Where pieces meet, the bisector of their directions parts them, so that no pixel is
+/// painted twice.
+struct Piece {
+    ends: [Corner; 2],
+    direction: Vec2,
+    length_px: f32,
+    /// Normals of the lines at which the piece begins and ends, along the way.
+    borders: [Vec2; 2],
+    /// Half the width at a trail's head and end, pixels.
+    half_px: [f32; 2],
+}
+
+impl Piece {
+    /// `around`: the corners before and after the piece.
+    fn new(framing: &Framing, ends: [Corner; 2], around: [Option<Vec2>; 2]) -> Self {
+        let [start, end] = ends.map(|corner| corner.at_px);
+        let direction = (end - start).normalize_or_zero();
+        // Where the way turns back on itself there is no bisector to speak of: the piece is cut straight.
+        let bisector = |other: Option<Vec2>| {
+            let sum = direction + other.map_or(Vec2::ZERO, Vec2::normalize_or_zero);
+            if sum.dot(direction) > 0.2 { sum } else { direction }
+        };
+        let [before, after] = [around[0].map(|before| start - before), around[1].map(|after| after - end)];
+        Self {
+            ends,
+            direction,
+            length_px: start.distance(end),
+            borders: [bisector(before), bisector(after)],
+            half_px: WIDTH_M.map(|width_m| 0.5 * (width_m * framing.scale_px_m).max(MIN_WIDTH_PX)),
+        }
+    }
+
+    fn paint(&self, pixmap: &mut Pixmap, colour: Rgb) {
+        let [start, end] = self.ends.map(|corner| corner.at_px);
+        let reach = Vec2::splat(self.half_px[0] + 1.0);
+        let window = Window::between(start.min(end) - reach, start.max(end) + reach, pixmap.width(), pixmap.height());
+        let width = pixmap.width() as usize;
+        let pixels = tapered_capsule::pixels_mut(pixmap);
+        for y in window.rows() {
+            for x in window.columns() {
+                let opacity = self.opacity(Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
+                if opacity > 0.0 {
+                    let pixel = &mut pixels[y * width + x];
+                    *pixel = tapered_capsule::to_pixel(tapered_capsule::to_vec(*pixel).lerp(colour, opacity));
+                }
+            }
+        }
+    }
+
+    fn opacity(&self, point: Vec2) -> f32 {
+        let [start, end] = self.ends.map(|corner| corner.at_px);
+        if self.borders[0].dot(point - start) < 0.0 || self.borders[1].dot(point - end) >= 0.0 {
+            return 0.0;
+        }
+        let along = (self.direction.dot(point - start) / self.length_px).clamp(0.0, 1.0);
+        let age = (self.ends[0].age + along * (self.ends[1].age - self.ends[0].age)).clamp(0.0, 1.0);
+        let half_px = self.half_px[0] + age * (self.half_px[1] - self.half_px[0]);
+        let coverage = (half_px + 0.5 - self.direction.perp_dot(point - start).abs()).clamp(0.0, 1.0);
+        OPACITY * (1.0 - age) * coverage
+    }
+}

@@ -1,0 +1,6 @@
+//! Coupling of navigation and synthesis (CNS, `FbCrowd` §3.4): after each step the disc takes the body's place.
+//!
+//! Read `body_to_disc`; `decoupled` is the baseline of the paper's user study.
+
+pub mod body_to_disc;
+pub mod decoupled;

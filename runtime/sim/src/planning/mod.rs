@@ -1,0 +1,15 @@
+//! Planning: from where each agent wants to go to the velocity and facing of its next step (`FbCrowd` §4).
+//!
+//! Enters: `world_view`, the frozen state of agents, walls and stance feet. Leaves: one `plan` per agent.
+//!
+//! Read `plan` and `world_view`, then `planner`, which chooses between `mcn` (the paper's) and the `baselines`;
+//! `orca` holds the half-planes and programs that they share, `plan_all` plans a crowd, `explanation` shows why.
+
+pub mod baselines;
+pub mod explanation;
+pub mod mcn;
+pub mod orca;
+pub mod plan;
+pub mod plan_all;
+pub mod planner;
+pub mod world_view;

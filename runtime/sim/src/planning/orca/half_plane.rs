@@ -1,0 +1,77 @@
+//! A half-plane of permitted velocities that remembers where it comes from.
+//!
+//! The convention of van den Berg et al. 2011, which `FbCrowd` §4.1 shares: a point and a unit direction, permitted is
+//! the **left** side. World axes, m/s. The source lets a picture or a test say why a velocity was chosen.
+
+use glam::Vec2;
+
+use crate::planning::plan::VelocitySet;
+
+/// What a half-plane stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Edge of the obstacles, by index: C_iW.
+    Obstacle(u32),
+    /// The stance foot: C_bm (§4.2).
+    Stance,
+    /// A sharp-turn edge of the wrapping polygon (§4.1).
+    SharpTurn,
+    /// An edge of the turning set (§4.1, Eqs. 4, 5).
+    TurningHull,
+    /// An edge of the holding set, of velocities at held facing ([`motiondb::velocity_hull`]).
+    HoldingHull,
+    /// Another agent, by index: C_ij.
+    Agent(u32),
+}
+
+impl From<VelocitySet> for Source {
+    /// What the edges of a set carry.
+    fn from(set: VelocitySet) -> Self {
+        match set {
+            VelocitySet::Turning => Self::TurningHull,
+            VelocitySet::Holding => Self::HoldingHull,
+        }
+    }
+}
+
+/// Velocities on the left of a directed line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfPlane {
+    /// p: a point of the line, m/s.
+    pub point_mps: Vec2,
+    /// d: the line's unit direction.
+    pub direction: Vec2,
+    /// Why it is there.
+    pub source: Source,
+    /// How much its violation counts against others' where some must be violated: more, the less it shall yield.
+    pub weight: f32,
+}
+
+impl HalfPlane {
+    /// The half-plane behind `point`, seen along the unit vector `outward`, which points to the forbidden side.
+    pub fn behind(point_mps: Vec2, outward: Vec2, source: Source) -> Self {
+        Self::new(point_mps, outward.perp(), source)
+    }
+
+    /// The half-plane on the left of a line, of weight 1.
+    pub fn new(point_mps: Vec2, direction: Vec2, source: Source) -> Self {
+        Self { point_mps, direction, source, weight: 1.0 }
+    }
+
+    /// Distance of a velocity from the permitted side, m/s; negative inside.
+    pub fn violation_mps(&self, velocity_mps: Vec2) -> f32 {
+        self.direction.perp_dot(self.point_mps - velocity_mps)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn permits_the_left_and_measures_how_far_outside() {
+        let ahead_only_to_two = HalfPlane::behind(Vec2::new(2.0, 5.0), Vec2::X, Source::Stance);
+        assert_eq!(ahead_only_to_two.violation_mps(Vec2::new(3.5, 0.0)), 1.5);
+        assert_eq!(ahead_only_to_two.violation_mps(Vec2::new(0.0, -7.0)), -2.0);
+    }
+}

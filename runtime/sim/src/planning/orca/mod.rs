@@ -1,0 +1,11 @@
+//! Half-planes of permitted velocities (`FbCrowd` §4.4, App. 9; van den Berg et al. 2011).
+//!
+//! Enters: an agent's disc, its neighbours, the edges of walls. Leaves: half-planes, each with its source, and the velocity
+//! that satisfies them best.
+//!
+//! Read `half_plane`, then `agents` and `walls`, which build them, then `linear_program`, which solves them.
+
+pub mod agents;
+pub mod half_plane;
+pub mod linear_program;
+pub mod walls;

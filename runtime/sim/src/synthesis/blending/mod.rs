@@ -1,0 +1,9 @@
+//! Motion blending: a weighted sum of examples that moves as requested (`FbCrowd` §5, App. 10).
+//!
+//! Enters: (v_f, ω_t, ω_s). Leaves: shares of examples, phase rate and pose.
+//!
+//! Read `blend_space`, then `mix`, then `weight_transition`.
+
+pub mod blend_space;
+pub mod mix;
+pub mod weight_transition;

@@ -1,0 +1,9 @@
+//! What all bodies share: the database, completed for crowds, and what synthesis derives from it once.
+//!
+//! Enters: a motion database and the tunables. Leaves: the `context` that every step of every body reads.
+//!
+//! Read `context`, then `augmented_database`, then `standing`.
+
+pub mod augmented_database;
+pub mod context;
+pub mod standing;

@@ -1,0 +1,283 @@
+//! Claims about whole bodies, on the analytic database of [`crate::test_db`].
+
+use std::f32::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+use motiondb::motion_db::MotionDb;
+use motiondb::parameters::Parameters;
+use motiondb::pose::Root;
+use motiondb::skeleton::Joint;
+use proptest::prelude::*;
+
+use crate::maths::arc::went;
+use crate::planning::plan::Plan;
+use crate::synthesis::Synthesis;
+use crate::synthesis::blending::blend_space::{Nearest, Space};
+use crate::synthesis::blending::mix::Mix;
+use crate::synthesis::command::blend_query::asking;
+use crate::synthesis::command::stand_or_step::Gait;
+use crate::synthesis::library::context::Studio;
+use crate::synthesis::params::{HmsParams, Modes};
+use crate::test_db::test_db;
+
+const DT_S: f32 = 1.0 / 30.0;
+
+struct Walk {
+    db: Arc<MotionDb>,
+    steps: Vec<(Root, Synthesis)>,
+}
+
+/// Lets a body follow a plan that depends on time and on where it is.
+fn walk(seconds: f32, dt_s: f32, plan: impl Fn(f32, &Root) -> Plan) -> Walk {
+    walk_on(test_db(), seconds, dt_s, plan)
+}
+
+fn walk_on(db: MotionDb, seconds: f32, dt_s: f32, plan: impl Fn(f32, &Root) -> Plan) -> Walk {
+    let params = HmsParams { modes: Modes::Blending, ..HmsParams::default() };
+    let studio = Studio::new(Arc::new(db), params);
+    let steps = studio.walk(0.3, seconds, dt_s, plan, |body, synthesis| (body.root, *synthesis));
+    Walk { db: studio.db, steps }
+}
+
+fn towards(angle_rad: f32, speed_mps: f32) -> Plan {
+    Plan { velocity_mps: Vec2::from_angle(angle_rad) * speed_mps, facing_rad: angle_rad, ..Plan::default() }
+}
+
+fn soles_m(walk: &Walk, side: usize) -> Vec<[Vec3; 3]> {
+    let skeleton = &walk.db.skeleton;
+    let sole = |(root, synthesis): &(Root, Synthesis)| {
+        let points = synthesis.pose.forward_kinematics(skeleton).sole_points_m(skeleton, side);
+        points.map(|point| root.to_world(point))
+    };
+    walk.steps.iter().map(sole).collect()
+}
+
+/// Planted-foot slide, cm/s, over the middle of each contact, and planted share, by the blended contacts.
+fn planted_slide(walk: &Walk, dt_s: f32) -> (f32, f32) {
+    let (mut speeds, mut planted_steps) = (Vec::new(), 0);
+    for side in 0..2 {
+        let soles_m = soles_m(walk, side);
+        let planted: Vec<bool> = walk.steps.iter().map(|step| step.1.contacts[side] >= 0.5).collect();
+        planted_steps += planted.iter().filter(|&&planted| planted).count();
+        let mut start = 0;
+        for run in planted.chunk_by(|a, b| a == b) {
+            let (first, margin) = (start, (run.len() as f32 * 0.1).round() as usize);
+            start += run.len();
+            if !run[0] {
+                continue;
+            }
+            for step in (first + margin).max(1)..(first + run.len() - margin).min(soles_m.len() - 1) {
+                let lowest = (0..3).min_by(|&a, &b| soles_m[step][a].z.total_cmp(&soles_m[step][b].z)).unwrap();
+                let moved_m = soles_m[step + 1][lowest] - soles_m[step - 1][lowest];
+                speeds.push(100.0 * moved_m.truncate().length() / (2.0 * dt_s));
+            }
+        }
+    }
+    (speeds.iter().sum::<f32>() / speeds.len() as f32, planted_steps as f32 / (2 * walk.steps.len()) as f32)
+}
+
+/// Start, turns both ways, a side-step, a step back, and a stop: every change of speed and direction.
+fn errand(time_s: f32, root: &Root) -> Plan {
+    let held = |velocity_mps| Plan { velocity_mps, facing_rad: root.facing_rad, ..Plan::default() };
+    match time_s {
+        t if t < 0.5 => held(Vec2::ZERO),
+        t if t < 3.0 => towards(0.0, 1.3),
+        t if t < 5.0 => towards(FRAC_PI_2, 1.3),
+        t if t < 7.0 => towards(-2.0, 0.8),
+        t if t < 8.5 => held(root.forward().perp() * 0.45),
+        t if t < 10.0 => held(root.forward() * -0.5),
+        t if t < 12.0 => towards(0.0, 1.5),
+        _ => held(Vec2::ZERO),
+    }
+}
+
+#[test]
+fn planted_feet_hold_through_every_change_of_speed_and_direction() {
+    for dt_s in [1.0 / 60.0, DT_S, 0.1] {
+        let walk = walk(14.0, dt_s, errand);
+        let (slide_cm_s, planted_share) = planted_slide(&walk, dt_s);
+        assert!(slide_cm_s <= 1.0, "dt {dt_s}: {slide_cm_s} cm/s");
+        assert!((0.5..0.8).contains(&planted_share), "dt {dt_s}: {planted_share}");
+    }
+}
+
+#[test]
+fn soles_stay_on_or_above_the_ground() {
+    let walk = walk(14.0, DT_S, errand);
+    for side in 0..2 {
+        let lowest_m = soles_m(&walk, side).into_iter().flatten().map(|point| point.z).fold(f32::INFINITY, f32::min);
+        assert!(lowest_m > -0.005, "{lowest_m}");
+    }
+}
+
+#[test]
+fn feet_move_without_jumps() {
+    let dt_s = 1.0 / 60.0;
+    let walk = walk(14.0, dt_s, errand);
+    for side in 0..2 {
+        let balls_m: Vec<Vec3> = soles_m(&walk, side).into_iter().map(|sole| sole[1]).collect();
+        let fastest_mps = balls_m.windows(2).map(|pair| pair[0].distance(pair[1]) / dt_s).fold(0.0, f32::max);
+        assert!(fastest_mps < 6.5, "{fastest_mps} m/s"); // four times the fastest walk
+    }
+}
+
+#[test]
+fn the_first_step_is_made_by_the_foot_on_the_side_to_which_it_goes() {
+    for (angle_rad, side) in [(1.2, 0), (-1.2, 1)] {
+        let walk = walk(1.0, DT_S, |_, _| Plan { facing_rad: 0.0, ..towards(angle_rad, 0.5) });
+        let first = walk.steps.iter().find(|step| step.1.contacts != [1.0; 2] && step.1.stance.foot.is_some());
+        assert_eq!(first.unwrap().1.stance.foot.unwrap().side, 1 - side, "towards {angle_rad}");
+    }
+}
+
+#[test]
+fn a_plan_that_changes_its_mind_at_every_step_does_not_make_a_body_tremble() {
+    let plan = |time_s: f32, _: &Root| {
+        let turned_rad = if (time_s / DT_S).round() as i32 % 2 == 0 { 0.1 } else { -0.1 };
+        Plan { velocity_mps: Vec2::from_angle(turned_rad) * 1.3, ..towards(0.0, 1.3) }
+    };
+    let walk = walk(4.0, DT_S, plan);
+    let aside_mps: Vec<f32> =
+        walk.steps[60..].windows(2).map(|pair| (pair[1].0.position_m.y - pair[0].0.position_m.y) / DT_S).collect();
+    let jump_mps = aside_mps.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max);
+    assert!(jump_mps < 0.1, "{jump_mps} m/s"); // of the plan's 0.26
+}
+
+#[test]
+fn the_root_accelerates_like_a_person_and_keeps_an_even_speed() {
+    let walk = walk(14.0, DT_S, errand);
+    let velocities: Vec<Vec2> =
+        walk.steps.windows(2).map(|pair| (pair[1].0.position_m - pair[0].0.position_m) / DT_S).collect();
+    let changes = velocities.windows(2).map(|pair| pair[0].distance(pair[1]) / DT_S);
+    // 3 m/s² in the body's frame, and the greatest turn rate times the speed there.
+    assert!(changes.fold(0.0, f32::max) < 4.5);
+    let even: Vec<f32> = velocities[60..85].iter().map(|velocity| velocity.length()).collect();
+    assert!(even.iter().all(|speed| (speed - 1.3).abs() < 1e-3), "{even:?}");
+}
+
+#[test]
+fn a_standing_body_turns_on_the_spot_to_the_facing_that_is_asked() {
+    let walk = walk(4.0, DT_S, |_, _| Plan { facing_rad: 2.5, ..Plan::default() });
+    let root = walk.steps[walk.steps.len() - 1].0;
+    assert!((root.facing_rad - 2.5).abs() < 0.2 && root.position_m.length() < 0.5, "{root:?}");
+    assert!(planted_slide(&walk, DT_S).0 < 1.0);
+}
+
+#[test]
+fn a_body_that_stops_stands_upright_with_its_feet_under_it() {
+    for stop_s in [2.0, 2.1, 2.2, 2.3, 2.4, 2.5, 2.6, 2.7] {
+        let plan = |time_s: f32, _: &Root| towards(0.0, if time_s < stop_s { 1.4 } else { 0.0 });
+        let walk = walk(6.0, DT_S, plan);
+        let (first, last) = (&walk.steps[0].1, &walk.steps[walk.steps.len() - 1].1);
+        let crouch_m = first.pose.pelvis_m.z - last.pose.pelvis_m.z;
+        assert!(crouch_m < 0.03, "stopped at {stop_s}: {crouch_m} m");
+        for side in 0..2 {
+            let ball_m = |step: &Synthesis| {
+                step.pose.forward_kinematics(&walk.db.skeleton).sole_points_m(&walk.db.skeleton, side)[1]
+            };
+            let off_m = ball_m(first).distance(ball_m(last));
+            assert!(off_m < 0.25, "stopped at {stop_s}: {off_m} m");
+        }
+    }
+}
+
+#[test]
+fn the_head_leads_the_body_into_a_turn_by_a_fifth_to_half_a_second() {
+    for (dt_s, angle_rad) in [(1.0 / 60.0, FRAC_PI_2), (DT_S, -0.8), (0.1, FRAC_PI_2), (DT_S, -2.0)] {
+        let walk = walk(6.0, dt_s, |time_s, _| towards(if time_s < 2.0 { 0.0 } else { angle_rad }, 1.2));
+        let [body_s, head_s] = [0, 1].map(|of_head| {
+            let halfway = |(root, synthesis): &(Root, Synthesis)| {
+                let joints = synthesis.pose.forward_kinematics(&walk.db.skeleton);
+                let ahead = joints.orientations[Joint::Head.index()] * Vec3::X;
+                let head_rad = ahead.y.atan2(ahead.x) * of_head as f32;
+                (root.facing_rad + head_rad) / angle_rad > 0.5
+            };
+            walk.steps.iter().position(halfway).unwrap() as f32 * dt_s
+        });
+        let lead_s = body_s - head_s;
+        assert!(lead_s > 0.2 - dt_s && lead_s < 0.5 + dt_s, "dt {dt_s}, {angle_rad} rad: {lead_s} s");
+    }
+}
+
+#[test]
+fn straight_stays_straight() {
+    let walk = walk(10.0, DT_S, |_, _| towards(0.0, 1.1));
+    assert!(walk.steps.iter().all(|(root, _)| root.position_m.y.abs() < 1e-4 && root.facing_rad.abs() < 1e-4));
+}
+
+#[test]
+fn a_circle_closes() {
+    let (turn_rate_rad_s, speed_mps, steps) = (1.2, 0.7, 200);
+    let dt_s = TAU / turn_rate_rad_s / steps as f32;
+    let lead_rad = turn_rate_rad_s * HmsParams::default().turn_time_s;
+    // At a constant angle ahead of the facing, cos α of the speed is asked.
+    let plan = |_: f32, root: &Root| towards(root.facing_rad + lead_rad, speed_mps / lead_rad.cos());
+    let walk = walk(12.0, dt_s, plan);
+    let (from, to) = (walk.steps[walk.steps.len() - 1 - steps].0, walk.steps[walk.steps.len() - 1].0);
+    assert!(from.position_m.distance(to.position_m) < 0.01, "{from:?} {to:?}");
+}
+
+#[test]
+fn a_body_that_is_hardly_asked_to_move_stands_quietly() {
+    let velocity_mps = |time_s: f32| Vec2::from_angle(3.0 * time_s) * 0.05;
+    let walk =
+        walk(4.0, DT_S, |time_s, _| Plan { velocity_mps: velocity_mps(time_s), facing_rad: 0.0, ..Plan::default() });
+    assert!(walk.steps.iter().all(|(root, _)| root.position_m == Vec2::ZERO && root.facing_rad == 0.0));
+}
+
+#[test]
+fn shares_of_time_hold_planted_feet_without_any_correction() {
+    let db = test_db();
+    let mix = Mix::new(&Space::new(&db).locate(Parameters { speed_mps: 0.8, ..Parameters::default() }));
+    assert_eq!(mix.entries().len(), 2);
+    let (small, speed_mps) = (1e-3, 0.8);
+    for phase in [0.45, 0.5, 0.55] {
+        let ball_m = |phase: f32| {
+            let joints = mix.weights(&db, phase).pose(&db, phase).forward_kinematics(&db.skeleton);
+            joints.sole_points_m(&db.skeleton, 0)[1]
+        };
+        let back_mps =
+            (ball_m(phase - small) - ball_m(phase + small)).x / (2.0 * small) * mix.phase_rate_hz(&db, phase);
+        assert!((back_mps - speed_mps).abs() < 0.02, "phase {phase}: {back_mps} m/s");
+    }
+}
+
+proptest! {
+    #[test]
+    fn inside_the_hull_the_body_does_what_is_asked(weights in prop::array::uniform11(0.0f32..1.0)) {
+        let db = test_db();
+        let sum: f32 = weights[1..].iter().sum();
+        let terms = db.examples[1..].iter().zip(&weights[1..]).map(|(example, weight)| example.parameters.to_vec3() * *weight);
+        let asked = Parameters::from_vec3(terms.sum::<Vec3>() / sum * (1.0 - 0.1 * weights[0]));
+        prop_assume!(Mix::new(&Space::new(&db).locate(asked)).share(0) < 0.3);
+        let params = HmsParams::default();
+        let plan = |_: f32, root: &Root| asking(asked, root, &params);
+        let roots: Vec<Root> = walk(6.0, DT_S, plan).steps[120..].iter().map(|step| step.0).collect();
+        let went = roots.windows(2).map(|pair| went(&pair[0], &pair[1], DT_S).to_vec3());
+        let mean = went.sum::<Vec3>() / (roots.len() - 1) as f32;
+        prop_assert!(mean.distance(asked.to_vec3()) < 2e-3, "{mean} instead of {asked:?}");
+    }
+
+    #[test]
+    fn no_plan_however_wild_breaks_a_body(plans in prop::collection::vec((any::<f32>(), any::<f32>(), any::<f32>()), 40)) {
+        let plan = |time_s: f32, _: &Root| {
+            let (x, y, facing_rad) = plans[(time_s / DT_S).round() as usize];
+            Plan { velocity_mps: Vec2::new(x, y), facing_rad, ..Plan::default() }
+        };
+        for (root, synthesis) in walk(1.3, DT_S, plan).steps {
+            prop_assert!(root.position_m.is_finite() && root.facing_rad.is_finite());
+            prop_assert!(synthesis.pose.pelvis_m.is_finite());
+            prop_assert!(synthesis.pose.rotations.iter().all(|rotation| rotation.is_normalized()));
+        }
+    }
+}
+
+#[test]
+fn bodies_without_slow_steps_start_too() {
+    // Half a second's acceleration, of which a walk at 4 m/s is a twelfth.
+    let parameters = Parameters { speed_mps: 0.33, ..Parameters::default() };
+    let nearest = Nearest { parameters, idle_share: 0.92, ..Nearest::default() };
+    let mut gait = Gait::STANDING;
+    assert!(gait.follow(&nearest, || true, DT_S));
+}
