@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use fbcrowd_sim::recording::Recording;
 use fbcrowd_sim::synthesis::library::augmented_database;
-use motiondb::file;
+use motiondb::files::database_file;
 use serde_json::Value;
 use support::{compile, fbcrowd, folder, marine_clips, shared, text};
 
@@ -156,7 +156,7 @@ fn a_set_that_needs_each_of_its_examples_leaves_none_out() {
 fn a_simulation_deforms_the_walk_of_a_set_once_though_it_lacks_something_even_then() {
     let folder = folder("deformed_once");
     let database = compile(&["assets/clips/jog_turn_110_left.bvh".to_owned()], &folder);
-    let given = Arc::new(file::read(&database).unwrap().0);
+    let given = Arc::new(database_file::read(&database).unwrap().0);
     let once = augmented_database::complete(Arc::clone(&given));
     let twice = augmented_database::complete(Arc::clone(&once));
     let [(_, once_count), (_, twice_count)] =

@@ -7,10 +7,10 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motiondb::container::{self, HEADER_LENGTH};
-use motiondb::file;
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::planted_feet::{CycleFeet, foot_slide};
+use motiondb::files::container::{self, HEADER_LENGTH};
+use motiondb::files::database_file;
+use motiondb::motion::{MotionDb, PHASE_COUNT};
+use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
 use motiondb::validate::validate;
 use support::{compile, fbcrowd, folder, marine_clips, repository, text};
 
@@ -37,7 +37,7 @@ fn figures(db: &MotionDb) -> String {
 
 #[test]
 fn the_golden_file_of_version_1_is_read_and_says_what_it_said() {
-    let (db, _) = file::load(&golden("fbdb")).unwrap();
+    let (db, _) = database_file::load(&golden("fbdb")).unwrap();
     assert_eq!(figures(&db), fs::read_to_string(golden("txt")).unwrap());
     fbcrowd(&["validate", text(&golden("fbdb"))]).expect_code(0);
 }
@@ -49,7 +49,7 @@ fn rewrite_the_golden_file_of_version_1() {
     let clips = GOLDEN_CLIPS.map(|clip| format!("assets/clips/{clip}"));
     let database = compile(&clips, &folder("golden"));
     fs::copy(&database, golden("fbdb")).unwrap();
-    fs::write(golden("txt"), figures(&file::load(&database).unwrap().0)).unwrap();
+    fs::write(golden("txt"), figures(&database_file::load(&database).unwrap().0)).unwrap();
 }
 
 #[test]
@@ -65,23 +65,23 @@ fn files_of_another_version_or_kind_are_refused_by_name() {
             assert_eq!(outcome.stdout, "", "{command}");
         }
     };
-    let next = container::seal(file::MAGIC, file::VERSION + 1, payload);
+    let next = container::seal(database_file::MAGIC, database_file::VERSION + 1, payload);
     check("next.fbdb", &next, &["format version 2", "reads version 1"]);
-    check("kind.fbdb", &container::seal(*b"FBCROWDR", file::VERSION, payload), &["mark"]);
+    check("kind.fbdb", &container::seal(*b"FBCROWDR", database_file::VERSION, payload), &["mark"]);
     check("cut.fbdb", &whole[..whole.len() - 1], &["length"]);
     check("altered.fbdb", &[&whole[..whole.len() - 1], &[!whole[whole.len() - 1]]].concat(), &["checksum"]);
-    let half = container::seal(file::MAGIC, file::VERSION, &payload[..payload.len() / 2]);
+    let half = container::seal(database_file::MAGIC, database_file::VERSION, &payload[..payload.len() / 2]);
     check("half.fbdb", &half, &["cannot be decoded"]);
-    let longer = container::seal(file::MAGIC, file::VERSION, &[payload, b"more"].concat());
+    let longer = container::seal(database_file::MAGIC, database_file::VERSION, &[payload, b"more"].concat());
     check("longer.fbdb", &longer, &["cannot be decoded", "4 bytes follow"]);
 }
 
 /// The golden database with one thing wrong, written as whole as any.
 fn broken(folder: &Path) -> PathBuf {
-    let (mut db, _) = file::load(&golden("fbdb")).unwrap();
+    let (mut db, _) = database_file::load(&golden("fbdb")).unwrap();
     db.blend_space.simplices.truncate(db.blend_space.dimension as usize + 1);
     let path = folder.join("broken.fbdb");
-    file::write(&path, &db).unwrap();
+    database_file::write(&path, &db).unwrap();
     path
 }
 
@@ -114,12 +114,12 @@ fn a_broken_invariant_is_an_answer_of_no_and_nothing_to_simulate_with() {
 #[test]
 fn figures_beyond_their_thresholds_are_warnings_unless_strict() {
     let folder = folder("strict_validate");
-    let (mut db, _) = file::load(&golden("fbdb")).unwrap();
+    let (mut db, _) = database_file::load(&golden("fbdb")).unwrap();
     // The jog's body sinks by 5 cm.
     let jog = db.examples.iter().position(|example| example.name == "jog_240").unwrap();
     db.rows.pelvis_m[jog * PHASE_COUNT..(jog + 1) * PHASE_COUNT].iter_mut().for_each(|pelvis| pelvis.z -= 0.05);
     let path = folder.join("sunk.fbdb");
-    file::write(&path, &db).unwrap();
+    database_file::write(&path, &db).unwrap();
     let said = fbcrowd(&["validate", text(&path)]).expect_code(0).stdout;
     assert!(said.contains("warning  jog_240: a sole sinks"), "{said}");
     let report = fbcrowd(&["validate", text(&path), "--json", "--strict"]).expect_code(1).json();
@@ -173,7 +173,7 @@ fn a_speed_stored_a_quarter_off_is_caught_on_every_marine_and_every_bundled_exam
     let mut sets = vec![vec!["assets/clips".to_owned()]];
     sets.extend(marine_clips(test));
     for (index, clips) in sets.iter().enumerate() {
-        let (db, _) = file::load(&compile(clips, &folder(&format!("forged_speed_{index}")))).unwrap();
+        let (db, _) = database_file::load(&compile(clips, &folder(&format!("forged_speed_{index}")))).unwrap();
         for factor in [0.75, 1.25] {
             let (caught, missed) = caught(&db, factor);
             assert!(caught > 10 && missed.is_empty(), "{factor}: {caught} caught, not {missed:?}");

@@ -6,11 +6,10 @@ use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use fbcrowd_sim::coupling::body_to_disc::Coupling;
+use fbcrowd_sim::coupling::Coupling;
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planning::planner::Planner;
-use fbcrowd_sim::recording::frame::AgentFrame;
-use fbcrowd_sim::recording::{Header, Recorder};
+use fbcrowd_sim::planning::Planner;
+use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use glam::Vec2;
 
@@ -31,7 +30,7 @@ fn main() {
     let data = format!(r#","uri":"data:application/octet-stream;base64,{}""#, STANDARD.encode(&buffer));
     write("gltf/limb.gltf", json.replace("@", &data).as_bytes());
     write("gltf/limb.glb", &glb(json.replace("@", "").into_bytes(), &buffer));
-    write("database/small.fbdb", &motiondb::file::to_bytes(&support::small_db()));
+    write("database/small.fbdb", &motiondb::files::database_file::to_bytes(&support::small_db()));
     record(&corpus.join("recording/two.fbrec"));
 }
 

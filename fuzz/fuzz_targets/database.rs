@@ -5,16 +5,18 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use motiondb::{file, quality, validate};
-use motiondb::container::{self, HEADER_LENGTH};
+use motiondb::files::database_file;
+use motiondb::quality::example_quality;
+use motiondb::validate;
+use motiondb::files::container::{self, HEADER_LENGTH};
 
 fuzz_target!(|bytes: &[u8]| {
     let path = Path::new("any.fbdb");
-    let _ = file::from_bytes(path, bytes);
+    let _ = database_file::from_bytes(path, bytes);
     let payload = bytes.get(HEADER_LENGTH..).unwrap_or_default();
-    if let Ok((db, _)) = file::from_bytes(path, &container::seal(file::MAGIC, file::VERSION, payload)) {
+    if let Ok((db, _)) = database_file::from_bytes(path, &container::seal(database_file::MAGIC, database_file::VERSION, payload)) {
         if validate::validate(&db).iter().all(|check| check.broken.is_none()) {
-            let _ = quality::lint(&db);
+            let _ = example_quality::lint(&db);
         }
     }
 });

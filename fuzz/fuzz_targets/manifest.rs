@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use motiondb::source_text::SourceText;
+use motiondb::files::SourceText;
 use motiondb_compiler::manifest::Manifest;
 
 fuzz_target!(|text: &str| {

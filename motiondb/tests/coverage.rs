@@ -2,9 +2,8 @@
 
 mod support;
 
-use motiondb::coverage::{Lack, coverage};
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
+use motiondb::motion::{MotionDb, Parameters};
+use motiondb::quality::coverage::{Lack, coverage};
 
 /// Examples at (v_f, ω_t, ω_s), the first m_sp; those at rest stand. `simplices` cover the hull of the points.
 fn set(points: &[[f32; 3]], dimension: u32, simplices: &[u32]) -> MotionDb {

@@ -5,7 +5,7 @@ mod support;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motiondb::file::{self, FileError};
+use motiondb::files::database_file::{self, FileError};
 use proptest::prelude::*;
 use support::small_db;
 
@@ -19,18 +19,21 @@ fn what_was_written_is_read_and_leaves_nothing_beside_it() {
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
     let path = folder.join("motion.fbdb");
-    let checksum = file::write(&path, &small_db()).unwrap();
-    assert_eq!(file::load(&path).unwrap(), (small_db(), checksum));
+    let checksum = database_file::write(&path, &small_db()).unwrap();
+    assert_eq!(database_file::load(&path).unwrap(), (small_db(), checksum));
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
 }
 
 #[test]
 fn a_missing_file_a_missing_folder_and_foreign_content_are_told_apart() {
-    assert!(matches!(file::read(&place("nothing.fbdb")), Err(FileError::Unreadable { .. })));
-    assert!(matches!(file::write(&place("nowhere/motion.fbdb"), &small_db()), Err(FileError::Unwritable { .. })));
+    assert!(matches!(database_file::read(&place("nothing.fbdb")), Err(FileError::Unreadable { .. })));
+    assert!(matches!(
+        database_file::write(&place("nowhere/motion.fbdb"), &small_db()),
+        Err(FileError::Unwritable { .. })
+    ));
     let foreign = place("foreign.fbdb");
     fs::write(&foreign, "HIERARCHY\nROOT Hips\n").unwrap();
-    let message = file::read(&foreign).unwrap_err().to_string();
+    let message = database_file::read(&foreign).unwrap_err().to_string();
     assert!(message.contains("foreign.fbdb") && message.contains("fbcrowd compile"), "{message}");
 }
 
@@ -39,22 +42,24 @@ fn a_broken_invariant_is_read_but_not_loaded() {
     let path = place("broken.fbdb");
     let mut db = small_db();
     db.blend_space.covered_share = 0.5;
-    file::write(&path, &db).unwrap();
-    assert!(file::read(&path).is_ok());
+    database_file::write(&path, &db).unwrap();
+    assert!(database_file::read(&path).is_ok());
     let invariant = "simplices_tile_the_hull";
-    assert!(matches!(file::load(&path), Err(FileError::Invariant { invariant: found, .. }) if found == invariant));
+    assert!(
+        matches!(database_file::load(&path), Err(FileError::Invariant { invariant: found, .. }) if found == invariant)
+    );
 }
 
 proptest! {
     #[test]
     fn no_altered_or_cut_file_is_read(place_share in 0.0f64..1.0, bit in 0u8..8, cut in any::<bool>()) {
-        let mut bytes = file::to_bytes(&small_db());
+        let mut bytes = database_file::to_bytes(&small_db());
         let place = (place_share * bytes.len() as f64) as usize;
         if cut {
             bytes.truncate(place);
         } else {
             bytes[place] ^= 1 << bit;
         }
-        prop_assert!(file::from_bytes(Path::new("altered"), &bytes).is_err());
+        prop_assert!(database_file::from_bytes(Path::new("altered"), &bytes).is_err());
     }
 }

@@ -3,10 +3,10 @@
 mod support;
 
 use glam::{DVec3, Quat};
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::planted_feet::{CycleFeet, foot_slide, implied};
-use motiondb::quality::{lint, quality};
-use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
+use motiondb::body::{JOINT_COUNT, Joint, Side};
+use motiondb::motion::{MotionDb, PHASE_COUNT};
+use motiondb::quality::example_quality::{lint, quality};
+use motiondb::quality::planted_feet::{CycleFeet, foot_slide, implied};
 use support::small_db;
 
 const WALK: usize = 1;

@@ -3,11 +3,11 @@
 mod support;
 
 use glam::{Quat, Vec2};
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::planted_feet::{CycleFeet, foot_slide};
-use motiondb::skeleton::JOINT_COUNT;
+use motiondb::body::JOINT_COUNT;
+use motiondb::motion::{MotionDb, PHASE_COUNT};
+use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
 use motiondb::validate::validate;
-use motiondb::velocity_hull::Construction;
+use motiondb::velocity_sets::velocity_hull::Construction;
 use support::small_db;
 
 /// Fails unless exactly this invariant is the first that a fault breaks.

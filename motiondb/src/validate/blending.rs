@@ -1,19 +1,19 @@
 //! Simplices and correspondence times (`FbCrowd` §5, Eq. 10).
 
-use crate::motion_db::MotionDb;
-use crate::parameters::Parameters;
-use crate::tiling::tiling_fault;
+use crate::blend_space::tiling::tiling_fault;
+use crate::motion::motion_db::MotionDb;
+use crate::motion::parameters::Parameters;
 use crate::validate::{Outcome, ensure};
 
-/// The simplices are disjoint and fill the convex hull of the examples' parameters; see [`crate::tiling`].
-pub(super) fn simplices_tile_the_hull(db: &MotionDb) -> Outcome {
+/// The simplices are disjoint and fill the convex hull of the examples' parameters; see [`crate::blend_space::tiling`].
+pub(crate) fn simplices_tile_the_hull(db: &MotionDb) -> Outcome {
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
     tiling_fault(&db.blend_space, &parameters).map_or(Ok(()), Err)
 }
 
 /// There are correspondences where two examples step; m_sp and m_mb are two such; pairs lie in their cycles, rise in
 /// t_sp, and rise in t_mb but for one wrap; each step of m_sp has at least one.
-pub(super) fn correspondences_are_cyclic(db: &MotionDb) -> Outcome {
+pub(crate) fn correspondences_are_cyclic(db: &MotionDb) -> Outcome {
     let stepping = db.examples.iter().filter(|example| example.key_times_s.is_some()).count();
     let Some(found) = &db.correspondence else {
         return ensure(stepping < 2, || format!("there are none, but {stepping} examples step"));

@@ -1,4 +1,4 @@
-//! Every invariant of a database, by name. The runtime relies on all of them, so [`crate::file::load`] refuses what
+//! Every invariant of a database, by name. The runtime relies on all of them, so [`crate::files::database_file::load`] refuses what
 //! breaks one.
 //!
 //! Three tiers, each of which the next relies on: `structure` (lengths and indices), `values` (what a number, a
@@ -13,7 +13,7 @@ mod structure;
 mod values;
 mod velocity_sets;
 
-use crate::motion_db::{MotionDb, MotionExample};
+use crate::motion::motion_db::{MotionDb, MotionExample};
 
 pub use motion::contradiction;
 

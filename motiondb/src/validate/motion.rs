@@ -1,10 +1,10 @@
 //! What the stored motion itself says of an example: where its cycle closes, when its feet land and leave, how fast its
-//! root goes ([`crate::planted_feet`]).
+//! root goes ([`crate::quality::planted_feet`]).
 
-use crate::motion_db::{MotionDb, PHASE_COUNT};
-use crate::parameters::Parameters;
-use crate::planted_feet::{CycleFeet, foot_slide, implied};
-use crate::skeleton::{JOINT_COUNT, Side};
+use crate::body::skeleton::{JOINT_COUNT, Side};
+use crate::motion::motion_db::{MotionDb, PHASE_COUNT};
+use crate::motion::parameters::Parameters;
+use crate::quality::planted_feet::{CycleFeet, foot_slide, implied};
 use crate::validate::{Outcome, each, ensure};
 
 /// A seam between the last row and the first this many times the cycle's own greatest step is a jump …
@@ -27,7 +27,7 @@ const MISFIT_MPS: f64 = 0.02;
 const MISFIT_SHARE: f64 = 0.1;
 
 /// The step from the last row to the first is no larger than twice the largest within the cycle.
-pub(super) fn cycles_close(db: &MotionDb) -> Outcome {
+pub(crate) fn cycles_close(db: &MotionDb) -> Outcome {
     each(db, |index, _| {
         let step = |phase: usize| {
             let (here, next) = (db.rows.rotations(index, phase), db.rows.rotations(index, (phase + 1) % PHASE_COUNT));
@@ -43,7 +43,7 @@ pub(super) fn cycles_close(db: &MotionDb) -> Outcome {
 
 /// Phase 0 lies in the middle of a right contact, phase ½ in the middle of a left one; who stands never lifts a foot
 /// and never moves.
-pub(super) fn landmarks_are_mid_stances(db: &MotionDb) -> Outcome {
+pub(crate) fn landmarks_are_mid_stances(db: &MotionDb) -> Outcome {
     each(db, |index, example| {
         let feet = CycleFeet::of(db, index, &[]);
         if example.key_times_s.is_some() {
@@ -87,7 +87,7 @@ fn word(side: Side) -> &'static str {
 }
 
 /// Key times are when the contact rows pass ½ at both ends of the contacts that hold the landmarks.
-pub(super) fn key_times_end_contacts(db: &MotionDb) -> Outcome {
+pub(crate) fn key_times_end_contacts(db: &MotionDb) -> Outcome {
     each(db, |index, example| {
         let Some(key_times_s) = example.key_times_s else { return Ok(()) };
         let feet = CycleFeet::of(db, index, &[]);
@@ -106,7 +106,7 @@ pub(super) fn key_times_end_contacts(db: &MotionDb) -> Outcome {
 }
 
 /// Slide and planted share, measured on the stored rows, are those that are stored.
-pub(super) fn planted_feet_slide_as_stored(db: &MotionDb) -> Outcome {
+pub(crate) fn planted_feet_slide_as_stored(db: &MotionDb) -> Outcome {
     each(db, |index, example| {
         let feet = CycleFeet::of(db, index, &db.posed_rows(index));
         let found = foot_slide(&feet, example.parameters.to_vec3().as_dvec3());
@@ -120,7 +120,7 @@ pub(super) fn planted_feet_slide_as_stored(db: &MotionDb) -> Outcome {
 }
 
 /// The root motion for which the planted feet stand best is the stored one, as far as they stand at all.
-pub(super) fn parameters_follow_from_the_motion(db: &MotionDb) -> Outcome {
+pub(crate) fn parameters_follow_from_the_motion(db: &MotionDb) -> Outcome {
     each(db, |index, example| parameters_agree(&CycleFeet::of(db, index, &db.posed_rows(index)), example.parameters))
 }
 

@@ -1,16 +1,16 @@
 //! Lengths, indices and names: what all else relies on.
 
-use crate::motion_db::{MotionDb, PHASE_COUNT};
-use crate::skeleton::JOINT_COUNT;
+use crate::body::skeleton::JOINT_COUNT;
+use crate::motion::motion_db::{MotionDb, PHASE_COUNT};
 use crate::validate::{Outcome, each, ensure};
 
 /// There is at least one example.
-pub(super) fn has_examples(db: &MotionDb) -> Outcome {
+pub(crate) fn has_examples(db: &MotionDb) -> Outcome {
     ensure(!db.examples.is_empty(), || "the database holds no example".into())
 }
 
 /// Every example has all its rows.
-pub(super) fn rows_are_complete(db: &MotionDb) -> Outcome {
+pub(crate) fn rows_are_complete(db: &MotionDb) -> Outcome {
     let rows = db.examples.len() * PHASE_COUNT;
     let lengths = [db.rows.rotations.len(), db.rows.pelvis_m.len(), db.rows.contacts.len()];
     let wanted = [rows * JOINT_COUNT, rows, rows];
@@ -18,7 +18,7 @@ pub(super) fn rows_are_complete(db: &MotionDb) -> Outcome {
 }
 
 /// Sources, simplices and correspondences name what exists.
-pub(super) fn indices_are_in_range(db: &MotionDb) -> Outcome {
+pub(crate) fn indices_are_in_range(db: &MotionDb) -> Outcome {
     let examples = db.examples.len();
     each(db, |_, example| {
         ensure((example.source as usize) < db.sources.len(), || format!("its source {} does not exist", example.source))
@@ -37,7 +37,7 @@ pub(super) fn indices_are_in_range(db: &MotionDb) -> Outcome {
 }
 
 /// Examples are in order of their names, and no two share one.
-pub(super) fn names_are_unique(db: &MotionDb) -> Outcome {
+pub(crate) fn names_are_unique(db: &MotionDb) -> Outcome {
     match db.examples.windows(2).find(|pair| pair[0].name >= pair[1].name) {
         Some(pair) => Err(format!("{} does not sort before {}", pair[0].name, pair[1].name)),
         None => Ok(()),

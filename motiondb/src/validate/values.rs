@@ -3,9 +3,9 @@
 use std::f32::consts::PI;
 use std::ops::RangeInclusive;
 
-use crate::motion_db::{MotionDb, PHASE_COUNT};
-use crate::phase_map::MAX_ASYMMETRY;
-use crate::skeleton::{JOINT_COUNT, Joint};
+use crate::body::skeleton::{JOINT_COUNT, Joint};
+use crate::motion::motion_db::{MotionDb, PHASE_COUNT};
+use crate::motion::phase_map::MAX_ASYMMETRY;
 use crate::validate::{Outcome, each, ensure};
 
 /// A rotation's length may be off 1 by rounding.
@@ -22,7 +22,7 @@ const BONE_MAX_OVER_LEG: f32 = 4.0;
 const PERIOD_S: RangeInclusive<f32> = 0.05..=60.0;
 
 /// Bones are finite and in proportion, legs have length, radii are positive, limits are ordered.
-pub(super) fn skeleton_is_a_body(db: &MotionDb) -> Outcome {
+pub(crate) fn skeleton_is_a_body(db: &MotionDb) -> Outcome {
     let skeleton = &db.skeleton;
     let leg_m = skeleton.leg_length_m();
     ensure(LEG_M.contains(&leg_m), || format!("legs are {leg_m} m long"))?;
@@ -46,7 +46,7 @@ pub(super) fn skeleton_is_a_body(db: &MotionDb) -> Outcome {
 }
 
 /// What was found in the sources is finite, their frames have a rate and their units a length.
-pub(super) fn sources_are_finite(db: &MotionDb) -> Outcome {
+pub(crate) fn sources_are_finite(db: &MotionDb) -> Outcome {
     for source in &db.sources {
         let finite =
             [source.speed_mps, source.turn_rate_rad_s, source.strafe_mps].iter().all(|value| value.is_finite());
@@ -58,7 +58,7 @@ pub(super) fn sources_are_finite(db: &MotionDb) -> Outcome {
 }
 
 /// The part of the source that an example was made from ends after it begins.
-pub(super) fn windows_are_ordered(db: &MotionDb) -> Outcome {
+pub(crate) fn windows_are_ordered(db: &MotionDb) -> Outcome {
     each(db, |_, example| {
         let [first_s, last_s] = example.window_s;
         ensure(first_s >= 0.0 && first_s < last_s && last_s.is_finite(), || format!("{first_s} s to {last_s} s"))
@@ -66,7 +66,7 @@ pub(super) fn windows_are_ordered(db: &MotionDb) -> Outcome {
 }
 
 /// Parameters are finite and within human reach.
-pub(super) fn parameters_are_human(db: &MotionDb) -> Outcome {
+pub(crate) fn parameters_are_human(db: &MotionDb) -> Outcome {
     each(db, |_, example| {
         let found = example.parameters;
         let human = found.speed_mps.abs() <= SPEED_LIMIT_MPS
@@ -77,7 +77,7 @@ pub(super) fn parameters_are_human(db: &MotionDb) -> Outcome {
 }
 
 /// Time rises with phase in every example.
-pub(super) fn phase_maps_rise(db: &MotionDb) -> Outcome {
+pub(crate) fn phase_maps_rise(db: &MotionDb) -> Outcome {
     each(db, |_, example| {
         let map = example.phase_map;
         let lasts = PERIOD_S.contains(&map.period_s);
@@ -86,7 +86,7 @@ pub(super) fn phase_maps_rise(db: &MotionDb) -> Outcome {
 }
 
 /// Rows are finite, pelvises over the ground and contacts within [0, 1].
-pub(super) fn rows_are_finite(db: &MotionDb) -> Outcome {
+pub(crate) fn rows_are_finite(db: &MotionDb) -> Outcome {
     let leg_m = db.skeleton.leg_length_m();
     for (row, (pelvis_m, contacts)) in db.rows.pelvis_m.iter().zip(&db.rows.contacts).enumerate() {
         let place = || format!("{}, phase {}", db.examples[row / PHASE_COUNT].name, row % PHASE_COUNT);
@@ -98,7 +98,7 @@ pub(super) fn rows_are_finite(db: &MotionDb) -> Outcome {
 }
 
 /// Rotations are unit quaternions, and every row lies in the first row's hemisphere, joint by joint.
-pub(super) fn rotations_are_unit_and_aligned(db: &MotionDb) -> Outcome {
+pub(crate) fn rotations_are_unit_and_aligned(db: &MotionDb) -> Outcome {
     let first = db.rows.rotations(0, 0);
     for (entry, rotation) in db.rows.rotations.iter().enumerate() {
         let (row, joint) = (entry / JOINT_COUNT, entry % JOINT_COUNT);

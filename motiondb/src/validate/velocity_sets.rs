@@ -1,14 +1,16 @@
-//! The velocity sets are those of the examples (`FbCrowd` §4.1, Eqs. 2–5; [`crate::velocity_hull`]).
+//! The velocity sets are those of the examples (`FbCrowd` §4.1, Eqs. 2–5; [`crate::velocity_sets::velocity_hull`]).
 //!
 //! A polygon is the convex hull of points exactly where it is convex, its corners are among the points, and it holds
 //! them all: no second construction is needed to prove the compiler's. Agent's frame, m/s.
 
 use glam::Vec2;
 
-use crate::motion_db::MotionDb;
+use crate::motion::motion_db::MotionDb;
 use crate::validate::{Outcome, ensure};
-use crate::velocity_hull::{Construction, half_planes, holding_point_mps, is_holding, is_turning, turning_point_mps};
-use crate::wrapping_polygon;
+use crate::velocity_sets::velocity_hull::{
+    Construction, half_planes, holding_point_mps, is_holding, is_turning, turning_point_mps,
+};
+use crate::velocity_sets::wrapping_polygon;
 
 /// Points may stray this far outside a hull by rounding, m/s.
 const TOLERANCE_MPS: f32 = 1e-4;
@@ -41,7 +43,7 @@ fn sets(db: &MotionDb) -> [Set<'_>; 2] {
 }
 
 /// Both hulls turn right at every corner, and no corner comes twice.
-pub(super) fn hulls_are_clockwise_and_convex(db: &MotionDb) -> Outcome {
+pub(crate) fn hulls_are_clockwise_and_convex(db: &MotionDb) -> Outcome {
     sets(db).iter().try_for_each(|Set { name, corners_mps, .. }| {
         let count = corners_mps.len();
         ensure(count > 0 && corners_mps.iter().all(|corner| corner.is_finite()), || {
@@ -65,7 +67,7 @@ fn is_leftmost(corners_mps: &[Vec2], index: usize) -> bool {
 }
 
 /// Each set is the convex hull of its examples and of standing: they lie inside, and every corner is one of them.
-pub(super) fn hulls_wrap_their_examples(db: &MotionDb) -> Outcome {
+pub(crate) fn hulls_wrap_their_examples(db: &MotionDb) -> Outcome {
     sets(db).iter().try_for_each(|Set { name, corners_mps, points_mps }| {
         let stray = points_mps.iter().find(|&&point| outside_mps(corners_mps, point) > TOLERANCE_MPS);
         ensure(stray.is_none(), || format!("the {name} set leaves out {}", stray.copied().unwrap_or_default()))?;
@@ -95,7 +97,7 @@ fn violation_mps(corners_mps: &[Vec2], point: Vec2) -> f32 {
 }
 
 /// Eqs. 4, 5: every half-plane of a set permits all of the set's examples, and two corners lie on its line.
-pub(super) fn half_planes_agree_with_the_hulls(db: &MotionDb) -> Outcome {
+pub(crate) fn half_planes_agree_with_the_hulls(db: &MotionDb) -> Outcome {
     sets(db).iter().try_for_each(|Set { name, corners_mps, points_mps }| {
         let forbidden = points_mps.iter().find(|&&point| violation_mps(corners_mps, point) > TOLERANCE_MPS);
         ensure(forbidden.is_none(), || {
@@ -111,7 +113,7 @@ pub(super) fn half_planes_agree_with_the_hulls(db: &MotionDb) -> Outcome {
 }
 
 /// The sharp-turn edges are those edges of the turning examples' wrapping polygon that have an end beyond ±90°.
-pub(super) fn sharp_turns_wrap_the_turning_examples(db: &MotionDb) -> Outcome {
+pub(crate) fn sharp_turns_wrap_the_turning_examples(db: &MotionDb) -> Outcome {
     let rebuilt = wrapping_polygon::sharp_turn_edges(&turning_points_mps(db).collect::<Vec<Vec2>>());
     let stored = &db.velocity_hull.sharp_turn_edges_mps;
     ensure(*stored == rebuilt, || format!("{stored:?} are stored, the examples give {rebuilt:?}"))

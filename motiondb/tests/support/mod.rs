@@ -5,13 +5,12 @@
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
-use motiondb::correspondence::Correspondence;
-use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows, SourceRecord};
-use motiondb::parameters::Parameters;
-use motiondb::phase_map::PhaseMap;
-use motiondb::planted_feet::{CycleFeet, foot_slide};
-use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
-use motiondb::velocity_hull::{Construction, VelocityHull};
+use motiondb::body::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
+use motiondb::motion::{
+    Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows, SourceRecord,
+};
+use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
+use motiondb::velocity_sets::velocity_hull::{Construction, VelocityHull};
 
 /// Thigh and shank, metres.
 const LEG_M: f32 = 0.84;

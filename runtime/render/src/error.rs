@@ -80,5 +80,5 @@ pub enum RenderError {
     EmptyRecording,
     /// The recording could not be read.
     #[error(transparent)]
-    Recording(#[from] fbcrowd_sim::recording::error::RecordingError),
+    Recording(#[from] fbcrowd_sim::recording::RecordingError),
 }

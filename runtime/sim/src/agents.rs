@@ -5,7 +5,7 @@
 //! the stance foot as they are synthesised, all else in [`crate::coupling::body_to_disc`].
 
 use glam::Vec2;
-use motiondb::pose::Root;
+use motiondb::body::Root;
 
 use crate::coupling::body_to_disc::Coupling;
 use crate::maths::random::SplitMix64;

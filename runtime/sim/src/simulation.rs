@@ -12,7 +12,7 @@
 
 use std::sync::Arc;
 
-use motiondb::motion_db::MotionDb;
+use motiondb::motion::MotionDb;
 use rayon::prelude::*;
 
 use crate::agents::Agents;

@@ -7,12 +7,9 @@ use std::f32::consts::TAU;
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
-use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
-use motiondb::parameters::Parameters;
-use motiondb::phase_map::PhaseMap;
-use motiondb::pose::Pose;
-use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
-use motiondb::velocity_hull::{self, Construction, VelocityHull};
+use motiondb::body::{Foot, JOINT_COUNT, Joint, Pose, Skeleton};
+use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows};
+use motiondb::velocity_sets::velocity_hull::{self, Construction, VelocityHull};
 
 use crate::synthesis::pose::ik::reach;
 use crate::synthesis::pose::leg::{FootPose, legs};
@@ -59,7 +56,7 @@ pub(crate) fn test_db() -> MotionDb {
     }
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
     db.velocity_hull = velocity_hull::build(&parameters, Construction::default());
-    db.blend_space = motiondb::triangulation::build(&parameters);
+    db.blend_space = motiondb::blend_space::triangulation::build(&parameters);
     db.correspondence = motiondb_compiler::correspondence::find(&db, None);
     db
 }

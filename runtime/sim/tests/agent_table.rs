@@ -4,11 +4,11 @@ mod common;
 
 use common::{agent, folder, header, record, standing_at};
 use fbcrowd_sim::measures::agent_table::write_table;
-use fbcrowd_sim::planning::plan::VelocitySet;
-use fbcrowd_sim::recording::frame::AgentFrame;
-use fbcrowd_sim::synthesis::hybrid::mode::Mode;
+use fbcrowd_sim::planning::VelocitySet;
+use fbcrowd_sim::recording::AgentFrame;
+use fbcrowd_sim::synthesis::hybrid::Mode;
 use glam::Vec2;
-use motiondb::pose::Root;
+use motiondb::body::Root;
 
 /// One who walks half a metre to the left of the x axis in two steps of a quarter of a second, and one who stands at its goal.
 fn frames() -> Vec<Vec<AgentFrame>> {

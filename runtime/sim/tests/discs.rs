@@ -9,10 +9,10 @@ mod crowd;
 use std::f32::consts::TAU;
 
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planning::planner::Planner;
+use fbcrowd_sim::planning::Planner;
 use fbcrowd_sim::world::obstacles::Obstacles;
 use glam::Vec2;
-use motiondb::velocity_hull::{Construction, VelocityHull};
+use motiondb::velocity_sets::velocity_hull::{Construction, VelocityHull};
 
 use crate::crowd::{Body, Crowd, Figures, RADIUS_M, Setting, bundled_scene, read_scene};
 

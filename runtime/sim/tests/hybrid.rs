@@ -5,15 +5,13 @@ mod clips;
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use fbcrowd_sim::planning::plan::Plan;
-use fbcrowd_sim::synthesis::hybrid::inertialization::CARRIED_S;
-use fbcrowd_sim::synthesis::hybrid::mode::Mode;
-use fbcrowd_sim::synthesis::hybrid::switch_points::Hybrid;
-use fbcrowd_sim::synthesis::library::context::Studio;
-use fbcrowd_sim::synthesis::params::{HmsParams, Transition};
+use fbcrowd_sim::planning::Plan;
+use fbcrowd_sim::synthesis::hybrid::{CARRIED_S, Hybrid, Mode};
+use fbcrowd_sim::synthesis::library::Studio;
+use fbcrowd_sim::synthesis::{HmsParams, Transition};
 use glam::{Vec2, Vec3};
-use motiondb::motion_db::MotionDb;
-use motiondb::pose::Root;
+use motiondb::body::Root;
+use motiondb::motion::MotionDb;
 
 use crate::clips::{bundled, marine};
 

@@ -4,11 +4,10 @@ mod common;
 
 use common::{agent, folder, header, record, standing_at};
 use fbcrowd_sim::measures::metrics::{Measures, measure, write_trajectories};
-use fbcrowd_sim::planning::plan::VelocitySet;
-use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::planning::VelocitySet;
+use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::{Quat, Vec2, Vec3};
-use motiondb::skeleton::{Joint, Skeleton};
+use motiondb::body::{Joint, Skeleton};
 
 const DT_S: f32 = 0.1;
 

@@ -6,12 +6,9 @@ use std::fs;
 use std::path::Path;
 
 use common::{agent, folder, header, record, standing_at};
-use fbcrowd_sim::recording::chunk::write_chunk;
-use fbcrowd_sim::recording::error::RecordingError;
-use fbcrowd_sim::recording::frame::AgentFrame;
-use fbcrowd_sim::recording::{Recorder, Recording};
+use fbcrowd_sim::recording::{AgentFrame, Recorder, Recording, RecordingError, write_chunk};
 use glam::{Quat, Vec2};
-use motiondb::pose::Joints;
+use motiondb::body::Joints;
 use proptest::prelude::*;
 
 /// Frames of two agents whose joints all turn.

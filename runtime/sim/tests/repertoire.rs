@@ -9,8 +9,8 @@ use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::simulation::Simulation;
 use fbcrowd_sim::synthesis::library::augmented_database::{complete, deformed};
 use glam::Vec2;
-use motiondb::coverage::{Lack, coverage};
-use motiondb::motion_db::MotionDb;
+use motiondb::motion::MotionDb;
+use motiondb::quality::coverage::{Lack, coverage};
 use motiondb::validate::first_broken;
 
 use crate::clips::{bundled, bundled_alone, recorded};

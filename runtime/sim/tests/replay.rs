@@ -6,14 +6,12 @@ mod common;
 use std::path::Path;
 use std::sync::Arc;
 
-use fbcrowd_sim::planning::explanation::Reasons;
-use fbcrowd_sim::planning::orca::half_plane::Source;
-use fbcrowd_sim::planning::planner::Planner;
-use fbcrowd_sim::recording::replay::Replay;
-use fbcrowd_sim::recording::{Header, Recorder, Recording};
+use fbcrowd_sim::planning::orca::Source;
+use fbcrowd_sim::planning::{Planner, Reasons};
+use fbcrowd_sim::recording::{Header, Recorder, Recording, Replay};
 use fbcrowd_sim::scenario::{self, Scenario};
 use fbcrowd_sim::simulation::Simulation;
-use motiondb::motion_db::MotionDb;
+use motiondb::motion::MotionDb;
 
 /// How far the packing of poses and times to landing may shift the stance foot's half-plane, m/s: 0.1 mm at the sole,
 /// 0.1 s before landing. Measured: 0.3 mm/s.

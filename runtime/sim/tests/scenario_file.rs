@@ -8,13 +8,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use common::folder;
-use fbcrowd_sim::coupling::body_to_disc::Coupling;
-use fbcrowd_sim::planning::mcn::params::StanceForm;
-use fbcrowd_sim::planning::planner::Planner;
-use fbcrowd_sim::scenario::Scenario;
-use fbcrowd_sim::scenario::error::{Invalid, ScenarioError};
-use fbcrowd_sim::scenario::file::{MotionSource, read};
-use fbcrowd_sim::synthesis::params::{Modes, Transition};
+use fbcrowd_sim::coupling::Coupling;
+use fbcrowd_sim::planning::Planner;
+use fbcrowd_sim::planning::mcn::StanceForm;
+use fbcrowd_sim::scenario::{Invalid, MotionSource, Scenario, ScenarioError, read};
+use fbcrowd_sim::synthesis::{Modes, Transition};
 use glam::Vec2;
 
 const HEAD: &str = "clips = \".\"\nduration_s = 10\n";

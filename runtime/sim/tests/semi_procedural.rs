@@ -4,14 +4,11 @@ mod clips;
 
 use std::f32::consts::TAU;
 
-use fbcrowd_sim::synthesis::semi_procedural::base_walk::SemiProcedural;
-use fbcrowd_sim::synthesis::semi_procedural::deformation::Deformation;
+use fbcrowd_sim::synthesis::semi_procedural::{Deformation, SemiProcedural};
 use glam::Vec2;
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
-use motiondb::planted_feet::{CycleFeet, foot_slide, implied};
-use motiondb::pose::Joints;
-use motiondb::skeleton::Joint;
+use motiondb::body::{Joint, Joints};
+use motiondb::motion::{MotionDb, Parameters};
+use motiondb::quality::planted_feet::{CycleFeet, foot_slide, implied};
 
 use crate::clips::{bundled, marine};
 

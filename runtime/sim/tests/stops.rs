@@ -6,15 +6,14 @@ mod clips;
 use std::f32::consts::TAU;
 use std::sync::Arc;
 
-use fbcrowd_sim::planning::plan::Plan;
-use fbcrowd_sim::synthesis::blending::blend_space::Space;
-use fbcrowd_sim::synthesis::command::blend_query::asking;
-use fbcrowd_sim::synthesis::library::context::Studio;
-use fbcrowd_sim::synthesis::params::{HmsParams, Modes};
+use fbcrowd_sim::planning::Plan;
+use fbcrowd_sim::synthesis::blending::Space;
+use fbcrowd_sim::synthesis::command::asking;
+use fbcrowd_sim::synthesis::library::Studio;
+use fbcrowd_sim::synthesis::{HmsParams, Modes};
 use glam::{Vec2, Vec3};
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
-use motiondb::pose::Root;
+use motiondb::body::Root;
+use motiondb::motion::{MotionDb, Parameters};
 
 use crate::clips::{bundled, marine, marine_without};
 

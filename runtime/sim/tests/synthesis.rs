@@ -6,20 +6,17 @@ use std::f32::consts::FRAC_PI_2;
 use std::path::Path;
 use std::sync::Arc;
 
-use fbcrowd_sim::measures::planted_slide::{PlantedSlide, Slide};
-use fbcrowd_sim::planning::plan::Plan;
-use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::measures::{PlantedSlide, Slide};
+use fbcrowd_sim::planning::Plan;
+use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario;
 use fbcrowd_sim::simulation::Simulation;
-use fbcrowd_sim::synthesis::library::context::Studio;
-use fbcrowd_sim::synthesis::params::{HmsParams, Modes};
-use fbcrowd_sim::synthesis::time_step::TimeStep;
-use fbcrowd_sim::synthesis::{Body, Synthesis};
+use fbcrowd_sim::synthesis::library::Studio;
+use fbcrowd_sim::synthesis::{Body, HmsParams, Modes, Synthesis, TimeStep};
 use fbcrowd_sim::world::obstacles::Obstacles;
 use glam::{Quat, Vec2};
-use motiondb::motion_db::MotionDb;
-use motiondb::pose::Root;
-use motiondb::skeleton::Joint;
+use motiondb::body::{Joint, Root};
+use motiondb::motion::MotionDb;
 
 use crate::clips::{bundled, marine};
 

@@ -5,11 +5,11 @@ mod clips;
 use std::f32::consts::PI;
 use std::sync::{Arc, LazyLock};
 
-use fbcrowd_sim::planning::plan::Plan;
-use fbcrowd_sim::synthesis::library::context::Studio;
-use fbcrowd_sim::synthesis::params::{HmsParams, Modes};
+use fbcrowd_sim::planning::Plan;
+use fbcrowd_sim::synthesis::library::Studio;
+use fbcrowd_sim::synthesis::{HmsParams, Modes};
 use glam::Vec2;
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
 use proptest::prelude::*;
 
 use crate::clips::bundled;

@@ -7,8 +7,8 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use motiondb::motion_db::SourceRecord;
-use motiondb::remark::{Kind, Remark};
+use motiondb::motion::SourceRecord;
+use motiondb::motion::remark::{Kind, Remark};
 
 use crate::arc::Rates;
 use crate::cycle::{self, GaitCycle};

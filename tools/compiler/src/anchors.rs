@@ -2,7 +2,7 @@
 //! (toes, clavicles, spine, neck), at a fixed point of the joint that would carry it.
 
 use glam::DVec3;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
 
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;

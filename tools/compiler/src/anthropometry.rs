@@ -1,12 +1,12 @@
 //! Published figures of the human body: how thick its segments are (how far its joints turn:
-//! [`motiondb::joint_ranges`]).
+//! [`motiondb::body::JOINT_RANGES_DEG`]).
 //!
 //! Girths: men of the 2012 Anthropometric Survey of U.S. Army Personnel (ANSUR II; Gordon et al., NATICK/TR-15/007,
 //! 2014), in round figures, over the stature of 1.755 m. Limbs: circumference over 2π, mean of the segment's ends.
 //! Trunk, which is broader than deep: a quarter of breadth plus depth. They shape the drawn body and its capsules;
 //! nothing is measured by them.
 
-use motiondb::skeleton::JOINT_COUNT;
+use motiondb::body::JOINT_COUNT;
 
 /// Radius of each joint's own segment over the stature.
 #[rustfmt::skip]

@@ -11,7 +11,7 @@
 //! seconds, radians.
 
 use glam::{DMat2, DQuat, DVec2, DVec3};
-use motiondb::parameters::Parameters;
+use motiondb::motion::Parameters;
 
 use crate::human_clip::HumanPose;
 

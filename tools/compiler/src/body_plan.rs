@@ -2,7 +2,7 @@
 //! lowest, arms are two thirds as long, hang from the upper trunk and bend, toes and knees point forward.
 
 use glam::DVec3;
-use motiondb::skeleton::Side;
+use motiondb::body::Side;
 
 use crate::error::Refusal;
 use crate::joint_names::Part;

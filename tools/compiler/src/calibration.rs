@@ -18,7 +18,7 @@
 //! limb would bend about; of knees that stand straight, that alone.
 
 use glam::{DMat3, DQuat, DVec3};
-use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
+use motiondb::body::{JOINT_COUNT, Joint, Side};
 
 use crate::anchors::Anchor;
 use crate::skeleton_map::Roles;

@@ -6,9 +6,9 @@
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
-use motiondb::median::median;
-use motiondb::remark::{Kind, Remark};
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
+use motiondb::motion::remark::{Kind, Remark};
+use motiondb::statistics::median;
 
 use crate::plausibility::{LEAD_MIN_M, passings};
 use crate::skeleton_map::Roles;

@@ -6,8 +6,8 @@
 //! the hip than the clip has it, so that no knee is straighter than it was. Root frame, metres.
 
 use glam::{DQuat, DVec3};
-use motiondb::motion_db::PHASE_COUNT;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::motion::PHASE_COUNT;
 
 use crate::human_clip::{HumanBody, HumanPose};
 use crate::leg_ik::place_ankle;

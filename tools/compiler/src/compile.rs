@@ -4,7 +4,7 @@
 //! import ([`clip_set`]) → the body that all examples share ([`target_skeleton`]) → steady windows and their mean
 //! strides (`analysis`) → of one take one copy ([`duplicates`]) and of near-equal windows the best (`selection`) →
 //! closed cycles and their mirrors (`named_cycles`) → (v_f, ω_t, ω_s) and key times ([`parameterize`]) → blend space
-//! ([`motiondb::triangulation`]), velocity sets ([`velocity_hull`]), [`correspondence`] → [`MotionDb`], valid.
+//! ([`motiondb::blend_space::triangulation`]), velocity sets ([`velocity_hull`]), [`correspondence`] → [`MotionDb`], valid.
 //!
 //! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted
 //! by file and clip name, examples by their own name, and parallel stages collect in that order.
@@ -12,11 +12,10 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
-use motiondb::parameters::Parameters;
-use motiondb::remark::Kind;
+use motiondb::motion::remark::Kind;
+use motiondb::motion::{MotionDb, MotionExample, Parameters, SourceRecord};
 use motiondb::validate::first_broken;
-use motiondb::velocity_hull::{self, Construction};
+use motiondb::velocity_sets::velocity_hull::{self, Construction};
 use rayon::prelude::*;
 
 use crate::analysis::{Analyzed, analyze};

@@ -1,6 +1,6 @@
 //! Why clips give no database: each reason names what to do.
 
-use motiondb::motion_db::SourceRecord;
+use motiondb::motion::SourceRecord;
 
 use crate::manifest::error::ManifestError;
 use crate::refused::Refused;

@@ -1,9 +1,8 @@
 //! Which cycle becomes m_sp (`FbCrowd` §5, which leaves it open). m_mb and the correspondence times T follow from it
-//! ([`motiondb::correspondence`]).
+//! ([`motiondb::motion::Correspondence`]).
 
-use motiondb::correspondence::Correspondence;
-use motiondb::motion_db::MotionDb;
-use motiondb::velocity_hull::{HOLDING_TURN_MAX_RAD_S, TURNING_STRAFE_MAX_MPS};
+use motiondb::motion::{Correspondence, MotionDb};
+use motiondb::velocity_sets::velocity_hull::{HOLDING_TURN_MAX_RAD_S, TURNING_STRAFE_MAX_MPS};
 
 use crate::arc::Rates;
 

@@ -1,12 +1,11 @@
 //! Strides → GaitCycle: the phase-aligned mean stride, closed without a seam, at 64 uniform phases.
 //!
-//! Each stride is read along its own arc, at the times t(φ) of [`motiondb::phase_map`], through both of its landmarks.
+//! Each stride is read along its own arc, at the times t(φ) of [`motiondb::motion::PhaseMap`], through both of its landmarks.
 //! What is left open between its ends is taken out (`closing`), and both ends are faded into what the clip does just
 //! outside the stride, so that velocities close as well. At last the cycle is put on the ground (`footing`): strides
 //! differ, and where their feet are averaged or closed a sole may sink. Root frame: x forward, y left, metres, seconds.
 
-use motiondb::motion_db::PHASE_COUNT;
-use motiondb::phase_map::PhaseMap;
+use motiondb::motion::{PHASE_COUNT, PhaseMap};
 
 use crate::arc::Rates;
 use crate::closing::Gap;
@@ -202,7 +201,7 @@ fn lower_to_ground(cycle: &mut GaitCycle, body: &HumanBody) {
 #[cfg(test)]
 mod tests {
     use glam::{DQuat, DVec3};
-    use motiondb::skeleton::Joint;
+    use motiondb::body::Joint;
 
     use super::*;
     use crate::leg_ik::place_ankle;

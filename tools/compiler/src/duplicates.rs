@@ -4,7 +4,7 @@
 //! `take_search` chooses which clips are compared, `same_take` decides of two clips, `shared_stretches` which of their
 //! windows give examples. Here all of it is put together, and said.
 
-use motiondb::remark::{Kind, Remark};
+use motiondb::motion::remark::{Kind, Remark};
 use rayon::prelude::*;
 
 use crate::alignment::Alignment;

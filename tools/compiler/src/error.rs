@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
 
 /// A file that cannot be read as motion at all. A single clip that is readable but not human is a [`Refusal`] instead.
 #[derive(Debug, thiserror::Error)]

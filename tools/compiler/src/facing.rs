@@ -1,7 +1,7 @@
 //! Which way a body faces where a manifest says it: left and right are exchanged where they were found the wrong way
 //! round.
 
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
 
 use crate::axis::Axis;
 use crate::error::{Refusal, Setting};

@@ -7,8 +7,8 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use motiondb::remark::Kind;
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
+use motiondb::motion::remark::Kind;
 
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;

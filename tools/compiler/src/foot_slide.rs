@@ -1,9 +1,10 @@
-//! Planted-foot slide of a cycle, measured as in the database ([`motiondb::planted_feet`]), and what to think of it.
+//! Planted-foot slide of a cycle, measured as in the database ([`motiondb::quality::planted_feet`]), and what to think of it.
 
 use glam::DVec3;
-use motiondb::planted_feet::{self, CycleFeet, FootSlide};
-use motiondb::remark::{Kind, Remark};
-use motiondb::{quality, validate};
+use motiondb::motion::remark::{Kind, Remark};
+use motiondb::quality::example_quality;
+use motiondb::quality::planted_feet::{self, CycleFeet, FootSlide};
+use motiondb::validate;
 
 use crate::cycle::GaitCycle;
 use crate::human_clip::{HumanBody, HumanJoints};
@@ -65,7 +66,7 @@ pub fn lint(cycle: &GaitCycle, body: &HumanBody) -> Vec<Remark> {
 /// The slide of a cycle over that from which on it is suspect.
 pub fn relative_slide(cycle: &GaitCycle, body: &HumanBody) -> f64 {
     let speed_mps = libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
-    measure(cycle, body).slide_cm_s / f64::from(quality::suspect_slide_cm_s(speed_mps as f32))
+    measure(cycle, body).slide_cm_s / f64::from(example_quality::suspect_slide_cm_s(speed_mps as f32))
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use glam::{DQuat, DVec3};
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
 
 use crate::human_clip::{HumanBody, HumanPose};
 use crate::leg_ik;

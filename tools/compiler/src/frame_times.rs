@@ -7,7 +7,7 @@
 
 use std::collections::VecDeque;
 
-use motiondb::median::median;
+use motiondb::statistics::median;
 
 use crate::alignment::Alignment;
 use crate::analysis::{Analyzed, SteadyWindow};

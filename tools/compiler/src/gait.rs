@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use motiondb::skeleton::Side;
+use motiondb::body::Side;
 
 use crate::contacts::{self, runs};
 use crate::human_clip::HumanBody;

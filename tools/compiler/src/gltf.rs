@@ -16,7 +16,7 @@ mod tree;
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
-use motiondb::remark::Kind;
+use motiondb::motion::remark::Kind;
 
 use crate::error::ImportError;
 use crate::gltf::document::{Document, Flaw, Transform, flaw};

@@ -3,9 +3,9 @@
 use std::cmp::Ordering;
 
 use glam::{DQuat, DVec2, DVec3};
-use motiondb::motion_db::SourceRecord;
-use motiondb::remark::Kind;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::motion::SourceRecord;
+use motiondb::motion::remark::Kind;
 
 /// A clip after import: canonical joints, metres, Z up, right-handed, f64.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ pub struct Choices {
     pub is_cut: bool,
 }
 
-/// Bones of one performer in the canonical rest pose (see [`motiondb::skeleton`]), metres.
+/// Bones of one performer in the canonical rest pose (see [`motiondb::body::Skeleton`]), metres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HumanBody {
     /// Joint relative to its parent; entry 0 is zero.
@@ -55,7 +55,7 @@ pub struct HumanBody {
     /// `[left, right]`: heel, ball (relative to the foot joint) and toe tip (relative to the toe joint) on the sole.
     pub soles_m: [[DVec3; 3]; 2],
     /// Where slide is measured, in the same frames: the soles themselves or the joints over them (see
-    /// [`motiondb::skeleton::Foot`]).
+    /// [`motiondb::body::Foot`]).
     pub measured_m: [[DVec3; 3]; 2],
 }
 

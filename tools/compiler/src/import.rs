@@ -9,9 +9,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motiondb::input_file;
-use motiondb::remark::{Kind, Remark};
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
+use motiondb::files::input_file;
+use motiondb::motion::remark::{Kind, Remark};
 use rayon::prelude::*;
 
 use crate::error::{ImportError, MIN_FRAMES, Refusal, Setting};

@@ -4,7 +4,7 @@
 //! Words are cut at punctuation, digits and capitals (`CC_Base_L_Thigh`, `JtHipLf`, `mixamorig:LeftUpLeg`,
 //! `upperleg.l`, `lThigh`).
 
-use motiondb::skeleton::Side;
+use motiondb::body::Side;
 
 /// Anatomical parts that rigs' names tell apart; one word may fit several (a "shoulder" is a clavicle or an upper arm).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

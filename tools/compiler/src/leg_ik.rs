@@ -5,7 +5,7 @@
 //! orientations are those of the pose's own frame.
 
 use glam::{DQuat, DVec3};
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
 
 use crate::human_clip::{HumanBody, HumanJoints, HumanPose};
 

@@ -5,8 +5,8 @@
 //! [`root_motion::GroundedClip`] → [`contacts`], [`stance`], [`gait`], [`stride`], [`steady_window`],
 //! [`stride_alignment`], [`performer`] → [`pose_mean`], `closing`, [`cycle::GaitCycle`] (or [`standing`]) →
 //! [`foot_slide`], [`duplicates`], `selection` → `named_cycles`, [`mirror`] → [`parameterize`], [`rows`],
-//! [`motiondb::velocity_hull`], `twins` → [`motiondb::triangulation`], [`correspondence`] →
-//! [`motiondb::motion_db::MotionDb`]
+//! [`motiondb::velocity_sets::velocity_hull`], `twins` → [`motiondb::blend_space::triangulation`], [`correspondence`] →
+//! [`motiondb::motion::MotionDb`]
 //!
 //! The modules below stand in this order, a paragraph for each part of the way.
 

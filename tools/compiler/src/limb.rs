@@ -5,7 +5,7 @@
 //! different children are a pair if their bones are alike. Names weigh in, so that an unnamed skeleton is found by its
 //! shape and a named one in a stiff pose by its words.
 
-use motiondb::skeleton::Side;
+use motiondb::body::Side;
 
 use crate::joint_names::{self, Part};
 use crate::shape::Shape;

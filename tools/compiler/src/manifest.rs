@@ -38,8 +38,8 @@ mod table;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use motiondb::source_text::{Invalid, SourceText};
-use motiondb::velocity_hull::Construction;
+use motiondb::files::{Invalid, SourceText};
+use motiondb::velocity_sets::velocity_hull::Construction;
 use serde::Deserialize;
 use toml::Spanned;
 

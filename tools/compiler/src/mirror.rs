@@ -6,9 +6,8 @@
 use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
-use motiondb::motion_db::PHASE_COUNT;
-use motiondb::phase_map::PhaseMap;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::motion::{PHASE_COUNT, PhaseMap};
 
 use crate::arc::Rates;
 use crate::cycle::GaitCycle;

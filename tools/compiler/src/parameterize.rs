@@ -8,8 +8,8 @@
 use std::f64::consts::PI;
 
 use glam::DQuat;
-use motiondb::motion_db::MotionExample;
-use motiondb::remark::{Kind, Remark};
+use motiondb::motion::MotionExample;
+use motiondb::motion::remark::{Kind, Remark};
 
 use crate::arc::{Rates, rotation};
 use crate::cycle::{GaitCycle, NamedCycle};

@@ -16,7 +16,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DQuat, DVec3};
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
 
 use crate::human_clip::{HumanBody, HumanClip, HumanPose};
 

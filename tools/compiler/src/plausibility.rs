@@ -6,9 +6,9 @@
 //! root less. Of a body: its size, its bones, and whether it stands.
 
 use glam::DVec2;
-use motiondb::median::median;
-use motiondb::remark::{Kind, Remark};
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
+use motiondb::motion::remark::{Kind, Remark};
+use motiondb::statistics::median;
 
 use crate::axis::Axis;
 use crate::error::Refusal;

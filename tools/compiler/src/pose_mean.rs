@@ -8,7 +8,7 @@
 //! and may be negative (Catmull–Rom).
 
 use glam::{DQuat, DVec3};
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
 
 use crate::human_clip::{HumanBody, HumanJoints, HumanPose};
 use crate::leg_ik::place_ankle;

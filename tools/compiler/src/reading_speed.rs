@@ -7,7 +7,7 @@
 use std::hint::black_box;
 use std::path::Path;
 
-use motiondb::median;
+use motiondb::statistics;
 
 use crate::error::ImportError;
 use crate::{bvh, quiet_unwind};
@@ -37,7 +37,7 @@ pub fn race(file: &Path, bytes: &[u8], times: usize, clock: &dyn Fn() -> f64) ->
         ours_s.push(seconds(clock, || drop(black_box(bvh::read(file, bytes)))));
         alone_s.push(seconds(clock, || drop(black_box(bvh_anim::from_bytes(digestible)))));
     }
-    let median = |times_s: Vec<f64>| median::median(times_s).unwrap_or(f64::NAN);
+    let median = |times_s: Vec<f64>| statistics::median(times_s).unwrap_or(f64::NAN);
     Ok(Race { ours_s: median(ours_s), alone_s: median(alone_s) })
 }
 

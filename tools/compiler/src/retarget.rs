@@ -6,8 +6,8 @@
 //! where the source puts them. At last the body is moved down or up so that its soles stand on z = 0.
 
 use glam::{DQuat, DVec2, DVec3};
-use motiondb::motion_db::SourceRecord;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::motion::SourceRecord;
 
 use crate::anchors::{Anchor, anchors};
 use crate::calibration::{Tracks, calibrated};

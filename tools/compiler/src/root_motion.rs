@@ -6,7 +6,7 @@
 //! tread on the spot get the ground speed at which their stance feet stand still. World frame, metres, radians, Z up.
 
 use glam::{DQuat, DVec2, DVec3};
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
 
 use crate::human_clip::{HumanBody, HumanClip, HumanJoints, HumanPose};
 use crate::leg_ik;

@@ -1,6 +1,6 @@
 //! GaitCycles → the database's flat rows, every rotation in its joint's hemisphere, so that a blend is a weighted sum.
 
-use motiondb::motion_db::Rows;
+use motiondb::motion::Rows;
 
 use crate::cycle::GaitCycle;
 use crate::root_motion::align_to;

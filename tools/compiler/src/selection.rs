@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 use std::num::NonZeroUsize;
 
 use glam::DVec3;
-use motiondb::motion_db::SourceRecord;
-use motiondb::remark::Kind;
+use motiondb::motion::SourceRecord;
+use motiondb::motion::remark::Kind;
 
 use crate::analysis::{Analyzed, LeftOut, Motion, SteadyWindow};
 use crate::arc::Rates;
@@ -198,8 +198,8 @@ fn ends(places: &[DVec3]) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use motiondb::motion_db::{MotionDb, MotionExample};
-    use motiondb::remark::Remark;
+    use motiondb::motion::remark::Remark;
+    use motiondb::motion::{MotionDb, MotionExample};
 
     use super::*;
     use crate::compile::{Options, compile};

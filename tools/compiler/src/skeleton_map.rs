@@ -6,7 +6,7 @@
 //! come from names unless toes and knees belie them; without names from where the toes point. A body is human when its
 //! trunk stands over its legs (a quadruped's does not) and its way does not lie along its own length.
 
-use motiondb::skeleton::{JOINT_COUNT, Joint, Side};
+use motiondb::body::{JOINT_COUNT, Joint, Side};
 
 use crate::body_plan::{self, TOE_DISTANCE, farthest, middle};
 use crate::error::{Refusal, Setting};

@@ -7,7 +7,7 @@
 //! joints, which do not depend on that estimate.
 
 use glam::{DQuat, DVec3};
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
 
 use crate::calibration::{Tracks, flat_frames};
 

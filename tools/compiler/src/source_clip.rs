@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use glam::{DQuat, DVec3};
-use motiondb::remark::Remark;
+use motiondb::motion::remark::Remark;
 
 use crate::axis::Axis;
 

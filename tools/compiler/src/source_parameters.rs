@@ -5,7 +5,7 @@
 //! feet (`tread.rs`).
 
 use glam::DVec2;
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
 
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;

@@ -216,7 +216,7 @@ impl Spread {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use motiondb::skeleton::Side;
+    use motiondb::body::Side;
 
     const STEP_FRAMES: f64 = 15.0;
 

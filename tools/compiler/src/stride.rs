@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
 
 use glam::{DQuat, DVec2};
-use motiondb::skeleton::Side;
+use motiondb::body::Side;
 
 use crate::arc::{Arc, RootSample};
 use crate::human_clip::HumanJoints;

@@ -7,7 +7,7 @@
 //! taken back, since their mean is right. Frames of the clip.
 
 use glam::{DQuat, DVec3};
-use motiondb::skeleton::{JOINT_COUNT, Side};
+use motiondb::body::{JOINT_COUNT, Side};
 
 use crate::stride::{BodyTrack, Landmark, Stride};
 

@@ -4,7 +4,7 @@
 //! those of the steady part that an example is made of. Seconds from the file's first frame, so that they compare with
 //! labels that others made on the same file.
 
-use motiondb::motion_db::SourceRecord;
+use motiondb::motion::SourceRecord;
 use rayon::prelude::*;
 use serde::Serialize;
 

@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DQuat, DVec2, DVec3};
-use motiondb::motion_db::SourceRecord;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::motion::SourceRecord;
 
 use crate::arc::{Arc, Rates, rotation};
 use crate::cycle::{GaitCycle, mean_stride};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
 
 use crate::axis::Axis;
 use crate::error::{Refusal, Setting};

@@ -1,12 +1,11 @@
 //! The body that a database's examples share.
 //!
 //! One performer keeps his proportions; of several the median is taken, bone by bone, left and right alike so that
-//! mirrored cycles fit. Rest pose and frames as in [`motiondb::skeleton`]; metres.
+//! mirrored cycles fit. Rest pose and frames as in [`motiondb::body::Skeleton`]; metres.
 
 use glam::{DVec3, Vec3};
-use motiondb::joint_ranges::JOINT_RANGES_DEG;
-use motiondb::median::median;
-use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
+use motiondb::body::{Foot, JOINT_COUNT, JOINT_RANGES_DEG, Joint, Skeleton};
+use motiondb::statistics::median;
 
 use crate::anthropometry::SEGMENT_RADII_PER_STATURE;
 use crate::cycle::GaitCycle;

@@ -17,8 +17,8 @@
 use std::ops::Range;
 
 use glam::DVec2;
-use motiondb::median::median;
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
+use motiondb::statistics::median;
 
 use crate::contacts::runs;
 use crate::skeleton_map::Roles;

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use motiondb::motion_db::SourceRecord;
+use motiondb::motion::SourceRecord;
 
 use crate::human_clip::HumanClip;
 

@@ -3,8 +3,8 @@
 
 use glam::Vec3;
 use motiondb::blend_space::BlendSpace;
-use motiondb::parameters::Parameters;
-use motiondb::triangulation::build;
+use motiondb::blend_space::triangulation::build;
+use motiondb::motion::Parameters;
 
 /// The simplices over the `parameters` of examples; of twins the one with the fewest `flaws` is the corner, not the
 /// first.

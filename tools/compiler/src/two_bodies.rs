@@ -3,7 +3,7 @@
 //! Where the hierarchy first forks, the branches of one person's body are legs and a trunk, none of which is a body by
 //! itself; the branches of a duet are.
 
-use motiondb::skeleton::JOINT_COUNT;
+use motiondb::body::JOINT_COUNT;
 
 use crate::error::Refusal;
 use crate::skeleton_map::find_by_names;

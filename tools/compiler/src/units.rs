@@ -5,7 +5,7 @@
 //! person's.
 
 use glam::{DQuat, DVec3};
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
 
 use crate::axis::Axis;
 use crate::skeleton_map::Roles;

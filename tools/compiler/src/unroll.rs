@@ -5,8 +5,8 @@
 //! frame.
 
 use glam::{DQuat, DVec3};
-use motiondb::median::median;
-use motiondb::skeleton::JOINT_COUNT;
+use motiondb::body::JOINT_COUNT;
+use motiondb::statistics::median;
 
 use crate::arc::rotation;
 use crate::human_clip::{HumanBody, HumanPose};

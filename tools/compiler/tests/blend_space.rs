@@ -2,10 +2,9 @@
 //! and the shares follow them without a jump.
 
 use glam::Vec3;
-use motiondb::blend_space::{BlendSpace, Shares};
-use motiondb::locator::Locator;
-use motiondb::parameters::Parameters;
-use motiondb::triangulation::build;
+use motiondb::blend_space::triangulation::build;
+use motiondb::blend_space::{BlendSpace, Locator, Shares};
+use motiondb::motion::Parameters;
 use proptest::prelude::*;
 
 struct Set {

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use motiondb::motion_db::{MotionDb, MotionExample};
+use motiondb::motion::{MotionDb, MotionExample};
 use motiondb_compiler::compile::compile_files;
 
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");

@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use motiondb::correspondence::{Alike, THRESHOLD_RATIO, table};
-use motiondb::motion_db::MotionDb;
-use motiondb::pose_distance::distances_m;
+use motiondb::motion::{Alike, MotionDb, THRESHOLD_RATIO, distances_m, table};
 use motiondb_compiler::compile::compile_manifest;
 use motiondb_compiler::import::clip_files;
 use motiondb_compiler::manifest::Manifest;
@@ -44,7 +42,7 @@ fn every_table_is_monotone_cyclic_and_serves_every_step_of_both() {
 fn the_way_back_has_the_same_pairs() {
     let db = bundled();
     for ([from, to], table) in tables(&db).filter(|([from, to], _)| from < to) {
-        let mut back = motiondb::correspondence::table(&db, to, from);
+        let mut back = motiondb::motion::table(&db, to, from);
         back.iter_mut().for_each(|alike| alike.times_s.reverse());
         back.sort_by(|a, b| a.times_s[0].total_cmp(&b.times_s[0]));
         assert_eq!(back, table);

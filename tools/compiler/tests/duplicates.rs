@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use motiondb::motion_db::MotionDb;
-use motiondb::remark::Kind;
+use motiondb::motion::MotionDb;
+use motiondb::motion::remark::Kind;
 use motiondb_compiler::compile::compile_manifest;
 use motiondb_compiler::duplicates::pairs;
 use motiondb_compiler::human_clip::HumanClip;

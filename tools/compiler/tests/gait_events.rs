@@ -8,8 +8,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use motiondb::motion_db::PHASE_COUNT;
-use motiondb::phase_map::PhaseMap;
+use motiondb::motion::{PHASE_COUNT, PhaseMap};
 use motiondb_compiler::cycle::{GaitCycle, mean_stride};
 use motiondb_compiler::gait::Gait;
 use motiondb_compiler::human_clip::HumanClip;

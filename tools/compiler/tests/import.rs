@@ -8,8 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use motiondb::remark::Kind;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::motion::remark::Kind;
 use motiondb_compiler::error::Refusal;
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import::{Import, clip_files, import, import_bytes};

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motiondb::motion_db::{MotionDb, MotionExample};
-use motiondb::source_text::{Invalid, SourceText};
+use motiondb::files::{Invalid, SourceText};
+use motiondb::motion::{MotionDb, MotionExample};
 use motiondb_compiler::compile::{Compiled, compile_manifest};
 use motiondb_compiler::compile_error::CompileError;
 use motiondb_compiler::manifest::Manifest;
@@ -155,7 +155,7 @@ fn the_manifest_decides_about_mirrors_m_sp_and_the_body() {
     assert_eq!(db.examples[chosen].name, "walk_180");
     let (idle, walk) = (example(&db, "idle"), example(&db, "walk_180"));
     assert!((idle.phase_map.period_s - walk.phase_map.period_s).abs() < 1e-6, "standing takes m_sp's period");
-    let shank_m = |db: &MotionDb| db.skeleton.offsets_m[motiondb::skeleton::Joint::LeftFoot.index()].length();
+    let shank_m = |db: &MotionDb| db.skeleton.offsets_m[motiondb::body::Joint::LeftFoot.index()].length();
     let ratio = shank_m(&db) / shank_m(&compiled("unchosen", ""));
     assert!((ratio - 1.1).abs() < 0.01, "{ratio}");
 }
@@ -232,7 +232,7 @@ fn the_schema_for_editors_knows_the_keys_that_are_read() {
     let table = &schema["properties"]["clips"]["items"]["properties"];
     check(table, "[[clips]]\npath = 'walk_110.bvh'\nunknown = 1\n");
     let roles: Vec<&String> = table["joints"]["properties"].as_object().unwrap().keys().collect();
-    let mut joints = motiondb::skeleton::Joint::ALL.map(motiondb::skeleton::Joint::name);
+    let mut joints = motiondb::body::Joint::ALL.map(motiondb::body::Joint::name);
     joints.sort_unstable();
     assert_eq!(roles, joints);
 }

@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
-use motiondb::pose::Pose;
+use motiondb::body::Pose;
+use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::validate::validate;
 use motiondb_compiler::compile::compile_files;
 
@@ -226,5 +226,5 @@ fn folder_order_and_threads_leave_every_byte_as_it_is() {
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let (here, there) = (compiled(&files), one_thread.install(|| compiled(&copies)));
     std::fs::remove_dir_all(&folder).unwrap();
-    assert!(motiondb::file::to_bytes(&here) == motiondb::file::to_bytes(&there));
+    assert!(motiondb::files::database_file::to_bytes(&here) == motiondb::files::database_file::to_bytes(&there));
 }

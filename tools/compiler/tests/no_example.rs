@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use motiondb::remark::Weight;
+use motiondb::motion::remark::Weight;
 use motiondb_compiler::compile::compile_files;
 
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use motiondb::motion_db::{MotionExample, PHASE_COUNT};
+use motiondb::motion::{MotionExample, PHASE_COUNT};
 use motiondb_compiler::compile::compile_files;
 
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use motiondb::motion_db::MotionDb;
-use motiondb::velocity_hull::{Construction, is_turning, turning_point_mps};
+use motiondb::motion::MotionDb;
+use motiondb::velocity_sets::velocity_hull::{Construction, is_turning, turning_point_mps};
 use motiondb_compiler::compile::compile_manifest;
 use motiondb_compiler::import::clip_files;
 use motiondb_compiler::manifest::Manifest;
@@ -40,7 +40,7 @@ fn by_the_papers_construction_its_own_recordings_have_one_set_with_seven_sharp_t
     let sets = &paper.velocity_hull;
     assert_eq!((sets.turning_mps.len(), sets.sharp_turn_edges_mps.len()), (5, 7));
     for corner in &sets.turning_mps {
-        let spans = |example: &&motiondb::motion_db::MotionExample| {
+        let spans = |example: &&motiondb::motion::MotionExample| {
             is_turning(&example.parameters) && turning_point_mps(&example.parameters) == *corner
         };
         assert!(paper.examples.iter().any(|example| spans(&example)), "{corner} is no example");

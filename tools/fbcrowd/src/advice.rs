@@ -1,6 +1,6 @@
 //! What to do after a compilation, in the order of what it would gain.
 
-use motiondb::remark::Kind;
+use motiondb::motion::remark::Kind;
 
 use crate::compile_report::CompileReport;
 use crate::compile_text::title;

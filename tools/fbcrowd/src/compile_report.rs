@@ -5,10 +5,10 @@
 
 use std::path::Path;
 
-use motiondb::coverage::{self, ThinPlace};
-use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
-use motiondb::quality::{self, ExampleQuality, Finding};
-use motiondb::remark::{self, Kind, Weight};
+use motiondb::motion::remark::{self, Kind, Weight};
+use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
+use motiondb::quality::coverage::{self, ThinPlace};
+use motiondb::quality::example_quality::{self, ExampleQuality, Finding};
 use motiondb_compiler::refused::Refused;
 use serde::Serialize;
 
@@ -84,8 +84,8 @@ impl CompileReport {
             mirror_count: db.examples.iter().filter(|example| example.mirrored).count(),
             simplex_count: db.blend_space.simplices().filter(|corners| corners.len() > 1).count(),
             refused: refused.into_iter().map(Reason::from).collect(),
-            quality: quality::quality(db),
-            findings: quality::lint(db),
+            quality: example_quality::quality(db),
+            findings: example_quality::lint(db),
             coverage: coverage::coverage(db),
             stages,
             ..Self::default()

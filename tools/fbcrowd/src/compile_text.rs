@@ -4,8 +4,8 @@
 //! A folder may hold a hundred clips and a file thousands: sentences that differ in one number are told once, and long
 //! lists end early (`--json` has all).
 
-use motiondb::motion_db::SourceRecord;
-use motiondb::remark::Weight;
+use motiondb::motion::SourceRecord;
+use motiondb::motion::remark::Weight;
 
 use crate::compile_report::{CompileReport, Reason};
 use crate::example_table;

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use motiondb::velocity_hull::Construction;
+use motiondb::velocity_sets::velocity_hull::Construction;
 use motiondb_compiler::compile::{self, Compiled};
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::manifest::Manifest;

@@ -2,10 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use fbcrowd_render::plots::database::pose_distances::pose_distances_between;
+use fbcrowd_render::plots::database::pose_distances_between;
 use fbcrowd_render::raster::png_frame;
-use motiondb::correspondence::table;
-use motiondb::motion_db::MotionDb;
+use motiondb::motion::{MotionDb, table};
 use motiondb_compiler::near_names::nearest_first;
 use serde::Serialize;
 

@@ -1,7 +1,7 @@
 //! The recorded examples of a compilation, worst first: what each does, and how good its motion is. `!` marks figures
-//! beyond their threshold ([`motiondb::quality`]).
+//! beyond their threshold ([`motiondb::quality::example_quality`]).
 
-use motiondb::quality::ExampleQuality;
+use motiondb::quality::example_quality::ExampleQuality;
 
 use crate::compile_report::{CompileReport, Example};
 

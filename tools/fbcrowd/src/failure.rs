@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
-use motiondb::motion_db::SourceRecord;
-use motiondb::source_text::Invalid;
+use motiondb::files::Invalid;
+use motiondb::motion::SourceRecord;
 use motiondb_compiler::compile_error::CompileError;
 use motiondb_compiler::manifest::error::ManifestError;
 use motiondb_compiler::refused::Refused;
@@ -100,8 +100,8 @@ fn shown(text: &str) -> String {
     text.chars().map(blotted).collect()
 }
 
-impl From<motiondb::file::FileError> for Failure {
-    fn from(error: motiondb::file::FileError) -> Self {
+impl From<motiondb::files::database_file::FileError> for Failure {
+    fn from(error: motiondb::files::database_file::FileError) -> Self {
         Self::bad(error.to_string())
     }
 }

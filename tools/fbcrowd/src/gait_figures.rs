@@ -1,9 +1,8 @@
 //! Figures of one example as gait science has them: cadence, stride, stance, double support, and the angles of a leg.
 
 use clipgen::reference::{LegFlexion, published_walk};
-use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
-use motiondb::pose::Joints;
-use motiondb::skeleton::{Joint, Side};
+use motiondb::body::{Joint, Joints, Side};
+use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT};
 use serde::Serialize;
 
 /// Adults of 18–29 years, their means ±1 SD: who, speed m/s, cadence steps/min, stride m, double support.

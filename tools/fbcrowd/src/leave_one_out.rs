@@ -15,12 +15,11 @@
 //! off, the hands, count most; the median of all RMSE_j says how far off a joint usually is. Mirrored examples are not
 //! asked for themselves: mirrors count once.
 
-use fbcrowd_sim::synthesis::blending::mix::Mix;
-use motiondb::coverage::{locate_inside, locator};
-use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
-use motiondb::pose::Pose;
-use motiondb::skeleton::{JOINT_COUNT, Joint, Skeleton};
-use motiondb::triangulation;
+use fbcrowd_sim::synthesis::blending::Mix;
+use motiondb::blend_space::triangulation;
+use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
+use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT, Rows};
+use motiondb::quality::coverage::{locate_inside, locator};
 use serde::Serialize;
 
 use crate::statistics::{median, share};

@@ -7,8 +7,7 @@
 
 use std::path::{Path, PathBuf};
 
-use motiondb::motion_db::{MotionDb, MotionExample};
-use motiondb::parameters::Parameters;
+use motiondb::motion::{MotionDb, MotionExample, Parameters};
 use motiondb_compiler::compile::{Options, compile};
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;

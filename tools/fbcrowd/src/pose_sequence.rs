@@ -11,9 +11,8 @@
 //! degrees. The bones from the pelvis to its three children cannot turn against it and are left out.
 
 use glam::Vec3;
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::pose::Joints;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint, Joints};
+use motiondb::motion::{MotionDb, PHASE_COUNT};
 
 /// Bones that turn against the pelvis.
 const BONES: usize = JOINT_COUNT - 4;

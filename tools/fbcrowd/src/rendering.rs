@@ -5,10 +5,9 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 use fbcrowd_render::error::RenderError;
-use fbcrowd_render::plots::crowd::trajectories::trajectories;
+use fbcrowd_render::plots::crowd::trajectories;
 use fbcrowd_render::raster::png_frame;
-use fbcrowd_render::top_view::playback::read_tracks;
-use fbcrowd_render::top_view::sequence::{SequenceOptions, render_sequence};
+use fbcrowd_render::top_view::{SequenceOptions, read_tracks, render_sequence};
 use fbcrowd_sim::recording::Recording;
 
 use crate::failure::Failure;

@@ -1,9 +1,9 @@
 //! What `fbcrowd inspect` says: the stable JSON (field names carry their units) and the tables for people.
 
 use glam::Vec2;
-use motiondb::coverage::{self, ThinPlace};
-use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
-use motiondb::velocity_hull::{Construction, VelocityHull};
+use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
+use motiondb::quality::coverage::{self, ThinPlace};
+use motiondb::velocity_sets::velocity_hull::{Construction, VelocityHull};
 use motiondb_compiler::refused::Refused;
 use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 use serde::Serialize;

@@ -4,17 +4,15 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use fbcrowd_sim::planning::planner::Planner;
-use fbcrowd_sim::recording::frame::AgentFrame;
-use fbcrowd_sim::recording::{Header, Recorder};
-use fbcrowd_sim::route::blocked_paths::{BlockedWays, blocked_ways};
-use fbcrowd_sim::scenario::Scenario;
-use fbcrowd_sim::scenario::error::ScenarioError;
+use fbcrowd_sim::planning::Planner;
+use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
+use fbcrowd_sim::route::{BlockedWays, blocked_ways};
+use fbcrowd_sim::scenario::{Scenario, ScenarioError};
 use fbcrowd_sim::simulation::{Simulation, Stage};
-use fbcrowd_sim::synthesis::hybrid::switch_points::Hybrid;
+use fbcrowd_sim::synthesis::hybrid::Hybrid;
 use fbcrowd_sim::synthesis::library::augmented_database;
-use motiondb::coverage;
-use motiondb::motion_db::MotionDb;
+use motiondb::motion::MotionDb;
+use motiondb::quality::coverage;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -76,7 +74,7 @@ pub(crate) fn simulate(
     check_horizon(simulation.database(), &scenario)?;
     let steps = (scenario.duration_s / scenario.dt_s).round() as usize;
     let header = Header::new(simulation.database(), database_checksum, scenario);
-    let bad = |error: fbcrowd_sim::recording::error::RecordingError| Failure::bad(error.to_string());
+    let bad = |error: fbcrowd_sim::recording::RecordingError| Failure::bad(error.to_string());
     let mut recorder = Recorder::create(recording, &header).map_err(bad)?;
     recorder.push(simulation.frames()).map_err(bad)?;
     let mut stopwatch = Stopwatch::default();

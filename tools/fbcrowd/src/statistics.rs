@@ -1,8 +1,8 @@
 //! Figures of many figures: the median, mean and spread, and the share of which something holds.
 
-/// [`motiondb::median`] of figures in single precision.
+/// [`motiondb::statistics`] of figures in single precision.
 pub(crate) fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
-    motiondb::median::median(values.map(f64::from)).map(|middle| middle as f32)
+    motiondb::statistics::median(values.map(f64::from)).map(|middle| middle as f32)
 }
 
 /// Mean and standard deviation of a sample.

@@ -1,7 +1,7 @@
 //! What half-planes leave of a convex polygon of velocities (Sutherland, Hodgman 1974): the set in which the paper's
 //! Eq. 14 looks for its velocity, as a shape to be filled. World axes, m/s.
 
-use fbcrowd_sim::planning::orca::half_plane::HalfPlane;
+use fbcrowd_sim::planning::orca::HalfPlane;
 use glam::Vec2;
 
 /// Cuts a convex polygon by each half-plane in turn; no corner is left where nothing is permitted.
@@ -30,7 +30,7 @@ fn cut(corners_mps: &[Vec2], half_plane: &HalfPlane) -> Vec<Vec2> {
 
 #[cfg(test)]
 mod tests {
-    use fbcrowd_sim::planning::orca::half_plane::Source;
+    use fbcrowd_sim::planning::orca::Source;
 
     use super::*;
 

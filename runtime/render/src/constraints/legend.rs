@@ -1,9 +1,8 @@
 //! What stands beside a velocity space: what its colours mean, and the step in numbers.
 
-use fbcrowd_sim::planning::orca::half_plane::{HalfPlane, Source};
-use fbcrowd_sim::planning::plan::VelocitySet;
-use fbcrowd_sim::planning::planner::Planner;
-use fbcrowd_sim::synthesis::hybrid::mode::Mode;
+use fbcrowd_sim::planning::orca::{HalfPlane, Source};
+use fbcrowd_sim::planning::{Planner, VelocitySet};
+use fbcrowd_sim::synthesis::hybrid::Mode;
 use glam::Vec2;
 
 use crate::constraints::overlay_constraints::Planned;

@@ -6,6 +6,8 @@
 
 pub(crate) mod feasible_region;
 pub(crate) mod legend;
-pub mod overlay_constraints;
+pub(crate) mod overlay_constraints;
 pub(crate) mod scene_marks;
 pub(crate) mod velocity_panel;
+
+pub use overlay_constraints::ConstraintOverlay;

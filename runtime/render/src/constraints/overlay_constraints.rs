@@ -6,10 +6,8 @@
 //! at the left; panels (`velocity_panel.rs`) follow to its right, one an agent. In the last frame, from which no
 //! step leads on, the step that led there is shown.
 
-use fbcrowd_sim::planning::explanation::Reasons;
-use fbcrowd_sim::planning::planner::Planner;
-use fbcrowd_sim::recording::Recording;
-use fbcrowd_sim::recording::replay::{RecordedStep, Replay};
+use fbcrowd_sim::planning::{Planner, Reasons};
+use fbcrowd_sim::recording::{RecordedStep, Recording, Replay};
 use glam::Vec2;
 use tiny_skia::{Pixmap, PixmapPaint, Transform};
 

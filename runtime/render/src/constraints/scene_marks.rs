@@ -4,11 +4,9 @@
 //! Links go to neighbours in their colours, thick where the planned velocity is bound by them, dashed where their
 //! half-plane had to yield. All is drawn where it was when the step began; world metres.
 
-use fbcrowd_sim::planning::mcn::params::StanceForm;
-use fbcrowd_sim::planning::mcn::stance;
-use fbcrowd_sim::planning::orca::half_plane::Source;
-use fbcrowd_sim::planning::plan::{Stance, StanceFoot};
-use fbcrowd_sim::planning::planner::Planner;
+use fbcrowd_sim::planning::mcn::{StanceForm, stance};
+use fbcrowd_sim::planning::orca::Source;
+use fbcrowd_sim::planning::{Planner, Stance, StanceFoot};
 use glam::Vec2;
 use tiny_skia::{LineCap, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
 

@@ -7,9 +7,8 @@
 //! pushes are arrows from the present velocity, as long as the velocity that they would add in the relaxation time, so
 //! that the driving force, drawn alike, would end at v_pref.
 
-use fbcrowd_sim::planning::orca::half_plane::{HalfPlane, Source};
-use fbcrowd_sim::planning::plan::VelocitySet;
-use fbcrowd_sim::planning::planner::Planner;
+use fbcrowd_sim::planning::orca::{HalfPlane, Source};
+use fbcrowd_sim::planning::{Planner, VelocitySet};
 use glam::Vec2;
 use tiny_skia::Pixmap;
 

@@ -3,10 +3,9 @@
 //! Bones come from forward kinematics, girths from the skeleton's `segment_radii_m`; what a capsule per bone does not
 //! give (a trunk broader than deep, a face, hair) is composed here from several. World metres, z up.
 
-use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::recording::AgentFrame;
 use glam::Vec3;
-use motiondb::pose::Joints;
-use motiondb::skeleton::{Joint, Side, Skeleton};
+use motiondb::body::{Joint, Joints, Side, Skeleton};
 
 use crate::raster::palette::{Look, Rgb, SHOE};
 
@@ -68,7 +67,7 @@ struct Body<'a> {
 }
 
 /// Appends the parts of one agent's body.
-pub fn append_parts(parts: &mut Vec<Part>, skeleton: &Skeleton, frame: &AgentFrame, look: Look, detail: Detail) {
+pub(crate) fn append_parts(parts: &mut Vec<Part>, skeleton: &Skeleton, frame: &AgentFrame, look: Look, detail: Detail) {
     let body = Body { skeleton, frame, joints: frame.pose.forward_kinematics(skeleton), look };
     if detail > Detail::Dot {
         for side in Side::BOTH {

@@ -11,7 +11,7 @@ use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
     Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, SpecificChannels, Text, Vec2, WritableImage, f16,
 };
-use motiondb::atomic_file;
+use motiondb::files::atomic_file;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use crate::error::RenderError;
@@ -35,7 +35,7 @@ const ENCODING: Encoding = Encoding {
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn write(path: &Path, pixmap: &Pixmap, frame_rate_hz: f32) -> Result<(), RenderError> {
+pub(crate) fn write(path: &Path, pixmap: &Pixmap, frame_rate_hz: f32) -> Result<(), RenderError> {
     let written = encode(pixmap, frame_rate_hz).and_then(|bytes| atomic_file::write(path, &bytes));
     written.map_err(|source| RenderError::Write { path: path.to_owned(), source })
 }

@@ -3,9 +3,14 @@
 //! Read `body` and `tapered_capsule`, which draw people, then `palette` and `text`, then `png_frame` and
 //! `exr_frame`.
 
-pub mod body;
-pub mod exr_frame;
-pub mod palette;
+pub(crate) mod body;
+pub(crate) mod exr_frame;
+pub(crate) mod palette;
 pub mod png_frame;
-pub mod tapered_capsule;
-pub mod text;
+pub(crate) mod tapered_capsule;
+pub(crate) mod text;
+
+pub use body::{Detail, Part};
+pub use palette::{Look, Rgb, decode_srgb};
+pub use tapered_capsule::{Canvas, Cone};
+pub use text::{Anchor, Typeface};

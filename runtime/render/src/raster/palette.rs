@@ -11,25 +11,25 @@ use glam::{Mat3, Vec3};
 pub type Rgb = Vec3;
 
 /// Ground: a warm light grey, on which both light and dark clothes stand out.
-pub const GROUND: Rgb = Rgb::new(0.925, 0.918, 0.902);
+pub(crate) const GROUND: Rgb = Rgb::new(0.925, 0.918, 0.902);
 /// Lines every metre.
-pub const GRID_FINE: Rgb = Rgb::new(0.885, 0.876, 0.857);
+pub(crate) const GRID_FINE: Rgb = Rgb::new(0.885, 0.876, 0.857);
 /// Lines every five metres.
-pub const GRID_COARSE: Rgb = Rgb::new(0.828, 0.816, 0.793);
+pub(crate) const GRID_COARSE: Rgb = Rgb::new(0.828, 0.816, 0.793);
 /// Tops of obstacles.
-pub const OBSTACLE: Rgb = Rgb::new(0.690, 0.678, 0.655);
+pub(crate) const OBSTACLE: Rgb = Rgb::new(0.690, 0.678, 0.655);
 /// Rims of obstacles.
-pub const OBSTACLE_RIM: Rgb = Rgb::new(0.470, 0.458, 0.440);
+pub(crate) const OBSTACLE_RIM: Rgb = Rgb::new(0.470, 0.458, 0.440);
 /// Shade: bluish, as shade under an open sky is.
-pub const SHADE: Rgb = Rgb::new(0.165, 0.175, 0.240);
+pub(crate) const SHADE: Rgb = Rgb::new(0.165, 0.175, 0.240);
 /// Writing and axes.
-pub const INK: Rgb = Rgb::new(0.200, 0.196, 0.190);
+pub(crate) const INK: Rgb = Rgb::new(0.200, 0.196, 0.190);
 /// Shoes.
-pub const SHOE: Rgb = Rgb::new(0.215, 0.205, 0.205);
+pub(crate) const SHOE: Rgb = Rgb::new(0.215, 0.205, 0.205);
 /// Plot paper.
-pub const PAPER: Rgb = Rgb::new(0.992, 0.990, 0.985);
+pub(crate) const PAPER: Rgb = Rgb::new(0.992, 0.990, 0.985);
 /// Left and right of a body: green and violet, as port and starboard would have it.
-pub const SIDES: [Rgb; 2] = [Rgb::new(0.13, 0.55, 0.30), Rgb::new(0.52, 0.27, 0.68)];
+pub(crate) const SIDES: [Rgb; 2] = [Rgb::new(0.13, 0.55, 0.30), Rgb::new(0.52, 0.27, 0.68)];
 
 /// Measures from good to bad, light enough for marks in ink to stand on.
 const HEAT: [Rgb; 3] = [Rgb::new(0.62, 0.82, 0.66), Rgb::new(0.98, 0.90, 0.60), Rgb::new(0.86, 0.36, 0.22)];
@@ -69,7 +69,7 @@ pub struct Look {
 }
 
 /// The look of an agent by its index.
-pub fn look(agent: usize) -> Look {
+pub(crate) fn look(agent: usize) -> Look {
     let hue_rad = agent_hue_rad(agent);
     let lightness = LIGHTNESS[agent % LIGHTNESS.len()];
     let [skin, hair] = SKIN_AND_HAIR[scramble(agent as u32) as usize % SKIN_AND_HAIR.len()];
@@ -82,7 +82,7 @@ pub fn look(agent: usize) -> Look {
 }
 
 /// The colour of one of a series in a plot: the agents' colours, darker, to stand on white as lines.
-pub fn line_colour(index: usize) -> Rgb {
+pub(crate) fn line_colour(index: usize) -> Rgb {
     oklch(LIGHTNESS[index % LIGHTNESS.len()] - 0.06, CHROMA, agent_hue_rad(index))
 }
 
@@ -92,7 +92,7 @@ fn agent_hue_rad(agent: usize) -> f32 {
 }
 
 /// A measure's colour at a share from 0, good, to 1, bad: pale green over pale yellow to orange red.
-pub fn heat(share: f32) -> Rgb {
+pub(crate) fn heat(share: f32) -> Rgb {
     let share = 2.0 * share.clamp(0.0, 1.0);
     if share < 1.0 { HEAT[0].lerp(HEAT[1], share) } else { HEAT[1].lerp(HEAT[2], share - 1.0) }
 }
@@ -106,7 +106,7 @@ fn scramble(index: u32) -> u32 {
 }
 
 /// `OKLCh` to sRGB, with the greatest chroma up to the one asked for that sRGB can show.
-pub fn oklch(lightness: f32, chroma: f32, hue_rad: f32) -> Rgb {
+pub(crate) fn oklch(lightness: f32, chroma: f32, hue_rad: f32) -> Rgb {
     let (sin, cos) = libm::sincosf(hue_rad);
     let linear_at = |chroma: f32| oklab_to_linear(Vec3::new(lightness, chroma * cos, chroma * sin));
     let in_gamut = |linear: &Vec3| linear.min_element() >= 0.0 && linear.max_element() <= 1.0;
@@ -134,7 +134,7 @@ fn oklab_to_linear(lab: Vec3) -> Vec3 {
 }
 
 /// The transfer function of sRGB (IEC 61966-2-1), linear light to code value.
-pub fn encode_srgb(linear: f32) -> f32 {
+pub(crate) fn encode_srgb(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055 }
 }
 
@@ -144,7 +144,7 @@ pub fn decode_srgb(code: f32) -> f32 {
 }
 
 /// Eight-bit code values.
-pub fn to_bytes(colour: Rgb) -> [u8; 3] {
+pub(crate) fn to_bytes(colour: Rgb) -> [u8; 3] {
     (colour.clamp(Vec3::ZERO, Vec3::ONE) * 255.0 + 0.5).to_array().map(|value| value as u8)
 }
 

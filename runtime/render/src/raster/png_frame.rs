@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use motiondb::atomic_file;
+use motiondb::files::atomic_file;
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 use tiny_skia::Pixmap;
 

@@ -95,7 +95,7 @@ fn paint_pixel(pixel: &mut Pixel, below_px: &mut f32, surface: &Surface, distanc
 }
 
 /// Adds a cone's outline to a mask of shade, as the maximum of both, with an edge that is `softness_px` wide.
-pub fn shade(mask: &mut [u8], [width, height]: [u32; 2], cone: &Cone, softness_px: f32) {
+pub(crate) fn shade(mask: &mut [u8], [width, height]: [u32; 2], cone: &Cone, softness_px: f32) {
     let field = Field::new(cone);
     let window = Window::around(cone, softness_px, width, height);
     for y in window.rows() {

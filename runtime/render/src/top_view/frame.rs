@@ -4,8 +4,7 @@
 //! [`TopView::new`] does once what all frames of a sequence share; [`TopView::draw`] depends on time and bodies alone,
 //! so that frames can be drawn in any order and on any thread.
 
-use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::{Vec2, Vec3};
 use tiny_skia::Pixmap;
 

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use crate::error::RenderError;
 
 /// Frames are numbered from here, as film tools expect.
-pub const FIRST_FRAME: u32 = 1001;
+pub(crate) const FIRST_FRAME: u32 = 1001;
 
 /// Frame numbers as a user wrote them.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,15 +4,13 @@
 //! World: x right, y up in the picture. Pixels: x right, y down, (0, 0) the picture's upper left corner.
 
 use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::scenario::View;
-use fbcrowd_sim::scenario::check::Fault;
-use fbcrowd_sim::scenario::ranges::check_view;
+use fbcrowd_sim::scenario::{Fault, View, check_view};
 use glam::Vec2;
 
 use crate::error::RenderError;
 
 /// Largest picture side, pixels: 16k film scans; beyond it a frame would take gigabytes.
-pub const MAX_SIDE_PX: u32 = 16_384;
+pub(crate) const MAX_SIDE_PX: u32 = 16_384;
 /// Room around every fitted position: half an arm span, so that no body is cut at the picture's edge, m.
 const BODY_MARGIN_M: f32 = 0.7;
 /// Further room, share of the fitted width.
@@ -57,7 +55,7 @@ impl Framing {
 ///
 /// # Errors
 /// Where the view is out of range: that of a recording that was opened is not.
-pub fn frame_recording(header: &Header, positions_m: &[Vec2]) -> Result<Framing, RenderError> {
+pub(crate) fn frame_recording(header: &Header, positions_m: &[Vec2]) -> Result<Framing, RenderError> {
     let view = &header.scenario.view;
     check_view(view).map_err(|Fault { message, help, .. }| RenderError::View { message, help })?;
     let agents = &header.scenario.agents;
@@ -69,7 +67,7 @@ pub fn frame_recording(header: &Header, positions_m: &[Vec2]) -> Result<Framing,
 }
 
 /// Least and greatest corner; a point at the origin where there is nothing.
-pub fn bounds_m(points: impl Iterator<Item = Vec2>) -> [Vec2; 2] {
+pub(crate) fn bounds_m(points: impl Iterator<Item = Vec2>) -> [Vec2; 2] {
     points
         .filter(|point| point.is_finite())
         .map(|point| [point, point])

@@ -30,7 +30,7 @@ const GOAL_OPACITY: [f32; 2] = [0.55, 0.22];
 const GOAL_SCALE_PX_M: f32 = 40.0;
 
 /// The still part of every frame.
-pub fn background(header: &Header, framing: &Framing) -> Pixmap {
+pub(crate) fn background(header: &Header, framing: &Framing) -> Pixmap {
     let mut pixmap = Pixmap::new(framing.width_px, framing.height_px).expect("the framing's sides are checked");
     pixmap.fill(to_color(palette::GROUND, 1.0));
     draw_grid(&mut pixmap, framing);
@@ -97,14 +97,14 @@ fn draw_obstacles(pixmap: &mut Pixmap, header: &Header, framing: &Framing) {
 }
 
 /// A flat colour for tiny-skia.
-pub fn paint(colour: Rgb, opacity: f32) -> Paint<'static> {
+pub(crate) fn paint(colour: Rgb, opacity: f32) -> Paint<'static> {
     let mut paint = Paint { anti_alias: true, ..Paint::default() };
     paint.set_color(to_color(colour, opacity));
     paint
 }
 
 /// A colour for tiny-skia.
-pub fn to_color(colour: Rgb, opacity: f32) -> Color {
+pub(crate) fn to_color(colour: Rgb, opacity: f32) -> Color {
     let [red, green, blue] = palette::to_bytes(colour);
     let mut color = Color::from_rgba8(red, green, blue, u8::MAX);
     color.apply_opacity(opacity);
@@ -112,7 +112,7 @@ pub fn to_color(colour: Rgb, opacity: f32) -> Color {
 }
 
 /// Fills left, top, width, height, pixels; nothing where the rectangle is empty.
-pub fn fill_rect(pixmap: &mut Pixmap, [left, top, width, height]: [f32; 4], colour: Rgb, opacity: f32) {
+pub(crate) fn fill_rect(pixmap: &mut Pixmap, [left, top, width, height]: [f32; 4], colour: Rgb, opacity: f32) {
     if let Some(rect) = Rect::from_xywh(left, top, width, height) {
         pixmap.fill_rect(rect, &paint(colour, opacity), Transform::identity(), None);
     }

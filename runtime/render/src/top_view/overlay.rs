@@ -1,6 +1,6 @@
 //! What is written over the picture: scale bar, time stamp, agents' numbers.
 
-use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::recording::AgentFrame;
 use glam::Vec2;
 use tiny_skia::Pixmap;
 

@@ -2,11 +2,9 @@
 
 use std::f32::consts::{PI, TAU};
 
-use fbcrowd_sim::recording::Recording;
-use fbcrowd_sim::recording::error::RecordingError;
-use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::recording::{AgentFrame, Recording, RecordingError};
 use glam::Vec2;
-use motiondb::pose::{Pose, Root};
+use motiondb::body::{Pose, Root};
 use rayon::prelude::*;
 
 use crate::error::RenderError;
@@ -20,7 +18,7 @@ const SAME_FRAME_STEPS: f64 = 1e-3;
 const MAX_TRACK_POINTS: usize = 1 << 25;
 
 /// Number of pictures that a recording gives at its view's frame rate, the first at time 0.
-pub fn picture_count(recording: &Recording) -> u32 {
+pub(crate) fn picture_count(recording: &Recording) -> u32 {
     let steps = recording.frame_count().saturating_sub(1);
     let scenario = &recording.header().scenario;
     let duration_s = steps as f64 * f64::from(scenario.dt_s);
@@ -28,7 +26,7 @@ pub fn picture_count(recording: &Recording) -> u32 {
 }
 
 /// Time of a picture, counted from 0, s.
-pub fn picture_time_s(recording: &Recording, picture: u32) -> f64 {
+pub(crate) fn picture_time_s(recording: &Recording, picture: u32) -> f64 {
     f64::from(picture) / f64::from(recording.header().scenario.view.frame_rate_hz)
 }
 

@@ -70,7 +70,7 @@ struct Corner {
 }
 
 /// Draws a trail over an opaque picture.
-pub fn draw(pixmap: &mut Pixmap, framing: &Framing, tracks: &Tracks, trail: &Trail) {
+pub(crate) fn draw(pixmap: &mut Pixmap, framing: &Framing, tracks: &Tracks, trail: &Trail) {
     let corners = corners(framing, tracks, trail);
     for index in 1..corners.len() {
         let before = index.checked_sub(2).map(|before| corners[before].at_px);

@@ -7,11 +7,10 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use fbcrowd_render::constraints::overlay_constraints::ConstraintOverlay;
-use fbcrowd_render::plots::crowd::trajectories::trajectories;
+use fbcrowd_render::constraints::ConstraintOverlay;
+use fbcrowd_render::plots::crowd::trajectories;
 use fbcrowd_render::raster::png_frame;
-use fbcrowd_render::top_view::frame::TopView;
-use fbcrowd_render::top_view::playback::{read_tracks, sample};
+use fbcrowd_render::top_view::{TopView, read_tracks, sample};
 use fbcrowd_sim::recording::Recording;
 use fbcrowd_sim::scenario::View;
 use tiny_skia::Pixmap;

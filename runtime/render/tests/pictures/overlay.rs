@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use fbcrowd_render::error::RenderError;
-use fbcrowd_render::top_view::sequence::{Format, SequenceOptions, render_sequence};
-use fbcrowd_sim::planning::planner::Planner;
+use fbcrowd_render::top_view::{Format, SequenceOptions, render_sequence};
+use fbcrowd_sim::planning::Planner;
 use fbcrowd_sim::recording::Recording;
 
 use crate::sequence::options;

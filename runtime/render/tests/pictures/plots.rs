@@ -1,20 +1,13 @@
 //! Plots of a database draw whatever a valid database may hold, always alike.
 
-use fbcrowd_render::plots::database::all_plots::write_database_plots;
-use fbcrowd_render::plots::database::contact_sheet::contact_sheet;
-use fbcrowd_render::plots::database::coverage::coverage_slices;
-use fbcrowd_render::plots::database::gait_events::gait_events;
-use fbcrowd_render::plots::database::parameter_space::parameter_space;
-use fbcrowd_render::plots::database::pose_distances::pose_distances;
-use fbcrowd_render::plots::database::velocity_space::velocity_space;
+use fbcrowd_render::plots::database::{
+    contact_sheet, coverage_slices, gait_events, parameter_space, pose_distances, velocity_space, write_database_plots,
+};
 use glam::Vec2;
 use motiondb::blend_space::BlendSpace;
-use motiondb::correspondence::Correspondence;
-use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
-use motiondb::parameters::Parameters;
-use motiondb::phase_map::PhaseMap;
-use motiondb::skeleton::Skeleton;
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::body::Skeleton;
+use motiondb::motion::{Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows};
+use motiondb::velocity_sets::velocity_hull::VelocityHull;
 use tiny_skia::Pixmap;
 
 use crate::support;

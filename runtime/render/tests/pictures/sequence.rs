@@ -8,8 +8,8 @@ use std::sync::Mutex;
 
 use exr::prelude::{ReadChannels, ReadLayers, f16, read};
 use fbcrowd_render::error::RenderError;
-use fbcrowd_render::raster::palette::decode_srgb;
-use fbcrowd_render::top_view::sequence::{Format, SequenceOptions, render_sequence};
+use fbcrowd_render::raster::decode_srgb;
+use fbcrowd_render::top_view::{Format, SequenceOptions, render_sequence};
 use fbcrowd_sim::recording::Recording;
 
 use crate::support::{self, Scratch};

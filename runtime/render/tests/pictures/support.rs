@@ -3,13 +3,11 @@
 use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::recording::frame::AgentFrame;
-use fbcrowd_sim::recording::{Header, Recorder};
+use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use glam::{Quat, Vec2, Vec3};
-use motiondb::pose::{Pose, Root};
-use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::body::{Foot, JOINT_COUNT, Joint, Pose, Root, Skeleton};
+use motiondb::velocity_sets::velocity_hull::VelocityHull;
 
 /// Walking speed of every walker, m/s.
 const SPEED_MPS: f32 = 1.3;

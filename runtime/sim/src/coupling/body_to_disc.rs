@@ -2,7 +2,7 @@
 //! synthesised*, and the planner sees the foot that it stands on.
 
 use glam::Vec2;
-use motiondb::pose::Root;
+use motiondb::body::Root;
 use serde::{Deserialize, Serialize};
 
 use crate::agents::Agents;
@@ -31,17 +31,17 @@ impl Coupling {
 }
 
 /// The root of a disc that moves as planned.
-pub fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
+pub(crate) fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
     Root { position_m: root.position_m + dt_s * plan.velocity_mps, facing_rad: plan.facing_rad }
 }
 
 /// The root kept out of walls, and on its side of them, whatever the body wanted; it stood at `from` before the step.
-pub fn outside_walls(from_m: Vec2, root: Root, radius_m: f32, obstacles: &Obstacles) -> Root {
+pub(crate) fn outside_walls(from_m: Vec2, root: Root, radius_m: f32, obstacles: &Obstacles) -> Root {
     Root { position_m: obstacles.clamp_way(from_m, root.position_m, radius_m), ..root }
 }
 
 /// Hands the bodies back to the planner.
-pub fn synchronize(agents: &mut Agents, dt_s: f32) {
+pub(crate) fn synchronize(agents: &mut Agents, dt_s: f32) {
     for (index, body) in agents.bodies.iter().enumerate() {
         let moved_m: Vec2 = body.root.position_m - agents.positions_m[index];
         agents.velocities_mps[index] = body.committed_mps.unwrap_or(moved_m / dt_s);

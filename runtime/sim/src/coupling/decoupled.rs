@@ -10,13 +10,13 @@
 //! than the fastest example: a disc that is pushed about turns its direction of travel by up to 180° within a step, and
 //! a body that faced it at every instant would spin.
 
-use motiondb::pose::Root;
+use motiondb::body::Root;
 
 use crate::maths::angle::wrap_rad;
 use crate::synthesis::{Body, Motion, Synthesis};
 
 /// Lets a body follow its disc, which has moved `from` a root to where the body's root is now and faces as planned.
-pub fn follow(body: &mut Body, motion: &Motion, from: Root, dt_s: f32) -> Synthesis {
+pub(crate) fn follow(body: &mut Body, motion: &Motion, from: Root, dt_s: f32) -> Synthesis {
     let left_rad = wrap_rad(body.root.facing_rad - from.facing_rad);
     let share = (dt_s / motion.params.turn_time_s).min(1.0);
     let turn_max_rad = motion.space.turn_rate_max_rad_s * dt_s;

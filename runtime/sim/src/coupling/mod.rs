@@ -2,5 +2,7 @@
 //!
 //! Read `body_to_disc`; `decoupled` is the baseline of the paper's user study.
 
-pub mod body_to_disc;
-pub mod decoupled;
+pub(crate) mod body_to_disc;
+pub(crate) mod decoupled;
+
+pub use body_to_disc::Coupling;

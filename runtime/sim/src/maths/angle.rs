@@ -18,7 +18,7 @@ pub fn wrap_rad(angle_rad: f32) -> f32 {
 
 /// The unit vector at an angle, to rounding. Most angles are small.
 #[inline]
-pub fn direction(angle_rad: f32) -> Vec2 {
+pub(crate) fn direction(angle_rad: f32) -> Vec2 {
     if angle_rad.abs() > SMALL {
         return Vec2::from_angle(angle_rad);
     }
@@ -28,7 +28,7 @@ pub fn direction(angle_rad: f32) -> Vec2 {
 
 /// The direction of one vector as seen from another, rad: mostly a small angle.
 #[inline]
-pub fn turned_rad(from: Vec2, to: Vec2) -> f32 {
+pub(crate) fn turned_rad(from: Vec2, to: Vec2) -> f32 {
     let (across, along) = (from.perp_dot(to), from.dot(to));
     if across.abs() > 0.25 * along {
         return libm::atan2f(across, along);
@@ -42,14 +42,14 @@ pub fn turned_rad(from: Vec2, to: Vec2) -> f32 {
 
 /// A rotation about the vertical.
 #[inline]
-pub fn yaw(angle_rad: f32) -> Quat {
+pub(crate) fn yaw(angle_rad: f32) -> Quat {
     let half = direction(0.5 * angle_rad);
     Quat::from_xyzw(0.0, 0.0, half.y, half.x)
 }
 
 /// The rotation by a vector, axis × angle.
 #[inline]
-pub fn rotation(vector_rad: Vec3) -> Quat {
+pub(crate) fn rotation(vector_rad: Vec3) -> Quat {
     let square = 0.25 * vector_rad.length_squared();
     if square > SMALL {
         return Quat::from_scaled_axis(vector_rad);

@@ -4,8 +4,8 @@
 //! World and agent frame of roots; metres, seconds, radians.
 
 use glam::Vec2;
-use motiondb::parameters::Parameters;
-use motiondb::pose::{Root, RootFrame};
+use motiondb::body::{Root, RootFrame};
+use motiondb::motion::Parameters;
 
 use crate::maths::angle::{direction, wrap_rad};
 
@@ -20,7 +20,7 @@ pub fn moved(root: &Root, parameters: &Parameters, dt_s: f32) -> Root {
 }
 
 /// The frame of a root that went so from the origin, and the direction at half its turn.
-pub fn carried(parameters: &Parameters, time_s: f32) -> (RootFrame, Vec2) {
+pub(crate) fn carried(parameters: &Parameters, time_s: f32) -> (RootFrame, Vec2) {
     let half_turn_rad = 0.5 * time_s * parameters.turn_rate_rad_s;
     let half_turn = direction(half_turn_rad);
     let along_m = along_chord_m(parameters, time_s, half_turn_rad);

@@ -12,7 +12,7 @@ const POWER_MIN: f32 = -126.0;
 
 /// e^(−x) for x ≥ 0, to 3e−7 of its value; no less than 2⁻¹²⁶, also of what is no number.
 #[inline]
-pub fn decay(x: f32) -> f32 {
+pub(crate) fn decay(x: f32) -> f32 {
     let power = -x * LOG2_E;
     let power = if power > POWER_MIN { power } else { POWER_MIN };
     let shifted = power + WHOLE;
@@ -25,7 +25,7 @@ pub fn decay(x: f32) -> f32 {
 
 /// ½(x + √(x² + 4)), a soft maximum of x and 0: 1 at 0, and less than 1/|x| off the maximum elsewhere.
 #[inline]
-pub fn soft_maximum(x: f32) -> f32 {
+pub(crate) fn soft_maximum(x: f32) -> f32 {
     x.max(0.0) + 2.0 / (libm::sqrtf(x * x + 4.0) + x.abs())
 }
 

@@ -2,10 +2,15 @@
 //!
 //! Each file stands alone.
 
-pub mod angle;
-pub mod arc;
-pub mod decay;
-pub mod polygon;
-pub mod random;
-pub mod segment_distance;
+pub(crate) mod angle;
+pub(crate) mod arc;
+pub(crate) mod decay;
+pub(crate) mod polygon;
+pub(crate) mod random;
+pub(crate) mod segment_distance;
 pub(crate) mod sweep;
+
+pub use angle::wrap_rad;
+pub use arc::{moved, went};
+pub use random::SplitMix64;
+pub use segment_distance::Segment;

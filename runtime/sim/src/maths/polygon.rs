@@ -4,12 +4,12 @@
 use glam::{DVec2, Vec2};
 
 /// Shoelace formula: positive where the corners run counter-clockwise, m².
-pub fn signed_area_m2(corners_m: &[Vec2]) -> f64 {
+pub(crate) fn signed_area_m2(corners_m: &[Vec2]) -> f64 {
     0.5 * edges(corners_m).map(|[a, b]| a.perp_dot(b)).sum::<f64>()
 }
 
 /// Whether no two edges touch except neighbours at their common corner.
-pub fn is_simple(corners_m: &[Vec2]) -> bool {
+pub(crate) fn is_simple(corners_m: &[Vec2]) -> bool {
     let edges: Vec<[DVec2; 2]> = edges(corners_m).collect();
     let count = edges.len();
     (0..count).all(|i| {
@@ -22,7 +22,7 @@ pub fn is_simple(corners_m: &[Vec2]) -> bool {
 }
 
 /// Whether a point lies inside (even–odd rule; a point on an edge may be either).
-pub fn contains(corners_m: &[Vec2], point_m: Vec2) -> bool {
+pub(crate) fn contains(corners_m: &[Vec2], point_m: Vec2) -> bool {
     let point = DVec2::from(point_m);
     let crossings = edges(corners_m)
         .filter(|&[a, b]| (a.y > point.y) != (b.y > point.y) && (side(a, b, point) > 0.0) == (b.y > a.y));
@@ -30,7 +30,7 @@ pub fn contains(corners_m: &[Vec2], point_m: Vec2) -> bool {
 }
 
 /// From a point to the nearest edge, m.
-pub fn closest_distance_m(corners_m: &[Vec2], point_m: Vec2) -> f64 {
+pub(crate) fn closest_distance_m(corners_m: &[Vec2], point_m: Vec2) -> f64 {
     let point = DVec2::from(point_m);
     let distance = |[a, b]: [DVec2; 2]| {
         let share = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);

@@ -25,7 +25,7 @@ pub struct Segment {
 }
 
 /// The least distance between points of two segments.
-pub fn distance_m(a: &Segment, b: &Segment) -> f32 {
+pub(crate) fn distance_m(a: &Segment, b: &Segment) -> f32 {
     let ends = [
         b.squared_to(a.from_m),
         b.squared_to(a.to_m),

@@ -12,12 +12,12 @@ use glam::Vec2;
 /// Sectors of the half-circle: 30° each, in which a dense crowd of 2 m has at least a person in each frame or two.
 pub const SECTORS: usize = 6;
 /// Rings, and how wide each is, m.
-pub const RINGS: usize = 4;
+pub(crate) const RINGS: usize = 4;
 /// See [`RINGS`].
-pub const RING_M: f32 = 1.0;
+pub(crate) const RING_M: f32 = 1.0;
 /// Slower than this somebody waits, m/s: the speed at 2.3 people/m² (Weidmann 1993), beyond the densities that still
 /// flow freely (Fruin's level of service E begins at 1.1 to 2.2).
-pub const WAITING_MPS: f32 = 0.5;
+pub(crate) const WAITING_MPS: f32 = 0.5;
 /// Nobody farther away waits for this door, m.
 const REACH_M: f32 = 6.0;
 

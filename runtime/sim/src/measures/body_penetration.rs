@@ -11,8 +11,7 @@
 //! precision.
 
 use glam::{DVec2, Quat, Vec2, Vec3};
-use motiondb::pose::{Joints, Root};
-use motiondb::skeleton::{JOINT_COUNT, Skeleton};
+use motiondb::body::{JOINT_COUNT, Joints, Root, Skeleton};
 
 use crate::maths::segment_distance::{Segment, distance_m};
 use crate::maths::sweep::sort_along_longer_side;
@@ -204,7 +203,7 @@ fn depth_m(a: &Body, b: &Body) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use motiondb::pose::Pose;
+    use motiondb::body::Pose;
     use proptest::prelude::*;
 
     use super::*;

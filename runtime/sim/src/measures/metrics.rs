@@ -8,8 +8,7 @@
 use std::io::{self, Write};
 
 use glam::Vec2;
-use motiondb::pose::Joints;
-use motiondb::skeleton::Skeleton;
+use motiondb::body::{Joints, Skeleton};
 use serde::Serialize;
 
 use crate::measures::body_penetration::BodyPenetration;

@@ -2,13 +2,23 @@
 //! of pedestrian studies, and the table of a recording.
 
 pub mod agent_table;
-pub mod arching;
-pub mod body_penetration;
-pub mod collision_rate;
-pub mod gate;
-pub mod lanes;
-pub mod measured_section;
+pub(crate) mod arching;
+pub(crate) mod body_penetration;
+pub(crate) mod collision_rate;
+pub(crate) mod gate;
+pub(crate) mod lanes;
+pub(crate) mod measured_section;
 pub mod metrics;
-pub mod planted_slide;
-pub mod root_measures;
-pub mod wall_contact;
+pub(crate) mod planted_slide;
+pub(crate) mod root_measures;
+pub(crate) mod wall_contact;
+
+pub use arching::{SECTORS, Shape, WaitingCrowd};
+pub use body_penetration::{BodyPenetration, Penetration};
+pub use collision_rate::Collisions;
+pub use gate::Gate;
+pub use lanes::{LaneOrder, LaneWalker, lane_order};
+pub use measured_section::{MeasuredSection, Seen, weidmann_mps};
+pub use planted_slide::{PlantedSlide, Slide};
+pub use root_measures::{Mean, RootMeasures};
+pub use wall_contact::{Contacts, WallContact};

@@ -5,8 +5,7 @@
 //! differs: here the blended contact of the database's rows (≥ ½), never a foot lock's own flag.
 
 use glam::{DVec2, Vec3};
-use motiondb::pose::{Joints, Root};
-use motiondb::skeleton::Skeleton;
+use motiondb::body::{Joints, Root, Skeleton};
 
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::recording::frame::AgentFrame;

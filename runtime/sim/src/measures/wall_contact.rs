@@ -6,8 +6,7 @@
 //! axes, metres.
 
 use glam::Vec3;
-use motiondb::pose::{Joints, Root};
-use motiondb::skeleton::{Joint, Skeleton};
+use motiondb::body::{Joint, Joints, Root, Skeleton};
 
 use crate::maths::segment_distance::{Segment, distance_m};
 use crate::measures::body_penetration::bone;

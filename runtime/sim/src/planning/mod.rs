@@ -6,10 +6,16 @@
 //! `orca` holds the half-planes and programs that they share, `plan_all` plans a crowd, `explanation` shows why.
 
 pub mod baselines;
-pub mod explanation;
+pub(crate) mod explanation;
 pub mod mcn;
 pub mod orca;
-pub mod plan;
-pub mod plan_all;
-pub mod planner;
-pub mod world_view;
+pub(crate) mod plan;
+pub(crate) mod plan_all;
+pub(crate) mod planner;
+pub(crate) mod world_view;
+
+pub use explanation::Reasons;
+pub use plan::{PLANTED_CONTACT, Plan, Stance, StanceFoot, VelocitySet};
+pub use plan_all::{Memory, plan_all};
+pub use planner::{Planner, Scratch, ahead_s, plan};
+pub use world_view::World;

@@ -3,7 +3,7 @@
 //! MCN and HMS never see each other; only `step.rs` sees both.
 
 use glam::{Vec2, Vec3};
-use motiondb::planted_feet;
+use motiondb::quality::planted_feet;
 
 /// Blended contact Σ w·c from which a foot is planted.
 pub const PLANTED_CONTACT: f32 = planted_feet::PLANTED_CONTACT as f32;
@@ -53,7 +53,7 @@ pub struct StanceFoot {
     pub time_to_landing_s: f32,
 }
 
-/// Which velocity set limits a plan ([`motiondb::velocity_hull`]).
+/// Which velocity set limits a plan ([`motiondb::velocity_sets::velocity_hull`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum VelocitySet {

@@ -7,7 +7,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use motiondb::input_file;
+use motiondb::files::input_file;
 
 use crate::recording::error::RecordingError;
 

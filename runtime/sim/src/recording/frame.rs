@@ -1,8 +1,7 @@
 //! What a recording keeps of each agent and frame, in at most 200 bytes before compression.
 
 use glam::{Quat, Vec2, Vec3};
-use motiondb::pose::{Pose, Root};
-use motiondb::skeleton::JOINT_COUNT;
+use motiondb::body::{JOINT_COUNT, Pose, Root};
 
 use crate::planning::plan::VelocitySet;
 use crate::synthesis::Synthesis;

@@ -13,11 +13,17 @@
 //! Frame 0 is the start, frame k the state after k steps. The writer holds one frame and the offsets, the reader the
 //! header and the offsets.
 
-pub mod chunk;
-pub mod error;
-pub mod frame;
-pub mod packing;
-pub mod replay;
+pub(crate) mod chunk;
+pub(crate) mod error;
+pub(crate) mod frame;
+pub(crate) mod packing;
+pub(crate) mod replay;
+
+pub use chunk::{CHUNK_HEAD_BYTES, ChunkFile, Kind, write_chunk};
+pub use error::RecordingError;
+pub use frame::AgentFrame;
+pub use packing::{PACKED_BYTES, unpack};
+pub use replay::{RecordedStep, Replay};
 
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -26,16 +32,13 @@ use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use glam::Vec3;
-use motiondb::atomic_file::{self, AtomicFile};
-use motiondb::motion_db::MotionDb;
-use motiondb::skeleton::Skeleton;
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::body::Skeleton;
+use motiondb::files::atomic_file::{self, AtomicFile};
+use motiondb::motion::MotionDb;
+use motiondb::velocity_sets::velocity_hull::VelocityHull;
 use serde::{Deserialize, Serialize};
 
-use crate::recording::chunk::{CHUNK_HEAD_BYTES, ChunkFile, Kind, write_chunk};
-use crate::recording::error::RecordingError;
-use crate::recording::frame::AgentFrame;
-use crate::recording::packing::{PACKED_BYTES, pack, unpack};
+use crate::recording::packing::pack;
 use crate::scenario::Scenario;
 use crate::scenario::ranges::check_ranges;
 

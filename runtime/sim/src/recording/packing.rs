@@ -17,8 +17,7 @@
 //! cm/s at 120 frames a second, so packed by less than 0.1 cm/s.
 
 use glam::{Quat, Vec2, Vec3};
-use motiondb::pose::{Pose, Root};
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint, Pose, Root};
 
 use crate::planning::plan::VelocitySet;
 use crate::recording::frame::AgentFrame;
@@ -39,7 +38,7 @@ const CONTACT_STEPS: f32 = 65_535.0;
 const SCALAR_MAX: f32 = 1e5;
 
 /// Appends [`PACKED_BYTES`] bytes; none where a value is not finite, or beyond all scenarios.
-pub fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
+pub(crate) fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
     let scalars = scalars(frame);
     let finite = scalars.iter().all(|value| value.abs() <= SCALAR_MAX)
         && frame.contacts.iter().all(|contact| contact.is_finite())

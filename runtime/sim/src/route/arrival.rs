@@ -6,7 +6,7 @@ use crate::route::path::Progress;
 use crate::scenario::AgentSpec;
 
 /// How near, m.
-pub const ARRIVAL_M: f64 = 0.5;
+pub(crate) const ARRIVAL_M: f64 = 0.5;
 
 /// One agent on its way.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,6 +4,10 @@
 //!
 //! Read `path`, then `arrival`, then `blocked_paths`, which reports walls across the straight paths.
 
-pub mod arrival;
-pub mod blocked_paths;
-pub mod path;
+pub(crate) mod arrival;
+pub(crate) mod blocked_paths;
+pub(crate) mod path;
+
+pub use arrival::Arrival;
+pub use blocked_paths::{BlockedWays, blocked_ways};
+pub use path::{Braking, Progress, preferred_mps};

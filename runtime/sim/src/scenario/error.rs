@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-pub use motiondb::source_text::Invalid;
+pub use motiondb::files::Invalid;
 
 /// Why there is no scenario.
 #[derive(Debug, thiserror::Error)]

@@ -25,7 +25,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use glam::Vec2;
-use motiondb::source_text::SourceText;
+use motiondb::files::SourceText;
 use serde::Deserialize;
 use toml::Spanned;
 

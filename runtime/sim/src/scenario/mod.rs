@@ -2,10 +2,15 @@
 
 mod agents;
 pub mod check;
-pub mod error;
+pub(crate) mod error;
 pub mod file;
 mod point;
-pub mod ranges;
+pub(crate) mod ranges;
+
+pub use check::{Fault, Place};
+pub use error::{Invalid, ScenarioError};
+pub use file::{MotionSource, agents_of_lines, fault_of_lines, read};
+pub use ranges::check_view;
 
 use glam::Vec2;
 use serde::{Deserialize, Serialize};

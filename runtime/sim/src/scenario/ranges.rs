@@ -25,7 +25,7 @@ const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
 /// Ten turns either way.
 const FACING_DEG: RangeInclusive<f32> = -3_600.0..=3_600.0;
 /// Ten times the largest crowd that other simulators show.
-pub const AGENTS_MAX: usize = 1_000_000;
+pub(crate) const AGENTS_MAX: usize = 1_000_000;
 const GOALS_MAX: usize = 10_000;
 const OBSTACLES_MAX: usize = 10_000;
 /// No tunable of a human body comes near, in any unit.
@@ -45,7 +45,7 @@ const DEFAULT: &str = "leave it out for its default";
 ///
 /// # Errors
 /// The first number that is.
-pub fn check_ranges(scenario: &Scenario) -> Result<(), Fault> {
+pub(crate) fn check_ranges(scenario: &Scenario) -> Result<(), Fault> {
     check_name(&scenario.name)?;
     within(&Place::Duration, "duration_s", scenario.duration_s, &DURATION_S, "give the simulated time in seconds")?;
     within(&Place::Step, "dt_s", scenario.dt_s, &STEP_S, "leave it out for 1/30 s")?;

@@ -4,10 +4,8 @@
 //! changes hands where it is to. World and agent frame; metres, seconds, radians.
 
 use glam::Vec2;
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
-use motiondb::phase_map::wrapped;
-use motiondb::pose::Root;
+use motiondb::body::Root;
+use motiondb::motion::{MotionDb, Parameters, wrapped};
 
 use crate::maths::arc::moved;
 use crate::planning::plan::Plan;

@@ -24,18 +24,20 @@ pub mod blending;
 pub mod command;
 pub mod hybrid;
 pub mod library;
-pub mod params;
+pub(crate) mod params;
 pub mod pose;
 pub mod semi_procedural;
 pub(crate) mod synthesize;
 #[cfg(test)]
 pub(crate) mod tests;
-pub mod time_step;
+pub(crate) mod time_step;
+
+pub use params::{HmsParams, Modes, Transition};
+pub use time_step::TimeStep;
 
 use glam::Vec2;
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
-use motiondb::pose::{Pose, Root};
+use motiondb::body::{Pose, Root};
+use motiondb::motion::{MotionDb, Parameters};
 
 use crate::planning::plan::Stance;
 use crate::synthesis::blending::blend_space::Space;
@@ -48,7 +50,6 @@ use crate::synthesis::hybrid::inertialization::Inertia;
 use crate::synthesis::hybrid::mode::{Choice, Mode};
 use crate::synthesis::hybrid::pose_smoothing::Seen;
 use crate::synthesis::hybrid::switch_points::Hybrid;
-use crate::synthesis::params::HmsParams;
 use crate::synthesis::pose::foot_lock::FootHold;
 use crate::synthesis::pose::look_at::Gaze;
 use crate::synthesis::pose::pelvis::Descent;

@@ -5,9 +5,8 @@
 //! seconds.
 
 use glam::{Vec2, Vec3};
-use motiondb::phase_map::wrapped;
-use motiondb::pose::{Root, RootFrame};
-use motiondb::skeleton::Skeleton;
+use motiondb::body::{Root, RootFrame, Skeleton};
+use motiondb::motion::wrapped;
 
 use crate::maths::arc::went;
 use crate::planning::plan::{PLANTED_CONTACT, Stance};

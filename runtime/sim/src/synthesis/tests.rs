@@ -4,10 +4,8 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
-use motiondb::pose::Root;
-use motiondb::skeleton::Joint;
+use motiondb::body::{Joint, Root};
+use motiondb::motion::{MotionDb, Parameters};
 use proptest::prelude::*;
 
 use crate::maths::arc::went;

@@ -8,7 +8,7 @@
 //! and is 0 beyond it. World, metres, seconds.
 
 use glam::Vec2;
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::velocity_sets::velocity_hull::VelocityHull;
 
 use crate::maths::random::SplitMix64;
 use crate::params::Params;

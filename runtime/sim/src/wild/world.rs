@@ -5,8 +5,8 @@
 //! by each planner, moves it as a disc, and tells what is wrong, if anything. World, metres, seconds.
 
 use glam::{DVec2, Vec2};
-use motiondb::pose::Root;
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::body::Root;
+use motiondb::velocity_sets::velocity_hull::VelocityHull;
 
 use crate::coupling::body_to_disc::{as_planned, outside_walls};
 use crate::maths::polygon;

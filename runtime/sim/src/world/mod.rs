@@ -5,7 +5,9 @@
 //!
 //! Read `neighbours` with `neighbour_lanes`, then `obstacles`, then `time_to_collision`.
 
-pub mod neighbour_lanes;
+pub(crate) mod neighbour_lanes;
 pub mod neighbours;
 pub mod obstacles;
-pub mod time_to_collision;
+pub(crate) mod time_to_collision;
+
+pub use neighbour_lanes::{Around, Lanes};

@@ -10,7 +10,7 @@ use crate::world::neighbours::{NEIGHBOUR_COUNT, Neighbour};
 use crate::world::time_to_collision::disc_with_disc;
 
 /// [`NEIGHBOUR_COUNT`] in whole vectors of four.
-pub const LANES: usize = NEIGHBOUR_COUNT.next_multiple_of(4);
+pub(crate) const LANES: usize = NEIGHBOUR_COUNT.next_multiple_of(4);
 
 /// One figure of every neighbour.
 pub type Lanes = [f32; LANES];

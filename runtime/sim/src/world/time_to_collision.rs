@@ -13,7 +13,7 @@ const SPEED_SQUARED_MIN: f32 = 1e-5;
 ///
 /// Without a branch, so that many are computed at once.
 #[inline]
-pub fn disc_with_disc(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32) -> f32 {
+pub(crate) fn disc_with_disc(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32) -> f32 {
     let gap = offset_m.length_squared() - radius_m * radius_m;
     let speed_squared = velocity_mps.length_squared();
     let approach = velocity_mps.dot(offset_m);
@@ -36,7 +36,7 @@ pub(crate) fn discriminant(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32) ->
 /// A disc meets a segment: `corners` are its ends relative to the disc's centre.
 ///
 /// The segment grown by the radius is a capsule: two discs and two straight sides.
-pub fn disc_with_segment(corners_m: [Vec2; 2], velocity_mps: Vec2, radius_m: f32) -> f32 {
+pub(crate) fn disc_with_segment(corners_m: [Vec2; 2], velocity_mps: Vec2, radius_m: f32) -> f32 {
     let [from_m, to_m] = corners_m;
     if nearest_on_segment(Vec2::ZERO, from_m, to_m).length() <= radius_m {
         return 0.0;

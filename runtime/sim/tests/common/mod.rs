@@ -3,12 +3,11 @@
 
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::recording::frame::AgentFrame;
-use fbcrowd_sim::recording::{Header, Recorder, Recording};
+use fbcrowd_sim::recording::{AgentFrame, Header, Recorder, Recording};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use glam::{Vec2, Vec3};
-use motiondb::skeleton::{Foot, JOINT_COUNT, Joint, Skeleton};
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::body::{Foot, JOINT_COUNT, Joint, Skeleton};
+use motiondb::velocity_sets::velocity_hull::VelocityHull;
 
 /// A man of 1.75 m in plain numbers.
 pub fn skeleton() -> Skeleton {

@@ -5,16 +5,14 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planning::mcn::motion_constraints::MotionConstraints;
-use fbcrowd_sim::planning::plan::{Plan, Stance};
-use fbcrowd_sim::planning::planner::{Planner, Scratch, ahead_s, plan};
-use fbcrowd_sim::planning::world_view::World;
-use fbcrowd_sim::route::path::{Braking, Progress, preferred_mps};
+use fbcrowd_sim::planning::mcn::MotionConstraints;
+use fbcrowd_sim::planning::{Plan, Planner, Scratch, Stance, World, ahead_s, plan};
+use fbcrowd_sim::route::{Braking, Progress, preferred_mps};
 use fbcrowd_sim::scenario::AgentSpec;
 use fbcrowd_sim::world::neighbours::Neighbours;
 use fbcrowd_sim::world::obstacles::Obstacles;
 use glam::Vec2;
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::velocity_sets::velocity_hull::VelocityHull;
 
 /// The protocol of `assets/scenarios/table1`.
 pub(crate) const RADIUS_M: f32 = 0.25;

@@ -8,8 +8,8 @@
 
 use std::fmt::Write as _;
 
-use motiondb::input_file;
-use motiondb::remark::{Kind, Remark};
+use motiondb::files::input_file;
+use motiondb::motion::remark::{Kind, Remark};
 
 use crate::bvh::hierarchy::{CheckedJoint, canonical, hierarchy};
 use crate::decimal;

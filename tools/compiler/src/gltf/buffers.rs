@@ -11,7 +11,7 @@ use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use gltf::json;
-use motiondb::input_file;
+use motiondb::files::input_file;
 
 use crate::gltf::document::{Flaw, flaw};
 

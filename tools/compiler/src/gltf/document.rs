@@ -11,7 +11,7 @@ use std::path::Path;
 use glam::{DMat4, DQuat, DVec3};
 use gltf::json::validation::{Error, Validate};
 use gltf::json::{self, Index, Root, buffer::View};
-use motiondb::input_file;
+use motiondb::files::input_file;
 use serde::Deserialize;
 
 use crate::gltf::buffers;

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use motiondb::source_text::Invalid;
+use motiondb::files::Invalid;
 
 use crate::error::ImportError;
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::{Range, RangeInclusive};
 use std::path::PathBuf;
 
-use motiondb::skeleton::Joint;
-use motiondb::source_text::{Invalid, SourceText};
+use motiondb::body::Joint;
+use motiondb::files::{Invalid, SourceText};
 use serde::Deserialize;
 use toml::Spanned;
 

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use motiondb::remark::Kind;
-use motiondb::skeleton::Joint;
+use motiondb::body::Joint;
+use motiondb::motion::remark::Kind;
 use motiondb_compiler::axis::Axis;
 use motiondb_compiler::error::{ImportError, Refusal};
 use motiondb_compiler::import::{Import, import_bytes, import_take};

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use glam::DVec3;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb_compiler::skeleton_map::{Roles, find_roles};
 use motiondb_compiler::source_clip::SourceClip;
 use motiondb_compiler::source_parameters::{WholeClip, measure};

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
-use motiondb::remark::Remark;
-use motiondb::skeleton::{JOINT_COUNT, Joint};
+use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::motion::remark::Remark;
 use motiondb_compiler::axis::Axis;
 use motiondb_compiler::bvh;
 use motiondb_compiler::import::import_bytes;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use motiondb::atomic_file;
+use motiondb::files::atomic_file;
 
 use crate::failure::{Answer, Failure};
 use crate::output;

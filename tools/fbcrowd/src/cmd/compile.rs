@@ -4,8 +4,8 @@ use std::io::{self, IsTerminal};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use motiondb::file;
-use motiondb::velocity_hull::Construction;
+use motiondb::files::database_file;
+use motiondb::velocity_sets::velocity_hull::Construction;
 use motiondb_compiler::compile::Compiled;
 
 use crate::compile_report::CompileReport;
@@ -93,7 +93,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         compiling::say_refused(&compiled.refused);
     }
     stopwatch.begin("writing");
-    file::write(&args.output, &compiled.db)?;
+    database_file::write(&args.output, &compiled.db)?;
     let report = CompileReport::new(Some(&args.output), &compiled.db, compiled.refused, stopwatch.finish());
     if args.json {
         output::print_json(&report)?;

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use fbcrowd_render::plots::database::all_plots::write_database_plots;
-use motiondb::file::{self, FileError};
+use fbcrowd_render::plots::database::write_database_plots;
+use motiondb::files::database_file::{self, FileError};
 use motiondb_compiler::survey::survey;
 
 use crate::correspondence_between::Between;
@@ -88,7 +88,7 @@ fn is_database(path: &Path) -> bool {
 }
 
 fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
-    let db = match file::load(path) {
+    let db = match database_file::load(path) {
         Ok((db, _)) => db,
         // It could be read, and the answer is no.
         Err(broken @ FileError::Invariant { .. }) => return say_broken(args, &broken),

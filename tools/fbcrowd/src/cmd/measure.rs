@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use fbcrowd_sim::measures::agent_table;
 use fbcrowd_sim::measures::metrics::{self, Measures};
 use fbcrowd_sim::recording::Recording;
-use motiondb::atomic_file::AtomicFile;
+use motiondb::files::atomic_file::AtomicFile;
 
 use crate::failure::{Answer, Failure};
 use crate::output;
@@ -45,7 +45,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let bad = |error: fbcrowd_sim::recording::error::RecordingError| Failure::bad(error.to_string());
+    let bad = |error: fbcrowd_sim::recording::RecordingError| Failure::bad(error.to_string());
     let recording = Recording::open(&args.recording).map_err(bad)?;
     check_outputs(args)?;
     let measures = metrics::measure(&recording).map_err(bad)?;

@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use fbcrowd_render::top_view::frame_range::FrameRange;
-use fbcrowd_render::top_view::sequence::{Format, SequenceOptions};
+use fbcrowd_render::top_view::{Format, FrameRange, SequenceOptions};
 
 use crate::compile_text::counted;
 use crate::failure::{Answer, Failure};

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use fbcrowd_render::top_view::sequence::{Format, SequenceOptions};
+use fbcrowd_render::top_view::{Format, SequenceOptions};
 use fbcrowd_sim::measures::metrics;
-use fbcrowd_sim::scenario;
-use fbcrowd_sim::scenario::file::MotionSource;
-use motiondb::file;
+use fbcrowd_sim::scenario::{self, MotionSource};
+use motiondb::files::database_file;
 use motiondb_compiler::compile::Compiled;
 
 use crate::cmd::measure;
@@ -39,7 +38,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let recording_path = folder.join(format!("{name}.fbrec"));
     let (database, answer) = database(motion?, &folder)?;
-    let (db, checksum) = file::load(&database)?;
+    let (db, checksum) = database_file::load(&database)?;
 
     let timings = simulation::simulate(db, checksum, scenario, &recording_path)?;
     let recording = rendering::open(&recording_path)?;
@@ -63,7 +62,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Failure> {
     let clips = match motion {
         MotionSource::Database(path) => {
-            file::load(&path)?; // before anything is written
+            database_file::load(&path)?; // before anything is written
             fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
             return Ok((path, Answer::Yes));
         }
@@ -73,7 +72,7 @@ fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Fa
     let Compiled { db, refused } = compiling::compile(&[clips], &path, &Overrides::default(), &Stopwatch::default())?;
     compiling::say_refused(&refused);
     fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
-    file::write(&path, &db)?;
+    database_file::write(&path, &db)?;
     Ok((path, compiling::answer(&refused)))
 }
 

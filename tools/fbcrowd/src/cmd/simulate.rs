@@ -3,10 +3,9 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::scenario;
-use fbcrowd_sim::scenario::file::MotionSource;
-use motiondb::atomic_file::AtomicFile;
-use motiondb::file;
+use fbcrowd_sim::scenario::{self, MotionSource};
+use motiondb::files::atomic_file::AtomicFile;
+use motiondb::files::database_file;
 
 use crate::failure::{Answer, Failure};
 use crate::output;
@@ -47,7 +46,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
         output::spare(written, &inputs)?;
     }
-    let (db, checksum) = file::load(&database)?;
+    let (db, checksum) = database_file::load(&database)?;
     // Opened before the long work, so that a place that cannot be written ends it early.
     let report = args.report.as_deref().map(Report::create).transpose()?;
     let timings = simulation::simulate(db, checksum, scenario, &args.output)?;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use motiondb::quality::{self, ExampleQuality, Finding};
+use motiondb::quality::example_quality::{self, ExampleQuality, Finding};
 use motiondb::validate::{self, Check};
 use serde::Serialize;
 
@@ -50,13 +50,14 @@ struct Line {
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     // Whatever can be read has the right mark, version, length and checksum.
-    let (db, _) = motiondb::file::read(&args.database)?;
+    let (db, _) = motiondb::files::database_file::read(&args.database)?;
     let checksum = Check { name: "checksum", broken: None };
     let line = |check: Check| Line { name: check.name, holds: check.broken.is_none(), detail: check.broken };
     let checks: Vec<Line> = [checksum].into_iter().chain(validate::validate(&db)).map(line).collect();
     let valid = checks.iter().all(|check| check.holds);
     // Figures of an unsound database mean nothing.
-    let (findings, quality) = if valid { (quality::lint(&db), quality::quality(&db)) } else { Default::default() };
+    let (findings, quality) =
+        if valid { (example_quality::lint(&db), example_quality::quality(&db)) } else { Default::default() };
     let report = Report { valid, checks, findings, quality };
     if args.json {
         output::print_json(&report)?;

@@ -46,12 +46,12 @@ fn round_step(least: f32) -> f32 {
 }
 
 /// A tick's value with as many decimals as its step needs.
-pub fn tick_text(value: f32, step: f32) -> String {
+pub(crate) fn tick_text(value: f32, step: f32) -> String {
     number(value, (-libm::floorf(libm::log10f(step) + 1e-3)).max(0.0) as usize)
 }
 
 /// A number with a typesetter's minus sign, and none before zero.
-pub fn number(value: f32, decimals: usize) -> String {
+pub(crate) fn number(value: f32, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let is_zero = text.trim_start_matches(['-', '0', '.']).is_empty();
     text.replace('-', if is_zero { "" } else { "−" })
@@ -59,7 +59,7 @@ pub fn number(value: f32, decimals: usize) -> String {
 
 /// Widens the shorter of two axes until a unit is as long across as up.
 #[must_use]
-pub fn equal_units(rect_px: [f32; 4], mut axes: [Axis; 2]) -> [Axis; 2] {
+pub(crate) fn equal_units(rect_px: [f32; 4], mut axes: [Axis; 2]) -> [Axis; 2] {
     let units_px = [0, 1].map(|index: usize| rect_px[2 + index] / (axes[index].high - axes[index].low));
     let common_px = units_px[0].min(units_px[1]);
     for (axis, unit_px) in axes.iter_mut().zip(units_px) {

@@ -268,7 +268,7 @@ impl Figure {
 }
 
 /// A full line.
-pub fn line(colour: Rgb, width_px: f32) -> Line {
+pub(crate) fn line(colour: Rgb, width_px: f32) -> Line {
     Line { colour, width_px, opacity: 1.0, dashed: false }
 }
 

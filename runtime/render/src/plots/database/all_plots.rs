@@ -6,7 +6,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use motiondb::motion_db::MotionDb;
+use motiondb::motion::MotionDb;
 use tiny_skia::Pixmap;
 
 use crate::error::RenderError;

@@ -6,11 +6,10 @@
 
 use std::ops::Range;
 
-use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::recording::AgentFrame;
 use glam::{Mat3, Quat, Vec2, Vec3};
-use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
-use motiondb::pose::Pose;
-use motiondb::skeleton::{JOINT_COUNT, Joint, Skeleton};
+use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
+use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT};
 use tiny_skia::Pixmap;
 
 use crate::plots::chart::axis::number;

@@ -1,15 +1,14 @@
 //! Where in (v_f, ω_t, ω_s) a set of clips is thin: three slices through the space of parameters and the sentences of
-//! [`motiondb::coverage`].
+//! [`motiondb::quality::coverage`].
 //!
 //! Colour says how unlike the motions are that meet there: the mean distance of the mixed examples from the asked
 //! parameters, Σ u_i·|p_i − p|, each axis divided by its range over the examples. White paper lies outside the hull:
 //! bodies do not move like that.
 
 use glam::{Vec2, Vec3};
-use motiondb::coverage::{coverage, locate_inside, locator};
-use motiondb::locator::Locator;
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
+use motiondb::blend_space::Locator;
+use motiondb::motion::{MotionDb, Parameters};
+use motiondb::quality::coverage::{coverage, locate_inside, locator};
 use tiny_skia::Pixmap;
 
 use crate::plots::chart::axis::{Axis, number};

@@ -8,10 +8,9 @@
 use std::ops::Range;
 
 use glam::{Vec2, Vec3};
-use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
-use motiondb::planted_feet::PLANTED_CONTACT;
-use motiondb::pose::Pose;
-use motiondb::skeleton::Side;
+use motiondb::body::{Pose, Side};
+use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT};
+use motiondb::quality::planted_feet::PLANTED_CONTACT;
 use tiny_skia::Pixmap;
 
 use crate::plots::chart::axis::Axis;

@@ -5,7 +5,7 @@
 //! key. Mirrored twins are open marks without a number.
 
 use glam::{Vec2, Vec3};
-use motiondb::motion_db::{MotionDb, MotionExample};
+use motiondb::motion::{MotionDb, MotionExample};
 use tiny_skia::Pixmap;
 
 use crate::plots::chart::axis::Axis;

@@ -1,12 +1,10 @@
 //! How alike the poses of two examples are, at every phase of one against every phase of the other, and the
 //! correspondence times T chosen there (`FbCrowd` §5, Eq. 10): of m_sp and m_mb, or of any two.
 //!
-//! Distances are [`motiondb::pose_distance`]'s, cm.
+//! Distances are [`motiondb::motion::distances_m`]'s, cm.
 
 use glam::Vec2;
-use motiondb::correspondence::table;
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::pose_distance::distances_m;
+use motiondb::motion::{MotionDb, PHASE_COUNT, distances_m, table};
 use tiny_skia::Pixmap;
 
 use crate::plots::chart::axis::{Axis, number};

@@ -2,8 +2,7 @@
 //! under each foot the line of its sole, heel to toe tip.
 
 use glam::{Vec2, Vec3};
-use motiondb::pose::{Joints, Pose};
-use motiondb::skeleton::{Joint, Side, Skeleton};
+use motiondb::body::{Joint, Joints, Pose, Side, Skeleton};
 use tiny_skia::{LineCap, LineJoin, PathBuilder, Pixmap, Stroke, Transform};
 
 use crate::plots::chart::mark::Mark;

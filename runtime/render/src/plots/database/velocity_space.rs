@@ -3,8 +3,8 @@
 //! are shown.
 
 use glam::Vec2;
-use motiondb::motion_db::{MotionDb, MotionExample};
-use motiondb::velocity_hull::{Construction, is_holding, is_turning, turning_point_mps};
+use motiondb::motion::{MotionDb, MotionExample};
+use motiondb::velocity_sets::velocity_hull::{Construction, is_holding, is_turning, turning_point_mps};
 use tiny_skia::Pixmap;
 
 use crate::plots::chart::axis::{Axis, equal_units};

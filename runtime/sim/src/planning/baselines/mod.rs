@@ -3,8 +3,11 @@
 //! Neither knows of bodies: a plan is a velocity, and the facing follows it. What Eq. 1 asks for, time to collision and
 //! density, is told as MCN tells it, so that the same bodies follow.
 
-pub mod orca;
-pub mod social_force;
+pub(crate) mod orca;
+pub(crate) mod social_force;
+
+pub use orca::OrcaParams;
+pub use social_force::{Force, SocialForceParams};
 
 use glam::Vec2;
 

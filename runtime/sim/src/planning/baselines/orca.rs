@@ -42,7 +42,7 @@ impl Default for OrcaParams {
 }
 
 /// Plans one agent's next velocity; its facing follows.
-pub fn plan(world: &World, agent: usize, params: &OrcaParams, scratch: &mut Scratch) -> Plan {
+pub(crate) fn plan(world: &World, agent: usize, params: &OrcaParams, scratch: &mut Scratch) -> Plan {
     let wall_range_m = params.obstacle_time_horizon_s * params.speed_max_mps;
     look_around(world, agent, params.neighbour_range_m, wall_range_m, scratch);
     let own = world.disc(agent);

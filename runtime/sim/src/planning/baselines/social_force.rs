@@ -66,7 +66,7 @@ pub struct Force {
 }
 
 /// Plans one agent's next velocity; its facing follows.
-pub fn plan(world: &World, agent: usize, params: &SocialForceParams, scratch: &mut Scratch) -> Plan {
+pub(crate) fn plan(world: &World, agent: usize, params: &SocialForceParams, scratch: &mut Scratch) -> Plan {
     let range_m = params.neighbour_range_m;
     look_around(world, agent, range_m, range_m, scratch);
     scratch.set = VelocitySet::Turning;

@@ -57,7 +57,7 @@ pub struct Filtered {
 
 /// Scales v_op down to what the density ahead allows, on the arc around it, for who walks at `own` m/s and takes a plan
 /// up within `lead` seconds.
-pub fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, lead_s: f32, params: &McnParams) -> Filtered {
+pub(crate) fn filter(velocity_mps: Vec2, own_mps: Vec2, agents: &Around, lead_s: f32, params: &McnParams) -> Filtered {
     let speed_mps = velocity_mps.length();
     let ahead = velocity_mps.normalize_or_zero();
     let weights = in_the_way(ahead, own_mps, agents);
@@ -99,7 +99,7 @@ fn on_the_arc(ahead: Vec2, ahead_mps: f32, speed_mps: f32, limit_mps: impl Fn(Ve
 }
 
 /// ρ of all neighbours at the critical point along a unit direction, 1/m.
-pub fn density_ahead(ahead: Vec2, agents: &Around) -> f32 {
+pub(crate) fn density_ahead(ahead: Vec2, agents: &Around) -> f32 {
     density(&shares(ahead, agents))
 }
 
@@ -134,7 +134,7 @@ fn in_the_way(ahead: Vec2, own_mps: Vec2, agents: &Around) -> Lanes {
 }
 
 /// The fundamental diagram: v_max = S² / (½ (1 + buffer)/factor)², never below the floor.
-pub fn speed_limit_mps(density: f32, params: &McnParams) -> f32 {
+pub(crate) fn speed_limit_mps(density: f32, params: &McnParams) -> f32 {
     let space = SPACE / density.max(f32::MIN_POSITIVE);
     let stride = 0.5 * (1.0 + params.density_buffer) / params.density_factor;
     (space / stride * (space / stride)).max(params.density_speed_min_mps)

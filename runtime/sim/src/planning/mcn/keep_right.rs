@@ -12,7 +12,7 @@ use crate::planning::mcn::params::McnParams;
 use crate::world::neighbour_lanes::{Around, Lanes};
 
 /// v_pref, turned.
-pub fn kept_right(preferred_mps: Vec2, velocity_mps: Vec2, around: &Around, params: &McnParams) -> Vec2 {
+pub(crate) fn kept_right(preferred_mps: Vec2, velocity_mps: Vec2, around: &Around, params: &McnParams) -> Vec2 {
     let change_mps = preferred_mps - velocity_mps;
     let times_s = around.times_to_collision_s(change_mps);
     let squareness = squareness(around, change_mps);

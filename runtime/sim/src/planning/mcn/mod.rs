@@ -8,21 +8,25 @@
 //! It reads a frozen [`World`] and writes nothing but its [`Scratch`], so agents may be planned in any order and on any
 //! thread. World axes, metres, seconds, radians.
 
-pub mod density;
-pub mod keep_right;
-pub mod motion_constraints;
-pub mod orientation;
-pub mod params;
-pub mod social_force;
+pub(crate) mod density;
+pub(crate) mod keep_right;
+pub(crate) mod motion_constraints;
+pub(crate) mod orientation;
+pub(crate) mod params;
+pub(crate) mod social_force;
 pub mod stance;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use glam::Vec2;
-use motiondb::velocity_hull::Construction;
+pub use density::Filtered;
+pub use motion_constraints::{ConvexSet, MotionConstraints};
+pub use orientation::{Orientation, Walk};
+pub use params::{McnParams, Parts, StanceForm};
+pub use social_force::PowerLaw;
 
-use crate::planning::mcn::orientation::{Orientation, Walk};
-use crate::planning::mcn::params::{McnParams, StanceForm};
+use glam::Vec2;
+use motiondb::velocity_sets::velocity_hull::Construction;
+
 use crate::planning::orca::half_plane::{HalfPlane, Source};
 use crate::planning::orca::{agents, linear_program, walls};
 use crate::planning::plan::{Plan, VelocitySet};

@@ -9,7 +9,7 @@
 //! polygon holds; all edges of a side at once forbid most of that side, and walking on ahead with it.
 
 use glam::Vec2;
-use motiondb::velocity_hull::{Construction, HALF_WIDTH_MPS, VelocityHull, half_plane, half_planes};
+use motiondb::velocity_sets::velocity_hull::{Construction, HALF_WIDTH_MPS, VelocityHull, half_plane, half_planes};
 
 use crate::planning::orca::half_plane::{HalfPlane, Source};
 use crate::planning::plan::VelocitySet;

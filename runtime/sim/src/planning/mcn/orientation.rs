@@ -62,7 +62,7 @@ pub struct Orientation {
 }
 
 /// §4.5. `holds` tells whether the holding set, at the facing of v_pref, holds v_i.
-pub fn decide(walk: &Walk, holds: impl FnOnce(Vec2) -> bool, dt_s: f32, params: &McnParams) -> Orientation {
+pub(crate) fn decide(walk: &Walk, holds: impl FnOnce(Vec2) -> bool, dt_s: f32, params: &McnParams) -> Orientation {
     let Some(wanted) = direction(walk.preferred_mps) else { return rest(walk, walk.forward, dt_s, params) };
     let Some(walked) = direction(walk.velocity_mps) else {
         // With v_pref aside or behind, a body would stand so for ever where the database has no tight turn: it turns on
@@ -92,7 +92,7 @@ pub fn decide(walk: &Walk, holds: impl FnOnce(Vec2) -> bool, dt_s: f32, params: 
 }
 
 /// Without §4.5: the facing follows v_i, or is kept where the body stands.
-pub fn along_the_velocity(walk: &Walk) -> Orientation {
+pub(crate) fn along_the_velocity(walk: &Walk) -> Orientation {
     Orientation {
         facing: direction(walk.velocity_mps).unwrap_or(walk.forward),
         set: VelocitySet::Turning,
@@ -143,7 +143,7 @@ fn rested_s(spent_s: f32, limit_s: f32, dt_s: f32) -> f32 {
 }
 
 /// Whether a velocity has no direction to face.
-pub fn stands(velocity_mps: Vec2) -> bool {
+pub(crate) fn stands(velocity_mps: Vec2) -> bool {
     velocity_mps.length() < STANDING_MPS
 }
 

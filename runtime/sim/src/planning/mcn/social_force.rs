@@ -25,7 +25,7 @@ pub struct PowerLaw {
 }
 
 /// Eq. 9, one explicit step of `lead` from the present velocity, the acceleration limited; `forces` is Σ f_ij + Σ f_iW.
-pub fn adapted_mps(
+pub(crate) fn adapted_mps(
     velocity_mps: Vec2,
     preferred_mps: Vec2,
     forces_mps2: Vec2,
@@ -38,7 +38,7 @@ pub fn adapted_mps(
 }
 
 /// Eq. 11: the force on disc i from disc j; `offset` p_j − p_i, `velocity` v_i − v_j, `radius` r_i + r_j.
-pub fn agent_force_mps2(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, law: &PowerLaw) -> Vec2 {
+pub(crate) fn agent_force_mps2(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, law: &PowerLaw) -> Vec2 {
     // Discs that overlap shrink to as much as they overlap: so does the authors' code, whose figures come out by
     // `fbcrowd bench table1 --discs`. Those that overlap by more than half are left to the collision's half-plane.
     let distance_m = offset_m.length();
@@ -55,7 +55,7 @@ pub fn agent_force_mps2(offset_m: Vec2, velocity_mps: Vec2, radius_m: f32, law: 
 }
 
 /// f_iW: the force from a segment; `corners` relative to the disc's centre.
-pub fn wall_force_mps2(corners_m: [Vec2; 2], velocity_mps: Vec2, radius_m: f32, law: &PowerLaw) -> Vec2 {
+pub(crate) fn wall_force_mps2(corners_m: [Vec2; 2], velocity_mps: Vec2, radius_m: f32, law: &PowerLaw) -> Vec2 {
     let side_s = disc_with_side(corners_m, velocity_mps, radius_m);
     let ends_s = corners_m.map(|corner_m| disc_with_disc(corner_m, velocity_mps, radius_m));
     if side_s > ends_s[0].min(ends_s[1]) || side_s.is_infinite() {

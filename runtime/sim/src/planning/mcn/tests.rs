@@ -1,6 +1,6 @@
 //! Claims about a single plan: what limits it, in which order, and what each part of MCN is good for.
 
-use motiondb::velocity_hull::VelocityHull;
+use motiondb::velocity_sets::velocity_hull::VelocityHull;
 
 use super::*;
 use crate::params::Params;

@@ -27,7 +27,7 @@ pub struct Disc {
 }
 
 /// Share of u that each of two takes who are alike.
-pub const HALF: f32 = 0.5;
+pub(crate) const HALF: f32 = 0.5;
 /// Share of u that an agent takes of whom it meets from the left beyond one half, and less of whom from the right.
 const YIELD_TO_LEFT: f32 = 0.2;
 /// Speeds in sum below which nobody comes from a side, m/s.
@@ -39,7 +39,7 @@ const SPEEDS_MIN_MPS: f32 = 0.1;
 /// The shares of both add up to 1, so together they still avoid each other. With ½ each, those who meet at a centre
 /// from all around brake alike until they stand. The sine of the angle between p and v_i + v_j changes its sign when i
 /// and j are exchanged.
-pub fn shares(own_mps: Vec2, around: &Around) -> Lanes {
+pub(crate) fn shares(own_mps: Vec2, around: &Around) -> Lanes {
     let own_speed_mps = own_mps.length_squared().sqrt();
     std::array::from_fn(|lane| {
         let offset_m = around.offset_m(lane);
@@ -54,7 +54,7 @@ pub fn shares(own_mps: Vec2, around: &Around) -> Lanes {
 /// C_ij: the velocities of i, which walks at `own`, that do their share of avoiding j for `horizon`.
 // Returned by a call, it is written in parts and read at once, which stalls: 3 to 5 % of planning.
 #[inline(always)]
-pub fn agent_half_plane(own_mps: Vec2, other: &Neighbour, share: f32, horizon_s: f32, dt_s: f32) -> HalfPlane {
+pub(crate) fn agent_half_plane(own_mps: Vec2, other: &Neighbour, share: f32, horizon_s: f32, dt_s: f32) -> HalfPlane {
     let Neighbour { offset_m, velocity_mps, radius_m, .. } = *other;
     let (direction, change_mps) = if offset_m.length_squared() <= radius_m * radius_m {
         leave_cut_off(offset_m, velocity_mps, radius_m, dt_s)

@@ -18,7 +18,7 @@ pub enum Source {
     SharpTurn,
     /// An edge of the turning set (§4.1, Eqs. 4, 5).
     TurningHull,
-    /// An edge of the holding set, of velocities at held facing ([`motiondb::velocity_hull`]).
+    /// An edge of the holding set, of velocities at held facing ([`motiondb::velocity_sets::velocity_hull`]).
     HoldingHull,
     /// Another agent, by index: C_ij.
     Agent(u32),

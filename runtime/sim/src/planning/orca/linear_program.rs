@@ -50,7 +50,7 @@ enum Objective {
 /// last of those only where they exclude each other.
 ///
 /// `projected` is working memory.
-pub fn solve(
+pub(crate) fn solve(
     half_planes: &[HalfPlane],
     firm: usize,
     optimal_mps: Vec2,

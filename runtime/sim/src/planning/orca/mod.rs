@@ -5,7 +5,11 @@
 //!
 //! Read `half_plane`, then `agents` and `walls`, which build them, then `linear_program`, which solves them.
 
-pub mod agents;
-pub mod half_plane;
-pub mod linear_program;
-pub mod walls;
+pub(crate) mod agents;
+pub(crate) mod half_plane;
+pub(crate) mod linear_program;
+pub(crate) mod walls;
+
+pub use agents::Disc;
+pub use half_plane::{HalfPlane, Source};
+pub use linear_program::Solution;

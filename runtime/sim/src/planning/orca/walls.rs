@@ -55,7 +55,7 @@ struct Shadow {
 }
 
 /// C_iW: appends the half-planes of the edges, which come nearest first.
-pub fn obstacle_half_planes(
+pub(crate) fn obstacle_half_planes(
     obstacles: &Obstacles,
     near: &[NearEdge],
     own: &Disc,
@@ -72,7 +72,12 @@ pub fn obstacle_half_planes(
 }
 
 /// The half-plane of a wall without thickness that stands alone, from and to relative to the disc's centre.
-pub fn segment_half_plane([from_m, to_m]: [Vec2; 2], own: &Disc, horizon_s: f32, source: Source) -> Option<HalfPlane> {
+pub(crate) fn segment_half_plane(
+    [from_m, to_m]: [Vec2; 2],
+    own: &Disc,
+    horizon_s: f32,
+    source: Source,
+) -> Option<HalfPlane> {
     // The disc is on the outer side, the right one.
     let [left_m, right_m] = if from_m.perp_dot(to_m) >= 0.0 { [to_m, from_m] } else { [from_m, to_m] };
     let along = (right_m - left_m).try_normalize()?;

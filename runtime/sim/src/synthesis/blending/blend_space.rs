@@ -5,12 +5,10 @@
 use std::array::from_fn;
 
 use glam::{Vec2, Vec3};
-use motiondb::blend_space::{MAX_CORNERS, Shares};
-use motiondb::locator::Locator;
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::parameters::Parameters;
-use motiondb::skeleton::Joint;
-use motiondb::velocity_hull::is_holding;
+use motiondb::blend_space::{Locator, MAX_CORNERS, Shares};
+use motiondb::body::Joint;
+use motiondb::motion::{MotionDb, PHASE_COUNT, Parameters};
+use motiondb::velocity_sets::velocity_hull::is_holding;
 
 use crate::synthesis::blending::mix::Mix;
 
@@ -207,10 +205,10 @@ mod tests {
         db.examples.remove(0);
         db.rows.pelvis_m.drain(..PHASE_COUNT);
         db.rows.contacts.drain(..PHASE_COUNT);
-        db.rows.rotations.drain(..PHASE_COUNT * motiondb::skeleton::JOINT_COUNT);
+        db.rows.rotations.drain(..PHASE_COUNT * motiondb::body::JOINT_COUNT);
         db.examples.truncate(3);
         let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
-        db.blend_space = motiondb::triangulation::build(&parameters);
+        db.blend_space = motiondb::blend_space::triangulation::build(&parameters);
         db
     }
 

@@ -11,17 +11,15 @@
 //!
 //! and a planted foot, which moves back through the root frame by v_i/r_i a phase in example i, moves by Σ
 //! w_i·v_i/r_i·φ' = Σ u_i·v_i a second in the blend: with the ground. Poses are weighted sums of rows (frames:
-//! [`motiondb::pose`]), between two rows linear.
+//! [`motiondb::body::pose`]), between two rows linear.
 
 use glam::Vec3;
 use motiondb::blend_space::Shares;
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::parameters::Parameters;
-use motiondb::phase_map::{PhaseMap, wrapped};
-use motiondb::pose::Pose;
+use motiondb::body::Pose;
+use motiondb::motion::{MotionDb, PHASE_COUNT, Parameters, PhaseMap, wrapped};
 
 /// Examples that one body may mix: a simplex of four, and others that fade out.
-pub const MIX_MAX: usize = 12;
+pub(crate) const MIX_MAX: usize = 12;
 /// Shares under this are let go, so that an example that has faded out is no longer sampled.
 const SHARE_MIN: f32 = 1e-4;
 

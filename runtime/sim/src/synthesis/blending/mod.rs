@@ -4,6 +4,9 @@
 //!
 //! Read `blend_space`, then `mix`, then `weight_transition`.
 
-pub mod blend_space;
-pub mod mix;
-pub mod weight_transition;
+pub(crate) mod blend_space;
+pub(crate) mod mix;
+pub(crate) mod weight_transition;
+
+pub use blend_space::{Nearest, Space};
+pub use mix::{Mix, Weights};

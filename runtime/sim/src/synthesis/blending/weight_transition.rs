@@ -8,7 +8,7 @@
 //! way would else keep to the least steps of its first one.
 
 use motiondb::blend_space::Shares;
-use motiondb::parameters::Parameters;
+use motiondb::motion::Parameters;
 
 use crate::synthesis::Motion;
 use crate::synthesis::blending::blend_space::Nearest;
@@ -26,7 +26,7 @@ struct Target {
 }
 
 /// Moves the mix by one step towards `goal`. What is nearest to one point, mostly the goal itself, is known already.
-pub fn follow(mix: &mut Mix, goal: Parameters, known: &Nearest, gait: Gait, motion: &Motion, dt_s: f32) {
+pub(crate) fn follow(mix: &mut Mix, goal: Parameters, known: &Nearest, gait: Gait, motion: &Motion, dt_s: f32) {
     let now = mix.parameters(motion.db);
     let next = blend_query::step_towards(now, goal, motion.params, dt_s);
     let way = goal.to_vec3() - now.to_vec3();
@@ -47,7 +47,7 @@ pub fn follow(mix: &mut Mix, goal: Parameters, known: &Nearest, gait: Gait, moti
 }
 
 /// How much of the way to some shares the pose may go in a step.
-pub fn fraction(mix: &Mix, shares: &Shares, motion: &Motion, dt_s: f32) -> f32 {
+pub(crate) fn fraction(mix: &Mix, shares: &Shares, motion: &Motion, dt_s: f32) -> f32 {
     let change_max_m = motion.params.pose_change_max_mps * dt_s;
     if motion.space.pose_change_max_m(mix.change_to(shares)) <= change_max_m {
         return 1.0;

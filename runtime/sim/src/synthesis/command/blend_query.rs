@@ -16,8 +16,8 @@
 //! space of parameters: the body passes the examples between.
 
 use glam::{Vec2, Vec3};
-use motiondb::parameters::Parameters;
-use motiondb::pose::Root;
+use motiondb::body::Root;
+use motiondb::motion::Parameters;
 
 use crate::maths::angle::{direction, wrap_rad};
 use crate::planning::plan::Plan;
@@ -26,7 +26,7 @@ use crate::synthesis::params::HmsParams;
 use crate::synthesis::semi_procedural::base_walk::SemiProcedural;
 
 /// What a plan asks of a body that faces `facing_rad`; anything not finite asks to stand.
-pub fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) -> Parameters {
+pub(crate) fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsParams) -> Parameters {
     if !(plan.velocity_mps.is_finite() && plan.facing_rad.is_finite()) {
         return Parameters::default();
     }
@@ -54,7 +54,7 @@ pub fn asking(asked: Parameters, root: &Root, params: &HmsParams) -> Plan {
 
 /// What a plan asks of semi-procedural locomotion, which can do it: the planned velocity itself, whatever the facing.
 /// The body turns by `turning_rad` meanwhile, and its way lies along the facing at half of that.
-pub fn asked_exactly(
+pub(crate) fn asked_exactly(
     plan: &Plan,
     facing_rad: f32,
     turning_rad: f32,
@@ -70,7 +70,7 @@ pub fn asked_exactly(
 }
 
 /// The point on the straight way from `now` to `goal` that a body may reach in one step.
-pub fn step_towards(now: Parameters, goal: Parameters, params: &HmsParams, dt_s: f32) -> Parameters {
+pub(crate) fn step_towards(now: Parameters, goal: Parameters, params: &HmsParams, dt_s: f32) -> Parameters {
     let [of_velocity, of_turn] = fractions(now, goal, params, dt_s);
     let fraction = of_velocity.min(of_turn);
     if fraction == 1.0 {
@@ -80,7 +80,7 @@ pub fn step_towards(now: Parameters, goal: Parameters, params: &HmsParams, dt_s:
 }
 
 /// The same, turning and walking each as far as it may: m_sp knows no examples between.
-pub fn step_apart(now: Parameters, goal: Parameters, params: &HmsParams, dt_s: f32) -> Parameters {
+pub(crate) fn step_apart(now: Parameters, goal: Parameters, params: &HmsParams, dt_s: f32) -> Parameters {
     let [of_velocity, of_turn] = fractions(now, goal, params, dt_s);
     let change = goal.to_vec3() - now.to_vec3();
     Parameters::from_vec3(now.to_vec3() + Vec3::new(of_velocity, of_turn, of_velocity) * change)

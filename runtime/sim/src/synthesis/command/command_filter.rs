@@ -13,7 +13,7 @@
 //! along r where it still changes so, and a body lags hardly more behind many small steps than behind a few.
 
 use glam::{Vec2, Vec3};
-use motiondb::parameters::Parameters;
+use motiondb::motion::Parameters;
 
 use crate::maths::angle::direction;
 use crate::maths::decay::decay;

@@ -5,8 +5,14 @@
 //! Read in the order of a step: `displacement_accumulator`, `blend_query`, `command_filter`, `stand_or_step`,
 //! `phase_catch_up`.
 
-pub mod blend_query;
-pub mod command_filter;
-pub mod displacement_accumulator;
-pub mod phase_catch_up;
-pub mod stand_or_step;
+pub(crate) mod blend_query;
+pub(crate) mod command_filter;
+pub(crate) mod displacement_accumulator;
+pub(crate) mod phase_catch_up;
+pub(crate) mod stand_or_step;
+
+pub use blend_query::asking;
+pub use command_filter::Intention;
+pub use displacement_accumulator::Owed;
+pub use phase_catch_up::Hurry;
+pub use stand_or_step::{Gait, START_IDLE_SHARE};

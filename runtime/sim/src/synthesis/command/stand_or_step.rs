@@ -7,15 +7,15 @@
 
 use glam::Vec2;
 use motiondb::blend_space::Shares;
-use motiondb::parameters::Parameters;
+use motiondb::motion::Parameters;
 
 use crate::synthesis::blending::blend_space::{Nearest, Space};
 
 /// Greatest share of standing examples in a body that steps: with more, the blended contact of a swinging foot would
 /// not fall below ½.
-pub const IDLE_SHARE_MAX: f32 = 0.35;
+pub(crate) const IDLE_SHARE_MAX: f32 = 0.35;
 /// Slowest that the least steps are taken: a cadence of half a stroll's.
-pub const PACE_MIN: f32 = 0.3;
+pub(crate) const PACE_MIN: f32 = 0.3;
 /// A standing body starts where the asked parameters hold less standing than this …
 pub const START_IDLE_SHARE: f32 = 0.8;
 /// … and a stepping one stops where they hold more than this: the slowest steps, 1 − `PACE_MIN`·(1 −
@@ -31,7 +31,7 @@ const GAIT_TIME_S: f32 = 0.4;
 const HALT_IDLE_SHARE: f32 = 0.95;
 /// Who will be asked to step after this time, if what is asked goes on to change as it does, passes by rest on its way
 /// to go elsewhere, s: from one side-step to the other at 2.5 m/s² that takes so long.
-pub const PASSING_TIME_S: f32 = 0.2;
+pub(crate) const PASSING_TIME_S: f32 = 0.2;
 /// To stop, a body takes small steps until its feet are under it, for this long at most, s.
 const GATHERING_TIME_S: f32 = 1.2;
 /// Meanwhile it makes for this share of its present velocity, or for the least steps where those are more.
@@ -88,7 +88,7 @@ fn slow_share(parameters: Parameters) -> f32 {
 
 /// The parameters to make for: `nearest`, what the database has of what is asked, at steps no smaller than the least;
 /// none where the body stands. `now`, what it does, gives the direction where it gathers its feet.
-pub fn goal(nearest: Nearest, now: Parameters, gait: Gait, space: &Space) -> Parameters {
+pub(crate) fn goal(nearest: Nearest, now: Parameters, gait: Gait, space: &Space) -> Parameters {
     if gait.stands {
         return space.standing.parameters;
     }
@@ -102,7 +102,7 @@ pub fn goal(nearest: Nearest, now: Parameters, gait: Gait, space: &Space) -> Par
 }
 
 /// What to play for parameters that the database has: shares, and their pace.
-pub fn steps(nearest: &Nearest, gait: Gait, space: &Space) -> (Shares, f32) {
+pub(crate) fn steps(nearest: &Nearest, gait: Gait, space: &Space) -> (Shares, f32) {
     let stepping_share = 1.0 - nearest.idle_share;
     if gait.stands || stepping_share >= 1.0 - IDLE_SHARE_MAX || stepping_share <= 0.0 {
         return (nearest.shares, 1.0);

@@ -6,8 +6,7 @@
 //! critically damped spring, which begins at that rate, so neither pose nor velocity jumps. Radians, metres, seconds.
 
 use glam::{Quat, Vec3};
-use motiondb::pose::Pose;
-use motiondb::skeleton::JOINT_COUNT;
+use motiondb::body::{JOINT_COUNT, Pose};
 
 use crate::maths::angle::rotation;
 use crate::synthesis::time_step::TimeStep;

@@ -4,9 +4,15 @@
 //! Read `mode`, `switch_points`, `switching`, then what keeps the pose continuous: `inertialization` and
 //! `pose_smoothing`; `active_motion` samples whichever is in force.
 
-pub mod active_motion;
-pub mod inertialization;
-pub mod mode;
-pub mod pose_smoothing;
-pub mod switch_points;
+pub(crate) mod active_motion;
+pub(crate) mod inertialization;
+pub(crate) mod mode;
+pub(crate) mod pose_smoothing;
+pub(crate) mod switch_points;
 pub(crate) mod switching;
+
+pub use active_motion::Playing;
+pub use inertialization::{CARRIED_S, Inertia};
+pub use mode::{Choice, Mode, Thresholds};
+pub use pose_smoothing::Seen;
+pub use switch_points::Hybrid;

@@ -10,8 +10,7 @@
 //! where they were.
 
 use glam::Vec2;
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
+use motiondb::motion::{MotionDb, Parameters};
 
 use crate::synthesis::blending::mix::Mix;
 use crate::synthesis::hybrid::mode::Mode;

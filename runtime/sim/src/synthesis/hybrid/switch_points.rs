@@ -5,8 +5,7 @@
 //! in the air, and neither lands nor leaves while the difference of poses is greatest. A foot that has to land on top
 //! of a difference meets the ground at another time and pitch than its pose does, and jerks the knee.
 
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
+use motiondb::motion::{MotionDb, Parameters};
 
 use crate::synthesis::hybrid::inertialization::CARRIED_S;
 use crate::synthesis::hybrid::mode::Mode;

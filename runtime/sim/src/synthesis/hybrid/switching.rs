@@ -1,8 +1,8 @@
 //! How synthesis changes hands (`FbCrowd` §3.4.1, App. 10): when, at which phase, and what it leaves to inertia.
 
 use glam::Vec3;
-use motiondb::phase_map::wrapped;
-use motiondb::pose::Pose;
+use motiondb::body::Pose;
+use motiondb::motion::wrapped;
 
 use crate::planning::plan::Plan;
 use crate::synthesis::blending::mix::Mix;

@@ -9,13 +9,12 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use motiondb::correspondence::Correspondence;
-use motiondb::coverage::{Lack, coverage};
-use motiondb::motion_db::{MotionDb, MotionExample};
-use motiondb::parameters::Parameters;
-use motiondb::planted_feet::foot_slide;
+use motiondb::blend_space::triangulation;
+use motiondb::motion::{Correspondence, MotionDb, MotionExample, Parameters};
+use motiondb::quality::coverage::{Lack, coverage};
+use motiondb::quality::planted_feet::foot_slide;
 use motiondb::validate::contradiction;
-use motiondb::{triangulation, velocity_hull};
+use motiondb::velocity_sets::velocity_hull;
 
 use crate::synthesis::library::standing;
 use crate::synthesis::semi_procedural::base_walk::SemiProcedural;

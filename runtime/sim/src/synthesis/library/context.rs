@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
-use motiondb::motion_db::MotionDb;
-use motiondb::pose::Root;
+use motiondb::body::Root;
+use motiondb::motion::MotionDb;
 
 use crate::planning::plan::Plan;
 use crate::synthesis::blending::blend_space::Space;

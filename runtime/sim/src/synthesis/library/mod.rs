@@ -5,5 +5,7 @@
 //! Read `context`, then `augmented_database`, then `standing`.
 
 pub mod augmented_database;
-pub mod context;
-pub mod standing;
+pub(crate) mod context;
+pub(crate) mod standing;
+
+pub use context::Studio;

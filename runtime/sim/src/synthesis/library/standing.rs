@@ -6,10 +6,8 @@
 
 use std::sync::Arc;
 
-use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
-use motiondb::parameters::Parameters;
-use motiondb::phase_map::PhaseMap;
-use motiondb::pose::Pose;
+use motiondb::body::Pose;
+use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap};
 
 use crate::synthesis::pose::leg::Leg;
 use crate::synthesis::pose::posture::Posture;
@@ -18,7 +16,7 @@ use crate::synthesis::pose::posture::Posture;
 const MID_STANCES: [usize; 2] = [PHASE_COUNT / 2, 0];
 
 /// The database itself, or one in which a body can stand.
-pub fn provided(db: Arc<MotionDb>) -> Arc<MotionDb> {
+pub(crate) fn provided(db: Arc<MotionDb>) -> Arc<MotionDb> {
     match slowest(&db) {
         Some(example) if db.examples.iter().all(|example| example.key_times_s.is_some()) => {
             Arc::new(with_standing(&db, example))

@@ -13,8 +13,7 @@
 //! as they are. All vectors are in the root frame (x forward, y left, z up), metres.
 
 use glam::{Quat, Vec3};
-use motiondb::pose::Pose;
-use motiondb::skeleton::Skeleton;
+use motiondb::body::{Pose, Skeleton};
 
 use crate::maths::decay::soft_maximum;
 use crate::synthesis::pose::leg::{FootPose, Leg};
@@ -29,7 +28,7 @@ const BEHIND: f32 = 0.25;
 const SHORTENED_MIN_M: f32 = 0.05;
 
 /// A foot whose heel has risen where its leg, which the pose has bent, would have to stretch; the pose's toes bend.
-pub fn raised(pose: &mut Pose, skeleton: &Skeleton, side: usize, leg: &Leg, foot: &FootPose) -> FootPose {
+pub(crate) fn raised(pose: &mut Pose, skeleton: &Skeleton, side: usize, leg: &Leg, foot: &FootPose) -> FootPose {
     let to_ankle_m = foot.ankle_m - leg.hip_m();
     let behind_m = -to_ankle_m.truncate().dot((foot.orientation * Vec3::X).truncate());
     let (length_m, posed_m) = (to_ankle_m.length(), leg.foot().ankle_m.distance(leg.hip_m()));
@@ -71,7 +70,7 @@ fn turned(half: Vec3) -> Quat {
 
 #[cfg(test)]
 mod tests {
-    use motiondb::skeleton::{JOINT_COUNT, Joint};
+    use motiondb::body::{JOINT_COUNT, Joint};
 
     use super::*;
     use crate::synthesis::pose::leg::legs;

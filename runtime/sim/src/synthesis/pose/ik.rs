@@ -8,8 +8,7 @@
 use std::f32::consts::PI;
 
 use glam::{Quat, Vec3};
-use motiondb::pose::Pose;
-use motiondb::skeleton::{Joint, Skeleton};
+use motiondb::body::{Joint, Pose, Skeleton};
 
 use crate::synthesis::pose::leg::{FootPose, Leg};
 
@@ -27,7 +26,7 @@ const OPPOSITE: f32 = 5e-7;
 ///
 /// In its own plane each bone turns from where it lies to where the law of cosines wants it; then the plane turns from
 /// the old line between hip and ankle to the new one.
-pub fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, target: &FootPose) {
+pub(crate) fn reach(pose: &mut Pose, leg: &mut Leg, skeleton: &Skeleton, side: usize, target: &FootPose) {
     let [thigh, shank, foot, _] = Leg::joints(side);
     let [hip_m, knee_m, ankle_m] = leg.positions_m;
     let [old_thigh, old_shank, ..] = leg.orientations;
@@ -94,7 +93,7 @@ fn turn(from: Vec3, to: Vec3, lengths: f32) -> Quat {
 
 #[cfg(test)]
 mod tests {
-    use motiondb::skeleton::JOINT_COUNT;
+    use motiondb::body::JOINT_COUNT;
     use proptest::prelude::*;
 
     use super::*;

@@ -3,8 +3,7 @@
 //! All vectors are in the root frame (x forward, y left, z up), metres; orientations are against the rest pose.
 
 use glam::{Quat, Vec3};
-use motiondb::pose::Pose;
-use motiondb::skeleton::{Joint, Skeleton};
+use motiondb::body::{Joint, Pose, Skeleton};
 
 /// One leg, from the hip down to the ankle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +70,7 @@ impl FootPose {
 }
 
 /// Both legs, `[left, right]`.
-pub fn legs(pose: &Pose, skeleton: &Skeleton) -> [Leg; 2] {
+pub(crate) fn legs(pose: &Pose, skeleton: &Skeleton) -> [Leg; 2] {
     [0, 1].map(|side| Leg::new(pose, skeleton, side))
 }
 
@@ -83,7 +82,7 @@ mod tests {
     #[test]
     fn legs_are_where_forward_kinematics_has_them() {
         let db = test_db();
-        for row in 0..motiondb::motion_db::PHASE_COUNT {
+        for row in 0..motiondb::motion::PHASE_COUNT {
             let pose = db.rows.pose(1, row);
             let joints = pose.forward_kinematics(&db.skeleton);
             for (side, leg) in legs(&pose, &db.skeleton).iter().enumerate() {

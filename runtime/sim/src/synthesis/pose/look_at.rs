@@ -12,8 +12,7 @@
 use std::f32::consts::PI;
 
 use glam::Quat;
-use motiondb::pose::{Pose, Root};
-use motiondb::skeleton::{Joint, Skeleton};
+use motiondb::body::{Joint, Pose, Root, Skeleton};
 
 use crate::maths::angle::{direction, wrap_rad, yaw};
 use crate::planning::plan::Plan;
@@ -88,7 +87,7 @@ fn wanted_rad(plan: &Plan, facing_rad: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use glam::{Vec2, Vec3};
-    use motiondb::skeleton::JOINT_COUNT;
+    use motiondb::body::JOINT_COUNT;
 
     use super::*;
     use crate::test_db::skeleton;

@@ -4,10 +4,16 @@
 //!
 //! Read `posture`, then `foot_lock`, `pelvis`, `heel_rise`, `leg`, `ik`; `look_at` turns head and chest.
 
-pub mod foot_lock;
-pub mod heel_rise;
-pub mod ik;
-pub mod leg;
-pub mod look_at;
-pub mod pelvis;
-pub mod posture;
+pub(crate) mod foot_lock;
+pub(crate) mod heel_rise;
+pub(crate) mod ik;
+pub(crate) mod leg;
+pub(crate) mod look_at;
+pub(crate) mod pelvis;
+pub(crate) mod posture;
+
+pub use foot_lock::{FootHold, HeldFoot, PosedFoot};
+pub use leg::{FootPose, Leg};
+pub use look_at::Gaze;
+pub use pelvis::Descent;
+pub use posture::Posture;

@@ -61,14 +61,14 @@ impl Descent {
 
 /// How much lower the pelvis is where feet are where another walk has them than over the pose's own, m; negative where
 /// it is higher.
-pub fn lower_m(legs: &[Leg; 2], feet: &[FootPose; 2]) -> f32 {
+pub(crate) fn lower_m(legs: &[Leg; 2], feet: &[FootPose; 2]) -> f32 {
     let [[left_m, left_own_m], [right_m, right_own_m]] = needs_m(legs, &legs.each_ref().map(Leg::foot), feet);
     let lower_m = greater_m(left_m, right_m) - greater_m(left_own_m, right_own_m);
     (RAISED * lower_m + (1.0 - RAISED) * softly_positive_m(lower_m)).min(DROP_MAX_M)
 }
 
 /// The positive part of a length, m, without an edge: none at 0, and less than the length by no more than the rounding.
-pub fn softly_positive_m(length_m: f32) -> f32 {
+pub(crate) fn softly_positive_m(length_m: f32) -> f32 {
     ROUNDING_M * (soft_maximum(length_m / ROUNDING_M) - 1.0)
 }
 
@@ -78,7 +78,7 @@ fn greater_m(one_m: f32, other_m: f32) -> f32 {
 }
 
 /// How far the pelvis comes down where feet move from where the pose has them, m.
-pub fn drop_m(legs: &[Leg; 2], posed: &[FootPose; 2], feet: &[FootPose; 2]) -> f32 {
+pub(crate) fn drop_m(legs: &[Leg; 2], posed: &[FootPose; 2], feet: &[FootPose; 2]) -> f32 {
     let [left_m, right_m] = needs_m(legs, posed, feet).map(|[target_m, own_m]| asked_m(target_m, own_m));
     libm::sqrtf(Vec2::new(left_m * left_m, right_m * right_m).length()).min(DROP_MAX_M)
 }
@@ -113,8 +113,7 @@ fn needed_m(leg: &Leg, extent_m: f32, foot: &FootPose) -> f32 {
 #[cfg(test)]
 mod tests {
     use glam::Quat;
-    use motiondb::pose::Pose;
-    use motiondb::skeleton::{JOINT_COUNT, Joint};
+    use motiondb::body::{JOINT_COUNT, Joint, Pose};
 
     use super::*;
     use crate::synthesis::pose::leg::legs;

@@ -4,8 +4,7 @@
 //! All vectors are in the root frame (x forward, y left, z up), metres.
 
 use glam::Vec3;
-use motiondb::pose::Pose;
-use motiondb::skeleton::Skeleton;
+use motiondb::body::{Pose, Skeleton};
 
 use crate::synthesis::pose::leg::{FootPose, Leg, legs};
 use crate::synthesis::pose::{heel_rise, ik, pelvis};

@@ -9,10 +9,8 @@
 //! Root frame: x forward, y left, z up, metres; seconds; radians.
 
 use glam::{Quat, Vec2, Vec3};
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::parameters::Parameters;
-use motiondb::phase_map::PhaseMap;
-use motiondb::skeleton::JOINT_COUNT;
+use motiondb::body::JOINT_COUNT;
+use motiondb::motion::{MotionDb, PHASE_COUNT, Parameters, PhaseMap};
 
 use crate::synthesis::semi_procedural::foot_path::{Foothold, foot_path};
 use crate::synthesis::semi_procedural::landing::Landing;

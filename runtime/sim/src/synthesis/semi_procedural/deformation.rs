@@ -14,12 +14,9 @@
 use std::f32::consts::FRAC_PI_2;
 
 use glam::{Quat, Vec2, Vec3};
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::parameters::Parameters;
-use motiondb::phase_map::{PhaseMap, wrapped};
-use motiondb::planted_feet::CycleFeet;
-use motiondb::pose::{Joints, Pose};
-use motiondb::skeleton::{Foot, Joint, Side, Skeleton};
+use motiondb::body::{Foot, Joint, Joints, Pose, Side, Skeleton};
+use motiondb::motion::{MotionDb, PHASE_COUNT, Parameters, PhaseMap, wrapped};
+use motiondb::quality::planted_feet::CycleFeet;
 
 use crate::maths::angle::{direction, yaw};
 use crate::maths::arc::carried;

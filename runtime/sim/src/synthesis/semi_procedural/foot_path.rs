@@ -13,9 +13,8 @@
 //! Root frame: x forward, y left, z up, metres; seconds.
 
 use glam::{Quat, Vec3};
-use motiondb::motion_db::{MotionExample, PHASE_COUNT};
-use motiondb::pose::{Joints, Root};
-use motiondb::skeleton::Joint;
+use motiondb::body::{Joint, Joints, Root};
+use motiondb::motion::{MotionExample, PHASE_COUNT};
 
 use crate::maths::arc::moved;
 
@@ -31,7 +30,7 @@ pub struct Foothold {
 }
 
 /// One foot row by row; `rows` are the example's.
-pub fn foot_path(example: &MotionExample, key_times_s: [f32; 4], side: usize, rows: &[Joints]) -> Vec<Foothold> {
+pub(crate) fn foot_path(example: &MotionExample, key_times_s: [f32; 4], side: usize, rows: &[Joints]) -> Vec<Foothold> {
     let foot = Joint::FEET[side].index();
     let ankles_m: Vec<Vec3> = rows.iter().map(|joints| joints.positions_m[foot]).collect();
     let foothold = |(joints, since_s): (&Joints, f32)| {

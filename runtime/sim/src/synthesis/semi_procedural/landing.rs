@@ -9,9 +9,8 @@
 //! Root frame: x forward, y left, z up, metres; seconds; phases.
 
 use glam::{Vec2, Vec3};
-use motiondb::motion_db::PHASE_COUNT;
-use motiondb::pose::Joints;
-use motiondb::skeleton::{Joint, Side};
+use motiondb::body::{Joint, Joints, Side};
+use motiondb::motion::PHASE_COUNT;
 
 use crate::synthesis::semi_procedural::foot_path::Foothold;
 
@@ -57,7 +56,7 @@ impl Landing {
 
 /// How far down hips are so many half-strides after a landing, from 0 between two landings to 1 at each:
 /// cos² πh to 2 %, without a call.
-pub fn lowering(half_strides: f32) -> f32 {
+pub(crate) fn lowering(half_strides: f32) -> f32 {
     let off = half_strides - libm::roundf(half_strides);
     let square = off * off;
     (1.0 - 4.0 * square) * (1.0 - 4.0 * square) * (1.0 - 1.87 * square)

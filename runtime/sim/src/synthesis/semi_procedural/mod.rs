@@ -4,7 +4,12 @@
 //!
 //! Read `base_walk`, then `foot_path` and `landing`, then `deformation`.
 
-pub mod base_walk;
-pub mod deformation;
-pub mod foot_path;
-pub mod landing;
+pub(crate) mod base_walk;
+pub(crate) mod deformation;
+pub(crate) mod foot_path;
+pub(crate) mod landing;
+
+pub use base_walk::SemiProcedural;
+pub use deformation::{Deformation, Tempo};
+pub use foot_path::Foothold;
+pub use landing::Landing;

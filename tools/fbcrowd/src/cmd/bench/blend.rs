@@ -11,13 +11,13 @@
 use std::f32::consts::{FRAC_PI_2, TAU};
 use std::path::PathBuf;
 
-use fbcrowd_sim::planning::plan::Plan;
-use fbcrowd_sim::synthesis::command::stand_or_step::START_IDLE_SHARE;
-use fbcrowd_sim::synthesis::library::context::Studio;
-use fbcrowd_sim::synthesis::params::Modes;
+use fbcrowd_sim::planning::Plan;
+use fbcrowd_sim::synthesis::Modes;
+use fbcrowd_sim::synthesis::command::START_IDLE_SHARE;
+use fbcrowd_sim::synthesis::library::Studio;
 use glam::{Vec2, Vec3};
-use motiondb::parameters::Parameters;
-use motiondb::pose::Root;
+use motiondb::body::Root;
+use motiondb::motion::Parameters;
 use serde::Serialize;
 
 use crate::cmd::bench::bar::{Bar, Found, conclude};

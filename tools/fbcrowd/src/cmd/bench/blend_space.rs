@@ -3,11 +3,11 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use fbcrowd_sim::maths::random::SplitMix64;
+use fbcrowd_sim::maths::SplitMix64;
 use glam::{DVec3, Vec3};
-use motiondb::locator::Locator;
-use motiondb::parameters::Parameters;
-use motiondb::triangulation::build;
+use motiondb::blend_space::Locator;
+use motiondb::blend_space::triangulation::build;
+use motiondb::motion::Parameters;
 use serde::Serialize;
 
 use crate::cmd::bench::bar::{Bar, Found, Goal, conclude};

@@ -12,15 +12,13 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use fbcrowd_sim::maths::random::SplitMix64;
-use fbcrowd_sim::planning::plan::Plan;
-use fbcrowd_sim::synthesis::Body;
-use fbcrowd_sim::synthesis::library::context::Studio;
-use fbcrowd_sim::synthesis::params::Modes;
-use fbcrowd_sim::synthesis::time_step::TimeStep;
+use fbcrowd_sim::maths::SplitMix64;
+use fbcrowd_sim::planning::Plan;
+use fbcrowd_sim::synthesis::library::Studio;
+use fbcrowd_sim::synthesis::{Body, Modes, TimeStep};
 use glam::Vec2;
-use motiondb::motion_db::{MotionDb, PHASE_COUNT};
-use motiondb::pose::{Joints, Root};
+use motiondb::body::{Joints, Root};
+use motiondb::motion::{MotionDb, PHASE_COUNT};
 use serde::Serialize;
 
 use crate::cmd::bench::bar::{Bar, Found, Goal, conclude};

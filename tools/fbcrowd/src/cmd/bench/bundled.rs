@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use motiondb::file;
-use motiondb::motion_db::MotionDb;
+use motiondb::files::database_file;
+use motiondb::motion::MotionDb;
 use motiondb_compiler::compile;
 use motiondb_compiler::import::import_bytes;
 
@@ -12,7 +12,7 @@ use crate::failure::Failure;
 
 /// The database at a path, or that of the bundled clips.
 pub(super) fn database(path: Option<&Path>) -> Result<MotionDb, Failure> {
-    path.map_or_else(bundled, |path| Ok(file::load(path)?.0))
+    path.map_or_else(bundled, |path| Ok(database_file::load(path)?.0))
 }
 
 /// Compiled with the compiler's own choices.

@@ -1,14 +1,13 @@
 //! `fbcrowd bench clips`: are the bundled clips what they claim to be, and what people do?
 //!
-//! Everything is measured on the compiled clips, as the compiler measures anybody's: [`motiondb::quality`], the
+//! Everything is measured on the compiled clips, as the compiler measures anybody's: [`motiondb::quality::example_quality`], the
 //! examples' own parameters and key times, and with `--mocap` their likeness to real clips ([`crate::likeness`]).
 
 use std::path::PathBuf;
 
 use clipgen::reference::{Claim, claims};
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
-use motiondb::quality::{ExampleQuality, quality};
+use motiondb::motion::{MotionDb, Parameters};
+use motiondb::quality::example_quality::{ExampleQuality, quality};
 use serde::Serialize;
 
 use crate::cmd::bench::bar::{Bar, Found, conclude};

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-use motiondb::file;
+use motiondb::files::database_file;
 use motiondb_compiler::manifest::Manifest;
 use motiondb_compiler::{compile, import};
 use serde::Serialize;
@@ -42,7 +42,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let manifest = Manifest::of_files(&files);
     let (start, stopwatch) = (Instant::now(), Stopwatch::default());
     let compiled = compile::compile_manifest(&manifest, &|event| stopwatch.watch(event))?;
-    let bytes = file::to_bytes(&compiled.db);
+    let bytes = database_file::to_bytes(&compiled.db);
     let (seconds, stages) = (start.elapsed().as_secs_f64(), stopwatch.finish());
     // Before the other compilations add to it.
     let peak_mb = peak_memory_mb();
@@ -67,7 +67,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 fn compiled_bytes(manifest: &Manifest) -> Result<Vec<u8>, Failure> {
-    Ok(file::to_bytes(&compile::compile_manifest(manifest, &|_| ())?.db))
+    Ok(database_file::to_bytes(&compile::compile_manifest(manifest, &|_| ())?.db))
 }
 
 /// The most memory that this process ever held, as Linux tells it.

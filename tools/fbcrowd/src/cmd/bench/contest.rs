@@ -10,18 +10,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use fbcrowd_render::top_view::trails::Tracks;
-use fbcrowd_sim::coupling::body_to_disc::Coupling;
+use fbcrowd_render::top_view::Tracks;
+use fbcrowd_sim::coupling::Coupling;
 use fbcrowd_sim::measures::metrics::{Measures, Measuring, write_roots};
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planning::planner::Planner;
-use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::planning::Planner;
+use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::simulation::{Simulation, Stage};
-use fbcrowd_sim::synthesis::params::Modes;
+use fbcrowd_sim::synthesis::Modes;
 use glam::Vec2;
-use motiondb::atomic_file::AtomicFile;
-use motiondb::motion_db::MotionDb;
+use motiondb::files::atomic_file::AtomicFile;
+use motiondb::motion::MotionDb;
 
 use crate::cmd::bench::scenes::{self, Scene};
 use crate::failure::Failure;

@@ -1,7 +1,7 @@
 //! `fbcrowd bench coupled`: what the coupling is good for, on the scenes of the paper's user study (§7).
 //!
 //! Coupled: MCN, hybrid synthesis, discs that follow their bodies. Decoupled: ORCA plans for discs alone, and blended
-//! bodies follow them exactly ([`fbcrowd_sim::coupling::decoupled`]). The same clips and scenes, steps of 1/30 s as in a film,
+//! bodies follow them exactly ([`fbcrowd_sim::coupling`]). The same clips and scenes, steps of 1/30 s as in a film,
 //! until all are at their goals. The study asked 21 people for naturalness, collisions and artefacts; here these are
 //! the bodies' overlap, the slide of planted feet, the acceleration of the root, and how far people face away from
 //! where they go.
@@ -9,9 +9,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use fbcrowd_sim::coupling::body_to_disc::Coupling;
+use fbcrowd_sim::coupling::Coupling;
 use fbcrowd_sim::measures::metrics::Measures;
-use fbcrowd_sim::synthesis::params::Modes;
+use fbcrowd_sim::synthesis::Modes;
 use serde::Serialize;
 
 use crate::cmd::bench::bar::{Bar, Found, conclude};

@@ -11,18 +11,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_render::plots::crowd::side_by_side::{Way, side_by_side};
+use fbcrowd_render::plots::crowd::{Way, side_by_side};
 use fbcrowd_render::raster::png_frame;
-use fbcrowd_render::top_view::trails::Tracks;
+use fbcrowd_render::top_view::Tracks;
 use fbcrowd_sim::measures::metrics::{Measures, Measuring};
-use fbcrowd_sim::recording::frame::AgentFrame;
+use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::simulation::Simulation;
-use fbcrowd_sim::synthesis::hybrid::mode::Mode;
-use fbcrowd_sim::synthesis::params::{Modes, Transition};
+use fbcrowd_sim::synthesis::hybrid::Mode;
+use fbcrowd_sim::synthesis::{Modes, Transition};
 use glam::Vec2;
-use motiondb::motion_db::MotionDb;
-use motiondb::skeleton::Skeleton;
+use motiondb::body::Skeleton;
+use motiondb::motion::MotionDb;
 use serde::Serialize;
 
 use crate::cmd::bench::bar::{Bar, Found, conclude};

@@ -7,12 +7,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_sim::measures::arching::{SECTORS, Shape, WaitingCrowd};
-use fbcrowd_sim::measures::gate::Gate;
-use fbcrowd_sim::measures::lanes::{LaneOrder, LaneWalker, lane_order};
+use fbcrowd_sim::measures::{Gate, LaneOrder, LaneWalker, SECTORS, Shape, WaitingCrowd, lane_order};
 use fbcrowd_sim::scenario::Scenario;
 use glam::Vec2;
-use motiondb::motion_db::MotionDb;
+use motiondb::motion::MotionDb;
 use serde::Serialize;
 
 use crate::cmd::bench::bar::{Bar, Found, conclude};

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use fbcrowd_render::plots::crowd::comparison::{Comparison, Measure, comparison};
+use fbcrowd_render::plots::crowd::{Comparison, Measure, comparison};
 use fbcrowd_render::raster::png_frame;
 use rayon::ThreadPool;
 use serde::Serialize;

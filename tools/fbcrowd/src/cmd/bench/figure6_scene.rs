@@ -6,12 +6,12 @@ use std::f32::consts::TAU;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use fbcrowd_sim::maths::random::SplitMix64;
+use fbcrowd_sim::maths::SplitMix64;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::simulation::{Simulation, Stage};
-use fbcrowd_sim::synthesis::hybrid::mode::Mode;
+use fbcrowd_sim::synthesis::hybrid::Mode;
 use glam::Vec2;
-use motiondb::motion_db::MotionDb;
+use motiondb::motion::MotionDb;
 
 use crate::cmd::bench::figure6::TURNS;
 use crate::cmd::bench::plan::{agent, disc};

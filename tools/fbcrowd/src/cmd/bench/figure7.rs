@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use fbcrowd_sim::synthesis::params::Modes;
+use fbcrowd_sim::synthesis::Modes;
 use serde::Serialize;
 
 use crate::cmd::bench::bar::{Bar, Found, conclude};

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use motiondb::motion_db::MotionDb;
+use motiondb::motion::MotionDb;
 use motiondb_compiler::truth::marine_files;
 use motiondb_compiler::{compile, import};
 use serde::Serialize;

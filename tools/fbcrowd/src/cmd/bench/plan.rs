@@ -9,12 +9,9 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
-use fbcrowd_sim::maths::random::SplitMix64;
+use fbcrowd_sim::maths::SplitMix64;
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planning::plan::Plan;
-use fbcrowd_sim::planning::plan_all::{Memory, plan_all};
-use fbcrowd_sim::planning::planner::{Planner, ahead_s};
-use fbcrowd_sim::planning::world_view::World;
+use fbcrowd_sim::planning::{Memory, Plan, Planner, World, ahead_s, plan_all};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::simulation::Simulation;
 use fbcrowd_sim::world::neighbours::{Nearest, Neighbours, Query};

@@ -5,8 +5,8 @@
 
 use std::path::PathBuf;
 
-use fbcrowd_sim::synthesis::params::Modes;
-use motiondb::motion_db::MotionDb;
+use fbcrowd_sim::synthesis::Modes;
+use motiondb::motion::MotionDb;
 use rayon::prelude::*;
 use serde::Serialize;
 

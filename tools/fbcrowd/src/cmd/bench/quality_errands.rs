@@ -6,14 +6,13 @@
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
-use fbcrowd_sim::maths::random::SplitMix64;
-use fbcrowd_sim::planning::plan::Plan;
-use fbcrowd_sim::synthesis::command::blend_query::asking;
-use fbcrowd_sim::synthesis::params::HmsParams;
+use fbcrowd_sim::maths::SplitMix64;
+use fbcrowd_sim::planning::Plan;
+use fbcrowd_sim::synthesis::HmsParams;
+use fbcrowd_sim::synthesis::command::asking;
 use glam::Vec2;
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
-use motiondb::pose::Root;
+use motiondb::body::Root;
+use motiondb::motion::{MotionDb, Parameters};
 
 /// A steady walk is given this long to become steady …
 const SETTLING_S: f32 = 4.0;

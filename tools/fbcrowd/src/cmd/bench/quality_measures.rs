@@ -4,14 +4,12 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use fbcrowd_sim::measures::planted_slide::PlantedSlide;
-use fbcrowd_sim::planning::plan::PLANTED_CONTACT;
-use fbcrowd_sim::synthesis::blending::blend_space::Space;
-use fbcrowd_sim::synthesis::blending::mix::Mix;
+use fbcrowd_sim::measures::PlantedSlide;
+use fbcrowd_sim::planning::PLANTED_CONTACT;
+use fbcrowd_sim::synthesis::blending::{Mix, Space};
 use glam::Vec3;
-use motiondb::motion_db::MotionDb;
-use motiondb::pose::Joints;
-use motiondb::skeleton::{Joint, Skeleton};
+use motiondb::body::{Joint, Joints, Skeleton};
+use motiondb::motion::MotionDb;
 use serde::Serialize;
 
 use crate::cmd::bench::quality_errands::Errand;

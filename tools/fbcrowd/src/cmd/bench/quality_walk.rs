@@ -1,15 +1,12 @@
 //! Bodies that go on an errand, alone on open ground, and what is kept of every step for the measures.
 
-use fbcrowd_sim::planning::plan::Plan;
-use fbcrowd_sim::recording::frame::AgentFrame;
-use fbcrowd_sim::synthesis::Body;
-use fbcrowd_sim::synthesis::hybrid::mode::Mode;
-use fbcrowd_sim::synthesis::library::context::Studio;
-use fbcrowd_sim::synthesis::params::Modes;
-use fbcrowd_sim::synthesis::time_step::TimeStep;
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
-use motiondb::pose::{Joints, Root};
+use fbcrowd_sim::planning::Plan;
+use fbcrowd_sim::recording::AgentFrame;
+use fbcrowd_sim::synthesis::hybrid::Mode;
+use fbcrowd_sim::synthesis::library::Studio;
+use fbcrowd_sim::synthesis::{Body, Modes, TimeStep};
+use motiondb::body::{Joints, Root};
+use motiondb::motion::{MotionDb, Parameters};
 
 use crate::cmd::bench::quality_errands::{Ask, Errand};
 

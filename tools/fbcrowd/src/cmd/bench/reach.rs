@@ -6,14 +6,11 @@
 
 use std::path::PathBuf;
 
-use fbcrowd_sim::synthesis::semi_procedural::base_walk::SemiProcedural;
-use fbcrowd_sim::synthesis::semi_procedural::deformation::Deformation;
+use fbcrowd_sim::synthesis::semi_procedural::{Deformation, SemiProcedural};
 use glam::Vec2;
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
-use motiondb::planted_feet::foot_slide;
-use motiondb::pose::{Joints, Pose};
-use motiondb::skeleton::Joint;
+use motiondb::body::{Joint, Joints, Pose};
+use motiondb::motion::{MotionDb, Parameters};
+use motiondb::quality::planted_feet::foot_slide;
 use serde::Serialize;
 
 use crate::cmd::bench::bar::{Bar, Found, conclude};

@@ -7,9 +7,9 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_render::plots::crowd::fundamental_diagram::{Diagram, diagram};
+use fbcrowd_render::plots::crowd::{Diagram, diagram};
 use fbcrowd_render::raster::png_frame;
-use fbcrowd_sim::measures::measured_section::weidmann_mps;
+use fbcrowd_sim::measures::weidmann_mps;
 use glam::Vec2;
 use serde::Serialize;
 
@@ -102,7 +102,7 @@ impl Test {
     }
 }
 
-fn write_paths(folder: &Path, db: &motiondb::motion_db::MotionDb, watched: &[Watched]) -> Result<(), Failure> {
+fn write_paths(folder: &Path, db: &motiondb::motion::MotionDb, watched: &[Watched]) -> Result<(), Failure> {
     for (index, played) in watched.iter().enumerate() {
         let again = index > 0 && watched[index - 1].scenario.name == played.scenario.name;
         if !again {

@@ -5,9 +5,7 @@
 //! compared with those that went in or were published, and leaves the margin to whoever compares: ours stand below,
 //! with their reasons. World, metres, seconds.
 
-use fbcrowd_sim::measures::arching::WaitingCrowd;
-use fbcrowd_sim::measures::gate::Gate;
-use fbcrowd_sim::measures::measured_section::{MeasuredSection, weidmann_mps};
+use fbcrowd_sim::measures::{Gate, MeasuredSection, WaitingCrowd, weidmann_mps};
 use fbcrowd_sim::world::obstacles::Obstacles;
 use glam::Vec2;
 use serde::Serialize;

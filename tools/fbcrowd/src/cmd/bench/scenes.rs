@@ -7,12 +7,11 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::coupling::body_to_disc::Coupling;
+use fbcrowd_sim::coupling::Coupling;
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planning::planner::Planner;
-use fbcrowd_sim::scenario::file::{agents_of_lines, fault_of_lines};
-use fbcrowd_sim::scenario::{self, AgentSpec, Scenario};
-use motiondb::source_text::SourceText;
+use fbcrowd_sim::planning::Planner;
+use fbcrowd_sim::scenario::{self, AgentSpec, Scenario, agents_of_lines, fault_of_lines};
+use motiondb::files::SourceText;
 
 use crate::failure::Failure;
 

@@ -21,9 +21,10 @@ use std::time::Instant;
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::wild::world::WildWorld;
 use fbcrowd_sim::wild::{self, turned_world};
-use motiondb::motion_db::MotionDb;
-use motiondb::velocity_hull::VelocityHull;
-use motiondb::{file, validate};
+use motiondb::files::database_file;
+use motiondb::motion::MotionDb;
+use motiondb::validate;
+use motiondb::velocity_sets::velocity_hull::VelocityHull;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -132,7 +133,7 @@ struct Find {
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let db = match &args.database {
-        Some(path) => file::load(path)?.0,
+        Some(path) => database_file::load(path)?.0,
         None => bundled()?,
     };
     let scratch = Scratch::new()?;
@@ -154,7 +155,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 fn kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Result<Vec<Kind<'a>>, Failure> {
-    let bytes = Arc::new(file::to_bytes(db));
+    let bytes = Arc::new(database_file::to_bytes(db));
     let forged = Arc::clone(&bytes);
     let (bvh, glb) = (clip::bundled(".bvh"), clip::bundled(".glb"));
     let recording = recording::bytes(db, scratch)?;

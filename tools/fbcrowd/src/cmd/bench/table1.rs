@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use fbcrowd_sim::measures::metrics::Measures;
-use fbcrowd_sim::synthesis::params::Modes;
+use fbcrowd_sim::synthesis::Modes;
 use serde::Serialize;
 
 use crate::cmd::bench::bar::{Bar, Found, Goal, conclude};

@@ -6,8 +6,8 @@
 
 use std::sync::Arc;
 
-use fbcrowd_sim::coupling::body_to_disc::Coupling;
-use motiondb::motion_db::MotionDb;
+use fbcrowd_sim::coupling::Coupling;
+use motiondb::motion::MotionDb;
 
 use crate::cmd::bench::bar::{Bar, Found, conclude};
 use crate::cmd::bench::contest::{Contestant, ORCA, Protocol, SOCIAL_FORCE, run_all};

@@ -4,8 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use fbcrowd_render::error::RenderError;
-use fbcrowd_render::plots::crowd::comparison::{Comparison, Measure, comparison};
-use fbcrowd_render::plots::crowd::side_by_side::{Way, side_by_side};
+use fbcrowd_render::plots::crowd::{Comparison, Measure, Way, comparison, side_by_side};
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_sim::measures::metrics::Measures;
 

@@ -2,16 +2,14 @@
 
 use std::sync::Arc;
 
-use fbcrowd_sim::maths::angle::wrap_rad;
-use fbcrowd_sim::maths::arc::went;
-use fbcrowd_sim::planning::plan::Plan;
-use fbcrowd_sim::synthesis::command::blend_query::asking;
-use fbcrowd_sim::synthesis::library::context::Studio;
-use fbcrowd_sim::synthesis::params::{HmsParams, Modes};
+use fbcrowd_sim::maths::{went, wrap_rad};
+use fbcrowd_sim::planning::Plan;
+use fbcrowd_sim::synthesis::command::asking;
+use fbcrowd_sim::synthesis::library::Studio;
+use fbcrowd_sim::synthesis::{HmsParams, Modes};
 use glam::Vec3;
-use motiondb::motion_db::MotionDb;
-use motiondb::parameters::Parameters;
-use motiondb::pose::Root;
+use motiondb::body::Root;
+use motiondb::motion::{MotionDb, Parameters};
 
 /// Steps of time in which the bars of synthesis shall hold, s: a display's, a film's, and that of Table 1.
 pub(super) const DT_S: [f32; 3] = [1.0 / 120.0, 1.0 / 30.0, 0.1];

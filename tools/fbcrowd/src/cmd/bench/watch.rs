@@ -6,16 +6,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_render::plots::crowd::trajectories::trajectories;
+use fbcrowd_render::plots::crowd::trajectories;
 use fbcrowd_render::raster::png_frame;
-use fbcrowd_render::top_view::trails::Tracks;
+use fbcrowd_render::top_view::Tracks;
 use fbcrowd_sim::measures::metrics::{Measures, Measuring};
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::scenario::{self, Scenario};
 use fbcrowd_sim::simulation::Simulation;
 use glam::Vec2;
-use motiondb::motion_db::MotionDb;
-use motiondb::source_text::SourceText;
+use motiondb::files::SourceText;
+use motiondb::motion::MotionDb;
 
 use crate::cmd::bench::contest::{each_alone, step_count};
 use crate::failure::Failure;

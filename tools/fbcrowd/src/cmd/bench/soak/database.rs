@@ -6,9 +6,10 @@ use std::sync::Arc;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::simulation::Simulation;
 use glam::Vec2;
-use motiondb::container::{self, HEADER_LENGTH};
-use motiondb::motion_db::MotionDb;
-use motiondb::{file, validate};
+use motiondb::files::container::{self, HEADER_LENGTH};
+use motiondb::files::database_file;
+use motiondb::motion::MotionDb;
+use motiondb::validate;
 
 use crate::cmd::bench::soak::{Draw, Fate};
 
@@ -26,7 +27,7 @@ pub(super) fn damage(bytes: &[u8], draw: &mut Draw) -> Fate {
     } else {
         copy[place] ^= 1 + draw.below(255) as u8;
     }
-    match file::from_bytes(Path::new("damaged"), &copy) {
+    match database_file::from_bytes(Path::new("damaged"), &copy) {
         Ok(_) => Fate::Harmful("is used, though damaged"),
         Err(_) => Fate::Refused,
     }
@@ -37,8 +38,8 @@ pub(super) fn forge(bytes: &[u8], draw: &mut Draw) -> Fate {
     let mut payload = bytes[HEADER_LENGTH..].to_vec();
     let place = forged_place(payload.len(), draw);
     draw.edit_at(place).alter(&mut payload);
-    let sealed = container::seal(file::MAGIC, file::VERSION, &payload);
-    let Ok((db, _)) = file::from_bytes(Path::new("forged"), &sealed) else {
+    let sealed = container::seal(database_file::MAGIC, database_file::VERSION, &payload);
+    let Ok((db, _)) = database_file::from_bytes(Path::new("forged"), &sealed) else {
         return Fate::Refused;
     };
     if validate::validate(&db).iter().any(|check| check.broken.is_some()) {

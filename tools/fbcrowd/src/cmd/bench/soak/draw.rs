@@ -1,6 +1,6 @@
 //! A copy's random draws: places, choices, and the edits of [`motiondb_compiler::mutation`].
 
-use fbcrowd_sim::maths::random::SplitMix64;
+use fbcrowd_sim::maths::SplitMix64;
 use motiondb_compiler::mutation::Edit;
 
 /// Names, counts and structure of a file stand before its data, within so many bytes.

@@ -5,11 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fbcrowd_sim::measures::metrics::measure;
-use fbcrowd_sim::recording::chunk::{CHUNK_HEAD_BYTES, Kind, write_chunk};
-use fbcrowd_sim::recording::error::RecordingError;
-use fbcrowd_sim::recording::{Header, Recorder, Recording};
+use fbcrowd_sim::recording::{CHUNK_HEAD_BYTES, Header, Kind, Recorder, Recording, RecordingError, write_chunk};
 use fbcrowd_sim::simulation::Simulation;
-use motiondb::motion_db::MotionDb;
+use motiondb::motion::MotionDb;
 use motiondb_compiler::mutation::mutated;
 
 use crate::cmd::bench::soak::scratch::Scratch;

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use fbcrowd_sim::scenario;
-use motiondb::motion_db::MotionDb;
-use motiondb::source_text::SourceText;
+use motiondb::files::SourceText;
+use motiondb::motion::MotionDb;
 use motiondb_compiler::compile::compile_manifest;
 use motiondb_compiler::manifest::Manifest;
 use motiondb_compiler::mutation::mutated;

@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use crate::blend_space::{MAX_CORNERS, Shares};
+use crate::blend_space::space::{MAX_CORNERS, Shares};
 
 /// A simplex with an edge this many times longer than its height is a sliver: what `f64` makes of it is rounding, and
 /// the gap that it leaves is too thin to see.

@@ -7,7 +7,7 @@
 //! rest-pose body axes (x forward, y left, z up, arms out, palms down): +y bends the trunk forward and flexes the knee,
 //! −y flexes the hip and lifts the toes.
 
-use crate::skeleton::JOINT_COUNT;
+use crate::body::skeleton::JOINT_COUNT;
 
 const FREE: f32 = 180.0;
 

@@ -5,7 +5,7 @@ use robust::{Coord, orient2d};
 
 /// Convex hull of the points and the origin, clockwise, without corners on its edges (Andrew's monotone chain on exact
 /// predicates).
-pub fn clockwise_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
+pub(crate) fn clockwise_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut sorted: Vec<Vec2> = points.chain([Vec2::ZERO]).collect();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     sorted.dedup();

@@ -15,7 +15,7 @@ use std::f32::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 /// The greatest |h − ½| accepted: the playback rate then stays within 1/(1 ± 0.63) of its mean. Real clips: 0.1.
-pub const MAX_ASYMMETRY: f32 = 0.2;
+pub(crate) const MAX_ASYMMETRY: f32 = 0.2;
 
 /// Phase to time of one cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

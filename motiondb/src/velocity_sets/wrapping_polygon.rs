@@ -45,7 +45,7 @@ fn apart_rad(one_rad: f64, other_rad: f64) -> f64 {
 
 /// Edges of the turning points' wrapping polygon with an end beyond ±90° (the red lines of Fig. 3b), each from its
 /// clockwise-first end. An edge that passes behind the origin bounds nothing.
-pub fn sharp_turn_edges(turning_points_mps: &[Vec2]) -> Vec<[Vec2; 2]> {
+pub(crate) fn sharp_turn_edges(turning_points_mps: &[Vec2]) -> Vec<[Vec2; 2]> {
     let polygon = wrapping_polygon(turning_points_mps);
     if polygon.len() < 2 {
         return Vec::new();

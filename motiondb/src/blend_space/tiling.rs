@@ -1,7 +1,7 @@
 //! Proof, from the stored data alone, that the simplices of a blend space tile the convex hull of its examples
 //! (`FbCrowd` §5): disjoint, without a gap, their volumes adding up to the hull's.
 //!
-//! On the [`lattice`](crate::lattice) every step is exact. In one to three dimensions alike:
+//! On the [`lattice`](crate::blend_space::lattice) every step is exact. In one to three dimensions alike:
 //!
 //! 1. every simplex has volume;
 //! 2. a facet belongs to two simplices on opposite sides of it, or to one: then it is of the boundary;
@@ -11,9 +11,9 @@
 //! By 3, boundary facets lie on the hull's own. So how many simplices hold a point can change nowhere inside the hull:
 //! crossing any other facet leaves one simplex and enters one (2). It is one at one place (4), hence everywhere.
 
-use crate::blend_space::{BlendSpace, MAX_CORNERS};
-use crate::lattice::{Lattice, LatticePoint, TWIN_STEPS, signed_volume};
-use crate::parameters::Parameters;
+use crate::blend_space::lattice::{Lattice, LatticePoint, TWIN_STEPS, signed_volume};
+use crate::blend_space::space::{BlendSpace, MAX_CORNERS};
+use crate::motion::parameters::Parameters;
 
 /// Stored ranges are those of the examples but for the rounding of `f32`.
 const RANGE_TOLERANCE: f32 = 1e-5;
@@ -21,7 +21,7 @@ const RANGE_TOLERANCE: f32 = 1e-5;
 const COVERED_TOLERANCE: f32 = 1e-6;
 
 /// What is wrong with a blend space, in words; none where its simplices tile the hull of the examples' `parameters`.
-pub fn tiling_fault(space: &BlendSpace, parameters: &[Parameters]) -> Option<String> {
+pub(crate) fn tiling_fault(space: &BlendSpace, parameters: &[Parameters]) -> Option<String> {
     prove(space, parameters).err()
 }
 

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use crate::simplex::Simplex;
+use crate::blend_space::simplex::Simplex;
 
 /// Cells to a simplex: more make shorter lists, and more memory.
 const CELLS_PER_SIMPLEX: f64 = 64.0;
@@ -108,7 +108,7 @@ impl Cells {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simplex::soup;
+    use crate::blend_space::simplex::soup;
     use proptest::prelude::*;
 
     proptest! {

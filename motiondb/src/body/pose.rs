@@ -7,7 +7,7 @@
 use glam::{Quat, Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::skeleton::{JOINT_COUNT, Joint, Skeleton};
+use crate::body::skeleton::{JOINT_COUNT, Joint, Skeleton};
 
 /// Where a body stands: its disc's centre and its facing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

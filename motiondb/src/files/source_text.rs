@@ -6,8 +6,8 @@ use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use crate::input_file;
-use crate::parser_words::in_plain_words;
+use crate::files::input_file;
+use crate::files::parser_words::in_plain_words;
 
 /// A million agents take a tenth of it.
 const TEXT_MAX_BYTES: u64 = 1 << 30;

@@ -1,7 +1,7 @@
 //! Correspondence times T between two examples (`FbCrowd` §5, Eq. 10): where synthesis may switch from one to the
 //! other.
 //!
-//! The pairs of T are the local minima of the pose distance D ([`crate::pose_distance`]) on the torus of both cycles,
+//! The pairs of T are the local minima of the pose distance D ([`crate::motion::pose_distance`]) on the torus of both cycles,
 //! as far as they are at most [`THRESHOLD_RATIO`] times the least; a cell is a minimum where none of the eight around
 //! it is lower. Of minima that cannot all be passed in turn (monotone and cyclic in both) the greatest number is kept,
 //! and of equal numbers those with the least sum of distances. Every step (from one mid-stance to the other) of either
@@ -13,8 +13,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::motion_db::{MotionDb, PHASE_COUNT};
-use crate::pose_distance::{Distances, distances_m};
+use crate::motion::motion_db::{MotionDb, PHASE_COUNT};
+use crate::motion::pose_distance::{Distances, distances_m};
 
 /// A minimum counts up to this multiple of the least distance of all.
 pub const THRESHOLD_RATIO: f32 = 1.5;

@@ -1,25 +1,25 @@
 //! The examples' parameters as whole numbers, where every question of side is decided exactly.
 //!
 //! Each axis of (v_f, ω_t, ω_s) is divided by its range over the examples and rounded to 2⁻²⁰ of it. The compiler
-//! builds its simplices on these points, and [`crate::tiling`] proves them there: no rounding, no tolerance. An axis
+//! builds its simplices on these points, and [`crate::blend_space::tiling`] proves them there: no rounding, no tolerance. An axis
 //! without range is dropped; a set that lies flat within a gait's noise counts as flat, and is seen along the axis that
 //! it leans on least, so that points off the flat stand in it.
 
 use glam::DVec3;
 
-use crate::parameters::Parameters;
+use crate::motion::parameters::Parameters;
 
 /// Whole numbers to an axis's range: finer than an `f32` far from 0. Determinants of four lifted points stay below
 /// 2¹²⁷.
 const STEPS: f64 = (1 << 20) as f64;
 /// Differences below these are no range: what the compiler's snapping takes for a gait's noise, m/s, rad/s (3 °/s),
 /// m/s.
-pub const LEAST_RANGES: [f32; 3] = [0.05, 0.0524, 0.1];
+pub(crate) const LEAST_RANGES: [f32; 3] = [0.05, 0.0524, 0.1];
 /// A set that is nowhere thicker than this part of an axis's range is flat: some centimetres a second.
-pub const FLAT_SHARE: f32 = 0.02;
+pub(crate) const FLAT_SHARE: f32 = 0.02;
 /// Examples nearer than 2⁻⁹ of a range are twins: one is a corner for both, for between them a blend would jump. So an
 /// example that is no corner may lie this far outside the hull of the corners.
-pub const TWIN_STEPS: f64 = STEPS / 512.0;
+pub(crate) const TWIN_STEPS: f64 = STEPS / 512.0;
 
 /// A point in whole numbers; coordinates beyond the dimension are 0.
 pub type LatticePoint = [i64; 3];
@@ -29,7 +29,7 @@ pub type LatticePoint = [i64; 3];
 pub struct Lattice {
     /// 0 (one point) to 3.
     pub dimension: usize,
-    /// As in [`crate::blend_space::BlendSpace`].
+    /// As in [`crate::blend_space::space::BlendSpace`].
     pub axis_ranges: [f32; 3],
     /// Of each example, in the axes that span the set: `dimension` coordinates from 0 to about 2²⁰.
     pub points: Vec<LatticePoint>,
@@ -109,7 +109,7 @@ fn spanning_axes(directions: &[DVec3]) -> Vec<usize> {
 
 /// Length, twice the area or six times the volume of a simplex of one to four corners, signed: positive where they turn
 /// counter-clockwise. Axes beyond its dimension count as unit edges, so that one formula serves all.
-pub fn signed_volume(corners: &[LatticePoint]) -> i128 {
+pub(crate) fn signed_volume(corners: &[LatticePoint]) -> i128 {
     let mut edges: [LatticePoint; 3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
     for (edge, corner) in edges.iter_mut().zip(&corners[1..]) {
         *edge = std::array::from_fn(|axis| corner[axis] - corners[0][axis]);

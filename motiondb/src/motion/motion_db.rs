@@ -3,14 +3,14 @@
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::blend_space::BlendSpace;
-use crate::correspondence::Correspondence;
-use crate::parameters::Parameters;
-use crate::phase_map::PhaseMap;
-use crate::pose::{Joints, Pose};
-use crate::remark::Remark;
-use crate::skeleton::{JOINT_COUNT, Skeleton};
-use crate::velocity_hull::VelocityHull;
+use crate::blend_space::space::BlendSpace;
+use crate::body::pose::{Joints, Pose};
+use crate::body::skeleton::{JOINT_COUNT, Skeleton};
+use crate::motion::correspondence::Correspondence;
+use crate::motion::parameters::Parameters;
+use crate::motion::phase_map::PhaseMap;
+use crate::motion::remark::Remark;
+use crate::velocity_sets::velocity_hull::VelocityHull;
 
 /// Uniform phases at which every cycle is stored.
 pub const PHASE_COUNT: usize = 64;

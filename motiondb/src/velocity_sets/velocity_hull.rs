@@ -9,9 +9,9 @@ use std::f32::consts::PI;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
-use crate::convex_hull::clockwise_hull;
-use crate::parameters::Parameters;
-use crate::wrapping_polygon::sharp_turn_edges;
+use crate::motion::parameters::Parameters;
+use crate::velocity_sets::convex_hull::clockwise_hull;
+use crate::velocity_sets::wrapping_polygon::sharp_turn_edges;
 
 /// Examples with at most this side speed count as ω_s = 0 (no measured clip has exactly that), m/s.
 pub const TURNING_STRAFE_MAX_MPS: f32 = 0.12;

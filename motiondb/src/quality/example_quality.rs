@@ -7,13 +7,13 @@
 use glam::{Quat, Vec3};
 use serde::Serialize;
 
-use crate::coverage::RUN_MPS;
-use crate::joint_ranges::JOINT_RANGES_DEG;
-use crate::median::median;
-use crate::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
-use crate::parameters::Parameters;
-use crate::pose::Joints;
-use crate::skeleton::{JOINT_COUNT, Joint, Skeleton};
+use crate::body::joint_ranges::JOINT_RANGES_DEG;
+use crate::body::pose::Joints;
+use crate::body::skeleton::{JOINT_COUNT, Joint, Skeleton};
+use crate::motion::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
+use crate::motion::parameters::Parameters;
+use crate::quality::coverage::RUN_MPS;
+use crate::statistics::median;
 
 /// Planted feet of clean walks slide by 2–8 cm/s, of runs by 6 cm/s more for each m/s (`SmartBody`, Bandai Namco): 12.4
 /// of fast side-steps, 22 and 28 of runs at 3 and 3.9 m/s. Of 84 examples of 65 clips three slide more, two of them

@@ -8,13 +8,13 @@
 use glam::Vec3;
 use serde::Serialize;
 
-use crate::blend_space::{BlendSpace, Shares};
-use crate::lattice::{FLAT_SHARE, LEAST_RANGES};
-use crate::locator::Locator;
-use crate::motion_db::MotionDb;
-use crate::parameters::Parameters;
-use crate::skeleton::Side;
-use crate::velocity_hull::{TURNING_STRAFE_MAX_MPS, is_holding};
+use crate::blend_space::lattice::{FLAT_SHARE, LEAST_RANGES};
+use crate::blend_space::locator::Locator;
+use crate::blend_space::space::{BlendSpace, Shares};
+use crate::body::skeleton::Side;
+use crate::motion::motion_db::MotionDb;
+use crate::motion::parameters::Parameters;
+use crate::velocity_sets::velocity_hull::{TURNING_STRAFE_MAX_MPS, is_holding};
 
 /// Slower than this a body all but stays: where an example counts as mirrored for its side speed, too, m/s.
 const MOVES_MPS: f32 = 0.15;

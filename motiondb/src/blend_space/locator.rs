@@ -1,5 +1,5 @@
 //! The shares of examples at a query: of the simplex that holds it, or of the hull's nearest point (`FbCrowd` §5).
-//! Distances are those of [`crate::blend_space`]'s metric.
+//! Distances are those of [`crate::blend_space::space`]'s metric.
 //!
 //! A `grid` names the few simplices that may hold the query; where none does, it is outside, and a tree
 //! over the hull's `surface` finds the nearest point. A set of fewer dimensions than its axes lies
@@ -8,11 +8,11 @@
 
 use glam::DVec3;
 
-use crate::blend_space::{BlendSpace, Shares};
-use crate::grid::Grid;
-use crate::parameters::Parameters;
-use crate::simplex::Simplex;
-use crate::surface::Surface;
+use crate::blend_space::grid::Grid;
+use crate::blend_space::simplex::Simplex;
+use crate::blend_space::space::{BlendSpace, Shares};
+use crate::blend_space::surface::Surface;
+use crate::motion::parameters::Parameters;
 
 /// Finds the simplex of a query; made once a database is loaded.
 #[derive(Clone, Debug)]

@@ -3,9 +3,10 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::container::{self, ContainerError};
-use crate::motion_db::MotionDb;
-use crate::{atomic_file, input_file, validate};
+use crate::files::container::{self, ContainerError};
+use crate::files::{atomic_file, input_file};
+use crate::motion::motion_db::MotionDb;
+use crate::validate;
 
 /// The mark that a database file begins with.
 pub const MAGIC: [u8; 8] = *b"FBCROWDB";

@@ -12,12 +12,12 @@
 
 use glam::Vec3;
 
-use crate::motion_db::{MotionDb, PHASE_COUNT};
-use crate::skeleton::JOINT_COUNT;
+use crate::body::skeleton::JOINT_COUNT;
+use crate::motion::motion_db::{MotionDb, PHASE_COUNT};
 
 /// w: weight of a joint's velocity beside its place: as far as it gets in this time, a transition's first instants,
 /// seconds.
-pub const VELOCITY_WEIGHT_S: f32 = 0.1;
+pub(crate) const VELOCITY_WEIGHT_S: f32 = 0.1;
 
 /// D of all pairs of stored phases, metres: `[phase of one][phase of the other]`.
 pub type Distances = Vec<[f32; PHASE_COUNT]>;

@@ -14,11 +14,11 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::motion_db::{MotionDb, PHASE_COUNT};
-use crate::parameters::Parameters;
-use crate::phase_map::PhaseMap;
-use crate::pose::Joints;
-use crate::skeleton::{Side, Skeleton};
+use crate::body::pose::Joints;
+use crate::body::skeleton::{Side, Skeleton};
+use crate::motion::motion_db::{MotionDb, PHASE_COUNT};
+use crate::motion::parameters::Parameters;
+use crate::motion::phase_map::PhaseMap;
 
 /// A foot is planted from this contact on.
 pub const PLANTED_CONTACT: f64 = 0.5;

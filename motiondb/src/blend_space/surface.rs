@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use crate::simplex::{Nearest, Simplex};
+use crate::blend_space::simplex::{Nearest, Simplex};
 
 /// Facets and the boxes around them.
 #[derive(Clone, Debug)]
@@ -104,7 +104,7 @@ fn grow(nodes: &mut Vec<Node>, facets: &mut [Simplex], first: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simplex::soup;
+    use crate::blend_space::simplex::soup;
     use proptest::prelude::*;
 
     proptest! {

@@ -1,7 +1,7 @@
 //! Exact simplices over the examples' parameters (`FbCrowd` §5).
 //!
 //! The Delaunay triangulation in one to three dimensions, by inserting one point after the other (Bowyer 1981, Watson
-//! 1981) on the [`crate::lattice`]. Lifted to h = |x|², the points' simplices are the lower facets of their hull: a
+//! 1981) on the `lattice`. Lifted to h = |x|², the points' simplices are the lower facets of their hull: a
 //! new point p takes the place of those whose lifted plane it lies below,
 //!
 //! ```text
@@ -14,9 +14,9 @@
 
 use std::cmp::Ordering;
 
-use crate::blend_space::{BlendSpace, MAX_CORNERS};
-use crate::lattice::{Lattice, LatticePoint, TWIN_STEPS, signed_volume};
-use crate::parameters::Parameters;
+use crate::blend_space::lattice::{Lattice, LatticePoint, TWIN_STEPS, signed_volume};
+use crate::blend_space::space::{BlendSpace, MAX_CORNERS};
+use crate::motion::parameters::Parameters;
 
 /// Stands for the point at infinity among the corners of a simplex.
 const INFINITY: usize = usize::MAX;
@@ -198,8 +198,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::locator::Locator;
-    use crate::tiling::tiling_fault;
+    use crate::blend_space::locator::Locator;
+    use crate::blend_space::tiling::tiling_fault;
 
     fn parameters(points: &[[f32; 3]]) -> Vec<Parameters> {
         points.iter().map(|&point| Parameters::from_vec3(Vec3::from(point))).collect()

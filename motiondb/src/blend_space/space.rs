@@ -1,12 +1,12 @@
 //! Simplices in (v_f, ω_t, ω_s), and shares of examples (`FbCrowd` §5).
 //!
-//! Distances are taken after dividing each axis by its range over the examples: the metric. [`crate::locator`] finds
-//! the shares of a query, [`crate::tiling`] proves that the simplices fill the examples' hull.
+//! Distances are taken after dividing each axis by its range over the examples: the metric. [`crate::blend_space::locator`] finds
+//! the shares of a query, [`crate::blend_space::tiling`] proves that the simplices fill the examples' hull.
 
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::parameters::Parameters;
+use crate::motion::parameters::Parameters;
 
 /// Most corners of a simplex.
 pub const MAX_CORNERS: usize = 4;

@@ -1,0 +1,11 @@
+//! The body: the canonical humanoid, its poses, and how far its joints turn.
+//!
+//! Read `skeleton`, then `pose`, then `joint_ranges`.
+
+pub(crate) mod joint_ranges;
+pub(crate) mod pose;
+pub(crate) mod skeleton;
+
+pub use joint_ranges::JOINT_RANGES_DEG;
+pub use pose::{Joints, Pose, Root, RootFrame};
+pub use skeleton::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
