@@ -6,7 +6,7 @@ use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use fbcrowd_sim::coupling::Coupling;
+use fbcrowd_sim::scenario::Coupling;
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planning::Planner;
 use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};

@@ -2,17 +2,17 @@
 //! frames, which nobody but their own agent's synthesis touches, are arrays of structures.
 //!
 //! World axes, metres, seconds, radians. What the planner reads of the bodies changes only after all have planned:
-//! the stance foot as they are synthesised, all else in [`crate::coupling::body_to_disc`].
+//! the stance foot as they are synthesised, all else in `coupling::body_to_disc`.
 
 use glam::Vec2;
 use motiondb::body::Root;
 
-use crate::coupling::body_to_disc::Coupling;
 use crate::maths::random::SplitMix64;
 use crate::planning::plan::{Plan, Stance};
 use crate::recording::frame::AgentFrame;
 use crate::route::path::Progress;
 use crate::scenario::Scenario;
+use crate::scenario::coupling::Coupling;
 use crate::synthesis::{Body, Motion};
 
 /// Streams from here on draw the starting phases; those below are the scenario's.

@@ -16,7 +16,7 @@ use motiondb::motion::MotionDb;
 use rayon::prelude::*;
 
 use crate::agents::Agents;
-use crate::coupling::body_to_disc::{self, Coupling};
+use crate::coupling::body_to_disc;
 use crate::coupling::decoupled;
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan_all::{self, plan_all};
@@ -25,6 +25,7 @@ use crate::planning::world_view::World;
 use crate::recording::frame::AgentFrame;
 use crate::route::path::{self, Braking};
 use crate::scenario::Scenario;
+use crate::scenario::coupling::Coupling;
 use crate::synthesis::library::context::Studio;
 use crate::synthesis::params::HmsParams;
 use crate::synthesis::time_step::TimeStep;

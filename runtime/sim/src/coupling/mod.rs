@@ -4,5 +4,3 @@
 
 pub(crate) mod body_to_disc;
 pub(crate) mod decoupled;
-
-pub use body_to_disc::Coupling;

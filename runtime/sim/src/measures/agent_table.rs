@@ -2,7 +2,7 @@
 //! CSV as in RFC 4180: the first line names columns and units, commas part fields, lines end with CR LF, decimals have
 //! a point. World, metres, seconds, degrees counter-clockwise from the x axis.
 //!
-//! All is as recorded, but for what follows from it as [`root_measures`](crate::measures::root_measures) has it: the velocity is
+//! All is as recorded, but for what follows from it as `root_measures` has it: the velocity is
 //! the root's displacement in the step that led to the frame, over dt, and `arrived` is 1 from the frame on in which an
 //! agent, its waypoints passed, first comes within 0.5 m of its last goal.
 

@@ -1,8 +1,8 @@
 //! What a simulation shows in numbers (`FbCrowd` App. 11), streamed: two frames at a time.
 //!
-//! Collisions of discs stand in [`collision_rate`](crate::measures::collision_rate), those of bodies in
-//! [`body_penetration`](crate::measures::body_penetration), accelerations, arrivals, detours and tracking in
-//! [`root_measures`](crate::measures::root_measures), foot slide in [`planted_slide`](crate::measures::planted_slide). Positions are those
+//! Collisions of discs stand in `collision_rate`, those of bodies in
+//! `body_penetration`, accelerations, arrivals, detours and tracking in
+//! `root_measures`, foot slide in `planted_slide`. Positions are those
 //! of the root as synthesised.
 
 use std::io::{self, Write};

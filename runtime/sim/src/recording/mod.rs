@@ -2,10 +2,10 @@
 //! others.
 //!
 //! A magic of 8 bytes (among them those that a transfer in text mode would change), the format version as u32, then
-//! [chunks](crate::recording::chunk), little-endian:
+//! chunks, little-endian:
 //!
 //! - `HEAD` comes first: the [`Header`], bincode with fixed-size integers;
-//! - one `FRAM` a frame: zlib over the [packed](crate::recording::packing) agents, all their first bytes, all their
+//! - one `FRAM` a frame: zlib over the packed agents, all their first bytes, all their
 //!   second bytes, …;
 //! - `INDX`: the byte at which each `FRAM` begins, u64 each;
 //! - `TAIL` ends the file: the byte at which `INDX` begins, u64.

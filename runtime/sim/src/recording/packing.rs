@@ -67,7 +67,7 @@ pub(crate) fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
     Some(())
 }
 
-/// The inverse of [`pack`]; says what is wrong where the bytes are no frame.
+/// The inverse of `pack`; says what is wrong where the bytes are no frame.
 ///
 /// # Errors
 /// Bytes run out, a value is not finite or beyond all scenarios, or a mode is unknown.

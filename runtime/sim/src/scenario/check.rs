@@ -1,4 +1,4 @@
-//! What every scenario must keep, however it was made: numbers in range ([`ranges`](crate::scenario::ranges)), obstacles that are
+//! What every scenario must keep, however it was made: numbers in range (`ranges`), obstacles that are
 //! simple polygons, agents that stand apart from each other and outside obstacles, and goals that lie outside them and
 //! can be reached. World, metres.
 

@@ -29,13 +29,13 @@ use motiondb::files::SourceText;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::coupling::body_to_disc::Coupling;
 use crate::maths::polygon::signed_area_m2;
 use crate::maths::random::SplitMix64;
 use crate::params::Params;
 use crate::planning::planner::Planner;
 use crate::scenario::agents::{Complaint, Group, Groups, Journey, Kind, check_size, line_span, parse_lines};
 use crate::scenario::check::{Fault, Place, check};
+use crate::scenario::coupling::Coupling;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::point::Point;
 use crate::scenario::{AgentSpec, Scenario, View};

@@ -2,12 +2,14 @@
 
 mod agents;
 pub mod check;
+pub(crate) mod coupling;
 pub(crate) mod error;
 pub mod file;
 mod point;
 pub(crate) mod ranges;
 
 pub use check::{Fault, Place};
+pub use coupling::Coupling;
 pub use error::{Invalid, ScenarioError};
 pub use file::{MotionSource, agents_of_lines, fault_of_lines, read};
 pub use ranges::check_view;
@@ -15,7 +17,6 @@ pub use ranges::check_view;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
-use crate::coupling::body_to_disc::Coupling;
 use crate::params::Params;
 use crate::planning::planner::Planner;
 use crate::synthesis::params::Modes;

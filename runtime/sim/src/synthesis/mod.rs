@@ -4,16 +4,16 @@
 //!
 //! 1. `command`: the plan as (v_f, ω_t, ω_s), smoothed; what of it the body can do,
 //!    standing or stepping; and how far it gets in one step;
-//! 2. `blending` or `semi_procedural`: what is played follows ([`blending::weight_transition`]); phase ([`command::phase_catch_up`]) and root move, the
-//!    root exactly along its arc; the pose eases into both, and the gait turns back with the body ([`hybrid::pose_smoothing`]); [`hybrid::mode`]
-//!    tells which synthesis is wanted, and at the next pair of [`hybrid::switch_points`] it changes hands (`switching`).
+//! 2. `blending` or `semi_procedural`: what is played follows (`weight_transition`); phase (`phase_catch_up`) and root move, the
+//!    root exactly along its arc; the pose eases into both, and the gait turns back with the body (`pose_smoothing`); `mode`
+//!    tells which synthesis is wanted, and at the next pair of `switch_points` it changes hands (`switching`).
 //!
 //! `synthesize`: the pose there.
 //!
-//! 3. It is sampled ([`hybrid::active_motion`]; in long strides heels rise, [`pose::heel_rise`], and hips come down to each [`semi_procedural::landing`]);
-//!    [`hybrid::inertialization`] carries away what a switch left; head and chest turn first ([`pose::look_at`]);
-//! 4. [`pose::foot_lock`]: planted feet are held;
-//! 5. [`pose::posture`], [`pose::pelvis`], [`pose::ik`]: the pelvis comes down where a leg would not reach its foot, and the legs reach
+//! 3. It is sampled (`active_motion`; in long strides heels rise, `heel_rise`, and hips come down to each `landing`);
+//!    `inertialization` carries away what a switch left; head and chest turn first (`look_at`);
+//! 4. `foot_lock`: planted feet are held;
+//! 5. `posture`, `pelvis`, `ik`: the pelvis comes down where a leg would not reach its foot, and the legs reach
 //!    them.
 //!
 //! The root frame has x forward, y left, z up, its origin on the ground under the ripple-free root; metres,

@@ -1,4 +1,4 @@
-//! Linear programs that no crowd would pose, for tests and `bench soak`: does [`solve`] find what trying finds?
+//! Linear programs that no crowd would pose, for tests and `bench soak`: does `solve` find what trying finds?
 //!
 //! Sets of half-planes drawn at random: feasible, infeasible, all alike, opposite to each other, parallel but for
 //! rounding, through the origin, or beyond any speed. The judge knows nothing of linear programs; it tries the

@@ -91,7 +91,7 @@ pub struct McnParams {
     pub keep_right_rad: f32,
     /// Greatest twist of the stance foot in place (§4.2), rad.
     pub stance_twist_rad: f32,
-    /// t_strafeLim (§4.5), s; who only shuffles may side-step and step back longer ([`crate::planning::mcn::orientation`]).
+    /// t_strafeLim (§4.5), s; who only shuffles may side-step and step back longer (`orientation`).
     pub strafing_limit_s: f32,
     /// Longest contiguous stepping back at held facing, s.
     pub stepping_back_limit_s: f32,

@@ -39,7 +39,7 @@ pub(crate) fn asked(plan: &Plan, facing_rad: f32, space: &Space, params: &HmsPar
     Parameters { speed_mps: wanted_mps.x, turn_rate_rad_s, strafe_mps: wanted_mps.y.clamp(right_mps, left_mps) }
 }
 
-/// The plan by which a blending body at `root` is asked for exactly these parameters: the inverse of [`asked`].
+/// The plan by which a blending body at `root` is asked for exactly these parameters: the inverse of `asked`.
 pub fn asking(asked: Parameters, root: &Root, params: &HmsParams) -> Plan {
     let lead_rad = asked.turn_rate_rad_s * params.turn_time_s;
     let facing_rad = root.facing_rad + lead_rad;

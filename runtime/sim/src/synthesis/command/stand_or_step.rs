@@ -68,7 +68,7 @@ impl Gait {
     }
 
     /// What the database has nearest to what is asked of the body; where that is rest on the way to go elsewhere, to
-    /// `ahead`, what will be asked after [`PASSING_TIME_S`].
+    /// `ahead`, what will be asked after `PASSING_TIME_S`.
     pub fn nearest(&self, asked: Parameters, ahead: Parameters, space: &Space) -> Nearest {
         let nearest = space.nearest(asked);
         let passes = !self.stands && nearest.idle_share > STOP_IDLE_SHARE && slow_share(ahead) < STOP_IDLE_SHARE;

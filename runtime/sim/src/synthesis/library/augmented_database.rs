@@ -3,7 +3,7 @@
 //!
 //! Many sets hold a few straight walks. Bodies that only blend them cannot turn, the planner is confined to a line of
 //! velocities, and a crowd runs into each other or stands. What such a set lacks, semi-procedural locomotion can do
-//! ([`crate::synthesis::semi_procedural::deformation`]): cycles of m_sp deformed join the examples, and blend space and velocity sets are built
+//! (`deformation`): cycles of m_sp deformed join the examples, and blend space and velocity sets are built
 //! anew. They never come into a file.
 
 use std::sync::Arc;

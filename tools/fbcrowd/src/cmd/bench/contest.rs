@@ -11,11 +11,11 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use fbcrowd_render::top_view::Tracks;
-use fbcrowd_sim::coupling::Coupling;
 use fbcrowd_sim::measures::metrics::{Measures, Measuring, write_roots};
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planning::Planner;
 use fbcrowd_sim::recording::AgentFrame;
+use fbcrowd_sim::scenario::Coupling;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::simulation::{Simulation, Stage};
 use fbcrowd_sim::synthesis::Modes;

@@ -9,8 +9,8 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use fbcrowd_sim::coupling::Coupling;
 use fbcrowd_sim::measures::metrics::Measures;
+use fbcrowd_sim::scenario::Coupling;
 use fbcrowd_sim::synthesis::Modes;
 use serde::Serialize;
 

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use fbcrowd_sim::coupling::Coupling;
+use fbcrowd_sim::scenario::Coupling;
 use motiondb::motion::MotionDb;
 
 use crate::cmd::bench::bar::{Bar, Found, conclude};
