@@ -83,16 +83,15 @@ pub(crate) fn impossible_body(body: &HumanBody) -> Option<Refusal> {
     let shortest_m = leg_bones.iter().map(|joint| body.offsets_m[joint.index()].length()).fold(f64::INFINITY, f64::min);
     let bones = body.offsets_m.iter().chain(&body.segment_ends_m).chain(body.soles_m.iter().flatten());
     let longest_m = bones.map(|bone| bone.length()).fold(0.0, f64::max);
-    let reason = if !LEG_M.contains(&leg_m) {
-        format!("thigh and shank are {leg_m:.3} m long")
+    if !LEG_M.contains(&leg_m) {
+        Some(Refusal::LegLength { leg_m })
     } else if shortest_m < LEG_BONE_SHARE_MIN * leg_m {
-        format!("of legs of {leg_m:.3} m one bone has {shortest_m:.3} m")
+        Some(Refusal::ShortLegBone { leg_m, bone_m: shortest_m })
     } else if longest_m > BONE_OVER_LEG_MAX * leg_m {
-        format!("on legs of {leg_m:.3} m it has a bone of {longest_m:.3} m")
+        Some(Refusal::LongBone { leg_m, bone_m: longest_m })
     } else {
-        return None;
-    };
-    Some(Refusal::Disproportionate { reason })
+        None
+    }
 }
 
 /// The warning, where steps are none of a human's.
@@ -155,20 +154,25 @@ mod tests {
     use super::*;
     use crate::synthetic;
 
-    fn check_refused(change: impl Fn(&mut HumanBody), word: &str) {
+    /// Why a changed body is refused.
+    fn refusal(change: impl Fn(&mut HumanBody)) -> Option<Refusal> {
         let mut body = synthetic::body(1.0);
-        assert_eq!(impossible_body(&body), None);
         change(&mut body);
-        let refusal = impossible_body(&body).map(|refusal| refusal.to_string()).unwrap_or_default();
-        assert!(refusal.contains(word), "{refusal}");
+        impossible_body(&body)
     }
 
     #[test]
     fn bodies_that_could_not_walk_are_refused() {
-        check_refused(|body| body.offsets_m.iter_mut().for_each(|offset| *offset *= 1e-6), "thigh and shank");
-        check_refused(|body| body.offsets_m.iter_mut().for_each(|offset| *offset *= 7.0), "thigh and shank");
-        check_refused(|body| body.offsets_m[Joint::LeftFoot.index()] *= 0.01, "one bone has");
-        check_refused(|body| body.segment_ends_m[Joint::Head.index()].z = 1e6, "a bone of");
-        check_refused(|body| body.soles_m[0][2].x = f64::INFINITY, "a bone of");
+        assert_eq!(refusal(|_| ()), None);
+        for scale in [1e-6, 7.0] {
+            let scaled = refusal(|body| body.offsets_m.iter_mut().for_each(|offset| *offset *= scale));
+            assert!(matches!(scaled, Some(Refusal::LegLength { .. })), "{scaled:?}");
+        }
+        let short = refusal(|body| body.offsets_m[Joint::LeftFoot.index()] *= 0.01);
+        assert!(matches!(short, Some(Refusal::ShortLegBone { .. })), "{short:?}");
+        let high = refusal(|body| body.segment_ends_m[Joint::Head.index()].z = 1e6);
+        assert!(matches!(high, Some(Refusal::LongBone { .. })), "{high:?}");
+        let endless = refusal(|body| body.soles_m[0][2].x = f64::INFINITY);
+        assert!(matches!(endless, Some(Refusal::LongBone { .. })), "{endless:?}");
     }
 }

@@ -70,7 +70,7 @@ fn what_is_no_human_motion_is_refused_by_name_and_reason() {
     let Some(folder) = mocap("what_is_no_human_motion_is_refused_by_name_and_reason") else { return };
     for animation in import(&folder.join("gltf/Fox.glb")).unwrap() {
         assert!(
-            matches!(animation.outcome, Err(Refusal::NotUpright { .. })),
+            matches!(animation.outcome, Err(Refusal::NotUpright { .. } | Refusal::MovesAlongItself)),
             "{}: {:?}",
             animation.clip,
             animation.outcome.map(|human| human.source)
@@ -78,7 +78,7 @@ fn what_is_no_human_motion_is_refused_by_name_and_reason() {
     }
     for toy in ["bvh_anim_test_simple.bvh", "rotation_first_root.bvh"] {
         let imports = import(&folder.join("quirks").join(toy)).unwrap();
-        assert!(matches!(imports[0].outcome, Err(Refusal::NoLegs { .. })), "{toy}");
+        assert!(matches!(imports[0].outcome, Err(Refusal::NoLegs)), "{toy}");
     }
     let arm = import(&folder.join("quirks/arm_no_newline.bvh")).unwrap();
     assert!(matches!(arm[0].outcome, Err(Refusal::TooShort)));
