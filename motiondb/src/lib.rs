@@ -5,7 +5,7 @@
 //! ([`velocity_hull`], [`convex_hull`], [`wrapping_polygon`], `FbCrowd` §4.1), how clips blend ([`blend_space`] by
 //! [`triangulation`], [`locator`], §5),
 //! where synthesis may switch ([`correspondence`] by [`pose_distance`], §5, Eq. 10), the database itself
-//! ([`motion_db`]) with what is said of its clips ([`remark`]), what its feet do on the ground ([`planted_feet`]), its
+//! ([`motion_db`]) with what was found in its clips ([`diagnostic`]), what its feet do on the ground ([`planted_feet`]), its
 //! invariants ([`validate`]; of the blend space [`tiling`], on the [`lattice`]), how good its examples are
 //! ([`quality`]), where it is thin ([`coverage`]) and its file ([`mod@file`]).
 //!
@@ -18,6 +18,7 @@ pub mod container;
 pub mod convex_hull;
 pub mod correspondence;
 pub mod coverage;
+pub mod diagnostic;
 pub mod file;
 mod grid;
 pub mod input_file;
@@ -33,7 +34,6 @@ pub mod planted_feet;
 pub mod pose;
 pub mod pose_distance;
 pub mod quality;
-pub mod remark;
 mod simplex;
 pub mod skeleton;
 pub mod source_text;

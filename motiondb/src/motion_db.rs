@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::blend_space::BlendSpace;
 use crate::correspondence::Correspondence;
+use crate::diagnostic::Diagnostic;
 use crate::parameters::Parameters;
 use crate::phase_map::PhaseMap;
 use crate::pose::{Joints, Pose};
-use crate::remark::Remark;
 use crate::skeleton::{JOINT_COUNT, Skeleton};
 use crate::velocity_hull::VelocityHull;
 
@@ -146,6 +146,6 @@ pub struct SourceRecord {
     pub metres_per_unit: f32,
     /// Frames a second.
     pub frame_rate_hz: f32,
-    /// Whatever a user should know: lying headers, no steady cycle, snapped parameters.
-    pub warnings: Vec<Remark>,
+    /// What a user should know: wrong headers, no steady cycle, snapped parameters.
+    pub diagnostics: Vec<Diagnostic>,
 }

@@ -6,6 +6,7 @@
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
 use motiondb::correspondence::Correspondence;
+use motiondb::diagnostic::{Diagnostic, Note, Warning};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows, SourceRecord};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
@@ -87,7 +88,10 @@ fn source() -> SourceRecord {
         up_axis: "+Y".into(),
         metres_per_unit: 0.01,
         frame_rate_hz: 30.0,
-        warnings: Vec::new(),
+        diagnostics: vec![
+            Diagnostic::Note(Note::FirstPoseCut),
+            Diagnostic::Warning(Warning::FeetSlide { slide_cm_s: 12.5, from_s: None }),
+        ],
     }
 }
 

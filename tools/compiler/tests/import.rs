@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use motiondb::remark::Kind;
+use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Unfit};
 use motiondb::skeleton::{JOINT_COUNT, Joint};
 use motiondb_compiler::error::Refusal;
 use motiondb_compiler::human_clip::HumanClip;
@@ -92,17 +92,13 @@ fn what_is_no_human_motion_is_refused_by_name_and_reason() {
 fn a_lying_frame_time_and_a_separate_first_pose_are_told() {
     let Some(folder) = mocap("a_lying_frame_time_and_a_separate_first_pose_are_told") else { return };
     let slow = import(&folder.join("quirks/02_03_wrong_frame_time.bvh")).unwrap().remove(0).outcome.unwrap();
-    assert!(slow.source.warnings.iter().any(|warning| warning.kind == Kind::FrameTime), "{:?}", slow.source.warnings);
-    assert_eq!((slow.first_frame, slow.frames.len()), (4, 170), "{:?}", slow.source.warnings);
+    assert!(matches!(slow.unfit, Some(Unfit::InhumanGait { .. })), "{:?}", slow.unfit);
+    assert_eq!((slow.first_frame, slow.frames.len()), (4, 170), "{:?}", slow.source.diagnostics);
     let blended = import(&folder.join("pfnn/LocomotionFlat04_000.bvh")).unwrap().remove(0).outcome.unwrap();
-    assert!(
-        blended.source.warnings.iter().any(|warning| warning.text.ends_with("come out of a T-pose and are not used")),
-        "{:?}",
-        blended.source.warnings
-    );
+    let is_cut = |found: &Diagnostic| matches!(found, Diagnostic::Note(Note::TPoseCut { end: ClipEnd::First, .. }));
+    assert!(blended.source.diagnostics.iter().any(is_cut), "{:?}", blended.source.diagnostics);
     for row in locomotion(&folder) {
-        let warnings = imported(&folder, &row).source.warnings;
-        assert!(!warnings.iter().any(|warning| warning.kind == Kind::FrameTime), "{} {warnings:?}", row.file);
+        assert_eq!(imported(&folder, &row).unfit, None, "{}", row.file);
     }
 }
 
