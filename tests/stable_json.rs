@@ -62,6 +62,7 @@ fn inspect_lists_examples_sources_velocity_sets_simplices_and_correspondences() 
         "metres_per_unit",
         "frame_rate_hz",
         "warnings",
+        "diagnostics",
     ];
     check_keys(&report["sources"][0], &of_source);
     check_keys(&report["velocity_hull"], &["construction", "turning_mps", "holding_mps", "sharp_turn_edges_mps"]);
@@ -118,7 +119,7 @@ fn leaving_out_keeps_its_keys() {
 
 #[test]
 fn validate_lists_checks_findings_and_figures() {
-    let database = repository().join("tests/golden/version_1.fbdb");
+    let database = repository().join("tests/golden/version_2.fbdb");
     let report = fbcrowd(&["validate", text(&database), "--json"]).expect_code(0).json();
     check_keys(&report, &["valid", "checks", "findings", "quality"]);
     assert_eq!(report["valid"], true);
@@ -236,6 +237,7 @@ fn compile_reports_every_clip_once_with_quality_stages_and_what_to_do() {
         "refused",
         "unused",
         "warnings",
+        "diagnostics",
         "used",
         "quality",
         "findings",
@@ -274,9 +276,19 @@ fn programs_are_told_why_nothing_was_written() {
     };
     let none = compile(&[text(&folder)]);
     assert_eq!(none["unused"][0]["file"], "walk_110.bvh");
-    assert!(none["unused"][0]["reason"].as_str().is_some_and(|reason| reason.len() > 10), "{none}");
+    let diagnostic = &none["diagnostics"][0];
+    check_keys(diagnostic, &["file", "clip", "severity", "code", "text"]);
+    assert_eq!((&diagnostic["severity"], &diagnostic["code"]), (&"no_example".into(), &"no_step".into()));
+    assert_eq!(none["unused"][0]["reason"], diagnostic["text"]);
     let strict = compile(&[text(&broken), text(&walk), "--strict"]);
     assert_eq!((&strict["example_count"], &strict["unused"].as_array().unwrap().len()), (&1.into(), &0));
+
+    let inspected = fbcrowd(&["inspect", text(&folder), "--json"]).expect_code(1).json();
+    let source = &inspected["sources"][0];
+    check_keys(&source["diagnostics"][0], &["severity", "code", "text"]);
+    assert_eq!(source["diagnostics"][0]["text"], diagnostic["text"]);
+    assert_eq!(source["warnings"][0], format!("no example: {}", diagnostic["text"].as_str().unwrap()));
+    assert_eq!(source["gait"]["reason"], diagnostic["text"]);
 
     let inspected = fbcrowd(&["inspect", text(&broken), "--json"]).expect_code(2).json();
     check_keys(&inspected, &["sources", "refused"]);

@@ -6,11 +6,10 @@ use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use fbcrowd_sim::scenario::Coupling;
+use fbcrowd_sim::scenario::{AgentSpec, Coupling, Scenario, View};
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planning::Planner;
 use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
-use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use glam::Vec2;
 
 #[path = "../../motiondb/tests/support/mod.rs"]

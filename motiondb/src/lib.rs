@@ -1,6 +1,6 @@
 //! The motion database: the nouns that the offline compiler and the runtime share.
 //!
-//! Chapters, in reading order: [`body`] (skeleton and poses), [`motion`] (parameters, examples, the database, where
+//! Chapters, in reading order: [`body`] (skeleton and poses), [`diagnostic`] (what is reported of clips), [`motion`] (parameters, examples, the database, where
 //! synthesis may switch), [`velocity_sets`] (`FbCrowd` §4.1), [`blend_space`] (§5), [`quality`], [`validate`] (the
 //! invariants) and [`files`].
 //!
@@ -9,6 +9,7 @@
 
 pub mod blend_space;
 pub mod body;
+pub mod diagnostic;
 pub mod files;
 pub mod motion;
 pub mod quality;

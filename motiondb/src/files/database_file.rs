@@ -11,7 +11,7 @@ use crate::validate;
 /// The mark that a database file begins with.
 pub const MAGIC: [u8; 8] = *b"FBCROWDB";
 /// Format version: readers refuse any other.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// Decoding stops past this many bytes: 4096 examples of 64 rows are 100 MB.
 const PAYLOAD_LIMIT: usize = 1 << 30;
 
@@ -35,7 +35,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// Not a database, or a damaged one.
-    #[error("{path}: not a readable motion database: {source}; compile it again with `fbcrowd compile`")]
+    #[error("{path}: not a readable motion database: {source}; compile the clips anew with `fbcrowd compile`")]
     Container {
         /// The file.
         path: PathBuf,
@@ -44,7 +44,7 @@ pub enum FileError {
     },
     /// A whole container whose payload is no database.
     #[error(
-        "{path}: not a readable motion database: its content cannot be decoded: {reason}; compile it again with \
+        "{path}: not a readable motion database: its content cannot be decoded: {reason}; compile the clips anew with \
          `fbcrowd compile`"
     )]
     Decode {

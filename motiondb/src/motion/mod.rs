@@ -8,7 +8,6 @@ pub(crate) mod motion_db;
 pub(crate) mod parameters;
 pub(crate) mod phase_map;
 pub(crate) mod pose_distance;
-pub mod remark;
 
 pub use correspondence::{Alike, Correspondence, THRESHOLD_RATIO, table};
 pub use motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows, SourceRecord};

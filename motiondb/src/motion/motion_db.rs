@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 use crate::blend_space::space::BlendSpace;
 use crate::body::pose::{Joints, Pose};
 use crate::body::skeleton::{JOINT_COUNT, Skeleton};
+use crate::diagnostic::Diagnostic;
 use crate::motion::correspondence::Correspondence;
 use crate::motion::parameters::Parameters;
 use crate::motion::phase_map::PhaseMap;
-use crate::motion::remark::Remark;
 use crate::velocity_sets::velocity_hull::VelocityHull;
 
 /// Uniform phases at which every cycle is stored.
@@ -146,6 +146,6 @@ pub struct SourceRecord {
     pub metres_per_unit: f32,
     /// Frames a second.
     pub frame_rate_hz: f32,
-    /// Whatever a user should know: lying headers, no steady cycle, snapped parameters.
-    pub warnings: Vec<Remark>,
+    /// What a user should know: wrong headers, no steady cycle, snapped parameters.
+    pub diagnostics: Vec<Diagnostic>,
 }

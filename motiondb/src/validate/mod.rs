@@ -85,8 +85,8 @@ pub fn first_broken(db: &MotionDb) -> Option<(&'static str, String)> {
     validate(db).into_iter().find_map(|check| Some((check.name, check.broken?)))
 }
 
-fn ensure(holds: bool, detail: impl FnOnce() -> String) -> Outcome {
-    if holds { Ok(()) } else { Err(detail()) }
+fn ensure<E>(holds: bool, fault: impl FnOnce() -> E) -> Result<(), E> {
+    if holds { Ok(()) } else { Err(fault()) }
 }
 
 /// Checks every example, by index; a fault names its example.

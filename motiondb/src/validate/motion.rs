@@ -2,6 +2,7 @@
 //! root goes ([`crate::quality::planted_feet`]).
 
 use crate::body::skeleton::{JOINT_COUNT, Side};
+use crate::diagnostic::Unfit;
 use crate::motion::motion_db::{MotionDb, PHASE_COUNT};
 use crate::motion::parameters::Parameters;
 use crate::quality::planted_feet::{CycleFeet, foot_slide, implied};
@@ -47,7 +48,7 @@ pub(crate) fn landmarks_are_mid_stances(db: &MotionDb) -> Outcome {
     each(db, |index, example| {
         let feet = CycleFeet::of(db, index, &[]);
         if example.key_times_s.is_some() {
-            return landmarks_agree(&feet);
+            return landmarks_agree(&feet).map_err(|unfit| unfit.to_string());
         }
         let stands = example.parameters == Parameters::default() && feet.always_planted();
         ensure(stands, || "it has no key times, but does not stand".into())
@@ -56,34 +57,24 @@ pub(crate) fn landmarks_are_mid_stances(db: &MotionDb) -> Outcome {
 
 /// Why the motion of a cycle that steps contradicts its landmarks or its parameters, if so: what a compiler must not
 /// put into a database.
-pub fn contradiction(feet: &CycleFeet, parameters: Parameters) -> Option<String> {
+pub fn contradiction(feet: &CycleFeet, parameters: Parameters) -> Option<Unfit> {
     landmarks_agree(feet).and_then(|()| parameters_agree(feet, parameters)).err()
 }
 
-fn landmarks_agree(feet: &CycleFeet) -> Outcome {
-    for (side, landmark) in [(Side::Right, 0.0), (Side::Left, 0.5)] {
-        let [landing_s, leaving_s] = stance_s(feet, side)?;
+fn landmarks_agree(feet: &CycleFeet) -> Result<(), Unfit> {
+    for (foot, landmark) in [(Side::Right, 0.0), (Side::Left, 0.5)] {
+        let [landing_s, leaving_s] = stance_s(feet, foot)?;
         let off_s = 0.5 * (landing_s + leaving_s) - f64::from(feet.phase_map.time_s(landmark));
         let off = off_s.abs() / f64::from(feet.phase_map.period_s);
-        ensure(off <= LANDMARK_TOLERANCE, || {
-            format!("the {} foot's mid-stance is {:.0} % of the cycle from phase {landmark}", word(side), 100.0 * off)
-        })?;
+        ensure(off <= LANDMARK_TOLERANCE, || Unfit::MidStanceOff { foot, share: off as f32 })?;
     }
     Ok(())
 }
 
 /// When the contact about a foot's landmark begins and ends, seconds from phase 0.
-fn stance_s(feet: &CycleFeet, side: Side) -> Result<[f64; 2], String> {
-    let stance =
-        feet.stance(side).ok_or_else(|| format!("the {} foot has no contact about its mid-stance", word(side)))?;
+fn stance_s(feet: &CycleFeet, foot: Side) -> Result<[f64; 2], Unfit> {
+    let stance = feet.stance(foot).ok_or(Unfit::NoMidStance { foot })?;
     Ok(stance.map(|phase| f64::from(feet.phase_map.time_s(phase as f32))))
-}
-
-fn word(side: Side) -> &'static str {
-    match side {
-        Side::Left => "left",
-        Side::Right => "right",
-    }
 }
 
 /// Key times are when the contact rows pass ½ at both ends of the contacts that hold the landmarks.
@@ -91,8 +82,9 @@ pub(crate) fn key_times_end_contacts(db: &MotionDb) -> Outcome {
     each(db, |index, example| {
         let Some(key_times_s) = example.key_times_s else { return Ok(()) };
         let feet = CycleFeet::of(db, index, &[]);
+        let stance_s = |foot: Side| stance_s(&feet, foot).map_err(|unfit| unfit.to_string());
         let ([right_landing_s, right_leaving_s], [left_landing_s, left_leaving_s]) =
-            (stance_s(&feet, Side::Right)?, stance_s(&feet, Side::Left)?);
+            (stance_s(Side::Right)?, stance_s(Side::Left)?);
         let period_s = f64::from(example.phase_map.period_s);
         let found_s = [right_leaving_s, right_landing_s, left_leaving_s, left_landing_s];
         let agrees = |(stored_s, found_s): (&f32, f64)| {
@@ -120,24 +112,23 @@ pub(crate) fn planted_feet_slide_as_stored(db: &MotionDb) -> Outcome {
 }
 
 /// The root motion for which the planted feet stand best is the stored one, as far as they stand at all.
-pub(crate) fn parameters_follow_from_the_motion(db: &MotionDb) -> Outcome {
-    each(db, |index, example| parameters_agree(&CycleFeet::of(db, index, &db.posed_rows(index)), example.parameters))
-}
-
-fn parameters_agree(feet: &CycleFeet, stored: Parameters) -> Outcome {
-    let velocity = stored.to_vec3().as_dvec3();
-    let Some(implied) = implied(feet) else { return Ok(()) };
-    let misfit_mps = implied.misfit_mps(feet, velocity);
-    let speed_mps = libm::hypot(velocity.x, velocity.z);
-    let tolerance_mps = MISFIT_MPS + libm::hypot(MISFIT_SHARE * speed_mps, implied.rest_mps);
-    ensure(misfit_mps <= tolerance_mps, || {
-        let (stored, told) = (in_words(stored), in_words(implied.parameters));
-        format!(
-            "the body goes at {stored}, but its planted feet tell {told}: {misfit_mps:.3} m/s apart, over {tolerance_mps:.3}"
-        )
+pub(super) fn parameters_follow_from_the_motion(db: &MotionDb) -> Outcome {
+    each(db, |index, example| {
+        let feet = CycleFeet::of(db, index, &db.posed_rows(index));
+        parameters_agree(&feet, example.parameters).map_err(|unfit| unfit.to_string())
     })
 }
 
-fn in_words(Parameters { speed_mps, turn_rate_rad_s, strafe_mps }: Parameters) -> String {
-    format!("{speed_mps:.2} m/s, {:.0} °/s and {strafe_mps:.2} m/s aside", turn_rate_rad_s.to_degrees())
+fn parameters_agree(feet: &CycleFeet, root: Parameters) -> Result<(), Unfit> {
+    let velocity = root.to_vec3().as_dvec3();
+    let Some(implied) = implied(feet) else { return Ok(()) };
+    let misfit_mps = implied.misfit_mps(feet, velocity);
+    let speed_mps = libm::hypot(velocity.x, velocity.z);
+    let limit_mps = MISFIT_MPS + libm::hypot(MISFIT_SHARE * speed_mps, implied.rest_mps);
+    ensure(misfit_mps <= limit_mps, || Unfit::RootContradicted {
+        root,
+        feet: implied.parameters,
+        misfit_mps: misfit_mps as f32,
+        limit_mps: limit_mps as f32,
+    })
 }

@@ -6,6 +6,7 @@
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
 use motiondb::body::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
+use motiondb::diagnostic::{Diagnostic, Note, Warning};
 use motiondb::motion::{
     Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows, SourceRecord,
 };
@@ -86,7 +87,10 @@ fn source() -> SourceRecord {
         up_axis: "+Y".into(),
         metres_per_unit: 0.01,
         frame_rate_hz: 30.0,
-        warnings: Vec::new(),
+        diagnostics: vec![
+            Diagnostic::Note(Note::FirstPoseCut),
+            Diagnostic::Warning(Warning::FeetSlide { slide_cm_s: 12.5, from_s: None }),
+        ],
     }
 }
 

@@ -7,8 +7,8 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use motiondb::diagnostic::{Diagnostic, Note, Unfit};
 use motiondb::motion::SourceRecord;
-use motiondb::motion::remark::{Kind, Remark};
 
 use crate::arc::Rates;
 use crate::cycle::{self, GaitCycle};
@@ -19,10 +19,8 @@ use crate::stance::Stance;
 use crate::stride::Stride;
 use crate::{foot_slide, parameterize, performer, selection};
 
-/// Whoever walks, crouched or on hands, has the pelvis above this, m.
+/// Lowest pelvis of a body that walks, crouched or on hands, m.
 const PELVIS_HEIGHT_MIN_M: f64 = 0.01;
-/// Why a clip in which it is elsewhere is no example.
-const STRAY: &str = "the pelvis is where no legs could carry it";
 
 /// A clip on the target skeleton and those of its steady windows that may become examples.
 pub(crate) struct Analyzed {
@@ -30,7 +28,7 @@ pub(crate) struct Analyzed {
     /// The longest first.
     pub windows: Vec<SteadyWindow>,
     /// Of the clip as a whole.
-    pub warnings: Vec<Remark>,
+    pub diagnostics: Vec<Diagnostic>,
     pub left_out: LeftOut,
 }
 
@@ -52,8 +50,8 @@ pub(crate) struct SteadyWindow {
     pub flaws: f64,
     /// It is worth a warning: good enough for a clip's only example, but not for one more.
     pub is_doubtful: bool,
-    /// What should be said of it if it becomes an example.
-    pub remarks: Vec<Remark>,
+    /// For the clip's record, if it becomes an example.
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 /// What the body does in a window.
@@ -80,68 +78,55 @@ impl SteadyWindow {
 }
 
 impl Analyzed {
-    /// The record of the clip, with what is to be said of it on the whole, of its first window, of each other one with
-    /// its time.
+    /// The record of the clip, with the diagnostics of import, of the clip as a whole, of its first window, of each
+    /// further one with its time, and of the windows that are left out.
     pub(crate) fn record(&self, clip: &HumanClip) -> SourceRecord {
         let mut record = clip.source.clone();
-        let remarks = &mut record.warnings;
-        remarks.extend(self.warnings.iter().cloned());
+        let diagnostics = &mut record.diagnostics;
+        diagnostics.extend(self.diagnostics.iter().cloned());
         for (index, window) in self.windows.iter().enumerate() {
-            let at = if index == 0 { String::new() } else { format!("from {:.1} s: ", window.window_s[0]) };
-            remarks.extend(window.remarks.iter().map(|remark| remark.kind.remark(format!("{at}{}", remark.text))));
+            let start_s = window.window_s[0] as f32;
+            let of_window = |found: Diagnostic| if index == 0 { found } else { found.of_example_from(start_s) };
+            diagnostics.extend(window.diagnostics.iter().cloned().map(of_window));
         }
-        remarks.extend(self.left_out.remark());
+        diagnostics.extend(self.left_out.note().map(Diagnostic::Note));
         record
     }
 }
 
 impl LeftOut {
-    fn remark(&self) -> Option<Remark> {
-        let [doubtful, near_equal] = [self.doubtful, self.near_equal];
-        let windows = |count: usize| format!("{count} more steady window{}", if count == 1 { "" } else { "s" });
-        let text = match (doubtful, near_equal) {
-            (0, 0) => return None,
-            (0, _) => format!("{}, near-equal to examples, left out", windows(near_equal)),
-            (_, 0) => format!("{} with sliding feet left out", windows(doubtful)),
-            _ => format!(
-                "{}, {near_equal} near-equal to examples and {doubtful} with sliding feet, left out",
-                windows(doubtful + near_equal)
-            ),
-        };
-        Some(Kind::LeftOut.remark(text))
+    fn note(&self) -> Option<Note> {
+        let [near_equal, doubtful] = [self.near_equal, self.doubtful].map(|count| count as u32);
+        (near_equal + doubtful > 0).then_some(Note::WindowsLeftOut { near_equal, doubtful })
     }
 }
-
-/// Why a clip that nobody can have walked gives none.
-const IMPOSSIBLE: &str = "no human moves so; give `frame_rate_hz` in a manifest.toml";
 
 /// Analyses one clip.
 pub(crate) fn analyze(clip: &HumanClip, body: &HumanBody) -> Analyzed {
     let performer = performer::analyze(clip);
     let grounded = performer.clip_on(clip, body);
-    let (mut windows, mut warnings) = (Vec::new(), Vec::new());
-    let (found, mut reason) = match performer.windows_on(&grounded, body) {
-        _ if clip.is_ruled_out() => (Vec::new(), None),
-        Ok(_) if clip.is_impossible() => (Vec::new(), Some(IMPOSSIBLE.to_owned())),
-        Ok(found) => (found, None),
-        Err(reason) => (Vec::new(), Some(reason.to_owned())),
-    };
-    for window in &found {
-        match steady_window(clip, &grounded, body, &performer.gait.stances[window.reading], window) {
-            Ok(steady) => windows.push(steady),
-            Err(unfit) => reason = reason.or(Some(unfit)),
+    let found = clip.unfit.clone().map_or_else(|| performer.windows_on(&grounded, body), Err);
+    let (mut windows, mut reasons) = (Vec::new(), Vec::new());
+    match found {
+        Ok(found) => {
+            for window in found {
+                match steady_window(clip, &grounded, body, &performer.gait.stances[window.reading], &window) {
+                    Ok(steady) => windows.push(steady),
+                    Err(unfit) => reasons.push(unfit),
+                }
+            }
         }
+        Err(unfit) => reasons.push(unfit),
     }
-    if let Some(why) = performer.gait.lost_steps.filter(|_| !windows.is_empty()) {
-        warnings.push(Kind::LeftOut.remark(format!("only its rest is used: where it steps there is {why}")));
-    }
-    let unfit = found.len() - windows.len();
+    let lost_steps = performer.gait.lost_steps.filter(|_| !windows.is_empty());
     let mut left_out = selection::keep_best(&mut windows);
-    match (reason, windows.is_empty()) {
-        (Some(reason), true) => warnings.push(Kind::NoExample.remark(reason)),
-        _ => left_out.doubtful += unfit,
-    }
-    Analyzed { grounded, windows, warnings, left_out }
+    let diagnostic = if windows.is_empty() {
+        reasons.into_iter().next().map(Diagnostic::NoExample)
+    } else {
+        left_out.doubtful += reasons.len();
+        lost_steps.map(|reason| Diagnostic::Note(Note::OnlyRestUsed { reason }))
+    };
+    Analyzed { grounded, windows, diagnostics: diagnostic.into_iter().collect(), left_out }
 }
 
 /// A window's mean stride, or why it is unfit.
@@ -151,7 +136,7 @@ fn steady_window(
     body: &HumanBody,
     stances: &[Vec<Stance>; 2],
     window: &Window,
-) -> Result<SteadyWindow, String> {
+) -> Result<SteadyWindow, Unfit> {
     let last_frame = (clip.frames.len() - 1) as f64;
     let second = |frame: f64| (clip.first_frame as f64 + frame.clamp(0.0, last_frame)) / clip.frame_rate_hz;
     let window_s = window.frames.map(second);
@@ -170,10 +155,10 @@ fn rest(
     body: &HumanBody,
     frames: &Range<usize>,
     window_s: [f64; 2],
-) -> Result<SteadyWindow, String> {
+) -> Result<SteadyWindow, Unfit> {
     let heights_m = grounded.poses[frames.clone()].iter().map(|pose| DVec3::Z * pose.pelvis_m.z);
     if strays(heights_m, body) {
-        return Err(STRAY.to_owned());
+        return Err(Unfit::PelvisOutOfReach);
     }
     let flaws = selection::flaws_of_rest(window_s[1] - window_s[0]);
     Ok(SteadyWindow {
@@ -181,7 +166,7 @@ fn rest(
         motion: Motion::Stands(frames.clone()),
         flaws,
         is_doubtful: false,
-        remarks: Vec::new(),
+        diagnostics: Vec::new(),
     })
 }
 
@@ -191,22 +176,22 @@ fn stepping(
     body: &HumanBody,
     strides: &[Stride],
     window_s: [f64; 2],
-) -> Result<SteadyWindow, String> {
-    let mut remarks = parameterize::snap(&mut cycle);
-    if let Some(reason) = unfit(&cycle, body) {
-        return Err(reason);
+) -> Result<SteadyWindow, Unfit> {
+    let mut diagnostics = parameterize::snap(&mut cycle);
+    if let Some(unfit) = unfit(&cycle, body) {
+        return Err(unfit);
     }
     let doubts = foot_slide::lint(&cycle, body);
     let is_doubtful = !doubts.is_empty();
-    remarks.extend(doubts);
+    diagnostics.extend(doubts);
     let flaws = selection::flaws_of_strides(strides, &cycle, body);
-    Ok(SteadyWindow { window_s, motion: Motion::Steps(Box::new(cycle)), flaws, is_doubtful, remarks })
+    Ok(SteadyWindow { window_s, motion: Motion::Steps(Box::new(cycle)), flaws, is_doubtful, diagnostics })
 }
 
 /// Why a cycle must not be blended with others, if so.
-fn unfit(cycle: &GaitCycle, body: &HumanBody) -> Option<String> {
+fn unfit(cycle: &GaitCycle, body: &HumanBody) -> Option<Unfit> {
     if strays(cycle.rows.iter().map(|row| row.pelvis_m), body) {
-        return Some(STRAY.to_owned());
+        return Some(Unfit::PelvisOutOfReach);
     }
     foot_slide::excess(cycle, body)
 }

@@ -58,10 +58,9 @@ pub(crate) fn find(
         None => likely_legs(shape, limb::pairs(shape, [Part::Thigh, Part::Shank, Part::Foot])),
     };
     let Some((_, likeliest)) = legs.first() else {
-        let reason = "no two mirrored limbs with hip, knee and ankle among the joints".to_owned();
-        return Err(Refusal::NoLegs { reason });
+        return Err(Refusal::NoLegs);
     };
-    let seeming = likeliest.limbs.each_ref().map(|limb| named(shape, limb)).join(" and ");
+    let seeming_legs = likeliest.limbs.each_ref().map(|limb| ends(shape, limb));
     let arms =
         known_arms.map_or_else(|| limb::pairs(shape, [Part::UpperArm, Part::Forearm, Part::Hand]), |pair| vec![pair]);
     let mut best: Option<(f64, [LimbPair; 2])> = None;
@@ -72,15 +71,12 @@ pub(crate) fn find(
             best = Some((score, [legs, arms.clone()]));
         }
     }
-    best.map(|(_, body)| body).ok_or_else(|| Refusal::NoArms {
-        reason: format!("no two mirrored limbs with shoulder, elbow and wrist beside its seeming legs, {seeming}"),
-    })
+    best.map(|(_, body)| body).ok_or(Refusal::NoArms { seeming_legs })
 }
 
-/// For messages: without knees or ankles the arms are the likeliest legs.
-fn named(shape: &Shape, limb: &Limb) -> String {
-    let [from, _, to] = limb.joints.map(|joint| shape.clip.joints[joint].name.as_str());
-    format!("`{from}` to `{to}`")
+/// Names of a limb's first and last joint.
+fn ends(shape: &Shape, limb: &Limb) -> [String; 2] {
+    [limb.joints[0], limb.joints[2]].map(|joint| shape.clip.joints[joint].name.clone())
 }
 
 /// The best legs of every two branches of a fork, with their scores over the best of all.

@@ -73,7 +73,7 @@ fn posed(file: &Path, checked: CheckedBvh, bvh: &Bvh) -> SourceClip {
         orientations,
         up_axis: None,
         metres_per_unit: None,
-        warnings: checked.warnings,
+        diagnostics: checked.diagnostics,
     }
 }
 

@@ -1,4 +1,4 @@
-//! Whether level ground carries a body by its feet; what else moves it, in words that tell what was measured.
+//! Whether level ground carries a body by its feet; what else moves it, with what was measured.
 //!
 //! Stairs, ramps, moonwalks, turntables and jumps are motion of a human body, and no locomotion on flat ground: gait
 //! analysis finds no steady stride in them, and its reason alone would not tell why. Metres, Z up.
@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 use motiondb::body::Joint;
-use motiondb::motion::remark::{Kind, Remark};
+use motiondb::diagnostic::Warning;
 use motiondb::statistics::median;
 
 use crate::plausibility::{LEAD_MIN_M, passings};
@@ -48,13 +48,12 @@ const LEAP_OVER_USUAL: f64 = 5.0;
 const TURN_MIN_S: f64 = 1.0;
 
 /// The warning, where something else than feet on level ground moves the body.
-pub(crate) fn remark(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Option<Remark> {
+pub(crate) fn doubt(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Option<Warning> {
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
     let steps = passings(clip, roles, LEAD_MIN_M * scale).len();
     let body = Body { clip, roles, scale, steps };
     let moves = (!whole.in_place).then(|| body.climbs().or_else(|| body.slides(whole))).flatten();
-    let moves = body.leaps().or(moves).or_else(|| body.is_turned(whole)).or_else(|| body.jumps());
-    moves.map(|told| Kind::Ground.remark(told))
+    body.leaps().or(moves).or_else(|| body.is_turned(whole)).or_else(|| body.jumps())
 }
 
 struct Body<'a> {
@@ -68,7 +67,7 @@ struct Body<'a> {
 
 impl Body<'_> {
     /// Takes that were strung together, or a loop that was repeated without its way.
-    fn leaps(&self) -> Option<String> {
+    fn leaps(&self) -> Option<Warning> {
         let hips = |frame: usize| middle(self.clip, self.roles, Joint::THIGHS, frame);
         let ways_m: Vec<f64> =
             (1..self.clip.frame_count()).map(|frame| hips(frame).distance(hips(frame - 1))).collect();
@@ -77,21 +76,17 @@ impl Body<'_> {
         let least_m = fastest_m.max(LEAP_MIN_M * self.scale).max(LEAP_OVER_USUAL * usual_m);
         let leaps: Vec<usize> = (0..ways_m.len()).filter(|&frame| ways_m[frame] > least_m).collect();
         let (&first, others) = leaps.split_first()?;
-        let (way_m, from) = (ways_m[first], self.clip.first_frame + first + 1);
-        let others = if others.is_empty() { String::new() } else { format!(" (and {} times more)", others.len()) };
-        let told = format!("the body leaps by {way_m:.1} m from frame {from} to the next{others}");
-        Some(told + ": its mean speeds count that; cut the file there, or name `frames` in a manifest.toml")
+        let frame = (self.clip.first_frame + first + 1) as u32;
+        Some(Warning::Leap { distance_m: ways_m[first] as f32, frame, more: others.len() as u32 })
     }
 
-    fn climbs(&self) -> Option<String> {
+    fn climbs(&self) -> Option<Warning> {
         let [rise_m, way_m] = self.rise_and_way_m();
         let is_level = rise_m.abs() < RISE_MIN_M * self.scale || rise_m.abs() < SLOPE_MAX * way_m;
         if is_level || self.steps == 0 {
             return None;
         }
-        let verb = if rise_m > 0.0 { "climbs" } else { "descends" };
-        let step_cm = 100.0 * rise_m.abs() / self.steps as f64;
-        Some(format!("the ground is not level: the body {verb} {step_cm:.0} cm a step"))
+        Some(Warning::Slope { rise_cm: (100.0 * rise_m / self.steps as f64) as f32 })
     }
 
     /// How much higher the lower foot stands at the end than at the beginning, and the way of the hips.
@@ -110,7 +105,7 @@ impl Body<'_> {
         [lowest_m(count - span..count) - lowest_m(0..span), way_m]
     }
 
-    fn slides(&self, whole: &WholeClip) -> Option<String> {
+    fn slides(&self, whole: &WholeClip) -> Option<Warning> {
         let slide = tread::ground_velocity(self.clip, self.roles);
         let moved = DVec2::new(whole.speed_mps, whole.strafe_mps);
         let stands =
@@ -118,17 +113,15 @@ impl Body<'_> {
         if !stands || slide.length() < SLIDE_MAX_MPS.max(SLIDE_SHARE * moved.length()) * self.scale.sqrt() {
             return None;
         }
-        let [slide_mps, body_mps] = [slide.length(), moved.length()];
-        let feet = if self.steps == 0 { "without a step, its feet" } else { "and its stance feet" };
-        Some(format!("the body goes at {body_mps:.1} m/s {feet} slide over the ground at {slide_mps:.1} m/s"))
+        let [slide_mps, body_mps] = [slide, moved].map(|velocity| velocity.length() as f32);
+        Some(Warning::Skating { body_mps, slide_mps, steps: self.steps > 0 })
     }
 
-    fn is_turned(&self, whole: &WholeClip) -> Option<String> {
+    fn is_turned(&self, whole: &WholeClip) -> Option<Warning> {
         let stand = (0..2).all(|side| self.lift_m(side) < STEP_LIFT_MIN_M * self.scale);
-        let rate_deg_s = whole.turn_rate_rad_s.to_degrees();
         let is_long = self.clip.frame_count() as f64 > TURN_MIN_S * self.clip.frame_rate_hz;
         (stand && is_long && whole.turn_rate_rad_s.abs() > TURNED_MIN_RAD_S)
-            .then(|| format!("the body turns at {rate_deg_s:.0} °/s without a step, as on a turntable"))
+            .then_some(Warning::TurnWithoutStep { turn_rate_rad_s: whole.turn_rate_rad_s as f32 })
     }
 
     /// From where a foot stands to its highest.
@@ -145,7 +138,7 @@ impl Body<'_> {
         heights
     }
 
-    fn jumps(&self) -> Option<String> {
+    fn jumps(&self) -> Option<Warning> {
         let stands_m = [0, 1].map(|side| {
             let heights = self.heights_m(side);
             heights[(LOW_SHARE * (heights.len() - 1) as f64) as usize]
@@ -156,6 +149,6 @@ impl Body<'_> {
         let lower_m = |frame: usize| lift_m(frame, 0).min(lift_m(frame, 1));
         let highest_m = (0..self.clip.frame_count()).map(lower_m).fold(0.0, f64::max);
         (self.steps == 0 && highest_m > JUMP_LIFT_M * self.scale)
-            .then(|| format!("both feet leave the ground together, by {:.0} cm: the body jumps", 100.0 * highest_m))
+            .then_some(Warning::Jump { lift_cm: (100.0 * highest_m) as f32 })
     }
 }

@@ -12,7 +12,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use motiondb::motion::remark::Kind;
+use motiondb::diagnostic::{Diagnostic, Note};
 use motiondb::motion::{MotionDb, MotionExample, Parameters, SourceRecord};
 use motiondb::validate::first_broken;
 use motiondb::velocity_sets::velocity_hull::{self, Construction};
@@ -116,7 +116,7 @@ fn assemble(
     tell(Event::Stage("blend space"));
     let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
     let blend_space = twins::build_of_best(&parameters, &flaws);
-    tell_of_twins(&twins::twins(&parameters, &blend_space), &examples, &mut sources);
+    note_twins(&twins::twins(&parameters, &blend_space), &examples, &mut sources);
     tell(Event::Stage("assembly"));
     let mut db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
@@ -141,12 +141,12 @@ fn sound(db: MotionDb, tell: &Observer) -> Result<MotionDb, CompileError> {
     }
 }
 
-/// Of examples with the same parameters the best is blended; the sources of the others say so.
-fn tell_of_twins(twins: &[[usize; 2]], examples: &[MotionExample], sources: &mut [SourceRecord]) {
+/// Of examples with the same parameters the best is blended; the sources of the others have a note.
+fn note_twins(twins: &[[usize; 2]], examples: &[MotionExample], sources: &mut [SourceRecord]) {
     let twins = twins.iter().map(|pair| pair.map(|index| &examples[index]));
-    for [unused, played] in twins.filter(|[unused, _]| !unused.mirrored) {
-        let remark = format!("{} moves like {}, which is blended in its place", unused.name, played.name);
-        sources[unused.source as usize].warnings.push(Kind::Twin.remark(remark));
+    for [unused, blended] in twins.filter(|[unused, _]| !unused.mirrored) {
+        let note = Note::CoincidentExample { example: unused.name.clone(), blended: blended.name.clone() };
+        sources[unused.source as usize].diagnostics.push(Diagnostic::Note(note));
     }
 }
 

@@ -19,7 +19,7 @@ pub enum CompileError {
     NoExample {
         /// Files and clips that are no human motion, and why.
         refused: Vec<Refused>,
-        /// Those that are, with what is said of each.
+        /// Clips that are, with their diagnostics.
         sources: Vec<SourceRecord>,
     },
     /// What was compiled is no sound database: the clips hold something that no earlier stage knew to refuse.
@@ -36,7 +36,10 @@ pub enum CompileError {
     #[error(transparent)]
     Manifest(#[from] ManifestError),
     /// The clip that was chosen as m_sp.
-    #[error("{name} is to be m_sp, but gives no such example that steps; choose a straight walk")]
+    #[error(
+        "`{name}`: no stepping cycle found; this clip cannot be the base walk (m_sp). Choose another with \
+         `semi_procedural = \"…\"`"
+    )]
     NotStepping {
         /// Its name.
         name: String,
@@ -47,8 +50,8 @@ pub enum CompileError {
 
 fn all(refused: &[Refused], sources: &[SourceRecord]) -> String {
     let of_source = |source: &SourceRecord| {
-        let remarks: Vec<&str> = source.warnings.iter().map(|remark| remark.text.as_str()).collect();
-        Refused { file: source.file.clone(), clip: source.clip.clone(), reason: remarks.join("; ") }
+        let sentences: Vec<String> = source.diagnostics.iter().map(ToString::to_string).collect();
+        Refused { file: source.file.clone(), clip: source.clip.clone(), reason: sentences.join("; ") }
     };
     let all = refused.iter().cloned().chain(sources.iter().map(of_source));
     all.map(|reason| reason.to_string()).collect::<Vec<String>>().join("; ")

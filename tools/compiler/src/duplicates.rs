@@ -2,9 +2,9 @@
 //! part of the other or mirrored. Of each stretch one of the clips gives the example.
 //!
 //! `take_search` chooses which clips are compared, `same_take` decides of two clips, `shared_stretches` which of their
-//! windows give examples. Here all of it is put together, and said.
+//! windows give examples. Here all of it is put together, with a diagnostic for each clip that it concerns.
 
-use motiondb::motion::remark::{Kind, Remark};
+use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use rayon::prelude::*;
 
 use crate::alignment::Alignment;
@@ -16,7 +16,7 @@ use crate::same_take::Entry;
 use crate::shared_stretches::{self, Chosen, Mark};
 use crate::take_search::{self, LIST_MAX, Search};
 
-/// Clips that a sentence names; the others are counted.
+/// Clips that a diagnostic names; the others are counted.
 const NAMED_MAX: usize = 8;
 
 /// Two clips of one take.
@@ -30,7 +30,7 @@ pub struct Pair {
     pub unlikeness: f64,
 }
 
-/// Takes from each clip the windows that a better copy of its take gives the examples of, and says so.
+/// Takes from each clip the windows that a better copy of its take gives the examples of.
 pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [Analyzed], body: &HumanBody) {
     let gives_example: Vec<bool> = analyzed.iter().map(|found| !found.windows.is_empty()).collect();
     let search = search(clips, &gives_example);
@@ -38,13 +38,13 @@ pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [Analyzed], body: &H
     let may_pair = |a: usize, b: usize| !are_parts_of_one_file(&clips[a], &clips[b]);
     let chosen = shared_stretches::choose(clips, analyzed, &neighbours, body, may_pair);
     for (clip, found) in analyzed.iter_mut().enumerate() {
-        found.warnings.extend(remarks(clips, &chosen, clip));
+        found.diagnostics.extend(diagnostics(clips, &chosen, clip));
         let mut aside = chosen.aside[clip].iter();
         found.windows.retain(|_| aside.next().is_some_and(Option::is_none));
     }
     for clip in search.beyond_list {
-        let remark = format!("too many clips: whether it is the same take is known of the {LIST_MAX} longest only");
-        analyzed[clip].warnings.push(Kind::Uncompared.remark(remark));
+        let warning = Warning::NotCompared { compared: LIST_MAX as u32 };
+        analyzed[clip].diagnostics.push(Diagnostic::Warning(warning));
     }
 }
 
@@ -85,46 +85,48 @@ fn neighbours(count: usize, pairs: &[Pair]) -> Neighbours {
     neighbours
 }
 
-/// What is said of a clip: which other gives its examples; or, of the one that does, whose frame times differ.
-fn remarks(clips: &[HumanClip], chosen: &Chosen, clip: usize) -> Vec<Remark> {
+/// Of a clip: which other gives its examples; or, of the one that does, which others differ in their frame times.
+fn diagnostics(clips: &[HumanClip], chosen: &Chosen, clip: usize) -> Vec<Diagnostic> {
     let windows = &chosen.aside[clip];
     let aside: Vec<&Mark> = windows.iter().flatten().collect();
-    let same = |mark: &Mark| same_take(&title(&clips[mark.giver]), &mark.alignment);
     let own = match (&aside[..], windows.len()) {
-        ([], 0) => chosen.marks[clip].first().map(same),
+        ([], 0) => chosen.marks[clip].first().map(|mark| same_take(clips, mark, 0)),
         ([], _) => None,
-        ([first, ..], all) if aside.len() == all => Some(Kind::NoExample.remark(same(first).text)),
-        ([only], _) => Some(also(same(only), ": 1 steady window left out")),
-        ([first, ..], _) => Some(also(same(first), &format!(": {} steady windows left out", aside.len()))),
+        ([first, ..], all) if aside.len() == all => Some(Diagnostic::NoExample(no_example(clips, first))),
+        ([first, ..], _) => Some(same_take(clips, first, aside.len())),
     };
     own.into_iter().chain(of_other_times(clips, chosen, clip)).collect()
 }
 
-/// What is said of a clip that gives the example of a take which others tell at another frame time.
-fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<Remark> {
-    let tells_otherwise = |&clip: &usize| {
+/// Of the clip that gives the examples of a take, where other clips show it at another frame time.
+fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<Diagnostic> {
+    let differs = |&clip: &usize| {
         chosen.marks[clip].first().is_some_and(|mark| mark.giver == giver && mark.alignment.times_differ())
     };
-    let others: Vec<usize> = (0..clips.len()).filter(tells_otherwise).collect();
-    let mut names: Vec<String> = others.iter().take(NAMED_MAX).map(|&clip| title(&clips[clip])).collect();
-    if others.len() > NAMED_MAX {
-        names.push(format!("{} more", others.len() - NAMED_MAX));
+    let all: Vec<usize> = (0..clips.len()).filter(differs).collect();
+    let others: Vec<String> = all.iter().take(NAMED_MAX).map(|&clip| title(&clips[clip])).collect();
+    let more = (all.len() - others.len()) as u32;
+    let warning = Warning::FrameTimesDiffer { others, more, mirrored: false, windows_left_out: 0 };
+    (!all.is_empty()).then_some(Diagnostic::Warning(warning))
+}
+
+fn no_example(clips: &[HumanClip], Mark { giver, alignment, .. }: &Mark) -> Unfit {
+    Unfit::SameTake {
+        other: title(&clips[*giver]),
+        mirrored: alignment.mirrored,
+        frame_times_differ: alignment.times_differ(),
     }
-    let times = Alignment { pace: f64::INFINITY, ..Alignment::SAME };
-    (!names.is_empty()).then(|| same_take(&names.join(", "), &times))
 }
 
-fn same_take(title: &str, alignment: &Alignment) -> Remark {
-    let mirrored = if alignment.mirrored { ", mirrored" } else { "" };
-    let (kind, timed) = match alignment.times_differ() {
-        true => (Kind::OtherTime, ", at another frame time: one of both is wrong"),
-        false => (Kind::SameTake, ""),
-    };
-    kind.remark(format!("the same take as {title}{mirrored}{timed}"))
-}
-
-fn also(remark: Remark, more: &str) -> Remark {
-    Remark { text: remark.text + more, ..remark }
+fn same_take(clips: &[HumanClip], Mark { giver, alignment, .. }: &Mark, windows_left_out: usize) -> Diagnostic {
+    let (other, mirrored) = (title(&clips[*giver]), alignment.mirrored);
+    let windows_left_out = windows_left_out as u32;
+    match alignment.times_differ() {
+        true => {
+            Diagnostic::Warning(Warning::FrameTimesDiffer { others: vec![other], more: 0, mirrored, windows_left_out })
+        }
+        false => Diagnostic::Note(Note::SameTake { other, mirrored, windows_left_out }),
+    }
 }
 
 fn title(clip: &HumanClip) -> String {
@@ -204,38 +206,42 @@ mod tests {
         assert_eq!(pairs(&clips), []);
     }
 
-    /// Second at which each window begins that is left of each clip, and what is said of the clip.
-    fn left(clips: &[HumanClip]) -> Vec<(Vec<f64>, Vec<String>)> {
+    /// Second at which each window begins that is left of each clip, and the clip's diagnostics.
+    fn left(clips: &[HumanClip]) -> Vec<(Vec<f64>, Vec<Diagnostic>)> {
         let body = target_skeleton::choose(clips);
         let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
         set_aside(clips, &mut analyzed, &body);
         let start_s = |found: &Analyzed| found.windows.iter().map(|window| window.window_s[0]).collect();
-        let said = |found: &Analyzed| found.warnings.iter().map(Remark::to_string).collect();
-        analyzed.iter().map(|found| (start_s(found), said(found))).collect()
+        analyzed.iter().map(|found| (start_s(found), found.diagnostics.clone())).collect()
     }
 
-    /// Of the plain bend and another clip the other gives the example, and the bend's record tells it.
+    /// No example, for the other clip gives that of the same take.
+    fn same_take_as(other: String) -> Diagnostic {
+        Diagnostic::NoExample(Unfit::SameTake { other, mirrored: false, frame_times_differ: false })
+    }
+
+    /// Of the plain bend and another clip the other gives the example, and the bend's diagnostics name it.
     #[track_caller]
-    fn check_gives(other: HumanClip, how: &str) {
+    fn check_gives(other: HumanClip) {
         let mut clips = [walk("bend", bend()), other];
         clips.iter_mut().for_each(|clip| clip.source.file = format!("{}.bvh", clip.name));
-        let wanted = format!("no example: the same take as {}.bvh{how}", clips[1].name);
+        let wanted = same_take_as(clips[1].source.file.clone());
         for clips in [clips.clone(), [clips[1].clone(), clips[0].clone()]] {
             let left = left(&clips);
-            for (clip, (windows, said)) in clips.iter().zip(left) {
+            for (clip, (windows, found)) in clips.iter().zip(left) {
                 let is_bend = clip.name == "bend";
-                assert_eq!((windows.len(), said.contains(&wanted)), (usize::from(!is_bend), is_bend), "{said:?}");
+                assert_eq!((windows.len(), found.contains(&wanted)), (usize::from(!is_bend), is_bend), "{found:?}");
             }
         }
     }
 
     #[test]
     fn the_chosen_the_travelling_the_longer_and_the_finer_take_gives_the_example() {
-        check_gives(walk("longer", Walk { duration_s: 4.4, ..bend() }), "");
-        check_gives(walk("finer", Walk { frame_rate_hz: 120.0, ..bend() }), "");
+        check_gives(walk("longer", Walk { duration_s: 4.4, ..bend() }));
+        check_gives(walk("finer", Walk { frame_rate_hz: 120.0, ..bend() }));
         let mut chosen = walk("chosen", Walk { duration_s: 3.6, ..bend() });
         chosen.choices.is_target_skeleton = true;
-        check_gives(chosen, "");
+        check_gives(chosen);
     }
 
     #[test]
@@ -245,9 +251,15 @@ mod tests {
             let mut lying = walk("lying", Walk { duration_s: 8.1, ..bend() });
             lying.frame_rate_hz *= share;
             for clips in [[told(), lying.clone()], [lying, told()]] {
-                for (clip, (windows, said)) in clips.iter().zip(left(&clips)) {
-                    assert_eq!(windows.len(), usize::from(clip.name == "told"), "{} {said:?}", clip.name);
-                    assert!(said.iter().any(|said| said.contains("at another frame time")), "{said:?}");
+                for (clip, (windows, found)) in clips.iter().zip(left(&clips)) {
+                    let gives = clip.name == "told";
+                    assert_eq!(windows.len(), usize::from(gives), "{} {found:?}", clip.name);
+                    let differs = |found: &Diagnostic| match found {
+                        Diagnostic::Warning(Warning::FrameTimesDiffer { .. }) => gives,
+                        Diagnostic::NoExample(Unfit::SameTake { frame_times_differ, .. }) => *frame_times_differ,
+                        _ => false,
+                    };
+                    assert!(found.iter().any(differs), "{found:?}");
                 }
             }
         }
@@ -271,10 +283,10 @@ mod tests {
         let longer = [&parts[..], &[idle("part", 2.0)]].concat();
         let spoiled = sliding_from(performance("spoiled", &longer), 355);
         let left = left(&[clean, spoiled]);
-        let [(of_clean, said), (of_spoiled, _)] = &left[..] else { panic!("{left:?}") };
+        let [(of_clean, found), (of_spoiled, _)] = &left[..] else { panic!("{left:?}") };
         assert!(of_clean.iter().any(|start_s| *start_s > 5.0), "{left:?}");
         assert_eq!(of_clean.iter().chain(of_spoiled).filter(|start_s| **start_s < 5.0).count(), 1, "{left:?}");
-        assert!(said.is_empty() || said[0].starts_with("the same take as"), "{left:?}");
+        assert!(matches!(found[..], [] | [Diagnostic::Note(Note::SameTake { .. })]), "{left:?}");
     }
 
     #[test]
@@ -289,11 +301,12 @@ mod tests {
         let left = left(&clips);
         let givers: Vec<usize> = (0..300).filter(|&clip| !left[clip].0.is_empty()).collect();
         assert_eq!(givers.len(), 1);
-        let named = format!("no example: the same take as {}", clips[givers[0]].name);
-        for (clip, (_, said)) in left.iter().enumerate().filter(|(clip, _)| *clip != givers[0]) {
-            assert!(matches!(&said[..], [said] if said.starts_with(&named)), "{clip}: {said:?}");
+        let giver = &clips[givers[0]].name;
+        for (clip, (_, found)) in left.iter().enumerate().filter(|(clip, _)| *clip != givers[0]) {
+            let [Diagnostic::NoExample(Unfit::SameTake { other, .. })] = &found[..] else { panic!("{found:?}") };
+            assert_eq!(other, giver, "{clip}");
         }
-        assert_eq!(left[givers[0]].1, [] as [&str; 0]);
+        assert_eq!(left[givers[0]].1, []);
     }
 
     #[test]

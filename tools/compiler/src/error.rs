@@ -71,7 +71,7 @@ pub enum Refusal {
     #[error("only one frame: a motion needs at least {MIN_FRAMES}; export the whole clip")]
     TooShort,
     /// An animation of shapes, materials or props.
-    #[error("no joint moves: it animates shapes, materials or props; export the skeleton's motion")]
+    #[error("no joint moves: the animation is of shapes, materials or props; export the skeleton's motion")]
     Motionless,
     /// This clip's part of the file breaks the format.
     #[error("{reason}")]
@@ -90,26 +90,58 @@ pub enum Refusal {
         /// The joint that carries the second.
         second: String,
     },
-    /// No pair of limbs with hip, knee and ankle.
-    #[error("no human legs: {reason}; only clips of a walking human skeleton can be used")]
-    NoLegs {
-        /// What was looked for and not found.
-        reason: String,
+    /// More joints than any body has.
+    #[error("no human skeleton: it has {count} joints; export the body alone")]
+    TooManyJoints {
+        /// Joints of the file.
+        count: usize,
     },
-    /// No pair of arms above the legs.
-    #[error("no human arms: {reason}; the facing is measured from hips and shoulders")]
+    /// No pair of limbs with hip, knee and ankle.
+    #[error(
+        "no human legs: no two mirrored limbs with hip, knee and ankle among the joints; if the skeleton is human, state \
+         `joints` in a manifest.toml"
+    )]
+    NoLegs,
+    /// The bones of a leg change their length.
+    #[error("no human legs: the bones at `{knee}` change their length; export a rigid skeleton")]
+    LooseLeg {
+        /// The joint between them.
+        knee: String,
+    },
+    /// No pair of arms above the legs. Without knees or ankles the arms are the likeliest legs.
+    #[error(
+        "no human arms: no two mirrored limbs with shoulder, elbow and wrist beside the seeming legs, {}; if the skeleton \
+         is human, state `joints` in a manifest.toml",
+        limbs(seeming_legs)
+    )]
     NoArms {
-        /// What was looked for and not found.
-        reason: String,
+        /// First and last joint of each limb that was taken for a leg.
+        seeming_legs: [[String; 2]; 2],
     },
     /// Joints in places that no body has.
     #[error("positions or rotations are not finite: the skeleton is degenerate; export the clip again")]
     Degenerate,
-    /// Bones that no body has.
-    #[error("no human proportions: {reason}; check the skeleton's offsets and its unit, and export the clip again")]
-    Disproportionate {
-        /// The measurement that says so.
-        reason: String,
+    /// Legs of a length that no body has.
+    #[error("no human proportions: thigh and shank are {leg_m:.3} m long; correct the skeleton's offsets and its unit")]
+    LegLength {
+        /// Thigh plus shank, m.
+        leg_m: f64,
+    },
+    /// Legs that no knee could bend.
+    #[error("no human proportions: of legs of {leg_m:.3} m one bone has {bone_m:.3} m; correct the skeleton's offsets")]
+    ShortLegBone {
+        /// Thigh plus shank, m.
+        leg_m: f64,
+        /// The shorter of both, m.
+        bone_m: f64,
+    },
+    /// A bone that no body has.
+    #[error("no human proportions: on legs of {leg_m:.3} m one bone has {bone_m:.3} m; correct the skeleton's offsets")]
+    LongBone {
+        /// Thigh plus shank, m.
+        leg_m: f64,
+        /// The longest bone, m.
+        bone_m: f64,
     },
     /// The manifest says of the clip what is not so.
     #[error("{reason}; {remedy}")]
@@ -122,14 +154,28 @@ pub enum Refusal {
         remedy: &'static str,
     },
     /// Limbs are there, but the body is a quadruped's or crawls or lies.
-    #[error("not upright: {reason}; only clips of a walking human skeleton can be used")]
+    #[error(
+        "not upright: the trunk lies {trunk_deg:.0}° off the legs' direction, like that of a quadruped or a crawling body; \
+         use clips of a walking human skeleton"
+    )]
     NotUpright {
-        /// The measurement that says so.
-        reason: String,
+        /// Angle between the legs' direction (toes → hips) and the trunk (hips → shoulders), degrees.
+        trunk_deg: f64,
     },
+    /// Limbs are there, but the body moves as no walker does.
+    #[error(
+        "not upright: the body moves along its own length, as one that crawls, swims or climbs; use clips of a walking \
+         human skeleton"
+    )]
+    MovesAlongItself,
 }
 
-/// What a manifest says of a clip and the clip may belie.
+/// `` `Hips` to `Foot` and `Hips` to `Foot` ``.
+fn limbs(limbs: &[[String; 2]; 2]) -> String {
+    limbs.each_ref().map(|[first, last]| format!("`{first}` to `{last}`")).join(" and ")
+}
+
+/// What a manifest states of a clip and the clip may contradict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Setting {
     /// Which animation of a glTF file.

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use motiondb::body::Joint;
-use motiondb::motion::remark::Kind;
+use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Warning};
 
 use crate::skeleton_map::Roles;
 use crate::source_clip::SourceClip;
@@ -41,7 +41,7 @@ pub(crate) fn drop_separate_first_pose(clip: &mut SourceClip, roles: &Roles) {
     let drops_arms = spread(clip, roles, 0) > SPREAD_COSINE && spread(clip, roles, 1) < LOWERED_COSINE;
     if jumps || drops_arms {
         clip.keep_frames(1..clip.frame_count());
-        clip.warnings.push(Kind::Cut.remark("the first frame is a separate pose and is not used"));
+        clip.diagnostics.push(Diagnostic::Note(Note::FirstPoseCut));
     }
 }
 
@@ -54,12 +54,12 @@ pub(crate) fn drop_t_poses(clip: &mut SourceClip, roles: &Roles) {
     let (Some(first), Some(last)) = (first, last) else { return };
     let kept: Range<usize> = first..count.saturating_sub(last).max(first);
     let fits = kept.len() >= FRAMES_MIN && kept.len() as f64 >= left_min_s(clip, roles, &kept) * clip.frame_rate_hz;
-    let (kind, then) = if fits { (Kind::Cut, " and are not used") } else { (Kind::TPose, "") };
-    if first > 0 {
-        clip.warnings.push(kind.remark(format!("the first {first} frames come out of a T-pose{then}")));
-    }
-    if last > 0 {
-        clip.warnings.push(kind.remark(format!("the last {last} frames go into a T-pose{then}")));
+    for (frames, end) in [(first as u32, ClipEnd::First), (last as u32, ClipEnd::Last)] {
+        let found = match fits {
+            true => Diagnostic::Note(Note::TPoseCut { frames, end }),
+            false => Diagnostic::Warning(Warning::TPoseKept { frames, end }),
+        };
+        clip.diagnostics.extend((frames > 0).then_some(found));
     }
     if fits {
         clip.keep_frames(kept);

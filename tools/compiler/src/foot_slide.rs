@@ -1,7 +1,7 @@
 //! Planted-foot slide of a cycle, measured as in the database ([`motiondb::quality::planted_feet`]), and what to think of it.
 
 use glam::DVec3;
-use motiondb::motion::remark::{Kind, Remark};
+use motiondb::diagnostic::{Diagnostic, Unfit, Warning};
 use motiondb::quality::example_quality;
 use motiondb::quality::planted_feet::{self, CycleFeet, FootSlide};
 use motiondb::validate;
@@ -37,30 +37,25 @@ pub fn feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
 }
 
 /// Why a cycle shows no stance that a crowd could be made of, if so; or one that contradicts its landmarks or its root.
-pub fn excess(cycle: &GaitCycle, body: &HumanBody) -> Option<String> {
+pub fn excess(cycle: &GaitCycle, body: &HumanBody) -> Option<Unfit> {
     let FootSlide { slide_cm_s, planted_share } = measure(cycle, body);
     let speed_cm_s = 100.0 * libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
     if planted_share < NO_STANCE_SHARE {
-        return Some(format!("its feet are planted for only {:.0} % of the cycle", 100.0 * planted_share));
+        return Some(Unfit::FeetHardlyPlanted { planted_share: planted_share as f32 });
     }
     if slide_cm_s > EXCESSIVE_SLIDE_CM_S.max(EXCESSIVE_SLIDE_SHARE * speed_cm_s) {
-        return Some(format!("its planted feet slide by {slide_cm_s:.0} cm/s"));
+        return Some(Unfit::FeetSlide { slide_cm_s: slide_cm_s as f32 });
     }
     validate::contradiction(&feet(cycle, body), cycle.rates.to_parameters())
 }
 
 /// Warnings for a cycle whose feet are no model of standing on the ground.
-pub fn lint(cycle: &GaitCycle, body: &HumanBody) -> Vec<Remark> {
+pub fn lint(cycle: &GaitCycle, body: &HumanBody) -> Vec<Diagnostic> {
     let FootSlide { slide_cm_s, planted_share } = measure(cycle, body);
-    let mut warnings = Vec::new();
-    if relative_slide(cycle, body) > 1.0 {
-        warnings.push(Kind::Feet.remark(format!("planted feet slide by {slide_cm_s:.0} cm/s")));
-    }
-    if planted_share < SUSPECT_SHARE {
-        let told = format!("feet are planted for only {:.0} % of the cycle", 100.0 * planted_share);
-        warnings.push(Kind::Feet.remark(told));
-    }
-    warnings
+    let slide = Warning::FeetSlide { slide_cm_s: slide_cm_s as f32, from_s: None };
+    let share = Warning::FeetHardlyPlanted { planted_share: planted_share as f32, from_s: None };
+    let found = [(relative_slide(cycle, body) > 1.0, slide), (planted_share < SUSPECT_SHARE, share)];
+    found.into_iter().filter(|(is_so, _)| *is_so).map(|(_, warning)| Diagnostic::Warning(warning)).collect()
 }
 
 /// The slide of a cycle over that from which on it is suspect.

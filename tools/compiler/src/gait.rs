@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use motiondb::body::Side;
+use motiondb::diagnostic::Unfit;
 
 use crate::contacts::{self, runs};
 use crate::human_clip::HumanBody;
@@ -50,9 +51,9 @@ pub struct GaitAnalysis {
     /// When each foot stands on the ground, `[left, right]`: its contacts as defined, then more and more leniently.
     pub stances: [[Vec<Stance>; 2]; LENIENCES.len()],
     /// Steady parts, disjoint in time, the longest first and standing last; or why there is none.
-    pub windows: Result<Vec<Window>, &'static str>,
+    pub windows: Result<Vec<Window>, Unfit>,
     /// Why no window steps, though the body does: of a clip that rests, too.
-    pub lost_steps: Option<&'static str>,
+    pub lost_steps: Option<Unfit>,
 }
 
 /// Finds contacts, landmarks and the steady windows.
@@ -93,7 +94,7 @@ fn windows(
     steps: &[Steps],
     track: &BodyTrack,
     loop_frames: Option<usize>,
-) -> Result<Vec<Window>, &'static str> {
+) -> Result<Vec<Window>, Unfit> {
     let frames = 0..track.joints.len();
     if let Some(reading) = planted.iter().position(|planted| standing::stands(planted, track)) {
         return Ok(vec![Window::standing(frames, reading, 0)]);
@@ -144,19 +145,19 @@ fn steps(stepping: &[Vec<bool>; 2], track: &BodyTrack) -> Steps {
     Steps { landmarks, strides }
 }
 
-fn lost_steps(windows: &Result<Vec<Window>, &'static str>, steps: &Steps) -> Option<&'static str> {
+fn lost_steps(windows: &Result<Vec<Window>, Unfit>, steps: &Steps) -> Option<Unfit> {
     let rests =
         windows.as_ref().is_ok_and(|windows| windows.iter().all(|window| matches!(window.gait, Gait::Stands(_))));
     (rests && steps.landmarks.len() >= LOST_STEPS_MIN).then(|| why_unsteady(steps))
 }
 
-fn why_unsteady(steps: &Steps) -> &'static str {
+fn why_unsteady(steps: &Steps) -> Unfit {
     if steps.landmarks.is_empty() {
-        "no foot both lands and leaves, and the body does not stand still"
+        Unfit::NoStep
     } else if steps.strides.iter().all(Option::is_none) {
-        "no whole stride with one step of each foot"
+        Unfit::NoWholeStride
     } else {
-        "no steady stride"
+        Unfit::NoSteadyStride
     }
 }
 
@@ -256,7 +257,7 @@ mod tests {
             assert!(matches!(found.windows.unwrap().last().unwrap().gait, Gait::Stands(_)));
             found.lost_steps
         };
-        assert!(lost(1.4).is_some());
+        assert_eq!(lost(1.4), Some(Unfit::NoWholeStride));
         assert_eq!(lost(4.0), None);
     }
 

@@ -16,7 +16,7 @@ mod tree;
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
-use motiondb::motion::remark::Kind;
+use motiondb::diagnostic::{Diagnostic, Note};
 
 use crate::error::ImportError;
 use crate::gltf::document::{Document, Flaw, Transform, flaw};
@@ -30,9 +30,6 @@ pub(crate) const FRAME_RATE_HZ: f64 = 30.0;
 /// Most keys that the tracks of one clip read, besides eight for each byte of the file: tracks may share their keys.
 const FREE_KEYS: usize = 4_000_000;
 const KEYS_PER_BYTE: usize = 8;
-
-/// What is said where channels name no node.
-const LEFT_OUT: &str = "what the file animates besides nodes (KHR_animation_pointer) is not used";
 
 /// A glTF or GLB file, open for reading its clips.
 pub struct GltfFile<'a> {
@@ -112,7 +109,12 @@ impl<'a> GltfFile<'a> {
             orientations,
             up_axis: None,
             metres_per_unit: Some(1.0),
-            warnings: if self.document.left_out { vec![Kind::Cut.remark(LEFT_OUT)] } else { Vec::new() },
+            diagnostics: self
+                .document
+                .left_out
+                .then_some(Diagnostic::Note(Note::PointersNotRead))
+                .into_iter()
+                .collect(),
         })
     }
 

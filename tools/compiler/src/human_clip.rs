@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use glam::{DQuat, DVec2, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::diagnostic::Unfit;
 use motiondb::motion::SourceRecord;
-use motiondb::motion::remark::Kind;
 
 /// A clip after import: canonical joints, metres, Z up, right-handed, f64.
 #[derive(Clone, Debug)]
@@ -25,6 +25,8 @@ pub struct HumanClip {
     /// The clip treads on the spot: the ground speed (forward, left, in the body's frame, m/s) at which its stance feet
     /// stand still.
     pub in_place_mps: Option<DVec2>,
+    /// Why it gives no example, where import found a reason.
+    pub unfit: Option<Unfit>,
     /// What a manifest makes of it.
     pub choices: Choices,
 }
@@ -104,18 +106,6 @@ impl HumanBody {
             soles_m: points(self.soles_m),
             measured_m: points(self.measured_m),
         }
-    }
-}
-
-impl HumanClip {
-    /// It was found at import that it can give no example; its warnings tell why.
-    pub(crate) fn is_ruled_out(&self) -> bool {
-        self.source.warnings.iter().any(|remark| remark.kind == Kind::NoExample)
-    }
-
-    /// Its gait was found too fast or too slow for any human: its frame time lies, and with it all speeds.
-    pub(crate) fn is_impossible(&self) -> bool {
-        self.source.warnings.iter().any(|remark| remark.kind == Kind::FrameTime)
     }
 }
 

@@ -10,8 +10,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use motiondb::body::Joint;
+use motiondb::diagnostic::{Diagnostic, Warning};
 use motiondb::files::input_file;
-use motiondb::motion::remark::{Kind, Remark};
 use rayon::prelude::*;
 
 use crate::error::{ImportError, MIN_FRAMES, Refusal, Setting};
@@ -26,9 +26,6 @@ use crate::{bvh, carried, facing, first_pose, plausibility, retarget, units};
 /// Cosine of half the least angle that is a turn (0.05°), and the least swing of a leg, over its length.
 const UNTURNED: f64 = 1.0 - 1e-7;
 const SWING_MIN: f64 = 0.02;
-/// What is said of a file whose names belie its body, and how to say it otherwise.
-const EXCHANGED: &str = "left and right are exchanged: toes and knees point the other way, as in a left-handed file; if \
-                         the names are right, give `joints` in a manifest.toml";
 
 /// One clip of a file: a human motion, or why it is none.
 #[derive(Clone, Debug)]
@@ -202,20 +199,23 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
         facing::face(&clip, &mut roles, forward)?;
     }
     if roles.names_belied {
-        clip.warnings.push(Kind::Sides.remark(EXCHANGED));
+        clip.diagnostics.push(Diagnostic::Warning(Warning::SidesExchanged));
     }
     if settings.metres_per_unit.is_none() {
         plausibility::doubt_unit(&mut clip, &roles);
     }
-    let belied_up = plausibility::belied_up(&clip, &roles);
+    let contradicted_up = plausibility::contradicted_up(&clip, &roles);
     let (mut clip, units) = units::to_metres_z_up(clip, &roles);
     let whole = measured(&mut clip, &roles, settings);
-    clip.warnings.extend(plausibility::implausible_size(&clip, &roles));
-    match belied_up {
-        Some(belied) => clip.warnings.push(belied),
-        None => clip.warnings.extend(doubts_of_gait(&clip, &roles, &whole).into_iter().flatten()),
-    }
+    let mut doubts = vec![plausibility::implausible_size(&clip, &roles)];
+    // What stands along another axis than up has no feet on the ground.
+    let unfit = contradicted_up.or_else(|| {
+        doubts.push(carried::doubt(&clip, &roles, &whole));
+        plausibility::inhuman_gait(&clip, &roles, &whole)
+    });
+    clip.diagnostics.extend(doubts.into_iter().flatten().map(Diagnostic::Warning));
     let mut human = retarget::to_human(&clip, &roles, &units, whole, name);
+    human.unfit = unfit;
     human.choices.mirror = settings.mirror;
     human.choices.is_cut = settings.frames.is_some();
     if !human.frames.iter().all(is_finite) {
@@ -235,10 +235,6 @@ fn measured(clip: &mut SourceClip, roles: &Roles, settings: &Settings) -> WholeC
         first_pose::drop_t_poses(clip, roles);
     }
     whole
-}
-
-fn doubts_of_gait(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> [Option<Remark>; 2] {
-    [plausibility::implausible_gait(clip, roles, whole), carried::remark(clip, roles, whole)]
 }
 
 fn is_finite(pose: &HumanPose) -> bool {

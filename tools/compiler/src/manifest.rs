@@ -159,9 +159,10 @@ impl Manifest {
     pub(crate) fn not_stepping(&self, stepping: &[String]) -> Invalid {
         let span = self.semi_procedural.as_ref().map_or(0..0, Spanned::span);
         if stepping.is_empty() {
-            return self.source.invalid(span, "this clip gives no example that steps", "name a straight walk");
+            let message = "no stepping cycle found; this clip cannot be the base walk (m_sp)";
+            return self.source.invalid(span, message, "choose a straight walk");
         }
-        let message = format!("this is no example that steps; this clip gives {}", stepping.join(", "));
+        let message = format!("no stepping cycle of this name; this clip gives {}", stepping.join(", "));
         self.source.invalid(span, message, "name one of these")
     }
 

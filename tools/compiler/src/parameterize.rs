@@ -8,8 +8,8 @@
 use std::f64::consts::PI;
 
 use glam::DQuat;
+use motiondb::diagnostic::{Diagnostic, Note};
 use motiondb::motion::MotionExample;
-use motiondb::motion::remark::{Kind, Remark};
 
 use crate::arc::{Rates, rotation};
 use crate::cycle::{GaitCycle, NamedCycle};
@@ -26,25 +26,26 @@ const GOING_MPS: f64 = 0.5;
 const NOTICED_RAD_S: f64 = 1.0 * PI / 180.0;
 const NOTICED_MPS: f64 = 0.03;
 
-/// Takes gait noise out of a cycle's rates; says what was taken, if anyone could notice.
-pub fn snap(cycle: &mut GaitCycle) -> Vec<Remark> {
+/// Takes gait noise out of a cycle's rates; reports what was taken, if it can be noticed.
+pub fn snap(cycle: &mut GaitCycle) -> Vec<Diagnostic> {
     let found = cycle.rates;
-    let mut said = Vec::new();
+    let mut snapped = Vec::new();
     if found.turn_rate_rad_s.abs() >= SNAPPED_TURN_RAD_S {
-        return said;
+        return snapped;
     }
     cycle.rates.turn_rate_rad_s = 0.0;
     if found.turn_rate_rad_s.abs() > NOTICED_RAD_S {
-        let taken = format!("turn rate {:.1} deg/s taken as 0", found.turn_rate_rad_s.to_degrees());
-        said.push(Kind::Snapped.remark(taken));
+        let turn_rate_rad_s = found.turn_rate_rad_s as f32;
+        snapped.push(Diagnostic::Note(Note::TurnRateSnapped { turn_rate_rad_s, from_s: None }));
     }
     if found.strafe_mps.abs() < SNAPPED_STRAFE_MPS && found.speed_mps.abs() > GOING_MPS {
         face_along_travel(cycle);
         if found.strafe_mps.abs() > NOTICED_MPS {
-            said.push(Kind::Snapped.remark(format!("side speed {:.3} m/s taken as 0", found.strafe_mps)));
+            let strafe_mps = found.strafe_mps as f32;
+            snapped.push(Diagnostic::Note(Note::StrafeSnapped { strafe_mps, from_s: None }));
         }
     }
-    said
+    snapped
 }
 
 /// Turns the root frame so that the body moves straight forward or straight back.

@@ -7,6 +7,8 @@
 //! of children, toys and giants. Poses and root motion are those of the body that a database has: frames correspond one
 //! to one. Frames of the clip, metres, seconds.
 
+use motiondb::diagnostic::Unfit;
+
 use crate::gait::{self, Gait, GaitAnalysis, Window};
 use crate::human_clip::{HumanBody, HumanClip};
 use crate::root_motion::{self, GroundedClip, leg_length_m};
@@ -51,8 +53,8 @@ impl Performer {
     }
 
     /// His steady windows on another body: landmarks and contacts are his, the root's arcs are that body's.
-    pub fn windows_on(&self, grounded: &GroundedClip, body: &HumanBody) -> Result<Vec<Window>, &'static str> {
-        let windows = self.gait.windows.as_ref().map_err(|reason| *reason)?;
+    pub fn windows_on(&self, grounded: &GroundedClip, body: &HumanBody) -> Result<Vec<Window>, Unfit> {
+        let windows = self.gait.windows.as_ref().map_err(Clone::clone)?;
         let joints = grounded.poses.iter().map(|pose| pose.forward_kinematics(body)).collect();
         let track = BodyTrack::of(joints, grounded.frame_rate_hz);
         let carried = |stride: &Stride| Stride::over(&stride.landmarks(), &track);

@@ -7,10 +7,9 @@
 
 use glam::DVec2;
 use motiondb::body::Joint;
-use motiondb::motion::remark::{Kind, Remark};
+use motiondb::diagnostic::{Diagnostic, Unfit, Warning};
 use motiondb::statistics::median;
 
-use crate::axis::Axis;
 use crate::error::Refusal;
 use crate::human_clip::HumanBody;
 use crate::root_motion::leg_length_m;
@@ -47,33 +46,25 @@ const BONE_OVER_LEG_MAX: f64 = 1.5;
 const HUMAN_LEG_RANGE_M: std::ops::RangeInclusive<f64> = 0.38..=1.2;
 
 /// The warning, where no human has legs of that length: speeds are as wrong as the unit then.
-pub(crate) fn implausible_size(clip: &SourceClip, roles: &Roles) -> Option<Remark> {
+pub(crate) fn implausible_size(clip: &SourceClip, roles: &Roles) -> Option<Warning> {
     let leg_m = leg_length(clip, roles);
-    (!HUMAN_LEG_RANGE_M.contains(&leg_m)).then(|| {
-        let body = format!("thigh and shank are {leg_m:.2} m long: no human's");
-        Kind::Size.remark(body + "; if the unit is wrong, give `metres_per_unit`")
-    })
+    (!HUMAN_LEG_RANGE_M.contains(&leg_m)).then_some(Warning::InhumanSize { leg_m: leg_m as f32 })
 }
 
-/// Forgets the unit that the format says, and tells so, where nobody of that size could walk: it is found then.
+/// Drops the unit of the format, with a warning, where no body of that size could walk: the unit is found then.
 pub(crate) fn doubt_unit(clip: &mut SourceClip, roles: &Roles) {
     let Some(metres_per_unit) = clip.metres_per_unit else { return };
     let leg_m = metres_per_unit * leg_length(clip, roles);
     if !LEG_M.contains(&leg_m) {
         clip.metres_per_unit = None;
-        let body = format!("in the unit of its format thigh and shank are {leg_m:.2} m long: another is taken");
-        clip.warnings.push(Kind::Size.remark(body + "; if it is wrong, give `metres_per_unit`"));
+        clip.diagnostics.push(Diagnostic::Warning(Warning::UnitRejected { leg_m: leg_m as f32 }));
     }
 }
 
-/// Why a clip gives no example, where nobody stands upright along the axis that a manifest calls up.
-pub(crate) fn belied_up(clip: &SourceClip, roles: &Roles) -> Option<Remark> {
-    let (told, found) = (clip.up_axis?, found_up(clip, roles));
-    (told != found).then(|| {
-        let [told, found] = [told, found].map(Axis::name);
-        let stands = format!("the manifest says that up is {told}, but the body stands along {found}");
-        Kind::NoExample.remark(stands + "; correct `up`, or remove it")
-    })
+/// The verdict, where the body does not stand along the axis that a manifest states to be up.
+pub(crate) fn contradicted_up(clip: &SourceClip, roles: &Roles) -> Option<Unfit> {
+    let (stated, found) = (clip.up_axis?, found_up(clip, roles));
+    (stated != found).then(|| Unfit::UpContradicted { stated: stated.name(), found: found.name() })
 }
 
 /// The refusal, where bones are none of a body that could walk.
@@ -83,20 +74,19 @@ pub(crate) fn impossible_body(body: &HumanBody) -> Option<Refusal> {
     let shortest_m = leg_bones.iter().map(|joint| body.offsets_m[joint.index()].length()).fold(f64::INFINITY, f64::min);
     let bones = body.offsets_m.iter().chain(&body.segment_ends_m).chain(body.soles_m.iter().flatten());
     let longest_m = bones.map(|bone| bone.length()).fold(0.0, f64::max);
-    let reason = if !LEG_M.contains(&leg_m) {
-        format!("thigh and shank are {leg_m:.3} m long")
+    if !LEG_M.contains(&leg_m) {
+        Some(Refusal::LegLength { leg_m })
     } else if shortest_m < LEG_BONE_SHARE_MIN * leg_m {
-        format!("of legs of {leg_m:.3} m one bone has {shortest_m:.3} m")
+        Some(Refusal::ShortLegBone { leg_m, bone_m: shortest_m })
     } else if longest_m > BONE_OVER_LEG_MAX * leg_m {
-        format!("on legs of {leg_m:.3} m it has a bone of {longest_m:.3} m")
+        Some(Refusal::LongBone { leg_m, bone_m: longest_m })
     } else {
-        return None;
-    };
-    Some(Refusal::Disproportionate { reason })
+        None
+    }
 }
 
-/// The warning, where steps are none of a human's.
-pub(crate) fn implausible_gait(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Option<Remark> {
+/// The verdict, where steps are none of a human's: the frame time is wrong, and with it all speeds.
+pub(crate) fn inhuman_gait(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Option<Unfit> {
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
     let passings = passings(clip, roles, LEAD_MIN_M * scale);
     let steps: Vec<(usize, usize)> = passings.windows(2).map(|pair| (pair[0], pair[1])).collect();
@@ -114,11 +104,8 @@ pub(crate) fn implausible_gait(clip: &SourceClip, roles: &Roles, whole: &WholeCl
     let cadence_max = if walks(clip, roles, whole) { WALK_CADENCE_MAX_PER_MIN } else { CADENCE_MAX_PER_MIN };
     let is_human = human_step_cm < 100.0 * STEP_MIN_M
         || human_cadence < cadence_max && WALK_RATIO_CM_MIN.contains(&(human_step_cm / human_cadence));
-    (!is_human).then(|| {
-        let [step_cm, cadence] = [100.0 * step_m, 60.0 / step_s];
-        let gait = format!("steps of {step_cm:.0} cm, {cadence:.0} a minute, are no human gait");
-        Kind::FrameTime.remark(gait + ": is the frame time true?")
-    })
+    let [step_cm, steps_per_min] = [100.0 * step_m, 60.0 / step_s].map(|figure| figure as f32);
+    (!is_human).then_some(Unfit::InhumanGait { step_cm, steps_per_min })
 }
 
 /// Whether feet stand as long as a walker's.
@@ -155,20 +142,25 @@ mod tests {
     use super::*;
     use crate::synthetic;
 
-    fn check_refused(change: impl Fn(&mut HumanBody), word: &str) {
+    /// Why a changed body is refused.
+    fn refusal(change: impl Fn(&mut HumanBody)) -> Option<Refusal> {
         let mut body = synthetic::body(1.0);
-        assert_eq!(impossible_body(&body), None);
         change(&mut body);
-        let refusal = impossible_body(&body).map(|refusal| refusal.to_string()).unwrap_or_default();
-        assert!(refusal.contains(word), "{refusal}");
+        impossible_body(&body)
     }
 
     #[test]
     fn bodies_that_could_not_walk_are_refused() {
-        check_refused(|body| body.offsets_m.iter_mut().for_each(|offset| *offset *= 1e-6), "thigh and shank");
-        check_refused(|body| body.offsets_m.iter_mut().for_each(|offset| *offset *= 7.0), "thigh and shank");
-        check_refused(|body| body.offsets_m[Joint::LeftFoot.index()] *= 0.01, "one bone has");
-        check_refused(|body| body.segment_ends_m[Joint::Head.index()].z = 1e6, "a bone of");
-        check_refused(|body| body.soles_m[0][2].x = f64::INFINITY, "a bone of");
+        assert_eq!(refusal(|_| ()), None);
+        for scale in [1e-6, 7.0] {
+            let scaled = refusal(|body| body.offsets_m.iter_mut().for_each(|offset| *offset *= scale));
+            assert!(matches!(scaled, Some(Refusal::LegLength { .. })), "{scaled:?}");
+        }
+        let short = refusal(|body| body.offsets_m[Joint::LeftFoot.index()] *= 0.01);
+        assert!(matches!(short, Some(Refusal::ShortLegBone { .. })), "{short:?}");
+        let high = refusal(|body| body.segment_ends_m[Joint::Head.index()].z = 1e6);
+        assert!(matches!(high, Some(Refusal::LongBone { .. })), "{high:?}");
+        let endless = refusal(|body| body.soles_m[0][2].x = f64::INFINITY);
+        assert!(matches!(endless, Some(Refusal::LongBone { .. })), "{endless:?}");
     }
 }

@@ -30,7 +30,7 @@ pub fn race(file: &Path, bytes: &[u8], times: usize, clock: &dyn Fn() -> f64) ->
     let canonical = bvh::prepass::check(bytes).map(|checked| checked.text(usize::MAX).into_bytes()).unwrap_or_default();
     // A lying `Frames:` is warned of; one that claims terabytes would end the process.
     let survives =
-        clip.warnings.is_empty() && quiet_unwind::catch(|| bvh_anim::from_bytes(bytes).is_ok()) == Some(true);
+        clip.diagnostics.is_empty() && quiet_unwind::catch(|| bvh_anim::from_bytes(bytes).is_ok()) == Some(true);
     let digestible = if survives { bytes } else { &canonical };
     let (mut ours_s, mut alone_s) = (Vec::new(), Vec::new());
     for _ in 0..times {

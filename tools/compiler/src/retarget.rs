@@ -53,6 +53,7 @@ pub(crate) fn to_human(
         body: body(&tracks, &orientations, offsets_m, soles, leg_m),
         frames,
         in_place_mps: whole.in_place.then(|| DVec2::new(whole.speed_mps, whole.strafe_mps)),
+        unfit: None,
         choices: Choices::default(),
     }
 }
@@ -153,7 +154,7 @@ fn record(clip: &SourceClip, units: &SourceUnits, whole: WholeClip) -> SourceRec
         up_axis: units.up_axis.clone(),
         metres_per_unit: units.metres_per_unit as f32,
         frame_rate_hz: clip.frame_rate_hz as f32,
-        warnings: clip.warnings.clone(),
+        diagnostics: clip.diagnostics.clone(),
     }
 }
 

@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 use std::num::NonZeroUsize;
 
 use glam::DVec3;
+use motiondb::diagnostic::{Diagnostic, Note};
 use motiondb::motion::SourceRecord;
-use motiondb::motion::remark::Kind;
 
 use crate::analysis::{Analyzed, LeftOut, Motion, SteadyWindow};
 use crate::arc::Rates;
@@ -110,7 +110,7 @@ fn cell(rates: &Rates) -> DVec3 {
     in_cells(rates).round()
 }
 
-/// Keeps at most so many cycles; the sources of the others say so.
+/// Keeps at most so many cycles; the sources of the others have a note.
 pub(crate) fn limit(cycles: &mut Vec<NamedCycle>, most: Option<NonZeroUsize>, sources: &mut [SourceRecord]) {
     let Some(most) = most.map(NonZeroUsize::get).filter(|most| *most < cycles.len()) else { return };
     let keeps = spread(cycles, most);
@@ -118,8 +118,8 @@ pub(crate) fn limit(cycles: &mut Vec<NamedCycle>, most: Option<NonZeroUsize>, so
     cycles.retain(|named| {
         let keep = index.next().is_some_and(|index: usize| keeps.contains(&index));
         if !keep {
-            let remark = format!("max_examples = {most}: {} left out", named.name);
-            sources[named.source as usize].warnings.push(Kind::LeftOut.remark(remark));
+            let left_out = Note::ExampleLeftOut { example: named.name.clone(), max_examples: most as u32 };
+            sources[named.source as usize].diagnostics.push(Diagnostic::Note(left_out));
         }
         keep
     });
@@ -198,7 +198,6 @@ fn ends(places: &[DVec3]) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use motiondb::motion::remark::Remark;
     use motiondb::motion::{MotionDb, MotionExample};
 
     use super::*;
@@ -267,8 +266,8 @@ mod tests {
             let straight: Vec<_> = recorded(&db).into_iter().filter(|e| e.parameters.turn_rate_rad_s == 0.0).collect();
             assert_eq!(straight.len(), 1, "{straight:#?}");
             assert!(straight[0].planted_slide_cm_s < 2.0, "{straight:?}");
-            let said = |remark: &Remark| remark.kind == Kind::LeftOut && remark.text.contains("near-equal");
-            assert!(db.sources[0].warnings.iter().any(said), "{:?}", db.sources);
+            let left_out = Diagnostic::Note(Note::WindowsLeftOut { near_equal: 1, doubtful: 0 });
+            assert!(db.sources[0].diagnostics.contains(&left_out), "{:?}", db.sources);
         }
     }
 
@@ -294,11 +293,9 @@ mod tests {
             let db = compiled(clips.clone(), most);
             let found: Vec<&str> = recorded(&db).iter().map(|example| example.name.as_str()).collect();
             assert_eq!(found, wanted);
-            let left_out = |remark: &Remark| remark.text.starts_with("max_examples = ");
-            assert_eq!(
-                db.sources.iter().flat_map(|source| &source.warnings).filter(|w| left_out(w)).count(),
-                10 - most
-            );
+            let is_left_out = |found: &&Diagnostic| matches!(found, Diagnostic::Note(Note::ExampleLeftOut { .. }));
+            let left_out = db.sources.iter().flat_map(|source| &source.diagnostics).filter(is_left_out);
+            assert_eq!(left_out.count(), 10 - most);
         }
         assert_eq!(recorded(&compiled(clips, 10)).len(), 10);
     }

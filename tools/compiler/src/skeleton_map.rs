@@ -98,7 +98,7 @@ fn has_doubled_names(clip: &SourceClip) -> bool {
 /// One try; [`Refusal`] as [`find_roles`].
 pub(crate) fn find_by_names(clip: &SourceClip, known: &JointMap) -> Result<Roles, Refusal> {
     if clip.joints.len() > MAX_JOINTS {
-        return Err(Refusal::NoLegs { reason: format!("{} joints are no body's", clip.joints.len()) });
+        return Err(Refusal::TooManyJoints { count: clip.joints.len() });
     }
     let shape = Shape::new(clip);
     let (known_legs, known_arms) = (known_pair(&shape, known, LEGS)?, known_pair(&shape, known, ARMS)?);
@@ -154,8 +154,7 @@ fn check_bones(shape: &Shape, legs: &LimbPair) -> Result<(), Refusal> {
     for limb in &legs.limbs {
         let [hip, knee, ankle] = limb.joints;
         if shape.looseness(hip, knee).max(shape.looseness(knee, ankle)) > LOOSE_BONE {
-            let name = &shape.clip.joints[knee].name;
-            return Err(Refusal::NoLegs { reason: format!("the bones at `{name}` change their length") });
+            return Err(Refusal::LooseLeg { knee: shape.clip.joints[knee].name.clone() });
         }
     }
     Ok(())
@@ -164,14 +163,10 @@ fn check_bones(shape: &Shape, legs: &LimbPair) -> Result<(), Refusal> {
 fn check_upright(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> Result<(), Refusal> {
     let cosine = body_plan::upright_cosine(shape, legs, arms);
     if cosine < UPRIGHT_COSINE {
-        let degrees = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
-        let reason =
-            format!("the trunk lies {degrees:.0}° off the legs' direction, as a quadruped's or a crawling body's");
-        return Err(Refusal::NotUpright { reason });
+        return Err(Refusal::NotUpright { trunk_deg: libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees() });
     }
     if body_plan::share_along_itself(shape, legs, arms) > ALONG_ITSELF_MAX {
-        let reason = "it moves along its own length, as a crawling, swimming or climbing body".to_owned();
-        return Err(Refusal::NotUpright { reason });
+        return Err(Refusal::MovesAlongItself);
     }
     Ok(())
 }

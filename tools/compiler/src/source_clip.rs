@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use glam::{DQuat, DVec3};
-use motiondb::motion::remark::Remark;
+use motiondb::diagnostic::Diagnostic;
 
 use crate::axis::Axis;
 
@@ -42,8 +42,8 @@ pub struct SourceClip {
     pub metres_per_unit: Option<f64>,
     /// The axis that points up where the manifest says it; else it is found.
     pub up_axis: Option<Axis>,
-    /// What was odd in the file.
-    pub warnings: Vec<Remark>,
+    /// What was found in the file.
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 impl SourceClip {

@@ -1,12 +1,13 @@
-//! Clips → what a user is told of them without a database: each source's record, and its gait in the source's own time.
+//! Clips → what can be reported of them without a database: each source's record, and its gait in the source's own time.
 //!
 //! The gait is that of the performer's own body, whatever clips lie beside this one: all contacts of the clip, not only
 //! those of the steady part that an example is made of. Seconds from the file's first frame, so that they compare with
 //! labels that others made on the same file.
 
+use motiondb::diagnostic::Unfit;
 use motiondb::motion::SourceRecord;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::analysis::{Analyzed, analyze};
 use crate::gait::Gait;
@@ -17,10 +18,9 @@ use crate::stance::Stance;
 use crate::{clip_set, duplicates, target_skeleton};
 
 /// A clip, and what its feet do.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SurveyedSource {
     /// As a database would hold it.
-    #[serde(flatten)]
     pub source: SourceRecord,
     /// Its gait.
     pub gait: SourceGait,
@@ -30,10 +30,8 @@ pub struct SurveyedSource {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SourceGait {
     /// Steps, standing or neither.
+    #[serde(flatten)]
     pub kind: GaitKind,
-    /// Why neither.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<&'static str>,
     /// Share of the clip that a foot is planted, mean of both.
     pub planted_share: f32,
     /// Contacts of the right foot, in order of time.
@@ -43,15 +41,19 @@ pub struct SourceGait {
 }
 
 /// What a clip shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
 pub enum GaitKind {
     /// Steady strides.
     Steps,
     /// A body that stands.
     Stands,
     /// Nothing that an example could be made of.
-    Unsteady,
+    Unsteady {
+        /// Why; in JSON its sentence.
+        #[serde(serialize_with = "sentence")]
+        reason: Unfit,
+    },
 }
 
 /// When a foot touched the ground and when it left it.
@@ -84,18 +86,22 @@ pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
     clips.par_iter().zip(&analyzed).map(surveyed).collect()
 }
 
+fn sentence<S: Serializer>(reason: &Unfit, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(reason)
+}
+
 fn source_gait(clip: &HumanClip) -> SourceGait {
     let Performer { clip: grounded, gait: analysis, .. } = performer::analyze(clip);
-    let (kind, reason) = match &analysis.windows {
-        Ok(windows) if windows.iter().any(|window| matches!(window.gait, Gait::Steps(_))) => (GaitKind::Steps, None),
-        Ok(_) => (GaitKind::Stands, None),
-        Err(reason) => (GaitKind::Unsteady, Some(*reason)),
+    let kind = match &analysis.windows {
+        Ok(windows) if windows.iter().any(|window| matches!(window.gait, Gait::Steps(_))) => GaitKind::Steps,
+        Ok(_) => GaitKind::Stands,
+        Err(reason) => GaitKind::Unsteady { reason: reason.clone() },
     };
     let shown = Shown::of(&grounded, clip.first_frame);
     let stances = analysis.clearest_stances();
     let [left_share, right_share] = stances.each_ref().map(|stances| shown.planted_share(stances));
     let [left, right] = stances.each_ref().map(|stances| shown.contacts(stances));
-    SourceGait { kind, reason, planted_share: (0.5 * (left_share + right_share)) as f32, right, left }
+    SourceGait { kind, planted_share: (0.5 * (left_share + right_share)) as f32, right, left }
 }
 
 /// The frames of an analysed clip that the file itself has: all, or the middle copy of an unrolled loop.

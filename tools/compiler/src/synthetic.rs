@@ -122,7 +122,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
         up_axis: "+Z".into(),
         metres_per_unit: 1.0,
         frame_rate_hz: frame_rate_hz as f32,
-        warnings: Vec::new(),
+        diagnostics: Vec::new(),
     };
     HumanClip {
         name: name.into(),
@@ -132,6 +132,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
         body,
         frames,
         in_place_mps: None,
+        unfit: None,
         choices: Choices::default(),
     }
 }

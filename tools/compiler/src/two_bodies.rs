@@ -84,7 +84,7 @@ fn without_motion(clip: &SourceClip) -> SourceClip {
         joints: Vec::new(),
         positions: Vec::new(),
         orientations: Vec::new(),
-        warnings: Vec::new(),
+        diagnostics: Vec::new(),
         ..*clip
     }
 }

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use motiondb::diagnostic::{Diagnostic, Unfit};
 use motiondb::motion::MotionDb;
-use motiondb::motion::remark::Kind;
 use motiondb_compiler::compile::compile_manifest;
 use motiondb_compiler::duplicates::pairs;
 use motiondb_compiler::human_clip::HumanClip;
@@ -86,17 +86,22 @@ fn compiled(test: &str, clip: &str, changes: [&dyn Fn(&str) -> String; 2]) -> Mo
     compile_manifest(&Manifest::of_files(&files), &|_| ()).unwrap().db
 }
 
-/// Of both changes, whichever comes first by name, the second gives the example, and the first's record says so.
+/// No example, for another clip gives that of the same take.
+fn same_take_as(other: &str, frame_times_differ: bool) -> Diagnostic {
+    Diagnostic::NoExample(Unfit::SameTake { other: other.to_owned(), mirrored: false, frame_times_differ })
+}
+
+/// Of both changes, whichever comes first by name, the second gives the example, and the first's record names it.
 #[track_caller]
-fn check_second_gives(test: &str, clip: &str, changes: [&dyn Fn(&str) -> String; 2], how: &str) {
+fn check_second_gives(test: &str, clip: &str, changes: [&dyn Fn(&str) -> String; 2], frame_times_differ: bool) {
     let [first, second] = changes;
     for (changes, giving, surplus) in [([first, second], "other", "one"), ([second, first], "one", "other")] {
         let db = compiled(&format!("{test}_{giving}"), clip, changes);
         let recorded = db.examples.iter().filter(|example| !example.mirrored);
         assert_eq!(recorded.map(|example| &example.name).collect::<Vec<_>>(), [giving], "{:?}", db.sources);
         let source = db.sources.iter().find(|source| source.file.starts_with(surplus)).unwrap();
-        let wanted = format!("no example: the same take as {giving}.bvh{how}");
-        assert!(source.warnings.iter().any(|said| said.to_string() == wanted), "{:?} lack {wanted}", source.warnings);
+        let wanted = same_take_as(&format!("{giving}.bvh"), frame_times_differ);
+        assert!(source.diagnostics.contains(&wanted), "{:?} lack {wanted:?}", source.diagnostics);
     }
 }
 
@@ -147,20 +152,19 @@ fn a_copy_of_a_file_gives_no_second_example() {
     for clip in ["walk_110.bvh", "idle.bvh"] {
         let db = compiled(&format!("copy_{clip}"), clip, [&str::to_owned, &str::to_owned]);
         assert_eq!(db.examples.iter().filter(|example| !example.mirrored).count(), 1, "{:?}", db.sources);
-        assert_eq!(db.sources[1].warnings, [Kind::NoExample.remark("the same take as one.bvh")]);
+        assert_eq!(db.sources[1].diagnostics, [same_take_as("one.bvh", false)]);
     }
 }
 
 #[test]
 fn of_two_frame_rates_the_higher_gives_the_example() {
-    check_second_gives("thinned", "turn_060_left.bvh", [&thinned, &str::to_owned], "");
+    check_second_gives("thinned", "turn_060_left.bvh", [&thinned, &str::to_owned], false);
 }
 
 #[test]
 fn of_two_frame_times_the_one_of_a_human_s_gait_gives_the_example() {
     for clip in ["walk_110.bvh", "walk_180.bvh", "run_350.bvh", "side_060_left.bvh"] {
-        let how = ", at another frame time: one of both is wrong";
-        check_second_gives(&format!("slowed_{clip}"), clip, [&slowed, &str::to_owned], how);
+        check_second_gives(&format!("slowed_{clip}"), clip, [&slowed, &str::to_owned], true);
     }
 }
 
@@ -168,6 +172,6 @@ fn of_two_frame_times_the_one_of_a_human_s_gait_gives_the_example() {
 fn a_walk_gives_the_example_rather_than_its_copy_on_a_treadmill_or_up_a_slope() {
     let in_place = |text: &str| moved(text, 0.0, 0.0);
     let uphill = |text: &str| moved(text, 1.0, 0.05);
-    check_second_gives("in_place", "walk_110.bvh", [&in_place, &str::to_owned], "");
-    check_second_gives("uphill", "walk_110.bvh", [&uphill, &str::to_owned], "");
+    check_second_gives("in_place", "walk_110.bvh", [&in_place, &str::to_owned], false);
+    check_second_gives("uphill", "walk_110.bvh", [&uphill, &str::to_owned], false);
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use motiondb::diagnostic::{Diagnostic, Unfit};
 use motiondb::files::{Invalid, SourceText};
 use motiondb::motion::{MotionDb, MotionExample};
 use motiondb_compiler::compile::{Compiled, compile_manifest};
@@ -115,13 +116,8 @@ fn a_body_that_does_not_stand_along_the_manifests_up_is_told_so() {
             let lying = format!("{ONLY}[[clips]]\npath = '{clip}'\nup = '{up}'\n");
             let error = compile(&folder("lying", &lying)).unwrap_err();
             let CompileError::NoExample { sources, .. } = error else { panic!("{error}") };
-            let said: Vec<String> = sources[0].warnings.iter().map(ToString::to_string).collect();
-            assert_eq!(
-                said,
-                [format!(
-                    "no example: the manifest says that up is {up}, but the body stands along +Y; correct `up`, or remove it"
-                )]
-            );
+            let wanted = Unfit::UpContradicted { stated: up.to_owned(), found: "+Y".to_owned() };
+            assert_eq!(sources[0].diagnostics, [Diagnostic::NoExample(wanted)]);
         }
     }
 }
@@ -132,7 +128,7 @@ fn a_clip_that_nobody_can_have_walked_gives_no_example() {
     let db = compiled("impossible", lying);
     assert!(!names(&db).contains(&"walk_110"), "{:?}", names(&db));
     let source = db.sources.iter().find(|source| source.file == "walk_110.bvh").unwrap();
-    assert!(source.warnings.iter().any(|warning| warning.text.contains("frame_rate_hz")), "{source:?}");
+    assert!(matches!(source.diagnostics[..], [Diagnostic::NoExample(Unfit::InhumanGait { .. })]), "{source:?}");
 }
 
 #[test]
@@ -213,9 +209,9 @@ fn mistakes_are_shown_where_they_stand() {
     check_refused("whole", "[[clips]]\npath = '.'\nframes = [1, 9]\n", "[1, 9]", &["folder"]);
     check_refused("m_sp", "semi_procedural = 'run'\n", "'run'", &["`run`", "walk_110"]);
     let window = "semi_procedural = 'walk_110@02.0s'\n";
-    check_refused("window", window, "'walk_110@02.0s'", &["no example that steps", "walk_110"]);
+    check_refused("window", window, "'walk_110@02.0s'", &["no stepping cycle", "walk_110"]);
     check_refused("body", "target_skeleton = 'giant'\n", "'giant'", &["`giant`", "walk_110"]);
-    check_refused("standing", "semi_procedural = 'idle'\n", "'idle'", &["no example that steps"]);
+    check_refused("standing", "semi_procedural = 'idle'\n", "'idle'", &["no stepping cycle", "m_sp"]);
 }
 
 #[test]

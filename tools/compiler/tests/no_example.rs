@@ -3,19 +3,19 @@
 
 use std::path::{Path, PathBuf};
 
-use motiondb::motion::remark::Weight;
+use motiondb::diagnostic::Diagnostic;
 use motiondb_compiler::compile::compile_files;
 
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
 
-/// Compiles clips and checks that of `clips` none gave an example and each was told why.
+/// Compiles clips and checks that of `clips` none gave an example and each has a reason.
 fn check_none(files: &[PathBuf], clips: &[&str]) {
     let db = compile_files(files, &|_| ()).unwrap().db;
     for clip in clips {
         assert!(!db.examples.iter().any(|example| example.name.contains(clip)), "{clip} gave an example");
         let source = db.sources.iter().find(|source| source.file.contains(clip) || source.clip.contains(clip)).unwrap();
-        let told = source.warnings.iter().any(|remark| remark.weight() == Weight::NoExample);
-        assert!(told, "{clip}: {:?}", source.warnings);
+        let has_reason = source.diagnostics.iter().any(|found| matches!(found, Diagnostic::NoExample(_)));
+        assert!(has_reason, "{clip}: {:?}", source.diagnostics);
     }
 }
 

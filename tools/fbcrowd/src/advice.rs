@@ -1,6 +1,6 @@
 //! What to do after a compilation, in the order of what it would gain.
 
-use motiondb::motion::remark::Kind;
+use motiondb::diagnostic::{Diagnostic, Severity, Unfit};
 
 use crate::compile_report::CompileReport;
 use crate::compile_text::title;
@@ -14,9 +14,12 @@ pub(crate) fn next(report: &CompileReport) -> Vec<String> {
     if !report.refused.is_empty() {
         next.push("Repair what is refused, or leave it out: `skip = true` in its table of a manifest.toml.".to_owned());
     }
-    let lying = lying(report);
-    if !lying.is_empty() {
-        next.push(format!("Where a frame time lies, give `frame_rate_hz` in a manifest.toml: {}.", named(&lying)));
+    let inhuman = inhuman(report);
+    if !inhuman.is_empty() {
+        next.push(format!(
+            "Where a frame time is wrong, state `frame_rate_hz` in a manifest.toml: {}.",
+            named(&inhuman)
+        ));
     }
     if report.example_count == 0 {
         next.push("Give clips of steady walking, running, turning or standing.".to_owned());
@@ -28,7 +31,7 @@ pub(crate) fn next(report: &CompileReport) -> Vec<String> {
 /// What can be done with what was written.
 fn with_database(report: &CompileReport, output: &str) -> Vec<String> {
     let mut next = Vec::new();
-    if !report.findings.is_empty() || report.warnings.iter().any(|warning| !warning.note) {
+    if !report.findings.is_empty() || report.of_severity(Severity::Warning).next().is_some() {
         next.push(format!("Look at what is doubtful: fbcrowd inspect {output} --plots out/plots"));
     }
     if !report.coverage.is_empty() {
@@ -46,9 +49,10 @@ fn with_database(report: &CompileReport, output: &str) -> Vec<String> {
 }
 
 /// Clips whose gait no human has.
-fn lying(report: &CompileReport) -> Vec<String> {
-    let lying = report.warnings.iter().filter(|warning| warning.kind == Kind::FrameTime);
-    lying.map(|warning| title(&warning.file, &warning.clip)).collect()
+fn inhuman(report: &CompileReport) -> Vec<String> {
+    let is_inhuman = |found: &Diagnostic| matches!(found, Diagnostic::NoExample(Unfit::InhumanGait { .. }));
+    let inhuman = report.diagnostics.iter().filter(|found| is_inhuman(&found.diagnostic));
+    inhuman.map(|found| title(&found.file, &found.clip)).collect()
 }
 
 fn named(titles: &[String]) -> String {

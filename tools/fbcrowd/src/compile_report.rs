@@ -5,15 +5,15 @@
 
 use std::path::Path;
 
-use motiondb::motion::remark::{self, Kind, Weight};
+use motiondb::diagnostic::{Diagnostic, Severity};
 use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
 use motiondb::quality::coverage::{self, ThinPlace};
 use motiondb::quality::example_quality::{self, ExampleQuality, Finding};
 use motiondb_compiler::refused::Refused;
 use serde::Serialize;
 
-use crate::advice;
 use crate::stages::Stage;
+use crate::{advice, readable};
 
 /// Field names carry their units.
 #[derive(Default, Serialize)]
@@ -25,7 +25,10 @@ pub(crate) struct CompileReport {
     pub(crate) simplex_count: usize,
     pub(crate) refused: Vec<Reason>,
     pub(crate) unused: Vec<Reason>,
-    pub(crate) warnings: Vec<Remark>,
+    /// Of clips that are used; sentences alone.
+    warnings: Vec<Warning>,
+    /// Of all clips.
+    pub(crate) diagnostics: Vec<OfClip>,
     pub(crate) used: Vec<Used>,
     /// Of every example, mirrors too.
     pub(crate) quality: Vec<ExampleQuality>,
@@ -44,16 +47,23 @@ pub(crate) struct Reason {
     pub(crate) reason: String,
 }
 
-/// What is to be said of a clip that is used.
+/// The sentence of a warning or a note.
 #[derive(Serialize)]
-pub(crate) struct Remark {
+struct Warning {
+    file: String,
+    clip: String,
+    /// Nothing to do.
+    note: bool,
+    text: String,
+}
+
+/// A diagnostic and its clip.
+#[derive(Serialize)]
+pub(crate) struct OfClip {
     pub(crate) file: String,
     pub(crate) clip: String,
-    #[serde(skip)]
-    pub(crate) kind: Kind,
-    /// Nothing to do.
-    pub(crate) note: bool,
-    pub(crate) text: String,
+    #[serde(flatten, serialize_with = "readable::serialize")]
+    pub(crate) diagnostic: Diagnostic,
 }
 
 /// A clip and the examples made from it.
@@ -109,24 +119,29 @@ impl CompileReport {
     }
 
     fn add(&mut self, source: &SourceRecord, examples: Vec<Example>) {
-        let (file, clip) = (&source.file, &source.clip);
-        let remark = |told: &remark::Remark| Remark {
-            file: file.clone(),
-            clip: clip.clone(),
-            kind: told.kind,
-            note: told.weight() == Weight::Note,
-            text: told.text.clone(),
-        };
-        let (reasons, remarks): (Vec<&remark::Remark>, Vec<&remark::Remark>) =
-            source.warnings.iter().partition(|told| examples.is_empty() && told.weight() == Weight::NoExample);
-        self.warnings.extend(remarks.into_iter().map(remark));
-        let (file, clip) = (file.clone(), clip.clone());
+        let (file, clip) = (source.file.clone(), source.clip.clone());
+        let mut reasons = Vec::new();
+        for diagnostic in &source.diagnostics {
+            let (file, clip, text) = (file.clone(), clip.clone(), diagnostic.to_string());
+            match diagnostic.severity() {
+                Severity::NoExample => reasons.push(text),
+                severity => {
+                    let note = severity == Severity::Note;
+                    self.warnings.push(Warning { file: file.clone(), clip: clip.clone(), note, text });
+                }
+            }
+            self.diagnostics.push(OfClip { file, clip, diagnostic: diagnostic.clone() });
+        }
         if examples.is_empty() {
-            let reasons: Vec<&str> = reasons.into_iter().map(|told| told.text.as_str()).collect();
             self.unused.push(Reason { file, clip, reason: reasons.join("; ") });
         } else {
             self.used.push(Used { file, clip, examples });
         }
+    }
+
+    /// The diagnostics of a severity, and their clips.
+    pub(crate) fn of_severity(&self, wanted: Severity) -> impl Iterator<Item = &OfClip> {
+        self.diagnostics.iter().filter(move |found| found.diagnostic.severity() == wanted)
     }
 }
 

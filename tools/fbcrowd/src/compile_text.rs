@@ -4,8 +4,8 @@
 //! A folder may hold a hundred clips and a file thousands: sentences that differ in one number are told once, and long
 //! lists end early (`--json` has all).
 
+use motiondb::diagnostic::Severity;
 use motiondb::motion::SourceRecord;
-use motiondb::motion::remark::Weight;
 
 use crate::compile_report::{CompileReport, Reason};
 use crate::example_table;
@@ -27,10 +27,10 @@ pub(crate) fn text(report: &CompileReport) -> String {
         headline(report),
         section("refused", grouped(report.refused.iter().map(said))),
         section("no example", grouped(report.unused.iter().map(said))),
-        section("warnings", grouped(remarked(report, Weight::Warning))),
+        section("warnings", grouped(found(report, Severity::Warning))),
         section(EXAMPLES, example_table::lines(report)),
         section("quality", grouped(findings(report))),
-        section("notes: nothing to do", grouped(remarked(report, Weight::Note))),
+        section("notes: nothing to do", grouped(found(report, Severity::Note))),
         section("where the set is thin", report.coverage.iter().map(|thin| thin.sentence.clone()).collect()),
         section("next", report.next.clone()),
     ];
@@ -41,21 +41,21 @@ pub(crate) fn text(report: &CompileReport) -> String {
 pub(crate) fn reasons(report: &CompileReport) -> String {
     section("refused", grouped(report.refused.iter().map(said)))
         + &section("no example", grouped(report.unused.iter().map(said)))
-        + &section("warnings", grouped(remarked(report, Weight::Warning)))
+        + &section("warnings", grouped(found(report, Severity::Warning)))
 }
 
-/// What is said of clips, by weight: which give no example, what is doubtful, what is only noted.
-pub(crate) fn remarks<'a>(sources: impl Iterator<Item = &'a SourceRecord> + Clone) -> String {
-    let of_weight = |wanted: Weight| {
-        let said = |source: &'a SourceRecord| {
-            let told = source.warnings.iter().filter(move |remark| remark.weight() == wanted);
-            told.map(|remark| (title(&source.file, &source.clip), remark.text.clone()))
+/// The diagnostics of clips, by severity.
+pub(crate) fn diagnostics<'a>(sources: impl Iterator<Item = &'a SourceRecord> + Clone) -> String {
+    let of_severity = |wanted: Severity| {
+        let of_source = |source: &'a SourceRecord| {
+            let found = source.diagnostics.iter().filter(move |found| found.severity() == wanted);
+            found.map(|found| (title(&source.file, &source.clip), found.to_string()))
         };
-        grouped(sources.clone().flat_map(said))
+        grouped(sources.clone().flat_map(of_source))
     };
-    section("no example", of_weight(Weight::NoExample))
-        + &section("warnings", of_weight(Weight::Warning))
-        + &section("notes: nothing to do", of_weight(Weight::Note))
+    section("no example", of_severity(Severity::NoExample))
+        + &section("warnings", of_severity(Severity::Warning))
+        + &section("notes: nothing to do", of_severity(Severity::Note))
 }
 
 /// What scripts read.
@@ -73,7 +73,7 @@ fn last_line(report: &CompileReport) -> String {
 
 fn headline(report: &CompileReport) -> String {
     let all = report.used.len() + report.unused.len() + report.refused.len();
-    let mut warned: Vec<String> = remarked(report, Weight::Warning).map(|(clip, _)| clip).collect();
+    let mut warned: Vec<String> = found(report, Severity::Warning).map(|(clip, _)| clip).collect();
     warned.dedup();
     let counts = format!(
         "{}: {} used, {} without example, {} refused; {} with warnings\n",
@@ -155,8 +155,7 @@ fn findings(report: &CompileReport) -> impl Iterator<Item = (String, String)> {
     report.findings.iter().map(|finding| (finding.example.clone(), finding.sentence.clone()))
 }
 
-/// Clips, and what is said of them: in warning, or only noted.
-fn remarked(report: &CompileReport, weight: Weight) -> impl Iterator<Item = (String, String)> {
-    let remarks = report.warnings.iter().filter(move |remark| remark.note == (weight == Weight::Note));
-    remarks.map(|remark| (title(&remark.file, &remark.clip), remark.text.clone()))
+/// Clips and the sentences of their diagnostics of a severity.
+fn found(report: &CompileReport, severity: Severity) -> impl Iterator<Item = (String, String)> {
+    report.of_severity(severity).map(|found| (title(&found.file, &found.clip), found.diagnostic.to_string()))
 }

@@ -1,4 +1,4 @@
-//! Many sentences that differ in one number, told as one: `turn rate 1.1 to 2.8 deg/s taken as 0 (9)`.
+//! Many sentences that differ in one number, as one: `the turn rate of 1.1 to 2.8 °/s is set to 0 (9)`.
 
 use std::collections::BTreeMap;
 

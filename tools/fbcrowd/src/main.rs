@@ -20,6 +20,7 @@ mod likeness;
 mod output;
 mod pose_sequence;
 mod progress;
+mod readable;
 mod rendering;
 mod report;
 mod simulation;

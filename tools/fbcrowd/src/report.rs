@@ -1,6 +1,7 @@
 //! What `fbcrowd inspect` says: the stable JSON (field names carry their units) and the tables for people.
 
 use glam::Vec2;
+use motiondb::diagnostic::Diagnostic;
 use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
 use motiondb::quality::coverage::{self, ThinPlace};
 use motiondb::velocity_sets::velocity_hull::{Construction, VelocityHull};
@@ -15,25 +16,49 @@ use crate::example_table::unsigned_zero;
 use crate::leave_one_out::LeaveOneOut;
 use crate::leave_one_out_text;
 use crate::output::one_line;
+use crate::readable::Readable;
 
 /// Clips without a database.
 #[derive(Serialize)]
 pub(crate) struct SourcesReport {
-    pub(crate) sources: Vec<SurveyedSource>,
+    sources: Vec<Source>,
     refused: Vec<Reason>,
 }
 
 impl SourcesReport {
-    pub(crate) fn new(sources: Vec<SurveyedSource>, refused: Vec<Refused>) -> Self {
-        Self { sources, refused: refused.into_iter().map(Reason::from).collect() }
+    pub(crate) fn new(surveyed: &[SurveyedSource], refused: Vec<Refused>) -> Self {
+        let source = |found: &SurveyedSource| Source::new(&found.source, Some(found.gait.clone()));
+        Self {
+            sources: surveyed.iter().map(source).collect(),
+            refused: refused.into_iter().map(Reason::from).collect(),
+        }
     }
+}
+
+/// A clip as it came.
+#[derive(Serialize)]
+struct Source {
+    file: String,
+    clip: String,
+    speed_mps: f32,
+    turn_rate_rad_s: f32,
+    strafe_mps: f32,
+    up_axis: String,
+    metres_per_unit: f32,
+    frame_rate_hz: f32,
+    /// Sentences of the diagnostics.
+    warnings: Vec<String>,
+    diagnostics: Vec<Readable>,
+    /// Of a clip without a database.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gait: Option<SourceGait>,
 }
 
 /// A whole database.
 #[derive(Serialize)]
 pub(crate) struct DatabaseReport {
     examples: Vec<Example>,
-    sources: Vec<SourceRecord>,
+    sources: Vec<Source>,
     velocity_hull: VelocityHull,
     blend_space: BlendSpace,
     correspondence: Option<Correspondence>,
@@ -82,7 +107,7 @@ impl DatabaseReport {
         let name = |example: u32| db.examples[example as usize].name.clone();
         Self {
             examples: db.examples.iter().map(|example| Example::new(example, &db.sources)).collect(),
-            sources: db.sources.clone(),
+            sources: db.sources.iter().map(|source| Source::new(source, None)).collect(),
             velocity_hull: db.velocity_hull.clone(),
             blend_space: BlendSpace {
                 dimension: db.blend_space.dimension,
@@ -127,8 +152,30 @@ impl Example {
     }
 }
 
+impl Source {
+    fn new(source: &SourceRecord, gait: Option<SourceGait>) -> Self {
+        let sentence = |found: &Diagnostic| match found {
+            Diagnostic::NoExample(unfit) => format!("no example: {unfit}"),
+            other => other.to_string(),
+        };
+        Self {
+            file: source.file.clone(),
+            clip: source.clip.clone(),
+            speed_mps: source.speed_mps,
+            turn_rate_rad_s: source.turn_rate_rad_s,
+            strafe_mps: source.strafe_mps,
+            up_axis: source.up_axis.clone(),
+            metres_per_unit: source.metres_per_unit,
+            frame_rate_hz: source.frame_rate_hz,
+            warnings: source.diagnostics.iter().map(sentence).collect(),
+            diagnostics: source.diagnostics.iter().map(Readable::from).collect(),
+            gait,
+        }
+    }
+}
+
 /// The database as tables.
-pub(crate) fn database_text(report: &DatabaseReport) -> String {
+pub(crate) fn database_text(db: &MotionDb, report: &DatabaseReport) -> String {
     let sections = [
         examples_text(&report.examples),
         sets_text(&report.velocity_hull),
@@ -137,7 +184,7 @@ pub(crate) fn database_text(report: &DatabaseReport) -> String {
         report.correspondence_between.as_ref().map(Between::text).unwrap_or_default(),
         coverage_text(&report.coverage),
         report.leave_one_out.as_ref().map(leave_one_out_text::text).unwrap_or_default(),
-        compile_text::remarks(report.sources.iter()),
+        compile_text::diagnostics(db.sources.iter()),
     ];
     sections.concat()
 }
@@ -214,7 +261,7 @@ pub(crate) fn sources_text(surveyed: &[SurveyedSource]) -> String {
             gait_text(gait),
         );
     }
-    text + &compile_text::remarks(surveyed.iter().map(|found| &found.source))
+    text + &compile_text::diagnostics(surveyed.iter().map(|found| &found.source))
 }
 
 /// Columns that names and the head above them take.
@@ -226,9 +273,9 @@ fn width<'a>(names: impl Iterator<Item = &'a str>, head: &str) -> usize {
 fn gait_text(gait: &SourceGait) -> String {
     let steps = counted(gait.step_count(), "step", "steps");
     let text = format!("{steps}, {:.0} % planted", 100.0 * gait.planted_share);
-    match gait.kind {
+    match &gait.kind {
         GaitKind::Steps => text,
         GaitKind::Stands => "stands".to_owned(),
-        GaitKind::Unsteady => format!("{text}, unsteady"),
+        GaitKind::Unsteady { .. } => format!("{text}, unsteady"),
     }
 }

@@ -8,8 +8,8 @@
 
 use std::fmt::Write as _;
 
+use motiondb::diagnostic::{Diagnostic, Note, Warning};
 use motiondb::files::input_file;
-use motiondb::motion::remark::{Kind, Remark};
 
 use crate::bvh::hierarchy::{CheckedJoint, canonical, hierarchy};
 use crate::decimal;
@@ -31,8 +31,8 @@ pub(crate) struct CheckedBvh {
     pub joints: Vec<CheckedJoint>,
     /// The motion section.
     pub motion: Motion,
-    /// Lying or missing counts.
-    pub warnings: Vec<Remark>,
+    /// Wrong counts, and what is not used.
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 /// What is wrong, and where.
@@ -61,9 +61,9 @@ pub(crate) fn check(bytes: &[u8]) -> Result<CheckedBvh, Flaw> {
     let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let mut lines = numbered_lines(&text);
     let (joints, motion_line) = hierarchy(&mut lines)?;
-    let mut warnings = Vec::new();
-    let motion = motion(lines, motion_line, &joints, &mut warnings)?;
-    Ok(CheckedBvh { hierarchy: canonical(&joints), joints, motion, warnings })
+    let mut diagnostics = Vec::new();
+    let motion = motion(lines, motion_line, &joints, &mut diagnostics)?;
+    Ok(CheckedBvh { hierarchy: canonical(&joints), joints, motion, diagnostics })
 }
 
 impl CheckedBvh {
@@ -124,7 +124,7 @@ fn motion<'a>(
     mut lines: impl Iterator<Item = (usize, &'a str)>,
     motion_line: usize,
     joints: &[CheckedJoint],
-    warnings: &mut Vec<Remark>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Motion, Flaw> {
     let (_, claimed) = header(lines.next(), motion_line, &["FRAMES"])?;
     let (line, frame_time_s) = header(lines.next(), motion_line, &["FRAME", "TIME"])?;
@@ -134,7 +134,7 @@ fn motion<'a>(
         return flaw(line, problem, "write the seconds between two frames");
     }
     let channel_count: usize = joints.iter().map(|joint| joint.channels.len()).sum();
-    let values = row_values(lines, channel_count, claimed, warnings)?;
+    let values = row_values(lines, channel_count, claimed, diagnostics)?;
     let row_count = values.len().checked_div(channel_count).unwrap_or(0);
     if row_count == 0 {
         return flaw(motion_line, "there is not one whole row of motion", "export the clip with its motion");
@@ -143,8 +143,8 @@ fn motion<'a>(
         return flaw(motion_line, "most joints have no channels", "export a skeleton whose joints move");
     }
     if row_count as f64 != claimed {
-        let lie = format!("`Frames:` says {claimed}, but there are {row_count} rows: the rows are used");
-        warnings.push(Kind::Header.remark(lie));
+        let wrong = Warning::FrameCountWrong { stated: claimed, rows: row_count as u32 };
+        diagnostics.push(Diagnostic::Warning(wrong));
     }
     Ok(Motion { frame_time_s, values, rows: row_count })
 }
@@ -166,13 +166,13 @@ fn header(line: Option<(usize, &str)>, motion_line: usize, words: &[&str]) -> Re
     }
 }
 
-/// All values, whole rows only: a last row cut short is dropped with a warning, as are words after the `claimed` rows
+/// All values, whole rows only: a last row cut short is dropped with a note, as are words after the `claimed` rows
 /// (what editors and exporters leave at the end); any other odd row is an error.
 fn row_values<'a>(
     lines: impl Iterator<Item = (usize, &'a str)>,
     channels: usize,
     claimed: f64,
-    warnings: &mut Vec<Remark>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Vec<f64>, Flaw> {
     let mut values = Vec::new();
     let mut lines = lines.peekable();
@@ -180,7 +180,7 @@ fn row_values<'a>(
         let before = values.len();
         let is_complete = before > 0 && before as f64 >= claimed * channels as f64;
         if is_complete && text.split_ascii_whitespace().next().is_some_and(|word| decimal::number(word).is_none()) {
-            warnings.push(Kind::Cut.remark(format!("line {line}: what follows the motion is not used")));
+            diagnostics.push(Diagnostic::Note(Note::TextAfterMotion { line: line as u32 }));
             break;
         }
         for word in text.split_ascii_whitespace() {
@@ -189,7 +189,7 @@ fn row_values<'a>(
         let found = values.len() - before;
         if found < channels && before > 0 && lines.peek().is_none() {
             values.truncate(before);
-            warnings.push(Kind::Cut.remark(format!("line {line}: the last row is cut short and is not used")));
+            diagnostics.push(Diagnostic::Note(Note::LastRowIncomplete { line: line as u32 }));
         } else if found != channels {
             let problem = format!("a row of {found} values where the hierarchy has {channels} channels");
             return flaw(line, problem, "one row holds one frame");

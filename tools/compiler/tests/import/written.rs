@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use base64::Engine;
+use motiondb::diagnostic::{Diagnostic, Warning};
 use motiondb_compiler::mutation::{Edit, mutated};
 use proptest::prelude::*;
 
@@ -174,7 +175,8 @@ fn lying_counts_are_told_and_the_rows_used() {
         let text = bvh_text().replace("Frames: 40", lie);
         let clip = only(import_bytes(Path::new("walk.bvh"), text.as_bytes()));
         assert_eq!(clip.frames.len(), FRAMES);
-        assert!(clip.source.warnings[0].text.contains("Frames:"), "{:?}", clip.source.warnings);
+        let is_wrong = |found: &Diagnostic| matches!(found, Diagnostic::Warning(Warning::FrameCountWrong { .. }));
+        assert!(is_wrong(&clip.source.diagnostics[0]), "{:?}", clip.source.diagnostics);
     }
     let cut = bvh_text();
     let clip = only(import_bytes(Path::new("walk.bvh"), &cut.as_bytes()[..cut.len() - 20]));

@@ -4,9 +4,10 @@ use std::path::Path;
 
 use glam::{DQuat, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
-use motiondb::motion::remark::Remark;
+use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Unfit};
 use motiondb_compiler::axis::Axis;
 use motiondb_compiler::bvh;
+use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import::import_bytes;
 use motiondb_compiler::skeleton_map::find_roles;
 
@@ -231,7 +232,7 @@ impl Combination {
         {
             return Err(format!("{} up, {} m a unit", record.up_axis, record.metres_per_unit));
         }
-        self.check_warnings(&record.warnings)?;
+        self.check_diagnostics(&human)?;
         let found = [record.speed_mps, record.turn_rate_rad_s.to_degrees(), record.strafe_mps].map(f64::from);
         self.check_parameters(&body, found)
     }
@@ -264,23 +265,27 @@ impl Combination {
         ["walk_080", "walk_110", "walk_180", "jog_240", "run_350"].contains(&self.clip)
     }
 
-    /// That all is said that must be, and nothing else.
-    fn check_warnings(&self, warnings: &[Remark]) -> Result<(), String> {
-        let wanted: Vec<&str> = match self.take {
-            Take::TPoseFirst => vec!["separate pose"],
-            Take::BlendsOut(_) => vec!["out of a T-pose and are not used"],
-            Take::Calibrated([_, 0.0]) => vec!["out of a T-pose and are not used"],
-            Take::Calibrated(_) => vec!["out of a T-pose and are not used", "into a T-pose and are not used"],
-            Take::LeftHanded if self.names.says_sides() => vec!["exchanged"],
-            Take::Lying(_) => vec!["frame time"],
-            // Short ways and curved ones may end as high as they began.
-            Take::Sloping(slope) if slope.abs() > 0.1 && self.is_long_walk() => vec!["not level"],
-            Take::Sloping(_) => return Ok(()),
-            _ => Vec::new(),
+    /// That all is reported that must be, and nothing else.
+    fn check_diagnostics(&self, human: &HumanClip) -> Result<(), String> {
+        let label = |found: &Diagnostic| match found {
+            Diagnostic::Note(Note::TPoseCut { end: ClipEnd::First, .. }) => "first T-pose",
+            Diagnostic::Note(Note::TPoseCut { end: ClipEnd::Last, .. }) => "last T-pose",
+            other => other.code(),
         };
-        let all = wanted.iter().all(|words| warnings.iter().any(|warning| warning.text.contains(words)));
-        let only = warnings.iter().all(|warning| wanted.iter().any(|words| warning.text.contains(words)));
-        (all && only).then_some(()).ok_or_else(|| format!("{warnings:?}, not {wanted:?}"))
+        let found: Vec<&str> = human.source.diagnostics.iter().map(label).collect();
+        let found = [&found[..], human.unfit.as_ref().map(Unfit::code).as_slice()].concat();
+        let wanted: &[&str] = match self.take {
+            Take::TPoseFirst => &["first_pose_cut"],
+            Take::BlendsOut(_) | Take::Calibrated([_, 0.0]) => &["first T-pose"],
+            Take::Calibrated(_) => &["first T-pose", "last T-pose"],
+            Take::LeftHanded if self.names.says_sides() => &["sides_exchanged"],
+            Take::Lying(_) => &["inhuman_gait"],
+            // Short paths and curved ones may end as high as they began.
+            Take::Sloping(slope) if slope.abs() > 0.1 && self.is_long_walk() => &["slope"],
+            Take::Sloping(_) => return Ok(()),
+            _ => &[],
+        };
+        (found == wanted).then_some(()).ok_or_else(|| format!("{found:?}, not {wanted:?}"))
     }
 
     /// That hips, knees, ankles, shoulders, elbows and wrists are found, each on its side.

@@ -35,7 +35,8 @@ pub(crate) struct Args {
     strict: bool,
     /// Print the report as JSON, with exit code 2 too: `output` (null where nothing was written), `example_count,
     /// mirror_count, simplex_count, refused[] {file, clip, reason}, unused[] {file, clip, reason}` (human clips that
-    /// give no example), `warnings[] {file, clip, note, text}` (a note asks for nothing), `used[] {file, clip,
+    /// give no example), `warnings[] {file, clip, note, text}` (a note asks for nothing), `diagnostics[] {file, clip,
+    /// severity, code, arguments, text}` (of all human clips; severity is "note", "warning" or "no_example"), `used[] {file, clip,
     /// examples[] {name, mirrored, window_s, speed_mps, turn_rate_rad_s, strafe_mps}}`, `quality[] {example,
     /// planted_slide_cm_s, planted_share, seam_angle_ratio, seam_velocity_ratio, penetration_mm, knee_flexion_min_deg,
     /// leg_extension_max, range_excess_deg, range_excess_joint}`, `findings[] {example, measure, value, threshold,

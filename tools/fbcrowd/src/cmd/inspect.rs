@@ -24,7 +24,8 @@ pub(crate) struct Args {
     #[arg(required = true, value_name = "FILE.fbdb|CLIPS")]
     input: Vec<PathBuf>,
     /// Print JSON: `sources[] {file, clip, speed_mps, turn_rate_rad_s, strafe_mps, up_axis, metres_per_unit,
-    /// frame_rate_hz, warnings[]}`; of clips each with `gait {kind, reason, planted_share, right[] {strike_s,
+    /// frame_rate_hz, warnings[], diagnostics[] {severity, code, arguments, text}}`, where `warnings[]` are the
+    /// sentences of all `diagnostics[]`; of clips each with `gait {kind, reason, planted_share, right[] {strike_s,
     /// toe_off_s}, left[] {strike_s, toe_off_s}}`: kind is "steps", "stands" or "unsteady" (with a reason), strikes and
     /// toe-offs are those of the whole clip, in seconds from the file's first frame, null where the clip begins or ends
     /// within the contact; and `refused[] {file, clip, reason}`; of a database also `examples[] {name, source, clip,
@@ -109,7 +110,7 @@ fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
     if args.json {
         output::print_json(&report)?;
     } else {
-        output::print(&report::database_text(&report))?;
+        output::print(&report::database_text(&db, &report))?;
     }
     Ok(Answer::Yes)
 }
@@ -138,11 +139,11 @@ fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
     let (clips, refused) = compiling::import(clips)?;
     compiling::say_refused(&refused);
     let (is_empty, answer) = (clips.is_empty(), compiling::answer(&refused));
-    let report = SourcesReport::new(survey(clips), refused);
+    let surveyed = survey(clips);
     if args.json {
-        output::print_json(&report)?;
+        output::print_json(&SourcesReport::new(&surveyed, refused))?;
     } else if !is_empty {
-        output::print(&report::sources_text(&report.sources))?;
+        output::print(&report::sources_text(&surveyed))?;
     }
     if is_empty {
         return Err(Failure::bad(NO_HUMAN));

@@ -1,0 +1,152 @@
+//! Notes: what was done with a clip that is used as intended. Nothing to mend.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::diagnostic::{ClipEnd, Unfit, and_left_out, and_mirrored, of_example, steady_windows};
+
+/// What was done with a clip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Note {
+    /// The first frame is a separate pose and is cut off.
+    FirstPoseCut,
+    /// A T-pose and the motion between it and the clip are cut off.
+    TPoseCut {
+        /// Frames that are cut off.
+        frames: u32,
+        /// Where.
+        end: ClipEnd,
+    },
+    /// Text follows the motion of a BVH file.
+    TextAfterMotion {
+        /// Its first line, from 1.
+        line: u32,
+    },
+    /// The last row of a BVH file has too few values and is cut off.
+    LastRowIncomplete {
+        /// Its line, from 1.
+        line: u32,
+    },
+    /// Channels of a glTF file that animate no node (`KHR_animation_pointer`) are not read.
+    PointersNotRead,
+    /// A turn rate within gait noise is set to 0.
+    TurnRateSnapped {
+        /// As it was measured, rad/s.
+        turn_rate_rad_s: f32,
+        /// Start of the example; none for the clip's first, s.
+        from_s: Option<f32>,
+    },
+    /// A side speed within gait noise is set to 0.
+    StrafeSnapped {
+        /// As it was measured, m/s.
+        strafe_mps: f32,
+        /// Start of the example; none for the clip's first, s.
+        from_s: Option<f32>,
+    },
+    /// Steady windows beside the clip's examples give none.
+    WindowsLeftOut {
+        /// Near-equal to examples.
+        near_equal: u32,
+        /// Their feet slide, or are hardly planted.
+        doubtful: u32,
+    },
+    /// An example is left out because of `max_examples`.
+    ExampleLeftOut {
+        /// Its name.
+        example: String,
+        /// The limit.
+        max_examples: u32,
+    },
+    /// The clip steps and stands, and gives only an example that stands.
+    OnlyRestUsed {
+        /// Why the steps give none.
+        reason: Unfit,
+    },
+    /// The clip shows a take that another clip shows better.
+    SameTake {
+        /// The other clip, which gives the take's examples.
+        other: String,
+        /// One is the other's mirror image.
+        mirrored: bool,
+        /// Steady windows that the other clip shows better.
+        windows_left_out: u32,
+    },
+    /// Two examples have the same parameters, and the other is the better one.
+    CoincidentExample {
+        /// The example that is not blended.
+        example: String,
+        /// The one that is.
+        blended: String,
+    },
+}
+
+impl Note {
+    /// See [`crate::diagnostic::Diagnostic::code`].
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::FirstPoseCut => "first_pose_cut",
+            Self::TPoseCut { .. } => "t_pose_cut",
+            Self::TextAfterMotion { .. } => "text_after_motion",
+            Self::LastRowIncomplete { .. } => "last_row_incomplete",
+            Self::PointersNotRead => "pointers_not_read",
+            Self::TurnRateSnapped { .. } => "turn_rate_snapped",
+            Self::StrafeSnapped { .. } => "strafe_snapped",
+            Self::WindowsLeftOut { .. } => "windows_left_out",
+            Self::ExampleLeftOut { .. } => "example_left_out",
+            Self::OnlyRestUsed { .. } => "only_rest_used",
+            Self::SameTake { .. } => "same_take",
+            Self::CoincidentExample { .. } => "coincident_example",
+        }
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FirstPoseCut => out.write_str("the first frame is a separate pose and is not used"),
+            Self::TPoseCut { frames, end: ClipEnd::First } => {
+                write!(out, "the first {frames} frames come out of a T-pose and are not used")
+            }
+            Self::TPoseCut { frames, end: ClipEnd::Last } => {
+                write!(out, "the last {frames} frames go into a T-pose and are not used")
+            }
+            Self::TextAfterMotion { line } => write!(out, "line {line}: the text after the motion is not used"),
+            Self::LastRowIncomplete { line } => write!(out, "line {line}: the last row is cut short and is not used"),
+            Self::PointersNotRead => {
+                out.write_str("channels that animate something other than nodes (KHR_animation_pointer) are not used")
+            }
+            Self::TurnRateSnapped { turn_rate_rad_s, from_s } => {
+                let turn_rate_deg_s = turn_rate_rad_s.to_degrees();
+                write!(out, "the turn rate of {turn_rate_deg_s:.1} °/s{} is set to 0", of_example(*from_s))
+            }
+            Self::StrafeSnapped { strafe_mps, from_s } => {
+                write!(out, "the side speed of {strafe_mps:.3} m/s{} is set to 0", of_example(*from_s))
+            }
+            Self::WindowsLeftOut { near_equal, doubtful: 0 } => {
+                write!(out, "left out: {}, near-equal to examples", steady_windows(*near_equal))
+            }
+            Self::WindowsLeftOut { near_equal: 0, doubtful } => {
+                write!(out, "left out: {}, whose feet slide or are hardly planted", steady_windows(*doubtful))
+            }
+            Self::WindowsLeftOut { near_equal, doubtful } => write!(
+                out,
+                "left out: {}, {near_equal} near-equal to examples and {doubtful} whose feet slide or are hardly planted",
+                steady_windows(near_equal + doubtful)
+            ),
+            Self::ExampleLeftOut { example, max_examples } => {
+                write!(out, "`{example}` is left out: max_examples = {max_examples}")
+            }
+            Self::OnlyRestUsed { reason } => {
+                write!(out, "only the part that stands is used; of the part that steps: {reason}")
+            }
+            Self::SameTake { other, mirrored, windows_left_out } => {
+                write!(out, "the same take as {other}{}{}", and_mirrored(*mirrored), and_left_out(*windows_left_out))
+            }
+            Self::CoincidentExample { example, blended } => {
+                write!(out, "`{example}` has the parameters of `{blended}`, which is blended in its place")
+            }
+        }
+    }
+}

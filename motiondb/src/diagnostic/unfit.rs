@@ -1,0 +1,171 @@
+//! Reasons why a clip, or a steady window of it, gives no example. The stage that finds one returns it; later stages
+//! match on it.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::body::skeleton::Side;
+use crate::diagnostic::and_mirrored;
+use crate::motion::parameters::Parameters;
+
+/// Why there is no example.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Unfit {
+    /// The body does not stand along the axis that the manifest states to be up.
+    UpContradicted {
+        /// As the manifest states: `+X` … `-Z`.
+        stated: String,
+        /// The axis along which the body stands.
+        found: String,
+    },
+    /// No human steps so: the frame time is wrong, and with it all speeds.
+    InhumanGait {
+        /// Median length of a step, cm.
+        step_cm: f32,
+        /// Median number of steps a minute.
+        steps_per_min: f32,
+    },
+    /// No foot both lands and leaves, and the body does not stand.
+    NoStep,
+    /// Feet step, but not one after the other.
+    NoWholeStride,
+    /// There are strides, but none is like its neighbours.
+    NoSteadyStride,
+    /// The pelvis leaves the reach of the legs.
+    PelvisOutOfReach,
+    /// Feet are planted for less of the cycle than in any gait.
+    FeetHardlyPlanted {
+        /// Share of the cycle, mean of both feet.
+        planted_share: f32,
+    },
+    /// Planted feet slide so much that they show no stance.
+    FeetSlide {
+        /// Mean over the cycle, cm/s.
+        slide_cm_s: f32,
+    },
+    /// A foot has no contact where its mid-stance should be.
+    NoMidStance {
+        /// The foot.
+        foot: Side,
+    },
+    /// The middle of a foot's contact is not at the phase that defines its mid-stance.
+    MidStanceOff {
+        /// The foot.
+        foot: Side,
+        /// Distance over the cycle.
+        share: f32,
+    },
+    /// The root does not move as the planted feet show.
+    RootContradicted {
+        /// Of the root.
+        root: Parameters,
+        /// Of the root motion for which the planted feet stand best.
+        feet: Parameters,
+        /// Misfit between both, m/s.
+        misfit_mps: f32,
+        /// Greatest misfit that is accepted, m/s.
+        limit_mps: f32,
+    },
+    /// The clip shows a take that another clip shows better.
+    SameTake {
+        /// The other clip, which gives the take's examples.
+        other: String,
+        /// One is the other's mirror image.
+        mirrored: bool,
+        /// The clips differ in their frame times: one of them is wrong.
+        frame_times_differ: bool,
+    },
+}
+
+impl Unfit {
+    /// See [`crate::diagnostic::Diagnostic::code`].
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::UpContradicted { .. } => "up_contradicted",
+            Self::InhumanGait { .. } => "inhuman_gait",
+            Self::NoStep => "no_step",
+            Self::NoWholeStride => "no_whole_stride",
+            Self::NoSteadyStride => "no_steady_stride",
+            Self::PelvisOutOfReach => "pelvis_out_of_reach",
+            Self::FeetHardlyPlanted { .. } => "feet_hardly_planted",
+            Self::FeetSlide { .. } => "feet_slide",
+            Self::NoMidStance { .. } => "no_mid_stance",
+            Self::MidStanceOff { .. } => "mid_stance_off",
+            Self::RootContradicted { .. } => "root_contradicted",
+            Self::SameTake { .. } => "same_take",
+        }
+    }
+}
+
+impl fmt::Display for Unfit {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UpContradicted { stated, found } => write!(
+                out,
+                "the manifest states that up is {stated}, but the body stands along {found}; correct `up`, or remove it"
+            ),
+            Self::InhumanGait { step_cm, steps_per_min } => write!(
+                out,
+                "steps of {step_cm:.0} cm, {steps_per_min:.0} a minute, are no human gait; state the right \
+                 `frame_rate_hz` in a manifest.toml"
+            ),
+            Self::NoStep => {
+                out.write_str("no foot both lands and leaves, and the body does not stand; use a clip of a steady gait")
+            }
+            Self::NoWholeStride => {
+                out.write_str("no whole stride, a step of each foot, was found; use a longer part of the motion")
+            }
+            Self::NoSteadyStride => out
+                .write_str("no steady stride was found: each differs from its neighbours; use a clip of a steady gait"),
+            Self::PelvisOutOfReach => {
+                out.write_str("the pelvis leaves the reach of the legs; correct the root's motion")
+            }
+            Self::FeetHardlyPlanted { planted_share } => write!(
+                out,
+                "feet are planted for only {:.0} % of the cycle; repair the clip, or use another one",
+                100.0 * planted_share
+            ),
+            Self::FeetSlide { slide_cm_s } => {
+                write!(out, "planted feet slide by {slide_cm_s:.0} cm/s; repair the clip, or use another one")
+            }
+            Self::NoMidStance { foot } => {
+                write!(out, "the {} foot has no contact about its mid-stance; use another clip", word(*foot))
+            }
+            Self::MidStanceOff { foot, share } => write!(
+                out,
+                "the {} foot's contact is {:.0} % of the cycle off its mid-stance; use another clip",
+                word(*foot),
+                100.0 * share
+            ),
+            Self::RootContradicted { root, feet, misfit_mps, limit_mps } => write!(
+                out,
+                "the root moves at {}, but the planted feet show {}: {misfit_mps:.3} m/s apart, above {limit_mps:.3}; \
+                 correct the root's motion",
+                in_words(*root),
+                in_words(*feet)
+            ),
+            Self::SameTake { other, mirrored, frame_times_differ: false } => {
+                write!(out, "the same take as {other}{}, which gives the example", and_mirrored(*mirrored))
+            }
+            Self::SameTake { other, mirrored, frame_times_differ: true } => write!(
+                out,
+                "the same take as {other}{}, which gives the example, but at another frame time; state the right \
+                 `frame_rate_hz` in a manifest.toml",
+                and_mirrored(*mirrored)
+            ),
+        }
+    }
+}
+
+fn word(side: Side) -> &'static str {
+    match side {
+        Side::Left => "left",
+        Side::Right => "right",
+    }
+}
+
+fn in_words(Parameters { speed_mps, turn_rate_rad_s, strafe_mps }: Parameters) -> String {
+    format!("{speed_mps:.2} m/s, {:.0} °/s and {strafe_mps:.2} m/s to the left", turn_rate_rad_s.to_degrees())
+}

@@ -1,0 +1,215 @@
+//! Warnings: what is doubtful about a clip that is used all the same.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::diagnostic::{ClipEnd, and_left_out, and_mirrored, of_example};
+
+/// What is doubtful about a clip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Warning {
+    /// No human's legs are as long. If the unit is wrong, so are all speeds.
+    InhumanSize {
+        /// Thigh plus shank, m.
+        leg_m: f32,
+    },
+    /// No body with legs as long could walk: the unit of the file's format is not used.
+    UnitRejected {
+        /// Thigh plus shank in that unit, m.
+        leg_m: f32,
+    },
+    /// Toes and knees contradict the sides that joints' names state: left and right are exchanged.
+    SidesExchanged,
+    /// The body is far away from one frame to the next.
+    Leap {
+        /// How far, m.
+        distance_m: f32,
+        /// The frame before the first leap, from 1.
+        frame: u32,
+        /// Further leaps in the clip.
+        more: u32,
+    },
+    /// The ground rises or falls.
+    Slope {
+        /// Rise, negative for a descent, cm a step.
+        rise_cm: f32,
+    },
+    /// The feet that should carry the body slide over the ground.
+    Skating {
+        /// Speed of the body, m/s.
+        body_mps: f32,
+        /// Speed of the feet on the ground, m/s.
+        slide_mps: f32,
+        /// Whether the feet step.
+        steps: bool,
+    },
+    /// The body turns and makes no step.
+    TurnWithoutStep {
+        /// Counter-clockwise positive, rad/s.
+        turn_rate_rad_s: f32,
+    },
+    /// Both feet are off the ground, and the body makes no step.
+    Jump {
+        /// Height of the lower foot, cm.
+        lift_cm: f32,
+    },
+    /// Planted feet slide.
+    FeetSlide {
+        /// Mean over the cycle, cm/s.
+        slide_cm_s: f32,
+        /// Start of the example; none for the clip's first, s.
+        from_s: Option<f32>,
+    },
+    /// Feet are hardly planted.
+    FeetHardlyPlanted {
+        /// Share of the cycle, mean of both feet.
+        planted_share: f32,
+        /// Start of the example; none for the clip's first, s.
+        from_s: Option<f32>,
+    },
+    /// A BVH header states another number of frames than the file has.
+    FrameCountWrong {
+        /// As the header states.
+        stated: f64,
+        /// Rows that the file has.
+        rows: u32,
+    },
+    /// A T-pose that is not cut off, since too little motion would be left.
+    TPoseKept {
+        /// Frames of the T-pose and of the motion between it and the clip.
+        frames: u32,
+        /// Where.
+        end: ClipEnd,
+    },
+    /// Clips of one take differ in their frame times: one of them is wrong.
+    FrameTimesDiffer {
+        /// The other clips that are named.
+        others: Vec<String>,
+        /// Other clips beside those.
+        more: u32,
+        /// One is the other's mirror image.
+        mirrored: bool,
+        /// Steady windows that the other clip shows better.
+        windows_left_out: u32,
+    },
+    /// The set has too many clips to search all for further copies of a take.
+    NotCompared {
+        /// Clips that are compared: the longest.
+        compared: u32,
+    },
+}
+
+impl Warning {
+    /// See [`crate::diagnostic::Diagnostic::code`].
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::InhumanSize { .. } => "inhuman_size",
+            Self::UnitRejected { .. } => "unit_rejected",
+            Self::SidesExchanged => "sides_exchanged",
+            Self::Leap { .. } => "leap",
+            Self::Slope { .. } => "slope",
+            Self::Skating { .. } => "skating",
+            Self::TurnWithoutStep { .. } => "turn_without_step",
+            Self::Jump { .. } => "jump",
+            Self::FeetSlide { .. } => "feet_slide",
+            Self::FeetHardlyPlanted { .. } => "feet_hardly_planted",
+            Self::FrameCountWrong { .. } => "frame_count_wrong",
+            Self::TPoseKept { .. } => "t_pose_kept",
+            Self::FrameTimesDiffer { .. } => "frame_times_differ",
+            Self::NotCompared { .. } => "not_compared",
+        }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::InhumanSize { leg_m } => write!(
+                out,
+                "thigh and shank are {leg_m:.2} m long, unlike any human's; if the unit is wrong, state \
+                 `metres_per_unit` in a manifest.toml"
+            ),
+            Self::UnitRejected { leg_m } => write!(
+                out,
+                "thigh and shank would be {leg_m:.2} m long in the format's unit, so another unit is used; if that is \
+                 wrong, state `metres_per_unit` in a manifest.toml"
+            ),
+            Self::SidesExchanged => out.write_str(
+                "toes and knees contradict the joints' names, so left and right are exchanged, as in a left-handed file; \
+                 if the names are right, state `joints` in a manifest.toml",
+            ),
+            Self::Leap { distance_m, frame, more } => leap(out, *distance_m, *frame, *more),
+            Self::Slope { rise_cm } => {
+                let verb = if *rise_cm > 0.0 { "climbs" } else { "descends" };
+                write!(out, "the body {verb} {:.0} cm a step; use a clip on level ground", rise_cm.abs())
+            }
+            Self::Skating { body_mps, slide_mps, steps } => {
+                let feet = if *steps { "stance feet" } else { "feet take no step and" };
+                write!(
+                    out,
+                    "the body moves at {body_mps:.1} m/s, but its {feet} slide over the ground at {slide_mps:.1} m/s; \
+                     correct the root's motion"
+                )
+            }
+            Self::TurnWithoutStep { turn_rate_rad_s } => write!(
+                out,
+                "the body turns at {:.0} °/s without a step, as on a turntable; correct the root's motion",
+                turn_rate_rad_s.to_degrees()
+            ),
+            Self::Jump { lift_cm } => write!(
+                out,
+                "the body jumps: both feet leave the ground by {lift_cm:.0} cm; select other `frames` in a manifest.toml"
+            ),
+            Self::FeetSlide { slide_cm_s, from_s } => write!(
+                out,
+                "planted feet slide by {slide_cm_s:.0} cm/s{}; repair the clip, or use another one",
+                of_example(*from_s)
+            ),
+            Self::FeetHardlyPlanted { planted_share, from_s } => write!(
+                out,
+                "feet are planted for only {:.0} % of the cycle{}; repair the clip, or use another one",
+                100.0 * planted_share,
+                of_example(*from_s)
+            ),
+            Self::FrameCountWrong { stated, rows } => {
+                write!(out, "`Frames:` states {stated}, but the file has {rows} rows, which are used; correct the header")
+            }
+            Self::TPoseKept { frames, end } => t_pose(out, *frames, *end),
+            Self::FrameTimesDiffer { others, more, mirrored, windows_left_out } => {
+                let more = if *more == 0 { String::new() } else { format!(" and {more} more") };
+                write!(
+                    out,
+                    "the same take as {}{more}{}, but at another frame time{}; state the right `frame_rate_hz` in a \
+                     manifest.toml",
+                    others.join(", "),
+                    and_mirrored(*mirrored),
+                    and_left_out(*windows_left_out)
+                )
+            }
+            Self::NotCompared { compared } => write!(
+                out,
+                "the clip may be a second copy: among so many clips only the {compared} longest are compared; compile \
+                 fewer at once"
+            ),
+        }
+    }
+}
+
+fn leap(out: &mut fmt::Formatter<'_>, distance_m: f32, frame: u32, more: u32) -> fmt::Result {
+    let more = if more == 0 { String::new() } else { format!(" (and {more} times more)") };
+    write!(
+        out,
+        "the body leaps by {distance_m:.1} m from frame {frame} to the next{more}, which spoils its mean speeds; cut the \
+         file there, or select `frames` in a manifest.toml"
+    )
+}
+
+fn t_pose(out: &mut fmt::Formatter<'_>, frames: u32, end: ClipEnd) -> fmt::Result {
+    let part = match end {
+        ClipEnd::First => format!("the first {frames} frames come out of a T-pose"),
+        ClipEnd::Last => format!("the last {frames} frames go into a T-pose"),
+    };
+    write!(out, "{part}, and too little motion is left without them; use a longer clip")
+}

@@ -1,0 +1,251 @@
+//! Diagnostics: the sentence of each, and its code and its bytes.
+
+use std::f32::consts::FRAC_PI_2;
+
+use motiondb::body::Side;
+use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Severity, Unfit, Warning};
+use motiondb::motion::Parameters;
+
+/// At least one of every variant, with its sentence.
+fn sentences() -> Vec<(Diagnostic, &'static str)> {
+    let notes = notes().into_iter().map(|(note, text)| (Diagnostic::Note(note), text));
+    let warnings = warnings().into_iter().map(|(warning, text)| (Diagnostic::Warning(warning), text));
+    let unfit = unfit().into_iter().map(|(unfit, text)| (Diagnostic::NoExample(unfit), text));
+    notes.chain(warnings).chain(unfit).collect()
+}
+
+fn notes() -> Vec<(Note, &'static str)> {
+    let (first, last) = (ClipEnd::First, ClipEnd::Last);
+    let other = || "walk.bvh".to_owned();
+    vec![
+        (Note::FirstPoseCut, "the first frame is a separate pose and is not used"),
+        (Note::TPoseCut { frames: 40, end: first }, "the first 40 frames come out of a T-pose and are not used"),
+        (Note::TPoseCut { frames: 12, end: last }, "the last 12 frames go into a T-pose and are not used"),
+        (Note::TextAfterMotion { line: 90 }, "line 90: the text after the motion is not used"),
+        (Note::LastRowIncomplete { line: 90 }, "line 90: the last row is cut short and is not used"),
+        (
+            Note::PointersNotRead,
+            "channels that animate something other than nodes (KHR_animation_pointer) are not used",
+        ),
+        (Note::TurnRateSnapped { turn_rate_rad_s: -0.02, from_s: None }, "the turn rate of -1.1 °/s is set to 0"),
+        (
+            Note::TurnRateSnapped { turn_rate_rad_s: 0.02, from_s: Some(7.25) },
+            "the turn rate of 1.1 °/s in the example from 7.2 s on is set to 0",
+        ),
+        (Note::StrafeSnapped { strafe_mps: 0.05, from_s: None }, "the side speed of 0.050 m/s is set to 0"),
+        (Note::WindowsLeftOut { near_equal: 1, doubtful: 0 }, "left out: 1 steady window, near-equal to examples"),
+        (
+            Note::WindowsLeftOut { near_equal: 0, doubtful: 2 },
+            "left out: 2 steady windows, whose feet slide or are hardly planted",
+        ),
+        (
+            Note::WindowsLeftOut { near_equal: 1, doubtful: 2 },
+            "left out: 3 steady windows, 1 near-equal to examples and 2 whose feet slide or are hardly planted",
+        ),
+        (Note::ExampleLeftOut { example: "walk".into(), max_examples: 40 }, "`walk` is left out: max_examples = 40"),
+        (
+            Note::OnlyRestUsed { reason: Unfit::NoWholeStride },
+            "only the part that stands is used; of the part that steps: no whole stride, a step of each foot, was \
+             found; use a longer part of the motion",
+        ),
+        (Note::SameTake { other: other(), mirrored: false, windows_left_out: 0 }, "the same take as walk.bvh"),
+        (
+            Note::SameTake { other: other(), mirrored: true, windows_left_out: 1 },
+            "the same take as walk.bvh, mirrored (1 steady window is left out)",
+        ),
+        (
+            Note::SameTake { other: other(), mirrored: false, windows_left_out: 2 },
+            "the same take as walk.bvh (2 steady windows are left out)",
+        ),
+        (
+            Note::CoincidentExample { example: "walk".into(), blended: "stroll".into() },
+            "`walk` has the parameters of `stroll`, which is blended in its place",
+        ),
+    ]
+}
+
+fn warnings() -> Vec<(Warning, &'static str)> {
+    vec![
+        (
+            Warning::InhumanSize { leg_m: 3.2 },
+            "thigh and shank are 3.20 m long, unlike any human's; if the unit is wrong, state `metres_per_unit` in a \
+             manifest.toml",
+        ),
+        (
+            Warning::UnitRejected { leg_m: 84.0 },
+            "thigh and shank would be 84.00 m long in the format's unit, so another unit is used; if that is wrong, \
+             state `metres_per_unit` in a manifest.toml",
+        ),
+        (
+            Warning::SidesExchanged,
+            "toes and knees contradict the joints' names, so left and right are exchanged, as in a left-handed file; \
+             if the names are right, state `joints` in a manifest.toml",
+        ),
+        (
+            Warning::Leap { distance_m: 3.0, frame: 20, more: 0 },
+            "the body leaps by 3.0 m from frame 20 to the next, which spoils its mean speeds; cut the file there, or \
+             select `frames` in a manifest.toml",
+        ),
+        (
+            Warning::Leap { distance_m: 3.0, frame: 20, more: 2 },
+            "the body leaps by 3.0 m from frame 20 to the next (and 2 times more), which spoils its mean speeds; cut \
+             the file there, or select `frames` in a manifest.toml",
+        ),
+        (Warning::Slope { rise_cm: 12.0 }, "the body climbs 12 cm a step; use a clip on level ground"),
+        (Warning::Slope { rise_cm: -12.0 }, "the body descends 12 cm a step; use a clip on level ground"),
+        (
+            Warning::Skating { body_mps: 1.2, slide_mps: 1.2, steps: false },
+            "the body moves at 1.2 m/s, but its feet take no step and slide over the ground at 1.2 m/s; correct the \
+             root's motion",
+        ),
+        (
+            Warning::Skating { body_mps: 1.2, slide_mps: 0.6, steps: true },
+            "the body moves at 1.2 m/s, but its stance feet slide over the ground at 0.6 m/s; correct the root's motion",
+        ),
+        (
+            Warning::TurnWithoutStep { turn_rate_rad_s: -FRAC_PI_2 },
+            "the body turns at -90 °/s without a step, as on a turntable; correct the root's motion",
+        ),
+        (
+            Warning::Jump { lift_cm: 41.0 },
+            "the body jumps: both feet leave the ground by 41 cm; select other `frames` in a manifest.toml",
+        ),
+        (
+            Warning::FeetSlide { slide_cm_s: 26.0, from_s: None },
+            "planted feet slide by 26 cm/s; repair the clip, or use another one",
+        ),
+        (
+            Warning::FeetSlide { slide_cm_s: 26.0, from_s: Some(4.0) },
+            "planted feet slide by 26 cm/s in the example from 4.0 s on; repair the clip, or use another one",
+        ),
+        (
+            Warning::FeetHardlyPlanted { planted_share: 0.18, from_s: None },
+            "feet are planted for only 18 % of the cycle; repair the clip, or use another one",
+        ),
+        (
+            Warning::FrameCountWrong { stated: 99.0, rows: 40 },
+            "`Frames:` states 99, but the file has 40 rows, which are used; correct the header",
+        ),
+        (
+            Warning::TPoseKept { frames: 60, end: ClipEnd::First },
+            "the first 60 frames come out of a T-pose, and too little motion is left without them; use a longer clip",
+        ),
+        (
+            Warning::TPoseKept { frames: 60, end: ClipEnd::Last },
+            "the last 60 frames go into a T-pose, and too little motion is left without them; use a longer clip",
+        ),
+        (
+            Warning::FrameTimesDiffer { others: vec!["a.bvh".into()], more: 0, mirrored: true, windows_left_out: 2 },
+            "the same take as a.bvh, mirrored, but at another frame time (2 steady windows are left out); state the \
+             right `frame_rate_hz` in a manifest.toml",
+        ),
+        (
+            Warning::FrameTimesDiffer {
+                others: vec!["a.bvh".into(), "b.bvh".into()],
+                more: 3,
+                mirrored: false,
+                windows_left_out: 0,
+            },
+            "the same take as a.bvh, b.bvh and 3 more, but at another frame time; state the right `frame_rate_hz` in a \
+             manifest.toml",
+        ),
+        (
+            Warning::NotCompared { compared: 4000 },
+            "the clip may be a second copy: among so many clips only the 4000 longest are compared; compile fewer at \
+             once",
+        ),
+    ]
+}
+
+fn unfit() -> Vec<(Unfit, &'static str)> {
+    let at = |speed_mps: f32| Parameters { speed_mps, turn_rate_rad_s: 0.5, strafe_mps: -0.25 };
+    vec![
+        (
+            Unfit::UpContradicted { stated: "+Z".into(), found: "+Y".into() },
+            "the manifest states that up is +Z, but the body stands along +Y; correct `up`, or remove it",
+        ),
+        (
+            Unfit::InhumanGait { step_cm: 60.0, steps_per_min: 480.0 },
+            "steps of 60 cm, 480 a minute, are no human gait; state the right `frame_rate_hz` in a manifest.toml",
+        ),
+        (Unfit::NoStep, "no foot both lands and leaves, and the body does not stand; use a clip of a steady gait"),
+        (Unfit::NoWholeStride, "no whole stride, a step of each foot, was found; use a longer part of the motion"),
+        (
+            Unfit::NoSteadyStride,
+            "no steady stride was found: each differs from its neighbours; use a clip of a steady gait",
+        ),
+        (Unfit::PelvisOutOfReach, "the pelvis leaves the reach of the legs; correct the root's motion"),
+        (
+            Unfit::FeetHardlyPlanted { planted_share: 0.1 },
+            "feet are planted for only 10 % of the cycle; repair the clip, or use another one",
+        ),
+        (Unfit::FeetSlide { slide_cm_s: 60.0 }, "planted feet slide by 60 cm/s; repair the clip, or use another one"),
+        (
+            Unfit::NoMidStance { foot: Side::Left },
+            "the left foot has no contact about its mid-stance; use another clip",
+        ),
+        (
+            Unfit::MidStanceOff { foot: Side::Right, share: 0.14 },
+            "the right foot's contact is 14 % of the cycle off its mid-stance; use another clip",
+        ),
+        (
+            Unfit::RootContradicted { root: at(1.2), feet: at(0.9), misfit_mps: 0.3, limit_mps: 0.12 },
+            "the root moves at 1.20 m/s, 29 °/s and -0.25 m/s to the left, but the planted feet show 0.90 m/s, 29 °/s \
+             and -0.25 m/s to the left: 0.300 m/s apart, above 0.120; correct the root's motion",
+        ),
+        (
+            Unfit::SameTake { other: "walk.bvh".into(), mirrored: false, frame_times_differ: false },
+            "the same take as walk.bvh, which gives the example",
+        ),
+        (
+            Unfit::SameTake { other: "walk.bvh".into(), mirrored: true, frame_times_differ: true },
+            "the same take as walk.bvh, mirrored, which gives the example, but at another frame time; state the right \
+             `frame_rate_hz` in a manifest.toml",
+        ),
+    ]
+}
+
+#[test]
+fn each_diagnostic_has_its_sentence() {
+    for (diagnostic, sentence) in sentences() {
+        assert_eq!(diagnostic.to_string(), sentence);
+    }
+}
+
+#[test]
+fn codes_are_the_names_of_serde() {
+    for (diagnostic, _) in sentences() {
+        let severity = serde_json::to_value(diagnostic.severity()).unwrap();
+        let json = serde_json::to_value(&diagnostic).unwrap();
+        let finding = &json[severity.as_str().unwrap()];
+        let is_named = finding == diagnostic.code() || finding.get(diagnostic.code()).is_some();
+        assert!(is_named, "{json} is not named {}", diagnostic.code());
+    }
+}
+
+#[test]
+fn a_database_keeps_variants_and_arguments_and_no_sentence() {
+    let config = bincode::config::standard();
+    for (diagnostic, sentence) in sentences() {
+        let bytes = bincode::serde::encode_to_vec(&diagnostic, config).unwrap();
+        let read = bincode::serde::decode_from_slice::<Diagnostic, _>(&bytes, config).unwrap();
+        assert_eq!(read, (diagnostic, bytes.len()));
+        assert!(bytes.len() < sentence.len(), "{sentence}: {} bytes", bytes.len());
+    }
+}
+
+#[test]
+fn severity_follows_from_the_kind_of_finding() {
+    let of = |diagnostic: Diagnostic| diagnostic.severity();
+    assert_eq!(of(Diagnostic::Note(Note::FirstPoseCut)), Severity::Note);
+    assert_eq!(of(Diagnostic::Warning(Warning::SidesExchanged)), Severity::Warning);
+    assert_eq!(of(Diagnostic::NoExample(Unfit::NoStep)), Severity::NoExample);
+}
+
+#[test]
+fn only_what_concerns_an_example_names_its_start() {
+    let slide = |from_s| Diagnostic::Warning(Warning::FeetSlide { slide_cm_s: 26.0, from_s });
+    assert_eq!(slide(None).of_example_from(4.0), slide(Some(4.0)));
+    let pose = Diagnostic::Note(Note::FirstPoseCut);
+    assert_eq!(pose.clone().of_example_from(4.0), pose);
+}
