@@ -16,8 +16,7 @@ use motiondb::motion::MotionDb;
 use rayon::prelude::*;
 
 use crate::agents::Agents;
-use crate::coupling::body_to_disc;
-use crate::coupling::decoupled;
+use crate::coupling::{body_to_disc, decoupled};
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan_all::{self, plan_all};
 use crate::planning::planner::ahead_s;

@@ -10,8 +10,7 @@ use std::time::Instant;
 use common::folder;
 use fbcrowd_sim::planning::Planner;
 use fbcrowd_sim::planning::mcn::StanceForm;
-use fbcrowd_sim::scenario::Coupling;
-use fbcrowd_sim::scenario::{Invalid, MotionSource, Scenario, ScenarioError, read};
+use fbcrowd_sim::scenario::{Coupling, Invalid, MotionSource, Scenario, ScenarioError, read};
 use fbcrowd_sim::synthesis::{Modes, Transition};
 use glam::Vec2;
 

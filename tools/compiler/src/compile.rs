@@ -1,10 +1,10 @@
 //! The compiler: clips in, motion database out, one line a stage.
 //!
 //! # Steps
-//! import ([`clip_set`]) → the body that all examples share ([`target_skeleton`]) → steady windows and their mean
-//! strides (`analysis`) → of one take one copy ([`duplicates`]) and of near-equal windows the best (`selection`) →
-//! closed cycles and their mirrors (`named_cycles`) → (v_f, ω_t, ω_s) and key times ([`parameterize`]) → blend space
-//! ([`motiondb::blend_space::triangulation`]), velocity sets ([`velocity_hull`]), [`correspondence`] → [`MotionDb`], valid.
+//! import ([`clip_set`]) → the body that all examples share (`target_skeleton`) → steady windows and their mean
+//! strides (`analysis`) → of one take one copy (`duplicates`) and of near-equal windows the best (`selection`) →
+//! closed cycles and their mirrors (`named_cycles`) → (v_f, ω_t, ω_s) and key times (`parameterize`) → blend space
+//! ([`motiondb::blend_space::triangulation`]), velocity sets ([`velocity_hull`]), `correspondence` → [`MotionDb`], valid.
 //!
 //! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted
 //! by file and clip name, examples by their own name, and parallel stages collect in that order.
@@ -18,17 +18,19 @@ use motiondb::validate::first_broken;
 use motiondb::velocity_sets::velocity_hull::{self, Construction};
 use rayon::prelude::*;
 
-use crate::analysis::{Analyzed, analyze};
 use crate::compile_error::CompileError;
-use crate::cycle::{GaitCycle, NamedCycle};
-use crate::human_clip::{HumanBody, HumanClip};
-use crate::manifest::Manifest;
-use crate::manifest::error::ManifestError;
+use crate::cycle::analysis::{Analyzed, analyze};
+use crate::cycle::mean_stride::{GaitCycle, NamedCycle};
+use crate::database::{correspondence, parameterize, rows};
+use crate::dedup::duplicates;
+use crate::ground::target_skeleton;
+use crate::input::clip_set;
+use crate::input::manifest::Manifest;
+use crate::input::manifest::error::ManifestError;
 use crate::progress::{Event, Observer};
 use crate::refused::Refused;
-use crate::{
-    clip_set, correspondence, duplicates, named_cycles, parameterize, rows, selection, target_skeleton, twins,
-};
+use crate::retarget::human_clip::{HumanBody, HumanClip};
+use crate::select::{coincident_examples, named_cycles, selection};
 
 /// A database, and the input that it could not use.
 #[derive(Clone, Debug)]
@@ -115,8 +117,8 @@ fn assemble(
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
     tell(Event::Stage("blend space"));
     let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
-    let blend_space = twins::build_of_best(&parameters, &flaws);
-    note_twins(&twins::twins(&parameters, &blend_space), &examples, &mut sources);
+    let blend_space = coincident_examples::build_of_best(&parameters, &flaws);
+    note_twins(&coincident_examples::twins(&parameters, &blend_space), &examples, &mut sources);
     tell(Event::Stage("assembly"));
     let mut db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
@@ -153,7 +155,7 @@ fn note_twins(twins: &[[usize; 2]], examples: &[MotionExample], sources: &mut [S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arc::Rates;
+    use crate::ground::arc::Rates;
     use crate::synthetic::{Walk, idle, walk};
 
     fn set() -> Vec<HumanClip> {

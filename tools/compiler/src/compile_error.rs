@@ -2,7 +2,7 @@
 
 use motiondb::motion::SourceRecord;
 
-use crate::manifest::error::ManifestError;
+use crate::input::manifest::error::ManifestError;
 use crate::refused::Refused;
 
 /// No database could be made.

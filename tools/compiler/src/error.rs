@@ -64,7 +64,7 @@ impl ImportError {
     }
 }
 
-/// Why a readable clip gives no [`crate::human_clip::HumanClip`]; other clips of the same file are not affected.
+/// Why a readable clip gives no [`crate::retarget::human_clip::HumanClip`]; other clips of the same file are not affected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// Nothing to measure.

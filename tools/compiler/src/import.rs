@@ -1,9 +1,9 @@
 //! Clips in: from files and folders to [`HumanClip`]s.
 //!
 //! # Steps
-//! read ([`crate::bvh`], [`crate::gltf`]) → what a manifest corrects ([`crate::take`]) → roles
-//! ([`crate::skeleton_map`]) and facing (`facing`) → metres, Z up ([`crate::units`]) → no separate first pose
-//! (`first_pose`) → whole-clip parameters ([`crate::source_parameters`]) → no T-poses (`first_pose`) → a plausible gait
+//! read ([`crate::read::bvh`], [`crate::read::gltf`]) → what a manifest corrects (`clip_settings`) → roles
+//! (`roles`) and facing (`facing`) → metres, Z up ([`crate::retarget::units`]) → no separate first pose
+//! (`first_pose`) → whole-clip parameters (`source_parameters`) → no T-poses (`first_pose`) → a plausible gait
 //! (`plausibility`) on level ground (`carried`) → canonical humanoid (`retarget`) → a plausible body.
 
 use std::fs;
@@ -14,14 +14,17 @@ use motiondb::diagnostic::{Diagnostic, Warning};
 use motiondb::files::input_file;
 use rayon::prelude::*;
 
+use crate::checks::{level_ground, plausibility};
 use crate::error::{ImportError, MIN_FRAMES, Refusal, Setting};
-use crate::gltf::{self, GltfFile};
-use crate::human_clip::{HumanClip, HumanPose};
-use crate::skeleton_map::{Roles, find_roles};
-use crate::source_clip::SourceClip;
-use crate::source_parameters::{self, WholeClip};
-use crate::take::{Settings, Take};
-use crate::{bvh, carried, facing, first_pose, plausibility, retarget, units};
+use crate::input::clip_settings::{Settings, Take};
+use crate::read::bvh;
+use crate::read::gltf::{self, GltfFile};
+use crate::read::source_clip::SourceClip;
+use crate::retarget::human_clip::{HumanClip, HumanPose};
+use crate::retarget::source_parameters::{self, WholeClip};
+use crate::retarget::{to_humanoid, trim_t_poses, units};
+use crate::rig::facing;
+use crate::rig::roles::{Roles, find_roles};
 
 /// Cosine of half the least angle that is a turn (0.05°), and the least swing of a leg, over its length.
 const UNTURNED: f64 = 1.0 - 1e-7;
@@ -210,11 +213,11 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
     let mut doubts = vec![plausibility::implausible_size(&clip, &roles)];
     // What stands along another axis than up has no feet on the ground.
     let unfit = contradicted_up.or_else(|| {
-        doubts.push(carried::doubt(&clip, &roles, &whole));
+        doubts.push(level_ground::doubt(&clip, &roles, &whole));
         plausibility::inhuman_gait(&clip, &roles, &whole)
     });
     clip.diagnostics.extend(doubts.into_iter().flatten().map(Diagnostic::Warning));
-    let mut human = retarget::to_human(&clip, &roles, &units, whole, name);
+    let mut human = to_humanoid::to_human(&clip, &roles, &units, whole, name);
     human.unfit = unfit;
     human.choices.mirror = settings.mirror;
     human.choices.is_cut = settings.frames.is_some();
@@ -228,11 +231,11 @@ fn to_human(mut clip: SourceClip, settings: &Settings, name: String) -> Result<H
 fn measured(clip: &mut SourceClip, roles: &Roles, settings: &Settings) -> WholeClip {
     let is_cut = settings.frames.is_some();
     if !is_cut {
-        first_pose::drop_separate_first_pose(clip, roles);
+        trim_t_poses::drop_separate_first_pose(clip, roles);
     }
     let whole = source_parameters::measure(clip, roles);
     if !is_cut {
-        first_pose::drop_t_poses(clip, roles);
+        trim_t_poses::drop_t_poses(clip, roles);
     }
     whole
 }

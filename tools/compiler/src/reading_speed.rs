@@ -1,6 +1,6 @@
 //! How fast BVH files are read, against `bvh_anim` alone: the same bytes, the same run, turn about.
 //!
-//! Ours is bytes to [`crate::source_clip::SourceClip`]: checked, parsed and posed. `bvh_anim` by itself only parses. It
+//! Ours is bytes to [`crate::read::source_clip::SourceClip`]: checked, parsed and posed. `bvh_anim` by itself only parses. It
 //! panics on some files that are read here, or takes their memory by what they claim: those it gets in the canonical
 //! text that the importer makes for it.
 
@@ -10,7 +10,7 @@ use std::path::Path;
 use motiondb::statistics;
 
 use crate::error::ImportError;
-use crate::{bvh, quiet_unwind};
+use crate::read::{bvh, catch_panic};
 
 /// Seconds that both readers took for one file, the median of several times.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +30,7 @@ pub fn race(file: &Path, bytes: &[u8], times: usize, clock: &dyn Fn() -> f64) ->
     let canonical = bvh::prepass::check(bytes).map(|checked| checked.text(usize::MAX).into_bytes()).unwrap_or_default();
     // A lying `Frames:` is warned of; one that claims terabytes would end the process.
     let survives =
-        clip.diagnostics.is_empty() && quiet_unwind::catch(|| bvh_anim::from_bytes(bytes).is_ok()) == Some(true);
+        clip.diagnostics.is_empty() && catch_panic::catch(|| bvh_anim::from_bytes(bytes).is_ok()) == Some(true);
     let digestible = if survives { bytes } else { &canonical };
     let (mut ours_s, mut alone_s) = (Vec::new(), Vec::new());
     for _ in 0..times {

@@ -9,13 +9,15 @@ use motiondb::motion::SourceRecord;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
-use crate::analysis::{Analyzed, analyze};
-use crate::gait::Gait;
-use crate::human_clip::HumanClip;
-use crate::performer::{self, Performer};
-use crate::root_motion::GroundedClip;
-use crate::stance::Stance;
-use crate::{clip_set, duplicates, target_skeleton};
+use crate::cycle::analysis::{Analyzed, analyze};
+use crate::dedup::duplicates;
+use crate::gait::gait_events::Stance;
+use crate::gait::own_body::{self, Performer};
+use crate::gait::windows::Gait;
+use crate::ground::root_motion::GroundedClip;
+use crate::ground::target_skeleton;
+use crate::input::clip_set;
+use crate::retarget::human_clip::HumanClip;
 
 /// A clip, and what its feet do.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,7 +93,7 @@ fn sentence<S: Serializer>(reason: &Unfit, serializer: S) -> Result<S::Ok, S::Er
 }
 
 fn source_gait(clip: &HumanClip) -> SourceGait {
-    let Performer { clip: grounded, gait: analysis, .. } = performer::analyze(clip);
+    let Performer { clip: grounded, gait: analysis, .. } = own_body::analyze(clip);
     let kind = match &analysis.windows {
         Ok(windows) if windows.iter().any(|window| matches!(window.gait, Gait::Steps(_))) => GaitKind::Steps,
         Ok(_) => GaitKind::Stands,

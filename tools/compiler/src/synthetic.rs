@@ -6,13 +6,13 @@ use glam::{DQuat, DVec2, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::motion::SourceRecord;
 
-use crate::arc::{Arc, Rates, rotation};
-use crate::cycle::{GaitCycle, mean_stride};
-use crate::gait::{self, Gait};
-use crate::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
-use crate::leg_ik::place_ankle;
-use crate::root_motion::ground;
-use crate::stride::Stride;
+use crate::cycle::mean_stride::{GaitCycle, mean_stride};
+use crate::gait::stride::Stride;
+use crate::gait::windows::{self, Gait};
+use crate::ground::arc::{Arc, Rates, rotation};
+use crate::ground::leg_ik::place_ankle;
+use crate::ground::root_motion::ground;
+use crate::retarget::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
 
 /// Ankle over the sole.
 const ANKLE_M: f64 = 0.09;
@@ -178,7 +178,7 @@ fn place_foot(pose: &mut HumanPose, walk: &Walk, body: &HumanBody, arc: &Arc, si
 /// The mean stride of a clip on its own body.
 pub(crate) fn cycle_of(clip: &HumanClip) -> GaitCycle {
     let grounded = ground(clip, &clip.body);
-    let analysis = gait::analyze(&grounded, &clip.body);
+    let analysis = windows::analyze(&grounded, &clip.body);
     let first = &analysis.windows.unwrap()[0];
     let Gait::Steps(strides) = &first.gait else { panic!("{first:?}") };
     mean_stride(&grounded, &clip.body, &analysis.stances[first.reading], strides)
@@ -186,7 +186,7 @@ pub(crate) fn cycle_of(clip: &HumanClip) -> GaitCycle {
 
 /// The strides of a clip's longest window.
 pub(crate) fn strides_of(clip: &HumanClip) -> Vec<Stride> {
-    let first = gait::analyze(&ground(clip, &clip.body), &clip.body).windows.unwrap().swap_remove(0);
+    let first = windows::analyze(&ground(clip, &clip.body), &clip.body).windows.unwrap().swap_remove(0);
     let Gait::Steps(strides) = first.gait else { panic!("{first:?}") };
     strides
 }

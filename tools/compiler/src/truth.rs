@@ -11,7 +11,7 @@ use std::{fs, io};
 
 use motiondb::motion::SourceRecord;
 
-use crate::human_clip::HumanClip;
+use crate::retarget::human_clip::HumanClip;
 
 /// Shorter clips tell too little.
 const JUDGED_FROM_S: f64 = 1.0;

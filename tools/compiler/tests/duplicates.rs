@@ -6,10 +6,10 @@ use std::path::Path;
 use motiondb::diagnostic::{Diagnostic, Unfit};
 use motiondb::motion::MotionDb;
 use motiondb_compiler::compile::compile_manifest;
-use motiondb_compiler::duplicates::pairs;
-use motiondb_compiler::human_clip::HumanClip;
+use motiondb_compiler::dedup::pairs;
 use motiondb_compiler::import::{clip_files, import};
-use motiondb_compiler::manifest::Manifest;
+use motiondb_compiler::input::manifest::Manifest;
+use motiondb_compiler::retarget::HumanClip;
 
 const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");

@@ -11,12 +11,12 @@ use std::path::{Path, PathBuf};
 use motiondb::motion::{PHASE_COUNT, PhaseMap};
 use motiondb_compiler::cycle::{GaitCycle, mean_stride};
 use motiondb_compiler::gait::Gait;
-use motiondb_compiler::human_clip::HumanClip;
+use motiondb_compiler::gait::own_body::{self, Performer};
+use motiondb_compiler::ground::ground;
 use motiondb_compiler::import;
-use motiondb_compiler::performer::{self, Performer};
-use motiondb_compiler::root_motion::ground;
+use motiondb_compiler::input::Take;
+use motiondb_compiler::retarget::HumanClip;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
-use motiondb_compiler::take::Take;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
 const LABELS: &str = include_str!("gait_events/labels.csv");
@@ -162,7 +162,7 @@ fn neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole() {
 
 /// Frames of the clip at which the events of its mean cycle come in each of its strides, by kind of event.
 fn key_frames(clip: &HumanClip) -> BTreeMap<(&'static str, &'static str), Vec<f64>> {
-    let Performer { body, clip: grounded, gait: analysis } = performer::analyze(clip);
+    let Performer { body, clip: grounded, gait: analysis } = own_body::analyze(clip);
     let shown = grounded.loop_frames.unwrap_or(0) as f64;
     let mut frames: BTreeMap<_, Vec<f64>> = BTreeMap::new();
     for window in analysis.windows.iter().flatten() {

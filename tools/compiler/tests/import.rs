@@ -11,12 +11,11 @@ use glam::DVec3;
 use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Unfit};
 use motiondb_compiler::error::Refusal;
-use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import::{Import, clip_files, import, import_bytes};
-use motiondb_compiler::skeleton_map::find_roles;
-use motiondb_compiler::source_clip::SourceClip;
+use motiondb_compiler::read::{SourceClip, bvh, gltf};
+use motiondb_compiler::retarget::{HumanClip, units};
+use motiondb_compiler::rig::find_roles;
 use motiondb_compiler::truth::{self, Truth};
-use motiondb_compiler::{bvh, gltf, units};
 
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
 

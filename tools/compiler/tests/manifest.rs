@@ -9,8 +9,7 @@ use motiondb::files::{Invalid, SourceText};
 use motiondb::motion::{MotionDb, MotionExample};
 use motiondb_compiler::compile::{Compiled, compile_manifest};
 use motiondb_compiler::compile_error::CompileError;
-use motiondb_compiler::manifest::Manifest;
-use motiondb_compiler::manifest::error::ManifestError;
+use motiondb_compiler::input::manifest::{Manifest, ManifestError};
 use proptest::prelude::*;
 
 const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");

@@ -6,7 +6,7 @@ use motiondb::motion::MotionDb;
 use motiondb::velocity_sets::velocity_hull::{Construction, is_turning, turning_point_mps};
 use motiondb_compiler::compile::compile_manifest;
 use motiondb_compiler::import::clip_files;
-use motiondb_compiler::manifest::Manifest;
+use motiondb_compiler::input::manifest::Manifest;
 
 const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 const MARINE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap/smartbody_converted");

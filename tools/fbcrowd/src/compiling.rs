@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use motiondb::velocity_sets::velocity_hull::Construction;
 use motiondb_compiler::compile::{self, Compiled};
-use motiondb_compiler::human_clip::HumanClip;
-use motiondb_compiler::manifest::Manifest;
+use motiondb_compiler::import;
+use motiondb_compiler::input::clip_set;
+use motiondb_compiler::input::manifest::Manifest;
 use motiondb_compiler::progress::Event;
 use motiondb_compiler::refused::Refused;
-use motiondb_compiler::{clip_set, import};
+use motiondb_compiler::retarget::HumanClip;
 
 use crate::failure::{Answer, Failure};
 use crate::output;

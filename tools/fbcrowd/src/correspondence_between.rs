@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use fbcrowd_render::plots::database::pose_distances_between;
 use fbcrowd_render::raster::png_frame;
 use motiondb::motion::{MotionDb, table};
-use motiondb_compiler::near_names::nearest_first;
+use motiondb_compiler::input::nearest_first;
 use serde::Serialize;
 
 use crate::failure::Failure;

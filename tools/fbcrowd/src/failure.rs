@@ -8,7 +8,7 @@ use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use motiondb::files::Invalid;
 use motiondb::motion::SourceRecord;
 use motiondb_compiler::compile_error::CompileError;
-use motiondb_compiler::manifest::error::ManifestError;
+use motiondb_compiler::input::manifest::ManifestError;
 use motiondb_compiler::refused::Refused;
 
 use crate::compile_report::CompileReport;

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use motiondb::motion::{MotionDb, MotionExample, Parameters};
 use motiondb_compiler::compile::{Options, compile};
-use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
+use motiondb_compiler::retarget::HumanClip;
 use serde::Serialize;
 
 use crate::failure::Failure;

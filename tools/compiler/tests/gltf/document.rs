@@ -4,8 +4,8 @@ use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import::{Import, import_bytes};
+use motiondb_compiler::retarget::HumanClip;
 use serde_json::{Value, json};
 
 /// Name, parent, offset in metres: a stiff-hipped walker of 19 joints.

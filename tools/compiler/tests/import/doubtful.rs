@@ -4,10 +4,10 @@ use std::path::Path;
 
 use motiondb::body::Joint;
 use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
-use motiondb_compiler::axis::Axis;
 use motiondb_compiler::error::{ImportError, Refusal};
 use motiondb_compiler::import::{Import, import_bytes, import_take};
-use motiondb_compiler::take::{Settings, Take};
+use motiondb_compiler::input::{Settings, Take};
+use motiondb_compiler::retarget::Axis;
 
 use super::written::bvh_text;
 
@@ -165,7 +165,7 @@ fn a_body_without_ankles_is_told_what_its_legs_seem_to_be() {
 
 #[test]
 fn a_file_of_positions_alone_is_refused() {
-    let clip = motiondb_compiler::bvh::read(Path::new("clip.bvh"), bvh_text().as_bytes()).unwrap();
+    let clip = motiondb_compiler::read::bvh::read(Path::new("clip.bvh"), bvh_text().as_bytes()).unwrap();
     let text = bvh_text();
     let (hierarchy, _) = text.split_once("MOTION").unwrap();
     let channels = |line: &str| match line.split_whitespace().next() {

@@ -5,11 +5,10 @@ use std::path::Path;
 
 use glam::DVec3;
 use motiondb::body::{JOINT_COUNT, Joint};
-use motiondb_compiler::skeleton_map::{Roles, find_roles};
-use motiondb_compiler::source_clip::SourceClip;
-use motiondb_compiler::source_parameters::{WholeClip, measure};
+use motiondb_compiler::read::SourceClip;
+use motiondb_compiler::retarget::{WholeClip, measure, units};
+use motiondb_compiler::rig::{Roles, find_roles};
 use motiondb_compiler::truth::Truth;
-use motiondb_compiler::units;
 
 use super::{locomotion, mocap, source};
 

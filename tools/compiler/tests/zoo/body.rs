@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
-use motiondb_compiler::bvh;
+use motiondb_compiler::read::bvh;
 
 pub(crate) const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 

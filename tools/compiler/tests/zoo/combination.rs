@@ -5,11 +5,10 @@ use std::path::Path;
 use glam::{DQuat, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Unfit};
-use motiondb_compiler::axis::Axis;
-use motiondb_compiler::bvh;
-use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import::import_bytes;
-use motiondb_compiler::skeleton_map::find_roles;
+use motiondb_compiler::read::bvh;
+use motiondb_compiler::retarget::{Axis, HumanClip};
+use motiondb_compiler::rig::find_roles;
 
 use super::body::Performance;
 use super::file::{self, File, RootOffset};

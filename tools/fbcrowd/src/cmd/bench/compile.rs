@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use motiondb::files::database_file;
-use motiondb_compiler::manifest::Manifest;
+use motiondb_compiler::input::manifest::Manifest;
 use motiondb_compiler::{compile, import};
 use serde::Serialize;
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
+use motiondb_compiler::retarget::HumanClip;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
 use serde::Serialize;
 

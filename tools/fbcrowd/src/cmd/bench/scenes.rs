@@ -9,8 +9,7 @@ use std::path::{Path, PathBuf};
 
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planning::Planner;
-use fbcrowd_sim::scenario::Coupling;
-use fbcrowd_sim::scenario::{self, AgentSpec, Scenario, agents_of_lines, fault_of_lines};
+use fbcrowd_sim::scenario::{self, AgentSpec, Coupling, Scenario, agents_of_lines, fault_of_lines};
 use motiondb::files::SourceText;
 
 use crate::failure::Failure;

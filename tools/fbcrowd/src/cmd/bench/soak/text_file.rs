@@ -6,7 +6,7 @@ use fbcrowd_sim::scenario;
 use motiondb::files::SourceText;
 use motiondb::motion::MotionDb;
 use motiondb_compiler::compile::compile_manifest;
-use motiondb_compiler::manifest::Manifest;
+use motiondb_compiler::input::manifest::Manifest;
 use motiondb_compiler::mutation::mutated;
 
 use crate::cmd::bench::soak::scratch::Scratch;

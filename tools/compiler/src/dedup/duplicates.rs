@@ -1,0 +1,322 @@
+//! The same take twice: under another name, at another frame rate, with a lying frame time, on another skeleton, as a
+//! part of the other or mirrored. Of each stretch one of the clips gives the example.
+//!
+//! `take_search` chooses which clips are compared, `same_take` decides of two clips, `shared_stretches` which of their
+//! windows give examples. Here all of it is put together, with a diagnostic for each clip that it concerns.
+
+use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
+use rayon::prelude::*;
+
+use crate::cycle::analysis::Analyzed;
+use crate::dedup::alignment::Alignment;
+use crate::dedup::frame_times::Neighbours;
+use crate::dedup::performance::Performance;
+use crate::dedup::same_take::Entry;
+use crate::dedup::shared_stretches::{self, Chosen, Mark};
+use crate::dedup::take_search::{self, LIST_MAX, Search};
+use crate::retarget::human_clip::{HumanBody, HumanClip};
+
+/// Clips that a diagnostic names; the others are counted.
+const NAMED_MAX: usize = 8;
+
+/// Two clips of one take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// Indices of the clips.
+    pub clips: [usize; 2],
+    /// The second on the first.
+    pub alignment: Alignment,
+    /// r of `performance`.
+    pub unlikeness: f64,
+}
+
+/// Takes from each clip the windows that a better copy of its take gives the examples of.
+pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [Analyzed], body: &HumanBody) {
+    let gives_example: Vec<bool> = analyzed.iter().map(|found| !found.windows.is_empty()).collect();
+    let search = search(clips, &gives_example);
+    let neighbours = neighbours(clips.len(), &found_pairs(&search));
+    let may_pair = |a: usize, b: usize| !are_parts_of_one_file(&clips[a], &clips[b]);
+    let chosen = shared_stretches::choose(clips, analyzed, &neighbours, body, may_pair);
+    for (clip, found) in analyzed.iter_mut().enumerate() {
+        found.diagnostics.extend(diagnostics(clips, &chosen, clip));
+        let mut aside = chosen.aside[clip].iter();
+        found.windows.retain(|_| aside.next().is_some_and(Option::is_none));
+    }
+    for clip in search.beyond_list {
+        let warning = Warning::NotCompared { compared: LIST_MAX as u32 };
+        analyzed[clip].diagnostics.push(Diagnostic::Warning(warning));
+    }
+}
+
+/// Every two clips of one take, in the clips' order; of a take of very many clips not every two (`take_search`).
+pub fn pairs(clips: &[HumanClip]) -> Vec<Pair> {
+    let mut pairs = found_pairs(&search(clips, &vec![true; clips.len()]));
+    pairs.sort_by_key(|pair| pair.clips);
+    pairs
+}
+
+/// Compares the clips, the longest first, those without examples only with the others.
+fn search(clips: &[HumanClip], gives_example: &[bool]) -> Search {
+    let duration_s = |clip: usize| clips[clip].frames.len() as f64 / clips[clip].frame_rate_hz;
+    let mut order: Vec<usize> = (0..clips.len()).collect();
+    order.sort_by(|&a, &b| gives_example[b].cmp(&gives_example[a]).then(duration_s(b).total_cmp(&duration_s(a))));
+    let entries: Vec<Entry> = clips.par_iter().map(|clip| Entry::new(Performance::of(clip))).collect();
+    let may_pair =
+        |better: usize, other: usize| gives_example[better] && !are_parts_of_one_file(&clips[better], &clips[other]);
+    take_search::search(&entries, &order, may_pair)
+}
+
+/// Each pair with its clips in ascending order.
+fn found_pairs(search: &Search) -> Vec<Pair> {
+    let pair = |&(better, other, found): &take_search::Found| match better < other {
+        true => Pair { clips: [better, other], alignment: found.alignment, unlikeness: found.unlikeness },
+        false => Pair { clips: [other, better], alignment: found.alignment.inverse(), unlikeness: found.unlikeness },
+    };
+    search.found.iter().map(pair).collect()
+}
+
+/// Of each clip those of its take, and how it lies on them.
+fn neighbours(count: usize, pairs: &[Pair]) -> Neighbours {
+    let mut neighbours = vec![Vec::new(); count];
+    for Pair { clips: [first, second], alignment, .. } in pairs {
+        neighbours[*second].push((*first, *alignment));
+        neighbours[*first].push((*second, alignment.inverse()));
+    }
+    neighbours
+}
+
+/// Of a clip: which other gives its examples; or, of the one that does, which others differ in their frame times.
+fn diagnostics(clips: &[HumanClip], chosen: &Chosen, clip: usize) -> Vec<Diagnostic> {
+    let windows = &chosen.aside[clip];
+    let aside: Vec<&Mark> = windows.iter().flatten().collect();
+    let own = match (&aside[..], windows.len()) {
+        ([], 0) => chosen.marks[clip].first().map(|mark| same_take(clips, mark, 0)),
+        ([], _) => None,
+        ([first, ..], all) if aside.len() == all => Some(Diagnostic::NoExample(no_example(clips, first))),
+        ([first, ..], _) => Some(same_take(clips, first, aside.len())),
+    };
+    own.into_iter().chain(of_other_times(clips, chosen, clip)).collect()
+}
+
+/// Of the clip that gives the examples of a take, where other clips show it at another frame time.
+fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<Diagnostic> {
+    let differs = |&clip: &usize| {
+        chosen.marks[clip].first().is_some_and(|mark| mark.giver == giver && mark.alignment.times_differ())
+    };
+    let all: Vec<usize> = (0..clips.len()).filter(differs).collect();
+    let others: Vec<String> = all.iter().take(NAMED_MAX).map(|&clip| title(&clips[clip])).collect();
+    let more = (all.len() - others.len()) as u32;
+    let warning = Warning::FrameTimesDiffer { others, more, mirrored: false, windows_left_out: 0 };
+    (!all.is_empty()).then_some(Diagnostic::Warning(warning))
+}
+
+fn no_example(clips: &[HumanClip], Mark { giver, alignment, .. }: &Mark) -> Unfit {
+    Unfit::SameTake {
+        other: title(&clips[*giver]),
+        mirrored: alignment.mirrored,
+        frame_times_differ: alignment.times_differ(),
+    }
+}
+
+fn same_take(clips: &[HumanClip], Mark { giver, alignment, .. }: &Mark, windows_left_out: usize) -> Diagnostic {
+    let (other, mirrored) = (title(&clips[*giver]), alignment.mirrored);
+    let windows_left_out = windows_left_out as u32;
+    match alignment.times_differ() {
+        true => {
+            Diagnostic::Warning(Warning::FrameTimesDiffer { others: vec![other], more: 0, mirrored, windows_left_out })
+        }
+        false => Diagnostic::Note(Note::SameTake { other, mirrored, windows_left_out }),
+    }
+}
+
+fn title(clip: &HumanClip) -> String {
+    format!("{} {}", clip.source.file, clip.source.clip).trim_end().to_owned()
+}
+
+/// Whoever cuts a capture in a manifest wants both parts.
+fn are_parts_of_one_file(a: &HumanClip, b: &HumanClip) -> bool {
+    (a.choices.is_cut || b.choices.is_cut) && a.source.file == b.source.file && a.source.clip == b.source.clip
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cycle::analysis::analyze;
+    use crate::ground::arc::Rates;
+    use crate::ground::target_skeleton;
+    use crate::retarget::human_clip::HumanPose;
+    use crate::select::mirror::mirror_pose;
+    use crate::synthetic::{Walk, idle, performance, walk};
+
+    fn bend() -> Walk {
+        Walk {
+            rates: Rates { speed_mps: 0.9, turn_rate_rad_s: 0.5, strafe_mps: 0.0 },
+            left_share: 0.53,
+            ..Walk::default()
+        }
+    }
+
+    /// The only pair of two clips.
+    #[track_caller]
+    fn check_one_take(one: HumanClip, other: HumanClip, mirrored: bool, times_differ: bool) {
+        let found = pairs(&[one, other]);
+        assert_eq!(found.len(), 1);
+        let Pair { alignment, unlikeness, .. } = found[0];
+        assert_eq!((alignment.mirrored, alignment.times_differ()), (mirrored, times_differ), "{found:?}");
+        assert!(unlikeness < 0.1, "{found:?}");
+    }
+
+    fn mirrored(mut clip: HumanClip) -> HumanClip {
+        clip.frames.iter_mut().for_each(|pose: &mut HumanPose| *pose = mirror_pose(pose));
+        clip
+    }
+
+    #[test]
+    fn a_take_is_known_at_another_rate_on_another_body_in_part_and_mirrored() {
+        let told = || walk("told", bend());
+        check_one_take(told(), walk("copy", bend()), false, false);
+        check_one_take(told(), walk("finer", Walk { frame_rate_hz: 100.0, ..bend() }), false, false);
+        let giant = Rates { speed_mps: 1.7 * 0.9, ..bend().rates };
+        check_one_take(told(), walk("giant", Walk { size: 1.7, rates: giant, ..bend() }), false, false);
+        let mut part = told();
+        part.frames = part.frames[70..200].to_vec();
+        check_one_take(told(), part.clone(), false, false);
+        check_one_take(mirrored(part), told(), true, false);
+    }
+
+    #[test]
+    fn a_lying_frame_time_hides_no_take() {
+        let mut slow = walk("slow", bend());
+        slow.frame_rate_hz = 25.0;
+        check_one_take(slow.clone(), walk("told", bend()), false, true);
+        let every_second = walk("coarse", Walk { frame_rate_hz: 30.0, ..bend() });
+        check_one_take(every_second, slow, false, true);
+    }
+
+    #[test]
+    fn other_walks_and_bodies_that_stand_are_other_takes() {
+        let straight = Rates { turn_rate_rad_s: 0.0, ..bend().rates };
+        let clips = [
+            walk("bend", bend()),
+            walk("straight", Walk { rates: straight, ..bend() }),
+            walk("quick", Walk { period_s: 0.95, ..bend() }),
+            walk("slow", Walk { period_s: 1.3, ..bend() }),
+            idle("idle", 3.0),
+        ];
+        assert_eq!(pairs(&clips), []);
+    }
+
+    /// Second at which each window begins that is left of each clip, and the clip's diagnostics.
+    fn left(clips: &[HumanClip]) -> Vec<(Vec<f64>, Vec<Diagnostic>)> {
+        let body = target_skeleton::choose(clips);
+        let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
+        set_aside(clips, &mut analyzed, &body);
+        let start_s = |found: &Analyzed| found.windows.iter().map(|window| window.window_s[0]).collect();
+        analyzed.iter().map(|found| (start_s(found), found.diagnostics.clone())).collect()
+    }
+
+    /// No example, for the other clip gives that of the same take.
+    fn same_take_as(other: String) -> Diagnostic {
+        Diagnostic::NoExample(Unfit::SameTake { other, mirrored: false, frame_times_differ: false })
+    }
+
+    /// Of the plain bend and another clip the other gives the example, and the bend's diagnostics name it.
+    #[track_caller]
+    fn check_gives(other: HumanClip) {
+        let mut clips = [walk("bend", bend()), other];
+        clips.iter_mut().for_each(|clip| clip.source.file = format!("{}.bvh", clip.name));
+        let wanted = same_take_as(clips[1].source.file.clone());
+        for clips in [clips.clone(), [clips[1].clone(), clips[0].clone()]] {
+            let left = left(&clips);
+            for (clip, (windows, found)) in clips.iter().zip(left) {
+                let is_bend = clip.name == "bend";
+                assert_eq!((windows.len(), found.contains(&wanted)), (usize::from(!is_bend), is_bend), "{found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_chosen_the_travelling_the_longer_and_the_finer_take_gives_the_example() {
+        check_gives(walk("longer", Walk { duration_s: 4.4, ..bend() }));
+        check_gives(walk("finer", Walk { frame_rate_hz: 120.0, ..bend() }));
+        let mut chosen = walk("chosen", Walk { duration_s: 3.6, ..bend() });
+        chosen.choices.is_target_skeleton = true;
+        check_gives(chosen);
+    }
+
+    #[test]
+    fn of_two_frame_times_the_one_at_which_legs_swing_as_people_s_do_gives_the_example() {
+        let told = || walk("told", Walk { duration_s: 8.0, ..bend() });
+        for share in [0.5, 2.0] {
+            let mut lying = walk("lying", Walk { duration_s: 8.1, ..bend() });
+            lying.frame_rate_hz *= share;
+            for clips in [[told(), lying.clone()], [lying, told()]] {
+                for (clip, (windows, found)) in clips.iter().zip(left(&clips)) {
+                    let gives = clip.name == "told";
+                    assert_eq!(windows.len(), usize::from(gives), "{} {found:?}", clip.name);
+                    let differs = |found: &Diagnostic| match found {
+                        Diagnostic::Warning(Warning::FrameTimesDiffer { .. }) => gives,
+                        Diagnostic::NoExample(Unfit::SameTake { frame_times_differ, .. }) => *frame_times_differ,
+                        _ => false,
+                    };
+                    assert!(found.iter().any(differs), "{found:?}");
+                }
+            }
+        }
+    }
+
+    /// The root gets ahead of the feet from a frame on.
+    fn sliding_from(mut clip: HumanClip, first: usize) -> HumanClip {
+        let ahead_m = 0.35 / clip.frame_rate_hz;
+        clip.frames.iter_mut().skip(first).enumerate().for_each(|(frame, pose)| {
+            pose.pelvis_m.x += ahead_m * frame as f64;
+        });
+        clip
+    }
+
+    #[test]
+    fn what_only_the_lesser_copy_shows_cleanly_gives_its_example() {
+        let turn = Rates { speed_mps: 0.6, turn_rate_rad_s: 0.9, strafe_mps: 0.0 };
+        let parts =
+            [walk("part", Walk { duration_s: 6.0, ..Walk::default() }), walk("part", Walk { rates: turn, ..bend() })];
+        let clean = performance("clean", &parts);
+        let longer = [&parts[..], &[idle("part", 2.0)]].concat();
+        let spoiled = sliding_from(performance("spoiled", &longer), 355);
+        let left = left(&[clean, spoiled]);
+        let [(of_clean, found), (of_spoiled, _)] = &left[..] else { panic!("{left:?}") };
+        assert!(of_clean.iter().any(|start_s| *start_s > 5.0), "{left:?}");
+        assert_eq!(of_clean.iter().chain(of_spoiled).filter(|start_s| **start_s < 5.0).count(), 1, "{left:?}");
+        assert!(matches!(found[..], [] | [Diagnostic::Note(Note::SameTake { .. })]), "{left:?}");
+    }
+
+    #[test]
+    fn of_hundreds_of_copies_one_gives_the_example_and_each_other_names_it_once() {
+        let copy = |index: usize| {
+            let mut clip = walk(&format!("{index:03}"), bend());
+            clip.source.file = clip.name.clone();
+            clip.frames.drain(..index % 23);
+            if index % 3 == 1 { mirrored(clip) } else { clip }
+        };
+        let clips: Vec<HumanClip> = (0..300).map(copy).collect();
+        let left = left(&clips);
+        let givers: Vec<usize> = (0..300).filter(|&clip| !left[clip].0.is_empty()).collect();
+        assert_eq!(givers.len(), 1);
+        let giver = &clips[givers[0]].name;
+        for (clip, (_, found)) in left.iter().enumerate().filter(|(clip, _)| *clip != givers[0]) {
+            let [Diagnostic::NoExample(Unfit::SameTake { other, .. })] = &found[..] else { panic!("{found:?}") };
+            assert_eq!(other, giver, "{clip}");
+        }
+        assert_eq!(left[givers[0]].1, []);
+    }
+
+    #[test]
+    fn parts_that_a_manifest_cuts_out_of_one_file_stay_two_clips() {
+        let part = |name: &str| {
+            let mut clip = walk(name, bend());
+            clip.source.file = "capture.bvh".into();
+            clip.choices.is_cut = true;
+            clip
+        };
+        assert_eq!(pairs(&[part("one"), part("other")]), []);
+    }
+}

@@ -1,0 +1,93 @@
+//! The source's up axis and unit, found from the posed body, and the clip in metres, Z up.
+//!
+//! Zero poses and OFFSETs do not tell (LaFAN1's bones all lie along +X, iClone's zero pose along Z): up is where the
+//! shoulders are from the feet on the average of all frames. The unit is the one that brings thigh + shank nearest to a
+//! person's.
+
+use glam::{DQuat, DVec3};
+use motiondb::body::Joint;
+
+use crate::read::source_clip::SourceClip;
+use crate::retarget::axis::Axis;
+use crate::rig::roles::Roles;
+
+/// Thigh and shank of a person, m: the median of the recorded performers of the development set.
+pub const HUMAN_LEG_M: f64 = 0.84;
+/// Children are performers more often than giants are: a leg that is too long is so many times as far off.
+const TOO_LONG: f64 = 2.0;
+/// Metres, decimetres, centimetres, millimetres, inches, and the CMU files' 1/0.45 inch.
+const UNITS_M: [f64; 6] = [1.0, 0.1, 0.01, 0.001, 0.0254, 0.0564444];
+
+/// How a source's numbers become metres with Z up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SourceUnits {
+    /// `+X` … `-Z`.
+    pub up_axis: String,
+    /// Metres of one source unit.
+    pub metres_per_unit: f64,
+}
+
+/// Turns and scales a clip to metres, Z up, and says what was found.
+pub fn to_metres_z_up(mut clip: SourceClip, roles: &Roles) -> (SourceClip, SourceUnits) {
+    let up = clip.up_axis.unwrap_or_else(|| found_up(&clip, roles));
+    let metres_per_unit = clip.metres_per_unit.unwrap_or_else(|| nearest_unit(leg_length(&clip, roles)));
+    let turn = DQuat::from_rotation_arc(up.direction(), DVec3::Z);
+    for position in &mut clip.positions {
+        *position = turn * *position * metres_per_unit;
+    }
+    for orientation in &mut clip.orientations {
+        *orientation = turn * *orientation;
+    }
+    (clip, SourceUnits { up_axis: up.name(), metres_per_unit })
+}
+
+/// Midpoint of a pair of roles in one frame.
+pub(crate) fn middle(clip: &SourceClip, roles: &Roles, pair: [Joint; 2], frame: usize) -> DVec3 {
+    0.5 * pair.map(|joint| clip.position(frame, roles.required(joint))).into_iter().sum::<DVec3>()
+}
+
+/// From the feet to the shoulders on the average of all frames.
+pub(crate) fn found_up(clip: &SourceClip, roles: &Roles) -> Axis {
+    let body: DVec3 = (0..clip.frame_count())
+        .map(|frame| middle(clip, roles, Joint::UPPER_ARMS, frame) - middle(clip, roles, Joint::FEET, frame))
+        .sum();
+    Axis::nearest(body)
+}
+
+/// Mean of both sides and all frames, in the clip's units.
+pub(crate) fn leg_length(clip: &SourceClip, roles: &Roles) -> f64 {
+    let bone = |frame, from: Joint, to: Joint| {
+        (clip.position(frame, roles.required(from)) - clip.position(frame, roles.required(to))).length()
+    };
+    let leg = |frame, side: usize| {
+        bone(frame, Joint::THIGHS[side], Joint::SHANKS[side]) + bone(frame, Joint::SHANKS[side], Joint::FEET[side])
+    };
+    let sum: f64 = (0..clip.frame_count()).map(|frame| 0.5 * (leg(frame, 0) + leg(frame, 1))).sum();
+    sum / clip.frame_count() as f64
+}
+
+fn nearest_unit(leg_units: f64) -> f64 {
+    let off = |unit: f64| {
+        let log = libm::log(leg_units * unit / HUMAN_LEG_M);
+        f64::max(-log, TOO_LONG * log)
+    };
+    UNITS_M.into_iter().min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap_or(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_unit_is_found_of_tall_people_and_of_children() {
+        for unit in UNITS_M {
+            for leg_m in [0.75, 0.84, 0.95] {
+                assert_eq!(nearest_unit(leg_m / unit), unit, "{leg_m} m in units of {unit} m");
+            }
+        }
+        // A child of five, recorded in inches; in 1/0.45 inch the same leg would be one of 1.14 m.
+        for unit in [1.0, 0.01, 0.001, 0.0254] {
+            assert_eq!(nearest_unit(0.515 / unit), unit, "in units of {unit} m");
+        }
+    }
+}
