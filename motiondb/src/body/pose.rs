@@ -101,6 +101,7 @@ impl Pose {
         })
     }
 
+    #[inline]
     fn posed_child(&self, skeleton: &Skeleton, index: usize, (parent_m, parent): (Vec3, Quat)) -> (Vec3, Quat) {
         (parent_m + parent * skeleton.offsets_m[index], parent * self.rotations[index])
     }

@@ -253,7 +253,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn all_agents_cross_the_circle_and_stand_at_their_goals() {
+    fn all_agents_cross_the_circle_and_stand() {
         let scenario = antipodal(17, 8.0);
         let frames = simulated(&scenario, 900);
         for (frame, agent) in frames.iter().zip(&scenario.agents) {

@@ -1,5 +1,5 @@
-//! Starts, stops and reversals on compiled clips: no foot hangs in the air or drags, and a body reverses on the feet that
-//! it stands on.
+//! Starts, stops and reversals on compiled clips: no foot hangs in the air or drags, and a body reverses on the feet
+//! that it stands on.
 
 mod clips;
 
@@ -195,7 +195,7 @@ fn a_body_reverses_without_dropping_its_hips() {
     let [backward, forward] = [Vec3::new(-0.5, 0.0, 0.0), Vec3::new(1.1, 0.0, 0.0)];
     for modes in [Modes::Blending, Modes::SemiProcedural] {
         let context = SynthesisContext::new(Arc::new(bundled()), HmsParams { modes, ..HmsParams::default() });
-        // Without a reversal of the phase: 10 and 12 cm while blending, 7 and 5 cm in semi-procedural locomotion.
+        // Without a reversal of the phase: 10 and 12 cm in the two modes, and 7 and 5 cm.
         for (from, to, limit_m) in [(backward, forward, 0.08), (forward, backward, 0.047)] {
             let drop_m = mean_drop_m(&context, from, to);
             assert!(drop_m < limit_m, "{modes:?} from {from} to {to}: hips drop by {drop_m} m");

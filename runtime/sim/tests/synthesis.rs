@@ -111,7 +111,8 @@ fn knees_neither_snap_nor_lock() {
         for side in 0..2 {
             assert!(earlier[side] > 0.1, "{} rad", earlier[side]); // 0.09 at the full length of the leg
             let speed_rad_s = (later[side] - earlier[side]).abs() / DT_S;
-            assert!(speed_rad_s < 10.0, "{speed_rad_s} rad/s"); // 8.5 in a runner's swing, 9.7 in a reversal from a step back
+            // 8.5 in a runner's swing, 9.7 in a reversal from a step back.
+            assert!(speed_rad_s < 10.0, "{speed_rad_s} rad/s");
         }
     }
 }

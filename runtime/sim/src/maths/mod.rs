@@ -1,4 +1,5 @@
-//! Geometry and numbers that several chapters use: angles, arcs, polygons, distances, exponential decay, random numbers.
+//! Geometry and numbers that several chapters use: angles, arcs, polygons, distances, exponential decay, random
+//! numbers.
 //!
 //! Each file stands alone.
 

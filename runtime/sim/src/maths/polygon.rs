@@ -1,5 +1,5 @@
-//! Area, simplicity and containment of polygons. Corners are f32; signs are decided in f64, whose products of differences
-//! are exact enough.
+//! Area, simplicity and containment of polygons. Corners are f32; signs are decided in f64, whose products of
+//! differences are exact enough.
 //!
 //! World frame, metres.
 

@@ -10,8 +10,8 @@
 
 use glam::Vec3;
 
-/// Squared sine of the angle below which two lines count as parallel; then the ends decide, which for segments of 1 m is
-/// off by less than 0.01 mm.
+/// Squared sine of the angle below which two lines count as parallel; then the ends decide, which for segments of 1 m
+/// is off by less than 0.01 mm.
 const PARALLEL_SINE_SQUARED: f32 = 1e-6;
 
 /// A segment; both ends may be one point.

@@ -9,8 +9,6 @@ use motiondb::motion::Parameters;
 
 use crate::maths::arc::moved_root;
 use crate::planning::plan::Plan;
-use crate::synthesis::blending::Reachable;
-use crate::synthesis::command::CommandState;
 use crate::synthesis::command::start_stop::{feet_gathered, first_step_phase};
 use crate::synthesis::hybrid::MotionState;
 use crate::synthesis::pose::ContactState;
@@ -22,8 +20,9 @@ impl Body {
     pub fn advance(&mut self, context: &SynthesisContext, plan: &Plan, step: &TimeStep) {
         let Self { root, actual_mps, command, motion, contact, look_at } = self;
         let plan = command.accumulator.follow(plan, *actual_mps, step);
-        let reachable = follow_plan(command, motion, &plan, root.facing_rad, context, step);
-        if starts_to_step(command, motion.mode, &reachable, contact, root, context, step) {
+        let reachable = command.follow(&plan, root.facing_rad, motion.deformed(context), context, step);
+        let feet_gathered = || feet_gathered(contact, root, &context.domain);
+        if motion.mode == Mode::Blending && command.step_state.follow(&reachable, feet_gathered, step.dt_s) {
             let phase = first_step_phase(command.filter.command, contact, root, &context.domain);
             motion.jump(context, step, |motion| motion.phase = phase);
         }
@@ -43,35 +42,6 @@ impl Body {
         }
         look_at.follow(&plan, root.facing_rad, step);
     }
-}
-
-/// Follows a plan with the command, for the synthesis in force. Returns what the examples reach of it.
-fn follow_plan(
-    command: &mut CommandState,
-    motion: &MotionState,
-    plan: &Plan,
-    facing_rad: f32,
-    context: &SynthesisContext,
-    step: &TimeStep,
-) -> Reachable {
-    match motion.base_walk(context) {
-        Some(base_walk) => command.follow_base_walk(plan, facing_rad, motion.parameters, base_walk, context, step),
-        None => command.follow_blending(plan, facing_rad, context, step),
-    }
-}
-
-/// Follows a command with the step state, while the body blends. Returns whether the body starts to step.
-fn starts_to_step(
-    command: &mut CommandState,
-    mode: Mode,
-    reachable: &Reachable,
-    contact: &ContactState,
-    root: &Root,
-    context: &SynthesisContext,
-    step: &TimeStep,
-) -> bool {
-    let feet_gathered = || feet_gathered(contact, root, &context.domain);
-    mode == Mode::Blending && command.step_state.follow(reachable, feet_gathered, step.dt_s)
 }
 
 /// Moves the root along the arc of the parameters. Returns its velocity, world, m/s.

@@ -12,8 +12,8 @@ use crate::synthesis::pose::{ContactState, LookAt};
 
 /// A simulated body.
 ///
-/// Each step it follows a plan ([`advance`](Self::advance)), may be kept out of walls ([`place_root`](Self::place_root)),
-/// and is posed ([`synthesize`](Self::synthesize)).
+/// Each step it follows a plan ([`advance`](Self::advance)), may be kept out of walls
+/// ([`place_root`](Self::place_root)), and is posed ([`synthesize`](Self::synthesize)).
 ///
 /// ```no_run
 /// use std::path::Path;
@@ -44,7 +44,7 @@ pub struct Body {
     pub root: Root,
     /// Velocity of the root in the last step, after walls, world, m/s.
     pub(crate) actual_mps: Vec2,
-    /// What the plans want the body to do.
+    /// What the body is to do.
     pub(crate) command: CommandState,
     /// The motion in play.
     pub motion: MotionState,

@@ -34,7 +34,8 @@
 //! # Chapters
 //!
 //! Each chapter depends only on those before it: `mode`, `params` and `time_step` (nothing but numbers), [`pose`],
-//! [`blending`], [`semi_procedural`], [`library`], [`command`], [`hybrid`], `body`, `advance` and `synthesize`.
+//! [`blending`], [`semi_procedural`], [`library`], [`command`], [`hybrid`], `body`, then `advance`, `synthesize` and
+//! `walk_alone`.
 //!
 //! The state of a [`Body`] is grouped likewise: `CommandState`, [`MotionState`](hybrid::MotionState), `ContactState`,
 //! `LookAt`.

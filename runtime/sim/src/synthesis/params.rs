@@ -28,10 +28,10 @@ pub struct HmsParams {
     pub acceleration_max_mps2: f32,
     /// Greatest change of the turn rate, rad/s².
     pub turn_acceleration_max_rad_s2: f32,
-    /// Greatest speed of ankles and wrists due to a change of weights alone, m/s: root mean square over the cycle.
-    /// It keeps poses from flipping where simplices are slim.
+    /// Greatest speed of ankles and wrists due to a change of weights alone, m/s: root mean square over the cycle. It
+    /// keeps poses from flipping where simplices are slim.
     pub pose_change_max_mps: f32,
-    /// T_turn: the turn rate is the angle to the wanted facing divided by this time, s.
+    /// T_turn: the turn rate is the angle to the planned facing divided by this time, s.
     pub turn_time_s: f32,
     /// d_thresh of Eq. 1, in the units of the density filter, 1/m: above it a body uses semi-procedural locomotion.
     pub density_threshold: f32,

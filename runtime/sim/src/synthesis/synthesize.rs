@@ -3,7 +3,7 @@
 //! [`Body::synthesize`] lists the stages. Root frame (x forward, y left, z up); metres, seconds.
 
 use glam::Vec3;
-use motiondb::body::{Root, RootFrame};
+use motiondb::body::{Root, RootFrame, Skeleton};
 use motiondb::motion::wrapped;
 
 use crate::planning::plan::{PLANTED_CONTACT, Stance};
@@ -36,7 +36,8 @@ impl Body {
         let Self { root, motion, contact, look_at, .. } = self;
         let (skeleton, frame) = (&context.db.skeleton, root.frame());
         let active = motion.active(context);
-        let (mut posture, held_up) = inertialized(&active, motion.phase, &motion.inertialization, context);
+        let mut posture = active_posture(motion, &active, context);
+        let held_up = inertialize(&mut posture, &motion.inertialization, skeleton);
         look_at.turn(&mut posture.pose, skeleton);
         let planted = [0, 1].map(|side| posture.contacts[side] >= PLANTED_CONTACT && !held_up[side]);
         let contacts_ahead = contacts_ahead(&active, motion.phase, context);
@@ -48,24 +49,25 @@ impl Body {
     }
 }
 
-/// The posture of the active motion under the pose difference that a switch has left, and which feet that difference
-/// keeps off the ground.
-fn inertialized(
-    active: &ActiveMotion,
-    phase: f32,
-    inertialization: &Inertialization,
-    context: &SynthesisContext,
-) -> (Posture, [bool; 2]) {
-    if !inertialization.is_active() {
-        return (active.posture(context, phase), [false; 2]);
+/// The posture of the active motion; its legs are bent where a pose difference is to be added.
+fn active_posture(motion: &MotionState, active: &ActiveMotion, context: &SynthesisContext) -> Posture {
+    if motion.inertialization.is_active() {
+        active.bent_posture(context, motion.phase)
+    } else {
+        active.posture(context, motion.phase)
     }
-    let skeleton = &context.db.skeleton;
-    let mut posture = active.bent_posture(context, phase);
+}
+
+/// Adds the pose difference that a switch has left. Returns which feet it keeps off the ground.
+fn inertialize(posture: &mut Posture, inertialization: &Inertialization, skeleton: &Skeleton) -> [bool; 2] {
+    if !inertialization.is_active() {
+        return [false; 2];
+    }
     let before_m = posture.soles_m(skeleton);
     inertialization.add_to(&mut posture.pose);
     posture.retarget_feet(skeleton);
     let after_m = posture.soles_m(skeleton);
-    (posture, [0, 1].map(|side| is_held_up(&before_m[side], &after_m[side])))
+    [0, 1].map(|side| is_held_up(&before_m[side], &after_m[side]))
 }
 
 /// Whether the pose difference lifts a foot off the ground. To plant it at once would be a jerk.

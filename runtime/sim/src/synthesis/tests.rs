@@ -113,7 +113,7 @@ fn feet_move_without_jumps() {
 }
 
 #[test]
-fn the_foot_on_the_side_of_the_step_makes_it() {
+fn the_foot_on_the_side_makes_the_first_step() {
     for (angle_rad, side) in [(1.2, 0), (-1.2, 1)] {
         let walk = walk(1.0, DT_S, |_, _| Plan { facing_rad: 0.0, ..towards(angle_rad, 0.5) });
         let first = walk.steps.iter().find(|step| step.1.contacts != [1.0; 2] && step.1.stance.foot.is_some());
@@ -238,7 +238,8 @@ proptest! {
     fn inside_the_hull_a_body_does_what_is_requested(weights in prop::array::uniform11(0.0f32..1.0)) {
         let db = test_db();
         let sum: f32 = weights[1..].iter().sum();
-        let terms = db.examples[1..].iter().zip(&weights[1..]).map(|(example, weight)| example.parameters.to_vec3() * *weight);
+        let weighted = db.examples[1..].iter().zip(&weights[1..]);
+        let terms = weighted.map(|(example, weight)| example.parameters.to_vec3() * *weight);
         let requested = Parameters::from_vec3(terms.sum::<Vec3>() / sum * (1.0 - 0.1 * weights[0]));
         prop_assume!(BlendDomain::new(&db).reachable(requested).idle_share < 0.3);
         let params = HmsParams::default();

@@ -1,9 +1,10 @@
 //! Decay factors of one time step, computed once and shared by all bodies.
 //!
-//! A quantity with time constant T keeps the share e^(−dt/T) over a step. A critically damped spring of rate r,
-//! `x'' = −2r·x' − r²·x`, takes an offset x and its rate of change v over a step exactly to
+//! A quantity with time constant T keeps the share e^(−dt/T) over a step. A critically damped spring of rate r takes an
+//! offset x and its rate of change v exactly to x' and v':
 //!
 //! ```text
+//! d²x/dt² = −2r·dx/dt − r²·x
 //! x' = e^(−r·dt)·(x + dt·(v + r·x)),   v' = e^(−r·dt)·(v − r·dt·(v + r·x)).
 //! ```
 //!
@@ -12,35 +13,35 @@
 
 use std::ops::{Add, Mul, Sub};
 
-/// Time constant with which saved displacement is forgotten (`displacement_accumulator`), s.
-/// A plan slower than 5 cm/s never adds up to a step.
+/// Time constant with which saved displacement is forgotten (`displacement_accumulator`), s. A plan slower than 5 cm/s
+/// never adds up to a step.
 const DISPLACEMENT_TIME_S: f32 = 4.0;
-/// T_r, time constant of the steady rate of change of commands (`command_filter`), s.
-/// It is longer than two steps of 0.1 s, over which plans alternate.
+/// T_r, time constant of the steady rate of change of commands (`command_filter`), s. It is longer than two steps of
+/// 0.1 s, over which plans alternate.
 const COMMAND_RATE_TIME_S: f32 = 0.15;
 /// Time constant of pose smoothing (`pose_smoothing`), s: a fifth of the duration of the fastest change of speed.
 const SMOOTHING_TIME_S: f32 = 0.05;
-/// Time constant with which the usual lag of the feet is learnt (`phase_catch_up`), s: an adult's stride at 100 steps
-/// a minute.
+/// Time constant with which the usual lag of the feet is learnt (`phase_catch_up`), s: an adult's stride at 100 steps a
+/// minute.
 const USUAL_LAG_TIME_S: f32 = 1.2;
 /// Rate of the spring that turns the direction of travel about (`pose_smoothing`), 1/s: the legs reverse in one step.
 const TRAVEL_RATE_HZ: f32 = 10.0;
-/// Rate of the spring that turns head and chest (`look_at`), 1/s.
-/// From straight ahead to the greatest angle the head then turns at 200 °/s, as in a glance.
+/// Rate of the spring that turns head and chest (`look_at`), 1/s. From straight ahead to the greatest angle the head
+/// then turns at 200 °/s, as in a glance.
 const LOOK_AT_RATE_HZ: f32 = 12.0;
-/// Rate of the spring that removes the difference of poses after a switch (`inertialization`), 1/s.
-/// A switch happens at mid-stance: 14 % is left when the next foot lands (0.3 s), 5 % after a step (0.4 s).
+/// Rate of the spring that removes the difference of poses after a switch (`inertialization`), 1/s. A switch happens at
+/// mid-stance: 14 % is left when the next foot lands (0.3 s), 5 % after a step (0.4 s).
 const INERTIA_RATE_HZ: f32 = 12.0;
-/// Time after which the difference of poses at a switch has decayed, s: 5 % is left.
+/// Time after which the difference of poses at a switch has decayed (`hybrid_data`), s: 5 % is left.
 pub const INERTIA_DURATION_S: f32 = 0.4;
-/// Interval before a switch over which the rate of the pose difference is taken, s; a shorter step replaces it.
+/// Interval over which the rate of a pose difference is taken (`inertialization`), s; a shorter step replaces it.
 const LOOK_BACK_S: f32 = 1.0 / 120.0;
 /// Rate of the filter that releases a foot lock (`foot_lock`), 1/s: 2 % is left after 0.25 s, before the foot lands.
 const LOCK_RELEASE_RATE_HZ: f32 = 30.0;
 /// Rate of the filter that lowers a planted sole to the ground and lifts a swinging one (`foot_lock`), 1/s.
 const FOOT_LIFT_RATE_HZ: f32 = 80.0;
-/// Time constant with which a foot that lands while it still moves comes to rest (`foot_lock`), s.
-/// It is well within the tenth of a stance in which the sole rolls down; at once would jerk the knee.
+/// Time constant with which a foot that lands while it still moves comes to rest (`foot_lock`), s. It is well within
+/// the tenth of a stance in which the sole rolls down; at once would jerk the knee.
 pub(crate) const LANDING_TIME_S: f32 = 0.012;
 /// Time constant of the mean speed of a foot (`foot_lock`), s: the speed jumps at each row of the database.
 const FOOT_SPEED_TIME_S: f32 = 0.03;
@@ -125,8 +126,8 @@ impl Spring {
     }
 }
 
-/// A critically damped filter of the third order over one step. Its acceleration starts at its present value; that of
-/// a spring jumps to −r²·x.
+/// A critically damped filter of the third order over one step. Its acceleration starts at its present value; that of a
+/// spring jumps to −r²·x.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SoftSpring(Spring);
 

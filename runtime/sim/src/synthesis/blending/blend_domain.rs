@@ -11,8 +11,8 @@ use motiondb::velocity_sets::velocity_hull::is_holding;
 use crate::synthesis::blending::example_mix::ExampleMix;
 use crate::synthesis::blending::pose_landmarks::PoseLandmarks;
 
-/// Greatest number of iterations for the shares of steps and standing. Two suffice where the steps lie behind the query
-/// as seen from standing.
+/// Greatest number of iterations for the shares of steps and standing. Two suffice where the steps lie straight beyond
+/// the query.
 const BESIDE_ITERATIONS: usize = 16;
 
 /// The blend domain of one database.
@@ -23,7 +23,7 @@ pub struct BlendDomain {
     parameters: Vec<Parameters>,
     /// Whether each example stands.
     stands: Vec<bool>,
-    /// What tells how far a change of weights moves the pose.
+    /// Landmarks that measure how far a change of weights moves the pose.
     pub(crate) landmarks: PoseLandmarks,
     /// Factor of each axis of (v_f, ω_t, ω_s) in distances; 0 for an axis without range.
     axis_scale: Vec3,

@@ -78,7 +78,7 @@ mod tests {
     use crate::test_db::test_db;
 
     #[test]
-    fn a_change_of_weights_is_as_great_as_that_of_the_pose() {
+    fn the_change_grows_with_that_of_the_pose() {
         let landmarks = PoseLandmarks::new(&test_db());
         let change_m = |to: u32| landmarks.change_m([(1, -1.0), (to, 1.0)].into_iter());
         assert!(change_m(1) == 0.0 && change_m(2) > 0.02 && change_m(3) > change_m(2));

@@ -8,9 +8,9 @@
 //! ```
 //!
 //! A plan whose facing follows its velocity has b = 0 and requests a turning example, at the speed that brings the body
-//! where the plan leads; at full speed a body that faces elsewhere would leave the path. A plan that holds the facing has
-//! α = 0 and requests a side-step or a step back. The exact planned velocity during a turn, with a side-step of a·sin α,
-//! lies so far outside the examples that the nearest point of their hull hardly turns. m_sp can follow it.
+//! where the plan leads; at full speed a body that faces elsewhere would leave the path. A plan that holds the facing
+//! has α = 0 and requests a side-step or a step back. The exact planned velocity has a side-step during a turn,
+//! a·sin α. It lies so far outside the examples that the nearest point of their hull hardly turns; m_sp can follow it.
 //!
 //! Plans are in the world, parameters in the body's frame (x forward, y left); m/s, radians, rad/s.
 
@@ -44,8 +44,8 @@ pub(crate) fn requested_of_blending(
     Parameters { speed_mps: local_mps.x, turn_rate_rad_s, strafe_mps: local_mps.y.clamp(right_mps, left_mps) }
 }
 
-/// Parameters requested of a body in semi-procedural locomotion that faces `facing_rad`: the planned velocity itself. The body turns
-/// by `turning_rad` during the step, and its chord lies at half of that.
+/// Parameters requested of a body in semi-procedural locomotion that faces `facing_rad`: the planned velocity itself.
+/// The body turns by `turning_rad` during the step, and its chord lies at half of that.
 pub(crate) fn requested_of_base_walk(
     plan: &Plan,
     facing_rad: f32,

@@ -2,8 +2,8 @@
 //!
 //! Two agents that avoid each other change their plans at every step. A body that followed at once would tremble; one
 //! with a constant lag would fall behind a plan that really changes. So the lag depends on how steadily the requests
-//! change (the "1 € filter": Casiez, Roussel, Vogel 2012). With x the request and y the command, per axis of
-//! (v_f, ω_t, ω_s), m/s and rad/s,
+//! change (the "1 € filter": Casiez, Roussel, Vogel 2012). x is the request, y the command, on each axis of
+//! (v_f, ω_t, ω_s), m/s and rad/s:
 //!
 //! ```text
 //! r' = (x' − r)/T_r,   y' = (x − y)/τ,   τ = τ_0/(1 + |r|/r_0).
@@ -23,8 +23,8 @@ use crate::synthesis::TimeStep;
 const LAG_S: f32 = 0.15;
 /// r_0: steady rate of change at which the lag halves, m/s² and rad/s².
 const LAG_HALVING_RATE: f32 = 1.0;
-/// Half of this duration is the least lead of a command, s; half of a step is the lead of its plan.
-/// At 0.1 s bodies that avoid each other accelerate more than they need.
+/// Half of this duration is the least lead of a command, s; half of a step is the lead of its plan. At 0.1 s bodies
+/// that avoid each other accelerate more than they need.
 const LEAD_STEP_S: f32 = 0.05;
 /// Limit of the rate of change between two requests, m/s² and rad/s²: what a body can follow.
 const RATE_MAX: f32 = 3.0;
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn a_constant_world_velocity_does_not_lag_in_a_turn() {
+    fn a_constant_world_velocity_does_not_lag() {
         let mut filter = CommandFilter::default();
         let request = |facing_rad: f32| Parameters {
             speed_mps: libm::cosf(facing_rad),

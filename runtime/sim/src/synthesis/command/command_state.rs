@@ -1,4 +1,6 @@
-//! The command group of a body's state: what its plans want it to do.
+//! The command group of a body's state: what the body is to do.
+//!
+//! Plans are in the world, parameters (v_f, ω_t, ω_s) in the body's frame; m/s, rad/s.
 
 use motiondb::motion::Parameters;
 
@@ -29,34 +31,29 @@ impl CommandState {
         Self { accumulator, filter, step_state: StepState::STANDING }
     }
 
-    /// Follows a plan while the body blends. Returns what the examples reach of the command.
-    pub(crate) fn follow_blending(
+    /// Follows a plan. `deformed` is the base walk and its current parameters in semi-procedural locomotion, `None`
+    /// while the body blends. Returns what the examples reach of the command.
+    pub(crate) fn follow(
         &mut self,
         plan: &Plan,
         facing_rad: f32,
+        deformed: Option<(&BaseWalk, Parameters)>,
         context: &SynthesisContext,
         step: &TimeStep,
     ) -> Reachable {
-        let requested = requested_of_blending(plan, facing_rad, &context.domain, &context.params);
-        self.filter.follow(requested, self.step_state.stands, step);
-        self.step_state.reachable(&self.filter, &context.domain)
-    }
-
-    /// Follows a plan in semi-procedural locomotion, at present at `current`. Returns what the examples reach of the
-    /// command.
-    pub(crate) fn follow_base_walk(
-        &mut self,
-        plan: &Plan,
-        facing_rad: f32,
-        current: Parameters,
-        base_walk: &BaseWalk,
-        context: &SynthesisContext,
-        step: &TimeStep,
-    ) -> Reachable {
-        let turning_rad = step.dt_s * current.turn_rate_rad_s;
-        self.filter.turn(turning_rad);
-        let requested = requested_of_base_walk(plan, facing_rad, turning_rad, base_walk, &context.params);
-        self.filter.follow(requested, false, step);
-        context.domain.reachable(self.filter.command)
+        let Self { filter, step_state, .. } = self;
+        let SynthesisContext { domain, params, .. } = context;
+        match deformed {
+            None => {
+                filter.follow(requested_of_blending(plan, facing_rad, domain, params), step_state.stands, step);
+                step_state.reachable(filter, domain)
+            }
+            Some((base_walk, current)) => {
+                let turning_rad = step.dt_s * current.turn_rate_rad_s;
+                filter.turn(turning_rad);
+                filter.follow(requested_of_base_walk(plan, facing_rad, turning_rad, base_walk, params), false, step);
+                domain.reachable(filter.command)
+            }
+        }
     }
 }

@@ -1,16 +1,17 @@
 //! Phase catch-up: the phase runs faster or slower than its own rate, so that it catches up with the planted feet.
 //!
-//! When a body speeds up within a step, its planted foot is further back than the faster steps have it at this phase. The
-//! phase then runs faster, and the foot meets the pose again before the leg must stretch; when the body slows down, the
-//! reverse. With c the shift of a planted foot against the pose's, and u the velocity at which the root carries a foot,
-//! the feet lag by the time that explains both shifts best,
+//! When a body speeds up within a step, its planted foot is further back than the faster steps have it at this phase.
+//! The phase then runs faster, and the foot meets the pose again before the leg must stretch; when the body slows down,
+//! the reverse. c is the shift of a planted foot against the pose's, u the velocity at which the root carries a foot.
+//! The feet lag by the time that explains both shifts best,
 //!
 //! ```text
 //! t = −Σ c·u / Σ u²,
 //! ```
 //!
-//! in which the foot that moves further in a turn weighs more. Only the part of t beyond its usual value counts: examples
-//! whose planted feet slide shift every foot a little, step by step, and the phase would run fast forever.
+//! in which the foot that moves further in a turn weighs more. Only the part of t beyond its usual value counts.
+//! Examples with sliding feet shift every foot a little, step by step; without the usual value the phase would run fast
+//! forever.
 //!
 //! World frame; metres, seconds.
 
@@ -95,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn the_phase_slows_down_for_leading_feet_until_that_is_usual() {
+    fn the_phase_slows_down_for_leading_feet() {
         let factors = factors(0.2, 12.0);
         let mean = |of: &[f32]| of.iter().sum::<f32>() / of.len() as f32;
         assert!(mean(&factors[..30]) < 0.9, "{}", mean(&factors[..30]));

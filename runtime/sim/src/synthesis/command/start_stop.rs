@@ -1,6 +1,6 @@
 //! The feet of a body that starts or stops to step: which foot makes the first step, and when both are under the body.
 //!
-//! Positions are those of the balls of the feet, relative to those of a standing body; metres. Pairs are `[left, right]`.
+//! Positions are those of the balls of the feet, relative to those of a standing body, metres.
 
 use glam::Vec2;
 use motiondb::body::Root;
@@ -17,8 +17,8 @@ const LIFT_OFF_PHASE: f32 = 0.15;
 /// Lead of a foot, m, up to which it makes the first step to its own side.
 const SIDE_LEAD_M: f32 = 0.1;
 
-/// Phase of the first step. The phase of a standing body is free, since standing hardly moves. The step begins with the
-/// lift of the foot that is further behind, or on the side of the step, so that the other foot is under the body.
+/// Phase of the first step; the phase of a standing body is free, since standing hardly moves. The foot that lifts is
+/// the one further behind, or the one on the side of the step. So the other foot is under the body.
 pub(crate) fn first_step_phase(command: Parameters, contact: &ContactState, root: &Root, domain: &BlendDomain) -> f32 {
     let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = command;
     let (direction, frame) = (Vec2::new(speed_mps, strafe_mps).normalize_or_zero(), root.frame());

@@ -21,7 +21,7 @@ pub(crate) const PLAYBACK_RATE_MIN: f32 = 0.3;
 /// Share of standing in the command below which a standing body starts to step.
 pub const START_IDLE_SHARE: f32 = 0.8;
 /// Share of standing in the command above which a stepping body stops. The slowest steps have
-/// 1 − [`PLAYBACK_RATE_MIN`]·(1 − [`IDLE_SHARE_MAX`]) = 0.805, between start and stop.
+/// 0.805 = 1 − [`PLAYBACK_RATE_MIN`]·(1 − [`IDLE_SHARE_MAX`]), between start and stop.
 const STOP_IDLE_SHARE: f32 = 0.82;
 /// Share of standing in the command above which a stepping body stops at once: not even a direction is left.
 const HALT_IDLE_SHARE: f32 = 0.95;
@@ -54,8 +54,8 @@ impl StepState {
     /// A body that stands and may start at once.
     pub(crate) const STANDING: Self = Self { stands: true, duration_s: STATE_DURATION_S, gathering_s: 0.0 };
 
-    /// Follows what the examples reach of the command, with hysteresis. `feet_gathered` tells whether the feet are under
-    /// the body. Returns whether the body starts to step.
+    /// Follows what the examples reach of the command, with hysteresis. `feet_gathered` returns whether the feet are
+    /// under the body. Returns whether the body starts to step.
     pub(crate) fn follow(&mut self, reachable: &Reachable, feet_gathered: impl FnOnce() -> bool, dt_s: f32) -> bool {
         let idle_share = reachable.idle_share.min(idle_share_max(reachable.parameters));
         let may_change = self.duration_s >= STATE_DURATION_S;

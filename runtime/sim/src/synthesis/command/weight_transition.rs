@@ -1,8 +1,8 @@
 //! Weight transition: how the shares of a mix change over time, at limited accelerations of the root and at a limited
 //! speed of the pose.
 //!
-//! The root moves straight from its current parameters towards the target. The shares are those of the next point on the
-//! line, so a body passes the examples between. In two cases the shares move to those at the target instead:
+//! The root moves straight from its current parameters towards the target. The shares are those of the next point on
+//! the line, so a body passes the examples between. In two cases the shares move to those at the target instead:
 //!
 //! - where simplices are slim, poses differ much from one such point to the next, and following them would take too
 //!   long;

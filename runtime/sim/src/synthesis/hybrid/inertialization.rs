@@ -1,5 +1,5 @@
-//! Inertialization (Bollo 2018): after a switch the body moves on as it did, and the difference of poses decays on top of
-//! the new synthesis. Only the new one is computed; nothing is cross-faded.
+//! Inertialization (Bollo 2018): after a switch the body moves on as it did, and the difference of poses decays on top
+//! of the new synthesis. Only the new one is computed; nothing is cross-faded.
 //!
 //! A difference is an offset of the pelvis and a rotation vector for each joint, each with its rate of change. Each
 //! decays like a critically damped spring that starts at that rate, so neither pose nor velocity jumps.
@@ -15,8 +15,8 @@ use crate::synthesis::TimeStep;
 /// Difference, and rate of change, below which inertialization ends, m and rad, per second.
 const NEGLIGIBLE: f32 = 1e-4;
 
-/// A difference of two poses: offset of the pelvis, m, then the rotation vector of each joint, rad. Plain numbers let the
-/// compiler emit vector instructions.
+/// A difference of two poses: offset of the pelvis, m, then the rotation vector of each joint, rad. Plain numbers let
+/// the compiler emit vector instructions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PoseDifference([[f32; 3]; 1 + JOINT_COUNT]);
 
@@ -25,8 +25,8 @@ struct PoseDifference([[f32; 3]; 1 + JOINT_COUNT]);
 pub(crate) struct Inertialization(Option<[PoseDifference; 2]>);
 
 impl Inertialization {
-    /// Takes up the difference of a switch. `old` and `new` are the poses of both syntheses, now and `interval_s` before,
-    /// without any difference that is left.
+    /// Takes up the difference of a switch. `old` and `new` are the poses of both syntheses, now and `interval_s`
+    /// before, without any difference that is left.
     pub(crate) fn begin(&mut self, old: [&Pose; 2], new: [&Pose; 2], interval_s: f32) {
         let [now, before] = [0, 1].map(|time| PoseDifference::between(old[time], new[time]));
         let rate = now.combined(1.0 / interval_s, &before, -1.0 / interval_s);
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn the_pose_moves_on_and_ends_in_the_new_synthesis() {
+    fn the_pose_moves_on_into_the_new_synthesis() {
         let speed_rad_s = 1.5;
         let before = 0.3 - speed_rad_s * INTERVAL_S;
         let mut inertialization = Inertialization::default();

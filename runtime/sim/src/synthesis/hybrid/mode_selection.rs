@@ -7,8 +7,8 @@
 //! semi-procedural   otherwise
 //! ```
 //!
-//! Hysteresis keeps a body from changing to and fro: the return to blending needs both with a margin, and each selection
-//! has a least duration. A body that stands, or is to stand, blends, since m_sp only walks.
+//! Hysteresis keeps a body from changing to and fro: the return to blending needs both with a margin, and each
+//! selection has a least duration. A body that stands, or is to stand, blends, since m_sp only walks.
 
 use crate::planning::plan::Plan;
 use crate::synthesis::{Mode, Modes};
@@ -44,7 +44,7 @@ impl ModeSelection {
     /// The selection of a body that stands.
     pub(crate) const BLENDING: Self = Self { mode: Mode::Blending, duration_s: DURATION_MIN_S };
 
-    /// Follows a plan. `walks_on` tells whether the body walks and is to go on walking.
+    /// Follows a plan. `walks_on` is true if the body walks and is to continue.
     pub(crate) fn follow(&mut self, plan: &Plan, walks_on: bool, thresholds: &ModeThresholds, dt_s: f32) {
         self.duration_s += dt_s;
         let mode = match (walks_on, thresholds.modes) {

@@ -62,9 +62,10 @@ impl MotionState {
         }
     }
 
-    /// m_sp where semi-procedural locomotion is in force.
-    pub(crate) fn base_walk<'a>(&self, context: &'a SynthesisContext) -> Option<&'a BaseWalk> {
-        context.hybrid.as_ref().filter(|_| self.mode == Mode::SemiProcedural).map(|hybrid| &hybrid.base_walk)
+    /// The base walk and its current parameters in semi-procedural locomotion; `None` while the body blends.
+    pub(crate) fn deformed<'a>(&self, context: &'a SynthesisContext) -> Option<(&'a BaseWalk, Parameters)> {
+        let hybrid = context.hybrid.as_ref().filter(|_| self.mode == Mode::SemiProcedural);
+        hybrid.map(|hybrid| (&hybrid.base_walk, self.parameters))
     }
 
     /// The active motion at the present phase, as it is drawn.
@@ -113,9 +114,9 @@ impl MotionState {
 
     /// Advances the phase by a duration of the motion's own time, s.
     pub(crate) fn advance_phase(&mut self, duration_s: f32, context: &SynthesisContext) {
-        self.phase = match self.base_walk(context) {
-            Some(base_walk) => {
-                let map = Tempo::new(base_walk, self.parameters, self.smoothed[0].travel).phase_map();
+        self.phase = match self.deformed(context) {
+            Some((base_walk, parameters)) => {
+                let map = Tempo::new(base_walk, parameters, self.smoothed[0].travel).phase_map();
                 advanced_phase(self.phase, duration_s, |phase| map.rate_hz(phase))
             }
             None => self.mix.advanced_phase(&context.db, self.phase, duration_s),

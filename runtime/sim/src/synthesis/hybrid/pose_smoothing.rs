@@ -1,13 +1,13 @@
 //! Pose smoothing: the drawn motion follows the motion in play with a short lag.
 //!
 //! Weights and parameters change at limited rates that begin and end at once; joints that followed at once would jerk.
-//! So the pose is that of a mix, and of an m_sp, that lag a little; planted feet are locked meanwhile. The root does not
-//! depend on it, so tracking is as accurate as without.
+//! So the pose is that of a mix, and of an m_sp, that lag a little; planted feet are locked meanwhile. The root does
+//! not depend on it, so tracking is as accurate as without.
 //!
-//! A body that reverses would step with the wrong foot: a foot that has just landed behind a backward walk would be about
-//! to leave the ground in a forward one. Gait in the other direction is nearly gait in reversed time (Winter, Pluck, Yang
-//! 1989), and phases 0 and ½ are mid-stances. So on reversal the gait phase φ becomes 1 − φ, at which the feet keep their
-//! positions.
+//! A body that reverses would step with the wrong foot: a foot that has just landed behind a backward walk would be
+//! about to leave the ground in a forward one. Gait in the other direction is nearly gait in reversed time (Winter,
+//! Pluck, Yang 1989), and phases 0 and ½ are mid-stances. So on reversal the gait phase φ becomes 1 − φ, at which the
+//! feet keep their positions.
 //!
 //! Body frame (x forward, y left); m/s, rad/s, seconds.
 

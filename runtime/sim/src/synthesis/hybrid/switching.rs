@@ -1,5 +1,5 @@
-//! Switching: when one synthesis replaces the other, at which phase, and what it leaves to inertialization
-//! (`FbCrowd` §3.4.1, App. 10).
+//! Switching (`FbCrowd` §3.4.1, App. 10): when one synthesis replaces the other, at which phase, and what it leaves to
+//! inertialization.
 //!
 //! Root frame (x forward, y left, z up), metres; parameters in m/s and rad/s.
 
@@ -28,7 +28,7 @@ impl MotionState {
         context.hybrid.as_ref().filter(|_| changes).map(|hybrid| hybrid.partner)
     }
 
-    /// §3.4.1: selects the synthesis. `walks_on` tells whether the body walks and is to go on walking.
+    /// §3.4.1: selects the synthesis. `walks_on` is true if the body walks and is to continue.
     pub(crate) fn select(&mut self, plan: &Plan, walks_on: bool, context: &SynthesisContext, dt_s: f32) {
         let Some(hybrid) = &context.hybrid else { return };
         let HmsParams { modes, density_threshold, .. } = context.params;
@@ -39,9 +39,9 @@ impl MotionState {
     /// App. 10, Eqs. 10 and 15: switches to the selected synthesis at a pair of T that the step from `phase_before` has
     /// passed.
     ///
-    /// The body keeps its velocity, and inertialization carries the difference of poses. The paper first moves the weights
-    /// to m_mb alone ([`Transition::ThroughMMb`]), so at the very moment that a collision threatens its body walks at the
-    /// velocity of m_mb.
+    /// The body keeps its velocity, and inertialization carries the difference of poses. The paper first moves the
+    /// weights to m_mb alone ([`Transition::ThroughMMb`]), so at the very moment that a collision threatens its body
+    /// walks at the velocity of m_mb.
     pub(crate) fn switch(&mut self, phase_before: f32, context: &SynthesisContext, step: &TimeStep) {
         let (from, to) = (self.mode, self.selection.mode);
         let Some(hybrid) = context.hybrid.as_ref().filter(|_| from != to) else { return };

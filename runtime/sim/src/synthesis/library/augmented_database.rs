@@ -1,8 +1,8 @@
 //! The augmented database: a database in memory with all that bodies of a crowd need.
 //!
-//! Many sets of clips hold a few straight walks. With them bodies cannot turn, the planner has a line of velocities, and
-//! a crowd collides or stands. Semi-procedural locomotion supplies what is missing: deformed cycles of m_sp join the
-//! examples, and blend space and velocity sets are built anew. They are never written to a file.
+//! Many sets of clips hold a few straight walks. With them bodies cannot turn, the planner has a line of velocities,
+//! and a crowd collides or stands. Semi-procedural locomotion supplies what is missing: deformed cycles of m_sp join
+//! the examples, and blend space and velocity sets are built anew. They are never written to a file.
 
 use std::sync::Arc;
 
@@ -21,7 +21,8 @@ use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
 const NEEDED: [Lack; 4] = [Lack::Walking, Lack::WalkingTurns, Lack::TurningInPlace, Lack::SideSteps];
 
 /// Parameters of the cycles that fill each coverage gap, over the speed of m_sp: speed, turn rate in rad/m, side speed.
-/// Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s; `fbcrowd bench reach` finds them well in reach.
+/// Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s; `fbcrowd bench reach` finds them well in
+/// reach.
 const FILLING: [(Lack, Vec3); 11] = [
     (Lack::Walking, Vec3::new(1.0, 0.0, 0.0)),
     (Lack::Walking, Vec3::new(0.5, 0.0, 0.0)),

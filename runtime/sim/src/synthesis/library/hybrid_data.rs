@@ -1,9 +1,9 @@
 //! What hybrid synthesis derives from a database (`FbCrowd` §5, App. 10): the base walk m_sp, the phases T at which
 //! synthesis may switch, and t_trans, the greatest duration of a switch.
 //!
-//! Of T only the pairs near mid-stance are used. Then one foot rests flat on the ground in both syntheses, the other
-//! passes it in the air, and neither lands nor leaves while the difference of poses is greatest. A foot that lands with a
-//! difference meets the ground at another time and pitch than its pose does, which jerks the knee.
+//! Of T only the pairs near mid-stance are used. There one foot rests flat on the ground in both syntheses, and the
+//! other passes it in the air. Neither lands nor leaves while the difference of poses is greatest. A foot that lands
+//! with a difference meets the ground at another time and pitch than its pose does, which jerks the knee.
 
 use motiondb::motion::{MotionDb, Parameters};
 
@@ -45,8 +45,8 @@ impl HybridData {
         })
     }
 
-    /// Eqs. 10 and 15: jump of the phase at the first pair that the cycle of `from` has passed between two phases; `None`
-    /// if it has passed none.
+    /// Eqs. 10 and 15: jump of the phase at the first pair that the cycle of `from` has passed between two phases;
+    /// `None` if it has passed none.
     pub fn phase_jump(&self, from: Mode, before: f32, now: f32) -> Option<f32> {
         let passed = (now - before).rem_euclid(1.0);
         let at = if from == Mode::SemiProcedural { 0 } else { 1 };
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn the_gap_after_the_last_pair_leads_over_phase_0() {
+    fn the_last_gap_leads_over_phase_0() {
         assert!((longest_gap(&[[0.1, 0.1], [0.3, 0.3]]).unwrap() - 0.8).abs() < 1e-6);
         assert_eq!(longest_gap(&[[0.1, 0.1]]), Some(1.0));
         assert_eq!(longest_gap(&[]), None);

@@ -28,8 +28,8 @@ impl ContactState {
         Self { locks: [0, 1].map(lock), pelvis_drop: PelvisDrop::default() }
     }
 
-    /// Moves the feet of a posture to their locks and lowers its pelvis by what the legs then require.
-    /// `contacts_ahead` are the contacts [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later.
+    /// Moves the feet of a posture to their locks and lowers its pelvis by what the legs then require. `contacts_ahead`
+    /// are the contacts [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later.
     pub(crate) fn lock_feet(
         &mut self,
         posture: &mut Posture,

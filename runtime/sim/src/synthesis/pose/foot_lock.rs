@@ -1,11 +1,11 @@
 //! Foot lock: a planted foot stays in position, rolls from heel over ball to toe, and is released softly.
 //!
 //! Weights by shares of time hold planted feet while the weights are constant. While they change, or where turning
-//! examples blend, the foot of the pose drifts. A lock is the rigid motion from the pose's foot to the drawn one:
-//! a horizontal shift c, a twist ψ about the vertical, and a lift.
+//! examples blend, the foot of the pose drifts. A lock is the rigid motion from the pose's foot to the drawn one: a
+//! horizontal shift c, a twist ψ about the vertical, and a lift.
 //!
-//! - *Planted*: c and ψ cancel the motion of the lowest sole point and the turning of the foot. The contact point rests;
-//!   the foot still rolls, because the pose determines its pitch.
+//! - *Planted*: c and ψ cancel the motion of the lowest sole point and the turning of the foot. The contact point
+//!   rests; the foot still rolls, because the pose determines its pitch.
 //! - *Swinging*: c and ψ decay by a critically damped filter of the third order that starts at their rates. Neither
 //!   velocity nor acceleration of the foot jumps at toe-off.
 //!
@@ -98,7 +98,7 @@ impl FootLock {
     pub(crate) fn step(&mut self, posed: &PosedFoot, planted: bool, contact_ahead: f32, step: &TimeStep) -> LockedFoot {
         let heading_m = posed.heading_m();
         let (lowest, height_m) = posed.lowest();
-        // A foot lands at some time within the step, where the pose has it now. The lock holds it from the next step on.
+        // A foot lands within the step, where the pose has it now. The lock holds it from the next step on.
         if planted && self.planted {
             self.hold(posed, lowest, angle_between_rad(self.heading_m, heading_m), step);
         } else {
@@ -172,7 +172,7 @@ impl FootLock {
     }
 
     /// Moves the lift towards its target: a planted sole settles on the ground, a swinging one keeps its clearance. No
-    /// sole goes below the ground.
+    /// sole moves below the ground.
     fn lift(&mut self, height_m: f32, contact_ahead: f32, step: &TimeStep) {
         let [before_m, target_m] =
             [self.height_m, height_m].map(|height_m| self.target_lift_m(height_m, contact_ahead));

@@ -2,7 +2,7 @@
 //!
 //! It keeps the pelvis high in long strides (Kerrigan, Della Croce, Marciello, Riley 2000, "A refined view of the
 //! determinants of gait: significance of heel rise"); a body with flat feet would crouch. ℓ is the length that the leg
-//! lacks beyond what it lacks in the pose, u the direction from hip to ankle, t the toe joint relative to the ankle, and
+//! lacks beyond what it lacks in the pose. u is the direction from hip to ankle, t the toe joint relative to the ankle,
 //! y the foot's axis to the left. The foot turns by
 //!
 //! ```text

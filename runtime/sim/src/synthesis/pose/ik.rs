@@ -17,8 +17,8 @@ use crate::synthesis::pose::leg::{FootPose, PosedLeg};
 const EXTENSION_MAX: f32 = 0.999;
 /// Least distance from hip to ankle over the difference of thigh and shank: so does that of a folded knee.
 const FLEXION_MARGIN: f32 = 1.001;
-/// Distance of a straight leg's knee before the line from hip to ankle, m: it gives the leg a plane, bent forward.
-/// At 1 mm the knee swings out to the side where the pose difference after a switch straightens the leg.
+/// Distance of a straight leg's knee before the line from hip to ankle, m: it gives the leg a plane, bent forward. At 1
+/// mm the knee swings out to the side where the pose difference after a switch straightens the leg.
 const KNEE_AHEAD_M: f32 = 0.02;
 /// 1 + cosine of the angle above which rounding leaves two directions no common axis: π − 1 mrad.
 const OPPOSITE: f32 = 5e-7;
@@ -80,8 +80,9 @@ fn knee_direction(knee_m: Vec3, forward: Vec3, line: Vec3) -> Vec3 {
     (knee_m + (libm::sqrtf(ahead_m * ahead_m + KNEE_AHEAD_M * KNEE_AHEAD_M) - ahead_m) * forward).normalize()
 }
 
-/// The shortest rotation from the direction of one vector to that of another, not normalised, given the product of their
-/// lengths. Exact for small angles. Opposite vectors give a half turn about any axis across; a zero vector gives none.
+/// The shortest rotation from the direction of one vector to that of another, not normalised, given the product of
+/// their lengths. Exact for small angles. Opposite vectors give a half turn about any axis across; a zero vector gives
+/// none.
 fn shortest_arc(from: Vec3, to: Vec3, lengths: f32) -> Quat {
     let (cross, one_plus_cosine) = (from.cross(to), lengths + from.dot(to));
     if one_plus_cosine > OPPOSITE * lengths {

@@ -4,7 +4,8 @@
 //! 7, 1170–1174; Courtine and Schieppati 2003, *Eur. J. Neurosci.* 18, 177–190), and the more the sharper the turn
 //! (Sreenivasa et al. 2008, *Exp. Brain Res.* 191, 313–320). The look-at angle, relative to the facing, follows the
 //! planned facing and direction of travel like a critically damped spring. A body turns at the angle to its planned
-//! facing divided by T_turn ([`crate::synthesis::command::blend_query`]), so on a circle the look-at leads it by T_turn.
+//! facing divided by T_turn ([`crate::synthesis::command::blend_query`]), so on a circle the look-at leads it by
+//! T_turn.
 //!
 //! Spine, neck and head share the angle, each within its joint limits. Root and legs do not depend on it.
 //!
@@ -149,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_looks_where_it_side_steps_but_not_backward() {
+    fn a_body_looks_aside_but_not_backward() {
         let looked_rad = |velocity_mps| target_rad(&Plan { velocity_mps, ..Plan::default() }, 0.0);
         assert!(looked_rad(Vec2::new(0.0, 0.6)) > 0.3 && looked_rad(Vec2::new(1.2, -0.2)) < -0.05);
         assert_eq!(looked_rad(Vec2::new(-0.8, 0.0)), 0.0);

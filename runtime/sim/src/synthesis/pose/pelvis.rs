@@ -10,9 +10,9 @@
 //!
 //! - *Deformed walk*: the pelvis keeps its height over the straighter leg. The drop is D = ⌈d, d′⌉ − ⌈d⁰, d⁰′⌉ (the
 //!   prime marks the other leg) where D > 0. Where D < 0 the pelvis rises by a share of it.
-//! - *Locked feet*: the pelvis only drops. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at the pose's
-//!   own foot, never less than d, and a little before the leg is straight. The drop is a soft maximum of both legs'.
-//!   The pelvis drops at once and rises slowly ([`PelvisDrop`]).
+//! - *Locked feet*: the pelvis only drops. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at the
+//!   pose's own foot, never less than d, and a little before the leg is straight. The drop is a soft maximum of both
+//!   legs'. The pelvis drops at once and rises slowly ([`PelvisDrop`]).
 //!
 //! Root frame (x forward, y left, z up), metres.
 
@@ -24,15 +24,15 @@ use crate::synthesis::pose::leg::{FootPose, PosedLeg};
 
 /// Greatest length of a leg over thigh plus shank before the pelvis drops. A pose with a straighter leg keeps it.
 pub(crate) const EXTENSION: f32 = 0.99;
-/// Greatest length of a leg over thigh plus shank in any case: a knee flexed by 6°.
-/// A blend may be straighter than its examples; beyond this the knee would snap at the end of the leg.
+/// Greatest length of a leg over thigh plus shank in any case: a knee flexed by 6°. A blend may be straighter than its
+/// examples; beyond this the knee would snap at the end of the leg.
 const EXTENSION_MAX: f32 = 0.9985;
 /// Greatest drop of the pelvis, m.
 pub(crate) const DROP_MAX_M: f32 = 0.12;
 /// Softness s for locked feet, m: less than the hips bob in walking. At 0.01 m knees snap at stops.
 pub(crate) const SOFTNESS_M: f32 = 0.014;
-/// Share of a negative D by which the pelvis rises in a deformed walk.
-/// At 1, short strides would lift the pelvis higher at foot strike than at mid-stance.
+/// Share of a negative D by which the pelvis rises in a deformed walk. At 1, short strides would lift the pelvis higher
+/// at foot strike than at mid-stance.
 const RISE_SHARE: f32 = 0.45;
 /// Softness for deformed walks, m: what a knee flexed by 15° lacks until its leg is straight.
 const DEFORMED_SOFTNESS_M: f32 = 0.006;
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_deformed_walk_keeps_the_height_over_the_straighter_leg() {
+    fn a_deformed_walk_keeps_its_height() {
         assert!(spread_drop_m(0.15, 0.0).abs() < 1e-6 && spread_drop_m(0.6, 0.0).abs() < 1e-6);
         let step_m = 0.005;
         let drops_m: Vec<f32> = (0..60).map(|step| spread_drop_m(0.3, step as f32 * step_m)).collect();
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_foot_out_of_reach_lowers_the_pelvis_to_the_limit() {
+    fn the_drop_is_limited() {
         assert!((drops_m(0.0, 100.0).0 - DROP_MAX_M).abs() < 1e-6);
     }
 }

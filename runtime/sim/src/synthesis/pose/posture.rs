@@ -44,8 +44,8 @@ impl Posture {
         self.feet = feet;
     }
 
-    /// Moves the targets to those of foot locks. `pelvis_drop` receives the drop of the pelvis that the legs require, m,
-    /// and returns the drop that it makes.
+    /// Moves the targets to those of foot locks. `pelvis_drop` receives the drop of the pelvis that the legs require,
+    /// m, and returns the drop that it makes.
     pub fn lock_feet(&mut self, feet: [FootPose; 2], pelvis_drop: impl FnOnce(f32) -> f32) {
         self.lower(pelvis_drop(pelvis::locked_drop_m(&self.legs, &self.feet, &feet)));
         self.feet = feet;

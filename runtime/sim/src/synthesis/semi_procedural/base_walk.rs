@@ -2,12 +2,13 @@
 //! that deformation reaches.
 //!
 //! The feet of m_sp become positions on the ground and times for which the root has carried them
-//! ([`crate::synthesis::semi_procedural::foot_path`]). At other parameters the same positions are carried along the arc of
-//! *those* parameters, for carried time / cadence. Planted feet then hold by construction, at any speed, direction and
-//! turn, and the swing stretches with the stride. [`crate::synthesis::semi_procedural::deformation`] makes the poses.
+//! ([`crate::synthesis::semi_procedural::foot_path`]). At other parameters the same positions are carried along the arc
+//! of *those* parameters, for carried time / cadence. Planted feet then hold by construction, at any speed, direction
+//! and turn, and the swing stretches with the stride. [`crate::synthesis::semi_procedural::deformation`] makes the
+//! poses.
 //!
-//! Root frame (x forward, y left, z up); metres, seconds, radians. Pairs are `[left, right]`. `docs/tuning.md` holds the
-//! measurements behind the constants.
+//! Root frame (x forward, y left, z up); metres, seconds, radians. Pairs are `[left, right]`. `docs/tuning.md` holds
+//! the measurements behind the constants.
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::body::JOINT_COUNT;
@@ -16,8 +17,8 @@ use motiondb::motion::{MotionDb, PHASE_COUNT, Parameters, PhaseMap};
 use crate::synthesis::semi_procedural::foot_path::{FootPathPoint, foot_path};
 use crate::synthesis::semi_procedural::landing::Landing;
 
-/// Weight of side speed against forward speed in the cadence: side-steps are short and quick. Bundled side-steps of 0.35
-/// and 0.6 m/s give 3.1 and 3.2.
+/// Weight of side speed against forward speed in the cadence: side-steps are short and quick. Bundled side-steps of
+/// 0.35 and 0.6 m/s give 3.1 and 3.2.
 const STRAFE_EFFORT: f32 = 3.2;
 /// Weight of backward speed against forward speed in the cadence: backward strides are 0.7 of forward ones.
 const BACKWARD_EFFORT: f32 = 1.4;
@@ -32,8 +33,8 @@ const FORWARD_MAX: f32 = 1.8;
 const BACKWARD_MAX: f32 = 1.1;
 /// Greatest side speed over the speed of m_sp; `fbcrowd bench reach` measures what legs reach, which is more.
 const STRAFE_MAX: f32 = 1.1;
-/// Turn rate at which the greatest forward and backward speeds would shrink to 0, rad/s: the body leans into a turn, and
-/// its feet stand outward.
+/// Turn rate at which the greatest forward and backward speeds would shrink to 0, rad/s: the body leans into a turn,
+/// and its feet stand outward.
 const TURN_END_RAD_S: f32 = 6.9;
 /// Turn rate at which the greatest side speed would shrink to 0, rad/s: legs spread for both, so it shrinks sooner.
 const STRAFE_TURN_END_RAD_S: f32 = 4.8;

@@ -2,11 +2,11 @@
 //!
 //! - Cadence and stride share a change of speed: each grows with its square root, so their ratio is constant (walk
 //!   ratio).
-//! - Backward gait is nearly forward gait in reversed time (Winter, Pluck, Yang 1989). Phases 0 and ½ are mid-stances, so
-//!   −φ is the reversed cycle. A body that walks backward plays it; one that side-steps plays the mean of both, whose
-//!   legs swing neither forward nor backward.
-//! - Hips oscillate down to the landing of each foot ([`crate::synthesis::semi_procedural::landing`]); otherwise they keep
-//!   their height over the straighter leg.
+//! - Backward gait is nearly forward gait in reversed time (Winter, Pluck, Yang 1989). Phases 0 and ½ are mid-stances,
+//!   so −φ is the reversed cycle. A body that walks backward plays it. A body that side-steps plays the mean of both,
+//!   in which legs swing neither forward nor backward.
+//! - Hips oscillate down to the landing of each foot ([`crate::synthesis::semi_procedural::landing`]); otherwise they
+//!   keep their height over the straighter leg.
 //! - Foot positions move apart in side-steps and turns, so that legs do not cross, and outward where the body leans.
 //! - The amplitude of hips, trunk and arms grows with the stride.
 //!
@@ -239,8 +239,8 @@ impl<'a> Deformation<'a> {
         FootPathPoint { orientation: mixed.orientation.normalize(), ..mixed }
     }
 
-    /// Displacement that keeps a mixed foot from slipping, m. Its roll and the reversed roll turn about ball and heel, so
-    /// their mean slips; the lower of both points returns to its position at mid-stance.
+    /// Displacement that keeps a mixed foot from slipping, m. Its roll and the reversed roll turn about ball and heel,
+    /// so their mean slips; the lower of both points returns to its position at mid-stance.
     fn anti_slip_m(&self, skeleton: &Skeleton, foot: &FootPathPoint, side: usize) -> Vec3 {
         let Foot { heel_m, ball_m, .. } = skeleton.feet[side];
         let [heel_off_m, ball_off_m] = [heel_m, ball_m].map(|point_m| foot.orientation * point_m);

@@ -1,7 +1,7 @@
 //! The path of a foot in one cycle, split into what the root does and what the foot does.
 //!
-//! A point of the path is a *position* on the ground under the body at mid-stance, and the time for which the root has
-//! *carried* the foot back from there along its arc:
+//! A point of the path has two parts. The *position* lies on the ground under the body at mid-stance. The *carried
+//! time* is the time for which the root has carried the foot back from there along its arc:
 //!
 //! ```text
 //! ankle(φ) = arc⁻¹(carried(φ)) · position(φ)
@@ -52,8 +52,8 @@ pub(crate) fn foot_path(
 /// Carried times of a foot, row by row of the example, s.
 ///
 /// While the foot stands, it is the time since mid-stance; the difference between root and ankle displacement is the
-/// foot's roll. In the swing the roll goes from its value at toe-off to that at the strike, on a cubic that meets both
-/// rates. The remaining displacement is carried.
+/// foot's roll. In the swing the roll changes from its value at toe-off to that at the strike, on a cubic that meets
+/// both rates. The remaining displacement is carried.
 fn carried_times_s(example: &MotionExample, key_times_s: [f32; 4], side: usize, ankles_m: &[Vec3]) -> Vec<f32> {
     let [right_off_s, right_strike_s, left_off_s, left_strike_s] = key_times_s;
     let (middle, off_s, strike_s) =

@@ -1,10 +1,10 @@
 //! Landing: how low the hips must be as a foot lands; the longer the stride, the lower.
 //!
 //! Hips rise and fall twice in a stride, as the legs spread and close (Kuo 2007, "The six determinants of gait and the
-//! inverted pendulum analogy"). If they came down only where a leg runs out, they would drop by centimetres within 0.1 s,
-//! onto a knee that gives way. m_sp gives the length of the legs as its feet land, in either direction of time. How much
-//! lower the hips must be for the same length in another stride is thus known ahead of every landing, and the hips
-//! oscillate down to it.
+//! inverted pendulum analogy"). If they came down only where a leg runs out, they would drop by centimetres within 0.1
+//! s, onto a knee that bends under them. m_sp gives the length of the legs as its feet land, in either direction of
+//! time. So the drop that keeps this length in another stride is known ahead of every landing. The hips oscillate down
+//! to it.
 //!
 //! Root frame (x forward, y left, z up), metres; seconds; phases.
 
@@ -54,8 +54,8 @@ impl Landing {
     }
 }
 
-/// Share of the drop at a time after a landing, in half-strides: 1 at each landing, 0 half-way between two.
-/// cos² πh to 2 %, without a call.
+/// Share of the drop at a time after a landing, in half-strides: 1 at each landing, 0 half-way between two. cos² πh to
+/// 2 %, without a call.
 pub(crate) fn drop_share(half_strides: f32) -> f32 {
     let off = half_strides - libm::roundf(half_strides);
     let square = off * off;
@@ -75,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn the_drop_grows_with_length_and_width_of_the_stride() {
+    fn the_drop_grows_with_the_stride() {
         let landing = landing();
         let drop_m =
             |ahead_m: f32, aside_m: f32, outward_m: f32| landing.drop_m(Vec2::new(ahead_m, aside_m), outward_m);
