@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::planning::baselines::orca::OrcaParams;
 use crate::planning::baselines::social_force::SocialForceParams;
 use crate::planning::mcn::params::McnParams;
-use crate::synthesis::params::HmsParams;
+use crate::synthesis::HmsParams;
 
 /// Tunables of the planners and of synthesis.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

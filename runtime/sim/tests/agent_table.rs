@@ -6,7 +6,7 @@ use common::{agent, folder, header, record, standing_at};
 use fbcrowd_sim::measures::agent_table::write_table;
 use fbcrowd_sim::planning::VelocitySet;
 use fbcrowd_sim::recording::AgentFrame;
-use fbcrowd_sim::synthesis::hybrid::Mode;
+use fbcrowd_sim::synthesis::Mode;
 use glam::Vec2;
 use motiondb::body::Root;
 

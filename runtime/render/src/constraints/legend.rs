@@ -2,7 +2,7 @@
 
 use fbcrowd_sim::planning::orca::{HalfPlane, Source};
 use fbcrowd_sim::planning::{Planner, VelocitySet};
-use fbcrowd_sim::synthesis::hybrid::Mode;
+use fbcrowd_sim::synthesis::Mode;
 use glam::Vec2;
 
 use crate::constraints::overlay_constraints::Planned;

@@ -14,7 +14,7 @@ use crate::planning::plan::VelocitySet;
 use crate::recording::Recording;
 use crate::recording::frame::AgentFrame;
 use crate::route::arrival::Arrival;
-use crate::synthesis::hybrid::mode::Mode;
+use crate::synthesis::Mode;
 
 /// In the order of their fields.
 const COLUMNS: [&str; 21] = [

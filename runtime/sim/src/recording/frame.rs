@@ -4,8 +4,8 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::body::{JOINT_COUNT, Pose, Root};
 
 use crate::planning::plan::VelocitySet;
-use crate::synthesis::Synthesis;
-use crate::synthesis::hybrid::mode::Mode;
+use crate::synthesis::BodyOutput;
+use crate::synthesis::Mode;
 
 /// One agent in one frame, decoded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,11 +39,11 @@ pub struct AgentFrame {
 
 impl AgentFrame {
     /// Takes up what synthesis made of a step.
-    pub fn show(&mut self, synthesis: &Synthesis) {
-        self.contacts = synthesis.contacts;
-        self.time_to_landing_s = synthesis.stance.foot.map_or(0.0, |foot| foot.time_to_landing_s);
-        self.examples_slide_cm_s = synthesis.examples_slide_cm_s;
-        self.pose = synthesis.pose;
+    pub fn show(&mut self, output: &BodyOutput) {
+        self.contacts = output.contacts;
+        self.time_to_landing_s = output.stance.foot.map_or(0.0, |foot| foot.time_to_landing_s);
+        self.examples_slide_cm_s = output.examples_slide_cm_s;
+        self.pose = output.pose;
     }
 }
 

@@ -21,7 +21,7 @@ use motiondb::body::{JOINT_COUNT, Joint, Pose, Root};
 
 use crate::planning::plan::VelocitySet;
 use crate::recording::frame::AgentFrame;
-use crate::synthesis::hybrid::mode::Mode;
+use crate::synthesis::Mode;
 
 /// Bytes of one agent in one frame before compression.
 pub const PACKED_BYTES: usize = 11 * 4 + 2 * 2 + 3 + 1 + 3 * 3 + FINE_JOINTS * 7 + (JOINT_COUNT - FINE_JOINTS) * 6;

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::params::Params;
 use crate::planning::planner::Planner;
-use crate::synthesis::params::Modes;
+use crate::synthesis::Modes;
 
 /// What is simulated. A recording carries it whole.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
