@@ -16,3 +16,9 @@ pub mod world;
 
 #[cfg(test)]
 mod test_db;
+
+pub use params::Params;
+pub use planning::{Plan, Planner};
+pub use recording::{AgentFrame, Header, Recorder, Recording};
+pub use scenario::{AgentSpec, Scenario};
+pub use simulation::{Simulation, Stage};

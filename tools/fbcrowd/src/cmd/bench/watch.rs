@@ -63,7 +63,7 @@ impl Watched {
 pub(super) fn scenario((path, text): (&str, &str)) -> Result<Scenario, Failure> {
     let text = SourceText { path: PathBuf::from(path), text: text.to_owned() };
     // The bench brings its own database, whatever the file names.
-    let (scenario, _) = scenario::file::of_text(&text)?;
+    let (scenario, _) = scenario::parse(&text)?;
     Ok(scenario)
 }
 
