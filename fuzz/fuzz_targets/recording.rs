@@ -5,7 +5,7 @@
 use std::fs;
 
 use fbcrowd_fuzz::on_disk;
-use fbcrowd_sim::measures::metrics::measure;
+use fbcrowd_sim::measures::measure;
 use fbcrowd_sim::recording::{Recording, CHUNK_HEAD_BYTES, write_chunk, PACKED_BYTES, unpack};
 use libfuzzer_sys::fuzz_target;
 

@@ -17,6 +17,7 @@ pub mod world;
 #[cfg(test)]
 mod test_db;
 
+pub use measures::Measures;
 pub use params::Params;
 pub use planning::{Plan, Planner};
 pub use recording::{AgentFrame, Header, Recorder, Recording};

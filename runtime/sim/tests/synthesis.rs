@@ -6,7 +6,7 @@ use std::f32::consts::FRAC_PI_2;
 use std::path::Path;
 use std::sync::Arc;
 
-use fbcrowd_sim::measures::{PlantedSlide, Slide};
+use fbcrowd_sim::measures::{FootSlide, PlantedSlide};
 use fbcrowd_sim::planning::Plan;
 use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario;
@@ -43,7 +43,7 @@ fn errand(time_s: f32, root: &Root) -> Plan {
 }
 
 /// One body at each of eight phases goes on the errand; `see` is shown every step.
-fn go(db: &MotionDb, mut see: impl FnMut(&Root, &Synthesis)) -> Slide {
+fn go(db: &MotionDb, mut see: impl FnMut(&Root, &Synthesis)) -> FootSlide {
     let studio = Studio::new(Arc::new(db.clone()), HmsParams { modes: Modes::Blending, ..HmsParams::default() });
     let motion = studio.motion();
     let start = |index: usize| Body::standing(&motion, Root::default(), index as f32 / 8.0);

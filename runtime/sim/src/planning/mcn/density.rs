@@ -143,7 +143,7 @@ pub(crate) fn speed_limit_mps(density: f32, params: &McnParams) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measures::measured_section::weidmann_mps;
+    use crate::measures::pedestrian_studies::measured_section::weidmann_mps;
     use crate::world::neighbours::NEIGHBOUR_COUNT;
 
     const LEAD_S: f32 = 0.3;

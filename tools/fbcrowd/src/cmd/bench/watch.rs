@@ -9,7 +9,7 @@ use std::sync::Arc;
 use fbcrowd_render::plots::crowd::trajectories;
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_render::top_view::Tracks;
-use fbcrowd_sim::measures::metrics::{Measures, Measuring};
+use fbcrowd_sim::measures::{Measures, Measuring};
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::scenario::{self, Scenario};
 use fbcrowd_sim::simulation::Simulation;

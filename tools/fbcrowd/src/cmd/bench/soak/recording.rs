@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use fbcrowd_sim::measures::metrics::measure;
+use fbcrowd_sim::measures::measure;
 use fbcrowd_sim::recording::{CHUNK_HEAD_BYTES, ChunkKind, Header, Recorder, Recording, RecordingError, write_chunk};
 use fbcrowd_sim::simulation::Simulation;
 use motiondb::motion::MotionDb;
