@@ -19,7 +19,7 @@ mod test_db;
 
 pub use measures::Measures;
 pub use params::Params;
-pub use planning::{Plan, Planner};
+pub use planning::{Plan, PlanExplanation, Planner, WorldView};
 pub use recording::{AgentFrame, Header, Recorder, Recording};
 pub use scenario::{AgentSpec, Scenario};
 pub use simulation::{Simulation, Stage};
