@@ -12,7 +12,7 @@ use motiondb::body::Root;
 use crate::maths::random::SplitMix64;
 use crate::planning::plan::{Plan, Stance};
 use crate::recording::frame::AgentFrame;
-use crate::route::path::Progress;
+use crate::route::path::PathProgress;
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
 use crate::synthesis::{Body, SynthesisContext};
@@ -31,8 +31,8 @@ pub struct Agents {
     pub facings_rad: Vec<f32>,
     /// Radius of the disc, m.
     pub radii_m: Vec<f32>,
-    /// Progress along the path.
-    pub progress: Vec<Progress>,
+    /// How far each has got on its way.
+    pub progress: Vec<PathProgress>,
     /// v_pref, m/s.
     pub preferred_mps: Vec<Vec2>,
     /// Plan for the step.
@@ -59,7 +59,7 @@ impl Agents {
             velocities_mps: vec![Vec2::ZERO; count],
             facings_rad: scenario.agents.iter().map(|agent| agent.facing_rad).collect(),
             radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
-            progress: vec![Progress::default(); count],
+            progress: vec![PathProgress::default(); count],
             preferred_mps: vec![Vec2::ZERO; count],
             plans: vec![Plan::default(); count],
             strafing_s: vec![0.0; count],

@@ -21,20 +21,20 @@ use crate::agents::Agents;
 use crate::coupling::{body_to_disc, decoupled};
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan_all::{self, plan_all};
-use crate::planning::planner::ahead_s;
-use crate::planning::world_view::World;
+use crate::planning::planner::ranking_horizon_s;
+use crate::planning::world_view::WorldView;
 use crate::recording::frame::AgentFrame;
 use crate::route::path::{self, Braking};
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
 use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
-use crate::world::neighbours::Neighbours;
+use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
 
 /// Bodies that one thread takes at a time, at least: enough to outweigh the hand-over, few enough to share out 100.
 const BODIES_PER_TASK_MIN: usize = 16;
 
-/// Memory of an agent in the sorted grids of [`Neighbours`], bytes: position, velocity, radius, rank and cells, some of
+/// Memory of an agent in the sorted grids of [`NeighbourSearch`], bytes: position, velocity, radius, rank and cells, some of
 /// them twice.
 const GRID_BYTES: usize = 64;
 
@@ -60,8 +60,8 @@ pub struct Simulation {
     scenario: Scenario,
     obstacles: Obstacles,
     constraints: MotionConstraints,
-    neighbours: Neighbours,
-    planning: plan_all::Memory,
+    neighbours: NeighbourSearch,
+    planning: plan_all::CrowdPlanningMemory,
     agents: Agents,
 }
 
@@ -74,8 +74,8 @@ impl Simulation {
         let mut simulation = Self {
             obstacles: Obstacles::new(&scenario.obstacles_m),
             constraints: MotionConstraints::new(&context.db.velocity_hull),
-            neighbours: Neighbours::default(),
-            planning: plan_all::Memory::default(),
+            neighbours: NeighbourSearch::default(),
+            planning: plan_all::CrowdPlanningMemory::default(),
             scenario: scenario.clone(),
             agents,
             context,
@@ -108,7 +108,7 @@ impl Simulation {
         finished(Stage::Path);
         let Agents { positions_m, velocities_mps, radii_m, .. } = &self.agents;
         let Scenario { planner, params, .. } = &self.scenario;
-        self.neighbours.rebuild(positions_m, velocities_mps, radii_m, ahead_s(*planner, params));
+        self.neighbours.rebuild(positions_m, velocities_mps, radii_m, ranking_horizon_s(*planner, params));
         finished(Stage::Neighbours);
         self.plan();
         finished(Stage::Planning);
@@ -131,10 +131,10 @@ impl Simulation {
         }
     }
 
-    /// What planners may read of the present. The neighbours are those at the start of the last step.
-    pub fn world(&self) -> World<'_> {
+    /// What planners may know of the present. The neighbours are those of the last step's beginning.
+    pub fn world(&self) -> WorldView<'_> {
         let agents = &self.agents;
-        World {
+        WorldView {
             positions_m: &agents.positions_m,
             velocities_mps: &agents.velocities_mps,
             facings_rad: &agents.facings_rad,

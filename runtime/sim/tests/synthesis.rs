@@ -6,7 +6,7 @@ use std::f32::consts::FRAC_PI_2;
 use std::path::Path;
 use std::sync::Arc;
 
-use fbcrowd_sim::measures::{PlantedSlide, Slide};
+use fbcrowd_sim::measures::{FootSlide, PlantedSlide};
 use fbcrowd_sim::planning::Plan;
 use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario;
@@ -43,7 +43,7 @@ fn command_sequence(time_s: f32, root: &Root) -> Plan {
 }
 
 /// Lets one body at each of eight phases follow the command sequence; `observe` receives every step.
-fn walk(db: &MotionDb, mut observe: impl FnMut(&Root, &BodyOutput)) -> Slide {
+fn walk(db: &MotionDb, mut observe: impl FnMut(&Root, &BodyOutput)) -> FootSlide {
     let context =
         SynthesisContext::new(Arc::new(db.clone()), HmsParams { modes: Modes::Blending, ..HmsParams::default() });
     let start = |index: usize| Body::standing(&context, Root::default(), index as f32 / 8.0);

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use fbcrowd_sim::planning::Planner;
 use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
-use fbcrowd_sim::route::{BlockedWays, blocked_ways};
+use fbcrowd_sim::route::{BlockedPaths, blocked_paths};
 use fbcrowd_sim::scenario::{Scenario, ScenarioError};
 use fbcrowd_sim::simulation::{Simulation, Stage};
 use fbcrowd_sim::synthesis::library;
@@ -105,7 +105,7 @@ fn tell_of_deformed(db: &MotionDb, complete: &MotionDb) {
 /// Says who has not arrived because of a wall.
 fn tell_of_walls(scenario: &Scenario, frames: &[AgentFrame]) {
     let ends_m = frames.iter().map(|frame| frame.root.position_m);
-    let Some(BlockedWays { agent, waypoint, agents }) = blocked_ways(scenario, ends_m) else { return };
+    let Some(BlockedPaths { agent, waypoint, agents }) = blocked_paths(scenario, ends_m) else { return };
     let [x, y] = scenario.agents[agent].goals_m[waypoint].to_array();
     let others = if agents == 1 { String::new() } else { format!(" ({agents} agents have)") };
     let remedy = "agents walk straight: who is to go round needs a waypoint beside it";

@@ -30,7 +30,7 @@ fn cut(corners_mps: &[Vec2], half_plane: &HalfPlane) -> Vec<Vec2> {
 
 #[cfg(test)]
 mod tests {
-    use fbcrowd_sim::planning::orca::Source;
+    use fbcrowd_sim::planning::orca::HalfPlaneSource;
 
     use super::*;
 
@@ -46,7 +46,7 @@ mod tests {
     fn a_velocity_is_left_exactly_if_no_half_plane_forbids_it() {
         let half_plane = |angle_rad: f32, distance_mps: f32| {
             let outward = Vec2::from_angle(angle_rad);
-            HalfPlane::behind(distance_mps * outward, outward, Source::Stance)
+            HalfPlane::behind(distance_mps * outward, outward, HalfPlaneSource::Stance)
         };
         for turn in 0..40 {
             let turned = turn as f32 * 0.7;
@@ -62,7 +62,8 @@ mod tests {
 
     #[test]
     fn nothing_is_left_between_two_that_exclude_each_other() {
-        let [ahead, back] = [1.0, -1.0].map(|x| HalfPlane::behind(-0.2 * x * Vec2::X, x * Vec2::X, Source::Agent(1)));
+        let [ahead, back] =
+            [1.0, -1.0].map(|x| HalfPlane::behind(-0.2 * x * Vec2::X, x * Vec2::X, HalfPlaneSource::Agent(1)));
         assert!(permitted_mps(&SQUARE, &[ahead, back]).is_empty());
     }
 }

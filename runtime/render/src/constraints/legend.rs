@@ -1,6 +1,6 @@
 //! What stands beside a velocity space: what its colours mean, and the step in numbers.
 
-use fbcrowd_sim::planning::orca::{HalfPlane, Source};
+use fbcrowd_sim::planning::orca::{HalfPlane, HalfPlaneSource};
 use fbcrowd_sim::planning::{Planner, VelocitySet};
 use fbcrowd_sim::synthesis::Mode;
 use glam::Vec2;
@@ -101,7 +101,7 @@ fn numbers(planned: &Planned) -> Vec<(&'static str, String)> {
         lines.push(("adapted", speed(reasons.adapted_mps)));
     }
     lines.push(("planned", speed(reasons.plan.velocity_mps)));
-    lines.push(("walked", speed(step.walked_mps(*agent))));
+    lines.push(("walked", speed(step.actual_mps(*agent))));
     let degrees = [world.facings_rad[*agent], reasons.plan.facing_rad].map(|angle| number(angle.to_degrees(), 0));
     lines.push(("facing, planned", format!("{}°, {}°", degrees[0], degrees[1])));
     if planned.planner() == Planner::Mcn {
@@ -124,7 +124,7 @@ fn sources(planned: &Planned, is_one: impl Fn(&HalfPlane) -> bool) -> String {
     for half_plane in planned.reasons.half_planes.iter().filter(|half_plane| is_one(half_plane)) {
         let name = name(half_plane.source);
         match half_plane.source {
-            Source::Agent(_) => agents.push(name),
+            HalfPlaneSource::Agent(_) => agents.push(name),
             _ if names.contains(&name) => (),
             _ => names.push(name),
         }

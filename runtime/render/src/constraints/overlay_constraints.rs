@@ -6,7 +6,7 @@
 //! at the left; panels (`velocity_panel.rs`) follow to its right, one an agent. In the last frame, from which no
 //! step leads on, the step that led there is shown.
 
-use fbcrowd_sim::planning::{Planner, Reasons};
+use fbcrowd_sim::planning::{PlanExplanation, Planner};
 use fbcrowd_sim::recording::{RecordedStep, Recording, Replay};
 use glam::Vec2;
 use tiny_skia::{Pixmap, PixmapPaint, Transform};
@@ -43,7 +43,7 @@ pub struct ConstraintOverlay<'a> {
 pub(crate) struct Planned<'a> {
     pub(crate) step: &'a RecordedStep<'a>,
     pub(crate) agent: usize,
-    pub(crate) reasons: Reasons,
+    pub(crate) reasons: PlanExplanation,
     /// Velocities are shown so far from standing, m/s.
     pub(crate) reach_mps: f32,
 }
@@ -112,7 +112,7 @@ impl<'a> ConstraintOverlay<'a> {
 
 fn planned<'a>(step: &'a RecordedStep<'a>, agent: usize) -> Planned<'a> {
     let scenario = &step.header().scenario;
-    let reasons = Reasons::new(scenario.planner, &step.world(), agent, &scenario.params);
+    let reasons = PlanExplanation::new(scenario.planner, &step.world(), agent, &scenario.params);
     Planned { step, agent, reasons, reach_mps: reach_mps(step, agent) }
 }
 

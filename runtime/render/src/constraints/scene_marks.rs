@@ -4,8 +4,8 @@
 //! Links go to neighbours in their colours, thick where the planned velocity is bound by them, dashed where their
 //! half-plane had to yield. All is drawn where it was when the step began; world metres.
 
-use fbcrowd_sim::planning::mcn::{StanceForm, stance};
-use fbcrowd_sim::planning::orca::Source;
+use fbcrowd_sim::planning::mcn::{StanceForm, stance_half_plane};
+use fbcrowd_sim::planning::orca::HalfPlaneSource;
 use fbcrowd_sim::planning::{Planner, Stance, StanceFoot};
 use glam::Vec2;
 use tiny_skia::{LineCap, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
@@ -79,7 +79,7 @@ impl SceneMarks {
         let of_half_planes = planned.reasons.half_planes.iter().map(|half_plane| half_plane.source);
         let of_forces = planned.reasons.forces.iter().map(|force| force.source);
         for source in of_half_planes.chain(of_forces) {
-            if let Source::Obstacle(edge) = source {
+            if let HalfPlaneSource::Obstacle(edge) = source {
                 let pen = Pen { colour: INK, ..pen(planned, source) };
                 self.draw_lines(scene, &[planned.step.world().obstacles.ends_m(edge)], pen);
             }
@@ -94,7 +94,7 @@ impl SceneMarks {
             let other = neighbour.agent as usize;
             let way = neighbour.offset_m.normalize_or_zero();
             let ends_m = [from_m + radius_m * way, world.positions_m[other] - world.radii_m[other] * way];
-            let pen = pen(planned, Source::Agent(neighbour.agent));
+            let pen = pen(planned, HalfPlaneSource::Agent(neighbour.agent));
             self.draw_circle(scene, world.positions_m[other], world.radii_m[other], pen);
             if neighbour.distance_m > neighbour.radius_m {
                 self.draw_lines(scene, &[ends_m], pen);
@@ -113,9 +113,9 @@ impl SceneMarks {
             return;
         }
         let stance = Stance { foot: Some(*foot) };
-        if let Some(half_plane) = stance::half_plane(&stance, params.stance_twist_rad) {
+        if let Some(half_plane) = stance_half_plane(&stance, params.stance_twist_rad) {
             let lines_m = hatched_line_m(centre_m + foot.ball_m, half_plane.direction);
-            self.draw_lines(scene, &lines_m, pen(planned, Source::Stance));
+            self.draw_lines(scene, &lines_m, pen(planned, HalfPlaneSource::Stance));
         }
     }
 
@@ -161,7 +161,7 @@ fn hatched_line_m(middle_m: Vec2, direction: Vec2) -> Vec<[Vec2; 2]> {
 }
 
 /// Thick where it binds, dashed where it had to yield.
-fn pen(planned: &Planned, source: Source) -> Pen {
+fn pen(planned: &Planned, source: HalfPlaneSource) -> Pen {
     let of_source = || planned.reasons.half_planes.iter().filter(move |half_plane| half_plane.source == source);
     let binds = of_source().any(|half_plane| planned.reasons.binds(half_plane));
     let dashed = of_source().any(|half_plane| planned.reasons.has_yielded(half_plane));

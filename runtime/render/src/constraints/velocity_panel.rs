@@ -7,7 +7,7 @@
 //! pushes are arrows from the present velocity, as long as the velocity that they would add in the relaxation time, so
 //! that the driving force, drawn alike, would end at v_pref.
 
-use fbcrowd_sim::planning::orca::{HalfPlane, Source};
+use fbcrowd_sim::planning::orca::{HalfPlane, HalfPlaneSource};
 use fbcrowd_sim::planning::{Planner, VelocitySet};
 use glam::Vec2;
 use tiny_skia::Pixmap;
@@ -90,14 +90,14 @@ pub(crate) fn draw(planned: &Planned, height_px: u32) -> Pixmap {
 }
 
 /// The colour of whatever limits or pushes.
-pub(crate) fn colour(source: Source) -> Rgb {
+pub(crate) fn colour(source: HalfPlaneSource) -> Rgb {
     match source {
-        Source::Obstacle(_) => OBSTACLE_RIM,
-        Source::Stance => STANCE,
-        Source::SharpTurn => SHARP_TURN,
-        Source::TurningHull => TURNING,
-        Source::HoldingHull => HOLDING,
-        Source::Agent(agent) => line_colour(agent as usize),
+        HalfPlaneSource::Obstacle(_) => OBSTACLE_RIM,
+        HalfPlaneSource::Stance => STANCE,
+        HalfPlaneSource::SharpTurn => SHARP_TURN,
+        HalfPlaneSource::TurningHull => TURNING,
+        HalfPlaneSource::HoldingHull => HOLDING,
+        HalfPlaneSource::Agent(agent) => line_colour(agent as usize),
     }
 }
 
@@ -152,7 +152,7 @@ impl VelocitySpace<'_> {
         let forward = self.forward();
         let sets = [(VelocitySet::Holding, &hull.holding_mps), (VelocitySet::Turning, &hull.turning_mps)];
         for (set, corners_mps) in sets {
-            let source = Source::from(set);
+            let source = HalfPlaneSource::from(set);
             let in_force = self.half_planes().any(|half_plane| half_plane.source == source);
             let (fill, width_px, opacity) = if in_force { (0.10, 3.0, 1.0) } else { (0.03, 1.2, 0.6) };
             let outline = Line { opacity, ..self.line(colour(source), width_px) };
@@ -221,7 +221,7 @@ impl VelocitySpace<'_> {
             self.draw_arrow(stop, reasons.adapted_mps, self.line(ADAPTED, 3.5));
         }
         self.draw_arrow(stop, reasons.plan.velocity_mps, self.line(PLANNED, 2.5));
-        let (before_mps, walked_mps) = (world.velocities_mps[*agent], step.walked_mps(*agent));
+        let (before_mps, walked_mps) = (world.velocities_mps[*agent], step.actual_mps(*agent));
         let dot = |centre: Vec2, radius: f32| disc(radius).into_iter().map(move |corner| centre + corner);
         self.figure.polygon(&self.panel, dot(before_mps, self.mps(4.5)), 0.0, self.line(WALKED, 2.0));
         self.figure.polygon(&self.panel, dot(walked_mps, self.mps(4.5)), 1.0, self.line(WALKED, 1.0));
@@ -269,19 +269,19 @@ fn speed_limit_mps(planned: &Planned) -> Option<f32> {
 }
 
 /// What a reader calls it.
-pub(crate) fn name(source: Source) -> String {
+pub(crate) fn name(source: HalfPlaneSource) -> String {
     match source {
-        Source::Obstacle(_) => "wall".to_owned(),
-        Source::Stance => "stance foot".to_owned(),
-        Source::SharpTurn => "sharp turn".to_owned(),
-        Source::TurningHull => "turning set".to_owned(),
-        Source::HoldingHull => "holding set".to_owned(),
-        Source::Agent(agent) => agent.to_string(),
+        HalfPlaneSource::Obstacle(_) => "wall".to_owned(),
+        HalfPlaneSource::Stance => "stance foot".to_owned(),
+        HalfPlaneSource::SharpTurn => "sharp turn".to_owned(),
+        HalfPlaneSource::TurningHull => "turning set".to_owned(),
+        HalfPlaneSource::HoldingHull => "holding set".to_owned(),
+        HalfPlaneSource::Agent(agent) => agent.to_string(),
     }
 }
 
-fn is_hull(source: Source) -> bool {
-    matches!(source, Source::TurningHull | Source::HoldingHull)
+fn is_hull(source: HalfPlaneSource) -> bool {
+    matches!(source, HalfPlaneSource::TurningHull | HalfPlaneSource::HoldingHull)
 }
 
 /// All that is shown, counter-clockwise.
@@ -322,7 +322,7 @@ mod tests {
     #[test]
     fn a_line_is_shown_from_frame_to_frame_and_not_at_all_outside() {
         let ends = |point: [f32; 2], outward: [f32; 2]| {
-            chord(&HalfPlane::behind(Vec2::from(point), Vec2::from(outward), Source::Stance), 2.0)
+            chord(&HalfPlane::behind(Vec2::from(point), Vec2::from(outward), HalfPlaneSource::Stance), 2.0)
         };
         assert_eq!(ends([1.0, 9.0], [1.0, 0.0]), Some([Vec2::new(1.0, -2.0), Vec2::new(1.0, 2.0)]));
         assert_eq!(ends([3.0, 0.0], [1.0, 0.0]), None);

@@ -1,23 +1,23 @@
-//! Which frames of a sequence to render: `1001-1100`, `1001-1100x2` (or `:2`), `1010,1020`, and lists of these.
+//! Frames of a sequence to render: `1001-1100`, `1001-1100x2` (or `:2`), `1010,1020`, and lists of these.
 
 use std::collections::BTreeSet;
 use std::str::FromStr;
 
-use crate::error::RenderError;
+use crate::error::{FrameRangeFault, RenderError};
 
-/// Frames are numbered from here, as film tools expect.
+/// Number of the first frame, as film tools expect.
 pub(crate) const FIRST_FRAME: u32 = 1001;
 
 /// Frame numbers as a user wrote them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameRange {
     text: String,
-    pieces: Vec<Piece>,
+    spans: Vec<FrameSpan>,
 }
 
-/// `first-last x step`.
+/// `first-last x step`, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Piece {
+struct FrameSpan {
     first: u32,
     last: u32,
     step: u32,
@@ -27,11 +27,10 @@ impl FromStr for FrameRange {
     type Err = RenderError;
 
     fn from_str(text: &str) -> Result<Self, RenderError> {
-        let refuse =
-            |part: &str, reason| RenderError::FrameRange { text: text.to_owned(), part: part.to_owned(), reason };
-        let piece = |part: &str| parse_piece(part.trim()).map_err(|reason| refuse(part, reason));
-        let pieces = text.split(',').map(piece).collect::<Result<_, _>>()?;
-        Ok(Self { text: text.to_owned(), pieces })
+        let error = |part: &str, fault| RenderError::FrameRange { text: text.to_owned(), part: part.to_owned(), fault };
+        let span = |part: &str| parse_span(part.trim()).map_err(|fault| error(part, fault));
+        let spans = text.split(',').map(span).collect::<Result<_, _>>()?;
+        Ok(Self { text: text.to_owned(), spans })
     }
 }
 
@@ -39,13 +38,13 @@ impl FrameRange {
     /// The numbers that lie in a recording of `frame_count` frames, ascending, each once.
     ///
     /// # Errors
-    /// Where none does.
+    /// Where none lies in it.
     pub fn clip(&self, frame_count: u32) -> Result<Vec<u32>, RenderError> {
         let (first, last) = (FIRST_FRAME, FIRST_FRAME + frame_count.saturating_sub(1));
         let numbers: BTreeSet<u32> = self
-            .pieces
+            .spans
             .iter()
-            .flat_map(|piece| (piece.first..=piece.last.min(last)).step_by(piece.step as usize))
+            .flat_map(|span| (span.first..=span.last.min(last)).step_by(span.step as usize))
             .filter(|number| *number >= first)
             .collect();
         if numbers.is_empty() {
@@ -55,20 +54,20 @@ impl FrameRange {
     }
 }
 
-fn parse_piece(part: &str) -> Result<Piece, &'static str> {
-    let number = |digits: &str| digits.trim().parse::<u32>().map_err(|_| "a frame number is missing or not a number");
-    let (span, step) = match part.split_once(['x', ':']) {
-        Some((span, step)) => (span, step.trim().parse::<u32>().map_err(|_| "the step is not a number")?),
+fn parse_span(part: &str) -> Result<FrameSpan, FrameRangeFault> {
+    let number = |digits: &str| digits.trim().parse::<u32>().map_err(|_| FrameRangeFault::Number);
+    let (numbers, step) = match part.split_once(['x', ':']) {
+        Some((numbers, step)) => (numbers, step.trim().parse::<u32>().map_err(|_| FrameRangeFault::Step)?),
         None => (part, 1),
     };
-    let (first, last) = match span.split_once('-') {
+    let (first, last) = match numbers.split_once('-') {
         Some((first, last)) => (number(first)?, number(last)?),
-        None => (number(span)?, number(span)?),
+        None => (number(numbers)?, number(numbers)?),
     };
     match (step, first <= last) {
-        (0, _) => Err("the step is zero"),
-        (_, false) => Err("the range ends before it begins"),
-        _ => Ok(Piece { first, last, step }),
+        (0, _) => Err(FrameRangeFault::ZeroStep),
+        (_, false) => Err(FrameRangeFault::Reversed),
+        _ => Ok(FrameSpan { first, last, step }),
     }
 }
 
@@ -92,19 +91,23 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_range_is_refused_with_its_part() {
-        for (text, part) in [
-            ("", ""),
-            ("1001,,1002", ""),
-            ("a", "a"),
-            ("1001-", "1001-"),
-            ("1005-1001", "1005-1001"),
-            ("1001-1005x0", "1001-1005x0"),
-            ("1001-1005x", "1001-1005x"),
-            ("99999999999", "99999999999"),
+    fn an_invalid_range_is_rejected_with_its_part_and_fault() {
+        use FrameRangeFault::{Number, Reversed, Step, ZeroStep};
+        for (text, part, fault) in [
+            ("", "", Number),
+            ("1001,,1002", "", Number),
+            ("a", "a", Number),
+            ("1001-", "1001-", Number),
+            ("1005-1001", "1005-1001", Reversed),
+            ("1001-1005x0", "1001-1005x0", ZeroStep),
+            ("1001-1005x", "1001-1005x", Step),
+            ("99999999999", "99999999999", Number),
         ] {
             let error = text.parse::<FrameRange>().unwrap_err();
-            assert!(matches!(&error, RenderError::FrameRange { part: found, .. } if found == part), "{text}: {error}");
+            let RenderError::FrameRange { part: found_part, fault: found, .. } = error else {
+                panic!("{text}: {error}")
+            };
+            assert_eq!((found_part.as_str(), found), (part, fault), "{text}");
         }
         assert!(matches!("1-20".parse::<FrameRange>().unwrap().clip(5), Err(RenderError::NoFrames { .. })));
     }

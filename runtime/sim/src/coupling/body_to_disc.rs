@@ -18,7 +18,7 @@ pub(crate) fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
 
 /// The root kept out of walls, on the side where it was at `from_m` before the step.
 pub(crate) fn outside_walls(from_m: Vec2, root: Root, radius_m: f32, obstacles: &Obstacles) -> Root {
-    Root { position_m: obstacles.clamp_way(from_m, root.position_m, radius_m), ..root }
+    Root { position_m: obstacles.clamp_path(from_m, root.position_m, radius_m), ..root }
 }
 
 /// Updates what planners read of the agents from the bodies and plans of a step.

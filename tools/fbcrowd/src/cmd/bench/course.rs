@@ -14,7 +14,7 @@ use std::sync::Arc;
 use fbcrowd_render::plots::crowd::{Way, side_by_side};
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_render::top_view::Tracks;
-use fbcrowd_sim::measures::metrics::{Measures, Measuring};
+use fbcrowd_sim::measures::{Measures, Measuring};
 use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::simulation::Simulation;

@@ -6,7 +6,7 @@ use std::path::Path;
 use fbcrowd_render::error::RenderError;
 use fbcrowd_render::plots::crowd::{Comparison, Measure, Way, comparison, side_by_side};
 use fbcrowd_render::raster::png_frame;
-use fbcrowd_sim::measures::metrics::Measures;
+use fbcrowd_sim::measures::Measures;
 
 use crate::cmd::bench::contest::{Contestant, Run};
 use crate::cmd::bench::scenes::Scene;

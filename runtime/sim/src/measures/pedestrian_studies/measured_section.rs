@@ -1,20 +1,18 @@
-//! Density and speed of whoever is in a rectangle of the floor, and Weidmann's fundamental diagram to compare them
-//! with.
+//! Density and speed in a rectangle of the floor, and Weidmann's fundamental diagram to compare them with.
 //!
-//! The classical measurement: density is the number of people in the section over its area, speed the mean of theirs
-//! along the corridor; both averaged over the frames in which somebody is there, each weighted by how many. World,
-//! metres, seconds.
+//! The classical measurement: density is the number of agents in the section over its area, speed their mean along the
+//! corridor; both averaged over frames, each frame weighted by its number of agents. World, metres, seconds.
 
 use glam::Vec2;
 
-/// Weidmann 1993, "Transporttechnik der Fussgänger": free speed, m/s …
+/// Free speed, m/s: Weidmann 1993, "Transporttechnik der Fussgänger".
 const FREE_MPS: f64 = 1.34;
-/// … the fit's constant, 1/m² …
+/// Constant of Weidmann's fit, 1/m².
 const FIT_PER_M2: f64 = 1.913;
-/// … and the density at which nobody moves, 1/m².
+/// Density of standstill, 1/m²: Weidmann 1993.
 const STANDSTILL_PER_M2: f64 = 5.4;
 
-/// Speed at a density of people who all go one way on the level (Weidmann 1993), m/s.
+/// Speed of a one-way flow on level ground at a density (Weidmann 1993), m/s.
 pub fn weidmann_mps(per_m2: f64) -> f64 {
     if per_m2 <= 0.0 {
         return FREE_MPS;
@@ -23,49 +21,49 @@ pub fn weidmann_mps(per_m2: f64) -> f64 {
     FREE_MPS * (1.0 - libm::exp(-FIT_PER_M2 * below_standstill))
 }
 
-/// A rectangle and what has been seen in it.
+/// A rectangle of the floor, and counts of the agents in it.
 #[derive(Clone, Debug)]
 pub struct MeasuredSection {
     low_m: Vec2,
     high_m: Vec2,
-    people: usize,
-    people_squared: usize,
+    agents: usize,
+    agents_squared: usize,
     speeds_mps: f64,
 }
 
-/// What was seen.
+/// Density and speed in a section, averaged over frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
-    /// People on a square metre.
+pub struct SectionMeans {
+    /// Density, agents/m².
     pub per_m2: f64,
-    /// Mean speed in +x.
+    /// Mean speed in +x, m/s.
     pub speed_mps: f64,
 }
 
 impl MeasuredSection {
-    /// Sides along the axes; people walk in +x.
+    /// No frames yet; the corners of a rectangle along the axes, in which agents walk in +x.
     pub fn new(low_m: Vec2, high_m: Vec2) -> Self {
-        Self { low_m, high_m, people: 0, people_squared: 0, speeds_mps: 0.0 }
+        Self { low_m, high_m, agents: 0, agents_squared: 0, speeds_mps: 0.0 }
     }
 
     /// Adds one step, given every root before and after it.
     pub fn push(&mut self, before_m: &[Vec2], after_m: &[Vec2], dt_s: f64) {
         let is_inside = |at_m: Vec2| at_m.cmpge(self.low_m).all() && at_m.cmplt(self.high_m).all();
-        let mut people = 0;
+        let mut agents = 0;
         for (from_m, to_m) in before_m.iter().zip(after_m).filter(|(_, to_m)| is_inside(**to_m)) {
-            people += 1;
+            agents += 1;
             self.speeds_mps += f64::from(to_m.x - from_m.x) / dt_s;
         }
-        self.people += people;
-        self.people_squared += people * people;
+        self.agents += agents;
+        self.agents_squared += agents * agents;
     }
 
-    /// None where nobody came by.
-    pub fn seen(&self) -> Option<Seen> {
+    /// The means over all frames so far; none where no agent was in the section.
+    pub fn means(&self) -> Option<SectionMeans> {
         let area_m2 = f64::from((self.high_m - self.low_m).element_product());
-        (self.people > 0).then(|| Seen {
-            per_m2: self.people_squared as f64 / self.people as f64 / area_m2,
-            speed_mps: self.speeds_mps / self.people as f64,
+        (self.agents > 0).then(|| SectionMeans {
+            per_m2: self.agents_squared as f64 / self.agents as f64 / area_m2,
+            speed_mps: self.speeds_mps / self.agents as f64,
         })
     }
 }
@@ -75,19 +73,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sees_the_density_and_speed_of_a_lattice_that_walks_by() {
+    fn a_walking_lattice_has_its_density_and_speed() {
         let mut section = MeasuredSection::new(Vec2::new(0.0, -1.0), Vec2::new(4.0, 1.0));
         let lattice_m = |walked_m: f32| -> Vec<Vec2> {
-            let place =
+            let position_m =
                 |index: u8| Vec2::new(f32::from(index / 4) * 0.5 - 20.0 + walked_m, f32::from(index % 4) * 0.5 - 0.75);
-            (0..240).map(place).collect()
+            (0..240).map(position_m).collect()
         };
         for step in 100..200 {
             section.push(&lattice_m(0.1 * step as f32), &lattice_m(0.1 * (step + 1) as f32), 0.1);
         }
-        let seen = section.seen().unwrap();
-        assert!((seen.per_m2 - 4.0).abs() < 0.05 && (seen.speed_mps - 1.0).abs() < 1e-3, "{seen:?}");
-        assert_eq!(MeasuredSection::new(Vec2::ZERO, Vec2::ONE).seen(), None);
+        let means = section.means().unwrap();
+        assert!((means.per_m2 - 4.0).abs() < 0.05 && (means.speed_mps - 1.0).abs() < 1e-3, "{means:?}");
+        assert_eq!(MeasuredSection::new(Vec2::ZERO, Vec2::ONE).means(), None);
     }
 
     #[test]

@@ -1,11 +1,7 @@
-//! What a simulation shows in numbers (`FbCrowd` App. 11), streamed: two frames at a time.
+//! The figures of one simulation (`FbCrowd` App. 11), computed frame by frame with two frames in memory.
 //!
-//! Collisions of discs stand in `collision_rate`, those of bodies in
-//! `body_penetration`, accelerations, arrivals, detours and tracking in
-//! `root_measures`, foot slide in `planted_slide`. Positions are those
-//! of the root as synthesised.
-
-use std::io::{self, Write};
+//! Each figure comes from the file of its measure. Positions are those of the root as synthesised. World, metres,
+//! seconds.
 
 use glam::Vec2;
 use motiondb::body::{Joints, Skeleton};
@@ -16,45 +12,57 @@ use crate::measures::collision_rate::Collisions;
 use crate::measures::planted_slide::PlantedSlide;
 use crate::measures::root_measures::RootMeasures;
 use crate::measures::wall_contact::WallContact;
-use crate::recording::Recording;
 use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
+use crate::recording::reader::Recording;
 use crate::scenario::Scenario;
 
-/// The figures of one simulation, under the names of `measure --json`.
+/// The figures of one simulation, under the keys of `fbcrowd measure --json`.
+///
+/// ```no_run
+/// use std::path::Path;
+///
+/// use fbcrowd_sim::{Recording, measures};
+///
+/// let recording = Recording::open(Path::new("antipodal.fbrec"))?;
+/// let measures = measures::measure(&recording)?;
+/// println!("{} of {} agents arrived, C = {:.4}", measures.arrived, measures.agents, measures.collision_rate);
+/// # Ok::<(), fbcrowd_sim::recording::RecordingError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measures {
-    /// N.
+    /// N: number of agents.
     pub agents: usize,
-    /// T: frames less one.
+    /// T: number of steps, frames less one.
     pub steps: usize,
-    /// Step, s.
+    /// Time step, s.
     pub dt_s: f32,
-    /// C: Eq. 17.
+    /// C: collision rate of discs, Eq. 17.
     pub collision_rate: f64,
-    /// Least distance between the centres of any two discs, Eq. 16; none of a single agent.
+    /// Least distance between the centres of any two discs, Eq. 16, m; none of a single agent.
     pub minimum_separation_m: Option<f64>,
-    /// A: Eq. 18, over all agents and steps.
+    /// A: mean acceleration over all agents and steps, Eq. 18, m/s².
     pub mean_acceleration_mps2: f64,
-    /// The same over the steps before each agent's arrival: waiting at the goal does not dilute it.
+    /// Mean acceleration over the steps before each agent's arrival, m/s²: waiting at the goal does not dilute it.
     pub mean_acceleration_before_arrival_mps2: f64,
-    /// Agents that came within 0.5 m of their last goal.
+    /// Number of agents that came within 0.5 m of their last goal.
     pub arrived: usize,
-    /// Agents that stayed under 0.1 m/s for 5 s before arriving.
+    /// Number of agents that stayed below 0.1 m/s for 5 s before arriving.
     pub stalled: usize,
-    /// Over the agents that arrived; none where nobody did.
+    /// Mean time to arrival over the agents that arrived, s; none where no agent did.
     pub mean_time_to_goal_s: Option<f64>,
-    /// Path walked until the arrival over the straight way, waypoints included; mean over the agents that arrived.
+    /// Length of the path until the arrival over that of the straight path through the waypoints; mean over the agents
+    /// that arrived.
     pub path_over_straight_line: Option<f64>,
-    /// Share of the steps before each agent's arrival in which it walks sidewards at held facing.
+    /// Share of the steps before each agent's arrival in which it side-steps at held facing.
     pub strafing_share: f64,
     /// Share of the steps before each agent's arrival in which it walks backward at held facing.
     pub stepping_back_share: f64,
-    /// Deepest overlap of the capsules of two bodies, summed over pairs and steps, per agent and step.
+    /// Deepest overlap of the capsules of two bodies, summed over pairs and steps, per agent and step, mm.
     pub body_penetration_mm: f64,
-    /// Its mean over the pairs and steps in which bodies touch; none where none ever did.
+    /// Mean of that overlap over the pairs and steps in which bodies touch, mm; none where none ever did.
     pub body_penetration_touching_mm: Option<f64>,
-    /// Greatest of all.
+    /// Greatest overlap of any two bodies, mm.
     pub body_penetration_max_mm: f64,
     /// Share of agents and steps in which a body touches another.
     pub body_touching_share: f64,
@@ -62,33 +70,34 @@ pub struct Measures {
     pub wall_disc_share: f64,
     /// Share of agents and frames in which a body reaches into a wall.
     pub wall_body_share: f64,
-    /// The deepest of it.
+    /// Greatest depth of a body in a wall, mm.
     pub wall_body_max_mm: f64,
-    /// Of planted feet until each agent's arrival; none where no foot was planted.
+    /// Slide of planted feet until each agent's arrival, cm/s; none where no foot was planted.
     pub planted_slide_cm_s: Option<f64>,
-    /// Of the examples that the bodies were blended from, over the same contacts.
+    /// Slide of the examples in play over the same contacts, cm/s.
     pub examples_slide_cm_s: Option<f64>,
     /// Share of all feet and frames until each agent's arrival that are planted.
     pub planted_share: f64,
-    /// Mean distance between the synthesised root and where the planned velocity would have brought it in a step.
+    /// Mean distance between the synthesised root and the position to which the planned velocity leads in a step, m.
     pub root_tracking_error_m: f64,
-    /// The greatest such distance of any agent in any step.
+    /// Greatest distance between the synthesised root and the position to which the planned velocity leads, m.
     pub root_tracking_worst_m: f64,
-    /// Mean angle between facing and travel, over the steps before each agent's arrival in which it walks and is not to
-    /// side-step or step back.
+    /// Mean angle between facing and displacement, degrees, over the steps before each agent's arrival in which it
+    /// walks in the turning set.
     pub heading_error_deg: f64,
-    /// The same over all steps before arrival in which it walks, side-steps and steps back too.
+    /// Mean angle between facing and displacement, degrees, over all steps before each agent's arrival in which it
+    /// walks.
     pub walking_heading_error_deg: f64,
 }
 
-/// Figures on their way: takes frames one by one and keeps one, so that a crowd is measured while it runs.
+/// Computes [`Measures`] from frames that come one by one, so that a crowd is measured while it runs.
 #[derive(Debug)]
 pub struct Measuring {
     skeleton: Skeleton,
     dt_s: f32,
     steps: usize,
     before: Vec<AgentFrame>,
-    /// Of one frame, in the roots' frames.
+    /// Joints of every agent in the present frame, in the roots' frames.
     joints: Vec<Joints>,
     collisions: Collisions,
     roots: RootMeasures,
@@ -98,7 +107,7 @@ pub struct Measuring {
 }
 
 impl Measuring {
-    /// At the start of a scenario, with every agent in index order.
+    /// Begins with the start of a scenario: every agent in index order.
     pub fn new(skeleton: &Skeleton, scenario: &Scenario, start: &[AgentFrame]) -> Self {
         let (agents, dt_s) = (&scenario.agents, scenario.dt_s);
         let mut measuring = Self {
@@ -131,12 +140,12 @@ impl Measuring {
         self.before.extend_from_slice(after);
     }
 
-    /// Whether every agent is near its last goal now; one that was and has been pushed away is not.
+    /// Whether every agent is near its last goal now; an agent that was and has been pushed away is not.
     pub fn all_are_at_goals(&self) -> bool {
         self.roots.all_are_at_goals()
     }
 
-    /// After the last frame.
+    /// The figures after the last frame.
     pub fn finish(self) -> Measures {
         let (slide, bodies, walls) = (self.slide.finish(), self.bodies.finish(), self.walls.finish());
         Measures {
@@ -145,14 +154,14 @@ impl Measuring {
             dt_s: self.dt_s,
             collision_rate: self.collisions.rate(self.steps),
             minimum_separation_m: self.collisions.least_distance_m(),
-            mean_acceleration_mps2: self.roots.mean_acceleration_mps2(),
-            mean_acceleration_before_arrival_mps2: self.roots.mean_acceleration_before_arrival_mps2(),
+            mean_acceleration_mps2: self.roots.acceleration_mps2.value(),
+            mean_acceleration_before_arrival_mps2: self.roots.acceleration_before_arrival_mps2.value(),
             arrived: self.roots.arrived(),
             stalled: self.roots.stalled(),
             mean_time_to_goal_s: self.roots.mean_time_to_goal_s(),
             path_over_straight_line: self.roots.path_over_straight_line(),
-            strafing_share: self.roots.strafing_share(),
-            stepping_back_share: self.roots.stepping_back_share(),
+            strafing_share: self.roots.strafing.value(),
+            stepping_back_share: self.roots.stepping_back.value(),
             body_penetration_mm: bodies.mean_mm,
             body_penetration_touching_mm: bodies.touching_mm,
             body_penetration_max_mm: bodies.greatest_mm,
@@ -163,14 +172,14 @@ impl Measuring {
             planted_slide_cm_s: slide.slide_cm_s,
             examples_slide_cm_s: slide.examples_slide_cm_s,
             planted_share: slide.planted_share,
-            root_tracking_error_m: self.roots.root_tracking_error_m(),
-            root_tracking_worst_m: self.roots.root_tracking_worst_m(),
-            heading_error_deg: self.roots.heading_error_deg(),
-            walking_heading_error_deg: self.roots.walking_heading_error_deg(),
+            root_tracking_error_m: self.roots.tracking_error_m.value(),
+            root_tracking_worst_m: self.roots.tracking_worst_m,
+            heading_error_deg: self.roots.heading_error_deg.value(),
+            walking_heading_error_deg: self.roots.walking_heading_error_deg.value(),
         }
     }
 
-    /// Those of who had not arrived before: waiting at the goal does not dilute their slide.
+    /// Measures the feet of agents that had not arrived before: waiting at the goal does not dilute the slide.
     fn follow_feet(&mut self, agents: &[AgentFrame]) {
         for (index, (agent, joints)) in agents.iter().zip(&self.joints).enumerate() {
             if !self.roots.has_arrived(index) {
@@ -185,7 +194,7 @@ impl Measuring {
     }
 }
 
-/// Reads a recording once, from its first frame to its last.
+/// Measures a recording, read once from its first frame to its last.
 ///
 /// # Errors
 /// Where a frame cannot be read.
@@ -199,28 +208,6 @@ pub fn measure(recording: &Recording) -> Result<Measures, RecordingError> {
         measuring.push(&agents);
     }
     Ok(measuring.finish())
-}
-
-/// A line a frame, from the start on, as [`write_roots`] has it.
-///
-/// # Errors
-/// Where writing fails or, as the source of the error, a frame cannot be read.
-pub fn write_trajectories(recording: &Recording, out: &mut impl Write) -> io::Result<()> {
-    let mut agents = Vec::new();
-    for frame in 0..recording.frame_count() {
-        recording.read_frame(frame, &mut agents).map_err(io::Error::other)?;
-        write_roots(&agents, out)?;
-    }
-    Ok(())
-}
-
-/// One line: `x y` of each agent's root in index order, metres, to the micrometre.
-///
-/// # Errors
-/// Where writing fails.
-pub fn write_roots(agents: &[AgentFrame], out: &mut impl Write) -> io::Result<()> {
-    let places = roots_m(agents).into_iter().map(|root_m| format!("{:.6} {:.6}", root_m.x, root_m.y));
-    writeln!(out, "{}", places.collect::<Vec<String>>().join(" "))
 }
 
 fn roots_m(agents: &[AgentFrame]) -> Vec<Vec2> {

@@ -1,41 +1,41 @@
-//! How far people who walk against each other have sorted themselves into lanes.
+//! Lane formation in opposed flows (`FbCrowd` §7): the order parameter of Nowak and Schadschneider 2012 (Phys. Rev. E
+//! 85, 066128), after Rex and Löwen 2007.
 //!
-//! The order parameter of Nowak and Schadschneider 2012 (Phys. Rev. E 85, 066128), which they took from Rex and Löwen
-//! 2007: among those in a person's band, itself included, `same` go its way and `opposite` against it; then φ is the
-//! mean over all people of ((same − opposite)/(same + opposite))². It is 1 of perfect lanes. Even a crowd without any
-//! order has some, φ_0, by chance; the reduced parameter (φ − φ_0)/(1 − φ_0) is 0 there, and negative where people are
-//! mixed better than chance would. Metres.
+//! In an agent's band, itself included, `same` agents walk in its direction and `opposite` ones against it; φ is the
+//! mean over all agents of ((same − opposite)/(same + opposite))². It is 1 for perfect lanes. A crowd without order has
+//! some by chance, φ_0; the reduced parameter (φ − φ_0)/(1 − φ_0) is 0 there, and negative in a crowd that is mixed
+//! better than by chance. Metres.
 
-/// Half the width of a band, m: the radius of a person's disc, so that a band is as wide as a person.
+/// Half the width of a band, m: the radius of a disc, so that a band is as wide as an agent.
 const BAND_HALF_M: f32 = 0.25;
 
-/// Somebody in a measured section.
+/// An agent in a measured section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaneWalker {
-    /// Place across the corridor, m.
+    /// Position across the corridor, m.
     pub across_m: f32,
-    /// Which of the two ways it goes.
+    /// Which of the two directions it walks in.
     pub goes_forward: bool,
 }
 
-/// Order at one time.
+/// Lane order at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaneOrder {
     /// φ, 0 to 1.
     pub order: f64,
-    /// φ_0: what is expected where everybody in a band goes either way by chance, at the shares in which they are
-    /// there.
+    /// φ_0: expected order where each agent of a band walks in either direction by chance, at the directions' shares of
+    /// the crowd.
     pub by_chance: f64,
 }
 
 impl LaneOrder {
-    /// (φ − φ_0)/(1 − φ_0); none where chance alone gives perfect order, because nobody shares a band.
+    /// (φ − φ_0)/(1 − φ_0); none where chance alone gives perfect order, because no two agents share a band.
     pub fn reduced(self) -> Option<f64> {
         (self.by_chance < 1.0).then(|| (self.order - self.by_chance) / (1.0 - self.by_chance))
     }
 }
 
-/// None of nobody.
+/// The lane order of some agents; none of no agents.
 pub fn lane_order(walkers: &[LaneWalker]) -> Option<LaneOrder> {
     let all = walkers.len() as f64;
     let forward = walkers.iter().filter(|walker| walker.goes_forward).count() as f64;
@@ -51,11 +51,11 @@ pub fn lane_order(walkers: &[LaneWalker]) -> Option<LaneOrder> {
     (all > 0.0).then(|| LaneOrder { order: order / all, by_chance: by_chance / all })
 }
 
-/// Mean of ((same − opposite)/(same + opposite))² of a person and so many `others`, each of which goes its way with a
-/// probability: the difference is 1 for itself and one of ± 1 for each other.
-fn squared_by_chance(others: f64, same_way: f64) -> f64 {
-    let mean = 1.0 + others * (2.0 * same_way - 1.0);
-    let variance = 4.0 * others * same_way * (1.0 - same_way);
+/// Expectation of ((same − opposite)/(same + opposite))² for an agent and `others`, each of which walks in its
+/// direction with a probability: the difference is 1 for the agent and ± 1 for each other.
+fn squared_by_chance(others: f64, same_direction: f64) -> f64 {
+    let mean = 1.0 + others * (2.0 * same_direction - 1.0);
+    let variance = 4.0 * others * same_direction * (1.0 - same_direction);
     (mean * mean + variance) / ((others + 1.0) * (others + 1.0))
 }
 
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn two_halves_are_in_order_and_chance_is_not() {
+    fn two_halves_are_in_order_and_a_random_crowd_is_not() {
         let halves = lane_order(&walkers(200, |_, across_m| across_m > 0.0)).unwrap();
         assert!(halves.reduced().unwrap() > 0.9, "{halves:?}");
         let mixed: f64 = (0..20)
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn order_needs_company() {
+    fn a_lone_agent_has_no_reduced_order() {
         let alone = LaneWalker { across_m: 0.0, goes_forward: true };
         assert_eq!(lane_order(&[alone]).unwrap(), LaneOrder { order: 1.0, by_chance: 1.0 });
         assert_eq!(lane_order(&[alone]).unwrap().reduced(), None);

@@ -1,20 +1,20 @@
-//! A line on the ground that people pass, and the flow over it.
+//! A line on the ground that agents pass, and the flow over it.
 //!
-//! Whoever goes from the gate's right to its left (seen from its first end to its second) passes it; the first passage
-//! of each counts, at the instant between two frames at which the root is on the line. World, metres, seconds.
+//! An agent passes the gate from its right to its left, seen from its first end to its second. The first passage of
+//! each agent counts, at the instant between two frames at which its root is on the line. World, metres, seconds.
 
 use glam::Vec2;
 
-/// A line and who has passed it.
+/// A line, and when each agent first passed it.
 #[derive(Clone, Debug)]
 pub struct Gate {
     ends_m: [Vec2; 2],
-    /// By agent, s.
+    /// Time of the first passage of each agent, s.
     passed_s: Vec<Option<f64>>,
 }
 
 impl Gate {
-    /// Nobody has passed yet.
+    /// No passages yet.
     pub fn new(ends_m: [Vec2; 2], agent_count: usize) -> Self {
         Self { ends_m, passed_s: vec![None; agent_count] }
     }
@@ -22,18 +22,18 @@ impl Gate {
     /// Adds one step that ends at a time, given every root before and after it.
     pub fn push(&mut self, before_m: &[Vec2], after_m: &[Vec2], end_s: f64, dt_s: f64) {
         for ((passed_s, &from_m), &to_m) in self.passed_s.iter_mut().zip(before_m).zip(after_m) {
-            if let Some(share) = share_of_way(self.ends_m, from_m, to_m) {
+            if let Some(share) = crossing_share(self.ends_m, from_m, to_m) {
                 passed_s.get_or_insert(end_s - (1.0 - f64::from(share)) * dt_s);
             }
         }
     }
 
-    /// When an agent first passed, s.
+    /// Time of an agent's first passage, s.
     pub fn passed_s(&self, agent: usize) -> Option<f64> {
         self.passed_s[agent]
     }
 
-    /// All first passages in order of time, s.
+    /// Times of all first passages, ascending, s.
     pub fn passages_s(&self) -> Vec<f64> {
         let mut passages_s: Vec<f64> = self.passed_s.iter().copied().flatten().collect();
         passages_s.sort_by(f64::total_cmp);
@@ -53,8 +53,8 @@ impl Gate {
     }
 }
 
-/// Where along a way the line is crossed to its left, 0 to 1.
-fn share_of_way([first_m, second_m]: [Vec2; 2], from_m: Vec2, to_m: Vec2) -> Option<f32> {
+/// Share of a displacement at which it crosses the line to its left, 0 to 1.
+fn crossing_share([first_m, second_m]: [Vec2; 2], from_m: Vec2, to_m: Vec2) -> Option<f32> {
     let along_m = second_m - first_m;
     let [from, to] = [from_m, to_m].map(|point_m| along_m.perp_dot(point_m - first_m));
     if from > 0.0 || to <= 0.0 {
@@ -69,13 +69,13 @@ fn share_of_way([first_m, second_m]: [Vec2; 2], from_m: Vec2, to_m: Vec2) -> Opt
 mod tests {
     use super::*;
 
-    /// From x = −1 to 1 at y = 0: passed northwards.
+    /// A gate from x = −1 to 1 at y = 0, passed in +y.
     fn gate(agent_count: usize) -> Gate {
         Gate::new([Vec2::new(-1.0, 0.0), Vec2::new(1.0, 0.0)], agent_count)
     }
 
     #[test]
-    fn passages_are_timed_between_frames_and_counted_once() {
+    fn passages_are_timed_between_frames_and_count_once() {
         let mut gate = gate(2);
         let walk_m = |y: f32| [Vec2::new(0.0, y - 1.0), Vec2::new(0.5, y)];
         gate.push(&walk_m(-0.25), &walk_m(0.75), 1.0, 1.0);
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn who_goes_the_other_way_or_around_does_not_pass() {
+    fn the_opposite_direction_and_a_detour_do_not_count() {
         let mut gate = gate(2);
         let [before_m, after_m] = [[Vec2::new(0.0, 0.5), Vec2::new(1.5, -1.0)], [Vec2::NEG_Y, Vec2::new(1.5, 1.0)]];
         gate.push(&before_m, &after_m, 1.0, 1.0);
