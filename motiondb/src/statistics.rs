@@ -15,6 +15,14 @@ pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     Some(0.5 * (sorted[last / 2] + sorted[sorted.len() / 2]))
 }
 
+/// The sorted value at position `share` · (count − 1), rounded down: 0 gives the least, 1 the greatest; none of none.
+pub fn lower_quantile(values: impl IntoIterator<Item = f64>, share: f64) -> Option<f64> {
+    let mut sorted: Vec<f64> = values.into_iter().collect();
+    sorted.sort_by(f64::total_cmp);
+    let last = sorted.len().checked_sub(1)?;
+    Some(sorted[(share * last as f64) as usize])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -27,8 +35,9 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_of_no_values_is_none() {
-        assert_eq!(mean([1.0, 2.0, 6.0]), Some(3.0));
-        assert_eq!(mean([]), None);
+    fn a_lower_quantile_is_one_of_the_values() {
+        assert_eq!(lower_quantile([4.0, 1.0, 3.0, 2.0], 0.5), Some(2.0));
+        assert_eq!(lower_quantile([4.0, 1.0, 3.0, 2.0], 1.0), Some(4.0));
+        assert_eq!(lower_quantile([], 0.5), None);
     }
 }

@@ -69,11 +69,11 @@ fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Fa
         MotionSource::Clips(path) => path,
     };
     let path = folder.join("motion.fbdb");
-    let Compiled { db, refused } = compiling::compile(&[clips], &path, &Overrides::default(), &Stopwatch::default())?;
-    compiling::say_refused(&refused);
+    let Compiled { db, rejected } = compiling::compile(&[clips], &path, &Overrides::default(), &Stopwatch::default())?;
+    compiling::say_refused(&rejected);
     fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     database_file::write(&path, &db)?;
-    Ok((path, compiling::answer(&refused)))
+    Ok((path, compiling::answer(&rejected)))
 }
 
 /// Frames of an earlier and longer run would follow on this one's last.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use fbcrowd_sim::scenario;
 use motiondb::files::SourceText;
 use motiondb::motion::MotionDb;
+use motiondb_compiler::Manifest;
 use motiondb_compiler::compile::compile_manifest;
-use motiondb_compiler::input::manifest::Manifest;
 use motiondb_compiler::mutation::mutated;
 
 use crate::cmd::bench::soak::scratch::Scratch;

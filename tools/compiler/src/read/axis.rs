@@ -1,9 +1,9 @@
-//! A source's axis with its sign, as manifests and records spell it: `+X` … `-Z`.
+//! A signed axis of a source's coordinates, written as in manifests and records: `+X` … `-Z`.
 
 use glam::DVec3;
 use serde::Deserialize;
 
-/// One of six directions.
+/// One of the six signed axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
 pub struct Axis {
@@ -18,14 +18,14 @@ impl Axis {
         Self { index, is_negative: direction[index] < 0.0 }
     }
 
-    /// Unit vector.
+    /// Unit vector along the axis.
     pub fn direction(self) -> DVec3 {
         let axis = DVec3::AXES[self.index];
         if self.is_negative { -axis } else { axis }
     }
 
-    /// Whether two lie on one line.
-    pub fn is_along(self, other: Self) -> bool {
+    /// Whether both axes lie on one line.
+    pub(crate) fn is_along(self, other: Self) -> bool {
         self.index == other.index
     }
 
