@@ -11,7 +11,6 @@ use motiondb::diagnostic::{Diagnostic, Unfit, Warning};
 use motiondb::statistics::median;
 
 use crate::error::Refusal;
-use crate::ground::root_motion::leg_length_m;
 use crate::read::source_clip::SourceClip;
 use crate::retarget::human_clip::HumanBody;
 use crate::retarget::source_parameters::{WholeClip, facing_rad};
@@ -69,7 +68,7 @@ pub(crate) fn contradicted_up(clip: &SourceClip, roles: &Roles) -> Option<Unfit>
 
 /// The refusal, where bones are none of a body that could walk.
 pub(crate) fn impossible_body(body: &HumanBody) -> Option<Refusal> {
-    let leg_m = leg_length_m(body);
+    let leg_m = body.leg_length_m();
     let leg_bones = [Joint::SHANKS, Joint::FEET].concat();
     let shortest_m = leg_bones.iter().map(|joint| body.offsets_m[joint.index()].length()).fold(f64::INFINITY, f64::min);
     let bones = body.offsets_m.iter().chain(&body.segment_ends_m).chain(body.soles_m.iter().flatten());

@@ -8,7 +8,9 @@ pub mod clip_set;
 pub(crate) mod clip_settings;
 pub mod manifest;
 pub(crate) mod name_suggestions;
+pub(crate) mod options;
 pub(crate) mod unique_names;
 
 pub use clip_settings::{JointMap, Places, Settings, Take};
 pub use name_suggestions::nearest_first;
+pub use options::Options;

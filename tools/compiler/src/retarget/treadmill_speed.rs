@@ -20,7 +20,7 @@ use glam::DVec2;
 use motiondb::body::Joint;
 use motiondb::statistics::median;
 
-use crate::gait::contacts::runs;
+use crate::frame_runs::frame_runs;
 use crate::read::source_clip::SourceClip;
 use crate::retarget::source_parameters::{facing_rad, heading, in_body};
 use crate::retarget::units::{HUMAN_LEG_M, leg_length};
@@ -108,7 +108,7 @@ impl<'a> Tread<'a> {
         for votes in &of_balls {
             let agrees = |vote: &Vote| vote.velocity.distance(ground) < reach;
             let stands: Vec<bool> = votes.iter().map(|vote| vote.as_ref().is_some_and(agrees)).collect();
-            for (_, start, end) in runs(&stands).into_iter().filter(|run| run.0) {
+            for Range { start, end } in frame_runs(&stands, true) {
                 slides.extend(votes[middle(start, end, votes.len())].iter().flatten().map(|vote| vote.velocity));
             }
         }
