@@ -57,7 +57,7 @@ pub(crate) fn test_db() -> MotionDb {
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
     db.velocity_hull = velocity_hull::build(&parameters, Construction::default());
     db.blend_space = motiondb::blend_space::triangulation::build(&parameters);
-    db.correspondence = motiondb_compiler::database::find(&db, None);
+    db.correspondence = motiondb_compiler::database::find_correspondence(&db, None);
     db
 }
 

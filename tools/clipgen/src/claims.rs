@@ -1,36 +1,38 @@
-//! What the bundled clips claim, measured on their own skeletons with this file's forward kinematics.
+//! Tests of what the bundled clips claim, measured on their own skeleton.
 //!
-//! Measures as in the compiler: facing from hips and shoulders; slide of the lowest sole point over the middle 80 % of
-//! each contact, a foot being planted where that point is within 2.5 cm of the ground and slower than 0.25 m/s + 15 %
-//! of the body's speed.
+//! Measures are those of the compiler: facing from hips and shoulders; slide of the lowest sole point over the middle 80 %
+//! of each contact. A foot is planted where that point is within 2.5 cm of the ground and slower than 0.25 m/s plus 15 %
+//! of the body's speed. World frame: metres, Z up.
 
 use glam::{DVec2, DVec3};
 
-use crate::body::{ARMS, FEET, JOINT_COUNT, SHANKS, THIGHS, TOES};
-use crate::cadence::FRAME_RATE_HZ;
-use crate::catalogue::{Clip, Recipe, clips};
+use crate::body::ClipPose;
+use crate::body::rotation::wrapped;
+use crate::body::skeleton::{ARMS, FEET, JOINT_COUNT, SHANKS, THIGHS, TOES};
+use crate::catalogue::{ClipRecipe, PlannedClip, planned_clips};
 use crate::generate;
-use crate::rotation::wrapped;
-use crate::variation::Variation;
+use crate::plan::{FRAME_RATE_HZ, StrideVariation};
 
-/// Below this, feet move so slowly before a strike and after a toe-off that they count as planted for longer, m/s: for
-/// the 68 % of Schwartz's very slow walkers and a frame, 2 % of the cycle.
+/// Speed below which feet count as planted for longer, m/s: they move slowly before a strike and after a toe-off.
 const SLOW_MPS: f64 = 0.9;
+/// Greatest planted share below that speed: 68 % of Schwartz's very slow walkers, and a frame, 2 % of the cycle.
 const SLOW_SHARE_MAX: f64 = 0.70;
 
 /// Joint positions of every frame, m.
-type Frames = Vec<[DVec3; JOINT_COUNT]>;
+type JointFrames = Vec<[DVec3; JOINT_COUNT]>;
 
-fn frames(clip: &Clip) -> Frames {
-    clip.poses().iter().map(crate::body::Pose::positions_m).collect()
+fn frames(clip: &PlannedClip) -> JointFrames {
+    clip.poses().iter().map(ClipPose::positions_m).collect()
 }
 
-fn is_running(clip: &Clip) -> bool {
-    matches!(&clip.recipe, Recipe::Steps { gait, .. } if gait.running)
+fn is_running(clip: &PlannedClip) -> bool {
+    matches!(&clip.recipe, ClipRecipe::Steps { gait, .. } if gait.running)
 }
 
-fn check_each(claim: impl Fn(&Clip, &Frames) -> Result<(), String>) {
-    let broken: Vec<String> = clips()
+/// Fails unless every clip meets a claim; lists the others.
+#[track_caller]
+fn check_each(claim: impl Fn(&PlannedClip, &JointFrames) -> Result<(), String>) {
+    let broken: Vec<String> = planned_clips()
         .iter()
         .filter_map(|clip| claim(clip, &frames(clip)).err().map(|error| format!("{}: {error}", clip.name)))
         .collect();
@@ -58,14 +60,14 @@ fn knee_flexion_deg(joints: &[DVec3; JOINT_COUNT], side: usize) -> f64 {
 }
 
 /// Mean slide in cm/s and planted share of one foot.
-fn slide_and_share(frames: &Frames, side: usize, pace_mps: f64) -> (f64, f64) {
+fn slide_and_share(frames: &JointFrames, side: usize, pace_mps: f64) -> (f64, f64) {
     let last = frames.len() - 1;
     let lowest_and_speed = |i: usize| {
         let points = sole_points(&frames[i], side);
         let k = (0..3).min_by(|a, b| points[*a].z.total_cmp(&points[*b].z)).unwrap();
         let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
-        let way_m = (sole_points(&frames[after], side)[k] - sole_points(&frames[before], side)[k]).truncate();
-        (points[k].z, way_m.length() * FRAME_RATE_HZ / (after - before) as f64)
+        let moved_m = (sole_points(&frames[after], side)[k] - sole_points(&frames[before], side)[k]).truncate();
+        (points[k].z, moved_m.length() * FRAME_RATE_HZ / (after - before) as f64)
     };
     let feet: Vec<(f64, f64)> = (0..frames.len()).map(lowest_and_speed).collect();
     let planted: Vec<bool> = feet.iter().map(|(z, speed)| *z < 0.025 && *speed < 0.25 + 0.15 * pace_mps).collect();
@@ -93,12 +95,12 @@ fn committed_clips_are_what_the_generator_writes() {
         let committed = std::fs::read(folder.join(&file.name)).unwrap_or_default();
         assert!(committed == file.bytes, "{} differs: run `fbcrowd clips --out assets/clips`", file.name);
     }
-    assert_eq!(std::fs::read_dir(folder).unwrap().count(), files.len(), "a file that nobody generates");
+    assert_eq!(std::fs::read_dir(folder).unwrap().count(), files.len(), "a file that the generator does not write");
     assert!(files.iter().map(|file| file.bytes.len()).sum::<usize>() < 5_000_000);
 }
 
 #[test]
-fn every_clip_moves_as_its_name_claims() {
+fn clips_move_as_their_names_claim() {
     check_each(|clip, frames| {
         let hips = |joints: &[DVec3; JOINT_COUNT]| (0.5 * (joints[THIGHS[0]] + joints[THIGHS[1]])).truncate();
         let (mut velocity, count) = (DVec2::ZERO, (frames.len() - 1) as f64);
@@ -118,12 +120,12 @@ fn every_clip_moves_as_its_name_claims() {
 }
 
 #[test]
-fn planted_feet_stand_still_for_as_long_as_peoples_do() {
+fn planted_feet_stand_still_as_long_as_human_ones() {
     check_each(|clip, frames| {
         for side in 0..2 {
             let (slide_cm_s, share) = slide_and_share(frames, side, clip.motion.pace_mps());
             let (slide_bar, shares) = match (&clip.recipe, is_running(clip)) {
-                (Recipe::Idle, _) => (0.1, 1.0..=1.0),
+                (ClipRecipe::Idle, _) => (0.1, 1.0..=1.0),
                 (_, true) => (3.0, 0.28..=0.45),
                 (_, false) if clip.motion.pace_mps() < SLOW_MPS => (1.0, 0.45..=SLOW_SHARE_MAX),
                 (_, false) => (1.0, 0.45..=0.65),
@@ -144,7 +146,7 @@ fn no_sole_goes_through_the_floor() {
 }
 
 #[test]
-fn no_knee_is_straight_or_folds_beyond_human_range() {
+fn knees_stay_within_the_human_range() {
     check_each(|_, frames| {
         for joints in frames {
             for side in 0..2 {
@@ -172,8 +174,8 @@ fn the_last_frame_is_the_first_one_moved_on() {
 
 #[test]
 fn no_joint_pops_between_frames() {
-    // A pop shows as a change of velocity within one frame. Struck heels change a foot's by some 1.5 m/s in walking, 4
-    // m/s in running.
+    // A pop is a change of velocity within one frame. A struck heel changes a foot's by some 1.5 m/s in walking, 4 m/s in
+    // running.
     check_each(|clip, frames| {
         let bar_mps = if is_running(clip) { 6.0 } else { 3.5 };
         for triple in frames.windows(3) {
@@ -187,14 +189,14 @@ fn no_joint_pops_between_frames() {
 }
 
 #[test]
-fn straight_walks_keep_to_adult_bands_of_cadence_and_stride() {
+fn straight_walks_keep_adult_cadence_and_stride() {
     // (speed m/s, cadence steps/min, stride m) of men slow, men or women normal, men or women fast: 18–29 years, ±1 SD.
     let bands = [
         (0.85..=1.20, 86.0..=101.0, 1.18..=1.48),
         (1.20..=1.65, 99.0..=124.0, 1.31..=1.66),
         (1.65..=2.25, 118.0..=156.0, 1.56..=1.98),
     ];
-    for clip in clips().iter().filter(|clip| clip.name.starts_with("walk_")) {
+    for clip in planned_clips().iter().filter(|clip| clip.name.starts_with("walk_")) {
         let (cadence, step_m) = clip.cadence_and_step_m().unwrap();
         for (_, cadences, strides) in bands.iter().filter(|band| band.0.contains(&clip.motion.speed_mps)) {
             assert!(
@@ -207,10 +209,10 @@ fn straight_walks_keep_to_adult_bands_of_cadence_and_stride() {
 }
 
 #[test]
-fn walking_joints_follow_the_published_curves_within_five_degrees() {
-    for clip in clips().iter().filter(|clip| clip.name.starts_with("walk_")) {
-        let Recipe::Steps { gait, strides, .. } = &clip.recipe else { panic!("{} does not step", clip.name) };
-        let variation = Variation::of_clip(clip.name, *strides);
+fn walking_joints_follow_published_curves_within_five_degrees() {
+    for clip in planned_clips().iter().filter(|clip| clip.name.starts_with("walk_")) {
+        let ClipRecipe::Steps { gait, strides, .. } = &clip.recipe else { panic!("{} does not step", clip.name) };
+        let variation = StrideVariation::of_clip(clip.name, *strides);
         let frames = frames(clip);
         let strides = &frames[1..];
         let mut squares = [0.0; 3];
@@ -233,8 +235,8 @@ fn walking_joints_follow_the_published_curves_within_five_degrees() {
 }
 
 #[test]
-fn a_slow_side_step_all_but_stops_with_the_feet_together() {
-    let clips = clips();
+fn slow_side_steps_nearly_stop_with_the_feet_together() {
+    let clips = planned_clips();
     let clip = clips.iter().find(|clip| clip.name == "side_035_left").unwrap();
     let frames = frames(clip);
     let slowest = frames
@@ -246,6 +248,6 @@ fn a_slow_side_step_all_but_stops_with_the_feet_together() {
 }
 
 #[test]
-fn generator_is_deterministic() {
+fn the_generator_is_deterministic() {
     assert!(generate() == generate());
 }

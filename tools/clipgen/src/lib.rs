@@ -1,56 +1,45 @@
-//! The generator of the bundled clips: human locomotion made from gait science, nobody's motion capture.
+//! The generator of the bundled clips: human locomotion made from published gait science, without motion capture.
 //!
-//! In reading order: whose body (`body`), what is published of its joints (`published_curves`) and what a speed makes
-//! of a gait (`cadence`); no two strides alike (`variation`); where the feet stand (`footsteps`, `steps`), roll
-//! (`foot_roll`) and swing (`swing`); the pelvis over them (`pelvis`), the legs between (`legs`), trunk, head and arms
-//! (`upper_body`); all assembled (`stepping`) or standing (`idle`); the list of clips (`catalogue`) and their files
-//! (`bvh_writer`; `body_mesh`, `glb_buffer` and `glb_writer`; `readme`). What the result is held against:
-//! [`mod@reference`].
+//! ```
+//! let files = clipgen::generate();
+//! let idle = files.iter().find(|file| file.name == "idle.bvh").ok_or("no such clip")?;
+//! assert!(idle.bytes.starts_with(b"HIERARCHY"));
+//! # Ok::<(), &str>(())
+//! ```
 //!
 //! Every byte follows from this source: no input, no clock, no seed but the clips' names, trigonometry through `libm`.
+//!
+//! Chapters, in reading order: `body` (skeleton and poses), `plan` (what a speed makes of a gait), `motion` (from plan to
+//! poses), `files` (BVH, GLB, README). `catalogue` lists the clips; [`mod@reference`] is what the result is compared with.
 
 mod body;
-mod body_mesh;
-mod bvh_writer;
-mod cadence;
 mod catalogue;
 #[cfg(test)]
 mod claims;
-mod foot_roll;
-mod footsteps;
-mod glb_buffer;
-mod glb_writer;
-mod idle;
-mod legs;
-mod pelvis;
-mod published_curves;
-mod readme;
+mod files;
+mod motion;
+mod plan;
 pub mod reference;
-mod rotation;
-mod stepping;
-mod steps;
-mod swing;
-mod upper_body;
-mod variation;
 
 /// One file of `assets/clips`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClipFile {
     /// File name, with extension and without folders.
     pub name: String,
-    /// Its content.
+    /// Content of the file.
     pub bytes: Vec<u8>,
 }
 
 /// Every file of `assets/clips`: the clips, then the README that lists them.
 pub fn generate() -> Vec<ClipFile> {
-    let clips = catalogue::clips();
-    let mut files: Vec<ClipFile> =
-        clips.iter().map(|clip| ClipFile { name: clip.file_name(), bytes: file_bytes(clip) }).collect();
-    files.push(ClipFile { name: "README.md".to_owned(), bytes: readme::write(&clips) });
-    files
+    let clips = catalogue::planned_clips();
+    let mut clip_files: Vec<ClipFile> = clips.iter().map(clip_file).collect();
+    clip_files.push(ClipFile { name: "README.md".to_owned(), bytes: files::readme_bytes(&clips) });
+    clip_files
 }
 
-fn file_bytes(clip: &catalogue::Clip) -> Vec<u8> {
-    if clip.is_skinned() { glb_writer::write(clip.name, &clip.poses()) } else { bvh_writer::write(&clip.poses()) }
+fn clip_file(clip: &catalogue::PlannedClip) -> ClipFile {
+    let poses = clip.poses();
+    let bytes = if clip.is_skinned() { files::glb_bytes(clip.name, &poses) } else { files::bvh_bytes(&poses) };
+    ClipFile { name: clip.file_name(), bytes }
 }

@@ -43,6 +43,7 @@ pub mod cycle;
 pub mod database;
 pub mod dedup;
 pub mod error;
+mod frame_runs;
 pub mod gait;
 pub mod ground;
 pub mod import;

@@ -1,44 +1,42 @@
-//! Clips → what can be reported of them without a database: each source's record, and its gait in the source's own time.
+//! Survey: what can be reported of clips without a database. The record of each source, and its gait in the source's time.
 //!
 //! The gait is that of the performer's own body, whatever clips lie beside this one: all contacts of the clip, not only
-//! those of the steady part that an example is made of. Seconds from the file's first frame, so that they compare with
-//! labels that others made on the same file.
+//! those of the steady part that an example is made of. Times in seconds from the file's first frame, so that they
+//! compare with labels that others set on the same file.
 
 use motiondb::diagnostic::Unfit;
 use motiondb::motion::SourceRecord;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
-use crate::cycle::analysis::{Analyzed, analyze};
-use crate::dedup::duplicates;
-use crate::gait::gait_events::Stance;
-use crate::gait::own_body::{self, Performer};
-use crate::gait::windows::Gait;
+use crate::compile::TargetedClips;
+use crate::cycle::analyzed_clip::AnalyzedClip;
+use crate::gait::foot_stance::FootStance;
+use crate::gait::performer_gait::PerformerGait;
+use crate::gait::windows::{GaitWindow, WindowGait};
 use crate::ground::root_motion::GroundedClip;
-use crate::ground::target_skeleton;
-use crate::input::clip_set;
 use crate::retarget::human_clip::HumanClip;
 
-/// A clip, and what its feet do.
+/// The record of a clip, and what its feet do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurveyedSource {
-    /// As a database would hold it.
+    /// The record that a database would hold.
     pub source: SourceRecord,
-    /// Its gait.
+    /// Gait of the whole clip.
     pub gait: SourceGait,
 }
 
 /// What the feet do in a whole clip.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SourceGait {
-    /// Steps, standing or neither.
+    /// The clip steps, stands or does neither.
     #[serde(flatten)]
     pub kind: GaitKind,
-    /// Share of the clip that a foot is planted, mean of both.
+    /// Share of the clip for which a foot is planted, mean of both feet.
     pub planted_share: f32,
     /// Contacts of the right foot, in order of time.
     pub right: Vec<ContactTimes>,
-    /// Of the left foot.
+    /// Contacts of the left foot, in order of time.
     pub left: Vec<ContactTimes>,
 }
 
@@ -52,40 +50,52 @@ pub enum GaitKind {
     Stands,
     /// Nothing that an example could be made of.
     Unsteady {
-        /// Why; in JSON its sentence.
+        /// Why the clip gives no example; in JSON as a sentence.
         #[serde(serialize_with = "sentence")]
         reason: Unfit,
     },
 }
 
-/// When a foot touched the ground and when it left it.
+/// Times of one contact of a foot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ContactTimes {
-    /// Heel strike, or whatever touched first; none where the clip begins later.
+    /// Heel strike, or first touch of any part of the foot, s; `None` where the clip begins later.
     pub strike_s: Option<f32>,
-    /// Toe-off, or whatever left last; none where the clip ends before.
+    /// Toe-off, or last touch of any part of the foot, s; `None` where the clip ends before.
     pub toe_off_s: Option<f32>,
 }
 
 impl SourceGait {
-    /// Times that a foot was put down.
+    /// Number of contacts whose strike the clip shows.
     pub fn step_count(&self) -> usize {
         self.right.iter().chain(&self.left).filter(|contact| contact.strike_s.is_some()).count()
     }
 }
 
-/// What is found in clips, with what a compilation would say of each, in the order of a database.
-pub fn survey(mut clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
-    clip_set::sort(&mut clips);
-    if clips.is_empty() {
-        return Vec::new();
-    }
-    let body = target_skeleton::choose(&clips);
-    let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
-    duplicates::set_aside(&clips, &mut analyzed, &body);
-    let surveyed =
-        |(clip, found): (&HumanClip, &Analyzed)| SurveyedSource { source: found.record(clip), gait: source_gait(clip) };
-    clips.par_iter().zip(&analyzed).map(surveyed).collect()
+/// The record and the gait of each clip, with the diagnostics of a compilation, in the order of a database.
+///
+/// # Examples
+/// ```
+/// use std::path::Path;
+///
+/// use motiondb_compiler::import::import;
+/// use motiondb_compiler::survey::{GaitKind, survey};
+///
+/// let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/clips/walk_110.bvh");
+/// let clips = import(&file)?.into_iter().filter_map(|import| import.outcome.ok()).collect();
+/// let gait = &survey(clips)[0].gait;
+/// assert_eq!(gait.kind, GaitKind::Steps);
+/// assert!(gait.step_count() >= 8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn survey(clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
+    let Some(set) = TargetedClips::of(clips) else { return Vec::new() };
+    let analyzed = set.without_duplicates(set.analyzed());
+    let surveyed = |(clip, found): (&HumanClip, &AnalyzedClip)| SurveyedSource {
+        source: found.record(clip),
+        gait: source_gait(clip),
+    };
+    set.clips.par_iter().zip(&analyzed).map(surveyed).collect()
 }
 
 fn sentence<S: Serializer>(reason: &Unfit, serializer: S) -> Result<S::Ok, S::Error> {
@@ -93,50 +103,53 @@ fn sentence<S: Serializer>(reason: &Unfit, serializer: S) -> Result<S::Ok, S::Er
 }
 
 fn source_gait(clip: &HumanClip) -> SourceGait {
-    let Performer { clip: grounded, gait: analysis, .. } = own_body::analyze(clip);
-    let kind = match &analysis.windows {
-        Ok(windows) if windows.iter().any(|window| matches!(window.gait, Gait::Steps(_))) => GaitKind::Steps,
+    let PerformerGait { clip: grounded, gait, .. } = PerformerGait::of(clip);
+    let steps = |window: &GaitWindow| matches!(window.gait, WindowGait::Steps(_));
+    let kind = match &gait.windows {
+        Ok(windows) if windows.iter().any(steps) => GaitKind::Steps,
         Ok(_) => GaitKind::Stands,
         Err(reason) => GaitKind::Unsteady { reason: reason.clone() },
     };
-    let shown = Shown::of(&grounded, clip.first_frame);
-    let stances = analysis.clearest_stances();
-    let [left_share, right_share] = stances.each_ref().map(|stances| shown.planted_share(stances));
-    let [left, right] = stances.each_ref().map(|stances| shown.contacts(stances));
+    let frames = FileFrames::of(&grounded, clip.first_frame);
+    let stances = gait.clearest_stances();
+    let [left_share, right_share] = stances.each_ref().map(|stances| frames.planted_share(stances));
+    let [left, right] = stances.each_ref().map(|stances| frames.contact_times(stances));
     SourceGait { kind, planted_share: (0.5 * (left_share + right_share)) as f32, right, left }
 }
 
-/// The frames of an analysed clip that the file itself has: all, or the middle copy of an unrolled loop.
-struct Shown {
+/// The frames of an analysed clip that the file itself has: all frames, or the middle copy of an unrolled loop.
+struct FileFrames {
+    /// First frame of the analysed clip that the file has.
     start: f64,
+    /// Last frame of the analysed clip that the file has.
     end: f64,
     /// Frames of the file before `start`.
     first_frame: usize,
     frame_rate_hz: f64,
 }
 
-impl Shown {
+impl FileFrames {
     fn of(clip: &GroundedClip, first_frame: usize) -> Self {
         let frames = clip.loop_frames.map_or([0, clip.poses.len() - 1], |round| [round, 2 * round]);
         let [start, end] = frames.map(|frame| frame as f64);
         Self { start, end, first_frame, frame_rate_hz: clip.frame_rate_hz }
     }
 
-    fn contacts(&self, stances: &[Stance]) -> Vec<ContactTimes> {
+    fn contact_times(&self, stances: &[FootStance]) -> Vec<ContactTimes> {
         let in_file_s = |frame: f64| ((frame - self.start + self.first_frame as f64) / self.frame_rate_hz) as f32;
-        let contact = |stance: &Stance| ContactTimes {
+        let times = |stance: &FootStance| ContactTimes {
             strike_s: (stance.strike_frame >= self.start).then(|| in_file_s(stance.strike_frame)),
             toe_off_s: (stance.off_frame <= self.end).then(|| in_file_s(stance.off_frame)),
         };
-        stances.iter().filter(|stance| self.overlap(stance) > 0.0).map(contact).collect()
+        stances.iter().filter(|stance| self.overlap(stance) > 0.0).map(times).collect()
     }
 
-    fn planted_share(&self, stances: &[Stance]) -> f64 {
+    fn planted_share(&self, stances: &[FootStance]) -> f64 {
         stances.iter().fold(0.0, |sum, stance| sum + self.overlap(stance).max(0.0)) / (self.end - self.start)
     }
 
-    /// Frames of a stance that are shown; negative where it lies elsewhere.
-    fn overlap(&self, stance: &Stance) -> f64 {
+    /// Frames of a stance that the file has; negative where the stance lies elsewhere.
+    fn overlap(&self, stance: &FootStance) -> f64 {
         stance.off_frame.min(self.end) - stance.strike_frame.max(self.start)
     }
 }

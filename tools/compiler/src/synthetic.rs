@@ -1,45 +1,62 @@
-//! A made-up walker for unit tests: exact steps on an arc, so that every stage's answer is known beforehand.
+//! A synthetic walker for unit tests: exact steps on an arc, so that the result of every stage is known beforehand.
+//!
+//! World frame: metres, seconds, radians, Z up.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::num::NonZeroUsize;
 
 use glam::{DQuat, DVec2, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
-use motiondb::motion::SourceRecord;
+use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
 
-use crate::cycle::mean_stride::{GaitCycle, mean_stride};
+use crate::cycle::gait_cycle::GaitCycle;
+use crate::cycle::mean_stride::mean_stride;
 use crate::gait::stride::Stride;
-use crate::gait::windows::{self, Gait};
-use crate::ground::arc::{Arc, Rates, rotation};
-use crate::ground::leg_ik::place_ankle;
-use crate::ground::root_motion::ground;
+use crate::gait::windows::{WindowGait, analyze_gait};
+use crate::ground::leg_ik;
+use crate::ground::root_arc::{Rates, RootArc};
+use crate::ground::root_motion::grounded_clip;
+use crate::ground::rotations::ground_rotation;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
+use crate::{Options, compile};
 
-/// Ankle over the sole.
+/// Height of the ankle over the sole, m.
 const ANKLE_M: f64 = 0.09;
 /// Share of the period that each foot is planted.
 const PLANTED_SHARE: f64 = 0.6;
 
-/// A walk to be made.
+/// The plan of a synthetic walk.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Walk {
+pub(crate) struct SyntheticWalk {
+    /// Rates of the root.
     pub(crate) rates: Rates,
+    /// Duration of a stride, s.
     pub(crate) period_s: f64,
     /// Share of the period from right to left mid-stance.
     pub(crate) left_share: f64,
+    /// Duration of the clip, s.
     pub(crate) duration_s: f64,
+    /// Frames per second.
     pub(crate) frame_rate_hz: f64,
-    /// Everything of the performer, the speeds too, in this proportion.
+    /// Scale of the body and of the swing; 1 is a leg of 0.84 m. The rates do not scale.
     pub(crate) size: f64,
 }
 
-impl Default for Walk {
+impl Default for SyntheticWalk {
     fn default() -> Self {
-        let rates = Rates { speed_mps: 1.2, ..Rates::default() };
+        Self::at(1.2, 0.0, 0.0)
+    }
+}
+
+impl SyntheticWalk {
+    /// Four seconds at 60 frames per second, at these rates.
+    pub(crate) fn at(speed_mps: f64, turn_rate_rad_s: f64, strafe_mps: f64) -> Self {
+        let rates = Rates { speed_mps, turn_rate_rad_s, strafe_mps };
         Self { rates, period_s: 1.1, left_share: 0.5, duration_s: 4.0, frame_rate_hz: 60.0, size: 1.0 }
     }
 }
 
-/// A body with legs of 0.84 m.
+/// A body with legs of 0.84 m, times `size`.
 pub(crate) fn body(size: f64) -> HumanBody {
     let mut offsets_m = [DVec3::ZERO; JOINT_COUNT];
     let mut set = |joint: Joint, x: f64, y: f64, z: f64| {
@@ -66,10 +83,10 @@ pub(crate) fn body(size: f64) -> HumanBody {
     HumanBody { offsets_m, segment_ends_m, soles_m, measured_m: soles_m }
 }
 
-/// The clip of a walk; its phase 0 comes at 0.37 of a period.
-pub(crate) fn walk(name: &str, walk: Walk) -> HumanClip {
+/// The clip of a walk; its phase 0 is at 0.37 of a period.
+pub(crate) fn walk(name: &str, walk: SyntheticWalk) -> HumanClip {
     let body = body(walk.size);
-    let arc = Arc { start_m: DVec2::new(2.0, -1.0), facing_rad: 0.4, rates: walk.rates };
+    let arc = RootArc { start_m: DVec2::new(2.0, -1.0), facing_rad: 0.4, rates: walk.rates };
     let frames = (walk.duration_s * walk.frame_rate_hz) as usize + 1;
     let poses = (0..frames).map(|frame| pose(&walk, &body, &arc, frame as f64 / walk.frame_rate_hz)).collect();
     clip(name, body, poses, walk.frame_rate_hz)
@@ -77,8 +94,8 @@ pub(crate) fn walk(name: &str, walk: Walk) -> HumanClip {
 
 /// A body that stands and breathes.
 pub(crate) fn idle(name: &str, duration_s: f64) -> HumanClip {
-    let still = Walk { rates: Rates::default(), ..Walk::default() };
-    let arc = Arc::default();
+    let still = SyntheticWalk::at(0.0, 0.0, 0.0);
+    let arc = RootArc::default();
     let body = body(1.0);
     let frames = (duration_s * 60.0) as usize + 1;
     let poses = (0..frames)
@@ -86,7 +103,7 @@ pub(crate) fn idle(name: &str, duration_s: f64) -> HumanClip {
             let mut pose = pose(&still, &body, &arc, -0.37 * still.period_s);
             pose.rotations[Joint::SpineUpper.index()] = DQuat::from_rotation_y(0.02 * libm::sin(frame as f64 / 31.0));
             for side in 0..2 {
-                place_ankle(&mut pose, &body, side, DVec3::new(0.0, 0.09 - 0.18 * side as f64, ANKLE_M));
+                leg_ik::place_ankle(&mut pose, &body, side, DVec3::new(0.0, 0.09 - 0.18 * side as f64, ANKLE_M));
             }
             pose
         })
@@ -94,14 +111,14 @@ pub(crate) fn idle(name: &str, duration_s: f64) -> HumanClip {
     clip(name, body, poses, 60.0)
 }
 
-/// One performance of several clips: each begins where the one before ends, facing as it did.
+/// One performance of several clips: each begins at the position and the facing at which the one before ends.
 pub(crate) fn performance(name: &str, parts: &[HumanClip]) -> HumanClip {
     let mut frames: Vec<HumanPose> = Vec::new();
     for part in parts {
         let first = part.frames[0].forward_kinematics(&part.body);
         let last = frames.last().unwrap_or(&part.frames[0]).forward_kinematics(&part.body);
         let turn = DQuat::from_rotation_z(last.facing_rad() - first.facing_rad());
-        let moved = |place_m: DVec3| last.hips_m().with_z(0.0) + turn * (place_m - first.hips_m().with_z(0.0));
+        let moved = |point_m: DVec3| last.hips_m().with_z(0.0) + turn * (point_m - first.hips_m().with_z(0.0));
         frames.extend(part.frames.iter().map(|pose| {
             let mut pose = pose.clone();
             pose.pelvis_m = moved(pose.pelvis_m);
@@ -137,7 +154,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
     }
 }
 
-fn pose(walk: &Walk, body: &HumanBody, arc: &Arc, time_s: f64) -> HumanPose {
+fn pose(walk: &SyntheticWalk, body: &HumanBody, arc: &RootArc, time_s: f64) -> HumanPose {
     let (root_m, facing_rad) = arc.at(time_s);
     let cycles = time_s / walk.period_s - 0.37;
     let sway = DVec2::new(0.01 * libm::sin(2.0 * TAU * cycles), -0.02 * libm::cos(TAU * cycles)) * walk.size;
@@ -146,47 +163,55 @@ fn pose(walk: &Walk, body: &HumanBody, arc: &Arc, time_s: f64) -> HumanPose {
     rotations[0] = DQuat::from_rotation_z(facing_rad + 0.05 * libm::sin(TAU * cycles));
     rotations[Joint::LeftUpperArm.index()] = DQuat::from_rotation_x(-FRAC_PI_2 + 0.1);
     rotations[Joint::RightUpperArm.index()] = DQuat::from_rotation_x(FRAC_PI_2 - 0.1);
-    let mut pose = HumanPose { pelvis_m: (root_m + rotation(facing_rad) * sway).extend(height_m), rotations };
+    let mut pose = HumanPose { pelvis_m: (root_m + ground_rotation(facing_rad) * sway).extend(height_m), rotations };
     for (side, first_mid_stance) in [(0, walk.left_share), (1, 0.0)] {
         place_foot(&mut pose, walk, body, arc, side, cycles - first_mid_stance);
     }
     pose
 }
 
-/// Puts a foot where it stands, or on its way between two stances; `cycles` counts from one of its mid-stances.
-fn place_foot(pose: &mut HumanPose, walk: &Walk, body: &HumanBody, arc: &Arc, side: usize, cycles: f64) {
+/// Puts a foot on its footprint, or between two of them; `cycles` counts from one of its mid-stances.
+fn place_foot(pose: &mut HumanPose, walk: &SyntheticWalk, body: &HumanBody, arc: &RootArc, side: usize, cycles: f64) {
     let stance = libm::floor(cycles + 0.5);
     let from_mid = cycles - stance;
     let swing = ((from_mid.abs() - 0.5 * PLANTED_SHARE) / (1.0 - PLANTED_SHARE)).max(0.0) * from_mid.signum();
     let first_mid_stance = if side == 0 { walk.left_share } else { 0.0 };
     let print = |stance: f64| {
         let (root_m, facing) = arc.at((stance + first_mid_stance + 0.37) * walk.period_s);
-        (root_m + rotation(facing) * DVec2::new(0.0, walk.size * (0.09 - 0.18 * side as f64)), facing)
+        (root_m + ground_rotation(facing) * DVec2::new(0.0, walk.size * (0.09 - 0.18 * side as f64)), facing)
     };
     let ((here_m, here_rad), (there_m, there_rad)) = (print(stance), print(stance + swing.signum()));
-    // Half a swing on either side of the middle, which both sides share: cos makes it leave and land at rest.
+    // Half a swing on either side of mid-swing, which both halves share; with the cosine it leaves and lands at rest.
     let share = 0.5 - 0.5 * libm::cos(PI * swing.abs());
     let lift_m = walk.size * 0.1 * libm::sin(PI * swing.abs());
     let ankle_m = here_m.lerp(there_m, share).extend(walk.size * ANKLE_M + lift_m);
     let facing_rad = here_rad + share * (there_rad - here_rad);
-    place_ankle(pose, body, side, ankle_m);
-    let joints = pose.forward_kinematics(body);
-    let shank = joints.orientations[Joint::SHANKS[side].index()];
-    pose.rotations[Joint::FEET[side].index()] = shank.inverse() * DQuat::from_rotation_z(facing_rad);
+    leg_ik::place_foot(pose, body, side, ankle_m, DQuat::from_rotation_z(facing_rad));
 }
 
 /// The mean stride of a clip on its own body.
 pub(crate) fn cycle_of(clip: &HumanClip) -> GaitCycle {
-    let grounded = ground(clip, &clip.body);
-    let analysis = windows::analyze(&grounded, &clip.body);
+    let grounded = grounded_clip(clip, &clip.body);
+    let analysis = analyze_gait(&grounded, &clip.body);
     let first = &analysis.windows.unwrap()[0];
-    let Gait::Steps(strides) = &first.gait else { panic!("{first:?}") };
+    let WindowGait::Steps(strides) = &first.gait else { panic!("{first:?}") };
     mean_stride(&grounded, &clip.body, &analysis.stances[first.reading], strides)
 }
 
 /// The strides of a clip's longest window.
 pub(crate) fn strides_of(clip: &HumanClip) -> Vec<Stride> {
-    let first = windows::analyze(&ground(clip, &clip.body), &clip.body).windows.unwrap().swap_remove(0);
-    let Gait::Steps(strides) = first.gait else { panic!("{first:?}") };
+    let first = analyze_gait(&grounded_clip(clip, &clip.body), &clip.body).windows.unwrap().swap_remove(0);
+    let WindowGait::Steps(strides) = first.gait else { panic!("{first:?}") };
     strides
+}
+
+/// The database of clips, with at most so many recorded examples; 0 keeps all.
+pub(crate) fn database_of(clips: Vec<HumanClip>, max_examples: usize) -> MotionDb {
+    let options = Options { max_examples: NonZeroUsize::new(max_examples), ..Options::default() };
+    compile(clips, &options, &|_| ()).unwrap()
+}
+
+/// The examples of a database that are no mirrors.
+pub(crate) fn recorded(db: &MotionDb) -> Vec<&MotionExample> {
+    db.examples.iter().filter(|example| !example.mirrored).collect()
 }

@@ -22,7 +22,7 @@ fn tables(db: &MotionDb) -> impl Iterator<Item = ([usize; 2], Vec<Alike>)> + '_ 
 }
 
 #[test]
-fn every_table_is_monotone_cyclic_and_serves_every_step_of_both() {
+fn tables_are_monotone_cyclic_and_serve_every_step() {
     let db = bundled();
     for (pair, table) in tables(&db) {
         for (axis, &example) in pair.iter().enumerate() {
@@ -39,18 +39,18 @@ fn every_table_is_monotone_cyclic_and_serves_every_step_of_both() {
 }
 
 #[test]
-fn the_way_back_has_the_same_pairs() {
+fn reversed_tables_have_the_same_pairs() {
     let db = bundled();
     for ([from, to], table) in tables(&db).filter(|([from, to], _)| from < to) {
-        let mut back = motiondb::motion::table(&db, to, from);
-        back.iter_mut().for_each(|alike| alike.times_s.reverse());
-        back.sort_by(|a, b| a.times_s[0].total_cmp(&b.times_s[0]));
-        assert_eq!(back, table);
+        let mut reversed = motiondb::motion::table(&db, to, from);
+        reversed.iter_mut().for_each(|alike| alike.times_s.reverse());
+        reversed.sort_by(|a, b| a.times_s[0].total_cmp(&b.times_s[0]));
+        assert_eq!(reversed, table);
     }
 }
 
 #[test]
-fn the_stored_table_is_that_of_m_sp_and_m_mb_and_holds_their_nearest_poses() {
+fn the_stored_table_holds_the_nearest_poses_of_m_sp_and_m_mb() {
     let db = bundled();
     let stored = db.correspondence.as_ref().unwrap();
     let [sp, mb] = [stored.semi_procedural, stored.blending].map(|index| index as usize);

@@ -1,9 +1,9 @@
-//! Heel strikes and toe-offs against labels that were set by eye on curves, before any detector's output was seen
+//! Heel strikes and toe-offs against labels that were set by eye on curves, before the output of any detector was seen
 //! (`gait_events/labels.csv`; the clips are test input only).
 //!
-//! Of the 94 labels those of `set` "tune" were fitted when the limits of `stance.rs` were chosen first; those of
-//! "check" were measured against. Later limits were chosen so that none of either got worse: nothing here is unseen any
-//! more. Labels are uncertain themselves: by half a frame at 30 frames a second, by up to four (33 ms) at 120.
+//! Of the 94 labels those of `set` "tune" served to fit the limits of `gait/contact_ends.rs` first; those of "check" to
+//! measure the result. Later limits were chosen so that none of either got worse: no label is unseen any more. Labels are
+//! uncertain by half a frame at 30 frames per second, by up to four frames (33 ms) at 120.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,9 +11,8 @@ use std::path::{Path, PathBuf};
 use motiondb::motion::{PHASE_COUNT, PhaseMap};
 use motiondb_compiler::ClipSettings;
 use motiondb_compiler::cycle::{GaitCycle, mean_stride};
-use motiondb_compiler::gait::Gait;
-use motiondb_compiler::gait::own_body::{self, Performer};
-use motiondb_compiler::ground::ground;
+use motiondb_compiler::gait::{PerformerGait, WindowGait};
+use motiondb_compiler::ground::grounded_clip;
 use motiondb_compiler::import_with_settings;
 use motiondb_compiler::retarget::HumanClip;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
@@ -35,9 +34,10 @@ struct Label {
     uncertain_frames: f64,
 }
 
-/// A label and how far the event that was found lies after it, frames of the source.
+/// A label and the error of the event that was found.
 struct Found {
     label: Label,
+    /// Frames of the source by which the event lies after the label.
     error_frames: f64,
 }
 
@@ -68,9 +68,9 @@ fn times_s(gait: &SourceGait, side: &str, event: &str) -> Vec<f64> {
     contacts.iter().filter_map(time_s).map(f64::from).collect()
 }
 
-/// From the nearest of some times to another.
-fn nearest_error_s(times_s: &[f64], wanted_s: f64) -> f64 {
-    let errors = times_s.iter().map(|time_s| time_s - wanted_s);
+/// Difference of the nearest of some times from a labelled one, s.
+fn nearest_error_s(times_s: &[f64], label_s: f64) -> f64 {
+    let errors = times_s.iter().map(|time_s| time_s - label_s);
     errors.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(f64::INFINITY)
 }
 
@@ -91,7 +91,7 @@ fn found(test: &str) -> Option<Vec<Found>> {
     Some(labels().map(error).collect())
 }
 
-/// Fails unless this share of the errors is within the limit; says which are not.
+/// Fails unless this share of the errors is within the limit; lists the others.
 #[track_caller]
 fn check_share(errors: &[&Found], limit_frames: impl Fn(&Label) -> f64, share_min: f64) {
     let beyond: Vec<String> = errors
@@ -160,13 +160,13 @@ fn neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole() {
     }
 }
 
-/// Frames of the clip at which the events of its mean cycle come in each of its strides, by kind of event.
+/// Frames of the clip at which the events of its mean cycle lie in each of its strides, by kind of event.
 fn key_frames(clip: &HumanClip) -> BTreeMap<(&'static str, &'static str), Vec<f64>> {
-    let Performer { body, clip: grounded, gait: analysis } = own_body::analyze(clip);
+    let PerformerGait { body, clip: grounded, gait: analysis } = PerformerGait::of(clip);
     let shown = grounded.loop_frames.unwrap_or(0) as f64;
     let mut frames: BTreeMap<_, Vec<f64>> = BTreeMap::new();
     for window in analysis.windows.iter().flatten() {
-        let Gait::Steps(strides) = &window.gait else { continue };
+        let WindowGait::Steps(strides) = &window.gait else { continue };
         let cycle = mean_stride(&grounded, &body, &analysis.stances[window.reading], strides);
         for (side, name, landmark) in [(0, "left", PHASE_COUNT / 2), (1, "right", 0)] {
             for (event, step) in [("strike", PHASE_COUNT - 1), ("off", 1)] {
@@ -183,7 +183,7 @@ fn key_frames(clip: &HumanClip) -> BTreeMap<(&'static str, &'static str), Vec<f6
     frames
 }
 
-/// Where, going from the row of a mid-stance, the contact of a foot falls below ½.
+/// The phase, from the row of a mid-stance on, at which the contact of a foot falls below ½.
 fn key_phase(cycle: &GaitCycle, side: usize, landmark: usize, step: usize) -> f32 {
     let contact = |rows: usize| cycle.contacts[(landmark + rows * step) % PHASE_COUNT][side];
     let inside = (0..PHASE_COUNT).find(|rows| contact(rows + 1) < 0.5).unwrap();
@@ -202,7 +202,7 @@ fn the_mean_cycles_key_times_are_near_the_labels_of_its_strides() {
             .or_insert_with(|| key_frames(&human_clip(&label.file, &label.clip)));
         let (_, frames) = frames.iter().find(|((side, event), _)| *side == label.side && *event == label.event)?;
         let error_frames = nearest_error_s(frames, label.frame);
-        // Labels of strides that are not in the window say nothing of its mean.
+        // Labels of strides outside the window do not concern its mean.
         (error_frames.abs() < 0.1 * label.frame_rate_hz).then_some(Found { label, error_frames })
     };
     let of_cycles: Vec<Found> = found.into_iter().filter_map(of_cycle).collect();
@@ -237,13 +237,13 @@ fn check_same_events(name: &str, clip: &HumanClip, changed: HumanClip) {
             }
         }
     }
-    // The weakest touches of a capture, or two of a run whose feet slide all the time, may be lost or found.
+    // The weakest touches of a capture may be lost or found, and two of a run whose feet slide all the time.
     assert!(moved.len() <= 2 + count / 20, "{name}: of {count} events moved\n{}", moved.join("\n"));
 }
 
-/// The clip at another frame rate, poses between frames as the compiler reads them.
+/// The clip at another frame rate; poses between frames as the compiler reads them.
 fn resampled(clip: &HumanClip, frame_rate_hz: f64) -> HumanClip {
-    let grounded = ground(clip, &clip.body);
+    let grounded = grounded_clip(clip, &clip.body);
     let duration_s = (clip.frames.len() - 1) as f64 / clip.frame_rate_hz;
     let frames = (0..=(duration_s * frame_rate_hz) as usize)
         .map(|frame| grounded.pose_at(frame as f64 / frame_rate_hz * clip.frame_rate_hz, &clip.body))
@@ -251,7 +251,7 @@ fn resampled(clip: &HumanClip, frame_rate_hz: f64) -> HumanClip {
     HumanClip { frames, frame_rate_hz, ..clip.clone() }
 }
 
-/// The clip with its body, and all it carries, up to some millimetres aside, anew in every frame.
+/// The clip with its whole body displaced at random by up to `amplitude_m`, in every frame anew.
 fn shaken(clip: &HumanClip, amplitude_m: f64) -> HumanClip {
     let mut shaken = clip.clone();
     let mut state = 1_u64;

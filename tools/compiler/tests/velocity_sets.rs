@@ -1,4 +1,5 @@
-//! The paper's own construction of the velocity sets, beside ours, on its own recordings and on the bundled clips.
+//! The paper's construction of the velocity sets (`FbCrowd` §4.1) beside ours, on its own recordings and on the bundled
+//! clips.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +21,7 @@ fn compiled(folder: &str, prefix: &str, construction: Construction) -> Option<Mo
     Some(compile_manifest(&manifest, &|_| ()).unwrap().db)
 }
 
-/// The paper's set bounds all velocities; what turns is bounded as in ours.
+/// The paper's set bounds all velocities; turning is bounded as in our sets.
 fn check(folder: &str, prefix: &str) -> Option<MotionDb> {
     let paper = compiled(folder, prefix, Construction::Paper)?;
     let both = compiled(folder, prefix, Construction::TurningAndHolding)?;

@@ -12,7 +12,6 @@ use motiondb::diagnostic::{Diagnostic, Unfit, Warning};
 use motiondb::statistics::median;
 
 use crate::error::RejectionReason;
-use crate::ground::root_motion::leg_length_m;
 use crate::read::source_clip::SourceClip;
 use crate::retarget::facing_frame::facing_rad;
 use crate::retarget::human_clip::HumanBody;
@@ -70,7 +69,7 @@ pub(crate) fn contradicted_up(clip: &SourceClip, roles: &Roles) -> Option<Unfit>
 
 /// The reason why no body with these bones walks.
 pub(crate) fn impossible_body(body: &HumanBody) -> Option<RejectionReason> {
-    let leg_m = leg_length_m(body);
+    let leg_m = body.leg_length_m();
     let leg_bones = [Joint::SHANKS, Joint::FEET].concat();
     let shortest_m = leg_bones.iter().map(|joint| body.offsets_m[joint.index()].length()).fold(f64::INFINITY, f64::min);
     let bones = body.offsets_m.iter().chain(&body.segment_ends_m).chain(body.soles_m.iter().flatten());

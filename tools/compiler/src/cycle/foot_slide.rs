@@ -1,4 +1,7 @@
-//! Planted-foot slide of a cycle, measured as in the database ([`motiondb::quality::planted_feet`]), and what to think of it.
+//! Planted-foot slide of a cycle, measured as in the database, and the verdicts on it.
+//!
+//! Definition "Planted-foot slide" of `docs/definitions.md`; measure: [`motiondb::quality::planted_feet`]. Cycles are in
+//! the root frame, which moves along its arc: metres, seconds.
 
 use glam::DVec3;
 use motiondb::diagnostic::{Diagnostic, Unfit, Warning};
@@ -6,28 +9,28 @@ use motiondb::quality::example_quality;
 use motiondb::quality::planted_feet::{self, CycleFeet, FootSlide};
 use motiondb::validate;
 
-use crate::cycle::mean_stride::GaitCycle;
+use crate::cycle::gait_cycle::GaitCycle;
+use crate::ground::root_arc::Rates;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
 
-/// A foot planted for less of the cycle than in a sprint is worth a warning.
+/// Share of the cycle below which a planted foot is suspect; sprinters' feet are planted for 0.22.
 const SUSPECT_SHARE: f64 = 0.2;
-/// More slide than this, and than this share of the body's speed, is no stance at all: blended into a crowd it drags
-/// all feet. Noisy captures: 18 cm/s; hand-keyed runs: 7 %.
+/// Slide above which a cycle shows no stance, cm/s: blended into a crowd it drags all feet. Noisy captures reach 18.
 const EXCESSIVE_SLIDE_CM_S: f64 = 25.0;
+/// The same as a share of the body's speed; the greater of both limits counts. Hand-keyed runs reach 0.07.
 const EXCESSIVE_SLIDE_SHARE: f64 = 0.2;
-/// Nor is there one where feet are planted for less than this share of the cycle; sprinters' are for 0.22.
+/// Share of the cycle below which a planted foot is no stance; sprinters' feet are planted for 0.22.
 const NO_STANCE_SHARE: f64 = 0.14;
 
 /// Slide and planted share of both feet, the cycle repeated along its arc.
-pub(crate) fn measure(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
+pub(crate) fn foot_slide(cycle: &GaitCycle, body: &HumanBody) -> FootSlide {
     let rates = cycle.rates;
     let velocity = DVec3::new(rates.speed_mps, rates.turn_rate_rad_s, rates.strafe_mps);
-    planted_feet::foot_slide(&feet(cycle, body), velocity)
+    planted_feet::foot_slide(&cycle_feet(cycle, body), velocity)
 }
 
-/// The feet of a cycle as the database will have them: whether a foot is planted is read from contacts as they are
-/// stored.
-pub(crate) fn feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
+/// The feet of a cycle as the database stores them: contacts are rounded to f32.
+pub(crate) fn cycle_feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
     let joints: Vec<HumanJoints> = cycle.rows.iter().map(|row| row.forward_kinematics(body)).collect();
     CycleFeet {
         points_m: [0, 1].map(|side| joints.iter().map(|joints| joints.measured_points_m(body, side)).collect()),
@@ -36,9 +39,9 @@ pub(crate) fn feet(cycle: &GaitCycle, body: &HumanBody) -> CycleFeet {
     }
 }
 
-/// Why a cycle shows no stance that a crowd could be made of, if so; or one that contradicts its landmarks or its root.
-pub(crate) fn excess(cycle: &GaitCycle, body: &HumanBody) -> Option<Unfit> {
-    let FootSlide { slide_cm_s, planted_share } = measure(cycle, body);
+/// Why the feet of a cycle make it unfit, if they do: no stance, or contacts that contradict its landmarks or its root.
+pub(crate) fn unfit_feet(cycle: &GaitCycle, body: &HumanBody, slide: &FootSlide) -> Option<Unfit> {
+    let FootSlide { slide_cm_s, planted_share } = *slide;
     let speed_cm_s = 100.0 * libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
     if planted_share < NO_STANCE_SHARE {
         return Some(Unfit::FeetHardlyPlanted { planted_share: planted_share as f32 });
@@ -46,38 +49,42 @@ pub(crate) fn excess(cycle: &GaitCycle, body: &HumanBody) -> Option<Unfit> {
     if slide_cm_s > EXCESSIVE_SLIDE_CM_S.max(EXCESSIVE_SLIDE_SHARE * speed_cm_s) {
         return Some(Unfit::FeetSlide { slide_cm_s: slide_cm_s as f32 });
     }
-    validate::contradiction(&feet(cycle, body), cycle.rates.to_parameters())
+    validate::contradiction(&cycle_feet(cycle, body), cycle.rates.to_parameters())
 }
 
-/// Warnings for a cycle whose feet are no model of standing on the ground.
-pub(crate) fn lint(cycle: &GaitCycle, body: &HumanBody) -> Vec<Diagnostic> {
-    let FootSlide { slide_cm_s, planted_share } = measure(cycle, body);
-    let slide = Warning::FeetSlide { slide_cm_s: slide_cm_s as f32, from_s: None };
-    let share = Warning::FeetHardlyPlanted { planted_share: planted_share as f32, from_s: None };
-    let found = [(relative_slide(cycle, body) > 1.0, slide), (planted_share < SUSPECT_SHARE, share)];
+/// Warnings for a cycle whose feet slide or are hardly planted.
+pub(crate) fn foot_warnings(rates: &Rates, slide: &FootSlide) -> Vec<Diagnostic> {
+    let FootSlide { slide_cm_s, planted_share } = *slide;
+    let slides = Warning::FeetSlide { slide_cm_s: slide_cm_s as f32, from_s: None };
+    let hardly_planted = Warning::FeetHardlyPlanted { planted_share: planted_share as f32, from_s: None };
+    let found = [(relative_slide(rates, slide) > 1.0, slides), (planted_share < SUSPECT_SHARE, hardly_planted)];
     found.into_iter().filter(|(is_so, _)| *is_so).map(|(_, warning)| Diagnostic::Warning(warning)).collect()
 }
 
-/// The slide of a cycle over that from which on it is suspect.
-pub(crate) fn relative_slide(cycle: &GaitCycle, body: &HumanBody) -> f64 {
-    let speed_mps = libm::hypot(cycle.rates.speed_mps, cycle.rates.strafe_mps);
-    measure(cycle, body).slide_cm_s / f64::from(example_quality::suspect_slide_cm_s(speed_mps as f32))
+/// Slide over the slide from which on it is suspect at this speed.
+pub(crate) fn relative_slide(rates: &Rates, slide: &FootSlide) -> f64 {
+    let speed_mps = libm::hypot(rates.speed_mps, rates.strafe_mps);
+    slide.slide_cm_s / f64::from(example_quality::suspect_slide_cm_s(speed_mps as f32))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ground::arc::Rates;
-    use crate::synthetic::{self, Walk, cycle_of};
+    use crate::synthetic::{self, SyntheticWalk, cycle_of};
 
     #[test]
-    fn feet_that_stand_still_do_not_slide_and_a_wrong_root_speed_is_their_slide() {
-        let clip = synthetic::walk("walk", Walk::default());
-        let mut cycle = cycle_of(&clip);
-        let still = measure(&cycle, &clip.body);
+    fn standing_feet_do_not_slide() {
+        let clip = synthetic::walk("walk", SyntheticWalk::default());
+        let still = foot_slide(&cycle_of(&clip), &clip.body);
         assert!(still.slide_cm_s < 0.5, "{still:?}");
         assert!((still.planted_share - 0.6).abs() < 0.06, "{still:?}");
-        cycle.rates = Rates { speed_mps: cycle.rates.speed_mps + 0.1, ..cycle.rates };
-        assert!((measure(&cycle, &clip.body).slide_cm_s - 10.0).abs() < 0.5);
+    }
+
+    #[test]
+    fn a_wrong_root_speed_is_slide() {
+        let clip = synthetic::walk("walk", SyntheticWalk::default());
+        let mut cycle = cycle_of(&clip);
+        cycle.rates.speed_mps += 0.1;
+        assert!((foot_slide(&cycle, &clip.body).slide_cm_s - 10.0).abs() < 0.5);
     }
 }

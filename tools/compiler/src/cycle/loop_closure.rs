@@ -1,38 +1,45 @@
-//! What a stride leaves open between its ends, and how a pose of it is closed.
+//! Loop closure: the gap that a stride leaves between its ends, and a pose of the stride without its part of the gap.
 //!
 //! The gap of pelvis and joints is spread evenly over the stride. A foot that did the same would slide all through its
-//! stance, by the gap over the period: 10 to 30 cm/s in a lone stride of a curved walk. So a foot makes up its own gap
-//! while it swings, as a walker does, and stands in between; leg inverse kinematics brings it there, no farther from
-//! the hip than the clip has it, so that no knee is straighter than it was. Root frame, metres.
+//! stance, by the gap over the period. So a foot makes up its own gap during its swing, as a walker does, and stands in
+//! between. Leg inverse kinematics brings it there, no farther from the hip than in the clip, so that no knee is
+//! straighter than it was. Root frame: metres, rotation vectors in radians.
 
 use glam::{DQuat, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::motion::PHASE_COUNT;
 
-use crate::ground::leg_ik::place_ankle;
+use crate::ground::leg_ik::place_foot;
+use crate::ground::rotations::rotation_vector;
 use crate::retarget::human_clip::{HumanBody, HumanPose};
 
-/// A foot that swings for less than this share of the stride makes up its gap evenly.
+/// Least share of the stride that a foot swings; a foot that swings less makes up its gap evenly.
 const SWING_MIN_SHARE: f64 = 0.05;
 
-/// A stride's last pose against its first.
-pub(crate) struct Gap {
+/// Difference of a stride's last pose from its first.
+pub(crate) struct StrideGap {
+    /// Displacement of the pelvis, m.
     pelvis_m: DVec3,
+    /// Rotation of each joint against its parent, as a rotation vector, rad.
     rotations: [DVec3; JOINT_COUNT],
+    /// Gaps of both feet.
     feet: [FootGap; 2],
 }
 
-/// What one foot has to make up.
+/// Difference of one foot at the end of a stride from its beginning.
 struct FootGap {
+    /// Displacement of the ankle, m.
     ankle_m: DVec3,
+    /// Rotation of the foot in the root frame, as a rotation vector, rad.
     rotation: DVec3,
-    /// How much of it is made up, −½ at the stride's beginning and ½ at its end, at rows of a cycle from a cycle before
-    /// the stride to one after it.
+    /// Share of the gap that is made up at each row, −½ at the stride's beginning and ½ at its end; rows begin a cycle
+    /// before the stride and end a cycle after it.
     shares: Vec<f64>,
 }
 
-impl Gap {
-    /// `contacts` tells of each foot how planted it is, 0 to 1, from −1 (a cycle before the stride) to 2.
+impl StrideGap {
+    /// The gap between two poses. `contacts` gives the contact of each foot, 0 to 1, at a share of the stride from −1 (a
+    /// cycle before it) to 2.
     pub(crate) fn between(
         first: &HumanPose,
         last: &HumanPose,
@@ -53,43 +60,42 @@ impl Gap {
         Self { pelvis_m: last.pelvis_m - first.pelvis_m, rotations, feet }
     }
 
-    /// A pose without its part of the gap, `along` the stride: 0 at its beginning, 1 at its end.
-    pub(crate) fn taken_out(&self, pose: &HumanPose, along: f64, body: &HumanBody) -> HumanPose {
+    /// A pose without its part of the gap; `along` is 0 at the beginning of the stride, 1 at its end.
+    pub(crate) fn closed_pose(&self, pose: &HumanPose, along: f64, body: &HumanBody) -> HumanPose {
         let mut closed = pose.clone();
         closed.pelvis_m -= self.pelvis_m * (along - 0.5);
         for (rotation, gap) in closed.rotations.iter_mut().zip(&self.rotations) {
             *rotation = DQuat::from_scaled_axis(*gap * (0.5 - along)) * *rotation;
         }
         for (side, foot) in self.feet.iter().enumerate() {
-            foot.take_out(&mut closed, pose, along, body, side);
+            foot.close_foot(&mut closed, pose, along, body, side);
         }
         closed
     }
 }
 
 impl FootGap {
-    /// Puts the foot of a closed pose where it was in the clip, but for what it has made up of its gap.
-    fn take_out(&self, closed: &mut HumanPose, pose: &HumanPose, along: f64, body: &HumanBody, side: usize) {
-        let [thigh, shank, foot] = [Joint::THIGHS[side], Joint::SHANKS[side], Joint::FEET[side]].map(Joint::index);
+    /// Puts the foot of a closed pose to its position in the clip, less the part of its gap that it has made up.
+    fn close_foot(&self, closed: &mut HumanPose, pose: &HumanPose, along: f64, body: &HumanBody, side: usize) {
+        let [thigh, foot] = [Joint::THIGHS[side], Joint::FEET[side]].map(Joint::index);
         let row = ((along + 1.0) * PHASE_COUNT as f64 + 0.5) as usize;
         let share = self.shares[row.min(self.shares.len() - 1)];
         let clip = pose.forward_kinematics(body);
         let hip_m = closed.forward_kinematics(body).positions_m[thigh];
         let leg_m = clip.positions_m[foot] - self.ankle_m * share - hip_m;
         let reach_m = clip.positions_m[foot].distance(clip.positions_m[thigh]);
-        place_ankle(closed, body, side, hip_m + leg_m.clamp_length_max(reach_m));
         let orientation = DQuat::from_scaled_axis(self.rotation * -share) * clip.orientations[foot];
-        closed.rotations[foot] = closed.forward_kinematics(body).orientations[shank].inverse() * orientation;
+        place_foot(closed, body, side, hip_m + leg_m.clamp_length_max(reach_m), orientation);
     }
 }
 
-/// The place of a row along the stride; rows begin a cycle before it.
+/// Position of a row along the stride; rows begin a cycle before it.
 fn along(row: usize) -> f64 {
     row as f64 / PHASE_COUNT as f64 - 1.0
 }
 
-/// How much of a gap is made up at each row by a foot that swings so much at each: −½ where the stride begins, ½ where
-/// it ends.
+/// Share of a gap that is made up at each row, in proportion to the swing of the foot up to there: −½ where the stride
+/// begins, ½ where it ends.
 fn shares(swings: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0];
     for pair in swings.windows(2) {
@@ -102,10 +108,9 @@ fn shares(swings: &[f64]) -> Vec<f64> {
     sums.iter().map(|sum| (sum - first) / (last - first) - 0.5).collect()
 }
 
-/// The shorter way from one rotation to another, as a rotation vector.
+/// The rotation from one orientation to another by the shorter arc, as a rotation vector, rad.
 fn rotation_between(from: DQuat, to: DQuat) -> DVec3 {
-    let gap = to * from.inverse();
-    (if gap.w < 0.0 { -gap } else { gap }).to_scaled_axis()
+    rotation_vector(to * from.inverse())
 }
 
 #[cfg(test)]
@@ -113,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_foot_makes_up_its_gap_while_it_swings_and_only_then() {
+    fn feet_make_up_their_gap_only_as_they_swing() {
         let swings: Vec<f64> =
             (0..=3 * PHASE_COUNT).map(|row| if (20..44).contains(&(row % PHASE_COUNT)) { 1.0 } else { 0.0 }).collect();
         let shares = shares(&swings);
@@ -124,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_foot_that_never_swings_makes_up_its_gap_evenly() {
+    fn feet_that_never_swing_make_it_up_evenly() {
         let shares = shares(&[0.0; 3 * PHASE_COUNT + 1]);
         assert!((shares[PHASE_COUNT] + 0.5).abs() < 1e-12 && shares[PHASE_COUNT + 32].abs() < 1e-12);
     }

@@ -1,7 +1,17 @@
-//! The database: parameters, rows and correspondence of the selected cycles.
+//! The database: examples, blend space, velocity sets, skeleton, rows and correspondence of the selected cycles.
+//!
+//! Enters: named cycles in the order of the examples, and the records of all sources. Leaves:
+//! [`motiondb::motion::MotionDb`].
+//!
+//! Read `assembly` (the chapter's steps), then `example`, `coincident_examples`, `skeleton` with `segment_radii`, `rows`,
+//! `correspondence`.
 
+pub(crate) mod assembly;
+pub(crate) mod coincident_examples;
 pub(crate) mod correspondence;
-pub(crate) mod parameterize;
+pub(crate) mod example;
 pub(crate) mod rows;
+pub(crate) mod segment_radii;
+pub(crate) mod skeleton;
 
-pub use correspondence::find;
+pub use correspondence::find_correspondence;

@@ -7,7 +7,7 @@
 use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use rayon::prelude::*;
 
-use crate::cycle::analysis::Analyzed;
+use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::dedup::alignment::Alignment;
 use crate::dedup::frame_times::Neighbours;
 use crate::dedup::performance::Performance;
@@ -31,7 +31,7 @@ pub struct Pair {
 }
 
 /// Takes from each clip the windows that a better copy of its take gives the examples of.
-pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [Analyzed], body: &HumanBody) {
+pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [AnalyzedClip], body: &HumanBody) {
     let gives_example: Vec<bool> = analyzed.iter().map(|found| !found.windows.is_empty()).collect();
     let search = search(clips, &gives_example);
     let neighbours = neighbours(clips.len(), &found_pairs(&search));
@@ -141,18 +141,18 @@ fn are_parts_of_one_file(a: &HumanClip, b: &HumanClip) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cycle::analysis::analyze;
-    use crate::ground::arc::Rates;
-    use crate::ground::target_skeleton;
+    use crate::cycle::analyzed_clip::AnalyzedClip;
+    use crate::ground::root_arc::Rates;
+    use crate::ground::target_body::target_body;
     use crate::retarget::human_clip::HumanPose;
-    use crate::select::mirror::mirror_pose;
-    use crate::synthetic::{Walk, idle, performance, walk};
+    use crate::select::mirror::mirrored_pose;
+    use crate::synthetic::{SyntheticWalk, idle, performance, walk};
 
-    fn bend() -> Walk {
-        Walk {
+    fn bend() -> SyntheticWalk {
+        SyntheticWalk {
             rates: Rates { speed_mps: 0.9, turn_rate_rad_s: 0.5, strafe_mps: 0.0 },
             left_share: 0.53,
-            ..Walk::default()
+            ..SyntheticWalk::default()
         }
     }
 
@@ -167,7 +167,7 @@ mod tests {
     }
 
     fn mirrored(mut clip: HumanClip) -> HumanClip {
-        clip.frames.iter_mut().for_each(|pose: &mut HumanPose| *pose = mirror_pose(pose));
+        clip.frames.iter_mut().for_each(|pose: &mut HumanPose| *pose = mirrored_pose(pose));
         clip
     }
 
@@ -175,9 +175,9 @@ mod tests {
     fn a_take_is_known_at_another_rate_on_another_body_in_part_and_mirrored() {
         let told = || walk("told", bend());
         check_one_take(told(), walk("copy", bend()), false, false);
-        check_one_take(told(), walk("finer", Walk { frame_rate_hz: 100.0, ..bend() }), false, false);
+        check_one_take(told(), walk("finer", SyntheticWalk { frame_rate_hz: 100.0, ..bend() }), false, false);
         let giant = Rates { speed_mps: 1.7 * 0.9, ..bend().rates };
-        check_one_take(told(), walk("giant", Walk { size: 1.7, rates: giant, ..bend() }), false, false);
+        check_one_take(told(), walk("giant", SyntheticWalk { size: 1.7, rates: giant, ..bend() }), false, false);
         let mut part = told();
         part.frames = part.frames[70..200].to_vec();
         check_one_take(told(), part.clone(), false, false);
@@ -189,7 +189,7 @@ mod tests {
         let mut slow = walk("slow", bend());
         slow.frame_rate_hz = 25.0;
         check_one_take(slow.clone(), walk("told", bend()), false, true);
-        let every_second = walk("coarse", Walk { frame_rate_hz: 30.0, ..bend() });
+        let every_second = walk("coarse", SyntheticWalk { frame_rate_hz: 30.0, ..bend() });
         check_one_take(every_second, slow, false, true);
     }
 
@@ -198,9 +198,9 @@ mod tests {
         let straight = Rates { turn_rate_rad_s: 0.0, ..bend().rates };
         let clips = [
             walk("bend", bend()),
-            walk("straight", Walk { rates: straight, ..bend() }),
-            walk("quick", Walk { period_s: 0.95, ..bend() }),
-            walk("slow", Walk { period_s: 1.3, ..bend() }),
+            walk("straight", SyntheticWalk { rates: straight, ..bend() }),
+            walk("quick", SyntheticWalk { period_s: 0.95, ..bend() }),
+            walk("slow", SyntheticWalk { period_s: 1.3, ..bend() }),
             idle("idle", 3.0),
         ];
         assert_eq!(pairs(&clips), []);
@@ -208,10 +208,10 @@ mod tests {
 
     /// Second at which each window begins that is left of each clip, and the clip's diagnostics.
     fn left(clips: &[HumanClip]) -> Vec<(Vec<f64>, Vec<Diagnostic>)> {
-        let body = target_skeleton::choose(clips);
-        let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
+        let body = target_body(clips).unwrap();
+        let mut analyzed: Vec<AnalyzedClip> = clips.par_iter().map(|clip| AnalyzedClip::of(clip, &body)).collect();
         set_aside(clips, &mut analyzed, &body);
-        let start_s = |found: &Analyzed| found.windows.iter().map(|window| window.window_s[0]).collect();
+        let start_s = |found: &AnalyzedClip| found.windows.iter().map(|window| window.window_s[0]).collect();
         analyzed.iter().map(|found| (start_s(found), found.diagnostics.clone())).collect()
     }
 
@@ -237,18 +237,18 @@ mod tests {
 
     #[test]
     fn the_chosen_the_travelling_the_longer_and_the_finer_take_gives_the_example() {
-        check_gives(walk("longer", Walk { duration_s: 4.4, ..bend() }));
-        check_gives(walk("finer", Walk { frame_rate_hz: 120.0, ..bend() }));
-        let mut chosen = walk("chosen", Walk { duration_s: 3.6, ..bend() });
+        check_gives(walk("longer", SyntheticWalk { duration_s: 4.4, ..bend() }));
+        check_gives(walk("finer", SyntheticWalk { frame_rate_hz: 120.0, ..bend() }));
+        let mut chosen = walk("chosen", SyntheticWalk { duration_s: 3.6, ..bend() });
         chosen.choices.is_target_skeleton = true;
         check_gives(chosen);
     }
 
     #[test]
     fn of_two_frame_times_the_one_at_which_legs_swing_as_people_s_do_gives_the_example() {
-        let told = || walk("told", Walk { duration_s: 8.0, ..bend() });
+        let told = || walk("told", SyntheticWalk { duration_s: 8.0, ..bend() });
         for share in [0.5, 2.0] {
-            let mut lying = walk("lying", Walk { duration_s: 8.1, ..bend() });
+            let mut lying = walk("lying", SyntheticWalk { duration_s: 8.1, ..bend() });
             lying.frame_rate_hz *= share;
             for clips in [[told(), lying.clone()], [lying, told()]] {
                 for (clip, (windows, found)) in clips.iter().zip(left(&clips)) {
@@ -277,8 +277,10 @@ mod tests {
     #[test]
     fn what_only_the_lesser_copy_shows_cleanly_gives_its_example() {
         let turn = Rates { speed_mps: 0.6, turn_rate_rad_s: 0.9, strafe_mps: 0.0 };
-        let parts =
-            [walk("part", Walk { duration_s: 6.0, ..Walk::default() }), walk("part", Walk { rates: turn, ..bend() })];
+        let parts = [
+            walk("part", SyntheticWalk { duration_s: 6.0, ..SyntheticWalk::default() }),
+            walk("part", SyntheticWalk { rates: turn, ..bend() }),
+        ];
         let clean = performance("clean", &parts);
         let longer = [&parts[..], &[idle("part", 2.0)]].concat();
         let spoiled = sliding_from(performance("spoiled", &longer), 355);

@@ -9,10 +9,10 @@ use std::collections::VecDeque;
 
 use motiondb::statistics::median;
 
-use crate::cycle::analysis::{Analyzed, SteadyWindow};
+use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::cycle::foot_slide;
+use crate::cycle::steady_cycle::SteadyCycle;
 use crate::dedup::alignment::Alignment;
-use crate::ground::root_motion::leg_length_m;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::retarget::units::HUMAN_LEG_M;
 
@@ -27,14 +27,14 @@ pub(crate) type Neighbours = Vec<Vec<(usize, Alignment)>>;
 /// step. What clips of one frame time say of their take they say together.
 pub(crate) fn implausibilities(
     clips: &[HumanClip],
-    analyzed: &[Analyzed],
+    analyzed: &[AnalyzedClip],
     neighbours: &Neighbours,
     body: &HumanBody,
 ) -> Vec<f64> {
     let mut implausible = vec![0.0; clips.len()];
     for take in takes_of_several_times(neighbours) {
         let swings = take.iter().flat_map(|&(clip, pace)| {
-            let leg = libm::sqrt(leg_length_m(&clips[clip].body) / HUMAN_LEG_M);
+            let leg = libm::sqrt(clips[clip].body.leg_length_m() / HUMAN_LEG_M);
             let told_s = analyzed[clip].windows.iter().filter_map(|window| swing_s(window, body));
             told_s.map(move |swing_s| pace * swing_s / leg)
         });
@@ -46,9 +46,9 @@ pub(crate) fn implausibilities(
 }
 
 /// Mean time of a cycle that a foot is in the air.
-fn swing_s(window: &SteadyWindow, body: &HumanBody) -> Option<f64> {
+fn swing_s(window: &SteadyCycle, body: &HumanBody) -> Option<f64> {
     let cycle = window.stepping()?;
-    let planted_share = foot_slide::measure(cycle, body).planted_share;
+    let planted_share = foot_slide::foot_slide(cycle, body).planted_share;
     Some((1.0 - planted_share) * f64::from(cycle.phase_map.period_s))
 }
 

@@ -8,16 +8,17 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, VecDeque};
 
-use crate::cycle::analysis::{Analyzed, SteadyWindow};
+use crate::cycle::analyzed_clip::AnalyzedClip;
+use crate::cycle::rate_cells;
+use crate::cycle::steady_cycle::SteadyCycle;
 use crate::dedup::alignment::Alignment;
 use crate::dedup::frame_times::{self, Neighbours};
-use crate::ground::arc::Rates;
+use crate::ground::root_arc::Rates;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
-use crate::select::selection;
 
 /// Two stretches are the same where they have this share of the shorter in common.
 const SAME_SHARE: f64 = 0.5;
-/// Flaws ([`selection`]) that differ by less are equal, as are lengths of clips, s, and frame times' |ln|.
+/// Flaws ([`crate::cycle::flaws`]) that differ by less are equal, as are lengths of clips, s, and frame times' |ln|.
 const SAME_FLAWS: f64 = 0.05;
 const SAME_LENGTH_S: f64 = 0.1;
 const SAME_SWING: f64 = 0.01;
@@ -41,7 +42,7 @@ pub(crate) struct Chosen {
 /// Chooses between the windows of clips of one take. `may_pair` tells which clips can stand for each other at all.
 pub(crate) fn choose(
     clips: &[HumanClip],
-    analyzed: &[Analyzed],
+    analyzed: &[AnalyzedClip],
     neighbours: &Neighbours,
     body: &HumanBody,
     may_pair: impl Fn(usize, usize) -> bool,
@@ -56,9 +57,7 @@ pub(crate) fn choose(
             |mark: &&Mark| mark.giver != clip && may_pair(mark.giver, clip) && are_same(mark.stretch_s, stretch_s);
         let near_equal = || {
             let is_near = |(other, on_other): &&(usize, Alignment)| {
-                given[*other]
-                    .iter()
-                    .any(|rates| selection::near_equal_rates(rates, &seen_on(on_other, &window.rates())))
+                given[*other].iter().any(|rates| rate_cells::are_near_equal(rates, &seen_on(on_other, &window.rates())))
             };
             let (giver, alignment) = neighbours[clip].iter().find(is_near)?;
             Some(Mark { stretch_s, giver: *giver, alignment: *alignment })
@@ -75,12 +74,17 @@ pub(crate) fn choose(
 /// Clip and index of every window that has rivals, from the best on: one that a manifest chose; one whose frame time is
 /// a human's; one whose root travels; one beyond doubt; one with fewer flaws, wherever in its cell; one of a longer
 /// clip, then of more frames a second; the first.
-fn by_worth(clips: &[HumanClip], analyzed: &[Analyzed], neighbours: &Neighbours, body: &HumanBody) -> Vec<[usize; 2]> {
+fn by_worth(
+    clips: &[HumanClip],
+    analyzed: &[AnalyzedClip],
+    neighbours: &Neighbours,
+    body: &HumanBody,
+) -> Vec<[usize; 2]> {
     let implausible = frame_times::implausibilities(clips, analyzed, neighbours, body);
     let in_steps = |value: f64, step: f64| libm::round(value / step) as i64;
     let worth = |&[index, window]: &[usize; 2]| {
         let (clip, window) = (&clips[index], &analyzed[index].windows[window]);
-        let flaws = window.flaws - selection::off_middle(&window.rates());
+        let flaws = window.flaws - rate_cells::distance_from_middle(&window.rates());
         (
             Reverse((clip.choices.is_semi_procedural, clip.choices.is_target_skeleton)),
             in_steps(implausible[index], SAME_SWING),
@@ -134,7 +138,7 @@ fn seen_on(alignment: &Alignment, rates: &Rates) -> Rates {
 }
 
 /// A window in seconds from its clip's beginning, which may lie within the file.
-fn in_clip_s(clip: &HumanClip, window: &SteadyWindow) -> [f64; 2] {
+fn in_clip_s(clip: &HumanClip, window: &SteadyCycle) -> [f64; 2] {
     window.window_s.map(|time_s| time_s - clip.first_frame as f64 / clip.frame_rate_hz)
 }
 

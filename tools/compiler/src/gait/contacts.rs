@@ -1,71 +1,50 @@
-//! Foot contacts of a clip, frame by frame: by height and by speed. Planted-foot slide is measured over them.
+//! Foot contacts of a clip, frame by frame, by height and by speed. Planted-foot slide is measured over them.
 //!
-//! A foot's contact point is the lowest of heel, ball and toe tip: on the sole where the clip had `…Sole` joints, else
-//! at the joints (ankle, ball, end of the toe), each over its own planted height. The foot is planted while that point
-//! is low and slow. World frame, metres.
+//! The contact point of a foot is the lowest of heel, ball and toe tip, each over its own planted height. The points lie
+//! on the sole where the clip has `…Sole` joints, else at the joints (ankle, ball, end of the toe). A foot is planted
+//! while its contact point is low and slow (definition "Planted-foot slide" of `docs/definitions.md`; limits and their
+//! tuning: `docs/tuning.md`). World frame: metres, Z up; one value a frame.
 
 use glam::DVec3;
 
-/// Over its planted height a planted point lifts less than this, metres.
+use crate::frame_runs::frame_runs;
+
+/// Greatest height of a planted point over its planted height, m.
 const HEIGHT_MAX_M: f64 = 0.025;
-/// Speed of a planted point: this, and a share of the body's speed for clips that slide as they run, m/s.
+/// Greatest speed of a planted point of a body that stands, m/s.
 const SPEED_MAX_MPS: f64 = 0.25;
+/// Share of the body's speed that adds to [`SPEED_MAX_MPS`], for clips whose feet slide as they run.
 const SPEED_MAX_SHARE: f64 = 0.15;
-/// A point's planted height is this percentile of its heights: noise dips below it.
+/// Share of a point's heights below its planted height: noise dips below it.
 const PLANTED_PERCENTILE: f64 = 0.05;
-/// It is found anew over this time: longer than a stride, so that every window holds a stance.
+/// Duration over which a planted height is measured, s: longer than a stride, so that it holds a stance.
 const FLOOR_WINDOW_S: f64 = 1.6;
-/// Speeds are taken over ± this time, so that noise weighs the same at 24 and at 120 frames a second: one frame at 30.
+/// Half the span over which speeds are taken, s: noise then weighs the same at 24 and at 120 frames per second.
 const SPEED_SPAN_S: f64 = 1.0 / 30.0;
-/// Seconds: a shorter touch is not planted, a shorter lift no swing (those last 0.3 s and more), a shorter contact no
-/// step.
+/// Least duration of a touch that counts as planted, s.
 const TOUCH_MIN_S: f64 = 0.05;
+/// Least duration of a lift that counts as a swing, s; real swings last 0.3 s and more.
 const LIFT_MIN_S: f64 = 0.1;
+/// Least duration of a contact that counts as a step, s.
 const CONTACT_MIN_S: f64 = 0.08;
 
-/// Which of a foot's three points is the lowest over its planted height, frame by frame, and how high it is. Planted
-/// heights are taken over `window` frames about each frame: the floor of a capture may slope.
-pub(crate) fn lowest_points(feet: &[[DVec3; 3]], window: usize) -> Vec<(usize, f64)> {
-    let planted = [0, 1, 2].map(|point| planted_heights_m(feet, point, window));
-    let lower = |a: (usize, f64), b: (usize, f64)| if b.1 < a.1 { b } else { a };
-    (0..feet.len())
-        .map(|frame| {
-            let height = |point: usize| (point, feet[frame][point].z - planted[point][frame]);
-            lower(lower(height(0), height(1)), height(2))
-        })
-        .collect()
-}
-
-/// Height at which a point is planted about each frame: the percentile of a window that slides over the heights, kept
-/// sorted so that a frame costs one search and one shift.
-fn planted_heights_m(feet: &[[DVec3; 3]], point: usize, window: usize) -> Vec<f64> {
-    let heights: Vec<f64> = feet.iter().map(|foot| foot[point].z).collect();
-    let window = window.clamp(1, heights.len());
-    let mut near = heights[..window].to_vec();
-    near.sort_by(f64::total_cmp);
-    let index = (PLANTED_PERCENTILE * window as f64) as usize;
-    let mut percentiles = vec![near[index]];
-    for (gone, new) in heights.iter().zip(&heights[window..]) {
-        near.remove(near.partition_point(|height| height.total_cmp(gone).is_lt()));
-        near.insert(near.partition_point(|height| height.total_cmp(new).is_lt()), *new);
-        percentiles.push(near[index]);
-    }
-    let of_frame = |frame: usize| percentiles[frame.saturating_sub(window / 2).min(percentiles.len() - 1)];
-    (0..feet.len()).map(of_frame).collect()
-}
-
-/// One foot's contacts, frame by frame.
+/// The contacts of one foot, one flag a frame.
 #[derive(Clone, Debug)]
-pub struct Contacts {
-    /// Planted, as near to the definition as noise allows.
-    pub planted: Vec<bool>,
-    /// On the ground in one step, short lifts and slips included: what its middle is taken of.
-    pub stepping: Vec<bool>,
+pub(crate) struct ContactFrames {
+    /// The foot is planted, as near to the definition as noise allows.
+    pub(crate) planted: Vec<bool>,
+    /// The foot is on the ground in one step; short lifts and slips count as contact. Steps take their middle from it.
+    pub(crate) stepping: Vec<bool>,
 }
 
 /// The contacts of one foot. `lenience` multiplies both limits: 1 is the definition, more finds the steps of noisy
 /// clips.
-pub(crate) fn find(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64, lenience: f64) -> Contacts {
+pub(crate) fn contact_frames(
+    feet: &[[DVec3; 3]],
+    frame_rate_hz: f64,
+    body_speed_mps: f64,
+    lenience: f64,
+) -> ContactFrames {
     let speed_max_mps = lenience * (SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps);
     let window = (FLOOR_WINDOW_S * frame_rate_hz) as usize;
     let span = ((SPEED_SPAN_S * frame_rate_hz + 0.5) as usize).max(1);
@@ -74,8 +53,8 @@ pub(crate) fn find(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64,
         .enumerate()
         .map(|(frame, &(point, height_m))| {
             let (before, after) = (frame.saturating_sub(span), (frame + span).min(feet.len() - 1));
-            let moved = (feet[after][point] - feet[before][point]).truncate().length();
-            height_m < lenience * HEIGHT_MAX_M && moved * frame_rate_hz < speed_max_mps * (after - before) as f64
+            let moved_m = (feet[after][point] - feet[before][point]).truncate().length();
+            height_m < lenience * HEIGHT_MAX_M && moved_m * frame_rate_hz < speed_max_mps * (after - before) as f64
         })
         .collect();
     let mut planted = stepping.clone();
@@ -84,27 +63,48 @@ pub(crate) fn find(feet: &[[DVec3; 3]], frame_rate_hz: f64, body_speed_mps: f64,
         flip_short_runs(contacts, false, LIFT_MIN_S * frame_rate_hz);
         flip_short_runs(contacts, true, CONTACT_MIN_S * frame_rate_hz);
     }
-    Contacts { planted, stepping }
+    ContactFrames { planted, stepping }
 }
 
-/// Runs of equal values: value, first frame, frame after the last.
-pub(crate) fn runs(planted: &[bool]) -> Vec<(bool, usize, usize)> {
-    let mut runs: Vec<(bool, usize, usize)> = Vec::new();
-    for (frame, &value) in planted.iter().enumerate() {
-        match runs.last_mut() {
-            Some(run) if run.0 == value => run.2 = frame + 1,
-            _ => runs.push((value, frame, frame + 1)),
-        }
+/// Index of the lowest of a foot's three points over its planted height, and its height over that (m), at each frame.
+///
+/// Planted heights are taken over `window` frames about each frame: the floor of a capture may slope.
+fn lowest_points(feet: &[[DVec3; 3]], window: usize) -> Vec<(usize, f64)> {
+    let planted_m = [0, 1, 2].map(|point| planted_heights_m(feet, point, window));
+    let lower = |a: (usize, f64), b: (usize, f64)| if b.1 < a.1 { b } else { a };
+    (0..feet.len())
+        .map(|frame| {
+            let height_m = |point: usize| (point, feet[frame][point].z - planted_m[point][frame]);
+            lower(lower(height_m(0), height_m(1)), height_m(2))
+        })
+        .collect()
+}
+
+/// Planted height of a point about each frame, m: a percentile of a sliding window, kept sorted, so that a frame costs
+/// one search and one shift.
+fn planted_heights_m(feet: &[[DVec3; 3]], point: usize, window: usize) -> Vec<f64> {
+    let heights_m: Vec<f64> = feet.iter().map(|foot| foot[point].z).collect();
+    let window = window.clamp(1, heights_m.len());
+    let mut near_m = heights_m[..window].to_vec();
+    near_m.sort_by(f64::total_cmp);
+    let index = (PLANTED_PERCENTILE * window as f64) as usize;
+    let mut percentiles_m = vec![near_m[index]];
+    for (gone_m, new_m) in heights_m.iter().zip(&heights_m[window..]) {
+        near_m.remove(near_m.partition_point(|height_m| height_m.total_cmp(gone_m).is_lt()));
+        near_m.insert(near_m.partition_point(|height_m| height_m.total_cmp(new_m).is_lt()), *new_m);
+        percentiles_m.push(near_m[index]);
     }
-    runs
+    let of_frame = |frame: usize| percentiles_m[frame.saturating_sub(window / 2).min(percentiles_m.len() - 1)];
+    (0..feet.len()).map(of_frame).collect()
 }
 
-/// Flips inner runs of `value` shorter than `length` frames; the first and the last may go on outside the clip.
-fn flip_short_runs(planted: &mut [bool], value: bool, length: f64) {
-    let runs = runs(planted);
-    for &(run_value, start, end) in runs.iter().skip(1).rev().skip(1) {
-        if run_value == value && ((end - start) as f64) < length {
-            planted[start..end].fill(!value);
+/// Flips inner runs of `value` that are shorter than `length` frames. The first and the last run of the clip may go on
+/// outside of it.
+fn flip_short_runs(flags: &mut [bool], value: bool, length: f64) {
+    let inner = frame_runs(flags, value).into_iter().filter(|run| run.start > 0 && run.end < flags.len());
+    for run in inner.collect::<Vec<_>>() {
+        if (run.len() as f64) < length {
+            flags[run].fill(!value);
         }
     }
 }
@@ -112,10 +112,10 @@ fn flip_short_runs(planted: &mut [bool], value: bool, length: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ground::root_motion::percentile;
+    use motiondb::statistics::percentile;
 
     #[test]
-    fn planted_heights_are_the_percentiles_of_all_windows() {
+    fn planted_heights_are_percentiles_of_sliding_windows() {
         // Repeated heights and both zeros are among them.
         let height_m =
             |frame: usize| (frame * frame % 97) as f64 * 0.01 - if frame.is_multiple_of(7) { 0.3 } else { -0.0 };
@@ -125,8 +125,8 @@ mod tests {
             let length = window.min(feet.len());
             for (frame, &found_m) in found.iter().enumerate() {
                 let start = frame.saturating_sub(length / 2).min(feet.len() - length);
-                let mut near: Vec<f64> = feet[start..start + length].iter().map(|foot| foot[0].z).collect();
-                assert_eq!(found_m, percentile(&mut near, PLANTED_PERCENTILE), "window {window}, frame {frame}");
+                let near_m = feet[start..start + length].iter().map(|foot| foot[0].z);
+                assert_eq!(Some(found_m), percentile(near_m, PLANTED_PERCENTILE), "window {window}, frame {frame}");
             }
         }
     }

@@ -1,21 +1,25 @@
-//! Gait: what the feet do.
+//! Gait: when the feet are on the ground, and in which parts of a clip the body steps steadily or stands.
 //!
-//! Enters: a `GroundedClip`. Leaves: steady windows of whole strides, and windows in which the body stands.
+//! Enters: [`HumanClip`](crate::retarget::HumanClip)s and, on the target body, [`GroundedClip`](crate::ground::GroundedClip)s.
+//! Leaves: [`GaitWindow`]s of whole strides or of standing, and the stances of both feet; or why a clip has none.
 //!
-//! Read `contacts`, then `gait_events`, `stride`, `steady_window`, `standing`, then `windows`, which uses them all;
-//! `own_body` carries gait found on the performer's own body over, `stride_alignment` aligns phases.
+//! Read `performer_gait` (the chapter's entry) and `windows` (its steps), then the steps one by one: `contacts`,
+//! `foot_stance` with `contact_ends`, `stride` on a `body_track`, `steady_strides` with `stride_spread`,
+//! `stride_alignment`, `standing`.
 
+pub(crate) mod body_track;
+pub(crate) mod contact_ends;
 pub(crate) mod contacts;
-pub(crate) mod gait_events;
-pub mod own_body;
+pub(crate) mod foot_stance;
+pub(crate) mod performer_gait;
 pub(crate) mod standing;
-pub(crate) mod steady_window;
+pub(crate) mod steady_strides;
 pub(crate) mod stride;
 pub(crate) mod stride_alignment;
+pub(crate) mod stride_spread;
 pub(crate) mod windows;
 
-pub use contacts::Contacts;
-pub use gait_events::Stance;
-pub use steady_window::{SteadyWindow, Steps};
-pub use stride::{BodyTrack, Landmark, Stride};
-pub use windows::{Gait, GaitAnalysis, Window};
+pub use foot_stance::FootStance;
+pub use performer_gait::PerformerGait;
+pub use stride::{Landmark, Stride};
+pub use windows::{GaitAnalysis, GaitWindow, WindowGait};

@@ -1,53 +1,53 @@
-//! Landmarks finer than frames: every stride of a window begins and has its middle where the body is most like in the
-//! others.
+//! Landmarks finer than frames: every stride of a window begins, and has its middle, where the body is most alike.
 //!
-//! The middle of a contact is known to half a frame only, which at 30 frames a second is 2 % of a stride: a jog closed
-//! over so wrong a period slides by 5 cm/s. So each landmark is moved to where all joints, seen from hips and facing,
-//! are nearest to those at the first landmark of the same foot; what the landmarks of a foot move by in the mean is
-//! taken back, since their mean is right. Frames of the clip.
+//! The middle of a contact is known to half a frame only: at 30 frames per second 2 % of a stride. So each landmark moves
+//! to where all joints, relative to hips and facing, are nearest to those at the first landmark of the same foot. The mean
+//! move of a foot's landmarks is taken back, since their mean is right. Frames of the clip, metres.
 
 use glam::{DQuat, DVec3};
 use motiondb::body::{JOINT_COUNT, Side};
+use motiondb::statistics::mean;
 
-use crate::gait::stride::{BodyTrack, Landmark, Stride};
+use crate::gait::body_track::BodyTrack;
+use crate::gait::stride::{Landmark, Stride};
 
-/// A landmark moves by this much at most, seconds: one frame at 30 a second.
+/// Greatest move of a landmark, s: one frame at 30 frames per second.
 const MOVE_MAX_S: f64 = 1.0 / 30.0;
-/// Steps that are tried to either side.
+/// Moves that are tried to either side.
 const MOVE_STEPS: i32 = 32;
 
 /// The strides of a window, end to end, with their landmarks aligned.
-pub(crate) fn align(strides: &[Stride], body: &BodyTrack) -> Vec<Stride> {
+pub(crate) fn aligned_strides(strides: &[Stride], body: &BodyTrack) -> Vec<Stride> {
     let Some(last) = strides.last() else { return Vec::new() };
     let ends: Vec<f64> =
         strides.iter().map(Stride::first_frame).chain([last.first_frame() + last.period_frames]).collect();
     let middles: Vec<f64> = strides.iter().map(Stride::middle_frame).collect();
-    let (ends, middles) = (aligned(&ends, body), aligned(&middles, body));
+    let (ends, middles) = (aligned_frames(&ends, body), aligned_frames(&middles, body));
     let side = if last.start_phase == 0.0 { Side::Right } else { Side::Left };
     let landmark = |side: Side, frame: f64| Landmark { side, frame };
-    let realign = |index: usize| {
+    let realigned = |index: usize| {
         let marks =
             [landmark(side, ends[index]), landmark(side.other(), middles[index]), landmark(side, ends[index + 1])];
         Stride::over(&marks, body)
     };
-    (0..strides.len()).map(realign).collect()
+    (0..strides.len()).map(realigned).collect()
 }
 
-/// Landmarks of one foot, each moved to the pose of the first, their mean kept.
-fn aligned(frames: &[f64], body: &BodyTrack) -> Vec<f64> {
-    // The frame before, not the nearest: what lies as far from the last landmark is then still within the clip.
+/// Landmark frames of one foot, each moved to the pose of the first, their mean kept.
+fn aligned_frames(frames: &[f64], body: &BodyTrack) -> Vec<f64> {
+    // The frame before the first landmark, not the nearest: as far from the last landmark is then still within the clip.
     let first = frames[0] as usize;
     let reference = local_joints(body, first as f64);
     let moved: Vec<f64> = frames
         .iter()
-        .map(|frame| nearest(&reference, first as f64 + frame - frames[0], body) - first as f64 + frames[0])
+        .map(|frame| nearest_frame(&reference, first as f64 + frame - frames[0], body) - first as f64 + frames[0])
         .collect();
-    let mean_off = moved.iter().zip(frames).map(|(moved, frame)| moved - frame).sum::<f64>() / frames.len() as f64;
-    moved.iter().map(|frame| frame - mean_off).collect()
+    let mean_move = mean(moved.iter().zip(frames).map(|(moved, frame)| moved - frame)).unwrap_or(0.0);
+    moved.iter().map(|frame| frame - mean_move).collect()
 }
 
-/// The frame about `frame` whose pose is nearest to a reference; of several the one that moves least.
-fn nearest(reference: &[DVec3; JOINT_COUNT], frame: f64, body: &BodyTrack) -> f64 {
+/// The frame near `frame` whose pose is nearest to a reference; of several the one that moves least.
+fn nearest_frame(reference: &[DVec3; JOINT_COUNT], frame: f64, body: &BodyTrack) -> f64 {
     let step = (MOVE_MAX_S * body.frame_rate_hz).max(1.0) / f64::from(MOVE_STEPS);
     let distance = |frame: f64| {
         let joints = local_joints(body, frame);
@@ -59,7 +59,7 @@ fn nearest(reference: &[DVec3; JOINT_COUNT], frame: f64, body: &BodyTrack) -> f6
     best.map_or(frame, |(_, frame)| frame)
 }
 
-/// Every joint seen from the hips and the facing, between frames linearly.
+/// Every joint relative to hips and facing, linearly between frames, m.
 fn local_joints(body: &BodyTrack, frame: f64) -> [DVec3; JOINT_COUNT] {
     let base = (frame.max(0.0) as usize).min(body.joints.len() - 2);
     let share = (frame - base as f64).clamp(0.0, 1.0);
@@ -73,12 +73,12 @@ fn local_joints(body: &BodyTrack, frame: f64) -> [DVec3; JOINT_COUNT] {
 
 #[cfg(test)]
 mod tests {
-    use crate::synthetic::{self, Walk};
+    use crate::synthetic::{self, SyntheticWalk};
 
     #[test]
-    fn periods_are_known_to_a_twentieth_of_a_frame() {
+    fn periods_are_exact_to_a_twentieth_of_a_frame() {
         for period_s in [1.1, 1.117, 1.25] {
-            let walk = Walk { period_s, frame_rate_hz: 30.0, duration_s: 6.0, ..Walk::default() };
+            let walk = SyntheticWalk { period_s, frame_rate_hz: 30.0, duration_s: 6.0, ..SyntheticWalk::default() };
             let clip = synthetic::walk("walk", walk);
             for stride in synthetic::strides_of(&clip) {
                 assert!((stride.period_frames - 30.0 * period_s).abs() < 0.05, "{stride:?}");

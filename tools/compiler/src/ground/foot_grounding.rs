@@ -1,48 +1,51 @@
-//! Poses on the target skeleton → poses whose planted feet stand on the ground at z = 0 and whose feet never sink.
+//! Grounds the feet of poses on the target skeleton: planted soles lie on the ground at z = 0, no sole sinks.
 //!
-//! First the clip is shifted so that planted soles lie on the ground, half of the time a little over it. A foot of
-//! other proportions, or one whose rig cannot bend its toes, rolls off through the ground: its toe tip comes down where
-//! the performer's own was up. People's toes bend instead. So an ankle rises until heel and ball are on the ground,
-//! knees giving way, and then the toes bend up until their tip is; where they cannot bend so far, the ankle rises for
-//! the rest. World frame, Z up, metres, radians.
+//! First the clip is shifted so that half of the planted soles lie over the ground, half below. A foot of other
+//! proportions, or one whose rig cannot bend its toes, rolls off through the ground, where human toes bend. So three
+//! corrections follow for each foot of each pose:
+//! 1. The ankle rises until heel and ball are on the ground; the knee gives.
+//! 2. The toes bend up until their tip is on the ground.
+//! 3. Where the toes cannot bend so far, the ankle rises by the rest.
+//!
+//! World frame: Z up, metres, radians.
 
 use std::ops::Range;
 
 use glam::{DQuat, DVec3};
 use motiondb::body::Joint;
+use motiondb::statistics::percentile;
 
 use crate::ground::leg_ik;
-use crate::ground::root_motion::percentile;
-use crate::retarget::human_clip::{HumanBody, HumanPose};
+use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
 
-/// The pad of a heel and the sole of a shoe give by about this much under a body's weight, m: so far a sole may sink.
-const SOLE_GIVES_M: f64 = 0.01;
-/// Toes bend up by 60° at most as a foot rolls off (published range of the first metatarsophalangeal joint: 60–70°),
-/// rad.
+/// Depth that a sole may sink, m: what the pad of a heel and the sole of a shoe give under a body's weight.
+const SOLE_DEPTH_MAX_M: f64 = 0.01;
+/// Greatest bend of the toes upward, rad: 60°, published range of the first metatarsophalangeal joint: 60–70°.
 const TOE_BEND_MAX_RAD: f64 = 60.0 * std::f64::consts::PI / 180.0;
 
-/// Of heel, ball and toe tip those that stand before the toes bend, and all.
+/// Of heel, ball and toe tip those that are on the ground before the toes bend.
 const HEEL_AND_BALL: Range<usize> = 0..2;
+/// All of heel, ball and toe tip.
 const WHOLE_SOLE: Range<usize> = 0..3;
 
-/// Puts the feet on the ground; `is_planted` tells of a side and a frame whether that foot stands.
-pub(crate) fn stand(poses: &mut [HumanPose], body: &HumanBody, is_planted: impl Fn(usize, usize) -> bool) {
-    lower_to_ground(poses, body, is_planted);
-    lift_soles(poses, body);
+/// Height of the lowest of heel, ball and toe tip of one foot, m.
+pub(crate) fn lowest_sole_m(joints: &HumanJoints, body: &HumanBody, side: usize) -> f64 {
+    joints.sole_points_m(body, side).map(|point| point.z).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-fn lower_to_ground(poses: &mut [HumanPose], body: &HumanBody, is_planted: impl Fn(usize, usize) -> bool) {
+/// Shifts a clip so that its planted feet stand at z = 0; `is_planted` states it for a side and a frame.
+pub(crate) fn lower_to_ground(poses: &mut [HumanPose], body: &HumanBody, is_planted: impl Fn(usize, usize) -> bool) {
     let mut heights_m = Vec::new();
     for (frame, pose) in poses.iter().enumerate() {
         let joints = pose.forward_kinematics(body);
-        let lowest_m = |side: usize| joints.sole_points_m(body, side).map(|point| point.z).into_iter().reduce(f64::min);
-        heights_m.extend([0, 1].into_iter().filter(|&side| is_planted(side, frame)).filter_map(lowest_m));
+        let planted = [0, 1].into_iter().filter(|&side| is_planted(side, frame));
+        heights_m.extend(planted.map(|side| lowest_sole_m(&joints, body, side)));
     }
-    let ground_m = percentile(&mut heights_m, 0.5);
+    let ground_m = percentile(heights_m, 0.5).unwrap_or(0.0);
     poses.iter_mut().for_each(|pose| pose.pelvis_m.z -= ground_m);
 }
 
-/// Lifts heels, balls and toe tips that lie deeper than a sole gives.
+/// Lifts heels, balls and toe tips that lie deeper than [`SOLE_DEPTH_MAX_M`].
 pub(crate) fn lift_soles(poses: &mut [HumanPose], body: &HumanBody) {
     for pose in poses {
         for side in 0..2 {
@@ -53,24 +56,25 @@ pub(crate) fn lift_soles(poses: &mut [HumanPose], body: &HumanBody) {
     }
 }
 
-/// Raises an ankle until some of heel, ball and toe tip are on the ground.
+/// Raises an ankle until no given sole point (of heel, ball, toe tip) lies too deep.
 fn raise_foot(pose: &mut HumanPose, body: &HumanBody, side: usize, points: Range<usize>) {
     let joints = pose.forward_kinematics(body);
     let lowest_m = joints.sole_points_m(body, side)[points].iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
-    let sunk_m = -SOLE_GIVES_M - lowest_m;
+    let sunk_m = -SOLE_DEPTH_MAX_M - lowest_m;
     if sunk_m > 0.0 {
         let ankle_m = joints.positions_m[Joint::FEET[side].index()];
         leg_ik::place_ankle(pose, body, side, ankle_m + DVec3::Z * sunk_m);
     }
 }
 
+/// Bends the toes of one foot up until their tip lies no longer too deep.
 fn bend_toes(pose: &mut HumanPose, body: &HumanBody, side: usize) {
     let joints = pose.forward_kinematics(body);
     let [foot, toe] = [Joint::FEET[side].index(), Joint::TOES[side].index()];
     let tip_m = joints.sole_points_m(body, side)[2];
-    if tip_m.z < -SOLE_GIVES_M {
+    if tip_m.z < -SOLE_DEPTH_MAX_M {
         let (toes_m, across) = (tip_m - joints.positions_m[toe], joints.orientations[foot] * DVec3::Y);
-        let bend_rad = bend_to_height_rad(toes_m, across, -SOLE_GIVES_M - joints.positions_m[toe].z);
+        let bend_rad = bend_to_height_rad(toes_m, across, -SOLE_DEPTH_MAX_M - joints.positions_m[toe].z);
         pose.rotations[toe] = DQuat::from_rotation_y(bend_rad) * pose.rotations[toe];
     }
 }
@@ -89,25 +93,25 @@ fn bend_to_height_rad(vector_m: DVec3, axis: DVec3, height_m: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::retarget::human_clip::HumanClip;
-    use crate::synthetic::{self, Walk};
+    use crate::synthetic::{self, SyntheticWalk};
 
     fn walk() -> HumanClip {
-        synthetic::walk("walk", Walk::default())
+        synthetic::walk("walk", SyntheticWalk::default())
     }
 
-    /// The lowest of all soles once they are lifted.
-    fn lowest_m(clip: &HumanClip) -> f64 {
+    /// Height of the lowest of all soles after [`lift_soles`], m.
+    fn lowest_lifted_m(clip: &HumanClip) -> f64 {
         let mut poses = clip.frames.clone();
         lift_soles(&mut poses, &clip.body);
-        let soles = poses.iter().flat_map(|pose| {
+        let soles_m = poses.iter().flat_map(|pose| {
             let joints = pose.forward_kinematics(&clip.body);
-            [0, 1].map(|side| joints.sole_points_m(&clip.body, side))
+            [0, 1].map(|side| lowest_sole_m(&joints, &clip.body, side))
         });
-        soles.flatten().map(|point| point.z).fold(f64::INFINITY, f64::min)
+        soles_m.fold(f64::INFINITY, f64::min)
     }
 
     #[test]
-    fn feet_that_stand_on_the_ground_stay_as_they_are() {
+    fn grounded_feet_do_not_change() {
         let clip = walk();
         let mut poses = clip.frames.clone();
         lift_soles(&mut poses, &clip.body);
@@ -115,20 +119,20 @@ mod tests {
     }
 
     #[test]
-    fn feet_that_sink_are_raised_to_the_ground() {
+    fn sunken_feet_rise_to_the_ground() {
         let mut clip = walk();
         clip.frames.iter_mut().for_each(|pose| pose.pelvis_m.z -= 0.05);
-        assert!(lowest_m(&clip) > -SOLE_GIVES_M - 1e-3, "{}", lowest_m(&clip));
+        assert!(lowest_lifted_m(&clip) > -SOLE_DEPTH_MAX_M - 1e-3, "{}", lowest_lifted_m(&clip));
     }
 
     #[test]
-    fn toes_bend_up_where_they_would_sink() {
+    fn sunken_toes_bend_up() {
         for pitch_rad in [0.2, 0.4, 0.6, 1.5] {
             let mut clip = walk();
             for pose in &mut clip.frames {
                 Joint::TOES.iter().for_each(|toe| pose.rotations[toe.index()] = DQuat::from_rotation_y(pitch_rad));
             }
-            assert!(lowest_m(&clip) > -SOLE_GIVES_M - 1e-3, "{pitch_rad}: {}", lowest_m(&clip));
+            assert!(lowest_lifted_m(&clip) > -SOLE_DEPTH_MAX_M - 1e-3, "{pitch_rad}: {}", lowest_lifted_m(&clip));
         }
     }
 }

@@ -1,34 +1,31 @@
-//! Loops: a clip whose last pose is its first goes round three times, so that every stride of it has neighbours and all
-//! strides count.
+//! Loops: a clip whose last pose is its first is repeated three times, so that every stride has neighbours and counts.
 //!
-//! What is left between the last pose and the first is spread evenly over the round, so that the seam is like any other
-//! frame.
+//! The gap between the last pose and the first is spread evenly over the round, so that the seam is like any other frame.
+//! World frame: metres, radians, Z up; times in frames of the clip.
 
 use glam::{DQuat, DVec3};
 use motiondb::body::JOINT_COUNT;
 use motiondb::statistics::median;
 
-use crate::ground::arc::rotation;
-use crate::ground::root_motion::{GroundedClip, align_hemispheres};
+use crate::ground::root_motion::GroundedClip;
+use crate::ground::rotations::{align_successive, ground_rotation, rotation_vector};
 use crate::retarget::human_clip::{HumanBody, HumanPose};
 
-/// Every joint of the last pose this near to the first's, relative to the root: a loop.
+/// Greatest distance of any joint between last pose and first, relative to the root, of a loop, m.
 const LOOP_GAP_M: f64 = 0.04;
-/// So is a clip whose last pose is nearer to its first than this share of what its own poses usually lie apart: short
-/// loops of few frames a second, whose keys do not fall on frames.
+/// The same as a share of the clip's usual step from pose to pose: short loops whose keys do not fall on frames.
 const LOOP_GAP_STEPS: f64 = 0.5;
-/// The repeated frame is left out where the pose that would follow is this much nearer to the first than the last one
-/// is.
+/// A loop leaves out its repeated frame where the pose that would follow is nearer to the first by this ratio.
 const LEFT_OUT_RATIO: f64 = 0.5;
-/// Copies of a loop: one before and one after the one that is analysed.
+/// Copies of a loop: one before and one after the copy that is analysed.
 const ROUNDS: usize = 3;
-/// Shorter clips are poses, not loops.
+/// Least duration of a loop, s; shorter clips are poses.
 const ROUND_MIN_S: f64 = 0.3;
 
-/// The clip three times round where it is a loop, else unchanged.
-pub(crate) fn unroll(clip: GroundedClip, body: &HumanBody) -> GroundedClip {
+/// Three rounds of a clip that is a loop; any other clip unchanged.
+pub(crate) fn unrolled(clip: GroundedClip, body: &HumanBody) -> GroundedClip {
     match round_frames(&clip, body) {
-        Some(round) => repeat(clip, body, round),
+        Some(round) => repeated(clip, body, round),
         None => clip,
     }
 }
@@ -46,12 +43,13 @@ fn round_frames(clip: &GroundedClip, body: &HumanBody) -> Option<usize> {
     is_loop.then_some(round)
 }
 
-/// The clip, known to be a loop of so many frames, three times round. The frame after its last may close it.
-pub(crate) fn repeat(mut clip: GroundedClip, body: &HumanBody, round: usize) -> GroundedClip {
+/// Three rounds of a clip that is known to be a loop of `round` frames. Where the clip has no more frames than that, the
+/// pose that would follow closes it.
+pub(crate) fn repeated(mut clip: GroundedClip, body: &HumanBody, round: usize) -> GroundedClip {
     if let ([.., before, last], true) = (clip.poses.as_slice(), round == clip.poses.len()) {
         clip.poses.push(next_pose(before, last));
     }
-    let seam = Seam::between(&clip.poses[0], &clip.poses[round], body);
+    let seam = LoopSeam::between(&clip.poses[0], &clip.poses[round], body);
     let closed: Vec<HumanPose> =
         (0..round).map(|frame| seam.close(&clip.poses[frame], frame as f64 / round as f64)).collect();
     let mut poses = Vec::with_capacity(ROUNDS * round + 1);
@@ -59,18 +57,18 @@ pub(crate) fn repeat(mut clip: GroundedClip, body: &HumanBody, round: usize) -> 
         poses.extend(closed.iter().map(|pose| seam.carry(pose, copy)));
     }
     poses.push(seam.carry(&closed[0], ROUNDS));
-    align_hemispheres(&mut poses);
+    align_successive(&mut poses);
     GroundedClip { poses, loop_frames: Some(round), ..clip }
 }
 
-/// The pose that would follow if all went on as it did.
+/// The pose after two successive ones at constant velocity.
 fn next_pose(before: &HumanPose, last: &HumanPose) -> HumanPose {
     let rotations =
         std::array::from_fn(|joint| last.rotations[joint] * before.rotations[joint].inverse() * last.rotations[joint]);
     HumanPose { pelvis_m: 2.0 * last.pelvis_m - before.pelvis_m, rotations }
 }
 
-/// The greatest distance between a joint's places in two poses, each relative to its root.
+/// The greatest distance between a joint's positions in two poses, each relative to hips and facing, m.
 fn loop_gap_m(first: &HumanPose, last: &HumanPose, body: &HumanBody) -> f64 {
     let local = |pose: &HumanPose| {
         let joints = pose.forward_kinematics(body);
@@ -81,32 +79,35 @@ fn loop_gap_m(first: &HumanPose, last: &HumanPose, body: &HumanBody) -> f64 {
     local(first).iter().zip(&local(last)).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
 }
 
-/// How one round of a loop moves the body, and what it leaves open.
-struct Seam {
+/// Displacement of the body by one round of a loop, and the gap that the round leaves.
+struct LoopSeam {
+    /// Pelvis of the first pose on the ground, m.
     start_m: DVec3,
+    /// Displacement of the pelvis on the ground by one round, m.
     travelled_m: DVec3,
+    /// Change of the facing by one round, rad.
     turned_rad: f64,
+    /// Height of the first pelvis over the last, m.
     height_gap_m: f64,
-    /// From the last pose's rotations back to the first's, as rotation vectors.
+    /// Rotations from the last pose's joints back to the first's, as rotation vectors, rad.
     rotation_gaps: [DVec3; JOINT_COUNT],
 }
 
-impl Seam {
+impl LoopSeam {
     fn between(first: &HumanPose, last: &HumanPose, body: &HumanBody) -> Self {
         let (from, to) = (first.forward_kinematics(body), last.forward_kinematics(body));
         let turned_rad = to.facing_rad() - from.facing_rad();
         let turn = DQuat::from_rotation_z(turned_rad);
         let rotation_gaps = std::array::from_fn(|joint| {
-            let wanted = if joint == 0 { turn * first.rotations[0] } else { first.rotations[joint] };
-            let gap = wanted * last.rotations[joint].inverse();
-            (if gap.w < 0.0 { -gap } else { gap }).to_scaled_axis()
+            let closing = if joint == 0 { turn * first.rotations[0] } else { first.rotations[joint] };
+            rotation_vector(closing * last.rotations[joint].inverse())
         });
         let travelled_m = (last.pelvis_m - first.pelvis_m).with_z(0.0);
         let height_gap_m = first.pelvis_m.z - last.pelvis_m.z;
         Self { start_m: first.pelvis_m.with_z(0.0), travelled_m, turned_rad, height_gap_m, rotation_gaps }
     }
 
-    /// A pose of the round with its part of the gap added: none at the first, all at the last.
+    /// A pose of the round with its part of the gap added: none at the first pose, all at the last.
     fn close(&self, pose: &HumanPose, share: f64) -> HumanPose {
         let mut closed = pose.clone();
         closed.pelvis_m.z += self.height_gap_m * share;
@@ -116,12 +117,12 @@ impl Seam {
         closed
     }
 
-    /// A pose as it is some rounds later.
+    /// A pose some rounds later.
     fn carry(&self, pose: &HumanPose, rounds: usize) -> HumanPose {
         let mut carried = pose.clone();
         for _ in 0..rounds {
-            let off = rotation(self.turned_rad) * (carried.pelvis_m - self.start_m).truncate();
-            carried.pelvis_m = self.start_m + self.travelled_m + off.extend(carried.pelvis_m.z);
+            let from_start_m = ground_rotation(self.turned_rad) * (carried.pelvis_m - self.start_m).truncate();
+            carried.pelvis_m = self.start_m + self.travelled_m + from_start_m.extend(carried.pelvis_m.z);
             carried.rotations[0] = DQuat::from_rotation_z(self.turned_rad) * carried.rotations[0];
         }
         carried
@@ -131,63 +132,56 @@ impl Seam {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gait::windows::{self, Gait, Window};
-    use crate::ground::arc::Rates;
-    use crate::ground::root_motion::ground;
-    use crate::synthetic::{self, Walk};
+    use crate::ground::root_arc::Rates;
+    use crate::ground::root_motion::grounded_clip;
+    use crate::synthetic::{self, SyntheticWalk};
 
     /// A walk of exactly `strides` strides.
-    fn whole(strides: f64) -> Walk {
+    fn whole(strides: f64) -> SyntheticWalk {
         let rates = Rates { speed_mps: 0.7, turn_rate_rad_s: 0.8, strafe_mps: 0.0 };
-        Walk { rates, period_s: 1.1, duration_s: 1.1 * strides, ..Walk::default() }
+        SyntheticWalk { rates, period_s: 1.1, duration_s: 1.1 * strides, ..SyntheticWalk::default() }
     }
 
     #[test]
-    fn all_strides_of_a_loop_count() {
-        let clip = synthetic::walk("loop", whole(2.0));
-        let unrolled = unroll(ground(&clip, &clip.body), &clip.body);
-        assert_eq!(unrolled.loop_frames, Some(132));
-        let windows = windows::analyze(&unrolled, &clip.body).windows.unwrap();
-        let [Window { gait: Gait::Steps(strides), .. }] = &windows[..] else { panic!("{windows:?}") };
-        assert_eq!(strides.len(), 2);
-        for stride in strides {
-            assert!((stride.arc.rates.speed_mps - 0.7).abs() < 0.01, "{stride:?}");
-            assert!((stride.arc.rates.turn_rate_rad_s - 0.8).abs() < 0.01, "{stride:?}");
-        }
-    }
-
-    #[test]
-    fn rounds_follow_each_other_without_a_jump() {
+    fn rounds_join_without_a_jump() {
         let clip = synthetic::walk("loop", whole(1.0));
-        let unrolled = unroll(ground(&clip, &clip.body), &clip.body);
-        let places: Vec<_> = unrolled.poses.iter().map(|p| p.forward_kinematics(&clip.body).positions_m).collect();
+        let clip_in_rounds = unrolled(grounded_clip(&clip, &clip.body), &clip.body);
+        let positions_m: Vec<_> =
+            clip_in_rounds.poses.iter().map(|p| p.forward_kinematics(&clip.body).positions_m).collect();
         let step = |frame: usize| {
-            places[frame].iter().zip(&places[frame + 1]).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+            let pairs = positions_m[frame].iter().zip(&positions_m[frame + 1]);
+            pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
         };
         let largest = (0..65).map(step).fold(0.0, f64::max);
         assert!(step(65) <= largest && step(131) <= largest, "{} {} {largest}", step(65), step(131));
     }
 
     #[test]
-    fn a_loop_may_leave_out_its_repeated_frame() {
+    fn loops_may_leave_out_their_repeated_frame() {
         let mut clip = synthetic::walk("loop", whole(2.0));
         clip.frames.pop();
-        assert_eq!(unroll(ground(&clip, &clip.body), &clip.body).loop_frames, Some(132));
+        assert_eq!(unrolled(grounded_clip(&clip, &clip.body), &clip.body).loop_frames, Some(132));
     }
 
     #[test]
-    fn a_loop_of_few_frames_may_end_a_part_of_a_frame_before_its_first_pose() {
+    fn short_loops_may_end_between_frames() {
         let rates = Rates { speed_mps: 2.8, ..Rates::default() };
-        let run = Walk { rates, period_s: 0.555, duration_s: 0.555, frame_rate_hz: 24.0, ..Walk::default() };
+        let run = SyntheticWalk {
+            rates,
+            period_s: 0.555,
+            duration_s: 0.555,
+            frame_rate_hz: 24.0,
+            ..SyntheticWalk::default()
+        };
         let clip = synthetic::walk("loop", run);
-        let grounded = ground(&clip, &clip.body);
+        let grounded = grounded_clip(&clip, &clip.body);
         assert!(loop_gap_m(&grounded.poses[0], &grounded.poses[13], &clip.body) > LOOP_GAP_M);
-        assert_eq!(unroll(grounded, &clip.body).loop_frames, Some(13));
+        assert_eq!(unrolled(grounded, &clip.body).loop_frames, Some(13));
     }
 
     #[test]
-    fn a_clip_that_ends_in_another_pose_is_no_loop() {
+    fn clips_that_end_in_another_pose_are_no_loops() {
         let clip = synthetic::walk("part", whole(1.4));
-        assert_eq!(unroll(ground(&clip, &clip.body), &clip.body).loop_frames, None);
+        assert_eq!(unrolled(grounded_clip(&clip, &clip.body), &clip.body).loop_frames, None);
     }
 }

@@ -1,17 +1,20 @@
 //! Grounding: every clip moves on one body, with a root free of stride ripple and feet on the ground.
 //!
-//! Enters: `HumanClip`s. Leaves: `GroundedClip`s on the target skeleton.
+//! Enters: [`HumanClip`](crate::retarget::HumanClip)s, each on its performer's own body. Leaves: [`GroundedClip`]s on the
+//! target body, in the world frame (metres, seconds, radians, Z up).
 //!
-//! Read `target_skeleton` with `anthropometry`, then `arc` and `root_motion`, `loop_unrolling`, and last `foot_grounding`
-//! with `leg_ik`.
+//! Read `target_body`, then `root_motion` (the chapter's path from clip to grounded clip) with `loop_unrolling` and
+//! `foot_grounding`, then what they use: `pose_mean`, `leg_ik`, `rotations`. `root_arc` is the path of the root over one
+//! stride, which the next chapters fit.
 
-pub(crate) mod anthropometry;
-pub(crate) mod arc;
 pub(crate) mod foot_grounding;
 pub(crate) mod leg_ik;
 pub(crate) mod loop_unrolling;
+pub(crate) mod pose_mean;
+pub(crate) mod root_arc;
 pub(crate) mod root_motion;
-pub(crate) mod target_skeleton;
+pub(crate) mod rotations;
+pub(crate) mod target_body;
 
-pub use arc::{Arc, Rates, RootSample};
-pub use root_motion::{GroundedClip, ground};
+pub use root_arc::{Rates, RootArc, RootSample};
+pub use root_motion::{GroundedClip, grounded_clip};

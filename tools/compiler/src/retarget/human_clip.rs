@@ -98,6 +98,14 @@ impl HumanClip {
 }
 
 impl HumanBody {
+    /// Thigh plus shank, mean of both sides, m.
+    pub fn leg_length_m(&self) -> f64 {
+        let leg_m = |side: usize| {
+            self.offsets_m[Joint::SHANKS[side].index()].length() + self.offsets_m[Joint::FEET[side].index()].length()
+        };
+        0.5 * (leg_m(0) + leg_m(1))
+    }
+
     /// The body of the same proportions, `scale` times as large.
     pub fn scaled(&self, scale: f64) -> Self {
         let points = |feet: [[DVec3; 3]; 2]| feet.map(|foot| foot.map(|point| point * scale));

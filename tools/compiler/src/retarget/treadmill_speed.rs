@@ -18,7 +18,7 @@ use glam::DVec2;
 use motiondb::body::Joint;
 use motiondb::statistics::{lower_quantile, median};
 
-use crate::gait::contacts::runs;
+use crate::frame_runs::frame_runs;
 use crate::read::source_clip::SourceClip;
 use crate::retarget::facing_frame::{facing_rad, heading, in_body_frame};
 use crate::retarget::units::{HUMAN_LEG_M, leg_length};
@@ -107,7 +107,7 @@ impl<'a> TreadmillClip<'a> {
         for votes in &of_balls {
             let agrees = |vote: &SlideVote| vote.velocity.distance(ground) < reach;
             let stands: Vec<bool> = votes.iter().map(|vote| vote.as_ref().is_some_and(agrees)).collect();
-            for (_, start, end) in runs(&stands).into_iter().filter(|run| run.0) {
+            for Range { start, end } in frame_runs(&stands, true) {
                 slides
                     .extend(votes[contact_middle(start, end, votes.len())].iter().flatten().map(|vote| vote.velocity));
             }

@@ -11,7 +11,7 @@ use glam::DVec3;
 use motiondb::body::Joint;
 use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Warning};
 
-use crate::gait::standing::{STANDING_MIN_S, STANDING_STIR_MPS};
+use crate::gait::standing::{STANDING_JOINT_SPEED_MPS, STANDING_MIN_S};
 use crate::read::source_clip::SourceClip;
 use crate::retarget::units::middle;
 use crate::rig::roles::Roles;
@@ -73,7 +73,7 @@ fn least_s(clip: &SourceClip, roles: &Roles, kept: &Range<usize>) -> f64 {
     let step = |frame: usize, joint: usize| clip.position(frame, joint).distance(clip.position(frame - 1, joint));
     let path_m: f64 = kept.clone().skip(1).flat_map(|frame| joints.iter().map(move |&joint| step(frame, joint))).sum();
     let mean_mps = path_m * clip.frame_rate_hz / (joints.len() * kept.len()).max(1) as f64;
-    if mean_mps < STANDING_STIR_MPS { STANDING_MIN_S } else { REST_MIN_S }
+    if mean_mps < STANDING_JOINT_SPEED_MPS { STANDING_MIN_S } else { REST_MIN_S }
 }
 
 /// Number of frames from a T-pose until the arms are as low as usual: 0 where the first frame is no T-pose, none where all

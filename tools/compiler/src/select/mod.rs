@@ -1,8 +1,11 @@
-//! Selection: which windows become examples, under which names, with which mirrors.
+//! Selection: which steady cycles become examples, under which names, with which mirrors.
 //!
-//! Read `selection`, then `named_cycles`, `mirror`, `coincident_examples`.
+//! Enters: for each clip its steady cycles. Leaves: named cycles, sorted later by name, and notes on what is left out.
+//!
+//! Read in the order of the pipeline: `best_windows`, `named_cycles`, `limited_set`, `mirror`; `base_walk` chooses m_sp.
 
-pub(crate) mod coincident_examples;
+pub(crate) mod base_walk;
+pub(crate) mod best_windows;
+pub(crate) mod limited_set;
 pub(crate) mod mirror;
 pub(crate) mod named_cycles;
-pub(crate) mod selection;

@@ -1,39 +1,82 @@
-//! Steady windows → NamedCycle: standing ones closed with the period of m_sp, each with its own name, and their
-//! mirrors.
+//! AnalyzedClips → SelectedCycles: a named cycle for each window, standing ones closed with the period of m_sp.
 //!
-//! A clip's first window has the clip's name. Further ones tell the second of the file at which they begin,
-//! `capture@07.3s`, with as many digits as the clip's last second has, so that they sort by time.
+//! The first window of a clip has the clip's name. A further one adds the second of the file at which it begins,
+//! `capture@07.3s`, with as many digits as the clip's last second has, so that names sort by time.
 
-use crate::cycle::analysis::{Analyzed, Motion, SteadyWindow};
-use crate::cycle::mean_stride::{GaitCycle, NamedCycle};
-use crate::database::correspondence;
+use motiondb::motion::SourceRecord;
+
+use crate::cycle::analyzed_clip::AnalyzedClip;
+use crate::cycle::gait_cycle::GaitCycle;
+use crate::cycle::standing_cycle::standing_cycle;
+use crate::cycle::steady_cycle::{SteadyCycle, SteadyMotion};
 use crate::error::CompileError;
-use crate::gait::standing;
-use crate::ground::arc::Rates;
+use crate::ground::root_arc::Rates;
 use crate::input::unique_names;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip};
-use crate::select::mirror;
+use crate::select::base_walk::base_walk;
 
-/// Period of standing clips where none steps, seconds.
+/// Period of standing clips in a set without steps, s.
 const STANDING_PERIOD_S: f64 = 1.0;
 
-/// The cycles of all clips.
+/// A cycle that becomes an example.
+#[derive(Clone, Debug)]
+pub(crate) struct NamedCycle {
+    /// Name of the example.
+    pub(crate) name: String,
+    /// Index of the source.
+    pub(crate) source: u32,
+    /// First and last second of the source that the cycle is made from.
+    pub(crate) window_s: [f64; 2],
+    /// Left and right are exchanged.
+    pub(crate) mirrored: bool,
+    /// What a manifest requests for the example.
+    pub(crate) choices: Choices,
+    /// Flaws of the window that the cycle is made from, see [`crate::cycle::flaws`].
+    pub(crate) flaws: f64,
+    /// The cycle.
+    pub(crate) cycle: GaitCycle,
+}
+
+/// Cycles that become examples, and the records of all sources.
+pub(crate) struct SelectedCycles {
+    /// The cycles, each with its own name.
+    pub(crate) cycles: Vec<NamedCycle>,
+    /// Record of each clip, in the order of the clips.
+    pub(crate) sources: Vec<SourceRecord>,
+}
+
+impl SelectedCycles {
+    /// The cycles in the order of a database: by name.
+    ///
+    /// # Errors
+    /// Where there is no cycle.
+    pub(crate) fn sorted(mut self) -> Result<Self, CompileError> {
+        self.cycles.sort_by(|a, b| a.name.cmp(&b.name));
+        if self.cycles.is_empty() {
+            return Err(CompileError::NoExample { rejected: Vec::new(), sources: self.sources });
+        }
+        Ok(self)
+    }
+}
+
+/// The cycles of all clips, one for each window, and the records of all clips.
 ///
 /// # Errors
 /// Where the clip that a manifest chose as m_sp does not step.
-pub(crate) fn close(
+pub(crate) fn named_cycles(
     clips: &[HumanClip],
-    analyzed: Vec<Analyzed>,
+    analyzed: Vec<AnalyzedClip>,
     body: &HumanBody,
-) -> Result<Vec<NamedCycle>, CompileError> {
+) -> Result<SelectedCycles, CompileError> {
+    let sources = clips.iter().zip(&analyzed).map(|(clip, found)| found.record(clip)).collect();
     let period_s = standing_period_s(chosen_cycle(clips, &analyzed)?, &analyzed);
     let mut cycles = Vec::new();
     for (source, (clip, found)) in clips.iter().zip(analyzed).enumerate() {
-        let Analyzed { grounded, windows, .. } = found;
-        for (index, SteadyWindow { window_s, motion, flaws, .. }) in windows.into_iter().enumerate() {
+        let AnalyzedClip { grounded, windows, .. } = found;
+        for (index, SteadyCycle { window_s, motion, flaws, .. }) in windows.into_iter().enumerate() {
             let cycle = match motion {
-                Motion::Steps(cycle) => *cycle,
-                Motion::Stands(frames) => standing::standing_cycle(&grounded, body, frames, period_s),
+                SteadyMotion::Steps(cycle) => *cycle,
+                SteadyMotion::Stands(frames) => standing_cycle(&grounded, body, frames, period_s),
             };
             let name = window_name(clip, index, window_s);
             let is_semi_procedural = is_chosen(clip, index, window_s);
@@ -42,10 +85,10 @@ pub(crate) fn close(
         }
     }
     unique_names::make_unique(cycles.iter_mut().map(|cycle| &mut cycle.name));
-    Ok(cycles)
+    Ok(SelectedCycles { cycles, sources })
 }
 
-/// The name of a clip's window: of the first the clip's own.
+/// The name of a clip's window: the first has the clip's own.
 fn window_name(clip: &HumanClip, index: usize, window_s: [f64; 2]) -> String {
     if index == 0 {
         return clip.name.clone();
@@ -65,7 +108,7 @@ fn is_chosen(clip: &HumanClip, index: usize, window_s: [f64; 2]) -> bool {
 }
 
 /// The cycle that a manifest chose as m_sp, if any.
-fn chosen_cycle<'a>(clips: &[HumanClip], analyzed: &'a [Analyzed]) -> Result<Option<&'a GaitCycle>, CompileError> {
+fn chosen_cycle<'a>(clips: &[HumanClip], analyzed: &'a [AnalyzedClip]) -> Result<Option<&'a GaitCycle>, CompileError> {
     let chosen = clips.iter().zip(analyzed).find(|(clip, _)| clip.choices.is_semi_procedural);
     let Some((clip, found)) = chosen else { return Ok(None) };
     let windows = || found.windows.iter().enumerate();
@@ -77,49 +120,29 @@ fn chosen_cycle<'a>(clips: &[HumanClip], analyzed: &'a [Analyzed]) -> Result<Opt
     })
 }
 
-/// The period of m_sp, which standing clips take over.
-fn standing_period_s(chosen: Option<&GaitCycle>, analyzed: &[Analyzed]) -> f64 {
+/// The period of m_sp, which standing clips take over, s.
+fn standing_period_s(chosen: Option<&GaitCycle>, analyzed: &[AnalyzedClip]) -> f64 {
     if let Some(cycle) = chosen {
         return f64::from(cycle.phase_map.period_s);
     }
     let windows = analyzed.iter().flat_map(|found| &found.windows);
-    let stepping: Vec<&GaitCycle> = windows.filter_map(SteadyWindow::stepping).collect();
+    let stepping: Vec<&GaitCycle> = windows.filter_map(SteadyCycle::stepping).collect();
     let rates: Vec<Rates> = stepping.iter().map(|cycle| cycle.rates).collect();
-    let chosen = correspondence::semi_procedural(&rates);
-    chosen.map_or(STANDING_PERIOD_S, |index| f64::from(stepping[index].phase_map.period_s))
-}
-
-/// Appends the mirrors that a manifest wants, else those of one-sided cycles that have no counterpart.
-pub(crate) fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
-    let rates: Vec<_> = cycles.iter().map(|named| named.cycle.rates).collect();
-    let mirrors: Vec<NamedCycle> = cycles
-        .iter()
-        .filter(|named| named.choices.mirror.unwrap_or_else(|| mirror::wants_mirror(&named.cycle.rates, &rates)))
-        .map(|named| NamedCycle {
-            name: format!("{}_mirrored", named.name),
-            mirrored: true,
-            choices: Choices::default(),
-            cycle: mirror::mirror(&named.cycle),
-            ..*named
-        })
-        .collect();
-    cycles.extend(mirrors);
-    unique_names::make_unique(cycles.iter_mut().map(|cycle| &mut cycle.name));
+    base_walk(&rates).map_or(STANDING_PERIOD_S, |index| f64::from(stepping[index].phase_map.period_s))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{Walk, performance, walk};
+    use crate::synthetic::{SyntheticWalk, performance, walk};
     use crate::{Options, compile};
 
     #[test]
-    fn a_further_window_can_be_chosen_as_the_walk_that_is_deformed() {
-        let walking = |speed_mps, duration_s| {
-            let rates = Rates { speed_mps, ..Rates::default() };
-            walk("part", Walk { rates, duration_s, ..Walk::default() })
+    fn a_further_window_can_be_the_base_walk() {
+        let part = |speed_mps, duration_s| {
+            walk("part", SyntheticWalk { duration_s, ..SyntheticWalk::at(speed_mps, 0.0, 0.0) })
         };
-        let mut capture = performance("capture", &[walking(1.2, 7.0), walking(0.7, 4.0)]);
+        let mut capture = performance("capture", &[part(1.2, 7.0), part(0.7, 4.0)]);
         let compiled = |capture: &HumanClip| compile(vec![capture.clone()], &Options::default(), &|_| ());
         let found = compiled(&capture).unwrap();
         let [first, second] = &found.examples[..] else { panic!("{:?}", found.examples) };

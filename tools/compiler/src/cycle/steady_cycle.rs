@@ -1,0 +1,117 @@
+//! GaitWindow → SteadyCycle: what an example can be made of, or why the window is unfit.
+//!
+//! A folder may hold anything: dances, jumps, deaths. A clip that steps or stands steadily may still be no model of
+//! standing on the ground, and then gives no example. Windows in frames of the clip, cycles in the root frame: metres,
+//! seconds.
+
+use std::ops::Range;
+
+use glam::DVec3;
+use motiondb::diagnostic::{Diagnostic, Unfit};
+
+use crate::cycle::flaws::{flaws_of_rest, flaws_of_strides};
+use crate::cycle::foot_slide::{foot_slide, foot_warnings, unfit_feet};
+use crate::cycle::gait_cycle::GaitCycle;
+use crate::cycle::rate_snapping::snap_rates;
+use crate::gait::stride::Stride;
+use crate::ground::root_arc::Rates;
+use crate::ground::root_motion::GroundedClip;
+use crate::retarget::human_clip::HumanBody;
+
+/// Least height of the pelvis of a body that walks, crouched or on hands, m.
+const PELVIS_HEIGHT_MIN_M: f64 = 0.01;
+/// Greatest height of the pelvis, leg lengths.
+const PELVIS_HEIGHT_MAX_LEGS: f64 = 3.0;
+/// Greatest horizontal distance of the pelvis from its root, leg lengths.
+const PELVIS_ASIDE_MAX_LEGS: f64 = 2.0;
+
+/// A steady window of a clip, as its example shows it.
+pub(crate) struct SteadyCycle {
+    /// First and last second of the window, from the file's first frame.
+    pub(crate) window_s: [f64; 2],
+    /// What the body does in the window.
+    pub(crate) motion: SteadyMotion,
+    /// Distance from a clean cycle, see [`crate::cycle::flaws`].
+    pub(crate) flaws: f64,
+    /// The feet deserve a warning: good enough for the only example of a clip, but not for a further one.
+    pub(crate) is_doubtful: bool,
+    /// Diagnostics for the clip's record, if the window becomes an example.
+    pub(crate) diagnostics: Vec<Diagnostic>,
+}
+
+/// What a body does in a steady window.
+pub(crate) enum SteadyMotion {
+    /// It steps: the mean stride.
+    Steps(Box<GaitCycle>),
+    /// It stands in these frames; the cycle is made later, with the period of m_sp.
+    Stands(Range<usize>),
+}
+
+impl SteadyCycle {
+    /// The steady cycle of a window of strides, by their mean.
+    ///
+    /// # Errors
+    /// Why the cycle must not be blended with others.
+    pub(crate) fn of_strides(
+        mut cycle: GaitCycle,
+        strides: &[Stride],
+        body: &HumanBody,
+        window_s: [f64; 2],
+    ) -> Result<Self, Unfit> {
+        let mut diagnostics = snap_rates(&mut cycle);
+        let slide = foot_slide(&cycle, body);
+        if leaves_root(cycle.rows.iter().map(|row| row.pelvis_m), body) {
+            return Err(Unfit::PelvisOutOfReach);
+        }
+        if let Some(unfit) = unfit_feet(&cycle, body, &slide) {
+            return Err(unfit);
+        }
+        let warnings = foot_warnings(&cycle.rates, &slide);
+        let is_doubtful = !warnings.is_empty();
+        diagnostics.extend(warnings);
+        let flaws = flaws_of_strides(strides, &cycle.rates, &slide);
+        Ok(Self { window_s, motion: SteadyMotion::Steps(Box::new(cycle)), flaws, is_doubtful, diagnostics })
+    }
+
+    /// The steady cycle of frames in which the body stands.
+    ///
+    /// # Errors
+    /// Where the pelvis leaves its legs.
+    pub(crate) fn of_rest(
+        clip: &GroundedClip,
+        frames: &Range<usize>,
+        body: &HumanBody,
+        window_s: [f64; 2],
+    ) -> Result<Self, Unfit> {
+        let heights_m = clip.poses[frames.clone()].iter().map(|pose| DVec3::Z * pose.pelvis_m.z);
+        if leaves_root(heights_m, body) {
+            return Err(Unfit::PelvisOutOfReach);
+        }
+        let flaws = flaws_of_rest(window_s[1] - window_s[0]);
+        let motion = SteadyMotion::Stands(frames.clone());
+        Ok(Self { window_s, motion, flaws, is_doubtful: false, diagnostics: Vec::new() })
+    }
+
+    /// The mean stride of a body that steps.
+    pub(crate) fn stepping(&self) -> Option<&GaitCycle> {
+        match &self.motion {
+            SteadyMotion::Steps(cycle) => Some(cycle),
+            SteadyMotion::Stands(_) => None,
+        }
+    }
+
+    /// Constant rates of the root.
+    pub(crate) fn rates(&self) -> Rates {
+        self.stepping().map_or_else(Rates::default, |cycle| cycle.rates)
+    }
+}
+
+/// Whether a pelvis, in the root frame, lies too far aside, too high or in the ground.
+fn leaves_root(mut pelvis_m: impl Iterator<Item = DVec3>, body: &HumanBody) -> bool {
+    let leg_m = body.leg_length_m();
+    let heights_m = PELVIS_HEIGHT_MIN_M..PELVIS_HEIGHT_MAX_LEGS * leg_m;
+    let is_near = |position_m: DVec3| {
+        position_m.truncate().length() < PELVIS_ASIDE_MAX_LEGS * leg_m && heights_m.contains(&position_m.z)
+    };
+    !pelvis_m.all(is_near)
+}

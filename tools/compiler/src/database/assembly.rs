@@ -1,0 +1,51 @@
+//! SelectedCycles → MotionDb: parameters, blend space, velocity sets, rows, correspondence.
+//!
+//! Cycles enter in the order of the examples; records are those of all sources. See [`MotionDb`] for units and frames.
+
+use motiondb::motion::{MotionDb, MotionExample, Parameters};
+use motiondb::velocity_sets::velocity_hull::{self, Construction};
+
+use crate::database::coincident_examples::{blend_space_of_best, coincident_pairs, note_coincident};
+use crate::database::correspondence::find_correspondence;
+use crate::database::example::motion_example;
+use crate::database::rows::rows;
+use crate::database::skeleton::skeleton;
+use crate::progress::{CompileEvent, Observer};
+use crate::retarget::human_clip::HumanBody;
+use crate::select::named_cycles::SelectedCycles;
+
+/// The database of cycles sorted by name; it may still be unsound.
+///
+/// # Steps
+/// 1. (v_f, ω_t, ω_s), key times and slide of each example.
+/// 2. Blend space, of coincident examples by the best.
+/// 3. Skeleton, velocity sets, rows.
+/// 4. m_sp, m_mb and correspondence times.
+pub(crate) fn assemble(
+    selected: SelectedCycles,
+    body: &HumanBody,
+    construction: Construction,
+    observer: &Observer,
+) -> MotionDb {
+    let SelectedCycles { cycles, mut sources } = selected;
+    observer(CompileEvent::Stage("parameters"));
+    let examples: Vec<MotionExample> = cycles.iter().map(|named| motion_example(named, body)).collect();
+    let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
+    observer(CompileEvent::Stage("blend space"));
+    let flaws: Vec<f64> = cycles.iter().map(|named| named.flaws).collect();
+    let blend_space = blend_space_of_best(&parameters, &flaws);
+    note_coincident(&coincident_pairs(&parameters, &blend_space), &examples, &mut sources);
+    observer(CompileEvent::Stage("assembly"));
+    let mut db = MotionDb {
+        skeleton: skeleton(body, cycles.iter().map(|named| &named.cycle)),
+        correspondence: None,
+        velocity_hull: velocity_hull::build(&parameters, construction),
+        rows: rows(cycles.iter().map(|named| &named.cycle)),
+        blend_space,
+        examples,
+        sources,
+    };
+    observer(CompileEvent::Stage("correspondence times"));
+    db.correspondence = find_correspondence(&db, cycles.iter().position(|named| named.choices.is_semi_procedural));
+    db
+}

@@ -1,0 +1,114 @@
+//! HumanClip → gait on the performer's own body: the same whatever clips lie beside it, and carried over to another body.
+//!
+//! When feet touch and leave the ground is what the performer did, with its own proportions and its own soles. On the
+//! feet of a database's skeleton the toe-off would come up to 0.1 s later. So contacts, landmarks and steady windows are
+//! found on the performer's own body, scaled to a common leg length: limits of lengths and speeds then mean the same for
+//! children, toys and giants. Poses and root motion are those of the target body; its frames correspond one to one.
+//! World frame: frames of the clip, metres, seconds.
+
+use motiondb::diagnostic::Unfit;
+
+use crate::gait::body_track::BodyTrack;
+use crate::gait::foot_stance;
+use crate::gait::stride::Stride;
+use crate::gait::windows::{GaitAnalysis, GaitWindow, WindowGait, analyze_gait};
+use crate::ground::root_motion::{GroundedClip, grounded_clip};
+use crate::ground::{foot_grounding, loop_unrolling};
+use crate::retarget::human_clip::{HumanBody, HumanClip};
+
+/// Thigh plus shank of every body whose gait is analysed, m: that of the captures whose events are labelled by hand.
+const LEG_M: f64 = 0.8;
+
+/// A clip on its performer's own body, and its gait there.
+#[derive(Clone, Debug)]
+pub struct PerformerGait {
+    /// The performer's proportions, scaled to a leg of 0.8 m.
+    pub body: HumanBody,
+    /// The clip on that body; a loop is unrolled.
+    pub clip: GroundedClip,
+    /// The gait of the clip.
+    pub gait: GaitAnalysis,
+}
+
+impl PerformerGait {
+    /// Analyses the gait of a clip.
+    pub fn of(clip: &HumanClip) -> Self {
+        let body = clip.body.scaled(LEG_M / clip.body.leg_length_m());
+        let grounded = loop_unrolling::unrolled(grounded_clip(clip, &body), &body);
+        let gait = analyze_gait(&grounded, &body);
+        Self { body, clip: grounded, gait }
+    }
+
+    /// The same clip on another body: soles do not sink, a loop is unrolled.
+    pub fn clip_on(&self, clip: &HumanClip, body: &HumanBody) -> GroundedClip {
+        let mut grounded = grounded_clip(clip, body);
+        let first_frame = self.clip.loop_frames.unwrap_or(0);
+        let stances = self.gait.clearest_stances();
+        foot_grounding::lower_to_ground(&mut grounded.poses, body, |side, frame| {
+            foot_stance::stands_at(&stances[side], (first_frame + frame) as f64)
+        });
+        foot_grounding::lift_soles(&mut grounded.poses, body);
+        match self.clip.loop_frames {
+            Some(round) => loop_unrolling::repeated(grounded, body, round),
+            None => grounded,
+        }
+    }
+
+    /// The steady windows on another body: landmarks and contacts are the performer's, the root's arcs are that body's.
+    pub fn windows_on(&self, grounded: &GroundedClip, body: &HumanBody) -> Result<Vec<GaitWindow>, Unfit> {
+        let windows = self.gait.windows.as_ref().map_err(Clone::clone)?;
+        let joints = grounded.poses.iter().map(|pose| pose.forward_kinematics(body)).collect();
+        let track = BodyTrack::of(joints, grounded.frame_rate_hz);
+        let carried = |stride: &Stride| Stride::over(&stride.landmarks(), &track);
+        let on_body = |window: &GaitWindow| match &window.gait {
+            WindowGait::Steps(strides) => {
+                GaitWindow { gait: WindowGait::Steps(strides.iter().map(carried).collect()), ..*window }
+            }
+            WindowGait::Stands(_) => window.clone(),
+        };
+        Ok(windows.iter().map(on_body).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::root_arc::Rates;
+    use crate::synthetic::{self, SyntheticWalk};
+
+    #[test]
+    fn size_does_not_change_the_gait() {
+        let stances = |size: f64| {
+            let rates = Rates { speed_mps: 1.2 * size, ..Rates::default() };
+            let clip = synthetic::walk("walk", SyntheticWalk { size, rates, ..SyntheticWalk::default() });
+            PerformerGait::of(&clip).gait.stances
+        };
+        let human = stances(1.0);
+        for size in [0.3, 0.7, 2.0, 10.0] {
+            for (found, human) in stances(size).iter().flatten().flatten().zip(human.iter().flatten().flatten()) {
+                let errors = [found.off_frame - human.off_frame, found.strike_frame - human.strike_frame];
+                let error = errors.iter().map(|error| error.abs()).fold(0.0, f64::max);
+                assert!(error < 1e-3 || found == human, "size {size}: {found:?}, not {human:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn landmarks_are_the_performers_and_root_motion_the_bodys() {
+        let clip = synthetic::walk("walk", SyntheticWalk::default());
+        let performer = PerformerGait::of(&clip);
+        let body = synthetic::body(0.5);
+        let grounded = performer.clip_on(&clip, &body);
+        let own = performer.gait.windows.as_ref().unwrap();
+        for (window, own) in performer.windows_on(&grounded, &body).unwrap().iter().zip(own) {
+            let (WindowGait::Steps(strides), WindowGait::Steps(own)) = (&window.gait, &own.gait) else {
+                panic!("{window:?}")
+            };
+            for (stride, own) in strides.iter().zip(own) {
+                assert!((stride.zero_frame - own.zero_frame).abs() < 1e-9, "{stride:?}, not {own:?}");
+                assert!((stride.period_frames - own.period_frames).abs() < 1e-9, "{stride:?}, not {own:?}");
+                assert!((stride.arc.rates.speed_mps - 0.6).abs() < 0.01, "{stride:?}");
+            }
+        }
+    }
+}
