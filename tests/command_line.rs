@@ -205,7 +205,7 @@ fn who_has_not_arrived_because_of_a_wall_is_told() {
     let notes = |agents: &str| {
         let scene = scenario(&folder, &format!("{head}{agents}\n{wall}"));
         let said = fbcrowd(&["simulate", &scene, "-o", text(&folder.join("scene.fbrec"))]).expect_code(0);
-        said.stderr.matches("agent 0 has a wall across its way to [4, 0]").count()
+        said.stderr.matches("a wall is across the path of agent 0 to [4, 0]").count()
     };
     let goals = ["[[4, 0]]", "[[0, 4], [4, 4], [4, 0]]"];
     assert_eq!(goals.map(|goals| notes(&format!("agents = {{ at_m = [0, 0], goals_m = {goals} }}"))), [1, 0]);

@@ -12,7 +12,7 @@ fn a_database_replaces_no_clip_that_it_is_made_of() {
     let clip = folder.join("walk.bvh");
     fs::copy(support::repository().join(WALK), &clip).unwrap();
     let before = fs::read(&clip).unwrap();
-    fbcrowd(&["compile", text(&folder), "-o", text(&clip)]).expect_code(2).says(&["walk.bvh", "another place"]);
+    fbcrowd(&["compile", text(&folder), "-o", text(&clip)]).expect_code(2).says(&["walk.bvh", "another output path"]);
     assert!(fs::read(&clip).unwrap() == before);
 }
 
@@ -26,7 +26,7 @@ fn a_database_replaces_no_buffer_or_picture_of_a_clip() {
     for name in ["walk data.bin", "skin.png"] {
         let file = folder.join(name);
         fs::write(&file, "all there is").unwrap();
-        fbcrowd(&["compile", text(&clip), WALK, "-o", text(&file)]).expect_code(2).says(&[name, "another place"]);
+        fbcrowd(&["compile", text(&clip), WALK, "-o", text(&file)]).expect_code(2).says(&[name, "another output path"]);
         assert_eq!(fs::read_to_string(&file).unwrap(), "all there is");
     }
     fbcrowd(&["compile", text(&clip), WALK, "-o", text(&folder.join("motion.fbdb"))]).expect_code(1);
