@@ -8,7 +8,7 @@ use fbcrowd_sim::hms::repertoire;
 use fbcrowd_sim::recording::Recording;
 use motiondb::file;
 use serde_json::Value;
-use support::{compile, fbcrowd, folder, marine_clips, shared, text};
+use support::{compile, fbcrowd, folder, marine_clips, mocap, text};
 
 fn inspect(database: &std::path::Path) -> Value {
     fbcrowd(&["inspect", text(database), "--json"]).expect_code(0).json()
@@ -52,10 +52,9 @@ fn the_bundled_clips_make_a_valid_database_whose_planted_feet_hold() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn the_marine_recordings_make_the_papers_19_examples() {
-    let test = "the_marine_recordings_make_the_papers_19_examples";
-    let Some(clips) = marine_clips(test) else { return };
-    let database = compile(&clips, &folder("marine"));
+    let database = compile(&marine_clips(), &folder("marine"));
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
     let examples = report["examples"].as_array().unwrap();
@@ -64,9 +63,9 @@ fn the_marine_recordings_make_the_papers_19_examples() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn a_mirror_negates_turning_and_strafing_and_nothing_else() {
-    let Some(clips) = marine_clips("a_mirror_negates_turning_and_strafing_and_nothing_else") else { return };
-    let report = inspect(&compile(&clips, &folder("mirrors")));
+    let report = inspect(&compile(&marine_clips(), &folder("mirrors")));
     let examples = report["examples"].as_array().unwrap();
     for mirror in examples.iter().filter(|example| example["mirrored"] == true) {
         let same_source = |example: &&Value| example["source"] == mirror["source"] && example["mirrored"] == false;
@@ -79,15 +78,15 @@ fn a_mirror_negates_turning_and_strafing_and_nothing_else() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn an_in_place_gltf_clip_stands_beside_bvh_clips_at_its_stance_foots_speed() {
-    let test = "an_in_place_gltf_clip_stands_beside_bvh_clips_at_its_stance_foots_speed";
-    let (Some(mut clips), Some(soldier)) = (marine_clips(test), shared(test, "mocap/gltf/Soldier.glb")) else { return };
-    clips.push(text(&soldier).to_owned());
+    let mut clips = marine_clips();
+    clips.push(text(&mocap().join("gltf/Soldier.glb")).to_owned());
     let database = compile(&clips, &folder("soldier"));
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
     let sources = report["sources"].as_array().unwrap();
-    // In place: three times the tolerances of other clips (`motiondb_compiler::truth`).
+    // In place: three times the tolerances of other clips (`fbcrowd_bench::compiler::ground_truth`).
     for (clip, speed) in [("Walk", 1.70), ("Run", 4.22)] {
         let found = sources.iter().find(|source| source["clip"] == clip).expect("the clip is listed");
         assert!(within(number(found, "speed_mps"), speed, 0.09, 0.09), "{found}");

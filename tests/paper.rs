@@ -31,11 +31,10 @@ fn on_the_bundled_clips_everyone_crosses_the_circle_and_planted_feet_hold() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn on_the_papers_own_clips_everyone_crosses_and_feet_slide_no_more_than_in_the_recordings() {
-    let test = "on_the_papers_own_clips_everyone_crosses_and_feet_slide_no_more_than_in_the_recordings";
-    let Some(clips) = marine_clips(test) else { return };
     let folder = folder("antipodal_marine");
-    let measures = measured(&compile(&clips, &folder), &folder);
+    let measures = measured(&compile(&marine_clips(), &folder), &folder);
     check_everyone_arrives(&measures);
     let slide = |key: &str| measures[key].as_f64().unwrap();
     assert!(slide("planted_slide_cm_s") <= slide("examples_slide_cm_s"), "{measures}");

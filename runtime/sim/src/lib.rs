@@ -28,7 +28,6 @@ pub mod segment_distance;
 pub mod split_mix;
 pub mod step;
 mod sweep;
-pub mod wild;
 pub mod world;
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use std::f32::consts::TAU;
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
+use motiondb::correspondence::Correspondence;
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
 use motiondb::parameters::Parameters;
 use motiondb::phase_map::PhaseMap;
@@ -40,6 +41,9 @@ const EXAMPLES: [(&str, f32, f32, f32, f32); 11] = [
     ("back", -0.6, 0.0, 0.0, 1.15),
 ];
 
+/// The example that is deformed, m_sp: `walk`.
+const SEMI_PROCEDURAL: usize = 2;
+
 /// The database.
 pub(crate) fn test_db() -> MotionDb {
     let mut db = MotionDb {
@@ -60,7 +64,7 @@ pub(crate) fn test_db() -> MotionDb {
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
     db.velocity_hull = velocity_hull::build(&parameters, Construction::default());
     db.blend_space = motiondb::triangulation::build(&parameters);
-    db.correspondence = motiondb_compiler::correspondence::find(&db, None);
+    db.correspondence = Correspondence::of(&db, SEMI_PROCEDURAL);
     db
 }
 

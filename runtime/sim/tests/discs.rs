@@ -14,7 +14,7 @@ use fbcrowd_sim::planner::Planner;
 use glam::Vec2;
 use motiondb::velocity_hull::{Construction, VelocityHull};
 
-use crate::crowd::{Body, Crowd, Figures, RADIUS_M, Setting, bundled_scene, read_scene};
+use crate::crowd::{Body, Crowd, Figures, RADIUS_M, Setting, bundled_scene, disc};
 
 const DT_S: f32 = 1.0 / 30.0;
 /// A walker's: a third of a second to a new velocity, a right angle in three quarters.
@@ -253,10 +253,7 @@ fn social_forces_give_the_figures_of_the_authors_law() {
 
 #[test]
 fn a_thousand_in_a_disc_go_on_walking() {
-    let scene = "../shared/bench/scenes/disc_1000.txt";
-    let Some(agents) = read_scene(scene) else {
-        return println!("SKIPPED a_thousand_in_a_disc_go_on_walking: no {scene} beside the repository");
-    };
+    let agents = disc(1_000);
     let figures = simulate(&agents, &Place::default(), 15.0);
     report("disc_1000", &figures);
     let advanced = |index: usize| {

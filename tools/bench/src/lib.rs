@@ -34,10 +34,11 @@ pub mod speed;
 pub mod synthesis;
 
 use fbcrowd_jobs::Observer;
+use fbcrowd_jobs::json_schema::document;
 
 use crate::compiler::{clips, compile, gait, import, leave_one_out};
 pub use crate::error::BenchError;
-use crate::kit::report::PrintableReport;
+use crate::kit::report::{BenchReport, PrintableReport};
 use crate::paper::{coupled, course, figure6, figure7, table1};
 use crate::pedestrians::{emergence, rimea};
 use crate::speed::{blend_space, bodies, plan};
@@ -54,6 +55,14 @@ macro_rules! benches {
         }
 
         impl Bench {
+            /// Name and JSON schema of every bench.
+            pub fn schemas() -> Vec<(&'static str, serde_json::Value)> {
+                vec![$((
+                    $name,
+                    document::<BenchReport<$bench::Details>>(concat!("fbcrowd bench ", $name, " --json")),
+                )),*]
+            }
+
             /// Runs the bench.
             ///
             /// # Errors

@@ -42,6 +42,11 @@ pub fn read(file: &Path, bytes: &[u8]) -> Result<SourceClip, ImportError> {
     Ok(posed(file, checked, &bvh))
 }
 
+/// The text that `bvh_anim` can read, with all frames; none where the file is no BVH.
+pub fn canonical_text(bytes: &[u8]) -> Option<String> {
+    prepass::check(bytes).ok().map(|checked| checked.text(usize::MAX))
+}
+
 fn posed(file: &Path, checked: CheckedBvh, bvh: &Bvh) -> SourceClip {
     let Motion { frame_time_s, values, rows } = &checked.motion;
     let frames = values.chunks(values.len() / rows);

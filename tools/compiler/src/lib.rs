@@ -29,7 +29,7 @@ mod decimal;
 pub mod error;
 pub mod gltf;
 pub mod import;
-mod quiet_unwind;
+pub mod quiet_unwind;
 pub mod source_clip;
 
 // Whose joints they are: the roles of a human body, by shape and motion first, by names second.
@@ -101,10 +101,7 @@ pub mod parameterize;
 pub mod rows;
 mod twins;
 
-// What is told of clips without a database, and how well this crate does its work.
-pub mod mutation;
-pub mod reading_speed;
+// What is told of clips without a database.
 pub mod survey;
 #[cfg(test)]
 mod synthetic;
-pub mod truth;

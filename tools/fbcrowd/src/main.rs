@@ -5,6 +5,8 @@
 //! some input was refused; 2 bad usage or input, nothing written.
 
 mod cmd;
+#[cfg(test)]
+mod docs;
 mod report;
 mod terminal;
 

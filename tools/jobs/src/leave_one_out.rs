@@ -22,10 +22,11 @@ use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT, Rows};
 use motiondb::pose::Pose;
 use motiondb::skeleton::{JOINT_COUNT, Joint, Skeleton};
 use motiondb::triangulation;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// One example that was left out.
-#[derive(Debug, PartialEq, Serialize)]
+#[derive(Debug, PartialEq, JsonSchema, Serialize)]
 pub struct LeftOut {
     /// Name of the example.
     pub name: String,
@@ -51,7 +52,7 @@ impl LeftOut {
 }
 
 /// One example of a blend.
-#[derive(Debug, PartialEq, Serialize)]
+#[derive(Debug, PartialEq, JsonSchema, Serialize)]
 pub struct MixPart {
     /// Name of the example.
     pub name: String,
@@ -60,7 +61,7 @@ pub struct MixPart {
 }
 
 /// One joint over all examples that were left out.
-#[derive(Debug, PartialEq, Serialize)]
+#[derive(Debug, PartialEq, JsonSchema, Serialize)]
 pub struct JointError {
     /// Name of the joint.
     pub joint: &'static str,
@@ -71,7 +72,7 @@ pub struct JointError {
 }
 
 /// Every recorded example of a database inside the hull of the others, and how near the others come to it.
-#[derive(Debug, PartialEq, Serialize)]
+#[derive(Debug, PartialEq, JsonSchema, Serialize)]
 pub struct LeaveOneOut {
     /// Examples that were left out one by one.
     pub examples: Vec<LeftOut>,

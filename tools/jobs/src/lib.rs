@@ -32,11 +32,12 @@
 //!
 //! Read in this order: what a job reports ([`observer`], [`stages`]) and how it fails ([`error`]); paths
 //! ([`clip_paths`], [`output_path`]); the jobs ([`compiling`], [`leave_one_out`], [`simulation`] with [`timings`],
-//! [`rendering`]); [`wording`] for texts that count things.
+//! [`rendering`]); [`wording`] for texts that count things; [`json_schema`] for the schemas of reports.
 
 pub mod clip_paths;
 pub mod compiling;
 pub mod error;
+pub mod json_schema;
 pub mod leave_one_out;
 pub mod observer;
 pub mod output_path;

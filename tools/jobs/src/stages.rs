@@ -3,12 +3,13 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::observer::JobEvent;
 
 /// Duration of one stage.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct StageTime {
     /// Name of the stage.
     pub name: &'static str,

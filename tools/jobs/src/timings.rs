@@ -3,10 +3,11 @@
 use std::time::{Duration, Instant};
 
 use fbcrowd_sim::step::Stage;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Durations of a whole simulation. They are no part of a recording.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Timings {
     /// Number of agents.
     pub agents: usize,

@@ -21,7 +21,7 @@ use crate::planner::{Scratch, look_around};
 use crate::world::World;
 
 /// Bodies take up a plan within about this time, s (`hms::intention`): the step of the paper's Table 1.
-pub(crate) const TAKEN_UP_S: f32 = 0.1;
+pub const TAKEN_UP_S: f32 = 0.1;
 
 /// Tunables of social forces, `[params.social_force]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -12,6 +12,7 @@ use fbcrowd_sim::path::{Braking, Progress, preferred_mps};
 use fbcrowd_sim::plan::{Plan, Stance};
 use fbcrowd_sim::planner::{Planner, Scratch, ahead_s, plan};
 use fbcrowd_sim::scenario::AgentSpec;
+use fbcrowd_sim::split_mix::SplitMix64;
 use fbcrowd_sim::world::World;
 use glam::Vec2;
 use motiondb::velocity_hull::VelocityHull;
@@ -69,20 +70,29 @@ pub(crate) struct Figures {
     pub(crate) trails_m: Vec<Vec<Vec2>>,
 }
 
-/// One of the bundled scenes, from here to there.
+/// One of the bundled scenes: lines `x y goal_x goal_y`; start and goal of each agent.
 pub(crate) fn bundled_scene(name: &str) -> Vec<(Vec2, Vec2)> {
-    read_scene(&format!("assets/scenarios/{name}.txt")).expect("the repository has it")
-}
-
-/// Lines `x y goal_x goal_y` of a file, by its path from the repository; none where it is missing.
-pub(crate) fn read_scene(path: &str) -> Option<Vec<(Vec2, Vec2)>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
-    let text = std::fs::read_to_string(path).ok()?;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/scenarios/{name}.txt"));
+    let text = std::fs::read_to_string(path).unwrap();
     let agent = |line: &str| {
         let numbers: Vec<f32> = line.split_whitespace().map(|word| word.parse().unwrap()).collect();
         (Vec2::new(numbers[0], numbers[1]), Vec2::new(numbers[2], numbers[3]))
     };
-    Some(text.lines().filter(|line| !line.starts_with('#')).map(agent).collect())
+    text.lines().filter(|line| !line.starts_with('#')).map(agent).collect()
+}
+
+/// A jittered lattice of 0.3 agents/m² in a disc; the goal of each agent is the opposite point.
+pub(crate) fn disc(count: usize) -> Vec<(Vec2, Vec2)> {
+    let spacing_m = 0.3_f32.sqrt().recip();
+    let half = (count as f32).sqrt() as i32;
+    let coordinate_m = |index: i32| spacing_m * (index as f32 + 0.5);
+    let mut points_m: Vec<Vec2> =
+        (-half..half).flat_map(|x| (-half..half).map(move |y| Vec2::new(coordinate_m(x), coordinate_m(y)))).collect();
+    points_m.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    let mut random = SplitMix64::new(1, count as u64);
+    let mut jitter_m = || spacing_m * random.within(0.2) as f32;
+    let jittered_m = points_m.into_iter().take(count).map(|point_m| point_m + Vec2::new(jitter_m(), jitter_m()));
+    jittered_m.map(|point_m| (point_m, -point_m)).collect()
 }
 
 impl Crowd {

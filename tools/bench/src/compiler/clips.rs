@@ -7,9 +7,11 @@ use std::path::PathBuf;
 
 use clipgen::reference::{Claim, claims};
 use fbcrowd_jobs::Observer;
+use fbcrowd_jobs::json_schema::motion::ExampleQualityMirror;
 use motiondb::motion_db::MotionDb;
 use motiondb::parameters::Parameters;
 use motiondb::quality::{ExampleQuality, quality};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::compiler::gait_figures::{GaitFigures, off_published_walk_deg};
@@ -35,7 +37,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// The bundled clips.
     pub clips: Vec<BundledClip>,
@@ -45,7 +47,7 @@ pub struct Details {
 }
 
 /// One bundled clip.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct BundledClip {
     /// Name of the clip.
     pub name: &'static str,
@@ -54,6 +56,7 @@ pub struct BundledClip {
     /// Greatest difference of a parameter from what the name claims, over its tolerance.
     pub off_claim: f64,
     /// Quality of the motion.
+    #[schemars(with = "ExampleQualityMirror")]
     pub quality: ExampleQuality,
     /// Figures of gait science; null where the clip stands.
     pub gait: Option<GaitFigures>,

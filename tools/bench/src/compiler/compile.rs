@@ -12,6 +12,7 @@ use motiondb::file;
 use motiondb_compiler::compile;
 use motiondb_compiler::import;
 use motiondb_compiler::manifest::Manifest;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -33,7 +34,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Number of files.
     pub files: usize,

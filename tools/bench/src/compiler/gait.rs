@@ -8,6 +8,7 @@ use fbcrowd_jobs::Observer;
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -38,7 +39,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Every label, the one with the greatest error first.
     pub events: Vec<LabelledEvent>,
@@ -47,7 +48,7 @@ pub struct Details {
 }
 
 /// One label, and the error of the nearest event.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct LabelledEvent {
     /// File of the clip, relative to the folder.
     pub file: String,
@@ -70,7 +71,7 @@ pub struct LabelledEvent {
 }
 
 /// A set of labels.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct LabelSet {
     /// Name of the set.
     pub name: String,

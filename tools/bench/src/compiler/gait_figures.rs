@@ -4,6 +4,7 @@ use clipgen::reference::{LegFlexion, published_walk};
 use motiondb::motion_db::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::pose::Joints;
 use motiondb::skeleton::{Joint, Side};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Published ranges of a group of adults: name, speed m/s, cadence steps/min, stride m, share of double support.
@@ -19,7 +20,7 @@ const ADULTS: [AdultRanges; 5] = [
 ];
 
 /// Figures of a cycle that steps.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct GaitFigures {
     /// Cadence, steps per minute.
     pub cadence_steps_per_min: f64,

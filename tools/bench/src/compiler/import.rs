@@ -9,10 +9,11 @@ use std::time::Instant;
 use fbcrowd_jobs::Observer;
 use fbcrowd_jobs::observer::Work;
 use motiondb_compiler::import::{self, Import};
-use motiondb_compiler::reading_speed::{self, Race};
-use motiondb_compiler::truth::{self, Truth};
+use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::compiler::ground_truth::{self, GroundTruth};
+use crate::compiler::reading_speed::{ReadingTimes, reading_times};
 use crate::error::BenchError;
 use crate::kit::args::MocapArg;
 use crate::kit::report::{BenchReport, Criterion, Goal};
@@ -38,7 +39,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Clips of the index, the one that is farthest off first.
     #[serde(rename = "rows")]
@@ -50,7 +51,7 @@ pub struct Details {
 }
 
 /// One clip of the index.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct ImportedClip {
     /// File of the clip, relative to the folder.
     pub file: String,
@@ -76,7 +77,8 @@ pub struct ImportedClip {
 /// Where the folder or its `index.csv` cannot be read.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let folder = &args.mocap.mocap;
-    let truths = truth::read(folder).map_err(|error| BenchError::unreadable(&folder.join("index.csv"), error))?;
+    let truths =
+        ground_truth::read(folder).map_err(|error| BenchError::unreadable(&folder.join("index.csv"), error))?;
     let mut clips = compared(folder, &truths, observer);
     clips.sort_by(|a, b| b.distance().total_cmp(&a.distance()));
     let reading = reading(folder, observer)?;
@@ -84,14 +86,14 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     let judged = || clips.iter().filter(|clip| clip.judged);
     let within = share(judged(), |clip| clip.distance() <= 1.0);
     let units = share(clips.iter(), |clip| clip.units_hold);
-    let speed_ratio = reading.race.alone_s / reading.race.ours_s;
+    let speed_ratio = reading.times.alone_s / reading.times.ours_s;
     let criteria = vec![
         Criterion::at_least("share of clips within tolerance", WITHIN_SHARE, within),
         Criterion::at_least("share of clips with the right up axis and unit", 1.0, units),
         Criterion::at_least("speed of reading BVH over bvh_anim alone", SPEED_RATIO, speed_ratio),
     ];
     let megabytes_read = reading.bytes as f64 / 1e6;
-    let mb_per_s = Some(megabytes_read / reading.race.ours_s);
+    let mb_per_s = Some(megabytes_read / reading.times.ours_s);
     let goals = vec![Goal { name: "reading BVH, MB/s", measured: mb_per_s, goal: GOAL_MB_S }];
     let details = Details { files_read: reading.files, megabytes_read, clips };
     Ok(BenchReport { text: text(&details), details, goals, criteria })
@@ -105,8 +107,8 @@ impl ImportedClip {
 }
 
 /// Every clip of the index, by file. Each file is read once.
-fn compared(folder: &Path, truths: &[Truth], observer: &Observer) -> Vec<ImportedClip> {
-    let mut by_file: BTreeMap<&str, Vec<&Truth>> = BTreeMap::new();
+fn compared(folder: &Path, truths: &[GroundTruth], observer: &Observer) -> Vec<ImportedClip> {
+    let mut by_file: BTreeMap<&str, Vec<&GroundTruth>> = BTreeMap::new();
     truths.iter().for_each(|truth| by_file.entry(&truth.file).or_default().push(truth));
     let work = Work::begin(observer, "clips", by_file.len());
     let mut clips = Vec::new();
@@ -122,7 +124,7 @@ fn compared(folder: &Path, truths: &[Truth], observer: &Observer) -> Vec<Importe
     clips
 }
 
-fn compared_clip(truth: &Truth, imports: &[Import]) -> ImportedClip {
+fn compared_clip(truth: &GroundTruth, imports: &[Import]) -> ImportedClip {
     let Some(import) = imports.iter().find(|import| import.clip == truth.clip) else {
         return refused(truth, "the file holds no such clip".to_owned());
     };
@@ -143,7 +145,7 @@ fn compared_clip(truth: &Truth, imports: &[Import]) -> ImportedClip {
     }
 }
 
-fn refused(truth: &Truth, reason: String) -> ImportedClip {
+fn refused(truth: &GroundTruth, reason: String) -> ImportedClip {
     ImportedClip {
         file: truth.file.clone(),
         clip: truth.clip.clone(),
@@ -158,7 +160,7 @@ fn refused(truth: &Truth, reason: String) -> ImportedClip {
 
 /// Durations of reading all readable BVH files of a folder.
 struct Reading {
-    race: Race,
+    times: ReadingTimes,
     files: usize,
     bytes: usize,
 }
@@ -169,12 +171,12 @@ fn reading(folder: &Path, observer: &Observer) -> Result<Reading, BenchError> {
     let work = Work::begin(observer, "readings", files.len());
     let start = Instant::now();
     let clock = || start.elapsed().as_secs_f64();
-    let mut all = Reading { race: Race { ours_s: 0.0, alone_s: 0.0 }, files: 0, bytes: 0 };
+    let mut all = Reading { times: ReadingTimes { ours_s: 0.0, alone_s: 0.0 }, files: 0, bytes: 0 };
     for file in &files {
         let bytes = fs::read(file).map_err(|error| BenchError::unreadable(file, error))?;
-        if let Ok(Race { ours_s, alone_s }) = reading_speed::race(file, &bytes, READINGS, &clock) {
-            all.race.ours_s += ours_s;
-            all.race.alone_s += alone_s;
+        if let Ok(ReadingTimes { ours_s, alone_s }) = reading_times(file, &bytes, READINGS, &clock) {
+            all.times.ours_s += ours_s;
+            all.times.alone_s += alone_s;
             all.files += 1;
             all.bytes += bytes.len();
         }

@@ -7,9 +7,10 @@ use fbcrowd_jobs::leave_one_out::{LeaveOneOut, leave_one_out};
 use motiondb::motion_db::MotionDb;
 use motiondb_compiler::compile;
 use motiondb_compiler::import;
-use motiondb_compiler::truth::marine_files;
+use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::compiler::ground_truth::marine_files;
 use crate::error::BenchError;
 use crate::kit::args::MocapArg;
 use crate::kit::database::bundled;
@@ -33,14 +34,14 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// The sets of clips.
     pub sets: Vec<ClipSet>,
 }
 
 /// A set of clips.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct ClipSet {
     /// Name of the set.
     pub name: &'static str,

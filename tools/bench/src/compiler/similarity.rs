@@ -12,6 +12,7 @@ use motiondb::parameters::Parameters;
 use motiondb_compiler::compile::{Options, compile};
 use motiondb_compiler::human_clip::HumanClip;
 use motiondb_compiler::import;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -49,7 +50,7 @@ fn is_straight(found: &Parameters) -> bool {
 }
 
 /// A clip, and the nearest of others.
-#[derive(Debug, Serialize)]
+#[derive(Debug, JsonSchema, Serialize)]
 pub struct NearestClip {
     /// Name of the clip.
     pub clip: String,
@@ -64,7 +65,7 @@ pub struct NearestClip {
 }
 
 /// One class of gait.
-#[derive(Debug, Serialize)]
+#[derive(Debug, JsonSchema, Serialize)]
 pub struct GaitSimilarity {
     /// Name of the class.
     #[serde(rename = "kind")]

@@ -21,7 +21,7 @@ pub struct MocapArg {
 /// The seeds of a bench.
 #[derive(clap::Args)]
 pub struct SeedsArg {
-    /// Only these seeds.
+    /// Only these seeds; all by default.
     #[arg(long, value_name = "N,N", value_delimiter = ',')]
     pub seeds: Vec<u64>,
 }

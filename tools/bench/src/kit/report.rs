@@ -2,16 +2,18 @@
 
 use std::borrow::Cow;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A figure that must hold wherever it is measured: a quality, or a ratio of two durations of one run.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Criterion {
     /// What is measured, and its unit.
     pub name: Cow<'static, str>,
     /// The figure; null where nothing could be measured, which misses the criterion.
     pub measured: Option<f64>,
-    /// The limit of the figure; the name or the text says on which side it lies.
+    /// The limit of the figure; null where the baseline that gives it could not be measured.
+    #[schemars(with = "Option<f64>")]
     pub limit: f64,
     /// Whether the criterion is met.
     pub met: bool,
@@ -53,7 +55,7 @@ impl Criterion {
 }
 
 /// A duration or size that depends on the machine, and its goal.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Goal {
     /// What is measured, and its unit.
     pub name: &'static str,
@@ -82,7 +84,7 @@ fn figure(value: f64) -> String {
 }
 
 /// The result of a bench.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct BenchReport<T> {
     /// What was measured.
     #[serde(flatten)]

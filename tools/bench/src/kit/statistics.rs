@@ -1,5 +1,6 @@
 //! Statistics of samples: median, mean and standard deviation, and the share for which something holds.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The middle value, as [`motiondb::median`] has it; none without values.
@@ -8,7 +9,7 @@ pub fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
 }
 
 /// Mean and standard deviation of a sample.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Spread {
     /// Mean of the sample.
     pub mean: f64,

@@ -11,6 +11,7 @@ use fbcrowd_jobs::Observer;
 use fbcrowd_sim::cns::Coupling;
 use fbcrowd_sim::hms::params::Modes;
 use fbcrowd_sim::measures::metrics::Measures;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -35,14 +36,14 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Scenes of the user study.
     pub scenes: Vec<SceneFigures>,
 }
 
 /// Figures of one scene.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct SceneFigures {
     /// Name of the scene.
     pub scene: String,
@@ -53,7 +54,7 @@ pub struct SceneFigures {
 }
 
 /// One figure of one scene.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Figure {
     /// Name of the figure, with its unit.
     pub figure: &'static str,

@@ -23,6 +23,7 @@ use fbcrowd_sim::step::Simulation;
 use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 use motiondb::skeleton::Skeleton;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -63,7 +64,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Path of the picture.
     pub picture: PathBuf,
@@ -73,7 +74,7 @@ pub struct Details {
 }
 
 /// The course by one synthesis at one preferred speed.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct CourseWalk {
     /// Name of the synthesis.
     pub synthesis: &'static str,

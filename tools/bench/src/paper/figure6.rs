@@ -17,6 +17,7 @@ use std::sync::Arc;
 use fbcrowd_jobs::Observer;
 use fbcrowd_render::comparison_plot::{Comparison, Measure, comparison};
 use fbcrowd_render::png_frame;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -64,7 +65,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Antipodal circles, the smallest first.
     pub circles: Vec<FrameTimes>,

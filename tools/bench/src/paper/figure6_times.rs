@@ -5,6 +5,7 @@ use std::time::Duration;
 use fbcrowd_jobs::Observer;
 use fbcrowd_jobs::observer::Work;
 use rayon::ThreadPool;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::kit::statistics::median;
@@ -18,7 +19,7 @@ const AGENT_STEPS: usize = 200;
 const STEPS: usize = 4;
 
 /// Median durations of one scene per frame.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct FrameTimes {
     /// Number of agents.
     pub agents: usize,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use fbcrowd_jobs::Observer;
 use fbcrowd_sim::hms::params::Modes;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -35,7 +36,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Path of the picture.
     pub picture: PathBuf,

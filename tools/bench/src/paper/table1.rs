@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use fbcrowd_jobs::Observer;
 use fbcrowd_sim::hms::params::Modes;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -54,7 +55,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// The scenes.
     pub scenes: Vec<SceneFigures>,

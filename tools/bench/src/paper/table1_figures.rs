@@ -1,6 +1,8 @@
 //! Figures of a comparison of planners: every run, and means over the seeds of each scene.
 
+use fbcrowd_jobs::json_schema::measures::MeasuresMirror;
 use fbcrowd_sim::measures::metrics::Measures;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::kit::planner_comparison::{ComparedPlanner, ComparisonRun};
@@ -8,7 +10,7 @@ use crate::kit::scenes::Scene;
 use crate::kit::statistics::{Spread, spread};
 
 /// One scene with every planner.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct SceneFigures {
     /// Name of the scene.
     pub scene: String,
@@ -19,7 +21,7 @@ pub struct SceneFigures {
 }
 
 /// One planner in one scene: means and standard deviations (`…_sd`) over the seeds.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct PlannerFigures {
     /// Name of the planner.
     pub planner: &'static str,
@@ -54,12 +56,13 @@ pub struct PlannerFigures {
 }
 
 /// One run: its seed, the measures of `fbcrowd measure --json`, and the duration of planning.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct RunFigures {
     /// Seed of the scene.
     pub seed: u64,
     /// Measures of the run.
     #[serde(flatten)]
+    #[schemars(with = "MeasuresMirror")]
     pub measures: Measures,
     /// Path, neighbour search and planning, µs per agent and step.
     pub plan_microseconds_per_agent_step: f64,

@@ -3,6 +3,7 @@
 use fbcrowd_sim::measures::arching::{SECTORS, Shape, WaitingCrowd};
 use fbcrowd_sim::measures::gate::Gate;
 use glam::Vec2;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::kit::scenario_run::{ScenarioFile, ScenarioRun, scenario_file};
@@ -20,7 +21,7 @@ const ARCH_FROM_S: f64 = 8.0;
 const ARCH_UNTIL_SHARE: f64 = 0.5;
 
 /// Figures of the crowd at the door, each as mean and standard deviation over the seeds.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct DoorFigures {
     /// Number of agents that pass the door; null where nothing could be measured.
     pub through: Option<Spread>,

@@ -2,6 +2,7 @@
 
 use fbcrowd_sim::measures::gate::Gate;
 use glam::Vec2;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::kit::report::Criterion;
@@ -27,11 +28,12 @@ pub(crate) const UNTURNED: &[f32] = &[0.0];
 pub(crate) const TOUCH_M: f64 = 1e-3;
 
 /// A figure of a test.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct CaseFigure {
     /// Name of the figure, with its unit.
     pub name: String,
     /// The figure; null where nothing could be measured.
+    #[schemars(with = "Option<f64>")]
     pub value: f64,
 }
 

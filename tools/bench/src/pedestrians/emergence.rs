@@ -8,12 +8,14 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fbcrowd_jobs::Observer;
+use fbcrowd_jobs::wording::counted;
 use fbcrowd_sim::scenario::Scenario;
 use motiondb::motion_db::MotionDb;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
-use crate::kit::args::{DatabaseArg, PlotsArg};
+use crate::kit::args::{DatabaseArg, PlotsArg, SeedsArg};
 use crate::kit::database::database;
 use crate::kit::planner_comparison::{ComparedPlanner, MCN, ORCA, SOCIAL_FORCE};
 use crate::kit::report::{BenchReport, Criterion};
@@ -47,18 +49,20 @@ pub struct Args {
     #[command(flatten)]
     database: DatabaseArg,
     #[command(flatten)]
+    seeds: SeedsArg,
+    #[command(flatten)]
     plots: PlotsArg,
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// The planners.
     pub planners: Vec<PlannerPatterns>,
 }
 
 /// Patterns with one planner.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct PlannerPatterns {
     /// Name of the planner.
     pub planner: &'static str,
@@ -74,16 +78,17 @@ pub struct PlannerPatterns {
 /// Where the database cannot be read, or a picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = Arc::new(database(&args.database)?);
+    let seeds = if args.seeds.seeds.is_empty() { &SEEDS } else { args.seeds.seeds.as_slice() };
     let mut scenarios = Vec::new();
     for planner in &PLANNERS {
         for file in [TWO_WAY_FLOW, BOTTLENECK] {
-            for seed in SEEDS {
+            for &seed in seeds {
                 scenarios.push(seeded(file, planner, seed)?);
             }
         }
     }
     let runs = run_scenarios(&db, scenarios, observer)?;
-    let by_planner = || PLANNERS.iter().zip(runs.chunks(2 * SEEDS.len()));
+    let by_planner = || PLANNERS.iter().zip(runs.chunks(2 * seeds.len()));
     if let Some(folder) = &args.plots.plots {
         for (planner, runs) in by_planner() {
             draw_first_seeds(folder, planner, &db, runs)?;
@@ -92,7 +97,7 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     let planners: Vec<PlannerPatterns> = by_planner().map(|(planner, runs)| patterns(planner, runs)).collect();
     let criteria = planners.first().map(criteria).unwrap_or_default();
     let details = Details { planners };
-    Ok(BenchReport { text: text(&details), details, goals: Vec::new(), criteria })
+    Ok(BenchReport { text: text(&details, seeds.len()), details, goals: Vec::new(), criteria })
 }
 
 /// A scenario file with a planner and a seed.
@@ -108,14 +113,15 @@ fn draw_first_seeds(
     db: &MotionDb,
     runs: &[ScenarioRun],
 ) -> Result<(), BenchError> {
-    for first in runs.iter().step_by(SEEDS.len()) {
+    for first in runs.iter().step_by(runs.len() / 2) {
         draw_paths(&folder.join(format!("{}_{}.png", first.scenario.name, planner.name)), db, first)?;
     }
     Ok(())
 }
 
+/// Runs come by scene, then by seed.
 fn patterns(planner: &ComparedPlanner, runs: &[ScenarioRun]) -> PlannerPatterns {
-    let (flows, doors) = runs.split_at(SEEDS.len());
+    let (flows, doors) = runs.split_at(runs.len() / 2);
     PlannerPatterns { planner: planner.name, lanes: LaneFigures::of(flows), door: DoorFigures::of(doors) }
 }
 
@@ -134,8 +140,8 @@ fn criteria(mcn: &PlannerPatterns) -> Vec<Criterion> {
     ]
 }
 
-fn text(details: &Details) -> String {
-    let mut text = format!("{:<58}", format!("mean ± deviation over {} seeds", SEEDS.len()));
+fn text(details: &Details, seeds: usize) -> String {
+    let mut text = format!("{:<58}", format!("mean ± deviation over {}", counted(seeds, "seed", "seeds")));
     let (flow, door) = ("two-way flow: ", "door: ");
     details.planners.iter().for_each(|planner| text += &format!("{:>18}", planner.planner));
     text.push('\n');

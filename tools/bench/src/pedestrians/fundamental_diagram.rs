@@ -6,6 +6,7 @@ use fbcrowd_render::diagram_plot::{Diagram, diagram};
 use fbcrowd_render::png_frame;
 use fbcrowd_sim::measures::measured_section::{MeasuredSection, weidmann_mps};
 use glam::Vec2;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -32,7 +33,7 @@ const DRAWN_PER_M2: [f64; 2] = [0.2, 3.4];
 const DRAWN_PIECES: usize = 64;
 
 /// A point of the fundamental diagram: one corridor.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
 pub struct DiagramPoint {
     /// Density, agents per square metre.
     pub per_m2: f64,

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use fbcrowd_jobs::Observer;
 use motiondb::motion_db::MotionDb;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -31,7 +32,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// The tests, those of the guideline first.
     pub tests: Vec<CaseReport>,
@@ -40,7 +41,7 @@ pub struct Details {
 }
 
 /// One test.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct CaseReport {
     /// Name of the test.
     pub test: &'static str,

@@ -2,6 +2,7 @@
 
 use fbcrowd_sim::measures::lanes::{LaneOrder, LaneWalker, lane_order};
 use glam::Vec2;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::kit::scenario_run::{ScenarioFile, ScenarioRun, scenario_file};
@@ -16,7 +17,7 @@ const LANES_WITHIN_M: f32 = 6.0;
 const LANES_STEADY_S: [f64; 2] = [8.0, 13.0];
 
 /// Figures of the two-way flow, each as mean and standard deviation over the seeds.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct LaneFigures {
     /// Order parameter φ at the start, 0 to 1; null where nothing could be measured.
     pub order_at_start: Option<Spread>,

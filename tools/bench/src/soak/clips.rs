@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use crate::soak::mutation::mutated;
 use motiondb_compiler::compile::{Options, compile};
 use motiondb_compiler::import::import_bytes;
-use motiondb_compiler::mutation::mutated;
 
 use crate::soak::databases::check_invariants;
 use crate::soak::draw::Draw;

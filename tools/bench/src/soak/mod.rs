@@ -5,12 +5,14 @@
 //! copy with a fault. Each copy draws its random numbers from a seed of its own, the seed of the bench plus its number, so
 //! that a single copy can be made again.
 //!
-//! Read in this order: [`tally`] tries copies; [`draw`] and [`scratch`] serve all kinds of input; one file for each kind:
-//! [`databases`], [`clips`], [`text_files`], [`recordings`].
+//! Read in this order: [`tally`] tries copies; [`draw`], [`mutation`] and [`scratch`] serve all kinds of files; one file
+//! for each kind: [`databases`], [`clips`], [`text_files`], [`recordings`]; [`generated`] makes worlds.
 
 pub(crate) mod clips;
 pub(crate) mod databases;
 pub(crate) mod draw;
+pub mod generated;
+pub mod mutation;
 pub(crate) mod recordings;
 pub(crate) mod scratch;
 pub mod tally;
@@ -20,12 +22,10 @@ use std::sync::Arc;
 
 use fbcrowd_jobs::Observer;
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::wild;
-use fbcrowd_sim::wild::turned_world;
-use fbcrowd_sim::wild::world::WildWorld;
 use motiondb::file;
 use motiondb::motion_db::MotionDb;
 use motiondb::velocity_hull::VelocityHull;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -33,6 +33,8 @@ use crate::kit::args::DatabaseArg;
 use crate::kit::database::database;
 use crate::kit::report::{BenchReport, Criterion};
 use crate::soak::draw::Draw;
+use crate::soak::generated::world::GeneratedWorld;
+use crate::soak::generated::{linear_program, turned_scene};
 use crate::soak::scratch::Scratch;
 use crate::soak::tally::{CopyOutcome, FaultyCopy, InputKind, InputTally, try_all};
 
@@ -82,7 +84,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Seed of the first copy.
     pub seed: u64,
@@ -125,8 +127,8 @@ fn input_kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Res
     let recording = recordings::bytes(db, scratch)?;
     text_files::write_clips(scratch)?;
     let (crowd, hull, turned_hull) = (Arc::clone(db), db.velocity_hull.clone(), db.velocity_hull.clone());
-    let turned = move |draw: &mut Draw| outcome(turned_world::fault(&turned_hull, draw.seed(), 0));
-    let program = |draw: &mut Draw| outcome(wild::program::fault(draw.seed(), 0));
+    let turned = move |draw: &mut Draw| outcome(turned_scene::fault(&turned_hull, draw.seed(), 0));
+    let program = |draw: &mut Draw| outcome(linear_program::fault(draw.seed(), 0));
     let kind = |name, copies, attempt| InputKind { name, copies, attempt };
     Ok(vec![
         kind(DAMAGED, args.count, Box::new(move |draw: &mut Draw| databases::damage(&bytes, draw))),
@@ -144,7 +146,7 @@ fn input_kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Res
 
 /// Generates a world and plans in it.
 fn generated_world(hull: &VelocityHull, draw: &mut Draw) -> CopyOutcome {
-    let world = WildWorld::drawn(draw.seed(), 0);
+    let world = GeneratedWorld::new(draw.seed(), 0);
     outcome(world.fault(hull, &Params::default()).map(|(_, fault)| fault))
 }
 

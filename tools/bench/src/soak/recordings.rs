@@ -4,13 +4,13 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::soak::mutation::mutated;
 use fbcrowd_sim::measures::metrics::measure;
 use fbcrowd_sim::recording::chunk::{CHUNK_HEAD_BYTES, Kind, write_chunk};
 use fbcrowd_sim::recording::error::RecordingError;
 use fbcrowd_sim::recording::{Header, Recorder, Recording};
 use fbcrowd_sim::step::Simulation;
 use motiondb::motion_db::MotionDb;
-use motiondb_compiler::mutation::mutated;
 
 use crate::error::BenchError;
 use crate::soak::databases::crossing;

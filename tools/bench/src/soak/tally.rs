@@ -6,6 +6,7 @@ use std::time::Instant;
 use fbcrowd_jobs::observer::Work;
 use fbcrowd_jobs::{JobEvent, Observer};
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::soak::draw::Draw;
@@ -31,7 +32,7 @@ pub(crate) struct InputKind<'a> {
 }
 
 /// Counts of one kind of input.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct InputTally {
     /// Name of the kind.
     pub name: &'static str,
@@ -52,7 +53,7 @@ pub struct InputTally {
 }
 
 /// A copy with a fault.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct FaultyCopy {
     /// Name of the kind of input.
     pub kind: &'static str,

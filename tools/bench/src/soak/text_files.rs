@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use crate::soak::mutation::mutated;
 use fbcrowd_sim::scenario;
 use motiondb::motion_db::MotionDb;
 use motiondb::source_text::SourceText;
 use motiondb_compiler::compile::compile_manifest;
 use motiondb_compiler::manifest::Manifest;
-use motiondb_compiler::mutation::mutated;
 
 use crate::error::BenchError;
 use crate::soak::databases::{check_invariants, moves_bodies};

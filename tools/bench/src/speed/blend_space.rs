@@ -10,6 +10,7 @@ use glam::{DVec3, Vec3};
 use motiondb::locator::Locator;
 use motiondb::parameters::Parameters;
 use motiondb::triangulation::build;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -37,14 +38,14 @@ const BUILD_GOAL_S: f64 = 1.0;
 pub struct Args {}
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Sets of examples, the smallest first.
     pub sets: Vec<ExampleSet>,
 }
 
 /// A set of random examples.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct ExampleSet {
     /// Number of examples.
     pub examples: usize,

@@ -23,6 +23,7 @@ use fbcrowd_sim::split_mix::SplitMix64;
 use glam::Vec2;
 use motiondb::motion_db::{MotionDb, PHASE_COUNT};
 use motiondb::pose::{Joints, Root};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -58,7 +59,7 @@ const GOAL_US: f64 = 1.2;
 pub struct Args {}
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Mean number of examples in a mix.
     pub examples_mixed: f32,

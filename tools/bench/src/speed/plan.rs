@@ -19,6 +19,7 @@ use fbcrowd_sim::planner::{Planner, ahead_s};
 use fbcrowd_sim::step::Simulation;
 use fbcrowd_sim::world::World;
 use rayon::ThreadPool;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -61,14 +62,14 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Crowds, the smallest first.
     pub crowds: Vec<CrowdTimes>,
 }
 
 /// Median durations and ratios of one crowd. Every duration includes the sorting of the agents into cells.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct CrowdTimes {
     /// Number of agents.
     pub agents: usize,

@@ -19,6 +19,7 @@ use fbcrowd_sim::plan::Plan;
 use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -62,14 +63,14 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Measurements by time step.
     pub runs: Vec<TimeStepRun>,
 }
 
 /// Measurements with one time step.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct TimeStepRun {
     /// Time step, s.
     pub dt_s: f32,
@@ -84,7 +85,7 @@ pub struct TimeStepRun {
 }
 
 /// One commanded point.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct CommandedPoint {
     /// Commanded v_f m/s, ω_t rad/s and ω_s m/s.
     #[serde(rename = "asked")]

@@ -5,9 +5,11 @@
 //! ([`crate::synthesis::quality_figures`]) with four time steps.
 
 use fbcrowd_jobs::Observer;
+use fbcrowd_jobs::json_schema::measures::ModesMirror;
 use fbcrowd_sim::hms::params::Modes;
 use motiondb::motion_db::MotionDb;
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -39,14 +41,14 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Walks: every command sequence with every synthesis at every time step.
     pub walks: Vec<WalkQuality>,
 }
 
 /// One command sequence with one synthesis at one time step.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct WalkQuality {
     /// Name of the command sequence.
     #[serde(rename = "errand")]
@@ -54,6 +56,7 @@ pub struct WalkQuality {
     /// Whether the commands are constant while the walk is measured.
     pub steady: bool,
     /// Kind of synthesis.
+    #[schemars(with = "ModesMirror")]
     pub synthesis: Modes,
     /// Time step, s.
     pub dt_s: f32,

@@ -12,6 +12,7 @@ use glam::Vec3;
 use motiondb::motion_db::MotionDb;
 use motiondb::pose::Joints;
 use motiondb::skeleton::{Joint, Skeleton};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::synthesis::command_sequences::CommandSequence;
@@ -35,7 +36,7 @@ const SPARC_STEP_HZ: f64 = 0.05;
 const SPARC_LEAST: f64 = 0.05;
 
 /// Figures of one walk.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, JsonSchema, Serialize)]
 pub struct QualityFigures {
     /// Slide of planted feet in the interval in which they slide most, cm/s.
     pub slide_cm_s: f64,

@@ -13,6 +13,7 @@ use motiondb::parameters::Parameters;
 use motiondb::planted_feet::foot_slide;
 use motiondb::pose::{Joints, Pose};
 use motiondb::skeleton::Joint;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -47,7 +48,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Name of the example of semi-procedural locomotion.
     pub m_sp: String,
@@ -57,7 +58,7 @@ pub struct Details {
 }
 
 /// One direction of travel at one turn rate.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct ReachedDirection {
     /// Direction of travel, counter-clockwise from ahead, degrees.
     pub direction_deg: f32,
@@ -82,7 +83,7 @@ impl ReachedDirection {
 }
 
 /// A fault of a deformed cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GaitFault {
     /// Planted feet slide.

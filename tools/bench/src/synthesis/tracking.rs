@@ -18,6 +18,7 @@ use glam::{Vec2, Vec3};
 use motiondb::parameters::Parameters;
 use motiondb::pose::Root;
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::BenchError;
@@ -87,7 +88,7 @@ pub struct Args {
 }
 
 /// What was measured.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Details {
     /// Commands to semi-procedural locomotion.
     #[serde(rename = "steps")]
@@ -97,7 +98,7 @@ pub struct Details {
 }
 
 /// A command to semi-procedural locomotion.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct TrackedCommand {
     /// Time step, s.
     pub dt_s: f32,
@@ -110,7 +111,7 @@ pub struct TrackedCommand {
 }
 
 /// A change from one steady gait to another by blending.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct GaitChange {
     /// Time step, s.
     pub dt_s: f32,

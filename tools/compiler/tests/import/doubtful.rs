@@ -9,7 +9,7 @@ use motiondb_compiler::error::{ImportError, Refusal};
 use motiondb_compiler::import::{Import, import_bytes, import_take};
 use motiondb_compiler::take::{Settings, Take};
 
-use super::written::bvh_text;
+use super::written_body::bvh_text;
 
 fn imported(text: &str) -> Result<super::HumanClip, Refusal> {
     let imports: Result<Vec<Import>, ImportError> = import_bytes(Path::new("clip.bvh"), text.as_bytes());
@@ -76,7 +76,8 @@ fn what_editors_and_exporters_leave_after_the_last_row_is_no_motion() {
 #[test]
 fn a_walk_at_twice_its_rate_is_told_by_its_cadence_and_a_jog_is_not() {
     let said = |clip: &str, rate: f64| {
-        let path = Path::new(super::on_the_spot::BUNDLED).join(clip).with_extension("bvh");
+        let path =
+            Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips")).join(clip).with_extension("bvh");
         let settings = Settings { frame_rate_hz: Some(30.0 * rate), ..Settings::default() };
         let human = import_take(&Take { settings, ..Take::from(path) }).unwrap().remove(0).outcome.unwrap();
         human.source.warnings.iter().any(|remark| remark.kind == Kind::FrameTime)

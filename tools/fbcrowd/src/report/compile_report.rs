@@ -5,18 +5,20 @@
 
 use std::path::Path;
 
+use fbcrowd_jobs::json_schema::motion::{ExampleQualityMirror, FindingMirror, ThinPlaceMirror};
 use fbcrowd_jobs::stages::StageTime;
 use motiondb::coverage::{self, ThinPlace};
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::quality::{self, ExampleQuality, Finding};
 use motiondb::remark::{self, Kind, Weight};
 use motiondb_compiler::refused::Refused;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::report::next_steps::next_steps;
 
 /// The result of a compilation.
-#[derive(Default, Serialize)]
+#[derive(Default, JsonSchema, Serialize)]
 pub(crate) struct CompileReport {
     /// Path of the database; null where nothing was written.
     pub(crate) output: Option<String>,
@@ -35,10 +37,13 @@ pub(crate) struct CompileReport {
     /// Clips that give examples.
     pub(crate) used: Vec<UsedClip>,
     /// Quality of the motion of every example, mirrored ones included.
+    #[schemars(with = "Vec<ExampleQualityMirror>")]
     pub(crate) quality: Vec<ExampleQuality>,
     /// Quality figures beyond their threshold. Mirrored examples are left out: they are as good as their originals.
+    #[schemars(with = "Vec<FindingMirror>")]
     pub(crate) findings: Vec<Finding>,
     /// Where the set of examples is thin.
+    #[schemars(with = "Vec<ThinPlaceMirror>")]
     pub(crate) coverage: Vec<ThinPlace>,
     /// Durations of the compiler's stages.
     pub(crate) stages: Vec<StageTime>,
@@ -47,7 +52,7 @@ pub(crate) struct CompileReport {
 }
 
 /// A clip that gives no example.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct UnusedClip {
     /// File of the clip.
     pub(crate) file: String,
@@ -58,7 +63,7 @@ pub(crate) struct UnusedClip {
 }
 
 /// A diagnostic of a clip.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct ClipDiagnostic {
     /// File of the clip.
     pub(crate) file: String,
@@ -73,7 +78,7 @@ pub(crate) struct ClipDiagnostic {
 }
 
 /// A clip that gives examples.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct UsedClip {
     /// File of the clip.
     pub(crate) file: String,
@@ -84,7 +89,7 @@ pub(crate) struct UsedClip {
 }
 
 /// One example of a clip.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct ExampleReport {
     /// Name of the example.
     pub(crate) name: String,

@@ -8,13 +8,14 @@ use fbcrowd_render::pose_distance_plot::pose_distances_between;
 use motiondb::correspondence::table;
 use motiondb::motion_db::MotionDb;
 use motiondb_compiler::near_names::nearest_first;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Most similar names that the message shows where a name is unknown.
 const NEAR_NAMES: usize = 5;
 
 /// Times at which the poses of two examples are alike.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct CorrespondenceTable {
     /// Name of the first example.
     from: String,

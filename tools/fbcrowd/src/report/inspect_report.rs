@@ -1,20 +1,24 @@
 //! The report of `fbcrowd inspect`: of a database, of a database that breaks an invariant, or of clips.
 
+use fbcrowd_jobs::json_schema::motion::{SourceRecordMirror, ThinPlaceMirror, VelocityHullMirror};
+use fbcrowd_jobs::json_schema::survey::SurveyedSourceMirror;
 use fbcrowd_jobs::leave_one_out::LeaveOneOut;
 use motiondb::coverage::{self, ThinPlace};
 use motiondb::motion_db::{MotionDb, MotionExample, SourceRecord};
 use motiondb::velocity_hull::VelocityHull;
 use motiondb_compiler::refused::Refused;
 use motiondb_compiler::survey::SurveyedSource;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::report::compile_report::UnusedClip;
 use crate::report::correspondence_table::CorrespondenceTable;
 
 /// Clips without a database.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct ClipsReport {
     /// Clips of human motion.
+    #[schemars(with = "Vec<SurveyedSourceMirror>")]
     pub(crate) sources: Vec<SurveyedSource>,
     /// Files and clips that were refused.
     refused: Vec<UnusedClip>,
@@ -27,14 +31,14 @@ impl ClipsReport {
 }
 
 /// A database that breaks an invariant.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct BrokenReport {
     /// The first invariant that is broken.
     pub(crate) broken: BrokenInvariant,
 }
 
 /// An invariant of databases that does not hold.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct BrokenInvariant {
     /// Where and how it is broken.
     pub(crate) detail: String,
@@ -43,19 +47,22 @@ pub(crate) struct BrokenInvariant {
 }
 
 /// A whole database.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct DatabaseReport {
     /// Examples of motion.
     pub(crate) examples: Vec<InspectedExample>,
     /// Clips that the examples come from.
+    #[schemars(with = "Vec<SourceRecordMirror>")]
     pub(crate) sources: Vec<SourceRecord>,
     /// Velocities that the examples allow.
+    #[schemars(with = "VelocityHullMirror")]
     pub(crate) velocity_hull: VelocityHull,
     /// Simplices in which examples are blended.
     pub(crate) blend_space: BlendSpaceReport,
     /// Times at which synthesis changes between blending and semi-procedural locomotion; null where it cannot.
     pub(crate) correspondence: Option<Correspondence>,
     /// Where the set of examples is thin.
+    #[schemars(with = "Vec<ThinPlaceMirror>")]
     pub(crate) coverage: Vec<ThinPlace>,
     /// How near the others come to each example; only with `--leave-one-out`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -66,7 +73,7 @@ pub(crate) struct DatabaseReport {
 }
 
 /// One example of motion.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct InspectedExample {
     /// Name of the example.
     pub(crate) name: String,
@@ -95,7 +102,7 @@ pub(crate) struct InspectedExample {
 }
 
 /// Times at which synthesis changes between blending and semi-procedural locomotion.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct Correspondence {
     /// Name of the example of semi-procedural locomotion, m_sp.
     pub(crate) semi_procedural: String,
@@ -106,7 +113,7 @@ pub(crate) struct Correspondence {
 }
 
 /// The simplices in which examples are blended.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct BlendSpaceReport {
     /// Dimension of the space that the examples span, 0 to 3.
     pub(crate) dimension: u32,

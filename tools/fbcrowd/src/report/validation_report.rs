@@ -1,25 +1,29 @@
 //! The report of `fbcrowd validate`: every invariant of a database, and the quality of its motion.
 
+use fbcrowd_jobs::json_schema::motion::{ExampleQualityMirror, FindingMirror};
 use motiondb::motion_db::MotionDb;
 use motiondb::quality::{self, ExampleQuality, Finding};
 use motiondb::validate::{self, Check};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Invariants and quality of a database.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct ValidationReport {
     /// Whether all invariants hold.
     pub(crate) valid: bool,
     /// The invariants.
     pub(crate) checks: Vec<InvariantCheck>,
     /// Quality figures beyond their threshold; empty where an invariant is broken. Mirrored examples are left out.
+    #[schemars(with = "Vec<FindingMirror>")]
     pub(crate) findings: Vec<Finding>,
     /// Quality figures of every example, mirrored ones included; empty where an invariant is broken.
+    #[schemars(with = "Vec<ExampleQualityMirror>")]
     pub(crate) quality: Vec<ExampleQuality>,
 }
 
 /// One invariant.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub(crate) struct InvariantCheck {
     /// Name of the invariant.
     pub(crate) name: &'static str,
