@@ -28,7 +28,7 @@ fn compile_gives_the_same_bytes_for_any_order() {
     }
     let found = check_bench("compile", &["--mocap", text(&clips)]);
     assert_eq!(found["examples"], 3);
-    assert!(found["bars"].as_array().unwrap().iter().all(|bar| bar["met"] == true), "{found}");
+    assert!(found["bars"].as_array().unwrap().iter().all(|criterion| criterion["met"] == true), "{found}");
     assert!(found["goals"][0]["measured"].as_f64().unwrap() > 0.0);
 }
 
@@ -135,20 +135,20 @@ fn course_is_walked_by_every_synthesis() {
     let picture = folder("bench_course").join("course.png");
     let found = check_bench("course", &["-o", text(&picture)]);
     let mut names: Vec<&str> =
-        found["ways"].as_array().unwrap().iter().map(|way| way["synthesis"].as_str().unwrap()).collect();
+        found["ways"].as_array().unwrap().iter().map(|walk| walk["synthesis"].as_str().unwrap()).collect();
     names.dedup();
     assert_eq!(names, ["blending", "semi_procedural", "hybrid", "hybrid_through_m_mb"]);
-    assert!(found["bars"].as_array().unwrap().iter().all(|bar| bar["met"] == true), "{found}");
+    assert!(found["bars"].as_array().unwrap().iter().all(|criterion| criterion["met"] == true), "{found}");
     assert!(picture.is_file());
 }
 
 #[test]
 fn coupled_bodies_overlap_and_slide_less() {
     let found = check_bench("coupled", &[]);
-    for bar in found["bars"].as_array().unwrap() {
-        let name = bar["name"].as_str().unwrap();
+    for criterion in found["bars"].as_array().unwrap() {
+        let name = criterion["name"].as_str().unwrap();
         if name.contains("bodies") || name.contains("slide") {
-            assert_eq!(bar["met"], true, "{bar}");
+            assert_eq!(criterion["met"], true, "{criterion}");
         }
     }
 }
@@ -159,9 +159,12 @@ fn figure6_times_every_circle_and_crowd() {
     assert_eq!(found["circles"].as_array().unwrap().len(), 6);
     assert_eq!(found["crowds"].as_array().unwrap().len(), 1);
     assert!(found["crowds"][0]["deformed_share"].as_f64().unwrap() > 0.0, "{found}");
-    let growth =
-        found["bars"].as_array().unwrap().iter().filter(|bar| bar["name"].as_str().unwrap().contains("over 1,000"));
-    assert!(growth.into_iter().all(|bar| bar["measured"].is_null()), "{found}");
+    let growth = found["bars"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|criterion| criterion["name"].as_str().unwrap().contains("over 1,000"));
+    assert!(growth.into_iter().all(|criterion| criterion["measured"].is_null()), "{found}");
     assert!(found["bytes_per_agent"].as_u64().unwrap() <= 4096);
 }
 

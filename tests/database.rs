@@ -35,7 +35,7 @@ fn the_bundled_clips_are_what_the_generator_makes() {
 }
 
 #[test]
-fn the_bundled_clips_make_a_valid_database_whose_planted_feet_hold() {
+fn planted_feet_of_the_bundled_clips_hold() {
     let database = compile(&["assets/clips".to_owned()], &folder("bundled"));
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
@@ -53,7 +53,7 @@ fn the_bundled_clips_make_a_valid_database_whose_planted_feet_hold() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn the_marine_recordings_make_the_papers_19_examples() {
+fn marine_clips_make_the_papers_19_examples() {
     let database = compile(&marine_clips(), &folder("marine"));
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
@@ -64,7 +64,7 @@ fn the_marine_recordings_make_the_papers_19_examples() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn a_mirror_negates_turning_and_strafing_and_nothing_else() {
+fn a_mirror_negates_turning_and_strafing_only() {
     let report = inspect(&compile(&marine_clips(), &folder("mirrors")));
     let examples = report["examples"].as_array().unwrap();
     for mirror in examples.iter().filter(|example| example["mirrored"] == true) {
@@ -79,7 +79,7 @@ fn a_mirror_negates_turning_and_strafing_and_nothing_else() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn an_in_place_gltf_clip_stands_beside_bvh_clips_at_its_stance_foots_speed() {
+fn an_in_place_gltf_clip_has_its_feets_speed() {
     let mut clips = marine_clips();
     clips.push(text(&mocap().join("gltf/Soldier.glb")).to_owned());
     let database = compile(&clips, &folder("soldier"));
@@ -106,7 +106,7 @@ fn inspecting_clips_needs_no_database() {
 }
 
 #[test]
-fn one_clip_alone_is_a_database_without_simplices_or_correspondences() {
+fn one_clip_makes_a_database_without_correspondences() {
     let database = compile(&["assets/clips/walk_110.bvh".to_owned()], &folder("one_clip"));
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
@@ -115,7 +115,7 @@ fn one_clip_alone_is_a_database_without_simplices_or_correspondences() {
 }
 
 #[test]
-fn what_is_left_out_is_blended_from_the_others_without_its_mirror() {
+fn an_example_is_left_out_with_its_mirror() {
     let walks = ["idle.bvh", "walk_080.bvh", "walk_110.bvh", "walk_140.glb"];
     let turns = ["turn_030_left.glb", "turn_060_left.bvh", "turn_090_left.bvh"];
     let clips = [&walks[..], &turns].concat().into_iter().map(|clip| format!("assets/clips/{clip}"));
@@ -140,7 +140,7 @@ fn what_is_left_out_is_blended_from_the_others_without_its_mirror() {
 }
 
 #[test]
-fn a_set_that_needs_each_of_its_examples_leaves_none_out() {
+fn corners_of_the_hull_are_not_left_out() {
     let database = compile(&["assets/clips/walk_110.bvh".to_owned()], &folder("leave_one_out_alone"));
     let report = fbcrowd(&["inspect", text(&database), "--leave-one-out", "--json"]).expect_code(0).json();
     assert_eq!(report["leave_one_out"]["outside"][0], "walk_110");
@@ -152,14 +152,14 @@ fn a_set_that_needs_each_of_its_examples_leaves_none_out() {
 }
 
 #[test]
-fn a_simulation_deforms_the_walk_of_a_set_once_though_it_lacks_something_even_then() {
+fn a_simulation_completes_a_set_once() {
     let folder = folder("deformed_once");
     let database = compile(&["assets/clips/jog_turn_110_left.bvh".to_owned()], &folder);
     let given = Arc::new(file::read(&database).unwrap().0);
     let once = repertoire::complete(Arc::clone(&given));
     let twice = repertoire::complete(Arc::clone(&once));
     let [(_, once_count), (_, twice_count)] = [&once, &twice].map(|db| repertoire::deformed(&given, db).unwrap());
-    assert!(once_count < twice_count && once.velocity_hull != twice.velocity_hull, "this set would not tell");
+    assert!(once_count < twice_count && once.velocity_hull != twice.velocity_hull, "this set would not show it");
 
     let (scene, recording) = (folder.join("scene.toml"), folder.join("scene.fbrec"));
     let one = "database = \"motion.fbdb\"\nduration_s = 0.1\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n";

@@ -36,7 +36,7 @@ fn figures(db: &MotionDb) -> String {
 }
 
 #[test]
-fn the_golden_file_of_version_1_is_read_and_says_what_it_said() {
+fn the_golden_file_of_version_1_is_read_unchanged() {
     let (db, _) = file::load(&golden("fbdb")).unwrap();
     assert_eq!(figures(&db), fs::read_to_string(golden("txt")).unwrap());
     fbcrowd(&["validate", text(&golden("fbdb"))]).expect_code(0);
@@ -86,7 +86,7 @@ fn broken(folder: &Path) -> PathBuf {
 }
 
 #[test]
-fn a_broken_invariant_is_an_answer_of_no_and_nothing_to_simulate_with() {
+fn a_broken_invariant_is_reported_and_not_simulated() {
     let folder = folder("broken_invariant");
     let database = broken(&folder);
     let report = fbcrowd(&["validate", text(&database), "--json"]).expect_code(1).json();
@@ -122,15 +122,15 @@ fn figures_beyond_their_thresholds_are_warnings_unless_strict() {
     db.rows.pelvis_m[jog * PHASE_COUNT..(jog + 1) * PHASE_COUNT].iter_mut().for_each(|pelvis| pelvis.z -= 0.05);
     let path = folder.join("sunk.fbdb");
     file::write(&path, &db).unwrap();
-    let said = fbcrowd(&["validate", text(&path)]).expect_code(0).stdout;
-    assert!(said.contains("warning  jog_240: a sole sinks"), "{said}");
+    let printed = fbcrowd(&["validate", text(&path)]).expect_code(0).stdout;
+    assert!(printed.contains("warning  jog_240: a sole sinks"), "{printed}");
     let report = fbcrowd(&["validate", text(&path), "--json", "--strict"]).expect_code(1).json();
     assert_eq!((&report["valid"], &report["findings"][0]["measure"]), (&true.into(), &"penetration_mm".into()));
     fbcrowd(&["validate", text(&golden("fbdb")), "--strict"]).expect_code(0);
 }
 
 #[test]
-fn whatever_is_read_survives_damage_forgery_and_mutation() {
+fn damaged_forged_and_mutated_files_do_no_harm() {
     let database = golden("fbdb");
     let counts = "--count 800 --forged 200 --mutated 100 --worlds 2000 --turned 500 --programs 500".split(' ');
     let arguments: Vec<&str> = ["bench", "soak", "--db", text(&database), "--json"].into_iter().chain(counts).collect();

@@ -24,6 +24,8 @@
 //! Read in this order: [`kit`], which all benches share; the compiler's benches ([`compiler`]); durations ([`speed`]);
 //! single bodies ([`synthesis`]); crowds ([`paper`], [`pedestrians`]); hostile input ([`soak`]).
 
+#![allow(rustdoc::private_intra_doc_links, reason = "the docs of a folder name all of its files")]
+
 pub mod compiler;
 pub mod error;
 pub mod kit;

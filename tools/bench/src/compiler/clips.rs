@@ -126,7 +126,7 @@ impl Details {
         let off = self.greatest(|clip| Some(clip.off_claim));
         [
             Criterion::at_least("bundled clips that give an example, share", 1.0, share),
-            Criterion::at_most("parameters off what the name claims, over what is allowed", 1.0, off),
+            Criterion::at_most("parameters off what the name claims, over the tolerance", 1.0, off),
         ]
     }
 

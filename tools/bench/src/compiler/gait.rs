@@ -107,7 +107,7 @@ pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError
     }
     events.sort_by(|a, b| b.distance().total_cmp(&a.distance()));
     let met = share(events.iter(), |event| event.is_met());
-    let name = "share of events within a source frame, or within what the labeller was unsure of";
+    let name = "share of events within a source frame, or within the label's uncertainty";
     let criteria = vec![Criterion::at_least(name, 1.0, met)];
     let details = Details { sets: sets(&events), events };
     Ok(BenchReport { text: text(&details), details, goals: Vec::new(), criteria })

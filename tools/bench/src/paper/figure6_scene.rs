@@ -13,8 +13,9 @@ use glam::Vec2;
 use motiondb::motion_db::MotionDb;
 
 use crate::kit::crowd::{agent_across, disc};
-use crate::paper::figure6_times::TURNS;
 
+/// Number of turns in which a scene is timed.
+pub(crate) const TURNS: usize = 25;
 /// Spacing of the agents along a circle, m, as in `assets/scenarios/table1`.
 const SPACING_M: f32 = 1.5;
 /// Greatest distance of an agent from its point of the circle, as a share of the spacing.

@@ -9,10 +9,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::kit::statistics::median;
-use crate::paper::figure6_scene::Scene;
+use crate::paper::figure6_scene::{Scene, TURNS};
 
-/// Number of turns.
-pub(crate) const TURNS: usize = 25;
 /// Least number of agents times steps in a turn.
 const AGENT_STEPS: usize = 200;
 /// Steps of a simulation for one frame of one thread and one of two.

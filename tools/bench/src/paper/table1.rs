@@ -9,8 +9,6 @@ use std::sync::Arc;
 
 use fbcrowd_jobs::Observer;
 use fbcrowd_sim::hms::params::Modes;
-use schemars::JsonSchema;
-use serde::Serialize;
 
 use crate::error::BenchError;
 use crate::kit::args::{DatabaseArg, PlotsArg, SeedsArg};
@@ -18,6 +16,7 @@ use crate::kit::database::database;
 use crate::kit::planner_comparison::{ComparedPlanner, MCN, ORCA, Protocol, SOCIAL_FORCE, SOCIAL_FORCE_20, compare};
 use crate::kit::report::{BenchReport, Criterion, Goal};
 use crate::kit::scenes;
+pub use crate::paper::table1_figures::Details;
 use crate::paper::table1_figures::{PlannerFigures, SceneFigures, figures};
 use crate::paper::{table1_discs, table1_plots, table1_text};
 
@@ -52,13 +51,6 @@ pub struct Args {
     /// Let bodies change between blending and semi-procedural locomotion instead of blending alone.
     #[arg(long)]
     hybrid: bool,
-}
-
-/// What was measured.
-#[derive(JsonSchema, Serialize)]
-pub struct Details {
-    /// The scenes.
-    pub scenes: Vec<SceneFigures>,
 }
 
 /// Runs the bench.
@@ -99,12 +91,12 @@ fn criteria(scene: &SceneFigures) -> Vec<Criterion> {
     let ratio = mcn.mean_time_to_goal_s.zip(orca.mean_time_to_goal_s).map(|(mcn_s, orca_s)| mcn_s / orca_s);
     vec![
         Criterion::below(
-            name("MCN's C, below both rivals' or none"),
+            name("MCN's C, below both baselines' or none"),
             lower(|planner| planner.collision_rate),
             mcn.collision_rate,
         ),
         Criterion::below(
-            name("MCN's acceleration before arrival, below both rivals', m/s²"),
+            name("MCN's acceleration before arrival, below both baselines', m/s²"),
             lower(|planner| planner.mean_acceleration_before_arrival_mps2),
             mcn.mean_acceleration_before_arrival_mps2,
         ),

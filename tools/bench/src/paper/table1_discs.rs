@@ -14,8 +14,7 @@ use crate::error::BenchError;
 use crate::kit::planner_comparison::{ComparedPlanner, ORCA, Protocol, SOCIAL_FORCE, compare};
 use crate::kit::report::{BenchReport, Criterion};
 use crate::kit::scenes::{self, Scene};
-use crate::paper::table1::Details;
-use crate::paper::table1_figures::{PlannerFigures, SceneFigures, figures};
+use crate::paper::table1_figures::{Details, PlannerFigures, SceneFigures, figures};
 
 /// The baselines.
 const BASELINES: [ComparedPlanner; 2] = [ORCA, SOCIAL_FORCE];

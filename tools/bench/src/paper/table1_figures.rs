@@ -9,6 +9,13 @@ use crate::kit::planner_comparison::{ComparedPlanner, ComparisonRun};
 use crate::kit::scenes::Scene;
 use crate::kit::statistics::{Spread, spread};
 
+/// What `fbcrowd bench table1` measures.
+#[derive(JsonSchema, Serialize)]
+pub struct Details {
+    /// The scenes.
+    pub scenes: Vec<SceneFigures>,
+}
+
 /// One scene with every planner.
 #[derive(JsonSchema, Serialize)]
 pub struct SceneFigures {

@@ -132,11 +132,11 @@ fn criteria(mcn: &PlannerPatterns) -> Vec<Criterion> {
     vec![
         Criterion::at_most("lanes: reduced order at the start", 0.0, mean(&lanes.reduced_at_start)),
         Criterion::at_least("lanes: reduced order when steady", LANES_ORDER, mean(&lanes.reduced)),
-        Criterion::at_least("door: people through it, of 72", DOOR_AGENTS, mean(&door.through)),
-        Criterion::at_least("door: people a second and metre", FLOW_PER_M_S[0], mean(&door.flow_per_m_s)),
-        Criterion::at_most("door: people a second and metre", FLOW_PER_M_S[1], mean(&door.flow_per_m_s)),
+        Criterion::at_least("door: agents through it, of 72", DOOR_AGENTS, mean(&door.through)),
+        Criterion::at_least("door: agents per second and metre", FLOW_PER_M_S[0], mean(&door.flow_per_m_s)),
+        Criterion::at_most("door: agents per second and metre", FLOW_PER_M_S[1], mean(&door.flow_per_m_s)),
         Criterion::at_most("door: unevenness of the half-circle", UNEVENNESS, mean(&door.unevenness)),
-        Criterion::at_most("door: longest time in which nobody passes, s", CLOG_S, mean(&door.longest_gap_s)),
+        Criterion::at_most("door: longest time in which none passes, s", CLOG_S, mean(&door.longest_gap_s)),
     ]
 }
 
@@ -162,7 +162,7 @@ fn text(details: &Details, seeds: usize) -> String {
     row(flow, "reduced order when steady", &|planner| planner.lanes.reduced);
     row(flow, "speed when steady, m/s", &|planner| planner.lanes.speed_mps);
     row(door, "agents through it", &|planner| planner.door.through);
-    row(door, "agents a second and metre", &|planner| planner.door.flow_per_m_s);
+    row(door, "agents per second and metre", &|planner| planner.door.flow_per_m_s);
     row(door, "longest time in which none passes, s", &|planner| planner.door.longest_gap_s);
     row(door, "agents that wait", &|planner| planner.door.waiting);
     row(door, "radius of their half-circle, m", &|planner| planner.door.radius_m);

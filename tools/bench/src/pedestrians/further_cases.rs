@@ -42,8 +42,8 @@ pub(crate) fn overtaking(runs: &[ScenarioRun]) -> CaseOutcome {
         criteria: vec![
             Criterion::at_least("overtaking: arrived", 2.0, run.measures.arrived as f64),
             Criterion::at_most("overtaking: overlap of discs, m", TOUCH_M, overlap_m(run)),
-            Criterion::at_most("overtaking: path over the straight way", DETOUR, detour),
-            Criterion::at_most("overtaking: who stands is pushed by, m", STANDS_M, pushed_m),
+            Criterion::at_most("overtaking: path over the straight line", DETOUR, detour),
+            Criterion::at_most("overtaking: the standing agent is pushed by, m", STANDS_M, pushed_m),
         ],
     }
 }

@@ -51,35 +51,35 @@ pub(crate) const CASES: [CrowdCase; 8] = [
         judge: fundamental_diagram::judge,
     },
     CrowdCase {
-        test: "RiMEA 6: twenty people round a corner",
+        test: "RiMEA 6: twenty agents round a corner",
         file: scenario_file!("rimea/06_corner.toml"),
-        criterion: "all go round it and nobody crosses a wall (RiMEA 3.0)",
+        criterion: "all agents go round it and none crosses a wall (RiMEA 3.0)",
         turned_deg: UNTURNED,
         judge: corner,
     },
     CrowdCase {
         test: "RiMEA 7: preferred speeds are walked",
         file: scenario_file!("rimea/07_speed_distribution.toml"),
-        criterion: "of Weidmann's 1.34 ± 0.26 m/s the mean within 5 %, the deviation within 10 %, everybody's own within 5 %",
+        criterion: "of Weidmann's 1.34 ± 0.26 m/s the mean within 5 %, the deviation within 10 %, each agent's own within 5 %",
         turned_deg: UNTURNED,
         judge: speed_distribution,
     },
     CrowdCase {
         test: "RiMEA 12: two bottlenecks",
         file: scenario_file!("rimea/12_two_bottlenecks.toml"),
-        criterion: "the crowd waits before the first only, and no more people pass the second in a second (RiMEA 3.0)",
+        criterion: "the crowd waits before the first only, and the flow through the second is no greater (RiMEA 3.0)",
         turned_deg: UNTURNED,
         judge: two_bottlenecks,
     },
     CrowdCase {
-        test: "Overtaking somebody who stands in the way",
+        test: "Overtaking an agent that stands on the path",
         file: scenario_file!("rimea/overtaking.toml"),
-        criterion: "discs do not touch, the way grows by less than 5 %, who stands stays",
+        criterion: "discs do not touch, the path grows by less than 5 %, the standing agent stays",
         turned_deg: UNTURNED,
         judge: overtaking,
     },
     CrowdCase {
-        test: "Stopping behind each other",
+        test: "Stopping one behind the other",
         file: scenario_file!("rimea/queue.toml"),
         criterion: "all arrive and discs do not touch",
         turned_deg: UNTURNED,
@@ -88,7 +88,7 @@ pub(crate) const CASES: [CrowdCase; 8] = [
     CrowdCase {
         test: "A whole scene turned",
         file: scenario_file!("crossing.toml"),
-        criterion: "turned by 37, 90 and 211°, everybody is within 1 mm after 2 s; in the end all arrive, as soon within 1 %",
+        criterion: "turned by 37, 90 and 211°, each agent is within 1 mm after 2 s; all arrive, at the same time within 1 %",
         turned_deg: TURNED_DEG,
         judge: turned,
     },
@@ -132,13 +132,13 @@ fn corner(runs: &[ScenarioRun]) -> CaseOutcome {
     let passages_s = gate.passages_s();
     CaseOutcome {
         figures: vec![
-            figure("people round the corner", passages_s.len() as f64),
-            figure("when the last of them is round, s", passages_s.last().copied()),
+            figure("agents round the corner", passages_s.len() as f64),
+            figure("time at which the last of them is round, s", passages_s.last().copied()),
             figure("nearest that a disc comes to a wall, m", f64::from(nearest_m - radius_m)),
         ],
         criteria: vec![
-            Criterion::at_least("RiMEA 6: people round the corner", 20.0, passages_s.len() as f64),
-            Criterion::at_most("RiMEA 6: people and steps in a wall", 0.0, crossed as f64),
+            Criterion::at_least("RiMEA 6: agents round the corner", 20.0, passages_s.len() as f64),
+            Criterion::at_most("RiMEA 6: agents and steps in a wall", 0.0, crossed as f64),
             Criterion::at_most("RiMEA 6: disc in a wall, m", TOUCH_M, f64::from(radius_m - nearest_m).max(0.0)),
         ],
     }
@@ -170,7 +170,7 @@ fn speed_distribution(runs: &[ScenarioRun]) -> CaseOutcome {
                 ratio(|spread| spread.deviation),
             ),
             Criterion::at_most(
-                "RiMEA 7: anybody off the own speed, share",
+                "RiMEA 7: an agent off its own speed, share",
                 SPEED_TOLERANCE,
                 worst.filter(|_| all_walked),
             ),
@@ -186,17 +186,17 @@ fn two_bottlenecks(runs: &[ScenarioRun]) -> CaseOutcome {
     let ratio = first.flow_per_s().zip(second.flow_per_s()).map(|(first, second)| second / first);
     CaseOutcome {
         figures: vec![
-            figure("people through the first, a second", first.flow_per_s()),
-            figure("people through the second, a second", second.flow_per_s()),
+            figure("agents through the first, per second", first.flow_per_s()),
+            figure("agents through the second, per second", second.flow_per_s()),
             figure("agents that wait before the first, mean", first_jam),
             figure("agents that wait before the second, mean", second_jam),
             figure("deepest overlap of discs, m", overlap_m(run)),
         ],
         criteria: vec![
-            Criterion::at_least("RiMEA 12: people through both", 150.0, second.passages_s().len() as f64),
+            Criterion::at_least("RiMEA 12: agents through both", 150.0, second.passages_s().len() as f64),
             Criterion::at_most("RiMEA 12: flow through the second over the first", FLOW_TOLERANCE, ratio),
-            Criterion::at_least("RiMEA 12: people who wait before the first", JAM, first_jam),
-            Criterion::at_most("RiMEA 12: people who wait before the second", NO_JAM, second_jam),
+            Criterion::at_least("RiMEA 12: agents that wait before the first", JAM, first_jam),
+            Criterion::at_most("RiMEA 12: agents that wait before the second", NO_JAM, second_jam),
         ],
     }
 }

@@ -39,7 +39,7 @@ impl Draw {
 
     /// An edit at a position.
     pub(crate) fn edit_at(&mut self, position: usize) -> Edit {
-        Edit { place: position as u64, kind: self.below(256) as u8, value: self.0.next_u64() as u32 }
+        Edit { position: position as u64, kind: self.below(256) as u8, value: self.0.next_u64() as u32 }
     }
 
     /// A few edits of a file of this length, which must not be 0; one is likelier than many. Every other one is in the

@@ -138,7 +138,7 @@ fn input_kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Res
         kind("manifests", args.mutated, Box::new(|draw: &mut Draw| text_files::manifest(scratch, draw))),
         kind("scenarios", args.mutated, Box::new(move |draw: &mut Draw| text_files::scenario(&crowd, scratch, draw))),
         kind("recordings", args.mutated, Box::new(move |draw: &mut Draw| recordings::read(&recording, scratch, draw))),
-        kind("wild worlds", args.worlds, Box::new(move |draw: &mut Draw| generated_world(&hull, draw))),
+        kind("generated worlds", args.worlds, Box::new(move |draw: &mut Draw| generated_world(&hull, draw))),
         kind("turned scenes", args.turned, Box::new(turned)),
         kind("linear programs", args.programs, Box::new(program)),
     ])

@@ -24,7 +24,7 @@ const LONGEST: u32 = 256;
 #[derive(Clone, Copy, Debug)]
 pub struct Edit {
     /// Position, modulo the length of the bytes.
-    pub place: u64,
+    pub position: u64,
     /// Kind of edit, modulo the number of kinds.
     pub kind: u8,
     /// Value for the edit.
@@ -78,7 +78,7 @@ impl Edit {
 
     /// Position in the bytes; none where there are no bytes.
     fn at(self, bytes: &[u8]) -> Option<usize> {
-        self.place.checked_rem(bytes.len() as u64).map(|at| at as usize)
+        self.position.checked_rem(bytes.len() as u64).map(|at| at as usize)
     }
 }
 
@@ -106,8 +106,8 @@ mod tests {
     #[test]
     fn every_edit_works_on_few_bytes_and_on_none() {
         for (kind, length) in (0..=u8::MAX).flat_map(|kind| (0..6).map(move |length| (kind, length))) {
-            for (place, value) in [(0, 0), (u64::MAX, u32::MAX), (3, 255)] {
-                let (edit, bytes) = (Edit { place, kind, value }, vec![b'7'; length]);
+            for (position, value) in [(0, 0), (u64::MAX, u32::MAX), (3, 255)] {
+                let (edit, bytes) = (Edit { position, kind, value }, vec![b'7'; length]);
                 let mut altered = bytes.clone();
                 edit.alter(&mut altered);
                 assert_eq!(altered.len(), length);

@@ -256,8 +256,8 @@ fn criteria(run: &TimeStepRun) -> Vec<Criterion> {
     let mut criteria = Vec::new();
     for (axis, name) in ["v_f", "ω_t", "ω_s"].into_iter().enumerate() {
         let [mean, worst] = excesses(run, axis);
-        criteria.push(Criterion::at_most(format!("mean error of {name} over what is allowed, {at}"), 1.0, mean));
-        criteria.push(Criterion::at_most(format!("worst error of {name} over what is allowed, {at}"), 1.0, worst));
+        criteria.push(Criterion::at_most(format!("mean error of {name} over its tolerance, {at}"), 1.0, mean));
+        criteria.push(Criterion::at_most(format!("worst error of {name} over its tolerance, {at}"), 1.0, worst));
     }
     criteria.push(Criterion::at_most(format!("off a straight line of 50 m {at}, cm"), OFF_MAX_CM, run.straight_cm));
     criteria.push(Criterion::at_most(format!("off the start of a circle {at}, cm"), OFF_MAX_CM, run.circle_cm));
@@ -277,7 +277,7 @@ fn text(run: &TimeStepRun) -> String {
     let slowest = run.points.iter().filter(|point| !point.is_walked());
     let standing = slowest.map(|point| Vec2::new(point.commanded[0], point.commanded[2]).length()).fold(0.0, f32::max);
     format!(
-        "steps of {:.4} s: {walked} points asked and walked, {} so slow that the body stands (up to {standing:.2} m/s)\n",
+        "steps of {:.4} s: {walked} points commanded and walked, {} so slow that the body stands (up to {standing:.2} m/s)\n",
         run.dt_s,
         run.points.len() - walked
     )

@@ -111,7 +111,7 @@ pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError
         .collect();
     let reached = directions.iter().filter(|direction| direction.is_reached()).count();
     let share = reached as f64 / directions.len() as f64;
-    let criteria = vec![Criterion::at_least("share of the ways that are used and reached", 1.0, share)];
+    let criteria = vec![Criterion::at_least("share of the directions that are used and reached", 1.0, share)];
     let details = Details { m_sp: db.examples[semi_procedural.example].name.clone(), directions };
     Ok(BenchReport { text: text(&details), details, goals: Vec::new(), criteria })
 }

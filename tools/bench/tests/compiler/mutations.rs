@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use super::written_body::{bvh_text, gltf_text};
 
 fn edits() -> impl Strategy<Value = Vec<Edit>> {
-    let edit = any::<(u64, u8, u32)>().prop_map(|(place, kind, value)| Edit { place, kind, value });
+    let edit = any::<(u64, u8, u32)>().prop_map(|(position, kind, value)| Edit { position, kind, value });
     prop::collection::vec(edit, 1..6)
 }
 

@@ -175,7 +175,7 @@ fn a_gait_reversed_beyond_its_end_keeps_its_contacts() {
     let db = bundled();
     let semi = semi_procedural(&db);
     let back = parameters([-0.3, 0.0, 0.0]);
-    let contacts = |way| Deformation::going(&semi, back, way).contacts(&db, 0.3);
+    let contacts = |travel| Deformation::going(&semi, back, travel).contacts(&db, 0.3);
     assert_eq!(contacts(Vec2::new(-1.4, 0.0)), contacts(Vec2::NEG_X));
 }
 
@@ -183,8 +183,8 @@ fn a_gait_reversed_beyond_its_end_keeps_its_contacts() {
 fn extreme_parameters_give_finite_poses() {
     let db = bundled();
     let semi = semi_procedural(&db);
-    for way in [[0.0; 3], [9.0, 0.0, 0.0], [-9.0, 2000.0, 7.0], [0.0, -4000.0, 0.0], [0.0, 0.0, 50.0]] {
-        let cycle = cycle(&db, &semi, parameters(way));
+    for gait in [[0.0; 3], [9.0, 0.0, 0.0], [-9.0, 2000.0, 7.0], [0.0, -4000.0, 0.0], [0.0, 0.0, 50.0]] {
+        let cycle = cycle(&db, &semi, parameters(gait));
         assert!(cycle.joints.iter().all(|joints| joints.positions_m.iter().all(|at_m| at_m.is_finite())));
     }
 }

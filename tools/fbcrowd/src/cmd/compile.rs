@@ -13,6 +13,7 @@ use motiondb_compiler::compile::Compiled;
 use crate::cmd::refused;
 use crate::report::compile_report::CompileReport;
 use crate::report::compile_text;
+use crate::report::next_steps::with_next_steps;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
@@ -80,14 +81,14 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     };
     let compiled = compiling::compile(&args.clips, &args.output, &overrides, &observer);
     if let (true, Err(JobError::NoExample { refused, sources })) = (args.json, &compiled) {
-        output::print_json(&CompileReport::without_examples(refused.clone(), sources))?;
+        output::print_json(&with_next_steps(CompileReport::without_examples(refused.clone(), sources)))?;
     }
     let Compiled { db, refused } = compiled?;
     let answer = refused::answer(&refused);
     if args.strict && answer == Answer::No {
         refused::say(&refused);
         if args.json {
-            output::print_json(&CompileReport::new(None, &db, refused, stopwatch.stage_times()))?;
+            output::print_json(&with_next_steps(CompileReport::new(None, &db, refused, stopwatch.stage_times())))?;
         }
         return Err(Failure::bad("some input was refused, and --strict allows none; repair it or leave it out"));
     }
@@ -96,7 +97,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         refused::say(&refused);
     }
     compiling::write_database(&args.output, &db, &observer)?;
-    let report = CompileReport::new(Some(&args.output), &db, refused, stopwatch.stage_times());
+    let report = with_next_steps(CompileReport::new(Some(&args.output), &db, refused, stopwatch.stage_times()));
     if args.json {
         output::print_json(&report)?;
     } else {

@@ -143,7 +143,7 @@ fn type_words(types: &Value) -> (String, bool) {
 
 fn plural(words: &str) -> String {
     match words.split_once(' ') {
-        Some((first, rest)) if first == "array" => format!("arrays {rest}"),
+        Some(("array", rest)) => format!("arrays {rest}"),
         Some(_) => words.to_owned(),
         None => format!("{words}s"),
     }

@@ -15,8 +15,6 @@ use motiondb_compiler::refused::Refused;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::report::next_steps::next_steps;
-
 /// The result of a compilation.
 #[derive(Default, JsonSchema, Serialize)]
 pub(crate) struct CompileReport {
@@ -106,7 +104,7 @@ pub(crate) struct ExampleReport {
 }
 
 impl CompileReport {
-    /// The report of a database that was written to `output`; none where it was not written.
+    /// The report of a database, without `next`; `output` is none where it was not written.
     pub(crate) fn new(output: Option<&Path>, db: &MotionDb, refused: Vec<Refused>, stages: Vec<StageTime>) -> Self {
         let mut report = Self {
             output: output.map(|path| path.display().to_string()),
@@ -124,16 +122,14 @@ impl CompileReport {
             let of_source = db.examples.iter().filter(|example| example.source as usize == index);
             report.add(source, of_source.map(ExampleReport::from).collect());
         }
-        report.next = next_steps(&report);
         report
     }
 
-    /// The report of clips of which none gives an example.
+    /// The report of clips of which none gives an example, without `next`.
     pub(crate) fn without_examples(refused: Vec<Refused>, sources: &[SourceRecord]) -> Self {
         let refused = refused.into_iter().map(UnusedClip::from).collect();
         let mut report = Self { refused, ..Self::default() };
         sources.iter().for_each(|source| report.add(source, Vec::new()));
-        report.next = next_steps(&report);
         report
     }
 

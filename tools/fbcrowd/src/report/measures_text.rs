@@ -51,7 +51,7 @@ fn acceleration(measures: &Measures) -> String {
 fn path(measures: &Measures) -> String {
     format!(
         "{}, {:.1} % of the time strafing, {:.1} % stepping back",
-        optional(measures.path_over_straight_line, "× the straight way"),
+        optional(measures.path_over_straight_line, "× the straight line"),
         100.0 * measures.strafing_share,
         100.0 * measures.stepping_back_share
     )

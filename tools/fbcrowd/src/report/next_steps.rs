@@ -8,8 +8,13 @@ use crate::report::plain_text::title;
 /// Most clips that one sentence names.
 const NAMED: usize = 3;
 
+/// A report with its next steps.
+pub(crate) fn with_next_steps(report: CompileReport) -> CompileReport {
+    CompileReport { next: next_steps(&report), ..report }
+}
+
 /// One sentence for each step. The commands in the sentences can be copied.
-pub(crate) fn next_steps(report: &CompileReport) -> Vec<String> {
+fn next_steps(report: &CompileReport) -> Vec<String> {
     let mut next = Vec::new();
     if !report.refused.is_empty() {
         let step = "Repair what is refused, or leave it out: `skip = true` in its table of a manifest.toml.";
