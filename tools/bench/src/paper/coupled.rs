@@ -49,11 +49,11 @@ pub struct SceneFigures {
     pub scene: String,
     /// Number of agents.
     pub agents: usize,
-    /// Figures of both ways of coupling.
+    /// Figures with coupling and without it.
     pub figures: Vec<Figure>,
 }
 
-/// One figure of one scene.
+/// One figure of one scene, with coupling and without it.
 #[derive(JsonSchema, Serialize)]
 pub struct Figure {
     /// Name of the figure, with its unit.

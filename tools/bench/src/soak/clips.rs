@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::soak::mutation::mutated;
 use motiondb_compiler::compile::{Options, compile};
 use motiondb_compiler::import::import_bytes;
 
 use crate::soak::databases::check_invariants;
 use crate::soak::draw::Draw;
+use crate::soak::mutation::mutated;
 use crate::soak::tally::CopyOutcome;
 
 /// Length of a GLB file's magic, version and length, and of the length and type of its JSON chunk, bytes.

@@ -1,7 +1,8 @@
 //! Random draws of a copy: positions, choices, and the edits of [`crate::soak::mutation`].
 
-use crate::soak::mutation::Edit;
 use fbcrowd_sim::split_mix::SplitMix64;
+
+use crate::soak::mutation::Edit;
 
 /// Length of a file's head, with its names, counts and structure, bytes.
 const HEAD_BYTES: usize = 4096;

@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::soak::mutation::mutated;
 use fbcrowd_sim::measures::metrics::measure;
 use fbcrowd_sim::recording::chunk::{CHUNK_HEAD_BYTES, Kind, write_chunk};
 use fbcrowd_sim::recording::error::RecordingError;
@@ -15,6 +14,7 @@ use motiondb::motion_db::MotionDb;
 use crate::error::BenchError;
 use crate::soak::databases::crossing;
 use crate::soak::draw::Draw;
+use crate::soak::mutation::mutated;
 use crate::soak::scratch::Scratch;
 use crate::soak::tally::CopyOutcome;
 

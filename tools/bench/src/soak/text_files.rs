@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::soak::mutation::mutated;
 use fbcrowd_sim::scenario;
 use motiondb::motion_db::MotionDb;
 use motiondb::source_text::SourceText;
@@ -12,6 +11,7 @@ use motiondb_compiler::manifest::Manifest;
 use crate::error::BenchError;
 use crate::soak::databases::{check_invariants, moves_bodies};
 use crate::soak::draw::Draw;
+use crate::soak::mutation::mutated;
 use crate::soak::scratch::Scratch;
 use crate::soak::tally::CopyOutcome;
 

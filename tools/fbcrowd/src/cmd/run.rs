@@ -7,6 +7,7 @@ use fbcrowd_jobs::compiling::{self, Overrides};
 use fbcrowd_jobs::rendering::{self, RenderedSequence};
 use fbcrowd_jobs::simulation::{self, SimulationInput};
 use fbcrowd_jobs::wording::counted;
+use fbcrowd_jobs::{JobEvent, Observer};
 use fbcrowd_render::sequence::{Format, SequenceOptions};
 use fbcrowd_sim::measures::metrics;
 use fbcrowd_sim::scenario;
@@ -36,7 +37,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let progress = ProgressDisplay::default();
-    let observer = |event: fbcrowd_jobs::JobEvent<'_>| progress.observe(event);
+    let observer = |event: JobEvent<'_>| progress.observe(event);
     let (scenario, motion) = scenario::file::read(&args.scenario)?;
     let name = scenario.name.clone();
     let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
@@ -65,11 +66,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 /// The scenario's database. Where the scenario names clips, they are compiled into the output folder.
-fn database(
-    motion: MotionSource,
-    folder: &Path,
-    observer: &fbcrowd_jobs::Observer,
-) -> Result<(PathBuf, Answer), Failure> {
+fn database(motion: MotionSource, folder: &Path, observer: &Observer) -> Result<(PathBuf, Answer), Failure> {
     let create_folder = || fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, error));
     match motion {
         MotionSource::Database(path) => {

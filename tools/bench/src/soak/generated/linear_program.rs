@@ -3,11 +3,10 @@
 //! Sets of half-planes: feasible, infeasible, equal, opposite to each other, parallel but for rounding, through the
 //! origin, or beyond any speed. The check uses no linear programming; it tries the velocities of a grid. World axes, m/s.
 
-use glam::Vec2;
-
 use fbcrowd_sim::mcn::half_plane::{HalfPlane, Source};
 use fbcrowd_sim::mcn::linear_program::{Solution, solve, yielding};
 use fbcrowd_sim::split_mix::SplitMix64;
+use glam::Vec2;
 
 /// The greatest speed of every program, m/s.
 pub const SPEED_MAX_MPS: f32 = 2.0;

@@ -7,9 +7,6 @@
 //! them that is ten times as frequent, since their law grows without bound towards a graze and is 0 beyond it. World,
 //! metres, seconds.
 
-use glam::Vec2;
-use motiondb::velocity_hull::VelocityHull;
-
 use fbcrowd_sim::mcn::motion_constraints::MotionConstraints;
 use fbcrowd_sim::neighbours::Neighbours;
 use fbcrowd_sim::obstacles::Obstacles;
@@ -18,6 +15,8 @@ use fbcrowd_sim::plan::{Plan, Stance, StanceFoot};
 use fbcrowd_sim::planner::{Planner, Scratch, ahead_s, plan};
 use fbcrowd_sim::split_mix::SplitMix64;
 use fbcrowd_sim::world::World;
+use glam::Vec2;
+use motiondb::velocity_hull::VelocityHull;
 
 /// Number of agents; the first one plans.
 const AGENTS: usize = 8;

@@ -4,10 +4,6 @@
 //! and of huge radii, on an edge, inside a wall. [`GeneratedWorld::fault`] plans every agent with each planner and moves
 //! it as a disc. World, metres, seconds.
 
-use glam::{DVec2, Vec2};
-use motiondb::pose::Root;
-use motiondb::velocity_hull::VelocityHull;
-
 use fbcrowd_sim::cns::{as_planned, outside_walls};
 use fbcrowd_sim::mcn::half_plane::{HalfPlane, Source};
 use fbcrowd_sim::mcn::motion_constraints::MotionConstraints;
@@ -20,6 +16,9 @@ use fbcrowd_sim::polygon;
 use fbcrowd_sim::rivals::social_force::TAKEN_UP_S;
 use fbcrowd_sim::split_mix::SplitMix64;
 use fbcrowd_sim::world::World;
+use glam::{DVec2, Vec2};
+use motiondb::pose::Root;
+use motiondb::velocity_hull::VelocityHull;
 
 /// Numbers of agents.
 const AGENTS: std::ops::RangeInclusive<usize> = 2..=30;
