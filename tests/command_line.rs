@@ -1,4 +1,4 @@
-//! The command line through the built binary: what bad input does, and that help and completions are there.
+//! The command line through the built binary: help, completions, and messages for bad input.
 
 mod support;
 
@@ -6,10 +6,10 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use support::{WALK, compile, fbcrowd, files, folder, scenario, shared, text};
+use support::{WALK, compile, fbcrowd, files, folder, mocap, scenario, text};
 
 #[test]
-fn every_command_explains_itself_with_an_example() {
+fn every_command_has_help_with_an_example() {
     for command in
         ["run", "compile", "validate", "inspect", "clips", "simulate", "measure", "render", "bench", "completions"]
     {
@@ -39,7 +39,7 @@ fn a_missing_clip_is_named_and_nothing_is_written() {
 }
 
 #[test]
-fn no_file_name_colours_or_breaks_what_is_printed() {
+fn no_file_name_controls_the_terminal() {
     let folder = folder("control_characters");
     let database = folder.join("motion.fbdb");
     fs::copy(support::repository().join(WALK), folder.join("a\u{1b}[31m\nb.bvh")).unwrap();
@@ -64,7 +64,7 @@ fn a_manifest_that_skips_all_is_named() {
 }
 
 #[test]
-fn what_is_neither_a_database_nor_a_clip_is_told_so() {
+fn a_file_of_another_kind_is_named() {
     let folder = folder("neither");
     for (name, words) in [("picture.png", "neither a database"), ("crowd.fbrec", "fbcrowd measure")] {
         let path = folder.join(name);
@@ -74,7 +74,7 @@ fn what_is_neither_a_database_nor_a_clip_is_told_so() {
 }
 
 #[test]
-fn a_malformed_clip_is_refused_by_line_and_the_rest_still_compiles() {
+fn a_malformed_clip_is_refused_the_rest_compiles() {
     let folder = folder("malformed_clip");
     let walk = fs::read_to_string(support::repository().join(WALK)).unwrap();
     let broken = folder.join("broken.bvh");
@@ -122,10 +122,9 @@ fn strict_makes_a_refusal_final() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn a_clip_without_human_legs_is_refused_with_the_reason() {
-    let Some(fox) = shared("a_clip_without_human_legs_is_refused_with_the_reason", "mocap/gltf/Fox.glb") else {
-        return;
-    };
+    let fox = mocap().join("gltf/Fox.glb");
     let folder = folder("fox");
     let database = folder.join("motion.fbdb");
     fbcrowd(&["compile", text(&fox), "-o", text(&database)]).expect_code(2).says(&["Fox.glb", "leg"]);
@@ -150,9 +149,9 @@ fn altered_and_truncated_databases_and_recordings_are_refused() {
             fs::write(&damaged, &bytes[..cut]).unwrap();
             fbcrowd(&[command, text(&damaged)]).expect_code(2).says(&["damaged"]);
         }
-        for place in [0, 9, 15, bytes.len() / 3, bytes.len() - 30] {
+        for position in [0, 9, 15, bytes.len() / 3, bytes.len() - 30] {
             let mut altered = bytes.clone();
-            altered[place] ^= 0x20;
+            altered[position] ^= 0x20;
             fs::write(&damaged, &altered).unwrap();
             fbcrowd(&[command, text(&damaged)]).expect_code(2).says(&["damaged"]);
         }
@@ -160,7 +159,7 @@ fn altered_and_truncated_databases_and_recordings_are_refused() {
 }
 
 #[test]
-fn mistakes_in_a_scenario_are_shown_where_they_stand() {
+fn mistakes_in_a_scenario_are_shown_at_their_line() {
     let folder = folder("scenario_mistakes");
     let clips = format!("clips = \"{}\"", text(&support::repository().join("assets/clips")));
     let agent = "agents = { at_m = [0, 0], goals_m = [[2, 0]] }\n";
@@ -172,7 +171,7 @@ fn mistakes_in_a_scenario_are_shown_where_they_stand() {
             "CLIPS\nduration_s = 3\nAGENT[[obstacles]]\npolygon_m = [[-1, -1], [1, -1], [1, 1], [-1, 1]]\n",
             &["scene.toml:3", "obstacle"],
         ),
-        ("CLIPS\nduration_s = 3\nagents = { file = \"nobody.txt\" }\n", &["nobody.txt"]),
+        ("CLIPS\nduration_s = 3\nagents = { file = \"missing.txt\" }\n", &["missing.txt"]),
     ];
     for (content, words) in cases {
         let scene = scenario(&folder, &content.replace("AGENT", agent).replace("CLIPS", &clips));
@@ -183,7 +182,7 @@ fn mistakes_in_a_scenario_are_shown_where_they_stand() {
 }
 
 #[test]
-fn clips_and_databases_in_each_others_place_are_told_apart() {
+fn clips_and_databases_exchanged_are_recognised() {
     let folder = folder("exchanged");
     let agent = "duration_s = 1\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n";
     fs::write(folder.join("motion.fbdb"), "anything").unwrap();
@@ -197,22 +196,22 @@ fn clips_and_databases_in_each_others_place_are_told_apart() {
 }
 
 #[test]
-fn who_has_not_arrived_because_of_a_wall_is_told() {
+fn an_agent_behind_a_wall_is_noted() {
     let folder = folder("before_a_wall");
     compile(&[WALK.to_owned()], &folder);
     let head = "database = \"motion.fbdb\"\nduration_s = 3\n";
     let wall = "[[obstacles]]\npolygon_m = [[1, -3], [2, -3], [2, 3], [1, 3]]\n";
     let notes = |agents: &str| {
         let scene = scenario(&folder, &format!("{head}{agents}\n{wall}"));
-        let said = fbcrowd(&["simulate", &scene, "-o", text(&folder.join("scene.fbrec"))]).expect_code(0);
-        said.stderr.matches("agent 0 has a wall across its way to [4, 0]").count()
+        let simulated = fbcrowd(&["simulate", &scene, "-o", text(&folder.join("scene.fbrec"))]).expect_code(0);
+        simulated.stderr.matches("a wall is across the path of agent 0 to [4, 0]").count()
     };
     let goals = ["[[4, 0]]", "[[0, 4], [4, 4], [4, 0]]"];
     assert_eq!(goals.map(|goals| notes(&format!("agents = {{ at_m = [0, 0], goals_m = {goals} }}"))), [1, 0]);
 }
 
 #[test]
-fn whoever_brings_a_database_needs_no_clips() {
+fn with_a_database_a_scenario_needs_no_clips() {
     let folder = folder("own_database");
     let database = compile(&[WALK.to_owned()], &folder);
     let recording = folder.join("scene.fbrec");
@@ -236,7 +235,7 @@ fn a_clip_named_twice_is_read_once() {
 }
 
 #[test]
-fn clips_of_one_name_are_told_apart_by_what_they_hold_and_not_by_where_they_are() {
+fn clips_of_one_name_are_ordered_by_content() {
     let clips = support::repository().join("assets/clips");
     let [root, other] = ["one_name", "one_name_elsewhere"].map(folder);
     let mut databases = Vec::new();
@@ -263,7 +262,7 @@ fn clips_of_one_name_are_told_apart_by_what_they_hold_and_not_by_where_they_are(
 }
 
 #[test]
-fn work_goes_on_where_nobody_reads_what_it_says() {
+fn work_goes_on_without_a_reader() {
     let folder = folder("reader_gone");
     let database = folder.join("motion.fbdb");
     let (reader, writer) = std::io::pipe().unwrap();
@@ -279,7 +278,7 @@ fn work_goes_on_where_nobody_reads_what_it_says() {
 }
 
 #[test]
-fn any_two_examples_correspond_by_name_and_a_wrong_name_shows_those_near_it() {
+fn any_two_examples_correspond_by_name() {
     let folder = folder("correspondence");
     let clips = support::repository().join("assets/clips");
     for (clip, name) in [("walk_080.bvh", "slow walk.bvh"), ("run_350.bvh", "run.bvh"), ("idle.bvh", "idle.bvh")] {

@@ -8,7 +8,7 @@ use fbcrowd_sim::recording::Recording;
 use fbcrowd_sim::synthesis::library;
 use motiondb::files::database_file;
 use serde_json::Value;
-use support::{compile, fbcrowd, folder, marine_clips, shared, text};
+use support::{compile, fbcrowd, folder, marine_clips, mocap, text};
 
 fn inspect(database: &std::path::Path) -> Value {
     fbcrowd(&["inspect", text(database), "--json"]).expect_code(0).json()
@@ -35,7 +35,7 @@ fn the_bundled_clips_are_what_the_generator_makes() {
 }
 
 #[test]
-fn the_bundled_clips_make_a_valid_database_whose_planted_feet_hold() {
+fn planted_feet_of_the_bundled_clips_hold() {
     let database = compile(&["assets/clips".to_owned()], &folder("bundled"));
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
@@ -52,10 +52,9 @@ fn the_bundled_clips_make_a_valid_database_whose_planted_feet_hold() {
 }
 
 #[test]
-fn the_marine_recordings_make_the_papers_19_examples() {
-    let test = "the_marine_recordings_make_the_papers_19_examples";
-    let Some(clips) = marine_clips(test) else { return };
-    let database = compile(&clips, &folder("marine"));
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
+fn marine_clips_make_the_papers_19_examples() {
+    let database = compile(&marine_clips(), &folder("marine"));
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
     let examples = report["examples"].as_array().unwrap();
@@ -64,9 +63,9 @@ fn the_marine_recordings_make_the_papers_19_examples() {
 }
 
 #[test]
-fn a_mirror_negates_turning_and_strafing_and_nothing_else() {
-    let Some(clips) = marine_clips("a_mirror_negates_turning_and_strafing_and_nothing_else") else { return };
-    let report = inspect(&compile(&clips, &folder("mirrors")));
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
+fn a_mirror_negates_turning_and_strafing_only() {
+    let report = inspect(&compile(&marine_clips(), &folder("mirrors")));
     let examples = report["examples"].as_array().unwrap();
     for mirror in examples.iter().filter(|example| example["mirrored"] == true) {
         let same_source = |example: &&Value| example["source"] == mirror["source"] && example["mirrored"] == false;
@@ -79,15 +78,15 @@ fn a_mirror_negates_turning_and_strafing_and_nothing_else() {
 }
 
 #[test]
-fn an_in_place_gltf_clip_stands_beside_bvh_clips_at_its_stance_foots_speed() {
-    let test = "an_in_place_gltf_clip_stands_beside_bvh_clips_at_its_stance_foots_speed";
-    let (Some(mut clips), Some(soldier)) = (marine_clips(test), shared(test, "mocap/gltf/Soldier.glb")) else { return };
-    clips.push(text(&soldier).to_owned());
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
+fn an_in_place_gltf_clip_has_its_feets_speed() {
+    let mut clips = marine_clips();
+    clips.push(text(&mocap().join("gltf/Soldier.glb")).to_owned());
     let database = compile(&clips, &folder("soldier"));
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
     let sources = report["sources"].as_array().unwrap();
-    // In place: three times the tolerances of other clips (`motiondb_compiler::truth`).
+    // In place: three times the tolerances of other clips (`fbcrowd_bench::compiler::ground_truth`).
     for (clip, speed) in [("Walk", 1.70), ("Run", 4.22)] {
         let found = sources.iter().find(|source| source["clip"] == clip).expect("the clip is listed");
         assert!(within(number(found, "speed_mps"), speed, 0.09, 0.09), "{found}");
@@ -107,7 +106,7 @@ fn inspecting_clips_needs_no_database() {
 }
 
 #[test]
-fn one_clip_alone_is_a_database_without_simplices_or_correspondences() {
+fn one_clip_makes_a_database_without_correspondences() {
     let database = compile(&["assets/clips/walk_110.bvh".to_owned()], &folder("one_clip"));
     fbcrowd(&["validate", text(&database)]).expect_code(0);
     let report = inspect(&database);
@@ -116,7 +115,7 @@ fn one_clip_alone_is_a_database_without_simplices_or_correspondences() {
 }
 
 #[test]
-fn what_is_left_out_is_blended_from_the_others_without_its_mirror() {
+fn an_example_is_left_out_with_its_mirror() {
     let walks = ["idle.bvh", "walk_080.bvh", "walk_110.bvh", "walk_140.glb"];
     let turns = ["turn_030_left.glb", "turn_060_left.bvh", "turn_090_left.bvh"];
     let clips = [&walks[..], &turns].concat().into_iter().map(|clip| format!("assets/clips/{clip}"));
@@ -141,7 +140,7 @@ fn what_is_left_out_is_blended_from_the_others_without_its_mirror() {
 }
 
 #[test]
-fn a_set_that_needs_each_of_its_examples_leaves_none_out() {
+fn corners_of_the_hull_are_not_left_out() {
     let database = compile(&["assets/clips/walk_110.bvh".to_owned()], &folder("leave_one_out_alone"));
     let report = fbcrowd(&["inspect", text(&database), "--leave-one-out", "--json"]).expect_code(0).json();
     assert_eq!(report["leave_one_out"]["outside"][0], "walk_110");
@@ -153,14 +152,14 @@ fn a_set_that_needs_each_of_its_examples_leaves_none_out() {
 }
 
 #[test]
-fn a_simulation_deforms_the_walk_of_a_set_once_though_it_lacks_something_even_then() {
+fn a_simulation_completes_a_set_once() {
     let folder = folder("deformed_once");
     let database = compile(&["assets/clips/jog_turn_110_left.bvh".to_owned()], &folder);
     let given = Arc::new(database_file::read(&database).unwrap().0);
     let once = library::augmented(Arc::clone(&given));
     let twice = library::augmented(Arc::clone(&once));
     let [(_, once_count), (_, twice_count)] = [&once, &twice].map(|db| library::deformed_walk(&given, db).unwrap());
-    assert!(once_count < twice_count && once.velocity_hull != twice.velocity_hull, "this set would not tell");
+    assert!(once_count < twice_count && once.velocity_hull != twice.velocity_hull, "this set would not show it");
 
     let (scene, recording) = (folder.join("scene.toml"), folder.join("scene.fbrec"));
     let one = "database = \"motion.fbdb\"\nduration_s = 0.1\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n";

@@ -1,4 +1,4 @@
-//! What is written through the built binary: nothing in place of what was read, nothing where it cannot be.
+//! Outputs of the built binary: they replace no input, and a path that cannot be written is named.
 
 mod support;
 
@@ -7,12 +7,12 @@ use std::fs;
 use support::{WALK, compile, fbcrowd, files, folder, scenario, text};
 
 #[test]
-fn a_database_replaces_no_clip_that_it_is_made_of() {
+fn a_database_replaces_none_of_its_clips() {
     let folder = folder("over_a_clip");
     let clip = folder.join("walk.bvh");
     fs::copy(support::repository().join(WALK), &clip).unwrap();
     let before = fs::read(&clip).unwrap();
-    fbcrowd(&["compile", text(&folder), "-o", text(&clip)]).expect_code(2).says(&["walk.bvh", "another place"]);
+    fbcrowd(&["compile", text(&folder), "-o", text(&clip)]).expect_code(2).says(&["walk.bvh", "another output path"]);
     assert!(fs::read(&clip).unwrap() == before);
 }
 
@@ -26,14 +26,14 @@ fn a_database_replaces_no_buffer_or_picture_of_a_clip() {
     for name in ["walk data.bin", "skin.png"] {
         let file = folder.join(name);
         fs::write(&file, "all there is").unwrap();
-        fbcrowd(&["compile", text(&clip), WALK, "-o", text(&file)]).expect_code(2).says(&[name, "another place"]);
+        fbcrowd(&["compile", text(&clip), WALK, "-o", text(&file)]).expect_code(2).says(&[name, "another output path"]);
         assert_eq!(fs::read_to_string(&file).unwrap(), "all there is");
     }
     fbcrowd(&["compile", text(&clip), WALK, "-o", text(&folder.join("motion.fbdb"))]).expect_code(1);
 }
 
 #[test]
-fn an_output_never_replaces_an_input_or_a_folder() {
+fn an_output_replaces_no_input_and_no_folder() {
     let folder = folder("replaced");
     let walk = folder.join("walk.bvh");
     fs::copy(support::repository().join(WALK), &walk).unwrap();
@@ -70,7 +70,7 @@ fn an_output_never_replaces_an_input_or_a_folder() {
 }
 
 #[test]
-fn a_place_that_cannot_be_written_is_named() {
+fn a_path_that_cannot_be_written_is_named() {
     let folder = folder("unwritable");
     let file = folder.join("a_file");
     fs::write(&file, "not a folder").unwrap();

@@ -1,17 +1,18 @@
-//! What the tests of the whole share: the built binary, a folder each, and other people's clips where they are.
+//! The tests of the command line share: the built binary, a folder for each test, and the clips of others.
 #![allow(dead_code, unreachable_pub, reason = "every test target includes this file and uses its own share of it")]
 
+use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use motiondb_compiler::truth::marine_files;
+use fbcrowd_bench::compiler::ground_truth::marine_files;
 use serde_json::Value;
 
 /// A bundled clip, from the repository's root.
 pub const WALK: &str = "assets/clips/walk_110.bvh";
 
-/// What a command did.
+/// The outcome of a command.
 pub struct Outcome {
     pub code: i32,
     pub stdout: String,
@@ -19,7 +20,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Fails with everything that the command said unless it ended with this code.
+    /// Fails with all output of the command unless it ended with this exit code.
     #[track_caller]
     pub fn expect_code(self, code: i32) -> Self {
         assert_eq!(self.code, code, "stdout:\n{}\nstderr:\n{}", self.stdout, self.stderr);
@@ -30,12 +31,12 @@ impl Outcome {
     /// Fails unless standard error names each of these.
     #[track_caller]
     pub fn says(self, words: &[&str]) -> Self {
-        // The reporter wraps long lines: compare without line breaks and their decoration.
+        // The reporter wraps long lines: the comparison ignores line breaks and their decoration.
         let flat =
             |text: &str| text.chars().filter(|letter| !letter.is_whitespace() && *letter != '│').collect::<String>();
-        let said = flat(&self.stderr);
+        let printed = flat(&self.stderr);
         for word in words {
-            assert!(said.contains(&flat(word)), "`{word}` is missing from:\n{}", self.stderr);
+            assert!(printed.contains(&flat(word)), "`{word}` is missing from:\n{}", self.stderr);
         }
         self
     }
@@ -92,20 +93,17 @@ pub fn scenario(folder: &Path, content: &str) -> String {
     text(&path).to_owned()
 }
 
-/// `../shared/NAME` beside the repository, or a line that says the test was skipped.
-pub fn shared(test: &str, name: &str) -> Option<PathBuf> {
-    let path = repository().join("../shared").join(name);
-    if path.exists() {
-        return Some(path);
-    }
-    println!("SKIPPED {test}: {} is not there", path.display());
-    None
+/// The folder of other people's clips. Tests that need it are ignored unless it is given.
+pub fn mocap() -> PathBuf {
+    let folder = env::var_os("FBCROWD_MOCAP").map(PathBuf::from);
+    let folder = folder.expect("set FBCROWD_MOCAP to the folder of other people's clips, as an absolute path");
+    assert!(folder.is_dir(), "FBCROWD_MOCAP: {} is no folder", folder.display());
+    folder
 }
 
 /// Paths of the twelve recordings that make the paper's 19 examples.
-pub fn marine_clips(test: &str) -> Option<Vec<String>> {
-    let mocap = shared(test, "mocap")?;
-    Some(marine_files(&mocap).iter().map(|path| text(path).to_owned()).collect())
+pub fn marine_clips() -> Vec<String> {
+    marine_files(&mocap()).iter().map(|path| text(path).to_owned()).collect()
 }
 
 /// Compiles clips into `folder/motion.fbdb`.
@@ -116,4 +114,15 @@ pub fn compile(clips: &[String], folder: &Path) -> PathBuf {
     arguments.extend(["-o", text(&database)]);
     fbcrowd(&arguments).expect_code(0);
     database
+}
+
+/// Fails unless JSON has exactly the keys and types of `docs/schemas/NAME.schema.json`.
+#[track_caller]
+pub fn check_schema(name: &str, json: &Value) {
+    let path = repository().join(format!("docs/schemas/{name}.schema.json"));
+    let schema = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let validator = jsonschema::validator_for(&serde_json::from_str(&schema).unwrap()).unwrap();
+    let errors: Vec<String> =
+        validator.iter_errors(json).map(|error| format!("{}: {error}", error.instance_path())).collect();
+    assert!(errors.is_empty(), "{name}:\n{}", errors.join("\n"));
 }

@@ -91,7 +91,6 @@ pub mod route;
 pub mod scenario;
 pub mod simulation;
 pub mod synthesis;
-pub mod wild;
 pub mod world;
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use std::f32::consts::TAU;
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
 use motiondb::body::{Foot, JOINT_COUNT, Joint, Pose, Skeleton};
-use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows};
+use motiondb::motion::{Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows};
 use motiondb::velocity_sets::velocity_hull::{self, Construction, VelocityHull};
 
 use crate::synthesis::pose::ik::reach;
@@ -37,6 +37,9 @@ const EXAMPLES: [(&str, f32, f32, f32, f32); 11] = [
     ("back", -0.6, 0.0, 0.0, 1.15),
 ];
 
+/// Index of the example that is deformed, m_sp: `walk`.
+const SEMI_PROCEDURAL: usize = 2;
+
 /// The database.
 pub(crate) fn test_db() -> MotionDb {
     let mut db = MotionDb {
@@ -57,7 +60,7 @@ pub(crate) fn test_db() -> MotionDb {
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
     db.velocity_hull = velocity_hull::build(&parameters, Construction::default());
     db.blend_space = motiondb::blend_space::triangulation::build(&parameters);
-    db.correspondence = motiondb_compiler::database::find_correspondence(&db, None);
+    db.correspondence = Correspondence::of(&db, SEMI_PROCEDURAL);
     db
 }
 

@@ -48,17 +48,14 @@ pub mod gait;
 pub mod ground;
 pub mod import;
 pub mod input;
-pub mod mutation;
 pub mod progress;
 pub mod read;
-pub mod reading_speed;
 pub mod retarget;
 pub mod rig;
 pub mod select;
 pub mod survey;
 #[cfg(test)]
 mod synthetic;
-pub mod truth;
 
 pub use compile::{Compiled, compile, compile_files, compile_manifest};
 pub use error::{CompileError, ManifestKey, Rejection, RejectionReason};

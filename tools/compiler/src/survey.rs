@@ -78,11 +78,11 @@ impl SourceGait {
 /// ```
 /// use std::path::Path;
 ///
-/// use motiondb_compiler::import::import;
+/// use motiondb_compiler::import_file;
 /// use motiondb_compiler::survey::{GaitKind, survey};
 ///
 /// let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/clips/walk_110.bvh");
-/// let clips = import(&file)?.into_iter().filter_map(|import| import.outcome.ok()).collect();
+/// let clips = import_file(&file)?.into_iter().filter_map(|import| import.outcome.ok()).collect();
 /// let gait = &survey(clips)[0].gait;
 /// assert_eq!(gait.kind, GaitKind::Steps);
 /// assert!(gait.step_count() >= 8);

@@ -1,26 +1,21 @@
 //! Long captures give an example of each of their steady windows, with the parameters of its seconds (real clips, test
 //! input only; `windows.csv` holds independently measured parameters of each second).
 
-use std::path::Path;
+mod support;
 
 use motiondb::motion::{MotionDb, MotionExample};
 use motiondb_compiler::compile_files;
+use support::mocap;
 
-const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
-/// Least duration of a window that is compared, s: a shorter one differs from its seconds.
+/// Shorter windows say little about the seconds that they lie in.
 const WINDOW_MIN_S: f32 = 1.9;
 /// An example may differ from the mean of its seconds, which are unsmoothed and begin and end elsewhere in the stride:
 /// m/s, °/s, m/s.
 const LIMITS: [f32; 3] = [0.1, 12.0, 0.1];
 
-/// The database of one clip, or a note that it is not here.
-fn compiled(test: &str, file: &str) -> Option<MotionDb> {
-    let path = Path::new(MOCAP).join(file);
-    if !path.is_file() {
-        println!("SKIPPED {test}: {} is missing", path.display());
-        return None;
-    }
-    Some(compile_files(&[path], &|_| ()).unwrap().db)
+/// The database of one clip.
+fn compiled(file: &str) -> MotionDb {
+    compile_files(&[mocap().join(file)], &|_| ()).unwrap().db
 }
 
 fn recorded(db: &MotionDb) -> Vec<&MotionExample> {
@@ -29,7 +24,7 @@ fn recorded(db: &MotionDb) -> Vec<&MotionExample> {
 
 /// v_f (m/s), ω_t (°/s), ω_s (m/s) of each second of a clip.
 fn seconds(file: &str) -> Vec<[f32; 3]> {
-    let text = std::fs::read_to_string(Path::new(MOCAP).join("windows.csv")).unwrap();
+    let text = std::fs::read_to_string(mocap().join("windows.csv")).unwrap();
     let rows = text.lines().filter(|line| line.starts_with(file));
     let values = |row: &str| row.split(',').skip(2).map(|value| value.parse::<f32>().unwrap()).collect::<Vec<f32>>();
     rows.map(|row| values(row).try_into().unwrap()).collect()
@@ -47,8 +42,8 @@ fn mean_of(seconds: &[[f32; 3]], [start_s, end_s]: [f32; 2]) -> [f32; 3] {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn windows_of_captures_agree_with_the_seconds_that_they_lie_in() {
-    let test = "windows_of_captures_agree_with_the_seconds_that_they_lie_in";
     let files = [
         "lafan1_skeleton/egg_walking.bvh",
         "bandai_namco/dataset-1_walk_normal_001.bvh",
@@ -58,7 +53,7 @@ fn windows_of_captures_agree_with_the_seconds_that_they_lie_in() {
         "bandai_namco/dataset-2_walk-turn-left_masculine_001.bvh",
     ];
     for file in files {
-        let Some(db) = compiled(test, file) else { return };
+        let db = compiled(file);
         let (examples, seconds) = (recorded(&db), seconds(file));
         let long = examples.iter().filter(|e| e.window_s[1] - e.window_s[0] > WINDOW_MIN_S);
         for example in long {
@@ -74,10 +69,9 @@ fn windows_of_captures_agree_with_the_seconds_that_they_lie_in() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn a_capture_of_changing_speed_gives_a_rich_set() {
-    let Some(db) = compiled("a_capture_of_changing_speed_gives_a_rich_set", "pfnn/LocomotionFlat04_000.bvh") else {
-        return;
-    };
+    let db = compiled("pfnn/LocomotionFlat04_000.bvh");
     let examples = recorded(&db);
     assert!(examples.len() >= 5, "{examples:#?}");
     assert!(examples.iter().any(|example| example.name == "LocomotionFlat04_000"));
@@ -97,9 +91,9 @@ fn a_capture_of_changing_speed_gives_a_rich_set() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn windows_of_one_walk_that_turns_and_turns_back_are_all_found() {
-    let test = "windows_of_one_walk_that_turns_and_turns_back_are_all_found";
-    let Some(db) = compiled(test, "lafan1_skeleton/egg_walking.bvh") else { return };
+    let db = compiled("lafan1_skeleton/egg_walking.bvh");
     let near = |turn_deg_s: f32| {
         let turns = recorded(&db).into_iter().map(|example| example.parameters.turn_rate_rad_s.to_degrees());
         turns.into_iter().any(|found| (found - turn_deg_s).abs() < 12.0)

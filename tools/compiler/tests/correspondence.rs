@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use motiondb::motion::{Alike, MotionDb, THRESHOLD_RATIO, distances_m, table};
-use motiondb_compiler::clip_files;
-use motiondb_compiler::compile::compile_manifest;
 use motiondb_compiler::input::manifest::Manifest;
+use motiondb_compiler::{clip_files, compile_manifest};
 
 const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 

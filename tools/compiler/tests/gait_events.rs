@@ -5,19 +5,19 @@
 //! measure the result. Later limits were chosen so that none of either got worse: no label is unseen any more. Labels are
 //! uncertain by half a frame at 30 frames per second, by up to four frames (33 ms) at 120.
 
+mod support;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 use motiondb::motion::{PHASE_COUNT, PhaseMap};
-use motiondb_compiler::ClipSettings;
 use motiondb_compiler::cycle::{GaitCycle, mean_stride};
 use motiondb_compiler::gait::{PerformerGait, WindowGait};
 use motiondb_compiler::ground::grounded_clip;
-use motiondb_compiler::import_with_settings;
 use motiondb_compiler::retarget::HumanClip;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
+use motiondb_compiler::{ClipSettings, import_with_settings};
+use support::mocap;
 
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
 const LABELS: &str = include_str!("gait_events/labels.csv");
 /// One frame of the slowest captures, seconds.
 const FRAME_S: f64 = 1.0 / 30.0;
@@ -53,7 +53,7 @@ fn labels() -> impl Iterator<Item = Label> {
 }
 
 fn human_clip(file: &str, clip: &str) -> HumanClip {
-    let found = import_with_settings(&ClipSettings::from(PathBuf::from(FOLDER).join(file))).unwrap();
+    let found = import_with_settings(&ClipSettings::from(mocap().join(file))).unwrap();
     found.into_iter().find(|import| import.clip == clip).unwrap().outcome.unwrap()
 }
 
@@ -74,12 +74,8 @@ fn nearest_error_s(times_s: &[f64], label_s: f64) -> f64 {
     errors.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(f64::INFINITY)
 }
 
-/// All labels with the errors of what is found, or a note that the clips are not here.
-fn found(test: &str) -> Option<Vec<Found>> {
-    if !Path::new(FOLDER).is_dir() {
-        println!("SKIPPED {test}: {FOLDER} is missing");
-        return None;
-    }
+/// All labels with the errors of what is found.
+fn found() -> Vec<Found> {
     let mut gaits: BTreeMap<(String, String), SourceGait> = BTreeMap::new();
     let error = |label: Label| {
         let key = (label.file.clone(), label.clip.clone());
@@ -88,7 +84,7 @@ fn found(test: &str) -> Option<Vec<Found>> {
         let error_frames = nearest_error_s(&times_s, label.frame / label.frame_rate_hz) * label.frame_rate_hz;
         Found { label, error_frames }
     };
-    Some(labels().map(error).collect())
+    labels().map(error).collect()
 }
 
 /// Fails unless this share of the errors is within the limit; lists the others.
@@ -121,8 +117,9 @@ fn print_errors(found: &[Found]) {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn events_are_within_a_source_frame_of_the_labels_at_30_frames_a_second() {
-    let Some(found) = found("events_are_within_a_source_frame_of_the_labels_at_30_frames_a_second") else { return };
+    let found = found();
     print_errors(&found);
     let at_30: Vec<&Found> = found.iter().filter(|found| found.label.frame_rate_hz < 31.0).collect();
     assert!(at_30.len() > 70, "{}", at_30.len());
@@ -132,23 +129,26 @@ fn events_are_within_a_source_frame_of_the_labels_at_30_frames_a_second() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn events_are_within_33_ms_of_what_the_labels_leave_open_at_any_rate() {
-    let Some(found) = found("events_are_within_33_ms_of_what_the_labels_leave_open_at_any_rate") else { return };
+    let found = found();
     let limit = |label: &Label| FRAME_S * label.frame_rate_hz + label.uncertain_frames;
     check_share(&found.iter().collect::<Vec<_>>(), limit, 0.98);
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn events_are_within_33_ms_of_the_labels_at_120_frames_a_second() {
-    let Some(found) = found("events_are_within_33_ms_of_the_labels_at_120_frames_a_second") else { return };
+    let found = found();
     let at_120: Vec<&Found> = found.iter().filter(|found| found.label.frame_rate_hz > 119.0).collect();
     assert!(at_120.len() > 15, "{}", at_120.len());
     check_share(&at_120, |label| FRAME_S * label.frame_rate_hz, 1.0);
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole() {
-    let Some(found) = found("neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole") else { return };
+    let found = found();
     for event in ["strike", "off"] {
         let errors_s: Vec<f64> = found
             .iter()
@@ -193,8 +193,9 @@ fn key_phase(cycle: &GaitCycle, side: usize, landmark: usize, step: usize) -> f3
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn the_mean_cycles_key_times_are_near_the_labels_of_its_strides() {
-    let Some(found) = found("the_mean_cycles_key_times_are_near_the_labels_of_its_strides") else { return };
+    let found = found();
     let mut keys = BTreeMap::new();
     let of_cycle = |Found { label, .. }: Found| {
         let frames = keys
@@ -266,11 +267,8 @@ fn shaken(clip: &HumanClip, amplitude_m: f64) -> HumanClip {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn events_stay_where_they_are_at_other_frame_rates() {
-    if !Path::new(FOLDER).is_dir() {
-        println!("SKIPPED events_stay_where_they_are_at_other_frame_rates: {FOLDER} is missing");
-        return;
-    }
     for (name, clip) in clips() {
         let clip = HumanClip { first_frame: 0, ..clip };
         for frame_rate_hz in [24.0, 30.0, 60.0, 120.0] {
@@ -280,11 +278,8 @@ fn events_stay_where_they_are_at_other_frame_rates() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn events_stay_where_they_are_in_noise() {
-    if !Path::new(FOLDER).is_dir() {
-        println!("SKIPPED events_stay_where_they_are_in_noise: {FOLDER} is missing");
-        return;
-    }
     for (name, clip) in clips() {
         for amplitude_m in [0.001, 0.002, 0.003] {
             check_same_events(&format!("{name} ± {amplitude_m} m"), &clip, shaken(&clip, amplitude_m));

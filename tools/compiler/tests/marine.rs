@@ -1,6 +1,8 @@
 //! The paper's own database: twelve recordings of `SmartBody`'s `ChrMarine`, nineteen examples (`FbCrowd` §6; Shapiro
 //! 2011; test input only).
 
+mod support;
+
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -8,8 +10,7 @@ use motiondb::body::Pose;
 use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::validate::validate;
 use motiondb_compiler::compile_files;
-
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap/smartbody_converted");
+use support::mocap;
 
 /// v_f (m/s), ω_t (°/s), ω_s (m/s) of each recording as measured by others, on the whole clip.
 const TABLE: [(&str, [f32; 3]); 12] = [
@@ -44,21 +45,16 @@ const SLIDES_CM_S: [(&str, f32); 11] = [
 ];
 const SLIDE_RATIO: f32 = 1.15;
 
-fn files() -> Option<Vec<PathBuf>> {
-    let files: Vec<PathBuf> =
-        TABLE.iter().map(|(name, _)| PathBuf::from(FOLDER).join(format!("ChrMarine_{name}.bvh"))).collect();
-    files.iter().all(|file| file.is_file()).then_some(files)
+fn files() -> Vec<PathBuf> {
+    let folder = mocap().join("smartbody_converted");
+    TABLE.iter().map(|(name, _)| folder.join(format!("ChrMarine_{name}.bvh"))).collect()
 }
 
-/// The database, or a note that the recordings are not here.
-fn marine(test: &str) -> Option<MotionDb> {
-    let Some(files) = files() else {
-        println!("SKIPPED {test}: {FOLDER} is missing");
-        return None;
-    };
-    let compiled = compile_files(&files, &|_| ()).unwrap();
+/// The database.
+fn marine() -> MotionDb {
+    let compiled = compile_files(&files(), &|_| ()).unwrap();
     assert!(compiled.rejected.is_empty(), "{:?}", compiled.rejected);
-    Some(compiled.db)
+    compiled.db
 }
 
 fn example<'a>(db: &'a MotionDb, name: &str) -> &'a MotionExample {
@@ -79,8 +75,9 @@ fn check_near(name: &str, found: [f32; 3], wanted: [f32; 3], limits: [f32; 3]) {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn twelve_recordings_give_the_papers_nineteen_examples() {
-    let Some(db) = marine("twelve_recordings_give_the_papers_nineteen_examples") else { return };
+    let db = marine();
     assert_eq!(db.examples.len(), 19);
     let mirrored: BTreeSet<&str> = db.examples.iter().filter(|e| e.mirrored).map(|e| e.name.as_str()).collect();
     let turning = TABLE.iter().filter(|(name, _)| name.ends_with("Rt01"));
@@ -89,16 +86,18 @@ fn twelve_recordings_give_the_papers_nineteen_examples() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn the_database_keeps_every_invariant() {
-    let Some(db) = marine("the_database_keeps_every_invariant") else { return };
+    let db = marine();
     for check in validate(&db) {
         assert_eq!(check.broken, None, "{}", check.name);
     }
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn parameters_are_those_of_the_table() {
-    let Some(db) = marine("parameters_are_those_of_the_table") else { return };
+    let db = marine();
     for (name, [speed, turn, strafe]) in TABLE {
         let limits = [(0.08 * speed.abs()).max(0.08), 8.0, (0.08 * strafe.abs()).max(0.1)];
         check_near(name, rates(example(&db, name)), [speed, turn, strafe], limits);
@@ -106,8 +105,9 @@ fn parameters_are_those_of_the_table() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn sources_are_those_of_the_table() {
-    let Some(db) = marine("sources_are_those_of_the_table") else { return };
+    let db = marine();
     for (name, [speed, turn, strafe]) in TABLE {
         let file = format!("ChrMarine_{name}.bvh");
         let source = db.sources.iter().find(|source| source.file == file).unwrap();
@@ -118,8 +118,9 @@ fn sources_are_those_of_the_table() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn gait_noise_is_no_turning() {
-    let Some(db) = marine("gait_noise_is_no_turning") else { return };
+    let db = marine();
     for name in ["Meander01", "Walk01", "Jog01", "Run01"] {
         let [_, turn, strafe] = rates(example(&db, name));
         assert_eq!([turn, strafe], [0.0, 0.0], "{name}");
@@ -127,9 +128,9 @@ fn gait_noise_is_no_turning() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn mirrors_negate_turning_and_strafing_and_come_half_a_cycle_later() {
-    let test = "mirrors_negate_turning_and_strafing_and_come_half_a_cycle_later";
-    let Some(db) = marine(test) else { return };
+    let db = marine();
     for mirror in db.examples.iter().filter(|example| example.mirrored) {
         let original = example(&db, mirror.name.trim_start_matches("ChrMarine_").trim_end_matches("_mirrored"));
         assert_eq!(mirror.parameters, original.parameters.mirrored());
@@ -143,8 +144,9 @@ fn mirrors_negate_turning_and_strafing_and_come_half_a_cycle_later() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn planted_feet_slide_no_more_than_in_the_recordings() {
-    let Some(db) = marine("planted_feet_slide_no_more_than_in_the_recordings") else { return };
+    let db = marine();
     for (name, slide_cm_s) in SLIDES_CM_S {
         let found = example(&db, name);
         assert!(found.planted_slide_cm_s <= SLIDE_RATIO * slide_cm_s, "{name}: {} cm/s", found.planted_slide_cm_s);
@@ -155,8 +157,9 @@ fn planted_feet_slide_no_more_than_in_the_recordings() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn slide_is_measured_at_the_heel_joint_over_the_sole() {
-    let Some(db) = marine("slide_is_measured_at_the_heel_joint_over_the_sole") else { return };
+    let db = marine();
     for foot in &db.skeleton.feet {
         let heel_m = foot.measured_m[0];
         assert!((-0.12..-0.05).contains(&heel_m.z), "{heel_m} is no heel");
@@ -165,8 +168,9 @@ fn slide_is_measured_at_the_heel_joint_over_the_sole() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn feet_are_under_the_body_at_their_mid_stance() {
-    let Some(db) = marine("feet_are_under_the_body_at_their_mid_stance") else { return };
+    let db = marine();
     for (index, example) in db.examples.iter().enumerate().filter(|(_, example)| example.key_times_s.is_some()) {
         for (phase, side) in [(0, 1), (PHASE_COUNT / 2, 0)] {
             let row = index * PHASE_COUNT + phase;
@@ -188,8 +192,9 @@ fn travel(example: &MotionExample) -> glam::Vec2 {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn idle_stands_with_the_period_of_the_walk_that_is_deformed() {
-    let Some(db) = marine("idle_stands_with_the_period_of_the_walk_that_is_deformed") else { return };
+    let db = marine();
     let correspondence = db.correspondence.as_ref().unwrap();
     let walk = &db.examples[correspondence.semi_procedural as usize];
     assert_eq!(walk.name, "ChrMarine_Walk01");
@@ -201,8 +206,9 @@ fn idle_stands_with_the_period_of_the_walk_that_is_deformed() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn both_steps_of_the_walk_have_a_correspondence() {
-    let Some(db) = marine("both_steps_of_the_walk_have_a_correspondence") else { return };
+    let db = marine();
     let found = db.correspondence.as_ref().unwrap();
     let map = db.examples[found.semi_procedural as usize].phase_map;
     let first = found.pairs_s.iter().filter(|pair| map.phase(pair[0]) < 0.5).count();
@@ -210,11 +216,9 @@ fn both_steps_of_the_walk_have_a_correspondence() {
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn folder_order_and_threads_leave_every_byte_as_it_is() {
-    let Some(mut files) = files() else {
-        println!("SKIPPED folder_order_and_threads_leave_every_byte_as_it_is: {FOLDER} is missing");
-        return;
-    };
+    let mut files = files();
     let compiled = |files: &[PathBuf]| compile_files(files, &|_| ()).unwrap().db;
     let folder = std::env::temp_dir().join(format!("fbcrowd-marine-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();

@@ -1,11 +1,12 @@
 //! Transitions, jumps, dances, deaths and crawling give no example (real clips, test input only).
 
-use std::path::{Path, PathBuf};
+mod support;
+
+use std::path::PathBuf;
 
 use motiondb::diagnostic::Diagnostic;
 use motiondb_compiler::{clip_files, compile_files};
-
-const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
+use support::mocap;
 
 /// Compiles files and checks that none of `clips` gives an example and each has a reason.
 fn check_none(files: &[PathBuf], clips: &[&str]) {
@@ -18,27 +19,19 @@ fn check_none(files: &[PathBuf], clips: &[&str]) {
     }
 }
 
-fn folder(test: &str, name: &str) -> Option<PathBuf> {
-    let folder = Path::new(MOCAP).join(name);
-    if !folder.is_dir() {
-        println!("SKIPPED {test}: {} is missing", folder.display());
-        return None;
-    }
-    Some(folder)
-}
-
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn transitions_between_standing_and_walking_are_no_examples() {
-    let test = "transitions_between_standing_and_walking_are_no_examples";
-    let Some(folder) = folder(test, "smartbody_converted") else { return };
+    let folder = mocap().join("smartbody_converted");
     let clips = ["StepBackwardsRt01", "StepForwardRt01", "StepSidewaysRt01", "Idle01_ToWalk01", "Walk01_ToIdle01"];
     let files = clip_files(&folder).unwrap();
     check_none(&files, &clips);
 }
 
 #[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
 fn what_is_no_gait_is_no_example() {
-    let Some(folder) = folder("what_is_no_gait_is_no_example", "gltf") else { return };
+    let folder = mocap().join("gltf");
     let files = clip_files(&folder).unwrap();
     check_none(&files, &["Dance", "Death", "Jump", "Punch", "Sitting", "Crawling", "Crouching", "Dodge_Left", "TPose"]);
 }

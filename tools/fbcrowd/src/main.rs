@@ -1,31 +1,14 @@
 //! `fbcrowd`: clips to a motion database, a database to a crowd, a crowd to pictures.
 //!
-//! One file a subcommand under [`cmd`]. Results go to standard output, everything else to standard error. Exit codes: 0
-//! yes; 1 the answer is no, or an output was written though some input was refused; 2 bad usage or input, nothing
-//! written.
+//! One file a subcommand under [`cmd`]; what it reports is made in [`report`] and printed by [`terminal`]. Results go to
+//! standard output, all else to standard error. Exit codes: 0 yes; 1 the answer is no, or an output was written though
+//! some input was refused; 2 bad usage or input, nothing written.
 
-mod advice;
 mod cmd;
-mod compile_report;
-mod compile_text;
-mod compiling;
-mod correspondence_between;
-mod example_table;
-mod failure;
-mod gait_figures;
-mod grouping;
-mod leave_one_out;
-mod leave_one_out_text;
-mod likeness;
-mod output;
-mod pose_sequence;
-mod progress;
-mod readable;
-mod rendering;
+#[cfg(test)]
+mod docs;
 mod report;
-mod simulation;
-mod stages;
-mod statistics;
+mod terminal;
 
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
@@ -33,9 +16,9 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use miette::MietteHandlerOpts;
 
-use crate::failure::{Answer, Failure};
+use crate::terminal::failure::{Answer, Failure};
 
-/// More than any machine has cores; tens of thousands would keep it from all other work.
+/// Most threads: more than any machine has cores.
 const THREADS_MAX: i64 = 1024;
 
 /// Clips to a motion database, a database to a crowd, a crowd to pictures.
@@ -66,9 +49,9 @@ enum Command {
 fn main() -> ExitCode {
     let cli = Cli::parse();
     if !io::stderr().is_terminal() {
-        // Whoever reads a log looks for whole lines.
-        let whole = || MietteHandlerOpts::new().wrap_lines(false).build();
-        miette::set_hook(Box::new(move |_| Box::new(whole()))).expect("set once");
+        // Programs that read a log search whole lines.
+        let whole_lines = || MietteHandlerOpts::new().wrap_lines(false).build();
+        miette::set_hook(Box::new(move |_| Box::new(whole_lines()))).expect("set once");
     }
     match use_threads(cli.threads).and_then(|()| dispatch(cli.command)) {
         Ok(Answer::Yes) => ExitCode::SUCCESS,
@@ -97,5 +80,5 @@ fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(usize::from(threads))
         .build_global()
-        .map_err(|error| Failure::bad(format!("cannot start {threads} threads: {error}; ask for fewer")))
+        .map_err(|error| Failure::bad(format!("cannot start {threads} threads: {error}; use fewer")))
 }

@@ -12,12 +12,12 @@ use crate::synthesis::SynthesisContext;
 use crate::world::obstacles::Obstacles;
 
 /// The root of a disc that moves as planned.
-pub(crate) fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
+pub fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
     Root { position_m: root.position_m + dt_s * plan.velocity_mps, facing_rad: plan.facing_rad }
 }
 
 /// The root kept out of walls, on the side where it was at `from_m` before the step.
-pub(crate) fn outside_walls(from_m: Vec2, root: Root, radius_m: f32, obstacles: &Obstacles) -> Root {
+pub fn outside_walls(from_m: Vec2, root: Root, radius_m: f32, obstacles: &Obstacles) -> Root {
     Root { position_m: obstacles.clamp_path(from_m, root.position_m, radius_m), ..root }
 }
 

@@ -6,3 +6,5 @@
 
 pub(crate) mod body_to_disc;
 pub(crate) mod decoupled;
+
+pub use body_to_disc::{as_planned, outside_walls};

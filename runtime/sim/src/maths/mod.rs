@@ -6,7 +6,7 @@
 pub(crate) mod angle;
 pub(crate) mod arc;
 pub(crate) mod decay;
-pub(crate) mod polygon;
+pub mod polygon;
 pub(crate) mod random;
 pub(crate) mod segment_distance;
 pub(crate) mod sweep;

@@ -24,7 +24,7 @@ pub(crate) fn is_simple(corners_m: &[Vec2]) -> bool {
 }
 
 /// Whether a point lies inside, by the even–odd rule; a point on an edge counts as either.
-pub(crate) fn contains(corners_m: &[Vec2], point_m: Vec2) -> bool {
+pub fn contains(corners_m: &[Vec2], point_m: Vec2) -> bool {
     let point = DVec2::from(point_m);
     let crossings = edges(corners_m)
         .filter(|&[a, b]| (a.y > point.y) != (b.y > point.y) && (side(a, b, point) > 0.0) == (b.y > a.y));

@@ -91,7 +91,7 @@ pub enum RejectionReason {
     )]
     NoArms {
         /// First and last joint of each likeliest leg. On a skeleton without knees or ankles these are the arms.
-        likeliest_legs: [[String; 2]; 2],
+        likeliest_legs: Box<[[String; 2]; 2]>,
     },
     /// A pose is not finite.
     #[error("positions or rotations are not finite: the skeleton is degenerate; export the clip again")]

@@ -16,10 +16,12 @@ use crate::rig::roles::JointMap;
 /// One clip to import. The default of every field but `path` lets the compiler find the value.
 ///
 /// ```
+/// use std::path::PathBuf;
+///
 /// use motiondb_compiler::{ClipSettings, import_with_settings};
 ///
-/// let walk = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips/walk_110.bvh");
-/// let settings = ClipSettings { frames: Some([1, 61]), ..ClipSettings::from(walk.into()) };
+/// let walk = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips/walk_110.bvh"));
+/// let settings = ClipSettings { frames: Some([1, 61]), ..ClipSettings::from(walk) };
 /// let clip = import_with_settings(&settings)?.remove(0).outcome?;
 /// assert_eq!(clip.frames.len(), 61);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -13,7 +13,7 @@ thread_local! {
 static HOOK: Once = Once::new();
 
 /// The result of `parse`; none if it panics. `parse` must own everything that a panic leaves half-done.
-pub(crate) fn catch<T>(parse: impl FnOnce() -> T) -> Option<T> {
+pub fn catch<T>(parse: impl FnOnce() -> T) -> Option<T> {
     HOOK.call_once(|| {
         let present = panic::take_hook();
         panic::set_hook(Box::new(move |info| {

@@ -7,7 +7,7 @@
 
 pub(crate) mod axis;
 pub mod bvh;
-pub(crate) mod catch_panic;
+pub mod catch_panic;
 pub(crate) mod decimal;
 pub mod gltf;
 pub(crate) mod malformed;

@@ -76,7 +76,7 @@ pub(crate) fn legs_and_arms(
             best = Some((score, [legs, arms.clone()]));
         }
     }
-    best.map(|(_, limbs)| limbs).ok_or(RejectionReason::NoArms { likeliest_legs })
+    best.map(|(_, limbs)| limbs).ok_or(RejectionReason::NoArms { likeliest_legs: Box::new(likeliest_legs) })
 }
 
 /// Names of a limb's first and last joint.

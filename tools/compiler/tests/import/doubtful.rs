@@ -6,7 +6,7 @@ use motiondb::body::Joint;
 use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use motiondb_compiler::{Axis, ClipSettings, RejectionReason, import_bytes, import_with_settings};
 
-use super::written::bvh_text;
+use super::written_body::bvh_text;
 
 fn imported(text: &str) -> Result<super::HumanClip, RejectionReason> {
     let imports = import_bytes(Path::new("clip.bvh"), text.as_bytes());
@@ -88,8 +88,9 @@ fn text_after_the_last_row_is_not_motion() {
 
 #[test]
 fn a_walk_at_twice_its_rate_is_inhuman() {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips"));
     let is_inhuman = |clip: &str, rate: f64| {
-        let path = Path::new(super::on_the_spot::BUNDLED).join(clip).with_extension("bvh");
+        let path = folder.join(clip).with_extension("bvh");
         let settings = ClipSettings { frame_rate_hz: Some(30.0 * rate), ..ClipSettings::from(path) };
         let human = import_with_settings(&settings).unwrap().remove(0).outcome.unwrap();
         matches!(human.unfit, Some(Unfit::InhumanGait { .. }))
@@ -157,7 +158,7 @@ fn a_body_without_ankles_names_its_likeliest_legs() {
         footless.replace_range(start..end, "");
     }
     let likeliest_legs = [["Left Arm", "LeftHand"], ["Right Arm", "RightHand"]].map(|limb| limb.map(str::to_owned));
-    check_rejected(&footless, &RejectionReason::NoArms { likeliest_legs });
+    check_rejected(&footless, &RejectionReason::NoArms { likeliest_legs: Box::new(likeliest_legs) });
 }
 
 #[test]

@@ -1,28 +1,28 @@
-//! `fbcrowd clips`: writes the bundled clips anew.
+//! `fbcrowd clips`: writes the bundled clips.
 
 use std::fs;
 use std::path::PathBuf;
 
 use motiondb::files::atomic_file;
 
-use crate::failure::{Answer, Failure};
-use crate::output;
+use crate::terminal::failure::{Answer, Failure};
+use crate::terminal::output;
 
 /// Write the bundled locomotion clips.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd clips --out assets/clips")]
 pub(crate) struct Args {
-    /// The folder to write them to.
+    /// Folder for the clips.
     #[arg(short, long, alias = "output", value_name = "DIR")]
     out: PathBuf,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    fs::create_dir_all(&args.out).map_err(|error| Failure::unwritable(&args.out, &error))?;
+    fs::create_dir_all(&args.out).map_err(|error| Failure::unwritable(&args.out, error))?;
     let clips = clipgen::generate();
     for clip in &clips {
         let path = args.out.join(&clip.name);
-        atomic_file::write(&path, &clip.bytes).map_err(|error| Failure::unwritable(&path, &error))?;
+        atomic_file::write(&path, &clip.bytes).map_err(|error| Failure::unwritable(&path, error))?;
     }
     output::print(&format!("{} clips in {}", clips.len(), args.out.display()))?;
     Ok(Answer::Yes)

@@ -4,15 +4,19 @@ use std::io::{self, IsTerminal};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use motiondb::files::database_file;
+use fbcrowd_jobs::compiling::{self, Overrides};
+use fbcrowd_jobs::stages::Stopwatch;
+use fbcrowd_jobs::{JobError, JobEvent};
 use motiondb::velocity_sets::velocity_hull::Construction;
-use motiondb_compiler::compile::Compiled;
+use motiondb_compiler::Compiled;
 
-use crate::compile_report::CompileReport;
-use crate::compiling::{self, Overrides};
-use crate::failure::{Answer, Failure};
-use crate::stages::Stopwatch;
-use crate::{compile_text, output};
+use crate::cmd::refused;
+use crate::report::compile_report::CompileReport;
+use crate::report::compile_text;
+use crate::report::next_steps::with_next_steps;
+use crate::terminal::failure::{Answer, Failure};
+use crate::terminal::output;
+use crate::terminal::progress::ProgressDisplay;
 
 /// Compile motion clips into a database.
 ///
@@ -27,41 +31,34 @@ pub(crate) struct Args {
     /// BVH, GLB or glTF files, folders of them (with their `manifest.toml`), or one manifest.
     #[arg(required = true, value_name = "CLIPS")]
     clips: Vec<PathBuf>,
-    /// The database.
+    /// The database to write.
     #[arg(short, long, value_name = "FILE.fbdb")]
     output: PathBuf,
     /// Write nothing where any input is refused.
     #[arg(long)]
     strict: bool,
-    /// Print the report as JSON, with exit code 2 too: `output` (null where nothing was written), `example_count,
-    /// mirror_count, simplex_count, refused[] {file, clip, reason}, unused[] {file, clip, reason}` (human clips that
-    /// give no example), `warnings[] {file, clip, note, text}` (a note asks for nothing), `diagnostics[] {file, clip,
-    /// severity, code, arguments, text}` (of all human clips; severity is "note", "warning" or "no_example"), `used[] {file, clip,
-    /// examples[] {name, mirrored, window_s, speed_mps, turn_rate_rad_s, strafe_mps}}`, `quality[] {example,
-    /// planted_slide_cm_s, planted_share, seam_angle_ratio, seam_velocity_ratio, penetration_mm, knee_flexion_min_deg,
-    /// leg_extension_max, range_excess_deg, range_excess_joint}`, `findings[] {example, measure, value, threshold,
-    /// unit, sentence}`, `coverage[] {lack, sentence}`, `stages[] {name, seconds}`, `next[]`.
+    /// Print the report as JSON, with exit code 2 too; docs/json.md describes it.
     #[arg(long)]
     json: bool,
-    /// Most examples, mirrors not counted, whatever the manifest says: m_sp, one that stands and those that reach
-    /// farthest come first.
-    #[arg(long, value_name = "N", value_parser = from_one_on)]
+    /// Most examples, mirrors not counted; overrides the manifest. The base walk (m_sp), one example that stands and
+    /// the examples that reach farthest come first.
+    #[arg(long, value_name = "N", value_parser = at_least_one)]
     max_examples: Option<NonZeroUsize>,
-    /// How the motions bound velocities, whatever the manifest says.
+    /// How the examples bound velocities; overrides the manifest.
     #[arg(long, value_enum, value_name = "SETS")]
     velocity_hull: Option<VelocitySets>,
 }
 
-fn from_one_on(text: &str) -> Result<NonZeroUsize, &'static str> {
-    text.parse().map_err(|_| "a whole number from 1 on is wanted")
+fn at_least_one(text: &str) -> Result<NonZeroUsize, &'static str> {
+    text.parse().map_err(|_| "not a whole number from 1 on")
 }
 
 /// [`Construction`] on the command line.
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum VelocitySets {
-    /// A set for bodies that turn and one for bodies that hold their facing.
+    /// One set for bodies that turn, and one for bodies that hold their facing.
     TurningAndHolding,
-    /// The paper's own construction alone: side-stepping and backward motions bound nothing.
+    /// The paper's construction alone: side-stepping and backward motions bound nothing.
     Paper,
 }
 
@@ -77,38 +74,34 @@ impl From<VelocitySets> for Construction {
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let overrides =
         Overrides { velocity_hull: args.velocity_hull.map(Construction::from), max_examples: args.max_examples };
-    let stopwatch = Stopwatch::default();
-    let compiled = compiling::compile(&args.clips, &args.output, &overrides, &stopwatch);
-    if let Err(Failure::NoExample { rejected, sources }) = &compiled
-        && args.json
-    {
-        output::print_json(&CompileReport::without_examples(rejected.clone(), sources))?;
+    let (stopwatch, progress) = (Stopwatch::default(), ProgressDisplay::default());
+    let observer = |event: JobEvent<'_>| {
+        stopwatch.observe(event);
+        progress.observe(event);
+    };
+    let compiled = compiling::compile(&args.clips, &args.output, &overrides, &observer);
+    if let (true, Err(JobError::NoExample { rejected, sources })) = (args.json, &compiled) {
+        output::print_json(&with_next_steps(CompileReport::without_examples(rejected.clone(), sources)))?;
     }
-    let compiled = compiled?;
-    let answer = compiling::answer(&compiled.rejected);
+    let Compiled { db, rejected } = compiled?;
+    let answer = refused::answer(&rejected);
     if args.strict && answer == Answer::No {
-        return refuse(args, compiled, &stopwatch);
+        refused::say(&rejected);
+        if args.json {
+            output::print_json(&with_next_steps(CompileReport::new(None, &db, rejected, stopwatch.stage_times())))?;
+        }
+        return Err(Failure::bad("some input was refused, and --strict allows none; repair it or leave it out"));
     }
-    // On a terminal the report says it.
+    // On a terminal the report lists the refused clips.
     if !io::stdout().is_terminal() {
-        compiling::say_refused(&compiled.rejected);
+        refused::say(&rejected);
     }
-    stopwatch.begin("writing");
-    database_file::write(&args.output, &compiled.db)?;
-    let report = CompileReport::new(Some(&args.output), &compiled.db, compiled.rejected, stopwatch.finish());
+    compiling::write_database(&args.output, &db, &observer)?;
+    let report = with_next_steps(CompileReport::new(Some(&args.output), &db, rejected, stopwatch.stage_times()));
     if args.json {
         output::print_json(&report)?;
     } else {
         output::print(&compile_text::text(&report))?;
     }
     Ok(answer)
-}
-
-/// Says what was refused, and that it is final.
-fn refuse(args: &Args, Compiled { db, rejected }: Compiled, stopwatch: &Stopwatch) -> Result<Answer, Failure> {
-    compiling::say_refused(&rejected);
-    if args.json {
-        output::print_json(&CompileReport::new(None, &db, rejected, stopwatch.finish()))?;
-    }
-    Err(Failure::bad("some input was refused, and --strict allows none; repair it or leave it out"))
 }

@@ -1,10 +1,10 @@
-//! `fbcrowd completions`: names that complete in the shell.
+//! `fbcrowd completions`: a script with which a shell completes commands and options.
 
 use clap::CommandFactory;
 use clap_complete::Shell;
 
-use crate::failure::{Answer, Failure};
-use crate::output;
+use crate::terminal::failure::{Answer, Failure};
+use crate::terminal::output;
 
 /// Print the completion script of a shell.
 #[derive(clap::Args)]

@@ -1,19 +1,23 @@
-//! `fbcrowd inspect`: what a database holds, or what clips are, as a table, JSON and pictures.
+//! `fbcrowd inspect`: what a database or clips hold, as tables, JSON and pictures.
 
 use std::path::{Path, PathBuf};
 
+use fbcrowd_jobs::compiling;
+use fbcrowd_jobs::leave_one_out::leave_one_out;
 use fbcrowd_render::plots::database::write_database_plots;
 use motiondb::files::database_file::{self, FileError};
 use motiondb_compiler::ClipSet;
 use motiondb_compiler::survey::survey;
 
-use crate::correspondence_between::Between;
-use crate::failure::{Answer, Failure, NO_HUMAN};
-use crate::leave_one_out::leave_one_out;
-use crate::report::{self, DatabaseReport, SourcesReport};
-use crate::{compiling, output};
+use crate::cmd::refused;
+use crate::report::correspondence_table::CorrespondenceTable;
+use crate::report::inspect_report::{BrokenInvariant, BrokenReport, ClipsReport, DatabaseReport};
+use crate::report::inspect_text;
+use crate::terminal::failure::{ALL_REFUSED, Answer, Failure};
+use crate::terminal::output;
+use crate::terminal::progress::ProgressDisplay;
 
-/// Show what a database holds, or what was found in clips.
+/// Show what a database or clips hold.
 ///
 /// Exit code 0: shown; 1: an invariant of the database is broken, or some clip was refused; 2: nothing can be read.
 #[derive(clap::Args)]
@@ -24,37 +28,20 @@ pub(crate) struct Args {
     /// A database, or clips: files or folders.
     #[arg(required = true, value_name = "FILE.fbdb|CLIPS")]
     input: Vec<PathBuf>,
-    /// Print JSON: `sources[] {file, clip, speed_mps, turn_rate_rad_s, strafe_mps, up_axis, metres_per_unit,
-    /// frame_rate_hz, warnings[], diagnostics[] {severity, code, arguments, text}}`, where `warnings[]` are the
-    /// sentences of all `diagnostics[]`; of clips each with `gait {kind, reason, planted_share, right[] {strike_s,
-    /// toe_off_s}, left[] {strike_s, toe_off_s}}`: kind is "steps", "stands" or "unsteady" (with a reason), strikes and
-    /// toe-offs are those of the whole clip, in seconds from the file's first frame, null where the clip begins or ends
-    /// within the contact; and `refused[] {file, clip, reason}`; of a database also `examples[] {name, source, clip,
-    /// window_s, mirrored, speed_mps, turn_rate_rad_s, strafe_mps, duration_s, key_times_s, planted_slide_cm_s,
-    /// planted_share}`, `velocity_hull {construction, turning_mps[][2], holding_mps[][2],
-    /// sharp_turn_edges_mps[][2][2]}`, `blend_space {dimension, simplices[][], covered_share}`, `correspondence
-    /// {semi_procedural, blending, pairs_s[][2]}` or null, and `coverage[] {lack, sentence}`: where the set is thin; of
-    /// one that breaks an invariant only `broken {invariant, detail}`. Key times: right toe-off, right heel strike,
-    /// left toe-off, left heel strike, from right mid-stance.
+    /// Print JSON; docs/json.md describes it.
     #[arg(long)]
     json: bool,
-    /// Write pictures of a database: velocity sets, parameters, where they are thin, bodies, steps, and how alike the
-    /// poses of m_sp and m_mb are.
+    /// Write pictures of a database: velocity sets, parameters, where the examples are thin, bodies, steps, and how
+    /// similar the poses of m_sp and m_mb are.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
     /// Rebuild a database without each of its recorded examples (and its mirror), blend at its parameters, and compare:
-    /// root-mean-square distance over the cycle, of all joints and of each by itself, beside that of the nearest other
-    /// example. In JSON `leave_one_out {examples[] {name, blended_rmse_m, nearest_rmse_m, joint_blended_rmse_m[22],
-    /// joint_nearest_rmse_m[22], nearest, mix[] {name, share}}, outside[], blended_better_share, median_blended_rmse_m,
-    /// median_nearest_rmse_m, median_joint_blended_rmse_m, median_joint_nearest_rmse_m, per_joint[] {joint,
-    /// median_blended_rmse_m, median_nearest_rmse_m}}`; `joint_…` in the order of `per_joint`; `median_joint_…` over
-    /// all joints of all examples; `outside` are corners of the hull, which nothing else reaches.
+    /// the root-mean-square distance over the cycle, of all joints and of each joint, beside that of the nearest other
+    /// example.
     #[arg(long)]
     leave_one_out: bool,
-    /// Where synthesis could switch between any two examples of a database: times at which their poses (places and
-    /// velocities of the joints) are alike. In JSON `correspondence_between {from, to, pairs_s[][2], distances_m[]}`;
-    /// with --plots also a picture of that pair's distances. A body that stands has no steps: each step of the other
-    /// meets some time of standing.
+    /// List the times at which two examples of a database have similar poses (positions and velocities of the joints),
+    /// so that synthesis could change from one to the other. With --plots, also draw the distances of all their poses.
     #[arg(long, num_args = 2, value_names = ["FROM", "TO"])]
     correspondence: Option<Vec<String>>,
 }
@@ -63,7 +50,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     match args.input.as_slice() {
         [database] if is_database(database) => inspect_database(args, database),
         inputs if inputs.iter().any(|input| is_database(input)) => {
-            Err(Failure::bad("a database is shown alone; inspect one at a time, and clips by themselves"))
+            Err(Failure::bad("a database is shown alone; inspect databases one by one, and clips without them"))
         }
         clips => {
             clips.iter().try_for_each(|path| check_kind(path))?;
@@ -72,7 +59,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     }
 }
 
-/// That a file may be one of clips; whether there is any is seen when it is read.
+/// Checks by its name that a file may hold clips. Folders and missing files are checked when they are read.
 fn check_kind(path: &Path) -> Result<(), Failure> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if !path.is_file() || ["bvh", "glb", "gltf", "toml"].contains(&extension.as_str()) {
@@ -92,62 +79,62 @@ fn is_database(path: &Path) -> bool {
 fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
     let db = match database_file::load(path) {
         Ok((db, _)) => db,
-        // It could be read, and the answer is no.
+        // The file could be read, and the answer is no.
         Err(broken @ FileError::Invariant { .. }) => return say_broken(args, &broken),
         Err(unreadable) => return Err(unreadable.into()),
     };
-    let between = args.correspondence.as_ref().map(|names| Between::new(&db, names)).transpose()?;
+    let table = match args.correspondence.as_deref() {
+        Some([from, to]) => Some(CorrespondenceTable::new(&db, [from, to]).map_err(Failure::bad)?),
+        _ => None,
+    };
     if let Some(folder) = &args.plots {
-        let pictures = write_database_plots(&db, folder)?;
-        for picture in
-            pictures.into_iter().chain(between.as_ref().map(|between| between.draw(&db, folder)).transpose()?)
-        {
-            output::say(&format!("drew {}", picture.display()));
+        let mut pictures = write_database_plots(&db, folder)?;
+        if let Some(table) = &table {
+            pictures.push(table.draw(&db, folder)?);
         }
+        pictures.iter().for_each(|picture| output::say(&format!("drew {}", picture.display())));
     }
     let mut report = DatabaseReport::new(&db);
-    report.correspondence_between = between;
+    report.correspondence_between = table;
     report.leave_one_out = args.leave_one_out.then(|| leave_one_out(&db));
     if args.json {
         output::print_json(&report)?;
     } else {
-        output::print(&report::database_text(&db, &report))?;
+        output::print(&inspect_text::database_text(&db, &report))?;
     }
     Ok(Answer::Yes)
 }
 
 fn say_broken(args: &Args, broken: &FileError) -> Result<Answer, Failure> {
     if let (true, FileError::Invariant { invariant, detail, .. }) = (args.json, broken) {
-        output::print_json(&serde_json::json!({ "broken": { "invariant": invariant, "detail": detail } }))?;
+        let broken = BrokenInvariant { invariant: (*invariant).to_owned(), detail: detail.clone() };
+        output::print_json(&BrokenReport { broken })?;
     }
     output::say(&broken.to_string());
     Ok(Answer::No)
 }
 
-fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
-    if args.plots.is_some() {
-        return Err(Failure::bad("--plots draws databases; compile the clips first with `fbcrowd compile`"));
+fn inspect_clips(args: &Args, paths: &[PathBuf]) -> Result<Answer, Failure> {
+    let of_databases = [
+        (args.plots.is_some(), "--plots draws databases"),
+        (args.leave_one_out, "--leave-one-out needs a database"),
+        (args.correspondence.is_some(), "--correspondence compares examples of a database"),
+    ];
+    if let Some((_, message)) = of_databases.into_iter().find(|(is_given, _)| *is_given) {
+        return Err(Failure::bad(format!("{message}; compile the clips first with `fbcrowd compile`")));
     }
-    if args.leave_one_out {
-        let message = "--leave-one-out takes a database apart; compile the clips first with `fbcrowd compile`";
-        return Err(Failure::bad(message));
-    }
-    if args.correspondence.is_some() {
-        let message =
-            "--correspondence compares examples of a database; compile the clips first with `fbcrowd compile`";
-        return Err(Failure::bad(message));
-    }
-    let ClipSet { clips, rejected } = compiling::import(clips)?;
-    compiling::say_refused(&rejected);
-    let (is_empty, answer) = (clips.is_empty(), compiling::answer(&rejected));
+    let progress = ProgressDisplay::default();
+    let ClipSet { clips, rejected } = compiling::import(paths, &|event| progress.observe(event))?;
+    refused::say(&rejected);
+    let (is_empty, answer) = (clips.is_empty(), refused::answer(&rejected));
     let surveyed = survey(clips);
     if args.json {
-        output::print_json(&SourcesReport::new(&surveyed, rejected))?;
+        output::print_json(&ClipsReport::new(&surveyed, rejected))?;
     } else if !is_empty {
-        output::print(&report::sources_text(&surveyed))?;
+        output::print(&inspect_text::clips_text(&surveyed))?;
     }
     if is_empty {
-        return Err(Failure::bad(NO_HUMAN));
+        return Err(Failure::bad(ALL_REFUSED));
     }
     Ok(answer)
 }

@@ -3,11 +3,13 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
+use fbcrowd_jobs::rendering;
+use fbcrowd_jobs::wording::counted;
 use fbcrowd_render::top_view::{Format, FrameRange, SequenceOptions};
 
-use crate::compile_text::counted;
-use crate::failure::{Answer, Failure};
-use crate::{output, rendering};
+use crate::terminal::failure::{Answer, Failure};
+use crate::terminal::output;
+use crate::terminal::progress::ProgressDisplay;
 
 /// Render a recording to a frame sequence.
 #[derive(clap::Args)]
@@ -18,10 +20,10 @@ pub(crate) struct Args {
     /// The recording.
     #[arg(value_name = "FILE.fbrec")]
     recording: PathBuf,
-    /// The folder for `NAME.1001.png` onwards.
+    /// Folder for `NAME.1001.png` and the frames after it.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// From where to look.
+    /// The view.
     #[arg(long, value_enum, default_value_t = ViewArg::Top)]
     view: ViewArg,
     /// File format: PNG (sRGB) or EXR (scene-linear, half).
@@ -30,10 +32,10 @@ pub(crate) struct Args {
     /// Frames, as in `1001-1100`, `1001-1100x2`, `1010,1020`; all by default.
     #[arg(long, value_name = "RANGE")]
     frames: Option<FrameRange>,
-    /// Draw beside the scene why agents go where they go; name them with --agent.
+    /// Draw beside the scene why the agents named with --agent plan what they plan.
     #[arg(long, value_enum, value_name = "WHAT")]
     overlay: Option<OverlayArg>,
-    /// An agent for the overlay, from 0; repeat it, or write 3,7, for several panels.
+    /// An agent of the overlay, counted from 0; repeat it, or write 3,7, for several panels.
     #[arg(long, value_name = "N", value_delimiter = ',', requires = "overlay")]
     agent: Vec<usize>,
 }
@@ -51,7 +53,7 @@ enum FormatArg {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum OverlayArg {
-    /// The velocity space of each agent named: all that limited its plan, what it wanted, planned and walked.
+    /// The velocity space of each agent: all that limits its plan, and its preferred, planned and walked velocities.
     Constraints,
 }
 
@@ -68,7 +70,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         frames: args.frames.clone(),
         constraints_of: constraints_of(args, recording.header().scenario.agents.len())?,
     };
-    let rendered = rendering::render(&recording, &options)?;
+    let progress = ProgressDisplay::default();
+    let rendered = rendering::render(&recording, &options, &|event| progress.observe(event))?;
     output::print(&format!(
         "{} in {}, {:.1} ms a frame",
         counted(rendered.frames, "frame", "frames"),
@@ -81,7 +84,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 fn constraints_of(args: &Args, count: usize) -> Result<Vec<usize>, Failure> {
     match args.overlay {
         Some(OverlayArg::Constraints) if args.agent.is_empty() => Err(Failure::bad(format!(
-            "--overlay constraints draws the velocity space of an agent, and none is named; add --agent N (0 to {})",
+            "--overlay constraints draws the velocity space of an agent, and no agent is named; add --agent N (0 to {})",
             count.saturating_sub(1)
         ))),
         Some(OverlayArg::Constraints) | None => Ok(args.agent.clone()),

@@ -3,13 +3,17 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use fbcrowd_jobs::output_path::{check_is_no_input, is_same_file};
+use fbcrowd_jobs::simulation::{self, SimulationInput};
+use fbcrowd_jobs::timings::Timings;
 use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::atomic_file::AtomicFile;
 use motiondb::files::database_file;
 
-use crate::failure::{Answer, Failure};
-use crate::output;
-use crate::simulation::{self, Timings};
+use crate::report::timings_text;
+use crate::terminal::failure::{Answer, Failure};
+use crate::terminal::output;
+use crate::terminal::progress::ProgressDisplay;
 
 /// Simulate a scenario on a compiled database.
 #[derive(clap::Args)]
@@ -20,14 +24,13 @@ pub(crate) struct Args {
     /// The scenario.
     #[arg(value_name = "SCENARIO.toml")]
     scenario: PathBuf,
-    /// The database; by default the one that the scenario names, which needs no motion of its own where this is given.
+    /// Motion database; overrides the scenario's.
     #[arg(long = "db", value_name = "FILE.fbdb")]
     database: Option<PathBuf>,
-    /// The recording.
+    /// The recording to write.
     #[arg(short, long, value_name = "FILE.fbrec")]
     output: PathBuf,
-    /// Write where the time went, as JSON: `agents, steps, threads, plan_microseconds_per_agent_step, synthesis_…,
-    /// coupling_…, times_real_time, agents_per_core_in_real_time`; path and neighbours count as planning.
+    /// Write the durations of the stages as JSON; docs/json.md describes it.
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
 }
@@ -38,20 +41,22 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Some(given) => given.clone(),
         None => own_database(&args.scenario, motion?)?,
     };
-    if args.report.as_ref().is_some_and(|report| output::is_same_place(report, &args.output)) {
+    if args.report.as_ref().is_some_and(|report| is_same_file(report, &args.output)) {
         let file = args.output.display();
         return Err(Failure::bad(format!("{file} cannot be both recording and report; give --report another name")));
     }
     let inputs = [vec![args.scenario.clone(), database.clone()], scenario::agent_files(&args.scenario)?].concat();
     for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
-        output::spare(written, &inputs)?;
+        check_is_no_input(written, &inputs)?;
     }
-    let (db, checksum) = database_file::load(&database)?;
-    // Opened before the long work, so that a place that cannot be written ends it early.
-    let report = args.report.as_deref().map(Report::create).transpose()?;
-    let timings = simulation::simulate(db, checksum, scenario, &args.output)?;
+    let (db, database_checksum) = database_file::load(&database)?;
+    // Created before the long work, so that a path that cannot be written ends it early.
+    let report = args.report.as_deref().map(TimingsFile::create).transpose()?;
+    let progress = ProgressDisplay::default();
+    let input = SimulationInput { db, database_checksum, scenario };
+    let timings = simulation::simulate(input, &args.output, &|event| progress.observe(event))?;
     report.map_or(Ok(()), |report| report.finish(&timings))?;
-    output::print(&timings.text())?;
+    output::print(&timings_text::text(&timings))?;
     Ok(Answer::Yes)
 }
 
@@ -68,19 +73,19 @@ fn own_database(scenario: &Path, motion: MotionSource) -> Result<PathBuf, Failur
 }
 
 /// The file of `--report`.
-struct Report<'a> {
+struct TimingsFile<'a> {
     path: &'a Path,
     file: AtomicFile,
 }
 
-impl<'a> Report<'a> {
+impl<'a> TimingsFile<'a> {
     fn create(path: &'a Path) -> Result<Self, Failure> {
-        let file = AtomicFile::create(path).map_err(|error| Failure::unwritable(path, &error))?;
+        let file = AtomicFile::create(path).map_err(|error| Failure::unwritable(path, error))?;
         Ok(Self { path, file })
     }
 
     fn finish(mut self, timings: &Timings) -> Result<(), Failure> {
         let written = self.file.writer().write_all(output::to_json(timings).as_bytes());
-        written.and_then(|()| self.file.commit()).map_err(|error| Failure::unwritable(self.path, &error))
+        written.and_then(|()| self.file.commit()).map_err(|error| Failure::unwritable(self.path, error))
     }
 }

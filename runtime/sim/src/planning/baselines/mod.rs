@@ -10,4 +10,4 @@ pub(crate) mod orca;
 pub(crate) mod social_force;
 
 pub use orca::OrcaParams;
-pub use social_force::{Force, SocialForceParams};
+pub use social_force::{Force, RESPONSE_S, SocialForceParams};

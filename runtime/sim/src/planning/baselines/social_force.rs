@@ -21,7 +21,7 @@ use crate::planning::world_view::WorldView;
 use crate::world::disc::Disc;
 
 /// Time in which bodies take up a plan, about, s (`synthesis::command`): the step of the paper's Table 1.
-pub(crate) const RESPONSE_S: f32 = 0.1;
+pub const RESPONSE_S: f32 = 0.1;
 
 /// Tunables of social forces, `[params.social_force]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

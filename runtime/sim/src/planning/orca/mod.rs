@@ -13,4 +13,4 @@ pub(crate) mod linear_program;
 pub(crate) mod wall_half_planes;
 
 pub use half_plane::{HalfPlane, HalfPlaneSource};
-pub use linear_program::Solution;
+pub use linear_program::{Solution, solve, yielding};

@@ -35,6 +35,11 @@ use crate::error::RejectionReason;
 use crate::read::malformed::malformed_line;
 use crate::read::source_clip::SourceClip;
 
+/// The text of a BVH file that `bvh_anim` can read, with all frames; none if the file is no BVH.
+pub fn canonical_text(bytes: &[u8]) -> Option<String> {
+    prepass::check(bytes).ok().map(|checked| checked.text(usize::MAX))
+}
+
 /// The clip of a BVH file's bytes; `file` gives the clip's file name.
 ///
 /// # Errors

@@ -1,0 +1,14 @@
+//! Claims about the simulation that need compiled clips or generated worlds.
+
+mod clips;
+mod generated;
+mod hybrid;
+mod linear_programs;
+mod random_plans;
+mod repertoire;
+mod replay;
+mod semi_procedural;
+mod stops;
+#[path = "../support/mod.rs"]
+mod support;
+mod synthesis;

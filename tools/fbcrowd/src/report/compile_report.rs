@@ -1,0 +1,195 @@
+//! The report of `fbcrowd compile`: its JSON, and all that its text is made of.
+//!
+//! Every clip is in exactly one list: `used` (it gives examples), `unused` (a clip of human motion without examples) or
+//! `refused` (it cannot be read, or shows no human).
+
+use std::path::Path;
+
+use fbcrowd_jobs::json_schema::motion::{ExampleQualityMirror, FindingMirror, ThinPlaceMirror};
+use fbcrowd_jobs::stages::StageTime;
+use motiondb::diagnostic::{Diagnostic, Severity};
+use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
+use motiondb::quality::coverage::{self, ThinPlace};
+use motiondb::quality::example_quality::{self, ExampleQuality, Finding};
+use motiondb_compiler::Rejection;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::report::json_diagnostic;
+
+/// The result of a compilation.
+#[derive(Default, JsonSchema, Serialize)]
+pub(crate) struct CompileReport {
+    /// Path of the database; null where nothing was written.
+    pub(crate) output: Option<String>,
+    /// Number of examples, mirrored ones included.
+    pub(crate) example_count: usize,
+    /// Number of mirrored examples.
+    pub(crate) mirror_count: usize,
+    /// Number of simplices of the blend space.
+    pub(crate) simplex_count: usize,
+    /// Files and clips that were refused.
+    pub(crate) refused: Vec<UnusedClip>,
+    /// Clips of human motion that give no example.
+    pub(crate) unused: Vec<UnusedClip>,
+    /// Sentences of the notes and warnings among `diagnostics`.
+    pub(crate) warnings: Vec<ClipWarning>,
+    /// Diagnostics of all clips of human motion.
+    pub(crate) diagnostics: Vec<ClipDiagnostic>,
+    /// Clips that give examples.
+    pub(crate) used: Vec<UsedClip>,
+    /// Quality of the motion of every example, mirrored ones included.
+    #[schemars(with = "Vec<ExampleQualityMirror>")]
+    pub(crate) quality: Vec<ExampleQuality>,
+    /// Quality figures beyond their threshold. Mirrored examples are left out: they are as good as their originals.
+    #[schemars(with = "Vec<FindingMirror>")]
+    pub(crate) findings: Vec<Finding>,
+    /// Where the set of examples is thin.
+    #[schemars(with = "Vec<ThinPlaceMirror>")]
+    pub(crate) coverage: Vec<ThinPlace>,
+    /// Durations of the compiler's stages.
+    pub(crate) stages: Vec<StageTime>,
+    /// What to do next, a sentence each.
+    pub(crate) next: Vec<String>,
+}
+
+/// A clip that gives no example.
+#[derive(JsonSchema, Serialize)]
+pub(crate) struct UnusedClip {
+    /// File of the clip.
+    pub(crate) file: String,
+    /// Name of the clip within the file; empty for the file as a whole.
+    pub(crate) clip: String,
+    /// What is wrong, where, and the remedy.
+    pub(crate) reason: String,
+}
+
+/// A diagnostic of a clip.
+#[derive(JsonSchema, Serialize)]
+pub(crate) struct ClipDiagnostic {
+    /// File of the clip.
+    pub(crate) file: String,
+    /// Name of the clip within the file; empty where the file holds one.
+    pub(crate) clip: String,
+    #[serde(flatten, serialize_with = "json_diagnostic::serialize")]
+    #[schemars(with = "json_diagnostic::JsonDiagnostic")]
+    pub(crate) diagnostic: Diagnostic,
+}
+
+/// The sentence of a note or a warning.
+#[derive(JsonSchema, Serialize)]
+pub(crate) struct ClipWarning {
+    /// File of the clip.
+    file: String,
+    /// Name of the clip within the file; empty where the file holds one.
+    clip: String,
+    /// Whether the sentence requires no action.
+    note: bool,
+    /// The sentence.
+    text: String,
+}
+
+/// A clip that gives examples.
+#[derive(JsonSchema, Serialize)]
+pub(crate) struct UsedClip {
+    /// File of the clip.
+    pub(crate) file: String,
+    /// Name of the clip within the file; empty where the file holds one.
+    pub(crate) clip: String,
+    /// Examples made from the clip.
+    pub(crate) examples: Vec<ExampleReport>,
+}
+
+/// One example of a clip.
+#[derive(JsonSchema, Serialize)]
+pub(crate) struct ExampleReport {
+    /// Name of the example.
+    pub(crate) name: String,
+    /// Whether the motion is mirrored.
+    pub(crate) mirrored: bool,
+    /// Start and end of the window in the clip, s.
+    pub(crate) window_s: [f32; 2],
+    /// Mean speed along the facing, m/s; negative backward.
+    pub(crate) speed_mps: f32,
+    /// Mean turn rate, rad/s; counter-clockwise from above is positive.
+    pub(crate) turn_rate_rad_s: f32,
+    /// Mean speed to the left of the facing, m/s.
+    pub(crate) strafe_mps: f32,
+}
+
+impl CompileReport {
+    /// The report of a database, without `next`; `output` is none where it was not written.
+    pub(crate) fn new(output: Option<&Path>, db: &MotionDb, rejected: Vec<Rejection>, stages: Vec<StageTime>) -> Self {
+        let mut report = Self {
+            output: output.map(|path| path.display().to_string()),
+            example_count: db.examples.len(),
+            mirror_count: db.examples.iter().filter(|example| example.mirrored).count(),
+            simplex_count: db.blend_space.simplices().filter(|corners| corners.len() > 1).count(),
+            refused: rejected.into_iter().map(UnusedClip::from).collect(),
+            quality: example_quality::quality(db),
+            findings: example_quality::lint(db),
+            coverage: coverage::coverage(db),
+            stages,
+            ..Self::default()
+        };
+        for (index, source) in db.sources.iter().enumerate() {
+            let of_source = db.examples.iter().filter(|example| example.source as usize == index);
+            report.add(source, of_source.map(ExampleReport::from).collect());
+        }
+        report
+    }
+
+    /// The report of clips of which none gives an example, without `next`.
+    pub(crate) fn without_examples(rejected: Vec<Rejection>, sources: &[SourceRecord]) -> Self {
+        let refused = rejected.into_iter().map(UnusedClip::from).collect();
+        let mut report = Self { refused, ..Self::default() };
+        sources.iter().for_each(|source| report.add(source, Vec::new()));
+        report
+    }
+
+    /// Adds a clip of human motion.
+    fn add(&mut self, source: &SourceRecord, examples: Vec<ExampleReport>) {
+        let (file, clip) = (source.file.clone(), source.clip.clone());
+        let mut reasons = Vec::new();
+        for diagnostic in &source.diagnostics {
+            let (file, clip, text) = (file.clone(), clip.clone(), diagnostic.to_string());
+            match diagnostic.severity() {
+                Severity::NoExample => reasons.push(text),
+                severity => {
+                    let note = severity == Severity::Note;
+                    self.warnings.push(ClipWarning { file: file.clone(), clip: clip.clone(), note, text });
+                }
+            }
+            self.diagnostics.push(ClipDiagnostic { file, clip, diagnostic: diagnostic.clone() });
+        }
+        if examples.is_empty() {
+            self.unused.push(UnusedClip { file, clip, reason: reasons.join("; ") });
+        } else {
+            self.used.push(UsedClip { file, clip, examples });
+        }
+    }
+
+    /// The diagnostics of a severity, and their clips.
+    pub(crate) fn of_severity(&self, wanted: Severity) -> impl Iterator<Item = &ClipDiagnostic> {
+        self.diagnostics.iter().filter(move |found| found.diagnostic.severity() == wanted)
+    }
+}
+
+impl From<Rejection> for UnusedClip {
+    fn from(Rejection { file, clip, reason }: Rejection) -> Self {
+        Self { file, clip, reason: reason.to_string() }
+    }
+}
+
+impl From<&MotionExample> for ExampleReport {
+    fn from(example: &MotionExample) -> Self {
+        Self {
+            name: example.name.clone(),
+            mirrored: example.mirrored,
+            window_s: example.window_s,
+            speed_mps: example.parameters.speed_mps,
+            turn_rate_rad_s: example.parameters.turn_rate_rad_s,
+            strafe_mps: example.parameters.strafe_mps,
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! The text of `fbcrowd measure`.
+
+use fbcrowd_sim::measures::Measures;
+
+/// One figure a line.
+pub(crate) fn text(measures: &Measures) -> String {
+    [
+        ("agents", format!("{}", measures.agents)),
+        ("steps", format!("{} of {:.4} s", measures.steps, measures.dt_s)),
+        ("collisions C", collisions(measures)),
+        ("bodies", bodies(measures)),
+        ("walls", walls(measures)),
+        ("acceleration A", acceleration(measures)),
+        ("arrived", format!("{} of {}, {} stalled", measures.arrived, measures.agents, measures.stalled)),
+        ("mean time to goal", optional(measures.mean_time_to_goal_s, "s")),
+        ("path", path(measures)),
+        ("planted-foot slide", slide(measures)),
+        ("root tracking error", tracking(measures)),
+        ("facing off the travel", facing(measures)),
+    ]
+    .map(|(name, value)| format!("{name:<25}{value}\n"))
+    .concat()
+}
+
+fn optional(value: Option<f64>, unit: &str) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.2} {unit}"))
+}
+
+fn collisions(measures: &Measures) -> String {
+    let apart = optional(measures.minimum_separation_m, "m");
+    format!("{:.5}, centres {apart} apart", measures.collision_rate)
+}
+
+fn bodies(measures: &Measures) -> String {
+    format!(
+        "{:.3} mm into each other, {} where they touch ({:.2} % of the time), {:.0} mm at most",
+        measures.body_penetration_mm,
+        optional(measures.body_penetration_touching_mm, "mm"),
+        100.0 * measures.body_touching_share,
+        measures.body_penetration_max_mm
+    )
+}
+
+fn acceleration(measures: &Measures) -> String {
+    format!(
+        "{:.3} m/s², before arrival {:.3} m/s²",
+        measures.mean_acceleration_mps2, measures.mean_acceleration_before_arrival_mps2
+    )
+}
+
+fn path(measures: &Measures) -> String {
+    format!(
+        "{}, {:.1} % of the time strafing, {:.1} % stepping back",
+        optional(measures.path_over_straight_line, "× the straight line"),
+        100.0 * measures.strafing_share,
+        100.0 * measures.stepping_back_share
+    )
+}
+
+fn slide(measures: &Measures) -> String {
+    format!(
+        "{}, of the examples {}, planted {:.0} %",
+        optional(measures.planted_slide_cm_s, "cm/s"),
+        optional(measures.examples_slide_cm_s, "cm/s"),
+        100.0 * measures.planted_share
+    )
+}
+
+fn tracking(measures: &Measures) -> String {
+    let [mean_mm, worst_mm] = [measures.root_tracking_error_m, measures.root_tracking_worst_m].map(|error| 1e3 * error);
+    format!("{mean_mm:.2} mm a step, {worst_mm:.0} mm at most")
+}
+
+fn facing(measures: &Measures) -> String {
+    let [meant_to, walking] = [measures.heading_error_deg, measures.walking_heading_error_deg];
+    format!("{meant_to:.1}°, with side-steps and steps back {walking:.1}°")
+}
+
+fn walls(measures: &Measures) -> String {
+    format!(
+        "discs held {:.2} % of the time, bodies in them {:.2} %, {:.0} mm at most",
+        100.0 * measures.wall_disc_share,
+        100.0 * measures.wall_body_share,
+        measures.wall_body_max_mm
+    )
+}

@@ -1,0 +1,73 @@
+//! Paths of clips, folders and manifests → the clips that they stand for.
+//!
+//! A file stands for itself. A folder stands for what its `manifest.toml` names, or else for every clip below it.
+
+use std::path::{Path, PathBuf};
+
+use motiondb_compiler::{Manifest, clip_files, linked_files};
+
+use crate::error::JobError;
+use crate::output_path::check_is_no_input;
+
+/// A folder's manifest has this file name.
+const MANIFEST: &str = "manifest.toml";
+
+/// All clips that the paths stand for, each once.
+///
+/// # Errors
+/// Where a path or a manifest cannot be read, there are two manifests, or no clip is left.
+pub fn manifest(paths: &[PathBuf]) -> Result<Manifest, JobError> {
+    let Sorted { files, manifests } = sorted(paths)?;
+    let mut manifest = match &manifests[..] {
+        [] => Manifest::default(),
+        [only] => Manifest::read(only)?,
+        [first, second, ..] => {
+            return Err(JobError::TwoManifests { first: first.clone(), second: second.clone() });
+        }
+    };
+    manifest.add_files(&files);
+    match (manifest.clips.is_empty(), &manifests[..], paths) {
+        (false, ..) => Ok(manifest),
+        (true, [manifest, ..], _) => Err(JobError::AllSkipped { manifest: manifest.clone() }),
+        (true, [], [folder, ..]) => Err(JobError::NoClips { folder: folder.clone() }),
+        (true, [], []) => Err(JobError::NoPaths),
+    }
+}
+
+/// Checks that a database written to `output` replaces neither a clip, nor a file that a clip links to, nor a manifest.
+///
+/// # Errors
+/// [`JobError::OutputIsInput`].
+pub fn check_output(output: &Path, paths: &[PathBuf], manifest: &Manifest) -> Result<(), JobError> {
+    let clips = || manifest.clips.iter().map(|clip| clip.path.clone());
+    let manifests = paths.iter().map(|path| path.join(MANIFEST));
+    check_is_no_input(output, paths.iter().cloned().chain(manifests).chain(clips()))?;
+    check_is_no_input(output, clips().flat_map(|clip| linked_files(&clip)))
+}
+
+/// Clips and manifests, each list in order and without repetition.
+struct Sorted {
+    files: Vec<PathBuf>,
+    manifests: Vec<PathBuf>,
+}
+
+fn sorted(paths: &[PathBuf]) -> Result<Sorted, JobError> {
+    let (mut files, mut manifests) = (Vec::new(), Vec::new());
+    for path in paths {
+        let inside = path.join(MANIFEST);
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            manifests.push(path.clone());
+        } else if inside.is_file() {
+            manifests.push(inside);
+        } else if path.is_dir() {
+            files.extend(clip_files(path)?);
+        } else {
+            files.push(path.clone());
+        }
+    }
+    for paths in [&mut files, &mut manifests] {
+        paths.sort();
+        paths.dedup();
+    }
+    Ok(Sorted { files, manifests })
+}

@@ -1,0 +1,73 @@
+//! Clips → a motion database, or the clips alone, with progress.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use motiondb::files::database_file;
+use motiondb::motion::MotionDb;
+use motiondb::velocity_sets::velocity_hull::Construction;
+use motiondb_compiler::{ClipSet, CompileEvent, Compiled, compile_manifest, import_clip_set};
+
+use crate::clip_paths::{check_output, manifest};
+use crate::error::JobError;
+use crate::observer::{JobEvent, Observer, Work};
+
+/// Options that override those of a manifest.
+#[derive(Default)]
+pub struct Overrides {
+    /// How examples bound the velocities; by default as the manifest states.
+    pub velocity_hull: Option<Construction>,
+    /// Most examples, mirrors not counted; by default as the manifest states.
+    pub max_examples: Option<NonZeroUsize>,
+}
+
+/// Compiles the clips that `paths` stand for. The database is to be written to `output`, which must be no input.
+///
+/// # Errors
+/// Where the paths name no clips, `output` is an input, or the clips give no sound database.
+pub fn compile(
+    paths: &[PathBuf],
+    output: &Path,
+    overrides: &Overrides,
+    observer: &Observer,
+) -> Result<Compiled, JobError> {
+    let mut manifest = manifest(paths)?;
+    check_output(output, paths, &manifest)?;
+    if let Some(construction) = overrides.velocity_hull {
+        manifest.options.velocity_hull = construction;
+    }
+    manifest.options.max_examples = overrides.max_examples.or(manifest.options.max_examples);
+    let work = Work::begin(observer, "files", manifest.clips.len());
+    let compiled = compile_manifest(&manifest, &|event| forward(event, observer));
+    work.end();
+    Ok(compiled?)
+}
+
+/// Writes a database, as a stage of its own; returns the checksum of its file.
+///
+/// # Errors
+/// Where the system does not allow it.
+pub fn write_database(path: &Path, db: &MotionDb, observer: &Observer) -> Result<u32, JobError> {
+    observer(JobEvent::Stage("writing"));
+    Ok(database_file::write(path, db)?)
+}
+
+/// Imports the clips that `paths` stand for, without a database.
+///
+/// # Errors
+/// Where the paths name no clips, or a manifest cannot be followed.
+pub fn import(paths: &[PathBuf], observer: &Observer) -> Result<ClipSet, JobError> {
+    let manifest = manifest(paths)?;
+    let work = Work::begin(observer, "files", manifest.clips.len());
+    let imported = import_clip_set(&manifest, &|event| forward(event, observer));
+    work.end();
+    Ok(imported?)
+}
+
+/// Passes an event of the compiler on. Units of work are imported files: all later stages are short.
+pub fn forward(event: CompileEvent, observer: &Observer) {
+    match event {
+        CompileEvent::Stage(name) => observer(JobEvent::Stage(name)),
+        CompileEvent::Imported(_) => observer(JobEvent::Advance),
+    }
+}

@@ -1,0 +1,121 @@
+//! Why a job fails: one enum, each variant with the path, the place in it and the remedy.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use fbcrowd_render::error::RenderError;
+use fbcrowd_sim::recording::RecordingError;
+use fbcrowd_sim::scenario::ScenarioError;
+use motiondb::files::Invalid;
+use motiondb::files::database_file::FileError;
+use motiondb::motion::SourceRecord;
+use motiondb_compiler::{CompileError, Rejection};
+
+/// Why a job fails.
+#[derive(Debug, thiserror::Error)]
+pub enum JobError {
+    /// A mistake in the text of a scenario or a manifest.
+    #[error(transparent)]
+    Mistake(Box<Invalid>),
+    /// All clips were read, and none gives an example.
+    #[error("no clip gives an example; give clips of steady walking, running, turning or standing")]
+    NoExample {
+        /// Files and clips that cannot be used, each with its reason.
+        rejected: Vec<Rejection>,
+        /// Clips of human motion that give no example.
+        sources: Vec<SourceRecord>,
+    },
+    /// No path was given.
+    #[error("no clips are named; name files or folders")]
+    NoPaths,
+    /// The folder holds no clip.
+    #[error("{}: no *.bvh, *.glb or *.gltf below it; name another folder or the clips themselves", folder.display())]
+    NoClips {
+        /// The first path that was given.
+        folder: PathBuf,
+    },
+    /// The manifest skips every clip.
+    #[error("{}: leaves no clip to use; skip fewer", manifest.display())]
+    AllSkipped {
+        /// The manifest.
+        manifest: PathBuf,
+    },
+    /// A set of clips has at most one manifest.
+    #[error("{} and {} are two manifests; write one that names the folders of both", first.display(), second.display())]
+    TwoManifests {
+        /// One manifest.
+        first: PathBuf,
+        /// Another one.
+        second: PathBuf,
+    },
+    /// The output would replace an input.
+    #[error("{} is also an input; choose another output path", output.display())]
+    OutputIsInput {
+        /// The output path.
+        output: PathBuf,
+    },
+    /// The system does not allow writing a file or a folder.
+    #[error("{} cannot be written: {source}; choose another path", path.display())]
+    Unwritable {
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// The planner looks no further ahead than a change of synthesis takes (§3.4.1).
+    #[error(
+        "the planner looks {horizon_s} s ahead, but with this database a change of synthesis takes up to \
+         {transition_s:.2} s; set `time_horizon_s` to more than that under [params.planner], or \
+         `modes = \"blending\"` under [params.synthesis]"
+    )]
+    ShortHorizon {
+        /// Time horizon of the planner, s.
+        horizon_s: f32,
+        /// Longest duration of a change between blending and semi-procedural locomotion, s.
+        transition_s: f32,
+    },
+    /// A scenario cannot be read.
+    #[error(transparent)]
+    Scenario(ScenarioError),
+    /// The clips cannot be read, or give no sound database.
+    #[error(transparent)]
+    Compile(CompileError),
+    /// A file of clips cannot be used.
+    #[error(transparent)]
+    Clip(#[from] Rejection),
+    /// A database cannot be read or written.
+    #[error(transparent)]
+    Database(#[from] FileError),
+    /// A recording cannot be read or written.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// A picture cannot be drawn or written.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+}
+
+impl JobError {
+    /// The system does not allow writing `path`.
+    pub fn unwritable(path: &Path, source: io::Error) -> Self {
+        Self::Unwritable { path: path.to_owned(), source }
+    }
+}
+
+impl From<ScenarioError> for JobError {
+    fn from(error: ScenarioError) -> Self {
+        match error {
+            ScenarioError::Invalid(invalid) => Self::Mistake(invalid),
+            ScenarioError::Unreadable { .. } => Self::Scenario(error),
+        }
+    }
+}
+
+impl From<CompileError> for JobError {
+    fn from(error: CompileError) -> Self {
+        match error {
+            CompileError::InvalidManifest(invalid) => Self::Mistake(invalid),
+            CompileError::NoExample { rejected, sources } => Self::NoExample { rejected, sources },
+            other => Self::Compile(other),
+        }
+    }
+}

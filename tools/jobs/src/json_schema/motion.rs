@@ -1,0 +1,121 @@
+//! Mirrors of the motion database's types.
+
+#![allow(dead_code, reason = "mirrors are never made")]
+
+use schemars::JsonSchema;
+
+/// Mirror of [`motiondb::quality::ExampleQuality`].
+#[derive(JsonSchema)]
+#[schemars(rename = "ExampleQuality", description = "Quality of an example's motion.")]
+pub struct ExampleQualityMirror {
+    /// Name of the example.
+    example: String,
+    /// Mean speed of planted feet, cm/s.
+    planted_slide_cm_s: f32,
+    /// Share of the cycle in which a foot is planted, mean of both feet, 0 to 1.
+    planted_share: f32,
+    /// Root mean square turn of the joints over the cycle's seam, over the median of all rows.
+    seam_angle_ratio: f32,
+    /// Root mean square change of the joints' angular velocity at the cycle's seam, over the median of all rows.
+    seam_velocity_ratio: f32,
+    /// Greatest depth of a sole under the ground, mm.
+    penetration_mm: f32,
+    /// Least flexion of a knee, degrees; negative where it is hyperextended.
+    knee_flexion_min_deg: f32,
+    /// Greatest distance from hip to ankle, over the length of thigh plus shank.
+    leg_extension_max: f32,
+    /// Greatest excess of a joint over the published human range, degrees; 0 within it.
+    range_excess_deg: f32,
+    /// Name of the joint with that excess.
+    range_excess_joint: String,
+}
+
+/// Mirror of [`motiondb::quality::Finding`].
+#[derive(JsonSchema)]
+#[schemars(rename = "Finding", description = "A quality figure beyond its threshold.")]
+pub struct FindingMirror {
+    /// Name of the example.
+    example: String,
+    /// Name of the figure, a key of `quality[]`.
+    measure: String,
+    /// The figure, in `unit`.
+    value: f32,
+    /// The threshold of the figure, in `unit`.
+    threshold: f32,
+    /// Unit of figure and threshold; empty for ratios and shares.
+    unit: String,
+    /// The finding as a sentence.
+    sentence: String,
+}
+
+/// Mirror of [`motiondb::quality::coverage::ThinPlace`].
+#[derive(JsonSchema)]
+#[schemars(rename = "CoverageGap", description = "A region of gaits that a set of examples covers thinly.")]
+pub struct ThinPlaceMirror {
+    /// What the set lacks.
+    lack: LackMirror,
+    /// The gap as a sentence, with numbers and consequence.
+    sentence: String,
+}
+
+/// Mirror of [`motiondb::quality::coverage::Lack`].
+#[derive(JsonSchema)]
+#[schemars(rename = "Lack", rename_all = "snake_case", description = "What a set of examples lacks.")]
+enum LackMirror {
+    /// No example stands.
+    Standing,
+    /// No straight example walks.
+    Walking,
+    /// No example runs.
+    Running,
+    /// No example goes backward.
+    Backward,
+    /// Turns while walking are wide, or there are none.
+    WalkingTurns,
+    /// No example turns in place, to one side or both.
+    TurningInPlace,
+    /// No example side-steps, to one side or both.
+    SideSteps,
+    /// Neighbouring speeds straight ahead are far apart.
+    SpeedGap,
+    /// Neighbouring turn rates are far apart.
+    TurnGap,
+    /// Neighbouring side speeds are far apart.
+    SideGap,
+}
+
+/// Mirror of [`motiondb::diagnostic::Severity`].
+#[derive(JsonSchema)]
+#[schemars(rename = "Severity", rename_all = "snake_case", description = "Weight of a diagnostic.")]
+pub enum SeverityMirror {
+    /// Information that requires no action.
+    Note,
+    /// A defect of a clip that is used.
+    Warning,
+    /// Why a clip gives no example.
+    NoExample,
+}
+
+/// Mirror of [`motiondb::velocity_sets::velocity_hull::VelocityHull`].
+#[derive(JsonSchema)]
+#[schemars(rename = "VelocitySets", description = "Velocities that the examples allow, in the agent's frame.")]
+pub struct VelocityHullMirror {
+    /// How the sets are built.
+    construction: ConstructionMirror,
+    /// Corners of the turning set, clockwise: x forward and y left, m/s.
+    turning_mps: Vec<[f32; 2]>,
+    /// Corners of the holding set, clockwise: x forward and y left, m/s.
+    holding_mps: Vec<[f32; 2]>,
+    /// Edges of the wrapping polygon for sharp turns, from one corner to the next, m/s.
+    sharp_turn_edges_mps: Vec<[[f32; 2]; 2]>,
+}
+
+/// Mirror of [`motiondb::velocity_sets::velocity_hull::Construction`].
+#[derive(JsonSchema)]
+#[schemars(rename = "Construction", rename_all = "snake_case", description = "How velocity sets are built.")]
+enum ConstructionMirror {
+    /// One set for bodies that turn, and one for bodies that hold their facing.
+    TurningAndHolding,
+    /// The paper's construction alone.
+    Paper,
+}

@@ -1,0 +1,85 @@
+//! A recording → files of pictures, with progress.
+
+use std::path::Path;
+use std::sync::OnceLock;
+use std::time::Instant;
+use std::{fs, io};
+
+use fbcrowd_render::plots::crowd::trajectories;
+use fbcrowd_render::raster::png_frame;
+use fbcrowd_render::top_view::{SequenceOptions, read_tracks, render_sequence};
+use fbcrowd_sim::recording::Recording;
+
+use crate::error::JobError;
+use crate::observer::{Observer, Work};
+
+/// A sequence that has been rendered.
+pub struct RenderedSequence {
+    /// Number of frames that were written.
+    pub frames: usize,
+    /// Duration per frame, all threads together, ms.
+    pub ms_per_frame: f64,
+}
+
+/// Opens a recording.
+///
+/// # Errors
+/// Where the file cannot be read or is no sound recording.
+pub fn open(path: &Path) -> Result<Recording, JobError> {
+    Ok(Recording::open(path)?)
+}
+
+/// Renders a sequence of frames.
+///
+/// # Errors
+/// Where the options do not fit the recording, or a frame cannot be read or written.
+pub fn render(
+    recording: &Recording,
+    options: &SequenceOptions,
+    observer: &Observer,
+) -> Result<RenderedSequence, JobError> {
+    // The number of frames is known with the first one.
+    let work = OnceLock::new();
+    let start = Instant::now();
+    let files = render_sequence(recording, options, &|_, total| {
+        work.get_or_init(|| Work::begin(observer, "frames", total)).advance();
+    })?;
+    let elapsed_ms = start.elapsed().as_secs_f64() * 1000.0;
+    if let Some(work) = work.into_inner() {
+        work.end();
+    }
+    Ok(RenderedSequence { frames: files.len(), ms_per_frame: elapsed_ms / files.len().max(1) as f64 })
+}
+
+/// Removes the PNG frames that an earlier run left under a sequence's name: they would follow the last new frame.
+///
+/// # Errors
+/// Where the system does not allow it.
+pub fn remove_frames(options: &SequenceOptions) -> Result<(), JobError> {
+    remove_numbered(&options.folder, &options.name).map_err(|error| JobError::unwritable(&options.folder, error))
+}
+
+/// Removes every `NAME.####.png` of a folder.
+fn remove_numbered(folder: &Path, name: &str) -> io::Result<()> {
+    let Ok(entries) = fs::read_dir(folder) else { return Ok(()) };
+    let is_frame = |file: &str| {
+        let number = file.strip_prefix(&format!("{name}.")).and_then(|rest| rest.strip_suffix(".png"));
+        number.is_some_and(|number| number.len() >= 4 && number.bytes().all(|byte| byte.is_ascii_digit()))
+    };
+    for entry in entries {
+        let entry = entry?;
+        if entry.file_name().to_str().is_some_and(is_frame) {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
+}
+
+/// Draws the paths of all agents on one sheet (Fig. 7).
+///
+/// # Errors
+/// Where a frame cannot be read, or the picture cannot be written.
+pub fn plot_trajectories(recording: &Recording, path: &Path) -> Result<(), JobError> {
+    let tracks = read_tracks(recording)?;
+    Ok(png_frame::write(path, &trajectories(recording.header(), &tracks))?)
+}

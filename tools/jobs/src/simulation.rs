@@ -1,0 +1,88 @@
+//! A scenario and a database → a recording, with progress, notes for the user, and the durations of the stages.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use fbcrowd_sim::planning::Planner;
+use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
+use fbcrowd_sim::route::{BlockedPaths, blocked_paths};
+use fbcrowd_sim::scenario::Scenario;
+use fbcrowd_sim::simulation::Simulation;
+use fbcrowd_sim::synthesis::library::{self, HybridData};
+use motiondb::motion::MotionDb;
+use motiondb::quality::coverage;
+
+use crate::error::JobError;
+use crate::observer::{JobEvent, Observer, Work};
+use crate::timings::{StepStopwatch, Timings};
+
+/// What is simulated.
+pub struct SimulationInput {
+    /// The database that the bodies move by.
+    pub db: MotionDb,
+    /// Checksum of the database's file; the recording keeps it.
+    pub database_checksum: u32,
+    /// The scenario.
+    pub scenario: Scenario,
+}
+
+/// Simulates a scenario into a recording.
+///
+/// # Errors
+/// Where the planner looks less far ahead than a change of synthesis takes, or the recording cannot be written.
+pub fn simulate(input: SimulationInput, recording: &Path, observer: &Observer) -> Result<Timings, JobError> {
+    let SimulationInput { db, database_checksum, scenario } = input;
+    let db = Arc::new(db);
+    let mut simulation = Simulation::new(Arc::clone(&db), &scenario);
+    note_missing_motions(&db, simulation.database(), observer);
+    check_horizon(simulation.database(), &scenario)?;
+    let steps = (scenario.duration_s / scenario.dt_s).round() as usize;
+    let header = Header::new(simulation.database(), database_checksum, scenario);
+    let mut recorder = Recorder::create(recording, &header)?;
+    recorder.push(simulation.frames())?;
+    let mut stopwatch = StepStopwatch::default();
+    let work = Work::begin(observer, "steps", steps);
+    for _ in 0..steps {
+        stopwatch.start();
+        simulation.step(&mut |stage| stopwatch.lap(stage));
+        recorder.push(simulation.frames())?;
+        work.advance();
+    }
+    work.end();
+    recorder.finish()?;
+    note_walls(&header.scenario, simulation.frames(), observer);
+    Ok(stopwatch.timings(header.scenario.agents.len(), steps, header.scenario.dt_s))
+}
+
+/// Notes where bodies move by more than the clips of their database, or can reach no goal with them.
+fn note_missing_motions(db: &MotionDb, complete: &MotionDb, observer: &Observer) {
+    if !coverage::walks_ahead(db) {
+        let note = "none of these clips walks ahead, so no agent reaches a goal; add a walk, and compile again";
+        observer(JobEvent::Note(note));
+    }
+    if let Some((walk, count)) = library::deformed_walk(db, complete) {
+        let missing = "these clips lack motions that a crowd needs (fbcrowd inspect names them)";
+        observer(JobEvent::Note(&format!("{missing}; {walk} is deformed to {count} of them")));
+    }
+}
+
+/// Notes agents that have not arrived because of a wall.
+fn note_walls(scenario: &Scenario, frames: &[AgentFrame], observer: &Observer) {
+    let ends_m = frames.iter().map(|frame| frame.root.position_m);
+    let Some(BlockedPaths { agent, waypoint, agents }) = blocked_paths(scenario, ends_m) else { return };
+    let [x, y] = scenario.agents[agent].goals_m[waypoint].to_array();
+    let all = if agents == 1 { String::new() } else { format!(" ({agents} agents in all)") };
+    let remedy = "agents walk straight to their next waypoint: add a waypoint beside the wall";
+    observer(JobEvent::Note(&format!("a wall is across the path of agent {agent} to [{x}, {y}]{all}; {remedy}")));
+}
+
+/// The planner must look further ahead than a change of synthesis takes (§3.4.1).
+fn check_horizon(db: &MotionDb, scenario: &Scenario) -> Result<(), JobError> {
+    let horizon_s = scenario.params.planner.time_horizon_s;
+    match HybridData::new(db, scenario.modes()) {
+        Some(HybridData { transition_s, .. }) if scenario.planner == Planner::Mcn && horizon_s <= transition_s => {
+            Err(JobError::ShortHorizon { horizon_s, transition_s })
+        }
+        _ => Ok(()),
+    }
+}
