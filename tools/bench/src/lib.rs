@@ -35,6 +35,11 @@ pub mod soak;
 pub mod speed;
 pub mod synthesis;
 
+/// The example of the README, which must compile.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct ReadmeExample;
+
 use fbcrowd_jobs::Observer;
 use fbcrowd_jobs::json_schema::document;
 
