@@ -1,7 +1,6 @@
-//! What a parser of TOML says, in the words of whoever wrote the text: no names of types, and what to write instead.
+//! Messages of the TOML parser in plain words: no names of types, and a remedy.
 
-/// What the parser wants, by its words: the types of numbers first, so that `f64` is not looked for in a text's own
-/// words.
+/// Expectations of the parser: its words, and plain words.
 const WANTED: [(&str, &str); 15] = [
     ("a nonzero usize", "a whole number from 1 on"),
     ("a nonzero u32", "a whole number from 1 on"),
@@ -19,22 +18,22 @@ const WANTED: [(&str, &str); 15] = [
     ("a sequence", "a list in brackets"),
     ("a map", "a table of keys and values"),
 ];
-/// Mistakes of spelling, by how the parser's sentence about them begins: what is wrong, and what to do.
-const SPELLING: [(&str, &str, &str); 9] = [
-    ("string values must be quoted", "this is no value", "write a number, true, false, or a text in quotes"),
+/// Mistakes of syntax: the beginning of the parser's message, the mistake in plain words, and the remedy.
+const SYNTAX: [(&str, &str, &str); 9] = [
+    ("string values must be quoted", "this is not a value", "write a number, true, false, or a text in quotes"),
     ("invalid basic string", "the text does not end in its line", "close it with a quote: \""),
     ("invalid literal string", "the text does not end in its line", "close it with a quote: '"),
-    ("missing escaped value", "a \\ in a text stands for more than itself", "write paths with /, or with \\\\"),
-    ("key with no value", "a key stands here without a value", "write key = value"),
-    ("duplicate key", "the key stands twice", "keep one of both"),
+    ("missing escaped value", "a \\ in a text begins an escape", "write paths with /, or with \\\\"),
+    ("key with no value", "a key is here without a value", "write key = value"),
+    ("duplicate key", "the key is here twice", "keep one of both"),
     ("unclosed inline table", "the table is not closed", "close it with }"),
     ("unclosed", "the bracket is not closed", "close it with ] as often as it is opened"),
-    ("unexpected key or value", "the line should have ended here", "begin a new line, or remove what follows"),
+    ("unexpected key or value", "the line should have ended here", "begin a new line, or remove the rest of this one"),
 ];
 
-/// A parser's sentence in plain words, and what to do.
+/// A message of the parser in plain words, and the remedy.
 pub(crate) fn in_plain_words(message: &str) -> (String, &'static str) {
-    if let Some((_, mistake, help)) = SPELLING.iter().find(|(begin, ..)| message.starts_with(begin)) {
+    if let Some((_, mistake, help)) = SYNTAX.iter().find(|(begin, ..)| message.starts_with(begin)) {
         return ((*mistake).to_owned(), help);
     }
     if message.starts_with("unknown field") {
@@ -49,7 +48,7 @@ pub(crate) fn in_plain_words(message: &str) -> (String, &'static str) {
     }
     match after("invalid type: ").or_else(|| after("invalid value: ")) {
         Some(("map", "a sequence")) => {
-            ("a list of tables is wanted here, not one table".to_owned(), "head each with double brackets: [[ ]]")
+            ("a list of tables is wanted here, not one table".to_owned(), "begin each with double brackets: [[ ]]")
         }
         Some((found, wanted)) => {
             (format!("{} wanted here, not {}", plainly_wanted(wanted), plainly_found(found)), "correct the value")
@@ -58,7 +57,7 @@ pub(crate) fn in_plain_words(message: &str) -> (String, &'static str) {
     }
 }
 
-/// What is wanted, with its verb.
+/// The expected value in plain words, with its verb.
 fn plainly_wanted(wanted: &str) -> String {
     let is_of_several = wanted.starts_with("the ");
     let plain = match WANTED.iter().find(|(words, _)| *words == wanted) {
@@ -69,6 +68,7 @@ fn plainly_wanted(wanted: &str) -> String {
     format!("{plain} {}", if is_of_several { "are" } else { "is" })
 }
 
+/// The value that was found, in plain words.
 fn plainly_found(found: &str) -> &str {
     let kinds = ["integer ", "floating point ", "boolean ", "string "];
     match found {
@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_name_of_a_type_reaches_the_reader() {
+    fn plain_words_name_no_types() {
         let check = |message: &str, plain: &str| assert_eq!(in_plain_words(message).0, plain);
         check(
             "invalid value: integer `0`, expected a nonzero usize",
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_bracket_is_to_be_closed_and_no_value_to_be_corrected() {
+    fn each_syntax_mistake_has_its_remedy() {
         let help = |message: &str| in_plain_words(message).1;
         assert_eq!(help("unclosed array table, expected `]`"), "close it with ] as often as it is opened");
         assert_eq!(help("invalid basic string, expected `\"`"), "close it with a quote: \"");

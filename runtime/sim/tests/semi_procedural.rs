@@ -8,7 +8,7 @@ use fbcrowd_sim::synthesis::semi_procedural::{Deformation, SemiProcedural};
 use glam::Vec2;
 use motiondb::body::{Joint, Joints};
 use motiondb::motion::{MotionDb, Parameters};
-use motiondb::quality::planted_feet::{CycleFeet, foot_slide, implied};
+use motiondb::quality::planted_feet::{CycleFeet, foot_slide, implied_root_motion};
 
 use crate::clips::{bundled, marine};
 
@@ -101,7 +101,7 @@ fn planted_feet_hold_whatever_the_speed_direction_and_turn() {
 #[test]
 fn the_feet_tell_the_parameters_that_were_asked() {
     for cycle in cycles(&bundled()) {
-        let found = implied(&cycle.feet).unwrap().parameters;
+        let found = implied_root_motion(&cycle.feet).unwrap().parameters;
         let off = found.to_vec3() - cycle.parameters.to_vec3();
         let turn_bar_rad_s = cycle.cadence * (0.2 + 1.0 * aside(cycle.parameters)).to_radians();
         let off_mps = off.x.abs().max(off.z.abs());

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use motiondb::diagnostic::{Diagnostic, Severity};
 use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
-use motiondb::quality::coverage::{self, ThinPlace};
+use motiondb::quality::coverage::{self, CoverageGap};
 use motiondb::quality::example_quality::{self, ExampleQuality, Finding};
 use motiondb_compiler::refused::Refused;
 use serde::Serialize;
@@ -34,7 +34,7 @@ pub(crate) struct CompileReport {
     pub(crate) quality: Vec<ExampleQuality>,
     /// What of it lies beyond its threshold; of mirrors nothing, they are as their originals are.
     pub(crate) findings: Vec<Finding>,
-    pub(crate) coverage: Vec<ThinPlace>,
+    pub(crate) coverage: Vec<CoverageGap>,
     pub(crate) stages: Vec<Stage>,
     pub(crate) next: Vec<String>,
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use fbcrowd_render::plots::database::pose_distances_between;
 use fbcrowd_render::raster::png_frame;
-use motiondb::motion::{MotionDb, table};
+use motiondb::motion::{MotionDb, pose_pairs};
 use motiondb_compiler::input::nearest_first;
 use serde::Serialize;
 
@@ -31,7 +31,7 @@ impl Between {
     pub(crate) fn new(db: &MotionDb, names: &[String]) -> Result<Self, Failure> {
         let [from, to] = names else { return Err(Failure::bad("--correspondence takes the names of two examples")) };
         let examples = [find(db, from)?, find(db, to)?];
-        let table = table(db, examples[0], examples[1]);
+        let table = pose_pairs(db, examples[0], examples[1]);
         let stands =
             examples.map(|index| &db.examples[index]).into_iter().filter(|example| example.key_times_s.is_none());
         Ok(Self {

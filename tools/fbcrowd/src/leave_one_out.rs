@@ -19,7 +19,6 @@ use fbcrowd_sim::synthesis::blending::Mix;
 use motiondb::blend_space::triangulation;
 use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
 use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT, Rows};
-use motiondb::quality::coverage::{locate_inside, locator};
 use serde::Serialize;
 
 use crate::statistics::{median, share};
@@ -117,8 +116,8 @@ fn left_out(db: &MotionDb, index: usize) -> Option<LeftOut> {
     if others.examples.is_empty() {
         return None;
     }
-    let locator = locator(&others);
-    let mix = Mix::new(&locate_inside(&others, &locator, example.parameters)?);
+    let locator = others.locator();
+    let mix = Mix::new(&locator.locate_inside(example.parameters)?);
     let nearest = nearest(&others, example);
     let name = |index: usize| others.examples[index].name.clone();
     let mut parts: Vec<Part> =

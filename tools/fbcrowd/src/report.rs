@@ -3,7 +3,7 @@
 use glam::Vec2;
 use motiondb::diagnostic::Diagnostic;
 use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
-use motiondb::quality::coverage::{self, ThinPlace};
+use motiondb::quality::coverage::{self, CoverageGap};
 use motiondb::velocity_sets::velocity_hull::{Construction, VelocityHull};
 use motiondb_compiler::refused::Refused;
 use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
@@ -62,7 +62,7 @@ pub(crate) struct DatabaseReport {
     velocity_hull: VelocityHull,
     blend_space: BlendSpace,
     correspondence: Option<Correspondence>,
-    coverage: Vec<ThinPlace>,
+    coverage: Vec<CoverageGap>,
     /// Where asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) leave_one_out: Option<LeaveOneOut>,
@@ -231,7 +231,7 @@ fn correspondence_text(correspondence: Option<&Correspondence>) -> String {
     format!("correspondences, s  {} / {}: {}\n", found.semi_procedural, found.blending, pairs.join("  "))
 }
 
-fn coverage_text(coverage: &[ThinPlace]) -> String {
+fn coverage_text(coverage: &[CoverageGap]) -> String {
     let nowhere = coverage.is_empty().then_some("nowhere");
     let sentences = nowhere.into_iter().chain(coverage.iter().map(|thin| thin.sentence.as_str()));
     let lines: String = sentences.map(|sentence| format!("  {sentence}\n")).collect();

@@ -1,5 +1,7 @@
-//! Plots. `chart` draws axes, marks and labels; `crowd` and `database` draw what people look at.
+//! Plots. `chart` draws figures with axes, marks and labels; `crowd` and `database` draw one plot per file.
+//!
+//! Enters: recordings, figures of benches, databases. Leaves: opaque pictures, or PNG files.
 
-pub mod chart;
+pub(crate) mod chart;
 pub mod crowd;
 pub mod database;

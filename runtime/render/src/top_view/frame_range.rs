@@ -1,23 +1,24 @@
-//! Which frames of a sequence to render: `1001-1100`, `1001-1100x2` (or `:2`), `1010,1020`, and lists of these.
+//! Frame ranges, as film tools write them: `1001-1100`, `1001-1100x2` (or `:2`), `1010`, and lists of these with commas.
 
 use std::collections::BTreeSet;
 use std::str::FromStr;
 
 use crate::error::RenderError;
 
-/// Frames are numbered from here, as film tools expect.
+/// Number of a sequence's first frame, as film tools expect it.
 pub(crate) const FIRST_FRAME: u32 = 1001;
 
-/// Frame numbers as a user wrote them.
+/// Frame numbers, as a user wrote them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameRange {
+    /// The user's text.
     text: String,
-    pieces: Vec<Piece>,
+    spans: Vec<FrameSpan>,
 }
 
-/// `first-last x step`.
+/// A part `FIRST-LASTxSTEP` of a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Piece {
+struct FrameSpan {
     first: u32,
     last: u32,
     step: u32,
@@ -27,25 +28,25 @@ impl FromStr for FrameRange {
     type Err = RenderError;
 
     fn from_str(text: &str) -> Result<Self, RenderError> {
-        let refuse =
+        let error =
             |part: &str, reason| RenderError::FrameRange { text: text.to_owned(), part: part.to_owned(), reason };
-        let piece = |part: &str| parse_piece(part.trim()).map_err(|reason| refuse(part, reason));
-        let pieces = text.split(',').map(piece).collect::<Result<_, _>>()?;
-        Ok(Self { text: text.to_owned(), pieces })
+        let span = |part: &str| parse_span(part.trim()).map_err(|reason| error(part, reason));
+        let spans = text.split(',').map(span).collect::<Result<_, _>>()?;
+        Ok(Self { text: text.to_owned(), spans })
     }
 }
 
 impl FrameRange {
-    /// The numbers that lie in a recording of `frame_count` frames, ascending, each once.
+    /// The frame numbers that exist in a recording of `frame_count` frames, ascending, each once.
     ///
     /// # Errors
-    /// Where none does.
+    /// If none exists.
     pub fn clip(&self, frame_count: u32) -> Result<Vec<u32>, RenderError> {
         let (first, last) = (FIRST_FRAME, FIRST_FRAME + frame_count.saturating_sub(1));
         let numbers: BTreeSet<u32> = self
-            .pieces
+            .spans
             .iter()
-            .flat_map(|piece| (piece.first..=piece.last.min(last)).step_by(piece.step as usize))
+            .flat_map(|span| (span.first..=span.last.min(last)).step_by(span.step as usize))
             .filter(|number| *number >= first)
             .collect();
         if numbers.is_empty() {
@@ -55,7 +56,7 @@ impl FrameRange {
     }
 }
 
-fn parse_piece(part: &str) -> Result<Piece, &'static str> {
+fn parse_span(part: &str) -> Result<FrameSpan, &'static str> {
     let number = |digits: &str| digits.trim().parse::<u32>().map_err(|_| "a frame number is missing or not a number");
     let (span, step) = match part.split_once(['x', ':']) {
         Some((span, step)) => (span, step.trim().parse::<u32>().map_err(|_| "the step is not a number")?),
@@ -68,7 +69,7 @@ fn parse_piece(part: &str) -> Result<Piece, &'static str> {
     match (step, first <= last) {
         (0, _) => Err("the step is zero"),
         (_, false) => Err("the range ends before it begins"),
-        _ => Ok(Piece { first, last, step }),
+        _ => Ok(FrameSpan { first, last, step }),
     }
 }
 
@@ -81,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn ranges_steps_and_lists_are_read_clipped_and_sorted() {
+    fn frames_are_clipped_and_sorted() {
         check("1001-1003", &[1001, 1002, 1003]);
         check("1001-1006x2", &[1001, 1003, 1005]);
         check("1001-1006:3", &[1001, 1004]);
@@ -92,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_range_is_refused_with_its_part() {
+    fn an_invalid_range_is_rejected_with_its_part() {
         for (text, part) in [
             ("", ""),
             ("1001,,1002", ""),

@@ -1,10 +1,8 @@
-//! A chart: the plane of a `plot`, its `axis`, its `mark`s, and positions of labels that do not overlap.
+//! Charts: a `figure` with panels, their `axis`, `mark`s of points, positions of labels that do not overlap, and the grid of
+//! cells of a sheet with many panels. Positions on a figure in pixels, y down.
 
 pub(crate) mod axis;
+pub(crate) mod cell_grid;
+pub(crate) mod figure;
 pub(crate) mod label_positions;
 pub(crate) mod mark;
-pub(crate) mod plot;
-
-pub use axis::Axis;
-pub use mark::Mark;
-pub use plot::{Figure, Line, Panel};

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use motiondb::blend_space::triangulation;
 use motiondb::motion::{Correspondence, MotionDb, MotionExample, Parameters};
-use motiondb::quality::coverage::{Lack, coverage};
+use motiondb::quality::coverage::{GapKind, coverage};
 use motiondb::quality::planted_feet::foot_slide;
 use motiondb::validate::contradiction;
 use motiondb::velocity_sets::velocity_hull;
@@ -21,28 +21,28 @@ use crate::synthesis::semi_procedural::base_walk::SemiProcedural;
 use crate::synthesis::semi_procedural::deformation::Deformation;
 
 /// Without these no body makes way.
-const MAKING_WAY: [Lack; 4] = [Lack::Walking, Lack::WalkingTurns, Lack::TurningInPlace, Lack::SideSteps];
+const MAKING_WAY: [GapKind; 4] = [GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps];
 
 /// Ways of walking by what a set lacks, over the speed of m_sp: ahead, turning in rad/m, aside. Well within what m_sp
 /// reaches (`fbcrowd bench reach`), and what people do without haste: bends of 1.4 and 0.5 m, on the spot 90 °/s for a
 /// walk of 1.2 m/s.
-const WAYS: [(Lack, Vec3); 11] = [
-    (Lack::Walking, Vec3::new(1.0, 0.0, 0.0)),
-    (Lack::Walking, Vec3::new(0.5, 0.0, 0.0)),
-    (Lack::WalkingTurns, Vec3::new(1.0, 0.72, 0.0)),
-    (Lack::WalkingTurns, Vec3::new(1.0, -0.72, 0.0)),
-    (Lack::WalkingTurns, Vec3::new(0.6, 1.2, 0.0)),
-    (Lack::WalkingTurns, Vec3::new(0.6, -1.2, 0.0)),
-    (Lack::TurningInPlace, Vec3::new(0.0, 1.3, 0.0)),
-    (Lack::TurningInPlace, Vec3::new(0.0, -1.3, 0.0)),
-    (Lack::SideSteps, Vec3::new(0.0, 0.0, 0.4)),
-    (Lack::SideSteps, Vec3::new(0.0, 0.0, -0.4)),
-    (Lack::Backward, Vec3::new(-0.5, 0.0, 0.0)),
+const WAYS: [(GapKind, Vec3); 11] = [
+    (GapKind::Walking, Vec3::new(1.0, 0.0, 0.0)),
+    (GapKind::Walking, Vec3::new(0.5, 0.0, 0.0)),
+    (GapKind::WalkingTurns, Vec3::new(1.0, 0.72, 0.0)),
+    (GapKind::WalkingTurns, Vec3::new(1.0, -0.72, 0.0)),
+    (GapKind::WalkingTurns, Vec3::new(0.6, 1.2, 0.0)),
+    (GapKind::WalkingTurns, Vec3::new(0.6, -1.2, 0.0)),
+    (GapKind::TurningInPlace, Vec3::new(0.0, 1.3, 0.0)),
+    (GapKind::TurningInPlace, Vec3::new(0.0, -1.3, 0.0)),
+    (GapKind::SideSteps, Vec3::new(0.0, 0.0, 0.4)),
+    (GapKind::SideSteps, Vec3::new(0.0, 0.0, -0.4)),
+    (GapKind::Backward, Vec3::new(-0.5, 0.0, 0.0)),
 ];
 
 /// The database itself where bodies can stand and make way with it, or one in which they can.
 pub fn complete(db: Arc<MotionDb>) -> Arc<MotionDb> {
-    let lacks: Vec<Lack> = coverage(&db).into_iter().map(|thin| thin.lack).collect();
+    let lacks: Vec<GapKind> = coverage(&db).into_iter().map(|thin| thin.kind).collect();
     let standing = standing::provided(db);
     if !MAKING_WAY.iter().any(|lack| lacks.contains(lack)) {
         return standing;
@@ -64,7 +64,7 @@ fn walk(db: &MotionDb) -> Option<usize> {
 }
 
 /// None where there is no walk that could be deformed.
-fn with_deformed(db: &MotionDb, lacks: &[Lack]) -> Option<MotionDb> {
+fn with_deformed(db: &MotionDb, lacks: &[GapKind]) -> Option<MotionDb> {
     let walk = walk(db)?;
     let m_sp = SemiProcedural::new(db, walk)?;
     let mut db = db.clone();
