@@ -5,7 +5,7 @@ mod support;
 use std::sync::Arc;
 
 use fbcrowd_sim::recording::Recording;
-use fbcrowd_sim::synthesis::library::augmented_database;
+use fbcrowd_sim::synthesis::library;
 use motiondb::files::database_file;
 use serde_json::Value;
 use support::{compile, fbcrowd, folder, marine_clips, shared, text};
@@ -157,10 +157,9 @@ fn a_simulation_deforms_the_walk_of_a_set_once_though_it_lacks_something_even_th
     let folder = folder("deformed_once");
     let database = compile(&["assets/clips/jog_turn_110_left.bvh".to_owned()], &folder);
     let given = Arc::new(database_file::read(&database).unwrap().0);
-    let once = augmented_database::complete(Arc::clone(&given));
-    let twice = augmented_database::complete(Arc::clone(&once));
-    let [(_, once_count), (_, twice_count)] =
-        [&once, &twice].map(|db| augmented_database::deformed(&given, db).unwrap());
+    let once = library::augmented(Arc::clone(&given));
+    let twice = library::augmented(Arc::clone(&once));
+    let [(_, once_count), (_, twice_count)] = [&once, &twice].map(|db| library::deformed_walk(&given, db).unwrap());
     assert!(once_count < twice_count && once.velocity_hull != twice.velocity_hull, "this set would not tell");
 
     let (scene, recording) = (folder.join("scene.toml"), folder.join("scene.fbrec"));

@@ -4,8 +4,7 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use motiondb_compiler::compile::{Options, compile};
-use motiondb_compiler::import::import_bytes;
+use motiondb_compiler::{Options, compile, import_bytes};
 
 fuzz_target!(|bytes: &[u8]| {
     if let Ok(imports) = import_bytes(Path::new("clip.bvh"), bytes) {

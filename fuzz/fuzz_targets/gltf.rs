@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use motiondb_compiler::import::import_bytes;
+use motiondb_compiler::import_bytes;
 
 fuzz_target!(|bytes: &[u8]| {
     let _ = import_bytes(Path::new("/nowhere/clip.glb"), bytes);

@@ -4,7 +4,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use motiondb::files::SourceText;
-use motiondb_compiler::input::manifest::Manifest;
+use motiondb_compiler::Manifest;
 
 fuzz_target!(|text: &str| {
     if !text.contains('/') && !text.contains("..") {

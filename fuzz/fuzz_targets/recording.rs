@@ -5,8 +5,8 @@
 use std::fs;
 
 use fbcrowd_fuzz::on_disk;
-use fbcrowd_sim::measures::metrics::measure;
-use fbcrowd_sim::recording::{CHUNK_HEAD_BYTES, PACKED_BYTES, Recording, unpack, write_chunk};
+use fbcrowd_sim::measures::measure;
+use fbcrowd_sim::recording::{Recording, CHUNK_HEAD_BYTES, write_chunk, PACKED_BYTES, unpack};
 use libfuzzer_sys::fuzz_target;
 
 /// Magic and version stand before the first chunk.

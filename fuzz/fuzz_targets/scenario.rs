@@ -16,6 +16,6 @@ fuzz_target!(|bytes: &[u8]| {
 
 fn read(text: &[u8]) {
     let path = on_disk("toml", text);
-    let _ = scenario::file::read(&path);
+    let _ = scenario::read(&path);
     fs::remove_file(path).expect("it was written just now");
 }

@@ -50,6 +50,17 @@ pub fn percentile(values: impl IntoIterator<Item = f64>, share: f64) -> Option<f
     Some(sorted[((share * sorted.len() as f64) as usize).min(last)])
 }
 
+/// Value of the sorted sample at the index ⌊`share` · (n − 1)⌋: 0 gives the least value, 1 the greatest.
+///
+/// ```
+/// assert_eq!(motiondb::statistics::lower_quantile([4.0, 1.0, 3.0, 2.0], 0.5), Some(2.0));
+/// ```
+pub fn lower_quantile(values: impl IntoIterator<Item = f64>, share: f64) -> Option<f64> {
+    let sorted = sorted(values);
+    let last = sorted.len().checked_sub(1)?;
+    Some(sorted[(share * last as f64) as usize])
+}
+
 fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.into_iter().collect();
     sorted.sort_by(f64::total_cmp);
@@ -82,5 +93,12 @@ mod tests {
     fn percentiles_stay_within_the_sample() {
         let values = [30.0, 10.0, 20.0];
         assert_eq!([0.0, 0.34, 0.67, 1.0].map(|share| percentile(values, share)), [10.0, 20.0, 30.0, 30.0].map(Some));
+    }
+
+    #[test]
+    fn a_lower_quantile_is_one_of_the_values() {
+        assert_eq!(lower_quantile([4.0, 1.0, 3.0, 2.0], 0.5), Some(2.0));
+        assert_eq!(lower_quantile([4.0, 1.0, 3.0, 2.0], 1.0), Some(4.0));
+        assert_eq!(lower_quantile([], 0.5), None);
     }
 }

@@ -107,11 +107,25 @@ impl Pose {
         for joint in &Joint::ALL[1..] {
             let index = joint.index();
             let Some(parent) = joint.parent().map(Joint::index) else { continue };
-            joints.positions_m[index] =
-                joints.positions_m[parent] + joints.orientations[parent] * skeleton.offsets_m[index];
-            joints.orientations[index] = joints.orientations[parent] * self.rotations[index];
+            let posed_parent = (joints.positions_m[parent], joints.orientations[parent]);
+            (joints.positions_m[index], joints.orientations[index]) = self.posed_child(skeleton, index, posed_parent);
         }
         joints
+    }
+
+    /// Positions (m) and orientations, in the root frame, of the joints of one chain. The first joint is a child of the
+    /// pelvis, each other one a child of the joint before it. `chain` holds indices.
+    pub fn chain<const N: usize>(&self, skeleton: &Skeleton, chain: [usize; N]) -> [(Vec3, Quat); N] {
+        let mut posed = (self.pelvis_m, self.rotations[Joint::Pelvis.index()]);
+        chain.map(|index| {
+            posed = self.posed_child(skeleton, index, posed);
+            posed
+        })
+    }
+
+    #[inline]
+    fn posed_child(&self, skeleton: &Skeleton, index: usize, (parent_m, parent): (Vec3, Quat)) -> (Vec3, Quat) {
+        (parent_m + parent * skeleton.offsets_m[index], parent * self.rotations[index])
     }
 
     /// Flexion of a knee, radians: the twist of its shank about the body's left axis. Negative for a hyperextended knee.

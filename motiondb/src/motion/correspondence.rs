@@ -240,7 +240,8 @@ mod tests {
     fn most_minima(minima: &[RowPair], substitutes: &[RowPair]) -> usize {
         let all: Vec<RowPair> = minima.iter().chain(substitutes).copied().collect();
         let chosen = |set: usize| {
-            let mut pairs: Vec<RowPair> = (0..all.len()).filter(|bit| set >> bit & 1 == 1).map(|bit| all[bit]).collect();
+            let mut pairs: Vec<RowPair> =
+                (0..all.len()).filter(|bit| set >> bit & 1 == 1).map(|bit| all[bit]).collect();
             pairs.sort_by_key(|pair| pair.rows);
             pairs
         };

@@ -130,8 +130,9 @@ fn walking_turn_gaps(db: &MotionDb) -> Vec<CoverageGap> {
     let sides =
         if are_alike { vec![(left.min(right), "either side")] } else { vec![(left, "the left"), (right, "the right")] };
     let is_wide = |rate_rad_s: f32| rate_rad_s * TURN_RADIUS_MAX_M < walk.speed_mps.abs();
-    let gap = |(rate_rad_s, side): (f32, &str)| {
-        CoverageGap { kind: GapKind::WalkingTurns, sentence: walking_turn_sentence(walk.speed_mps, rate_rad_s, side) }
+    let gap = |(rate_rad_s, side): (f32, &str)| CoverageGap {
+        kind: GapKind::WalkingTurns,
+        sentence: walking_turn_sentence(walk.speed_mps, rate_rad_s, side),
     };
     sides.into_iter().filter(|(rate, _)| is_wide(*rate)).map(gap).collect()
 }

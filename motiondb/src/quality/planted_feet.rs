@@ -206,8 +206,8 @@ impl PlantedPoint {
     /// Horizontal speed in the world, m/s, by central differences along the root's arc.
     fn speed_mps(&self, velocity: DVec3) -> f64 {
         let [before_s, after_s] = self.steps_s;
-        let moved_m = moved_with_root_m(self.after_m, velocity, after_s)
-            - moved_with_root_m(self.before_m, velocity, before_s);
+        let moved_m =
+            moved_with_root_m(self.after_m, velocity, after_s) - moved_with_root_m(self.before_m, velocity, before_s);
         moved_m.length() / (after_s - before_s)
     }
 
@@ -230,9 +230,8 @@ fn moved_with_root_m(point_m: DVec2, velocity: DVec3, time_s: f64) -> DVec2 {
 
 /// Index of the point of each row that is lowest over its planted height.
 fn lowest_points(feet: &[[DVec3; 3]]) -> Vec<usize> {
-    let planted_m = [0, 1, 2].map(|point: usize| {
-        percentile(feet.iter().map(|foot| foot[point].z), PLANTED_PERCENTILE).unwrap_or_default()
-    });
+    let planted_m = [0, 1, 2]
+        .map(|point: usize| percentile(feet.iter().map(|foot| foot[point].z), PLANTED_PERCENTILE).unwrap_or_default());
     let height_m = |foot: &[DVec3; 3], point: usize| foot[point].z - planted_m[point];
     let lowest = |foot: &[DVec3; 3]| (1..3).fold(0, |a, b| if height_m(foot, b) < height_m(foot, a) { b } else { a });
     feet.iter().map(lowest).collect()

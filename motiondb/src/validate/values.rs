@@ -40,7 +40,9 @@ pub(crate) fn skeleton_is_a_body(db: &MotionDb) -> CheckResult {
     }
     for foot in &skeleton.feet {
         let mut points = [foot.heel_m, foot.ball_m, foot.toe_tip_m].into_iter().chain(foot.measured_m);
-        ensure(points.all(|point| near(point.length())), || format!("a point of a foot is far from its joint: {foot:?}"))?;
+        ensure(points.all(|point| near(point.length())), || {
+            format!("a point of a foot is far from its joint: {foot:?}")
+        })?;
     }
     Ok(())
 }

@@ -112,7 +112,9 @@ pub(crate) fn half_planes_agree_with_the_hulls(db: &MotionDb) -> CheckResult {
             let on_line = |corner: &&Vec2| direction.perp_dot(point - **corner).abs() <= TOLERANCE_MPS;
             corners_mps.len() < 3 || corners_mps.iter().filter(on_line).count() >= 2
         };
-        ensure(half_planes(corners_mps).all(touches), || format!("a half-plane of the {name} set lies on no edge of it"))
+        ensure(half_planes(corners_mps).all(touches), || {
+            format!("a half-plane of the {name} set lies on no edge of it")
+        })
     })
 }
 

@@ -34,7 +34,7 @@ pub enum RenderError {
     },
     /// The text of `--frames` does not follow the grammar.
     #[error(
-        "frames \"{text}\": {reason} at \"{part}\"; write ranges as 1001-1100, every second frame as 1001-1100x2, single ones as 1010,1020"
+        "frames \"{text}\": {fault} at \"{part}\"; write ranges as 1001-1100, every second frame as 1001-1100x2, single ones as 1010,1020"
     )]
     FrameRange {
         /// The whole text.
@@ -42,7 +42,7 @@ pub enum RenderError {
         /// The comma-separated part at fault.
         part: String,
         /// The fault of the part.
-        reason: &'static str,
+        fault: FrameRangeFault,
     },
     /// The recording has none of the frames of `--frames`.
     #[error("frames \"{text}\": the recording has none of these, but {first} to {last}; choose among those")]
@@ -81,4 +81,21 @@ pub enum RenderError {
     /// The recording cannot be read.
     #[error(transparent)]
     Recording(#[from] fbcrowd_sim::recording::RecordingError),
+}
+
+/// What is wrong with a part of a frame range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum FrameRangeFault {
+    /// A frame number is missing or not a number.
+    #[error("a frame number is missing or not a number")]
+    Number,
+    /// The step is not a number.
+    #[error("the step is not a number")]
+    Step,
+    /// The step is zero.
+    #[error("the step is zero")]
+    ZeroStep,
+    /// The range ends before it begins.
+    #[error("the range ends before it begins")]
+    Reversed,
 }

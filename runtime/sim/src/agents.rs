@@ -1,8 +1,10 @@
-//! The state of all agents, in index order: what a planner reads of others is a structure of arrays; bodies, plans and
-//! frames, which nobody but their own agent's synthesis touches, are arrays of structures.
+//! The state of all agents, in index order. What planners read of other agents is a structure of arrays; bodies, plans
+//! and frames, which only the synthesis of their own agent reads or changes, are arrays of structures.
 //!
-//! World axes, metres, seconds, radians. What the planner reads of the bodies changes only after all have planned:
-//! the stance foot as they are synthesised, all else in `coupling::body_to_disc`.
+//! What planners read changes only after all have planned: the stance foot during synthesis, all else in
+//! `coupling::body_to_disc`.
+//!
+//! World frame; metres, seconds, radians.
 
 use glam::Vec2;
 use motiondb::body::Root;
@@ -10,54 +12,54 @@ use motiondb::body::Root;
 use crate::maths::random::SplitMix64;
 use crate::planning::plan::{Plan, Stance};
 use crate::recording::frame::AgentFrame;
-use crate::route::path::Progress;
+use crate::route::path::PathProgress;
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
-use crate::synthesis::{Body, Motion};
+use crate::synthesis::{Body, SynthesisContext};
 
-/// Streams from here on draw the starting phases; those below are the scenario's.
+/// First random stream of the starting phases; the scenario uses those below.
 const START_PHASE_STREAM: u64 = 1 << 32;
 
-/// Every agent; all arrays are of the same length.
+/// All agents; all arrays have the same length.
 #[derive(Clone, Debug, Default)]
 pub struct Agents {
-    /// Centres of the discs: the synthesised roots, m.
+    /// Centre of the disc: position of the synthesised root, m.
     pub positions_m: Vec<Vec2>,
-    /// Of the synthesised roots over the last step, or what a body is committed to, m/s.
+    /// Velocity of the root in the last step, or the velocity to which the body is committed, m/s.
     pub velocities_mps: Vec<Vec2>,
-    /// Of the synthesised roots, rad.
+    /// Facing of the synthesised root, rad.
     pub facings_rad: Vec<f32>,
-    /// Radii of the discs, m.
+    /// Radius of the disc, m.
     pub radii_m: Vec<f32>,
     /// How far each has got on its way.
-    pub progress: Vec<Progress>,
+    pub progress: Vec<PathProgress>,
     /// v_pref, m/s.
     pub preferred_mps: Vec<Vec2>,
-    /// What was planned for the step.
+    /// Plan for the step.
     pub plans: Vec<Plan>,
-    /// Contiguous strafing time after the last plan, s.
+    /// Contiguous time of strafing after the last plan, s.
     pub strafing_s: Vec<f32>,
-    /// Contiguous time stepping back after the last plan, s.
+    /// Contiguous time of stepping back after the last plan, s.
     pub stepping_back_s: Vec<f32>,
-    /// Synthesis, from step to step.
+    /// The simulated body.
     pub bodies: Vec<Body>,
-    /// The stance foot that the planner sees.
+    /// Stance that planners read.
     pub stances: Vec<Stance>,
-    /// What is recorded; it holds the poses.
+    /// Recorded frame, which holds the pose.
     pub frames: Vec<AgentFrame>,
 }
 
 impl Agents {
-    /// Standing where the scenario puts them. Each starts at another phase of its cycle, so that no crowd marches in
-    /// step.
-    pub fn new(scenario: &Scenario, motion: &Motion) -> Self {
+    /// Agents that stand at the start positions of a scenario, each at another phase of its cycle, so that a crowd does
+    /// not march in step.
+    pub fn new(scenario: &Scenario, context: &SynthesisContext) -> Self {
         let count = scenario.agents.len();
         let mut agents = Self {
             positions_m: scenario.agents.iter().map(|agent| agent.position_m).collect(),
             velocities_mps: vec![Vec2::ZERO; count],
             facings_rad: scenario.agents.iter().map(|agent| agent.facing_rad).collect(),
             radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
-            progress: vec![Progress::default(); count],
+            progress: vec![PathProgress::default(); count],
             preferred_mps: vec![Vec2::ZERO; count],
             plans: vec![Plan::default(); count],
             strafing_s: vec![0.0; count],
@@ -67,18 +69,18 @@ impl Agents {
         };
         for (index, agent) in scenario.agents.iter().enumerate() {
             let root = Root { position_m: agent.position_m, facing_rad: agent.facing_rad };
-            let (body, mut synthesis) = Body::standing(motion, root, start_phase(scenario.seed, index as u64));
+            let (body, mut output) = Body::standing(context, root, start_phase(scenario.seed, index as u64));
             if scenario.coupling == Coupling::Discs {
-                synthesis.contacts = [0.0; 2];
+                output.contacts = [0.0; 2];
             }
             agents.bodies.push(body);
-            agents.stances.push(synthesis.stance);
-            agents.frames[index].show(&synthesis);
+            agents.stances.push(output.stance);
+            agents.frames[index].show(&output);
         }
         agents
     }
 
-    /// What all arrays take together, bytes; nothing in them points to more.
+    /// Memory of all arrays, bytes; their elements hold no pointers.
     pub fn size_bytes(&self) -> usize {
         let Self { positions_m, velocities_mps, facings_rad, radii_m, progress, preferred_mps, plans, .. } = self;
         let Self { strafing_s, stepping_back_s, bodies, stances, frames, .. } = self;
@@ -96,7 +98,7 @@ impl Agents {
     }
 }
 
-/// A phase in [0, 1), from 24 random bits, all that an f32 holds.
+/// A phase in [0, 1) from 24 random bits, the mantissa of an f32.
 fn start_phase(seed: u64, agent: u64) -> f32 {
     (SplitMix64::new(seed, START_PHASE_STREAM + agent).next_u64() >> 40) as f32 / (1 << 24) as f32
 }

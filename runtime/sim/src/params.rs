@@ -1,23 +1,22 @@
-//! Every tunable of a simulation, as a scenario file may set it; each section's defaults, units and reasons stand with
-//! its owner.
+//! Every tunable of a simulation, as a scenario file may set it. Defaults, units and sources are documented at the
+//! owner of each section.
 
 use serde::{Deserialize, Serialize};
 
-use crate::planning::baselines::orca::OrcaParams;
-use crate::planning::baselines::social_force::SocialForceParams;
-use crate::planning::mcn::params::McnParams;
+use crate::planning::baselines::{OrcaParams, SocialForceParams};
+use crate::planning::mcn::McnParams;
 use crate::synthesis::params::HmsParams;
 
-/// Tunables of the planners and of synthesis.
+/// Tunables of the planners and of synthesis: the tables below `[params]` in a scenario file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
-    /// `[params.planner]`: MCN's.
+    /// `[params.planner]`: tunables of MCN.
     pub planner: McnParams,
-    /// `[params.orca]`
+    /// `[params.orca]`: tunables of plain ORCA.
     pub orca: OrcaParams,
-    /// `[params.social_force]`
+    /// `[params.social_force]`: tunables of social forces.
     pub social_force: SocialForceParams,
-    /// `[params.synthesis]`
+    /// `[params.synthesis]`: tunables of synthesis.
     pub synthesis: HmsParams,
 }

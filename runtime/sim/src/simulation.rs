@@ -1,14 +1,16 @@
 //! One step of the simulation, in the order of the paper's Fig. 2 (`FbCrowd` §3).
 //!
-//! 1. path: where each agent would go, v_pref;
-//! 2. neighbours: who is near;
+//! 1. path: the preferred velocity of each agent, v_pref;
+//! 2. neighbours: the agents near each agent;
 //! 3. planning (MCN, §4): v_pref becomes a velocity that body, stance and crowd allow;
-//! 4. synthesis (HMS, §5): the body follows;
-//! 5. coupling (CNS, §3.4): the disc follows the body; the step is recorded.
+//! 4. synthesis (HMS, §5): the body follows its plan;
+//! 5. coupling (CNS, §3.4): the disc takes the body's position; the step is recorded.
 //!
-//! Every plan is made from the world as the last step left it, and each body is moved by its own plan alone, so neither
-//! the order of agents nor the number of threads changes a bit. No clock runs in here: an observer hears the end of
-//! each stage.
+//! Every plan is made from the world as the last step left it, and each body follows its own plan alone. So neither the
+//! order of agents nor the number of threads changes a bit. The simulation reads no clock; an observer receives the end
+//! of each stage.
+//!
+//! World frame; metres, seconds, radians.
 
 use std::sync::Arc;
 
@@ -19,81 +21,80 @@ use crate::agents::Agents;
 use crate::coupling::{body_to_disc, decoupled};
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan_all::{self, plan_all};
-use crate::planning::planner::ahead_s;
-use crate::planning::world_view::World;
+use crate::planning::planner::ranking_horizon_s;
+use crate::planning::world_view::WorldView;
 use crate::recording::frame::AgentFrame;
 use crate::route::path::{self, Braking};
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
-use crate::synthesis::library::context::Studio;
-use crate::synthesis::params::HmsParams;
-use crate::synthesis::time_step::TimeStep;
-use crate::world::neighbours::Neighbours;
+use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
+use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
 
-/// Bodies that one thread takes at a time: enough to outweigh the hand-over, few enough to share out 100.
-const CHUNK: usize = 16;
+/// Bodies that one thread takes at a time, at least: enough to outweigh the hand-over, few enough to share out 100.
+const BODIES_PER_TASK_MIN: usize = 16;
 
-/// What the sorted grids of [`Neighbours`] hold of an agent: place, velocity, radius, rank and cells, some of them
-/// twice.
+/// Memory of an agent in the sorted grids of [`NeighbourSearch`], bytes: position, velocity, radius, rank and cells, some of
+/// them twice.
 const GRID_BYTES: usize = 64;
 
-/// A stage of a step, for whoever measures.
+/// A stage of a step, for measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// v_pref.
+    /// Preferred velocities.
     Path,
     /// The grid of agents.
     Neighbours,
-    /// MCN.
+    /// MCN: plans.
     Planning,
-    /// HMS.
+    /// HMS: bodies.
     Synthesis,
-    /// CNS, and the frame.
+    /// CNS, and the recorded frame.
     Coupling,
 }
 
 /// A running simulation.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    studio: Studio,
+    context: SynthesisContext,
     scenario: Scenario,
     obstacles: Obstacles,
     constraints: MotionConstraints,
-    neighbours: Neighbours,
-    planning: plan_all::Memory,
+    neighbours: NeighbourSearch,
+    planning: plan_all::CrowdPlanningMemory,
     agents: Agents,
 }
 
 impl Simulation {
     /// At time 0: every agent stands at its start.
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
-        let studio = Studio::new(db, HmsParams { modes: scenario.modes(), ..scenario.params.synthesis.clone() });
-        let agents = Agents::new(scenario, &studio.motion());
+        let params = HmsParams { modes: scenario.modes(), ..scenario.params.synthesis.clone() };
+        let context = SynthesisContext::new(db, params);
+        let agents = Agents::new(scenario, &context);
         let mut simulation = Self {
             obstacles: Obstacles::new(&scenario.obstacles_m),
-            constraints: MotionConstraints::new(&studio.db.velocity_hull),
-            neighbours: Neighbours::default(),
-            planning: plan_all::Memory::default(),
+            constraints: MotionConstraints::new(&context.db.velocity_hull),
+            neighbours: NeighbourSearch::default(),
+            planning: plan_all::CrowdPlanningMemory::default(),
             scenario: scenario.clone(),
             agents,
-            studio,
+            context,
         };
         simulation.record();
         simulation
     }
 
-    /// What bodies move by: the database that was given, with what a crowd lacks in it.
+    /// The database that bodies move by: the given one, augmented where it lacks what a crowd needs.
     pub fn database(&self) -> &MotionDb {
-        &self.studio.db
+        &self.context.db
     }
 
-    /// What a recording keeps of the present, by agent.
+    /// The recorded frame of each agent at the present time.
     pub fn frames(&self) -> &[AgentFrame] {
         &self.agents.frames
     }
 
-    /// What each agent holds in memory, bytes: its place in all arrays, its start and its waypoints.
+    /// Memory per agent, bytes: its elements in all arrays, its start and its waypoints.
     pub fn bytes_per_agent(&self) -> usize {
         let specs = &self.scenario.agents;
         let goals: usize = specs.iter().map(|agent| size_of_val(&*agent.goals_m)).sum();
@@ -101,19 +102,19 @@ impl Simulation {
         held / specs.len().max(1) + GRID_BYTES
     }
 
-    /// Advances by the scenario's dt; `finished` hears the end of each stage.
+    /// Advances by the scenario's dt; `finished` receives each stage at its end.
     pub fn step(&mut self, finished: &mut dyn FnMut(Stage)) {
         self.follow_paths();
         finished(Stage::Path);
         let Agents { positions_m, velocities_mps, radii_m, .. } = &self.agents;
         let Scenario { planner, params, .. } = &self.scenario;
-        self.neighbours.rebuild(positions_m, velocities_mps, radii_m, ahead_s(*planner, params));
+        self.neighbours.rebuild(positions_m, velocities_mps, radii_m, ranking_horizon_s(*planner, params));
         finished(Stage::Neighbours);
         self.plan();
         finished(Stage::Planning);
         self.synthesize();
         finished(Stage::Synthesis);
-        body_to_disc::synchronize(&mut self.agents, self.scenario.dt_s);
+        body_to_disc::synchronize(&mut self.agents, &self.context, self.scenario.dt_s);
         self.record();
         finished(Stage::Coupling);
     }
@@ -131,9 +132,9 @@ impl Simulation {
     }
 
     /// What planners may know of the present. The neighbours are those of the last step's beginning.
-    pub fn world(&self) -> World<'_> {
+    pub fn world(&self) -> WorldView<'_> {
         let agents = &self.agents;
-        World {
+        WorldView {
             positions_m: &agents.positions_m,
             velocities_mps: &agents.velocities_mps,
             facings_rad: &agents.facings_rad,
@@ -159,26 +160,26 @@ impl Simulation {
     }
 
     fn synthesize(&mut self) {
-        let motion = self.studio.motion();
-        let (agents, obstacles) = (&mut self.agents, &self.obstacles);
+        let (context, agents, obstacles) = (&self.context, &mut self.agents, &self.obstacles);
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let time_step = TimeStep::new(dt_s);
-        let bodies = agents.bodies.par_iter_mut().with_min_len(CHUNK).zip(&mut agents.stances).zip(&mut agents.frames);
+        let bodies = agents.bodies.par_iter_mut().with_min_len(BODIES_PER_TASK_MIN);
+        let bodies = bodies.zip(&mut agents.stances).zip(&mut agents.frames);
         bodies.zip(&agents.plans).zip(&agents.radii_m).for_each(|((((body, stance), frame), plan), &radius_m)| {
             let from = body.root;
             match coupling {
-                Coupling::TwoWay => body.advance(&motion, plan, &time_step),
+                Coupling::TwoWay => body.advance(context, plan, &time_step),
                 Coupling::Discs | Coupling::Decoupled => body.root = body_to_disc::as_planned(from, plan, dt_s),
             }
             let kept = body_to_disc::outside_walls(from.position_m, body.root, radius_m, obstacles);
-            body.end_step(from.position_m, kept, dt_s);
-            let synthesis = match coupling {
-                Coupling::TwoWay => body.synthesize(&motion, &time_step),
-                Coupling::Decoupled => decoupled::follow(body, &motion, from, dt_s),
+            body.place_root(from.position_m, kept, dt_s);
+            let output = match coupling {
+                Coupling::TwoWay => body.synthesize(context, &time_step),
+                Coupling::Decoupled => decoupled::follow(body, context, from, dt_s),
                 Coupling::Discs => return,
             };
-            *stance = synthesis.stance;
-            frame.show(&synthesis);
+            *stance = output.stance;
+            frame.show(&output);
         });
     }
 
@@ -190,8 +191,8 @@ impl Simulation {
                 root: body.root,
                 preferred_mps: agents.preferred_mps[index],
                 planned_mps: plan.velocity_mps,
-                phase: body.phase,
-                mode: body.mode,
+                phase: body.motion.phase,
+                mode: body.motion.mode,
                 set: plan.set,
                 strafing_s: plan.strafing_s,
                 stepping_back_s: plan.stepping_back_s,
@@ -209,11 +210,11 @@ pub(crate) mod tests {
     use crate::maths::angle::wrap_rad;
     use crate::planning::planner::Planner;
     use crate::scenario::AgentSpec;
-    use crate::synthesis::blending::blend_space::Space;
-    use crate::synthesis::hybrid::mode::Mode;
+    use crate::synthesis::Mode;
+    use crate::synthesis::blending::BlendDomain;
     use crate::test_db::test_db;
 
-    /// Agents on a circle, each bound for the opposite point.
+    /// Agents on a circle; the goal of each is the opposite point.
     pub(crate) fn antipodal(count: usize, radius_m: f32) -> Scenario {
         let agent = |index: usize| {
             let angle_rad = std::f32::consts::TAU * index as f32 / count as f32;
@@ -236,7 +237,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn one_and_two_threads_give_the_same_bits() {
+    fn one_and_two_threads_give_equal_bits() {
         let mut scenario = antipodal(100, 14.0);
         scenario.obstacles_m = vec![[(-3.0, -0.5), (3.0, -0.5), (3.0, 0.5), (-3.0, 0.5)].map(Vec2::from).to_vec()];
         let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -251,7 +252,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn everyone_crosses_the_circle_and_stands_at_the_goal() {
+    fn all_agents_cross_the_circle_and_stand() {
         let scenario = antipodal(17, 8.0);
         let frames = simulated(&scenario, 900);
         for (frame, agent) in frames.iter().zip(&scenario.agents) {
@@ -262,7 +263,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn every_planner_gets_bodies_going_however_fine_the_steps() {
+    fn bodies_start_with_every_planner_and_step() {
         for planner in [Planner::Mcn, Planner::Orca, Planner::SocialForce] {
             for dt_s in [1.0 / 120.0, 1.0 / 60.0, 0.1] {
                 let scenario = Scenario { planner, dt_s, ..antipodal(1, 4.0) };
@@ -286,7 +287,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn discs_move_exactly_as_planned_and_keep_out_of_walls() {
+    fn discs_move_as_planned_outside_walls() {
         let mut scenario = antipodal(6, 4.0);
         scenario.coupling = Coupling::Discs;
         scenario.obstacles_m = vec![[(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(Vec2::from).to_vec()];
@@ -306,11 +307,11 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn decoupled_bodies_are_where_their_discs_are_planned_and_turn_no_faster_than_examples() {
+    fn decoupled_bodies_follow_their_discs_exactly() {
         let mut scenario = antipodal(17, 4.0);
         (scenario.planner, scenario.coupling) = (Planner::Orca, Coupling::Decoupled);
         let db = test_db();
-        let turn_max_rad = Space::new(&db).turn_rate_max_rad_s * scenario.dt_s;
+        let turn_max_rad = BlendDomain::new(&db).turn_rate_max_rad_s * scenario.dt_s;
         let mut simulation = Simulation::new(Arc::new(db), &scenario);
         for _ in 0..300 {
             let before = simulation.frames().to_vec();
@@ -324,9 +325,9 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn stages_are_told_in_the_order_of_the_paper() {
-        let mut told = Vec::new();
-        Simulation::new(Arc::new(test_db()), &antipodal(2, 3.0)).step(&mut |stage| told.push(stage));
-        assert_eq!(told, [Stage::Path, Stage::Neighbours, Stage::Planning, Stage::Synthesis, Stage::Coupling]);
+    fn stages_end_in_the_order_of_the_paper() {
+        let mut stages = Vec::new();
+        Simulation::new(Arc::new(test_db()), &antipodal(2, 3.0)).step(&mut |stage| stages.push(stage));
+        assert_eq!(stages, [Stage::Path, Stage::Neighbours, Stage::Planning, Stage::Synthesis, Stage::Coupling]);
     }
 }

@@ -1,16 +1,16 @@
-//! The table of a recording, whose rows can be worked out by hand.
+//! The table of a recording, with rows computed by hand.
 
 mod common;
 
 use common::{agent, folder, header, record, standing_at};
-use fbcrowd_sim::measures::agent_table::write_table;
+use fbcrowd_sim::measures::write_table;
 use fbcrowd_sim::planning::VelocitySet;
 use fbcrowd_sim::recording::AgentFrame;
-use fbcrowd_sim::synthesis::hybrid::Mode;
+use fbcrowd_sim::synthesis::Mode;
 use glam::Vec2;
 use motiondb::body::Root;
 
-/// One who walks half a metre to the left of the x axis in two steps of a quarter of a second, and one who stands at its goal.
+/// An agent that walks 0.5 m in +y in two steps of 0.25 s, and one that stands at its goal.
 fn frames() -> Vec<Vec<AgentFrame>> {
     let walker = |y: f32| AgentFrame {
         root: Root { position_m: Vec2::new(2.0, y), facing_rad: std::f32::consts::FRAC_PI_2 },
@@ -37,7 +37,7 @@ fn table() -> String {
 }
 
 #[test]
-fn the_table_has_a_named_column_for_each_field_and_a_row_per_frame_and_agent() {
+fn the_table_has_a_column_per_field_and_a_row_per_agent() {
     let table = table();
     let rows: Vec<Vec<&str>> = table.split_terminator("\r\n").map(|row| row.split(',').collect()).collect();
     assert_eq!(rows.len(), 1 + 3 * 2);

@@ -1,4 +1,4 @@
-//! Claims about the hybrid switch on compiled clips: bodies change synthesis and nobody sees it.
+//! The switch between the syntheses on compiled clips: no joint jerks, and it takes at most t_trans.
 
 mod clips;
 
@@ -6,9 +6,8 @@ use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use fbcrowd_sim::planning::Plan;
-use fbcrowd_sim::synthesis::hybrid::{CARRIED_S, Hybrid, Mode};
-use fbcrowd_sim::synthesis::library::Studio;
-use fbcrowd_sim::synthesis::{HmsParams, Transition};
+use fbcrowd_sim::synthesis::library::HybridData;
+use fbcrowd_sim::synthesis::{HmsParams, INERTIA_DURATION_S, Mode, SynthesisContext, Transition};
 use glam::{Vec2, Vec3};
 use motiondb::body::Root;
 use motiondb::motion::MotionDb;
@@ -17,22 +16,24 @@ use crate::clips::{bundled, marine};
 
 const DT_S: f32 = 1.0 / 60.0;
 
-/// One step of a body: synthesis in force, root, joints in the root frame.
+/// One step of a body.
 struct Step {
+    /// Synthesis in force.
     mode: Mode,
     root: Root,
+    /// Joints in the root frame, m.
     joints_m: Vec<Vec3>,
 }
 
-/// A body walks by a plan of time and root.
+/// The steps of a body that follows a plan of time and root.
 fn walk(db: &MotionDb, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Step> {
     walk_by(db, HmsParams::default(), seconds, plan)
 }
 
 fn walk_by(db: &MotionDb, params: HmsParams, seconds: f32, plan: impl Fn(f32, &Root) -> Plan) -> Vec<Step> {
-    Studio::new(Arc::new(db.clone()), params).walk(0.3, seconds, DT_S, plan, |body, synthesis| {
-        let joints = synthesis.pose.forward_kinematics(&db.skeleton);
-        Step { mode: body.mode, root: body.root, joints_m: joints.positions_m.to_vec() }
+    SynthesisContext::new(Arc::new(db.clone()), params).walk_alone(0.3, seconds, DT_S, plan, |body, output| {
+        let joints = output.pose.forward_kinematics(&db.skeleton);
+        Step { mode: body.motion.mode, root: body.root, joints_m: joints.positions_m.to_vec() }
     })
 }
 
@@ -45,16 +46,16 @@ fn towards(angle_rad: f32, speed_mps: f32, time_to_collision_s: f32) -> Plan {
     }
 }
 
-/// Steps sample a stride here and there: clips and switches are seen for as long, s.
+/// Duration of a walk, s: clips and switches are sampled for as long.
 const SECONDS: f32 = 24.0;
-/// Each time after this long a collision threatens, or does no more, s.
+/// Duration of each threat of a collision, and of each interval between threats, s.
 const THREAT_S: f32 = 2.0;
 
 fn threat_s(time_s: f32) -> f32 {
     if (time_s / THREAT_S) as usize % 2 == 1 { 0.5 } else { f32::INFINITY }
 }
 
-/// Greatest acceleration of a joint in the root frame, in each step, m/s².
+/// Greatest acceleration of a joint in the root frame in each step, m/s².
 fn peaks_mps2(steps: &[Step]) -> Vec<f32> {
     let acceleration = |three: &[Step]| {
         let joints = three[0].joints_m.iter().zip(&three[1].joints_m).zip(&three[2].joints_m);
@@ -63,19 +64,19 @@ fn peaks_mps2(steps: &[Step]) -> Vec<f32> {
     steps.windows(3).map(acceleration).collect()
 }
 
-/// Steps at which the synthesis changes.
+/// Indices of the steps at which the synthesis changes.
 fn switches(steps: &[Step]) -> Vec<usize> {
     (1..steps.len()).filter(|&step| steps[step].mode != steps[step - 1].mode).collect()
 }
 
 #[test]
-fn a_switch_jerks_no_joint_half_as_much_again_as_its_clips_do() {
+fn a_switch_jerks_joints_hardly_more_than_its_clips() {
     for (name, db) in [("bundled", Some(bundled())), ("marine", marine("switch"))] {
         let Some(db) = db else { continue };
         let own_mps = db.examples[db.correspondence.as_ref().unwrap().semi_procedural as usize].parameters.speed_mps;
         for speed_mps in [0.8, 1.1, 1.5] {
             let greatest = |peaks: &[f32]| peaks.iter().copied().fold(0.0, f32::max);
-            // The clips in use: those blended at this speed, and m_sp at its own.
+            // The motion in play: the blend at this speed, and m_sp at its own.
             let clips_mps2 = [(speed_mps, f32::INFINITY), (own_mps, 0.5)].map(|(speed_mps, threat_s)| {
                 let steps = walk(&db, SECONDS, |_, _| towards(0.0, speed_mps, threat_s));
                 greatest(&peaks_mps2(&steps[300..]))
@@ -91,14 +92,14 @@ fn a_switch_jerks_no_joint_half_as_much_again_as_its_clips_do() {
 }
 
 #[test]
-fn no_change_of_synthesis_takes_longer_than_t_trans() {
+fn no_switch_takes_longer_than_t_trans() {
     for (name, db) in [("bundled", Some(bundled())), ("marine", marine("t_trans"))] {
         let Some(db) = db else { continue };
-        let transition_s = Hybrid::new(&db, HmsParams::default().modes).unwrap().transition_s;
+        let transition_s = HybridData::new(&db, HmsParams::default().modes).unwrap().transition_s;
         let turning = |time_s: f32| towards(0.5 * time_s, 1.1, f32::INFINITY);
         let aside = |_: f32| Plan { facing_rad: FRAC_PI_2, ..towards(0.0, 0.4, f32::INFINITY) };
         let ahead = |speed_mps: f32| move |_: f32| towards(0.0, speed_mps, f32::INFINITY);
-        // Who strolls where no clip does blends with standing, which m_sp cannot.
+        // A stroll without a clip of its own blends with standing, which m_sp cannot.
         let slow_mps = if name == "bundled" { 0.4 } else { 0.8 };
         let walks: [(&str, &dyn Fn(f32) -> Plan); 5] = [
             ("slowly", &ahead(slow_mps)),
@@ -107,27 +108,27 @@ fn no_change_of_synthesis_takes_longer_than_t_trans() {
             ("in a bend", &turning),
             ("aside", &aside),
         ];
-        for (way, plan) in walks {
+        for (walk_name, plan) in walks {
             let seconds = 32.0;
             let steps = walk(&db, seconds, |time_s, _| Plan { time_to_collision_s: threat_s(time_s), ..plan(time_s) });
             let switches = switches(&steps);
-            // Each threat that comes, and each that goes, is answered by a switch of its own.
-            let lasts = (THREAT_S / DT_S) as usize;
+            // Each start and end of a threat causes one switch.
+            let steps_per_threat = (THREAT_S / DT_S) as usize;
             let waited_s = (1..(seconds / THREAT_S) as usize).map(|change| {
-                let until_next = change * lasts..(change + 1) * lasts;
+                let until_next = change * steps_per_threat..(change + 1) * steps_per_threat;
                 let answers: Vec<&usize> = switches.iter().filter(|step| until_next.contains(step)).collect();
-                assert_eq!(answers.len(), 1, "{name} {way}: at {} s", change as f32 * THREAT_S);
+                assert_eq!(answers.len(), 1, "{name} {walk_name}: at {} s", change as f32 * THREAT_S);
                 (answers[0] - until_next.start) as f32 * DT_S
             });
-            let longest_s = waited_s.fold(0.0, f32::max) + CARRIED_S;
-            println!("{name} {way}: {longest_s:.2} s, t_trans {transition_s:.2} s");
-            assert!(longest_s <= transition_s + DT_S, "{name} {way}: {longest_s} s, {transition_s} s");
+            let longest_s = waited_s.fold(0.0, f32::max) + INERTIA_DURATION_S;
+            println!("{name} {walk_name}: {longest_s:.2} s, t_trans {transition_s:.2} s");
+            assert!(longest_s <= transition_s + DT_S, "{name} {walk_name}: {longest_s} s, {transition_s} s");
         }
     }
 }
 
 #[test]
-fn on_the_papers_way_synthesis_changes_hands_at_the_velocity_of_m_mb() {
+fn the_papers_transition_switches_at_m_mbs_velocity() {
     let db = bundled();
     let m_mb = db.examples[db.correspondence.as_ref().unwrap().blending as usize].parameters;
     let params = HmsParams { transition: Transition::ThroughMMb, ..HmsParams::default() };
@@ -141,7 +142,7 @@ fn on_the_papers_way_synthesis_changes_hands_at_the_velocity_of_m_mb() {
 }
 
 #[test]
-fn the_root_neither_jumps_nor_stumbles_at_a_switch() {
+fn the_root_keeps_its_speed_at_a_switch() {
     let db = bundled();
     let steps = walk(&db, 24.0, |time_s, _| towards(0.0, 1.2, threat_s(time_s)));
     let speeds_mps: Vec<f32> =
@@ -152,8 +153,8 @@ fn the_root_neither_jumps_nor_stumbles_at_a_switch() {
 }
 
 #[test]
-fn under_threat_a_body_does_what_is_planned_while_it_turns() {
-    // A planned velocity aside of the facing that is still turning: blends cannot, m_sp can.
+fn under_threat_a_turning_body_follows_its_plan() {
+    // The planned velocity is off the facing while the body turns: m_sp follows it, blends cannot.
     let plan = |time_s: f32, _: &Root| towards(if time_s < 6.0 { 0.0 } else { FRAC_PI_2 }, 1.1, 0.5);
     let steps = walk(&bundled(), 12.0, plan);
     assert_eq!(steps[360].mode, Mode::SemiProcedural);
@@ -162,11 +163,11 @@ fn under_threat_a_body_does_what_is_planned_while_it_turns() {
 }
 
 #[test]
-fn who_starts_under_threat_steps_before_synthesis_changes_hands() {
-    let studio = Studio::new(Arc::new(bundled()), HmsParams::default());
+fn a_body_starts_under_threat_by_blending() {
+    let context = SynthesisContext::new(Arc::new(bundled()), HmsParams::default());
     for phase in (0..20).map(|phase| phase as f32 / 20.0) {
         let plan = |time_s: f32, _: &Root| towards(0.0, if time_s < 0.5 { 0.0 } else { 1.2 }, 0.5);
-        let steps = studio.walk(phase, 3.0, DT_S, plan, |body, _| (body.mode, body.root.position_m));
+        let steps = context.walk_alone(phase, 3.0, DT_S, plan, |body, _| (body.motion.mode, body.root.position_m));
         let switch = (1..steps.len()).find(|&step| steps[step].0 == Mode::SemiProcedural).expect("a switch");
         let moved_m = steps[switch - 1].1.distance(steps[switch - 2].1);
         assert!(moved_m > 0.0, "phase {phase}: the first step is semi-procedural");
@@ -174,7 +175,7 @@ fn who_starts_under_threat_steps_before_synthesis_changes_hands() {
 }
 
 #[test]
-fn who_stops_under_threat_stands() {
+fn a_body_that_stops_under_threat_blends() {
     let db = bundled();
     let plan = |time_s: f32, root: &Root| {
         if time_s < 5.0 { towards(0.0, 1.1, 0.5) } else { towards(root.facing_rad, 0.0, 0.5) }

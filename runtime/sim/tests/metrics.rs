@@ -1,9 +1,9 @@
-//! Measures of recordings whose figures can be worked out by hand.
+//! Measures of recordings, with figures computed by hand.
 
 mod common;
 
 use common::{agent, folder, header, record, standing_at};
-use fbcrowd_sim::measures::metrics::{Measures, measure, write_trajectories};
+use fbcrowd_sim::measures::{Measures, measure, write_trajectories};
 use fbcrowd_sim::planning::VelocitySet;
 use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::{Quat, Vec2, Vec3};
@@ -20,9 +20,9 @@ fn walker(goal_x: f32) -> Header {
 }
 
 /// One agent along x, feet in the air.
-fn path(places_m: impl IntoIterator<Item = f32>) -> Vec<Vec<AgentFrame>> {
+fn path(positions_m: impl IntoIterator<Item = f32>) -> Vec<Vec<AgentFrame>> {
     let frame = |x: f32| AgentFrame { contacts: [0.0; 2], ..standing_at(Vec2::new(x, 0.0)) };
-    places_m.into_iter().map(|x| vec![frame(x)]).collect()
+    positions_m.into_iter().map(|x| vec![frame(x)]).collect()
 }
 
 fn check(found: f64, expected: f64) {
@@ -30,11 +30,11 @@ fn check(found: f64, expected: f64) {
 }
 
 #[test]
-fn acceleration_counts_the_start_from_rest_and_ends_at_the_arrival() {
+fn acceleration_counts_from_rest_to_the_arrival() {
     // 1 m/s at once, kept for ten steps, then a stop: 10 m/s² twice in twenty steps, once in those nine before x = 0.9
     // > 1.4 − 0.5 − ε.
-    let places = (0..=20).map(|step| 0.1 * step.min(10) as f32);
-    let measures = measured("acceleration", &walker(1.39), &path(places));
+    let positions = (0..=20).map(|step| 0.1 * step.min(10) as f32);
+    let measures = measured("acceleration", &walker(1.39), &path(positions));
     assert_eq!((measures.agents, measures.steps, measures.arrived, measures.stalled), (1, 20, 1, 0));
     check(measures.mean_acceleration_mps2, 20.0 / 20.0);
     check(measures.mean_acceleration_before_arrival_mps2, 10.0 / 9.0);
@@ -42,13 +42,13 @@ fn acceleration_counts_the_start_from_rest_and_ends_at_the_arrival() {
 }
 
 #[test]
-fn nobody_arriving_leaves_no_time_to_goal() {
-    let measures = measured("nobody", &walker(50.0), &path((0..5).map(|step| step as f32)));
+fn without_an_arrival_there_is_no_time_to_goal() {
+    let measures = measured("no_arrival", &walker(50.0), &path((0..5).map(|step| step as f32)));
     assert_eq!((measures.arrived, measures.mean_time_to_goal_s, measures.planted_slide_cm_s), (0, None, None));
 }
 
 #[test]
-fn five_seconds_of_standing_stall_an_agent_but_not_one_that_arrived() {
+fn five_seconds_of_standing_stall_before_arrival_only() {
     let stood = |steps: i32, goal: f32, test| measured(test, &walker(goal), &path((0..=steps).map(|_| 0.0))).stalled;
     assert_eq!(stood(49, 9.0, "stall_short"), 0);
     assert_eq!(stood(50, 9.0, "stall"), 1);
@@ -56,7 +56,7 @@ fn five_seconds_of_standing_stall_an_agent_but_not_one_that_arrived() {
 }
 
 #[test]
-fn tracking_error_is_the_distance_to_where_the_plan_would_have_led() {
+fn tracking_error_is_the_distance_from_the_planned_position() {
     let mut frames = path((0..5).map(|step| 0.1 * step as f32));
     for frame in &mut frames {
         frame[0].planned_mps = Vec2::new(1.0, 0.5);
@@ -67,15 +67,15 @@ fn tracking_error_is_the_distance_to_where_the_plan_would_have_led() {
 }
 
 #[test]
-fn a_heading_error_is_facing_away_from_the_travel_without_being_meant_to() {
+fn heading_error_counts_in_the_turning_set() {
     // Three steps at 60° to the facing, of which one is a side-step, and one ahead.
     let aside = 0.1 * Vec2::from_angle(std::f32::consts::FRAC_PI_3);
     let moves = [(aside, VelocitySet::Turning); 2];
     let moves = moves.into_iter().chain([(aside, VelocitySet::Holding), (0.1 * Vec2::X, VelocitySet::Turning)]);
-    let (mut place, mut frames) = (Vec2::ZERO, vec![vec![standing_at(Vec2::ZERO)]]);
+    let (mut position_m, mut frames) = (Vec2::ZERO, vec![vec![standing_at(Vec2::ZERO)]]);
     for (moved, set) in moves {
-        place += moved;
-        frames.push(vec![AgentFrame { set, ..standing_at(place) }]);
+        position_m += moved;
+        frames.push(vec![AgentFrame { set, ..standing_at(position_m) }]);
     }
     let measures = measured("heading", &walker(50.0), &frames);
     check(measures.heading_error_deg, 40.0);
@@ -83,14 +83,14 @@ fn a_heading_error_is_facing_away_from_the_travel_without_being_meant_to() {
 }
 
 #[test]
-fn two_agents_on_one_place_collide_all_the_time() {
+fn two_agents_at_one_position_collide_all_the_time() {
     let header = header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([9.0, 0.0], [5.0, 0.0])], DT_S);
     let frames = vec![vec![standing_at(Vec2::ONE); 2]; 8];
     check(measured("collide", &header, &frames).collision_rate, 0.5);
 }
 
 #[test]
-fn separation_is_the_least_distance_of_centres_between_frames_too() {
+fn separation_counts_between_frames() {
     let header = header(vec![agent([-1.0, 0.2], [5.0, 0.0]), agent([0.0, 0.0], [5.0, 0.0])], DT_S);
     let frames: Vec<_> = [-1.0, 1.0, 3.0].map(|x| vec![standing_at(Vec2::new(x, 0.2)), standing_at(Vec2::ZERO)]).into();
     check(measured("separation", &header, &frames).minimum_separation_m.unwrap(), 0.2);
@@ -98,13 +98,13 @@ fn separation_is_the_least_distance_of_centres_between_frames_too() {
 }
 
 #[test]
-fn a_detour_is_longer_than_the_straight_way_until_the_arrival() {
-    // 3 m aside, then 4 m along x to the place of arrival, 5 m from the start over the hypotenuse; what follows does
-    // not count.
-    let mut places: Vec<Vec2> = (0..=30).map(|step| Vec2::new(0.0, 0.1 * step as f32)).collect();
-    places.extend((1..=40).map(|step| Vec2::new(0.1 * step as f32, 3.0)));
-    places.extend((1..=20).map(|step| Vec2::new(4.0, 3.0 - 0.1 * step as f32)));
-    let frames: Vec<_> = places.into_iter().map(|place| vec![standing_at(place)]).collect();
+fn a_detour_counts_until_the_arrival() {
+    // 3 m aside, then 4 m along x to the position of arrival, 5 m from the start over the hypotenuse; the rest does not
+    // count.
+    let mut path_m: Vec<Vec2> = (0..=30).map(|step| Vec2::new(0.0, 0.1 * step as f32)).collect();
+    path_m.extend((1..=40).map(|step| Vec2::new(0.1 * step as f32, 3.0)));
+    path_m.extend((1..=20).map(|step| Vec2::new(4.0, 3.0 - 0.1 * step as f32)));
+    let frames: Vec<_> = path_m.into_iter().map(|position_m| vec![standing_at(position_m)]).collect();
     let header = |agent| header(vec![agent], DT_S);
     let direct = header(agent([0.0, 0.0], [4.49, 3.0]));
     check(measured("detour", &direct, &frames).path_over_straight_line.unwrap(), 7.0 / 5.0);
@@ -114,7 +114,7 @@ fn a_detour_is_longer_than_the_straight_way_until_the_arrival() {
 }
 
 #[test]
-fn a_round_trip_ends_after_its_waypoints_however_near_it_began_to_its_goal() {
+fn a_round_trip_ends_after_its_waypoints() {
     let out_and_back_m = (0..=20).chain((0..20).rev()).map(|step| 0.1 * step as f32);
     let mut there_and_back = agent([0.0, 0.0], [2.0, 0.0]);
     there_and_back.goals_m.push(Vec2::new(0.03, 0.0));
@@ -124,16 +124,16 @@ fn a_round_trip_ends_after_its_waypoints_however_near_it_began_to_its_goal() {
 }
 
 #[test]
-fn strafing_and_stepping_back_are_walking_at_held_facing() {
+fn strafing_and_stepping_back_count_at_held_facing() {
     // Facing x: ten steps to the left, five backward, five forward, five standing, all but the forward ones at held
     // facing.
     let moves = [(10, Vec2::Y), (5, Vec2::NEG_X), (5, Vec2::X), (5, Vec2::ZERO)];
-    let (mut place, mut frames) = (Vec2::ZERO, vec![vec![standing_at(Vec2::ZERO)]]);
+    let (mut position_m, mut frames) = (Vec2::ZERO, vec![vec![standing_at(Vec2::ZERO)]]);
     for (count, direction) in moves {
         for _ in 0..count {
-            place += 0.1 * direction;
+            position_m += 0.1 * direction;
             let set = if direction == Vec2::X { VelocitySet::Turning } else { VelocitySet::Holding };
-            frames.push(vec![AgentFrame { set, ..standing_at(place) }]);
+            frames.push(vec![AgentFrame { set, ..standing_at(position_m) }]);
         }
     }
     let measures = measured("sidewards", &walker(50.0), &frames);
@@ -142,10 +142,10 @@ fn strafing_and_stepping_back_are_walking_at_held_facing() {
 }
 
 #[test]
-fn bodies_are_in_each_other_by_the_deepest_overlap_of_their_capsules() {
+fn bodies_penetrate_by_their_deepest_overlap() {
     let header = header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([9.0, 0.0], [5.0, 0.0])], DT_S);
     let pair = |y: f32| vec![standing_at(Vec2::ZERO), standing_at(Vec2::new(0.0, y))];
-    // Every bone is 7 cm along x with a radius of 6 cm, so side by side the outermost of both decide.
+    // Every bone is 7 cm along x with a radius of 6 cm, so side by side the outermost bones decide.
     let widest_m = widest_m(&header.skeleton);
     let frames = vec![pair(3.0), pair(2.0 * widest_m + 0.11), pair(2.0 * widest_m + 0.13)];
     let measures = measured("bodies", &header, &frames);
@@ -156,7 +156,7 @@ fn bodies_are_in_each_other_by_the_deepest_overlap_of_their_capsules() {
     assert_eq!(measured("apart", &header, &vec![pair(3.0); 3]).body_penetration_touching_mm, None);
 }
 
-/// How far aside of the root the outermost bone lies.
+/// Distance of the outermost bone from the root, sideways, m.
 fn widest_m(skeleton: &Skeleton) -> f32 {
     let joints = standing_at(Vec2::ZERO).pose.forward_kinematics(skeleton);
     joints.positions_m.iter().map(|position_m| position_m.y).fold(0.0, f32::max)
@@ -177,7 +177,7 @@ fn sliding() -> Vec<Vec<AgentFrame>> {
 }
 
 #[test]
-fn slide_is_measured_over_the_middle_of_each_contact() {
+fn slide_counts_over_the_middle_of_each_contact() {
     let measures = measured("slide", &walker(9.0), &sliding());
     check(measures.planted_slide_cm_s.unwrap(), 3.0);
     check(measures.examples_slide_cm_s.unwrap(), 2.0);
@@ -185,8 +185,8 @@ fn slide_is_measured_over_the_middle_of_each_contact() {
 }
 
 #[test]
-fn feet_that_stand_at_the_goal_do_not_dilute_the_slide() {
-    // Having arrived, the body stands on its left foot for as long as it walked.
+fn feet_at_the_goal_do_not_dilute_the_slide() {
+    // After its arrival the body stands on its left foot as long as it walked.
     let mut frames = sliding();
     let there = AgentFrame { contacts: [1.0, 0.0], ..frames[39][0] };
     frames.extend(vec![vec![there]; 40]);
@@ -198,14 +198,14 @@ fn feet_that_stand_at_the_goal_do_not_dilute_the_slide() {
 }
 
 #[test]
-fn a_contact_that_the_recording_cuts_short_counts_too() {
+fn a_contact_cut_short_by_the_end_counts() {
     let measures = measured("slide_cut", &walker(9.0), &sliding()[..27]);
     check(measures.planted_slide_cm_s.unwrap(), 3.0);
 }
 
 #[test]
 fn a_foot_that_rolls_over_its_toe_does_not_slide() {
-    // The heel rises about the toe tip, which the body's motion keeps in place.
+    // The heel rises about the toe tip, which the body's motion keeps fixed.
     let tip_m = |frame: &AgentFrame| {
         let skeleton = common::skeleton();
         frame.pose.forward_kinematics(&skeleton).sole_points_m(&skeleton, 0)[2]
@@ -224,9 +224,9 @@ fn a_foot_that_rolls_over_its_toe_does_not_slide() {
 }
 
 #[test]
-fn without_soles_the_joint_nearest_its_planted_height_is_the_contact_point() {
-    // Foot flat: ankle and ball are both at their planted heights, and the ankle comes first. Heel up: the ball, in
-    // place, takes over.
+fn without_soles_the_lowest_joint_is_the_contact_point() {
+    // Foot flat: ankle and ball are both at their planted heights, and the ankle comes first. Heel up: the ball, which
+    // is fixed, takes over.
     let mut header = walker(9.0);
     let toe_end_m = header.skeleton.segment_ends_m[Joint::LeftToe.index()];
     let joints_m = [Vec3::ZERO, header.skeleton.offsets_m[Joint::LeftToe.index()], toe_end_m];
@@ -248,7 +248,7 @@ fn without_soles_the_joint_nearest_its_planted_height_is_the_contact_point() {
 }
 
 #[test]
-fn trajectories_have_a_line_a_frame_and_two_numbers_an_agent() {
+fn trajectories_have_a_line_per_frame() {
     let header = header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([9.0, 0.0], [5.0, 0.0])], DT_S);
     let frames = vec![vec![standing_at(Vec2::new(1.0, 2.0)), standing_at(Vec2::new(-0.5, 0.25))]; 2];
     let recording = record(&folder("trajectories").join("a.fbrec"), &header, &frames);
@@ -259,7 +259,7 @@ fn trajectories_have_a_line_a_frame_and_two_numbers_an_agent() {
 }
 
 #[test]
-fn a_thousand_agents_are_measured_in_a_moment() {
+fn a_thousand_agents_are_measured() {
     let agents = (0..1000).map(|i| agent([(i % 40) as f32, (i / 40) as f32], [0.0, 0.0])).collect();
     let frame = |step: i32| {
         (0..1000).map(move |i| standing_at(Vec2::new((i % 40) as f32 + 0.04 * step as f32, (i / 40) as f32)))

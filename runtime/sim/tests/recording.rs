@@ -1,4 +1,4 @@
-//! Recordings keep what they were given, and refuse whatever is no recording.
+//! Recordings keep their frames, and files that are no recordings are rejected.
 
 mod common;
 
@@ -28,7 +28,7 @@ fn two_agents() -> fbcrowd_sim::recording::Header {
     header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([0.0, 2.0], [5.0, 2.0])], 1.0 / 30.0)
 }
 
-/// Reads everything, so that every byte that matters is looked at.
+/// Reads header and all frames, so that every byte that matters is checked.
 fn read_all(path: &Path) -> Result<Vec<Vec<AgentFrame>>, RecordingError> {
     let recording = Recording::open(path)?;
     let mut agents = Vec::new();
@@ -38,7 +38,7 @@ fn read_all(path: &Path) -> Result<Vec<Vec<AgentFrame>>, RecordingError> {
 }
 
 #[test]
-fn header_and_frames_come_back_in_any_order() {
+fn header_and_frames_are_read_in_any_order() {
     let written = frames(9);
     let recording = record(&folder("round_trip").join("a.fbrec"), &two_agents(), &written);
     assert_eq!(recording.header(), &two_agents());
@@ -57,7 +57,7 @@ fn header_and_frames_come_back_in_any_order() {
 }
 
 #[test]
-fn two_runs_write_the_same_bytes_and_leave_no_other_file() {
+fn two_runs_write_the_same_bytes() {
     let folder = folder("twice");
     for name in ["a.fbrec", "b.fbrec"] {
         record(&folder.join(name), &two_agents(), &frames(20));
@@ -76,7 +76,7 @@ fn an_unfinished_recording_leaves_nothing() {
 }
 
 #[test]
-fn a_frame_with_nan_or_too_few_agents_is_refused() {
+fn a_frame_with_nan_or_too_few_agents_is_rejected() {
     let mut recorder = Recorder::create(&folder("nan").join("a.fbrec"), &two_agents()).unwrap();
     let mut frame = frames(1).remove(0);
     assert!(matches!(recorder.push(&frame[..1]), Err(RecordingError::AgentCount { found: 1, expected: 2, .. })));
@@ -101,7 +101,7 @@ fn frames_are_read_from_several_threads() {
 }
 
 #[test]
-fn a_recording_without_a_frame_or_with_a_broken_body_is_refused() {
+fn a_recording_without_frames_or_with_a_broken_body_is_rejected() {
     let path = folder("hollow").join("a.fbrec");
     Recorder::create(&path, &two_agents()).unwrap().finish().unwrap();
     assert!(Recording::open(&path).unwrap_err().to_string().contains("the index is empty"));
@@ -109,12 +109,12 @@ fn a_recording_without_a_frame_or_with_a_broken_body_is_refused() {
     for bone_m in [f32::INFINITY, f32::NAN, 1e30] {
         broken.skeleton.offsets_m[4].y = bone_m;
         Recorder::create(&path, &broken).unwrap().finish().unwrap();
-        assert!(Recording::open(&path).unwrap_err().to_string().contains("the skeleton is no body's"));
+        assert!(Recording::open(&path).unwrap_err().to_string().contains("the skeleton is out of range"));
     }
 }
 
 #[test]
-fn an_index_cannot_claim_one_frame_again_and_again() {
+fn an_index_that_repeats_a_frame_is_rejected() {
     let path = folder("again").join("a.fbrec");
     drop(record(&path, &two_agents(), &frames(3)));
     let bytes = fs::read(&path).unwrap();
@@ -128,7 +128,7 @@ fn an_index_cannot_claim_one_frame_again_and_again() {
 }
 
 #[test]
-fn values_beyond_all_scenarios_are_refused() {
+fn values_beyond_all_scenarios_are_rejected() {
     let mut recorder = Recorder::create(&folder("beyond").join("a.fbrec"), &two_agents()).unwrap();
     let mut agents = frames(1).remove(0);
     agents[1].root.position_m.x = 1e30;
@@ -140,7 +140,7 @@ fn chunks_of_unknown_kind_are_skipped() {
     let path = folder("unknown").join("a.fbrec");
     record(&path, &two_agents(), &frames(3));
     let bytes = fs::read(&path).unwrap();
-    // Between the index and the tail, where no offset needs to move.
+    // Between the index and the tail, where no byte offset changes.
     let (front, tail) = bytes.split_at(bytes.len() - 20);
     let mut other = b"NOTE\x02\0\0\0\0\0\0\0hi".to_vec();
     other.splice(0..0, front.iter().copied());
@@ -149,7 +149,7 @@ fn chunks_of_unknown_kind_are_skipped() {
 }
 
 #[test]
-fn every_truncation_is_refused() {
+fn every_truncation_is_rejected() {
     let path = folder("truncated").join("a.fbrec");
     record(&path, &two_agents(), &frames(2));
     let bytes = fs::read(&path).unwrap();
@@ -175,7 +175,7 @@ fn errors_name_file_byte_and_remedy() {
     check(&bytes[..bytes.len() - 1], "simulate the scenario again");
     let mut altered = bytes.clone();
     altered[40] ^= 1;
-    check(&altered, "byte 12: the HEAD chunk's checksum does not fit");
+    check(&altered, "byte 12: the checksum of the HEAD chunk is wrong");
     fs::remove_file(&path).unwrap();
     let message = Recording::open(&path).unwrap_err().to_string();
     assert!(
@@ -200,24 +200,24 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn altered_bytes_are_refused(place in any::<prop::sample::Index>(), change in 1_u8..) {
+    fn altered_bytes_are_rejected(at in any::<prop::sample::Index>(), change in 1_u8..) {
         let mut bytes = bytes_of_a_recording("altered");
-        let place = place.index(bytes.len());
-        bytes[place] ^= change;
+        let at = at.index(bytes.len());
+        bytes[at] ^= change;
         let path = folder("altered").join("b.fbrec");
         fs::write(&path, &bytes).unwrap();
-        prop_assert!(read_all(&path).is_err(), "byte {} was altered unnoticed", place);
+        prop_assert!(read_all(&path).is_err(), "byte {} was altered unnoticed", at);
     }
 
-    /// With a checksum made to fit, as only an attacker would.
+    /// The checksum is made to match, as only an attacker would.
     #[test]
     fn forged_headers_neither_panic_nor_exhaust_memory(
         changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8),
     ) {
         let mut bytes = bytes_of_a_recording("forged");
         let length = u32::from_le_bytes(bytes[16..20].try_into().unwrap()) as usize;
-        for (place, value) in changes {
-            bytes[24 + place.index(length)] = value;
+        for (at, value) in changes {
+            bytes[24 + at.index(length)] = value;
         }
         let checksum = crc32fast::hash(&[&bytes[12..20], &bytes[24..24 + length]].concat());
         bytes[20..24].copy_from_slice(&checksum.to_le_bytes());
@@ -227,7 +227,7 @@ proptest! {
     }
 }
 
-/// Root mean square of what packing adds to the speed of a sole, cm/s, at 120 frames a second: two independent errors a
+/// Root mean square of the speed that packing adds to a sole at 120 frames a second, cm/s: two independent errors per
 /// difference.
 fn packing_noise_cm_s(soles: impl Fn(&AgentFrame) -> [glam::Vec3; 3]) -> f64 {
     let mut frames = Vec::new();
@@ -252,7 +252,7 @@ fn packing_noise_cm_s(soles: impl Fn(&AgentFrame) -> [glam::Vec3; 3]) -> f64 {
 }
 
 #[test]
-fn packing_adds_less_than_a_fifth_of_a_centimetre_a_second_to_foot_slide_at_120_frames_a_second() {
+fn packing_adds_less_than_2_mm_s_of_foot_slide() {
     let skeleton = common::skeleton();
     let soles = |frame: &AgentFrame| -> [glam::Vec3; 3] {
         let joints: Joints = frame.pose.forward_kinematics(&skeleton);

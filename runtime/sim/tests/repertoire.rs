@@ -1,5 +1,4 @@
-//! Claims about sets of clips that lack what a crowd needs: of their walk alone they become sound databases, with which
-//! crowds arrive.
+//! Augmented databases: sets of clips that lack what a crowd needs become valid databases with which crowds arrive.
 
 mod clips;
 
@@ -7,7 +6,7 @@ use std::sync::Arc;
 
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::simulation::Simulation;
-use fbcrowd_sim::synthesis::library::augmented_database::{complete, deformed};
+use fbcrowd_sim::synthesis::library::{augmented, deformed_walk};
 use glam::Vec2;
 use motiondb::motion::MotionDb;
 use motiondb::quality::coverage::{GapKind, coverage};
@@ -15,12 +14,14 @@ use motiondb::validate::first_broken;
 
 use crate::clips::{bundled, bundled_alone, recorded};
 
-/// Agents on a circle of this radius, each bound for the opposite point, m, and the time that they are given, s.
+/// Agents on a circle; the goal of each is the opposite point.
 const AGENTS: usize = 8;
+/// Radius of the circle, m.
 const RADIUS_M: f32 = 4.0;
+/// Time in which they must arrive, s.
 const DURATION_S: f32 = 30.0;
 const DT_S: f32 = 1.0 / 30.0;
-/// Definitions: whoever was as near to the goal has arrived, m.
+/// Distance from the goal within which an agent has arrived, m.
 const ARRIVED_M: f32 = 0.5;
 
 fn antipodal() -> Scenario {
@@ -29,7 +30,7 @@ fn antipodal() -> Scenario {
         let position_m = RADIUS_M * Vec2::from_angle(angle_rad);
         AgentSpec {
             position_m,
-            // To the right of the goal: all begin with a turn.
+            // Across the path to the goal: all agents start with a turn.
             facing_rad: angle_rad + 0.5 * std::f32::consts::PI,
             goals_m: vec![-position_m],
             radius_m: 0.25,
@@ -39,7 +40,7 @@ fn antipodal() -> Scenario {
     Scenario { duration_s: DURATION_S, dt_s: DT_S, ..Scenario::of((0..AGENTS).map(agent).collect()) }
 }
 
-/// How many come to their goals.
+/// Number of agents that arrive.
 fn arrived(db: Arc<MotionDb>) -> usize {
     let scenario = antipodal();
     let mut simulation = Simulation::new(db, &scenario);
@@ -53,7 +54,7 @@ fn arrived(db: Arc<MotionDb>) -> usize {
     arrived.into_iter().filter(|&arrived| arrived).count()
 }
 
-/// In memory examples need not be sorted by name.
+/// The database with names in order: examples in memory need not be sorted by name.
 fn sorted_by_name(db: &MotionDb) -> MotionDb {
     let mut db = db.clone();
     for (index, example) in db.examples.iter_mut().enumerate() {
@@ -64,13 +65,14 @@ fn sorted_by_name(db: &MotionDb) -> MotionDb {
 
 fn check(db: MotionDb) {
     let db = Arc::new(db);
-    let complete = complete(Arc::clone(&db));
-    let (walk, count) = deformed(&db, &complete).unwrap();
-    assert_eq!(first_broken(&sorted_by_name(&complete)), None, "{walk}");
-    let lacking: Vec<GapKind> = coverage(&complete).into_iter().map(|thin| thin.kind).collect();
-    let needed = [GapKind::Standing, GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps];
+    let augmented = augmented(Arc::clone(&db));
+    let (walk, count) = deformed_walk(&db, &augmented).unwrap();
+    assert_eq!(first_broken(&sorted_by_name(&augmented)), None, "{walk}");
+    let lacking: Vec<GapKind> = coverage(&augmented).into_iter().map(|gap| gap.kind).collect();
+    let needed =
+        [GapKind::Standing, GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps];
     assert!(needed.iter().all(|lack| !lacking.contains(lack)), "{walk}, {count} times: {lacking:?}");
-    assert_eq!(complete.rows.rotations[..db.rows.rotations.len()], db.rows.rotations, "{walk}");
+    assert_eq!(augmented.rows.rotations[..db.rows.rotations.len()], db.rows.rotations, "{walk}");
     assert_eq!(arrived(Arc::clone(&db)), AGENTS, "{walk}");
 }
 
@@ -80,8 +82,8 @@ fn one_walk_is_enough_for_a_crowd() {
 }
 
 #[test]
-fn so_are_other_peoples_clips_that_cannot_make_way() {
-    let test = "so_are_other_peoples_clips_that_cannot_make_way";
+fn sets_of_other_peoples_clips_are_enough_too() {
+    let test = "sets_of_other_peoples_clips_are_enough_too";
     for path in ["cmu_cgspeed", "cmu_iclone", "games105", "lafan1_skeleton", "pfnn", "gltf/Soldier.glb"] {
         if let Some(db) = recorded(test, path) {
             check(db);
@@ -90,7 +92,7 @@ fn so_are_other_peoples_clips_that_cannot_make_way() {
 }
 
 #[test]
-fn a_set_with_which_bodies_make_way_stays_as_it_is() {
+fn a_sufficient_set_is_not_augmented() {
     let db = Arc::new(bundled());
-    assert!(Arc::ptr_eq(&db, &complete(Arc::clone(&db))) && deformed(&db, &db).is_none());
+    assert!(Arc::ptr_eq(&db, &augmented(Arc::clone(&db))) && deformed_walk(&db, &db).is_none());
 }

@@ -1,4 +1,4 @@
-//! Scenario files stand for the agents that they describe, and every mistake is shown where it stands.
+//! Scenario files give the agents that they describe, and every mistake is shown at its position in the text.
 
 mod common;
 
@@ -28,8 +28,8 @@ fn scenario(test: &str, body: &str) -> Scenario {
     read(&write(test, &format!("{HEAD}{body}"))).unwrap().0
 }
 
-/// That reading fails, pointing at exactly this part of the text with a message that contains this.
-fn check_refused(test: &str, text: &str, part: &str, message: &str) {
+/// Checks that reading fails, at exactly this part of the text, with a message that contains these words.
+fn check_rejected(test: &str, text: &str, part: &str, message: &str) {
     match read(&write(test, text)).and_then(|(scenario, motion)| Ok((scenario, motion?))) {
         Err(ScenarioError::Invalid(invalid)) => check_points_at(&invalid, part, message),
         other => panic!("{text} gave {other:?}"),
@@ -54,7 +54,7 @@ fn a_short_file_gives_everything_its_default() {
 }
 
 #[test]
-fn an_agent_faces_its_first_goal_unless_told_otherwise() {
+fn an_agent_faces_its_first_goal_unless_it_has_a_facing() {
     let agents = scenario(
         "facing",
         "agents = [{ at_m = [1, 1], goals_m = [[1, 4], [9, 9]] }, { at_m = [3, 3], goals_m = [[4, 4]], facing_deg = 180 }]",
@@ -86,8 +86,8 @@ fn a_grid_is_centred_and_its_jitter_follows_the_seed() {
     let jittered = grid(0.3, 1);
     assert_eq!(jittered, grid(0.3, 1));
     assert_ne!(jittered, grid(0.3, 2));
-    for (agent, place) in jittered.iter().zip(plain) {
-        assert!((agent.position_m - place).abs().max_element() <= 0.3);
+    for (agent, position_m) in jittered.iter().zip(plain) {
+        assert!((agent.position_m - position_m).abs().max_element() <= 0.3);
         assert_eq!(agent.goals_m, [agent.position_m + Vec2::new(0.0, 7.0)]);
     }
 }
@@ -102,7 +102,7 @@ fn shared_waypoints_come_before_each_agents_own_goal() {
 }
 
 #[test]
-fn obstacles_run_counter_clockwise_whatever_the_file_says() {
+fn obstacles_run_counter_clockwise_in_either_order() {
     let obstacles =
         |corners: &str| scenario("winding", &format!("{ONE}[[obstacles]]\npolygon_m = {corners}")).obstacles_m;
     let counter_clockwise = obstacles("[[2, 2], [3, 2], [3, 3]]");
@@ -111,7 +111,7 @@ fn obstacles_run_counter_clockwise_whatever_the_file_says() {
 }
 
 #[test]
-fn an_agent_file_gives_an_agent_a_line() {
+fn an_agent_file_gives_an_agent_per_line() {
     let path = write("lines", &format!("{HEAD}agents = {{ file = \"a.txt\", radius_m = 0.3 }}"));
     fs::write(path.with_file_name("a.txt"), "# start and goal\n0 0 5 0\n\n 1.5 2 -3e0 4 # the other\n").unwrap();
     let agents = read(&path).unwrap().0.agents;
@@ -126,7 +126,7 @@ fn mistakes_in_an_agent_file_are_shown_in_that_file() {
     let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
     check_points_at(&invalid, "1 2 3", "3 numbers, not the four");
     assert_eq!((invalid.line(), invalid.path.file_name().unwrap().to_str().unwrap()), (3, "a.txt"));
-    for (line, message) in [("0 nan 5 0", "`nan` is no place"), ("0 0 1e99 0", "`1e99` is no place")] {
+    for (line, message) in [("0 nan 5 0", "`nan` is not within"), ("0 0 1e99 0", "`1e99` is not within")] {
         fs::write(path.with_file_name("a.txt"), format!("1 1 2 2\n{line}\n")).unwrap();
         let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
         check_points_at(&invalid, line, message);
@@ -134,7 +134,7 @@ fn mistakes_in_an_agent_file_are_shown_in_that_file() {
 }
 
 #[test]
-fn agents_that_cannot_stand_where_a_file_has_them_are_shown_at_their_line() {
+fn faults_of_agents_in_a_file_are_shown_at_their_lines() {
     let check = |agents: &str, a: &str, b: &str, file: &str, part: &str, message: &str| {
         let path = write("crowded_lines", &format!("{HEAD}agents = [{agents}]\n[[obstacles]]\npolygon_m = {BLOCK}"));
         fs::write(path.with_file_name("a.txt"), a).unwrap();
@@ -147,69 +147,69 @@ fn agents_that_cannot_stand_where_a_file_has_them_are_shown_at_their_line() {
     let two = "0 0 5 0\n# x\n0 1 5 1\n";
     check(agents, "0 0 5 0\n# x\n0 0.2 5 1\n", "0 5 5 5", "a.txt", "0 0.2 5 1", "agents 0 and 1 overlap");
     check(agents, two, "\n0 5 5 5\n0 7 21 21 # in", "b.txt", "0 7 21 21 # in", "a goal of agent 4 lies inside");
-    check(agents, "", "\n0 5 5 5\n21 21 1 1", "b.txt", "21 21 1 1", "agent 2 stands inside obstacle 0");
-    // What the table says of them is wrong there.
+    check(agents, "", "\n0 5 5 5\n21 21 1 1", "b.txt", "21 21 1 1", "agent 2 starts inside obstacle 0");
+    // A wrong key of the table is shown in the table.
     let broad = "{ file = \"b.txt\", radius_m = 3 }";
     check(&format!("{{ file = \"a.txt\" }}, {broad}"), two, "0 5 5 5", "scene.toml", broad, "radius_m is 3");
 }
 
 #[test]
-fn wrong_keys_and_types_are_shown_where_they_stand() {
-    check_refused("key", &format!("{HEAD}durations = 3\n{ONE}"), "durations", "unknown field `durations`");
-    check_refused("type", "clips = \".\"\nduration_s = \"ten\"\n", "\"ten\"", "a number is wanted here");
-    check_refused(
+fn wrong_keys_and_types_are_shown_at_their_position() {
+    check_rejected("key", &format!("{HEAD}durations = 3\n{ONE}"), "durations", "unknown field `durations`");
+    check_rejected("type", "clips = \".\"\nduration_s = \"ten\"\n", "\"ten\"", "a number is wanted here");
+    check_rejected(
         "group_key",
         &format!("{HEAD}agents = {{ at_m = [0, 0], goal_m = [[5, 0]] }}"),
         "goal_m",
         "unknown field",
     );
-    check_refused(
+    check_rejected(
         "circle_key",
         &format!("{HEAD}[[agents]]\ncircle = {{ count = 3, radius = 4 }}"),
         "radius",
         "unknown field",
     );
-    check_refused("seed", &format!("{HEAD}seed = -1\n{ONE}"), "-1", "a whole number");
-    check_refused("params", &format!("{HEAD}{ONE}[params.planer]\n"), "planer", "unknown field");
-    check_refused("view", &format!("{HEAD}{ONE}[view]\nheight_px = 3\n"), "height_px", "unknown field");
-    check_refused(
+    check_rejected("seed", &format!("{HEAD}seed = -1\n{ONE}"), "-1", "a whole number");
+    check_rejected("params", &format!("{HEAD}{ONE}[params.planer]\n"), "planer", "unknown field");
+    check_rejected("view", &format!("{HEAD}{ONE}[view]\nheight_px = 3\n"), "height_px", "unknown field");
+    check_rejected(
         "point",
         &format!("{HEAD}agents = {{ at_m = [0, 0, 1], goals_m = [[5, 0]] }}"),
         "[0, 0, 1]",
         "are wanted here, not 3 values",
     );
-    check_refused("centre", &format!("{HEAD}{ONE}[view]\ncentre_m = [1, 2, 3]\n"), "[1, 2, 3]", "not 3 values");
-    check_refused("syntax", "clips = \n", "", "");
+    check_rejected("centre", &format!("{HEAD}{ONE}[view]\ncentre_m = [1, 2, 3]\n"), "[1, 2, 3]", "not 3 values");
+    check_rejected("syntax", "clips = \n", "", "");
 }
 
 #[test]
-fn numbers_out_of_range_are_shown_where_they_stand() {
-    check_refused("dt", &format!("{HEAD}dt_s = 0\n{ONE}"), "0", "dt_s is 0");
-    check_refused("coarse", &format!("{HEAD}dt_s = 0.5\n{ONE}"), "0.5", "dt_s is 0.5");
-    check_refused("nan", &format!("{HEAD}dt_s = nan\n{ONE}"), "nan", "dt_s is NaN");
-    check_refused("duration", &format!("clips = \".\"\nduration_s = -1\n{ONE}"), "-1", "duration_s is -1");
+fn numbers_out_of_range_are_shown_at_their_position() {
+    check_rejected("dt", &format!("{HEAD}dt_s = 0\n{ONE}"), "0", "dt_s is 0");
+    check_rejected("coarse", &format!("{HEAD}dt_s = 0.5\n{ONE}"), "0.5", "dt_s is 0.5");
+    check_rejected("nan", &format!("{HEAD}dt_s = nan\n{ONE}"), "nan", "dt_s is NaN");
+    check_rejected("duration", &format!("clips = \".\"\nduration_s = -1\n{ONE}"), "-1", "duration_s is -1");
     let radius = "{ at_m = [0, 0], goals_m = [[5, 0]], radius_m = -1 }";
-    check_refused("radius", &format!("{HEAD}agents = {radius}"), radius, "radius_m is -1");
-    let dizzy = "{ at_m = [0, 0], goals_m = [[5, 0]], facing_deg = 100000 }";
+    check_rejected("radius", &format!("{HEAD}agents = {radius}"), radius, "radius_m is -1");
+    let spun = "{ at_m = [0, 0], goals_m = [[5, 0]], facing_deg = 100000 }";
     let message = "facing_deg is 100000, not between -3600 and 3600";
-    check_refused("dizzy", &format!("{HEAD}agents = {dizzy}"), dizzy, message);
+    check_rejected("spun", &format!("{HEAD}agents = {spun}"), spun, message);
     let far = "{ at_m = [inf, 0], goals_m = [[5, 0]] }";
-    check_refused("far", &format!("{HEAD}agents = [{far}]"), far, "no place within 10 km");
+    check_rejected("far", &format!("{HEAD}agents = [{far}]"), far, "is not within 10 km");
     let crowd = "{ circle = { count = 9000000000, radius_m = 1 } }";
-    check_refused("crowd", &format!("{HEAD}agents = {crowd}"), crowd, "1 to 1000000 agents");
+    check_rejected("crowd", &format!("{HEAD}agents = {crowd}"), crowd, "not between 1 and 1000000");
     let tunables = "[params.planner]\ntime_horizon_s = 0.0\n";
-    check_refused("tunable", &format!("{HEAD}{ONE}{tunables}"), "0.0", "time_horizon_s is 0, not between");
-    check_refused("nobody", &format!("{HEAD}agents = []"), "[]", "the number of agents is 0");
+    check_rejected("tunable", &format!("{HEAD}{ONE}{tunables}"), "0.0", "time_horizon_s is 0, not between");
+    check_rejected("no_agents", &format!("{HEAD}agents = []"), "[]", "the number of agents is 0");
     for view in ["width = 0", "height = 100000", "width_m = nan", "frame_rate_hz = 0.0"] {
-        check_refused("picture", &format!("{HEAD}{ONE}[view]\n{view}"), "[view]", "not between");
+        check_rejected("picture", &format!("{HEAD}{ONE}[view]\n{view}"), "[view]", "not between");
     }
 }
 
 #[test]
-fn planner_coupling_and_syntheses_are_the_scenarios_choice() {
-    let given = "planner = \"social_force\"\ncoupling = \"discs\"\n";
+fn planner_coupling_and_syntheses_follow_the_scenario() {
+    let keys = "planner = \"social_force\"\ncoupling = \"discs\"\n";
     let params = "[params.planner.parts]\nhull = false\nstance = \"radial\"\n[params.synthesis]\nmodes = \"blending\"\ntransition = \"through_m_mb\"\n";
-    let chosen = scenario("rivals", &format!("{given}{ONE}{params}"));
+    let chosen = scenario("baselines", &format!("{keys}{ONE}{params}"));
     assert_eq!((chosen.planner, chosen.coupling), (Planner::SocialForce, Coupling::Discs));
     let parts = &chosen.params.planner.parts;
     assert!(!parts.hull && parts.stance == StanceForm::Radial && parts.order);
@@ -222,55 +222,55 @@ fn planner_coupling_and_syntheses_are_the_scenarios_choice() {
 }
 
 #[test]
-fn unknown_planners_are_refused_with_those_that_there_are() {
+fn unknown_planners_are_rejected_with_the_known_ones() {
     let text = format!("{HEAD}planner = \"rvo\"\n{ONE}");
-    check_refused("rvo", &text, "\"rvo\"", "`mcn`, `orca`, `social_force`");
+    check_rejected("rvo", &text, "\"rvo\"", "`mcn`, `orca`, `social_force`");
     let none = "substeps = 0";
     let text = format!("{HEAD}{ONE}[params.social_force]\n{none}\n");
-    check_refused("substeps", &text, "0", "substeps is 0, not between 1 and 1000");
+    check_rejected("substeps", &text, "0", "substeps is 0, not between 1 and 1000");
 }
 
 #[test]
-fn agents_of_no_kind_or_two_are_refused() {
+fn agents_of_no_layout_or_two_are_rejected() {
     let none = "{ goals_m = [[5, 0]] }";
-    check_refused("none", &format!("{HEAD}agents = {none}"), none, "exactly one");
+    check_rejected("none", &format!("{HEAD}agents = {none}"), none, "exactly one");
     let aimless = "{ at_m = [0, 0] }";
-    check_refused("aimless", &format!("{HEAD}agents = {aimless}"), aimless, "told where to go");
+    check_rejected("aimless", &format!("{HEAD}agents = {aimless}"), aimless, "need a goal");
     let two = "{ at_m = [0, 0], file = \"scene.toml\" }";
-    check_refused("two", &format!("{HEAD}agents = {two}"), two, "exactly one");
+    check_rejected("two", &format!("{HEAD}agents = {two}"), two, "exactly one");
 }
 
 #[test]
-fn bodies_stand_apart_from_each_other_and_from_obstacles() {
+fn agents_start_apart_from_each_other_and_from_obstacles() {
     let second = "{ at_m = [0.3, 0], goals_m = [[5, 0]] }";
     let agents = format!("agents = [{{ at_m = [0, 0], goals_m = [[5, 0]] }}, {second}]");
-    check_refused("overlap", &format!("{HEAD}{agents}"), second, "agents 0 and 1 overlap by 0.20 m");
+    check_rejected("overlap", &format!("{HEAD}{agents}"), second, "agents 0 and 1 overlap by 0.20 m");
 
     let with_obstacle = |polygon: &str| format!("{HEAD}agents = [{second}]\n[[obstacles]]\npolygon_m = {polygon}\n");
-    check_refused(
+    check_rejected(
         "inside",
         &with_obstacle("[[-1, -1], [1, -1], [1, 1], [-1, 1]]"),
         second,
-        "agent 0 stands inside obstacle 0",
+        "agent 0 starts inside obstacle 0",
     );
-    check_refused(
+    check_rejected(
         "grazing",
         &with_obstacle("[[-1, 0.2], [1, 0.2], [0, 1]]"),
         second,
-        "agent 0 reaches 0.05 m into obstacle 0",
+        "agent 0 overlaps obstacle 0 by 0.05 m",
     );
-    check_refused(
+    check_rejected(
         "goal",
         &with_obstacle("[[4, -1], [6, -1], [6, 2]]"),
         second,
         "a goal of agent 0 lies inside obstacle 0",
     );
     let broad = "{ at_m = [0, 0], goals_m = [[5, 0]], radius_m = 0.6 }";
-    check_refused(
+    check_rejected(
         "goal_beside",
         &format!("{HEAD}agents = [{broad}]\n[[obstacles]]\npolygon_m = [[5.05, -2], [6, -2], [6, 2], [5.05, 2]]\n"),
         broad,
-        "agent 0, of radius 0.60 m, cannot come within 0.5 m of its goal, which lies 0.05 m from obstacle 0",
+        "agent 0 with radius 0.60 m cannot come within 0.5 m of its goal, which lies 0.05 m from obstacle 0",
     );
 }
 
@@ -278,7 +278,7 @@ fn bodies_stand_apart_from_each_other_and_from_obstacles() {
 fn obstacles_must_be_simple_polygons() {
     let check = |test: &str, polygon: &str, message: &str| {
         let obstacle = format!("{{ polygon_m = {polygon} }}");
-        check_refused(test, &format!("{HEAD}{ONE}obstacles = [{obstacle}]"), &obstacle, message);
+        check_rejected(test, &format!("{HEAD}{ONE}obstacles = [{obstacle}]"), &obstacle, message);
     };
     check("two_corners", "[[8, 8], [9, 9]]", "obstacle 0 has 2 corners");
     check("bow_tie", "[[8, 8], [9, 9], [9, 8], [8, 9]]", "obstacle 0 crosses or touches itself");
@@ -287,16 +287,16 @@ fn obstacles_must_be_simple_polygons() {
 }
 
 #[test]
-fn names_that_lead_elsewhere_or_name_no_file_are_refused() {
+fn names_that_cannot_name_a_file_are_rejected() {
     for name in ["../up", "/tmp/away", "", "..", ".hidden", "a\\\\b", "line\\nbreak", &"long".repeat(60)] {
         let quoted = format!("\"{name}\"");
-        check_refused("name", &format!("name = {quoted}\n{HEAD}{ONE}"), &quoted, "cannot name a file");
+        check_rejected("name", &format!("name = {quoted}\n{HEAD}{ONE}"), &quoted, "cannot name a file");
     }
     assert_eq!(scenario("good_name", &format!("name = \"Straße 7.b\"\n{ONE}")).name, "Straße 7.b");
 }
 
 #[test]
-fn messages_stay_short_whatever_they_quote() {
+fn messages_that_quote_long_text_stay_short() {
     let key = "k".repeat(1 << 20);
     let Err(ScenarioError::Invalid(invalid)) = read(&write("long_key", &format!("{HEAD}{key} = 1\n{ONE}"))) else {
         panic!("accepted")
@@ -305,7 +305,7 @@ fn messages_stay_short_whatever_they_quote() {
 }
 
 #[test]
-fn a_crowd_in_a_line_is_checked_as_quickly_as_one_in_a_square() {
+fn a_crowd_in_a_line_is_checked_quickly() {
     for (columns, rows) in [(1, 16_000), (16_000, 1), (126, 127)] {
         let grid = format!("{{ columns = {columns}, rows = {rows}, spacing_m = 0.6 }}");
         let start = Instant::now();
@@ -315,21 +315,21 @@ fn a_crowd_in_a_line_is_checked_as_quickly_as_one_in_a_square() {
 }
 
 #[test]
-fn a_short_text_that_asks_for_too_much_is_refused_before_it_is_made() {
+fn a_short_text_of_a_huge_crowd_is_rejected_before_it_is_made() {
     let crowd = "[[agents]]\ngrid = { columns = 800, rows = 1000, spacing_m = 1 }\ngoal_offset_m = [1, 0]\n";
-    check_refused("crowds", &format!("{HEAD}{}", crowd.repeat(50)), "[[agents]]", "1600000 agents");
+    check_rejected("crowds", &format!("{HEAD}{}", crowd.repeat(50)), "[[agents]]", "1600000 agents");
     let goals = "[1, 2], ".repeat(5_000);
     let table = format!("{{ grid = {{ columns = 800, rows = 1000, spacing_m = 1 }}, goals_m = [{goals}] }}");
-    check_refused("goals", &format!("{HEAD}agents = {table}"), &table, "4000000000 waypoints");
+    check_rejected("goals", &format!("{HEAD}agents = {table}"), &table, "4000000000 waypoints");
 }
 
 #[test]
 fn missing_files_are_named() {
-    check_refused("no_clips", &format!("clips = \"gone\"\nduration_s = 1\n{ONE}"), "\"gone\"", "gone");
-    check_refused("no_motion", &format!("duration_s = 1\n{ONE}"), "", "neither `clips` nor `database`");
-    check_refused("both", &format!("{HEAD}database = \"x\"\n{ONE}"), "\"x\"", "a database besides its clips");
-    check_refused("no_lines", &format!("{HEAD}agents = {{ file = \"gone.txt\" }}"), "\"gone.txt\"", "there is no file");
-    check_refused("folder", &format!("{HEAD}agents = {{ file = \".\" }}"), "\".\"", "a folder, not a file");
+    check_rejected("no_clips", &format!("clips = \"gone\"\nduration_s = 1\n{ONE}"), "\"gone\"", "gone");
+    check_rejected("no_motion", &format!("duration_s = 1\n{ONE}"), "", "neither `clips` nor `database`");
+    check_rejected("both", &format!("{HEAD}database = \"x\"\n{ONE}"), "\"x\"", "both `clips` and `database`");
+    check_rejected("no_lines", &format!("{HEAD}agents = {{ file = \"gone.txt\" }}"), "\"gone.txt\"", "does not exist");
+    check_rejected("folder", &format!("{HEAD}agents = {{ file = \".\" }}"), "\".\"", "a folder, not a file");
     let error = read(Path::new("/nowhere/scene.toml")).unwrap_err();
     assert!(
         matches!(&error, ScenarioError::Unreadable { .. }) && error.to_string().starts_with("/nowhere/scene.toml: "),
@@ -338,7 +338,7 @@ fn missing_files_are_named() {
 }
 
 #[test]
-fn the_scenarios_that_come_along_are_sound() {
+fn the_bundled_scenarios_are_valid() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenarios");
     let agents = ["antipodal", "crossing", "bottleneck", "counterflow", "course"].map(|name| {
         let (scenario, _) = read(&folder.join(name).with_extension("toml")).unwrap();

@@ -1,10 +1,10 @@
-//! Claims about semi-procedural locomotion on compiled clips: one cycle walks as it is asked, on feet that hold.
+//! Semi-procedural locomotion on compiled clips: one cycle walks at the requested parameters, on feet that hold.
 
 mod clips;
 
 use std::f32::consts::TAU;
 
-use fbcrowd_sim::synthesis::semi_procedural::{Deformation, SemiProcedural};
+use fbcrowd_sim::synthesis::semi_procedural::{BaseWalk, Deformation};
 use glam::Vec2;
 use motiondb::body::{Joint, Joints};
 use motiondb::motion::{MotionDb, Parameters};
@@ -12,8 +12,8 @@ use motiondb::quality::planted_feet::{CycleFeet, foot_slide, implied_root_motion
 
 use crate::clips::{bundled, marine};
 
-/// Ways to walk: v_f m/s, ω_t °/s, ω_s m/s.
-const WAYS: [[f32; 3]; 22] = [
+/// Parameters of walks: v_f, m/s, ω_t, °/s, ω_s, m/s.
+const WALKS: [[f32; 3]; 22] = [
     [0.2, 0.0, 0.0],
     [0.5, 0.0, 0.0],
     [0.8, 0.0, 0.0],
@@ -49,36 +49,36 @@ fn parameters([speed_mps, turn_rate_deg_s, strafe_mps]: [f32; 3]) -> Parameters 
     Parameters { speed_mps, turn_rate_rad_s: turn_rate_deg_s.to_radians(), strafe_mps }
 }
 
-fn semi_procedural(db: &MotionDb) -> SemiProcedural {
-    SemiProcedural::new(db, db.correspondence.as_ref().unwrap().semi_procedural as usize).unwrap()
+fn base_walk(db: &MotionDb) -> BaseWalk {
+    BaseWalk::new(db, db.correspondence.as_ref().unwrap().semi_procedural as usize).unwrap()
 }
 
-fn cycle(db: &MotionDb, semi: &SemiProcedural, parameters: Parameters) -> Cycle {
-    let deformation = Deformation::new(semi, parameters);
+fn cycle(db: &MotionDb, base_walk: &BaseWalk, parameters: Parameters) -> Cycle {
+    let deformation = Deformation::new(base_walk, parameters);
     let (joints, feet) = deformation.measurable(&db.skeleton, &deformation.cycle(db));
-    Cycle { parameters, cadence: semi.cadence(parameters), joints, feet }
+    Cycle { parameters, cadence: base_walk.cadence(parameters), joints, feet }
 }
 
 fn cycles(db: &MotionDb) -> Vec<Cycle> {
-    let semi = semi_procedural(db);
-    WAYS.iter().map(|&way| cycle(db, &semi, parameters(way))).collect()
+    let base_walk = base_walk(db);
+    WALKS.iter().map(|&walk| cycle(db, &base_walk, parameters(walk))).collect()
 }
 
-/// Share of the travel that is aside, where a foot's roll and its reverse are averaged: what slips as the contact
-/// passes from heel to ball is left for the foot hold to take out.
-fn aside(parameters: Parameters) -> f32 {
+/// Share of the side speed in the travel. There a foot's roll and its reverse are averaged; the foot lock removes what
+/// slips as the contact passes from heel to ball.
+fn strafe_share(parameters: Parameters) -> f32 {
     let travel_mps = parameters.speed_mps.hypot(parameters.strafe_mps);
     parameters.strafe_mps.abs() / travel_mps.max(f32::MIN_POSITIVE)
 }
 
 #[test]
-fn at_its_own_parameters_m_sp_is_left_as_it_is() {
+fn at_its_own_parameters_m_sp_is_unchanged() {
     for db in [Some(bundled()), marine("m_sp")].into_iter().flatten() {
-        let semi = semi_procedural(&db);
-        let own = cycle(&db, &semi, db.examples[semi.example].parameters);
-        for (deformed, recorded) in own.joints.iter().zip(db.posed_rows(semi.example)) {
+        let base_walk = base_walk(&db);
+        let own = cycle(&db, &base_walk, db.examples[base_walk.example].parameters);
+        for (deformed, recorded) in own.joints.iter().zip(db.posed_rows(base_walk.example)) {
             for (a, b) in deformed.positions_m.iter().zip(recorded.positions_m) {
-                // A knee that is all but straight is bent by a degree.
+                // A nearly straight knee bends by 1°.
                 assert!(a.distance(b) < 4e-3, "{a} {b}");
             }
         }
@@ -86,31 +86,31 @@ fn at_its_own_parameters_m_sp_is_left_as_it_is() {
 }
 
 #[test]
-fn planted_feet_hold_whatever_the_speed_direction_and_turn() {
+fn planted_feet_hold_at_all_parameters() {
     for db in [Some(bundled()), marine("planted feet")].into_iter().flatten() {
-        let source_cm_s = db.examples[semi_procedural(&db).example].planted_slide_cm_s;
+        let source_cm_s = db.examples[base_walk(&db).example].planted_slide_cm_s;
         for cycle in cycles(&db) {
             let slide = foot_slide(&cycle.feet, cycle.parameters.to_vec3().as_dvec3());
-            let bar_cm_s = f64::from(cycle.cadence * (source_cm_s + 0.1 + 1.4 * aside(cycle.parameters)));
-            assert!(slide.slide_cm_s <= bar_cm_s, "{:?}: {slide:?}, {bar_cm_s} cm/s", cycle.parameters);
+            let limit_cm_s = f64::from(cycle.cadence * (source_cm_s + 0.1 + 1.4 * strafe_share(cycle.parameters)));
+            assert!(slide.slide_cm_s <= limit_cm_s, "{:?}: {slide:?}, {limit_cm_s} cm/s", cycle.parameters);
             assert!((0.55..0.7).contains(&slide.planted_share), "{:?}: {slide:?}", cycle.parameters);
         }
     }
 }
 
 #[test]
-fn the_feet_tell_the_parameters_that_were_asked() {
+fn the_feet_imply_the_requested_parameters() {
     for cycle in cycles(&bundled()) {
         let found = implied_root_motion(&cycle.feet).unwrap().parameters;
         let off = found.to_vec3() - cycle.parameters.to_vec3();
-        let turn_bar_rad_s = cycle.cadence * (0.2 + 1.0 * aside(cycle.parameters)).to_radians();
+        let turn_limit_rad_s = cycle.cadence * (0.2 + 1.0 * strafe_share(cycle.parameters)).to_radians();
         let off_mps = off.x.abs().max(off.z.abs());
-        assert!(off_mps < 0.005 && off.y.abs() < turn_bar_rad_s, "{off} {:?}", cycle.parameters);
+        assert!(off_mps < 0.005 && off.y.abs() < turn_limit_rad_s, "{off} {:?}", cycle.parameters);
     }
 }
 
 #[test]
-fn legs_do_not_cross_nor_overstretch_and_soles_stay_above_the_ground() {
+fn legs_neither_cross_nor_overstretch() {
     let db = bundled();
     for cycle in cycles(&db) {
         for joints in &cycle.joints {
@@ -127,7 +127,7 @@ fn legs_do_not_cross_nor_overstretch_and_soles_stay_above_the_ground() {
     }
 }
 
-/// Greatest vertical acceleration of the hips, m/s², row by row.
+/// Greatest vertical acceleration of the hips, m/s².
 fn hips_mps2(cycle: &Cycle) -> f32 {
     let row_s = cycle.feet.phase_map.period_s / cycle.joints.len() as f32;
     let at_m = |row: usize| cycle.joints[row % cycle.joints.len()].positions_m[0].z;
@@ -136,12 +136,12 @@ fn hips_mps2(cycle: &Cycle) -> f32 {
 }
 
 #[test]
-fn hips_swing_with_the_stride_and_do_not_drop() {
+fn hips_oscillate_with_the_stride() {
     for cycle in cycles(&bundled()).into_iter().filter(|cycle| cycle.parameters.speed_mps < 2.0) {
-        // What swings so far to either side twice a stride has this acceleration, m; people's hips swing by 2 to 3 cm.
-        let swing_m = 0.06 * (cycle.parameters.speed_mps / 1.4).max(1.0).powi(2);
-        let bar_mps2 = swing_m * (TAU * 2.0 / cycle.feet.phase_map.period_s).powi(2);
-        assert!(hips_mps2(&cycle) < bar_mps2, "{:?}: {} of {bar_mps2}", cycle.parameters, hips_mps2(&cycle));
+        // The acceleration of an oscillation of this amplitude twice a stride, m; people's hips oscillate by 2 to 3 cm.
+        let amplitude_m = 0.06 * (cycle.parameters.speed_mps / 1.4).max(1.0).powi(2);
+        let limit_mps2 = amplitude_m * (TAU * 2.0 / cycle.feet.phase_map.period_s).powi(2);
+        assert!(hips_mps2(&cycle) < limit_mps2, "{:?}: {} of {limit_mps2}", cycle.parameters, hips_mps2(&cycle));
     }
 }
 
@@ -152,20 +152,20 @@ fn knee_flexion_deg(joints: &Joints, side: usize) -> f32 {
 }
 
 #[test]
-fn a_gait_that_turns_about_beyond_its_end_stands_as_one_that_has_turned() {
+fn an_overshooting_reversal_keeps_the_contacts_valid() {
     let db = bundled();
-    let semi = semi_procedural(&db);
+    let base_walk = base_walk(&db);
     let back = parameters([-0.3, 0.0, 0.0]);
-    let contacts = |way| Deformation::going(&semi, back, way).contacts(&db, 0.3);
+    let contacts = |travel| Deformation::travelling(&base_walk, back, travel).contacts(&db, 0.3);
     assert_eq!(contacts(Vec2::new(-1.4, 0.0)), contacts(Vec2::NEG_X));
 }
 
 #[test]
-fn nothing_wild_breaks_a_pose() {
+fn extreme_parameters_give_finite_poses() {
     let db = bundled();
-    let semi = semi_procedural(&db);
-    for way in [[0.0; 3], [9.0, 0.0, 0.0], [-9.0, 2000.0, 7.0], [0.0, -4000.0, 0.0], [0.0, 0.0, 50.0]] {
-        let cycle = cycle(&db, &semi, parameters(way));
+    let base_walk = base_walk(&db);
+    for extreme in [[0.0; 3], [9.0, 0.0, 0.0], [-9.0, 2000.0, 7.0], [0.0, -4000.0, 0.0], [0.0, 0.0, 50.0]] {
+        let cycle = cycle(&db, &base_walk, parameters(extreme));
         assert!(cycle.joints.iter().all(|joints| joints.positions_m.iter().all(|at_m| at_m.is_finite())));
     }
 }

@@ -9,26 +9,24 @@
 //! The same clips give the same bytes whatever their folder, their order and the number of threads: sources are sorted
 //! by file and clip name, examples by their own name, and parallel stages collect in that order.
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use motiondb::diagnostic::{Diagnostic, Note};
 use motiondb::motion::{MotionDb, MotionExample, Parameters, SourceRecord};
 use motiondb::validate::first_broken;
-use motiondb::velocity_sets::velocity_hull::{self, Construction};
+use motiondb::velocity_sets::velocity_hull;
 use rayon::prelude::*;
 
-use crate::compile_error::CompileError;
 use crate::cycle::analysis::{Analyzed, analyze};
 use crate::cycle::mean_stride::{GaitCycle, NamedCycle};
 use crate::database::{correspondence, parameterize, rows};
 use crate::dedup::duplicates;
+use crate::error::{CompileError, Rejection};
 use crate::ground::target_skeleton;
-use crate::input::clip_set;
+use crate::input::clip_set::{self, ClipSet};
 use crate::input::manifest::Manifest;
-use crate::input::manifest::error::ManifestError;
-use crate::progress::{Event, Observer};
-use crate::refused::Refused;
+use crate::input::options::Options;
+use crate::progress::{CompileEvent, Observer};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::select::{coincident_examples, named_cycles, selection};
 
@@ -37,23 +35,14 @@ use crate::select::{coincident_examples, named_cycles, selection};
 pub struct Compiled {
     /// The database.
     pub db: MotionDb,
-    /// Each file or clip that was refused, in order of file name.
-    pub refused: Vec<Refused>,
-}
-
-/// What a user wants of the whole set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Options {
-    /// Most recorded examples, mirrors not counted; all where none.
-    pub max_examples: Option<NonZeroUsize>,
-    /// Which examples bound which velocities.
-    pub velocity_hull: Construction,
+    /// Files and clips that cannot be used, in order of file name.
+    pub rejected: Vec<Rejection>,
 }
 
 /// Imports files, compiles their clips.
 ///
 /// # Errors
-/// As [`compile`]; a file that cannot be read is refused like a clip that is not human, unless nothing is left.
+/// As [`compile`]; a file that cannot be read is rejected like a clip that is not human, unless nothing is left.
 pub fn compile_files(files: &[PathBuf], tell: &Observer) -> Result<Compiled, CompileError> {
     compile_manifest(&Manifest::of_files(files), tell)
 }
@@ -63,16 +52,14 @@ pub fn compile_files(files: &[PathBuf], tell: &Observer) -> Result<Compiled, Com
 /// # Errors
 /// As [`compile_files`], and where the manifest says of a clip what is not so.
 pub fn compile_manifest(manifest: &Manifest, tell: &Observer) -> Result<Compiled, CompileError> {
-    let (clips, refused) = clip_set::import(manifest, tell)?;
-    if clips.is_empty() && !refused.is_empty() {
-        return Err(CompileError::NoExample { refused, sources: Vec::new() });
+    let ClipSet { clips, rejected } = clip_set::import_clip_set(manifest, tell)?;
+    if clips.is_empty() && !rejected.is_empty() {
+        return Err(CompileError::NoExample { rejected, sources: Vec::new() });
     }
     match compile(clips, &manifest.options, tell) {
-        Err(CompileError::NotStepping { stepping, .. }) => {
-            Err(ManifestError::from(manifest.not_stepping(&stepping)).into())
-        }
-        Err(CompileError::NoExample { sources, .. }) => Err(CompileError::NoExample { refused, sources }),
-        compiled => Ok(Compiled { db: compiled?, refused }),
+        Err(CompileError::NotStepping { stepping, .. }) => Err(manifest.not_stepping(&stepping).into()),
+        Err(CompileError::NoExample { sources, .. }) => Err(CompileError::NoExample { rejected, sources }),
+        compiled => Ok(Compiled { db: compiled?, rejected }),
     }
 }
 
@@ -86,9 +73,9 @@ pub fn compile(mut clips: Vec<HumanClip>, options: &Options, tell: &Observer) ->
     }
     clip_set::sort(&mut clips);
     let body = target_skeleton::choose(&clips);
-    tell(Event::Stage("analysis of gaits"));
+    tell(CompileEvent::Stage("analysis of gaits"));
     let mut analyzed: Vec<Analyzed> = clips.par_iter().map(|clip| analyze(clip, &body)).collect();
-    tell(Event::Stage("selection"));
+    tell(CompileEvent::Stage("selection"));
     duplicates::set_aside(&clips, &mut analyzed, &body);
     selection::keep_what_adds(&mut analyzed);
     let mut sources: Vec<SourceRecord> = clips.iter().zip(&analyzed).map(|(clip, found)| found.record(clip)).collect();
@@ -97,7 +84,7 @@ pub fn compile(mut clips: Vec<HumanClip>, options: &Options, tell: &Observer) ->
     named_cycles::add_mirrors(&mut cycles);
     cycles.sort_by(|a, b| a.name.cmp(&b.name));
     if cycles.is_empty() {
-        return Err(CompileError::NoExample { refused: Vec::new(), sources });
+        return Err(CompileError::NoExample { rejected: Vec::new(), sources });
     }
     sound(assemble(cycles, sources, &body, options, tell), tell)
 }
@@ -110,16 +97,16 @@ fn assemble(
     options: &Options,
     tell: &Observer,
 ) -> MotionDb {
-    tell(Event::Stage("parameters"));
+    tell(CompileEvent::Stage("parameters"));
     let examples: Vec<MotionExample> = named.iter().map(|named| parameterize::example(named, body)).collect();
     let chosen = named.iter().position(|named| named.choices.is_semi_procedural);
     let flaws: Vec<f64> = named.iter().map(|named| named.flaws).collect();
     let cycles: Vec<GaitCycle> = named.into_iter().map(|named| named.cycle).collect();
-    tell(Event::Stage("blend space"));
+    tell(CompileEvent::Stage("blend space"));
     let parameters: Vec<Parameters> = examples.iter().map(|example| example.parameters).collect();
     let blend_space = coincident_examples::build_of_best(&parameters, &flaws);
     note_twins(&coincident_examples::twins(&parameters, &blend_space), &examples, &mut sources);
-    tell(Event::Stage("assembly"));
+    tell(CompileEvent::Stage("assembly"));
     let mut db = MotionDb {
         skeleton: target_skeleton::skeleton(body, cycles.iter()),
         correspondence: None,
@@ -129,14 +116,14 @@ fn assemble(
         examples,
         sources,
     };
-    tell(Event::Stage("correspondence times"));
+    tell(CompileEvent::Stage("correspondence times"));
     db.correspondence = correspondence::find(&db, chosen);
     db
 }
 
 /// A database that holds every invariant.
 fn sound(db: MotionDb, tell: &Observer) -> Result<MotionDb, CompileError> {
-    tell(Event::Stage("validation"));
+    tell(CompileEvent::Stage("validation"));
     match first_broken(&db) {
         Some((invariant, detail)) => Err(CompileError::Unsound { invariant, detail }),
         None => Ok(db),

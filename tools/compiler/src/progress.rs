@@ -1,15 +1,15 @@
-//! What a compilation has come to, told to whoever watches it: the library itself has no clock and prints nothing.
+//! Progress of a compilation as events. The crate itself reads no clock and prints nothing.
 
 use std::path::Path;
 
-/// One thing to tell.
+/// One step of progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Event<'a> {
-    /// A stage begins, and the one before it is done; the names stand in [`crate::compile`], in its order.
+pub enum CompileEvent<'a> {
+    /// A stage of this name begins, and the stage before it ends. [`crate::compile`] names the stages in their order.
     Stage(&'static str),
-    /// A file is imported; told from any thread, in any order.
+    /// This file has been imported. The event comes from any thread, in any order.
     Imported(&'a Path),
 }
 
-/// Whoever watches.
-pub type Observer<'a> = dyn Fn(Event) + Sync + 'a;
+/// A function that receives the events of a compilation; `&|_| ()` ignores them.
+pub type Observer<'a> = dyn Fn(CompileEvent) + Sync + 'a;

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use motiondb::statistics;
 
-use crate::error::ImportError;
+use crate::error::RejectionReason;
 use crate::read::{bvh, catch_panic};
 
 /// Seconds that both readers took for one file, the median of several times.
@@ -25,7 +25,7 @@ pub struct Race {
 ///
 /// # Errors
 /// Where the file is no BVH.
-pub fn race(file: &Path, bytes: &[u8], times: usize, clock: &dyn Fn() -> f64) -> Result<Race, ImportError> {
+pub fn race(file: &Path, bytes: &[u8], times: usize, clock: &dyn Fn() -> f64) -> Result<Race, RejectionReason> {
     let clip = bvh::read(file, bytes)?;
     let canonical = bvh::prepass::check(bytes).map(|checked| checked.text(usize::MAX).into_bytes()).unwrap_or_default();
     // A lying `Frames:` is warned of; one that claims terabytes would end the process.

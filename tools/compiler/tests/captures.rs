@@ -1,13 +1,13 @@
-//! Long captures give an example of each of their steady windows, and windows are where they are said to be (real
-//! clips, test input only; `windows.csv` holds the parameters of each second as others measured them).
+//! Long captures give an example of each of their steady windows, with the parameters of its seconds (real clips, test
+//! input only; `windows.csv` holds independently measured parameters of each second).
 
 use std::path::Path;
 
 use motiondb::motion::{MotionDb, MotionExample};
-use motiondb_compiler::compile::compile_files;
+use motiondb_compiler::compile_files;
 
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
-/// Shorter windows say little about the seconds that they lie in.
+/// Least duration of a window that is compared, s: a shorter one differs from its seconds.
 const WINDOW_MIN_S: f32 = 1.9;
 /// An example may differ from the mean of its seconds, which are unsmoothed and begin and end elsewhere in the stride:
 /// m/s, °/s, m/s.

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use motiondb::motion::{MotionDb, PosePair, THRESHOLD_RATIO, distances_m, pose_pairs};
+use motiondb_compiler::clip_files;
 use motiondb_compiler::compile::compile_manifest;
-use motiondb_compiler::import::clip_files;
 use motiondb_compiler::input::manifest::Manifest;
 
 const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");

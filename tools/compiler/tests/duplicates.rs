@@ -7,9 +7,9 @@ use motiondb::diagnostic::{Diagnostic, Unfit};
 use motiondb::motion::MotionDb;
 use motiondb_compiler::compile::compile_manifest;
 use motiondb_compiler::dedup::pairs;
-use motiondb_compiler::import::{clip_files, import};
 use motiondb_compiler::input::manifest::Manifest;
 use motiondb_compiler::retarget::HumanClip;
+use motiondb_compiler::{clip_files, import_file};
 
 const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
@@ -33,7 +33,7 @@ const SAME_TAKES: [[&str; 3]; 12] = [
 
 fn clips(folder: &str) -> Vec<HumanClip> {
     let files = clip_files(Path::new(folder)).unwrap_or_default();
-    let imports = files.iter().filter_map(|file| import(file).ok()).flatten();
+    let imports = files.iter().filter_map(|file| import_file(file).ok()).flatten();
     imports.filter_map(|import| import.outcome.ok()).collect()
 }
 

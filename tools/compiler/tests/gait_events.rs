@@ -9,12 +9,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use motiondb::motion::{PHASE_COUNT, PhaseMap};
+use motiondb_compiler::ClipSettings;
 use motiondb_compiler::cycle::{GaitCycle, mean_stride};
 use motiondb_compiler::gait::Gait;
 use motiondb_compiler::gait::own_body::{self, Performer};
 use motiondb_compiler::ground::ground;
-use motiondb_compiler::import;
-use motiondb_compiler::input::Take;
+use motiondb_compiler::import_with_settings;
 use motiondb_compiler::retarget::HumanClip;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
 
@@ -53,7 +53,7 @@ fn labels() -> impl Iterator<Item = Label> {
 }
 
 fn human_clip(file: &str, clip: &str) -> HumanClip {
-    let found = import::import_take(&Take::from(PathBuf::from(FOLDER).join(file))).unwrap();
+    let found = import_with_settings(&ClipSettings::from(PathBuf::from(FOLDER).join(file))).unwrap();
     found.into_iter().find(|import| import.clip == clip).unwrap().outcome.unwrap()
 }
 

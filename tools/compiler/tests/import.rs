@@ -10,12 +10,11 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Unfit};
-use motiondb_compiler::error::Refusal;
-use motiondb_compiler::import::{Import, clip_files, import, import_bytes};
 use motiondb_compiler::read::{SourceClip, bvh, gltf};
-use motiondb_compiler::retarget::{HumanClip, units};
+use motiondb_compiler::retarget::units;
 use motiondb_compiler::rig::find_roles;
 use motiondb_compiler::truth::{self, Truth};
+use motiondb_compiler::{HumanClip, ImportedClip, Rejection, RejectionReason, clip_files, import_bytes, import_file};
 
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
 
@@ -33,9 +32,9 @@ fn locomotion(folder: &Path) -> Vec<Truth> {
 }
 
 fn imported(folder: &Path, row: &Truth) -> HumanClip {
-    let imports = import(&folder.join(&row.file)).unwrap_or_else(|error| panic!("{error}"));
+    let imports = import_file(&folder.join(&row.file)).unwrap_or_else(|error| panic!("{error}"));
     let found = imports.into_iter().find(|import| import.clip == row.clip).expect("the clip is in the file");
-    found.outcome.unwrap_or_else(|refusal| panic!("{} {}: {refusal}", row.file, row.clip))
+    found.outcome.unwrap_or_else(|reason| panic!("{} {}: {reason}", row.file, row.clip))
 }
 
 fn source(path: &Path, clip: &str) -> SourceClip {
@@ -47,7 +46,7 @@ fn source(path: &Path, clip: &str) -> SourceClip {
     clips.into_iter().find(|source| source.clip == clip).unwrap()
 }
 
-/// What is off in one clip by the tolerances of [`truth`].
+/// The differences of one clip where they exceed the tolerances of [`truth`].
 fn misses(folder: &Path, row: &Truth) -> Option<String> {
     let judgement = row.judge(&imported(folder, row));
     let is_off = judgement.is_judged && !judgement.holds();
@@ -67,22 +66,22 @@ fn every_locomotion_clip_imports_with_its_measured_parameters_axes_and_units() {
 #[test]
 fn what_is_no_human_motion_is_refused_by_name_and_reason() {
     let Some(folder) = mocap("what_is_no_human_motion_is_refused_by_name_and_reason") else { return };
-    for animation in import(&folder.join("gltf/Fox.glb")).unwrap() {
+    for animation in import_file(&folder.join("gltf/Fox.glb")).unwrap() {
         assert!(
-            matches!(animation.outcome, Err(Refusal::NotUpright { .. } | Refusal::MovesAlongItself)),
+            matches!(animation.outcome, Err(RejectionReason::NotUpright { .. } | RejectionReason::MovesLengthwise)),
             "{}: {:?}",
             animation.clip,
             animation.outcome.map(|human| human.source)
         );
     }
     for toy in ["bvh_anim_test_simple.bvh", "rotation_first_root.bvh"] {
-        let imports = import(&folder.join("quirks").join(toy)).unwrap();
-        assert!(matches!(imports[0].outcome, Err(Refusal::NoLegs)), "{toy}");
+        let imports = import_file(&folder.join("quirks").join(toy)).unwrap();
+        assert!(matches!(imports[0].outcome, Err(RejectionReason::NoLegs)), "{toy}");
     }
-    let arm = import(&folder.join("quirks/arm_no_newline.bvh")).unwrap();
-    assert!(matches!(arm[0].outcome, Err(Refusal::TooShort)));
+    let arm = import_file(&folder.join("quirks/arm_no_newline.bvh")).unwrap();
+    assert!(matches!(arm[0].outcome, Err(RejectionReason::TooShort)));
     for (file, place) in [("no_frames_header.bvh", "line "), ("no_motion_section_b.bvh", "line 185")] {
-        let message = import(&folder.join("quirks").join(file)).unwrap_err().to_string();
+        let message = import_file(&folder.join("quirks").join(file)).unwrap_err().to_string();
         assert!(message.contains(file) && message.contains(place), "{message}");
     }
 }
@@ -90,10 +89,10 @@ fn what_is_no_human_motion_is_refused_by_name_and_reason() {
 #[test]
 fn a_lying_frame_time_and_a_separate_first_pose_are_told() {
     let Some(folder) = mocap("a_lying_frame_time_and_a_separate_first_pose_are_told") else { return };
-    let slow = import(&folder.join("quirks/02_03_wrong_frame_time.bvh")).unwrap().remove(0).outcome.unwrap();
+    let slow = import_file(&folder.join("quirks/02_03_wrong_frame_time.bvh")).unwrap().remove(0).outcome.unwrap();
     assert!(matches!(slow.unfit, Some(Unfit::InhumanGait { .. })), "{:?}", slow.unfit);
     assert_eq!((slow.first_frame, slow.frames.len()), (4, 170), "{:?}", slow.source.diagnostics);
-    let blended = import(&folder.join("pfnn/LocomotionFlat04_000.bvh")).unwrap().remove(0).outcome.unwrap();
+    let blended = import_file(&folder.join("pfnn/LocomotionFlat04_000.bvh")).unwrap().remove(0).outcome.unwrap();
     let is_cut = |found: &Diagnostic| matches!(found, Diagnostic::Note(Note::TPoseCut { end: ClipEnd::First, .. }));
     assert!(blended.source.diagnostics.iter().any(is_cut), "{:?}", blended.source.diagnostics);
     for row in locomotion(&folder) {
@@ -164,7 +163,7 @@ fn knees_and_elbows_flex_feet_stand_flat_and_bodies_upright() {
             let forearm = [Joint::LeftForearm, Joint::RightForearm][side];
             let (knee, elbow) =
                 (mean(&|frame| turn(frame, Joint::SHANKS[side]).y), mean(&|frame| -sign * turn(frame, forearm).z));
-            // Who stands may do so on straight knees: by its joints' places the left one of games105/idle gives back by 0.4°.
+            // A body may stand on straight knees: the left knee of games105/idle bends back by 0.4°.
             let knee_min = if human.source.speed_mps.abs() < 0.1 { -0.01 } else { 0.01 };
             assert!(knee > knee_min && elbow > 0.0, "{name}: {knee} {elbow}");
         }
@@ -210,7 +209,7 @@ fn nameless_skeletons_are_understood_by_their_shape() {
                 _ => line.to_owned(),
             })
             .collect();
-        let named = import(&path).unwrap().remove(0).outcome.unwrap();
+        let named = import_file(&path).unwrap().remove(0).outcome.unwrap();
         let found = import_bytes(&path, nameless.join("\n").as_bytes()).unwrap().remove(0).outcome.unwrap();
         let [named, found] = [named, found].map(|clip| (clip.source.speed_mps, clip.source.turn_rate_rad_s));
         assert!(
@@ -229,8 +228,8 @@ fn folders_list_their_clips_in_order() {
 }
 
 #[test]
-fn hidden_files_are_no_clips() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hidden_files_are_no_clips");
+fn hidden_files_are_not_clips() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hidden_files_are_not_clips");
     for name in ["walk.bvh", "._walk.bvh", ".hidden/run.bvh", "__MACOSX/._walk.bvh", "sub/jog.glb"] {
         let path = folder.join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -240,8 +239,8 @@ fn hidden_files_are_no_clips() {
     assert_eq!(clip_files(&folder).unwrap(), named);
 }
 
-fn only(imports: Result<Vec<Import>, motiondb_compiler::error::ImportError>) -> HumanClip {
-    imports.unwrap_or_else(|error| panic!("{error}")).remove(0).outcome.unwrap_or_else(|refusal| panic!("{refusal}"))
+fn only(imports: Result<Vec<ImportedClip>, Rejection>) -> HumanClip {
+    imports.unwrap_or_else(|error| panic!("{error}")).remove(0).outcome.unwrap_or_else(|reason| panic!("{reason}"))
 }
 
 #[path = "import/doubtful.rs"]

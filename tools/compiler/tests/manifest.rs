@@ -1,4 +1,4 @@
-//! A manifest overrides what would be found, and each of its mistakes is shown where it stands.
+//! A manifest overrides what the compiler finds, and each of its mistakes is shown at its position.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -7,15 +7,13 @@ use std::path::{Path, PathBuf};
 use motiondb::diagnostic::{Diagnostic, Unfit};
 use motiondb::files::{Invalid, SourceText};
 use motiondb::motion::{MotionDb, MotionExample};
-use motiondb_compiler::compile::{Compiled, compile_manifest};
-use motiondb_compiler::compile_error::CompileError;
-use motiondb_compiler::input::manifest::{Manifest, ManifestError};
+use motiondb_compiler::{CompileError, Compiled, Manifest, compile_manifest};
 use proptest::prelude::*;
 
 const CLIPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 const SCHEMA: &str = include_str!("../../../assets/manifest.schema.json");
 const ALL_KEYS: &str = include_str!("../../../fuzz/corpus/manifest/all_keys.toml");
-/// Of the folder nothing but what further tables name.
+/// Uses nothing of the folder but what further tables name.
 const ONLY: &str = "[[clips]]\npath = '.'\nskip = true\n";
 const LEGS: &str = "left_thigh = 'LeftUpLeg'\nleft_shank = 'LeftLeg'\nleft_foot = 'LeftFoot'\n\
                     right_thigh = 'RightUpLeg'\nright_shank = 'RightLeg'\nright_foot = 'RightFoot'\n";
@@ -39,7 +37,7 @@ fn compile(folder: &Path) -> Result<Compiled, CompileError> {
 
 fn compiled(test: &str, manifest: &str) -> MotionDb {
     let compiled = compile(&folder(test, manifest)).unwrap();
-    assert!(compiled.refused.is_empty(), "{:?}", compiled.refused);
+    assert!(compiled.rejected.is_empty(), "{:?}", compiled.rejected);
     compiled.db
 }
 
@@ -51,21 +49,21 @@ fn example<'a>(db: &'a MotionDb, name: &str) -> &'a MotionExample {
     db.examples.iter().find(|example| example.name == name).unwrap_or_else(|| panic!("no {name} in {:?}", names(db)))
 }
 
-/// Checks that a manifest is refused at a part of its text, in words that hold all of `says`.
+/// Checks that a manifest is rejected at a part of its text, with a message that holds all of `words`.
 #[track_caller]
-fn check_refused(test: &str, manifest: &str, part: &str, says: &[&str]) {
+fn check_rejected(test: &str, manifest: &str, part: &str, words: &[&str]) {
     let error = compile(&folder(test, manifest)).unwrap_err();
-    let CompileError::Manifest(ManifestError::Invalid(invalid)) = error else { panic!("{error}") };
+    let CompileError::InvalidManifest(invalid) = error else { panic!("{error}") };
     let Invalid { text, span, message, .. } = invalid.as_ref();
     assert_eq!(&text[span.clone()], part, "{invalid}");
     assert_eq!(invalid.line(), 1 + text[..span.start].matches('\n').count(), "{invalid}");
-    for word in says {
+    for word in words {
         assert!(message.contains(word), "`{word}` is missing from: {message}");
     }
 }
 
 #[test]
-fn an_empty_manifest_takes_all_below_its_folder() {
+fn an_empty_manifest_uses_all_below_its_folder() {
     let db = compiled("empty", "");
     assert_eq!(names(&db), ["idle", "turn_090_left", "turn_090_left_mirrored", "walk_110", "walk_140", "walk_180"]);
     let skipping =
@@ -74,7 +72,7 @@ fn an_empty_manifest_takes_all_below_its_folder() {
 }
 
 #[test]
-fn a_table_says_more_of_a_clip_and_leaves_the_others_in_use() {
+fn a_table_leaves_other_clips_in_use() {
     let manifest = "[[clips]]\npath = 'walk_110.bvh'\nname = 'stroll'\n\n[[clips]]\npath = './inner/walk_180.bvh'\n";
     let all = ["idle", "stroll", "turn_090_left", "turn_090_left_mirrored", "walk_140", "walk_180"];
     assert_eq!(names(&compiled("named", manifest)), all);
@@ -93,27 +91,30 @@ fn the_innermost_table_decides_what_is_skipped() {
 }
 
 #[test]
-fn unit_axis_and_frame_rate_are_those_of_the_manifest() {
+fn stated_unit_axis_and_frame_rate_count() {
     let whole = "[[clips]]\npath = '.'\nmetres_per_unit = 0.011\nup = '+Y'\nframe_rate_hz = 30.0\n";
     let own =
         "[[clips]]\npath = 'walk_110.bvh'\nframe_rate_hz = 120.0\n\n[[clips]]\npath = 'walk_140.glb'\nskip = true\n";
     let found = compiled("found", "");
-    let db = compiled("told", &format!("{whole}{own}"));
+    let db = compiled("stated", &format!("{whole}{own}"));
     for (name, frame_rate_hz) in [("walk_110.bvh", 120.0), ("walk_180.bvh", 30.0)] {
         let of = |db: &MotionDb| db.sources.iter().find(|source| source.file == name).unwrap().clone();
-        let (told, before) = (of(&db), of(&found));
-        assert_eq!((told.metres_per_unit, told.frame_rate_hz, told.up_axis.as_str()), (0.011, frame_rate_hz, "+Y"));
+        let (stated, before) = (of(&db), of(&found));
+        assert_eq!(
+            (stated.metres_per_unit, stated.frame_rate_hz, stated.up_axis.as_str()),
+            (0.011, frame_rate_hz, "+Y")
+        );
         let wanted_mps = before.speed_mps * 1.1 * frame_rate_hz / before.frame_rate_hz;
-        assert!((told.speed_mps - wanted_mps).abs() < 0.02 * wanted_mps, "{told:?}, not {wanted_mps}");
+        assert!((stated.speed_mps - wanted_mps).abs() < 0.02 * wanted_mps, "{stated:?}, not {wanted_mps}");
     }
 }
 
 #[test]
-fn a_body_that_does_not_stand_along_the_manifests_up_is_told_so() {
+fn a_contradicted_up_axis_is_reported() {
     for clip in ["walk_110.bvh", "walk_140.glb", "idle.bvh"] {
         for up in ["+X", "-X", "-Y", "+Z", "-Z"] {
-            let lying = format!("{ONLY}[[clips]]\npath = '{clip}'\nup = '{up}'\n");
-            let error = compile(&folder("lying", &lying)).unwrap_err();
+            let contradicting = format!("{ONLY}[[clips]]\npath = '{clip}'\nup = '{up}'\n");
+            let error = compile(&folder("contradicting", &contradicting)).unwrap_err();
             let CompileError::NoExample { sources, .. } = error else { panic!("{error}") };
             let wanted = Unfit::UpContradicted { stated: up.to_owned(), found: "+Y".to_owned() };
             assert_eq!(sources[0].diagnostics, [Diagnostic::NoExample(wanted)]);
@@ -122,9 +123,9 @@ fn a_body_that_does_not_stand_along_the_manifests_up_is_told_so() {
 }
 
 #[test]
-fn a_clip_that_nobody_can_have_walked_gives_no_example() {
-    let lying = "[[clips]]\npath = '.'\n[[clips]]\npath = 'walk_110.bvh'\nframe_rate_hz = 1.0\n";
-    let db = compiled("impossible", lying);
+fn an_inhuman_gait_gives_no_example() {
+    let too_slow = "[[clips]]\npath = '.'\n[[clips]]\npath = 'walk_110.bvh'\nframe_rate_hz = 1.0\n";
+    let db = compiled("impossible", too_slow);
     assert!(!names(&db).contains(&"walk_110"), "{:?}", names(&db));
     let source = db.sources.iter().find(|source| source.file == "walk_110.bvh").unwrap();
     assert!(matches!(source.diagnostics[..], [Diagnostic::NoExample(Unfit::InhumanGait { .. })]), "{source:?}");
@@ -140,7 +141,7 @@ fn two_parts_of_one_capture_are_two_clips() {
 }
 
 #[test]
-fn the_manifest_decides_about_mirrors_m_sp_and_the_body() {
+fn the_manifest_chooses_mirrors_m_sp_and_body() {
     let choices = "semi_procedural = 'walk_180'\ntarget_skeleton = 'walk_140'\n[[clips]]\npath = '.'\n\n";
     let none = "[[clips]]\npath = 'turn_090_left.bvh'\nmirror = false\n";
     let bigger = "[[clips]]\npath = 'walk_140.glb'\nmetres_per_unit = 1.1\n";
@@ -156,7 +157,7 @@ fn the_manifest_decides_about_mirrors_m_sp_and_the_body() {
 }
 
 #[test]
-fn a_joint_map_finds_the_same_body_under_other_names() {
+fn a_joint_map_finds_the_same_body() {
     let folder = folder("map", "");
     let wanted = compile(&folder).unwrap().db;
     let map = format!("[[clips]]\npath = '.'\n[[clips]]\npath = 'walk_110.bvh'\n[clips.joints]\nneck = 'Neck'\n{LEGS}");
@@ -171,7 +172,7 @@ fn a_joint_map_finds_the_same_body_under_other_names() {
 }
 
 #[test]
-fn a_facing_exchanges_left_and_right_only_where_they_were_found_wrongly() {
+fn a_stated_facing_decides_left_and_right() {
     let speed_mps = |test: &str, forward: &str| {
         let db = compile(&folder(test, &format!("{ONLY}[[clips]]\npath = 'walk_110.bvh'\nforward = '{forward}'\n")))
             .unwrap()
@@ -183,9 +184,9 @@ fn a_facing_exchanges_left_and_right_only_where_they_were_found_wrongly() {
 }
 
 #[test]
-fn mistakes_are_shown_where_they_stand() {
+fn mistakes_are_shown_at_their_position() {
     let one = "[[clips]]\npath = 'walk_110.bvh'\n";
-    let check = |test, text: &str, part, says: &[&str]| check_refused(test, &format!("{one}{text}"), part, says);
+    let check = |test, text: &str, part, words: &[&str]| check_rejected(test, &format!("{one}{text}"), part, words);
     check("key", "speed = 1\n", "speed", &["unknown field", "metres_per_unit"]);
     check("axis", "up = 'Q'\n", "'Q'", &["no axis"]);
     check("frames", "frames = [1, 99999]\n", "[1, 99999]", &["walk_110.bvh", "99999", "1 to"]);
@@ -201,20 +202,20 @@ fn mistakes_are_shown_where_they_stand() {
     check("twice", "joints = { neck = 'Neck', head = 'Neck' }\n", "'Neck'", &["neck", "head"]);
     let tangled = format!("[clips.joints]\n{}", LEGS.replace("'LeftFoot'", "'LeftHand'"));
     check("tangled", &tangled, "'LeftHand'", &["`LeftHand`", "`LeftLeg`"]);
-    check_refused("missing", "[[clips]]\npath = 'run.bvh'\n", "'run.bvh'", &["run.bvh"]);
+    check_rejected("missing", "[[clips]]\npath = 'run.bvh'\n", "'run.bvh'", &["run.bvh"]);
     check("name", "name = \"a\\nb\"\n", "\"a\\nb\"", &["control character"]);
     check("count", "frames = [1.5, 60]\n", "1.5", &["a whole number"]);
-    check_refused("zero", "max_examples = 0\n", "0", &["from 1 on"]);
-    check_refused("whole", "[[clips]]\npath = '.'\nframes = [1, 9]\n", "[1, 9]", &["folder"]);
-    check_refused("m_sp", "semi_procedural = 'run'\n", "'run'", &["`run`", "walk_110"]);
+    check_rejected("zero", "max_examples = 0\n", "0", &["from 1 on"]);
+    check_rejected("whole", "[[clips]]\npath = '.'\nframes = [1, 9]\n", "[1, 9]", &["folder"]);
+    check_rejected("m_sp", "semi_procedural = 'run'\n", "'run'", &["`run`", "walk_110"]);
     let window = "semi_procedural = 'walk_110@02.0s'\n";
-    check_refused("window", window, "'walk_110@02.0s'", &["no stepping cycle", "walk_110"]);
-    check_refused("body", "target_skeleton = 'giant'\n", "'giant'", &["`giant`", "walk_110"]);
-    check_refused("standing", "semi_procedural = 'idle'\n", "'idle'", &["no stepping cycle", "m_sp"]);
+    check_rejected("window", window, "'walk_110@02.0s'", &["no stepping cycle", "walk_110"]);
+    check_rejected("body", "target_skeleton = 'giant'\n", "'giant'", &["`giant`", "walk_110"]);
+    check_rejected("standing", "semi_procedural = 'idle'\n", "'idle'", &["no stepping cycle", "m_sp"]);
 }
 
 #[test]
-fn the_schema_for_editors_knows_the_keys_that_are_read() {
+fn the_schema_has_the_keys_that_are_read() {
     let schema: serde_json::Value = serde_json::from_str(SCHEMA).unwrap();
     let check = |properties: &serde_json::Value, text: &str| {
         let error = compile(&folder("schema", text)).unwrap_err().to_string();
@@ -234,16 +235,16 @@ fn the_schema_for_editors_knows_the_keys_that_are_read() {
 
 proptest! {
     #[test]
-    fn a_damaged_manifest_is_refused_within_its_text(
+    fn a_damaged_manifest_is_rejected_within_its_text(
         damage in prop::collection::vec((any::<prop::sample::Index>(), prop::char::range(' ', '~')), 1..4),
     ) {
         let mut letters: Vec<char> = ALL_KEYS.chars().collect();
-        for (place, letter) in damage {
-            *place.get_mut(&mut letters) = letter;
+        for (index, letter) in damage {
+            *index.get_mut(&mut letters) = letter;
         }
         let text: String = letters.into_iter().filter(|&letter| letter != '/').collect();
         let source = SourceText { path: PathBuf::from("/nowhere/manifest.toml"), text };
-        if let Err(ManifestError::Invalid(invalid)) = Manifest::parse(source) {
+        if let Err(CompileError::InvalidManifest(invalid)) = Manifest::parse(source) {
             prop_assert!(invalid.text.get(invalid.span.clone()).is_some(), "{invalid}");
         }
     }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use motiondb::body::Pose;
 use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::validate::validate;
-use motiondb_compiler::compile::compile_files;
+use motiondb_compiler::compile_files;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap/smartbody_converted");
 
@@ -57,7 +57,7 @@ fn marine(test: &str) -> Option<MotionDb> {
         return None;
     };
     let compiled = compile_files(&files, &|_| ()).unwrap();
-    assert!(compiled.refused.is_empty(), "{:?}", compiled.refused);
+    assert!(compiled.rejected.is_empty(), "{:?}", compiled.rejected);
     Some(compiled.db)
 }
 

@@ -1,14 +1,13 @@
-//! A whole folder may be compiled: transitions, jumps, dances, deaths and crawling give no example (real clips, test
-//! input only).
+//! Transitions, jumps, dances, deaths and crawling give no example (real clips, test input only).
 
 use std::path::{Path, PathBuf};
 
 use motiondb::diagnostic::Diagnostic;
-use motiondb_compiler::compile::compile_files;
+use motiondb_compiler::{clip_files, compile_files};
 
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
 
-/// Compiles clips and checks that of `clips` none gave an example and each has a reason.
+/// Compiles files and checks that none of `clips` gives an example and each has a reason.
 fn check_none(files: &[PathBuf], clips: &[&str]) {
     let db = compile_files(files, &|_| ()).unwrap().db;
     for clip in clips {
@@ -33,13 +32,13 @@ fn transitions_between_standing_and_walking_are_no_examples() {
     let test = "transitions_between_standing_and_walking_are_no_examples";
     let Some(folder) = folder(test, "smartbody_converted") else { return };
     let clips = ["StepBackwardsRt01", "StepForwardRt01", "StepSidewaysRt01", "Idle01_ToWalk01", "Walk01_ToIdle01"];
-    let files = motiondb_compiler::import::clip_files(&folder).unwrap();
+    let files = clip_files(&folder).unwrap();
     check_none(&files, &clips);
 }
 
 #[test]
 fn what_is_no_gait_is_no_example() {
     let Some(folder) = folder("what_is_no_gait_is_no_example", "gltf") else { return };
-    let files = motiondb_compiler::import::clip_files(&folder).unwrap();
+    let files = clip_files(&folder).unwrap();
     check_none(&files, &["Dance", "Death", "Jump", "Punch", "Sitting", "Crawling", "Crouching", "Dodge_Left", "TPose"]);
 }

@@ -1,13 +1,13 @@
-//! A clip's gait is its performer's, whatever other clips lie beside it (real clips are test input only).
+//! A clip's gait is its performer's, independent of other clips (real clips are test input only).
 
 use std::path::{Path, PathBuf};
 
 use motiondb::motion::{MotionExample, PHASE_COUNT};
-use motiondb_compiler::compile::compile_files;
+use motiondb_compiler::compile_files;
 
 const MOCAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/mocap");
 const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
-/// Performers of unlike proportions, each with soles of his own.
+/// Clips of performers of different proportions and soles.
 const CLIPS: [&str; 6] = [
     "bandai_namco/dataset-1_walk_normal_001.bvh",
     "bandai_namco/dataset-1_walk-back_masculinity_001.bvh",
@@ -47,7 +47,7 @@ fn key_times_do_not_depend_on_what_else_is_compiled() {
     let beside = examples(&files);
     let mut compared = 0;
     for alone in &alone {
-        // Of captures with several windows some may add nothing beside others.
+        // Some of a capture's windows may add nothing to other clips.
         if let Some(beside) = beside.iter().find(|example| example.name == alone.name) {
             check_same_key_times(alone, beside);
             compared += 1;

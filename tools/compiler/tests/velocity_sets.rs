@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use motiondb::motion::MotionDb;
 use motiondb::velocity_sets::velocity_hull::{Construction, is_turning, turning_point_mps};
+use motiondb_compiler::clip_files;
 use motiondb_compiler::compile::compile_manifest;
-use motiondb_compiler::import::clip_files;
 use motiondb_compiler::input::manifest::Manifest;
 
 const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");

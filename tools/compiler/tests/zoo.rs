@@ -1,8 +1,8 @@
-//! Claims about files that nobody here has seen: one performer in the skeletons, axes, units, channels and habits of
-//! other tools, with twist bones, props, skirts, hair and wings, imports as what it is.
+//! One performer in the skeletons, axes, units and channels of other tools, with twist bones, props, skirts, hair and
+//! wings: import finds the same body and the same parameters.
 //!
-//! The performer is a bundled clip, its parameters those of `assets/clips/README.md`. Some hundred combinations run
-//! always; `cargo test --test zoo -- --ignored` runs thousands.
+//! The performer is a bundled clip with the parameters of `assets/clips/README.md`. A hundred combinations run always;
+//! `cargo test --test zoo -- --ignored` runs thousands.
 
 mod zoo {
     pub(crate) mod body;
@@ -16,7 +16,7 @@ mod zoo {
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use motiondb_compiler::import::import_bytes;
+use motiondb_compiler::import_bytes;
 
 use zoo::combination::{Combination, Dice};
 
@@ -43,24 +43,24 @@ fn check_all(seeds: std::ops::Range<u64>) {
 }
 
 #[test]
-fn every_tools_human_imports_as_what_it_is() {
+fn humans_of_every_tool_import_right() {
     check_all(0..100);
 }
 
 #[test]
-fn what_walks_on_four_or_eight_legs_or_none_is_refused() {
+fn creatures_are_rejected() {
     let imported = |creature: &zoo::creatures::Creature| {
         let imports = import_bytes(Path::new("creature.bvh"), creature.text().as_bytes()).unwrap();
         imports[0].outcome.as_ref().err().map(ToString::to_string)
     };
     let creatures = zoo::creatures::all();
-    let taken: Vec<&str> = creatures.iter().filter(|it| imported(it).is_none()).map(|it| it.name).collect();
-    assert!(taken.is_empty(), "{taken:?}");
+    let accepted: Vec<&str> = creatures.iter().filter(|it| imported(it).is_none()).map(|it| it.name).collect();
+    assert!(accepted.is_empty(), "{accepted:?}");
 }
 
 #[test]
 #[ignore = "minutes: thousands of combinations"]
-fn thousands_of_combinations_import_as_what_they_are() {
+fn thousands_of_combinations_import_right() {
     let [first, last] =
         ["ZOO_FIRST", "ZOO_LAST"].map(|name| std::env::var(name).ok().and_then(|text| text.parse().ok()));
     check_all(first.unwrap_or(0)..last.unwrap_or(5000));

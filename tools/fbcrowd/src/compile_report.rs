@@ -9,7 +9,7 @@ use motiondb::diagnostic::{Diagnostic, Severity};
 use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
 use motiondb::quality::coverage::{self, CoverageGap};
 use motiondb::quality::example_quality::{self, ExampleQuality, Finding};
-use motiondb_compiler::refused::Refused;
+use motiondb_compiler::Rejection;
 use serde::Serialize;
 
 use crate::stages::Stage;
@@ -87,13 +87,13 @@ pub(crate) struct Example {
 
 impl CompileReport {
     /// Of a database that was written to `output`, or to nowhere where a refusal is final.
-    pub(crate) fn new(output: Option<&Path>, db: &MotionDb, refused: Vec<Refused>, stages: Vec<Stage>) -> Self {
+    pub(crate) fn new(output: Option<&Path>, db: &MotionDb, rejected: Vec<Rejection>, stages: Vec<Stage>) -> Self {
         let mut report = Self {
             output: output.map(|path| path.display().to_string()),
             example_count: db.examples.len(),
             mirror_count: db.examples.iter().filter(|example| example.mirrored).count(),
             simplex_count: db.blend_space.simplices().filter(|corners| corners.len() > 1).count(),
-            refused: refused.into_iter().map(Reason::from).collect(),
+            refused: rejected.into_iter().map(Reason::from).collect(),
             quality: example_quality::quality(db),
             findings: example_quality::lint(db),
             coverage: coverage::coverage(db),
@@ -110,8 +110,8 @@ impl CompileReport {
     }
 
     /// Of clips of which none gives an example.
-    pub(crate) fn without_examples(refused: Vec<Refused>, sources: &[SourceRecord]) -> Self {
-        let refused = refused.into_iter().map(Reason::from).collect();
+    pub(crate) fn without_examples(rejected: Vec<Rejection>, sources: &[SourceRecord]) -> Self {
+        let refused = rejected.into_iter().map(Reason::from).collect();
         let mut report = Self { refused, ..Self::default() };
         sources.iter().for_each(|source| report.add(source, Vec::new()));
         report.next = advice::next(&report);
@@ -145,8 +145,9 @@ impl CompileReport {
     }
 }
 
-impl From<Refused> for Reason {
-    fn from(Refused { file, clip, reason }: Refused) -> Self {
+impl From<Rejection> for Reason {
+    fn from(Rejection { file, clip, reason }: Rejection) -> Self {
+        let reason = reason.to_string();
         Self { file, clip, reason }
     }
 }

@@ -4,13 +4,9 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use motiondb::velocity_sets::velocity_hull::Construction;
-use motiondb_compiler::compile::{self, Compiled};
-use motiondb_compiler::import;
-use motiondb_compiler::input::clip_set;
-use motiondb_compiler::input::manifest::Manifest;
-use motiondb_compiler::progress::Event;
-use motiondb_compiler::refused::Refused;
-use motiondb_compiler::retarget::HumanClip;
+use motiondb_compiler::{
+    ClipSet, CompileEvent, Compiled, Manifest, Rejection, clip_files, compile_manifest, import_clip_set, linked_files,
+};
 
 use crate::failure::{Answer, Failure};
 use crate::output;
@@ -32,7 +28,7 @@ fn manifest(paths: &[PathBuf]) -> Result<Manifest, Failure> {
         }
     };
     manifest.add_files(&files);
-    if !manifest.takes.is_empty() {
+    if !manifest.clips.is_empty() {
         return Ok(manifest);
     }
     Err(Failure::bad(match (&manifests[..], paths) {
@@ -55,7 +51,7 @@ fn files_and_manifests(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>)
         } else if inside.is_file() {
             manifests.push(inside);
         } else if path.is_dir() {
-            files.extend(import::clip_files(path).map_err(|error| Failure::bad(error.to_string()))?);
+            files.extend(clip_files(path).map_err(|error| Failure::bad(error.to_string()))?);
         } else {
             files.push(path.clone());
         }
@@ -84,15 +80,15 @@ pub(crate) fn compile(
 ) -> Result<Compiled, Failure> {
     let mut manifest = manifest(paths)?;
     let manifests: Vec<PathBuf> = paths.iter().map(|path| path.join(MANIFEST)).collect();
-    let clips = manifest.takes.iter().map(|take| &take.path);
+    let clips = manifest.clips.iter().map(|clip| &clip.path);
     output::spare(output, paths.iter().chain(&manifests).chain(clips.clone()))?;
-    output::spare(output, clips.flat_map(|clip| import::linked_files(clip)))?;
+    output::spare(output, clips.flat_map(|clip| linked_files(clip)))?;
     if let Some(construction) = overrides.velocity_hull {
         manifest.options.velocity_hull = construction;
     }
     manifest.options.max_examples = overrides.max_examples.or(manifest.options.max_examples);
-    let progress = Progress::new("files", manifest.takes.len());
-    let compiled = compile::compile_manifest(&manifest, &|event| {
+    let progress = Progress::new("files", manifest.clips.len());
+    let compiled = compile_manifest(&manifest, &|event| {
         stopwatch.watch(event);
         advance(&progress, event);
     });
@@ -101,29 +97,29 @@ pub(crate) fn compile(
 }
 
 /// Imports clips without making a database of them.
-pub(crate) fn import(paths: &[PathBuf]) -> Result<(Vec<HumanClip>, Vec<Refused>), Failure> {
+pub(crate) fn import(paths: &[PathBuf]) -> Result<ClipSet, Failure> {
     let manifest = manifest(paths)?;
-    let progress = Progress::new("files", manifest.takes.len());
-    let imported = clip_set::import(&manifest, &|event| advance(&progress, event));
+    let progress = Progress::new("files", manifest.clips.len());
+    let imported = import_clip_set(&manifest, &|event| advance(&progress, event));
     progress.finish();
     Ok(imported?)
 }
 
 /// Progress counts imported files: what comes after takes no time worth a bar.
-fn advance(progress: &Progress, event: Event) {
-    if let Event::Imported(_) = event {
+fn advance(progress: &Progress, event: CompileEvent) {
+    if let CompileEvent::Imported(_) = event {
         progress.advance();
     }
 }
 
 /// Says on standard error what was refused.
-pub(crate) fn say_refused(refused: &[Refused]) {
+pub(crate) fn say_refused(refused: &[Rejection]) {
     for message in refused {
         output::say(&format!("refused: {message}"));
     }
 }
 
 /// Whether all was used.
-pub(crate) fn answer(refused: &[Refused]) -> Answer {
+pub(crate) fn answer(refused: &[Rejection]) -> Answer {
     if refused.is_empty() { Answer::Yes } else { Answer::No }
 }

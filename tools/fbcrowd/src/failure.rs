@@ -7,9 +7,7 @@ use std::process::ExitCode;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use motiondb::files::Invalid;
 use motiondb::motion::SourceRecord;
-use motiondb_compiler::compile_error::CompileError;
-use motiondb_compiler::input::manifest::ManifestError;
-use motiondb_compiler::refused::Refused;
+use motiondb_compiler::{CompileError, Rejection};
 
 use crate::compile_report::CompileReport;
 use crate::{compile_text, output};
@@ -36,7 +34,7 @@ pub(crate) enum Failure {
     /// Exit code 2, with what is wrong with each clip.
     NoExample {
         /// What is no human motion.
-        refused: Vec<Refused>,
+        rejected: Vec<Rejection>,
         /// What is.
         sources: Vec<SourceRecord>,
     },
@@ -74,13 +72,13 @@ impl Failure {
                 output::say_text(&format!("Error: {report:?}"));
                 ExitCode::from(2)
             }
-            Self::NoExample { refused, sources } => {
+            Self::NoExample { rejected, sources } => {
                 // The reporter would wrap the list.
                 let advice = match sources.is_empty() {
                     true => NO_HUMAN,
                     false => "no clip gives an example; give clips of steady walking, running, turning or standing",
                 };
-                output::say_text(&compile_text::reasons(&CompileReport::without_examples(refused, &sources)));
+                output::say_text(&compile_text::reasons(&CompileReport::without_examples(rejected, &sources)));
                 Self::bad(advice).report()
             }
             Self::ReaderGone => ExitCode::SUCCESS,
@@ -106,20 +104,11 @@ impl From<motiondb::files::database_file::FileError> for Failure {
     }
 }
 
-impl From<ManifestError> for Failure {
-    fn from(error: ManifestError) -> Self {
-        match error {
-            ManifestError::Invalid(invalid) => Self::mistake(*invalid),
-            other => Self::bad(other.to_string()),
-        }
-    }
-}
-
 impl From<CompileError> for Failure {
     fn from(error: CompileError) -> Self {
         match error {
-            CompileError::Manifest(error) => error.into(),
-            CompileError::NoExample { refused, sources } => Self::NoExample { refused, sources },
+            CompileError::InvalidManifest(invalid) => Self::mistake(*invalid),
+            CompileError::NoExample { rejected, sources } => Self::NoExample { rejected, sources },
             other => Self::bad(other.to_string()),
         }
     }

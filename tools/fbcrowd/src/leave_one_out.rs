@@ -2,7 +2,7 @@
 //!
 //! For every recorded example whose (v_f, ω_t, ω_s) lies inside the hull of the others: the database is rebuilt without
 //! it *and its mirror* (simplices and axes' ranges anew; the other rows stay), and blended at its parameters by the
-//! runtime's own synthesis (`fbcrowd_sim::synthesis::blending::mix`: w_i ∝ u_i·r_i(φ)). With x_j(φ) the place of joint j in the
+//! runtime's own synthesis (`fbcrowd_sim::synthesis::blending`: w_i ∝ u_i·r_i(φ)). With x_j(φ) the place of joint j in the
 //! root frame,
 //!
 //! ```text
@@ -15,7 +15,7 @@
 //! off, the hands, count most; the median of all RMSE_j says how far off a joint usually is. Mirrored examples are not
 //! asked for themselves: mirrors count once.
 
-use fbcrowd_sim::synthesis::blending::Mix;
+use fbcrowd_sim::synthesis::blending::ExampleMix;
 use motiondb::blend_space::triangulation;
 use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
 use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT, Rows};
@@ -117,7 +117,7 @@ fn left_out(db: &MotionDb, index: usize) -> Option<LeftOut> {
         return None;
     }
     let locator = others.locator();
-    let mix = Mix::new(&locator.locate_inside(example.parameters)?);
+    let mix = ExampleMix::new(&locator.locate_inside(example.parameters)?);
     let nearest = nearest(&others, example);
     let name = |index: usize| others.examples[index].name.clone();
     let mut parts: Vec<Part> =

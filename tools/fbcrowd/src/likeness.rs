@@ -8,9 +8,7 @@
 use std::path::{Path, PathBuf};
 
 use motiondb::motion::{MotionDb, MotionExample, Parameters};
-use motiondb_compiler::compile::{Options, compile};
-use motiondb_compiler::import;
-use motiondb_compiler::retarget::HumanClip;
+use motiondb_compiler::{HumanClip, Options, clip_files, compile, import_file};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -97,11 +95,11 @@ pub(crate) fn likeness(mocap: &Path, bundled: &MotionDb) -> Result<Vec<KindOfGai
 
 /// The human clips of all folders, each named after its folder.
 fn real_clips(mocap: &Path) -> Result<Vec<HumanClip>, Failure> {
-    let failed = |error: motiondb_compiler::error::ImportError| Failure::bad(error.to_string());
+    let failed = |error: motiondb_compiler::CompileError| Failure::bad(error.to_string());
     let mut clips = Vec::new();
-    for file in import::clip_files(mocap).map_err(failed)? {
+    for file in clip_files(mocap).map_err(failed)? {
         let folder = file.parent().and_then(|folder| folder.strip_prefix(mocap).ok()).unwrap_or(Path::new(""));
-        let imports = import::import(&file).unwrap_or_default();
+        let imports = import_file(&file).unwrap_or_default();
         clips.extend(imports.into_iter().filter_map(|import| import.outcome.ok()).map(|mut clip| {
             clip.source.file = folder.join(&clip.source.file).display().to_string();
             clip

@@ -5,7 +5,7 @@ use motiondb::diagnostic::Diagnostic;
 use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
 use motiondb::quality::coverage::{self, CoverageGap};
 use motiondb::velocity_sets::velocity_hull::{Construction, VelocityHull};
-use motiondb_compiler::refused::Refused;
+use motiondb_compiler::Rejection;
 use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 use serde::Serialize;
 
@@ -26,11 +26,11 @@ pub(crate) struct SourcesReport {
 }
 
 impl SourcesReport {
-    pub(crate) fn new(surveyed: &[SurveyedSource], refused: Vec<Refused>) -> Self {
+    pub(crate) fn new(surveyed: &[SurveyedSource], rejected: Vec<Rejection>) -> Self {
         let source = |found: &SurveyedSource| Source::new(&found.source, Some(found.gait.clone()));
         Self {
             sources: surveyed.iter().map(source).collect(),
-            refused: refused.into_iter().map(Reason::from).collect(),
+            refused: rejected.into_iter().map(Reason::from).collect(),
         }
     }
 }

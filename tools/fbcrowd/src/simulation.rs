@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use fbcrowd_sim::planning::Planner;
 use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
-use fbcrowd_sim::route::{BlockedWays, blocked_ways};
+use fbcrowd_sim::route::{BlockedPaths, blocked_paths};
 use fbcrowd_sim::scenario::{Scenario, ScenarioError};
 use fbcrowd_sim::simulation::{Simulation, Stage};
-use fbcrowd_sim::synthesis::hybrid::Hybrid;
-use fbcrowd_sim::synthesis::library::augmented_database;
+use fbcrowd_sim::synthesis::library;
+use fbcrowd_sim::synthesis::library::HybridData;
 use motiondb::motion::MotionDb;
 use motiondb::quality::coverage;
 use serde::Serialize;
@@ -96,7 +96,7 @@ fn tell_of_deformed(db: &MotionDb, complete: &MotionDb) {
     if !coverage::walks_ahead(db) {
         output::say("note: none of these clips walks ahead, so nobody will reach a goal; add a walk, and compile anew");
     }
-    if let Some((walk, count)) = augmented_database::deformed(db, complete) {
+    if let Some((walk, count)) = library::deformed_walk(db, complete) {
         let lacking = "these clips lack ways of walking that a crowd needs (fbcrowd inspect names them)";
         output::say(&format!("note: {lacking}; {walk} is deformed to {count} of them"));
     }
@@ -105,7 +105,7 @@ fn tell_of_deformed(db: &MotionDb, complete: &MotionDb) {
 /// Says who has not arrived because of a wall.
 fn tell_of_walls(scenario: &Scenario, frames: &[AgentFrame]) {
     let ends_m = frames.iter().map(|frame| frame.root.position_m);
-    let Some(BlockedWays { agent, waypoint, agents }) = blocked_ways(scenario, ends_m) else { return };
+    let Some(BlockedPaths { agent, waypoint, agents }) = blocked_paths(scenario, ends_m) else { return };
     let [x, y] = scenario.agents[agent].goals_m[waypoint].to_array();
     let others = if agents == 1 { String::new() } else { format!(" ({agents} agents have)") };
     let remedy = "agents walk straight: who is to go round needs a waypoint beside it";
@@ -115,8 +115,8 @@ fn tell_of_walls(scenario: &Scenario, frames: &[AgentFrame]) {
 /// §3.4.1: the planner must look further ahead than a change of synthesis takes.
 fn check_horizon(db: &MotionDb, scenario: &Scenario) -> Result<(), Failure> {
     let horizon_s = scenario.params.planner.time_horizon_s;
-    match Hybrid::new(db, scenario.modes()) {
-        Some(Hybrid { transition_s, .. }) if scenario.planner == Planner::Mcn && horizon_s <= transition_s => {
+    match HybridData::new(db, scenario.modes()) {
+        Some(HybridData { transition_s, .. }) if scenario.planner == Planner::Mcn && horizon_s <= transition_s => {
             Err(Failure::bad(format!(
                 "the planner looks {horizon_s} s ahead, but with this database a change of synthesis takes up to \
                  {transition_s:.2} s; give `time_horizon_s` more than that under [params.planner], or \

@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use motiondb_compiler::progress::Event;
+use motiondb_compiler::CompileEvent;
 use serde::Serialize;
 
 /// One stage.
@@ -27,8 +27,8 @@ impl Stopwatch {
     }
 
     /// A compilation tells of its stages.
-    pub(crate) fn watch(&self, event: Event) {
-        if let Event::Stage(name) = event {
+    pub(crate) fn watch(&self, event: CompileEvent) {
+        if let CompileEvent::Stage(name) = event {
             self.begin(name);
         }
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::str::FromStr;
 
-use crate::error::RenderError;
+use crate::error::{FrameRangeFault, RenderError};
 
 /// Number of a sequence's first frame, as film tools expect it.
 pub(crate) const FIRST_FRAME: u32 = 1001;
@@ -28,9 +28,8 @@ impl FromStr for FrameRange {
     type Err = RenderError;
 
     fn from_str(text: &str) -> Result<Self, RenderError> {
-        let error =
-            |part: &str, reason| RenderError::FrameRange { text: text.to_owned(), part: part.to_owned(), reason };
-        let span = |part: &str| parse_span(part.trim()).map_err(|reason| error(part, reason));
+        let error = |part: &str, fault| RenderError::FrameRange { text: text.to_owned(), part: part.to_owned(), fault };
+        let span = |part: &str| parse_span(part.trim()).map_err(|fault| error(part, fault));
         let spans = text.split(',').map(span).collect::<Result<_, _>>()?;
         Ok(Self { text: text.to_owned(), spans })
     }
@@ -56,19 +55,19 @@ impl FrameRange {
     }
 }
 
-fn parse_span(part: &str) -> Result<FrameSpan, &'static str> {
-    let number = |digits: &str| digits.trim().parse::<u32>().map_err(|_| "a frame number is missing or not a number");
-    let (span, step) = match part.split_once(['x', ':']) {
-        Some((span, step)) => (span, step.trim().parse::<u32>().map_err(|_| "the step is not a number")?),
+fn parse_span(part: &str) -> Result<FrameSpan, FrameRangeFault> {
+    let number = |digits: &str| digits.trim().parse::<u32>().map_err(|_| FrameRangeFault::Number);
+    let (numbers, step) = match part.split_once(['x', ':']) {
+        Some((numbers, step)) => (numbers, step.trim().parse::<u32>().map_err(|_| FrameRangeFault::Step)?),
         None => (part, 1),
     };
-    let (first, last) = match span.split_once('-') {
+    let (first, last) = match numbers.split_once('-') {
         Some((first, last)) => (number(first)?, number(last)?),
-        None => (number(span)?, number(span)?),
+        None => (number(numbers)?, number(numbers)?),
     };
     match (step, first <= last) {
-        (0, _) => Err("the step is zero"),
-        (_, false) => Err("the range ends before it begins"),
+        (0, _) => Err(FrameRangeFault::ZeroStep),
+        (_, false) => Err(FrameRangeFault::Reversed),
         _ => Ok(FrameSpan { first, last, step }),
     }
 }
@@ -93,19 +92,23 @@ mod tests {
     }
 
     #[test]
-    fn an_invalid_range_is_rejected_with_its_part() {
-        for (text, part) in [
-            ("", ""),
-            ("1001,,1002", ""),
-            ("a", "a"),
-            ("1001-", "1001-"),
-            ("1005-1001", "1005-1001"),
-            ("1001-1005x0", "1001-1005x0"),
-            ("1001-1005x", "1001-1005x"),
-            ("99999999999", "99999999999"),
+    fn an_invalid_range_is_rejected_with_its_part_and_fault() {
+        use FrameRangeFault::{Number, Reversed, Step, ZeroStep};
+        for (text, part, fault) in [
+            ("", "", Number),
+            ("1001,,1002", "", Number),
+            ("a", "a", Number),
+            ("1001-", "1001-", Number),
+            ("1005-1001", "1005-1001", Reversed),
+            ("1001-1005x0", "1001-1005x0", ZeroStep),
+            ("1001-1005x", "1001-1005x", Step),
+            ("99999999999", "99999999999", Number),
         ] {
             let error = text.parse::<FrameRange>().unwrap_err();
-            assert!(matches!(&error, RenderError::FrameRange { part: found, .. } if found == part), "{text}: {error}");
+            let RenderError::FrameRange { part: found_part, fault: found, .. } = error else {
+                panic!("{text}: {error}")
+            };
+            assert_eq!((found_part.as_str(), found), (part, fault), "{text}");
         }
         assert!(matches!("1-20".parse::<FrameRange>().unwrap().clip(5), Err(RenderError::NoFrames { .. })));
     }

@@ -4,7 +4,7 @@
 //! World: x right, y up in the picture, metres. Pixels: x right, y down, (0, 0) the picture's upper left corner.
 
 use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::scenario::{Fault, View, check_view};
+use fbcrowd_sim::scenario::{ScenarioFault, View, check_view};
 use glam::Vec2;
 
 use crate::error::RenderError;
@@ -55,7 +55,7 @@ impl Framing {
 /// If the view is out of range; the view of an opened recording is not.
 pub(crate) fn frame_recording(header: &Header, positions_m: &[Vec2]) -> Result<Framing, RenderError> {
     let view = &header.scenario.view;
-    check_view(view).map_err(|Fault { message, help, .. }| RenderError::View { message, help })?;
+    check_view(view).map_err(|ScenarioFault { message, help, .. }| RenderError::View { message, help })?;
     let agents = &header.scenario.agents;
     let starts = agents.iter().map(|agent| agent.position_m);
     let goals = agents.iter().flat_map(|agent| agent.goals_m.iter().copied());

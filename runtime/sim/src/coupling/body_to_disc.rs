@@ -1,11 +1,14 @@
-//! CNS, coupled navigation and synthesis (`FbCrowd` §3.4): the disc takes place and facing from the body *as
-//! synthesised*, and the planner sees the foot that it stands on.
+//! CNS, coupled navigation and synthesis (`FbCrowd` §3.4): the disc takes position and facing from the body *as
+//! synthesised*, and the planner reads the stance foot.
+//!
+//! World frame; metres, seconds, radians.
 
 use glam::Vec2;
 use motiondb::body::Root;
 
 use crate::agents::Agents;
 use crate::planning::plan::Plan;
+use crate::synthesis::SynthesisContext;
 use crate::world::obstacles::Obstacles;
 
 /// The root of a disc that moves as planned.
@@ -13,16 +16,16 @@ pub(crate) fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
     Root { position_m: root.position_m + dt_s * plan.velocity_mps, facing_rad: plan.facing_rad }
 }
 
-/// The root kept out of walls, and on its side of them, whatever the body wanted; it stood at `from` before the step.
+/// The root kept out of walls, on the side where it was at `from_m` before the step.
 pub(crate) fn outside_walls(from_m: Vec2, root: Root, radius_m: f32, obstacles: &Obstacles) -> Root {
-    Root { position_m: obstacles.clamp_way(from_m, root.position_m, radius_m), ..root }
+    Root { position_m: obstacles.clamp_path(from_m, root.position_m, radius_m), ..root }
 }
 
-/// Hands the bodies back to the planner.
-pub(crate) fn synchronize(agents: &mut Agents, dt_s: f32) {
+/// Updates what planners read of the agents from the bodies and plans of a step.
+pub(crate) fn synchronize(agents: &mut Agents, context: &SynthesisContext, dt_s: f32) {
     for (index, body) in agents.bodies.iter().enumerate() {
         let moved_m: Vec2 = body.root.position_m - agents.positions_m[index];
-        agents.velocities_mps[index] = body.committed_mps.unwrap_or(moved_m / dt_s);
+        agents.velocities_mps[index] = body.committed_mps(context).unwrap_or(moved_m / dt_s);
         agents.positions_m[index] = body.root.position_m;
         agents.facings_rad[index] = body.root.facing_rad;
         agents.strafing_s[index] = agents.plans[index].strafing_s;

@@ -1,10 +1,12 @@
-//! Angles, radians; small ones are turned into directions and rotations without a call.
+//! Angles: wrapping, unit vectors and rotations. Small angles, which are most, need no library call.
+//!
+//! Radians, counter-clockwise.
 
 use std::f32::consts::{PI, TAU};
 
 use glam::{Quat, Vec2, Vec3};
 
-/// Angles, and their squares, up to which five terms of Taylor's series suffice.
+/// Greatest angle, and square of an angle, for five terms of Taylor's series, rad and rad².
 const SMALL: f32 = 1.0;
 
 /// The same angle in [−π, π].
@@ -16,9 +18,9 @@ pub fn wrap_rad(angle_rad: f32) -> f32 {
     (angle_rad - TAU * libm::roundf(angle_rad / TAU)).clamp(-PI, PI)
 }
 
-/// The unit vector at an angle, to rounding. Most angles are small.
+/// The unit vector at an angle, to rounding.
 #[inline]
-pub(crate) fn direction(angle_rad: f32) -> Vec2 {
+pub(crate) fn unit_vector(angle_rad: f32) -> Vec2 {
     if angle_rad.abs() > SMALL {
         return Vec2::from_angle(angle_rad);
     }
@@ -26,28 +28,27 @@ pub(crate) fn direction(angle_rad: f32) -> Vec2 {
     Vec2::new(cosine, angle_rad * sine_share)
 }
 
-/// The direction of one vector as seen from another, rad: mostly a small angle.
+/// The angle from one vector to another, rad; 0 if either is zero.
 #[inline]
-pub(crate) fn turned_rad(from: Vec2, to: Vec2) -> f32 {
+pub(crate) fn angle_between_rad(from: Vec2, to: Vec2) -> f32 {
     let (across, along) = (from.perp_dot(to), from.dot(to));
     if across.abs() > 0.25 * along {
         return libm::atan2f(across, along);
     }
-    // Neither has a direction where both are none.
     let tangent = if along > 0.0 { across / along } else { 0.0 };
     let square = tangent * tangent;
     let terms = [1.0 / 9.0, -1.0 / 7.0, 0.2, -1.0 / 3.0, 1.0];
     tangent * terms.into_iter().fold(0.0, |sum, term| sum * square + term)
 }
 
-/// A rotation about the vertical.
+/// The rotation about the vertical by an angle.
 #[inline]
 pub(crate) fn yaw(angle_rad: f32) -> Quat {
-    let half = direction(0.5 * angle_rad);
+    let half = unit_vector(0.5 * angle_rad);
     Quat::from_xyzw(0.0, 0.0, half.y, half.x)
 }
 
-/// The rotation by a vector, axis × angle.
+/// The rotation by a rotation vector, axis × angle, rad.
 #[inline]
 pub(crate) fn rotation(vector_rad: Vec3) -> Quat {
     let square = 0.25 * vector_rad.length_squared();
@@ -59,7 +60,7 @@ pub(crate) fn rotation(vector_rad: Vec3) -> Quat {
     Quat::from_xyzw(half.x, half.y, half.z, cosine)
 }
 
-/// Of a small angle, whose square is given: sine over angle, and cosine.
+/// Sine over angle, and cosine, of a small angle whose square is given.
 #[inline]
 fn series(square: f32) -> (f32, f32) {
     let sum = |terms: [f32; 5]| terms.into_iter().rev().fold(0.0, |sum, term| sum * square + term);
@@ -75,35 +76,36 @@ mod tests {
     use super::*;
 
     #[test]
-    fn directions_are_sine_and_cosine_to_rounding() {
+    fn unit_vectors_are_cosine_and_sine_to_rounding() {
         for step in -40_000..=40_000 {
             let angle_rad = step as f32 * 1e-3;
             let (sine, cosine) = f64::from(angle_rad).sin_cos();
-            let found = direction(angle_rad);
+            let found = unit_vector(angle_rad);
             assert!(
                 (f64::from(found.y) - sine).abs() < 1e-7 && (f64::from(found.x) - cosine).abs() < 1e-7,
                 "{angle_rad}"
             );
         }
-        assert!(direction(1e9).is_normalized());
-        assert!(!direction(f32::NAN).is_finite() && !direction(f32::INFINITY).is_finite());
+        assert!(unit_vector(1e9).is_normalized());
+        assert!(!unit_vector(f32::NAN).is_finite() && !unit_vector(f32::INFINITY).is_finite());
     }
 
     #[test]
-    fn angles_between_directions_are_told_all_around() {
+    fn angles_between_vectors_are_found_in_the_whole_circle() {
         for step in -3_141..=3_141 {
-            let (from, turned) = (direction(2.0), step as f32 * 1e-3);
-            assert!((turned_rad(3.0 * from, 0.2 * direction(2.0 + turned)) - turned).abs() < 1e-6, "{turned}");
+            let (from, angle_rad) = (unit_vector(2.0), step as f32 * 1e-3);
+            let found_rad = angle_between_rad(3.0 * from, 0.2 * unit_vector(2.0 + angle_rad));
+            assert!((found_rad - angle_rad).abs() < 1e-6, "{angle_rad}");
         }
-        assert_eq!(turned_rad(Vec2::ZERO, Vec2::X), 0.0);
+        assert_eq!(angle_between_rad(Vec2::ZERO, Vec2::X), 0.0);
     }
 
     proptest! {
         #[test]
-        fn rotations_are_those_of_their_vectors(x in -2.0f32..2.0, y in -2.0f32..2.0, z in -2.0f32..2.0) {
+        fn rotations_match_their_rotation_vectors(x in -2.0f32..2.0, y in -2.0f32..2.0, z in -2.0f32..2.0) {
             let vector_rad = Vec3::new(x, y, z);
-            let (found, told) = (rotation(vector_rad), Quat::from_scaled_axis(vector_rad));
-            prop_assert!((found - told).length() < 3e-7, "{found} {told}");
+            let (found, expected) = (rotation(vector_rad), Quat::from_scaled_axis(vector_rad));
+            prop_assert!((found - expected).length() < 3e-7, "{found} {expected}");
         }
     }
 }

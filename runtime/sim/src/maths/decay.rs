@@ -1,29 +1,29 @@
-//! e^(−x) and a soft maximum, where they are needed many times: without a branch, a table or a call, so that vector
-//! instructions come of it.
+//! e^(−x) and a soft maximum for inner loops: without branches, tables or calls, so the compiler emits vector
+//! instructions.
 //!
-//! Operations that IEEE 754 rounds exactly, so the bits are the same on every machine.
+//! All operations are rounded exactly by IEEE 754, so every machine gives the same bits.
 
 use std::f32::consts::{LN_2, LOG2_E};
 
-/// 1.5 · 2²³: added to a small number it leaves the nearest whole number in the lowest bits.
+/// 1.5 · 2²³: a small number added to it leaves its nearest integer in the lowest bits.
 const WHOLE: f32 = 12_582_912.0;
-/// The least power of two that is not denormal.
+/// The least exponent of two that is not denormal.
 const POWER_MIN: f32 = -126.0;
 
-/// e^(−x) for x ≥ 0, to 3e−7 of its value; no less than 2⁻¹²⁶, also of what is no number.
+/// e^(−x) for x ≥ 0, to 3e−7 of its value; at least 2⁻¹²⁶, which is also the result for NaN.
 #[inline]
 pub(crate) fn decay(x: f32) -> f32 {
     let power = -x * LOG2_E;
     let power = if power > POWER_MIN { power } else { POWER_MIN };
     let shifted = power + WHOLE;
     let whole_power = f32::from_bits((shifted.to_bits() << 23).wrapping_add(1.0_f32.to_bits()));
-    // Taylor's series within ±½ ln 2, where seven terms suffice.
+    // Within ±½ ln 2 seven terms of Taylor's series suffice.
     let part = (power - (shifted - WHOLE)) * LN_2;
     let terms = [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0];
     whole_power * terms.into_iter().fold(0.0, |sum, term| sum * part + term)
 }
 
-/// ½(x + √(x² + 4)), a soft maximum of x and 0: 1 at 0, and less than 1/|x| off the maximum elsewhere.
+/// ½(x + √(x² + 4)), a soft maximum of x and 0: 1 at 0, and elsewhere less than 1/|x| above the maximum.
 #[inline]
 pub(crate) fn soft_maximum(x: f32) -> f32 {
     x.max(0.0) + 2.0 / (libm::sqrtf(x * x + 4.0) + x.abs())
@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn is_the_exponential_of_every_negative_power() {
+    fn decay_matches_the_exponential() {
         for step in 0..=87_000 {
             let x = step as f32 * 1e-3;
             assert!(
@@ -47,7 +47,7 @@ mod tests {
     }
 
     #[test]
-    fn the_soft_maximum_is_smooth_at_none_and_the_maximum_far_from_it() {
+    fn the_soft_maximum_tends_to_the_maximum() {
         for step in -80_000..=80_000 {
             let x = step as f32 * 1e-3;
             let exact = 0.5 * (f64::from(x) + (f64::from(x) * f64::from(x) + 4.0).sqrt());

@@ -1,4 +1,5 @@
-//! Geometry and numbers that several chapters use: angles, polygons, distances, exponential decay, random numbers.
+//! Geometry and numbers that several chapters use: angles, arcs, polygons, distances, exponential decay, random
+//! numbers.
 //!
 //! Each file stands alone.
 
@@ -11,6 +12,5 @@ pub(crate) mod segment_distance;
 pub(crate) mod sweep;
 
 pub use angle::wrap_rad;
-pub use arc::{moved, went};
+pub use arc::{moved_root, parameters_between};
 pub use random::SplitMix64;
-pub use segment_distance::Segment;

@@ -1,5 +1,7 @@
-//! Questions to a polygon of f32 corners, answered in f64 (whose products of differences are exact enough to trust a
-//! sign).
+//! Area, simplicity and containment of polygons. Corners are f32; signs are decided in f64, whose products of
+//! differences are exact enough.
+//!
+//! World frame, metres.
 
 use glam::{DVec2, Vec2};
 
@@ -8,7 +10,7 @@ pub(crate) fn signed_area_m2(corners_m: &[Vec2]) -> f64 {
     0.5 * edges(corners_m).map(|[a, b]| a.perp_dot(b)).sum::<f64>()
 }
 
-/// Whether no two edges touch except neighbours at their common corner.
+/// Whether edges touch only at common corners.
 pub(crate) fn is_simple(corners_m: &[Vec2]) -> bool {
     let edges: Vec<[DVec2; 2]> = edges(corners_m).collect();
     let count = edges.len();
@@ -21,7 +23,7 @@ pub(crate) fn is_simple(corners_m: &[Vec2]) -> bool {
     })
 }
 
-/// Whether a point lies inside (even–odd rule; a point on an edge may be either).
+/// Whether a point lies inside, by the even–odd rule; a point on an edge counts as either.
 pub(crate) fn contains(corners_m: &[Vec2], point_m: Vec2) -> bool {
     let point = DVec2::from(point_m);
     let crossings = edges(corners_m)
@@ -29,7 +31,7 @@ pub(crate) fn contains(corners_m: &[Vec2], point_m: Vec2) -> bool {
     crossings.count() % 2 == 1
 }
 
-/// From a point to the nearest edge, m.
+/// Distance from a point to the nearest edge, m.
 pub(crate) fn closest_distance_m(corners_m: &[Vec2], point_m: Vec2) -> f64 {
     let point = DVec2::from(point_m);
     let distance = |[a, b]: [DVec2; 2]| {
@@ -44,13 +46,12 @@ fn edges(corners_m: &[Vec2]) -> impl Iterator<Item = [DVec2; 2]> {
     corners_m.iter().zip(ends).map(|(a, b)| [DVec2::from(*a), DVec2::from(*b)])
 }
 
-/// Positive where c lies left of the line from a to b.
+/// Positive if c lies left of the line from a to b.
 fn side(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Whether two segments have a point in common: their ends lie on different sides of each other, or an end lies on the
-/// other segment.
+/// Whether two segments have a common point: each crosses the line of the other, or an end lies on the other segment.
 fn touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     let crossing = side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
     let on = |a: DVec2, b: DVec2, c: DVec2| side(a, b, c) == 0.0 && (a - c).dot(b - c) <= 0.0;
@@ -79,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn the_inside_is_inside_whatever_the_winding() {
+    fn containment_does_not_depend_on_the_winding() {
         let clockwise: Vec<Vec2> = SQUARE.into_iter().rev().collect();
         assert_eq!((signed_area_m2(&SQUARE), signed_area_m2(&clockwise)), (1.0, -1.0));
         for corners in [&SQUARE[..], &clockwise] {

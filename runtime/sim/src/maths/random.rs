@@ -1,11 +1,11 @@
-//! SplitMix64 (Steele, Lea, Flood 2014): a seeded generator of ten lines, the same on every machine for ever.
+//! SplitMix64 (Steele, Lea, Flood 2014): a seeded random number generator with the same numbers on every machine.
 
-/// The state, advanced by the golden ratio at each draw.
+/// A generator; its state advances by the golden ratio with each number.
 #[derive(Clone, Copy, Debug)]
 pub struct SplitMix64(u64);
 
 impl SplitMix64 {
-    /// Equal seeds and streams give equal numbers; different streams of a seed are unrelated.
+    /// A generator for a stream of a seed. Different streams of one seed are unrelated.
     pub fn new(seed: u64, stream: u64) -> Self {
         Self(Self(seed).next_u64() ^ Self(!stream).next_u64())
     }
@@ -20,7 +20,7 @@ impl SplitMix64 {
 
     /// Uniform in [−range, range).
     pub fn within(&mut self, range: f64) -> f64 {
-        // The 53 bits of a double's mantissa: every value is exact.
+        // 53 bits, the mantissa of an f64: every value is exact.
         let unit = (self.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         (2.0 * unit - 1.0) * range
     }
@@ -31,7 +31,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn draws_the_published_sequence() {
+    fn numbers_match_the_published_sequence() {
         let mut generator = SplitMix64(1_234_567);
         let drawn = [generator.next_u64(), generator.next_u64(), generator.next_u64()];
         assert_eq!(drawn, [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423]);

@@ -1,30 +1,29 @@
-//! The distance between two segments, exactly: the kernel of [`body_penetration`](crate::measures::body_penetration).
-//! Metres.
+//! The least distance between two segments: the kernel of [`body_penetration`](crate::measures::body_penetration).
 //!
-//! The two nearest points of two segments are one of these:
+//! The nearest points of two segments are
 //!
-//! 1. both inside their segments: then they are the nearest points of the two lines, which are not parallel;
-//! 2. an end of one segment and its nearest point on the other (four cases, of which parallel segments need no more).
+//! 1. both inside their segments: they are the nearest points of the two lines, which are not parallel; or
+//! 2. an end of one segment and its nearest point on the other, in four cases; parallel segments need no more.
 //!
-//! Every candidate is a distance between points of the segments, so the least of them is right even where rounding
-//! makes a candidate useless (near-parallel lines, segments of no length).
+//! Every candidate is a distance between points of the segments, so the least is right even where rounding spoils a
+//! candidate (near-parallel lines, segments of no length). Metres.
 
 use glam::Vec3;
 
-/// Two lines are taken for parallel where the squared sine of their angle is below this: their ends decide then, which
-/// for segments of a metre is off by less than a hundredth of a millimetre.
+/// Squared sine of the angle below which two lines count as parallel; then the ends decide, which for segments of 1 m
+/// is off by less than 0.01 mm.
 const PARALLEL_SINE_SQUARED: f32 = 1e-6;
 
-/// From one end to the other; both may be one point.
+/// A segment; both ends may be one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Segment {
-    /// Where it begins.
+pub(crate) struct Segment {
+    /// First end, m.
     pub from_m: Vec3,
-    /// Where it ends.
+    /// Second end, m.
     pub to_m: Vec3,
 }
 
-/// The least distance between points of two segments.
+/// The least distance between two segments, m.
 pub(crate) fn distance_m(a: &Segment, b: &Segment) -> f32 {
     let ends = [
         b.squared_to(a.from_m),
@@ -41,7 +40,7 @@ impl Segment {
         self.to_m - self.from_m
     }
 
-    /// Case 2: squared distance to a point.
+    /// Case 2: squared distance to a point, m².
     fn squared_to(&self, point_m: Vec3) -> f32 {
         let (along_m, offset_m) = (self.along_m(), point_m - self.from_m);
         let share = offset_m.dot(along_m) / along_m.length_squared().max(f32::MIN_POSITIVE);
@@ -49,7 +48,7 @@ impl Segment {
     }
 }
 
-/// Case 1: squared distance of the lines where their nearest points lie within both segments, else infinity.
+/// Case 1: squared distance of the lines if their nearest points lie within both segments, otherwise infinity, m².
 fn between_lines_squared(a: &Segment, b: &Segment) -> f32 {
     let (along_a_m, along_b_m, offset_m) = (a.along_m(), b.along_m(), b.from_m - a.from_m);
     let (aa, ab, bb) = (along_a_m.length_squared(), along_a_m.dot(along_b_m), along_b_m.length_squared());
@@ -86,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn every_case_has_its_distance() {
+    fn every_case_gives_its_distance() {
         let along_x = segment([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
         check(along_x, segment([0.0, -1.0, 0.3], [0.0, 1.0, 0.3]), 0.3); // both inside
         check(along_x, segment([0.0, 0.2, 0.0], [0.0, 1.0, 0.0]), 0.2); // an end over the inside
@@ -97,15 +96,14 @@ mod tests {
         check(along_x, along_x, 0.0);
     }
 
-    /// The distance among 3 × 41 × 41 pairs of points, ever closer about the nearest: never below the truth, and near
-    /// it.
+    /// The least distance among 3 × 41 × 41 pairs of points, ever denser about the nearest: slightly above the least.
     fn sampled_m(a: &Segment, b: &Segment) -> f32 {
         let (mut centre, mut reach, mut least_m) = ([0.5, 0.5], 0.5, f32::INFINITY);
         for _ in 0..3 {
-            let place = |centre: f32, step: i32| (centre + reach * step as f32 / 20.0).clamp(0.0, 1.0);
+            let share = |centre: f32, step: i32| (centre + reach * step as f32 / 20.0).clamp(0.0, 1.0);
             let start = centre;
             for (i, j) in (-20..=20).flat_map(|i| (-20..=20).map(move |j| (i, j))) {
-                let shares = [place(start[0], i), place(start[1], j)];
+                let shares = [share(start[0], i), share(start[1], j)];
                 let [on_a_m, on_b_m] = [(a, shares[0]), (b, shares[1])].map(|(s, share)| s.from_m.lerp(s.to_m, share));
                 if on_a_m.distance(on_b_m) < least_m {
                     (least_m, centre) = (on_a_m.distance(on_b_m), shares);
@@ -122,9 +120,8 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_pair_of_points_is_nearer_and_one_is_as_near(a in (point(), point()), b in (point(), point()), shrink in 0.0_f32..1.0) {
-            // Shrinking one segment towards a point and the other towards parallel visits the cases that rounding
-            // hurts.
+        fn no_pair_of_points_is_nearer(a in (point(), point()), b in (point(), point()), shrink in 0.0_f32..1.0) {
+            // One segment shrinks to a point, the other becomes parallel: the cases in which rounding matters.
             let a = Segment { from_m: a.0, to_m: a.0.lerp(a.1, shrink * shrink) };
             for b in [Segment { from_m: b.0, to_m: b.1 }, Segment { from_m: b.0, to_m: b.0 + a.along_m() + 1e-3 * b.1 }] {
                 let (found_m, sampled_m) = (distance_m(&a, &b), sampled_m(&a, &b));

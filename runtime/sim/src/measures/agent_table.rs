@@ -1,22 +1,23 @@
-//! A recording as a table that other programs read: a row per frame and agent, frame by frame, agents in index order.
-//! CSV as in RFC 4180: the first line names columns and units, commas part fields, lines end with CR LF, decimals have
-//! a point. World, metres, seconds, degrees counter-clockwise from the x axis.
+//! A recording as a table for other programs: a row per frame and agent, frame by frame, agents in index order.
 //!
-//! All is as recorded, but for what follows from it as `root_measures` has it: the velocity is
-//! the root's displacement in the step that led to the frame, over dt, and `arrived` is 1 from the frame on in which an
-//! agent, its waypoints passed, first comes within 0.5 m of its last goal.
+//! CSV as in RFC 4180: the first line names columns and units, commas separate fields, lines end with CR LF, decimals
+//! have a point. World, metres, seconds, degrees counter-clockwise from the x axis.
+//!
+//! Two columns are derived as in `root_measures`, all others are as recorded. The velocity is the root's displacement
+//! in the step that led to the frame, over dt. `arrived` is 1 from the frame on in which an agent that has passed its
+//! waypoints first comes within 0.5 m of its last goal.
 
 use std::io::{self, Write};
 
 use glam::Vec2;
 
 use crate::planning::plan::VelocitySet;
-use crate::recording::Recording;
 use crate::recording::frame::AgentFrame;
+use crate::recording::reader::Recording;
 use crate::route::arrival::Arrival;
-use crate::synthesis::hybrid::mode::Mode;
+use crate::synthesis::Mode;
 
-/// In the order of their fields.
+/// Names of the columns, in the order of the fields.
 const COLUMNS: [&str; 21] = [
     "step",
     "time_s",
@@ -41,7 +42,7 @@ const COLUMNS: [&str; 21] = [
     "arrived",
 ];
 
-/// Writes the table of a recording, from the start on, holding two frames.
+/// Writes the table of a recording; holds two frames in memory.
 ///
 /// # Errors
 /// Where writing fails or, as the source of the error, a frame cannot be read.
@@ -56,7 +57,7 @@ pub fn write_table(recording: &Recording, out: &mut impl Write) -> io::Result<()
         let time_s = step as f64 * f64::from(scenario.dt_s);
         for (index, (frame, arrival)) in agents.iter().zip(&mut arrivals).enumerate() {
             arrival.follow(&scenario.agents[index], frame.root.position_m, time_s);
-            // All start from rest.
+            // Agents start from rest.
             let from_m = before.get(index).map_or(frame, |before: &AgentFrame| before).root.position_m;
             let velocity_mps = (frame.root.position_m - from_m) / scenario.dt_s;
             write!(out, "{step},{time_s:.6},{index},")?;
@@ -66,7 +67,7 @@ pub fn write_table(recording: &Recording, out: &mut impl Write) -> io::Result<()
     Ok(())
 }
 
-/// The fields after the agent's index.
+/// Writes the fields after the agent's index.
 fn write_row(frame: &AgentFrame, velocity_mps: Vec2, has_arrived: bool, out: &mut impl Write) -> io::Result<()> {
     let facing_deg = f64::from(frame.root.facing_rad).to_degrees();
     write!(out, "{},{facing_deg:.4},", pair(frame.root.position_m))?;
@@ -77,7 +78,7 @@ fn write_row(frame: &AgentFrame, velocity_mps: Vec2, has_arrived: bool, out: &mu
     write!(out, "{:.6},{left:.6},{right:.6},{landing_s:.6},{}\r\n", frame.phase, u8::from(has_arrived))
 }
 
-/// To the micrometre, or µm/s.
+/// x and y to the micrometre, or µm/s.
 fn pair(vector: Vec2) -> String {
     format!("{:.6},{:.6}", vector.x, vector.y)
 }

@@ -1,28 +1,29 @@
-//! How far bodies reach into each other, which the paper never measured: its discs (App. 11, Eqs. 16 and 17) stand for
-//! bodies whose arms swing beyond them and whose sides do not fill them.
+//! How deep bodies reach into each other. The paper measures discs only (App. 11, Eqs. 16, 17), which bodies neither
+//! fill nor stay within.
 //!
-//! A body is a capsule a bone, as the recording's skeleton has it (trunk, head, limbs). The depth of a pair of bodies
-//! in a frame is the deepest overlap of a capsule of one with a capsule of the other: the sum of both radii less the
-//! distance of the bones ([`segment_distance`](crate::maths::segment_distance)). Frames are looked at as they are, without the
-//! way between them.
+//! A body is a capsule per bone of the recording's skeleton (trunk, head, limbs). The depth of a pair of bodies in a
+//! frame is the deepest overlap of a capsule of one with a capsule of the other: the sum of both radii less the
+//! distance of the bones. Only frames count, not the motion between them.
 //!
-//! Bodies are swept along the crowd's longer side; of a pair whose boxes meet, only capsules whose own boxes meet are
+//! Bodies are sorted along the crowd's longer side. Of a pair whose boxes meet, only capsules whose own boxes meet are
 //! compared. World axes, metres; capsules relative to their root, so that the distance from the origin costs no
 //! precision.
 
-use glam::{DVec2, Quat, Vec2, Vec3};
+use glam::{DVec2, Quat, Vec2};
 use motiondb::body::{JOINT_COUNT, Joints, Root, Skeleton};
 
 use crate::maths::segment_distance::{Segment, distance_m};
 use crate::maths::sweep::sort_along_longer_side;
+use crate::measures::bone_capsule::{BoneCapsule, Bounds, bone};
 
 /// Sums depths over all pairs, frame by frame.
 #[derive(Debug)]
-pub struct BodyPenetration {
+pub(crate) struct BodyPenetration {
     skeleton: Skeleton,
-    /// Agents by where their bodies begin along the crowd's longer side; hardly changes from one frame to the next.
+    /// Agents sorted along the crowd's longer side; hardly changes from frame to frame, so sorting stays cheap.
     order: Vec<usize>,
-    bodies: Vec<Body>,
+    bodies: Vec<CapsuleBody>,
+    /// Whether each body touches another in the present frame.
     touches: Vec<bool>,
     agent_frames: usize,
     touching_agent_frames: usize,
@@ -31,44 +32,31 @@ pub struct BodyPenetration {
     greatest_m: f64,
 }
 
-/// What is told of a whole recording, millimetres.
+/// Penetration of bodies over a whole recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Penetration {
-    /// Depths of all pairs, summed over frames, per agent and frame: what Eq. 17 is for discs.
-    pub mean_mm: f64,
-    /// Mean depth of the pairs that touch, over the frames in which they do; none where nobody ever touched another.
-    pub touching_mm: Option<f64>,
-    /// Greatest depth of any pair in any frame.
-    pub greatest_mm: f64,
+pub(crate) struct Penetration {
+    /// Depths of all pairs, summed over frames, per agent and frame, mm: for bodies what Eq. 17 is for discs.
+    pub(crate) mean_mm: f64,
+    /// Mean depth of the pairs that touch, over the frames in which they do, mm; none where no bodies ever touched.
+    pub(crate) touching_mm: Option<f64>,
+    /// Greatest depth of any pair in any frame, mm.
+    pub(crate) greatest_mm: f64,
     /// Share of agents and frames in which a body touches another.
-    pub touching_share: f64,
+    pub(crate) touching_share: f64,
 }
 
 /// A posed body.
 #[derive(Clone, Debug)]
-struct Body {
+struct CapsuleBody {
     position_m: Vec2,
-    capsules: [Capsule; JOINT_COUNT],
-    reach: Reach,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Capsule {
-    bone: Segment,
-    radius_m: f32,
-    reach: Reach,
-}
-
-/// A box about a capsule or a body, relative to its root.
-#[derive(Clone, Copy, Debug)]
-struct Reach {
-    low_m: Vec3,
-    high_m: Vec3,
+    /// World axes, relative to the position.
+    capsules: [BoneCapsule; JOINT_COUNT],
+    bounds: Bounds,
 }
 
 impl BodyPenetration {
     /// No frames yet.
-    pub fn new(skeleton: &Skeleton, agent_count: usize) -> Self {
+    pub(crate) fn new(skeleton: &Skeleton, agent_count: usize) -> Self {
         Self {
             skeleton: skeleton.clone(),
             order: (0..agent_count).collect(),
@@ -83,23 +71,23 @@ impl BodyPenetration {
     }
 
     /// Adds one frame: every agent's root, and its joints in the root's frame, in index order.
-    pub fn push<'a>(&mut self, agents: impl Iterator<Item = (&'a Root, &'a Joints)>) {
+    pub(crate) fn push<'a>(&mut self, agents: impl Iterator<Item = (&'a Root, &'a Joints)>) {
         self.bodies.clear();
-        self.bodies.extend(agents.map(|(root, joints)| Body::new(&self.skeleton, root, joints)));
-        let places_m = self.bodies.iter().map(|body| body.position_m);
+        self.bodies.extend(agents.map(|(root, joints)| CapsuleBody::new(&self.skeleton, root, joints)));
+        let positions_m = self.bodies.iter().map(|body| body.position_m);
         let low_m = |index: usize, axis: usize| self.bodies[index].low_m(axis).into();
-        let axis = sort_along_longer_side(&mut self.order, places_m, low_m);
+        let axis = sort_along_longer_side(&mut self.order, positions_m, low_m);
         self.touches.clear();
         self.touches.resize(self.bodies.len(), false);
         for rank in 0..self.order.len() {
-            self.meet_followers(rank, axis);
+            self.compare_with_followers(rank, axis);
         }
         self.agent_frames += self.bodies.len();
         self.touching_agent_frames += self.touches.iter().filter(|&&touches| touches).count();
     }
 
     /// Compares one body with those that begin before it ends.
-    fn meet_followers(&mut self, rank: usize, axis: usize) {
+    fn compare_with_followers(&mut self, rank: usize, axis: usize) {
         let a = self.order[rank];
         let high_m = self.bodies[a].high_m(axis);
         for &b in &self.order[rank + 1..] {
@@ -117,8 +105,8 @@ impl BodyPenetration {
         }
     }
 
-    /// After the last frame.
-    pub fn finish(&self) -> Penetration {
+    /// The figures after the last frame.
+    pub(crate) fn finish(&self) -> Penetration {
         let touching = self.touching_pair_frames;
         Penetration {
             mean_mm: 1e3 * self.depth_m / self.agent_frames.max(1) as f64,
@@ -129,72 +117,38 @@ impl BodyPenetration {
     }
 }
 
-/// The bone of a joint, in the frame of the joints.
-pub(crate) fn bone(skeleton: &Skeleton, joints: &Joints, joint: usize) -> Segment {
-    let from_m = joints.positions_m[joint];
-    Segment { from_m, to_m: from_m + joints.orientations[joint] * skeleton.segment_ends_m[joint] }
-}
-
-impl Body {
+impl CapsuleBody {
     fn new(skeleton: &Skeleton, root: &Root, joints: &Joints) -> Self {
         let turn = Quat::from_rotation_z(root.facing_rad);
         let capsules = std::array::from_fn(|joint| {
             let Segment { from_m, to_m } = bone(skeleton, joints, joint);
-            Capsule::new(Segment { from_m: turn * from_m, to_m: turn * to_m }, skeleton.segment_radii_m[joint])
+            BoneCapsule::new(Segment { from_m: turn * from_m, to_m: turn * to_m }, skeleton.segment_radii_m[joint])
         });
-        let reach = capsules.iter().map(|capsule: &Capsule| capsule.reach).fold(Reach::NOTHING, Reach::with);
-        Self { position_m: root.position_m, capsules, reach }
+        let bounds = capsules.iter().map(|capsule: &BoneCapsule| capsule.bounds).fold(Bounds::EMPTY, Bounds::with);
+        Self { position_m: root.position_m, capsules, bounds }
     }
 
     fn low_m(&self, axis: usize) -> f32 {
-        self.position_m[axis] + self.reach.low_m[axis]
+        self.position_m[axis] + self.bounds.low_m[axis]
     }
 
     fn high_m(&self, axis: usize) -> f32 {
-        self.position_m[axis] + self.reach.high_m[axis]
+        self.position_m[axis] + self.bounds.high_m[axis]
     }
 }
 
-impl Capsule {
-    fn new(bone: Segment, radius_m: f32) -> Self {
-        let [low_m, high_m] = [bone.from_m.min(bone.to_m) - radius_m, bone.from_m.max(bone.to_m) + radius_m];
-        Self { bone, radius_m, reach: Reach { low_m, high_m } }
-    }
-
-    fn shifted(&self, offset_m: Vec3) -> Self {
-        let bone = Segment { from_m: self.bone.from_m + offset_m, to_m: self.bone.to_m + offset_m };
-        Self { bone, radius_m: self.radius_m, reach: self.reach.shifted(offset_m) }
-    }
-}
-
-impl Reach {
-    const NOTHING: Self = Self { low_m: Vec3::INFINITY, high_m: Vec3::NEG_INFINITY };
-
-    fn with(self, other: Self) -> Self {
-        Self { low_m: self.low_m.min(other.low_m), high_m: self.high_m.max(other.high_m) }
-    }
-
-    fn shifted(self, offset_m: Vec3) -> Self {
-        Self { low_m: self.low_m + offset_m, high_m: self.high_m + offset_m }
-    }
-
-    fn meets(&self, other: &Self) -> bool {
-        self.low_m.cmplt(other.high_m).all() && other.low_m.cmplt(self.high_m).all()
-    }
-}
-
-/// The deepest overlap of a capsule of one body with one of the other; 0 where they do not touch.
-fn depth_m(a: &Body, b: &Body) -> f32 {
+/// The deepest overlap of a capsule of one body with one of the other, m; 0 where they do not touch.
+fn depth_m(a: &CapsuleBody, b: &CapsuleBody) -> f32 {
     let offset_m = (DVec2::from(b.position_m) - DVec2::from(a.position_m)).as_vec2().extend(0.0);
-    if !a.reach.meets(&b.reach.shifted(offset_m)) {
+    if !a.bounds.meets(&b.bounds.shifted(offset_m)) {
         return 0.0;
     }
     let mut deepest_m: f32 = 0.0;
     for other in b.capsules.iter().map(|capsule| capsule.shifted(offset_m)) {
-        if !a.reach.meets(&other.reach) {
+        if !a.bounds.meets(&other.bounds) {
             continue;
         }
-        for one in a.capsules.iter().filter(|one| one.reach.meets(&other.reach)) {
+        for one in a.capsules.iter().filter(|one| one.bounds.meets(&other.bounds)) {
             deepest_m = deepest_m.max(one.radius_m + other.radius_m - distance_m(&one.bone, &other.bone));
         }
     }
@@ -203,17 +157,18 @@ fn depth_m(a: &Body, b: &Body) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
     use motiondb::body::Pose;
     use proptest::prelude::*;
 
     use super::*;
     use crate::test_db::test_db;
 
-    /// A body in any posture.
+    /// A body in a random posture.
     fn body() -> impl Strategy<Value = (Root, Pose)> {
-        let place = (-1.5_f32..1.5, -1.5_f32..1.5, -4.0_f32..4.0);
+        let root = (-1.5_f32..1.5, -1.5_f32..1.5, -4.0_f32..4.0);
         let turns = proptest::collection::vec((-1.0_f32..1.0, -1.0_f32..1.0, -1.0_f32..1.0), JOINT_COUNT);
-        (place, turns).prop_map(|((x, y, facing_rad), turns)| {
+        (root, turns).prop_map(|((x, y, facing_rad), turns)| {
             let rotations = std::array::from_fn(|joint| Quat::from_scaled_axis(Vec3::from(turns[joint])).normalize());
             (Root { position_m: Vec2::new(x, y), facing_rad }, Pose { pelvis_m: Vec3::new(0.0, 0.0, 0.9), rotations })
         })

@@ -1,5 +1,5 @@
-//! Collisions of discs over whole steps, and how near their centres ever come (`FbCrowd` App. 11, Eqs. 16 and 17,
-//! corrected).
+//! Collisions of discs over whole steps, and the least distance of their centres (`FbCrowd` App. 11, Eqs. 16 and 17,
+//! corrected). World, metres; computed in f64.
 
 use glam::{DVec2, Vec2};
 
@@ -9,16 +9,15 @@ use crate::maths::sweep::sort_along_longer_side;
 #[derive(Debug)]
 pub struct Collisions {
     radii_m: Vec<f64>,
-    /// Agents by where along the crowd's longer side begins what they sweep in a step; hardly changes from one step to
-    /// the next, so sorting stays cheap.
+    /// Agents sorted along the crowd's longer side; hardly changes from step to step, so sorting stays cheap.
     order: Vec<usize>,
     penetration: f64,
     least_distance_m: f64,
 }
 
-/// What a disc sweeps in one step, world, metres.
+/// The area that a disc sweeps in one step, world, m.
 #[derive(Clone, Copy, Debug)]
-struct Sweep {
+struct SweptDisc {
     start_m: DVec2,
     displacement_m: DVec2,
     radius_m: f64,
@@ -33,17 +32,17 @@ impl Collisions {
 
     /// Adds one step, given every root before and after it, world, metres.
     pub fn push(&mut self, before_m: &[Vec2], after_m: &[Vec2]) {
-        let sweep = |(i, &radius_m): (usize, &f64)| Sweep {
+        let sweep = |(i, &radius_m): (usize, &f64)| SweptDisc {
             start_m: DVec2::from(before_m[i]),
             displacement_m: DVec2::from(after_m[i]) - DVec2::from(before_m[i]),
             radius_m,
         };
-        let sweeps: Vec<Sweep> = self.radii_m.iter().enumerate().map(sweep).collect();
+        let sweeps: Vec<SweptDisc> = self.radii_m.iter().enumerate().map(sweep).collect();
         let low_m = |index: usize, axis: usize| sweeps[index].low_m(axis);
         let axis = sort_along_longer_side(&mut self.order, before_m.iter().copied(), low_m);
         for (rank, &a) in self.order.iter().enumerate() {
             for &b in &self.order[rank + 1..] {
-                // From here on all are farther apart than the nearest two ever were.
+                // All later discs are farther away than the least distance so far.
                 if sweeps[b].low_m(axis) - sweeps[a].high_m(axis) >= self.least_distance_m {
                     break;
                 }
@@ -55,7 +54,7 @@ impl Collisions {
         }
     }
 
-    /// How near two centres ever came, metres; none of a single agent or before the first step.
+    /// Least distance of two centres so far, m; none of a single agent or before the first step.
     pub fn least_distance_m(&self) -> Option<f64> {
         self.least_distance_m.is_finite().then_some(self.least_distance_m)
     }
@@ -66,7 +65,7 @@ impl Collisions {
     }
 }
 
-impl Sweep {
+impl SweptDisc {
     fn low_m(&self, axis: usize) -> f64 {
         self.start_m[axis] + self.displacement_m[axis].min(0.0) - self.radius_m
     }
@@ -76,14 +75,14 @@ impl Sweep {
     }
 }
 
-/// How near two centres come while both move straight and evenly, metres.
-fn least_distance_m(a: &Sweep, b: &Sweep) -> f64 {
+/// Eq. 16: least distance of two centres that move straight and evenly, m.
+fn least_distance_m(a: &SweptDisc, b: &SweptDisc) -> f64 {
     let position_m = a.start_m - b.start_m;
     let displacement_m = a.displacement_m - b.displacement_m;
     let length_squared = displacement_m.length_squared();
     let share =
         if length_squared > 0.0 { (-position_m.dot(displacement_m) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
-    (position_m + share * displacement_m).length() // Eq. 16
+    (position_m + share * displacement_m).length() // Eq. 16: d_min
 }
 
 #[cfg(test)]
@@ -99,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn discs_that_pass_through_each_other_within_a_step_collide_fully() {
+    fn discs_that_pass_through_each_other_collide_fully() {
         let rate = rate(
             &[0.25; 2],
             &[Vec2::new(-1.0, 0.0), Vec2::new(1.0, 0.0)],
@@ -109,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_distance_is_that_between_centres_on_their_way() {
+    fn the_least_distance_counts_within_steps() {
         let mut collisions = Collisions::new([0.1; 3].into_iter());
         assert_eq!(collisions.least_distance_m(), None);
         let far = Vec2::new(50.0, 50.0);
@@ -122,14 +121,14 @@ mod tests {
 
     #[test]
     fn discs_at_rest_collide_by_their_overlap() {
-        let places = [Vec2::ZERO, Vec2::new(0.25, 0.0)];
-        assert_eq!(rate(&[0.25; 2], &places, &places), 0.25);
+        let near = [Vec2::ZERO, Vec2::new(0.25, 0.0)];
+        assert_eq!(rate(&[0.25; 2], &near, &near), 0.25);
         let apart = [Vec2::ZERO, Vec2::new(0.5, 0.0)];
         assert_eq!(rate(&[0.25; 2], &apart, &apart), 0.0);
     }
 
     proptest! {
-        /// The shortest distance is sought among 2001 moments instead of computed, over every pair instead of a sweep.
+        /// Brute force samples 2001 instants of every pair.
         #[test]
         fn the_sweep_finds_what_brute_force_finds(
             agents in proptest::collection::vec((-2.0_f32..2.0, -2.0_f32..2.0, -0.5_f32..0.5, -0.5_f32..0.5, 0.1_f32..0.6), 1..24),

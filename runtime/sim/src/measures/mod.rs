@@ -1,24 +1,29 @@
-//! What is measured of a crowd, frame by frame or of a whole recording: the figures of the paper's App. 11, of bodies,
-//! of pedestrian studies, and the table of a recording.
+//! Measures of a crowd: the figures of the paper's App. 11, of bodies, and of pedestrian studies.
+//!
+//! Enters: frames of a running simulation, one by one, or a whole recording. Leaves: figures, a table, or trajectories.
+//!
+//! Read `crowd_measures`, which collects the figures of `fbcrowd measure` from its parts: `collision_rate` (Eqs. 16,
+//! 17), `root_measures` (Eq. 18, arrival, tracking), `planted_slide`, `body_penetration` and `wall_contact` (both by
+//! the capsules of `bone_capsule`). `pedestrian_studies` holds flow, lanes, density and waiting crowds; `agent_table`
+//! and `trajectories` write a recording as text.
 
-pub mod agent_table;
-pub(crate) mod arching;
+pub(crate) mod agent_table;
 pub(crate) mod body_penetration;
+pub(crate) mod bone_capsule;
 pub(crate) mod collision_rate;
-pub(crate) mod gate;
-pub(crate) mod lanes;
-pub(crate) mod measured_section;
-pub mod metrics;
+pub(crate) mod crowd_measures;
+pub(crate) mod pedestrian_studies;
 pub(crate) mod planted_slide;
 pub(crate) mod root_measures;
+pub(crate) mod trajectories;
 pub(crate) mod wall_contact;
 
-pub use arching::{SECTORS, Shape, WaitingCrowd};
-pub use body_penetration::{BodyPenetration, Penetration};
+pub use agent_table::write_table;
 pub use collision_rate::Collisions;
-pub use gate::Gate;
-pub use lanes::{LaneOrder, LaneWalker, lane_order};
-pub use measured_section::{MeasuredSection, Seen, weidmann_mps};
-pub use planted_slide::{PlantedSlide, Slide};
-pub use root_measures::{Mean, RootMeasures};
-pub use wall_contact::{Contacts, WallContact};
+pub use crowd_measures::{Measures, Measuring, measure};
+pub use pedestrian_studies::{
+    Gate, LaneOrder, LaneWalker, MeasuredSection, SECTORS, SectionMeans, WaitingCrowd, WaitingShape, lane_order,
+    weidmann_mps,
+};
+pub use planted_slide::{FootSlide, PlantedSlide};
+pub use trajectories::{write_roots, write_trajectories};

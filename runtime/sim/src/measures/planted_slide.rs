@@ -1,8 +1,9 @@
-//! How far planted feet slide: the mean horizontal speed of each foot's contact point over the middle 80 % of each
-//! contact, measured on the recorded pose, so after the leg IK.
+//! Slide of planted feet: the mean horizontal speed of each foot's contact point over the middle 80 % of each contact,
+//! measured on the recorded pose, so after the leg IK.
 //!
-//! As the compiler measures clips: central differences, contacts of less than 0.08 s left out. Only what is planted
-//! differs: here the blended contact of the database's rows (≥ ½), never a foot lock's own flag.
+//! As the compiler measures clips: central differences, contacts of less than 0.08 s left out. Only the rule for
+//! planted differs: here the blended contact of the database's rows (≥ ½), never a foot lock's own flag. Roots' frames
+//! and world axes, metres, seconds; slides in cm/s.
 
 use glam::{DVec2, Vec3};
 use motiondb::body::{Joints, Root, Skeleton};
@@ -10,12 +11,12 @@ use motiondb::body::{Joints, Root, Skeleton};
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::recording::frame::AgentFrame;
 
-/// Of each end of a contact, left out: there the foot rolls on and off.
+/// Share left out at each end of a contact, where the foot rolls on and off.
 const TRIMMED_SHARE: f64 = 0.1;
-/// Shorter contacts are none, s.
+/// Shortest contact that counts, s.
 const CONTACT_MIN_S: f64 = 0.08;
 
-/// Follows every foot, frame by frame.
+/// Measures every foot, frame by frame.
 #[derive(Debug)]
 pub struct PlantedSlide {
     skeleton: Skeleton,
@@ -29,12 +30,12 @@ pub struct PlantedSlide {
     planted_foot_frames: usize,
 }
 
-/// Slides, cm/s, over the samples that count.
+/// Slide of planted feet over a whole recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slide {
-    /// Of the recorded bodies; none where no foot was ever planted.
+pub struct FootSlide {
+    /// Slide of the recorded bodies, cm/s; none where no foot was ever planted.
     pub slide_cm_s: Option<f64>,
-    /// Of the examples that the bodies were blended from, over the same samples.
+    /// Slide of the examples in play over the same samples, cm/s.
     pub examples_slide_cm_s: Option<f64>,
     /// Share of all feet and frames that are planted.
     pub planted_share: f64,
@@ -45,24 +46,25 @@ pub struct Slide {
 struct FootTrack {
     earlier: Option<FootFrame>,
     latest: Option<FootFrame>,
-    /// Of the contact so far, frame by frame.
-    contact: Vec<Sample>,
+    /// Samples of the contact so far, frame by frame.
+    contact: Vec<SlideSample>,
 }
 
 /// A foot in one frame.
 #[derive(Clone, Copy, Debug)]
 struct FootFrame {
-    /// Heel, ball, toe on the ground, world, metres.
+    /// Heel, ball and toe on the ground, world, m.
     points_m: [DVec2; 3],
-    /// Which of them is lowest.
+    /// Index of the lowest of them.
     lowest: usize,
     planted: bool,
     examples_slide_cm_s: f32,
 }
 
-/// In f32, since a body that stands adds to its contact as long as the recording lasts.
+/// Slide in one frame of a contact. In f32, because a body that stands adds to its contact as long as the recording
+/// lasts.
 #[derive(Clone, Copy, Debug)]
-struct Sample {
+struct SlideSample {
     slide_cm_s: f32,
     examples_slide_cm_s: f32,
 }
@@ -89,7 +91,7 @@ impl PlantedSlide {
         }
     }
 
-    /// Adds one frame of one agent; who is not followed any more counts until then.
+    /// Adds one frame of one agent. An agent that is no longer added counts up to its last frame.
     pub fn push_one(&mut self, index: usize, agent: &AgentFrame, joints: &Joints) {
         for (side, foot) in foot_frames(&self.skeleton, agent, joints).into_iter().enumerate() {
             self.foot_frames += 1;
@@ -99,21 +101,21 @@ impl PlantedSlide {
         }
     }
 
-    /// After the last frame.
-    pub fn finish(mut self) -> Slide {
+    /// The figures after the last frame.
+    pub fn finish(mut self) -> FootSlide {
         for track in std::mem::take(&mut self.feet).into_iter().flatten() {
             self.count(&track.finish(self.dt_s));
         }
         let mean = |sum: f64| (self.samples > 0).then(|| sum / self.samples as f64);
-        Slide {
+        FootSlide {
             slide_cm_s: mean(self.slide_cm_s),
             examples_slide_cm_s: mean(self.examples_slide_cm_s),
             planted_share: self.planted_foot_frames as f64 / self.foot_frames.max(1) as f64,
         }
     }
 
-    /// The middle of a contact that ended.
-    fn count(&mut self, contact: &[Sample]) {
+    /// Counts the middle of a contact that ended.
+    fn count(&mut self, contact: &[SlideSample]) {
         if (contact.len() as f64) * self.dt_s < CONTACT_MIN_S {
             return;
         }
@@ -127,8 +129,8 @@ impl PlantedSlide {
 }
 
 impl FootTrack {
-    /// Takes the next frame, which makes the one before it measurable; returns the contact that this ends, or nothing.
-    fn push(&mut self, next: FootFrame, dt_s: f64) -> Vec<Sample> {
+    /// Takes the next frame, which makes the one before it measurable; returns the contact that it ends, if any.
+    fn push(&mut self, next: FootFrame, dt_s: f64) -> Vec<SlideSample> {
         let mut ended = Vec::new();
         match self.latest {
             Some(latest) if latest.planted => self.contact.push(sample(self.earlier, latest, Some(next), dt_s)),
@@ -138,8 +140,8 @@ impl FootTrack {
         ended
     }
 
-    /// The last frame is measured against the one before it alone.
-    fn finish(mut self, dt_s: f64) -> Vec<Sample> {
+    /// The last contact; the last frame is measured against the one before it alone.
+    fn finish(mut self, dt_s: f64) -> Vec<SlideSample> {
         if let Some(latest) = self.latest.filter(|latest| latest.planted) {
             self.contact.push(sample(self.earlier, latest, None, dt_s));
         }
@@ -147,18 +149,18 @@ impl FootTrack {
     }
 }
 
-/// The contact point's speed by central differences, one-sided at either end of the contact: in steps of 0.1 s a
-/// contact has so few frames that nothing is trimmed, and a foot that still swings one frame away does not slide.
-fn sample(earlier: Option<FootFrame>, at: FootFrame, next: Option<FootFrame>, dt_s: f64) -> Sample {
+/// The contact point's speed by central differences, one-sided at either end of the contact. In steps of 0.1 s a
+/// contact has so few frames that nothing is trimmed, and a foot that swings in the adjacent frame does not slide.
+fn sample(earlier: Option<FootFrame>, at: FootFrame, next: Option<FootFrame>, dt_s: f64) -> SlideSample {
     let [earlier, next] = [earlier, next].map(|frame| frame.filter(|frame| frame.planted));
     let steps = usize::from(earlier.is_some()) + usize::from(next.is_some());
-    let place_m = |frame: Option<FootFrame>| frame.unwrap_or(at).points_m[at.lowest];
-    let metres = place_m(earlier).distance(place_m(next));
+    let point_m = |frame: Option<FootFrame>| frame.unwrap_or(at).points_m[at.lowest];
+    let metres = point_m(earlier).distance(point_m(next));
     let slide_cm_s = (metres / (steps.max(1) as f64 * dt_s) * 100.0) as f32;
-    Sample { slide_cm_s, examples_slide_cm_s: at.examples_slide_cm_s }
+    SlideSample { slide_cm_s, examples_slide_cm_s: at.examples_slide_cm_s }
 }
 
-/// `[left, right]`.
+/// Both feet of an agent in one frame, `[left, right]`.
 fn foot_frames(skeleton: &Skeleton, agent: &AgentFrame, joints: &Joints) -> [FootFrame; 2] {
     [0, 1].map(|side| {
         let (points_m, planted_heights_m) = contact_points_m(skeleton, joints, side);
@@ -173,7 +175,7 @@ fn foot_frames(skeleton: &Skeleton, agent: &AgentFrame, joints: &Joints) -> [Foo
     })
 }
 
-/// Heel, ball and toe in the root frame and their heights when planted, metres: as far as they lie over the sole.
+/// Heel, ball and toe in the root's frame, and their heights over the sole, at which they are when planted, m.
 fn contact_points_m(skeleton: &Skeleton, joints: &Joints, side: usize) -> ([Vec3; 3], [f32; 3]) {
     let foot = &skeleton.feet[side];
     let soles_m = [foot.heel_m, foot.ball_m, foot.toe_tip_m];
@@ -181,7 +183,8 @@ fn contact_points_m(skeleton: &Skeleton, joints: &Joints, side: usize) -> ([Vec3
     (joints.measured_points_m(skeleton, side), heights_m)
 }
 
-/// In f64, so that the distance from the origin costs no precision.
+/// A point of the root's frame on the ground, world, m. In f64, so that the distance from the origin costs no
+/// precision.
 fn to_ground_m(root: &Root, point_m: Vec3) -> DVec2 {
     let (sin, cos) = libm::sincos(f64::from(root.facing_rad));
     DVec2::from(root.position_m) + DVec2::new(cos, sin).rotate(DVec2::from(point_m.truncate()))

@@ -1,52 +1,62 @@
-//! How agents get on: acceleration, arrival, stalling, detours, side-steps, tracking (`FbCrowd` App. 11, Eq. 18 with
-//! its sum over T steps: printed to N, and with one term too many).
+//! Measures of the roots: acceleration, arrival, stalling, detours, side-steps, tracking (`FbCrowd` App. 11, Eq. 18,
+//! whose sum runs over T steps; it is printed to N, and with one term too many).
 //!
 //! Velocities are differences of the synthesised root, whose path is ripple-free. Agents start from rest, so T steps
 //! have T accelerations. World, metres, seconds.
 
 use glam::DVec2;
+use motiondb::statistics::mean;
 
 use crate::planning::plan::VelocitySet;
 use crate::recording::frame::AgentFrame;
 use crate::route::arrival::Arrival;
 use crate::scenario::AgentSpec;
 
-/// Slower than this for [`STALL_S`] before arriving is stalling, and no side-step, m/s.
+/// Speed below which an agent stands: it stalls if it does so for [`STALL_S`] before it arrives, m/s.
 const STALL_SPEED_MPS: f64 = 0.1;
-/// How long, s.
+/// Time of standing that counts as stalling, s.
 const STALL_S: f64 = 5.0;
 
-/// Follows every agent, step by step.
+/// Measures every root, step by step. Means over steps are over those before each agent's arrival unless stated.
 #[derive(Debug)]
-pub struct RootMeasures {
+pub(crate) struct RootMeasures {
     dt_s: f64,
     steps: usize,
-    walkers: Vec<Walker>,
-    acceleration: Mean,
-    acceleration_before_arrival: Mean,
-    tracking_error: Mean,
-    tracking_worst_m: f64,
-    heading_error_deg: Mean,
-    walking_heading_error_deg: Mean,
-    strafing: Mean,
-    stepping_back: Mean,
+    tracks: Vec<RootTrack>,
+    /// A: acceleration over all steps, m/s².
+    pub(crate) acceleration_mps2: RunningMean,
+    /// Acceleration before arrival, m/s².
+    pub(crate) acceleration_before_arrival_mps2: RunningMean,
+    /// Distance between the root and the position to which the planned velocity leads, over all steps, m.
+    pub(crate) tracking_error_m: RunningMean,
+    /// Greatest such distance, m.
+    pub(crate) tracking_worst_m: f64,
+    /// Angle between facing and displacement of an agent that walks in the turning set, degrees.
+    pub(crate) heading_error_deg: RunningMean,
+    /// Angle between facing and displacement of an agent that walks, degrees.
+    pub(crate) walking_heading_error_deg: RunningMean,
+    /// Share of steps of side-stepping at held facing.
+    pub(crate) strafing: RunningMean,
+    /// Share of steps of stepping back at held facing.
+    pub(crate) stepping_back: RunningMean,
 }
 
-/// A sum on its way to a mean.
+/// A mean to which values are added one by one.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Mean {
+pub(crate) struct RunningMean {
     sum: f64,
     count: usize,
 }
 
+/// One agent so far.
 #[derive(Debug)]
-struct Walker {
+struct RootTrack {
     agent: AgentSpec,
     arrival: Arrival,
     velocity_mps: DVec2,
-    /// Walked before the arrival, m.
+    /// Length of the path until the arrival, m.
     path_m: f64,
-    /// Walked over the straight way from the start over the waypoints to the place of arrival.
+    /// That length over the straight path's, on arrival; none of a straight path without length.
     path_over_straight: Option<f64>,
     slow_steps: usize,
     stalled: bool,
@@ -59,52 +69,52 @@ enum Sidewards {
     SteppingBack,
 }
 
-impl Mean {
+impl RunningMean {
     fn add(&mut self, value: f64) {
         self.sum += value;
         self.count += 1;
     }
 
-    /// 0 of nothing.
-    pub fn value(self) -> f64 {
+    /// The mean; 0 of no values.
+    pub(crate) fn value(self) -> f64 {
         self.sum / self.count.max(1) as f64
     }
 }
 
 impl RootMeasures {
-    /// At the start.
-    pub fn new(agents: &[AgentSpec], start: &[AgentFrame], dt_s: f32) -> Self {
-        let mut walkers: Vec<Walker> = agents.iter().map(Walker::new).collect();
-        for (walker, frame) in walkers.iter_mut().zip(start) {
-            walker.arrive(frame, 0.0);
+    /// The agents at their start.
+    pub(crate) fn new(agents: &[AgentSpec], start: &[AgentFrame], dt_s: f32) -> Self {
+        let mut tracks: Vec<RootTrack> = agents.iter().map(RootTrack::new).collect();
+        for (track, frame) in tracks.iter_mut().zip(start) {
+            track.arrive(frame, 0.0);
         }
         Self {
             dt_s: dt_s.into(),
             steps: 0,
-            walkers,
-            acceleration: Mean::default(),
-            acceleration_before_arrival: Mean::default(),
-            tracking_error: Mean::default(),
+            tracks,
+            acceleration_mps2: RunningMean::default(),
+            acceleration_before_arrival_mps2: RunningMean::default(),
+            tracking_error_m: RunningMean::default(),
             tracking_worst_m: 0.0,
-            heading_error_deg: Mean::default(),
-            walking_heading_error_deg: Mean::default(),
-            strafing: Mean::default(),
-            stepping_back: Mean::default(),
+            heading_error_deg: RunningMean::default(),
+            walking_heading_error_deg: RunningMean::default(),
+            strafing: RunningMean::default(),
+            stepping_back: RunningMean::default(),
         }
     }
 
     /// Adds one step, given every agent before and after it.
-    pub fn push(&mut self, before: &[AgentFrame], after: &[AgentFrame]) {
+    pub(crate) fn push(&mut self, before: &[AgentFrame], after: &[AgentFrame]) {
         self.steps += 1;
-        for (walker, (before, after)) in self.walkers.iter_mut().zip(before.iter().zip(after)) {
+        for (track, (before, after)) in self.tracks.iter_mut().zip(before.iter().zip(after)) {
             let displacement_m = position_m(after) - position_m(before);
             let velocity_mps = displacement_m / self.dt_s;
-            let acceleration_mps2 = (velocity_mps - walker.velocity_mps).length() / self.dt_s;
-            walker.velocity_mps = velocity_mps;
-            self.acceleration.add(acceleration_mps2); // Eq. 18
-            if walker.arrival.at_s.is_none() {
-                self.acceleration_before_arrival.add(acceleration_mps2);
-                let sidewards = walker.sidewards(after);
+            let acceleration_mps2 = (velocity_mps - track.velocity_mps).length() / self.dt_s;
+            track.velocity_mps = velocity_mps;
+            self.acceleration_mps2.add(acceleration_mps2); // Eq. 18: ‖a_i‖
+            if track.arrival.at_s.is_none() {
+                self.acceleration_before_arrival_mps2.add(acceleration_mps2);
+                let sidewards = track.sidewards(after);
                 self.strafing.add(f64::from(sidewards == Some(Sidewards::Strafing)));
                 self.stepping_back.add(f64::from(sidewards == Some(Sidewards::SteppingBack)));
                 if velocity_mps.length() >= STALL_SPEED_MPS {
@@ -114,98 +124,48 @@ impl RootMeasures {
                         self.heading_error_deg.add(error_deg);
                     }
                 }
-                walker.path_m += displacement_m.length();
-                walker.watch_for_stall(self.dt_s);
+                track.path_m += displacement_m.length();
+                track.watch_for_stall(self.dt_s);
             }
-            let planned_m = DVec2::from(after.planned_mps) * self.dt_s;
-            let tracking_error_m = displacement_m.distance(planned_m);
-            self.tracking_error.add(tracking_error_m);
+            let tracking_error_m = displacement_m.distance(DVec2::from(after.planned_mps) * self.dt_s);
+            self.tracking_error_m.add(tracking_error_m);
             self.tracking_worst_m = self.tracking_worst_m.max(tracking_error_m);
-            walker.arrive(after, self.steps as f64 * self.dt_s);
+            track.arrive(after, self.steps as f64 * self.dt_s);
         }
     }
 
-    /// Over all agents and steps, m/s².
-    pub fn mean_acceleration_mps2(&self) -> f64 {
-        self.acceleration.value()
+    /// Whether every agent has passed its waypoints and is near its last goal now.
+    pub(crate) fn all_are_at_goals(&self) -> bool {
+        self.tracks.iter().all(|track| track.arrival.is_at_goal)
     }
 
-    /// Over the steps before each agent's arrival, m/s².
-    pub fn mean_acceleration_before_arrival_mps2(&self) -> f64 {
-        self.acceleration_before_arrival.value()
+    /// Whether an agent has arrived at its last goal so far.
+    pub(crate) fn has_arrived(&self, agent: usize) -> bool {
+        self.tracks[agent].arrival.at_s.is_some()
     }
 
-    /// Mean distance between the synthesised root and where the planned velocity would have brought it, m.
-    pub fn root_tracking_error_m(&self) -> f64 {
-        self.tracking_error.value()
+    /// Number of agents that have arrived.
+    pub(crate) fn arrived(&self) -> usize {
+        (0..self.tracks.len()).filter(|&agent| self.has_arrived(agent)).count()
     }
 
-    /// The greatest such distance, m.
-    pub fn root_tracking_worst_m(&self) -> f64 {
-        self.tracking_worst_m
+    /// Number of agents that stalled before they arrived.
+    pub(crate) fn stalled(&self) -> usize {
+        self.tracks.iter().filter(|track| track.stalled).count()
     }
 
-    /// Mean angle between facing and travel over the steps before each agent's arrival in which it walks and is not to
-    /// side-step or step back, degrees.
-    pub fn heading_error_deg(&self) -> f64 {
-        self.heading_error_deg.value()
+    /// Mean time to arrival, s; none where no agent arrived.
+    pub(crate) fn mean_time_to_goal_s(&self) -> Option<f64> {
+        mean(self.tracks.iter().filter_map(|track| track.arrival.at_s))
     }
 
-    /// The same over all steps in which it walks, side-steps and steps back too.
-    pub fn walking_heading_error_deg(&self) -> f64 {
-        self.walking_heading_error_deg.value()
-    }
-
-    /// Whether every agent, its waypoints passed, is within 0.5 m of its last goal now.
-    pub fn all_are_at_goals(&self) -> bool {
-        self.walkers.iter().all(|walker| walker.arrival.is_at_goal)
-    }
-
-    /// Whether an agent has come to its last goal so far.
-    pub fn has_arrived(&self, agent: usize) -> bool {
-        self.walkers[agent].arrival.at_s.is_some()
-    }
-
-    /// Agents that came within 0.5 m of their last goal at any time after their waypoints.
-    pub fn arrived(&self) -> usize {
-        self.walkers.iter().filter(|walker| walker.arrival.at_s.is_some()).count()
-    }
-
-    /// Agents that stayed under 0.1 m/s for 5 s before arriving.
-    pub fn stalled(&self) -> usize {
-        self.walkers.iter().filter(|walker| walker.stalled).count()
-    }
-
-    /// Over the agents that arrived; none where nobody did.
-    pub fn mean_time_to_goal_s(&self) -> Option<f64> {
-        mean(self.walkers.iter().filter_map(|walker| walker.arrival.at_s))
-    }
-
-    /// Mean over the agents that arrived of the length of their paths until then over that of the straight way; none
-    /// where nobody arrived, or nobody had a way to go.
-    pub fn path_over_straight_line(&self) -> Option<f64> {
-        mean(self.walkers.iter().filter_map(|walker| walker.path_over_straight))
-    }
-
-    /// Share of the steps before each agent's arrival in which it walks sidewards at held facing.
-    pub fn strafing_share(&self) -> f64 {
-        self.strafing.value()
-    }
-
-    /// Share of the steps before each agent's arrival in which it walks backward at held facing.
-    pub fn stepping_back_share(&self) -> f64 {
-        self.stepping_back.value()
+    /// Mean length of the paths until arrival over that of the straight paths; none where no agent had to move.
+    pub(crate) fn path_over_straight_line(&self) -> Option<f64> {
+        mean(self.tracks.iter().filter_map(|track| track.path_over_straight))
     }
 }
 
-/// None of nothing.
-fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut mean = Mean::default();
-    values.for_each(|value| mean.add(value));
-    (mean.count > 0).then(|| mean.value())
-}
-
-impl Walker {
+impl RootTrack {
     fn new(agent: &AgentSpec) -> Self {
         Self {
             agent: agent.clone(),
@@ -220,20 +180,20 @@ impl Walker {
 
     fn arrive(&mut self, frame: &AgentFrame, now_s: f64) {
         if self.arrival.follow(&self.agent, frame.root.position_m, now_s) {
-            let straight_m = self.straight_way_m(position_m(frame));
+            let straight_m = self.straight_path_m(position_m(frame));
             self.path_over_straight = (straight_m > 0.0).then(|| self.path_m / straight_m);
         }
     }
 
-    /// From the start over the waypoints to a place near the last.
-    fn straight_way_m(&self, arrival_m: DVec2) -> f64 {
+    /// Length of the straight path from the start over the waypoints to the position of arrival, m.
+    fn straight_path_m(&self, arrival_m: DVec2) -> f64 {
         let waypoints_m = self.agent.goals_m.iter().take(self.arrival.progress.next as usize);
         let corners_m = [&self.agent.position_m].into_iter().chain(waypoints_m).map(|&corner_m| DVec2::from(corner_m));
         let corners_m = corners_m.chain([arrival_m]);
         corners_m.clone().skip(1).zip(corners_m).map(|(to, from)| from.distance(to)).sum()
     }
 
-    /// How the agent walks, unless it follows its facing or stands.
+    /// How the agent walks at held facing; none where it walks in the turning set or stands.
     fn sidewards(&self, after: &AgentFrame) -> Option<Sidewards> {
         let walks = self.velocity_mps.length() >= STALL_SPEED_MPS;
         let ahead = self.velocity_mps.dot(DVec2::from(after.root.forward())) >= 0.0;
@@ -252,7 +212,7 @@ impl Walker {
     }
 }
 
-/// Angle between the way of a step and the facing in its middle.
+/// Angle between the displacement of a step and the facing in its middle, degrees.
 fn heading_error_deg(displacement_m: DVec2, before: &AgentFrame, after: &AgentFrame) -> f64 {
     let facing = DVec2::from(before.root.forward() + after.root.forward());
     libm::fabs(libm::atan2(facing.perp_dot(displacement_m), facing.dot(displacement_m))).to_degrees()

@@ -1,27 +1,26 @@
 //! How often, and how deep, discs and bodies touch walls (`FbCrowd` §7, the obstacle course).
 //!
-//! A disc touches a wall where it is nearer than its radius and `TOUCH_M`: the synthesised root is kept outside
-//! ([`crate::coupling::body_to_disc::outside_walls`]), so a disc that would go further in lies at its radius exactly. A body touches where
-//! a capsule of it does; walls stand upright, so its bone is taken from above. Frames are looked at as they are. World
-//! axes, metres.
+//! The synthesised root is kept outside walls (`coupling::body_to_disc`), so a disc that a wall holds lies exactly at
+//! its radius from it, up to `TOUCH_M`. A body touches a wall where one of its capsules does; walls are upright, so
+//! bones are projected on the ground. Only frames count, not the motion between them. World axes, metres.
 
 use glam::Vec3;
 use motiondb::body::{Joint, Joints, Root, Skeleton};
 
 use crate::maths::segment_distance::{Segment, distance_m};
-use crate::measures::body_penetration::bone;
+use crate::measures::bone_capsule::bone;
 use crate::recording::frame::AgentFrame;
 use crate::scenario::Scenario;
 use crate::world::obstacles::{NearEdge, Obstacles};
 
 /// Rounding of a disc that is kept at a wall, m.
 const TOUCH_M: f32 = 1e-4;
-/// No capsule reaches further from its root: an arm held out, m.
+/// Greatest reach of a capsule from its root, m: an arm held out.
 const REACH_M: f32 = 1.2;
 
-/// Counts frame by frame.
+/// Counts contacts, frame by frame.
 #[derive(Debug)]
-pub struct WallContact {
+pub(crate) struct WallContact {
     skeleton: Skeleton,
     obstacles: Obstacles,
     radii_m: Vec<f32>,
@@ -31,20 +30,20 @@ pub struct WallContact {
     greatest_depth_m: f32,
 }
 
-/// What is told of a whole recording; nothing where there are no walls.
+/// Contacts with walls over a whole recording; all 0 where there are no walls.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contacts {
+pub(crate) struct WallContactShares {
     /// Share of agents and frames in which a disc is held at a wall.
-    pub disc_share: f64,
+    pub(crate) disc_share: f64,
     /// Share of agents and frames in which a body reaches into a wall.
-    pub body_share: f64,
-    /// The deepest of it, mm.
-    pub greatest_depth_mm: f64,
+    pub(crate) body_share: f64,
+    /// Greatest depth of a body in a wall, mm.
+    pub(crate) greatest_depth_mm: f64,
 }
 
 impl WallContact {
     /// No frames yet.
-    pub fn new(skeleton: &Skeleton, scenario: &Scenario) -> Self {
+    pub(crate) fn new(skeleton: &Skeleton, scenario: &Scenario) -> Self {
         Self {
             skeleton: skeleton.clone(),
             obstacles: Obstacles::new(&scenario.obstacles_m),
@@ -57,7 +56,7 @@ impl WallContact {
     }
 
     /// Adds one frame: every agent, and its joints in its root's frame, in index order.
-    pub fn push(&mut self, agents: &[AgentFrame], joints: &[Joints]) {
+    pub(crate) fn push(&mut self, agents: &[AgentFrame], joints: &[Joints]) {
         self.agent_frames += agents.len();
         let mut near = Vec::new();
         for ((agent, joints), &radius_m) in agents.iter().zip(joints).zip(&self.radii_m) {
@@ -70,22 +69,22 @@ impl WallContact {
         }
     }
 
-    /// After the last frame.
-    pub fn finish(&self) -> Contacts {
+    /// The figures after the last frame.
+    pub(crate) fn finish(&self) -> WallContactShares {
         let share = |count: usize| count as f64 / self.agent_frames.max(1) as f64;
-        Contacts {
+        WallContactShares {
             disc_share: share(self.touching_discs),
             body_share: share(self.touching_bodies),
             greatest_depth_mm: 1e3 * f64::from(self.greatest_depth_m),
         }
     }
 
-    /// How deep the deepest capsule reaches into a wall.
+    /// Depth of the deepest capsule in a wall, m.
     fn depth_m(&self, root: &Root, joints: &Joints, near: &[NearEdge]) -> f32 {
         let depths_m = Joint::ALL.iter().map(|joint| {
             let bone = bone(&self.skeleton, joints, joint.index());
-            let from_above = |point_m: Vec3| root.to_world(point_m).truncate().extend(0.0);
-            let bone = Segment { from_m: from_above(bone.from_m), to_m: from_above(bone.to_m) };
+            let on_ground = |point_m: Vec3| root.to_world(point_m).truncate().extend(0.0);
+            let bone = Segment { from_m: on_ground(bone.from_m), to_m: on_ground(bone.to_m) };
             let radius_m = self.skeleton.segment_radii_m[joint.index()];
             let to_wall_m = |part: &Segment| {
                 let to_edge_m = near.iter().map(|near| {
@@ -110,8 +109,8 @@ mod tests {
     use super::*;
     use crate::test_db::test_db;
 
-    /// Shares of one standing body beside a wall that begins at x = 0, its root at x = −`clear_m`.
-    fn beside(clear_m: f32) -> Contacts {
+    /// Contacts of one standing body beside a wall that begins at x = 0, its root at x = −`clear_m`.
+    fn beside(clear_m: f32) -> WallContactShares {
         let (db, mut scenario) = (test_db(), crate::simulation::tests::antipodal(1, 4.0));
         scenario.obstacles_m = vec![[(0.0, -5.0), (1.0, -5.0), (1.0, 5.0), (0.0, 5.0)].map(Vec2::from).to_vec()];
         let root = Root { position_m: Vec2::new(-clear_m, 0.0), facing_rad: 0.0 };
@@ -121,7 +120,7 @@ mod tests {
         contact.finish()
     }
 
-    /// How far the body reaches ahead of its root.
+    /// Reach of the body ahead of its root, m.
     fn ahead_m() -> f32 {
         let db = test_db();
         let joints = db.rows.pose(0, 0).forward_kinematics(&db.skeleton);
@@ -135,10 +134,10 @@ mod tests {
     #[test]
     fn a_body_touches_by_its_capsules_and_a_disc_at_its_radius() {
         let radius_m = 0.25;
-        assert_eq!(beside(2.0), Contacts { disc_share: 0.0, body_share: 0.0, greatest_depth_mm: 0.0 });
+        assert_eq!(beside(2.0), WallContactShares { disc_share: 0.0, body_share: 0.0, greatest_depth_mm: 0.0 });
         assert_eq!((beside(radius_m).disc_share, beside(radius_m + 0.01).disc_share), (1.0, 0.0));
         assert_eq!((beside(ahead_m() - 0.01).body_share, beside(ahead_m() + 0.01).body_share), (1.0, 0.0));
-        // A foot half through the face of the wall, and all of it behind.
+        // A foot half behind the face of the wall, and all of it behind.
         for deep_m in [0.01, 0.1, 0.2] {
             let found_mm = beside(ahead_m() - deep_m).greatest_depth_mm;
             assert!((found_mm - 1e3 * f64::from(deep_m)).abs() < 0.1, "{found_mm} mm at {deep_m} m");

@@ -1,6 +1,7 @@
-//! What passes between planner and synthesis (`FbCrowd` §3, Fig. 2): the plan one way, the stance foot the other.
+//! The exchange between planner and synthesis (`FbCrowd` §3, Fig. 2): a plan to synthesis, a stance foot to the
+//! planner.
 //!
-//! MCN and HMS never see each other; only `step.rs` sees both.
+//! MCN and HMS never see each other; only `simulation.rs` sees both. World axes, metres, seconds, radians.
 
 use glam::{Vec2, Vec3};
 use motiondb::quality::planted_feet;
@@ -8,16 +9,16 @@ use motiondb::quality::planted_feet;
 /// Blended contact Σ w·c from which a foot is planted.
 pub const PLANTED_CONTACT: f32 = planted_feet::PLANTED_CONTACT as f32;
 
-/// What synthesis tells the planner: how the body stands (`FbCrowd` §4.2).
+/// How a body stands (`FbCrowd` §4.2): from synthesis to the planner.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stance {
-    /// The foot that carries the body alone; none while both feet or no foot stand.
+    /// The foot that carries the body alone; none where both feet or no foot stand.
     pub foot: Option<StanceFoot>,
 }
 
 impl Stance {
-    /// How a body that faces `forward` stands on its soles (heel, ball and toe tip of each foot, in the root's frame,
-    /// metres), given the contact of each foot and when a swing foot would land, by its side.
+    /// The stance of a body that faces `forward`, given heel, ball and toe tip of each sole in the root's frame (m),
+    /// the contact of each foot, and the time until a swing foot lands (s), by its side.
     pub fn on_soles(
         soles_m: &[[Vec3; 3]; 2],
         forward: Vec2,
@@ -36,49 +37,50 @@ impl Stance {
     }
 }
 
-/// A single stance foot, on the ground, relative to the root's position, in world axes, metres.
+/// The foot that carries the body alone, projected on the ground. Points are relative to the root's position, in world
+/// axes, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StanceFoot {
-    /// 0 left, 1 right.
+    /// Side of the foot: 0 left, 1 right.
     pub side: usize,
-    /// St_h.
+    /// St_h: heel of the stance foot, m.
     pub heel_m: Vec2,
-    /// St_b.
+    /// St_b: ball of the stance foot, m.
     pub ball_m: Vec2,
-    /// St_t.
+    /// St_t: toe tip of the stance foot, m.
     pub toe_m: Vec2,
-    /// The swing foot's ball, likewise.
+    /// Ball of the swing foot, m.
     pub swing_m: Vec2,
-    /// Seconds until the swing foot lands at the present phase rate.
+    /// Time until the swing foot lands at the present phase rate, s.
     pub time_to_landing_s: f32,
 }
 
-/// Which velocity set limits a plan ([`motiondb::velocity_sets::velocity_hull`]).
+/// The velocity set that limits a plan ([`motiondb::velocity_sets::velocity_hull`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum VelocitySet {
     /// The facing follows the velocity.
     #[default]
     Turning = 0,
-    /// The facing is held: side-stepping, stepping back.
+    /// The facing is held: the agent side-steps or steps back.
     Holding = 1,
 }
 
-/// What the planner tells synthesis, and what of it the recording keeps.
+/// The plan of one agent for one step: from the planner to synthesis, and in part to the recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Plan {
-    /// v_i: the velocity to walk at, world, m/s.
+    /// v_i: planned velocity, world, m/s.
     pub velocity_mps: Vec2,
-    /// o_i^d: the facing to turn to, world, radians.
+    /// f_d: facing to turn to, world, rad.
     pub facing_rad: f32,
-    /// Least time to collision, s; infinite where nothing is met.
+    /// Least time to collision at the present velocities, s; infinite where nothing is met.
     pub time_to_collision_s: f32,
-    /// Local density as the density filter sees it.
+    /// ρ: density ahead as the density filter measures it, 1/m.
     pub density: f32,
-    /// The set in force.
+    /// The velocity set in force.
     pub set: VelocitySet,
-    /// Contiguous time spent strafing, s (§4.5).
+    /// Contiguous time of strafing, s (§4.5); beyond its limit, the limit plus the rest that is due.
     pub strafing_s: f32,
-    /// Contiguous time spent stepping back, s.
+    /// Contiguous time of stepping back, s; beyond its limit, the limit plus the rest that is due.
     pub stepping_back_s: f32,
 }

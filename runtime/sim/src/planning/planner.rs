@@ -1,17 +1,17 @@
-//! Who plans: MCN (`FbCrowd` §4), or one of the two rivals that Table 1 sets beside it, all from the same [`World`].
+//! The planners: MCN (`FbCrowd` §4) and the two baselines of Table 1, all on the same [`WorldView`].
 
-use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 use crate::params::Params;
-use crate::planning::baselines::{orca, social_force};
-use crate::planning::mcn;
+use crate::planning::baselines::orca::{self, OrcaMemory};
+use crate::planning::baselines::social_force;
+use crate::planning::mcn::memory::McnMemory;
+use crate::planning::mcn::navigate;
 use crate::planning::orca::half_plane::HalfPlane;
-use crate::planning::plan::{Plan, VelocitySet};
-use crate::planning::world_view::World;
-use crate::world::neighbours::{AHEAD_S, Nearest, Query};
-use crate::world::obstacles::NearEdge;
-use crate::world::time_to_collision::disc_with_segment;
+use crate::planning::plan::Plan;
+use crate::planning::surroundings::Surroundings;
+use crate::planning::world_view::WorldView;
+use crate::world::neighbours::neighbour::RANKING_HORIZON_S;
 
 /// The planner of a scenario.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -20,81 +20,52 @@ pub enum Planner {
     /// Motion-constrained navigation, §4.
     #[default]
     Mcn,
-    /// Optimal reciprocal collision avoidance as it was published: van den Berg et al. 2011.
+    /// Optimal reciprocal collision avoidance as published: van den Berg et al. 2011.
     Orca,
     /// Social forces by the universal power law: Karamouzas, Skinner, Guy 2014.
     SocialForce,
 }
 
-/// Working memory of one thread. After [`plan`] it tells why the velocity was chosen.
+/// Working memory of one thread, of every planner; kept from plan to plan.
 #[derive(Clone, Debug, Default)]
-pub struct Scratch {
-    pub(crate) nearest: Nearest,
-    pub(crate) edges: Vec<NearEdge>,
-    /// Of each velocity set's program; rivals have one.
-    pub(crate) half_planes: [Vec<HalfPlane>; 2],
-    /// The set that was chosen.
-    pub(crate) set: VelocitySet,
-    pub(crate) projected: Vec<HalfPlane>,
-    pub(crate) adapted_mps: Vec2,
-    // MCN's own: where the body faces, and half-planes that both its velocity sets take over.
-    pub(crate) forward: Vec2,
-    pub(crate) of_walls: Vec<HalfPlane>,
-    pub(crate) of_agents: Vec<HalfPlane>,
+pub struct PlannerMemory {
+    pub(crate) mcn: McnMemory,
+    pub(crate) orca: OrcaMemory,
+    pub(crate) social_force: Surroundings,
 }
 
-impl Scratch {
-    /// The half-planes of the last plan, by rank: walls, stance, sharp turns, hull, agents by urgency. None
-    /// for social forces.
-    pub fn half_planes(&self) -> &[HalfPlane] {
-        &self.half_planes[self.set as usize]
+impl PlannerMemory {
+    /// The half-planes of a planner's last plan. MCN's, by rank: walls, stance, sharp turn, hull, agents; ORCA's:
+    /// walls, agents; none of social forces.
+    pub fn half_planes(&self, planner: Planner) -> &[HalfPlane] {
+        match planner {
+            Planner::Mcn => self.mcn.half_planes(),
+            Planner::Orca => &self.orca.half_planes,
+            Planner::SocialForce => &[],
+        }
     }
 
-    /// What it holds in memory, bytes.
+    /// Bytes that the memory holds.
     pub(crate) fn size_bytes(&self) -> usize {
-        let [turning, holding] = &self.half_planes;
-        let lists = [turning, holding, &self.projected, &self.of_walls, &self.of_agents];
-        let half_planes: usize = lists.iter().map(|list| list.capacity()).sum();
-        let half_planes = half_planes * size_of::<HalfPlane>();
-        let edges = self.edges.capacity() * size_of::<NearEdge>();
-        size_of_val(self) + self.nearest.lists_bytes() + half_planes + edges
+        size_of_val(self) + self.mcn.heap_bytes() + self.orca.heap_bytes() + self.social_force.heap_bytes()
     }
 }
 
-/// How far ahead a planner's neighbours are ranked, s.
-pub fn ahead_s(planner: Planner, params: &Params) -> f32 {
+/// Time ahead within which a planner ranks neighbours, s; 0 ranks by distance.
+pub fn ranking_horizon_s(planner: Planner, params: &Params) -> f32 {
     match planner {
-        Planner::Mcn if params.planner.parts.order => AHEAD_S,
-        // By distance: as RVO2, and the authors of the power law, do.
+        Planner::Mcn if params.planner.parts.order => RANKING_HORIZON_S,
+        // As RVO2 and the authors of the power law do.
         Planner::Mcn | Planner::Orca | Planner::SocialForce => 0.0,
     }
 }
 
-/// Plans one agent's next velocity and facing; the world's neighbours are sorted for [`ahead_s`].
-pub fn plan(planner: Planner, world: &World, agent: usize, params: &Params, scratch: &mut Scratch) -> Plan {
+/// Plans the next velocity and facing of one agent. The view's neighbours must be sorted for the planner's
+/// [`ranking_horizon_s`].
+pub fn plan(planner: Planner, world: &WorldView, agent: usize, params: &Params, memory: &mut PlannerMemory) -> Plan {
     match planner {
-        Planner::Mcn => mcn::plan(world, agent, &params.planner, scratch),
-        Planner::Orca => orca::plan(world, agent, &params.orca, scratch),
-        Planner::SocialForce => social_force::plan(world, agent, &params.social_force, scratch),
+        Planner::Mcn => navigate::plan(world, agent, &params.planner, &mut memory.mcn),
+        Planner::Orca => orca::plan(world, agent, &params.orca, &mut memory.orca),
+        Planner::SocialForce => social_force::plan(world, agent, &params.social_force, &mut memory.social_force),
     }
-}
-
-/// Finds an agent's neighbours and, nearest first, the walls' edges within `wall_range` of its disc.
-pub(crate) fn look_around(world: &World, agent: usize, range_m: f32, wall_range_m: f32, scratch: &mut Scratch) {
-    let own = world.disc(agent);
-    let query =
-        Query { agent, position_m: own.position_m, velocity_mps: own.velocity_mps, radius_m: own.radius_m, range_m };
-    world.neighbours.nearest(&query, &mut scratch.nearest);
-    world.obstacles.near(own.position_m, own.radius_m + wall_range_m, &mut scratch.edges);
-}
-
-/// Least time to collision, at the present velocities, with whom and what [`look_around`] found, s.
-pub(crate) fn time_to_collision_s(world: &World, agent: usize, scratch: &Scratch) -> f32 {
-    let own = world.disc(agent);
-    let with_agents = scratch.nearest.as_slice().iter().map(|neighbour| neighbour.time_to_collision_s);
-    let with_walls = scratch
-        .edges
-        .iter()
-        .map(|near| disc_with_segment(world.edge_m(agent, near.edge), own.velocity_mps, own.radius_m));
-    with_agents.chain(with_walls).fold(f32::INFINITY, f32::min)
 }

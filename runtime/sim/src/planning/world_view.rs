@@ -1,49 +1,86 @@
-//! What a planner may know: every agent and wall as the last step left them.
+//! What a planner may read: all agents and walls as the last step left them.
 //!
-//! Frozen while all are planned, so agents may be planned in any order and on any thread. World axes, metres, seconds,
-//! radians; slices are by agent.
+//! The view is frozen while all agents are planned, so they may be planned in any order and on any thread. Slices are
+//! by agent. World axes, metres, seconds, radians.
 
 use glam::Vec2;
 
 use crate::planning::mcn::motion_constraints::MotionConstraints;
-use crate::planning::orca::agents::Disc;
 use crate::planning::plan::Stance;
-use crate::world::neighbours::Neighbours;
+use crate::world::disc::Disc;
+use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
 
-/// Everything that a plan depends on.
+/// Everything that a plan depends on, besides the planner's tunables.
+///
+/// One agent that walks along +x, planned by MCN with velocity sets made by hand:
+///
+/// ```
+/// use fbcrowd_sim::planning::mcn::MotionConstraints;
+/// use fbcrowd_sim::planning::{PlannerMemory, Stance, plan, ranking_horizon_s};
+/// use fbcrowd_sim::world::neighbours::NeighbourSearch;
+/// use fbcrowd_sim::world::obstacles::Obstacles;
+/// use fbcrowd_sim::{Params, Planner, WorldView};
+/// use glam::Vec2;
+/// use motiondb::velocity_sets::velocity_hull::VelocityHull;
+///
+/// let (planner, params, walk_mps) = (Planner::Mcn, Params::default(), Vec2::new(1.3, 0.0));
+/// // Corners in the agent's frame, clockwise: up to 1.8 m/s forward, 0.8 m/s to the sides, 0.5 m/s backward.
+/// let corners_mps = [[1.8, 0.0], [0.0, -0.8], [-0.5, 0.0], [0.0, 0.8]].map(Vec2::from).to_vec();
+/// let hull = VelocityHull { turning_mps: corners_mps.clone(), holding_mps: corners_mps, ..VelocityHull::default() };
+/// let mut neighbours = NeighbourSearch::default();
+/// neighbours.rebuild(&[Vec2::ZERO], &[walk_mps], &[0.25], ranking_horizon_s(planner, &params));
+/// let world = WorldView {
+///     positions_m: &[Vec2::ZERO],
+///     velocities_mps: &[walk_mps],
+///     facings_rad: &[0.0],
+///     radii_m: &[0.25],
+///     preferred_mps: &[walk_mps],
+///     stances: &[Stance::default()],
+///     strafing_s: &[0.0],
+///     stepping_back_s: &[0.0],
+///     neighbours: &neighbours,
+///     obstacles: &Obstacles::default(),
+///     constraints: &MotionConstraints::new(&hull),
+///     dt_s: 0.1,
+///     bodies: true,
+/// };
+/// let plan = plan(planner, &world, 0, &params, &mut PlannerMemory::default());
+/// assert_eq!(plan.velocity_mps, walk_mps);
+/// ```
 #[derive(Clone, Copy, Debug)]
-pub struct World<'a> {
-    /// Of the synthesised roots, m.
+pub struct WorldView<'a> {
+    /// Positions of the synthesised roots, m.
     pub positions_m: &'a [Vec2],
-    /// Of the synthesised roots, m/s.
+    /// Velocities of the synthesised roots, m/s.
     pub velocities_mps: &'a [Vec2],
-    /// Of the synthesised roots, rad.
+    /// Facings of the synthesised roots, rad.
     pub facings_rad: &'a [f32],
-    /// Of the bounding discs, m.
+    /// Radii of the bounding discs, m.
     pub radii_m: &'a [f32],
     /// v_pref, m/s.
     pub preferred_mps: &'a [Vec2],
     /// How each body stands.
     pub stances: &'a [Stance],
-    /// [`Plan::strafing_s`](crate::planning::plan::Plan::strafing_s) of the last step.
+    /// [`Plan::strafing_s`](crate::planning::Plan::strafing_s) of the last step.
     pub strafing_s: &'a [f32],
-    /// [`Plan::stepping_back_s`](crate::planning::plan::Plan::stepping_back_s) of the last step.
+    /// [`Plan::stepping_back_s`](crate::planning::Plan::stepping_back_s) of the last step.
     pub stepping_back_s: &'a [f32],
-    /// Built from the same positions, velocities and radii, for [`crate::planning::planner::ahead_s`] of who plans.
-    pub neighbours: &'a Neighbours,
+    /// The same positions, velocities and radii, sorted for the planner's
+    /// [`ranking_horizon_s`](crate::planning::ranking_horizon_s).
+    pub neighbours: &'a NeighbourSearch,
     /// The walls.
     pub obstacles: &'a Obstacles,
-    /// Of the database's velocity sets.
+    /// Constraints of the database's velocity sets.
     pub constraints: &'a MotionConstraints,
-    /// Step, s.
+    /// Time step, s.
     pub dt_s: f32,
-    /// Whether bodies follow: they take a plan up later than at the end of the step.
+    /// Whether bodies carry the plans out, which respond later than at the end of the step.
     pub bodies: bool,
 }
 
-impl World<'_> {
-    /// An agent's bounding disc.
+impl WorldView<'_> {
+    /// The bounding disc of an agent.
     pub fn disc(&self, agent: usize) -> Disc {
         Disc {
             position_m: self.positions_m[agent],
@@ -52,11 +89,12 @@ impl World<'_> {
         }
     }
 
-    /// How far ahead of the present velocities forces lead, s, where bodies take a plan up within `taken_up` seconds.
-    /// Discs have theirs at the end of the step. Bodies lag: of what forces add within a fine step they would take up
-    /// next to nothing, and one that stands would never start to step.
-    pub fn lead_s(&self, taken_up_s: f32) -> f32 {
-        if self.bodies { taken_up_s.max(self.dt_s) } else { self.dt_s }
+    /// Time for which a planner applies forces to the present velocity, s.
+    ///
+    /// Discs have their planned velocity at the end of the step. Bodies lag by about `response_s`: of what forces add
+    /// within a fine step they would take up almost nothing, and a body that stands would never start to step.
+    pub fn lead_s(&self, response_s: f32) -> f32 {
+        if self.bodies { response_s.max(self.dt_s) } else { self.dt_s }
     }
 
     /// Unit vector along an agent's facing.
@@ -65,7 +103,7 @@ impl World<'_> {
         Vec2::new(cos, sin)
     }
 
-    /// The ends of a wall's edge, relative to an agent's centre.
+    /// The ends of a wall's edge, relative to an agent's centre, m.
     pub fn edge_m(&self, agent: usize, edge: u32) -> [Vec2; 2] {
         self.obstacles.ends_m(edge).map(|end_m| end_m - self.positions_m[agent])
     }

@@ -1,6 +1,6 @@
 //! A recording's chunks: {kind u32, payload length u32, CRC-32 of kind, length and payload, payload}, little-endian.
 //!
-//! Whatever a chunk claims is checked against the bytes that the file has before anything is allocated.
+//! Every length that a chunk claims is checked against the size of the file before anything is allocated.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -10,18 +10,13 @@ use std::sync::{Mutex, PoisonError};
 use motiondb::files::input_file;
 
 use crate::recording::error::RecordingError;
-
-/// Bytes of a chunk before its payload.
-pub const CHUNK_HEAD_BYTES: u64 = 12;
-
-/// What a chunk holds; readers skip kinds that they do not know.
-pub type Kind = [u8; 4];
+use crate::recording::format::{CHUNK_HEAD_BYTES, ChunkKind};
 
 /// Writes one chunk.
 ///
 /// # Errors
 /// Where writing fails or the payload reaches 4 GiB.
-pub fn write_chunk(out: &mut impl Write, kind: Kind, payload: &[u8]) -> io::Result<()> {
+pub fn write_chunk(out: &mut impl Write, kind: ChunkKind, payload: &[u8]) -> io::Result<()> {
     let length = u32::try_from(payload.len()).map_err(|_| io::Error::other("a chunk of 4 GiB or more"))?;
     out.write_all(&kind)?;
     out.write_all(&length.to_le_bytes())?;
@@ -29,7 +24,7 @@ pub fn write_chunk(out: &mut impl Write, kind: Kind, payload: &[u8]) -> io::Resu
     out.write_all(payload)
 }
 
-fn checksum(kind: Kind, length: u32, payload: &[u8]) -> u32 {
+fn checksum(kind: ChunkKind, length: u32, payload: &[u8]) -> u32 {
     let mut hasher = crc32fast::Hasher::new();
     hasher.update(&kind);
     hasher.update(&length.to_le_bytes());
@@ -37,9 +32,9 @@ fn checksum(kind: Kind, length: u32, payload: &[u8]) -> u32 {
     hasher.finalize()
 }
 
-/// A file read at any place, from any thread.
+/// A file of chunks, read at any byte from any thread.
 #[derive(Debug)]
-pub struct ChunkFile {
+pub(crate) struct ChunkFile {
     path: PathBuf,
     length: u64,
     /// Seeking and reading are one step under the lock; decoding, the expensive part, is outside.
@@ -50,29 +45,29 @@ impl ChunkFile {
     /// Opens a file.
     ///
     /// # Errors
-    /// Where the system refuses.
-    pub fn open(path: &Path) -> Result<Self, RecordingError> {
+    /// Where the system cannot open it.
+    pub(crate) fn open(path: &Path) -> Result<Self, RecordingError> {
         let fail = |source| RecordingError::Unreadable { path: path.to_owned(), source };
         let file = input_file::open(path).map_err(fail)?;
         let length = file.metadata().map_err(fail)?.len();
         Ok(Self { path: path.to_owned(), length, file: Mutex::new(file) })
     }
 
-    /// Its name.
-    pub fn path(&self) -> &Path {
+    /// Path of the file.
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Bytes in the file.
-    pub fn length(&self) -> u64 {
+    /// Length of the file, bytes.
+    pub(crate) fn length(&self) -> u64 {
         self.length
     }
 
     /// Exactly `count` bytes from `byte` on.
     ///
     /// # Errors
-    /// Where the file ends before them or the system refuses.
-    pub fn read(&self, byte: u64, count: u64) -> Result<Vec<u8>, RecordingError> {
+    /// Where the file ends before them or the system cannot read it.
+    pub(crate) fn read(&self, byte: u64, count: u64) -> Result<Vec<u8>, RecordingError> {
         if byte.checked_add(count).is_none_or(|end| end > self.length) {
             return Err(self.damaged(byte, format!("{count} bytes are missing")));
         }
@@ -84,25 +79,25 @@ impl ChunkFile {
         Ok(bytes)
     }
 
-    /// The payload of the chunk at `byte`, which must be of the kind asked for.
+    /// The payload of the chunk at `byte`, which must be of a kind.
     ///
     /// # Errors
-    /// As [`Self::read`]; where the kind is another or the checksum does not fit.
-    pub fn read_chunk(&self, byte: u64, kind: Kind) -> Result<Vec<u8>, RecordingError> {
+    /// As [`Self::read`]; where the kind is another or the checksum is wrong.
+    pub(crate) fn read_chunk(&self, byte: u64, kind: ChunkKind) -> Result<Vec<u8>, RecordingError> {
         let head = self.read(byte, CHUNK_HEAD_BYTES)?;
-        let word = |place: usize| u32::from_le_bytes([head[place], head[place + 1], head[place + 2], head[place + 3]]);
+        let word = |at: usize| u32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);
         if head[..4] != kind {
             return Err(self.damaged(byte, format!("there is no {} chunk here", kind.escape_ascii())));
         }
         let payload = self.read(byte + CHUNK_HEAD_BYTES, u64::from(word(4)))?;
         if checksum(kind, word(4), &payload) != word(8) {
-            return Err(self.damaged(byte, format!("the {} chunk's checksum does not fit", kind.escape_ascii())));
+            return Err(self.damaged(byte, format!("the checksum of the {} chunk is wrong", kind.escape_ascii())));
         }
         Ok(payload)
     }
 
-    /// An error at a place in this file.
-    pub fn damaged(&self, byte: u64, what: impl Into<String>) -> RecordingError {
+    /// The error that the file is damaged at a byte.
+    pub(crate) fn damaged(&self, byte: u64, what: impl Into<String>) -> RecordingError {
         RecordingError::Damaged { path: self.path.clone(), byte, what: what.into() }
     }
 }

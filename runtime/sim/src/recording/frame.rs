@@ -4,8 +4,8 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::body::{JOINT_COUNT, Pose, Root};
 
 use crate::planning::plan::VelocitySet;
-use crate::synthesis::Synthesis;
-use crate::synthesis::hybrid::mode::Mode;
+use crate::synthesis::BodyOutput;
+use crate::synthesis::Mode;
 
 /// One agent in one frame, decoded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,32 +14,32 @@ pub struct AgentFrame {
     pub root: Root,
     /// v_pref, world, m/s.
     pub preferred_mps: Vec2,
-    /// v, world, m/s: what was planned for the step that led here.
+    /// Velocity planned for the step that led to this frame, world, m/s.
     pub planned_mps: Vec2,
-    /// Phase of the body's cycle.
+    /// φ: phase of the body's cycle, 0 to 1.
     pub phase: f32,
     /// Synthesis in force.
     pub mode: Mode,
     /// Blended contact Σ w·c of each foot, `[left, right]`; planted from
-    /// [`PLANTED_CONTACT`](crate::planning::plan::PLANTED_CONTACT) on.
+    /// [`PLANTED_CONTACT`](crate::planning::PLANTED_CONTACT) on.
     pub contacts: [f32; 2],
-    /// Seconds until the swing foot lands, where a single foot stands; else 0.
+    /// Time until the swing foot lands, s, where a single foot stands; else 0.
     pub time_to_landing_s: f32,
     /// Velocity set in force.
     pub set: VelocitySet,
-    /// Contiguous time strafing, s.
+    /// Contiguous time of strafing, s.
     pub strafing_s: f32,
-    /// Contiguous time stepping back, s.
+    /// Contiguous time of stepping back, s.
     pub stepping_back_s: f32,
-    /// Weight-averaged planted-foot slide of the source examples in use, cm/s.
+    /// Weight-averaged planted-foot slide of the examples in play, cm/s.
     pub examples_slide_cm_s: f32,
     /// The final pose, after IK, in the root's frame.
     pub pose: Pose,
 }
 
 impl AgentFrame {
-    /// Takes up what synthesis made of a step.
-    pub fn show(&mut self, synthesis: &Synthesis) {
+    /// Takes over the result of synthesis for a step.
+    pub fn show(&mut self, synthesis: &BodyOutput) {
         self.contacts = synthesis.contacts;
         self.time_to_landing_s = synthesis.stance.foot.map_or(0.0, |foot| foot.time_to_landing_s);
         self.examples_slide_cm_s = synthesis.examples_slide_cm_s;
@@ -48,6 +48,7 @@ impl AgentFrame {
 }
 
 impl Default for AgentFrame {
+    /// A body at the origin that stands on both feet, every joint at rest.
     fn default() -> Self {
         Self {
             root: Root::default(),

@@ -1,26 +1,27 @@
-//! Any step of a recording, as the planner saw it: a recording is complete enough for it.
+//! Any step of a recording as the planner saw it: a recording is complete enough to plan each step again.
 //!
-//! Step k leads from frame k to frame k + 1. Places, facings, spent whiles and the stance foot are frame k's,
-//! velocities those that led to it; v_pref, which the step itself finds, stands in frame k + 1. All but the stance foot
-//! is kept bit for bit: it comes from a packed pose and time to landing, and where it decides, so does their rounding
-//! (a tenth of a millimetre at the sole, so some mm/s of what is planned). What a body is committed to on the paper's
-//! way from one synthesis to the other (`transition = "through_m_mb"`) is not recorded: there the velocity walked
-//! stands. World axes, metres, seconds, radians.
+//! Step k leads from frame k to frame k + 1. Positions, facings, strafing times and the stance foot are frame k's,
+//! velocities those that led to it; v_pref, which the step itself computes, is in frame k + 1. Everything but the
+//! stance foot is kept bit for bit. The stance foot comes from a packed pose and time to landing, so where it decides,
+//! their rounding does too (a tenth of a millimetre at the sole, some mm/s of the plan). The velocity to which a body
+//! is committed on the paper's transition between syntheses (`transition = "through_m_mb"`) is not recorded; the actual
+//! velocity stands in for it. World axes, metres, seconds, radians.
 
 use glam::Vec2;
 
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan::Stance;
-use crate::planning::planner::ahead_s;
-use crate::planning::world_view::World;
+use crate::planning::planner::ranking_horizon_s;
+use crate::planning::world_view::WorldView;
 use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
-use crate::recording::{Header, Recording};
+use crate::recording::header::Header;
+use crate::recording::reader::Recording;
 use crate::scenario::Scenario;
-use crate::world::neighbours::Neighbours;
+use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
 
-/// A recording whose steps are looked at.
+/// A recording whose steps are planned again.
 #[derive(Debug)]
 pub struct Replay<'a> {
     recording: &'a Recording,
@@ -29,15 +30,15 @@ pub struct Replay<'a> {
     radii_m: Vec<f32>,
 }
 
-/// One step, from its beginning to its end.
+/// One recorded step, with everything that its planner read.
 #[derive(Debug)]
 pub struct RecordedStep<'a> {
     replay: &'a Replay<'a>,
-    /// The frame in which it begins.
+    /// Index of the frame in which the step begins.
     pub frame: usize,
-    /// Every agent at its beginning.
+    /// Every agent at the beginning of the step.
     pub before: Vec<AgentFrame>,
-    /// Every agent at its end.
+    /// Every agent at the end of the step.
     pub after: Vec<AgentFrame>,
     positions_m: Vec<Vec2>,
     velocities_mps: Vec<Vec2>,
@@ -46,11 +47,11 @@ pub struct RecordedStep<'a> {
     stances: Vec<Stance>,
     strafing_s: Vec<f32>,
     stepping_back_s: Vec<f32>,
-    neighbours: Neighbours,
+    neighbours: NeighbourSearch,
 }
 
 impl<'a> Replay<'a> {
-    /// Finds what is the same in all steps.
+    /// Prepares what all steps share.
     pub fn new(recording: &'a Recording) -> Self {
         let scenario = &recording.header().scenario;
         Self {
@@ -66,7 +67,7 @@ impl<'a> Replay<'a> {
         self.recording.header()
     }
 
-    /// Steps recorded.
+    /// Number of recorded steps.
     pub fn step_count(&self) -> usize {
         self.recording.frame_count().saturating_sub(1)
     }
@@ -83,9 +84,9 @@ impl<'a> Replay<'a> {
         let (earlier, before, after) = (read(frame.saturating_sub(1))?, read(frame)?, read(frame + 1)?);
         let positions_m: Vec<Vec2> = before.iter().map(|agent| agent.root.position_m).collect();
         let velocities_mps = self.velocities_mps(&earlier, &before);
-        let mut neighbours = Neighbours::default();
+        let mut neighbours = NeighbourSearch::default();
         let Scenario { planner, params, .. } = &self.header().scenario;
-        neighbours.rebuild(&positions_m, &velocities_mps, &self.radii_m, ahead_s(*planner, params));
+        neighbours.rebuild(&positions_m, &velocities_mps, &self.radii_m, ranking_horizon_s(*planner, params));
         Ok(RecordedStep {
             replay: self,
             frame,
@@ -102,7 +103,7 @@ impl<'a> Replay<'a> {
         })
     }
 
-    /// As [`crate::coupling::body_to_disc`] finds them; all stand at the start.
+    /// Velocities between two frames, as `coupling::body_to_disc` computes them, m/s; all agents start at rest.
     fn velocities_mps(&self, from: &[AgentFrame], to: &[AgentFrame]) -> Vec<Vec2> {
         let dt_s = self.header().scenario.dt_s;
         from.iter().zip(to).map(|(from, to)| (to.root.position_m - from.root.position_m) / dt_s).collect()
@@ -122,10 +123,10 @@ impl RecordedStep<'_> {
         self.replay.header()
     }
 
-    /// What the planner saw.
-    pub fn world(&self) -> World<'_> {
+    /// The view that the planner read.
+    pub fn world(&self) -> WorldView<'_> {
         let Scenario { coupling, dt_s, .. } = self.header().scenario;
-        World {
+        WorldView {
             positions_m: &self.positions_m,
             velocities_mps: &self.velocities_mps,
             facings_rad: &self.facings_rad,
@@ -142,8 +143,8 @@ impl RecordedStep<'_> {
         }
     }
 
-    /// The velocity at which an agent really went, m/s.
-    pub fn walked_mps(&self, agent: usize) -> Vec2 {
+    /// Actual velocity of an agent in the step, m/s.
+    pub fn actual_mps(&self, agent: usize) -> Vec2 {
         let moved_m = self.after[agent].root.position_m - self.before[agent].root.position_m;
         moved_m / self.header().scenario.dt_s
     }

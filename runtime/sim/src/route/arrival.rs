@@ -1,27 +1,27 @@
-//! Whether and when an agent has arrived: its root, the waypoints passed, comes near to its last goal. World, metres.
+//! Arrival of an agent: its root comes near its last goal after it has passed all other waypoints. World, metres.
 
 use glam::{DVec2, Vec2};
 
-use crate::route::path::Progress;
+use crate::route::path::PathProgress;
 use crate::scenario::AgentSpec;
 
-/// How near, m.
+/// Distance from the last goal within which an agent has arrived, m: what `fbcrowd measure` counts.
 pub(crate) const ARRIVAL_M: f64 = 0.5;
 
-/// One agent on its way.
+/// Whether and when one agent has arrived.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Arrival {
-    /// Which waypoints it has passed: on a round trip it is near the last one before.
-    pub progress: Progress,
-    /// It is near the last goal now.
-    pub is_at_goal: bool,
-    /// When it first was; none before.
-    pub at_s: Option<f64>,
+pub(crate) struct Arrival {
+    /// Waypoints passed so far: on a round trip the start is near the last goal.
+    pub(crate) progress: PathProgress,
+    /// Whether the agent is near its last goal now.
+    pub(crate) is_at_goal: bool,
+    /// Time at which it first was, s; none before.
+    pub(crate) at_s: Option<f64>,
 }
 
 impl Arrival {
-    /// Follows the root of `agent` to where it is now; whether it arrives with that.
-    pub fn follow(&mut self, agent: &AgentSpec, position_m: Vec2, now_s: f64) -> bool {
+    /// Follows the agent's root to its present position. Returns whether the agent arrives now for the first time.
+    pub(crate) fn follow(&mut self, agent: &AgentSpec, position_m: Vec2, now_s: f64) -> bool {
         let to_last = self.progress.pass(agent, position_m);
         let goal_m = agent.goals_m.last().copied().unwrap_or(agent.position_m);
         self.is_at_goal = to_last && DVec2::from(position_m).distance(goal_m.into()) < ARRIVAL_M;

@@ -1,5 +1,7 @@
-//! Who has not arrived because of a wall: agents walk straight from waypoint to waypoint, so one with a wall between
-//! two of them stands before it, unless it slips round. World, metres.
+//! Agents that cannot arrive because a wall crosses a straight path between two of their waypoints.
+//!
+//! Agents walk straight from waypoint to waypoint, so such an agent stops at the wall unless it slips around it. World,
+//! metres.
 
 use glam::Vec2;
 
@@ -7,36 +9,37 @@ use crate::route::arrival::ARRIVAL_M;
 use crate::scenario::{AgentSpec, Scenario};
 use crate::world::obstacles::Obstacles;
 
-/// Agents with walls across their ways that are not at their goals.
+/// Agents with blocked paths that are not at their goals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BlockedWays {
-    /// The first of them.
+pub struct BlockedPaths {
+    /// Index of the first such agent.
     pub agent: usize,
-    /// Its first waypoint that lies behind a wall.
+    /// Index of its first waypoint that lies behind a wall.
     pub waypoint: usize,
-    /// How many there are.
+    /// Number of such agents.
     pub agents: usize,
 }
 
-/// Given where every agent ended; none where no wall can be the reason.
-pub fn blocked_ways(scenario: &Scenario, ends_m: impl Iterator<Item = Vec2>) -> Option<BlockedWays> {
+/// The agents with blocked paths, given the position at which every agent ended; none where no wall can be the reason.
+pub fn blocked_paths(scenario: &Scenario, ends_m: impl Iterator<Item = Vec2>) -> Option<BlockedPaths> {
     let obstacles = Obstacles::new(&scenario.obstacles_m);
     let agents = scenario.agents.iter().zip(ends_m).enumerate();
     let mut blocked = agents
         .filter(|(_, (agent, end_m))| !is_at_goal(agent, *end_m))
         .filter_map(|(index, (agent, _))| Some((index, blocked_waypoint(agent, &obstacles)?)));
     let (agent, waypoint) = blocked.next()?;
-    Some(BlockedWays { agent, waypoint, agents: 1 + blocked.count() })
+    Some(BlockedPaths { agent, waypoint, agents: 1 + blocked.count() })
 }
 
 fn is_at_goal(agent: &AgentSpec, end_m: Vec2) -> bool {
     agent.goals_m.last().is_none_or(|goal_m| f64::from(goal_m.distance(end_m)) < ARRIVAL_M)
 }
 
+/// Index of the first waypoint to which the straight path is blocked.
 fn blocked_waypoint(agent: &AgentSpec, obstacles: &Obstacles) -> Option<usize> {
     let from_m = [agent.position_m].into_iter().chain(agent.goals_m.iter().copied());
-    let mut ways_m = from_m.zip(&agent.goals_m);
-    ways_m.position(|(from_m, &to_m)| !obstacles.is_free(from_m, to_m))
+    let mut paths_m = from_m.zip(&agent.goals_m);
+    paths_m.position(|(from_m, &to_m)| !obstacles.is_free(from_m, to_m))
 }
 
 #[cfg(test)]
@@ -46,21 +49,21 @@ mod tests {
     use super::*;
     use crate::simulation::tests::antipodal;
 
-    /// The first blocked agent, its waypoint and how many there are, where only agent 3 ends at its goal.
+    /// The first blocked agent, its waypoint and the number of blocked agents, where only agent 3 ends at its goal.
     fn check(scenario: &Scenario, expected: Option<[usize; 3]>) {
         let ends_m = scenario.agents.iter().enumerate().map(|(index, agent)| match index {
             3 => agent.goals_m[agent.goals_m.len() - 1],
             _ => agent.position_m,
         });
-        let found = blocked_ways(scenario, ends_m);
-        assert_eq!(found.map(|BlockedWays { agent, waypoint, agents }| [agent, waypoint, agents]), expected);
+        let found = blocked_paths(scenario, ends_m);
+        assert_eq!(found.map(|BlockedPaths { agent, waypoint, agents }| [agent, waypoint, agents]), expected);
     }
 
     #[test]
-    fn straight_ways_through_walls_block_whoever_has_not_arrived() {
+    fn a_wall_across_a_straight_path_blocks_agents_that_have_not_arrived() {
         let mut scenario = antipodal(6, 4.0);
         check(&scenario, None);
-        // Across everybody's way.
+        // Across the path of every agent.
         scenario.obstacles_m = vec![[(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(Vec2::from).to_vec()];
         check(&scenario, Some([0, 0, 5]));
         scenario.agents[0].goals_m.insert(0, Vec2::new(0.0, 2.0));

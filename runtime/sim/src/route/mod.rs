@@ -1,13 +1,13 @@
-//! Routes: from an agent's goals to its preferred velocity (`FbCrowd` §6).
+//! Routes: from an agent's goals to its preferred velocity (`FbCrowd` §3, stage 2).
 //!
-//! Enters: waypoints, walls, the agent's position. Leaves: v_pref, and whether the agent has arrived.
+//! Enters: an agent's waypoints, the walls, the agent's position. Leaves: v_pref, and whether the agent has arrived.
 //!
-//! Read `path`, then `arrival`, then `blocked_paths`, which reports walls across the straight paths.
+//! Read `path` (v_pref along waypoints), then `arrival` (when an agent has arrived), then `blocked_paths` (straight
+//! paths that a wall crosses, for reports).
 
 pub(crate) mod arrival;
 pub(crate) mod blocked_paths;
 pub(crate) mod path;
 
-pub use arrival::Arrival;
-pub use blocked_paths::{BlockedWays, blocked_ways};
-pub use path::{Braking, Progress, preferred_mps};
+pub use blocked_paths::{BlockedPaths, blocked_paths};
+pub use path::{Braking, PathProgress, preferred_mps};

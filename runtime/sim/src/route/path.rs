@@ -1,75 +1,79 @@
-//! The way to the goal: v_pref along ordered waypoints (`FbCrowd` §3, stage 2; the navigation mesh comes later).
+//! v_pref along an agent's waypoints (`FbCrowd` §3, stage 2).
 //!
-//! An agent heads for its next waypoint at its preferred speed, rounds it on its way to the one after, brakes
-//! evenly before the last and then stays there. Crowds shove: whoever is shoved past a waypoint goes on, and whoever is
-//! shoved behind a wall after it goes round by the waypoint again. World, metres, seconds.
+//! An agent walks straight to its next waypoint at its preferred speed, turns towards the one after as it comes near,
+//! brakes evenly before the last one and stays there. Crowds push: an agent pushed past a waypoint goes on, and an
+//! agent pushed behind a wall goes back by the waypoint that it passed last. World, metres, seconds.
 
 use glam::Vec2;
 
 use crate::scenario::AgentSpec;
 use crate::world::obstacles::Obstacles;
 
-/// Within this distance a waypoint is passed by who is beyond it: two people abreast fill the way about it, and a third
-/// who rounds a corner beside them would come back for it.
+/// Distance within which an agent beyond a waypoint has passed it, m: two agents abreast fill the path about the
+/// waypoint, and a third that turned the corner beside them would otherwise come back.
 const BESIDE_M: f32 = 1.0;
-/// Within this distance aside it is rounded in full; at [`BESIDE_M`], not at all.
+/// Distance aside up to which a waypoint is rounded in full, m; at [`BESIDE_M`] it is not rounded at all.
 const ROUNDED_M: f32 = 0.5;
-/// Rounding begins this long before a waypoint, s: 0.9 m at a walk. Were v_pref to jump to the next leg instead, a
-/// right angle would nearly stop a walker (0.1 m/s; so, 0.6). Beginning at 1 s, bodies are slower through lanes of 1 m.
+/// Time before a waypoint at which rounding begins, s: 0.9 m at a walk (docs/tuning.md).
 const ROUNDING_S: f32 = 0.7;
-/// Cosine of the sharpest turn that is rounded, 120°: to turn back, a waypoint is walked to …
+/// Cosine of the sharpest turn that is rounded, 120°. To turn further, an agent first walks to the waypoint.
 const ROUNDED_COS: f32 = -0.5;
-/// … within this distance: the arrival radius of the definitions.
+/// Distance within which a waypoint of such a turn is reached, m: the radius of an arrival.
 const WAYPOINT_RADIUS_M: f32 = 0.5;
-/// A passed waypoint is gone back to from no farther than this: a crowd shoves its people by a few bodies' widths.
-const SHOVED_M: f32 = 3.0;
-/// The last goal is reached within this distance, half a step …
+/// Farthest distance from which an agent goes back to a passed waypoint, m: a crowd pushes by a few body widths.
+const PUSHED_M: f32 = 3.0;
+/// Distance within which the last goal is reached, m: half a step.
 const GOAL_RADIUS_M: f32 = 0.2;
-/// … and sought again only when an agent is pushed away further than this: with 0.4 m the bodies of slow databases,
-/// whose least step is long, shuffled about their goals for ever.
+/// Distance beyond which an agent that was pushed away walks to its last goal again, m. At 0.4 m bodies of slow
+/// databases, whose least step is long, shuffle about their goals for ever.
 const GOAL_LEFT_RADIUS_M: f32 = 0.6;
-/// Even braking before the goal, a third of what a person can do at most, m/s².
+/// Even braking before the last goal, m/s²: a third of what a person can do at most.
 const BRAKING_MPS2: f32 = 1.0;
-/// Over the last stretch the speed falls with the distance: this much time is left, s.
+/// Time left over the last stretch, s: there the speed falls with the distance.
 const STOPPING_TIME_S: f32 = 0.5;
 
 /// How an agent slows down before its last goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Braking {
-    /// As a body can: evenly, then it stays, until it is pushed away.
+    /// As a body can: evenly; then it stays until it is pushed away.
     Evenly,
-    /// As a disc can, which stops at once: at full speed, until the goal lies within this time, s; it never rests. The
+    /// As a disc can, which stops at once: at full speed until the goal lies within this time, s; it never rests. The
     /// protocol under which RVO2 is measured (`fbcrowd bench table1 --discs`).
     Within(f32),
 }
 
-/// How far an agent has got on its way.
+/// How far an agent has come along its waypoints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Progress {
-    /// Index of the waypoint that it heads for.
+pub struct PathProgress {
+    /// Index of the waypoint to which it walks.
     pub next: u32,
-    /// It has reached the last one and stays.
+    /// Whether it has reached the last one and stays there.
     pub arrived: bool,
 }
 
-impl Progress {
-    /// Counts the waypoints that it has passed where it is now; whether it heads for the last one.
+impl PathProgress {
+    /// Passes the waypoints that lie behind the agent's present position. Returns whether the next one is the last.
     pub fn pass(&mut self, agent: &AgentSpec, position_m: Vec2) -> bool {
         let last = agent.goals_m.len().saturating_sub(1);
-        while (self.next as usize) < last && Corner::new(agent, self.next as usize).is_passed(position_m) {
+        while (self.next as usize) < last && RoundedWaypoint::new(agent, self.next as usize).is_passed(position_m) {
             self.next += 1;
         }
         self.next as usize == last
     }
 }
 
-/// v_pref at a position, m/s.
+/// v_pref at a position, m/s. Cases, in order:
+///
+/// 1. no goals, or the last one reached: stay;
+/// 2. pushed behind a wall: back to the waypoint passed last;
+/// 3. before a waypoint that is not the last: towards it, rounding it;
+/// 4. before the last: towards it, braking.
 pub fn preferred_mps(
     agent: &AgentSpec,
     position_m: Vec2,
     obstacles: &Obstacles,
     braking: Braking,
-    progress: &mut Progress,
+    progress: &mut PathProgress,
 ) -> Vec2 {
     if agent.goals_m.is_empty() {
         return Vec2::ZERO;
@@ -78,11 +82,11 @@ pub fn preferred_mps(
     let next = progress.next as usize;
     let to_goal_m = agent.goals_m[next] - position_m;
     progress.arrived = to_last && to_goal_m.length() < arrival_radius_m(progress.arrived);
-    if let Some(round_m) = way_round_m(agent, next, position_m, obstacles) {
-        return (round_m - position_m).normalize_or_zero() * agent.preferred_speed_mps;
+    if let Some(back_m) = waypoint_to_go_back_to_m(agent, next, position_m, obstacles) {
+        return (back_m - position_m).normalize_or_zero() * agent.preferred_speed_mps;
     }
     if !to_last {
-        return Corner::new(agent, next).heading(position_m) * agent.preferred_speed_mps;
+        return RoundedWaypoint::new(agent, next).direction(position_m) * agent.preferred_speed_mps;
     }
     let speed_mps = match braking {
         Braking::Evenly if progress.arrived => 0.0,
@@ -92,18 +96,18 @@ pub fn preferred_mps(
     to_goal_m.normalize_or_zero() * speed_mps.min(agent.preferred_speed_mps)
 }
 
-/// A waypoint that is not the last one.
-struct Corner {
+/// A waypoint that is not the last one, and how it is rounded.
+struct RoundedWaypoint {
     waypoint_m: Vec2,
     after_m: Vec2,
-    /// Unit vector across the line that halves the angle of the ways to and from it, onwards; none where it is a turn
-    /// back.
+    /// Unit vector onwards, across the bisector of the paths to and from the waypoint; none where the turn is too sharp
+    /// to be rounded.
     onwards: Option<Vec2>,
-    /// Rounding begins this far before that line, m.
+    /// Distance before the bisector at which rounding begins, m.
     rounding_m: f32,
 }
 
-impl Corner {
+impl RoundedWaypoint {
     fn new(agent: &AgentSpec, waypoint: usize) -> Self {
         let [waypoint_m, after_m] = [agent.goals_m[waypoint], agent.goals_m[waypoint + 1]];
         let before_m = waypoint.checked_sub(1).map_or(agent.position_m, |before| agent.goals_m[before]);
@@ -113,7 +117,7 @@ impl Corner {
         Self { waypoint_m, after_m, onwards, rounding_m }
     }
 
-    /// Whether it lies behind, and no more than a little aside; where it is a turn back, whether it is near.
+    /// Whether the waypoint lies behind, and not far aside; before a sharp turn, whether it is near.
     fn is_passed(&self, position_m: Vec2) -> bool {
         let beyond_m = position_m - self.waypoint_m;
         match self.onwards {
@@ -122,8 +126,8 @@ impl Corner {
         }
     }
 
-    /// Unit direction of v_pref: to the waypoint, turning to the one after as the line through it comes near.
-    fn heading(&self, position_m: Vec2) -> Vec2 {
+    /// Unit direction of v_pref: to the waypoint, turning towards the one after as the bisector comes near.
+    fn direction(&self, position_m: Vec2) -> Vec2 {
         let [to, after] = [self.waypoint_m, self.after_m].map(|goal_m| (goal_m - position_m).normalize_or_zero());
         let Some(onwards) = self.onwards else { return to };
         let beyond_m = position_m - self.waypoint_m;
@@ -134,13 +138,13 @@ impl Corner {
     }
 }
 
-/// The waypoint passed last, for who has been shoved to where a wall hides the next one. Where a wall hides it from the
-/// waypoint too, the ways were meant so.
-fn way_round_m(agent: &AgentSpec, next: usize, position_m: Vec2, obstacles: &Obstacles) -> Option<Vec2> {
+/// The waypoint passed last, where a wall hides the next one from an agent that was pushed aside. None where a wall
+/// hides the next waypoint from that one too: the scenario's path is blocked then.
+fn waypoint_to_go_back_to_m(agent: &AgentSpec, next: usize, position_m: Vec2, obstacles: &Obstacles) -> Option<Vec2> {
     let (passed_m, next_m) = (agent.goals_m[next.checked_sub(1)?], agent.goals_m[next]);
     let sees = |from_m, to_m| obstacles.is_free(from_m, to_m);
-    let shoved = position_m.distance(passed_m) < SHOVED_M && !sees(position_m, next_m);
-    (shoved && sees(position_m, passed_m) && sees(passed_m, next_m)).then_some(passed_m)
+    let pushed = position_m.distance(passed_m) < PUSHED_M && !sees(position_m, next_m);
+    (pushed && sees(position_m, passed_m) && sees(passed_m, next_m)).then_some(passed_m)
 }
 
 fn arrival_radius_m(arrived: bool) -> f32 {
@@ -172,15 +176,16 @@ mod tests {
         }
     }
 
-    fn open() -> Obstacles {
+    fn open_ground() -> Obstacles {
         Obstacles::default()
     }
 
-    /// v_pref at each step of a disc that follows it for a time, and how near to its first waypoint that leads it.
-    fn walked(agent: &AgentSpec, time_s: f32) -> (Vec<Vec2>, f32, Progress) {
-        let (mut position_m, mut progress, mut nearest_m) = (agent.position_m, Progress::default(), f32::INFINITY);
+    /// v_pref at each step of a disc that follows it for a time, the least distance from its first waypoint, and its
+    /// progress.
+    fn walk(agent: &AgentSpec, time_s: f32) -> (Vec<Vec2>, f32, PathProgress) {
+        let (mut position_m, mut progress, mut nearest_m) = (agent.position_m, PathProgress::default(), f32::INFINITY);
         let mut step = || {
-            let preferred_mps = preferred_mps(agent, position_m, &open(), Braking::Evenly, &mut progress);
+            let preferred_mps = preferred_mps(agent, position_m, &open_ground(), Braking::Evenly, &mut progress);
             position_m += preferred_mps * DT_S;
             nearest_m = nearest_m.min(position_m.distance(agent.goals_m[0]));
             preferred_mps
@@ -190,10 +195,10 @@ mod tests {
     }
 
     #[test]
-    fn waypoints_are_rounded_in_order_and_the_last_one_is_stayed_at() {
+    fn waypoints_are_rounded_in_order_and_the_last_is_kept() {
         for turn_deg in [0.0_f32, 45.0, -90.0, 118.0] {
             let after_m = Vec2::new(3.0, 0.0) + 4.0 * Vec2::from_angle(turn_deg.to_radians());
-            let (preferred_mps, nearest_m, progress) = walked(&agent(&[Vec2::new(3.0, 0.0), after_m]), 10.0);
+            let (preferred_mps, nearest_m, progress) = walk(&agent(&[Vec2::new(3.0, 0.0), after_m]), 10.0);
             assert!(nearest_m < 0.6 && progress.arrived, "{turn_deg}° {nearest_m} m");
             for pair in preferred_mps.windows(2).take_while(|pair| pair[1] != Vec2::ZERO) {
                 assert!(pair[0].angle_to(pair[1]).abs() < 0.3, "{turn_deg}° {pair:?}");
@@ -202,14 +207,14 @@ mod tests {
     }
 
     #[test]
-    fn who_starts_on_a_waypoint_goes_on() {
-        let (_, _, progress) = walked(&agent(&[Vec2::ZERO, Vec2::ZERO, Vec2::new(5.0, 0.0)]), 10.0);
+    fn an_agent_that_starts_on_a_waypoint_goes_on() {
+        let (_, _, progress) = walk(&agent(&[Vec2::ZERO, Vec2::ZERO, Vec2::new(5.0, 0.0)]), 10.0);
         assert!(progress.arrived);
     }
 
     #[test]
-    fn to_turn_back_a_waypoint_is_walked_to() {
-        let (preferred_mps, nearest_m, progress) = walked(&agent(&[Vec2::new(3.0, 0.0), Vec2::new(-2.0, 0.3)]), 10.0);
+    fn a_sharp_turn_is_made_at_the_waypoint() {
+        let (preferred_mps, nearest_m, progress) = walk(&agent(&[Vec2::new(3.0, 0.0), Vec2::new(-2.0, 0.3)]), 10.0);
         assert!(nearest_m < WAYPOINT_RADIUS_M && progress.arrived);
         assert!(preferred_mps.iter().all(|preferred_mps| preferred_mps.y.abs() < 0.2));
     }
@@ -217,9 +222,9 @@ mod tests {
     #[test]
     fn speed_falls_evenly_before_the_goal() {
         let agent = agent(&[Vec2::new(5.0, 0.0)]);
-        let (mut position_m, mut progress, mut speed_mps, dt_s) = (Vec2::ZERO, Progress::default(), 1.3, 0.01);
+        let (mut position_m, mut progress, mut speed_mps, dt_s) = (Vec2::ZERO, PathProgress::default(), 1.3, 0.01);
         while !progress.arrived {
-            let next_mps = preferred_mps(&agent, position_m, &open(), Braking::Evenly, &mut progress).length();
+            let next_mps = preferred_mps(&agent, position_m, &open_ground(), Braking::Evenly, &mut progress).length();
             assert!(progress.arrived || speed_mps - next_mps <= 1.02 * BRAKING_MPS2 * dt_s, "{speed_mps} {next_mps}");
             position_m.x += next_mps * dt_s;
             speed_mps = next_mps;
@@ -228,33 +233,32 @@ mod tests {
 
     #[test]
     fn an_agent_without_goals_stays() {
-        assert_eq!(
-            preferred_mps(&agent(&[]), Vec2::ONE, &open(), Braking::Evenly, &mut Progress::default()),
-            Vec2::ZERO
-        );
+        let mut progress = PathProgress::default();
+        let preferred_mps = preferred_mps(&agent(&[]), Vec2::ONE, &open_ground(), Braking::Evenly, &mut progress);
+        assert_eq!(preferred_mps, Vec2::ZERO);
     }
 
     #[test]
-    fn who_rounds_a_corner_beside_its_waypoint_goes_on_and_who_is_not_round_it_does_not() {
+    fn a_waypoint_is_passed_beside_it_but_not_before_it() {
         let agent = agent(&[Vec2::new(11.0, 1.0), Vec2::new(11.0, 12.0)]);
         for (position_m, next) in
             [([10.8, 1.8], 1), ([11.8, 1.3], 1), ([10.2, 1.3], 0), ([10.2, 2.2], 0), ([1.0, 3.0], 0)]
         {
-            let mut progress = Progress::default();
-            preferred_mps(&agent, Vec2::from(position_m), &open(), Braking::Evenly, &mut progress);
+            let mut progress = PathProgress::default();
+            preferred_mps(&agent, Vec2::from(position_m), &open_ground(), Braking::Evenly, &mut progress);
             assert_eq!(progress.next, next, "{position_m:?}");
         }
     }
 
     #[test]
-    fn who_is_shoved_aside_after_the_waypoint_in_a_door_goes_through_the_door() {
+    fn an_agent_pushed_behind_a_door_post_goes_back_to_the_door() {
         let post_m = [(0.0, 0.5), (0.4, 0.5), (0.4, 5.0), (0.0, 5.0)].map(Vec2::from).to_vec();
         let (obstacles, agent) = (Obstacles::new(&[post_m]), agent(&[Vec2::new(-0.4, 0.0), Vec2::new(60.0, 0.0)]));
-        let mut progress = Progress { next: 1, arrived: false };
-        let mut heading_for = |x_m, y_m| {
+        let mut progress = PathProgress { next: 1, arrived: false };
+        let mut direction = |x_m, y_m| {
             preferred_mps(&agent, Vec2::new(x_m, y_m), &obstacles, Braking::Evenly, &mut progress).normalize()
         };
-        assert!(heading_for(-0.5, 1.5).distance(Vec2::new(0.1, -1.5).normalize()) < 1e-6);
-        assert!(heading_for(-0.5, 0.3).x > 0.99 && heading_for(0.6, 1.5).x > 0.99);
+        assert!(direction(-0.5, 1.5).distance(Vec2::new(0.1, -1.5).normalize()) < 1e-6);
+        assert!(direction(-0.5, 0.3).x > 0.99 && direction(0.6, 1.5).x > 0.99);
     }
 }

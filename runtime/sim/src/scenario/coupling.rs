@@ -6,18 +6,18 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Coupling {
-    /// The paper's: bodies follow the plans, and discs the bodies.
+    /// The paper's: bodies follow the plans, and discs follow the bodies (§3.4).
     #[default]
     TwoWay,
-    /// Bodies off: each disc moves as planned and faces as planned at once, to compare planners alone. A recording
-    /// shows bodies that stand and glide, no foot of which is planted.
+    /// Without bodies: each disc moves and faces as planned at once, to compare planners alone. A recording shows
+    /// bodies that stand and glide; no foot is planted.
     Discs,
-    /// The user study's rival: discs move as planned, and bodies follow them exactly; see `coupling::decoupled`.
+    /// The baseline of the user study (§7): discs move as planned, and bodies follow them exactly.
     Decoupled,
 }
 
 impl Coupling {
-    /// Whether what is planned is carried out by bodies, which take it up later than a disc does.
+    /// Whether bodies carry the plans out, which respond later than a disc.
     pub fn plans_for_bodies(self) -> bool {
         self == Self::TwoWay
     }

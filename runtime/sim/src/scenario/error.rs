@@ -1,22 +1,22 @@
-//! What can be wrong with a scenario file: the place in its text, what is wrong there and what to do.
+//! Errors of a scenario file: each names the position in the text, what is wrong there and how to mend it.
 
 use std::io;
 use std::path::PathBuf;
 
 pub use motiondb::files::Invalid;
 
-/// Why there is no scenario.
+/// Why a scenario cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ScenarioError {
-    /// The system refuses to read.
+    /// The system cannot read a file.
     #[error("{}: cannot be read: {source}; check that the file exists and is text in UTF-8", path.display())]
     Unreadable {
-        /// The scenario file, or one that it names.
+        /// The scenario file, or an agent file that it names.
         path: PathBuf,
-        /// What the system said.
+        /// The system's reason.
         source: io::Error,
     },
-    /// The text says something that cannot be simulated.
+    /// The text describes something that cannot be simulated.
     #[error(transparent)]
     Invalid(Box<Invalid>),
 }

@@ -1,7 +1,7 @@
-//! A place in a scenario, `[x, y]`: exactly two numbers, of which glam's own reading would drop a third silently.
-//! World, metres.
+//! A position in a scenario file, `[x, y]`: exactly two numbers; glam's own reading would drop a third silently. World,
+//! metres.
 //!
-//! Recordings hold places too, in the same order and without their number, so one reading serves both.
+//! Recordings hold positions too, in the same order and without their number, so one reading serves both.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use glam::Vec2;
 use serde::de::{Error, IgnoredAny, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-/// `[x, y]`
+/// `[x, y]`, m.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Point(pub(crate) Vec2);
 
@@ -19,9 +19,9 @@ impl<'de> Deserialize<'de> for Point {
     }
 }
 
-/// Reads what may be left out: for fields that are no [`Point`] because they are public.
+/// Reads an optional position: for public fields, which are no [`Point`].
 pub(crate) fn optional<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec2>, D::Error> {
-    Ok(Option::<Point>::deserialize(deserializer)?.map(|Point(place_m)| place_m))
+    Ok(Option::<Point>::deserialize(deserializer)?.map(|Point(position_m)| position_m))
 }
 
 struct TwoNumbers;
@@ -35,11 +35,11 @@ impl<'de> Visitor<'de> for TwoNumbers {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut numbers: A) -> Result<Point, A::Error> {
         let mut next = |count: usize| numbers.next_element()?.ok_or_else(|| A::Error::invalid_length(count, &self));
-        let place_m = Vec2::new(next(0)?, next(1)?);
+        let position_m = Vec2::new(next(0)?, next(1)?);
         let mut count = 2;
         while numbers.next_element::<IgnoredAny>()?.is_some() {
             count += 1;
         }
-        if count == 2 { Ok(Point(place_m)) } else { Err(A::Error::invalid_length(count, &self)) }
+        if count == 2 { Ok(Point(position_m)) } else { Err(A::Error::invalid_length(count, &self)) }
     }
 }

@@ -1,53 +1,39 @@
-//! Tunables of the synthesis, with units, sources and reasons.
+//! Tunables of the synthesis, as a scenario file may set them.
 
 use serde::{Deserialize, Serialize};
 
-/// Which syntheses a body may use (`FbCrowd` §7 compares them on its obstacle course).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Modes {
-    /// Both, by Eq. 1.
-    #[default]
-    Hybrid,
-    /// Motion blending alone.
-    Blending,
-    /// Semi-procedural locomotion alone, but for standing.
-    SemiProcedural,
-}
+use crate::synthesis::Modes;
 
-/// How synthesis changes hands (App. 10); `fbcrowd bench course` measures both.
+/// How a body changes from one synthesis to the other (App. 10); `fbcrowd bench course` measures both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Transition {
-    /// At the next pair of T, at the velocity that the body has; what differs is left to inertia.
+    /// At the next pair of T, at the velocity that the body has. Inertialization carries the difference of poses.
     #[default]
     Direct,
-    /// The paper's: first at m_mb's velocity, on m_mb alone where it blends; the planner sees the body committed to it.
-    /// t_trans does not count the time until that velocity is reached.
+    /// The paper's transition: the body first takes the velocity of m_mb, to which the planner sees it committed.
+    /// t_trans does not include the time until the body has that velocity.
     ThroughMMb,
 }
 
-/// Tunables of the synthesis.
+/// Tunables of the synthesis. `docs/tuning.md` holds the measurements behind the defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct HmsParams {
-    /// Which syntheses a body may use.
+    /// Syntheses that a body may use.
     pub modes: Modes,
-    /// How a body changes from one to the other.
+    /// Transition between the syntheses.
     pub transition: Transition,
     /// Greatest change of the root's velocity in the body's frame, m/s². People brake and start with up to about 3.
     pub acceleration_max_mps2: f32,
     /// Greatest change of the turn rate, rad/s².
     pub turn_acceleration_max_rad_s2: f32,
-    /// Fastest that ankles and wrists move because shares change hands, root mean square over the cycle, m/s: slim
-    /// simplices would else flip poses. Changes between like examples are quick, however many lie on the way.
+    /// Greatest speed of ankles and wrists due to a change of weights alone, m/s: root mean square over the cycle. It
+    /// keeps poses from flipping where simplices are slim.
     pub pose_change_max_mps: f32,
-    /// T_turn: the turn rate is the angle to the wanted facing divided by this time, s. Shorter overshoots at the turn
-    /// acceleration above; longer tracks worse (a turn of 90° at 1.3 m/s: 1.4 s and 1.2 m off the planned velocity at
-    /// 0.3, 2.9 s and 2.1 m at 1).
+    /// T_turn: the turn rate is the angle to the planned facing divided by this time, s.
     pub turn_time_s: f32,
-    /// d_thresh of Eq. 1, as the density filter counts, 1/m: where more people are about, semi-procedural locomotion
-    /// follows the planner more closely than a blend.
+    /// d_thresh of Eq. 1, in the units of the density filter, 1/m: above it a body uses semi-procedural locomotion.
     pub density_threshold: f32,
 }
 

@@ -1,4 +1,4 @@
-//! Claims about whole bodies, on the analytic database of [`crate::test_db`].
+//! Whole bodies, on the analytic database of [`crate::test_db`].
 
 use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -8,34 +8,26 @@ use motiondb::body::{Joint, Root};
 use motiondb::motion::{MotionDb, Parameters};
 use proptest::prelude::*;
 
-use crate::maths::arc::went;
+use crate::maths::arc::parameters_between;
 use crate::planning::plan::Plan;
-use crate::synthesis::Synthesis;
-use crate::synthesis::blending::blend_space::{Nearest, Space};
-use crate::synthesis::blending::mix::Mix;
-use crate::synthesis::command::blend_query::asking;
-use crate::synthesis::command::stand_or_step::Gait;
-use crate::synthesis::library::context::Studio;
-use crate::synthesis::params::{HmsParams, Modes};
+use crate::synthesis::blending::{BlendDomain, ExampleMix};
+use crate::synthesis::command::plan_requesting;
+use crate::synthesis::{BodyOutput, HmsParams, Modes, SynthesisContext};
 use crate::test_db::test_db;
 
 const DT_S: f32 = 1.0 / 30.0;
 
 struct Walk {
     db: Arc<MotionDb>,
-    steps: Vec<(Root, Synthesis)>,
+    steps: Vec<(Root, BodyOutput)>,
 }
 
-/// Lets a body follow a plan that depends on time and on where it is.
+/// Lets a body follow a plan of time and root, by blending alone.
 fn walk(seconds: f32, dt_s: f32, plan: impl Fn(f32, &Root) -> Plan) -> Walk {
-    walk_on(test_db(), seconds, dt_s, plan)
-}
-
-fn walk_on(db: MotionDb, seconds: f32, dt_s: f32, plan: impl Fn(f32, &Root) -> Plan) -> Walk {
     let params = HmsParams { modes: Modes::Blending, ..HmsParams::default() };
-    let studio = Studio::new(Arc::new(db), params);
-    let steps = studio.walk(0.3, seconds, dt_s, plan, |body, synthesis| (body.root, *synthesis));
-    Walk { db: studio.db, steps }
+    let context = SynthesisContext::new(Arc::new(test_db()), params);
+    let steps = context.walk_alone(0.3, seconds, dt_s, plan, |body, output| (body.root, *output));
+    Walk { db: context.db, steps }
 }
 
 fn towards(angle_rad: f32, speed_mps: f32) -> Plan {
@@ -44,14 +36,14 @@ fn towards(angle_rad: f32, speed_mps: f32) -> Plan {
 
 fn soles_m(walk: &Walk, side: usize) -> Vec<[Vec3; 3]> {
     let skeleton = &walk.db.skeleton;
-    let sole = |(root, synthesis): &(Root, Synthesis)| {
-        let points = synthesis.pose.forward_kinematics(skeleton).sole_points_m(skeleton, side);
+    let sole = |(root, output): &(Root, BodyOutput)| {
+        let points = output.pose.forward_kinematics(skeleton).sole_points_m(skeleton, side);
         points.map(|point| root.to_world(point))
     };
     walk.steps.iter().map(sole).collect()
 }
 
-/// Planted-foot slide, cm/s, over the middle of each contact, and planted share, by the blended contacts.
+/// Planted-foot slide over the middle of each contact, cm/s, and planted share, by the blended contacts.
 fn planted_slide(walk: &Walk, dt_s: f32) -> (f32, f32) {
     let (mut speeds, mut planted_steps) = (Vec::new(), 0);
     for side in 0..2 {
@@ -75,8 +67,8 @@ fn planted_slide(walk: &Walk, dt_s: f32) -> (f32, f32) {
     (speeds.iter().sum::<f32>() / speeds.len() as f32, planted_steps as f32 / (2 * walk.steps.len()) as f32)
 }
 
-/// Start, turns both ways, a side-step, a step back, and a stop: every change of speed and direction.
-fn errand(time_s: f32, root: &Root) -> Plan {
+/// Start, turns to both sides, a side-step, a step back, and a stop: every change of speed and direction.
+fn command_sequence(time_s: f32, root: &Root) -> Plan {
     let held = |velocity_mps| Plan { velocity_mps, facing_rad: root.facing_rad, ..Plan::default() };
     match time_s {
         t if t < 0.5 => held(Vec2::ZERO),
@@ -91,9 +83,9 @@ fn errand(time_s: f32, root: &Root) -> Plan {
 }
 
 #[test]
-fn planted_feet_hold_through_every_change_of_speed_and_direction() {
+fn planted_feet_hold_through_every_change() {
     for dt_s in [1.0 / 60.0, DT_S, 0.1] {
-        let walk = walk(14.0, dt_s, errand);
+        let walk = walk(14.0, dt_s, command_sequence);
         let (slide_cm_s, planted_share) = planted_slide(&walk, dt_s);
         assert!(slide_cm_s <= 1.0, "dt {dt_s}: {slide_cm_s} cm/s");
         assert!((0.5..0.8).contains(&planted_share), "dt {dt_s}: {planted_share}");
@@ -102,7 +94,7 @@ fn planted_feet_hold_through_every_change_of_speed_and_direction() {
 
 #[test]
 fn soles_stay_on_or_above_the_ground() {
-    let walk = walk(14.0, DT_S, errand);
+    let walk = walk(14.0, DT_S, command_sequence);
     for side in 0..2 {
         let lowest_m = soles_m(&walk, side).into_iter().flatten().map(|point| point.z).fold(f32::INFINITY, f32::min);
         assert!(lowest_m > -0.005, "{lowest_m}");
@@ -112,7 +104,7 @@ fn soles_stay_on_or_above_the_ground() {
 #[test]
 fn feet_move_without_jumps() {
     let dt_s = 1.0 / 60.0;
-    let walk = walk(14.0, dt_s, errand);
+    let walk = walk(14.0, dt_s, command_sequence);
     for side in 0..2 {
         let balls_m: Vec<Vec3> = soles_m(&walk, side).into_iter().map(|sole| sole[1]).collect();
         let fastest_mps = balls_m.windows(2).map(|pair| pair[0].distance(pair[1]) / dt_s).fold(0.0, f32::max);
@@ -121,7 +113,7 @@ fn feet_move_without_jumps() {
 }
 
 #[test]
-fn the_first_step_is_made_by_the_foot_on_the_side_to_which_it_goes() {
+fn the_foot_on_the_side_makes_the_first_step() {
     for (angle_rad, side) in [(1.2, 0), (-1.2, 1)] {
         let walk = walk(1.0, DT_S, |_, _| Plan { facing_rad: 0.0, ..towards(angle_rad, 0.5) });
         let first = walk.steps.iter().find(|step| step.1.contacts != [1.0; 2] && step.1.stance.foot.is_some());
@@ -130,7 +122,7 @@ fn the_first_step_is_made_by_the_foot_on_the_side_to_which_it_goes() {
 }
 
 #[test]
-fn a_plan_that_changes_its_mind_at_every_step_does_not_make_a_body_tremble() {
+fn alternating_plans_do_not_make_a_body_tremble() {
     let plan = |time_s: f32, _: &Root| {
         let turned_rad = if (time_s / DT_S).round() as i32 % 2 == 0 { 0.1 } else { -0.1 };
         Plan { velocity_mps: Vec2::from_angle(turned_rad) * 1.3, ..towards(0.0, 1.3) }
@@ -139,23 +131,23 @@ fn a_plan_that_changes_its_mind_at_every_step_does_not_make_a_body_tremble() {
     let aside_mps: Vec<f32> =
         walk.steps[60..].windows(2).map(|pair| (pair[1].0.position_m.y - pair[0].0.position_m.y) / DT_S).collect();
     let jump_mps = aside_mps.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max);
-    assert!(jump_mps < 0.1, "{jump_mps} m/s"); // of the plan's 0.26
+    assert!(jump_mps < 0.1, "{jump_mps} m/s"); // of the plan's 0.26 m/s
 }
 
 #[test]
-fn the_root_accelerates_like_a_person_and_keeps_an_even_speed() {
-    let walk = walk(14.0, DT_S, errand);
+fn the_root_accelerates_within_limits() {
+    let walk = walk(14.0, DT_S, command_sequence);
     let velocities: Vec<Vec2> =
         walk.steps.windows(2).map(|pair| (pair[1].0.position_m - pair[0].0.position_m) / DT_S).collect();
     let changes = velocities.windows(2).map(|pair| pair[0].distance(pair[1]) / DT_S);
-    // 3 m/s² in the body's frame, and the greatest turn rate times the speed there.
+    // 3 m/s² in the body's frame, and the greatest turn rate times the speed.
     assert!(changes.fold(0.0, f32::max) < 4.5);
     let even: Vec<f32> = velocities[60..85].iter().map(|velocity| velocity.length()).collect();
     assert!(even.iter().all(|speed| (speed - 1.3).abs() < 1e-3), "{even:?}");
 }
 
 #[test]
-fn a_standing_body_turns_on_the_spot_to_the_facing_that_is_asked() {
+fn a_standing_body_turns_to_the_planned_facing() {
     let walk = walk(4.0, DT_S, |_, _| Plan { facing_rad: 2.5, ..Plan::default() });
     let root = walk.steps[walk.steps.len() - 1].0;
     assert!((root.facing_rad - 2.5).abs() < 0.2 && root.position_m.length() < 0.5, "{root:?}");
@@ -163,7 +155,7 @@ fn a_standing_body_turns_on_the_spot_to_the_facing_that_is_asked() {
 }
 
 #[test]
-fn a_body_that_stops_stands_upright_with_its_feet_under_it() {
+fn a_stopped_body_stands_upright_on_its_feet() {
     for stop_s in [2.0, 2.1, 2.2, 2.3, 2.4, 2.5, 2.6, 2.7] {
         let plan = |time_s: f32, _: &Root| towards(0.0, if time_s < stop_s { 1.4 } else { 0.0 });
         let walk = walk(6.0, DT_S, plan);
@@ -171,7 +163,7 @@ fn a_body_that_stops_stands_upright_with_its_feet_under_it() {
         let crouch_m = first.pose.pelvis_m.z - last.pose.pelvis_m.z;
         assert!(crouch_m < 0.03, "stopped at {stop_s}: {crouch_m} m");
         for side in 0..2 {
-            let ball_m = |step: &Synthesis| {
+            let ball_m = |step: &BodyOutput| {
                 step.pose.forward_kinematics(&walk.db.skeleton).sole_points_m(&walk.db.skeleton, side)[1]
             };
             let off_m = ball_m(first).distance(ball_m(last));
@@ -181,12 +173,12 @@ fn a_body_that_stops_stands_upright_with_its_feet_under_it() {
 }
 
 #[test]
-fn the_head_leads_the_body_into_a_turn_by_a_fifth_to_half_a_second() {
+fn the_head_leads_the_body_into_a_turn() {
     for (dt_s, angle_rad) in [(1.0 / 60.0, FRAC_PI_2), (DT_S, -0.8), (0.1, FRAC_PI_2), (DT_S, -2.0)] {
         let walk = walk(6.0, dt_s, |time_s, _| towards(if time_s < 2.0 { 0.0 } else { angle_rad }, 1.2));
         let [body_s, head_s] = [0, 1].map(|of_head| {
-            let halfway = |(root, synthesis): &(Root, Synthesis)| {
-                let joints = synthesis.pose.forward_kinematics(&walk.db.skeleton);
+            let halfway = |(root, output): &(Root, BodyOutput)| {
+                let joints = output.pose.forward_kinematics(&walk.db.skeleton);
                 let ahead = joints.orientations[Joint::Head.index()] * Vec3::X;
                 let head_rad = ahead.y.atan2(ahead.x) * of_head as f32;
                 (root.facing_rad + head_rad) / angle_rad > 0.5
@@ -209,7 +201,7 @@ fn a_circle_closes() {
     let (turn_rate_rad_s, speed_mps, steps) = (1.2, 0.7, 200);
     let dt_s = TAU / turn_rate_rad_s / steps as f32;
     let lead_rad = turn_rate_rad_s * HmsParams::default().turn_time_s;
-    // At a constant angle ahead of the facing, cos α of the speed is asked.
+    // At a constant angle α ahead of the facing, the request is cos α of the planned speed.
     let plan = |_: f32, root: &Root| towards(root.facing_rad + lead_rad, speed_mps / lead_rad.cos());
     let walk = walk(12.0, dt_s, plan);
     let (from, to) = (walk.steps[walk.steps.len() - 1 - steps].0, walk.steps[walk.steps.len() - 1].0);
@@ -217,7 +209,7 @@ fn a_circle_closes() {
 }
 
 #[test]
-fn a_body_that_is_hardly_asked_to_move_stands_quietly() {
+fn a_body_with_a_creeping_plan_stands_still() {
     let velocity_mps = |time_s: f32| Vec2::from_angle(3.0 * time_s) * 0.05;
     let walk =
         walk(4.0, DT_S, |time_s, _| Plan { velocity_mps: velocity_mps(time_s), facing_rad: 0.0, ..Plan::default() });
@@ -225,9 +217,9 @@ fn a_body_that_is_hardly_asked_to_move_stands_quietly() {
 }
 
 #[test]
-fn shares_of_time_hold_planted_feet_without_any_correction() {
+fn shares_of_time_hold_planted_feet() {
     let db = test_db();
-    let mix = Mix::new(&Space::new(&db).locate(Parameters { speed_mps: 0.8, ..Parameters::default() }));
+    let mix = ExampleMix::new(&BlendDomain::new(&db).locate(Parameters { speed_mps: 0.8, ..Parameters::default() }));
     assert_eq!(mix.entries().len(), 2);
     let (small, speed_mps) = (1e-3, 0.8);
     for phase in [0.45, 0.5, 0.55] {
@@ -243,39 +235,31 @@ fn shares_of_time_hold_planted_feet_without_any_correction() {
 
 proptest! {
     #[test]
-    fn inside_the_hull_the_body_does_what_is_asked(weights in prop::array::uniform11(0.0f32..1.0)) {
+    fn inside_the_hull_a_body_does_what_is_requested(weights in prop::array::uniform11(0.0f32..1.0)) {
         let db = test_db();
         let sum: f32 = weights[1..].iter().sum();
-        let terms = db.examples[1..].iter().zip(&weights[1..]).map(|(example, weight)| example.parameters.to_vec3() * *weight);
-        let asked = Parameters::from_vec3(terms.sum::<Vec3>() / sum * (1.0 - 0.1 * weights[0]));
-        prop_assume!(Mix::new(&Space::new(&db).locate(asked)).share(0) < 0.3);
+        let weighted = db.examples[1..].iter().zip(&weights[1..]);
+        let terms = weighted.map(|(example, weight)| example.parameters.to_vec3() * *weight);
+        let requested = Parameters::from_vec3(terms.sum::<Vec3>() / sum * (1.0 - 0.1 * weights[0]));
+        prop_assume!(BlendDomain::new(&db).reachable(requested).idle_share < 0.3);
         let params = HmsParams::default();
-        let plan = |_: f32, root: &Root| asking(asked, root, &params);
+        let plan = |_: f32, root: &Root| plan_requesting(requested, root, &params);
         let roots: Vec<Root> = walk(6.0, DT_S, plan).steps[120..].iter().map(|step| step.0).collect();
-        let went = roots.windows(2).map(|pair| went(&pair[0], &pair[1], DT_S).to_vec3());
-        let mean = went.sum::<Vec3>() / (roots.len() - 1) as f32;
-        prop_assert!(mean.distance(asked.to_vec3()) < 2e-3, "{mean} instead of {asked:?}");
+        let moves = roots.windows(2).map(|pair| parameters_between(&pair[0], &pair[1], DT_S).to_vec3());
+        let mean = moves.sum::<Vec3>() / (roots.len() - 1) as f32;
+        prop_assert!(mean.distance(requested.to_vec3()) < 2e-3, "{mean} instead of {requested:?}");
     }
 
     #[test]
-    fn no_plan_however_wild_breaks_a_body(plans in prop::collection::vec((any::<f32>(), any::<f32>(), any::<f32>()), 40)) {
+    fn random_plans_give_valid_poses(plans in prop::collection::vec((any::<f32>(), any::<f32>(), any::<f32>()), 40)) {
         let plan = |time_s: f32, _: &Root| {
             let (x, y, facing_rad) = plans[(time_s / DT_S).round() as usize];
             Plan { velocity_mps: Vec2::new(x, y), facing_rad, ..Plan::default() }
         };
-        for (root, synthesis) in walk(1.3, DT_S, plan).steps {
+        for (root, output) in walk(1.3, DT_S, plan).steps {
             prop_assert!(root.position_m.is_finite() && root.facing_rad.is_finite());
-            prop_assert!(synthesis.pose.pelvis_m.is_finite());
-            prop_assert!(synthesis.pose.rotations.iter().all(|rotation| rotation.is_normalized()));
+            prop_assert!(output.pose.pelvis_m.is_finite());
+            prop_assert!(output.pose.rotations.iter().all(|rotation| rotation.is_normalized()));
         }
     }
-}
-
-#[test]
-fn bodies_without_slow_steps_start_too() {
-    // Half a second's acceleration, of which a walk at 4 m/s is a twelfth.
-    let parameters = Parameters { speed_mps: 0.33, ..Parameters::default() };
-    let nearest = Nearest { parameters, idle_share: 0.92, ..Nearest::default() };
-    let mut gait = Gait::STANDING;
-    assert!(gait.follow(&nearest, || true, DT_S));
 }

@@ -1,66 +1,107 @@
-//! One step of time, and what it leaves of all that decays: computed once for all bodies.
+//! Decay factors of one time step, computed once and shared by all bodies.
 //!
-//! With r a rate, a critically damped spring `x'' = −2r·x' − r²·x` takes an offset x and its rate v, exactly over a
-//! step, to
+//! A quantity with time constant T keeps the share e^(−dt/T) over a step. A critically damped spring of rate r takes an
+//! offset x and its rate of change v exactly to x' and v':
 //!
 //! ```text
+//! d²x/dt² = −2r·dx/dt − r²·x
 //! x' = e^(−r·dt)·(x + dt·(v + r·x)),   v' = e^(−r·dt)·(v − r·dt·(v + r·x)).
 //! ```
+//!
+//! The constants below are all time constants (s) and rates (1/s) of the synthesis. Each doc names the file that uses
+//! the constant; `docs/tuning.md` holds the measurements behind them.
 
 use std::ops::{Add, Mul, Sub};
 
-use crate::synthesis::command::{command_filter, displacement_accumulator, phase_catch_up};
-use crate::synthesis::hybrid::{inertialization, pose_smoothing};
-use crate::synthesis::pose::{foot_lock, look_at, pelvis};
+/// Time constant with which saved displacement is forgotten (`displacement_accumulator`), s. A plan slower than 5 cm/s
+/// never adds up to a step.
+const DISPLACEMENT_TIME_S: f32 = 4.0;
+/// T_r, time constant of the steady rate of change of commands (`command_filter`), s. It is longer than two steps of
+/// 0.1 s, over which plans alternate.
+const COMMAND_RATE_TIME_S: f32 = 0.15;
+/// Time constant of pose smoothing (`pose_smoothing`), s: a fifth of the duration of the fastest change of speed.
+const SMOOTHING_TIME_S: f32 = 0.05;
+/// Time constant with which the usual lag of the feet is learnt (`phase_catch_up`), s: an adult's stride at 100 steps a
+/// minute.
+const USUAL_LAG_TIME_S: f32 = 1.2;
+/// Rate of the spring that turns the direction of travel about (`pose_smoothing`), 1/s: the legs reverse in one step.
+const TRAVEL_RATE_HZ: f32 = 10.0;
+/// Rate of the spring that turns head and chest (`look_at`), 1/s. From straight ahead to the greatest angle the head
+/// then turns at 200 °/s, as in a glance.
+const LOOK_AT_RATE_HZ: f32 = 12.0;
+/// Rate of the spring that removes the difference of poses after a switch (`inertialization`), 1/s. A switch happens at
+/// mid-stance: 14 % is left when the next foot lands (0.3 s), 5 % after a step (0.4 s).
+const INERTIA_RATE_HZ: f32 = 12.0;
+/// Time after which the difference of poses at a switch has decayed (`hybrid_data`), s: 5 % is left.
+pub const INERTIA_DURATION_S: f32 = 0.4;
+/// Interval over which the rate of a pose difference is taken (`inertialization`), s; a shorter step replaces it.
+const LOOK_BACK_S: f32 = 1.0 / 120.0;
+/// Rate of the filter that releases a foot lock (`foot_lock`), 1/s: 2 % is left after 0.25 s, before the foot lands.
+const LOCK_RELEASE_RATE_HZ: f32 = 30.0;
+/// Rate of the filter that lowers a planted sole to the ground and lifts a swinging one (`foot_lock`), 1/s.
+const FOOT_LIFT_RATE_HZ: f32 = 80.0;
+/// Time constant with which a foot that lands while it still moves comes to rest (`foot_lock`), s. It is well within
+/// the tenth of a stance in which the sole rolls down; at once would jerk the knee.
+pub(crate) const LANDING_TIME_S: f32 = 0.012;
+/// Time constant of the mean speed of a foot (`foot_lock`), s: the speed jumps at each row of the database.
+const FOOT_SPEED_TIME_S: f32 = 0.03;
+/// Rate of the filter by which the pelvis rises again (`pelvis`), 1/s: of a drop, 1/8 is left after 0.25 s, a swing.
+const PELVIS_RISE_RATE_HZ: f32 = 20.0;
 
-/// The length of a step, and its decays.
+/// The length of a step and its decay factors. "Share left" is the share of a value that is left after the step.
 #[derive(Clone, Copy, Debug)]
 pub struct TimeStep {
-    /// dt, seconds.
+    /// Length of the step dt, s.
     pub dt_s: f32,
-    /// The moment before its end by which motion is told from poses, s.
+    /// Interval before the end of the step over which the rates of poses are taken, s.
     pub(crate) look_back_s: f32,
-    /// What is left of a debt.
-    pub(crate) owed: f32,
-    /// What is left of how steadily plans changed before.
-    pub(crate) steady: f32,
-    /// What is left of what was seen before.
-    pub(crate) seen: f32,
-    /// What is left of what a body was used to.
-    pub(crate) habit: f32,
-    pub(crate) turn_about: Spring,
-    pub(crate) gaze: Spring,
+    /// Share left of accumulated displacement.
+    pub(crate) displacement_left: f32,
+    /// Share left of the steady rate of change of commands.
+    pub(crate) command_rate_left: f32,
+    /// Share left of the distance between smoothed and current motion.
+    pub(crate) smoothing_left: f32,
+    /// Share left of the usual lag of the feet.
+    pub(crate) usual_lag_left: f32,
+    /// Spring of the direction of travel.
+    pub(crate) travel: Spring,
+    /// Spring of the look-at angle.
+    pub(crate) look_at: Spring,
+    /// Spring of the pose difference after a switch.
     pub(crate) inertia: Spring,
-    pub(crate) release: SoftSpring,
-    pub(crate) lift: SoftSpring,
-    pub(crate) rise: SoftSpring,
-    /// What is left of landing after a step, and after half of one.
-    pub(crate) landing: [f32; 2],
-    /// What is left of how fast a foot moved before.
-    pub(crate) foot_speed: f32,
+    /// Filter that releases a foot lock.
+    pub(crate) lock_release: SoftSpring,
+    /// Filter of the lift of a foot.
+    pub(crate) foot_lift: SoftSpring,
+    /// Filter of the rising pelvis.
+    pub(crate) pelvis_rise: SoftSpring,
+    /// Shares left of the speed of a landing foot: after the step, and after half of it.
+    pub(crate) landing_left: [f32; 2],
+    /// Share left of the earlier mean speed of a foot.
+    pub(crate) foot_speed_left: f32,
 }
 
 impl TimeStep {
-    /// Of `dt_s` seconds.
+    /// The decay factors of a step of `dt_s` seconds.
     pub fn new(dt_s: f32) -> Self {
         let left = |time_s: f32| libm::expf(-dt_s / time_s);
         let spring = |rate_hz: f32| Spring { decay: libm::expf(-rate_hz * dt_s), rate_hz, dt_s };
         let soft_spring = |rate_hz: f32| SoftSpring(spring(rate_hz));
         Self {
             dt_s,
-            look_back_s: inertialization::LOOK_BACK_S.min(dt_s),
-            owed: left(displacement_accumulator::FORGETTING_TIME_S),
-            steady: left(command_filter::STEADY_S),
-            seen: left(pose_smoothing::EASE_TIME_S),
-            habit: left(phase_catch_up::HABIT_TIME_S),
-            turn_about: spring(pose_smoothing::TURN_ABOUT_RATE_HZ),
-            gaze: spring(look_at::RATE_HZ),
-            inertia: spring(inertialization::RATE_HZ),
-            release: soft_spring(foot_lock::RELEASE_RATE_HZ),
-            lift: soft_spring(foot_lock::LIFT_RATE_HZ),
-            rise: soft_spring(pelvis::RISE_RATE_HZ),
-            landing: [foot_lock::LANDING_TIME_S, 2.0 * foot_lock::LANDING_TIME_S].map(left),
-            foot_speed: left(foot_lock::SPEED_TIME_S),
+            look_back_s: LOOK_BACK_S.min(dt_s),
+            displacement_left: left(DISPLACEMENT_TIME_S),
+            command_rate_left: left(COMMAND_RATE_TIME_S),
+            smoothing_left: left(SMOOTHING_TIME_S),
+            usual_lag_left: left(USUAL_LAG_TIME_S),
+            travel: spring(TRAVEL_RATE_HZ),
+            look_at: spring(LOOK_AT_RATE_HZ),
+            inertia: spring(INERTIA_RATE_HZ),
+            lock_release: soft_spring(LOCK_RELEASE_RATE_HZ),
+            foot_lift: soft_spring(FOOT_LIFT_RATE_HZ),
+            pelvis_rise: soft_spring(PELVIS_RISE_RATE_HZ),
+            landing_left: [LANDING_TIME_S, 2.0 * LANDING_TIME_S].map(left),
+            foot_speed_left: left(FOOT_SPEED_TIME_S),
         }
     }
 }
@@ -74,36 +115,36 @@ pub(crate) struct Spring {
 }
 
 impl Spring {
-    /// What is left of an offset and of its rate, a second.
-    pub(crate) fn pass<T>(&self, offset: T, rate: T) -> (T, T)
+    /// Offset and rate of change (per second) after the step.
+    pub(crate) fn decayed<T>(&self, offset: T, rate: T) -> (T, T)
     where
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>,
     {
-        let pull = rate + offset * self.rate_hz;
-        let passed = pull * self.dt_s;
-        ((offset + passed) * self.decay, (rate - passed * self.rate_hz) * self.decay)
+        let slope = rate + offset * self.rate_hz;
+        let change = slope * self.dt_s;
+        ((offset + change) * self.decay, (rate - change * self.rate_hz) * self.decay)
     }
 }
 
-/// A critically damped filter of the third order over one step: it lets go gently, where a spring pulls with r²·x at
-/// once.
+/// A critically damped filter of the third order over one step. Its acceleration starts at its present value; that of a
+/// spring jumps to −r²·x.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SoftSpring(Spring);
 
 impl SoftSpring {
-    /// What is left of an offset, of its rate and of the rate of that, a second.
-    pub(crate) fn pass<T>(&self, [offset, rate, acceleration]: [T; 3]) -> [T; 3]
+    /// Offset, rate of change (per second) and acceleration (per second²) after the step.
+    pub(crate) fn decayed<T>(&self, [offset, rate, acceleration]: [T; 3]) -> [T; 3]
     where
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>,
     {
-        // (c₀ + c₁t + ½c₂t²)·e^(−r·t) and its derivatives.
+        // x(t) = (c₀ + c₁·t + ½c₂·t²)·e^(−r·t), and its derivatives.
         let Spring { decay, rate_hz, dt_s } = self.0;
         let c1 = rate + offset * rate_hz;
         let c2 = acceleration + (rate + c1) * rate_hz;
         let slope = c1 + c2 * dt_s;
-        let passed = offset + (c1 + slope) * (0.5 * dt_s);
-        let steeper = slope - passed * rate_hz;
-        [passed * decay, steeper * decay, (c2 - (slope + steeper) * rate_hz) * decay]
+        let value = offset + (c1 + slope) * (0.5 * dt_s);
+        let value_rate = slope - value * rate_hz;
+        [value * decay, value_rate * decay, (c2 - (slope + value_rate) * rate_hz) * decay]
     }
 }
 
@@ -113,14 +154,14 @@ mod tests {
 
     const OFFSETS: [f32; 3] = [0.4, -3.0, 5.0];
 
-    fn soft(rate_hz: f32, dt_s: f32) -> SoftSpring {
+    fn soft_spring(rate_hz: f32, dt_s: f32) -> SoftSpring {
         SoftSpring(Spring { decay: libm::expf(-rate_hz * dt_s), rate_hz, dt_s })
     }
 
     #[test]
-    fn one_step_of_a_soft_spring_is_as_good_as_many() {
-        let one = soft(12.0, 0.1).pass(OFFSETS);
-        let many = (0..20).fold(OFFSETS, |offsets, _| soft(12.0, 0.005).pass(offsets));
+    fn one_step_of_a_soft_spring_equals_many() {
+        let one = soft_spring(12.0, 0.1).decayed(OFFSETS);
+        let many = (0..20).fold(OFFSETS, |offsets, _| soft_spring(12.0, 0.005).decayed(offsets));
         assert!(
             one.iter().zip(many).all(|(one, many)| (one - many).abs() < 1e-4 * (1.0 + many.abs())),
             "{one:?} {many:?}"
@@ -128,21 +169,21 @@ mod tests {
     }
 
     #[test]
-    fn a_soft_spring_lets_go_at_the_rates_that_there_were() {
+    fn a_soft_spring_starts_at_the_given_rates() {
         let dt_s = 1e-3;
-        let [offset, rate, acceleration] = soft(12.0, dt_s).pass(OFFSETS);
+        let [offset, rate, acceleration] = soft_spring(12.0, dt_s).decayed(OFFSETS);
         assert!((offset - (OFFSETS[0] + dt_s * OFFSETS[1] + 0.5 * dt_s * dt_s * OFFSETS[2])).abs() < 1e-6);
         assert!((rate - (OFFSETS[1] + dt_s * OFFSETS[2])).abs() < 2e-3 && (acceleration - OFFSETS[2]).abs() < 2.0);
     }
 
     #[test]
-    fn one_step_of_a_spring_is_as_good_as_many() {
+    fn one_step_of_a_spring_equals_many() {
         let rate_hz = 12.0;
-        let passed = |steps: usize| {
+        let after = |steps: usize| {
             let spring = Spring { decay: libm::expf(-rate_hz * 0.1 / steps as f32), rate_hz, dt_s: 0.1 / steps as f32 };
-            (0..steps).fold((0.4, -3.0), |(offset, rate), _| spring.pass(offset, rate))
+            (0..steps).fold((0.4, -3.0), |(offset, rate), _| spring.decayed(offset, rate))
         };
-        let ((one, one_rate), (many, many_rate)) = (passed(1), passed(50));
+        let ((one, one_rate), (many, many_rate)) = (after(1), after(50));
         assert!((one - many).abs() < 1e-5 && (one_rate - many_rate).abs() < 1e-4);
     }
 }

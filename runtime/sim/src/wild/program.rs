@@ -7,7 +7,7 @@
 use glam::Vec2;
 
 use crate::maths::random::SplitMix64;
-use crate::planning::orca::half_plane::{HalfPlane, Source};
+use crate::planning::orca::half_plane::{HalfPlane, HalfPlaneSource};
 use crate::planning::orca::linear_program::{Solution, solve, yielding};
 
 /// The greatest speed of every program, m/s.
@@ -37,7 +37,7 @@ pub(crate) fn judged(
     optimal_mps: Vec2,
     solution: &Solution,
 ) -> Option<&'static str> {
-    let Solution { velocity_mps, satisfied } = *solution;
+    let Solution { velocity_mps, satisfied_count: satisfied } = *solution;
     let hard = &half_planes[..satisfied];
     let soft = &half_planes[yielding(half_planes.len(), firm, satisfied)];
     if !velocity_mps.is_finite() || velocity_mps.length() > SPEED_MAX_MPS + SLACK_MPS {
@@ -100,7 +100,7 @@ fn drawn(random: &mut SplitMix64) -> Vec<HalfPlane> {
 fn behind(angle_rad: f64, distance_mps: f32) -> HalfPlane {
     let (sin, cos) = libm::sincos(angle_rad);
     let outward = Vec2::new(cos as f32, sin as f32);
-    HalfPlane::behind(distance_mps * outward, outward, Source::Stance)
+    HalfPlane::behind(distance_mps * outward, outward, HalfPlaneSource::Stance)
 }
 
 fn vector(random: &mut SplitMix64, range: f64) -> Vec2 {
@@ -122,7 +122,7 @@ mod tests {
     fn wrong_solutions_are_found_out() {
         let half_planes = [behind(0.0, 0.5)];
         let judged = |x, satisfied| {
-            let solution = Solution { velocity_mps: Vec2::new(x, 0.0), satisfied };
+            let solution = Solution { velocity_mps: Vec2::new(x, 0.0), satisfied_count: satisfied };
             judged(&half_planes, 0, Vec2::X, &solution).is_some()
         };
         assert!(!judged(0.5, 1) && judged(0.6, 1) && judged(0.3, 1) && judged(0.5, 0));

@@ -14,9 +14,9 @@ use crate::maths::random::SplitMix64;
 use crate::params::Params;
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan::{Plan, Stance, StanceFoot};
-use crate::planning::planner::{Planner, Scratch, ahead_s, plan};
-use crate::planning::world_view::World;
-use crate::world::neighbours::Neighbours;
+use crate::planning::planner::{Planner, PlannerMemory, plan, ranking_horizon_s};
+use crate::planning::world_view::WorldView;
+use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
 
 /// Agents of a scene, the planning one first.
@@ -87,10 +87,10 @@ impl Scene {
     /// The first agent's plan.
     fn planned(&self, planner: Planner, hull: &VelocityHull) -> Plan {
         let (radii_m, obstacles) = (vec![0.25; AGENTS], Obstacles::new(&self.polygons_m));
-        let (params, mut neighbours) = (Params::default(), Neighbours::default());
-        neighbours.rebuild(&self.positions_m, &self.velocities_mps, &radii_m, ahead_s(planner, &params));
+        let (params, mut neighbours) = (Params::default(), NeighbourSearch::default());
+        neighbours.rebuild(&self.positions_m, &self.velocities_mps, &radii_m, ranking_horizon_s(planner, &params));
         let constraints = MotionConstraints::new(hull);
-        let world = World {
+        let world = WorldView {
             positions_m: &self.positions_m,
             velocities_mps: &self.velocities_mps,
             facings_rad: &self.facings_rad,
@@ -105,7 +105,7 @@ impl Scene {
             dt_s: 0.1,
             bodies: true,
         };
-        plan(planner, &world, 0, &params, &mut Scratch::default())
+        plan(planner, &world, 0, &params, &mut PlannerMemory::default())
     }
 }
 

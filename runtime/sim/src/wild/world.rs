@@ -12,13 +12,13 @@ use crate::coupling::body_to_disc::{as_planned, outside_walls};
 use crate::maths::polygon;
 use crate::maths::random::SplitMix64;
 use crate::params::Params;
-use crate::planning::baselines::social_force::TAKEN_UP_S;
+use crate::planning::baselines::social_force::RESPONSE_S;
 use crate::planning::mcn::motion_constraints::MotionConstraints;
-use crate::planning::orca::half_plane::{HalfPlane, Source};
+use crate::planning::orca::half_plane::{HalfPlane, HalfPlaneSource};
 use crate::planning::plan::{Plan, Stance, StanceFoot, VelocitySet};
-use crate::planning::planner::{self, Planner, Scratch};
-use crate::planning::world_view::World;
-use crate::world::neighbours::Neighbours;
+use crate::planning::planner::{self, Planner, PlannerMemory};
+use crate::planning::world_view::WorldView;
+use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
 
 /// Agents of a world.
@@ -31,7 +31,7 @@ const FAR: f64 = 1e4;
 /// Rounding of a plan's speed, as a share of its limit.
 const SPEED_SLACK: f32 = 1e-3;
 
-/// Everything that a [`World`] borrows.
+/// Everything that a [`WorldView`] borrows.
 #[derive(Clone, Debug)]
 pub struct WildWorld {
     positions_m: Vec<Vec2>,
@@ -75,28 +75,28 @@ impl WildWorld {
     pub fn fault(&self, hull: &VelocityHull, params: &Params) -> Option<(Planner, &'static str)> {
         let obstacles = Obstacles::new(&self.polygons_m);
         let constraints = MotionConstraints::new(hull);
-        let (mut neighbours, mut scratch) = (Neighbours::default(), Scratch::default());
+        let (mut neighbours, mut scratch) = (NeighbourSearch::default(), PlannerMemory::default());
         let planners = [Planner::Mcn, Planner::Orca, Planner::SocialForce];
         planners.into_iter().find_map(|planner| {
-            let ahead_s = planner::ahead_s(planner, params);
+            let ahead_s = planner::ranking_horizon_s(planner, params);
             neighbours.rebuild(&self.positions_m, &self.velocities_mps, &self.radii_m, ahead_s);
             let world = self.world(&neighbours, &obstacles, &constraints);
             (0..self.positions_m.len()).find_map(|agent| {
                 let plan = planner::plan(planner, &world, agent, params, &mut scratch);
                 let limit_mps = speed_limit_mps(planner, &world, agent, params);
                 let judged = self.judged(agent, &plan, limit_mps, &obstacles);
-                Some((planner, judged.or_else(|| misled(planner, &plan, scratch.half_planes()))?))
+                Some((planner, judged.or_else(|| misled(planner, &plan, scratch.half_planes(planner)))?))
             })
         })
     }
 
     fn world<'a>(
         &'a self,
-        neighbours: &'a Neighbours,
+        neighbours: &'a NeighbourSearch,
         obstacles: &'a Obstacles,
         constraints: &'a MotionConstraints,
-    ) -> World<'a> {
-        World {
+    ) -> WorldView<'a> {
+        WorldView {
             positions_m: &self.positions_m,
             velocities_mps: &self.velocities_mps,
             facings_rad: &self.facings_rad,
@@ -138,16 +138,16 @@ impl WildWorld {
 /// What is wrong with the half-planes that are told with a plan.
 fn misled(planner: Planner, plan: &Plan, half_planes: &[HalfPlane]) -> Option<&'static str> {
     let other = match plan.set {
-        VelocitySet::Turning => Source::HoldingHull,
-        VelocitySet::Holding => Source::TurningHull,
+        VelocitySet::Turning => HalfPlaneSource::HoldingHull,
+        VelocitySet::Holding => HalfPlaneSource::TurningHull,
     };
-    let has = |wanted: Source| half_planes.iter().any(|half_plane| half_plane.source == wanted);
+    let has = |wanted: HalfPlaneSource| half_planes.iter().any(|half_plane| half_plane.source == wanted);
     let of_the_set = planner != Planner::Mcn || has(plan.set.into());
     (!of_the_set || has(other)).then_some("tells the half-planes of another velocity set than its plan's")
 }
 
 /// The fastest that a planner may let an agent walk, m/s; social forces only accelerate it so much.
-fn speed_limit_mps(planner: Planner, world: &World, agent: usize, params: &Params) -> f32 {
+fn speed_limit_mps(planner: Planner, world: &WorldView, agent: usize, params: &Params) -> f32 {
     match planner {
         Planner::Mcn => {
             let of = |set| world.constraints.set(set).speed_max_mps;
@@ -155,7 +155,7 @@ fn speed_limit_mps(planner: Planner, world: &World, agent: usize, params: &Param
         }
         Planner::Orca => params.orca.speed_max_mps,
         Planner::SocialForce => {
-            world.velocities_mps[agent].length() + params.social_force.acceleration_max_mps2 * world.lead_s(TAKEN_UP_S)
+            world.velocities_mps[agent].length() + params.social_force.acceleration_max_mps2 * world.lead_s(RESPONSE_S)
         }
     }
 }

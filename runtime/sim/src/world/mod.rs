@@ -1,13 +1,14 @@
 //! What surrounds an agent: other agents and walls.
 //!
-//! Enters: positions, velocities and radii of all agents; polygons. Leaves: the nearest neighbours and edges of one agent,
-//! with times to collision.
+//! Enters: positions, velocities and radii of all agents; the polygons of the obstacles. Leaves: the nearest neighbours
+//! and wall edges of one agent, and the times to collision with them.
 //!
-//! Read `neighbours` with `neighbour_lanes`, then `obstacles`, then `time_to_collision`.
+//! Read `disc`, then [`neighbours`], [`obstacles`] and `time_to_collision`. `segment` is the geometry that walls share.
 
-pub(crate) mod neighbour_lanes;
+pub(crate) mod disc;
 pub mod neighbours;
 pub mod obstacles;
+pub(crate) mod segment;
 pub(crate) mod time_to_collision;
 
-pub use neighbour_lanes::{Around, Lanes};
+pub use disc::Disc;

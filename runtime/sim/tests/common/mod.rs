@@ -1,4 +1,4 @@
-//! A body, a scenario and frames for the tests of recording and metrics.
+//! A body, a scenario and frames for the tests of recordings and measures.
 #![allow(dead_code, unreachable_pub, reason = "each test target uses its own part")]
 
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 use motiondb::body::{Foot, JOINT_COUNT, Joint, Skeleton};
 use motiondb::velocity_sets::velocity_hull::VelocityHull;
 
-/// A man of 1.75 m in plain numbers.
+/// A body of 1.75 m in round numbers.
 pub fn skeleton() -> Skeleton {
     let mut offsets_m = [Vec3::new(0.0, 0.0, 0.15); JOINT_COUNT];
     offsets_m[Joint::Pelvis.index()] = Vec3::new(0.0, 0.0, 0.93);
@@ -33,7 +33,7 @@ pub fn skeleton() -> Skeleton {
     }
 }
 
-/// An agent that walks from here to there.
+/// An agent that walks from one position to another, m.
 pub fn agent(from: [f32; 2], to: [f32; 2]) -> AgentSpec {
     AgentSpec {
         position_m: Vec2::from(from),
@@ -44,7 +44,7 @@ pub fn agent(from: [f32; 2], to: [f32; 2]) -> AgentSpec {
     }
 }
 
-/// A scenario of these agents.
+/// The header of a scenario of these agents.
 pub fn header(agents: Vec<AgentSpec>, dt_s: f32) -> Header {
     let scenario = Scenario {
         name: "test".to_owned(),
@@ -56,7 +56,7 @@ pub fn header(agents: Vec<AgentSpec>, dt_s: f32) -> Header {
     Header { database_checksum: 7, skeleton: skeleton(), velocity_hull: VelocityHull::default(), scenario }
 }
 
-/// A body standing upright at a place.
+/// A body that stands upright at a position.
 pub fn standing_at(position_m: Vec2) -> AgentFrame {
     let mut frame = AgentFrame::default();
     frame.root.position_m = position_m;
@@ -64,7 +64,7 @@ pub fn standing_at(position_m: Vec2) -> AgentFrame {
     frame
 }
 
-/// An empty folder of this test's own.
+/// An empty folder of one test's own.
 pub fn folder(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
     let _ = std::fs::remove_dir_all(&folder);
@@ -72,7 +72,7 @@ pub fn folder(test: &str) -> PathBuf {
     folder
 }
 
-/// Writes frames and opens what was written.
+/// Records frames and opens the recording.
 pub fn record(path: &Path, header: &Header, frames: &[Vec<AgentFrame>]) -> Recording {
     let mut recorder = Recorder::create(path, header).unwrap();
     for frame in frames {

@@ -1,90 +1,89 @@
-//! A crowd of discs that walk as planned, without bodies: moved by the planner alone, or through a lag and a turning
-//! rate like a body's.
+//! A crowd of discs without bodies, moved by the planner alone or through a lag and a turn rate like a body's. World,
+//! metres, seconds, radians.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
 
+use fbcrowd_sim::measures::Collisions;
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planning::mcn::MotionConstraints;
-use fbcrowd_sim::planning::{Plan, Planner, Scratch, Stance, World, ahead_s, plan};
-use fbcrowd_sim::route::{Braking, Progress, preferred_mps};
+use fbcrowd_sim::planning::{Plan, Planner, PlannerMemory, Stance, WorldView, plan, ranking_horizon_s};
+use fbcrowd_sim::route::{Braking, PathProgress, preferred_mps};
 use fbcrowd_sim::scenario::AgentSpec;
-use fbcrowd_sim::world::neighbours::Neighbours;
+use fbcrowd_sim::world::neighbours::NeighbourSearch;
 use fbcrowd_sim::world::obstacles::Obstacles;
 use glam::Vec2;
 use motiondb::velocity_sets::velocity_hull::VelocityHull;
 
-/// The protocol of `assets/scenarios/table1`.
+/// Radius of the discs, m: the protocol of `assets/scenarios/table1`.
 pub(crate) const RADIUS_M: f32 = 0.25;
+/// Preferred speed, m/s: of the same protocol.
 const SPEED_MPS: f32 = 1.33;
+/// Distance from the goal at which a disc has arrived, m.
 const ARRIVED_M: f32 = 0.5;
-/// Stalled: under this speed, m/s, for this long, s.
-const STALL: (f32, f32) = (0.1, 5.0);
+/// Speed below which a disc stands, m/s.
+const STALL_SPEED_MPS: f32 = 0.1;
+/// Time of standing that counts as stalling, s.
+const STALL_S: f32 = 5.0;
 
-/// How discs take up what is planned.
+/// How discs respond to their plans.
 #[derive(Clone, Copy)]
-pub(crate) enum Body {
+pub(crate) enum DiscResponse {
     /// At once.
-    Ideal,
-    /// Velocity with this time constant, s, facing at this rate, rad/s.
+    Immediate,
+    /// Velocity with a time constant, s, facing at a rate, rad/s.
     Lagging(f32, f32),
 }
 
-/// Who plans, and amid what.
+/// The planner and its surroundings.
 #[derive(Clone, Copy)]
-pub(crate) struct Setting<'a> {
+pub(crate) struct CrowdSetting<'a> {
     pub(crate) planner: Planner,
     pub(crate) params: &'a Params,
     pub(crate) hull: &'a VelocityHull,
     pub(crate) walls: &'a Obstacles,
-    pub(crate) body: Body,
+    pub(crate) response: DiscResponse,
     pub(crate) dt_s: f32,
 }
 
-pub(crate) struct Crowd {
+pub(crate) struct DiscCrowd {
     positions_m: Vec<Vec2>,
     agents: Vec<AgentSpec>,
-    progress: Vec<Progress>,
+    progress: Vec<PathProgress>,
     velocities_mps: Vec<Vec2>,
     facings_rad: Vec<f32>,
     radii_m: Vec<f32>,
     plans: Vec<Plan>,
-    neighbours: Neighbours,
+    neighbours: NeighbourSearch,
     slow_s: Vec<f32>,
     arrivals_s: Vec<Option<f32>>,
 }
 
-/// `FbCrowd` App. 11's C and A, and who arrives or stalls.
+/// Figures of a run: C and A of `FbCrowd` App. 11, arrivals and stalls.
 #[derive(Debug, Default)]
-pub(crate) struct Figures {
+pub(crate) struct CrowdFigures {
+    /// C, Eq. 17.
     pub(crate) collisions: f32,
-    pub acceleration_mps2: f32,
+    /// A, Eq. 18, m/s².
+    pub(crate) acceleration_mps2: f32,
     pub(crate) arrived: usize,
-    pub(crate) mean_arrival_s: f32,
     pub(crate) stalled: usize,
-    pub(crate) planning_us: f32,
-    /// Positions, step by step.
+    /// Positions, step by step, m.
     pub(crate) trails_m: Vec<Vec<Vec2>>,
 }
 
-/// One of the bundled scenes, from here to there.
+/// Starts and goals of a bundled scene: lines `x y goal_x goal_y`.
 pub(crate) fn bundled_scene(name: &str) -> Vec<(Vec2, Vec2)> {
-    read_scene(&format!("assets/scenarios/{name}.txt")).expect("the repository has it")
-}
-
-/// Lines `x y goal_x goal_y` of a file, by its path from the repository; none where it is missing.
-pub(crate) fn read_scene(path: &str) -> Option<Vec<(Vec2, Vec2)>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
-    let text = std::fs::read_to_string(path).ok()?;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/scenarios/{name}.txt"));
+    let text = std::fs::read_to_string(path).unwrap();
     let agent = |line: &str| {
         let numbers: Vec<f32> = line.split_whitespace().map(|word| word.parse().unwrap()).collect();
         (Vec2::new(numbers[0], numbers[1]), Vec2::new(numbers[2], numbers[3]))
     };
-    Some(text.lines().filter(|line| !line.starts_with('#')).map(agent).collect())
+    text.lines().filter(|line| !line.starts_with('#')).map(agent).collect()
 }
 
-impl Crowd {
-    /// Agents from here to there, all through the door first, if there is one.
+impl DiscCrowd {
+    /// Agents from starts to goals, all through the door first, if there is one.
     pub(crate) fn new(agents: &[(Vec2, Vec2)], door_m: Option<Vec2>) -> Self {
         let count = agents.len();
         let spec = |&(from_m, to_m): &(Vec2, Vec2)| AgentSpec {
@@ -101,53 +100,50 @@ impl Crowd {
             facings_rad: agents.iter().map(|agent| agent.facing_rad).collect(),
             radii_m: vec![RADIUS_M; count],
             plans: vec![Plan::default(); count],
-            neighbours: Neighbours::default(),
-            progress: vec![Progress::default(); count],
+            neighbours: NeighbourSearch::default(),
+            progress: vec![PathProgress::default(); count],
             slow_s: vec![0.0; count],
             arrivals_s: vec![None; count],
             agents,
         }
     }
 
-    /// All turn their backs to their goals.
+    /// The crowd with every agent's back to its goal.
     pub(crate) fn turned_about(mut self) -> Self {
         self.facings_rad.iter_mut().for_each(|facing_rad| *facing_rad += std::f32::consts::PI);
         self
     }
 
-    /// Runs until all are at their goals at once, or the time is over.
-    pub(crate) fn run(&mut self, setting: &Setting, duration_s: f32) -> Figures {
-        let &Setting { body, dt_s, .. } = setting;
-        let mut figures = Figures::default();
-        let mut planning = Duration::ZERO;
+    /// Runs until all agents are at their goals at once, or the time is over.
+    pub(crate) fn run(&mut self, setting: &CrowdSetting, duration_s: f32) -> CrowdFigures {
+        let dt_s = setting.dt_s;
+        let mut figures = CrowdFigures::default();
+        let mut collisions = Collisions::new(self.radii_m.iter().copied());
         let mut steps = 0;
-        while steps as f32 * dt_s < duration_s && !(0..self.agents.len()).all(|agent| self.is_home(agent)) {
-            let start = Instant::now();
+        while steps as f32 * dt_s < duration_s && !(0..self.agents.len()).all(|agent| self.is_at_goal(agent)) {
             self.plan(setting);
-            planning += start.elapsed();
-            figures.collisions += self.advance(body, dt_s, &mut figures.acceleration_mps2);
+            let before_m = self.positions_m.clone();
+            figures.acceleration_mps2 += self.advance(setting.response, dt_s);
+            collisions.push(&before_m, &self.positions_m);
             figures.trails_m.push(self.positions_m.clone());
             steps += 1;
-            self.notice(steps as f32 * dt_s, dt_s);
+            self.note_arrivals_and_stalls(steps as f32 * dt_s, dt_s);
         }
-        let agent_steps = (steps * self.positions_m.len()) as f32;
-        figures.collisions /= agent_steps;
-        figures.acceleration_mps2 /= agent_steps;
-        figures.planning_us = planning.as_secs_f32() * 1e6 / agent_steps;
+        figures.collisions = collisions.rate(steps) as f32;
+        figures.acceleration_mps2 /= (steps * self.positions_m.len()) as f32;
         figures.arrived = self.arrivals_s.iter().flatten().count();
-        figures.mean_arrival_s = self.arrivals_s.iter().flatten().sum::<f32>() / figures.arrived.max(1) as f32;
-        figures.stalled = self.slow_s.iter().filter(|&&slow_s| slow_s >= STALL.1).count();
+        figures.stalled = self.slow_s.iter().filter(|&&slow_s| slow_s >= STALL_S).count();
         figures
     }
 
-    fn plan(&mut self, setting: &Setting) {
-        let ahead_s = ahead_s(setting.planner, setting.params);
-        self.neighbours.rebuild(&self.positions_m, &self.velocities_mps, &self.radii_m, ahead_s);
+    fn plan(&mut self, setting: &CrowdSetting) {
+        let horizon_s = ranking_horizon_s(setting.planner, setting.params);
+        self.neighbours.rebuild(&self.positions_m, &self.velocities_mps, &self.radii_m, horizon_s);
         let count = self.plans.len();
         let preferred_mps = self.follow_paths(setting);
         let strafing_s: Vec<f32> = self.plans.iter().map(|plan| plan.strafing_s).collect();
         let stepping_back_s: Vec<f32> = self.plans.iter().map(|plan| plan.stepping_back_s).collect();
-        let world = World {
+        let world = WorldView {
             positions_m: &self.positions_m,
             velocities_mps: &self.velocities_mps,
             facings_rad: &self.facings_rad,
@@ -160,17 +156,17 @@ impl Crowd {
             obstacles: setting.walls,
             constraints: &MotionConstraints::new(setting.hull),
             dt_s: setting.dt_s,
-            bodies: matches!(setting.body, Body::Lagging(..)),
+            bodies: matches!(setting.response, DiscResponse::Lagging(..)),
         };
-        let mut scratch = Scratch::default();
-        let mut planned = |agent| plan(setting.planner, &world, agent, setting.params, &mut scratch);
+        let mut memory = PlannerMemory::default();
+        let mut planned = |agent| plan(setting.planner, &world, agent, setting.params, &mut memory);
         self.plans = (0..count).map(&mut planned).collect();
     }
 
-    fn follow_paths(&mut self, setting: &Setting) -> Vec<Vec2> {
-        let braking = match setting.body {
-            Body::Ideal => Braking::Within(setting.dt_s),
-            Body::Lagging(..) => Braking::Evenly,
+    fn follow_paths(&mut self, setting: &CrowdSetting) -> Vec<Vec2> {
+        let braking = match setting.response {
+            DiscResponse::Immediate => Braking::Within(setting.dt_s),
+            DiscResponse::Lagging(..) => Braking::Evenly,
         };
         let agents = self.agents.iter().zip(&self.positions_m).zip(&mut self.progress);
         agents
@@ -178,63 +174,43 @@ impl Crowd {
             .collect()
     }
 
-    /// Moves everyone; returns Σ PD (Eqs. 16, 17) of the step and adds the accelerations.
-    fn advance(&mut self, body: Body, dt_s: f32, accelerations_mps2: &mut f32) -> f32 {
+    /// Moves all agents by one step; returns the sum of their accelerations, m/s².
+    fn advance(&mut self, response: DiscResponse, dt_s: f32) -> f32 {
+        let mut accelerations_mps2 = 0.0;
         for (agent, plan) in self.plans.iter().enumerate() {
             let (velocity_mps, facing_rad) =
-                body.follow(self.velocities_mps[agent], self.facings_rad[agent], plan, dt_s);
-            *accelerations_mps2 += velocity_mps.distance(self.velocities_mps[agent]) / dt_s;
+                response.follow(self.velocities_mps[agent], self.facings_rad[agent], plan, dt_s);
+            accelerations_mps2 += velocity_mps.distance(self.velocities_mps[agent]) / dt_s;
             self.velocities_mps[agent] = velocity_mps;
             self.facings_rad[agent] = facing_rad;
+            self.positions_m[agent] += dt_s * velocity_mps;
         }
-        let collisions = self.penetration(dt_s);
-        for (position_m, velocity_mps) in self.positions_m.iter_mut().zip(&self.velocities_mps) {
-            *position_m += dt_s * *velocity_mps;
-        }
-        collisions
+        accelerations_mps2
     }
 
-    fn penetration(&self, dt_s: f32) -> f32 {
-        let mut sum = 0.0;
-        for first in 0..self.positions_m.len() {
-            for second in first + 1..self.positions_m.len() {
-                let offset_m = self.positions_m[first] - self.positions_m[second];
-                if offset_m.length_squared() > 1.0 {
-                    continue;
-                }
-                let moved_m = dt_s * (self.velocities_mps[first] - self.velocities_mps[second]);
-                let share = (-offset_m.dot(moved_m) / moved_m.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
-                let closest_m = (offset_m + share * moved_m).length();
-                sum += (1.0 - closest_m / (2.0 * RADIUS_M)).max(0.0);
-            }
-        }
-        sum
-    }
-
-    fn is_home(&self, agent: usize) -> bool {
+    fn is_at_goal(&self, agent: usize) -> bool {
         let goal_m = *self.agents[agent].goals_m.last().unwrap();
         self.positions_m[agent].distance(goal_m) <= ARRIVED_M
     }
 
-    /// Arrivals and stalls.
-    fn notice(&mut self, time_s: f32, dt_s: f32) {
+    fn note_arrivals_and_stalls(&mut self, time_s: f32, dt_s: f32) {
         for agent in 0..self.positions_m.len() {
-            if self.arrivals_s[agent].is_none() && self.is_home(agent) {
+            if self.arrivals_s[agent].is_none() && self.is_at_goal(agent) {
                 self.arrivals_s[agent] = Some(time_s);
             }
-            let slow = self.velocities_mps[agent].length() < STALL.0 && self.arrivals_s[agent].is_none();
-            if self.slow_s[agent] < STALL.1 {
+            let slow = self.velocities_mps[agent].length() < STALL_SPEED_MPS && self.arrivals_s[agent].is_none();
+            if self.slow_s[agent] < STALL_S {
                 self.slow_s[agent] = if slow { self.slow_s[agent] + dt_s } else { 0.0 };
             }
         }
     }
 }
 
-impl Body {
+impl DiscResponse {
     fn follow(self, velocity_mps: Vec2, facing_rad: f32, plan: &Plan, dt_s: f32) -> (Vec2, f32) {
         let Self::Lagging(lag_s, turn_rad_s) = self else { return (plan.velocity_mps, plan.facing_rad) };
         let off_rad = libm::remainderf(plan.facing_rad - facing_rad, std::f32::consts::TAU);
-        let turned_rad = off_rad.clamp(-turn_rad_s * dt_s, turn_rad_s * dt_s);
-        (velocity_mps.lerp(plan.velocity_mps, 1.0 - libm::expf(-dt_s / lag_s)), facing_rad + turned_rad)
+        let turn_rad = off_rad.clamp(-turn_rad_s * dt_s, turn_rad_s * dt_s);
+        (velocity_mps.lerp(plan.velocity_mps, 1.0 - libm::expf(-dt_s / lag_s)), facing_rad + turn_rad)
     }
 }

@@ -1,154 +1,161 @@
-//! Whether level ground carries a body by its feet; what else moves it, with what was measured.
+//! Whether level ground carries a body by its feet; else what moves it.
 //!
-//! Stairs, ramps, moonwalks, turntables and jumps are motion of a human body, and no locomotion on flat ground: gait
-//! analysis finds no steady stride in them, and its reason alone would not tell why. Metres, Z up.
+//! Stairs, ramps, moonwalks, turntables and jumps are human motion, but not locomotion on flat ground. Gait analysis finds
+//! no steady stride in them and cannot state why. Clips are in metres, z up.
 
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 use motiondb::body::Joint;
 use motiondb::diagnostic::Warning;
-use motiondb::statistics::median;
+use motiondb::statistics::{lower_quantile, median};
 
-use crate::checks::plausibility::{LEAD_MIN_M, passings};
+use crate::checks::plausibility::{LEAD_MIN_M, foot_passings};
 use crate::read::source_clip::SourceClip;
-use crate::retarget::source_parameters::WholeClip;
+use crate::retarget::source_parameters::SourceParameters;
 use crate::retarget::treadmill_speed;
 use crate::retarget::units::{HUMAN_LEG_M, leg_length, middle};
 use crate::rig::roles::Roles;
 
-/// Steeper ground is none to blend into walks on the flat: 1 in 12 is the steepest that building codes (ADA 405.2) call
-/// a ramp for everybody.
-const SLOPE_MAX: f64 = 1.0 / 12.0;
-/// Feet that end nearer to the height at which they began say nothing of a slope, m for a person's leg.
+/// Least slope that counts: 1 in 12 is the steepest ramp that building codes allow (ADA 405.2).
+const SLOPE_MIN: f64 = 1.0 / 12.0;
+/// Least rise of the feet over the clip that counts, m for a person's leg.
 const RISE_MIN_M: f64 = 0.1;
-/// Ways are measured in steps of this time, in which jitter is nothing.
-const WAY_STEP_S: f64 = 0.25;
-/// In this time a foot stands once, in the slowest walk.
+/// Time between two positions by which the length of a path is measured, s: in it, jitter is small.
+const PATH_STEP_S: f64 = 0.25;
+/// Duration in which each foot stands once, even in the slowest walk, s.
 const STANCE_SPAN_S: f64 = 0.7;
-/// Feet that slide faster over the ground, and than this share of the body's speed, do not carry it, m/s: the noisiest
-/// captures slide by 0.18.
-const SLIDE_MAX_MPS: f64 = 0.4;
-const SLIDE_SHARE: f64 = 0.3;
-/// And it is no slide but noise where feet do not keep to it for so much of the time.
+/// Least slide of feet that do not carry the body, m/s for a person's leg; the noisiest captures slide by 0.18.
+const SLIDE_MIN_MPS: f64 = 0.4;
+/// Least slide of feet that do not carry the body, over the body's speed.
+const SLIDE_MIN_SHARE: f64 = 0.3;
+/// Least share of the time that feet keep to one slide; below it the slide is noise.
 const STANCE_SHARE_MIN: f64 = 0.3;
-/// A body that turns faster than this without a step is turned, rad/s.
-const TURNED_MIN_RAD_S: f64 = 0.25;
-/// Feet that rise by less do not step, m for a person's leg; both higher than this are in a jump (runs: 5 cm).
+/// Least turn rate of a body that turns without a step, rad/s.
+const TURN_MIN_RAD_S: f64 = 0.25;
+/// Least lift of a foot that steps, m for a person's leg.
 const STEP_LIFT_MIN_M: f64 = 0.03;
-const JUMP_LIFT_M: f64 = 0.12;
-/// Of the heights of a foot those at which it stands.
-const LOW_SHARE: f64 = 0.05;
-/// Nobody goes faster (Bolt, at his fastest: 12.4), m/s for a person's leg; a frame in which a body does so, farther
-/// than this, m, and farther by this factor than in most frames, is a leap from one take to another.
+/// Least lift of both feet in a jump, m for a person's leg; runs lift both by 0.05.
+const JUMP_LIFT_MIN_M: f64 = 0.12;
+/// Share of an ankle's heights below the height at which it stands.
+const STANDING_QUANTILE: f64 = 0.05;
+/// Greatest speed of a body, m/s for a person's leg (Bolt's fastest: 12.4).
 const FASTEST_MPS: f64 = 12.5;
+/// Least distance of a leap between two frames, m for a person's leg.
 const LEAP_MIN_M: f64 = 0.3;
+/// Least distance of a leap over the median distance between two frames.
 const LEAP_OVER_USUAL: f64 = 5.0;
-/// Shorter clips say nothing of what is missing in them, s.
+/// Least duration of a clip whose missing steps count, s.
 const TURN_MIN_S: f64 = 1.0;
 
-/// The warning, where something else than feet on level ground moves the body.
-pub(crate) fn doubt(clip: &SourceClip, roles: &Roles, whole: &WholeClip) -> Option<Warning> {
+/// The warning about what else than feet on level ground moves the body, if anything.
+pub(crate) fn warning(clip: &SourceClip, roles: &Roles, parameters: &SourceParameters) -> Option<Warning> {
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
-    let steps = passings(clip, roles, LEAD_MIN_M * scale).len();
-    let body = Body { clip, roles, scale, steps };
-    let moves = (!whole.in_place).then(|| body.climbs().or_else(|| body.slides(whole))).flatten();
-    body.leaps().or(moves).or_else(|| body.is_turned(whole)).or_else(|| body.jumps())
+    let steps = foot_passings(clip, roles, LEAD_MIN_M * scale).len();
+    let check = GroundCheck { clip, roles, parameters, scale, steps };
+    let travels = || if parameters.is_in_place { None } else { check.slope().or_else(|| check.skating()) };
+    check.leap().or_else(travels).or_else(|| check.turn_without_step()).or_else(|| check.jump())
 }
 
-struct Body<'a> {
+/// A clip and what all checks need of it.
+struct GroundCheck<'a> {
     clip: &'a SourceClip,
     roles: &'a Roles,
-    /// Over a person's size.
+    parameters: &'a SourceParameters,
+    /// Leg length over a person's.
     scale: f64,
-    /// How often one foot passes the other.
+    /// Number of times that one foot passes the other.
     steps: usize,
 }
 
-impl Body<'_> {
-    /// Takes that were strung together, or a loop that was repeated without its way.
-    fn leaps(&self) -> Option<Warning> {
-        let hips = |frame: usize| middle(self.clip, self.roles, Joint::THIGHS, frame);
-        let ways_m: Vec<f64> =
-            (1..self.clip.frame_count()).map(|frame| hips(frame).distance(hips(frame - 1))).collect();
-        let usual_m = median(ways_m.iter().copied())?;
-        let fastest_m = FASTEST_MPS * self.scale.sqrt() / self.clip.frame_rate_hz;
-        let least_m = fastest_m.max(LEAP_MIN_M * self.scale).max(LEAP_OVER_USUAL * usual_m);
-        let leaps: Vec<usize> = (0..ways_m.len()).filter(|&frame| ways_m[frame] > least_m).collect();
-        let (&first, others) = leaps.split_first()?;
-        let frame = (self.clip.first_frame + first + 1) as u32;
-        Some(Warning::Leap { distance_m: ways_m[first] as f32, frame, more: others.len() as u32 })
+impl GroundCheck<'_> {
+    fn hips_m(&self, frame: usize) -> DVec3 {
+        middle(self.clip, self.roles, Joint::THIGHS, frame)
     }
 
-    fn climbs(&self) -> Option<Warning> {
-        let [rise_m, way_m] = self.rise_and_way_m();
-        let is_level = rise_m.abs() < RISE_MIN_M * self.scale || rise_m.abs() < SLOPE_MAX * way_m;
+    fn ankle_height_m(&self, frame: usize, side: usize) -> f64 {
+        self.clip.position(frame, self.roles.required(Joint::FEET[side])).z
+    }
+
+    /// A frame to which the body leaps: takes that were joined, or a loop that was repeated without its displacement.
+    fn leap(&self) -> Option<Warning> {
+        let steps_m: Vec<f64> =
+            (1..self.clip.frame_count()).map(|frame| self.hips_m(frame).distance(self.hips_m(frame - 1))).collect();
+        let usual_m = median(steps_m.iter().copied())?;
+        let fastest_m = FASTEST_MPS * self.scale.sqrt() / self.clip.frame_rate_hz;
+        let least_m = fastest_m.max(LEAP_MIN_M * self.scale).max(LEAP_OVER_USUAL * usual_m);
+        let leaps: Vec<usize> = (0..steps_m.len()).filter(|&frame| steps_m[frame] > least_m).collect();
+        let (&first, others) = leaps.split_first()?;
+        let frame = (self.clip.first_frame + first + 1) as u32;
+        Some(Warning::Leap { distance_m: steps_m[first] as f32, frame, more: others.len() as u32 })
+    }
+
+    /// Ground that rises or falls.
+    fn slope(&self) -> Option<Warning> {
+        let rise_m = self.rise_m();
+        let is_level = rise_m.abs() < RISE_MIN_M * self.scale || rise_m.abs() < SLOPE_MIN * self.path_m();
         if is_level || self.steps == 0 {
             return None;
         }
         Some(Warning::Slope { rise_cm: (100.0 * rise_m / self.steps as f64) as f32 })
     }
 
-    /// How much higher the lower foot stands at the end than at the beginning, and the way of the hips.
-    fn rise_and_way_m(&self) -> [f64; 2] {
-        let step = ((WAY_STEP_S * self.clip.frame_rate_hz) as usize).max(1);
-        let hips = |frame: usize| middle(self.clip, self.roles, Joint::THIGHS, frame);
-        let places: Vec<DVec3> = (0..self.clip.frame_count()).step_by(step).map(hips).collect();
-        let way_m = places.windows(2).map(|pair| (pair[1] - pair[0]).truncate().length()).sum();
+    /// Height of the lower foot at the clip's end over its height at the beginning, m.
+    fn rise_m(&self) -> f64 {
         let count = self.clip.frame_count();
         let span = ((STANCE_SPAN_S * self.clip.frame_rate_hz) as usize).clamp(1, count);
         let lowest_m = |frames: Range<usize>| {
-            let ankles = Joint::FEET.map(|foot| self.roles.required(foot));
-            let heights = frames.flat_map(|frame| ankles.map(|ankle| self.clip.position(frame, ankle).z));
+            let heights = frames.flat_map(|frame| [0, 1].map(|side| self.ankle_height_m(frame, side)));
             heights.fold(f64::INFINITY, f64::min)
         };
-        [lowest_m(count - span..count) - lowest_m(0..span), way_m]
+        lowest_m(count - span..count) - lowest_m(0..span)
     }
 
-    fn slides(&self, whole: &WholeClip) -> Option<Warning> {
+    /// Length of the hips' path on the ground, m.
+    fn path_m(&self) -> f64 {
+        let step = ((PATH_STEP_S * self.clip.frame_rate_hz) as usize).max(1);
+        let positions: Vec<DVec3> =
+            (0..self.clip.frame_count()).step_by(step).map(|frame| self.hips_m(frame)).collect();
+        positions.windows(2).map(|pair| (pair[1] - pair[0]).truncate().length()).sum()
+    }
+
+    /// Feet that slide over the ground while the body travels.
+    fn skating(&self) -> Option<Warning> {
         let slide = treadmill_speed::ground_velocity(self.clip, self.roles);
-        let moved = DVec2::new(whole.speed_mps, whole.strafe_mps);
+        let travel = DVec2::new(self.parameters.speed_mps, self.parameters.strafe_mps);
         let stands = treadmill_speed::planted_share(self.clip, self.roles, slide, 0.0)
             .is_some_and(|share| share > STANCE_SHARE_MIN);
-        if !stands || slide.length() < SLIDE_MAX_MPS.max(SLIDE_SHARE * moved.length()) * self.scale.sqrt() {
+        if !stands || slide.length() < SLIDE_MIN_MPS.max(SLIDE_MIN_SHARE * travel.length()) * self.scale.sqrt() {
             return None;
         }
-        let [slide_mps, body_mps] = [slide, moved].map(|velocity| velocity.length() as f32);
+        let [slide_mps, body_mps] = [slide, travel].map(|velocity| velocity.length() as f32);
         Some(Warning::Skating { body_mps, slide_mps, steps: self.steps > 0 })
     }
 
-    fn is_turned(&self, whole: &WholeClip) -> Option<Warning> {
-        let stand = (0..2).all(|side| self.lift_m(side) < STEP_LIFT_MIN_M * self.scale);
+    fn turn_without_step(&self) -> Option<Warning> {
+        let stands = (0..2).all(|side| self.lift_m(side) < STEP_LIFT_MIN_M * self.scale);
         let is_long = self.clip.frame_count() as f64 > TURN_MIN_S * self.clip.frame_rate_hz;
-        (stand && is_long && whole.turn_rate_rad_s.abs() > TURNED_MIN_RAD_S)
-            .then_some(Warning::TurnWithoutStep { turn_rate_rad_s: whole.turn_rate_rad_s as f32 })
+        let turn_rate_rad_s = self.parameters.turn_rate_rad_s;
+        (stands && is_long && turn_rate_rad_s.abs() > TURN_MIN_RAD_S)
+            .then_some(Warning::TurnWithoutStep { turn_rate_rad_s: turn_rate_rad_s as f32 })
     }
 
-    /// From where a foot stands to its highest.
+    /// Difference of an ankle's greatest and least height, m.
     fn lift_m(&self, side: usize) -> f64 {
-        let heights = self.heights_m(side);
-        heights[heights.len() - 1] - heights[0]
+        let heights = || (0..self.clip.frame_count()).map(|frame| self.ankle_height_m(frame, side));
+        heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min)
     }
 
-    /// Of an ankle, sorted.
-    fn heights_m(&self, side: usize) -> Vec<f64> {
-        let ankle = self.roles.required(Joint::FEET[side]);
-        let mut heights: Vec<f64> = (0..self.clip.frame_count()).map(|f| self.clip.position(f, ankle).z).collect();
-        heights.sort_by(f64::total_cmp);
-        heights
-    }
-
-    fn jumps(&self) -> Option<Warning> {
-        let stands_m = [0, 1].map(|side| {
-            let heights = self.heights_m(side);
-            heights[(LOW_SHARE * (heights.len() - 1) as f64) as usize]
+    fn jump(&self) -> Option<Warning> {
+        let frames = 0..self.clip.frame_count();
+        let standing_m = [0, 1].map(|side| {
+            let heights = frames.clone().map(|frame| self.ankle_height_m(frame, side));
+            lower_quantile(heights, STANDING_QUANTILE).unwrap_or_default()
         });
-        let lift_m = |frame: usize, side: usize| {
-            self.clip.position(frame, self.roles.required(Joint::FEET[side])).z - stands_m[side]
-        };
+        let lift_m = |frame: usize, side: usize| self.ankle_height_m(frame, side) - standing_m[side];
         let lower_m = |frame: usize| lift_m(frame, 0).min(lift_m(frame, 1));
-        let highest_m = (0..self.clip.frame_count()).map(lower_m).fold(0.0, f64::max);
-        (self.steps == 0 && highest_m > JUMP_LIFT_M * self.scale)
+        let highest_m = frames.clone().map(lower_m).fold(0.0, f64::max);
+        (self.steps == 0 && highest_m > JUMP_LIFT_MIN_M * self.scale)
             .then_some(Warning::Jump { lift_cm: (100.0 * highest_m) as f32 })
     }
 }

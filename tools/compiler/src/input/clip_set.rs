@@ -1,55 +1,62 @@
-//! Manifest → the set of clips that is compiled: every clip that it names, imported in parallel, in the order of a
-//! database and each with a name of its own; and whatever is none, with the reason.
+//! Manifest → the set of clips to compile: each clip is imported, in parallel, and gets a unique name.
 
 use rayon::prelude::*;
 
-use crate::error::ImportError;
-use crate::import::{self, Import};
-use crate::input::clip_settings::Take;
+use crate::error::{CompileError, Rejection};
+use crate::import::{self, ImportedClip};
+use crate::input::clip_settings::ClipSettings;
 use crate::input::manifest::Manifest;
-use crate::input::manifest::error::ManifestError;
 use crate::input::unique_names;
-use crate::progress::{Event, Observer};
-use crate::refused::Refused;
+use crate::progress::{CompileEvent, Observer};
 use crate::retarget::human_clip::HumanClip;
 
-/// The human clips of a manifest, and each file or clip that gives none; both in order of file name.
+/// The clips of a manifest after import.
+#[derive(Clone, Debug, Default)]
+pub struct ClipSet {
+    /// Clips of human motion, in the order of a database's sources.
+    pub clips: Vec<HumanClip>,
+    /// Files and clips that cannot be used, in order of file name.
+    pub rejected: Vec<Rejection>,
+}
+
+/// Imports all clips of a manifest. A file that cannot be used is rejected and does not stop the others.
 ///
 /// # Errors
-/// Where the manifest says of a clip what is not so.
-pub fn import(manifest: &Manifest, tell: &Observer) -> Result<(Vec<HumanClip>, Vec<Refused>), ManifestError> {
-    tell(Event::Stage("import"));
-    let import = |take: &Take| {
-        let import = import::import_take(take);
-        tell(Event::Imported(&take.path));
-        import
+/// [`CompileError::InvalidManifest`] where a clip contradicts the manifest.
+pub fn import_clip_set(manifest: &Manifest, observer: &Observer) -> Result<ClipSet, CompileError> {
+    observer(CompileEvent::Stage("import"));
+    let import = |settings: &ClipSettings| {
+        let imported = import::import_with_settings(settings);
+        observer(CompileEvent::Imported(&settings.path));
+        imported
     };
-    let imports: Vec<Result<Vec<Import>, ImportError>> = manifest.takes.par_iter().map(import).collect();
-    let (mut clips, mut refused) = (Vec::new(), Vec::new());
-    for (take, import) in manifest.takes.iter().zip(imports) {
-        let file = take.path.display().to_string();
-        let found = import.unwrap_or_else(|error| {
-            refused.push(Refused { file: file.clone(), clip: String::new(), reason: error.reason() });
+    let imports: Vec<Result<Vec<ImportedClip>, Rejection>> = manifest.clips.par_iter().map(import).collect();
+    let mut set = ClipSet::default();
+    for (settings, imported) in manifest.clips.iter().zip(imports) {
+        let imported = imported.unwrap_or_else(|rejection| {
+            set.rejected.push(rejection);
             Vec::new()
         });
-        for Import { clip, outcome, .. } in found {
+        for ImportedClip { clip, outcome, .. } in imported {
             match outcome {
-                Ok(human) => clips.push(human),
-                Err(refusal) => {
-                    refused.push(Refused { file: file.clone(), clip, reason: manifest.reason(take, refusal)? });
+                Ok(human) => set.clips.push(human),
+                Err(reason) => {
+                    manifest.check_reason(settings, &reason)?;
+                    set.rejected.push(Rejection { file: settings.path.display().to_string(), clip, reason });
                 }
             }
         }
     }
-    sort(&mut clips);
-    manifest.choose(&mut clips)?;
-    Ok((clips, refused))
+    sort(&mut set.clips);
+    manifest.mark_chosen(&mut set.clips)?;
+    Ok(set)
 }
 
-/// Into the order of a database, which no folder and no argument changes: files of one name go by what they hold. Clips
-/// of one name are told apart in that order.
+/// Sorts clips into the order of a database's sources and makes their names unique.
+///
+/// Neither folders nor the order of arguments change the result: files of equal names are sorted by their content.
 pub(crate) fn sort(clips: &mut [HumanClip]) {
     let names = |clip: &HumanClip| (clip.source.file.clone(), clip.source.clip.clone(), clip.name.clone());
-    clips.sort_by(|a, b| names(a).cmp(&names(b)).then_with(|| a.by_content(b)));
-    unique_names::tell_apart(clips.iter_mut().map(|clip| &mut clip.name));
+    clips.sort_by(|a, b| names(a).cmp(&names(b)).then_with(|| a.compare_content(b)));
+    unique_names::make_unique(clips.iter_mut().map(|clip| &mut clip.name));
 }

@@ -1,5 +1,5 @@
-//! What is to be imported: a file, one animation of it or a part, and whatever a manifest says instead of letting it be
-//! found.
+//! Settings of one clip: the file, the part of it to import, and values that the user states instead of letting the
+//! compiler find them.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -7,100 +7,108 @@ use std::path::PathBuf;
 
 use motiondb::body::{JOINT_COUNT, Joint};
 
-use crate::error::{Refusal, Setting};
+use crate::error::{ManifestKey, RejectionReason};
 use crate::input::name_suggestions::nearest_first;
+use crate::read::axis::Axis;
 use crate::read::source_clip::SourceClip;
-use crate::retarget::axis::Axis;
+use crate::rig::roles::JointMap;
 
-/// Source joint by canonical role, where a manifest names it.
-pub type JointMap = [Option<usize>; JOINT_COUNT];
-
-/// One file, as it is to be imported.
+/// One clip to import. The default of every field but `path` lets the compiler find the value.
+///
+/// ```
+/// use motiondb_compiler::{ClipSettings, import_with_settings};
+///
+/// let walk = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips/walk_110.bvh");
+/// let settings = ClipSettings { frames: Some([1, 61]), ..ClipSettings::from(walk.into()) };
+/// let clip = import_with_settings(&settings)?.remove(0).outcome?;
+/// assert_eq!(clip.frames.len(), 61);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Take {
-    /// The file.
+pub struct ClipSettings {
+    /// Path of the file.
     pub path: PathBuf,
-    /// The only animation to be used of a glTF file.
+    /// The only animation to use of a glTF file; all of them where `None`.
     pub animation: Option<String>,
-    /// What need not be found.
-    pub settings: Settings,
-    /// Where the manifest says it.
-    pub places: Places,
-}
-
-/// What a manifest says of a clip; all else is found.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Settings {
-    /// The example's name, else the file's stem.
+    /// Name of the example; the file's stem where `None`.
     pub name: Option<String>,
-    /// First and last frame that are used, counted from 1.
+    /// First and last frame to use, counted from 1.
     pub frames: Option<[usize; 2]>,
     /// Metres of one source unit.
     pub metres_per_unit: Option<f64>,
-    /// Up in the source's axes.
+    /// The source's axis that points up.
     pub up: Option<Axis>,
-    /// Where the body faces in the first frame, to within 90°, in the source's axes.
+    /// The source's axis that the body faces in the first frame, to within 60°.
     pub forward: Option<Axis>,
-    /// Frames a second.
+    /// Frame rate, Hz.
     pub frame_rate_hz: Option<f64>,
-    /// Names of source joints by role.
+    /// Names of source joints, by role.
     pub joints: BTreeMap<Joint, String>,
-    /// Whether its example is mirrored.
+    /// Whether the example is mirrored; where `None`, when its mirror image adds to the set.
     pub mirror: Option<bool>,
+    /// Positions of these values in the manifest's text, for messages.
+    pub spans: ManifestSpans,
 }
 
-/// Bytes of the manifest's text.
+/// Byte ranges of a manifest's text that state the settings of one clip.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Places {
-    /// Of the whole table.
+pub struct ManifestSpans {
+    /// The innermost `[[clips]]` table.
     pub table: Range<usize>,
-    /// Of single values.
-    pub values: BTreeMap<Setting, Range<usize>>,
+    /// Single values, by key.
+    pub values: BTreeMap<ManifestKey, Range<usize>>,
 }
 
-impl From<PathBuf> for Take {
+impl From<PathBuf> for ClipSettings {
     fn from(path: PathBuf) -> Self {
         Self { path, ..Self::default() }
     }
 }
 
-impl Settings {
-    /// Changes a clip as its file tells it into the clip that its file should have told.
+impl ClipSettings {
+    /// Overrides what the file states of its frame rate, unit, up axis and frames.
     ///
     /// # Errors
-    /// Where the frames are not there.
-    pub(crate) fn correct(&self, clip: &mut SourceClip) -> Result<(), Refusal> {
+    /// [`RejectionReason::ManifestContradicted`] where the clip has fewer frames than are stated.
+    pub(crate) fn apply_to(&self, clip: &mut SourceClip) -> Result<(), RejectionReason> {
         clip.frame_rate_hz = self.frame_rate_hz.unwrap_or(clip.frame_rate_hz);
         clip.metres_per_unit = self.metres_per_unit.or(clip.metres_per_unit);
         clip.up_axis = self.up.or(clip.up_axis);
         let Some([first, last]) = self.frames else { return Ok(()) };
         let count = clip.frame_count();
         if last > count {
-            let reason = format!("{} has no frame {last}: its frames are 1 to {count}", title(clip));
-            return Err(Refusal::Setting { setting: Setting::Frames, reason, remedy: "end the range earlier" });
+            return Err(RejectionReason::ManifestContradicted {
+                key: ManifestKey::Frames,
+                problem: format!("{} has no frame {last}: its frames are 1 to {count}", title(clip)),
+                remedy: "end the range earlier",
+            });
         }
         clip.keep_frames(first - 1..last);
         Ok(())
     }
 
-    /// The joints that the map names.
+    /// The source joints of the roles that `joints` names.
     ///
     /// # Errors
-    /// Where the clip has no joint of a name.
-    pub(crate) fn joint_map(&self, clip: &SourceClip) -> Result<JointMap, Refusal> {
+    /// [`RejectionReason::ManifestContradicted`] where the clip has no joint of a stated name.
+    pub(crate) fn joint_map(&self, clip: &SourceClip) -> Result<JointMap, RejectionReason> {
         let mut map = [None; JOINT_COUNT];
         for (&role, name) in &self.joints {
             let found = clip.joints.iter().position(|joint| joint.name == *name);
             map[role.index()] = Some(found.ok_or_else(|| {
                 let names = nearest_first(name, clip.joints.iter().map(|joint| joint.name.as_str()));
-                let reason = format!("{} has no joint `{name}`; it has {}", title(clip), names.join(", "));
-                Refusal::Setting { setting: Setting::Joint(role), reason, remedy: "name one of these" }
+                RejectionReason::ManifestContradicted {
+                    key: ManifestKey::Joint(role),
+                    problem: format!("{} has no joint `{name}`; it has {}", title(clip), names.join(", ")),
+                    remedy: "name one of these",
+                }
             })?);
         }
         Ok(map)
     }
 }
 
+/// File and clip, for messages.
 fn title(clip: &SourceClip) -> String {
     if clip.clip.is_empty() { clip.file.clone() } else { format!("{}, {}", clip.file, clip.clip) }
 }

@@ -1,11 +1,11 @@
-//! Names that several things share, told apart: the first keeps the name, the others get `_2`, `_3` … appended.
+//! Unique names: of several equal names the first one stays, the others get `_2`, `_3` … appended.
 //!
-//! Which is first must not depend on folders or on the order of arguments: callers sort by content before.
+//! Callers sort by content first, so that neither folders nor the order of arguments decide which one is first.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Makes names unique. No name that was given is taken away from whoever had it first.
-pub(crate) fn tell_apart<'a>(names: impl Iterator<Item = &'a mut String>) {
+/// Makes names unique. A name that occurs in the input keeps its first owner.
+pub(crate) fn make_unique<'a>(names: impl Iterator<Item = &'a mut String>) {
     let names: Vec<&mut String> = names.collect();
     let mut taken: BTreeSet<String> = names.iter().map(|name| (**name).clone()).collect();
     let mut last_number: BTreeMap<String, usize> = BTreeMap::new();
@@ -19,7 +19,7 @@ pub(crate) fn tell_apart<'a>(names: impl Iterator<Item = &'a mut String>) {
             Some(format!("{name}_{number}"))
         };
         let free = std::iter::from_fn(numbered).find(|other| taken.insert(other.clone()));
-        *name = free.expect("numbers do not end before names do");
+        *name = free.expect("there are more numbers than names");
     }
 }
 
@@ -28,16 +28,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_keeps_its_name_and_no_number_is_given_twice() {
+    fn the_first_name_stays_and_numbers_are_unique() {
         let mut names = ["walk", "run", "walk", "walk_2", "walk"].map(str::to_owned);
-        tell_apart(names.iter_mut());
+        make_unique(names.iter_mut());
         assert_eq!(names, ["walk", "run", "walk_3", "walk_2", "walk_4"]);
     }
 
     #[test]
-    fn thousands_of_one_name_are_told_apart_quickly() {
+    fn ten_thousand_equal_names_become_unique() {
         let mut names = vec!["walk".to_owned(); 10_000];
-        tell_apart(names.iter_mut());
+        make_unique(names.iter_mut());
         assert_eq!(names[9_999], "walk_10000");
     }
 }

@@ -1,13 +1,17 @@
-//! Reading: files become `SourceClip`s, global positions and orientations of named joints over time.
+//! Reading: files become [`SourceClip`]s, global positions and orientations of all joints over time.
 //!
-//! Enters: bytes of a BVH or glTF file. Leaves: its clips, in the file's own units and axes.
+//! Enters: bytes of a BVH or glTF file. Leaves: its clips, in the file's own unit and axes.
 //!
-//! Read `source_clip`, then `bvh`, then `gltf`; `decimal` reads numbers, `catch_panic` guards the parsers of others.
+//! Read `axis` and `source_clip`, then [`bvh`], then [`gltf`]. `decimal` reads numbers, `malformed` reports what breaks
+//! a format, `catch_panic` guards other crates' parsers.
 
+pub(crate) mod axis;
 pub mod bvh;
 pub(crate) mod catch_panic;
 pub(crate) mod decimal;
 pub mod gltf;
+pub(crate) mod malformed;
 pub(crate) mod source_clip;
 
+pub use axis::Axis;
 pub use source_clip::{SourceClip, SourceJoint};

@@ -1,48 +1,51 @@
-//! A clip as its file tells it: every joint's global position and orientation in every frame, in the source's units and
+//! A clip as its file holds it: global position and orientation of every joint in every frame, in the source's unit and
 //! axes.
 //!
-//! Local rotations, rest poses and scales are gone at this point: what two formats disagree about ends here.
+//! Formats differ in local rotations, rest poses and scales; readers resolve these, and no later stage sees them.
 
 use std::ops::Range;
 
 use glam::{DQuat, DVec3};
 use motiondb::diagnostic::Diagnostic;
 
-use crate::retarget::axis::Axis;
+use crate::read::axis::Axis;
+
+/// Greatest number of joints of a clip; the largest rig of the development set, with face and fingers, has 165.
+pub(crate) const MAX_JOINTS: usize = 4096;
 
 /// One joint of a source skeleton.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceJoint {
-    /// As the file spells it; an end site takes its parent's name with `_end` appended.
+    /// Name in the file. An end site has its parent's name with `_end` appended.
     pub name: String,
-    /// Index of its parent, always smaller than its own.
+    /// Index of the parent, always smaller than the joint's own index.
     pub parent: Option<usize>,
-    /// An end site: a point that does not turn by itself.
+    /// Whether this is an end site of a BVH file: a point without a rotation of its own.
     pub is_end: bool,
 }
 
-/// One clip, before anything is known about the body.
+/// One clip of a file; nothing is known about its body yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceClip {
     /// File name without folders.
     pub file: String,
-    /// Clip within the file; empty where a file holds one unnamed clip.
+    /// Clip within the file; empty where the file holds one clip without a name.
     pub clip: String,
-    /// A parent stands before its children.
+    /// All joints; each parent comes before its children.
     pub joints: Vec<SourceJoint>,
-    /// Frames of the file before the first that is kept.
+    /// Number of the file's frames before the first frame of this clip.
     pub first_frame: usize,
-    /// Frames a second.
+    /// Frame rate, Hz.
     pub frame_rate_hz: f64,
-    /// Global positions in source units, frame-major: frame · joint count + joint.
+    /// Global positions, source units, at index frame · joint count + joint.
     pub positions: Vec<DVec3>,
-    /// Global orientations, in the same order.
+    /// Global orientations, in the order of `positions`.
     pub orientations: Vec<DQuat>,
-    /// Metres per unit where the format (glTF: 1) or the manifest says it.
+    /// Metres of one source unit, where the format (glTF: 1) or the manifest states it.
     pub metres_per_unit: Option<f64>,
-    /// The axis that points up where the manifest says it; else it is found.
+    /// The axis that points up, where the manifest states it.
     pub up_axis: Option<Axis>,
-    /// What was found in the file.
+    /// What the stages so far report of the clip.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -62,7 +65,7 @@ impl SourceClip {
         self.orientations[frame * self.joints.len() + joint]
     }
 
-    /// Drops all frames but these.
+    /// Removes all frames outside a range.
     pub fn keep_frames(&mut self, frames: Range<usize>) {
         self.first_frame += frames.start;
         let (first, last) = (frames.start * self.joints.len(), frames.end * self.joints.len());

@@ -1,4 +1,6 @@
-//! A clip on the canonical humanoid: metres, Z up, the performer's own proportions, still travelling through the world.
+//! A clip on the canonical humanoid, with the performer's own proportions, still moving through the world.
+//!
+//! Metres, z up, right-handed, f64. A body's frame: x forward, y left. Pairs of sides are `[left, right]`.
 
 use std::cmp::Ordering;
 
@@ -7,86 +9,85 @@ use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::diagnostic::Unfit;
 use motiondb::motion::SourceRecord;
 
-/// A clip after import: canonical joints, metres, Z up, right-handed, f64.
+/// A clip after import.
 #[derive(Clone, Debug)]
 pub struct HumanClip {
-    /// The name an example made from it gets: the file's stem, with ` clip` appended where a file holds several.
+    /// Name of the example: the file's stem; of one clip of several, with the clip's name appended.
     pub name: String,
-    /// What was found in the source, whole-clip parameters included.
+    /// Record of the source, with its whole-clip parameters and diagnostics.
     pub source: SourceRecord,
-    /// Frames of the file before the first that is kept (a T-pose, what a manifest leaves out).
+    /// Number of the file's frames before the first frame of this clip.
     pub first_frame: usize,
-    /// Frames a second, after any correction.
+    /// Frame rate, Hz, as the file or the manifest states it.
     pub frame_rate_hz: f64,
-    /// The performer's bones.
+    /// Bones of the performer.
     pub body: HumanBody,
-    /// One pose a frame; a separate first frame (T-pose and jump) is already dropped.
+    /// One pose for each frame.
     pub frames: Vec<HumanPose>,
-    /// The clip treads on the spot: the ground speed (forward, left, in the body's frame, m/s) at which its stance feet
-    /// stand still.
+    /// Velocity (forward, left) of the body over the ground on which its stance feet stand still, m/s, of a clip in place;
+    /// none of a clip that travels.
     pub in_place_mps: Option<DVec2>,
-    /// Why it gives no example, where import found a reason.
+    /// Why the clip gives no example, where import finds a reason.
     pub unfit: Option<Unfit>,
-    /// What a manifest makes of it.
+    /// What a manifest states about the clip's part in the set.
     pub choices: Choices,
 }
 
-/// What a manifest makes of a clip; by default the set decides.
+/// What a manifest states about a clip's part in the set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Choices {
-    /// Whether its example is mirrored; where none, when that adds to the set.
+    /// Whether the example is mirrored; where `None`, when its mirror image adds to the set.
     pub mirror: Option<bool>,
-    /// Its example is m_sp.
+    /// Whether the clip's example is the base walk, m_sp.
     pub is_semi_procedural: bool,
-    /// Which of its examples that is: the one that begins at this tenth of a second of the file; the first where none.
+    /// The example that is m_sp, by the tenth of a second of the file at which it begins; the first one where `None`.
     pub semi_procedural_tenth: Option<u32>,
-    /// All examples have its body.
+    /// Whether all examples have this clip's body.
     pub is_target_skeleton: bool,
-    /// It is the part of its file that the manifest cuts out.
+    /// Whether the manifest selects the frames.
     pub is_cut: bool,
 }
 
-/// Bones of one performer in the canonical rest pose (see [`motiondb::body::Skeleton`]), metres.
+/// Bones of one performer in the canonical rest pose (see [`motiondb::body::Skeleton`]), m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HumanBody {
-    /// Joint relative to its parent; entry 0 is zero.
+    /// Offset of each joint from its parent; zero for the first joint.
     pub offsets_m: [DVec3; JOINT_COUNT],
-    /// Far ends of the leaf joints' segments (crown, fingertips, toe tips) and of the others (their child), relative to
-    /// the joint.
+    /// Far end of each joint's segment relative to the joint: crown, fingertips, toe tips; for other joints their child.
     pub segment_ends_m: [DVec3; JOINT_COUNT],
-    /// `[left, right]`: heel, ball (relative to the foot joint) and toe tip (relative to the toe joint) on the sole.
+    /// `[left, right]`: heel and ball (relative to the foot joint) and toe tip (relative to the toe joint) on the sole.
     pub soles_m: [[DVec3; 3]; 2],
-    /// Where slide is measured, in the same frames: the soles themselves or the joints over them (see
+    /// Points at which slide is measured, in the same frames: the soles, or the joints over them (see
     /// [`motiondb::body::Foot`]).
     pub measured_m: [[DVec3; 3]; 2],
 }
 
-/// One frame.
+/// Pose of one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HumanPose {
-    /// The pelvis joint (midpoint of the hips) in the world.
+    /// World position of the pelvis joint (the midpoint of the hips), m.
     pub pelvis_m: DVec3,
-    /// Local rotations; the pelvis's against the world.
+    /// Rotation of each joint in its parent's frame; of the pelvis in the world.
     pub rotations: [DQuat; JOINT_COUNT],
 }
 
-/// Every joint in the world.
+/// World positions and orientations of all joints in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HumanJoints {
-    /// Metres.
+    /// Positions, m.
     pub positions_m: [DVec3; JOINT_COUNT],
-    /// Against the rest pose.
+    /// Rotations from the rest pose.
     pub orientations: [DQuat; JOINT_COUNT],
 }
 
 impl HumanClip {
-    /// An order of clips that no name and no folder changes.
-    pub fn by_content(&self, other: &Self) -> Ordering {
+    /// Order of two clips by their content, which names and folders do not change.
+    pub(crate) fn compare_content(&self, other: &Self) -> Ordering {
         let heads = [self, other].map(|clip| (clip.frames.len(), clip.first_frame, clip.choices));
         heads[0].cmp(&heads[1]).then_with(|| self.values().cmp(other.values()))
     }
 
-    /// All that its frames hold, bit by bit.
+    /// Bits of the frame rate and of all poses.
     fn values(&self) -> impl Iterator<Item = u64> {
         let of_pose = |pose: &HumanPose| {
             let turns = pose.rotations.map(|turn| turn.to_array());
@@ -97,7 +98,7 @@ impl HumanClip {
 }
 
 impl HumanBody {
-    /// The same proportions in another size.
+    /// The body of the same proportions, `scale` times as large.
     pub fn scaled(&self, scale: f64) -> Self {
         let points = |feet: [[DVec3; 3]; 2]| feet.map(|foot| foot.map(|point| point * scale));
         Self {
@@ -110,12 +111,12 @@ impl HumanBody {
 }
 
 impl HumanPose {
-    /// The same pose of a body in another size.
+    /// The pose of a body that is `scale` times as large.
     pub fn scaled(&self, scale: f64) -> Self {
         Self { pelvis_m: self.pelvis_m * scale, rotations: self.rotations }
     }
 
-    /// Every joint in the frame of the pelvis's position.
+    /// World positions and orientations of all joints.
     pub fn forward_kinematics(&self, body: &HumanBody) -> HumanJoints {
         let mut joints = HumanJoints { positions_m: [self.pelvis_m; JOINT_COUNT], orientations: self.rotations };
         for joint in &Joint::ALL[1..] {
@@ -130,18 +131,18 @@ impl HumanPose {
 }
 
 impl HumanJoints {
-    /// Heel, ball and toe tip on the sole of one foot.
+    /// World positions of heel, ball and toe tip on the sole of one foot, m.
     pub fn sole_points_m(&self, body: &HumanBody, side: usize) -> [DVec3; 3] {
         self.foot_points_m(side, body.soles_m[side])
     }
 
-    /// The points of one foot at which its slide is measured.
+    /// World positions of the points of one foot at which slide is measured, m.
     pub fn measured_points_m(&self, body: &HumanBody, side: usize) -> [DVec3; 3] {
         self.foot_points_m(side, body.measured_m[side])
     }
 
-    /// The points of one foot that touch and leave the ground: the heel on the sole, ball and toe tip where slide is
-    /// measured.
+    /// World positions of the points of one foot that touch and leave the ground, m: the heel on the sole, ball and toe tip
+    /// where slide is measured.
     pub fn landing_points_m(&self, body: &HumanBody, side: usize) -> [DVec3; 3] {
         let ([heel, ..], [_, ball, tip]) = (body.soles_m[side], body.measured_m[side]);
         self.foot_points_m(side, [heel, ball, tip])
@@ -153,8 +154,8 @@ impl HumanJoints {
         [on_foot(heel), on_foot(ball), self.positions_m[toe] + self.orientations[toe] * tip]
     }
 
-    /// The facing of the definitions: mean of the left→right unit vectors of hip pair and shoulder pair, turned 90°, on
-    /// the ground; radians.
+    /// Facing: the mean of the left → right unit vectors of hips and shoulders, turned by 90° and projected on the ground,
+    /// rad.
     pub fn facing_rad(&self) -> f64 {
         let across = |pair: [Joint; 2]| {
             (self.positions_m[pair[1].index()] - self.positions_m[pair[0].index()]).normalize_or_zero()
@@ -163,13 +164,13 @@ impl HumanJoints {
         libm::atan2(right.x, -right.y)
     }
 
-    /// How far the joints have gone to another pose, in the mean, metres.
+    /// Mean distance of the joints from those of another pose, m.
     pub fn mean_distance_m(&self, other: &Self) -> f64 {
         let distances = self.positions_m.iter().zip(&other.positions_m).map(|(from, to)| from.distance(*to));
         distances.sum::<f64>() / JOINT_COUNT as f64
     }
 
-    /// Midpoint of the hips.
+    /// Midpoint of the hips, m.
     pub fn hips_m(&self) -> DVec3 {
         0.5 * (self.positions_m[Joint::THIGHS[0].index()] + self.positions_m[Joint::THIGHS[1].index()])
     }

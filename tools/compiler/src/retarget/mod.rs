@@ -1,19 +1,24 @@
-//! Retargeting: a `SourceClip` with roles becomes a `HumanClip`, the canonical humanoid in metres, z up.
+//! Retargeting: a [`SourceClip`](crate::read::SourceClip) with roles becomes a [`HumanClip`], the canonical humanoid.
 //!
-//! Read `units` and `axis`, then `source_parameters` and `treadmill_speed` (whole-clip parameters), `trim_t_poses`, then
-//! `anchors`, `calibration`, `soles`, and last `to_humanoid`, which puts the `human_clip` together.
+//! Enters: joints in source units and axes, and their roles. Leaves: the performer's body and poses in metres, z up, the
+//! soles on z = 0, still moving through the world; and the whole-clip parameters of the source.
+//!
+//! Read `stated_facing` and `units`; then `facing_frame`, `treadmill_speed` and `source_parameters` (whole-clip
+//! parameters) and `trim_t_poses`; then `anchors`, `joint_tracks`, `calibration` and `soles`; last `to_humanoid`, which
+//! makes the `human_clip`.
 
 pub(crate) mod anchors;
-pub(crate) mod axis;
 pub(crate) mod calibration;
+pub(crate) mod facing_frame;
 pub(crate) mod human_clip;
+pub(crate) mod joint_tracks;
 pub(crate) mod soles;
 pub(crate) mod source_parameters;
+pub(crate) mod stated_facing;
 pub(crate) mod to_humanoid;
 pub(crate) mod treadmill_speed;
 pub(crate) mod trim_t_poses;
 pub mod units;
 
-pub use axis::Axis;
 pub use human_clip::{Choices, HumanBody, HumanClip, HumanJoints, HumanPose};
-pub use source_parameters::{WholeClip, measure};
+pub use source_parameters::{SourceParameters, source_parameters};

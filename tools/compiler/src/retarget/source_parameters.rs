@@ -1,65 +1,62 @@
-//! Whole-clip parameters of a source: v_f, ω_t, ω_s on its own skeleton, unsmoothed.
+//! Whole-clip parameters (v_f, ω_t, ω_s) of a source, on its own skeleton, unsmoothed. Clips are in metres, z up.
 //!
-//! Hip midpoint against the facing of hips and shoulders. ω_t is the change of the facing between its means over the
-//! first and the last quarter second. A clip that treads on the spot takes v_f and ω_s from the slide of its stance
-//! feet (`tread.rs`).
+//! v_f and ω_s are the means of the hip midpoint's velocity along the facing and to its left. ω_t is the change of the
+//! facing between its means over the first and the last 0.25 s, over the time between them. Of a clip in place, v_f and
+//! ω_s are those of the ground under its stance feet (`treadmill_speed`).
 
 use glam::DVec2;
 use motiondb::body::Joint;
 
 use crate::read::source_clip::SourceClip;
+use crate::retarget::facing_frame::{facing_rad, heading, in_body_frame};
 use crate::retarget::treadmill_speed;
 use crate::retarget::units::{HUMAN_LEG_M, leg_length, middle};
 use crate::rig::roles::Roles;
 
-/// Seconds at either end over which the facing is averaged.
+/// Duration at each end over which the facing is averaged, s.
 const END_S: f64 = 0.25;
-/// Hips that stay within this much of a person's leg stay in place, m.
+/// Greatest extent of the hips' path in a clip in place, m for a person's leg.
 const IN_PLACE_EXTENT_M: f64 = 0.35;
-/// And so do hips that wander farther, at less than this share of the speed at which the feet tread.
+/// Greatest speed of the hips over that of the ground, in a clip in place whose hips go farther.
 const IN_PLACE_SHARE: f64 = 0.1;
-/// A stance foot that slides faster than this treads, m/s; slower feet stand (idle) or turn on the spot.
-const TREAD_MIN_MPS: f64 = 0.2;
+/// Least speed of the ground under a clip in place, m/s for a person's leg; slower feet stand or turn on the spot.
+const IN_PLACE_MIN_MPS: f64 = 0.2;
 
-/// v_f, ω_t, ω_s of a whole clip.
+/// v_f, ω_t and ω_s of a whole clip.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WholeClip {
+pub struct SourceParameters {
     /// v_f, m/s.
     pub speed_mps: f64,
     /// ω_t, rad/s.
     pub turn_rate_rad_s: f64,
     /// ω_s, m/s.
     pub strafe_mps: f64,
-    /// The speeds come from the stance foot's slide.
-    pub in_place: bool,
+    /// Whether the clip is in place: v_f and ω_s come from the slide of its stance feet.
+    pub is_in_place: bool,
 }
 
-/// Measures a clip in metres, Z up.
-pub fn measure(clip: &SourceClip, roles: &Roles) -> WholeClip {
+/// The parameters of a clip in metres, z up.
+pub fn source_parameters(clip: &SourceClip, roles: &Roles) -> SourceParameters {
     let frames = 0..clip.frame_count();
     let hips: Vec<DVec2> = frames.clone().map(|frame| middle(clip, roles, Joint::THIGHS, frame).truncate()).collect();
     let facings = unwrapped(frames.map(|frame| facing_rad(clip, roles, frame)));
-    let turn_rate_rad_s = turn_rate(&facings, clip.frame_rate_hz);
+    let turn_rate_rad_s = turn_rate_rad_s(&facings, clip.frame_rate_hz);
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
-    let moved = mean_velocity(&hips, &facings, clip.frame_rate_hz);
-    let treading = Some(treadmill_speed::ground_velocity(clip, roles)).filter(|slide| {
-        let stays = extent_m(&hips) < IN_PLACE_EXTENT_M * scale || moved.length() < IN_PLACE_SHARE * slide.length();
-        stays && slide.length() > TREAD_MIN_MPS * scale
+    let travel = mean_velocity_mps(&hips, &facings, clip.frame_rate_hz);
+    let treadmill = Some(treadmill_speed::ground_velocity(clip, roles)).filter(|ground| {
+        let stays = extent_m(&hips) < IN_PLACE_EXTENT_M * scale || travel.length() < IN_PLACE_SHARE * ground.length();
+        stays && ground.length() > IN_PLACE_MIN_MPS * scale
     });
-    let velocity = treading.unwrap_or(moved);
-    WholeClip { speed_mps: velocity.x, turn_rate_rad_s, strafe_mps: velocity.y, in_place: treading.is_some() }
+    let velocity = treadmill.unwrap_or(travel);
+    SourceParameters {
+        speed_mps: velocity.x,
+        turn_rate_rad_s,
+        strafe_mps: velocity.y,
+        is_in_place: treadmill.is_some(),
+    }
 }
 
-/// Mean of the left→right unit vectors of hips and shoulders, turned 90° and projected on the ground.
-pub(crate) fn facing_rad(clip: &SourceClip, roles: &Roles, frame: usize) -> f64 {
-    let across = |[left, right]: [Joint; 2]| {
-        let [left, right] = [left, right].map(|joint| clip.position(frame, roles.required(joint)));
-        (right - left).normalize_or_zero()
-    };
-    let right = across(Joint::THIGHS) + across(Joint::UPPER_ARMS);
-    libm::atan2(right.x, -right.y)
-}
-
+/// Angles without jumps of a whole turn, rad.
 fn unwrapped(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut result: Vec<f64> = Vec::new();
     for angle in angles {
@@ -70,7 +67,7 @@ fn unwrapped(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     result
 }
 
-fn turn_rate(facings: &[f64], frame_rate_hz: f64) -> f64 {
+fn turn_rate_rad_s(facings: &[f64], frame_rate_hz: f64) -> f64 {
     let frames = facings.len();
     let count = ((END_S * frame_rate_hz + 1e-9) as usize).min(frames / 4).max(1);
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
@@ -78,23 +75,16 @@ fn turn_rate(facings: &[f64], frame_rate_hz: f64) -> f64 {
     (mean(&facings[frames - count..]) - mean(&facings[..count])) / span_s
 }
 
-pub(crate) fn heading(angle_rad: f64) -> DVec2 {
-    DVec2::new(libm::cos(angle_rad), libm::sin(angle_rad))
-}
-
-/// A ground vector in the body's frame: along the facing, to its left.
-pub(crate) fn in_body(vector: DVec2, forward: DVec2) -> DVec2 {
-    DVec2::new(vector.dot(forward), forward.perp_dot(vector))
-}
-
-fn mean_velocity(hips: &[DVec2], facings: &[f64], frame_rate_hz: f64) -> DVec2 {
+/// Mean velocity of the hips in the body's frame, m/s.
+fn mean_velocity_mps(hips: &[DVec2], facings: &[f64], frame_rate_hz: f64) -> DVec2 {
     let steps = hips.windows(2).zip(facings.windows(2)).map(|(hips, facings)| {
         let forward = (heading(facings[0]) + heading(facings[1])).normalize_or_zero();
-        in_body(hips[1] - hips[0], forward) * frame_rate_hz
+        in_body_frame(hips[1] - hips[0], forward) * frame_rate_hz
     });
     steps.sum::<DVec2>() / (hips.len() - 1) as f64
 }
 
+/// Diagonal of the rectangle about points, m.
 fn extent_m(points: &[DVec2]) -> f64 {
     let least = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let most = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);

@@ -1,236 +1,256 @@
-//! What tells legs from wings, arms from plaits and left from right on a skeleton whose names say nothing: legs reach
-//! lowest, arms are two thirds as long, hang from the upper trunk and bend, toes and knees point forward.
+//! Which pairs of limbs are legs and arms, and which of each pair is the left one, on a skeleton of any names.
+//!
+//! Legs reach lowest and begin at their fork. Arms are two thirds as long, hang from the upper trunk and bend; plaits,
+//! wings and held things do not. Toes and knees point forward. Lengths in source units; directions in the source's axes.
 
 use glam::DVec3;
 use motiondb::body::Side;
 
-use crate::error::Refusal;
-use crate::rig::joint_names::Part;
+use crate::error::RejectionReason;
+use crate::rig::joint_names::BodyPart;
 use crate::rig::limb::{self, Limb, LimbPair};
-use crate::rig::source_rig::Shape;
+use crate::rig::source_rig::SourceRig;
 
-/// Weight of legs under which another part of the body reaches a whole leg's length lower.
+/// Least weight of legs, for those that end a whole leg's length above another part of the body.
 const HANGING_WEIGHT: f64 = 0.05;
-/// Arms over legs, shoulder over hips in legs: people's; and the factor at which either becomes improbable (drawn
-/// characters: 0.5 to 1.4 of it).
+/// Length of arms over legs. Drawn characters: 0.5 to 1.4 times this.
 const ARM_OVER_LEG: f64 = 0.68;
-const SHOULDER_OVER_LEG: f64 = 0.6;
+/// Factor of the arms' length at which their weight falls to exp(−½).
 const ARM_LENGTH_FACTOR: f64 = 1.6;
+/// Height of the shoulders over the hips, in legs. Drawn characters: 0.5 to 1.4 times this.
+const SHOULDER_OVER_LEG: f64 = 0.6;
+/// Deviation of the shoulders' height, in legs, at which the arms' weight falls to exp(−½).
 const SHOULDER_DEVIATION: f64 = 0.5;
-/// The shortest arms, over the legs: what is shorter is a pair of fingers.
+/// Least length of arms over legs: a shorter pair is a pair of fingers.
 const ARM_OVER_LEG_MIN: f64 = 0.25;
-/// Legs of a score under this share of the longest limbs' are none.
+/// Least score of legs over the best legs' score.
 const UNLIKELY: f64 = 0.1;
-/// Hips from their fork, over the leg, at which legs become improbable (people: 0.1).
+/// Distance of the hips from their fork, over the leg, at which the legs' weight falls to exp(−½). People: 0.1.
 const HIP_FROM_FORK: f64 = 0.5;
-/// An elbow whose cosine varies less than this is no joint (plaits, wings and guns that are bound stiffly), and the
-/// weight of such a limb.
+/// Least standard deviation of an elbow's cosine. Plaits, wings and guns that are bound stiffly stay below.
 const STIFF_COSINE: f64 = 1e-4;
+/// Weight of a pair of limbs that do not bend.
 const STIFF_WEIGHT: f64 = 0.4;
-/// Standard deviation of the place of whoever makes a way, over the leg: a straight way of a leg's length.
-const WAY_MIN: f64 = 0.3;
-/// A toe joint is at least this share of the shank away from the ankle.
+/// Least standard deviation of the hips' position, over the leg, of a body that travels: a straight path of a leg's
+/// length.
+const TRAVEL_MIN: f64 = 0.3;
+/// Least distance of a toe joint from the ankle over half the leg, and of a foot's end over the whole leg.
 pub(crate) const TOE_DISTANCE: f64 = 0.12;
-/// Cosine past which toes, and also knees, belie the sides that names give.
-const BELIED_COSINE: f64 = -0.7;
+/// Cosine below which toes, and also knees, contradict the sides that names state.
+const CONTRADICTING_COSINE: f64 = -0.7;
 
-/// Midpoint of the joints of a pair.
-pub(crate) fn middle(shape: &Shape, frame: usize, pair: &LimbPair, joint: usize) -> DVec3 {
-    let [first, second] = pair.limbs.each_ref().map(|limb| shape.clip.position(frame, limb.joints[joint]));
+/// Midpoint of the joints of a pair: 0 for hips or shoulders, 1 for knees or elbows, 2 for ankles or wrists.
+pub(crate) fn middle(rig: &SourceRig, frame: usize, pair: &LimbPair, joint: usize) -> DVec3 {
+    let [first, second] = pair.limbs.each_ref().map(|limb| rig.clip.position(frame, limb.joints[joint]));
     0.5 * (first + second)
 }
 
-/// The pairs of a body: of all legs and arms those that go together best.
+/// Legs and arms: the two pairs that go together best, unless they are known.
 ///
 /// # Errors
-/// What is missing.
-pub(crate) fn find(
-    shape: &Shape,
+/// [`RejectionReason::NoLegs`], [`RejectionReason::NoArms`].
+pub(crate) fn legs_and_arms(
+    rig: &SourceRig,
     known_legs: Option<LimbPair>,
     known_arms: Option<LimbPair>,
-) -> Result<[LimbPair; 2], Refusal> {
+) -> Result<[LimbPair; 2], RejectionReason> {
     let (known_legs, known_arms) = match (known_legs, known_arms) {
         (Some(legs), Some(arms)) => return Ok([legs, arms]),
         known => known,
     };
     let legs = match known_legs {
         Some(pair) => vec![(1.0, pair)],
-        None => likely_legs(shape, limb::pairs(shape, [Part::Thigh, Part::Shank, Part::Foot])),
+        None => likely_legs(rig, limb::pairs(rig, [BodyPart::Thigh, BodyPart::Shank, BodyPart::Foot])),
     };
     let Some((_, likeliest)) = legs.first() else {
-        return Err(Refusal::NoLegs);
+        return Err(RejectionReason::NoLegs);
     };
-    let seeming_legs = likeliest.limbs.each_ref().map(|limb| ends(shape, limb));
-    let arms =
-        known_arms.map_or_else(|| limb::pairs(shape, [Part::UpperArm, Part::Forearm, Part::Hand]), |pair| vec![pair]);
+    let likeliest_legs = likeliest.limbs.each_ref().map(|limb| end_names(rig, limb));
+    let arm_parts = [BodyPart::UpperArm, BodyPart::Forearm, BodyPart::Hand];
+    let arms = known_arms.map_or_else(|| limb::pairs(rig, arm_parts), |pair| vec![pair]);
     let mut best: Option<(f64, [LimbPair; 2])> = None;
     for (likelihood, legs) in legs {
-        let Some((score, arms)) = best_arms(shape, &legs, &arms) else { continue };
-        let score = likelihood * score * (0.5 + 0.5 * upright_cosine(shape, &legs, arms));
+        let Some((score, arms)) = best_arms(rig, &legs, &arms) else { continue };
+        let score = likelihood * score * (0.5 + 0.5 * upright_cosine(rig, &legs, arms));
         if best.as_ref().is_none_or(|(least, _)| score > *least) {
             best = Some((score, [legs, arms.clone()]));
         }
     }
-    best.map(|(_, body)| body).ok_or(Refusal::NoArms { seeming_legs })
+    best.map(|(_, limbs)| limbs).ok_or(RejectionReason::NoArms { likeliest_legs })
 }
 
 /// Names of a limb's first and last joint.
-fn ends(shape: &Shape, limb: &Limb) -> [String; 2] {
-    [limb.joints[0], limb.joints[2]].map(|joint| shape.clip.joints[joint].name.clone())
+fn end_names(rig: &SourceRig, limb: &Limb) -> [String; 2] {
+    [limb.joints[0], limb.joints[2]].map(|joint| rig.clip.joints[joint].name.clone())
 }
 
-/// The best legs of every two branches of a fork, with their scores over the best of all.
-fn likely_legs(shape: &Shape, pairs: Vec<LimbPair>) -> Vec<(f64, LimbPair)> {
+/// The best legs of each two branches of a fork, with their likelihood: the score over the best score, times the weight
+/// of how they stand.
+fn likely_legs(rig: &SourceRig, pairs: Vec<LimbPair>) -> Vec<(f64, LimbPair)> {
     let mut likely: Vec<(f64, LimbPair)> = Vec::new();
-    let longest = pairs.first().map_or(1.0, LimbPair::score);
-    for pair in pairs.into_iter().take_while(|pair| pair.score() > UNLIKELY * longest) {
-        let share = |joint: usize, other: &LimbPair| {
-            shape.ancestors(other.limbs[0].joints[2]).contains(&joint)
-                || shape.ancestors(joint).contains(&other.limbs[0].joints[0])
+    let best_score = pairs.first().map_or(1.0, LimbPair::score);
+    for pair in pairs.into_iter().take_while(|pair| pair.score() > UNLIKELY * best_score) {
+        let is_on_limb_of = |joint: usize, other: &LimbPair| {
+            rig.ancestors(other.limbs[0].joints[2]).contains(&joint)
+                || rig.ancestors(joint).contains(&other.limbs[0].joints[0])
         };
-        if likely.iter().all(|(_, other)| !share(pair.limbs[0].joints[1], other)) {
-            likely.push((pair.score() / longest * standing_weight(shape, &pair), pair));
+        if likely.iter().all(|(_, other)| !is_on_limb_of(pair.limbs[0].joints[1], other)) {
+            likely.push((pair.score() / best_score * standing_weight(rig, &pair), pair));
         }
     }
     likely
 }
 
-/// The best arms beside legs.
-fn best_arms<'a>(shape: &Shape, legs: &LimbPair, arms: &'a [LimbPair]) -> Option<(f64, &'a LimbPair)> {
-    let taken: Vec<usize> = legs.limbs.iter().flat_map(|limb| shape.subtree(limb.joints[0])).collect();
-    let above: Vec<usize> = legs.limbs.iter().flat_map(|limb| shape.ancestors(limb.joints[0])).collect();
+/// The best arms beside these legs, and their weighted score.
+fn best_arms<'a>(rig: &SourceRig, legs: &LimbPair, arms: &'a [LimbPair]) -> Option<(f64, &'a LimbPair)> {
+    let taken: Vec<usize> = legs.limbs.iter().flat_map(|limb| rig.subtree(limb.joints[0])).collect();
+    let above: Vec<usize> = legs.limbs.iter().flat_map(|limb| rig.ancestors(limb.joints[0])).collect();
     let is_free = |limb: &Limb| limb.joints.iter().all(|joint| !taken.contains(joint) && !above.contains(joint));
-    let long_enough = |pair: &&LimbPair| pair.limbs[0].length >= ARM_OVER_LEG_MIN * legs.limbs[0].length;
-    let free = arms.iter().filter(long_enough).filter(|pair| pair.limbs.iter().all(is_free));
-    limb::best_of(free, |pair| arm_weight(shape, legs, pair))
+    let is_long = |pair: &&LimbPair| pair.limbs[0].length >= ARM_OVER_LEG_MIN * legs.limbs[0].length;
+    let free = arms.iter().filter(is_long).filter(|pair| pair.limbs.iter().all(is_free));
+    limb::best_weighted(free, |pair| arm_weight(rig, legs, pair))
 }
 
-/// 1 for limbs that begin at their fork, bend, and end lower than all else of the body, seen from where they begin.
-fn standing_weight(shape: &Shape, pair: &LimbPair) -> f64 {
-    let up = shape.mean_vector(|frame| middle(shape, frame, pair, 0) - middle(shape, frame, pair, 2));
+/// Weight of legs: 1 where they begin at their fork, bend, and end lower than the rest of the body, seen from their hips.
+fn standing_weight(rig: &SourceRig, pair: &LimbPair) -> f64 {
+    let up = rig.mean_vector(|frame| middle(rig, frame, pair, 0) - middle(rig, frame, pair, 2));
     let up = up.normalize_or_zero();
-    let own = pair.limbs.each_ref().map(|limb| shape.subtree(limb.joints[1]));
-    let above = shape.ancestors(pair.fork);
+    let own = pair.limbs.each_ref().map(|limb| rig.subtree(limb.joints[1]));
+    let above = rig.ancestors(pair.fork);
     let is_other = |joint: &usize| !above.contains(joint) && own.iter().all(|own| !own.contains(joint));
-    let others: Vec<usize> = (0..shape.children.len()).filter(is_other).collect();
+    let others: Vec<usize> = (0..rig.children.len()).filter(is_other).collect();
     let lowest = |frame: usize, joints: &[usize]| {
-        joints.iter().map(|&joint| shape.clip.position(frame, joint).dot(up)).fold(f64::INFINITY, f64::min)
+        joints.iter().map(|&joint| rig.clip.position(frame, joint).dot(up)).fold(f64::INFINITY, f64::min)
     };
     let length = pair.limbs[0].length.max(1e-12);
-    let over = |own: &[usize]| shape.mean(|frame| (lowest(frame, own) - lowest(frame, &others)).max(0.0));
-    let gap = f64::max(over(&own[0]), over(&own[1])) / length;
-    let apart = shape.distance(pair.fork, pair.limbs[0].joints[0]) / length;
-    (1.0 - gap).max(HANGING_WEIGHT) * libm::exp(-0.5 * (apart / HIP_FROM_FORK).powi(2)) * bending_weight(shape, pair)
+    let height_over_others = |own: &[usize]| rig.mean(|frame| (lowest(frame, own) - lowest(frame, &others)).max(0.0));
+    let gap = f64::max(height_over_others(&own[0]), height_over_others(&own[1])) / length;
+    let from_fork = rig.mean_distance(pair.fork, pair.limbs[0].joints[0]) / length;
+    (1.0 - gap).max(HANGING_WEIGHT) * libm::exp(-0.5 * (from_fork / HIP_FROM_FORK).powi(2)) * bending_weight(rig, pair)
 }
 
-/// 1 for limbs as long as arms, beginning where shoulders are, that bend.
-fn arm_weight(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> f64 {
+/// Weight of arms: 1 where they are as long as arms, begin at the height of shoulders, and bend.
+fn arm_weight(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> f64 {
     let leg = legs.limbs[0].length.max(1e-12);
-    let up = legs_up(shape, legs).normalize_or_zero();
-    let height = shape.mean(|frame| (middle(shape, frame, arms, 0) - middle(shape, frame, legs, 0)).dot(up)) / leg;
+    let up = legs_up(rig, legs).normalize_or_zero();
+    let height = rig.mean(|frame| (middle(rig, frame, arms, 0) - middle(rig, frame, legs, 0)).dot(up)) / leg;
     let ratio = arms.limbs[0].length / leg;
     let length_off = libm::log((ratio / ARM_OVER_LEG).max(1e-12)) / libm::log(ARM_LENGTH_FACTOR);
     let height_off = (height - SHOULDER_OVER_LEG) / SHOULDER_DEVIATION;
-    // The search ranks by length; beyond its due a longer limb is not a better arm.
-    let due = (ARM_OVER_LEG / ratio.max(1e-12)).min(1.0);
+    // Scores grow with length. A limb that is longer than an arm is not a better arm.
+    let length_correction = (ARM_OVER_LEG / ratio.max(1e-12)).min(1.0);
     let off = length_off * length_off + height_off * height_off;
-    due * libm::exp(-0.5 * off) * bending_weight(shape, arms)
+    length_correction * libm::exp(-0.5 * off) * bending_weight(rig, arms)
 }
 
-/// 1 for limbs with a joint that bends, of either side.
-fn bending_weight(shape: &Shape, pair: &LimbPair) -> f64 {
+/// Weight of a pair of limbs: 1 where either one bends.
+fn bending_weight(rig: &SourceRig, pair: &LimbPair) -> f64 {
     let is_stiff = |limb: &Limb| {
         let cosine = |frame: usize| {
-            let [from, middle, to] = limb.joints.map(|joint| shape.clip.position(frame, joint));
+            let [from, middle, to] = limb.joints.map(|joint| rig.clip.position(frame, joint));
             (middle - from).normalize_or_zero().dot((to - middle).normalize_or_zero())
         };
-        shape.deviation(cosine) < STIFF_COSINE
+        rig.deviation(cosine) < STIFF_COSINE
     };
     if pair.limbs.iter().all(is_stiff) { STIFF_WEIGHT } else { 1.0 }
 }
 
 /// Mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders).
-pub(crate) fn upright_cosine(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> f64 {
-    let legs_up = legs_up(shape, legs).normalize_or_zero();
-    shape.mean(|frame| legs_up.dot((middle(shape, frame, arms, 0) - middle(shape, frame, legs, 0)).normalize_or_zero()))
+pub(crate) fn upright_cosine(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> f64 {
+    let legs_up = legs_up(rig, legs).normalize_or_zero();
+    rig.mean(|frame| legs_up.dot((middle(rig, frame, arms, 0) - middle(rig, frame, legs, 0)).normalize_or_zero()))
 }
 
-/// How much of the way that a body makes, where it makes one, lies along its own length, from feet to shoulders: 1 for
-/// people who crawl, swim or climb.
-pub(crate) fn share_along_itself(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> f64 {
-    let hips = |frame: usize| middle(shape, frame, legs, 0);
-    let centre = shape.mean_vector(hips);
-    let length = shape.mean_vector(|frame| middle(shape, frame, arms, 0) - middle(shape, frame, legs, 2));
+/// Share of the body's path that lies along its own length, from feet to shoulders: 1 for people that crawl, swim or
+/// climb, 0 for a body that does not travel.
+pub(crate) fn lengthwise_share(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> f64 {
+    let hips = |frame: usize| middle(rig, frame, legs, 0);
+    let centre = rig.mean_vector(hips);
+    let length = rig.mean_vector(|frame| middle(rig, frame, arms, 0) - middle(rig, frame, legs, 2));
     let length = length.normalize_or_zero();
-    let way = shape.mean(|frame| (hips(frame) - centre).length_squared()).sqrt();
-    let along = shape.mean(|frame| (hips(frame) - centre).dot(length).powi(2)).sqrt();
-    if way > WAY_MIN * legs.limbs[0].length { along / way } else { 0.0 }
+    let travel = rig.mean(|frame| (hips(frame) - centre).length_squared()).sqrt();
+    let along = rig.mean(|frame| (hips(frame) - centre).dot(length).powi(2)).sqrt();
+    if travel > TRAVEL_MIN * legs.limbs[0].length { along / travel } else { 0.0 }
 }
 
-/// From the toes to the hips, on the average.
-pub(crate) fn legs_up(shape: &Shape, legs: &LimbPair) -> DVec3 {
-    let tips = legs.limbs.each_ref().map(|limb| toe_tip(shape, limb));
-    let toes = |frame: usize| 0.5 * tips.map(|tip| shape.clip.position(frame, tip)).into_iter().sum::<DVec3>();
-    shape.mean_vector(|frame| middle(shape, frame, legs, 0) - toes(frame))
+/// Mean vector from the toes to the hips.
+fn legs_up(rig: &SourceRig, legs: &LimbPair) -> DVec3 {
+    let tips = legs.limbs.each_ref().map(|limb| toe_tip(rig, limb));
+    let toes = |frame: usize| 0.5 * tips.map(|tip| rig.clip.position(frame, tip)).into_iter().sum::<DVec3>();
+    rig.mean_vector(|frame| middle(rig, frame, legs, 0) - toes(frame))
 }
 
-/// Whether the legs stand as right, left, and whether their names say otherwise than toes and knees do.
-///
-/// By names where they say, unless toes and knees both point the other way: then the file is mirrored. Without names,
-/// left is where up × forward points.
-pub(crate) fn legs_swapped(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> (bool, bool) {
-    let tips = legs.limbs.each_ref().map(|limb| toe_tip(shape, limb));
-    let by_toes = leftness(shape, legs, arms, |frame, side| toe_direction(shape, frame, &legs.limbs[side], tips[side]));
-    let Some(named) = legs.named_sides(shape) else { return (by_toes < 0.0, false) };
-    let by_knees = leftness(shape, legs, arms, |frame, side| knee_direction(shape, frame, &legs.limbs[side]));
+/// Sides of a pair of legs.
+pub(crate) struct LegSides {
+    /// Whether the first leg is the right one.
+    pub are_swapped: bool,
+    /// Whether toes and knees contradict the sides that names state.
+    pub contradict_names: bool,
+}
+
+/// Sides of the legs: by names, unless toes and knees both point backward, as in a mirrored file. Without names, left is
+/// the direction of up × forward.
+pub(crate) fn leg_sides(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> LegSides {
+    let tips = legs.limbs.each_ref().map(|limb| toe_tip(rig, limb));
+    let by_toes = leftness(rig, legs, arms, |frame, leg| toe_direction(rig, frame, &legs.limbs[leg], tips[leg]));
+    let Some(named) = legs.named_sides(rig) else {
+        return LegSides { are_swapped: by_toes < 0.0, contradict_names: false };
+    };
+    let by_knees = leftness(rig, legs, arms, |frame, leg| knee_direction(rig, frame, &legs.limbs[leg]));
     let sign = if named[0] == Side::Left { 1.0 } else { -1.0 };
-    let belied = sign * by_toes < BELIED_COSINE && sign * by_knees < BELIED_COSINE;
-    ((named[0] == Side::Right) != belied, belied)
+    let contradict_names = sign * by_toes < CONTRADICTING_COSINE && sign * by_knees < CONTRADICTING_COSINE;
+    LegSides { are_swapped: (named[0] == Side::Right) != contradict_names, contradict_names }
 }
 
-/// Cosine between up × forward and the line from the second to the first leg: 1 where the first is the left one.
-fn leftness(shape: &Shape, legs: &LimbPair, arms: &LimbPair, forward: impl Fn(usize, usize) -> DVec3) -> f64 {
+/// Cosine between up × forward and the line from the second to the first leg: 1 where the first leg is the left one.
+/// `forward` is the forward direction of a frame and a leg.
+fn leftness(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair, forward: impl Fn(usize, usize) -> DVec3) -> f64 {
     let left = |frame: usize| {
-        let up = middle(shape, frame, arms, 0) - middle(shape, frame, legs, 2);
+        let up = middle(rig, frame, arms, 0) - middle(rig, frame, legs, 2);
         up.normalize_or_zero().cross(forward(frame, 0) + forward(frame, 1))
     };
     let [first, second] = legs.limbs.each_ref().map(|limb| limb.joints[0]);
     let across =
-        |frame: usize| (shape.clip.position(frame, first) - shape.clip.position(frame, second)).normalize_or_zero();
-    let along = shape.mean(|frame| left(frame).dot(across(frame)));
-    along / shape.mean(|frame| left(frame).length()).max(1e-12)
+        |frame: usize| (rig.clip.position(frame, first) - rig.clip.position(frame, second)).normalize_or_zero();
+    let along = rig.mean(|frame| left(frame).dot(across(frame)));
+    along / rig.mean(|frame| left(frame).length()).max(1e-12)
 }
 
-/// Arms without sides in their names lie on the side of the leg that is nearer in the pelvis–chest frame: across the
-/// same way.
-pub(crate) fn arms_swapped(shape: &Shape, legs: &LimbPair, arms: &LimbPair) -> bool {
+/// Whether the first arm is on the side of the second leg.
+pub(crate) fn are_arms_swapped(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> bool {
     let across = |frame: usize, pair: &LimbPair| {
-        shape.clip.position(frame, pair.limbs[0].joints[0]) - shape.clip.position(frame, pair.limbs[1].joints[0])
+        rig.clip.position(frame, pair.limbs[0].joints[0]) - rig.clip.position(frame, pair.limbs[1].joints[0])
     };
-    shape.mean(|frame| across(frame, legs).dot(across(frame, arms))) < 0.0
+    rig.mean(|frame| across(frame, legs).dot(across(frame, arms))) < 0.0
 }
 
-/// The joint of a foot that is farthest from the ankle; the ankle where there is none.
-fn toe_tip(shape: &Shape, limb: &Limb) -> usize {
-    farthest(shape, limb.joints[2], limb.length, |_| true).unwrap_or(limb.joints[2])
+/// The joint of a foot that is farthest from the ankle; the ankle where the foot has no other joint.
+fn toe_tip(rig: &SourceRig, limb: &Limb) -> usize {
+    farthest_below(rig, limb.joints[2], limb.length, |_| true).unwrap_or(limb.joints[2])
 }
 
-/// From the ankle to the end of the foot, or, where there is no foot, as the knee does.
-fn toe_direction(shape: &Shape, frame: usize, limb: &Limb, tip: usize) -> DVec3 {
-    let [ankle, end] = [limb.joints[2], tip].map(|joint| shape.clip.position(frame, joint));
-    if (end - ankle).length() > TOE_DISTANCE * limb.length { end - ankle } else { knee_direction(shape, frame, limb) }
+/// Vector from the ankle to the end of the foot; the knee's direction where there is no foot.
+fn toe_direction(rig: &SourceRig, frame: usize, limb: &Limb, tip: usize) -> DVec3 {
+    let [ankle, end] = [limb.joints[2], tip].map(|joint| rig.clip.position(frame, joint));
+    if (end - ankle).length() > TOE_DISTANCE * limb.length { end - ankle } else { knee_direction(rig, frame, limb) }
 }
 
-/// The way the knee points off the leg's line.
-fn knee_direction(shape: &Shape, frame: usize, limb: &Limb) -> DVec3 {
-    let [hip, knee, ankle] = limb.joints.map(|joint| shape.clip.position(frame, joint));
+/// Vector from the leg's line to the knee.
+fn knee_direction(rig: &SourceRig, frame: usize, limb: &Limb) -> DVec3 {
+    let [hip, knee, ankle] = limb.joints.map(|joint| rig.clip.position(frame, joint));
     knee - 0.5 * (hip + ankle)
 }
 
-/// The joint below (or an end site) that is farthest away, if it is away at all, yet no farther than `reach`.
-pub(crate) fn farthest(shape: &Shape, from: usize, reach: f64, counts: impl Fn(usize) -> bool) -> Option<usize> {
-    let below = shape.subtree(from).into_iter().skip(1).filter(|&joint| counts(joint));
-    let distances = below.map(|joint| (joint, shape.distance(from, joint)));
+/// The descendant that is farthest away, but no farther than `reach`, among those that `counts` accepts; none where all
+/// are at the joint itself.
+pub(crate) fn farthest_below(
+    rig: &SourceRig,
+    from: usize,
+    reach: f64,
+    counts: impl Fn(usize) -> bool,
+) -> Option<usize> {
+    let below = rig.subtree(from).into_iter().skip(1).filter(|&joint| counts(joint));
+    let distances = below.map(|joint| (joint, rig.mean_distance(from, joint)));
     let near = distances.filter(|&(_, distance)| (1e-9..=reach).contains(&distance));
     near.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(joint, _)| joint)
 }

@@ -1,18 +1,17 @@
-//! What a joint's name hints at: a side and a set of anatomical parts. Hints only: hierarchy and geometry decide, names
-//! break ties.
+//! Hints of a joint's name: a side and parts of the body. Hierarchy and geometry decide; hints weigh in.
 //!
-//! Words are cut at punctuation, digits and capitals (`CC_Base_L_Thigh`, `JtHipLf`, `mixamorig:LeftUpLeg`,
+//! A name is cut into words at punctuation, digits and capitals (`CC_Base_L_Thigh`, `JtHipLf`, `mixamorig:LeftUpLeg`,
 //! `upperleg.l`, `lThigh`).
 
 use motiondb::body::Side;
 
-/// Anatomical parts that rigs' names tell apart; one word may fit several (a "shoulder" is a clavicle or an upper arm).
+/// A part of the body that names of joints state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
+pub(crate) enum BodyPart {
     Thigh,
     Shank,
     Foot,
-    /// All of the foot that is not the ankle.
+    /// Heel, ball or toe.
     Toe,
     Clavicle,
     UpperArm,
@@ -21,55 +20,58 @@ pub(crate) enum Part {
     Finger,
     Neck,
     Head,
-    /// Twist, share, roll and IK bones: never a role of their own.
+    /// A joint without a role: twist, share, roll and IK bones, parts of the face.
     Helper,
 }
 
-/// The hints of one name.
+/// Hints of one name.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NameHints {
     pub side: Option<Side>,
-    pub parts: Vec<Part>,
+    /// All parts that the name may mean: a "shoulder" is a clavicle or an upper arm.
+    pub parts: Vec<BodyPart>,
 }
 
+/// Words for the left side, in lower case.
 const LEFT_WORDS: [&str; 4] = ["l", "left", "lf", "lft"];
+/// Words for the right side, in lower case.
 const RIGHT_WORDS: [&str; 5] = ["r", "right", "rt", "rgt", "rght"];
 
-/// Compound before simple: the first line that matches a name's words (joined without gaps) gives its parts.
-/// The Japanese ones are those of MikuMikuDance's models.
-const PARTS: [(&[&str], &[Part]); 29] = [
-    (&["twist", "share", "roll", "pole", "target", "helper", "slot"], &[Part::Helper]),
-    (&["upleg", "upperleg", "thigh", "buttock", "femur"], &[Part::Thigh]),
-    (&["lowerleg", "lowleg", "loleg", "knee", "shin", "calf", "tibia", "shank"], &[Part::Shank]),
-    (&["toe", "ball", "heel"], &[Part::Toe]),
-    (&["foot", "ankle"], &[Part::Foot]),
-    (&["thumb", "index", "middle", "mid", "ring", "pinky", "finger"], &[Part::Finger]),
-    (&["forearm", "lowerarm", "lowarm", "loarm", "elbow", "ulna", "radius"], &[Part::Forearm]),
-    (&["upperarm", "uparm", "shldr", "humerus"], &[Part::UpperArm]),
-    (&["clavicle", "collar", "scapula"], &[Part::Clavicle]),
-    (&["hand", "wrist", "palm"], &[Part::Hand]),
-    (&["shoulder"], &[Part::Clavicle, Part::UpperArm]),
-    (&["arm"], &[Part::UpperArm, Part::Forearm]),
-    (&["leg"], &[Part::Thigh, Part::Shank, Part::Foot]),
-    (&["hip"], &[Part::Thigh]),
-    (&["neck"], &[Part::Neck]),
-    (&["eye", "jaw", "tongue", "teeth", "hair", "brow", "lip", "cheek"], &[Part::Helper]),
-    (&["head", "skull"], &[Part::Head]),
-    (&["ik", "ｉｋ", "捩", "キャンセル"], &[Part::Helper]),
-    (&["つま先"], &[Part::Toe]),
-    (&["足首"], &[Part::Foot]),
-    (&["手首"], &[Part::Hand]),
-    (&["指"], &[Part::Finger]),
-    (&["ひざ"], &[Part::Shank]),
-    (&["ひじ"], &[Part::Forearm]),
-    (&["足"], &[Part::Thigh]),
-    (&["腕"], &[Part::UpperArm]),
-    (&["肩"], &[Part::Clavicle]),
-    (&["首"], &[Part::Neck]),
-    (&["頭"], &[Part::Head]),
+/// Parts by words. The first row with a word that occurs in a name's joined words counts, so compounds come first.
+/// Japanese words are those of MikuMikuDance's models.
+const PARTS: [(&[&str], &[BodyPart]); 29] = [
+    (&["twist", "share", "roll", "pole", "target", "helper", "slot"], &[BodyPart::Helper]),
+    (&["upleg", "upperleg", "thigh", "buttock", "femur"], &[BodyPart::Thigh]),
+    (&["lowerleg", "lowleg", "loleg", "knee", "shin", "calf", "tibia", "shank"], &[BodyPart::Shank]),
+    (&["toe", "ball", "heel"], &[BodyPart::Toe]),
+    (&["foot", "ankle"], &[BodyPart::Foot]),
+    (&["thumb", "index", "middle", "mid", "ring", "pinky", "finger"], &[BodyPart::Finger]),
+    (&["forearm", "lowerarm", "lowarm", "loarm", "elbow", "ulna", "radius"], &[BodyPart::Forearm]),
+    (&["upperarm", "uparm", "shldr", "humerus"], &[BodyPart::UpperArm]),
+    (&["clavicle", "collar", "scapula"], &[BodyPart::Clavicle]),
+    (&["hand", "wrist", "palm"], &[BodyPart::Hand]),
+    (&["shoulder"], &[BodyPart::Clavicle, BodyPart::UpperArm]),
+    (&["arm"], &[BodyPart::UpperArm, BodyPart::Forearm]),
+    (&["leg"], &[BodyPart::Thigh, BodyPart::Shank, BodyPart::Foot]),
+    (&["hip"], &[BodyPart::Thigh]),
+    (&["neck"], &[BodyPart::Neck]),
+    (&["eye", "jaw", "tongue", "teeth", "hair", "brow", "lip", "cheek"], &[BodyPart::Helper]),
+    (&["head", "skull"], &[BodyPart::Head]),
+    (&["ik", "ｉｋ", "捩", "キャンセル"], &[BodyPart::Helper]),
+    (&["つま先"], &[BodyPart::Toe]),
+    (&["足首"], &[BodyPart::Foot]),
+    (&["手首"], &[BodyPart::Hand]),
+    (&["指"], &[BodyPart::Finger]),
+    (&["ひざ"], &[BodyPart::Shank]),
+    (&["ひじ"], &[BodyPart::Forearm]),
+    (&["足"], &[BodyPart::Thigh]),
+    (&["腕"], &[BodyPart::UpperArm]),
+    (&["肩"], &[BodyPart::Clavicle]),
+    (&["首"], &[BodyPart::Neck]),
+    (&["頭"], &[BodyPart::Head]),
 ];
 
-/// Reads the hints of a name.
+/// The hints of a name; a namespace before a colon does not count.
 pub(crate) fn hints(name: &str) -> NameHints {
     let words = words(name.rsplit(':').next().unwrap_or(name));
     let joined: String = words.iter().filter(|word| !is_side(word)).map(String::as_str).collect();
@@ -78,16 +80,16 @@ pub(crate) fn hints(name: &str) -> NameHints {
     NameHints { side: words.iter().find_map(|word| side(word)), parts: parts.to_vec() }
 }
 
-/// What two mirrored joints' names differ in, by its first letters: left and right in English and German, in Japanese
-/// and Chinese, French, Italian, Spanish, Portuguese and Slavic languages.
+/// First letters of left and right: in English and German, Japanese and Chinese, French, Italian, Spanish, Portuguese,
+/// and Slavic languages.
 const SIDE_INITIALS: [(char, char); 7] =
     [('l', 'r'), ('左', '右'), ('g', 'd'), ('s', 'd'), ('i', 'd'), ('e', 'd'), ('l', 'p')];
 
-/// The sides of two mirrored joints, told by what is left of their names without what they share at either end.
-pub(crate) fn sides(first: &str, second: &str) -> Option<[Side; 2]> {
+/// Sides of two mirrored joints, by the first letters in which their names differ.
+pub(crate) fn sides_by_difference(first: &str, second: &str) -> Option<[Side; 2]> {
     let [first, second] = [first, second].map(|name| name.to_lowercase().chars().collect::<Vec<char>>());
-    let unlike = first.iter().zip(&second).position(|(a, b)| a != b)?;
-    let initials = (first[unlike], second[unlike]);
+    let difference = first.iter().zip(&second).position(|(a, b)| a != b)?;
+    let initials = (first[difference], second[difference]);
     if SIDE_INITIALS.contains(&initials) {
         Some([Side::Left, Side::Right])
     } else {
@@ -109,7 +111,7 @@ fn side(word: &str) -> Option<Side> {
     }
 }
 
-/// `lthigh`, `rhand`: a side's letter glued to a part.
+/// Side of a word that joins a side's letter to a part: `lthigh`, `rhand`.
 fn glued_side(word: &str) -> Option<Side> {
     let side = match word.chars().next()? {
         'l' => Side::Left,
@@ -118,11 +120,11 @@ fn glued_side(word: &str) -> Option<Side> {
     };
     let rest = &word[1..];
     let is_part =
-        PARTS.iter().any(|(keys, parts)| parts[0] != Part::Helper && keys.iter().any(|key| rest.starts_with(key)));
+        PARTS.iter().any(|(keys, parts)| parts[0] != BodyPart::Helper && keys.iter().any(|key| rest.starts_with(key)));
     is_part.then_some(side)
 }
 
-/// Lower-case words of letters; a capital begins one, a run of capitals is one up to its last.
+/// Words of letters, in lower case. A capital begins a word; a run of capitals is one word up to its last capital.
 fn words(name: &str) -> Vec<String> {
     let letters: Vec<char> = name.chars().collect();
     let mut words = vec![String::new()];
@@ -145,32 +147,32 @@ mod tests {
     use super::*;
 
     #[track_caller]
-    fn check(name: &str, side: Option<Side>, part: Part) {
+    fn check(name: &str, side: Option<Side>, part: BodyPart) {
         let found = hints(name);
         assert_eq!(found.side, side, "{name}: {:?}", words(name));
         assert!(found.parts.contains(&part), "{name}: {found:?}");
     }
 
     #[test]
-    fn the_name_families_in_use_are_understood() {
-        check("mixamorig:LeftUpLeg", Some(Side::Left), Part::Thigh);
-        check("CC_Base_R_Calf", Some(Side::Right), Part::Shank);
-        check("JtHipLf", Some(Side::Left), Part::Thigh);
-        check("JtBallRt", Some(Side::Right), Part::Toe);
-        check("Skeleton_leg_joint_L_1", Some(Side::Left), Part::Thigh);
-        check("lButtock", Some(Side::Left), Part::Thigh);
-        check("rShldr", Some(Side::Right), Part::UpperArm);
-        check("upperarm.l", Some(Side::Left), Part::UpperArm);
-        check("Bip01 L Forearm", Some(Side::Left), Part::Forearm);
-        check("lthigh", Some(Side::Left), Part::Thigh);
-        check("LHipJoint", Some(Side::Left), Part::Thigh);
-        check("CC_Base_L_CalfTwist01", Some(Side::Left), Part::Helper);
-        check("torso_head", None, Part::Head);
-        check("rTorso_Clavicle", Some(Side::Right), Part::Clavicle);
-        check("UpArm_L", Some(Side::Left), Part::UpperArm);
-        check("右足首", None, Part::Foot);
-        check("左ひざ", None, Part::Shank);
-        check("足ＩＫ.L", Some(Side::Left), Part::Helper);
-        check("首", None, Part::Neck);
+    fn names_of_common_tools_are_understood() {
+        check("mixamorig:LeftUpLeg", Some(Side::Left), BodyPart::Thigh);
+        check("CC_Base_R_Calf", Some(Side::Right), BodyPart::Shank);
+        check("JtHipLf", Some(Side::Left), BodyPart::Thigh);
+        check("JtBallRt", Some(Side::Right), BodyPart::Toe);
+        check("Skeleton_leg_joint_L_1", Some(Side::Left), BodyPart::Thigh);
+        check("lButtock", Some(Side::Left), BodyPart::Thigh);
+        check("rShldr", Some(Side::Right), BodyPart::UpperArm);
+        check("upperarm.l", Some(Side::Left), BodyPart::UpperArm);
+        check("Bip01 L Forearm", Some(Side::Left), BodyPart::Forearm);
+        check("lthigh", Some(Side::Left), BodyPart::Thigh);
+        check("LHipJoint", Some(Side::Left), BodyPart::Thigh);
+        check("CC_Base_L_CalfTwist01", Some(Side::Left), BodyPart::Helper);
+        check("torso_head", None, BodyPart::Head);
+        check("rTorso_Clavicle", Some(Side::Right), BodyPart::Clavicle);
+        check("UpArm_L", Some(Side::Left), BodyPart::UpperArm);
+        check("右足首", None, BodyPart::Foot);
+        check("左ひざ", None, BodyPart::Shank);
+        check("足ＩＫ.L", Some(Side::Left), BodyPart::Helper);
+        check("首", None, BodyPart::Neck);
     }
 }

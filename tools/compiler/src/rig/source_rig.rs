@@ -1,25 +1,29 @@
-//! A source skeleton as role finding looks at it: who hangs from whom, how far apart joints are, what their names hint
-//! at; all geometry as means over frames spread over the clip. Source units.
+//! A source skeleton as role search sees it: hierarchy, names' hints, and geometry as means over sampled frames.
+//!
+//! Lengths are in source units. Frames are spread evenly over the clip.
 
 use glam::DVec3;
 
 use crate::read::source_clip::SourceClip;
-use crate::rig::joint_names::{self, NameHints, Part};
+use crate::rig::joint_names::{self, BodyPart, NameHints};
 
-/// Frames that geometry is judged on, spread over the clip.
+/// Greatest number of frames on which geometry is measured.
 const SAMPLES: usize = 48;
 
-/// A skeleton with what role finding asks of it again and again.
-pub(crate) struct Shape<'a> {
+/// A source skeleton and what role search computes of it once.
+pub(crate) struct SourceRig<'a> {
     pub clip: &'a SourceClip,
+    /// Hints of each joint's name.
     pub hints: Vec<NameHints>,
+    /// Children of each joint.
     pub children: Vec<Vec<usize>>,
+    /// Frames on which geometry is measured.
     frames: Vec<usize>,
-    /// Along the bones from each joint to its farthest leaf.
+    /// Length along the bones from each joint to its farthest leaf.
     reach: Vec<f64>,
 }
 
-impl<'a> Shape<'a> {
+impl<'a> SourceRig<'a> {
     pub(crate) fn new(clip: &'a SourceClip) -> Self {
         let mut children = vec![Vec::new(); clip.joints.len()];
         for (index, joint) in clip.joints.iter().enumerate() {
@@ -28,7 +32,7 @@ impl<'a> Shape<'a> {
             }
         }
         let step = clip.frame_count().div_ceil(SAMPLES).max(1);
-        let mut shape = Self {
+        let mut rig = Self {
             clip,
             hints: clip.joints.iter().map(|joint| joint_names::hints(&joint.name)).collect(),
             children,
@@ -37,18 +41,18 @@ impl<'a> Shape<'a> {
         };
         for child in (0..clip.joints.len()).rev() {
             if let Some(parent) = clip.joints[child].parent {
-                shape.reach[parent] = shape.reach[parent].max(shape.reach_through(parent, child));
+                rig.reach[parent] = rig.reach[parent].max(rig.reach_through(parent, child));
             }
         }
-        shape
+        rig
     }
 
     fn reach_through(&self, parent: usize, child: usize) -> f64 {
-        self.reach[child] + self.distance(parent, child)
+        self.reach[child] + self.mean_distance(parent, child)
     }
 
-    /// Mean distance of two joints over the sampled frames.
-    pub(crate) fn distance(&self, a: usize, b: usize) -> f64 {
+    /// Mean distance of two joints.
+    pub(crate) fn mean_distance(&self, a: usize, b: usize) -> f64 {
         self.mean(|frame| (self.clip.position(frame, a) - self.clip.position(frame, b)).length())
     }
 
@@ -68,19 +72,19 @@ impl<'a> Shape<'a> {
         self.mean(|frame| (value(frame) - mean) * (value(frame) - mean)).sqrt()
     }
 
-    /// Whether something holds in every sampled frame.
+    /// Whether a condition holds in every sampled frame.
     pub(crate) fn always(&self, holds: impl Fn(usize) -> bool) -> bool {
         self.frames.iter().all(|&frame| holds(frame))
     }
 
-    /// Standard deviation over mean of the distance of two joints: 0 for a bone.
+    /// Standard deviation of the distance of two joints, over its mean; 0 for a rigid bone.
     pub(crate) fn looseness(&self, a: usize, b: usize) -> f64 {
         let length = |frame: usize| (self.clip.position(frame, a) - self.clip.position(frame, b)).length();
         self.deviation(length) / self.mean(length).max(1e-12)
     }
 
-    /// From a joint down to the leaf that is farthest along the bones, the joint included.
-    pub(crate) fn chain(&self, joint: usize) -> Vec<usize> {
+    /// The joints from `joint` to the leaf that is farthest along the bones.
+    pub(crate) fn longest_chain(&self, joint: usize) -> Vec<usize> {
         let mut chain = vec![joint];
         let mut tail = joint;
         let through = |parent: usize, child: usize| self.reach_through(parent, child);
@@ -93,7 +97,7 @@ impl<'a> Shape<'a> {
         chain
     }
 
-    /// A joint and everything below it.
+    /// A joint and all its descendants, level by level.
     pub(crate) fn subtree(&self, joint: usize) -> Vec<usize> {
         let mut members = vec![joint];
         let mut next = 0;
@@ -104,12 +108,13 @@ impl<'a> Shape<'a> {
         members
     }
 
-    /// A joint's ancestors, itself first, the root last.
+    /// The joints from `joint` to the root.
     pub(crate) fn ancestors(&self, joint: usize) -> Vec<usize> {
         std::iter::successors(Some(joint), |&joint| self.clip.joints[joint].parent).collect()
     }
 
-    pub(crate) fn says(&self, joint: usize, part: Part) -> bool {
+    /// Whether the name of a joint hints at a part.
+    pub(crate) fn hints_at(&self, joint: usize, part: BodyPart) -> bool {
         self.hints[joint].parts.contains(&part)
     }
 }

@@ -1,36 +1,39 @@
-//! Two people in one skeleton: a duet written under one root.
+//! Two bodies in one skeleton: a duet under one root.
 //!
-//! Where the hierarchy first forks, the branches of one person's body are legs and a trunk, none of which is a body by
-//! itself; the branches of a duet are.
+//! Where a hierarchy first forks, the branches of one body are legs and a trunk; none of them is a body by itself. Of a
+//! duet, two branches are.
 
 use motiondb::body::JOINT_COUNT;
 
-use crate::error::Refusal;
+use crate::error::RejectionReason;
 use crate::read::source_clip::{SourceClip, SourceJoint};
-use crate::rig::roles::find_by_names;
+use crate::rig::role_search;
 
-/// Legs and arms of three joints each, and what they hang from.
+/// Least number of joints of a body: two legs and two arms of three joints each, and one from which they hang.
 const BODY_JOINTS_MIN: usize = 13;
 
-/// Refuses a clip in which several branches of the first fork are bodies by themselves.
-pub(crate) fn refuse(clip: &SourceClip) -> Result<(), Refusal> {
+/// Checks that at most one branch of the first fork is a body by itself.
+///
+/// # Errors
+/// [`RejectionReason::TwoBodies`].
+pub(crate) fn check_is_one_body(clip: &SourceClip) -> Result<(), RejectionReason> {
     if clip.joints.len() < 2 * BODY_JOINTS_MIN {
         return Ok(());
     }
-    let branches = first_fork(clip).into_iter().map(|child| below(clip, child));
+    let branches = first_fork(clip).into_iter().map(|child| subtree(clip, child));
     let large: Vec<Vec<usize>> = branches.filter(|branch| branch.len() >= BODY_JOINTS_MIN).collect();
     if large.len() < 2 {
         return Ok(());
     }
-    let is_body = |branch: &&Vec<usize>| find_by_names(&part(clip, branch), &[None; JOINT_COUNT]).is_ok();
+    let is_body = |branch: &&Vec<usize>| role_search::search(&part(clip, branch), &[None; JOINT_COUNT]).is_ok();
     let name = |branch: &Vec<usize>| clip.joints[branch[0]].name.clone();
     match large.iter().filter(is_body).map(name).collect::<Vec<String>>().as_slice() {
-        [first, second, ..] => Err(Refusal::TwoBodies { first: first.clone(), second: second.clone() }),
+        [first, second, ..] => Err(RejectionReason::TwoBodies { first: first.clone(), second: second.clone() }),
         _ => Ok(()),
     }
 }
 
-/// The roots where there are several, else the children of the first joint that has several.
+/// The roots, if there are several; else the children of the first joint that has several.
 fn first_fork(clip: &SourceClip) -> Vec<usize> {
     let mut branches: Vec<usize> =
         (0..clip.joints.len()).filter(|&joint| clip.joints[joint].parent.is_none()).collect();
@@ -40,8 +43,8 @@ fn first_fork(clip: &SourceClip) -> Vec<usize> {
     branches
 }
 
-/// A joint and everything below it, in order.
-fn below(clip: &SourceClip, top: usize) -> Vec<usize> {
+/// A joint and all its descendants, in the clip's order.
+fn subtree(clip: &SourceClip, top: usize) -> Vec<usize> {
     let mut is_below = vec![false; clip.joints.len()];
     is_below[top] = true;
     for joint in top + 1..clip.joints.len() {
@@ -50,7 +53,7 @@ fn below(clip: &SourceClip, top: usize) -> Vec<usize> {
     (0..clip.joints.len()).filter(|&joint| is_below[joint]).collect()
 }
 
-/// A clip of some of its joints; parents that are left out are none.
+/// The clip of some joints only. A joint whose parent is left out becomes a root.
 fn part(clip: &SourceClip, joints: &[usize]) -> SourceClip {
     let frames = 0..clip.frame_count();
     let joint = |&index: &usize| {
@@ -58,6 +61,8 @@ fn part(clip: &SourceClip, joints: &[usize]) -> SourceClip {
         SourceJoint { parent, ..clip.joints[index].clone() }
     };
     SourceClip {
+        file: clip.file.clone(),
+        clip: clip.clip.clone(),
         joints: joints.iter().map(joint).collect(),
         positions: frames
             .clone()
@@ -66,24 +71,6 @@ fn part(clip: &SourceClip, joints: &[usize]) -> SourceClip {
         orientations: frames
             .flat_map(|frame| joints.iter().map(move |&index| clip.orientation(frame, index)))
             .collect(),
-        ..without_motion(clip)
-    }
-}
-
-/// A clip whose joints have no names.
-pub(crate) fn nameless(clip: &SourceClip) -> SourceClip {
-    let mut clip = clip.clone();
-    clip.joints.iter_mut().for_each(|joint| joint.name.clear());
-    clip
-}
-
-fn without_motion(clip: &SourceClip) -> SourceClip {
-    SourceClip {
-        file: clip.file.clone(),
-        clip: clip.clip.clone(),
-        joints: Vec::new(),
-        positions: Vec::new(),
-        orientations: Vec::new(),
         diagnostics: Vec::new(),
         ..*clip
     }

@@ -4,10 +4,10 @@
 //! A clip's first window has the clip's name. Further ones tell the second of the file at which they begin,
 //! `capture@07.3s`, with as many digits as the clip's last second has, so that they sort by time.
 
-use crate::compile_error::CompileError;
 use crate::cycle::analysis::{Analyzed, Motion, SteadyWindow};
 use crate::cycle::mean_stride::{GaitCycle, NamedCycle};
 use crate::database::correspondence;
+use crate::error::CompileError;
 use crate::gait::standing;
 use crate::ground::arc::Rates;
 use crate::input::unique_names;
@@ -41,7 +41,7 @@ pub(crate) fn close(
             cycles.push(NamedCycle { name, source: source as u32, window_s, mirrored: false, choices, flaws, cycle });
         }
     }
-    unique_names::tell_apart(cycles.iter_mut().map(|cycle| &mut cycle.name));
+    unique_names::make_unique(cycles.iter_mut().map(|cycle| &mut cycle.name));
     Ok(cycles)
 }
 
@@ -104,14 +104,14 @@ pub(crate) fn add_mirrors(cycles: &mut Vec<NamedCycle>) {
         })
         .collect();
     cycles.extend(mirrors);
-    unique_names::tell_apart(cycles.iter_mut().map(|cycle| &mut cycle.name));
+    unique_names::make_unique(cycles.iter_mut().map(|cycle| &mut cycle.name));
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compile::{Options, compile};
     use crate::synthetic::{Walk, performance, walk};
+    use crate::{Options, compile};
 
     #[test]
     fn a_further_window_can_be_chosen_as_the_walk_that_is_deformed() {

@@ -202,9 +202,9 @@ mod tests {
     use motiondb::motion::{MotionDb, MotionExample};
 
     use super::*;
-    use crate::compile::{Options, compile};
     use crate::retarget::human_clip::HumanClip;
     use crate::synthetic::{Walk, idle, performance, walk};
+    use crate::{Options, compile};
 
     fn walking(speed_mps: f64, turn_rate_rad_s: f64, duration_s: f64) -> HumanClip {
         let rates = Rates { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };

@@ -1,11 +1,10 @@
-//! glTF documents written by the tests: a walker, and whatever else a test puts beside it.
+//! glTF documents that the tests write: a walker, and further nodes and animations beside it.
 
 use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use motiondb_compiler::import::{Import, import_bytes};
-use motiondb_compiler::retarget::HumanClip;
+use motiondb_compiler::{HumanClip, ImportedClip, import_bytes};
 use serde_json::{Value, json};
 
 /// Name, parent, offset in metres: a stiff-hipped walker of 19 joints.
@@ -79,7 +78,7 @@ impl Document {
         document
     }
 
-    /// Adds something to an array of the document.
+    /// Adds a value to an array of the document; its index.
     pub(crate) fn push(&mut self, array: &str, value: Value) -> usize {
         let object = self.json.as_object_mut().unwrap();
         let array = object.entry(array).or_insert_with(|| json!([])).as_array_mut().unwrap();
@@ -87,7 +86,7 @@ impl Document {
         array.len() - 1
     }
 
-    /// A view of bytes.
+    /// Adds a view of bytes; its index.
     pub(crate) fn view(&mut self, bytes: &[u8]) -> usize {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         let start = self.bytes.len();
@@ -95,7 +94,7 @@ impl Document {
         self.push("bufferViews", json!({ "buffer": 0, "byteOffset": start, "byteLength": bytes.len() }))
     }
 
-    /// An accessor of floats.
+    /// Adds an accessor of floats; its index.
     pub(crate) fn floats(&mut self, shape: &str, values: &[f32]) -> usize {
         let width = match shape {
             "SCALAR" => 1,
@@ -123,12 +122,12 @@ impl Document {
         first
     }
 
-    /// A skin of a body whose root is this node.
+    /// Adds a skin of the body whose root is this node.
     pub(crate) fn add_skin(&mut self, first: usize) {
         self.push("skins", json!({ "joints": (first..first + BODY.len()).collect::<Vec<_>>() }));
     }
 
-    /// Adds a walk of the bodies whose roots are these nodes.
+    /// Adds a walk of the bodies whose roots are these nodes; its index.
     pub(crate) fn add_walk(&mut self, name: &str, bodies: &[usize]) -> usize {
         let times: Vec<f32> = (0..FRAMES).map(|frame| frame as f32 / 30.0).collect();
         let input = self.floats("SCALAR", &times);
@@ -139,8 +138,8 @@ impl Document {
                 let output = self.floats("VEC4", &turns);
                 self.channel(animation, first + joint, "rotation", input, output);
             }
-            let places: Vec<f32> = (0..FRAMES).flat_map(root).collect();
-            let output = self.floats("VEC3", &places);
+            let positions: Vec<f32> = (0..FRAMES).flat_map(root).collect();
+            let output = self.floats("VEC3", &positions);
             self.channel(animation, first, "translation", input, output);
         }
         animation
@@ -156,13 +155,13 @@ impl Document {
         animation["channels"].as_array_mut().unwrap().push(channel);
     }
 
-    /// Puts the walker below a node, which gets the index returned.
+    /// Puts the walker below a node; that node's index.
     pub(crate) fn put_below(&mut self, mut node: Value, child: usize) -> usize {
         node["children"] = json!([child]);
         self.push("nodes", node)
     }
 
-    /// The whole as JSON, its buffer at an address.
+    /// The document as JSON, its buffer at an address.
     pub(crate) fn gltf_with(&self, uri: &str) -> Vec<u8> {
         let mut json = self.json.clone();
         json["buffers"][0] = json!({ "byteLength": self.bytes.len(), "uri": uri });
@@ -187,7 +186,7 @@ impl Document {
         parts.concat()
     }
 
-    pub(crate) fn imports(&self) -> Vec<Import> {
+    pub(crate) fn imports(&self) -> Vec<ImportedClip> {
         import_bytes(Path::new("walk.gltf"), &self.gltf()).unwrap_or_else(|error| panic!("{error}"))
     }
 
@@ -201,8 +200,8 @@ impl Document {
 }
 
 #[track_caller]
-pub(crate) fn human(import: Import) -> HumanClip {
-    import.outcome.unwrap_or_else(|refusal| panic!("{}: {refusal}", import.clip))
+pub(crate) fn human(import: ImportedClip) -> HumanClip {
+    import.outcome.unwrap_or_else(|reason| panic!("{}: {reason}", import.clip))
 }
 
 #[track_caller]

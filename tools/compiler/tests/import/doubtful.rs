@@ -1,22 +1,19 @@
-//! Files of human bodies that no database can be made of, or only by a guess: each is told by what was measured in it.
+//! Doubtful files of human bodies: each is rejected or reported with what was measured in it.
 
 use std::path::Path;
 
 use motiondb::body::Joint;
 use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
-use motiondb_compiler::error::{ImportError, Refusal};
-use motiondb_compiler::import::{Import, import_bytes, import_take};
-use motiondb_compiler::input::{Settings, Take};
-use motiondb_compiler::retarget::Axis;
+use motiondb_compiler::{Axis, ClipSettings, RejectionReason, import_bytes, import_with_settings};
 
 use super::written::bvh_text;
 
-fn imported(text: &str) -> Result<super::HumanClip, Refusal> {
-    let imports: Result<Vec<Import>, ImportError> = import_bytes(Path::new("clip.bvh"), text.as_bytes());
-    imports.unwrap_or_else(|error| panic!("{error}")).remove(0).outcome
+fn imported(text: &str) -> Result<super::HumanClip, RejectionReason> {
+    let imports = import_bytes(Path::new("clip.bvh"), text.as_bytes());
+    imports.unwrap_or_else(|rejection| panic!("{rejection}")).remove(0).outcome
 }
 
-/// The written walker with other numbers in every row, by frame; the first three are the root's place.
+/// The written walker with edited rows. The first three numbers of a row are the root's position.
 fn rows(edit: impl Fn(usize, &mut Vec<f64>)) -> String {
     let text = bvh_text();
     let start = text.find("Frame Time").and_then(|at| Some(at + text[at..].find('\n')? + 1)).unwrap();
@@ -32,7 +29,7 @@ fn rows(edit: impl Fn(usize, &mut Vec<f64>)) -> String {
 
 #[track_caller]
 fn diagnostics(text: &str) -> Vec<Diagnostic> {
-    imported(text).unwrap_or_else(|refusal| panic!("{refusal}")).source.diagnostics
+    imported(text).unwrap_or_else(|reason| panic!("{reason}")).source.diagnostics
 }
 
 /// The only warning of a file.
@@ -43,13 +40,13 @@ fn warning(text: &str) -> Warning {
 }
 
 #[track_caller]
-fn check_refused(text: &str, wanted: &Refusal) {
-    assert_eq!(imported(text).err().as_ref(), Some(wanted));
+fn check_rejected(text: &str, expected: &RejectionReason) {
+    assert_eq!(imported(text).err().as_ref(), Some(expected));
 }
 
 #[test]
-fn what_moves_a_body_beside_its_feet_on_level_ground_is_told() {
-    // 12 cm a step of 60 cm, up and down; of so short a clip some of it is not seen.
+fn bodies_not_carried_by_level_ground_are_reported() {
+    // 12 cm for each step of 60 cm, up and down. A short clip shows only a part of it.
     for sign in [1.0, -1.0] {
         let slope = warning(&rows(|frame, row| row[1] += 0.8 * sign * frame as f64));
         let is_steep = |rise_cm: f32| (5.0..=12.0).contains(&(rise_cm * sign as f32));
@@ -80,7 +77,7 @@ fn what_moves_a_body_beside_its_feet_on_level_ground_is_told() {
 }
 
 #[test]
-fn what_editors_and_exporters_leave_after_the_last_row_is_no_motion() {
+fn text_after_the_last_row_is_not_motion() {
     for rest in ["\n# exported by 1.2\nEND OF FILE\n", "\u{1a}", "\0\0\0\0"] {
         let found = diagnostics(&format!("{}{rest}", bvh_text()));
         assert!(matches!(found[..], [Diagnostic::Note(Note::TextAfterMotion { .. })]), "{rest:?}: {found:?}");
@@ -90,20 +87,20 @@ fn what_editors_and_exporters_leave_after_the_last_row_is_no_motion() {
 }
 
 #[test]
-fn a_walk_at_twice_its_rate_is_told_by_its_cadence_and_a_jog_is_not() {
+fn a_walk_at_twice_its_rate_is_inhuman() {
     let is_inhuman = |clip: &str, rate: f64| {
         let path = Path::new(super::on_the_spot::BUNDLED).join(clip).with_extension("bvh");
-        let settings = Settings { frame_rate_hz: Some(30.0 * rate), ..Settings::default() };
-        let human = import_take(&Take { settings, ..Take::from(path) }).unwrap().remove(0).outcome.unwrap();
+        let settings = ClipSettings { frame_rate_hz: Some(30.0 * rate), ..ClipSettings::from(path) };
+        let human = import_with_settings(&settings).unwrap().remove(0).outcome.unwrap();
         matches!(human.unfit, Some(Unfit::InhumanGait { .. }))
     };
-    // 133 steps a minute; a walk at twice fewer than 107 goes as race walkers do.
+    // walk_180 has 133 steps a minute. Race walkers take up to 210.
     assert_eq!([is_inhuman("walk_180", 1.0), is_inhuman("walk_180", 2.0)], [false, true]);
     assert!(!is_inhuman("jog_240", 1.0) && !is_inhuman("run_350", 1.0));
 }
 
 #[test]
-fn thighs_of_who_stands_on_straight_knees_are_not_turned_by_what_these_give_back_or_aside() {
+fn straight_knees_do_not_turn_the_thighs() {
     for (back_deg, aside_deg) in [(0.0, 0.0), (4.0, 0.0), (8.0, 0.0), (-4.0, 0.0), (0.0, 5.0), (2.0, -5.0)] {
         let text = rows(|frame, row| {
             row[2] = 0.01 * frame as f64;
@@ -112,7 +109,7 @@ fn thighs_of_who_stands_on_straight_knees_are_not_turned_by_what_these_give_back
                 (row[3 + 3 * knee], row[3 + 3 * knee + 1]) = (aside_deg, back_deg);
             }
         });
-        let human = imported(&text).unwrap_or_else(|refusal| panic!("{refusal}"));
+        let human = imported(&text).unwrap_or_else(|reason| panic!("{reason}"));
         for thigh in Joint::THIGHS {
             let turned_deg = human.frames[0].rotations[thigh.index()].to_scaled_axis().z.to_degrees();
             assert!(
@@ -124,14 +121,14 @@ fn thighs_of_who_stands_on_straight_knees_are_not_turned_by_what_these_give_back
 }
 
 #[test]
-fn a_name_that_stands_twice_does_not_hide_a_body() {
+fn a_repeated_name_does_not_hide_a_body() {
     let text = bvh_text().replace("LeftLeg", "RightLeg");
-    let speed_mps = imported(&text).unwrap_or_else(|refusal| panic!("{refusal}")).source.speed_mps;
+    let speed_mps = imported(&text).unwrap_or_else(|reason| panic!("{reason}")).source.speed_mps;
     assert!((speed_mps - 1.2).abs() < 0.01, "{speed_mps}");
 }
 
 #[test]
-fn a_duet_under_one_root_is_refused_with_both_names() {
+fn a_duet_is_rejected_with_both_names() {
     let text = bvh_text();
     let (hierarchy, motion) = text.split_once("MOTION").unwrap();
     let body = hierarchy.strip_prefix("HIERARCHY\n").unwrap();
@@ -144,12 +141,12 @@ fn a_duet_under_one_root_is_refused_with_both_names() {
         person("HipsA"),
         person("HipsB").replace("OFFSET 0 92 0", "OFFSET 80 92 0"),
     );
-    check_refused(&duet, &Refusal::TwoBodies { first: "HipsA".into(), second: "HipsB".into() });
+    check_rejected(&duet, &RejectionReason::TwoBodies { first: "HipsA".into(), second: "HipsB".into() });
 }
 
 #[test]
-fn a_body_without_ankles_is_told_what_its_legs_seem_to_be() {
-    // A row begins with the root's place; each joint has three numbers.
+fn a_body_without_ankles_names_its_likeliest_legs() {
+    // A row begins with the root's position; each joint has three numbers.
     let mut footless = rows(|_, row| {
         row.drain(3 + 3 * 7..3 + 3 * 9);
         row.drain(3 + 3 * 3..3 + 3 * 5);
@@ -159,12 +156,12 @@ fn a_body_without_ankles_is_told_what_its_legs_seem_to_be() {
         let end = start + footless[start..].find("}\n}\n").unwrap() + "}\n}\n".len();
         footless.replace_range(start..end, "");
     }
-    let seeming_legs = [["Left Arm", "LeftHand"], ["Right Arm", "RightHand"]].map(|limb| limb.map(str::to_owned));
-    check_refused(&footless, &Refusal::NoArms { seeming_legs });
+    let likeliest_legs = [["Left Arm", "LeftHand"], ["Right Arm", "RightHand"]].map(|limb| limb.map(str::to_owned));
+    check_rejected(&footless, &RejectionReason::NoArms { likeliest_legs });
 }
 
 #[test]
-fn a_file_of_positions_alone_is_refused() {
+fn a_file_of_positions_alone_is_rejected() {
     let clip = motiondb_compiler::read::bvh::read(Path::new("clip.bvh"), bvh_text().as_bytes()).unwrap();
     let text = bvh_text();
     let (hierarchy, _) = text.split_once("MOTION").unwrap();
@@ -183,30 +180,30 @@ fn a_file_of_positions_alone_is_refused() {
         }
         positions.push('\n');
     }
-    check_refused(&positions, &Refusal::Unturned);
+    check_rejected(&positions, &RejectionReason::NoRotations);
 }
 
 #[test]
-fn a_forward_axis_to_the_side_of_the_body_is_refused() {
+fn a_sideways_forward_axis_is_rejected() {
     let folder = std::env::temp_dir().join(format!("fbcrowd_forward_{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join("walk.bvh");
     std::fs::write(&path, bvh_text()).unwrap();
     let outcome = |forward: &str| {
         let forward = Some(Axis::try_from(forward.to_owned()).unwrap());
-        let settings = Settings { forward, ..Settings::default() };
-        import_take(&Take { settings, ..Take::from(path.clone()) }).unwrap().remove(0).outcome
+        let settings = ClipSettings { forward, ..ClipSettings::from(path.clone()) };
+        import_with_settings(&settings).unwrap().remove(0).outcome
     };
     assert!(outcome("+Z").is_ok() && outcome("-Z").is_ok());
     for sideways in ["+X", "-X"] {
-        let refusal = outcome(sideways).unwrap_err().to_string();
-        assert!(refusal.contains("the body faces +Z or -Z, not"), "{refusal}");
+        let reason = outcome(sideways).unwrap_err().to_string();
+        assert!(reason.contains("the body faces +Z or -Z, not"), "{reason}");
     }
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
-fn what_is_no_text_of_its_format_is_told_by_its_first_bytes() {
+fn other_formats_are_reported_by_their_first_bytes() {
     let check = |file: &str, bytes: &[u8], words: &str| {
         let message = import_bytes(Path::new(file), bytes).unwrap_err().to_string();
         assert!(message.contains(words), "{file}: {message}");

@@ -1,12 +1,12 @@
-//! Clips whose way is taken out tread on the spot as fast as they went: bundled ones of every gait, and real walks,
-//! runs, side-steps and turns of others, at several frame rates.
+//! Clips whose displacement is removed keep their speed: bundled clips of every gait, and real walks, runs, side-steps and
+//! turns, at several frame rates.
 
 use std::path::Path;
 
 use glam::DVec3;
 use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb_compiler::read::SourceClip;
-use motiondb_compiler::retarget::{WholeClip, measure, units};
+use motiondb_compiler::retarget::{SourceParameters, source_parameters, units};
 use motiondb_compiler::rig::{Roles, find_roles};
 use motiondb_compiler::truth::Truth;
 
@@ -33,7 +33,7 @@ const STRAIGHT: [(&str, [f64; 2]); 10] = [
 enum Held {
     /// In every frame, as game engines hold a root.
     Always,
-    /// On the whole: their straight way is taken out, and they surge and sway as they did.
+    /// On average: their straight displacement is removed; they surge and sway as before.
     OnTheWhole,
 }
 
@@ -41,17 +41,17 @@ fn hips(clip: &SourceClip, roles: &Roles, frame: usize) -> DVec3 {
     0.5 * Joint::THIGHS.map(|hip| clip.position(frame, roles.required(hip))).iter().sum::<DVec3>()
 }
 
-/// Takes the way from the first to the last frame out.
+/// Removes the displacement from the first to the last frame.
 fn stay_in_place(clip: &mut SourceClip, roles: &Roles, held: Held) {
     let (last, count) = (clip.frame_count() - 1, clip.joints.len());
     let first_m = hips(clip, roles, 0);
-    let way_m = hips(clip, roles, last) - first_m;
+    let displacement_m = hips(clip, roles, last) - first_m;
     for frame in 0..=last {
-        let gone_m = match held {
+        let removed_m = match held {
             Held::Always => hips(clip, roles, frame) - first_m,
-            Held::OnTheWhole => way_m * (frame as f64 / last as f64),
+            Held::OnTheWhole => displacement_m * (frame as f64 / last as f64),
         };
-        clip.positions[frame * count..][..count].iter_mut().for_each(|position| *position -= gone_m.with_z(0.0));
+        clip.positions[frame * count..][..count].iter_mut().for_each(|position| *position -= removed_m.with_z(0.0));
     }
 }
 
@@ -72,26 +72,25 @@ fn sampled(clip: &SourceClip, frame_rate_hz: f64) -> SourceClip {
 }
 
 #[test]
-fn what_treads_on_the_spot_goes_as_fast_as_it_did() {
+fn clips_in_place_keep_their_speed() {
     let mut bad = Vec::new();
     for (name, wanted) in STRAIGHT {
         let clip = source(&Path::new(BUNDLED).join(format!("{name}.bvh")), "");
         let roles = find_roles(&clip, &[None; JOINT_COUNT]).unwrap();
         let (mut clip, _) = units::to_metres_z_up(clip, &roles);
         stay_in_place(&mut clip, &roles, Held::OnTheWhole);
-        let whole = measure(&clip, &roles);
+        let whole = source_parameters(&clip, &roles);
         let found = [whole.speed_mps, whole.strafe_mps];
         let off = (0..2).map(|axis| (found[axis] - wanted[axis]).abs()).fold(0.0, f64::max);
         let limit = 0.03 * f64::hypot(wanted[0], wanted[1]);
-        if !whole.in_place || off > limit {
+        if !whole.is_in_place || off > limit {
             bad.push(format!("{name}: {found:.3?}, not {wanted:?}"));
         }
     }
     assert!(bad.is_empty(), "{}", bad.join("\n"));
 }
 
-/// Clips that go on steadily: no starts, stops, single steps and captures of many speeds, whose mean is no speed at
-/// which any of their feet stands.
+/// Whether a clip is steady: starts, stops, single steps and captures of many speeds have a mean at which no foot stands.
 fn goes_steadily(row: &Truth) -> bool {
     const UNSTEADY: [&str; 8] = ["_To", "_Step", "Turn90", "Turn180", "Turn360", "ezgi", "pfnn", "lafan1"];
     let [forward_mps, _, left_mps] = row.measured;
@@ -100,17 +99,17 @@ fn goes_steadily(row: &Truth) -> bool {
         && !UNSTEADY.iter().any(|part| row.file.contains(part))
 }
 
-/// What is found of a real clip in metres that is held in place.
-fn found_held(clip: &SourceClip, roles: &Roles, frame_rate_hz: f64, held: Held) -> WholeClip {
+/// Parameters of a real clip, in metres, after it is held in place.
+fn found_held(clip: &SourceClip, roles: &Roles, frame_rate_hz: f64, held: Held) -> SourceParameters {
     let mut clip = sampled(clip, frame_rate_hz);
     stay_in_place(&mut clip, roles, held);
-    measure(&clip, roles)
+    source_parameters(&clip, roles)
 }
 
-/// Truth is what the same code measures before the way is taken out. Of 384 cases 41 are out, 37 of them with hips held
-/// in every frame. Those lose their surge, and in the stances of runs hips are slower than between them: five runs of
+/// The reference is what the same code measures before the displacement is removed. Of 384 cases 41 are out, 37 of them
+/// with hips held in every frame. Those lose their surge, and in the stances of runs hips are slower than between them: five runs of
 /// Bandai and CMU's 002_03 come out 8 to 13 % slow (25 cases, three rates of each or more; the limit is 9 %), six walks
-/// 8 to 12 % (11 cases, four of them of 007_04). Of uneven clips one foot tells more than the other: angry_13, a run of
+/// 8 to 12 % (11 cases, four of them of 007_04). Of uneven clips one foot counts more than the other: angry_13, a run of
 /// 1.2 s, goes 0.4 m/s aside (4 cases), Marine's Run and RunCircle 0.12 to 0.13 m/s where 0.12 is the limit.
 #[test]
 fn real_gaits_held_in_place_go_as_fast_as_they_did_at_every_frame_rate() {
@@ -123,7 +122,7 @@ fn real_gaits_held_in_place_go_as_fast_as_they_did_at_every_frame_rate() {
         let roles = find_roles(&clip, &[None; JOINT_COUNT]).unwrap();
         let (mut clip, _) = units::to_metres_z_up(clip, &roles);
         clip.keep_frames(1..clip.frame_count()); // some begin with a pose of their own
-        let wanted = measure(&clip, &roles);
+        let wanted = source_parameters(&clip, &roles);
         let is_straight = row.measured[1].abs() < 8.0;
         for held in [Held::Always, Held::OnTheWhole].into_iter().filter(|held| is_straight || *held == Held::Always) {
             for frame_rate_hz in [24.0, 30.0, 60.0, 120.0] {
@@ -131,7 +130,7 @@ fn real_gaits_held_in_place_go_as_fast_as_they_did_at_every_frame_rate() {
                 let limits = [(0.03 * wanted.speed_mps.abs()).max(0.03), 0.04].map(|limit| IN_PLACE_TIMES * limit);
                 let off = [found.speed_mps - wanted.speed_mps, found.strafe_mps - wanted.strafe_mps];
                 cases += 1;
-                if !found.in_place || (0..2).any(|axis| off[axis].abs() > limits[axis]) {
+                if !found.is_in_place || (0..2).any(|axis| off[axis].abs() > limits[axis]) {
                     let name = row.file.rsplit('/').next().unwrap();
                     bad.push(format!("{name} at {frame_rate_hz} Hz, {held:?}: off by {off:.2?} of {wanted:.2?}"));
                 }

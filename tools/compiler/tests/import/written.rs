@@ -1,4 +1,4 @@
-//! A body written here, in BVH and in glTF: every spelling of one file reads alike, and no mutation of it panics.
+//! A walker in BVH and in glTF: every spelling of its file reads alike, and no mutation of it panics.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -148,7 +148,7 @@ fn check_walks(clip: &super::HumanClip) {
 }
 
 #[test]
-fn every_spelling_of_one_bvh_reads_alike() {
+fn every_spelling_of_a_bvh_reads_alike() {
     let plain = bvh_text();
     let expected = only(import_bytes(Path::new("walk.bvh"), plain.as_bytes()));
     check_walks(&expected);
@@ -170,9 +170,9 @@ fn every_spelling_of_one_bvh_reads_alike() {
 }
 
 #[test]
-fn lying_counts_are_told_and_the_rows_used() {
-    for lie in ["Frames: 99999999999999", "Frames: 3", "Frames: 1e7"] {
-        let text = bvh_text().replace("Frames: 40", lie);
+fn wrong_counts_are_reported_and_all_rows_used() {
+    for wrong in ["Frames: 99999999999999", "Frames: 3", "Frames: 1e7"] {
+        let text = bvh_text().replace("Frames: 40", wrong);
         let clip = only(import_bytes(Path::new("walk.bvh"), text.as_bytes()));
         assert_eq!(clip.frames.len(), FRAMES);
         let is_wrong = |found: &Diagnostic| matches!(found, Diagnostic::Warning(Warning::FrameCountWrong { .. }));
@@ -184,11 +184,11 @@ fn lying_counts_are_told_and_the_rows_used() {
 }
 
 #[test]
-fn malformed_bvh_is_refused_at_its_line() {
+fn malformed_bvh_is_rejected_at_its_line() {
     let check = |from: &str, to: &str, line: usize| {
         let text = bvh_text().replacen(from, to, 1);
         let message = import_bytes(Path::new("walk.bvh"), text.as_bytes()).unwrap_err().to_string();
-        assert!(message.starts_with(&format!("walk.bvh, line {line}: ")), "{from} → {to}: {message}");
+        assert!(message.starts_with(&format!("walk.bvh: line {line}: ")), "{from} → {to}: {message}");
     };
     check("OFFSET 9 -4 0", "OFFSET 9 -4", 8);
     check("OFFSET 9 -4 0", "OFFSET 9 nan 0", 8);
@@ -203,7 +203,7 @@ fn malformed_bvh_is_refused_at_its_line() {
 }
 
 #[test]
-fn decimal_commas_are_told() {
+fn decimal_commas_are_reported() {
     for (point, comma) in [("OFFSET 9", "OFFSET 9,0"), ("0.0333333333", "0,0333333333")] {
         let text = bvh_text().replacen(point, comma, 1);
         let message = import_bytes(Path::new("walk.bvh"), text.as_bytes()).unwrap_err().to_string();
@@ -212,10 +212,10 @@ fn decimal_commas_are_told() {
 }
 
 #[test]
-fn millions_of_blank_lines_are_passed_over_but_counted() {
+fn blank_lines_are_skipped_but_counted() {
     let text = format!("HIERARCHY{}nonsense", "\n".repeat(10_000_000));
     let message = import_bytes(Path::new("blank.bvh"), text.as_bytes()).unwrap_err().to_string();
-    assert!(message.starts_with("blank.bvh, line 10000001: "), "{message}");
+    assert!(message.starts_with("blank.bvh: line 10000001: "), "{message}");
 }
 
 #[test]
@@ -237,7 +237,7 @@ fn gltf_reads_as_bvh_does_with_every_interpolation() {
 }
 
 #[test]
-fn gltf_that_claims_more_than_it_has_is_refused() {
+fn gltf_with_missing_bytes_is_rejected() {
     let check = |from: &str, to: &str| {
         let text = gltf_text("LINEAR").replacen(from, to, 1);
         assert!(import_bytes(Path::new("walk.gltf"), text.as_bytes()).is_err(), "{from} → {to}");

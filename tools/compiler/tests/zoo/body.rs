@@ -1,5 +1,5 @@
-//! The motion that every rig of the zoo performs: a bundled clip, its parameters known from `assets/clips/README.md`,
-//! as places and turns of the performer's parts. Metres; x to the left, y up, z forward.
+//! The motion that every rig of the zoo performs: a bundled clip as positions and rotations of the performer's parts. Its
+//! parameters are those of `assets/clips/README.md`. Metres; x to the left, y up, z forward.
 
 use std::path::Path;
 
@@ -48,7 +48,7 @@ pub(crate) struct Performance {
     pub offsets_m: [DVec3; 22],
     pub poses: Vec<Pose>,
     /// Forward speed, m/s; turn rate, degrees a second; speed to the left, m/s.
-    pub truth: [f64; 3],
+    pub parameters: [f64; 3],
 }
 
 #[derive(Clone)]
@@ -77,18 +77,18 @@ impl Performance {
             frame_rate_hz: source.frame_rate_hz,
             offsets_m: std::array::from_fn(offset),
             poses: (0..source.frame_count()).map(pose).collect(),
-            truth: truth(clip),
+            parameters: readme_parameters(clip),
         }
     }
 
-    /// Where the parts are.
-    pub(crate) fn places_m(&self, pose: &Pose) -> [DVec3; 22] {
-        let mut places = [pose.hips_m; 22];
+    /// Positions of all parts.
+    pub(crate) fn positions_m(&self, pose: &Pose) -> [DVec3; 22] {
+        let mut positions = [pose.hips_m; 22];
         for part in 1..22 {
             let parent = PARENTS[part];
-            places[part] = places[parent] + pose.turns[parent] * self.offsets_m[part];
+            positions[part] = positions[parent] + pose.turns[parent] * self.offsets_m[part];
         }
-        places
+        positions
     }
 
     /// The same seconds at another rate.
@@ -102,7 +102,7 @@ impl Performance {
         Self { frame_rate_hz, poses: (0..count).map(pose).collect(), ..self.clone() }
     }
 
-    /// Everything seen in a mirror, left and right exchanged: another true clip.
+    /// The mirror image, left and right exchanged: another correct clip.
     pub(crate) fn mirrored(&self) -> Self {
         let opposite = |part: usize| {
             let name = PARTS[part];
@@ -120,16 +120,16 @@ impl Performance {
             hips_m: flip * pose.hips_m,
             turns: std::array::from_fn(|part| turn(pose.turns[opposite(part)])),
         };
-        let [forward, turn_rate, left] = self.truth;
+        let [forward, turn_rate, left] = self.parameters;
         Self {
             offsets_m: std::array::from_fn(|part| flip * self.offsets_m[opposite(part)]),
             poses: self.poses.iter().map(pose).collect(),
-            truth: [forward, -turn_rate, -left],
+            parameters: [forward, -turn_rate, -left],
             ..*self
         }
     }
 
-    /// Stands in a T-pose first, then goes over into the motion.
+    /// Puts a T-pose and a transition before the motion.
     pub(crate) fn stand_before(&mut self, stand_s: f64, blend_s: f64) {
         let (stand, first) = (self.t_pose(), self.poses[0].clone());
         let mut poses = self.transition(&stand, &first, stand_s, blend_s);
@@ -138,7 +138,7 @@ impl Performance {
         self.poses = poses;
     }
 
-    /// Goes over into a T-pose at the end and stands in it.
+    /// Puts a transition and a T-pose after the motion.
     pub(crate) fn stand_after(&mut self, stand_s: f64, blend_s: f64) {
         let last = self.poses[self.poses.len() - 1].clone();
         let facing = last.turns[0] * DVec3::Z;
@@ -156,15 +156,15 @@ impl Performance {
         std::iter::repeat_n(stand.clone(), stood).chain(blend).collect()
     }
 
-    /// Whole-clip means count the frames that stand; a single one is known to be left out.
+    /// Scales the parameters: whole-clip means count standing frames, except a single one, which import removes.
     fn dilute(&mut self, standing: usize) {
         if standing > 1 {
             let share = (self.poses.len() - 1) as f64 / (self.poses.len() + standing - 1) as f64;
-            self.truth = self.truth.map(|value| value * share);
+            self.parameters = self.parameters.map(|value| value * share);
         }
     }
 
-    /// The T-pose goes over into the motion while that moves on.
+    /// Blends from a T-pose into the motion while the body moves.
     pub(crate) fn blend_out(&mut self, blend_s: f64) {
         let frames = (blend_s * self.frame_rate_hz).ceil();
         for (frame, pose) in self.poses.iter_mut().enumerate().take(frames as usize) {
@@ -175,19 +175,19 @@ impl Performance {
         }
     }
 
-    /// Takes out the straight way that the hips make from the first to the last frame; turning clips stay.
+    /// Removes the straight displacement of the hips from the first to the last frame. Turning clips stay as they are.
     pub(crate) fn stay_in_place(&mut self) {
-        if self.truth[1] != 0.0 {
+        if self.parameters[1] != 0.0 {
             return;
         }
         let last = self.poses.len() - 1;
-        let way_m = (self.poses[last].hips_m - self.poses[0].hips_m).with_y(0.0);
+        let displacement_m = (self.poses[last].hips_m - self.poses[0].hips_m).with_y(0.0);
         for (frame, pose) in self.poses.iter_mut().enumerate() {
-            pose.hips_m -= way_m * frame as f64 / last as f64;
+            pose.hips_m -= displacement_m * frame as f64 / last as f64;
         }
     }
 
-    /// The ground rises by so much along the way.
+    /// Raises the ground along the path, by `slope` metres a metre.
     pub(crate) fn slope(&mut self, slope: f64) {
         let start_m = self.poses[0].hips_m;
         for pose in &mut self.poses {
@@ -213,8 +213,8 @@ impl Pose {
     }
 }
 
-/// The row of the README.
-fn truth(clip: &str) -> [f64; 3] {
+/// The parameters of a clip in the table of `assets/clips/README.md`.
+fn readme_parameters(clip: &str) -> [f64; 3] {
     let table = std::fs::read_to_string(Path::new(CLIPS).join("README.md")).unwrap();
     let row = table.lines().find(|line| line.starts_with(&format!("| {clip}."))).unwrap();
     let number = |column: usize| row.split('|').nth(column).unwrap().trim().parse::<f64>().unwrap();

@@ -1,21 +1,20 @@
-//! One combination of clip, skeleton, rest pose and file, thrown by dice, and what its import must say.
+//! One random combination of clip, skeleton, rest pose and file, and what its import must report.
 
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Unfit};
-use motiondb_compiler::import::import_bytes;
 use motiondb_compiler::read::bvh;
-use motiondb_compiler::retarget::{Axis, HumanClip};
 use motiondb_compiler::rig::find_roles;
+use motiondb_compiler::{Axis, HumanClip, import_bytes};
 
 use super::body::Performance;
 use super::file::{self, File, RootOffset};
 use super::names::{Names, tools};
 use super::rig::{self, EXTRAS, Extra, Rest, Rig};
 
-/// Clips of every kind of gait: name, and whether two seconds of them may be spoilt.
+/// Clips of every gait.
 const CLIPS: [&str; 14] = [
     "walk_050",
     "walk_080",
@@ -36,9 +35,9 @@ const CLIPS: [&str; 14] = [
 const UNITS: [(&str, f64); 6] =
     [("m", 1.0), ("cm", 0.01), ("mm", 0.001), ("inch", 0.0254), ("dm", 0.1), ("1/0.45 inch", 0.0564444)];
 
-/// How the performance was taken.
+/// What is done to the performance.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Take {
+pub(crate) enum Change {
     Plain,
     /// One T-pose, then a jump.
     TPoseFirst,
@@ -46,14 +45,14 @@ pub(crate) enum Take {
     BlendsOut(f64),
     /// So many seconds in a T-pose before and after.
     Calibrated([f64; 2]),
-    /// The root's way is taken out.
+    /// The root's displacement is removed.
     InPlace,
     /// Written by a tool of the other handedness, names and all.
     LeftHanded,
     /// Up or down so many metres a metre.
     Sloping(f64),
     /// The frame time is so many times too long.
-    Lying(f64),
+    WrongFrameTime(f64),
 }
 
 /// A repeatable source of choices (splitmix64).
@@ -101,7 +100,7 @@ pub(crate) struct Combination {
     pub unit: (&'static str, f64),
     pub up: Axis,
     pub file: File,
-    pub take: Take,
+    pub change: Change,
     pub seed: u64,
 }
 
@@ -152,17 +151,17 @@ impl Combination {
         let frame_rate_hz = dice.pick(&[24.0, 25.0, 30.0, 30.0, 50.0, 60.0, 60.0, 100.0, 120.0]);
         let is_mirrored = dice.chance(0.4);
         let is_walk = ["walk_080", "walk_110", "walk_180", "jog_240", "run_350"].contains(&clip);
-        let take = match dice.below(16) {
-            0 => Take::TPoseFirst,
-            1 => Take::BlendsOut(0.2 + 0.4 * dice.unit()),
-            2 => Take::Calibrated([dice.unit() + 0.5, 0.0]),
-            3 => Take::Calibrated([4.0 * dice.unit(), 3.0 * dice.unit()]),
-            4 => Take::InPlace,
-            5 => Take::LeftHanded,
-            6 => Take::Sloping(0.5 * dice.unit() - 0.25),
-            // Slow walks four times slower are not impossible.
-            7 if is_walk => Take::Lying(dice.pick(&[4.8, 1.0 / 4.8, 0.25])),
-            _ => Take::Plain,
+        let change = match dice.below(16) {
+            0 => Change::TPoseFirst,
+            1 => Change::BlendsOut(0.2 + 0.4 * dice.unit()),
+            2 => Change::Calibrated([dice.unit() + 0.5, 0.0]),
+            3 => Change::Calibrated([4.0 * dice.unit(), 3.0 * dice.unit()]),
+            4 => Change::InPlace,
+            5 => Change::LeftHanded,
+            6 => Change::Sloping(0.5 * dice.unit() - 0.25),
+            // A slow walk, four times slower, is still plausible.
+            7 if is_walk => Change::WrongFrameTime(dice.pick(&[4.8, 1.0 / 4.8, 0.25])),
+            _ => Change::Plain,
         };
         let seed = dice.below(1 << 40) as u64;
         Self {
@@ -175,12 +174,12 @@ impl Combination {
             unit,
             up: Axis::nearest(axes[up]),
             file,
-            take,
+            change,
             seed,
         }
     }
 
-    /// What failures are counted by.
+    /// Properties by which failures are counted.
     pub(crate) fn words(&self) -> Vec<String> {
         let mut words: Vec<String> = self.extras.iter().map(|extra| format!("extra {extra:?}")).collect();
         words.push(format!("tool {}", self.names.tool));
@@ -188,7 +187,7 @@ impl Combination {
         words.push(format!("rest {:?}", self.rest));
         words.push(format!("unit {}", self.unit.0));
         words.push(format!("up {}", self.up.name()));
-        words.push(format!("take {:?}", self.take).split(['(', '[']).next().unwrap_or_default().to_owned());
+        words.push(format!("change {:?}", self.change).split(['(', '[']).next().unwrap_or_default().to_owned());
         words.push(format!("everywhere {}", self.file.positions_everywhere));
         words.push(format!("root {:?}", self.file.root_offset));
         words
@@ -197,19 +196,19 @@ impl Combination {
     fn performance(&self) -> Performance {
         let body = Performance::read(self.clip).resampled(self.frame_rate_hz);
         let mut body = if self.is_mirrored { body.mirrored() } else { body };
-        match self.take {
-            Take::TPoseFirst => body.stand_before(1.0 / body.frame_rate_hz, 0.0),
-            Take::BlendsOut(blend_s) => body.blend_out(blend_s),
-            Take::Calibrated([before_s, after_s]) => {
+        match self.change {
+            Change::TPoseFirst => body.stand_before(1.0 / body.frame_rate_hz, 0.0),
+            Change::BlendsOut(blend_s) => body.blend_out(blend_s),
+            Change::Calibrated([before_s, after_s]) => {
                 body.stand_before(before_s, 0.5);
                 if after_s > 0.0 {
                     body.stand_after(after_s, 0.5);
                 }
             }
-            Take::InPlace => body.stay_in_place(),
-            Take::Sloping(slope) => body.slope(slope),
-            Take::Lying(factor) => body.frame_rate_hz /= factor,
-            Take::Plain | Take::LeftHanded => {}
+            Change::InPlace => body.stay_in_place(),
+            Change::Sloping(slope) => body.slope(slope),
+            Change::WrongFrameTime(factor) => body.frame_rate_hz /= factor,
+            Change::Plain | Change::LeftHanded => {}
         }
         body
     }
@@ -218,13 +217,13 @@ impl Combination {
         let body = self.performance();
         let mut dice = Dice::new(self.seed);
         let rig = rig::build(&body, &self.names, &self.extras, self.rest, || dice.turn());
-        let file = File { is_left_handed: self.take == Take::LeftHanded, ..self.file };
+        let file = File { is_left_handed: self.change == Change::LeftHanded, ..self.file };
         let text = file::write(&body, &rig, &file);
         if !file.is_left_handed {
             self.check_roles(&text, &rig)?;
         }
         let imports = import_bytes(Path::new("zoo.bvh"), text.as_bytes()).map_err(|error| error.to_string())?;
-        let human = imports.into_iter().next().unwrap().outcome.map_err(|refusal| refusal.to_string())?;
+        let human = imports.into_iter().next().unwrap().outcome.map_err(|reason| reason.to_string())?;
         let record = &human.source;
         if record.up_axis != self.up_in_file().name()
             || (f64::from(record.metres_per_unit) / self.unit.1 - 1.0).abs() > 1e-3
@@ -236,21 +235,21 @@ impl Combination {
         self.check_parameters(&body, found)
     }
 
-    /// The way up; a file of the wrong handedness has x mirrored.
+    /// The up axis; a file of the wrong handedness has x mirrored.
     fn up_in_file(&self) -> Axis {
-        let flip = if self.take == Take::LeftHanded { DVec3::new(-1.0, 1.0, 1.0) } else { DVec3::ONE };
+        let flip = if self.change == Change::LeftHanded { DVec3::new(-1.0, 1.0, 1.0) } else { DVec3::ONE };
         Axis::nearest(flip * self.up.direction())
     }
 
     fn check_parameters(&self, body: &Performance, found: [f64; 3]) -> Result<(), String> {
-        let [forward, turn, left] = body.truth;
+        let [forward, turn, left] = body.parameters;
         let (size, duration_s) = (self.file.size, body.poses.len() as f64 / body.frame_rate_hz);
-        let wanted = match self.take {
-            Take::Lying(factor) => [size * forward / factor, turn / factor, size * left / factor],
-            Take::LeftHanded => [size * forward, -turn, -size * left],
+        let wanted = match self.change {
+            Change::WrongFrameTime(factor) => [size * forward / factor, turn / factor, size * left / factor],
+            Change::LeftHanded => [size * forward, -turn, -size * left],
             _ => [size * forward, turn, size * left],
         };
-        let wider = if self.take == Take::InPlace { 3.0 } else { 1.0 };
+        let wider = if self.change == Change::InPlace { 3.0 } else { 1.0 };
         let tolerances = [
             wider * f64::max(0.03 * wanted[0].abs(), 0.03),
             wider * f64::max(3.0, 15.0 / duration_s),
@@ -264,7 +263,7 @@ impl Combination {
         ["walk_080", "walk_110", "walk_180", "jog_240", "run_350"].contains(&self.clip)
     }
 
-    /// That all is reported that must be, and nothing else.
+    /// Checks that all is reported that must be, and nothing else.
     fn check_diagnostics(&self, human: &HumanClip) -> Result<(), String> {
         let label = |found: &Diagnostic| match found {
             Diagnostic::Note(Note::TPoseCut { end: ClipEnd::First, .. }) => "first T-pose",
@@ -273,24 +272,24 @@ impl Combination {
         };
         let found: Vec<&str> = human.source.diagnostics.iter().map(label).collect();
         let found = [&found[..], human.unfit.as_ref().map(Unfit::code).as_slice()].concat();
-        let wanted: &[&str] = match self.take {
-            Take::TPoseFirst => &["first_pose_cut"],
-            Take::BlendsOut(_) | Take::Calibrated([_, 0.0]) => &["first T-pose"],
-            Take::Calibrated(_) => &["first T-pose", "last T-pose"],
-            Take::LeftHanded if self.names.says_sides() => &["sides_exchanged"],
-            Take::Lying(_) => &["inhuman_gait"],
+        let expected: &[&str] = match self.change {
+            Change::TPoseFirst => &["first_pose_cut"],
+            Change::BlendsOut(_) | Change::Calibrated([_, 0.0]) => &["first T-pose"],
+            Change::Calibrated(_) => &["first T-pose", "last T-pose"],
+            Change::LeftHanded if self.names.states_sides() => &["sides_exchanged"],
+            Change::WrongFrameTime(_) => &["inhuman_gait"],
             // Short paths and curved ones may end as high as they began.
-            Take::Sloping(slope) if slope.abs() > 0.1 && self.is_long_walk() => &["slope"],
-            Take::Sloping(_) => return Ok(()),
+            Change::Sloping(slope) if slope.abs() > 0.1 && self.is_long_walk() => &["slope"],
+            Change::Sloping(_) => return Ok(()),
             _ => &[],
         };
-        (found == wanted).then_some(()).ok_or_else(|| format!("{found:?}, not {wanted:?}"))
+        (found == expected).then_some(()).ok_or_else(|| format!("{found:?}, not {expected:?}"))
     }
 
-    /// That hips, knees, ankles, shoulders, elbows and wrists are found, each on its side.
+    /// Checks that hips, knees, ankles, shoulders, elbows and wrists are found, each on its side.
     fn check_roles(&self, text: &str, rig: &Rig) -> Result<(), String> {
         let clip = bvh::read(Path::new("zoo.bvh"), text.as_bytes()).map_err(|error| error.to_string())?;
-        let roles = find_roles(&clip, &[None; JOINT_COUNT]).map_err(|refusal| refusal.to_string())?;
+        let roles = find_roles(&clip, &[None; JOINT_COUNT]).map_err(|reason| reason.to_string())?;
         let depth_first = depth_first(rig);
         let source: Vec<usize> = (0..clip.joints.len()).filter(|&joint| !clip.joints[joint].is_end).collect();
         let joint_of = |bone: usize| source[depth_first.iter().position(|&other| other == bone).unwrap()];

@@ -1,5 +1,5 @@
-//! What moves and is no walking human, made up: every joint swings a little, the whole moves on along z. Centimetres, Y
-//! up.
+//! Made-up creatures that are not walking humans: every joint swings a little, and the body moves along z. Centimetres,
+//! Y up.
 
 use std::fmt::Write as _;
 
@@ -35,7 +35,7 @@ impl Creature {
         self.chain(&format!("Right{name}"), parent, &mirrored);
     }
 
-    /// Two seconds of it.
+    /// Two seconds of motion as BVH.
     pub(crate) fn text(&self) -> String {
         let mut text = String::from("HIERARCHY\n");
         self.hierarchy(&mut text, 0);
@@ -72,7 +72,7 @@ impl Creature {
     }
 }
 
-/// All of them.
+/// All creatures.
 pub(crate) fn all() -> Vec<Creature> {
     vec![dog(), crawler(), swimmer(), spider(), snake(), cart(), hand(), face(), upper_body(), legs_alone()]
 }
@@ -97,7 +97,7 @@ fn crawler() -> Creature {
     human
 }
 
-/// A human stretched out along his way.
+/// A human stretched out along the path.
 fn swimmer() -> Creature {
     let mut human = Creature::new("swimmer", 20.0);
     let chest = human.chain("Spine", 0, &[[0.0, 0.0, 12.0], [0.0, 0.0, 15.0], [0.0, 0.0, 15.0]]);

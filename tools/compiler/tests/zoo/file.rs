@@ -1,4 +1,4 @@
-//! A rig's performance as BVH text, in a file's own axes, unit, channels and habits.
+//! A rig's performance as BVH text, in a file's own axes, unit and channels.
 
 use std::fmt::Write as _;
 
@@ -25,7 +25,7 @@ pub(crate) enum RootOffset {
     Added,
 }
 
-/// A file's habits.
+/// How a tool writes its files.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct File {
     /// From x left, y up, z forward to the file's axes.
@@ -67,15 +67,15 @@ pub(crate) fn write(body: &Performance, rig: &Rig, file: &File) -> String {
 }
 
 fn globals(body: &Performance, rig: &Rig, file: &File, pose: &Pose) -> Vec<(DVec3, DQuat)> {
-    let places_m = body.places_m(pose);
+    let positions_m = body.positions_m(pose);
     let global = |bone: &super::rig::Bone| {
-        let (place_m, turn) = match bone.part {
-            Some(part) => (places_m[part] + pose.turns[part] * bone.place_m, pose.turns[part] * bone.rest),
+        let (position_m, turn) = match bone.part {
+            Some(part) => (positions_m[part] + pose.turns[part] * bone.position_m, pose.turns[part] * bone.rest),
             None => (DVec3::ZERO, DQuat::IDENTITY),
         };
-        let place = file.axes * (place_m * file.size + file.shift_m) * file.units_per_m;
+        let position = file.axes * (position_m * file.size + file.shift_m) * file.units_per_m;
         let turn = (file.axes * turn).normalize();
-        if file.is_left_handed { (place * DVec3::new(-1.0, 1.0, 1.0), reflected(turn)) } else { (place, turn) }
+        if file.is_left_handed { (position * DVec3::new(-1.0, 1.0, 1.0), reflected(turn)) } else { (position, turn) }
     };
     rig.bones.iter().map(global).collect()
 }
@@ -86,17 +86,17 @@ fn reflected(turn: DQuat) -> DQuat {
 
 fn track(rig: &Rig, file: &File, globals: &[Vec<(DVec3, DQuat)>], bone: usize) -> Track {
     let local = |frame: &Vec<(DVec3, DQuat)>| {
-        let (place, turn) = frame[bone];
+        let (position, turn) = frame[bone];
         match rig.bones[bone].parent {
             Some(parent) => {
                 let (from, back) = (frame[parent].0, frame[parent].1.inverse());
-                (back * (place - from), back * turn)
+                (back * (position - from), back * turn)
             }
-            None => (place, turn),
+            None => (position, turn),
         }
     };
     let locals: Vec<(DVec3, DQuat)> = globals.iter().map(local).collect();
-    let mean = locals.iter().map(|(place, _)| *place).sum::<DVec3>() / locals.len() as f64;
+    let mean = locals.iter().map(|(position, _)| *position).sum::<DVec3>() / locals.len() as f64;
     let is_root = rig.bones[bone].parent.is_none();
     let first = locals[0].0;
     let offset = match file.root_offset {
@@ -107,9 +107,9 @@ fn track(rig: &Rig, file: &File, globals: &[Vec<(DVec3, DQuat)>], bone: usize) -
     };
     let moves = is_root || rig.bones[bone].is_loose || file.positions_everywhere;
     let is_added = file.root_offset == RootOffset::Added && (is_root || rig.bones[bone].part == Some(0));
-    let value = |(place, turn): (DVec3, DQuat)| match rig.bones[bone].is_loose {
-        true if is_added => (place - offset, turn),
-        true => (place, turn),
+    let value = |(position, turn): (DVec3, DQuat)| match rig.bones[bone].is_loose {
+        true if is_added => (position - offset, turn),
+        true => (position, turn),
         false => (offset, turn),
     };
     Track { offset, locals: locals.into_iter().map(value).collect(), moves }
@@ -140,14 +140,14 @@ fn hierarchy(text: &mut String, rig: &Rig, file: &File, tracks: &[Track], bone: 
 }
 
 fn numbers(row: &mut Vec<f64>, rig: &Rig, file: &File, tracks: &[Track], frame: usize, bone: usize) {
-    let (place, turn) = tracks[bone].locals[frame];
+    let (position, turn) = tracks[bone].locals[frame];
     let angles = DMat3::from_quat(turn).to_euler(ORDERS[file.order].0);
     let angles = [angles.0, angles.1, angles.2].map(f64::to_degrees);
     if file.rotations_first {
         row.extend(angles);
     }
     if tracks[bone].moves {
-        row.extend(place.to_array());
+        row.extend(position.to_array());
     }
     if !file.rotations_first {
         row.extend(angles);

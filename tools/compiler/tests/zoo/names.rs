@@ -1,4 +1,4 @@
-//! What joints are called and how trunks fork in the skeletons of other tools (`names.txt`).
+//! Names of joints and forks of trunks in the skeletons of other tools (`names.txt`).
 
 /// One tool's humanoid. `%` in a name stands for the side.
 #[derive(Clone, Debug)]
@@ -61,8 +61,8 @@ fn names(rows: &[&'static str]) -> Names {
 }
 
 impl Names {
-    /// Whether its names tell left from right.
-    pub(crate) fn says_sides(&self) -> bool {
+    /// Whether its names state left and right.
+    pub(crate) fn states_sides(&self) -> bool {
         !["A", "1", ""].contains(&self.sides[0]) && self.sides != ["B", "A"]
     }
 }

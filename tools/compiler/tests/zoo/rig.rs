@@ -13,7 +13,7 @@ pub(crate) struct Bone {
     /// The part it moves with; none stays at the origin.
     pub part: Option<usize>,
     /// In the part's frame, metres.
-    pub place_m: DVec3,
+    pub position_m: DVec3,
     /// Its own frame in the part's: what the file calls no rotation.
     pub rest: DQuat,
     /// It has position channels that really vary.
@@ -74,7 +74,7 @@ pub(crate) enum Rest {
     ArmsDown,
     /// Every bone along one axis of its joint: 0..6 is ±X, ±Y, ±Z.
     Along(usize),
-    /// Each joint's frame turned anyhow.
+    /// Each joint's frame rotated without a pattern.
     Any,
 }
 
@@ -85,13 +85,13 @@ pub(crate) struct Rig {
     pub arms: [[usize; 3]; 2],
 }
 
-/// Builds a rig; `anyhow` gives turns without a pattern.
+/// Builds a rig; `any_turn` gives rotations without a pattern.
 pub(crate) fn build(
     body: &Performance,
     names: &Names,
     extras: &[Extra],
     rest: Rest,
-    mut anyhow: impl FnMut() -> DQuat,
+    mut any_turn: impl FnMut() -> DQuat,
 ) -> Rig {
     let mut rig = Rig { bones: Vec::new(), legs: [[0; 3]; 2], arms: [[0; 3]; 2] };
     let mut parent = None;
@@ -120,7 +120,7 @@ pub(crate) fn build(
         rig.leg(names, extras, side, hips);
     }
     rig.ornaments(extras, [pelvis, chest, head]);
-    rig.turn(body, rest, &mut anyhow);
+    rig.turn(body, rest, &mut any_turn);
     rig
 }
 
@@ -133,9 +133,9 @@ impl Names {
 const WORDS: [&str; 2] = ["Left", "Right"];
 
 impl Rig {
-    fn add(&mut self, name: &str, parent: Option<usize>, part: Option<usize>, place_m: DVec3) -> usize {
+    fn add(&mut self, name: &str, parent: Option<usize>, part: Option<usize>, position_m: DVec3) -> usize {
         let rest = DQuat::IDENTITY;
-        self.bones.push(Bone { name: name.to_owned(), parent, part, place_m, rest, is_loose: false });
+        self.bones.push(Bone { name: name.to_owned(), parent, part, position_m, rest, is_loose: false });
         self.bones.len() - 1
     }
 
@@ -158,10 +158,10 @@ impl Rig {
                 .iter()
                 .enumerate()
                 .filter(|(earlier, _)| 3 - (3 * (count - earlier)).div_ceil(count).min(3) == on);
-            let place_m = 0.05 * same.count() as f64 * DVec3::Y;
+            let position_m = 0.05 * same.count() as f64 * DVec3::Y;
             let on = if index + 1 == count { "Spine2" } else { ["Spine", "Spine1", "Spine2"][on] };
             let parent = *spine.last().unwrap_or(&pelvis);
-            spine.push(self.add(name, Some(parent), Some(part(on)), place_m));
+            spine.push(self.add(name, Some(parent), Some(part(on)), position_m));
         }
         spine
     }
@@ -242,8 +242,8 @@ impl Rig {
         }
         let mut toe = foot;
         for (index, pattern) in names.toes.iter().enumerate() {
-            let place_m = DVec3::new(0.0, -0.02, 0.065) * index as f64;
-            toe = self.add(&names.of(pattern, names.sides[side]), Some(toe), at("ToeBase"), place_m);
+            let position_m = DVec3::new(0.0, -0.02, 0.065) * index as f64;
+            toe = self.add(&names.of(pattern, names.sides[side]), Some(toe), at("ToeBase"), position_m);
         }
         if names.toes.is_empty() {
             self.add(&format!("{word}FootNub"), Some(foot), at("Foot"), DVec3::new(0.0, -0.06, 0.19));
@@ -268,8 +268,8 @@ impl Rig {
             match extra {
                 Extra::Face => {
                     for feature in 0..24 {
-                        let place_m = DVec3::new(0.01 * feature as f64 - 0.12, 0.05, 0.09);
-                        self.chain(&format!("face{feature}_"), head, on_head, place_m, 0.01 * DVec3::Z, 2);
+                        let position_m = DVec3::new(0.01 * feature as f64 - 0.12, 0.05, 0.09);
+                        self.chain(&format!("face{feature}_"), head, on_head, position_m, 0.01 * DVec3::Z, 2);
                     }
                 }
                 Extra::TwinTails => {
@@ -328,9 +328,9 @@ impl Rig {
         }
     }
 
-    fn turn(&mut self, body: &Performance, rest: Rest, anyhow: &mut impl FnMut() -> DQuat) {
-        let places_m = body.places_m(&body.t_pose());
-        let place = |bone: &Bone| bone.part.map_or(DVec3::ZERO, |part| places_m[part] + bone.place_m);
+    fn turn(&mut self, body: &Performance, rest: Rest, any_turn: &mut impl FnMut() -> DQuat) {
+        let positions_m = body.positions_m(&body.t_pose());
+        let position = |bone: &Bone| bone.part.map_or(DVec3::ZERO, |part| positions_m[part] + bone.position_m);
         for index in 0..self.bones.len() {
             let bone = &self.bones[index];
             let Some(on) = bone.part else { continue };
@@ -343,10 +343,10 @@ impl Rig {
                 Rest::APose if is_arm => lowered(45.0),
                 Rest::ArmsDown if is_arm => lowered(90.0),
                 Rest::TPose | Rest::APose | Rest::ArmsDown => DQuat::IDENTITY,
-                Rest::Any => anyhow(),
+                Rest::Any => any_turn(),
                 Rest::Along(axis) => {
                     let axis = DVec3::AXES[axis / 2] * if axis % 2 == 0 { 1.0 } else { -1.0 };
-                    let along = child.map_or(DVec3::Y, |child| place(child) - place(bone)).try_normalize();
+                    let along = child.map_or(DVec3::Y, |child| position(child) - position(bone)).try_normalize();
                     DQuat::from_rotation_arc(axis, along.unwrap_or(DVec3::Y))
                 }
             };

@@ -79,23 +79,23 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Overrides { velocity_hull: args.velocity_hull.map(Construction::from), max_examples: args.max_examples };
     let stopwatch = Stopwatch::default();
     let compiled = compiling::compile(&args.clips, &args.output, &overrides, &stopwatch);
-    if let Err(Failure::NoExample { refused, sources }) = &compiled
+    if let Err(Failure::NoExample { rejected, sources }) = &compiled
         && args.json
     {
-        output::print_json(&CompileReport::without_examples(refused.clone(), sources))?;
+        output::print_json(&CompileReport::without_examples(rejected.clone(), sources))?;
     }
     let compiled = compiled?;
-    let answer = compiling::answer(&compiled.refused);
+    let answer = compiling::answer(&compiled.rejected);
     if args.strict && answer == Answer::No {
         return refuse(args, compiled, &stopwatch);
     }
     // On a terminal the report says it.
     if !io::stdout().is_terminal() {
-        compiling::say_refused(&compiled.refused);
+        compiling::say_refused(&compiled.rejected);
     }
     stopwatch.begin("writing");
     database_file::write(&args.output, &compiled.db)?;
-    let report = CompileReport::new(Some(&args.output), &compiled.db, compiled.refused, stopwatch.finish());
+    let report = CompileReport::new(Some(&args.output), &compiled.db, compiled.rejected, stopwatch.finish());
     if args.json {
         output::print_json(&report)?;
     } else {
@@ -105,10 +105,10 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 /// Says what was refused, and that it is final.
-fn refuse(args: &Args, Compiled { db, refused }: Compiled, stopwatch: &Stopwatch) -> Result<Answer, Failure> {
-    compiling::say_refused(&refused);
+fn refuse(args: &Args, Compiled { db, rejected }: Compiled, stopwatch: &Stopwatch) -> Result<Answer, Failure> {
+    compiling::say_refused(&rejected);
     if args.json {
-        output::print_json(&CompileReport::new(None, &db, refused, stopwatch.finish()))?;
+        output::print_json(&CompileReport::new(None, &db, rejected, stopwatch.finish()))?;
     }
     Err(Failure::bad("some input was refused, and --strict allows none; repair it or leave it out"))
 }

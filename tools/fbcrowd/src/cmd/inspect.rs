@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use fbcrowd_render::plots::database::write_database_plots;
 use motiondb::files::database_file::{self, FileError};
+use motiondb_compiler::ClipSet;
 use motiondb_compiler::survey::survey;
 
 use crate::correspondence_between::Between;
@@ -136,12 +137,12 @@ fn inspect_clips(args: &Args, clips: &[PathBuf]) -> Result<Answer, Failure> {
             "--correspondence compares examples of a database; compile the clips first with `fbcrowd compile`";
         return Err(Failure::bad(message));
     }
-    let (clips, refused) = compiling::import(clips)?;
-    compiling::say_refused(&refused);
-    let (is_empty, answer) = (clips.is_empty(), compiling::answer(&refused));
+    let ClipSet { clips, rejected } = compiling::import(clips)?;
+    compiling::say_refused(&rejected);
+    let (is_empty, answer) = (clips.is_empty(), compiling::answer(&rejected));
     let surveyed = survey(clips);
     if args.json {
-        output::print_json(&SourcesReport::new(&surveyed, refused))?;
+        output::print_json(&SourcesReport::new(&surveyed, rejected))?;
     } else if !is_empty {
         output::print(&report::sources_text(&surveyed))?;
     }

@@ -4,8 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::measures::agent_table;
-use fbcrowd_sim::measures::metrics::{self, Measures};
+use fbcrowd_sim::measures::{self, Measures};
 use fbcrowd_sim::recording::Recording;
 use motiondb::files::atomic_file::AtomicFile;
 
@@ -48,12 +47,12 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let bad = |error: fbcrowd_sim::recording::RecordingError| Failure::bad(error.to_string());
     let recording = Recording::open(&args.recording).map_err(bad)?;
     check_outputs(args)?;
-    let measures = metrics::measure(&recording).map_err(bad)?;
+    let measures = measures::measure(&recording).map_err(bad)?;
     if let Some(path) = &args.trajectories {
-        write(path, |out| metrics::write_trajectories(&recording, out))?;
+        write(path, |out| measures::write_trajectories(&recording, out))?;
     }
     if let Some(path) = &args.table {
-        write(path, |out| agent_table::write_table(&recording, out))?;
+        write(path, |out| measures::write_table(&recording, out))?;
     }
     if args.json {
         output::print_json(&measures)?;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use fbcrowd_render::top_view::{Format, FrameRange, SequenceOptions};
+use fbcrowd_render::top_view::{FrameRange, PictureFormat, SequenceOptions};
 
 use crate::compile_text::counted;
 use crate::failure::{Answer, Failure};
@@ -62,8 +62,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         folder: args.output.clone(),
         name: recording.header().scenario.name.clone(),
         format: match args.format {
-            FormatArg::Png => Format::Png,
-            FormatArg::Exr => Format::Exr,
+            FormatArg::Png => PictureFormat::Png,
+            FormatArg::Exr => PictureFormat::Exr,
         },
         frames: args.frames.clone(),
         constraints_of: constraints_of(args, recording.header().scenario.agents.len())?,

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use fbcrowd_render::top_view::{Format, SequenceOptions};
-use fbcrowd_sim::measures::metrics;
+use fbcrowd_render::top_view::{PictureFormat, SequenceOptions};
+use fbcrowd_sim::measures;
 use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::database_file;
 use motiondb_compiler::compile::Compiled;
@@ -33,7 +33,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let (scenario, motion) = scenario::file::read(&args.scenario)?;
+    let (scenario, motion) = scenario::read(&args.scenario)?;
     let name = scenario.name.clone();
     let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let recording_path = folder.join(format!("{name}.fbrec"));
@@ -42,12 +42,12 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 
     let timings = simulation::simulate(db, checksum, scenario, &recording_path)?;
     let recording = rendering::open(&recording_path)?;
-    let measures = metrics::measure(&recording).map_err(|error| Failure::bad(error.to_string()))?;
+    let measures = measures::measure(&recording).map_err(|error| Failure::bad(error.to_string()))?;
     rendering::plot_trajectories(&recording, &folder.join("trajectories.png"))?;
     let options = SequenceOptions {
         folder: folder.join("frames"),
         name,
-        format: Format::Png,
+        format: PictureFormat::Png,
         frames: None,
         constraints_of: Vec::new(),
     };
@@ -69,11 +69,11 @@ fn database(motion: MotionSource, folder: &Path) -> Result<(PathBuf, Answer), Fa
         MotionSource::Clips(path) => path,
     };
     let path = folder.join("motion.fbdb");
-    let Compiled { db, refused } = compiling::compile(&[clips], &path, &Overrides::default(), &Stopwatch::default())?;
-    compiling::say_refused(&refused);
+    let Compiled { db, rejected } = compiling::compile(&[clips], &path, &Overrides::default(), &Stopwatch::default())?;
+    compiling::say_refused(&rejected);
     fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     database_file::write(&path, &db)?;
-    Ok((path, compiling::answer(&refused)))
+    Ok((path, compiling::answer(&rejected)))
 }
 
 /// Frames of an earlier and longer run would follow on this one's last.

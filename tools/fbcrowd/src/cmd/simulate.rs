@@ -33,7 +33,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let (scenario, motion) = scenario::file::read(&args.scenario)?;
+    let (scenario, motion) = scenario::read(&args.scenario)?;
     let database = match &args.database {
         Some(given) => given.clone(),
         None => own_database(&args.scenario, motion?)?,
@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         let file = args.output.display();
         return Err(Failure::bad(format!("{file} cannot be both recording and report; give --report another name")));
     }
-    let inputs = [vec![args.scenario.clone(), database.clone()], scenario::file::agent_files(&args.scenario)?].concat();
+    let inputs = [vec![args.scenario.clone(), database.clone()], scenario::agent_files(&args.scenario)?].concat();
     for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
         output::spare(written, &inputs)?;
     }

@@ -236,12 +236,7 @@ impl PlotFigure {
     }
 
     /// Draws many separate lines.
-    pub(crate) fn hatching(
-        &mut self,
-        panel: &PlotPanel,
-        lines: impl IntoIterator<Item = [Vec2; 2]>,
-        style: LineStyle,
-    ) {
+    pub(crate) fn hatching(&mut self, panel: &PlotPanel, lines: impl IntoIterator<Item = [Vec2; 2]>, style: LineStyle) {
         if let Some(path) = path_of_lines(lines.into_iter().map(|ends| ends.map(|end| panel.to_px(end)))) {
             self.stroke(panel, &path, style);
         }

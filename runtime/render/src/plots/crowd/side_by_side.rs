@@ -39,12 +39,7 @@ pub struct PathPanel<'a> {
 }
 
 /// The figure of several panels; all show the same part of the world.
-pub fn side_by_side(
-    title: &str,
-    agents: &[AgentSpec],
-    obstacles_m: &[Vec<Vec2>],
-    panels: &[PathPanel<'_>],
-) -> Pixmap {
+pub fn side_by_side(title: &str, agents: &[AgentSpec], obstacles_m: &[Vec<Vec2>], panels: &[PathPanel<'_>]) -> Pixmap {
     let tracks: Vec<&Tracks> = panels.iter().map(|panel| panel.tracks).collect();
     let scene = PathScene::new(agents, obstacles_m, &tracks);
     let height = scene.height_px(PANEL_PX, PANEL_HEIGHTS_PX);

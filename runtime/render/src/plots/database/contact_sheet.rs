@@ -13,13 +13,13 @@ use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT};
 use tiny_skia::Pixmap;
 
 use crate::plots::chart::axis::number;
-use crate::plots::chart::plot::Figure;
+use crate::plots::chart::figure::PlotFigure;
 use crate::plots::database::stick_figure;
-use crate::raster::body::{self, Detail, Part};
+use crate::raster::drawn_body::{self, Detail, DrawnPart};
+use crate::raster::paint::fill_rect;
 use crate::raster::palette::{GRID_COARSE, INK, look};
-use crate::raster::tapered_capsule::{Canvas, Cone};
-use crate::raster::text::Anchor;
-use crate::top_view::ground::fill_rect;
+use crate::raster::tapered_capsule::{Canvas, TaperedCapsule};
+use crate::raster::text::TextAnchor;
 
 /// Phases drawn of each cycle.
 const PHASES: usize = 8;
@@ -66,7 +66,7 @@ pub fn contact_sheet(db: &MotionDb, examples: Range<usize>) -> Pixmap {
     let columns = examples.len().min(COLUMNS);
     let rows = examples.len().div_ceil(columns.max(1));
     let size = Vec2::new(columns as f32 * BLOCK_PX, HEAD_PX + rows as f32 * ROW_PX + GAP_PX);
-    let mut figure = Figure::new(size.x as u32, size.y as u32);
+    let mut figure = PlotFigure::new([size.x as u32, size.y as u32]);
     figure.title("Examples, one stride each, from right mid-stance on", Vec2::new(GAP_PX, 66.0));
     for column in 0..columns {
         draw_head(&mut figure, column as f32 * BLOCK_PX);
@@ -91,16 +91,16 @@ fn cell_px(view: usize, cell: usize) -> Vec2 {
     Vec2::new(NAMES_PX + view as f32 * STRIP_PX + (cell as f32 + 0.5) * CELL_PX.x, -VIEWS[view].lift_px)
 }
 
-fn draw_head(figure: &mut Figure, left: f32) {
+fn draw_head(figure: &mut PlotFigure, left: f32) {
     for (index, view) in VIEWS.iter().enumerate() {
-        figure.text(view.name, Vec2::new(left + NAMES_PX + index as f32 * STRIP_PX, 120.0), Anchor::Left);
+        figure.text(view.name, Vec2::new(left + NAMES_PX + index as f32 * STRIP_PX, 120.0), TextAnchor::Left);
     }
 }
 
 /// Name, numbers and ground of one example.
-fn draw_words(figure: &mut Figure, db: &MotionDb, example: usize, corner: Vec2) {
+fn draw_words(figure: &mut PlotFigure, db: &MotionDb, example: usize, corner: Vec2) {
     let name = figure.fitted(&db.examples[example].name, NAMES_PX - 2.0 * GAP_PX);
-    figure.text(&name, corner + Vec2::new(GAP_PX, -70.0), Anchor::Left);
+    figure.text(&name, corner + Vec2::new(GAP_PX, -70.0), TextAnchor::Left);
     draw_numbers(figure, &db.examples[example], corner + Vec2::new(GAP_PX, -40.0));
     for view in 0..VIEWS.len() {
         let left = corner.x + NAMES_PX + view as f32 * STRIP_PX;
@@ -110,7 +110,7 @@ fn draw_words(figure: &mut Figure, db: &MotionDb, example: usize, corner: Vec2) 
     }
 }
 
-fn draw_numbers(figure: &mut Figure, example: &MotionExample, at_px: Vec2) {
+fn draw_numbers(figure: &mut PlotFigure, example: &MotionExample, at_px: Vec2) {
     let parameters = &example.parameters;
     let (speed, strafe) = (number(parameters.speed_mps, 2), number(parameters.strafe_mps, 2));
     let turn = number(parameters.turn_rate_rad_s.to_degrees(), 0);
@@ -119,7 +119,7 @@ fn draw_numbers(figure: &mut Figure, example: &MotionExample, at_px: Vec2) {
         format!("{turn} °/s, stride {} s", number(example.phase_map.period_s, 2)),
     ];
     for (index, line) in lines.iter().enumerate() {
-        figure.note(line, at_px + Vec2::new(0.0, 26.0 * index as f32), Anchor::Left, INK);
+        figure.note(line, at_px + Vec2::new(0.0, 26.0 * index as f32), TextAnchor::Left, INK);
     }
 }
 
@@ -166,27 +166,30 @@ fn pose(db: &MotionDb, example: usize, cell: usize) -> Pose {
 }
 
 /// The limbs of an example in one cell.
-fn parts(db: &MotionDb, example: usize, cell: usize) -> Vec<Part> {
+fn parts(db: &MotionDb, example: usize, cell: usize) -> Vec<DrawnPart> {
     let frame = AgentFrame { pose: pose(db, example, cell), ..AgentFrame::default() };
     let mut parts = Vec::new();
-    body::append_parts(&mut parts, &db.skeleton, &frame, look(example), Detail::Full);
+    drawn_body::append_parts(&mut parts, &db.skeleton, &frame, look(example), Detail::Full);
     parts
 }
 
 /// Far parts first, as the top view paints low ones first.
-fn draw_body(canvas: &mut Canvas, parts: &[Part], view: &View, scale_px_m: f32, at_px: Vec2) {
+fn draw_body(canvas: &mut Canvas, parts: &[DrawnPart], view: &View, scale_px_m: f32, at_px: Vec2) {
     let to_view = Mat3::from_cols(view.axes[0], view.axes[1], view.axes[2]).transpose();
     let to_px = |point: Vec3| {
         let seen = (to_view * point + Vec3::Z * DEPTH_OFFSET_M) * scale_px_m;
         Vec3::new(at_px.x + seen.x, at_px.y - seen.y, seen.z)
     };
-    let mut cones: Vec<(Cone, Vec3)> = parts
+    let mut cones: Vec<(TaperedCapsule, Vec3)> = parts
         .iter()
         .map(|part| {
-            (Cone { ends_px: part.ends_m.map(to_px), radii_px: part.radii_m.map(|r| r * scale_px_m) }, part.colour)
+            (
+                TaperedCapsule { ends_px: part.ends_m.map(to_px), radii_px: part.radii_m.map(|r| r * scale_px_m) },
+                part.colour,
+            )
         })
         .collect();
-    let depth = |cone: &Cone| cone.ends_px[0].z + cone.ends_px[1].z;
+    let depth = |cone: &TaperedCapsule| cone.ends_px[0].z + cone.ends_px[1].z;
     cones.sort_by(|one, other| depth(&one.0).total_cmp(&depth(&other.0)));
     for (cone, colour) in &cones {
         canvas.paint(cone, *colour, RIM_PX);

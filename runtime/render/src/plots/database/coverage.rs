@@ -8,15 +8,15 @@
 use glam::{Vec2, Vec3};
 use motiondb::blend_space::Locator;
 use motiondb::motion::{MotionDb, Parameters};
-use motiondb::quality::coverage::{coverage, locate_inside, locator};
+use motiondb::quality::coverage::coverage;
 use tiny_skia::Pixmap;
 
-use crate::plots::chart::axis::{Axis, number};
-use crate::plots::chart::mark::Mark;
-use crate::plots::chart::plot::{Figure, Panel};
+use crate::plots::chart::axis::{PlotAxis, number};
+use crate::plots::chart::figure::{PlotFigure, PlotPanel};
+use crate::plots::chart::mark::PlotMark;
+use crate::raster::paint::fill_rect;
 use crate::raster::palette::{INK, heat};
-use crate::raster::text::Anchor;
-use crate::top_view::ground::fill_rect;
+use crate::raster::text::TextAnchor;
 
 /// Width of the sheet, pixels.
 const WIDTH_PX: u32 = 2900;
@@ -44,52 +44,46 @@ pub fn coverage_slices(db: &MotionDb) -> Pixmap {
         found => found.into_iter().map(|thin| thin.sentence).collect(),
     };
     let height = SENTENCE_TOP_PX + sentences.len() as f32 * SENTENCE_STEP_PX + 20.0;
-    let mut figure = Figure::new(WIDTH_PX, height as u32);
+    let mut figure = PlotFigure::new([WIDTH_PX, height as u32]);
     let left = PANEL_LEFT_WIDTH_STEP_PX[0];
     figure.title(
         "Where the set is thin: mean distance of the examples that are mixed, shares of the axes' ranges",
         Vec2::new(left, 80.0),
     );
     draw_legend(&mut figure, Vec2::new(left + 10.0, 134.0));
-    let locator = locator(db);
+    let locator = db.locator();
     for slice in 0..SLICES.len() {
         draw_slice(&mut figure, db, &locator, slice);
     }
     for (line, sentence) in sentences.iter().enumerate() {
-        figure.text(sentence, Vec2::new(left, SENTENCE_TOP_PX + line as f32 * SENTENCE_STEP_PX), Anchor::Left);
+        figure.text(sentence, Vec2::new(left, SENTENCE_TOP_PX + line as f32 * SENTENCE_STEP_PX), TextAnchor::Left);
     }
     figure.pixmap
 }
 
-fn draw_legend(figure: &mut Figure, at_px: Vec2) {
+fn draw_legend(figure: &mut PlotFigure, at_px: Vec2) {
     let [dense, middle, thin] = [0.0, 0.5, 1.0].map(|share| number(share * THINNEST, 1));
     let thin = format!("{thin} and more; white: outside the hull");
-    let legend = [
-        (Mark::Diamond, heat(0.0), dense.as_str()),
-        (Mark::Diamond, heat(0.5), middle.as_str()),
-        (Mark::Diamond, heat(1.0), thin.as_str()),
-        (Mark::Disc, INK, "examples in the slice"),
-        (Mark::Ring, INK, "their mirrored twins"),
-    ];
-    figure.legend(at_px, &legend);
+    let examples = [(PlotMark::Disc, INK, "examples in the slice"), (PlotMark::Ring, INK, "their mirrored twins")];
+    figure.heat_legend(at_px, [&dense, &middle, &thin], &examples);
 }
 
-fn draw_slice(figure: &mut Figure, db: &MotionDb, locator: &Locator, slice: usize) {
+fn draw_slice(figure: &mut PlotFigure, db: &MotionDb, locator: &Locator, slice: usize) {
     let view = SLICES[slice];
     let points: Vec<Vec3> = db.examples.iter().map(|example| in_plot_units(example.parameters.to_vec3())).collect();
     let [left, width, step] = PANEL_LEFT_WIDTH_STEP_PX;
     let [top, height] = PANEL_TOP_AND_HEIGHT_PX;
-    let axes = view.map(|axis| Axis::around(AXIS_NAMES[axis], points.iter().map(|point| point[axis])));
+    let axes = view.map(|axis| PlotAxis::around(AXIS_NAMES[axis], points.iter().map(|point| point[axis])));
     let panel = figure.panel([left + step * slice as f32, top, width, height], axes);
     let (third, value) = held(db, view);
     let name =
         [format!("at {} m/s forward", number(value, 2)), "without turning".to_owned(), "without side speed".to_owned()];
-    figure.text(&name[third], Vec2::new(panel.rect_px[0] + width, top - 14.0), Anchor::Right);
+    figure.text(&name[third], Vec2::new(panel.rect_px[0] + width, top - 14.0), TextAnchor::Right);
     draw_cells(figure, &panel, db, locator, view);
     for (example, point) in db.examples.iter().zip(&points) {
         let off = (example.parameters.to_vec3()[third] - value).abs();
         if off <= IN_SLICE_SHARE * db.blend_space.axis_ranges[third] {
-            let mark = if example.mirrored { Mark::Ring } else { Mark::Disc };
+            let mark = if example.mirrored { PlotMark::Ring } else { PlotMark::Disc };
             figure.mark(&panel, Vec2::new(point[view[0]], point[view[1]]), mark, 6.5, INK);
         }
     }
@@ -108,12 +102,12 @@ fn in_plot_units(parameters: Vec3) -> Vec3 {
 }
 
 /// Every square of the panel whose middle lies inside the hull.
-fn draw_cells(figure: &mut Figure, panel: &Panel, db: &MotionDb, locator: &Locator, view: [usize; 2]) {
+fn draw_cells(figure: &mut PlotFigure, panel: &PlotPanel, db: &MotionDb, locator: &Locator, view: [usize; 2]) {
     let [left, top, width, height] = panel.rect_px;
     let [columns, rows] = [width, height].map(|side_px| (side_px / CELL_PX) as usize);
     for (column, row) in (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row))) {
         let share = |index: usize, count: usize| (index as f32 + 0.5) / count as f32;
-        let at = |axis: &Axis, share: f32| axis.low + share * (axis.high - axis.low);
+        let at = |axis: &PlotAxis, share: f32| axis.low + share * (axis.high - axis.low);
         let mut query = Vec3::ZERO;
         query[view[0]] = at(&panel.axes[0], share(column, columns));
         query[view[1]] = at(&panel.axes[1], 1.0 - share(row, rows));
@@ -129,7 +123,7 @@ fn draw_cells(figure: &mut Figure, panel: &Panel, db: &MotionDb, locator: &Locat
 
 /// Σ u_i·|p_i − p| in ranges; none outside the hull.
 fn thinness(db: &MotionDb, locator: &Locator, query: Parameters) -> Option<f32> {
-    let shares = locate_inside(db, locator, query)?;
+    let shares = locator.locate_inside(query)?;
     let asked = db.blend_space.scaled(query);
     let distance = |example: u32| db.blend_space.scaled(db.examples[example as usize].parameters).distance(asked);
     Some(shares.examples.into_iter().zip(shares.shares).map(|(example, share)| share * distance(example)).sum())

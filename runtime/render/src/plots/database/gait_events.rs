@@ -13,11 +13,11 @@ use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::quality::planted_feet::PLANTED_CONTACT;
 use tiny_skia::Pixmap;
 
-use crate::plots::chart::axis::Axis;
-use crate::plots::chart::mark::Mark;
-use crate::plots::chart::plot::{Figure, Line, Panel, line};
+use crate::plots::chart::axis::PlotAxis;
+use crate::plots::chart::figure::{LineStyle, PlotFigure, PlotPanel};
+use crate::plots::chart::mark::PlotMark;
 use crate::raster::palette::{INK, SIDES};
-use crate::raster::text::Anchor;
+use crate::raster::text::TextAnchor;
 
 /// Panels side by side, and examples on a sheet.
 const COLUMNS: usize = 3;
@@ -48,16 +48,16 @@ const KEY_SIDES: [usize; 4] = [1, 1, 0, 0];
 pub fn gait_events(db: &MotionDb, examples: Range<usize>) -> Pixmap {
     let rows = examples.len().div_ceil(COLUMNS);
     let size = [COLUMNS as f32 * CELL_PX.x, HEAD_PX + rows as f32 * CELL_PX.y];
-    let mut figure = Figure::new(size[0] as u32, size[1] as u32);
+    let mut figure = PlotFigure::new([size[0] as u32, size[1] as u32]);
     figure.title(
         "Lowest point of each sole, its speed over the ground, contacts and key times",
         Vec2::new(HEIGHT_PANEL_PX[0], 70.0),
     );
     let legend = [
-        (Mark::Disc, SIDES[0], "left foot"),
-        (Mark::Disc, SIDES[1], "right foot"),
-        (Mark::Bar, INK, "planted"),
-        (Mark::Dashes, INK, "key times: toe-offs and heel strikes"),
+        (PlotMark::Disc, SIDES[0], "left foot"),
+        (PlotMark::Disc, SIDES[1], "right foot"),
+        (PlotMark::Bar, INK, "planted"),
+        (PlotMark::Dashes, INK, "key times: toe-offs and heel strikes"),
     ];
     figure.legend(Vec2::new(HEIGHT_PANEL_PX[0] + 10.0, 130.0), &legend);
     for (cell, example) in examples.enumerate() {
@@ -66,43 +66,43 @@ pub fn gait_events(db: &MotionDb, examples: Range<usize>) -> Pixmap {
     figure.pixmap
 }
 
-fn draw_example(figure: &mut Figure, db: &MotionDb, index: usize, cell: usize) {
+fn draw_example(figure: &mut PlotFigure, db: &MotionDb, index: usize, cell: usize) {
     let example = &db.examples[index];
     let corner = Vec2::new((cell % COLUMNS) as f32 * CELL_PX.x, HEAD_PX + (cell / COLUMNS) as f32 * CELL_PX.y);
     let soles = Side::BOTH.map(|side| sole_curves(db, index, side));
     let [heights_m, speeds_mps] = [0, 1].map(|curve| soles.each_ref().map(|sole| sole[curve].as_slice()));
-    let mut panel = |[left, top, width, height]: [f32; 4], value: Axis| {
-        let time = Axis { label: "time, s".to_owned(), low: 0.0, high: example.phase_map.period_s };
+    let mut panel = |[left, top, width, height]: [f32; 4], value: PlotAxis| {
+        let time = PlotAxis::new("time, s", [0.0, example.phase_map.period_s]);
         figure.panel([corner.x + left, corner.y + top, width, height], [time, value])
     };
     let height_panel = panel(HEIGHT_PANEL_PX, height_axis(heights_m));
     let speed_panel = panel(SPEED_PANEL_PX, speed_axis(speeds_mps));
     let [left, top, width, _] = HEIGHT_PANEL_PX;
     let name = figure.fitted(&example.name, width - figure.width_px(&height_panel.axes[1].label) - NAME_GAP_PX);
-    figure.text(&name, corner + Vec2::new(left + width, top - 16.0), Anchor::Right);
+    figure.text(&name, corner + Vec2::new(left + width, top - 16.0), TextAnchor::Right);
     draw_key_times(figure, &height_panel, example, &KEY_NAMES);
     draw_key_times(figure, &speed_panel, example, &[""; 4]);
     for side in Side::BOTH {
         for (panel, curves) in [(&height_panel, heights_m), (&speed_panel, speeds_mps)] {
             let points = curves[side.index()].iter().enumerate();
             let points = points.map(|(row, value)| Vec2::new(time_s(example, row), *value));
-            figure.polyline(panel, points, line(SIDES[side.index()], 2.4));
+            figure.polyline(panel, points, LineStyle::solid(SIDES[side.index()], 2.4));
         }
         draw_contacts(figure, &height_panel, db, index, side);
     }
 }
 
-fn height_axis(heights_m: [&[f32]; 2]) -> Axis {
+fn height_axis(heights_m: [&[f32]; 2]) -> PlotAxis {
     let all = heights_m.into_iter().flatten();
     let [low, high] = all.fold([0.0_f32; 2], |[low, high], height| [low.min(*height), high.max(*height)]);
     let range = (high - low).max(MIN_RANGE_M);
     let [below, above] = ROOM_SHARES.map(|share| share * range);
-    Axis { label: "height, m".to_owned(), low: low - below, high: low + range + above }
+    PlotAxis { label: "height, m".to_owned(), low: low - below, high: low + range + above }
 }
 
-fn speed_axis(speeds_mps: [&[f32]; 2]) -> Axis {
+fn speed_axis(speeds_mps: [&[f32]; 2]) -> PlotAxis {
     let highest = speeds_mps.into_iter().flatten().copied().fold(MIN_RANGE_MPS, f32::max);
-    Axis { label: "speed, m/s".to_owned(), low: 0.0, high: 1.08 * highest }
+    PlotAxis { label: "speed, m/s".to_owned(), low: 0.0, high: 1.08 * highest }
 }
 
 /// Height, m, and horizontal speed over the ground, m/s, of the lowest sole point at each stored phase, and at the
@@ -136,7 +136,7 @@ fn time_s(example: &MotionExample, row: usize) -> f32 {
 }
 
 /// A bar below the curves wherever the foot is planted.
-fn draw_contacts(figure: &mut Figure, panel: &Panel, db: &MotionDb, example: usize, side: Side) {
+fn draw_contacts(figure: &mut PlotFigure, panel: &PlotPanel, db: &MotionDb, example: usize, side: Side) {
     let [_, height] = &panel.axes;
     let height_m = height.low + BAR_SHARES[side.index()] * (height.high - height.low);
     let planted = |row: usize| {
@@ -144,19 +144,19 @@ fn draw_contacts(figure: &mut Figure, panel: &Panel, db: &MotionDb, example: usi
     };
     for row in (0..PHASE_COUNT).filter(|row| planted(*row) && planted(row + 1)) {
         let ends = [row, row + 1].map(|row| Vec2::new(time_s(&db.examples[example], row), height_m));
-        figure.polyline(panel, ends, line(SIDES[side.index()], 6.0));
+        figure.polyline(panel, ends, LineStyle::solid(SIDES[side.index()], 6.0));
     }
 }
 
-fn draw_key_times(figure: &mut Figure, panel: &Panel, example: &MotionExample, names: &[&str; 4]) {
+fn draw_key_times(figure: &mut PlotFigure, panel: &PlotPanel, example: &MotionExample, names: &[&str; 4]) {
     let Some(key_times_s) = example.key_times_s else { return };
     let [_, value] = &panel.axes;
     for (key, time_s) in key_times_s.into_iter().enumerate() {
         let ends = [Vec2::new(time_s, value.low), Vec2::new(time_s, value.high)];
         let colour = SIDES[KEY_SIDES[key]];
-        figure.polyline(panel, ends, Line { dashed: true, opacity: 0.8, ..line(colour, 1.3) });
+        figure.polyline(panel, ends, LineStyle { is_dashed: true, opacity: 0.8, ..LineStyle::solid(colour, 1.3) });
         // Events come close together: their names stand on two levels.
         let at = panel.to_px(ends[1]) + Vec2::new(4.0, 18.0 + 20.0 * (key % 2) as f32);
-        figure.note(names[key], at, Anchor::Left, INK);
+        figure.note(names[key], at, TextAnchor::Left, INK);
     }
 }

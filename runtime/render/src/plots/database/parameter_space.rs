@@ -8,9 +8,9 @@ use glam::{Vec2, Vec3};
 use motiondb::motion::{MotionDb, MotionExample};
 use tiny_skia::Pixmap;
 
-use crate::plots::chart::axis::Axis;
-use crate::plots::chart::mark::Mark;
-use crate::plots::chart::plot::{Figure, Line, Panel, line};
+use crate::plots::chart::axis::PlotAxis;
+use crate::plots::chart::figure::{LineStyle, PlotFigure, PlotPanel};
+use crate::plots::chart::mark::PlotMark;
 use crate::raster::palette::{INK, Rgb, line_colour};
 
 /// Width of the sheet, pixels.
@@ -32,9 +32,10 @@ const AXIS_NAMES: [&str; 3] = ["forward speed v_f, m/s", "turn rate ω_t, °/s",
 /// The plot of a database's blend space.
 pub fn parameter_space(db: &MotionDb) -> Pixmap {
     let key = Key::new(db);
-    let mut figure = Figure::new(WIDTH_PX, (KEY_TOP_PX + key.lines as f32 * KEY_LINE_PX) as u32);
+    let mut figure = PlotFigure::new([WIDTH_PX, (KEY_TOP_PX + key.lines as f32 * KEY_LINE_PX) as u32]);
     figure.title(&title(db), Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0], 80.0));
-    let legend = [(Mark::Disc, INK, "recorded, numbers in the key below"), (Mark::Ring, INK, "its mirrored twin")];
+    let legend =
+        [(PlotMark::Disc, INK, "recorded, numbers in the key below"), (PlotMark::Ring, INK, "its mirrored twin")];
     figure.legend(Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0] + 10.0, 134.0), &legend);
     for (index, view) in VIEWS.into_iter().enumerate() {
         draw_view(&mut figure, db, index, view);
@@ -53,7 +54,7 @@ struct Key {
 
 impl Key {
     fn new(db: &MotionDb) -> Self {
-        let face = Figure::new(1, 1);
+        let face = PlotFigure::new([1, 1]);
         let room_px = WIDTH_PX as f32 - PANEL_LEFT_WIDTH_STEP_PX[0];
         let entry = |(index, example): (usize, &MotionExample)| {
             (index, face.fitted(&format!("{index}  {}", example.name), room_px - KEY_MARK_PX))
@@ -65,11 +66,11 @@ impl Key {
         Self { lines: entries.len().div_ceil(columns.max(1)), entries, column_px }
     }
 
-    fn draw(&self, figure: &mut Figure, db: &MotionDb) {
+    fn draw(&self, figure: &mut PlotFigure, db: &MotionDb) {
         for (place, (index, text)) in self.entries.iter().enumerate() {
             let [column, line] = [place / self.lines, place % self.lines].map(|step| step as f32);
             let at = Vec2::new(PANEL_LEFT_WIDTH_STEP_PX[0] + column * self.column_px, KEY_TOP_PX + line * KEY_LINE_PX);
-            figure.legend(at, &[(Mark::Disc, example_colour(db, &db.examples[*index]), text)]);
+            figure.legend(at, &[(PlotMark::Disc, example_colour(db, &db.examples[*index]), text)]);
         }
     }
 }
@@ -97,16 +98,16 @@ fn example_colour(db: &MotionDb, example: &MotionExample) -> Rgb {
     line_colour(first.unwrap_or_default())
 }
 
-fn draw_view(figure: &mut Figure, db: &MotionDb, index: usize, view: [usize; 2]) {
+fn draw_view(figure: &mut PlotFigure, db: &MotionDb, index: usize, view: [usize; 2]) {
     let points: Vec<Vec3> = db.examples.iter().map(|example| in_plot_units(example.parameters.to_vec3())).collect();
     let [left, width, step] = PANEL_LEFT_WIDTH_STEP_PX;
     let [top, height] = PANEL_TOP_AND_HEIGHT_PX;
-    let axes = view.map(|axis| Axis::around(AXIS_NAMES[axis], points.iter().map(|point| point[axis])));
+    let axes = view.map(|axis| PlotAxis::around(AXIS_NAMES[axis], points.iter().map(|point| point[axis])));
     let panel = figure.panel([left + step * index as f32, top, width, height], axes);
     let flat: Vec<Vec2> = points.iter().map(|point| Vec2::new(point[view[0]], point[view[1]])).collect();
     draw_simplices(figure, &panel, db, &flat);
     for (example, point) in db.examples.iter().zip(&flat) {
-        let mark = if example.mirrored { Mark::Ring } else { Mark::Disc };
+        let mark = if example.mirrored { PlotMark::Ring } else { PlotMark::Disc };
         figure.mark(&panel, *point, mark, 6.5, example_colour(db, example));
     }
     let number = |(index, example): (usize, &MotionExample)| {
@@ -123,14 +124,14 @@ fn in_plot_units(parameters: Vec3) -> Vec3 {
 }
 
 /// Every edge of every simplex once.
-fn draw_simplices(figure: &mut Figure, panel: &Panel, db: &MotionDb, points: &[Vec2]) {
+fn draw_simplices(figure: &mut PlotFigure, panel: &PlotPanel, db: &MotionDb, points: &[Vec2]) {
     let corners = db.blend_space.dimension as usize + 1;
     let mut edges: Vec<[u32; 2]> = db.blend_space.simplices.chunks_exact(corners).flat_map(edges_of).collect();
     edges.sort_unstable();
     edges.dedup();
     for [from, to] in edges {
         let ends = [points.get(from as usize), points.get(to as usize)].into_iter().flatten().copied();
-        figure.polyline(panel, ends, Line { opacity: 0.22, ..line(INK, 1.3) });
+        figure.polyline(panel, ends, LineStyle { opacity: 0.22, ..LineStyle::solid(INK, 1.3) });
     }
 }
 

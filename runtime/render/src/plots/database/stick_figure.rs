@@ -5,9 +5,9 @@ use glam::{Vec2, Vec3};
 use motiondb::body::{Joint, Joints, Pose, Side, Skeleton};
 use tiny_skia::{LineCap, LineJoin, PathBuilder, Pixmap, Stroke, Transform};
 
-use crate::plots::chart::mark::Mark;
+use crate::plots::chart::mark::PlotMark;
+use crate::raster::paint::paint;
 use crate::raster::palette::{INK, Rgb, SIDES};
-use crate::top_view::ground::paint;
 
 /// Width of bones and of soles, radius of the discs at joints, pixels.
 const BONE_PX: f32 = 2.0;
@@ -67,6 +67,6 @@ pub(crate) fn draw(pixmap: &mut Pixmap, stick: &Stick, to_px: impl Fn(Vec3) -> V
         pixmap.stroke_path(&path, &paint(stick.colour, 1.0), &stroke, Transform::identity(), None);
     }
     if !stick.is_sole {
-        points_px.iter().for_each(|&point_px| Mark::Disc.draw(pixmap, point_px, JOINT_PX, stick.colour));
+        points_px.iter().for_each(|&point_px| PlotMark::Disc.draw(pixmap, point_px, JOINT_PX, stick.colour));
     }
 }

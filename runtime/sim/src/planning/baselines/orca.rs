@@ -1,26 +1,27 @@
-//! ORCA as published (van den Berg, Guy, Lin, Manocha 2011) and as the RVO2 library does it.
+//! ORCA as published (van den Berg, Guy, Lin, Manocha 2011) and as the RVO2 library implements it.
 //!
-//! The nearest ten by distance, each half-plane shared half and half; v_pref is what is wanted, and a disc of the
-//! greatest speed all that the body allows. Where the agents' half-planes leave nothing, the 3D program takes the
-//! velocity that violates them least, all alike; walls stay hard. World axes, metres, seconds.
+//! The nearest ten by distance, equal shares, v_pref as it is, and a disc of the greatest speed as the only limit of
+//! the body. Where the agents' half-planes are infeasible, the 3D program takes the velocity that violates them least,
+//! all with equal weight; walls stay hard. World axes, metres, seconds.
 
 use serde::{Deserialize, Serialize};
 
-use crate::planning::baselines::facing_the_way;
-use crate::planning::orca::agents::{HALF, agent_half_plane};
+use crate::planning::baselines::facing::facing_along;
+use crate::planning::orca::agent_half_planes::{EQUAL_SHARE, agent_half_plane};
+use crate::planning::orca::half_plane::HalfPlane;
 use crate::planning::orca::linear_program::solve;
-use crate::planning::orca::walls::obstacle_half_planes;
-use crate::planning::plan::{Plan, VelocitySet};
-use crate::planning::planner::{Scratch, look_around};
-use crate::planning::world_view::World;
+use crate::planning::orca::wall_half_planes::wall_half_planes;
+use crate::planning::plan::Plan;
+use crate::planning::surroundings::Surroundings;
+use crate::planning::world_view::WorldView;
 
 /// Tunables of plain ORCA, `[params.orca]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct OrcaParams {
-    /// τ: how far ahead agents avoid each other, s.
+    /// τ: time ahead within which agents avoid each other, s.
     pub time_horizon_s: f32,
-    /// How far ahead walls are avoided, s.
+    /// Time ahead within which walls are avoided, s.
     pub obstacle_time_horizon_s: f32,
     /// Farthest neighbour, m.
     pub neighbour_range_m: f32,
@@ -35,30 +36,43 @@ impl Default for OrcaParams {
             time_horizon_s: 5.0,
             neighbour_range_m: 10.0,
             speed_max_mps: 2.0,
-            // The protocol has no walls. As MCN's, so that doors are as wide for both.
+            // The protocol has no walls. As MCN's, so that doors are equally wide for both.
             obstacle_time_horizon_s: 1.0,
         }
     }
 }
 
-/// Plans one agent's next velocity; its facing follows.
-pub(crate) fn plan(world: &World, agent: usize, params: &OrcaParams, scratch: &mut Scratch) -> Plan {
+/// Working memory of ORCA.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct OrcaMemory {
+    pub(crate) surroundings: Surroundings,
+    /// Half-planes of the last plan: walls, then agents.
+    pub(crate) half_planes: Vec<HalfPlane>,
+    /// Working memory of the 3D program.
+    projected: Vec<HalfPlane>,
+}
+
+impl OrcaMemory {
+    /// Bytes that the lists hold on the heap.
+    pub(crate) fn heap_bytes(&self) -> usize {
+        let half_planes = self.half_planes.capacity() + self.projected.capacity();
+        self.surroundings.heap_bytes() + half_planes * size_of::<HalfPlane>()
+    }
+}
+
+/// Plans the next velocity of one agent; its facing follows.
+pub(crate) fn plan(world: &WorldView, agent: usize, params: &OrcaParams, memory: &mut OrcaMemory) -> Plan {
+    let OrcaMemory { surroundings, half_planes, projected } = memory;
     let wall_range_m = params.obstacle_time_horizon_s * params.speed_max_mps;
-    look_around(world, agent, params.neighbour_range_m, wall_range_m, scratch);
+    surroundings.look_around(world, agent, params.neighbour_range_m, wall_range_m);
     let own = world.disc(agent);
-    scratch.set = VelocitySet::Turning;
-    let half_planes = &mut scratch.half_planes[scratch.set as usize];
     half_planes.clear();
-    obstacle_half_planes(world.obstacles, &scratch.edges, &own, params.obstacle_time_horizon_s, half_planes);
-    let walls = half_planes.len();
-    half_planes.extend(
-        scratch
-            .nearest
-            .as_slice()
-            .iter()
-            .map(|neighbour| agent_half_plane(own.velocity_mps, neighbour, HALF, params.time_horizon_s, world.dt_s)),
-    );
-    scratch.adapted_mps = world.preferred_mps[agent];
-    let solution = solve(half_planes, walls, scratch.adapted_mps, params.speed_max_mps, &mut scratch.projected);
-    facing_the_way(world, agent, solution.velocity_mps, scratch)
+    wall_half_planes(world.obstacles, &surroundings.edges, &own, params.obstacle_time_horizon_s, half_planes);
+    let wall_count = half_planes.len();
+    half_planes.extend(surroundings.neighbours.as_slice().iter().map(|neighbour| {
+        agent_half_plane(own.velocity_mps, neighbour, EQUAL_SHARE, params.time_horizon_s, world.dt_s)
+    }));
+    let preferred_mps = world.preferred_mps[agent];
+    let solution = solve(half_planes, wall_count, preferred_mps, params.speed_max_mps, projected);
+    facing_along(solution.velocity_mps, world, agent, surroundings)
 }

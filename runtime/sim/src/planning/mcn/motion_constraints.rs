@@ -1,20 +1,24 @@
-//! Half-planes of the velocities that the motion database can realise (`FbCrowd` §4.1, Eqs. 2–5).
+//! Half-planes of the velocities that the motion database can realise, C_motion without the stance foot (`FbCrowd`
+//! §4.1, Eqs. 2–5).
 //!
 //! The turning set limits a body whose facing follows its velocity, the holding set one that holds its facing. Both are
 //! convex, clockwise, and count the origin; each edge gives one half-plane, rotated by the agent's facing.
 //!
-//! While v_pref lies more than 90° off the facing, the sharp-turn edge of the wrapping polygon that the turn meets
-//! joins the turning set: the one whose cone, seen from rest, holds v_pref. The polygon is star-shaped but not convex,
-//! so an edge tells permitted from forbidden velocities in its own cone only. Beyond it, its line may cut off what the
-//! polygon holds; all edges of a side at once forbid most of that side, and walking on ahead with it.
+//! While v_pref lies more than 90° off the facing, one sharp-turn edge of the wrapping polygon joins the turning set:
+//! the edge whose cone, seen from rest, holds v_pref. The polygon is star-shaped but not convex, so an edge separates
+//! permitted from forbidden velocities in its own cone only. Beyond it, its line may cut off what the polygon holds;
+//! all edges of a side at once forbid most of that side, and walking straight on.
+//!
+//! Agent's frame (x forward, y left) inside the sets, world axes outside; m/s.
 
 use glam::Vec2;
 use motiondb::velocity_sets::velocity_hull::{Construction, HALF_WIDTH_MPS, VelocityHull, half_plane, half_planes};
 
-use crate::planning::orca::half_plane::{HalfPlane, Source};
+use crate::planning::orca::half_plane::{HalfPlane, HalfPlaneSource};
 use crate::planning::plan::VelocitySet;
 
-/// What a database's velocity sets forbid, in the agent's frame, ready to be rotated: found once, used by every plan.
+/// The constraints of a database's velocity sets, in the agent's frame, ready to be rotated: built once, used by every
+/// plan.
 #[derive(Clone, Debug)]
 pub struct MotionConstraints {
     /// How the sets were built.
@@ -27,14 +31,14 @@ pub struct MotionConstraints {
 /// A convex set of velocities in the agent's frame.
 #[derive(Clone, Debug)]
 pub struct ConvexSet {
-    /// Eqs. 4, 5: a point and a unit direction for each edge; permitted is the left.
+    /// Eqs. 4, 5: a point and a unit direction for each edge; permitted is the left side.
     half_planes: Vec<(Vec2, Vec2)>,
-    /// The greatest speed, m/s.
+    /// Greatest speed of the set, m/s.
     pub speed_max_mps: f32,
 }
 
 impl MotionConstraints {
-    /// The constraints of a database.
+    /// The constraints of a database's velocity sets.
     pub fn new(hull: &VelocityHull) -> Self {
         Self {
             construction: hull.construction,
@@ -52,49 +56,47 @@ impl MotionConstraints {
         }
     }
 
-    /// The half-plane of the sharp-turn edge that a v_pref more than 90° off the facing meets; none otherwise, nor
-    /// where the polygon has no edge that way.
+    /// The half-plane, in world axes, of the sharp-turn edge whose cone holds v_pref. None where v_pref lies within 90°
+    /// of the facing, nor where the polygon has no edge in that direction.
     pub fn sharp_turn(&self, forward: Vec2, preferred_mps: Vec2) -> Option<HalfPlane> {
-        let wanted_mps = local(preferred_mps, forward);
-        if wanted_mps.x >= 0.0 {
+        let local_mps = to_agent_frame(preferred_mps, forward);
+        if local_mps.x >= 0.0 {
             return None;
         }
-        let holds = |[from, to]: &&[Vec2; 2]| from.perp_dot(wanted_mps) <= 0.0 && wanted_mps.perp_dot(*to) <= 0.0;
+        let holds = |[from, to]: &&[Vec2; 2]| from.perp_dot(local_mps) <= 0.0 && local_mps.perp_dot(*to) <= 0.0;
         let [from, to] = self.sharp_turn_edges_mps.iter().find(holds)?;
-        half_plane(*from, *to).map(|half_plane| rotated(half_plane, forward, Source::SharpTurn))
+        half_plane(*from, *to).map(|half_plane| to_world(half_plane, forward, HalfPlaneSource::SharpTurn))
     }
 }
 
 impl ConvexSet {
-    /// The set of some corners, clockwise.
+    /// The set of some corners in clockwise order, m/s.
     pub fn new(corners_mps: &[Vec2]) -> Self {
         let squared = corners_mps.iter().map(|corner_mps| corner_mps.length_squared());
         Self {
-            half_planes: half_planes(corners_mps).collect(),
+            half_planes: half_planes(corners_mps).collect(), // Eqs. 4, 5
             speed_max_mps: squared.fold(HALF_WIDTH_MPS * HALF_WIDTH_MPS, f32::max).sqrt(),
         }
     }
 
     /// The set's half-planes in world axes; `forward` is the agent's facing.
-    pub fn half_planes(&self, forward: Vec2, source: Source) -> impl Iterator<Item = HalfPlane> {
-        self.half_planes.iter().map(move |&half_plane| rotated(half_plane, forward, source))
+    pub fn half_planes(&self, forward: Vec2, source: HalfPlaneSource) -> impl Iterator<Item = HalfPlane> {
+        self.half_planes.iter().map(move |&half_plane| to_world(half_plane, forward, source))
     }
 
-    /// How far outside a velocity lies, m/s, for a body that faces `forward`; negative inside.
+    /// Distance of a velocity from the set of an agent that faces `forward`, m/s; negative inside.
     pub fn outside_mps(&self, forward: Vec2, velocity_mps: Vec2) -> f32 {
-        let velocity_mps = local(velocity_mps, forward);
+        let velocity_mps = to_agent_frame(velocity_mps, forward);
         let outside_mps = |&(point_mps, direction): &(Vec2, Vec2)| direction.perp_dot(point_mps - velocity_mps);
         self.half_planes.iter().map(outside_mps).fold(f32::NEG_INFINITY, f32::max)
     }
 }
 
-/// From the world's axes to the agent's frame.
-fn local(velocity_mps: Vec2, forward: Vec2) -> Vec2 {
+fn to_agent_frame(velocity_mps: Vec2, forward: Vec2) -> Vec2 {
     Vec2::new(forward.dot(velocity_mps), forward.perp_dot(velocity_mps))
 }
 
-/// From the agent's frame to the world's axes.
-fn rotated((point_mps, direction): (Vec2, Vec2), forward: Vec2, source: Source) -> HalfPlane {
+fn to_world((point_mps, direction): (Vec2, Vec2), forward: Vec2, source: HalfPlaneSource) -> HalfPlane {
     HalfPlane::new(forward.rotate(point_mps), forward.rotate(direction), source)
 }
 
@@ -112,12 +114,12 @@ mod tests {
     }
 
     fn world_half_planes(corners_mps: &[Vec2], forward: Vec2) -> Vec<HalfPlane> {
-        ConvexSet::new(corners_mps).half_planes(forward, Source::TurningHull).collect()
+        ConvexSet::new(corners_mps).half_planes(forward, HalfPlaneSource::TurningHull).collect()
     }
 
     proptest! {
         #[test]
-        fn a_velocity_is_as_far_outside_in_the_agents_frame_as_in_the_worlds(
+        fn distances_are_equal_in_the_agents_frame_and_the_world(
             facing in -4.0f32..4.0, x in -3.0f32..3.0, y in -3.0f32..3.0,
         ) {
             let (forward, velocity_mps) = (Vec2::from_angle(facing), Vec2::new(x, y));
@@ -139,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_set_of_one_or_two_corners_permits_standing_and_walking_along_it() {
+    fn a_set_of_one_or_two_corners_permits_its_line() {
         for corners_mps in [vec![Vec2::new(1.2, 0.0)], vec![Vec2::ZERO, Vec2::new(1.2, 0.0)]] {
             let half_planes = world_half_planes(&corners_mps, Vec2::Y);
             assert!(permits(&half_planes, Vec2::ZERO) && permits(&half_planes, Vec2::new(0.0, 1.2)));
@@ -147,10 +149,10 @@ mod tests {
         }
     }
 
-    /// A side's sharp turns as the bundled clips have them: slow on the tightest, fast on the one before, slow at 90°.
+    /// Sharp turns of the left side as in the bundled clips: slow on the tightest, fast on the next, slow at 90°.
     const LEFT: [Vec2; 4] = [Vec2::new(-0.3, 0.35), Vec2::new(-0.6, 1.6), Vec2::new(-0.01, 0.65), Vec2::new(1.1, 2.0)];
 
-    /// Edges of the wrapping polygon, clockwise from the left side's through ahead to that behind.
+    /// Edges of the wrapping polygon, clockwise: the left side's, the right side's, the one behind.
     fn sharp_turn_edges() -> Vec<[Vec2; 2]> {
         let right = LEFT.map(|corner| corner * Vec2::new(1.0, -1.0));
         let left_edges = LEFT.windows(2).map(|edge| [edge[0], edge[1]]);
@@ -162,7 +164,7 @@ mod tests {
         MotionConstraints::new(&VelocityHull { sharp_turn_edges_mps: edges_mps.to_vec(), ..VelocityHull::default() })
     }
 
-    /// Whether a velocity lies in a triangle that rest spans with an edge.
+    /// Whether a velocity lies in a triangle of rest and an edge.
     fn in_the_polygon(velocity_mps: Vec2) -> bool {
         let left_of = |from: Vec2, to: Vec2| (to - from).perp_dot(velocity_mps - from) >= 0.0;
         sharp_turn_edges()
@@ -172,20 +174,20 @@ mod tests {
 
     proptest! {
         #[test]
-        fn towards_v_pref_a_sharp_turn_permits_just_what_the_wrapping_polygon_holds(
+        fn towards_v_pref_a_sharp_turn_permits_the_wrapping_polygon(
             facing in -4.0f32..4.0, turn in 1.6f32..std::f32::consts::PI, left in any::<bool>(), speed_mps in 0.01f32..2.0,
         ) {
-            let [forward, wanted] = [0.0, if left { turn } else { -turn }].map(|turn| Vec2::from_angle(facing + turn));
-            let half_plane = sharp_turns(&sharp_turn_edges()).sharp_turn(forward, wanted);
+            let [forward, preferred] = [0.0, if left { turn } else { -turn }].map(|turn| Vec2::from_angle(facing + turn));
+            let half_plane = sharp_turns(&sharp_turn_edges()).sharp_turn(forward, preferred);
             let local_mps = |speed_mps: f32| speed_mps * Vec2::from_angle(if left { turn } else { -turn });
             prop_assume!(in_the_polygon(local_mps(speed_mps + 1e-3)) == in_the_polygon(local_mps(speed_mps - 1e-3)));
-            let permitted = half_plane.is_none_or(|half_plane| half_plane.violation_mps(speed_mps * wanted) <= 0.0);
+            let permitted = half_plane.is_none_or(|half_plane| half_plane.violation_mps(speed_mps * preferred) <= 0.0);
             prop_assert_eq!(permitted, in_the_polygon(local_mps(speed_mps)));
         }
     }
 
     #[test]
-    fn the_edge_that_a_tight_turn_meets_leaves_standing_and_walking_on_alone_which_the_next_does_not() {
+    fn the_edge_that_a_tight_turn_meets_permits_walking_on() {
         let edges_mps = sharp_turn_edges();
         let permits_walking = |half_plane: HalfPlane| {
             assert!(permits(&[half_plane], Vec2::ZERO));
@@ -196,11 +198,11 @@ mod tests {
             assert!(permits_walking(met), "{preferred_mps}");
         }
         let next = half_plane(edges_mps[1][0], edges_mps[1][1]).unwrap();
-        assert!(!permits_walking(rotated(next, Vec2::X, Source::SharpTurn)));
+        assert!(!permits_walking(to_world(next, Vec2::X, HalfPlaneSource::SharpTurn)));
     }
 
     #[test]
-    fn no_sharp_turn_binds_a_turn_of_less_than_90_degrees_or_where_no_edge_lies() {
+    fn turns_below_90_degrees_and_missing_edges_are_not_bound() {
         let edges_mps = sharp_turn_edges();
         assert!(sharp_turns(&edges_mps).sharp_turn(Vec2::X, Vec2::new(0.01, 1.0)).is_none());
         assert!(sharp_turns(&edges_mps[..3]).sharp_turn(Vec2::X, Vec2::new(-1.0, -0.5)).is_none());

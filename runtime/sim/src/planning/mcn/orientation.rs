@@ -5,144 +5,156 @@
 //!       v_i/‖v_i‖         otherwise
 //! ```
 //!
-//! To face v_pref while walking elsewhere is to side-step, so the first line also asks that the holding set, at that
-//! facing, holds v_i: a body that the database cannot move that way turns. Ours is its mirror image, stepping back:
-//! v_pref·v_i < 0, a shorter while. Who only shuffles may do either as long as it takes. Both whiles are contiguous,
-//! and start anew only after a rest at aligned facing: without it the facing would flicker. Where v_pref or v_i is 0,
-//! the facing is kept; but who stands and would walk elsewhere than ahead turns there.
+//! An agent that faces v_pref while it walks in another direction side-steps, so the first line also requires that the
+//! holding set, at that facing, holds v_i: a body that the database cannot move so turns. Stepping back is our mirror
+//! image of it: v_pref·v_i < 0, for a shorter time. An agent that only shuffles may do either without limit. Both times
+//! are contiguous and start anew only after a rest at aligned facing; without that rule the facing would flicker. Where
+//! v_pref or v_i is 0 the facing is kept, but an agent that stands and has v_pref aside or behind turns on the spot.
+//!
+//! World axes, m/s, seconds.
 
 use glam::Vec2;
 
 use crate::planning::mcn::params::McnParams;
 use crate::planning::plan::VelocitySet;
 
-/// Slower than this, a velocity has no direction to face, m/s.
+/// Speed below which a velocity has no direction to face, m/s.
 const STANDING_MPS: f32 = 0.1;
-/// Slower than this, the facing is held however long: in a throng people shuffle, their faces towards where they want
-/// to go. One who turned about for every half-step stood there facing elsewhere: then in 8 of 30 four-way crossings
-/// (Table 1's, other seeds) somebody stood for 5 s, with this in 2.
+/// Speed below which an agent shuffles and may hold its facing without limit, m/s (docs/tuning.md).
 const SHUFFLING_MPS: f32 = 0.4;
-/// A velocity within this angle of the facing is no side-step: 10°, as small as gait noise in the turn rate makes it
-/// look.
+/// Cosine of the angle to the facing within which a velocity is no side-step: 10°, as much as gait noise in the turn
+/// rate.
 const ALIGNED_COS: f32 = 0.984_807_8;
-/// A facing within this angle of the wanted one is held, beyond it the body still turns: 30°.
+/// Cosine of the angle to v_pref within which a facing is held; beyond it the body still turns: 30°.
 const HELD_COS: f32 = 0.866_025_4;
-/// How far outside the holding set a velocity may lie to be walked at held facing, m/s; the set's half-planes then
+/// Distance outside the holding set up to which a velocity is walked at held facing, m/s; the set's half-planes then
 /// bring it in.
 pub(crate) const HOLDING_SLACK_MPS: f32 = 0.1;
-/// Rest at aligned facing after which a spent while starts anew, s: a stride.
+/// Rest at aligned facing after which a time over its limit starts anew, s: a stride.
 const REST_S: f32 = 1.0;
 
-/// What walks: everything that the decision depends on.
+/// What the decision depends on.
 #[derive(Clone, Copy, Debug)]
-pub struct Walk {
+pub(crate) struct OrientationInput {
     /// Unit vector along the present facing.
-    pub forward: Vec2,
+    pub(crate) forward: Vec2,
     /// v_pref, m/s.
-    pub preferred_mps: Vec2,
-    /// v_i as the turning set allows it, m/s.
-    pub velocity_mps: Vec2,
-    /// Contiguous time strafing so far, s.
-    pub strafing_s: f32,
-    /// Contiguous time stepping back so far, s.
-    pub stepping_back_s: f32,
+    pub(crate) preferred_mps: Vec2,
+    /// v_i as found so far, m/s.
+    pub(crate) velocity_mps: Vec2,
+    /// Contiguous time of strafing so far, s.
+    pub(crate) strafing_s: f32,
+    /// Contiguous time of stepping back so far, s.
+    pub(crate) stepping_back_s: f32,
 }
 
-/// What is decided.
+/// The decision.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Orientation {
-    /// f_d, unit vector.
-    pub facing: Vec2,
+pub(crate) struct Orientation {
+    /// f_d: unit vector along the facing to turn to.
+    pub(crate) facing: Vec2,
     /// The velocity set in force.
-    pub set: VelocitySet,
-    /// Contiguous time strafing, s; beyond the limit, the limit and the rest that is still due.
-    pub strafing_s: f32,
-    /// Contiguous time stepping back, s; beyond the limit likewise.
-    pub stepping_back_s: f32,
+    pub(crate) set: VelocitySet,
+    /// Contiguous time of strafing, s; beyond its limit, the limit plus the rest that is due.
+    pub(crate) strafing_s: f32,
+    /// Contiguous time of stepping back, s; beyond its limit, the limit plus the rest that is due.
+    pub(crate) stepping_back_s: f32,
 }
 
-/// §4.5. `holds` tells whether the holding set, at the facing of v_pref, holds v_i.
-pub(crate) fn decide(walk: &Walk, holds: impl FnOnce(Vec2) -> bool, dt_s: f32, params: &McnParams) -> Orientation {
-    let Some(wanted) = direction(walk.preferred_mps) else { return rest(walk, walk.forward, dt_s, params) };
-    let Some(walked) = direction(walk.velocity_mps) else {
-        // With v_pref aside or behind, a body would stand so for ever where the database has no tight turn: it turns on
-        // the spot.
-        let turned_away = wanted.dot(walk.forward) < HELD_COS;
-        return rest(walk, if turned_away { wanted } else { walk.forward }, dt_s, params);
+/// §4.5. `holds` returns whether the holding set, at a facing, holds v_i. Cases, in order:
+///
+/// 1. v_pref = 0: keep the facing;
+/// 2. v_i = 0: keep the facing, or turn to v_pref on the spot;
+/// 3. v_i along v_pref: face v_pref, or v_i until rested;
+/// 4. side-step or step back in time: hold the facing of v_pref;
+/// 5. otherwise: face v_i.
+pub(crate) fn decide(
+    input: &OrientationInput,
+    holds: impl FnOnce(Vec2) -> bool,
+    dt_s: f32,
+    params: &McnParams,
+) -> Orientation {
+    let Some(preferred) = direction(input.preferred_mps) else {
+        return rest(input, input.forward, dt_s, params); // case 1
     };
-    let aligned = wanted.dot(walked) >= ALIGNED_COS;
+    let Some(planned) = direction(input.velocity_mps) else {
+        // Case 2. With v_pref aside or behind, a body would stand for ever where the database has no tight turn.
+        let turned_away = preferred.dot(input.forward) < HELD_COS;
+        return rest(input, if turned_away { preferred } else { input.forward }, dt_s, params);
+    };
+    let aligned = preferred.dot(planned) >= ALIGNED_COS;
     if aligned {
-        // Who has turned away goes on facing v_i until rested; else the facing would flicker where v_i wavers about
-        // aligned.
-        let turned_away = walk.strafing_s >= params.strafing_limit_s;
-        return rest(walk, if turned_away { walked } else { wanted }, dt_s, params);
+        // Case 3. An agent that has turned away faces v_i until rested; else the facing would flicker where v_i wavers
+        // about aligned.
+        let turned_away = input.strafing_s >= params.strafing_limit_s;
+        return rest(input, if turned_away { planned } else { preferred }, dt_s, params);
     }
-    let steps_back = wanted.dot(walked) < 0.0;
-    let shuffles = walk.velocity_mps.length() < SHUFFLING_MPS;
+    let steps_back = preferred.dot(planned) < 0.0;
+    let shuffles = input.velocity_mps.length() < SHUFFLING_MPS;
     let in_time = if steps_back {
-        walk.stepping_back_s < params.stepping_back_limit_s && wanted.dot(walk.forward) >= HELD_COS
+        input.stepping_back_s < params.stepping_back_limit_s && preferred.dot(input.forward) >= HELD_COS
     } else {
-        walk.strafing_s < params.strafing_limit_s
+        input.strafing_s < params.strafing_limit_s
     };
-    if (in_time || shuffles) && holds(wanted) {
-        hold(walk, wanted, steps_back, dt_s)
+    if (in_time || shuffles) && holds(preferred) {
+        hold(input, preferred, steps_back, dt_s) // case 4
     } else {
-        turn(walk, walked, params)
+        turn(input, planned, params) // case 5
     }
 }
 
-/// Without §4.5: the facing follows v_i, or is kept where the body stands.
-pub(crate) fn along_the_velocity(walk: &Walk) -> Orientation {
+/// Without §4.5: the facing follows v_i; an agent that stands keeps it.
+pub(crate) fn along_the_velocity(input: &OrientationInput) -> Orientation {
     Orientation {
-        facing: direction(walk.velocity_mps).unwrap_or(walk.forward),
+        facing: direction(input.velocity_mps).unwrap_or(input.forward),
         set: VelocitySet::Turning,
         strafing_s: 0.0,
         stepping_back_s: 0.0,
     }
 }
 
-/// The facing is, or comes to be, where the body walks, or the body stands.
-fn rest(walk: &Walk, facing: Vec2, dt_s: f32, params: &McnParams) -> Orientation {
-    let aligned = facing.dot(walk.forward) >= ALIGNED_COS;
+/// Cases 1 to 3: the agent stands, or faces where it walks, or turns there. Aligned, both times run out.
+fn rest(input: &OrientationInput, facing: Vec2, dt_s: f32, params: &McnParams) -> Orientation {
+    let aligned = facing.dot(input.forward) >= ALIGNED_COS;
     let after = |spent_s: f32, limit_s: f32| if aligned { rested_s(spent_s, limit_s, dt_s) } else { spent_s };
     Orientation {
         facing,
         set: VelocitySet::Turning,
-        strafing_s: after(walk.strafing_s, params.strafing_limit_s),
-        stepping_back_s: after(walk.stepping_back_s, params.stepping_back_limit_s),
+        strafing_s: after(input.strafing_s, params.strafing_limit_s),
+        stepping_back_s: after(input.stepping_back_s, params.stepping_back_limit_s),
     }
 }
 
-/// The facing stays on v_pref, or still turns there.
-fn hold(walk: &Walk, wanted: Vec2, steps_back: bool, dt_s: f32) -> Orientation {
-    let held = wanted.dot(walk.forward) >= HELD_COS;
+/// Case 4: the facing stays on v_pref, or still turns there.
+fn hold(input: &OrientationInput, preferred: Vec2, steps_back: bool, dt_s: f32) -> Orientation {
+    let held = preferred.dot(input.forward) >= HELD_COS;
     Orientation {
-        facing: wanted,
+        facing: preferred,
         set: if held { VelocitySet::Holding } else { VelocitySet::Turning },
-        strafing_s: walk.strafing_s + if steps_back { 0.0 } else { dt_s },
-        stepping_back_s: walk.stepping_back_s + if steps_back { dt_s } else { 0.0 },
+        strafing_s: input.strafing_s + if steps_back { 0.0 } else { dt_s },
+        stepping_back_s: input.stepping_back_s + if steps_back { dt_s } else { 0.0 },
     }
 }
 
-/// The facing follows v_i. Whoever has turned away goes on so: both whiles are spent until a rest.
-fn turn(walk: &Walk, walked: Vec2, params: &McnParams) -> Orientation {
+/// Case 5: the facing follows v_i, and keeps following: both times count as spent until a rest.
+fn turn(input: &OrientationInput, planned: Vec2, params: &McnParams) -> Orientation {
     Orientation {
-        facing: walked,
+        facing: planned,
         set: VelocitySet::Turning,
-        strafing_s: walk.strafing_s.max(params.strafing_limit_s + REST_S),
-        stepping_back_s: walk.stepping_back_s.max(params.stepping_back_limit_s + REST_S),
+        strafing_s: input.strafing_s.max(params.strafing_limit_s + REST_S),
+        stepping_back_s: input.stepping_back_s.max(params.stepping_back_limit_s + REST_S),
     }
 }
 
-/// A spent while after a step of rest: beyond the limit it shrinks to the limit, and is then forgotten; below, it runs
-/// back as it came.
+/// A time after a step of rest, s: beyond the limit it shrinks to the limit and is then reset; below, it runs back as
+/// fast as it grew.
 fn rested_s(spent_s: f32, limit_s: f32, dt_s: f32) -> f32 {
     let left_s = (spent_s - dt_s).max(0.0);
     let rest_is_over = spent_s >= limit_s && left_s < limit_s;
     if rest_is_over { 0.0 } else { left_s }
 }
 
-/// Whether a velocity has no direction to face.
+/// Whether a velocity is too slow to have a direction to face.
 pub(crate) fn stands(velocity_mps: Vec2) -> bool {
     velocity_mps.length() < STANDING_MPS
 }
@@ -157,29 +169,35 @@ mod tests {
 
     const DT_S: f32 = 0.1;
 
-    /// Faces and wants +x.
-    fn walk(velocity_mps: Vec2) -> Walk {
-        Walk { forward: Vec2::X, preferred_mps: Vec2::X, velocity_mps, strafing_s: 0.0, stepping_back_s: 0.0 }
-    }
-
-    fn decided(walk: &Walk, holds: bool) -> Orientation {
-        decide(walk, |_| holds, DT_S, &McnParams::default())
-    }
-
-    /// Walks on with a velocity until a time is over, facing what is decided; returns the last decision.
-    fn walk_on(mut walk: Walk, duration_s: f32) -> (Walk, Orientation) {
-        let mut orientation = decided(&walk, true);
-        for _ in 0..(duration_s / DT_S) as usize {
-            orientation = decided(&walk, true);
-            let Orientation { facing, strafing_s, stepping_back_s, .. } = orientation;
-            walk = Walk { forward: facing, strafing_s, stepping_back_s, ..walk };
+    /// An agent that faces and prefers +x.
+    fn input(velocity_mps: Vec2) -> OrientationInput {
+        OrientationInput {
+            forward: Vec2::X,
+            preferred_mps: Vec2::X,
+            velocity_mps,
+            strafing_s: 0.0,
+            stepping_back_s: 0.0,
         }
-        (walk, orientation)
+    }
+
+    fn decided(input: &OrientationInput, holds: bool) -> Orientation {
+        decide(input, |_| holds, DT_S, &McnParams::default())
+    }
+
+    /// Keeps a velocity for a duration, facing as decided; returns the last input and decision.
+    fn walk_on(mut input: OrientationInput, duration_s: f32) -> (OrientationInput, Orientation) {
+        let mut orientation = decided(&input, true);
+        for _ in 0..(duration_s / DT_S) as usize {
+            orientation = decided(&input, true);
+            let Orientation { facing, strafing_s, stepping_back_s, .. } = orientation;
+            input = OrientationInput { forward: facing, strafing_s, stepping_back_s, ..input };
+        }
+        (input, orientation)
     }
 
     #[test]
-    fn faces_v_pref_while_side_stepping_and_the_velocity_where_the_body_cannot() {
-        let aside = walk(Vec2::new(0.3, 0.4));
+    fn a_side_step_holds_the_facing_where_the_body_can() {
+        let aside = input(Vec2::new(0.3, 0.4));
         assert_eq!(decided(&aside, true).facing, Vec2::X);
         assert_eq!(decided(&aside, true).set, VelocitySet::Holding);
         assert_eq!(decided(&aside, false).facing, Vec2::new(0.6, 0.8));
@@ -187,57 +205,57 @@ mod tests {
     }
 
     #[test]
-    fn strafing_ends_at_its_limit_and_starts_anew_only_after_a_rest() {
+    fn strafing_ends_at_its_limit_and_starts_anew_after_a_rest() {
         let aside = Vec2::new(0.3, 0.4);
-        let (spent, orientation) = walk_on(walk(aside), McnParams::default().strafing_limit_s + 0.5);
+        let (spent, orientation) = walk_on(input(aside), McnParams::default().strafing_limit_s + 0.5);
         assert_eq!(orientation.facing, aside.normalize());
-        let (restless, _) = walk_on(Walk { velocity_mps: Vec2::X, ..spent }, 0.5);
-        assert_eq!(decided(&Walk { velocity_mps: aside, ..restless }, true).set, VelocitySet::Turning);
-        let (rested, _) = walk_on(Walk { velocity_mps: Vec2::X, ..spent }, 1.5);
-        assert_eq!(decided(&Walk { velocity_mps: aside, ..rested }, true).set, VelocitySet::Holding);
+        let (restless, _) = walk_on(OrientationInput { velocity_mps: Vec2::X, ..spent }, 0.5);
+        assert_eq!(decided(&OrientationInput { velocity_mps: aside, ..restless }, true).set, VelocitySet::Turning);
+        let (rested, _) = walk_on(OrientationInput { velocity_mps: Vec2::X, ..spent }, 1.5);
+        assert_eq!(decided(&OrientationInput { velocity_mps: aside, ..rested }, true).set, VelocitySet::Holding);
     }
 
     #[test]
-    fn steps_back_for_a_while_and_then_turns() {
-        let (_, early) = walk_on(walk(-0.4 * Vec2::X), 1.0);
+    fn an_agent_steps_back_for_a_time_and_then_turns() {
+        let (_, early) = walk_on(input(-0.4 * Vec2::X), 1.0);
         assert_eq!((early.facing, early.set), (Vec2::X, VelocitySet::Holding));
-        let (_, late) = walk_on(walk(-0.4 * Vec2::X), 2.5);
+        let (_, late) = walk_on(input(-0.4 * Vec2::X), 2.5);
         assert_eq!((late.facing, late.set), (-Vec2::X, VelocitySet::Turning));
     }
 
     #[test]
-    fn who_shuffles_keeps_its_face_to_where_it_wants_to_go() {
+    fn an_agent_that_shuffles_keeps_facing_v_pref() {
         for velocity_mps in [Vec2::new(0.1, 0.3), Vec2::new(-0.3, 0.0), Vec2::new(-0.1, -0.2)] {
-            let (_, late) = walk_on(walk(velocity_mps), 20.0);
+            let (_, late) = walk_on(input(velocity_mps), 20.0);
             assert_eq!((late.facing, late.set), (Vec2::X, VelocitySet::Holding));
         }
-        assert_eq!(decided(&walk(Vec2::new(0.1, 0.3)), false).set, VelocitySet::Turning);
+        assert_eq!(decided(&input(Vec2::new(0.1, 0.3)), false).set, VelocitySet::Turning);
     }
 
     #[test]
-    fn a_velocity_that_wavers_about_aligned_does_not_make_the_facing_flicker() {
+    fn the_facing_does_not_flicker_about_aligned() {
         let [inside, outside] = [9.0f32, 11.0].map(|degrees| Vec2::from_angle(degrees.to_radians()));
-        let mut walk = walk(outside);
+        let mut input = input(outside);
         for step in 0..8 {
-            walk.velocity_mps = if step % 2 == 0 { outside } else { inside };
-            let Orientation { facing, strafing_s, stepping_back_s, .. } = decided(&walk, false);
+            input.velocity_mps = if step % 2 == 0 { outside } else { inside };
+            let Orientation { facing, strafing_s, stepping_back_s, .. } = decided(&input, false);
             assert!(facing.angle_to(outside).abs() < 3.0f32.to_radians(), "step {step}: {facing}");
-            walk = Walk { strafing_s, stepping_back_s, ..walk };
+            input = OrientationInput { strafing_s, stepping_back_s, ..input };
         }
     }
 
     #[test]
-    fn keeps_the_facing_where_nothing_is_wanted_or_walked() {
+    fn the_facing_is_kept_without_preference_or_velocity() {
         let forward = Vec2::new(0.96, 0.28);
-        assert_eq!(decided(&Walk { forward, ..walk(Vec2::ZERO) }, true).facing, forward);
-        let unwanted = Walk { forward, preferred_mps: Vec2::ZERO, ..walk(Vec2::X) };
-        assert_eq!(decided(&unwanted, true).facing, forward);
+        assert_eq!(decided(&OrientationInput { forward, ..input(Vec2::ZERO) }, true).facing, forward);
+        let aimless = OrientationInput { forward, preferred_mps: Vec2::ZERO, ..input(Vec2::X) };
+        assert_eq!(decided(&aimless, true).facing, forward);
     }
 
     #[test]
-    fn turns_on_the_spot_when_it_stands_and_v_pref_lies_aside_or_behind() {
+    fn an_agent_that_stands_turns_to_v_pref_aside_or_behind() {
         for forward in [Vec2::Y, -Vec2::X] {
-            assert_eq!(decided(&Walk { forward, ..walk(Vec2::ZERO) }, true).facing, Vec2::X);
+            assert_eq!(decided(&OrientationInput { forward, ..input(Vec2::ZERO) }, true).facing, Vec2::X);
         }
     }
 }

@@ -1,15 +1,16 @@
-//! Half-planes of permitted velocities (`FbCrowd` §4.4, App. 9; van den Berg et al. 2011).
+//! Half-planes of permitted velocities, and the linear programs over them (`FbCrowd` §4.4, App. 9; van den Berg et al.
+//! 2011).
 //!
-//! Enters: an agent's disc, its neighbours, the edges of walls. Leaves: half-planes, each with its source, and the velocity
-//! that satisfies them best.
+//! Enters: an agent's disc, its neighbours, the edges of walls. Leaves: half-planes, each with its source, and the
+//! velocity that satisfies them best.
 //!
-//! Read `half_plane`, then `agents` and `walls`, which build them, then `linear_program`, which solves them.
+//! Read `half_plane`, then `agent_half_planes` and `wall_half_planes`, which build them, then `linear_program`, which
+//! solves them.
 
-pub(crate) mod agents;
+pub(crate) mod agent_half_planes;
 pub(crate) mod half_plane;
 pub(crate) mod linear_program;
-pub(crate) mod walls;
+pub(crate) mod wall_half_planes;
 
-pub use agents::Disc;
-pub use half_plane::{HalfPlane, Source};
+pub use half_plane::{HalfPlane, HalfPlaneSource};
 pub use linear_program::Solution;

@@ -1,87 +1,97 @@
-//! What a body plays: a mix of examples, or m_sp deformed. Both give poses, contacts and a phase rate at any phase.
+//! The active motion: blending or semi-procedural locomotion, whichever is in force, at one phase.
+//!
+//! Root frame (x forward, y left, z up), metres; seconds.
 
 use crate::planning::plan::PLANTED_CONTACT;
-use crate::synthesis::Motion;
-use crate::synthesis::blending::mix::{Mix, Weights};
-use crate::synthesis::hybrid::mode::Mode;
-use crate::synthesis::hybrid::pose_smoothing::Seen;
-use crate::synthesis::pose::posture::Posture;
-use crate::synthesis::semi_procedural::deformation::Deformation;
+use crate::synthesis::blending::{ExampleMix, PoseWeights};
+use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
+use crate::synthesis::pose::Posture;
+use crate::synthesis::semi_procedural::Deformation;
+use crate::synthesis::{Mode, SynthesisContext};
 
 /// One synthesis at one phase.
 #[derive(Clone, Copy, Debug)]
-pub enum Playing<'a> {
-    /// Motion blending: the pose is that of the mix that is seen, and contacts keep the time of the one that the root
-    /// has come to. M_sp's root does as it is seen to.
-    Blend {
-        /// Of the mix that is seen.
-        seen: Weights,
-        /// Of that which is due.
-        due: Weights,
+pub(crate) enum ActiveMotion<'a> {
+    /// Motion blending.
+    Blending {
+        /// Weights of the drawn mix, which give the pose.
+        drawn: PoseWeights,
+        /// Weights of the mix in play, which give the contacts.
+        current: PoseWeights,
     },
-    /// Semi-procedural locomotion.
-    Deform(Deformation<'a>),
+    /// Semi-procedural locomotion as it is drawn.
+    SemiProcedural(Deformation<'a>),
 }
 
-impl<'a> Playing<'a> {
-    /// What is seen of a body at a phase, where its root has come to a mix.
-    pub fn new(motion: &Motion<'a>, mode: Mode, seen: &Seen, due: &Mix, phase: f32) -> Self {
-        match (mode, motion.hybrid) {
+impl<'a> ActiveMotion<'a> {
+    /// The active motion of a body at a phase.
+    pub(crate) fn new(
+        context: &'a SynthesisContext,
+        mode: Mode,
+        smoothed: &SmoothedMotion,
+        mix: &ExampleMix,
+        phase: f32,
+    ) -> Self {
+        match (mode, &context.hybrid) {
             (Mode::SemiProcedural, Some(hybrid)) => {
-                Self::Deform(Deformation::going(&hybrid.semi_procedural, seen.walking, seen.way))
+                Self::SemiProcedural(Deformation::travelling(&hybrid.base_walk, smoothed.parameters, smoothed.travel))
             }
-            _ => Self::Blend { seen: seen.mix.weights(motion.db, phase), due: due.weights(motion.db, phase) },
+            _ => Self::Blending {
+                drawn: smoothed.mix.weights(&context.db, phase),
+                current: mix.weights(&context.db, phase),
+            },
         }
     }
 
-    /// The pose on its feet. Those of examples are where their legs have them.
-    pub fn bent(&self, motion: &Motion, phase: f32) -> Posture {
-        let mut posture = self.posture(motion, phase);
-        if let Self::Deform(_) = self {
-            posture.bend_legs(&motion.db.skeleton);
+    /// The pose with its legs bent to the targets of the feet.
+    pub(crate) fn bent_posture(&self, context: &SynthesisContext, phase: f32) -> Posture {
+        let mut posture = self.posture(context, phase);
+        if let Self::SemiProcedural(_) = self {
+            posture.bend_legs(&context.db.skeleton);
         }
         posture
     }
 
-    /// The pose, whose legs may not have bent yet, and its feet: whoever moves them bends legs once.
-    pub fn posture(&self, motion: &Motion, phase: f32) -> Posture {
+    /// The pose and the targets of its feet. The legs may not have bent yet: locks move the feet first.
+    pub(crate) fn posture(&self, context: &SynthesisContext, phase: f32) -> Posture {
+        let db = &context.db;
         match self {
-            Self::Blend { seen, due } => {
-                Posture::new(seen.pose(motion.db, phase), due.contacts(motion.db, phase), &motion.db.skeleton)
+            Self::Blending { drawn, current } => {
+                Posture::new(drawn.pose(db, phase), current.contacts(db, phase), &db.skeleton)
             }
-            Self::Deform(deformation) => deformation.posture(motion.db, phase),
+            Self::SemiProcedural(deformation) => deformation.posture(db, phase),
         }
     }
 
-    /// The contact of each foot.
-    pub fn contacts(&self, motion: &Motion, phase: f32) -> [f32; 2] {
+    /// Contact of each foot, `[left, right]`.
+    pub(crate) fn contacts(&self, context: &SynthesisContext, phase: f32) -> [f32; 2] {
         match self {
-            Self::Blend { due, .. } => due.contacts(motion.db, phase),
-            Self::Deform(deformation) => deformation.contacts(motion.db, phase),
+            Self::Blending { current, .. } => current.contacts(&context.db, phase),
+            Self::SemiProcedural(deformation) => deformation.contacts(&context.db, phase),
         }
     }
 
     /// φ', 1/s.
-    pub fn phase_rate_hz(&self, phase: f32) -> f32 {
+    pub(crate) fn phase_rate_hz(&self, phase: f32) -> f32 {
         match self {
-            Self::Blend { seen, .. } => seen.phase_rate_hz,
-            Self::Deform(deformation) => deformation.phase_map().rate_hz(phase),
+            Self::Blending { drawn, .. } => drawn.phase_rate_hz,
+            Self::SemiProcedural(deformation) => deformation.phase_map().rate_hz(phase),
         }
     }
 
-    /// Seconds until a swinging foot lands.
-    pub fn time_to_landing_s(&self, motion: &Motion, phase: f32, side: usize) -> f32 {
+    /// Time until a swinging foot lands, s.
+    pub(crate) fn time_to_landing_s(&self, context: &SynthesisContext, phase: f32, side: usize) -> f32 {
         match self {
-            Self::Blend { due, .. } => due.time_to_landing_s(motion.db, phase, side, PLANTED_CONTACT),
-            Self::Deform(deformation) => deformation.time_to_landing_s(phase, side),
+            Self::Blending { current, .. } => current.time_to_landing_s(&context.db, phase, side, PLANTED_CONTACT),
+            Self::SemiProcedural(deformation) => deformation.time_to_landing_s(phase, side),
         }
     }
 
-    /// Weight-averaged planted-foot slide of the examples in use, at the cadence at which they are played, cm/s.
-    pub fn examples_slide_cm_s(&self, motion: &Motion) -> f32 {
+    /// Weighted mean of the planted-foot slide of the examples, at the cadence at which they play, cm/s.
+    pub(crate) fn examples_slide_cm_s(&self, context: &SynthesisContext) -> f32 {
         match self {
-            Self::Blend { due, .. } => due.examples_slide_cm_s(motion.db),
-            Self::Deform(deformation) => deformation.examples_slide_cm_s(motion.db),
+            Self::Blending { current, .. } => current.examples_slide_cm_s(&context.db),
+            Self::SemiProcedural(deformation) => deformation.examples_slide_cm_s(&context.db),
         }
     }
 }

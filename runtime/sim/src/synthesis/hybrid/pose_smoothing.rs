@@ -1,86 +1,87 @@
-//! What is seen of what a body plays: the pose eases into what the root does.
+//! Pose smoothing: the drawn motion follows the motion in play with a short lag.
 //!
-//! Shares and parameters change at limited rates, which begin and end at once; joints that moved with them would do so
-//! with a jerk. So the pose is that of a mix, and of an m_sp, that follow the root's with a short lag, over which
-//! planted feet are held. The root knows nothing of it: nothing is tracked later for it.
+//! Weights and parameters change at limited rates that begin and end at once; joints that followed at once would jerk.
+//! So the pose is that of a mix, and of an m_sp, that lag a little; planted feet are locked meanwhile. The root does
+//! not depend on it, so tracking is as accurate as without.
 //!
-//! A body that goes back the way it came would step with the wrong foot: one that has just landed behind it, walking
-//! backward, is about to leave the ground for who walks ahead. Gait the other way is nearly gait in reversed time
-//! (Winter, Pluck, Yang 1989), and phases 0 and ½ are mid-stances: so its phase φ becomes 1 − φ, at which its feet are
-//! where they were.
+//! A body that reverses would step with the wrong foot: a foot that has just landed behind a backward walk would be
+//! about to leave the ground in a forward one. Gait in the other direction is nearly gait in reversed time (Winter,
+//! Pluck, Yang 1989), and phases 0 and ½ are mid-stances. So on reversal the gait phase φ becomes 1 − φ, at which the
+//! feet keep their positions.
+//!
+//! Body frame (x forward, y left); m/s, rad/s, seconds.
 
 use glam::Vec2;
 use motiondb::motion::{MotionDb, Parameters};
 
-use crate::synthesis::blending::mix::Mix;
-use crate::synthesis::hybrid::mode::Mode;
-use crate::synthesis::semi_procedural::deformation::travel;
-use crate::synthesis::time_step::TimeStep;
+use crate::synthesis::blending::ExampleMix;
+use crate::synthesis::semi_procedural::deformation::travel_direction;
+use crate::synthesis::{Mode, TimeStep};
 
-/// The lag, s: a fifth of the time in which the fastest change of speed takes place.
-pub(crate) const EASE_TIME_S: f32 = 0.05;
-
-/// Rate of the spring by which a gait turns about, 1/s: the legs swing the other way within a step.
-pub(crate) const TURN_ABOUT_RATE_HZ: f32 = 10.0;
-
-/// A mix of examples, and what m_sp is deformed to.
+/// The motion that is drawn.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen {
-    /// While a body blends.
-    pub mix: Mix,
-    /// Otherwise.
-    pub walking: Parameters,
-    /// Direction of travel, to which m_sp is deformed. It lags behind one that turns about at rest.
-    pub way: Vec2,
-    /// A second.
-    way_rate: Vec2,
+pub struct SmoothedMotion {
+    /// Examples that are drawn while the body blends.
+    pub mix: ExampleMix,
+    /// Parameters of m_sp that are drawn in semi-procedural locomotion.
+    pub(crate) parameters: Parameters,
+    /// Direction of travel to which m_sp is deformed; it lags when the body turns about.
+    pub(crate) travel: Vec2,
+    /// Rate of change of `travel`, 1/s.
+    travel_rate_hz: Vec2,
 }
 
-impl Seen {
-    /// A mix that stands.
-    pub fn standing(mix: Mix) -> Self {
-        Self { mix, walking: Parameters::default(), way: Vec2::X, way_rate: Vec2::ZERO }
+impl SmoothedMotion {
+    /// The drawn motion of a body that stands.
+    pub(crate) fn standing(mix: ExampleMix) -> Self {
+        Self { mix, parameters: Parameters::default(), travel: Vec2::X, travel_rate_hz: Vec2::ZERO }
     }
 
-    /// Follows what the root does by a step: only what this synthesis shows. Returns whether it goes back the way it
-    /// came.
-    pub fn follow(&mut self, mode: Mode, mix: &Mix, walking: Parameters, db: &MotionDb, step: &TimeStep) -> bool {
-        let fraction = 1.0 - step.seen;
-        let going = match mode {
+    /// Follows the motion in play over one step, in the mode in force. Returns whether the body reverses: its travel
+    /// points against the drawn one.
+    pub(crate) fn follow(
+        &mut self,
+        mode: Mode,
+        mix: &ExampleMix,
+        parameters: Parameters,
+        db: &MotionDb,
+        step: &TimeStep,
+    ) -> bool {
+        let fraction = 1.0 - step.smoothing_left;
+        let drawn = match mode {
             Mode::Blending => {
-                self.mix.ease(mix, fraction);
+                self.mix.approach_mix(mix, fraction);
                 self.mix.parameters(db)
             }
             Mode::SemiProcedural => {
-                self.walking = part_way(self.walking, walking, fraction);
-                self.walking
+                self.parameters = interpolated(self.parameters, parameters, fraction);
+                self.parameters
             }
         };
-        // Who rests keeps its way.
-        let way = travel(going, self.way);
-        let (off, rate) = step.turn_about.pass(self.way - way, self.way_rate);
-        (self.way, self.way_rate) = (way + off, rate);
-        self.way.dot(way) < 0.0
+        // A body at rest keeps its direction.
+        let travel = travel_direction(drawn, self.travel);
+        let (off, rate_hz) = step.travel.decayed(self.travel - travel, self.travel_rate_hz);
+        (self.travel, self.travel_rate_hz) = (travel + off, rate_hz);
+        self.travel.dot(travel) < 0.0
     }
 
-    /// The same legs go the other way.
-    pub fn turn_back(&mut self) {
-        (self.way, self.way_rate) = (-self.way, -self.way_rate);
+    /// Reverses the travel.
+    pub(crate) fn reverse(&mut self) {
+        (self.travel, self.travel_rate_hz) = (-self.travel, -self.travel_rate_hz);
     }
 
-    /// What was seen a moment before the end of the step that began with `before`.
-    pub fn lately(&self, before: &Self, step: &TimeStep) -> Self {
-        let back = step.look_back_s / step.dt_s;
-        let mut lately = *self;
-        lately.mix.ease(&before.mix, back);
-        lately.walking = part_way(self.walking, before.walking, back);
-        lately.way -= step.look_back_s * self.way_rate;
-        lately
+    /// The drawn motion shortly ([`TimeStep::look_back_s`]) before the end of the step that began at `before`.
+    pub(crate) fn earlier(&self, before: &Self, step: &TimeStep) -> Self {
+        let fraction = step.look_back_s / step.dt_s;
+        let mut earlier = *self;
+        earlier.mix.approach_mix(&before.mix, fraction);
+        earlier.parameters = interpolated(self.parameters, before.parameters, fraction);
+        earlier.travel -= step.look_back_s * self.travel_rate_hz;
+        earlier
     }
 }
 
-/// The given fraction of the way from one to another.
-fn part_way(from: Parameters, to: Parameters, fraction: f32) -> Parameters {
+fn interpolated(from: Parameters, to: Parameters, fraction: f32) -> Parameters {
     Parameters::from_vec3(from.to_vec3() + fraction * (to.to_vec3() - from.to_vec3()))
 }
 
@@ -89,27 +90,27 @@ mod tests {
     use super::*;
     use crate::test_db::test_db;
 
-    /// How often the gait of a body turns back whose velocity changes evenly, m/s ahead and to the left.
-    fn turns_back(from_mps: Vec2, to_mps: Vec2) -> usize {
-        let (db, step, mix) = (test_db(), TimeStep::new(1.0 / 60.0), Mix::new(&Default::default()));
-        let mut seen = Seen::standing(mix);
-        let mut turns_back = |share: f32| {
+    /// Number of reversals of a body whose velocity (forward, left) changes evenly, m/s.
+    fn reversals(from_mps: Vec2, to_mps: Vec2) -> usize {
+        let (db, step, mix) = (test_db(), TimeStep::new(1.0 / 60.0), ExampleMix::new(&Default::default()));
+        let mut smoothed = SmoothedMotion::standing(mix);
+        let mut reverses = |share: f32| {
             let Vec2 { x: speed_mps, y: strafe_mps } = from_mps.lerp(to_mps, share.clamp(0.0, 1.0));
-            let walking = Parameters { speed_mps, strafe_mps, ..Parameters::default() };
-            let turns_back = seen.follow(Mode::SemiProcedural, &mix, walking, &db, &step);
-            if turns_back {
-                seen.turn_back();
+            let parameters = Parameters { speed_mps, strafe_mps, ..Parameters::default() };
+            let reverses = smoothed.follow(Mode::SemiProcedural, &mix, parameters, &db, &step);
+            if reverses {
+                smoothed.reverse();
             }
-            turns_back
+            reverses
         };
-        (-60..120).filter(|&index| turns_back(index as f32 / 40.0)).count()
+        (-60..120).filter(|&index| reverses(index as f32 / 40.0)).count()
     }
 
     #[test]
-    fn the_gait_turns_back_once_with_the_body_and_not_where_it_turns_aside_or_stops() {
-        let (ahead_mps, left_mps) = (Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.5));
-        assert_eq!(turns_back(ahead_mps, -0.5 * ahead_mps), 1);
-        assert_eq!(turns_back(left_mps, -left_mps), 1);
-        assert_eq!([left_mps, Vec2::ZERO, 0.5 * ahead_mps].map(|to_mps| turns_back(ahead_mps, to_mps)), [0; 3]);
+    fn the_gait_reverses_once_with_the_body() {
+        let (forward_mps, left_mps) = (Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.5));
+        assert_eq!(reversals(forward_mps, -0.5 * forward_mps), 1);
+        assert_eq!(reversals(left_mps, -left_mps), 1);
+        assert_eq!([left_mps, Vec2::ZERO, 0.5 * forward_mps].map(|to_mps| reversals(forward_mps, to_mps)), [0; 3]);
     }
 }

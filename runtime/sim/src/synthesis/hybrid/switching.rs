@@ -1,105 +1,126 @@
-//! How synthesis changes hands (`FbCrowd` §3.4.1, App. 10): when, at which phase, and what it leaves to inertia.
+//! Switching (`FbCrowd` §3.4.1, App. 10): when one synthesis replaces the other, at which phase, and what it leaves to
+//! inertialization.
+//!
+//! Root frame (x forward, y left, z up), metres; parameters in m/s and rad/s.
 
 use glam::Vec3;
 use motiondb::body::Pose;
-use motiondb::motion::wrapped;
+use motiondb::motion::{Parameters, wrapped};
 
 use crate::planning::plan::Plan;
-use crate::synthesis::blending::mix::Mix;
-use crate::synthesis::command::stand_or_step;
-use crate::synthesis::hybrid::active_motion::Playing;
-use crate::synthesis::hybrid::mode::{Mode, Thresholds};
-use crate::synthesis::hybrid::switch_points::Hybrid;
-use crate::synthesis::params::{HmsParams, Modes};
-use crate::synthesis::time_step::TimeStep;
-use crate::synthesis::{Body, Motion};
+use crate::synthesis::blending::ExampleMix;
+use crate::synthesis::hybrid::active_motion::ActiveMotion;
+use crate::synthesis::hybrid::mode_selection::ModeThresholds;
+use crate::synthesis::hybrid::motion_state::MotionState;
+use crate::synthesis::library::HybridData;
+use crate::synthesis::{HmsParams, Mode, SynthesisContext, TimeStep, Transition};
 
-/// One synthesis gives way where the other can take over within this, m/s and rad/s.
-const SWITCH_SLACK: f32 = 0.05;
-/// Phases about a pair of T among which the one is taken where both syntheses are most alike.
-const NEAR_PHASES: [f32; 7] = [0.0, -0.02, 0.02, -0.04, 0.04, -0.06, 0.06];
+/// Distance between the current parameters and those that the other synthesis reaches, below which it can take over,
+/// m/s and rad/s.
+const SWITCH_TOLERANCE: f32 = 0.05;
+/// Offsets from a pair of T among which a switch takes the phase of the most similar poses.
+const PHASE_OFFSETS: [f32; 7] = [0.0, -0.02, 0.02, -0.04, 0.04, -0.06, 0.06];
 
-impl Body {
-    /// §3.4.1: which synthesis is wanted, where what is asked holds so much standing.
-    pub(crate) fn choose(&mut self, motion: &Motion, hybrid: &Hybrid, plan: &Plan, idle_share: f32, dt_s: f32) {
-        let HmsParams { modes, density_threshold, .. } = *motion.params;
-        let alone = modes == Modes::SemiProcedural;
-        let thresholds = Thresholds { alone, transition_s: hybrid.transition_s, density: density_threshold };
-        let walks = !self.gait.stands && idle_share < stand_or_step::IDLE_SHARE_MAX;
-        self.choice.follow(plan, walks, &thresholds, dt_s);
+impl MotionState {
+    /// m_mb's parameters while the body changes synthesis by the paper's transition: it is committed to them.
+    pub(crate) fn committed(&self, context: &SynthesisContext) -> Option<Parameters> {
+        let changes = self.mode != self.selection.mode && context.params.transition == Transition::ThroughMMb;
+        context.hybrid.as_ref().filter(|_| changes).map(|hybrid| hybrid.partner)
     }
 
-    /// App. 10: at a pair of T, synthesis changes hands at the velocity that the body has, and the difference of poses
-    /// is left to inertia. The paper moves its weights to m_mb alone first
-    /// ([`ThroughMMb`](crate::synthesis::params::Transition::ThroughMMb)), since it cannot begin at another velocity: at the very
-    /// moment that a collision threatens, its body walks at m_mb's.
-    pub(crate) fn switch(&mut self, motion: &Motion, hybrid: &Hybrid, before: f32, step: &TimeStep) {
-        let (from, to) = (self.mode, self.choice.mode);
-        if from == to {
+    /// §3.4.1: selects the synthesis. `walks_on` is true if the body walks and is to continue.
+    pub(crate) fn select(&mut self, plan: &Plan, walks_on: bool, context: &SynthesisContext, dt_s: f32) {
+        let Some(hybrid) = &context.hybrid else { return };
+        let HmsParams { modes, density_threshold, .. } = context.params;
+        let thresholds = ModeThresholds { modes, transition_s: hybrid.transition_s, density: density_threshold };
+        self.selection.follow(plan, walks_on, &thresholds, dt_s);
+    }
+
+    /// App. 10, Eqs. 10 and 15: switches to the selected synthesis at a pair of T that the step from `phase_before` has
+    /// passed.
+    ///
+    /// The body keeps its velocity, and inertialization carries the difference of poses. The paper first moves the
+    /// weights to m_mb alone ([`Transition::ThroughMMb`]), so at the very moment that a collision threatens its body
+    /// walks at the velocity of m_mb.
+    pub(crate) fn switch(&mut self, phase_before: f32, context: &SynthesisContext, step: &TimeStep) {
+        let (from, to) = (self.mode, self.selection.mode);
+        let Some(hybrid) = context.hybrid.as_ref().filter(|_| from != to) else { return };
+        let Some(phase_jump) = hybrid.phase_jump(from, phase_before, self.phase) else { return };
+        if !self.may_switch(hybrid, context) {
             return;
         }
-        let Some(jump) = hybrid.jump(from, before, self.phase) else { return };
-        if !self.may_switch(motion, hybrid) {
-            return;
-        }
-        let soles_m = self.playing(motion).posture(motion, self.phase).soles_m(&motion.db.skeleton);
-        self.jump(motion, step, |body| {
-            match to {
-                Mode::SemiProcedural => {
-                    body.walking = body.mix.parameters(motion.db);
-                    body.seen.iter_mut().for_each(|seen| seen.walking = seen.mix.parameters(motion.db));
-                }
-                Mode::Blending => {
-                    let mix = Mix::new(&motion.space.locate(body.walking));
-                    body.mix = mix;
-                    // Nothing lags behind it yet: how the old pose was easing is left to inertia as well.
-                    body.seen.iter_mut().for_each(|seen| seen.mix = mix);
-                }
-            }
-            body.mode = to;
-            body.phase = body.most_alike(motion, &soles_m, body.phase + jump);
+        let soles_m = self.active(context).posture(context, self.phase).soles_m(&context.db.skeleton);
+        self.jump(context, step, |motion| {
+            motion.take_over(to, context);
+            motion.phase = motion.most_similar_phase(&soles_m, motion.phase + phase_jump, context);
         });
     }
 
-    /// The phase near another at which what is played has its feet nearest to these soles: T knows how m_mb is like
-    /// m_sp, and a mix or a run is so a little before or after.
-    fn most_alike(&self, motion: &Motion, soles_m: &[[Vec3; 3]; 2], near: f32) -> f32 {
-        let off_m2 = |phase: f32| {
-            let playing = Playing::new(motion, self.mode, &self.seen[0], &self.mix, phase);
-            let there_m = playing.posture(motion, phase).soles_m(&motion.db.skeleton);
+    /// Whether the other synthesis reaches the current parameters, or those to which the body is committed.
+    fn may_switch(&self, hybrid: &HybridData, context: &SynthesisContext) -> bool {
+        let current = self.current(&context.db);
+        let reached = self.committed(context).unwrap_or_else(|| match self.mode {
+            Mode::Blending => hybrid.base_walk.reachable(current),
+            Mode::SemiProcedural => context.domain.reachable(current).parameters,
+        });
+        current.to_vec3().distance(reached.to_vec3()) <= SWITCH_TOLERANCE
+    }
+
+    /// Puts a synthesis in force at the current parameters.
+    fn take_over(&mut self, mode: Mode, context: &SynthesisContext) {
+        match mode {
+            Mode::SemiProcedural => {
+                self.parameters = self.mix.parameters(&context.db);
+                for smoothed in &mut self.smoothed {
+                    smoothed.parameters = smoothed.mix.parameters(&context.db);
+                }
+            }
+            Mode::Blending => {
+                self.mix = ExampleMix::new(&context.domain.locate(self.parameters));
+                // Smoothing starts without a lag: inertialization carries what the old pose still lagged.
+                self.smoothed.iter_mut().for_each(|smoothed| smoothed.mix = self.mix);
+            }
+        }
+        self.mode = mode;
+    }
+
+    /// The phase near another at which the soles are nearest to `soles_m`. T compares m_sp with m_mb; a mix, or another
+    /// speed, is most similar a little earlier or later.
+    fn most_similar_phase(&self, soles_m: &[[Vec3; 3]; 2], near: f32, context: &SynthesisContext) -> f32 {
+        let distance_m2 = |phase: f32| {
+            let active = ActiveMotion::new(context, self.mode, &self.smoothed[0], &self.mix, phase);
+            let there_m = active.posture(context, phase).soles_m(&context.db.skeleton);
             let points = soles_m.as_flattened().iter().zip(there_m.as_flattened());
             points.map(|(here_m, there_m)| here_m.distance_squared(*there_m)).sum::<f32>()
         };
-        let phases = NEAR_PHASES.map(|off| wrapped(near + off));
-        let off_m2 = phases.map(off_m2);
-        let nearest = (1..phases.len()).fold(0, |best, at| if off_m2[at] < off_m2[best] { at } else { best });
+        let phases = PHASE_OFFSETS.map(|offset| wrapped(near + offset));
+        let distances_m2 = phases.map(distance_m2);
+        let nearest =
+            (1..phases.len()).fold(0, |best, at| if distances_m2[at] < distances_m2[best] { at } else { best });
         phases[nearest]
     }
 
-    /// Changes what is played at once, and leaves the difference of poses to inertia.
-    pub(crate) fn jump(&mut self, motion: &Motion, step: &TimeStep, change: impl FnOnce(&mut Self)) {
-        let old = self.poses(motion, step);
+    /// Reverses the gait: it plays backward in time from now on.
+    pub(crate) fn reverse(&mut self) {
+        self.phase = wrapped(1.0 - self.phase);
+        self.smoothed[0].reverse();
+    }
+
+    /// Makes a change at once and leaves the difference of poses to inertialization.
+    pub(crate) fn jump(&mut self, context: &SynthesisContext, step: &TimeStep, change: impl FnOnce(&mut Self)) {
+        let old = self.poses(context, step);
         change(self);
-        let new = self.poses(motion, step);
-        self.inertia.begin(old.each_ref(), new.each_ref(), step.look_back_s);
+        let new = self.poses(context, step);
+        self.inertialization.begin(old.each_ref(), new.each_ref(), step.look_back_s);
     }
 
-    /// Whether the body walks as the other synthesis can.
-    fn may_switch(&self, motion: &Motion, hybrid: &Hybrid) -> bool {
-        let now = self.parameters(motion.db);
-        let there = self.detour(motion).unwrap_or_else(|| match self.mode {
-            Mode::Blending => hybrid.semi_procedural.reachable(now),
-            Mode::SemiProcedural => motion.space.nearest(now).parameters,
-        });
-        now.to_vec3().distance(there.to_vec3()) <= SWITCH_SLACK
-    }
-
-    /// What is played, now and a moment ago.
-    fn poses(&self, motion: &Motion, step: &TimeStep) -> [Pose; 2] {
-        let playing = self.playing(motion);
-        let before = wrapped(self.phase - step.look_back_s * playing.phase_rate_hz(self.phase));
-        let [seen, last] = &self.seen;
-        let lately = Playing::new(motion, self.mode, &seen.lately(last, step), &self.mix, before);
-        [playing.bent(motion, self.phase).pose, lately.bent(motion, before).pose]
+    /// The drawn poses, now and [`TimeStep::look_back_s`] before.
+    fn poses(&self, context: &SynthesisContext, step: &TimeStep) -> [Pose; 2] {
+        let active = self.active(context);
+        let earlier_phase = wrapped(self.phase - step.look_back_s * active.phase_rate_hz(self.phase));
+        let [smoothed, before] = &self.smoothed;
+        let smoothed = smoothed.earlier(before, step);
+        let earlier = ActiveMotion::new(context, self.mode, &smoothed, &self.mix, earlier_phase);
+        [active.bent_posture(context, self.phase).pose, earlier.bent_posture(context, earlier_phase).pose]
     }
 }

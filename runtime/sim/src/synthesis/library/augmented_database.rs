@@ -1,10 +1,8 @@
-//! What bodies can do with a set of clips, in memory: all that the set shows, standing, and, where it cannot make way
-//! in a crowd, its walk deformed.
+//! The augmented database: a database in memory with all that bodies of a crowd need.
 //!
-//! Many sets hold a few straight walks. Bodies that only blend them cannot turn, the planner is confined to a line of
-//! velocities, and a crowd runs into each other or stands. What such a set lacks, semi-procedural locomotion can do
-//! (`deformation`): cycles of m_sp deformed join the examples, and blend space and velocity sets are built
-//! anew. They never come into a file.
+//! Many sets of clips hold a few straight walks. With them bodies cannot turn, the planner has a line of velocities,
+//! and a crowd collides or stands. Semi-procedural locomotion supplies what is missing: deformed cycles of m_sp join
+//! the examples, and blend space and velocity sets are built anew. They are never written to a file.
 
 use std::sync::Arc;
 
@@ -17,16 +15,15 @@ use motiondb::validate::contradiction;
 use motiondb::velocity_sets::velocity_hull;
 
 use crate::synthesis::library::standing;
-use crate::synthesis::semi_procedural::base_walk::SemiProcedural;
-use crate::synthesis::semi_procedural::deformation::Deformation;
+use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
 
-/// Without these no body makes way.
-const MAKING_WAY: [GapKind; 4] = [GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps];
+/// Coverage gaps with which bodies of a crowd cannot make progress.
+const NEEDED: [GapKind; 4] = [GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps];
 
-/// Ways of walking by what a set lacks, over the speed of m_sp: ahead, turning in rad/m, aside. Well within what m_sp
-/// reaches (`fbcrowd bench reach`), and what people do without haste: bends of 1.4 and 0.5 m, on the spot 90 °/s for a
-/// walk of 1.2 m/s.
-const WAYS: [(GapKind, Vec3); 11] = [
+/// Parameters of the cycles that fill each coverage gap, over the speed of m_sp: speed, turn rate in rad/m, side speed.
+/// Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s; `fbcrowd bench reach` finds them well in
+/// reach.
+const FILLING: [(GapKind, Vec3); 11] = [
     (GapKind::Walking, Vec3::new(1.0, 0.0, 0.0)),
     (GapKind::Walking, Vec3::new(0.5, 0.0, 0.0)),
     (GapKind::WalkingTurns, Vec3::new(1.0, 0.72, 0.0)),
@@ -40,36 +37,36 @@ const WAYS: [(GapKind, Vec3); 11] = [
     (GapKind::Backward, Vec3::new(-0.5, 0.0, 0.0)),
 ];
 
-/// The database itself where bodies can stand and make way with it, or one in which they can.
-pub fn complete(db: Arc<MotionDb>) -> Arc<MotionDb> {
-    let lacks: Vec<GapKind> = coverage(&db).into_iter().map(|thin| thin.kind).collect();
-    let standing = standing::provided(db);
-    if !MAKING_WAY.iter().any(|lack| lacks.contains(lack)) {
+/// The database itself where bodies can stand and make progress with it; otherwise an augmented one.
+pub fn augmented(db: Arc<MotionDb>) -> Arc<MotionDb> {
+    let gaps: Vec<GapKind> = coverage(&db).into_iter().map(|gap| gap.kind).collect();
+    let standing = standing::with_standing(db);
+    if !NEEDED.iter().any(|gap| gaps.contains(gap)) {
         return standing;
     }
-    with_deformed(&standing, &lacks).map_or(standing, Arc::new)
+    with_gaps_filled(&standing, &gaps).map_or(standing, Arc::new)
 }
 
-/// How many cycles of which example [`complete`] has deformed, if any.
-pub fn deformed<'a>(db: &'a MotionDb, complete: &MotionDb) -> Option<(&'a str, usize)> {
+/// Name of the walk that [`augmented`] has deformed, and number of deformed cycles; `None` if there are none.
+pub fn deformed_walk<'a>(db: &'a MotionDb, augmented: &MotionDb) -> Option<(&'a str, usize)> {
     let steps = |db: &MotionDb| db.examples.iter().filter(|example| example.key_times_s.is_some()).count();
-    let count = steps(complete) - steps(db);
+    let count = steps(augmented) - steps(db);
     walk(db).filter(|_| count > 0).map(|walk| (db.examples[walk].name.as_str(), count))
 }
 
-/// m_sp, or the only example that walks.
+/// Index of m_sp, or of the only example with steps.
 fn walk(db: &MotionDb) -> Option<usize> {
-    let found = db.correspondence.as_ref().map(|found| found.semi_procedural as usize);
-    found.or_else(|| db.examples.iter().position(|example| example.key_times_s.is_some()))
+    let m_sp = db.correspondence.as_ref().map(|found| found.semi_procedural as usize);
+    m_sp.or_else(|| db.examples.iter().position(|example| example.key_times_s.is_some()))
 }
 
-/// None where there is no walk that could be deformed.
-fn with_deformed(db: &MotionDb, lacks: &[GapKind]) -> Option<MotionDb> {
+/// `None` without a walk that can be deformed.
+fn with_gaps_filled(db: &MotionDb, gaps: &[GapKind]) -> Option<MotionDb> {
     let walk = walk(db)?;
-    let m_sp = SemiProcedural::new(db, walk)?;
+    let base_walk = BaseWalk::new(db, walk)?;
     let mut db = db.clone();
-    for (_, way) in WAYS.iter().filter(|(lack, _)| lacks.contains(lack)) {
-        push_deformed(&mut db, &m_sp, *way);
+    for (_, ratios) in FILLING.iter().filter(|(gap, _)| gaps.contains(gap)) {
+        push_deformed(&mut db, &base_walk, *ratios);
     }
     let parameters: Vec<Parameters> = db.examples.iter().map(|example| example.parameters).collect();
     db.blend_space = triangulation::build(&parameters);
@@ -78,11 +75,11 @@ fn with_deformed(db: &MotionDb, lacks: &[GapKind]) -> Option<MotionDb> {
     Some(db)
 }
 
-/// Adds a cycle, if its feet land and stand as its parameters tell.
-fn push_deformed(db: &mut MotionDb, m_sp: &SemiProcedural, way: Vec3) {
-    let steps = &db.examples[m_sp.example];
-    let parameters = m_sp.reachable(Parameters::from_vec3(steps.parameters.speed_mps * way));
-    let deformation = Deformation::new(m_sp, parameters);
+/// Adds a deformed cycle if its feet land, and move as its parameters require.
+fn push_deformed(db: &mut MotionDb, base_walk: &BaseWalk, ratios: Vec3) {
+    let m_sp = &db.examples[base_walk.example];
+    let parameters = base_walk.reachable(Parameters::from_vec3(m_sp.parameters.speed_mps * ratios));
+    let deformation = Deformation::new(base_walk, parameters);
     let cycle = deformation.cycle(db);
     let (_, feet) = deformation.measurable(&db.skeleton, &cycle);
     let key_times_s = feet.key_times_s();
@@ -91,16 +88,16 @@ fn push_deformed(db: &mut MotionDb, m_sp: &SemiProcedural, way: Vec3) {
     }
     let slide = foot_slide(&feet, parameters.to_vec3().as_dvec3());
     let example = MotionExample {
-        name: format!("{} for {}", steps.name, in_words(parameters)),
+        name: format!("{} for {}", m_sp.name, in_words(parameters)),
         parameters,
         phase_map: deformation.phase_map(),
         key_times_s,
         planted_slide_cm_s: slide.slide_cm_s as f32,
         planted_share: slide.planted_share as f32,
-        ..steps.clone()
+        ..m_sp.clone()
     };
     for (row, posture) in cycle.iter().enumerate() {
-        db.rows.push_like((m_sp.example, row), &posture.pose, posture.contacts);
+        db.rows.push_like((base_walk.example, row), &posture.pose, posture.contacts);
     }
     db.examples.push(example);
 }

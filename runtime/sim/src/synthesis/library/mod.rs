@@ -1,11 +1,14 @@
-//! What all bodies share: the database, completed for crowds, and what synthesis derives from it once.
+//! What all bodies share: the database, augmented for crowds, and what the synthesis derives from it once.
 //!
-//! Enters: a motion database and the tunables. Leaves: the `context` that every step of every body reads.
+//! Enters: a motion database and the tunables. Leaves: the synthesis context that every step of every body reads.
 //!
-//! Read `context`, then `augmented_database`, then `standing`.
+//! Read `synthesis_context`, then its parts: `augmented_database` with `standing`, and `hybrid_data`.
 
-pub mod augmented_database;
-pub(crate) mod context;
+pub(crate) mod augmented_database;
+pub(crate) mod hybrid_data;
 pub(crate) mod standing;
+pub(crate) mod synthesis_context;
 
-pub use context::Studio;
+pub use augmented_database::{augmented, deformed_walk};
+pub use hybrid_data::HybridData;
+pub use synthesis_context::SynthesisContext;

@@ -1,37 +1,36 @@
-//! Standing, for a database of clips of which none stands: the mid-stances of its slowest steps, both at once.
+//! A standing example for a database without one, made of the mid-stances of its slowest steps.
 //!
 //! At its mid-stance (phase 0 for the right foot, ½ for the left) a foot is flat on the ground under the body. The pose
-//! made here stands on both feet where they are then, with the mean of the cycle above them; it becomes an example of
-//! the database in memory, never of a file. It belongs to no simplex: [`crate::synthesis::blending::blend_space`] mixes it in.
+//! stands on both feet where they are then, under the mean upper body of the cycle. It becomes an example in memory,
+//! never in a file, and belongs to no simplex: [`crate::synthesis::blending::blend_domain`] mixes it in.
 
 use std::sync::Arc;
 
 use motiondb::body::Pose;
 use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap};
 
-use crate::synthesis::pose::leg::Leg;
-use crate::synthesis::pose::posture::Posture;
+use crate::synthesis::pose::{PosedLeg, Posture};
 
-/// Rows of the mid-stance of the left foot and of the right one.
+/// Rows of the mid-stance of each foot, `[left, right]`.
 const MID_STANCES: [usize; 2] = [PHASE_COUNT / 2, 0];
 
-/// The database itself, or one in which a body can stand.
-pub(crate) fn provided(db: Arc<MotionDb>) -> Arc<MotionDb> {
+/// The database itself if an example stands, otherwise one with a standing example.
+pub(crate) fn with_standing(db: Arc<MotionDb>) -> Arc<MotionDb> {
     match slowest(&db) {
         Some(example) if db.examples.iter().all(|example| example.key_times_s.is_some()) => {
-            Arc::new(with_standing(&db, example))
+            Arc::new(with_standing_as_in(&db, example))
         }
         _ => db,
     }
 }
 
-/// The example nearest to standing.
+/// The example nearest to (0, 0, 0).
 fn slowest(db: &MotionDb) -> Option<usize> {
-    let far = |example: usize| db.blend_space.scaled(db.examples[example].parameters).length();
-    (0..db.examples.len()).min_by(|&a, &b| far(a).total_cmp(&far(b)))
+    let distance = |example: usize| db.blend_space.scaled(db.examples[example].parameters).length();
+    (0..db.examples.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
 }
 
-fn with_standing(db: &MotionDb, example: usize) -> MotionDb {
+fn with_standing_as_in(db: &MotionDb, example: usize) -> MotionDb {
     let mut db = db.clone();
     let pose = standing_pose(&db, example);
     for _ in 0..PHASE_COUNT {
@@ -50,13 +49,13 @@ fn with_standing(db: &MotionDb, example: usize) -> MotionDb {
     db
 }
 
-/// Each leg as at its mid-stance, the mean of the cycle above them, and the feet where they stood.
+/// The mean pose of the cycle with each leg as at its mid-stance.
 fn standing_pose(db: &MotionDb, example: usize) -> Pose {
     let mut pose = db.rows.mean_pose(example);
     let poses = MID_STANCES.map(|row| db.rows.pose(example, row));
     let feet = [0, 1].map(|side| {
-        Leg::joints(side).into_iter().for_each(|joint| pose.rotations[joint] = poses[side].rotations[joint]);
-        Leg::new(&poses[side], &db.skeleton, side).foot()
+        PosedLeg::joints(side).into_iter().for_each(|joint| pose.rotations[joint] = poses[side].rotations[joint]);
+        PosedLeg::new(&poses[side], &db.skeleton, side).foot()
     });
     let mut posture = Posture::new(pose, [1.0; 2], &db.skeleton);
     posture.move_feet(feet, &db.skeleton);

@@ -1,197 +1,195 @@
-//! Foot holding: a planted foot stays where it stands, rolls from heel over ball to toe, and is let go softly.
+//! Foot lock: a planted foot stays in position, rolls from heel over ball to toe, and is released softly.
 //!
-//! Time-share weights hold planted feet while the shares rest; while they change, or where turning clips blend, the
-//! pose's foot drifts. A foot's *hold* is the rigid motion (horizontal shift c, twist ψ about the vertical, lift) that
-//! takes the pose's foot to the final one. While the foot is planted, c and ψ cancel the motion of the sole point that
-//! is lowest now and the turning of the foot: the contact point rests, and the foot still rolls, since its pitch is
-//! left to the pose. Off the ground c and ψ return to zero by a critically damped filter of the third order, which
-//! starts at the speed they had: neither the foot's velocity nor its acceleration jumps at toe-off.
+//! Weights by shares of time hold planted feet while the weights are constant. While they change, or where turning
+//! examples blend, the foot of the pose drifts. A lock is the rigid motion from the pose's foot to the drawn one: a
+//! horizontal shift c, a twist ψ about the vertical, and a lift.
 //!
-//! World, metres and radians; z is the height over the ground, the same in world and root frame.
+//! - *Planted*: c and ψ cancel the motion of the lowest sole point and the turning of the foot. The contact point
+//!   rests; the foot still rolls, because the pose determines its pitch.
+//! - *Swinging*: c and ψ decay by a critically damped filter of the third order that starts at their rates. Neither
+//!   velocity nor acceleration of the foot jumps at toe-off.
+//!
+//! World frame, metres and radians. z is the height over the ground, equal in world and root frame.
 
 use glam::{Quat, Vec2, Vec3};
 
-use crate::maths::angle::{direction, turned_rad, yaw};
+use crate::maths::angle::{angle_between_rad, unit_vector, yaw};
 use crate::maths::decay::soft_maximum;
-use crate::synthesis::time_step::TimeStep;
+use crate::synthesis::TimeStep;
+use crate::synthesis::time_step::LANDING_TIME_S;
 
-/// Rate of the filter that lets a foot go, 1/s: of a hold, 2 % is left after 0.25 s, before the foot lands again.
-pub(crate) const RELEASE_RATE_HZ: f32 = 30.0;
-/// Rate of the filter by which a planted sole comes down to the ground and a swinging one rises to its clearance, 1/s.
-pub(crate) const LIFT_RATE_HZ: f32 = 80.0;
-/// Time constant, s, by which a foot comes to rest that lands while it still moves over the ground, as where the body
-/// changes its speed: well within the tenth of a stance in which its sole rolls down. At once would jerk the knee.
-pub(crate) const LANDING_TIME_S: f32 = 0.012;
-/// Toe clearance of a swinging foot in walking, m (Winter 1992): blends with standing lower the swing, and would drag
-/// the toes.
+/// Toe clearance of a swinging foot in walking, m (Winter 1992): blends with standing would drag the toes.
 const CLEARANCE_M: f32 = 0.013;
-/// A foot wants all of it from this speed on, m/s, and slower ones less: those that leave the ground begin slowly.
+/// Speed from which on a foot needs the whole clearance, m/s: a foot that leaves the ground begins slowly.
 const CLEARANCE_SPEED_MPS: f32 = 1.0;
-/// A foot that will land within this time wants none, s.
+/// A foot that lands within this time needs no clearance, s.
 pub(crate) const LANDING_AHEAD_S: f32 = 0.06;
-/// A foot this far above its clearance begins to be lifted, m, so that lifting has no edge.
+/// Softness of the lift at the clearance, m: lifting has no edge.
 const CLEARANCE_SOFTNESS_M: f32 = 0.002;
-/// Time over which a foot's speed is averaged, s: it is constant between two rows of the database, and jumps at each.
-pub(crate) const SPEED_TIME_S: f32 = 0.03;
-/// Greatest shift of a foot against the pose's, m: that of a step broken off half-way; beyond it the foot slides.
+/// Greatest shift c, m: that of a step broken off half-way. Beyond it the foot slides.
 const SHIFT_MAX_M: f32 = 0.35;
-/// Greatest twist of a foot against the pose's: people twist the stance foot, and pivot on it beyond about 45°.
+/// Greatest twist ψ, rad: people twist the stance foot, and pivot on it beyond about 45°.
 const TWIST_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
 
-/// A foot in the world.
+/// A foot of the pose, in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PosedFoot {
-    /// The ankle.
+pub(crate) struct PosedFoot {
+    /// Position of the ankle, m.
     pub ankle_m: Vec3,
-    /// Heel, ball and toe tip on the sole.
+    /// Heel, ball and toe tip on the sole, m.
     pub sole_m: [Vec3; 3],
 }
 
 impl PosedFoot {
-    /// From heel to ball on the ground.
+    /// Vector from heel to ball on the ground, m.
     fn heading_m(&self) -> Vec2 {
         (self.sole_m[1] - self.sole_m[0]).truncate()
     }
 
-    /// Index of the point that touches the ground, and its height.
+    /// Index and height of the lowest sole point, m.
     fn lowest(&self) -> (usize, f32) {
         let heights = self.sole_m.map(|point| point.z);
         (1..3).fold((0, heights[0]), |low, point| if heights[point] < low.1 { (point, heights[point]) } else { low })
     }
 }
 
-/// What takes the pose's foot to the final one, and what it needs to know of the step before.
+/// The lock of one foot, and the foot as it was after the last step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FootHold {
+pub(crate) struct FootLock {
+    /// Whether the foot is planted.
     planted: bool,
-    /// The sole point that was lowest.
+    /// Index of the lowest sole point of the pose's foot.
     lowest: usize,
-    /// c, its rate and the rate of that, a second.
+    /// Shift c, m, its rate of change, m/s, and its acceleration, m/s².
     shift_m: [Vec2; 3],
-    /// ψ, likewise.
+    /// Twist ψ, rad, its rate of change, rad/s, and its acceleration, rad/s².
     twist_rad: [f32; 3],
-    /// Speed over the ground that is left of landing.
+    /// Velocity over the ground that is left of landing, m/s.
     landing_mps: Vec2,
-    /// Lift, likewise.
+    /// Lift, m, its rate of change, m/s, and its acceleration, m/s².
     lift_m: [f32; 3],
-    /// Of the pose's foot in the step before.
+    /// Height of the lowest sole point of the pose's foot, m.
     height_m: f32,
+    /// Vector from heel to ball of the pose's foot, m.
     heading_m: Vec2,
+    /// Heel, ball and toe tip of the drawn foot, m.
     sole_m: [Vec3; 3],
+    /// Mean speed of the drawn foot over the ground, m/s.
     speed_mps: f32,
 }
 
-/// Where the ankle shall be, in the world, and how far the foot is twisted about the vertical.
+/// Target of a locked foot, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HeldFoot {
-    /// The ankle.
+pub(crate) struct LockedFoot {
+    /// Position of the ankle, m.
     pub ankle_m: Vec3,
-    /// ψ.
+    /// Twist ψ about the vertical.
     pub twist: Quat,
 }
 
-impl FootHold {
-    /// A foot that stands as the pose has it.
-    pub fn new(posed: &PosedFoot) -> Self {
+impl FootLock {
+    /// The lock of a foot that stands where the pose has it.
+    pub(crate) fn new(posed: &PosedFoot) -> Self {
         let (lowest, height_m) = posed.lowest();
         Self { lowest, height_m, heading_m: posed.heading_m(), sole_m: posed.sole_m, ..Self::default() }
     }
 
-    /// Moves the hold by one step; `posed` is the foot of the blended pose, and `lands` its contact `LANDING_AHEAD_S`
-    /// from now.
-    pub fn step(&mut self, posed: &PosedFoot, planted: bool, lands: f32, step: &TimeStep) -> HeldFoot {
+    /// Moves the lock by one step; `contact_ahead` is the contact of the pose's foot [`LANDING_AHEAD_S`] later.
+    pub(crate) fn step(&mut self, posed: &PosedFoot, planted: bool, contact_ahead: f32, step: &TimeStep) -> LockedFoot {
         let heading_m = posed.heading_m();
         let (lowest, height_m) = posed.lowest();
-        // A foot lands where the pose has it now, somewhere within the step: only from then on it is held.
+        // A foot lands within the step, where the pose has it now. The lock holds it from the next step on.
         if planted && self.planted {
-            self.hold(posed, lowest, turned_rad(self.heading_m, heading_m), step);
+            self.hold(posed, lowest, angle_between_rad(self.heading_m, heading_m), step);
         } else {
             self.release(step);
             self.land(posed, lowest, step);
         }
         (self.planted, self.lowest, self.heading_m) = (planted, lowest, heading_m);
-        self.lift(height_m, lands, step);
-        HeldFoot { ankle_m: posed.ankle_m + self.shift_m[0].extend(self.lift_m[0]), twist: yaw(self.twist_rad[0]) }
+        self.lift(height_m, contact_ahead, step);
+        LockedFoot { ankle_m: posed.ankle_m + self.shift_m[0].extend(self.lift_m[0]), twist: yaw(self.twist_rad[0]) }
     }
 
-    /// c of a planted foot.
-    pub fn planted_shift_m(&self) -> Option<Vec2> {
+    /// Shift c of a planted foot, m.
+    pub(crate) fn planted_shift_m(&self) -> Option<Vec2> {
         self.planted.then_some(self.shift_m[0])
     }
 
-    /// The ball, in the world.
-    pub fn ball_m(&self) -> Vec3 {
+    /// Position of the ball of the drawn foot, m.
+    pub(crate) fn ball_m(&self) -> Vec3 {
         self.sole_m[1]
     }
 
-    /// On the ground.
-    pub fn planted(&self) -> bool {
+    /// Whether the foot is planted.
+    pub(crate) fn planted(&self) -> bool {
         self.planted
     }
 
-    /// Takes note of the foot as the leg could place it.
-    pub fn placed(&mut self, sole_m: [Vec3; 3], step: &TimeStep) {
+    /// Records the sole as the leg could draw it, m.
+    pub(crate) fn record_drawn(&mut self, sole_m: [Vec3; 3], step: &TimeStep) {
         let speed_mps = (sole_m[1] - self.sole_m[1]).truncate().length() / step.dt_s;
-        self.speed_mps += (1.0 - step.foot_speed) * (speed_mps - self.speed_mps);
+        self.speed_mps += (1.0 - step.foot_speed_left) * (speed_mps - self.speed_mps);
         self.sole_m = sole_m;
     }
 
-    /// Cancels the foot's turning, then the motion of its lowest point, which twists about the ankle.
+    /// Cancels the turning of the foot, then the motion of its lowest point, which the twist moves about the ankle.
     fn hold(&mut self, posed: &PosedFoot, lowest: usize, turned_rad: f32, step: &TimeStep) {
         let (before_m, before_rad) = (self.shift_m[0], self.twist_rad[0]);
         let twist_rad = (before_rad - turned_rad).clamp(-TWIST_MAX_RAD, TWIST_MAX_RAD);
         self.twist_rad = [twist_rad, (twist_rad - before_rad) / step.dt_s, 0.0];
-        let [decay, _] = step.landing;
-        let slipped_m = LANDING_TIME_S * (1.0 - decay) * self.landing_mps;
-        self.landing_mps *= decay;
-        let shift_m = (self.rests_m(lowest) + slipped_m - self.twisted_m(posed, lowest)).clamp_length_max(SHIFT_MAX_M);
+        let [landing_left, _] = step.landing_left;
+        let slid_m = LANDING_TIME_S * (1.0 - landing_left) * self.landing_mps;
+        self.landing_mps *= landing_left;
+        let shift_m =
+            (self.rest_position_m(lowest) + slid_m - self.twisted_m(posed, lowest)).clamp_length_max(SHIFT_MAX_M);
         self.shift_m = [shift_m, (shift_m - before_m) / step.dt_s, Vec2::ZERO];
     }
 
-    /// Notes how fast the foot moves, should it land: as much as is left of it where it landed half a step ago.
+    /// Records the velocity of the foot for a landing: the share that is left if the foot landed half a step ago.
     fn land(&mut self, posed: &PosedFoot, lowest: usize, step: &TimeStep) {
         let moved_m = self.twisted_m(posed, lowest) + self.shift_m[0] - self.sole_m[lowest].truncate();
-        self.landing_mps = step.landing[1] / step.dt_s * moved_m;
+        self.landing_mps = step.landing_left[1] / step.dt_s * moved_m;
     }
 
-    /// A point of the pose's sole, twisted about the ankle.
+    /// A point of the pose's sole, twisted about the ankle, m.
     fn twisted_m(&self, posed: &PosedFoot, point: usize) -> Vec2 {
         let (ankle_m, point_m) = (posed.ankle_m.truncate(), posed.sole_m[point].truncate());
-        ankle_m + direction(self.twist_rad[0]).rotate(point_m - ankle_m)
+        ankle_m + unit_vector(self.twist_rad[0]).rotate(point_m - ankle_m)
     }
 
-    /// Where a sole point that is lowest now came to rest. One that took over within the step did so while both touched
-    /// the ground: it lies a sole's length from where the one before it rested.
-    fn rests_m(&self, lowest: usize) -> Vec2 {
+    /// Position at which the sole point that is lowest now came to rest, m. If another point was lowest before, both
+    /// touched the ground at the change: their distance on the ground is that on the sole.
+    fn rest_position_m(&self, lowest: usize) -> Vec2 {
         let rested_m = self.sole_m[self.lowest];
         let along_m = self.sole_m[lowest] - rested_m;
         rested_m.truncate() + along_m.truncate().normalize_or_zero() * along_m.length()
     }
 
-    /// Towards no shift and no twist.
+    /// Lets shift and twist decay.
     fn release(&mut self, step: &TimeStep) {
-        self.shift_m = step.release.pass(self.shift_m);
-        self.twist_rad = step.release.pass(self.twist_rad);
+        self.shift_m = step.lock_release.decayed(self.shift_m);
+        self.twist_rad = step.lock_release.decayed(self.twist_rad);
     }
 
-    /// A planted sole settles on the ground, whatever the pose's height does, and a swinging one on the pose's height,
-    /// or its clearance; none goes below the ground. What is off dies out likewise.
-    fn lift(&mut self, height_m: f32, lands: f32, step: &TimeStep) {
-        let [before_m, wanted_m] = [self.height_m, height_m].map(|height_m| self.wanted_lift_m(height_m, lands));
-        let wanted_mps = (wanted_m - before_m) / step.dt_s;
-        let [lifted_m, lifted_mps, lifted_mps2] = self.lift_m;
-        let [off_m, _, off_mps2] = step.lift.pass([lifted_m - before_m, lifted_mps - wanted_mps, lifted_mps2]);
-        let lift_m = (wanted_m + off_m).max(-height_m);
-        self.lift_m = [lift_m, (lift_m - lifted_m) / step.dt_s, off_mps2];
+    /// Moves the lift towards its target: a planted sole settles on the ground, a swinging one keeps its clearance. No
+    /// sole moves below the ground.
+    fn lift(&mut self, height_m: f32, contact_ahead: f32, step: &TimeStep) {
+        let [before_m, target_m] =
+            [self.height_m, height_m].map(|height_m| self.target_lift_m(height_m, contact_ahead));
+        let target_mps = (target_m - before_m) / step.dt_s;
+        let [lift_m, lift_mps, lift_mps2] = self.lift_m;
+        let [off_m, _, off_mps2] = step.foot_lift.decayed([lift_m - before_m, lift_mps - target_mps, lift_mps2]);
+        let new_m = (target_m + off_m).max(-height_m);
+        self.lift_m = [new_m, (new_m - lift_m) / step.dt_s, off_mps2];
         self.height_m = height_m;
     }
 
-    fn wanted_lift_m(&self, height_m: f32, lands: f32) -> f32 {
+    /// Lift of a foot whose lowest point the pose has at `height_m`, m.
+    fn target_lift_m(&self, height_m: f32, contact_ahead: f32) -> f32 {
         if self.planted {
             return -height_m;
         }
-        let clearance_m = CLEARANCE_M * (1.0 - lands) * (self.speed_mps / CLEARANCE_SPEED_MPS).min(1.0);
-        // A foot far above it wants none, and one far below is lifted by what it lacks.
+        let clearance_m = CLEARANCE_M * (1.0 - contact_ahead) * (self.speed_mps / CLEARANCE_SPEED_MPS).min(1.0);
         CLEARANCE_SOFTNESS_M * soft_maximum((clearance_m - height_m) / CLEARANCE_SOFTNESS_M)
     }
 }

@@ -1,77 +1,71 @@
-//! The legs of a posed body: all of its forward kinematics that foot holding, pelvis and IK ask for.
+//! The legs of a pose: the part of forward kinematics that foot locks, pelvis and inverse kinematics need.
 //!
-//! All vectors are in the root frame (x forward, y left, z up), metres; orientations are against the rest pose.
+//! Root frame (x forward, y left, z up), metres; orientations are relative to the rest pose. Pairs are `[left, right]`.
 
 use glam::{Quat, Vec3};
 use motiondb::body::{Joint, Pose, Skeleton};
 
-/// One leg, from the hip down to the ankle.
+/// One posed leg.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leg {
-    /// Hip, knee and ankle.
+pub(crate) struct PosedLeg {
+    /// Positions of hip, knee and ankle, m.
     pub positions_m: [Vec3; 3],
-    /// Of thigh, shank and foot.
+    /// Orientations of thigh, shank and foot.
     pub orientations: [Quat; 3],
-    /// Lengths of thigh and shank.
+    /// Lengths of thigh and shank, m.
     pub bones_m: [f32; 2],
 }
 
-/// Where a foot is, or shall be; the toes keep the bend that the pose has.
+/// Position and orientation of a foot. The pose determines the bend of its toes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FootPose {
-    /// The ankle.
+    /// Position of the ankle, m.
     pub ankle_m: Vec3,
-    /// Of the foot joint.
+    /// Orientation of the foot joint.
     pub orientation: Quat,
 }
 
-impl Leg {
-    /// Indices of its joints in a pose, from the hip down.
-    pub const fn joints(side: usize) -> [usize; 4] {
+impl PosedLeg {
+    /// Indices of the joints of a leg in a pose: thigh, shank, foot, toe.
+    pub(crate) const fn joints(side: usize) -> [usize; 4] {
         let thigh = Joint::THIGHS[side].index();
         [thigh, thigh + 1, thigh + 2, thigh + 3]
     }
 
-    /// As posed.
-    pub fn new(pose: &Pose, skeleton: &Skeleton, side: usize) -> Self {
+    /// The leg of a pose on one side.
+    pub(crate) fn new(pose: &Pose, skeleton: &Skeleton, side: usize) -> Self {
         let [thigh, shank, foot, _] = Self::joints(side);
-        let (rotations, offsets_m) = (&pose.rotations, &skeleton.offsets_m);
-        let pelvis = rotations[Joint::Pelvis.index()];
-        let hip_m = pose.pelvis_m + pelvis * offsets_m[thigh];
-        let thigh_turned = pelvis * rotations[thigh];
-        let knee_m = hip_m + thigh_turned * offsets_m[shank];
-        let shank_turned = thigh_turned * rotations[shank];
-        let ankle_m = knee_m + shank_turned * offsets_m[foot];
+        let chain = pose.chain(skeleton, [thigh, shank, foot]);
         Self {
-            positions_m: [hip_m, knee_m, ankle_m],
-            orientations: [thigh_turned, shank_turned, shank_turned * rotations[foot]],
-            bones_m: [offsets_m[shank].length(), offsets_m[foot].length()],
+            positions_m: chain.map(|(position_m, _)| position_m),
+            orientations: chain.map(|(_, orientation)| orientation),
+            bones_m: [skeleton.offsets_m[shank].length(), skeleton.offsets_m[foot].length()],
         }
     }
 
-    /// The hip.
-    pub fn hip_m(&self) -> Vec3 {
+    /// Position of the hip, m.
+    pub(crate) fn hip_m(&self) -> Vec3 {
         self.positions_m[0]
     }
 
-    /// Its foot.
-    pub fn foot(&self) -> FootPose {
+    /// Position and orientation of the foot.
+    pub(crate) fn foot(&self) -> FootPose {
         FootPose { ankle_m: self.positions_m[2], orientation: self.orientations[2] }
     }
 }
 
 impl FootPose {
-    /// Heel, ball and toe tip on the sole, where a pose bends the toes.
+    /// Heel, ball and toe tip on the sole, m; `pose` bends the toes.
     pub fn sole_points_m(&self, pose: &Pose, skeleton: &Skeleton, side: usize) -> [Vec3; 3] {
-        let (sole, [_, _, _, toe]) = (&skeleton.feet[side], Leg::joints(side));
+        let (sole, [_, _, _, toe]) = (&skeleton.feet[side], PosedLeg::joints(side));
         let toe_tip_m = skeleton.offsets_m[toe] + pose.rotations[toe] * sole.toe_tip_m;
         [sole.heel_m, sole.ball_m, toe_tip_m].map(|point_m| self.ankle_m + self.orientation * point_m)
     }
 }
 
-/// Both legs, `[left, right]`.
-pub(crate) fn legs(pose: &Pose, skeleton: &Skeleton) -> [Leg; 2] {
-    [0, 1].map(|side| Leg::new(pose, skeleton, side))
+/// Both legs of a pose.
+pub(crate) fn legs(pose: &Pose, skeleton: &Skeleton) -> [PosedLeg; 2] {
+    [0, 1].map(|side| PosedLeg::new(pose, skeleton, side))
 }
 
 #[cfg(test)]
@@ -80,15 +74,15 @@ mod tests {
     use crate::test_db::test_db;
 
     #[test]
-    fn legs_are_where_forward_kinematics_has_them() {
+    fn legs_match_forward_kinematics() {
         let db = test_db();
         for row in 0..motiondb::motion::PHASE_COUNT {
             let pose = db.rows.pose(1, row);
             let joints = pose.forward_kinematics(&db.skeleton);
             for (side, leg) in legs(&pose, &db.skeleton).iter().enumerate() {
-                for (below, joint) in Leg::joints(side).into_iter().take(3).enumerate() {
-                    assert!(leg.positions_m[below].distance(joints.positions_m[joint]) < 1e-6);
-                    assert!(leg.orientations[below].abs_diff_eq(joints.orientations[joint], 1e-6));
+                for (index, joint) in PosedLeg::joints(side).into_iter().take(3).enumerate() {
+                    assert_eq!(leg.positions_m[index], joints.positions_m[joint]);
+                    assert_eq!(leg.orientations[index], joints.orientations[joint]);
                 }
                 let soles_m = leg.foot().sole_points_m(&pose, &db.skeleton, side).into_iter();
                 let mut both_m = soles_m.zip(joints.sole_points_m(&db.skeleton, side));

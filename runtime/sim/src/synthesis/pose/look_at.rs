@@ -1,52 +1,54 @@
-//! Head and chest turn first when the body will turn (`FbCrowd` has nothing of it).
+//! Look-at: head and chest turn before the body does. `FbCrowd` does not have it.
 //!
-//! People turn the head into a turn before the body follows: by some 200 ms on curved paths (Grasso et al. 1996,
-//! *NeuroReport* 7, 1170–1174; Courtine and Schieppati 2003, *Eur. J. Neurosci.* 18, 177–190), and all the more the
-//! sharper the turn (Sreenivasa et al. 2008, *Exp. Brain Res.* 191, 313–320). Here the *gaze*, an angle to the facing,
-//! makes for where the body is asked to face and to go, like a critically damped spring. Since a body turns by the
-//! angle to its wanted facing divided by T_turn (see [`crate::synthesis::command::blend_query`]), the gaze on a circle leads it by T_turn.
+//! People turn the head into a turn before the body: by some 200 ms on curved paths (Grasso et al. 1996, *NeuroReport*
+//! 7, 1170–1174; Courtine and Schieppati 2003, *Eur. J. Neurosci.* 18, 177–190), and the more the sharper the turn
+//! (Sreenivasa et al. 2008, *Exp. Brain Res.* 191, 313–320). The look-at angle, relative to the facing, follows the
+//! planned facing and direction of travel like a critically damped spring. A body turns at the angle to its planned
+//! facing divided by T_turn ([`crate::synthesis::command::blend_query`]), so on a circle the look-at leads it by
+//! T_turn.
 //!
-//! The angle is shared out over spine, neck and head, each within its limits. Root and legs know nothing of it.
-//! Radians, seconds; angles against the root's facing, counter-clockwise from above.
+//! Spine, neck and head share the angle, each within its joint limits. Root and legs do not depend on it.
+//!
+//! Angles are relative to the root's facing, counter-clockwise from above, radians; time in seconds.
 
 use std::f32::consts::PI;
 
 use glam::Quat;
-use motiondb::body::{Joint, Pose, Root, Skeleton};
+use motiondb::body::{Joint, Pose, Skeleton};
 
-use crate::maths::angle::{direction, wrap_rad, yaw};
+use crate::maths::angle::{unit_vector, wrap_rad, yaw};
 use crate::planning::plan::Plan;
-use crate::synthesis::time_step::TimeStep;
+use crate::synthesis::TimeStep;
 
-/// Eyes do what is further aside, rad: of turns by 90° and more the head shows some 45° against the trunk.
-const GAZE_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
-/// Rate of the spring, 1/s. From straight ahead to the greatest angle the head then turns at 200 °/s, as in a glance.
-pub(crate) const RATE_HZ: f32 = 12.0;
-/// Who walks aside at this speed looks halfway to where he goes, m/s: a walk's.
+/// Greatest look-at angle, rad: in turns by 90° and more the head shows some 45° against the trunk, the eyes the rest.
+const ANGLE_MAX_RAD: f32 = std::f32::consts::FRAC_PI_4;
+/// Side speed at which a body looks half-way to its direction of travel, m/s: a walk's.
 const LOOK_SPEED_MPS: f32 = 1.2;
-/// A gaze this near to the facing is along it, rad.
+/// Angle below which the pose is left unchanged, rad.
 const AHEAD_RAD: f32 = 1e-3;
-/// Shares of joints in the gaze, from the chest up.
+/// Shares of the joints in the angle, from the chest up.
 const SHARES: [(Joint, f32); 4] =
     [(Joint::SpineMiddle, 0.1), (Joint::SpineUpper, 0.2), (Joint::Neck, 0.35), (Joint::Head, 0.35)];
 
-/// Where a body looks.
+/// The look-at angle of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Gaze {
+pub(crate) struct LookAt {
+    /// Angle to the facing, rad.
     angle_rad: f32,
+    /// Rate of change of the angle, rad/s.
     rate_rad_s: f32,
 }
 
-impl Gaze {
-    /// Lets a step pass, in which the gaze makes for what a plan asks of a body at `root`; exactly over a step.
-    pub fn follow(&mut self, plan: &Plan, root: &Root, step: &TimeStep) {
-        let wanted_rad = wanted_rad(plan, root.facing_rad);
-        let (off_rad, rate_rad_s) = step.gaze.pass(self.angle_rad - wanted_rad, self.rate_rad_s);
-        (self.angle_rad, self.rate_rad_s) = (wanted_rad + off_rad, rate_rad_s);
+impl LookAt {
+    /// Follows a plan over one step, exactly, for a body that faces `facing_rad` in the world.
+    pub(crate) fn follow(&mut self, plan: &Plan, facing_rad: f32, step: &TimeStep) {
+        let target_rad = target_rad(plan, facing_rad);
+        let (off_rad, rate_rad_s) = step.look_at.decayed(self.angle_rad - target_rad, self.rate_rad_s);
+        (self.angle_rad, self.rate_rad_s) = (target_rad + off_rad, rate_rad_s);
     }
 
-    /// Turns chest and head of a pose, as far as its joints go.
-    pub fn turn(&self, pose: &mut Pose, skeleton: &Skeleton) {
+    /// Turns chest and head of a pose, within the joint limits.
+    pub(crate) fn turn(&self, pose: &mut Pose, skeleton: &Skeleton) {
         if self.angle_rad.abs() < AHEAD_RAD {
             return;
         }
@@ -59,29 +61,28 @@ impl Gaze {
     }
 }
 
-/// As much of a turn as a joint's limits leave.
+/// The part of a turn that the limits of a joint allow, rad. A pose beyond a limit turns no further.
 fn within_limits_rad(turn_rad: f32, rotation: Quat, [least_rad, greatest_rad]: [f32; 2]) -> f32 {
-    // An arc is at most π/2 times its sine, so no yaw is greater than π·|z|: mostly far from the limits.
+    // An arc is at most π/2 times its sine, so |yaw| ≤ π·|z|: usually far from the limits.
     if PI * rotation.z.abs() + turn_rad.abs() <= greatest_rad.min(-least_rad) {
         return turn_rad;
     }
-    // A pose beyond a limit is left where it is.
     let yaw_rad = yaw_rad(rotation);
     (yaw_rad + turn_rad).clamp(least_rad.min(yaw_rad), greatest_rad.max(yaw_rad)) - yaw_rad
 }
 
-/// About the vertical, as joint limits count it.
+/// The vertical component of a rotation vector, which joint limits refer to, rad.
 fn yaw_rad(rotation: Quat) -> f32 {
     if rotation.w < 0.0 { -rotation } else { rotation }.to_scaled_axis().z
 }
 
-/// The angle to where a body is asked to face and to go: ahead of the wanted facing, and the more to a side the faster
-/// it is to walk there. Nobody looks where he steps back to.
-fn wanted_rad(plan: &Plan, facing_rad: f32) -> f32 {
-    let local_mps = direction(-plan.facing_rad).rotate(plan.velocity_mps);
+/// The angle to look at, rad: along the planned facing, and to the side the faster the body is to walk there. A body
+/// that steps back looks along its facing.
+fn target_rad(plan: &Plan, facing_rad: f32) -> f32 {
+    let local_mps = unit_vector(-plan.facing_rad).rotate(plan.velocity_mps);
     let aside_rad = libm::atan2f(local_mps.y, local_mps.x.max(0.0) + LOOK_SPEED_MPS);
-    let wanted_rad = wrap_rad(plan.facing_rad + aside_rad - facing_rad).clamp(-GAZE_MAX_RAD, GAZE_MAX_RAD);
-    if wanted_rad.is_finite() { wanted_rad } else { 0.0 }
+    let target_rad = wrap_rad(plan.facing_rad + aside_rad - facing_rad).clamp(-ANGLE_MAX_RAD, ANGLE_MAX_RAD);
+    if target_rad.is_finite() { target_rad } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -94,13 +95,13 @@ mod tests {
 
     const STANDING: Pose = Pose { pelvis_m: Vec3::new(0.0, 0.0, 0.92), rotations: [Quat::IDENTITY; JOINT_COUNT] };
 
-    /// The gaze of a body that keeps its facing, 0, after each step of a plan of time.
-    fn gazes(seconds: f32, dt_s: f32, plan: impl Fn(f32) -> Plan) -> Vec<Gaze> {
-        let mut gaze = Gaze::default();
+    /// Look-at angles of a body that faces 0 throughout, after each step of a plan by time, rad.
+    fn angles_rad(seconds: f32, dt_s: f32, plan: impl Fn(f32) -> Plan) -> Vec<f32> {
+        let mut look_at = LookAt::default();
         (0..(seconds / dt_s).round() as usize)
             .map(|step| {
-                gaze.follow(&plan(step as f32 * dt_s), &Root::default(), &TimeStep::new(dt_s));
-                gaze
+                look_at.follow(&plan(step as f32 * dt_s), 0.0, &TimeStep::new(dt_s));
+                look_at.angle_rad
             })
             .collect()
     }
@@ -110,25 +111,25 @@ mod tests {
     }
 
     #[test]
-    fn the_gaze_does_not_depend_on_the_length_of_a_step() {
-        let [fine, coarse] = [1.0 / 120.0, 0.1].map(|dt_s| gazes(0.3, dt_s, |_| facing(0.6)));
-        assert!((fine[fine.len() - 1].angle_rad - coarse[coarse.len() - 1].angle_rad).abs() < 1e-4);
+    fn the_angle_does_not_depend_on_the_step() {
+        let [fine_rad, coarse_rad] = [1.0 / 120.0, 0.1].map(|dt_s| angles_rad(0.3, dt_s, |_| facing(0.6)));
+        assert!((fine_rad[fine_rad.len() - 1] - coarse_rad[coarse_rad.len() - 1]).abs() < 1e-4);
     }
 
     #[test]
-    fn plans_that_flip_over_neither_jerk_the_head_nor_turn_it_beyond_its_greatest_angle() {
+    fn plans_that_alternate_do_not_jerk_the_head() {
         let dt_s = 1.0 / 60.0;
-        let flips = |time_s: f32| facing(if (time_s / 0.4) as i32 % 2 == 0 { 3.0 } else { -3.0 });
-        let angles_rad: Vec<f32> = gazes(8.0, dt_s, flips).iter().map(|gaze| gaze.angle_rad).collect();
-        assert!(angles_rad.iter().all(|angle_rad| angle_rad.abs() <= GAZE_MAX_RAD));
+        let alternating = |time_s: f32| facing(if (time_s / 0.4) as i32 % 2 == 0 { 3.0 } else { -3.0 });
+        let angles_rad = angles_rad(8.0, dt_s, alternating);
+        assert!(angles_rad.iter().all(|angle_rad| angle_rad.abs() <= ANGLE_MAX_RAD));
         assert!(angles_rad.windows(2).all(|pair| (pair[1] - pair[0]).abs() / dt_s < 7.0)); // 400 °/s, as in a start
     }
 
     #[test]
-    fn the_head_shows_the_gaze_and_nothing_below_the_chest_moves() {
+    fn the_head_turns_and_nothing_below_the_chest_moves() {
         let skeleton = skeleton();
         let mut pose = STANDING;
-        Gaze { angle_rad: 0.5, rate_rad_s: 0.0 }.turn(&mut pose, &skeleton);
+        LookAt { angle_rad: 0.5, rate_rad_s: 0.0 }.turn(&mut pose, &skeleton);
         let (before, after) = (STANDING.forward_kinematics(&skeleton), pose.forward_kinematics(&skeleton));
         let ahead = after.orientations[Joint::Head.index()] * Vec3::X;
         assert!((ahead.y.atan2(ahead.x) - 0.5).abs() < 1e-4);
@@ -137,20 +138,20 @@ mod tests {
     }
 
     #[test]
-    fn no_joint_is_turned_beyond_its_limit_and_one_that_is_there_stays() {
+    fn no_joint_turns_beyond_its_limit() {
         let mut skeleton = skeleton();
         skeleton.limits_rad[Joint::Neck.index()] = [Vec3::splat(-0.1), Vec3::splat(0.1)];
-        for (neck_rad, shown_rad) in [(0.0, 0.1), (0.3, 0.3), (-0.3, 0.1)] {
+        for (neck_rad, expected_rad) in [(0.0, 0.1), (0.3, 0.3), (-0.3, 0.1)] {
             let mut pose = STANDING;
             pose.rotations[Joint::Neck.index()] = Quat::from_rotation_z(neck_rad);
-            Gaze { angle_rad: 2.0, rate_rad_s: 0.0 }.turn(&mut pose, &skeleton);
-            assert!((yaw_rad(pose.rotations[Joint::Neck.index()]) - shown_rad).abs() < 1e-5);
+            LookAt { angle_rad: 2.0, rate_rad_s: 0.0 }.turn(&mut pose, &skeleton);
+            assert!((yaw_rad(pose.rotations[Joint::Neck.index()]) - expected_rad).abs() < 1e-5);
         }
     }
 
     #[test]
-    fn people_look_where_they_walk_aside_and_not_where_they_step_back_to() {
-        let looked_rad = |velocity_mps| wanted_rad(&Plan { velocity_mps, ..Plan::default() }, 0.0);
+    fn a_body_looks_aside_but_not_backward() {
+        let looked_rad = |velocity_mps| target_rad(&Plan { velocity_mps, ..Plan::default() }, 0.0);
         assert!(looked_rad(Vec2::new(0.0, 0.6)) > 0.3 && looked_rad(Vec2::new(1.2, -0.2)) < -0.05);
         assert_eq!(looked_rad(Vec2::new(-0.8, 0.0)), 0.0);
         assert_eq!(looked_rad(Vec2::new(f32::NAN, 0.0)), 0.0);

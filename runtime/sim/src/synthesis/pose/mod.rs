@@ -1,9 +1,11 @@
-//! The final pose: planted feet hold, the pelvis comes down, legs reach the feet, the head turns.
+//! The drawn pose: locks planted feet, lowers the pelvis, bends the legs, turns the head.
 //!
 //! Enters: a sampled pose, the root, foot contacts. Leaves: the pose after inverse kinematics.
 //!
-//! Read `posture`, then `foot_lock`, `pelvis`, `heel_rise`, `leg`, `ik`; `look_at` turns head and chest.
+//! Read `leg`, `posture` and `ik`, then what moves feet and pelvis: `heel_rise`, `pelvis`, `foot_lock`, all held by
+//! `contact_state`; `look_at` turns head and chest.
 
+pub(crate) mod contact_state;
 pub(crate) mod foot_lock;
 pub(crate) mod heel_rise;
 pub(crate) mod ik;
@@ -12,8 +14,9 @@ pub(crate) mod look_at;
 pub(crate) mod pelvis;
 pub(crate) mod posture;
 
-pub use foot_lock::{FootHold, HeldFoot, PosedFoot};
-pub use leg::{FootPose, Leg};
-pub use look_at::Gaze;
-pub use pelvis::Descent;
+pub(crate) use contact_state::ContactState;
+pub(crate) use foot_lock::FootLock;
+pub use leg::FootPose;
+pub(crate) use leg::PosedLeg;
+pub(crate) use look_at::LookAt;
 pub use posture::Posture;

@@ -1,52 +1,53 @@
-//! A pose, and feet that its legs do not reach yet: synthesis says where feet are to be, holding moves them, and the
-//! legs bend once, at the end.
+//! A pose with targets for its feet: the synthesis sets the targets, foot locks move them, and the legs bend once, at
+//! the end.
 //!
-//! All vectors are in the root frame (x forward, y left, z up), metres.
+//! Root frame (x forward, y left, z up), metres. Pairs are `[left, right]`.
 
 use glam::Vec3;
 use motiondb::body::{Pose, Skeleton};
 
-use crate::synthesis::pose::leg::{FootPose, Leg, legs};
+use crate::synthesis::pose::leg::{FootPose, PosedLeg, legs};
 use crate::synthesis::pose::{heel_rise, ik, pelvis};
 
-/// A pose, and where its feet are to be.
+/// A pose and the targets of its feet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Posture {
-    /// The pose.
+    /// The pose. Its legs may not reach the targets yet.
     pub pose: Pose,
-    /// Its legs.
-    legs: [Leg; 2],
-    /// The feet, which its legs may not reach yet.
+    /// The legs as the pose has them.
+    legs: [PosedLeg; 2],
+    /// Target of each foot.
     pub feet: [FootPose; 2],
-    /// Contact of each.
+    /// Contact of each foot with the ground, 0 to 1.
     pub contacts: [f32; 2],
 }
 
 impl Posture {
-    /// Feet as the pose has them.
+    /// A pose whose feet are at their targets.
     pub fn new(pose: Pose, contacts: [f32; 2], skeleton: &Skeleton) -> Self {
         let legs = legs(&pose, skeleton);
-        Self { pose, feet: legs.each_ref().map(Leg::foot), legs, contacts }
+        Self { pose, feet: legs.each_ref().map(PosedLeg::foot), legs, contacts }
     }
 
-    /// Legs and feet are where the pose has them.
-    pub fn take_feet(&mut self, skeleton: &Skeleton) {
+    /// Takes the feet of the pose as targets, after a change of the pose.
+    pub fn retarget_feet(&mut self, skeleton: &Skeleton) {
         self.legs = legs(&self.pose, skeleton);
-        self.feet = self.legs.each_ref().map(Leg::foot);
+        self.feet = self.legs.each_ref().map(PosedLeg::foot);
     }
 
-    /// Moves the feet to where another walk has them; heels rise, and the hips stay as high over the straighter leg.
+    /// Moves the targets to those of a deformed walk: heels rise, and the pelvis keeps its height over the straighter
+    /// leg.
     pub fn move_feet(&mut self, feet: [FootPose; 2], skeleton: &Skeleton) {
-        let risen = |side: usize| heel_rise::raised(&mut self.pose, skeleton, side, &self.legs[side], &feet[side]);
-        let feet = [0, 1].map(risen);
-        self.lower(pelvis::lower_m(&self.legs, &feet));
+        let raised = |side: usize| heel_rise::raised(&mut self.pose, skeleton, side, &self.legs[side], &feet[side]);
+        let feet = [0, 1].map(raised);
+        self.lower(pelvis::deformed_drop_m(&self.legs, &feet));
         self.feet = feet;
     }
 
-    /// Moves the feet by what holds them; the pelvis comes down where a leg would have to stretch for it, as far as
-    /// `descent` makes of what is asked for, m.
-    pub fn hold_feet(&mut self, feet: [FootPose; 2], descent: impl FnOnce(f32) -> f32) {
-        self.lower(descent(pelvis::drop_m(&self.legs, &self.feet, &feet)));
+    /// Moves the targets to those of foot locks. `pelvis_drop` receives the drop of the pelvis that the legs require,
+    /// m, and returns the drop that it makes.
+    pub fn lock_feet(&mut self, feet: [FootPose; 2], pelvis_drop: impl FnOnce(f32) -> f32) {
+        self.lower(pelvis_drop(pelvis::locked_drop_m(&self.legs, &self.feet, &feet)));
         self.feet = feet;
     }
 
@@ -55,7 +56,7 @@ impl Posture {
         self.legs.iter_mut().flat_map(|leg| &mut leg.positions_m).for_each(|position_m| position_m.z -= drop_m);
     }
 
-    /// The legs reach their feet.
+    /// Bends the legs so that the feet reach their targets. A target out of reach moves to the nearest point in reach.
     pub fn bend_legs(&mut self, skeleton: &Skeleton) {
         for (side, (leg, foot)) in self.legs.iter_mut().zip(&mut self.feet).enumerate() {
             ik::reach(&mut self.pose, leg, skeleton, side, foot);
@@ -63,7 +64,7 @@ impl Posture {
         }
     }
 
-    /// Heel, ball and toe tip of each sole.
+    /// Heel, ball and toe tip on the sole of each foot at its target, m.
     pub fn soles_m(&self, skeleton: &Skeleton) -> [[Vec3; 3]; 2] {
         [0, 1].map(|side| self.feet[side].sole_points_m(&self.pose, skeleton, side))
     }

@@ -1,18 +1,18 @@
-//! Which edges of walls are near: a grid, each of whose cells lists the edges that pass through it.
+//! A grid over the edges of all walls, which finds those near a point: each cell lists the edges that pass through it.
 //!
-//! Built once a scene. An edge is listed along its way, row by row, so a long one fills as many cells as it crosses,
-//! and not the box about it. World, metres.
+//! Built once per scene. An edge is listed in the cells that it crosses, row by row, not in all cells of its bounding
+//! box. World, metres.
 
 use glam::Vec2;
 
-/// Cells in all, for each edge.
+/// Number of cells over the number of edges.
 const CELLS_PER_EDGE: f32 = 2.0;
-/// Least side of a cell, m: finer than this nothing is gained for discs of a quarter of a metre.
+/// Least side of a cell, m: a finer grid gains nothing for discs of a quarter of a metre.
 const CELL_MIN_M: f32 = 0.5;
-/// By so much of a cell an edge is listed too far, for rounding.
+/// Margin by which an edge is listed too far, in cells: covers rounding.
 const MARGIN_CELLS: f32 = 1e-2;
 
-/// The edges, by cell.
+/// The edges by cell.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct EdgeGrid {
     least_m: Vec2,
@@ -25,6 +25,7 @@ pub(crate) struct EdgeGrid {
 }
 
 impl EdgeGrid {
+    /// The grid of edges, given their ends.
     pub(crate) fn new(ends_m: &[[Vec2; 2]]) -> Self {
         let points_m = || ends_m.iter().flatten().copied();
         let least_m = points_m().reduce(Vec2::min).unwrap_or_default();
@@ -39,7 +40,7 @@ impl EdgeGrid {
         grid
     }
 
-    /// The edges of all cells that a box touches, some of them more than once.
+    /// The edges of all cells that a box touches; an edge may come more than once.
     pub(crate) fn within(&self, least_m: Vec2, most_m: Vec2) -> impl Iterator<Item = u32> {
         let ([left, low], [right, high]) = (self.cell_of(least_m), self.cell_of(most_m));
         let rows = if self.edges.is_empty() { 0..0 } else { low..high + 1 };
@@ -49,12 +50,12 @@ impl EdgeGrid {
         })
     }
 
-    /// The edges that a ray in +x from a point may cross, likewise.
+    /// The edges that a ray in +x from a point may cross; an edge may come more than once.
     pub(crate) fn beyond(&self, point_m: Vec2) -> impl Iterator<Item = u32> {
         self.within(point_m, Vec2::new(f32::MAX, point_m.y))
     }
 
-    /// Column and row of a point; points outside count to the border.
+    /// Column and row of a point; points outside belong to the border cells.
     fn cell_of(&self, point_m: Vec2) -> [i32; 2] {
         let cell = (point_m - self.least_m) * self.cells_per_m;
         [(cell.x as i32).min(self.columns - 1).max(0), (cell.y as i32).min(self.rows - 1).max(0)]
@@ -64,7 +65,7 @@ impl EdgeGrid {
     fn list(&mut self, ends_m: &[[Vec2; 2]]) {
         let mut entries: Vec<[u32; 2]> = Vec::new();
         for (edge, &ends_m) in ends_m.iter().enumerate() {
-            self.pass(ends_m, |cell| entries.push([cell, edge as u32]));
+            self.for_each_cell(ends_m, |cell| entries.push([cell, edge as u32]));
         }
         entries.sort_unstable();
         self.edges = entries.iter().map(|&[_, edge]| edge).collect();
@@ -72,8 +73,8 @@ impl EdgeGrid {
         self.starts = (0..=cells).map(|cell| entries.partition_point(|entry| entry[0] < cell) as u32).collect();
     }
 
-    /// Tells every cell that an edge passes through.
-    fn pass(&self, ends_m: [Vec2; 2], mut tell: impl FnMut(u32)) {
+    /// Visits every cell that an edge passes through.
+    fn for_each_cell(&self, ends_m: [Vec2; 2], mut visit: impl FnMut(u32)) {
         let [from, to] = ends_m.map(|end_m| (end_m - self.least_m) * self.cells_per_m);
         let (low, high) = if from.y <= to.y { (from, to) } else { (to, from) };
         let inside = |cell: f32, count: i32| (cell as i32).clamp(0, count - 1);
@@ -88,7 +89,7 @@ impl EdgeGrid {
             };
             let columns = [first.min(last) - MARGIN_CELLS, first.max(last) + MARGIN_CELLS];
             for column in inside(columns[0], self.columns)..=inside(columns[1], self.columns) {
-                tell((row * self.columns + column) as u32);
+                visit((row * self.columns + column) as u32);
             }
         }
     }
@@ -98,7 +99,7 @@ impl EdgeGrid {
 mod tests {
     use super::*;
     use crate::maths::random::SplitMix64;
-    use crate::world::obstacles::nearest_on_segment;
+    use crate::world::segment::nearest_on_segment;
 
     fn vector(random: &mut SplitMix64, bound_m: f64) -> Vec2 {
         Vec2::new(random.within(bound_m) as f32, random.within(bound_m) as f32)
@@ -121,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn no_edge_that_is_near_or_crossed_is_missed() {
+    fn no_near_or_crossed_edge_is_missed() {
         let mut random = SplitMix64::new(1, 0);
         let long: Vec<[Vec2; 2]> = (0..40).map(|_| [vector(&mut random, 50.0), vector(&mut random, 50.0)]).collect();
         check(&long, &mut random);
@@ -136,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn few_edges_are_looked_at_among_many() {
+    fn few_of_many_edges_are_visited() {
         let post = |index: i32| {
             let at_m = Vec2::new((index % 100) as f32, (index / 100) as f32) * 3.0;
             [at_m, at_m + Vec2::new(0.5, 0.2)]

@@ -12,9 +12,8 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 use std::path::PathBuf;
 
 use fbcrowd_sim::planning::Plan;
-use fbcrowd_sim::synthesis::Modes;
 use fbcrowd_sim::synthesis::command::START_IDLE_SHARE;
-use fbcrowd_sim::synthesis::library::Studio;
+use fbcrowd_sim::synthesis::{Modes, SynthesisContext};
 use glam::{Vec2, Vec3};
 use motiondb::body::Root;
 use motiondb::motion::Parameters;
@@ -110,7 +109,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 /// The points asked.
-fn grid(studio: &Studio) -> Vec<Parameters> {
+fn grid(studio: &SynthesisContext) -> Vec<Parameters> {
     let corners = studio.db.examples.iter().map(|example| example.parameters.to_vec3());
     let (least, most) = corners.fold((Vec3::ZERO, Vec3::ZERO), |(least, most), at| (least.min(at), most.max(at)));
     let mut points: Vec<Vec3> = Vec::new();
@@ -118,7 +117,7 @@ fn grid(studio: &Studio) -> Vec<Parameters> {
         for index in 0..GRID.pow(3) {
             let at = [index % GRID, index / GRID % GRID, index / GRID.pow(2)].map(|k| k as f32 / (GRID - 1) as f32);
             let query = Parameters::from_vec3(drawn_in * (least + (most - least) * Vec3::from(at)));
-            let point = studio.space.nearest(query).parameters.to_vec3();
+            let point = studio.domain.reachable(query).parameters.to_vec3();
             if points.iter().all(|other| other.distance(point) > SAME) {
                 points.push(point);
             }
@@ -127,29 +126,29 @@ fn grid(studio: &Studio) -> Vec<Parameters> {
     points.into_iter().map(Parameters::from_vec3).collect()
 }
 
-fn point(studio: &Studio, asked: Parameters, dt_s: f32) -> Point {
+fn point(studio: &SynthesisContext, asked: Parameters, dt_s: f32) -> Point {
     let roots = asked_roots(studio, STARTING_S + WATCHED_S, dt_s, |_| asked);
     let achieved = achieved(&roots[(STARTING_S / dt_s).round() as usize..], dt_s);
     Point {
         asked: asked.to_vec3().to_array(),
         achieved: achieved.to_vec3().to_array(),
-        idle_share: studio.space.nearest(asked).idle_share,
+        idle_share: studio.domain.reachable(asked).idle_share,
     }
 }
 
 /// Roots that walk as is asked of them, after the start.
-fn started(studio: &Studio, asked: Parameters, seconds: f32, dt_s: f32) -> Vec<Root> {
+fn started(studio: &SynthesisContext, asked: Parameters, seconds: f32, dt_s: f32) -> Vec<Root> {
     let mut roots = asked_roots(studio, STARTING_S + seconds, dt_s, |_| asked);
     roots.split_off((STARTING_S / dt_s).round() as usize)
 }
 
 /// Those of some ways to walk that the database has.
-fn had(studio: &Studio, ways: impl Iterator<Item = Parameters>) -> impl Iterator<Item = Parameters> {
-    ways.filter(|way| studio.space.nearest(*way).parameters.to_vec3().distance(way.to_vec3()) < SAME)
+fn had(studio: &SynthesisContext, ways: impl Iterator<Item = Parameters>) -> impl Iterator<Item = Parameters> {
+    ways.filter(|way| studio.domain.reachable(*way).parameters.to_vec3().distance(way.to_vec3()) < SAME)
 }
 
 /// Furthest off the line along which the body faced, over [`STRAIGHT_M`].
-fn straight_cm(studio: &Studio, dt_s: f32) -> Option<f64> {
+fn straight_cm(studio: &SynthesisContext, dt_s: f32) -> Option<f64> {
     let ways = STRAIGHT_MPS.map(|speed_mps| Parameters { speed_mps, ..Parameters::default() });
     let furthest_cm = |way: Parameters| {
         let roots = started(studio, way, STRAIGHT_M / way.speed_mps, dt_s);
@@ -160,7 +159,7 @@ fn straight_cm(studio: &Studio, dt_s: f32) -> Option<f64> {
 }
 
 /// Furthest from where a circle began, once it has turned by 360°.
-fn circle_cm(studio: &Studio, dt_s: f32) -> Option<f64> {
+fn circle_cm(studio: &SynthesisContext, dt_s: f32) -> Option<f64> {
     let way = |[speed_mps, turn_rate_rad_s]: [f32; 2]| Parameters { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
     let off_cm = |way: Parameters| {
         let roots = started(studio, way, TAU / way.turn_rate_rad_s.abs() + 0.5, dt_s);
@@ -204,7 +203,7 @@ fn errand(time_s: f32) -> Plan {
 }
 
 /// Where the errand leads, every tenth of a second.
-fn errand_roots(studio: &Studio, dt_s: f32) -> Vec<Root> {
+fn errand_roots(studio: &SynthesisContext, dt_s: f32) -> Vec<Root> {
     // The middle of a step tells what is in force, whatever rounding makes of its beginning.
     let roots = roots(studio, 15.0, dt_s, |time_s, _| errand(time_s + 0.5 * dt_s));
     roots.into_iter().step_by((0.1 / dt_s).round() as usize).collect()

@@ -14,8 +14,7 @@ use std::time::Instant;
 
 use fbcrowd_sim::maths::SplitMix64;
 use fbcrowd_sim::planning::Plan;
-use fbcrowd_sim::synthesis::library::Studio;
-use fbcrowd_sim::synthesis::{Body, Modes, TimeStep};
+use fbcrowd_sim::synthesis::{Body, Modes, SynthesisContext, TimeStep};
 use glam::Vec2;
 use motiondb::body::{Joints, Root};
 use motiondb::motion::{MotionDb, PHASE_COUNT};
@@ -67,7 +66,7 @@ struct Details {
 /// Bodies that play one synthesis, and what each is asked for: the velocity in its own frame, m/s, and how far ahead
 /// of its facing the wanted one is, rad.
 struct Walkers {
-    studio: Studio,
+    studio: SynthesisContext,
     bodies: Vec<Body>,
     asked: Vec<(Vec2, f32)>,
 }
@@ -84,7 +83,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let [mut blending, mut semi_procedural] =
         [Modes::Blending, Modes::SemiProcedural].map(|modes| Walkers::new(studio(db.clone(), modes)));
     (0..WARM_UP).for_each(|_| [&mut blending, &mut semi_procedural].into_iter().for_each(Walkers::step));
-    let entries = |body: &Body| body.mix.entries().len() as f32;
+    let entries = |body: &Body| body.motion.mix.entries().len() as f32;
     let examples_mixed = blending.bodies.iter().map(entries).sum::<f32>() / BODIES as f32;
     let turns: Vec<Turn> = (0..TURNS)
         .map(|_| Turn {
@@ -130,12 +129,11 @@ fn bars(details: &Details) -> Vec<Bar> {
 }
 
 impl Walkers {
-    fn new(studio: Studio) -> Self {
-        let motion = studio.motion();
+    fn new(studio: SynthesisContext) -> Self {
         let mut random = SplitMix64::new(1, 0);
         let mut within = |range: f32| random.within(f64::from(range)) as f32;
         let bodies =
-            (0..BODIES).map(|index| Body::standing(&motion, Root::default(), index as f32 / BODIES as f32).0).collect();
+            (0..BODIES).map(|index| Body::standing(&studio, Root::default(), index as f32 / BODIES as f32).0).collect();
         let asked = (0..BODIES)
             .map(|_| {
                 let velocity_mps = Vec2::new(SPEED_MPS[0] + within(SPEED_MPS[1]), within(STRAFE_MPS));
@@ -146,12 +144,12 @@ impl Walkers {
     }
 
     fn step(&mut self) {
-        let (motion, time_step) = (self.studio.motion(), TimeStep::new(DT_S));
+        let time_step = TimeStep::new(DT_S);
         for (body, &(velocity_mps, ahead_rad)) in self.bodies.iter_mut().zip(&self.asked) {
             let facing_rad = body.root.facing_rad + ahead_rad;
             let velocity_mps = Vec2::from_angle(facing_rad).rotate(velocity_mps);
-            body.advance(&motion, &Plan { velocity_mps, facing_rad, ..Plan::default() }, &time_step);
-            black_box(body.synthesize(&motion, &time_step));
+            body.advance(&self.studio, &Plan { velocity_mps, facing_rad, ..Plan::default() }, &time_step);
+            black_box(body.synthesize(&self.studio, &time_step));
         }
     }
 }
@@ -159,8 +157,8 @@ impl Walkers {
 /// The first four examples of each mix at the row before the phase, and forward kinematics.
 fn plain(db: &MotionDb, bodies: &[Body]) {
     for body in bodies {
-        let row = (body.phase * PHASE_COUNT as f32) as usize % PHASE_COUNT;
-        black_box(four_rows(db, body.mix.entries(), row));
+        let row = (body.motion.phase * PHASE_COUNT as f32) as usize % PHASE_COUNT;
+        black_box(four_rows(db, body.motion.mix.entries(), row));
     }
 }
 

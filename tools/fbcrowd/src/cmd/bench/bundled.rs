@@ -23,5 +23,5 @@ pub(super) fn bundled() -> Result<MotionDb, Failure> {
         let imports = imports.map_err(|error| Failure::bad(error.to_string()))?;
         clips.extend(imports.into_iter().filter_map(|import| import.outcome.ok()));
     }
-    Ok(compile::compile(clips, &compile::Options::default(), &|_| ())?)
+    Ok(compile::compile(clips, &motiondb_compiler::Options::default(), &|_| ())?)
 }

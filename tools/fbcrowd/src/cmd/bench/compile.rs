@@ -5,8 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use motiondb::files::database_file;
-use motiondb_compiler::input::manifest::Manifest;
-use motiondb_compiler::{compile, import};
+use motiondb_compiler::{Manifest, clip_files, compile};
 use serde::Serialize;
 
 use crate::cmd::bench::Mocap;
@@ -38,7 +37,7 @@ struct Details {
 
 pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let folder = &args.mocap.mocap;
-    let files = import::clip_files(folder).map_err(|error| Failure::bad(error.to_string()))?;
+    let files = clip_files(folder).map_err(|error| Failure::bad(error.to_string()))?;
     let manifest = Manifest::of_files(&files);
     let (start, stopwatch) = (Instant::now(), Stopwatch::default());
     let compiled = compile::compile_manifest(&manifest, &|event| stopwatch.watch(event))?;
@@ -48,7 +47,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     let peak_mb = peak_memory_mb();
 
     let mut reversed = manifest.clone();
-    reversed.takes.reverse();
+    reversed.clips.reverse();
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let one_thread = one_thread.map_err(|error| Failure::bad(format!("cannot start a thread: {error}")))?;
     let same = [one_thread.install(|| compiled_bytes(&manifest))? == bytes, compiled_bytes(&reversed)? == bytes];

@@ -11,7 +11,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use fbcrowd_render::top_view::Tracks;
-use fbcrowd_sim::measures::metrics::{Measures, Measuring, write_roots};
+use fbcrowd_sim::measures::{Measures, Measuring, write_roots};
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planning::Planner;
 use fbcrowd_sim::recording::AgentFrame;

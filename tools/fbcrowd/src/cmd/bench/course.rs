@@ -11,15 +11,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_render::plots::crowd::{Way, side_by_side};
+use fbcrowd_render::plots::crowd::{PathPanel, side_by_side};
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_render::top_view::Tracks;
-use fbcrowd_sim::measures::metrics::{Measures, Measuring};
+use fbcrowd_sim::measures::{Measures, Measuring};
 use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::simulation::Simulation;
-use fbcrowd_sim::synthesis::hybrid::Mode;
-use fbcrowd_sim::synthesis::{Modes, Transition};
+use fbcrowd_sim::synthesis::{Mode, Modes, Transition};
 use glam::Vec2;
 use motiondb::body::Skeleton;
 use motiondb::motion::MotionDb;
@@ -173,13 +172,14 @@ fn draw(path: &Path, scenario: &Scenario, ways: &[Walked]) -> Result<(), Failure
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     }
-    let ways: Vec<Way> = ways.iter().filter(|walked| walked.preferred_mps == WALK_MPS).map(way).collect();
-    let sheet = side_by_side("The obstacle course by each synthesis", &scenario.agents, &scenario.obstacles_m, &ways);
+    let panels: Vec<PathPanel> =
+        ways.iter().filter(|walked| walked.preferred_mps == WALK_MPS).map(path_panel).collect();
+    let sheet = side_by_side("The obstacle course by each synthesis", &scenario.agents, &scenario.obstacles_m, &panels);
     png_frame::write(path, &sheet).map_err(|error| Failure::bad(error.to_string()))
 }
 
-fn way(walked: &Walked) -> Way<'_> {
-    Way {
+fn path_panel(walked: &Walked) -> PathPanel<'_> {
+    PathPanel {
         heading: walked.synthesis.replace('_', " "),
         notes: vec![
             format!("{} in {:.1} s", if walked.arrived { "arrives" } else { "does not arrive" }, walked.time_s),

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_sim::measures::{Gate, LaneOrder, LaneWalker, SECTORS, Shape, WaitingCrowd, lane_order};
+use fbcrowd_sim::measures::{Gate, LaneOrder, LaneWalker, SECTORS, WaitingCrowd, WaitingShape, lane_order};
 use fbcrowd_sim::scenario::Scenario;
 use glam::Vec2;
 use motiondb::motion::MotionDb;
@@ -210,7 +210,7 @@ fn mean(values: impl Iterator<Item = f64> + Clone) -> Option<f64> {
 /// One seed of the room.
 struct Leaving {
     gate: Gate,
-    shape: Shape,
+    shape: WaitingShape,
     collision_rate: f64,
     path_over_straight_line: Option<f64>,
 }

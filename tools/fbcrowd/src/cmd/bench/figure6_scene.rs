@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use fbcrowd_sim::maths::SplitMix64;
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::simulation::{Simulation, Stage};
-use fbcrowd_sim::synthesis::hybrid::Mode;
+use fbcrowd_sim::synthesis::Mode;
 use glam::Vec2;
 use motiondb::motion::MotionDb;
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motiondb_compiler::import;
+use motiondb_compiler::import_file;
 use motiondb_compiler::retarget::HumanClip;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
 use serde::Serialize;
@@ -118,7 +118,7 @@ fn label(line: &str) -> Option<Event> {
 /// What a label's clip does.
 fn gait(folder: &Path, event: &Event) -> Result<SourceGait, Failure> {
     let path = folder.join(&event.file);
-    let imports = import::import(&path).map_err(|error| Failure::bad(error.to_string()))?;
+    let imports = import_file(&path).map_err(|error| Failure::bad(error.to_string()))?;
     let clip = imports.into_iter().find(|import| import.clip == event.clip);
     let refused = |reason: String| Failure::bad(format!("{}, {}: {reason}", path.display(), event.clip));
     let human: HumanClip = match clip.map(|import| import.outcome) {

@@ -6,9 +6,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use motiondb_compiler::import::{self, Import};
 use motiondb_compiler::reading_speed::{self, Race};
 use motiondb_compiler::truth::{self, Truth};
+use motiondb_compiler::{ImportedClip, clip_files, import_file};
 use serde::Serialize;
 
 use crate::cmd::bench::Mocap;
@@ -92,7 +92,7 @@ fn judged(folder: &Path, truths: &[Truth]) -> Vec<Row> {
     let mut rows = Vec::new();
     for (file, truths) in by_file {
         let path = folder.join(file);
-        match import::import(&path) {
+        match import_file(&path) {
             Ok(imports) => rows.extend(truths.into_iter().map(|truth| row(truth, &imports))),
             Err(error) => rows.extend(truths.into_iter().map(|truth| refused(truth, error.to_string()))),
         }
@@ -102,7 +102,7 @@ fn judged(folder: &Path, truths: &[Truth]) -> Vec<Row> {
     rows
 }
 
-fn row(truth: &Truth, imports: &[Import]) -> Row {
+fn row(truth: &Truth, imports: &[ImportedClip]) -> Row {
     let Some(import) = imports.iter().find(|import| import.clip == truth.clip) else {
         return refused(truth, "the file holds no such clip".to_owned());
     };
@@ -144,7 +144,7 @@ struct Reading {
 }
 
 fn reading(folder: &Path) -> Result<Reading, Failure> {
-    let files = import::clip_files(folder).map_err(|error| Failure::bad(error.to_string()))?;
+    let files = clip_files(folder).map_err(|error| Failure::bad(error.to_string()))?;
     let files: Vec<PathBuf> = files.into_iter().filter(|file| file.extension() == Some(OsStr::new("bvh"))).collect();
     let progress = Progress::new("readings", files.len());
     let start = Instant::now();

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use motiondb::motion::MotionDb;
+use motiondb_compiler::compile;
 use motiondb_compiler::truth::marine_files;
-use motiondb_compiler::{compile, import};
 use serde::Serialize;
 
 use crate::cmd::bench::Mocap;
@@ -60,7 +60,7 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 fn clip_files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    import::clip_files(folder).map_err(|error| Failure::bad(error.to_string()))
+    motiondb_compiler::clip_files(folder).map_err(|error| Failure::bad(error.to_string()))
 }
 
 fn of_files(files: &[PathBuf]) -> Result<MotionDb, Failure> {

@@ -11,10 +11,10 @@ use std::time::Instant;
 
 use fbcrowd_sim::maths::SplitMix64;
 use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planning::{Memory, Plan, Planner, World, ahead_s, plan_all};
+use fbcrowd_sim::planning::{CrowdPlanningMemory, Plan, Planner, WorldView, plan_all, ranking_horizon_s};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use fbcrowd_sim::simulation::Simulation;
-use fbcrowd_sim::world::neighbours::{Nearest, Neighbours, Query};
+use fbcrowd_sim::world::neighbours::{NearestNeighbours, NeighbourQuery, NeighbourSearch};
 use glam::Vec2;
 use rayon::ThreadPool;
 use serde::Serialize;
@@ -134,9 +134,9 @@ fn timed(simulations: &mut [Simulation], pools: &Pools) -> Vec<Vec<Turn>> {
     turns
 }
 
-fn turn(world: &World, pools: &Pools) -> Turn {
+fn turn(world: &WorldView, pools: &Pools) -> Turn {
     let plan = |planner, pool| {
-        let mut memory = Memory::default();
+        let mut memory = CrowdPlanningMemory::default();
         microseconds(world, pool, planner, |world| plan_once(planner, world, &mut memory))
     };
     Turn {
@@ -149,14 +149,19 @@ fn turn(world: &World, pools: &Pools) -> Turn {
 
 /// Of the sorting into cells for a planner and some work upon it, per agent. The first time, which wakes the threads,
 /// and fills the working memory, does not count.
-fn microseconds(world: &World, pool: &ThreadPool, planner: Planner, mut work: impl FnMut(&World) + Send) -> f32 {
-    let ahead_s = ahead_s(planner, &Params::default());
+fn microseconds(
+    world: &WorldView,
+    pool: &ThreadPool,
+    planner: Planner,
+    mut work: impl FnMut(&WorldView) + Send,
+) -> f32 {
+    let ahead_s = ranking_horizon_s(planner, &Params::default());
     let agents = world.positions_m.len();
     let repeats = PLANS.div_ceil(agents);
-    let mut neighbours = Neighbours::default();
+    let mut neighbours = NeighbourSearch::default();
     let mut once = || {
         neighbours.rebuild(world.positions_m, world.velocities_mps, world.radii_m, ahead_s);
-        work(&World { neighbours: &neighbours, ..*world });
+        work(&WorldView { neighbours: &neighbours, ..*world });
     };
     pool.install(|| {
         once();
@@ -166,18 +171,18 @@ fn microseconds(world: &World, pool: &ThreadPool, planner: Planner, mut work: im
     })
 }
 
-fn plan_once(planner: Planner, world: &World, memory: &mut Memory) {
+fn plan_once(planner: Planner, world: &WorldView, memory: &mut CrowdPlanningMemory) {
     let mut plans = vec![Plan::default(); world.positions_m.len()];
     plan_all(planner, world, &Params::default(), memory, &mut plans);
     black_box(plans);
 }
 
 /// The searches of ORCA.
-fn query_once(world: &World) {
-    let mut nearest = Nearest::default();
+fn query_once(world: &WorldView) {
+    let mut nearest = NearestNeighbours::default();
     for &agent in world.neighbours.in_cell_order() {
         let disc = world.disc(agent as usize);
-        let query = Query {
+        let query = NeighbourQuery {
             agent: agent as usize,
             position_m: disc.position_m,
             velocity_mps: disc.velocity_mps,

@@ -76,7 +76,7 @@ fn walks(db: &MotionDb, synthesis: Modes) -> Vec<WalkFigures> {
     tried
         .into_par_iter()
         .map(|(errand, dt_s)| {
-            let peaks_mps2 = example_peaks_mps2(&studio.db, &studio.space, dt_s);
+            let peaks_mps2 = example_peaks_mps2(&studio.db, &studio.domain, dt_s);
             let figures = figures(&walk(&studio, errand, dt_s), errand, &db.skeleton, &peaks_mps2);
             WalkFigures { errand: errand.name, steady: errand.steady, synthesis, dt_s, figures }
         })

@@ -9,7 +9,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 use fbcrowd_sim::maths::SplitMix64;
 use fbcrowd_sim::planning::Plan;
 use fbcrowd_sim::synthesis::HmsParams;
-use fbcrowd_sim::synthesis::command::asking;
+use fbcrowd_sim::synthesis::command::plan_requesting;
 use glam::Vec2;
 use motiondb::body::Root;
 use motiondb::motion::{MotionDb, Parameters};
@@ -66,11 +66,11 @@ impl Ask {
             Self::Towards { angle_rad, speed_mps } => {
                 Plan { velocity_mps: Vec2::from_angle(angle_rad) * speed_mps, facing_rad: angle_rad, ..Plan::default() }
             }
-            Self::Walk(parameters) if turns_velocity => asking(parameters, root, params),
+            Self::Walk(parameters) if turns_velocity => plan_requesting(parameters, root, params),
             Self::Walk(parameters) => {
                 let local_mps = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
                 let velocity_mps = Vec2::from_angle(root.facing_rad).rotate(local_mps);
-                Plan { velocity_mps, ..asking(parameters, root, params) }
+                Plan { velocity_mps, ..plan_requesting(parameters, root, params) }
             }
         }
     }

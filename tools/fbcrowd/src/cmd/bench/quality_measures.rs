@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use fbcrowd_sim::measures::PlantedSlide;
 use fbcrowd_sim::planning::PLANTED_CONTACT;
-use fbcrowd_sim::synthesis::blending::{Mix, Space};
+use fbcrowd_sim::synthesis::blending::{BlendDomain, ExampleMix};
 use glam::Vec3;
 use motiondb::body::{Joint, Joints, Skeleton};
 use motiondb::motion::MotionDb;
@@ -70,14 +70,14 @@ pub(super) struct Figures {
 }
 
 /// Greatest acceleration of a joint in the root's frame within each example, played in steps of dt, m/s².
-pub(super) fn example_peaks_mps2(db: &MotionDb, space: &Space, dt_s: f32) -> Vec<f32> {
+pub(super) fn example_peaks_mps2(db: &MotionDb, space: &BlendDomain, dt_s: f32) -> Vec<f32> {
     let peak = |example: usize| {
-        let mix = Mix::new(&space.locate(db.examples[example].parameters));
+        let mix = ExampleMix::new(&space.locate(db.examples[example].parameters));
         let steps = (2.0 * db.examples[example].phase_map.period_s / dt_s) as usize + 3;
         let mut phase = 0.0;
         let joints: Vec<Joints> = (0..steps)
             .map(|_| {
-                phase = mix.advance_phase(db, phase, dt_s);
+                phase = mix.advanced_phase(db, phase, dt_s);
                 mix.weights(db, phase).pose(db, phase).forward_kinematics(&db.skeleton)
             })
             .collect();

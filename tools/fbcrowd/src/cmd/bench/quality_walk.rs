@@ -2,9 +2,7 @@
 
 use fbcrowd_sim::planning::Plan;
 use fbcrowd_sim::recording::AgentFrame;
-use fbcrowd_sim::synthesis::hybrid::Mode;
-use fbcrowd_sim::synthesis::library::Studio;
-use fbcrowd_sim::synthesis::{Body, Modes, TimeStep};
+use fbcrowd_sim::synthesis::{Body, Mode, Modes, SynthesisContext, TimeStep};
 use motiondb::body::{Joints, Root};
 use motiondb::motion::{MotionDb, Parameters};
 
@@ -38,13 +36,13 @@ pub(super) struct Walk {
 }
 
 /// Every body goes on the errand in steps of dt.
-pub(super) fn walk(studio: &Studio, errand: &Errand, dt_s: f32) -> Walk {
+pub(super) fn walk(studio: &SynthesisContext, errand: &Errand, dt_s: f32) -> Walk {
     let bodies = (0..BODIES).map(|index| walk_one(studio, errand, APART_S * index as f32, dt_s)).collect();
     Walk { dt_s, bodies }
 }
 
-fn walk_one(studio: &Studio, errand: &Errand, early_s: f32, dt_s: f32) -> Vec<Step> {
-    let (mut body, _) = Body::standing(&studio.motion(), Root::default(), early_s);
+fn walk_one(studio: &SynthesisContext, errand: &Errand, early_s: f32, dt_s: f32) -> Vec<Step> {
+    let (mut body, _) = Body::standing(studio, Root::default(), early_s);
     (0..(errand.seconds() / dt_s).round() as usize)
         .map(|step| {
             let plan = plan(studio, errand.ask(step as f32 * dt_s, early_s), step as f32 * dt_s, &body);
@@ -54,22 +52,21 @@ fn walk_one(studio: &Studio, errand: &Errand, early_s: f32, dt_s: f32) -> Vec<St
 }
 
 /// What is asked, under threat every other while.
-fn plan(studio: &Studio, ask: Ask, time_s: f32, body: &Body) -> Plan {
+fn plan(studio: &SynthesisContext, ask: Ask, time_s: f32, body: &Body) -> Plan {
     let threat = studio.params.modes == Modes::SemiProcedural || (time_s / THREAT_S).rem_euclid(2.0) >= 1.0;
-    let asked = ask.plan(&body.root, body.mode == Mode::Blending, &studio.params);
+    let asked = ask.plan(&body.root, body.motion.mode == Mode::Blending, &studio.params);
     Plan { time_to_collision_s: if threat { 0.5 } else { f32::INFINITY }, ..asked }
 }
 
-fn stepped(studio: &Studio, body: &mut Body, plan: &Plan, dt_s: f32) -> Step {
-    let (motion, before) = (studio.motion(), *body);
-    let time_step = TimeStep::new(dt_s);
-    body.advance(&motion, plan, &time_step);
-    let synthesis = body.synthesize(&motion, &time_step);
+fn stepped(studio: &SynthesisContext, body: &mut Body, plan: &Plan, dt_s: f32) -> Step {
+    let (before, time_step) = (*body, TimeStep::new(dt_s));
+    body.advance(studio, plan, &time_step);
+    let synthesis = body.synthesize(studio, &time_step);
     let frame = AgentFrame {
         root: body.root,
         planned_mps: plan.velocity_mps,
-        phase: body.phase,
-        mode: body.mode,
+        phase: body.motion.phase,
+        mode: body.motion.mode,
         contacts: synthesis.contacts,
         examples_slide_cm_s: synthesis.examples_slide_cm_s,
         pose: synthesis.pose,
@@ -88,24 +85,24 @@ fn stepped(studio: &Studio, body: &mut Body, plan: &Plan, dt_s: f32) -> Step {
 }
 
 /// (example, share of time) of what a body plays.
-fn examples(studio: &Studio, body: &Body) -> Vec<(usize, f32)> {
-    match (body.mode, &studio.hybrid) {
-        (Mode::SemiProcedural, Some(hybrid)) => vec![(hybrid.semi_procedural.example, 1.0)],
-        _ => body.mix.entries().iter().map(|&(example, share)| (example as usize, share)).collect(),
+fn examples(studio: &SynthesisContext, body: &Body) -> Vec<(usize, f32)> {
+    match (body.motion.mode, &studio.hybrid) {
+        (Mode::SemiProcedural, Some(hybrid)) => vec![(hybrid.base_walk.example, 1.0)],
+        _ => body.motion.mix.entries().iter().map(|&(example, share)| (example as usize, share)).collect(),
     }
 }
 
 /// Rows that are played faster or slower than their time (a phase that catches up) tell of another speed than the
 /// root has. Semi-procedural locomotion moves its feet by the root, whatever the phase.
 fn correction_mps(db: &MotionDb, before: &Body, after: &Body, dt_s: f32) -> f32 {
-    if (before.mode, after.mode) != (Mode::Blending, Mode::Blending) {
+    if (before.motion.mode, after.motion.mode) != (Mode::Blending, Mode::Blending) {
         return 0.0;
     }
     let walked_mps = (after.root.position_m - before.root.position_m).length() / dt_s;
-    let middle = before.phase + 0.5 * dt_s * after.mix.phase_rate_hz(db, before.phase);
-    let due = dt_s * after.mix.phase_rate_hz(db, middle);
-    let passed = (after.phase - before.phase).rem_euclid(1.0);
-    let Parameters { speed_mps, strafe_mps, .. } = after.seen[0].mix.parameters(db);
+    let middle = before.motion.phase + 0.5 * dt_s * after.motion.mix.phase_rate_hz(db, before.motion.phase);
+    let due = dt_s * after.motion.mix.phase_rate_hz(db, middle);
+    let passed = (after.motion.phase - before.motion.phase).rem_euclid(1.0);
+    let Parameters { speed_mps, strafe_mps, .. } = after.motion.smoothed[0].mix.parameters(db);
     let played = if walked_mps > 0.0 && due > 0.0 { passed / due } else { 1.0 };
     speed_mps.hypot(strafe_mps) * played - walked_mps
 }

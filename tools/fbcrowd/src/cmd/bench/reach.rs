@@ -6,7 +6,7 @@
 
 use std::path::PathBuf;
 
-use fbcrowd_sim::synthesis::semi_procedural::{Deformation, SemiProcedural};
+use fbcrowd_sim::synthesis::semi_procedural::{BaseWalk, Deformation};
 use glam::Vec2;
 use motiondb::body::{Joint, Joints, Pose};
 use motiondb::motion::{MotionDb, Parameters};
@@ -106,13 +106,13 @@ pub(super) fn run(args: &Args) -> Result<Answer, Failure> {
     conclude(&Found { details, goals: Vec::new(), bars }, &text, args.json)
 }
 
-fn semi_procedural(db: &MotionDb) -> Option<SemiProcedural> {
-    SemiProcedural::new(db, db.correspondence.as_ref()?.semi_procedural as usize)
+fn semi_procedural(db: &MotionDb) -> Option<BaseWalk> {
+    BaseWalk::new(db, db.correspondence.as_ref()?.semi_procedural as usize)
 }
 
 /// From standing on outward, until something is wrong.
 fn way(
-    semi_procedural: &SemiProcedural,
+    semi_procedural: &BaseWalk,
     fault: &impl Fn(Parameters) -> Option<Fault>,
     direction_deg: f32,
     turn_rate_deg_s: f32,
@@ -144,7 +144,7 @@ fn way(
 }
 
 /// What is wrong first with m_sp deformed to some parameters.
-fn fault(db: &MotionDb, semi_procedural: &SemiProcedural, lowest_m: f32, parameters: Parameters) -> Option<Fault> {
+fn fault(db: &MotionDb, semi_procedural: &BaseWalk, lowest_m: f32, parameters: Parameters) -> Option<Fault> {
     let deformation = Deformation::new(semi_procedural, parameters);
     let cycle = deformation.cycle(db);
     let (joints, feet) = deformation.measurable(&db.skeleton, &cycle);

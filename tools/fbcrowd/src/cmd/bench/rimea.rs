@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_render::plots::crowd::{Diagram, diagram};
+use fbcrowd_render::plots::crowd::{FundamentalDiagram, fundamental_diagram};
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_sim::measures::weidmann_mps;
 use glam::Vec2;
@@ -116,7 +116,7 @@ fn write_diagram(path: &Path, points: &[DiagramPoint]) -> Result<(), Failure> {
     let [low, high] = DRAWN_PER_M2;
     let at = |piece: usize| low + (high - low) * piece as f64 / DRAWN_PIECES as f64;
     let place = |per_m2: f64, speed_mps: f64| Vec2::new(per_m2 as f32, speed_mps as f32);
-    let picture = diagram(&Diagram {
+    let picture = fundamental_diagram(&FundamentalDiagram {
         title: "Fundamental diagram: people who all go one way",
         across: "density, people/m²",
         up: "speed, m/s",

@@ -186,7 +186,7 @@ pub(super) fn diagram_points(played: &Watched) -> Vec<DiagramPoint> {
     for seen in played.steps().filter(|seen| (from_s..=to_s).contains(&seen.end_s)) {
         sections.iter_mut().for_each(|section| section.push(seen.before_m, seen.after_m, played.dt_s()));
     }
-    let seen = sections.iter().filter_map(MeasuredSection::seen);
+    let seen = sections.iter().filter_map(MeasuredSection::means);
     seen.map(|seen| DiagramPoint {
         per_m2: seen.per_m2,
         speed_mps: seen.speed_mps,

@@ -122,7 +122,7 @@ fn scene(text: &SourceText) -> Result<Scene, Failure> {
     let (name, seed) = name_and_seed(&stem);
     let scene = Scene { name: name.to_owned(), seed, agents: agents_of_lines(text)? };
     let scenario = scene.scenario(Planner::default(), Coupling::default(), Params::default());
-    scenario::check::check(&scenario).map_err(|fault| fault_of_lines(text, fault))?;
+    scenario::check(&scenario).map_err(|fault| fault_of_lines(text, fault))?;
     Ok(scene)
 }
 

@@ -7,7 +7,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use fbcrowd_sim::measures::metrics::Measures;
+use fbcrowd_sim::measures::Measures;
 use fbcrowd_sim::synthesis::Modes;
 use serde::Serialize;
 

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use fbcrowd_render::error::RenderError;
-use fbcrowd_render::plots::crowd::{Comparison, Measure, Way, comparison, side_by_side};
+use fbcrowd_render::plots::crowd::{ComparedMeasure, Comparison, PathPanel, comparison, side_by_side};
 use fbcrowd_render::raster::png_frame;
-use fbcrowd_sim::measures::metrics::Measures;
+use fbcrowd_sim::measures::Measures;
 
 use crate::cmd::bench::contest::{Contestant, Run};
 use crate::cmd::bench::scenes::Scene;
@@ -29,15 +29,16 @@ pub(super) fn write(folder: &Path, details: &Details, scenes: &[Scene], runs: &[
 
 /// Writes one scene as every contestant leads it.
 pub(super) fn write_paths(path: &Path, scene: &Scene, contestants: &[Contestant], runs: &[Run]) -> Result<(), Failure> {
-    let ways: Vec<Way> = contestants.iter().zip(runs).map(|(contestant, run)| way(contestant, run)).collect();
+    let panels: Vec<PathPanel> =
+        contestants.iter().zip(runs).map(|(contestant, run)| path_panel(contestant, run)).collect();
     let seconds = runs.first().map_or(0.0, |run| run.measures.steps as f32 * run.measures.dt_s);
     let Scene { name, seed, agents } = scene;
     let title = format!("{name}, seed {seed}: paths of {} agents in {seconds:.0} s", agents.len());
-    png_frame::write(path, &side_by_side(&title, agents, &[], &ways)).map_err(bad)
+    png_frame::write(path, &side_by_side(&title, agents, &[], &panels)).map_err(bad)
 }
 
-fn way<'a>(contestant: &Contestant, run: &'a Run) -> Way<'a> {
-    Way { heading: contestant.name.replace('_', " "), notes: notes(&run.measures), tracks: &run.tracks }
+fn path_panel<'a>(contestant: &Contestant, run: &'a Run) -> PathPanel<'a> {
+    PathPanel { heading: contestant.name.replace('_', " "), notes: notes(&run.measures), tracks: &run.tracks }
 }
 
 fn bad(error: RenderError) -> Failure {
@@ -60,12 +61,12 @@ fn table(details: &Details) -> Comparison {
     let measure = |label: &str, value: fn(&RunFigures) -> Option<f64>| {
         let runs = |runs: &[RunFigures]| runs.iter().filter_map(value).map(|value| value as f32).collect();
         let planners = details.scenes.iter().map(|scene| scene.planners.iter().map(|planner| runs(&planner.runs)));
-        Measure { label: label.to_owned(), values: planners.map(Iterator::collect).collect() }
+        ComparedMeasure { label: label.to_owned(), values: planners.map(Iterator::collect).collect() }
     };
     Comparison {
         title: "Planners through the same bodies: every run, mean ± deviation".to_owned(),
         groups: details.scenes.iter().map(|scene| scene.scene.clone()).collect(),
-        contestants: CONTESTANTS.iter().map(|contestant| contestant.name.replace('_', " ")).collect(),
+        series: CONTESTANTS.iter().map(|contestant| contestant.name.replace('_', " ")).collect(),
         measures: vec![
             measure("collisions C (Eq. 17)", |run| Some(run.measures.collision_rate)),
             measure("bodies in each other, mm", |run| Some(run.measures.body_penetration_mm)),

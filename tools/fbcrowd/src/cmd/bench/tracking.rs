@@ -10,10 +10,9 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::path::PathBuf;
 
-use fbcrowd_sim::maths::moved;
+use fbcrowd_sim::maths::moved_root;
 use fbcrowd_sim::planning::Plan;
-use fbcrowd_sim::synthesis::Modes;
-use fbcrowd_sim::synthesis::library::Studio;
+use fbcrowd_sim::synthesis::{Modes, SynthesisContext};
 use glam::{Vec2, Vec3};
 use motiondb::body::Root;
 use motiondb::motion::Parameters;
@@ -154,7 +153,7 @@ fn moments_s() -> impl Iterator<Item = f32> {
     (0..BODIES).map(|index| CHANGE_S + APART_S * index as f32)
 }
 
-fn step(studio: &Studio, name: &'static str, command: Command, dt_s: f32) -> Step {
+fn step(studio: &SynthesisContext, name: &'static str, command: Command, dt_s: f32) -> Step {
     let worst_m = moments_s().map(|change_s| worst_step_m(studio, command, change_s, dt_s)).fold(0.0, f32::max);
     let stands = match (command(0.0).0, command(WATCHED_S).0) {
         (Vec2::ZERO, _) => Stands::AtFirst,
@@ -165,7 +164,7 @@ fn step(studio: &Studio, name: &'static str, command: Command, dt_s: f32) -> Ste
 }
 
 /// Furthest off after a step, from the moment on at which the command changes.
-fn worst_step_m(studio: &Studio, command: Command, change_s: f32, dt_s: f32) -> f32 {
+fn worst_step_m(studio: &SynthesisContext, command: Command, change_s: f32, dt_s: f32) -> f32 {
     // A step is commanded what is right in its middle.
     let at = |step: usize| command((step as f32 + 0.5) * dt_s - change_s);
     let plan = |time_s: f32, _: &Root| {
@@ -181,8 +180,8 @@ fn worst_step_m(studio: &Studio, command: Command, change_s: f32, dt_s: f32) -> 
 }
 
 /// Those that the database has.
-fn ways(studio: &Studio) -> Vec<(&'static str, Vec3)> {
-    let had = |way: Vec3| studio.space.nearest(Parameters::from_vec3(way)).parameters.to_vec3().distance(way) < 1e-3;
+fn ways(studio: &SynthesisContext) -> Vec<(&'static str, Vec3)> {
+    let had = |way: Vec3| studio.domain.reachable(Parameters::from_vec3(way)).parameters.to_vec3().distance(way) < 1e-3;
     WAYS.into_iter().map(|(name, way)| (name, Vec3::from(way))).filter(|&(_, way)| had(way)).collect()
 }
 
@@ -192,13 +191,13 @@ fn pairs(ways: &[(&str, Vec3)]) -> Vec<(Vec3, Vec3)> {
     pairs.filter(|(from, to)| from != to).collect()
 }
 
-fn change(studio: &Studio, from: Vec3, to: Vec3, dt_s: f32) -> Change {
+fn change(studio: &SynthesisContext, from: Vec3, to: Vec3, dt_s: f32) -> Change {
     let behind_m = moments_s().map(|change_s| behind_m(studio, from, to, change_s, dt_s)).fold(0.0, f32::max);
     Change { dt_s, from: from.to_array(), to: to.to_array(), behind_cm: 100.0 * f64::from(behind_m) }
 }
 
 /// How far behind a cycle after the change.
-fn behind_m(studio: &Studio, from: Vec3, to: Vec3, change_s: f32, dt_s: f32) -> f32 {
+fn behind_m(studio: &SynthesisContext, from: Vec3, to: Vec3, change_s: f32, dt_s: f32) -> f32 {
     let steady_s = (to - from).length() / ACCELERATION_MPS2;
     let asked = |time_s: f32| {
         let done = ((time_s - change_s) / steady_s).clamp(0.0, 1.0);
@@ -208,14 +207,14 @@ fn behind_m(studio: &Studio, from: Vec3, to: Vec3, change_s: f32, dt_s: f32) -> 
     let seconds = change_s + steady_s + cycle_s(studio, to);
     let roots = asked_roots(studio, seconds, dt_s, middle);
     let changed = (change_s / dt_s).round() as usize;
-    let told =
-        (changed..roots.len() - 1).fold(roots[changed], |root, step| moved(&root, &middle(step as f32 * dt_s), dt_s));
+    let told = (changed..roots.len() - 1)
+        .fold(roots[changed], |root, step| moved_root(&root, &middle(step as f32 * dt_s), dt_s));
     roots[roots.len() - 1].position_m.distance(told.position_m)
 }
 
 /// The cycle of a way to walk, s.
-fn cycle_s(studio: &Studio, way: Vec3) -> f32 {
-    let shares = studio.space.locate(Parameters::from_vec3(way));
+fn cycle_s(studio: &SynthesisContext, way: Vec3) -> f32 {
+    let shares = studio.domain.locate(Parameters::from_vec3(way));
     let rates = shares.examples.iter().zip(shares.shares);
     1.0 / rates.map(|(&example, share)| share / studio.db.examples[example as usize].phase_map.period_s).sum::<f32>()
 }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use fbcrowd_render::plots::crowd::trajectories;
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_render::top_view::Tracks;
-use fbcrowd_sim::measures::metrics::{Measures, Measuring};
+use fbcrowd_sim::measures::{Measures, Measuring};
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::scenario::{self, Scenario};
 use fbcrowd_sim::simulation::Simulation;
@@ -63,7 +63,7 @@ impl Watched {
 pub(super) fn scenario((path, text): (&str, &str)) -> Result<Scenario, Failure> {
     let text = SourceText { path: PathBuf::from(path), text: text.to_owned() };
     // The bench brings its own database, whatever the file names.
-    let (scenario, _) = scenario::file::of_text(&text)?;
+    let (scenario, _) = scenario::parse(&text)?;
     Ok(scenario)
 }
 

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use motiondb_compiler::compile::{Options, compile};
-use motiondb_compiler::import::import_bytes;
 use motiondb_compiler::mutation::mutated;
+use motiondb_compiler::{Options, compile, import_bytes};
 
 use crate::cmd::bench::soak::{Draw, Fate, judged};
 

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use fbcrowd_sim::measures::metrics::measure;
-use fbcrowd_sim::recording::{CHUNK_HEAD_BYTES, Header, Kind, Recorder, Recording, RecordingError, write_chunk};
+use fbcrowd_sim::measures::measure;
+use fbcrowd_sim::recording::{CHUNK_HEAD_BYTES, ChunkKind, Header, Recorder, Recording, RecordingError, write_chunk};
 use fbcrowd_sim::simulation::Simulation;
 use motiondb::motion::MotionDb;
 use motiondb_compiler::mutation::mutated;
@@ -59,7 +59,7 @@ fn forged(recording: &[u8], draw: &mut Draw) -> Vec<u8> {
 }
 
 /// The chunks of a sound recording.
-fn chunks(mut rest: &[u8]) -> Vec<(Kind, &[u8])> {
+fn chunks(mut rest: &[u8]) -> Vec<(ChunkKind, &[u8])> {
     let mut chunks = Vec::new();
     while let Some((head, after)) = rest.split_first_chunk::<{ CHUNK_HEAD_BYTES as usize }>() {
         let length = u32::from_le_bytes([head[4], head[5], head[6], head[7]]) as usize;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use fbcrowd_sim::scenario;
 use motiondb::files::SourceText;
 use motiondb::motion::MotionDb;
+use motiondb_compiler::Manifest;
 use motiondb_compiler::compile::compile_manifest;
-use motiondb_compiler::input::manifest::Manifest;
 use motiondb_compiler::mutation::mutated;
 
 use crate::cmd::bench::soak::scratch::Scratch;
@@ -67,7 +67,7 @@ pub(super) fn manifest(scratch: &Scratch, draw: &mut Draw) -> Fate {
 /// Mutates a scenario.
 pub(super) fn scenario(db: &Arc<MotionDb>, scratch: &Scratch, draw: &mut Draw) -> Fate {
     let text = mutated_text(SCENARIO, draw);
-    match scratch.with(draw, text.as_bytes(), scenario::file::read) {
+    match scratch.with(draw, text.as_bytes(), scenario::read) {
         Ok((scenario, _)) if scenario.agents.len() <= MOST_AGENTS => database::moves_bodies(db, &scenario),
         Ok(_) => Fate::Used,
         Err(_) => Fate::Refused,

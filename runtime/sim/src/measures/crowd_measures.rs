@@ -1,0 +1,215 @@
+//! The figures of one simulation (`FbCrowd` App. 11), computed frame by frame with two frames in memory.
+//!
+//! Each figure comes from the file of its measure. Positions are those of the root as synthesised. World, metres,
+//! seconds.
+
+use glam::Vec2;
+use motiondb::body::{Joints, Skeleton};
+use serde::Serialize;
+
+use crate::measures::body_penetration::BodyPenetration;
+use crate::measures::collision_rate::Collisions;
+use crate::measures::planted_slide::PlantedSlide;
+use crate::measures::root_measures::RootMeasures;
+use crate::measures::wall_contact::WallContact;
+use crate::recording::error::RecordingError;
+use crate::recording::frame::AgentFrame;
+use crate::recording::reader::Recording;
+use crate::scenario::Scenario;
+
+/// The figures of one simulation, under the keys of `fbcrowd measure --json`.
+///
+/// ```no_run
+/// use std::path::Path;
+///
+/// use fbcrowd_sim::{Recording, measures};
+///
+/// let recording = Recording::open(Path::new("antipodal.fbrec"))?;
+/// let measures = measures::measure(&recording)?;
+/// println!("{} of {} agents arrived, C = {:.4}", measures.arrived, measures.agents, measures.collision_rate);
+/// # Ok::<(), fbcrowd_sim::recording::RecordingError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Measures {
+    /// N: number of agents.
+    pub agents: usize,
+    /// T: number of steps, frames less one.
+    pub steps: usize,
+    /// Time step, s.
+    pub dt_s: f32,
+    /// C: collision rate of discs, Eq. 17.
+    pub collision_rate: f64,
+    /// Least distance between the centres of any two discs, Eq. 16, m; none of a single agent.
+    pub minimum_separation_m: Option<f64>,
+    /// A: mean acceleration over all agents and steps, Eq. 18, m/s².
+    pub mean_acceleration_mps2: f64,
+    /// Mean acceleration over the steps before each agent's arrival, m/s²: waiting at the goal does not dilute it.
+    pub mean_acceleration_before_arrival_mps2: f64,
+    /// Number of agents that came within 0.5 m of their last goal.
+    pub arrived: usize,
+    /// Number of agents that stayed below 0.1 m/s for 5 s before arriving.
+    pub stalled: usize,
+    /// Mean time to arrival over the agents that arrived, s; none where no agent did.
+    pub mean_time_to_goal_s: Option<f64>,
+    /// Length of the path until the arrival over that of the straight path through the waypoints; mean over the agents
+    /// that arrived.
+    pub path_over_straight_line: Option<f64>,
+    /// Share of the steps before each agent's arrival in which it side-steps at held facing.
+    pub strafing_share: f64,
+    /// Share of the steps before each agent's arrival in which it walks backward at held facing.
+    pub stepping_back_share: f64,
+    /// Deepest overlap of the capsules of two bodies, summed over pairs and steps, per agent and step, mm.
+    pub body_penetration_mm: f64,
+    /// Mean of that overlap over the pairs and steps in which bodies touch, mm; none where none ever did.
+    pub body_penetration_touching_mm: Option<f64>,
+    /// Greatest overlap of any two bodies, mm.
+    pub body_penetration_max_mm: f64,
+    /// Share of agents and steps in which a body touches another.
+    pub body_touching_share: f64,
+    /// Share of agents and frames in which a disc is held at a wall.
+    pub wall_disc_share: f64,
+    /// Share of agents and frames in which a body reaches into a wall.
+    pub wall_body_share: f64,
+    /// Greatest depth of a body in a wall, mm.
+    pub wall_body_max_mm: f64,
+    /// Slide of planted feet until each agent's arrival, cm/s; none where no foot was planted.
+    pub planted_slide_cm_s: Option<f64>,
+    /// Slide of the examples in play over the same contacts, cm/s.
+    pub examples_slide_cm_s: Option<f64>,
+    /// Share of all feet and frames until each agent's arrival that are planted.
+    pub planted_share: f64,
+    /// Mean distance between the synthesised root and the position to which the planned velocity leads in a step, m.
+    pub root_tracking_error_m: f64,
+    /// Greatest distance between the synthesised root and the position to which the planned velocity leads, m.
+    pub root_tracking_worst_m: f64,
+    /// Mean angle between facing and displacement, degrees, over the steps before each agent's arrival in which it
+    /// walks in the turning set.
+    pub heading_error_deg: f64,
+    /// Mean angle between facing and displacement, degrees, over all steps before each agent's arrival in which it
+    /// walks.
+    pub walking_heading_error_deg: f64,
+}
+
+/// Computes [`Measures`] from frames that come one by one, so that a crowd is measured while it runs.
+#[derive(Debug)]
+pub struct Measuring {
+    skeleton: Skeleton,
+    dt_s: f32,
+    steps: usize,
+    before: Vec<AgentFrame>,
+    /// Joints of every agent in the present frame, in the roots' frames.
+    joints: Vec<Joints>,
+    collisions: Collisions,
+    roots: RootMeasures,
+    slide: PlantedSlide,
+    bodies: BodyPenetration,
+    walls: WallContact,
+}
+
+impl Measuring {
+    /// Begins with the start of a scenario: every agent in index order.
+    pub fn new(skeleton: &Skeleton, scenario: &Scenario, start: &[AgentFrame]) -> Self {
+        let (agents, dt_s) = (&scenario.agents, scenario.dt_s);
+        let mut measuring = Self {
+            skeleton: skeleton.clone(),
+            dt_s,
+            steps: 0,
+            before: start.to_vec(),
+            joints: Vec::with_capacity(agents.len()),
+            collisions: Collisions::new(agents.iter().map(|agent| agent.radius_m)),
+            roots: RootMeasures::new(agents, start, dt_s),
+            slide: PlantedSlide::new(skeleton, agents.len(), dt_s),
+            bodies: BodyPenetration::new(skeleton, agents.len()),
+            walls: WallContact::new(skeleton, scenario),
+        };
+        measuring.pose(start);
+        measuring.follow_feet(start);
+        measuring
+    }
+
+    /// Adds one step, given every agent after it, in index order.
+    pub fn push(&mut self, after: &[AgentFrame]) {
+        self.steps += 1;
+        self.pose(after);
+        self.collisions.push(&roots_m(&self.before), &roots_m(after));
+        self.follow_feet(after);
+        self.roots.push(&self.before, after);
+        self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
+        self.walls.push(after, &self.joints);
+        self.before.clear();
+        self.before.extend_from_slice(after);
+    }
+
+    /// Whether every agent is near its last goal now; an agent that was and has been pushed away is not.
+    pub fn all_are_at_goals(&self) -> bool {
+        self.roots.all_are_at_goals()
+    }
+
+    /// The figures after the last frame.
+    pub fn finish(self) -> Measures {
+        let (slide, bodies, walls) = (self.slide.finish(), self.bodies.finish(), self.walls.finish());
+        Measures {
+            agents: self.before.len(),
+            steps: self.steps,
+            dt_s: self.dt_s,
+            collision_rate: self.collisions.rate(self.steps),
+            minimum_separation_m: self.collisions.least_distance_m(),
+            mean_acceleration_mps2: self.roots.acceleration_mps2.value(),
+            mean_acceleration_before_arrival_mps2: self.roots.acceleration_before_arrival_mps2.value(),
+            arrived: self.roots.arrived(),
+            stalled: self.roots.stalled(),
+            mean_time_to_goal_s: self.roots.mean_time_to_goal_s(),
+            path_over_straight_line: self.roots.path_over_straight_line(),
+            strafing_share: self.roots.strafing.value(),
+            stepping_back_share: self.roots.stepping_back.value(),
+            body_penetration_mm: bodies.mean_mm,
+            body_penetration_touching_mm: bodies.touching_mm,
+            body_penetration_max_mm: bodies.greatest_mm,
+            body_touching_share: bodies.touching_share,
+            wall_disc_share: walls.disc_share,
+            wall_body_share: walls.body_share,
+            wall_body_max_mm: walls.greatest_depth_mm,
+            planted_slide_cm_s: slide.slide_cm_s,
+            examples_slide_cm_s: slide.examples_slide_cm_s,
+            planted_share: slide.planted_share,
+            root_tracking_error_m: self.roots.tracking_error_m.value(),
+            root_tracking_worst_m: self.roots.tracking_worst_m,
+            heading_error_deg: self.roots.heading_error_deg.value(),
+            walking_heading_error_deg: self.roots.walking_heading_error_deg.value(),
+        }
+    }
+
+    /// Measures the feet of agents that had not arrived before: waiting at the goal does not dilute the slide.
+    fn follow_feet(&mut self, agents: &[AgentFrame]) {
+        for (index, (agent, joints)) in agents.iter().zip(&self.joints).enumerate() {
+            if !self.roots.has_arrived(index) {
+                self.slide.push_one(index, agent, joints);
+            }
+        }
+    }
+
+    fn pose(&mut self, agents: &[AgentFrame]) {
+        self.joints.clear();
+        self.joints.extend(agents.iter().map(|agent| agent.pose.forward_kinematics(&self.skeleton)));
+    }
+}
+
+/// Measures a recording, read once from its first frame to its last.
+///
+/// # Errors
+/// Where a frame cannot be read.
+pub fn measure(recording: &Recording) -> Result<Measures, RecordingError> {
+    let header = recording.header();
+    let mut agents = Vec::new();
+    recording.read_frame(0, &mut agents)?;
+    let mut measuring = Measuring::new(&header.skeleton, &header.scenario, &agents);
+    for frame in 1..recording.frame_count() {
+        recording.read_frame(frame, &mut agents)?;
+        measuring.push(&agents);
+    }
+    Ok(measuring.finish())
+}
+
+fn roots_m(agents: &[AgentFrame]) -> Vec<Vec2> {
+    agents.iter().map(|agent| agent.root.position_m).collect()
+}

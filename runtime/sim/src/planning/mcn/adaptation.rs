@@ -1,0 +1,66 @@
+//! v_op: the preferred velocity, adapted to the crowd (`FbCrowd` §4.3, App. 9.1, Eq. 9).
+//!
+//! Integrated over many steps Eq. 9 is stiff and stalls crowds, so it is evaluated afresh each step and only modulates
+//! v_pref. Masses are 1, so forces are accelerations. World axes, m/s and m/s².
+
+use glam::Vec2;
+
+use crate::planning::mcn::memory::McnMemory;
+use crate::planning::mcn::params::McnParams;
+use crate::planning::mcn::{density_filter, keep_right, power_law};
+use crate::planning::world_view::WorldView;
+use crate::world::neighbours::Neighbour;
+
+/// Computes v_op into the memory. Returns the density ahead, 1/m.
+///
+/// 1. v_pref turns to the right of agents that come;
+/// 2. driving force and social forces act for one lead time (Eq. 9);
+/// 3. the density filter limits the speed.
+pub(crate) fn adapt(world: &WorldView, agent: usize, params: &McnParams, memory: &mut McnMemory) -> f32 {
+    let (velocity_mps, mut adapted_mps) = (world.velocities_mps[agent], world.preferred_mps[agent]);
+    let lead_s = world.lead_s(params.response_s);
+    let neighbours = memory.surroundings.neighbours.lanes();
+    if params.parts.keep_right {
+        adapted_mps = keep_right::kept_right(adapted_mps, velocity_mps, neighbours, params);
+    }
+    if params.parts.adaptation {
+        let forces_mps2 = forces_mps2(world, agent, params, memory);
+        adapted_mps = pushed_mps(velocity_mps, adapted_mps, forces_mps2, lead_s, params);
+    }
+    let filtered = density_filter::filter(adapted_mps, velocity_mps, neighbours, lead_s, params);
+    memory.adapted_mps = if params.parts.density_filter { filtered.velocity_mps } else { adapted_mps };
+    filtered.density
+}
+
+/// Eq. 9, one explicit step of `lead_s` from the present velocity, with limited acceleration; `forces_mps2` is
+/// Σ f_ij + Σ f_iW.
+fn pushed_mps(velocity_mps: Vec2, preferred_mps: Vec2, forces_mps2: Vec2, lead_s: f32, params: &McnParams) -> Vec2 {
+    let driving_mps2 = (preferred_mps - velocity_mps) / params.relaxation_s;
+    let acceleration_mps2 = (driving_mps2 + forces_mps2).clamp_length_max(params.acceleration_max_mps2);
+    velocity_mps + lead_s * acceleration_mps2 // Eq. 9
+}
+
+/// Σ f_ij + Σ f_iW.
+fn forces_mps2(world: &WorldView, agent: usize, params: &McnParams, memory: &McnMemory) -> Vec2 {
+    let (own, law) = (world.disc(agent), params.power_law());
+    let meets = |neighbour: &&Neighbour| neighbour.time_to_collision_s.is_finite();
+    let of_agents = memory.surroundings.neighbours.as_slice().iter().filter(meets).map(|neighbour| {
+        power_law::agent_force_mps2(neighbour.offset_m, neighbour.relative_mps, neighbour.radius_m, &law)
+    });
+    let of_walls =
+        memory.surroundings.edges.iter().map(|near| {
+            power_law::wall_force_mps2(world.edge_m(agent, near.edge), own.velocity_mps, own.radius_m, &law)
+        });
+    of_agents.chain(of_walls).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_forces_the_driving_force_acts_alone() {
+        let pushed_mps = pushed_mps(Vec2::X, Vec2::new(1.0, 0.54), Vec2::ZERO, 0.1, &McnParams::default());
+        assert!(pushed_mps.distance(Vec2::new(1.0, 0.1)) < 1e-6);
+    }
+}

@@ -1,0 +1,42 @@
+//! A rule that a scenario breaks, and the part of the scenario that breaks it.
+
+/// A rule that a scenario breaks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScenarioFault {
+    /// The part that breaks it.
+    pub part: ScenarioPart,
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it.
+    pub help: &'static str,
+}
+
+/// A part of a scenario.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ScenarioPart {
+    /// `name`
+    Name,
+    /// `duration_s`
+    Duration,
+    /// `dt_s`
+    Step,
+    /// `[view]`
+    View,
+    /// A tunable: section and key.
+    Parameter(String, String),
+    /// Start or goals of an agent, by its index.
+    Journey(usize),
+    /// Disc, speed or facing of an agent, by its index.
+    Agent(usize),
+    /// An obstacle, by index.
+    Obstacle(usize),
+    /// All agents together.
+    Agents,
+}
+
+impl ScenarioPart {
+    /// The error that this part breaks a rule.
+    pub(crate) fn fault<T>(&self, message: String, help: &'static str) -> Result<T, ScenarioFault> {
+        Err(ScenarioFault { part: self.clone(), message, help })
+    }
+}

@@ -1,0 +1,18 @@
+//! Scenario files in TOML: read, resolved to explicit agents, checked; every mistake is shown at its position in the
+//! text.
+//!
+//! Enters: the text of a scenario file, and the agent files that it names. Leaves: a [`Scenario`](crate::Scenario), and
+//! apart from it the source of its motion.
+//!
+//! Read `reading` (the steps from text to scenario), then `scenario_file` (the keys), `agent_groups` and `agent_lines`
+//! (tables and lines of agents), `agent_placement` (from them to agents).
+
+mod agent_groups;
+mod agent_lines;
+mod agent_placement;
+mod reading;
+mod scenario_file;
+
+pub use agent_placement::{agents_of_lines, fault_of_lines};
+pub use reading::{agent_files, parse, read};
+pub use scenario_file::MotionSource;

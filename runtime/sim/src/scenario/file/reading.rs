@@ -1,0 +1,116 @@
+//! From the text of a scenario file to a checked scenario; every mistake is shown at its position in the text.
+//!
+//! 1. parse the keys (`scenario_file`);
+//! 2. find the source of the motion;
+//! 3. place the agents (`agent_placement`);
+//! 4. check all rules (`check`), and show a broken one at its part of the text.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use glam::Vec2;
+use motiondb::files::SourceText;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::maths::polygon::signed_area_m2;
+use crate::scenario::check::check;
+use crate::scenario::error::ScenarioError;
+use crate::scenario::fault::{ScenarioFault, ScenarioPart};
+use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, fault_of_lines};
+use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
+use crate::scenario::point::Point;
+use crate::scenario::resolved::{SEED, Scenario};
+
+/// Reads a scenario file and the agent files that it names. The source of its motion is a result of its own: a caller
+/// that brings a database does not need the one that the file names.
+///
+/// # Errors
+/// Where a file cannot be read or describes something that cannot be simulated.
+pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
+    parse(&read_text(path)?)
+}
+
+/// As [`read`], from a text in memory; files that it names are relative to its path.
+///
+/// # Errors
+/// Where it describes something that cannot be simulated, or a file that it names cannot be read.
+pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
+    let file = ScenarioFile::parse(source)?;
+    let motion = file.motion_source(source)?;
+    let seed = file.seed.unwrap_or(SEED);
+    let mut placed = PlacedAgents::new(source, &file.agents, seed)?;
+    let defaults = Scenario::of(std::mem::take(&mut placed.agents));
+    let scenario = Scenario {
+        name: file.name.as_ref().map_or_else(|| stem(&source.path), |name| name.get_ref().clone()),
+        duration_s: *file.duration_s.get_ref(),
+        dt_s: file.dt_s.as_ref().map_or(defaults.dt_s, |dt_s| *dt_s.get_ref()),
+        seed,
+        planner: file.planner,
+        coupling: file.coupling,
+        obstacles_m: file.obstacles.iter().map(|obstacle| counter_clockwise(&obstacle.get_ref().polygon_m)).collect(),
+        params: file.params.clone(),
+        view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
+        ..defaults
+    };
+    check(&scenario).map_err(|fault| at_its_text(source, &file, &placed, fault))?;
+    Ok((scenario, motion))
+}
+
+/// The agent files that a scenario file names, which no output may replace.
+///
+/// # Errors
+/// Where it cannot be read or is no scenario file.
+pub fn agent_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
+    let source = read_text(path)?;
+    let file = ScenarioFile::parse(&source)?;
+    let named = file.agents.get_ref().0.iter().filter_map(|(_, group)| group.file.as_ref());
+    Ok(named.map(|name| source.beside(Path::new(name.get_ref()))).collect())
+}
+
+fn read_text(path: &Path) -> Result<SourceText, ScenarioError> {
+    SourceText::read(path).map_err(|source| ScenarioError::Unreadable { path: path.to_owned(), source })
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {
+    let mut corners_m: Vec<Vec2> = polygon_m.iter().map(|&Point(corner_m)| corner_m).collect();
+    if signed_area_m2(&corners_m) < 0.0 {
+        corners_m.reverse();
+    }
+    corners_m
+}
+
+/// A broken rule, shown at the text of the part that breaks it.
+fn at_its_text(source: &SourceText, file: &ScenarioFile, placed: &PlacedAgents, fault: ScenarioFault) -> ScenarioError {
+    if let ScenarioPart::Journey(agent) = fault.part
+        && let AgentTable { lines: Some(lines), first, .. } = placed.table(agent)
+    {
+        return fault_of_lines(lines, ScenarioFault { part: ScenarioPart::Journey(agent - first), ..fault });
+    }
+    let span = match fault.part {
+        ScenarioPart::Name => file.name.as_ref().map_or(0..0, Spanned::span),
+        ScenarioPart::Duration => file.duration_s.span(),
+        ScenarioPart::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
+        ScenarioPart::View => file.view.as_ref().map_or(0..0, Spanned::span),
+        ScenarioPart::Parameter(section, key) => parameter_span(source, &section, &key),
+        ScenarioPart::Journey(agent) | ScenarioPart::Agent(agent) => placed.table(agent).span.clone(),
+        ScenarioPart::Obstacle(index) => file.obstacles[index].span(),
+        ScenarioPart::Agents => file.agents.span(),
+    };
+    source.invalid(span, fault.message, fault.help).into()
+}
+
+/// The bytes of a tunable. Parses the text once more, since [`Params`](crate::params::Params) keeps no positions.
+fn parameter_span(source: &SourceText, section: &str, key: &str) -> Range<usize> {
+    #[derive(Deserialize)]
+    struct SpannedParams {
+        params: BTreeMap<String, BTreeMap<String, Spanned<toml::Value>>>,
+    }
+    let spanned = toml::from_str::<SpannedParams>(&source.text).ok();
+    spanned.and_then(|spanned| Some(spanned.params.get(section)?.get(key)?.span())).unwrap_or(0..0)
+}

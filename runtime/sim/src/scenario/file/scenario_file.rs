@@ -1,0 +1,115 @@
+//! The keys of a scenario file in TOML, as written, and the source of its motion.
+//!
+//! ```toml
+//! clips = "../clips"                  # or database = "x.fbdb"; a folder, file or manifest, relative to this file;
+//!                                     # neither where the reader brings a database
+//! duration_s = 30.0
+//! agents = { circle = { count = 17, radius_m = 4.0 } }    # or [[agents]] tables: see `agent_groups.rs`
+//!
+//! # All keys below are optional.
+//! name = "antipodal"                  # default: the file's stem
+//! dt_s = 0.0333333                    # default: 1/30
+//! seed = 1                            # of everything random
+//! planner = "mcn"                     # or "orca", "social_force": see `planner.rs`
+//! coupling = "two_way"                # or "decoupled", "discs": see `coupling.rs`
+//! [[obstacles]]
+//! polygon_m = [[0, 0], [1, 0], [1, 1]]
+//! [params.planner]                    # MCN's tunables; all sections: see `params.rs`
+//! [params.synthesis]
+//! [view]
+//! ```
+
+use std::path::PathBuf;
+
+use motiondb::files::SourceText;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::params::Params;
+use crate::planning::planner::Planner;
+use crate::scenario::coupling::Coupling;
+use crate::scenario::error::ScenarioError;
+use crate::scenario::file::agent_groups::AgentGroups;
+use crate::scenario::point::Point;
+use crate::scenario::view::View;
+
+/// How to mend a scenario without motion.
+const NO_MOTION: &str = "add `clips = \"FOLDER\"` or `database = \"FILE.fbdb\"`, relative to this file, or give a database with `fbcrowd simulate --db`";
+
+/// The source of a scenario's motion; apart from the [`Scenario`](crate::scenario::Scenario), so that no path gets into
+/// a recording.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MotionSource {
+    /// A folder of clips, one clip or a manifest, to be compiled.
+    Clips(PathBuf),
+    /// A compiled database.
+    Database(PathBuf),
+}
+
+/// The file as written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ScenarioFile {
+    pub(crate) name: Option<Spanned<String>>,
+    clips: Option<Spanned<PathBuf>>,
+    database: Option<Spanned<PathBuf>>,
+    pub(crate) duration_s: Spanned<f32>,
+    pub(crate) dt_s: Option<Spanned<f32>>,
+    pub(crate) seed: Option<u64>,
+    #[serde(default)]
+    pub(crate) planner: Planner,
+    #[serde(default)]
+    pub(crate) coupling: Coupling,
+    pub(crate) agents: Spanned<AgentGroups>,
+    #[serde(default)]
+    pub(crate) obstacles: Vec<Spanned<ObstacleTable>>,
+    #[serde(default)]
+    pub(crate) params: Params,
+    pub(crate) view: Option<Spanned<View>>,
+}
+
+/// One `[[obstacles]]` table.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ObstacleTable {
+    pub(crate) polygon_m: Vec<Point>,
+}
+
+impl ScenarioFile {
+    pub(crate) fn parse(source: &SourceText) -> Result<Self, ScenarioError> {
+        Ok(toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message()))?)
+    }
+
+    /// The motion that the file names. The inner error: it names none, or one that is missing. The outer error: the
+    /// file itself is wrong, because it names two.
+    pub(crate) fn motion_source(
+        &self,
+        source: &SourceText,
+    ) -> Result<Result<MotionSource, ScenarioError>, ScenarioError> {
+        let (named, to_motion): (_, fn(PathBuf) -> MotionSource) = match (&self.clips, &self.database) {
+            (Some(clips), None) => (clips, MotionSource::Clips),
+            (None, Some(database)) => (database, MotionSource::Database),
+            (None, None) => {
+                return Ok(Err(source
+                    .invalid(0..0, "the file names neither `clips` nor `database`", NO_MOTION)
+                    .into()));
+            }
+            (Some(_), Some(database)) => {
+                let message = "the file names both `clips` and `database`";
+                return Err(source.invalid(database.span(), message, "remove one of them").into());
+            }
+        };
+        let path = source.beside(named.get_ref());
+        let wrong = |what: &str, help| source.invalid(named.span(), format!("{} {what}", path.display()), help).into();
+        Ok(match to_motion(path.clone()) {
+            _ if !path.exists() => Err(wrong("does not exist", "give a path relative to the scenario file")),
+            MotionSource::Clips(path) if path.extension().is_some_and(|extension| extension == "fbdb") => {
+                Err(wrong("is a database", "write `database` instead of `clips`"))
+            }
+            MotionSource::Database(path) if path.is_dir() => {
+                Err(wrong("is a folder", "write `clips` instead of `database`, or name a .fbdb file"))
+            }
+            motion => Ok(motion),
+        })
+    }
+}

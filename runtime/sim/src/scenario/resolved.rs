@@ -1,0 +1,104 @@
+//! A scenario, resolved: every agent explicit, nothing that names a path. World, metres, seconds.
+
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+use crate::params::Params;
+use crate::planning::planner::Planner;
+use crate::scenario::agent_spec::AgentSpec;
+use crate::scenario::coupling::Coupling;
+use crate::scenario::view::View;
+use crate::synthesis::Modes;
+
+/// Default time step, s: a film's.
+const STEP_S: f32 = 1.0 / 30.0;
+/// Default duration, s: that of a run of Table 1.
+const DURATION_S: f32 = 60.0;
+/// Default seed.
+pub(crate) const SEED: u64 = 1;
+
+/// What is simulated. A recording carries it whole.
+///
+/// ```
+/// use std::path::PathBuf;
+///
+/// use fbcrowd_sim::scenario;
+/// use motiondb::files::SourceText;
+///
+/// let text = "
+///     database = 'motion.fbdb'
+///     duration_s = 20
+///     agents = { circle = { count = 17, radius_m = 4 } }
+/// ";
+/// let source = SourceText { path: PathBuf::from("circle.toml"), text: text.to_owned() };
+/// // The source of the motion is a result of its own: `motion.fbdb` need not exist.
+/// let (scenario, _motion) = scenario::parse(&source)?;
+/// assert_eq!(scenario.name, "circle");
+/// assert_eq!(scenario.agents.len(), 17);
+/// assert_eq!(scenario.agents[0].goals_m, [-scenario.agents[0].position_m]);
+/// # Ok::<(), scenario::ScenarioError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scenario {
+    /// Name of the scenario: the stem of its file, unless the file sets `name`.
+    pub name: String,
+    /// Simulated time, s.
+    pub duration_s: f32,
+    /// Time step, s.
+    pub dt_s: f32,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// The planner of all agents.
+    pub planner: Planner,
+    /// What moves the discs.
+    pub coupling: Coupling,
+    /// The agents, in index order.
+    pub agents: Vec<AgentSpec>,
+    /// Simple polygons, corners counter-clockwise, world, m; agents stay outside.
+    pub obstacles_m: Vec<Vec<Vec2>>,
+    /// Tunables.
+    pub params: Params,
+    /// How the top view frames the scene.
+    pub view: View,
+}
+
+impl Scenario {
+    /// Agents on open ground, with everything else at its default.
+    ///
+    /// ```
+    /// use fbcrowd_sim::scenario::{AgentSpec, Scenario};
+    /// use glam::Vec2;
+    ///
+    /// let agent = AgentSpec {
+    ///     position_m: Vec2::ZERO,
+    ///     facing_rad: 0.0,
+    ///     goals_m: vec![Vec2::new(5.0, 0.0)],
+    ///     radius_m: 0.25,
+    ///     preferred_speed_mps: 1.33,
+    /// };
+    /// let scenario = Scenario { duration_s: 10.0, ..Scenario::of(vec![agent]) };
+    /// assert_eq!(scenario.dt_s, 1.0 / 30.0);
+    /// ```
+    pub fn of(agents: Vec<AgentSpec>) -> Self {
+        Self {
+            name: String::new(),
+            duration_s: DURATION_S,
+            dt_s: STEP_S,
+            seed: SEED,
+            planner: Planner::default(),
+            coupling: Coupling::default(),
+            agents,
+            obstacles_m: Vec::new(),
+            params: Params::default(),
+            view: View::default(),
+        }
+    }
+
+    /// The syntheses that bodies may use. Bodies that follow a path planned before them only blend.
+    pub fn modes(&self) -> Modes {
+        match self.coupling {
+            Coupling::TwoWay => self.params.synthesis.modes,
+            Coupling::Discs | Coupling::Decoupled => Modes::Blending,
+        }
+    }
+}

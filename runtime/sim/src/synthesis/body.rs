@@ -1,0 +1,83 @@
+//! A simulated body: its state from step to step, grouped by the stage that changes it, and its output for a step.
+
+use glam::Vec2;
+use motiondb::body::{Pose, Root};
+use motiondb::motion::Parameters;
+
+use crate::planning::plan::Stance;
+use crate::synthesis::SynthesisContext;
+use crate::synthesis::command::CommandState;
+use crate::synthesis::hybrid::MotionState;
+use crate::synthesis::pose::{ContactState, LookAt};
+
+/// A simulated body.
+///
+/// Each step it follows a plan ([`advance`](Self::advance)), may be kept out of walls
+/// ([`place_root`](Self::place_root)), and is posed ([`synthesize`](Self::synthesize)).
+///
+/// ```no_run
+/// use std::path::Path;
+/// use std::sync::Arc;
+///
+/// use fbcrowd_sim::planning::Plan;
+/// use fbcrowd_sim::synthesis::{Body, HmsParams, SynthesisContext, TimeStep};
+/// use glam::Vec2;
+/// use motiondb::body::{Joint, Root};
+/// use motiondb::files::database_file;
+///
+/// let (db, _checksum) = database_file::read(Path::new("motion.fbdb"))?;
+/// let context = SynthesisContext::new(Arc::new(db), HmsParams::default());
+/// let (mut body, _first_output) = Body::standing(&context, Root::default(), 0.0);
+/// let step = TimeStep::new(1.0 / 30.0);
+/// let plan = Plan { velocity_mps: Vec2::new(1.2, 0.0), ..Plan::default() };
+/// for _ in 0..90 {
+///     body.advance(&context, &plan, &step);
+///     let output = body.synthesize(&context, &step);
+///     let joints = output.pose.forward_kinematics(&context.db.skeleton);
+///     println!("head: {} m", body.root.to_world(joints.positions_m[Joint::Head.index()]));
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Body {
+    /// Root, in the world.
+    pub root: Root,
+    /// Velocity of the root in the last step, after walls, world, m/s.
+    pub(crate) actual_mps: Vec2,
+    /// What the body is to do.
+    pub(crate) command: CommandState,
+    /// The motion in play.
+    pub motion: MotionState,
+    /// What holds the feet on the ground.
+    pub(crate) contact: ContactState,
+    /// Where head and chest turn.
+    pub(crate) look_at: LookAt,
+}
+
+/// The output of a body for a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyOutput {
+    /// The pose after inverse kinematics, in the root frame.
+    pub pose: Pose,
+    /// Blended contact of each foot, `[left, right]`, 0 to 1.
+    pub contacts: [f32; 2],
+    /// Stance for the planner's next step (§4.2).
+    pub stance: Stance,
+    /// Weighted mean of the planted-foot slide of the examples in play, cm/s.
+    pub examples_slide_cm_s: f32,
+}
+
+impl Body {
+    /// Places the root after a step that began at `from_m`, where walls or a disc determine it, world.
+    pub fn place_root(&mut self, from_m: Vec2, root: Root, dt_s: f32) {
+        self.actual_mps = (root.position_m - from_m) / dt_s;
+        self.root = root;
+    }
+
+    /// The velocity that the body will have whatever is planned, world, m/s: m_mb's, in the paper's transition between
+    /// the syntheses.
+    pub fn committed_mps(&self, context: &SynthesisContext) -> Option<Vec2> {
+        let Parameters { speed_mps, strafe_mps, .. } = self.motion.committed(context)?;
+        Some(Vec2::from_angle(self.root.facing_rad).rotate(Vec2::new(speed_mps, strafe_mps)))
+    }
+}

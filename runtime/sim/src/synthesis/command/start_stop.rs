@@ -1,0 +1,43 @@
+//! The feet of a body that starts or stops to step: which foot makes the first step, and when both are under the body.
+//!
+//! Positions are those of the balls of the feet, relative to those of a standing body, metres.
+
+use glam::Vec2;
+use motiondb::body::Root;
+use motiondb::motion::Parameters;
+
+use crate::synthesis::blending::BlendDomain;
+use crate::synthesis::pose::ContactState;
+
+/// Greatest distance of a foot from its position in standing at which it is under the body, m: half a small step.
+const GATHERED_M: f32 = 0.18;
+/// Phase of the first step before the swinging foot passes the other: the foot lifts there, and passes when stepping
+/// has faded in.
+const LIFT_OFF_PHASE: f32 = 0.15;
+/// Lead of a foot, m, up to which it makes the first step to its own side.
+const SIDE_LEAD_M: f32 = 0.1;
+
+/// Phase of the first step; the phase of a standing body is free, since standing hardly moves. The foot that lifts is
+/// the one further behind, or the one on the side of the step. So the other foot is under the body.
+pub(crate) fn first_step_phase(command: Parameters, contact: &ContactState, root: &Root, domain: &BlendDomain) -> f32 {
+    let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = command;
+    let (direction, frame) = (Vec2::new(speed_mps, strafe_mps).normalize_or_zero(), root.frame());
+    let ahead_m = [0, 1].map(|side| {
+        let ball_m = frame.to_local(contact.locks[side].ball_m()) - domain.standing_balls_m[side];
+        ball_m.truncate().dot(direction)
+    });
+    let to_left = direction.y + turn_rate_rad_s / domain.turn_rate_max_rad_s;
+    let passing_phase = if ahead_m[0] - ahead_m[1] < SIDE_LEAD_M * to_left { 1.0 } else { 0.5 };
+    passing_phase - LIFT_OFF_PHASE
+}
+
+/// Whether both feet are planted, and near enough to their positions in standing.
+pub(crate) fn feet_gathered(contact: &ContactState, root: &Root, domain: &BlendDomain) -> bool {
+    let frame = root.frame();
+    let gathered = |side: usize| {
+        let standing_m = frame.to_world(domain.standing_balls_m[side]);
+        let off_m = (contact.locks[side].ball_m() - standing_m).truncate();
+        contact.locks[side].planted() && off_m.length() < GATHERED_M
+    };
+    gathered(0) && gathered(1)
+}

@@ -1,0 +1,133 @@
+//! Standing or stepping: a body stands, or it takes steps that lift its feet.
+//!
+//! A mix of little steps and much idle lifts no foot: by the blended contact Σ w·c both feet stay planted as long as
+//! standing has the greater share. So a body stands, or it takes at least the *least steps*, a mix with
+//! [`IDLE_SHARE_MAX`] of standing. Slower steps are the least steps at a lower playback rate, down to
+//! [`PLAYBACK_RATE_MIN`]. A body that stops takes small steps until its feet are under it.
+//!
+//! Parameters are (v_f, ω_t, ω_s) in the body's frame, m/s and rad/s; shares are shares of time.
+
+use glam::Vec2;
+use motiondb::blend_space::Shares;
+use motiondb::motion::Parameters;
+
+use crate::synthesis::blending::{BlendDomain, Reachable};
+use crate::synthesis::command::command_filter::CommandFilter;
+
+/// Greatest share of standing examples in steps: with more, the blended contact of a swinging foot stays above ½.
+const IDLE_SHARE_MAX: f32 = 0.35;
+/// Least playback rate of the least steps: a cadence of half a stroll's.
+pub(crate) const PLAYBACK_RATE_MIN: f32 = 0.3;
+/// Share of standing in the command below which a standing body starts to step.
+pub const START_IDLE_SHARE: f32 = 0.8;
+/// Share of standing in the command above which a stepping body stops. The slowest steps have
+/// 0.805 = 1 − [`PLAYBACK_RATE_MIN`]·(1 − [`IDLE_SHARE_MAX`]), between start and stop.
+const STOP_IDLE_SHARE: f32 = 0.82;
+/// Share of standing in the command above which a stepping body stops at once: not even a direction is left.
+const HALT_IDLE_SHARE: f32 = 0.95;
+/// Greatest speed of the slowest walk for idle shares, m/s. In a set without slow walks, fast ones mix with so much
+/// standing that no body would start.
+const SLOWEST_WALK_MAX_MPS: f32 = 1.3;
+/// Least duration of standing and of stepping, s: about a step. A planner that leads from the present velocity requests
+/// it a little longer.
+const STATE_DURATION_S: f32 = 0.4;
+/// Time ahead at which a command that passes through rest is evaluated, s: the duration of a change from one side-step
+/// to the other at 2.5 m/s².
+const PASSING_TIME_S: f32 = 0.2;
+/// Greatest duration of the small steps by which a stopping body gathers its feet, s.
+const GATHERING_DURATION_MAX_S: f32 = 1.2;
+/// Share of the current velocity at which a body gathers its feet, unless the least steps are faster.
+const GATHERING_SPEED_SHARE: f32 = 0.25;
+
+/// Whether a body stands or steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct StepState {
+    /// Whether the body stands, both feet on the ground.
+    pub stands: bool,
+    /// Duration of the present state, s.
+    duration_s: f32,
+    /// Time for which the body has been gathering its feet, s; 0 while it is not to stop.
+    gathering_s: f32,
+}
+
+impl StepState {
+    /// A body that stands and may start at once.
+    pub(crate) const STANDING: Self = Self { stands: true, duration_s: STATE_DURATION_S, gathering_s: 0.0 };
+
+    /// Follows what the examples reach of the command, with hysteresis. `feet_gathered` returns whether the feet are
+    /// under the body. Returns whether the body starts to step.
+    pub(crate) fn follow(&mut self, reachable: &Reachable, feet_gathered: impl FnOnce() -> bool, dt_s: f32) -> bool {
+        let idle_share = reachable.idle_share.min(idle_share_max(reachable.parameters));
+        let may_change = self.duration_s >= STATE_DURATION_S;
+        let stop = !self.stands && (may_change && idle_share > STOP_IDLE_SHARE || idle_share > HALT_IDLE_SHARE);
+        let start = self.stands && may_change && idle_share < START_IDLE_SHARE;
+        self.gathering_s = if stop { self.gathering_s + dt_s } else { 0.0 };
+        if start || self.gathering_s > GATHERING_DURATION_MAX_S || stop && feet_gathered() {
+            *self = Self { stands: !self.stands, duration_s: 0.0, gathering_s: 0.0 };
+        }
+        self.duration_s += dt_s;
+        start
+    }
+
+    /// What the examples reach of a command. Where the command of a stepping body passes through rest, the command
+    /// [`PASSING_TIME_S`] later counts.
+    pub(crate) fn reachable(&self, filter: &CommandFilter, domain: &BlendDomain) -> Reachable {
+        let reachable = domain.reachable(filter.command);
+        let rests = !self.stands && reachable.idle_share > STOP_IDLE_SHARE;
+        let later = filter.ahead(PASSING_TIME_S);
+        if rests && idle_share_max(later) < STOP_IDLE_SHARE { domain.reachable(later) } else { reachable }
+    }
+
+    /// Whether the body walks and its command continues the walk.
+    pub(crate) fn walks_on(&self, reachable: &Reachable) -> bool {
+        !self.stands && reachable.idle_share < IDLE_SHARE_MAX
+    }
+
+    /// Target of the motion in play: what the examples reach of the command, at no less than the least steps; standing
+    /// for a body that stands. `current` gives the direction of the steps that gather the feet.
+    pub(crate) fn target(&self, reachable: &Reachable, current: Parameters, domain: &BlendDomain) -> Parameters {
+        if self.stands {
+            return domain.standing.parameters;
+        }
+        let steps = if reachable.idle_share > HALT_IDLE_SHARE {
+            &domain.reachable(Parameters::from_vec3(GATHERING_SPEED_SHARE * current.to_vec3()))
+        } else {
+            reachable
+        };
+        let playback_rate_min = if self.gathering_s > 0.0 { 1.0 } else { PLAYBACK_RATE_MIN };
+        // Standing lies at the origin, so a scaled point has the scaled share of steps.
+        let stepping_share = (1.0 - steps.idle_share).max(1.0 - HALT_IDLE_SHARE);
+        let scale = (playback_rate_min * (1.0 - IDLE_SHARE_MAX) / stepping_share).max(1.0);
+        Parameters::from_vec3(scale * steps.parameters.to_vec3())
+    }
+
+    /// Shares and playback rate for parameters that the examples reach.
+    pub(crate) fn playback(&self, reachable: &Reachable, domain: &BlendDomain) -> (Shares, f32) {
+        let stepping_share = 1.0 - reachable.idle_share;
+        if self.stands || stepping_share >= 1.0 - IDLE_SHARE_MAX || stepping_share <= 0.0 {
+            return (reachable.shares, 1.0);
+        }
+        let rate = stepping_share / (1.0 - IDLE_SHARE_MAX);
+        let least_steps = Parameters::from_vec3(reachable.parameters.to_vec3() / rate);
+        (domain.locate(least_steps), rate.max(PLAYBACK_RATE_MIN))
+    }
+}
+
+/// Greatest share of standing that a speed counts as.
+fn idle_share_max(parameters: Parameters) -> f32 {
+    1.0 - Vec2::new(parameters.speed_mps, parameters.strafe_mps).length() / SLOWEST_WALK_MAX_MPS
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_without_slow_steps_start_too() {
+        // Half a second's acceleration, of which a walk at 4 m/s is a twelfth.
+        let parameters = Parameters { speed_mps: 0.33, ..Parameters::default() };
+        let reachable = Reachable { parameters, idle_share: 0.92, ..Reachable::default() };
+        let mut step_state = StepState::STANDING;
+        assert!(step_state.follow(&reachable, || true, 1.0 / 30.0));
+    }
+}

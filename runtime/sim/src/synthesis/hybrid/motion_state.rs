@@ -1,0 +1,131 @@
+//! The motion group of a body's state: the motion in play.
+//!
+//! Parameters (v_f, ω_t, ω_s) are in the body's frame (x forward, y left), m/s and rad/s.
+
+use motiondb::motion::{MotionDb, Parameters};
+
+use crate::synthesis::blending::example_mix::advanced_phase;
+use crate::synthesis::blending::{BlendDomain, ExampleMix, Reachable};
+use crate::synthesis::command::acceleration_limit::limited_by_axis;
+use crate::synthesis::command::phase_catch_up::PhaseCatchUp;
+use crate::synthesis::command::{CommandState, weight_transition};
+use crate::synthesis::hybrid::active_motion::ActiveMotion;
+use crate::synthesis::hybrid::inertialization::Inertialization;
+use crate::synthesis::hybrid::mode_selection::ModeSelection;
+use crate::synthesis::hybrid::pose_smoothing::SmoothedMotion;
+use crate::synthesis::semi_procedural::BaseWalk;
+use crate::synthesis::semi_procedural::deformation::Tempo;
+use crate::synthesis::{Mode, SynthesisContext, TimeStep};
+
+/// The motion in play, what is drawn of it, and what is left of earlier motion.
+#[derive(Clone, Copy, Debug)]
+pub struct MotionState {
+    /// Synthesis in force.
+    pub mode: Mode,
+    /// Synthesis that is to move the body.
+    pub(crate) selection: ModeSelection,
+    /// Examples in play while the body blends.
+    pub mix: ExampleMix,
+    /// Parameters of m_sp in semi-procedural locomotion.
+    pub(crate) parameters: Parameters,
+    /// φ.
+    pub phase: f32,
+    /// Correction of the phase rate that spares planted feet.
+    pub(crate) phase_catch_up: PhaseCatchUp,
+    /// What is drawn of the motion: after this step, and after the last.
+    pub smoothed: [SmoothedMotion; 2],
+    /// Difference of poses that a switch has left.
+    pub(crate) inertialization: Inertialization,
+}
+
+impl MotionState {
+    /// The motion of a body that stands.
+    pub(crate) fn standing(domain: &BlendDomain, phase: f32) -> Self {
+        let mix = ExampleMix::new(&domain.standing.shares);
+        Self {
+            mode: Mode::Blending,
+            selection: ModeSelection::BLENDING,
+            mix,
+            parameters: Parameters::default(),
+            phase,
+            phase_catch_up: PhaseCatchUp::default(),
+            smoothed: [SmoothedMotion::standing(mix); 2],
+            inertialization: Inertialization::default(),
+        }
+    }
+
+    /// What the motion does now.
+    pub(crate) fn current(&self, db: &MotionDb) -> Parameters {
+        match self.mode {
+            Mode::Blending => self.mix.parameters(db),
+            Mode::SemiProcedural => self.parameters,
+        }
+    }
+
+    /// The base walk and its current parameters in semi-procedural locomotion; `None` while the body blends.
+    pub(crate) fn deformed<'a>(&self, context: &'a SynthesisContext) -> Option<(&'a BaseWalk, Parameters)> {
+        let hybrid = context.hybrid.as_ref().filter(|_| self.mode == Mode::SemiProcedural);
+        hybrid.map(|hybrid| (&hybrid.base_walk, self.parameters))
+    }
+
+    /// The active motion at the present phase, as it is drawn.
+    pub(crate) fn active<'a>(&self, context: &'a SynthesisContext) -> ActiveMotion<'a> {
+        ActiveMotion::new(context, self.mode, &self.smoothed[0], &self.mix, self.phase)
+    }
+
+    /// What the motion is to change towards: the command, as far as the synthesis in force and the selected one reach
+    /// it.
+    pub(crate) fn target(
+        &self,
+        command: &CommandState,
+        reachable: &Reachable,
+        context: &SynthesisContext,
+    ) -> Parameters {
+        match (self.mode, self.selection.mode, &context.hybrid) {
+            (Mode::SemiProcedural, Mode::SemiProcedural, _) => command.filter.command,
+            (Mode::SemiProcedural, Mode::Blending, _) => self.committed(context).unwrap_or(reachable.parameters),
+            (Mode::Blending, selected, hybrid) => {
+                let steps = || command.step_state.target(reachable, self.current(&context.db), &context.domain);
+                let target = self.committed(context).unwrap_or_else(steps);
+                let hybrid = hybrid.as_ref().filter(|_| selected == Mode::SemiProcedural);
+                hybrid.map_or(target, |hybrid| hybrid.base_walk.reachable(target))
+            }
+        }
+    }
+
+    /// Changes the motion by one step towards a target, at limited accelerations.
+    pub(crate) fn approach(
+        &mut self,
+        target: Parameters,
+        reachable: &Reachable,
+        command: &CommandState,
+        context: &SynthesisContext,
+        dt_s: f32,
+    ) {
+        match self.mode {
+            Mode::Blending => {
+                weight_transition::follow(&mut self.mix, target, reachable, command.step_state, context, dt_s);
+            }
+            Mode::SemiProcedural => {
+                self.parameters = limited_by_axis(self.parameters, target, &context.params, dt_s);
+            }
+        }
+    }
+
+    /// Advances the phase by a duration of the motion's own time, s.
+    pub(crate) fn advance_phase(&mut self, duration_s: f32, context: &SynthesisContext) {
+        self.phase = match self.deformed(context) {
+            Some((base_walk, parameters)) => {
+                let map = Tempo::new(base_walk, parameters, self.smoothed[0].travel).phase_map();
+                advanced_phase(self.phase, duration_s, |phase| map.rate_hz(phase))
+            }
+            None => self.mix.advanced_phase(&context.db, self.phase, duration_s),
+        };
+    }
+
+    /// Lets the drawn motion follow the motion in play. Returns whether the body reverses.
+    pub(crate) fn smooth(&mut self, db: &MotionDb, step: &TimeStep) -> bool {
+        self.smoothed[1] = self.smoothed[0];
+        self.smoothed[0].follow(self.mode, &self.mix, self.parameters, db, step)
+    }
+}

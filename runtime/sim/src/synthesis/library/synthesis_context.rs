@@ -1,0 +1,44 @@
+//! The synthesis context: all that every step of every body reads, derived once from a database.
+
+use std::sync::Arc;
+
+use motiondb::motion::MotionDb;
+
+use crate::synthesis::HmsParams;
+use crate::synthesis::blending::BlendDomain;
+use crate::synthesis::library::augmented_database::augmented;
+use crate::synthesis::library::hybrid_data::HybridData;
+
+/// A database and what the synthesis derives from it, shared by all bodies.
+///
+/// ```no_run
+/// use std::path::Path;
+/// use std::sync::Arc;
+///
+/// use fbcrowd_sim::synthesis::{HmsParams, SynthesisContext};
+/// use motiondb::files::database_file;
+///
+/// let (db, _checksum) = database_file::read(Path::new("motion.fbdb"))?;
+/// let context = SynthesisContext::new(Arc::new(db), HmsParams::default());
+/// println!("fastest example: {} m/s", context.domain.speed_max_mps);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SynthesisContext {
+    /// Poses, parameters and phase maps of the examples; augmented where the given database lacks what crowds need.
+    pub db: Arc<MotionDb>,
+    /// Blend domain of the database.
+    pub domain: BlendDomain,
+    /// Data of hybrid synthesis; `None` where bodies only blend.
+    pub hybrid: Option<HybridData>,
+    /// Tunables.
+    pub params: HmsParams,
+}
+
+impl SynthesisContext {
+    /// Prepares a database for the syntheses that the tunables name.
+    pub fn new(db: Arc<MotionDb>, params: HmsParams) -> Self {
+        let db = augmented(db);
+        Self { domain: BlendDomain::new(&db), hybrid: HybridData::new(&db, params.modes), db, params }
+    }
+}

@@ -1,0 +1,63 @@
+//! The contact group of a body's state: what holds its feet on the ground.
+//!
+//! Postures and soles are in the root frame (x forward, y left, z up), the locks in the world; metres.
+
+use glam::Vec3;
+use motiondb::body::{RootFrame, Skeleton};
+
+use crate::synthesis::TimeStep;
+use crate::synthesis::pose::foot_lock::{FootLock, PosedFoot};
+use crate::synthesis::pose::leg::FootPose;
+use crate::synthesis::pose::pelvis::PelvisDrop;
+use crate::synthesis::pose::posture::Posture;
+
+/// Foot locks and pelvis drop of a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct ContactState {
+    /// Lock of each foot, `[left, right]`.
+    pub locks: [FootLock; 2],
+    /// Drop of the pelvis for locked feet.
+    pelvis_drop: PelvisDrop,
+}
+
+impl ContactState {
+    /// The state of a body whose feet stand as posed.
+    pub(crate) fn standing(posture: &Posture, frame: &RootFrame, skeleton: &Skeleton) -> Self {
+        let soles_m = posture.soles_m(skeleton);
+        let lock = |side: usize| FootLock::new(&posed_foot(frame, &posture.feet[side], soles_m[side]));
+        Self { locks: [0, 1].map(lock), pelvis_drop: PelvisDrop::default() }
+    }
+
+    /// Moves the feet of a posture to their locks and lowers its pelvis by what the legs then require. `contacts_ahead`
+    /// are the contacts [`LANDING_AHEAD_S`](crate::synthesis::pose::foot_lock::LANDING_AHEAD_S) later.
+    pub(crate) fn lock_feet(
+        &mut self,
+        posture: &mut Posture,
+        planted: [bool; 2],
+        contacts_ahead: [f32; 2],
+        frame: &RootFrame,
+        skeleton: &Skeleton,
+        step: &TimeStep,
+    ) {
+        let soles_m = posture.soles_m(skeleton);
+        let locked = [0, 1].map(|side| {
+            let foot = &posture.feet[side];
+            let posed = posed_foot(frame, foot, soles_m[side]);
+            let locked = self.locks[side].step(&posed, planted[side], contacts_ahead[side], step);
+            FootPose { ankle_m: frame.to_local(locked.ankle_m), orientation: locked.twist * foot.orientation }
+        });
+        posture.lock_feet(locked, |required_m| self.pelvis_drop.follow(required_m, step));
+    }
+
+    /// Records the soles as the legs could draw them.
+    pub(crate) fn record_drawn(&mut self, soles_m: &[[Vec3; 3]; 2], frame: &RootFrame, step: &TimeStep) {
+        for (lock, sole_m) in self.locks.iter_mut().zip(soles_m) {
+            lock.record_drawn(sole_m.map(|point_m| frame.to_world(point_m)), step);
+        }
+    }
+}
+
+/// A foot of a posture, in the world.
+fn posed_foot(frame: &RootFrame, foot: &FootPose, sole_m: [Vec3; 3]) -> PosedFoot {
+    PosedFoot { ankle_m: frame.to_world(foot.ankle_m), sole_m: sole_m.map(|point_m| frame.to_world(point_m)) }
+}

@@ -1,0 +1,85 @@
+//! The errors of this crate: why clips give no database.
+
+use std::io;
+use std::path::PathBuf;
+
+use motiondb::files::Invalid;
+use motiondb::motion::SourceRecord;
+
+use crate::error::Rejection;
+
+/// Why clips give no database.
+#[derive(Debug, thiserror::Error)]
+pub enum CompileError {
+    /// A folder of clips cannot be listed.
+    #[error("{}: {source}; check that the folder exists and may be read", folder.display())]
+    UnreadableFolder {
+        /// The folder.
+        folder: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A manifest cannot be read as text.
+    #[error("{}: cannot be read: {source}; check that the file exists and is text in UTF-8", manifest.display())]
+    UnreadableManifest {
+        /// The manifest.
+        manifest: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// A manifest breaks its format, or a clip contradicts it.
+    #[error(transparent)]
+    InvalidManifest(Box<Invalid>),
+    /// No clip is given.
+    #[error("no clips; name *.bvh, *.glb or *.gltf files or a folder that holds some")]
+    NoClips,
+    /// All clips were read, and none shows a steady gait or a body that stands.
+    #[error(
+        "no clip gives an example: {}; give clips of steady walking, running, turning or standing",
+        reasons(rejected, sources)
+    )]
+    NoExample {
+        /// Files and clips that are not human motion, each with its reason.
+        rejected: Vec<Rejection>,
+        /// Clips of human motion, each with its diagnostics.
+        sources: Vec<SourceRecord>,
+    },
+    /// The clip that was chosen as the base walk has no steps.
+    #[error(
+        "`{name}`: no stepping cycle found; this clip cannot be the base walk (m_sp). Choose another with \
+         `semi_procedural = \"…\"`"
+    )]
+    NotStepping {
+        /// Name of the clip.
+        name: String,
+        /// Names of the clip's examples that step. Not empty where the choice named another window of the clip.
+        stepping: Vec<String>,
+    },
+    /// The database breaks an invariant: a defect of the clips that no earlier stage detects.
+    #[error(
+        "the clips give a database that breaks `{invariant}`: {detail}; leave out the clip that this names, or repair it"
+    )]
+    Unsound {
+        /// Name of the invariant in `fbcrowd validate`.
+        invariant: &'static str,
+        /// Where and how the invariant is broken.
+        detail: String,
+    },
+}
+
+impl From<Invalid> for CompileError {
+    fn from(invalid: Invalid) -> Self {
+        Self::InvalidManifest(Box::new(invalid))
+    }
+}
+
+/// One clause for each rejection and each source.
+fn reasons(rejected: &[Rejection], sources: &[SourceRecord]) -> String {
+    let rejections = rejected.iter().map(Rejection::to_string);
+    let records = sources.iter().map(|source| {
+        let clip = if source.clip.is_empty() { String::new() } else { format!(", {}", source.clip) };
+        let sentences: Vec<String> = source.diagnostics.iter().map(ToString::to_string).collect();
+        format!("{}{clip}: {}", source.file, sentences.join("; "))
+    });
+    rejections.chain(records).collect::<Vec<String>>().join("; ")
+}
