@@ -1,7 +1,7 @@
 //! The motion database: examples of human motion, and everything that the offline compiler and the runtime share.
 //!
-//! A database holds closed, phase-aligned cycles of motion (the *examples*), the velocities that they let a body walk at
-//! ([`VelocityHull`]), the simplices between them ([`BlendSpace`]) and the times at which synthesis may switch
+//! A database holds closed, phase-aligned cycles of motion (the *examples*), the velocities that they let a body walk
+//! at ([`VelocityHull`]), the simplices between them ([`BlendSpace`]) and the times at which synthesis may switch
 //! ([`Correspondence`]). The file format is `.fbdb`.
 //!
 //! Load a database, print its examples, what they reach and what they do not:
@@ -33,9 +33,9 @@
 //! }
 //! ```
 //!
-//! Chapters, in reading order: [`body`] (skeleton, poses, forward kinematics), [`diagnostic`] (what the compiler reports
-//! about clips), [`motion`] (parameters, examples, the database, switching times), [`velocity_sets`] (`FbCrowd` §4.1),
-//! [`blend_space`] (§5), [`quality`], [`validate`] (the invariants), [`files`] and [`statistics`].
+//! Chapters, in reading order: [`body`] (skeleton, poses, forward kinematics), [`diagnostic`] (what the compiler
+//! reports about clips), [`motion`] (parameters, examples, the database, switching times), [`velocity_sets`] (`FbCrowd`
+//! §4.1), [`blend_space`] (§5), [`quality`], [`validate`] (the invariants), [`files`] and [`statistics`].
 //!
 //! Conventions: metres, seconds, radians; x and y on the ground, z up, right-handed. A body's frame: x forward, y left.
 //! Angles are counter-clockwise seen from above. Pairs of sides are `[left, right]`.

@@ -28,10 +28,10 @@ fn set(points: &[[f32; 3]], dimension: u32, simplices: &[u32]) -> MotionDb {
 }
 
 #[track_caller]
-fn check(db: &MotionDb, wanted: &[(GapKind, &str)]) {
+fn check(db: &MotionDb, expected: &[(GapKind, &str)]) {
     let found = coverage(db);
     let found: Vec<(GapKind, &str)> = found.iter().map(|gap| (gap.kind, gap.sentence.as_str())).collect();
-    assert_eq!(found, wanted);
+    assert_eq!(found, expected);
 }
 
 /// Sentences of the gaps of one kind.

@@ -43,7 +43,8 @@ impl HullSurface {
         Self { facets, nodes }
     }
 
-    /// The surface's point nearest to `query`; [`NearestPoint::NONE`] for an empty surface or a query that is not finite.
+    /// The surface's point nearest to `query`; [`NearestPoint::NONE`] for an empty surface or a query that is not
+    /// finite.
     pub(crate) fn nearest(&self, query: DVec3) -> NearestPoint {
         let mut nearest = NearestPoint::NONE;
         if !self.nodes.is_empty() && query.is_finite() {

@@ -4,8 +4,8 @@
 //! examples and rounded to 2⁻²⁰ of it. `triangulation` builds the simplices on these points, and `tiling` proves them
 //! there, both without rounding or tolerance.
 //!
-//! An axis without range is dropped. A set that is flat within gait noise counts as flat: it is projected along the axis
-//! nearest to its normal.
+//! An axis without range is dropped. A set that is flat within gait noise counts as flat: it is projected along the
+//! axis nearest to its normal.
 
 use glam::DVec3;
 
@@ -41,7 +41,8 @@ pub(crate) struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice of the examples' parameters; `None` without examples, or if a parameter is not finite or far too large.
+    /// The lattice of the examples' parameters; `None` without examples, or if a parameter is not finite or far too
+    /// large.
     pub(crate) fn new(parameters: &[Parameters]) -> Option<Self> {
         let least = parameters.iter().map(|at| at.to_vec3()).reduce(|a, b| a.min(b))?;
         let axis_ranges = axis_ranges(parameters)?;
@@ -83,7 +84,7 @@ fn spanning_simplex(points: &[[i64; 3]]) -> (Vec<usize>, Vec<DVec3>) {
     let (mut span, mut directions) = (vec![0], Vec::<DVec3>::new());
     while directions.len() < 3 {
         let off_span = |index| directions.iter().fold(offset(index), |off, along| off.reject_from_normalized(*along));
-        // Reversed: `max_by` returns the last of equals, and the first is wanted.
+        // Reversed: `max_by` returns the last of equals, and here the first must win.
         let offs = (0..points.len()).rev().map(|index| (index, off_span(index)));
         match offs.max_by(|(_, a), (_, b)| a.length_squared().total_cmp(&b.length_squared())) {
             Some((index, off)) if off.length() > STEPS * f64::from(FLAT_SHARE) => {
@@ -96,7 +97,8 @@ fn spanning_simplex(points: &[[i64; 3]]) -> (Vec<usize>, Vec<DVec3>) {
     (span, directions)
 }
 
-/// The axes, ascending, onto which a set with these orthonormal directions is projected: as many as there are directions.
+/// The axes, ascending, onto which a set with these orthonormal directions is projected: as many as there are
+/// directions.
 fn spanning_axes(directions: &[DVec3]) -> Vec<usize> {
     let steepest = |of: DVec3| (0..3).max_by(|&a, &b| of[a].abs().total_cmp(&of[b].abs()));
     match *directions {

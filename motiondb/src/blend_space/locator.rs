@@ -82,8 +82,8 @@ fn fills_its_axes(space: &BlendSpace) -> bool {
     space.axis_ranges.iter().filter(|range| **range > 0.0).count() == space.dimension as usize
 }
 
-/// How far off the reached parameters may be along each axis, m/s, rad/s, m/s: gait noise along a dropped axis, and along
-/// every axis of a flat set.
+/// How far off the reached parameters may be along each axis, m/s, rad/s, m/s: gait noise along a dropped axis, and
+/// along every axis of a flat set.
 fn reach_tolerance(space: &BlendSpace) -> Vec3 {
     let share = if fills_its_axes(space) { REACHED_SHARE } else { FLAT_SHARE };
     Vec3::from_array(std::array::from_fn(|axis| match space.axis_ranges[axis] {

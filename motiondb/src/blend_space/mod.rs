@@ -2,11 +2,11 @@
 //!
 //! Enters: (v_f, ω_t, ω_s) of each example. Leaves: for a requested point, the shares of at most four examples.
 //!
-//! Read `space` first. Offline: `triangulation` builds the simplices on the exact `lattice`, `tiling` proves that they fill
-//! the hull. At run time: `locator` finds the shares of a point, with `simplex`, `simplex_grid` (inside the hull) and
-//! `hull_surface` (outside).
+//! Read `space` first. Offline: `triangulation` builds the simplices on the exact `lattice`, `tiling` proves that they
+//! fill the hull. At run time: `locator` finds the shares of a point, with `simplex`, `simplex_grid` (inside the hull)
+//! and `hull_surface` (outside).
 //!
-//! Build a blend space over three examples, and ask for a point between them:
+//! Build a blend space over three examples, and query a point between them:
 //!
 //! ```
 //! use motiondb::blend_space::triangulation;

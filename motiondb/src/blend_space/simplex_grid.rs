@@ -1,8 +1,8 @@
 //! A grid over the simplices' bounding box: each cell lists the simplices that reach into it, the likeliest first.
 //!
-//! Enters: a point in the metric of the blend space. Leaves: the simplices that may hold it, in constant time. There are
-//! many more cells than simplices, so the lists stay short. The work of building them is bounded for any input. Along a
-//! dropped axis the box has no extent, and everything is in the first cells.
+//! Enters: a point in the metric of the blend space. Leaves: the simplices that may hold it, in constant time. There
+//! are many more cells than simplices, so the lists stay short. The work of building them is bounded for any input.
+//! Along a dropped axis the box has no extent, and everything is in the first cells.
 
 use glam::DVec3;
 

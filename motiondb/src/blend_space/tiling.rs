@@ -8,8 +8,8 @@
 //! 3. No example lies beyond a boundary facet.
 //! 4. A point of the first simplex lies in no other.
 //!
-//! By 3, boundary facets lie on the hull. By 2, crossing any other facet leaves one simplex and enters one, so the number
-//! of simplices that hold a point is the same everywhere inside the hull. By 4 it is one.
+//! By 3, boundary facets lie on the hull. By 2, crossing any other facet leaves one simplex and enters one, so the
+//! number of simplices that hold a point is the same everywhere inside the hull. By 4 it is one.
 
 use crate::blend_space::lattice::{COINCIDENT_STEPS, Lattice, LatticePoint, signed_volume};
 use crate::blend_space::space::{BlendSpace, MAX_CORNERS};
@@ -20,7 +20,8 @@ const RANGE_TOLERANCE: f32 = 1e-5;
 /// Tolerance of `covered_share`: a quotient of volumes in `f64`, stored as `f32`.
 const COVERED_TOLERANCE: f32 = 1e-6;
 
-/// The fault of a blend space, as a text for people; `None` if its simplices tile the hull of the examples' `parameters`.
+/// The fault of a blend space, as a text for people; `None` if its simplices tile the hull of the examples'
+/// `parameters`.
 pub(crate) fn tiling_fault(space: &BlendSpace, parameters: &[Parameters]) -> Option<String> {
     prove(space, parameters).err()
 }
@@ -136,8 +137,8 @@ fn facets_of(corners: &[u32], lattice: &Lattice) -> impl Iterator<Item = Facet> 
     })
 }
 
-/// Step 3: no example lies beyond a boundary facet. An example that is no corner coincides with one, and may lie that far
-/// outside.
+/// Step 3: no example lies beyond a boundary facet. An example that is no corner coincides with one, and may lie that
+/// far outside.
 fn boundary_is_convex(space: &BlendSpace, boundary: &[Facet], lattice: &Lattice) -> Proof {
     let mut is_corner = vec![false; lattice.points.len()];
     space.simplices.iter().for_each(|&corner| is_corner[corner as usize] = true);
@@ -156,8 +157,8 @@ fn boundary_is_convex(space: &BlendSpace, boundary: &[Facet], lattice: &Lattice)
     Ok(())
 }
 
-/// Step 4: the centre of the first simplex lies in no other. All points are multiplied by the number of corners, so that
-/// the centre is on the lattice.
+/// Step 4: the centre of the first simplex lies in no other. All points are multiplied by the number of corners, so
+/// that the centre is on the lattice.
 fn covers_once(space: &BlendSpace, lattice: &Lattice) -> Proof {
     let count = lattice.dimension as i64 + 1;
     let enlarged: Vec<LatticePoint> = lattice.points.iter().map(|point| point.map(|x| x * count)).collect();
@@ -266,8 +267,8 @@ mod tests {
         }
     }
 
-    /// All facets match and lie on the hull, but the cube is filled twice: around the tetrahedron of its even corners, and
-    /// around that of its odd ones.
+    /// All facets match and lie on the hull, but the cube is filled twice: around the tetrahedron of its even corners,
+    /// and around that of its odd ones.
     #[test]
     fn a_second_cover_with_other_facets_is_found() {
         let (mut space, parameters) = grid(&[1, 1, 1]);

@@ -18,7 +18,7 @@ use crate::blend_space::lattice::{COINCIDENT_STEPS, Lattice, LatticePoint, signe
 use crate::blend_space::space::{BlendSpace, MAX_CORNERS};
 use crate::motion::parameters::Parameters;
 
-/// Index that stands for the point at infinity among the corners of a simplex.
+/// Index of the point at infinity among the corners of a simplex.
 const INFINITY: usize = usize::MAX;
 
 /// The blend space of the examples' `parameters`, in as many dimensions as they span. Of coincident examples, one is a
@@ -155,7 +155,8 @@ impl Triangulation {
         simplices
     }
 
-    /// Volume of the finite simplices over the volume of the hull, which the facets at infinity span with the first site.
+    /// Volume of the finite simplices over the volume of the hull, which the facets at infinity span with the first
+    /// site.
     fn covered_share(&self) -> f32 {
         let (finite, infinite): (Vec<&SiteSimplex>, Vec<&SiteSimplex>) =
             self.simplices.iter().partition(|simplex| self.is_finite(simplex));
@@ -213,7 +214,8 @@ mod tests {
         (build(&parameters), parameters)
     }
 
-    /// Checks that the simplices tile the hull, no site lies below a lifted plane, and mixtures of examples are reached.
+    /// Checks that the simplices tile the hull, no site lies below a lifted plane, and mixtures of examples are
+    /// reached.
     fn check(points: &[[f32; 3]], dimension: u32) {
         let (space, parameters) = built(points);
         assert_eq!(space.dimension, dimension, "{points:?}");

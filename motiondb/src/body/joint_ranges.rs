@@ -4,7 +4,7 @@
 //! tabulated by Norkin and White, *Measurement of Joint Motion*, appendix A. The ankle bends farther under the body's
 //! weight than the 20° of that table: 30 to 40° in lunges (Rabin et al. 2015, *J. Athl. Train.* 50, 30–35).
 //!
-//! The tables give ranges per anatomical axis. Where a segment stands for several joints (spine, shoulder with its
+//! The tables give ranges per anatomical axis. Where a segment represents several joints (spine, shoulder with its
 //! blade), their sum is shared out. Rotation vectors are in the rest pose's body axes (x forward, y left, z up, arms
 //! out, palms down): +y bends the trunk forward and flexes the knee; −y flexes the hip and lifts the toes.
 

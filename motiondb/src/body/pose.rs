@@ -10,6 +10,15 @@ use serde::{Deserialize, Serialize};
 use crate::body::skeleton::{JOINT_COUNT, Joint, Skeleton};
 
 /// Position and facing of a body: the centre of its disc on the ground, and the direction in which it looks.
+///
+/// ```
+/// use glam::{Vec2, Vec3};
+/// use motiondb::Root;
+///
+/// // A body at (2, 1) that faces world y. One metre ahead of it is (2, 2).
+/// let root = Root { position_m: Vec2::new(2.0, 1.0), facing_rad: std::f32::consts::FRAC_PI_2 };
+/// assert!(root.to_world(Vec3::X).distance(Vec3::new(2.0, 2.0, 0.0)) < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Root {
     /// Centre of the body's disc on the ground, world, metres.
@@ -36,7 +45,7 @@ impl Root {
     }
 }
 
-/// A root frame, placed in the world.
+/// A root frame at a position in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RootFrame {
     /// Origin of the frame on the ground, world, metres.
@@ -128,7 +137,8 @@ impl Pose {
         (parent_m + parent * skeleton.offsets_m[index], parent * self.rotations[index])
     }
 
-    /// Flexion of a knee, radians: the twist of its shank about the body's left axis. Negative for a hyperextended knee.
+    /// Flexion of a knee, radians: the twist of its shank about the body's left axis. Negative for a hyperextended
+    /// knee.
     pub fn knee_flexion_rad(&self, side: usize) -> f32 {
         let shank = self.rotations[Joint::SHANKS[side].index()];
         let shank = if shank.w < 0.0 { -shank } else { shank };

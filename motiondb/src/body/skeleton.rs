@@ -11,6 +11,13 @@ use serde::{Deserialize, Serialize};
 pub const JOINT_COUNT: usize = 22;
 
 /// A side of the body; indexes every `[left, right]` pair.
+///
+/// ```
+/// use motiondb::{Joint, Side};
+///
+/// assert_eq!(Joint::FEET[Side::Left.index()], Joint::LeftFoot);
+/// assert_eq!(Side::Left.other().sign(), -1.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Side {
@@ -47,6 +54,14 @@ impl Side {
 }
 
 /// A joint of the canonical humanoid. In storage order, a parent precedes its children.
+///
+/// ```
+/// use motiondb::Joint;
+///
+/// assert_eq!(Joint::LeftShank.parent(), Some(Joint::LeftThigh));
+/// assert_eq!(Joint::LeftShank.mirrored(), Joint::RightShank);
+/// assert_eq!(Joint::ALL[Joint::LeftShank.index()].name(), "left_shank");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u8)]
 #[expect(missing_docs, reason = "the names are the anatomy")]

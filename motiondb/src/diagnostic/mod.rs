@@ -1,8 +1,8 @@
 //! Diagnostics: what the compiler reports about a clip. Each has a code with arguments, a severity, and a sentence for
 //! people.
 //!
-//! A diagnostic is a value: a database stores its variant and arguments. The sentence states the fault, its position and
-//! the remedy. It does not name the clip: reports print the name before it.
+//! A diagnostic is a value: a database stores its variant and arguments. The sentence states the fault, its position
+//! and the remedy. It does not name the clip: reports print the name before it.
 //!
 //! Read `note`, `warning` and `unfit`: the diagnostics of each severity.
 
@@ -19,6 +19,16 @@ pub use unfit::Unfit;
 pub use warning::Warning;
 
 /// A diagnostic, by severity.
+///
+/// ```
+/// use motiondb::Side;
+/// use motiondb::diagnostic::{Diagnostic, Severity, Unfit};
+///
+/// let diagnostic = Diagnostic::NoExample(Unfit::NoMidStance { foot: Side::Left });
+/// assert_eq!(diagnostic.severity(), Severity::NoExample);
+/// assert_eq!(diagnostic.code(), "no_mid_stance"); // for programs
+/// println!("walk.bvh: {diagnostic}"); // for people
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Diagnostic {

@@ -1,9 +1,11 @@
 //! Files that appear under their final name complete or not at all, even if the process is killed.
 //!
-//! Bytes go into a temporary file beside the target, which is then renamed. Data is not forced onto the disk: that would
-//! take as long as drawing a frame, and protect only against power failure. A symbolic link stays: its target is written.
+//! Bytes go into a temporary file beside the target, which is then renamed. Data is not forced onto the disk: that
+//! would take as long as drawing a frame, and protect only against power failure. A symbolic link stays: its target is
+//! written.
 //!
-//! A killed process leaves its temporary file. Each is locked during writing, so [`sweep`] can remove the abandoned ones.
+//! A killed process leaves its temporary file. Each is locked during writing, so [`sweep`] can remove the abandoned
+//! ones.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};

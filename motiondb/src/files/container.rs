@@ -9,18 +9,27 @@ pub const HEADER_LENGTH: usize = 24;
 const CHECKED_LENGTH: usize = 20;
 
 /// Reason why bytes are not a container of the expected kind.
+///
+/// ```
+/// use motiondb::files::container::{ContainerError, open, seal};
+///
+/// const MAGIC: [u8; 8] = *b"MYFORMAT";
+/// let bytes = seal(MAGIC, 3, b"payload");
+/// assert_eq!(open(MAGIC, 3, &bytes).unwrap().0, b"payload");
+/// assert_eq!(open(MAGIC, 4, &bytes), Err(ContainerError::Version { found: 3, supported: 4 }));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ContainerError {
     /// The bytes do not begin with the magic.
     #[error("it does not begin with the mark (magic) of such a file")]
     Magic,
     /// Another version of the program wrote the file.
-    #[error("it has format version {found}; this program reads version {wanted}")]
+    #[error("it has format version {found}; this program reads version {supported}")]
     Version {
         /// Format version of the file.
         found: u32,
         /// Format version that this program reads.
-        wanted: u32,
+        supported: u32,
     },
     /// The payload is shorter or longer than the header states.
     #[error("its length is wrong: after its header it should hold {promised} bytes, but holds {present}")]
@@ -69,7 +78,7 @@ pub fn open(magic: [u8; 8], version: u32, bytes: &[u8]) -> Result<(&[u8], u32), 
     }
     let found = u32_at(header, 8);
     if found != version {
-        return Err(ContainerError::Version { found, wanted: version });
+        return Err(ContainerError::Version { found, supported: version });
     }
     let promised = u64::from(u32_at(header, 12)) | u64::from(u32_at(header, 16)) << 32;
     let present = payload.len() as u64;

@@ -1,5 +1,5 @@
-//! `.fbdb`: a motion database on disk, in a [`container`]. The same clips give the same bytes: it holds no paths, no dates
-//! and no order of a hash map.
+//! `.fbdb`: a motion database on disk, in a [`container`]. The same clips give the same bytes: it holds no paths, no
+//! dates and no order of a hash map.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -17,6 +17,15 @@ pub const VERSION: u32 = 2;
 const PAYLOAD_LIMIT: usize = 1 << 30;
 
 /// Reason why a database cannot be read or written. Each message names the file and the remedy.
+///
+/// ```
+/// use std::path::Path;
+///
+/// use motiondb::files::database_file;
+///
+/// let error = database_file::from_bytes(Path::new("notes.fbdb"), b"not a database").unwrap_err();
+/// assert!(error.to_string().starts_with("notes.fbdb: not a readable motion database"));
+/// ```
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// The system cannot read the file.

@@ -1,7 +1,7 @@
 //! Messages of the TOML parser in plain words: no names of types, and a remedy.
 
 /// Expectations of the parser: its words, and plain words.
-const WANTED: [(&str, &str); 15] = [
+const EXPECTED: [(&str, &str); 15] = [
     ("a nonzero usize", "a whole number from 1 on"),
     ("a nonzero u32", "a whole number from 1 on"),
     ("usize", "a whole number from 0 on"),
@@ -43,27 +43,27 @@ pub(crate) fn in_plain_words(message: &str) -> (String, &'static str) {
         return (format!("the key {key} is missing"), "add the key");
     }
     let after = |begin: &str| message.strip_prefix(begin)?.split_once(", expected ");
-    if let Some((count, wanted)) = after("invalid length ") {
-        return (format!("{} wanted here, not {count} values", plainly_wanted(wanted)), "correct the value");
+    if let Some((count, expected)) = after("invalid length ") {
+        return (format!("{} expected here, not {count} values", plainly_expected(expected)), "correct the value");
     }
     match after("invalid type: ").or_else(|| after("invalid value: ")) {
         Some(("map", "a sequence")) => {
-            ("a list of tables is wanted here, not one table".to_owned(), "begin each with double brackets: [[ ]]")
+            ("a list of tables is expected here, not one table".to_owned(), "begin each with double brackets: [[ ]]")
         }
-        Some((found, wanted)) => {
-            (format!("{} wanted here, not {}", plainly_wanted(wanted), plainly_found(found)), "correct the value")
+        Some((found, expected)) => {
+            (format!("{} expected here, not {}", plainly_expected(expected), plainly_found(found)), "correct the value")
         }
         None => (message.replacen("unknown variant", "unknown value", 1), "correct the value"),
     }
 }
 
 /// The expected value in plain words, with its verb.
-fn plainly_wanted(wanted: &str) -> String {
-    let is_of_several = wanted.starts_with("the ");
-    let plain = match WANTED.iter().find(|(words, _)| *words == wanted) {
+fn plainly_expected(expected: &str) -> String {
+    let is_of_several = expected.starts_with("the ");
+    let plain = match EXPECTED.iter().find(|(words, _)| *words == expected) {
         Some((_, plain)) => plain,
-        None if wanted.starts_with("struct ") => "a table of keys and values",
-        None => wanted,
+        None if expected.starts_with("struct ") => "a table of keys and values",
+        None => expected,
     };
     format!("{plain} {}", if is_of_several { "are" } else { "is" })
 }
@@ -87,15 +87,15 @@ mod tests {
         let check = |message: &str, plain: &str| assert_eq!(in_plain_words(message).0, plain);
         check(
             "invalid value: integer `0`, expected a nonzero usize",
-            "a whole number from 1 on is wanted here, not `0`",
+            "a whole number from 1 on is expected here, not `0`",
         );
-        check("invalid type: string \"cm\", expected f64", "a number is wanted here, not \"cm\"");
-        check("invalid type: map, expected a sequence", "a list of tables is wanted here, not one table");
+        check("invalid type: string \"cm\", expected f64", "a number is expected here, not \"cm\"");
+        check("invalid type: map, expected a sequence", "a list of tables is expected here, not one table");
         check(
             "invalid type: string \"a\", expected struct Table",
-            "a table of keys and values is wanted here, not \"a\"",
+            "a table of keys and values is expected here, not \"a\"",
         );
-        check("invalid length 3, expected an array of length 2", "an array of length 2 is wanted here, not 3 values");
+        check("invalid length 3, expected an array of length 2", "an array of length 2 is expected here, not 3 values");
         check("missing field `path`", "the key `path` is missing");
         check("unknown variant `papper`, expected `paper`", "unknown value `papper`, expected `paper`");
     }

@@ -1,5 +1,5 @@
-//! A text that a user wrote (a scenario, a manifest), and a mistake in it with its position, so that a report can point at
-//! it.
+//! A text that a user wrote (a scenario, a manifest), and a mistake in it with its position, so that a report can point
+//! at it.
 
 use std::fs;
 use std::io;
@@ -15,6 +15,14 @@ const TEXT_MAX_BYTES: u64 = 1 << 30;
 const MESSAGE_MAX_LETTERS: usize = 1_000;
 
 /// A text and its file.
+///
+/// ```
+/// use motiondb::files::SourceText;
+///
+/// let text = SourceText { path: "scene.toml".into(), text: "dt_s = 0.1\nagents = 0\n".to_owned() };
+/// let mistake = text.invalid(20..21, "there is no agent", "add one");
+/// assert_eq!(mistake.to_string(), "scene.toml:2: there is no agent; add one");
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct SourceText {
     /// Path of the file.

@@ -170,8 +170,9 @@ impl PairChain {
     }
 }
 
-/// The best chain that starts at a candidate, runs once around both cycles and has a pair for every step; `None` if there
-/// is none. Method: longest rising subsequence, rows counted from the first pair, one best chain per set of steps.
+/// The best chain that starts at a candidate, runs once around both cycles and has a pair for every step; `None` if
+/// there is none. Method: longest rising subsequence, rows counted from the first pair, one best chain per set of
+/// steps.
 fn best_chain_from(first: Candidate, candidates: &[Candidate]) -> Option<PairChain> {
     let from_first = |pair: &RowPair| {
         let offset = |axis: usize| (pair.rows[axis] + PHASE_COUNT - first.pair.rows[axis]) % PHASE_COUNT;

@@ -19,6 +19,19 @@ use crate::velocity_sets::velocity_hull::VelocityHull;
 pub const PHASE_COUNT: usize = 64;
 
 /// A motion database: the target body, its examples, and what follows from them.
+///
+/// ```no_run
+/// use std::path::Path;
+///
+/// use motiondb::files::database_file;
+///
+/// let (db, _checksum) = database_file::load(Path::new("motion.fbdb"))?;
+/// for (index, example) in db.examples.iter().enumerate() {
+///     let joints = &db.posed_rows(index)[0];
+///     println!("{}: the pelvis starts at {:.2} m", example.name, joints.positions_m[0].z);
+/// }
+/// # Ok::<(), motiondb::files::database_file::FileError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionDb {
     /// Body to which all examples are retargeted.
@@ -56,6 +69,17 @@ impl MotionDb {
 
 /// Times T at which the poses of m_sp and m_mb are most alike, so that synthesis may switch (`FbCrowd` §5, Eq. 10).
 /// [`Correspondence::of`] finds them.
+///
+/// ```no_run
+/// use motiondb::{Correspondence, MotionDb};
+///
+/// fn print_switching_times(db: &MotionDb, base_walk: usize) {
+///     let Some(found) = Correspondence::of(db, base_walk) else { return };
+///     for [base_s, other_s] in found.pairs_s {
+///         println!("{base_s:.2} s of the base walk, {other_s:.2} s of {}", db.examples[found.blending as usize].name);
+///     }
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Correspondence {
     /// m_sp: index of the base walk, which semi-procedural locomotion deforms.
@@ -96,8 +120,22 @@ impl MotionExample {
     }
 }
 
-/// Poses of all examples at [`PHASE_COUNT`] uniform phases, as flat arrays. Row of an example at a phase: example · 64 +
-/// phase.
+/// Poses of all examples at [`PHASE_COUNT`] uniform phases, as flat arrays. Row of an example at a phase: example · 64
+/// + phase.
+///
+/// ```
+/// use glam::{Quat, Vec3};
+/// use motiondb::{JOINT_COUNT, PHASE_COUNT, Rows};
+///
+/// // Two standing examples, with the pelvis at 0.9 and 1.0 m.
+/// let rows = Rows {
+///     rotations: vec![Quat::IDENTITY; 2 * PHASE_COUNT * JOINT_COUNT],
+///     pelvis_m: [0.9, 1.0].into_iter().flat_map(|height_m| [Vec3::Z * height_m; PHASE_COUNT]).collect(),
+///     contacts: vec![[1.0; 2]; 2 * PHASE_COUNT],
+/// };
+/// let between = rows.blended([(0, 0, 0.25), (1, 0, 0.75)]);
+/// assert!((between.pelvis_m.z - 0.975).abs() < 1e-6);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rows {
     /// Joint rotations relative to the parent, row by row, in one hemisphere over all rows: a blend is a weighted sum.
@@ -120,8 +158,8 @@ impl Rows {
         Pose { pelvis_m: self.pelvis_m[example * PHASE_COUNT + phase], rotations: *self.rotations(example, phase) }
     }
 
-    /// Appends a row of a new example, aligned to the hemisphere of the row (example, phase). Each joint of the pose must
-    /// be within half a turn of that row.
+    /// Appends a row of a new example, aligned to the hemisphere of the row (example, phase). Each joint of the pose
+    /// must be within half a turn of that row.
     pub fn push_like(&mut self, (example, phase): (usize, usize), pose: &Pose, contacts: [f32; 2]) {
         let mut rotations = pose.rotations;
         for (rotation, like) in rotations.iter_mut().zip(self.rotations(example, phase)) {
@@ -152,7 +190,8 @@ impl Rows {
     }
 }
 
-/// Findings about one source clip. Parameters are means over the clip, on the source's own skeleton, before any scaling.
+/// Findings about one source clip. Parameters are means over the clip, on the source's own skeleton, before any
+/// scaling.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SourceRecord {
     /// File name without folders.

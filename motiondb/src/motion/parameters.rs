@@ -4,6 +4,14 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// A point (v_f, ω_t, ω_s): how a motion moves the root, in the root frame.
+///
+/// ```
+/// use motiondb::Parameters;
+///
+/// let left_turn = Parameters { speed_mps: 1.2, turn_rate_rad_s: 0.5, strafe_mps: 0.0 };
+/// assert_eq!(left_turn.mirrored().turn_rate_rad_s, -0.5);
+/// assert_eq!(Parameters::from_vec3(left_turn.to_vec3()), left_turn);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
     /// v_f: speed along the facing, negative for back-pedalling, m/s.

@@ -18,6 +18,15 @@ use serde::{Deserialize, Serialize};
 pub(crate) const MAX_ASYMMETRY: f32 = 0.2;
 
 /// Map from phase to time of one cycle.
+///
+/// ```
+/// use motiondb::PhaseMap;
+///
+/// // A stride of 1.1 s that reaches left mid-stance after 45 % of it.
+/// let map = PhaseMap { period_s: 1.1, left_share: 0.45 };
+/// assert!((map.time_s(0.5) - 0.45 * 1.1).abs() < 1e-6);
+/// assert!((map.phase(0.45 * 1.1 + 1.1) - 0.5).abs() < 1e-5); // one cycle later
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PhaseMap {
     /// P: duration of a cycle (one stride), seconds.

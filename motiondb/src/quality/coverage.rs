@@ -1,9 +1,9 @@
-//! Coverage gaps: regions of (v_f, ω_t, ω_s) without examples, each with a sentence for people. There bodies cannot move,
-//! or only by a blend of motions that differ much.
+//! Coverage gaps: regions of (v_f, ω_t, ω_s) without examples, each with a sentence for people. There bodies cannot
+//! move, or only by a blend of motions that differ much.
 //!
-//! Two sources: the examples (does one stand, step back, turn in place, side-step; how far apart are neighbours along one
-//! axis?) and the hull of their parameters (how fast can a body turn while it walks?). Speeds in m/s, turn rates in rad/s
-//! (in sentences °/s), left positive.
+//! Two sources: the examples (does one stand, step back, turn in place, side-step; how far apart are neighbours along
+//! one axis?) and the hull of their parameters (how fast can a body turn while it walks?). Speeds in m/s, turn rates in
+//! rad/s (in sentences °/s), left positive.
 
 use serde::Serialize;
 
@@ -146,7 +146,8 @@ fn walking_turn_sentence(speed_mps: f32, rate_rad_s: f32, side: &str) -> String 
     format!("{at} the fastest turn to {side} is {rate_deg_s:.0} °/s: it needs a radius of {radius_m:.1} m.")
 }
 
-/// Greatest turn rate to one side that the hull holds at the walk's speeds, rad/s. By bisection, since the hull is convex.
+/// Greatest turn rate to one side that the hull holds at the walk's speeds, rad/s. By bisection, since the hull is
+/// convex.
 fn fastest_turn_rad_s(db: &MotionDb, locator: &Locator, walk: Parameters, side: Side) -> f32 {
     let turned = |rate_rad_s: f32| Parameters { turn_rate_rad_s: side.sign() * rate_rad_s, ..walk };
     let own_rad_s = side.sign() * walk.turn_rate_rad_s;

@@ -1,8 +1,8 @@
 //! Quality of the motion of each example: figures, and findings for those beyond a threshold.
 //!
-//! Enters: a valid database; poses in the root frame. Leaves: figures whose names end in their units. Thresholds lie just
-//! beyond the values of good captures, so most clips pass. A finding does not make a database unsound ([`crate::validate`]
-//! does): the motion is played as it is.
+//! Enters: a valid database; poses in the root frame. Leaves: figures whose names end in their units. Thresholds lie
+//! just beyond the values of good captures, so most clips pass. A finding does not make a database unsound
+//! ([`crate::validate`] does): the motion is played as it is.
 
 use glam::{Quat, Vec3};
 use serde::Serialize;
@@ -35,8 +35,8 @@ const SEAM_STEP_MIN_RAD: f32 = 0.05 * std::f32::consts::PI / 180.0;
 const PENETRATION_MAX_MM: f32 = 20.0;
 /// Least flexion of a knee, degrees. People land on knees flexed by 3–5°; a straighter knee snaps.
 const KNEE_FLEXION_MIN_DEG: f32 = 1.0;
-/// Greatest distance of hip and ankle over thigh plus shank. The compiler's leg inverse kinematics ends at 0.9995 (a knee
-/// flexed by 3.6°), so a longer leg is the clip's own.
+/// Greatest distance of hip and ankle over thigh plus shank. The compiler's leg inverse kinematics ends at 0.9995 (a
+/// knee flexed by 3.6°), so a longer leg is the clip's own.
 const LEG_EXTENSION_MAX: f32 = 0.9997;
 /// Greatest turn of a joint beyond the published range, degrees: sound clips exceed it by up to 42° (`docs/tuning.md`).
 const RANGE_EXCESS_MAX_DEG: f32 = 45.0;
@@ -67,6 +67,17 @@ pub struct ExampleQuality {
 }
 
 /// A figure beyond its threshold.
+///
+/// ```no_run
+/// use motiondb::MotionDb;
+/// use motiondb::quality::example_quality::lint;
+///
+/// fn print_findings(db: &MotionDb) {
+///     for finding in lint(db) {
+///         println!("{}: {}", finding.example, finding.sentence);
+///     }
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
     /// Name of the example.
@@ -118,7 +129,8 @@ fn example_quality(db: &MotionDb, index: usize) -> ExampleQuality {
     }
 }
 
-/// Turn of each joint from each row to the next (from the last to the first), as a rotation vector in the joint's frame.
+/// Turn of each joint from each row to the next (from the last to the first), as a rotation vector in the joint's
+/// frame.
 fn turns(db: &MotionDb, example: usize) -> Vec<[Vec3; JOINT_COUNT]> {
     let turn = |from: Quat, to: Quat| {
         let turn = from.inverse() * to;

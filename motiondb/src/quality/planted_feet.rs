@@ -113,8 +113,8 @@ impl CycleFeet {
         Some([right_off, right_strike, left_off, left_strike].map(within_period))
     }
 
-    /// Phases at which the contact at a foot's mid-stance begins and ends: the first at or before the landmark, the second
-    /// at or after it. `None` if the foot is not planted there, or in every row.
+    /// Phases at which the contact at a foot's mid-stance begins and ends: the first at or before the landmark, the
+    /// second at or after it. `None` if the foot is not planted there, or in every row.
     pub fn stance(&self, side: Side) -> Option<[f64; 2]> {
         let landmark = if side == Side::Left { PHASE_COUNT as isize / 2 } else { 0 };
         let contact = |row: isize| self.contacts[side.index()][wrap(row)];

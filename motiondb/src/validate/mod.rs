@@ -7,8 +7,8 @@
 //! Three tiers, each based on the one before: `structure` (lengths and indices), `values` (ranges of numbers, rotations
 //! and poses), and consequences of the values: the motion of each example (`motion`), the velocity sets
 //! (`velocity_sets`, `FbCrowd` §4.1), simplices and correspondences (`blending`, §5). Of a broken structure the first
-//! fault is reported; of a broken later tier all are. Tiers after a broken one are not checked. The doc of each function
-//! states the invariant.
+//! fault is reported; of a broken later tier all are. Tiers after a broken one are not checked. The doc of each
+//! function states the invariant.
 
 mod blending;
 mod motion;
@@ -21,6 +21,18 @@ use crate::motion::motion_db::{MotionDb, MotionExample};
 pub use motion::contradiction;
 
 /// The check of one invariant.
+///
+/// ```
+/// use motiondb::MotionDb;
+/// use motiondb::validate::{first_broken, validate};
+///
+/// fn print_faults(db: &MotionDb) {
+///     for check in validate(db) {
+///         println!("{}: {}", check.name, check.broken.as_deref().unwrap_or("holds"));
+///     }
+///     assert_eq!(first_broken(db).is_none(), validate(db).iter().all(|check| check.broken.is_none()));
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Check {
     /// Stable name of the invariant.

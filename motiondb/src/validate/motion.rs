@@ -12,8 +12,8 @@ use crate::validate::{CheckResult, each, ensure};
 const SEAM_LIMIT: f32 = 2.0;
 /// Turn over the seam that is always permitted, radians.
 const SEAM_MIN_RAD: f32 = 1e-3;
-/// Greatest distance of a landmark from the middle of its contact, over the cycle. In a jog it is 0.1: the landmark is the
-/// middle of the step, the contact only its later part.
+/// Greatest distance of a landmark from the middle of its contact, over the cycle. In a jog it is 0.1: the landmark is
+/// the middle of the step, the contact only its later part.
 const LANDMARK_TOLERANCE: f64 = 0.125;
 /// Tolerance of key times, over the period: the rounding of `f32`.
 const KEY_TIME_TOLERANCE: f64 = 1e-5;
@@ -41,8 +41,8 @@ pub(crate) fn cycles_close(db: &MotionDb) -> CheckResult {
     })
 }
 
-/// Phase 0 is the middle of a right contact, phase ½ the middle of a left one. A standing body lifts no foot and does not
-/// move.
+/// Phase 0 is the middle of a right contact, phase ½ the middle of a left one. A standing body lifts no foot and does
+/// not move.
 pub(crate) fn landmarks_are_mid_stances(db: &MotionDb) -> CheckResult {
     each(db, |index, example| {
         let feet = CycleFeet::of(db, index, &[]);
@@ -54,8 +54,8 @@ pub(crate) fn landmarks_are_mid_stances(db: &MotionDb) -> CheckResult {
     })
 }
 
-/// Contradiction between the motion of a stepping cycle and its landmarks or parameters; `None` if they agree. A compiler
-/// must leave such a cycle out.
+/// Contradiction between the motion of a stepping cycle and its landmarks or parameters; `None` if they agree. A
+/// compiler must leave such a cycle out.
 pub fn contradiction(feet: &CycleFeet, parameters: Parameters) -> Option<Unfit> {
     landmarks_agree(feet).and_then(|()| parameters_agree(feet, parameters)).err()
 }

@@ -13,9 +13,9 @@ pub(crate) fn has_examples(db: &MotionDb) -> CheckResult {
 pub(crate) fn rows_are_complete(db: &MotionDb) -> CheckResult {
     let rows = db.examples.len() * PHASE_COUNT;
     let lengths = [db.rows.rotations.len(), db.rows.pelvis_m.len(), db.rows.contacts.len()];
-    let wanted = [rows * JOINT_COUNT, rows, rows];
-    ensure(lengths == wanted, || {
-        format!("rotations, pelvis and contacts have {lengths:?} entries; the examples need {wanted:?}")
+    let expected = [rows * JOINT_COUNT, rows, rows];
+    ensure(lengths == expected, || {
+        format!("rotations, pelvis and contacts have {lengths:?} entries; the examples need {expected:?}")
     })
 }
 

@@ -34,8 +34,8 @@ pub enum Construction {
     TurningAndHolding,
     /// The paper's construction, for comparison: the turning set bounds every velocity. Examples that side-step or walk
     /// backward bound none, and bodies do not step back. Points that the paper leaves open are as in the other
-    /// construction: the tolerance of ω_s = 0, the origin (the paper has a standing example there), the wrapping polygon,
-    /// and that only the sharp-turn edge on the side of the turn applies.
+    /// construction: the tolerance of ω_s = 0, the origin (the paper has a standing example there), the wrapping
+    /// polygon, and that only the sharp-turn edge on the side of the turn applies.
     Paper,
 }
 
@@ -70,8 +70,8 @@ pub fn build(parameters: &[Parameters], construction: Construction) -> VelocityH
     }
 }
 
-/// Point of a turning example in the agent's frame, m/s (Eqs. 2, 3). ω_t counts as the heading that is reached after one
-/// second, at most half a turn.
+/// Point of a turning example in the agent's frame, m/s (Eqs. 2, 3). ω_t counts as the heading that is reached after
+/// one second, at most half a turn.
 pub fn turning_point_mps(parameters: &Parameters) -> Vec2 {
     let (sin, cos) = libm::sincosf(parameters.turn_rate_rad_s.clamp(-PI, PI)); // Eq. 2: u = (cos ω_t, sin ω_t)
     Vec2::new(cos, sin) * parameters.speed_mps // Eq. 3: v_motion = v_f · u

@@ -1,7 +1,7 @@
 //! The wrapping polygon of the turning examples and its sharp-turn edges (`FbCrowd` §4.1, Fig. 3b).
 //!
-//! The convex hull of the turning set also permits velocities behind the body that no example has. The wrapping polygon,
-//! which is star-shaped about the origin, does not. Agent's frame (x forward, y left), m/s.
+//! The convex hull of the turning set also permits velocities behind the body that no example has. The wrapping
+//! polygon, which is star-shaped about the origin, does not. Agent's frame (x forward, y left), m/s.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -14,8 +14,8 @@ const STANDING_MPS: f64 = 1e-3;
 
 /// The outermost point per direction, clockwise from straight behind: a polygon that is star-shaped about the origin.
 ///
-/// Points are taken from the farthest to the nearest; each counts if no farther one has its direction. So the result does
-/// not depend on a first side or on the seam behind: a mirrored set has the mirrored polygon.
+/// Points are taken from the farthest to the nearest; each counts if no farther one has its direction. So the result
+/// does not depend on a first side or on the seam behind: a mirrored set has the mirrored polygon.
 fn wrapping_polygon(points: &[Vec2]) -> Vec<Vec2> {
     let mut directed: Vec<(f64, Vec2)> = points
         .iter()
@@ -42,8 +42,8 @@ fn apart_rad(one_rad: f64, other_rad: f64) -> f64 {
     apart_rad.min(TAU - apart_rad)
 }
 
-/// Edges of the turning points' wrapping polygon with an end beyond ±90° (the red lines of Fig. 3b), each clockwise. Edges
-/// with the origin on their outside are left out: they bound nothing.
+/// Edges of the turning points' wrapping polygon with an end beyond ±90° (the red lines of Fig. 3b), each clockwise.
+/// Edges with the origin on their outside are left out: they bound nothing.
 pub(crate) fn sharp_turn_edges(turning_points_mps: &[Vec2]) -> Vec<[Vec2; 2]> {
     let polygon = wrapping_polygon(turning_points_mps);
     if polygon.len() < 2 {

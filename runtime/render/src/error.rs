@@ -6,6 +6,13 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 /// Reason why a picture cannot be drawn.
+///
+/// ```
+/// use fbcrowd_render::FrameRange;
+///
+/// let error = "1001-".parse::<FrameRange>().unwrap_err();
+/// assert!(error.to_string().starts_with("frames \"1001-\": a frame number is missing"));
+/// ```
 #[derive(Debug, Error)]
 pub enum RenderError {
     /// The output folder cannot be made.

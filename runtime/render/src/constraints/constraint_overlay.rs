@@ -1,7 +1,7 @@
 //! The overlay of a sequence: the scene with marks at the left, one panel per agent to its right (`FbCrowd` Figs. 3–5).
 //!
-//! A picture explains the step that begins in its recorded frame; in the last frame, the step that ended there. The step
-//! is planned again from the recording alone ([`Replay`]).
+//! A picture explains the step that begins in its recorded frame; in the last frame, the step that ended there. The
+//! step is planned again from the recording alone ([`Replay`]).
 
 use fbcrowd_sim::recording::{Recording, Replay};
 use tiny_skia::{Pixmap, PixmapPaint, Transform};

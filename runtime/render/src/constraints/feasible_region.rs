@@ -1,5 +1,5 @@
-//! The feasible region: the part of a convex polygon of velocities that all half-planes permit. In it, the paper's Eq. 14
-//! seeks its velocity. World axes, m/s.
+//! The feasible region: the part of a convex polygon of velocities that all half-planes permit. In it, the paper's Eq.
+//! 14 seeks its velocity. World axes, m/s.
 
 use fbcrowd_sim::planning::orca::HalfPlane;
 use glam::Vec2;

@@ -1,8 +1,8 @@
 //! Marks of one agent's constraints in the scene (`FbCrowd` Fig. 4): its disc, links to its neighbours, walls, and its
 //! stance foot with the line that the swing foot must not cross.
 //!
-//! Links and walls are thick if they bind the planned velocity, dashed if their half-plane had to yield. Everything is at
-//! its position at the start of the step. World, metres.
+//! Links and walls are thick if they bind the planned velocity, dashed if their half-plane had to yield. Everything is
+//! at its position at the start of the step. World, metres.
 
 use fbcrowd_sim::planning::mcn::{StanceForm, stance_half_plane};
 use fbcrowd_sim::planning::orca::HalfPlaneSource;
@@ -109,8 +109,8 @@ impl SceneMarks {
         }
     }
 
-    /// Draws the stance foot's sole from heel over ball to toe and, if the planner obeys it, the line that the swing foot
-    /// must not cross.
+    /// Draws the stance foot's sole from heel over ball to toe and, if the planner obeys it, the line that the swing
+    /// foot must not cross.
     fn draw_stance(&self, scene: &mut Pixmap, centre_m: Vec2, foot: &StanceFoot, explained: &ExplainedStep) {
         let sole_m =
             [[foot.heel_m, foot.ball_m], [foot.ball_m, foot.toe_m]].map(|ends_m| ends_m.map(|end_m| centre_m + end_m));

@@ -1,11 +1,11 @@
 //! A panel: the velocity space of one agent in one step (`FbCrowd` Figs. 3–5), with the constraints of its body, its
 //! stance foot, walls and neighbours, and its preferred, adapted, planned and actual velocities.
 //!
-//! World axes, m/s, origin in the middle: directions are those of the scene. A half-plane is a line with hatching on its
-//! forbidden side, thick if the planned velocity is on it, dashed if it had to yield. The feasible region is pale green;
-//! if a half-plane had to yield, the region of the others is pale orange. Social forces have no half-planes: a force is
-//! an arrow from the current velocity, of the length that it would add within the relaxation time. The driving force,
-//! drawn in this form, would end at v_pref.
+//! World axes, m/s, origin in the middle: directions are those of the scene. A half-plane is a line with hatching on
+//! its forbidden side, thick if the planned velocity is on it, dashed if it had to yield. The feasible region is pale
+//! green; if a half-plane had to yield, the region of the others is pale orange. Social forces have no half-planes: a
+//! force is an arrow from the current velocity, of the length that it would add within the relaxation time. The driving
+//! force, drawn in this form, would end at v_pref.
 
 use fbcrowd_sim::planning::orca::{HalfPlane, HalfPlaneSource};
 use fbcrowd_sim::planning::{Planner, VelocitySet};

@@ -1,6 +1,8 @@
-//! Plots. `chart` draws figures with axes, marks and labels; `crowd` and `database` draw one plot per file.
+//! Plots of databases, recordings and benches.
 //!
-//! Enters: recordings, figures of benches, databases. Leaves: opaque pictures, or PNG files.
+//! Enters: a database, the tracks of a recording, or figures of a bench. Leaves: opaque pictures, or PNG files.
+//!
+//! Read `chart` (figures with axes, marks and labels), then `database` and `crowd`, which draw one plot per file.
 
 pub(crate) mod chart;
 pub mod crowd;

@@ -1,8 +1,8 @@
 //! A drawn body: the parts of one posed skeleton, from the shoes up to the hair, as tapered capsules.
 //!
-//! Enters: a recorded root and pose, and the skeleton. Leaves: parts in the world, metres, z up. Bones come from forward
-//! kinematics, girths from the skeleton's `segment_radii_m`. The trunk (broader than deep), the face and the hair need
-//! several capsules each.
+//! Enters: a recorded root and pose, and the skeleton. Leaves: parts in the world, metres, z up. Bones come from
+//! forward kinematics, girths from the skeleton's `segment_radii_m`. The trunk (broader than deep), the face and the
+//! hair need several capsules each.
 
 use fbcrowd_sim::recording::AgentFrame;
 use glam::Vec3;

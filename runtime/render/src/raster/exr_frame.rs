@@ -1,7 +1,7 @@
 //! A picture as EXR: scene-linear Rec. 709, half floats, premultiplied. The same picture gives the same bytes.
 //!
-//! Only attributes with a named field in the `exr` crate are written: it stores others in a hash map, whose order changes
-//! from run to run. Lines are written in increasing order by one thread. No date is written.
+//! Only attributes with a named field in the `exr` crate are written: it stores others in a hash map, whose order
+//! changes from run to run. Lines are written in increasing order by one thread. No date is written.
 
 use std::io::{self, Cursor};
 use std::path::Path;

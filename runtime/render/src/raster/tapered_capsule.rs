@@ -1,10 +1,10 @@
-//! The kernel that draws bodies and their shadows: a ball that is swept along a bone while its radius changes, seen from
-//! above.
+//! The kernel that draws bodies and their shadows: a ball with changing radius that is swept along a bone, seen
+//! from above.
 //!
-//! tiny-skia fills paths with flat colours and gradients. A limb needs a rounded shade across and a soft edge, for twenty
-//! limbs of a thousand bodies. So each limb is painted from its distance field (I. Quilez, "2D distance functions",
-//! uneven capsule): the distance gives the coverage, the offset from the bone the surface's normal. Positions in pixels,
-//! x right, y down, z towards the eye.
+//! tiny-skia fills paths with flat colours and gradients. A limb needs a rounded shade across and a soft edge, for
+//! twenty limbs of a thousand bodies. So each limb is painted from its distance field (I. Quilez, "2D distance
+//! functions", uneven capsule): the distance gives the coverage, the offset from the bone the surface's normal.
+//! Positions in pixels, x right, y down, z towards the eye.
 
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ const RIM_DARKNESS: f32 = 0.40;
 /// Height of the bone over the surface below from which the rim is full, rim widths.
 const RIM_DROP: f32 = 5.0;
 
-/// A ball that is swept from one end to another while its radius changes.
+/// A ball with changing radius that is swept from one end to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TaperedCapsule {
     /// Centre of the ball at each end, pixels; z is the height over the ground.
@@ -56,8 +56,8 @@ impl Canvas {
         self.heights_px.fill(0.0);
     }
 
-    /// Paints a shaded limb with smooth edges. Higher surfaces hide it. Within `rim_px` of its edge, clearly lower surfaces
-    /// get a dark rim: an arm stands out from the trunk, while upper arm and forearm merge.
+    /// Paints a shaded limb with smooth edges. Higher surfaces hide it. Within `rim_px` of its edge, clearly lower
+    /// surfaces get a dark rim: an arm stands out from the trunk, but upper arm and forearm merge.
     pub(crate) fn paint(&mut self, capsule: &TaperedCapsule, colour: Rgb, rim_px: f32) {
         let field = CapsuleField::new(capsule);
         let (width, height) = (self.pixmap.width(), self.pixmap.height());
@@ -180,8 +180,8 @@ impl CapsuleField {
         }
     }
 
-    /// Columns of a row within the greater radius and a margin of the axis's line: for a diagonal limb, a fraction of the
-    /// window's columns.
+    /// Columns of a row within the greater radius and a margin of the axis's line: for a diagonal limb, a fraction of
+    /// the window's columns.
     fn columns(&self, window: &PixelWindow, row: usize, margin_px: f32) -> Range<usize> {
         let columns = window.columns();
         if self.axis.y.abs() < 0.05 * self.length {

@@ -62,8 +62,8 @@ impl Typeface {
         self.glyphs_of(text).map(|glyph| glyph.advance_px).sum()
     }
 
-    /// The text, at most `width_px` wide. The middle of a longer text becomes `…`, since names with the same beginning often
-    /// differ at their ends.
+    /// The text, at most `width_px` wide. The middle of a longer text becomes `…`, since names with the same beginning
+    /// often differ at their ends.
     pub(crate) fn fitted(&self, text: &str, width_px: f32) -> String {
         let letters: Vec<char> = text.chars().collect();
         let shortened = |kept: usize| {

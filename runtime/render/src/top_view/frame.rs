@@ -31,6 +31,22 @@ const MAX_RIM_PX: f32 = 6.0;
 const MIN_SHADE_RADIUS_PX: f32 = 0.9;
 
 /// The top view of one recording: what all its frames share.
+///
+/// ```no_run
+/// use std::path::Path;
+///
+/// use fbcrowd_render::top_view::{read_tracks, sample};
+/// use fbcrowd_render::{RenderError, TopView, png_frame};
+/// use fbcrowd_sim::Recording;
+///
+/// let recording = Recording::open(Path::new("crossing.fbrec"))?;
+/// let tracks = read_tracks(&recording)?;
+/// let top_view = TopView::new(recording.header(), &tracks)?;
+/// let mut buffers = top_view.buffers();
+/// let agents = sample(&recording, 2.0)?;
+/// png_frame::write(Path::new("at_2_s.png"), top_view.draw(&mut buffers, 2.0, &agents))?;
+/// # Ok::<(), RenderError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct TopView<'a> {
     header: &'a Header,

@@ -1,4 +1,5 @@
-//! Frame ranges, as film tools write them: `1001-1100`, `1001-1100x2` (or `:2`), `1010`, and lists of these with commas.
+//! Frame ranges, as film tools write them: `1001-1100`, `1001-1100x2` (or `:2`), `1010`, and lists of these with
+//! commas.
 
 use std::collections::BTreeSet;
 use std::str::FromStr;
@@ -9,6 +10,15 @@ use crate::error::{FrameRangeFault, RenderError};
 pub(crate) const FIRST_FRAME: u32 = 1001;
 
 /// Frame numbers, as a user wrote them.
+///
+/// ```
+/// use fbcrowd_render::{FrameRange, RenderError};
+///
+/// let range: FrameRange = "1001-1006x2, 1010".parse()?;
+/// assert_eq!(range.clip(8)?, [1001, 1003, 1005]); // the recording ends at 1008
+/// assert!("1006-1001".parse::<FrameRange>().is_err());
+/// # Ok::<(), RenderError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameRange {
     /// The user's text.

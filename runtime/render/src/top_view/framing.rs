@@ -1,5 +1,5 @@
-//! Framing: the part of the world that a picture shows, and the map from metres to pixels. The scenario's view gives it;
-//! what the view leaves open is fitted to all agents, goals and obstacles.
+//! Framing: the part of the world that a picture shows, and the map from metres to pixels. The scenario's view gives
+//! it; what the view leaves open is fitted to all agents, goals and obstacles.
 //!
 //! World: x right, y up in the picture, metres. Pixels: x right, y down, (0, 0) the picture's upper left corner.
 
@@ -17,6 +17,15 @@ const AIR_SHARE: f32 = 0.02;
 const MIN_WIDTH_M: f32 = 4.0;
 
 /// A window onto the ground, seen from straight above.
+///
+/// ```
+/// use fbcrowd_render::Framing;
+/// use glam::Vec2;
+///
+/// let framing = Framing { width_px: 640, height_px: 360, centre_m: Vec2::new(5.0, 0.0), scale_px_m: 40.0 };
+/// assert_eq!(framing.to_px(Vec2::new(6.0, 1.0)), Vec2::new(360.0, 140.0));
+/// assert_eq!(framing.to_world(Vec2::new(320.0, 180.0)), Vec2::new(5.0, 0.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framing {
     /// Width of the picture, pixels.
@@ -48,8 +57,8 @@ impl Framing {
     }
 }
 
-/// The framing of a recording. What the view leaves open is fitted to `positions_m` (of the whole recording, so that the
-/// picture does not move), to goals and to obstacles.
+/// The framing of a recording. What the view leaves open is fitted to `positions_m` (of the whole recording, so that
+/// the picture does not move), to goals and to obstacles.
 ///
 /// # Errors
 /// If the view is out of range; the view of an opened recording is not.

@@ -1,5 +1,5 @@
-//! The static layer of a top view, drawn once for a whole sequence: ground, metric grid, goals, and obstacles with their
-//! shade. Enters: the recording's scenario, world metres.
+//! The static layer of a top view, drawn once for a whole sequence: ground, metric grid, goals, and obstacles with
+//! their shade. Enters: the recording's scenario, world metres.
 
 use fbcrowd_sim::recording::Header;
 use glam::Vec2;

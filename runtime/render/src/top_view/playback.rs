@@ -31,8 +31,8 @@ pub(crate) fn picture_time_s(recording: &Recording, picture: u32) -> f64 {
     f64::from(picture) / f64::from(recording.header().scenario.view.frame_rate_hz)
 }
 
-/// Root positions of all agents over the whole recording. A long recording of many agents is thinned to every n-th frame,
-/// so that the tracks take at most 256 MiB.
+/// Root positions of all agents over the whole recording. A long recording of many agents is thinned to every n-th
+/// frame, so that the tracks take at most 256 MiB.
 ///
 /// # Errors
 /// If the recording has no frame, or one cannot be read.

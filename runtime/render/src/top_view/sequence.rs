@@ -1,7 +1,7 @@
 //! A recording as a sequence of numbered pictures, drawn in parallel.
 //!
-//! Each picture depends only on the recording and its number. So any part of a sequence, on any number of threads, gives
-//! the same files. Each file appears under its name complete or not at all.
+//! Each picture depends only on the recording and its number. So any part of a sequence, on any number of threads,
+//! gives the same files. Each file appears under its name complete or not at all.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,6 +19,10 @@ use crate::top_view::playback::{picture_count, picture_time_s, read_tracks, samp
 use crate::top_view::trails::Tracks;
 
 /// File format of pictures.
+///
+/// ```
+/// assert_eq!(fbcrowd_render::PictureFormat::Exr.extension(), "exr");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PictureFormat {
     /// PNG: eight bits, sRGB.
@@ -59,8 +63,8 @@ struct SequenceViews<'a> {
     overlay: Option<ConstraintOverlay<'a>>,
 }
 
-/// Renders a recording from above, and returns the files in order. `observer` receives the number of finished frames and
-/// of all frames, from any thread.
+/// Renders a recording from above, and returns the files in order. `observer` receives the number of finished frames
+/// and of all frames, from any thread.
 ///
 /// # Errors
 /// If the view is out of range, no frame is in the range, the recording is damaged, or a file cannot be written.

@@ -1,8 +1,8 @@
 //! Shade on the ground, collected in a mask that is laid over the picture once.
 //!
-//! Enters: parts of bodies and outlines of obstacles. Overlapping shades count as the greatest of them: two limbs over a
-//! pixel do not darken it twice. The sun is high at the upper left: shade falls to the lower right, and is short, so that
-//! a crowd stays readable.
+//! Enters: parts of bodies and outlines of obstacles. Overlapping shades count as the greatest of them: two limbs over
+//! a pixel do not darken it twice. The sun is high at the upper left: shade falls to the lower right, and is short, so
+//! that a crowd stays readable.
 
 use glam::{Vec2, Vec3};
 use tiny_skia::{FillRule, Mask, Path, Pixmap, Transform};

@@ -21,6 +21,17 @@ const PIECE_PX: f32 = 6.0;
 const BRISK_MPS: f32 = 1.5;
 
 /// Root positions of all agents at uniform times from 0 on.
+///
+/// ```
+/// use fbcrowd_render::Tracks;
+/// use glam::Vec2;
+///
+/// // Two agents in two frames: the first one walks, the other one stands.
+/// let positions_m = vec![Vec2::ZERO, Vec2::Y, Vec2::new(0.5, 0.0), Vec2::Y];
+/// let tracks = Tracks { agent_count: 2, dt_s: 0.5, positions_m };
+/// assert_eq!((tracks.frame_count(), tracks.frame_m(1)), (2, &[Vec2::new(0.5, 0.0), Vec2::Y][..]));
+/// assert!(tracks.agent_m(1).all(|position_m| position_m == Vec2::Y));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracks {
     /// Number of agents in each frame.
@@ -82,8 +93,8 @@ pub(crate) fn draw(pixmap: &mut Pixmap, framing: &Framing, tracks: &Tracks, trai
     }
 }
 
-/// Corners from the body backward. They are at fixed frames of the tracks, so that the ribbon does not crawl from picture
-/// to picture.
+/// Corners from the body backward. They are at fixed frames of the tracks, so that the ribbon does not crawl from
+/// picture to picture.
 fn corners(framing: &Framing, tracks: &Tracks, trail: &Trail) -> Vec<RibbonCorner> {
     let Trail { agent, time_s, length_s, .. } = *trail;
     let stride = ((PIECE_PX / (BRISK_MPS * tracks.dt_s * framing.scale_px_m)).round() as usize).max(1);

@@ -1,4 +1,4 @@
-//! The constraint overlay: whatever planner, whichever agents, always alike, and refusals that tell what to do.
+//! The constraint overlay: the same picture in every run, for any planner and agents; errors state the remedy.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use fbcrowd_sim::recording::Recording;
 use crate::sequence::options;
 use crate::support::{self, Scratch};
 
-/// The scene of the golden pictures, planned by somebody.
+/// A recording of the scene of the golden pictures, with a planner.
 fn recording(folder: &Path, planner: Planner, steps: usize) -> Recording {
     let mut header = support::golden_header();
     header.scenario.planner = planner;
@@ -33,7 +33,7 @@ fn width_px(png: &[u8]) -> u32 {
 }
 
 #[test]
-fn panels_are_the_same_for_any_threads_and_another_for_each_planner() {
+fn panels_depend_on_the_planner_not_on_threads() {
     let scratch = Scratch::new("overlay");
     let folder = scratch.path();
     let planners = [Planner::Mcn, Planner::Orca, Planner::SocialForce];
@@ -47,7 +47,7 @@ fn panels_are_the_same_for_any_threads_and_another_for_each_planner() {
 }
 
 #[test]
-fn each_agent_named_has_a_panel_in_png_and_exr() {
+fn each_agent_has_a_panel_in_png_and_exr() {
     let scratch = Scratch::new("panels");
     let folder = scratch.path();
     let recording = recording(folder, Planner::Mcn, 16);
@@ -59,17 +59,17 @@ fn each_agent_named_has_a_panel_in_png_and_exr() {
 }
 
 #[test]
-fn agents_that_do_not_exist_and_recordings_without_a_step_are_refused() {
-    let scratch = Scratch::new("refused");
+fn overlays_that_cannot_be_drawn_are_rejected() {
+    let scratch = Scratch::new("rejected");
     let folder = scratch.path();
-    let refusal = |steps: usize, agents: Vec<usize>| {
+    let rejection = |steps: usize, agents: Vec<usize>| {
         let recording = recording(folder, Planner::Mcn, steps);
         let options = SequenceOptions { constraints_of: agents, ..options(folder, PictureFormat::Png, None) };
         render_sequence(&recording, &options, &|_, _| ()).unwrap_err()
     };
-    let error = refusal(1, vec![2, 7]);
+    let error = rejection(1, vec![2, 7]);
     assert!(matches!(error, RenderError::NoSuchAgent { agent: 7, count: 7 }), "{error}");
     assert!(error.to_string().contains("0 to 6"), "{error}");
-    assert!(matches!(refusal(0, vec![2]), RenderError::NoStep));
-    assert!(matches!(refusal(1, vec![2; 99]), RenderError::TooManyPanels { requested: 99, .. }));
+    assert!(matches!(rejection(0, vec![2]), RenderError::NoStep));
+    assert!(matches!(rejection(1, vec![2; 99]), RenderError::TooManyPanels { requested: 99, .. }));
 }

@@ -49,7 +49,7 @@ fn files(
 }
 
 #[test]
-fn files_are_identical_for_any_threads_and_chunks_and_from_run_to_run() {
+fn files_do_not_depend_on_threads_or_ranges() {
     let scratch = Scratch::new("identical");
     let recording = recording(scratch.path());
     for format in [PictureFormat::Png, PictureFormat::Exr] {
@@ -62,7 +62,7 @@ fn files_are_identical_for_any_threads_and_chunks_and_from_run_to_run() {
 }
 
 #[test]
-fn exr_is_the_png_in_scene_linear_light() {
+fn exr_is_the_png_in_linear_light() {
     let scratch = Scratch::new("linear");
     let folder = scratch.path();
     let recording = recording(folder);
@@ -100,25 +100,25 @@ fn progress_counts_every_frame_once() {
     let scratch = Scratch::new("progress");
     let folder = scratch.path();
     let recording = recording(folder);
-    let heard = Mutex::new(Vec::new());
-    let progress = |done, all| heard.lock().unwrap().push((done, all));
+    let reports = Mutex::new(Vec::new());
+    let progress = |done, all| reports.lock().unwrap().push((done, all));
     render_sequence(&recording, &options(folder, PictureFormat::Png, Some("1001-1010x3")), &progress).unwrap();
-    let mut heard = heard.into_inner().unwrap();
-    heard.sort_unstable();
-    assert_eq!(heard, [(1, 4), (2, 4), (3, 4), (4, 4)]);
+    let mut reports = reports.into_inner().unwrap();
+    reports.sort_unstable();
+    assert_eq!(reports, [(1, 4), (2, 4), (3, 4), (4, 4)]);
 }
 
 #[test]
-fn a_folder_that_cannot_be_made_is_named_and_nothing_is_left() {
+fn unwritable_paths_are_named_and_leave_no_file() {
     let scratch = Scratch::new("unwritable");
     let folder = scratch.path();
     let recording = recording(folder);
     let blocked = folder.join("file/frames");
-    fs::write(folder.join("file"), "in the way").unwrap();
+    fs::write(folder.join("file"), "not a folder").unwrap();
     let error = render_sequence(&recording, &options(&blocked, PictureFormat::Png, None), &|_, _| ()).unwrap_err();
     assert!(matches!(&error, RenderError::Folder { folder, .. } if *folder == blocked), "{error}");
     assert!(error.to_string().contains("file/frames"), "{error}");
-    // A folder stands where the frame should go: the frame is refused by name, its temporary file removed.
+    // A folder has the name of the frame: the error names the frame, and its temporary file is removed.
     fs::create_dir(folder.join("walkers.1001.png")).unwrap();
     let error =
         render_sequence(&recording, &options(folder, PictureFormat::Png, Some("1001")), &|_, _| ()).unwrap_err();
@@ -128,7 +128,7 @@ fn a_folder_that_cannot_be_made_is_named_and_nothing_is_left() {
 }
 
 #[test]
-fn frames_outside_the_recording_are_refused() {
+fn frames_outside_the_recording_are_rejected() {
     let scratch = Scratch::new("outside");
     let folder = scratch.path();
     let recording = recording(folder);

@@ -27,8 +27,8 @@ pub(crate) struct LabelBox {
     pub(crate) is_far: bool,
 }
 
-/// Rectangles for labels, given as (point, size), within `bounds`; all `points` are left free. A label without room is to
-/// the right of its point.
+/// Rectangles for labels, given as (point, size), within `bounds`; all `points` are left free. A label without room is
+/// to the right of its point.
 pub(crate) fn label_boxes(labels: &[(Vec2, Vec2)], points: &[Vec2], bounds: &LabelBox) -> Vec<LabelBox> {
     let is_clear = |label: &LabelBox| points.iter().all(|point| !label.overlaps(&LabelBox::around(*point)));
     let mut taken: Vec<LabelBox> = Vec::new();

@@ -1,6 +1,6 @@
-//! A comparison of several series (planners, say) in several scenes: a panel per measure, a group per scene, a column per
-//! series. Every run is a dot; a line shows the mean, another the standard deviation. Scales start at 0, since no measure
-//! is negative.
+//! A comparison of several series (planners, say) in several scenes: a panel per measure, a group per scene, a column
+//! per series. Every run is a dot; a line shows the mean, another the standard deviation. Scales start at 0, since no
+//! measure is negative.
 
 use glam::Vec2;
 use motiondb::statistics::{mean, standard_deviation};
@@ -32,6 +32,20 @@ const MEAN_SHARE: f32 = 0.4;
 const HEADROOM: f32 = 0.08;
 
 /// Content of a comparison.
+///
+/// ```
+/// use fbcrowd_render::plots::crowd::{ComparedMeasure, Comparison, comparison};
+///
+/// // One scene, two planners, two runs each.
+/// let values = vec![vec![vec![0.02, 0.03], vec![0.11, 0.09]]];
+/// let picture = comparison(&Comparison {
+///     title: "Collisions".to_owned(),
+///     groups: vec!["crossing".to_owned()],
+///     series: vec!["MCN".to_owned(), "social forces".to_owned()],
+///     measures: vec![ComparedMeasure { label: "collisions C".to_owned(), values }],
+/// });
+/// assert_eq!(picture.width(), 2000);
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Comparison {
     /// Title of the figure.

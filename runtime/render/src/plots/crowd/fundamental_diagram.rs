@@ -22,6 +22,20 @@ const POINT_PX: f32 = 10.0;
 const CURVE_PX: f32 = 3.0;
 
 /// Content of a fundamental diagram. Both axes start at 0.
+///
+/// ```
+/// use fbcrowd_render::plots::crowd::{FundamentalDiagram, fundamental_diagram};
+/// use glam::Vec2;
+///
+/// let picture = fundamental_diagram(&FundamentalDiagram {
+///     title: "Fundamental diagram",
+///     across: "density, 1/m²",
+///     up: "speed, m/s",
+///     curve: ("published", vec![Vec2::new(0.5, 1.2), Vec2::new(4.0, 0.2)]),
+///     points: ("measured", vec![Vec2::new(1.0, 1.05), Vec2::new(2.0, 0.6)]),
+/// });
+/// assert!(picture.width() > picture.height());
+/// ```
 #[derive(Clone, Debug)]
 pub struct FundamentalDiagram<'a> {
     /// Title of the figure.

@@ -1,5 +1,5 @@
-//! Paths of the same agents in several simulations, side by side, as in the paper's Fig. 7. One colour per agent, the same
-//! in every panel; measures below each panel. World axes, metres.
+//! Paths of the same agents in several simulations, side by side, as in the paper's Fig. 7. One colour per agent, the
+//! same in every panel; measures below each panel. World axes, metres.
 
 use fbcrowd_sim::scenario::AgentSpec;
 use glam::Vec2;
@@ -28,6 +28,17 @@ const TITLE_PX: Vec2 = Vec2::new(LEFT_PX, 70.0);
 const LEGEND_PX: Vec2 = Vec2::new(LEFT_PX + 10.0, 118.0);
 
 /// Content of one panel: the paths of one simulation.
+///
+/// ```
+/// use fbcrowd_render::Tracks;
+/// use fbcrowd_render::plots::crowd::{PathPanel, side_by_side};
+/// use glam::Vec2;
+///
+/// let tracks = Tracks { agent_count: 1, dt_s: 1.0, positions_m: vec![Vec2::ZERO, Vec2::new(4.0, 0.0)] };
+/// let panel = |heading: &str| PathPanel { heading: heading.to_owned(), notes: Vec::new(), tracks: &tracks };
+/// let picture = side_by_side("One agent, two planners", &[], &[], &[panel("MCN"), panel("ORCA")]);
+/// assert!(picture.width() > picture.height());
+/// ```
 #[derive(Clone, Debug)]
 pub struct PathPanel<'a> {
     /// Heading of the panel.

@@ -1,5 +1,5 @@
-//! The paths of all agents of a recording, as in the paper's Fig. 7. One colour per agent, a dot at its start, a cross at
-//! its goal. World axes, metres.
+//! The paths of all agents of a recording, as in the paper's Fig. 7. One colour per agent, a dot at its start, a cross
+//! at its goal. World axes, metres.
 
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::scenario::AgentSpec;
@@ -39,6 +39,20 @@ pub(crate) const PATH_LEGEND: [LegendEntry<'static>; 2] =
     [(PlotMark::Disc, INK, "start"), (PlotMark::Cross, INK, "goal")];
 
 /// The figure of a whole recording.
+///
+/// ```no_run
+/// use std::path::Path;
+///
+/// use fbcrowd_render::plots::crowd::trajectories;
+/// use fbcrowd_render::top_view::read_tracks;
+/// use fbcrowd_render::{RenderError, png_frame};
+/// use fbcrowd_sim::Recording;
+///
+/// let recording = Recording::open(Path::new("crossing.fbrec"))?;
+/// let tracks = read_tracks(&recording)?;
+/// png_frame::write(Path::new("paths.png"), &trajectories(recording.header(), &tracks))?;
+/// # Ok::<(), RenderError>(())
+/// ```
 pub fn trajectories(header: &Header, tracks: &Tracks) -> Pixmap {
     let scene = PathScene::new(&header.scenario.agents, &header.scenario.obstacles_m, &[tracks]);
     let [left, top, width] = PANEL_LEFT_TOP_WIDTH_PX;

@@ -1,6 +1,7 @@
 //! All plots of a database, as `inspect --plots` writes them.
 //!
-//! Plots of single examples are split into sheets if the examples are many: `contact_sheet.png`, `contact_sheet_2.png` …
+//! Plots of single examples are split into sheets if the examples are many: `contact_sheet.png`, `contact_sheet_2.png`
+//! …
 
 use std::fs;
 use std::ops::Range;

@@ -1,8 +1,8 @@
-//! The contact sheet: each example as a row of bodies and, below it, a row of stick figures, at eight phases of its cycle,
-//! from the side, from the front and from above.
+//! The contact sheet: each example as a row of bodies and, below it, a row of stick figures, at eight phases of its
+//! cycle, from the side, from the front and from above.
 //!
-//! The bodies are those of the top view, rotated. A line shows the ground. A sheet has up to 24 examples. Poses in the root
-//! frame, metres; positions on the sheet in pixels, y down.
+//! The bodies are those of the top view, rotated. A line shows the ground. A sheet has up to 24 examples. Poses in the
+//! root frame, metres; positions on the sheet in pixels, y down.
 
 use std::ops::Range;
 

@@ -1,7 +1,8 @@
 //! Gait events: for each example, height and speed of both soles over the cycle, the contacts, and the four key times.
 //!
-//! The curves are those of a sole's lowest point. Its speed is relative to the ground: with root velocity v and turn rate
-//! ω, a point p of the root frame has the velocity v + ω·perp(p) + dp/dt. A sheet has up to 36 examples. Metres, seconds.
+//! The curves are those of a sole's lowest point. Its speed is relative to the ground: with root velocity v and turn
+//! rate ω, a point p of the root frame has the velocity v + ω·perp(p) + dp/dt. A sheet has up to 36 examples. Metres,
+//! seconds.
 
 use std::ops::Range;
 
@@ -100,8 +101,8 @@ fn speed_axis(speeds_mps: [&[f32]; 2]) -> PlotAxis {
     PlotAxis::new("speed, m/s", [0.0, 1.08 * highest])
 }
 
-/// Height (m) and horizontal speed over the ground (m/s) of the lowest sole point, at each stored phase and at the first
-/// one again, which closes the cycle.
+/// Height (m) and horizontal speed over the ground (m/s) of the lowest sole point, at each stored phase and at the
+/// first one again, which closes the cycle.
 fn sole_curves(db: &MotionDb, example: usize, side: Side) -> [Vec<f32>; 2] {
     let soles: Vec<[Vec3; 3]> = (0..PHASE_COUNT).map(|phase| sole_points_m(db, example, phase, side)).collect();
     let lowest = |row: usize| {

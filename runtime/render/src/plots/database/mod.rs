@@ -2,8 +2,8 @@
 //!
 //! Enters: a valid database. Leaves: opaque pictures; [`write_database_plots`] writes all of them as PNG files.
 //!
-//! Read `all_plots`, then any other: `velocity_space`; `parameter_space` and `coverage`, which share `parameter_planes`;
-//! `contact_sheet`, which draws `stick_figure`s; `gait_events`; `pose_distances`.
+//! Read `all_plots`, then any other: `velocity_space`; `parameter_space` and `coverage`, which share
+//! `parameter_planes`; `contact_sheet`, which draws `stick_figure`s; `gait_events`; `pose_distances`.
 
 pub(crate) mod all_plots;
 pub(crate) mod contact_sheet;

@@ -1,5 +1,5 @@
-//! The velocity sets of a database (`FbCrowd` Fig. 3): turning set, holding set, and sharp-turn edges, with the examples
-//! that span them. By the paper's own construction there is a single set. Agent's frame, m/s.
+//! The velocity sets of a database (`FbCrowd` Fig. 3): turning set, holding set, and sharp-turn edges, with the
+//! examples that span them. By the paper's own construction there is a single set. Agent's frame, m/s.
 
 use glam::Vec2;
 use motiondb::motion::{MotionDb, MotionExample};
