@@ -1,18 +1,23 @@
 //! Statistics of a sample: mean, standard deviation, median, percentile. Values carry any unit; results have the same.
 //!
-//! An empty sample has none of them: each function returns `None`.
+//! An empty sample has none of them: each function returns `None`. Sums run in the order of the values, and sorting uses
+//! the total order of floats, so equal input gives equal bytes.
 
-/// Arithmetic mean.
+use std::iter::Sum;
+use std::ops::Div;
+
+/// Arithmetic mean of numbers or of vectors (`f64`, `glam::DVec2`, `glam::DVec3`).
 ///
 /// ```
-/// assert_eq!(motiondb::statistics::mean([1.0, 2.0, 6.0]), Some(3.0));
+/// use glam::DVec2;
+/// use motiondb::statistics::mean;
+///
+/// assert_eq!(mean([1.0, 2.0, 6.0]), Some(3.0));
+/// assert_eq!(mean([DVec2::X, DVec2::Y]), Some(DVec2::splat(0.5)));
 /// ```
-pub fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
-    let (mut count, mut sum) = (0_usize, 0.0);
-    for value in values {
-        count += 1;
-        sum += value;
-    }
+pub fn mean<T: Sum + Div<f64, Output = T>>(values: impl IntoIterator<Item = T>) -> Option<T> {
+    let mut count = 0_usize;
+    let sum: T = values.into_iter().inspect(|_| count += 1).sum();
     (count > 0).then(|| sum / count as f64)
 }
 
