@@ -1,8 +1,41 @@
-//! The motion database: the nouns that the offline compiler and the runtime share.
+//! The motion database: examples of human motion, and everything that the offline compiler and the runtime share.
 //!
-//! Chapters, in reading order: [`body`] (skeleton and poses), [`diagnostic`] (what is reported of clips), [`motion`] (parameters, examples, the database, where
-//! synthesis may switch), [`velocity_sets`] (`FbCrowd` §4.1), [`blend_space`] (§5), [`quality`], [`validate`] (the
-//! invariants) and [`files`].
+//! A database holds closed, phase-aligned cycles of motion (the *examples*), the velocities that they let a body walk
+//! at ([`VelocityHull`]), the simplices between them ([`BlendSpace`]) and the times at which synthesis may switch
+//! ([`Correspondence`]). The file format is `.fbdb`.
+//!
+//! Load a database, print its examples, what they reach and what they do not:
+//!
+//! ```no_run
+//! use std::path::Path;
+//!
+//! use motiondb::files::database_file::{self, FileError};
+//! use motiondb::quality::coverage::coverage;
+//! use motiondb::Parameters;
+//!
+//! fn main() -> Result<(), FileError> {
+//!     let (db, _checksum) = database_file::load(Path::new("motion.fbdb"))?;
+//!     for example in &db.examples {
+//!         let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = example.parameters;
+//!         println!("{}: {speed_mps:.2} m/s, {turn_rate_rad_s:.2} rad/s, {strafe_mps:.2} m/s", example.name);
+//!     }
+//!
+//!     // Which examples make a slow left turn, and with which shares?
+//!     let turn = Parameters { speed_mps: 1.0, turn_rate_rad_s: 0.5, strafe_mps: 0.0 };
+//!     match db.locator().locate_inside(turn) {
+//!         Some(shares) => println!("blended from examples {:?}, shares {:?}", shares.examples, shares.shares),
+//!         None => println!("outside the examples"),
+//!     }
+//!     for gap in coverage(&db) {
+//!         println!("{}", gap.sentence);
+//!     }
+//!     Ok(())
+//! }
+//! ```
+//!
+//! Chapters, in reading order: [`body`] (skeleton, poses, forward kinematics), [`diagnostic`] (what the compiler
+//! reports about clips), [`motion`] (parameters, examples, the database, switching times), [`velocity_sets`] (`FbCrowd`
+//! §4.1), [`blend_space`] (§5), [`quality`], [`validate`] (the invariants), [`files`] and [`statistics`].
 //!
 //! Conventions: metres, seconds, radians; x and y on the ground, z up, right-handed. A body's frame: x forward, y left.
 //! Angles are counter-clockwise seen from above. Pairs of sides are `[left, right]`.
@@ -16,3 +49,10 @@ pub mod quality;
 pub mod statistics;
 pub mod validate;
 pub mod velocity_sets;
+
+pub use blend_space::{BlendSpace, Locator, Shares};
+pub use body::{Foot, JOINT_COUNT, Joint, Joints, Pose, Root, RootFrame, Side, Skeleton};
+pub use diagnostic::Diagnostic;
+pub use files::atomic_file::AtomicFile;
+pub use motion::{Correspondence, MotionDb, MotionExample, PHASE_COUNT, Parameters, PhaseMap, Rows, SourceRecord};
+pub use velocity_sets::velocity_hull::{Construction, VelocityHull};

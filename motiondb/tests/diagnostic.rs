@@ -1,4 +1,4 @@
-//! Diagnostics: the sentence of each, and its code and its bytes.
+//! Diagnostics: sentence, code and bytes of each.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -213,7 +213,7 @@ fn each_diagnostic_has_its_sentence() {
 }
 
 #[test]
-fn codes_are_the_names_of_serde() {
+fn codes_are_the_names_in_serde() {
     for (diagnostic, _) in sentences() {
         let severity = serde_json::to_value(diagnostic.severity()).unwrap();
         let json = serde_json::to_value(&diagnostic).unwrap();
@@ -224,7 +224,7 @@ fn codes_are_the_names_of_serde() {
 }
 
 #[test]
-fn a_database_keeps_variants_and_arguments_and_no_sentence() {
+fn databases_store_no_sentences() {
     let config = bincode::config::standard();
     for (diagnostic, sentence) in sentences() {
         let bytes = bincode::serde::encode_to_vec(&diagnostic, config).unwrap();
@@ -235,7 +235,7 @@ fn a_database_keeps_variants_and_arguments_and_no_sentence() {
 }
 
 #[test]
-fn severity_follows_from_the_kind_of_finding() {
+fn each_variant_has_its_severity() {
     let of = |diagnostic: Diagnostic| diagnostic.severity();
     assert_eq!(of(Diagnostic::Note(Note::FirstPoseCut)), Severity::Note);
     assert_eq!(of(Diagnostic::Warning(Warning::SidesExchanged)), Severity::Warning);
@@ -243,7 +243,7 @@ fn severity_follows_from_the_kind_of_finding() {
 }
 
 #[test]
-fn only_what_concerns_an_example_names_its_start() {
+fn only_diagnostics_of_examples_name_a_start() {
     let slide = |from_s| Diagnostic::Warning(Warning::FeetSlide { slide_cm_s: 26.0, from_s });
     assert_eq!(slide(None).of_example_from(4.0), slide(Some(4.0)));
     let pose = Diagnostic::Note(Note::FirstPoseCut);

@@ -1,4 +1,4 @@
-//! `.fbdb`: what was written is read, and whatever else is refused with the file's name.
+//! `.fbdb`: a written database is read again; any other file is rejected with its name.
 
 mod support;
 
@@ -9,13 +9,13 @@ use motiondb::files::database_file::{self, FileError};
 use proptest::prelude::*;
 use support::small_db;
 
-fn place(name: &str) -> PathBuf {
+fn path_of(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
 
 #[test]
-fn what_was_written_is_read_and_leaves_nothing_beside_it() {
-    let folder = place("round_trip");
+fn a_written_database_is_read_again() {
+    let folder = path_of("round_trip");
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
     let path = folder.join("motion.fbdb");
@@ -25,13 +25,13 @@ fn what_was_written_is_read_and_leaves_nothing_beside_it() {
 }
 
 #[test]
-fn a_missing_file_a_missing_folder_and_foreign_content_are_told_apart() {
-    assert!(matches!(database_file::read(&place("nothing.fbdb")), Err(FileError::Unreadable { .. })));
+fn each_failure_has_its_own_error() {
+    assert!(matches!(database_file::read(&path_of("nothing.fbdb")), Err(FileError::Unreadable { .. })));
     assert!(matches!(
-        database_file::write(&place("nowhere/motion.fbdb"), &small_db()),
+        database_file::write(&path_of("nowhere/motion.fbdb"), &small_db()),
         Err(FileError::Unwritable { .. })
     ));
-    let foreign = place("foreign.fbdb");
+    let foreign = path_of("foreign.fbdb");
     fs::write(&foreign, "HIERARCHY\nROOT Hips\n").unwrap();
     let message = database_file::read(&foreign).unwrap_err().to_string();
     assert!(message.contains("foreign.fbdb") && message.contains("fbcrowd compile"), "{message}");
@@ -39,7 +39,7 @@ fn a_missing_file_a_missing_folder_and_foreign_content_are_told_apart() {
 
 #[test]
 fn a_broken_invariant_is_read_but_not_loaded() {
-    let path = place("broken.fbdb");
+    let path = path_of("broken.fbdb");
     let mut db = small_db();
     db.blend_space.covered_share = 0.5;
     database_file::write(&path, &db).unwrap();
@@ -52,13 +52,13 @@ fn a_broken_invariant_is_read_but_not_loaded() {
 
 proptest! {
     #[test]
-    fn no_altered_or_cut_file_is_read(place_share in 0.0f64..1.0, bit in 0u8..8, cut in any::<bool>()) {
+    fn no_altered_or_cut_file_is_read(share in 0.0f64..1.0, bit in 0u8..8, cut in any::<bool>()) {
         let mut bytes = database_file::to_bytes(&small_db());
-        let place = (place_share * bytes.len() as f64) as usize;
+        let offset = (share * bytes.len() as f64) as usize;
         if cut {
-            bytes.truncate(place);
+            bytes.truncate(offset);
         } else {
-            bytes[place] ^= 1 << bit;
+            bytes[offset] ^= 1 << bit;
         }
         prop_assert!(database_file::from_bytes(Path::new("altered"), &bytes).is_err());
     }

@@ -1,4 +1,4 @@
-//! Every invariant holds for a sound database, and names the fault of one that breaks it.
+//! Every invariant holds for a valid database, and is named for a database that breaks it.
 
 mod support;
 
@@ -10,25 +10,25 @@ use motiondb::validate::validate;
 use motiondb::velocity_sets::velocity_hull::Construction;
 use support::small_db;
 
-/// Fails unless exactly this invariant is the first that a fault breaks.
+/// Checks that this invariant is the first that the fault breaks.
 #[track_caller]
 fn check_breaks(invariant: &str, fault: impl Fn(&mut MotionDb)) {
     let mut db = small_db();
     fault(&mut db);
     let first = validate(&db).into_iter().find(|check| check.broken.is_some());
-    let first = first.unwrap_or_else(|| panic!("{invariant}: the fault went unseen"));
+    let first = first.unwrap_or_else(|| panic!("{invariant}: the fault was not found"));
     assert_eq!(first.name, invariant, "{:?}", first.broken);
 }
 
 #[test]
-fn a_sound_database_holds_every_invariant() {
+fn a_valid_database_holds_every_invariant() {
     for check in validate(&small_db()) {
         assert_eq!(check.broken, None, "{}", check.name);
     }
 }
 
 #[test]
-fn faults_that_do_not_depend_on_each_other_are_all_named() {
+fn independent_faults_are_all_named() {
     let mut db = small_db();
     db.examples[1].planted_share = 0.9;
     db.blend_space.covered_share = 0.9;
@@ -90,7 +90,7 @@ fn faults_of_the_motion_are_named() {
 }
 
 #[test]
-fn a_speed_that_the_feet_do_not_confirm_is_named() {
+fn a_speed_that_contradicts_the_feet_is_named() {
     for factor in [0.75, 1.25, -1.0] {
         let mut db = small_db();
         let mut forged = db.examples[1].parameters;

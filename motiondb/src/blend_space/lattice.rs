@@ -1,47 +1,49 @@
-//! The examples' parameters as whole numbers, where every question of side is decided exactly.
+//! The examples' parameters as whole numbers: on them every geometric predicate is exact.
 //!
-//! Each axis of (v_f, ω_t, ω_s) is divided by its range over the examples and rounded to 2⁻²⁰ of it. The compiler
-//! builds its simplices on these points, and [`crate::blend_space::tiling`] proves them there: no rounding, no tolerance. An axis
-//! without range is dropped; a set that lies flat within a gait's noise counts as flat, and is seen along the axis that
-//! it leans on least, so that points off the flat stand in it.
+//! Enters: (v_f, ω_t, ω_s) of each example. Leaves: points of a lattice. Each axis is divided by its range over the
+//! examples and rounded to 2⁻²⁰ of it. `triangulation` builds the simplices on these points, and `tiling` proves them
+//! there, both without rounding or tolerance.
+//!
+//! An axis without range is dropped. A set that is flat within gait noise counts as flat: it is projected along the
+//! axis nearest to its normal.
 
 use glam::DVec3;
 
 use crate::motion::parameters::Parameters;
 
-/// Whole numbers to an axis's range: finer than an `f32` far from 0. Determinants of four lifted points stay below
-/// 2¹²⁷.
+/// Lattice steps in an axis's range: finer than `f32` far from 0. Determinants of four lifted points stay below 2¹²⁷.
 const STEPS: f64 = (1 << 20) as f64;
-/// Differences below these are no range: what the compiler's snapping takes for a gait's noise, m/s, rad/s (3 °/s),
-/// m/s.
+/// Least range that an axis must have, m/s, rad/s (3 °/s), m/s: below is gait noise, which the compiler's snapping sets
+/// to 0.
 pub(crate) const LEAST_RANGES: [f32; 3] = [0.05, 0.0524, 0.1];
-/// A set that is nowhere thicker than this part of an axis's range is flat: some centimetres a second.
+/// Greatest thickness of a flat set, as a share of an axis's range: a few centimetres per second.
 pub(crate) const FLAT_SHARE: f32 = 0.02;
-/// Examples nearer than 2⁻⁹ of a range are twins: one is a corner for both, for between them a blend would jump. So an
-/// example that is no corner may lie this far outside the hull of the corners.
-pub(crate) const TWIN_STEPS: f64 = STEPS / 512.0;
+/// Distance up to which two examples coincide, lattice steps: 2⁻⁹ of a range. Between them a blend would jump, so only
+/// one is a corner; the other may lie this far outside the hull of the corners.
+pub(crate) const COINCIDENT_STEPS: f64 = STEPS / 512.0;
 
-/// A point in whole numbers; coordinates beyond the dimension are 0.
-pub type LatticePoint = [i64; 3];
+/// A point of the lattice. Coordinates beyond the dimension are 0.
+pub(crate) type LatticePoint = [i64; 3];
 
-/// The examples of a blend space on the lattice.
+/// The examples of a blend space, on the lattice.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lattice {
-    /// 0 (one point) to 3.
-    pub dimension: usize,
-    /// As in [`crate::blend_space::space::BlendSpace`].
-    pub axis_ranges: [f32; 3],
-    /// Of each example, in the axes that span the set: `dimension` coordinates from 0 to about 2²⁰.
-    pub points: Vec<LatticePoint>,
+pub(crate) struct Lattice {
+    /// Number of dimensions that the examples span: 0 (one point) to 3.
+    pub(crate) dimension: usize,
+    /// Range of each axis over the examples, m/s, rad/s, m/s; 0 for a dropped axis.
+    pub(crate) axis_ranges: [f32; 3],
+    /// Each example in the axes that span the set: `dimension` coordinates from 0 to about 2²⁰.
+    pub(crate) points: Vec<LatticePoint>,
     /// Squared distance of each example from the axes' least values, over all three axes.
-    pub lifts: Vec<i64>,
+    pub(crate) lifts: Vec<i64>,
     /// `dimension + 1` examples that span the set: a simplex with volume, as large as a greedy choice finds.
-    pub span: Vec<usize>,
+    pub(crate) span: Vec<usize>,
 }
 
 impl Lattice {
-    /// None where a parameter is not finite, or out of all bounds.
-    pub fn new(parameters: &[Parameters]) -> Option<Self> {
+    /// The lattice of the examples' parameters; `None` without examples, or if a parameter is not finite or far too
+    /// large.
+    pub(crate) fn new(parameters: &[Parameters]) -> Option<Self> {
         let least = parameters.iter().map(|at| at.to_vec3()).reduce(|a, b| a.min(b))?;
         let axis_ranges = axis_ranges(parameters)?;
         let whole = |at: &Parameters| -> [i64; 3] {
@@ -56,18 +58,18 @@ impl Lattice {
         let all: Vec<[i64; 3]> = parameters.iter().map(whole).collect();
         let (span, directions) = spanning_simplex(&all);
         let axes = spanning_axes(&directions);
-        let seen = |point: &[i64; 3]| std::array::from_fn(|k| axes.get(k).map_or(0, |&axis| point[axis]));
+        let projected = |point: &[i64; 3]| std::array::from_fn(|k| axes.get(k).map_or(0, |&axis| point[axis]));
         Some(Self {
             dimension: axes.len(),
             axis_ranges,
-            points: all.iter().map(seen).collect(),
+            points: all.iter().map(projected).collect(),
             lifts: all.iter().map(|point| point.iter().map(|x| x * x).sum()).collect(),
             span,
         })
     }
 }
 
-/// Range of each axis over the examples, 0 where it is no more than noise; none where it is not finite.
+/// Range of each axis over the examples, 0 within noise; `None` if a range or a parameter is not finite.
 fn axis_ranges(parameters: &[Parameters]) -> Option<[f32; 3]> {
     let points = || parameters.iter().map(|at| at.to_vec3());
     let ranges = points().reduce(|a, b| a.max(b))? - points().reduce(|a, b| a.min(b))?;
@@ -75,15 +77,15 @@ fn axis_ranges(parameters: &[Parameters]) -> Option<[f32; 3]> {
     (points().all(|point| point.is_finite()) && ranges.is_finite()).then(|| std::array::from_fn(kept))
 }
 
-/// Points that hold all others between them but for noise, each the farthest from the flat of those before it, and
-/// orthonormal directions of that flat.
+/// A simplex of points that spans the set but for noise, and orthonormal directions of its span. Each point is the
+/// farthest from the span of those before it.
 fn spanning_simplex(points: &[[i64; 3]]) -> (Vec<usize>, Vec<DVec3>) {
     let offset = |index: usize| DVec3::from_array(std::array::from_fn(|k| (points[index][k] - points[0][k]) as f64));
     let (mut span, mut directions) = (vec![0], Vec::<DVec3>::new());
     while directions.len() < 3 {
-        let off_flat = |index| directions.iter().fold(offset(index), |off, along| off.reject_from_normalized(*along));
-        // Backwards, for of equals the last is taken.
-        let offs = (0..points.len()).rev().map(|index| (index, off_flat(index)));
+        let off_span = |index| directions.iter().fold(offset(index), |off, along| off.reject_from_normalized(*along));
+        // Reversed: `max_by` returns the last of equals, and here the first must win.
+        let offs = (0..points.len()).rev().map(|index| (index, off_span(index)));
         match offs.max_by(|(_, a), (_, b)| a.length_squared().total_cmp(&b.length_squared())) {
             Some((index, off)) if off.length() > STEPS * f64::from(FLAT_SHARE) => {
                 span.push(index);
@@ -95,8 +97,8 @@ fn spanning_simplex(points: &[[i64; 3]]) -> (Vec<usize>, Vec<DVec3>) {
     (span, directions)
 }
 
-/// As many axes as there are orthonormal directions, ascending: the flat of the directions is seen along those that it
-/// leans on least.
+/// The axes, ascending, onto which a set with these orthonormal directions is projected: as many as there are
+/// directions.
 fn spanning_axes(directions: &[DVec3]) -> Vec<usize> {
     let steepest = |of: DVec3| (0..3).max_by(|&a, &b| of[a].abs().total_cmp(&of[b].abs()));
     match *directions {
@@ -107,8 +109,8 @@ fn spanning_axes(directions: &[DVec3]) -> Vec<usize> {
     }
 }
 
-/// Length, twice the area or six times the volume of a simplex of one to four corners, signed: positive where they turn
-/// counter-clockwise. Axes beyond its dimension count as unit edges, so that one formula serves all.
+/// Signed length, twice the area or six times the volume of a simplex of one to four corners: positive if they turn
+/// counter-clockwise. Missing edges are unit vectors of the further axes, so one formula serves all dimensions.
 pub(crate) fn signed_volume(corners: &[LatticePoint]) -> i128 {
     let mut edges: [LatticePoint; 3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
     for (edge, corner) in edges.iter_mut().zip(&corners[1..]) {
@@ -130,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_spans_no_dimension_along_any_direction() {
+    fn noise_spans_no_dimension() {
         assert_eq!(dimension(&[[1.0, 2.0, 3.0]; 3]), 0);
         assert_eq!(dimension(&[[1.0, 0.0, 0.0], [1.04, 0.05, 0.09]]), 0);
         assert_eq!(dimension(&[[0.0, 0.0, 0.0], [1.0, 1.0, 0.3], [2.0, 2.02, 0.61], [3.0, 2.99, 0.9]]), 1);
@@ -142,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_has_no_lattice() {
+    fn parameters_that_are_not_finite_have_no_lattice() {
         for wrong in [f32::NAN, f32::INFINITY] {
             let parameters = [0.0, wrong].map(|speed_mps| Parameters { speed_mps, ..Parameters::default() });
             assert_eq!(Lattice::new(&parameters), None);

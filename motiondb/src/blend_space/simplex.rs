@@ -1,41 +1,45 @@
-//! A simplex of one to four corners in the metric of the blend space, and its point nearest to a query.
+//! A simplex of one to four corners: barycentric shares of a point, and the point nearest to a query. All points are in
+//! the metric of the blend space.
 //!
-//! Offsets from the first corner become shares of the others through the dual basis of the edges, the rows of the
-//! pseudo-inverse (EᵀE)⁻¹Eᵀ: one formula for tetrahedra, triangles, segments and points. Where a share is negative, the
-//! nearest point lies on the facet opposite to such a corner.
+//! The offset of a point from the first corner gives the shares of the others by the dual basis of the edges: the rows
+//! of the pseudo-inverse (EᵀE)⁻¹Eᵀ. One formula serves tetrahedra, triangles, segments and points. If a share is
+//! negative, the nearest point lies on the facet opposite to such a corner.
 
 use glam::DVec3;
 
 use crate::blend_space::space::{MAX_CORNERS, Shares};
 
-/// A simplex with an edge this many times longer than its height is a sliver: what `f64` makes of it is rounding, and
-/// the gap that it leaves is too thin to see.
+/// Edge over height from which a simplex is a sliver: `f64` then gives only rounding, and the gap is negligible.
 const SLIVER: f64 = 1e9;
-/// A share this far below 0 is rounding, not outside; wider than the error of `f64` in the thinnest simplex.
+/// Greatest negative share that counts as inside: more than the rounding of `f64` in the thinnest simplex.
 const INSIDE_TOLERANCE: f64 = 1e-6;
 
-/// Corners, and the rows that turn an offset from the first into the shares of the others.
+/// A simplex between examples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Simplex {
+    /// Index of the example at each corner.
     examples: [u32; MAX_CORNERS],
+    /// Corners, in the metric.
     corners: [DVec3; MAX_CORNERS],
+    /// Number of corners.
     count: usize,
+    /// Dual basis of the edges: times the offset from the first corner, the shares of the other corners.
     rows: [DVec3; 3],
 }
 
-/// A point of a simplex.
+/// The nearest point that a search has found so far.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Nearest {
-    /// From the query, squared, in the metric.
+pub(crate) struct NearestPoint {
+    /// Squared distance from the query, in the metric.
     pub(crate) distance_squared: f64,
-    /// The point itself; NaN where nothing has been found.
-    pub(crate) foot: DVec3,
+    /// The point, in the metric; NaN before the first is found.
+    pub(crate) point: DVec3,
     examples: [u32; MAX_CORNERS],
     shares: [f64; MAX_CORNERS],
 }
 
 impl Simplex {
-    /// `points` are those of all examples.
+    /// The simplex of some examples; `points` are those of all examples, in the metric.
     pub(crate) fn new(examples: &[u32], points: &[DVec3]) -> Self {
         let mut simplex = Self {
             examples: [0; MAX_CORNERS],
@@ -55,6 +59,7 @@ impl Simplex {
         self.corners[k] - self.corners[0]
     }
 
+    /// Whether an edge is [`SLIVER`] times longer than the height over it, or a coordinate is not finite.
     pub(crate) fn is_sliver(&self) -> bool {
         !(1..self.count).all(|k| self.rows[k - 1].length() * self.edge(k).length() < SLIVER)
     }
@@ -77,7 +82,7 @@ impl Simplex {
         facet
     }
 
-    /// The least share at a box's centre; none where the box lies outside: where a share is negative in all of it.
+    /// Least share at a box's centre. `None` for a box outside the simplex: a share is negative in all of the box.
     pub(crate) fn depth_in_box(&self, centre: DVec3, half: DVec3) -> Option<f64> {
         let shares = self.shares(centre);
         let first = -(self.rows[0] + self.rows[1] + self.rows[2]);
@@ -86,7 +91,7 @@ impl Simplex {
         reaches.then(|| shares[..self.count].iter().copied().fold(f64::INFINITY, f64::min))
     }
 
-    /// Shares at a point that lies within.
+    /// Shares at a point inside the simplex; `None` outside it.
     pub(crate) fn shares_within(&self, point: DVec3) -> Option<Shares> {
         let shares = self.shares(point);
         let within = shares[..self.count].iter().all(|&share| share >= -INSIDE_TOLERANCE);
@@ -97,7 +102,7 @@ impl Simplex {
         })
     }
 
-    /// Corners of each facet, sorted; a point has none.
+    /// Examples at the corners of each facet, sorted; a point has no facets.
     pub(crate) fn facets(&self) -> impl Iterator<Item = Vec<u32>> {
         let mut sorted = self.examples[..self.count].to_vec();
         sorted.sort_unstable();
@@ -105,26 +110,26 @@ impl Simplex {
         (0..facets).map(move |left_out| [&sorted[..left_out], &sorted[left_out + 1..]].concat())
     }
 
-    /// Takes its point nearest to `point` where that is nearer than what is known.
-    pub(crate) fn approach(&self, point: DVec3, nearest: &mut Nearest) {
-        let towards = point - nearest.foot;
-        if self.corners[..self.count].iter().all(|&corner| (corner - nearest.foot).dot(towards) <= 0.0) {
-            return; // all of it lies behind what is known
+    /// Replaces `nearest` if a point of the simplex is nearer to `query`.
+    pub(crate) fn approach(&self, query: DVec3, nearest: &mut NearestPoint) {
+        let towards = query - nearest.point;
+        if self.corners[..self.count].iter().all(|&corner| (corner - nearest.point).dot(towards) <= 0.0) {
+            return; // Seen from the query, the whole simplex lies behind the nearest point.
         }
-        let shares = self.shares(point);
-        let foot: DVec3 = (0..self.count).map(|k| self.corners[k] * shares[k]).sum();
-        let distance_squared = foot.distance_squared(point);
+        let shares = self.shares(query);
+        let point: DVec3 = (0..self.count).map(|k| self.corners[k] * shares[k]).sum();
+        let distance_squared = point.distance_squared(query);
         if distance_squared >= nearest.distance_squared {
-            return; // all of its plane is farther
+            return; // The simplex's whole plane is farther.
         }
         let mut beyond = (0..self.count).filter(|&k| shares[k] < 0.0).peekable();
         if beyond.peek().is_none() {
-            *nearest = Nearest { distance_squared, foot, examples: self.examples, shares };
+            *nearest = NearestPoint { distance_squared, point, examples: self.examples, shares };
         }
-        beyond.for_each(|k| self.facet(k).approach(point, nearest));
+        beyond.for_each(|k| self.facet(k).approach(query, nearest));
     }
 
-    /// Barycentric coordinates of the point's projection onto the simplex's own plane, line or space.
+    /// Barycentric coordinates of the point's projection onto the simplex's own space, plane or line.
     fn shares(&self, point: DVec3) -> [f64; MAX_CORNERS] {
         let offset = point - self.corners[0];
         let [b, c, d] = self.rows.map(|row| row.dot(offset));
@@ -132,15 +137,16 @@ impl Simplex {
     }
 }
 
-impl Nearest {
-    /// Where nothing has been found: the first example, out of reach.
-    pub(crate) const NOTHING: Self = Self {
+impl NearestPoint {
+    /// Before the first point is found: the first example, infinitely far.
+    pub(crate) const NONE: Self = Self {
         distance_squared: f64::INFINITY,
-        foot: DVec3::NAN,
+        point: DVec3::NAN,
         examples: [0; MAX_CORNERS],
         shares: [1.0, 0.0, 0.0, 0.0],
     };
 
+    /// Shares of the examples at the point.
     pub(crate) fn shares(&self) -> Shares {
         let mut examples = self.examples;
         let shares = self.shares.map(|share| share as f32);
@@ -149,7 +155,7 @@ impl Nearest {
     }
 }
 
-/// The dual basis of up to three edges: row k gives 1 on edge k and 0 on the others.
+/// Dual basis of up to three edges: row k times edge k is 1, times the other edges 0.
 fn dual_edges(simplex: &Simplex) -> [DVec3; 3] {
     let [a, b, c] = [1, 2, 3].map(|k| simplex.edge(k));
     match simplex.count {
@@ -167,7 +173,7 @@ fn dual_edges(simplex: &Simplex) -> [DVec3; 3] {
     }
 }
 
-/// Simplices of `count` corners each among some points, as they come: they may cross, or lie on each other.
+/// Arbitrary simplices of `count` corners each among some points: they may intersect or coincide.
 #[cfg(test)]
 pub(crate) fn soup(points: &[[i8; 3]], corners: &[[usize; 4]], count: usize) -> Vec<Simplex> {
     let points: Vec<DVec3> = points.iter().map(|at| DVec3::from_array(at.map(f64::from))).collect();
@@ -184,7 +190,7 @@ mod tests {
     proptest! {
         /// x is the nearest point of a convex set to p where no corner c lies further towards p: (p − x)·(c − x) ≤ 0.
         #[test]
-        fn no_corner_of_a_simplex_lies_nearer_than_its_nearest_point(
+        fn no_point_of_a_simplex_is_nearer_than_the_nearest(
             corners in prop::collection::vec(prop::array::uniform3(-3i8..4), 1..5),
             query in prop::array::uniform3(-9.0f64..9.0),
         ) {
@@ -192,7 +198,7 @@ mod tests {
             let simplex = Simplex::new(&(0..points.len() as u32).collect::<Vec<_>>(), &points);
             prop_assume!(!simplex.is_sliver());
             let point = DVec3::from_array(query);
-            let mut nearest = Nearest::NOTHING;
+            let mut nearest = NearestPoint::NONE;
             simplex.approach(point, &mut nearest);
             let shares = nearest.shares();
             let found: DVec3 = (0..4).map(|k| points[shares.examples[k] as usize] * f64::from(shares.shares[k])).sum();

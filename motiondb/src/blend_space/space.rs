@@ -1,50 +1,49 @@
 //! Simplices in (v_f, ω_t, ω_s), and shares of examples (`FbCrowd` §5).
 //!
-//! Distances are taken after dividing each axis by its range over the examples: the metric. [`crate::blend_space::locator`] finds
-//! the shares of a query, [`crate::blend_space::tiling`] proves that the simplices fill the examples' hull.
+//! The metric: every distance is taken after each axis is divided by its range over the examples.
 
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::motion::parameters::Parameters;
 
-/// Most corners of a simplex.
+/// Greatest number of corners of a simplex.
 pub const MAX_CORNERS: usize = 4;
 
-/// A triangulation of the examples' parameters in as many dimensions as they span.
+/// A triangulation of the examples' parameters, in as many dimensions as they span.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BlendSpace {
-    /// 0 (one point) to 3.
+    /// Number of dimensions that the examples span: 0 (one point) to 3.
     pub dimension: u32,
-    /// Range of each axis over the examples, the metric's unit; 0 where an axis has no range and is dropped.
+    /// Range of each axis over the examples: the metric's unit, m/s, rad/s, m/s; 0 for an axis without range (dropped).
     pub axis_ranges: [f32; 3],
-    /// Indices of examples, `dimension + 1` to a simplex.
+    /// Corners of the simplices: indices of examples, `dimension + 1` for each.
     pub simplices: Vec<u32>,
     /// Volume of the simplices over the volume of the examples' convex hull.
     pub covered_share: f32,
 }
 
-/// Shares of up to four examples; they sum to 1, unused entries are (0, 0).
+/// Shares of up to four examples. The shares sum to 1; unused entries are (0, 0).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shares {
-    /// Indices of examples.
+    /// Indices of the examples.
     pub examples: [u32; MAX_CORNERS],
-    /// Their shares of time, each in [0, 1].
+    /// Share of time of each example, in [0, 1].
     pub shares: [f32; MAX_CORNERS],
 }
 
 impl BlendSpace {
-    /// Corners of each simplex.
+    /// Corners of each simplex, as indices of examples.
     pub fn simplices(&self) -> impl Iterator<Item = &[u32]> {
         self.simplices.chunks_exact(self.dimension as usize + 1)
     }
 
-    /// A point in the metric's axes.
+    /// A point in the metric: each axis over its range.
     pub fn scaled(&self, parameters: Parameters) -> Vec3 {
         parameters.to_vec3() * self.metric_scale().as_vec3()
     }
 
-    /// What a range is divided by, as factors; 0 for a dropped axis.
+    /// Factor of each axis that takes a point into the metric; 0 for a dropped axis.
     pub(crate) fn metric_scale(&self) -> DVec3 {
         let scale = |range: f32| if range > 0.0 { f64::from(range).recip() } else { 0.0 };
         DVec3::from_array(self.axis_ranges.map(scale))

@@ -1,26 +1,27 @@
-//! Proof, from the stored data alone, that the simplices of a blend space tile the convex hull of its examples
-//! (`FbCrowd` §5): disjoint, without a gap, their volumes adding up to the hull's.
+//! Proof from the stored data alone that the simplices of a blend space tile the convex hull of its examples (`FbCrowd`
+//! §5): they are disjoint, leave no gap, and their volumes sum to the hull's.
 //!
-//! On the [`lattice`](crate::blend_space::lattice) every step is exact. In one to three dimensions alike:
+//! On the `lattice` every step is exact, in one to three dimensions alike:
 //!
-//! 1. every simplex has volume;
-//! 2. a facet belongs to two simplices on opposite sides of it, or to one: then it is of the boundary;
-//! 3. no example lies beyond a boundary facet;
-//! 4. a point within the first simplex lies in no other.
+//! 1. Every simplex has volume.
+//! 2. A facet belongs to two simplices on opposite sides of it, or to one: then it is a boundary facet.
+//! 3. No example lies beyond a boundary facet.
+//! 4. A point of the first simplex lies in no other.
 //!
-//! By 3, boundary facets lie on the hull's own. So how many simplices hold a point can change nowhere inside the hull:
-//! crossing any other facet leaves one simplex and enters one (2). It is one at one place (4), hence everywhere.
+//! By 3, boundary facets lie on the hull. By 2, crossing any other facet leaves one simplex and enters one, so the
+//! number of simplices that hold a point is the same everywhere inside the hull. By 4 it is one.
 
-use crate::blend_space::lattice::{Lattice, LatticePoint, TWIN_STEPS, signed_volume};
+use crate::blend_space::lattice::{COINCIDENT_STEPS, Lattice, LatticePoint, signed_volume};
 use crate::blend_space::space::{BlendSpace, MAX_CORNERS};
 use crate::motion::parameters::Parameters;
 
-/// Stored ranges are those of the examples but for the rounding of `f32`.
+/// Relative tolerance of the stored ranges: the rounding of `f32`.
 const RANGE_TOLERANCE: f32 = 1e-5;
-/// `covered_share` is a quotient of volumes in `f64`, stored as `f32`.
+/// Tolerance of `covered_share`: a quotient of volumes in `f64`, stored as `f32`.
 const COVERED_TOLERANCE: f32 = 1e-6;
 
-/// What is wrong with a blend space, in words; none where its simplices tile the hull of the examples' `parameters`.
+/// The fault of a blend space, as a text for people; `None` if its simplices tile the hull of the examples'
+/// `parameters`.
 pub(crate) fn tiling_fault(space: &BlendSpace, parameters: &[Parameters]) -> Option<String> {
     prove(space, parameters).err()
 }
@@ -28,7 +29,7 @@ pub(crate) fn tiling_fault(space: &BlendSpace, parameters: &[Parameters]) -> Opt
 type Proof = Result<(), String>;
 
 fn prove(space: &BlendSpace, parameters: &[Parameters]) -> Proof {
-    let lattice = Lattice::new(parameters).ok_or("no examples, or parameters that are not finite")?;
+    let lattice = Lattice::new(parameters).ok_or("there are no examples, or their parameters are not finite")?;
     spans_the_examples(space, &lattice)?;
     indices_are_in_range(space, parameters.len())?;
     simplices_have_volume(space, &lattice)?;
@@ -36,7 +37,7 @@ fn prove(space: &BlendSpace, parameters: &[Parameters]) -> Proof {
     boundary_is_convex(space, &boundary, &lattice)?;
     covers_once(space, &lattice)?;
     ensure((space.covered_share - 1.0).abs() <= COVERED_TOLERANCE, || {
-        format!("they tile the hull, but a share of {} is stored", space.covered_share)
+        format!("the simplices cover the hull, but a covered share of {} is stored", space.covered_share)
     })
 }
 
@@ -46,49 +47,57 @@ fn ensure(holds: bool, fault: impl FnOnce() -> String) -> Proof {
 
 fn spans_the_examples(space: &BlendSpace, lattice: &Lattice) -> Proof {
     ensure(space.dimension as usize == lattice.dimension, || {
-        format!("{} dimensions are stored, the examples span {}", space.dimension, lattice.dimension)
+        format!("{} dimensions are stored, but the examples span {}", space.dimension, lattice.dimension)
     })?;
     let mut pairs = space.axis_ranges.iter().zip(&lattice.axis_ranges);
     ensure(pairs.all(|(stored, found)| (stored - found).abs() <= RANGE_TOLERANCE * found), || {
-        format!("axis ranges {:?} are stored, the examples' are {:?}", space.axis_ranges, lattice.axis_ranges)
+        format!("axis ranges {:?} are stored, but the examples have {:?}", space.axis_ranges, lattice.axis_ranges)
     })
 }
 
 fn indices_are_in_range(space: &BlendSpace, examples: usize) -> Proof {
     let (count, corners) = (space.simplices.len(), space.dimension as usize + 1);
-    ensure(count > 0 && count.is_multiple_of(corners), || format!("{count} corners make no simplices of {corners}"))?;
-    let beyond = space.simplices.iter().find(|&&index| index as usize >= examples);
-    ensure(beyond.is_none(), || format!("corner {beyond:?} is none of {examples} examples"))
+    ensure(count > 0 && count.is_multiple_of(corners), || {
+        format!("{count} corners are stored, which is no multiple of {corners}")
+    })?;
+    match space.simplices.iter().find(|&&index| index as usize >= examples) {
+        Some(index) => Err(format!("a corner is example {index}, but there are {examples} examples")),
+        None => Ok(()),
+    }
 }
 
-/// Step 1.
+/// Step 1: every simplex has volume.
 fn simplices_have_volume(space: &BlendSpace, lattice: &Lattice) -> Proof {
     let flat = space.simplices().find(|corners| oriented(corners, &lattice.points) == 0);
     ensure(flat.is_none(), || format!("the simplex of examples {:?} has no volume", flat.unwrap_or_default()))
 }
 
+/// Signed volume of the simplex of some examples.
 fn oriented(corners: &[u32], points: &[LatticePoint]) -> i128 {
     let mut at = [[0; 3]; MAX_CORNERS];
     at.iter_mut().zip(corners).for_each(|(at, &corner)| *at = points[corner as usize]);
     signed_volume(&at[..corners.len()])
 }
 
-/// A facet of one simplex: corners sorted, and which side of it the simplex lies on, 1 or −1.
+/// A facet of one simplex.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Facet {
+    /// Examples at the corners, sorted.
     corners: Vec<u32>,
+    /// Side of the facet on which the simplex lies: 1 or −1.
     side: i128,
 }
 
 impl Facet {
-    /// How far a point lies on the simplex's side of the facet, times the facet's size: exact.
+    /// Distance of a point from the facet, positive on the simplex's side, times the facet's size: exact.
     fn height(&self, point: LatticePoint, lattice: &Lattice) -> i128 {
         let mut at = [point; MAX_CORNERS];
         at.iter_mut().zip(&self.corners).for_each(|(at, &corner)| *at = lattice.points[corner as usize]);
         self.side * signed_volume(&at[..lattice.dimension + 1])
     }
 
-    /// The same in steps. A height is linear in its point: one step along each axis gives the facet's size.
+    /// Distance of a point from the facet, positive on the simplex's side, lattice steps. Heights are linear in the
+    /// point, so one step along each axis gives the facet's size.
     fn height_steps(&self, point: LatticePoint, lattice: &Lattice) -> f64 {
         let rise = |axis: usize| {
             let mut next = point;
@@ -100,7 +109,7 @@ impl Facet {
     }
 }
 
-/// Step 2. Facets that belong to one simplex only.
+/// Step 2: facets that belong to one simplex only; an error if simplices overlap at a facet.
 fn boundary_facets(space: &BlendSpace, lattice: &Lattice) -> Result<Vec<Facet>, String> {
     let mut facets: Vec<Facet> = space.simplices().flat_map(|corners| facets_of(corners, lattice)).collect();
     facets.sort_unstable();
@@ -128,7 +137,8 @@ fn facets_of(corners: &[u32], lattice: &Lattice) -> impl Iterator<Item = Facet> 
     })
 }
 
-/// Step 3. Corners lie exactly inside; an example that is no corner may lie a twin's distance outside.
+/// Step 3: no example lies beyond a boundary facet. An example that is no corner coincides with one, and may lie that
+/// far outside.
 fn boundary_is_convex(space: &BlendSpace, boundary: &[Facet], lattice: &Lattice) -> Proof {
     let mut is_corner = vec![false; lattice.points.len()];
     space.simplices.iter().for_each(|&corner| is_corner[corner as usize] = true);
@@ -136,7 +146,7 @@ fn boundary_is_convex(space: &BlendSpace, boundary: &[Facet], lattice: &Lattice)
         let outside = |&index: &usize| {
             let point = lattice.points[index];
             let beyond = facet.height(point, lattice) < 0;
-            beyond && (is_corner[index] || facet.height_steps(point, lattice) < -TWIN_STEPS)
+            beyond && (is_corner[index] || facet.height_steps(point, lattice) < -COINCIDENT_STEPS)
         };
         let outside = (0..lattice.points.len()).find(outside);
         ensure(outside.is_none(), || {
@@ -147,20 +157,21 @@ fn boundary_is_convex(space: &BlendSpace, boundary: &[Facet], lattice: &Lattice)
     Ok(())
 }
 
-/// Step 4. The point is the middle of the first simplex, times its number of corners to stay a whole number.
+/// Step 4: the centre of the first simplex lies in no other. All points are multiplied by the number of corners, so
+/// that the centre is on the lattice.
 fn covers_once(space: &BlendSpace, lattice: &Lattice) -> Proof {
     let count = lattice.dimension as i64 + 1;
     let enlarged: Vec<LatticePoint> = lattice.points.iter().map(|point| point.map(|x| x * count)).collect();
     let first = &space.simplices[..count as usize];
     let corners = first.iter().map(|&corner| lattice.points[corner as usize]);
-    let middle = corners.fold([0; 3], |sum: LatticePoint, point| std::array::from_fn(|axis| sum[axis] + point[axis]));
-    let second = space.simplices().skip(1).find(|corners| holds(corners, &enlarged, middle));
+    let centre = corners.fold([0; 3], |sum: LatticePoint, point| std::array::from_fn(|axis| sum[axis] + point[axis]));
+    let second = space.simplices().skip(1).find(|corners| holds(corners, &enlarged, centre));
     ensure(second.is_none(), || {
         format!("the simplices of examples {first:?} and {:?} overlap", second.unwrap_or_default())
     })
 }
 
-/// Whether a simplex or its boundary holds a point: it lies where each corner does, seen from the facet opposite.
+/// Whether a simplex or its boundary holds a point: seen from each facet, it lies on the side of the opposite corner.
 fn holds(corners: &[u32], points: &[LatticePoint], point: LatticePoint) -> bool {
     let mut at = [[0; 3]; MAX_CORNERS];
     at.iter_mut().zip(corners).for_each(|(at, &corner)| *at = points[corner as usize]);
@@ -178,8 +189,7 @@ mod tests {
     use glam::Vec3;
     use proptest::prelude::*;
 
-    /// Boxes in a row along each axis, each cut into simplices around its main diagonal (Kuhn 1960): as many axes as
-    /// there are counts.
+    /// A grid of boxes with a count along each axis, each cut into simplices around its main diagonal (Kuhn 1960).
     fn boxes(counts: &[u32], parameters_at: impl Fn([u32; 3]) -> [f32; 3]) -> (BlendSpace, Vec<Parameters>) {
         let side = |axis: usize| counts.get(axis).map_or(1, |count| count + 1);
         let index = |[x, y, z]: [u32; 3]| x + side(0) * (y + side(1) * z);
@@ -225,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn every_simplex_dropped_or_doubled_and_every_corner_swapped_is_found() {
+    fn dropped_doubled_and_swapped_simplices_are_found() {
         for counts in [&[3][..], &[2, 3], &[2, 1, 2]] {
             let (space, parameters) = grid(counts);
             let corners = counts.len() + 1;
@@ -237,11 +247,11 @@ mod tests {
                 doubled.simplices.extend(&simplex);
                 assert!(tiling_fault(&doubled, &parameters).is_some(), "{simplex:?} doubled");
             }
-            for place in 0..space.simplices.len() {
-                for other in (0..parameters.len() as u32).filter(|&other| other != space.simplices[place]) {
+            for index in 0..space.simplices.len() {
+                for other in (0..parameters.len() as u32).filter(|&other| other != space.simplices[index]) {
                     let mut swapped = space.clone();
-                    swapped.simplices[place] = other;
-                    assert!(tiling_fault(&swapped, &parameters).is_some(), "{other} at {place}");
+                    swapped.simplices[index] = other;
+                    assert!(tiling_fault(&swapped, &parameters).is_some(), "{other} at {index}");
                 }
             }
         }
@@ -257,8 +267,8 @@ mod tests {
         }
     }
 
-    /// Facets match and lie on the hull, but a cube is filled twice: with the tetrahedron of its even corners, and of
-    /// its odd ones.
+    /// All facets match and lie on the hull, but the cube is filled twice: around the tetrahedron of its even corners,
+    /// and around that of its odd ones.
     #[test]
     fn a_second_cover_with_other_facets_is_found() {
         let (mut space, parameters) = grid(&[1, 1, 1]);
@@ -271,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn stored_ranges_dimension_and_share_must_be_the_examples() {
+    fn wrong_ranges_dimensions_and_shares_are_found() {
         let (space, parameters) = grid(&[2, 2]);
         let check = |spoil: fn(&mut BlendSpace)| {
             let mut spoilt = space.clone();
@@ -296,7 +306,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn whatever_is_stored_nothing_panics(
+        fn no_stored_data_panics(
             points in prop::collection::vec(prop::array::uniform3(prop::num::f32::ANY), 0..6),
             simplices in prop::collection::vec(0u32..7, 0..20),
             dimension in 0u32..6,

@@ -1,28 +1,28 @@
-//! Exact simplices over the examples' parameters (`FbCrowd` §5).
+//! Exact Delaunay triangulation of the examples' parameters (`FbCrowd` §5), in one to three dimensions.
 //!
-//! The Delaunay triangulation in one to three dimensions, by inserting one point after the other (Bowyer 1981, Watson
-//! 1981) on the `lattice`. Lifted to h = |x|², the points' simplices are the lower facets of their hull: a
-//! new point p takes the place of those whose lifted plane it lies below,
+//! Enters: (v_f, ω_t, ω_s) of each example. Leaves: the blend space. Points are inserted one after the other (Bowyer
+//! 1981, Watson 1981). Lifted to h = |x|², the simplices are the lower facets of the points' hull. A new point p replaces
+//! the simplices whose lifted plane lies above it:
 //!
 //! ```text
-//! h(p) < Σ u_k h(x_k),   u_k = V_k / V the shares of p among the corners x_k of a simplex of volume V.
+//! h(p) < Σ u_k h(x_k),   u_k = V_k / V: shares of p among the corners x_k of a simplex of volume V
 //! ```
 //!
-//! Outside the hull, every facet of it makes a simplex with a point at infinity. All of it in whole numbers, hence
-//! exact; ties (grids, circles) are broken as if earlier points were lifted infinitely little more than later ones
-//! (Edelsbrunner and Mücke 1990), so the simplices of any set fit together without gap or overlap.
+//! Outside the hull, each of its facets forms a simplex with a point at infinity. All arithmetic is in whole numbers on
+//! the `lattice`, hence exact. Ties (grids, circles) are broken as if each point were lifted infinitesimally more than
+//! the points after it (Edelsbrunner and Mücke 1990), so the simplices of any set fit together without gap or overlap.
 
 use std::cmp::Ordering;
 
-use crate::blend_space::lattice::{Lattice, LatticePoint, TWIN_STEPS, signed_volume};
+use crate::blend_space::lattice::{COINCIDENT_STEPS, Lattice, LatticePoint, signed_volume};
 use crate::blend_space::space::{BlendSpace, MAX_CORNERS};
 use crate::motion::parameters::Parameters;
 
-/// Stands for the point at infinity among the corners of a simplex.
+/// Index of the point at infinity among the corners of a simplex.
 const INFINITY: usize = usize::MAX;
 
-/// Triangulates the `parameters` of examples in as many dimensions as they span. Of examples that all but coincide one
-/// is a corner. Without finite parameters there are no simplices.
+/// The blend space of the examples' `parameters`, in as many dimensions as they span. Of coincident examples, one is a
+/// corner. Without examples, or if a parameter is not finite, there are no simplices.
 pub fn build(parameters: &[Parameters]) -> BlendSpace {
     let Some(lattice) = Lattice::new(parameters) else { return BlendSpace::default() };
     let triangulation = Triangulation::new(&lattice);
@@ -34,22 +34,24 @@ pub fn build(parameters: &[Parameters]) -> BlendSpace {
     }
 }
 
-/// A point to be a corner.
+/// A point that becomes a corner.
 struct Site {
     example: u32,
     point: LatticePoint,
+    /// h(x): squared distance from the axes' least values.
     lift: i64,
 }
 
-/// Indices of sites, `dimension + 1` of them, the rest 0; of positive volume. One may be [`INFINITY`]: then a point
-/// beyond the facet of the others makes the volume positive in its place.
-type Simplex = [usize; MAX_CORNERS];
+/// A simplex of positive volume: `dimension + 1` indices of sites, the rest 0. One may be [`INFINITY`]: a point beyond
+/// the facet of the others makes the volume positive there.
+type SiteSimplex = [usize; MAX_CORNERS];
 
+/// A triangulation of the sites inserted so far.
 struct Triangulation {
     dimension: usize,
-    /// In the order of insertion; the first `dimension + 1` span the set.
+    /// Sites in the order of insertion; the first `dimension + 1` span the set.
     sites: Vec<Site>,
-    simplices: Vec<Simplex>,
+    simplices: Vec<SiteSimplex>,
 }
 
 impl Triangulation {
@@ -67,9 +69,9 @@ impl Triangulation {
         0..=self.dimension
     }
 
-    /// The simplex of the first sites, and all space around it.
-    fn first_simplices(&self) -> Vec<Simplex> {
-        let mut first: Simplex = [0; MAX_CORNERS];
+    /// The simplex of the first sites, and the simplices at infinity around it.
+    fn first_simplices(&self) -> Vec<SiteSimplex> {
+        let mut first: SiteSimplex = [0; MAX_CORNERS];
         first.iter_mut().zip(self.corners()).for_each(|(corner, site)| *corner = site);
         if self.dimension == 0 {
             return vec![first];
@@ -79,49 +81,50 @@ impl Triangulation {
         }
         let beyond = |k: usize| {
             let mut outer = with(&first, k, INFINITY);
-            outer.swap(0, 1); // the first simplex lies on the other side
+            outer.swap(0, 1); // The first simplex lies on the other side.
             outer
         };
         std::iter::once(first).chain(self.corners().map(beyond)).collect()
     }
 
-    /// Gives the room of all simplices that cannot stay beside the site to new ones around it.
+    /// Replaces all simplices in conflict with the site by new ones around it.
     fn insert(&mut self, site: usize) {
         let simplices = std::mem::take(&mut self.simplices);
-        let (gone, kept): (Vec<Simplex>, Vec<Simplex>) =
+        let (removed, kept): (Vec<SiteSimplex>, Vec<SiteSimplex>) =
             simplices.into_iter().partition(|simplex| self.is_in_conflict(simplex, site));
-        let rebuilt = |simplex: &Simplex| self.corners().map(|k| with(simplex, k, site)).collect::<Vec<_>>();
-        let mut new: Vec<Simplex> = gone.iter().flat_map(rebuilt).collect();
-        // A facet between two that go is in the middle of the room: it comes up twice.
+        let rebuilt = |simplex: &SiteSimplex| self.corners().map(|k| with(simplex, k, site)).collect::<Vec<_>>();
+        let mut new: Vec<SiteSimplex> = removed.iter().flat_map(rebuilt).collect();
+        // A facet between two removed simplices is inside the cavity: it occurs twice, and is dropped.
         new.sort_unstable_by_key(sorted);
         self.simplices = kept;
         self.simplices.extend(new.chunk_by(|a, b| sorted(a) == sorted(b)).filter(|same| same.len() == 1).flatten());
     }
 
-    /// Whether the site lies below the simplex's lifted plane. Simplices at infinity stand upright on their facet: they
-    /// hold what lies beyond it, and of its own plane what lies below the lifted facet. There any point beside the
-    /// plane serves as last corner: it has no share.
-    fn is_in_conflict(&self, simplex: &Simplex, site: usize) -> bool {
+    /// Whether the site lies below the simplex's lifted plane. The plane of a simplex at infinity is vertical over its
+    /// facet: in conflict are all sites beyond the facet, and, of those in the facet's plane, the ones below the lifted
+    /// facet. For these, any site off that plane serves as last corner: it has no share.
+    fn is_in_conflict(&self, simplex: &SiteSimplex, site: usize) -> bool {
         let Some(k) = self.corners().find(|&k| simplex[k] == INFINITY) else { return self.is_below(simplex, site) };
         match self.volume(&with(simplex, k, site)).cmp(&0) {
             Ordering::Greater => true,
             Ordering::Less => false,
             Ordering::Equal => {
-                let mut beside = self.corners().map(|other| with(simplex, k, other));
-                beside.find(|finite| self.volume(finite) != 0).is_some_and(|finite| self.is_below(&finite, site))
+                let mut off_plane = self.corners().map(|other| with(simplex, k, other));
+                off_plane.find(|finite| self.volume(finite) != 0).is_some_and(|finite| self.is_below(&finite, site))
             }
         }
     }
 
-    fn is_below(&self, simplex: &Simplex, site: usize) -> bool {
+    /// Whether h(p) < Σ u_k h(x_k) for the site p and the corners x_k of a finite simplex.
+    fn is_below(&self, simplex: &SiteSimplex, site: usize) -> bool {
         let sign = self.volume(simplex).signum();
         let shares = self.corners().map(|k| (simplex[k], sign * self.volume(&with(simplex, k, site))));
-        // All heights times the volume, which is the shares' sum.
+        // Both sides are multiplied by the volume V, the sum of the unscaled shares V_k.
         let rise = |(corner, share): (usize, i128)| share * i128::from(self.sites[corner].lift - self.sites[site].lift);
         match shares.clone().map(rise).sum::<i128>().cmp(&0) {
             Ordering::Greater => true,
             Ordering::Less => false,
-            // The earliest site is lifted most: a corner where it has a share, or the point itself.
+            // A tie: the earliest site is lifted most, a corner with a share or the point itself.
             Ordering::Equal => {
                 let earliest = shares.filter(|&(_, share)| share != 0).min();
                 earliest.is_some_and(|(corner, share)| corner < site && share > 0)
@@ -129,20 +132,20 @@ impl Triangulation {
         }
     }
 
-    fn volume(&self, simplex: &Simplex) -> i128 {
+    fn volume(&self, simplex: &SiteSimplex) -> i128 {
         let mut points = [[0; 3]; MAX_CORNERS];
         points.iter_mut().zip(&simplex[self.corners()]).for_each(|(point, &site)| *point = self.sites[site].point);
         signed_volume(&points[self.corners()])
     }
 
-    fn is_finite(&self, simplex: &Simplex) -> bool {
+    fn is_finite(&self, simplex: &SiteSimplex) -> bool {
         !simplex[self.corners()].contains(&INFINITY)
     }
 
-    /// Indices of examples, sorted.
+    /// Examples at the corners of each finite simplex, sorted.
     fn simplices_of_examples(&self) -> Vec<Vec<u32>> {
         let finite = self.simplices.iter().filter(|simplex| self.is_finite(simplex));
-        let examples = |simplex: &Simplex| {
+        let examples = |simplex: &SiteSimplex| {
             let mut examples: Vec<u32> = simplex[self.corners()].iter().map(|&site| self.sites[site].example).collect();
             examples.sort_unstable();
             examples
@@ -152,23 +155,24 @@ impl Triangulation {
         simplices
     }
 
-    /// Volume of the simplices over the volume under the facets at infinity, both from the first site.
+    /// Volume of the finite simplices over the volume of the hull, which the facets at infinity span with the first
+    /// site.
     fn covered_share(&self) -> f32 {
-        let (finite, infinite): (Vec<&Simplex>, Vec<&Simplex>) =
+        let (finite, infinite): (Vec<&SiteSimplex>, Vec<&SiteSimplex>) =
             self.simplices.iter().partition(|simplex| self.is_finite(simplex));
-        let to_first = |simplex: &&Simplex| simplex.map(|corner| if corner == INFINITY { 0 } else { corner });
+        let to_first = |simplex: &&SiteSimplex| simplex.map(|corner| if corner == INFINITY { 0 } else { corner });
         let covered: i128 = finite.iter().map(|simplex| self.volume(simplex)).sum();
         let hull: i128 = infinite.iter().map(|simplex| -self.volume(&to_first(simplex))).sum();
         if infinite.is_empty() { 1.0 } else { (covered as f64 / hull as f64) as f32 }
     }
 }
 
-/// Those that span the set, then all others that are no twin of an earlier one.
+/// The points that span the set, then all others that do not coincide with an earlier one.
 fn sites(lattice: &Lattice) -> Vec<Site> {
     let mut sites = Vec::<Site>::new();
     for example in lattice.span.iter().copied().chain(0..lattice.points.len()) {
         let site = Site { example: example as u32, point: lattice.points[example], lift: lattice.lifts[example] };
-        if sites.iter().all(|other| distance_steps(&site.point, &other.point) > TWIN_STEPS) {
+        if sites.iter().all(|other| distance_steps(&site.point, &other.point) > COINCIDENT_STEPS) {
             sites.push(site);
         }
     }
@@ -179,14 +183,14 @@ fn distance_steps(a: &LatticePoint, b: &LatticePoint) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) as f64).map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// The simplex with another corner k.
-fn with(simplex: &Simplex, k: usize, corner: usize) -> Simplex {
+/// The simplex with its corner k replaced.
+fn with(simplex: &SiteSimplex, k: usize, corner: usize) -> SiteSimplex {
     let mut changed = *simplex;
     changed[k] = corner;
     changed
 }
 
-fn sorted(simplex: &Simplex) -> Simplex {
+fn sorted(simplex: &SiteSimplex) -> SiteSimplex {
     let mut sorted = *simplex;
     sorted.sort_unstable();
     sorted
@@ -210,7 +214,7 @@ mod tests {
         (build(&parameters), parameters)
     }
 
-    /// The simplices tile the hull, no lifted plane has a point below it, and every random mixture of examples is
+    /// Checks that the simplices tile the hull, no site lies below a lifted plane, and mixtures of examples are
     /// reached.
     fn check(points: &[[f32; 3]], dimension: u32) {
         let (space, parameters) = built(points);
@@ -233,7 +237,7 @@ mod tests {
             let shares = locator.locate(Parameters::from_vec3(query));
             let reached: Vec3 =
                 (0..4).map(|k| parameters[shares.examples[k] as usize].to_vec3() * shares.shares[k]).sum();
-            // A flat set is as thick as noise.
+            // A flat set may be as thick as noise.
             let tolerance = if space.dimension < 3 { 0.03 } else { 3e-3 };
             let ranges = Vec3::from(space.axis_ranges.map(|range| if range > 0.0 { range } else { 1.0 }));
             assert!(((reached - query) / ranges).length() < tolerance, "{query} became {reached}");
@@ -244,7 +248,7 @@ mod tests {
         (0..nx * ny * nz).map(|k| [(k % nx) as f32, (k / nx % ny) as f32, (k / nx / ny) as f32]).collect()
     }
 
-    /// Numbers in [0, 1) without pattern.
+    /// Pseudo-random numbers in [0, 1).
     fn random(count: usize) -> Vec<[f32; 3]> {
         let mut state = 1u32;
         let mut next = || {
@@ -263,7 +267,7 @@ mod tests {
         check(&[[1.0, 2.0, 3.0]; 3], 0);
         let circle = (0..12).map(|k| (k as f32).to_radians() * 30.0).map(|angle| [angle.cos(), 0.0, angle.sin()]);
         check(&circle.collect::<Vec<_>>(), 2);
-        // A plane that no pair of axes holds: tilted in all three.
+        // A plane that is tilted against all three axes.
         let tilted = grid(3, 3, 1).into_iter().map(|[x, y, _]| [x, y, x + y]);
         check(&tilted.collect::<Vec<_>>(), 2);
         // A layer of needles, and a box far from 0.
@@ -279,32 +283,32 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_has_no_simplices() {
+    fn parameters_that_are_not_finite_have_no_simplices() {
         assert_eq!(built(&[[0.0, f32::NAN, 1.0], [1.0, 2.0, 3.0]]).0, BlendSpace::default());
         assert_eq!(built(&[]).0, BlendSpace::default());
     }
 
     #[test]
-    fn a_long_capture_s_three_hundred_examples_are_tiled() {
+    fn three_hundred_examples_are_tiled() {
         check(&random(300), 3);
-        // Mirrored, and crowded at walking speed.
+        // Mirrored, and dense at walking speed.
         let walks = random(150).into_iter().map(|[x, y, z]| [1.0 + 0.3 * x * x, y * y * y, 0.3 * z * z * z]);
         let both = walks.flat_map(|[x, y, z]| [[x, y, z], [x, -y, -z]]);
         check(&both.collect::<Vec<_>>(), 3);
     }
 
     #[test]
-    fn every_simplex_dropped_and_every_corner_swapped_breaks_the_tiling() {
+    fn dropped_simplices_and_swapped_corners_break_the_tiling() {
         let (space, parameters) = built(&random(12));
         for start in (0..space.simplices.len()).step_by(4) {
             let mut dropped = space.clone();
             dropped.simplices.drain(start..start + 4);
             assert!(tiling_fault(&dropped, &parameters).is_some(), "{start}");
         }
-        for place in 0..space.simplices.len() {
+        for index in 0..space.simplices.len() {
             let mut swapped = space.clone();
-            swapped.simplices[place] = (swapped.simplices[place] + 1) % 12;
-            assert!(tiling_fault(&swapped, &parameters).is_some(), "{place}");
+            swapped.simplices[index] = (swapped.simplices[index] + 1) % 12;
+            assert!(tiling_fault(&swapped, &parameters).is_some(), "{index}");
         }
     }
 

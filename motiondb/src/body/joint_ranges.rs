@@ -1,29 +1,31 @@
-//! How far human joints turn.
+//! Ranges of motion of human joints, from published tables.
 //!
-//! American Academy of Orthopaedic Surgeons, *Joint Motion: Method of Measuring and Recording* (1965), as tabulated by
-//! Norkin and White, *Measurement of Joint Motion*, appendix A. Per anatomical axis; where a segment stands for several
-//! joints (spine, shoulder with its blade) their sum is shared. The ankle bends farther under the body's weight than
-//! the 20° of that table: 30 to 40° in lunges (Rabin et al. 2015, *J. Athl. Train.* 50, 30–35). Rotation vectors in
-//! rest-pose body axes (x forward, y left, z up, arms out, palms down): +y bends the trunk forward and flexes the knee,
-//! −y flexes the hip and lifts the toes.
+//! Sources: American Academy of Orthopaedic Surgeons, *Joint Motion: Method of Measuring and Recording* (1965), as
+//! tabulated by Norkin and White, *Measurement of Joint Motion*, appendix A. The ankle bends farther under the body's
+//! weight than the 20° of that table: 30 to 40° in lunges (Rabin et al. 2015, *J. Athl. Train.* 50, 30–35).
+//!
+//! The tables give ranges per anatomical axis. Where a segment represents several joints (spine, shoulder with its
+//! blade), their sum is shared out. Rotation vectors are in the rest pose's body axes (x forward, y left, z up, arms
+//! out, palms down): +y bends the trunk forward and flexes the knee; −y flexes the hip and lifts the toes.
 
 use crate::body::skeleton::JOINT_COUNT;
 
+/// Bound of an axis about which a joint turns freely, degrees.
 const FREE: f32 = 180.0;
 
-/// Least and greatest rotation vector of each joint, degrees; the pelvis turns freely.
+/// Least and greatest rotation vector of each joint, degrees. The pelvis turns freely.
 #[rustfmt::skip]
 pub const JOINT_RANGES_DEG: [[[f32; 3]; 2]; JOINT_COUNT] = [
     [[-FREE, -FREE, -FREE], [FREE, FREE, FREE]],        // pelvis
-    [[-12.0, -8.0, -5.0], [12.0, 27.0, 5.0]],           // lower spine: the trunk bends 80° forward, 25 back, 35 aside, twists 45
+    [[-12.0, -8.0, -5.0], [12.0, 27.0, 5.0]],           // lower spine: the trunk bends 80° forward, 25 back, 35 sideways, twists 45
     [[-12.0, -8.0, -15.0], [12.0, 27.0, 15.0]],         // middle spine
     [[-12.0, -8.0, -25.0], [12.0, 27.0, 25.0]],         // upper spine
-    [[-25.0, -30.0, -40.0], [25.0, 25.0, 40.0]],        // neck: half of head on trunk, 45/45, 45 aside, 60–80 twisted
+    [[-25.0, -30.0, -40.0], [25.0, 25.0, 40.0]],        // neck: half of head on trunk, 45/45, 45 sideways, 60–80 twisted
     [[-20.0, -30.0, -40.0], [20.0, 25.0, 40.0]],        // head
-    [[-20.0, -20.0, -30.0], [40.0, 20.0, 30.0]],        // left clavicle: 40° up, 10–20 down, 30 to and fro
+    [[-20.0, -20.0, -30.0], [40.0, 20.0, 30.0]],        // left clavicle: 40° up, 10–20 down, 30 forward and back
     [[-130.0, -90.0, -140.0], [90.0, 90.0, 60.0]],      // left upper arm: from level 130° down and across, 90 up
     [[-80.0, -10.0, -150.0], [80.0, 10.0, 10.0]],       // left elbow: 150° flexion, 80 each of pro- and supination (with the forearm)
-    [[-30.0, -80.0, -80.0], [30.0, 80.0, 80.0]],        // left wrist: 80° flexion, 70 extension, 20–30 aside, any palm direction
+    [[-30.0, -80.0, -80.0], [30.0, 80.0, 80.0]],        // left wrist: 80° flexion, 70 extension, 20–30 sideways, any palm direction
     [[-40.0, -20.0, -30.0], [20.0, 20.0, 30.0]],        // right clavicle
     [[-90.0, -90.0, -60.0], [130.0, 90.0, 140.0]],      // right upper arm
     [[-80.0, -10.0, -10.0], [80.0, 10.0, 150.0]],       // right elbow

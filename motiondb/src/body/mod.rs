@@ -1,4 +1,6 @@
-//! The body: the canonical humanoid, its poses, and how far its joints turn.
+//! The body: the canonical humanoid, its poses and forward kinematics, and the ranges of its joints.
+//!
+//! Enters: bones and rotations. Leaves: positions and orientations of joints and soles, root frame or world.
 //!
 //! Read `skeleton`, then `pose`, then `joint_ranges`.
 

@@ -1,85 +1,116 @@
-//! A posed body and its forward kinematics.
+//! Poses and their forward kinematics.
 //!
-//! Two frames: the *root frame* sits on the ground under the ripple-free root trajectory, x along the facing; the
-//! *world* is where roots move. A pose is relative to its root; all that is left of the pelvis's path (sway, surge,
-//! bob, yaw) is in the pose.
+//! Two frames. The *root frame* sits on the ground under the ripple-free root trajectory, x along the facing, y to the
+//! left, z up. The *world* is where roots move. A pose is relative to its root frame: the rest of the pelvis's motion
+//! (sway, surge, bob, yaw) is part of the pose. Metres, radians.
 
 use glam::{Quat, Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::body::skeleton::{JOINT_COUNT, Joint, Skeleton};
 
-/// Where a body stands: its disc's centre and its facing.
+/// Position and facing of a body: the centre of its disc on the ground, and the direction in which it looks.
+///
+/// ```
+/// use glam::{Vec2, Vec3};
+/// use motiondb::Root;
+///
+/// // A body at (2, 1) that faces world y. One metre ahead of it is (2, 2).
+/// let root = Root { position_m: Vec2::new(2.0, 1.0), facing_rad: std::f32::consts::FRAC_PI_2 };
+/// assert!(root.to_world(Vec3::X).distance(Vec3::new(2.0, 2.0, 0.0)) < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Root {
-    /// On the ground, world, metres.
+    /// Centre of the body's disc on the ground, world, metres.
     pub position_m: Vec2,
-    /// Counter-clockwise from world x, radians.
+    /// Facing, counter-clockwise from world x, radians.
     pub facing_rad: f32,
 }
 
 impl Root {
-    /// Unit vector along the facing.
+    /// Unit vector along the facing, world.
     pub fn forward(&self) -> Vec2 {
         let (sin, cos) = libm::sincosf(self.facing_rad);
         Vec2::new(cos, sin)
     }
 
-    /// Its frame, for many points.
+    /// The root frame in the world; cheaper than [`Root::to_world`] for many points.
     pub fn frame(&self) -> RootFrame {
         RootFrame { position_m: self.position_m, forward: self.forward() }
     }
 
-    /// A point of the root frame in the world.
+    /// A point of the root frame in the world, metres.
     pub fn to_world(&self, point_m: Vec3) -> Vec3 {
         self.frame().to_world(point_m)
     }
 }
 
-/// The root frame in the world.
+/// A root frame at a position in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RootFrame {
-    /// Its origin on the ground, world, metres.
+    /// Origin of the frame on the ground, world, metres.
     pub position_m: Vec2,
-    /// Its x axis, a unit vector.
+    /// The frame's x axis, a unit vector in the world.
     pub forward: Vec2,
 }
 
 impl RootFrame {
-    /// A point of the root frame in the world.
+    /// A point of the root frame in the world, metres.
     pub fn to_world(&self, point_m: Vec3) -> Vec3 {
         let ground_m = self.position_m + self.forward.rotate(point_m.truncate());
         ground_m.extend(point_m.z)
     }
 
-    /// A point of the world in the root frame.
+    /// A point of the world in the root frame, metres.
     pub fn to_local(&self, point_m: Vec3) -> Vec3 {
         let back = Vec2::new(self.forward.x, -self.forward.y);
         back.rotate(point_m.truncate() - self.position_m).extend(point_m.z)
     }
 }
 
-/// A pose in its root's frame.
+/// A pose in its root frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
-    /// The pelvis joint in the root frame: forward, left, height over the ground, metres.
+    /// Position of the pelvis joint in the root frame: forward, left, height over the ground, metres.
     pub pelvis_m: Vec3,
-    /// Rotation of each joint against its parent's; the pelvis's against the root frame, so it carries the pelvis's
-    /// yaw.
+    /// Rotation of each joint relative to its parent. The pelvis's is relative to the root frame: it holds the yaw.
     pub rotations: [Quat; JOINT_COUNT],
 }
 
-/// Position and orientation of every joint in one frame.
+/// Positions and orientations of all joints of a pose, in one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joints {
-    /// Metres.
+    /// Position of each joint, metres.
     pub positions_m: [Vec3; JOINT_COUNT],
-    /// Against the rest pose.
+    /// Orientation of each joint relative to the rest pose.
     pub orientations: [Quat; JOINT_COUNT],
 }
 
 impl Pose {
-    /// Every joint in the root frame.
+    /// Positions and orientations of all joints in the root frame.
+    ///
+    /// ```
+    /// use glam::{Quat, Vec3};
+    /// use motiondb::{Foot, JOINT_COUNT, Joint, Pose, Skeleton};
+    ///
+    /// // A body whose left shank hangs 0.4 m below the left hip, which is at the pelvis.
+    /// let mut offsets_m = [Vec3::ZERO; JOINT_COUNT];
+    /// offsets_m[Joint::LeftShank.index()] = Vec3::new(0.0, 0.0, -0.4);
+    /// let foot = Foot { heel_m: Vec3::ZERO, ball_m: Vec3::ZERO, toe_tip_m: Vec3::ZERO, measured_m: [Vec3::ZERO; 3] };
+    /// let skeleton = Skeleton {
+    ///     offsets_m,
+    ///     segment_ends_m: offsets_m,
+    ///     segment_radii_m: [0.05; JOINT_COUNT],
+    ///     limits_rad: [[Vec3::splat(-3.0), Vec3::splat(3.0)]; JOINT_COUNT],
+    ///     feet: [foot; 2],
+    /// };
+    ///
+    /// // A flexed hip (−y) raises the knee to the front.
+    /// let mut pose = Pose { pelvis_m: Vec3::new(0.0, 0.0, 0.9), rotations: [Quat::IDENTITY; JOINT_COUNT] };
+    /// pose.rotations[Joint::LeftThigh.index()] = Quat::from_rotation_y(-90_f32.to_radians());
+    /// let knee_m = pose.forward_kinematics(&skeleton).positions_m[Joint::LeftShank.index()];
+    /// assert!(knee_m.distance(Vec3::new(0.4, 0.0, 0.9)) < 1e-6);
+    /// ```
     pub fn forward_kinematics(&self, skeleton: &Skeleton) -> Joints {
         let mut joints = Joints { positions_m: [self.pelvis_m; JOINT_COUNT], orientations: self.rotations };
         for joint in &Joint::ALL[1..] {
@@ -91,7 +122,7 @@ impl Pose {
         joints
     }
 
-    /// Positions (m) and orientations, in the root frame, of the joints of one chain: the first is a child of the
+    /// Positions (m) and orientations, in the root frame, of the joints of one chain. The first joint is a child of the
     /// pelvis, each other one a child of the joint before it. `chain` holds indices.
     pub fn chain<const N: usize>(&self, skeleton: &Skeleton, chain: [usize; N]) -> [(Vec3, Quat); N] {
         let mut posed = (self.pelvis_m, self.rotations[Joint::Pelvis.index()]);
@@ -106,7 +137,8 @@ impl Pose {
         (parent_m + parent * skeleton.offsets_m[index], parent * self.rotations[index])
     }
 
-    /// How far a knee is flexed, the twist of its shank about its left axis: negative where it is hyperextended, rad.
+    /// Flexion of a knee, radians: the twist of its shank about the body's left axis. Negative for a hyperextended
+    /// knee.
     pub fn knee_flexion_rad(&self, side: usize) -> f32 {
         let shank = self.rotations[Joint::SHANKS[side].index()];
         let shank = if shank.w < 0.0 { -shank } else { shank };
@@ -115,18 +147,18 @@ impl Pose {
 }
 
 impl Joints {
-    /// A point given relative to a joint, in the frame of the joints.
+    /// A point at `offset_m` from a joint (in the joint's own axes), in the frame of the joints, metres.
     pub fn point_m(&self, joint: Joint, offset_m: Vec3) -> Vec3 {
         self.positions_m[joint.index()] + self.orientations[joint.index()] * offset_m
     }
 
-    /// Heel, ball and toe tip on the sole of one foot.
+    /// Heel, ball and toe tip on the sole of one foot, in the frame of the joints, metres.
     pub fn sole_points_m(&self, skeleton: &Skeleton, side: usize) -> [Vec3; 3] {
         let foot = &skeleton.feet[side];
         self.foot_points_m(side, [foot.heel_m, foot.ball_m, foot.toe_tip_m])
     }
 
-    /// The points of one foot at which its slide is measured.
+    /// Heel, ball and toe tip of one foot as slide is measured at them, in the frame of the joints, metres.
     pub fn measured_points_m(&self, skeleton: &Skeleton, side: usize) -> [Vec3; 3] {
         self.foot_points_m(side, skeleton.feet[side].measured_m)
     }

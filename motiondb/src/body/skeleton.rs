@@ -1,8 +1,8 @@
-//! The canonical humanoid: 22 joints in one fixed order, so that a pose is an array and blending is arithmetic.
+//! The canonical humanoid: 22 joints in one fixed order. So a pose is an array, and blending is arithmetic.
 //!
-//! Rest pose: standing at the origin, facing +x, left is +y, up is +z, arms straight out along ±y with palms down, feet
-//! flat on z = 0. Every joint's rest orientation is the identity, so a joint's offset is its parent's bone in body
-//! axes.
+//! Rest pose: the body stands at the origin and faces +x; +y is left, +z is up; the arms point straight out along ±y
+//! with palms down; the feet are flat on z = 0. The rest orientation of every joint is the identity, so the offset of a
+//! joint is its parent's bone in body axes. Metres, radians.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -11,6 +11,13 @@ use serde::{Deserialize, Serialize};
 pub const JOINT_COUNT: usize = 22;
 
 /// A side of the body; indexes every `[left, right]` pair.
+///
+/// ```
+/// use motiondb::{Joint, Side};
+///
+/// assert_eq!(Joint::FEET[Side::Left.index()], Joint::LeftFoot);
+/// assert_eq!(Side::Left.other().sign(), -1.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Side {
@@ -46,7 +53,15 @@ impl Side {
     }
 }
 
-/// A joint of the canonical humanoid. A parent always stands before its children.
+/// A joint of the canonical humanoid. In storage order, a parent precedes its children.
+///
+/// ```
+/// use motiondb::Joint;
+///
+/// assert_eq!(Joint::LeftShank.parent(), Some(Joint::LeftThigh));
+/// assert_eq!(Joint::LeftShank.mirrored(), Joint::RightShank);
+/// assert_eq!(Joint::ALL[Joint::LeftShank.index()].name(), "left_shank");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u8)]
 #[expect(missing_docs, reason = "the names are the anatomy")]
@@ -101,15 +116,15 @@ impl Joint {
         Self::RightFoot,
         Self::RightToe,
     ];
-    /// The hip joints, `[left, right]`.
+    /// Hip joints, `[left, right]`.
     pub const THIGHS: [Self; 2] = [Self::LeftThigh, Self::RightThigh];
-    /// The knees, `[left, right]`.
+    /// Knees, `[left, right]`.
     pub const SHANKS: [Self; 2] = [Self::LeftShank, Self::RightShank];
-    /// The ankles, `[left, right]`.
+    /// Ankles, `[left, right]`.
     pub const FEET: [Self; 2] = [Self::LeftFoot, Self::RightFoot];
-    /// The balls of the feet, `[left, right]`.
+    /// Balls of the feet, `[left, right]`.
     pub const TOES: [Self; 2] = [Self::LeftToe, Self::RightToe];
-    /// The shoulders, `[left, right]`.
+    /// Shoulders, `[left, right]`.
     pub const UPPER_ARMS: [Self; 2] = [Self::LeftUpperArm, Self::RightUpperArm];
 
     /// Position in storage order.
@@ -117,7 +132,7 @@ impl Joint {
         self as usize
     }
 
-    /// The joint this one hangs from; the pelvis has none.
+    /// The parent joint; `None` for the pelvis.
     pub const fn parent(self) -> Option<Self> {
         match PARENTS[self as usize] {
             NO_PARENT => None,
@@ -125,7 +140,7 @@ impl Joint {
         }
     }
 
-    /// The same joint of the other side; joints of the trunk and head are their own mirror.
+    /// The same joint of the other side. Joints of the trunk and head are their own mirror image.
     pub const fn mirrored(self) -> Self {
         let index = self as usize;
         Self::ALL[match index {
@@ -135,15 +150,17 @@ impl Joint {
         }]
     }
 
-    /// The name in files, reports and pictures.
+    /// The joint's name in files, reports and pictures.
     pub const fn name(self) -> &'static str {
         NAMES[self as usize]
     }
 }
 
+/// Entry of [`PARENTS`] for a joint without a parent.
 const NO_PARENT: u8 = u8::MAX;
-/// Parent of each joint by index; [`NO_PARENT`] for the pelvis.
+/// Index of each joint's parent; [`NO_PARENT`] for the pelvis.
 const PARENTS: [u8; JOINT_COUNT] = [NO_PARENT, 0, 1, 2, 3, 4, 3, 6, 7, 8, 3, 10, 11, 12, 0, 14, 15, 16, 0, 18, 19, 20];
+/// Name of each joint, in storage order.
 const NAMES: [&str; JOINT_COUNT] = [
     "pelvis",
     "spine_lower",
@@ -172,39 +189,34 @@ const NAMES: [&str; JOINT_COUNT] = [
 /// Bones, girths, joint limits and soles of one body. Every vector is in the rest pose's body axes, metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Skeleton {
-    /// Joint position relative to its parent joint; the pelvis's is its height over the ground when standing, (0, 0,
-    /// h).
+    /// Position of each joint relative to its parent joint. The pelvis's is (0, 0, height over the ground at rest).
     pub offsets_m: [Vec3; JOINT_COUNT],
-    /// Far end of each joint's own segment, relative to the joint: the child's offset, or the fingertips, crown and toe
-    /// tips.
+    /// Far end of each joint's segment, relative to the joint: the child's offset, or fingertips, crown and toe tips.
     pub segment_ends_m: [Vec3; JOINT_COUNT],
-    /// Radius of the capsule from each joint to its segment's end: the body that a picture draws and a collision test
-    /// uses.
+    /// Radius of the capsule from each joint to its segment's end, metres. Pictures and collision tests use it.
     pub segment_radii_m: [f32; JOINT_COUNT],
-    /// Least and greatest rotation of each joint against its rest, as a rotation vector (axis × angle), radians, in
-    /// body axes.
+    /// Least and greatest rotation of each joint relative to its rest, as rotation vectors (axis × angle), radians.
     pub limits_rad: [[Vec3; 2]; JOINT_COUNT],
-    /// `[left, right]` soles.
+    /// Points of the feet, `[left, right]`.
     pub feet: [Foot; 2],
 }
 
-/// The three points of a foot that touch the ground, and those at which its slide is measured.
+/// The three points of a foot that touch the ground, and the three at which its slide is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Foot {
-    /// Relative to the foot joint (the ankle).
+    /// Heel on the sole, relative to the foot joint (the ankle), metres.
     pub heel_m: Vec3,
-    /// Relative to the foot joint; under the toe joint.
+    /// Ball on the sole, under the toe joint, relative to the foot joint, metres.
     pub ball_m: Vec3,
-    /// Relative to the toe joint.
+    /// Toe tip on the sole, relative to the toe joint, metres.
     pub toe_tip_m: Vec3,
-    /// Where slide is measured: heel and ball relative to the foot joint, toe tip relative to the toe joint. The points
-    /// above where the clips carried `…Sole` joints; else those are estimated, and slide is measured at the joints over
-    /// them (heel or ankle, ball, end of the toe).
+    /// Heel, ball and toe tip where slide is measured, relative to the same joints as above, metres. Clips with `…Sole`
+    /// joints: the points above. Other clips: the joints over those points, since the points are estimated.
     pub measured_m: [Vec3; 3],
 }
 
 impl Skeleton {
-    /// Thigh plus shank, mean of both sides.
+    /// Length of thigh plus shank, mean of both sides, metres.
     pub fn leg_length_m(&self) -> f32 {
         let leg = |side: usize| {
             self.offsets_m[Joint::SHANKS[side].index()].length() + self.offsets_m[Joint::FEET[side].index()].length()
@@ -218,7 +230,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parents_stand_before_their_children_and_mirrors_come_in_pairs() {
+    fn parents_precede_children_and_mirrors_come_in_pairs() {
         for joint in Joint::ALL {
             assert_eq!(joint.mirrored().mirrored(), joint);
             if let Some(parent) = joint.parent() {

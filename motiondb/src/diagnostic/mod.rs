@@ -1,7 +1,10 @@
-//! What was found in a clip that a user should know: a code with arguments, a severity, and a sentence for people.
+//! Diagnostics: what the compiler reports about a clip. Each has a code with arguments, a severity, and a sentence for
+//! people.
 //!
-//! A diagnostic is a value: a database stores its variant and its arguments. A sentence states what is wrong, where, and
-//! how to mend it. It does not name the clip: reports print that before it.
+//! A diagnostic is a value: a database stores its variant and arguments. The sentence states the fault, its position
+//! and the remedy. It does not name the clip: reports print the name before it.
+//!
+//! Read `note`, `warning` and `unfit`: the diagnostics of each severity.
 
 mod note;
 mod unfit;
@@ -15,7 +18,17 @@ pub use note::Note;
 pub use unfit::Unfit;
 pub use warning::Warning;
 
-/// One diagnostic, by severity.
+/// A diagnostic, by severity.
+///
+/// ```
+/// use motiondb::Side;
+/// use motiondb::diagnostic::{Diagnostic, Severity, Unfit};
+///
+/// let diagnostic = Diagnostic::NoExample(Unfit::NoMidStance { foot: Side::Left });
+/// assert_eq!(diagnostic.severity(), Severity::NoExample);
+/// assert_eq!(diagnostic.code(), "no_mid_stance"); // for programs
+/// println!("walk.bvh: {diagnostic}"); // for people
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Diagnostic {
@@ -27,13 +40,13 @@ pub enum Diagnostic {
     NoExample(Unfit),
 }
 
-/// How much a diagnostic matters.
+/// Severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Severity {
-    /// Nothing to do.
+    /// The clip is used as intended; nothing is to be done.
     Note,
-    /// Something is doubtful.
+    /// The clip is used, but something about it is doubtful.
     Warning,
     /// The clip gives no example.
     NoExample,
@@ -50,7 +63,7 @@ pub enum ClipEnd {
 }
 
 impl Diagnostic {
-    /// The stable name of what was found, for programs; unique within a severity. It is the variant's name in serde too.
+    /// Stable name of the diagnostic, for programs; unique within a severity. It is also the variant's name in serde.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Note(note) => note.code(),
@@ -59,7 +72,7 @@ impl Diagnostic {
         }
     }
 
-    /// How much it matters.
+    /// Severity of the diagnostic.
     pub fn severity(&self) -> Severity {
         match self {
             Self::Note(_) => Severity::Note,
@@ -68,7 +81,7 @@ impl Diagnostic {
         }
     }
 
-    /// The same of a further example of the clip, which begins at this second of the file.
+    /// The same diagnostic for a further example of the clip, which begins at this second of the file.
     #[must_use]
     pub fn of_example_from(mut self, start_s: f32) -> Self {
         if let Self::Note(Note::TurnRateSnapped { from_s, .. } | Note::StrafeSnapped { from_s, .. })
@@ -90,7 +103,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// ` in the example from 12.3 s on`; nothing for a clip's first example, which has the clip's name.
+/// ` in the example from 12.3 s on`; empty for a clip's first example, which has the clip's name.
 fn of_example(from_s: Option<f32>) -> String {
     from_s.map(|from_s| format!(" in the example from {from_s:.1} s on")).unwrap_or_default()
 }
@@ -100,7 +113,7 @@ fn steady_windows(count: u32) -> String {
     format!("{count} steady window{}", if count == 1 { "" } else { "s" })
 }
 
-/// ` (2 steady windows are left out)`; nothing where none is.
+/// ` (2 steady windows are left out)`; empty for none.
 fn and_left_out(count: u32) -> String {
     match count {
         0 => String::new(),
@@ -109,7 +122,7 @@ fn and_left_out(count: u32) -> String {
     }
 }
 
-/// `, mirrored`, or nothing.
+/// `, mirrored`, or empty.
 fn and_mirrored(mirrored: bool) -> &'static str {
     if mirrored { ", mirrored" } else { "" }
 }

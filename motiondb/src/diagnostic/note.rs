@@ -1,4 +1,4 @@
-//! Notes: what was done with a clip that is used as intended. Nothing to mend.
+//! Notes: facts about a clip that is used as intended. Nothing is to be mended.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::{ClipEnd, Unfit, and_left_out, and_mirrored, of_example, steady_windows};
 
-/// What was done with a clip.
+/// A fact about a clip that is used as intended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Note {
@@ -14,76 +14,76 @@ pub enum Note {
     FirstPoseCut,
     /// A T-pose and the motion between it and the clip are cut off.
     TPoseCut {
-        /// Frames that are cut off.
+        /// Number of frames that are cut off.
         frames: u32,
-        /// Where.
+        /// End of the clip at which they are.
         end: ClipEnd,
     },
     /// Text follows the motion of a BVH file.
     TextAfterMotion {
-        /// Its first line, from 1.
+        /// First line of that text, from 1.
         line: u32,
     },
     /// The last row of a BVH file has too few values and is cut off.
     LastRowIncomplete {
-        /// Its line, from 1.
+        /// Line of that row, from 1.
         line: u32,
     },
     /// Channels of a glTF file that animate no node (`KHR_animation_pointer`) are not read.
     PointersNotRead,
     /// A turn rate within gait noise is set to 0.
     TurnRateSnapped {
-        /// As it was measured, rad/s.
+        /// Measured turn rate, rad/s.
         turn_rate_rad_s: f32,
-        /// Start of the example; none for the clip's first, s.
+        /// Start of the example, s; `None` for the clip's first.
         from_s: Option<f32>,
     },
     /// A side speed within gait noise is set to 0.
     StrafeSnapped {
-        /// As it was measured, m/s.
+        /// Measured side speed, m/s.
         strafe_mps: f32,
-        /// Start of the example; none for the clip's first, s.
+        /// Start of the example, s; `None` for the clip's first.
         from_s: Option<f32>,
     },
-    /// Steady windows beside the clip's examples give none.
+    /// Some steady windows of the clip give no example.
     WindowsLeftOut {
-        /// Near-equal to examples.
+        /// Number of windows that are near-equal to examples.
         near_equal: u32,
-        /// Their feet slide, or are hardly planted.
+        /// Number of windows whose feet slide or are hardly planted.
         doubtful: u32,
     },
     /// An example is left out because of `max_examples`.
     ExampleLeftOut {
-        /// Its name.
+        /// Name of the example.
         example: String,
-        /// The limit.
+        /// Greatest number of examples, as the manifest states it.
         max_examples: u32,
     },
     /// The clip steps and stands, and gives only an example that stands.
     OnlyRestUsed {
-        /// Why the steps give none.
+        /// Reason why the steps give no example.
         reason: Unfit,
     },
     /// The clip shows a take that another clip shows better.
     SameTake {
-        /// The other clip, which gives the take's examples.
+        /// Name of the other clip, which gives the take's examples.
         other: String,
-        /// One is the other's mirror image.
+        /// Whether one is the other's mirror image.
         mirrored: bool,
-        /// Steady windows that the other clip shows better.
+        /// Number of steady windows that the other clip shows better.
         windows_left_out: u32,
     },
     /// Two examples have the same parameters, and the other is the better one.
     CoincidentExample {
-        /// The example that is not blended.
+        /// Name of the example that is not blended.
         example: String,
-        /// The one that is.
+        /// Name of the example that is blended in its place.
         blended: String,
     },
 }
 
 impl Note {
-    /// See [`crate::diagnostic::Diagnostic::code`].
+    /// Stable name of the note; see [`crate::diagnostic::Diagnostic::code`].
     pub fn code(&self) -> &'static str {
         match self {
             Self::FirstPoseCut => "first_pose_cut",

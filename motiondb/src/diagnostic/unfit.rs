@@ -1,5 +1,5 @@
-//! Reasons why a clip, or a steady window of it, gives no example. The stage that finds one returns it; later stages
-//! match on it.
+//! Reasons why a clip, or a steady window of it, gives no example. The stage that finds a reason returns it as a value;
+//! later stages match on it.
 
 use std::fmt;
 
@@ -9,18 +9,18 @@ use crate::body::skeleton::Side;
 use crate::diagnostic::and_mirrored;
 use crate::motion::parameters::Parameters;
 
-/// Why there is no example.
+/// Reason why a clip gives no example.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Unfit {
     /// The body does not stand along the axis that the manifest states to be up.
     UpContradicted {
-        /// As the manifest states: `+X` … `-Z`.
+        /// Axis that the manifest states: `+X` … `-Z`.
         stated: String,
-        /// The axis along which the body stands.
+        /// Axis along which the body stands.
         found: String,
     },
-    /// No human steps so: the frame time is wrong, and with it all speeds.
+    /// The steps are not human: the frame time is wrong, and with it all speeds.
     InhumanGait {
         /// Median length of a step, cm.
         step_cm: f32,
@@ -42,26 +42,26 @@ pub enum Unfit {
     },
     /// Planted feet slide so much that they show no stance.
     FeetSlide {
-        /// Mean over the cycle, cm/s.
+        /// Mean slide over the cycle, cm/s.
         slide_cm_s: f32,
     },
     /// A foot has no contact where its mid-stance should be.
     NoMidStance {
-        /// The foot.
+        /// Side of the foot.
         foot: Side,
     },
     /// The middle of a foot's contact is not at the phase that defines its mid-stance.
     MidStanceOff {
-        /// The foot.
+        /// Side of the foot.
         foot: Side,
-        /// Distance over the cycle.
+        /// Distance between both, as a share of the cycle.
         share: f32,
     },
     /// The root does not move as the planted feet show.
     RootContradicted {
-        /// Of the root.
+        /// Parameters of the root's motion.
         root: Parameters,
-        /// Of the root motion for which the planted feet stand best.
+        /// Parameters that the planted feet imply.
         feet: Parameters,
         /// Misfit between both, m/s.
         misfit_mps: f32,
@@ -70,17 +70,17 @@ pub enum Unfit {
     },
     /// The clip shows a take that another clip shows better.
     SameTake {
-        /// The other clip, which gives the take's examples.
+        /// Name of the other clip, which gives the take's examples.
         other: String,
-        /// One is the other's mirror image.
+        /// Whether one is the other's mirror image.
         mirrored: bool,
-        /// The clips differ in their frame times: one of them is wrong.
+        /// Whether the clips differ in their frame times: then one of them is wrong.
         frame_times_differ: bool,
     },
 }
 
 impl Unfit {
-    /// See [`crate::diagnostic::Diagnostic::code`].
+    /// Stable name of the reason; see [`crate::diagnostic::Diagnostic::code`].
     pub fn code(&self) -> &'static str {
         match self {
             Self::UpContradicted { .. } => "up_contradicted",
@@ -131,20 +131,20 @@ impl fmt::Display for Unfit {
                 write!(out, "planted feet slide by {slide_cm_s:.0} cm/s; repair the clip, or use another one")
             }
             Self::NoMidStance { foot } => {
-                write!(out, "the {} foot has no contact about its mid-stance; use another clip", word(*foot))
+                write!(out, "the {} foot has no contact about its mid-stance; use another clip", side_name(*foot))
             }
             Self::MidStanceOff { foot, share } => write!(
                 out,
                 "the {} foot's contact is {:.0} % of the cycle off its mid-stance; use another clip",
-                word(*foot),
+                side_name(*foot),
                 100.0 * share
             ),
             Self::RootContradicted { root, feet, misfit_mps, limit_mps } => write!(
                 out,
                 "the root moves at {}, but the planted feet show {}: {misfit_mps:.3} m/s apart, above {limit_mps:.3}; \
                  correct the root's motion",
-                in_words(*root),
-                in_words(*feet)
+                parameter_text(*root),
+                parameter_text(*feet)
             ),
             Self::SameTake { other, mirrored, frame_times_differ: false } => {
                 write!(out, "the same take as {other}{}, which gives the example", and_mirrored(*mirrored))
@@ -159,13 +159,13 @@ impl fmt::Display for Unfit {
     }
 }
 
-fn word(side: Side) -> &'static str {
+fn side_name(side: Side) -> &'static str {
     match side {
         Side::Left => "left",
         Side::Right => "right",
     }
 }
 
-fn in_words(Parameters { speed_mps, turn_rate_rad_s, strafe_mps }: Parameters) -> String {
+fn parameter_text(Parameters { speed_mps, turn_rate_rad_s, strafe_mps }: Parameters) -> String {
     format!("{speed_mps:.2} m/s, {:.0} °/s and {strafe_mps:.2} m/s to the left", turn_rate_rad_s.to_degrees())
 }

@@ -1,4 +1,4 @@
-//! Warnings: what is doubtful about a clip that is used all the same.
+//! Warnings: doubtful facts about a clip that is used nevertheless.
 
 use std::fmt;
 
@@ -6,34 +6,34 @@ use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::{ClipEnd, and_left_out, and_mirrored, of_example};
 
-/// What is doubtful about a clip.
+/// A doubtful fact about a clip.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Warning {
-    /// No human's legs are as long. If the unit is wrong, so are all speeds.
+    /// The legs are shorter or longer than any human's. If the unit is wrong, so are all speeds.
     InhumanSize {
-        /// Thigh plus shank, m.
+        /// Length of thigh plus shank, m.
         leg_m: f32,
     },
-    /// No body with legs as long could walk: the unit of the file's format is not used.
+    /// In the unit of the file's format the legs could not walk: another unit is used.
     UnitRejected {
-        /// Thigh plus shank in that unit, m.
+        /// Length of thigh plus shank in the format's unit, m.
         leg_m: f32,
     },
-    /// Toes and knees contradict the sides that joints' names state: left and right are exchanged.
+    /// Toes and knees contradict the sides that the joints' names state: left and right are exchanged.
     SidesExchanged,
     /// The body is far away from one frame to the next.
     Leap {
-        /// How far, m.
+        /// Distance of the first leap, m.
         distance_m: f32,
-        /// The frame before the first leap, from 1.
+        /// Frame before the first leap, from 1.
         frame: u32,
-        /// Further leaps in the clip.
+        /// Number of further leaps in the clip.
         more: u32,
     },
     /// The ground rises or falls.
     Slope {
-        /// Rise, negative for a descent, cm a step.
+        /// Rise per step, cm; negative for a descent.
         rise_cm: f32,
     },
     /// The feet that should carry the body slide over the ground.
@@ -47,7 +47,7 @@ pub enum Warning {
     },
     /// The body turns and makes no step.
     TurnWithoutStep {
-        /// Counter-clockwise positive, rad/s.
+        /// Turn rate, counter-clockwise positive, rad/s.
         turn_rate_rad_s: f32,
     },
     /// Both feet are off the ground, and the body makes no step.
@@ -57,52 +57,52 @@ pub enum Warning {
     },
     /// Planted feet slide.
     FeetSlide {
-        /// Mean over the cycle, cm/s.
+        /// Mean slide over the cycle, cm/s.
         slide_cm_s: f32,
-        /// Start of the example; none for the clip's first, s.
+        /// Start of the example, s; `None` for the clip's first.
         from_s: Option<f32>,
     },
     /// Feet are hardly planted.
     FeetHardlyPlanted {
-        /// Share of the cycle, mean of both feet.
+        /// Share of the cycle in which a foot is planted, mean of both feet.
         planted_share: f32,
-        /// Start of the example; none for the clip's first, s.
+        /// Start of the example, s; `None` for the clip's first.
         from_s: Option<f32>,
     },
     /// A BVH header states another number of frames than the file has.
     FrameCountWrong {
-        /// As the header states.
+        /// Number that the header states.
         stated: f64,
-        /// Rows that the file has.
+        /// Number of rows in the file.
         rows: u32,
     },
-    /// A T-pose that is not cut off, since too little motion would be left.
+    /// A T-pose is not cut off, since too little motion would be left.
     TPoseKept {
-        /// Frames of the T-pose and of the motion between it and the clip.
+        /// Number of frames of the T-pose and of the motion between it and the clip.
         frames: u32,
-        /// Where.
+        /// End of the clip at which they are.
         end: ClipEnd,
     },
     /// Clips of one take differ in their frame times: one of them is wrong.
     FrameTimesDiffer {
-        /// The other clips that are named.
+        /// Names of other clips of the take.
         others: Vec<String>,
-        /// Other clips beside those.
+        /// Number of other clips beside those.
         more: u32,
-        /// One is the other's mirror image.
+        /// Whether one is the other's mirror image.
         mirrored: bool,
-        /// Steady windows that the other clip shows better.
+        /// Number of steady windows that the other clip shows better.
         windows_left_out: u32,
     },
     /// The set has too many clips to search all for further copies of a take.
     NotCompared {
-        /// Clips that are compared: the longest.
+        /// Number of clips that are compared: the longest.
         compared: u32,
     },
 }
 
 impl Warning {
-    /// See [`crate::diagnostic::Diagnostic::code`].
+    /// Stable name of the warning; see [`crate::diagnostic::Diagnostic::code`].
     pub fn code(&self) -> &'static str {
         match self {
             Self::InhumanSize { .. } => "inhuman_size",

@@ -1,32 +1,49 @@
-//! Files that appear under their final name whole or not at all, though the process be killed at any time.
+//! Files that appear under their final name complete or not at all, even if the process is killed.
 //!
-//! Nothing is forced onto the disk: that would cost a frame as much as drawing it, and only a failing power supply
-//! would tell.
+//! Bytes go into a temporary file beside the target, which is then renamed. Data is not forced onto the disk: that
+//! would take as long as drawing a frame, and protect only against power failure. A symbolic link stays: its target is
+//! written.
 //!
-//! A link stays one: what it leads to is written.
-//!
-//! Who is killed leaves a temporary file. Each is locked as long as it is written, so that [`sweep`] knows those that
-//! nobody writes any more.
+//! A killed process leaves its temporary file. Each is locked during writing, so [`sweep`] can remove the abandoned
+//! ones.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Files begun by this process: two of one name must not share a temporary one.
+/// Number of files that this process has begun: makes the names of temporary files unique.
 static BEGUN: AtomicU32 = AtomicU32::new(0);
 
-/// Times that a file may be swept between being made and being locked: only by who begins to write the same name then.
-const SWEPT_MAX: usize = 8;
+/// Greatest number of attempts to create a temporary file: another process may sweep it before it is locked.
+const ATTEMPTS_MAX: usize = 8;
 
-/// Links that are followed one after the other, as many as Linux follows: a circle of them comes to an end.
+/// Greatest number of symbolic links that are followed, as on Linux: ends a circle of links.
 const LINKS_MAX: usize = 40;
 
-/// A file being written beside its final name; dropped without [`AtomicFile::commit`], it is removed.
+/// A file that is being written beside its final name. Dropped without [`AtomicFile::commit`], it is removed.
+///
+/// ```
+/// use std::io::Write;
+/// use motiondb::AtomicFile;
+///
+/// # fn main() -> std::io::Result<()> {
+/// let path = std::env::temp_dir().join(format!("atomic_file_{}.txt", std::process::id()));
+/// let mut file = AtomicFile::create(&path)?;
+/// file.writer().write_all(b"complete")?;
+/// assert!(!path.exists()); // nothing under the final name yet
+/// file.commit()?;
+/// assert_eq!(std::fs::read(&path)?, b"complete");
+/// # std::fs::remove_file(&path)
+/// # }
+/// ```
 #[derive(Debug)]
 pub struct AtomicFile {
+    /// Writer of the temporary file; `None` after the commit.
     writer: Option<BufWriter<File>>,
+    /// Path of the temporary file.
     temporary: PathBuf,
+    /// Final path.
     target: PathBuf,
 }
 
@@ -34,27 +51,27 @@ impl AtomicFile {
     /// Opens `.NAME.PID.N.tmp` beside `target`.
     ///
     /// # Errors
-    /// Where the folder cannot be written, or `target` exists and is no file: a folder, or a device that renaming would
-    /// replace.
+    /// If the folder cannot be written, or `target` exists and is not a regular file: a folder, or a device that the
+    /// renaming would replace.
     pub fn create(target: &Path) -> io::Result<Self> {
         let target = followed(target);
         let name =
             target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
         if fs::metadata(&target).is_ok_and(|found| !found.is_file()) {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "what is there is no regular file"));
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path exists and is not a regular file"));
         }
-        for _ in 0..SWEPT_MAX {
+        for _ in 0..ATTEMPTS_MAX {
             let (process, begun) = (std::process::id(), BEGUN.fetch_add(1, Ordering::Relaxed));
             let temporary = target.with_file_name(format!(".{}.{process}.{begun}.tmp", name.to_string_lossy()));
             let file = File::create(&temporary)?;
-            // Where the system has no locks, nobody gets one and nothing is swept.
+            // On a system without locks, `sweep` gets none either and removes nothing.
             let _ = file.lock();
-            // Otherwise it was swept before it was locked; now it stays.
+            // Another process may have swept the file before it was locked. Locked, it stays.
             if temporary.exists() {
                 return Ok(Self { writer: Some(BufWriter::new(file)), temporary, target });
             }
         }
-        Err(io::Error::other("temporary files vanish as soon as they are made"))
+        Err(io::Error::other("another process keeps removing the temporary file"))
     }
 
     /// The buffered file.
@@ -62,13 +79,13 @@ impl AtomicFile {
         self.writer.as_mut().expect("taken only by commit, which consumes self")
     }
 
-    /// Flushes and renames to the final name.
+    /// Flushes the file and renames it to its final name.
     ///
     /// # Errors
-    /// Where flushing or renaming fails; the temporary file is removed.
+    /// If flushing or renaming fails; the temporary file is removed.
     pub fn commit(mut self) -> io::Result<()> {
         let flushed = self.writer.take().map(BufWriter::into_inner).transpose();
-        // Locked until it has its name.
+        // The lock is held until the file is renamed.
         let _locked = flushed.map_err(io::IntoInnerError::into_error)?;
         fs::rename(&self.temporary, &self.target)
     }
@@ -77,13 +94,13 @@ impl AtomicFile {
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         self.writer = None;
-        // After a commit the temporary name is gone and this does nothing.
+        // After a commit the temporary file no longer exists, and this does nothing.
         let _ = fs::remove_file(&self.temporary);
     }
 }
 
-/// Removes the temporary files of `target` that killed processes have left; none that is being written, by whomever.
-/// For what takes long to write: the whole folder is looked through.
+/// Removes the temporary files of `target` that killed processes have left, but none that any process is writing. Reads
+/// the whole folder: use it before long writing.
 pub fn sweep(target: &Path) {
     let target = followed(target);
     let (Some(name), Some(folder)) = (target.file_name(), target.parent()) else { return };
@@ -96,26 +113,26 @@ pub fn sweep(target: &Path) {
             numbers.is_some_and(|(process, begun)| [process, begun].iter().all(|n| n.parse::<u32>().is_ok()));
         let unlocked = || File::options().write(true).open(entry.path()).ok().filter(|file| file.try_lock().is_ok());
         if is_temporary && let Some(_locked) = unlocked() {
-            // What cannot be removed does no harm.
+            // A file that cannot be removed does no harm.
             let _ = fs::remove_file(entry.path());
         }
     }
 }
 
-/// Where a link leads, though nothing be there yet; any other path as it is.
+/// Target of a symbolic link, even if it does not exist yet; any other path unchanged.
 fn followed(path: &Path) -> PathBuf {
-    let mut place = path.to_owned();
+    let mut target = path.to_owned();
     for _ in 0..LINKS_MAX {
-        let Ok(next) = fs::read_link(&place) else { break };
-        place = place.parent().unwrap_or(Path::new("")).join(next);
+        let Ok(next) = fs::read_link(&target) else { break };
+        target = target.parent().unwrap_or(Path::new("")).join(next);
     }
-    place
+    target
 }
 
-/// Writes all bytes under the final name or none.
+/// Writes all bytes under the final name, or none.
 ///
 /// # Errors
-/// As [`AtomicFile`].
+/// As [`AtomicFile::create`] and [`AtomicFile::commit`], or if writing fails.
 pub fn write(target: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = AtomicFile::create(target)?;
     file.writer().write_all(bytes)?;
@@ -128,7 +145,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn what_a_link_leads_to_is_written_whether_it_is_there_or_not() {
+    fn a_link_stays_and_its_target_is_written() {
         let folder = std::env::temp_dir().join(format!("fbcrowd_links_{}", std::process::id()));
         fs::create_dir_all(folder.join("disk")).unwrap();
         let [link, far] = ["link", "far"].map(|name| folder.join(name));
@@ -143,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_killed_process_left_is_swept_and_what_is_being_written_is_not() {
+    fn only_abandoned_temporary_files_are_swept() {
         let folder = std::env::temp_dir().join(format!("fbcrowd_sweep_{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         let target = folder.join("a.fbrec");

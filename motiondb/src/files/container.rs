@@ -1,46 +1,55 @@
-//! The envelope of a database file: magic, format version, payload length, checksum over header and payload.
+//! The container of a database file: magic, format version, payload length, and a checksum over header and payload.
 //!
-//! Layout, little-endian: magic (8 bytes), version (u32), payload length (u64), CRC-32 of the 20 bytes before it and
-//! the payload (u32), payload. Nothing is allocated or decoded before all four agree with the bytes that are there.
+//! Layout, little-endian: magic (8 bytes), version (u32), payload length (u64), CRC-32 of the 20 bytes before it and of
+//! the payload (u32), payload. Nothing is allocated or decoded before all four agree with the bytes.
 
-/// Bytes before the payload.
+/// Length of the header, bytes.
 pub const HEADER_LENGTH: usize = 24;
-/// Bytes of the header that the checksum covers.
+/// Length of the part of the header that the checksum covers, bytes.
 const CHECKED_LENGTH: usize = 20;
 
-/// Why bytes are not a container of the wanted kind.
+/// Reason why bytes are not a container of the expected kind.
+///
+/// ```
+/// use motiondb::files::container::{ContainerError, open, seal};
+///
+/// const MAGIC: [u8; 8] = *b"MYFORMAT";
+/// let bytes = seal(MAGIC, 3, b"payload");
+/// assert_eq!(open(MAGIC, 3, &bytes).unwrap().0, b"payload");
+/// assert_eq!(open(MAGIC, 4, &bytes), Err(ContainerError::Version { found: 3, supported: 4 }));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ContainerError {
-    /// Foreign content.
+    /// The bytes do not begin with the magic.
     #[error("it does not begin with the mark (magic) of such a file")]
     Magic,
-    /// Written by another version.
-    #[error("it has format version {found}; this program reads version {wanted}")]
+    /// Another version of the program wrote the file.
+    #[error("it has format version {found}; this program reads version {supported}")]
     Version {
-        /// In the file.
+        /// Format version of the file.
         found: u32,
-        /// Ours.
-        wanted: u32,
+        /// Format version that this program reads.
+        supported: u32,
     },
-    /// Fewer or more bytes than the header promises.
+    /// The payload is shorter or longer than the header states.
     #[error("its length is wrong: after its header it should hold {promised} bytes, but holds {present}")]
     Length {
-        /// By the header.
+        /// Length that the header states, bytes.
         promised: u64,
-        /// In the file.
+        /// Length of the file after the header, bytes.
         present: u64,
     },
-    /// Altered bytes.
+    /// The bytes are altered.
     #[error("its checksum is {found:08x}, but its bytes give {computed:08x}")]
     Checksum {
-        /// In the file.
+        /// Checksum that the header states.
         found: u32,
-        /// Of the bytes.
+        /// Checksum of the bytes.
         computed: u32,
     },
 }
 
-/// Wraps a payload.
+/// The container of a payload, as bytes.
 pub fn seal(magic: [u8; 8], version: u32, payload: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(HEADER_LENGTH + payload.len());
     bytes.extend_from_slice(&magic);
@@ -52,10 +61,10 @@ pub fn seal(magic: [u8; 8], version: u32, payload: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// The payload of a container, and its checksum.
+/// Payload and checksum of a container.
 ///
 /// # Errors
-/// Whichever of magic, version, length and checksum disagrees first.
+/// The first of magic, version, length and checksum that disagrees.
 pub fn open(magic: [u8; 8], version: u32, bytes: &[u8]) -> Result<(&[u8], u32), ContainerError> {
     let Some((header, payload)) = bytes.split_first_chunk::<HEADER_LENGTH>() else {
         return Err(if bytes.starts_with(&magic) {
@@ -69,7 +78,7 @@ pub fn open(magic: [u8; 8], version: u32, bytes: &[u8]) -> Result<(&[u8], u32), 
     }
     let found = u32_at(header, 8);
     if found != version {
-        return Err(ContainerError::Version { found, wanted: version });
+        return Err(ContainerError::Version { found, supported: version });
     }
     let promised = u64::from(u32_at(header, 12)) | u64::from(u32_at(header, 16)) << 32;
     let present = payload.len() as u64;
@@ -101,7 +110,7 @@ mod tests {
     const MAGIC: [u8; 8] = *b"FBTESTED";
 
     #[test]
-    fn a_sealed_payload_opens_and_no_single_altered_byte_does() {
+    fn no_altered_or_cut_container_opens() {
         let payload = b"the quick brown fox";
         let sealed = seal(MAGIC, 1, payload);
         assert_eq!(open(MAGIC, 1, &sealed).unwrap().0, payload);

@@ -1,4 +1,5 @@
-//! `.fbdb`: a motion database on disk. Same clips, same bytes: no paths, no dates, no hash-map order.
+//! `.fbdb`: a motion database on disk, in a [`container`]. The same clips give the same bytes: it holds no paths, no
+//! dates and no order of a hash map.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,71 +9,80 @@ use crate::files::{atomic_file, input_file};
 use crate::motion::motion_db::MotionDb;
 use crate::validate;
 
-/// The mark that a database file begins with.
+/// The magic with which a database file begins.
 pub const MAGIC: [u8; 8] = *b"FBCROWDB";
-/// Format version: readers refuse any other.
+/// Format version; a file of any other version is rejected.
 pub const VERSION: u32 = 2;
-/// Decoding stops past this many bytes: 4096 examples of 64 rows are 100 MB.
+/// Greatest length of a payload that is decoded, bytes: 4096 examples of 64 rows take 100 MB.
 const PAYLOAD_LIMIT: usize = 1 << 30;
 
-/// Why a database cannot be read or written. Each message names the file and what to do.
+/// Reason why a database cannot be read or written. Each message names the file and the remedy.
+///
+/// ```
+/// use std::path::Path;
+///
+/// use motiondb::files::database_file;
+///
+/// let error = database_file::from_bytes(Path::new("notes.fbdb"), b"not a database").unwrap_err();
+/// assert!(error.to_string().starts_with("notes.fbdb: not a readable motion database"));
+/// ```
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
-    /// The system refuses to read.
+    /// The system cannot read the file.
     #[error("{path}: cannot be read: {source}; check that the file exists")]
     Unreadable {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// The system refuses to write.
-    #[error("{path}: cannot be written: {source}; choose another place")]
+    /// The system cannot write the file.
+    #[error("{path}: cannot be written: {source}; choose another path")]
     Unwritable {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// Not a database, or a damaged one.
+    /// The file is not a database, or is damaged.
     #[error("{path}: not a readable motion database: {source}; compile the clips anew with `fbcrowd compile`")]
     Container {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What disagrees.
+        /// The disagreement found.
         source: ContainerError,
     },
-    /// A whole container whose payload is no database.
+    /// The container is sound, but its payload is not a database.
     #[error(
         "{path}: not a readable motion database: its content cannot be decoded: {reason}; compile the clips anew with \
          `fbcrowd compile`"
     )]
     Decode {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the decoder said.
+        /// The decoder's message.
         reason: String,
     },
-    /// A readable database that breaks an invariant.
+    /// The database can be read, but breaks an invariant.
     #[error("{path}: invariant `{invariant}` is broken: {detail}; `fbcrowd validate` lists all")]
     Invariant {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Its name in `fbcrowd validate`.
+        /// Name of the invariant in `fbcrowd validate`.
         invariant: &'static str,
-        /// Where and how.
+        /// The fault and its position, as a text for people.
         detail: String,
     },
 }
 
-/// The file's bytes.
+/// The bytes of the file of a database.
 pub fn to_bytes(db: &MotionDb) -> Vec<u8> {
     let payload =
         bincode::serde::encode_to_vec(db, encoding()).expect("plain data encodes; writing to memory cannot fail");
     container::seal(MAGIC, VERSION, &payload)
 }
 
-/// A database and the checksum of its file, from the file's bytes; `path` is for messages only.
+/// A database and the checksum of its file, from the file's bytes; `path` is used in messages only.
 ///
 /// # Errors
 /// [`FileError::Container`] and [`FileError::Decode`].
@@ -91,7 +101,7 @@ fn opened<'a>(path: &Path, bytes: &'a [u8]) -> Result<(&'a [u8], u32), FileError
     container::open(MAGIC, VERSION, bytes).map_err(|source| FileError::Container { path: path.to_owned(), source })
 }
 
-/// Writes a database under its final name whole or not at all; returns the checksum of its file.
+/// Writes a database under its final name, complete or not at all; returns the checksum of its file.
 ///
 /// # Errors
 /// [`FileError::Unwritable`].
@@ -101,7 +111,8 @@ pub fn write(path: &Path, db: &MotionDb) -> Result<u32, FileError> {
     Ok(opened(path, &bytes)?.1)
 }
 
-/// Reads a database without judging it: for `fbcrowd validate` and `inspect`.
+/// Reads a database and the checksum of its file, without a check of its invariants: for `fbcrowd validate` and
+/// `inspect`.
 ///
 /// # Errors
 /// All but [`FileError::Invariant`] and [`FileError::Unwritable`].
@@ -110,7 +121,7 @@ pub fn read(path: &Path) -> Result<(MotionDb, u32), FileError> {
     from_bytes(path, &bytes)
 }
 
-/// Reads a database whose invariants all hold, as the runtime relies on; with the checksum of its file.
+/// Loads a database and the checksum of its file. All invariants hold: the runtime relies on them.
 ///
 /// # Errors
 /// All but [`FileError::Unwritable`].

@@ -1,34 +1,34 @@
-//! Reading what a user names: regular files only, since a device or a pipe may never end.
+//! Reading of files that a user names: regular files only, since a device or a pipe may never end.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Opens a file.
+/// Opens a regular file.
 ///
 /// # Errors
-/// Where the system refuses, or `path` is a folder, a device or a pipe (which opening alone would wait for).
+/// If the system cannot open it, or `path` is a folder, a device or a pipe (to open one would already block).
 pub fn open(path: &Path) -> io::Result<File> {
     let found = fs::metadata(path)?;
     if !found.is_file() {
-        let what = if found.is_dir() { "a folder, not a file" } else { "not a regular file" };
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
+        let kind = if found.is_dir() { "a folder, not a file" } else { "not a regular file" };
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, kind));
     }
     File::open(path)
 }
 
-/// All its bytes.
+/// All bytes of a regular file.
 ///
 /// # Errors
-/// As [`open`].
+/// As [`open`], or if reading fails.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open(path)?.read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
-/// Whether bytes are a text in UTF-16, with or without byte order mark: without one, every other of the first is zero,
-/// which no UTF-8 has.
+/// Whether bytes are a text in UTF-16, with or without byte order mark. Without one, every second of the first bytes is
+/// zero, which does not occur in UTF-8.
 pub fn is_utf16(bytes: &[u8]) -> bool {
     match bytes {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,

@@ -1,7 +1,9 @@
-//! Files: reading without surprises, writing whole or not at all.
+//! Files: databases on disk, complete writing, and texts whose faults are reported at their line.
 //!
-//! Read `database_file` (`.fbdb`) with its `container`, then `atomic_file` and `input_file`, then `source_text`, which
-//! reports a mistake at its line, and `parser_words`.
+//! Enters: paths and bytes. Leaves: databases, texts, or an error that names the file and the remedy.
+//!
+//! Read `database_file` (`.fbdb`) with its `container`, then `atomic_file` and `input_file`, then `source_text` with
+//! `parser_words`.
 
 pub mod atomic_file;
 pub mod container;

@@ -1,8 +1,7 @@
-//! What a parser of TOML says, in the words of whoever wrote the text: no names of types, and what to write instead.
+//! Messages of the TOML parser in plain words: no names of types, and a remedy.
 
-/// What the parser wants, by its words: the types of numbers first, so that `f64` is not looked for in a text's own
-/// words.
-const WANTED: [(&str, &str); 15] = [
+/// Expectations of the parser: its words, and plain words.
+const EXPECTED: [(&str, &str); 15] = [
     ("a nonzero usize", "a whole number from 1 on"),
     ("a nonzero u32", "a whole number from 1 on"),
     ("usize", "a whole number from 0 on"),
@@ -19,22 +18,22 @@ const WANTED: [(&str, &str); 15] = [
     ("a sequence", "a list in brackets"),
     ("a map", "a table of keys and values"),
 ];
-/// Mistakes of spelling, by how the parser's sentence about them begins: what is wrong, and what to do.
-const SPELLING: [(&str, &str, &str); 9] = [
-    ("string values must be quoted", "this is no value", "write a number, true, false, or a text in quotes"),
+/// Mistakes of syntax: the beginning of the parser's message, the mistake in plain words, and the remedy.
+const SYNTAX: [(&str, &str, &str); 9] = [
+    ("string values must be quoted", "this is not a value", "write a number, true, false, or a text in quotes"),
     ("invalid basic string", "the text does not end in its line", "close it with a quote: \""),
     ("invalid literal string", "the text does not end in its line", "close it with a quote: '"),
-    ("missing escaped value", "a \\ in a text stands for more than itself", "write paths with /, or with \\\\"),
-    ("key with no value", "a key stands here without a value", "write key = value"),
-    ("duplicate key", "the key stands twice", "keep one of both"),
+    ("missing escaped value", "a \\ in a text begins an escape", "write paths with /, or with \\\\"),
+    ("key with no value", "a key is here without a value", "write key = value"),
+    ("duplicate key", "the key is here twice", "keep one of both"),
     ("unclosed inline table", "the table is not closed", "close it with }"),
     ("unclosed", "the bracket is not closed", "close it with ] as often as it is opened"),
-    ("unexpected key or value", "the line should have ended here", "begin a new line, or remove what follows"),
+    ("unexpected key or value", "the line should have ended here", "begin a new line, or remove the rest of this one"),
 ];
 
-/// A parser's sentence in plain words, and what to do.
+/// A message of the parser in plain words, and the remedy.
 pub(crate) fn in_plain_words(message: &str) -> (String, &'static str) {
-    if let Some((_, mistake, help)) = SPELLING.iter().find(|(begin, ..)| message.starts_with(begin)) {
+    if let Some((_, mistake, help)) = SYNTAX.iter().find(|(begin, ..)| message.starts_with(begin)) {
         return ((*mistake).to_owned(), help);
     }
     if message.starts_with("unknown field") {
@@ -44,31 +43,32 @@ pub(crate) fn in_plain_words(message: &str) -> (String, &'static str) {
         return (format!("the key {key} is missing"), "add the key");
     }
     let after = |begin: &str| message.strip_prefix(begin)?.split_once(", expected ");
-    if let Some((count, wanted)) = after("invalid length ") {
-        return (format!("{} wanted here, not {count} values", plainly_wanted(wanted)), "correct the value");
+    if let Some((count, expected)) = after("invalid length ") {
+        return (format!("{} expected here, not {count} values", plainly_expected(expected)), "correct the value");
     }
     match after("invalid type: ").or_else(|| after("invalid value: ")) {
         Some(("map", "a sequence")) => {
-            ("a list of tables is wanted here, not one table".to_owned(), "head each with double brackets: [[ ]]")
+            ("a list of tables is expected here, not one table".to_owned(), "begin each with double brackets: [[ ]]")
         }
-        Some((found, wanted)) => {
-            (format!("{} wanted here, not {}", plainly_wanted(wanted), plainly_found(found)), "correct the value")
+        Some((found, expected)) => {
+            (format!("{} expected here, not {}", plainly_expected(expected), plainly_found(found)), "correct the value")
         }
         None => (message.replacen("unknown variant", "unknown value", 1), "correct the value"),
     }
 }
 
-/// What is wanted, with its verb.
-fn plainly_wanted(wanted: &str) -> String {
-    let is_of_several = wanted.starts_with("the ");
-    let plain = match WANTED.iter().find(|(words, _)| *words == wanted) {
+/// The expected value in plain words, with its verb.
+fn plainly_expected(expected: &str) -> String {
+    let is_of_several = expected.starts_with("the ");
+    let plain = match EXPECTED.iter().find(|(words, _)| *words == expected) {
         Some((_, plain)) => plain,
-        None if wanted.starts_with("struct ") => "a table of keys and values",
-        None => wanted,
+        None if expected.starts_with("struct ") => "a table of keys and values",
+        None => expected,
     };
     format!("{plain} {}", if is_of_several { "are" } else { "is" })
 }
 
+/// The value that was found, in plain words.
 fn plainly_found(found: &str) -> &str {
     let kinds = ["integer ", "floating point ", "boolean ", "string "];
     match found {
@@ -83,25 +83,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_name_of_a_type_reaches_the_reader() {
+    fn plain_words_name_no_types() {
         let check = |message: &str, plain: &str| assert_eq!(in_plain_words(message).0, plain);
         check(
             "invalid value: integer `0`, expected a nonzero usize",
-            "a whole number from 1 on is wanted here, not `0`",
+            "a whole number from 1 on is expected here, not `0`",
         );
-        check("invalid type: string \"cm\", expected f64", "a number is wanted here, not \"cm\"");
-        check("invalid type: map, expected a sequence", "a list of tables is wanted here, not one table");
+        check("invalid type: string \"cm\", expected f64", "a number is expected here, not \"cm\"");
+        check("invalid type: map, expected a sequence", "a list of tables is expected here, not one table");
         check(
             "invalid type: string \"a\", expected struct Table",
-            "a table of keys and values is wanted here, not \"a\"",
+            "a table of keys and values is expected here, not \"a\"",
         );
-        check("invalid length 3, expected an array of length 2", "an array of length 2 is wanted here, not 3 values");
+        check("invalid length 3, expected an array of length 2", "an array of length 2 is expected here, not 3 values");
         check("missing field `path`", "the key `path` is missing");
         check("unknown variant `papper`, expected `paper`", "unknown value `papper`, expected `paper`");
     }
 
     #[test]
-    fn a_missing_bracket_is_to_be_closed_and_no_value_to_be_corrected() {
+    fn each_syntax_mistake_has_its_remedy() {
         let help = |message: &str| in_plain_words(message).1;
         assert_eq!(help("unclosed array table, expected `]`"), "close it with ] as often as it is opened");
         assert_eq!(help("invalid basic string, expected `\"`"), "close it with a quote: \"");

@@ -1,5 +1,5 @@
-//! A text that a user wrote, and a mistake in it with all that is needed to show it there: what scenarios and manifests
-//! share.
+//! A text that a user wrote (a scenario, a manifest), and a mistake in it with its position, so that a report can point
+//! at it.
 
 use std::fs;
 use std::io;
@@ -9,17 +9,25 @@ use std::path::{Path, PathBuf};
 use crate::files::input_file;
 use crate::files::parser_words::in_plain_words;
 
-/// A million agents take a tenth of it.
+/// Greatest length of a text, bytes; a million agents take a tenth of it.
 const TEXT_MAX_BYTES: u64 = 1 << 30;
-/// Longer messages are cut.
+/// Greatest length of a message, characters; longer ones are cut.
 const MESSAGE_MAX_LETTERS: usize = 1_000;
 
-/// A text and its name, to point into.
+/// A text and its file.
+///
+/// ```
+/// use motiondb::files::SourceText;
+///
+/// let text = SourceText { path: "scene.toml".into(), text: "dt_s = 0.1\nagents = 0\n".to_owned() };
+/// let mistake = text.invalid(20..21, "there is no agent", "add one");
+/// assert_eq!(mistake.to_string(), "scene.toml:2: there is no agent; add one");
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct SourceText {
-    /// Its file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// The whole of it, without byte order mark.
+    /// The whole text, without byte order mark.
     pub text: String,
 }
 
@@ -27,20 +35,20 @@ pub struct SourceText {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}:{}: {message}; {help}", path.display(), self.line())]
 pub struct Invalid {
-    /// The file that is wrong.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Its whole text.
+    /// The whole text of the file.
     pub text: String,
-    /// The bytes of the text that are wrong.
+    /// Bytes of the text that are wrong.
     pub span: Range<usize>,
-    /// What is wrong.
+    /// The mistake.
     pub message: String,
-    /// What to do.
+    /// The remedy.
     pub help: String,
 }
 
 impl Invalid {
-    /// Line of the mistake, counted from 1.
+    /// Line of the mistake, from 1.
     pub fn line(&self) -> usize {
         let before = &self.text.as_bytes()[..self.span.start.min(self.text.len())];
         1 + before.iter().filter(|&&byte| byte == b'\n').count()
@@ -51,10 +59,10 @@ impl SourceText {
     /// Reads a regular file of text.
     ///
     /// # Errors
-    /// Where the system refuses, or the file is no text or too long.
+    /// If the system cannot read the file, or the file is not UTF-8 or too long.
     pub fn read(path: &Path) -> io::Result<Self> {
         if fs::metadata(path)?.len() > TEXT_MAX_BYTES {
-            return Err(io::Error::other("a text of more than 1 GiB"));
+            return Err(io::Error::other("the text is longer than 1 GiB"));
         }
         let text = in_utf8(input_file::read(path)?).map_err(io::Error::other)?;
         // Some editors begin a text with a byte order mark.
@@ -62,7 +70,7 @@ impl SourceText {
         Ok(Self { path: path.to_owned(), text })
     }
 
-    /// A path given relative to this file.
+    /// A path relative to this file's folder, as a path.
     pub fn beside(&self, path: &Path) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(path)
     }
@@ -70,7 +78,7 @@ impl SourceText {
     /// A mistake in this text.
     pub fn invalid(&self, span: Range<usize>, message: impl Into<String>, help: &str) -> Invalid {
         let (path, text) = (self.path.clone(), self.text.clone());
-        // It may quote what is wrong, however long.
+        // The message may quote a part of the text of any length.
         let message = message.into().chars().take(MESSAGE_MAX_LETTERS).collect();
         Invalid { path, text, span, message, help: help.to_owned() }
     }
@@ -82,7 +90,7 @@ impl SourceText {
     }
 }
 
-/// A text of another encoding is told as what it is.
+/// The text of some bytes; an error that names another encoding, or the line that is not UTF-8.
 fn in_utf8(bytes: Vec<u8>) -> Result<String, String> {
     if input_file::is_utf16(&bytes) {
         return Err("the text is UTF-16, two bytes a letter".into());
@@ -99,7 +107,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_text_in_another_encoding_is_told_so_and_where() {
+    fn another_encoding_is_named_with_its_line() {
         let wide = |bytes: fn(u16) -> [u8; 2]| "# a\n".encode_utf16().flat_map(bytes).collect::<Vec<u8>>();
         for bytes in
             [wide(u16::to_le_bytes), wide(u16::to_be_bytes), [vec![0xff, 0xfe], wide(u16::to_le_bytes)].concat()]

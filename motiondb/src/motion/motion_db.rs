@@ -1,102 +1,165 @@
-//! The motion database as the runtime holds it: read once, shared by every agent.
+//! The motion database in memory: loaded once, read by every body.
+//!
+//! Poses are in the root frame (x forward, y left, z up, on the ground), metres and seconds. Velocities of joints are
+//! derived, not stored.
 
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
+use crate::blend_space::locator::Locator;
 use crate::blend_space::space::BlendSpace;
 use crate::body::pose::{Joints, Pose};
 use crate::body::skeleton::{JOINT_COUNT, Skeleton};
 use crate::diagnostic::Diagnostic;
-use crate::motion::correspondence::Correspondence;
 use crate::motion::parameters::Parameters;
 use crate::motion::phase_map::PhaseMap;
 use crate::velocity_sets::velocity_hull::VelocityHull;
 
-/// Uniform phases at which every cycle is stored.
+/// Number of uniform phases at which every cycle is stored.
 pub const PHASE_COUNT: usize = 64;
 
-/// Everything that the runtime knows of motion.
+/// A motion database: the target body, its examples, and what follows from them.
+///
+/// ```no_run
+/// use std::path::Path;
+///
+/// use motiondb::files::database_file;
+///
+/// let (db, _checksum) = database_file::load(Path::new("motion.fbdb"))?;
+/// for (index, example) in db.examples.iter().enumerate() {
+///     let joints = &db.posed_rows(index)[0];
+///     println!("{}: the pelvis starts at {:.2} m", example.name, joints.positions_m[0].z);
+/// }
+/// # Ok::<(), motiondb::files::database_file::FileError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionDb {
-    /// The body that all examples are retargeted to.
+    /// Body to which all examples are retargeted.
     pub skeleton: Skeleton,
     /// Every clip that was read, sorted by file name and clip name.
     pub sources: Vec<SourceRecord>,
     /// Closed, phase-aligned cycles, sorted by name.
     pub examples: Vec<MotionExample>,
-    /// Their poses.
+    /// Poses of all examples.
     pub rows: Rows,
-    /// The velocity sets of §4.1.
+    /// Velocity sets of the examples (`FbCrowd` §4.1).
     pub velocity_hull: VelocityHull,
-    /// Simplices in (v_f, ω_t, ω_s).
+    /// Simplices between the examples in (v_f, ω_t, ω_s) (`FbCrowd` §5).
     pub blend_space: BlendSpace,
-    /// Absent where there are fewer than two cycles with steps.
+    /// Times at which synthesis may switch; `None` if fewer than two examples step.
     pub correspondence: Option<Correspondence>,
 }
 
 impl MotionDb {
-    /// The joints of one example in every row, in the root frame.
+    /// Joints of one example in every row, root frame.
     pub fn posed_rows(&self, example: usize) -> Vec<Joints> {
         (0..PHASE_COUNT).map(|phase| self.rows.pose(example, phase).forward_kinematics(&self.skeleton)).collect()
     }
+
+    /// Parameters of all examples, by index.
+    pub fn parameters(&self) -> impl Iterator<Item = Parameters> {
+        self.examples.iter().map(|example| example.parameters)
+    }
+
+    /// The locator of the database's blend space.
+    pub fn locator(&self) -> Locator {
+        Locator::new(&self.blend_space, &self.parameters().collect::<Vec<_>>())
+    }
 }
 
-/// One closed cycle: one stride, right and left step.
+/// Times T at which the poses of m_sp and m_mb are most alike, so that synthesis may switch (`FbCrowd` §5, Eq. 10).
+/// [`Correspondence::of`] finds them.
+///
+/// ```no_run
+/// use motiondb::{Correspondence, MotionDb};
+///
+/// fn print_switching_times(db: &MotionDb, base_walk: usize) {
+///     let Some(found) = Correspondence::of(db, base_walk) else { return };
+///     for [base_s, other_s] in found.pairs_s {
+///         println!("{base_s:.2} s of the base walk, {other_s:.2} s of {}", db.examples[found.blending as usize].name);
+///     }
+/// }
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Correspondence {
+    /// m_sp: index of the base walk, which semi-procedural locomotion deforms.
+    pub semi_procedural: u32,
+    /// m_mb: index of the other stepping example that is nearest to m_sp in (v_f, ω_t, ω_s).
+    pub blending: u32,
+    /// T: pairs [t_sp, t_mb], seconds from phase 0 of each cycle, in order of t_sp; cyclic and monotone in both.
+    pub pairs_s: Vec<[f32; 2]>,
+}
+
+/// One closed cycle: one stride, a right and a left step. A standing body is an example too.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionExample {
-    /// Unique in the database: the clip's name, `@12.4s` appended to windows after its first, `_mirrored` to mirrors.
+    /// Unique name: the clip's; later windows of a clip end in `@12.4s`, mirrored examples in `_mirrored`.
     pub name: String,
-    /// Index into [`MotionDb::sources`].
+    /// Index of the source in [`MotionDb::sources`].
     pub source: u32,
-    /// The part of the source that it was made from, first and last second, from the file's first frame on.
+    /// First and last second of the source's part that the example was made from, from the file's first frame.
     pub window_s: [f32; 2],
-    /// Left and right were exchanged.
+    /// Whether left and right were exchanged.
     pub mirrored: bool,
-    /// The root's motion in one cycle, scaled to the database's skeleton.
+    /// Motion of the root over one cycle, scaled to the database's skeleton.
     pub parameters: Parameters,
-    /// Phase to time.
+    /// Map from phase to time.
     pub phase_map: PhaseMap,
-    /// Right toe-off, right heel strike, left toe-off, left heel strike, seconds from phase 0; none for a body that
-    /// stands.
+    /// Right toe-off, right heel strike, left toe-off, left heel strike, seconds from phase 0; `None` if it stands.
     pub key_times_s: Option<[f32; 4]>,
-    /// Planted-foot slide of the cycle, cm/s, by the contacts of its rows.
+    /// Slide of the planted feet over the cycle, by the contacts of its rows, cm/s.
     pub planted_slide_cm_s: f32,
-    /// Share of the cycle that a foot is planted, mean of both.
+    /// Share of the cycle in which a foot is planted, mean of both feet.
     pub planted_share: f32,
 }
 
 impl MotionExample {
-    /// Whether both were made from the same stretch of the same source: an example and its mirror.
+    /// Whether both were made from the same part of the same source: an example and its mirror image.
     pub fn is_of_one_window_with(&self, other: &Self) -> bool {
         self.source == other.source && self.window_s == other.window_s
     }
 }
 
-/// Poses of all examples at [`PHASE_COUNT`] uniform phases, flat: index (example · 64 + phase), then joint.
+/// Poses of all examples at [`PHASE_COUNT`] uniform phases, as flat arrays. Row of an example at a phase: example · 64
+/// + phase.
+///
+/// ```
+/// use glam::{Quat, Vec3};
+/// use motiondb::{JOINT_COUNT, PHASE_COUNT, Rows};
+///
+/// // Two standing examples, with the pelvis at 0.9 and 1.0 m.
+/// let rows = Rows {
+///     rotations: vec![Quat::IDENTITY; 2 * PHASE_COUNT * JOINT_COUNT],
+///     pelvis_m: [0.9, 1.0].into_iter().flat_map(|height_m| [Vec3::Z * height_m; PHASE_COUNT]).collect(),
+///     contacts: vec![[1.0; 2]; 2 * PHASE_COUNT],
+/// };
+/// let between = rows.blended([(0, 0, 0.25), (1, 0, 0.75)]);
+/// assert!((between.pelvis_m.z - 0.975).abs() < 1e-6);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rows {
-    /// Local joint rotations, hemisphere-aligned over all rows of all examples, so that a blend is a weighted sum.
+    /// Joint rotations relative to the parent, row by row, in one hemisphere over all rows: a blend is a weighted sum.
     pub rotations: Vec<Quat>,
-    /// Pelvis joint in the root frame, metres.
+    /// Position of the pelvis joint in the root frame, by row, metres.
     pub pelvis_m: Vec<Vec3>,
-    /// Contact of each foot, `[left, right]`, 0 to 1.
+    /// Contact of each foot with the ground, `[left, right]`, by row, 0 to 1.
     pub contacts: Vec<[f32; 2]>,
 }
 
 impl Rows {
-    /// Rotations of one row.
+    /// Joint rotations of one row.
     pub fn rotations(&self, example: usize, phase: usize) -> &[Quat; JOINT_COUNT] {
         let start = (example * PHASE_COUNT + phase) * JOINT_COUNT;
         self.rotations[start..].first_chunk().expect("validated: every row is whole")
     }
 
-    /// The pose of one row.
+    /// Pose of one row.
     pub fn pose(&self, example: usize, phase: usize) -> Pose {
         Pose { pelvis_m: self.pelvis_m[example * PHASE_COUNT + phase], rotations: *self.rotations(example, phase) }
     }
 
-    /// Adds a row of a new example, in the hemisphere of the row (example, phase): no joint is turned so far from it
-    /// that it would belong into the other.
+    /// Appends a row of a new example, aligned to the hemisphere of the row (example, phase). Each joint of the pose
+    /// must be within half a turn of that row.
     pub fn push_like(&mut self, (example, phase): (usize, usize), pose: &Pose, contacts: [f32; 2]) {
         let mut rotations = pose.rotations;
         for (rotation, like) in rotations.iter_mut().zip(self.rotations(example, phase)) {
@@ -107,7 +170,7 @@ impl Rows {
         self.contacts.push(contacts);
     }
 
-    /// The weighted sum of rows (example, phase, weight), whose weights sum to 1.
+    /// Weighted sum of rows (example, phase, weight). The weights must sum to 1.
     pub fn blended(&self, rows: impl IntoIterator<Item = (usize, usize, f32)>) -> Pose {
         let mut pose = Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
         for (example, phase, weight) in rows {
@@ -116,36 +179,37 @@ impl Rows {
                 *sum += *rotation * weight;
             }
         }
-        // Rows share a hemisphere, so a sum is never near zero.
+        // All rows share a hemisphere, so no sum is near zero.
         pose.rotations.iter_mut().for_each(|rotation| *rotation = rotation.normalize());
         pose
     }
 
-    /// The mean over a cycle.
+    /// Mean pose of an example over its cycle.
     pub fn mean_pose(&self, example: usize) -> Pose {
         self.blended((0..PHASE_COUNT).map(|phase| (example, phase, 1.0 / PHASE_COUNT as f32)))
     }
 }
 
-/// What was found in one source clip. Parameters are whole-clip means on the source's own skeleton, before any scaling.
+/// Findings about one source clip. Parameters are means over the clip, on the source's own skeleton, before any
+/// scaling.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SourceRecord {
     /// File name without folders.
     pub file: String,
-    /// Clip within the file; empty where a file holds one unnamed clip.
+    /// Name of the clip within the file; empty if the file holds one unnamed clip.
     pub clip: String,
-    /// v_f, m/s.
+    /// v_f: mean speed along the facing, m/s.
     pub speed_mps: f32,
-    /// ω_t, rad/s.
+    /// ω_t: mean rate of change of the facing, rad/s.
     pub turn_rate_rad_s: f32,
-    /// ω_s, m/s.
+    /// ω_s: mean speed to the left of the facing, m/s.
     pub strafe_mps: f32,
-    /// `+X` … `-Z` in the source's axes.
+    /// Up axis of the source, `+X` … `-Z`.
     pub up_axis: String,
     /// Metres per unit of the source.
     pub metres_per_unit: f32,
-    /// Frames a second.
+    /// Frame rate, Hz.
     pub frame_rate_hz: f32,
-    /// What a user should know: wrong headers, no steady cycle, snapped parameters.
+    /// Diagnostics for the user: wrong headers, no steady cycle, snapped parameters.
     pub diagnostics: Vec<Diagnostic>,
 }

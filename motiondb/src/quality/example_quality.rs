@@ -1,8 +1,8 @@
-//! How good the motion of each example is: plain figures, and those that a person should look at.
+//! Quality of the motion of each example: figures, and findings for those beyond a threshold.
 //!
-//! No figure here makes a database unsound ([`crate::validate`] does that): a sliding foot is played as it is. The
-//! thresholds lie just beyond what good captures show, so that most clips pass in silence; each names its source.
-//! Poses in the root frame; figures carry their units.
+//! Enters: a valid database; poses in the root frame. Leaves: figures whose names end in their units. Thresholds lie
+//! just beyond the values of good captures, so most clips pass. A finding does not make a database unsound
+//! ([`crate::validate`] does): the motion is played as it is.
 
 use glam::{Quat, Vec3};
 use serde::Serialize;
@@ -15,90 +15,97 @@ use crate::motion::parameters::Parameters;
 use crate::quality::coverage::RUN_MPS;
 use crate::statistics::median;
 
-/// Planted feet of clean walks slide by 2–8 cm/s, of runs by 6 cm/s more for each m/s (`SmartBody`, Bandai Namco): 12.4
-/// of fast side-steps, 22 and 28 of runs at 3 and 3.9 m/s. Of 84 examples of 65 clips three slide more, two of them
-/// drawn.
+/// Greatest usual slide of planted feet at rest, cm/s: clean walks slide by 2–8 (`docs/tuning.md`).
 const SUSPECT_SLIDE_CM_S: f32 = 10.0;
+/// Increase of the usual slide with the body's speed, cm/s per m/s: from clean runs (`docs/tuning.md`).
 const SUSPECT_SLIDE_CM_S_PER_MPS: f32 = 6.0;
-/// Share of the cycle that a foot is planted. Walks of clean captures have 0.45–0.65, noisy ones label less, creeping
-/// ones more; runners who turn tightly, at walking speed, have 0.38.
+/// Usual planted share of a walk: clean captures have 0.45–0.65 (`docs/tuning.md`).
 const WALKING_SHARE: [f32; 2] = [0.35, 0.8];
-/// Runs of clean captures: 0.28–0.45; sprinters 0.22.
+/// Usual planted share of a run: clean captures have 0.28–0.45, sprints 0.22.
 const RUNNING_SHARE: [f32; 2] = [0.22, 0.5];
-/// Who stands lifts no foot for long.
+/// Usual planted share of a standing body: no foot is off the ground for long.
 const STANDING_SHARE: [f32; 2] = [0.9, 1.0];
-/// The step over the seam, of angles and of velocities, over the cycle's own median step. Cycles without a visible
-/// seam: up to 1.5 and 2.8; with one, from 3 and 9 on.
+/// Greatest turn over the seam, over the median turn of the cycle: 1.5 is not visible, 3 is (measured).
 const SEAM_ANGLE_MAX: f32 = 2.0;
+/// Greatest change of angular velocity at the seam, over the cycle's median: 2.8 is not visible, 9 is (measured).
 const SEAM_VELOCITY_MAX: f32 = 4.0;
-/// Smaller steps than this are not seen, so a calmer median counts as this much: 0.05° a joint and row.
+/// Least median of both ratios, rad per joint and row: 0.05°, since smaller steps are not visible.
 const SEAM_STEP_MIN_RAD: f32 = 0.05 * std::f32::consts::PI / 180.0;
-/// The compiler lets a sole sink by 10 mm, as pads and shoes give; twice that is
-/// seen, mm.
+/// Greatest depth of a sole below the ground, mm. The compiler permits 10, the give of pads and shoes; 20 is visible.
 const PENETRATION_MAX_MM: f32 = 20.0;
-/// People land on a knee flexed by 3–5°; straighter it snaps, degrees.
+/// Least flexion of a knee, degrees. People land on knees flexed by 3–5°; a straighter knee snaps.
 const KNEE_FLEXION_MIN_DEG: f32 = 1.0;
-/// The compiler's leg inverse kinematics ends at 0.9995, a knee flexed by 3.6°; a longer leg came from a clip, hip to
-/// ankle over thigh plus shank.
+/// Greatest distance of hip and ankle over thigh plus shank. The compiler's leg inverse kinematics ends at 0.9995 (a
+/// knee flexed by 3.6°), so a longer leg is the clip's own.
 const LEG_EXTENSION_MAX: f32 = 0.9997;
-/// Published ranges are of slow, unforced motion, and rigs share out a bend of the spine as they like: sound clips
-/// exceed them by up to 42°, degrees.
+/// Greatest turn of a joint beyond the published range, degrees: sound clips exceed it by up to 42° (`docs/tuning.md`).
 const RANGE_EXCESS_MAX_DEG: f32 = 45.0;
 
-/// The figures of one example.
+/// Figures of one example.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExampleQuality {
-    /// Its name.
+    /// Name of the example.
     pub example: String,
     /// Mean speed of planted feet, cm/s.
     pub planted_slide_cm_s: f32,
-    /// Share of the cycle that a foot is planted, mean of both.
+    /// Share of the cycle in which a foot is planted, mean of both feet.
     pub planted_share: f32,
-    /// Root mean square over the joints of the turn from the last row to the first, over the median of all rows.
+    /// Turn of the joints from the last row to the first (root mean square), over the median turn between rows.
     pub seam_angle_ratio: f32,
-    /// The same of the change of angular velocity, where that is greatest at the seam.
+    /// Greatest change of angular velocity at the seam (root mean square over joints), over the median change.
     pub seam_velocity_ratio: f32,
-    /// How far a sole sinks below the ground, at most, mm.
+    /// Greatest depth of a sole below the ground, mm.
     pub penetration_mm: f32,
-    /// Least flexion of a knee, negative where it is hyperextended, degrees.
+    /// Least flexion of a knee, degrees; negative if hyperextended.
     pub knee_flexion_min_deg: f32,
-    /// Greatest distance from hip to ankle over thigh plus shank.
+    /// Greatest distance from hip to ankle, over thigh plus shank.
     pub leg_extension_max: f32,
-    /// How far a joint turns beyond the published range of people's, at most, degrees; 0 within.
+    /// Greatest turn of a joint beyond the published human range, degrees; 0 within.
     pub range_excess_deg: f32,
-    /// The joint that does.
+    /// Name of the joint of `range_excess_deg`.
     pub range_excess_joint: &'static str,
 }
 
 /// A figure beyond its threshold.
+///
+/// ```no_run
+/// use motiondb::MotionDb;
+/// use motiondb::quality::example_quality::lint;
+///
+/// fn print_findings(db: &MotionDb) {
+///     for finding in lint(db) {
+///         println!("{}: {}", finding.example, finding.sentence);
+///     }
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// Whose.
+    /// Name of the example.
     pub example: String,
-    /// Which figure: its name in [`ExampleQuality`].
+    /// Name of the figure: its field in [`ExampleQuality`].
     pub measure: &'static str,
-    /// What it is.
+    /// Value of the figure.
     pub value: f32,
-    /// What it should not pass.
+    /// Threshold of the figure.
     pub threshold: f32,
-    /// Unit of both; empty for ratios and shares.
+    /// Unit of value and threshold; empty for ratios and shares.
     pub unit: &'static str,
-    /// For people, without the example's name.
+    /// The finding as a text for people, without the example's name.
     pub sentence: String,
 }
 
-/// The slide of planted feet from which on it is suspect, of a body's speed over the ground, cm/s.
+/// Least suspect slide of planted feet, cm/s, at a body's speed over the ground.
 pub fn suspect_slide_cm_s(speed_mps: f32) -> f32 {
     SUSPECT_SLIDE_CM_S + SUSPECT_SLIDE_CM_S_PER_MPS * speed_mps
 }
 
-/// The figures of every example, in order. The database must be valid.
+/// Figures of every example, in order. The database must be valid.
 pub fn quality(db: &MotionDb) -> Vec<ExampleQuality> {
     (0..db.examples.len()).map(|example| example_quality(db, example)).collect()
 }
 
-/// Whatever lies beyond its threshold, in order of examples; mirrors repeat their originals and are passed over. The
-/// database must be valid.
+/// Findings for all figures beyond their thresholds, in order of examples. Mirrored examples repeat their originals and
+/// are left out. The database must be valid.
 pub fn lint(db: &MotionDb) -> Vec<Finding> {
     let recorded = quality(db).into_iter().zip(&db.examples).filter(|(_, example)| !example.mirrored);
     recorded.flat_map(|(found, example)| findings(&found, example)).collect()
@@ -106,7 +113,7 @@ pub fn lint(db: &MotionDb) -> Vec<Finding> {
 
 fn example_quality(db: &MotionDb, index: usize) -> ExampleQuality {
     let (example, joints) = (&db.examples[index], db.posed_rows(index));
-    let [seam_angle_ratio, seam_velocity_ratio] = seam(&turns(db, index));
+    let [seam_angle_ratio, seam_velocity_ratio] = seam_ratios(&turns(db, index));
     let (range_excess_deg, joint) = range_excess_deg(db, index);
     ExampleQuality {
         example: example.name.clone(),
@@ -122,7 +129,8 @@ fn example_quality(db: &MotionDb, index: usize) -> ExampleQuality {
     }
 }
 
-/// How each joint turns from each row to the next, the last to the first, as rotation vectors in the joint's frame.
+/// Turn of each joint from each row to the next (from the last to the first), as a rotation vector in the joint's
+/// frame.
 fn turns(db: &MotionDb, example: usize) -> Vec<[Vec3; JOINT_COUNT]> {
     let turn = |from: Quat, to: Quat| {
         let turn = from.inverse() * to;
@@ -135,24 +143,25 @@ fn turns(db: &MotionDb, example: usize) -> Vec<[Vec3; JOINT_COUNT]> {
     (0..PHASE_COUNT).map(of_row).collect()
 }
 
-/// The seam's step of angles, and of velocities into or out of it, over the medians of all steps.
-fn seam(turns: &[[Vec3; JOINT_COUNT]]) -> [f32; 2] {
+/// Ratios of the seam: turn over the median turn, and change of angular velocity over the median change.
+fn seam_ratios(turns: &[[Vec3; JOINT_COUNT]]) -> [f32; 2] {
     let before = |row: usize| &turns[(row + PHASE_COUNT - 1) % PHASE_COUNT];
     let angles: Vec<f32> = turns.iter().map(|turn| rms(turn.iter().copied())).collect();
     let changes: Vec<f32> = (0..PHASE_COUNT)
         .map(|row| rms(turns[row].iter().zip(before(row)).map(|(after, before)| after - before)))
         .collect();
     let last = PHASE_COUNT - 1;
-    [angles[last] / usual_step(&angles), changes[last].max(changes[0]) / usual_step(&changes)]
+    [angles[last] / median_step_rad(&angles), changes[last].max(changes[0]) / median_step_rad(&changes)]
 }
 
+/// Root mean square over the joints.
 fn rms(vectors: impl Iterator<Item = Vec3>) -> f32 {
     libm::sqrtf(vectors.map(Vec3::length_squared).sum::<f32>() / JOINT_COUNT as f32)
 }
 
-fn usual_step(steps: &[f32]) -> f32 {
-    let median = median(steps.iter().copied().map(f64::from)).unwrap_or_default() as f32;
-    median.max(SEAM_STEP_MIN_RAD)
+fn median_step_rad(steps_rad: &[f32]) -> f32 {
+    let median_rad = median(steps_rad.iter().copied().map(f64::from)).unwrap_or_default() as f32;
+    median_rad.max(SEAM_STEP_MIN_RAD)
 }
 
 fn penetration_mm(rows: &[Joints], skeleton: &Skeleton) -> f32 {
@@ -175,7 +184,7 @@ fn leg_extension_max(rows: &[Joints], skeleton: &Skeleton) -> f32 {
     rows.iter().flat_map(|joints| [0, 1].map(|side| extension(joints, side))).fold(0.0, f32::max)
 }
 
-/// How far beyond its published range a joint turns, and which.
+/// Greatest turn of a joint beyond its published range, degrees, and the joint.
 fn range_excess_deg(db: &MotionDb, example: usize) -> (f32, Joint) {
     let mut worst = (0.0, Joint::Pelvis);
     for row in 0..PHASE_COUNT {
@@ -192,14 +201,13 @@ fn range_excess_deg(db: &MotionDb, example: usize) -> (f32, Joint) {
     worst
 }
 
-/// What lies beyond its thresholds.
 fn findings(found: &ExampleQuality, example: &MotionExample) -> Vec<Finding> {
     let limits = contact_limits(found, example).into_iter().chain(seam_limits(found)).chain(body_limits(found));
     limits.filter_map(|limit| limit.finding(&found.example)).collect()
 }
 
-/// A figure, the range that it should lie in, and what to say where it does not.
-struct Limit {
+/// A figure, its usual range, and the sentence of the finding beyond that range.
+struct FigureLimit {
     measure: &'static str,
     unit: &'static str,
     value: f32,
@@ -207,7 +215,7 @@ struct Limit {
     sentence: String,
 }
 
-impl Limit {
+impl FigureLimit {
     fn finding(self, example: &str) -> Option<Finding> {
         let Self { measure, unit, value, range: [least, greatest], sentence } = self;
         let threshold = if value < least { least } else { greatest };
@@ -220,7 +228,7 @@ fn up_to(greatest: f32) -> [f32; 2] {
     [f32::NEG_INFINITY, greatest]
 }
 
-fn contact_limits(found: &ExampleQuality, example: &MotionExample) -> [Limit; 2] {
+fn contact_limits(found: &ExampleQuality, example: &MotionExample) -> [FigureLimit; 2] {
     let Parameters { speed_mps, strafe_mps, .. } = example.parameters;
     let body_mps = libm::hypotf(speed_mps, strafe_mps);
     let (gait, [least, most]) = match example.key_times_s {
@@ -231,21 +239,20 @@ fn contact_limits(found: &ExampleQuality, example: &MotionExample) -> [Limit; 2]
     let slide_max_cm_s = suspect_slide_cm_s(body_mps);
     let (slide_cm_s, share) = (found.planted_slide_cm_s, found.planted_share);
     let slide =
-        format!("planted feet slide by {slide_cm_s:.0} cm/s; at this speed they should by {slide_max_cm_s:.0} at most");
+        format!("planted feet slide by {slide_cm_s:.0} cm/s; usual at this speed is {slide_max_cm_s:.0} at most");
     let [has, from, to] = [share, least, most].map(|share| 100.0 * share);
-    let planted =
-        format!("a foot is planted for {has:.0} % of the cycle; {gait} clips should have {from:.0} to {to:.0} %");
-    let limit = |measure, unit, value, range, sentence| Limit { measure, unit, value, range, sentence };
+    let planted = format!("a foot is planted for {has:.0} % of the cycle; usual in {gait} is {from:.0} to {to:.0} %");
+    let limit = |measure, unit, value, range, sentence| FigureLimit { measure, unit, value, range, sentence };
     [
         limit("planted_slide_cm_s", "cm/s", slide_cm_s, up_to(slide_max_cm_s), slide),
         limit("planted_share", "", share, [least, most], planted),
     ]
 }
 
-fn seam_limits(found: &ExampleQuality) -> [Limit; 2] {
+fn seam_limits(found: &ExampleQuality) -> [FigureLimit; 2] {
     let [angle, velocity] = [found.seam_angle_ratio, found.seam_velocity_ratio];
     let limit =
-        |measure, value, greatest, sentence| Limit { measure, unit: "", value, range: up_to(greatest), sentence };
+        |measure, value, greatest, sentence| FigureLimit { measure, unit: "", value, range: up_to(greatest), sentence };
     let jumps = format!("the pose jumps where the cycle closes, by {angle:.1} times a usual step");
     let jerks = format!("the motion jerks where the cycle closes, {velocity:.1} times as much as elsewhere");
     [
@@ -254,14 +261,14 @@ fn seam_limits(found: &ExampleQuality) -> [Limit; 2] {
     ]
 }
 
-fn body_limits(found: &ExampleQuality) -> [Limit; 4] {
+fn body_limits(found: &ExampleQuality) -> [FigureLimit; 4] {
     let (sunk_mm, flexed_deg) = (found.penetration_mm, found.knee_flexion_min_deg);
     let (joint, excess_deg) = (found.range_excess_joint, found.range_excess_deg);
-    let limit = |measure, unit, value, range, sentence| Limit { measure, unit, value, range, sentence };
+    let limit = |measure, unit, value, range, sentence| FigureLimit { measure, unit, value, range, sentence };
     let sinks = format!("a sole sinks {sunk_mm:.0} mm into the ground");
     let straightens = format!("a knee straightens to {flexed_deg:.1}° of flexion: it snaps or bends backward");
     let stretched = "a leg is stretched to its full length; it may be too short for the clip's steps".to_owned();
-    let turns = format!("{joint} turns {excess_deg:.0}° beyond the range of people's");
+    let turns = format!("{joint} turns {excess_deg:.0}° beyond the human range");
     [
         limit("penetration_mm", "mm", sunk_mm, up_to(PENETRATION_MAX_MM), sinks),
         limit("knee_flexion_min_deg", "deg", flexed_deg, [KNEE_FLEXION_MIN_DEG, f32::INFINITY], straightens),

@@ -1,4 +1,7 @@
-//! Quality: how good the examples are, where the set is thin, what planted feet do on the ground.
+//! Quality: the ground contact of planted feet, the figures of each example, and the coverage gaps of the set.
+//!
+//! Enters: a valid database. Leaves: figures with thresholds, and sentences for people. Nothing here makes a database
+//! unsound: the chapter `validate` decides that.
 //!
 //! Read `planted_feet`, then `example_quality`, then `coverage`.
 

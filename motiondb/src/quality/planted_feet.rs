@@ -1,16 +1,16 @@
-//! What the feet of a closed cycle do on the ground: their contacts, how far they slide, how the root must move for
-//! them to stand.
+//! Feet of a closed cycle on the ground: their contacts, their slide, and the root motion that they imply.
 //!
-//! A foot is planted where its contact row is at least ½. Its contact point is the lowest of heel, ball and toe tip,
-//! each over its own planted height; slide is that point's mean horizontal speed over the middle 80 % of each contact.
-//! A point p of the root frame that stands in the world obeys, with root velocity v and turn rate ω,
+//! Enters: posed rows and contacts of a cycle, root frame (x forward, y left), metres and seconds. A foot is planted in
+//! the rows whose contact is at least ½. Its contact point is the lowest of heel, ball and toe tip, each over its own
+//! planted height. Slide is the mean horizontal speed of that point in the world, over the middle 80 % of each contact.
+//!
+//! A point p of the root frame that is at rest in the world obeys, with root velocity v and turn rate ω,
 //!
 //! ```text
-//! v + ω·perp(p) + dp/dt = 0,
+//! v + ω·perp(p) + dp/dt = 0                                                    (1)
 //! ```
 //!
-//! two equations a row for three unknowns: the rows alone tell (v_f, ω_t, ω_s), by least squares. Root frame: x
-//! forward, y left; metres, seconds.
+//! These are two equations per row for three unknowns: the rows alone determine (v_f, ω_t, ω_s) by least squares.
 
 use glam::{DMat3, DVec2, DVec3};
 
@@ -19,55 +19,56 @@ use crate::body::skeleton::{Side, Skeleton};
 use crate::motion::motion_db::{MotionDb, PHASE_COUNT};
 use crate::motion::parameters::Parameters;
 use crate::motion::phase_map::PhaseMap;
+use crate::statistics::percentile;
 
-/// A foot is planted from this contact on.
+/// Least contact of a planted foot.
 pub const PLANTED_CONTACT: f64 = 0.5;
-/// Cut from each end of a contact, as a share of it: there the foot rolls on and off.
+/// Share of a contact that is cut from each of its ends: there the foot rolls on and off.
 const TRIMMED_SHARE: f64 = 0.1;
-/// A point's planted height is this percentile of its heights.
+/// Percentile of a point's heights over a cycle that is its planted height.
 const PLANTED_PERCENTILE: f64 = 0.05;
 
 /// The feet of one cycle at [`PHASE_COUNT`] uniform phases.
 #[derive(Clone, Debug)]
 pub struct CycleFeet {
-    /// `[left, right]`, row by row: heel, ball and toe tip where slide is measured, root frame, metres.
+    /// Heel, ball and toe tip where slide is measured, `[left, right]`, row by row, root frame, metres.
     pub points_m: [Vec<[DVec3; 3]>; 2],
-    /// `[left, right]`, row by row: contact, 0 to 1.
+    /// Contact with the ground, `[left, right]`, row by row, 0 to 1.
     pub contacts: [Vec<f64>; 2],
-    /// Phase to time.
+    /// Map from phase to time.
     pub phase_map: PhaseMap,
 }
 
-/// What the planted feet of a cycle do.
+/// Slide of the planted feet of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FootSlide {
     /// Mean speed of planted contact points, cm/s.
     pub slide_cm_s: f64,
-    /// Share of the cycle that a foot is planted, mean of both.
+    /// Share of the cycle in which a foot is planted, mean of both feet.
     pub planted_share: f64,
 }
 
-/// The root's motion for which planted feet stand.
+/// The root motion for which planted feet are at rest, as far as possible.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Implied {
-    /// The parameters.
+pub struct ImpliedRootMotion {
+    /// Parameters of the root motion.
     pub parameters: Parameters,
-    /// Root mean square speed of planted contact points that is left, m/s: what no root motion explains.
+    /// Remaining speed of the planted contact points (root mean square), which no root motion explains, m/s.
     pub rest_mps: f64,
 }
 
-/// A planted contact point: its neighbouring rows, and what lies between them.
+/// A planted contact point in one row, with its position in the neighbouring rows, root frame.
 #[derive(Clone, Copy, Debug)]
-struct Planted {
+struct PlantedPoint {
     before_m: DVec2,
     at_m: DVec2,
     after_m: DVec2,
-    /// Seconds from the row to its neighbours, negative to the one before.
+    /// Times of the neighbouring rows relative to the row, seconds: the first is negative.
     steps_s: [f64; 2],
 }
 
 impl CycleFeet {
-    /// Of a cycle's posed rows and the contacts `[left, right]` in each.
+    /// The feet of a cycle's posed rows, with the contacts `[left, right]` in each.
     pub fn new(skeleton: &Skeleton, joints: &[Joints], contacts: &[[f32; 2]], phase_map: PhaseMap) -> Self {
         let points_m = [0, 1].map(|side| {
             let points_m = |joints: &Joints| joints.measured_points_m(skeleton, side).map(|point| point.as_dvec3());
@@ -77,18 +78,18 @@ impl CycleFeet {
         Self { points_m, contacts, phase_map }
     }
 
-    /// Of a stored example, `joints` being its posed rows.
+    /// The feet of a stored example; `joints` are its posed rows.
     pub fn of(db: &MotionDb, example: usize, joints: &[Joints]) -> Self {
         let contacts = &db.rows.contacts[example * PHASE_COUNT..(example + 1) * PHASE_COUNT];
         Self::new(&db.skeleton, joints, contacts, db.examples[example].phase_map)
     }
 
-    /// Both feet are planted in every row.
-    pub fn always_planted(&self) -> bool {
+    /// Whether both feet are planted in every row.
+    pub(crate) fn is_always_planted(&self) -> bool {
         self.contacts.iter().flatten().all(|&contact| contact >= PLANTED_CONTACT)
     }
 
-    /// First row and length of each contact of one foot; one that passes phase 0 counts once.
+    /// First row and number of rows of each contact of one foot. A contact that includes phase 0 counts once.
     pub fn contacts(&self, side: usize) -> Vec<(usize, usize)> {
         let planted = |row: usize| self.contacts[side][row % PHASE_COUNT] >= PLANTED_CONTACT;
         if (0..PHASE_COUNT).all(planted) {
@@ -100,8 +101,8 @@ impl CycleFeet {
             .collect()
     }
 
-    /// [right toe-off, right heel strike, left toe-off, left heel strike], seconds from phase 0: where the contact that
-    /// holds each foot's mid-stance ends and begins; none where one has no such contact.
+    /// [right toe-off, right heel strike, left toe-off, left heel strike], seconds from phase 0: end and start of the
+    /// contact at each foot's mid-stance. `None` if a foot has no such contact.
     pub fn key_times_s(&self) -> Option<[f32; 4]> {
         let ([right_strike, right_off], [left_strike, left_off]) =
             (self.stance(Side::Right)?, self.stance(Side::Left)?);
@@ -112,8 +113,8 @@ impl CycleFeet {
         Some([right_off, right_strike, left_off, left_strike].map(within_period))
     }
 
-    /// Phases at which the contact that holds a foot's mid-stance begins and ends, the first not after the landmark and
-    /// the second not before it; none where the foot is not planted there, or always.
+    /// Phases at which the contact at a foot's mid-stance begins and ends: the first at or before the landmark, the
+    /// second at or after it. `None` if the foot is not planted there, or in every row.
     pub fn stance(&self, side: Side) -> Option<[f64; 2]> {
         let landmark = if side == Side::Left { PHASE_COUNT as isize / 2 } else { 0 };
         let contact = |row: isize| self.contacts[side.index()][wrap(row)];
@@ -127,13 +128,13 @@ impl CycleFeet {
         Some([end(-1)?, end(1)?])
     }
 
-    /// Seconds from phase 0 at a row, which may lie in a neighbouring cycle.
+    /// Time of a row, seconds from phase 0; the row may lie in a neighbouring cycle.
     fn time_s(&self, row: isize) -> f64 {
         f64::from(self.phase_map.time_s(row as f32 / PHASE_COUNT as f32))
     }
 
-    /// The contact points of the middle of every contact.
-    fn planted(&self) -> Vec<Planted> {
+    /// Contact points in the middle part of every contact.
+    fn planted(&self) -> Vec<PlantedPoint> {
         let mut found = Vec::new();
         for side in 0..2 {
             let feet = &self.points_m[side];
@@ -147,19 +148,19 @@ impl CycleFeet {
         found
     }
 
-    fn planted_at(&self, feet: &[[DVec3; 3]], point: usize, row: isize) -> Planted {
-        let place_m = |row: isize| feet[wrap(row)][point].truncate();
+    fn planted_at(&self, feet: &[[DVec3; 3]], point: usize, row: isize) -> PlantedPoint {
+        let position_m = |row: isize| feet[wrap(row)][point].truncate();
         let time_s = |step: isize| self.time_s(row + step) - self.time_s(row);
-        Planted {
-            before_m: place_m(row - 1),
-            at_m: place_m(row),
-            after_m: place_m(row + 1),
+        PlantedPoint {
+            before_m: position_m(row - 1),
+            at_m: position_m(row),
+            after_m: position_m(row + 1),
             steps_s: [time_s(-1), time_s(1)],
         }
     }
 }
 
-/// Slide and planted share of both feet while the root moves by `velocity` (v_f, ω_t, ω_s) in m/s and rad/s.
+/// Slide and planted share of both feet for a root `velocity` (v_f, ω_t, ω_s), m/s and rad/s.
 pub fn foot_slide(feet: &CycleFeet, velocity: DVec3) -> FootSlide {
     let planted = feet.planted();
     let speeds: f64 = planted.iter().map(|point| point.speed_mps(velocity)).sum();
@@ -170,44 +171,47 @@ pub fn foot_slide(feet: &CycleFeet, velocity: DVec3) -> FootSlide {
     }
 }
 
-/// The root motion that the planted feet tell; none where too little is planted to tell it.
-pub fn implied(feet: &CycleFeet) -> Option<Implied> {
+/// Root motion that the planted feet imply: the least-squares solution of Eq. 1. `None` if too little is planted.
+pub fn implied_root_motion(feet: &CycleFeet) -> Option<ImpliedRootMotion> {
     let planted = feet.planted();
     let (mut normal, mut right) = (DMat3::ZERO, DVec3::ZERO);
-    for (row, rate_mps) in planted.iter().flat_map(Planted::equations) {
+    for (row, rate_mps) in planted.iter().flat_map(PlantedPoint::equations) {
         normal += DMat3::from_cols(row * row.x, row * row.y, row * row.z);
         right -= row * rate_mps;
     }
     let velocity = normal.inverse() * right;
-    let implied =
-        Implied { parameters: Parameters::from_vec3(velocity.as_vec3()), rest_mps: rms_speed_mps(&planted, velocity) };
-    velocity.is_finite().then_some(implied)
+    velocity.is_finite().then(|| ImpliedRootMotion {
+        parameters: Parameters::from_vec3(velocity.as_vec3()),
+        rest_mps: rms_speed_mps(&planted, velocity),
+    })
 }
 
-impl Implied {
-    /// How fast the feet that stand by the implied root motion move by another, root mean square, m/s. Squares of
-    /// residuals add up about a least-squares solution.
+impl ImpliedRootMotion {
+    /// Speed of the planted feet for another root `velocity` in excess of the remaining speed (root mean square), m/s:
+    /// around a least-squares solution, squares of residuals add.
     pub fn misfit_mps(&self, feet: &CycleFeet, velocity: DVec3) -> f64 {
         let all_mps = rms_speed_mps(&feet.planted(), velocity);
         libm::sqrt((all_mps * all_mps - self.rest_mps * self.rest_mps).max(0.0))
     }
 }
 
-/// Root mean square speed of planted contact points in the world.
-fn rms_speed_mps(planted: &[Planted], velocity: DVec3) -> f64 {
-    let speeds_mps = planted.iter().flat_map(Planted::equations).map(|(row, rate_mps)| row.dot(velocity) + rate_mps);
+/// Speed of planted contact points in the world (root mean square), m/s.
+fn rms_speed_mps(planted: &[PlantedPoint], velocity: DVec3) -> f64 {
+    let equations = planted.iter().flat_map(PlantedPoint::equations);
+    let speeds_mps = equations.map(|(row, rate_mps)| row.dot(velocity) + rate_mps);
     libm::sqrt(speeds_mps.map(|speed_mps| speed_mps * speed_mps).sum::<f64>() / planted.len() as f64)
 }
 
-impl Planted {
-    /// Horizontal speed in the world, by central differences along the root's arc.
+impl PlantedPoint {
+    /// Horizontal speed in the world, m/s, by central differences along the root's arc.
     fn speed_mps(&self, velocity: DVec3) -> f64 {
         let [before_s, after_s] = self.steps_s;
-        let moved_m = carried_m(self.after_m, velocity, after_s) - carried_m(self.before_m, velocity, before_s);
+        let moved_m =
+            moved_with_root_m(self.after_m, velocity, after_s) - moved_with_root_m(self.before_m, velocity, before_s);
         moved_m.length() / (after_s - before_s)
     }
 
-    /// Forward and left: coefficients of (v_f, ω_t, ω_s), and the point's own rate in the root frame.
+    /// Eq. 1, forward and left: coefficients of (v_f, ω_t, ω_s), and dp/dt, m/s.
     fn equations(&self) -> [(DVec3, f64); 2] {
         let [before_s, after_s] = self.steps_s;
         let rate_mps = (self.after_m - self.before_m) / (after_s - before_s);
@@ -215,8 +219,8 @@ impl Planted {
     }
 }
 
-/// Where the root's motion takes a point of its frame in a time, seen from where the root was.
-fn carried_m(point_m: DVec2, velocity: DVec3, time_s: f64) -> DVec2 {
+/// Position of a point of the root frame after the root has moved for a time, in the root frame at the start, metres.
+fn moved_with_root_m(point_m: DVec2, velocity: DVec3, time_s: f64) -> DVec2 {
     let half_rad = 0.5 * velocity.y * time_s;
     let (sin, cos) = libm::sincos(half_rad);
     let half_turn = DVec2::new(cos, sin);
@@ -224,19 +228,16 @@ fn carried_m(point_m: DVec2, velocity: DVec3, time_s: f64) -> DVec2 {
     half_turn.rotate(half_turn.rotate(point_m) + DVec2::new(velocity.x, velocity.z) * (time_s * chord))
 }
 
-/// Index of each row's point that is lowest over its planted height.
+/// Index of the point of each row that is lowest over its planted height.
 fn lowest_points(feet: &[[DVec3; 3]]) -> Vec<usize> {
-    let planted_m = [0, 1, 2].map(|point: usize| {
-        let mut heights_m: Vec<f64> = feet.iter().map(|foot| foot[point].z).collect();
-        heights_m.sort_by(f64::total_cmp);
-        heights_m[(PLANTED_PERCENTILE * heights_m.len() as f64) as usize]
-    });
+    let planted_m = [0, 1, 2]
+        .map(|point: usize| percentile(feet.iter().map(|foot| foot[point].z), PLANTED_PERCENTILE).unwrap_or_default());
     let height_m = |foot: &[DVec3; 3], point: usize| foot[point].z - planted_m[point];
     let lowest = |foot: &[DVec3; 3]| (1..3).fold(0, |a, b| if height_m(foot, b) < height_m(foot, a) { b } else { a });
     feet.iter().map(lowest).collect()
 }
 
-/// Index of a row that may lie in a neighbouring cycle.
+/// Index in [0, `PHASE_COUNT`) of a row that may lie in a neighbouring cycle.
 fn wrap(row: isize) -> usize {
     row.rem_euclid(PHASE_COUNT as isize) as usize
 }

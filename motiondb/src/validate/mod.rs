@@ -1,11 +1,14 @@
-//! Every invariant of a database, by name. The runtime relies on all of them, so [`crate::files::database_file::load`] refuses what
-//! breaks one.
+//! Every invariant of a database, by name. The runtime relies on all of them, so
+//! [`load`](crate::files::database_file::load) rejects a database that breaks one.
 //!
-//! Three tiers, each of which the next relies on: `structure` (lengths and indices), `values` (what a number, a
-//! rotation or a pose may be), and what must follow from the values: the motion's own account of each example
-//! (`motion`), the velocity sets (`velocity_sets`, `FbCrowd` §4.1), simplices and correspondences (`blending`, §5). Of
-//! a broken tier all faults are named, of the structure the first; later tiers are left out. The doc of each function
-//! is the invariant.
+//! Enters: a database of any content. Leaves: for each invariant, its stable name and its fault. Faults are texts for
+//! people; programs read the name.
+//!
+//! Three tiers, each based on the one before: `structure` (lengths and indices), `values` (ranges of numbers, rotations
+//! and poses), and consequences of the values: the motion of each example (`motion`), the velocity sets
+//! (`velocity_sets`, `FbCrowd` §4.1), simplices and correspondences (`blending`, §5). Of a broken structure the first
+//! fault is reported; of a broken later tier all are. Tiers after a broken one are not checked. The doc of each
+//! function states the invariant.
 
 mod blending;
 mod motion;
@@ -17,20 +20,34 @@ use crate::motion::motion_db::{MotionDb, MotionExample};
 
 pub use motion::contradiction;
 
-/// One invariant and how it fares.
+/// The check of one invariant.
+///
+/// ```
+/// use motiondb::MotionDb;
+/// use motiondb::validate::{first_broken, validate};
+///
+/// fn print_faults(db: &MotionDb) {
+///     for check in validate(db) {
+///         println!("{}: {}", check.name, check.broken.as_deref().unwrap_or("holds"));
+///     }
+///     assert_eq!(first_broken(db).is_none(), validate(db).iter().all(|check| check.broken.is_none()));
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Check {
-    /// Stable name.
+    /// Stable name of the invariant.
     pub name: &'static str,
-    /// Where and how it is broken; none where it holds.
+    /// The fault and its position, as a text for people; `None` if the invariant holds.
     pub broken: Option<String>,
 }
 
-type Outcome = Result<(), String>;
+/// Result of a check: an error is the fault and its position, as a text for people.
+type CheckResult = Result<(), String>;
 
-type Invariant = (&'static str, fn(&MotionDb) -> Outcome);
+/// Name and check of an invariant.
+type Invariant = (&'static str, fn(&MotionDb) -> CheckResult);
 
-/// In order of dependence.
+/// First tier: lengths, indices and names, each based on those before.
 const STRUCTURE: [Invariant; 4] = [
     ("has_examples", structure::has_examples),
     ("rows_are_complete", structure::rows_are_complete),
@@ -38,6 +55,7 @@ const STRUCTURE: [Invariant; 4] = [
     ("names_are_unique", structure::names_are_unique),
 ];
 
+/// Second tier: values, each by itself.
 const VALUES: [Invariant; 7] = [
     ("skeleton_is_a_body", values::skeleton_is_a_body),
     ("sources_are_finite", values::sources_are_finite),
@@ -48,6 +66,7 @@ const VALUES: [Invariant; 7] = [
     ("rotations_are_unit_and_aligned", values::rotations_are_unit_and_aligned),
 ];
 
+/// Third tier: consequences of the values.
 const CONSEQUENCES: [Invariant; 11] = [
     ("cycles_close", motion::cycles_close),
     ("landmarks_are_mid_stances", motion::landmarks_are_mid_stances),
@@ -62,7 +81,7 @@ const CONSEQUENCES: [Invariant; 11] = [
     ("correspondences_are_cyclic", blending::correspondences_are_cyclic),
 ];
 
-/// All invariants; where a tier is broken, only those up to it.
+/// Checks of all invariants; if a tier is broken, only of those up to it.
 pub fn validate(db: &MotionDb) -> Vec<Check> {
     let check = |(name, invariant): Invariant| Check { name, broken: invariant(db).err() };
     let is_broken = |check: &Check| check.broken.is_some();
@@ -80,7 +99,7 @@ pub fn validate(db: &MotionDb) -> Vec<Check> {
     checks
 }
 
-/// The first invariant that a database breaks, and where and how; none of a sound one.
+/// Name and fault of the first invariant that a database breaks; `None` for a valid database.
 pub fn first_broken(db: &MotionDb) -> Option<(&'static str, String)> {
     validate(db).into_iter().find_map(|check| Some((check.name, check.broken?)))
 }
@@ -89,8 +108,8 @@ fn ensure<E>(holds: bool, fault: impl FnOnce() -> E) -> Result<(), E> {
     if holds { Ok(()) } else { Err(fault()) }
 }
 
-/// Checks every example, by index; a fault names its example.
-fn each(db: &MotionDb, check: impl Fn(usize, &MotionExample) -> Outcome) -> Outcome {
+/// Checks every example, given by index; a fault names its example.
+fn each(db: &MotionDb, check: impl Fn(usize, &MotionExample) -> CheckResult) -> CheckResult {
     let named = |(index, example): (usize, &MotionExample)| {
         check(index, example).map_err(|detail| format!("{}: {detail}", example.name))
     };

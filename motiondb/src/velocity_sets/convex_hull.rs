@@ -1,10 +1,9 @@
-//! Convex hulls of velocities (`FbCrowd` §4.1).
+//! Convex hull of velocities (`FbCrowd` §4.1), by Andrew's monotone chain (1979) on exact predicates.
 
 use glam::Vec2;
 use robust::{Coord, orient2d};
 
-/// Convex hull of the points and the origin, clockwise, without corners on its edges (Andrew's monotone chain on exact
-/// predicates).
+/// Corners of the convex hull of the points and the origin, clockwise, without corners on its edges.
 pub(crate) fn clockwise_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut sorted: Vec<Vec2> = points.chain([Vec2::ZERO]).collect();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -17,7 +16,7 @@ pub(crate) fn clockwise_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     hull
 }
 
-/// The chain from the first point to before the last that turns right at every corner.
+/// The chain of points, without the last, that turns right at every corner.
 fn half_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut chain: Vec<Vec2> = Vec::new();
     for point in points {
@@ -30,7 +29,7 @@ fn half_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     chain
 }
 
-/// Positive where a, b, c turn left; its sign is exact.
+/// Positive if a, b, c turn left. The sign is exact.
 fn turn(a: Vec2, b: Vec2, c: Vec2) -> f64 {
     let coord = |point: Vec2| Coord { x: f64::from(point.x), y: f64::from(point.y) };
     orient2d(coord(a), coord(b), coord(c))
@@ -43,7 +42,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_hull_is_clockwise_and_holds_every_point(points in prop::collection::vec((-40i8..40, -40i8..40), 0..40)) {
+        fn hulls_are_clockwise_and_hold_every_point(points in prop::collection::vec((-40i8..40, -40i8..40), 0..40)) {
             let points: Vec<Vec2> = points.iter().map(|&(x, y)| Vec2::new(f32::from(x), f32::from(y)) / 16.0).collect();
             let hull = clockwise_hull(points.iter().copied());
             let corner = |k: usize| hull[k % hull.len()];
@@ -57,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn straight_walks_alone_have_a_hull_without_area() {
+    fn straight_walks_have_a_hull_without_area() {
         let points = [Vec2::new(0.8, 0.0), Vec2::new(1.4, 0.0)];
         assert_eq!(clockwise_hull(points.iter().copied()), vec![Vec2::ZERO, Vec2::new(1.4, 0.0)]);
     }

@@ -1,22 +1,21 @@
 //! The wrapping polygon of the turning examples and its sharp-turn edges (`FbCrowd` §4.1, Fig. 3b).
 //!
-//! The convex hull of the turning set lets through velocities behind that no example shows; the wrapping polygon, which
-//! is star-shaped about the origin, does not. Agent's frame (x forward, y left), m/s.
+//! The convex hull of the turning set also permits velocities behind the body that no example has. The wrapping
+//! polygon, which is star-shaped about the origin, does not. Agent's frame (x forward, y left), m/s.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{DVec2, Vec2};
 
-/// Directions closer than this are one direction of the wrapping polygon: what gait noise leaves in a turn rate (3 °/s,
-/// as for snapping).
+/// Angle up to which two directions are one, rad: gait noise in a turn rate, 3 °/s, as in the compiler's snapping.
 const SAME_DIRECTION_RAD: f64 = 3.0 * TAU / 360.0;
-/// A point this near the origin has no direction: a body that stands, m/s.
+/// Speed up to which a point has no direction, m/s: a standing body.
 const STANDING_MPS: f64 = 1e-3;
 
 /// The outermost point per direction, clockwise from straight behind: a polygon that is star-shaped about the origin.
 ///
-/// Points are taken from the farthest in, each where no farther one has its direction: neither the side that one begins
-/// at nor the seam behind counts, so a mirrored set has the mirrored polygon.
+/// Points are taken from the farthest to the nearest; each counts if no farther one has its direction. So the result
+/// does not depend on a first side or on the seam behind: a mirrored set has the mirrored polygon.
 fn wrapping_polygon(points: &[Vec2]) -> Vec<Vec2> {
     let mut directed: Vec<(f64, Vec2)> = points
         .iter()
@@ -37,14 +36,14 @@ fn wrapping_polygon(points: &[Vec2]) -> Vec<Vec2> {
     outermost.into_iter().map(|(_, point)| point).collect()
 }
 
-/// Between two directions, the shorter way round.
+/// Smaller angle between two directions, rad.
 fn apart_rad(one_rad: f64, other_rad: f64) -> f64 {
     let apart_rad = (one_rad - other_rad).abs();
     apart_rad.min(TAU - apart_rad)
 }
 
-/// Edges of the turning points' wrapping polygon with an end beyond ±90° (the red lines of Fig. 3b), each from its
-/// clockwise-first end. An edge that passes behind the origin bounds nothing.
+/// Edges of the turning points' wrapping polygon with an end beyond ±90° (the red lines of Fig. 3b), each clockwise.
+/// Edges with the origin on their outside are left out: they bound nothing.
 pub(crate) fn sharp_turn_edges(turning_points_mps: &[Vec2]) -> Vec<[Vec2; 2]> {
     let polygon = wrapping_polygon(turning_points_mps);
     if polygon.len() < 2 {
@@ -62,7 +61,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn the_wrapping_polygon_keeps_the_fastest_of_each_direction_and_its_rear_edges_are_sharp_turns() {
+    fn the_fastest_point_per_direction_is_kept() {
         let at = |speed: f32, degrees: f32| Vec2::from_angle(degrees.to_radians()) * speed;
         let mut points = vec![at(1.1, 0.0), at(3.9, 0.0), Vec2::ZERO];
         for (speed, degrees) in [(0.8, 46.0), (2.3, 79.0), (0.5, 97.0), (1.7, 150.0), (0.2, 168.0)] {
@@ -77,7 +76,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn mirrored_turns_have_mirrored_edges_whatever_lies_close_together(
+        fn mirrored_turns_have_mirrored_edges(
             turns in prop::collection::vec((1u8..40, 60i16..180), 1..12),
         ) {
             let at = |&(speed, degrees): &(u8, i16)| Vec2::from_angle(f32::from(degrees).to_radians()) * f32::from(speed);
@@ -90,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn straight_behind_is_one_direction_from_both_sides() {
+    fn straight_behind_is_one_direction() {
         let at = |speed: f32, degrees: f32| Vec2::from_angle(degrees.to_radians()) * speed;
         let points = [at(1.0, 90.0), at(0.2, 179.5), at(1.0, -179.5), at(1.0, -90.0)];
         assert_eq!(wrapping_polygon(&points), [points[0], points[3], points[2]]);

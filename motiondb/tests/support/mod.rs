@@ -1,7 +1,7 @@
-//! A database small enough to write down: a body on two stiff legs stands, walks and turns.
+//! A small database that is written by hand: a body on two stiff legs stands, walks and turns.
 //!
-//! While a foot is planted, its ankle stays where it is in the world as the root moves on along its arc; in between it
-//! swings back in a straight line.
+//! The ankle of a planted foot keeps its position in the world as the root moves along its arc. The ankle of the other
+//! foot swings forward in a straight line.
 
 use glam::{Quat, Vec2, Vec3};
 use motiondb::blend_space::BlendSpace;
@@ -13,9 +13,9 @@ use motiondb::motion::{
 use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
 use motiondb::velocity_sets::velocity_hull::{Construction, VelocityHull};
 
-/// Thigh and shank, metres.
+/// Length of thigh plus shank, metres.
 const LEG_M: f32 = 0.84;
-/// Rows before and after its mid-stance in which a foot is planted.
+/// Number of rows before and after its mid-stance in which a foot is planted.
 const STANCE_ROWS: i32 = 19;
 
 /// Standing, a walk and a walking turn.
@@ -64,7 +64,7 @@ fn example(name: &str, [speed_mps, turn_rate_rad_s, strafe_mps]: [f32; 3]) -> Mo
     }
 }
 
-/// Fills in what the rows tell.
+/// Fills in slide, planted share and key times from the rows.
 fn measure(db: &mut MotionDb, index: usize) {
     let feet = CycleFeet::of(db, index, &db.posed_rows(index));
     let example = &mut db.examples[index];
@@ -128,27 +128,27 @@ fn rows(examples: &[MotionExample]) -> Rows {
     rows
 }
 
-/// How a leg is turned in a row, and whether its foot is planted.
+/// Rotation of a leg in a row, and the contact of its foot.
 fn leg(example: &MotionExample, row: i32, side: usize) -> (Quat, f32) {
     if example.parameters == Parameters::default() {
         return (Quat::IDENTITY, 1.0);
     }
     let (rows, half) = (PHASE_COUNT as i32, PHASE_COUNT as i32 / 2);
     let since_middle = (row + if side == 0 { 0 } else { half }).rem_euclid(rows) - half;
-    let place_m = |rows: i32| planted_m(example, rows as f32 / PHASE_COUNT as f32, side);
+    let planted_m = |rows: i32| planted_ankle_m(example, rows as f32 / PHASE_COUNT as f32, side);
     let is_planted = since_middle.abs() <= STANCE_ROWS;
     let ankle_m = if is_planted {
-        place_m(since_middle)
+        planted_m(since_middle)
     } else {
         let share = (since_middle - STANCE_ROWS).rem_euclid(rows) as f32 / (rows - 2 * STANCE_ROWS) as f32;
-        place_m(STANCE_ROWS).lerp(place_m(-STANCE_ROWS), share)
+        planted_m(STANCE_ROWS).lerp(planted_m(-STANCE_ROWS), share)
     };
     let along_m = ankle_m.extend(-(LEG_M * LEG_M - ankle_m.length_squared()).sqrt());
     (Quat::from_rotation_arc(Vec3::NEG_Z, along_m / LEG_M), f32::from(u8::from(is_planted)))
 }
 
-/// The ankle against its hip, a time after mid-stance.
-fn planted_m(example: &MotionExample, time_s: f32, side: usize) -> Vec2 {
+/// Position of a planted ankle relative to its hip, a time after mid-stance, metres.
+fn planted_ankle_m(example: &MotionExample, time_s: f32, side: usize) -> Vec2 {
     let hip_m = Vec2::new(0.0, if side == 0 { 0.1 } else { -0.1 });
     let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = example.parameters;
     let half_rad = 0.5 * turn_rate_rad_s * time_s;

@@ -1,38 +1,45 @@
-//! What can go wrong while drawing: each error names the file or the setting, the place in it and the remedy.
+//! Errors of drawing. Each names the file or setting, the fault in it, and the remedy.
 
 use std::io;
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Everything that drawing can refuse.
+/// Reason why a picture cannot be drawn.
+///
+/// ```
+/// use fbcrowd_render::FrameRange;
+///
+/// let error = "1001-".parse::<FrameRange>().unwrap_err();
+/// assert!(error.to_string().starts_with("frames \"1001-\": a frame number is missing"));
+/// ```
 #[derive(Debug, Error)]
 pub enum RenderError {
-    /// The output folder can be neither found nor made.
-    #[error("{}: the output folder cannot be made: {source}; name another, or allow writing there", folder.display())]
+    /// The output folder cannot be made.
+    #[error("{}: the output folder cannot be made: {source}; choose another, or allow writing there", folder.display())]
     Folder {
-        /// The folder asked for.
+        /// Path of the folder.
         folder: PathBuf,
-        /// The system's reason.
+        /// The system's error.
         source: io::Error,
     },
-    /// A picture could not be written; nothing stands under its name.
+    /// A picture cannot be written; no file has its name.
     #[error("{}: the picture cannot be written: {source}; free some space or allow writing there, then render again", path.display())]
     Write {
-        /// The picture's final name.
+        /// Final path of the picture.
         path: PathBuf,
-        /// The system's reason.
+        /// The system's error.
         source: io::Error,
     },
-    /// The view asks for a picture that cannot be drawn.
+    /// The scenario's view is out of range.
     #[error("the scenario's [view]: {message}; {help}")]
     View {
-        /// The key, and what it lacks.
+        /// The key and its fault.
         message: String,
-        /// What to do.
+        /// The remedy.
         help: &'static str,
     },
-    /// `--frames` is not of the grammar.
+    /// The text of `--frames` does not follow the grammar.
     #[error(
         "frames \"{text}\": {fault} at \"{part}\"; write ranges as 1001-1100, every second frame as 1001-1100x2, single ones as 1010,1020"
     )]
@@ -41,11 +48,11 @@ pub enum RenderError {
         text: String,
         /// The comma-separated part at fault.
         part: String,
-        /// What is wrong with it.
+        /// The fault of the part.
         fault: FrameRangeFault,
     },
-    /// `--frames` names only frames that the recording does not have.
-    #[error("frames \"{text}\": none lies in the recording, which has {first} to {last}; name some of these")]
+    /// The recording has none of the frames of `--frames`.
+    #[error("frames \"{text}\": the recording has none of these, but {first} to {last}; choose among those")]
     NoFrames {
         /// The whole text.
         text: String,
@@ -54,31 +61,31 @@ pub enum RenderError {
         /// Last frame of the recording.
         last: u32,
     },
-    /// An overlay of an agent that the recording does not have.
-    #[error("agent {agent}: the recording has {count}, 0 to {}; name one of these (each picture with an overlay tells their numbers)", count.saturating_sub(1))]
+    /// The recording does not have the agent of an overlay.
+    #[error("agent {agent}: the recording has {count}, 0 to {}; choose one of these (a picture with an overlay shows the numbers)", count.saturating_sub(1))]
     NoSuchAgent {
-        /// The agent asked for.
+        /// Index of the agent.
         agent: usize,
-        /// Agents in the recording.
+        /// Number of agents in the recording.
         count: usize,
     },
-    /// More overlays than a picture has room for.
+    /// A picture does not have room for so many overlays.
     #[error(
-        "{asked} agents are too many panels for one picture, which has room for {room}; render some of them at a time"
+        "{requested} agents are too many panels for one picture, which has room for {room}; render some of them at a time"
     )]
     TooManyPanels {
-        /// Panels asked for.
-        asked: usize,
-        /// Panels that fit beside the scene.
+        /// Number of panels requested.
+        requested: usize,
+        /// Number of panels that fit beside the scene.
         room: usize,
     },
-    /// An overlay of a recording in which nothing was planned.
+    /// The recording of an overlay has no step, so nothing was planned.
     #[error("the recording holds no step, so nothing was planned; simulate for at least one step")]
     NoStep,
-    /// The recording holds no frame at all.
+    /// The recording has no frame.
     #[error("the recording holds no frame; simulate for at least one step")]
     EmptyRecording,
-    /// The recording could not be read.
+    /// The recording cannot be read.
     #[error(transparent)]
     Recording(#[from] fbcrowd_sim::recording::RecordingError),
 }

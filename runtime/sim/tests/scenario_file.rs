@@ -156,7 +156,7 @@ fn faults_of_agents_in_a_file_are_shown_at_their_lines() {
 #[test]
 fn wrong_keys_and_types_are_shown_at_their_position() {
     check_rejected("key", &format!("{HEAD}durations = 3\n{ONE}"), "durations", "unknown field `durations`");
-    check_rejected("type", "clips = \".\"\nduration_s = \"ten\"\n", "\"ten\"", "a number is wanted here");
+    check_rejected("type", "clips = \".\"\nduration_s = \"ten\"\n", "\"ten\"", "a number is expected here");
     check_rejected(
         "group_key",
         &format!("{HEAD}agents = {{ at_m = [0, 0], goal_m = [[5, 0]] }}"),
@@ -176,7 +176,7 @@ fn wrong_keys_and_types_are_shown_at_their_position() {
         "point",
         &format!("{HEAD}agents = {{ at_m = [0, 0, 1], goals_m = [[5, 0]] }}"),
         "[0, 0, 1]",
-        "are wanted here, not 3 values",
+        "are expected here, not 3 values",
     );
     check_rejected("centre", &format!("{HEAD}{ONE}[view]\ncentre_m = [1, 2, 3]\n"), "[1, 2, 3]", "not 3 values");
     check_rejected("syntax", "clips = \n", "", "");

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use motiondb::motion::{Alike, MotionDb, THRESHOLD_RATIO, distances_m, table};
+use motiondb::motion::{MotionDb, PosePair, THRESHOLD_RATIO, distances_m, pose_pairs};
 use motiondb_compiler::input::manifest::Manifest;
 use motiondb_compiler::{clip_files, compile_manifest};
 
@@ -14,10 +14,10 @@ fn bundled() -> MotionDb {
 }
 
 /// Every table between two different examples.
-fn tables(db: &MotionDb) -> impl Iterator<Item = ([usize; 2], Vec<Alike>)> + '_ {
+fn tables(db: &MotionDb) -> impl Iterator<Item = ([usize; 2], Vec<PosePair>)> + '_ {
     let count = db.examples.len();
     let pairs = (0..count * count).map(move |pair| [pair / count, pair % count]).filter(|[from, to]| from != to);
-    pairs.map(|pair| (pair, table(db, pair[0], pair[1])))
+    pairs.map(|pair| (pair, pose_pairs(db, pair[0], pair[1])))
 }
 
 #[test]
@@ -41,7 +41,7 @@ fn tables_are_monotone_cyclic_and_serve_every_step() {
 fn reversed_tables_have_the_same_pairs() {
     let db = bundled();
     for ([from, to], table) in tables(&db).filter(|([from, to], _)| from < to) {
-        let mut reversed = motiondb::motion::table(&db, to, from);
+        let mut reversed = motiondb::motion::pose_pairs(&db, to, from);
         reversed.iter_mut().for_each(|alike| alike.times_s.reverse());
         reversed.sort_by(|a, b| a.times_s[0].total_cmp(&b.times_s[0]));
         assert_eq!(reversed, table);
@@ -53,7 +53,7 @@ fn the_stored_table_holds_the_nearest_poses_of_m_sp_and_m_mb() {
     let db = bundled();
     let stored = db.correspondence.as_ref().unwrap();
     let [sp, mb] = [stored.semi_procedural, stored.blending].map(|index| index as usize);
-    let table = table(&db, sp, mb);
+    let table = pose_pairs(&db, sp, mb);
     assert_eq!(stored.pairs_s, table.iter().map(|alike| alike.times_s).collect::<Vec<_>>());
     let least_m = distances_m(&db, sp, mb).into_iter().flatten().fold(f32::INFINITY, f32::min);
     let nearest_m = table.iter().map(|alike| alike.distance_m).fold(f32::INFINITY, f32::min);

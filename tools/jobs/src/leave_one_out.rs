@@ -19,7 +19,6 @@ use fbcrowd_sim::synthesis::blending::ExampleMix;
 use motiondb::blend_space::triangulation;
 use motiondb::body::{JOINT_COUNT, Joint, Pose, Skeleton};
 use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT, Rows};
-use motiondb::quality::coverage::{locate_inside, locator};
 use motiondb::statistics;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -135,8 +134,8 @@ fn left_out(db: &MotionDb, index: usize) -> Option<LeftOut> {
     if others.examples.is_empty() {
         return None;
     }
-    let locator = locator(&others);
-    let mix = ExampleMix::new(&locate_inside(&others, &locator, example.parameters)?);
+    let locator = others.locator();
+    let mix = ExampleMix::new(&locator.locate_inside(example.parameters)?);
     let nearest = nearest(&others, example);
     let name = |index: usize| others.examples[index].name.clone();
     let mut parts: Vec<MixPart> =

@@ -1,47 +1,44 @@
-//! What stands beside a velocity space: what its colours mean, and the step in numbers.
+//! The column beside a velocity space: the legend of its colours, and the step in numbers.
 
 use fbcrowd_sim::planning::orca::{HalfPlane, HalfPlaneSource};
 use fbcrowd_sim::planning::{Planner, VelocitySet};
 use fbcrowd_sim::synthesis::Mode;
 use glam::Vec2;
 
-use crate::constraints::overlay_constraints::Planned;
-use crate::constraints::velocity_panel::{ADAPTED, PLANNED, PREFERRED, STANCE, WALKED, name};
+use crate::constraints::constraint_style::{ACTUAL, ADAPTED, PLANNED, PREFERRED, STANCE, source_name};
+use crate::constraints::explained_step::ExplainedStep;
 use crate::plots::chart::axis::number;
-use crate::plots::chart::mark::Mark;
-use crate::plots::chart::plot::Figure;
-use crate::plots::database::velocity_space::{HOLDING, SHARP_TURN, TURNING};
-use crate::raster::palette::{INK, OBSTACLE_RIM, Rgb, line_colour};
-use crate::raster::text::Anchor;
+use crate::plots::chart::figure::{LegendEntry, PlotFigure};
+use crate::plots::chart::mark::PlotMark;
+use crate::raster::palette::{HOLDING_SET, INK, OBSTACLE_RIM, SHARP_TURN_EDGES, TURNING_SET, line_colour};
+use crate::raster::text::TextAnchor;
 
-/// Distance of lines, and between legend and numbers, in the panel's units.
+/// Distance of lines, panel units.
 const LINE_STEP: f32 = 20.0;
+/// Distance between legend and numbers, beyond that of lines, panel units.
 const PART_STEP: f32 = 14.0;
-/// Left of a legend's words, for their marks, likewise.
+/// Room for an entry's mark, to the left of its text, panel units.
 const MARK_WIDTH: f32 = 9.0;
 
-/// A line of the legend.
-type Entry = (Mark, Rgb, &'static str);
-
-/// Writes legend and numbers below each other from the upper left corner on, within a width.
-pub(crate) fn draw(figure: &mut Figure, planned: &Planned, [left, top, width]: [f32; 3], unit_px: f32) {
+/// Draws legend and numbers, one below the other, from the upper left corner on; a panel unit is `unit_px` pixels.
+pub(crate) fn draw(figure: &mut PlotFigure, explained: &ExplainedStep, [left, top, width]: [f32; 3], unit_px: f32) {
     let mut baseline = top + 0.5 * LINE_STEP * unit_px;
-    for entry in legend(planned) {
+    for entry in entries(explained) {
         figure.legend(Vec2::new(left + MARK_WIDTH * unit_px, baseline), &[entry]);
         baseline += LINE_STEP * unit_px;
     }
     baseline += PART_STEP * unit_px;
-    for (what, value) in numbers(planned) {
-        figure.text(what, Vec2::new(left, baseline), Anchor::Left);
-        let room_px = width - figure.width_px(what) - LINE_STEP * unit_px;
+    for (quantity, value) in numbers(explained) {
+        figure.text(quantity, Vec2::new(left, baseline), TextAnchor::Left);
+        let room_px = width - figure.width_px(quantity) - LINE_STEP * unit_px;
         for line in wrapped(&value, |line| figure.width_px(line) <= room_px) {
-            figure.text(&line, Vec2::new(left + width, baseline), Anchor::Right);
+            figure.text(&line, Vec2::new(left + width, baseline), TextAnchor::Right);
             baseline += LINE_STEP * unit_px;
         }
     }
 }
 
-/// Words in as many lines as it takes, none without a word.
+/// The lines of a text that is broken between words. A word that does not fit has a line of its own.
 fn wrapped(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split(' ') {
@@ -53,76 +50,75 @@ fn wrapped(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     lines
 }
 
-/// Only what the planner knows.
-fn legend(planned: &Planned) -> Vec<Entry> {
-    let mut entries = vec![(Mark::Bar, PREFERRED, "v_pref, wanted")];
-    if planned.planner() == Planner::Mcn {
-        entries.push((Mark::Bar, ADAPTED, "v_op, adapted"));
+/// The legend: only what the step's planner uses.
+fn entries(explained: &ExplainedStep) -> Vec<LegendEntry<'static>> {
+    let planner = explained.planner();
+    let mut entries = vec![(PlotMark::Bar, PREFERRED, "v_pref, preferred")];
+    if planner == Planner::Mcn {
+        entries.push((PlotMark::Bar, ADAPTED, "v_op, adapted"));
     }
-    entries.push((Mark::Bar, PLANNED, "v, planned"));
-    entries.extend([(Mark::Ring, WALKED, "walked before"), (Mark::Disc, WALKED, "walked then")]);
-    entries.push((Mark::Dashes, INK, "facing planned"));
-    entries.extend([(Mark::Bar, TURNING, "turning set"), (Mark::Bar, HOLDING, "holding set")]);
-    entries.push((Mark::Bar, SHARP_TURN, "sharp-turn edges"));
-    if planned.planner() == Planner::Mcn {
-        entries.push((Mark::Bar, STANCE, "stance foot"));
+    entries.push((PlotMark::Bar, PLANNED, "v_i, planned"));
+    entries.extend([(PlotMark::Ring, ACTUAL, "actual before"), (PlotMark::Disc, ACTUAL, "actual after")]);
+    entries.push((PlotMark::Dashes, INK, "planned facing"));
+    entries.extend([(PlotMark::Bar, TURNING_SET, "turning set"), (PlotMark::Bar, HOLDING_SET, "holding set")]);
+    entries.push((PlotMark::Bar, SHARP_TURN_EDGES, "sharp-turn edges"));
+    if planner == Planner::Mcn {
+        entries.push((PlotMark::Bar, STANCE, "stance foot"));
     }
-    let other = line_colour(planned.agent + 1);
-    match planned.planner() {
-        Planner::SocialForce => {
-            entries.push((Mark::Bar, OBSTACLE_RIM, "push of a wall"));
-            entries.push((Mark::Bar, other, "push of an agent, its colour"));
-        }
-        Planner::Mcn | Planner::Orca => {
-            if planned.planner() == Planner::Orca {
-                entries.push((Mark::Ring, INK, "greatest speed"));
-            }
-            entries.push((Mark::Bar, OBSTACLE_RIM, "wall"));
-            entries.push((Mark::Bar, other, "agent, in its colour"));
-            entries.push((Mark::Dashes, INK, "had to yield"));
-        }
+    if planner == Planner::Orca {
+        entries.push((PlotMark::Ring, INK, "greatest speed"));
+    }
+    let other = line_colour(explained.agent + 1);
+    if planner == Planner::SocialForce {
+        entries.push((PlotMark::Bar, OBSTACLE_RIM, "force of a wall"));
+        entries.push((PlotMark::Bar, other, "force of an agent, its colour"));
+    } else {
+        entries.push((PlotMark::Bar, OBSTACLE_RIM, "wall"));
+        entries.push((PlotMark::Bar, other, "agent, in its colour"));
+        entries.push((PlotMark::Dashes, INK, "had to yield"));
     }
     entries
 }
 
-fn numbers(planned: &Planned) -> Vec<(&'static str, String)> {
-    let Planned { step, agent, reasons, .. } = planned;
-    let (after, world) = (&step.after[*agent], step.world());
-    let time_s = reasons.plan.time_to_collision_s;
+/// Quantities of the step, with their values.
+fn numbers(explained: &ExplainedStep) -> Vec<(&'static str, String)> {
+    let ExplainedStep { step, agent, explanation, .. } = explained;
+    let (plan, planner, world) = (&explanation.plan, explained.planner(), step.world());
+    let time_s = plan.time_to_collision_s;
     let speed = |velocity_mps: Vec2| format!("{:.2} m/s", velocity_mps.length());
     let mut lines = vec![
-        ("planner", planner(planned.planner()).to_owned()),
-        ("synthesis", mode(after.mode).to_owned()),
-        ("next collision in", if time_s.is_finite() { format!("{time_s:.2} s") } else { "none".to_owned() }),
-        ("density ahead", format!("{:.2} /m", reasons.plan.density)),
-        ("wanted", speed(world.preferred_mps[*agent])),
+        ("planner", planner_name(planner).to_owned()),
+        ("synthesis", mode_name(step.after[*agent].mode).to_owned()),
+        ("time to collision", if time_s.is_finite() { format!("{time_s:.2} s") } else { "none".to_owned() }),
+        ("density ahead", format!("{:.2} /m", plan.density)),
+        ("preferred", speed(world.preferred_mps[*agent])),
     ];
-    if planned.planner() == Planner::Mcn {
-        lines.push(("adapted", speed(reasons.adapted_mps)));
+    if planner == Planner::Mcn {
+        lines.push(("adapted", speed(explanation.adapted_mps)));
     }
-    lines.push(("planned", speed(reasons.plan.velocity_mps)));
-    lines.push(("walked", speed(step.actual_mps(*agent))));
-    let degrees = [world.facings_rad[*agent], reasons.plan.facing_rad].map(|angle| number(angle.to_degrees(), 0));
+    lines.push(("planned", speed(plan.velocity_mps)));
+    lines.push(("actual", speed(step.actual_mps(*agent))));
+    let degrees = [world.facings_rad[*agent], plan.facing_rad].map(|angle| number(angle.to_degrees(), 0));
     lines.push(("facing, planned", format!("{}°, {}°", degrees[0], degrees[1])));
-    if planned.planner() == Planner::Mcn {
+    if planner == Planner::Mcn {
         let params = &step.header().scenario.params.planner;
         let spent = |spent_s: f32, limit_s: f32| format!("{spent_s:.2} of {limit_s:.1} s");
-        lines.push(("set in force", set(reasons.plan.set).to_owned()));
-        lines.push(("strafing", spent(reasons.plan.strafing_s, params.strafing_limit_s)));
-        lines.push(("stepping back", spent(reasons.plan.stepping_back_s, params.stepping_back_limit_s)));
+        lines.push(("set in force", set_name(plan.set).to_owned()));
+        lines.push(("strafing", spent(plan.strafing_s, params.strafing_limit_s)));
+        lines.push(("stepping back", spent(plan.stepping_back_s, params.stepping_back_limit_s)));
     }
-    if planned.planner() != Planner::SocialForce {
-        lines.push(("bound by", sources(planned, |half_plane| reasons.binds(half_plane))));
-        lines.push(("yielded", sources(planned, |half_plane| reasons.has_yielded(half_plane))));
+    if planner != Planner::SocialForce {
+        lines.push(("bound by", source_names(explained, |half_plane| explanation.binds(half_plane))));
+        lines.push(("yielded", source_names(explained, |half_plane| explanation.has_yielded(half_plane))));
     }
     lines
 }
 
-/// The sources of some half-planes, by rank, each once; agents come last.
-fn sources(planned: &Planned, is_one: impl Fn(&HalfPlane) -> bool) -> String {
+/// Names of the sources of the selected half-planes, by rank, each once; agents come last.
+fn source_names(explained: &ExplainedStep, is_selected: impl Fn(&HalfPlane) -> bool) -> String {
     let (mut names, mut agents): (Vec<String>, Vec<String>) = Default::default();
-    for half_plane in planned.reasons.half_planes.iter().filter(|half_plane| is_one(half_plane)) {
-        let name = name(half_plane.source);
+    for half_plane in explained.explanation.half_planes.iter().filter(|half_plane| is_selected(half_plane)) {
+        let name = source_name(half_plane.source);
         match half_plane.source {
             HalfPlaneSource::Agent(_) => agents.push(name),
             _ if names.contains(&name) => (),
@@ -137,7 +133,7 @@ fn sources(planned: &Planned, is_one: impl Fn(&HalfPlane) -> bool) -> String {
     if names.is_empty() { "–".to_owned() } else { names.join(", ") }
 }
 
-fn planner(planner: Planner) -> &'static str {
+fn planner_name(planner: Planner) -> &'static str {
     match planner {
         Planner::Mcn => "MCN",
         Planner::Orca => "ORCA",
@@ -145,14 +141,14 @@ fn planner(planner: Planner) -> &'static str {
     }
 }
 
-fn mode(mode: Mode) -> &'static str {
+fn mode_name(mode: Mode) -> &'static str {
     match mode {
         Mode::Blending => "motion blending",
         Mode::SemiProcedural => "semi-procedural",
     }
 }
 
-fn set(set: VelocitySet) -> &'static str {
+fn set_name(set: VelocitySet) -> &'static str {
     match set {
         VelocitySet::Turning => "turning",
         VelocitySet::Holding => "holding",
@@ -164,7 +160,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_values_break_between_words_and_keep_them_all() {
+    fn long_values_break_between_words() {
         let lines = wrapped("wall, agents 5, 12, 7", |line| line.len() <= 9);
         assert_eq!(lines, ["wall,", "agents 5,", "12, 7"]);
     }

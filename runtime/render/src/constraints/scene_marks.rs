@@ -1,100 +1,107 @@
-//! What the constraint overlay marks in the scene: the agent, whom and which walls it took into account, and the foot
-//! that it stands on with the line that the swing foot must not land beyond (the paper's Fig. 4).
+//! Marks of one agent's constraints in the scene (`FbCrowd` Fig. 4): its disc, links to its neighbours, walls, and its
+//! stance foot with the line that the swing foot must not cross.
 //!
-//! Links go to neighbours in their colours, thick where the planned velocity is bound by them, dashed where their
-//! half-plane had to yield. All is drawn where it was when the step began; world metres.
+//! Links and walls are thick if they bind the planned velocity, dashed if their half-plane had to yield. Everything is
+//! at its position at the start of the step. World, metres.
 
 use fbcrowd_sim::planning::mcn::{StanceForm, stance_half_plane};
 use fbcrowd_sim::planning::orca::HalfPlaneSource;
 use fbcrowd_sim::planning::{Planner, Stance, StanceFoot};
 use glam::Vec2;
-use tiny_skia::{LineCap, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
+use tiny_skia::{LineCap, Path, Pixmap, Stroke};
 
-use crate::constraints::overlay_constraints::Planned;
-use crate::constraints::velocity_panel::{STANCE, colour};
+use crate::constraints::constraint_style::{STANCE, source_colour};
+use crate::constraints::explained_step::ExplainedStep;
+use crate::raster::paint::{circle, dashes, paint, path_of_lines, stroke};
 use crate::raster::palette::{INK, PAPER, Rgb, line_colour};
+use crate::top_view::captions::Captions;
 use crate::top_view::framing::Framing;
-use crate::top_view::ground::paint;
-use crate::top_view::overlay::Overlay;
 
-/// Widths in a picture of 720 lines, pixels; others in proportion.
+/// Height of the reference picture, pixels; line widths in other pictures are in proportion.
+const REFERENCE_HEIGHT_PX: f32 = 720.0;
+/// Width of links and circles in the reference picture, pixels.
 const LINK_PX: f32 = 1.6;
+/// Width of links and circles that bind, in the reference picture, pixels.
 const BINDING_PX: f32 = 3.4;
+/// Width of the agent's outer ring in the reference picture, pixels.
 const RING_PX: f32 = 2.6;
-/// The agent's own disc has a second ring so far outside, m.
+/// Distance of the agent's outer ring from its disc, m.
 const RING_GAP_M: f32 = 0.08;
-/// What a pale rim adds on both sides, so that marks stand out from bodies.
+/// Additional width of the pale rim below each mark, in the reference picture, pixels: marks stand out from bodies.
 const RIM_PX: f32 = 1.6;
-/// Half the length of the line along the stance foot, and the length of its hatching, m.
+/// Half the length of the line along the stance foot, m.
 const STANCE_LINE_M: f32 = 0.45;
+/// Length of that line's hatching, m.
 const STANCE_HATCH_M: f32 = 0.09;
-/// Strokes of that hatching.
+/// Number of strokes of that hatching.
 const STANCE_HATCHES: usize = 9;
 
-/// Pens and letters for one framing.
+/// Draws marks in the scenes of one sequence.
 #[derive(Clone, Debug)]
 pub(crate) struct SceneMarks {
     framing: Framing,
-    overlay: Overlay,
+    captions: Captions,
+    /// Length of a pixel of the reference picture, pixels.
     unit_px: f32,
 }
 
-/// How a mark is drawn.
+/// Style of a mark.
 #[derive(Clone, Copy)]
-struct Pen {
+struct MarkPen {
     colour: Rgb,
-    /// In a picture of 720 lines.
+    /// Width in the reference picture, pixels.
     width_px: f32,
-    dashed: bool,
+    is_dashed: bool,
 }
 
 impl SceneMarks {
+    /// Marks for scenes of one framing.
     pub(crate) fn new(framing: &Framing) -> Self {
-        let unit_px = (framing.height_px as f32 / 720.0).max(0.5);
-        Self { framing: *framing, overlay: Overlay::new(framing), unit_px }
+        let unit_px = (framing.height_px as f32 / REFERENCE_HEIGHT_PX).max(0.5);
+        Self { framing: *framing, captions: Captions::new(framing), unit_px }
     }
 
     /// Draws all marks of one agent over a scene.
-    pub(crate) fn draw(&self, scene: &mut Pixmap, planned: &Planned) {
-        let world = planned.step.world();
-        let (centre_m, radius_m) = (world.positions_m[planned.agent], world.radii_m[planned.agent]);
-        self.draw_walls(scene, planned);
-        self.draw_links(scene, planned);
-        let own = Pen { colour: line_colour(planned.agent), width_px: LINK_PX, dashed: false };
+    pub(crate) fn draw(&self, scene: &mut Pixmap, explained: &ExplainedStep) {
+        let world = explained.step.world();
+        let (centre_m, radius_m) = (world.positions_m[explained.agent], world.radii_m[explained.agent]);
+        self.draw_walls(scene, explained);
+        self.draw_links(scene, explained);
+        let own = MarkPen { colour: line_colour(explained.agent), width_px: LINK_PX, is_dashed: false };
         self.draw_circle(scene, centre_m, radius_m, own);
-        self.draw_circle(scene, centre_m, radius_m + RING_GAP_M, Pen { colour: INK, width_px: RING_PX, ..own });
-        if let Some(foot) = &world.stances[planned.agent].foot {
-            self.draw_stance(scene, centre_m, foot, planned);
+        self.draw_circle(scene, centre_m, radius_m + RING_GAP_M, MarkPen { colour: INK, width_px: RING_PX, ..own });
+        if let Some(foot) = &world.stances[explained.agent].foot {
+            self.draw_stance(scene, centre_m, foot, explained);
         }
-        if !planned.step.header().scenario.view.labels {
-            let neighbours = planned.reasons.neighbours.iter().map(|neighbour| neighbour.agent as usize);
-            for index in neighbours.chain([planned.agent]) {
-                self.overlay.draw_label(scene, index, world.positions_m[index]);
+        if !explained.step.header().scenario.view.labels {
+            let neighbours = explained.explanation.neighbours.iter().map(|neighbour| neighbour.agent as usize);
+            for index in neighbours.chain([explained.agent]) {
+                self.captions.draw_label(scene, index, world.positions_m[index]);
             }
         }
     }
 
-    /// The edges that gave half-planes or pushed.
-    fn draw_walls(&self, scene: &mut Pixmap, planned: &Planned) {
-        let of_half_planes = planned.reasons.half_planes.iter().map(|half_plane| half_plane.source);
-        let of_forces = planned.reasons.forces.iter().map(|force| force.source);
+    /// Draws the obstacle edges that gave half-planes or forces.
+    fn draw_walls(&self, scene: &mut Pixmap, explained: &ExplainedStep) {
+        let of_half_planes = explained.explanation.half_planes.iter().map(|half_plane| half_plane.source);
+        let of_forces = explained.explanation.forces.iter().map(|force| force.source);
         for source in of_half_planes.chain(of_forces) {
             if let HalfPlaneSource::Obstacle(edge) = source {
-                let pen = Pen { colour: INK, ..pen(planned, source) };
-                self.draw_lines(scene, &[planned.step.world().obstacles.ends_m(edge)], pen);
+                let pen = MarkPen { colour: INK, ..pen(explained, source) };
+                self.draw_lines(scene, &[explained.step.world().obstacles.ends_m(edge)], pen);
             }
         }
     }
 
-    /// Lines to all neighbours taken, from disc to disc.
-    fn draw_links(&self, scene: &mut Pixmap, planned: &Planned) {
-        let world = planned.step.world();
-        let (from_m, radius_m) = (world.positions_m[planned.agent], world.radii_m[planned.agent]);
-        for neighbour in &planned.reasons.neighbours {
+    /// Draws the discs of all neighbours that were taken into account, and a line to each, from disc to disc.
+    fn draw_links(&self, scene: &mut Pixmap, explained: &ExplainedStep) {
+        let world = explained.step.world();
+        let (from_m, radius_m) = (world.positions_m[explained.agent], world.radii_m[explained.agent]);
+        for neighbour in &explained.explanation.neighbours {
             let other = neighbour.agent as usize;
-            let way = neighbour.offset_m.normalize_or_zero();
-            let ends_m = [from_m + radius_m * way, world.positions_m[other] - world.radii_m[other] * way];
-            let pen = pen(planned, HalfPlaneSource::Agent(neighbour.agent));
+            let direction = neighbour.offset_m.normalize_or_zero();
+            let ends_m = [from_m + radius_m * direction, world.positions_m[other] - world.radii_m[other] * direction];
+            let pen = pen(explained, HalfPlaneSource::Agent(neighbour.agent));
             self.draw_circle(scene, world.positions_m[other], world.radii_m[other], pen);
             if neighbour.distance_m > neighbour.radius_m {
                 self.draw_lines(scene, &[ends_m], pen);
@@ -102,68 +109,63 @@ impl SceneMarks {
         }
     }
 
-    /// The sole from heel over ball to toe and, where the planner heeds it, the line beyond which the swing foot must
-    /// not land.
-    fn draw_stance(&self, scene: &mut Pixmap, centre_m: Vec2, foot: &StanceFoot, planned: &Planned) {
+    /// Draws the stance foot's sole from heel over ball to toe and, if the planner obeys it, the line that the swing
+    /// foot must not cross.
+    fn draw_stance(&self, scene: &mut Pixmap, centre_m: Vec2, foot: &StanceFoot, explained: &ExplainedStep) {
         let sole_m =
             [[foot.heel_m, foot.ball_m], [foot.ball_m, foot.toe_m]].map(|ends_m| ends_m.map(|end_m| centre_m + end_m));
-        self.draw_lines(scene, &sole_m, Pen { colour: STANCE, width_px: 2.0 * RING_PX, dashed: false });
-        let params = &planned.step.header().scenario.params.planner;
-        if planned.planner() != Planner::Mcn || params.parts.stance != StanceForm::Landing {
+        self.draw_lines(scene, &sole_m, MarkPen { colour: STANCE, width_px: 2.0 * RING_PX, is_dashed: false });
+        let params = &explained.step.header().scenario.params.planner;
+        if explained.planner() != Planner::Mcn || params.parts.stance != StanceForm::Landing {
             return;
         }
         let stance = Stance { foot: Some(*foot) };
         if let Some(half_plane) = stance_half_plane(&stance, params.stance_twist_rad) {
             let lines_m = hatched_line_m(centre_m + foot.ball_m, half_plane.direction);
-            self.draw_lines(scene, &lines_m, pen(planned, HalfPlaneSource::Stance));
+            self.draw_lines(scene, &lines_m, pen(explained, HalfPlaneSource::Stance));
         }
     }
 
-    fn draw_circle(&self, scene: &mut Pixmap, centre_m: Vec2, radius_m: f32, pen: Pen) {
-        let centre = self.framing.to_px(centre_m);
-        let mut path = PathBuilder::new();
-        path.push_circle(centre.x, centre.y, radius_m * self.framing.scale_px_m);
-        self.stroke(scene, path, pen);
+    fn draw_circle(&self, scene: &mut Pixmap, centre_m: Vec2, radius_m: f32, pen: MarkPen) {
+        let path = circle(self.framing.to_px(centre_m), radius_m * self.framing.scale_px_m);
+        self.stroke(scene, path.as_ref(), pen);
     }
 
-    fn draw_lines(&self, scene: &mut Pixmap, lines_m: &[[Vec2; 2]], pen: Pen) {
-        let mut path = PathBuilder::new();
-        for [from, to] in lines_m.iter().map(|ends_m| ends_m.map(|end_m| self.framing.to_px(end_m))) {
-            path.move_to(from.x, from.y);
-            path.line_to(to.x, to.y);
-        }
-        self.stroke(scene, path, pen);
+    fn draw_lines(&self, scene: &mut Pixmap, lines_m: &[[Vec2; 2]], pen: MarkPen) {
+        let path = path_of_lines(lines_m.iter().map(|ends_m| ends_m.map(|end_m| self.framing.to_px(end_m))));
+        self.stroke(scene, path.as_ref(), pen);
     }
 
-    /// With a pale rim below.
-    fn stroke(&self, scene: &mut Pixmap, path: PathBuilder, pen: Pen) {
-        let Some(path) = path.finish() else { return };
+    /// Strokes a path over its pale rim.
+    fn stroke(&self, scene: &mut Pixmap, path: Option<&Path>, pen: MarkPen) {
+        let Some(path) = path else { return };
         let width = self.unit_px * pen.width_px;
-        let dash = pen.dashed.then(|| StrokeDash::new(vec![4.0 * width, 3.0 * width], 0.0)).flatten();
+        let dash = pen.is_dashed.then(|| dashes(width)).flatten();
         let rim = self.unit_px * RIM_PX;
         for (width, colour, opacity) in [(width + rim, PAPER, 0.6), (width, pen.colour, 1.0)] {
-            let stroke = Stroke { width, dash: dash.clone(), line_cap: LineCap::Round, ..Stroke::default() };
-            scene.stroke_path(&path, &paint(colour, opacity), &stroke, Transform::identity(), None);
+            let pen = Stroke { width, dash: dash.clone(), line_cap: LineCap::Round, ..Stroke::default() };
+            stroke(scene, path, &paint(colour, opacity), &pen, None);
         }
     }
 }
 
-/// A line about a point and, where its direction has its right, hatching.
+/// A line centred at a point, with hatching to the right of its direction.
 fn hatched_line_m(middle_m: Vec2, direction: Vec2) -> Vec<[Vec2; 2]> {
-    let beyond_m = STANCE_HATCH_M * (-direction.perp() - direction).normalize_or_zero();
+    let hatch_m = STANCE_HATCH_M * (-direction.perp() - direction).normalize_or_zero();
     let along_m = STANCE_LINE_M * direction;
     let hatches_m = (0..STANCE_HATCHES).map(|index| {
         let share = 2.0 * index as f32 / (STANCE_HATCHES - 1) as f32 - 1.0;
-        let foot_m = middle_m + share * along_m;
-        [foot_m, foot_m + beyond_m]
+        let start_m = middle_m + share * along_m;
+        [start_m, start_m + hatch_m]
     });
     hatches_m.chain([[middle_m - along_m, middle_m + along_m]]).collect()
 }
 
-/// Thick where it binds, dashed where it had to yield.
-fn pen(planned: &Planned, source: HalfPlaneSource) -> Pen {
-    let of_source = || planned.reasons.half_planes.iter().filter(move |half_plane| half_plane.source == source);
-    let binds = of_source().any(|half_plane| planned.reasons.binds(half_plane));
-    let dashed = of_source().any(|half_plane| planned.reasons.has_yielded(half_plane));
-    Pen { colour: colour(source), width_px: if binds { BINDING_PX } else { LINK_PX }, dashed }
+/// Style of the mark of a source: thick if a half-plane of it binds, dashed if one had to yield.
+fn pen(explained: &ExplainedStep, source: HalfPlaneSource) -> MarkPen {
+    let explanation = &explained.explanation;
+    let of_source = || explanation.half_planes.iter().filter(move |half_plane| half_plane.source == source);
+    let binds = of_source().any(|half_plane| explanation.binds(half_plane));
+    let is_dashed = of_source().any(|half_plane| explanation.has_yielded(half_plane));
+    MarkPen { colour: source_colour(source), width_px: if binds { BINDING_PX } else { LINK_PX }, is_dashed }
 }

@@ -1,5 +1,9 @@
-//! Plots. `chart` draws axes, marks and labels; `crowd` and `database` draw what people look at.
+//! Plots of databases, recordings and benches.
+//!
+//! Enters: a database, the tracks of a recording, or figures of a bench. Leaves: opaque pictures, or PNG files.
+//!
+//! Read `chart` (figures with axes, marks and labels), then `database` and `crowd`, which draw one plot per file.
 
-pub mod chart;
+pub(crate) mod chart;
 pub mod crowd;
 pub mod database;

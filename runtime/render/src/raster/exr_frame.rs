@@ -1,8 +1,7 @@
-//! A picture as EXR: scene-linear Rec. 709, half floats, premultiplied, the same bytes from run to run.
+//! A picture as EXR: scene-linear Rec. 709, half floats, premultiplied. The same picture gives the same bytes.
 //!
-//! Only attributes that the `exr` crate keeps in named fields are written: it stores further ones in a hash map and
-//! writes them in an order that changes from run to run. Lines go in increasing order, which parallel writing elsewhere
-//! does not keep. No date.
+//! Only attributes with a named field in the `exr` crate are written: it stores others in a hash map, whose order
+//! changes from run to run. Lines are written in increasing order by one thread. No date is written.
 
 use std::io::{self, Cursor};
 use std::path::Path;
@@ -17,24 +16,24 @@ use tiny_skia::{Pixmap, PremultipliedColorU8};
 use crate::error::RenderError;
 use crate::raster::palette::decode_srgb;
 
-/// Primaries and white of Rec. 709, which are sRGB's.
+/// Primaries and white point of Rec. 709, the same as sRGB's.
 const REC_709: Chromaticities = Chromaticities {
     red: Vec2(0.64, 0.33),
     green: Vec2(0.30, 0.60),
     blue: Vec2(0.15, 0.06),
     white: Vec2(0.3127, 0.3290),
 };
-/// Lines in one compressed block of ZIP16; compression alone, the picture itself is scan lines.
+/// Encoding: scan lines, 16 in one compressed block.
 const ENCODING: Encoding = Encoding {
     compression: Compression::ZIP16,
     blocks: exr::image::Blocks::ScanLines,
     line_order: LineOrder::Increasing,
 };
 
-/// Writes a picture whole or not at all.
+/// Writes a picture, complete or not at all.
 ///
 /// # Errors
-/// Where the file cannot be written.
+/// If the file cannot be written.
 pub(crate) fn write(path: &Path, pixmap: &Pixmap, frame_rate_hz: f32) -> Result<(), RenderError> {
     let written = encode(pixmap, frame_rate_hz).and_then(|bytes| atomic_file::write(path, &bytes));
     written.map_err(|source| RenderError::Write { path: path.to_owned(), source })
@@ -53,13 +52,14 @@ fn encode(pixmap: &Pixmap, frame_rate_hz: f32) -> io::Result<Vec<u8>> {
     let mut image = Image::from_layer(layer);
     image.attributes.chromaticities = Some(REC_709);
     let mut bytes = Cursor::new(Vec::new());
-    // Frames are drawn in parallel already; within one, a single thread writes.
+    // Frames are drawn in parallel already, so a single thread writes each.
     image.write().non_parallel().to_buffered(&mut bytes).map_err(io::Error::other)?;
     Ok(bytes.into_inner())
 }
 
-/// Code values to linear light, by table where a pixel is opaque.
+/// Conversion of code values to linear light, with a table for opaque pixels.
 struct Linearizer {
+    /// Linear light of each code value of an opaque pixel.
     opaque: [f32; 256],
 }
 
@@ -68,7 +68,7 @@ impl Linearizer {
         Self { opaque: std::array::from_fn(|code| decode_srgb(code as f32 / 255.0)) }
     }
 
-    /// tiny-skia's pixels are premultiplied code values: un-premultiply, linearise, premultiply again.
+    /// A pixel in linear light, premultiplied. tiny-skia's pixels are premultiplied code values.
     fn premultiplied(&self, pixel: PremultipliedColorU8) -> (f16, f16, f16, f16) {
         let alpha = f32::from(pixel.alpha()) / 255.0;
         let linear = |code: u8| match pixel.alpha() {
@@ -81,7 +81,7 @@ impl Linearizer {
     }
 }
 
-/// A frame rate as a fraction: whole, one of television's n·1000/1001, or thousandths.
+/// A frame rate as a fraction: a whole number, a broadcast rate n·1000/1001, or thousandths.
 fn frame_rate_fraction(frame_rate_hz: f32) -> (i32, u32) {
     let (whole, broadcast) = (frame_rate_hz.round(), (frame_rate_hz * 1.001).round());
     if (frame_rate_hz - whole).abs() < 1e-4 {
@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frame_rates_become_the_fractions_that_film_tools_use() {
+    fn frame_rates_become_exact_fractions() {
         for (rate, fraction) in
             [(30.0, (30, 1)), (29.97, (30_000, 1001)), (23.976, (24_000, 1001)), (12.5, (12_500, 1000))]
         {
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn half_covered_white_stays_half_covered_white() {
+    fn half_covered_white_stays_white() {
         let pixel = PremultipliedColorU8::from_rgba(128, 128, 128, 128).unwrap();
         let (red, _, _, alpha) = Linearizer::new().premultiplied(pixel);
         assert!((red.to_f32() - alpha.to_f32()).abs() < 1e-3);

@@ -1,16 +1,17 @@
-//! Pixels: shapes, colours, text, and files of pictures.
+//! Pixels: shapes, colours, text, and picture files.
 //!
-//! Read `body` and `tapered_capsule`, which draw people, then `palette` and `text`, then `png_frame` and
+//! Enters: bodies in world metres, shapes and texts in pixels. Leaves: opaque sRGB pictures, PNG and EXR files.
+//!
+//! Read `drawn_body` and `tapered_capsule` (bodies), then `palette`, `paint`, `pixels` and `text`, then `png_frame` and
 //! `exr_frame`.
 
-pub(crate) mod body;
+pub(crate) mod drawn_body;
 pub(crate) mod exr_frame;
+pub(crate) mod paint;
 pub(crate) mod palette;
+pub(crate) mod pixels;
 pub mod png_frame;
 pub(crate) mod tapered_capsule;
 pub(crate) mod text;
 
-pub use body::{Detail, Part};
-pub use palette::{Look, Rgb, decode_srgb};
-pub use tapered_capsule::{Canvas, Cone};
-pub use text::{Anchor, Typeface};
+pub use palette::decode_srgb;

@@ -1,4 +1,4 @@
-//! Writing on pictures: glyphs rasterised once per size by fontdue, from a font that a crate brings along.
+//! Text on pictures: glyphs of a bundled font, rasterised once per size by fontdue. Positions in pixels, y down.
 
 use std::collections::BTreeMap;
 
@@ -8,16 +8,16 @@ use glam::Vec2;
 use tiny_skia::Pixmap;
 
 use crate::raster::palette::Rgb;
-use crate::raster::tapered_capsule;
+use crate::raster::pixels::{blend, pixels_mut};
 
-/// Characters beyond ASCII that our pictures write.
+/// Characters beyond ASCII that pictures contain.
 const SYMBOLS: &str = "°·–²−ωφ×…±µ";
-/// Where the light face's thin strokes are thickened: coverage is raised by this factor.
+/// Factor on the coverage of glyphs: thickens the thin strokes of the light font.
 const STROKE_GAIN: f32 = 1.35;
 
-/// Which point of a text stands at the place given.
+/// Horizontal anchor of a text: the point that is at the given position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
+pub(crate) enum TextAnchor {
     /// The left end.
     Left,
     /// The middle.
@@ -26,26 +26,30 @@ pub enum Anchor {
     Right,
 }
 
-/// A font at one size, ready to draw.
+/// The font at one size.
 #[derive(Clone, Debug)]
-pub struct Typeface {
+pub(crate) struct Typeface {
     /// Height of a line's letters from descender to ascender, pixels.
-    pub size_px: f32,
+    pub(crate) size_px: f32,
     glyphs: BTreeMap<char, Glyph>,
 }
 
+/// A rasterised character.
 #[derive(Clone, Debug)]
 struct Glyph {
+    /// Movement of the pen to the next character, pixels.
     advance_px: f32,
-    /// Left and top edge of the coverage against the pen on the baseline, y down.
+    /// Left and top edge of the coverage relative to the pen on the baseline, pixels.
     corner_px: [i32; 2],
+    /// Width of the coverage, pixels.
     width: usize,
+    /// Coverage of each pixel, row by row, 0 to 255.
     coverage: Vec<u8>,
 }
 
 impl Typeface {
-    /// Rasterises every character at a size.
-    pub fn new(size_px: f32) -> Self {
+    /// The font at a size; rasterises every character.
+    pub(crate) fn new(size_px: f32) -> Self {
         let font = Font::from_bytes(UBUNTU_LIGHT, FontSettings { scale: size_px, ..FontSettings::default() })
             .expect("the font is compiled in and known to parse");
         let characters = (' '..='~').chain(SYMBOLS.chars());
@@ -53,14 +57,14 @@ impl Typeface {
         Self { size_px, glyphs }
     }
 
-    /// How far the pen moves, pixels.
-    pub fn width_px(&self, text: &str) -> f32 {
+    /// Width of a text, pixels.
+    pub(crate) fn width_px(&self, text: &str) -> f32 {
         self.glyphs_of(text).map(|glyph| glyph.advance_px).sum()
     }
 
-    /// A text no wider than so many pixels: of a longer one the middle gives way to `…`, since names that begin alike
-    /// often end otherwise.
-    pub fn fitted(&self, text: &str, width_px: f32) -> String {
+    /// The text, at most `width_px` wide. The middle of a longer text becomes `…`, since names with the same beginning
+    /// often differ at their ends.
+    pub(crate) fn fitted(&self, text: &str, width_px: f32) -> String {
         let letters: Vec<char> = text.chars().collect();
         let shortened = |kept: usize| {
             let (head, tail) = (kept.div_ceil(2), kept / 2);
@@ -73,12 +77,12 @@ impl Typeface {
         fitting.unwrap_or_default()
     }
 
-    /// Writes with the baseline at `at_px`.
-    pub fn draw(&self, pixmap: &mut Pixmap, text: &str, at_px: Vec2, anchor: Anchor, colour: Rgb) {
+    /// Draws a text with its baseline at `at_px`.
+    pub(crate) fn draw(&self, pixmap: &mut Pixmap, text: &str, at_px: Vec2, anchor: TextAnchor, colour: Rgb) {
         let share = match anchor {
-            Anchor::Left => 0.0,
-            Anchor::Centre => 0.5,
-            Anchor::Right => 1.0,
+            TextAnchor::Left => 0.0,
+            TextAnchor::Centre => 0.5,
+            TextAnchor::Right => 1.0,
         };
         let mut pen_px = at_px.x - share * self.width_px(text);
         for glyph in self.glyphs_of(text) {
@@ -87,8 +91,15 @@ impl Typeface {
         }
     }
 
-    /// Writes with a one-pixel halo, to stay readable over bodies and lines.
-    pub fn draw_with_halo(&self, pixmap: &mut Pixmap, text: &str, at_px: Vec2, anchor: Anchor, [ink, halo]: [Rgb; 2]) {
+    /// Draws a text with a halo of one pixel, so that it is readable over bodies and lines.
+    pub(crate) fn draw_with_halo(
+        &self,
+        pixmap: &mut Pixmap,
+        text: &str,
+        at_px: Vec2,
+        anchor: TextAnchor,
+        [ink, halo]: [Rgb; 2],
+    ) {
         for shift in [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y, Vec2::ONE, Vec2::NEG_ONE] {
             self.draw(pixmap, text, at_px + shift, anchor, halo);
         }
@@ -96,7 +107,7 @@ impl Typeface {
     }
 
     fn glyphs_of<'a>(&'a self, text: &'a str) -> impl Iterator<Item = &'a Glyph> {
-        // A character that the font lacks shows as a question mark, never as a hole.
+        // A character without a glyph is drawn as a question mark.
         text.chars().filter_map(|character| self.glyphs.get(&character).or_else(|| self.glyphs.get(&'?')))
     }
 }
@@ -113,18 +124,15 @@ impl Glyph {
 
     fn draw(&self, pixmap: &mut Pixmap, pen_px: [i32; 2], colour: Rgb) {
         let (width, height) = (pixmap.width() as usize, pixmap.height() as usize);
-        let place = |pen: i32, corner: i32, step: usize, side: usize| {
+        let index = |pen: i32, corner: i32, step: usize, side: usize| {
             usize::try_from(pen.saturating_add(corner).saturating_add(step as i32)).ok().filter(|at| *at < side)
         };
-        let pixels = tapered_capsule::pixels_mut(pixmap);
+        let pixels = pixels_mut(pixmap);
         for (row, line) in self.coverage.chunks(self.width.max(1)).enumerate() {
-            let Some(y) = place(pen_px[1], self.corner_px[1], row, height) else { continue };
+            let Some(y) = index(pen_px[1], self.corner_px[1], row, height) else { continue };
             for (column, covered) in line.iter().enumerate().filter(|(_, covered)| **covered > 0) {
-                let Some(x) = place(pen_px[0], self.corner_px[0], column, width) else { continue };
-                let pixel = &mut pixels[y * width + x];
-                *pixel = tapered_capsule::to_pixel(
-                    tapered_capsule::to_vec(*pixel).lerp(colour, f32::from(*covered) / 255.0),
-                );
+                let Some(x) = index(pen_px[0], self.corner_px[0], column, width) else { continue };
+                blend(&mut pixels[y * width + x], colour, f32::from(*covered) / 255.0);
             }
         }
     }
@@ -135,7 +143,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_text_too_wide_loses_its_middle_and_another_nothing() {
+    fn a_text_too_wide_loses_its_middle() {
         let face = Typeface::new(20.0);
         let long = "dataset-1_walk_normal_001_mirrored";
         let fitted = face.fitted(long, 0.5 * face.width_px(long));

@@ -1,48 +1,64 @@
-//! One frame seen from straight above: ground, trails, shade, bodies, writing, in the order in which they cover each
-//! other.
+//! One frame, seen from straight above, in layers from bottom to top: ground, trails, shade, bodies, captions.
 //!
-//! [`TopView::new`] does once what all frames of a sequence share; [`TopView::draw`] depends on time and bodies alone,
-//! so that frames can be drawn in any order and on any thread.
+//! Enters: recorded roots and poses, world metres. Leaves: an opaque sRGB picture. [`TopView::new`] prepares what all
+//! frames share. [`TopView::draw`] depends only on time and bodies, so frames can be drawn in any order and thread.
 
 use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::{Vec2, Vec3};
 use tiny_skia::Pixmap;
 
 use crate::error::RenderError;
-use crate::raster::body::{self, Detail, Part};
+use crate::raster::drawn_body::{self, Detail, DrawnPart};
 use crate::raster::palette::{Look, look};
-use crate::raster::tapered_capsule::{Canvas, Cone};
+use crate::raster::tapered_capsule::Canvas;
+use crate::top_view::captions::Captions;
 use crate::top_view::framing::{Framing, frame_recording};
 use crate::top_view::ground;
-use crate::top_view::overlay::Overlay;
 use crate::top_view::shade::ShadeMask;
 use crate::top_view::trails::{self, Tracks, Trail};
 
-/// Reach of a body and its shade about its root, m: bodies farther outside the picture are left out.
+/// Reach of a body and its shade from its root, m: bodies farther outside the picture are left out.
 const REACH_M: f32 = 2.0;
-/// A canvas counts heights from this far below the ground: a toe that sinks in by a millimetre is not hidden, m.
+/// Depth below the ground at which a canvas has height 0, m: a toe slightly below the ground is not hidden.
 const BELOW_GROUND_M: f32 = 1.0;
-/// Width of the dark rim under a limb, m.
+/// Width of the dark rim around a limb, m.
 const RIM_M: f32 = 0.025;
-/// A narrower rim is left out: it would only dirty small bodies; pixels.
+/// Least width of a rim that is drawn, pixels: narrower ones only darken small bodies.
 const MIN_RIM_PX: f32 = 0.6;
-/// A wider rim would look like an outline, pixels.
+/// Greatest width of a rim, pixels: wider ones look like an outline.
 const MAX_RIM_PX: f32 = 6.0;
-/// Thinner parts (ears; in small pictures also arms) throw no shade that could be seen, pixels.
+/// Least radius of a part whose shade is visible, pixels: ears, and arms in small pictures, are thinner.
 const MIN_SHADE_RADIUS_PX: f32 = 0.9;
 
-/// What all frames of one recording share.
+/// The top view of one recording: what all its frames share.
+///
+/// ```no_run
+/// use std::path::Path;
+///
+/// use fbcrowd_render::top_view::{read_tracks, sample};
+/// use fbcrowd_render::{RenderError, TopView, png_frame};
+/// use fbcrowd_sim::Recording;
+///
+/// let recording = Recording::open(Path::new("crossing.fbrec"))?;
+/// let tracks = read_tracks(&recording)?;
+/// let top_view = TopView::new(recording.header(), &tracks)?;
+/// let mut buffers = top_view.buffers();
+/// let agents = sample(&recording, 2.0)?;
+/// png_frame::write(Path::new("at_2_s.png"), top_view.draw(&mut buffers, 2.0, &agents))?;
+/// # Ok::<(), RenderError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct TopView<'a> {
     header: &'a Header,
     tracks: &'a Tracks,
     framing: Framing,
     background: Pixmap,
+    /// Colours of each agent.
     looks: Vec<Look>,
-    overlay: Overlay,
+    captions: Captions,
 }
 
-/// Memory that consecutive frames share: a fresh megapixel costs more than drawing on it.
+/// Memory that consecutive frames share: to allocate a megapixel takes longer than to draw on it.
 #[derive(Clone, Debug)]
 pub struct FrameBuffers {
     canvas: Canvas,
@@ -50,18 +66,18 @@ pub struct FrameBuffers {
 }
 
 impl<'a> TopView<'a> {
-    /// Frames the recording as its view says and draws what stands still.
+    /// The top view of a recording, framed by its view.
     ///
     /// # Errors
-    /// Where the view asks for a picture that cannot be drawn.
+    /// If the view is out of range.
     pub fn new(header: &'a Header, tracks: &'a Tracks) -> Result<Self, RenderError> {
         let framing = frame_recording(header, &tracks.positions_m)?;
         let background = ground::background(header, &framing);
         let looks = (0..header.scenario.agents.len()).map(look).collect();
-        Ok(Self { header, tracks, framing, background, looks, overlay: Overlay::new(&framing) })
+        Ok(Self { header, tracks, framing, background, looks, captions: Captions::new(&framing) })
     }
 
-    /// Which part of the world is shown.
+    /// Part of the world that is shown.
     pub fn framing(&self) -> &Framing {
         &self.framing
     }
@@ -71,7 +87,7 @@ impl<'a> TopView<'a> {
         FrameBuffers { canvas: Canvas::new(self.background.clone()), shade: ShadeMask::new(&self.framing) }
     }
 
-    /// The picture of all agents at a time, opaque. What the buffers held before has no influence.
+    /// Picture of all agents at a time, opaque. The former content of the buffers has no influence.
     pub fn draw<'b>(&self, buffers: &'b mut FrameBuffers, time_s: f32, agents: &[AgentFrame]) -> &'b Pixmap {
         let FrameBuffers { canvas, shade } = buffers;
         canvas.reset(&self.background);
@@ -79,20 +95,20 @@ impl<'a> TopView<'a> {
         self.draw_trails(&mut canvas.pixmap, time_s, agents);
         self.draw_shade(&mut canvas.pixmap, shade, &parts);
         self.draw_bodies(canvas, &parts);
-        self.draw_writing(&mut canvas.pixmap, time_s, agents);
+        self.draw_captions(&mut canvas.pixmap, time_s, agents);
         &canvas.pixmap
     }
 
-    /// The limbs of every body in the picture, from the lowest to the highest.
-    fn parts(&self, agents: &[AgentFrame]) -> Vec<Part> {
+    /// Parts of every body in the picture, from the lowest to the highest.
+    fn parts(&self, agents: &[AgentFrame]) -> Vec<DrawnPart> {
         let detail = Detail::at_scale(self.framing.scale_px_m);
         let mut parts = Vec::new();
         for (agent, look) in agents.iter().zip(&self.looks) {
             if self.shows(agent.root.position_m) {
-                body::append_parts(&mut parts, &self.header.skeleton, agent, *look, detail);
+                drawn_body::append_parts(&mut parts, &self.header.skeleton, agent, *look, detail);
             }
         }
-        // Stable, so that equal heights keep the order of agents.
+        // A stable sort: parts of equal height keep the order of agents.
         parts.sort_by(|one, other| one.top_m.total_cmp(&other.top_m));
         parts
     }
@@ -114,7 +130,7 @@ impl<'a> TopView<'a> {
         }
     }
 
-    fn draw_shade(&self, pixmap: &mut Pixmap, shade: &mut ShadeMask, parts: &[Part]) {
+    fn draw_shade(&self, pixmap: &mut Pixmap, shade: &mut ShadeMask, parts: &[DrawnPart]) {
         shade.clear();
         for part in parts.iter().filter(|part| part.radii_m[0] * self.framing.scale_px_m >= MIN_SHADE_RADIUS_PX) {
             shade.add_part(&self.framing, part);
@@ -122,21 +138,20 @@ impl<'a> TopView<'a> {
         shade.apply(pixmap);
     }
 
-    fn draw_bodies(&self, canvas: &mut Canvas, parts: &[Part]) {
+    fn draw_bodies(&self, canvas: &mut Canvas, parts: &[DrawnPart]) {
         let scale = self.framing.scale_px_m;
         let rim_px = Some(RIM_M * scale).filter(|rim_px| *rim_px >= MIN_RIM_PX).unwrap_or(0.0).min(MAX_RIM_PX);
         let to_px = |end: Vec3| self.framing.to_px(end.truncate()).extend((end.z + BELOW_GROUND_M) * scale);
         for part in parts {
-            let cone = Cone { ends_px: part.ends_m.map(to_px), radii_px: part.radii_m.map(|radius| radius * scale) };
-            canvas.paint(&cone, part.colour, rim_px);
+            canvas.paint(&part.to_capsule(to_px, scale), part.colour, rim_px);
         }
     }
 
-    fn draw_writing(&self, pixmap: &mut Pixmap, time_s: f32, agents: &[AgentFrame]) {
+    fn draw_captions(&self, pixmap: &mut Pixmap, time_s: f32, agents: &[AgentFrame]) {
         if self.header.scenario.view.labels {
-            self.overlay.draw_labels(pixmap, agents);
+            self.captions.draw_labels(pixmap, agents);
         }
-        self.overlay.draw_scale_bar(pixmap);
-        self.overlay.draw_time(pixmap, time_s);
+        self.captions.draw_scale_bar(pixmap);
+        self.captions.draw_time(pixmap, time_s);
     }
 }

@@ -1,21 +1,32 @@
-//! Frames of a sequence to render: `1001-1100`, `1001-1100x2` (or `:2`), `1010,1020`, and lists of these.
+//! Frame ranges, as film tools write them: `1001-1100`, `1001-1100x2` (or `:2`), `1010`, and lists of these with
+//! commas.
 
 use std::collections::BTreeSet;
 use std::str::FromStr;
 
 use crate::error::{FrameRangeFault, RenderError};
 
-/// Number of the first frame, as film tools expect.
+/// Number of a sequence's first frame, as film tools expect it.
 pub(crate) const FIRST_FRAME: u32 = 1001;
 
-/// Frame numbers as a user wrote them.
+/// Frame numbers, as a user wrote them.
+///
+/// ```
+/// use fbcrowd_render::{FrameRange, RenderError};
+///
+/// let range: FrameRange = "1001-1006x2, 1010".parse()?;
+/// assert_eq!(range.clip(8)?, [1001, 1003, 1005]); // the recording ends at 1008
+/// assert!("1006-1001".parse::<FrameRange>().is_err());
+/// # Ok::<(), RenderError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameRange {
+    /// The user's text.
     text: String,
     spans: Vec<FrameSpan>,
 }
 
-/// `first-last x step`, both ends included.
+/// A part `FIRST-LASTxSTEP` of a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct FrameSpan {
     first: u32,
@@ -35,10 +46,10 @@ impl FromStr for FrameRange {
 }
 
 impl FrameRange {
-    /// The numbers that lie in a recording of `frame_count` frames, ascending, each once.
+    /// The frame numbers that exist in a recording of `frame_count` frames, ascending, each once.
     ///
     /// # Errors
-    /// Where none lies in it.
+    /// If none exists.
     pub fn clip(&self, frame_count: u32) -> Result<Vec<u32>, RenderError> {
         let (first, last) = (FIRST_FRAME, FIRST_FRAME + frame_count.saturating_sub(1));
         let numbers: BTreeSet<u32> = self
@@ -80,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn ranges_steps_and_lists_are_read_clipped_and_sorted() {
+    fn frames_are_clipped_and_sorted() {
         check("1001-1003", &[1001, 1002, 1003]);
         check("1001-1006x2", &[1001, 1003, 1005]);
         check("1001-1006:3", &[1001, 1004]);

@@ -1,7 +1,7 @@
-//! Which part of the world a picture shows: metres to pixels, chosen by the view or fitted to all that moves and
-//! stands.
+//! Framing: the part of the world that a picture shows, and the map from metres to pixels. The scenario's view gives
+//! it; what the view leaves open is fitted to all agents, goals and obstacles.
 //!
-//! World: x right, y up in the picture. Pixels: x right, y down, (0, 0) the picture's upper left corner.
+//! World: x right, y up in the picture, metres. Pixels: x right, y down, (0, 0) the picture's upper left corner.
 
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::scenario::{ScenarioFault, View, check_view};
@@ -9,52 +9,59 @@ use glam::Vec2;
 
 use crate::error::RenderError;
 
-/// Largest picture side, pixels: 16k film scans; beyond it a frame would take gigabytes.
-pub(crate) const MAX_SIDE_PX: u32 = 16_384;
-/// Room around every fitted position: half an arm span, so that no body is cut at the picture's edge, m.
+/// Margin around every fitted position, m: half an arm span, so that no body is cut at the picture's edge.
 const BODY_MARGIN_M: f32 = 0.7;
-/// Further room, share of the fitted width.
+/// Further margin, share of the fitted width.
 const AIR_SHARE: f32 = 0.02;
-/// Least fitted width: one body that stands still is not blown up to the whole picture, m.
+/// Least fitted width, m: a single standing body does not fill the picture.
 const MIN_WIDTH_M: f32 = 4.0;
 
-/// A window onto the ground, seen straight from above.
+/// A window onto the ground, seen from straight above.
+///
+/// ```
+/// use fbcrowd_render::Framing;
+/// use glam::Vec2;
+///
+/// let framing = Framing { width_px: 640, height_px: 360, centre_m: Vec2::new(5.0, 0.0), scale_px_m: 40.0 };
+/// assert_eq!(framing.to_px(Vec2::new(6.0, 1.0)), Vec2::new(360.0, 140.0));
+/// assert_eq!(framing.to_world(Vec2::new(320.0, 180.0)), Vec2::new(5.0, 0.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framing {
-    /// Pixels.
+    /// Width of the picture, pixels.
     pub width_px: u32,
-    /// Pixels.
+    /// Height of the picture, pixels.
     pub height_px: u32,
-    /// The point of the world in the picture's centre, m.
+    /// Point of the world at the picture's centre, m.
     pub centre_m: Vec2,
-    /// Pixels a metre.
+    /// Scale of the picture, pixels per metre.
     pub scale_px_m: f32,
 }
 
 impl Framing {
-    /// A world point in the picture, pixels.
+    /// A point of the world in the picture, pixels.
     pub fn to_px(&self, point_m: Vec2) -> Vec2 {
         let from_centre = (point_m - self.centre_m) * Vec2::new(self.scale_px_m, -self.scale_px_m);
         from_centre + 0.5 * self.size_px()
     }
 
-    /// A picture point in the world, m.
+    /// A point of the picture in the world, m.
     pub fn to_world(&self, point_px: Vec2) -> Vec2 {
         let from_centre = (point_px - 0.5 * self.size_px()) / self.scale_px_m;
         self.centre_m + Vec2::new(from_centre.x, -from_centre.y)
     }
 
-    /// Width and height, pixels.
+    /// Width and height of the picture, pixels.
     pub fn size_px(&self) -> Vec2 {
         Vec2::new(self.width_px as f32, self.height_px as f32)
     }
 }
 
-/// The framing that a recording's view asks for; what the view leaves open is fitted to `positions_m` (of the whole
-/// recording, so that the picture does not move), to goals and to obstacles.
+/// The framing of a recording. What the view leaves open is fitted to `positions_m` (of the whole recording, so that
+/// the picture does not move), to goals and to obstacles.
 ///
 /// # Errors
-/// Where the view is out of range: that of a recording that was opened is not.
+/// If the view is out of range; the view of an opened recording is not.
 pub(crate) fn frame_recording(header: &Header, positions_m: &[Vec2]) -> Result<Framing, RenderError> {
     let view = &header.scenario.view;
     check_view(view).map_err(|ScenarioFault { message, help, .. }| RenderError::View { message, help })?;
@@ -66,7 +73,7 @@ pub(crate) fn frame_recording(header: &Header, positions_m: &[Vec2]) -> Result<F
     Ok(fit(view, bounds_m(shown)))
 }
 
-/// Least and greatest corner; a point at the origin where there is nothing.
+/// Least and greatest corner of the box around points, m; the origin without points.
 pub(crate) fn bounds_m(points: impl Iterator<Item = Vec2>) -> [Vec2; 2] {
     points
         .filter(|point| point.is_finite())
@@ -77,7 +84,7 @@ pub(crate) fn bounds_m(points: impl Iterator<Item = Vec2>) -> [Vec2; 2] {
 
 fn fit(view: &View, [low_m, high_m]: [Vec2; 2]) -> Framing {
     let centre_m = view.centre_m.unwrap_or(0.5 * (low_m + high_m));
-    // About a centre that was asked for, what lies farthest off decides on both sides.
+    // The centre may be given: then the farthest point decides on both sides.
     let reach_m = (high_m - centre_m).max(centre_m - low_m) + BODY_MARGIN_M;
     let aspect = view.width as f32 / view.height as f32;
     let fitted_m = (2.0 * reach_m.x).max(2.0 * reach_m.y * aspect) * (1.0 + AIR_SHARE);
@@ -106,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn asked_centre_and_width_are_kept() {
+    fn given_centre_and_width_are_kept() {
         let view = View { centre_m: Some(Vec2::new(2.0, 3.0)), width_m: Some(64.0), ..View::default() };
         let framing = fit(&view, [Vec2::ZERO, Vec2::ONE]);
         assert_eq!(framing.to_px(Vec2::new(2.0, 3.0)), Vec2::new(640.0, 360.0));

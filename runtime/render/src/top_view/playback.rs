@@ -1,4 +1,6 @@
-//! A recording at any time: frames of the picture's rate from frames of the simulation's step.
+//! Playback: a recording at any time. Pictures have the view's frame rate, recorded frames the simulation's step.
+//!
+//! Roots are in the world, poses in their root frames.
 
 use std::f32::consts::{PI, TAU};
 
@@ -10,14 +12,13 @@ use rayon::prelude::*;
 use crate::error::RenderError;
 use crate::top_view::trails::Tracks;
 
-/// A picture's time this near a recorded frame, in steps, takes that frame as it is: pictures at the simulation's own
-/// rate show exactly what was simulated.
+/// Distance of a picture's time from a recorded frame up to which it shows that frame unchanged, steps.
 const SAME_FRAME_STEPS: f64 = 1e-3;
 
-/// Most positions kept of a recording: 256 MiB, a thousand agents for 18 minutes at every step.
+/// Greatest number of positions in tracks: 256 MiB, a thousand agents for 18 minutes at every step.
 const MAX_TRACK_POINTS: usize = 1 << 25;
 
-/// Number of pictures that a recording gives at its view's frame rate, the first at time 0.
+/// Number of pictures of a recording at its view's frame rate; the first is at time 0.
 pub(crate) fn picture_count(recording: &Recording) -> u32 {
     let steps = recording.frame_count().saturating_sub(1);
     let scenario = &recording.header().scenario;
@@ -25,16 +26,16 @@ pub(crate) fn picture_count(recording: &Recording) -> u32 {
     (duration_s * f64::from(scenario.view.frame_rate_hz) + SAME_FRAME_STEPS) as u32 + 1
 }
 
-/// Time of a picture, counted from 0, s.
+/// Time of a picture, given by its index from 0, s.
 pub(crate) fn picture_time_s(recording: &Recording, picture: u32) -> f64 {
     f64::from(picture) / f64::from(recording.header().scenario.view.frame_rate_hz)
 }
 
-/// Every agent's root over the whole recording: in every frame, or in every so many-th, so that a long recording of
-/// many agents takes no more than 256 MiB.
+/// Root positions of all agents over the whole recording. A long recording of many agents is thinned to every n-th
+/// frame, so that the tracks take at most 256 MiB.
 ///
 /// # Errors
-/// Where the recording has no frame or one cannot be read.
+/// If the recording has no frame, or one cannot be read.
 pub fn read_tracks(recording: &Recording) -> Result<Tracks, RenderError> {
     if recording.frame_count() == 0 {
         return Err(RenderError::EmptyRecording);
@@ -55,15 +56,15 @@ pub fn read_tracks(recording: &Recording) -> Result<Tracks, RenderError> {
     Ok(Tracks { agent_count, dt_s: scenario.dt_s * stride as f32, positions_m })
 }
 
-/// Every how many-th frame is kept.
+/// Number n such that every n-th frame is kept.
 fn track_stride(frame_count: usize, agent_count: usize) -> usize {
     frame_count.saturating_mul(agent_count).div_ceil(MAX_TRACK_POINTS).max(1)
 }
 
-/// All agents at a time; between two recorded frames, both blended.
+/// All agents at a time, s; between two recorded frames, a blend of both.
 ///
 /// # Errors
-/// Where a frame cannot be read.
+/// If a frame cannot be read.
 pub fn sample(recording: &Recording, time_s: f64) -> Result<Vec<AgentFrame>, RecordingError> {
     let step = time_s / f64::from(recording.header().scenario.dt_s);
     let nearest = step.round();
@@ -80,7 +81,7 @@ pub fn sample(recording: &Recording, time_s: f64) -> Result<Vec<AgentFrame>, Rec
     Ok(agents.iter().zip(&later).map(|(agent, next)| blend(agent, next, share)).collect())
 }
 
-/// The body between two frames; what is no part of the body stays that of the earlier one.
+/// A body between two frames. All fields but root and pose are those of the earlier frame.
 fn blend(agent: &AgentFrame, next: &AgentFrame, share: f32) -> AgentFrame {
     let (from, to) = (agent.root.facing_rad, next.root.facing_rad);
     let turn_rad = (to - from + PI).rem_euclid(TAU) - PI;
@@ -103,14 +104,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tracks_keep_every_frame_until_memory_is_full() {
+    fn tracks_are_thinned_only_beyond_the_limit() {
         for (frames, agents, stride) in [(1, 0, 1), (540, 17, 1), (18_000, 1_000, 1), (18_000, 10_000, 6)] {
             assert_eq!(track_stride(frames, agents), stride, "{frames} {agents}");
         }
     }
 
     #[test]
-    fn blended_facing_takes_the_shorter_way() {
+    fn a_blended_facing_turns_the_shorter_side() {
         let at = |facing_rad: f32| AgentFrame { root: Root { facing_rad, ..Root::default() }, ..AgentFrame::default() };
         for (from, to, middle) in [(3.0, -3.0, PI), (0.2, -0.2, 0.0), (7.0, 7.2, 7.1)] {
             let found = blend(&at(from), &at(to), 0.5).root.facing_rad;

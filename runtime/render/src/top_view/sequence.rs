@@ -1,7 +1,7 @@
-//! A recording as numbered pictures, drawn in parallel.
+//! A recording as a sequence of numbered pictures, drawn in parallel.
 //!
-//! Each picture is a function of the recording and its number alone, so that any share of a sequence, on any number of
-//! threads, gives the same files; each appears under its name whole or not at all.
+//! Each picture depends only on the recording and its number. So any part of a sequence, on any number of threads,
+//! gives the same files. Each file appears under its name complete or not at all.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use fbcrowd_sim::recording::Recording;
 use rayon::prelude::*;
 
-use crate::constraints::overlay_constraints::ConstraintOverlay;
+use crate::constraints::constraint_overlay::ConstraintOverlay;
 use crate::error::RenderError;
 use crate::raster::{exr_frame, png_frame};
 use crate::top_view::frame::{FrameBuffers, TopView};
@@ -18,18 +18,22 @@ use crate::top_view::frame_range::{FIRST_FRAME, FrameRange};
 use crate::top_view::playback::{picture_count, picture_time_s, read_tracks, sample};
 use crate::top_view::trails::Tracks;
 
-/// File format of a sequence.
+/// File format of pictures.
+///
+/// ```
+/// assert_eq!(fbcrowd_render::PictureFormat::Exr.extension(), "exr");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Format {
-    /// Eight bits, sRGB.
+pub enum PictureFormat {
+    /// PNG: eight bits, sRGB.
     #[default]
     Png,
-    /// Half floats, scene-linear.
+    /// EXR: half floats, scene-linear.
     Exr,
 }
 
-impl Format {
-    /// The file name's extension.
+impl PictureFormat {
+    /// Extension of file names.
     pub const fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -38,40 +42,40 @@ impl Format {
     }
 }
 
-/// Where a sequence goes and what of it is drawn.
+/// Options of a sequence.
 #[derive(Clone, Debug)]
 pub struct SequenceOptions {
-    /// Made if missing.
+    /// Output folder; made if missing.
     pub folder: PathBuf,
-    /// Of the files `name.####.png`.
+    /// Name of the sequence: files are called `name.####.png`.
     pub name: String,
-    /// Of the files.
-    pub format: Format,
-    /// All frames where absent.
+    /// File format of the pictures.
+    pub format: PictureFormat,
+    /// Frames to be drawn; `None` for all.
     pub frames: Option<FrameRange>,
-    /// Agents whose constraints are drawn beside the scene.
+    /// Indices of agents whose constraints are drawn beside the scene.
     pub constraints_of: Vec<usize>,
 }
 
-/// What all pictures of a sequence are drawn with.
-struct Views<'a> {
+/// Views that all pictures of a sequence share.
+struct SequenceViews<'a> {
     top: TopView<'a>,
     overlay: Option<ConstraintOverlay<'a>>,
 }
 
-/// Renders a recording from above; `progress` hears, from any thread, how many of how many frames are done. Returns the
-/// files in order.
+/// Renders a recording from above, and returns the files in order. `observer` receives the number of finished frames
+/// and of all frames, from any thread.
 ///
 /// # Errors
-/// Where the view or the range is impossible, the recording damaged, or a file cannot be written.
+/// If the view is out of range, no frame is in the range, the recording is damaged, or a file cannot be written.
 pub fn render_sequence(
     recording: &Recording,
     options: &SequenceOptions,
-    progress: &(dyn Fn(usize, usize) + Sync),
+    observer: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<PathBuf>, RenderError> {
-    let numbers = numbers(recording, options.frames.as_ref())?;
+    let numbers = frame_numbers(recording, options.frames.as_ref())?;
     let tracks = read_tracks(recording)?;
-    let views = Views::new(recording, &tracks, &options.constraints_of)?;
+    let views = SequenceViews::new(recording, &tracks, &options.constraints_of)?;
     make_folder(&options.folder)?;
     let done = AtomicUsize::new(0);
     numbers
@@ -80,14 +84,14 @@ pub fn render_sequence(
             || views.top.buffers(),
             |buffers, number| {
                 let path = render_frame(recording, &views, buffers, options, *number)?;
-                progress(done.fetch_add(1, Ordering::Relaxed) + 1, numbers.len());
+                observer(done.fetch_add(1, Ordering::Relaxed) + 1, numbers.len());
                 Ok(path)
             },
         )
         .collect()
 }
 
-impl<'a> Views<'a> {
+impl<'a> SequenceViews<'a> {
     fn new(recording: &'a Recording, tracks: &'a Tracks, constraints_of: &[usize]) -> Result<Self, RenderError> {
         let top = TopView::new(recording.header(), tracks)?;
         let overlay = match constraints_of {
@@ -98,7 +102,7 @@ impl<'a> Views<'a> {
     }
 }
 
-fn numbers(recording: &Recording, frames: Option<&FrameRange>) -> Result<Vec<u32>, RenderError> {
+fn frame_numbers(recording: &Recording, frames: Option<&FrameRange>) -> Result<Vec<u32>, RenderError> {
     if recording.frame_count() == 0 {
         return Err(RenderError::EmptyRecording);
     }
@@ -112,7 +116,7 @@ fn make_folder(folder: &Path) -> Result<(), RenderError> {
 
 fn render_frame(
     recording: &Recording,
-    views: &Views<'_>,
+    views: &SequenceViews<'_>,
     buffers: &mut FrameBuffers,
     options: &SequenceOptions,
     number: u32,
@@ -124,8 +128,8 @@ fn render_frame(
     let pixmap = overlaid.as_ref().unwrap_or(scene);
     let path = options.folder.join(format!("{}.{number:04}.{}", options.name, options.format.extension()));
     match options.format {
-        Format::Png => png_frame::write(&path, pixmap)?,
-        Format::Exr => exr_frame::write(&path, pixmap, recording.header().scenario.view.frame_rate_hz)?,
+        PictureFormat::Png => png_frame::write(&path, pixmap)?,
+        PictureFormat::Exr => exr_frame::write(&path, pixmap, recording.header().scenario.view.frame_rate_hz)?,
     }
     Ok(path)
 }

@@ -1,59 +1,61 @@
-//! Shade on the ground: what stands between sun and ground, collected in a mask and laid over the picture once.
+//! Shade on the ground, collected in a mask that is laid over the picture once.
 //!
-//! A mask takes the greatest of overlapping shades, so that two limbs over one spot do not darken it twice. The sun
-//! stands at the upper left and high: shade falls to the lower right and is short enough that a crowd stays readable.
+//! Enters: parts of bodies and outlines of obstacles. Overlapping shades count as the greatest of them: two limbs over
+//! a pixel do not darken it twice. The sun is high at the upper left: shade falls to the lower right, and is short, so
+//! that a crowd stays readable.
 
 use glam::{Vec2, Vec3};
 use tiny_skia::{FillRule, Mask, Path, Pixmap, Transform};
 
-use crate::raster::body::Part;
+use crate::raster::drawn_body::DrawnPart;
 use crate::raster::palette::SHADE;
-use crate::raster::tapered_capsule::{self, Cone};
+use crate::raster::pixels::{blend, pixels_mut};
+use crate::raster::tapered_capsule;
 use crate::top_view::framing::Framing;
 
-/// Where the shade of a point falls, for each metre of its height: to the right and down, m. A sun 68° high.
+/// Displacement of a point's shade per metre of its height, right and down, m: the sun is 68° high.
 const SUN_SLOPE: Vec2 = Vec2::new(0.26, 0.31);
-/// How much of the light the shade takes.
+/// Opacity of full shade.
 const DARKNESS: f32 = 0.30;
-/// Width of a shade's soft edge at the ground, and its growth for each metre of height, m.
+/// Width of a shade's soft edge at the ground, and its increase per metre of height, m.
 const SOFTNESS_M: [f32; 2] = [0.03, 0.07];
-/// Least softness, the anti-aliasing of small shapes, pixels.
+/// Least width of the soft edge, pixels: anti-aliasing of small shapes.
 const MIN_SOFTNESS_PX: f32 = 0.75;
 
-/// Shade by pixel, 0 to 255.
+/// Shade of each pixel, 0 to 255.
 #[derive(Clone, Debug)]
-pub struct ShadeMask {
+pub(crate) struct ShadeMask {
     size_px: [u32; 2],
+    /// Shade, row by row.
     depths: Vec<u8>,
 }
 
 impl ShadeMask {
-    /// Without any shade.
-    pub fn new(framing: &Framing) -> Self {
+    /// A mask without shade.
+    pub(crate) fn new(framing: &Framing) -> Self {
         let size_px = [framing.width_px, framing.height_px];
         Self { size_px, depths: vec![0; framing.width_px as usize * framing.height_px as usize] }
     }
 
-    /// Takes all shade away.
-    pub fn clear(&mut self) {
+    /// Removes all shade.
+    pub(crate) fn clear(&mut self) {
         self.depths.fill(0);
     }
 
     /// Adds the shade of one part of a body.
-    pub fn add_part(&mut self, framing: &Framing, part: &Part) {
+    pub(crate) fn add_part(&mut self, framing: &Framing, part: &DrawnPart) {
         let scale = framing.scale_px_m;
         let on_ground = |end: Vec3| (framing.to_px(end.truncate()) + SUN_SLOPE * end.z.max(0.0) * scale).extend(0.0);
         let height_m = 0.5 * (part.ends_m[0].z + part.ends_m[1].z);
         let softness_px = (scale * (SOFTNESS_M[0] + SOFTNESS_M[1] * height_m.max(0.0))).max(MIN_SOFTNESS_PX);
-        let cone = Cone { ends_px: part.ends_m.map(on_ground), radii_px: part.radii_m.map(|radius| radius * scale) };
-        tapered_capsule::shade(&mut self.depths, self.size_px, &cone, softness_px);
+        tapered_capsule::shade(&mut self.depths, self.size_px, &part.to_capsule(on_ground, scale), softness_px);
     }
 
-    /// Adds the shade of a block with the given outline in pixels, as high as the sweep along the sun's slope is long.
-    pub fn add_block(&mut self, framing: &Framing, outline: &Path, height_m: f32) {
+    /// Adds the shade of a block with this outline (pixels) and height: the outline, swept along the sun's slope.
+    pub(crate) fn add_block(&mut self, framing: &Framing, outline: &Path, height_m: f32) {
         let Some(mut mask) = Mask::new(self.size_px[0], self.size_px[1]) else { return };
         let sweep_px = SUN_SLOPE * height_m * framing.scale_px_m;
-        // One copy a pixel of the sweep leaves no steps.
+        // One copy per pixel of the sweep: no steps are visible.
         let copies = (sweep_px.length() as usize).clamp(1, 256);
         for copy in 0..=copies {
             let shift = sweep_px * (copy as f32 / copies as f32);
@@ -64,8 +66,8 @@ impl ShadeMask {
         }
     }
 
-    /// Softens all shade so far: two box blurs in each direction.
-    pub fn blur(&mut self, radius_px: f32) {
+    /// Blurs all shade: two box blurs in each direction.
+    pub(crate) fn blur(&mut self, radius_px: f32) {
         let radius = (radius_px as usize).clamp(1, 64);
         let [width, height] = self.size_px.map(|side| side as usize);
         for _ in 0..2 {
@@ -78,19 +80,18 @@ impl ShadeMask {
         }
     }
 
-    /// Lays the shade over an opaque picture.
-    pub fn apply(&self, pixmap: &mut Pixmap) {
-        for (pixel, depth) in tapered_capsule::pixels_mut(pixmap).iter_mut().zip(&self.depths) {
+    /// Darkens an opaque picture by the shade.
+    pub(crate) fn apply(&self, pixmap: &mut Pixmap) {
+        for (pixel, depth) in pixels_mut(pixmap).iter_mut().zip(&self.depths) {
             if *depth > 0 {
-                let share = DARKNESS * f32::from(*depth) / 255.0;
-                *pixel = tapered_capsule::to_pixel(tapered_capsule::to_vec(*pixel).lerp(SHADE, share));
+                blend(pixel, SHADE, DARKNESS * f32::from(*depth) / 255.0);
             }
         }
     }
 }
 
-/// The mean over 2·radius + 1 neighbours of `count` values, `stride` apart, from `start`; beyond the ends lies no
-/// shade.
+/// Replaces `count` values, `stride` apart from `start` on, by means over 2·radius + 1 neighbours; beyond the ends the
+/// values are 0.
 fn box_blur(values: &mut [u8], start: usize, stride: usize, count: usize, radius: usize) {
     let line: Vec<u8> = (0..count).map(|index| values[start + index * stride]).collect();
     let window = 2 * radius as u32 + 1;
@@ -107,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn box_blur_is_the_mean_of_the_neighbours() {
+    fn a_box_blur_is_the_mean_of_the_neighbours() {
         let line: Vec<u8> = (0..40).map(|index: u32| (index * 7919 % 256) as u8).collect();
         for radius in [1, 3, 50] {
             let mut blurred = line.clone();

@@ -1,31 +1,44 @@
-//! Where everyone has walked: all root positions of a recording, and the fading ribbon behind each body.
+//! Tracks of all agents (root positions over a whole recording), and the fading ribbon behind each body.
+//!
+//! Tracks are in world metres, ribbons in pixels.
 
 use glam::Vec2;
 use tiny_skia::Pixmap;
 
 use crate::raster::palette::Rgb;
-use crate::raster::tapered_capsule::{self, Window};
+use crate::raster::pixels::{PixelWindow, blend, pixels_mut};
 use crate::top_view::framing::Framing;
 
 /// Width of a trail at the body and at its end, m.
 const WIDTH_M: [f32; 2] = [0.075, 0.025];
-/// Least width, pixels: below it a trail would break into dots.
+/// Least width of a trail, pixels: narrower ones break into dots.
 const MIN_WIDTH_PX: f32 = 1.2;
-/// Opacity at the body; it falls to none at the end.
+/// Opacity at the body; it decreases to 0 at the end.
 const OPACITY: f32 = 0.60;
-/// Shortest piece worth drawing, pixels: bends of a walk show no corners at it.
+/// Length of the pieces of a trail, pixels: bends of a walk then show no corners.
 const PIECE_PX: f32 = 6.0;
-/// A brisk walk, m/s, by which [`PIECE_PX`] becomes a number of frames.
+/// Speed by which [`PIECE_PX`] becomes a number of frames, m/s: a brisk walk.
 const BRISK_MPS: f32 = 1.5;
 
-/// Root positions of every agent, at even times from 0 on.
+/// Root positions of all agents at uniform times from 0 on.
+///
+/// ```
+/// use fbcrowd_render::Tracks;
+/// use glam::Vec2;
+///
+/// // Two agents in two frames: the first one walks, the other one stands.
+/// let positions_m = vec![Vec2::ZERO, Vec2::Y, Vec2::new(0.5, 0.0), Vec2::Y];
+/// let tracks = Tracks { agent_count: 2, dt_s: 0.5, positions_m };
+/// assert_eq!((tracks.frame_count(), tracks.frame_m(1)), (2, &[Vec2::new(0.5, 0.0), Vec2::Y][..]));
+/// assert!(tracks.agent_m(1).all(|position_m| position_m == Vec2::Y));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracks {
-    /// Agents in each frame.
+    /// Number of agents in each frame.
     pub agent_count: usize,
-    /// Seconds between frames.
+    /// Time between frames, s.
     pub dt_s: f32,
-    /// Frame after frame, in each the agents by index; world, metres.
+    /// Positions in the world, frame by frame, in each by agent, metres.
     pub positions_m: Vec<Vec2>,
 }
 
@@ -35,12 +48,12 @@ impl Tracks {
         self.positions_m.len().checked_div(self.agent_count).unwrap_or(0)
     }
 
-    /// All agents in one frame.
+    /// Positions of all agents in one frame, world, metres.
     pub fn frame_m(&self, frame: usize) -> &[Vec2] {
         &self.positions_m[frame * self.agent_count..][..self.agent_count]
     }
 
-    /// One agent over all frames.
+    /// Positions of one agent over all frames, world, metres.
     pub fn agent_m(&self, agent: usize) -> impl Iterator<Item = Vec2> {
         self.positions_m.iter().skip(agent).step_by(self.agent_count.max(1)).copied()
     }
@@ -48,24 +61,24 @@ impl Tracks {
 
 /// The trail of one agent at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Trail {
+pub(crate) struct Trail {
     /// Index of the agent.
-    pub agent: usize,
-    /// Now, s.
-    pub time_s: f32,
-    /// Where the agent stands now, world, m.
-    pub position_m: Vec2,
-    /// How far back the trail reaches, s.
-    pub length_s: f32,
+    pub(crate) agent: usize,
+    /// Time of the picture, s.
+    pub(crate) time_s: f32,
+    /// Position of the agent at that time, world, m.
+    pub(crate) position_m: Vec2,
+    /// Duration that the trail shows, s.
+    pub(crate) length_s: f32,
     /// Colour of the ribbon.
-    pub colour: Rgb,
+    pub(crate) colour: Rgb,
 }
 
 /// One corner of a ribbon.
 #[derive(Clone, Copy, Debug)]
-struct Corner {
+struct RibbonCorner {
     at_px: Vec2,
-    /// 0 at the body, 1 at the trail's end.
+    /// Age of the position: 0 at the body, 1 at the trail's end.
     age: f32,
 }
 
@@ -75,48 +88,48 @@ pub(crate) fn draw(pixmap: &mut Pixmap, framing: &Framing, tracks: &Tracks, trai
     for index in 1..corners.len() {
         let before = index.checked_sub(2).map(|before| corners[before].at_px);
         let after = corners.get(index + 1).map(|corner| corner.at_px);
-        let piece = Piece::new(framing, [corners[index - 1], corners[index]], [before, after]);
+        let piece = RibbonPiece::new(framing, [corners[index - 1], corners[index]], [before, after]);
         piece.paint(pixmap, trail.colour);
     }
 }
 
-/// From the body backwards. Corners sit on fixed frames of the tracks, so that the ribbon does not crawl from picture
-/// to picture.
-fn corners(framing: &Framing, tracks: &Tracks, trail: &Trail) -> Vec<Corner> {
+/// Corners from the body backward. They are at fixed frames of the tracks, so that the ribbon does not crawl from
+/// picture to picture.
+fn corners(framing: &Framing, tracks: &Tracks, trail: &Trail) -> Vec<RibbonCorner> {
     let Trail { agent, time_s, length_s, .. } = *trail;
     let stride = ((PIECE_PX / (BRISK_MPS * tracks.dt_s * framing.scale_px_m)).round() as usize).max(1);
     let newest = ((time_s / tracks.dt_s) as usize).min(tracks.frame_count().saturating_sub(1));
     let oldest = ((time_s - length_s).max(0.0) / tracks.dt_s).ceil() as usize;
-    let mut corners = vec![Corner { at_px: framing.to_px(trail.position_m), age: 0.0 }];
+    let mut corners = vec![RibbonCorner { at_px: framing.to_px(trail.position_m), age: 0.0 }];
     for frame in (oldest..=newest).rev().filter(|frame| frame % stride == 0) {
         let at_px = framing.to_px(tracks.frame_m(frame)[agent]);
         let age = (time_s - frame as f32 * tracks.dt_s) / length_s;
         let moved = corners.last().is_none_or(|last| last.at_px.distance_squared(at_px) > 0.01);
         if moved && at_px.is_finite() {
-            corners.push(Corner { at_px, age });
+            corners.push(RibbonCorner { at_px, age });
         }
     }
     corners
 }
 
-/// The ribbon between two corners. Where pieces meet, the bisector of their directions parts them, so that no pixel is
-/// painted twice.
-struct Piece {
-    ends: [Corner; 2],
+/// The ribbon between two corners. The bisector of their directions separates two pieces, so that no pixel is painted
+/// twice.
+struct RibbonPiece {
+    ends: [RibbonCorner; 2],
     direction: Vec2,
     length_px: f32,
-    /// Normals of the lines at which the piece begins and ends, along the way.
+    /// Normals of the lines at which the piece begins and ends, in its direction.
     borders: [Vec2; 2],
-    /// Half the width at a trail's head and end, pixels.
+    /// Half the width at the trail's start and end, pixels.
     half_px: [f32; 2],
 }
 
-impl Piece {
-    /// `around`: the corners before and after the piece.
-    fn new(framing: &Framing, ends: [Corner; 2], around: [Option<Vec2>; 2]) -> Self {
+impl RibbonPiece {
+    /// The piece between two corners; `around` are the corners before and after it.
+    fn new(framing: &Framing, ends: [RibbonCorner; 2], around: [Option<Vec2>; 2]) -> Self {
         let [start, end] = ends.map(|corner| corner.at_px);
         let direction = (end - start).normalize_or_zero();
-        // Where the way turns back on itself there is no bisector to speak of: the piece is cut straight.
+        // Where the path reverses, there is no useful bisector: the piece is cut straight.
         let bisector = |other: Option<Vec2>| {
             let sum = direction + other.map_or(Vec2::ZERO, Vec2::normalize_or_zero);
             if sum.dot(direction) > 0.2 { sum } else { direction }
@@ -134,15 +147,15 @@ impl Piece {
     fn paint(&self, pixmap: &mut Pixmap, colour: Rgb) {
         let [start, end] = self.ends.map(|corner| corner.at_px);
         let reach = Vec2::splat(self.half_px[0] + 1.0);
-        let window = Window::between(start.min(end) - reach, start.max(end) + reach, pixmap.width(), pixmap.height());
+        let [low, high] = [start.min(end) - reach, start.max(end) + reach];
+        let window = PixelWindow::between(low, high, pixmap.width(), pixmap.height());
         let width = pixmap.width() as usize;
-        let pixels = tapered_capsule::pixels_mut(pixmap);
+        let pixels = pixels_mut(pixmap);
         for y in window.rows() {
             for x in window.columns() {
                 let opacity = self.opacity(Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
                 if opacity > 0.0 {
-                    let pixel = &mut pixels[y * width + x];
-                    *pixel = tapered_capsule::to_pixel(tapered_capsule::to_vec(*pixel).lerp(colour, opacity));
+                    blend(&mut pixels[y * width + x], colour, opacity);
                 }
             }
         }

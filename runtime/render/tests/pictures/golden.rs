@@ -1,7 +1,7 @@
-//! Pictures of a small committed recording look as they did when someone last looked at them.
+//! Pictures of a small committed recording look like the committed pictures.
 //!
-//! After an intended change, or a new recording format, run `cargo test -p fbcrowd-render --test pictures -- --ignored`
-//! and look at the pictures in `tests/golden` before committing them.
+//! After an intended change, or a new recording format, run `cargo test -p fbcrowd-render --test pictures -- --ignored`.
+//! Look at the pictures in `tests/golden` before you commit them.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -17,19 +17,19 @@ use tiny_skia::Pixmap;
 
 use crate::support;
 
-/// Another machine's rounding may move a channel by this much on the average, code values.
+/// Greatest mean difference of a channel, code values: another machine rounds differently.
 const MEAN_TOLERANCE: f64 = 0.25;
-/// Share of the pixels that may differ by more than [`PIXEL_TOLERANCE`]: edges that fall on the other side of a pixel's
+/// Greatest share of values that differ by more than [`PIXEL_TOLERANCE`]: an edge may be on the other side of a pixel's
 /// centre.
 const EDGE_SHARE: f64 = 0.002;
-/// Code values.
+/// Difference of a value that is clearly visible, code values.
 const PIXEL_TOLERANCE: u8 = 24;
 
 fn golden(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name)
 }
 
-/// Every golden picture by its file name, drawn anew.
+/// Every golden picture, drawn anew, with its file name.
 fn pictures() -> Vec<(&'static str, Pixmap)> {
     let recording = Recording::open(&golden("walkers.fbrec")).unwrap();
     let tracks = read_tracks(&recording).unwrap();
@@ -60,7 +60,7 @@ fn pictures() -> Vec<(&'static str, Pixmap)> {
     ]
 }
 
-/// A picture of a quarter of the size, each pixel the mean of sixteen: goldens stay small.
+/// A picture at a quarter of its size; each pixel is the mean of sixteen. So golden files stay small.
 fn quarter(pixmap: &Pixmap) -> Pixmap {
     let mut small = Pixmap::new(pixmap.width() / 4, pixmap.height() / 4).unwrap();
     let (width, small_width) = (pixmap.width() as usize, small.width() as usize);
@@ -94,7 +94,7 @@ fn check(name: &str, drawn: &Pixmap) {
 }
 
 #[test]
-fn pictures_of_the_committed_recording_look_as_committed() {
+fn pictures_look_as_committed() {
     for (name, drawn) in pictures() {
         check(name, &drawn);
     }

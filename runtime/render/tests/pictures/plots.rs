@@ -1,4 +1,4 @@
-//! Plots of a database draw whatever a valid database may hold, always alike.
+//! Plots of any valid database can be drawn, and are the same in every run.
 
 use fbcrowd_render::plots::database::{
     contact_sheet, coverage_slices, gait_events, parameter_space, pose_distances, velocity_space, write_database_plots,
@@ -54,7 +54,7 @@ fn inked_share(pixmap: &Pixmap) -> f64 {
 }
 
 #[test]
-fn giants_fit_on_the_sheet() {
+fn giants_fit_on_the_contact_sheet() {
     let sheet_of_bodies = |times: f32| {
         let mut db = database(&[0.0, 1.0]);
         let Skeleton { offsets_m, segment_ends_m, feet, .. } = &mut db.skeleton;
@@ -64,12 +64,12 @@ fn giants_fit_on_the_sheet() {
         contact_sheet(&db, 0..2)
     };
     let shares = [1.0, 2.0, 5.0].map(|times| inked_share(&sheet_of_bodies(times)));
-    // Limbs are as thick on any body.
+    // All bodies have limbs of the same girth.
     assert!(shares.iter().all(|share| (0.6..1.1).contains(&(share / shares[0]))), "{shares:?}");
 }
 
 #[test]
-fn databases_of_one_and_of_many_examples_are_drawn() {
+fn databases_of_any_size_are_drawn() {
     for speeds_mps in [&[0.0][..], &[0.0, 1.0, 1.4]] {
         let db = database(speeds_mps);
         let bodies = |db: &MotionDb| contact_sheet(db, 0..db.examples.len());
@@ -83,7 +83,7 @@ fn databases_of_one_and_of_many_examples_are_drawn() {
 }
 
 #[test]
-fn pose_distances_are_drawn_where_there_are_correspondences() {
+fn pose_distances_need_a_correspondence() {
     let mut db = database(&[0.0, 1.0, 1.4]);
     assert!(pose_distances(&db).is_none());
     db.correspondence = Some(Correspondence { semi_procedural: 1, blending: 2, pairs_s: vec![[0.275, 0.825]] });
@@ -98,7 +98,7 @@ fn pose_distances_are_drawn_where_there_are_correspondences() {
 }
 
 #[test]
-fn many_examples_go_on_further_sheets() {
+fn many_examples_are_split_into_sheets() {
     let speeds_mps: Vec<f32> = (0..37).map(|n| 0.1 * n as f32).collect();
     let folder = support::Scratch::new("sheets");
     let files = write_database_plots(&database(&speeds_mps), folder.path()).unwrap();
@@ -107,7 +107,7 @@ fn many_examples_go_on_further_sheets() {
 }
 
 #[test]
-fn all_plots_are_written_and_a_folder_in_the_way_is_named() {
+fn all_plots_are_written_or_the_fault_is_named() {
     let folder = support::Scratch::new("plots");
     let files = write_database_plots(&database(&[0.0, 1.2]), folder.path()).unwrap();
     assert_eq!(files.len(), 5);

@@ -9,12 +9,12 @@ use std::sync::Mutex;
 use exr::prelude::{ReadChannels, ReadLayers, f16, read};
 use fbcrowd_render::error::RenderError;
 use fbcrowd_render::raster::decode_srgb;
-use fbcrowd_render::top_view::{Format, SequenceOptions, render_sequence};
+use fbcrowd_render::top_view::{PictureFormat, SequenceOptions, render_sequence};
 use fbcrowd_sim::recording::Recording;
 
 use crate::support::{self, Scratch};
 
-pub(crate) fn options(folder: &Path, format: Format, frames: Option<&str>) -> SequenceOptions {
+pub(crate) fn options(folder: &Path, format: PictureFormat, frames: Option<&str>) -> SequenceOptions {
     let frames = frames.map(|frames| frames.parse().unwrap());
     SequenceOptions {
         folder: folder.to_owned(),
@@ -32,7 +32,12 @@ fn recording(folder: &Path) -> Recording {
 }
 
 /// Files by name, drawn with a number of threads.
-fn files(recording: &Recording, format: Format, frames: &[Option<&str>], threads: usize) -> BTreeMap<String, Vec<u8>> {
+fn files(
+    recording: &Recording,
+    format: PictureFormat,
+    frames: &[Option<&str>],
+    threads: usize,
+) -> BTreeMap<String, Vec<u8>> {
     let scratch = Scratch::new(&format!("threads-{threads}-{}-{}", frames.len(), format.extension()));
     let folder = scratch.path();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -44,10 +49,10 @@ fn files(recording: &Recording, format: Format, frames: &[Option<&str>], threads
 }
 
 #[test]
-fn files_are_identical_for_any_threads_and_chunks_and_from_run_to_run() {
+fn files_do_not_depend_on_threads_or_ranges() {
     let scratch = Scratch::new("identical");
     let recording = recording(scratch.path());
-    for format in [Format::Png, Format::Exr] {
+    for format in [PictureFormat::Png, PictureFormat::Exr] {
         let once = files(&recording, format, &[None], 1);
         assert_eq!(once.len(), 33, "1.6 s at 20 frames a second, the start included");
         assert_eq!(once.keys().next().unwrap(), &format!("walkers.1001.{}", format.extension()));
@@ -57,11 +62,11 @@ fn files_are_identical_for_any_threads_and_chunks_and_from_run_to_run() {
 }
 
 #[test]
-fn exr_is_the_png_in_scene_linear_light() {
+fn exr_is_the_png_in_linear_light() {
     let scratch = Scratch::new("linear");
     let folder = scratch.path();
     let recording = recording(folder);
-    let [png, exr] = [Format::Png, Format::Exr].map(|format| {
+    let [png, exr] = [PictureFormat::Png, PictureFormat::Exr].map(|format| {
         let written = render_sequence(&recording, &options(folder, format, Some("1020")), &|_, _| ()).unwrap();
         fs::read(&written[0]).unwrap()
     });
@@ -95,37 +100,39 @@ fn progress_counts_every_frame_once() {
     let scratch = Scratch::new("progress");
     let folder = scratch.path();
     let recording = recording(folder);
-    let heard = Mutex::new(Vec::new());
-    let progress = |done, all| heard.lock().unwrap().push((done, all));
-    render_sequence(&recording, &options(folder, Format::Png, Some("1001-1010x3")), &progress).unwrap();
-    let mut heard = heard.into_inner().unwrap();
-    heard.sort_unstable();
-    assert_eq!(heard, [(1, 4), (2, 4), (3, 4), (4, 4)]);
+    let reports = Mutex::new(Vec::new());
+    let progress = |done, all| reports.lock().unwrap().push((done, all));
+    render_sequence(&recording, &options(folder, PictureFormat::Png, Some("1001-1010x3")), &progress).unwrap();
+    let mut reports = reports.into_inner().unwrap();
+    reports.sort_unstable();
+    assert_eq!(reports, [(1, 4), (2, 4), (3, 4), (4, 4)]);
 }
 
 #[test]
-fn a_folder_that_cannot_be_made_is_named_and_nothing_is_left() {
+fn unwritable_paths_are_named_and_leave_no_file() {
     let scratch = Scratch::new("unwritable");
     let folder = scratch.path();
     let recording = recording(folder);
     let blocked = folder.join("file/frames");
-    fs::write(folder.join("file"), "in the way").unwrap();
-    let error = render_sequence(&recording, &options(&blocked, Format::Png, None), &|_, _| ()).unwrap_err();
+    fs::write(folder.join("file"), "not a folder").unwrap();
+    let error = render_sequence(&recording, &options(&blocked, PictureFormat::Png, None), &|_, _| ()).unwrap_err();
     assert!(matches!(&error, RenderError::Folder { folder, .. } if *folder == blocked), "{error}");
     assert!(error.to_string().contains("file/frames"), "{error}");
-    // A folder stands where the frame should go: the frame is refused by name, its temporary file removed.
+    // A folder has the name of the frame: the error names the frame, and its temporary file is removed.
     fs::create_dir(folder.join("walkers.1001.png")).unwrap();
-    let error = render_sequence(&recording, &options(folder, Format::Png, Some("1001")), &|_, _| ()).unwrap_err();
+    let error =
+        render_sequence(&recording, &options(folder, PictureFormat::Png, Some("1001")), &|_, _| ()).unwrap_err();
     assert!(matches!(&error, RenderError::Write { path, .. } if path.ends_with("walkers.1001.png")), "{error}");
     let left = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     assert!(left.into_iter().all(|name| !name.ends_with(".tmp")));
 }
 
 #[test]
-fn frames_outside_the_recording_are_refused() {
+fn frames_outside_the_recording_are_rejected() {
     let scratch = Scratch::new("outside");
     let folder = scratch.path();
     let recording = recording(folder);
-    let error = render_sequence(&recording, &options(folder, Format::Png, Some("1-100")), &|_, _| ()).unwrap_err();
+    let error =
+        render_sequence(&recording, &options(folder, PictureFormat::Png, Some("1-100")), &|_, _| ()).unwrap_err();
     assert!(matches!(error, RenderError::NoFrames { first: 1001, last: 1033, .. }), "{error}");
 }

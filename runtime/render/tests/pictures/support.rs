@@ -1,4 +1,4 @@
-//! A hand-posed walker and small crowds of it: bodies for pictures that depend on no clip and no simulation.
+//! Small crowds of a hand-posed walker: pictures of them depend on no clip and no simulation.
 
 use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use motiondb::velocity_sets::velocity_hull::VelocityHull;
 
 /// Walking speed of every walker, m/s.
 const SPEED_MPS: f32 = 1.3;
-/// Strides a second at that speed.
+/// Frequency of strides at that speed, Hz.
 const STRIDE_HZ: f32 = 0.93;
 
 /// An adult of 1.75 m.
@@ -48,7 +48,7 @@ fn skeleton() -> Skeleton {
     Skeleton { offsets_m, segment_ends_m, segment_radii_m, limits_rad, feet: [foot; 2] }
 }
 
-/// A walking pose at a phase: legs and arms swing as sines, knees bend in swing.
+/// A walking pose at a phase: legs and arms swing as sines; the knee of the swing leg is flexed.
 fn walking(phase: f32) -> Pose {
     let mut rotations = [Quat::IDENTITY; JOINT_COUNT];
     for side in 0..2 {
@@ -70,7 +70,7 @@ fn walking(phase: f32) -> Pose {
     Pose { pelvis_m: Vec3::new(0.0, 0.02 * (TAU * phase).cos(), 0.9), rotations }
 }
 
-/// A walker at a place, facing somewhere, on one foot.
+/// A walker at a position, on one foot.
 fn walker(position_m: Vec2, facing_rad: f32, phase: f32) -> AgentFrame {
     AgentFrame {
         root: Root { position_m, facing_rad },
@@ -82,7 +82,7 @@ fn walker(position_m: Vec2, facing_rad: f32, phase: f32) -> AgentFrame {
     }
 }
 
-/// Walks, slow turns on the spot, and a little to the side and back.
+/// Velocity sets of a body that walks, turns slowly, side-steps and steps back.
 fn velocity_hull() -> VelocityHull {
     let corners = |points: &[[f32; 2]]| points.iter().copied().map(Vec2::from).collect();
     VelocityHull {
@@ -96,7 +96,7 @@ fn velocity_hull() -> VelocityHull {
     }
 }
 
-/// Agents on a circle, each bound for the opposite point, passing left of the centre on gentle arcs.
+/// Agents on a circle; the goal of each is the opposite point.
 pub(crate) fn circle(agent_count: usize, radius_m: f32, view: View) -> Header {
     let at = |index: usize| radius_m * Vec2::from_angle(TAU * index as f32 / agent_count as f32);
     let agents = (0..agent_count)
@@ -111,7 +111,7 @@ pub(crate) fn circle(agent_count: usize, radius_m: f32, view: View) -> Header {
     header(agents, view)
 }
 
-/// A scene around agents, with two obstacles out of their way.
+/// A scene of agents, with two obstacles beside their paths.
 fn header(agents: Vec<AgentSpec>, view: View) -> Header {
     let block =
         |x: f32, y: f32| [[-0.7, -0.4], [0.7, -0.4], [0.7, 0.4], [-0.7, 0.4]].map(|c| Vec2::new(x, y) + Vec2::from(c));
@@ -129,16 +129,16 @@ fn header(agents: Vec<AgentSpec>, view: View) -> Header {
     Header { database_checksum: 0, skeleton: skeleton(), velocity_hull: velocity_hull(), scenario }
 }
 
-/// All agents of a scene after some seconds: each walks towards its goal on an arc that bulges to its right.
+/// All agents of a scene at a time: each walks to its goal on an arc to the right of the straight path.
 pub(crate) fn frame(header: &Header, time_s: f32) -> Vec<AgentFrame> {
     let walk = |(index, agent): (usize, &AgentSpec)| {
         let goal = agent.goals_m[0];
-        let way = goal - agent.position_m;
-        let share = (SPEED_MPS * time_s / way.length()).min(1.0);
-        let bulge = 0.22 * way.length() * (TAU * 0.5 * share).sin();
+        let path_m = goal - agent.position_m;
+        let share = (SPEED_MPS * time_s / path_m.length()).min(1.0);
+        let bulge = 0.22 * path_m.length() * (TAU * 0.5 * share).sin();
         let slope = 0.22 * 0.5 * TAU * (TAU * 0.5 * share).cos();
-        let position_m = agent.position_m + way * share - bulge * way.normalize().perp();
-        let facing_rad = (way.normalize() - slope * way.normalize().perp()).to_angle();
+        let position_m = agent.position_m + path_m * share - bulge * path_m.normalize().perp();
+        let facing_rad = (path_m.normalize() - slope * path_m.normalize().perp()).to_angle();
         let phase = (STRIDE_HZ * time_s + 0.37 * index as f32).fract();
         let preferred_mps = SPEED_MPS * (goal - position_m).normalize_or_zero();
         AgentFrame { preferred_mps, ..walker(position_m, facing_rad, phase) }
@@ -146,7 +146,7 @@ pub(crate) fn frame(header: &Header, time_s: f32) -> Vec<AgentFrame> {
     header.scenario.agents.iter().enumerate().map(walk).collect()
 }
 
-/// The scene of the golden pictures: small, with all that a top view shows.
+/// The scene of the golden pictures: small, with everything that a top view can show.
 pub(crate) fn golden_header() -> Header {
     let view = View { width: 320, height: 180, frame_rate_hz: 20.0, trail_s: 1.0, labels: true, ..View::default() };
     circle(7, 1.6, view)
@@ -166,7 +166,7 @@ pub(crate) fn write_steps(path: &Path, header: &Header, steps: usize) {
     recorder.finish().unwrap();
 }
 
-/// An empty folder for one test, removed in the end.
+/// An empty folder for one test; removed at the end.
 pub(crate) struct Scratch(PathBuf);
 
 impl Scratch {

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use fbcrowd_jobs::Observer;
-use fbcrowd_render::plots::crowd::{Way, side_by_side};
+use fbcrowd_render::plots::crowd::{PathPanel, side_by_side};
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_render::top_view::Tracks;
 use fbcrowd_sim::measures::{Measures, Measuring};
@@ -183,13 +183,13 @@ impl PoseDistances {
 /// Draws the paths from above, side by side.
 fn draw(path: &Path, scenario: &Scenario, walks: &[CourseWalk]) -> Result<(), BenchError> {
     create_parent(path)?;
-    let ways: Vec<Way> = walks.iter().filter(|walk| walk.preferred_mps == WALK_MPS).map(drawn_path).collect();
+    let ways: Vec<PathPanel> = walks.iter().filter(|walk| walk.preferred_mps == WALK_MPS).map(drawn_path).collect();
     let sheet = side_by_side("The obstacle course by each synthesis", &scenario.agents, &scenario.obstacles_m, &ways);
     Ok(png_frame::write(path, &sheet)?)
 }
 
-fn drawn_path(walk: &CourseWalk) -> Way<'_> {
-    Way {
+fn drawn_path(walk: &CourseWalk) -> PathPanel<'_> {
+    PathPanel {
         heading: walk.synthesis.replace('_', " "),
         notes: vec![
             format!("{} in {:.1} s", if walk.arrived { "arrives" } else { "does not arrive" }, walk.time_s),

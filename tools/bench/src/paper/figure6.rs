@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use fbcrowd_jobs::Observer;
-use fbcrowd_render::plots::crowd::{Comparison, Measure, comparison};
+use fbcrowd_render::plots::crowd::{ComparedMeasure, Comparison, comparison};
 use fbcrowd_render::raster::png_frame;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -169,12 +169,12 @@ fn draw(path: &Path, circles: &[FrameTimes]) -> Result<(), BenchError> {
             };
             stages.map(of_stage).into()
         };
-        Measure { label: label.to_owned(), values: circles.iter().map(of_circle).collect() }
+        ComparedMeasure { label: label.to_owned(), values: circles.iter().map(of_circle).collect() }
     };
     let sheet = comparison(&Comparison {
         title: "A frame of the antipodal circle on one thread: every turn, mean ± deviation".to_owned(),
         groups: circles.iter().map(|circle| circle.agents.to_string()).collect(),
-        contestants: ["planning (MCN)", "synthesis (HMS)", "coupling (CNS)"].map(str::to_owned).into(),
+        series: ["planning (MCN)", "synthesis (HMS)", "coupling (CNS)"].map(str::to_owned).into(),
         measures: vec![
             measure("ms a frame, by agents", |_| 1.0),
             measure("µs a frame and agent, by agents", |circle| 1e3 / circle.agents as f32),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use fbcrowd_jobs::JobError;
-use fbcrowd_render::plots::crowd::{Comparison, Measure, Way, comparison, side_by_side};
+use fbcrowd_render::plots::crowd::{ComparedMeasure, Comparison, PathPanel, comparison, side_by_side};
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_sim::measures::Measures;
 
@@ -40,15 +40,15 @@ pub(crate) fn draw_paths(
     planners: &[ComparedPlanner],
     runs: &[ComparisonRun],
 ) -> Result<(), BenchError> {
-    let ways: Vec<Way> = planners.iter().zip(runs).map(|(planner, run)| drawn_paths(planner, run)).collect();
+    let ways: Vec<PathPanel> = planners.iter().zip(runs).map(|(planner, run)| drawn_paths(planner, run)).collect();
     let seconds = runs.first().map_or(0.0, |run| run.measures.steps as f32 * run.measures.dt_s);
     let Scene { name, seed, agents } = scene;
     let title = format!("{name}, seed {seed}: paths of {} agents in {seconds:.0} s", agents.len());
     Ok(png_frame::write(path, &side_by_side(&title, agents, &[], &ways))?)
 }
 
-fn drawn_paths<'a>(planner: &ComparedPlanner, run: &'a ComparisonRun) -> Way<'a> {
-    Way { heading: planner.name.replace('_', " "), notes: notes(&run.measures), tracks: &run.tracks }
+fn drawn_paths<'a>(planner: &ComparedPlanner, run: &'a ComparisonRun) -> PathPanel<'a> {
+    PathPanel { heading: planner.name.replace('_', " "), notes: notes(&run.measures), tracks: &run.tracks }
 }
 
 /// Figures beneath the paths.
@@ -69,12 +69,12 @@ fn table(figures: &[SceneFigures], compared: &[ComparedPlanner]) -> Comparison {
     let measure = |label: &str, value: fn(&RunFigures) -> Option<f64>| {
         let runs = |runs: &[RunFigures]| runs.iter().filter_map(value).map(|value| value as f32).collect();
         let planners = figures.iter().map(|scene| scene.planners.iter().map(|planner| runs(&planner.runs)));
-        Measure { label: label.to_owned(), values: planners.map(Iterator::collect).collect() }
+        ComparedMeasure { label: label.to_owned(), values: planners.map(Iterator::collect).collect() }
     };
     Comparison {
         title: "Planners through the same bodies: every run, mean ± deviation".to_owned(),
         groups: figures.iter().map(|scene| scene.scene.clone()).collect(),
-        contestants: compared.iter().map(|planner| planner.name.replace('_', " ")).collect(),
+        series: compared.iter().map(|planner| planner.name.replace('_', " ")).collect(),
         measures: vec![
             measure("collisions C (Eq. 17)", |run| Some(run.measures.collision_rate)),
             measure("bodies in each other, mm", |run| Some(run.measures.body_penetration_mm)),

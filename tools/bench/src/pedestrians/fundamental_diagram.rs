@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fbcrowd_render::plots::crowd::{Diagram, diagram};
+use fbcrowd_render::plots::crowd::{FundamentalDiagram, fundamental_diagram};
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_sim::measures::{MeasuredSection, weidmann_mps};
 use glam::Vec2;
@@ -83,7 +83,7 @@ pub(crate) fn draw(path: &Path, points: &[DiagramPoint]) -> Result<(), BenchErro
     let density_per_m2 = |piece: usize| low + (high - low) * piece as f64 / DRAWN_PIECES as f64;
     let drawn = |per_m2: f64, speed_mps: f64| Vec2::new(per_m2 as f32, speed_mps as f32);
     let curve = (0..=DRAWN_PIECES).map(density_per_m2).map(|per_m2| drawn(per_m2, weidmann_mps(per_m2)));
-    let picture = diagram(&Diagram {
+    let picture = fundamental_diagram(&FundamentalDiagram {
         title: "Fundamental diagram: agents that all go one way",
         across: "density, agents/m²",
         up: "speed, m/s",

@@ -8,7 +8,7 @@ use fbcrowd_sim::simulation::Simulation;
 use fbcrowd_sim::synthesis::library::{augmented, deformed_walk};
 use glam::Vec2;
 use motiondb::motion::MotionDb;
-use motiondb::quality::coverage::{Lack, coverage};
+use motiondb::quality::coverage::{GapKind, coverage};
 use motiondb::validate::first_broken;
 
 use super::clips::{bundled, bundled_alone, recorded};
@@ -67,8 +67,9 @@ fn check(db: MotionDb) {
     let complete = augmented(Arc::clone(&db));
     let (walk, count) = deformed_walk(&db, &complete).unwrap();
     assert_eq!(first_broken(&sorted_by_name(&complete)), None, "{walk}");
-    let lacking: Vec<Lack> = coverage(&complete).into_iter().map(|thin| thin.lack).collect();
-    let needed = [Lack::Standing, Lack::Walking, Lack::WalkingTurns, Lack::TurningInPlace, Lack::SideSteps];
+    let lacking: Vec<GapKind> = coverage(&complete).into_iter().map(|thin| thin.kind).collect();
+    let needed =
+        [GapKind::Standing, GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps];
     assert!(needed.iter().all(|lack| !lacking.contains(lack)), "{walk}, {count} times: {lacking:?}");
     assert_eq!(complete.rows.rotations[..db.rows.rotations.len()], db.rows.rotations, "{walk}");
     assert_eq!(arrived(Arc::clone(&db)), AGENTS, "{walk}");

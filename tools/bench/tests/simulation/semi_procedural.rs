@@ -9,7 +9,7 @@ use motiondb::body::Joint;
 use motiondb::body::Joints;
 use motiondb::motion::MotionDb;
 use motiondb::motion::Parameters;
-use motiondb::quality::planted_feet::{CycleFeet, foot_slide, implied};
+use motiondb::quality::planted_feet::{CycleFeet, foot_slide, implied_root_motion};
 
 use super::clips::{bundled, marine};
 
@@ -120,7 +120,7 @@ fn planted_feet_hold_with_all_parameters_with_real_clips() {
 #[test]
 fn the_feet_imply_the_parameters() {
     for cycle in cycles(&bundled()) {
-        let found = implied(&cycle.feet).unwrap().parameters;
+        let found = implied_root_motion(&cycle.feet).unwrap().parameters;
         let off = found.to_vec3() - cycle.parameters.to_vec3();
         let turn_limit_rad_s = cycle.cadence * (0.2 + 1.0 * aside(cycle.parameters)).to_radians();
         let off_mps = off.x.abs().max(off.z.abs());

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use fbcrowd_jobs::rendering;
 use fbcrowd_jobs::wording::counted;
-use fbcrowd_render::top_view::{Format, FrameRange, SequenceOptions};
+use fbcrowd_render::top_view::{FrameRange, PictureFormat, SequenceOptions};
 
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
@@ -53,7 +53,7 @@ enum FormatArg {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum OverlayArg {
-    /// The velocity space of each agent: all that limits its plan, and its preferred, planned and walked velocities.
+    /// The velocity space of each agent: all that limits its plan, and its preferred, planned and actual velocities.
     Constraints,
 }
 
@@ -64,8 +64,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         folder: args.output.clone(),
         name: recording.header().scenario.name.clone(),
         format: match args.format {
-            FormatArg::Png => Format::Png,
-            FormatArg::Exr => Format::Exr,
+            FormatArg::Png => PictureFormat::Png,
+            FormatArg::Exr => PictureFormat::Exr,
         },
         frames: args.frames.clone(),
         constraints_of: constraints_of(args, recording.header().scenario.agents.len())?,

@@ -8,7 +8,7 @@ use fbcrowd_jobs::rendering::{self, RenderedSequence};
 use fbcrowd_jobs::simulation::{self, SimulationInput};
 use fbcrowd_jobs::wording::counted;
 use fbcrowd_jobs::{JobEvent, Observer};
-use fbcrowd_render::top_view::{Format, SequenceOptions};
+use fbcrowd_render::top_view::{PictureFormat, SequenceOptions};
 use fbcrowd_sim::measures;
 use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::database_file;
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let options = SequenceOptions {
         folder: folder.join("frames"),
         name,
-        format: Format::Png,
+        format: PictureFormat::Png,
         frames: None,
         constraints_of: Vec::new(),
     };

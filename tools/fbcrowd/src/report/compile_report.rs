@@ -5,11 +5,11 @@
 
 use std::path::Path;
 
-use fbcrowd_jobs::json_schema::motion::{ExampleQualityMirror, FindingMirror, ThinPlaceMirror};
+use fbcrowd_jobs::json_schema::motion::{CoverageGapMirror, ExampleQualityMirror, FindingMirror};
 use fbcrowd_jobs::stages::StageTime;
 use motiondb::diagnostic::{Diagnostic, Severity};
 use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
-use motiondb::quality::coverage::{self, ThinPlace};
+use motiondb::quality::coverage::{self, CoverageGap};
 use motiondb::quality::example_quality::{self, ExampleQuality, Finding};
 use motiondb_compiler::Rejection;
 use schemars::JsonSchema;
@@ -44,9 +44,9 @@ pub(crate) struct CompileReport {
     /// Quality figures beyond their threshold. Mirrored examples are left out: they are as good as their originals.
     #[schemars(with = "Vec<FindingMirror>")]
     pub(crate) findings: Vec<Finding>,
-    /// Where the set of examples is thin.
-    #[schemars(with = "Vec<ThinPlaceMirror>")]
-    pub(crate) coverage: Vec<ThinPlace>,
+    /// Coverage gaps: regions of gaits without examples nearby.
+    #[schemars(with = "Vec<CoverageGapMirror>")]
+    pub(crate) coverage: Vec<CoverageGap>,
     /// Durations of the compiler's stages.
     pub(crate) stages: Vec<StageTime>,
     /// What to do next, a sentence each.

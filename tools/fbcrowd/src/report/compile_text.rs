@@ -33,7 +33,7 @@ pub(crate) fn text(report: &CompileReport) -> String {
         section(EXAMPLES, example_table::lines(report)),
         section("quality", grouped(findings(report))),
         section("notes: nothing to do", grouped(diagnostics(report, Severity::Note))),
-        section("where the set is thin", report.coverage.iter().map(|thin| thin.sentence.clone()).collect()),
+        section("coverage gaps", report.coverage.iter().map(|gap| gap.sentence.clone()).collect()),
         section("next", report.next.clone()),
     ];
     sections.concat() + "\n" + &last_line(report)

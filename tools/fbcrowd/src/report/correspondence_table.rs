@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use fbcrowd_render::error::RenderError;
 use fbcrowd_render::plots::database::pose_distances_between;
 use fbcrowd_render::raster::png_frame;
-use motiondb::motion::{MotionDb, table};
+use motiondb::motion::{MotionDb, pose_pairs};
 use motiondb_compiler::input::nearest_first;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -36,14 +36,14 @@ impl CorrespondenceTable {
     /// The table of two examples; an error message where a name is unknown.
     pub(crate) fn new(db: &MotionDb, [from, to]: [&String; 2]) -> Result<Self, String> {
         let examples = [find(db, from)?, find(db, to)?];
-        let table = table(db, examples[0], examples[1]);
+        let table = pose_pairs(db, examples[0], examples[1]);
         let standing =
             examples.map(|index| &db.examples[index]).into_iter().filter(|example| example.key_times_s.is_none());
         Ok(Self {
             from: from.clone(),
             to: to.clone(),
-            pairs_s: table.iter().map(|alike| alike.times_s).collect(),
-            distances_m: table.iter().map(|alike| alike.distance_m).collect(),
+            pairs_s: table.iter().map(|pair| pair.times_s).collect(),
+            distances_m: table.iter().map(|pair| pair.distance_m).collect(),
             examples,
             standing: standing.map(|example| example.name.clone()).collect(),
         })

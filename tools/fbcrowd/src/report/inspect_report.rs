@@ -1,11 +1,11 @@
 //! The report of `fbcrowd inspect`: of a database, of a database that breaks an invariant, or of clips.
 
-use fbcrowd_jobs::json_schema::motion::{ThinPlaceMirror, VelocityHullMirror};
+use fbcrowd_jobs::json_schema::motion::{CoverageGapMirror, VelocityHullMirror};
 use fbcrowd_jobs::json_schema::survey::SourceGaitMirror;
 use fbcrowd_jobs::leave_one_out::LeaveOneOut;
 use motiondb::diagnostic::Diagnostic;
 use motiondb::motion::{MotionDb, MotionExample, SourceRecord};
-use motiondb::quality::coverage::{self, ThinPlace};
+use motiondb::quality::coverage::{self, CoverageGap};
 use motiondb::velocity_sets::velocity_hull::VelocityHull;
 use motiondb_compiler::Rejection;
 use motiondb_compiler::survey::{SourceGait, SurveyedSource};
@@ -94,9 +94,9 @@ pub(crate) struct DatabaseReport {
     pub(crate) blend_space: BlendSpaceReport,
     /// Times at which synthesis changes between blending and semi-procedural locomotion; null where it cannot.
     pub(crate) correspondence: Option<Correspondence>,
-    /// Where the set of examples is thin.
-    #[schemars(with = "Vec<ThinPlaceMirror>")]
-    pub(crate) coverage: Vec<ThinPlace>,
+    /// Coverage gaps: regions of gaits without examples nearby.
+    #[schemars(with = "Vec<CoverageGapMirror>")]
+    pub(crate) coverage: Vec<CoverageGap>,
     /// How near the others come to each example; only with `--leave-one-out`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) leave_one_out: Option<LeaveOneOut>,

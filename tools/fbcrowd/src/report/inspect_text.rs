@@ -3,7 +3,7 @@
 use fbcrowd_jobs::wording::counted;
 use glam::Vec2;
 use motiondb::motion::MotionDb;
-use motiondb::quality::coverage::ThinPlace;
+use motiondb::quality::coverage::CoverageGap;
 use motiondb::velocity_sets::velocity_hull::{Construction, VelocityHull};
 use motiondb_compiler::survey::{GaitKind, SourceGait, SurveyedSource};
 
@@ -69,11 +69,11 @@ fn correspondence_text(correspondence: Option<&Correspondence>) -> String {
     format!("correspondences, s  {} / {}: {}\n", found.semi_procedural, found.blending, pairs.join("  "))
 }
 
-fn coverage_text(coverage: &[ThinPlace]) -> String {
-    let nowhere = coverage.is_empty().then_some("nowhere");
-    let sentences = nowhere.into_iter().chain(coverage.iter().map(|thin| thin.sentence.as_str()));
+fn coverage_text(coverage: &[CoverageGap]) -> String {
+    let none = coverage.is_empty().then_some("none");
+    let sentences = none.into_iter().chain(coverage.iter().map(|gap| gap.sentence.as_str()));
     let lines: String = sentences.map(|sentence| format!("  {sentence}\n")).collect();
-    format!("\nwhere the set is thin\n{lines}")
+    format!("\ncoverage gaps\n{lines}")
 }
 
 fn corners(polygon: &[Vec2]) -> String {

@@ -42,7 +42,7 @@ fn with_database(report: &CompileReport, output: &str) -> Vec<String> {
     }
     if !report.coverage.is_empty() {
         next.push(
-            "Add clips where the set is thin; without them bodies deform a walk, or play the nearest example."
+            "Add clips that close the coverage gaps; without them bodies deform a walk, or play the nearest example."
                 .to_owned(),
         );
     }

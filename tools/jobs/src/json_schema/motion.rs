@@ -48,20 +48,20 @@ pub struct FindingMirror {
     sentence: String,
 }
 
-/// Mirror of [`motiondb::quality::coverage::ThinPlace`].
+/// Mirror of [`motiondb::quality::coverage::CoverageGap`].
 #[derive(JsonSchema)]
 #[schemars(rename = "CoverageGap", description = "A region of gaits that a set of examples covers thinly.")]
-pub struct ThinPlaceMirror {
+pub struct CoverageGapMirror {
     /// What the set lacks.
-    lack: LackMirror,
+    lack: GapKindMirror,
     /// The gap as a sentence, with numbers and consequence.
     sentence: String,
 }
 
-/// Mirror of [`motiondb::quality::coverage::Lack`].
+/// Mirror of [`motiondb::quality::coverage::GapKind`].
 #[derive(JsonSchema)]
-#[schemars(rename = "Lack", rename_all = "snake_case", description = "What a set of examples lacks.")]
-enum LackMirror {
+#[schemars(rename = "GapKind", rename_all = "snake_case", description = "What a set of examples lacks.")]
+enum GapKindMirror {
     /// No example stands.
     Standing,
     /// No straight example walks.

@@ -1,26 +1,26 @@
-//! The shapes that mark points in plots and stand for lines in legends. Pixels, y down.
+//! Marks: shapes of points in plots and of entries in legends. Pixels, y down.
 
 use glam::Vec2;
-use tiny_skia::{FillRule, LineCap, Path, PathBuilder, Pixmap, Stroke, Transform};
+use tiny_skia::{LineCap, Path, PathBuilder, Pixmap, Stroke};
 
+use crate::raster::paint::{fill, paint, stroke};
 use crate::raster::palette::Rgb;
-use crate::top_view::ground::paint;
 
-/// Width of strokes, in radii.
+/// Width of strokes, radii.
 const STROKE_SHARE: f32 = 0.42;
 
-/// The shape that marks a point.
+/// Shape of a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
+pub(crate) enum PlotMark {
     /// A filled disc.
     Disc,
     /// An open ring.
     Ring,
     /// Two crossed strokes.
     Cross,
-    /// A filled square on its corner.
+    /// A filled square on one corner.
     Diamond,
-    /// An open square on its corner.
+    /// An open square on one corner.
     OpenDiamond,
     /// A dashed line, in legends.
     Dashes,
@@ -28,18 +28,16 @@ pub enum Mark {
     Bar,
 }
 
-impl Mark {
-    /// Draws the mark about a place.
-    pub fn draw(self, pixmap: &mut Pixmap, centre: Vec2, radius: f32, colour: Rgb) {
+impl PlotMark {
+    /// Draws the mark around a point.
+    pub(crate) fn draw(self, pixmap: &mut Pixmap, centre: Vec2, radius: f32, colour: Rgb) {
         let Some(path) = self.path(centre, radius) else { return };
-        let (paint, identity) = (paint(colour, 1.0), Transform::identity());
+        let paint = paint(colour, 1.0);
         match self {
-            Self::Disc | Self::Diamond | Self::Bar => {
-                pixmap.fill_path(&path, &paint, FillRule::Winding, identity, None);
-            }
+            Self::Disc | Self::Diamond | Self::Bar => fill(pixmap, &path, &paint, None),
             Self::Ring | Self::OpenDiamond | Self::Cross | Self::Dashes => {
-                let stroke = Stroke { width: STROKE_SHARE * radius, line_cap: LineCap::Round, ..Stroke::default() };
-                pixmap.stroke_path(&path, &paint, &stroke, identity, None);
+                let pen = Stroke { width: STROKE_SHARE * radius, line_cap: LineCap::Round, ..Stroke::default() };
+                stroke(pixmap, &path, &paint, &pen, None);
             }
         }
     }
@@ -58,7 +56,7 @@ impl Mark {
         path.finish()
     }
 
-    /// Corners of the strokes, radii from the centre; circles have none.
+    /// Corners of the strokes, relative to the centre, radii; circles have none.
     const fn strokes(self) -> &'static [&'static [[f32; 2]]] {
         match self {
             Self::Disc | Self::Ring => &[],

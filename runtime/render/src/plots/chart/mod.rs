@@ -1,10 +1,13 @@
-//! A chart: the plane of a `plot`, its `axis`, its `mark`s, and positions of labels that do not overlap.
+//! Charts: the parts of a plot.
+//!
+//! Enters: values in the units of axes, and texts. Leaves: an opaque picture, a [`figure::PlotFigure`]. Positions on a
+//! figure are in pixels, y down.
+//!
+//! Read `figure`, then what it draws with: `axis`, `mark` (shapes of points) and `label_positions` (labels that do not
+//! overlap). `cell_grid` arranges the panels of a figure in a grid.
 
 pub(crate) mod axis;
+pub(crate) mod cell_grid;
+pub(crate) mod figure;
 pub(crate) mod label_positions;
 pub(crate) mod mark;
-pub(crate) mod plot;
-
-pub use axis::Axis;
-pub use mark::Mark;
-pub use plot::{Figure, Line, Panel};

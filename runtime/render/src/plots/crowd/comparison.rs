@@ -1,101 +1,112 @@
-//! Figures of several contestants in several scenes: a panel a measure, a group a scene, a column a contestant; every
-//! run a dot, with a line over their mean ± standard deviation. Scales start at 0, since all measures do.
+//! A comparison of several series (planners, say) in several scenes: a panel per measure, a group per scene, a column
+//! per series. Every run is a dot; a line shows the mean, another the standard deviation. Scales start at 0, since no
+//! measure is negative.
 
 use glam::Vec2;
+use motiondb::statistics::{mean, standard_deviation};
 use tiny_skia::Pixmap;
 
-use crate::plots::chart::axis::Axis;
-use crate::plots::chart::mark::Mark;
-use crate::plots::chart::plot::{Figure, Panel, line};
+use crate::plots::chart::axis::PlotAxis;
+use crate::plots::chart::cell_grid::CellGrid;
+use crate::plots::chart::figure::{LegendEntry, LineStyle, PlotFigure, PlotPanel};
+use crate::plots::chart::mark::PlotMark;
 use crate::raster::palette::{INK, Rgb, line_colour};
 
-/// Panels side by side.
-const COLUMNS: usize = 2;
-/// Width and height of a panel with its surroundings, pixels.
-const CELL_PX: Vec2 = Vec2::new(1000.0, 560.0);
-/// Left, top, width, height of the axes within it, pixels.
+/// Grid of the panels, with their surroundings.
+const GRID: CellGrid = CellGrid { columns: 2, cell_px: Vec2::new(1000.0, 560.0), head_px: 160.0 };
+/// Left, top, width, height of the axes in a cell, pixels.
 const PANEL_PX: [f32; 4] = [120.0, 70.0, 840.0, 420.0];
-/// Height of the sheet's head, pixels.
-const HEAD_PX: f32 = 160.0;
-/// What the columns of a group take of its width.
+/// Left end of the title's baseline, pixels.
+const TITLE_PX: Vec2 = Vec2::new(120.0, 70.0);
+/// Left end of the legend's baseline, pixels.
+const LEGEND_PX: Vec2 = Vec2::new(130.0, 130.0);
+/// Width of all columns of a group, share of the group's width.
 const GROUP_SHARE: f32 = 0.7;
-/// Dots of one column spread over this share of it, so that equal ones show.
+/// Width over which the dots of one column are spread, share of the column: so equal values are visible.
 const SPREAD_SHARE: f32 = 0.4;
-/// Radius of a dot, and half the length of the line of a mean, pixels and share of a column.
+/// Radius of a dot, pixels.
 const DOT_PX: f32 = 5.0;
+/// Half the length of the line of a mean, share of a column.
 const MEAN_SHARE: f32 = 0.4;
-/// Room above the highest value, as a share of it.
+/// Margin above the highest value, share of the value.
 const HEADROOM: f32 = 0.08;
 
-/// What is compared.
+/// Content of a comparison.
+///
+/// ```
+/// use fbcrowd_render::plots::crowd::{ComparedMeasure, Comparison, comparison};
+///
+/// // One scene, two planners, two runs each.
+/// let values = vec![vec![vec![0.02, 0.03], vec![0.11, 0.09]]];
+/// let picture = comparison(&Comparison {
+///     title: "Collisions".to_owned(),
+///     groups: vec!["crossing".to_owned()],
+///     series: vec!["MCN".to_owned(), "social forces".to_owned()],
+///     measures: vec![ComparedMeasure { label: "collisions C".to_owned(), values }],
+/// });
+/// assert_eq!(picture.width(), 2000);
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Comparison {
-    /// Heading of the sheet.
+    /// Title of the figure.
     pub title: String,
-    /// Scenes.
+    /// Names of the scenes.
     pub groups: Vec<String>,
-    /// Contestants.
-    pub contestants: Vec<String>,
-    /// In reading order.
-    pub measures: Vec<Measure>,
+    /// Names of the series.
+    pub series: Vec<String>,
+    /// Measures, in reading order of the panels.
+    pub measures: Vec<ComparedMeasure>,
 }
 
-/// One panel.
+/// Content of one panel of a comparison.
 #[derive(Clone, Debug, Default)]
-pub struct Measure {
+pub struct ComparedMeasure {
     /// Quantity and unit.
     pub label: String,
-    /// By group, then by contestant, then by run.
+    /// Values by group, then by series, then by run.
     pub values: Vec<Vec<Vec<f32>>>,
 }
 
-/// The sheet.
+/// The figure of a comparison.
 pub fn comparison(comparison: &Comparison) -> Pixmap {
-    let rows = comparison.measures.len().div_ceil(COLUMNS);
-    let size = Vec2::new(COLUMNS as f32 * CELL_PX.x, HEAD_PX + rows as f32 * CELL_PX.y);
-    let mut figure = Figure::new(size.x as u32, size.y as u32);
-    figure.title(&comparison.title, Vec2::new(PANEL_PX[0], 70.0));
-    let names = comparison.contestants.iter().enumerate();
-    let legend: Vec<(Mark, Rgb, &str)> =
-        names.map(|(index, name)| (Mark::Disc, line_colour(index), name.as_str())).collect();
-    figure.legend(Vec2::new(PANEL_PX[0] + 10.0, 130.0), &legend);
+    let mut figure = PlotFigure::new(GRID.size_px(comparison.measures.len()));
+    figure.title(&comparison.title, TITLE_PX);
+    let names = comparison.series.iter().enumerate();
+    let legend: Vec<LegendEntry<'_>> =
+        names.map(|(index, name)| (PlotMark::Disc, line_colour(index), name.as_str())).collect();
+    figure.legend(LEGEND_PX, &legend);
     for (cell, measure) in comparison.measures.iter().enumerate() {
-        let corner = Vec2::new((cell % COLUMNS) as f32 * CELL_PX.x, HEAD_PX + (cell / COLUMNS) as f32 * CELL_PX.y);
-        draw_measure(&mut figure, corner, &comparison.groups, measure);
+        draw_measure(&mut figure, GRID.rect_px(cell, PANEL_PX), &comparison.groups, measure);
     }
     figure.pixmap
 }
 
-fn draw_measure(figure: &mut Figure, corner: Vec2, groups: &[String], measure: &Measure) {
-    let [left, top, width, height] = PANEL_PX;
+fn draw_measure(figure: &mut PlotFigure, rect_px: [f32; 4], groups: &[String], measure: &ComparedMeasure) {
     let highest = measure.values.iter().flatten().flatten().copied().fold(f32::MIN_POSITIVE, f32::max);
-    let axis = Axis { label: measure.label.clone(), low: 0.0, high: highest * (1.0 + HEADROOM) };
+    let axis = PlotAxis::new(&measure.label, [0.0, highest * (1.0 + HEADROOM)]);
     let names: Vec<&str> = groups.iter().map(String::as_str).collect();
-    let panel = figure.panel_of_groups([corner.x + left, corner.y + top, width, height], &names, axis);
-    for (group, contestants) in measure.values.iter().enumerate() {
-        let column = GROUP_SHARE / contestants.len().max(1) as f32;
-        for (index, runs) in contestants.iter().enumerate() {
+    let panel = figure.panel_of_groups(rect_px, &names, axis);
+    for (group, series) in measure.values.iter().enumerate() {
+        let column = GROUP_SHARE / series.len().max(1) as f32;
+        for (index, runs) in series.iter().enumerate() {
             let centre = group as f32 + column * (index as f32 + 0.5) - 0.5 * GROUP_SHARE;
             draw_runs(figure, &panel, [centre, column], runs, line_colour(index));
         }
     }
 }
 
-/// One contestant in one scene: `[centre, width]` of its column, in groups.
-fn draw_runs(figure: &mut Figure, panel: &Panel, [centre, width]: [f32; 2], runs: &[f32], colour: Rgb) {
-    if runs.is_empty() {
-        return;
-    }
-    let count = runs.len() as f32;
+/// Draws one series in one scene; `[centre, width]` are those of its column, in groups.
+fn draw_runs(figure: &mut PlotFigure, panel: &PlotPanel, [centre, width]: [f32; 2], runs: &[f32], colour: Rgb) {
     for (index, value) in runs.iter().enumerate() {
-        let aside = SPREAD_SHARE * width * ((index as f32 + 0.5) / count - 0.5);
-        figure.mark(panel, Vec2::new(centre + aside, *value), Mark::Disc, DOT_PX, colour);
+        let aside = SPREAD_SHARE * width * ((index as f32 + 0.5) / runs.len() as f32 - 0.5);
+        figure.mark(panel, Vec2::new(centre + aside, *value), PlotMark::Disc, DOT_PX, colour);
     }
-    let mean = runs.iter().sum::<f32>() / count;
-    let squares = runs.iter().map(|value| (value - mean) * (value - mean)).sum::<f32>();
-    let deviation = libm::sqrtf(squares / (count - 1.0).max(1.0));
+    let values = || runs.iter().copied().map(f64::from);
+    let (Some(mean), Some(deviation)) = (mean(values()), standard_deviation(values())) else { return };
+    let (mean, deviation) = (mean as f32, deviation as f32);
     let half = MEAN_SHARE * width;
-    figure.polyline(panel, [centre - half, centre + half].map(|x| Vec2::new(x, mean)), line(INK, 2.5));
-    let ends = [(mean - deviation).max(0.0), mean + deviation];
-    figure.polyline(panel, ends.map(|value| Vec2::new(centre, value)), line(INK, 1.2));
+    let mean_ends = [centre - half, centre + half].map(|x| Vec2::new(x, mean));
+    figure.polyline(panel, mean_ends, LineStyle::solid(INK, 2.5));
+    let deviation_ends = [(mean - deviation).max(0.0), mean + deviation].map(|value| Vec2::new(centre, value));
+    figure.polyline(panel, deviation_ends, LineStyle::solid(INK, 1.2));
 }

@@ -1,11 +1,15 @@
 //! Plots of crowds: paths, comparisons of planners, the fundamental diagram.
+//!
+//! Enters: tracks of a recording, or figures of a bench. Leaves: an opaque picture.
+//!
+//! Read `trajectories`, then `side_by_side`, `comparison` and `fundamental_diagram`.
 
 pub(crate) mod comparison;
 pub(crate) mod fundamental_diagram;
 pub(crate) mod side_by_side;
 pub(crate) mod trajectories;
 
-pub use comparison::{Comparison, Measure, comparison};
-pub use fundamental_diagram::{Diagram, diagram};
-pub use side_by_side::{Way, side_by_side};
+pub use comparison::{ComparedMeasure, Comparison, comparison};
+pub use fundamental_diagram::{FundamentalDiagram, fundamental_diagram};
+pub use side_by_side::{PathPanel, side_by_side};
 pub use trajectories::trajectories;

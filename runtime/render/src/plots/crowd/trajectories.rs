@@ -1,50 +1,66 @@
-//! Everybody's path on one sheet, as in the paper's Fig. 7: one colour an agent, a dot where it starts, a cross on its
-//! goal.
+//! The paths of all agents of a recording, as in the paper's Fig. 7. One colour per agent, a dot at its start, a cross
+//! at its goal. World axes, metres.
 
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::scenario::AgentSpec;
 use glam::Vec2;
 use tiny_skia::Pixmap;
 
-use crate::plots::chart::axis::{Axis, equal_units};
-use crate::plots::chart::mark::Mark;
-use crate::plots::chart::plot::{Figure, Line, Panel, line};
+use crate::plots::chart::axis::{PlotAxis, equal_units};
+use crate::plots::chart::figure::{LegendEntry, LineStyle, PlotFigure, PlotPanel};
+use crate::plots::chart::mark::PlotMark;
 use crate::raster::palette::{GRID_COARSE, INK, OBSTACLE_RIM, line_colour};
 use crate::top_view::framing::bounds_m;
 use crate::top_view::trails::Tracks;
 
-/// Width of the sheet, pixels.
+/// Width of the figure, pixels.
 const WIDTH_PX: u32 = 1600;
-/// Left, top and width of the axes on it, and the room below them, pixels.
+/// Left, top and width of the axes, pixels.
 const PANEL_LEFT_TOP_WIDTH_PX: [f32; 3] = [130.0, 190.0, 1410.0];
+/// Margin below the axes, pixels.
 const BELOW_PX: f32 = 120.0;
+/// Left end of the title's baseline, pixels.
+const TITLE_PX: Vec2 = Vec2::new(130.0, 70.0);
+/// Left end of the legend's baseline, pixels.
+const LEGEND_PX: Vec2 = Vec2::new(140.0, 122.0);
 /// Least and greatest height of the axes, which follows the scene's, pixels.
 const PANEL_HEIGHTS_PX: [f32; 2] = [480.0, 1600.0];
-/// Room around the paths, m.
+/// Margin around the paths, m.
 const MARGIN_M: f32 = 0.6;
-/// Width of a path, and of one among more than [`FEW_AGENTS`], pixels.
+/// Width of a path among few and among many agents, pixels.
 const PATH_PX: [f32; 2] = [4.0, 1.6];
-/// Radius of the marks, likewise.
+/// Radius of the marks among few and among many agents, pixels.
 const MARK_PX: [f32; 2] = [11.0, 4.5];
-/// Up to so many agents, paths are drawn broad.
+/// Greatest number of agents that are few.
 const FEW_AGENTS: usize = 60;
 
-/// The plot of a whole recording.
+/// Legend of figures with paths.
+pub(crate) const PATH_LEGEND: [LegendEntry<'static>; 2] =
+    [(PlotMark::Disc, INK, "start"), (PlotMark::Cross, INK, "goal")];
+
+/// The figure of a whole recording.
+///
+/// ```no_run
+/// use std::path::Path;
+///
+/// use fbcrowd_render::plots::crowd::trajectories;
+/// use fbcrowd_render::top_view::read_tracks;
+/// use fbcrowd_render::{RenderError, png_frame};
+/// use fbcrowd_sim::Recording;
+///
+/// let recording = Recording::open(Path::new("crossing.fbrec"))?;
+/// let tracks = read_tracks(&recording)?;
+/// png_frame::write(Path::new("paths.png"), &trajectories(recording.header(), &tracks))?;
+/// # Ok::<(), RenderError>(())
+/// ```
 pub fn trajectories(header: &Header, tracks: &Tracks) -> Pixmap {
-    let corners_m = header.scenario.obstacles_m.iter().flatten().copied();
-    let [low, high] = shown_m(&header.scenario.agents, tracks.positions_m.iter().copied().chain(corners_m));
+    let scene = PathScene::new(&header.scenario.agents, &header.scenario.obstacles_m, &[tracks]);
     let [left, top, width] = PANEL_LEFT_TOP_WIDTH_PX;
-    let [least, greatest] = PANEL_HEIGHTS_PX;
-    let height = (width * (high.y - low.y) / (high.x - low.x)).round().clamp(least, greatest);
-    let mut figure = Figure::new(WIDTH_PX, (top + height + BELOW_PX) as u32);
-    figure.title(&title(header, tracks), Vec2::new(left, 70.0));
-    figure.legend(Vec2::new(left + 10.0, 122.0), &[(Mark::Disc, INK, "start"), (Mark::Cross, INK, "goal")]);
-    let axis = |label: &str, low: f32, high: f32| Axis { label: label.to_owned(), low, high };
-    let rect_px = [left, top, width, height];
-    let axes = equal_units(rect_px, [axis("x, m", low.x, high.x), axis("y, m", low.y, high.y)]);
-    let panel = figure.panel(rect_px, axes);
-    draw_obstacles(&mut figure, &panel, &header.scenario.obstacles_m);
-    draw_paths(&mut figure, &panel, &header.scenario.agents, tracks);
+    let height = scene.height_px(width, PANEL_HEIGHTS_PX);
+    let mut figure = PlotFigure::new([WIDTH_PX, (top + height + BELOW_PX) as u32]);
+    figure.title(&title(header, tracks), TITLE_PX);
+    figure.legend(LEGEND_PX, &PATH_LEGEND);
+    scene.draw(&mut figure, [left, top, width, height], tracks);
     figure.pixmap
 }
 
@@ -57,34 +73,56 @@ fn title(header: &Header, tracks: &Tracks) -> String {
     format!("{}: {paths} in {duration_s:.1} s", header.scenario.name)
 }
 
-/// All goals and whatever else is drawn, with room around.
-pub(crate) fn shown_m(agents: &[AgentSpec], drawn_m: impl Iterator<Item = Vec2>) -> [Vec2; 2] {
-    let goals_m = agents.iter().flat_map(|agent| agent.goals_m.iter().copied());
-    let [low, high] = bounds_m(drawn_m.chain(goals_m));
-    [low - MARGIN_M, high + MARGIN_M]
+/// Agents, obstacles, and the box of the world that panels with their paths show.
+pub(crate) struct PathScene<'a> {
+    agents: &'a [AgentSpec],
+    obstacles_m: &'a [Vec<Vec2>],
+    /// Least and greatest corner, world, m.
+    bounds_m: [Vec2; 2],
 }
 
-pub(crate) fn draw_obstacles(figure: &mut Figure, panel: &Panel, obstacles_m: &[Vec<Vec2>]) {
-    for corners in obstacles_m {
-        figure.polygon(panel, corners.iter().copied(), 1.0, line(GRID_COARSE, 1.0));
-        let closed = corners.iter().chain(corners.first()).copied();
-        figure.polyline(panel, closed, line(OBSTACLE_RIM, 3.0));
+impl<'a> PathScene<'a> {
+    /// A scene whose box holds all tracks, obstacles and goals, with a margin.
+    pub(crate) fn new(agents: &'a [AgentSpec], obstacles_m: &'a [Vec<Vec2>], tracks: &[&Tracks]) -> Self {
+        let paths_m = tracks.iter().flat_map(|tracks| tracks.positions_m.iter());
+        let goals_m = agents.iter().flat_map(|agent| agent.goals_m.iter());
+        let [low_m, high_m] = bounds_m(paths_m.chain(obstacles_m.iter().flatten()).chain(goals_m).copied());
+        Self { agents, obstacles_m, bounds_m: [low_m - MARGIN_M, high_m + MARGIN_M] }
     }
-}
 
-/// Paths below, then all marks, so that no path crosses a mark.
-pub(crate) fn draw_paths(figure: &mut Figure, panel: &Panel, agents: &[AgentSpec], tracks: &Tracks) {
-    let many = usize::from(tracks.agent_count > FEW_AGENTS);
-    for agent in 0..tracks.agent_count {
-        let style = Line { opacity: 0.85, ..line(line_colour(agent), PATH_PX[many]) };
-        figure.polyline(panel, tracks.agent_m(agent), style);
+    /// Height of the axes for a width, within limits, pixels.
+    pub(crate) fn height_px(&self, width_px: f32, [least_px, greatest_px]: [f32; 2]) -> f32 {
+        let [low, high] = self.bounds_m;
+        (width_px * (high.y - low.y) / (high.x - low.x)).round().clamp(least_px, greatest_px)
     }
-    for (agent, spec) in agents.iter().enumerate() {
-        let colour = line_colour(agent);
-        if let Some(goal_m) = spec.goals_m.last() {
-            figure.mark(panel, *goal_m, Mark::Cross, MARK_PX[many], colour);
+
+    /// Draws a panel with obstacles and paths at left, top, width, height.
+    pub(crate) fn draw(&self, figure: &mut PlotFigure, rect_px: [f32; 4], tracks: &Tracks) {
+        let [low, high] = self.bounds_m;
+        let axes = [PlotAxis::new("x, m", [low.x, high.x]), PlotAxis::new("y, m", [low.y, high.y])];
+        let panel = figure.panel(rect_px, equal_units(rect_px, axes));
+        for corners in self.obstacles_m {
+            figure.polygon(&panel, corners.iter().copied(), 1.0, LineStyle::solid(GRID_COARSE, 1.0));
+            let closed = corners.iter().chain(corners.first()).copied();
+            figure.polyline(&panel, closed, LineStyle::solid(OBSTACLE_RIM, 3.0));
         }
-        let start_m = tracks.agent_m(agent).next().unwrap_or(spec.position_m);
-        figure.mark(panel, start_m, Mark::Disc, 0.8 * MARK_PX[many], colour);
+        self.draw_paths(figure, &panel, tracks);
+    }
+
+    /// Draws paths, then marks, so that no path crosses a mark.
+    fn draw_paths(&self, figure: &mut PlotFigure, panel: &PlotPanel, tracks: &Tracks) {
+        let many = usize::from(tracks.agent_count > FEW_AGENTS);
+        for agent in 0..tracks.agent_count {
+            let style = LineStyle { opacity: 0.85, ..LineStyle::solid(line_colour(agent), PATH_PX[many]) };
+            figure.polyline(panel, tracks.agent_m(agent), style);
+        }
+        for (agent, spec) in self.agents.iter().enumerate() {
+            let colour = line_colour(agent);
+            if let Some(goal_m) = spec.goals_m.last() {
+                figure.mark(panel, *goal_m, PlotMark::Cross, MARK_PX[many], colour);
+            }
+            let start_m = tracks.agent_m(agent).next().unwrap_or(spec.position_m);
+            figure.mark(panel, start_m, PlotMark::Disc, 0.8 * MARK_PX[many], colour);
+        }
     }
 }

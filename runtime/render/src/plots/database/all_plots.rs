@@ -1,6 +1,7 @@
 //! All plots of a database, as `inspect --plots` writes them.
 //!
-//! Pictures of single examples go on several sheets where there are many: `contact_sheet.png`, `contact_sheet_2.png` …
+//! Plots of single examples are split into sheets if the examples are many: `contact_sheet.png`, `contact_sheet_2.png`
+//! …
 
 use std::fs;
 use std::ops::Range;
@@ -18,10 +19,23 @@ use crate::plots::database::pose_distances::pose_distances;
 use crate::plots::database::velocity_space::velocity_space;
 use crate::raster::png_frame;
 
-/// Writes every plot of a database into a folder, which is made if missing; returns the files.
+/// Writes every plot of a database into a folder, which is made if missing; returns the paths of the files.
+///
+/// ```no_run
+/// use std::path::Path;
+///
+/// use fbcrowd_render::plots::database::write_database_plots;
+/// use motiondb::files::database_file;
+///
+/// let (db, _checksum) = database_file::load(Path::new("motion.fbdb"))?;
+/// for file in write_database_plots(&db, Path::new("plots"))? {
+///     println!("{}", file.display());
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
-/// Where the folder or a file cannot be written.
+/// If the folder cannot be made or a file cannot be written.
 pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>, RenderError> {
     fs::create_dir_all(folder).map_err(|source| RenderError::Folder { folder: folder.to_owned(), source })?;
     let always = [
@@ -36,16 +50,16 @@ pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>
     let correspondences = pose_distances(db).map(|plot| ("pose_distance.png", plot));
     let single = always.into_iter().chain(correspondences).map(|(name, plot)| (name.to_owned(), plot));
     let gaits = sheets(db.examples.len(), gait_events::SHEET_EXAMPLES)
-        .map(|(number, examples)| (format!("gait_events{number}.png"), gait_events(db, examples)));
+        .map(|(suffix, examples)| (format!("gait_events{suffix}.png"), gait_events(db, examples)));
     let bodies = sheets(db.examples.len(), contact_sheet::SHEET_EXAMPLES)
-        .map(|(number, examples)| (format!("contact_sheet{number}.png"), contact_sheet(db, examples)));
+        .map(|(suffix, examples)| (format!("contact_sheet{suffix}.png"), contact_sheet(db, examples)));
     single.chain(gaits).chain(bodies).map(write).collect()
 }
 
-/// What distinguishes each sheet's name, and its examples.
+/// Suffix of each sheet's name, and the indices of its examples.
 fn sheets(examples: usize, each: usize) -> impl Iterator<Item = (String, Range<usize>)> {
     (0..examples.div_ceil(each)).map(move |sheet| {
-        let number = if sheet == 0 { String::new() } else { format!("_{}", sheet + 1) };
-        (number, sheet * each..examples.min((sheet + 1) * each))
+        let suffix = if sheet == 0 { String::new() } else { format!("_{}", sheet + 1) };
+        (suffix, sheet * each..examples.min((sheet + 1) * each))
     })
 }

@@ -1,136 +1,124 @@
-//! Where in (v_f, ω_t, ω_s) a set of clips is thin: three slices through the space of parameters and the sentences of
+//! Coverage of (v_f, ω_t, ω_s) by the examples: three slices through the space of parameters, and the sentences of
 //! [`motiondb::quality::coverage`].
 //!
-//! Colour says how unlike the motions are that meet there: the mean distance of the mixed examples from the asked
-//! parameters, Σ u_i·|p_i − p|, each axis divided by its range over the examples. White paper lies outside the hull:
-//! bodies do not move like that.
+//! The colour of a point p shows how much the examples differ that are blended there: their mean distance Σ u_i·|p_i − p|,
+//! each axis divided by its range over the examples. Points outside the hull stay white: bodies do not move with such
+//! parameters.
 
 use glam::{Vec2, Vec3};
 use motiondb::blend_space::Locator;
 use motiondb::motion::{MotionDb, Parameters};
-use motiondb::quality::coverage::{coverage, locate_inside, locator};
+use motiondb::quality::coverage::coverage;
 use tiny_skia::Pixmap;
 
-use crate::plots::chart::axis::{Axis, number};
-use crate::plots::chart::mark::Mark;
-use crate::plots::chart::plot::{Figure, Panel};
+use crate::plots::chart::axis::{PlotAxis, number};
+use crate::plots::chart::figure::{PlotFigure, PlotPanel};
+use crate::plots::chart::mark::PlotMark;
+use crate::plots::database::parameter_planes::{
+    LEFT_PX, LEGEND_PX, PANEL_WIDTH_PX, PLANES, TITLE_PX, WIDTH_PX, example_points, in_plane, plane_panel,
+};
+use crate::raster::paint::fill_rect;
 use crate::raster::palette::{INK, heat};
-use crate::raster::text::Anchor;
-use crate::top_view::ground::fill_rect;
+use crate::raster::text::TextAnchor;
 
-/// Width of the sheet, pixels.
-const WIDTH_PX: u32 = 2900;
 /// Top and height of every panel, pixels.
 const PANEL_TOP_AND_HEIGHT_PX: [f32; 2] = [260.0, 720.0];
-/// Left edge of the first panel, width of each, and distance from one to the next, pixels.
-const PANEL_LEFT_WIDTH_STEP_PX: [f32; 3] = [120.0, 820.0, 930.0];
-/// Side of the squares that are coloured alike, pixels.
+/// Distance of a panel's heading above it, pixels.
+const HEADING_PX: f32 = 14.0;
+/// Side of the squares of one colour, pixels.
 const CELL_PX: f32 = 10.0;
-/// First sentence, and distance of sentences, pixels.
+/// Baseline of the first sentence, pixels.
 const SENTENCE_TOP_PX: f32 = 1120.0;
+/// Distance of the sentences' baselines, pixels.
 const SENTENCE_STEP_PX: f32 = 40.0;
-/// The two axes of each slice: v_f and ω_t, v_f and ω_s, ω_t and ω_s. The third parameter is 0, but v_f that of m_sp:
-/// at v_f = 0 a set without backward clips has nothing to show.
-const SLICES: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
-const AXIS_NAMES: [&str; 3] = ["forward speed v_f, m/s", "turn rate ω_t, °/s", "side speed ω_s, m/s"];
-/// An example is shown in a slice that it lies this near to, share of the third parameter's range.
+/// Margin below the last sentence, pixels.
+const BELOW_PX: f32 = 20.0;
+/// Greatest distance of an example from a slice in which it is shown, share of the third parameter's range.
 const IN_SLICE_SHARE: f32 = 0.05;
-/// The mean distance that is coloured as thin as can be, ranges: as far as half across the set.
-const THINNEST: f32 = 0.4;
-/// The plot of a database's thin places.
+/// Mean distance of the hottest colour, ranges: almost half across the examples.
+const HOTTEST_DISTANCE: f32 = 0.4;
+
+/// The figure of a database's coverage.
 pub fn coverage_slices(db: &MotionDb) -> Pixmap {
-    let sentences: Vec<String> = match coverage(db) {
-        found if found.is_empty() => vec!["The set is thin nowhere.".to_owned()],
-        found => found.into_iter().map(|thin| thin.sentence).collect(),
-    };
-    let height = SENTENCE_TOP_PX + sentences.len() as f32 * SENTENCE_STEP_PX + 20.0;
-    let mut figure = Figure::new(WIDTH_PX, height as u32);
-    let left = PANEL_LEFT_WIDTH_STEP_PX[0];
-    figure.title(
-        "Where the set is thin: mean distance of the examples that are mixed, shares of the axes' ranges",
-        Vec2::new(left, 80.0),
-    );
-    draw_legend(&mut figure, Vec2::new(left + 10.0, 134.0));
-    let locator = locator(db);
-    for slice in 0..SLICES.len() {
-        draw_slice(&mut figure, db, &locator, slice);
+    let mut sentences: Vec<String> = coverage(db).into_iter().map(|gap| gap.sentence).collect();
+    if sentences.is_empty() {
+        sentences.push("The database has no coverage gap.".to_owned());
+    }
+    let height = SENTENCE_TOP_PX + sentences.len() as f32 * SENTENCE_STEP_PX + BELOW_PX;
+    let mut figure = PlotFigure::new([WIDTH_PX, height as u32]);
+    figure.title("Coverage: mean distance of the examples that are blended, shares of the axes' ranges", TITLE_PX);
+    draw_legend(&mut figure);
+    let (locator, points) = (db.locator(), example_points(db));
+    for plane in 0..PLANES.len() {
+        draw_slice(&mut figure, db, &locator, &points, plane);
     }
     for (line, sentence) in sentences.iter().enumerate() {
-        figure.text(sentence, Vec2::new(left, SENTENCE_TOP_PX + line as f32 * SENTENCE_STEP_PX), Anchor::Left);
+        let baseline = SENTENCE_TOP_PX + line as f32 * SENTENCE_STEP_PX;
+        figure.text(sentence, Vec2::new(LEFT_PX, baseline), TextAnchor::Left);
     }
     figure.pixmap
 }
 
-fn draw_legend(figure: &mut Figure, at_px: Vec2) {
-    let [dense, middle, thin] = [0.0, 0.5, 1.0].map(|share| number(share * THINNEST, 1));
-    let thin = format!("{thin} and more; white: outside the hull");
-    let legend = [
-        (Mark::Diamond, heat(0.0), dense.as_str()),
-        (Mark::Diamond, heat(0.5), middle.as_str()),
-        (Mark::Diamond, heat(1.0), thin.as_str()),
-        (Mark::Disc, INK, "examples in the slice"),
-        (Mark::Ring, INK, "their mirrored twins"),
-    ];
-    figure.legend(at_px, &legend);
+fn draw_legend(figure: &mut PlotFigure) {
+    let [low, middle, high] = [0.0, 0.5, 1.0].map(|share| number(share * HOTTEST_DISTANCE, 1));
+    let high = format!("{high} and more; white: outside the hull");
+    let examples = [(PlotMark::Disc, INK, "examples in the slice"), (PlotMark::Ring, INK, "mirrored examples")];
+    figure.heat_legend(LEGEND_PX, [&low, &middle, &high], &examples);
 }
 
-fn draw_slice(figure: &mut Figure, db: &MotionDb, locator: &Locator, slice: usize) {
-    let view = SLICES[slice];
-    let points: Vec<Vec3> = db.examples.iter().map(|example| in_plot_units(example.parameters.to_vec3())).collect();
-    let [left, width, step] = PANEL_LEFT_WIDTH_STEP_PX;
-    let [top, height] = PANEL_TOP_AND_HEIGHT_PX;
-    let axes = view.map(|axis| Axis::around(AXIS_NAMES[axis], points.iter().map(|point| point[axis])));
-    let panel = figure.panel([left + step * slice as f32, top, width, height], axes);
-    let (third, value) = held(db, view);
-    let name =
-        [format!("at {} m/s forward", number(value, 2)), "without turning".to_owned(), "without side speed".to_owned()];
-    figure.text(&name[third], Vec2::new(panel.rect_px[0] + width, top - 14.0), Anchor::Right);
-    draw_cells(figure, &panel, db, locator, view);
-    for (example, point) in db.examples.iter().zip(&points) {
-        let off = (example.parameters.to_vec3()[third] - value).abs();
-        if off <= IN_SLICE_SHARE * db.blend_space.axis_ranges[third] {
-            let mark = if example.mirrored { Mark::Ring } else { Mark::Disc };
-            figure.mark(&panel, Vec2::new(point[view[0]], point[view[1]]), mark, 6.5, INK);
+fn draw_slice(figure: &mut PlotFigure, db: &MotionDb, locator: &Locator, points: &[Vec3], plane: usize) {
+    let panel = plane_panel(figure, points, plane, PANEL_TOP_AND_HEIGHT_PX);
+    let (third, value) = third_parameter(db, PLANES[plane]);
+    let heading = match third {
+        0 => format!("at {} m/s forward", number(value, 2)),
+        1 => "without turning".to_owned(),
+        _ => "without side speed".to_owned(),
+    };
+    let corner = Vec2::new(panel.rect_px[0] + PANEL_WIDTH_PX, PANEL_TOP_AND_HEIGHT_PX[0] - HEADING_PX);
+    figure.text(&heading, corner, TextAnchor::Right);
+    draw_cells(figure, &panel, db, locator, PLANES[plane]);
+    for (example, point) in db.examples.iter().zip(points) {
+        let distance = (example.parameters.to_vec3()[third] - value).abs();
+        if distance <= IN_SLICE_SHARE * db.blend_space.axis_ranges[third] {
+            let mark = if example.mirrored { PlotMark::Ring } else { PlotMark::Disc };
+            figure.mark(&panel, in_plane(*point, PLANES[plane]), mark, 6.5, INK);
         }
     }
 }
 
-/// The third parameter of a slice and what it is held at.
-fn held(db: &MotionDb, view: [usize; 2]) -> (usize, f32) {
-    let third = 3 - view[0] - view[1];
+/// Index and value of the parameter that is constant in a slice. ω_t and ω_s are 0. v_f is that of m_sp: at v_f = 0, a
+/// database without backward clips has nothing to show.
+fn third_parameter(db: &MotionDb, plane: [usize; 2]) -> (usize, f32) {
+    let third = 3 - plane[0] - plane[1];
     let walk = db.correspondence.as_ref().map(|found| db.examples[found.semi_procedural as usize].parameters);
     (third, if third == 0 { walk.unwrap_or_default().speed_mps } else { 0.0 })
 }
 
-/// Turn rates read better in degrees.
-fn in_plot_units(parameters: Vec3) -> Vec3 {
-    Vec3::new(parameters.x, parameters.y.to_degrees(), parameters.z)
-}
-
-/// Every square of the panel whose middle lies inside the hull.
-fn draw_cells(figure: &mut Figure, panel: &Panel, db: &MotionDb, locator: &Locator, view: [usize; 2]) {
+/// Colours every square of the panel with its middle inside the hull.
+fn draw_cells(figure: &mut PlotFigure, panel: &PlotPanel, db: &MotionDb, locator: &Locator, plane: [usize; 2]) {
     let [left, top, width, height] = panel.rect_px;
     let [columns, rows] = [width, height].map(|side_px| (side_px / CELL_PX) as usize);
+    let (third, value) = third_parameter(db, plane);
     for (column, row) in (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row))) {
         let share = |index: usize, count: usize| (index as f32 + 0.5) / count as f32;
-        let at = |axis: &Axis, share: f32| axis.low + share * (axis.high - axis.low);
+        let at = |axis: &PlotAxis, share: f32| axis.low + share * (axis.high - axis.low);
         let mut query = Vec3::ZERO;
-        query[view[0]] = at(&panel.axes[0], share(column, columns));
-        query[view[1]] = at(&panel.axes[1], 1.0 - share(row, rows));
+        query[plane[0]] = at(&panel.axes[0], share(column, columns));
+        query[plane[1]] = at(&panel.axes[1], 1.0 - share(row, rows));
         query.y = query.y.to_radians();
-        let (third, value) = held(db, view);
         query[third] = value;
-        if let Some(thin) = thinness(db, locator, Parameters::from_vec3(query)) {
+        if let Some(distance) = mean_distance(db, locator, Parameters::from_vec3(query)) {
             let corner = Vec2::new(left + column as f32 * CELL_PX, top + row as f32 * CELL_PX);
-            fill_rect(&mut figure.pixmap, [corner.x, corner.y, CELL_PX, CELL_PX], heat(thin / THINNEST), 1.0);
+            let colour = heat(distance / HOTTEST_DISTANCE);
+            fill_rect(&mut figure.pixmap, [corner.x, corner.y, CELL_PX, CELL_PX], colour, 1.0);
         }
     }
 }
 
-/// Σ u_i·|p_i − p| in ranges; none outside the hull.
-fn thinness(db: &MotionDb, locator: &Locator, query: Parameters) -> Option<f32> {
-    let shares = locate_inside(db, locator, query)?;
-    let asked = db.blend_space.scaled(query);
-    let distance = |example: u32| db.blend_space.scaled(db.examples[example as usize].parameters).distance(asked);
+/// Σ u_i·|p_i − p|, ranges; `None` outside the hull.
+fn mean_distance(db: &MotionDb, locator: &Locator, query: Parameters) -> Option<f32> {
+    let shares = locator.locate_inside(query)?;
+    let point = db.blend_space.scaled(query);
+    let distance = |example: u32| db.blend_space.scaled(db.examples[example as usize].parameters).distance(point);
     Some(shares.examples.into_iter().zip(shares.shares).map(|(example, share)| share * distance(example)).sum())
 }

@@ -1,9 +1,8 @@
-//! When feet stand: for every example the height and the speed of both soles over the cycle, the contacts found, and
-//! the four key times.
+//! Gait events: for each example, height and speed of both soles over the cycle, the contacts, and the four key times.
 //!
-//! Of each sole the lowest point is drawn, its speed is that over the ground: with root velocity v and turn rate ω a
-//! point p of the root frame moves by v + ω·perp(p) + dp/dt. A sheet holds three dozen examples; more go on further
-//! sheets.
+//! The curves are those of a sole's lowest point. Its speed is relative to the ground: with root velocity v and turn
+//! rate ω, a point p of the root frame has the velocity v + ω·perp(p) + dp/dt. A sheet has up to 36 examples. Metres,
+//! seconds.
 
 use std::ops::Range;
 
@@ -13,100 +12,97 @@ use motiondb::motion::{MotionDb, MotionExample, PHASE_COUNT};
 use motiondb::quality::planted_feet::PLANTED_CONTACT;
 use tiny_skia::Pixmap;
 
-use crate::plots::chart::axis::Axis;
-use crate::plots::chart::mark::Mark;
-use crate::plots::chart::plot::{Figure, Line, Panel, line};
+use crate::plots::chart::axis::PlotAxis;
+use crate::plots::chart::cell_grid::CellGrid;
+use crate::plots::chart::figure::{LineStyle, PlotFigure, PlotPanel};
+use crate::plots::chart::mark::PlotMark;
 use crate::raster::palette::{INK, SIDES};
-use crate::raster::text::Anchor;
+use crate::raster::text::TextAnchor;
 
-/// Panels side by side, and examples on a sheet.
-const COLUMNS: usize = 3;
+/// Greatest number of examples on a sheet.
 pub(crate) const SHEET_EXAMPLES: usize = 36;
-/// Width and height of one example with its surroundings, pixels.
-const CELL_PX: Vec2 = Vec2::new(800.0, 720.0);
-/// Left, top, width, height of the axes of the heights within it, pixels …
+/// Grid of the examples on a sheet.
+const GRID: CellGrid = CellGrid { columns: 3, cell_px: Vec2::new(800.0, 720.0), head_px: 180.0 };
+/// Left, top, width, height of the axes of the heights, in an example's cell, pixels.
 const HEIGHT_PANEL_PX: [f32; 4] = [120.0, 90.0, 650.0, 270.0];
-/// … and of the speeds below them.
+/// Left, top, width, height of the axes of the speeds, in an example's cell, pixels.
 const SPEED_PANEL_PX: [f32; 4] = [120.0, 470.0, 650.0, 160.0];
-/// Between an axis's label and the example's name, pixels.
+/// Left end of the title's baseline, pixels.
+const TITLE_PX: Vec2 = Vec2::new(120.0, 70.0);
+/// Left end of the legend's baseline, pixels.
+const LEGEND_PX: Vec2 = Vec2::new(130.0, 130.0);
+/// Least gap between an axis's label and the example's name, pixels.
 const NAME_GAP_PX: f32 = 40.0;
-/// Height of the sheet's head, pixels.
-const HEAD_PX: f32 = 180.0;
-/// Height of both feet's contact bars over the axis's lower end, share of the axis.
+/// Height of the left and the right foot's contact bars above the axis's lower end, share of the axis.
 const BAR_SHARES: [f32; 2] = [0.10, 0.04];
-/// Room below the heights, for the bars, and above, for the key times' names, share of their range.
-const ROOM_SHARES: [f32; 2] = [0.24, 0.25];
-/// Least ranges shown: standing feet draw level lines, not noise, m and m/s.
+/// Margin below the heights (for the bars) and above them (for the names of key times), share of their range.
+const MARGIN_SHARES: [f32; 2] = [0.24, 0.25];
+/// Least range of the heights, m: curves of standing feet are level lines, not noise.
 const MIN_RANGE_M: f32 = 0.05;
+/// Least range of the speeds, m/s.
 const MIN_RANGE_MPS: f32 = 0.5;
 /// Names of the key times, in their order.
 const KEY_NAMES: [&str; 4] = ["R off", "R strike", "L off", "L strike"];
-/// The foot that each key time speaks of, as an index of a `[left, right]` pair.
+/// Foot of each key time, as an index of a `[left, right]` pair.
 const KEY_SIDES: [usize; 4] = [1, 1, 0, 0];
 
-/// The gait plot of some examples of a database.
+/// The sheet of gait events of some examples of a database, given by index.
 pub fn gait_events(db: &MotionDb, examples: Range<usize>) -> Pixmap {
-    let rows = examples.len().div_ceil(COLUMNS);
-    let size = [COLUMNS as f32 * CELL_PX.x, HEAD_PX + rows as f32 * CELL_PX.y];
-    let mut figure = Figure::new(size[0] as u32, size[1] as u32);
-    figure.title(
-        "Lowest point of each sole, its speed over the ground, contacts and key times",
-        Vec2::new(HEIGHT_PANEL_PX[0], 70.0),
-    );
+    let mut figure = PlotFigure::new(GRID.size_px(examples.len()));
+    figure.title("Lowest point of each sole, its speed over the ground, contacts and key times", TITLE_PX);
     let legend = [
-        (Mark::Disc, SIDES[0], "left foot"),
-        (Mark::Disc, SIDES[1], "right foot"),
-        (Mark::Bar, INK, "planted"),
-        (Mark::Dashes, INK, "key times: toe-offs and heel strikes"),
+        (PlotMark::Disc, SIDES[0], "left foot"),
+        (PlotMark::Disc, SIDES[1], "right foot"),
+        (PlotMark::Bar, INK, "planted"),
+        (PlotMark::Dashes, INK, "key times: toe-offs and heel strikes"),
     ];
-    figure.legend(Vec2::new(HEIGHT_PANEL_PX[0] + 10.0, 130.0), &legend);
+    figure.legend(LEGEND_PX, &legend);
     for (cell, example) in examples.enumerate() {
         draw_example(&mut figure, db, example, cell);
     }
     figure.pixmap
 }
 
-fn draw_example(figure: &mut Figure, db: &MotionDb, index: usize, cell: usize) {
+fn draw_example(figure: &mut PlotFigure, db: &MotionDb, index: usize, cell: usize) {
     let example = &db.examples[index];
-    let corner = Vec2::new((cell % COLUMNS) as f32 * CELL_PX.x, HEAD_PX + (cell / COLUMNS) as f32 * CELL_PX.y);
     let soles = Side::BOTH.map(|side| sole_curves(db, index, side));
     let [heights_m, speeds_mps] = [0, 1].map(|curve| soles.each_ref().map(|sole| sole[curve].as_slice()));
-    let mut panel = |[left, top, width, height]: [f32; 4], value: Axis| {
-        let time = Axis { label: "time, s".to_owned(), low: 0.0, high: example.phase_map.period_s };
-        figure.panel([corner.x + left, corner.y + top, width, height], [time, value])
+    let mut panel = |rect_px: [f32; 4], value: PlotAxis| {
+        let time = PlotAxis::new("time, s", [0.0, example.phase_map.period_s]);
+        figure.panel(GRID.rect_px(cell, rect_px), [time, value])
     };
     let height_panel = panel(HEIGHT_PANEL_PX, height_axis(heights_m));
     let speed_panel = panel(SPEED_PANEL_PX, speed_axis(speeds_mps));
     let [left, top, width, _] = HEIGHT_PANEL_PX;
     let name = figure.fitted(&example.name, width - figure.width_px(&height_panel.axes[1].label) - NAME_GAP_PX);
-    figure.text(&name, corner + Vec2::new(left + width, top - 16.0), Anchor::Right);
+    figure.text(&name, GRID.corner_px(cell) + Vec2::new(left + width, top - 16.0), TextAnchor::Right);
     draw_key_times(figure, &height_panel, example, &KEY_NAMES);
     draw_key_times(figure, &speed_panel, example, &[""; 4]);
     for side in Side::BOTH {
         for (panel, curves) in [(&height_panel, heights_m), (&speed_panel, speeds_mps)] {
             let points = curves[side.index()].iter().enumerate();
             let points = points.map(|(row, value)| Vec2::new(time_s(example, row), *value));
-            figure.polyline(panel, points, line(SIDES[side.index()], 2.4));
+            figure.polyline(panel, points, LineStyle::solid(SIDES[side.index()], 2.4));
         }
         draw_contacts(figure, &height_panel, db, index, side);
     }
 }
 
-fn height_axis(heights_m: [&[f32]; 2]) -> Axis {
+fn height_axis(heights_m: [&[f32]; 2]) -> PlotAxis {
     let all = heights_m.into_iter().flatten();
     let [low, high] = all.fold([0.0_f32; 2], |[low, high], height| [low.min(*height), high.max(*height)]);
     let range = (high - low).max(MIN_RANGE_M);
-    let [below, above] = ROOM_SHARES.map(|share| share * range);
-    Axis { label: "height, m".to_owned(), low: low - below, high: low + range + above }
+    let [below, above] = MARGIN_SHARES.map(|share| share * range);
+    PlotAxis::new("height, m", [low - below, low + range + above])
 }
 
-fn speed_axis(speeds_mps: [&[f32]; 2]) -> Axis {
+fn speed_axis(speeds_mps: [&[f32]; 2]) -> PlotAxis {
     let highest = speeds_mps.into_iter().flatten().copied().fold(MIN_RANGE_MPS, f32::max);
-    Axis { label: "speed, m/s".to_owned(), low: 0.0, high: 1.08 * highest }
+    PlotAxis::new("speed, m/s", [0.0, 1.08 * highest])
 }
 
-/// Height, m, and horizontal speed over the ground, m/s, of the lowest sole point at each stored phase, and at the
-/// first once more, which closes the cycle.
+/// Height (m) and horizontal speed over the ground (m/s) of the lowest sole point, at each stored phase and at the
+/// first one again, which closes the cycle.
 fn sole_curves(db: &MotionDb, example: usize, side: Side) -> [Vec<f32>; 2] {
     let soles: Vec<[Vec3; 3]> = (0..PHASE_COUNT).map(|phase| sole_points_m(db, example, phase, side)).collect();
     let lowest = |row: usize| {
@@ -135,8 +131,8 @@ fn time_s(example: &MotionExample, row: usize) -> f32 {
     example.phase_map.time_s(row as f32 / PHASE_COUNT as f32)
 }
 
-/// A bar below the curves wherever the foot is planted.
-fn draw_contacts(figure: &mut Figure, panel: &Panel, db: &MotionDb, example: usize, side: Side) {
+/// Draws a bar below the curves for each time in which the foot is planted.
+fn draw_contacts(figure: &mut PlotFigure, panel: &PlotPanel, db: &MotionDb, example: usize, side: Side) {
     let [_, height] = &panel.axes;
     let height_m = height.low + BAR_SHARES[side.index()] * (height.high - height.low);
     let planted = |row: usize| {
@@ -144,19 +140,20 @@ fn draw_contacts(figure: &mut Figure, panel: &Panel, db: &MotionDb, example: usi
     };
     for row in (0..PHASE_COUNT).filter(|row| planted(*row) && planted(row + 1)) {
         let ends = [row, row + 1].map(|row| Vec2::new(time_s(&db.examples[example], row), height_m));
-        figure.polyline(panel, ends, line(SIDES[side.index()], 6.0));
+        figure.polyline(panel, ends, LineStyle::solid(SIDES[side.index()], 6.0));
     }
 }
 
-fn draw_key_times(figure: &mut Figure, panel: &Panel, example: &MotionExample, names: &[&str; 4]) {
+/// Draws a vertical line with a name at each key time.
+fn draw_key_times(figure: &mut PlotFigure, panel: &PlotPanel, example: &MotionExample, names: &[&str; 4]) {
     let Some(key_times_s) = example.key_times_s else { return };
     let [_, value] = &panel.axes;
     for (key, time_s) in key_times_s.into_iter().enumerate() {
         let ends = [Vec2::new(time_s, value.low), Vec2::new(time_s, value.high)];
         let colour = SIDES[KEY_SIDES[key]];
-        figure.polyline(panel, ends, Line { dashed: true, opacity: 0.8, ..line(colour, 1.3) });
-        // Events come close together: their names stand on two levels.
+        figure.polyline(panel, ends, LineStyle { is_dashed: true, opacity: 0.8, ..LineStyle::solid(colour, 1.3) });
+        // Key times may be close together: their names alternate between two heights.
         let at = panel.to_px(ends[1]) + Vec2::new(4.0, 18.0 + 20.0 * (key % 2) as f32);
-        figure.note(names[key], at, Anchor::Left, INK);
+        figure.note(names[key], at, TextAnchor::Left, INK);
     }
 }

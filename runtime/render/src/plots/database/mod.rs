@@ -1,11 +1,15 @@
 //! Plots of a motion database: velocity sets, parameters, coverage, poses, gait events.
 //!
-//! Read `all_plots`, which draws them all, then any other.
+//! Enters: a valid database. Leaves: opaque pictures; [`write_database_plots`] writes all of them as PNG files.
+//!
+//! Read `all_plots`, then any other: `velocity_space`; `parameter_space` and `coverage`, which share
+//! `parameter_planes`; `contact_sheet`, which draws `stick_figure`s; `gait_events`; `pose_distances`.
 
 pub(crate) mod all_plots;
 pub(crate) mod contact_sheet;
 pub(crate) mod coverage;
 pub(crate) mod gait_events;
+pub(crate) mod parameter_planes;
 pub(crate) mod parameter_space;
 pub(crate) mod pose_distances;
 pub(crate) mod stick_figure;

@@ -1,111 +1,117 @@
-//! The velocities that a database allows, in the agent's frame, as the paper's Fig. 3: turning and holding set, and the
-//! edges that forbid sharp turns. By the paper's own construction there is one set, and only the motions that span it
-//! are shown.
+//! The velocity sets of a database (`FbCrowd` Fig. 3): turning set, holding set, and sharp-turn edges, with the
+//! examples that span them. By the paper's own construction there is a single set. Agent's frame, m/s.
 
 use glam::Vec2;
 use motiondb::motion::{MotionDb, MotionExample};
 use motiondb::velocity_sets::velocity_hull::{Construction, is_holding, is_turning, turning_point_mps};
 use tiny_skia::Pixmap;
 
-use crate::plots::chart::axis::{Axis, equal_units};
-use crate::plots::chart::mark::Mark;
-use crate::plots::chart::plot::{Figure, Line, Panel, line};
-use crate::raster::palette::{INK, Rgb};
+use crate::plots::chart::axis::{PlotAxis, equal_units};
+use crate::plots::chart::figure::{LineStyle, PlotFigure, PlotPanel};
+use crate::plots::chart::mark::PlotMark;
+use crate::raster::palette::{HOLDING_SET, INK, Rgb, SHARP_TURN_EDGES, TURNING_SET};
 
-/// Sides of the sheet, pixels.
-const SHEET_PX: [u32; 2] = [1600, 1400];
-/// Left, top, width, height of the axes on it, pixels.
+/// Width and height of the figure, pixels.
+const SIZE_PX: [u32; 2] = [1600, 1400];
+/// Left end of the title's baseline, pixels.
+const TITLE_PX: Vec2 = Vec2::new(130.0, 70.0);
+/// Left end of the legend's baseline, pixels.
+const LEGEND_PX: Vec2 = Vec2::new(140.0, 122.0);
+/// Opacity of a filled set.
+const SET_OPACITY: f32 = 0.13;
+/// Left, top, width, height of the axes, pixels.
 const PANEL_PX: [f32; 4] = [130.0, 190.0, 1410.0, 1080.0];
-/// Turning set: a blue; holding set: an ochre; sharp-turn edges: a red, as in the paper.
-pub(crate) const TURNING: Rgb = Rgb::new(0.16, 0.40, 0.72);
-pub(crate) const HOLDING: Rgb = Rgb::new(0.78, 0.52, 0.10);
-pub(crate) const SHARP_TURN: Rgb = Rgb::new(0.80, 0.16, 0.16);
 
-/// The plot of a database's velocity sets.
+/// The figure of a database's velocity sets.
 pub fn velocity_space(db: &MotionDb) -> Pixmap {
-    let mut figure = Figure::new(SHEET_PX[0], SHEET_PX[1]);
-    figure.title(title(db), Vec2::new(PANEL_PX[0], 70.0));
+    let mut figure = PlotFigure::new(SIZE_PX);
+    figure.title(title(db), TITLE_PX);
     let panel = figure.panel(PANEL_PX, equal_units(PANEL_PX, axes(db)));
     draw_sets(&mut figure, &panel, db);
     draw_axes(&mut figure, &panel);
     draw_examples(&mut figure, &panel, db);
-    figure.legend(Vec2::new(PANEL_PX[0] + 10.0, 122.0), &legend(db));
+    figure.legend(LEGEND_PX, &legend(db));
     figure.pixmap
 }
 
-fn is_papers(db: &MotionDb) -> bool {
+/// Whether the sets are built as in the paper.
+fn is_by_paper(db: &MotionDb) -> bool {
     db.velocity_hull.construction == Construction::Paper
 }
 
 fn title(db: &MotionDb) -> &'static str {
-    if is_papers(db) {
+    if is_by_paper(db) {
         "Velocities that the motions allow, by the paper's construction, in the agent's frame"
     } else {
         "Velocities that the motions allow, in the agent's frame"
     }
 }
 
-fn legend(db: &MotionDb) -> Vec<(Mark, Rgb, &'static str)> {
-    let sharp_turns = (Mark::Dashes, SHARP_TURN, "sharp-turn edges");
-    let mirrors = (Mark::Ring, INK, "mirrored twins, unnamed");
-    if is_papers(db) {
-        return vec![(Mark::Disc, TURNING, "the only set"), sharp_turns, mirrors];
+fn legend(db: &MotionDb) -> Vec<(PlotMark, Rgb, &'static str)> {
+    let sharp_turns = (PlotMark::Dashes, SHARP_TURN_EDGES, "sharp-turn edges");
+    let mirrors = (PlotMark::Ring, INK, "mirrored examples, unnamed");
+    if is_by_paper(db) {
+        return vec![(PlotMark::Disc, TURNING_SET, "the only set"), sharp_turns, mirrors];
     }
-    vec![(Mark::Disc, TURNING, "turning set"), (Mark::Diamond, HOLDING, "holding set"), sharp_turns, mirrors]
-}
-
-/// Forward to the right and left up: the agent's frame, not mirrored.
-fn axes(db: &MotionDb) -> [Axis; 2] {
-    let points: Vec<Vec2> = shown(db).map(|(_, (_, _, point))| point).collect();
-    let with_origin = |values: Vec<f32>| values.into_iter().chain([0.0]);
-    [
-        Axis::around("forward velocity, m/s", with_origin(points.iter().map(|point| point.x).collect())),
-        Axis::around("velocity to the left, m/s", with_origin(points.iter().map(|point| point.y).collect())),
+    vec![
+        (PlotMark::Disc, TURNING_SET, "turning set"),
+        (PlotMark::Diamond, HOLDING_SET, "holding set"),
+        sharp_turns,
+        mirrors,
     ]
 }
 
-/// Every example, with its mark in each set that it spans.
-fn shown(db: &MotionDb) -> impl Iterator<Item = (&MotionExample, (Mark, Rgb, Vec2))> {
+/// Axes over all shown points and the origin: forward is to the right, left is up.
+fn axes(db: &MotionDb) -> [PlotAxis; 2] {
+    let points: Vec<Vec2> = shown(db).map(|(_, (_, _, point))| point).collect();
+    let with_origin = |values: Vec<f32>| values.into_iter().chain([0.0]);
+    [
+        PlotAxis::around("forward velocity, m/s", with_origin(points.iter().map(|point| point.x).collect())),
+        PlotAxis::around("velocity to the left, m/s", with_origin(points.iter().map(|point| point.y).collect())),
+    ]
+}
+
+/// Examples with mark, colour and position of each point that is shown of them.
+fn shown(db: &MotionDb) -> impl Iterator<Item = (&MotionExample, (PlotMark, Rgb, Vec2))> {
     let marks = |example| {
         let [turning, holding] = points_mps(example);
-        let holding = holding.filter(|_| !is_papers(db));
+        let holding = holding.filter(|_| !is_by_paper(db));
         turning.into_iter().chain(holding).map(move |mark| (example, mark))
     };
     db.examples.iter().flat_map(marks)
 }
 
-/// Where an example stands in the turning and, unless it is shown there, the holding set; the marks of mirrored twins
-/// are open.
-fn points_mps(example: &MotionExample) -> [Option<(Mark, Rgb, Vec2)>; 2] {
+/// Point of an example in the turning set or else in the holding set. Marks of mirrored examples are open.
+fn points_mps(example: &MotionExample) -> [Option<(PlotMark, Rgb, Vec2)>; 2] {
     let parameters = &example.parameters;
     let [turning_mark, holding_mark] =
-        if example.mirrored { [Mark::Ring, Mark::OpenDiamond] } else { [Mark::Disc, Mark::Diamond] };
-    let turning = is_turning(parameters).then(|| (turning_mark, TURNING, turning_point_mps(parameters)));
+        if example.mirrored { [PlotMark::Ring, PlotMark::OpenDiamond] } else { [PlotMark::Disc, PlotMark::Diamond] };
+    let turning = is_turning(parameters).then(|| (turning_mark, TURNING_SET, turning_point_mps(parameters)));
     let held = Vec2::new(parameters.speed_mps, parameters.strafe_mps);
-    let holding = (is_holding(parameters) && !is_turning(parameters)).then_some((holding_mark, HOLDING, held));
+    let holding = (is_holding(parameters) && !is_turning(parameters)).then_some((holding_mark, HOLDING_SET, held));
     [turning, holding]
 }
 
-fn draw_sets(figure: &mut Figure, panel: &Panel, db: &MotionDb) {
+fn draw_sets(figure: &mut PlotFigure, panel: &PlotPanel, db: &MotionDb) {
     let sets = &db.velocity_hull;
-    if !is_papers(db) {
-        figure.polygon(panel, sets.holding_mps.iter().copied(), 0.13, line(HOLDING, 3.0));
+    if !is_by_paper(db) {
+        figure.polygon(panel, sets.holding_mps.iter().copied(), SET_OPACITY, LineStyle::solid(HOLDING_SET, 3.0));
     }
-    figure.polygon(panel, sets.turning_mps.iter().copied(), 0.13, line(TURNING, 3.0));
+    figure.polygon(panel, sets.turning_mps.iter().copied(), SET_OPACITY, LineStyle::solid(TURNING_SET, 3.0));
     for edge in &sets.sharp_turn_edges_mps {
-        figure.polyline(panel, *edge, Line { dashed: true, ..line(SHARP_TURN, 4.5) });
+        figure.polyline(panel, *edge, LineStyle { is_dashed: true, ..LineStyle::solid(SHARP_TURN_EDGES, 4.5) });
     }
 }
 
-/// The agent's own axes, through the origin.
-fn draw_axes(figure: &mut Figure, panel: &Panel) {
+/// Draws the agent's axes through the origin.
+fn draw_axes(figure: &mut PlotFigure, panel: &PlotPanel) {
     let [x, y] = &panel.axes;
-    let axis = Line { opacity: 0.5, ..line(INK, 1.5) };
+    let axis = LineStyle { opacity: 0.5, ..LineStyle::solid(INK, 1.5) };
     figure.polyline(panel, [Vec2::new(x.low, 0.0), Vec2::new(x.high, 0.0)], axis);
     figure.polyline(panel, [Vec2::new(0.0, y.low), Vec2::new(0.0, y.high)], axis);
 }
 
-fn draw_examples(figure: &mut Figure, panel: &Panel, db: &MotionDb) {
+fn draw_examples(figure: &mut PlotFigure, panel: &PlotPanel, db: &MotionDb) {
     let mut names = Vec::new();
     for (example, (mark, colour, point)) in shown(db) {
         figure.mark(panel, point, mark, 8.0, colour);

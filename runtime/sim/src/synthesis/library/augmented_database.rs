@@ -9,7 +9,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use motiondb::blend_space::triangulation;
 use motiondb::motion::{Correspondence, MotionDb, MotionExample, Parameters};
-use motiondb::quality::coverage::{Lack, coverage};
+use motiondb::quality::coverage::{GapKind, coverage};
 use motiondb::quality::planted_feet::foot_slide;
 use motiondb::validate::contradiction;
 use motiondb::velocity_sets::velocity_hull;
@@ -18,28 +18,28 @@ use crate::synthesis::library::standing;
 use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
 
 /// Coverage gaps with which bodies of a crowd cannot make progress.
-const NEEDED: [Lack; 4] = [Lack::Walking, Lack::WalkingTurns, Lack::TurningInPlace, Lack::SideSteps];
+const NEEDED: [GapKind; 4] = [GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps];
 
 /// Parameters of the cycles that fill each coverage gap, over the speed of m_sp: speed, turn rate in rad/m, side speed.
 /// Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s; `fbcrowd bench reach` finds them well in
 /// reach.
-const FILLING: [(Lack, Vec3); 11] = [
-    (Lack::Walking, Vec3::new(1.0, 0.0, 0.0)),
-    (Lack::Walking, Vec3::new(0.5, 0.0, 0.0)),
-    (Lack::WalkingTurns, Vec3::new(1.0, 0.72, 0.0)),
-    (Lack::WalkingTurns, Vec3::new(1.0, -0.72, 0.0)),
-    (Lack::WalkingTurns, Vec3::new(0.6, 1.2, 0.0)),
-    (Lack::WalkingTurns, Vec3::new(0.6, -1.2, 0.0)),
-    (Lack::TurningInPlace, Vec3::new(0.0, 1.3, 0.0)),
-    (Lack::TurningInPlace, Vec3::new(0.0, -1.3, 0.0)),
-    (Lack::SideSteps, Vec3::new(0.0, 0.0, 0.4)),
-    (Lack::SideSteps, Vec3::new(0.0, 0.0, -0.4)),
-    (Lack::Backward, Vec3::new(-0.5, 0.0, 0.0)),
+const FILLING: [(GapKind, Vec3); 11] = [
+    (GapKind::Walking, Vec3::new(1.0, 0.0, 0.0)),
+    (GapKind::Walking, Vec3::new(0.5, 0.0, 0.0)),
+    (GapKind::WalkingTurns, Vec3::new(1.0, 0.72, 0.0)),
+    (GapKind::WalkingTurns, Vec3::new(1.0, -0.72, 0.0)),
+    (GapKind::WalkingTurns, Vec3::new(0.6, 1.2, 0.0)),
+    (GapKind::WalkingTurns, Vec3::new(0.6, -1.2, 0.0)),
+    (GapKind::TurningInPlace, Vec3::new(0.0, 1.3, 0.0)),
+    (GapKind::TurningInPlace, Vec3::new(0.0, -1.3, 0.0)),
+    (GapKind::SideSteps, Vec3::new(0.0, 0.0, 0.4)),
+    (GapKind::SideSteps, Vec3::new(0.0, 0.0, -0.4)),
+    (GapKind::Backward, Vec3::new(-0.5, 0.0, 0.0)),
 ];
 
 /// The database itself where bodies can stand and make progress with it; otherwise an augmented one.
 pub fn augmented(db: Arc<MotionDb>) -> Arc<MotionDb> {
-    let gaps: Vec<Lack> = coverage(&db).into_iter().map(|thin| thin.lack).collect();
+    let gaps: Vec<GapKind> = coverage(&db).into_iter().map(|gap| gap.kind).collect();
     let standing = standing::with_standing(db);
     if !NEEDED.iter().any(|gap| gaps.contains(gap)) {
         return standing;
@@ -61,7 +61,7 @@ fn walk(db: &MotionDb) -> Option<usize> {
 }
 
 /// `None` without a walk that can be deformed.
-fn with_gaps_filled(db: &MotionDb, gaps: &[Lack]) -> Option<MotionDb> {
+fn with_gaps_filled(db: &MotionDb, gaps: &[GapKind]) -> Option<MotionDb> {
     let walk = walk(db)?;
     let base_walk = BaseWalk::new(db, walk)?;
     let mut db = db.clone();

@@ -1,50 +1,54 @@
-//! Which simplices may hold a point: cells of a grid over their box, each with a list of those that reach into it, the
-//! likeliest first.
+//! A grid over the simplices' bounding box: each cell lists the simplices that reach into it, the likeliest first.
 //!
-//! A query looks into one cell, in constant time. Cells are many times as many as simplices, so the lists stay short;
-//! the work of building them is bounded whatever is read from a file. Along a dropped axis the box has no extent, and
-//! all is in its first cells.
+//! Enters: a point in the metric of the blend space. Leaves: the simplices that may hold it, in constant time. There
+//! are many more cells than simplices, so the lists stay short. The work of building them is bounded for any input.
+//! Along a dropped axis the box has no extent, and everything is in the first cells.
 
 use glam::DVec3;
 
 use crate::blend_space::simplex::Simplex;
 
-/// Cells to a simplex: more make shorter lists, and more memory.
+/// Number of cells per simplex: more make shorter lists, but need more memory.
 const CELLS_PER_SIMPLEX: f64 = 64.0;
-/// Most pairs of a cell and a simplex to be looked at: 16 MB of lists at worst.
+/// Greatest number of pairs of a cell and a simplex that are examined: 16 MB of lists at most.
 const MOST_PAIRS: f64 = (1 << 22) as f64;
 
 /// Lists of simplices by cell.
 #[derive(Clone, Debug)]
-pub(crate) struct Grid {
-    cells: Cells,
-    /// Where each cell's list begins in `lists`, and where the last one ends.
+pub(crate) struct SimplexGrid {
+    cells: GridCells,
+    /// Start of each cell's list in `lists`, then the end of the last list.
     starts: Vec<u32>,
+    /// Numbers of simplices, cell after cell.
     lists: Vec<u32>,
 }
 
-/// A box cut into equal cells, `side` along each axis.
+/// A box that is cut into equal cells.
 #[derive(Clone, Copy, Debug)]
-struct Cells {
+struct GridCells {
+    /// Least corner of the box, in the metric.
     least: DVec3,
+    /// Greatest corner of the box, in the metric.
     greatest: DVec3,
+    /// Number of cells along each axis.
     side: usize,
+    /// Cells per unit of the metric, along each axis.
     per_unit: DVec3,
 }
 
-impl Grid {
+impl SimplexGrid {
     pub(crate) fn new(simplices: &[Simplex]) -> Self {
         let mut side = libm::cbrt(CELLS_PER_SIMPLEX * simplices.len() as f64) as usize + 1;
-        let mut cells = Cells::around(simplices, side);
+        let mut cells = GridCells::around(simplices, side);
         while side > 1 && simplices.iter().map(|simplex| cells.in_box_of(simplex)).sum::<f64>() > MOST_PAIRS {
             side /= 2;
-            cells = Cells::around(simplices, side);
+            cells = GridCells::around(simplices, side);
         }
         let mut pairs: Vec<(usize, f64, u32)> = Vec::new();
         for (number, simplex) in (0..).zip(simplices) {
-            cells.reached_by(simplex, |cell, depth| pairs.push((cell, depth, number)));
+            cells.visit_reached(simplex, |cell, depth| pairs.push((cell, depth, number)));
         }
-        // The deeper the cell's centre lies within, the sooner.
+        // First the simplex in which the cell's centre lies deepest.
         pairs.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)).then(a.2.cmp(&b.2)));
         let start = |cell: usize| pairs.partition_point(|pair| pair.0 < cell) as u32;
         Self {
@@ -54,27 +58,29 @@ impl Grid {
         }
     }
 
-    /// Simplices that may hold a point.
+    /// Numbers of the simplices that may hold a point.
     pub(crate) fn near(&self, point: DVec3) -> &[u32] {
-        let Some(cell) = self.cells.holding(point) else { return &[] };
+        let Some(cell) = self.cells.index_of(point) else { return &[] };
         &self.lists[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
 }
 
-impl Cells {
+impl GridCells {
+    /// The cells of the box around all simplices.
     fn around(simplices: &[Simplex], side: usize) -> Self {
         let both = |[least, greatest]: [DVec3; 2], other: [DVec3; 2]| [least.min(other[0]), greatest.max(other[1])];
         let [least, greatest] = simplices.iter().map(Simplex::bounds).reduce(both).unwrap_or_default();
         Self { least, greatest, side, per_unit: side as f64 / (greatest - least) }
     }
 
-    fn holding(&self, point: DVec3) -> Option<usize> {
+    /// Index of the cell that holds a point; `None` outside the box.
+    fn index_of(&self, point: DVec3) -> Option<usize> {
         let is_within = (point.cmpge(self.least) & point.cmple(self.greatest)).all();
-        is_within.then(|| self.index(self.place(point)))
+        is_within.then(|| self.index(self.coordinates(point)))
     }
 
-    /// Of a point within the box.
-    fn place(&self, point: DVec3) -> [usize; 3] {
+    /// Column, row and layer of a point in the box.
+    fn coordinates(&self, point: DVec3) -> [usize; 3] {
         let cells = (point - self.least) * self.per_unit;
         cells.to_array().map(|x| (x as usize).min(self.side - 1))
     }
@@ -83,21 +89,22 @@ impl Cells {
         x + self.side * (y + self.side * z)
     }
 
-    /// Number of cells that the simplex's own box touches.
+    /// Number of cells that the simplex's bounding box touches.
     fn in_box_of(&self, simplex: &Simplex) -> f64 {
-        let [first, last] = simplex.bounds().map(|corner| self.place(corner));
+        let [first, last] = simplex.bounds().map(|corner| self.coordinates(corner));
         (0..3).map(|axis| (last[axis] - first[axis] + 1) as f64).product()
     }
 
-    fn reached_by(&self, simplex: &Simplex, mut reached: impl FnMut(usize, f64)) {
-        let [first, last] = simplex.bounds().map(|corner| self.place(corner));
+    /// Calls `visit` with the index of each cell that the simplex reaches into, and the depth of the cell's centre.
+    fn visit_reached(&self, simplex: &Simplex, mut visit: impl FnMut(usize, f64)) {
+        let [first, last] = simplex.bounds().map(|corner| self.coordinates(corner));
         let half = 0.5 * self.per_unit.recip();
         for z in first[2]..=last[2] {
             for y in first[1]..=last[1] {
                 for x in first[0]..=last[0] {
                     let centre = self.least + half * (2.0 * DVec3::new(x as f64, y as f64, z as f64) + 1.0);
                     if let Some(depth) = simplex.depth_in_box(centre, half) {
-                        reached(self.index([x, y, z]), depth);
+                        visit(self.index([x, y, z]), depth);
                     }
                 }
             }
@@ -112,15 +119,15 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Whether they fit together or overlap; queries on a lattice meet corners, edges, faces and cells' walls.
+        /// Simplices may overlap; queries on a lattice fall on corners, edges, faces and walls of cells.
         #[test]
-        fn a_cell_lists_every_simplex_that_holds_one_of_its_points(
+        fn cells_list_every_simplex_that_holds_their_points(
             points in prop::collection::vec(prop::array::uniform3(-3i8..4), 4..12),
             corners in prop::collection::vec(prop::array::uniform4(0usize..12), 0..40),
             query in prop::array::uniform3(-16i8..17),
         ) {
             let (simplices, point) = (soup(&points, &corners, 4), DVec3::from_array(query.map(f64::from)) * 0.25);
-            let grid = Grid::new(&simplices);
+            let grid = SimplexGrid::new(&simplices);
             let listed = |index: &usize| grid.near(point).contains(&(*index as u32));
             let missed = |index: &usize| simplices[*index].shares_within(point).is_some() && !listed(index);
             prop_assert_eq!((0..simplices.len()).find(missed), None);
@@ -128,13 +135,13 @@ mod tests {
     }
 
     #[test]
-    fn needles_across_everything_take_bounded_memory() {
+    fn needles_across_the_box_take_bounded_memory() {
         let needles = |k: usize| {
             let high = k as f64 * 1e-4;
             let points = [[0.0, 0.0, high], [1.0, 1.0, 1.0 - high], [1.0, 0.9, 0.5], [0.9, 1.0, 0.5 + high]];
             Simplex::new(&[0, 1, 2, 3], &points.map(DVec3::from_array))
         };
-        let grid = Grid::new(&(0..6000).map(needles).collect::<Vec<_>>());
+        let grid = SimplexGrid::new(&(0..6000).map(needles).collect::<Vec<_>>());
         assert!(grid.lists.len() as f64 <= MOST_PAIRS && grid.cells.side > 1);
     }
 }

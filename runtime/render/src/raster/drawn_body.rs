@@ -1,65 +1,74 @@
-//! A person from above: the limbs of one posed skeleton, from the shoes up to the hair, as swept balls in the world.
+//! A drawn body: the parts of one posed skeleton, from the shoes up to the hair, as tapered capsules.
 //!
-//! Bones come from forward kinematics, girths from the skeleton's `segment_radii_m`; what a capsule per bone does not
-//! give (a trunk broader than deep, a face, hair) is composed here from several. World metres, z up.
+//! Enters: a recorded root and pose, and the skeleton. Leaves: parts in the world, metres, z up. Bones come from
+//! forward kinematics, girths from the skeleton's `segment_radii_m`. The trunk (broader than deep), the face and the
+//! hair need several capsules each.
 
 use fbcrowd_sim::recording::AgentFrame;
 use glam::Vec3;
 use motiondb::body::{Joint, Joints, Side, Skeleton};
 
 use crate::raster::palette::{Look, Rgb, SHOE};
+use crate::raster::tapered_capsule::TaperedCapsule;
 
-/// Half a shoulder breadth of pixels below which single limbs cannot be told apart: fewer parts are drawn.
+/// Half a shoulder breadth from which every limb is drawn, pixels: below it limbs cannot be distinguished.
 const FULL_DETAIL_PX: f32 = 4.5;
-/// Half a shoulder breadth of pixels below which only trunk, head and the direction of the face are drawn.
-const SOME_DETAIL_PX: f32 = 2.0;
-/// Half a shoulder breadth, the yardstick of detail, m (anthropometric mean of adults, 0.40 m shoulder to shoulder).
+/// Half a shoulder breadth from which arms and legs are drawn, pixels.
+const LIMB_DETAIL_PX: f32 = 2.0;
+/// Half a shoulder breadth, m: half the mean of adults, 0.40 m from shoulder to shoulder.
 const HALF_SHOULDERS_M: f32 = 0.20;
-/// How much the colour of a part at ground level is darkened: little light falls between legs.
+/// Share by which a part at ground level is darkened: little light falls between legs.
 const GROUND_DIMMING: f32 = 0.16;
-/// Height at which no dimming is left, m.
+/// Height from which a part is not darkened, m.
 const LIT_HEIGHT_M: f32 = 1.2;
 
-/// How much of a body a picture can show.
+/// Detail of a drawn body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Detail {
-    /// Trunk, head, face.
+pub(crate) enum Detail {
+    /// Trunk, head and face.
     Dot,
-    /// Legs and arms as one limb each.
-    Some,
-    /// Every limb, hands, nose, hair.
+    /// Also legs and arms, as one limb each.
+    Limbs,
+    /// Every limb, hands, nose and hair.
     Full,
 }
 
 impl Detail {
-    /// What can be told apart at a scale, pixels a metre.
-    pub fn at_scale(scale_px_m: f32) -> Self {
+    /// Detail that is visible at a scale, pixels per metre.
+    pub(crate) fn at_scale(scale_px_m: f32) -> Self {
         let half_shoulders_px = HALF_SHOULDERS_M * scale_px_m;
         if half_shoulders_px >= FULL_DETAIL_PX {
             Self::Full
-        } else if half_shoulders_px >= SOME_DETAIL_PX {
-            Self::Some
+        } else if half_shoulders_px >= LIMB_DETAIL_PX {
+            Self::Limbs
         } else {
             Self::Dot
         }
     }
 }
 
-/// A part of a body: a ball swept from one end to the other.
+/// A part of a drawn body: a tapered capsule.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
-    /// World, metres.
-    pub ends_m: [Vec3; 2],
+pub(crate) struct DrawnPart {
+    /// Centre of the ball at each end, world, metres.
+    pub(crate) ends_m: [Vec3; 2],
     /// Radius at each end, m.
-    pub radii_m: [f32; 2],
+    pub(crate) radii_m: [f32; 2],
     /// Colour under full light.
-    pub colour: Rgb,
-    /// Top of the part: parts are painted in its order, m.
-    pub top_m: f32,
+    pub(crate) colour: Rgb,
+    /// Height of the part's top, m: lower parts are painted first.
+    pub(crate) top_m: f32,
 }
 
-/// One posed body with its look, ready to be taken apart.
-struct Body<'a> {
+impl DrawnPart {
+    /// The part in a picture: `to_px` projects its ends, and a metre is `scale_px_m` pixels.
+    pub(crate) fn to_capsule(self, to_px: impl Fn(Vec3) -> Vec3, scale_px_m: f32) -> TaperedCapsule {
+        TaperedCapsule { ends_px: self.ends_m.map(to_px), radii_px: self.radii_m.map(|radius| radius * scale_px_m) }
+    }
+}
+
+/// One posed body and its look.
+struct DrawnBody<'a> {
     skeleton: &'a Skeleton,
     frame: &'a AgentFrame,
     joints: Joints,
@@ -67,8 +76,14 @@ struct Body<'a> {
 }
 
 /// Appends the parts of one agent's body.
-pub(crate) fn append_parts(parts: &mut Vec<Part>, skeleton: &Skeleton, frame: &AgentFrame, look: Look, detail: Detail) {
-    let body = Body { skeleton, frame, joints: frame.pose.forward_kinematics(skeleton), look };
+pub(crate) fn append_parts(
+    parts: &mut Vec<DrawnPart>,
+    skeleton: &Skeleton,
+    frame: &AgentFrame,
+    look: Look,
+    detail: Detail,
+) {
+    let body = DrawnBody { skeleton, frame, joints: frame.pose.forward_kinematics(skeleton), look };
     if detail > Detail::Dot {
         for side in Side::BOTH {
             body.append_shoe(parts, side, detail);
@@ -80,12 +95,12 @@ pub(crate) fn append_parts(parts: &mut Vec<Part>, skeleton: &Skeleton, frame: &A
     body.append_head(parts, detail);
 }
 
-impl Body<'_> {
+impl DrawnBody<'_> {
     fn joint_m(&self, joint: Joint) -> Vec3 {
         self.frame.root.to_world(self.joints.positions_m[joint.index()])
     }
 
-    /// A point given relative to a joint, in body axes.
+    /// A point at an offset from a joint, in the joint's own axes; world, metres.
     fn point_m(&self, joint: Joint, offset_m: Vec3) -> Vec3 {
         self.frame.root.to_world(self.joints.point_m(joint, offset_m))
     }
@@ -98,12 +113,12 @@ impl Body<'_> {
         self.skeleton.segment_radii_m[joint.index()]
     }
 
-    fn append_shoe(&self, parts: &mut Vec<Part>, side: Side, detail: Detail) {
+    fn append_shoe(&self, parts: &mut Vec<DrawnPart>, side: Side, detail: Detail) {
         let (foot, toe) = (Joint::FEET[side.index()], Joint::TOES[side.index()]);
         let sole = self.joints.sole_points_m(self.skeleton, side.index()).map(|point| self.frame.root.to_world(point));
         let (heel_m, ball_m) = (0.85 * self.radius_m(foot), self.radius_m(foot).max(self.radius_m(toe)));
         let toe_m = 0.85 * self.radius_m(toe);
-        // The sole points lie under the rim of the shoe; the swept ball's centre lies a radius inside and above.
+        // Sole points are at the rim of the shoe's sole; the centres of the balls are a radius inside and above.
         let inward = (sole[2] - sole[0]).normalize_or_zero();
         let above = |joint: Joint, radius_m: f32| self.point_m(joint, Vec3::Z * radius_m) - self.joint_m(joint);
         let heel = sole[0] + inward * heel_m + above(foot, heel_m);
@@ -119,7 +134,7 @@ impl Body<'_> {
         }
     }
 
-    fn append_leg(&self, parts: &mut Vec<Part>, side: Side, detail: Detail) {
+    fn append_leg(&self, parts: &mut Vec<DrawnPart>, side: Side, detail: Detail) {
         let [hip, knee, ankle] =
             [Joint::THIGHS, Joint::SHANKS, Joint::FEET].map(|pair| self.joint_m(pair[side.index()]));
         let (thigh_m, shank_m) =
@@ -133,7 +148,7 @@ impl Body<'_> {
         }
     }
 
-    fn append_arm(&self, parts: &mut Vec<Part>, side: Side, detail: Detail) {
+    fn append_arm(&self, parts: &mut Vec<DrawnPart>, side: Side, detail: Detail) {
         let upper = Joint::UPPER_ARMS[side.index()];
         let [forearm, hand] = match side {
             Side::Left => [Joint::LeftForearm, Joint::LeftHand],
@@ -154,14 +169,14 @@ impl Body<'_> {
         }
     }
 
-    /// Hips, waist and a chest that spans the shoulders: seen from above a tapered shape, broad where it is high.
-    fn append_trunk(&self, parts: &mut Vec<Part>, detail: Detail) {
+    /// Hips, waist and a chest across the shoulders: seen from above, the highest part is the broadest.
+    fn append_trunk(&self, parts: &mut Vec<DrawnPart>, detail: Detail) {
         let shirt = self.look.shirt;
         let [left, right] = Joint::UPPER_ARMS.map(|joint| self.joint_m(joint));
         let chest_m = self.radius_m(Joint::SpineUpper);
         let shoulder_m = 1.3 * self.radius_m(Joint::LeftUpperArm);
         if detail == Detail::Full {
-            // Hips are hardly broader than the shoulders' middle: the balls' centres lie well inside the hip joints.
+            // The centres of the balls are well inside the hip joints, so that the hips are not too broad.
             let [left_hip, right_hip] = Joint::THIGHS.map(|joint| self.joint_m(joint));
             let hips = [right_hip.lerp(left_hip, 0.75), left_hip.lerp(right_hip, 0.75)];
             parts.push(part(hips, [0.92 * self.radius_m(Joint::Pelvis); 2], self.look.trousers * 1.1));
@@ -174,8 +189,8 @@ impl Body<'_> {
         }
     }
 
-    /// A face that looks out from under the hair, with a nose: the facing at a glance.
-    fn append_head(&self, parts: &mut Vec<Part>, detail: Detail) {
+    /// Face, nose and hair: they show the facing.
+    fn append_head(&self, parts: &mut Vec<DrawnPart>, detail: Detail) {
         let head = Joint::Head;
         let radius_m = self.radius_m(head);
         let up_m = self.skeleton.segment_ends_m[head.index()] - Vec3::Z * radius_m;
@@ -195,8 +210,8 @@ impl Body<'_> {
     }
 }
 
-fn part(ends_m: [Vec3; 2], radii_m: [f32; 2], colour: Rgb) -> Part {
+fn part(ends_m: [Vec3; 2], radii_m: [f32; 2], colour: Rgb) -> DrawnPart {
     let top_m = 0.5 * (ends_m[0].z + ends_m[1].z) + radii_m[0].max(radii_m[1]);
     let dimming = GROUND_DIMMING * (1.0 - top_m / LIT_HEIGHT_M).clamp(0.0, 1.0);
-    Part { ends_m, radii_m, colour: (colour * (1.0 - dimming)).min(Vec3::ONE), top_m }
+    DrawnPart { ends_m, radii_m, colour: (colour * (1.0 - dimming)).min(Vec3::ONE), top_m }
 }

@@ -1,0 +1,50 @@
+//! One agent's part of a recorded step, planned again: content of its panel and of its marks in the scene.
+
+use fbcrowd_sim::planning::{PlanExplanation, Planner};
+use fbcrowd_sim::recording::RecordedStep;
+use glam::Vec2;
+
+/// Least and greatest velocity that is shown, multiples of the preferred speed; between them, the database's fastest.
+const REACH_OF_PREFERRED: [f32; 2] = [1.5, 1.75];
+/// Least preferred speed that determines the reach, m/s: a slow walk.
+const MIN_PREFERRED_MPS: f32 = 0.5;
+/// Factor on the reach: a margin beyond the fastest velocity.
+const REACH_MARGIN: f32 = 1.08;
+
+/// One agent in one step, with the explanation of its plan.
+#[derive(Debug)]
+pub(crate) struct ExplainedStep<'a> {
+    /// The recorded step.
+    pub(crate) step: &'a RecordedStep<'a>,
+    /// Index of the agent.
+    pub(crate) agent: usize,
+    /// Plan of the agent, with its half-planes and forces.
+    pub(crate) explanation: PlanExplanation,
+    /// Greatest velocity component that is shown, m/s.
+    pub(crate) reach_mps: f32,
+}
+
+impl<'a> ExplainedStep<'a> {
+    /// Plans the step of an agent again.
+    pub(crate) fn new(step: &'a RecordedStep<'a>, agent: usize) -> Self {
+        let scenario = &step.header().scenario;
+        let explanation = PlanExplanation::new(scenario.planner, &step.world(), agent, &scenario.params);
+        Self { step, agent, explanation, reach_mps: reach_mps(step, agent) }
+    }
+
+    /// Planner of the step.
+    pub(crate) fn planner(&self) -> Planner {
+        self.step.header().scenario.planner
+    }
+}
+
+/// Greatest velocity component that is shown. It does not depend on the step, so all pictures of a sequence have equal
+/// axes.
+fn reach_mps(step: &RecordedStep, agent: usize) -> f32 {
+    let hull = &step.header().velocity_hull;
+    let corners_mps = hull.turning_mps.iter().chain(&hull.holding_mps);
+    let fastest_mps = corners_mps.map(|corner_mps: &Vec2| corner_mps.length()).fold(0.0, f32::max);
+    let preferred_mps = step.header().scenario.agents[agent].preferred_speed_mps.max(MIN_PREFERRED_MPS);
+    let [least, most] = REACH_OF_PREFERRED.map(|factor| factor * preferred_mps);
+    REACH_MARGIN * fastest_mps.clamp(least, most)
+}
