@@ -1,7 +1,7 @@
 //! `fbcrowd bench coupled`: two-way coupling against its baseline, on the scenes of the paper's user study (§7).
 //!
 //! Coupled: MCN, hybrid synthesis, discs that follow their bodies. Decoupled: ORCA plans for discs alone, and blended
-//! bodies follow them exactly ([`fbcrowd_sim::coupling::decoupled`]). Both use the same clips, scenes and film time step, until all
+//! bodies follow them exactly (`coupling::decoupled`). Both use the same clips, scenes and film time step, until all
 //! agents are at their goals. The study asked 21 people about naturalness, collisions and artefacts; here these are the
 //! overlap of bodies, the slide of planted feet, the acceleration of the root, and the angle between facing and travel.
 

@@ -4,7 +4,7 @@
 
 use schemars::JsonSchema;
 
-/// Mirror of [`motiondb::quality::ExampleQuality`].
+/// Mirror of [`motiondb::quality::example_quality::ExampleQuality`].
 #[derive(JsonSchema)]
 #[schemars(rename = "ExampleQuality", description = "Quality of an example's motion.")]
 pub struct ExampleQualityMirror {
@@ -30,7 +30,7 @@ pub struct ExampleQualityMirror {
     range_excess_joint: String,
 }
 
-/// Mirror of [`motiondb::quality::Finding`].
+/// Mirror of [`motiondb::quality::example_quality::Finding`].
 #[derive(JsonSchema)]
 #[schemars(rename = "Finding", description = "A quality figure beyond its threshold.")]
 pub struct FindingMirror {

@@ -5,7 +5,7 @@
 //! numbers the channels: a joint's channel knows its type, its axis and its column in a row of motion.
 //!
 //! # What our pre-pass does
-//! [`prepass`] reads the text first. It checks every statement of the hierarchy (`hierarchy`) and every number of the
+//! `prepass` reads the text first. It checks every statement of the hierarchy (`hierarchy`) and every number of the
 //! motion (`motion_section`, as `f64`), and names the line of each mistake. It accepts what other tools write: a byte
 //! order mark, CR or CRLF, any case of keywords, a brace beside a keyword, leaves without an End Site, a wrong `Frames:`,
 //! text after the last row. No allocation is larger than the file's bytes justify.
