@@ -2,7 +2,7 @@
 //!
 //! One file a subcommand under [`cmd`]; what it reports is made in [`report`] and printed by [`terminal`]. Results go to
 //! standard output, all else to standard error. Exit codes: 0 yes; 1 the answer is no, or an output was written though
-//! some input was refused; 2 bad usage or input, nothing written.
+//! some input was rejected; 2 bad usage or input, nothing written.
 
 mod cmd;
 #[cfg(test)]

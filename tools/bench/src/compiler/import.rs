@@ -57,17 +57,17 @@ pub struct ComparedClip {
     pub file: String,
     /// Name of the clip within the file; empty where the file holds one.
     pub clip: String,
-    /// Speed m/s, turn rate °/s and side speed m/s that the import found; null where the clip was refused.
+    /// Speed m/s, turn rate °/s and side speed m/s that the import found; null where the clip was rejected.
     pub found: Option<[f64; 3]>,
-    /// Speed m/s, turn rate °/s and side speed m/s that others measured; null where the clip was refused.
+    /// Speed m/s, turn rate °/s and side speed m/s that others measured; null where the clip was rejected.
     pub wanted: Option<[f64; 3]>,
-    /// Greatest difference over its tolerance; null where the clip was refused.
+    /// Greatest difference over its tolerance; null where the clip was rejected.
     pub excess: Option<f64>,
     /// Whether the clip is long enough to judge.
     pub judged: bool,
     /// Whether up axis and unit are right.
     pub units_hold: bool,
-    /// Why the clip was refused; null where it was not.
+    /// Why the clip was rejected; null where it was not.
     pub refused: Option<String>,
 }
 
@@ -100,7 +100,7 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
 }
 
 impl ComparedClip {
-    /// Greatest difference over its tolerance; infinite for a refused clip.
+    /// Greatest difference over its tolerance; infinite for a rejected clip.
     fn distance(&self) -> f64 {
         self.excess.unwrap_or(f64::INFINITY)
     }

@@ -1,7 +1,7 @@
 //! `fbcrowd bench soak`: whether anything that FbCrowd reads, damaged, forged or mutated, or any world that it simulates,
 //! ends the program, takes too long or does harm.
 //!
-//! In: a sound database, the bundled clips, and a seed. Out: counts of the copies that are refused and used, and every
+//! In: a sound database, the bundled clips, and a seed. Out: counts of the copies that are rejected and used, and every
 //! copy with a fault. Each copy draws its random numbers from a seed of its own, the seed of the bench plus its number, so
 //! that a single copy can be made again.
 //!
@@ -38,10 +38,10 @@ use crate::soak::generated::{linear_program, turned_scene};
 use crate::soak::scratch::Scratch;
 use crate::soak::tally::{CopyOutcome, FaultyCopy, InputKind, InputTally, try_all};
 
-/// Name of the kind of which every copy must be refused.
+/// Name of the kind of which every copy must be rejected.
 const DAMAGED: &str = "damaged databases";
 
-/// Damage, forge and mutate thousands of copies of every kind of input; each must be refused or do no harm.
+/// Damage, forge and mutate thousands of copies of every kind of input; each must be rejected or do no harm.
 ///
 /// Damaged databases: one byte altered, or cut anywhere; the checksum must refuse every one. Forged ones: altered and
 /// sealed with a right checksum; what is used must move bodies. BVH and GLB files, manifests, scenarios and recordings:

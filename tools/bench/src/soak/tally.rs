@@ -16,7 +16,7 @@ const LONGEST_S: f64 = 10.0;
 
 /// What became of one copy.
 pub(crate) enum CopyOutcome {
-    /// The copy was refused.
+    /// The copy was rejected.
     Rejection,
     /// The copy was used, and is sound.
     Used,
@@ -38,7 +38,7 @@ pub struct InputTally {
     pub name: &'static str,
     /// Number of copies.
     pub copies: usize,
-    /// Number of copies that were refused.
+    /// Number of copies that were rejected.
     pub refused: usize,
     /// Number of copies that were used and are sound.
     pub used: usize,

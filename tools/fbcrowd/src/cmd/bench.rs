@@ -1,4 +1,4 @@
-//! `fbcrowd bench`: measures, and holds the measurements against what a release must meet.
+//! `fbcrowd bench`: measures, and compares the measurements with what a release must meet.
 
 use fbcrowd_bench::Bench;
 
@@ -6,10 +6,10 @@ use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
 
-/// Measure, and hold the measurements against the criteria that a release must meet.
+/// Run one bench and compare its measurements with the release criteria.
 ///
-/// Durations and sizes depend on the machine: they are printed beside a goal and decide nothing. Exit code 0: every
-/// criterion is met; 1: one is missed; 2: the input cannot be read.
+/// Durations and sizes depend on the machine; they are printed with a goal, but do not change the exit code. Exit code 0:
+/// every criterion is met; 1: one is missed; 2: the input cannot be read.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  fbcrowd bench compile --mocap my/clips\n  fbcrowd bench table1 --json")]
 pub(crate) struct Args {

@@ -10,20 +10,20 @@ use crate::terminal::output;
 
 /// Write the bundled locomotion clips.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  fbcrowd clips --out assets/clips")]
+#[command(after_help = "Example:\n  fbcrowd clips --output assets/clips")]
 pub(crate) struct Args {
     /// Folder for the clips.
-    #[arg(short, long, alias = "output", value_name = "DIR")]
-    out: PathBuf,
+    #[arg(short, long, alias = "out", value_name = "DIR")]
+    output: PathBuf,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    fs::create_dir_all(&args.out).map_err(|error| Failure::unwritable(&args.out, error))?;
+    fs::create_dir_all(&args.output).map_err(|error| Failure::unwritable(&args.output, error))?;
     let clips = clipgen::generate();
     for clip in &clips {
-        let path = args.out.join(&clip.name);
+        let path = args.output.join(&clip.name);
         atomic_file::write(&path, &clip.bytes).map_err(|error| Failure::unwritable(&path, error))?;
     }
-    output::print(&format!("{} clips in {}", clips.len(), args.out.display()))?;
+    output::print(&format!("{} clips in {}", clips.len(), args.output.display()))?;
     Ok(Answer::Yes)
 }

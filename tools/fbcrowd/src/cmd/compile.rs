@@ -10,7 +10,7 @@ use fbcrowd_jobs::{JobError, JobEvent};
 use motiondb::velocity_sets::velocity_hull::Construction;
 use motiondb_compiler::Compiled;
 
-use crate::cmd::refused;
+use crate::cmd::rejected;
 use crate::report::compile_report::CompileReport;
 use crate::report::compile_text;
 use crate::report::next_steps::with_next_steps;
@@ -20,8 +20,8 @@ use crate::terminal::progress::ProgressDisplay;
 
 /// Compile motion clips into a database.
 ///
-/// Units, axes, joints, cycles and parameters are found; a manifest overrides what it names. Exit code 0: all clips
-/// were used; 1: the database was written, but some input was refused; 2: nothing was written.
+/// The compiler detects units, axes, joints, cycles and parameters; a manifest overrides them. Exit code 0: all clips were
+/// used; 1: the database was written, but some input was rejected; 2: nothing was written.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd compile assets/clips -o motion.fbdb\n  fbcrowd compile walk.bvh run.glb -o motion.fbdb\n  \
@@ -34,17 +34,17 @@ pub(crate) struct Args {
     /// The database to write.
     #[arg(short, long, value_name = "FILE.fbdb")]
     output: PathBuf,
-    /// Write nothing where any input is refused.
+    /// Write nothing if any input is rejected.
     #[arg(long)]
     strict: bool,
-    /// Print the report as JSON, with exit code 2 too; docs/json.md describes it.
+    /// Print the report as JSON, also if no clip gives an example (exit code 2); docs/json.md describes it.
     #[arg(long)]
     json: bool,
-    /// Most examples, mirrors not counted; overrides the manifest. The base walk (m_sp), one example that stands and
-    /// the examples that reach farthest come first.
+    /// Maximum number of examples, without mirrored ones; overrides the manifest. Kept first: the base walk (m_sp), one
+    /// standing example, then the examples with extreme speeds and turn rates.
     #[arg(long, value_name = "N", value_parser = at_least_one)]
     max_examples: Option<NonZeroUsize>,
-    /// How the examples bound velocities; overrides the manifest.
+    /// How velocity limits are computed from the examples; overrides the manifest.
     #[arg(long, value_enum, value_name = "SETS")]
     velocity_hull: Option<VelocitySets>,
 }
@@ -58,7 +58,7 @@ fn at_least_one(text: &str) -> Result<NonZeroUsize, &'static str> {
 enum VelocitySets {
     /// One set for bodies that turn, and one for bodies that hold their facing.
     TurningAndHolding,
-    /// The paper's construction alone: side-stepping and backward motions bound nothing.
+    /// The paper's construction: side-steps and backward steps are ignored.
     Paper,
 }
 
@@ -84,17 +84,17 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         output::print_json(&with_next_steps(CompileReport::without_examples(rejected.clone(), sources)))?;
     }
     let Compiled { db, rejected } = compiled?;
-    let answer = refused::answer(&rejected);
+    let answer = rejected::answer(&rejected);
     if args.strict && answer == Answer::No {
-        refused::say(&rejected);
+        rejected::print(&rejected);
         if args.json {
             output::print_json(&with_next_steps(CompileReport::new(None, &db, rejected, stopwatch.stage_times())))?;
         }
-        return Err(Failure::bad("some input was refused, and --strict allows none; repair it or leave it out"));
+        return Err(Failure::bad("some input was rejected, and --strict allows none; repair it or leave it out"));
     }
-    // On a terminal the report lists the refused clips.
+    // On a terminal the report lists the rejected clips.
     if !io::stdout().is_terminal() {
-        refused::say(&rejected);
+        rejected::print(&rejected);
     }
     compiling::write_database(&args.output, &db, &observer)?;
     let report = with_next_steps(CompileReport::new(Some(&args.output), &db, rejected, stopwatch.stage_times()));

@@ -1,4 +1,4 @@
-//! `fbcrowd inspect`: what a database or clips hold, as tables, JSON and pictures.
+//! `fbcrowd inspect`: the content of a database or of clips, as tables, JSON and pictures.
 
 use std::path::{Path, PathBuf};
 
@@ -9,17 +9,17 @@ use motiondb::files::database_file::{self, FileError};
 use motiondb_compiler::ClipSet;
 use motiondb_compiler::survey::survey;
 
-use crate::cmd::refused;
+use crate::cmd::rejected;
 use crate::report::correspondence_table::CorrespondenceTable;
 use crate::report::inspect_report::{BrokenInvariant, BrokenReport, ClipsReport, DatabaseReport};
 use crate::report::inspect_text;
-use crate::terminal::failure::{ALL_REFUSED, Answer, Failure};
+use crate::terminal::failure::{ALL_REJECTED, Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
 
-/// Show what a database or clips hold.
+/// Show the content of a database or of clips.
 ///
-/// Exit code 0: shown; 1: an invariant of the database is broken, or some clip was refused; 2: nothing can be read.
+/// Exit code 0: success; 1: an invariant of the database is broken, or a clip was rejected; 2: nothing can be read.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd inspect motion.fbdb --plots out/plots\n  fbcrowd inspect motion.fbdb --leave-one-out\n  fbcrowd inspect motion.fbdb --correspondence walk_110 run_350\n  fbcrowd inspect my/clips --json"
@@ -31,13 +31,12 @@ pub(crate) struct Args {
     /// Print JSON; docs/json.md describes it.
     #[arg(long)]
     json: bool,
-    /// Write pictures of a database: velocity sets, parameters, where the examples are thin, bodies, steps, and how
-    /// similar the poses of m_sp and m_mb are.
+    /// Write plots of a database: velocity sets, parameters, coverage, poses, gait events, and the pose distance of the
+    /// two examples between which synthesis switches (m_sp, m_mb).
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
-    /// Rebuild a database without each of its recorded examples (and its mirror), blend at its parameters, and compare:
-    /// the root-mean-square distance over the cycle, of all joints and of each joint, beside that of the nearest other
-    /// example.
+    /// For each recorded example: rebuild the database without it, blend at its parameters, and print the RMS joint
+    /// distance to it. The distance to the nearest other example is printed for comparison.
     #[arg(long)]
     leave_one_out: bool,
     /// List the times at which two examples of a database have similar poses (positions and velocities of the joints),
@@ -67,7 +66,7 @@ fn check_kind(path: &Path) -> Result<(), Failure> {
     }
     let what = match extension.as_str() {
         "fbrec" => "a recording; `fbcrowd measure` and `fbcrowd render` show it",
-        _ => "neither a database (*.fbdb) nor a clip (*.bvh, *.glb, *.gltf)",
+        _ => "neither a database (*.fbdb) nor a clip (*.bvh, *.glb, *.gltf); give one of these, or a folder of clips",
     };
     Err(Failure::bad(format!("{}: {what}", path.display())))
 }
@@ -125,8 +124,8 @@ fn inspect_clips(args: &Args, paths: &[PathBuf]) -> Result<Answer, Failure> {
     }
     let progress = ProgressDisplay::default();
     let ClipSet { clips, rejected } = compiling::import(paths, &|event| progress.observe(event))?;
-    refused::say(&rejected);
-    let (is_empty, answer) = (clips.is_empty(), refused::answer(&rejected));
+    rejected::print(&rejected);
+    let (is_empty, answer) = (clips.is_empty(), rejected::answer(&rejected));
     let surveyed = survey(clips);
     if args.json {
         output::print_json(&ClipsReport::new(&surveyed, rejected))?;
@@ -134,7 +133,7 @@ fn inspect_clips(args: &Args, paths: &[PathBuf]) -> Result<Answer, Failure> {
         output::print(&inspect_text::clips_text(&surveyed))?;
     }
     if is_empty {
-        return Err(Failure::bad(ALL_REFUSED));
+        return Err(Failure::bad(ALL_REJECTED));
     }
     Ok(answer)
 }

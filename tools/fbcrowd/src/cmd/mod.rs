@@ -1,6 +1,6 @@
 //! One file a subcommand: its arguments, and a `run` that leads from one stage to the next.
 //!
-//! In: the arguments. Out: an answer, or why the command could not do its work. [`refused`] is shared by the commands
+//! Enters: the arguments. Leaves: an answer, or why the command could not do its work. [`rejected`] is shared by the commands
 //! that read clips.
 
 pub(crate) mod bench;
@@ -9,7 +9,7 @@ pub(crate) mod compile;
 pub(crate) mod completions;
 pub(crate) mod inspect;
 pub(crate) mod measure;
-mod refused;
+mod rejected;
 pub(crate) mod render;
 pub(crate) mod run;
 pub(crate) mod simulate;

@@ -14,7 +14,7 @@ use crate::terminal::progress::ProgressDisplay;
 /// Render a recording to a frame sequence.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd render crossing.fbrec -o frames\n  fbcrowd render crossing.fbrec -o frames --format exr --frames 1001-1100x2\n  fbcrowd render crossing.fbrec -o why --overlay constraints --agent 3 --frames 1090-1120"
+    after_help = "Examples:\n  fbcrowd render crossing.fbrec -o frames\n  fbcrowd render crossing.fbrec -o frames --format exr --frames 1001-1100x2\n  fbcrowd render crossing.fbrec -o overlay --overlay constraints --agent 3 --frames 1090-1120"
 )]
 pub(crate) struct Args {
     /// The recording.
@@ -32,7 +32,7 @@ pub(crate) struct Args {
     /// Frames, as in `1001-1100`, `1001-1100x2`, `1010,1020`; all by default.
     #[arg(long, value_name = "RANGE")]
     frames: Option<FrameRange>,
-    /// Draw beside the scene why the agents named with --agent plan what they plan.
+    /// Draw, beside the scene, the velocity space of the agents given by --agent.
     #[arg(long, value_enum, value_name = "WHAT")]
     overlay: Option<OverlayArg>,
     /// An agent of the overlay, counted from 0; repeat it, or write 3,7, for several panels.
@@ -53,7 +53,7 @@ enum FormatArg {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum OverlayArg {
-    /// The velocity space of each agent: all that limits its plan, and its preferred, planned and actual velocities.
+    /// Velocity space: every half-plane that limits the plan, and the preferred, planned and actual velocities.
     Constraints,
 }
 

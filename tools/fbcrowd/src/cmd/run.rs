@@ -14,13 +14,13 @@ use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::database_file;
 use motiondb_compiler::Compiled;
 
-use crate::cmd::refused;
+use crate::cmd::rejected;
 use crate::report::{measures_text, timings_text};
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
 
-/// Compile a scenario's clips, simulate it, and render it.
+/// Compile the clips of a scenario, then simulate and render the scenario.
 ///
 /// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png` and `frames/NAME.####.png`.
 #[derive(clap::Args)]
@@ -77,10 +77,10 @@ fn database(motion: MotionSource, folder: &Path, observer: &Observer) -> Result<
         MotionSource::Clips(clips) => {
             let path = folder.join("motion.fbdb");
             let Compiled { db, rejected } = compiling::compile(&[clips], &path, &Overrides::default(), observer)?;
-            refused::say(&rejected);
+            rejected::print(&rejected);
             create_folder()?;
             compiling::write_database(&path, &db, observer)?;
-            Ok((path, refused::answer(&rejected)))
+            Ok((path, rejected::answer(&rejected)))
         }
     }
 }

@@ -10,8 +10,8 @@ use crate::terminal::output;
 
 /// Check every invariant of a motion database, and the quality of its motion.
 ///
-/// Exit code 0: all invariants hold; 1: one is broken, or with --strict a figure is beyond its threshold; 2: the file
-/// is no readable database (the message names what is wrong: its mark, version, length, checksum or content).
+/// Exit code 0: all invariants hold; 1: one is broken, or with --strict a quality value exceeds its threshold; 2: the file
+/// cannot be read as a database (the message names what is wrong: magic number, version, length, checksum or content).
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd validate out/antipodal/motion.fbdb\n  fbcrowd validate motion.fbdb --strict --json"
@@ -23,7 +23,7 @@ pub(crate) struct Args {
     /// Print JSON; docs/json.md describes it.
     #[arg(long)]
     json: bool,
-    /// Answer no (exit code 1) also where a figure is beyond its threshold.
+    /// Exit with 1 also if a quality value exceeds its threshold.
     #[arg(long)]
     strict: bool,
 }

@@ -28,7 +28,7 @@ pub(crate) struct CompileReport {
     pub(crate) mirror_count: usize,
     /// Number of simplices of the blend space.
     pub(crate) simplex_count: usize,
-    /// Files and clips that were refused.
+    /// Files and clips that were rejected.
     pub(crate) refused: Vec<UnusedClip>,
     /// Clips of human motion that give no example.
     pub(crate) unused: Vec<UnusedClip>,

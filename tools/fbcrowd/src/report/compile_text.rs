@@ -27,7 +27,7 @@ const WIDTH: usize = 110;
 pub(crate) fn text(report: &CompileReport) -> String {
     let sections = [
         headline(report),
-        section("refused", grouped(report.refused.iter().map(reason))),
+        section("rejected", grouped(report.refused.iter().map(reason))),
         section("no example", grouped(report.unused.iter().map(reason))),
         section("warnings", grouped(diagnostics(report, Severity::Warning))),
         section(EXAMPLES, example_table::lines(report)),
@@ -41,7 +41,7 @@ pub(crate) fn text(report: &CompileReport) -> String {
 
 /// Why clips give no example.
 pub(crate) fn reasons(report: &CompileReport) -> String {
-    section("refused", grouped(report.refused.iter().map(reason)))
+    section("rejected", grouped(report.refused.iter().map(reason)))
         + &section("no example", grouped(report.unused.iter().map(reason)))
         + &section("warnings", grouped(diagnostics(report, Severity::Warning)))
 }
@@ -79,7 +79,7 @@ fn headline(report: &CompileReport) -> String {
     let mut warned: Vec<String> = diagnostics(report, Severity::Warning).map(|(clip, _)| clip).collect();
     warned.dedup();
     let counts = format!(
-        "{}: {} used, {} without example, {} refused; {} with warnings\n",
+        "{}: {} used, {} without example, {} rejected; {} with warnings\n",
         counted(all, "clip", "clips"),
         report.used.len(),
         report.unused.len(),

@@ -21,7 +21,7 @@ use crate::report::json_diagnostic::JsonDiagnostic;
 pub(crate) struct ClipsReport {
     /// Clips of human motion.
     sources: Vec<InspectedClip>,
-    /// Files and clips that were refused.
+    /// Files and clips that were rejected.
     refused: Vec<UnusedClip>,
 }
 

@@ -17,7 +17,7 @@ pub(crate) fn with_next_steps(report: CompileReport) -> CompileReport {
 fn next_steps(report: &CompileReport) -> Vec<String> {
     let mut next = Vec::new();
     if !report.refused.is_empty() {
-        let step = "Repair what is refused, or leave it out: `skip = true` in its table of a manifest.toml.";
+        let step = "Repair what is rejected, or leave it out: `skip = true` in its table of a manifest.toml.";
         next.push(step.to_owned());
     }
     let implausible = implausible_frame_times(report);

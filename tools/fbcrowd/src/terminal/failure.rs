@@ -22,15 +22,15 @@ use crate::terminal::output::{self, PrintError};
 
 /// The text around a mistake is shown only where all its lines are shorter, bytes.
 const SHOWN_LINE_BYTES: usize = 1_000;
-/// Where every clip that was named is refused.
-pub(crate) const ALL_REFUSED: &str = "none of the clips can be used; give clips of a walking human skeleton";
+/// Where every clip that was named is rejected.
+pub(crate) const ALL_REJECTED: &str = "none of the clips can be used; give clips of a walking human skeleton";
 
 /// The answer of a command that could do its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Answer {
     /// Exit code 0.
     Yes,
-    /// Exit code 1: an invariant is broken, a criterion is missed, or some input was refused and the rest was used.
+    /// Exit code 1: an invariant is broken, a criterion is missed, or some input was rejected and the rest was used.
     No,
 }
 
@@ -48,7 +48,7 @@ pub(crate) enum Failure {
     BadInput(Report),
     /// Exit code 2, with what is wrong with each clip.
     NoExample {
-        /// Files and clips that were refused.
+        /// Files and clips that were rejected.
         rejected: Vec<Rejection>,
         /// Clips of human motion that give no example.
         sources: Vec<SourceRecord>,
@@ -71,7 +71,7 @@ impl Failure {
         match error {
             JobError::Mistake(invalid) => Self::mistake(*invalid),
             JobError::NoExample { rejected, sources } => {
-                let advice = if sources.is_empty() { ALL_REFUSED.to_owned() } else { message };
+                let advice = if sources.is_empty() { ALL_REJECTED.to_owned() } else { message };
                 Self::NoExample { rejected, sources, advice }
             }
             _ => Self::bad(message),
@@ -128,7 +128,7 @@ impl From<PrintError> for Failure {
     fn from(error: PrintError) -> Self {
         match error {
             PrintError::ReaderGone => Self::ReaderGone,
-            PrintError::Rejection(error) => Self::bad(format!("standard output cannot be written: {error}")),
+            PrintError::Io(error) => Self::bad(format!("standard output cannot be written: {error}")),
         }
     }
 }

@@ -10,8 +10,8 @@ use crate::report::plain_text::{one_line, without_control_characters};
 pub(crate) enum PrintError {
     /// The program that read standard output has ended (`| head -1`).
     ReaderGone,
-    /// The system refuses.
-    Rejection(io::Error),
+    /// The operating system reports an error.
+    Io(io::Error),
 }
 
 /// Prints one line on standard error. Where no program reads it (`2>&1 | head -1`), the work goes on.
@@ -19,7 +19,7 @@ pub(crate) fn say(line: &str) {
     say_text(&one_line(line));
 }
 
-/// Prints lines on standard error as they are; they must hold nothing that a terminal obeys.
+/// Prints lines on standard error as they are; they must not contain control characters.
 pub(crate) fn say_text(lines: &str) {
     let _ = writeln!(io::stderr(), "{lines}");
 }
@@ -29,7 +29,7 @@ pub(crate) fn print(text: &str) -> Result<(), PrintError> {
     match writeln!(io::stdout(), "{}", without_control_characters(text.trim_end())) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Err(PrintError::ReaderGone),
-        Err(error) => Err(PrintError::Rejection(error)),
+        Err(error) => Err(PrintError::Io(error)),
     }
 }
 
