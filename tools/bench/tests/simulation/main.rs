@@ -1,11 +1,11 @@
 //! Claims about the simulation that need compiled clips or generated worlds.
 
+mod augmented_database;
 mod clips;
 mod generated;
 mod hybrid;
 mod linear_programs;
 mod random_plans;
-mod repertoire;
 mod replay;
 mod semi_procedural;
 mod stops;

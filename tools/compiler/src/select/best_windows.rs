@@ -24,8 +24,8 @@ pub(crate) fn best_windows(mut clip: AnalyzedClip) -> AnalyzedClip {
     let cells: Vec<(bool, DVec3)> = windows.iter().map(cell).collect();
     let flaws: Vec<f64> = windows.iter().map(|window| window.flaws).collect();
     let is_best = |index: usize| {
-        let rivals = (0..clean).filter(|other| cells[*other] == cells[index]);
-        rivals.min_by(|a, b| flaws[*a].total_cmp(&flaws[*b])) == Some(index)
+        let others = (0..clean).filter(|other| cells[*other] == cells[index]);
+        others.min_by(|a, b| flaws[*a].total_cmp(&flaws[*b])) == Some(index)
     };
     let mut index = 0..;
     windows.retain(|_| index.next().is_some_and(is_best));
