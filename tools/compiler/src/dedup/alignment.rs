@@ -1,5 +1,7 @@
 //! How the time of one clip lies on that of another that shows the same take.
 
+use crate::ground::root_arc::Rates;
+
 /// Frame times that differ by less are one, as a share: 23.976 and 24 frames a second, 29.97 and 30.
 const SAME_PACE: f64 = 0.01;
 
@@ -10,7 +12,7 @@ pub struct Alignment {
     pub mirrored: bool,
     /// The other's time at which this clip begins, s; negative where it begins earlier.
     pub start_s: f64,
-    /// How much of the other's time goes by in a second of this clip's: 1 unless a frame time lies.
+    /// How much of the other's time goes by in a second of this clip's: 1 unless a frame time is wrong.
     pub pace: f64,
 }
 
@@ -18,7 +20,7 @@ impl Alignment {
     /// A clip on itself.
     pub(crate) const SAME: Self = Self { mirrored: false, start_s: 0.0, pace: 1.0 };
 
-    /// Whether the two are told at different frame times.
+    /// Whether the two have different frame times.
     pub fn times_differ(&self) -> bool {
         (self.pace - 1.0).abs() > SAME_PACE
     }
@@ -26,6 +28,16 @@ impl Alignment {
     /// A stretch of this clip in the other's time.
     pub(crate) fn at(&self, stretch_s: [f64; 2]) -> [f64; 2] {
         stretch_s.map(|time_s| self.start_s + self.pace * time_s)
+    }
+
+    /// Rates of this clip as the other shows them.
+    pub(crate) fn rates(&self, rates: &Rates) -> Rates {
+        let side = if self.mirrored { -1.0 } else { 1.0 };
+        Rates {
+            speed_mps: rates.speed_mps / self.pace,
+            turn_rate_rad_s: side * rates.turn_rate_rad_s / self.pace,
+            strafe_mps: side * rates.strafe_mps / self.pace,
+        }
     }
 
     /// The other clip on this one.

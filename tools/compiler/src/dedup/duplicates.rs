@@ -1,22 +1,21 @@
-//! The same take twice: under another name, at another frame rate, with a lying frame time, on another skeleton, as a
-//! part of the other or mirrored. Of each stretch one of the clips gives the example.
+//! The same take twice: under another name, at another frame rate, at a wrong frame time, on another skeleton, as a part
+//! of the other or mirrored. Of each stretch of a take one clip gives the example.
 //!
-//! `take_search` chooses which clips are compared, `same_take` decides of two clips, `shared_stretches` which of their
-//! windows give examples. Here all of it is put together, with a diagnostic for each clip that it concerns.
+//! This file leads through the chapter's steps and reports, for each clip, which other clip gives its examples.
+
+use std::cmp::Reverse;
 
 use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use rayon::prelude::*;
 
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::dedup::alignment::Alignment;
-use crate::dedup::frame_times::Neighbours;
-use crate::dedup::performance::Performance;
-use crate::dedup::same_take::Entry;
-use crate::dedup::shared_stretches::{self, Chosen, Mark};
-use crate::dedup::take_search::{self, LIST_MAX, Search};
+use crate::dedup::comparison::{ComparedClip, compare};
+use crate::dedup::groups::{GROUPS_MAX, Groups};
+use crate::dedup::shared_windows::{self, Chosen, Giver};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 
-/// Clips that a diagnostic names; the others are counted.
+/// Number of clips that a diagnostic names; it counts the others.
 const NAMED_MAX: usize = 8;
 
 /// Two clips of one take.
@@ -24,73 +23,70 @@ const NAMED_MAX: usize = 8;
 pub struct Pair {
     /// Indices of the clips.
     pub clips: [usize; 2],
-    /// The second on the first.
+    /// The second clip on the first.
     pub alignment: Alignment,
-    /// r of `performance`.
+    /// Unlikeness r of both (file `correlation`).
     pub unlikeness: f64,
 }
 
-/// Takes from each clip the windows that a better copy of its take gives the examples of.
+/// Drops from each clip the windows that a better copy of its take gives, and reports it.
+///
+/// # Steps
+/// 1. Compute the motion signature of each clip.
+/// 2. Find the groups of one take, the longest clips first.
+/// 3. Choose the windows of each group that give examples.
+/// 4. Drop the others, with a diagnostic for each clip.
 pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [AnalyzedClip], body: &HumanBody) {
-    let gives_example: Vec<bool> = analyzed.iter().map(|found| !found.windows.is_empty()).collect();
-    let search = search(clips, &gives_example);
-    let neighbours = neighbours(clips.len(), &found_pairs(&search));
+    let gives_example = |clip: usize| !analyzed[clip].windows.is_empty();
     let may_pair = |a: usize, b: usize| !are_parts_of_one_file(&clips[a], &clips[b]);
-    let chosen = shared_stretches::choose(clips, analyzed, &neighbours, body, may_pair);
+    let compared: Vec<ComparedClip> = clips.par_iter().map(ComparedClip::of).collect();
+    let compare = |leader: usize, clip: usize| {
+        if may_pair(leader, clip) { compare(&compared[leader], &compared[clip]) } else { None }
+    };
+    let groups = Groups::find(&order(clips, gives_example), gives_example, compare);
+    let chosen = shared_windows::choose(clips, analyzed, &groups, body, may_pair);
     for (clip, found) in analyzed.iter_mut().enumerate() {
         found.diagnostics.extend(diagnostics(clips, &chosen, clip));
         let mut aside = chosen.aside[clip].iter();
         found.windows.retain(|_| aside.next().is_some_and(Option::is_none));
     }
-    for clip in search.beyond_list {
-        let warning = Warning::NotCompared { compared: LIST_MAX as u32 };
+    for clip in groups.uncompared {
+        let warning = Warning::NotCompared { compared: GROUPS_MAX as u32 };
         analyzed[clip].diagnostics.push(Diagnostic::Warning(warning));
     }
 }
 
-/// Every two clips of one take, in the clips' order; of a take of very many clips not every two (`take_search`).
+/// Every two clips of one take, in the clips' order. Compares each clip with each: meant for hundreds of clips.
 pub fn pairs(clips: &[HumanClip]) -> Vec<Pair> {
-    let mut pairs = found_pairs(&search(clips, &vec![true; clips.len()]));
-    pairs.sort_by_key(|pair| pair.clips);
-    pairs
-}
-
-/// Compares the clips, the longest first, those without examples only with the others.
-fn search(clips: &[HumanClip], gives_example: &[bool]) -> Search {
-    let duration_s = |clip: usize| clips[clip].frames.len() as f64 / clips[clip].frame_rate_hz;
-    let mut order: Vec<usize> = (0..clips.len()).collect();
-    order.sort_by(|&a, &b| gives_example[b].cmp(&gives_example[a]).then(duration_s(b).total_cmp(&duration_s(a))));
-    let entries: Vec<Entry> = clips.par_iter().map(|clip| Entry::new(Performance::of(clip))).collect();
-    let may_pair =
-        |better: usize, other: usize| gives_example[better] && !are_parts_of_one_file(&clips[better], &clips[other]);
-    take_search::search(&entries, &order, may_pair)
-}
-
-/// Each pair with its clips in ascending order.
-fn found_pairs(search: &Search) -> Vec<Pair> {
-    let pair = |&(better, other, found): &take_search::Found| match better < other {
-        true => Pair { clips: [better, other], alignment: found.alignment, unlikeness: found.unlikeness },
-        false => Pair { clips: [other, better], alignment: found.alignment.inverse(), unlikeness: found.unlikeness },
+    let compared: Vec<ComparedClip> = clips.par_iter().map(ComparedClip::of).collect();
+    let with_later = |first: usize| {
+        let pair = |second: usize| {
+            if are_parts_of_one_file(&clips[first], &clips[second]) {
+                return None;
+            }
+            let found = compare(&compared[first], &compared[second])?;
+            Some(Pair { clips: [first, second], alignment: found.alignment, unlikeness: found.unlikeness })
+        };
+        (first + 1..clips.len()).filter_map(pair).collect::<Vec<Pair>>()
     };
-    search.found.iter().map(pair).collect()
+    (0..clips.len()).into_par_iter().flat_map(with_later).collect()
 }
 
-/// Of each clip those of its take, and how it lies on them.
-fn neighbours(count: usize, pairs: &[Pair]) -> Neighbours {
-    let mut neighbours = vec![Vec::new(); count];
-    for Pair { clips: [first, second], alignment, .. } in pairs {
-        neighbours[*second].push((*first, *alignment));
-        neighbours[*first].push((*second, alignment.inverse()));
-    }
-    neighbours
+/// The clips, the longest first; those without examples last.
+fn order(clips: &[HumanClip], gives_example: impl Fn(usize) -> bool) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..clips.len()).collect();
+    // The bits of positive numbers have the numbers' order.
+    let duration_bits = |clip: usize| shared_windows::duration_s(&clips[clip]).to_bits();
+    order.sort_by_cached_key(|&clip| (!gives_example(clip), Reverse(duration_bits(clip))));
+    order
 }
 
-/// Of a clip: which other gives its examples; or, of the one that does, which others differ in their frame times.
+/// The clip that gives this clip's examples; of a clip that gives them, the clips with another frame time.
 fn diagnostics(clips: &[HumanClip], chosen: &Chosen, clip: usize) -> Vec<Diagnostic> {
     let windows = &chosen.aside[clip];
-    let aside: Vec<&Mark> = windows.iter().flatten().collect();
+    let aside: Vec<&Giver> = windows.iter().flatten().collect();
     let own = match (&aside[..], windows.len()) {
-        ([], 0) => chosen.marks[clip].first().map(|mark| same_take(clips, mark, 0)),
+        ([], 0) => chosen.best[clip].map(|giver| same_take(clips, &giver, 0)),
         ([], _) => None,
         ([first, ..], all) if aside.len() == all => Some(Diagnostic::NoExample(no_example(clips, first))),
         ([first, ..], _) => Some(same_take(clips, first, aside.len())),
@@ -98,11 +94,10 @@ fn diagnostics(clips: &[HumanClip], chosen: &Chosen, clip: usize) -> Vec<Diagnos
     own.into_iter().chain(of_other_times(clips, chosen, clip)).collect()
 }
 
-/// Of the clip that gives the examples of a take, where other clips show it at another frame time.
+/// Of a clip that gives the examples of a take: the clips that show it at another frame time.
 fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<Diagnostic> {
-    let differs = |&clip: &usize| {
-        chosen.marks[clip].first().is_some_and(|mark| mark.giver == giver && mark.alignment.times_differ())
-    };
+    let differs =
+        |&clip: &usize| chosen.best[clip].is_some_and(|best| best.clip == giver && best.alignment.times_differ());
     let all: Vec<usize> = (0..clips.len()).filter(differs).collect();
     let others: Vec<String> = all.iter().take(NAMED_MAX).map(|&clip| title(&clips[clip])).collect();
     let more = (all.len() - others.len()) as u32;
@@ -110,16 +105,16 @@ fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<
     (!all.is_empty()).then_some(Diagnostic::Warning(warning))
 }
 
-fn no_example(clips: &[HumanClip], Mark { giver, alignment, .. }: &Mark) -> Unfit {
+fn no_example(clips: &[HumanClip], Giver { clip, alignment }: &Giver) -> Unfit {
     Unfit::SameTake {
-        other: title(&clips[*giver]),
+        other: title(&clips[*clip]),
         mirrored: alignment.mirrored,
         frame_times_differ: alignment.times_differ(),
     }
 }
 
-fn same_take(clips: &[HumanClip], Mark { giver, alignment, .. }: &Mark, windows_left_out: usize) -> Diagnostic {
-    let (other, mirrored) = (title(&clips[*giver]), alignment.mirrored);
+fn same_take(clips: &[HumanClip], Giver { clip, alignment }: &Giver, windows_left_out: usize) -> Diagnostic {
+    let (other, mirrored) = (title(&clips[*clip]), alignment.mirrored);
     let windows_left_out = windows_left_out as u32;
     match alignment.times_differ() {
         true => {
@@ -133,7 +128,7 @@ fn title(clip: &HumanClip) -> String {
     format!("{} {}", clip.source.file, clip.source.clip).trim_end().to_owned()
 }
 
-/// Whoever cuts a capture in a manifest wants both parts.
+/// Whether a manifest cuts both clips out of one capture: then the user wants both.
 fn are_parts_of_one_file(a: &HumanClip, b: &HumanClip) -> bool {
     (a.choices.is_cut || b.choices.is_cut) && a.source.file == b.source.file && a.source.clip == b.source.clip
 }
