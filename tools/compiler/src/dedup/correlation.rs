@@ -1,59 +1,63 @@
-//! Two motion signatures at a lag → how unlike they are.
+//! Unlikeness of two motion signatures at a lag, by their normalised cross-correlation.
 //!
-//! With a, b the directions of both, ‾ their mean over the rows that both show and ρ the normalised cross-correlation,
-//! the unlikeness r is
+//! With a, b the directions of both, ‾ their mean over the common rows and ρ their normalised cross-correlation, the
+//! unlikeness r is
 //!
 //! ```text
 //! r² = Σ|(a − a‾) − (b − b‾)|² / √(A·B) = (A + B) / √(A·B) − 2ρ,  A = Σ|a − a‾|²,  B = Σ|b − b‾|²,
 //! ```
 //!
-//! 0 for a copy, √2 for what has nothing in common. The means fall out because retargeting tilts a limb by the same
-//! 2–6° all along.
+//! 0 for a copy and √2 for unrelated motions. The means are subtracted because retargeting tilts a limb by a constant
+//! 2–6°.
 //!
-//! Most lags are rejected by less, the coarse screening: by a few *probes* of the shorter clip, a row from the middle of
-//! each sixteenth of its movement, and of these only by how far thighs and shanks point forward. Where the probes are
-//! alike the sum is taken, and broken off where it is too great; A, B and the means come from running sums.
+//! 1. Coarse screening rejects most lags. It compares *probes*: 16 rows of the shorter clip, one from each sixteenth of
+//!    its movement, and of them only how far thighs and shanks point forward.
+//! 2. A and B, from running sums, reject movements of different size.
+//! 3. The sum over all rows decides. It stops where it exceeds the limit.
 
 use std::f32::consts::PI;
 
-use crate::dedup::signature::{DIRECTION_COUNT, FACING, LEG_COUNT, Row};
+use crate::dedup::signature::{DIRECTION_COUNT, FACING, LEG_COUNT, Row, WIDTH};
 
-/// Share of the shorter clip that both must show.
+/// Share of the shorter clip that both clips must show.
 const OVERLAP_SHARE: f64 = 0.8;
-/// Probes of a clip, and how many are compared at once.
+/// Number of probes of a clip.
 const PROBE_COUNT: usize = 16;
-const PROBES_AT_ONCE: usize = 4;
-/// Greatest r² of the probes. At the nearest lag in rows, 25 ms off at most, that of copies is below 0.3.
+/// Number of probes between two checks of the limit.
+const PROBES_PER_CHECK: usize = 4;
+/// Greatest r² of the probes. At the nearest lag in rows, at most 25 ms off, that of copies is below 0.3.
 const PROBES_MAX: f32 = 0.5;
-/// Root mean square by which the directions of a still clip leave their mean, rad: 0.2°. It has no motion to compare.
+/// Root mean square deviation of directions from their mean below which a clip has no motion to compare, rad: 0.2°.
 const STILL_RAD: f32 = 0.2 * PI / 180.0;
-/// Every so manieth row is compared first, then those between: neighbours are alike.
+/// Distance of rows that are summed between two checks of the limit: neighbouring rows are alike.
 const ROW_STEP: usize = 16;
 
+/// Forward coordinates of thighs and shanks.
 type Legs = [f32; LEG_COUNT];
 
-/// A signature ready for all lags.
+/// A motion signature, ready for comparison at all lags.
 pub(crate) struct Series {
-    /// About their mean.
+    /// Rows of the signature about their mean.
     pub(crate) rows: Vec<Row>,
-    /// Running sums of the rows, and of the squares of their directions.
+    /// Running sums of the rows.
     sums: Vec<Row>,
+    /// Running sums of the squares of the rows' directions.
     squares: Vec<f32>,
-    /// How far thighs and shanks point forward, of each row.
+    /// Forward coordinates of the legs, of each row.
     legs: Vec<Legs>,
-    /// Rows of the probes.
+    /// Indices of the probes' rows.
     probes: Vec<usize>,
     /// Sum of squares of the probes about their mean.
-    probed: f32,
+    probe_squares: f32,
 }
 
 impl Series {
+    /// Prepares a signature.
     pub(crate) fn of(rows: &[Row]) -> Self {
-        let sum =
-            rows.iter().fold([0.0; FACING + 1], |sum, row| std::array::from_fn(|at| sum[at] + f64::from(row[at])));
+        let sum = rows.iter().fold([0.0; WIDTH], |sum, row| std::array::from_fn(|at| sum[at] + f64::from(row[at])));
         let mean: Row = sum.map(|sum| (sum / rows.len() as f64) as f32);
         let rows: Vec<Row> = rows.iter().map(|row| minus(row, &mean)).collect();
-        let (mut sums, mut squares) = (vec![[0.0; FACING + 1]], vec![0.0]);
+        let (mut sums, mut squares) = (vec![[0.0; WIDTH]], vec![0.0]);
         for (index, row) in rows.iter().enumerate() {
             sums.push(std::array::from_fn(|at| sums[index][at] + row[at]));
             squares.push(squares[index] + row[..FACING].iter().map(|value| value * value).sum::<f32>());
@@ -62,10 +66,10 @@ impl Series {
         let probes = probes(&legs);
         let mut probed = Squares::default();
         probes.iter().for_each(|&probe| probed.add(legs[probe]));
-        Self { probed: probed.about_mean(), rows, sums, squares, legs, probes }
+        Self { probe_squares: probed.about_mean(), rows, sums, squares, legs, probes }
     }
 
-    /// The mean of some rows, and the sum of squares of the directions about it.
+    /// Mean of `count` rows, and sum of squares of their directions about it.
     fn moments(&self, from: usize, count: usize) -> (Row, f32) {
         let (before, after) = (&self.sums[from], &self.sums[from + count]);
         let mean: Row = std::array::from_fn(|at| (after[at] - before[at]) / count as f32);
@@ -73,37 +77,41 @@ impl Series {
         (mean, (self.squares[from + count] - self.squares[from] - of_mean).max(0.0))
     }
 
-    /// The lags, in rows of this series, the longer one, at which most of a shorter one is covered.
+    /// Lags, in rows of this longer series, at which it covers most of a shorter one.
     pub(crate) fn lags_of(&self, shorter: &Self) -> std::ops::RangeInclusive<isize> {
         let least = least_overlap(shorter.rows.len()) as isize;
         least - shorter.rows.len() as isize..=self.rows.len() as isize - least
     }
 
-    /// Whether the probes are alike to the rows of a longer series at a lag.
+    /// Whether the probes are like the rows of a longer series at a lag.
     fn probes_are_alike(&self, longer: &Self, lag: isize) -> bool {
         let mut apart = Squares::default();
-        self.probes.chunks(PROBES_AT_ONCE).all(|probes| {
+        self.probes.chunks(PROBES_PER_CHECK).all(|probes| {
             for &probe in probes {
                 let (a, b) = (&self.legs[probe], &longer.legs[(probe as isize + lag) as usize]);
                 apart.add(std::array::from_fn(|leg| a[leg] - b[leg]));
             }
-            apart.about_mean() <= PROBES_MAX * self.probed
+            // Further probes only add to this sum.
+            apart.about_mean() <= PROBES_MAX * self.probe_squares
         })
     }
 }
 
-/// r² where row 0 of the shorter series meets row `lag` of the longer; none where it is beyond a limit, and where
-/// nothing moves.
+/// r² where row 0 of the shorter series meets row `lag` of the longer one. `None` where r² exceeds `limit` or a clip is
+/// still.
 pub(crate) fn squared_unlikeness(shorter: &Series, longer: &Series, lag: isize, limit: f32) -> Option<f32> {
     if !shorter.probes_are_alike(longer, lag) {
         return None;
     }
     let [from, longer_from] = [(-lag).max(0) as usize, lag.max(0) as usize];
     let count = (shorter.rows.len() - from).min(longer.rows.len() - longer_from);
+    if count == 0 {
+        return None;
+    }
     let ((mean, of_a), (longer_mean, of_b)) = (shorter.moments(from, count), longer.moments(longer_from, count));
     let geometric = libm::sqrtf(of_a * of_b);
     let (still, most) = (STILL_RAD * STILL_RAD * (count * DIRECTION_COUNT) as f32, limit * geometric);
-    // By Cauchy and Schwarz no lag makes up for movements of different size.
+    // ρ ≤ 1 (Cauchy–Schwarz), so r² is at least this.
     if geometric <= still || of_a + of_b - 2.0 * geometric > most {
         return None;
     }
@@ -127,12 +135,12 @@ pub(crate) fn squared_unlikeness(shorter: &Series, longer: &Series, lag: isize, 
     Some(sum / geometric)
 }
 
-/// The rows of the shorter of two clips that both must show.
+/// Number of rows of the shorter of two clips that both must show.
 fn least_overlap(count: usize) -> usize {
     libm::ceil(count as f64 * OVERLAP_SHARE) as usize
 }
 
-/// The row in the middle of each of [`PROBE_COUNT`] equal shares of the movement, of the rows that all lags cover.
+/// Row in the middle of each of [`PROBE_COUNT`] equal shares of the movement, among the rows that all lags cover.
 fn probes(legs: &[Legs]) -> Vec<usize> {
     let covered = legs.len() - least_overlap(legs.len())..least_overlap(legs.len());
     let movement = |row: usize| legs[row].iter().map(|value| value * value).sum::<f32>();
@@ -147,7 +155,7 @@ fn probes(legs: &[Legs]) -> Vec<usize> {
     probes
 }
 
-/// Sums over probes.
+/// Sums of values and of their squares over probes.
 #[derive(Default)]
 struct Squares {
     count: f32,
@@ -158,12 +166,11 @@ struct Squares {
 impl Squares {
     fn add(&mut self, legs: Legs) {
         self.count += 1.0;
-        for leg in 0..LEG_COUNT {
-            self.sums[leg] += legs[leg];
-            self.squares[leg] += legs[leg] * legs[leg];
-        }
+        self.sums.iter_mut().zip(&legs).for_each(|(sum, value)| *sum += value);
+        self.squares.iter_mut().zip(&legs).for_each(|(sum, value)| *sum += value * value);
     }
 
+    /// Sum of squares about the mean.
     fn about_mean(&self) -> f32 {
         (0..LEG_COUNT).map(|leg| self.squares[leg] - self.sums[leg] * self.sums[leg] / self.count).sum()
     }

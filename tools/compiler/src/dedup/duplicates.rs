@@ -1,5 +1,5 @@
-//! The same take twice: under another name, at another frame rate, at a wrong frame time, on another skeleton, as a part
-//! of the other or mirrored. Of each stretch of a take one clip gives the example.
+//! Duplicates: the same take twice, under another name, at another frame rate, at a wrong frame time, on another
+//! skeleton, as a part of the other or mirrored. Of each part of a take one clip gives the example.
 //!
 //! This file leads through the chapter's steps and reports, for each clip, which other clip gives its examples.
 
@@ -12,7 +12,7 @@ use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::dedup::alignment::Alignment;
 use crate::dedup::comparison::{ComparedClip, compare};
 use crate::dedup::groups::{GROUPS_MAX, Groups};
-use crate::dedup::shared_windows::{self, Chosen, Giver};
+use crate::dedup::shared_windows::{self, Giver, Givers};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 
 /// Number of clips that a diagnostic names; it counts the others.
@@ -36,7 +36,7 @@ pub struct Pair {
 /// 2. Find the groups of one take, the longest clips first.
 /// 3. Choose the windows of each group that give examples.
 /// 4. Drop the others, with a diagnostic for each clip.
-pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [AnalyzedClip], body: &HumanBody) {
+pub(crate) fn drop_duplicates(clips: &[HumanClip], analyzed: &mut [AnalyzedClip], body: &HumanBody) {
     let gives_example = |clip: usize| !analyzed[clip].windows.is_empty();
     let may_pair = |a: usize, b: usize| !are_parts_of_one_file(&clips[a], &clips[b]);
     let compared: Vec<ComparedClip> = clips.par_iter().map(ComparedClip::of).collect();
@@ -44,11 +44,11 @@ pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [AnalyzedClip], body
         if may_pair(leader, clip) { compare(&compared[leader], &compared[clip]) } else { None }
     };
     let groups = Groups::find(&order(clips, gives_example), gives_example, compare);
-    let chosen = shared_windows::choose(clips, analyzed, &groups, body, may_pair);
+    let givers = shared_windows::choose(clips, analyzed, &groups, body, may_pair);
     for (clip, found) in analyzed.iter_mut().enumerate() {
-        found.diagnostics.extend(diagnostics(clips, &chosen, clip));
-        let mut aside = chosen.aside[clip].iter();
-        found.windows.retain(|_| aside.next().is_some_and(Option::is_none));
+        found.diagnostics.extend(diagnostics(clips, &givers, clip));
+        let mut givers = givers.of_windows[clip].iter();
+        found.windows.retain(|_| givers.next().is_some_and(Option::is_none));
     }
     for clip in groups.uncompared {
         let warning = Warning::NotCompared { compared: GROUPS_MAX as u32 };
@@ -82,22 +82,22 @@ fn order(clips: &[HumanClip], gives_example: impl Fn(usize) -> bool) -> Vec<usiz
 }
 
 /// The clip that gives this clip's examples; of a clip that gives them, the clips with another frame time.
-fn diagnostics(clips: &[HumanClip], chosen: &Chosen, clip: usize) -> Vec<Diagnostic> {
-    let windows = &chosen.aside[clip];
-    let aside: Vec<&Giver> = windows.iter().flatten().collect();
-    let own = match (&aside[..], windows.len()) {
-        ([], 0) => chosen.best[clip].map(|giver| same_take(clips, &giver, 0)),
+fn diagnostics(clips: &[HumanClip], givers: &Givers, clip: usize) -> Vec<Diagnostic> {
+    let windows = &givers.of_windows[clip];
+    let replaced: Vec<&Giver> = windows.iter().flatten().collect();
+    let own = match (&replaced[..], windows.len()) {
+        ([], 0) => givers.of_clips[clip].map(|giver| same_take(clips, &giver, 0)),
         ([], _) => None,
-        ([first, ..], all) if aside.len() == all => Some(Diagnostic::NoExample(no_example(clips, first))),
-        ([first, ..], _) => Some(same_take(clips, first, aside.len())),
+        ([first, ..], all) if replaced.len() == all => Some(Diagnostic::NoExample(no_example(clips, first))),
+        ([first, ..], _) => Some(same_take(clips, first, replaced.len())),
     };
-    own.into_iter().chain(of_other_times(clips, chosen, clip)).collect()
+    own.into_iter().chain(of_other_times(clips, givers, clip)).collect()
 }
 
 /// Of a clip that gives the examples of a take: the clips that show it at another frame time.
-fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<Diagnostic> {
+fn of_other_times(clips: &[HumanClip], givers: &Givers, giver: usize) -> Option<Diagnostic> {
     let differs =
-        |&clip: &usize| chosen.best[clip].is_some_and(|best| best.clip == giver && best.alignment.times_differ());
+        |&clip: &usize| givers.of_clips[clip].is_some_and(|best| best.clip == giver && best.alignment.times_differ());
     let all: Vec<usize> = (0..clips.len()).filter(differs).collect();
     let others: Vec<String> = all.iter().take(NAMED_MAX).map(|&clip| title(&clips[clip])).collect();
     let more = (all.len() - others.len()) as u32;
@@ -151,7 +151,7 @@ mod tests {
         }
     }
 
-    /// The only pair of two clips.
+    /// Two clips are one take, with this alignment.
     #[track_caller]
     fn check_one_take(one: HumanClip, other: HumanClip, mirrored: bool, times_differ: bool) {
         let found = pairs(&[one, other]);
@@ -167,29 +167,29 @@ mod tests {
     }
 
     #[test]
-    fn a_take_is_known_at_another_rate_on_another_body_in_part_and_mirrored() {
-        let told = || walk("told", bend());
-        check_one_take(told(), walk("copy", bend()), false, false);
-        check_one_take(told(), walk("finer", SyntheticWalk { frame_rate_hz: 100.0, ..bend() }), false, false);
+    fn resampled_retargeted_cut_and_mirrored_copies_are_found() {
+        let original = || walk("original", bend());
+        check_one_take(original(), walk("copy", bend()), false, false);
+        check_one_take(original(), walk("finer", SyntheticWalk { frame_rate_hz: 100.0, ..bend() }), false, false);
         let giant = Rates { speed_mps: 1.7 * 0.9, ..bend().rates };
-        check_one_take(told(), walk("giant", SyntheticWalk { size: 1.7, rates: giant, ..bend() }), false, false);
-        let mut part = told();
+        check_one_take(original(), walk("giant", SyntheticWalk { size: 1.7, rates: giant, ..bend() }), false, false);
+        let mut part = original();
         part.frames = part.frames[70..200].to_vec();
-        check_one_take(told(), part.clone(), false, false);
-        check_one_take(mirrored(part), told(), true, false);
+        check_one_take(original(), part.clone(), false, false);
+        check_one_take(mirrored(part), original(), true, false);
     }
 
     #[test]
-    fn a_lying_frame_time_hides_no_take() {
+    fn a_wrong_frame_time_hides_no_duplicate() {
         let mut slow = walk("slow", bend());
         slow.frame_rate_hz = 25.0;
-        check_one_take(slow.clone(), walk("told", bend()), false, true);
+        check_one_take(slow.clone(), walk("original", bend()), false, true);
         let every_second = walk("coarse", SyntheticWalk { frame_rate_hz: 30.0, ..bend() });
         check_one_take(every_second, slow, false, true);
     }
 
     #[test]
-    fn other_walks_and_bodies_that_stand_are_other_takes() {
+    fn other_walks_and_standing_are_other_takes() {
         let straight = Rates { turn_rate_rad_s: 0.0, ..bend().rates };
         let clips = [
             walk("bend", bend()),
@@ -201,21 +201,21 @@ mod tests {
         assert_eq!(pairs(&clips), []);
     }
 
-    /// Second at which each window begins that is left of each clip, and the clip's diagnostics.
+    /// Begin of each window that is left of each clip, s, and the clip's diagnostics.
     fn left(clips: &[HumanClip]) -> Vec<(Vec<f64>, Vec<Diagnostic>)> {
         let body = target_body(clips).unwrap();
         let mut analyzed: Vec<AnalyzedClip> = clips.par_iter().map(|clip| AnalyzedClip::of(clip, &body)).collect();
-        set_aside(clips, &mut analyzed, &body);
+        drop_duplicates(clips, &mut analyzed, &body);
         let start_s = |found: &AnalyzedClip| found.windows.iter().map(|window| window.window_s[0]).collect();
         analyzed.iter().map(|found| (start_s(found), found.diagnostics.clone())).collect()
     }
 
-    /// No example, for the other clip gives that of the same take.
+    /// The diagnostic of a clip that another clip replaces.
     fn same_take_as(other: String) -> Diagnostic {
         Diagnostic::NoExample(Unfit::SameTake { other, mirrored: false, frame_times_differ: false })
     }
 
-    /// Of the plain bend and another clip the other gives the example, and the bend's diagnostics name it.
+    /// Of the plain bend and another clip the other gives the example; the bend's diagnostics name it.
     #[track_caller]
     fn check_gives(other: HumanClip) {
         let mut clips = [walk("bend", bend()), other];
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn the_chosen_the_travelling_the_longer_and_the_finer_take_gives_the_example() {
+    fn the_chosen_longer_or_finer_copy_gives_the_example() {
         check_gives(walk("longer", SyntheticWalk { duration_s: 4.4, ..bend() }));
         check_gives(walk("finer", SyntheticWalk { frame_rate_hz: 120.0, ..bend() }));
         let mut chosen = walk("chosen", SyntheticWalk { duration_s: 3.6, ..bend() });
@@ -240,14 +240,14 @@ mod tests {
     }
 
     #[test]
-    fn of_two_frame_times_the_one_at_which_legs_swing_as_people_s_do_gives_the_example() {
-        let told = || walk("told", SyntheticWalk { duration_s: 8.0, ..bend() });
+    fn the_copy_with_human_swings_gives_the_example() {
+        let right = || walk("right", SyntheticWalk { duration_s: 8.0, ..bend() });
         for share in [0.5, 2.0] {
-            let mut lying = walk("lying", SyntheticWalk { duration_s: 8.1, ..bend() });
-            lying.frame_rate_hz *= share;
-            for clips in [[told(), lying.clone()], [lying, told()]] {
+            let mut wrong = walk("wrong", SyntheticWalk { duration_s: 8.1, ..bend() });
+            wrong.frame_rate_hz *= share;
+            for clips in [[right(), wrong.clone()], [wrong, right()]] {
                 for (clip, (windows, found)) in clips.iter().zip(left(&clips)) {
-                    let gives = clip.name == "told";
+                    let gives = clip.name == "right";
                     assert_eq!(windows.len(), usize::from(gives), "{} {found:?}", clip.name);
                     let differs = |found: &Diagnostic| match found {
                         Diagnostic::Warning(Warning::FrameTimesDiffer { .. }) => gives,
@@ -260,7 +260,7 @@ mod tests {
         }
     }
 
-    /// The root gets ahead of the feet from a frame on.
+    /// The clip with a root that runs ahead of the feet from a frame on.
     fn sliding_from(mut clip: HumanClip, first: usize) -> HumanClip {
         let ahead_m = 0.35 / clip.frame_rate_hz;
         clip.frames.iter_mut().skip(first).enumerate().for_each(|(frame, pose)| {
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn what_only_the_lesser_copy_shows_cleanly_gives_its_example() {
+    fn a_part_clean_only_in_the_worse_copy_stays() {
         let turn = Rates { speed_mps: 0.6, turn_rate_rad_s: 0.9, strafe_mps: 0.0 };
         let parts = [
             walk("part", SyntheticWalk { duration_s: 6.0, ..SyntheticWalk::default() }),
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn of_hundreds_of_copies_one_gives_the_example_and_each_other_names_it_once() {
+    fn one_of_300_copies_gives_the_example() {
         let copy = |index: usize| {
             let mut clip = walk(&format!("{index:03}"), bend());
             clip.source.file = clip.name.clone();
@@ -307,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_that_a_manifest_cuts_out_of_one_file_stay_two_clips() {
+    fn parts_cut_from_one_file_are_no_duplicates() {
         let part = |name: &str| {
             let mut clip = walk(name, bend());
             clip.source.file = "capture.bvh".into();
@@ -315,5 +315,15 @@ mod tests {
             clip
         };
         assert_eq!(pairs(&[part("one"), part("other")]), []);
+    }
+
+    #[test]
+    fn clips_of_few_frames_match_nothing() {
+        let first_frames = |count: usize| {
+            let mut clip = walk("short", bend());
+            clip.frames.truncate(count);
+            clip
+        };
+        assert_eq!(pairs(&[1, 2, 3, 4, 1, 2, 3, 4].map(first_frames)), []);
     }
 }

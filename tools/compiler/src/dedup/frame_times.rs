@@ -1,26 +1,25 @@
-//! Copies of one take whose frame times differ → how far from a human's each frame time makes the gait.
+//! Plausibility of frame times: of copies of one take with different frame times, how far each makes the gait from a
+//! human's.
 //!
-//! A leg swings as a pendulum does: whatever the gait, people's feet are in the air for about as long at each step. So
-//! the swing, (1 − planted share)·period, shows the time without the speed. Longer legs swing longer, by the root of
-//! their length. Of two copies of one take one frame time is wrong; the wrong one makes steps that swing too long or
-//! too short.
+//! A leg swings as a pendulum does: in all gaits, a human foot is in the air for about the same time at each step. So
+//! the swing, (1 − planted share)·period, shows the frame time without the speed. Longer legs swing longer, by the root
+//! of their length. A wrong frame time makes swings too long or too short.
 
 use motiondb::statistics::median;
 
+use crate::cycle::analyzed_clip::AnalyzedClip;
+use crate::cycle::foot_slide;
+use crate::cycle::steady_cycle::SteadyCycle;
 use crate::dedup::alignment::Alignment;
 use crate::dedup::groups::{Groups, Member};
-use crate::cycle::analyzed_clip::AnalyzedClip;
-use crate::cycle::steady_cycle::SteadyCycle;
-use crate::cycle::foot_slide;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 use crate::retarget::units::HUMAN_LEG_M;
 
-/// Swing of a person's foot, s: the median over 102 examples of walking, running, side-stepping, turning and going
-/// backwards from 12 sources; half of them have 0.43 to 0.52 s, nine in ten 0.35 to 0.69 s.
+/// Swing of a human foot, s: median over 102 examples of all gaits from 12 sources; nine in ten have 0.35 to 0.69 s.
 const HUMAN_SWING_S: f64 = 0.48;
 
-/// Of each clip how far its swings are from a human's, |ln|; 0 where its take has one frame time, or shows no step.
-/// Clips of one frame time have one value: the median of their take.
+/// Deviation of each clip's swings from a human's, |ln|; 0 where its take has one frame time or shows no step. All
+/// clips of a take with the same frame time have the same value, from the take's median swing.
 pub(crate) fn implausibilities(
     clips: &[HumanClip],
     analyzed: &[AnalyzedClip],
@@ -44,7 +43,7 @@ pub(crate) fn implausibilities(
     implausible
 }
 
-/// Mean time of a cycle that a foot is in the air.
+/// Mean time for which a foot is in the air in a cycle, s.
 fn swing_s(window: &SteadyCycle, body: &HumanBody) -> Option<f64> {
     let cycle = window.stepping()?;
     let planted_share = foot_slide::foot_slide(cycle, body).planted_share;

@@ -1,10 +1,10 @@
-//! HumanClip → its motion signature: 20 rows a second of what does not depend on the performer's size, the skeleton,
-//! the place, the heading or the frame rate.
+//! Motion signature: 20 rows a second of a clip, free of the performer's size, the skeleton, the position, the heading
+//! and the frame rate.
 //!
-//! A row holds eight unit vectors (thighs, shanks, upper arms, trunk, the head's forward axis) in the frame of the
-//! facing, x forward, y left, z up: first all x, then all y, then all z. The facing itself comes last, radians in the
-//! world. Forearms and feet are left out: exporters differ by 10° in them. A row is the mean over its twentieth of a
-//! second, so noise and the frame rate of the source hardly show.
+//! A row holds eight unit vectors (thighs, shanks, upper arms, trunk, forward axis of the head) in the frame of the
+//! facing: x forward, y left, z up; first all x, then all y, then all z. The facing in the world comes last, radians.
+//! Forearms and feet are left out: exporters differ by 10° in them. A row is the mean over its twentieth of a second.
+//! So noise and the source's frame rate hardly show.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,14 +15,17 @@ use crate::retarget::human_clip::{HumanBody, HumanClip, HumanPose};
 
 /// Rows a second.
 pub(crate) const RATE_HZ: f64 = 20.0;
-/// Unit vectors of a row; the first are those of the legs.
+/// Number of unit vectors in a row.
 pub(crate) const DIRECTION_COUNT: usize = 8;
+/// Number of unit vectors of the legs; they come first.
 pub(crate) const LEG_COUNT: usize = 4;
-/// Where the facing is in a row: after the coordinates of the unit vectors.
+/// Index of the facing in a row, after the coordinates of the unit vectors.
 pub(crate) const FACING: usize = 3 * DIRECTION_COUNT;
+/// Number of values in a row.
+pub(crate) const WIDTH: usize = FACING + 1;
 /// Points in time that a row is the mean of: 120 a second.
-const POINTS_A_ROW: usize = 6;
-/// From and to which joint each direction points, left before right; the last is the head's forward axis.
+const POINTS_PER_ROW: usize = 6;
+/// Joints that each direction points from and to, left before right. The eighth direction is the head's forward axis.
 const BONES: [[Joint; 2]; DIRECTION_COUNT - 1] = [
     [Joint::LeftThigh, Joint::LeftShank],
     [Joint::RightThigh, Joint::RightShank],
@@ -32,11 +35,11 @@ const BONES: [[Joint; 2]; DIRECTION_COUNT - 1] = [
     [Joint::RightUpperArm, Joint::RightForearm],
     [Joint::Pelvis, Joint::Neck],
 ];
-/// Which direction each becomes in a mirror.
+/// Index of each direction in a mirror.
 const MIRRORED: [usize; DIRECTION_COUNT] = [1, 0, 3, 2, 5, 4, 6, 7];
 
-/// A twentieth of a second.
-pub(crate) type Row = [f32; FACING + 1];
+/// Directions and facing of a twentieth of a second.
+pub(crate) type Row = [f32; WIDTH];
 
 /// The rows of a clip.
 pub(crate) fn rows(clip: &HumanClip) -> Vec<Row> {
@@ -48,23 +51,23 @@ pub(crate) fn rows(clip: &HumanClip) -> Vec<Row> {
     means(&frames, 0.0, clip.frame_rate_hz / RATE_HZ)
 }
 
-/// The rows of the same motion, so many times as fast; at least 1.
+/// The rows of the same motion at a multiple of its speed, at least 1.
 pub(crate) fn faster(rows: &[Row], pace: f64) -> Vec<Row> {
     // A row stands for the middle of its twentieth of a second.
     means(rows, -0.5, pace)
 }
 
-/// Left and right exchanged.
+/// The rows of the mirror image.
 pub(crate) fn mirrored(rows: &[Row]) -> Vec<Row> {
-    let coordinate = |row: &Row, at: usize| match at / DIRECTION_COUNT {
+    let value = |row: &Row, at: usize| match at / DIRECTION_COUNT {
         axis @ (0 | 2) => row[DIRECTION_COUNT * axis + MIRRORED[at % DIRECTION_COUNT]],
         1 => -row[DIRECTION_COUNT + MIRRORED[at % DIRECTION_COUNT]],
         _ => -row[FACING],
     };
-    rows.iter().map(|row| std::array::from_fn(|at| coordinate(row, at))).collect()
+    rows.iter().map(|row| std::array::from_fn(|at| value(row, at))).collect()
 }
 
-/// Between each two rows, linearly: at 0 the first, at 1 the second.
+/// Interpolates between each two rows; `share` 0 gives the first, 1 the second.
 pub(crate) fn between(rows: &[Row], share: f64) -> Vec<Row> {
     rows.windows(2).map(|pair| lerp(&pair[0], &pair[1], share as f32)).collect()
 }
@@ -84,21 +87,21 @@ fn row(pose: &HumanPose, body: &HumanBody) -> Row {
     std::array::from_fn(|at| if at == FACING { facing_rad } else { coordinate(at) } as f32)
 }
 
-/// Means of rows over stretches of `step` rows, end to end; the first begins at row `first`.
+/// Means over successive intervals of `step` rows; the first interval begins at row `first`.
 fn means(rows: &[Row], first: f64, step: f64) -> Vec<Row> {
     let last = rows.len().saturating_sub(1);
     let count = libm::floor((last as f64 - 2.0 * first) / step + 1e-6) as usize;
-    let at = |place: f64| {
-        let place = place.clamp(0.0, last as f64);
-        let before = place as usize;
-        lerp(&rows[before], &rows[(before + 1).min(last)], (place - before as f64) as f32)
+    let at = |position: f64| {
+        let position = position.clamp(0.0, last as f64);
+        let before = position as usize;
+        lerp(&rows[before], &rows[(before + 1).min(last)], (position - before as f64) as f32)
     };
-    let mean = |stretch: usize| {
-        let mut mean = [0.0; FACING + 1];
-        for point in 0..POINTS_A_ROW {
-            let share = (point as f64 + 0.5) / POINTS_A_ROW as f64;
-            let row = at(first + step * (stretch as f64 + share));
-            mean.iter_mut().zip(&row).for_each(|(mean, value)| *mean += value / POINTS_A_ROW as f32);
+    let mean = |interval: usize| {
+        let mut mean = [0.0; WIDTH];
+        for point in 0..POINTS_PER_ROW {
+            let share = (point as f64 + 0.5) / POINTS_PER_ROW as f64;
+            let row = at(first + step * (interval as f64 + share));
+            mean.iter_mut().zip(&row).for_each(|(mean, value)| *mean += value / POINTS_PER_ROW as f32);
         }
         mean
     };
