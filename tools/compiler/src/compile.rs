@@ -129,7 +129,7 @@ impl TargetedClips {
 
     /// Drops the windows that a better copy of the same take gives.
     pub(crate) fn without_duplicates(&self, mut analyzed: Vec<AnalyzedClip>) -> Vec<AnalyzedClip> {
-        duplicates::set_aside(&self.clips, &mut analyzed, &self.body);
+        duplicates::drop_duplicates(&self.clips, &mut analyzed, &self.body);
         analyzed
     }
 }

@@ -16,7 +16,7 @@ use support::mocap;
 const BUNDLED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/clips");
 
 /// Every two clips of the folder that show one take, and how: CMU subject 2 on two and three skeletons (and once with a
-/// lying frame time), parts and mirror images of one walk, parts of two jumps.
+/// wrong frame time), parts and mirror images of one walk, parts of two jumps.
 const SAME_TAKES: [[&str; 3]; 12] = [
     ["02_01", "002_01", "same"],
     ["002_02", "walk", "same"],
@@ -40,7 +40,7 @@ fn clips(folder: &Path) -> Vec<HumanClip> {
 
 /// Names of both clips, sorted, and how they are one take.
 fn found(clips: &[HumanClip]) -> Vec<[String; 3]> {
-    let told = pairs(clips).into_iter().map(|pair| {
+    let named = pairs(clips).into_iter().map(|pair| {
         let mut names = pair.clips.map(|clip| clips[clip].name.clone());
         names.sort();
         let how = if pair.alignment.mirrored {
@@ -53,14 +53,14 @@ fn found(clips: &[HumanClip]) -> Vec<[String; 3]> {
         let [one, other] = names;
         [one, other, how.to_owned()]
     });
-    let mut told: Vec<[String; 3]> = told.collect();
-    told.sort();
-    told
+    let mut named: Vec<[String; 3]> = named.collect();
+    named.sort();
+    named
 }
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn among_151_clips_of_others_and_ours_only_the_same_takes_are_found() {
+fn only_the_same_takes_are_found() {
     let mut clips = clips(&mocap());
     clips.extend(self::clips(Path::new(BUNDLED)));
     let mut wanted = SAME_TAKES.map(|[one, other, how]| {
@@ -83,12 +83,12 @@ fn compiled(test: &str, clip: &str, changes: [&dyn Fn(&str) -> String; 2]) -> Mo
     compile_manifest(&Manifest::of_files(&files), &|_| ()).unwrap().db
 }
 
-/// No example, for another clip gives that of the same take.
+/// The diagnostic of a clip that another clip replaces.
 fn same_take_as(other: &str, frame_times_differ: bool) -> Diagnostic {
     Diagnostic::NoExample(Unfit::SameTake { other: other.to_owned(), mirrored: false, frame_times_differ })
 }
 
-/// Of both changes, whichever comes first by name, the second gives the example, and the first's record names it.
+/// The second change gives the example, whichever comes first by name; the first one's record names it.
 #[track_caller]
 fn check_second_gives(test: &str, clip: &str, changes: [&dyn Fn(&str) -> String; 2], frame_times_differ: bool) {
     let [first, second] = changes;
@@ -154,19 +154,19 @@ fn a_copy_of_a_file_gives_no_second_example() {
 }
 
 #[test]
-fn of_two_frame_rates_the_higher_gives_the_example() {
+fn the_higher_frame_rate_gives_the_example() {
     check_second_gives("thinned", "turn_060_left.bvh", [&thinned, &str::to_owned], false);
 }
 
 #[test]
-fn of_two_frame_times_the_one_of_a_human_s_gait_gives_the_example() {
+fn the_frame_time_of_a_human_gait_gives_the_example() {
     for clip in ["walk_110.bvh", "walk_180.bvh", "run_350.bvh", "side_060_left.bvh"] {
         check_second_gives(&format!("slowed_{clip}"), clip, [&slowed, &str::to_owned], true);
     }
 }
 
 #[test]
-fn a_walk_gives_the_example_rather_than_its_copy_on_a_treadmill_or_up_a_slope() {
+fn a_level_walk_beats_its_treadmill_or_slope_copy() {
     let in_place = |text: &str| moved(text, 0.0, 0.0);
     let uphill = |text: &str| moved(text, 1.0, 0.05);
     check_second_gives("in_place", "walk_110.bvh", [&in_place, &str::to_owned], false);

@@ -21,7 +21,7 @@ pub(crate) struct ExplainedStep<'a> {
     /// Plan of the agent, with its half-planes and forces.
     pub(crate) explanation: PlanExplanation,
     /// Greatest velocity component that is shown, m/s.
-    pub(crate) reach_mps: f32,
+    pub(crate) axis_limit_mps: f32,
 }
 
 impl<'a> ExplainedStep<'a> {
@@ -29,7 +29,7 @@ impl<'a> ExplainedStep<'a> {
     pub(crate) fn new(step: &'a RecordedStep<'a>, agent: usize) -> Self {
         let scenario = &step.header().scenario;
         let explanation = PlanExplanation::new(scenario.planner, &step.world(), agent, &scenario.params);
-        Self { step, agent, explanation, reach_mps: reach_mps(step, agent) }
+        Self { step, agent, explanation, axis_limit_mps: axis_limit_mps(step, agent) }
     }
 
     /// Planner of the step.
@@ -40,7 +40,7 @@ impl<'a> ExplainedStep<'a> {
 
 /// Greatest velocity component that is shown. It does not depend on the step, so all pictures of a sequence have equal
 /// axes.
-fn reach_mps(step: &RecordedStep, agent: usize) -> f32 {
+fn axis_limit_mps(step: &RecordedStep, agent: usize) -> f32 {
     let hull = &step.header().velocity_hull;
     let corners_mps = hull.turning_mps.iter().chain(&hull.holding_mps);
     let fastest_mps = corners_mps.map(|corner_mps: &Vec2| corner_mps.length()).fold(0.0, f32::max);

@@ -1,22 +1,21 @@
-//! The same take twice: under another name, at another frame rate, with a lying frame time, on another skeleton, as a
-//! part of the other or mirrored. Of each stretch one of the clips gives the example.
+//! Duplicates: the same take twice, under another name, at another frame rate, at a wrong frame time, on another
+//! skeleton, as a part of the other or mirrored. Of each part of a take one clip gives the example.
 //!
-//! `take_search` chooses which clips are compared, `same_take` decides of two clips, `shared_stretches` which of their
-//! windows give examples. Here all of it is put together, with a diagnostic for each clip that it concerns.
+//! This file leads through the chapter's steps and reports, for each clip, which other clip gives its examples.
+
+use std::cmp::Reverse;
 
 use motiondb::diagnostic::{Diagnostic, Note, Unfit, Warning};
 use rayon::prelude::*;
 
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::dedup::alignment::Alignment;
-use crate::dedup::frame_times::Neighbours;
-use crate::dedup::performance::Performance;
-use crate::dedup::same_take::Entry;
-use crate::dedup::shared_stretches::{self, Chosen, Mark};
-use crate::dedup::take_search::{self, LIST_MAX, Search};
+use crate::dedup::comparison::{ComparedClip, compare};
+use crate::dedup::groups::{GROUPS_MAX, Groups};
+use crate::dedup::shared_windows::{self, Giver, Givers};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 
-/// Clips that a diagnostic names; the others are counted.
+/// Number of clips that a diagnostic names; it counts the others.
 const NAMED_MAX: usize = 8;
 
 /// Two clips of one take.
@@ -24,85 +23,81 @@ const NAMED_MAX: usize = 8;
 pub struct Pair {
     /// Indices of the clips.
     pub clips: [usize; 2],
-    /// The second on the first.
+    /// The second clip on the first.
     pub alignment: Alignment,
-    /// r of `performance`.
+    /// Unlikeness r of both (file `correlation`).
     pub unlikeness: f64,
 }
 
-/// Takes from each clip the windows that a better copy of its take gives the examples of.
-pub(crate) fn set_aside(clips: &[HumanClip], analyzed: &mut [AnalyzedClip], body: &HumanBody) {
-    let gives_example: Vec<bool> = analyzed.iter().map(|found| !found.windows.is_empty()).collect();
-    let search = search(clips, &gives_example);
-    let neighbours = neighbours(clips.len(), &found_pairs(&search));
+/// Drops from each clip the windows that a better copy of its take gives, and reports it.
+///
+/// # Steps
+/// 1. Compute the motion signature of each clip.
+/// 2. Find the groups of one take, the longest clips first.
+/// 3. Choose the windows of each group that give examples.
+/// 4. Drop the others, with a diagnostic for each clip.
+pub(crate) fn drop_duplicates(clips: &[HumanClip], analyzed: &mut [AnalyzedClip], body: &HumanBody) {
+    let gives_example = |clip: usize| !analyzed[clip].windows.is_empty();
     let may_pair = |a: usize, b: usize| !are_parts_of_one_file(&clips[a], &clips[b]);
-    let chosen = shared_stretches::choose(clips, analyzed, &neighbours, body, may_pair);
+    let compared: Vec<ComparedClip> = clips.par_iter().map(ComparedClip::of).collect();
+    let compare = |leader: usize, clip: usize| {
+        if may_pair(leader, clip) { compare(&compared[leader], &compared[clip]) } else { None }
+    };
+    let groups = Groups::find(&order(clips, gives_example), gives_example, compare);
+    let givers = shared_windows::choose(clips, analyzed, &groups, body, may_pair);
     for (clip, found) in analyzed.iter_mut().enumerate() {
-        found.diagnostics.extend(diagnostics(clips, &chosen, clip));
-        let mut aside = chosen.aside[clip].iter();
-        found.windows.retain(|_| aside.next().is_some_and(Option::is_none));
+        found.diagnostics.extend(diagnostics(clips, &givers, clip));
+        let mut givers = givers.of_windows[clip].iter();
+        found.windows.retain(|_| givers.next().is_some_and(Option::is_none));
     }
-    for clip in search.beyond_list {
-        let warning = Warning::NotCompared { compared: LIST_MAX as u32 };
+    for clip in groups.uncompared {
+        let warning = Warning::NotCompared { compared: GROUPS_MAX as u32 };
         analyzed[clip].diagnostics.push(Diagnostic::Warning(warning));
     }
 }
 
-/// Every two clips of one take, in the clips' order; of a take of very many clips not every two (`take_search`).
+/// Every two clips of one take, in the clips' order. Compares each clip with each: meant for hundreds of clips.
 pub fn pairs(clips: &[HumanClip]) -> Vec<Pair> {
-    let mut pairs = found_pairs(&search(clips, &vec![true; clips.len()]));
-    pairs.sort_by_key(|pair| pair.clips);
-    pairs
+    let compared: Vec<ComparedClip> = clips.par_iter().map(ComparedClip::of).collect();
+    let with_later = |first: usize| {
+        let pair = |second: usize| {
+            if are_parts_of_one_file(&clips[first], &clips[second]) {
+                return None;
+            }
+            let found = compare(&compared[first], &compared[second])?;
+            Some(Pair { clips: [first, second], alignment: found.alignment, unlikeness: found.unlikeness })
+        };
+        (first + 1..clips.len()).filter_map(pair).collect::<Vec<Pair>>()
+    };
+    (0..clips.len()).into_par_iter().flat_map(with_later).collect()
 }
 
-/// Compares the clips, the longest first, those without examples only with the others.
-fn search(clips: &[HumanClip], gives_example: &[bool]) -> Search {
-    let duration_s = |clip: usize| clips[clip].frames.len() as f64 / clips[clip].frame_rate_hz;
+/// The clips, the longest first; those without examples last.
+fn order(clips: &[HumanClip], gives_example: impl Fn(usize) -> bool) -> Vec<usize> {
     let mut order: Vec<usize> = (0..clips.len()).collect();
-    order.sort_by(|&a, &b| gives_example[b].cmp(&gives_example[a]).then(duration_s(b).total_cmp(&duration_s(a))));
-    let entries: Vec<Entry> = clips.par_iter().map(|clip| Entry::new(Performance::of(clip))).collect();
-    let may_pair =
-        |better: usize, other: usize| gives_example[better] && !are_parts_of_one_file(&clips[better], &clips[other]);
-    take_search::search(&entries, &order, may_pair)
+    // The bits of positive numbers have the numbers' order.
+    let duration_bits = |clip: usize| shared_windows::duration_s(&clips[clip]).to_bits();
+    order.sort_by_cached_key(|&clip| (!gives_example(clip), Reverse(duration_bits(clip))));
+    order
 }
 
-/// Each pair with its clips in ascending order.
-fn found_pairs(search: &Search) -> Vec<Pair> {
-    let pair = |&(better, other, found): &take_search::Found| match better < other {
-        true => Pair { clips: [better, other], alignment: found.alignment, unlikeness: found.unlikeness },
-        false => Pair { clips: [other, better], alignment: found.alignment.inverse(), unlikeness: found.unlikeness },
-    };
-    search.found.iter().map(pair).collect()
-}
-
-/// Of each clip those of its take, and how it lies on them.
-fn neighbours(count: usize, pairs: &[Pair]) -> Neighbours {
-    let mut neighbours = vec![Vec::new(); count];
-    for Pair { clips: [first, second], alignment, .. } in pairs {
-        neighbours[*second].push((*first, *alignment));
-        neighbours[*first].push((*second, alignment.inverse()));
-    }
-    neighbours
-}
-
-/// Of a clip: which other gives its examples; or, of the one that does, which others differ in their frame times.
-fn diagnostics(clips: &[HumanClip], chosen: &Chosen, clip: usize) -> Vec<Diagnostic> {
-    let windows = &chosen.aside[clip];
-    let aside: Vec<&Mark> = windows.iter().flatten().collect();
-    let own = match (&aside[..], windows.len()) {
-        ([], 0) => chosen.marks[clip].first().map(|mark| same_take(clips, mark, 0)),
+/// The clip that gives this clip's examples; of a clip that gives them, the clips with another frame time.
+fn diagnostics(clips: &[HumanClip], givers: &Givers, clip: usize) -> Vec<Diagnostic> {
+    let windows = &givers.of_windows[clip];
+    let replaced: Vec<&Giver> = windows.iter().flatten().collect();
+    let own = match (&replaced[..], windows.len()) {
+        ([], 0) => givers.of_clips[clip].map(|giver| same_take(clips, &giver, 0)),
         ([], _) => None,
-        ([first, ..], all) if aside.len() == all => Some(Diagnostic::NoExample(no_example(clips, first))),
-        ([first, ..], _) => Some(same_take(clips, first, aside.len())),
+        ([first, ..], all) if replaced.len() == all => Some(Diagnostic::NoExample(no_example(clips, first))),
+        ([first, ..], _) => Some(same_take(clips, first, replaced.len())),
     };
-    own.into_iter().chain(of_other_times(clips, chosen, clip)).collect()
+    own.into_iter().chain(of_other_times(clips, givers, clip)).collect()
 }
 
-/// Of the clip that gives the examples of a take, where other clips show it at another frame time.
-fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<Diagnostic> {
-    let differs = |&clip: &usize| {
-        chosen.marks[clip].first().is_some_and(|mark| mark.giver == giver && mark.alignment.times_differ())
-    };
+/// Of a clip that gives the examples of a take: the clips that show it at another frame time.
+fn of_other_times(clips: &[HumanClip], givers: &Givers, giver: usize) -> Option<Diagnostic> {
+    let differs =
+        |&clip: &usize| givers.of_clips[clip].is_some_and(|best| best.clip == giver && best.alignment.times_differ());
     let all: Vec<usize> = (0..clips.len()).filter(differs).collect();
     let others: Vec<String> = all.iter().take(NAMED_MAX).map(|&clip| title(&clips[clip])).collect();
     let more = (all.len() - others.len()) as u32;
@@ -110,16 +105,16 @@ fn of_other_times(clips: &[HumanClip], chosen: &Chosen, giver: usize) -> Option<
     (!all.is_empty()).then_some(Diagnostic::Warning(warning))
 }
 
-fn no_example(clips: &[HumanClip], Mark { giver, alignment, .. }: &Mark) -> Unfit {
+fn no_example(clips: &[HumanClip], Giver { clip, alignment }: &Giver) -> Unfit {
     Unfit::SameTake {
-        other: title(&clips[*giver]),
+        other: title(&clips[*clip]),
         mirrored: alignment.mirrored,
         frame_times_differ: alignment.times_differ(),
     }
 }
 
-fn same_take(clips: &[HumanClip], Mark { giver, alignment, .. }: &Mark, windows_left_out: usize) -> Diagnostic {
-    let (other, mirrored) = (title(&clips[*giver]), alignment.mirrored);
+fn same_take(clips: &[HumanClip], Giver { clip, alignment }: &Giver, windows_left_out: usize) -> Diagnostic {
+    let (other, mirrored) = (title(&clips[*clip]), alignment.mirrored);
     let windows_left_out = windows_left_out as u32;
     match alignment.times_differ() {
         true => {
@@ -133,7 +128,7 @@ fn title(clip: &HumanClip) -> String {
     format!("{} {}", clip.source.file, clip.source.clip).trim_end().to_owned()
 }
 
-/// Whoever cuts a capture in a manifest wants both parts.
+/// Whether a manifest cuts both clips out of one capture: then the user wants both.
 fn are_parts_of_one_file(a: &HumanClip, b: &HumanClip) -> bool {
     (a.choices.is_cut || b.choices.is_cut) && a.source.file == b.source.file && a.source.clip == b.source.clip
 }
@@ -156,7 +151,7 @@ mod tests {
         }
     }
 
-    /// The only pair of two clips.
+    /// Two clips are one take, with this alignment.
     #[track_caller]
     fn check_one_take(one: HumanClip, other: HumanClip, mirrored: bool, times_differ: bool) {
         let found = pairs(&[one, other]);
@@ -172,29 +167,29 @@ mod tests {
     }
 
     #[test]
-    fn a_take_is_known_at_another_rate_on_another_body_in_part_and_mirrored() {
-        let told = || walk("told", bend());
-        check_one_take(told(), walk("copy", bend()), false, false);
-        check_one_take(told(), walk("finer", SyntheticWalk { frame_rate_hz: 100.0, ..bend() }), false, false);
+    fn resampled_retargeted_cut_and_mirrored_copies_are_found() {
+        let original = || walk("original", bend());
+        check_one_take(original(), walk("copy", bend()), false, false);
+        check_one_take(original(), walk("finer", SyntheticWalk { frame_rate_hz: 100.0, ..bend() }), false, false);
         let giant = Rates { speed_mps: 1.7 * 0.9, ..bend().rates };
-        check_one_take(told(), walk("giant", SyntheticWalk { size: 1.7, rates: giant, ..bend() }), false, false);
-        let mut part = told();
+        check_one_take(original(), walk("giant", SyntheticWalk { size: 1.7, rates: giant, ..bend() }), false, false);
+        let mut part = original();
         part.frames = part.frames[70..200].to_vec();
-        check_one_take(told(), part.clone(), false, false);
-        check_one_take(mirrored(part), told(), true, false);
+        check_one_take(original(), part.clone(), false, false);
+        check_one_take(mirrored(part), original(), true, false);
     }
 
     #[test]
-    fn a_lying_frame_time_hides_no_take() {
+    fn a_wrong_frame_time_hides_no_duplicate() {
         let mut slow = walk("slow", bend());
         slow.frame_rate_hz = 25.0;
-        check_one_take(slow.clone(), walk("told", bend()), false, true);
+        check_one_take(slow.clone(), walk("original", bend()), false, true);
         let every_second = walk("coarse", SyntheticWalk { frame_rate_hz: 30.0, ..bend() });
         check_one_take(every_second, slow, false, true);
     }
 
     #[test]
-    fn other_walks_and_bodies_that_stand_are_other_takes() {
+    fn other_walks_and_standing_are_other_takes() {
         let straight = Rates { turn_rate_rad_s: 0.0, ..bend().rates };
         let clips = [
             walk("bend", bend()),
@@ -206,21 +201,21 @@ mod tests {
         assert_eq!(pairs(&clips), []);
     }
 
-    /// Second at which each window begins that is left of each clip, and the clip's diagnostics.
+    /// Begin of each window that is left of each clip, s, and the clip's diagnostics.
     fn left(clips: &[HumanClip]) -> Vec<(Vec<f64>, Vec<Diagnostic>)> {
         let body = target_body(clips).unwrap();
         let mut analyzed: Vec<AnalyzedClip> = clips.par_iter().map(|clip| AnalyzedClip::of(clip, &body)).collect();
-        set_aside(clips, &mut analyzed, &body);
+        drop_duplicates(clips, &mut analyzed, &body);
         let start_s = |found: &AnalyzedClip| found.windows.iter().map(|window| window.window_s[0]).collect();
         analyzed.iter().map(|found| (start_s(found), found.diagnostics.clone())).collect()
     }
 
-    /// No example, for the other clip gives that of the same take.
+    /// The diagnostic of a clip that another clip replaces.
     fn same_take_as(other: String) -> Diagnostic {
         Diagnostic::NoExample(Unfit::SameTake { other, mirrored: false, frame_times_differ: false })
     }
 
-    /// Of the plain bend and another clip the other gives the example, and the bend's diagnostics name it.
+    /// Of the plain bend and another clip the other gives the example; the bend's diagnostics name it.
     #[track_caller]
     fn check_gives(other: HumanClip) {
         let mut clips = [walk("bend", bend()), other];
@@ -236,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn the_chosen_the_travelling_the_longer_and_the_finer_take_gives_the_example() {
+    fn the_chosen_longer_or_finer_copy_gives_the_example() {
         check_gives(walk("longer", SyntheticWalk { duration_s: 4.4, ..bend() }));
         check_gives(walk("finer", SyntheticWalk { frame_rate_hz: 120.0, ..bend() }));
         let mut chosen = walk("chosen", SyntheticWalk { duration_s: 3.6, ..bend() });
@@ -245,14 +240,14 @@ mod tests {
     }
 
     #[test]
-    fn of_two_frame_times_the_one_at_which_legs_swing_as_people_s_do_gives_the_example() {
-        let told = || walk("told", SyntheticWalk { duration_s: 8.0, ..bend() });
+    fn the_copy_with_human_swings_gives_the_example() {
+        let right = || walk("right", SyntheticWalk { duration_s: 8.0, ..bend() });
         for share in [0.5, 2.0] {
-            let mut lying = walk("lying", SyntheticWalk { duration_s: 8.1, ..bend() });
-            lying.frame_rate_hz *= share;
-            for clips in [[told(), lying.clone()], [lying, told()]] {
+            let mut wrong = walk("wrong", SyntheticWalk { duration_s: 8.1, ..bend() });
+            wrong.frame_rate_hz *= share;
+            for clips in [[right(), wrong.clone()], [wrong, right()]] {
                 for (clip, (windows, found)) in clips.iter().zip(left(&clips)) {
-                    let gives = clip.name == "told";
+                    let gives = clip.name == "right";
                     assert_eq!(windows.len(), usize::from(gives), "{} {found:?}", clip.name);
                     let differs = |found: &Diagnostic| match found {
                         Diagnostic::Warning(Warning::FrameTimesDiffer { .. }) => gives,
@@ -265,7 +260,7 @@ mod tests {
         }
     }
 
-    /// The root gets ahead of the feet from a frame on.
+    /// The clip with a root that runs ahead of the feet from a frame on.
     fn sliding_from(mut clip: HumanClip, first: usize) -> HumanClip {
         let ahead_m = 0.35 / clip.frame_rate_hz;
         clip.frames.iter_mut().skip(first).enumerate().for_each(|(frame, pose)| {
@@ -275,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn what_only_the_lesser_copy_shows_cleanly_gives_its_example() {
+    fn a_part_clean_only_in_the_worse_copy_stays() {
         let turn = Rates { speed_mps: 0.6, turn_rate_rad_s: 0.9, strafe_mps: 0.0 };
         let parts = [
             walk("part", SyntheticWalk { duration_s: 6.0, ..SyntheticWalk::default() }),
@@ -292,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn of_hundreds_of_copies_one_gives_the_example_and_each_other_names_it_once() {
+    fn one_of_300_copies_gives_the_example() {
         let copy = |index: usize| {
             let mut clip = walk(&format!("{index:03}"), bend());
             clip.source.file = clip.name.clone();
@@ -312,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_that_a_manifest_cuts_out_of_one_file_stay_two_clips() {
+    fn parts_cut_from_one_file_are_no_duplicates() {
         let part = |name: &str| {
             let mut clip = walk(name, bend());
             clip.source.file = "capture.bvh".into();
@@ -320,5 +315,15 @@ mod tests {
             clip
         };
         assert_eq!(pairs(&[part("one"), part("other")]), []);
+    }
+
+    #[test]
+    fn clips_of_few_frames_match_nothing() {
+        let first_frames = |count: usize| {
+            let mut clip = walk("short", bend());
+            clip.frames.truncate(count);
+            clip
+        };
+        assert_eq!(pairs(&[1, 2, 3, 4, 1, 2, 3, 4].map(first_frames)), []);
     }
 }
