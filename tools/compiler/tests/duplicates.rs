@@ -60,7 +60,7 @@ fn found(clips: &[HumanClip]) -> Vec<[String; 3]> {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn among_151_clips_of_others_and_ours_only_the_same_takes_are_found() {
+fn only_real_duplicates_are_found_among_151_clips() {
     let mut clips = clips(&mocap());
     clips.extend(self::clips(Path::new(BUNDLED)));
     let mut wanted = SAME_TAKES.map(|[one, other, how]| {
@@ -83,7 +83,7 @@ fn compiled(test: &str, clip: &str, changes: [&dyn Fn(&str) -> String; 2]) -> Mo
     compile_manifest(&Manifest::of_files(&files), &|_| ()).unwrap().db
 }
 
-/// No example, for another clip gives that of the same take.
+/// No example, because another clip of the same recording gives it.
 fn same_take_as(other: &str, frame_times_differ: bool) -> Diagnostic {
     Diagnostic::NoExample(Unfit::SameTake { other: other.to_owned(), mirrored: false, frame_times_differ })
 }
@@ -159,14 +159,14 @@ fn of_two_frame_rates_the_higher_gives_the_example() {
 }
 
 #[test]
-fn of_two_frame_times_the_one_of_a_human_s_gait_gives_the_example() {
+fn human_frame_time_is_kept() {
     for clip in ["walk_110.bvh", "walk_180.bvh", "run_350.bvh", "side_060_left.bvh"] {
         check_second_gives(&format!("slowed_{clip}"), clip, [&slowed, &str::to_owned], true);
     }
 }
 
 #[test]
-fn a_walk_gives_the_example_rather_than_its_copy_on_a_treadmill_or_up_a_slope() {
+fn walk_is_kept_over_treadmill_or_slope_copy() {
     let in_place = |text: &str| moved(text, 0.0, 0.0);
     let uphill = |text: &str| moved(text, 1.0, 0.05);
     check_second_gives("in_place", "walk_110.bvh", [&in_place, &str::to_owned], false);
