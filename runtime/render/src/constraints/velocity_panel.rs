@@ -66,8 +66,8 @@ pub(crate) fn draw(explained: &ExplainedStep, height_px: u32) -> Pixmap {
     let mut figure = PlotFigure::with_letters([width_px(height_px), height_px], LETTERS * unit_px);
     let start_s = explained.step.frame as f32 * explained.step.header().scenario.dt_s;
     figure.title(&format!("Agent {} at {start_s:.2} s", explained.agent), unit_px * TITLE);
-    let reach = explained.reach_mps;
-    let axis = |name: &str| PlotAxis::new(&format!("velocity along {name}, m/s"), [-reach, reach]);
+    let limit = explained.axis_limit_mps;
+    let axis = |name: &str| PlotAxis::new(&format!("velocity along {name}, m/s"), [-limit, limit]);
     let panel = figure.panel(AXES.map(|side| unit_px * side), [axis("x"), axis("y")]);
     let region_mps = feasible_region(explained);
     let mut space = VelocitySpace { figure, panel, explained, unit_px, region_mps };
@@ -97,7 +97,7 @@ struct VelocitySpace<'a> {
 impl VelocitySpace<'_> {
     /// Length of some panel units in the velocity space, m/s.
     fn mps(&self, units: f32) -> f32 {
-        units * self.unit_px * 2.0 * self.explained.reach_mps / self.panel.rect_px[2]
+        units * self.unit_px * 2.0 * self.explained.axis_limit_mps / self.panel.rect_px[2]
     }
 
     /// A solid line of a width in panel units.
@@ -121,7 +121,7 @@ impl VelocitySpace<'_> {
         let has_yielded = self.half_planes().any(|half_plane| self.explained.explanation.has_yielded(half_plane));
         let colour = if has_yielded { RELAXED } else { FEASIBLE };
         let without_outline = LineStyle { opacity: 0.0, ..self.solid(FORBIDDEN, 1.0) };
-        self.figure.polygon(&self.panel, square(self.explained.reach_mps), 0.7, without_outline);
+        self.figure.polygon(&self.panel, square(self.explained.axis_limit_mps), 0.7, without_outline);
         let region_mps = self.region_mps.iter().copied();
         self.figure.polygon(&self.panel, region_mps, 0.9, LineStyle { colour, ..without_outline });
     }
@@ -131,7 +131,7 @@ impl VelocitySpace<'_> {
         self.region_mps.iter().any(|corner_mps| half_plane.violation_mps(*corner_mps).abs() <= TOUCHES_MPS)
     }
 
-    /// Draws turning set, holding set (the one in force stronger), sharp-turn edges and the greatest speed.
+    /// Draws turning set, holding set (the active one stronger), sharp-turn edges and the greatest speed.
     fn draw_sets(&mut self) {
         let hull = &self.explained.step.header().velocity_hull;
         let forward = self.forward();
@@ -154,12 +154,12 @@ impl VelocitySpace<'_> {
         }
     }
 
-    /// Draws the half-planes that are no edge of a set, with hatching on the forbidden side.
+    /// Draws the half-planes that are not an edge of a set, with hatching on the forbidden side.
     fn draw_half_planes(&mut self) {
         let explanation = &self.explained.explanation;
         let lines = self.half_planes().filter(|half_plane| !is_hull(half_plane.source));
         for half_plane in lines.copied().collect::<Vec<_>>() {
-            let Some([from, to]) = chord(&half_plane, self.explained.reach_mps) else { continue };
+            let Some([from, to]) = chord(&half_plane, self.explained.axis_limit_mps) else { continue };
             let (binds, is_dashed) = (explanation.binds(&half_plane), explanation.has_yielded(&half_plane));
             let opacity = if binds || is_dashed || self.touches(&half_plane) { 1.0 } else { FAINT };
             let colour = source_colour(half_plane.source);
@@ -187,7 +187,7 @@ impl VelocitySpace<'_> {
     /// Draws a body from above at the origin, and rays along its facing and its planned facing.
     fn draw_body(&mut self) {
         let (forward, radius) = (self.forward(), self.mps(BODY_RADIUS));
-        let length = 2.0 * self.explained.reach_mps;
+        let length = 2.0 * self.explained.axis_limit_mps;
         let planned = Vec2::from_angle(self.explained.explanation.plan.facing_rad);
         let ray = LineStyle { opacity: 0.45, ..self.solid(INK, 1.2) };
         self.figure.polyline(&self.panel, [Vec2::ZERO, length * forward], ray);
@@ -225,7 +225,7 @@ impl VelocitySpace<'_> {
 
     /// Writes the source of each half-plane where its line meets the frame, and of each force at its arrow's tip.
     fn draw_names(&mut self) {
-        let inset = self.explained.reach_mps - self.mps(NAME_INSET);
+        let inset = self.explained.axis_limit_mps - self.mps(NAME_INSET);
         let lines = self.half_planes().filter(|half_plane| !is_hull(half_plane.source));
         let mut names: Vec<(Vec2, String)> = lines
             .filter_map(|half_plane| Some((chord(half_plane, inset)?[1], source_name(half_plane.source))))
@@ -246,7 +246,7 @@ impl VelocitySpace<'_> {
 /// Region that all half-planes permit which did not have to yield, within the speed limit or the axes.
 fn feasible_region(explained: &ExplainedStep) -> Vec<Vec2> {
     let explanation = &explained.explanation;
-    let all_mps = speed_limit_mps(explained).map_or(square(explained.reach_mps), disc);
+    let all_mps = speed_limit_mps(explained).map_or(square(explained.axis_limit_mps), disc);
     let in_force = explanation.half_planes.iter().filter(|half_plane| !explanation.has_yielded(half_plane));
     feasible_region_mps(&all_mps, in_force)
 }
@@ -262,8 +262,8 @@ fn is_hull(source: HalfPlaneSource) -> bool {
 }
 
 /// All velocities on the axes: a square around the origin, counter-clockwise.
-fn square(reach_mps: f32) -> Vec<Vec2> {
-    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|corner| reach_mps * Vec2::from(corner)).to_vec()
+fn square(axis_limit_mps: f32) -> Vec<Vec2> {
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|corner| axis_limit_mps * Vec2::from(corner)).to_vec()
 }
 
 /// A regular polygon around the origin, counter-clockwise.
@@ -276,17 +276,17 @@ fn disc(radius_mps: f32) -> Vec<Vec2> {
 }
 
 /// Ends of a half-plane's line within a square around the origin, in the line's direction; `None` outside.
-fn chord(half_plane: &HalfPlane, reach_mps: f32) -> Option<[Vec2; 2]> {
+fn chord(half_plane: &HalfPlane, axis_limit_mps: f32) -> Option<[Vec2; 2]> {
     let HalfPlane { point_mps, direction, .. } = *half_plane;
     let (mut first, mut last) = (f32::NEG_INFINITY, f32::INFINITY);
     for (at, along) in point_mps.to_array().into_iter().zip(direction.to_array()) {
         if along == 0.0 {
-            if at.abs() > reach_mps {
+            if at.abs() > axis_limit_mps {
                 return None;
             }
             continue;
         }
-        let [one, other] = [-reach_mps, reach_mps].map(|side| (side - at) / along);
+        let [one, other] = [-axis_limit_mps, axis_limit_mps].map(|side| (side - at) / along);
         (first, last) = (first.max(one.min(other)), last.min(one.max(other)));
     }
     (first < last).then(|| [first, last].map(|distance| point_mps + distance * direction))
