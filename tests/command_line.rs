@@ -123,7 +123,7 @@ fn strict_makes_a_refusal_final() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn a_clip_without_human_legs_is_refused_with_the_reason() {
+fn clip_without_human_legs_is_rejected() {
     let fox = mocap().join("gltf/Fox.glb");
     let folder = folder("fox");
     let database = folder.join("motion.fbdb");

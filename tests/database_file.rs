@@ -1,5 +1,5 @@
-//! `.fbdb` as a file: those of this version stay readable, foreign and damaged ones are refused by name, forged ones by
-//! their invariants.
+//! `.fbdb` as a file: those of this version stay readable, foreign and damaged ones are rejected by name, forged ones
+//! by their invariants.
 
 mod support;
 
@@ -21,7 +21,7 @@ fn golden(extension: &str) -> PathBuf {
     repository().join("tests/golden/version_2").with_extension(extension)
 }
 
-/// A few figures of every part, to the last bit.
+/// A few values of every part, to the last bit.
 fn figures(db: &MotionDb) -> String {
     let mut lines = String::new();
     for (index, example) in db.examples.iter().enumerate() {
@@ -53,7 +53,7 @@ fn rewrite_the_golden_file_of_version_2() {
 }
 
 #[test]
-fn files_of_another_version_or_kind_are_refused_by_name() {
+fn other_versions_and_kinds_are_rejected() {
     let folder = folder("other_versions");
     let whole = fs::read(golden("fbdb")).unwrap();
     let payload = &whole[HEADER_LENGTH..];
@@ -68,9 +68,9 @@ fn files_of_another_version_or_kind_are_refused_by_name() {
     let next = container::seal(database_file::MAGIC, database_file::VERSION + 1, payload);
     check("next.fbdb", &next, &["format version 3", "reads version 2"]);
     let last = container::seal(database_file::MAGIC, database_file::VERSION - 1, payload);
-    check("last.fbdb", &last, &["format version 1", "reads version 2", "compile the clips anew"]);
-    check("kind.fbdb", &container::seal(*b"FBCROWDR", database_file::VERSION, payload), &["mark"]);
-    check("cut.fbdb", &whole[..whole.len() - 1], &["length"]);
+    check("last.fbdb", &last, &["format version 1", "reads version 2", "compile the clips again"]);
+    check("kind.fbdb", &container::seal(*b"FBCROWDR", database_file::VERSION, payload), &["magic number"]);
+    check("cut.fbdb", &whole[..whole.len() - 1], &["bytes of payload"]);
     check("altered.fbdb", &[&whole[..whole.len() - 1], &[!whole[whole.len() - 1]]].concat(), &["checksum"]);
     let half = container::seal(database_file::MAGIC, database_file::VERSION, &payload[..payload.len() / 2]);
     check("half.fbdb", &half, &["cannot be decoded"]);
@@ -188,6 +188,6 @@ fn a_speed_stored_a_quarter_off_is_caught() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn a_speed_stored_a_quarter_off_is_caught_on_real_clips() {
+fn wrong_stored_speed_is_caught_on_real_clips() {
     check_forged_speeds(&marine_clips(), "forged_speed_marine");
 }

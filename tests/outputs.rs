@@ -17,7 +17,7 @@ fn a_database_replaces_none_of_its_clips() {
 }
 
 #[test]
-fn a_database_replaces_no_buffer_or_picture_of_a_clip() {
+fn database_never_replaces_clip_resources() {
     let folder = folder("over_a_buffer");
     let clip = folder.join("walk.gltf");
     let document = r#"{ "asset": { "version": "2.0" }, "buffers": [{ "byteLength": 4, "uri": "walk%20data.bin" }],

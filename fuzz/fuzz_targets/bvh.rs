@@ -1,4 +1,4 @@
-//! Any bytes as a BVH file: an import or an error; what is imported compiles or is refused.
+//! Any bytes as a BVH file: an import or an error; what is imported compiles or is rejected.
 #![no_main]
 
 use std::path::Path;

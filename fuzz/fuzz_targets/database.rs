@@ -1,5 +1,5 @@
 //! Any bytes as a database: as they are, and sealed with a right header, so that decoding and validation are reached;
-//! what is sound can be measured.
+//! a valid database is measured.
 #![no_main]
 
 use std::path::Path;

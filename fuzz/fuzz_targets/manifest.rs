@@ -1,5 +1,5 @@
 //! Any text as a manifest: clips to import or an error. Paths that lead out of the empty folder are not followed: the
-//! disk is no input.
+//! disk is not an input.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

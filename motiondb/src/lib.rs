@@ -1,10 +1,10 @@
 //! The motion database: examples of human motion, and everything that the offline compiler and the runtime share.
 //!
-//! A database holds closed, phase-aligned cycles of motion (the *examples*), the velocities that they let a body walk
-//! at ([`VelocityHull`]), the simplices between them ([`BlendSpace`]) and the times at which synthesis may switch
-//! ([`Correspondence`]). The file format is `.fbdb`.
+//! A database holds closed, phase-aligned cycles of motion (the *examples*), the velocities at which a body can move
+//! with them ([`VelocityHull`]), the simplices between them ([`BlendSpace`]) and the times in the cycle at which
+//! synthesis can switch from one example to another ([`Correspondence`]). The file format is `.fbdb`.
 //!
-//! Load a database, print its examples, what they reach and what they do not:
+//! Load a database, print its examples, blend a turn, and print the coverage gaps:
 //!
 //! ```no_run
 //! use std::path::Path;

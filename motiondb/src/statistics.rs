@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn the_median_of_an_odd_sample_is_its_middle_value() {
+    fn median_of_odd_sample_is_middle_value() {
         assert_eq!(median([3.0, 1.0, 2.0]), Some(2.0));
     }
 

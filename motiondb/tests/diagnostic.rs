@@ -19,8 +19,8 @@ fn notes() -> Vec<(Note, &'static str)> {
     let other = || "walk.bvh".to_owned();
     vec![
         (Note::FirstPoseCut, "the first frame is a separate pose and is not used"),
-        (Note::TPoseCut { frames: 40, end: first }, "the first 40 frames come out of a T-pose and are not used"),
-        (Note::TPoseCut { frames: 12, end: last }, "the last 12 frames go into a T-pose and are not used"),
+        (Note::TPoseCut { frames: 40, end: first }, "the clip begins with 40 frames of T-pose, which are not used"),
+        (Note::TPoseCut { frames: 12, end: last }, "the clip ends with 12 frames of T-pose, which are not used"),
         (Note::TextAfterMotion { line: 90 }, "line 90: the text after the motion is not used"),
         (Note::LastRowIncomplete { line: 90 }, "line 90: the last row is cut short and is not used"),
         (
@@ -83,13 +83,18 @@ fn warnings() -> Vec<(Warning, &'static str)> {
         ),
         (
             Warning::Leap { distance_m: 3.0, frame: 20, more: 0 },
-            "the body leaps by 3.0 m from frame 20 to the next, which spoils its mean speeds; cut the file there, or \
+            "the body leaps by 3.0 m from frame 20 to frame 21, so its mean speeds are wrong; cut the file there, or \
              select `frames` in a manifest.toml",
         ),
         (
+            Warning::Leap { distance_m: 3.0, frame: 20, more: 1 },
+            "the body leaps by 3.0 m from frame 20 to frame 21 (1 further leap in the clip), so its mean speeds are \
+             wrong; cut the file there, or select `frames` in a manifest.toml",
+        ),
+        (
             Warning::Leap { distance_m: 3.0, frame: 20, more: 2 },
-            "the body leaps by 3.0 m from frame 20 to the next (and 2 times more), which spoils its mean speeds; cut \
-             the file there, or select `frames` in a manifest.toml",
+            "the body leaps by 3.0 m from frame 20 to frame 21 (2 further leaps in the clip), so its mean speeds are \
+             wrong; cut the file there, or select `frames` in a manifest.toml",
         ),
         (Warning::Slope { rise_cm: 12.0 }, "the body climbs 12 cm a step; use a clip on level ground"),
         (Warning::Slope { rise_cm: -12.0 }, "the body descends 12 cm a step; use a clip on level ground"),
@@ -128,11 +133,13 @@ fn warnings() -> Vec<(Warning, &'static str)> {
         ),
         (
             Warning::TPoseKept { frames: 60, end: ClipEnd::First },
-            "the first 60 frames come out of a T-pose, and too little motion is left without them; use a longer clip",
+            "the clip begins with 60 frames of T-pose; they are kept, because too little motion remains without them; \
+             use a longer clip",
         ),
         (
             Warning::TPoseKept { frames: 60, end: ClipEnd::Last },
-            "the last 60 frames go into a T-pose, and too little motion is left without them; use a longer clip",
+            "the clip ends with 60 frames of T-pose; they are kept, because too little motion remains without them; \
+             use a longer clip",
         ),
         (
             Warning::FrameTimesDiffer { others: vec!["a.bvh".into()], more: 0, mirrored: true, windows_left_out: 2 },
@@ -151,8 +158,8 @@ fn warnings() -> Vec<(Warning, &'static str)> {
         ),
         (
             Warning::NotCompared { compared: 4000 },
-            "the clip may be a second copy: among so many clips only the 4000 longest are compared; compile fewer at \
-             once",
+            "duplicates of this clip are not searched for: only the 4000 longest clips are compared; compile fewer \
+             clips at once",
         ),
     ]
 }
@@ -166,7 +173,7 @@ fn unfit() -> Vec<(Unfit, &'static str)> {
         ),
         (
             Unfit::InhumanGait { step_cm: 60.0, steps_per_min: 480.0 },
-            "steps of 60 cm, 480 a minute, are no human gait; state the right `frame_rate_hz` in a manifest.toml",
+            "steps of 60 cm, 480 a minute, are not a human gait; state the right `frame_rate_hz` in a manifest.toml",
         ),
         (Unfit::NoStep, "no foot both lands and leaves, and the body does not stand; use a clip of a steady gait"),
         (Unfit::NoWholeStride, "no whole stride, a step of each foot, was found; use a longer part of the motion"),
@@ -245,7 +252,7 @@ fn each_variant_has_its_severity() {
 #[test]
 fn only_diagnostics_of_examples_name_a_start() {
     let slide = |from_s| Diagnostic::Warning(Warning::FeetSlide { slide_cm_s: 26.0, from_s });
-    assert_eq!(slide(None).of_example_from(4.0), slide(Some(4.0)));
+    assert_eq!(slide(None).with_example_start_s(4.0), slide(Some(4.0)));
     let pose = Diagnostic::Note(Note::FirstPoseCut);
-    assert_eq!(pose.clone().of_example_from(4.0), pose);
+    assert_eq!(pose.clone().with_example_start_s(4.0), pose);
 }

@@ -1,4 +1,4 @@
-//! The root motion that planted feet imply, and the figures of quality.
+//! The root motion that planted feet imply, and the measures of quality.
 
 mod support;
 

@@ -77,7 +77,7 @@ fn axis_ranges(parameters: &[Parameters]) -> Option<[f32; 3]> {
     (points().all(|point| point.is_finite()) && ranges.is_finite()).then(|| std::array::from_fn(kept))
 }
 
-/// A simplex of points that spans the set but for noise, and orthonormal directions of its span. Each point is the
+/// A simplex of points that spans the set except for noise, and orthonormal directions of its span. Each point is the
 /// farthest from the span of those before it.
 fn spanning_simplex(points: &[[i64; 3]]) -> (Vec<usize>, Vec<DVec3>) {
     let offset = |index: usize| DVec3::from_array(std::array::from_fn(|k| (points[index][k] - points[0][k]) as f64));

@@ -2,7 +2,7 @@
 //!
 //! Enters: (v_f, ω_t, ω_s) of each example. Leaves: for a requested point, the shares of at most four examples.
 //!
-//! Read `space` first. Offline: `triangulation` builds the simplices on the exact `lattice`, `tiling` proves that they
+//! Read `space` first. Offline: `triangulation` builds the simplices on the exact `lattice`, `tiling` checks that they
 //! fill the hull. At run time: `locator` finds the shares of a point, with `simplex`, `simplex_grid` (inside the hull)
 //! and `hull_surface` (outside).
 //!

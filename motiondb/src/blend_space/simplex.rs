@@ -190,7 +190,7 @@ mod tests {
     proptest! {
         /// x is the nearest point of a convex set to p where no corner c lies further towards p: (p − x)·(c − x) ≤ 0.
         #[test]
-        fn no_point_of_a_simplex_is_nearer_than_the_nearest(
+        fn no_point_of_a_simplex_is_nearer(
             corners in prop::collection::vec(prop::array::uniform3(-3i8..4), 1..5),
             query in prop::array::uniform3(-9.0f64..9.0),
         ) {

@@ -1,7 +1,7 @@
-//! Proof from the stored data alone that the simplices of a blend space tile the convex hull of its examples (`FbCrowd`
-//! §5): they are disjoint, leave no gap, and their volumes sum to the hull's.
+//! Checks from the stored data alone that the simplices of a blend space tile the convex hull of its examples
+//! (`FbCrowd` §5): they are disjoint, leave no gap, and their volumes sum to the hull's.
 //!
-//! On the `lattice` every step is exact, in one to three dimensions alike:
+//! Points are integers on the `lattice`, so all arithmetic is exact. The steps are the same in one to three dimensions:
 //!
 //! 1. Every simplex has volume.
 //! 2. A facet belongs to two simplices on opposite sides of it, or to one: then it is a boundary facet.
@@ -23,12 +23,13 @@ const COVERED_TOLERANCE: f32 = 1e-6;
 /// The fault of a blend space, as a text for people; `None` if its simplices tile the hull of the examples'
 /// `parameters`.
 pub(crate) fn tiling_fault(space: &BlendSpace, parameters: &[Parameters]) -> Option<String> {
-    prove(space, parameters).err()
+    check_tiling(space, parameters).err()
 }
 
-type Proof = Result<(), String>;
+/// Result of a check: an error is the fault, as a text for people.
+type CheckResult = Result<(), String>;
 
-fn prove(space: &BlendSpace, parameters: &[Parameters]) -> Proof {
+fn check_tiling(space: &BlendSpace, parameters: &[Parameters]) -> CheckResult {
     let lattice = Lattice::new(parameters).ok_or("there are no examples, or their parameters are not finite")?;
     spans_the_examples(space, &lattice)?;
     indices_are_in_range(space, parameters.len())?;
@@ -41,11 +42,11 @@ fn prove(space: &BlendSpace, parameters: &[Parameters]) -> Proof {
     })
 }
 
-fn ensure(holds: bool, fault: impl FnOnce() -> String) -> Proof {
+fn ensure(holds: bool, fault: impl FnOnce() -> String) -> CheckResult {
     if holds { Ok(()) } else { Err(fault()) }
 }
 
-fn spans_the_examples(space: &BlendSpace, lattice: &Lattice) -> Proof {
+fn spans_the_examples(space: &BlendSpace, lattice: &Lattice) -> CheckResult {
     ensure(space.dimension as usize == lattice.dimension, || {
         format!("{} dimensions are stored, but the examples span {}", space.dimension, lattice.dimension)
     })?;
@@ -55,19 +56,19 @@ fn spans_the_examples(space: &BlendSpace, lattice: &Lattice) -> Proof {
     })
 }
 
-fn indices_are_in_range(space: &BlendSpace, examples: usize) -> Proof {
+fn indices_are_in_range(space: &BlendSpace, examples: usize) -> CheckResult {
     let (count, corners) = (space.simplices.len(), space.dimension as usize + 1);
     ensure(count > 0 && count.is_multiple_of(corners), || {
-        format!("{count} corners are stored, which is no multiple of {corners}")
+        format!("{count} corners are stored, which is not a multiple of {corners}")
     })?;
     match space.simplices.iter().find(|&&index| index as usize >= examples) {
-        Some(index) => Err(format!("a corner is example {index}, but there are {examples} examples")),
+        Some(index) => Err(format!("a corner refers to example {index}, but the database has {examples} examples")),
         None => Ok(()),
     }
 }
 
 /// Step 1: every simplex has volume.
-fn simplices_have_volume(space: &BlendSpace, lattice: &Lattice) -> Proof {
+fn simplices_have_volume(space: &BlendSpace, lattice: &Lattice) -> CheckResult {
     let flat = space.simplices().find(|corners| oriented(corners, &lattice.points) == 0);
     ensure(flat.is_none(), || format!("the simplex of examples {:?} has no volume", flat.unwrap_or_default()))
 }
@@ -89,15 +90,16 @@ struct Facet {
 }
 
 impl Facet {
-    /// Distance of a point from the facet, positive on the simplex's side, times the facet's size: exact.
+    /// Signed distance of a point from the facet, positive on the simplex's side, multiplied by the facet's size, which
+    /// keeps it an integer.
     fn height(&self, point: LatticePoint, lattice: &Lattice) -> i128 {
         let mut at = [point; MAX_CORNERS];
         at.iter_mut().zip(&self.corners).for_each(|(at, &corner)| *at = lattice.points[corner as usize]);
         self.side * signed_volume(&at[..lattice.dimension + 1])
     }
 
-    /// Distance of a point from the facet, positive on the simplex's side, lattice steps. Heights are linear in the
-    /// point, so one step along each axis gives the facet's size.
+    /// Signed distance of a point from the facet, positive on the simplex's side, lattice steps. Heights are linear in
+    /// the point, so one step along each axis gives the facet's size.
     fn height_steps(&self, point: LatticePoint, lattice: &Lattice) -> f64 {
         let rise = |axis: usize| {
             let mut next = point;
@@ -137,9 +139,9 @@ fn facets_of(corners: &[u32], lattice: &Lattice) -> impl Iterator<Item = Facet> 
     })
 }
 
-/// Step 3: no example lies beyond a boundary facet. An example that is no corner coincides with one, and may lie that
-/// far outside.
-fn boundary_is_convex(space: &BlendSpace, boundary: &[Facet], lattice: &Lattice) -> Proof {
+/// Step 3: no example lies beyond a boundary facet. An example that is not a corner coincides with a corner within
+/// [`COINCIDENT_STEPS`], so it may lie outside by that distance.
+fn boundary_is_convex(space: &BlendSpace, boundary: &[Facet], lattice: &Lattice) -> CheckResult {
     let mut is_corner = vec![false; lattice.points.len()];
     space.simplices.iter().for_each(|&corner| is_corner[corner as usize] = true);
     for facet in boundary {
@@ -159,7 +161,7 @@ fn boundary_is_convex(space: &BlendSpace, boundary: &[Facet], lattice: &Lattice)
 
 /// Step 4: the centre of the first simplex lies in no other. All points are multiplied by the number of corners, so
 /// that the centre is on the lattice.
-fn covers_once(space: &BlendSpace, lattice: &Lattice) -> Proof {
+fn covers_once(space: &BlendSpace, lattice: &Lattice) -> CheckResult {
     let count = lattice.dimension as i64 + 1;
     let enlarged: Vec<LatticePoint> = lattice.points.iter().map(|point| point.map(|x| x * count)).collect();
     let first = &space.simplices[..count as usize];

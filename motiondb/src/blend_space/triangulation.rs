@@ -21,8 +21,8 @@ use crate::motion::parameters::Parameters;
 /// Index of the point at infinity among the corners of a simplex.
 const INFINITY: usize = usize::MAX;
 
-/// The blend space of the examples' `parameters`, in as many dimensions as they span. Of coincident examples, one is a
-/// corner. Without examples, or if a parameter is not finite, there are no simplices.
+/// The blend space of the examples' `parameters`, in as many dimensions as they span. One of several coincident
+/// examples is a corner. Without examples, or if a parameter is not finite, there are no simplices.
 pub fn build(parameters: &[Parameters]) -> BlendSpace {
     let Some(lattice) = Lattice::new(parameters) else { return BlendSpace::default() };
     let triangulation = Triangulation::new(&lattice);
@@ -155,8 +155,8 @@ impl Triangulation {
         simplices
     }
 
-    /// Volume of the finite simplices over the volume of the hull, which the facets at infinity span with the first
-    /// site.
+    /// Volume of the finite simplices, divided by the volume of the hull, which the facets at infinity span with the
+    /// first site.
     fn covered_share(&self) -> f32 {
         let (finite, infinite): (Vec<&SiteSimplex>, Vec<&SiteSimplex>) =
             self.simplices.iter().partition(|simplex| self.is_finite(simplex));

@@ -71,7 +71,7 @@ impl RootFrame {
 /// A pose in its root frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
-    /// Position of the pelvis joint in the root frame: forward, left, height over the ground, metres.
+    /// Position of the pelvis joint in the root frame: forward, left, height above the ground, metres.
     pub pelvis_m: Vec3,
     /// Rotation of each joint relative to its parent. The pelvis's is relative to the root frame: it holds the yaw.
     pub rotations: [Quat; JOINT_COUNT],

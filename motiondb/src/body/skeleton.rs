@@ -189,7 +189,7 @@ const NAMES: [&str; JOINT_COUNT] = [
 /// Bones, girths, joint limits and soles of one body. Every vector is in the rest pose's body axes, metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Skeleton {
-    /// Position of each joint relative to its parent joint. The pelvis's is (0, 0, height over the ground at rest).
+    /// Position of each joint relative to its parent joint. The pelvis's is (0, 0, height above the ground at rest).
     pub offsets_m: [Vec3; JOINT_COUNT],
     /// Far end of each joint's segment, relative to the joint: the child's offset, or fingertips, crown and toe tips.
     pub segment_ends_m: [Vec3; JOINT_COUNT],

@@ -81,9 +81,9 @@ impl Diagnostic {
         }
     }
 
-    /// The same diagnostic for a further example of the clip, which begins at this second of the file.
+    /// Adds the start time of the example, for diagnostics that concern one example; others are unchanged.
     #[must_use]
-    pub fn of_example_from(mut self, start_s: f32) -> Self {
+    pub fn with_example_start_s(mut self, start_s: f32) -> Self {
         if let Self::Note(Note::TurnRateSnapped { from_s, .. } | Note::StrafeSnapped { from_s, .. })
         | Self::Warning(Warning::FeetSlide { from_s, .. } | Warning::FeetHardlyPlanted { from_s, .. }) = &mut self
         {

@@ -16,7 +16,7 @@ pub enum Note {
     TPoseCut {
         /// Number of frames that are cut off.
         frames: u32,
-        /// End of the clip at which they are.
+        /// Whether the T-pose is at the beginning or at the end.
         end: ClipEnd,
     },
     /// Text follows the motion of a BVH file.
@@ -64,13 +64,13 @@ pub enum Note {
         /// Reason why the steps give no example.
         reason: Unfit,
     },
-    /// The clip shows a take that another clip shows better.
+    /// Another clip is a better copy of the same recording.
     SameTake {
-        /// Name of the other clip, which gives the take's examples.
+        /// Name of the other clip, which gives the recording's examples.
         other: String,
         /// Whether one is the other's mirror image.
         mirrored: bool,
-        /// Number of steady windows that the other clip shows better.
+        /// Number of steady windows not used, because the other copy has a better version.
         windows_left_out: u32,
     },
     /// Two examples have the same parameters, and the other is the better one.
@@ -107,10 +107,10 @@ impl fmt::Display for Note {
         match self {
             Self::FirstPoseCut => out.write_str("the first frame is a separate pose and is not used"),
             Self::TPoseCut { frames, end: ClipEnd::First } => {
-                write!(out, "the first {frames} frames come out of a T-pose and are not used")
+                write!(out, "the clip begins with {frames} frames of T-pose, which are not used")
             }
             Self::TPoseCut { frames, end: ClipEnd::Last } => {
-                write!(out, "the last {frames} frames go into a T-pose and are not used")
+                write!(out, "the clip ends with {frames} frames of T-pose, which are not used")
             }
             Self::TextAfterMotion { line } => write!(out, "line {line}: the text after the motion is not used"),
             Self::LastRowIncomplete { line } => write!(out, "line {line}: the last row is cut short and is not used"),

@@ -68,13 +68,13 @@ pub enum Unfit {
         /// Greatest misfit that is accepted, m/s.
         limit_mps: f32,
     },
-    /// The clip shows a take that another clip shows better.
+    /// Another clip is a better copy of the same recording.
     SameTake {
-        /// Name of the other clip, which gives the take's examples.
+        /// Name of the other clip, which gives the recording's examples.
         other: String,
         /// Whether one is the other's mirror image.
         mirrored: bool,
-        /// Whether the clips differ in their frame times: then one of them is wrong.
+        /// Whether the two copies have different frame times: then one of them is wrong.
         frame_times_differ: bool,
     },
 }
@@ -108,7 +108,7 @@ impl fmt::Display for Unfit {
             ),
             Self::InhumanGait { step_cm, steps_per_min } => write!(
                 out,
-                "steps of {step_cm:.0} cm, {steps_per_min:.0} a minute, are no human gait; state the right \
+                "steps of {step_cm:.0} cm, {steps_per_min:.0} a minute, are not a human gait; state the right \
                  `frame_rate_hz` in a manifest.toml"
             ),
             Self::NoStep => {

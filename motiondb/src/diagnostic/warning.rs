@@ -15,14 +15,14 @@ pub enum Warning {
         /// Length of thigh plus shank, m.
         leg_m: f32,
     },
-    /// In the unit of the file's format the legs could not walk: another unit is used.
+    /// In the unit that the file format defines, the leg length is impossible; the compiler uses another unit.
     UnitRejected {
         /// Length of thigh plus shank in the format's unit, m.
         leg_m: f32,
     },
     /// Toes and knees contradict the sides that the joints' names state: left and right are exchanged.
     SidesExchanged,
-    /// The body is far away from one frame to the next.
+    /// The body's position jumps between two frames.
     Leap {
         /// Distance of the first leap, m.
         distance_m: f32,
@@ -36,7 +36,8 @@ pub enum Warning {
         /// Rise per step, cm; negative for a descent.
         rise_cm: f32,
     },
-    /// The feet that should carry the body slide over the ground.
+    /// On average over the source clip, feet that should carry the body slide over the ground. The compiler checks this
+    /// before it cuts examples out of the clip; [`Warning::FeetSlide`] concerns the cycle of one example.
     Skating {
         /// Speed of the body, m/s.
         body_mps: f32,
@@ -55,7 +56,7 @@ pub enum Warning {
         /// Height of the lower foot, cm.
         lift_cm: f32,
     },
-    /// Planted feet slide.
+    /// Planted feet slide in the cycle of one example; [`Warning::Skating`] concerns the whole source clip.
     FeetSlide {
         /// Mean slide over the cycle, cm/s.
         slide_cm_s: f32,
@@ -76,27 +77,27 @@ pub enum Warning {
         /// Number of rows in the file.
         rows: u32,
     },
-    /// A T-pose is not cut off, since too little motion would be left.
+    /// A T-pose is not cut off, because too little motion remains without it.
     TPoseKept {
         /// Number of frames of the T-pose and of the motion between it and the clip.
         frames: u32,
-        /// End of the clip at which they are.
+        /// Whether the T-pose is at the beginning or at the end.
         end: ClipEnd,
     },
-    /// Clips of one take differ in their frame times: one of them is wrong.
+    /// Two copies of one recording have different frame times: one of them is wrong.
     FrameTimesDiffer {
-        /// Names of other clips of the take.
+        /// Names of other copies.
         others: Vec<String>,
-        /// Number of other clips beside those.
+        /// Number of further copies, which are not named.
         more: u32,
         /// Whether one is the other's mirror image.
         mirrored: bool,
-        /// Number of steady windows that the other clip shows better.
+        /// Number of steady windows not used, because the other copy has a better version.
         windows_left_out: u32,
     },
-    /// The set has too many clips to search all for further copies of a take.
+    /// The clip is not compared with others: the set has too many clips to search all for duplicates.
     NotCompared {
-        /// Number of clips that are compared: the longest.
+        /// Number of clips that are compared; these are the longest.
         compared: u32,
     },
 }
@@ -190,26 +191,35 @@ impl fmt::Display for Warning {
             }
             Self::NotCompared { compared } => write!(
                 out,
-                "the clip may be a second copy: among so many clips only the {compared} longest are compared; compile \
-                 fewer at once"
+                "duplicates of this clip are not searched for: only the {compared} longest clips are compared; compile \
+                 fewer clips at once"
             ),
         }
     }
 }
 
 fn leap(out: &mut fmt::Formatter<'_>, distance_m: f32, frame: u32, more: u32) -> fmt::Result {
-    let more = if more == 0 { String::new() } else { format!(" (and {more} times more)") };
+    let next = u64::from(frame) + 1;
+    let more = match more {
+        0 => String::new(),
+        1 => " (1 further leap in the clip)".to_owned(),
+        _ => format!(" ({more} further leaps in the clip)"),
+    };
     write!(
         out,
-        "the body leaps by {distance_m:.1} m from frame {frame} to the next{more}, which spoils its mean speeds; cut the \
-         file there, or select `frames` in a manifest.toml"
+        "the body leaps by {distance_m:.1} m from frame {frame} to frame {next}{more}, so its mean speeds are wrong; cut \
+         the file there, or select `frames` in a manifest.toml"
     )
 }
 
 fn t_pose(out: &mut fmt::Formatter<'_>, frames: u32, end: ClipEnd) -> fmt::Result {
-    let part = match end {
-        ClipEnd::First => format!("the first {frames} frames come out of a T-pose"),
-        ClipEnd::Last => format!("the last {frames} frames go into a T-pose"),
+    let verb = match end {
+        ClipEnd::First => "begins",
+        ClipEnd::Last => "ends",
     };
-    write!(out, "{part}, and too little motion is left without them; use a longer clip")
+    write!(
+        out,
+        "the clip {verb} with {frames} frames of T-pose; they are kept, because too little motion remains without them; \
+         use a longer clip"
+    )
 }

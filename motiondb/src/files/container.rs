@@ -1,7 +1,9 @@
-//! The container of a database file: magic, format version, payload length, and a checksum over header and payload.
+//! The container of a database file: magic number, format version, payload length, and a checksum over header and
+//! payload.
 //!
-//! Layout, little-endian: magic (8 bytes), version (u32), payload length (u64), CRC-32 of the 20 bytes before it and of
-//! the payload (u32), payload. Nothing is allocated or decoded before all four agree with the bytes.
+//! Layout, little-endian: magic number (8 bytes), version (u32), payload length (u64), CRC-32 of the 20 bytes before it
+//! and of the payload (u32), payload. Magic, version, length and checksum are checked before anything is allocated or
+//! decoded.
 
 /// Length of the header, bytes.
 pub const HEADER_LENGTH: usize = 24;
@@ -20,8 +22,8 @@ const CHECKED_LENGTH: usize = 20;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ContainerError {
-    /// The bytes do not begin with the magic.
-    #[error("it does not begin with the mark (magic) of such a file")]
+    /// The bytes do not begin with the expected magic number.
+    #[error("it does not begin with the expected magic number")]
     Magic,
     /// Another version of the program wrote the file.
     #[error("it has format version {found}; this program reads version {supported}")]
@@ -31,15 +33,21 @@ pub enum ContainerError {
         /// Format version that this program reads.
         supported: u32,
     },
+    /// The file ends within the header.
+    #[error("it has only {present} bytes, fewer than the header's {HEADER_LENGTH}")]
+    HeaderCut {
+        /// Length of the file, bytes.
+        present: usize,
+    },
     /// The payload is shorter or longer than the header states.
-    #[error("its length is wrong: after its header it should hold {promised} bytes, but holds {present}")]
+    #[error("its header states {stated} bytes of payload, but {present} follow")]
     Length {
         /// Length that the header states, bytes.
-        promised: u64,
+        stated: u64,
         /// Length of the file after the header, bytes.
         present: u64,
     },
-    /// The bytes are altered.
+    /// The checksum does not match.
     #[error("its checksum is {found:08x}, but its bytes give {computed:08x}")]
     Checksum {
         /// Checksum that the header states.
@@ -61,14 +69,14 @@ pub fn seal(magic: [u8; 8], version: u32, payload: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Payload and checksum of a container.
+/// Checks a container; returns payload and checksum.
 ///
 /// # Errors
-/// The first of magic, version, length and checksum that disagrees.
+/// If magic, version, length or checksum is wrong; the first of them that is.
 pub fn open(magic: [u8; 8], version: u32, bytes: &[u8]) -> Result<(&[u8], u32), ContainerError> {
     let Some((header, payload)) = bytes.split_first_chunk::<HEADER_LENGTH>() else {
         return Err(if bytes.starts_with(&magic) {
-            ContainerError::Length { promised: HEADER_LENGTH as u64, present: bytes.len() as u64 }
+            ContainerError::HeaderCut { present: bytes.len() }
         } else {
             ContainerError::Magic
         });
@@ -80,10 +88,10 @@ pub fn open(magic: [u8; 8], version: u32, bytes: &[u8]) -> Result<(&[u8], u32), 
     if found != version {
         return Err(ContainerError::Version { found, supported: version });
     }
-    let promised = u64::from(u32_at(header, 12)) | u64::from(u32_at(header, 16)) << 32;
+    let stated = u64::from(u32_at(header, 12)) | u64::from(u32_at(header, 16)) << 32;
     let present = payload.len() as u64;
-    if promised != present {
-        return Err(ContainerError::Length { promised, present });
+    if stated != present {
+        return Err(ContainerError::Length { stated, present });
     }
     let (found, computed) = (u32_at(header, CHECKED_LENGTH), checksum(&header[..CHECKED_LENGTH], payload));
     if found != computed {

@@ -9,7 +9,7 @@ use crate::files::{atomic_file, input_file};
 use crate::motion::motion_db::MotionDb;
 use crate::validate;
 
-/// The magic with which a database file begins.
+/// Magic number with which a database file begins.
 pub const MAGIC: [u8; 8] = *b"FBCROWDB";
 /// Format version; a file of any other version is rejected.
 pub const VERSION: u32 = 2;
@@ -45,16 +45,16 @@ pub enum FileError {
         source: io::Error,
     },
     /// The file is not a database, or is damaged.
-    #[error("{path}: not a readable motion database: {source}; compile the clips anew with `fbcrowd compile`")]
+    #[error("{path}: not a readable motion database: {source}; compile the clips again with `fbcrowd compile`")]
     Container {
         /// Path of the file.
         path: PathBuf,
         /// The disagreement found.
         source: ContainerError,
     },
-    /// The container is sound, but its payload is not a database.
+    /// The container is valid, but its payload is not a database.
     #[error(
-        "{path}: not a readable motion database: its content cannot be decoded: {reason}; compile the clips anew with \
+        "{path}: not a readable motion database: its content cannot be decoded: {reason}; compile the clips again with \
          `fbcrowd compile`"
     )]
     Decode {

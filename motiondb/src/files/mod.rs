@@ -1,4 +1,4 @@
-//! Files: databases on disk, complete writing, and texts whose faults are reported at their line.
+//! Files: databases on disk, atomic writing, and text files with errors that state the line.
 //!
 //! Enters: paths and bytes. Leaves: databases, texts, or an error that names the file and the remedy.
 //!

@@ -95,7 +95,7 @@ fn best_row_pairs(distances_m: &Distances) -> Vec<RowPair> {
     pairs
 }
 
-/// Local minima up to the threshold. Of equal neighbours, the first counts.
+/// Local minima up to the threshold. If neighbours are equal, the first counts.
 fn minima(distances_m: &Distances) -> Vec<RowPair> {
     let least_m = distances_m.iter().flatten().copied().fold(f32::INFINITY, f32::min);
     let rows = (0..PHASE_COUNT).flat_map(|row| (0..PHASE_COUNT).map(move |other_row| [row, other_row]));

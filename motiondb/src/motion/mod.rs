@@ -1,4 +1,5 @@
-//! Motion: what the database stores of each example, and when synthesis can switch from one example to another.
+//! Motion: what the database stores of each example, and the times in the cycle at which synthesis can switch from one
+//! example to another.
 //!
 //! Enters: closed, phase-aligned cycles. Leaves: the database, and the correspondence times T between two examples
 //! (`FbCrowd` §5, Eq. 10).

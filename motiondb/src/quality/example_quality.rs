@@ -1,8 +1,8 @@
-//! Quality of the motion of each example: figures, and findings for those beyond a threshold.
+//! Quality of the motion of each example: measures, and findings for those beyond a threshold.
 //!
-//! Enters: a valid database; poses in the root frame. Leaves: figures whose names end in their units. Thresholds lie
-//! just beyond the values of good captures, so most clips pass. A finding does not make a database unsound
-//! ([`crate::validate`] does): the motion is played as it is.
+//! Enters: a valid database; poses in the root frame. Leaves: measures whose names end in their units. Thresholds lie
+//! just beyond the values of good captures, so most clips pass. A finding does not make a database invalid
+//! ([`crate::validate`] decides that): the motion is played as it is.
 
 use glam::{Quat, Vec3};
 use serde::Serialize;
@@ -25,9 +25,9 @@ const WALKING_SHARE: [f32; 2] = [0.35, 0.8];
 const RUNNING_SHARE: [f32; 2] = [0.22, 0.5];
 /// Usual planted share of a standing body: no foot is off the ground for long.
 const STANDING_SHARE: [f32; 2] = [0.9, 1.0];
-/// Greatest turn over the seam, over the median turn of the cycle: 1.5 is not visible, 3 is (measured).
+/// Greatest turn at the seam, divided by the median turn of the cycle: 1.5 is not visible, 3 is (measured).
 const SEAM_ANGLE_MAX: f32 = 2.0;
-/// Greatest change of angular velocity at the seam, over the cycle's median: 2.8 is not visible, 9 is (measured).
+/// Greatest change of angular velocity at the seam, divided by the cycle's median: 2.8 is not visible, 9 is (measured).
 const SEAM_VELOCITY_MAX: f32 = 4.0;
 /// Least median of both ratios, rad per joint and row: 0.05°, since smaller steps are not visible.
 const SEAM_STEP_MIN_RAD: f32 = 0.05 * std::f32::consts::PI / 180.0;
@@ -35,13 +35,13 @@ const SEAM_STEP_MIN_RAD: f32 = 0.05 * std::f32::consts::PI / 180.0;
 const PENETRATION_MAX_MM: f32 = 20.0;
 /// Least flexion of a knee, degrees. People land on knees flexed by 3–5°; a straighter knee snaps.
 const KNEE_FLEXION_MIN_DEG: f32 = 1.0;
-/// Greatest distance of hip and ankle over thigh plus shank. The compiler's leg inverse kinematics ends at 0.9995 (a
-/// knee flexed by 3.6°), so a longer leg is the clip's own.
+/// Greatest distance of hip and ankle, divided by thigh plus shank. The compiler's leg inverse kinematics ends at
+/// 0.9995 (a knee flexed by 3.6°), so a longer leg is the clip's own.
 const LEG_EXTENSION_MAX: f32 = 0.9997;
-/// Greatest turn of a joint beyond the published range, degrees: sound clips exceed it by up to 42° (`docs/tuning.md`).
+/// Greatest turn of a joint beyond the published range, degrees: good clips exceed it by up to 42° (`docs/tuning.md`).
 const RANGE_EXCESS_MAX_DEG: f32 = 45.0;
 
-/// Figures of one example.
+/// Measures of one example.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExampleQuality {
     /// Name of the example.
@@ -50,15 +50,15 @@ pub struct ExampleQuality {
     pub planted_slide_cm_s: f32,
     /// Share of the cycle in which a foot is planted, mean of both feet.
     pub planted_share: f32,
-    /// Turn of the joints from the last row to the first (root mean square), over the median turn between rows.
+    /// Turn of the joints from the last row to the first (root mean square), divided by the median turn between rows.
     pub seam_angle_ratio: f32,
-    /// Greatest change of angular velocity at the seam (root mean square over joints), over the median change.
+    /// Greatest change of angular velocity at the seam (root mean square over joints), divided by the median change.
     pub seam_velocity_ratio: f32,
     /// Greatest depth of a sole below the ground, mm.
     pub penetration_mm: f32,
     /// Least flexion of a knee, degrees; negative if hyperextended.
     pub knee_flexion_min_deg: f32,
-    /// Greatest distance from hip to ankle, over thigh plus shank.
+    /// Greatest distance from hip to ankle, divided by thigh plus shank.
     pub leg_extension_max: f32,
     /// Greatest turn of a joint beyond the published human range, degrees; 0 within.
     pub range_excess_deg: f32,
@@ -66,7 +66,7 @@ pub struct ExampleQuality {
     pub range_excess_joint: &'static str,
 }
 
-/// A figure beyond its threshold.
+/// A measure beyond its threshold.
 ///
 /// ```no_run
 /// use motiondb::MotionDb;
@@ -82,11 +82,11 @@ pub struct ExampleQuality {
 pub struct Finding {
     /// Name of the example.
     pub example: String,
-    /// Name of the figure: its field in [`ExampleQuality`].
+    /// Name of the measure: its field in [`ExampleQuality`].
     pub measure: &'static str,
-    /// Value of the figure.
+    /// Value of the measure.
     pub value: f32,
-    /// Threshold of the figure.
+    /// Threshold of the measure.
     pub threshold: f32,
     /// Unit of value and threshold; empty for ratios and shares.
     pub unit: &'static str,
@@ -99,13 +99,13 @@ pub fn suspect_slide_cm_s(speed_mps: f32) -> f32 {
     SUSPECT_SLIDE_CM_S + SUSPECT_SLIDE_CM_S_PER_MPS * speed_mps
 }
 
-/// Figures of every example, in order. The database must be valid.
+/// Measures of every example, in order. The database must be valid.
 pub fn quality(db: &MotionDb) -> Vec<ExampleQuality> {
     (0..db.examples.len()).map(|example| example_quality(db, example)).collect()
 }
 
-/// Findings for all figures beyond their thresholds, in order of examples. Mirrored examples repeat their originals and
-/// are left out. The database must be valid.
+/// Findings for all measures beyond their thresholds, in order of examples. Mirrored examples repeat their originals
+/// and are left out. The database must be valid.
 pub fn lint(db: &MotionDb) -> Vec<Finding> {
     let recorded = quality(db).into_iter().zip(&db.examples).filter(|(_, example)| !example.mirrored);
     recorded.flat_map(|(found, example)| findings(&found, example)).collect()
@@ -143,7 +143,7 @@ fn turns(db: &MotionDb, example: usize) -> Vec<[Vec3; JOINT_COUNT]> {
     (0..PHASE_COUNT).map(of_row).collect()
 }
 
-/// Ratios of the seam: turn over the median turn, and change of angular velocity over the median change.
+/// Ratios of the seam: turn divided by the median turn, and change of angular velocity divided by the median change.
 fn seam_ratios(turns: &[[Vec3; JOINT_COUNT]]) -> [f32; 2] {
     let before = |row: usize| &turns[(row + PHASE_COUNT - 1) % PHASE_COUNT];
     let angles: Vec<f32> = turns.iter().map(|turn| rms(turn.iter().copied())).collect();
@@ -206,7 +206,7 @@ fn findings(found: &ExampleQuality, example: &MotionExample) -> Vec<Finding> {
     limits.filter_map(|limit| limit.finding(&found.example)).collect()
 }
 
-/// A figure, its usual range, and the sentence of the finding beyond that range.
+/// A measure, its usual range, and the sentence of the finding beyond that range.
 struct FigureLimit {
     measure: &'static str,
     unit: &'static str,

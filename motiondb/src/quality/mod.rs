@@ -1,7 +1,7 @@
-//! Quality: the ground contact of planted feet, the figures of each example, and the coverage gaps of the set.
+//! Quality: the ground contact of planted feet, the measures of each example, and the coverage gaps of the set.
 //!
-//! Enters: a valid database. Leaves: figures with thresholds, and sentences for people. Nothing here makes a database
-//! unsound: the chapter `validate` decides that.
+//! Enters: a valid database. Leaves: measures with thresholds, and sentences for people. Poor quality does not make a
+//! database invalid; [`validate`](crate::validate) decides that.
 //!
 //! Read `planted_feet`, then `example_quality`, then `coverage`.
 

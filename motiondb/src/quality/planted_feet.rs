@@ -1,7 +1,7 @@
 //! Feet of a closed cycle on the ground: their contacts, their slide, and the root motion that they imply.
 //!
 //! Enters: posed rows and contacts of a cycle, root frame (x forward, y left), metres and seconds. A foot is planted in
-//! the rows whose contact is at least ½. Its contact point is the lowest of heel, ball and toe tip, each over its own
+//! the rows whose contact is at least ½. Its contact point is the lowest of heel, ball and toe tip, each above its own
 //! planted height. Slide is the mean horizontal speed of that point in the world, over the middle 80 % of each contact.
 //!
 //! A point p of the root frame that is at rest in the world obeys, with root velocity v and turn rate ω,
@@ -228,7 +228,7 @@ fn moved_with_root_m(point_m: DVec2, velocity: DVec3, time_s: f64) -> DVec2 {
     half_turn.rotate(half_turn.rotate(point_m) + DVec2::new(velocity.x, velocity.z) * (time_s * chord))
 }
 
-/// Index of the point of each row that is lowest over its planted height.
+/// Index of the point of each row that is lowest above its planted height.
 fn lowest_points(feet: &[[DVec3; 3]]) -> Vec<usize> {
     let planted_m = [0, 1, 2]
         .map(|point: usize| percentile(feet.iter().map(|foot| foot[point].z), PLANTED_PERCENTILE).unwrap_or_default());

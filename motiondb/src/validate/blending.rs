@@ -12,7 +12,7 @@ pub(crate) fn simplices_tile_the_hull(db: &MotionDb) -> CheckResult {
 }
 
 /// If two examples step, there are correspondences between two of these. The pairs lie in their cycles, rise in t_sp,
-/// and rise in t_mb but for one wrap. Each step of m_sp has at least one pair.
+/// and rise in t_mb except at one wrap. Each step of m_sp has at least one pair.
 pub(crate) fn correspondences_are_cyclic(db: &MotionDb) -> CheckResult {
     let stepping = db.examples.iter().filter(|example| example.key_times_s.is_some()).count();
     let Some(found) = &db.correspondence else {

@@ -6,9 +6,9 @@
 //!
 //! Three tiers, each based on the one before: `structure` (lengths and indices), `values` (ranges of numbers, rotations
 //! and poses), and consequences of the values: the motion of each example (`motion`), the velocity sets
-//! (`velocity_sets`, `FbCrowd` §4.1), simplices and correspondences (`blending`, §5). Of a broken structure the first
-//! fault is reported; of a broken later tier all are. Tiers after a broken one are not checked. The doc of each
-//! function states the invariant.
+//! (`velocity_sets`, `FbCrowd` §4.1), simplices and correspondences (`blending`, §5). If `structure` fails, only its
+//! first fault is reported. In later tiers, all faults are. After a failed tier, later tiers are not checked. The doc
+//! of each function states the invariant.
 
 mod blending;
 mod motion;
@@ -81,7 +81,7 @@ const CONSEQUENCES: [Invariant; 11] = [
     ("correspondences_are_cyclic", blending::correspondences_are_cyclic),
 ];
 
-/// Checks of all invariants; if a tier is broken, only of those up to it.
+/// Checks of all invariants; after a failed tier, later tiers are left out.
 pub fn validate(db: &MotionDb) -> Vec<Check> {
     let check = |(name, invariant): Invariant| Check { name, broken: invariant(db).err() };
     let is_broken = |check: &Check| check.broken.is_some();

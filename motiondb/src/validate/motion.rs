@@ -8,14 +8,14 @@ use crate::motion::parameters::Parameters;
 use crate::quality::planted_feet::{CycleFeet, foot_slide, implied_root_motion};
 use crate::validate::{CheckResult, each, ensure};
 
-/// Greatest turn of a joint from the last row to the first, over the cycle's own greatest step.
+/// Greatest turn of a joint from the last row to the first, divided by the cycle's own greatest step.
 const SEAM_LIMIT: f32 = 2.0;
-/// Turn over the seam that is always permitted, radians.
+/// Turn at the seam that is always permitted, radians.
 const SEAM_MIN_RAD: f32 = 1e-3;
-/// Greatest distance of a landmark from the middle of its contact, over the cycle. In a jog it is 0.1: the landmark is
-/// the middle of the step, the contact only its later part.
+/// Greatest distance of a landmark from the middle of its contact, divided by the cycle. In a jog it is 0.1: the
+/// landmark is the middle of the step, the contact only its later part.
 const LANDMARK_TOLERANCE: f64 = 0.125;
-/// Tolerance of key times, over the period: the rounding of `f32`.
+/// Tolerance of key times, divided by the period: the rounding of `f32`.
 const KEY_TIME_TOLERANCE: f64 = 1e-5;
 /// Tolerance of planted shares: the rounding of `f32`.
 const SHARE_TOLERANCE: f64 = 1e-6;

@@ -19,7 +19,7 @@ pub(crate) fn rows_are_complete(db: &MotionDb) -> CheckResult {
     })
 }
 
-/// Sources, simplices and correspondences hold indices that exist.
+/// All indices in examples, simplices and correspondences exist.
 pub(crate) fn indices_are_in_range(db: &MotionDb) -> CheckResult {
     let examples = db.examples.len();
     each(db, |_, example| {
@@ -38,10 +38,13 @@ pub(crate) fn indices_are_in_range(db: &MotionDb) -> CheckResult {
     }
 }
 
-/// Examples are in order of their names, and no two have the same.
+/// Examples are sorted by name, and no name occurs twice.
 pub(crate) fn names_are_unique(db: &MotionDb) -> CheckResult {
     match db.examples.windows(2).find(|pair| pair[0].name >= pair[1].name) {
-        Some(pair) => Err(format!("{} does not sort before {}", pair[0].name, pair[1].name)),
+        Some(pair) => Err(format!(
+            "example names are not sorted or not unique: `{}` is followed by `{}`",
+            pair[0].name, pair[1].name
+        )),
         None => Ok(()),
     }
 }

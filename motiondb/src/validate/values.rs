@@ -89,7 +89,7 @@ pub(crate) fn phase_maps_rise(db: &MotionDb) -> CheckResult {
     })
 }
 
-/// Pelvis positions are finite, over the ground and near the root; contacts are in [0, 1].
+/// Pelvis positions are finite, above the ground and near the root; contacts are in [0, 1].
 pub(crate) fn rows_are_finite(db: &MotionDb) -> CheckResult {
     let leg_m = db.skeleton.leg_length_m();
     for (row, (pelvis_m, contacts)) in db.rows.pelvis_m.iter().zip(&db.rows.contacts).enumerate() {

@@ -12,7 +12,7 @@ use crate::velocity_sets::velocity_hull::{
 };
 use crate::velocity_sets::wrapping_polygon;
 
-/// Greatest distance of a point outside a hull, m/s: rounding.
+/// Greatest distance of a point outside a hull that counts as inside, m/s: rounding error.
 const TOLERANCE_MPS: f32 = 1e-4;
 
 /// A stored velocity set, with the points from which it must be built.
@@ -52,7 +52,7 @@ pub(crate) fn hulls_are_clockwise_and_convex(db: &MotionDb) -> CheckResult {
         })?;
         let corner = |k: usize| corners_mps[k % count].as_dvec2();
         let turns_right = |k: usize| (corner(k + 1) - corner(k)).perp_dot(corner(k + 2) - corner(k + 1)) < 0.0;
-        // A polygon that turns right at every corner may still run around several times.
+        // A polygon that turns right at every corner may wind around more than once.
         let runs_once = (0..count).filter(|&k| is_leftmost(corners_mps, k)).count() == 1;
         let convex = count < 3 || (runs_once && (0..count).all(turns_right));
         ensure(convex, || format!("the {name} set does not turn right at every corner, once around"))?;
@@ -60,7 +60,7 @@ pub(crate) fn hulls_are_clockwise_and_convex(db: &MotionDb) -> CheckResult {
     })
 }
 
-/// Whether a corner lies behind both of its neighbours. A polygon that runs around once has one such corner.
+/// Whether a corner lies behind both of its neighbours. A polygon that winds around once has one such corner.
 fn is_leftmost(corners_mps: &[Vec2], index: usize) -> bool {
     let count = corners_mps.len();
     let key = |k: usize| (corners_mps[k % count].x, corners_mps[k % count].y);
@@ -107,7 +107,7 @@ pub(crate) fn half_planes_agree_with_the_hulls(db: &MotionDb) -> CheckResult {
             let point = forbidden.copied().unwrap_or_default();
             format!("the half-planes of the {name} set forbid its example at {point} m/s")
         })?;
-        // A set without area is widened: its lines run beside its corners.
+        // A point or segment is widened into a thin polygon, so its edges miss the corners.
         let touches = |(point, direction): (Vec2, Vec2)| {
             let on_line = |corner: &&Vec2| direction.perp_dot(point - **corner).abs() <= TOLERANCE_MPS;
             corners_mps.len() < 3 || corners_mps.iter().filter(on_line).count() >= 2

@@ -3,7 +3,7 @@
 use glam::Vec2;
 use robust::{Coord, orient2d};
 
-/// Corners of the convex hull of the points and the origin, clockwise, without corners on its edges.
+/// Corners of the convex hull of the points and the origin, clockwise; collinear points are removed.
 pub(crate) fn clockwise_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut sorted: Vec<Vec2> = points.chain([Vec2::ZERO]).collect();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -16,7 +16,8 @@ pub(crate) fn clockwise_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     hull
 }
 
-/// The chain of points, without the last, that turns right at every corner.
+/// Upper or lower half of the hull: the chain that turns right at every corner; its last point is left to the other
+/// half.
 fn half_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut chain: Vec<Vec2> = Vec::new();
     for point in points {

@@ -1,4 +1,4 @@
-//! Velocity sets: the velocities that the examples let a body walk at (`FbCrowd` §4.1, Eqs. 2–5).
+//! Velocity sets: the velocities at which a body can move with the examples (`FbCrowd` §4.1, Eqs. 2–5).
 //!
 //! Enters: (v_f, ω_t, ω_s) of the examples. Leaves: two convex polygons and the sharp-turn edges (Fig. 3b), in the
 //! agent's frame (x forward, y left), m/s.

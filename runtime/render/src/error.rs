@@ -23,7 +23,7 @@ pub enum RenderError {
         /// The system's error.
         source: io::Error,
     },
-    /// A picture cannot be written; no file has its name.
+    /// A picture cannot be written; no partial file is left.
     #[error("{}: the picture cannot be written: {source}; free some space or allow writing there, then render again", path.display())]
     Write {
         /// Final path of the picture.
@@ -52,7 +52,7 @@ pub enum RenderError {
         fault: FrameRangeFault,
     },
     /// The recording has none of the frames of `--frames`.
-    #[error("frames \"{text}\": the recording has none of these, but {first} to {last}; choose among those")]
+    #[error("frames \"{text}\": the recording has only frames {first} to {last}; choose among those")]
     NoFrames {
         /// The whole text.
         text: String,
@@ -62,7 +62,7 @@ pub enum RenderError {
         last: u32,
     },
     /// The recording does not have the agent of an overlay.
-    #[error("agent {agent}: the recording has {count}, 0 to {}; choose one of these (a picture with an overlay shows the numbers)", count.saturating_sub(1))]
+    #[error("agent {agent} does not exist; the recording has agents 0 to {}; choose one of these (a picture with an overlay shows the numbers)", count.saturating_sub(1))]
     NoSuchAgent {
         /// Index of the agent.
         agent: usize,
@@ -70,9 +70,7 @@ pub enum RenderError {
         count: usize,
     },
     /// A picture does not have room for so many overlays.
-    #[error(
-        "{requested} agents are too many panels for one picture, which has room for {room}; render some of them at a time"
-    )]
+    #[error("{requested} panels do not fit in one picture, which has room for {room}; render fewer agents at once")]
     TooManyPanels {
         /// Number of panels requested.
         requested: usize,

@@ -1,8 +1,8 @@
 //! One step of the simulation, in the order of the paper's Fig. 2 (`FbCrowd` §3).
 //!
-//! 1. path: the preferred velocity of each agent, v_pref;
+//! 1. route: the preferred velocity of each agent, v_pref;
 //! 2. neighbours: the agents near each agent;
-//! 3. planning (MCN, §4): v_pref becomes a velocity that body, stance and crowd allow;
+//! 3. planning (MCN, §4): v_pref becomes a velocity that satisfies the constraints of body, stance foot and crowd;
 //! 4. synthesis (HMS, §5): the body follows its plan;
 //! 5. coupling (CNS, §3.4): the disc takes the body's position; the step is recorded.
 //!
@@ -42,7 +42,7 @@ const GRID_BYTES: usize = 64;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Preferred velocities.
-    Path,
+    Route,
     /// The grid of agents.
     Neighbours,
     /// MCN: plans.
@@ -105,7 +105,7 @@ impl Simulation {
     /// Advances by the scenario's dt; `finished` receives each stage at its end.
     pub fn step(&mut self, finished: &mut dyn FnMut(Stage)) {
         self.follow_paths();
-        finished(Stage::Path);
+        finished(Stage::Route);
         let Agents { positions_m, velocities_mps, radii_m, .. } = &self.agents;
         let Scenario { planner, params, .. } = &self.scenario;
         self.neighbours.rebuild(positions_m, velocities_mps, radii_m, ranking_horizon_s(*planner, params));
@@ -131,7 +131,7 @@ impl Simulation {
         }
     }
 
-    /// What planners may know of the present. The neighbours are those of the last step's beginning.
+    /// The view of the world that planners read. The neighbours are those of the last step's beginning.
     pub fn world(&self) -> WorldView<'_> {
         let agents = &self.agents;
         WorldView {
@@ -328,6 +328,6 @@ pub(crate) mod tests {
     fn stages_end_in_the_order_of_the_paper() {
         let mut stages = Vec::new();
         Simulation::new(Arc::new(test_db()), &antipodal(2, 3.0)).step(&mut |stage| stages.push(stage));
-        assert_eq!(stages, [Stage::Path, Stage::Neighbours, Stage::Planning, Stage::Synthesis, Stage::Coupling]);
+        assert_eq!(stages, [Stage::Route, Stage::Neighbours, Stage::Planning, Stage::Synthesis, Stage::Coupling]);
     }
 }

@@ -37,7 +37,7 @@ fn table() -> String {
 }
 
 #[test]
-fn the_table_has_a_column_per_field_and_a_row_per_agent() {
+fn table_has_field_columns_and_agent_rows() {
     let table = table();
     let rows: Vec<Vec<&str>> = table.split_terminator("\r\n").map(|row| row.split(',').collect()).collect();
     assert_eq!(rows.len(), 1 + 3 * 2);

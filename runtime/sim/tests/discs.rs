@@ -106,7 +106,7 @@ fn symmetric_encounters_resolve() {
 }
 
 #[test]
-fn an_agent_with_its_back_to_the_goal_turns_and_arrives() {
+fn agent_facing_away_turns_and_arrives() {
     let (params, walls) = (Params::default(), Obstacles::default());
     let forward_only = VelocityHull {
         construction: Construction::default(),
@@ -163,7 +163,7 @@ fn check_kept_before(name: &str, wall_m: Vec<Vec2>, agents: &[(Vec2, Vec2)]) {
 }
 
 #[test]
-fn no_plan_leads_through_a_thin_wall_or_into_a_corner() {
+fn plans_avoid_thin_walls_and_corners() {
     let abreast = [-0.6, 0.0, 0.6].map(|y| (Vec2::new(-3.0, y), Vec2::new(3.0, y)));
     check_kept_before("thin wall", rectangle([0.0, -8.0], [0.02, 8.0]), &abreast);
     let corner = [[-6.0, 0.0], [0.0, 0.0], [0.0, -6.0], [0.5, -6.0], [0.5, 0.5], [-6.0, 0.5]].map(Vec2::from).to_vec();

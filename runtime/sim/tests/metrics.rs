@@ -1,4 +1,4 @@
-//! Measures of recordings, with figures computed by hand.
+//! Measures of recordings, with values computed by hand.
 
 mod common;
 
@@ -99,7 +99,7 @@ fn separation_counts_between_frames() {
 
 #[test]
 fn a_detour_counts_until_the_arrival() {
-    // 3 m aside, then 4 m along x to the position of arrival, 5 m from the start over the hypotenuse; the rest does not
+    // 3 m aside, then 4 m along x to the position of arrival, 5 m from the start by the hypotenuse; the rest does not
     // count.
     let mut path_m: Vec<Vec2> = (0..=30).map(|step| Vec2::new(0.0, 0.1 * step as f32)).collect();
     path_m.extend((1..=40).map(|step| Vec2::new(0.1 * step as f32, 3.0)));
@@ -204,7 +204,7 @@ fn a_contact_cut_short_by_the_end_counts() {
 }
 
 #[test]
-fn a_foot_that_rolls_over_its_toe_does_not_slide() {
+fn foot_rolling_over_toe_does_not_slide() {
     // The heel rises about the toe tip, which the body's motion keeps fixed.
     let tip_m = |frame: &AgentFrame| {
         let skeleton = common::skeleton();

@@ -1,4 +1,4 @@
-//! Recordings keep their frames, and files that are no recordings are rejected.
+//! Recordings keep their frames, and files that are not recordings are rejected.
 
 mod common;
 
@@ -76,7 +76,7 @@ fn an_unfinished_recording_leaves_nothing() {
 }
 
 #[test]
-fn a_frame_with_nan_or_too_few_agents_is_rejected() {
+fn nan_or_missing_agents_are_rejected() {
     let mut recorder = Recorder::create(&folder("nan").join("a.fbrec"), &two_agents()).unwrap();
     let mut frame = frames(1).remove(0);
     assert!(matches!(recorder.push(&frame[..1]), Err(RecordingError::AgentCount { found: 1, expected: 2, .. })));
@@ -101,7 +101,7 @@ fn frames_are_read_from_several_threads() {
 }
 
 #[test]
-fn a_recording_without_frames_or_with_a_broken_body_is_rejected() {
+fn empty_or_broken_recording_is_rejected() {
     let path = folder("hollow").join("a.fbrec");
     Recorder::create(&path, &two_agents()).unwrap().finish().unwrap();
     assert!(Recording::open(&path).unwrap_err().to_string().contains("the index is empty"));
@@ -252,7 +252,7 @@ fn packing_noise_cm_s(soles: impl Fn(&AgentFrame) -> [glam::Vec3; 3]) -> f64 {
 }
 
 #[test]
-fn packing_adds_less_than_2_mm_s_of_foot_slide() {
+fn packing_adds_under_2_mm_s_slide() {
     let skeleton = common::skeleton();
     let soles = |frame: &AgentFrame| -> [glam::Vec3; 3] {
         let joints: Joints = frame.pose.forward_kinematics(&skeleton);

@@ -54,7 +54,7 @@ fn a_short_file_gives_everything_its_default() {
 }
 
 #[test]
-fn an_agent_faces_its_first_goal_unless_it_has_a_facing() {
+fn agent_faces_first_goal_by_default() {
     let agents = scenario(
         "facing",
         "agents = [{ at_m = [1, 1], goals_m = [[1, 4], [9, 9]] }, { at_m = [3, 3], goals_m = [[4, 4]], facing_deg = 180 }]",
@@ -73,7 +73,7 @@ fn goals_of_a_circle_are_exactly_opposite() {
 }
 
 #[test]
-fn a_grid_is_centred_and_its_jitter_follows_the_seed() {
+fn grid_is_centred_with_seeded_jitter() {
     let grid = |jitter_m: f32, seed: u64| {
         let body = format!(
             "seed = {seed}\nagents = {{ grid = {{ columns = 3, rows = 2, spacing_m = 2, centre_m = [10, 0], jitter_m = {jitter_m} }}, goal_offset_m = [0, 7] }}"
@@ -120,7 +120,7 @@ fn an_agent_file_gives_an_agent_per_line() {
 }
 
 #[test]
-fn mistakes_in_an_agent_file_are_shown_in_that_file() {
+fn agent_file_mistakes_are_shown_there() {
     let path = write("bad_lines", &format!("{HEAD}agents = {{ file = \"a.txt\" }}"));
     fs::write(path.with_file_name("a.txt"), "# x\n0 0 5 0\n1 2 3\n").unwrap();
     let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
@@ -134,7 +134,7 @@ fn mistakes_in_an_agent_file_are_shown_in_that_file() {
 }
 
 #[test]
-fn faults_of_agents_in_a_file_are_shown_at_their_lines() {
+fn agent_faults_are_shown_at_their_lines() {
     let check = |agents: &str, a: &str, b: &str, file: &str, part: &str, message: &str| {
         let path = write("crowded_lines", &format!("{HEAD}agents = [{agents}]\n[[obstacles]]\npolygon_m = {BLOCK}"));
         fs::write(path.with_file_name("a.txt"), a).unwrap();
@@ -315,7 +315,7 @@ fn a_crowd_in_a_line_is_checked_quickly() {
 }
 
 #[test]
-fn a_short_text_of_a_huge_crowd_is_rejected_before_it_is_made() {
+fn huge_crowd_is_rejected_early() {
     let crowd = "[[agents]]\ngrid = { columns = 800, rows = 1000, spacing_m = 1 }\ngoal_offset_m = [1, 0]\n";
     check_rejected("crowds", &format!("{HEAD}{}", crowd.repeat(50)), "[[agents]]", "1600000 agents");
     let goals = "[1, 2], ".repeat(5_000);

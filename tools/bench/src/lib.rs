@@ -73,7 +73,7 @@ macro_rules! benches {
             /// Runs the bench.
             ///
             /// # Errors
-            /// Where its input cannot be read, or an output cannot be written.
+            /// If its input cannot be read, or an output cannot be written.
             pub fn run(&self, observer: &Observer) -> Result<PrintableReport, BenchError> {
                 match self {
                     $(Self::$variant(args) => Ok($bench::run(args, observer)?.into()),)*

@@ -46,7 +46,7 @@ pub fn compile_files(files: &[PathBuf], observer: &Observer) -> Result<Compiled,
 /// Imports and compiles the clips of a manifest, with its choices.
 ///
 /// # Errors
-/// Those of [`compile_files`], and where the manifest states of a clip what is not so.
+/// Those of [`compile_files`]; also if the manifest contradicts a clip.
 pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Compiled, CompileError> {
     let ClipSet { clips, rejected } = clip_set::import_clip_set(manifest, observer)?;
     if clips.is_empty() && !rejected.is_empty() {
@@ -65,15 +65,15 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
 /// 1. Sort the clips and choose the body that all examples share ([`crate::ground`]).
 /// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best of
 ///    near-equal ones.
-/// 3. Of clips of one take keep one ([`crate::dedup`]).
-/// 4. Of all windows keep those that add to the set ([`crate::select`]).
+/// 3. Keep one clip of each set of duplicates ([`crate::dedup`]).
+/// 4. Keep the windows that add to the set ([`crate::select`]).
 /// 5. Close the standing cycles with the period of m_sp; name all.
 /// 6. Limit the number of examples, add mirrors, sort by name.
 /// 7. Assemble parameters, blend space, velocity sets, rows and correspondence ([`crate::database`]).
 /// 8. Check every invariant of the database ([`motiondb::validate`]).
 ///
 /// # Errors
-/// Where there are no clips, none gives an example, the chosen m_sp does not step, or the database is unsound.
+/// If there are no clips, none gives an example, the chosen m_sp does not step, or the database is invalid.
 ///
 /// # Examples
 /// ```
@@ -103,7 +103,7 @@ pub fn compile(clips: Vec<HumanClip>, options: &Options, observer: &Observer) ->
     let selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
     let db = assemble(selected, &set.body, options.velocity_hull, observer);
     observer(CompileEvent::Stage("validation"));
-    sound(db)
+    valid(db)
 }
 
 /// Human clips in the order of a database, and the body that all examples share.
@@ -127,7 +127,7 @@ impl TargetedClips {
         self.clips.par_iter().map(|clip| best_windows(AnalyzedClip::of(clip, &self.body))).collect()
     }
 
-    /// Drops the windows that a better copy of the same take gives.
+    /// Drops the windows of which another clip has a better copy.
     pub(crate) fn without_duplicates(&self, mut analyzed: Vec<AnalyzedClip>) -> Vec<AnalyzedClip> {
         duplicates::drop_duplicates(&self.clips, &mut analyzed, &self.body);
         analyzed
@@ -135,9 +135,9 @@ impl TargetedClips {
 }
 
 /// The database, if it holds every invariant.
-fn sound(db: MotionDb) -> Result<MotionDb, CompileError> {
+fn valid(db: MotionDb) -> Result<MotionDb, CompileError> {
     match first_broken(&db) {
-        Some((invariant, detail)) => Err(CompileError::Unsound { invariant, detail }),
+        Some((invariant, detail)) => Err(CompileError::InvalidDatabase { invariant, detail }),
         None => Ok(db),
     }
 }

@@ -33,7 +33,7 @@ use crate::rig::roles::Roles;
 const MIN_FRAMES: usize = 2;
 /// Cosine of half the least angle by which a joint rotates (0.05°).
 const NO_ROTATION_COSINE: f64 = 1.0 - 1e-7;
-/// Least displacement of an ankle against its hip in a leg that swings, over the distance between both.
+/// Least displacement of an ankle against its hip in a leg that swings, divided by the distance between both.
 const SWING_MIN: f64 = 0.02;
 
 /// One clip of a file, and what import makes of it.
@@ -50,7 +50,7 @@ pub struct ImportedClip {
 /// All clips of a `.bvh`, `.glb` or `.gltf` file. A rejected clip does not affect the others.
 ///
 /// # Errors
-/// The [`Rejection`] of the file where it cannot be read as motion.
+/// The [`Rejection`] of the file if it cannot be read as motion.
 pub fn import_file(path: &Path) -> Result<Vec<ImportedClip>, Rejection> {
     import_with_settings(&ClipSettings::from(path.to_owned()))
 }

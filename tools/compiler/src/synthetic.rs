@@ -20,7 +20,7 @@ use crate::ground::rotations::ground_rotation;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
 use crate::{Options, compile};
 
-/// Height of the ankle over the sole, m.
+/// Height of the ankle above the sole, m.
 const ANKLE_M: f64 = 0.09;
 /// Share of the period that each foot is planted.
 const PLANTED_SHARE: f64 = 0.6;
@@ -211,7 +211,7 @@ pub(crate) fn database_of(clips: Vec<HumanClip>, max_examples: usize) -> MotionD
     compile(clips, &options, &|_| ()).unwrap()
 }
 
-/// The examples of a database that are no mirrors.
+/// The examples of a database that are not mirrors.
 pub(crate) fn recorded(db: &MotionDb) -> Vec<&MotionExample> {
     db.examples.iter().filter(|example| !example.mirrored).collect()
 }

@@ -67,7 +67,7 @@ proptest! {
 }
 
 #[test]
-fn examples_of_a_large_set_and_their_middles_are_reached() {
+fn large_set_and_midpoints_are_reached() {
     let set = located(&random(300, 1));
     for simplex in set.space.simplices() {
         let corner = |k: usize| set.parameters[simplex[k] as usize].to_vec3();

@@ -43,7 +43,7 @@ fn mean_of(seconds: &[[f32; 3]], [start_s, end_s]: [f32; 2]) -> [f32; 3] {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn windows_of_captures_agree_with_the_seconds_that_they_lie_in() {
+fn windows_agree_with_their_seconds() {
     let files = [
         "lafan1_skeleton/egg_walking.bvh",
         "bandai_namco/dataset-1_walk_normal_001.bvh",
@@ -92,7 +92,7 @@ fn a_capture_of_changing_speed_gives_a_rich_set() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn windows_of_one_walk_that_turns_and_turns_back_are_all_found() {
+fn every_window_of_a_turning_walk_is_found() {
     let db = compiled("lafan1_skeleton/egg_walking.bvh");
     let near = |turn_deg_s: f32| {
         let turns = recorded(&db).into_iter().map(|example| example.parameters.turn_rate_rad_s.to_degrees());

@@ -49,7 +49,7 @@ fn reversed_tables_have_the_same_pairs() {
 }
 
 #[test]
-fn the_stored_table_holds_the_nearest_poses_of_m_sp_and_m_mb() {
+fn stored_table_holds_nearest_poses() {
     let db = bundled();
     let stored = db.correspondence.as_ref().unwrap();
     let [sp, mb] = [stored.semi_procedural, stored.blending].map(|index| index as usize);

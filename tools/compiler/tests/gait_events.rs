@@ -1,9 +1,9 @@
 //! Heel strikes and toe-offs against labels that were set by eye on curves, before the output of any detector was seen
 //! (`gait_events/labels.csv`; the clips are test input only).
 //!
-//! Of the 94 labels those of `set` "tune" served to fit the limits of `gait/contact_ends.rs` first; those of "check" to
-//! measure the result. Later limits were chosen so that none of either got worse: no label is unseen any more. Labels are
-//! uncertain by half a frame at 30 frames per second, by up to four frames (33 ms) at 120.
+//! There are 94 labels. Those of `set` "tune" served to fit the limits of `gait/contact_ends.rs` first; those of
+//! "check" to measure the result. Later limits were chosen so that none of either got worse: no label is unseen any
+//! more. Labels are uncertain by half a frame at 30 frames per second, by up to four frames (33 ms) at 120.
 
 mod support;
 
@@ -118,7 +118,7 @@ fn print_errors(found: &[Found]) {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn events_are_within_a_source_frame_of_the_labels_at_30_frames_a_second() {
+fn events_match_labels_at_30_hz() {
     let found = found();
     print_errors(&found);
     let at_30: Vec<&Found> = found.iter().filter(|found| found.label.frame_rate_hz < 31.0).collect();
@@ -130,7 +130,7 @@ fn events_are_within_a_source_frame_of_the_labels_at_30_frames_a_second() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn events_are_within_33_ms_of_what_the_labels_leave_open_at_any_rate() {
+fn events_are_within_33_ms_at_any_rate() {
     let found = found();
     let limit = |label: &Label| FRAME_S * label.frame_rate_hz + label.uncertain_frames;
     check_share(&found.iter().collect::<Vec<_>>(), limit, 0.98);
@@ -138,7 +138,7 @@ fn events_are_within_33_ms_of_what_the_labels_leave_open_at_any_rate() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn events_are_within_33_ms_of_the_labels_at_120_frames_a_second() {
+fn events_match_labels_at_120_hz() {
     let found = found();
     let at_120: Vec<&Found> = found.iter().filter(|found| found.label.frame_rate_hz > 119.0).collect();
     assert!(at_120.len() > 15, "{}", at_120.len());
@@ -147,7 +147,7 @@ fn events_are_within_33_ms_of_the_labels_at_120_frames_a_second() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn neither_strikes_nor_toe_offs_are_early_or_late_on_the_whole() {
+fn strikes_and_toe_offs_have_no_bias() {
     let found = found();
     for event in ["strike", "off"] {
         let errors_s: Vec<f64> = found
@@ -194,7 +194,7 @@ fn key_phase(cycle: &GaitCycle, side: usize, landmark: usize, step: usize) -> f3
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn the_mean_cycles_key_times_are_near_the_labels_of_its_strides() {
+fn key_times_are_near_stride_labels() {
     let found = found();
     let mut keys = BTreeMap::new();
     let of_cycle = |Found { label, .. }: Found| {
@@ -252,7 +252,7 @@ fn resampled(clip: &HumanClip, frame_rate_hz: f64) -> HumanClip {
     HumanClip { frames, frame_rate_hz, ..clip.clone() }
 }
 
-/// The clip with its whole body displaced at random by up to `amplitude_m`, in every frame anew.
+/// The clip with its whole body displaced at random by up to `amplitude_m`, independently in every frame.
 fn shaken(clip: &HumanClip, amplitude_m: f64) -> HumanClip {
     let mut shaken = clip.clone();
     let mut state = 1_u64;

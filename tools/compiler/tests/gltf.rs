@@ -167,7 +167,7 @@ fn cameras_and_props_do_not_affect_clips() {
 }
 
 #[test]
-fn each_body_of_a_file_is_a_clip_of_its_own() {
+fn each_body_of_a_file_is_a_clip() {
     for have_skins in [false, true] {
         for share_a_root in [false, true] {
             // Only skins separate bodies in one tree.

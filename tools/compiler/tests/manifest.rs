@@ -188,7 +188,7 @@ fn mistakes_are_shown_at_their_position() {
     let one = "[[clips]]\npath = 'walk_110.bvh'\n";
     let check = |test, text: &str, part, words: &[&str]| check_rejected(test, &format!("{one}{text}"), part, words);
     check("key", "speed = 1\n", "speed", &["unknown field", "metres_per_unit"]);
-    check("axis", "up = 'Q'\n", "'Q'", &["no axis"]);
+    check("axis", "up = 'Q'\n", "'Q'", &["not an axis"]);
     check("frames", "frames = [1, 99999]\n", "[1, 99999]", &["walk_110.bvh", "99999", "1 to"]);
     check("backwards", "frames = [9, 3]\n", "[9, 3]", &["from frame 9 to 3"]);
     check("three", "frames = [1, 9, 3]\n", "[1, 9, 3]", &["the first and the last"]);

@@ -129,7 +129,7 @@ fn gait_noise_is_no_turning() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn mirrors_negate_turning_and_strafing_and_come_half_a_cycle_later() {
+fn mirrors_negate_rates_and_shift_half_cycle() {
     let db = marine();
     for mirror in db.examples.iter().filter(|example| example.mirrored) {
         let original = example(&db, mirror.name.trim_start_matches("ChrMarine_").trim_end_matches("_mirrored"));
@@ -158,7 +158,7 @@ fn planted_feet_slide_no_more_than_in_the_recordings() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn slide_is_measured_at_the_heel_joint_over_the_sole() {
+fn slide_is_measured_at_heel_joint() {
     let db = marine();
     for foot in &db.skeleton.feet {
         let heel_m = foot.measured_m[0];
@@ -193,7 +193,7 @@ fn travel(example: &MotionExample) -> glam::Vec2 {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn idle_stands_with_the_period_of_the_walk_that_is_deformed() {
+fn idle_has_the_base_walks_period() {
     let db = marine();
     let correspondence = db.correspondence.as_ref().unwrap();
     let walk = &db.examples[correspondence.semi_procedural as usize];
@@ -217,7 +217,7 @@ fn both_steps_of_the_walk_have_a_correspondence() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn folder_order_and_threads_leave_every_byte_as_it_is() {
+fn bytes_are_independent_of_folder_and_threads() {
     let mut files = files();
     let compiled = |files: &[PathBuf]| compile_files(files, &|_| ()).unwrap().db;
     let folder = std::env::temp_dir().join(format!("fbcrowd-marine-{}", std::process::id()));

@@ -39,7 +39,7 @@ fn check_same_key_times(alone: &MotionExample, beside: &MotionExample) {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn key_times_do_not_depend_on_what_else_is_compiled() {
+fn key_times_are_independent_of_other_clips() {
     let mut files: Vec<PathBuf> = CLIPS.iter().map(|file| mocap().join(file)).collect();
     let alone: Vec<MotionExample> = files.iter().flat_map(|file| examples(std::slice::from_ref(file))).collect();
     files.extend(["walk_110.bvh", "walk_050.bvh", "run_350.bvh"].map(|file| Path::new(BUNDLED).join(file)));

@@ -36,7 +36,7 @@ fn check(folder: &Path, prefix: &str) -> MotionDb {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn by_the_papers_construction_its_own_recordings_have_one_set_with_seven_sharp_turn_edges() {
+fn paper_construction_gives_one_set_for_its_recordings() {
     let paper = check(&mocap().join("smartbody_converted"), "ChrMarine");
     let sets = &paper.velocity_hull;
     assert_eq!((sets.turning_mps.len(), sets.sharp_turn_edges_mps.len()), (5, 7));
@@ -49,7 +49,7 @@ fn by_the_papers_construction_its_own_recordings_have_one_set_with_seven_sharp_t
 }
 
 #[test]
-fn by_the_papers_construction_side_stepping_and_backward_examples_bound_nothing() {
+fn paper_construction_ignores_side_steps() {
     let paper = check(Path::new(BUNDLED), "");
     assert!(paper.examples.iter().any(|example| example.parameters.speed_mps < -0.5));
 }

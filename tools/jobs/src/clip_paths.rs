@@ -15,7 +15,7 @@ const MANIFEST: &str = "manifest.toml";
 /// All clips that the paths stand for, each once.
 ///
 /// # Errors
-/// Where a path or a manifest cannot be read, there are two manifests, or no clip is left.
+/// If a path or a manifest cannot be read, there are two manifests, or no clip is left.
 pub fn manifest(paths: &[PathBuf]) -> Result<Manifest, JobError> {
     let Sorted { files, manifests } = sorted(paths)?;
     let mut manifest = match &manifests[..] {

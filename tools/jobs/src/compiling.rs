@@ -24,7 +24,7 @@ pub struct Overrides {
 /// Compiles the clips that `paths` stand for. The database is to be written to `output`, which must be no input.
 ///
 /// # Errors
-/// Where the paths name no clips, `output` is an input, or the clips give no sound database.
+/// If the paths name no clips, `output` is an input, or the clips give no valid database.
 pub fn compile(
     paths: &[PathBuf],
     output: &Path,
@@ -46,7 +46,7 @@ pub fn compile(
 /// Writes a database, as a stage of its own; returns the checksum of its file.
 ///
 /// # Errors
-/// Where the system does not allow it.
+/// If the system does not allow it.
 pub fn write_database(path: &Path, db: &MotionDb, observer: &Observer) -> Result<u32, JobError> {
     observer(JobEvent::Stage("writing"));
     Ok(database_file::write(path, db)?)
@@ -55,7 +55,7 @@ pub fn write_database(path: &Path, db: &MotionDb, observer: &Observer) -> Result
 /// Imports the clips that `paths` stand for, without a database.
 ///
 /// # Errors
-/// Where the paths name no clips, or a manifest cannot be followed.
+/// If the paths name no clips, or a manifest cannot be followed.
 pub fn import(paths: &[PathBuf], observer: &Observer) -> Result<ClipSet, JobError> {
     let manifest = manifest(paths)?;
     let work = Work::begin(observer, "files", manifest.clips.len());

@@ -77,7 +77,7 @@ pub enum JobError {
     /// A scenario cannot be read.
     #[error(transparent)]
     Scenario(ScenarioError),
-    /// The clips cannot be read, or give no sound database.
+    /// The clips cannot be read, or give no valid database.
     #[error(transparent)]
     Compile(CompileError),
     /// A file of clips cannot be used.

@@ -1,9 +1,9 @@
 //! Leave-one-out: how near the blend of the other examples comes to each example of a database.
 //!
 //! For every recorded example whose (v_f, ω_t, ω_s) lies inside the hull of the others: the database is rebuilt without
-//! the example *and its mirror* (simplices and ranges of the axes anew; the other rows stay), and blended at the
-//! example's parameters by the runtime's own synthesis (`fbcrowd_sim::synthesis::blending::mix`: w_i ∝ u_i·r_i(φ)). With x_j(φ) the
-//! position of joint j in the root frame,
+//! the example *and its mirror* (simplices and ranges of the axes are computed again; the other rows stay), and blended
+//! at the example's parameters by the runtime's own synthesis (`fbcrowd_sim::synthesis::blending::mix`: w_i ∝
+//! u_i·r_i(φ)). With x_j(φ) the position of joint j in the root frame,
 //!
 //! ```text
 //! RMSE_j = √( mean over 64 uniform phases of |x_j(φ) − x'_j(φ)|² )     of one joint,

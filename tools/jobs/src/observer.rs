@@ -3,7 +3,7 @@
 /// One report of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JobEvent<'a> {
-    /// A stage begins, and the stage before it ends. Stages serve to measure times; [`crate::stages::Stopwatch`] does.
+    /// A stage begins, and the stage before it ends. [`crate::stages::Stopwatch`] measures the time of each stage.
     Stage(&'static str),
     /// Work of a known number of units begins. At most one piece of work is under way.
     Begin {

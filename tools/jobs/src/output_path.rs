@@ -9,7 +9,7 @@ use crate::error::JobError;
 /// # Errors
 /// [`JobError::OutputIsInput`].
 pub fn check_is_no_input(output: &Path, inputs: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<(), JobError> {
-    // A file that does not exist is no input.
+    // A file that does not exist is not an input.
     let Ok(existing) = output.canonicalize() else { return Ok(()) };
     let is_output = |input: &Path| input.canonicalize().is_ok_and(|input| input == existing);
     match inputs.into_iter().any(|input| is_output(input.as_ref())) {

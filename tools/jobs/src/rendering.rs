@@ -24,7 +24,7 @@ pub struct RenderedSequence {
 /// Opens a recording.
 ///
 /// # Errors
-/// Where the file cannot be read or is no sound recording.
+/// If the file cannot be read or is not a valid recording.
 pub fn open(path: &Path) -> Result<Recording, JobError> {
     Ok(Recording::open(path)?)
 }
@@ -32,7 +32,7 @@ pub fn open(path: &Path) -> Result<Recording, JobError> {
 /// Renders a sequence of frames.
 ///
 /// # Errors
-/// Where the options do not fit the recording, or a frame cannot be read or written.
+/// If the options do not fit the recording, or a frame cannot be read or written.
 pub fn render(
     recording: &Recording,
     options: &SequenceOptions,
@@ -54,7 +54,7 @@ pub fn render(
 /// Removes the PNG frames that an earlier run left under a sequence's name: they would follow the last new frame.
 ///
 /// # Errors
-/// Where the system does not allow it.
+/// If the system does not allow it.
 pub fn remove_frames(options: &SequenceOptions) -> Result<(), JobError> {
     remove_numbered(&options.folder, &options.name).map_err(|error| JobError::unwritable(&options.folder, error))
 }
@@ -78,7 +78,7 @@ fn remove_numbered(folder: &Path, name: &str) -> io::Result<()> {
 /// Draws the paths of all agents on one sheet (Fig. 7).
 ///
 /// # Errors
-/// Where a frame cannot be read, or the picture cannot be written.
+/// If a frame cannot be read, or the picture cannot be written.
 pub fn plot_trajectories(recording: &Recording, path: &Path) -> Result<(), JobError> {
     let tracks = read_tracks(recording)?;
     Ok(png_frame::write(path, &trajectories(recording.header(), &tracks))?)

@@ -29,7 +29,7 @@ pub struct SimulationInput {
 /// Simulates a scenario into a recording.
 ///
 /// # Errors
-/// Where the planner looks less far ahead than a change of synthesis takes, or the recording cannot be written.
+/// If the planner's time horizon is shorter than a switch of synthesis, or the recording cannot be written.
 pub fn simulate(input: SimulationInput, recording: &Path, observer: &Observer) -> Result<Timings, JobError> {
     let SimulationInput { db, database_checksum, scenario } = input;
     let db = Arc::new(db);

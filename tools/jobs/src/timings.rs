@@ -6,7 +6,7 @@ use fbcrowd_sim::simulation::Stage;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// Durations of a whole simulation. They are no part of a recording.
+/// Durations of a whole simulation. They are not part of a recording.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Timings {
     /// Number of agents.
@@ -15,13 +15,13 @@ pub struct Timings {
     pub steps: usize,
     /// Number of threads.
     pub threads: usize,
-    /// Path, neighbour search and planning, µs per agent and step.
+    /// Route, neighbour search and planning, µs per agent and step.
     pub plan_microseconds_per_agent_step: f64,
     /// Synthesis of bodies, µs per agent and step.
     pub synthesis_microseconds_per_agent_step: f64,
     /// Coupling of discs and bodies, µs per agent and step.
     pub coupling_microseconds_per_agent_step: f64,
-    /// Simulated time over the duration of all stages; writing the recording does not count.
+    /// Simulated time, divided by the duration of all stages; writing the recording does not count.
     pub times_real_time: f64,
     /// Agents that one core simulates in real time at this time step, if all threads were busy throughout.
     pub agents_per_core_in_real_time: f64,
@@ -42,12 +42,12 @@ impl StepStopwatch {
         self.last = Some(Instant::now());
     }
 
-    /// A stage of the step ends. Path and neighbour search count as planning.
+    /// A stage of the step ends. Route and neighbour search count as planning.
     pub fn lap(&mut self, stage: Stage) {
         let now = Instant::now();
         let spent = self.last.replace(now).map_or(Duration::ZERO, |last| now - last);
         match stage {
-            Stage::Path | Stage::Neighbours | Stage::Planning => self.planning += spent,
+            Stage::Route | Stage::Neighbours | Stage::Planning => self.planning += spent,
             Stage::Synthesis => self.synthesis += spent,
             Stage::Coupling => self.coupling += spent,
         }

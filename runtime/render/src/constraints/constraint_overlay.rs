@@ -1,7 +1,7 @@
-//! The overlay of a sequence: the scene with marks at the left, one panel per agent to its right (`FbCrowd` Figs. 3–5).
+//! The overlay picture: the scene at the left, one velocity panel per agent at the right (`FbCrowd` Figs. 3–5).
 //!
-//! A picture explains the step that begins in its recorded frame; in the last frame, the step that ended there. The
-//! step is planned again from the recording alone ([`Replay`]).
+//! A picture shows the step that begins at its frame; the last frame shows the last step. The step is planned again
+//! from the recording alone ([`Replay`]).
 
 use fbcrowd_sim::recording::{Recording, Replay};
 use tiny_skia::{Pixmap, PixmapPaint, Transform};
@@ -15,9 +15,9 @@ use crate::raster::palette::PAPER;
 use crate::raster::pixels::MAX_SIDE_PX;
 use crate::top_view::framing::Framing;
 
-/// Distance of a picture's time from the next step up to which it shows that step, steps.
-const SAME_STEP: f64 = 1e-3;
-/// Least height of a readable panel, pixels: beside a smaller scene, panels are taller than it.
+/// Tolerance of a frame time, in steps: a picture up to this much before a step shows that step.
+const STEP_TOLERANCE_STEPS: f64 = 1e-3;
+/// Minimum height of a panel, px, also if the scene is smaller.
 const MIN_HEIGHT_PX: u32 = 540;
 
 /// Draws the overlay of one recording.
@@ -100,7 +100,7 @@ impl<'a> ConstraintOverlay<'a> {
 
     /// The recorded frame in which the step of a picture begins.
     fn frame_at(&self, time_s: f64) -> usize {
-        let steps = time_s / f64::from(self.replay.header().scenario.dt_s) + SAME_STEP;
+        let steps = time_s / f64::from(self.replay.header().scenario.dt_s) + STEP_TOLERANCE_STEPS;
         (steps as usize).min(self.replay.step_count() - 1)
     }
 }

@@ -1,15 +1,16 @@
-//! One agent's part of a recorded step, planned again: content of its panel and of its marks in the scene.
+//! The replanned step of one agent: the data for its panel and its marks.
 
 use fbcrowd_sim::planning::{PlanExplanation, Planner};
 use fbcrowd_sim::recording::RecordedStep;
 use glam::Vec2;
 
-/// Least and greatest velocity that is shown, multiples of the preferred speed; between them, the database's fastest.
-const REACH_OF_PREFERRED: [f32; 2] = [1.5, 1.75];
-/// Least preferred speed that determines the reach, m/s: a slow walk.
+/// Limits of the axes' half-width, as multiples of the preferred speed. Between these limits the half-width is the
+/// database's greatest speed.
+const AXIS_LIMITS_OF_PREFERRED: [f32; 2] = [1.5, 1.75];
+/// Least preferred speed that determines the axes' half-width, m/s: a slow walk.
 const MIN_PREFERRED_MPS: f32 = 0.5;
-/// Factor on the reach: a margin beyond the fastest velocity.
-const REACH_MARGIN: f32 = 1.08;
+/// Factor on the axes' half-width: a margin beyond the greatest speed.
+const AXIS_MARGIN: f32 = 1.08;
 
 /// One agent in one step, with the explanation of its plan.
 #[derive(Debug)]
@@ -45,6 +46,6 @@ fn axis_limit_mps(step: &RecordedStep, agent: usize) -> f32 {
     let corners_mps = hull.turning_mps.iter().chain(&hull.holding_mps);
     let fastest_mps = corners_mps.map(|corner_mps: &Vec2| corner_mps.length()).fold(0.0, f32::max);
     let preferred_mps = step.header().scenario.agents[agent].preferred_speed_mps.max(MIN_PREFERRED_MPS);
-    let [least, most] = REACH_OF_PREFERRED.map(|factor| factor * preferred_mps);
-    REACH_MARGIN * fastest_mps.clamp(least, most)
+    let [least, most] = AXIS_LIMITS_OF_PREFERRED.map(|factor| factor * preferred_mps);
+    AXIS_MARGIN * fastest_mps.clamp(least, most)
 }

@@ -1,5 +1,5 @@
-//! The feasible region: the part of a convex polygon of velocities that all half-planes permit. In it, the paper's Eq.
-//! 14 seeks its velocity. World axes, m/s.
+//! The feasible region: the part of a convex polygon of velocities that all half-planes permit. The planner chooses its
+//! velocity in this region (Eq. 14). World axes, m/s.
 
 use fbcrowd_sim::planning::orca::HalfPlane;
 use glam::Vec2;
@@ -13,7 +13,7 @@ pub(crate) fn feasible_region_mps<'a>(
     half_planes.into_iter().fold(corners_mps.to_vec(), |corners_mps, half_plane| clipped(&corners_mps, half_plane))
 }
 
-/// The corners inside, and those at which an edge crosses the half-plane's line.
+/// Clips a polygon by one half-plane (one step of Sutherland–Hodgman).
 fn clipped(corners_mps: &[Vec2], half_plane: &HalfPlane) -> Vec<Vec2> {
     let mut kept_mps = Vec::with_capacity(corners_mps.len() + 1);
     for (index, &corner_mps) in corners_mps.iter().enumerate() {

@@ -131,7 +131,7 @@ impl VelocitySpace<'_> {
         self.region_mps.iter().any(|corner_mps| half_plane.violation_mps(*corner_mps).abs() <= TOUCHES_MPS)
     }
 
-    /// Draws turning set, holding set (the one in force stronger), sharp-turn edges and the greatest speed.
+    /// Draws turning set, holding set (the active one stronger), sharp-turn edges and the greatest speed.
     fn draw_sets(&mut self) {
         let hull = &self.explained.step.header().velocity_hull;
         let forward = self.forward();
@@ -154,7 +154,7 @@ impl VelocitySpace<'_> {
         }
     }
 
-    /// Draws the half-planes that are no edge of a set, with hatching on the forbidden side.
+    /// Draws the half-planes that are not an edge of a set, with hatching on the forbidden side.
     fn draw_half_planes(&mut self) {
         let explanation = &self.explained.explanation;
         let lines = self.half_planes().filter(|half_plane| !is_hull(half_plane.source));

@@ -1,6 +1,6 @@
 //! Plots of databases, recordings and benches.
 //!
-//! Enters: a database, the tracks of a recording, or figures of a bench. Leaves: opaque pictures, or PNG files.
+//! Enters: a database, the tracks of a recording, or measures of a bench. Leaves: opaque pictures, or PNG files.
 //!
 //! Read `chart` (figures with axes, marks and labels), then `database` and `crowd`, which draw one plot per file.
 

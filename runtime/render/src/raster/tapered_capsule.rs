@@ -22,13 +22,13 @@ const AMBIENT: f32 = 0.66;
 const DIFFUSE: f32 = 0.46;
 /// Darkness of the rim around a limb, at its edge.
 const RIM_DARKNESS: f32 = 0.40;
-/// Height of the bone over the surface below from which the rim is full, rim widths.
+/// Height of the bone above the surface below from which the rim is full, rim widths.
 const RIM_DROP: f32 = 5.0;
 
 /// A ball with changing radius that is swept from one end to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TaperedCapsule {
-    /// Centre of the ball at each end, pixels; z is the height over the ground.
+    /// Centre of the ball at each end, pixels; z is the height above the ground.
     pub(crate) ends_px: [Vec3; 2],
     /// Radius of the ball at each end, pixels.
     pub(crate) radii_px: [f32; 2],
@@ -39,7 +39,7 @@ pub(crate) struct TaperedCapsule {
 pub(crate) struct Canvas {
     /// The picture, opaque.
     pub(crate) pixmap: Pixmap,
-    /// Height of each pixel's surface over the ground, pixels.
+    /// Height of each pixel's surface above the ground, pixels.
     heights_px: Vec<f32>,
 }
 
@@ -121,7 +121,7 @@ struct CapsuleField {
     length: f32,
     /// Radius at start and end.
     radii: [f32; 2],
-    /// Height over the ground at start and end.
+    /// Height above the ground at start and end.
     heights: [f32; 2],
     /// Cosine and sine of the flank's slope against the axis.
     slope: Vec2,

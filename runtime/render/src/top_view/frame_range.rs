@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn an_invalid_range_is_rejected_with_its_part_and_fault() {
+    fn invalid_range_is_rejected_with_its_fault() {
         use FrameRangeFault::{Number, Reversed, Step, ZeroStep};
         for (text, part, fault) in [
             ("", "", Number),

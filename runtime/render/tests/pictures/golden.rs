@@ -29,7 +29,7 @@ fn golden(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name)
 }
 
-/// Every golden picture, drawn anew, with its file name.
+/// Every golden picture, drawn again, with its file name.
 fn pictures() -> Vec<(&'static str, Pixmap)> {
     let recording = Recording::open(&golden("walkers.fbrec")).unwrap();
     let tracks = read_tracks(&recording).unwrap();

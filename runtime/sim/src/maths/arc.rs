@@ -42,7 +42,7 @@ fn chord_m(parameters: &Parameters, time_s: f32, half_turn_rad: f32) -> Vec2 {
     Vec2::new(parameters.speed_mps, parameters.strafe_mps) * time_s * chord_over_arc(half_turn_rad)
 }
 
-/// Length of the chord over that of the arc.
+/// Length of the chord, divided by that of the arc.
 #[inline]
 fn chord_over_arc(half_turn_rad: f32) -> f32 {
     if half_turn_rad.abs() > 1e-3 { unit_vector(half_turn_rad).y / half_turn_rad } else { 1.0 }

@@ -45,7 +45,7 @@ const COLUMNS: [&str; 21] = [
 /// Writes the table of a recording; holds two frames in memory.
 ///
 /// # Errors
-/// Where writing fails or, as the source of the error, a frame cannot be read.
+/// If writing fails or, as the source of the error, a frame cannot be read.
 pub fn write_table(recording: &Recording, out: &mut impl Write) -> io::Result<()> {
     let scenario = &recording.header().scenario;
     let mut arrivals = vec![Arrival::default(); scenario.agents.len()];

@@ -5,8 +5,8 @@
 //! frame is the deepest overlap of a capsule of one with a capsule of the other: the sum of both radii less the
 //! distance of the bones. Only frames count, not the motion between them.
 //!
-//! Bodies are sorted along the crowd's longer side. Of a pair whose boxes meet, only capsules whose own boxes meet are
-//! compared. World axes, metres; capsules relative to their root, so that the distance from the origin costs no
+//! Bodies are sorted along the crowd's longer side. If the boxes of a pair meet, only capsules whose own boxes meet
+//! are compared. World axes, metres; capsules relative to their root, so that the distance from the origin costs no
 //! precision.
 
 use glam::{DVec2, Quat, Vec2};
@@ -105,7 +105,7 @@ impl BodyPenetration {
         }
     }
 
-    /// The figures after the last frame.
+    /// The measures after the last frame.
     pub(crate) fn finish(&self) -> Penetration {
         let touching = self.touching_pair_frames;
         Penetration {

@@ -1,6 +1,6 @@
-//! The figures of one simulation (`FbCrowd` App. 11), computed frame by frame with two frames in memory.
+//! The measures of one simulation (`FbCrowd` App. 11), computed frame by frame with two frames in memory.
 //!
-//! Each figure comes from the file of its measure. Positions are those of the root as synthesised. World, metres,
+//! Each value comes from the file of its measure. Positions are those of the root as synthesised. World, metres,
 //! seconds.
 
 use glam::Vec2;
@@ -17,7 +17,7 @@ use crate::recording::frame::AgentFrame;
 use crate::recording::reader::Recording;
 use crate::scenario::Scenario;
 
-/// The figures of one simulation, under the keys of `fbcrowd measure --json`.
+/// The measures of one simulation, under the keys of `fbcrowd measure --json`.
 ///
 /// ```no_run
 /// use std::path::Path;
@@ -51,8 +51,8 @@ pub struct Measures {
     pub stalled: usize,
     /// Mean time to arrival over the agents that arrived, s; none where no agent did.
     pub mean_time_to_goal_s: Option<f64>,
-    /// Length of the path until the arrival over that of the straight path through the waypoints; mean over the agents
-    /// that arrived.
+    /// Length of the path until the arrival, divided by that of the straight path through the waypoints; mean over the
+    /// agents that arrived.
     pub path_over_straight_line: Option<f64>,
     /// Share of the steps before each agent's arrival in which it side-steps at held facing.
     pub strafing_share: f64,
@@ -74,7 +74,7 @@ pub struct Measures {
     pub wall_body_max_mm: f64,
     /// Slide of planted feet until each agent's arrival, cm/s; none where no foot was planted.
     pub planted_slide_cm_s: Option<f64>,
-    /// Slide of the examples in play over the same contacts, cm/s.
+    /// Slide of the examples of the active motion over the same contacts, cm/s.
     pub examples_slide_cm_s: Option<f64>,
     /// Share of all feet and frames until each agent's arrival that are planted.
     pub planted_share: f64,
@@ -145,7 +145,7 @@ impl Measuring {
         self.roots.all_are_at_goals()
     }
 
-    /// The figures after the last frame.
+    /// The measures after the last frame.
     pub fn finish(self) -> Measures {
         let (slide, bodies, walls) = (self.slide.finish(), self.bodies.finish(), self.walls.finish());
         Measures {
@@ -197,7 +197,7 @@ impl Measuring {
 /// Measures a recording, read once from its first frame to its last.
 ///
 /// # Errors
-/// Where a frame cannot be read.
+/// If a frame cannot be read.
 pub fn measure(recording: &Recording) -> Result<Measures, RecordingError> {
     let header = recording.header();
     let mut agents = Vec::new();

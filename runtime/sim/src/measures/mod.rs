@@ -1,8 +1,9 @@
-//! Measures of a crowd: the figures of the paper's App. 11, of bodies, and of pedestrian studies.
+//! Measures of a crowd: those of the paper (App. 11), of the bodies, and of pedestrian research.
 //!
-//! Enters: frames of a running simulation, one by one, or a whole recording. Leaves: figures, a table, or trajectories.
+//! Enters: frames of a running simulation, one by one, or a whole recording. Leaves: measures, a table, or
+//! trajectories.
 //!
-//! Read `crowd_measures`, which collects the figures of `fbcrowd measure` from its parts: `collision_rate` (Eqs. 16,
+//! Read `crowd_measures`, which collects the measures of `fbcrowd measure` from its parts: `collision_rate` (Eqs. 16,
 //! 17), `root_measures` (Eq. 18, arrival, tracking), `planted_slide`, `body_penetration` and `wall_contact` (both by
 //! the capsules of `bone_capsule`). `pedestrian_studies` holds flow, lanes, density and waiting crowds; `agent_table`
 //! and `trajectories` write a recording as text.

@@ -35,7 +35,7 @@ pub struct PlantedSlide {
 pub struct FootSlide {
     /// Slide of the recorded bodies, cm/s; none where no foot was ever planted.
     pub slide_cm_s: Option<f64>,
-    /// Slide of the examples in play over the same samples, cm/s.
+    /// Slide of the examples of the active motion over the same samples, cm/s.
     pub examples_slide_cm_s: Option<f64>,
     /// Share of all feet and frames that are planted.
     pub planted_share: f64,
@@ -101,7 +101,7 @@ impl PlantedSlide {
         }
     }
 
-    /// The figures after the last frame.
+    /// The measures after the last frame.
     pub fn finish(mut self) -> FootSlide {
         for track in std::mem::take(&mut self.feet).into_iter().flatten() {
             self.count(&track.finish(self.dt_s));
@@ -175,7 +175,7 @@ fn foot_frames(skeleton: &Skeleton, agent: &AgentFrame, joints: &Joints) -> [Foo
     })
 }
 
-/// Heel, ball and toe in the root's frame, and their heights over the sole, at which they are when planted, m.
+/// Heel, ball and toe in the root's frame, and their heights above the sole, at which they are when planted, m.
 fn contact_points_m(skeleton: &Skeleton, joints: &Joints, side: usize) -> ([Vec3; 3], [f32; 3]) {
     let foot = &skeleton.feet[side];
     let soles_m = [foot.heel_m, foot.ball_m, foot.toe_tip_m];

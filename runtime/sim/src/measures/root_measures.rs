@@ -56,7 +56,7 @@ struct RootTrack {
     velocity_mps: DVec2,
     /// Length of the path until the arrival, m.
     path_m: f64,
-    /// That length over the straight path's, on arrival; none of a straight path without length.
+    /// That length, divided by the straight path's, on arrival; none of a straight path without length.
     path_over_straight: Option<f64>,
     slow_steps: usize,
     stalled: bool,
@@ -159,7 +159,7 @@ impl RootMeasures {
         mean(self.tracks.iter().filter_map(|track| track.arrival.at_s))
     }
 
-    /// Mean length of the paths until arrival over that of the straight paths; none where no agent had to move.
+    /// Mean length of the paths until arrival, divided by that of the straight paths; none where no agent had to move.
     pub(crate) fn path_over_straight_line(&self) -> Option<f64> {
         mean(self.tracks.iter().filter_map(|track| track.path_over_straight))
     }
@@ -185,7 +185,7 @@ impl RootTrack {
         }
     }
 
-    /// Length of the straight path from the start over the waypoints to the position of arrival, m.
+    /// Length of the straight path from the start through the waypoints to the position of arrival, m.
     fn straight_path_m(&self, arrival_m: DVec2) -> f64 {
         let waypoints_m = self.agent.goals_m.iter().take(self.arrival.progress.next as usize);
         let corners_m = [&self.agent.position_m].into_iter().chain(waypoints_m).map(|&corner_m| DVec2::from(corner_m));

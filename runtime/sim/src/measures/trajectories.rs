@@ -8,7 +8,7 @@ use crate::recording::reader::Recording;
 /// Writes the trajectories of a recording, from the start on.
 ///
 /// # Errors
-/// Where writing fails or, as the source of the error, a frame cannot be read.
+/// If writing fails or, as the source of the error, a frame cannot be read.
 pub fn write_trajectories(recording: &Recording, out: &mut impl Write) -> io::Result<()> {
     let mut agents = Vec::new();
     for frame in 0..recording.frame_count() {
@@ -21,7 +21,7 @@ pub fn write_trajectories(recording: &Recording, out: &mut impl Write) -> io::Re
 /// Writes the line of one frame.
 ///
 /// # Errors
-/// Where writing fails.
+/// If writing fails.
 pub fn write_roots(agents: &[AgentFrame], out: &mut impl Write) -> io::Result<()> {
     let roots_m = agents.iter().map(|agent| agent.root.position_m);
     let fields: Vec<String> = roots_m.map(|root_m| format!("{:.6} {:.6}", root_m.x, root_m.y)).collect();

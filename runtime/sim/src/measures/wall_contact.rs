@@ -69,7 +69,7 @@ impl WallContact {
         }
     }
 
-    /// The figures after the last frame.
+    /// The measures after the last frame.
     pub(crate) fn finish(&self) -> WallContactShares {
         let share = |count: usize| count as f64 / self.agent_frames.max(1) as f64;
         WallContactShares {
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_touches_by_its_capsules_and_a_disc_at_its_radius() {
+    fn bodies_touch_by_capsules_discs_by_radius() {
         let radius_m = 0.25;
         assert_eq!(beside(2.0), WallContactShares { disc_share: 0.0, body_share: 0.0, greatest_depth_mm: 0.0 });
         assert_eq!((beside(radius_m).disc_share, beside(radius_m + 0.01).disc_share), (1.0, 0.0));

@@ -2,9 +2,9 @@
 //!
 //! Enters: [`WorldView`], the frozen state of agents, walls and stance feet. Leaves: one [`Plan`] per agent.
 //!
-//! Read `plan` and `world_view`, then `surroundings` (what one agent sees) and `planner`, which chooses between [`mcn`]
-//! (the paper's) and the [`baselines`]. [`orca`] holds the half-planes and linear programs that they share, `plan_all`
-//! plans a crowd, `plan_explanation` shows why a velocity was planned.
+//! Read `plan` and `world_view`, then `surroundings` (the neighbours and walls near one agent) and `planner`, which
+//! chooses between [`mcn`] (the paper's) and the [`baselines`]. [`orca`] holds the half-planes and linear programs that
+//! they share, `plan_all` plans a crowd, `plan_explanation` shows why a velocity was planned.
 
 pub mod baselines;
 pub mod mcn;

@@ -77,7 +77,7 @@ pub struct Plan {
     pub time_to_collision_s: f32,
     /// ρ: density ahead as the density filter measures it, 1/m.
     pub density: f32,
-    /// The velocity set in force.
+    /// The active velocity set.
     pub set: VelocitySet,
     /// Contiguous time of strafing, s (§4.5); beyond its limit, the limit plus the rest that is due.
     pub strafing_s: f32,

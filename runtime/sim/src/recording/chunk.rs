@@ -15,7 +15,7 @@ use crate::recording::format::{CHUNK_HEAD_BYTES, ChunkKind};
 /// Writes one chunk.
 ///
 /// # Errors
-/// Where writing fails or the payload reaches 4 GiB.
+/// If writing fails or the payload reaches 4 GiB.
 pub fn write_chunk(out: &mut impl Write, kind: ChunkKind, payload: &[u8]) -> io::Result<()> {
     let length = u32::try_from(payload.len()).map_err(|_| io::Error::other("a chunk of 4 GiB or more"))?;
     out.write_all(&kind)?;
@@ -45,7 +45,7 @@ impl ChunkFile {
     /// Opens a file.
     ///
     /// # Errors
-    /// Where the system cannot open it.
+    /// If the system cannot open it.
     pub(crate) fn open(path: &Path) -> Result<Self, RecordingError> {
         let fail = |source| RecordingError::Unreadable { path: path.to_owned(), source };
         let file = input_file::open(path).map_err(fail)?;
@@ -66,7 +66,7 @@ impl ChunkFile {
     /// Exactly `count` bytes from `byte` on.
     ///
     /// # Errors
-    /// Where the file ends before them or the system cannot read it.
+    /// If the file ends before them or the system cannot read it.
     pub(crate) fn read(&self, byte: u64, count: u64) -> Result<Vec<u8>, RecordingError> {
         if byte.checked_add(count).is_none_or(|end| end > self.length) {
             return Err(self.damaged(byte, format!("{count} bytes are missing")));
@@ -82,7 +82,7 @@ impl ChunkFile {
     /// The payload of the chunk at `byte`, which must be of a kind.
     ///
     /// # Errors
-    /// As [`Self::read`]; where the kind is another or the checksum is wrong.
+    /// As [`Self::read`]; if the kind is another or the checksum is wrong.
     pub(crate) fn read_chunk(&self, byte: u64, kind: ChunkKind) -> Result<Vec<u8>, RecordingError> {
         let head = self.read(byte, CHUNK_HEAD_BYTES)?;
         let word = |at: usize| u32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);

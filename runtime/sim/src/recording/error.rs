@@ -25,7 +25,7 @@ pub enum RecordingError {
         /// The system's reason.
         source: io::Error,
     },
-    /// The file is no recording.
+    /// The file is not a recording.
     #[error("{}: byte 0: not an FbCrowd recording; name a .fbrec file that `fbcrowd simulate` wrote", path.display())]
     Foreign {
         /// The file.

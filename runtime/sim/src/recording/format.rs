@@ -1,4 +1,4 @@
-//! Magic, version and chunk kinds of `.fbrec`.
+//! Magic number, version and chunk kinds of `.fbrec`.
 
 /// Format version; raised when a reader of the old version would misread the new one.
 pub const FORMAT_VERSION: u32 = 1;

@@ -18,20 +18,20 @@ pub struct AgentFrame {
     pub planned_mps: Vec2,
     /// φ: phase of the body's cycle, 0 to 1.
     pub phase: f32,
-    /// Synthesis in force.
+    /// Active mode: blending or semi-procedural.
     pub mode: Mode,
     /// Blended contact Σ w·c of each foot, `[left, right]`; planted from
     /// [`PLANTED_CONTACT`](crate::planning::PLANTED_CONTACT) on.
     pub contacts: [f32; 2],
     /// Time until the swing foot lands, s, where a single foot stands; else 0.
     pub time_to_landing_s: f32,
-    /// Velocity set in force.
+    /// Active velocity set.
     pub set: VelocitySet,
     /// Contiguous time of strafing, s.
     pub strafing_s: f32,
     /// Contiguous time of stepping back, s.
     pub stepping_back_s: f32,
-    /// Weight-averaged planted-foot slide of the examples in play, cm/s.
+    /// Weight-averaged planted-foot slide of the examples of the active motion, cm/s.
     pub examples_slide_cm_s: f32,
     /// The final pose, after IK, in the root's frame.
     pub pose: Pose,

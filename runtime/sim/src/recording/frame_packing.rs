@@ -49,7 +49,7 @@ pub enum FrameFault {
     /// The time to landing is not finite, or beyond all scenarios.
     #[error("the time to landing is not finite, or beyond all scenarios")]
     TimeToLandingOutOfRange,
-    /// The code of the synthesis in force is not known.
+    /// The code of the active mode is not known.
     #[error("the synthesis mode {0} is unknown")]
     UnknownMode(u8),
 }
@@ -87,7 +87,7 @@ pub(crate) fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
 /// The inverse of `pack`.
 ///
 /// # Errors
-/// Where the bytes are no frame of an agent.
+/// If the bytes are not a frame of an agent.
 pub fn unpack(bytes: &[u8]) -> Result<AgentFrame, FrameFault> {
     let rest = &mut &*bytes;
     let root = Root { position_m: take_vec2(rest)?, facing_rad: take_f32(rest)? };
@@ -234,7 +234,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_bytes_unpack_to_something_finite_or_not_at_all(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+        fn any_bytes_unpack_to_finite_or_error(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
             if let Ok(frame) = unpack(&bytes) {
                 prop_assert!(pack(&frame, &mut Vec::new()).is_some());
             }

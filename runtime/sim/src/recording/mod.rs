@@ -1,23 +1,23 @@
 //! `.fbrec`: a simulation, recorded frame by frame while it runs; self-contained, any frame readable without the
 //! others.
 //!
-//! Enters: the frames of a running simulation. Leaves: a file, and from it any frame, and any step as the planner saw
-//! it.
+//! Enters: the frames of a running simulation. Leaves: a file, and from it any frame, and the planner's view of any
+//! step.
 //!
-//! A file is a magic of 8 bytes (among them those that a transfer in text mode would change), the format version as
-//! u32, then chunks, little-endian:
+//! A file begins with an 8-byte magic number; it contains CR and LF, so that text-mode transfer damage is detected. The
+//! format version follows as u32, then chunks, little-endian:
 //!
 //! - `HEAD` comes first: the [`Header`], bincode with fixed-size integers;
-//! - one `FRAM` per frame: zlib over the packed agents, all their first bytes, all their second bytes, …;
+//! - one `FRAM` per frame: zlib over the byte-shuffled agents (all first bytes, then all second bytes, …);
 //! - `INDX`: the byte at which each `FRAM` begins, u64 each;
 //! - `TAIL` ends the file: the byte at which `INDX` begins, u64.
 //!
 //! Frame 0 is the start, frame k the state after k steps. The writer holds one frame and the index, the reader the
 //! header and the index.
 //!
-//! Read `frame` (what is kept of an agent), `header`, `recorder` and `reader`; then the layers below: `format` (magic,
-//! version, chunk kinds), `chunk`, `compression`, `frame_packing` with `rotation_packing`, `error`. `replay` gives the
-//! planner's view of a recorded step.
+//! Read `frame` (the recorded state of an agent), `header`, `recorder` and `reader`; then the layers below: `format`
+//! (magic, version, chunk kinds), `chunk`, `compression`, `frame_packing` with `rotation_packing`, `error`. `replay`
+//! gives the planner's view of a recorded step.
 
 pub(crate) mod chunk;
 pub(crate) mod compression;

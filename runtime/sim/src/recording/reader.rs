@@ -42,7 +42,7 @@ impl Recording {
     /// Reads header and index, and checks them; each frame is checked when it is read.
     ///
     /// # Errors
-    /// Where the file is no recording, of another version, cut short or altered.
+    /// If the file is not a recording, of another version, cut short or altered.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let file = ChunkFile::open(path)?;
         check_magic(&file)?;
@@ -64,7 +64,7 @@ impl Recording {
     /// Replaces `agents` by those of one frame, in index order.
     ///
     /// # Errors
-    /// Where there is no such frame or its bytes are altered.
+    /// If there is no such frame or its bytes are altered.
     pub fn read_frame(&self, index: usize, agents: &mut Vec<AgentFrame>) -> Result<(), RecordingError> {
         let path = || self.file.path().to_owned();
         let count = self.frame_count();

@@ -60,7 +60,7 @@ impl Recorder {
     /// Begins a recording under a temporary name beside `path`.
     ///
     /// # Errors
-    /// Where the folder cannot be written.
+    /// If the folder cannot be written.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordingError> {
         let fail = |source| RecordingError::Unwritable { path: path.to_owned(), source };
         let payload = header.encode().map_err(|error| fail(io::Error::other(error)))?;
@@ -85,7 +85,7 @@ impl Recorder {
     /// Appends one frame: every agent of the scenario, in index order.
     ///
     /// # Errors
-    /// Where the disk is full, the number of agents is wrong or a value is not finite.
+    /// If the disk is full, the number of agents is wrong or a value is not finite.
     pub fn push(&mut self, agents: &[AgentFrame]) -> Result<(), RecordingError> {
         let (path, frame) = (&self.path, self.frame_bytes.len());
         if agents.len() != self.agent_count {
@@ -106,7 +106,7 @@ impl Recorder {
     /// Writes the index and gives the recording its name.
     ///
     /// # Errors
-    /// Where the disk is full or the file cannot be renamed.
+    /// If the disk is full or the file cannot be renamed.
     pub fn finish(mut self) -> Result<(), RecordingError> {
         let index_byte = self.byte;
         let index: Vec<u8> = self.frame_bytes.iter().flat_map(|byte| byte.to_le_bytes()).collect();

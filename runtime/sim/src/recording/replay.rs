@@ -75,7 +75,7 @@ impl<'a> Replay<'a> {
     /// The step that begins in a frame.
     ///
     /// # Errors
-    /// Where a frame of it is missing or damaged.
+    /// If a frame of it is missing or damaged.
     pub fn step(&'a self, frame: usize) -> Result<RecordedStep<'a>, RecordingError> {
         let read = |index: usize| {
             let mut agents = Vec::new();

@@ -1,8 +1,8 @@
 //! Rotations in smallest-three packing: 6 or 7 bytes a joint.
 //!
-//! Of q and −q the one whose largest component is positive is packed, without that component. From the low bits: its
-//! index (2 bits), then the other three in order, each in steps over ±1/√2. With b bits a component is off by at most
-//! δ = 2^−b/√2, the rotation by at most 2√12·δ: 0.15 mrad at 15 bits, 0.02 mrad at 18.
+//! q and −q are the same rotation; the one whose largest component is positive is packed, without that component. From
+//! the low bits: its index (2 bits), then the other three in order, each in steps over ±1/√2. With b bits a component
+//! is off by at most δ = 2^−b/√2, the rotation by at most 2√12·δ: 0.15 mrad at 15 bits, 0.02 mrad at 18.
 
 use glam::Quat;
 use motiondb::body::Joint;

@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_across_a_straight_path_blocks_agents_that_have_not_arrived() {
+    fn walls_across_straight_paths_are_found() {
         let mut scenario = antipodal(6, 4.0);
         check(&scenario, None);
         // Across the path of every agent.

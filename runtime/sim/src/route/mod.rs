@@ -1,4 +1,4 @@
-//! Routes: from an agent's goals to its preferred velocity (`FbCrowd` §3, stage 2).
+//! Routes: from an agent's goals to its preferred velocity (`FbCrowd` §3). The route is stage 1 of a step.
 //!
 //! Enters: an agent's waypoints, the walls, the agent's position. Leaves: v_pref, and whether the agent has arrived.
 //!

@@ -1,4 +1,4 @@
-//! v_pref along an agent's waypoints (`FbCrowd` §3, stage 2).
+//! v_pref along an agent's waypoints (`FbCrowd` §3): the route, stage 1 of a step.
 //!
 //! An agent walks straight to its next waypoint at its preferred speed, turns towards the one after as it comes near,
 //! brakes evenly before the last one and stays there. Crowds push: an agent pushed past a waypoint goes on, and an
@@ -25,11 +25,11 @@ const PUSHED_M: f32 = 3.0;
 /// Distance within which the last goal is reached, m: half a step.
 const GOAL_RADIUS_M: f32 = 0.2;
 /// Distance beyond which an agent that was pushed away walks to its last goal again, m. At 0.4 m bodies of slow
-/// databases, whose least step is long, shuffle about their goals for ever.
+/// databases, whose least step is long, shuffle about their goals endlessly.
 const GOAL_LEFT_RADIUS_M: f32 = 0.6;
 /// Even braking before the last goal, m/s²: a third of what a person can do at most.
 const BRAKING_MPS2: f32 = 1.0;
-/// Time left over the last stretch, s: there the speed falls with the distance.
+/// Time remaining on the last stretch, s: there the speed falls with the distance.
 const STOPPING_TIME_S: f32 = 0.5;
 
 /// How an agent slows down before its last goal.
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn waypoints_are_rounded_in_order_and_the_last_is_kept() {
+    fn waypoints_are_rounded_in_order() {
         for turn_deg in [0.0_f32, 45.0, -90.0, 118.0] {
             let after_m = Vec2::new(3.0, 0.0) + 4.0 * Vec2::from_angle(turn_deg.to_radians());
             let (preferred_mps, nearest_m, progress) = walk(&agent(&[Vec2::new(3.0, 0.0), after_m]), 10.0);
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn a_waypoint_is_passed_beside_it_but_not_before_it() {
+    fn waypoint_is_passed_beside_not_before() {
         let agent = agent(&[Vec2::new(11.0, 1.0), Vec2::new(11.0, 12.0)]);
         for (position_m, next) in
             [([10.8, 1.8], 1), ([11.8, 1.3], 1), ([10.2, 1.3], 0), ([10.2, 2.2], 0), ([1.0, 3.0], 0)]
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn an_agent_pushed_behind_a_door_post_goes_back_to_the_door() {
+    fn agent_behind_door_post_returns_to_door() {
         let post_m = [(0.0, 0.5), (0.4, 0.5), (0.4, 5.0), (0.0, 5.0)].map(Vec2::from).to_vec();
         let (obstacles, agent) = (Obstacles::new(&[post_m]), agent(&[Vec2::new(-0.4, 0.0), Vec2::new(60.0, 0.0)]));
         let mut progress = PathProgress { next: 1, arrived: false };

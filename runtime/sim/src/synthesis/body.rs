@@ -46,7 +46,7 @@ pub struct Body {
     pub(crate) actual_mps: Vec2,
     /// What the body is to do.
     pub(crate) command: CommandState,
-    /// The motion in play.
+    /// The active motion.
     pub motion: MotionState,
     /// What holds the feet on the ground.
     pub(crate) contact: ContactState,
@@ -63,7 +63,7 @@ pub struct BodyOutput {
     pub contacts: [f32; 2],
     /// Stance for the planner's next step (§4.2).
     pub stance: Stance,
-    /// Weighted mean of the planted-foot slide of the examples in play, cm/s.
+    /// Weighted mean of the planted-foot slide of the examples of the active motion, cm/s.
     pub examples_slide_cm_s: f32,
 }
 

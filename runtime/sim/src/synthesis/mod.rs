@@ -4,17 +4,18 @@
 //!
 //! A body's step has two halves, between which walls may move the root. `advance` follows the plan:
 //!
-//! 1. `displacement_accumulator`: a plan too slow to walk becomes a step now and then;
+//! 1. `displacement_accumulator`: planned displacement that is too slow to walk is accumulated and becomes one step;
 //! 2. `blend_query`, `command_filter`: the plan requests (v_f, ω_t, ω_s); filtered, they are the command;
 //! 3. `step_state`, `start_stop`: the body stands or steps;
-//! 4. `motion_state`, `weight_transition`: the motion in play changes towards what it can do of the command;
+//! 4. `motion_state`, `weight_transition`: the active motion moves toward the part of the command that it can reach;
 //! 5. the root moves along its arc, and the phase advances (`phase_catch_up`);
-//! 6. `pose_smoothing`, `inertialization`: the drawn motion follows, and the rest of an earlier switch decays;
-//! 7. `mode_selection`, `switching`: one synthesis may replace the other.
+//! 6. `pose_smoothing`, `inertialization`: the drawn motion follows, and the pose offset of the last switch decays
+//!    (inertialization);
+//! 7. `mode_selection`, `switching`: one mode may replace the other.
 //!
 //! `synthesize` makes the pose:
 //!
-//! 8. `active_motion`: blending or semi-procedural locomotion gives a posture, with the rest of a switch on top;
+//! 8. `active_motion`: blending or semi-procedural locomotion gives a posture, to which the pose offset is added;
 //! 9. `look_at`: head and chest turn;
 //! 10. `foot_lock`, `pelvis`: planted feet are locked, and the pelvis drops where a leg would not reach;
 //! 11. `ik`: the legs reach their feet.
@@ -25,17 +26,17 @@
 //! |---|---|
 //! | velocity that the planner chose | `Plan::velocity_mps` |
 //! | (v_f, ω_t, ω_s) that the plan requests of the body | `requested` |
-//! | the same, filtered over time: what the body is to do | `command` |
+//! | the same, filtered over time | `command` |
 //! | the nearest point that the examples reach | `reachable` |
-//! | what the motion in play changes towards | `target` |
-//! | what the motion in play does now | `current` |
+//! | (v_f, ω_t, ω_s) toward which the active motion moves | `target` |
+//! | (v_f, ω_t, ω_s) of the active motion now | `current` |
 //! | velocity that the root had in the last step, after walls | `actual_mps` |
 //!
 //! # Chapters
 //!
-//! Each chapter depends only on those before it: `mode`, `params` and `time_step` (nothing but numbers), [`pose`],
-//! [`blending`], [`semi_procedural`], [`library`], [`command`], [`hybrid`], `body`, then `advance`, `synthesize` and
-//! `walk_alone`.
+//! Each chapter depends only on those before it: `mode`, `params` and `time_step` (constants and options only),
+//! [`pose`], [`blending`], [`semi_procedural`], [`library`], [`command`], [`hybrid`], `body`, then `advance`,
+//! `synthesize` and `walk_alone`.
 //!
 //! The state of a [`Body`] is grouped likewise: `CommandState`, [`MotionState`](hybrid::MotionState), `ContactState`,
 //! `LookAt`.

@@ -93,7 +93,7 @@ mod tests {
         }
 
         #[test]
-        fn a_disc_meets_a_wall_when_small_steps_show_it(
+        fn time_to_wall_agrees_with_small_steps(
             first in vector(4.0), second in vector(4.0), velocity in vector(2.0), radius in 0.1f32..1.0,
         ) {
             prop_assume!(first.distance(second) > 0.05);

@@ -58,7 +58,7 @@ pub(crate) struct DiscCrowd {
     arrivals_s: Vec<Option<f32>>,
 }
 
-/// Figures of a run: C and A of `FbCrowd` App. 11, arrivals and stalls.
+/// Measures of a run: C and A of `FbCrowd` App. 11, arrivals and stalls.
 #[derive(Debug, Default)]
 pub(crate) struct CrowdFigures {
     /// C, Eq. 17.

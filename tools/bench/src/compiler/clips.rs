@@ -1,7 +1,8 @@
-//! `fbcrowd bench clips`: the bundled clips against what their names claim, what is published of people, and real clips.
+//! `fbcrowd bench clips`: compares the bundled clips with the speeds in their names, with published gait values, and
+//! with real clips.
 //!
-//! All figures are measured on the compiled clips, as those of any clips: [`motiondb::quality`], the examples' parameters
-//! and key times, and with `--mocap` the similarity to real clips ([`crate::compiler::similarity`]).
+//! All measures are computed from the compiled clips, as those of any clips: [`motiondb::quality`], the examples'
+//! parameters and key times, and with `--mocap` the similarity to real clips ([`crate::compiler::similarity`]).
 
 use std::path::PathBuf;
 
@@ -26,7 +27,8 @@ const CLAIM_TOLERANCES: [f64; 3] = [0.01, 0.5 * std::f64::consts::PI / 180.0, 0.
 /// Slowest walk with published adults, m/s.
 const ADULT_MPS: f64 = 0.85;
 
-/// Hold the bundled clips against what their names claim, what is published of people and, with --mocap, real clips.
+/// Compare the bundled clips with the speeds in their names, with published gait values and, with --mocap, with real
+/// clips.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  fbcrowd bench clips\n  fbcrowd bench clips --mocap my/mocap")]
 pub struct Args {
@@ -52,22 +54,22 @@ pub struct BundledClip {
     pub name: &'static str,
     #[serde(skip)]
     claim: Claim,
-    /// Greatest difference of a parameter from what the name claims, over its tolerance.
+    /// Greatest difference of a parameter from what the name claims, divided by its tolerance.
     pub off_claim: f64,
     /// Quality of the motion.
     #[schemars(with = "ExampleQualityMirror")]
     pub quality: ExampleQuality,
-    /// Figures of gait science; null where the clip stands.
+    /// Measures of gait science; null where the clip stands.
     pub gait: Option<GaitFigures>,
-    /// Root mean square distance of hip, knee and ankle angles from the published walk, degrees; null but for straight
-    /// walks.
+    /// Root mean square distance of hip, knee and ankle angles from the published walk, degrees; null except for
+    /// straight walks.
     pub off_published_deg: Option<[f64; 3]>,
 }
 
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the real clips cannot be read, or give no database.
+/// If the real clips cannot be read, or give no database.
 pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = bundled()?;
     let gait_classes = args.mocap.as_ref().map_or(Ok(Vec::new()), |folder| similarity(folder, &db))?;
@@ -96,7 +98,7 @@ fn clips(db: &MotionDb) -> Vec<BundledClip> {
     claims().into_iter().filter_map(clip).collect()
 }
 
-/// Greatest difference of a parameter from its claim, over its tolerance.
+/// Greatest difference of a parameter from its claim, divided by its tolerance.
 fn off_claim(claim: &Claim, found: &Parameters) -> f64 {
     let claimed = [claim.speed_mps, claim.turn_rate_rad_s, claim.strafe_mps];
     let differences = found.to_vec3().to_array().map(f64::from).into_iter().zip(claimed).zip(CLAIM_TOLERANCES);
@@ -106,12 +108,12 @@ fn off_claim(claim: &Claim, found: &Parameters) -> f64 {
 }
 
 impl Details {
-    /// Greatest figure of all clips; none without figures.
+    /// Greatest value of all clips; none without values.
     fn greatest(&self, value: impl Fn(&BundledClip) -> Option<f64>) -> Option<f64> {
         self.clips.iter().filter_map(value).max_by(f64::total_cmp)
     }
 
-    /// Least figure of all clips; none without figures.
+    /// Least value of all clips; none without values.
     fn least(&self, value: impl Fn(&BundledClip) -> Option<f64>) -> Option<f64> {
         self.clips.iter().filter_map(value).min_by(f64::total_cmp)
     }

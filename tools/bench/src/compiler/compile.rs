@@ -45,7 +45,7 @@ pub struct Details {
 /// Runs the bench. It reports no progress: that would take time.
 ///
 /// # Errors
-/// Where the folder cannot be read, or its clips give no database.
+/// If the folder cannot be read, or its clips give no database.
 pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let folder = &args.mocap.mocap;
     let files = motiondb_compiler::clip_files(folder)?;

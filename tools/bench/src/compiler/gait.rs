@@ -87,7 +87,7 @@ pub struct LabelSet {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where labels or clips cannot be read.
+/// If labels or clips cannot be read.
 pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let mut events = match &args.labels {
         Some(path) => {

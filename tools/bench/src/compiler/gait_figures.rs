@@ -1,4 +1,4 @@
-//! Figures of gait science for one example: cadence, stride, stance, double support, and the angles of a leg.
+//! Measures of gait science for one example: cadence, stride, stance, double support, and the angles of a leg.
 
 use clipgen::reference::{LegFlexion, published_walk};
 use motiondb::body::{Joint, Joints, Side};
@@ -18,7 +18,7 @@ const ADULTS: [AdultRanges; 5] = [
     ("women, fast", [1.65, 2.25], [129.0, 156.0], [1.56, 1.84], [0.14, 0.22]),
 ];
 
-/// Figures of a cycle that steps.
+/// Measures of a cycle that steps.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct GaitFigures {
     /// Cadence, steps per minute.
@@ -34,7 +34,7 @@ pub struct GaitFigures {
 }
 
 impl GaitFigures {
-    /// The figures of an example; none where it stands.
+    /// The measures of an example; none where it stands.
     pub(crate) fn of(example: &MotionExample) -> Option<Self> {
         let [right_off, right_strike, left_off, left_strike] = example.key_times_s?.map(f64::from);
         let period_s = f64::from(example.phase_map.period_s);

@@ -1,9 +1,9 @@
 //! Parameters of clips that others measured: the `index.csv` of a folder of clips, row by row.
 //!
-//! A row holds a clip's (v_f, ω_t, ω_s) as an independent script measured them (m/s, °/s, m/s), its up axis and its unit.
-//! Of clips that walk in place it holds `implied_*`, the speed at which their stance feet slide back. Tolerances are
-//! max(3 %, 0.03 m/s), max(3 °/s, 15°/duration: clips of less than two strides sway with the gait), 0.04 m/s, and three
-//! times that in place. Clips under a second are not judged.
+//! A row holds a clip's (v_f, ω_t, ω_s) as an independent script measured them (m/s, °/s, m/s), its up axis and its
+//! unit. For clips that walk in place it holds `implied_*`, the speed at which their stance feet slide back. Tolerances
+//! are max(3 %, 0.03 m/s), max(3 °/s, 15°/duration: clips of less than two strides sway with the gait), 0.04 m/s, and
+//! three times that in place. Clips under a second are not judged.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -68,7 +68,7 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Greatest difference over its tolerance.
+    /// Greatest difference, divided by its tolerance.
     pub fn excess(&self) -> f64 {
         (0..3).map(|k| (self.found[k] - self.wanted[k]).abs() / self.tolerances[k]).fold(0.0, f64::max)
     }
@@ -107,7 +107,7 @@ pub fn marine_files(mocap: &Path) -> Vec<PathBuf> {
 /// All rows of human locomotion in a folder's `index.csv`.
 ///
 /// # Errors
-/// Where the file cannot be read, or lacks a column.
+/// If the file cannot be read, or lacks a column.
 pub fn read(folder: &Path) -> io::Result<Vec<GroundTruth>> {
     let path = folder.join("index.csv");
     let text = fs::read_to_string(&path)?;

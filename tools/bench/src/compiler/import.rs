@@ -1,4 +1,5 @@
-//! `fbcrowd bench import`: clips of others against what others measured in them, and the speed of reading them.
+//! `fbcrowd bench import`: imports public motion-capture clips, compares the detected parameters with published
+//! measurements, and times BVH reading.
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -19,13 +20,13 @@ use crate::kit::args::MocapArg;
 use crate::kit::report::{BenchReport, Criterion, Goal};
 use crate::kit::statistics::share;
 
-/// Each file is read this often; the median of the durations counts.
-const READINGS: usize = 5;
+/// Number of reads per file; the median counts.
+const READS_PER_FILE: usize = 5;
 /// Clips in the text, the worst first; JSON has all.
 const SHOWN_CLIPS: usize = 12;
 /// Least share of the clips within the tolerances.
 const WITHIN_SHARE: f64 = 0.95;
-/// Least speed of reading BVH, as a multiple of that of `bvh_anim` alone.
+/// Lowest BVH reading speed, relative to `bvh_anim` alone.
 const SPEED_RATIO: f64 = 0.7;
 /// Goal for reading BVH, MB/s.
 const GOAL_MB_S: f64 = 70.0;
@@ -63,7 +64,8 @@ pub struct ComparedClip {
     pub wanted: Option<[f64; 3]>,
     /// Greatest difference over its tolerance; null where the clip was rejected.
     pub excess: Option<f64>,
-    /// Whether the clip is long enough to judge.
+    /// Whether the clip counts for the criterion. Rejected clips count as failed; clips too short to judge do not
+    /// count.
     pub judged: bool,
     /// Whether up axis and unit are right.
     pub units_hold: bool,
@@ -74,7 +76,7 @@ pub struct ComparedClip {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the folder or its `index.csv` cannot be read.
+/// If the folder or its `index.csv` cannot be read.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let folder = &args.mocap.mocap;
     let truths =
@@ -174,7 +176,7 @@ fn reading(folder: &Path, observer: &Observer) -> Result<Reading, BenchError> {
     let mut all = Reading { times: ReadingTimes { ours_s: 0.0, alone_s: 0.0 }, files: 0, bytes: 0 };
     for file in &files {
         let bytes = fs::read(file).map_err(|error| BenchError::unreadable(file, error))?;
-        if let Ok(ReadingTimes { ours_s, alone_s }) = reading_times(file, &bytes, READINGS, &clock) {
+        if let Ok(ReadingTimes { ours_s, alone_s }) = reading_times(file, &bytes, READS_PER_FILE, &clock) {
             all.times.ours_s += ours_s;
             all.times.alone_s += alone_s;
             all.files += 1;
@@ -192,7 +194,7 @@ fn text(details: &Details) -> String {
         text += &format!("  {:5.2}  {} {}{}\n", clip.distance(), clip.file, clip.clip, verdict(clip));
     }
     text + &format!(
-        "\nread {} BVH files, {:.1} MB, the median of {READINGS} times each\n",
+        "\nread {} BVH files, {:.1} MB, the median of {READS_PER_FILE} times each\n",
         details.files_read, details.megabytes_read
     )
 }

@@ -51,7 +51,7 @@ pub struct ClipSet {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the clips cannot be read, or give no database.
+/// If the clips cannot be read, or give no database.
 pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let folder = &args.mocap.mocap;
     let set = |name, db: MotionDb| ClipSet { name, leave_one_out: leave_one_out(&db) };

@@ -1,8 +1,9 @@
 //! Benches of the compiler: what it finds in clips, how good the bundled clips are, and how long it takes.
 //!
-//! In: folders of clips, or the bundled ones. Out: differences from measurements of others ([`import`], with
-//! [`ground_truth`] and [`reading_speed`]; [`gait`]), durations and bytes ([`compile`]), how well examples stand in for each other ([`leave_one_out`]), and how near the
-//! bundled clips are to their claims and to real ones ([`clips`], with [`gait_figures`] and [`similarity`]).
+//! Enters: folders of clips, or the bundled ones. Leaves: differences from published measurements ([`import`], with
+//! [`ground_truth`] and [`reading_speed`]; [`gait`]); durations and bytes ([`compile`]); how well an example can be
+//! blended from the others ([`leave_one_out`]); whether bundled clips have the speeds in their names and resemble real
+//! clips ([`clips`], with [`gait_figures`] and [`similarity`]).
 
 pub mod clips;
 pub mod compile;

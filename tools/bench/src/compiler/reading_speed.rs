@@ -23,7 +23,7 @@ pub(crate) struct ReadingTimes {
 /// Reads a file's bytes several times with both readers; `clock` returns the time, s.
 ///
 /// # Errors
-/// Where the file is no BVH.
+/// If the file is not BVH.
 pub(crate) fn reading_times(
     file: &Path,
     bytes: &[u8],

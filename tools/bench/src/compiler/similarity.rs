@@ -1,9 +1,9 @@
 //! Similarity of the bundled clips to real ones, compared with the similarity of real clips to each other.
 //!
-//! For each class of gait: the distance ([`PoseSequence`]) of each real clip to the nearest one of *another* source
-//! folder, and of each bundled clip to the nearest real one, which must not exceed the median of the former. Each
-//! capture counts once: where it has several windows of a class, with its longest; the compiler already uses only one
-//! copy of a take. Motions to the left and to the right are one class: the mirrored example is tried as well.
+//! For each class of gait, two sets of distances ([`PoseSequence`]) are measured: each real clip to the nearest real
+//! clip of *another* source folder, and each bundled clip to the nearest real clip. No bundled distance may exceed the
+//! median of the real ones. A capture with several windows of one class counts once, with its longest window. Left and
+//! right motions are one class, so a mirrored example is compared too.
 
 use std::path::{Path, PathBuf};
 
@@ -17,37 +17,37 @@ use crate::error::BenchError;
 use crate::kit::pose_sequence::PoseSequence;
 use crate::kit::statistics::median;
 
-/// Least number of source folders for a criterion.
+/// Least number of source folders with which the criterion applies.
 const SOURCES_MIN: usize = 3;
 
 /// A class of gait, by its parameters.
 struct GaitClass {
     name: &'static str,
-    holds: fn(&Parameters) -> bool,
+    contains: fn(&Parameters) -> bool,
 }
 
 /// Walks have the speeds that people choose; turns are walked.
 const GAIT_CLASSES: [GaitClass; 6] = [
-    GaitClass { name: "walks", holds: |found| (1.0..1.5).contains(&found.speed_mps) && is_straight(found) },
-    GaitClass { name: "jogs", holds: |found| (1.9..3.0).contains(&found.speed_mps) && is_straight(found) },
-    GaitClass { name: "runs", holds: |found| (3.0..6.0).contains(&found.speed_mps) && is_straight(found) },
+    GaitClass { name: "walks", contains: |found| (1.0..1.5).contains(&found.speed_mps) && is_straight(found) },
+    GaitClass { name: "jogs", contains: |found| (1.9..3.0).contains(&found.speed_mps) && is_straight(found) },
+    GaitClass { name: "runs", contains: |found| (3.0..6.0).contains(&found.speed_mps) && is_straight(found) },
     GaitClass {
         name: "turns",
-        holds: |found| (0.3..1.6).contains(&found.speed_mps) && found.turn_rate_rad_s.abs() > 20_f32.to_radians(),
+        contains: |found| (0.3..1.6).contains(&found.speed_mps) && found.turn_rate_rad_s.abs() > 20_f32.to_radians(),
     },
     GaitClass {
         name: "side-steps",
-        holds: |found| found.strafe_mps.abs() > 0.2 && found.speed_mps.abs() < found.strafe_mps.abs(),
+        contains: |found| found.strafe_mps.abs() > 0.2 && found.speed_mps.abs() < found.strafe_mps.abs(),
     },
-    GaitClass { name: "backward walks", holds: |found| found.speed_mps < -0.2 },
+    GaitClass { name: "backward walks", contains: |found| found.speed_mps < -0.2 },
 ];
 
-/// Whether a gait is straight but for gait noise: up to 10 °/s, and a tenth of the speed aside.
+/// Whether a gait is straight except for gait noise: up to 10 °/s, and a tenth of the speed aside.
 fn is_straight(found: &Parameters) -> bool {
     found.turn_rate_rad_s.abs() < 10_f32.to_radians() && found.strafe_mps.abs() < 0.1 * found.speed_mps
 }
 
-/// A clip, and the nearest of others.
+/// A clip, and the nearest other clip.
 #[derive(Debug, JsonSchema, Serialize)]
 pub struct NearestClip {
     /// Name of the clip.
@@ -79,7 +79,7 @@ pub struct GaitSimilarity {
 }
 
 impl GaitSimilarity {
-    /// Whether there are enough sources to know how similar people are to each other.
+    /// Whether there are enough sources for a median distance between people.
     pub(crate) fn has_criterion(&self) -> bool {
         self.sources >= SOURCES_MIN
     }
@@ -136,10 +136,10 @@ fn recorded_cycles(db: &MotionDb) -> Vec<RecordedCycle> {
 }
 
 fn similarity_in_class(gait_class: &GaitClass, real: &[RecordedCycle], ours: &[RecordedCycle]) -> GaitSimilarity {
-    let real = longest_of_each_capture(real.iter().filter(|cycle| (gait_class.holds)(&cycle.parameters)));
+    let real = longest_of_each_capture(real.iter().filter(|cycle| (gait_class.contains)(&cycle.parameters)));
     let to_others = |cycle: &&RecordedCycle| nearest(cycle, real.iter().filter(|other| other.source != cycle.source));
     let measured: Vec<NearestClip> = real.iter().filter_map(to_others).collect();
-    let ours = ours.iter().filter(|cycle| (gait_class.holds)(&cycle.parameters));
+    let ours = ours.iter().filter(|cycle| (gait_class.contains)(&cycle.parameters));
     let mut sources: Vec<&str> = real.iter().map(|cycle| cycle.source.as_str()).collect();
     sources.dedup();
     GaitSimilarity {
@@ -160,7 +160,7 @@ fn longest_of_each_capture<'a>(cycles: impl Iterator<Item = &'a RecordedCycle>) 
     cycles
 }
 
-/// The nearest of other cycles; none where there is none.
+/// The nearest other cycle; none if there is no other.
 fn nearest<'a>(cycle: &RecordedCycle, others: impl Iterator<Item = &'a &'a RecordedCycle>) -> Option<NearestClip> {
     let distance_deg = |other: &RecordedCycle| {
         let distances = other.sequences.iter().map(|sequence| cycle.sequences[0].distance_deg(sequence));

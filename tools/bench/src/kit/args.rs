@@ -5,7 +5,7 @@ use std::path::PathBuf;
 /// The motion database of a bench.
 #[derive(clap::Args)]
 pub struct DatabaseArg {
-    /// Motion database of the bodies; that of the bundled clips by default.
+    /// Motion database; default: compiled from the bundled clips.
     #[arg(long = "db", value_name = "FILE.fbdb")]
     pub database: Option<PathBuf>,
 }
@@ -13,7 +13,7 @@ pub struct DatabaseArg {
 /// The clips of a bench of the compiler.
 #[derive(clap::Args)]
 pub struct MocapArg {
-    /// Folder of clips: recordings of others, which are no part of this repository.
+    /// Folder of motion-capture clips (not included in this repository).
     #[arg(long, value_name = "DIR")]
     pub mocap: PathBuf,
 }
@@ -21,7 +21,7 @@ pub struct MocapArg {
 /// The seeds of a bench.
 #[derive(clap::Args)]
 pub struct SeedsArg {
-    /// Only these seeds; all by default.
+    /// Seeds to run; default: all.
     #[arg(long, value_name = "N,N", value_delimiter = ',')]
     pub seeds: Vec<u64>,
 }
@@ -29,7 +29,7 @@ pub struct SeedsArg {
 /// The pictures of a bench.
 #[derive(clap::Args)]
 pub struct PlotsArg {
-    /// Draw into this folder: the paths of all agents, and the bench's table or diagram where it has one.
+    /// Write plots to this folder: agent paths, and the bench's table or diagram if it has one.
     #[arg(long, value_name = "DIR")]
     pub plots: Option<PathBuf>,
 }
@@ -37,7 +37,7 @@ pub struct PlotsArg {
 /// The picture of a bench that always draws one.
 #[derive(clap::Args)]
 pub struct PictureArg {
-    /// The picture of the paths; by default out/NAME.png with the NAME of the bench.
+    /// Picture of the agent paths; default: out/NAME.png with the NAME of the bench.
     #[arg(short, long, value_name = "FILE.png")]
     pub output: Option<PathBuf>,
 }

@@ -1,6 +1,6 @@
 //! The motion database of a bench: a file, or that of the bundled clips.
 //!
-//! The clips come from their generator, so that no bench depends on its working folder.
+//! The clips are generated in memory, so a bench runs in any working directory.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ pub(crate) fn database(arg: &DatabaseArg) -> Result<MotionDb, BenchError> {
 /// The database of the bundled clips, compiled with the default options.
 ///
 /// # Errors
-/// Where the clips give no sound database.
+/// If the clips give no valid database.
 pub fn bundled() -> Result<MotionDb, BenchError> {
     let mut clips = Vec::new();
     for clip in clipgen::generate().into_iter().filter(|file| !file.name.ends_with(".md")) {

@@ -83,7 +83,7 @@ pub(crate) struct ComparisonRun {
     pub(crate) seed: u64,
     /// Measures of the recording.
     pub(crate) measures: Measures,
-    /// Path, neighbour search and planning, µs per agent and step.
+    /// Route, neighbour search and planning, µs per agent and step.
     pub(crate) plan_microseconds_per_agent_step: f64,
     /// Positions of the synthesised roots; empty unless kept.
     pub(crate) tracks: Tracks,

@@ -36,7 +36,7 @@ impl PoseSequence {
     }
 
     /// Distance of one pose to the nearest pose of the cycle, degrees.
-    pub(crate) fn to_pose_deg(&self, joints: &Joints) -> f32 {
+    pub(crate) fn distance_to_pose_deg(&self, joints: &Joints) -> f32 {
         let pose = directions(joints);
         let nearest = self.directions.iter().map(|row| squared_deg2(row, &pose)).fold(f64::INFINITY, f64::min);
         (nearest / BONES as f64).sqrt() as f32

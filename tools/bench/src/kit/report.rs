@@ -5,14 +5,14 @@ use std::borrow::Cow;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// A figure that must hold wherever it is measured: a quality, or a ratio of two durations of one run.
+/// A value that must hold on every machine: a quality, or a ratio of two durations of one run.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Criterion {
     /// What is measured, and its unit.
     pub name: Cow<'static, str>,
-    /// The figure; null where nothing could be measured, which misses the criterion.
+    /// The measured value; null where nothing could be measured, which misses the criterion.
     pub measured: Option<f64>,
-    /// The limit of the figure; null where the baseline that gives it could not be measured.
+    /// The limit of the value; null where the baseline that gives it could not be measured.
     #[schemars(with = "Option<f64>")]
     pub limit: f64,
     /// Whether the criterion is met.
@@ -22,17 +22,17 @@ pub struct Criterion {
 }
 
 impl Criterion {
-    /// The figure must not be less than the limit.
+    /// The value must not be less than the limit.
     pub fn at_least(name: impl Into<Cow<'static, str>>, limit: f64, measured: impl Into<Option<f64>>) -> Self {
         Self::new(name.into(), '≥', limit, measured.into(), |measured| measured >= limit)
     }
 
-    /// The figure must not be greater than the limit.
+    /// The value must not be greater than the limit.
     pub fn at_most(name: impl Into<Cow<'static, str>>, limit: f64, measured: impl Into<Option<f64>>) -> Self {
         Self::new(name.into(), '≤', limit, measured.into(), |measured| measured <= limit)
     }
 
-    /// The figure must be less than a baseline's, or 0.
+    /// The value must be less than a baseline's, or 0.
     pub fn below(name: impl Into<Cow<'static, str>>, limit: f64, measured: impl Into<Option<f64>>) -> Self {
         Self::new(name.into(), '<', limit, measured.into(), |measured| measured < limit || measured == 0.0)
     }
@@ -59,9 +59,9 @@ impl Criterion {
 pub struct Goal {
     /// What is measured, and its unit.
     pub name: &'static str,
-    /// The figure; null where this system does not report it.
+    /// The measured value; null where this system does not report it.
     pub measured: Option<f64>,
-    /// The figure to reach on a quiet machine.
+    /// The value to reach on a quiet machine.
     pub goal: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Scenario files that are simulated with all positions kept, so that any figure of the crowd can be measured later.
+//! Scenario files that are simulated with all positions kept, so that any measure of the crowd can be computed later.
 //!
 //! The files are compiled in (`assets/scenarios`), so that no bench depends on its working folder.
 

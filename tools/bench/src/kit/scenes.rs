@@ -58,7 +58,7 @@ const STUDY: [(&str, &str); 5] =
 /// Agents at their starts, with their goals.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene {
-    /// The file's stem without `_s<seed>`. Figures are means over the scenes of one name.
+    /// The file's stem without `_s<seed>`. Measures are means over the scenes of one name.
     pub(crate) name: String,
     /// Seed of the scene; 1 where the file's name has none.
     pub(crate) seed: u64,

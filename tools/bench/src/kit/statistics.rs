@@ -25,7 +25,7 @@ pub fn spread(values: impl Iterator<Item = f64> + Clone) -> Option<Spread> {
     (count > 0).then(|| Spread { mean, deviation: (squares / count.saturating_sub(1).max(1) as f64).sqrt() })
 }
 
-/// Mean and standard deviation of a figure over items that have it; none where no item has.
+/// Mean and standard deviation of a measure over items that have it; none where no item has.
 pub(crate) fn spread_of<T>(items: &[T], figure: impl Fn(&T) -> Option<f64>) -> Option<Spread> {
     let values: Vec<f64> = items.iter().filter_map(figure).collect();
     spread(values.into_iter())

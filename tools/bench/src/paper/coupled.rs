@@ -42,49 +42,49 @@ pub struct Details {
     pub scenes: Vec<SceneFigures>,
 }
 
-/// Figures of one scene.
+/// Measures of one scene.
 #[derive(JsonSchema, Serialize)]
 pub struct SceneFigures {
     /// Name of the scene.
     pub scene: String,
     /// Number of agents.
     pub agents: usize,
-    /// Figures with coupling and without it.
+    /// Measures with coupling and without it.
     pub figures: Vec<Figure>,
 }
 
-/// One figure of one scene, with coupling and without it.
+/// One measure of one scene, with coupling and without it.
 #[derive(JsonSchema, Serialize)]
 pub struct Figure {
-    /// Name of the figure, with its unit.
+    /// Name of the measure, with its unit.
     pub figure: &'static str,
     /// Mean and standard deviation over the seeds with coupling; null where nothing could be measured.
     pub coupled: Option<Spread>,
     /// Mean and standard deviation over the seeds without coupling; null where nothing could be measured.
     pub decoupled: Option<Spread>,
-    /// Whether the coupled figure must be below the decoupled one.
+    /// Whether the coupled value must be below the decoupled one.
     #[serde(skip)]
     has_criterion: bool,
 }
 
-/// A figure among the measures of a run.
+/// One measure of a run.
 struct MeasuredFigure {
     name: &'static str,
     has_criterion: bool,
     of: fn(&Measures) -> Option<f64>,
 }
 
-/// A figure that the coupled bodies must have less of.
+/// A measure that the coupled bodies must have less of.
 const fn less(name: &'static str, of: fn(&Measures) -> Option<f64>) -> MeasuredFigure {
     MeasuredFigure { name, has_criterion: true, of }
 }
 
-/// A figure without criterion.
+/// A measure without criterion.
 const fn shown(name: &'static str, of: fn(&Measures) -> Option<f64>) -> MeasuredFigure {
     MeasuredFigure { name, has_criterion: false, of }
 }
 
-/// The figures in the order of the table.
+/// The measures in the order of the table.
 const FIGURES: [MeasuredFigure; 11] = [
     less("bodies in each other, mm", |measures| Some(measures.body_penetration_mm)),
     shown("greatest, mm", |measures| Some(measures.body_penetration_max_mm)),
@@ -102,7 +102,7 @@ const FIGURES: [MeasuredFigure; 11] = [
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read, or no scene has a seed that is given.
+/// If the database cannot be read, or no scene has a seed that is given.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = Arc::new(database(&args.database)?);
     let scenes = scenes::study(&args.seeds.seeds)?;
@@ -115,7 +115,7 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     Ok(BenchReport { text: text(&details), details, goals: Vec::new(), criteria })
 }
 
-/// Figures of each scene. Runs come by scene; those of scenes with one name are averaged.
+/// Measures of each scene. Runs come by scene; those of scenes with one name are averaged.
 fn scene_figures(scenes: &[Scene], coupled: &[ComparisonRun], decoupled: &[ComparisonRun]) -> Vec<SceneFigures> {
     let has_same_name = |scene: &Scene, other: &Scene| scene.name == other.name;
     let mut first = 0;

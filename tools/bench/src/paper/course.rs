@@ -104,7 +104,7 @@ pub struct CourseWalk {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read, or the picture cannot be written.
+/// If the database cannot be read, or the picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = Arc::new(database(&args.database)?);
     let scenario = scenario(COURSE)?;
@@ -174,7 +174,7 @@ impl PoseDistances {
 
     fn push(&mut self, frame: &AgentFrame, skeleton: &Skeleton) {
         let joints = frame.pose.forward_kinematics(skeleton);
-        let to_example_deg = self.examples.iter().map(|example| example.to_pose_deg(&joints));
+        let to_example_deg = self.examples.iter().map(|example| example.distance_to_pose_deg(&joints));
         self.squared_deg2 += f64::from(to_example_deg.fold(f32::INFINITY, f32::min)).powi(2);
         self.semi_procedural += usize::from(frame.mode == Mode::SemiProcedural);
     }

@@ -80,7 +80,7 @@ pub struct Details {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read, the system starts no threads, or the picture cannot be written.
+/// If the database cannot be read, the system starts no threads, or the picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = Arc::new(database(&args.database)?);
     let pools = [pool(1)?, pool(2)?];

@@ -101,7 +101,7 @@ impl Scene {
         self.simulation.step(&mut |stage| {
             let now = Instant::now();
             let index = match stage {
-                Stage::Path | Stage::Neighbours | Stage::Planning => 0,
+                Stage::Route | Stage::Neighbours | Stage::Planning => 0,
                 Stage::Synthesis => 1,
                 Stage::Coupling => 2,
             };

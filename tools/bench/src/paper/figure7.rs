@@ -25,7 +25,7 @@ const SCENE: &str = "circle_17";
 /// Seed of the scene.
 const SEED: u64 = 1;
 
-/// Draw the paths of 17 agents that cross a circle, with each of three planners, and their figures.
+/// Draw the paths of 17 agents that cross a circle, with each of three planners, and their measures.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  fbcrowd bench figure7 -o figure7.png")]
 pub struct Args {
@@ -47,7 +47,7 @@ pub struct Details {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read, or the picture cannot be written.
+/// If the database cannot be read, or the picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let picture = args.picture.path("figure7");
     create_parent(&picture)?;

@@ -1,9 +1,9 @@
 //! Benches of the paper's tables and figures (§7, App. 11).
 //!
-//! In: the paper's scenes and its obstacle course. Out: Table 1 ([`table1`]; its figures in [`table1_figures`], its texts
-//! and pictures in [`table1_text`] and [`table1_plots`], its baselines without bodies in [`table1_discs`]), Fig. 7
-//! ([`figure7`]), Fig. 6 ([`figure6`], with [`figure6_scene`] and [`figure6_times`]), the coupling on the scenes of the
-//! user study ([`coupled`]), and the obstacle course ([`course`]).
+//! Enters: the paper's scenes and its obstacle course. Leaves: Table 1 ([`table1`]; its measures in [`table1_figures`],
+//! its texts and pictures in [`table1_text`] and [`table1_plots`], its baselines without bodies in [`table1_discs`]),
+//! Fig. 7 ([`figure7`]), Fig. 6 ([`figure6`], with [`figure6_scene`] and [`figure6_times`]), the coupling on the scenes
+//! of the user study ([`coupled`]), and the obstacle course ([`course`]).
 
 pub mod coupled;
 pub mod course;

@@ -1,8 +1,8 @@
 //! `fbcrowd bench table1`: MCN against its two baselines through the same bodies, the paper's Table 1 (§7, App. 11).
 //!
-//! Protocol: 60 s in steps of 0.1 s for all, one set of parameters for all scenes, the same blending synthesis, figures
-//! of the synthesised roots, means over seeds. The criteria are MCN's: C below both baselines', its acceleration before
-//! arrival too, all agents arrive, none stalls, and in time.
+//! Protocol: 60 s in steps of 0.1 s for all, one set of parameters for all scenes, the same blending synthesis,
+//! measures of the synthesised roots, means over seeds. The criteria are MCN's: C below both baselines', its
+//! acceleration before arrival too, all agents arrive, none stalls, and in time.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -56,7 +56,7 @@ pub struct Args {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where scenes or the database cannot be read, or an output cannot be written.
+/// If scenes or the database cannot be read, or an output cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = Arc::new(database(&args.database)?);
     let protocol = Protocol {

@@ -21,7 +21,7 @@ const BASELINES: [ComparedPlanner; 2] = [ORCA, SOCIAL_FORCE];
 /// Half of the last of C's four published decimals.
 const LAST_DECIMAL: f64 = 0.5e-4;
 
-/// Published figures of one planner in one scene, each a mean and a standard deviation over seeds 1 to 5.
+/// Published values of one planner in one scene, each a mean and a standard deviation over seeds 1 to 5.
 struct Published {
     scene: &'static str,
     planner: &'static str,
@@ -38,7 +38,7 @@ const fn published(
     Published { scene, planner, collision_rate, acceleration_mps2 }
 }
 
-/// Figures of the published code: RVO2 (van den Berg et al. 2011), and the power law (Karamouzas, Skinner, Guy 2014) by
+/// Values of the published code: RVO2 (van den Berg et al. 2011), and the power law (Karamouzas, Skinner, Guy 2014) by
 /// explicit Euler steps of dt.
 const PUBLISHED: [Published; 6] = [
     published("cross2_30", "orca", [0.0, 0.0], [0.31, 0.13]),
@@ -49,7 +49,7 @@ const PUBLISHED: [Published; 6] = [
     published("cross4_100", "social_force", [0.0041, 0.0010], [4.16, 0.27]),
 ];
 
-/// Runs the published scenes and compares the figures.
+/// Runs the published scenes and compares the values.
 pub(crate) fn run(
     db: &Arc<MotionDb>,
     seeds: &[u64],
@@ -65,7 +65,7 @@ pub(crate) fn run(
     Ok(BenchReport { text: text(&details), details, goals: Vec::new(), criteria })
 }
 
-/// Our figures; none where the scene was not run.
+/// Our values; none where the scene was not run.
 fn ours<'a>(details: &'a Details, published: &Published) -> Option<&'a PlannerFigures> {
     let scene = details.scenes.iter().find(|scene| scene.scene == published.scene)?;
     scene.planners.iter().find(|planner| planner.planner == published.planner)

@@ -1,4 +1,4 @@
-//! Figures of a comparison of planners: every run, and means over the seeds of each scene.
+//! Measures of a comparison of planners: every run, and means over the seeds of each scene.
 
 use fbcrowd_jobs::json_schema::measures::MeasuresMirror;
 use fbcrowd_sim::measures::Measures;
@@ -56,7 +56,7 @@ pub struct PlannerFigures {
     pub body_penetration_mm: f64,
     /// Standard deviation of `body_penetration_mm`, mm.
     pub body_penetration_mm_sd: f64,
-    /// Path, neighbour search and planning, µs per agent and step; mean.
+    /// Route, neighbour search and planning, µs per agent and step; mean.
     pub plan_microseconds_per_agent_step: f64,
     /// The runs, one for each seed.
     pub runs: Vec<RunFigures>,
@@ -71,7 +71,7 @@ pub struct RunFigures {
     #[serde(flatten)]
     #[schemars(with = "MeasuresMirror")]
     pub measures: Measures,
-    /// Path, neighbour search and planning, µs per agent and step.
+    /// Route, neighbour search and planning, µs per agent and step.
     pub plan_microseconds_per_agent_step: f64,
 }
 

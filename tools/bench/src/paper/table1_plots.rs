@@ -51,7 +51,7 @@ fn drawn_paths<'a>(planner: &ComparedPlanner, run: &'a ComparisonRun) -> PathPan
     PathPanel { heading: planner.name.replace('_', " "), notes: notes(&run.measures), tracks: &run.tracks }
 }
 
-/// Figures beneath the paths.
+/// Measures beneath the paths.
 fn notes(measures: &Measures) -> Vec<String> {
     let time = measures.mean_time_to_goal_s.map_or_else(String::new, |time_s| format!(" after {time_s:.1} s"));
     vec![

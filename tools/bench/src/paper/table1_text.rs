@@ -1,4 +1,4 @@
-//! The text of `fbcrowd bench table1`, with the paper's figures beside ours.
+//! The text of `fbcrowd bench table1`, with the paper's values beside ours.
 
 use crate::paper::table1_figures::{PlannerFigures, SceneFigures};
 

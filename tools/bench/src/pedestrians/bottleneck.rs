@@ -19,7 +19,7 @@ const ARCH_FROM_S: f64 = 8.0;
 /// Share of the agents that have left when the measurement of the half-circle ends.
 const ARCH_UNTIL_SHARE: f64 = 0.5;
 
-/// Figures of the crowd at the door, each as mean and standard deviation over the seeds.
+/// Measures of the crowd at the door, each as mean and standard deviation over the seeds.
 #[derive(JsonSchema, Serialize)]
 pub struct DoorFigures {
     /// Number of agents that pass the door; null where nothing could be measured.
@@ -42,11 +42,11 @@ pub struct DoorFigures {
     pub reach_m: [f64; SECTORS],
     /// C (Eq. 17), per agent and step; null where nothing could be measured.
     pub collision_rate: Option<Spread>,
-    /// Length of the paths over the straight lines along the waypoints; null where no agent arrives.
+    /// Length of the paths, divided by the straight lines along the waypoints; null where no agent arrives.
     pub path_over_straight_line: Option<Spread>,
 }
 
-/// Figures of one seed.
+/// Measures of one seed.
 struct DoorOfSeed {
     gate: Gate,
     shape: WaitingShape,
@@ -55,7 +55,7 @@ struct DoorOfSeed {
 }
 
 impl DoorFigures {
-    /// Figures of the runs, one for each seed.
+    /// Measures of the runs, one for each seed.
     pub(crate) fn of(runs: &[ScenarioRun]) -> Self {
         let doors: Vec<DoorOfSeed> = runs.iter().map(door_of_seed).collect();
         let width_m = f64::from(2.0 * DOOR_HALF_M);

@@ -1,4 +1,4 @@
-//! A test of a crowd: its scenario, its criterion, and the figures that both have in common. World, metres, seconds.
+//! A test of a crowd: its scenario, its criterion, and the measures that both have in common. World, metres, seconds.
 
 use fbcrowd_sim::measures::Gate;
 use glam::Vec2;
@@ -27,12 +27,12 @@ pub(crate) const UNTURNED: &[f32] = &[0.0];
 /// Greatest overlap of two discs, or of a disc and a wall, that touch: rounding of positions, m.
 pub(crate) const TOUCH_M: f64 = 1e-3;
 
-/// A figure of a test.
+/// A measure of a test.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct CaseFigure {
-    /// Name of the figure, with its unit.
+    /// Name of the measure, with its unit.
     pub name: String,
-    /// The figure; null where nothing could be measured.
+    /// The measure; null where nothing could be measured.
     #[schemars(with = "Option<f64>")]
     pub value: f64,
 }
@@ -43,7 +43,7 @@ pub(crate) struct CaseOutcome {
     pub(crate) criteria: Vec<Criterion>,
 }
 
-/// A figure by name.
+/// A measure by name.
 pub(crate) fn figure(name: impl Into<String>, value: impl Into<Option<f64>>) -> CaseFigure {
     CaseFigure { name: name.into(), value: value.into().unwrap_or(f64::NAN) }
 }

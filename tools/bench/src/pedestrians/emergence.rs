@@ -26,7 +26,7 @@ use crate::pedestrians::two_way_flow::{LaneFigures, TWO_WAY_FLOW};
 
 /// Planners, MCN first.
 const PLANNERS: [ComparedPlanner; 3] = [MCN, ORCA, SOCIAL_FORCE];
-/// Seeds; from three seeds to another three every figure of the door changes by a tenth.
+/// Seeds; from three seeds to another three every measure of the door changes by a tenth.
 const SEEDS: [u64; 10] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10];
 /// Least reduced order of steady lanes: nearer to perfect lanes than to chance, from a chequerboard at the start.
 const LANES_ORDER: f64 = 0.5;
@@ -75,7 +75,7 @@ pub struct PlannerPatterns {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read, or a picture cannot be written.
+/// If the database cannot be read, or a picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = Arc::new(database(&args.database)?);
     let seeds = if args.seeds.seeds.is_empty() { &SEEDS } else { args.seeds.seeds.as_slice() };

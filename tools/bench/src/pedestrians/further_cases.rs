@@ -7,7 +7,7 @@ use crate::kit::report::Criterion;
 use crate::kit::scenario_run::ScenarioRun;
 use crate::pedestrians::case::{CaseOutcome, TOUCH_M, figure, overlap_m};
 
-/// Overtaking: greatest length of the path over the straight line. A body's width aside over 10 m makes 1.003, a
+/// Overtaking: greatest length of the path, divided by the straight line. A body's width aside over 10 m makes 1.003, a
 /// hesitation more.
 const DETOUR: f64 = 1.05;
 /// Overtaking: greatest distance by which the standing agent is pushed from its goal, m (`path.rs`).

@@ -1,9 +1,9 @@
-//! Benches of crowds against what is known of pedestrians.
+//! Benches that compare simulated crowds with pedestrian research.
 //!
-//! In: scenario files of `assets/scenarios`. Out: the tests of the RiMEA guideline and three like them ([`rimea`]: what a
-//! test is in [`case`], the guideline's in [`guideline_cases`] and [`fundamental_diagram`], the others in
-//! [`further_cases`]), and patterns that emerge in crowds ([`emergence`]: lanes in [`two_way_flow`], the crowd before a
-//! door in [`bottleneck`]).
+//! Enters: scenario files of `assets/scenarios`. Leaves: results of the RiMEA guideline's tests and of three like them
+//! ([`rimea`]; a test is a [`case`], the guideline's are in [`guideline_cases`] and [`fundamental_diagram`], the others
+//! in [`further_cases`]), and patterns that emerge in crowds ([`emergence`]; lanes are in [`two_way_flow`], the crowd
+//! before a door is in [`bottleneck`]).
 
 pub mod bottleneck;
 pub mod case;

@@ -1,7 +1,7 @@
 //! `fbcrowd bench rimea`: the tests of the RiMEA guideline for evacuation analyses that concern walking on level ground,
 //! and three like them, each a scenario file of `assets/scenarios`, through full bodies.
 //!
-//! The figures and criteria of each test are in [`crate::pedestrians::guideline_cases`].
+//! The measures and criteria of each test are in [`crate::pedestrians::guideline_cases`].
 
 use std::fmt::Write;
 use std::path::Path;
@@ -49,14 +49,14 @@ pub struct CaseReport {
     pub scenario: &'static str,
     /// The criterion in words.
     pub criterion: &'static str,
-    /// Figures of the test.
+    /// Measures of the test.
     pub figures: Vec<CaseFigure>,
 }
 
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read, or a picture cannot be written.
+/// If the database cannot be read, or a picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = Arc::new(database(&args.database)?);
     let mut scenarios = Vec::new();

@@ -16,7 +16,7 @@ const LANES_WITHIN_M: f32 = 6.0;
 /// agents leave the middle at 14 s.
 const LANES_STEADY_S: [f64; 2] = [8.0, 13.0];
 
-/// Figures of the two-way flow, each as mean and standard deviation over the seeds.
+/// Measures of the two-way flow, each as mean and standard deviation over the seeds.
 #[derive(JsonSchema, Serialize)]
 pub struct LaneFigures {
     /// Order parameter φ at the start, 0 to 1; null where nothing could be measured.
@@ -31,7 +31,7 @@ pub struct LaneFigures {
     pub speed_mps: Option<Spread>,
 }
 
-/// Figures of one seed.
+/// Measures of one seed.
 struct FlowOfSeed {
     start: LaneOrder,
     /// Mean φ over the steady time.
@@ -42,7 +42,7 @@ struct FlowOfSeed {
 }
 
 impl LaneFigures {
-    /// Figures of the runs, one for each seed.
+    /// Measures of the runs, one for each seed.
     pub(crate) fn of(runs: &[ScenarioRun]) -> Self {
         let flows: Vec<FlowOfSeed> = runs.iter().filter_map(flow_of_seed).collect();
         Self {

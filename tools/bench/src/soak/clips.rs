@@ -48,8 +48,8 @@ fn sealed(mut json: Vec<u8>, buffer: &[u8]) -> Vec<u8> {
 /// Imports and compiles a clip.
 fn compiled(name: &str, bytes: &[u8]) -> CopyOutcome {
     let Ok(imports) = import_bytes(Path::new(name), bytes) else {
-        return CopyOutcome::Rejection;
+        return CopyOutcome::Rejected;
     };
     let clips = imports.into_iter().filter_map(|import| import.outcome.ok()).collect();
-    compile(clips, &Options::default(), &|_| ()).map_or(CopyOutcome::Rejection, |db| check_invariants(&db))
+    compile(clips, &Options::default(), &|_| ()).map_or(CopyOutcome::Rejected, |db| check_invariants(&db))
 }

@@ -1,4 +1,4 @@
-//! Databases: damaged ones, which the checksum must refuse, and forged ones, which the decoder or an invariant must.
+//! Databases: damaged ones, which the checksum must reject, and forged ones, which the decoder or an invariant must.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -30,21 +30,21 @@ pub(crate) fn damage(bytes: &[u8], draw: &mut Draw) -> CopyOutcome {
     }
     match database_file::from_bytes(Path::new("damaged"), &copy) {
         Ok(_) => CopyOutcome::Harmful("is used, though damaged"),
-        Err(_) => CopyOutcome::Rejection,
+        Err(_) => CopyOutcome::Rejected,
     }
 }
 
-/// Alters the payload and seals it anew.
+/// Alters the payload and seals it again.
 pub(crate) fn forge(bytes: &[u8], draw: &mut Draw) -> CopyOutcome {
     let mut payload = bytes[HEADER_LENGTH..].to_vec();
     let position = forged_position(payload.len(), draw);
     draw.edit_at(position).alter(&mut payload);
     let sealed = container::seal(database_file::MAGIC, database_file::VERSION, &payload);
     let Ok((db, _)) = database_file::from_bytes(Path::new("forged"), &sealed) else {
-        return CopyOutcome::Rejection;
+        return CopyOutcome::Rejected;
     };
     if breaks_invariant(&db) {
-        return CopyOutcome::Rejection;
+        return CopyOutcome::Rejected;
     }
     moves_bodies(&Arc::new(db), &crossing())
 }

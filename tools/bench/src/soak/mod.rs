@@ -1,5 +1,5 @@
-//! `fbcrowd bench soak`: whether anything that FbCrowd reads, damaged, forged or mutated, or any world that it simulates,
-//! ends the program, takes too long or does harm.
+//! `fbcrowd bench soak`: whether any damaged, forged or mutated input file, or any generated world, ends the program,
+//! takes too long or does harm.
 //!
 //! In: a sound database, the bundled clips, and a seed. Out: counts of the copies that are rejected and used, and every
 //! copy with a fault. Each copy draws its random numbers from a seed of its own, the seed of the bench plus its number, so
@@ -43,14 +43,14 @@ const DAMAGED: &str = "damaged databases";
 
 /// Damage, forge and mutate thousands of copies of every kind of input; each must be rejected or do no harm.
 ///
-/// Damaged databases: one byte altered, or cut anywhere; the checksum must refuse every one. Forged ones: altered and
+/// Damaged databases: one byte altered, or cut anywhere; the checksum must reject every one. Forged ones: altered and
 /// sealed with a right checksum; what is used must move bodies. BVH and GLB files, manifests, scenarios and recordings:
 /// bytes altered, dropped, repeated or inserted, numbers replaced, lengths and checksums set right or not; what is used
-/// must give sound databases and finite bodies. All begin with the bundled clips. Generated worlds: agents and obstacles
-/// piled, far off, fast, tiny, huge, on edges and in walls; each planner must plan numbers, keep its greatest speed and
-/// lead no agent through a wall. Turned scenes: everyday ones, turned and moved; the velocity that MCN or ORCA plans must
-/// turn with them within 1e-4 m/s. Linear programs: feasible or not, opposite, parallel but for rounding; no velocity
-/// of a grid may be better than the solution.
+/// must give valid databases and finite bodies. All begin with the bundled clips. Generated worlds: agents and
+/// obstacles piled, far off, fast, tiny, huge, on edges and in walls; each planner must plan numbers, keep its greatest
+/// speed and lead no agent through a wall. Turned scenes: everyday ones, turned and moved; the velocity that MCN or
+/// ORCA plans must turn with them within 1e-4 m/s. Linear programs: feasible or not, opposite, parallel except for
+/// rounding; no velocity of a grid may be better than the solution.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -98,7 +98,7 @@ pub struct Details {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read, or the temporary folder cannot be written.
+/// If the database cannot be read, or the temporary folder cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = database(&args.database)?;
     let scratch = Scratch::new()?;

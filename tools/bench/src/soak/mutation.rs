@@ -70,7 +70,7 @@ impl Edit {
             }
             6 => bytes.insert(at, PUNCTUATION[self.value as usize % PUNCTUATION.len()]),
             7 => bytes.truncate(at),
-            // Most files that are read to the end are sound but for their numbers.
+            // Most files that are read to the end are valid except for their numbers.
             8..12 => replace_number(bytes, at, &(self.value % 1000).to_string()),
             _ => replace_number(bytes, at, NUMBERS[self.value as usize % NUMBERS.len()]),
         }

@@ -21,9 +21,9 @@ const HEAD_BYTES: usize = 12;
 /// Frames of the recording.
 const FRAMES: usize = 8;
 
-/// The bytes of a sound recording.
+/// The bytes of a valid recording.
 pub(crate) fn bytes(db: &Arc<MotionDb>, scratch: &Scratch) -> Result<Vec<u8>, BenchError> {
-    let path = scratch.path().join("sound.fbrec");
+    let path = scratch.path().join("valid.fbrec");
     record(db, &path)?;
     fs::read(&path).map_err(|error| BenchError::unreadable(&path, error))
 }
@@ -44,7 +44,7 @@ fn record(db: &Arc<MotionDb>, path: &Path) -> Result<(), RecordingError> {
 pub(crate) fn read(recording: &[u8], scratch: &Scratch, draw: &mut Draw) -> CopyOutcome {
     let copy = if draw.flip() { mutated(recording, &draw.edits(recording.len())) } else { forged(recording, draw) };
     let measured = scratch.with(draw, &copy, |path| measure(&Recording::open(path)?));
-    measured.map_or(CopyOutcome::Rejection, |_| CopyOutcome::Used)
+    measured.map_or(CopyOutcome::Rejected, |_| CopyOutcome::Used)
 }
 
 /// Alters the payload of one chunk and gives it a right checksum.
@@ -62,7 +62,7 @@ fn forged(recording: &[u8], draw: &mut Draw) -> Vec<u8> {
     file
 }
 
-/// Types and payloads of the chunks of a sound recording.
+/// Types and payloads of the chunks of a valid recording.
 fn chunks(mut rest: &[u8]) -> Vec<(ChunkKind, &[u8])> {
     let mut chunks = Vec::new();
     while let Some((head, after)) = rest.split_first_chunk::<{ CHUNK_HEAD_BYTES as usize }>() {

@@ -14,13 +14,13 @@ use crate::soak::draw::Draw;
 /// Greatest duration of a copy, s, as of an input of a fuzz target.
 const LONGEST_S: f64 = 10.0;
 
-/// What became of one copy.
+/// Outcome of one copy.
 pub(crate) enum CopyOutcome {
     /// The copy was rejected.
-    Rejection,
+    Rejected,
     /// The copy was used, and is sound.
     Used,
-    /// The copy was used though it is not sound; with the fault.
+    /// The copy was used although it is invalid; with the fault.
     Harmful(&'static str),
 }
 
@@ -40,9 +40,9 @@ pub struct InputTally {
     pub copies: usize,
     /// Number of copies that were rejected.
     pub refused: usize,
-    /// Number of copies that were used and are sound.
+    /// Number of copies that were used and are valid.
     pub used: usize,
-    /// Number of copies that were used and are not sound.
+    /// Number of copies that were used and are invalid.
     pub harmful: usize,
     /// Number of copies that ended the program.
     pub panics: usize,
@@ -115,7 +115,7 @@ fn tally(kind: &InputKind, copies: &[TriedCopy]) -> InputTally {
     InputTally {
         name: kind.name,
         copies: kind.copies,
-        refused: count(|copy| matches!(copy.outcome, Some(CopyOutcome::Rejection))),
+        refused: count(|copy| matches!(copy.outcome, Some(CopyOutcome::Rejected))),
         used: count(|copy| matches!(copy.outcome, Some(CopyOutcome::Used))),
         harmful: count(|copy| matches!(copy.outcome, Some(CopyOutcome::Harmful(_)))),
         panics: count(|copy| copy.outcome.is_none()),

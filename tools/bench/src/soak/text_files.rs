@@ -60,9 +60,9 @@ pub(crate) fn manifest(scratch: &Scratch, draw: &mut Draw) -> CopyOutcome {
     let text = mutated_text(MANIFEST, draw).replace('/', "-").replace("..", "._");
     let source = SourceText { path: scratch.path().join("manifest.toml"), text };
     let Ok(manifest) = Manifest::parse(source) else {
-        return CopyOutcome::Rejection;
+        return CopyOutcome::Rejected;
     };
-    compile_manifest(&manifest, &|_| ()).map_or(CopyOutcome::Rejection, |compiled| check_invariants(&compiled.db))
+    compile_manifest(&manifest, &|_| ()).map_or(CopyOutcome::Rejected, |compiled| check_invariants(&compiled.db))
 }
 
 /// Mutates a scenario.
@@ -71,7 +71,7 @@ pub(crate) fn scenario(db: &Arc<MotionDb>, scratch: &Scratch, draw: &mut Draw) -
     match scratch.with(draw, text.as_bytes(), scenario::read) {
         Ok((scenario, _)) if scenario.agents.len() <= MOST_AGENTS => moves_bodies(db, &scenario),
         Ok(_) => CopyOutcome::Used,
-        Err(_) => CopyOutcome::Rejection,
+        Err(_) => CopyOutcome::Rejected,
     }
 }
 

@@ -90,7 +90,7 @@ struct Turn {
 /// Runs the bench. It reports no progress: that would take time.
 ///
 /// # Errors
-/// Where the bundled clips give no database.
+/// If the bundled clips give no database.
 pub fn run(_: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = bundled()?;
     let [mut blending, mut semi_procedural] =

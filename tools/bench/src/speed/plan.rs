@@ -103,7 +103,7 @@ struct Pools {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the bundled clips give no database, or the system starts no threads.
+/// If the bundled clips give no database, or the system starts no threads.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = Arc::new(bundled()?);
     let pools = Pools { one: pool(1)?, two: pool(2)? };
@@ -218,7 +218,7 @@ fn crowd_times(agents: usize, turns: &[Turn]) -> Option<CrowdTimes> {
 }
 
 fn criteria(crowds: &[CrowdTimes]) -> Vec<Criterion> {
-    // 100 agents meet in the middle within the time: theirs is no steady crowd.
+    // 100 agents meet in the middle within the time, so they are not a steady crowd.
     let steady: Vec<&CrowdTimes> = crowds.iter().filter(|crowd| crowd.agents >= CROWDS[1]).collect();
     let worst = |figure: fn(&CrowdTimes) -> f32, worse: fn(f64, f64) -> f64| {
         steady.iter().map(|crowd| f64::from(figure(crowd))).reduce(worse)

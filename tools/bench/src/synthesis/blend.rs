@@ -104,7 +104,7 @@ struct Tolerance {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read.
+/// If the database cannot be read.
 pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let context = context(database(&args.database)?, Modes::Blending);
     let commands = grid(&context);
@@ -221,7 +221,7 @@ fn command_sequence(time_s: f32) -> Plan {
 
 /// Roots of a body that follows the command sequence, every tenth of a second.
 fn sequence_roots(context: &SynthesisContext, dt_s: f32) -> Vec<Root> {
-    // The middle of a step decides which command is in force: its start may be rounded to either side.
+    // The middle of a step decides which command is active: its start may be rounded to either side.
     let roots = roots(context, 15.0, dt_s, |time_s, _| command_sequence(time_s + 0.5 * dt_s));
     roots.into_iter().step_by((0.1 / dt_s).round() as usize).collect()
 }
@@ -238,14 +238,14 @@ impl CommandedPoint {
         self.idle_share < START_IDLE_SHARE
     }
 
-    /// Error over its tolerance, on one axis.
+    /// Error divided by its tolerance, on one axis.
     fn excess(&self, axis: usize, tolerance: &Tolerance) -> f64 {
         let tolerance = (tolerance.share * self.commanded[axis].abs()).max(tolerance.least[axis]);
         f64::from((self.achieved[axis] - self.commanded[axis]).abs() / tolerance)
     }
 }
 
-/// Mean and worst error over the tolerance, on one axis.
+/// Mean and worst error divided by the tolerance, on one axis.
 fn excesses(run: &TimeStepRun, axis: usize) -> [Option<f64>; 2] {
     let walked = || run.points.iter().filter(|point| point.is_walked());
     let sum = walked().map(|point| point.excess(axis, &MEAN)).reduce(|sum, excess| sum + excess);

@@ -1,6 +1,6 @@
 //! Commands to bodies whose quality is measured (`fbcrowd bench quality`): steady walks, and changes.
 //!
-//! A command sequence is a list of commands, each in force until a time. It begins with standing. Each body shortens the
+//! A command sequence is a list of commands, each active until a time. It begins with standing. Each body shortens the
 //! standing by a part of a step more than the one before, so that the changes meet every phase of the cycle. Metres,
 //! seconds, radians.
 

@@ -60,7 +60,7 @@ pub struct WalkQuality {
     pub synthesis: Modes,
     /// Time step, s.
     pub dt_s: f32,
-    /// Figures of the walk.
+    /// Measures of the walk.
     #[serde(flatten)]
     pub figures: QualityFigures,
 }
@@ -68,7 +68,7 @@ pub struct WalkQuality {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read.
+/// If the database cannot be read.
 pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = database(&args.database)?;
     let walks: Vec<WalkQuality> = SYNTHESES.iter().flat_map(|&synthesis| walks(&db, synthesis)).collect();
@@ -125,7 +125,7 @@ fn criteria(walks: &[WalkQuality], is_bundled: bool) -> Vec<Criterion> {
     ]
 }
 
-/// A line for each command sequence and synthesis: slide at each time step, all other figures at their worst.
+/// A line for each command sequence and synthesis: slide at each time step, all other measures at their worst.
 fn text(details: &Details) -> String {
     let mut text = format!("{:<32}", "slide in cm/s at dt");
     for dt_s in TIME_STEPS_S {

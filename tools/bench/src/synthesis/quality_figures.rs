@@ -1,5 +1,5 @@
-//! Figures of the bodies that follow a command sequence. Every figure is the worst of all bodies and measured intervals,
-//! at one time step.
+//! Measures of the bodies that follow a command sequence. Every measure is the worst of all bodies and measured
+//! intervals, at one time step.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -33,7 +33,7 @@ const SPARC_STEP_HZ: f64 = 0.05;
 /// The spectrum ends at the last frequency with at least this share of its mean.
 const SPARC_LEAST: f64 = 0.05;
 
-/// Figures of one walk.
+/// Measures of one walk.
 #[derive(Clone, Copy, Debug, Default, JsonSchema, Serialize)]
 pub struct QualityFigures {
     /// Slide of planted feet in the interval in which they slide most, cm/s.
@@ -58,17 +58,18 @@ pub struct QualityFigures {
     pub foot_speed_max_mps: f64,
     /// Least distance of the left ankle to the left of the right one, m.
     pub ankles_apart_m: f64,
-    /// Greatest acceleration of a joint in the root's frame, over that of the examples in use shortly before and after.
+    /// Greatest acceleration of a joint in the root's frame, divided by that of the examples in use shortly before and
+    /// after.
     pub acceleration_ratio: f64,
-    /// Greatest acceleration of a joint about a change of synthesis, over that of the examples in use; null without
-    /// changes.
+    /// Greatest acceleration of a joint about a change of synthesis, divided by that of the examples in use; null
+    /// without changes.
     pub switch_acceleration_ratio: Option<f64>,
     /// Mean size of the root's speed that is not in the rows, since the phase catches up with the feet, m/s.
     pub correction_mps: f64,
-    /// Mean size of the root's speed that is not in the rows, over the mean speed.
+    /// Mean size of the root's speed that is not in the rows, divided by the mean speed.
     pub correction_share: f64,
-    /// Mean of the root's speed that is not in the rows, with its sign, over the mean speed: how much faster the root goes
-    /// in the long run.
+    /// Mean of the root's speed that is not in the rows, with its sign, divided by the mean speed: how much faster the
+    /// root goes in the long run.
     pub signed_correction_share: f64,
     /// Number of planted soles on the ground, and of all planted soles.
     #[serde(skip)]
@@ -94,7 +95,7 @@ pub(crate) fn example_peaks_mps2(db: &MotionDb, space: &BlendDomain, dt_s: f32) 
     (0..db.examples.len()).map(peak).collect()
 }
 
-/// All figures of a walk; `peaks_mps2` are those of the examples.
+/// All measures of a walk; `peaks_mps2` are those of the examples.
 pub(crate) fn figures(
     walk: &SequenceWalk,
     sequence: &CommandSequence,
@@ -162,7 +163,7 @@ impl QualityFigures {
         }
     }
 
-    /// Adds all other figures but accelerations, of one body in an interval.
+    /// Adds all other measures except accelerations, of one body in an interval.
     fn body(&mut self, steps: &[BodyStep], skeleton: &Skeleton, dt_s: f32) {
         for side in 0..2 {
             self.foot(steps, skeleton, side, dt_s);
@@ -224,8 +225,8 @@ impl QualityFigures {
     }
 }
 
-/// For each step, the greatest acceleration of a joint over that of the examples in use within some steps; 0 at the
-/// ends.
+/// For each step, the greatest acceleration of a joint, divided by that of the examples in use within some steps; 0 at
+/// the ends.
 fn acceleration_ratios(steps: &[BodyStep], within: usize, dt_s: f32, peaks_mps2: &[f32]) -> Vec<f64> {
     let greatest = |values: &[f32]| values.iter().copied().fold(0.0, f32::max);
     let peaks: Vec<f32> =

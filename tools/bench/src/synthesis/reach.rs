@@ -96,7 +96,7 @@ pub enum GaitFault {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read, or has no walk ahead.
+/// If the database cannot be read, or has no walk ahead.
 pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = database(&args.database)?;
     let semi_procedural = semi_procedural(&db).ok_or(BenchError::NoWalk)?;

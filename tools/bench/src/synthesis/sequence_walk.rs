@@ -1,4 +1,4 @@
-//! Single bodies on open ground that follow a command sequence, with the state of every step that the figures need.
+//! Single bodies on open ground that follow a command sequence, with the state of every step that the measures need.
 
 use fbcrowd_sim::planning::Plan;
 use fbcrowd_sim::recording::AgentFrame;

@@ -1,11 +1,11 @@
 //! `fbcrowd bench tracking`: how closely a root follows its commands (`FbCrowd` §5).
 //!
 //! Commands accelerate by no more than [`ACCELERATION_MPS2`]. Semi-procedural locomotion follows world velocities; its
-//! figure is the distance after one step between the root and the position to which the command leads from the last
-//! root. Blending follows (v_f, ω_t, ω_s) that change from one steady gait to another; its figure is the distance to a
-//! root that did exactly what it was commanded, one cycle after the command is steady again. Each command comes at eight
-//! times of the stride, of which the worst counts. Starts, and stops, for which a body finishes its step, have criteria of
-//! their own: standing bodies are blended with every synthesis.
+//! measure is the distance after one step between the root and the position to which the command leads from the last
+//! root. Blending follows (v_f, ω_t, ω_s) that change from one steady gait to another; its measure is the distance to a
+//! root that did exactly what it was commanded, one cycle after the command is steady again. Each command comes at
+//! eight times of the stride, of which the worst counts. Starts, and stops, for which a body finishes its step, have
+//! criteria of their own: standing bodies are blended with every synthesis.
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
@@ -133,7 +133,7 @@ enum Standing {
 /// Runs the bench.
 ///
 /// # Errors
-/// Where the database cannot be read.
+/// If the database cannot be read.
 pub fn run(args: &Args, _: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = database(&args.database)?;
     let semi_procedural = context(db.clone(), Modes::SemiProcedural);

@@ -1,4 +1,4 @@
-//! Sets of clips that lack motions that a crowd needs: their walk alone makes them sound databases, with which agents
+//! Sets of clips that lack motions that a crowd needs: their walk alone makes them valid databases, with which agents
 //! arrive.
 
 use std::sync::Arc;

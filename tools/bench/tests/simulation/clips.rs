@@ -34,7 +34,7 @@ pub(super) fn marine() -> MotionDb {
     compiled(marine_files(&mocap()))
 }
 
-/// The paper's clips but for those whose file names hold a word.
+/// The paper's clips except those whose file names hold a word.
 pub(super) fn marine_without(word: &str) -> MotionDb {
     let is_kept = |file: &PathBuf| !file.file_name().is_some_and(|name| name.to_string_lossy().contains(word));
     compiled(marine_files(&mocap()).into_iter().filter(is_kept).collect())

@@ -24,7 +24,7 @@ fn plans_turn_and_move_with_the_scene() {
 }
 
 #[test]
-fn no_velocity_of_the_grid_is_better_than_the_solution() {
+fn no_grid_velocity_beats_the_solution() {
     for seed in 0..6000 {
         assert_eq!(linear_program::fault(seed, 0), None, "seed {seed}");
     }

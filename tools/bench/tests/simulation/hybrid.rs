@@ -94,7 +94,7 @@ fn a_switch_accelerates_joints_little_more_than_clips() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn a_switch_accelerates_joints_little_more_than_clips_with_real_clips() {
+fn switch_acceleration_is_small_with_real_clips() {
     check_accelerations(&marine());
 }
 
@@ -136,13 +136,13 @@ fn no_change_of_synthesis_takes_longer_than_t_trans() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn no_change_takes_longer_than_t_trans_with_real_clips() {
+fn changes_end_within_t_trans_with_real_clips() {
     // Slower than any of these clips, blending mixes standing, which m_sp cannot.
     check_duration(&marine(), 0.8);
 }
 
 #[test]
-fn the_papers_transition_switches_at_the_velocity_of_m_mb() {
+fn paper_transition_switches_at_m_mb_velocity() {
     let db = bundled();
     let m_mb = db.examples[db.correspondence.as_ref().unwrap().blending as usize].parameters;
     let params = HmsParams { transition: Transition::ThroughMMb, ..HmsParams::default() };

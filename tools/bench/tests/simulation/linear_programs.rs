@@ -37,7 +37,7 @@ proptest! {
     }
 
     #[test]
-    fn no_velocity_of_the_grid_yields_less_in_a_crowd(
+    fn no_grid_velocity_yields_less_in_crowd(
         mut half_planes in half_planes(4..9), firm in 0usize..4, optimal in optimal(),
     ) {
         for half_plane in &mut half_planes {

@@ -22,7 +22,7 @@ const STEPS_S: [f32; 3] = [1.0 / 120.0, 1.0 / 30.0, 0.1];
 const SUNK_MAX_M: f32 = 1e-3;
 /// Least flexion of a knee, rad: rounding.
 const KNEE_MIN_RAD: f32 = -1e-2;
-/// Least height of the pelvis, over that in standing: a deep crouch.
+/// Least height of the pelvis, divided by that in standing: a deep crouch.
 const CROUCH: f32 = 0.7;
 
 static STUDIOS: LazyLock<[SynthesisContext; 3]> = LazyLock::new(|| {

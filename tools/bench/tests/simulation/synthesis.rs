@@ -79,7 +79,7 @@ fn feet_of_the_bundled_clips_hold_through_changes() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn feet_of_real_clips_slide_less_than_in_the_clips() {
+fn feet_slide_less_than_in_real_clips() {
     let slide = walk(&marine(), |_, _| {});
     assert!(slide.slide_cm_s.unwrap() < slide.examples_slide_cm_s.unwrap(), "{slide:?}");
 }
@@ -102,7 +102,7 @@ fn no_sole_sinks_and_no_body_crouches() {
 
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
-fn no_sole_sinks_and_no_body_crouches_with_real_clips() {
+fn soles_and_pelvis_stay_up_with_real_clips() {
     check_height(&marine());
 }
 

@@ -14,7 +14,7 @@ pub(crate) const HEIGHT_M: f64 = 1.75;
 pub(crate) const THIGH_M: f64 = 0.245 * HEIGHT_M;
 /// Length of the shank, knee to ankle, m.
 pub(crate) const SHANK_M: f64 = 0.246 * HEIGHT_M;
-/// Height of the ankle over the sole, m.
+/// Height of the ankle above the sole, m.
 pub(crate) const ANKLE_HEIGHT_M: f64 = 0.039 * HEIGHT_M;
 /// Distance of a hip joint centre from the midline, m: about half of the bi-trochanteric breadth of .191 H.
 pub(crate) const HALF_HIP_M: f64 = 0.050 * HEIGHT_M;
@@ -26,7 +26,7 @@ pub(crate) const HEEL_X_M: f64 = -0.050;
 pub(crate) const BALL_X_M: f64 = 0.132;
 /// Tip of the toes ahead of the ankle, m.
 pub(crate) const TOE_TIP_X_M: f64 = 0.200;
-/// Height of the toe joint over the sole, m.
+/// Height of the toe joint above the sole, m.
 pub(crate) const TOE_JOINT_HEIGHT_M: f64 = 0.022;
 
 /// Number of joints, sole points included.

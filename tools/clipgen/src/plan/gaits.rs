@@ -16,9 +16,9 @@ use crate::plan::root_motion::RootMotion;
 
 /// Advance of the toe-off in turns, share of the stride per rad/s: a turning foot leaves the ground more slowly.
 const TURN_TOE_OFF_S: f64 = 0.013;
-/// Speeds at which the figures of a walk are given, m/s.
+/// Speeds at which the values of a walk are given, m/s.
 const WALK_SPEEDS_MPS: [f64; 5] = [0.5, 0.8, 1.1, 1.4, 1.8];
-/// Speeds at which the figures of a run are given, m/s.
+/// Speeds at which the values of a run are given, m/s.
 const RUN_SPEEDS_MPS: [f64; 2] = [2.4, 3.5];
 /// Least sway of a body that steps sideways or about itself, m.
 const STEP_SWAY_M: f64 = 0.025;

@@ -1,4 +1,4 @@
-//! The plan of a gait: what a speed makes of it, from published curves and figures.
+//! The plan of a gait: what a speed makes of it, from published curves and values.
 //!
 //! Enters: the motion of the root and the duration of a stride. Leaves: a [`GaitPlan`], and a [`StrideVariation`] that
 //! changes it from stride to stride.

@@ -170,7 +170,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn free_walks_strike_straight_and_swing_past_fifty_five_degrees() {
+    fn free_walks_have_human_knee_angles() {
         let style = PublishedGait::Walk { normalised_speed: 0.4315 };
         assert!(style.flexion(0.0, 0.59).knee_deg < 10.0);
         let peak = (0..100).map(|i| style.flexion(f64::from(i) / 100.0, 0.62).knee_deg).fold(0.0, f64::max);

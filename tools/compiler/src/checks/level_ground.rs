@@ -1,4 +1,4 @@
-//! Whether level ground carries a body by its feet; else what moves it.
+//! Whether the feet alone move a body on level ground; if not, what moves it.
 //!
 //! Stairs, ramps, moonwalks, turntables and jumps are human motion, but not locomotion on flat ground. Gait analysis finds
 //! no steady stride in them and cannot state why. Clips are in metres, z up.
@@ -27,7 +27,7 @@ const PATH_STEP_S: f64 = 0.25;
 const STANCE_SPAN_S: f64 = 0.7;
 /// Least slide of feet that do not carry the body, m/s for a person's leg; the noisiest captures slide by 0.18.
 const SLIDE_MIN_MPS: f64 = 0.4;
-/// Least slide of feet that do not carry the body, over the body's speed.
+/// Least slide of feet that do not carry the body, divided by the body's speed.
 const SLIDE_MIN_SHARE: f64 = 0.3;
 /// Least share of the time that feet keep to one slide; below it the slide is noise.
 const STANCE_SHARE_MIN: f64 = 0.3;
@@ -43,12 +43,12 @@ const STANDING_QUANTILE: f64 = 0.05;
 const FASTEST_MPS: f64 = 12.5;
 /// Least distance of a leap between two frames, m for a person's leg.
 const LEAP_MIN_M: f64 = 0.3;
-/// Least distance of a leap over the median distance between two frames.
+/// Least distance of a leap, divided by the median distance between two frames.
 const LEAP_OVER_USUAL: f64 = 5.0;
 /// Least duration of a clip whose missing steps count, s.
 const TURN_MIN_S: f64 = 1.0;
 
-/// The warning about what else than feet on level ground moves the body, if anything.
+/// The warning about what moves the body if not its feet on level ground; `None` if the feet do.
 pub(crate) fn warning(clip: &SourceClip, roles: &Roles, parameters: &SourceParameters) -> Option<Warning> {
     let scale = leg_length(clip, roles) / HUMAN_LEG_M;
     let steps = foot_passings(clip, roles, LEAD_MIN_M * scale).len();
@@ -62,7 +62,7 @@ struct GroundCheck<'a> {
     clip: &'a SourceClip,
     roles: &'a Roles,
     parameters: &'a SourceParameters,
-    /// Leg length over a person's.
+    /// Leg length, divided by a person's.
     scale: f64,
     /// Number of times that one foot passes the other.
     steps: usize,
@@ -100,7 +100,7 @@ impl GroundCheck<'_> {
         Some(Warning::Slope { rise_cm: (100.0 * rise_m / self.steps as f64) as f32 })
     }
 
-    /// Height of the lower foot at the clip's end over its height at the beginning, m.
+    /// Height of the lower foot at the clip's end minus its height at the beginning, m.
     fn rise_m(&self) -> f64 {
         let count = self.clip.frame_count();
         let span = ((STANCE_SPAN_S * self.clip.frame_rate_hz) as usize).clamp(1, count);

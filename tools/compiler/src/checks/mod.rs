@@ -1,9 +1,10 @@
-//! Checks: whether a clip can be true, and whether level ground carries the body.
+//! Checks whether a clip is plausible as human motion, and whether the feet alone move the body on level ground (no
+//! slope, treadmill or sliding root).
 //!
 //! Enters: a `SourceClip` with roles and whole-clip parameters, or a `HumanBody`. Leaves: warnings, verdicts and reasons
 //! of rejection, all typed.
 //!
-//! `plausibility` judges unit, up axis, gait and body; `level_ground` what else than feet moves the body.
+//! `plausibility` checks unit, up axis, gait and body; `level_ground` finds what moves the body if not the feet.
 
 pub(crate) mod level_ground;
 pub(crate) mod plausibility;

@@ -1,8 +1,9 @@
 //! Whether unit, up axis, gait and body of a clip can be true. Source clips in metres, z up, unless stated otherwise.
 //!
-//! A gait is judged by its cadence and by its walk ratio, step length over cadence, which people keep at 0.6 to 0.7
-//! cm/(step/min) over most speeds (Sekiya and Nagasaki 1998). A wrong frame time scales both. Steps of legs of another
-//! length scale with that length, cadences with the inverse of its root. A body is judged by its size and its bones.
+//! A gait is judged by its cadence and by its walk ratio, step length divided by cadence, which people keep at 0.6 to
+//! 0.7 cm/(step/min) over most speeds (Sekiya and Nagasaki 1998). A wrong frame time scales both. Steps of legs of
+//! another length scale with that length, cadences with the inverse of its root. A body is judged by its size and its
+//! bones.
 
 use std::ops::RangeInclusive;
 
@@ -39,7 +40,8 @@ const STEPS_MIN: usize = 3;
 const LEG_M: RangeInclusive<f64> = 0.1..=2.9;
 /// Least share of a leg that each of its two bones has, for a knee that bends. People: 0.47 to 0.53.
 const LEG_BONE_SHARE_MIN: f64 = 0.15;
-/// Greatest length of another bone, or of a foot, over the leg. People: 0.5; drawn characters with large heads: 1.
+/// Greatest length of another bone, or of a foot, divided by the leg's. People: 0.5; drawn characters with large heads:
+/// 1.
 const BONE_OVER_LEG_MAX: f64 = 1.5;
 /// Thigh plus shank of people, m, from the age of four on (about 0.4) to the tallest.
 const HUMAN_LEG_RANGE_M: RangeInclusive<f64> = 0.38..=1.2;

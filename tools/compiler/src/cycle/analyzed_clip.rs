@@ -72,7 +72,7 @@ impl AnalyzedClip {
         diagnostics.extend(self.diagnostics.iter().cloned());
         for (index, window) in self.windows.iter().enumerate() {
             let start_s = window.window_s[0] as f32;
-            let of_window = |found: Diagnostic| if index == 0 { found } else { found.of_example_from(start_s) };
+            let of_window = |found: Diagnostic| if index == 0 { found } else { found.with_example_start_s(start_s) };
             diagnostics.extend(window.diagnostics.iter().cloned().map(of_window));
         }
         diagnostics.extend(self.left_out.note().map(Diagnostic::Note));

@@ -1,4 +1,5 @@
-//! Flaws of a steady window: how far it is from a clean cycle. Of near-equal windows the one with the fewest stays.
+//! Flaws of a steady window: how far it is from a clean cycle. The window with the fewest flaws is kept of near-equal
+//! ones.
 //!
 //! A sum without unit. Each term is 1 where it could hardly be worse.
 

@@ -19,7 +19,7 @@ const SUSPECT_SHARE: f64 = 0.2;
 const EXCESSIVE_SLIDE_CM_S: f64 = 25.0;
 /// The same as a share of the body's speed; the greater of both limits counts. Hand-keyed runs reach 0.07.
 const EXCESSIVE_SLIDE_SHARE: f64 = 0.2;
-/// Share of the cycle below which a planted foot is no stance; sprinters' feet are planted for 0.22.
+/// Share of the cycle below which a planted foot is not a stance; sprinters' feet are planted for 0.22.
 const NO_STANCE_SHARE: f64 = 0.14;
 
 /// Slide and planted share of both feet, the cycle repeated along its arc.
@@ -61,7 +61,7 @@ pub(crate) fn foot_warnings(rates: &Rates, slide: &FootSlide) -> Vec<Diagnostic>
     found.into_iter().filter(|(is_so, _)| *is_so).map(|(_, warning)| Diagnostic::Warning(warning)).collect()
 }
 
-/// Slide over the slide from which on it is suspect at this speed.
+/// Slide, divided by the least suspect slide at this speed.
 pub(crate) fn relative_slide(rates: &Rates, slide: &FootSlide) -> f64 {
     let speed_mps = libm::hypot(rates.speed_mps, rates.strafe_mps);
     slide.slide_cm_s / f64::from(example_quality::suspect_slide_cm_s(speed_mps as f32))

@@ -1,9 +1,9 @@
 //! Loop closure: the gap that a stride leaves between its ends, and a pose of the stride without its part of the gap.
 //!
 //! The gap of pelvis and joints is spread evenly over the stride. A foot that did the same would slide all through its
-//! stance, by the gap over the period. So a foot makes up its own gap during its swing, as a walker does, and stands in
-//! between. Leg inverse kinematics brings it there, no farther from the hip than in the clip, so that no knee is
-//! straighter than it was. Root frame: metres, rotation vectors in radians.
+//! stance, by the gap divided by the period. So a foot makes up its own gap during its swing, as a walker does, and
+//! stands in between. Leg inverse kinematics brings it there, no farther from the hip than in the clip, so that no knee
+//! is straighter than it was. Root frame: metres, rotation vectors in radians.
 
 use glam::{DQuat, DVec3};
 use motiondb::body::{JOINT_COUNT, Joint};

@@ -54,7 +54,7 @@ pub fn mean_stride(
     let contacts = depths_s.iter().map(|depths_s| depths_s.map(contact)).collect();
     let mut cycle = GaitCycle { rows, contacts, phase_map, rates, steps: true };
     lower_to_mean_ground(&mut cycle, body);
-    foot_grounding::lift_soles(&mut cycle.rows, body);
+    foot_grounding::keep_soles_above_ground(&mut cycle.rows, body);
     cycle
 }
 
@@ -91,7 +91,7 @@ impl StrideReader<'_> {
     fn contact_depths_s(&self, phase: f64) -> [f64; 2] {
         let frame = self.frame(phase);
         self.stances.each_ref().map(|stances| {
-            // Of stances in order of time the nearest is the last that has begun or the next.
+            // Stances are in order of time: the nearest is the last that has begun, or the next.
             let next = stances.partition_point(|stance| stance.strike_frame <= frame);
             let nearest = &stances[next.saturating_sub(1)..(next + 1).min(stances.len())];
             let depths = nearest.iter().map(|stance| stance.depth_frames(frame));

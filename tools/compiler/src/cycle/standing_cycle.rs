@@ -1,7 +1,7 @@
 //! A body that stands → GaitCycle without steps: both feet planted, the root at rest.
 //!
 //! The period is that of m_sp, so that standing and walking share one clock (definition "Example" of
-//! `docs/definitions.md`). Of all windows of that length the calmest is taken, the one whose ends are most alike, and
+//! `docs/definitions.md`). The calmest of all windows of that length is used: the one whose ends are most alike, and
 //! closed like a stride. Times in frames of the clip; world frame in, root frame out: metres, seconds, radians.
 
 use std::ops::Range;

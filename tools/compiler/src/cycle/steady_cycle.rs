@@ -76,7 +76,7 @@ impl SteadyCycle {
     /// The steady cycle of frames in which the body stands.
     ///
     /// # Errors
-    /// Where the pelvis leaves its legs.
+    /// If the pelvis leaves its legs.
     pub(crate) fn of_rest(
         clip: &GroundedClip,
         frames: &Range<usize>,

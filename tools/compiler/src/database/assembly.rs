@@ -14,11 +14,11 @@ use crate::progress::{CompileEvent, Observer};
 use crate::retarget::human_clip::HumanBody;
 use crate::select::named_cycles::SelectedCycles;
 
-/// The database of cycles sorted by name; it may still be unsound.
+/// The database of cycles sorted by name; it may still be invalid.
 ///
 /// # Steps
 /// 1. (v_f, ω_t, ω_s), key times and slide of each example.
-/// 2. Blend space, of coincident examples by the best.
+/// 2. Blend space; the best of coincident examples is its corner.
 /// 3. Skeleton, velocity sets, rows.
 /// 4. m_sp, m_mb and correspondence times.
 pub(crate) fn assemble(

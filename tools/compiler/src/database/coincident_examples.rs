@@ -36,7 +36,7 @@ fn original_indices(corners: &[u32], order: &[usize]) -> Vec<u32> {
     examples
 }
 
-/// Every example that is no corner, with the nearest corner, which is blended in its place.
+/// Every example that is not a corner, with the nearest corner, which is blended in its place.
 pub(crate) fn coincident_pairs(parameters: &[Parameters], space: &BlendSpace) -> Vec<[usize; 2]> {
     let scaled = |index: usize| -> Vec3 { space.scaled(parameters[index]) };
     let mut is_corner = vec![false; parameters.len()];

@@ -1,13 +1,13 @@
 //! Girths of the human body: the radius of each body segment as a share of the stature.
 //!
 //! Men of the 2012 Anthropometric Survey of U.S. Army Personnel (ANSUR II; Gordon et al., NATICK/TR-15/007, 2014), in
-//! round figures, over the stature of 1.755 m. Limbs: circumference over 2π, mean of the segment's ends. Trunk, which is
-//! broader than deep: a quarter of breadth plus depth. They shape the drawn body and its capsules; nothing is measured
-//! by them. How far joints turn: [`motiondb::body::JOINT_RANGES_DEG`].
+//! round values, divided by the stature of 1.755 m. Limbs: circumference divided by 2π, mean of the segment's ends.
+//! Trunk, which is broader than deep: a quarter of breadth plus depth. They shape the drawn body and its capsules;
+//! nothing is measured by them. How far joints turn: [`motiondb::body::JOINT_RANGES_DEG`].
 
 use motiondb::body::JOINT_COUNT;
 
-/// Radius of the segment that each joint carries, over the stature.
+/// Radius of the segment that each joint carries, divided by the stature.
 #[rustfmt::skip]
 pub(crate) const SEGMENT_RADII_PER_STATURE: [f64; JOINT_COUNT] = [
     0.085, // pelvis: hips 0.35 m broad, 0.25 deep

@@ -59,7 +59,7 @@ pub enum CompileError {
     #[error(
         "the clips give a database that breaks `{invariant}`: {detail}; leave out the clip that this names, or repair it"
     )]
-    Unsound {
+    InvalidDatabase {
         /// Name of the invariant in `fbcrowd validate`.
         invariant: &'static str,
         /// Where and how the invariant is broken.

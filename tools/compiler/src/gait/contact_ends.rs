@@ -1,13 +1,13 @@
 //! The two ends of one contact of a foot with the ground, finer than frames.
 //!
 //! Between swing and stance the contact point is slow *and* low no more: (h/h₀)² + (v/v₀)² = 1, where h is its height
-//! over its planted height in this contact and v its speed in space. Heels strike behind the ankle: the heel is that of
-//! the sole here.
+//! above its planted height in this contact and v its speed in space. Heels strike behind the ankle: the heel is that
+//! of the sole here.
 //!
 //! A foot that rolls off over its toes may creep before it leaves, more so in captures at 120 frames per second, where
-//! markers on the shoe tremble. So a toe-off is no earlier than the onset of the swing. A leg swings nearly as a pendulum
-//! and gathers speed evenly: the tangent to its speed where that grows fastest leads back to the instant of release,
-//! whatever the frame rate and however fast the step.
+//! markers on the shoe tremble. So a toe-off is not earlier than the onset of the swing. A leg swings nearly as a
+//! pendulum and gathers speed evenly: the tangent to its speed where that grows fastest leads back to the instant of
+//! release, whatever the frame rate and however fast the step.
 //!
 //! The limits were fitted to events labelled by hand (`tests/gait_events`; history: `docs/tuning.md`). Times in ticks, a
 //! fraction of a frame of the clip; world frame: metres, seconds, Z up.
@@ -17,9 +17,10 @@ use std::ops::Range;
 use glam::DVec3;
 use motiondb::statistics::percentile;
 
-/// Greatest height of a landing foot over its planted height in this contact, m: in some captures it then sinks so far.
+/// Greatest height of a landing foot above its planted height in this contact, m: in some captures it then sinks so
+/// far.
 const STRIKE_HEIGHT_MAX_M: f64 = 0.05;
-/// Greatest height of a leaving foot over its planted height in this contact, m.
+/// Greatest height of a leaving foot above its planted height in this contact, m.
 const OFF_HEIGHT_MAX_M: f64 = 0.03;
 /// Greatest speed of a landing foot at its planted height, of a body that stands, m/s; fitted to labels.
 const STRIKE_SPEED_MAX_MPS: f64 = 0.15;
@@ -35,7 +36,7 @@ const DRAG_MAX_MPS: f64 = 0.8;
 const SPAN_S: f64 = 1.0 / 30.0;
 /// Share of a point's heights within one contact below its planted height.
 const PLANTED_PERCENTILE: f64 = 0.1;
-/// Speed of a landing foot over its median speed in the contact up to which it is planted, where its feet slide.
+/// Speed of a landing foot, divided by its median speed in the contact, up to which it is planted, if its feet slide.
 const STRIKE_SLIDE_RATIO_MAX: f64 = 1.0;
 /// The same of a leaving foot.
 const OFF_SLIDE_RATIO_MAX: f64 = 1.5;
@@ -64,11 +65,11 @@ pub(crate) fn frame_of(tick: isize) -> f64 {
 
 /// Height and speed up to which a foot is on the ground.
 pub(crate) struct ContactLimits {
-    /// Height over the planted height at speed 0, m.
+    /// Height above the planted height at speed 0, m.
     height_m: f64,
     /// Speed at the planted height, m/s.
     speed_mps: f64,
-    /// Speed over the median speed in the contact, where that is more than `speed_mps`.
+    /// Speed divided by the median speed in the contact, where that is more than `speed_mps`.
     slide_ratio: f64,
     /// Duration for which the foot may exceed these limits in between, s.
     slip_s: f64,
@@ -188,8 +189,8 @@ impl<'a> ContactPoints<'a> {
         (duration_s * self.frame_rate_hz * TICKS_PER_FRAME as f64) as isize
     }
 
-    /// Height of the contact point over its planted height (m), and its speed (m/s): of the lowest of the foot's points,
-    /// of several as low the slowest.
+    /// Height of the contact point above its planted height (m), and its speed (m/s): of the lowest of the foot's
+    /// points, of several as low the slowest.
     fn height_and_speed(&self, frame: f64) -> (f64, f64) {
         let half_frames = self.half_span_frames();
         let [from_m, at_m, to_m] =

@@ -1,15 +1,15 @@
 //! Foot contacts of a clip, frame by frame, by height and by speed. Planted-foot slide is measured over them.
 //!
-//! The contact point of a foot is the lowest of heel, ball and toe tip, each over its own planted height. The points lie
-//! on the sole where the clip has `…Sole` joints, else at the joints (ankle, ball, end of the toe). A foot is planted
-//! while its contact point is low and slow (definition "Planted-foot slide" of `docs/definitions.md`; limits and their
-//! tuning: `docs/tuning.md`). World frame: metres, Z up; one value a frame.
+//! The contact point of a foot is the lowest of heel, ball and toe tip, each above its own planted height. The points
+//! lie on the sole where the clip has `…Sole` joints, else at the joints (ankle, ball, end of the toe). A foot is
+//! planted while its contact point is low and slow (definition "Planted-foot slide" of `docs/definitions.md`; limits
+//! and their tuning: `docs/tuning.md`). World frame: metres, Z up; one value a frame.
 
 use glam::DVec3;
 
 use crate::frame_runs::frame_runs;
 
-/// Greatest height of a planted point over its planted height, m.
+/// Greatest height of a planted point above its planted height, m.
 const HEIGHT_MAX_M: f64 = 0.025;
 /// Greatest speed of a planted point of a body that stands, m/s.
 const SPEED_MAX_MPS: f64 = 0.25;
@@ -66,7 +66,7 @@ pub(crate) fn contact_frames(
     ContactFrames { planted, stepping }
 }
 
-/// Index of the lowest of a foot's three points over its planted height, and its height over that (m), at each frame.
+/// Index of the lowest of a foot's three points above its planted height, and its height above that (m), at each frame.
 ///
 /// Planted heights are taken over `window` frames about each frame: the floor of a capture may slope.
 fn lowest_points(feet: &[[DVec3; 3]], window: usize) -> Vec<(usize, f64)> {

@@ -1,7 +1,8 @@
 //! Gait: when the feet are on the ground, and in which parts of a clip the body steps steadily or stands.
 //!
-//! Enters: [`HumanClip`](crate::retarget::HumanClip)s and, on the target body, [`GroundedClip`](crate::ground::GroundedClip)s.
-//! Leaves: [`GaitWindow`]s of whole strides or of standing, and the stances of both feet; or why a clip has none.
+//! Enters: each clip twice: on the performer's body ([`HumanClip`](crate::retarget::HumanClip)) and on the target body
+//! ([`GroundedClip`](crate::ground::GroundedClip)). Leaves: [`GaitWindow`]s of whole strides or of standing, and the
+//! stances of both feet; or why a clip has none.
 //!
 //! Read `performer_gait` (the chapter's entry) and `windows` (its steps), then the steps one by one: `contacts`,
 //! `foot_stance` with `contact_ends`, `stride` on a `body_track`, `steady_strides` with `stride_spread`,

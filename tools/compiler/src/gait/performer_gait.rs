@@ -44,10 +44,10 @@ impl PerformerGait {
         let mut grounded = grounded_clip(clip, body);
         let first_frame = self.clip.loop_frames.unwrap_or(0);
         let stances = self.gait.clearest_stances();
-        foot_grounding::lower_to_ground(&mut grounded.poses, body, |side, frame| {
+        foot_grounding::shift_to_ground(&mut grounded.poses, body, |side, frame| {
             foot_stance::stands_at(&stances[side], (first_frame + frame) as f64)
         });
-        foot_grounding::lift_soles(&mut grounded.poses, body);
+        foot_grounding::keep_soles_above_ground(&mut grounded.poses, body);
         match self.clip.loop_frames {
             Some(round) => loop_unrolling::repeated(grounded, body, round),
             None => grounded,

@@ -15,7 +15,7 @@ pub(crate) const STANDING_JOINT_SPEED_MPS: f64 = 0.06;
 const STANDING_SHARE_MIN: f64 = 0.95;
 /// Least duration of a clip that stands, s; shorter clips are poses.
 pub(crate) const STANDING_MIN_S: f64 = 0.5;
-/// Span over which speeds within a capture are taken, s: a pause between two steps is no standing.
+/// Span over which speeds within a capture are taken, s: a pause between two steps is not standing.
 const REST_SPAN_S: f64 = 0.5;
 /// Least duration of a rest in a capture, s: longer than a stride of m_sp, so that the steps before and after fade.
 const REST_MIN_S: f64 = 1.5;

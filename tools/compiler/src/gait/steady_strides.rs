@@ -32,7 +32,7 @@ pub(crate) struct SteadyStrides {
     pub(crate) reading: usize,
     /// Strides of the window, end to end.
     pub(crate) strides: Vec<Stride>,
-    /// Greatest deviation of any stride from their mean, over its limit.
+    /// Greatest deviation of any stride from their mean, divided by its limit.
     deviation: f64,
 }
 
@@ -57,7 +57,7 @@ fn are_alike(strides: &[Stride]) -> bool {
 
 /// All steady windows between two frames, the longest first; of several as long the steadiest, then the first.
 ///
-/// Of several readings of the contacts the first that shows a window longest counts.
+/// If several readings of the contacts show the window, the first that shows it longest counts.
 pub(crate) fn steady_windows(readings: &[ClipSteps], [first, last]: [f64; 2]) -> Vec<SteadyStrides> {
     let mut windows: Vec<SteadyStrides> = Vec::new();
     let mut spans = vec![[first, last]];
@@ -114,7 +114,8 @@ fn longest_window(steps: &ClipSteps, reading: usize, [start, end]: [f64; 2]) -> 
     Some(SteadyStrides { reading, strides, deviation })
 }
 
-/// Difference between the two steps of a lone stride, over its limit: a body much faster in one of them starts or stops.
+/// Difference between the two steps of a lone stride, divided by its limit: a body much faster in one of them starts or
+/// stops.
 fn unevenness(stride: &Stride) -> f64 {
     let [first_mps, second_mps] = stride.step_speeds_mps;
     let [first_rad_s, second_rad_s] = stride.step_turn_rates_rad_s;

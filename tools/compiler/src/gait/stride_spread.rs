@@ -31,7 +31,7 @@ impl StrideSpread {
         self.period_frames.add(stride.period_frames);
     }
 
-    /// Greatest deviation of any stride from the mean, over its limit: at most 1 in a steady window.
+    /// Greatest deviation of any stride from the mean, divided by its limit: at most 1 in a steady window.
     pub(crate) fn deviation(&self) -> f64 {
         let mean = |spread: &ValueSpread| spread.sum / self.strides as f64;
         let deviation = |spread: &ValueSpread, limit: f64| {

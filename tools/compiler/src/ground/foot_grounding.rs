@@ -1,11 +1,11 @@
 //! Grounds the feet of poses on the target skeleton: planted soles lie on the ground at z = 0, no sole sinks.
 //!
-//! First the clip is shifted so that half of the planted soles lie over the ground, half below. A foot of other
-//! proportions, or one whose rig cannot bend its toes, rolls off through the ground, where human toes bend. So three
+//! First the clip is shifted so that the median height of planted soles is 0. A foot of other proportions, or one whose
+//! rig cannot bend its toes, pushes its toes through the ground at push-off, where human toes bend. So three
 //! corrections follow for each foot of each pose:
-//! 1. The ankle rises until heel and ball are on the ground; the knee gives.
+//! 1. The ankle rises until heel and ball are on the ground; the knee bends.
 //! 2. The toes bend up until their tip is on the ground.
-//! 3. Where the toes cannot bend so far, the ankle rises by the rest.
+//! 3. If the toes cannot bend so far, the ankle rises by the remaining depth.
 //!
 //! World frame: Z up, metres, radians.
 
@@ -18,14 +18,14 @@ use motiondb::statistics::percentile;
 use crate::ground::leg_ik;
 use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
 
-/// Depth that a sole may sink, m: what the pad of a heel and the sole of a shoe give under a body's weight.
+/// Depth that a sole may sink, m: compression of heel pad and shoe sole under body weight.
 const SOLE_DEPTH_MAX_M: f64 = 0.01;
 /// Greatest bend of the toes upward, rad: 60°, published range of the first metatarsophalangeal joint: 60–70°.
 const TOE_BEND_MAX_RAD: f64 = 60.0 * std::f64::consts::PI / 180.0;
 
-/// Of heel, ball and toe tip those that are on the ground before the toes bend.
+/// Indices of heel and ball in `sole_points_m` (heel, ball, toe tip).
 const HEEL_AND_BALL: Range<usize> = 0..2;
-/// All of heel, ball and toe tip.
+/// Indices of all three sole points.
 const WHOLE_SOLE: Range<usize> = 0..3;
 
 /// Height of the lowest of heel, ball and toe tip of one foot, m.
@@ -33,8 +33,8 @@ pub(crate) fn lowest_sole_m(joints: &HumanJoints, body: &HumanBody, side: usize)
     joints.sole_points_m(body, side).map(|point| point.z).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Shifts a clip so that its planted feet stand at z = 0; `is_planted` states it for a side and a frame.
-pub(crate) fn lower_to_ground(poses: &mut [HumanPose], body: &HumanBody, is_planted: impl Fn(usize, usize) -> bool) {
+/// Shifts a clip so that its planted feet stand at z = 0, by `is_planted(side, frame)`.
+pub(crate) fn shift_to_ground(poses: &mut [HumanPose], body: &HumanBody, is_planted: impl Fn(usize, usize) -> bool) {
     let mut heights_m = Vec::new();
     for (frame, pose) in poses.iter().enumerate() {
         let joints = pose.forward_kinematics(body);
@@ -45,8 +45,8 @@ pub(crate) fn lower_to_ground(poses: &mut [HumanPose], body: &HumanBody, is_plan
     poses.iter_mut().for_each(|pose| pose.pelvis_m.z -= ground_m);
 }
 
-/// Lifts heels, balls and toe tips that lie deeper than [`SOLE_DEPTH_MAX_M`].
-pub(crate) fn lift_soles(poses: &mut [HumanPose], body: &HumanBody) {
+/// Corrects heels, balls and toe tips that lie deeper than [`SOLE_DEPTH_MAX_M`].
+pub(crate) fn keep_soles_above_ground(poses: &mut [HumanPose], body: &HumanBody) {
     for pose in poses {
         for side in 0..2 {
             raise_foot(pose, body, side, HEEL_AND_BALL);
@@ -56,7 +56,7 @@ pub(crate) fn lift_soles(poses: &mut [HumanPose], body: &HumanBody) {
     }
 }
 
-/// Raises an ankle until no given sole point (of heel, ball, toe tip) lies too deep.
+/// Raises an ankle until none of the given sole points, by index, lies too deep.
 fn raise_foot(pose: &mut HumanPose, body: &HumanBody, side: usize, points: Range<usize>) {
     let joints = pose.forward_kinematics(body);
     let lowest_m = joints.sole_points_m(body, side)[points].iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
@@ -67,7 +67,7 @@ fn raise_foot(pose: &mut HumanPose, body: &HumanBody, side: usize, points: Range
     }
 }
 
-/// Bends the toes of one foot up until their tip lies no longer too deep.
+/// Bends the toes of one foot up until their tip does not lie too deep.
 fn bend_toes(pose: &mut HumanPose, body: &HumanBody, side: usize) {
     let joints = pose.forward_kinematics(body);
     let [foot, toe] = [Joint::FEET[side].index(), Joint::TOES[side].index()];
@@ -79,7 +79,8 @@ fn bend_toes(pose: &mut HumanPose, body: &HumanBody, side: usize) {
     }
 }
 
-/// The least turn of a vector about an axis, toes up, after which its end is at a height, or as near as it comes.
+/// The least turn of a vector about an axis, toes up, that brings its end to a height, or to the nearest reachable
+/// height.
 fn bend_to_height_rad(vector_m: DVec3, axis: DVec3, height_m: f64) -> f64 {
     // Turned by θ, the vector has the height p + a·cos θ + b·sin θ = p + r·cos(θ − δ).
     let parallel_m = axis * axis.dot(vector_m);
@@ -99,10 +100,10 @@ mod tests {
         synthetic::walk("walk", SyntheticWalk::default())
     }
 
-    /// Height of the lowest of all soles after [`lift_soles`], m.
+    /// Height of the lowest of all soles after [`keep_soles_above_ground`], m.
     fn lowest_lifted_m(clip: &HumanClip) -> f64 {
         let mut poses = clip.frames.clone();
-        lift_soles(&mut poses, &clip.body);
+        keep_soles_above_ground(&mut poses, &clip.body);
         let soles_m = poses.iter().flat_map(|pose| {
             let joints = pose.forward_kinematics(&clip.body);
             [0, 1].map(|side| lowest_sole_m(&joints, &clip.body, side))
@@ -114,7 +115,7 @@ mod tests {
     fn grounded_feet_do_not_change() {
         let clip = walk();
         let mut poses = clip.frames.clone();
-        lift_soles(&mut poses, &clip.body);
+        keep_soles_above_ground(&mut poses, &clip.body);
         assert_eq!(poses, clip.frames);
     }
 

@@ -87,7 +87,7 @@ struct LoopSeam {
     travelled_m: DVec3,
     /// Change of the facing by one round, rad.
     turned_rad: f64,
-    /// Height of the first pelvis over the last, m.
+    /// Height of the first pelvis above the last, m.
     height_gap_m: f64,
     /// Rotations from the last pose's joints back to the first's, as rotation vectors, rad.
     rotation_gaps: [DVec3; JOINT_COUNT],

@@ -1,4 +1,5 @@
-//! Grounding: every clip moves on one body, with a root free of stride ripple and feet on the ground.
+//! Grounding: transfers every clip to one common skeleton, removes the step oscillation from the root, and puts the
+//! feet on the ground.
 //!
 //! Enters: [`HumanClip`](crate::retarget::HumanClip)s, each on its performer's own body. Leaves: [`GroundedClip`]s on the
 //! target body, in the world frame (metres, seconds, radians, Z up).

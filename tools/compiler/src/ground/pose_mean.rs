@@ -12,7 +12,7 @@ use motiondb::body::Joint;
 use crate::ground::leg_ik;
 use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
 
-/// Height over the foot's lowest point at which a sole point counts 1/e for the position of the foot, m. A point that
+/// Height above the foot's lowest point at which a sole point counts 1/e for the position of the foot, m. A point that
 /// stands counts fully, a lifted one hardly.
 const STANDING_HEIGHT_M: f64 = 0.005;
 

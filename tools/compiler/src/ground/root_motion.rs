@@ -1,4 +1,4 @@
-//! HumanClip → GroundedClip: the performer's motion on the target body, over the ground at z = 0, with its real travel.
+//! HumanClip → GroundedClip: the performer's motion on the target body, on the ground at z = 0, with its real travel.
 //!
 //! 1. Proportions ([`crate::ground::target_body`]): the whole motion is scaled by the ratio of leg lengths and joint
 //!    rotations are kept. Where bones differ, leg inverse kinematics puts the ankles back to their scaled positions.
@@ -80,7 +80,7 @@ fn is_same_performer(source: &HumanBody, target: &HumanBody) -> bool {
 
 /// Turns foot and toes of the same performer as in the source.
 ///
-/// How a foot lies in its frame is measured in every clip anew, from the frames in which it is flattest. In a run no
+/// How a foot lies in its frame is measured in every clip, from the frames in which it is flattest. In a run no
 /// foot is flat, and that frame is a few degrees off.
 fn align_foot(pose: &mut HumanPose, source: &HumanBody, target: &HumanBody, side: usize) {
     let [foot, toe] = [Joint::FEET[side].index(), Joint::TOES[side].index()];

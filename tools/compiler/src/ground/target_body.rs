@@ -1,6 +1,6 @@
 //! The body that all examples of a database share.
 //!
-//! One performer keeps its proportions. Of several the median is taken, bone by bone, left and right alike, so that
+//! One performer keeps its proportions. For several, the median is used, bone by bone, left and right alike, so that
 //! mirrored cycles fit (definition "Target skeleton" of `docs/definitions.md`). Rest pose and frames are those of
 //! [`motiondb::body::Skeleton`]: metres.
 

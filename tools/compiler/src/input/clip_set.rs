@@ -22,7 +22,7 @@ pub struct ClipSet {
 /// Imports all clips of a manifest. A file that cannot be used is rejected and does not stop the others.
 ///
 /// # Errors
-/// [`CompileError::InvalidManifest`] where a clip contradicts the manifest.
+/// [`CompileError::InvalidManifest`] if a clip contradicts the manifest.
 pub fn import_clip_set(manifest: &Manifest, observer: &Observer) -> Result<ClipSet, CompileError> {
     observer(CompileEvent::Stage("import"));
     let import = |settings: &ClipSettings| {

@@ -71,7 +71,7 @@ impl ClipSettings {
     /// Overrides what the file states of its frame rate, unit, up axis and frames.
     ///
     /// # Errors
-    /// [`RejectionReason::ManifestContradicted`] where the clip has fewer frames than are stated.
+    /// [`RejectionReason::ManifestContradicted`] if the clip has fewer frames than are stated.
     pub(crate) fn apply_to(&self, clip: &mut SourceClip) -> Result<(), RejectionReason> {
         clip.frame_rate_hz = self.frame_rate_hz.unwrap_or(clip.frame_rate_hz);
         clip.metres_per_unit = self.metres_per_unit.or(clip.metres_per_unit);
@@ -92,7 +92,7 @@ impl ClipSettings {
     /// The source joints of the roles that `joints` names.
     ///
     /// # Errors
-    /// [`RejectionReason::ManifestContradicted`] where the clip has no joint of a stated name.
+    /// [`RejectionReason::ManifestContradicted`] if the clip has no joint of a stated name.
     pub(crate) fn joint_map(&self, clip: &SourceClip) -> Result<JointMap, RejectionReason> {
         let mut map = [None; JOINT_COUNT];
         for (&role, name) in &self.joints {

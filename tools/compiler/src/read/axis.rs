@@ -41,6 +41,6 @@ impl TryFrom<String> for Axis {
     fn try_from(name: String) -> Result<Self, String> {
         let axes = (0..3).flat_map(|index| [false, true].map(|is_negative| Self { index, is_negative }));
         let found = axes.into_iter().find(|axis| axis.name() == name);
-        found.ok_or_else(|| format!("`{name}` is no axis; write +X, -X, +Y, -Y, +Z or -Z"))
+        found.ok_or_else(|| format!("`{name}` is not an axis; write +X, -X, +Y, -Y, +Z or -Z"))
     }
 }

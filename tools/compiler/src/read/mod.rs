@@ -2,8 +2,8 @@
 //!
 //! Enters: bytes of a BVH or glTF file. Leaves: its clips, in the file's own unit and axes.
 //!
-//! Read `axis` and `source_clip`, then [`bvh`], then [`gltf`]. `decimal` reads numbers, `malformed` reports what breaks
-//! a format, `catch_panic` guards other crates' parsers.
+//! Read `axis` and `source_clip`, then [`bvh`], then [`gltf`]. `decimal` reads numbers, `malformed` makes the errors
+//! for broken files, `catch_panic` guards other crates' parsers.
 
 pub(crate) mod axis;
 pub mod bvh;

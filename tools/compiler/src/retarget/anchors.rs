@@ -23,11 +23,11 @@ const CHEST_SHARE: f64 = 0.65;
 const NECK_SHARE: f64 = 0.35;
 /// Position of a clavicle's root between the shoulders' middle (0) and the shoulder (1): near the breastbone.
 const CLAVICLE_SHARE: f64 = 0.15;
-/// Height of the head joint over the neck joint, over leg length.
+/// Height of the head joint above the neck joint, divided by leg length.
 const NECK_OVER_LEG: f64 = 0.12;
 /// Distance of the ball in front of the ankle, over leg length.
 const FOOT_OVER_LEG: f64 = 0.16;
-/// Height of the ankle over the ball, over leg length.
+/// Height of the ankle above the ball, divided by leg length.
 const ANKLE_OVER_LEG: f64 = 0.07;
 
 impl JointAnchor {

@@ -1,7 +1,7 @@
 //! Retargeting: a [`SourceClip`](crate::read::SourceClip) with roles becomes a [`HumanClip`], the canonical humanoid.
 //!
-//! Enters: joints in source units and axes, and their roles. Leaves: the performer's body and poses in metres, z up, the
-//! soles on z = 0, still moving through the world; and the whole-clip parameters of the source.
+//! Enters: joints in source units and axes, and their roles. Leaves: the performer's body; poses in world coordinates
+//! (metres, z up, soles at z = 0); the mean speed, turn rate and side speed of the clip.
 //!
 //! Read `stated_facing` and `units`; then `facing_frame`, `treadmill_speed` and `source_parameters` (whole-clip
 //! parameters) and `trim_t_poses`; then `anchors`, `joint_tracks`, `calibration` and `soles`; last `to_humanoid`, which

@@ -13,16 +13,16 @@ use motiondb::statistics::lower_quantile;
 
 use crate::retarget::joint_tracks::JointTracks;
 
-/// Distance of the heel behind the ankle, over the distance from ankle to ball: 5 cm of 13.
+/// Distance of the heel behind the ankle, divided by the distance from ankle to ball: 5 cm of 13.
 const HEEL_BEHIND: f64 = 0.4;
 /// Distance of the toe tip from the ball where the source has no toe end, over leg length: 7 cm for an adult.
 const TIP_OVER_LEG: f64 = 0.085;
 /// Least distance of a toe end that counts from the ball, over leg length.
 const TIP_MIN_OVER_LEG: f64 = 0.02;
-/// Height of a planted foot's lowest joint over the sole, over leg length: 2 cm for an adult.
+/// Height of a planted foot's lowest joint above the sole, divided by leg length: 2 cm for an adult.
 const THICKNESS_OVER_LEG: f64 = 0.024;
-/// Greatest height of a planted foot's lowest joint over the file's zero, where that is the ground, over leg length: 5 cm
-/// for an adult (Bandai's toe joints: 4).
+/// Greatest height of a planted foot's lowest joint above the file's zero, if that is the ground, divided by leg
+/// length: 5 cm for an adult (Bandai's toe joints: 4).
 const ZERO_TRUSTED_OVER_LEG: f64 = 0.06;
 /// Share of a point's heights below its planted height, as in [`crate::gait::contacts`].
 const PLANTED_QUANTILE: f64 = 0.05;

@@ -1,8 +1,8 @@
 //! Whole-clip parameters (v_f, ω_t, ω_s) of a source, on its own skeleton, unsmoothed. Clips are in metres, z up.
 //!
 //! v_f and ω_s are the means of the hip midpoint's velocity along the facing and to its left. ω_t is the change of the
-//! facing between its means over the first and the last 0.25 s, over the time between them. Of a clip in place, v_f and
-//! ω_s are those of the ground under its stance feet (`treadmill_speed`).
+//! facing between its means over the first and the last 0.25 s, divided by the time between them. For a clip in place,
+//! v_f and ω_s are those of the ground under its stance feet (`treadmill_speed`).
 
 use glam::DVec2;
 use motiondb::body::Joint;
@@ -17,7 +17,7 @@ use crate::rig::roles::Roles;
 const END_S: f64 = 0.25;
 /// Greatest extent of the hips' path in a clip in place, m for a person's leg.
 const IN_PLACE_EXTENT_M: f64 = 0.35;
-/// Greatest speed of the hips over that of the ground, in a clip in place whose hips go farther.
+/// Greatest speed of the hips, divided by that of the ground, in a clip in place whose hips go farther.
 const IN_PLACE_SHARE: f64 = 0.1;
 /// Least speed of the ground under a clip in place, m/s for a person's leg; slower feet stand or turn on the spot.
 const IN_PLACE_MIN_MPS: f64 = 0.2;

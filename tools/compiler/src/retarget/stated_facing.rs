@@ -14,7 +14,7 @@ const FACING_COSINE: f64 = 0.5;
 /// Exchanges the sides of `roles` where the hips of the first frame face away from `forward`, an axis of the source.
 ///
 /// # Errors
-/// Where that axis is vertical, or more than 60° off the body's facing both ways.
+/// If that axis is vertical, or more than 60° off the body's facing both ways.
 pub(crate) fn apply(clip: &SourceClip, roles: &mut Roles, forward: Axis) -> Result<(), RejectionReason> {
     let contradicted = |problem: String, remedy: &'static str| {
         Err(RejectionReason::ManifestContradicted { key: ManifestKey::Forward, problem, remedy })

@@ -22,7 +22,7 @@ use crate::rig::roles::Roles;
 
 /// Least length of a bone that is aimed, m: a millimetre of error would turn a shorter one by degrees.
 const SHORTEST_AIMED_M: f64 = 0.02;
-/// Height of the crown over the head joint, over leg length, as adults have it.
+/// Height of the crown above the head joint, divided by leg length, as adults have it.
 const CROWN_OVER_LEG: f64 = 0.24;
 /// Distance of the fingertips from the wrist where the source has no such joint, over leg length, as adults have it.
 const HAND_OVER_LEG: f64 = 0.21;

@@ -24,7 +24,7 @@ use crate::retarget::facing_frame::{facing_rad, heading, in_body_frame};
 use crate::retarget::units::{HUMAN_LEG_M, leg_length};
 use crate::rig::roles::Roles;
 
-/// Greatest height of a ball that votes, over its planted height, m for a person's leg: twice that of a contact.
+/// Greatest height of a ball that votes, above its planted height, m for a person's leg: twice that of a contact.
 const VOTE_HEIGHT_M: f64 = 0.05;
 /// Reach of the kernel, m/s for a person's leg: the speed limit of a contact (0.25) plus the hips' surge (0.15).
 const REACH_MPS: f64 = 0.4;
@@ -36,7 +36,8 @@ const STARTS: usize = 64;
 const SHIFTS_MAX: usize = 32;
 /// Shift at which the mean shift has converged, m/s.
 const CONVERGED_MPS: f64 = 1e-6;
-/// Greatest distance of human hip joints, over the leg. People: 0.14 to 0.25; drawn characters: 0.8 and more.
+/// Greatest distance of human hip joints, divided by the leg length. People: 0.14 to 0.25; drawn characters: 0.8 and
+/// more.
 const HIPS_OVER_LEG_MAX: f64 = 0.45;
 /// Share of a contact at each end that is left out: the foot may still land or already leave.
 const CONTACT_END_SHARE: f64 = 0.1;

@@ -16,7 +16,7 @@ use crate::read::source_clip::SourceClip;
 use crate::retarget::units::middle;
 use crate::rig::roles::Roles;
 
-/// Least size of a jump from a separate first pose, over the median step between two frames.
+/// Least size of a jump from a separate first pose, divided by the median step between two frames.
 const JUMP_OVER_MEDIAN: f64 = 8.0;
 /// Size of a jump beyond [`JUMP_OVER_MEDIAN`] times the median step, m.
 const JUMP_MIN_M: f64 = 0.05;
@@ -24,7 +24,7 @@ const JUMP_MIN_M: f64 = 0.05;
 const FRAMES_MIN: usize = 11;
 /// Least cosine between arms and shoulder line in a T-pose (30°).
 const SPREAD_COSINE: f64 = 0.87;
-/// Cosine between an arm and the shoulder line below which the pose is no T-pose (45°).
+/// Cosine between an arm and the shoulder line below which the pose is not a T-pose (45°).
 const LOWERED_COSINE: f64 = 0.71;
 /// Least duration of moving frames without the T-poses, s: a stride.
 const REST_MIN_S: f64 = 1.0;
@@ -76,7 +76,7 @@ fn least_s(clip: &SourceClip, roles: &Roles, kept: &Range<usize>) -> f64 {
     if mean_mps < STANDING_JOINT_SPEED_MPS { STANDING_MIN_S } else { REST_MIN_S }
 }
 
-/// Number of frames from a T-pose until the arms are as low as usual: 0 where the first frame is no T-pose, none where all
+/// Number of frames from a T-pose until the arms are as low as usual: 0 if the first frame is not a T-pose, none if all
 /// frames are.
 fn t_pose_frames(mut spreads: impl Iterator<Item = f64> + Clone) -> Option<usize> {
     if spreads.clone().next().is_none_or(|spread| spread <= SPREAD_COSINE) {

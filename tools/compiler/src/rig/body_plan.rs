@@ -17,24 +17,26 @@ const HANGING_WEIGHT: f64 = 0.05;
 const ARM_OVER_LEG: f64 = 0.68;
 /// Factor of the arms' length at which their weight falls to exp(−½).
 const ARM_LENGTH_FACTOR: f64 = 1.6;
-/// Height of the shoulders over the hips, in legs. Drawn characters: 0.5 to 1.4 times this.
+/// Height of the shoulders above the hips, divided by leg length. Drawn characters: 0.5 to 1.4 times this.
 const SHOULDER_OVER_LEG: f64 = 0.6;
 /// Deviation of the shoulders' height, in legs, at which the arms' weight falls to exp(−½).
 const SHOULDER_DEVIATION: f64 = 0.5;
 /// Least length of arms over legs: a shorter pair is a pair of fingers.
 const ARM_OVER_LEG_MIN: f64 = 0.25;
-/// Least score of legs over the best legs' score.
+/// Least score of legs, divided by the best legs' score.
 const UNLIKELY: f64 = 0.1;
-/// Distance of the hips from their fork, over the leg, at which the legs' weight falls to exp(−½). People: 0.1.
+/// Distance of the hips from their fork, divided by the leg length, at which the legs' weight falls to exp(−½). People:
+/// 0.1.
 const HIP_FROM_FORK: f64 = 0.5;
 /// Least standard deviation of an elbow's cosine. Plaits, wings and guns that are bound stiffly stay below.
 const STIFF_COSINE: f64 = 1e-4;
 /// Weight of a pair of limbs that do not bend.
 const STIFF_WEIGHT: f64 = 0.4;
-/// Least standard deviation of the hips' position, over the leg, of a body that travels: a straight path of a leg's
-/// length.
+/// Least standard deviation of the hips' position, divided by the leg length, of a body that travels: a straight path
+/// of a leg's length.
 const TRAVEL_MIN: f64 = 0.3;
-/// Least distance of a toe joint from the ankle over half the leg, and of a foot's end over the whole leg.
+/// Least distance of a toe joint from the ankle, divided by half the leg, and of a foot's end, divided by the whole
+/// leg.
 pub(crate) const TOE_DISTANCE: f64 = 0.12;
 /// Cosine below which toes, and also knees, contradict the sides that names state.
 const CONTRADICTING_COSINE: f64 = -0.7;
@@ -84,8 +86,8 @@ fn end_names(rig: &SourceRig, limb: &Limb) -> [String; 2] {
     [limb.joints[0], limb.joints[2]].map(|joint| rig.clip.joints[joint].name.clone())
 }
 
-/// The best legs of each two branches of a fork, with their likelihood: the score over the best score, times the weight
-/// of how they stand.
+/// The best legs of each two branches of a fork, with their likelihood: the score divided by the best score, times the
+/// weight of how they stand.
 fn likely_legs(rig: &SourceRig, pairs: Vec<LimbPair>) -> Vec<(f64, LimbPair)> {
     let mut likely: Vec<(f64, LimbPair)> = Vec::new();
     let best_score = pairs.first().map_or(1.0, LimbPair::score);

@@ -10,15 +10,15 @@ use motiondb::body::Side;
 use crate::rig::joint_names::{self, BodyPart};
 use crate::rig::source_rig::SourceRig;
 
-/// Accepted length of the lower bone over the upper one: people 0.8 to 1.2, drawn characters up to 2.4.
+/// Accepted length of the lower bone, divided by the upper one's: people 0.8 to 1.2, drawn characters up to 2.4.
 const BONE_RATIO: std::ops::RangeInclusive<f64> = 0.45..=2.6;
-/// Greatest distance of a skipped joint from its bone, over the bone's length.
+/// Greatest distance of a skipped joint from its bone, divided by the bone's length.
 const SKIPPED_OFF_BONE: f64 = 0.08;
-/// Greatest difference of the two sides' bones, over the longer one; captured legs differ by 0.04.
+/// Greatest difference of the two sides' bones, divided by the longer one; captured legs differ by 0.04.
 const SIDES_DIFFER: f64 = 0.15;
 /// Weights of a joint's name: the part that is sought, another part, a helper.
 const NAME_WEIGHTS: [f64; 3] = [1.25, 0.6, 0.4];
-/// Greatest standard deviation of the distance from the knee to a foot outside the leg's chain, over its mean.
+/// Greatest standard deviation of the distance from the knee to a foot outside the leg's chain, divided by its mean.
 const DETACHED_FOOT_LOOSENESS: f64 = 0.12;
 /// Greatest number of joints from a fork to the end of its limb; the busiest rig of the development set has 9.
 const MAX_CHAIN: usize = 16;

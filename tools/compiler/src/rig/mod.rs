@@ -2,8 +2,9 @@
 //!
 //! Enters: a [`SourceClip`], in source units and axes. Leaves: its [`Roles`], or why the skeleton is not human.
 //!
-//! Read `roles`, then `source_rig` (the skeleton as role search sees it), `joint_names` (hints), `limb` and `body_plan`,
-//! then `role_search` and `role_assignment` (one search), and last `two_bodies`.
+//! Read `roles`, then `source_rig` (the skeleton in the form that role search uses), `joint_names` (hints), `limb` and
+//! `body_plan`, then `role_search` and `role_assignment` (one search), and last `two_bodies` (files with two
+//! characters).
 
 mod body_plan;
 mod joint_names;
@@ -19,7 +20,7 @@ use crate::read::source_clip::SourceClip;
 
 pub use roles::{JointMap, Roles};
 
-/// The roles of a clip's joints. `known` states some of them: of legs and arms all six joints or none.
+/// The roles of a clip's joints. `known` states some of them: all joints of legs and arms, or none of them.
 ///
 /// # Errors
 /// Why the skeleton is not human, or why `known` cannot be true.

@@ -11,9 +11,10 @@ use crate::rig::limb::{Limb, LimbPair};
 use crate::rig::roles::{ARMS, LEGS, Roles};
 use crate::rig::source_rig::SourceRig;
 
-/// Greatest distance of the fingertips from the wrist, over the arm. People: 0.33. A farther joint is a held thing.
+/// Greatest distance of the fingertips from the wrist, divided by the arm length. People: 0.33. A farther joint is a
+/// held thing.
 const HAND_REACH: f64 = 0.6;
-/// Greatest distance of the toe tip from the ball, over the leg. A farther joint is a worn thing.
+/// Greatest distance of the toe tip from the ball, divided by the leg length. A farther joint is a worn thing.
 const FOOT_REACH: f64 = 0.4;
 
 /// Roles of a body with these limbs, `[left, right]`.

@@ -20,7 +20,8 @@ const UPRIGHT_COSINE: f64 = 0.45;
 /// Greatest share of a body's path along the line from feet to shoulders (cosine of 37°). On stairs 0.6, bent double
 /// 0.65.
 const LENGTHWISE_MAX: f64 = 0.8;
-/// Greatest standard deviation of a leg bone's length, over its mean. Knees of one hand-keyed walk translate by 0.05.
+/// Greatest standard deviation of a leg bone's length, divided by its mean. Knees of one hand-keyed walk translate by
+/// 0.05.
 const LOOSE_BONE: f64 = 0.15;
 
 /// The roles that one search finds.

@@ -1,4 +1,5 @@
-//! A source skeleton as role search sees it: hierarchy, names' hints, and geometry as means over sampled frames.
+//! A source skeleton in the form that role search uses: hierarchy, names' hints, and geometry as means over sampled
+//! frames.
 //!
 //! Lengths are in source units. Frames are spread evenly over the clip.
 
@@ -77,7 +78,7 @@ impl<'a> SourceRig<'a> {
         self.frames.iter().all(|&frame| holds(frame))
     }
 
-    /// Standard deviation of the distance of two joints, over its mean; 0 for a rigid bone.
+    /// Standard deviation of the distance of two joints, divided by its mean; 0 for a rigid bone.
     pub(crate) fn looseness(&self, a: usize, b: usize) -> f64 {
         let length = |frame: usize| (self.clip.position(frame, a) - self.clip.position(frame, b)).length();
         self.deviation(length) / self.mean(length).max(1e-12)

@@ -1,7 +1,7 @@
-//! Two bodies in one skeleton: a duet under one root.
+//! Two bodies in one skeleton: files with two characters under one root.
 //!
-//! Where a hierarchy first forks, the branches of one body are legs and a trunk; none of them is a body by itself. Of a
-//! duet, two branches are.
+//! At the first fork of a hierarchy, the branches of one body are legs and a trunk; none of them is a body by itself.
+//! In a file with two characters, two branches are.
 
 use motiondb::body::JOINT_COUNT;
 

@@ -26,7 +26,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_straight_walk_nearest_its_speed_is_the_base_walk() {
+    fn base_walk_is_nearest_straight_walk() {
         let rates = |speed_mps, turn_rate_rad_s| Rates { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
         let (run, bend, walk) = (rates(3.0, 0.0), rates(1.2, 0.5), rates(1.0, 0.0));
         assert_eq!(base_walk(&[run, bend, walk]), Some(2));

@@ -1,8 +1,8 @@
 //! AnalyzedClip → which of its steady windows become examples: of near-equal windows the best.
 //!
-//! 1. Of the windows of one clip that lie in one cell of a grid in (v_f, ω_t, ω_s) ([`rate_cells`]) the one with the
-//!    fewest flaws stays ([`crate::cycle::flaws`]). The longest of the rest is the clip's own example, whatever else the
-//!    set holds: the user gave it.
+//! 1. Among the windows of one clip that lie in one cell of a grid in (v_f, ω_t, ω_s) ([`rate_cells`]), the one with
+//!    the fewest flaws stays ([`crate::cycle::flaws`]). The longest of the rest is the clip's own example, whatever
+//!    else the set holds: the user gave it.
 //! 2. Every further window must add to the set: by its flaws, the best first, a window stays that is near-equal to no
 //!    example so far.
 
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn each_steady_part_gives_an_example_named_by_its_second() {
+    fn steady_parts_are_named_by_their_second() {
         let parts = [part(0.7, 0.0, 6.0), idle("part", 3.0), part(1.3, 0.0, 5.0), part(0.8, 0.8, 4.0)];
         let db = database_of(vec![performance("capture", &parts)], 0);
         let [slow, rest, fast, turn] = recorded(&db)[..] else { panic!("{:#?}", db.examples) };

@@ -72,8 +72,8 @@ fn best_standing(cycles: &[NamedCycle]) -> Option<usize> {
     standing.min_by(|a, b| cycles[*a].flaws.total_cmp(&cycles[*b].flaws))
 }
 
-/// (v_f, ω_t, ω_s) of each cycle, divided by the ranges over all cycles and their mirrors; 0 on an axis on which all lie
-/// within a cell, which is no range.
+/// (v_f, ω_t, ω_s) of each cycle, divided by the ranges over all cycles and their mirrors; 0 on an axis on which all
+/// lie within a cell, which does not count as a range.
 fn normalised_rates(cycles: &[NamedCycle]) -> Vec<DVec3> {
     let points: Vec<DVec3> = cycles.iter().map(|named| in_cells(&named.cycle.rates)).collect();
     let both = || points.iter().flat_map(|point| [*point, mirrored(*point)]);
@@ -109,8 +109,8 @@ mod tests {
     use crate::synthetic::{SyntheticWalk, database_of, idle, recorded, walk};
 
     #[test]
-    fn a_limited_set_keeps_the_walk_the_idle_and_the_farthest() {
-        // Different cadences: no two of the clips are copies of one take.
+    fn limited_set_keeps_walk_idle_and_farthest() {
+        // Different cadences: no two of the clips are duplicates.
         let clip = |name: &str, speed_mps, turn_rate_rad_s, period_s| {
             walk(name, SyntheticWalk { period_s, ..SyntheticWalk::at(speed_mps, turn_rate_rad_s, 0.0) })
         };

@@ -1,6 +1,7 @@
 //! Selection: which steady cycles become examples, under which names, with which mirrors.
 //!
-//! Enters: for each clip its steady cycles. Leaves: named cycles, sorted later by name, and notes on what is left out.
+//! Enters: for each clip its steady cycles. Leaves: named cycles (not yet sorted), and a note for each cycle left
+//! out.
 //!
 //! Read in the order of the pipeline: `best_windows`, `named_cycles`, `limited_set`, `mirror`; `base_walk` chooses m_sp.
 

@@ -49,7 +49,7 @@ impl SelectedCycles {
     /// The cycles in the order of a database: by name.
     ///
     /// # Errors
-    /// Where there is no cycle.
+    /// If there is no cycle.
     pub(crate) fn sorted(mut self) -> Result<Self, CompileError> {
         self.cycles.sort_by(|a, b| a.name.cmp(&b.name));
         if self.cycles.is_empty() {
@@ -62,7 +62,7 @@ impl SelectedCycles {
 /// The cycles of all clips, one for each window, and the records of all clips.
 ///
 /// # Errors
-/// Where the clip that a manifest chose as m_sp does not step.
+/// If the clip that a manifest chose as m_sp does not step.
 pub(crate) fn named_cycles(
     clips: &[HumanClip],
     analyzed: Vec<AnalyzedClip>,

@@ -44,7 +44,7 @@ pub(crate) fn part(name: &str) -> usize {
 #[derive(Clone)]
 pub(crate) struct Performance {
     pub frame_rate_hz: f64,
-    /// Of each part from its parent, in the parent's frame.
+    /// Offset of each part from its parent, in the parent's frame, m.
     pub offsets_m: [DVec3; 22],
     pub poses: Vec<Pose>,
     /// Forward speed, m/s; turn rate, degrees a second; speed to the left, m/s.

@@ -4,10 +4,10 @@
 
 use schemars::JsonSchema;
 
-/// The figures of one recording. Times and accelerations are those of the synthesised root, without the gait's sway.
+/// The measures of one recording. Times and accelerations are those of the synthesised root, without the gait's sway.
 /// Mirror of [`fbcrowd_sim::measures::Measures`].
 #[derive(JsonSchema)]
-#[schemars(rename = "Measures", description = "The figures of one recording.")]
+#[schemars(rename = "Measures", description = "The measures of one recording.")]
 pub struct MeasuresMirror {
     /// Number of agents, N.
     agents: usize,
@@ -29,8 +29,8 @@ pub struct MeasuresMirror {
     stalled: usize,
     /// Mean time until arrival, s; null where no agent arrived.
     mean_time_to_goal_s: Option<f64>,
-    /// Length of the path until arrival over that of the straight line along the waypoints, mean over the agents that
-    /// arrived; null where no agent arrived.
+    /// Length of the path until arrival, divided by that of the straight line along the waypoints; mean over the agents
+    /// that arrived; null where no agent arrived.
     path_over_straight_line: Option<f64>,
     /// Share of the steps before arrival in which an agent walks sideways at held facing, 0 to 1.
     strafing_share: f64,

@@ -14,15 +14,15 @@ pub struct ExampleQualityMirror {
     planted_slide_cm_s: f32,
     /// Share of the cycle in which a foot is planted, mean of both feet, 0 to 1.
     planted_share: f32,
-    /// Root mean square turn of the joints over the cycle's seam, over the median of all rows.
+    /// Root mean square turn of the joints over the cycle's seam, divided by the median of all rows.
     seam_angle_ratio: f32,
-    /// Root mean square change of the joints' angular velocity at the cycle's seam, over the median of all rows.
+    /// Root mean square change of the joints' angular velocity at the cycle's seam, divided by the median of all rows.
     seam_velocity_ratio: f32,
     /// Greatest depth of a sole under the ground, mm.
     penetration_mm: f32,
     /// Least flexion of a knee, degrees; negative where it is hyperextended.
     knee_flexion_min_deg: f32,
-    /// Greatest distance from hip to ankle, over the length of thigh plus shank.
+    /// Greatest distance from hip to ankle, divided by the length of thigh plus shank.
     leg_extension_max: f32,
     /// Greatest excess of a joint over the published human range, degrees; 0 within it.
     range_excess_deg: f32,
@@ -32,17 +32,17 @@ pub struct ExampleQualityMirror {
 
 /// Mirror of [`motiondb::quality::example_quality::Finding`].
 #[derive(JsonSchema)]
-#[schemars(rename = "Finding", description = "A quality figure beyond its threshold.")]
+#[schemars(rename = "Finding", description = "A quality measure beyond its threshold.")]
 pub struct FindingMirror {
     /// Name of the example.
     example: String,
-    /// Name of the figure, a key of `quality[]`.
+    /// Name of the measure, a key of `quality[]`.
     measure: String,
-    /// The figure, in `unit`.
+    /// The value, in `unit`.
     value: f32,
-    /// The threshold of the figure, in `unit`.
+    /// The threshold of the measure, in `unit`.
     threshold: f32,
-    /// Unit of figure and threshold; empty for ratios and shares.
+    /// Unit of measure and threshold; empty for ratios and shares.
     unit: String,
     /// The finding as a sentence.
     sentence: String,

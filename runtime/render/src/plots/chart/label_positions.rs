@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn a_single_label_is_right_of_its_point_if_it_fits() {
+    fn single_label_is_right_of_its_point() {
         let bounds = LabelBox::within([0.0, 0.0, 200.0, 100.0]);
         for (x, low_x) in [(50.0, 50.0 + GAP_PX), (180.0, 180.0 - GAP_PX - 40.0)] {
             let point = Vec2::new(x, 50.0);

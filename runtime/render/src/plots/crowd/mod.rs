@@ -1,6 +1,6 @@
 //! Plots of crowds: paths, comparisons of planners, the fundamental diagram.
 //!
-//! Enters: tracks of a recording, or figures of a bench. Leaves: an opaque picture.
+//! Enters: tracks of a recording, or measures of a bench. Leaves: an opaque picture.
 //!
 //! Read `trajectories`, then `side_by_side`, `comparison` and `fundamental_diagram`.
 

@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn two_halves_are_in_order_and_a_random_crowd_is_not() {
+    fn halves_are_ordered_random_crowd_is_not() {
         let halves = lane_order(&walkers(200, |_, across_m| across_m > 0.0)).unwrap();
         assert!(halves.reduced().unwrap() > 0.9, "{halves:?}");
         let mixed: f64 = (0..20)

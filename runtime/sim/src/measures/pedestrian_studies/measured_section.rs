@@ -1,7 +1,7 @@
 //! Density and speed in a rectangle of the floor, and Weidmann's fundamental diagram to compare them with.
 //!
-//! The classical measurement: density is the number of agents in the section over its area, speed their mean along the
-//! corridor; both averaged over frames, each frame weighted by its number of agents. World, metres, seconds.
+//! The classical measurement: density is the number of agents in the section divided by its area, speed their mean
+//! along the corridor; both averaged over frames, each frame weighted by its number of agents. World, metres, seconds.
 
 use glam::Vec2;
 

@@ -1,6 +1,6 @@
 //! Measures of pedestrian studies: flow, lanes, density and speed, and the shape of a waiting crowd.
 //!
-//! Enters: the roots of all agents before and after each step. Leaves: the figures that studies of real crowds report.
+//! Enters: the roots of all agents before and after each step. Leaves: the measures that studies of real crowds report.
 //! Each file stands alone.
 
 pub(crate) mod gate;

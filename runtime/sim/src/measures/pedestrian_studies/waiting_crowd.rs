@@ -51,8 +51,8 @@ impl WaitingShape {
         self.reach_m.iter().sum::<f64>() / SECTORS as f64
     }
 
-    /// Standard deviation of the reach over its mean: 0 of a half-circle, √5 of a queue in one sector. None where no
-    /// agent waits.
+    /// Standard deviation of the reach, divided by its mean: 0 of a half-circle, √5 of a queue in one sector. None
+    /// where no agent waits.
     pub fn unevenness(&self) -> Option<f64> {
         let radius_m = self.radius_m();
         let squares = self.reach_m.iter().map(|reach_m| (reach_m - radius_m) * (reach_m - radius_m)).sum::<f64>();

@@ -1,7 +1,7 @@
 //! The planners that the paper compares MCN with (`FbCrowd` §7, Table 1), as their authors published them.
 //!
-//! Neither knows of bodies. Enters: the world view. Leaves: a plan whose velocity is the planner's and whose facing
-//! follows it; time to collision and density, which Eq. 1 reads, are measured as MCN measures them.
+//! Both plan for discs only. Enters: the world view. Leaves: a plan. Its velocity comes from the baseline, its facing
+//! follows the velocity. Time to collision and density (inputs of Eq. 1) are computed as in MCN.
 //!
 //! Read `orca`, `social_force`, then `facing`, which completes their plans.
 

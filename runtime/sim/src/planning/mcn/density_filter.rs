@@ -8,8 +8,8 @@
 //!    instead of the best keeps the velocity from jumping between directions.
 //!
 //! Two departures from Menge (docs/tuning.md):
-//! - Walls do not count. The diagram is of people who walk behind each other; a wall beside the path is no queue, and a
-//!   wall ahead is avoided as a wall.
+//! - Walls do not count. The diagram is of people who walk behind each other; a wall beside the path is not a queue,
+//!   and a wall ahead is avoided as a wall.
 //! - A neighbour that clears the path counts for less. The diagram is of one-way flow, and a neighbour that comes or
 //!   crosses has gone by the time the agent is there.
 //!
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_free_path_is_not_slowed_and_a_jam_does_not_stall() {
+    fn free_path_keeps_speed_jam_does_not_stall() {
         let params = McnParams::default();
         let free = filter(Vec2::new(1.3, 0.2), Vec2::ZERO, &at(&[Vec2::new(-2.0, 0.0)]), LEAD_S, &params);
         assert_eq!(free.velocity_mps, Vec2::new(1.3, 0.2));

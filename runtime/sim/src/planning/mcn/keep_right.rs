@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn the_turn_does_not_jump_when_an_agent_enters_the_path() {
+    fn turn_is_continuous_when_agent_enters_path() {
         for (grazes, misses) in [([1.0, 0.499], [1.0, 0.501]), ([4.49, 0.0], [4.51, 0.0])] {
             assert!((turn_rad(grazes) - turn_rad(misses)).abs() < 2e-3);
         }

@@ -1,5 +1,5 @@
-//! MCN, motion-constrained navigation (`FbCrowd` §4): from the preferred velocity to one that body, stance and crowd
-//! allow.
+//! MCN, motion-constrained navigation (`FbCrowd` §4): computes, from the preferred velocity, a velocity that satisfies
+//! the constraints of body, stance foot and crowd.
 //!
 //! Enters: the world view and the tunables. Leaves: the plan of one agent.
 //!

@@ -119,7 +119,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn distances_are_equal_in_the_agents_frame_and_the_world(
+        fn distances_are_equal_in_both_frames(
             facing in -4.0f32..4.0, x in -3.0f32..3.0, y in -3.0f32..3.0,
         ) {
             let (forward, velocity_mps) = (Vec2::from_angle(facing), Vec2::new(x, y));
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_set_of_one_or_two_corners_permits_its_line() {
+    fn degenerate_set_permits_its_line() {
         for corners_mps in [vec![Vec2::new(1.2, 0.0)], vec![Vec2::ZERO, Vec2::new(1.2, 0.0)]] {
             let half_planes = world_half_planes(&corners_mps, Vec2::Y);
             assert!(permits(&half_planes, Vec2::ZERO) && permits(&half_planes, Vec2::new(0.0, 1.2)));
@@ -174,7 +174,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn towards_v_pref_a_sharp_turn_permits_the_wrapping_polygon(
+        fn sharp_turn_to_v_pref_permits_wrapping_polygon(
             facing in -4.0f32..4.0, turn in 1.6f32..std::f32::consts::PI, left in any::<bool>(), speed_mps in 0.01f32..2.0,
         ) {
             let [forward, preferred] = [0.0, if left { turn } else { -turn }].map(|turn| Vec2::from_angle(facing + turn));
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn the_edge_that_a_tight_turn_meets_permits_walking_on() {
+    fn edge_at_tight_turn_permits_walking_on() {
         let edges_mps = sharp_turn_edges();
         let permits_walking = |half_plane: HalfPlane| {
             assert!(permits(&[half_plane], Vec2::ZERO));
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn turns_below_90_degrees_and_missing_edges_are_not_bound() {
+    fn gentle_turns_and_missing_edges_are_free() {
         let edges_mps = sharp_turn_edges();
         assert!(sharp_turns(&edges_mps).sharp_turn(Vec2::X, Vec2::new(0.01, 1.0)).is_none());
         assert!(sharp_turns(&edges_mps[..3]).sharp_turn(Vec2::X, Vec2::new(-1.0, -0.5)).is_none());

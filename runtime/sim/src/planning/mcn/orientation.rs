@@ -8,8 +8,9 @@
 //! An agent that faces v_pref while it walks in another direction side-steps, so the first line also requires that the
 //! holding set, at that facing, holds v_i: a body that the database cannot move so turns. Stepping back is our mirror
 //! image of it: v_pref·v_i < 0, for a shorter time. An agent that only shuffles may do either without limit. Both times
-//! are contiguous and start anew only after a rest at aligned facing; without that rule the facing would flicker. Where
-//! v_pref or v_i is 0 the facing is kept, but an agent that stands and has v_pref aside or behind turns on the spot.
+//! are contiguous and start again only after a rest at aligned facing; without that rule the facing would flicker.
+//! Where v_pref or v_i is 0 the facing is kept, but an agent that stands and has v_pref aside or behind turns on the
+//! spot.
 //!
 //! World axes, m/s, seconds.
 
@@ -22,7 +23,7 @@ use crate::planning::plan::VelocitySet;
 const STANDING_MPS: f32 = 0.1;
 /// Speed below which an agent shuffles and may hold its facing without limit, m/s (docs/tuning.md).
 const SHUFFLING_MPS: f32 = 0.4;
-/// Cosine of the angle to the facing within which a velocity is no side-step: 10°, as much as gait noise in the turn
+/// Cosine of the angle to the facing within which a velocity is not a side-step: 10°, as much as gait noise in the turn
 /// rate.
 const ALIGNED_COS: f32 = 0.984_807_8;
 /// Cosine of the angle to v_pref within which a facing is held; beyond it the body still turns: 30°.
@@ -30,7 +31,7 @@ const HELD_COS: f32 = 0.866_025_4;
 /// Distance outside the holding set up to which a velocity is walked at held facing, m/s; the set's half-planes then
 /// bring it in.
 pub(crate) const HOLDING_SLACK_MPS: f32 = 0.1;
-/// Rest at aligned facing after which a time over its limit starts anew, s: a stride.
+/// Rest at aligned facing after which a time over its limit starts again, s: a stride.
 const REST_S: f32 = 1.0;
 
 /// What the decision depends on.
@@ -53,7 +54,7 @@ pub(crate) struct OrientationInput {
 pub(crate) struct Orientation {
     /// f_d: unit vector along the facing to turn to.
     pub(crate) facing: Vec2,
-    /// The velocity set in force.
+    /// The active velocity set.
     pub(crate) set: VelocitySet,
     /// Contiguous time of strafing, s; beyond its limit, the limit plus the rest that is due.
     pub(crate) strafing_s: f32,
@@ -196,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_side_step_holds_the_facing_where_the_body_can() {
+    fn side_step_holds_facing_if_possible() {
         let aside = input(Vec2::new(0.3, 0.4));
         assert_eq!(decided(&aside, true).facing, Vec2::X);
         assert_eq!(decided(&aside, true).set, VelocitySet::Holding);
@@ -205,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn strafing_ends_at_its_limit_and_starts_anew_after_a_rest() {
+    fn strafing_has_a_limit_and_needs_rest() {
         let aside = Vec2::new(0.3, 0.4);
         let (spent, orientation) = walk_on(input(aside), McnParams::default().strafing_limit_s + 0.5);
         assert_eq!(orientation.facing, aside.normalize());
@@ -216,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn an_agent_steps_back_for_a_time_and_then_turns() {
+    fn agent_steps_back_then_turns() {
         let (_, early) = walk_on(input(-0.4 * Vec2::X), 1.0);
         assert_eq!((early.facing, early.set), (Vec2::X, VelocitySet::Holding));
         let (_, late) = walk_on(input(-0.4 * Vec2::X), 2.5);
@@ -253,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn an_agent_that_stands_turns_to_v_pref_aside_or_behind() {
+    fn standing_agent_turns_to_v_pref() {
         for forward in [Vec2::Y, -Vec2::X] {
             assert_eq!(decided(&OrientationInput { forward, ..input(Vec2::ZERO) }, true).facing, Vec2::X);
         }

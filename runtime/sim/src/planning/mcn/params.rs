@@ -6,7 +6,7 @@ use crate::planning::mcn::power_law::PowerLaw;
 
 /// The parts of MCN, each of which can be switched off to measure its effect: `[params.planner.parts]`.
 ///
-/// With all of them off, MCN is plain ORCA, but for its time horizon, a shorter one against agents that stand, a
+/// With all of them off, MCN is plain ORCA, except for its time horizon, a shorter one against agents that stand, a
 /// slightly greater distance from walls, and a body's greatest speed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -95,7 +95,7 @@ pub struct McnParams {
     pub strafing_limit_s: f32,
     /// Longest contiguous stepping back at held facing, s; agents that only shuffle have no limit.
     pub stepping_back_limit_s: f32,
-    /// The parts in force.
+    /// The active parts.
     pub parts: McnParts,
 }
 

@@ -22,7 +22,7 @@ pub(crate) struct PowerLaw {
 
 /// f_ij: the force on disc i from disc j, m/s², given p_j − p_i, v_i − v_j and r_i + r_j.
 pub(crate) fn agent_force_mps2(offset_m: Vec2, relative_mps: Vec2, radius_m: f32, law: &PowerLaw) -> Vec2 {
-    // Discs that overlap shrink to the depth of their overlap, as in the authors' code, whose figures `fbcrowd bench
+    // Discs that overlap shrink to the depth of their overlap, as in the authors' code, whose values `fbcrowd bench
     // table1 --discs` reproduces. Overlaps of more than half are left to the half-plane.
     let distance_m = offset_m.length();
     let radius_m = if distance_m < radius_m { radius_m - distance_m } else { radius_m };
@@ -75,7 +75,7 @@ mod tests {
         f64::from(LAW.strength) / (time_s * time_s) * (-time_s / f64::from(LAW.horizon_s)).exp()
     }
 
-    /// −∇E over the own position, by central differences.
+    /// −∇E by the own position, by central differences.
     fn downhill(time_s: impl Fn(Vec2) -> f32) -> Vec2 {
         let step_m = 4e-3;
         let along = |axis: Vec2| energy(time_s(axis * step_m)) - energy(time_s(-axis * step_m));
@@ -92,7 +92,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 
         #[test]
-        fn the_force_between_agents_is_the_slope_of_their_energy(
+        fn agent_force_is_slope_of_energy(
             offset in vector(4.0), velocity in vector(2.0), radius in 0.3f32..0.8,
         ) {
             let time_s = |moved| disc_with_disc(offset - moved, velocity, radius);
@@ -106,7 +106,7 @@ mod tests {
         }
 
         #[test]
-        fn the_force_of_a_wall_is_the_slope_of_its_energy(
+        fn wall_force_is_slope_of_energy(
             first in vector(4.0), second in vector(4.0), velocity in vector(2.0), radius in 0.2f32..0.5,
         ) {
             prop_assume!(first.distance(second) > 0.5);

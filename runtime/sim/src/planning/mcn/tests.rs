@@ -103,7 +103,7 @@ fn a_lone_agent_keeps_its_preferred_velocity() {
 }
 
 #[test]
-fn a_disc_speeds_up_alike_in_steps_of_any_length() {
+fn disc_acceleration_is_independent_of_step_length() {
     for dt_s in [1.0 / 120.0, 1.0 / 30.0, 0.1] {
         let mut scene = Scene { dt_s, bodies: false, ..alone(WALK) };
         scene.velocities_mps[0] = Vec2::ZERO;
@@ -178,7 +178,7 @@ fn an_agent_pushed_gently_steps_aside_at_held_facing() {
 }
 
 #[test]
-fn an_agent_steps_back_but_turns_in_the_papers_construction() {
+fn paper_construction_turns_instead_of_stepping_back() {
     let mut scene = Scene::new(&[[0.0, 0.0], [0.55, 0.0]]);
     scene.velocities_mps = vec![Vec2::ZERO, Vec2::new(-0.6, 0.0)];
     scene.preferred_mps[0] = Vec2::new(0.3, 0.0);
@@ -247,7 +247,7 @@ fn sharp_turns_matter_where_v_pref_lies_behind() {
 }
 
 #[test]
-fn the_form_of_the_stance_foot_matters_on_one_foot() {
+fn stance_shape_matters_on_one_foot() {
     let mut standing = alone(Vec2::new(0.0, 0.9));
     standing.velocities_mps[0] = standing.preferred_mps[0];
     let both_feet = standing.clone();

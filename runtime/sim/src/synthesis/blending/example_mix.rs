@@ -21,7 +21,7 @@ use crate::synthesis::blending::pose_weights::{MIX_MAX, PoseWeights};
 /// Share below which an example leaves the mix and is no longer sampled.
 const SHARE_MIN: f32 = 1e-4;
 
-/// The examples in play, their shares of time, and the rate at which they play. Sparse, without heap.
+/// The examples of the active motion, their shares of time, and the rate at which they play. Sparse, without heap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExampleMix {
     /// (example, share); the first `count` entries are in use.

@@ -1,4 +1,4 @@
-//! Command filter: what a body is to do, filtered from what its plans request.
+//! Command filter: the command of a body, filtered over time from what its plans request.
 //!
 //! Two agents that avoid each other change their plans at every step. A body that followed at once would tremble; one
 //! with a constant lag would fall behind a plan that really changes. So the lag depends on how steadily the requests

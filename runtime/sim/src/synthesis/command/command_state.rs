@@ -1,4 +1,4 @@
-//! The command group of a body's state: what the body is to do.
+//! The command group of a body's state: the command, and the state that it depends on.
 //!
 //! Plans are in the world, parameters (v_f, ω_t, ω_s) in the body's frame; m/s, rad/s.
 

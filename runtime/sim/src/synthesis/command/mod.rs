@@ -1,7 +1,6 @@
-//! Command: from a plan to what a body is to do, and how its mix of examples follows.
+//! From a plan to the command (v_f, ω_t, ω_s) of a body and the weights of its examples.
 //!
-//! Enters: a plan. Leaves: the command (v_f, ω_t, ω_s), what the examples reach of it, whether the body stands or
-//! steps, and the shares of the examples.
+//! Enters: a plan. Leaves: the command, the reachable command, the state (standing or stepping), the weights.
 //!
 //! Read in the order of a step: `displacement_accumulator`, `blend_query`, `command_filter`, `step_state` (the three
 //! that have state are held by `command_state`), `start_stop`, `weight_transition` with `acceleration_limit`,

@@ -22,7 +22,7 @@ use crate::synthesis::pose::FootLock;
 
 /// Time in which the phase catches up with a planted foot, s: about half a stance.
 const CATCH_UP_TIME_S: f32 = 0.2;
-/// Greatest change of the phase rate, over the rate itself.
+/// Greatest change of the phase rate, divided by the rate itself.
 const RATE_CHANGE_MAX: f32 = 0.4;
 /// Least speed u that counts, m/s: a slower foot hardly moves with its phase.
 const SPEED_MIN_MPS: f32 = 0.4;

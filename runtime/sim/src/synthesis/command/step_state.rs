@@ -83,7 +83,7 @@ impl StepState {
         !self.stands && reachable.idle_share < IDLE_SHARE_MAX
     }
 
-    /// Target of the motion in play: what the examples reach of the command, at no less than the least steps; standing
+    /// Target of the active motion: what the examples reach of the command, at no less than the least steps; standing
     /// for a body that stands. `current` gives the direction of the steps that gather the feet.
     pub(crate) fn target(&self, reachable: &Reachable, current: Parameters, domain: &BlendDomain) -> Parameters {
         if self.stands {

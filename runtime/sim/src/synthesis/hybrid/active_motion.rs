@@ -1,4 +1,4 @@
-//! The active motion: blending or semi-procedural locomotion, whichever is in force, at one phase.
+//! The active motion: blending or semi-procedural locomotion, whichever is active, at one phase.
 //!
 //! Root frame (x forward, y left, z up), metres; seconds.
 
@@ -16,7 +16,7 @@ pub(crate) enum ActiveMotion<'a> {
     Blending {
         /// Weights of the drawn mix, which give the pose.
         drawn: PoseWeights,
-        /// Weights of the mix in play, which give the contacts.
+        /// Weights of the active mix, which give the contacts.
         current: PoseWeights,
     },
     /// Semi-procedural locomotion as it is drawn.

@@ -1,10 +1,10 @@
 //! Hybrid synthesis: which of blending and semi-procedural locomotion moves a body, and the switch between them
 //! (`FbCrowd` §3.4.1, §5, App. 10).
 //!
-//! Enters: a plan and a command. Leaves: the motion in play, and the posture that it draws.
+//! Enters: a plan and a command. Leaves: the active motion and its pose.
 //!
-//! Read `motion_state` (what is in play), then `mode_selection` and `switching`, then what keeps the pose continuous:
-//! `pose_smoothing` and `inertialization`; `active_motion` samples the synthesis in force.
+//! Read `motion_state` (the state of the active motion), then `mode_selection` and `switching`, then what keeps the
+//! pose continuous: `pose_smoothing` and `inertialization`; `active_motion` samples the pose in the active mode.
 
 pub(crate) mod active_motion;
 pub(crate) mod inertialization;

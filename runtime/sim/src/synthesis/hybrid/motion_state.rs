@@ -1,4 +1,4 @@
-//! The motion group of a body's state: the motion in play.
+//! The motion group of a body's state: the active motion.
 //!
 //! Parameters (v_f, ω_t, ω_s) are in the body's frame (x forward, y left), m/s and rad/s.
 
@@ -17,14 +17,14 @@ use crate::synthesis::semi_procedural::BaseWalk;
 use crate::synthesis::semi_procedural::deformation::Tempo;
 use crate::synthesis::{Mode, SynthesisContext, TimeStep};
 
-/// The motion in play, what is drawn of it, and what is left of earlier motion.
+/// The active motion, the drawn motion that follows it, and the pose offset of the last switch.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionState {
-    /// Synthesis in force.
+    /// Active mode: blending or semi-procedural.
     pub mode: Mode,
     /// Synthesis that is to move the body.
     pub(crate) selection: ModeSelection,
-    /// Examples in play while the body blends.
+    /// Examples of the active motion while the body blends.
     pub mix: ExampleMix,
     /// Parameters of m_sp in semi-procedural locomotion.
     pub(crate) parameters: Parameters,
@@ -73,7 +73,7 @@ impl MotionState {
         ActiveMotion::new(context, self.mode, &self.smoothed[0], &self.mix, self.phase)
     }
 
-    /// What the motion is to change towards: the command, as far as the synthesis in force and the selected one reach
+    /// The target toward which the motion moves: the command, as far as the active mode and the selected one reach
     /// it.
     pub(crate) fn target(
         &self,
@@ -123,7 +123,7 @@ impl MotionState {
         };
     }
 
-    /// Lets the drawn motion follow the motion in play. Returns whether the body reverses.
+    /// Lets the drawn motion follow the active motion. Returns whether the body reverses.
     pub(crate) fn smooth(&mut self, db: &MotionDb, step: &TimeStep) -> bool {
         self.smoothed[1] = self.smoothed[0];
         self.smoothed[0].follow(self.mode, &self.mix, self.parameters, db, step)

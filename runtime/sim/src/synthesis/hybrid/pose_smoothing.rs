@@ -1,4 +1,4 @@
-//! Pose smoothing: the drawn motion follows the motion in play with a short lag.
+//! Pose smoothing: the drawn motion follows the active motion with a short lag.
 //!
 //! Weights and parameters change at limited rates that begin and end at once; joints that followed at once would jerk.
 //! So the pose is that of a mix, and of an m_sp, that lag a little; planted feet are locked meanwhile. The root does
@@ -37,7 +37,7 @@ impl SmoothedMotion {
         Self { mix, parameters: Parameters::default(), travel: Vec2::X, travel_rate_hz: Vec2::ZERO }
     }
 
-    /// Follows the motion in play over one step, in the mode in force. Returns whether the body reverses: its travel
+    /// Follows the active motion over one step, in the active mode. Returns whether the body reverses: its travel
     /// points against the drawn one.
     pub(crate) fn follow(
         &mut self,

@@ -66,7 +66,7 @@ impl MotionState {
         current.to_vec3().distance(reached.to_vec3()) <= SWITCH_TOLERANCE
     }
 
-    /// Puts a synthesis in force at the current parameters.
+    /// Makes a mode active at the current parameters.
     fn take_over(&mut self, mode: Mode, context: &SynthesisContext) {
         match mode {
             Mode::SemiProcedural => {

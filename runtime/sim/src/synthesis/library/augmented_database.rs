@@ -2,7 +2,7 @@
 //!
 //! Many sets of clips hold a few straight walks. With them bodies cannot turn, the planner has a line of velocities,
 //! and a crowd collides or stands. Semi-procedural locomotion supplies what is missing: deformed cycles of m_sp join
-//! the examples, and blend space and velocity sets are built anew. They are never written to a file.
+//! the examples, and blend space and velocity sets are built again. They are never written to a file.
 
 use std::sync::Arc;
 
@@ -20,9 +20,9 @@ use crate::synthesis::semi_procedural::{BaseWalk, Deformation};
 /// Coverage gaps with which bodies of a crowd cannot make progress.
 const NEEDED: [GapKind; 4] = [GapKind::Walking, GapKind::WalkingTurns, GapKind::TurningInPlace, GapKind::SideSteps];
 
-/// Parameters of the cycles that fill each coverage gap, over the speed of m_sp: speed, turn rate in rad/m, side speed.
-/// Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s; `fbcrowd bench reach` finds them well in
-/// reach.
+/// Parameters of the cycles that fill each coverage gap, divided by the speed of m_sp: speed, turn rate in rad/m, side
+/// speed. Unhurried: bends of 1.4 and 0.5 m radius, turns on the spot by 90 °/s; `fbcrowd bench reach` finds them well
+/// in reach.
 const FILLING: [(GapKind, Vec3); 11] = [
     (GapKind::Walking, Vec3::new(1.0, 0.0, 0.0)),
     (GapKind::Walking, Vec3::new(0.5, 0.0, 0.0)),

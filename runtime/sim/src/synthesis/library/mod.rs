@@ -1,4 +1,5 @@
-//! What all bodies share: the database, augmented for crowds, and what the synthesis derives from it once.
+//! Data shared by all bodies: the motion database, with standing and stepping examples added where crowds need them,
+//! and values derived from it once.
 //!
 //! Enters: a motion database and the tunables. Leaves: the synthesis context that every step of every body reads.
 //!

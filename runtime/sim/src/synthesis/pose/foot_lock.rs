@@ -9,7 +9,7 @@
 //! - *Swinging*: c and ψ decay by a critically damped filter of the third order that starts at their rates. Neither
 //!   velocity nor acceleration of the foot jumps at toe-off.
 //!
-//! World frame, metres and radians. z is the height over the ground, equal in world and root frame.
+//! World frame, metres and radians. z is the height above the ground, equal in world and root frame.
 
 use glam::{Quat, Vec2, Vec3};
 

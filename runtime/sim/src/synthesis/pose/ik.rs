@@ -13,9 +13,11 @@ use motiondb::body::{Joint, Pose, Skeleton};
 
 use crate::synthesis::pose::leg::{FootPose, PosedLeg};
 
-/// Greatest distance from hip to ankle over thigh plus shank: the angle of a straight knee changes infinitely fast.
+/// Greatest distance from hip to ankle, divided by thigh plus shank: the angle of a straight knee changes infinitely
+/// fast.
 const EXTENSION_MAX: f32 = 0.999;
-/// Least distance from hip to ankle over the difference of thigh and shank: so does that of a folded knee.
+/// Least distance from hip to ankle, divided by the difference of thigh and shank: the angle of a folded knee changes
+/// infinitely fast, too.
 const FLEXION_MARGIN: f32 = 1.001;
 /// Distance of a straight leg's knee before the line from hip to ankle, m: it gives the leg a plane, bent forward. At 1
 /// mm the knee swings out to the side where the pose difference after a switch straightens the leg.

@@ -8,7 +8,7 @@
 //! ⌈a, b⌉ = b + S(a − b)              soft maximum of a and b
 //! ```
 //!
-//! - *Deformed walk*: the pelvis keeps its height over the straighter leg. The drop is D = ⌈d, d′⌉ − ⌈d⁰, d⁰′⌉ (the
+//! - *Deformed walk*: the pelvis keeps its height above the straighter leg. The drop is D = ⌈d, d′⌉ − ⌈d⁰, d⁰′⌉ (the
 //!   prime marks the other leg) where D > 0. Where D < 0 the pelvis rises by a share of it.
 //! - *Locked feet*: the pelvis only drops. Each leg requires S(d) − S(d⁰)/(1 + (S(d) − S(d⁰))/s)²: nothing at the
 //!   pose's own foot, never less than d, and a little before the leg is straight. The drop is a soft maximum of both
@@ -22,10 +22,11 @@ use crate::maths::decay::soft_maximum;
 use crate::synthesis::TimeStep;
 use crate::synthesis::pose::leg::{FootPose, PosedLeg};
 
-/// Greatest length of a leg over thigh plus shank before the pelvis drops. A pose with a straighter leg keeps it.
+/// Greatest length of a leg, divided by thigh plus shank, before the pelvis drops. A pose with a straighter leg keeps
+/// it.
 pub(crate) const EXTENSION: f32 = 0.99;
-/// Greatest length of a leg over thigh plus shank in any case: a knee flexed by 6°. A blend may be straighter than its
-/// examples; beyond this the knee would snap at the end of the leg.
+/// Greatest length of a leg, divided by thigh plus shank, in any case: a knee flexed by 6°. A blend may be straighter
+/// than its examples; beyond this the knee would snap at the end of the leg.
 const EXTENSION_MAX: f32 = 0.9985;
 /// Greatest drop of the pelvis, m.
 pub(crate) const DROP_MAX_M: f32 = 0.12;

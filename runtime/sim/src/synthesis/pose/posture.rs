@@ -35,7 +35,7 @@ impl Posture {
         self.feet = self.legs.each_ref().map(PosedLeg::foot);
     }
 
-    /// Moves the targets to those of a deformed walk: heels rise, and the pelvis keeps its height over the straighter
+    /// Moves the targets to those of a deformed walk: heels rise, and the pelvis keeps its height above the straighter
     /// leg.
     pub fn move_feet(&mut self, feet: [FootPose; 2], skeleton: &Skeleton) {
         let raised = |side: usize| heel_rise::raised(&mut self.pose, skeleton, side, &self.legs[side], &feet[side]);

@@ -25,13 +25,14 @@ const BACKWARD_EFFORT: f32 = 1.4;
 /// Forward speed per turn rate that takes as many steps, m. Bundled turns on the spot by 90 and 170 °/s give 1.0 and
 /// 1.2; turns while walking give less.
 const TURN_EFFORT_M: f32 = 1.0;
-/// Least and greatest cadence over that of m_sp: from a stroll's to a shuffle's.
+/// Least and greatest cadence, divided by that of m_sp: from a stroll's to a shuffle's.
 pub(crate) const CADENCE_RANGE: [f32; 2] = [0.6, 2.2];
-/// Greatest forward speed over that of m_sp. People run from 2 m/s on (Hreljac 1993), 1.8 of a walk at 1.1 m/s.
+/// Greatest forward speed, divided by that of m_sp. People run from 2 m/s on (Hreljac 1993), 1.8 of a walk at 1.1 m/s.
 const FORWARD_MAX: f32 = 1.8;
-/// Greatest backward speed over the speed of m_sp; `fbcrowd bench reach` measures what legs reach, which is more.
+/// Greatest backward speed, divided by the speed of m_sp; `fbcrowd bench reach` measures what legs reach, which is
+/// more.
 const BACKWARD_MAX: f32 = 1.1;
-/// Greatest side speed over the speed of m_sp; `fbcrowd bench reach` measures what legs reach, which is more.
+/// Greatest side speed, divided by the speed of m_sp; `fbcrowd bench reach` measures what legs reach, which is more.
 const STRAFE_MAX: f32 = 1.1;
 /// Turn rate at which the greatest forward and backward speeds would shrink to 0, rad/s: the body leans into a turn,
 /// and its feet stand outward.
@@ -97,7 +98,7 @@ impl BaseWalk {
         })
     }
 
-    /// Cadence at some parameters over that of m_sp.
+    /// Cadence at some parameters, divided by that of m_sp.
     pub fn cadence(&self, parameters: Parameters) -> f32 {
         let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = parameters;
         let forward_mps = if speed_mps < 0.0 { BACKWARD_EFFORT * speed_mps } else { speed_mps };

@@ -6,7 +6,7 @@
 //!   so −φ is the reversed cycle. A body that walks backward plays it. A body that side-steps plays the mean of both,
 //!   in which legs swing neither forward nor backward.
 //! - Hips oscillate down to the landing of each foot ([`crate::synthesis::semi_procedural::landing`]); otherwise they
-//!   keep their height over the straighter leg.
+//!   keep their height above the straighter leg.
 //! - Foot positions move apart in side-steps and turns, so that legs do not cross, and outward where the body leans.
 //! - The amplitude of hips, trunk and arms grows with the stride.
 //!
@@ -40,7 +40,7 @@ const TOE_OUT_SHARE: f32 = 0.7;
 const KNEE_YAW_SHARE: f32 = 0.7;
 /// Share of the angle between travel and facing by which hips twist towards the travel.
 const HIP_TWIST_SHARE: f32 = 0.3;
-/// Least and greatest amplitude of hips, trunk and arms over that of m_sp.
+/// Least and greatest amplitude of hips, trunk and arms, divided by that of m_sp.
 const AMPLITUDE_RANGE: [f32; 2] = [0.3, 1.3];
 /// Factor on the drop of the hips at a landing: they are low early enough, and stay low until the other foot leaves.
 const LANDING_DROP_FACTOR: f32 = 1.15;
@@ -56,7 +56,7 @@ const LEAN_TANGENT_MAX: f32 = 0.365;
 pub struct Deformation<'a> {
     tempo: Tempo<'a>,
     parameters: Parameters,
-    /// Amplitude of hips, trunk and arms over that of m_sp.
+    /// Amplitude of hips, trunk and arms, divided by that of m_sp.
     amplitude: f32,
     /// Cosine and sine of the lean; the sine is positive to the left.
     lean: Vec2,
@@ -72,7 +72,7 @@ pub struct Deformation<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tempo<'a> {
     base: &'a BaseWalk,
-    /// Cadence over that of m_sp.
+    /// Cadence, divided by that of m_sp.
     cadence: f32,
     /// Direction of travel; shorter than 1 while it turns about.
     travel: Vec2,

@@ -7,7 +7,7 @@
 //! ankle(φ) = arc⁻¹(carried(φ)) · position(φ)
 //! ```
 //!
-//! The position of a standing foot is constant but for its roll, and its carried time runs with the clock. The same
+//! The position of a standing foot is constant except for its roll, and its carried time runs with the clock. The same
 //! positions, carried along another arc, make another walk in which planted feet hold by construction.
 //!
 //! Root frame (x forward, y left, z up); metres, seconds.

@@ -79,7 +79,7 @@ impl CellGrid {
         let (least_m, most_m) = if count == 0.0 { (Vec2::ZERO, Vec2::ZERO) } else { (least_m, most_m) };
         let size_m = most_m - least_m;
         let by_density_m = (size_m.x * size_m.y * AGENTS_PER_CELL / count.max(1.0)).sqrt();
-        // A long line of agents has no area; its length over their number bounds the number of cells.
+        // A long line of agents has no area; its length divided by their number bounds the number of cells.
         let by_length_m = (size_m.x + size_m.y) / count.max(1.0);
         let cells_per_m = 1.0 / by_density_m.max(by_length_m).max(CELL_MIN_M);
         let cells = size_m * cells_per_m;
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_a_line_and_an_empty_crowd_are_laid_out() {
+    fn degenerate_crowds_are_laid_out() {
         check(&vec![Vec2::new(3.0, -7.0); COUNT]);
         check(&(0..COUNT).map(|agent| Vec2::new(agent as f32, 0.0)).collect::<Vec<_>>());
         check(&[Vec2::ONE]);

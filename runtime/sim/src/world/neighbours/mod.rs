@@ -1,10 +1,10 @@
 //! The nearest neighbours of an agent: a search over grids that follow the crowd's density (`FbCrowd` §4.4).
 //!
 //! Enters: positions, velocities and radii of all agents, once a step; then a query per agent. Leaves: at most ten
-//! neighbours per query, as a list and as arrays for vector kernels.
+//! neighbours per query, as a list and as arrays for SIMD kernels.
 //!
-//! Read `neighbour`, then `rank` (which neighbour is better), `search` (how few agents are looked at) and `cell_layout`
-//! (where they lie in memory); `neighbour_lanes` is the form in which kernels read the result.
+//! Read `neighbour`, then `rank` (order of neighbours by relevance), `search` (visits few cells), `cell_layout` (memory
+//! order), `neighbour_lanes` (neighbours as arrays for SIMD kernels).
 
 pub(crate) mod cell_layout;
 pub(crate) mod neighbour;

@@ -6,8 +6,8 @@ use glam::Vec2;
 
 /// Neighbours that an agent takes into account: as many as in RVO2's examples (van den Berg et al. 2011).
 pub const NEIGHBOUR_COUNT: usize = 10;
-/// T: time ahead within which MCN ranks neighbours, s. Of 0.5, 1, 1.2 and 1.5 s, A was least with 1.5 s for a hundred
-/// agents that cross 0.8 m and 1 m apart.
+/// T: time ahead within which MCN ranks neighbours, s. Among 0.5, 1, 1.2 and 1.5 s, A was least with 1.5 s for a
+/// hundred agents that cross 0.8 m and 1 m apart.
 pub(crate) const RANKING_HORIZON_S: f32 = 1.5;
 
 /// One neighbour found.

@@ -71,7 +71,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn finds_the_same_in_a_pile_and_among_fast_agents(
+    fn finds_neighbours_in_piles_and_fast_crowds(
         mut positions in vectors(15.0, 260), mut velocities in vectors(1.5, 260), fast in vectors(1e4, 2),
         pile in vectors(0.05, 200),
     ) {
@@ -108,7 +108,7 @@ fn prefers_the_fast_approacher_to_a_nearer_companion() {
 
 proptest! {
     #[test]
-    fn a_rank_is_the_least_distance_within_the_horizon_plus_its_delay(
+    fn rank_is_least_distance_plus_delay(
         offset in vectors(5.0, 1), velocity in vectors(3.0, 1), horizon_s in 0.0f32..3.0,
     ) {
         let (offset_m, relative_mps) = (offset[0], velocity[0]);

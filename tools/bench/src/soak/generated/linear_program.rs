@@ -1,7 +1,8 @@
 //! Random linear programs, and whether the solution of [`solve`] is as good as the best velocity of a grid.
 //!
-//! Sets of half-planes: feasible, infeasible, equal, opposite to each other, parallel but for rounding, through the
-//! origin, or beyond any speed. The check uses no linear programming; it tries the velocities of a grid. World axes, m/s.
+//! Sets of half-planes: feasible, infeasible, equal, opposite to each other, parallel except for rounding, through the
+//! origin, or beyond any speed. The check uses no linear programming; it tries the velocities of a grid. World axes,
+//! m/s.
 
 use fbcrowd_sim::maths::SplitMix64;
 use fbcrowd_sim::planning::orca::{HalfPlane, HalfPlaneSource, Solution, solve, yielding};
@@ -28,9 +29,9 @@ pub fn fault(seed: u64, stream: u64) -> Option<&'static str> {
 
 /// The fault of a solution; none where nothing is wrong. The first `firm` half-planes never yield.
 ///
-/// A sound solution keeps the half-planes that it claims to keep. Where it keeps all, no velocity of the grid that keeps
-/// them is nearer to the optimal one. Otherwise no velocity of the grid violates those that yield, each by its weight,
-/// less.
+/// A valid solution keeps the half-planes that it claims to keep. Where it keeps all, no velocity of the grid that
+/// keeps them is nearer to the optimal one. Otherwise no velocity of the grid violates those that yield, each by its
+/// weight, less.
 pub fn fault_of(
     half_planes: &[HalfPlane],
     firm: usize,

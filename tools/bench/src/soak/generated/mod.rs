@@ -1,6 +1,6 @@
-//! Random worlds, scenes and linear programs, and what is wrong with what is planned in them.
+//! Random worlds, scenes and linear programs, and the faults of plans and solutions in them.
 //!
-//! In: a seed. Out: the fault of a plan or a solution; none where nothing is wrong. One file for each: [`world`],
+//! Enters: a seed. Leaves: the fault of a plan or a solution; none if nothing is wrong. One file for each: [`world`],
 //! [`turned_scene`], [`linear_program`].
 
 pub mod linear_program;

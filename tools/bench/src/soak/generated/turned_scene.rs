@@ -1,11 +1,11 @@
 //! Random scenes that are turned and moved: plans must not depend on position and direction of a scene.
 //!
-//! Ordinary states: a few agents close together, walls beside them, on one foot or two, side-stepping or not. Each scene
-//! is turned and moved by random amounts. The velocity that MCN or ORCA plans must turn with it, to within 1e−4 m/s. Of a
-//! million scenes 25 are further off, all but one by less than 1e−3: each of them is planned still more differently where
-//! its agent is moved by 1 µm, the rounding of a position that was turned and moved. Social forces are left out: with
-//! them that is ten times as frequent, since their law grows without bound towards a graze and is 0 beyond it. World,
-//! metres, seconds.
+//! Ordinary states: a few agents close together, walls beside them, on one foot or two, side-stepping or not. Each
+//! scene is turned and moved by random amounts. The velocity that MCN or ORCA plans must turn with it, to within 1e−4
+//! m/s. In 25 of a million scenes it is further off, in all except one by less than 1e−3: each of them is planned still
+//! more differently where its agent is moved by 1 µm, the rounding of a position that was turned and moved. Social
+//! forces are left out: with them that is ten times as frequent, since their law grows without bound towards a graze
+//! and is 0 beyond it. World, metres, seconds.
 
 use fbcrowd_sim::maths::SplitMix64;
 use fbcrowd_sim::params::Params;

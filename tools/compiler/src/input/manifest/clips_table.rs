@@ -91,7 +91,7 @@ impl ClipsTable {
         for (role, name) in &self.joints {
             if role_named(role.get_ref()).is_none() {
                 let roles = Joint::ALL.map(Joint::name).join(", ");
-                let message = format!("`{}` is no role; the roles are {roles}", role.get_ref());
+                let message = format!("`{}` is not a role; the roles are {roles}", role.get_ref());
                 return Err(source.invalid(role.span(), message, "name one of these"));
             }
             if let Some(other) = role_of.insert(name.get_ref(), role.get_ref()) {

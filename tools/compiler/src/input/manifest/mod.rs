@@ -5,7 +5,8 @@
 //! # Every key may be left out. All clips below the manifest's folder are used; tables state more about some of them.
 //! semi_procedural = "walk"            # base walk m_sp: name of its example
 //! target_skeleton = "walk"            # the clip whose body all examples share
-//! max_examples = 40                   # of near-equal ones the best are kept; mirrors are not counted
+//! max_examples = 40                   # maximum number of examples; of two near-equal examples the better is kept;
+//!                                     # mirrors are not counted
 //! velocity_hull = "paper"             # the paper's construction alone; default: "turning_and_holding"
 //!
 //! [[clips]]
@@ -14,11 +15,11 @@
 //! frame_rate_hz = 60.0
 //! up = "+Y"
 //! forward = "+Z"                      # facing in the first frame, to within 60°
-//! joints = { neck = "Neck1" }         # role = joint; of legs and arms all six or none
+//! joints = { neck = "Neck1" }         # role = joint; give all joints of legs and arms, or none of them
 //!
 //! [[clips]]
 //! path = "capture.bvh"                # a file: one clip; a second table of the same file makes a second clip
-//! animation = "Walk"                  # of a glTF file; by default all animations
+//! animation = "Walk"                  # animation of a glTF file; default: all
 //! name = "walk"                       # name of the example
 //! frames = [120, 480]                 # first and last, counted from 1
 //! mirror = false
@@ -28,8 +29,9 @@
 //! skip = true
 //! ```
 //!
-//! A file's own table overrides the tables of its folders; an inner folder's table overrides an outer one's; of two
-//! tables of one folder the later one counts. So `path = "."` with `skip = true` leaves only what other tables name.
+//! A file's own table overrides the tables of its folders; an inner folder's table overrides an outer one's; if two
+//! tables name the same folder, the later one applies. So `path = "."` with `skip = true` leaves only what other tables
+//! name.
 //!
 //! `clips_table` is one `[[clips]]` table; `clip_selection` applies all tables to the clips below the folder.
 
@@ -105,7 +107,7 @@ impl Manifest {
     /// A manifest from its text. Paths in it are relative to `source.path`.
     ///
     /// # Errors
-    /// [`CompileError::InvalidManifest`] where the text breaks the format or names a clip that does not exist;
+    /// [`CompileError::InvalidManifest`] if the text breaks the format or names a clip that does not exist;
     /// [`CompileError::UnreadableFolder`].
     pub fn parse(source: SourceText) -> Result<Self, CompileError> {
         let file: ManifestFile =
@@ -137,7 +139,7 @@ impl Manifest {
     /// Marks the clips that `semi_procedural` and `target_skeleton` name.
     ///
     /// # Errors
-    /// Where no clip has such a name.
+    /// If no clip has such a name.
     pub(crate) fn mark_chosen(&self, clips: &mut [HumanClip]) -> Result<(), Invalid> {
         if let Some(name) = &self.semi_procedural {
             let (clip, tenth) = self.clip_named(clips, name)?;

@@ -86,7 +86,7 @@ impl HierarchyReader {
             "OFFSET" => self.offset(line, words),
             "CHANNELS" => self.channels(line, words),
             _ => {
-                let problem = format!("`{}` is no statement of a BVH hierarchy", quoted(keyword));
+                let problem = format!("`{}` is not a statement of a BVH hierarchy", quoted(keyword));
                 malformed_line(line, problem, "repair the line")
             }
         }
@@ -193,6 +193,8 @@ impl HierarchyReader {
 fn channel(line: usize, word: &str) -> Result<&'static str, RejectionReason> {
     match CHANNELS.iter().find(|known| known.eq_ignore_ascii_case(word)) {
         Some(known) => Ok(known),
-        None => malformed_line(line, format!("`{}` is no channel", quoted(word)), "channels are Xposition … Zrotation"),
+        None => {
+            malformed_line(line, format!("`{}` is not a channel", quoted(word)), "channels are Xposition … Zrotation")
+        }
     }
 }

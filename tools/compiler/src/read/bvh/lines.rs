@@ -27,7 +27,7 @@ pub(crate) fn number(line: usize, word: &str) -> Result<f64, RejectionReason> {
     }
 }
 
-/// Remedy for a word that is no number. Some programs write decimal commas.
+/// Remedy for a word that is not a number. Some programs write decimal commas.
 pub(crate) fn number_remedy(word: &str, otherwise: &'static str) -> &'static str {
     if word.contains(',') { "write numbers with points, not commas" } else { otherwise }
 }

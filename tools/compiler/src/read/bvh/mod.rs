@@ -6,17 +6,17 @@
 //!
 //! # What our pre-pass does
 //! `prepass` reads the text first. It checks every statement of the hierarchy (`hierarchy`) and every number of the
-//! motion (`motion_section`, as `f64`), and names the line of each mistake. It accepts what other tools write: a byte
-//! order mark, CR or CRLF, any case of keywords, a brace beside a keyword, leaves without an End Site, a wrong `Frames:`,
-//! text after the last row. No allocation is larger than the file's bytes justify.
+//! motion (`motion_section`, as `f64`), and names the line of each mistake. It accepts files as other tools write them:
+//! a byte order mark, CR or CRLF, any case of keywords, a brace beside a keyword, leaves without an End Site, a wrong
+//! `Frames:`, text after the last row. No allocation is larger than the file's bytes justify.
 //!
 //! # Why both
-//! `bvh_anim` alone cannot read files as they are found. It panics on a byte order mark, a joint without a name, an extra
-//! brace and a huge `Frames:`. It cuts names at blanks, drops a last joint without an End Site, and rejects a wrong
-//! `Frames:`, channels in another case, a brace beside a keyword and bare CR. The pre-pass alone does not number the
-//! channels. So `canonical_text` writes the checked hierarchy anew (joints `j0`, `j1` …, an End Site on every leaf, no
-//! frames), `bvh_anim` reads that, and `kinematics` applies its channels to the checked numbers. Each number of the
-//! motion is parsed once.
+//! `bvh_anim` alone cannot read files as other tools write them. It panics on a byte order mark, a joint without a
+//! name, an extra brace and a huge `Frames:`. It cuts names at spaces, drops a last joint without an End Site, and
+//! rejects a wrong `Frames:`, channels in another case, a brace beside a keyword and bare CR. The pre-pass alone does
+//! not number the channels. So `canonical_text` rewrites the checked hierarchy (joints `j0`, `j1` …, an End Site on
+//! every leaf, no frames), `bvh_anim` reads that, and `kinematics` applies its channels to the checked numbers. Each
+//! number of the motion is parsed once.
 //!
 //! # Poses
 //! A joint's frame is its parent's frame, translated by OFFSET or by position channels, then rotated by its rotation
@@ -35,7 +35,7 @@ use crate::error::RejectionReason;
 use crate::read::malformed::malformed_line;
 use crate::read::source_clip::SourceClip;
 
-/// The text of a BVH file that `bvh_anim` can read, with all frames; none if the file is no BVH.
+/// The text of a BVH file that `bvh_anim` can read, with all frames; none if the file is not BVH.
 pub fn canonical_text(bytes: &[u8]) -> Option<String> {
     prepass::check(bytes).ok().map(|checked| checked.text(usize::MAX))
 }

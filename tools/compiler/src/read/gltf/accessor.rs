@@ -37,7 +37,7 @@ pub(crate) fn count(document: &Document, index: usize) -> Result<usize, Rejectio
     let count = usize::try_from(accessor.count.0).unwrap_or(usize::MAX);
     let has_bytes = match accessor.buffer_view {
         Some(_) => own_elements(document, accessor, element_type(index, accessor, false)?).is_some(),
-        // All zeros but for sparse elements: no more than the file has bytes.
+        // All zeros except sparse elements: no more than the file has bytes.
         None => count <= document.byte_count,
     };
     if count == 0 || !has_bytes { missing_bytes(index) } else { Ok(count) }

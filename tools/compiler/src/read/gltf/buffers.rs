@@ -57,7 +57,7 @@ pub(crate) fn linked_paths(file: &Path, uris: &[String]) -> Vec<PathBuf> {
 fn from_uri(file: &Path, position: &str, uri: &str, length: usize) -> Result<Vec<u8>, RejectionReason> {
     if let Some(data) = uri.strip_prefix("data:") {
         let decoded = data.split_once(";base64,").and_then(|(_, text)| BASE64.decode(text).ok());
-        return decoded.map_or_else(|| malformed(position, "its data URI is no base64", "export it as .glb"), Ok);
+        return decoded.map_or_else(|| malformed(position, "its data URI is not base64", "export it as .glb"), Ok);
     }
     let Some(name) = percent_decoded(uri) else {
         return malformed(position, "its URI is not percent-encoded text", "export it as .glb");

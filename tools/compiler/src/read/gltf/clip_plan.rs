@@ -12,7 +12,7 @@ use crate::read::gltf::node_channel::moving_channels;
 use crate::read::gltf::node_tree::{BodyNodes, NodeTree};
 use crate::read::malformed::malformed;
 
-/// Sampling rate, Hz: that of most recorded clips. Keys of animated characters are no denser.
+/// Sampling rate, Hz: that of most recorded clips. Keys of animated characters are not denser.
 pub(crate) const FRAME_RATE_HZ: f64 = 30.0;
 /// Greatest number of node-frames of a file, beside one for each of its bytes: 50 nodes for three minutes. Two keys can
 /// span any time.

@@ -36,7 +36,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<ParsedDocument<'_>, RejectionReason>
     catch_panic::catch(|| parse_unguarded(bytes)).unwrap_or_else(panicked)
 }
 
-/// Addresses of the buffers and pictures that lie outside a file; empty where the file is no document.
+/// Addresses of the buffers and pictures that lie outside a file; empty if the file is not a document.
 pub(crate) fn uris(bytes: &[u8]) -> Vec<String> {
     let json = catch_panic::catch(|| chunks(bytes)).and_then(Result::ok);
     let document: json::Value =
@@ -45,7 +45,7 @@ pub(crate) fn uris(bytes: &[u8]) -> Vec<String> {
     parts.filter_map(|part| Some(part.get("uri")?.as_str()?.to_owned())).collect()
 }
 
-/// Rejects, by the first bytes, files that are no glTF: cut short, packed, or in another encoding.
+/// Rejects, by the first bytes, files that are not glTF: cut short, packed, or in another encoding.
 fn check_is_gltf(bytes: &[u8]) -> Result<(), RejectionReason> {
     if bytes.is_empty() {
         return malformed("byte 0", "the file is empty", "export the clip again");

@@ -33,7 +33,7 @@ impl<'a> GltfFile<'a> {
     /// Reads the document. Its clips are read one by one by [`GltfFile::clip`].
     ///
     /// # Errors
-    /// [`RejectionReason::Malformed`] where the document breaks the format or holds no animation.
+    /// [`RejectionReason::Malformed`] if the document breaks the format or holds no animation.
     pub fn open(file: &'a Path, bytes: &'a [u8]) -> Result<Self, RejectionReason> {
         let document = Document::open(file, bytes)?;
         let tree = NodeTree::new(&document.root)?;
@@ -56,7 +56,7 @@ impl<'a> GltfFile<'a> {
     /// One clip.
     ///
     /// # Errors
-    /// [`RejectionReason::Malformed`] where the clip's part of the file breaks the format.
+    /// [`RejectionReason::Malformed`] if the clip's part of the file breaks the format.
     pub fn clip(&self, index: usize) -> Result<SourceClip, RejectionReason> {
         let plan = &self.plans[index];
         let span = plan.span.clone()?;

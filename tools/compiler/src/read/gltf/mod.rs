@@ -10,8 +10,8 @@
 //!   the document's folder. The crate's own importer is not built in.
 //! - `accessor` reads plain, sparse and normalised numbers by index. The crate's wrappers search each accessor from the
 //!   first one on and panic on an index out of range.
-//! - `node_tree` orders nodes and finds bodies, `key_track` interpolates keys (Appendix C), `clip_plan` names and limits
-//!   clips, `sampling` computes poses. The crate has none of these.
+//! - `node_tree` orders nodes and finds bodies, `key_track` interpolates keys (glTF 2.0 specification, Appendix C),
+//!   `clip_plan` names and limits clips, `sampling` computes poses. The crate has none of these.
 //!
 //! # Poses
 //! All nodes of a body count as joints, skinned or not. Scales above joints (Mixamo 0.01, Blender 100) multiply their
