@@ -1,6 +1,6 @@
 //! Rejection clips: what every command that reads clips prints of them, and what it answers.
 
-use motiondb_compiler::Rejection;
+use motiondb_compiler::{Outside, Rejection};
 
 use crate::terminal::failure::Answer;
 use crate::terminal::output;
@@ -10,6 +10,11 @@ pub(crate) fn say(refused: &[Rejection]) {
     for clip in refused {
         output::say(&format!("refused: {clip}"));
     }
+}
+
+/// The option `--allow-outside`.
+pub(crate) fn outside(is_allowed: bool) -> Outside {
+    if is_allowed { Outside::Allowed } else { Outside::Refused }
 }
 
 /// Yes where every clip was used.
