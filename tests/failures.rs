@@ -1,6 +1,6 @@
 //! Ends of the built binary that are no answer: wrong outputs, a machine that fails, signals. Exit codes 2, 3, 128 + n.
 
-#![cfg(unix)]
+#![cfg(target_os = "linux")]
 
 mod support;
 
