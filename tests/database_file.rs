@@ -12,7 +12,7 @@ use motiondb::files::database_file;
 use motiondb::motion::{MotionDb, PHASE_COUNT};
 use motiondb::quality::planted_feet::{CycleFeet, foot_slide};
 use motiondb::validate::validate;
-use support::{check_schema, compile, fbcrowd, folder, marine_clips, repository, text};
+use support::{check_schema, compile, fbcrowd, folder, marine_clips, repository, scenario, text};
 
 /// What the golden file is made of.
 const GOLDEN_CLIPS: [&str; 4] = ["idle.bvh", "jog_240.bvh", "turn_060_left.bvh", "walk_110.bvh"];
@@ -53,7 +53,28 @@ fn rewrite_the_golden_file_of_version_2() {
 }
 
 #[test]
-fn other_versions_and_kinds_are_rejected() {
+fn what_validate_accepts_gives_a_readable_recording() {
+    let folder = folder("forged_limits");
+    let agents = "agents = { at_m = [0, 0], goals_m = [[2, 0]] }\n";
+    let scene = scenario(&folder, &format!("duration_s = 0.2\n{agents}"));
+    let [path, recording] = ["forged.fbdb", "forged.fbrec"].map(|name| folder.join(name));
+    let (db, _) = database_file::load(&golden("fbdb")).unwrap();
+    let mut accepted = Vec::new();
+    for limit_rad in [3.0, 9.9, 10.0, 10.1, 100.0, f32::MAX] {
+        let mut forged = db.clone();
+        forged.skeleton.limits_rad[4][1].y = limit_rad;
+        fs::write(&path, database_file::to_bytes(&forged)).unwrap();
+        if fbcrowd(&["validate", text(&path)]).code == 0 {
+            fbcrowd(&["simulate", &scene, "--db", text(&path), "-o", text(&recording)]).expect_code(0);
+            fbcrowd(&["measure", text(&recording)]).expect_code(0);
+            accepted.push(limit_rad);
+        }
+    }
+    assert_eq!(accepted, [3.0, 9.9, 10.0]);
+}
+
+#[test]
+fn files_of_another_version_or_kind_are_refused_by_name() {
     let folder = folder("other_versions");
     let whole = fs::read(golden("fbdb")).unwrap();
     let payload = &whole[HEADER_LENGTH..];

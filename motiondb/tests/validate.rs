@@ -54,6 +54,8 @@ fn faults_of_values_are_named() {
     check_breaks("skeleton_is_a_body", |db| db.skeleton.offsets_m[3].x = 20.0);
     check_breaks("skeleton_is_a_body", |db| db.skeleton.segment_radii_m[0] = 0.0);
     check_breaks("skeleton_is_a_body", |db| db.skeleton.limits_rad[4].swap(0, 1));
+    check_breaks("skeleton_is_a_body", |db| db.skeleton.limits_rad[4][1].y = 10.5);
+    check_breaks("skeleton_is_a_body", |db| db.skeleton.limits_rad[4][0].z = f32::NEG_INFINITY);
     check_breaks("skeleton_is_a_body", |db| db.skeleton.feet[1].measured_m[2].z = f32::NEG_INFINITY);
     check_breaks("sources_are_finite", |db| db.sources[0].speed_mps = f32::NAN);
     check_breaks("sources_are_finite", |db| db.sources[0].frame_rate_hz = 0.0);

@@ -10,4 +10,4 @@ pub(crate) mod skeleton;
 
 pub use joint_ranges::JOINT_RANGES_DEG;
 pub use pose::{Joints, Pose, Root, RootFrame};
-pub use skeleton::{Foot, JOINT_COUNT, Joint, Side, Skeleton};
+pub use skeleton::{BONE_MAX_M, Foot, JOINT_COUNT, Joint, LIMIT_MAX_RAD, Side, Skeleton};

@@ -10,6 +10,11 @@ use serde::{Deserialize, Serialize};
 /// Number of joints of the canonical humanoid.
 pub const JOINT_COUNT: usize = 22;
 
+/// Greatest coordinate of a bone or of a foot's point, and greatest radius of a segment, m; none of a body comes near.
+pub const BONE_MAX_M: f32 = 10.0;
+/// Greatest limit of a joint, rad; none of a body comes near.
+pub const LIMIT_MAX_RAD: f32 = 10.0;
+
 /// A side of the body; indexes every `[left, right]` pair.
 ///
 /// ```

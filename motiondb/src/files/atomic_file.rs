@@ -1,25 +1,33 @@
 //! Files that appear under their final name complete or not at all, even if the process is killed.
 //!
-//! Bytes go into a temporary file beside the target, which is then renamed. Data is not forced onto the disk: that
-//! would take as long as drawing a frame, and protect only against power failure. A symbolic link stays: its target is
-//! written.
+//! Bytes go into a [temporary file](super::temporary_files) beside the target, which is then renamed:
 //!
-//! A killed process leaves its temporary file. Each is locked during writing, so [`sweep`] can remove the abandoned
-//! ones.
+//! 1. [`AtomicFile::create`] refuses a target that is a folder, a device or read-only, so that long work ends early.
+//! 2. [`AtomicFile::commit`] forces the bytes onto the disk, renames the file, and forces the folder onto the disk.
+//!    [`set_sync`] omits this; then a power failure, but no end of the process, may leave an empty file.
+//!
+//! A symbolic link stays: its target is written. An existing file's permission mode stays. A hard link does not stay:
+//! other names of the same file keep the earlier content, so no reader of them sees half a file.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Number of files that this process has begun: makes the names of temporary files unique.
-static BEGUN: AtomicU32 = AtomicU32::new(0);
+use tempfile::TempPath;
 
-/// Greatest number of attempts to create a temporary file: another process may sweep it before it is locked.
-const ATTEMPTS_MAX: usize = 8;
+use crate::files::temporary_files;
 
 /// Greatest number of symbolic links that are followed, as on Linux: ends a circle of links.
 const LINKS_MAX: usize = 40;
+
+/// Whether a commit forces file and folder onto the disk.
+static SYNC: AtomicBool = AtomicBool::new(true);
+
+/// Whether every commit of this process forces file and folder onto the disk; it does by default.
+pub fn set_sync(sync: bool) {
+    SYNC.store(sync, Ordering::Relaxed);
+}
 
 /// A file that is being written beside its final name. Dropped without [`AtomicFile::commit`], it is removed.
 ///
@@ -41,37 +49,26 @@ const LINKS_MAX: usize = 40;
 pub struct AtomicFile {
     /// Writer of the temporary file; `None` after the commit.
     writer: Option<BufWriter<File>>,
-    /// Path of the temporary file.
-    temporary: PathBuf,
+    /// Path of the temporary file; `None` after the commit.
+    temporary: Option<TempPath>,
     /// Final path.
     target: PathBuf,
 }
 
 impl AtomicFile {
-    /// Opens `.NAME.PID.N.tmp` beside `target`.
+    /// Opens a temporary file in the folder of `target`, and removes the abandoned ones there.
     ///
     /// # Errors
-    /// If the folder cannot be written, or `target` exists and is not a regular file: a folder, or a device that the
-    /// renaming would replace.
+    /// If the folder cannot be written, or as [`check_replaceable`].
     pub fn create(target: &Path) -> io::Result<Self> {
         let target = followed(target);
-        let name =
-            target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
-        if fs::metadata(&target).is_ok_and(|found| !found.is_file()) {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path exists and is not a regular file"));
+        let existing = replaceable(&target)?;
+        let (file, temporary) = temporary_files::begin(folder_of(&target))?;
+        let created = Self { writer: Some(BufWriter::new(file)), temporary: Some(temporary), target };
+        if let (Some(existing), Some(writer)) = (existing, &created.writer) {
+            writer.get_ref().set_permissions(existing.permissions())?;
         }
-        for _ in 0..ATTEMPTS_MAX {
-            let (process, begun) = (std::process::id(), BEGUN.fetch_add(1, Ordering::Relaxed));
-            let temporary = target.with_file_name(format!(".{}.{process}.{begun}.tmp", name.to_string_lossy()));
-            let file = File::create(&temporary)?;
-            // On a system without locks, `sweep` gets none either and removes nothing.
-            let _ = file.lock();
-            // Another process may have swept the file before it was locked. Locked, it stays.
-            if temporary.exists() {
-                return Ok(Self { writer: Some(BufWriter::new(file)), temporary, target });
-            }
-        }
-        Err(io::Error::other("another process keeps removing the temporary file"))
+        Ok(created)
     }
 
     /// The buffered file.
@@ -82,45 +79,97 @@ impl AtomicFile {
     /// Flushes the file and renames it to its final name.
     ///
     /// # Errors
-    /// If flushing or renaming fails; the temporary file is removed.
+    /// If writing to the disk or renaming fails; the temporary file is removed.
     pub fn commit(mut self) -> io::Result<()> {
-        let flushed = self.writer.take().map(BufWriter::into_inner).transpose();
+        let writer = self.writer.take().expect("taken only here, and self is consumed");
         // The lock is held until the file is renamed.
-        let _locked = flushed.map_err(io::IntoInnerError::into_error)?;
-        fs::rename(&self.temporary, &self.target)
+        let locked = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
+        let sync = SYNC.load(Ordering::Relaxed);
+        if sync {
+            locked.sync_all()?;
+        }
+        let temporary = self.temporary.take().expect("taken only here, and self is consumed");
+        temporary_files::publish(temporary, &self.target)?;
+        if sync { sync_folder(folder_of(&self.target)) } else { Ok(()) }
     }
 }
 
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         self.writer = None;
-        // After a commit the temporary file no longer exists, and this does nothing.
-        let _ = fs::remove_file(&self.temporary);
-    }
-}
-
-/// Removes the temporary files of `target` that killed processes have left, but none that any process is writing. Reads
-/// the whole folder: use it before long writing.
-pub fn sweep(target: &Path) {
-    let target = followed(target);
-    let (Some(name), Some(folder)) = (target.file_name(), target.parent()) else { return };
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let head = format!(".{}.", name.to_string_lossy());
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let file = entry.file_name();
-        let numbers = file.to_str().and_then(|file| file.strip_prefix(&head)?.strip_suffix(".tmp")?.split_once('.'));
-        let is_temporary =
-            numbers.is_some_and(|(process, begun)| [process, begun].iter().all(|n| n.parse::<u32>().is_ok()));
-        let unlocked = || File::options().write(true).open(entry.path()).ok().filter(|file| file.try_lock().is_ok());
-        if is_temporary && let Some(_locked) = unlocked() {
-            // A file that cannot be removed does no harm.
-            let _ = fs::remove_file(entry.path());
+        if let Some(temporary) = self.temporary.take() {
+            temporary_files::discard(temporary);
         }
     }
 }
 
+/// Checks that a file can appear under this path: nothing is there, or a regular file that may be written.
+///
+/// # Errors
+/// [`ErrorKind::InvalidInput`] if the path names no file, or a folder, a device, a circle of links or a read-only file
+/// is there; the system's error if it does not allow writing the file that is there.
+pub fn check_replaceable(target: &Path) -> io::Result<()> {
+    replaceable(&followed(target)).map(drop)
+}
+
+/// Checks that new files can appear in a folder, which need not exist: its nearest parent that exists is a folder that
+/// may be written.
+///
+/// # Errors
+/// [`ErrorKind::NotADirectory`], or the system's error when a file is created there (it is removed again).
+pub fn check_folder(folder: &Path) -> io::Result<()> {
+    let mut nearest = folder;
+    while !nearest.as_os_str().is_empty() && fs::symlink_metadata(nearest).is_err() {
+        nearest = nearest.parent().unwrap_or(Path::new(""));
+    }
+    let nearest = if nearest.as_os_str().is_empty() { Path::new(".") } else { nearest };
+    if !fs::metadata(nearest)?.is_dir() {
+        return Err(io::Error::new(ErrorKind::NotADirectory, format!("{} is not a folder", nearest.display())));
+    }
+    let (_, temporary) = temporary_files::begin(nearest)?;
+    temporary_files::discard(temporary);
+    Ok(())
+}
+
+/// What is at a path whose links have been followed; `None` if nothing is.
+fn replaceable(target: &Path) -> io::Result<Option<fs::Metadata>> {
+    let invalid = |fault| Err(io::Error::new(ErrorKind::InvalidInput, fault));
+    if target.file_name().is_none() {
+        return invalid("the path names no file");
+    }
+    let found = match fs::symlink_metadata(target) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        found => found?,
+    };
+    match found.file_type() {
+        kind if kind.is_symlink() => invalid("the path leads through a circle of links"),
+        kind if !kind.is_file() => invalid("the path exists and is not a regular file"),
+        _ if found.permissions().readonly() => invalid("the file exists and is read-only"),
+        _ => {
+            // The system knows whether this process may write it: owner, access lists, file system.
+            File::options().write(true).open(target)?;
+            Ok(Some(found))
+        }
+    }
+}
+
+/// The folder that holds a path.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Forces a folder's entries onto the disk, where the system can.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    // Not every system opens or synchronises folders.
+    let Ok(folder) = File::open(folder) else { return Ok(()) };
+    match folder.sync_all() {
+        Err(error) if !matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::PermissionDenied) => Err(error),
+        _ => Ok(()),
+    }
+}
+
 /// Target of a symbolic link, even if it does not exist yet; any other path unchanged.
-fn followed(path: &Path) -> PathBuf {
+pub fn followed(path: &Path) -> PathBuf {
     let mut target = path.to_owned();
     for _ in 0..LINKS_MAX {
         let Ok(next) = fs::read_link(&target) else { break };
@@ -143,42 +192,93 @@ pub fn write(target: &Path, bytes: &[u8]) -> io::Result<()> {
 mod tests {
     use super::*;
 
-    #[cfg(unix)]
     #[test]
-    fn a_link_stays_and_its_target_is_written() {
-        let folder = std::env::temp_dir().join(format!("fbcrowd_links_{}", std::process::id()));
-        fs::create_dir_all(folder.join("disk")).unwrap();
-        let [link, far] = ["link", "far"].map(|name| folder.join(name));
-        std::os::unix::fs::symlink("far", &link).unwrap();
-        std::os::unix::fs::symlink("disk/a.fbdb", &far).unwrap();
-        for text in ["first", "second"] {
-            write(&link, text.as_bytes()).unwrap();
-            assert_eq!(fs::read_to_string(folder.join("disk/a.fbdb")).unwrap(), text);
-            assert!(link.is_symlink() && far.is_symlink());
-        }
-        fs::remove_dir_all(&folder).unwrap();
+    fn two_writers_of_one_file_leave_a_whole_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.fbdb");
+        let [mut one, mut other] = [&target, &target].map(|target| AtomicFile::create(target).unwrap());
+        one.writer().write_all(b"the first, longer").unwrap();
+        other.writer().write_all(b"the second").unwrap();
+        one.commit().unwrap();
+        assert_eq!(fs::read(&target).unwrap(), b"the first, longer");
+        other.commit().unwrap();
+        assert_eq!(fs::read(&target).unwrap(), b"the second");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
     }
 
     #[test]
-    fn only_abandoned_temporary_files_are_swept() {
-        let folder = std::env::temp_dir().join(format!("fbcrowd_sweep_{}", std::process::id()));
-        fs::create_dir_all(&folder).unwrap();
-        let target = folder.join("a.fbrec");
-        let kept = ["a.fbrec", ".a.fbrec.1.tmp", ".a.fbrec.x.0.tmp", ".b.fbrec.1.0.tmp", ".a.fbrec.1.0.tmp.txt"];
-        for name in kept.iter().chain(&[".a.fbrec.1.0.tmp", ".a.fbrec.4000000.12.tmp"]) {
-            fs::write(folder.join(name), "half").unwrap();
-        }
-        let mut written = AtomicFile::create(&target).unwrap();
-        sweep(&target);
-        written.writer().write_all(b"whole").unwrap();
-        written.commit().unwrap();
+    fn the_longest_name_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("n".repeat(255));
+        write(&target, b"whole").unwrap();
         assert_eq!(fs::read(&target).unwrap(), b"whole");
-        let mut left: Vec<String> =
-            fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-        left.sort();
-        let mut kept = kept.map(str::to_owned);
-        kept.sort();
-        assert_eq!(left, kept);
-        fs::remove_dir_all(&folder).unwrap();
+        assert!(AtomicFile::create(&folder.path().join("n".repeat(256))).is_err());
+    }
+
+    #[test]
+    fn a_read_only_file_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.fbdb");
+        fs::write(&target, "precious").unwrap();
+        let mut permissions = fs::metadata(&target).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(&target, permissions).unwrap();
+        assert!(write(&target, b"new").unwrap_err().to_string().contains("read-only"));
+        assert_eq!(fs::read(&target).unwrap(), b"precious");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn an_existing_file_keeps_its_permission_mode() {
+        use std::os::unix::fs::PermissionsExt;
+
+        let folder = tempfile::tempdir().unwrap();
+        let (target, new) = (folder.path().join("a.fbdb"), folder.path().join("new"));
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
+        fs::write(&target, "old").unwrap();
+        let ordinary = mode(&target);
+        for kept in [0o600, 0o666, 0o640] {
+            fs::set_permissions(&target, fs::Permissions::from_mode(kept)).unwrap();
+            write(&target, b"new").unwrap();
+            assert_eq!(mode(&target), kept);
+        }
+        write(&new, b"new").unwrap();
+        assert_eq!(mode(&new), ordinary);
+    }
+
+    #[test]
+    fn another_hard_link_keeps_its_content() {
+        let folder = tempfile::tempdir().unwrap();
+        let [target, other] = ["a", "b"].map(|name| folder.path().join(name));
+        fs::write(&target, "old").unwrap();
+        fs::hard_link(&target, &other).unwrap();
+        write(&target, b"new").unwrap();
+        assert_eq!([&target, &other].map(|path| fs::read(path).unwrap()), [b"new", b"old"]);
+    }
+
+    #[test]
+    fn a_folder_that_can_be_made_is_accepted() {
+        let folder = tempfile::tempdir().unwrap();
+        check_folder(&folder.path().join("new/folder")).unwrap();
+        fs::write(folder.path().join("file"), "no folder").unwrap();
+        assert_eq!(check_folder(&folder.path().join("file/new")).unwrap_err().kind(), ErrorKind::NotADirectory);
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_and_its_target_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir_all(folder.path().join("disk")).unwrap();
+        let [link, far, circle] = ["link", "far", "circle"].map(|name| folder.path().join(name));
+        std::os::unix::fs::symlink("far", &link).unwrap();
+        std::os::unix::fs::symlink("disk/a.fbdb", &far).unwrap();
+        std::os::unix::fs::symlink("circle", &circle).unwrap();
+        for text in ["first", "second"] {
+            write(&link, text.as_bytes()).unwrap();
+            assert_eq!(fs::read_to_string(folder.path().join("disk/a.fbdb")).unwrap(), text);
+            assert!(link.is_symlink() && far.is_symlink());
+        }
+        assert!(write(&circle, b"nowhere").is_err() && circle.is_symlink());
     }
 }

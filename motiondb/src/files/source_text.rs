@@ -45,6 +45,9 @@ pub struct Invalid {
     pub message: String,
     /// The remedy.
     pub help: String,
+    /// Whether a report may show the text around the mistake: the file is of the expected kind. Any other file is one
+    /// that its owner may not want to show.
+    pub is_quotable: bool,
 }
 
 impl Invalid {
@@ -80,13 +83,30 @@ impl SourceText {
         let (path, text) = (self.path.clone(), self.text.clone());
         // The message may quote a part of the text of any length.
         let message = message.into().chars().take(MESSAGE_MAX_LETTERS).collect();
-        Invalid { path, text, span, message, help: help.to_owned() }
+        Invalid { path, text, span, message, help: help.to_owned(), is_quotable: true }
     }
 
-    /// A mistake that the parser found, in plain words.
-    pub fn unparsed(&self, span: Option<Range<usize>>, message: &str) -> Invalid {
-        let (message, help) = in_plain_words(message);
-        self.invalid(span.unwrap_or(0..0), message, help)
+    /// A mistake that the TOML parser found, in plain words. The text is quoted only where it is of the expected kind:
+    /// its name ends in `.toml`, and a line begins with one of the kind's `keys`.
+    pub fn unparsed(&self, span: Option<Range<usize>>, message: &str, keys: &[&str]) -> Invalid {
+        let span = span.unwrap_or(0..0);
+        if self.path.extension().is_some_and(|extension| extension == "toml") && self.has_a_key(keys) {
+            let (message, help) = in_plain_words(message);
+            return self.invalid(span, message, help);
+        }
+        // What the parser found is the file's own text, what it expected is ours.
+        let expected = match message.rsplit_once(", expected one of ") {
+            Some((_, expected)) => expected.to_owned(),
+            None => format!("`{}`", keys.join("`, `")),
+        };
+        let message = format!("this is a file of another kind, expected one of {expected}");
+        Invalid { is_quotable: false, ..self.invalid(span, message, "name another file") }
+    }
+
+    fn has_a_key(&self, keys: &[&str]) -> bool {
+        let is_end = |letter: char| letter.is_whitespace() || "=.]".contains(letter);
+        let mut begins = self.text.lines().map(|line| line.trim_start_matches(['[', ' ', '\t']));
+        begins.any(|line| line.split(is_end).next().is_some_and(|key| keys.contains(&key)))
     }
 }
 
@@ -105,6 +125,20 @@ fn in_utf8(bytes: Vec<u8>) -> Result<String, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_the_expected_kind_is_quoted() {
+        let check = |path: &str, text: &str, is_quotable: bool| {
+            let source = SourceText { path: path.into(), text: text.to_owned() };
+            let invalid = source.unparsed(Some(0..1), "unknown field `token`", &["clips", "agents"]);
+            assert_eq!(invalid.is_quotable, is_quotable, "{path}");
+            assert_eq!(invalid.message.contains("token"), is_quotable);
+        };
+        check("scene.toml", "token = 1\n[[agents]]\n", true);
+        check("scene.toml", "token = 1\nclips = 3", true);
+        check("scene.txt", "clips = 3\ntoken = 1", false);
+        check("credentials.toml", "[registry]\ntoken = 1\n", false);
+    }
 
     #[test]
     fn another_encoding_is_named_with_its_line() {

@@ -3,7 +3,9 @@
 use std::f32::consts::PI;
 use std::ops::RangeInclusive;
 
-use crate::body::skeleton::{JOINT_COUNT, Joint};
+use glam::Vec3;
+
+use crate::body::skeleton::{BONE_MAX_M, JOINT_COUNT, Joint, LIMIT_MAX_RAD};
 use crate::motion::motion_db::{MotionDb, PHASE_COUNT};
 use crate::motion::phase_map::MAX_ASYMMETRY;
 use crate::validate::{CheckResult, each, ensure};
@@ -21,18 +23,20 @@ const BONE_MAX_OVER_LEG: f32 = 4.0;
 /// Range of the period of a cycle, s.
 const PERIOD_S: RangeInclusive<f32> = 0.05..=60.0;
 
-/// Bones are finite and in proportion, legs have length, radii are positive, limits are ordered.
+/// Bones are finite, in proportion and shorter than [`BONE_MAX_M`], legs have length, radii are positive, limits are
+/// ordered and within [`LIMIT_MAX_RAD`]. The reader of a recording relies on both maxima.
 pub(crate) fn skeleton_is_a_body(db: &MotionDb) -> CheckResult {
     let skeleton = &db.skeleton;
     let leg_m = skeleton.leg_length_m();
     ensure(LEG_M.contains(&leg_m), || format!("the legs are {leg_m} m long"))?;
-    let near = |length_m: f32| length_m <= BONE_MAX_OVER_LEG * leg_m;
+    let near = |length_m: f32| length_m <= (BONE_MAX_OVER_LEG * leg_m).min(BONE_MAX_M);
+    let is_limit = |limit: Vec3| limit.is_finite() && limit.abs().max_element() <= LIMIT_MAX_RAD;
     for joint in Joint::ALL {
         let index = joint.index();
         let [least, greatest] = skeleton.limits_rad[index];
         let bones_m = [skeleton.offsets_m[index], skeleton.segment_ends_m[index]];
         ensure(bones_m.iter().all(|bone| near(bone.length())), || format!("{} has bones {bones_m:?} m", joint.name()))?;
-        ensure(least.is_finite() && greatest.is_finite() && least.cmple(greatest).all(), || {
+        ensure(is_limit(least) && is_limit(greatest) && least.cmple(greatest).all(), || {
             format!("the limits of {} are {least} to {greatest} rad", joint.name())
         })?;
         let radius_m = skeleton.segment_radii_m[index];

@@ -97,7 +97,7 @@ fn imported_clips(settings: &ClipSettings, bytes: &[u8]) -> Result<Vec<ImportedC
     let path = settings.path.as_path();
     match ClipFormat::of(path).ok_or(RejectionReason::UnknownFormat)? {
         ClipFormat::Bvh => bvh::read(path, bytes).map(|clip| vec![bvh_clip(settings, clip)]),
-        ClipFormat::Gltf => gltf_clips(settings, &GltfFile::open(path, bytes)?),
+        ClipFormat::Gltf => gltf_clips(settings, &GltfFile::open(path, bytes, settings.outside)?),
     }
 }
 

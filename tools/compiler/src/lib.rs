@@ -63,4 +63,5 @@ pub use import::{ImportedClip, import_bytes, import_file, import_with_settings};
 pub use input::{ClipSet, ClipSettings, Manifest, Options, clip_files, import_clip_set, linked_files};
 pub use progress::{CompileEvent, Observer};
 pub use read::Axis;
+pub use read::gltf::Outside;
 pub use retarget::HumanClip;

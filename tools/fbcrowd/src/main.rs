@@ -2,7 +2,8 @@
 //!
 //! One file a subcommand under [`cmd`]; what it reports is made in [`report`] and printed by [`terminal`]. Results go to
 //! standard output, all else to standard error. Exit codes: 0 yes; 1 the answer is no, or an output was written though
-//! some input was rejected; 2 bad usage or input, nothing written.
+//! some input was refused; 2 bad usage or input, nothing written; 3 the machine failed, so a retry may help. After a
+//! signal: 128 + its number.
 
 mod cmd;
 #[cfg(test)]
@@ -15,21 +16,34 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use miette::MietteHandlerOpts;
+use motiondb::files::atomic_file;
 
 use crate::terminal::failure::{Answer, Failure};
 
 /// Most threads: more than any machine has cores.
 const THREADS_MAX: i64 = 1024;
 
+/// Exit codes, as `--help` lists them.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  yes
+  1  the answer is no, or some input was refused while the rest was used
+  2  bad usage or input; nothing was written
+  3  the machine failed (disk, memory, permission): a retry may help; the message names the complete outputs
+  129, 130, 143  ended by SIGHUP, SIGINT, SIGTERM; temporary files are removed";
+
 /// Clips to a motion database, a database to a crowd, a crowd to pictures.
 #[derive(Parser)]
-#[command(name = "fbcrowd", version, max_term_width = 110, arg_required_else_help = true)]
+#[command(name = "fbcrowd", version, max_term_width = 110, arg_required_else_help = true, after_help = EXIT_CODES)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
     /// Threads to use; all cores by default. Every output is the same for any number.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=THREADS_MAX))]
     threads: Option<u16>,
+    /// Do not force outputs onto the disk: faster, but a power failure soon after may leave an empty file.
+    #[arg(long, global = true)]
+    no_sync: bool,
 }
 
 #[derive(Subcommand)]
@@ -53,7 +67,8 @@ fn main() -> ExitCode {
         let whole_lines = || MietteHandlerOpts::new().wrap_lines(false).build();
         miette::set_hook(Box::new(move |_| Box::new(whole_lines()))).expect("set once");
     }
-    match use_threads(cli.threads).and_then(|()| dispatch(cli.command)) {
+    atomic_file::set_sync(!cli.no_sync);
+    match handle_signals().and_then(|()| use_threads(cli.threads)).and_then(|()| dispatch(cli.command)) {
         Ok(Answer::Yes) => ExitCode::SUCCESS,
         Ok(Answer::No) => ExitCode::from(1),
         Err(failure) => failure.report(),
@@ -80,5 +95,18 @@ fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(usize::from(threads))
         .build_global()
-        .map_err(|error| Failure::bad(format!("cannot start {threads} threads: {error}; use fewer")))
+        .map_err(|error| Failure::of_machine(format!("cannot start {threads} threads: {error}; use fewer")))
+}
+
+/// Removes temporary files when a signal ends the process.
+#[cfg(unix)]
+fn handle_signals() -> Result<(), Failure> {
+    let handled = terminal::signals::handle();
+    handled.map_err(|error| Failure::of_machine(format!("signals cannot be handled: {error}; start again")))
+}
+
+/// Other systems end the process at once; the next one removes its temporary files.
+#[cfg(not(unix))]
+fn handle_signals() -> Result<(), Failure> {
+    Ok(())
 }

@@ -39,10 +39,15 @@ pub fn manifest(paths: &[PathBuf]) -> Result<Manifest, JobError> {
 /// # Errors
 /// [`JobError::OutputIsInput`].
 pub fn check_output(output: &Path, paths: &[PathBuf], manifest: &Manifest) -> Result<(), JobError> {
+    check_is_no_input(output, inputs(paths, manifest))
+}
+
+/// Every file that is read for the clips of a manifest that `paths` stand for.
+pub fn inputs(paths: &[PathBuf], manifest: &Manifest) -> Vec<PathBuf> {
     let clips = || manifest.clips.iter().map(|clip| clip.path.clone());
     let manifests = paths.iter().map(|path| path.join(MANIFEST));
-    check_is_no_input(output, paths.iter().cloned().chain(manifests).chain(clips()))?;
-    check_is_no_input(output, clips().flat_map(|clip| linked_files(&clip)))
+    let linked = clips().flat_map(|clip| linked_files(&clip));
+    paths.iter().cloned().chain(manifests).chain(clips()).chain(linked).collect()
 }
 
 /// Clips and manifests, each list in order and without repetition.

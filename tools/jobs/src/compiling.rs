@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use motiondb::files::database_file;
 use motiondb::motion::MotionDb;
 use motiondb::velocity_sets::velocity_hull::Construction;
-use motiondb_compiler::{ClipSet, CompileEvent, Compiled, compile_manifest, import_clip_set};
+use motiondb_compiler::{ClipSet, CompileEvent, Compiled, Manifest, Outside, compile_manifest, import_clip_set};
 
 use crate::clip_paths::{check_output, manifest};
 use crate::error::JobError;
@@ -19,6 +19,8 @@ pub struct Overrides {
     pub velocity_hull: Option<Construction>,
     /// Most examples, mirrors not counted; by default as the manifest states.
     pub max_examples: Option<NonZeroUsize>,
+    /// Whether the buffers of glTF files may lie outside their folders; by default they may not.
+    pub outside: Outside,
 }
 
 /// Compiles the clips that `paths` stand for. The database is to be written to `output`, which must be no input.
@@ -32,6 +34,7 @@ pub fn compile(
     observer: &Observer,
 ) -> Result<Compiled, JobError> {
     let mut manifest = manifest(paths)?;
+    allow(&mut manifest, overrides.outside);
     check_output(output, paths, &manifest)?;
     if let Some(construction) = overrides.velocity_hull {
         manifest.options.velocity_hull = construction;
@@ -55,13 +58,19 @@ pub fn write_database(path: &Path, db: &MotionDb, observer: &Observer) -> Result
 /// Imports the clips that `paths` stand for, without a database.
 ///
 /// # Errors
-/// If the paths name no clips, or a manifest cannot be followed.
-pub fn import(paths: &[PathBuf], observer: &Observer) -> Result<ClipSet, JobError> {
-    let manifest = manifest(paths)?;
+/// Where the paths name no clips, or a manifest cannot be followed.
+pub fn import(paths: &[PathBuf], outside: Outside, observer: &Observer) -> Result<ClipSet, JobError> {
+    let mut manifest = manifest(paths)?;
+    allow(&mut manifest, outside);
     let work = Work::begin(observer, "files", manifest.clips.len());
     let imported = import_clip_set(&manifest, &|event| forward(event, observer));
     work.end();
     Ok(imported?)
+}
+
+/// States for every clip whether its buffers may lie outside its folder.
+fn allow(manifest: &mut Manifest, outside: Outside) {
+    manifest.clips.iter_mut().for_each(|clip| clip.outside = outside);
 }
 
 /// Passes an event of the compiler on. Units of work are imported files: all later stages are short.

@@ -54,6 +54,38 @@ pub enum JobError {
         /// The output path.
         output: PathBuf,
     },
+    /// The output path names something that no output can replace.
+    #[error("{} cannot be written: {fault}; choose another output path", output.display())]
+    UnfitOutput {
+        /// The output path.
+        output: PathBuf,
+        /// What is there.
+        fault: String,
+    },
+    /// Two outputs of one command would be written to the same file.
+    #[error("{file} cannot be both {first} and {second}; give --{second} another name", file = output.display())]
+    OneFileTwice {
+        /// The output path.
+        output: PathBuf,
+        /// What is written there: one output.
+        first: &'static str,
+        /// The other one, as its option is called.
+        second: &'static str,
+    },
+    /// Two outputs are links to one file.
+    #[error("{} and {} are links to one file; remove one of the links", first.display(), second.display())]
+    LinksToOneFile {
+        /// One output.
+        first: PathBuf,
+        /// The other one.
+        second: PathBuf,
+    },
+    /// Another process writes into the folder.
+    #[error("another fbcrowd writes into {}; wait until it ends, or choose another folder", folder.display())]
+    FolderInUse {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// The system does not allow writing a file or a folder.
     #[error("{} cannot be written: {source}; choose another path", path.display())]
     Unwritable {
@@ -98,6 +130,18 @@ impl JobError {
     /// The system does not allow writing `path`.
     pub fn unwritable(path: &Path, source: io::Error) -> Self {
         Self::Unwritable { path: path.to_owned(), source }
+    }
+
+    /// Whether the machine failed (disk, memory, permission), so that the same command may succeed later. Otherwise the
+    /// command or its input is wrong.
+    pub fn is_of_machine(&self) -> bool {
+        match self {
+            Self::Unwritable { .. } | Self::FolderInUse { .. } => true,
+            Self::Database(error) => matches!(error, FileError::Unwritable { .. }),
+            Self::Recording(error) => matches!(error, RecordingError::Unwritable { .. }),
+            Self::Render(error) => matches!(error, RenderError::Folder { .. } | RenderError::Write { .. }),
+            _ => false,
+        }
     }
 }
 

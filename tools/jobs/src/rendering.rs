@@ -1,17 +1,18 @@
 //! A recording → files of pictures, with progress.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Instant;
 use std::{fs, io};
 
 use fbcrowd_render::plots::crowd::trajectories;
 use fbcrowd_render::raster::png_frame;
-use fbcrowd_render::top_view::{SequenceOptions, read_tracks, render_sequence};
+use fbcrowd_render::top_view::{SequenceOptions, picture_paths, read_tracks, render_sequence};
 use fbcrowd_sim::recording::Recording;
 
 use crate::error::JobError;
 use crate::observer::{Observer, Work};
+use crate::output_path::check_files;
 
 /// A sequence that has been rendered.
 pub struct RenderedSequence {
@@ -27,6 +28,23 @@ pub struct RenderedSequence {
 /// If the file cannot be read or is not a valid recording.
 pub fn open(path: &Path) -> Result<Recording, JobError> {
     Ok(Recording::open(path)?)
+}
+
+/// Checks that a sequence can be written, and that no frame replaces an input. Leaves nothing.
+///
+/// # Errors
+/// Where the options do not fit the recording, a frame would replace an input, or the system does not allow writing.
+pub fn check_frames(recording: &Recording, options: &SequenceOptions, inputs: &[PathBuf]) -> Result<(), JobError> {
+    check_files(&options.folder, &picture_paths(recording, options)?, inputs)
+}
+
+/// As [`check_frames`], for a recording that does not exist yet: checks the frames of earlier runs, which
+/// [`remove_frames`] would remove.
+///
+/// # Errors
+/// As [`check_frames`].
+pub fn check_old_frames(options: &SequenceOptions, inputs: &[PathBuf]) -> Result<(), JobError> {
+    check_files(&options.folder, &numbered_frames(options)?, inputs)
 }
 
 /// Renders a sequence of frames.
@@ -56,23 +74,21 @@ pub fn render(
 /// # Errors
 /// If the system does not allow it.
 pub fn remove_frames(options: &SequenceOptions) -> Result<(), JobError> {
-    remove_numbered(&options.folder, &options.name).map_err(|error| JobError::unwritable(&options.folder, error))
+    let remove = |path: &PathBuf| fs::remove_file(path).map_err(|error| JobError::unwritable(path, error));
+    numbered_frames(options)?.iter().try_for_each(remove)
 }
 
-/// Removes every `NAME.####.png` of a folder.
-fn remove_numbered(folder: &Path, name: &str) -> io::Result<()> {
-    let Ok(entries) = fs::read_dir(folder) else { return Ok(()) };
+/// Every `NAME.####.png` of a folder; none where the folder does not exist.
+fn numbered_frames(options: &SequenceOptions) -> Result<Vec<PathBuf>, JobError> {
     let is_frame = |file: &str| {
-        let number = file.strip_prefix(&format!("{name}.")).and_then(|rest| rest.strip_suffix(".png"));
+        let number = file.strip_prefix(&format!("{}.", options.name)).and_then(|rest| rest.strip_suffix(".png"));
         number.is_some_and(|number| number.len() >= 4 && number.bytes().all(|byte| byte.is_ascii_digit()))
     };
-    for entry in entries {
-        let entry = entry?;
-        if entry.file_name().to_str().is_some_and(is_frame) {
-            fs::remove_file(entry.path())?;
-        }
-    }
-    Ok(())
+    let Ok(entries) = fs::read_dir(&options.folder) else { return Ok(Vec::new()) };
+    let entries = entries.collect::<io::Result<Vec<_>>>();
+    let entries = entries.map_err(|error| JobError::unwritable(&options.folder, error))?;
+    let frames = entries.into_iter().filter(|entry| entry.file_name().to_str().is_some_and(is_frame));
+    Ok(frames.map(|entry| entry.path()).collect())
 }
 
 /// Draws the paths of all agents on one sheet (Fig. 7).

@@ -31,27 +31,50 @@ pub struct SimulationInput {
 /// # Errors
 /// If the planner's time horizon is shorter than a switch of synthesis, or the recording cannot be written.
 pub fn simulate(input: SimulationInput, recording: &Path, observer: &Observer) -> Result<Timings, JobError> {
-    let SimulationInput { db, database_checksum, scenario } = input;
-    let db = Arc::new(db);
-    let mut simulation = Simulation::new(Arc::clone(&db), &scenario);
+    prepare(Arc::new(input.db), input.scenario, observer)?.record(input.database_checksum, recording, observer)
+}
+
+/// A simulation at its start: nothing can fail any more but the writing of its recording.
+pub struct PreparedSimulation {
+    scenario: Scenario,
+    simulation: Simulation,
+}
+
+/// Prepares a simulation; writes nothing.
+///
+/// # Errors
+/// Where the planner looks less far ahead than a change of synthesis takes.
+pub fn prepare(db: Arc<MotionDb>, scenario: Scenario, observer: &Observer) -> Result<PreparedSimulation, JobError> {
+    let simulation = Simulation::new(Arc::clone(&db), &scenario);
     note_missing_motions(&db, simulation.database(), observer);
     check_horizon(simulation.database(), &scenario)?;
-    let steps = (scenario.duration_s / scenario.dt_s).round() as usize;
-    let header = Header::new(simulation.database(), database_checksum, scenario);
-    let mut recorder = Recorder::create(recording, &header)?;
-    recorder.push(simulation.frames())?;
-    let mut stopwatch = StepStopwatch::default();
-    let work = Work::begin(observer, "steps", steps);
-    for _ in 0..steps {
-        stopwatch.start();
-        simulation.step(&mut |stage| stopwatch.lap(stage));
+    Ok(PreparedSimulation { scenario, simulation })
+}
+
+impl PreparedSimulation {
+    /// Simulates into a recording, which keeps the checksum of the database's file.
+    ///
+    /// # Errors
+    /// Where the recording cannot be written.
+    pub fn record(self, database_checksum: u32, recording: &Path, observer: &Observer) -> Result<Timings, JobError> {
+        let Self { scenario, mut simulation } = self;
+        let steps = (scenario.duration_s / scenario.dt_s).round() as usize;
+        let header = Header::new(simulation.database(), database_checksum, scenario);
+        let mut recorder = Recorder::create(recording, &header)?;
         recorder.push(simulation.frames())?;
-        work.advance();
+        let mut stopwatch = StepStopwatch::default();
+        let work = Work::begin(observer, "steps", steps);
+        for _ in 0..steps {
+            stopwatch.start();
+            simulation.step(&mut |stage| stopwatch.lap(stage));
+            recorder.push(simulation.frames())?;
+            work.advance();
+        }
+        work.end();
+        recorder.finish()?;
+        note_walls(&header.scenario, simulation.frames(), observer);
+        Ok(stopwatch.timings(header.scenario.agents.len(), steps, header.scenario.dt_s))
     }
-    work.end();
-    recorder.finish()?;
-    note_walls(&header.scenario, simulation.frames(), observer);
-    Ok(stopwatch.timings(header.scenario.agents.len(), steps, header.scenario.dt_s))
 }
 
 /// Notes where bodies move by more than the clips of their database, or can reach no goal with them.

@@ -19,5 +19,5 @@ pub use frame::{FrameBuffers, TopView};
 pub use frame_range::FrameRange;
 pub use framing::Framing;
 pub use playback::{read_tracks, sample};
-pub use sequence::{PictureFormat, SequenceOptions, render_sequence};
+pub use sequence::{PictureFormat, SequenceOptions, picture_paths, render_sequence};
 pub use trails::Tracks;

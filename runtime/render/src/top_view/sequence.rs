@@ -63,6 +63,19 @@ struct SequenceViews<'a> {
     overlay: Option<ConstraintOverlay<'a>>,
 }
 
+/// Paths of the pictures that [`render_sequence`] writes with the same options, in order.
+///
+/// # Errors
+/// If no frame is in the range.
+pub fn picture_paths(recording: &Recording, options: &SequenceOptions) -> Result<Vec<PathBuf>, RenderError> {
+    let numbers = frame_numbers(recording, options.frames.as_ref())?;
+    Ok(numbers.into_iter().map(|number| picture_path(options, number)).collect())
+}
+
+fn picture_path(options: &SequenceOptions, number: u32) -> PathBuf {
+    options.folder.join(format!("{}.{number:04}.{}", options.name, options.format.extension()))
+}
+
 /// Renders a recording from above, and returns the files in order. `observer` receives the number of finished frames
 /// and of all frames, from any thread.
 ///
@@ -126,7 +139,7 @@ fn render_frame(
     let scene = views.top.draw(buffers, time_s as f32, &agents);
     let overlaid = views.overlay.as_ref().map(|overlay| overlay.draw(scene, time_s)).transpose()?;
     let pixmap = overlaid.as_ref().unwrap_or(scene);
-    let path = options.folder.join(format!("{}.{number:04}.{}", options.name, options.format.extension()));
+    let path = picture_path(options, number);
     match options.format {
         PictureFormat::Png => png_frame::write(&path, pixmap)?,
         PictureFormat::Exr => exr_frame::write(&path, pixmap, recording.header().scenario.view.frame_rate_hz)?,

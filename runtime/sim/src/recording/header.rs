@@ -1,7 +1,7 @@
 //! The header of a recording: what holds for all its frames, and the checks that let readers trust its numbers.
 
 use glam::Vec3;
-use motiondb::body::Skeleton;
+use motiondb::body::{BONE_MAX_M, LIMIT_MAX_RAD, Skeleton};
 use motiondb::motion::MotionDb;
 use motiondb::velocity_sets::velocity_hull::VelocityHull;
 use serde::{Deserialize, Serialize};
@@ -12,8 +12,6 @@ use crate::recording::format::{HEAD, HEAD_BYTE};
 use crate::scenario::Scenario;
 use crate::scenario::ranges::check_ranges;
 
-/// Greatest coordinate of a skeleton, m, and greatest angle of a joint, rad; none of a body comes near.
-const SKELETON_MAX: f32 = 10.0;
 /// Greatest velocity of a set, m/s; none of a body comes near.
 const SPEED_MAX_MPS: f32 = 100.0;
 /// Size beyond which no header is decoded, bytes; none of a million agents with waypoints comes near.
@@ -67,15 +65,16 @@ fn bincode_config() -> impl bincode::config::Config {
     bincode::config::standard().with_fixed_int_encoding().with_limit::<HEADER_LIMIT_BYTES>()
 }
 
-/// Whether every bone, point and limit of a skeleton is finite and within [`SKELETON_MAX`].
+/// Whether every bone, point and limit of a skeleton is finite and within [`BONE_MAX_M`] and [`LIMIT_MAX_RAD`]. Every
+/// valid database satisfies this.
 fn is_in_range(skeleton: &Skeleton) -> bool {
-    let near = |vector: Vec3| vector.is_finite() && vector.abs().max_element() <= SKELETON_MAX;
+    let is_within = |max: f32| move |vector: Vec3| vector.is_finite() && vector.abs().max_element() <= max;
     let feet = skeleton.feet.iter();
     let points_m = feet.flat_map(|foot| [foot.heel_m, foot.ball_m, foot.toe_tip_m].into_iter().chain(foot.measured_m));
     let vectors = [skeleton.offsets_m, skeleton.segment_ends_m].into_iter().flatten();
-    let limits = skeleton.limits_rad.iter().flatten().copied();
-    vectors.chain(limits).chain(points_m).all(near)
-        && skeleton.segment_radii_m.iter().all(|radius_m| (0.0..=SKELETON_MAX).contains(radius_m))
+    vectors.chain(points_m).all(is_within(BONE_MAX_M))
+        && skeleton.limits_rad.iter().flatten().copied().all(is_within(LIMIT_MAX_RAD))
+        && skeleton.segment_radii_m.iter().all(|radius_m| (0.0..=BONE_MAX_M).contains(radius_m))
 }
 
 /// Whether every velocity of the sets is finite and no faster than [`SPEED_MAX_MPS`].

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
-use motiondb::files::atomic_file::{self, AtomicFile};
+use motiondb::files::atomic_file::AtomicFile;
 
 use crate::recording::chunk::write_chunk;
 use crate::recording::compression::compress;
@@ -64,8 +64,6 @@ impl Recorder {
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordingError> {
         let fail = |source| RecordingError::Unwritable { path: path.to_owned(), source };
         let payload = header.encode().map_err(|error| fail(io::Error::other(error)))?;
-        // Removes what an interrupted run left: up to hundreds of megabytes.
-        atomic_file::sweep(path);
         let mut file = AtomicFile::create(path).map_err(fail)?;
         file.writer().write_all(&MAGIC).map_err(fail)?;
         file.writer().write_all(&FORMAT_VERSION.to_le_bytes()).map_err(fail)?;

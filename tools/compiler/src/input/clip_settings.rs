@@ -10,6 +10,7 @@ use motiondb::body::{JOINT_COUNT, Joint};
 use crate::error::{ManifestKey, RejectionReason};
 use crate::input::name_suggestions::nearest_first;
 use crate::read::axis::Axis;
+use crate::read::gltf::Outside;
 use crate::read::source_clip::SourceClip;
 use crate::rig::roles::JointMap;
 
@@ -48,6 +49,8 @@ pub struct ClipSettings {
     pub joints: BTreeMap<Joint, String>,
     /// Whether the example is mirrored; where `None`, when its mirror image adds to the set.
     pub mirror: Option<bool>,
+    /// Whether a glTF file's buffers may lie outside its folder; no manifest can allow it.
+    pub outside: Outside,
     /// Positions of these values in the manifest's text, for messages.
     pub spans: ManifestSpans,
 }

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
+use fbcrowd_jobs::output_path::check_files;
 use motiondb::files::atomic_file;
 
 use crate::terminal::failure::{Answer, Failure};
@@ -18,11 +19,12 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    fs::create_dir_all(&args.output).map_err(|error| Failure::unwritable(&args.output, error))?;
     let clips = clipgen::generate();
-    for clip in &clips {
-        let path = args.output.join(&clip.name);
-        atomic_file::write(&path, &clip.bytes).map_err(|error| Failure::unwritable(&path, error))?;
+    let paths: Vec<PathBuf> = clips.iter().map(|clip| args.output.join(&clip.name)).collect();
+    check_files(&args.output, &paths, &[])?;
+    fs::create_dir_all(&args.output).map_err(|error| Failure::unwritable(&args.output, error))?;
+    for (clip, path) in clips.iter().zip(&paths) {
+        atomic_file::write(path, &clip.bytes).map_err(|error| Failure::unwritable(path, error))?;
     }
     output::print(&format!("{} clips in {}", clips.len(), args.output.display()))?;
     Ok(Answer::Yes)

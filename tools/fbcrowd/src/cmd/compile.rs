@@ -5,12 +5,13 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use fbcrowd_jobs::compiling::{self, Overrides};
+use fbcrowd_jobs::output_path::check_file;
 use fbcrowd_jobs::stages::Stopwatch;
 use fbcrowd_jobs::{JobError, JobEvent};
 use motiondb::velocity_sets::velocity_hull::Construction;
 use motiondb_compiler::Compiled;
 
-use crate::cmd::rejected;
+use crate::cmd::rejected::{self, outside};
 use crate::report::compile_report::CompileReport;
 use crate::report::compile_text;
 use crate::report::next_steps::with_next_steps;
@@ -37,7 +38,10 @@ pub(crate) struct Args {
     /// Write nothing if any input is rejected.
     #[arg(long)]
     strict: bool,
-    /// Print the report as JSON, also if no clip gives an example (exit code 2); docs/json.md describes it.
+    /// Also read buffers of glTF files that lie outside the folder of their .gltf file.
+    #[arg(long)]
+    allow_outside: bool,
+    /// Print the report as JSON, with exit code 2 too; docs/json.md describes it.
     #[arg(long)]
     json: bool,
     /// Maximum number of examples, without mirrored ones; overrides the manifest. Kept first: the base walk (m_sp), one
@@ -72,13 +76,17 @@ impl From<VelocitySets> for Construction {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let overrides =
-        Overrides { velocity_hull: args.velocity_hull.map(Construction::from), max_examples: args.max_examples };
+    let overrides = Overrides {
+        velocity_hull: args.velocity_hull.map(Construction::from),
+        max_examples: args.max_examples,
+        outside: outside(args.allow_outside),
+    };
     let (stopwatch, progress) = (Stopwatch::default(), ProgressDisplay::default());
     let observer = |event: JobEvent<'_>| {
         stopwatch.observe(event);
         progress.observe(event);
     };
+    check_file(&args.output)?;
     let compiled = compiling::compile(&args.clips, &args.output, &overrides, &observer);
     if let (true, Err(JobError::NoExample { rejected, sources })) = (args.json, &compiled) {
         output::print_json(&with_next_steps(CompileReport::without_examples(rejected.clone(), sources)))?;

@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 
 use fbcrowd_jobs::compiling;
 use fbcrowd_jobs::leave_one_out::leave_one_out;
-use fbcrowd_render::plots::database::write_database_plots;
+use fbcrowd_jobs::output_path::check_files;
+use fbcrowd_render::plots::database::{database_plot_paths, write_database_plots};
 use motiondb::files::database_file::{self, FileError};
+use motiondb::motion::MotionDb;
 use motiondb_compiler::ClipSet;
 use motiondb_compiler::survey::survey;
 
-use crate::cmd::rejected;
+use crate::cmd::rejected::{self, outside};
 use crate::report::correspondence_table::CorrespondenceTable;
 use crate::report::inspect_report::{BrokenInvariant, BrokenReport, ClipsReport, DatabaseReport};
 use crate::report::inspect_text;
@@ -31,8 +33,11 @@ pub(crate) struct Args {
     /// Print JSON; docs/json.md describes it.
     #[arg(long)]
     json: bool,
-    /// Write plots of a database: velocity sets, parameters, coverage, poses, gait events, and the pose distance of the
-    /// two examples between which synthesis switches (m_sp, m_mb).
+    /// Also read buffers of glTF files that lie outside the folder of their .gltf file.
+    #[arg(long)]
+    allow_outside: bool,
+    /// Write pictures of a database: velocity sets, parameters, where the examples are thin, bodies, steps, and how
+    /// similar the poses of m_sp and m_mb are.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
     /// For each recorded example: rebuild the database without it, blend at its parameters, and print the RMS joint
@@ -87,6 +92,7 @@ fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
         _ => None,
     };
     if let Some(folder) = &args.plots {
+        check_plots(&db, folder, path)?;
         let mut pictures = write_database_plots(&db, folder)?;
         if let Some(table) = &table {
             pictures.push(table.draw(&db, folder)?);
@@ -102,6 +108,13 @@ fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
         output::print(&inspect_text::database_text(&db, &report))?;
     }
     Ok(Answer::Yes)
+}
+
+/// Checks that every plot can be written, and none replaces the database.
+fn check_plots(db: &MotionDb, folder: &Path, database: &Path) -> Result<(), Failure> {
+    let mut plots = database_plot_paths(db, folder);
+    plots.push(CorrespondenceTable::plot_path(folder));
+    Ok(check_files(folder, &plots, &[database.to_owned()])?)
 }
 
 fn say_broken(args: &Args, broken: &FileError) -> Result<Answer, Failure> {
@@ -123,7 +136,8 @@ fn inspect_clips(args: &Args, paths: &[PathBuf]) -> Result<Answer, Failure> {
         return Err(Failure::bad(format!("{message}; compile the clips first with `fbcrowd compile`")));
     }
     let progress = ProgressDisplay::default();
-    let ClipSet { clips, rejected } = compiling::import(paths, &|event| progress.observe(event))?;
+    let ClipSet { clips, rejected } =
+        compiling::import(paths, outside(args.allow_outside), &|event| progress.observe(event))?;
     rejected::print(&rejected);
     let (is_empty, answer) = (clips.is_empty(), rejected::answer(&rejected));
     let surveyed = survey(clips);

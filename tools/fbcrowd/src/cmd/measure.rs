@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use fbcrowd_jobs::output_path::{check_is_no_input, is_same_file};
+use fbcrowd_jobs::JobError;
+use fbcrowd_jobs::output_path::{check_file, check_is_no_input, is_same_file};
 use fbcrowd_sim::measures;
 use fbcrowd_sim::recording::Recording;
 use motiondb::files::atomic_file::AtomicFile;
@@ -51,15 +52,15 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     Ok(Answer::Yes)
 }
 
-/// Checks that no output replaces the recording or another output.
+/// Checks that every output can be written, and replaces neither the recording nor another output.
 fn check_outputs(args: &Args) -> Result<(), Failure> {
     for path in [&args.trajectories, &args.table].into_iter().flatten() {
         check_is_no_input(path, [&args.recording])?;
+        check_file(path)?;
     }
     match (&args.trajectories, &args.table) {
         (Some(one), Some(other)) if is_same_file(one, other) => {
-            let file = one.display();
-            Err(Failure::bad(format!("{file} cannot be both trajectories and table; give --table another name")))
+            Err(JobError::OneFileTwice { output: one.clone(), first: "trajectories", second: "table" }.into())
         }
         _ => Ok(()),
     }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
+use fbcrowd_jobs::output_path::LockedFolder;
 use fbcrowd_jobs::rendering;
 use fbcrowd_jobs::wording::counted;
 use fbcrowd_render::top_view::{FrameRange, PictureFormat, SequenceOptions};
@@ -70,6 +71,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         frames: args.frames.clone(),
         constraints_of: constraints_of(args, recording.header().scenario.agents.len())?,
     };
+    rendering::check_frames(&recording, &options, std::slice::from_ref(&args.recording))?;
+    let _lock = LockedFolder::shared(&args.output)?;
     let progress = ProgressDisplay::default();
     let rendered = rendering::render(&recording, &options, &|event| progress.observe(event))?;
     output::print(&format!(

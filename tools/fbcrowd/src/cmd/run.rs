@@ -1,20 +1,22 @@
 //! `fbcrowd run`: the main job in one line: compile, simulate, measure, render.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use fbcrowd_jobs::clip_paths;
 use fbcrowd_jobs::compiling::{self, Overrides};
+use fbcrowd_jobs::output_path::{LockedFolder, check_files};
 use fbcrowd_jobs::rendering::{self, RenderedSequence};
-use fbcrowd_jobs::simulation::{self, SimulationInput};
+use fbcrowd_jobs::simulation;
 use fbcrowd_jobs::wording::counted;
 use fbcrowd_jobs::{JobEvent, Observer};
 use fbcrowd_render::top_view::{PictureFormat, SequenceOptions};
 use fbcrowd_sim::measures;
 use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::database_file;
-use motiondb_compiler::Compiled;
+use motiondb::motion::MotionDb;
 
-use crate::cmd::rejected;
+use crate::cmd::rejected::{self, outside};
 use crate::report::{measures_text, timings_text};
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
@@ -32,55 +34,118 @@ pub(crate) struct Args {
     /// The folder to write to; `out/NAME` by default.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Also read buffers of glTF files that lie outside the folder of their .gltf file.
+    #[arg(long)]
+    allow_outside: bool,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let progress = ProgressDisplay::default();
     let observer = |event: JobEvent<'_>| progress.observe(event);
     let (scenario, motion) = scenario::read(&args.scenario)?;
-    let name = scenario.name.clone();
-    let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
-    let recording_path = folder.join(format!("{name}.fbrec"));
-    let (database, answer) = database(motion?, &folder, &observer)?;
-    let (db, database_checksum) = database_file::load(&database)?;
+    let motion = motion?;
+    let outputs = RunOutputs::new(args, &scenario.name);
+    outputs.check(&inputs(args, &motion)?)?;
 
-    let input = SimulationInput { db, database_checksum, scenario };
-    let timings = simulation::simulate(input, &recording_path, &observer)?;
-    let recording = rendering::open(&recording_path)?;
-    let measures = measures::measure(&recording)?;
-    rendering::plot_trajectories(&recording, &folder.join("trajectories.png"))?;
-    let options = SequenceOptions {
-        folder: folder.join("frames"),
-        name,
-        format: PictureFormat::Png,
-        frames: None,
-        constraints_of: Vec::new(),
+    // Everything that bad input can end comes before the first output.
+    let MotionInput { db, checksum, answer } = MotionInput::new(motion, args, &outputs, &observer)?;
+    let db = Arc::new(db);
+    let prepared = simulation::prepare(Arc::clone(&db), scenario, &observer)?;
+    let _locks = [LockedFolder::exclusive(&outputs.folder)?, LockedFolder::exclusive(&outputs.frames.folder)?];
+    let checksum = match checksum {
+        Some(checksum) => checksum,
+        None => compiling::write_database(&outputs.database, &db, &observer)?,
     };
-    rendering::remove_frames(&options)?;
-    let rendered = rendering::render(&recording, &options, &observer)?;
+    let timings = prepared.record(checksum, &outputs.recording, &observer)?;
+    let recording = rendering::open(&outputs.recording)?;
+    let measures = measures::measure(&recording)?;
+    rendering::plot_trajectories(&recording, &outputs.trajectories)?;
+    rendering::remove_frames(&outputs.frames)?;
+    let rendered = rendering::render(&recording, &outputs.frames, &observer)?;
 
     let figures = measures_text::text(&measures) + &timings_text::text(&timings);
-    output::print(&(figures + &outputs_text(&rendered, &folder)))?;
+    output::print(&(figures + &outputs_text(&rendered, &outputs.folder)))?;
     Ok(answer)
 }
 
-/// The scenario's database. Where the scenario names clips, they are compiled into the output folder.
-fn database(motion: MotionSource, folder: &Path, observer: &Observer) -> Result<(PathBuf, Answer), Failure> {
-    let create_folder = || fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, error));
-    match motion {
-        MotionSource::Database(path) => {
-            // Read before anything is written.
-            database_file::load(&path)?;
-            create_folder()?;
-            Ok((path, Answer::Yes))
+/// Where a run writes.
+struct RunOutputs {
+    folder: PathBuf,
+    /// Written where the scenario names clips.
+    database: PathBuf,
+    recording: PathBuf,
+    trajectories: PathBuf,
+    frames: SequenceOptions,
+}
+
+impl RunOutputs {
+    fn new(args: &Args, name: &str) -> Self {
+        let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(name));
+        Self {
+            database: folder.join("motion.fbdb"),
+            recording: folder.join(format!("{name}.fbrec")),
+            trajectories: folder.join("trajectories.png"),
+            frames: SequenceOptions {
+                folder: folder.join("frames"),
+                name: name.to_owned(),
+                format: PictureFormat::Png,
+                frames: None,
+                constraints_of: Vec::new(),
+            },
+            folder,
         }
+    }
+
+    /// Checks that every output can be written, and replaces none of the inputs.
+    fn check(&self, inputs: &Inputs) -> Result<(), Failure> {
+        let database = inputs.are_compiled.then_some(&self.database);
+        let files: Vec<PathBuf> = [&self.recording, &self.trajectories].into_iter().chain(database).cloned().collect();
+        check_files(&self.folder, &files, &inputs.files)?;
+        Ok(rendering::check_old_frames(&self.frames, &inputs.files)?)
+    }
+}
+
+/// What a run reads.
+struct Inputs {
+    files: Vec<PathBuf>,
+    /// Whether a database is compiled from them.
+    are_compiled: bool,
+}
+
+fn inputs(args: &Args, motion: &MotionSource) -> Result<Inputs, Failure> {
+    let (motion, are_compiled) = match motion {
+        MotionSource::Database(path) => (vec![path.clone()], false),
         MotionSource::Clips(clips) => {
-            let path = folder.join("motion.fbdb");
-            let Compiled { db, rejected } = compiling::compile(&[clips], &path, &Overrides::default(), observer)?;
-            rejected::print(&rejected);
-            create_folder()?;
-            compiling::write_database(&path, &db, observer)?;
-            Ok((path, rejected::answer(&rejected)))
+            let paths = [clips.clone()];
+            (clip_paths::inputs(&paths, &clip_paths::manifest(&paths)?), true)
+        }
+    };
+    let files = [vec![args.scenario.clone()], scenario::agent_files(&args.scenario)?, motion].concat();
+    Ok(Inputs { files, are_compiled })
+}
+
+/// The scenario's motion in memory.
+struct MotionInput {
+    db: MotionDb,
+    /// Checksum of the database's file; `None` where the database is compiled and not written yet.
+    checksum: Option<u32>,
+    /// No where some clip was refused.
+    answer: Answer,
+}
+
+impl MotionInput {
+    fn new(motion: MotionSource, args: &Args, outputs: &RunOutputs, observer: &Observer) -> Result<Self, Failure> {
+        match motion {
+            MotionSource::Database(path) => {
+                let (db, checksum) = database_file::load(&path)?;
+                Ok(Self { db, checksum: Some(checksum), answer: Answer::Yes })
+            }
+            MotionSource::Clips(clips) => {
+                let overrides = Overrides { outside: outside(args.allow_outside), ..Overrides::default() };
+                let compiled = compiling::compile(&[clips], &outputs.database, &overrides, observer)?;
+                rejected::print(&compiled.rejected);
+                Ok(Self { db: compiled.db, checksum: None, answer: rejected::answer(&compiled.rejected) })
+            }
         }
     }
 }

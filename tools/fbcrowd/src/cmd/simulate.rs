@@ -3,7 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use fbcrowd_jobs::output_path::{check_is_no_input, is_same_file};
+use fbcrowd_jobs::JobError;
+use fbcrowd_jobs::output_path::{check_file, check_is_no_input, is_same_file};
 use fbcrowd_jobs::simulation::{self, SimulationInput};
 use fbcrowd_jobs::timings::Timings;
 use fbcrowd_sim::scenario::{self, MotionSource};
@@ -42,12 +43,12 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         None => own_database(&args.scenario, motion?)?,
     };
     if args.report.as_ref().is_some_and(|report| is_same_file(report, &args.output)) {
-        let file = args.output.display();
-        return Err(Failure::bad(format!("{file} cannot be both recording and report; give --report another name")));
+        return Err(JobError::OneFileTwice { output: args.output.clone(), first: "recording", second: "report" }.into());
     }
     let inputs = [vec![args.scenario.clone(), database.clone()], scenario::agent_files(&args.scenario)?].concat();
     for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
         check_is_no_input(written, &inputs)?;
+        check_file(written)?;
     }
     let (db, database_checksum) = database_file::load(&database)?;
     // Created before the long work, so that a path that cannot be written ends it early.

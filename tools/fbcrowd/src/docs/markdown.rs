@@ -7,8 +7,9 @@ use crate::docs::schemas::OutputSchema;
 const HEAD: &str = "\
 # JSON of the command line
 
-`fbcrowd COMMAND --json` prints one object on standard output, whether the answer is yes or no. With exit code 2 standard
-error holds the reason, and nothing is printed, except that `compile` and `inspect` still list what was rejected.
+`fbcrowd COMMAND --json` prints one object on standard output, whether the answer is yes or no. With exit code 2
+or 3 standard error holds the reason, and nothing is printed, except that `compile` and `inspect` still list what was
+refused.
 
 Keys are stable: they keep their names and types. A name carries its unit (`speed_mps`, `time_s`); shares are
 between 0 and 1. `key[]` is an array and `key[].name` a key of each of its objects. Speeds are along the facing, turn

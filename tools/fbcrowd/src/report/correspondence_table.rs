@@ -51,8 +51,13 @@ impl CorrespondenceTable {
 
     /// Draws the distances of all poses into an existing folder; returns the path of the picture.
     pub(crate) fn draw(&self, db: &MotionDb, folder: &Path) -> Result<PathBuf, RenderError> {
-        let path = folder.join("pose_distance_between.png");
+        let path = Self::plot_path(folder);
         png_frame::write(&path, &pose_distances_between(db, self.examples)).map(|()| path)
+    }
+
+    /// Path of the picture in a folder.
+    pub(crate) fn plot_path(folder: &Path) -> PathBuf {
+        folder.join("pose_distance_between.png")
     }
 
     /// The table as text.

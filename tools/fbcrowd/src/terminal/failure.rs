@@ -12,6 +12,7 @@ use fbcrowd_sim::scenario::ScenarioError;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use motiondb::files::Invalid;
 use motiondb::files::database_file::FileError;
+use motiondb::files::temporary_files::{self, CompletedOutputs};
 use motiondb::motion::SourceRecord;
 use motiondb_compiler::Rejection;
 
@@ -41,6 +42,11 @@ impl Answer {
     }
 }
 
+/// Exit code of bad usage or input; nothing was written.
+const BAD_INPUT: u8 = 2;
+/// Exit code of a failure of the machine (disk, memory, permission): a retry may help.
+const MACHINE_FAILED: u8 = 3;
+
 /// Why a command could not do its work.
 #[derive(Debug)]
 pub(crate) enum Failure {
@@ -55,6 +61,8 @@ pub(crate) enum Failure {
         /// The remedy.
         advice: String,
     },
+    /// Exit code 3: the system failed to write an output; the message names it.
+    Machine(Report),
     /// Exit code 0: the program that read standard output has ended.
     ReaderGone,
 }
@@ -63,6 +71,11 @@ impl Failure {
     /// Bad usage or input.
     pub(crate) fn bad(message: impl Into<String>) -> Self {
         Self::BadInput(Report::msg(one_line(&message.into())))
+    }
+
+    /// The machine failed: disk, memory, permission.
+    pub(crate) fn of_machine(message: impl Into<String>) -> Self {
+        Self::Machine(Report::msg(one_line(&message.into())))
     }
 
     /// A job fails.
@@ -74,6 +87,7 @@ impl Failure {
                 let advice = if sources.is_empty() { ALL_REJECTED.to_owned() } else { message };
                 Self::NoExample { rejected, sources, advice }
             }
+            error if error.is_of_machine() => Self::of_machine(message),
             _ => Self::bad(message),
         }
     }
@@ -82,7 +96,7 @@ impl Failure {
     fn mistake(invalid: Invalid) -> Self {
         let message = format!("{}:{}: {}", invalid.path.display(), invalid.line(), invalid.message);
         let mistake = MietteDiagnostic::new(one_line(&message)).with_help(&invalid.help);
-        if invalid.text.lines().any(|line| line.len() > SHOWN_LINE_BYTES) {
+        if !invalid.is_quotable || invalid.text.lines().any(|line| line.len() > SHOWN_LINE_BYTES) {
             return Self::BadInput(Report::new(mistake));
         }
         let name = one_line(&invalid.path.display().to_string());
@@ -100,7 +114,12 @@ impl Failure {
         match self {
             Self::BadInput(report) => {
                 output::say_text(&format!("Error: {report:?}"));
-                ExitCode::from(2)
+                ExitCode::from(BAD_INPUT)
+            }
+            Self::Machine(report) => {
+                output::say_text(&format!("Error: {report:?}"));
+                output::say(&complete_outputs(&temporary_files::completed()));
+                ExitCode::from(MACHINE_FAILED)
             }
             Self::NoExample { rejected, sources, advice } => {
                 // The reporter would wrap the list.
@@ -109,6 +128,16 @@ impl Failure {
             }
             Self::ReaderGone => ExitCode::SUCCESS,
         }
+    }
+}
+
+/// The outputs that are complete although the command failed.
+fn complete_outputs(CompletedOutputs { first, count }: &CompletedOutputs) -> String {
+    let paths: Vec<String> = first.iter().map(|path| path.display().to_string()).collect();
+    match count - first.len() {
+        _ if *count == 0 => "No output is complete.".to_owned(),
+        0 => format!("Complete outputs: {}.", paths.join(", ")),
+        more => format!("Complete outputs: {} and {more} more.", paths.join(", ")),
     }
 }
 
@@ -128,7 +157,7 @@ impl From<PrintError> for Failure {
     fn from(error: PrintError) -> Self {
         match error {
             PrintError::ReaderGone => Self::ReaderGone,
-            PrintError::Io(error) => Self::bad(format!("standard output cannot be written: {error}")),
+            PrintError::Io(error) => Self::of_machine(format!("standard output cannot be written: {error}")),
         }
     }
 }

@@ -56,6 +56,16 @@ pub fn write_database_plots(db: &MotionDb, folder: &Path) -> Result<Vec<PathBuf>
     single.chain(gaits).chain(bodies).map(write).collect()
 }
 
+/// Paths of all files that [`write_database_plots`] may write into a folder.
+pub fn database_plot_paths(db: &MotionDb, folder: &Path) -> Vec<PathBuf> {
+    let single = ["velocity_space", "parameter_space", "coverage", "pose_distance"].map(str::to_owned);
+    let gaits =
+        sheets(db.examples.len(), gait_events::SHEET_EXAMPLES).map(|(suffix, _)| format!("gait_events{suffix}"));
+    let bodies =
+        sheets(db.examples.len(), contact_sheet::SHEET_EXAMPLES).map(|(suffix, _)| format!("contact_sheet{suffix}"));
+    single.into_iter().chain(gaits).chain(bodies).map(|name| folder.join(format!("{name}.png"))).collect()
+}
+
 /// Suffix of each sheet's name, and the indices of its examples.
 fn sheets(examples: usize, each: usize) -> impl Iterator<Item = (String, Range<usize>)> {
     (0..examples.div_ceil(each)).map(move |sheet| {

@@ -15,7 +15,7 @@ pub(crate) mod pose_distances;
 pub(crate) mod stick_figure;
 pub(crate) mod velocity_space;
 
-pub use all_plots::write_database_plots;
+pub use all_plots::{database_plot_paths, write_database_plots};
 pub use contact_sheet::contact_sheet;
 pub use coverage::coverage_slices;
 pub use gait_events::gait_events;

@@ -15,6 +15,11 @@ pub(crate) fn parse_lines(text: &str) -> Result<Vec<Journey>, (Range<usize>, Str
     lines(text).map(|(span, content)| parse_line(content).map_err(|message| (span, message))).collect()
 }
 
+/// Whether the first line is an agent's. Any other text is no agent file, and no message quotes it.
+pub(crate) fn is_agent_file(text: &str) -> bool {
+    lines(text).next().is_some_and(|(_, content)| parse_line(content).is_ok())
+}
+
 /// The bytes of an agent's line.
 pub(crate) fn line_span(text: &str, agent: usize) -> Range<usize> {
     lines(text).nth(agent).map_or(0..0, |(span, _)| span)

@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::Path;
 
-use motiondb::files::SourceText;
+use motiondb::files::{Invalid, SourceText};
 use toml::Spanned;
 
 use crate::maths::random::SplitMix64;
@@ -12,7 +12,7 @@ use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_groups::{AgentGroup, AgentGroups, AgentLayout, GroupFault, Journey, check_size};
-use crate::scenario::file::agent_lines::{line_span, parse_lines};
+use crate::scenario::file::agent_lines::{is_agent_file, line_span, parse_lines};
 
 /// All agents of a scenario file, and the tables that describe them.
 #[derive(Default)]
@@ -91,8 +91,11 @@ fn read_lines(source: &SourceText, name: &Spanned<String>) -> Result<SourceText,
 }
 
 fn journeys_of_lines(lines: &SourceText) -> Result<Vec<Journey>, ScenarioError> {
-    parse_lines(&lines.text)
-        .map_err(|(span, message)| lines.invalid(span, message, "write `x y goal_x goal_y`, in metres").into())
+    parse_lines(&lines.text).map_err(|(span, message)| {
+        let is_quotable = is_agent_file(&lines.text);
+        let message = if is_quotable { message } else { "this is not an agent's line".to_owned() };
+        Invalid { is_quotable, ..lines.invalid(span, message, "write `x y goal_x goal_y`, in metres") }.into()
+    })
 }
 
 /// The agents of lines `x y goal_x goal_y`, with the default disc and speed, each facing its goal.

@@ -33,6 +33,8 @@ use crate::scenario::file::agent_groups::AgentGroups;
 use crate::scenario::point::Point;
 use crate::scenario::view::View;
 
+/// Keys by one of which a scenario file is recognised.
+const KEYS: [&str; 6] = ["duration_s", "agents", "clips", "dt_s", "obstacles", "planner"];
 /// How to mend a scenario without motion.
 const NO_MOTION: &str = "add `clips = \"FOLDER\"` or `database = \"FILE.fbdb\"`, relative to this file, or give a database with `fbcrowd simulate --db`";
 
@@ -77,7 +79,7 @@ pub(crate) struct ObstacleTable {
 
 impl ScenarioFile {
     pub(crate) fn parse(source: &SourceText) -> Result<Self, ScenarioError> {
-        Ok(toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message()))?)
+        Ok(toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message(), &KEYS))?)
     }
 
     /// The motion that the file names. The inner error: it names none, or one that is missing. The outer error: the

@@ -81,6 +81,9 @@ pub struct Manifest {
     target_skeleton: Option<Spanned<String>>,
 }
 
+/// Keys by one of which a manifest is recognised.
+const KEYS: [&str; 5] = ["clips", "semi_procedural", "target_skeleton", "max_examples", "velocity_hull"];
+
 /// The keys of the file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -111,7 +114,7 @@ impl Manifest {
     /// [`CompileError::UnreadableFolder`].
     pub fn parse(source: SourceText) -> Result<Self, CompileError> {
         let file: ManifestFile =
-            toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message()))?;
+            toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message(), &KEYS))?;
         for table in &file.clips {
             table.get_ref().check(&source)?;
         }

@@ -1,6 +1,7 @@
 //! Bytes of a glTF document's buffers: the chunk of a GLB file, `data:` URIs, files beside the document.
 //!
-//! Never more bytes than exist, and nothing outside the document's folder: a clip must not make us read other files.
+//! Never more bytes than exist, and nothing outside the document's folder unless the user allows it: neither a path nor
+//! a link of a clip makes us read other files.
 
 use std::borrow::Cow;
 use std::io::Read;
@@ -20,6 +21,8 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     &STANDARD,
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
+/// Remedy for a buffer outside the document's folder.
+const MOVE_OR_ALLOW: &str = "move the .bin file beside the .gltf file, or allow it with --allow-outside";
 /// Remedy for a buffer in a file that cannot be read.
 const KEEP_BESIDE: &str = "keep the .bin file beside the .gltf file, or export a .glb";
 
@@ -29,11 +32,12 @@ pub(crate) fn read<'a>(
     index: usize,
     buffer: &json::Buffer,
     chunk: Option<&Cow<'a, [u8]>>,
+    outside: Outside,
 ) -> Result<Cow<'a, [u8]>, RejectionReason> {
     let position = format!("buffer {index}");
     let length = usize::try_from(buffer.byte_length.0).unwrap_or(usize::MAX);
     let bytes = match (buffer.uri.as_deref(), chunk) {
-        (Some(uri), _) => Cow::Owned(from_uri(file, &position, uri, length)?),
+        (Some(uri), _) => Cow::Owned(from_uri(file, &position, uri, length, outside)?),
         (None, Some(chunk)) if index == 0 => chunk.clone(),
         // Such are the buffers that EXT_meshopt_compression replaces.
         (None, _) => {
@@ -48,13 +52,29 @@ pub(crate) fn read<'a>(
     Ok(bytes)
 }
 
-/// Paths of the files in the document's folder that URIs name.
-pub(crate) fn linked_paths(file: &Path, uris: &[String]) -> Vec<PathBuf> {
-    let linked = uris.iter().filter(|uri| !uri.starts_with("data:"));
-    linked.filter_map(|uri| path_beside(file, &percent_decoded(uri)?)).collect()
+/// Whether a document's buffers may lie outside its folder.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outside {
+    /// A path or a link that leads outside is an error.
+    #[default]
+    Refused,
+    /// Every path is read.
+    Allowed,
 }
 
-fn from_uri(file: &Path, position: &str, uri: &str, length: usize) -> Result<Vec<u8>, RejectionReason> {
+/// Paths of the files that URIs name, also outside the document's folder.
+pub(crate) fn linked_paths(file: &Path, uris: &[String]) -> Vec<PathBuf> {
+    let linked = uris.iter().filter(|uri| !uri.starts_with("data:"));
+    linked.filter_map(|uri| named_path(file, &percent_decoded(uri)?)).collect()
+}
+
+fn from_uri(
+    file: &Path,
+    position: &str,
+    uri: &str,
+    length: usize,
+    outside: Outside,
+) -> Result<Vec<u8>, RejectionReason> {
     if let Some(data) = uri.strip_prefix("data:") {
         let decoded = data.split_once(";base64,").and_then(|(_, text)| BASE64.decode(text).ok());
         return decoded.map_or_else(|| malformed(position, "its data URI is not base64", "export it as .glb"), Ok);
@@ -62,8 +82,9 @@ fn from_uri(file: &Path, position: &str, uri: &str, length: usize) -> Result<Vec
     let Some(name) = percent_decoded(uri) else {
         return malformed(position, "its URI is not percent-encoded text", "export it as .glb");
     };
-    let Some(path) = path_beside(file, &name) else {
-        return malformed(position, format!("`{name}` lies outside the document's folder"), KEEP_BESIDE);
+    let is_readable = |path: &PathBuf| outside == Outside::Allowed || is_beside(file, &name, path);
+    let Some(path) = named_path(file, &name).filter(is_readable) else {
+        return malformed(position, format!("`{name}` lies outside the document's folder"), MOVE_OR_ALLOW);
     };
     let mut bytes = Vec::new();
     match input_file::open(&path).and_then(|open| open.take(length as u64).read_to_end(&mut bytes)) {
@@ -72,12 +93,22 @@ fn from_uri(file: &Path, position: &str, uri: &str, length: usize) -> Result<Vec
     }
 }
 
-/// Path of a file in the document's folder or below; none for a name that leads elsewhere.
-fn path_beside(file: &Path, name: &str) -> Option<PathBuf> {
-    let is_plain = Path::new(name).components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-    // Drives, schemes and other systems' separators.
+/// Path of a file that a document names; none for a name with a drive, a scheme or other systems' separators.
+fn named_path(file: &Path, name: &str) -> Option<PathBuf> {
     let is_foreign = name.contains(['\\', ':', '\0']);
-    (is_plain && !is_foreign && !name.is_empty()).then(|| file.parent().unwrap_or(Path::new("")).join(name))
+    (!is_foreign && !name.is_empty()).then(|| file.parent().unwrap_or(Path::new("")).join(name))
+}
+
+/// Whether a named path is in the document's folder or below, also after its links are followed.
+fn is_beside(file: &Path, name: &str, path: &Path) -> bool {
+    let is_plain = Path::new(name).components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    // A file that does not exist leads nowhere.
+    let leads_outside = || match (folder.canonicalize(), path.canonicalize()) {
+        (Ok(folder), Ok(path)) => !path.starts_with(folder),
+        _ => false,
+    };
+    is_plain && !leads_outside()
 }
 
 fn percent_decoded(uri: &str) -> Option<String> {
@@ -88,4 +119,35 @@ fn percent_decoded(uri: &str) -> Option<String> {
         bytes.extend(piece.get(2..)?.as_bytes());
     }
     String::from_utf8(bytes).ok()
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::fs;
+    use std::os::unix::fs::symlink;
+
+    use super::*;
+
+    #[test]
+    fn nothing_outside_is_read_unless_allowed() {
+        let folder = tempfile::tempdir().unwrap();
+        let (outside, inside) = (folder.path().join("outside"), folder.path().join("inside"));
+        fs::create_dir_all(inside.join("bin")).unwrap();
+        fs::create_dir(&outside).unwrap();
+        fs::write(outside.join("a.bin"), "that").unwrap();
+        fs::write(inside.join("bin/a.bin"), "this").unwrap();
+        symlink("bin/a.bin", inside.join("near.bin")).unwrap();
+        symlink("../outside/a.bin", inside.join("far.bin")).unwrap();
+        symlink("../outside", inside.join("folder")).unwrap();
+        let read = |uri: &str, outside| from_uri(&inside.join("a.gltf"), "buffer 0", uri, 4, outside);
+        for uri in ["bin/a.bin", "near.bin"] {
+            assert_eq!(read(uri, Outside::Refused).unwrap(), b"this");
+        }
+        for uri in ["far.bin", "folder/a.bin", "../outside/a.bin", "bin/../../outside/a.bin"] {
+            let refused = read(uri, Outside::Refused).unwrap_err().to_string();
+            assert!(refused.contains("lies outside") && refused.contains("--allow-outside"), "{refused}");
+            assert_eq!(read(uri, Outside::Allowed).unwrap(), b"that");
+        }
+        assert!(read("missing.bin", Outside::Refused).unwrap_err().to_string().contains("cannot be read"));
+    }
 }

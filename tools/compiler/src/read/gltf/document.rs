@@ -7,7 +7,7 @@ use std::path::Path;
 use gltf::json::{Index, Root, buffer::View};
 
 use crate::error::RejectionReason;
-use crate::read::gltf::buffers;
+use crate::read::gltf::buffers::{self, Outside};
 use crate::read::gltf::document_json::{self, ParsedDocument};
 use crate::read::gltf::node_channel::moving_channel;
 use crate::read::gltf::node_transform::NodeTransform;
@@ -26,13 +26,13 @@ pub(crate) struct Document<'a> {
 
 impl<'a> Document<'a> {
     /// Reads a file's bytes and the buffers outside it.
-    pub(crate) fn open(file: &Path, bytes: &'a [u8]) -> Result<Self, RejectionReason> {
+    pub(crate) fn open(file: &Path, bytes: &'a [u8], outside: Outside) -> Result<Self, RejectionReason> {
         let ParsedDocument { root, chunk, has_nodeless_channels } = document_json::parse(bytes)?;
         let buffers = vec![None; root.buffers.len()];
         let mut document = Self { root, buffers, byte_count: bytes.len(), has_nodeless_channels };
         for index in document.animation_buffers() {
             let Some(buffer) = document.root.buffers.get(index) else { continue };
-            let read = buffers::read(file, index, buffer, chunk.as_ref())?;
+            let read = buffers::read(file, index, buffer, chunk.as_ref(), outside)?;
             document.byte_count += if let Cow::Owned(read) = &read { read.len() } else { 0 };
             document.buffers[index] = Some(read);
         }

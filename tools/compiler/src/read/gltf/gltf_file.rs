@@ -5,6 +5,7 @@ use std::path::Path;
 use motiondb::diagnostic::{Diagnostic, Note};
 
 use crate::error::RejectionReason;
+use crate::read::gltf::buffers::Outside;
 use crate::read::gltf::clip_plan::{ClipPlan, FRAME_RATE_HZ, clip_plans};
 use crate::read::gltf::document::Document;
 use crate::read::gltf::node_tree::{BodyNodes, NodeTree};
@@ -25,7 +26,7 @@ pub struct GltfFile<'a> {
 /// # Errors
 /// [`RejectionReason::Malformed`] at the part of the document that breaks the format.
 pub fn read(file: &Path, bytes: &[u8]) -> Result<Vec<SourceClip>, RejectionReason> {
-    let open = GltfFile::open(file, bytes)?;
+    let open = GltfFile::open(file, bytes, Outside::Refused)?;
     (0..open.len()).map(|index| open.clip(index)).collect()
 }
 
@@ -33,9 +34,9 @@ impl<'a> GltfFile<'a> {
     /// Reads the document. Its clips are read one by one by [`GltfFile::clip`].
     ///
     /// # Errors
-    /// [`RejectionReason::Malformed`] if the document breaks the format or holds no animation.
-    pub fn open(file: &'a Path, bytes: &'a [u8]) -> Result<Self, RejectionReason> {
-        let document = Document::open(file, bytes)?;
+    /// [`RejectionReason::Malformed`] where the document breaks the format or holds no animation.
+    pub fn open(file: &'a Path, bytes: &'a [u8], outside: Outside) -> Result<Self, RejectionReason> {
+        let document = Document::open(file, bytes, outside)?;
         let tree = NodeTree::new(&document.root)?;
         let bodies = tree.bodies(&document.root);
         let plans = clip_plans(&document, &tree, &bodies)?;

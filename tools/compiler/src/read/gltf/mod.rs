@@ -35,4 +35,5 @@ mod node_transform;
 mod node_tree;
 mod sampling;
 
+pub use buffers::Outside;
 pub use gltf_file::{GltfFile, read};
