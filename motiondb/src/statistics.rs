@@ -1,7 +1,7 @@
 //! Statistics of a sample: mean, standard deviation, median, percentile. Values carry any unit; results have the same.
 //!
-//! An empty sample has none of them: each function returns `None`. Sums run in the order of the values, and sorting uses
-//! the total order of floats, so equal input gives equal bytes.
+//! An empty sample has none of them: each function returns `None`. Sums run in the order of the values, and sorting
+//! uses the total order of floats, so equal input gives equal bytes.
 
 use std::iter::Sum;
 use std::ops::Div;

@@ -1,8 +1,8 @@
 //! Exact Delaunay triangulation of the examples' parameters (`FbCrowd` §5), in one to three dimensions.
 //!
 //! Enters: (v_f, ω_t, ω_s) of each example. Leaves: the blend space. Points are inserted one after the other (Bowyer
-//! 1981, Watson 1981). Lifted to h = |x|², the simplices are the lower facets of the points' hull. A new point p replaces
-//! the simplices whose lifted plane lies above it:
+//! 1981, Watson 1981). Lifted to h = |x|², the simplices are the lower facets of the points' hull. A new point p
+//! replaces the simplices whose lifted plane lies above it:
 //!
 //! ```text
 //! h(p) < Σ u_k h(x_k),   u_k = V_k / V: shares of p among the corners x_k of a simplex of volume V

@@ -1,7 +1,7 @@
 //! Temporary files that this process is writing: one list, so that a signal can remove them all.
 //!
-//! A temporary file is called `.fbcrowd-` + 12 random letters and digits + `.tmp`, whatever its target is called. It is
-//! created exclusively, so no link or file of that name is ever opened, and no two processes share one.
+//! A temporary file is called `.fbcrowd-` + 12 random letters and digits + `.tmp`; the name of its target has no part
+//! in it. It is created exclusively, so no link or file of that name is ever opened, and no two processes share one.
 //!
 //! A killed process leaves its temporary files. Each is locked during writing, so the next process that writes into the
 //! folder can remove the abandoned ones.

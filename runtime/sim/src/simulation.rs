@@ -34,8 +34,8 @@ use crate::world::obstacles::Obstacles;
 /// Bodies that one thread takes at a time, at least: enough to outweigh the hand-over, few enough to share out 100.
 const BODIES_PER_TASK_MIN: usize = 16;
 
-/// Memory of an agent in the sorted grids of [`NeighbourSearch`], bytes: position, velocity, radius, rank and cells, some of
-/// them twice.
+/// Memory of an agent in the sorted grids of [`NeighbourSearch`], bytes: position, velocity, radius, rank and cells,
+/// some of them twice.
 const GRID_BYTES: usize = 64;
 
 /// A stage of a step, for measurements.

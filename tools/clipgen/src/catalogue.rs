@@ -1,6 +1,7 @@
 //! The list of clips: name, motion that the name claims, and plan of the gait.
 //!
-//! Turns and side-steps are to the left; the compiler mirrors them. The speed of a turn falls with its rate, as in humans.
+//! Turns and side-steps are to the left; the compiler mirrors them. The speed of a turn falls with its rate, as in
+//! humans.
 
 use crate::body::ClipPose;
 use crate::motion::{Playback, idle_frames, stepping_frames};

@@ -1,8 +1,8 @@
 //! Tests of what the bundled clips claim, measured on their own skeleton.
 //!
-//! Measures are those of the compiler: facing from hips and shoulders; slide of the lowest sole point over the middle 80 %
-//! of each contact. A foot is planted where that point is within 2.5 cm of the ground and slower than 0.25 m/s plus 15 %
-//! of the body's speed. World frame: metres, Z up.
+//! Measures are those of the compiler: facing from hips and shoulders; slide of the lowest sole point over the middle
+//! 80 % of each contact. A foot is planted where that point is within 2.5 cm of the ground and slower than 0.25 m/s
+//! plus 15 % of the body's speed. World frame: metres, Z up.
 
 use glam::{DVec2, DVec3};
 
@@ -174,8 +174,8 @@ fn the_last_frame_is_the_first_one_moved_on() {
 
 #[test]
 fn no_joint_pops_between_frames() {
-    // A pop is a change of velocity within one frame. A struck heel changes a foot's by some 1.5 m/s in walking, 4 m/s in
-    // running.
+    // A pop is a change of velocity within one frame. A struck heel changes a foot's by some 1.5 m/s in walking, 4 m/s
+    // in running.
     check_each(|clip, frames| {
         let bar_mps = if is_running(clip) { 6.0 } else { 3.5 };
         for triple in frames.windows(3) {

@@ -9,8 +9,9 @@
 //!
 //! Every byte follows from this source: no input, no clock, no seed but the clips' names, trigonometry through `libm`.
 //!
-//! Chapters, in reading order: `body` (skeleton and poses), `plan` (what a speed makes of a gait), `motion` (from plan to
-//! poses), `files` (BVH, GLB, README). `catalogue` lists the clips; [`mod@reference`] is what the result is compared with.
+//! Chapters, in reading order: `body` (skeleton and poses), `plan` (what a speed makes of a gait), `motion` (from plan
+//! to poses), `files` (BVH, GLB, README). `catalogue` lists the clips; [`mod@reference`] is what the result is compared
+//! with.
 
 mod body;
 mod catalogue;

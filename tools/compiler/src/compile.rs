@@ -1,6 +1,6 @@
 //! The compiler's pipeline: clips in, motion database out, one line a stage.
 //!
-//! The same clips give the same bytes, whatever their folder, their order and the number of threads: sources are sorted
+//! The same clips give the same bytes for any folder, file order and number of threads: sources are sorted
 //! by file and clip name, examples by their own name, and parallel stages collect in that order.
 
 use std::path::PathBuf;
@@ -63,8 +63,8 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
 ///
 /// # Steps
 /// 1. Sort the clips and choose the body that all examples share ([`crate::ground`]).
-/// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best of
-///    near-equal ones.
+/// 2. Find the steady windows of each clip ([`crate::gait`]), close each into a cycle ([`crate::cycle`]), keep the best
+///    of near-equal ones.
 /// 3. Keep one clip of each set of duplicates ([`crate::dedup`]).
 /// 4. Keep the windows that add to the set ([`crate::select`]).
 /// 5. Close the standing cycles with the period of m_sp; name all.

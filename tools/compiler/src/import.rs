@@ -108,8 +108,8 @@ fn bvh_clip(settings: &ClipSettings, clip: SourceClip) -> ImportedClip {
     }
 }
 
-/// Clips are read and imported one by one: of thousands of animations only the human motion is kept. A malformed clip is
-/// an error of the file only where all clips are malformed.
+/// Clips are read and imported one by one: of thousands of animations only the human motion is kept. A malformed clip
+/// is an error of the file only where all clips are malformed.
 fn gltf_clips(settings: &ClipSettings, file: &GltfFile) -> Result<Vec<ImportedClip>, RejectionReason> {
     let has_several = file.len() > 1;
     if let Some(animation) = &settings.animation {

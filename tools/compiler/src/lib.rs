@@ -1,9 +1,9 @@
 //! Motion clips in, motion database out.
 //!
-//! The compiler reads BVH and glTF files of one or many performers, finds the body in each skeleton, retargets it to the
-//! canonical humanoid, finds steady gaits in its motion and closes them to cycles. The resulting
-//! [`MotionDb`](motiondb::motion::MotionDb) is what the runtime blends. It depends on the clips alone: not on folders, the
-//! order of files or the number of threads.
+//! The compiler reads BVH and glTF files of one or many performers, finds the body in each skeleton, retargets it to
+//! the canonical humanoid, finds steady gaits in its motion and closes them to cycles. The resulting
+//! [`MotionDb`](motiondb::motion::MotionDb) is what the runtime blends. It depends on the clips alone: not on folders,
+//! the order of files or the number of threads.
 //!
 //! # Example
 //! Compile a folder of clips and print its examples.
@@ -33,9 +33,9 @@
 //! `checks` (together [`mod@import`]) → [`ground`] → [`gait`] → [`cycle`] → [`dedup`], [`select`] → [`database`].
 //!
 //! # Conventions
-//! Source clips have their file's unit and axes until `retarget`. From there on: metres, seconds, radians; x and y on the
-//! ground, z up, right-handed; angles counter-clockwise seen from above. A body's frame: x forward, y left. Pairs of sides
-//! are `[left, right]`. (v_f, ω_t, ω_s) are forward speed, turn rate and speed to the left.
+//! Source clips have their file's unit and axes until `retarget`. From there on: metres, seconds, radians; x and y on
+//! the ground, z up, right-handed; angles counter-clockwise seen from above. A body's frame: x forward, y left. Pairs
+//! of sides are `[left, right]`. (v_f, ω_t, ω_s) are forward speed, turn rate and speed to the left.
 
 mod checks;
 pub mod compile;

@@ -5,7 +5,8 @@ use std::path::Path;
 /// One step of progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CompileEvent<'a> {
-    /// A stage of this name begins, and the stage before it ends. [`mod@crate::compile`] names the stages in their order.
+    /// A stage of this name begins, and the stage before it ends. [`mod@crate::compile`] names the stages in their
+    /// order.
     Stage(&'static str),
     /// This file has been imported. The event comes from any thread, in any order.
     Imported(&'a Path),

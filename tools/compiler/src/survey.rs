@@ -1,6 +1,7 @@
-//! Survey: what can be reported of clips without a database. The record of each source, and its gait in the source's time.
+//! Survey: what can be reported of clips without a database. The record of each source, and its gait in the source's
+//! time.
 //!
-//! The gait is that of the performer's own body, whatever clips lie beside this one: all contacts of the clip, not only
+//! The gait is that of the performer's own body and independent of the other clips: all contacts of the clip, not only
 //! those of the steady part that an example is made of. Times in seconds from the file's first frame, so that they
 //! compare with labels that others set on the same file.
 

@@ -1,5 +1,5 @@
-//! The compiler's simplices and the runtime's locator together: a query reaches the nearest point of the examples' hull,
-//! and shares change without a jump.
+//! The compiler's simplices and the runtime's locator together: a query reaches the nearest point of the examples'
+//! hull, and shares change without a jump.
 
 use glam::Vec3;
 use motiondb::blend_space::triangulation::build;
@@ -79,7 +79,8 @@ fn large_set_and_midpoints_are_reached() {
     random(2000, 7).into_iter().for_each(|query| check_nearest(&set, 2.0 * query - Vec3::new(1.5, 1.0, 0.5)));
 }
 
-/// The greatest change of any example's share from one query to the next, on straight paths through the hull and around.
+/// The greatest change of any example's share from one query to the next, on straight paths through the hull and
+/// around.
 fn largest_jump(set: &LocatedExamples, steps: u32) -> f32 {
     let ends = random(24, 3).into_iter().map(|end| 2.0 * end - Vec3::new(1.5, 1.0, 0.5)).collect::<Vec<_>>();
     let mut largest: f32 = 0.0;

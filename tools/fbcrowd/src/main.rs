@@ -1,9 +1,9 @@
 //! `fbcrowd`: clips to a motion database, a database to a crowd, a crowd to pictures.
 //!
-//! One file a subcommand under [`cmd`]; what it reports is made in [`report`] and printed by [`terminal`]. Results go to
-//! standard output, all else to standard error. Exit codes: 0 yes; 1 the answer is no, or an output was written though
-//! some input was refused; 2 bad usage or input, nothing written; 3 the machine failed, so a retry may help. After a
-//! signal: 128 + its number.
+//! One file a subcommand under [`cmd`]; what it reports is made in [`report`] and printed by [`terminal`]. Results go
+//! to standard output, all else to standard error. Exit codes: 0 yes; 1 the answer is no, or an output was written
+//! though some input was refused; 2 bad usage or input, nothing written; 3 the machine failed, so a retry may help.
+//! After a signal: 128 + its number.
 
 mod cmd;
 #[cfg(test)]

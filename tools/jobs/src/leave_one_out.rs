@@ -12,8 +12,8 @@
 //!
 //! x' is once that of the blend, and once that of the nearest other example (each axis divided by its range over the
 //! others) at the same phase. The body's RMSE decides which of the two is better; the joints that are furthest off, the
-//! hands, count most in it. The median of all RMSE_j is the error of a typical joint. Mirrored examples are not left out
-//! themselves: they would count twice.
+//! hands, count most in it. The median of all RMSE_j is the error of a typical joint. Mirrored examples are not left
+//! out themselves: they would count twice.
 
 use fbcrowd_sim::synthesis::blending::ExampleMix;
 use motiondb::blend_space::triangulation;
@@ -76,7 +76,8 @@ pub struct LeaveOneOut {
     pub examples: Vec<LeftOut>,
     /// Names of recorded examples on corners of the hull, which no blend of the others reaches.
     pub outside: Vec<String>,
-    /// Share of the examples to which the blend is nearer than the nearest other example, 0 to 1; null without examples.
+    /// Share of the examples to which the blend is nearer than the nearest other example, 0 to 1; null without
+    /// examples.
     pub blended_better_share: Option<f32>,
     /// Median over the examples of the body's RMSE to the blend, m; null without examples.
     pub median_blended_rmse_m: Option<f32>,

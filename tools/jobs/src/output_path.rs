@@ -24,7 +24,7 @@ pub fn check_is_no_input(output: &Path, inputs: impl IntoIterator<Item = impl As
     }
 }
 
-/// Whether two paths name one file, however they are spelt and whatever links they are. The file need not exist.
+/// Whether two paths name one file, after all links are followed. The file need not exist.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
     written_path(one) == written_path(other)
 }

@@ -1,10 +1,10 @@
 //! Decoupled bodies: the baseline of the paper's user study (`FbCrowd` §7), "we used ORCA to first generate 2D
 //! trajectories and then a motion blending based synthesis method which exactly followed the 2D trajectory".
 //!
-//! The disc moves exactly as planned, whatever a body can do. The root takes the disc's position. The body turns
-//! towards the planned facing, which for ORCA is the direction of travel. The pose is a blend of what the examples
-//! reach of the (v_f, ω_t, ω_s) of each step. Beyond that, feet slide: foot locks are not part of the paper. ORCA reads
-//! nothing of a body, so planning step by step equals planning first.
+//! The disc moves exactly as planned; the limits of the body are ignored. The root takes the disc's position. The body
+//! turns towards the planned facing, which for ORCA is the direction of travel. The pose is a blend of what the
+//! examples reach of the (v_f, ω_t, ω_s) of each step. Beyond that, feet slide: foot locks are not part of the paper.
+//! ORCA reads nothing of a body, so planning step by step equals planning first.
 //!
 //! The paper does not state how its bodies turn. Here they turn as in two-way coupling: by the remaining angle over
 //! T_turn, and no faster than the fastest example. A disc in a crowd changes its direction of travel by up to 180°

@@ -74,8 +74,8 @@ impl Body {
         self.root = root;
     }
 
-    /// The velocity that the body will have whatever is planned, world, m/s: m_mb's, in the paper's transition between
-    /// the syntheses.
+    /// Velocity that replaces the planned one, world, m/s: that of m_mb in the paper's transition between the
+    /// syntheses.
     pub fn committed_mps(&self, context: &SynthesisContext) -> Option<Vec2> {
         let Parameters { speed_mps, strafe_mps, .. } = self.motion.committed(context)?;
         Some(Vec2::from_angle(self.root.facing_rad).rotate(Vec2::new(speed_mps, strafe_mps)))

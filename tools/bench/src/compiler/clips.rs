@@ -188,8 +188,8 @@ impl BundledClip {
         self.gait.as_ref()?.adults(self.claim.speed_mps)
     }
 
-    /// Distance of the toe-off from 50 % + half the double support, share of the cycle; of straight walks only. It is half
-    /// of the difference between both feet's stances.
+    /// Distance of the toe-off from 50 % + half the double support, share of the cycle; of straight walks only. It is
+    /// half of the difference between both feet's stances.
     fn toe_off_miss(&self) -> Option<f64> {
         let gait = self.gait.as_ref().filter(|_| self.off_published_deg.is_some())?;
         let wanted = 0.5 + 0.5 * gait.double_support_share;

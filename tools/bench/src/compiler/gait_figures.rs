@@ -64,7 +64,8 @@ impl GaitFigures {
     }
 }
 
-/// Root mean square distance of both legs' hip, knee and ankle angles from the published walk at the example's speed, degrees.
+/// Root mean square distance of both legs' hip, knee and ankle angles from the published walk at the example's speed,
+/// degrees.
 pub(crate) fn off_published_walk_deg(db: &MotionDb, index: usize) -> Option<[f64; 3]> {
     let example = &db.examples[index];
     let figures = GaitFigures::of(example)?;

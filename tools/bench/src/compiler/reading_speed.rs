@@ -1,8 +1,8 @@
 //! The speed of reading BVH files, against `bvh_anim` alone: the same bytes, in turns.
 //!
 //! Ours is bytes to [`motiondb_compiler::read::SourceClip`]: checked, parsed and posed. `bvh_anim` alone only
-//! parses. It panics on some files that are read here, or takes as much memory as they claim. For such files it gets the
-//! canonical text that the importer makes for it.
+//! parses. It panics on some files that are read here, or takes as much memory as they claim. For such files it gets
+//! the canonical text that the importer makes for it.
 
 use std::hint::black_box;
 use std::path::Path;

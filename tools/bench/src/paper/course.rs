@@ -1,5 +1,5 @@
-//! `fbcrowd bench course`: the paper's obstacle course (§7.1), narrow passages with sharp turns, by motion blending alone,
-//! by semi-procedural locomotion alone and by both.
+//! `fbcrowd bench course`: the paper's obstacle course (§7.1), narrow passages with sharp turns, by motion blending
+//! alone, by semi-procedural locomotion alone and by both.
 //!
 //! The paper's claim: blending collides in tight corners, semi-procedural locomotion looks mechanical, and hybrid
 //! synthesis does neither. Each walks the course at several speeds, because each meets a corner in another phase of the

@@ -1,15 +1,15 @@
-//! `fbcrowd bench figure6`: the duration of a frame's planning (MCN), synthesis (HMS) and coupling (CNS), for 10 to 10,000
-//! agents on an antipodal circle (the paper's Fig. 6), and in crowds.
+//! `fbcrowd bench figure6`: the duration of a frame's planning (MCN), synthesis (HMS) and coupling (CNS), for 10 to
+//! 10,000 agents on an antipodal circle (the paper's Fig. 6), and in crowds.
 //!
 //! On a large circle agents walk for minutes before they meet. So mixed crowds are timed beside the circles: discs of
 //! 0.3 agents/m² that go in all directions and give way to each other, many of them with deformed bodies.
 //!
-//! All scenes are timed in turns, a frame of one thread and a frame of two one after the other, so that ratios are of the
-//! same moments and other work of the machine affects both; medians of the turns count. Each follows a frame that does
-//! not count: a simulation does not wake its threads for every frame as these turns do, and after 26 ms of rest the second
-//! thread came too late for half of a frame. A small circle is stepped so often that a turn has at least 200 agent-steps;
-//! its turns are spread over the crossing, and it begins again once all are across. Coupling includes making the frame
-//! that a recording would keep, but not packing it.
+//! All scenes are timed in turns, a frame of one thread and a frame of two one after the other, so that ratios are of
+//! the same moments and other work of the machine affects both; medians of the turns count. Each follows a frame that
+//! does not count: a simulation does not wake its threads for every frame as these turns do, and after 26 ms of rest
+//! the second thread came too late for half of a frame. A small circle is stepped so often that a turn has at least 200
+//! agent-steps; its turns are spread over the crossing, and it begins again once all are across. Coupling includes
+//! making the frame that a recording would keep, but not packing it.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! `fbcrowd bench table1 --discs`: our baselines against their published implementations. Without bodies, our ORCA and
 //! social forces must reproduce RVO2 and the power law, measured under the same protocol
-//! (`assets/scenarios/table1/README.md`): until all agents are within 0.5 m of their goals at the same time, or for 60 s.
-//! (Until each agent has been there once, RVO2's accelerations differ: late agents push those away that stand near their
-//! goals.)
+//! (`assets/scenarios/table1/README.md`): until all agents are within 0.5 m of their goals at the same time, or for 60
+//! s. (Until each agent has been there once, RVO2's accelerations differ: late agents push those away that stand near
+//! their goals.)
 
 use std::sync::Arc;
 

@@ -1,5 +1,5 @@
-//! `fbcrowd bench emergence`: patterns that no agent plans and a crowd shows (the paper's §7): lanes in two-way flow, and
-//! an arch before a door, through full bodies and with each planner.
+//! `fbcrowd bench emergence`: patterns that no agent plans and a crowd shows (the paper's §7): lanes in two-way flow,
+//! and an arch before a door, through full bodies and with each planner.
 //!
 //! Both scenes are simulated with several seeds: small differences change which agents meet.
 

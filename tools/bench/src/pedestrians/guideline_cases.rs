@@ -1,8 +1,8 @@
 //! The tests of `fbcrowd bench rimea`, and how those of the guideline are judged.
 //!
-//! The guideline (RiMEA 3.0, Annex) states the criteria of tests 1, 6 and 12. For 4 and 7 it demands a comparison with the
-//! input or with publications, and leaves the tolerance open: ours are below, with their reasons. The tests that are not
-//! the guideline's are in [`crate::pedestrians::further_cases`]. World, metres, seconds.
+//! The guideline (RiMEA 3.0, Annex) states the criteria of tests 1, 6 and 12. For 4 and 7 it demands a comparison with
+//! the input or with publications, and leaves the tolerance open: ours are below, with their reasons. The tests that
+//! are not the guideline's are in [`crate::pedestrians::further_cases`]. World, metres, seconds.
 
 use fbcrowd_sim::measures::{Gate, WaitingCrowd};
 use fbcrowd_sim::world::obstacles::Obstacles;

@@ -1,5 +1,5 @@
-//! `fbcrowd bench rimea`: the tests of the RiMEA guideline for evacuation analyses that concern walking on level ground,
-//! and three like them, each a scenario file of `assets/scenarios`, through full bodies.
+//! `fbcrowd bench rimea`: the tests of the RiMEA guideline for evacuation analyses that concern walking on level
+//! ground, and three like them, each a scenario file of `assets/scenarios`, through full bodies.
 //!
 //! The measures and criteria of each test are in [`crate::pedestrians::guideline_cases`].
 

@@ -2,11 +2,11 @@
 //! takes too long or does harm.
 //!
 //! In: a sound database, the bundled clips, and a seed. Out: counts of the copies that are rejected and used, and every
-//! copy with a fault. Each copy draws its random numbers from a seed of its own, the seed of the bench plus its number, so
-//! that a single copy can be made again.
+//! copy with a fault. Each copy draws its random numbers from a seed of its own, the seed of the bench plus its number,
+//! so that a single copy can be made again.
 //!
-//! Read in this order: [`tally`] tries copies; [`draw`], [`mutation`] and [`scratch`] serve all kinds of files; one file
-//! for each kind: [`databases`], [`clips`], [`text_files`], [`recordings`]; [`generated`] makes worlds.
+//! Read in this order: [`tally`] tries copies; [`draw`], [`mutation`] and [`scratch`] serve all kinds of files; one
+//! file for each kind: [`databases`], [`clips`], [`text_files`], [`recordings`]; [`generated`] makes worlds.
 
 pub(crate) mod clips;
 pub(crate) mod databases;

@@ -1,4 +1,5 @@
-//! Recordings: mutated anywhere, or altered within a chunk that gets a right checksum. A recording that opens is measured.
+//! Recordings: mutated anywhere, or altered within a chunk that gets a right checksum. A recording that opens is
+//! measured.
 
 use std::fs;
 use std::path::Path;

@@ -2,8 +2,8 @@
 //!
 //! Discs of 0.3 agents/m², each with the opposite point as its goal, walk with their bodies until they are well mixed.
 //! Then the simulation halts every second. MCN with all its constraints, our own ORCA, and ORCA's neighbour query alone
-//! are timed in turns on the same frozen world, each with the sorting of the agents into cells. Ratios are formed within
-//! a turn, so that other work of the machine affects both alike; medians count.
+//! are timed in turns on the same frozen world, each with the sorting of the agents into cells. Ratios are formed
+//! within a turn, so that other work of the machine affects both alike; medians count.
 
 use std::hint::black_box;
 use std::sync::Arc;

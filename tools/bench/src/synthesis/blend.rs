@@ -1,10 +1,10 @@
 //! `fbcrowd bench blend`: whether a blending body does what it is commanded, all over the hull of the examples
 //! (`FbCrowd` §5).
 //!
-//! A plan commands (v_f, ω_t, ω_s). Achieved are those of the synthesised root after the start of the body. The commanded
-//! points lie on a grid over the box of the examples, and on the same grid scaled down towards standing; each is moved to
-//! the nearest point that the database has. Commands slower than the smallest steps are not walked: the body stands
-//! (`hms/gait.rs`). Such points are counted and have no criterion.
+//! A plan commands (v_f, ω_t, ω_s). Achieved are those of the synthesised root after the start of the body. The
+//! commanded points lie on a grid over the box of the examples, and on the same grid scaled down towards standing; each
+//! is moved to the nearest point that the database has. Commands slower than the smallest steps are not walked: the
+//! body stands (`hms/gait.rs`). Such points are counted and have no criterion.
 //!
 //! The same roots show whether a straight walk stays straight, whether a circle closes, and whether the time step
 //! matters: one sequence of commands must lead to the same positions with time steps of every length.
@@ -49,8 +49,8 @@ const STRAIGHT_MPS: [f32; 4] = [0.5, 0.8, 1.2, 2.0];
 const OFF_MAX_CM: f64 = 2.0;
 /// Speeds and turn rates of circles, m/s and rad/s; those that the database lacks are left out.
 const CIRCLES: [[f32; 2]; 4] = [[0.6, 0.5], [0.8, 0.8], [0.8, -0.8], [1.2, 0.6]];
-/// Sum of the changes of velocity in the command sequence, m/s. A command takes effect at the start of a step, on average
-/// half a step late, so roots may be apart by half a step times this.
+/// Sum of the changes of velocity in the command sequence, m/s. A command takes effect at the start of a step, on
+/// average half a step late, so roots may be apart by half a step times this.
 const SEQUENCE_CHANGES_MPS: f32 = 6.2;
 
 /// Measure whether blending bodies do what they are commanded, walk straight ahead, and close their circles.

@@ -209,8 +209,8 @@ impl QualityFigures {
         }
     }
 
-    /// Adds the accelerations of one body in the intervals. The ratios are those of the whole walk: a change of synthesis
-    /// at the border of an interval shows on both sides of it.
+    /// Adds the accelerations of one body in the intervals. The ratios are those of the whole walk: a change of
+    /// synthesis at the border of an interval shows on both sides of it.
     fn accelerations(&mut self, steps: &[BodyStep], intervals: &[Range<usize>], dt_s: f32, peaks_mps2: &[f32]) {
         let [before, after] = SWITCH_S.map(|seconds| (seconds / dt_s).ceil() as usize);
         let ratios = acceleration_ratios(steps, after, dt_s, peaks_mps2);

@@ -1,8 +1,8 @@
 //! `fbcrowd bench reach`: how far m_sp can be deformed (`FbCrowd` §5), and whether the synthesis keeps within that.
 //!
-//! A gait is reached where planted feet slide no more than m_sp's own (scaled by the cadence), ankles do not cross, knees
-//! keep from their limits, and hips come down no further than in a crouch. Every border of the set that the synthesis
-//! uses must be reached.
+//! A gait is reached where planted feet slide no more than m_sp's own (scaled by the cadence), ankles do not cross,
+//! knees keep from their limits, and hips come down no further than in a crouch. Every border of the set that the
+//! synthesis uses must be reached.
 
 use fbcrowd_jobs::Observer;
 use fbcrowd_sim::synthesis::semi_procedural::{BaseWalk, Deformation};
@@ -176,8 +176,8 @@ fn least_flexion_deg(pose: &Pose) -> f32 {
     pose.knee_flexion_rad(0).min(pose.knee_flexion_rad(1)).to_degrees()
 }
 
-/// A line for each direction, a column for each turn rate: the speed that is reached, the speed that the synthesis uses,
-/// and what ends it. A speed that is used and not reached is marked.
+/// A line for each direction, a column for each turn rate: the speed that is reached, the speed that the synthesis
+/// uses, and what ends it. A speed that is used and not reached is marked.
 fn text(details: &Details) -> String {
     let mut text = format!("m_sp {}: speed reached (used; not reached!), m/s\ndirection", details.m_sp);
     for turn in TURN_RATES_DEG_S {

@@ -105,9 +105,10 @@ fn measured_in_place(clip: &SourceClip, roles: &Roles, frame_rate_hz: f64, remov
 }
 
 /// The parameters before the removal of the travel are the truth. Of 384 cases 41 are off, 37 of them with hips held in
-/// every frame. Those lose their surge, and in the stances of runs hips are slower than between them: five runs of Bandai
-/// and CMU's 002_03 are 8 to 13 % too slow (25 cases, three rates of each or more; the limit is 9 %), six walks 8 to 12 %
-/// (11 cases, four of them of 007_04). In uneven clips one foot counts more than the other: angry_13, a run of 1.2 s, goes
+/// every frame. Those lose their surge, and in the stances of runs hips are slower than between them: five runs of
+/// Bandai and CMU's 002_03 are 8 to 13 % too slow (25 cases, three rates of each or more; the limit is 9 %), six walks
+/// 8 to 12 % (11 cases, four of them of 007_04). In uneven clips one foot counts more than the other: angry_13, a run
+/// of 1.2 s, goes
 /// 0.4 m/s aside (4 cases), Marine's Run and RunCircle 0.12 to 0.13 m/s where 0.12 is the limit.
 #[test]
 #[ignore = "needs other people's clips: set FBCROWD_MOCAP"]

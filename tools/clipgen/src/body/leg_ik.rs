@@ -1,8 +1,8 @@
 //! Legs by analytic two-bone inverse kinematics, from the bare bones of the skeleton.
 //!
-//! The knee lies in the plane of hip, ankle and the leg's forward direction (law of cosines). Unlike the compiler's solver,
-//! which keeps the hinge axis and the foot of a recorded pose, there is no pose to start from. Hip and ankle enter in any
-//! one frame (z up, metres); orientations leave in the same frame, against the rest pose.
+//! The knee lies in the plane of hip, ankle and the leg's forward direction (law of cosines). Unlike the compiler's
+//! solver, which keeps the hinge axis and the foot of a recorded pose, there is no pose to start from. Hip and ankle
+//! enter in any one frame (z up, metres); orientations leave in the same frame, against the rest pose.
 
 use glam::{DQuat, DVec3};
 

@@ -1,7 +1,7 @@
 //! The body of the bundled clips: its skeleton, poses and legs.
 //!
-//! Enters: nothing; lengths are published. Leaves: [`ClipPose`], one frame of a clip on the skeleton (x forward, y left,
-//! z up, metres, radians).
+//! Enters: nothing; lengths are published. Leaves: [`ClipPose`], one frame of a clip on the skeleton (x forward, y
+//! left, z up, metres, radians).
 //!
 //! Read `skeleton`, then `pose`, then `rotation` and `leg_ik`.
 

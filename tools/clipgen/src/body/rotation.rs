@@ -1,8 +1,8 @@
 //! Rotations about the body's axes, and the wave of a cycle.
 //!
-//! Frame: x forward, y left, z up, right-handed; radians. A positive turn about y pitches forward (z towards x), about z
-//! yaws left, about x raises the left side. Trigonometry goes through `libm`, so that the clips have the same bytes on
-//! every machine.
+//! Frame: x forward, y left, z up, right-handed; radians. A positive turn about y pitches forward (z towards x), about
+//! z yaws left, about x raises the left side. Trigonometry goes through `libm`, so that the clips have the same bytes
+//! on every machine.
 
 use glam::{DQuat, DVec3};
 

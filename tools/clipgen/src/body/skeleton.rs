@@ -2,9 +2,9 @@
 //!
 //! Segment lengths are the shares of body height of Drillis and Contini (1966) as printed in Winter, *Biomechanics and
 //! Motor Control of Human Movement* (Fig. 4.1): thigh .245, shank .246, ankle height .039, foot .152, upper arm .186,
-//! forearm .146, hand .108, shoulder height .818. The breadths among them (hips .191, shoulders .259) are those of surface
-//! landmarks, so the joint centres lie inside. Frame of the rest pose (a T-pose): x forward, y left, z up, metres; the
-//! root is the midpoint of the hips.
+//! forearm .146, hand .108, shoulder height .818. The breadths among them (hips .191, shoulders .259) are those of
+//! surface landmarks, so the joint centres lie inside. Frame of the rest pose (a T-pose): x forward, y left, z up,
+//! metres; the root is the midpoint of the hips.
 
 use glam::DVec3;
 
@@ -20,7 +20,8 @@ pub(crate) const ANKLE_HEIGHT_M: f64 = 0.039 * HEIGHT_M;
 pub(crate) const HALF_HIP_M: f64 = 0.050 * HEIGHT_M;
 /// Distance of a shoulder joint centre from the midline, m: the acromia lie at .129 H, the joints 4 cm inside.
 pub(crate) const HALF_SHOULDER_M: f64 = 0.106 * HEIGHT_M;
-/// Rearmost point of the heel that bears weight, ahead of the ankle, m; the foot of .152 H begins 6 cm behind the ankle.
+/// Rearmost point of the heel that bears weight, ahead of the ankle, m; the foot of .152 H begins 6 cm behind the
+/// ankle.
 pub(crate) const HEEL_X_M: f64 = -0.050;
 /// Ball of the foot (metatarsophalangeal joint) ahead of the ankle, m: 73 % of the foot's length from its rear.
 pub(crate) const BALL_X_M: f64 = 0.132;

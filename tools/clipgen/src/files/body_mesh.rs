@@ -2,8 +2,8 @@
 //!
 //! Two cases of a vertex's weights. Within a third of the segment from a joint that it shares with its parent or child,
 //! half to none of the weight is the neighbour's, so that joints bend smoothly. Elsewhere the segment's own joint
-//! carries all. Rest pose of the skeleton (x forward, y left, z up), metres. Half breadths and depths are those of a slim
-//! adult, set by eye.
+//! carries all. Rest pose of the skeleton (x forward, y left, z up), metres. Half breadths and depths are those of a
+//! slim adult, set by eye.
 
 use glam::DVec3;
 

@@ -3,8 +3,8 @@
 //!
 //! Nodes are the joints in their order, then the tips of head and hands, then the mesh. The generator's frame (x
 //! forward, y left, z up) becomes glTF's by (X, Y, Z) = (y, z, x), as BVH's. Joints rest unturned, so that inverse
-//! bind matrices only translate; rotation tracks run along the shorter arcs, LINEAR, 30 keys per second. The container is
-//! that of glTF 2.0, §4.4: header, JSON chunk, binary chunk, each aligned to 4 bytes.
+//! bind matrices only translate; rotation tracks run along the shorter arcs, LINEAR, 30 keys per second. The container
+//! is that of glTF 2.0, §4.4: header, JSON chunk, binary chunk, each aligned to 4 bytes.
 
 use glam::{DQuat, DVec3};
 

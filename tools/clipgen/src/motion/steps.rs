@@ -1,8 +1,8 @@
 //! The steps of a whole clip: where each foot stands as the root moves on, no two strides the same.
 //!
-//! Time runs in strides: phase n + p is the share p of the n-th stride, 0 a strike of the left heel. The position of the
-//! root at a phase, and of each footprint, follows from the plan of the steady gait and its [`StrideVariation`]. A foot
-//! stays where it is set. Root frame: x forward, y left, metres.
+//! Time runs in strides: phase n + p is the share p of the n-th stride, 0 a strike of the left heel. The position of
+//! the root at a phase, and of each footprint, follows from the plan of the steady gait and its [`StrideVariation`]. A
+//! foot stays where it is set. Root frame: x forward, y left, metres.
 
 use glam::DVec2;
 
@@ -43,7 +43,8 @@ pub(crate) struct PlannedStance<'a> {
 }
 
 impl<'a> PlannedSteps<'a> {
-    /// The steps of a gait. Feet stand so far ahead that the mean hip angle, until the other foot strikes, is published.
+    /// The steps of a gait. Feet stand so far ahead that the mean hip angle, until the other foot strikes, is
+    /// published.
     pub(crate) fn of(gait: &'a GaitPlan, variation: &'a StrideVariation) -> Self {
         let ahead_m = gait.style_share * published_ahead_m(gait) + (1.0 - gait.style_share) * ANKLE_UNDER_HIPS_M;
         let mid_prints = [1.0, -1.0].map(|sign| Footprint {

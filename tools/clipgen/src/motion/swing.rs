@@ -2,8 +2,9 @@
 //!
 //! 1. Five coordinates (ankle x, y, z, yaw, pitch) follow cubic Hermite curves that meet position and velocity of both
 //!    contacts; the bend of the toes too, with a rest in between.
-//! 2. The published swing, less its own Hermite curve, is added. That shape vanishes with its slope at both ends: contacts
-//!    stay exact, and the fold of the knee, the clearance of the toes and the dorsiflexion of the foot are human.
+//! 2. The published swing, less its own Hermite curve, is added. That shape vanishes with its slope at both ends:
+//!    contacts stay exact, and the fold of the knee, the clearance of the toes and the dorsiflexion of the foot are
+//!    human.
 //! 3. The clearance that is still missing is added as a hump.
 //!
 //! Root frame: x forward, y left, z up, metres, radians; s is the share of the swing.

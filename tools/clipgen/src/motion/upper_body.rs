@@ -1,9 +1,9 @@
 //! Trunk, head and arms.
 //!
-//! The chest counter-rotates the pelvis (3–5° above 1 m/s), leans with speed and banks into turns; the three joints of the
-//! spine share the rotation from pelvis to chest. The head stays level and looks where the body will be. Arms swing in
-//! antiphase to the leg of their side: foremost shortly before the other heel strikes. They hang from a chest that yaws,
-//! but their swing is counted against the vertical. Root frame: x forward, y left, z up, radians.
+//! The chest counter-rotates the pelvis (3–5° above 1 m/s), leans with speed and banks into turns; the three joints of
+//! the spine share the rotation from pelvis to chest. The head stays level and looks where the body will be. Arms swing
+//! in antiphase to the leg of their side: foremost shortly before the other heel strikes. They hang from a chest that
+//! yaws, but their swing is counted against the vertical. Root frame: x forward, y left, z up, radians.
 
 use glam::DQuat;
 

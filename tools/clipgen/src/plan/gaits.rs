@@ -2,8 +2,8 @@
 //!
 //! Cadence and stride lie within one standard deviation of adults' means (18–29 years): at 1.1 m/s those of men walking
 //! slowly (86–101 steps/min, 1.18–1.48 m), at 1.4 of women walking normally (107–124, 1.31–1.53), at 1.8 of women
-//! walking fast (129–156, 1.56–1.84). Toe-off is half of the stride plus half of the double support, which is 25, 23 and
-//! 19 % there (bands 25–34, 20–28, 14–22). Slower, it lies at and beside that of Schwartz's very slow walkers
+//! walking fast (129–156, 1.56–1.84). Toe-off is half of the stride plus half of the double support, which is 25, 23
+//! and 19 % there (bands 25–34, 20–28, 14–22). Slower, it lies at and beside that of Schwartz's very slow walkers
 //! (`docs/tuning.md`). Foot angles and pelvis amplitudes by v*: Schwartz et al. 2008. Shoulders swing farther back than
 //! forward: 24° back, 8° forward at free speed (Perry, *Gait Analysis*, ch. 8).
 //!
@@ -103,7 +103,8 @@ pub(crate) fn run(root: RootMotion, stride_frames: f64) -> GaitPlan {
 /// Steps sideways or about itself, for which no curves are published: flat feet, a little lift, knees that give.
 pub(crate) fn step_about(root: RootMotion, stride_frames: f64, half_width_m: f64) -> GaitPlan {
     let toe_off = 0.55;
-    // Slow steps hardly leave the ground. Haste is the speed of the feet; those of a turning body are 0.3 m off its axis.
+    // Slow steps hardly leave the ground. Haste is the speed of the feet; those of a turning body are 0.3 m off its
+    // axis.
     let haste = (root.pace_mps() + 0.1 * root.turn_rate_rad_s.abs()).min(1.0);
     let walk = walk(root, stride_frames);
     GaitPlan {

@@ -3,7 +3,8 @@
 //! Enters: the motion of the root and the duration of a stride. Leaves: a [`GaitPlan`], and a [`StrideVariation`] that
 //! changes it from stride to stride.
 //!
-//! Read `root_motion`, `published_curves`, then `gait_plan` (the quantities), `gaits` (their values by speed), `variation`.
+//! Read `root_motion`, `published_curves`, then `gait_plan` (the quantities), `gaits` (their values by speed),
+//! `variation`.
 
 pub(crate) mod gait_plan;
 pub(crate) mod gaits;

@@ -2,8 +2,8 @@
 //!
 //! Each quantity changes as a sum of waves that are slower than the stride and close over the clip: a clip still loops,
 //! and the mean change over its strides is zero, so that the mean stride is the planned one. The duration of a stride
-//! changes with the clock by which the gait runs ([`StrideVariation::strides_after`]), its length with the path of the root
-//! by that clock ([`StrideVariation::path_strides`]). Feet are set where the root then is, and stand.
+//! changes with the clock by which the gait runs ([`StrideVariation::strides_after`]), its length with the path of the
+//! root by that clock ([`StrideVariation::path_strides`]). Feet are set where the root then is, and stand.
 
 use crate::body::rotation::wave;
 use crate::plan::gait_plan::{PelvisAmplitudes, UpperBodyAmplitudes};

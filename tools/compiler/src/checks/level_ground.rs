@@ -1,7 +1,7 @@
 //! Whether the feet alone move a body on level ground; if not, what moves it.
 //!
-//! Stairs, ramps, moonwalks, turntables and jumps are human motion, but not locomotion on flat ground. Gait analysis finds
-//! no steady stride in them and cannot state why. Clips are in metres, z up.
+//! Stairs, ramps, moonwalks, turntables and jumps are human motion, but not locomotion on flat ground. Gait analysis
+//! finds no steady stride in them and cannot state why. Clips are in metres, z up.
 
 use std::ops::Range;
 

@@ -1,8 +1,8 @@
 //! Checks whether a clip is plausible as human motion, and whether the feet alone move the body on level ground (no
 //! slope, treadmill or sliding root).
 //!
-//! Enters: a `SourceClip` with roles and whole-clip parameters, or a `HumanBody`. Leaves: warnings, verdicts and reasons
-//! of rejection, all typed.
+//! Enters: a `SourceClip` with roles and whole-clip parameters, or a `HumanBody`. Leaves: warnings, verdicts and
+//! reasons of rejection, all typed.
 //!
 //! `plausibility` checks unit, up axis, gait and body; `level_ground` finds what moves the body if not the feet.
 

@@ -27,7 +27,8 @@ const WALK_RATIO_CM_MIN: RangeInclusive<f64> = 0.15..=2.0;
 const CADENCE_MAX_PER_MIN: f64 = 320.0;
 /// Greatest cadence of a walk, steps/min, for a person's leg (race walkers over 20 km: 186 to 210).
 const WALK_CADENCE_MAX_PER_MIN: f64 = 215.0;
-/// Share of the time above which the ball of a foot stands as in a walk: 0.48 of the cycle in walks (Perry), 0.4 in jogs.
+/// Share of the time above which the ball of a foot stands as in a walk: 0.48 of the cycle in walks (Perry), 0.4 in
+/// jogs.
 const WALK_PLANTED_SHARE: f64 = 0.45;
 /// Least distance along the facing by which one foot leads the other in a step, m for a person's leg.
 pub(crate) const LEAD_MIN_M: f64 = 0.06;

@@ -1,7 +1,7 @@
 //! Planted-foot slide of a cycle, measured as in the database, and the verdicts on it.
 //!
-//! Definition "Planted-foot slide" of `docs/definitions.md`; measure: [`motiondb::quality::planted_feet`]. Cycles are in
-//! the root frame, which moves along its arc: metres, seconds.
+//! Definition "Planted-foot slide" of `docs/definitions.md`; measure: [`motiondb::quality::planted_feet`]. Cycles are
+//! in the root frame, which moves along its arc: metres, seconds.
 
 use glam::DVec3;
 use motiondb::diagnostic::{Diagnostic, Unfit, Warning};

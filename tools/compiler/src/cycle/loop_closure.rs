@@ -38,8 +38,8 @@ struct FootGap {
 }
 
 impl StrideGap {
-    /// The gap between two poses. `contacts` gives the contact of each foot, 0 to 1, at a share of the stride from −1 (a
-    /// cycle before it) to 2.
+    /// The gap between two poses. `contacts` gives the contact of each foot, 0 to 1, at a share of the stride from −1
+    /// (a cycle before it) to 2.
     pub(crate) fn between(
         first: &HumanPose,
         last: &HumanPose,

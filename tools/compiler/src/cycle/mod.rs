@@ -1,10 +1,11 @@
 //! Cycles: the strides of a window become one closed cycle, phase 0 at right mid-stance.
 //!
-//! Enters: [`HumanClip`](crate::retarget::HumanClip)s and the target body. Leaves: for each clip its steady cycles, with
-//! their flaws and diagnostics, or why it has none. A [`GaitCycle`] is in the root frame (x forward, y left, z up, metres).
+//! Enters: [`HumanClip`](crate::retarget::HumanClip)s and the target body. Leaves: for each clip its steady cycles,
+//! with their flaws and diagnostics, or why it has none. A [`GaitCycle`] is in the root frame (x forward, y left, z up,
+//! metres).
 //!
-//! Read `analyzed_clip` (the chapter's steps), then `gait_cycle`, `mean_stride` with `loop_closure`, `standing_cycle`; then
-//! the verdict on a cycle: `steady_cycle` with `rate_snapping`, `foot_slide`, `flaws`, `rate_cells`.
+//! Read `analyzed_clip` (the chapter's steps), then `gait_cycle`, `mean_stride` with `loop_closure`, `standing_cycle`;
+//! then the verdict on a cycle: `steady_cycle` with `rate_snapping`, `foot_slide`, `flaws`, `rate_cells`.
 
 pub(crate) mod analyzed_clip;
 pub(crate) mod flaws;

@@ -1,8 +1,8 @@
 //! A grid in (v_f, ω_t, ω_s) that says which rates are near-equal.
 //!
 //! A cell is as wide as twice what the strides of one steady window may differ from their mean
-//! ([`crate::gait::stride_spread`]): two windows in one cell differ no more than two strides of one window. Straight ahead
-//! and standing are middles of cells.
+//! ([`crate::gait::stride_spread`]): two windows in one cell differ no more than two strides of one window. Straight
+//! ahead and standing are middles of cells.
 
 use std::f64::consts::PI;
 

@@ -1,9 +1,9 @@
 //! Snapping: frees the rates of a cycle from gait noise, so that noise makes no asymmetric velocity sets.
 //!
 //! A |ω_t| below 3 °/s becomes 0, and with it a small ω_s (definition "Example" of `docs/definitions.md`). What is snapped
-//! must not make planted feet slide. So a small ω_s is removed by turning the root frame onto the direction of travel: the
-//! body then walks straight with its shoulders a few degrees off, as it did. The snapped turn is left to the feet: at most
-//! 3 °/s about a point some 15 cm away, below 1 cm/s. Root frame: metres, radians.
+//! must not make planted feet slide. So a small ω_s is removed by turning the root frame onto the direction of travel:
+//! the body then walks straight with its shoulders a few degrees off, as it did. The snapped turn is left to the feet:
+//! at most 3 °/s about a point some 15 cm away, below 1 cm/s. Root frame: metres, radians.
 
 use std::f64::consts::PI;
 

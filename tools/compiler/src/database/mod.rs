@@ -3,8 +3,8 @@
 //! Enters: named cycles in the order of the examples, and the records of all sources. Leaves:
 //! [`motiondb::motion::MotionDb`].
 //!
-//! Read `assembly` (the chapter's steps), then `example`, `coincident_examples`, `skeleton` with `segment_radii`, `rows`,
-//! `correspondence`.
+//! Read `assembly` (the chapter's steps), then `example`, `coincident_examples`, `skeleton` with `segment_radii`,
+//! `rows`, `correspondence`.
 
 pub(crate) mod assembly;
 pub(crate) mod coincident_examples;

@@ -118,7 +118,8 @@ pub enum RejectionReason {
         /// The longest bone, m.
         bone_m: f64,
     },
-    /// The clip contradicts its manifest. With a manifest at hand this becomes [`crate::CompileError::InvalidManifest`].
+    /// The clip contradicts its manifest. With a manifest at hand this becomes
+    /// [`crate::CompileError::InvalidManifest`].
     #[error("{problem}; {remedy}")]
     ManifestContradicted {
         /// The key whose value is wrong.

@@ -7,10 +7,10 @@
 //! A foot that rolls off over its toes may creep before it leaves, more so in captures at 120 frames per second, where
 //! markers on the shoe tremble. So a toe-off is not earlier than the onset of the swing. A leg swings nearly as a
 //! pendulum and gathers speed evenly: the tangent to its speed where that grows fastest leads back to the instant of
-//! release, whatever the frame rate and however fast the step.
+//! release, at any frame rate and any speed of the step.
 //!
-//! The limits were fitted to events labelled by hand (`tests/gait_events`; history: `docs/tuning.md`). Times in ticks, a
-//! fraction of a frame of the clip; world frame: metres, seconds, Z up.
+//! The limits were fitted to events labelled by hand (`tests/gait_events`; history: `docs/tuning.md`). Times in ticks,
+//! a fraction of a frame of the clip; world frame: metres, seconds, Z up.
 
 use std::ops::Range;
 
@@ -119,8 +119,8 @@ impl<'a> ContactPoints<'a> {
 
     /// The frame at which the contact ends; it is known from tick `inner` to tick `outer`.
     ///
-    /// The search moves `outer` inward until the foot is planted, then outward, over slips, until it is planted no more,
-    /// at most to `bound`.
+    /// The search moves `outer` inward until the foot is planted, then outward, over slips, until it is planted no
+    /// more, at most to `bound`.
     pub(crate) fn end_frame(&self, limits: &ContactLimits, inner: isize, outer: isize, bound: isize) -> f64 {
         let outward = (bound - inner).signum();
         let is_planted = |tick: isize| self.excess(limits, tick) < 1.0;
@@ -157,7 +157,8 @@ impl<'a> ContactPoints<'a> {
         height * height + speed * speed
     }
 
-    /// The frame at which a foot that creeps from a frame on begins to swing; the frame itself where it creeps too long.
+    /// The frame at which a foot that creeps from a frame on begins to swing; the frame itself where it creeps too
+    /// long.
     pub(crate) fn release_frame(&self, creeps_frame: f64, bound: isize) -> f64 {
         let swings_frame = self.swing_onset_frame((creeps_frame * TICKS_PER_FRAME as f64) as isize, bound);
         let latest_frame = frame_of(bound).min(creeps_frame + CREEP_MAX_S * self.frame_rate_hz);

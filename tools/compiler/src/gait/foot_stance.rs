@@ -1,8 +1,8 @@
 //! Contacts → stances: the instants at which a foot touches the ground and leaves it, finer than frames.
 //!
 //! Slide needs to know in which frames a foot is planted; an event of the gait is one instant. One stance is found for
-//! each contact ([`crate::gait::contacts`]), its two ends by `contact_ends`. Stances with less than a swing between them
-//! are one. Frames of the clip (may lie between frames), metres, seconds.
+//! each contact ([`crate::gait::contacts`]), its two ends by `contact_ends`. Stances with less than a swing between
+//! them are one. Frames of the clip (may lie between frames), metres, seconds.
 
 use glam::DVec3;
 

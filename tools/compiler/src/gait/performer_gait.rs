@@ -1,10 +1,10 @@
-//! HumanClip → gait on the performer's own body: the same whatever clips lie beside it, and carried over to another body.
+//! HumanClip → gait on the performer's own body, independent of the other clips of the set; then on another body.
 //!
 //! When feet touch and leave the ground is what the performer did, with its own proportions and its own soles. On the
-//! feet of a database's skeleton the toe-off would come up to 0.1 s later. So contacts, landmarks and steady windows are
-//! found on the performer's own body, scaled to a common leg length: limits of lengths and speeds then mean the same for
-//! children, toys and giants. Poses and root motion are those of the target body; its frames correspond one to one.
-//! World frame: frames of the clip, metres, seconds.
+//! feet of a database's skeleton the toe-off would come up to 0.1 s later. So contacts, landmarks and steady windows
+//! are found on the performer's own body, scaled to a common leg length: limits of lengths and speeds then mean the
+//! same for children, toys and giants. Poses and root motion are those of the target body; its frames correspond one to
+//! one. World frame: frames of the clip, metres, seconds.
 
 use motiondb::diagnostic::Unfit;
 

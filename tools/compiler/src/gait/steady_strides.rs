@@ -1,8 +1,8 @@
 //! Which strides of a clip make examples: all strides of a loop, else every sequence that is steady, the longest first.
 //!
 //! A long capture walks, turns, hesitates and speeds up. Each part of it in which the strides are alike is a steady
-//! window. Windows are taken greedily: the longest of the clip, then the longest of the parts before and after it, so that
-//! they are disjoint. Times in frames of the clip.
+//! window. Windows are taken greedily: the longest of the clip, then the longest of the parts before and after it, so
+//! that they are disjoint. Times in frames of the clip.
 
 use crate::gait::stride::{Landmark, Stride};
 use crate::gait::stride_spread::StrideSpread;

@@ -60,7 +60,8 @@ pub struct Stride {
     pub gap_m: f64,
 }
 
-/// The stride over three landmarks, if it is one. `stepping` states for each foot whether it is on the ground at a frame.
+/// The stride over three landmarks, if it is one. `stepping` states for each foot whether it is on the ground at a
+/// frame.
 pub(crate) fn valid_stride(marks: &[Landmark], stepping: &[Vec<bool>; 2], body: &BodyTrack) -> Option<Stride> {
     let [first, middle, last] = marks else { return None };
     let period_frames = last.frame - first.frame;

@@ -1,8 +1,8 @@
 //! Landmarks finer than frames: every stride of a window begins, and has its middle, where the body is most alike.
 //!
-//! The middle of a contact is known to half a frame only: at 30 frames per second 2 % of a stride. So each landmark moves
-//! to where all joints, relative to hips and facing, are nearest to those at the first landmark of the same foot. The mean
-//! move of a foot's landmarks is taken back, since their mean is right. Frames of the clip, metres.
+//! The middle of a contact is known to half a frame only: at 30 frames per second 2 % of a stride. So each landmark
+//! moves to where all joints, relative to hips and facing, are nearest to those at the first landmark of the same foot.
+//! The mean move of a foot's landmarks is taken back, since their mean is right. Frames of the clip, metres.
 
 use glam::{DQuat, DVec3};
 use motiondb::body::{JOINT_COUNT, Side};
@@ -35,7 +35,8 @@ pub(crate) fn aligned_strides(strides: &[Stride], body: &BodyTrack) -> Vec<Strid
 
 /// Landmark frames of one foot, each moved to the pose of the first, their mean kept.
 fn aligned_frames(frames: &[f64], body: &BodyTrack) -> Vec<f64> {
-    // The frame before the first landmark, not the nearest: as far from the last landmark is then still within the clip.
+    // The frame before the first landmark, not the nearest: as far from the last landmark is then still within the
+    // clip.
     let first = frames[0] as usize;
     let reference = local_joints(body, first as f64);
     let moved: Vec<f64> = frames

@@ -2,8 +2,8 @@
 //!
 //! Phase 0 is the middle of a right contact, phase ½ the middle of a left one (definition "Phase" of
 //! `docs/definitions.md`). Between landmarks lie strides ([`crate::gait::stride`]), of which the steady ones
-//! ([`crate::gait::steady_strides`]) make examples. Contacts are read several times, more and more leniently: a *reading*
-//! is the index of one of these. Times in frames of the clip; world frame, metres.
+//! ([`crate::gait::steady_strides`]) make examples. Contacts are read several times, more and more leniently: a
+//! *reading* is the index of one of these. Times in frames of the clip; world frame, metres.
 
 use std::ops::Range;
 
@@ -192,7 +192,8 @@ fn landmarks(stepping: &[Vec<bool>; 2]) -> Vec<Landmark> {
     landmarks
 }
 
-/// The middle frame of a contact; `half` a usual contact from the visible end where the clip of `frames` cuts the other.
+/// The middle frame of a contact; `half` a usual contact from the visible end where the clip of `frames` cuts the
+/// other.
 fn contact_middle(contact: &Range<usize>, frames: usize, half: f64) -> Option<f64> {
     let (first, last) = (contact.start as f64, (contact.end - 1) as f64);
     let middle = match (contact.start > 0, contact.end < frames) {

@@ -14,8 +14,8 @@ use crate::retarget::human_clip::{HumanBody, HumanJoints, HumanPose};
 
 /// Greatest distance of hip and ankle, share of thigh plus shank. Near 1 the knee's angle changes without bound.
 const REACH_MAX: f64 = 0.9995;
-/// Share of thigh plus shank (a knee flexed by 6°) from which the leg straightens less and less, to stop without a jerk.
-/// Takes half a millimetre from a straight leg.
+/// Share of thigh plus shank (a knee flexed by 6°) from which the leg straightens less and less, to stop without a
+/// jerk. Takes half a millimetre from a straight leg.
 const REACH_SOFT: f64 = 0.9985;
 /// Least distance of hip and ankle, as a multiple of the difference in length of thigh and shank.
 const REACH_MIN: f64 = 1.01;
@@ -56,8 +56,8 @@ pub(crate) fn place_foot(pose: &mut HumanPose, body: &HumanBody, side: usize, an
 /// - a bent knee: the normal of its plane;
 /// - a nearly straight leg has no plane: the normal leans on the thigh's left axis, by an amount that a bent knee does
 ///   not feel;
-/// - a knee that bends backward: its flexion about the left axis changes sign. Its sideways part stays, so that the axis
-///   never jumps.
+/// - a knee that bends backward: its flexion about the left axis changes sign. Its sideways part stays, so that the
+///   axis never jumps.
 fn knee_axis(joints: &HumanJoints, side: usize) -> DVec3 {
     let position = |joint: Joint| joints.positions_m[joint.index()];
     let thigh = position(Joint::SHANKS[side]) - position(Joint::THIGHS[side]);

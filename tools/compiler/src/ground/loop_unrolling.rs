@@ -1,7 +1,7 @@
 //! Loops: a clip whose last pose is its first is repeated three times, so that every stride has neighbours and counts.
 //!
-//! The gap between the last pose and the first is spread evenly over the round, so that the seam is like any other frame.
-//! World frame: metres, radians, Z up; times in frames of the clip.
+//! The gap between the last pose and the first is spread evenly over the round, so that the seam is like any other
+//! frame. World frame: metres, radians, Z up; times in frames of the clip.
 
 use glam::{DQuat, DVec3};
 use motiondb::body::JOINT_COUNT;
@@ -43,8 +43,8 @@ fn round_frames(clip: &GroundedClip, body: &HumanBody) -> Option<usize> {
     is_loop.then_some(round)
 }
 
-/// Three rounds of a clip that is known to be a loop of `round` frames. Where the clip has no more frames than that, the
-/// pose that would follow closes it.
+/// Three rounds of a clip that is known to be a loop of `round` frames. Where the clip has no more frames than that,
+/// the pose that would follow closes it.
 pub(crate) fn repeated(mut clip: GroundedClip, body: &HumanBody, round: usize) -> GroundedClip {
     if let ([.., before, last], true) = (clip.poses.as_slice(), round == clip.poses.len()) {
         clip.poses.push(next_pose(before, last));

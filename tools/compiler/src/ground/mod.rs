@@ -1,12 +1,12 @@
 //! Grounding: transfers every clip to one common skeleton, removes the step oscillation from the root, and puts the
 //! feet on the ground.
 //!
-//! Enters: [`HumanClip`](crate::retarget::HumanClip)s, each on its performer's own body. Leaves: [`GroundedClip`]s on the
-//! target body, in the world frame (metres, seconds, radians, Z up).
+//! Enters: [`HumanClip`](crate::retarget::HumanClip)s, each on its performer's own body. Leaves: [`GroundedClip`]s on
+//! the target body, in the world frame (metres, seconds, radians, Z up).
 //!
 //! Read `target_body`, then `root_motion` (the chapter's path from clip to grounded clip) with `loop_unrolling` and
-//! `foot_grounding`, then what they use: `pose_mean`, `leg_ik`, `rotations`. `root_arc` is the path of the root over one
-//! stride, which the next chapters fit.
+//! `foot_grounding`, then what they use: `pose_mean`, `leg_ik`, `rotations`. `root_arc` is the path of the root over
+//! one stride, which the next chapters fit.
 
 pub(crate) mod foot_grounding;
 pub(crate) mod leg_ik;

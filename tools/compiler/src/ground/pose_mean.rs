@@ -1,10 +1,10 @@
 //! Weighted means of poses whose feet stand where the mean of their feet stands.
 //!
 //! Used between the frames of a clip and over the strides of a window. The mean of joint rotations alone moves a foot
-//! that is planted in every pose: hip, knee and ankle turn through large angles that cancel at the foot, and their means
-//! cancel only nearly. So pelvis and joints are averaged by themselves, the orientation and the contact point of each
-//! foot in the frame of the poses, and leg inverse kinematics puts the foot there. Weights sum to 1 and may be negative
-//! (Catmull–Rom). Poses enter and leave in one common frame: metres, Z up.
+//! that is planted in every pose: hip, knee and ankle turn through large angles that cancel at the foot, and their
+//! means cancel only nearly. So pelvis and joints are averaged by themselves, the orientation and the contact point of
+//! each foot in the frame of the poses, and leg inverse kinematics puts the foot there. Weights sum to 1 and may be
+//! negative (Catmull–Rom). Poses enter and leave in one common frame: metres, Z up.
 
 use glam::{DQuat, DVec3};
 use motiondb::body::Joint;

@@ -7,8 +7,8 @@
 //! p(t) = p₀ + R(θ₀)·J(ω_t·t)·(v_f, ω_s)·t,   J(a) = [sin a, cos a − 1; 1 − cos a, sin a] / a.
 //! ```
 //!
-//! The rest of the pelvis's path (sway, surge, bob, yaw) belongs to the pose. So root velocities blend linearly, and the
-//! planner sees no gait. Samples and arcs are in the world frame: metres, seconds, radians, Z up.
+//! The rest of the pelvis's path (sway, surge, bob, yaw) belongs to the pose. So root velocities blend linearly, and
+//! the planner sees no gait. Samples and arcs are in the world frame: metres, seconds, radians, Z up.
 
 use glam::{DMat2, DQuat, DVec2};
 use motiondb::motion::Parameters;

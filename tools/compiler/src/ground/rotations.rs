@@ -1,8 +1,8 @@
 //! Rotations as the stages of the compiler compare and interpolate them: hemispheres, rotation vectors, turns on the
 //! ground.
 //!
-//! A rotation is both q and −q. Component-wise sums of quaternions need the same sign in all of them. Angles in radians,
-//! counter-clockwise from above.
+//! A rotation is both q and −q. Component-wise sums of quaternions need the same sign in all of them. Angles in
+//! radians, counter-clockwise from above.
 
 use glam::{DMat2, DQuat, DVec2, DVec3};
 use motiondb::body::JOINT_COUNT;

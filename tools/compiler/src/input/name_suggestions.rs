@@ -7,8 +7,8 @@ pub fn nearest_first<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -
     names
 }
 
-/// Number of letters to insert, remove or replace (Levenshtein) to turn `name` into the best part of `other`. Letters of
-/// `other` beyond that part cost nothing, so a part of a name is near it.
+/// Number of letters to insert, remove or replace (Levenshtein) to turn `name` into the best part of `other`. Letters
+/// of `other` beyond that part cost nothing, so a part of a name is near it.
 fn edit_distance(name: &str, other: &str) -> usize {
     let mut costs: Vec<usize> = vec![0; other.chars().count() + 1];
     for (row, letter) in name.chars().enumerate() {

@@ -1,8 +1,9 @@
 //! Decimal numbers from text: the same bits as `str::parse`, several times faster. A capture of minutes holds millions
 //! of short numbers.
 //!
-//! A whole number of up to 15 digits and a power of ten up to 10²² are exact in an f64, so one division rounds correctly
-//! (W. D. Clinger, *How to read floating point numbers accurately*, 1990). The standard library reads longer numbers.
+//! A whole number of up to 15 digits and a power of ten up to 10²² are exact in an f64, so one division rounds
+//! correctly (W. D. Clinger, *How to read floating point numbers accurately*, 1990). The standard library reads longer
+//! numbers.
 
 /// Greatest length of an unsigned number that is read here; whole numbers of up to 15 digits are exact in an f64.
 const MAX_DIGITS: usize = 15;

@@ -2,7 +2,8 @@
 //!
 //! R_j(t) = G_j(t)·K_j, where G_j is the source joint's global orientation and R_j the canonical joint's rotation from
 //! the rest pose. K_j matches two directions that are constant in the source joint's frame with those of the rest pose.
-//! The source's zero pose and its local rotations are not used. World frame: metres, z up; rest pose: x forward, y left.
+//! The source's zero pose and its local rotations are not used. World frame: metres, z up; rest pose: x forward, y
+//! left.
 //!
 //! | joint | first direction, matched exactly | second direction |
 //! |---|---|---|
@@ -140,8 +141,8 @@ fn is_knee_straight(tracks: &JointTracks, side: Side) -> bool {
     (0..frames).map(bend).sum::<f64>() < LEAST_KNEE_BEND * frames as f64
 }
 
-/// The frames in which the directions of a joint are measured: all, or for feet and toes those in which both lie flat. A
-/// toe's joint alone is often lowest while the foot rolls off over it.
+/// The frames in which the directions of a joint are measured: all, or for feet and toes those in which both lie flat.
+/// A toe's joint alone is often lowest while the foot rolls off over it.
 fn measured_frames(tracks: &JointTracks, joint: Joint) -> Vec<usize> {
     let side = side(joint).index();
     match joint {

@@ -6,8 +6,8 @@ use motiondb::body::Joint;
 use crate::read::source_clip::SourceClip;
 use crate::rig::roles::Roles;
 
-/// Facing of the body: the mean of the left → right unit vectors of hips and shoulders, turned by 90° and projected on the
-/// ground, rad.
+/// Facing of the body: the mean of the left → right unit vectors of hips and shoulders, turned by 90° and projected on
+/// the ground, rad.
 pub(crate) fn facing_rad(clip: &SourceClip, roles: &Roles, frame: usize) -> f64 {
     let across = |[left, right]: [Joint; 2]| {
         let [left, right] = [left, right].map(|joint| clip.position(frame, roles.required(joint)));

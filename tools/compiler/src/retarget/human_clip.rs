@@ -24,8 +24,8 @@ pub struct HumanClip {
     pub body: HumanBody,
     /// One pose for each frame.
     pub frames: Vec<HumanPose>,
-    /// Velocity (forward, left) of the body over the ground on which its stance feet stand still, m/s, of a clip in place;
-    /// none of a clip that travels.
+    /// Velocity (forward, left) of the body over the ground on which its stance feet stand still, m/s, of a clip in
+    /// place; none of a clip that travels.
     pub in_place_mps: Option<DVec2>,
     /// Why the clip gives no example, where import finds a reason.
     pub unfit: Option<Unfit>,
@@ -53,7 +53,8 @@ pub struct Choices {
 pub struct HumanBody {
     /// Offset of each joint from its parent; zero for the first joint.
     pub offsets_m: [DVec3; JOINT_COUNT],
-    /// Far end of each joint's segment relative to the joint: crown, fingertips, toe tips; for other joints their child.
+    /// Far end of each joint's segment relative to the joint: crown, fingertips, toe tips; for other joints their
+    /// child.
     pub segment_ends_m: [DVec3; JOINT_COUNT],
     /// `[left, right]`: heel and ball (relative to the foot joint) and toe tip (relative to the toe joint) on the sole.
     pub soles_m: [[DVec3; 3]; 2],
@@ -149,8 +150,8 @@ impl HumanJoints {
         self.foot_points_m(side, body.measured_m[side])
     }
 
-    /// World positions of the points of one foot that touch and leave the ground, m: the heel on the sole, ball and toe tip
-    /// where slide is measured.
+    /// World positions of the points of one foot that touch and leave the ground, m: the heel on the sole, ball and toe
+    /// tip where slide is measured.
     pub fn landing_points_m(&self, body: &HumanBody, side: usize) -> [DVec3; 3] {
         let ([heel, ..], [_, ball, tip]) = (body.soles_m[side], body.measured_m[side]);
         self.foot_points_m(side, [heel, ball, tip])
@@ -162,8 +163,8 @@ impl HumanJoints {
         [on_foot(heel), on_foot(ball), self.positions_m[toe] + self.orientations[toe] * tip]
     }
 
-    /// Facing: the mean of the left → right unit vectors of hips and shoulders, turned by 90° and projected on the ground,
-    /// rad.
+    /// Facing: the mean of the left → right unit vectors of hips and shoulders, turned by 90° and projected on the
+    /// ground, rad.
     pub fn facing_rad(&self) -> f64 {
         let across = |pair: [Joint; 2]| {
             (self.positions_m[pair[1].index()] - self.positions_m[pair[0].index()]).normalize_or_zero()

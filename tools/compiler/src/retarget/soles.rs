@@ -1,9 +1,9 @@
 //! Soles: heel, ball and toe tip of each foot, and the height of the ground.
 //!
-//! Leaf joints named `…HeelSole`, `…BallSole` and `…ToeSole` are the soles where they exist. Else the soles are estimated:
-//! the ground is the file's own zero where the planted feet stand just above it, else a joint's thickness below them; ball
-//! and toe tip lie on it under their joints, the heel behind the ankle. Slide is then measured at the joints, which do not
-//! depend on that estimate.
+//! Leaf joints named `…HeelSole`, `…BallSole` and `…ToeSole` are the soles where they exist. Else the soles are
+//! estimated: the ground is the file's own zero where the planted feet stand just above it, else a joint's thickness
+//! below them; ball and toe tip lie on it under their joints, the heel behind the ankle. Slide is then measured at the
+//! joints, which do not depend on that estimate.
 //!
 //! Heel and ball are in the canonical foot's frame, the toe tip in the toe's; metres.
 

@@ -67,7 +67,8 @@ fn forward(clip: &SourceClip, roles: &Roles) -> Vec<DVec3> {
     (0..clip.frame_count()).map(facing).collect()
 }
 
-/// Positions of all canonical joints in one frame, m. The pelvis is the hips' midpoint even where the hips are not rigid.
+/// Positions of all canonical joints in one frame, m. The pelvis is the hips' midpoint even where the hips are not
+/// rigid.
 fn positions(
     clip: &SourceClip,
     roles: &Roles,

@@ -1,16 +1,17 @@
-//! In-place (treadmill) speed: the velocity of ground that passes under a clip in place, so that stance feet stand still.
+//! In-place (treadmill) speed: the velocity of ground that passes under a clip in place, so that stance feet stand
+//! still.
 //!
-//! The balls of the feet stand: each is flat on the ground from just after heel strike to toe-off, so in a walk one always
-//! stands. A low ball votes for the ground velocity that holds it. A ball in the air is low too, shortly before it lands
-//! and after it leaves, but at ever other speeds. The ground velocity is where votes are densest (mean shift with
-//! Epanechnikov's kernel; Comaniciu and Meer 2002); lower balls weigh more. Votes near it without a break are a contact.
-//! The result is the mean over the middle 80 % of every contact, the part over which slide is defined.
+//! The balls of the feet stand: each is flat on the ground from just after heel strike to toe-off, so in a walk one
+//! always stands. A low ball votes for the ground velocity that holds it. A ball in the air is low too, shortly before
+//! it lands and after it leaves, but at ever other speeds. The ground velocity is where votes are densest (mean shift
+//! with Epanechnikov's kernel; Comaniciu and Meer 2002); lower balls weigh more. Votes near it without a break are a
+//! contact. The result is the mean over the middle 80 % of every contact, the part over which slide is defined.
 //!
-//! Drawn characters do not roll over their feet. For a body without human hips or without toes, the result is the median
-//! over the lower ankle's lowest frames.
+//! Drawn characters do not roll over their feet. For a body without human hips or without toes, the result is the
+//! median over the lower ankle's lowest frames.
 //!
-//! Clips are in metres, z up. Velocities are in the body's frame (along the facing, to its left), m/s, and reversed: those
-//! of the body over the ground.
+//! Clips are in metres, z up. Velocities are in the body's frame (along the facing, to its left), m/s, and reversed:
+//! those of the body over the ground.
 
 use std::ops::Range;
 
@@ -164,7 +165,8 @@ fn contact_middle(start: usize, end: usize, frames: usize) -> Range<usize> {
     first..past.max(first)
 }
 
-/// Reach of the kernel about a ground velocity, m/s. Legs swing as pendulums do: speeds scale with the root of the size.
+/// Reach of the kernel about a ground velocity, m/s. Legs swing as pendulums do: speeds scale with the root of the
+/// size.
 fn reach_mps(ground: DVec2, scale: f64) -> f64 {
     REACH_MPS * scale.sqrt() + REACH_SHARE * ground.length()
 }

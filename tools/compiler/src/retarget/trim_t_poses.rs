@@ -1,9 +1,9 @@
 //! Poses that are not part of the motion: a separate first pose, and T-poses at the ends of a clip.
 //!
 //! Many files begin with a T-pose. Some jump from it into the motion, some stand in it for seconds while a suit is
-//! calibrated, some blend out of it (PFNN: over 40 frames); some end in one. All of these frames are removed. Whole-clip
-//! parameters are measured after the first removal and before the second: one separate frame spoils them, while a blend
-//! or a calibration is part of the clip. Clips are in metres, z up.
+//! calibrated, some blend out of it (PFNN: over 40 frames); some end in one. All of these frames are removed.
+//! Whole-clip parameters are measured after the first removal and before the second: one separate frame spoils them,
+//! while a blend or a calibration is part of the clip. Clips are in metres, z up.
 
 use std::ops::Range;
 

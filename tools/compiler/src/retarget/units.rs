@@ -1,8 +1,8 @@
 //! The source's up axis and unit, from the posed body, and the clip in metres, z up.
 //!
-//! Zero poses and OFFSETs do not show the up axis: LaFAN1's bones all lie along +X, iClone's zero pose along Z. Up is the
-//! axis nearest to the direction from feet to shoulders, averaged over all frames. The unit is the one that brings thigh
-//! plus shank nearest to a person's.
+//! Zero poses and OFFSETs do not show the up axis: LaFAN1's bones all lie along +X, iClone's zero pose along Z. Up is
+//! the axis nearest to the direction from feet to shoulders, averaged over all frames. The unit is the one that brings
+//! thigh plus shank nearest to a person's.
 
 use glam::{DQuat, DVec3};
 use motiondb::body::Joint;

@@ -1,7 +1,8 @@
 //! Which pairs of limbs are legs and arms, and which of each pair is the left one, on a skeleton of any names.
 //!
 //! Legs reach lowest and begin at their fork. Arms are two thirds as long, hang from the upper trunk and bend; plaits,
-//! wings and held things do not. Toes and knees point forward. Lengths in source units; directions in the source's axes.
+//! wings and held things do not. Toes and knees point forward. Lengths in source units; directions in the source's
+//! axes.
 
 use glam::DVec3;
 use motiondb::body::Side;
@@ -113,7 +114,8 @@ fn best_arms<'a>(rig: &SourceRig, legs: &LimbPair, arms: &'a [LimbPair]) -> Opti
     limb::best_weighted(free, |pair| arm_weight(rig, legs, pair))
 }
 
-/// Weight of legs: 1 where they begin at their fork, bend, and end lower than the rest of the body, seen from their hips.
+/// Weight of legs: 1 where they begin at their fork, bend, and end lower than the rest of the body, seen from their
+/// hips.
 fn standing_weight(rig: &SourceRig, pair: &LimbPair) -> f64 {
     let up = rig.mean_vector(|frame| middle(rig, frame, pair, 0) - middle(rig, frame, pair, 2));
     let up = up.normalize_or_zero();
@@ -190,8 +192,8 @@ pub(crate) struct LegSides {
     pub contradict_names: bool,
 }
 
-/// Sides of the legs: by names, unless toes and knees both point backward, as in a mirrored file. Without names, left is
-/// the direction of up × forward.
+/// Sides of the legs: by names, unless toes and knees both point backward, as in a mirrored file. Without names, left
+/// is the direction of up × forward.
 pub(crate) fn leg_sides(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair) -> LegSides {
     let tips = legs.limbs.each_ref().map(|limb| toe_tip(rig, limb));
     let by_toes = leftness(rig, legs, arms, |frame, leg| toe_direction(rig, frame, &legs.limbs[leg], tips[leg]));

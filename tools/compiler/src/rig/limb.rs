@@ -1,9 +1,9 @@
 //! Limbs of a source skeleton: two long bones with a joint between them, and pairs of limbs that mirror each other.
 //!
-//! Candidates are all joints i < j < k on one path down from a child of a fork whose two bones are of similar length and
-//! skip only joints that lie on the bones (twist bones, segments, zero-length helpers). Two candidates below different
-//! children of a fork are a pair if their bones are alike. A pair's score is its length times weights of names, so that
-//! shape finds an unnamed skeleton, and names find a skeleton in a stiff pose. Lengths in source units.
+//! Candidates are all joints i < j < k on one path down from a child of a fork whose two bones are of similar length
+//! and skip only joints that lie on the bones (twist bones, segments, zero-length helpers). Two candidates below
+//! different children of a fork are a pair if their bones are alike. A pair's score is its length times weights of
+//! names, so that shape finds an unnamed skeleton, and names find a skeleton in a stiff pose. Lengths in source units.
 
 use motiondb::body::Side;
 
@@ -105,8 +105,8 @@ pub(crate) fn pairs(rig: &SourceRig, parts: [BodyPart; 3]) -> Vec<LimbPair> {
     pairs
 }
 
-/// The pair whose score times its weight is greatest, and that product. `pairs` are sorted by score; a weight is at most 1
-/// and costly, so the search ends at the first pair whose score alone is too small.
+/// The pair whose score times its weight is greatest, and that product. `pairs` are sorted by score; a weight is at
+/// most 1 and costly, so the search ends at the first pair whose score alone is too small.
 pub(crate) fn best_weighted<'a>(
     pairs: impl IntoIterator<Item = &'a LimbPair>,
     weight: impl Fn(&LimbPair) -> f64,
@@ -173,8 +173,8 @@ fn limb(rig: &SourceRig, path: &[usize], [start, middle]: [usize; 2], parts: [Bo
     fits.then_some(limb)
 }
 
-/// A leg whose foot does not hang from its shank, by name, side and constant distance from the knee. Some rigs hang feet
-/// from the root, as targets of leg IK.
+/// A leg whose foot does not hang from its shank, by name, side and constant distance from the knee. Some rigs hang
+/// feet from the root, as targets of leg IK.
 fn limb_with_detached_foot(rig: &SourceRig, thigh: usize, parts: [BodyPart; 3]) -> Option<Limb> {
     let [first, second, last] = parts;
     let shank = *rig.children[thigh].iter().find(|&&joint| rig.hints[joint].parts == [second])?;

@@ -14,8 +14,8 @@ use crate::rig::role_assignment::assigned_roles;
 use crate::rig::roles::{ARMS, JointMap, LEGS, Roles};
 use crate::rig::source_rig::SourceRig;
 
-/// Least mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders). People walk at 0.9
-/// to 1 and bow at 0.64; a fox gallops at 0.28.
+/// Least mean cosine between the legs' mean direction (toes → hips) and the trunk (hips → shoulders). People walk at
+/// 0.9 to 1 and bow at 0.64; a fox gallops at 0.28.
 const UPRIGHT_COSINE: f64 = 0.45;
 /// Greatest share of a body's path along the line from feet to shoulders (cosine of 37°). On stairs 0.6, bent double
 /// 0.65.

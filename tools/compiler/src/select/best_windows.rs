@@ -1,8 +1,8 @@
 //! AnalyzedClip → which of its steady windows become examples: of near-equal windows the best.
 //!
 //! 1. Among the windows of one clip that lie in one cell of a grid in (v_f, ω_t, ω_s) ([`rate_cells`]), the one with
-//!    the fewest flaws stays ([`crate::cycle::flaws`]). The longest of the rest is the clip's own example, whatever
-//!    else the set holds: the user gave it.
+//!    the fewest flaws stays ([`crate::cycle::flaws`]). The longest of the rest always stays as the clip's own
+//!    example: the user gave the clip.
 //! 2. Every further window must add to the set: by its flaws, the best first, a window stays that is near-equal to no
 //!    example so far.
 

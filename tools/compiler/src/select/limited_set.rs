@@ -1,7 +1,7 @@
 //! At most so many examples, so that the set still reaches as far as it can.
 //!
-//! m_sp, one cycle that stands and the ends of the set come first; then, each time, the cycle farthest from all that are
-//! kept and from their mirrors. Distances: (v_f, ω_t, ω_s), each axis divided by its range (definition "Axes" of
+//! m_sp, one cycle that stands and the ends of the set come first; then, each time, the cycle farthest from all that
+//! are kept and from their mirrors. Distances: (v_f, ω_t, ω_s), each axis divided by its range (definition "Axes" of
 //! `docs/definitions.md`).
 
 use std::num::NonZeroUsize;

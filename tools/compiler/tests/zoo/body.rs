@@ -1,5 +1,5 @@
-//! The motion that every rig of the zoo performs: a bundled clip as positions and rotations of the performer's parts. Its
-//! parameters are those of `assets/clips/README.md`. Metres; x to the left, y up, z forward.
+//! The motion that every rig of the zoo performs: a bundled clip as positions and rotations of the performer's parts.
+//! Its parameters are those of `assets/clips/README.md`. Metres; x to the left, y up, z forward.
 
 use std::path::Path;
 

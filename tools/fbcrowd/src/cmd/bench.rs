@@ -8,8 +8,8 @@ use crate::terminal::progress::ProgressDisplay;
 
 /// Run one bench and compare its measurements with the release criteria.
 ///
-/// Durations and sizes depend on the machine; they are printed with a goal, but do not change the exit code. Exit code 0:
-/// every criterion is met; 1: one is missed; 2: the input cannot be read.
+/// Durations and sizes depend on the machine; they are printed with a goal, but do not change the exit code. Exit code
+/// 0: every criterion is met; 1: one is missed; 2: the input cannot be read.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  fbcrowd bench compile --mocap my/clips\n  fbcrowd bench table1 --json")]
 pub(crate) struct Args {

@@ -11,7 +11,8 @@ use fbcrowd_jobs::{JobError, JobEvent};
 use motiondb::velocity_sets::velocity_hull::Construction;
 use motiondb_compiler::Compiled;
 
-use crate::cmd::rejected::{self, outside};
+use crate::cmd::outside_arg::OutsideArg;
+use crate::cmd::rejected;
 use crate::report::compile_report::CompileReport;
 use crate::report::compile_text;
 use crate::report::next_steps::with_next_steps;
@@ -21,8 +22,8 @@ use crate::terminal::progress::ProgressDisplay;
 
 /// Compile motion clips into a database.
 ///
-/// The compiler detects units, axes, joints, cycles and parameters; a manifest overrides them. Exit code 0: all clips were
-/// used; 1: the database was written, but some input was rejected; 2: nothing was written.
+/// The compiler detects units, axes, joints, cycles and parameters; a manifest overrides them. Exit code 0: all clips
+/// were used; 1: the database was written, but some input was rejected; 2: nothing was written.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd compile assets/clips -o motion.fbdb\n  fbcrowd compile walk.bvh run.glb -o motion.fbdb\n  \
@@ -38,9 +39,8 @@ pub(crate) struct Args {
     /// Write nothing if any input is rejected.
     #[arg(long)]
     strict: bool,
-    /// Also read buffers of glTF files that lie outside the folder of their .gltf file.
-    #[arg(long)]
-    allow_outside: bool,
+    #[command(flatten)]
+    outside: OutsideArg,
     /// Print the report as JSON, with exit code 2 too; docs/json.md describes it.
     #[arg(long)]
     json: bool,
@@ -79,7 +79,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let overrides = Overrides {
         velocity_hull: args.velocity_hull.map(Construction::from),
         max_examples: args.max_examples,
-        outside: outside(args.allow_outside),
+        outside: args.outside.into(),
     };
     let (stopwatch, progress) = (Stopwatch::default(), ProgressDisplay::default());
     let observer = |event: JobEvent<'_>| {

@@ -11,7 +11,8 @@ use motiondb::motion::MotionDb;
 use motiondb_compiler::ClipSet;
 use motiondb_compiler::survey::survey;
 
-use crate::cmd::rejected::{self, outside};
+use crate::cmd::outside_arg::OutsideArg;
+use crate::cmd::rejected;
 use crate::report::correspondence_table::CorrespondenceTable;
 use crate::report::inspect_report::{BrokenInvariant, BrokenReport, ClipsReport, DatabaseReport};
 use crate::report::inspect_text;
@@ -33,9 +34,8 @@ pub(crate) struct Args {
     /// Print JSON; docs/json.md describes it.
     #[arg(long)]
     json: bool,
-    /// Also read buffers of glTF files that lie outside the folder of their .gltf file.
-    #[arg(long)]
-    allow_outside: bool,
+    #[command(flatten)]
+    outside: OutsideArg,
     /// Write pictures of a database: velocity sets, parameters, where the examples are thin, bodies, steps, and how
     /// similar the poses of m_sp and m_mb are.
     #[arg(long, value_name = "DIR")]
@@ -136,8 +136,7 @@ fn inspect_clips(args: &Args, paths: &[PathBuf]) -> Result<Answer, Failure> {
         return Err(Failure::bad(format!("{message}; compile the clips first with `fbcrowd compile`")));
     }
     let progress = ProgressDisplay::default();
-    let ClipSet { clips, rejected } =
-        compiling::import(paths, outside(args.allow_outside), &|event| progress.observe(event))?;
+    let ClipSet { clips, rejected } = compiling::import(paths, args.outside.into(), &|event| progress.observe(event))?;
     rejected::print(&rejected);
     let (is_empty, answer) = (clips.is_empty(), rejected::answer(&rejected));
     let surveyed = survey(clips);

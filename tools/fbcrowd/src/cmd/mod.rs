@@ -1,7 +1,7 @@
-//! One file a subcommand: its arguments, and a `run` that leads from one stage to the next.
+//! One file for each subcommand: its arguments, and `run`, which calls the jobs in order.
 //!
-//! Enters: the arguments. Leaves: an answer, or why the command could not do its work. [`rejected`] is shared by the commands
-//! that read clips.
+//! Enters: the arguments. Leaves: an answer, or why the command could not do its work. The commands that read clips
+//! share [`outside_arg`] and [`rejected`].
 
 pub(crate) mod bench;
 pub(crate) mod clips;
@@ -9,6 +9,7 @@ pub(crate) mod compile;
 pub(crate) mod completions;
 pub(crate) mod inspect;
 pub(crate) mod measure;
+mod outside_arg;
 mod rejected;
 pub(crate) mod render;
 pub(crate) mod run;

@@ -1,6 +1,6 @@
 //! Rejected clips: how commands list them on standard error, and the exit code that they cause.
 
-use motiondb_compiler::{Outside, Rejection};
+use motiondb_compiler::Rejection;
 
 use crate::terminal::failure::Answer;
 use crate::terminal::output;
@@ -10,11 +10,6 @@ pub(crate) fn print(rejected: &[Rejection]) {
     for rejection in rejected {
         output::say(&format!("rejected: {rejection}"));
     }
-}
-
-/// The value of the option `--allow-outside`.
-pub(crate) fn outside(is_allowed: bool) -> Outside {
-    if is_allowed { Outside::Allowed } else { Outside::Refused }
 }
 
 /// Yes if every clip was used.

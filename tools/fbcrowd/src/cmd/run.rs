@@ -16,7 +16,8 @@ use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::database_file;
 use motiondb::motion::MotionDb;
 
-use crate::cmd::rejected::{self, outside};
+use crate::cmd::outside_arg::OutsideArg;
+use crate::cmd::rejected;
 use crate::report::{measures_text, timings_text};
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
@@ -34,9 +35,8 @@ pub(crate) struct Args {
     /// The folder to write to; `out/NAME` by default.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Also read buffers of glTF files that lie outside the folder of their .gltf file.
-    #[arg(long)]
-    allow_outside: bool,
+    #[command(flatten)]
+    outside: OutsideArg,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
@@ -141,7 +141,7 @@ impl MotionInput {
                 Ok(Self { db, checksum: Some(checksum), answer: Answer::Yes })
             }
             MotionSource::Clips(clips) => {
-                let overrides = Overrides { outside: outside(args.allow_outside), ..Overrides::default() };
+                let overrides = Overrides { outside: args.outside.into(), ..Overrides::default() };
                 let compiled = compiling::compile(&[clips], &outputs.database, &overrides, observer)?;
                 rejected::print(&compiled.rejected);
                 Ok(Self { db: compiled.db, checksum: None, answer: rejected::answer(&compiled.rejected) })

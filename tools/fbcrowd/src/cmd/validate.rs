@@ -10,8 +10,9 @@ use crate::terminal::output;
 
 /// Check every invariant of a motion database, and the quality of its motion.
 ///
-/// Exit code 0: all invariants hold; 1: one is broken, or with --strict a quality value exceeds its threshold; 2: the file
-/// cannot be read as a database (the message names what is wrong: magic number, version, length, checksum or content).
+/// Exit code 0: all invariants hold; 1: one is broken, or with --strict a quality value exceeds its threshold; 2: the
+/// file cannot be read as a database (the message names what is wrong: magic number, version, length, checksum or
+/// content).
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd validate out/antipodal/motion.fbdb\n  fbcrowd validate motion.fbdb --strict --json"

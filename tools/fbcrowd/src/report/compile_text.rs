@@ -17,7 +17,8 @@ use crate::report::sentence_groups::group;
 const SHOWN_LINES: usize = 100;
 /// Most clips that are named for one sentence; the others are counted.
 const SHOWN_CLIPS: usize = 12;
-/// Head of the table of examples. Seam and jerk are ratios to the cycle's own median step, of its pose and its velocity.
+/// Head of the table of examples. Seam and jerk are ratios to the cycle's own median step, of its pose and its
+/// velocity.
 const EXAMPLES: &str =
     "examples, worst first (! beyond its threshold; seam, jerk: in the cycle's usual step; leg: in its length)";
 /// Columns of a line.

@@ -1,4 +1,5 @@
-//! Many sentences that differ in one number → one sentence with the range of the number: `turn rate 1.1 to 2.8 deg/s taken as 0 (9)`.
+//! Many sentences that differ in one number → one sentence with the range of the number: `turn rate 1.1 to 2.8 deg/s
+//! taken as 0 (9)`.
 
 use std::collections::BTreeMap;
 

@@ -60,8 +60,8 @@ pub struct MeasuresMirror {
     root_tracking_error_m: f64,
     /// Greatest distance between the position to which a step's planned velocity leads and the root, m.
     root_tracking_worst_m: f64,
-    /// Mean angle between facing and travel before arrival, where an agent walks without side-stepping or stepping back,
-    /// degrees.
+    /// Mean angle between facing and travel before arrival, where an agent walks without side-stepping or stepping
+    /// back, degrees.
     heading_error_deg: f64,
     /// Mean angle between facing and travel before arrival, wherever an agent walks, degrees.
     walking_heading_error_deg: f64,

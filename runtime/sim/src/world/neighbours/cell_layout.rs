@@ -1,6 +1,6 @@
 //! A uniform grid over the agents, and grids within its crowded cells: the memory layout that a search walks over.
 //!
-//! A grid has a cell for every three agents, whatever their number. Where they are spread unevenly (a crowd and a
+//! A grid has one cell for every three agents. Where they are spread unevenly (a crowd and a
 //! straggler a kilometre away) most agents fall into few cells, so a crowded cell gets a grid of its own over its own
 //! box, and so on. Positions outside a grid belong to its border cells. Every cell number comes from one monotone
 //! function of a coordinate, so what lies between two coordinates lies in the cells between theirs, rounding included.

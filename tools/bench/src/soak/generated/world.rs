@@ -1,8 +1,8 @@
 //! Random worlds that no scenario describes, and what is wrong with the plans of any planner in them.
 //!
-//! A few agents and polygons: crowded, piled on one point, ten kilometres off, very fast, at rest to the last bit, of tiny
-//! and of huge radii, on an edge, inside a wall. [`GeneratedWorld::fault`] plans every agent with each planner and moves
-//! it as a disc. World, metres, seconds.
+//! A few agents and polygons: crowded, piled on one point, ten kilometres off, very fast, at rest to the last bit, of
+//! tiny and of huge radii, on an edge, inside a wall. [`GeneratedWorld::fault`] plans every agent with each planner and
+//! moves it as a disc. World, metres, seconds.
 
 use fbcrowd_sim::coupling::{as_planned, outside_walls};
 use fbcrowd_sim::maths::{SplitMix64, polygon};
@@ -157,7 +157,8 @@ fn speed_limit_mps(planner: Planner, world: &WorldView, agent: usize, params: &P
     }
 }
 
-/// Whether an agent outside a polygon gets into it or through it: by all edges and in f64, independent of [`Obstacles`].
+/// Whether an agent outside a polygon gets into it or through it: by all edges and in f64, independent of
+/// [`Obstacles`].
 fn passes(corners_m: &[Vec2], from_m: Vec2, to_m: Vec2) -> bool {
     if polygon::contains(corners_m, from_m) {
         return false;

@@ -10,7 +10,8 @@ use crate::input::clip_files;
 use crate::input::clip_settings::ClipSettings;
 use crate::input::manifest::clips_table::ClipsTable;
 
-/// Settings of all clips below the manifest's folder or named by a table, except those whose innermost table skips them.
+/// Settings of all clips below the manifest's folder or named by a table, except those whose innermost table skips
+/// them.
 pub(crate) fn selected_clips(
     source: &SourceText,
     tables: &[Spanned<ClipsTable>],

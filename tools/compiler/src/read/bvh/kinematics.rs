@@ -1,9 +1,9 @@
 //! Channels and numbers of a BVH → global positions and orientations of all joints.
 //!
 //! Position channels may replace OFFSET (Bandai, LaFAN1) or be relative to it (iClone). For the joints that carry the
-//! whole body, from the root to the first fork, the two differ by a constant displacement of everything, which grounding
-//! removes later. For other joints the mean of the channels decides: near OFFSET they replace it, near zero they are
-//! relative.
+//! whole body, from the root to the first fork, the two differ by a constant displacement of everything, which
+//! grounding removes later. For other joints the mean of the channels decides: near OFFSET they replace it, near zero
+//! they are relative.
 
 use std::path::Path;
 

@@ -10,8 +10,8 @@ use crate::read::bvh::lines::{number, number_remedy, quoted};
 use crate::read::decimal;
 use crate::read::malformed::malformed_line;
 
-/// Greatest number of joint-frames for each number of the section, so that memory stays proportional to the file. A joint
-/// has at least one channel in practice; end sites add a third.
+/// Greatest number of joint-frames for each number of the section, so that memory stays proportional to the file. A
+/// joint has at least one channel in practice; end sites add a third.
 const MAX_JOINT_FRAMES_PER_VALUE: usize = 4;
 /// Accepted frame times, s: from the fastest motion capture to a frame a second, which shows no gait.
 const FRAME_TIME_S: RangeInclusive<f64> = 1e-3..=1.0;

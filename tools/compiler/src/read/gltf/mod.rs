@@ -1,13 +1,13 @@
 //! glTF 2.0 → [`SourceClip`](crate::read::SourceClip)s, one for each body that an animation moves, sampled at 30 Hz.
 //!
 //! # What the crate `gltf` does
-//! `gltf` 1.4 splits a GLB file into its JSON and its binary chunk ([`gltf::Glb`]). Its part `gltf-json` parses the JSON
-//! into typed structs ([`gltf::json::Root`]) and validates them: required properties, indices, enumerations.
+//! `gltf` 1.4 splits a GLB file into its JSON and its binary chunk ([`gltf::Glb`]). Its part `gltf-json` parses the
+//! JSON into typed structs ([`gltf::json::Root`]) and validates them: required properties, indices, enumerations.
 //!
 //! # What is read here
 //! - `document_json` rejects other formats and versions, drops channels without a node, and catches the crate's panics.
-//! - `buffers` reads GLB chunks, data URIs and files beside the document, never more bytes than exist and nothing outside
-//!   the document's folder. The crate's own importer is not built in.
+//! - `buffers` reads GLB chunks, data URIs and files beside the document, never more bytes than exist and nothing
+//!   outside the document's folder. The crate's own importer is not built in.
 //! - `accessor` reads plain, sparse and normalised numbers by index. The crate's wrappers search each accessor from the
 //!   first one on and panic on an index out of range.
 //! - `node_tree` orders nodes and finds bodies, `key_track` interpolates keys (glTF 2.0 specification, Appendix C),

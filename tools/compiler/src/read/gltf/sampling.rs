@@ -46,8 +46,8 @@ pub(crate) struct PoseSampler<'a> {
 }
 
 impl PoseSampler<'_> {
-    /// Global positions (metres) and orientations at index frame · joint count + joint. `locals` are the transforms of all
-    /// nodes at rest.
+    /// Global positions (metres) and orientations at index frame · joint count + joint. `locals` are the transforms of
+    /// all nodes at rest.
     pub(crate) fn sample(&self, mut locals: Vec<NodeTransform>, span: &ClipSpan) -> (Vec<DVec3>, Vec<DQuat>) {
         let (mut positions, mut orientations) = (Vec::new(), Vec::new());
         positions.reserve_exact(span.frames * self.parents.len());
