@@ -23,6 +23,6 @@ pub use coupling::Coupling;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};
-pub use ranges::check_view;
+pub use ranges::{STEP_RANGE_S, check_view};
 pub use resolved::Scenario;
 pub use view::View;

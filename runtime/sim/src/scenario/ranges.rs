@@ -17,7 +17,7 @@ const NAME_MAX_BYTES: usize = 200;
 const DURATION_S: RangeInclusive<f32> = 1e-3..=86_400.0;
 /// Time step, s. In coarser steps agents meet before they react and planted feet slide (ten agents on a circle: 0.1
 /// cm/s at 0.2 s, 23 cm/s at 0.5 s).
-const STEP_S: RangeInclusive<f32> = 1e-3..=0.25;
+pub const STEP_RANGE_S: RangeInclusive<f32> = 1e-3..=0.25;
 /// Greatest coordinate, m: beyond it f32 positions resolve no millimetre.
 pub(crate) const COORDINATE_MAX_M: f32 = 10_000.0;
 /// Radius of a disc, m: from a child to a person with luggage.
@@ -55,7 +55,7 @@ pub(crate) fn check_ranges(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_name(&scenario.name)?;
     let (duration, step) = (&ScenarioPart::Duration, &ScenarioPart::Step);
     within(duration, "duration_s", scenario.duration_s, &DURATION_S, "give the simulated time in seconds")?;
-    within(step, "dt_s", scenario.dt_s, &STEP_S, "remove the key to use 1/30 s")?;
+    within(step, "dt_s", scenario.dt_s, &STEP_RANGE_S, "remove the key to use 1/30 s")?;
     if scenario.dt_s > scenario.duration_s {
         return duration.fault("duration_s is shorter than one step".into(), "give at least dt_s");
     }

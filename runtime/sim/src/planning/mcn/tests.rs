@@ -122,6 +122,16 @@ fn no_plan_is_faster_than_the_database() {
 }
 
 #[test]
+fn overlapping_agents_part_no_faster_in_finer_steps() {
+    let mut scene = Scene { preferred_mps: vec![Vec2::ZERO; 2], ..Scene::new(&[[0.0, 0.0], [0.2, 0.1]]) };
+    let [coarse, fine, finest] = [0.05, 1.0 / 60.0, 1.0 / 120.0].map(|dt_s| {
+        scene.dt_s = dt_s;
+        scene.plan().velocity_mps
+    });
+    assert!(coarse.x < 0.0 && coarse == fine && fine == finest, "{coarse} {fine} {finest}");
+}
+
+#[test]
 fn an_agent_that_faces_a_wall_obliquely_side_steps() {
     let mut scene = Scene::new(&[[0.0, 0.0]]);
     scene.turning_mps = vec![Vec2::ZERO, Vec2::new(1.5, 0.4), Vec2::new(1.5, -0.4)];
