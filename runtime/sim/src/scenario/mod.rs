@@ -17,7 +17,7 @@ pub(crate) mod ranges;
 pub(crate) mod resolved;
 pub(crate) mod view;
 
-pub use agent_spec::AgentSpec;
+pub use agent_spec::{AgentSpec, WALL_RADIUS_M};
 pub use check::check;
 pub use coupling::Coupling;
 pub use error::{Invalid, ScenarioError};

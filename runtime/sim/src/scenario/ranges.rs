@@ -146,6 +146,9 @@ fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), ScenarioFault> {
     let facing_deg = (10.0 * agent.facing_rad.to_degrees()).round() / 10.0;
     within(part, "facing_deg", facing_deg, &FACING_DEG, "remove the key to face the first goal")?;
     within(part, "radius_m", agent.radius_m, &RADIUS_M, "give the radius of the agent's disc in metres")?;
+    let help = "give at most radius_m, or remove the key; a door narrower than twice this is closed";
+    let wall_radius = *RADIUS_M.start()..=agent.radius_m;
+    within(part, "wall_radius_m", agent.wall_radius_m, &wall_radius, help)?;
     let help = "people walk at about 1.3 m/s; an agent that stands has its start as its goal";
     within(part, "preferred_speed_mps", agent.preferred_speed_mps, &SPEED_MPS, help)
 }
