@@ -68,3 +68,16 @@ impl PictureArg {
         self.output.clone().unwrap_or_else(|| PathBuf::from(format!("out/{bench}.png")))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_is_a_number_or_a_fraction_in_range() {
+        assert_eq!((step_s("0.1"), step_s("1/60")), (Ok(0.1), Ok(1.0 / 60.0)));
+        for text in ["1/0", "0.5", "0/1", "a/2", "", "nan"] {
+            assert!(step_s(text).is_err(), "{text}");
+        }
+    }
+}
