@@ -89,6 +89,7 @@ fn record(path: &Path) {
         facing_rad: 0.0,
         goals_m: vec![Vec2::new(5.0, y)],
         radius_m: 0.25,
+        wall_radius_m: 0.2,
         preferred_speed_mps: 1.33,
     };
     let scenario = Scenario {

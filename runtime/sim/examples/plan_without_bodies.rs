@@ -14,6 +14,7 @@ use std::f32::consts::{PI, TAU};
 use fbcrowd_sim::planning::mcn::MotionConstraints;
 use fbcrowd_sim::planning::{CrowdPlanningMemory, Stance, plan_all, ranking_horizon_s};
 use fbcrowd_sim::route::{Braking, PathProgress, preferred_mps};
+use fbcrowd_sim::scenario::WALL_RADIUS_M;
 use fbcrowd_sim::world::neighbours::NeighbourSearch;
 use fbcrowd_sim::world::obstacles::Obstacles;
 use fbcrowd_sim::{AgentSpec, Params, Plan, Planner, WorldView};
@@ -68,6 +69,7 @@ fn main() {
             velocities_mps: &velocities_mps,
             facings_rad: &facings_rad,
             radii_m: &[RADIUS_M; AGENTS],
+            wall_radii_m: &[WALL_RADIUS_M; AGENTS],
             preferred_mps: &preferred_mps,
             stances: &[Stance::default(); AGENTS],
             strafing_s: &plans.iter().map(|plan| plan.strafing_s).collect::<Vec<f32>>(),
@@ -81,7 +83,7 @@ fn main() {
         plan_all(planner, &world, &params, &mut memory, &mut plans);
         for (agent, plan) in plans.iter().enumerate() {
             let planned_m = positions_m[agent] + DT_S * plan.velocity_mps;
-            let moved_m = obstacles.clamp_path(positions_m[agent], planned_m, RADIUS_M);
+            let moved_m = obstacles.clamp_path(positions_m[agent], planned_m, WALL_RADIUS_M);
             velocities_mps[agent] = (moved_m - positions_m[agent]) / DT_S;
             (positions_m[agent], facings_rad[agent]) = (moved_m, plan.facing_rad);
         }
@@ -102,6 +104,7 @@ fn on_circle(index: usize) -> AgentSpec {
         facing_rad: angle_rad + PI,
         goals_m: vec![-position_m],
         radius_m: RADIUS_M,
+        wall_radius_m: WALL_RADIUS_M,
         preferred_speed_mps: 1.33,
     }
 }

@@ -29,8 +29,10 @@ pub struct Agents {
     pub velocities_mps: Vec<Vec2>,
     /// Facing of the synthesised root, rad.
     pub facings_rad: Vec<f32>,
-    /// Radius of the disc, m.
+    /// Radius of the disc that other agents see, m.
     pub radii_m: Vec<f32>,
+    /// Radius of the disc that walls hold, m.
+    pub wall_radii_m: Vec<f32>,
     /// How far each has got on its way.
     pub progress: Vec<PathProgress>,
     /// v_pref, m/s.
@@ -59,6 +61,7 @@ impl Agents {
             velocities_mps: vec![Vec2::ZERO; count],
             facings_rad: scenario.agents.iter().map(|agent| agent.facing_rad).collect(),
             radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
+            wall_radii_m: scenario.agents.iter().map(|agent| agent.wall_radius_m).collect(),
             progress: vec![PathProgress::default(); count],
             preferred_mps: vec![Vec2::ZERO; count],
             plans: vec![Plan::default(); count],
@@ -83,11 +86,12 @@ impl Agents {
     /// Memory of all arrays, bytes; their elements hold no pointers.
     pub fn size_bytes(&self) -> usize {
         let Self { positions_m, velocities_mps, facings_rad, radii_m, progress, preferred_mps, plans, .. } = self;
-        let Self { strafing_s, stepping_back_s, bodies, stances, frames, .. } = self;
+        let Self { wall_radii_m, strafing_s, stepping_back_s, bodies, stances, frames, .. } = self;
         let of_planning = size_of_val(&**positions_m)
             + size_of_val(&**velocities_mps)
             + size_of_val(&**facings_rad)
             + size_of_val(&**radii_m)
+            + size_of_val(&**wall_radii_m)
             + size_of_val(&**progress)
             + size_of_val(&**preferred_mps)
             + size_of_val(&**plans)

@@ -19,6 +19,7 @@
 //!     facing_rad: (goal_m - start_m).to_angle(),
 //!     goals_m: vec![goal_m],
 //!     radius_m: 0.25,
+//!     wall_radius_m: 0.2,
 //!     preferred_speed_mps: 1.33,
 //! };
 //! let (west_m, east_m) = (Vec2::new(-4.0, 0.0), Vec2::new(4.0, 0.0));
@@ -56,6 +57,7 @@
 //!     velocities_mps: &velocities_mps,
 //!     facings_rad: &[0.0, std::f32::consts::PI],
 //!     radii_m: &radii_m,
+//!     wall_radii_m: &[0.2; 2],
 //!     preferred_mps: &velocities_mps,
 //!     stances: &[Stance::default(); 2],
 //!     strafing_s: &[0.0; 2],

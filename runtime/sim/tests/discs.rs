@@ -142,8 +142,8 @@ fn check_walls(name: &str, agents: &[(Vec2, Vec2)], building: &Building) {
 
 fn check_outside(name: &str, figures: &CrowdFigures, walls: &Obstacles) {
     for position_m in figures.trails_m.iter().flatten() {
-        let pushed_m = walls.clamp_outside(*position_m, RADIUS_M).distance(*position_m);
-        assert!(pushed_m < 0.05, "{name}: {position_m} lies {pushed_m} m in a wall");
+        let depth_m = walls.depth_m(*position_m, RADIUS_M);
+        assert!(depth_m < 0.05, "{name}: {position_m} lies {depth_m} m in a wall");
     }
 }
 

@@ -49,8 +49,19 @@ fn a_short_file_gives_everything_its_default() {
         (scenario.name.as_str(), scenario.dt_s, scenario.duration_s, scenario.seed),
         ("scene", 1.0 / 30.0, 10.0, 1)
     );
-    assert_eq!((scenario.agents[0].radius_m, scenario.agents[0].preferred_speed_mps), (0.25, 1.33));
+    let agent = &scenario.agents[0];
+    assert_eq!((agent.radius_m, agent.wall_radius_m, agent.preferred_speed_mps), (0.25, 0.2, 1.33));
     assert!(matches!(motion, Ok(MotionSource::Clips(_))));
+}
+
+#[test]
+fn wall_radius_is_at_most_the_radius() {
+    let agents = scenario(
+        "wall_radius",
+        "agents = [{ at_m = [1, 1], goals_m = [[9, 9]], radius_m = 0.15 }, { at_m = [3, 3], goals_m = [[4, 4]], radius_m = 0.4, wall_radius_m = 0.4 }]",
+    )
+    .agents;
+    assert_eq!([agents[0].wall_radius_m, agents[1].wall_radius_m], [0.15, 0.4]);
 }
 
 #[test]
@@ -190,6 +201,10 @@ fn numbers_out_of_range_are_shown_at_their_position() {
     check_rejected("duration", &format!("clips = \".\"\nduration_s = -1\n{ONE}"), "-1", "duration_s is -1");
     let radius = "{ at_m = [0, 0], goals_m = [[5, 0]], radius_m = -1 }";
     check_rejected("radius", &format!("{HEAD}agents = {radius}"), radius, "radius_m is -1");
+    let wide = "{ at_m = [0, 0], goals_m = [[5, 0]], wall_radius_m = 0.3 }";
+    check_rejected("wide", &format!("{HEAD}agents = {wide}"), wide, "wall_radius_m is 0.3, not between 0.1 and 0.25");
+    let thin = "{ at_m = [0, 0], goals_m = [[5, 0]], wall_radius_m = 0.05 }";
+    check_rejected("thin", &format!("{HEAD}agents = {thin}"), thin, "wall_radius_m is 0.05");
     let spun = "{ at_m = [0, 0], goals_m = [[5, 0]], facing_deg = 100000 }";
     let message = "facing_deg is 100000, not between -3600 and 3600";
     check_rejected("spun", &format!("{HEAD}agents = {spun}"), spun, message);
@@ -255,7 +270,7 @@ fn agents_start_apart_from_each_other_and_from_obstacles() {
     );
     check_rejected(
         "grazing",
-        &with_obstacle("[[-1, 0.2], [1, 0.2], [0, 1]]"),
+        &with_obstacle("[[-1, 0.15], [1, 0.15], [0, 1]]"),
         second,
         "agent 0 overlaps obstacle 0 by 0.05 m",
     );
@@ -265,12 +280,12 @@ fn agents_start_apart_from_each_other_and_from_obstacles() {
         second,
         "a goal of agent 0 lies inside obstacle 0",
     );
-    let broad = "{ at_m = [0, 0], goals_m = [[5, 0]], radius_m = 0.6 }";
+    let broad = "{ at_m = [0, 0], goals_m = [[5, 0]], radius_m = 0.6, wall_radius_m = 0.6 }";
     check_rejected(
         "goal_beside",
         &format!("{HEAD}agents = [{broad}]\n[[obstacles]]\npolygon_m = [[5.05, -2], [6, -2], [6, 2], [5.05, 2]]\n"),
         broad,
-        "agent 0 with radius 0.60 m cannot come within 0.5 m of its goal, which lies 0.05 m from obstacle 0",
+        "agent 0 with a wall radius of 0.60 m cannot come within 0.5 m of its goal, which lies 0.05 m from obstacle 0",
     );
 }
 

@@ -105,6 +105,7 @@ pub(crate) fn circle(agent_count: usize, radius_m: f32, view: View) -> Header {
             facing_rad: (-at(index)).to_angle(),
             goals_m: vec![-at(index)],
             radius_m: 0.3,
+            wall_radius_m: 0.2,
             preferred_speed_mps: SPEED_MPS,
         })
         .collect();

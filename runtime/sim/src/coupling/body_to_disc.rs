@@ -16,9 +16,9 @@ pub fn as_planned(root: Root, plan: &Plan, dt_s: f32) -> Root {
     Root { position_m: root.position_m + dt_s * plan.velocity_mps, facing_rad: plan.facing_rad }
 }
 
-/// The root kept out of walls, on the side where it was at `from_m` before the step.
-pub fn outside_walls(from_m: Vec2, root: Root, radius_m: f32, obstacles: &Obstacles) -> Root {
-    Root { position_m: obstacles.clamp_path(from_m, root.position_m, radius_m), ..root }
+/// The root where its disc ends that walls hold, swept along its path from `from_m`, where it was before the step.
+pub fn outside_walls(from_m: Vec2, root: Root, wall_radius_m: f32, obstacles: &Obstacles) -> Root {
+    Root { position_m: obstacles.clamp_path(from_m, root.position_m, wall_radius_m), ..root }
 }
 
 /// Updates what planners read of the agents from the bodies and plans of a step.

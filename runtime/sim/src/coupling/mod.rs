@@ -6,5 +6,7 @@
 
 pub(crate) mod body_to_disc;
 pub(crate) mod decoupled;
+#[cfg(test)]
+mod doors;
 
 pub use body_to_disc::{as_planned, outside_walls};

@@ -1,7 +1,7 @@
 //! How often, and how deep, discs and bodies touch walls (`FbCrowd` §7, the obstacle course).
 //!
 //! The synthesised root is kept outside walls (`coupling::body_to_disc`), so a disc that a wall holds lies exactly at
-//! its radius from it, up to `TOUCH_M`. A body touches a wall where one of its capsules does; walls are upright, so
+//! its wall radius from it, up to `TOUCH_M`. A body touches a wall where one of its capsules does; walls are upright, so
 //! bones are projected on the ground. Only frames count, not the motion between them. World axes, metres.
 
 use glam::Vec3;
@@ -13,8 +13,8 @@ use crate::recording::frame::AgentFrame;
 use crate::scenario::Scenario;
 use crate::world::obstacles::{NearEdge, Obstacles};
 
-/// Rounding of a disc that is kept at a wall, m.
-const TOUCH_M: f32 = 1e-4;
+/// Distance of a disc that a wall holds, beyond its wall radius, m: the skin that the clamp keeps, and rounding.
+const TOUCH_M: f32 = 1.5e-4;
 /// Greatest reach of a capsule from its root, m: an arm held out.
 const REACH_M: f32 = 1.2;
 
@@ -23,7 +23,7 @@ const REACH_M: f32 = 1.2;
 pub(crate) struct WallContact {
     skeleton: Skeleton,
     obstacles: Obstacles,
-    radii_m: Vec<f32>,
+    wall_radii_m: Vec<f32>,
     agent_frames: usize,
     touching_discs: usize,
     touching_bodies: usize,
@@ -47,7 +47,7 @@ impl WallContact {
         Self {
             skeleton: skeleton.clone(),
             obstacles: Obstacles::new(&scenario.obstacles_m),
-            radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
+            wall_radii_m: scenario.agents.iter().map(|agent| agent.wall_radius_m).collect(),
             agent_frames: 0,
             touching_discs: 0,
             touching_bodies: 0,
@@ -59,7 +59,7 @@ impl WallContact {
     pub(crate) fn push(&mut self, agents: &[AgentFrame], joints: &[Joints]) {
         self.agent_frames += agents.len();
         let mut near = Vec::new();
-        for ((agent, joints), &radius_m) in agents.iter().zip(joints).zip(&self.radii_m) {
+        for ((agent, joints), &radius_m) in agents.iter().zip(joints).zip(&self.wall_radii_m) {
             self.obstacles.near(agent.root.position_m, REACH_M.max(radius_m + TOUCH_M), &mut near);
             let Some(nearest) = near.first() else { continue };
             self.touching_discs += usize::from(nearest.distance_m < radius_m + TOUCH_M);
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn bodies_touch_by_capsules_discs_by_radius() {
-        let radius_m = 0.25;
+        let radius_m = 0.2;
         assert_eq!(beside(2.0), WallContactShares { disc_share: 0.0, body_share: 0.0, greatest_depth_mm: 0.0 });
         assert_eq!((beside(radius_m).disc_share, beside(radius_m + 0.01).disc_share), (1.0, 0.0));
         assert_eq!((beside(ahead_m() - 0.01).body_share, beside(ahead_m() + 0.01).body_share), (1.0, 0.0));

@@ -15,7 +15,7 @@ pub(crate) struct Surroundings {
 }
 
 impl Surroundings {
-    /// Finds an agent's neighbours within `range_m` and the edges within `wall_range_m` of its disc.
+    /// Finds an agent's neighbours within `range_m` and the edges within `wall_range_m` of the disc that walls hold.
     pub(crate) fn look_around(&mut self, world: &WorldView, agent: usize, range_m: f32, wall_range_m: f32) {
         let own = world.disc(agent);
         let query = NeighbourQuery {
@@ -26,12 +26,12 @@ impl Surroundings {
             range_m,
         };
         world.neighbours.nearest(&query, &mut self.neighbours);
-        world.obstacles.near(own.position_m, own.radius_m + wall_range_m, &mut self.edges);
+        world.obstacles.near(own.position_m, world.wall_radii_m[agent] + wall_range_m, &mut self.edges);
     }
 
     /// Least time to collision with a neighbour or an edge at the present velocities, s.
     pub(crate) fn time_to_collision_s(&self, world: &WorldView, agent: usize) -> f32 {
-        let own = world.disc(agent);
+        let own = world.wall_disc(agent);
         let with_agents = self.neighbours.as_slice().iter().map(|neighbour| neighbour.time_to_collision_s);
         let with_walls = self
             .edges

@@ -35,6 +35,7 @@ use crate::world::obstacles::Obstacles;
 ///     velocities_mps: &[walk_mps],
 ///     facings_rad: &[0.0],
 ///     radii_m: &[0.25],
+///     wall_radii_m: &[0.2],
 ///     preferred_mps: &[walk_mps],
 ///     stances: &[Stance::default()],
 ///     strafing_s: &[0.0],
@@ -56,8 +57,10 @@ pub struct WorldView<'a> {
     pub velocities_mps: &'a [Vec2],
     /// Facings of the synthesised roots, rad.
     pub facings_rad: &'a [f32],
-    /// Radii of the bounding discs, m.
+    /// Radii of the bounding discs, which agents see of each other, m.
     pub radii_m: &'a [f32],
+    /// Radii of the discs that walls hold, m.
+    pub wall_radii_m: &'a [f32],
     /// v_pref, m/s.
     pub preferred_mps: &'a [Vec2],
     /// How each body stands.
@@ -80,13 +83,18 @@ pub struct WorldView<'a> {
 }
 
 impl WorldView<'_> {
-    /// The bounding disc of an agent.
+    /// The disc of an agent that other agents see.
     pub fn disc(&self, agent: usize) -> Disc {
         Disc {
             position_m: self.positions_m[agent],
             velocity_mps: self.velocities_mps[agent],
             radius_m: self.radii_m[agent],
         }
+    }
+
+    /// The disc of an agent that walls hold.
+    pub fn wall_disc(&self, agent: usize) -> Disc {
+        Disc { radius_m: self.wall_radii_m[agent], ..self.disc(agent) }
     }
 
     /// Time for which a planner applies forces to the present velocity, s.

@@ -1,7 +1,7 @@
 //! Magic number, version and chunk kinds of `.fbrec`.
 
 /// Format version; raised when a reader of the old version would misread the new one.
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = 2;
 /// First bytes of every recording.
 pub(crate) const MAGIC: [u8; 8] = *b"FBREC\r\n\x1a";
 /// Byte at which the `HEAD` chunk begins: after magic and version.

@@ -28,6 +28,7 @@ pub struct Replay<'a> {
     obstacles: Obstacles,
     constraints: MotionConstraints,
     radii_m: Vec<f32>,
+    wall_radii_m: Vec<f32>,
 }
 
 /// One recorded step, with everything that its planner read.
@@ -59,6 +60,7 @@ impl<'a> Replay<'a> {
             constraints: MotionConstraints::new(&recording.header().velocity_hull),
             obstacles: Obstacles::new(&scenario.obstacles_m),
             radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
+            wall_radii_m: scenario.agents.iter().map(|agent| agent.wall_radius_m).collect(),
         }
     }
 
@@ -131,6 +133,7 @@ impl RecordedStep<'_> {
             velocities_mps: &self.velocities_mps,
             facings_rad: &self.facings_rad,
             radii_m: &self.replay.radii_m,
+            wall_radii_m: &self.replay.wall_radii_m,
             preferred_mps: &self.preferred_mps,
             stances: &self.stances,
             strafing_s: &self.strafing_s,

@@ -172,6 +172,7 @@ mod tests {
             facing_rad: 0.0,
             goals_m: goals_m.to_vec(),
             radius_m: 0.25,
+            wall_radius_m: 0.2,
             preferred_speed_mps: 1.3,
         }
     }

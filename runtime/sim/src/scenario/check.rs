@@ -110,8 +110,8 @@ impl SortedAgents {
 }
 
 fn check_start(index: usize, agent: &AgentSpec, obstacle: usize, polygon_m: &[Vec2]) -> Result<(), ScenarioFault> {
-    let overlap_m = f64::from(agent.radius_m) - closest_distance_m(polygon_m, agent.position_m);
-    let help = "move it until its whole disc is on free ground";
+    let overlap_m = f64::from(agent.wall_radius_m) - closest_distance_m(polygon_m, agent.position_m);
+    let help = "move it until it is at least `wall_radius_m` from every obstacle";
     let part = ScenarioPart::Journey(index);
     if contains(polygon_m, agent.position_m) {
         part.fault(format!("agent {index} starts inside obstacle {obstacle}"), help)
@@ -124,14 +124,15 @@ fn check_start(index: usize, agent: &AgentSpec, obstacle: usize, polygon_m: &[Ve
 
 /// Checks that a disc can come near its last goal, which lies `clear_m` from an obstacle.
 fn check_reach(index: usize, agent: &AgentSpec, obstacle: usize, clear_m: f64) -> Result<(), ScenarioFault> {
-    let radius_m = f64::from(agent.radius_m);
+    let radius_m = f64::from(agent.wall_radius_m);
     if radius_m - clear_m < ARRIVAL_M {
         return Ok(());
     }
     let message = format!(
-        "agent {index} with radius {radius_m:.2} m cannot come within {ARRIVAL_M} m of its goal, which lies {clear_m:.2} m from obstacle {obstacle}"
+        "agent {index} with a wall radius of {radius_m:.2} m cannot come within {ARRIVAL_M} m of its goal, which lies {clear_m:.2} m from obstacle {obstacle}"
     );
-    ScenarioPart::Journey(index).fault(message, "move the goal away from the obstacle")
+    ScenarioPart::Journey(index)
+        .fault(message, "move the goal away from the obstacle, or set a smaller `wall_radius_m`")
 }
 
 fn check_agents_apart(agents: &[AgentSpec]) -> Result<(), ScenarioFault> {

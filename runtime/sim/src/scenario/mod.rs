@@ -17,12 +17,12 @@ pub(crate) mod ranges;
 pub(crate) mod resolved;
 pub(crate) mod view;
 
-pub use agent_spec::AgentSpec;
+pub use agent_spec::{AgentSpec, WALL_RADIUS_M};
 pub use check::check;
 pub use coupling::Coupling;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};
-pub use ranges::check_view;
+pub use ranges::{STEP_RANGE_S, check_view};
 pub use resolved::Scenario;
 pub use view::View;

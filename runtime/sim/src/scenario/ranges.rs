@@ -17,7 +17,7 @@ const NAME_MAX_BYTES: usize = 200;
 const DURATION_S: RangeInclusive<f32> = 1e-3..=86_400.0;
 /// Time step, s. In coarser steps agents meet before they react and planted feet slide (ten agents on a circle: 0.1
 /// cm/s at 0.2 s, 23 cm/s at 0.5 s).
-const STEP_S: RangeInclusive<f32> = 1e-3..=0.25;
+pub const STEP_RANGE_S: RangeInclusive<f32> = 1e-3..=0.25;
 /// Greatest coordinate, m: beyond it f32 positions resolve no millimetre.
 pub(crate) const COORDINATE_MAX_M: f32 = 10_000.0;
 /// Radius of a disc, m: from a child to a person with luggage.
@@ -55,7 +55,7 @@ pub(crate) fn check_ranges(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_name(&scenario.name)?;
     let (duration, step) = (&ScenarioPart::Duration, &ScenarioPart::Step);
     within(duration, "duration_s", scenario.duration_s, &DURATION_S, "give the simulated time in seconds")?;
-    within(step, "dt_s", scenario.dt_s, &STEP_S, "remove the key to use 1/30 s")?;
+    within(step, "dt_s", scenario.dt_s, &STEP_RANGE_S, "remove the key to use 1/30 s")?;
     if scenario.dt_s > scenario.duration_s {
         return duration.fault("duration_s is shorter than one step".into(), "give at least dt_s");
     }
@@ -146,6 +146,9 @@ fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), ScenarioFault> {
     let facing_deg = (10.0 * agent.facing_rad.to_degrees()).round() / 10.0;
     within(part, "facing_deg", facing_deg, &FACING_DEG, "remove the key to face the first goal")?;
     within(part, "radius_m", agent.radius_m, &RADIUS_M, "give the radius of the agent's disc in metres")?;
+    let help = "give at most radius_m, or remove the key; a door narrower than twice this is closed";
+    let wall_radius = *RADIUS_M.start()..=agent.radius_m;
+    within(part, "wall_radius_m", agent.wall_radius_m, &wall_radius, help)?;
     let help = "people walk at about 1.3 m/s; an agent that stands has its start as its goal";
     within(part, "preferred_speed_mps", agent.preferred_speed_mps, &SPEED_MPS, help)
 }

@@ -74,6 +74,7 @@ impl Scenario {
     ///     facing_rad: 0.0,
     ///     goals_m: vec![Vec2::new(5.0, 0.0)],
     ///     radius_m: 0.25,
+    ///     wall_radius_m: 0.2,
     ///     preferred_speed_mps: 1.33,
     /// };
     /// let scenario = Scenario { duration_s: 10.0, ..Scenario::of(vec![agent]) };

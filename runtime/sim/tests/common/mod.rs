@@ -40,6 +40,7 @@ pub fn agent(from: [f32; 2], to: [f32; 2]) -> AgentSpec {
         facing_rad: 0.0,
         goals_m: vec![Vec2::from(to)],
         radius_m: 0.25,
+        wall_radius_m: 0.2,
         preferred_speed_mps: 1.33,
     }
 }

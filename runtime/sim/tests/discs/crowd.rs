@@ -91,6 +91,7 @@ impl DiscCrowd {
             facing_rad: libm::atan2f(to_m.y - from_m.y, to_m.x - from_m.x),
             goals_m: door_m.into_iter().chain([to_m]).collect(),
             radius_m: RADIUS_M,
+            wall_radius_m: RADIUS_M,
             preferred_speed_mps: SPEED_MPS,
         };
         let agents: Vec<AgentSpec> = agents.iter().map(spec).collect();
@@ -148,6 +149,7 @@ impl DiscCrowd {
             velocities_mps: &self.velocities_mps,
             facings_rad: &self.facings_rad,
             radii_m: &self.radii_m,
+            wall_radii_m: &self.radii_m,
             preferred_mps: &preferred_mps,
             stances: &vec![Stance::default(); count],
             strafing_s: &strafing_s,

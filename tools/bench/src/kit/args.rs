@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use fbcrowd_sim::scenario::STEP_RANGE_S;
+
 /// The motion database of a bench.
 #[derive(clap::Args)]
 pub struct DatabaseArg {
@@ -26,6 +28,24 @@ pub struct SeedsArg {
     pub seeds: Vec<u64>,
 }
 
+/// The time step of a bench of behaviour.
+#[derive(clap::Args)]
+pub struct StepArg {
+    /// Time step, s, as a number or a fraction; crowds are judged at 0.1, 1/30 and 1/60.
+    #[arg(long = "dt", value_name = "S", value_parser = step_s, default_value = "0.1")]
+    pub dt_s: f32,
+}
+
+/// Reads a time step: a number or a fraction such as `1/60`, in the range of a scenario's `dt_s`.
+fn step_s(text: &str) -> Result<f32, String> {
+    let number = |text: &str| text.parse::<f32>().map_err(|_| format!("`{text}` is not a number"));
+    let dt_s = match text.split_once('/') {
+        Some((above, below)) => number(above)? / number(below)?,
+        None => number(text)?,
+    };
+    if STEP_RANGE_S.contains(&dt_s) { Ok(dt_s) } else { Err(format!("{dt_s} s is not between 0.001 and 0.25 s")) }
+}
+
 /// The pictures of a bench.
 #[derive(clap::Args)]
 pub struct PlotsArg {
@@ -46,5 +66,18 @@ impl PictureArg {
     /// Path of the picture; `out/NAME.png` with the name of the bench where none is given.
     pub fn path(&self, bench: &str) -> PathBuf {
         self.output.clone().unwrap_or_else(|| PathBuf::from(format!("out/{bench}.png")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_is_a_number_or_a_fraction_in_range() {
+        assert_eq!((step_s("0.1"), step_s("1/60")), (Ok(0.1), Ok(1.0 / 60.0)));
+        for text in ["1/0", "0.5", "0/1", "a/2", "", "nan"] {
+            assert!(step_s(text).is_err(), "{text}");
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Crowds of any size, whose agents all cross each other. World, metres.
 
 use fbcrowd_sim::maths::SplitMix64;
-use fbcrowd_sim::scenario::{AgentSpec, Scenario};
+use fbcrowd_sim::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
 use glam::Vec2;
 
 /// Agents per square metre.
@@ -37,6 +37,7 @@ pub(crate) fn agent_across(position_m: Vec2) -> AgentSpec {
         facing_rad: (-position_m).to_angle(),
         goals_m: vec![-position_m],
         radius_m: RADIUS_M,
+        wall_radius_m: WALL_RADIUS_M,
         preferred_speed_mps: SPEED_MPS,
     }
 }

@@ -1,7 +1,7 @@
 //! `fbcrowd bench table1`: MCN against its two baselines through the same bodies, the paper's Table 1 (§7, App. 11).
 //!
-//! Protocol: 60 s in steps of 0.1 s for all, one set of parameters for all scenes, the same blending synthesis,
-//! measures of the synthesised roots, means over seeds. The criteria are MCN's: C below both baselines', its
+//! Protocol: 60 s in steps of 0.1 s (or `--dt`) for all, one set of parameters for all scenes, the same blending
+//! synthesis, measures of the synthesised roots, means over seeds. The criteria are MCN's: C below both baselines', its
 //! acceleration before arrival too, all agents arrive, none stalls, and in time.
 
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use fbcrowd_jobs::Observer;
 use fbcrowd_sim::synthesis::Modes;
 
 use crate::error::BenchError;
-use crate::kit::args::{DatabaseArg, PlotsArg, SeedsArg};
+use crate::kit::args::{DatabaseArg, PlotsArg, SeedsArg, StepArg};
 use crate::kit::database::database;
 use crate::kit::planner_comparison::{ComparedPlanner, MCN, ORCA, Protocol, SOCIAL_FORCE, SOCIAL_FORCE_20, compare};
 use crate::kit::report::{BenchReport, Criterion, Goal};
@@ -30,7 +30,7 @@ const PLAN_GOAL_US: f64 = 1.5;
 /// Run MCN, ORCA and social forces through the same bodies, as the paper's Table 1 does.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd bench table1 --plots out/plots\n  fbcrowd bench table1 --scenes my/scenes --seeds 1,2 --json\n  fbcrowd bench table1 --discs"
+    after_help = "Examples:\n  fbcrowd bench table1 --plots out/plots\n  fbcrowd bench table1 --scenes my/scenes --seeds 1,2 --json\n  fbcrowd bench table1 --dt 1/60\n  fbcrowd bench table1 --discs"
 )]
 pub struct Args {
     /// A folder of scenes `NAME_s<seed>.txt`, lines `x y goal_x goal_y`; the bundled ones by default.
@@ -39,9 +39,11 @@ pub struct Args {
     #[command(flatten)]
     seeds: SeedsArg,
     #[command(flatten)]
+    step: StepArg,
+    #[command(flatten)]
     database: DatabaseArg,
     /// Compare the baselines without bodies with their published implementations instead.
-    #[arg(long, conflicts_with_all = ["scenes", "plots", "hybrid"])]
+    #[arg(long, conflicts_with_all = ["scenes", "dt_s", "plots", "hybrid"])]
     discs: bool,
     /// Write each run's root positions to `SCENE_s<seed>_PLANNER.txt`: a line a step, x y of each agent, metres.
     #[arg(long, value_name = "DIR")]
@@ -60,6 +62,7 @@ pub struct Args {
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = Arc::new(database(&args.database)?);
     let protocol = Protocol {
+        dt_s: args.step.dt_s,
         // As in the paper's comparison; no planner gains by the hybrid.
         modes: if args.hybrid { Modes::Hybrid } else { Modes::Blending },
         keeps_tracks: args.plots.plots.is_some(),

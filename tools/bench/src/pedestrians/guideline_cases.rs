@@ -127,18 +127,18 @@ fn corner(runs: &[ScenarioRun]) -> CaseOutcome {
             nearest_m = near.first().map_or(nearest_m, |edge| nearest_m.min(edge.distance_m));
         }
     }
-    let radius_m = run.scenario.agents[0].radius_m;
+    let wall_radius_m = run.scenario.agents[0].wall_radius_m;
     let passages_s = gate.passages_s();
     CaseOutcome {
         figures: vec![
             figure("agents round the corner", passages_s.len() as f64),
             figure("time at which the last of them is round, s", passages_s.last().copied()),
-            figure("nearest that a disc comes to a wall, m", f64::from(nearest_m - radius_m)),
+            figure("nearest that a disc comes to a wall, m", f64::from(nearest_m - wall_radius_m)),
         ],
         criteria: vec![
             Criterion::at_least("RiMEA 6: agents round the corner", 20.0, passages_s.len() as f64),
             Criterion::at_most("RiMEA 6: agents and steps in a wall", 0.0, crossed as f64),
-            Criterion::at_most("RiMEA 6: disc in a wall, m", TOUCH_M, f64::from(radius_m - nearest_m).max(0.0)),
+            Criterion::at_most("RiMEA 6: disc in a wall, m", TOUCH_M, f64::from(wall_radius_m - nearest_m).max(0.0)),
         ],
     }
 }

@@ -78,6 +78,7 @@ pub(crate) fn crossing() -> Scenario {
         facing_rad: (-position_m).to_angle(),
         goals_m: vec![-position_m],
         radius_m: 0.25,
+        wall_radius_m: 0.2,
         preferred_speed_mps: 1.33,
     };
     let agents = [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y].map(|side| agent(2.0 * side)).to_vec();

@@ -33,6 +33,7 @@ fn antipodal() -> Scenario {
             facing_rad: angle_rad + 0.5 * std::f32::consts::PI,
             goals_m: vec![-position_m],
             radius_m: 0.25,
+            wall_radius_m: 0.2,
             preferred_speed_mps: 1.3,
         }
     };

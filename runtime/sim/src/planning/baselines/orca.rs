@@ -67,7 +67,8 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &OrcaParams, memory:
     surroundings.look_around(world, agent, params.neighbour_range_m, wall_range_m);
     let own = world.disc(agent);
     half_planes.clear();
-    wall_half_planes(world.obstacles, &surroundings.edges, &own, params.obstacle_time_horizon_s, half_planes);
+    let held = world.wall_disc(agent);
+    wall_half_planes(world.obstacles, &surroundings.edges, &held, params.obstacle_time_horizon_s, half_planes);
     let wall_count = half_planes.len();
     half_planes.extend(surroundings.neighbours.as_slice().iter().map(|neighbour| {
         agent_half_plane(own.velocity_mps, neighbour, EQUAL_SHARE, params.time_horizon_s, world.dt_s)

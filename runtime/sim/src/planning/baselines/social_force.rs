@@ -120,7 +120,7 @@ fn forces_on(
     });
     let of_walls = surroundings.edges.iter().map(move |near| {
         let ends_m = world.edge_m(agent, near.edge).map(|end_m| end_m - moved_m);
-        let acceleration_mps2 = wall_force_mps2(ends_m, own.velocity_mps, own.radius_m, &law);
+        let acceleration_mps2 = wall_force_mps2(ends_m, own.velocity_mps, world.wall_radii_m[agent], &law);
         Force { source: HalfPlaneSource::Obstacle(near.edge), acceleration_mps2 }
     });
     of_agents.chain(of_walls)

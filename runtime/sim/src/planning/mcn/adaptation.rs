@@ -42,7 +42,7 @@ fn pushed_mps(velocity_mps: Vec2, preferred_mps: Vec2, forces_mps2: Vec2, lead_s
 
 /// Σ f_ij + Σ f_iW.
 fn forces_mps2(world: &WorldView, agent: usize, params: &McnParams, memory: &McnMemory) -> Vec2 {
-    let (own, law) = (world.disc(agent), params.power_law());
+    let (own, law) = (world.wall_disc(agent), params.power_law());
     let meets = |neighbour: &&Neighbour| neighbour.time_to_collision_s.is_finite();
     let of_agents = memory.surroundings.neighbours.as_slice().iter().filter(meets).map(|neighbour| {
         power_law::agent_force_mps2(neighbour.offset_m, neighbour.relative_mps, neighbour.radius_m, &law)

@@ -21,6 +21,9 @@ const SLOW_WALK_MPS: f32 = 0.6;
 const REACTION_S: f32 = 0.3;
 /// Speed at which an agent that keeps its distance might approach, m/s.
 const APPROACH_MPS: f32 = 1.0;
+/// Least time within which overlapping discs part, s: within a finer step they would part at speeds that no body
+/// follows (docs/tuning.md).
+const PARTING_MIN_S: f32 = 0.05;
 /// Distance that a disc keeps from walls, m: a body's root leaves its plan by about a centimetre, and would touch a
 /// corner that its disc grazes. With it, walls hold no disc in `fbcrowd bench course`.
 const WALL_MARGIN_M: f32 = 0.012;
@@ -30,7 +33,7 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
     let own = world.disc(agent);
     memory.of_walls.clear();
     let (edges, horizon_s) = (&memory.surroundings.edges, params.obstacle_time_horizon_s);
-    let wider = Disc { radius_m: own.radius_m + WALL_MARGIN_M, ..own };
+    let wider = Disc { radius_m: world.wall_radii_m[agent] + WALL_MARGIN_M, ..own };
     wall_half_planes(world.obstacles, edges, &wider, horizon_s, &mut memory.of_walls); // ∪_W C_iW
     // Shares, weights and horizons are computed for all neighbours at once.
     let neighbours = &memory.surroundings.neighbours;
@@ -38,10 +41,11 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
     let shares = if params.parts.keep_right { shares(own.velocity_mps, lanes) } else { [EQUAL_SHARE; LANES] };
     let weights = if params.parts.order { urgencies(lanes) } else { [1.0; LANES] };
     let horizons_s = horizons_s(own.velocity_mps, lanes, params);
+    let parting_s = world.dt_s.max(PARTING_MIN_S);
     memory.of_agents.clear();
     memory.of_agents.extend(neighbours.as_slice().iter().enumerate().map(|(lane, neighbour)| {
         let (share, horizon_s) = (shares[lane], horizons_s[lane]);
-        let half_plane = agent_half_plane(own.velocity_mps, neighbour, share, horizon_s, world.dt_s); // ∪_j C_ij
+        let half_plane = agent_half_plane(own.velocity_mps, neighbour, share, horizon_s, parting_s); // ∪_j C_ij
         HalfPlane { weight: weights[lane], ..half_plane }
     }));
 }

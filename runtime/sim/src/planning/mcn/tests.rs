@@ -81,6 +81,7 @@ impl Scene {
             velocities_mps: &self.velocities_mps,
             facings_rad: &self.facings_rad,
             radii_m: &radii_m,
+            wall_radii_m: &radii_m,
             preferred_mps: &self.preferred_mps,
             stances: &self.stances,
             strafing_s: &vec![0.0; count],
@@ -119,6 +120,16 @@ fn no_plan_is_faster_than_the_database() {
     scene.preferred_mps[0] = Vec2::new(4.0, 0.0);
     scene.velocities_mps[0] = Vec2::new(1.8, 0.0);
     assert!(scene.plan().velocity_mps.distance(Vec2::new(1.8, 0.0)) < 1e-4);
+}
+
+#[test]
+fn overlapping_agents_part_no_faster_in_finer_steps() {
+    let mut scene = Scene { preferred_mps: vec![Vec2::ZERO; 2], ..Scene::new(&[[0.0, 0.0], [0.2, 0.1]]) };
+    let [coarse, fine, finest] = [0.05, 1.0 / 60.0, 1.0 / 120.0].map(|dt_s| {
+        scene.dt_s = dt_s;
+        scene.plan().velocity_mps
+    });
+    assert!(coarse.x < 0.0 && coarse == fine && fine == finest, "{coarse} {fine} {finest}");
 }
 
 #[test]

@@ -5,7 +5,7 @@
 //! r/τ about p/τ (p = p_j − p_i, r = r_i + r_j). u is the least change of the relative velocity that leaves it; each
 //! agent takes its share of u. Three cases, by the boundary that is nearest to the relative velocity:
 //!
-//! 1. overlap: the cut-off disc of one time step, so that the discs part as fast as a step allows;
+//! 1. overlap: the cut-off disc of the time within which the discs are to part;
 //! 2. the cut-off disc, where the relative velocity lies before the disc's tangent points;
 //! 3. the left or the right leg of the cone.
 //!
@@ -42,13 +42,20 @@ pub(crate) fn shares(own_mps: Vec2, neighbours: &NeighbourLanes) -> Lanes {
     })
 }
 
-/// C_ij: the velocities of agent i, at `own_mps` now, that take a share of avoiding agent j for `horizon_s`.
+/// C_ij: the velocities of agent i, at `own_mps` now, that take a share of avoiding agent j for `horizon_s`;
+/// of parting from it within `parting_s` where they overlap.
 // Inlined: a returned half-plane is written in parts and read at once, which stalls for 3 to 5 % of planning.
 #[inline(always)]
-pub(crate) fn agent_half_plane(own_mps: Vec2, other: &Neighbour, share: f32, horizon_s: f32, dt_s: f32) -> HalfPlane {
+pub(crate) fn agent_half_plane(
+    own_mps: Vec2,
+    other: &Neighbour,
+    share: f32,
+    horizon_s: f32,
+    parting_s: f32,
+) -> HalfPlane {
     let Neighbour { offset_m, relative_mps, radius_m, .. } = *other;
     let (direction, change_mps) = if offset_m.length_squared() <= radius_m * radius_m {
-        leave_cut_off(offset_m, relative_mps, radius_m, dt_s) // case 1
+        leave_cut_off(offset_m, relative_mps, radius_m, parting_s) // case 1
     } else if is_before_cut_off(offset_m, relative_mps, radius_m, horizon_s) {
         leave_cut_off(offset_m, relative_mps, radius_m, horizon_s) // case 2
     } else {
@@ -97,7 +104,7 @@ mod tests {
     use crate::world::time_to_collision::disc_with_disc;
 
     const HORIZON_S: f32 = 4.0;
-    const DT_S: f32 = 0.1;
+    const PARTING_S: f32 = 0.1;
 
     fn vector(bound: f32) -> impl Strategy<Value = Vec2> {
         (-bound..bound, -bound..bound).prop_map(Vec2::from)
@@ -133,7 +140,7 @@ mod tests {
 
     fn both_half_planes(own: &Disc, other: &Disc) -> [HalfPlane; 2] {
         [(own, other), (other, own)]
-            .map(|(a, b)| agent_half_plane(a.velocity_mps, &as_neighbour(a, b), share(a, b), HORIZON_S, DT_S))
+            .map(|(a, b)| agent_half_plane(a.velocity_mps, &as_neighbour(a, b), share(a, b), HORIZON_S, PARTING_S))
     }
 
     proptest! {
@@ -167,7 +174,7 @@ mod tests {
             if met_s <= 0.0 || met_s >= HORIZON_S {
                 return Ok(());
             }
-            let half_plane = agent_half_plane(own.velocity_mps, &as_neighbour(&own, &other), 1.0, HORIZON_S, DT_S);
+            let half_plane = agent_half_plane(own.velocity_mps, &as_neighbour(&own, &other), 1.0, HORIZON_S, PARTING_S);
             let change_mps = half_plane.violation_mps(own.velocity_mps);
             for step in 0..360 {
                 let (sin, cos) = libm::sincosf((step as f32).to_radians());
@@ -183,7 +190,7 @@ mod tests {
         }
 
         #[test]
-        fn overlapping_discs_part_within_a_step(own in disc(), direction in vector(1.0), depth in 0.05f32..0.95) {
+        fn overlapping_discs_part_in_time(own in disc(), direction in vector(1.0), depth in 0.05f32..0.95) {
             let reach_m = (own.radius_m + 0.3) * depth;
             let other = Disc {
                 position_m: own.position_m + reach_m * direction.normalize_or(Vec2::X),
@@ -191,7 +198,7 @@ mod tests {
                 radius_m: 0.3,
             };
             let [first, second] = both_half_planes(&own, &other).map(|half_plane| half_plane.point_mps);
-            let parted_m = (other.position_m - own.position_m - DT_S * (first - second)).length();
+            let parted_m = (other.position_m - own.position_m - PARTING_S * (first - second)).length();
             prop_assert!(parted_m > own.radius_m + 0.3 - 1e-3, "{parted_m}");
         }
     }

@@ -271,7 +271,7 @@ mod tests {
             position_m in vector(4.0), velocity_mps in vector(1.5), tried_mps in vector(2.0),
         ) {
             let obstacles = walls();
-            if obstacles.clamp_outside(position_m, RADIUS_M + 0.01) != position_m {
+            if obstacles.depth_m(position_m, RADIUS_M + 0.01) > 0.0 {
                 return Ok(());
             }
             let own = Disc { position_m, velocity_mps, radius_m: RADIUS_M };
@@ -284,7 +284,7 @@ mod tests {
         #[test]
         fn a_velocity_that_meets_no_wall_is_permitted(position_m in vector(4.0), velocity_mps in vector(1.5)) {
             let obstacles = Obstacles::new(&[vec![Vec2::new(1.0, -1.0), Vec2::new(2.0, -1.0), Vec2::new(1.5, 1.0)]]);
-            if obstacles.clamp_outside(position_m, RADIUS_M + 0.01) != position_m {
+            if obstacles.depth_m(position_m, RADIUS_M + 0.01) > 0.0 {
                 return Ok(());
             }
             let own = Disc { position_m, velocity_mps, radius_m: RADIUS_M };

@@ -19,7 +19,7 @@ use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use crate::maths::random::SplitMix64;
-use crate::scenario::agent_spec::AgentSpec;
+use crate::scenario::agent_spec::{AgentSpec, WALL_RADIUS_M};
 use crate::scenario::point::Point;
 use crate::scenario::ranges::AGENTS_MAX;
 
@@ -47,6 +47,7 @@ pub(crate) struct AgentGroup {
     goal_offset_m: Option<Point>,
     facing_deg: Option<f32>,
     radius_m: f32,
+    wall_radius_m: Option<f32>,
     preferred_speed_mps: f32,
 }
 
@@ -102,6 +103,7 @@ impl Default for AgentGroup {
             goal_offset_m: None,
             facing_deg: None,
             radius_m: RADIUS_M,
+            wall_radius_m: None,
             preferred_speed_mps: PREFERRED_SPEED_MPS,
         }
     }
@@ -162,7 +164,8 @@ impl AgentGroup {
         let towards_goal = goals_m.first().map_or(Vec2::ZERO, |goal_m| goal_m - position_m);
         let facing_rad = self.facing_deg.map_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x), f32::to_radians);
         let &Self { radius_m, preferred_speed_mps, .. } = self;
-        AgentSpec { position_m, facing_rad, goals_m, radius_m, preferred_speed_mps }
+        let wall_radius_m = self.wall_radius_m.unwrap_or(WALL_RADIUS_M.min(radius_m));
+        AgentSpec { position_m, facing_rad, goals_m, radius_m, wall_radius_m, preferred_speed_mps }
     }
 }
 

@@ -102,45 +102,46 @@ impl Obstacles {
         found.dedup();
     }
 
-    /// Whether a point lies inside a polygon.
+    /// Whether a point lies inside a polygon, by the even-odd rule along a ray in +x.
     pub fn contains(&self, point_m: Vec2) -> bool {
-        !self.polygons_around(point_m).is_empty()
-    }
-
-    /// Indices of the polygons that hold a point, by the even-odd rule along a ray in +x.
-    pub(super) fn polygons_around(&self, point_m: Vec2) -> Vec<u32> {
         if self.corners.is_empty() {
-            return Vec::new();
+            return false;
         }
-        let crosses = |edge: &u32| {
-            let [from_m, to_m] = self.ends_m(*edge);
-            let straddles = (from_m.y > point_m.y) != (to_m.y > point_m.y);
-            straddles && (side_of_line(from_m, to_m, point_m) > 0.0) == (to_m.y > from_m.y)
-        };
-        let mut crossed: Vec<u32> = self.grid.beyond(point_m).filter(crosses).collect();
+        let mut crossed: Vec<u32> = self.grid.beyond(point_m).filter(|&edge| self.is_right_of(edge, point_m)).collect();
         crossed.sort_unstable();
         crossed.dedup();
         let polygon_of = |edge: &u32| self.polygon_of[*edge as usize];
-        let polygons = crossed.chunk_by(|a, b| polygon_of(a) == polygon_of(b));
-        polygons.filter(|edges| edges.len() % 2 == 1).map(|edges| polygon_of(&edges[0])).collect()
+        crossed.chunk_by(|a, b| polygon_of(a) == polygon_of(b)).any(|edges| edges.len() % 2 == 1)
+    }
+
+    /// Whether the polygon of an edge holds a point, by the even-odd rule along a ray in +x.
+    pub(super) fn surrounds(&self, edge: u32, point_m: Vec2) -> bool {
+        let polygon = self.polygon_of[edge as usize] as usize;
+        let edges = self.first_corners[polygon] as u32..self.first_corners[polygon + 1] as u32;
+        edges.filter(|&edge| self.is_right_of(edge, point_m)).count() % 2 == 1
+    }
+
+    /// Whether a ray in +x from a point crosses an edge.
+    fn is_right_of(&self, edge: u32, point_m: Vec2) -> bool {
+        let [from_m, to_m] = self.ends_m(edge);
+        let straddles = (from_m.y > point_m.y) != (to_m.y > point_m.y);
+        straddles && (side_of_line(from_m, to_m, point_m) > 0.0) == (to_m.y > from_m.y)
     }
 
     /// Whether a straight path crosses no wall.
     pub fn is_free(&self, from_m: Vec2, to_m: Vec2) -> bool {
-        self.crossings(from_m, to_m, &[]).next().is_none()
+        self.crossed(from_m, to_m).next().is_none()
     }
 
-    /// Shares of a straight path at which it crosses edges of polygons, those of `except` left out.
-    pub(super) fn crossings(&self, from_m: Vec2, to_m: Vec2, except: &[u32]) -> impl Iterator<Item = f64> {
-        let edges = self.grid.within(from_m.min(to_m), from_m.max(to_m));
-        let others = edges.filter(|&edge| !except.contains(&self.polygon_of[edge as usize]));
-        others.filter_map(move |edge| {
+    /// Edges that a straight path crosses; an edge may come more than once.
+    pub(super) fn crossed(&self, from_m: Vec2, to_m: Vec2) -> impl Iterator<Item = u32> {
+        self.grid.within(from_m.min(to_m), from_m.max(to_m)).filter(move |&edge| {
             let [a_m, b_m] = self.ends_m(edge);
             let [before, after] = [from_m, to_m].map(|end_m| side_of_line(a_m, b_m, end_m));
             let apart = side_of_line(from_m, to_m, a_m) * side_of_line(from_m, to_m, b_m);
             // A path that begins on an edge does not cross it; one that ends on it does.
             let passes = (before > 0.0 && after <= 0.0) || (before < 0.0 && after >= 0.0);
-            (passes && apart <= 0.0).then(|| before / (before - after))
+            passes && apart <= 0.0
         })
     }
 }

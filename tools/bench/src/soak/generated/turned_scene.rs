@@ -93,6 +93,7 @@ impl Scene {
             velocities_mps: &self.velocities_mps,
             facings_rad: &self.facings_rad,
             radii_m: &radii_m,
+            wall_radii_m: &radii_m,
             preferred_mps: &self.preferred_mps,
             stances: &self.stances,
             strafing_s: &self.held_s[0],

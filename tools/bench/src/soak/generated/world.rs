@@ -35,6 +35,7 @@ pub struct GeneratedWorld {
     velocities_mps: Vec<Vec2>,
     facings_rad: Vec<f32>,
     radii_m: Vec<f32>,
+    wall_radii_m: Vec<f32>,
     preferred_mps: Vec<Vec2>,
     stances: Vec<Stance>,
     strafing_s: Vec<f32>,
@@ -54,10 +55,12 @@ impl GeneratedWorld {
             let position_m = draw.position_m(&positions_m, &polygons_m);
             positions_m.push(position_m);
         }
+        let radii_m: Vec<f32> = (0..count).map(|_| draw.radius_m()).collect();
         Self {
             velocities_mps: (0..count).map(|_| draw.velocity_mps()).collect(),
             facings_rad: (0..count).map(|_| draw.within(4.0)).collect(),
-            radii_m: (0..count).map(|_| draw.radius_m()).collect(),
+            wall_radii_m: radii_m.iter().map(|&radius_m| radius_m * (0.5 + draw.within(0.5).abs())).collect(),
+            radii_m,
             preferred_mps: (0..count).map(|_| draw.velocity_mps()).collect(),
             stances: (0..count).map(|_| draw.stance()).collect(),
             strafing_s: (0..count).map(|_| draw.within(2.0).max(0.0)).collect(),
@@ -98,6 +101,7 @@ impl GeneratedWorld {
             velocities_mps: &self.velocities_mps,
             facings_rad: &self.facings_rad,
             radii_m: &self.radii_m,
+            wall_radii_m: &self.wall_radii_m,
             preferred_mps: &self.preferred_mps,
             stances: &self.stances,
             strafing_s: &self.strafing_s,
@@ -121,7 +125,7 @@ impl GeneratedWorld {
         }
         let root = Root { position_m: self.positions_m[agent], facing_rad: self.facings_rad[agent] };
         let moved = as_planned(root, plan, self.dt_s);
-        let ended = outside_walls(root.position_m, moved, self.radii_m[agent], obstacles);
+        let ended = outside_walls(root.position_m, moved, self.wall_radii_m[agent], obstacles);
         if !ended.position_m.is_finite() {
             return Some("is moved to no finite position by the walls");
         }
