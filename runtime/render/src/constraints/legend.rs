@@ -68,6 +68,7 @@ fn entries(explained: &ExplainedStep) -> Vec<LegendEntry<'static>> {
     if planner == Planner::Orca {
         entries.push((PlotMark::Ring, INK, "greatest speed"));
     }
+    entries.push((PlotMark::Ring, OBSTACLE_RIM, "disc that walls hold"));
     let other = line_colour(explained.agent + 1);
     if planner == Planner::SocialForce {
         entries.push((PlotMark::Bar, OBSTACLE_RIM, "force of a wall"));

@@ -1,5 +1,5 @@
-//! Marks of one agent's constraints in the scene (`FbCrowd` Fig. 4): its disc, links to its neighbours, walls, and its
-//! stance foot with the line that the swing foot must not cross.
+//! Marks of one agent's constraints in the scene (`FbCrowd` Fig. 4): its disc, the dashed disc that walls hold, links to
+//! its neighbours, walls, and its stance foot with the line that the swing foot must not cross.
 //!
 //! Links and walls are thick if they bind the planned velocity, dashed if their half-plane had to yield. Everything is
 //! at its position at the start of the step. World, metres.
@@ -13,7 +13,7 @@ use tiny_skia::{LineCap, Path, Pixmap, Stroke};
 use crate::constraints::constraint_style::{STANCE, source_colour};
 use crate::constraints::explained_step::ExplainedStep;
 use crate::raster::paint::{circle, dashes, paint, path_of_lines, stroke};
-use crate::raster::palette::{INK, PAPER, Rgb, line_colour};
+use crate::raster::palette::{INK, OBSTACLE_RIM, PAPER, Rgb, line_colour};
 use crate::top_view::captions::Captions;
 use crate::top_view::framing::Framing;
 
@@ -69,6 +69,8 @@ impl SceneMarks {
         self.draw_links(scene, explained);
         let own = MarkPen { colour: line_colour(explained.agent), width_px: LINK_PX, is_dashed: false };
         self.draw_circle(scene, centre_m, radius_m, own);
+        let at_walls = MarkPen { colour: OBSTACLE_RIM, is_dashed: true, ..own };
+        self.draw_circle(scene, centre_m, world.wall_radii_m[explained.agent], at_walls);
         self.draw_circle(scene, centre_m, radius_m + RING_GAP_M, MarkPen { colour: INK, width_px: RING_PX, ..own });
         if let Some(foot) = &world.stances[explained.agent].foot {
             self.draw_stance(scene, centre_m, foot, explained);
