@@ -7,6 +7,8 @@
 
 pub(crate) mod arrival;
 pub(crate) mod blocked_paths;
+pub mod field;
+pub mod mesh;
 pub(crate) mod path;
 
 pub use blocked_paths::{BlockedPaths, blocked_paths};
