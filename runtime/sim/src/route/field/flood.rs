@@ -140,7 +140,8 @@ impl<'a> Flood<'a> {
         }
         for &triangle in &holding {
             self.see_whole(triangle, root);
-            let (vertices, neighbours) = (self.mesh.triangles[triangle as usize], self.mesh.neighbours[triangle as usize]);
+            let (vertices, neighbours) =
+                (self.mesh.triangles[triangle as usize], self.mesh.neighbours[triangle as usize]);
             for edge in 0..3 {
                 self.reach(vertices[edge], root);
                 if !holding.contains(&neighbours[edge]) {
@@ -186,7 +187,8 @@ impl<'a> Flood<'a> {
         if std::mem::replace(&mut label.is_final, true) {
             return;
         }
-        let (mesh, from_m, corner_m) = (self.mesh, self.point_m(self.labels[corner as usize].parent), self.point_m(corner));
+        let (mesh, from_m, corner_m) =
+            (self.mesh, self.point_m(self.labels[corner as usize].parent), self.point_m(corner));
         let ends = |triangle: u32| {
             let (vertices, at) = (mesh.triangles[triangle as usize], mesh.corner_of(triangle, corner));
             [vertices[(at + 1) % 3], vertices[(at + 2) % 3]]
@@ -248,7 +250,8 @@ impl<'a> Flood<'a> {
         if beyond == NONE {
             return;
         }
-        let mut window = Window { cone, triangle: beyond, edge: self.mesh.edge_to(beyond, triangle) as u32, least_m: 0.0 };
+        let mut window =
+            Window { cone, triangle: beyond, edge: self.mesh.edge_to(beyond, triangle) as u32, least_m: 0.0 };
         let span = self.span(&window);
         if self.is_dominated(&window, &span) {
             return;

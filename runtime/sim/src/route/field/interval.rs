@@ -98,7 +98,8 @@ mod tests {
 
     fn span(random: &mut SplitMix64) -> Span {
         let mut within = |reach_m| random.within(reach_m);
-        let edge_m = [DVec2::new(-1.0 + 0.5 * within(1.0), within(0.5)), DVec2::new(1.0 + 0.5 * within(1.0), within(0.5))];
+        let edge_m =
+            [DVec2::new(-1.0 + 0.5 * within(1.0), within(0.5)), DVec2::new(1.0 + 0.5 * within(1.0), within(0.5))];
         let [first, second] = [within(0.5) + 0.5, within(0.5) + 0.5];
         let ends_m = [first.min(second), first.max(second)].map(|share| edge_m[0].lerp(edge_m[1], share));
         Span { root_m: DVec2::new(within(4.0), -2.0 + within(1.0)), distance_m: 1.0, edge_m, ends_m }
@@ -116,9 +117,12 @@ mod tests {
             let target_m = DVec2::new(random.within(5.0), random.within(5.0));
             let near = |point_m: DVec2| span.distance_m + span.root_m.distance(point_m);
             let near_m = stretch(span).map(near).fold(f64::INFINITY, f64::min);
-            let through_m = stretch(span).map(|at_m| near(at_m) + at_m.distance(target_m)).fold(f64::INFINITY, f64::min);
+            let through_m =
+                stretch(span).map(|at_m| near(at_m) + at_m.distance(target_m)).fold(f64::INFINITY, f64::min);
             assert!((near_m - span.least_m()).abs() < 1e-3 && span.least_m() <= near_m + 1e-12);
-            assert!((through_m - span.least_to_m(target_m)).abs() < 1e-3 && span.least_to_m(target_m) <= through_m + 1e-12);
+            assert!(
+                (through_m - span.least_to_m(target_m)).abs() < 1e-3 && span.least_to_m(target_m) <= through_m + 1e-12
+            );
         }
     }
 

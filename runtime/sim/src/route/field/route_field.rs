@@ -15,6 +15,8 @@ use crate::route::mesh::triangulation::NONE;
 
 /// Stands for the ray on which the route came to the root, continued.
 const PARENT_RAY: u32 = u32::MAX - 1;
+/// Distance off the mesh that counts as on it, m: rounding of an agent that walks along a border.
+const BESIDE_M: f64 = 1e-3;
 /// Distance within which a corner is reached, m; the grid's resolution.
 const REACHED_M: f64 = 1e-3;
 /// Distance within which the nearest point of the mesh to a goal off the mesh is reached, m.
@@ -134,12 +136,15 @@ impl RouteField {
             after_m: after_m.map(DVec2::as_vec2),
             entry_m: entry_m.map(DVec2::as_vec2),
         };
+        let goal_m = self.goal.nearest_m(at.point_m);
+        if goal_m == Some(at.point_m) {
+            return Some(step(0.0, at.point_m, None));
+        }
         let (mut root, mut distance_m) = self.nearest_root(mesh, at)?;
-        if self.roots[root as usize].parent == NONE
-            && let Some(nearest_m) = self.goal.nearest_m(at.point_m)
-            && mesh.is_straight_free(at, nearest_m)
+        if let Some(goal_m) = goal_m.filter(|_| self.roots[root as usize].parent == NONE)
+            && mesh.is_straight_free(at, goal_m)
         {
-            return Some(step(nearest_m.distance(at.point_m), nearest_m, None));
+            return Some(step(goal_m.distance(at.point_m), goal_m, None));
         }
         let FieldRoot { mut point_m, mut parent, .. } = self.roots[root as usize];
         while parent != NONE && point_m.distance(at.point_m) < self.reached_m(parent) {
@@ -155,7 +160,11 @@ impl RouteField {
         let (at, _) = remembered.find(mesh, DVec2::from(position_m))?;
         let (first, _) = self.nearest_root(mesh, at)?;
         let parent = |&root: &u32| Some(self.roots[root as usize].parent).filter(|&parent| parent != NONE);
-        Some(std::iter::successors(Some(first), parent).map(|root| self.roots[root as usize].point_m.as_vec2()).collect())
+        Some(
+            std::iter::successors(Some(first), parent)
+                .map(|root| self.roots[root as usize].point_m.as_vec2())
+                .collect(),
+        )
     }
 
     /// Distance within which a root before `parent` counts as reached, m.
@@ -198,17 +207,24 @@ impl RoutePosition {
     /// nearest point of the part that was remembered, so that no wall between two parts is passed.
     fn find(&mut self, mesh: &RouteMesh, position_m: DVec2) -> Option<(MeshPoint, Option<DVec2>)> {
         let remembered = Some(self.triangle).filter(|&triangle| (triangle as usize) < mesh.triangle_count());
-        let triangle = match remembered {
-            Some(triangle) => mesh.triangle_from(triangle, position_m),
-            None => mesh.triangle_at(position_m),
-        };
-        if let Some(triangle) = triangle {
+        let walked = remembered.map(|triangle| mesh.walk(triangle, position_m));
+        if let Some(Ok(triangle)) = walked {
             self.triangle = triangle;
             return Some((MeshPoint { triangle, point_m: position_m }, None));
         }
-        let nearest = mesh.nearest(position_m, remembered.map(|triangle| mesh.parts[triangle as usize]))?;
+        let near = walked.and_then(Result::err);
+        // Routes run along borders.
+        let beside = near.map(|triangle| MeshPoint { triangle, point_m: mesh.nearest_in(triangle, position_m) });
+        if let Some(beside) = beside.filter(|beside| beside.point_m.distance(position_m) < BESIDE_M) {
+            self.triangle = beside.triangle;
+            return Some((beside, None));
+        }
+        let part = near.map(|triangle| mesh.parts[triangle as usize]);
+        let elsewhere = || mesh.triangle_at(position_m).map(|triangle| MeshPoint { triangle, point_m: position_m });
+        let nearest = elsewhere().or_else(|| mesh.nearest(position_m, part, near))?;
         self.triangle = nearest.triangle;
-        Some((nearest, Some(nearest.point_m)))
+        let is_off = nearest.point_m.distance(position_m) > BESIDE_M;
+        Some((nearest, is_off.then_some(nearest.point_m)))
     }
 }
 
@@ -228,7 +244,7 @@ fn sources(mesh: &RouteMesh, goal: &RouteGoal) -> Vec<GoalSource> {
         Some(GoalSource { source: Source { at, distance_m: 0.0 }, off_mesh_m: None })
     };
     let beside = |point_m: DVec2| {
-        let at = mesh.nearest(point_m, None)?;
+        let at = mesh.nearest(point_m, None, None)?;
         let distance_m = at.point_m.distance(point_m);
         Some(GoalSource { source: Source { at, distance_m }, off_mesh_m: Some(point_m) })
     };

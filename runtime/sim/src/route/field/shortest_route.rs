@@ -20,7 +20,7 @@ pub struct ShortestRoute {
 /// The shortest route between two positions. An end off the mesh counts as its nearest point of the mesh. None where no
 /// route leads from one to the other.
 pub fn shortest_route(mesh: &RouteMesh, from_m: Vec2, to_m: Vec2) -> Option<ShortestRoute> {
-    let [from, to] = [from_m, to_m].map(|point_m| mesh.nearest(DVec2::from(point_m), None));
+    let [from, to] = [from_m, to_m].map(|point_m| mesh.nearest(DVec2::from(point_m), None, None));
     let (from, to) = (from?, to?);
     if mesh.parts[from.triangle as usize] != mesh.parts[to.triangle as usize] {
         return None;

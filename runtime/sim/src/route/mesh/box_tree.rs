@@ -54,13 +54,18 @@ impl BoxTree {
         tree
     }
 
-    /// The triangle nearest to a point, and its squared distance, m²; the squared distance of any one triangle is
-    /// given, infinite for one that does not count. The search ends at the first that holds the point.
-    pub(crate) fn nearest(&self, point_m: DVec2, squared_m2: impl Fn(u32) -> f64) -> Option<(u32, f64)> {
+    /// The triangle nearest to a point within a squared distance, m², and its squared distance; that of any one triangle
+    /// is given, infinite for one that does not count. The search ends at the first that holds the point.
+    pub(crate) fn nearest(
+        &self,
+        point_m: DVec2,
+        within_m2: f64,
+        squared_m2: impl Fn(u32) -> f64,
+    ) -> Option<(u32, f64)> {
         let top = self.levels.len().checked_sub(1)?;
-        let mut best = NearestTriangle { triangle: 0, squared_m2: f64::INFINITY };
+        let mut best = NearestTriangle { triangle: u32::MAX, squared_m2: within_m2 };
         self.search(top, 0, point_m, &squared_m2, &mut best);
-        best.squared_m2.is_finite().then_some((best.triangle, best.squared_m2))
+        (best.triangle != u32::MAX).then_some((best.triangle, best.squared_m2))
     }
 
     /// Searches one box of a level, the nearest of its boxes first.
@@ -139,7 +144,7 @@ mod tests {
                 let at_m = point(12.0);
                 let squared_m2 = |index: u32| points_m[index as usize].distance_squared(at_m);
                 let nearest_m2 = (0..count).map(squared_m2).reduce(f64::min);
-                assert_eq!(tree.nearest(at_m, squared_m2).map(|(_, squared_m2)| squared_m2), nearest_m2);
+                assert_eq!(tree.nearest(at_m, f64::INFINITY, squared_m2).map(|(_, squared_m2)| squared_m2), nearest_m2);
             }
         }
     }

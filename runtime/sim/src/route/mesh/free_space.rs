@@ -12,7 +12,7 @@ use i_overlay::core::overlay::{Overlay, ShapeType};
 use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::route::mesh::error::RouteError;
-use crate::route::mesh::grid::{GridPoint, LINES_PER_M, grid_point, rounded};
+use crate::route::mesh::grid::{GridPoint, LINES_PER_M, grid_point, metres, rounded};
 use crate::route::mesh::ground::{Ground, WalkablePolygon};
 use crate::route::mesh::growth::{add_bands_and_fans, grow};
 use crate::route::mesh::outline::{Contour, Outline, united};
@@ -24,33 +24,49 @@ pub(crate) const GRID_ALLOWANCE_M: f64 = 3e-3;
 /// Distances that routes can keep from walls, m.
 const WALL_RADIUS_M: std::ops::RangeInclusive<f32> = 0.0..=10.0;
 
-/// The contours of the free space: the space lies to the left of each.
-///
-/// # Errors
-/// If a coordinate or the radius is out of range.
-pub(crate) fn free_space(ground: &Ground, wall_radius_m: f32) -> Result<Vec<Contour>, RouteError> {
-    if !WALL_RADIUS_M.contains(&wall_radius_m) {
-        return Err(RouteError::WallRadius { wall_radius_m });
-    }
-    let distance = LINES_PER_M * (f64::from(wall_radius_m) + GRID_ALLOWANCE_M);
-    let (outlines, walkable) = (outlines(ground)?, walkable(ground, distance)?);
-    let mut walls = Vec::new();
-    if !ground.walkable_m.is_empty() {
-        // Seen from outside, the ground beyond a walkable polygon is an obstacle.
-        let reversed = |contour: &Contour| contour.iter().rev().copied().collect();
-        walkable.iter().for_each(|contour| add_bands_and_fans(&reversed(contour), distance, &mut walls));
-    }
-    outlines.iter().for_each(|outline| grow(outline, distance, &mut walls));
-    Ok(difference(&walkable, &walls))
+/// Where the centre of an agent that keeps its distance from walls can be.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FreeSpace {
+    /// Contours on the grid; the space lies to the left of each.
+    pub(crate) contours: Vec<Contour>,
 }
 
-/// The contours of the ground between the walls, without a distance from them.
-///
-/// # Errors
-/// If a coordinate is out of range.
-pub(crate) fn open_space(ground: &Ground) -> Result<Vec<Contour>, RouteError> {
-    let solids = outlines(ground)?.into_iter().flat_map(|outline| outline.convex.into_iter().chain(outline.contours));
-    Ok(difference(&walkable(ground, 0.0)?, &solids.collect::<Vec<_>>()))
+impl FreeSpace {
+    /// The space at a distance from all walls.
+    ///
+    /// # Errors
+    /// If a coordinate or the distance is out of range.
+    pub fn new(ground: &Ground, wall_radius_m: f32) -> Result<Self, RouteError> {
+        if !WALL_RADIUS_M.contains(&wall_radius_m) {
+            return Err(RouteError::WallRadius { wall_radius_m });
+        }
+        let distance = LINES_PER_M * (f64::from(wall_radius_m) + GRID_ALLOWANCE_M);
+        let (outlines, walkable) = (outlines(ground)?, walkable(ground, distance)?);
+        let mut walls = Vec::new();
+        if !ground.walkable_m.is_empty() {
+            // Seen from outside, the ground beyond a walkable polygon is an obstacle.
+            let reversed = |contour: &Contour| contour.iter().rev().copied().collect();
+            walkable.iter().for_each(|contour| add_bands_and_fans(&reversed(contour), distance, &mut walls));
+        }
+        outlines.iter().for_each(|outline| grow(outline, distance, &mut walls));
+        Ok(Self { contours: difference(&walkable, &walls) })
+    }
+
+    /// The ground between the walls, without a distance from them.
+    ///
+    /// # Errors
+    /// If a coordinate is out of range.
+    pub(crate) fn between_walls(ground: &Ground) -> Result<Self, RouteError> {
+        let solids = |outline: Outline| outline.convex.into_iter().chain(outline.contours);
+        let solids: Vec<Contour> = outlines(ground)?.into_iter().flat_map(solids).collect();
+        Ok(Self { contours: difference(&walkable(ground, 0.0)?, &solids) })
+    }
+
+    /// The contours, m.
+    pub(crate) fn contours_m(&self) -> Vec<Vec<DVec2>> {
+        let in_metres = |contour: &Contour| contour.iter().map(|corner| metres(*corner)).collect();
+        self.contours.iter().map(in_metres).collect()
+    }
 }
 
 fn outlines(ground: &Ground) -> Result<Vec<Outline>, RouteError> {

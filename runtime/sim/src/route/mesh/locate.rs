@@ -24,12 +24,13 @@ pub(crate) struct MeshPoint {
 impl RouteMesh {
     /// The triangle that holds a point; none off the mesh.
     pub(crate) fn triangle_at(&self, point_m: DVec2) -> Option<u32> {
-        let outside = |triangle| if self.holds(triangle, point_m) { 0.0 } else { f64::INFINITY };
-        self.boxes.nearest(point_m, outside).map(|(triangle, _)| triangle)
+        let outside_m2 = |triangle| if self.holds(triangle, point_m) { 0.0 } else { f64::INFINITY };
+        // Only boxes that hold the point are searched.
+        self.boxes.nearest(point_m, f64::MIN_POSITIVE, outside_m2).map(|(triangle, _)| triangle)
     }
 
-    /// The triangle that holds a point, walking there from another triangle; none off the mesh.
-    pub(crate) fn triangle_from(&self, triangle: u32, point_m: DVec2) -> Option<u32> {
+    /// Walks from a triangle towards a point: the triangle that holds it, or the last one before a border.
+    pub(crate) fn walk(&self, triangle: u32, point_m: DVec2) -> Result<u32, u32> {
         let mut triangle = triangle;
         for _ in 0..STEPS_MAX {
             let corners_m = self.corners_m(triangle);
@@ -37,26 +38,31 @@ impl RouteMesh {
                 let from_m = corners_m[edge];
                 (corners_m[(edge + 1) % 3] - from_m).perp_dot(point_m - from_m)
             });
-            let edge = if areas_m2[1] < areas_m2[0] { 1 } else { 0 };
+            let edge = usize::from(areas_m2[1] < areas_m2[0]);
             let edge = if areas_m2[2] < areas_m2[edge] { 2 } else { edge };
             if areas_m2[edge] >= -OUTSIDE_M2 {
-                return Some(triangle);
+                return Ok(triangle);
             }
-            triangle = self.neighbours[triangle as usize][edge];
-            if triangle == NONE {
+            let beyond = self.neighbours[triangle as usize][edge];
+            if beyond == NONE {
                 break;
             }
+            triangle = beyond;
         }
-        self.triangle_at(point_m)
+        Err(triangle)
     }
 
-    /// The point of the mesh that is nearest to a point, of one part or of all; none where there are no triangles.
-    pub(crate) fn nearest(&self, point_m: DVec2, part: Option<u32>) -> Option<MeshPoint> {
+    /// The point of the mesh that is nearest to a point, the point itself if it lies on the mesh. Counts one part of the
+    /// mesh, or all; none where there are no triangles. A triangle of that part which is near makes the search quick.
+    pub(crate) fn nearest(&self, point_m: DVec2, part: Option<u32>, near: Option<u32>) -> Option<MeshPoint> {
+        let squared_in_m2 = |triangle: u32| self.nearest_in(triangle, point_m).distance_squared(point_m);
         let squared_m2 = |triangle: u32| {
             let counts = part.is_none_or(|part| self.parts[triangle as usize] == part);
-            if counts { self.nearest_in(triangle, point_m).distance_squared(point_m) } else { f64::INFINITY }
+            if counts { squared_in_m2(triangle) } else { f64::INFINITY }
         };
-        let (triangle, _) = self.boxes.nearest(point_m, squared_m2)?;
+        let within_m2 = near.map_or(f64::INFINITY, squared_in_m2);
+        let nearer = self.boxes.nearest(point_m, within_m2, squared_m2).map(|(triangle, _)| triangle);
+        let triangle = nearer.or(near)?;
         Some(MeshPoint { triangle, point_m: self.nearest_in(triangle, point_m) })
     }
 
@@ -92,7 +98,7 @@ impl RouteMesh {
     }
 
     /// The point of a triangle that is nearest to a point.
-    fn nearest_in(&self, triangle: u32, point_m: DVec2) -> DVec2 {
+    pub(crate) fn nearest_in(&self, triangle: u32, point_m: DVec2) -> DVec2 {
         if self.holds(triangle, point_m) {
             return point_m;
         }

@@ -15,9 +15,12 @@ pub(crate) mod ground;
 pub(crate) mod growth;
 pub(crate) mod locate;
 pub(crate) mod outline;
+pub(crate) mod passages;
 pub(crate) mod route_mesh;
 pub(crate) mod triangulation;
 
 pub use error::RouteError;
+pub use free_space::FreeSpace;
 pub use ground::{Ground, WalkablePolygon};
+pub use passages::{ClosedPassage, closed_passages};
 pub use route_mesh::RouteMesh;

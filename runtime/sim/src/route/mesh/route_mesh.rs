@@ -4,13 +4,13 @@
 //! several vertices: no route leads through it. Triangles are sorted along a Morton curve. World, metres; every vertex
 //! of a scene's mesh lies on the grid, so signs of areas are exact.
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 use robust::{Coord, orient2d};
 
 use crate::route::mesh::box_tree::{BoxTree, morton_code};
 use crate::route::mesh::error::RouteError;
-use crate::route::mesh::free_space::free_space;
-use crate::route::mesh::grid::{LINES_PER_M, metres};
+use crate::route::mesh::free_space::FreeSpace;
+use crate::route::mesh::grid::LINES_PER_M;
 use crate::route::mesh::ground::Ground;
 use crate::route::mesh::triangulation::{NONE, TriangleSoup, triangulate};
 
@@ -26,6 +26,8 @@ pub struct RouteMesh {
     /// Index of the part of each triangle; no route leads from part to part.
     pub(crate) parts: Vec<u32>,
     part_count: u32,
+    /// The part with the most triangles.
+    largest_part: u32,
     /// Index of each vertex's first entry in `fans`, and the number of entries.
     fan_starts: Vec<u32>,
     /// Triangles around each vertex, counter-clockwise from border to border.
@@ -41,10 +43,15 @@ impl RouteMesh {
     /// # Errors
     /// If a coordinate or the distance is out of range.
     pub fn new(ground: &Ground, wall_radius_m: f32) -> Result<Self, RouteError> {
-        let contours = free_space(ground, wall_radius_m)?;
-        let contours_m: Vec<Vec<DVec2>> =
-            contours.iter().map(|contour| contour.iter().map(|corner| metres(*corner)).collect()).collect();
-        Ok(Self::of_triangles(triangulate(&contours_m)?))
+        Self::of(&FreeSpace::new(ground, wall_radius_m)?)
+    }
+
+    /// The mesh of free space.
+    ///
+    /// # Errors
+    /// If the contours cross.
+    pub fn of(space: &FreeSpace) -> Result<Self, RouteError> {
+        Ok(Self::of_triangles(triangulate(&space.contours_m())?))
     }
 
     /// The mesh of triangles.
@@ -70,6 +77,12 @@ impl RouteMesh {
     /// Number of parts: no route leads from one to another.
     pub fn part_count(&self) -> u32 {
         self.part_count
+    }
+
+    /// Whether a position lies on the mesh, in its part with the most triangles.
+    pub fn largest_part_holds(&self, position_m: Vec2) -> bool {
+        let part = self.triangle_at(DVec2::from(position_m)).map(|triangle| self.parts[triangle as usize]);
+        part.is_some_and(|part| part == self.largest_part)
     }
 
     /// Size in memory, bytes.
@@ -142,7 +155,8 @@ impl RouteMesh {
             }
             last = next as usize;
         }
-        let (at_m, ends) = (points_m[point as usize], [points[first][(corner_in(first) + 1) % 3], points[last][(at + 2) % 3]]);
+        let (at_m, ends) =
+            (points_m[point as usize], [points[first][(corner_in(first) + 1) % 3], points[last][(at + 2) % 3]]);
         let [right_m, left_m] = ends.map(|end| points_m[end as usize]);
         self.vertices_m.push(at_m);
         self.fan_starts.push(self.fans.len() as u32);
@@ -165,6 +179,9 @@ impl RouteMesh {
             }
             self.part_count += 1;
         }
+        let mut sizes = vec![0_u32; self.part_count as usize];
+        self.parts.iter().for_each(|&part| sizes[part as usize] += 1);
+        self.largest_part = (0..self.part_count).rev().max_by_key(|&part| sizes[part as usize]).unwrap_or_default();
     }
 }
 
@@ -260,7 +277,10 @@ mod tests {
 
     #[test]
     fn the_same_ground_gives_the_same_mesh() {
-        let obstacles_m = [polygon(&[[0.0, 0.0], [1.0, 0.3], [1.0, 1.0], [0.0, 1.0]]), polygon(&[[0.5, 0.5], [3.0, 1.0], [2.0, 2.0]])];
+        let obstacles_m = [
+            polygon(&[[0.0, 0.0], [1.0, 0.3], [1.0, 1.0], [0.0, 1.0]]),
+            polygon(&[[0.5, 0.5], [3.0, 1.0], [2.0, 2.0]]),
+        ];
         let ground = Ground { obstacles_m: &obstacles_m, ..Ground::default() };
         let mesh = || format!("{:?}", RouteMesh::new(&ground, 0.2));
         assert_eq!(mesh(), mesh());

@@ -1,5 +1,6 @@
 //! Fields against other people's search, single routes, and the distance to walls.
 
+mod queries;
 mod visibility_graph;
 mod wild_ground;
 
@@ -11,9 +12,7 @@ use self::visibility_graph::VisibilityGraph;
 use self::wild_ground::WildGround;
 use super::*;
 use crate::maths::random::SplitMix64;
-use crate::route::mesh::RouteMesh;
-use crate::route::mesh::free_space::free_space;
-use crate::route::mesh::grid::metres;
+use crate::route::mesh::{FreeSpace, RouteMesh};
 
 /// Greatest relative difference of lengths, f32 of the oracle.
 const TOLERANCE: f32 = 1e-5;
@@ -45,10 +44,9 @@ struct Case {
 impl Case {
     fn new(seed: u64) -> Self {
         let wild = WildGround::new(seed);
-        let contours = free_space(&wild.ground(), wild.wall_radius_m).expect("coordinates are small");
-        let contours_m: Vec<Vec<DVec2>> =
-            contours.iter().map(|contour| contour.iter().map(|at| metres(*at)).collect()).collect();
-        let mesh = RouteMesh::new(&wild.ground(), wild.wall_radius_m).expect("coordinates are small");
+        let space = FreeSpace::new(&wild.ground(), wild.wall_radius_m).expect("coordinates are small");
+        let contours_m = space.contours_m();
+        let mesh = RouteMesh::of(&space).expect("coordinates are small");
         let oracle = oracle(&contours_m);
         Self { wild, contours_m, mesh, oracle }
     }
@@ -114,7 +112,11 @@ impl Case {
         let single = shortest_route(&self.mesh, start_m, goal_m);
         assert_eq!((ours_m.is_some(), ours_m.is_some()), (corners_m.is_some(), single.is_some()));
         let (Some(ours_m), Some(corners_m), Some(single)) = (ours_m, corners_m, single) else { return };
-        assert!((single.length_m - ours_m).abs() <= 2e-6 * ours_m.max(1.0), "{start_m} {goal_m}: {} {ours_m}", single.length_m);
+        assert!(
+            (single.length_m - ours_m).abs() <= 2e-6 * ours_m.max(1.0),
+            "{start_m} {goal_m}: {} {ours_m}",
+            single.length_m
+        );
         assert_eq!(corners_m.last(), Some(&goal_m));
         for corners_m in [corners_m, single.corners_m] {
             let stretches = std::iter::once(&start_m).chain(&corners_m).zip(&corners_m);

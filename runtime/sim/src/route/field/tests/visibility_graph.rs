@@ -32,7 +32,8 @@ impl<'a> VisibilityGraph<'a> {
         let mut open = vec![true; points_m.len()];
         lengths_m[goal + 1] = 0.0;
         loop {
-            let nearest = (0..points_m.len()).filter(|&at| open[at]).min_by(|&a, &b| lengths_m[a].total_cmp(&lengths_m[b]))?;
+            let nearest =
+                (0..points_m.len()).filter(|&at| open[at]).min_by(|&a, &b| lengths_m[a].total_cmp(&lengths_m[b]))?;
             if lengths_m[nearest] == f64::INFINITY {
                 return None;
             }
@@ -67,9 +68,10 @@ impl<'a> VisibilityGraph<'a> {
         }
         shares.retain(|share| (0.0..=1.0).contains(share));
         shares.sort_by(f64::total_cmp);
-        shares.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12).all(|pair| {
-            self.is_free(from_m + 0.5 * (pair[0] + pair[1]) * along_m)
-        })
+        shares
+            .windows(2)
+            .filter(|pair| pair[1] - pair[0] > 1e-12)
+            .all(|pair| self.is_free(from_m + 0.5 * (pair[0] + pair[1]) * along_m))
     }
 
     /// Whether a point lies in free space or on its border, within rounding.
