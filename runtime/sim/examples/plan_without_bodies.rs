@@ -13,7 +13,7 @@ use std::f32::consts::{PI, TAU};
 
 use fbcrowd_sim::planning::mcn::MotionConstraints;
 use fbcrowd_sim::planning::{CrowdPlanningMemory, Stance, plan_all, ranking_horizon_s};
-use fbcrowd_sim::route::{Braking, PathProgress, preferred_mps};
+use fbcrowd_sim::route::{Braking, CrowdRoutes, PathProgress, RouteMemory, RouteView, preferred_mps};
 use fbcrowd_sim::scenario::WALL_RADIUS_M;
 use fbcrowd_sim::world::neighbours::NeighbourSearch;
 use fbcrowd_sim::world::obstacles::Obstacles;
@@ -44,14 +44,16 @@ fn main() {
     let gaits =
         GAITS.map(|[speed_mps, turn_rate_rad_s, strafe_mps]| Parameters { speed_mps, turn_rate_rad_s, strafe_mps });
     let constraints = MotionConstraints::new(&velocity_hull::build(&gaits, Construction::default()));
-    let obstacles =
-        Obstacles::new(&[vec![Vec2::new(-0.4, 0.0), Vec2::new(0.0, -0.4), Vec2::new(0.4, 0.0), Vec2::new(0.0, 0.4)]]);
-
+    let pillar_m = vec![Vec2::new(-0.4, 0.0), Vec2::new(0.0, -0.4), Vec2::new(0.4, 0.0), Vec2::new(0.0, 0.4)];
+    let obstacles = Obstacles::new(std::slice::from_ref(&pillar_m));
     let agents: Vec<AgentSpec> = (0..AGENTS).map(on_circle).collect();
+    let routes = CrowdRoutes::new(&agents, &[pillar_m]).expect("all coordinates are small");
+    let view = RouteView { routes: &routes, obstacles: &obstacles, braking: Braking::Within(DT_S) };
     let mut positions_m: Vec<Vec2> = agents.iter().map(|agent| agent.position_m).collect();
     let mut velocities_mps = vec![Vec2::ZERO; AGENTS];
     let mut facings_rad: Vec<f32> = agents.iter().map(|agent| agent.facing_rad).collect();
     let mut progress = [PathProgress::default(); AGENTS];
+    let mut remembered = vec![RouteMemory::default(); AGENTS];
     let mut plans = vec![Plan::default(); AGENTS];
     let (mut neighbours, mut memory) = (NeighbourSearch::default(), CrowdPlanningMemory::default());
 
@@ -59,8 +61,8 @@ fn main() {
     while time_s < 60.0 && !are_at_goals(&agents, &positions_m) {
         let preferred_mps: Vec<Vec2> = (0..AGENTS)
             .map(|agent| {
-                let braking = Braking::Within(DT_S);
-                preferred_mps(&agents[agent], positions_m[agent], &obstacles, braking, &mut progress[agent])
+                let (progress, remembered) = (&mut progress[agent], &mut remembered[agent]);
+                preferred_mps(&agents[agent], positions_m[agent], &view, progress, remembered)
             })
             .collect();
         neighbours.rebuild(&positions_m, &velocities_mps, &[RADIUS_M; AGENTS], ranking_horizon_s(planner, &params));

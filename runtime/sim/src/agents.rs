@@ -12,6 +12,7 @@ use motiondb::body::Root;
 use crate::maths::random::SplitMix64;
 use crate::planning::plan::{Plan, Stance};
 use crate::recording::frame::AgentFrame;
+use crate::route::crowd_routes::RouteMemory;
 use crate::route::path::PathProgress;
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
@@ -35,6 +36,8 @@ pub struct Agents {
     pub wall_radii_m: Vec<f32>,
     /// How far each has got on its way.
     pub progress: Vec<PathProgress>,
+    /// What each remembers of its route around walls.
+    pub route_memory: Vec<RouteMemory>,
     /// v_pref, m/s.
     pub preferred_mps: Vec<Vec2>,
     /// Plan for the step.
@@ -63,6 +66,7 @@ impl Agents {
             radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
             wall_radii_m: scenario.agents.iter().map(|agent| agent.wall_radius_m).collect(),
             progress: vec![PathProgress::default(); count],
+            route_memory: vec![RouteMemory::default(); count],
             preferred_mps: vec![Vec2::ZERO; count],
             plans: vec![Plan::default(); count],
             strafing_s: vec![0.0; count],
@@ -86,13 +90,14 @@ impl Agents {
     /// Memory of all arrays, bytes; their elements hold no pointers.
     pub fn size_bytes(&self) -> usize {
         let Self { positions_m, velocities_mps, facings_rad, radii_m, progress, preferred_mps, plans, .. } = self;
-        let Self { wall_radii_m, strafing_s, stepping_back_s, bodies, stances, frames, .. } = self;
+        let Self { route_memory, wall_radii_m, strafing_s, stepping_back_s, bodies, stances, frames, .. } = self;
         let of_planning = size_of_val(&**positions_m)
             + size_of_val(&**velocities_mps)
             + size_of_val(&**facings_rad)
             + size_of_val(&**radii_m)
             + size_of_val(&**wall_radii_m)
             + size_of_val(&**progress)
+            + size_of_val(&**route_memory)
             + size_of_val(&**preferred_mps)
             + size_of_val(&**plans)
             + size_of_val(&**strafing_s)

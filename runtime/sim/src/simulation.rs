@@ -24,7 +24,8 @@ use crate::planning::plan_all::{self, plan_all};
 use crate::planning::planner::ranking_horizon_s;
 use crate::planning::world_view::WorldView;
 use crate::recording::frame::AgentFrame;
-use crate::route::path::{self, Braking};
+use crate::route::crowd_routes::CrowdRoutes;
+use crate::route::path::{self, Braking, RouteView};
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
 use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
@@ -33,6 +34,9 @@ use crate::world::obstacles::Obstacles;
 
 /// Bodies that one thread takes at a time, at least: enough to outweigh the hand-over, few enough to share out 100.
 const BODIES_PER_TASK_MIN: usize = 16;
+
+/// Routes that one thread takes at a time, at least.
+const ROUTES_PER_TASK_MIN: usize = 256;
 
 /// Memory of an agent in the sorted grids of [`NeighbourSearch`], bytes: position, velocity, radius, rank and cells,
 /// some of them twice.
@@ -59,6 +63,7 @@ pub struct Simulation {
     context: SynthesisContext,
     scenario: Scenario,
     obstacles: Obstacles,
+    routes: CrowdRoutes,
     constraints: MotionConstraints,
     neighbours: NeighbourSearch,
     planning: plan_all::CrowdPlanningMemory,
@@ -73,6 +78,8 @@ impl Simulation {
         let agents = Agents::new(scenario, &context);
         let mut simulation = Self {
             obstacles: Obstacles::new(&scenario.obstacles_m),
+            // Coordinates are in range in every checked scenario; without a mesh, agents walk straight.
+            routes: CrowdRoutes::new(&scenario.agents, &scenario.obstacles_m).unwrap_or_default(),
             constraints: MotionConstraints::new(&context.db.velocity_hull),
             neighbours: NeighbourSearch::default(),
             planning: plan_all::CrowdPlanningMemory::default(),
@@ -124,11 +131,13 @@ impl Simulation {
             Coupling::TwoWay | Coupling::Decoupled => Braking::Evenly,
             Coupling::Discs => Braking::Within(self.scenario.dt_s),
         };
-        for (index, spec) in self.scenario.agents.iter().enumerate() {
-            let position_m = self.agents.positions_m[index];
-            self.agents.preferred_mps[index] =
-                path::preferred_mps(spec, position_m, &self.obstacles, braking, &mut self.agents.progress[index]);
-        }
+        let view = RouteView { routes: &self.routes, obstacles: &self.obstacles, braking };
+        let Agents { positions_m, progress, route_memory, preferred_mps, .. } = &mut self.agents;
+        let remembered = progress.par_iter_mut().zip(route_memory).with_min_len(ROUTES_PER_TASK_MIN);
+        let agents = self.scenario.agents.par_iter().zip(positions_m).zip(preferred_mps);
+        agents.zip(remembered).for_each(|(((spec, position_m), preferred_mps), (progress, memory))| {
+            *preferred_mps = path::preferred_mps(spec, *position_m, &view, progress, memory);
+        });
     }
 
     /// The view of the world that planners read. The neighbours are those of the last step's beginning.

@@ -26,9 +26,12 @@
 
 pub(crate) mod arrival;
 pub(crate) mod blocked_paths;
+pub mod crowd_routes;
 pub mod field;
 pub mod mesh;
 pub(crate) mod path;
+pub(crate) mod steering;
 
 pub use blocked_paths::{BlockedPaths, blocked_paths};
-pub use path::{Braking, PathProgress, preferred_mps};
+pub use crowd_routes::{CrowdRoutes, NextCorner, RouteMemory};
+pub use path::{Braking, PathProgress, RouteView, preferred_mps};

@@ -6,6 +6,8 @@
 
 use glam::Vec2;
 
+use crate::route::crowd_routes::{CrowdRoutes, NextCorner, RouteMemory};
+use crate::route::steering::{self, RouteCorner};
 use crate::scenario::AgentSpec;
 use crate::world::obstacles::Obstacles;
 
@@ -20,8 +22,6 @@ const ROUNDING_S: f32 = 0.7;
 const ROUNDED_COS: f32 = -0.5;
 /// Distance within which a waypoint of such a turn is reached, m: the radius of an arrival.
 const WAYPOINT_RADIUS_M: f32 = 0.5;
-/// Farthest distance from which an agent goes back to a passed waypoint, m: a crowd pushes by a few body widths.
-const PUSHED_M: f32 = 3.0;
 /// Distance within which the last goal is reached, m: half a step.
 const GOAL_RADIUS_M: f32 = 0.2;
 /// Distance beyond which an agent that was pushed away walks to its last goal again, m. At 0.4 m bodies of slow
@@ -62,18 +62,29 @@ impl PathProgress {
     }
 }
 
+/// What the route of an agent depends on, apart from the agent.
+#[derive(Clone, Copy, Debug)]
+pub struct RouteView<'a> {
+    /// Routes around the walls.
+    pub routes: &'a CrowdRoutes,
+    /// The walls.
+    pub obstacles: &'a Obstacles,
+    /// How agents slow down before their last goals.
+    pub braking: Braking,
+}
+
 /// v_pref at a position, m/s. Cases, in order:
 ///
 /// 1. no goals, or the last one reached: stay;
-/// 2. pushed behind a wall: back to the waypoint passed last;
+/// 2. a wall before the next waypoint: around it (`steering`);
 /// 3. before a waypoint that is not the last: towards it, rounding it;
 /// 4. before the last: towards it, braking.
 pub fn preferred_mps(
     agent: &AgentSpec,
     position_m: Vec2,
-    obstacles: &Obstacles,
-    braking: Braking,
+    view: &RouteView,
     progress: &mut PathProgress,
+    memory: &mut RouteMemory,
 ) -> Vec2 {
     if agent.goals_m.is_empty() {
         return Vec2::ZERO;
@@ -82,13 +93,17 @@ pub fn preferred_mps(
     let next = progress.next as usize;
     let to_goal_m = agent.goals_m[next] - position_m;
     progress.arrived = to_last && to_goal_m.length() < arrival_radius_m(progress.arrived);
-    if let Some(back_m) = waypoint_to_go_back_to_m(agent, next, position_m, obstacles) {
-        return (back_m - position_m).normalize_or_zero() * agent.preferred_speed_mps;
+    if let Some(NextCorner { corner_m, after_m: Some(after_m), .. }) =
+        view.routes.next(agent, position_m, agent.goals_m[next], memory)
+    {
+        let corner = RouteCorner { corner_m, after_m };
+        return steering::direction(position_m, corner, agent.wall_radius_m, view.obstacles)
+            * agent.preferred_speed_mps;
     }
     if !to_last {
         return RoundedWaypoint::new(agent, next).direction(position_m) * agent.preferred_speed_mps;
     }
-    let speed_mps = match braking {
+    let speed_mps = match view.braking {
         Braking::Evenly if progress.arrived => 0.0,
         Braking::Evenly => braking_speed_mps(to_goal_m.length()),
         Braking::Within(time_s) => to_goal_m.length() / time_s,
@@ -138,15 +153,6 @@ impl RoundedWaypoint {
     }
 }
 
-/// The waypoint passed last, where a wall hides the next one from an agent that was pushed aside. None where a wall
-/// hides the next waypoint from that one too: the scenario's path is blocked then.
-fn waypoint_to_go_back_to_m(agent: &AgentSpec, next: usize, position_m: Vec2, obstacles: &Obstacles) -> Option<Vec2> {
-    let (passed_m, next_m) = (agent.goals_m[next.checked_sub(1)?], agent.goals_m[next]);
-    let sees = |from_m, to_m| obstacles.is_free(from_m, to_m);
-    let pushed = position_m.distance(passed_m) < PUSHED_M && !sees(position_m, next_m);
-    (pushed && sees(position_m, passed_m) && sees(passed_m, next_m)).then_some(passed_m)
-}
-
 fn arrival_radius_m(arrived: bool) -> f32 {
     if arrived { GOAL_LEFT_RADIUS_M } else { GOAL_RADIUS_M }
 }
@@ -177,8 +183,11 @@ mod tests {
         }
     }
 
-    fn open_ground() -> Obstacles {
-        Obstacles::default()
+    /// v_pref on open ground, braking evenly.
+    fn on_open_ground_mps(agent: &AgentSpec, position_m: Vec2, progress: &mut PathProgress) -> Vec2 {
+        let (routes, obstacles) = (CrowdRoutes::default(), Obstacles::default());
+        let view = RouteView { routes: &routes, obstacles: &obstacles, braking: Braking::Evenly };
+        preferred_mps(agent, position_m, &view, progress, &mut RouteMemory::default())
     }
 
     /// v_pref at each step of a disc that follows it for a time, the least distance from its first waypoint, and its
@@ -186,7 +195,7 @@ mod tests {
     fn walk(agent: &AgentSpec, time_s: f32) -> (Vec<Vec2>, f32, PathProgress) {
         let (mut position_m, mut progress, mut nearest_m) = (agent.position_m, PathProgress::default(), f32::INFINITY);
         let mut step = || {
-            let preferred_mps = preferred_mps(agent, position_m, &open_ground(), Braking::Evenly, &mut progress);
+            let preferred_mps = on_open_ground_mps(agent, position_m, &mut progress);
             position_m += preferred_mps * DT_S;
             nearest_m = nearest_m.min(position_m.distance(agent.goals_m[0]));
             preferred_mps
@@ -225,7 +234,7 @@ mod tests {
         let agent = agent(&[Vec2::new(5.0, 0.0)]);
         let (mut position_m, mut progress, mut speed_mps, dt_s) = (Vec2::ZERO, PathProgress::default(), 1.3, 0.01);
         while !progress.arrived {
-            let next_mps = preferred_mps(&agent, position_m, &open_ground(), Braking::Evenly, &mut progress).length();
+            let next_mps = on_open_ground_mps(&agent, position_m, &mut progress).length();
             assert!(progress.arrived || speed_mps - next_mps <= 1.02 * BRAKING_MPS2 * dt_s, "{speed_mps} {next_mps}");
             position_m.x += next_mps * dt_s;
             speed_mps = next_mps;
@@ -235,7 +244,7 @@ mod tests {
     #[test]
     fn an_agent_without_goals_stays() {
         let mut progress = PathProgress::default();
-        let preferred_mps = preferred_mps(&agent(&[]), Vec2::ONE, &open_ground(), Braking::Evenly, &mut progress);
+        let preferred_mps = on_open_ground_mps(&agent(&[]), Vec2::ONE, &mut progress);
         assert_eq!(preferred_mps, Vec2::ZERO);
     }
 
@@ -246,7 +255,7 @@ mod tests {
             [([10.8, 1.8], 1), ([11.8, 1.3], 1), ([10.2, 1.3], 0), ([10.2, 2.2], 0), ([1.0, 3.0], 0)]
         {
             let mut progress = PathProgress::default();
-            preferred_mps(&agent, Vec2::from(position_m), &open_ground(), Braking::Evenly, &mut progress);
+            on_open_ground_mps(&agent, Vec2::from(position_m), &mut progress);
             assert_eq!(progress.next, next, "{position_m:?}");
         }
     }
@@ -254,12 +263,16 @@ mod tests {
     #[test]
     fn agent_behind_door_post_returns_to_door() {
         let post_m = [(0.0, 0.5), (0.4, 0.5), (0.4, 5.0), (0.0, 5.0)].map(Vec2::from).to_vec();
-        let (obstacles, agent) = (Obstacles::new(&[post_m]), agent(&[Vec2::new(-0.4, 0.0), Vec2::new(60.0, 0.0)]));
+        let agent = agent(&[Vec2::new(-0.4, 0.0), Vec2::new(60.0, 0.0)]);
+        let obstacles = Obstacles::new(std::slice::from_ref(&post_m));
+        let routes = CrowdRoutes::new(std::slice::from_ref(&agent), &[post_m]).unwrap();
+        let view = RouteView { routes: &routes, obstacles: &obstacles, braking: Braking::Evenly };
         let mut progress = PathProgress { next: 1, arrived: false };
         let mut direction = |x_m, y_m| {
-            preferred_mps(&agent, Vec2::new(x_m, y_m), &obstacles, Braking::Evenly, &mut progress).normalize()
+            let memory = &mut RouteMemory::default();
+            preferred_mps(&agent, Vec2::new(x_m, y_m), &view, &mut progress, memory).normalize()
         };
-        assert!(direction(-0.5, 1.5).distance(Vec2::new(0.1, -1.5).normalize()) < 1e-6);
-        assert!(direction(-0.5, 0.3).x > 0.99 && direction(0.6, 1.5).x > 0.99);
+        assert!(direction(-0.5, 1.5).y < -0.7, "{}", direction(-0.5, 1.5));
+        assert!(direction(-0.5, 0.2).x > 0.99 && direction(0.7, 1.5).x > 0.99);
     }
 }

@@ -205,7 +205,7 @@ impl RouteField {
 impl RoutePosition {
     /// The point of the mesh at a position, and the same again where that lies off the mesh. Off the mesh it is the
     /// nearest point of the part that was remembered, so that no wall between two parts is passed.
-    fn find(&mut self, mesh: &RouteMesh, position_m: DVec2) -> Option<(MeshPoint, Option<DVec2>)> {
+    pub(crate) fn find(&mut self, mesh: &RouteMesh, position_m: DVec2) -> Option<(MeshPoint, Option<DVec2>)> {
         let remembered = Some(self.triangle).filter(|&triangle| (triangle as usize) < mesh.triangle_count());
         let walked = remembered.map(|triangle| mesh.walk(triangle, position_m));
         if let Some(Ok(triangle)) = walked {

@@ -1,0 +1,157 @@
+//! Routes of all agents around walls: what is made once for a scene, and the next corner of an agent. World, metres.
+//!
+//! Agents with one wall radius share a mesh. Agents with one waypoint share a field, which answers from everywhere;
+//! a waypoint of few agents is searched for each of them, and searched again when the next corner is out of sight.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, Vec2};
+
+use crate::route::field::{RouteField, RouteGoal, RoutePosition, shortest_route};
+use crate::route::mesh::{Ground, RouteError, RouteMesh};
+use crate::scenario::AgentSpec;
+
+/// Agents from which on a waypoint has a field.
+const SHARED_MIN: usize = 4;
+/// Greatest number of fields; the waypoints that most agents share have them. A field of a town takes 3 MB.
+const FIELDS_MAX: usize = 64;
+/// Step of wall radii that share a mesh, m; radii are rounded up.
+const RADIUS_STEP_M: f32 = 0.05;
+/// Distance within which a corner of an own route is passed, m.
+const PASSED_M: f32 = 0.3;
+
+/// Meshes and fields of a scene with walls.
+#[derive(Clone, Debug, Default)]
+pub struct CrowdRoutes {
+    /// Mesh of each class of wall radii.
+    meshes: Vec<(u32, RouteMesh)>,
+    fields: Vec<RouteField>,
+    /// Index of the field of a waypoint, by class and coordinates.
+    field_of: BTreeMap<WaypointKey, usize>,
+}
+
+/// Class of the wall radius, and the bits of the coordinates.
+type WaypointKey = (u32, [u32; 2]);
+
+/// What an agent remembers of its route.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RouteMemory {
+    position: RoutePosition,
+    /// Its own route, where its waypoint has no field.
+    own: Option<OwnRoute>,
+}
+
+/// A route to a waypoint of few agents.
+#[derive(Clone, Debug, PartialEq)]
+struct OwnRoute {
+    to_m: Vec2,
+    /// Corners that lie ahead and the end, the next one last.
+    corners_m: Vec<Vec2>,
+}
+
+/// The next part of an agent's route.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NextCorner {
+    /// Length of the route to the waypoint, m.
+    pub distance_m: f32,
+    /// The next corner, or the waypoint, m.
+    pub corner_m: Vec2,
+    /// The point after it, m; none where `corner_m` is the waypoint.
+    pub after_m: Option<Vec2>,
+}
+
+impl CrowdRoutes {
+    /// Routes for agents among obstacles.
+    ///
+    /// # Errors
+    /// If a coordinate is out of range.
+    pub fn new(agents: &[AgentSpec], obstacles_m: &[Vec<Vec2>]) -> Result<Self, RouteError> {
+        let mut routes = Self::default();
+        if obstacles_m.is_empty() {
+            return Ok(routes);
+        }
+        let points_m: Vec<Vec2> = agents
+            .iter()
+            .flat_map(|agent| [agent.position_m].into_iter().chain(agent.goals_m.iter().copied()))
+            .collect();
+        let ground = Ground { obstacles_m, points_m: &points_m, ..Ground::default() };
+        let mut shared: BTreeMap<WaypointKey, usize> = BTreeMap::new();
+        for agent in agents {
+            let class = class(agent.wall_radius_m);
+            if routes.mesh(class).is_none() {
+                routes.meshes.push((class, RouteMesh::new(&ground, class as f32 * RADIUS_STEP_M)?));
+            }
+            for &goal_m in &agent.goals_m {
+                *shared.entry(key(class, goal_m)).or_default() += 1;
+            }
+        }
+        let mut most: Vec<(usize, WaypointKey)> = shared.into_iter().map(|(key, agents)| (agents, key)).collect();
+        most.retain(|(agents, _)| *agents >= SHARED_MIN);
+        most.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.cmp(&b.1)));
+        for (_, waypoint) in most.into_iter().take(FIELDS_MAX) {
+            let (class, bits) = waypoint;
+            let Some(mesh) = routes.mesh(class) else { continue };
+            let field = RouteField::new(mesh, RouteGoal::Points(vec![Vec2::from(bits.map(f32::from_bits))]));
+            routes.field_of.insert(waypoint, routes.fields.len());
+            routes.fields.push(field);
+        }
+        Ok(routes)
+    }
+
+    /// The next corner of an agent's route from a position to a waypoint; none where no route leads there, or there are
+    /// no walls.
+    pub fn next(&self, agent: &AgentSpec, from_m: Vec2, to_m: Vec2, memory: &mut RouteMemory) -> Option<NextCorner> {
+        let class = class(agent.wall_radius_m);
+        let mesh = self.mesh(class)?;
+        let Some(&field) = self.field_of.get(&key(class, to_m)) else {
+            return memory.next_of_own(mesh, from_m, to_m);
+        };
+        let step = self.fields[field].step(mesh, from_m, &mut memory.position)?;
+        // Off the mesh, the way back onto it is the next corner.
+        let aim_m = step.aim_m(from_m);
+        let after_m = if step.entry_m.is_some() { Some(step.next_m) } else { step.after_m };
+        Some(NextCorner { distance_m: step.distance_m, corner_m: aim_m, after_m })
+    }
+
+    fn mesh(&self, class: u32) -> Option<&RouteMesh> {
+        self.meshes.iter().find(|(of, _)| *of == class).map(|(_, mesh)| mesh)
+    }
+}
+
+impl RouteMemory {
+    fn next_of_own(&mut self, mesh: &RouteMesh, from_m: Vec2, to_m: Vec2) -> Option<NextCorner> {
+        let (at, _) = self.position.find(mesh, DVec2::from(from_m))?;
+        let sees = |point_m: Vec2| mesh.is_straight_free(at, DVec2::from(point_m));
+        let is_known = self
+            .own
+            .as_ref()
+            .is_some_and(|own| own.to_m == to_m && own.corners_m.last().is_some_and(|&next_m| sees(next_m)));
+        if !is_known {
+            let mut corners_m = shortest_route(mesh, from_m, to_m)?.corners_m;
+            corners_m.reverse();
+            self.own = Some(OwnRoute { to_m, corners_m });
+        }
+        let corners_m = &mut self.own.as_mut()?.corners_m;
+        // A corner is passed once the one after it is in sight.
+        while let [.., after_m, corner_m] = corners_m[..]
+            && (corner_m.distance(from_m) < PASSED_M || sees(after_m))
+        {
+            corners_m.pop();
+        }
+        let mut ahead = corners_m.iter().rev();
+        let corner_m = *ahead.next()?;
+        let after_m = ahead.next().copied();
+        let onwards = corners_m.windows(2).map(|ends_m| ends_m[0].distance(ends_m[1]));
+        Some(NextCorner { distance_m: from_m.distance(corner_m) + onwards.sum::<f32>(), corner_m, after_m })
+    }
+}
+
+/// Class of a wall radius: the number of steps up to it.
+fn class(wall_radius_m: f32) -> u32 {
+    // Without the tolerance 0.2 m would be more than four steps of 0.05 m.
+    (wall_radius_m / RADIUS_STEP_M - 1e-3).ceil() as u32
+}
+
+fn key(class: u32, waypoint_m: Vec2) -> WaypointKey {
+    (class, waypoint_m.to_array().map(f32::to_bits))
+}
