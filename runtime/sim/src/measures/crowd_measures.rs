@@ -70,6 +70,8 @@ pub struct Measures {
     pub wall_disc_share: f64,
     /// Share of agents and frames in which a body reaches into a wall.
     pub wall_body_share: f64,
+    /// Share of agents and frames in which a body reaches more than 1 cm into a wall.
+    pub wall_body_deep_share: f64,
     /// Greatest depth of a body in a wall, mm.
     pub wall_body_max_mm: f64,
     /// Slide of planted feet until each agent's arrival, cm/s; none where no foot was planted.
@@ -168,6 +170,7 @@ impl Measuring {
             body_touching_share: bodies.touching_share,
             wall_disc_share: walls.disc_share,
             wall_body_share: walls.body_share,
+            wall_body_deep_share: walls.deep_body_share,
             wall_body_max_mm: walls.greatest_depth_mm,
             planted_slide_cm_s: slide.slide_cm_s,
             examples_slide_cm_s: slide.examples_slide_cm_s,

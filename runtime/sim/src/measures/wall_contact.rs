@@ -17,6 +17,8 @@ use crate::world::obstacles::{NearEdge, Obstacles};
 const TOUCH_M: f32 = 1.5e-4;
 /// Greatest reach of a capsule from its root, m: an arm held out.
 const REACH_M: f32 = 1.2;
+/// Depth from which a body in a wall shows, m.
+const DEEP_M: f32 = 0.01;
 
 /// Counts contacts, frame by frame.
 #[derive(Debug)]
@@ -27,6 +29,7 @@ pub(crate) struct WallContact {
     agent_frames: usize,
     touching_discs: usize,
     touching_bodies: usize,
+    deep_bodies: usize,
     greatest_depth_m: f32,
 }
 
@@ -37,6 +40,8 @@ pub(crate) struct WallContactShares {
     pub(crate) disc_share: f64,
     /// Share of agents and frames in which a body reaches into a wall.
     pub(crate) body_share: f64,
+    /// Share of agents and frames in which a body reaches more than 1 cm into a wall.
+    pub(crate) deep_body_share: f64,
     /// Greatest depth of a body in a wall, mm.
     pub(crate) greatest_depth_mm: f64,
 }
@@ -51,6 +56,7 @@ impl WallContact {
             agent_frames: 0,
             touching_discs: 0,
             touching_bodies: 0,
+            deep_bodies: 0,
             greatest_depth_m: 0.0,
         }
     }
@@ -65,6 +71,7 @@ impl WallContact {
             self.touching_discs += usize::from(nearest.distance_m < radius_m + TOUCH_M);
             let depth_m = self.depth_m(&agent.root, joints, &near);
             self.touching_bodies += usize::from(depth_m > 0.0);
+            self.deep_bodies += usize::from(depth_m > DEEP_M);
             self.greatest_depth_m = self.greatest_depth_m.max(depth_m);
         }
     }
@@ -75,6 +82,7 @@ impl WallContact {
         WallContactShares {
             disc_share: share(self.touching_discs),
             body_share: share(self.touching_bodies),
+            deep_body_share: share(self.deep_bodies),
             greatest_depth_mm: 1e3 * f64::from(self.greatest_depth_m),
         }
     }
@@ -134,7 +142,10 @@ mod tests {
     #[test]
     fn bodies_touch_by_capsules_discs_by_radius() {
         let radius_m = 0.2;
-        assert_eq!(beside(2.0), WallContactShares { disc_share: 0.0, body_share: 0.0, greatest_depth_mm: 0.0 });
+        let apart =
+            WallContactShares { disc_share: 0.0, body_share: 0.0, deep_body_share: 0.0, greatest_depth_mm: 0.0 };
+        assert_eq!(beside(2.0), apart);
+        assert_eq!((beside(ahead_m() - 0.009).deep_body_share, beside(ahead_m() - 0.011).deep_body_share), (0.0, 1.0));
         assert_eq!((beside(radius_m).disc_share, beside(radius_m + 0.01).disc_share), (1.0, 0.0));
         assert_eq!((beside(ahead_m() - 0.01).body_share, beside(ahead_m() + 0.01).body_share), (1.0, 0.0));
         // A foot half behind the face of the wall, and all of it behind.

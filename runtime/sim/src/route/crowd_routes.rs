@@ -19,6 +19,10 @@ const FIELDS_MAX: usize = 64;
 const RADIUS_STEP_M: f32 = 0.05;
 /// Distance within which a corner of an own route is passed, m.
 const PASSED_M: f32 = 0.3;
+/// Distance of a waypoint from the mesh at which agents come near it, m: an arrival.
+const BESIDE_M: f32 = 0.5;
+/// Distance that routes keep from walls beyond the wall radius, where there is room, m (docs/tuning.md).
+const CLEARANCE_M: f64 = 0.15;
 
 /// Meshes and fields of a scene with walls.
 #[derive(Clone, Debug, Default)]
@@ -58,6 +62,8 @@ pub struct NextCorner {
     pub corner_m: Vec2,
     /// The point after it, m; none where `corner_m` is the waypoint.
     pub after_m: Option<Vec2>,
+    /// The nearest point of the mesh, m, where the agent is nearer to a wall than the mesh.
+    pub entry_m: Option<Vec2>,
 }
 
 impl CrowdRoutes {
@@ -79,7 +85,8 @@ impl CrowdRoutes {
         for agent in agents {
             let class = class(agent.wall_radius_m);
             if routes.mesh(class).is_none() {
-                routes.meshes.push((class, RouteMesh::new(&ground, class as f32 * RADIUS_STEP_M)?));
+                let mesh = RouteMesh::new(&ground, class as f32 * RADIUS_STEP_M)?;
+                routes.meshes.push((class, mesh.with_clearance(CLEARANCE_M)));
             }
             for &goal_m in &agent.goals_m {
                 *shared.entry(key(class, goal_m)).or_default() += 1;
@@ -107,10 +114,10 @@ impl CrowdRoutes {
             return memory.next_of_own(mesh, from_m, to_m);
         };
         let step = self.fields[field].step(mesh, from_m, &mut memory.position)?;
-        // Off the mesh, the way back onto it is the next corner.
-        let aim_m = step.aim_m(from_m);
-        let after_m = if step.entry_m.is_some() { Some(step.next_m) } else { step.after_m };
-        Some(NextCorner { distance_m: step.distance_m, corner_m: aim_m, after_m })
+        // From the mesh beside a waypoint that lies off it, no corner is left.
+        let is_beside = |after_m: &Vec2| *after_m == to_m && step.next_m.distance(to_m) < BESIDE_M;
+        let after_m = step.after_m.filter(|after_m| !is_beside(after_m));
+        Some(NextCorner { distance_m: step.distance_m, corner_m: step.next_m, after_m, entry_m: step.entry_m })
     }
 
     fn mesh(&self, class: u32) -> Option<&RouteMesh> {
@@ -120,7 +127,7 @@ impl CrowdRoutes {
 
 impl RouteMemory {
     fn next_of_own(&mut self, mesh: &RouteMesh, from_m: Vec2, to_m: Vec2) -> Option<NextCorner> {
-        let (at, _) = self.position.find(mesh, DVec2::from(from_m))?;
+        let (at, entry_m) = self.position.find(mesh, DVec2::from(from_m))?;
         let sees = |point_m: Vec2| mesh.is_straight_free(at, DVec2::from(point_m));
         let is_known = self
             .own
@@ -142,7 +149,8 @@ impl RouteMemory {
         let corner_m = *ahead.next()?;
         let after_m = ahead.next().copied();
         let onwards = corners_m.windows(2).map(|ends_m| ends_m[0].distance(ends_m[1]));
-        Some(NextCorner { distance_m: from_m.distance(corner_m) + onwards.sum::<f32>(), corner_m, after_m })
+        let distance_m = from_m.distance(corner_m) + onwards.sum::<f32>();
+        Some(NextCorner { distance_m, corner_m, after_m, entry_m: entry_m.map(DVec2::as_vec2) })
     }
 }
 

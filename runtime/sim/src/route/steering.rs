@@ -7,6 +7,7 @@
 
 use glam::Vec2;
 
+use crate::route::crowd_routes::NextCorner;
 use crate::world::obstacles::Obstacles;
 
 /// Share of the direction after a corner by which the direction to it is reduced.
@@ -16,36 +17,64 @@ const PASSAGE_MAX_M: f32 = 3.0;
 /// Share of that width by which an agent that turns left keeps off the corner.
 const KEEP_RIGHT_SHARE: f32 = 0.35;
 
+/// Distance along the route against which the distance from the mesh counts, for an agent that is too near to a wall,
+/// m: as far from the mesh as this, the agent returns to it at 45°.
+const RETURN_M: f32 = 0.1;
+/// Distance from a waypoint in sight within which the mesh does not count, m: waypoints may lie beside it.
+const NEAR_M: f32 = 1.0;
+
+/// Unit direction of v_pref of an agent around walls; none where its waypoint is in sight.
+///
+/// 1. On the mesh: before a corner, the anticipated turn.
+/// 2. Off the mesh, too near to a wall: as from the nearest point of the mesh, and back to that point.
+pub(crate) fn direction(
+    position_m: Vec2,
+    next: &NextCorner,
+    wall_radius_m: f32,
+    obstacles: &Obstacles,
+) -> Option<Vec2> {
+    let from_m = next.entry_m.unwrap_or(position_m);
+    let onwards = match next.after_m {
+        Some(after_m) => turning(from_m, RouteCorner { corner_m: next.corner_m, after_m }, wall_radius_m, obstacles),
+        None if next.entry_m.is_none() || next.distance_m < NEAR_M => return None,
+        None => (next.corner_m - from_m).normalize_or_zero(),
+    };
+    Some((RETURN_M * onwards + (from_m - position_m)).normalize_or(onwards))
+}
+
+/// Shares of the displacement to the right that are tried until the aim is in sight.
+const SHARES: [f32; 3] = [1.0, 0.5, 0.25];
+
 /// A corner of a route, and the point after it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct RouteCorner {
-    pub(crate) corner_m: Vec2,
-    pub(crate) after_m: Vec2,
+struct RouteCorner {
+    corner_m: Vec2,
+    after_m: Vec2,
 }
 
 /// Unit direction of v_pref of an agent before a corner.
-pub(crate) fn direction(position_m: Vec2, corner: RouteCorner, wall_radius_m: f32, obstacles: &Obstacles) -> Vec2 {
+fn turning(position_m: Vec2, corner: RouteCorner, wall_radius_m: f32, obstacles: &Obstacles) -> Vec2 {
     let aim_m = corner.corner_m + keep_right_m(position_m, corner, wall_radius_m, obstacles);
     let [to_aim_m, to_after_m] = [aim_m - position_m, corner.after_m - position_m];
     let anticipating_m = to_aim_m - ANTICIPATION * to_aim_m.length() * to_after_m.normalize_or_zero();
     anticipating_m.try_normalize().unwrap_or_else(|| to_aim_m.normalize_or_zero())
 }
 
-/// Displacement from a left turn's corner to the right, m; zero at a right turn.
+/// Displacement from a left turn's corner to the right, m; zero at a right turn. The aim stays in sight.
 fn keep_right_m(position_m: Vec2, corner: RouteCorner, wall_radius_m: f32, obstacles: &Obstacles) -> Vec2 {
     let to = (corner.corner_m - position_m).normalize_or_zero();
     let onwards = (corner.after_m - corner.corner_m).normalize_or_zero();
     if to.perp_dot(onwards) <= 0.0 {
         return Vec2::ZERO;
     }
-    let free_m = |right: Vec2| {
-        let to_m = obstacles.clamp_path(corner.corner_m, corner.corner_m + PASSAGE_MAX_M * right, wall_radius_m);
-        (to_m - corner.corner_m).dot(right).max(0.0)
-    };
+    let free_m =
+        |right: Vec2| obstacles.free_length_m(corner.corner_m, corner.corner_m + PASSAGE_MAX_M * right, wall_radius_m);
     // A door is narrow across the path beyond it, wherever an agent comes from.
     let across = [to, (to + onwards).normalize_or_zero(), onwards].map(|along| -along.perp());
     let width_m = across.into_iter().map(free_m).fold(PASSAGE_MAX_M, f32::min);
-    KEEP_RIGHT_SHARE * width_m * across[1]
+    let mut displacements_m = SHARES.into_iter().map(|share| share * KEEP_RIGHT_SHARE * width_m * across[1]);
+    let in_sight = |aside_m: &Vec2| obstacles.is_free(position_m, corner.corner_m + *aside_m);
+    displacements_m.find(in_sight).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -62,7 +91,7 @@ mod tests {
 
     fn direction_at(position_m: [f32; 2], after_m: [f32; 2], width_m: f32) -> Vec2 {
         let corner = RouteCorner { corner_m: Vec2::new(0.2, 0.2), after_m: Vec2::from(after_m) };
-        direction(Vec2::from(position_m), corner, 0.2, &turn(width_m))
+        turning(Vec2::from(position_m), corner, 0.2, &turn(width_m))
     }
 
     #[test]

@@ -78,9 +78,10 @@ fn facing(measures: &Measures) -> String {
 
 fn walls(measures: &Measures) -> String {
     format!(
-        "discs held {:.2} % of the time, bodies in them {:.2} %, {:.0} mm at most",
+        "discs held {:.2} % of the time, bodies in them {:.2} %, by more than 1 cm {:.2} %, {:.0} mm at most",
         100.0 * measures.wall_disc_share,
         100.0 * measures.wall_body_share,
+        100.0 * measures.wall_body_deep_share,
         measures.wall_body_max_mm
     )
 }

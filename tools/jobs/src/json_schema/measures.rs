@@ -48,6 +48,8 @@ pub struct MeasuresMirror {
     wall_disc_share: f64,
     /// Share of agents and steps in which the body reaches into a wall, 0 to 1.
     wall_body_share: f64,
+    /// Share of agents and steps in which the body reaches more than 1 cm into a wall, 0 to 1.
+    wall_body_deep_share: f64,
     /// Greatest depth of a body in a wall, mm.
     wall_body_max_mm: f64,
     /// Mean speed of planted feet before arrival, cm/s; null where no foot is planted.

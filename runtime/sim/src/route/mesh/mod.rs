@@ -4,10 +4,11 @@
 //! nearest position on the mesh, and the passages that are too narrow.
 //!
 //! Read along the data: `ground` (input), `grid` (1/1024 m), `outline` (one obstacle), `growth` (by the distance),
-//! `free_space` (union and difference), `triangulation`, `route_mesh` (arrays), `box_tree` and `locate` (positions on
-//! the mesh), `passages`.
+//! `free_space` (union and difference), `triangulation`, `route_mesh` (arrays), `clearance` (farther from walls
+//! where there is room), `box_tree` and `locate` (positions on the mesh), `passages`.
 
 pub(crate) mod box_tree;
+pub(crate) mod clearance;
 pub(crate) mod error;
 pub(crate) mod free_space;
 pub(crate) mod grid;

@@ -43,6 +43,13 @@ impl Obstacles {
         ends_m.into_iter().find(|&end_m| self.keeps_its_side(from_m, end_m)).unwrap_or(from_m)
     }
 
+    /// Length of a disc's straight path until its first contact with a wall, m.
+    pub(crate) fn free_length_m(&self, from_m: Vec2, to_m: Vec2, radius_m: f32) -> f32 {
+        let (sweep, along_m) = (DiscSweep { walls: self, from_m }, to_m - from_m);
+        let contact = sweep.first_contact(Vec2::ZERO, along_m, radius_m);
+        contact.map_or_else(|| along_m.length(), |contact| contact.after_m)
+    }
+
     /// Depth of a disc in the walls, m: 0 where it touches none.
     pub fn depth_m(&self, position_m: Vec2, radius_m: f32) -> f32 {
         let sweep = DiscSweep { walls: self, from_m: position_m };
