@@ -175,7 +175,8 @@ impl PoseDistances {
     fn push(&mut self, frame: &AgentFrame, skeleton: &Skeleton) {
         let joints = frame.pose.forward_kinematics(skeleton);
         let to_example_deg = self.examples.iter().map(|example| example.distance_to_pose_deg(&joints));
-        self.squared_deg2 += f64::from(to_example_deg.fold(f32::INFINITY, f32::min)).powi(2);
+        let nearest_deg = f64::from(to_example_deg.fold(f32::INFINITY, f32::min));
+        self.squared_deg2 += nearest_deg * nearest_deg;
         self.semi_procedural += usize::from(frame.mode == Mode::SemiProcedural);
     }
 }
@@ -205,7 +206,7 @@ fn criteria(walks: &[CourseWalk]) -> Vec<Criterion> {
     let mean = |synthesis, of: fn(&CourseWalk) -> f64| by(synthesis).map(of).sum::<f64>() / SPEEDS_MPS.len() as f64;
     let disc = |synthesis| mean(synthesis, |walk| walk.wall_disc_share);
     let body = |synthesis| mean(synthesis, |walk| walk.wall_body_share);
-    let poses_deg = |synthesis| mean(synthesis, |walk| walk.pose_distance_deg.powi(2)).sqrt();
+    let poses_deg = |synthesis| mean(synthesis, |walk| walk.pose_distance_deg * walk.pose_distance_deg).sqrt();
     let (hybrid, semi_procedural) = ("hybrid", "semi_procedural");
     vec![
         Criterion::at_least("hybrid arrives, share", 1.0, mean(hybrid, |walk| f64::from(u8::from(walk.arrived)))),
