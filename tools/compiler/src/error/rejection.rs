@@ -1,6 +1,7 @@
 //! Rejections: files and clips that cannot be used, each with a typed reason.
 
 use std::fmt;
+use std::io;
 
 use motiondb::body::Joint;
 
@@ -34,6 +35,12 @@ pub enum RejectionReason {
     Unreadable {
         /// The system's reason.
         problem: String,
+    },
+    /// The system has too little memory for the clip.
+    #[error("its motion needs {mib} MiB of memory, more than the system gives; cut the clip into shorter ones")]
+    OutOfMemory {
+        /// Memory that was not given, MiB.
+        mib: usize,
     },
     /// The file's name ends in none of `.bvh`, `.glb` and `.gltf`.
     #[error("not a motion clip; clips are *.bvh, *.glb and *.gltf")]
@@ -144,6 +151,13 @@ pub enum RejectionReason {
          human skeleton"
     )]
     MovesLengthwise,
+}
+
+impl RejectionReason {
+    /// The system fails to read the file.
+    pub(crate) fn unreadable(error: &io::Error) -> Self {
+        Self::Unreadable { problem: error.to_string() }
+    }
 }
 
 /// `` `Hips` to `Foot` and `Hips` to `Foot` ``.
