@@ -194,7 +194,7 @@ fn to_human(mut clip: SourceClip, settings: &ClipSettings, name: String) -> Resu
         plausibility::inhuman_gait(&clip, &roles, &parameters)
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
-    let mut human = to_humanoid::to_human(&clip, &roles, &units, parameters, name);
+    let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, name);
     human.unfit = unfit;
     human.choices.mirror = settings.mirror;
     human.choices.is_cut = settings.frames.is_some();
