@@ -20,7 +20,7 @@ use crate::top_view::shade::ShadeMask;
 use crate::top_view::trails::{self, Tracks, Trail};
 
 /// Greatest number of pixels of a strip, which take 9 bytes each: a frame of up to 2560 × 1440 is one strip.
-const STRIP_PIXELS: u32 = 4 << 20;
+pub(crate) const STRIP_PIXELS: u32 = 4 << 20;
 /// Number of rows by which strips begin: EXR files compress so many together.
 const BLOCK_ROWS: u32 = 16;
 /// Reach of a body and its shade from its root, m: bodies farther outside the picture are left out.

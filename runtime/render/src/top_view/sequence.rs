@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use fbcrowd_sim::recording::Recording;
+use motiondb::memory;
 use rayon::prelude::*;
 use tiny_skia::Pixmap;
 
@@ -15,11 +16,19 @@ use crate::constraints::constraint_overlay::ConstraintOverlay;
 use crate::error::RenderError;
 use crate::raster::strips::PictureStrips;
 use crate::raster::{exr_frame, png_frame};
-use crate::top_view::frame::{FrameBuffers, TopView};
+use crate::top_view::frame::{FrameBuffers, STRIP_PIXELS, TopView};
 use crate::top_view::frame_range::{FIRST_FRAME, FrameRange};
 use crate::top_view::playback::{picture_count, picture_time_s, read_tracks, sample};
 use crate::top_view::trails::Tracks;
 
+/// Bytes of the background for each pixel, while the shade of obstacles is drawn on it.
+const BACKGROUND_BYTES: usize = 6;
+/// Bytes of a frame for each pixel as it is encoded: its colours.
+const COLOUR_BYTES: usize = 3;
+/// Bytes of a strip for each pixel: colours, height and shade.
+const STRIP_PIXEL_BYTES: usize = 9;
+/// Greatest number of bytes of a strip.
+const STRIP_BYTES: usize = STRIP_PIXEL_BYTES * STRIP_PIXELS as usize;
 /// Bytes that a whole frame takes for each of its pixels: the scene, the scene with marks, the picture, its colours.
 const WHOLE_FRAME_BYTES: usize = 16;
 /// Greatest number of bytes of all whole frames that are drawn at once.
@@ -94,6 +103,7 @@ pub fn render_sequence(
     observer: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<PathBuf>, RenderError> {
     let numbers = frame_numbers(recording, options.frames.as_ref())?;
+    check_memory(recording, &numbers, !options.constraints_of.is_empty())?;
     let tracks = read_tracks(recording)?;
     let views = SequenceViews::new(recording, &tracks, &options.constraints_of)?;
     make_folder(&options.folder)?;
@@ -109,6 +119,21 @@ pub fn render_sequence(
         paths.extend(rendered.collect::<Result<Vec<PathBuf>, RenderError>>()?);
     }
     Ok(paths)
+}
+
+/// Checks that the system gives the memory that the frames need: the background and the shade of obstacles once; for
+/// each thread a strip and the colours of a frame, or whole frames.
+fn check_memory(recording: &Recording, numbers: &[u32], has_overlay: bool) -> Result<(), RenderError> {
+    let view = &recording.header().scenario.view;
+    let pixels = view.width as usize * view.height as usize;
+    let threads = rayon::current_num_threads().min(numbers.len());
+    let at_once = if has_overlay {
+        WHOLE_FRAMES_BYTES.min(threads * WHOLE_FRAME_BYTES * pixels).max(WHOLE_FRAME_BYTES * pixels)
+    } else {
+        threads * (COLOUR_BYTES * pixels + STRIP_BYTES.min(STRIP_PIXEL_BYTES * pixels))
+    };
+    let bytes = BACKGROUND_BYTES * pixels + at_once;
+    if memory::has_room(bytes) { Ok(()) } else { Err(RenderError::OutOfMemory { mib: bytes >> 20 }) }
 }
 
 impl<'a> SequenceViews<'a> {

@@ -4,6 +4,7 @@ use std::fmt;
 use std::io;
 
 use motiondb::body::Joint;
+use motiondb::files::input_file;
 
 /// A file that cannot be read as motion, or a clip of it that is not human.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +34,12 @@ pub enum RejectionReason {
     /// The system does not let us read the file.
     #[error("{problem}; check that the path exists and may be read")]
     Unreadable {
+        /// The system's reason.
+        problem: String,
+    },
+    /// The system fails to read the file: a retry may help.
+    #[error("{problem}; check the disk, and try again")]
+    ReadFailed {
         /// The system's reason.
         problem: String,
     },
@@ -154,9 +161,15 @@ pub enum RejectionReason {
 }
 
 impl RejectionReason {
-    /// The system fails to read the file.
+    /// The system does not let us read the file, or fails to.
     pub(crate) fn unreadable(error: &io::Error) -> Self {
-        Self::Unreadable { problem: error.to_string() }
+        let problem = error.to_string();
+        if input_file::is_of_machine(error) { Self::ReadFailed { problem } } else { Self::Unreadable { problem } }
+    }
+
+    /// Whether the machine failed (disk, memory). Otherwise the file is wrong.
+    pub fn is_of_machine(&self) -> bool {
+        matches!(self, Self::ReadFailed { .. } | Self::OutOfMemory { .. })
     }
 }
 

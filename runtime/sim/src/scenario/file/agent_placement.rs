@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::Path;
 
-use motiondb::files::{Invalid, SourceText};
+use motiondb::files::{Invalid, SourceText, input_file};
 use toml::Spanned;
 
 use crate::maths::random::SplitMix64;
@@ -92,6 +92,9 @@ fn journeys(
 fn read_lines(source: &SourceText, name: &Spanned<String>, room: LineRoom) -> Result<AgentLines, ScenarioError> {
     let path = source.beside(Path::new(name.get_ref()));
     AgentLines::read(&path, room).map_err(|error| {
+        if input_file::is_of_machine(&error) {
+            return ScenarioError::Unreadable { path: path.clone(), source: error };
+        }
         let message = match error.kind() {
             ErrorKind::NotFound => format!("{} does not exist", path.display()),
             _ => format!("{} cannot be read: {error}", path.display()),

@@ -64,7 +64,8 @@ impl<R: BufRead> TextLines<R> {
                 return Ok(None);
             }
             self.number += 1;
-            if !String::from_utf8_lossy(&self.bytes).trim().is_empty() {
+            // A line that is too long ends the reading, also if its beginning is blank.
+            if self.bytes.len() > LINE_MAX_BYTES || !String::from_utf8_lossy(&self.bytes).trim().is_empty() {
                 break;
             }
         }

@@ -172,3 +172,26 @@ impl RowReader {
         values.checked_div(self.channels).unwrap_or(0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::{BufReader, Cursor, Read, repeat};
+
+    use crate::read::bvh::prepass;
+
+    const HEAD: &str = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 1 Xposition\n}\nMOTION\nFrames: 1\n\
+                        Frame Time: 0.01\n";
+
+    #[test]
+    fn an_endless_clip_is_refused_at_its_limit() {
+        let rows = Cursor::new(b"7\n".repeat(300_000));
+        let problem = prepass::check(BufReader::new(HEAD.as_bytes().chain(rows))).unwrap_err().to_string();
+        assert!(problem.starts_with("line 250010: more than 250000 frames"), "{problem}");
+    }
+
+    #[test]
+    fn an_endless_row_is_refused() {
+        let problem = prepass::check(BufReader::new(HEAD.as_bytes().chain(repeat(b' ')))).unwrap_err().to_string();
+        assert!(problem.starts_with("line 10: "), "{problem}");
+    }
+}

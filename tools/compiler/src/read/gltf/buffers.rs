@@ -102,6 +102,7 @@ fn from_uri(
     let mut bytes = Vec::new();
     match input_file::open(&path).and_then(|open| open.take(most).read_to_end(&mut bytes)) {
         Ok(_) => Ok(bytes),
+        Err(error) if input_file::is_of_machine(&error) => Err(RejectionReason::unreadable(&error)),
         Err(error) => malformed(position, format!("`{name}` cannot be read: {error}"), KEEP_BESIDE),
     }
 }
