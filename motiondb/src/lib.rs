@@ -44,6 +44,7 @@ pub mod blend_space;
 pub mod body;
 pub mod diagnostic;
 pub mod files;
+pub mod memory;
 pub mod motion;
 pub mod quality;
 pub mod statistics;

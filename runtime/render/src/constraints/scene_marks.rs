@@ -78,7 +78,7 @@ impl SceneMarks {
         if !explained.step.header().scenario.view.labels {
             let neighbours = explained.explanation.neighbours.iter().map(|neighbour| neighbour.agent as usize);
             for index in neighbours.chain([explained.agent]) {
-                self.captions.draw_label(scene, index, world.positions_m[index]);
+                self.captions.draw_label(scene, 0, index, world.positions_m[index]);
             }
         }
     }

@@ -14,8 +14,8 @@ use crate::scenario::ranges::check_ranges;
 
 /// Greatest velocity of a set, m/s; none of a body comes near.
 const SPEED_MAX_MPS: f32 = 100.0;
-/// Size beyond which no header is decoded, bytes; none of a million agents with waypoints comes near.
-const HEADER_LIMIT_BYTES: usize = 1 << 30;
+/// Size beyond which no header is decoded, bytes; that of a million agents with ten waypoints each has 150 MB.
+const HEADER_LIMIT_BYTES: usize = 256 << 20;
 
 /// What holds for all frames of a recording. No timings, no dates, no paths.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,7 +44,7 @@ impl Header {
 
     /// Decodes and checks the `HEAD` chunk of a file.
     pub(crate) fn decode(file: &ChunkFile) -> Result<Self, RecordingError> {
-        let payload = file.read_chunk(HEAD_BYTE, HEAD)?;
+        let payload = file.read_chunk(HEAD_BYTE, HEAD, HEADER_LIMIT_BYTES as u64)?;
         let (header, used) = bincode::serde::decode_from_slice::<Self, _>(&payload, bincode_config())
             .map_err(|error| file.damaged(HEAD_BYTE, format!("the header cannot be decoded ({error})")))?;
         if used != payload.len() {

@@ -10,6 +10,9 @@ use crate::recording::frame::AgentFrame;
 use crate::recording::frame_packing::{PACKED_BYTES, unpack};
 use crate::recording::header::Header;
 
+/// Greatest length of an index, bytes: that of a day in steps of a millisecond.
+const INDEX_LIMIT_BYTES: u64 = 8 * 86_400_001;
+
 /// An open recording; frames are read on demand, from any thread.
 ///
 /// ```no_run
@@ -70,16 +73,23 @@ impl Recording {
         let count = self.frame_count();
         let no_such_frame = || RecordingError::NoSuchFrame { path: path(), index, count };
         let byte = *self.frame_bytes.get(index).ok_or_else(no_such_frame)?;
-        let payload = self.file.read_chunk(byte, FRAME)?;
-        let packed = decompress(&payload, self.header.scenario.agents.len())
+        let agent_count = self.header.scenario.agents.len();
+        let payload = self.file.read_chunk(byte, FRAME, most_frame_bytes(agent_count))?;
+        let packed = decompress(&payload, agent_count)
             .ok_or_else(|| self.file.damaged(byte, "the frame does not hold the scenario's agents"))?;
         agents.clear();
+        agents.try_reserve(agent_count).map_err(|_| self.file.out_of_memory())?;
         for (agent, bytes) in packed.chunks_exact(PACKED_BYTES).enumerate() {
             let at_agent = |fault| RecordingError::Frame { path: path(), frame: index, agent, fault };
             agents.push(unpack(bytes).map_err(at_agent)?);
         }
         Ok(())
     }
+}
+
+/// Greatest length of a frame's payload: zlib makes nothing that is hard to compress much longer.
+fn most_frame_bytes(agent_count: usize) -> u64 {
+    (2 * agent_count * PACKED_BYTES) as u64 + 1024
 }
 
 fn check_magic(file: &ChunkFile) -> Result<(), RecordingError> {
@@ -95,11 +105,11 @@ fn check_magic(file: &ChunkFile) -> Result<(), RecordingError> {
 /// The byte at which each frame's chunk begins.
 fn read_index(file: &ChunkFile) -> Result<Vec<u64>, RecordingError> {
     let tail_byte = file.length().saturating_sub(TAIL_BYTES);
-    let index_byte = match file.read_chunk(tail_byte, TAIL)?.try_into() {
+    let index_byte = match file.read_chunk(tail_byte, TAIL, TAIL_BYTES)?.try_into() {
         Ok(bytes) => u64::from_le_bytes(bytes),
         Err(_) => return Err(file.damaged(tail_byte, "the last chunk names no index")),
     };
-    let index = file.read_chunk(index_byte, INDEX)?;
+    let index = file.read_chunk(index_byte, INDEX, INDEX_LIMIT_BYTES)?;
     let (bytes @ [_, ..], []) = index.as_chunks::<8>() else {
         return Err(file.damaged(index_byte, "the index is empty or not whole"));
     };

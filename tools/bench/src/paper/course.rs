@@ -106,13 +106,14 @@ pub struct CourseWalk {
 /// # Errors
 /// If the database cannot be read, or the picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
+    let picture = args.picture.path("course");
+    args.database.check_file(&picture)?;
     let db = Arc::new(database(&args.database)?);
     let scenario = scenario(COURSE)?;
     let speeds = SPEEDS_MPS.len();
     let walks = run_each_on_one_thread(SYNTHESES.len() * speeds, observer, |index| {
         walk(&db, &scenario, SYNTHESES[index / speeds], SPEEDS_MPS[index % speeds])
     })?;
-    let picture = args.picture.path("course");
     draw(&picture, &scenario, &walks)?;
     let details = Details { picture, walks };
     Ok(BenchReport { text: text(&details), goals: Vec::new(), criteria: criteria(&details.walks), details })

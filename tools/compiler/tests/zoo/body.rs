@@ -62,7 +62,7 @@ impl Performance {
     /// `walk_110` …, at 30 frames a second.
     pub(crate) fn read(clip: &str) -> Self {
         let path = Path::new(CLIPS).join(format!("{clip}.bvh"));
-        let source = bvh::read(&path, &std::fs::read(&path).unwrap()).unwrap();
+        let source = bvh::read(&path, &std::fs::read(&path).unwrap()[..]).unwrap();
         let joints = PARTS.map(|name| source.joints.iter().position(|joint| joint.name == name).unwrap());
         let pose = |frame: usize| Pose {
             hips_m: 0.01 * source.position(frame, joints[0]),
