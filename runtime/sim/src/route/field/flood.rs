@@ -28,7 +28,7 @@ const CORNER: u32 = 1 << 31;
 
 /// A point from which the search starts.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Source {
+pub(crate) struct FloodSource {
     /// Its position on the mesh.
     pub(crate) at: MeshPoint,
     /// Distance from the goal itself, which may lie off the mesh, m.
@@ -85,9 +85,10 @@ pub(crate) struct Flood<'a> {
 
 impl<'a> Flood<'a> {
     /// Searches from sources, everywhere or until the distance of a target is final.
-    pub(crate) fn run(mesh: &'a RouteMesh, sources: &[Source], target: Option<MeshPoint>) -> Self {
+    pub(crate) fn run(mesh: &'a RouteMesh, sources: &[FloodSource], target: Option<MeshPoint>) -> Self {
         let unknown = RootLabel { distance_m: f64::INFINITY, parent: NONE, is_final: false };
-        let of_source = |source: &Source| RootLabel { distance_m: source.distance_m, parent: NONE, is_final: true };
+        let of_source =
+            |source: &FloodSource| RootLabel { distance_m: source.distance_m, parent: NONE, is_final: true };
         let labels = std::iter::repeat_n(unknown, mesh.vertex_count()).chain(sources.iter().map(of_source)).collect();
         let mut flood = Self {
             mesh,

@@ -6,7 +6,7 @@
 
 use glam::{DVec2, Vec2};
 
-use crate::route::field::flood::{Flood, FoundCone, Source};
+use crate::route::field::flood::{Flood, FloodSource, FoundCone};
 use crate::route::field::interval::{NO_RAY, OUTSIDE_M2};
 use crate::route::field::route_goal::RouteGoal;
 use crate::route::mesh::RouteMesh;
@@ -37,7 +37,7 @@ pub struct RouteField {
 /// A source of a field.
 #[derive(Clone, Copy, Debug)]
 struct GoalSource {
-    source: Source,
+    source: FloodSource,
     /// The point of the goal, where it lies off the mesh, m.
     off_mesh_m: Option<DVec2>,
 }
@@ -95,7 +95,7 @@ impl RouteField {
     /// of an area only if all of them lie off it.
     pub fn new(mesh: &RouteMesh, goal: RouteGoal) -> Self {
         let goal_sources = sources(mesh, &goal);
-        let sources: Vec<Source> = goal_sources.iter().map(|source| source.source).collect();
+        let sources: Vec<FloodSource> = goal_sources.iter().map(|source| source.source).collect();
         let mut flood = Flood::run(mesh, &sources, None);
         let mut found = std::mem::take(&mut flood.found);
         if !found.is_sorted_by(|a, b| a.least_m <= b.least_m) {
@@ -234,12 +234,12 @@ fn sources(mesh: &RouteMesh, goal: &RouteGoal) -> Vec<GoalSource> {
     let points_m = goal.flooded_points_m();
     let on_mesh = |&point_m: &DVec2| {
         let at = MeshPoint { triangle: mesh.triangle_at(point_m)?, point_m };
-        Some(GoalSource { source: Source { at, distance_m: 0.0 }, off_mesh_m: None })
+        Some(GoalSource { source: FloodSource { at, distance_m: 0.0 }, off_mesh_m: None })
     };
     let beside = |point_m: DVec2| {
         let at = mesh.nearest(point_m, None, None)?;
         let distance_m = at.point_m.distance(point_m);
-        Some(GoalSource { source: Source { at, distance_m }, off_mesh_m: Some(point_m) })
+        Some(GoalSource { source: FloodSource { at, distance_m }, off_mesh_m: Some(point_m) })
     };
     let is_area = !matches!(goal, RouteGoal::Points(_));
     let inside: Vec<GoalSource> = if is_area { points_m.iter().filter_map(on_mesh).collect() } else { Vec::new() };
