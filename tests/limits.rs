@@ -92,13 +92,11 @@ fn a_disk_that_fails_ends_with_code_3() {
     // The system answers every attempt to read this file with an input/output error.
     let failing = "/proc/self/mem";
     let output = folder.join("out.fbdb");
-    for name in ["walk.bvh", "walk.glb"] {
-        let clip = folder.join(name);
-        symlink(failing, &clip).unwrap();
-        fbcrowd(&["compile", WALK, text(&clip), "-o", text(&output)])
-            .expect_code(3)
-            .says(&[name, "No output is complete"]);
-    }
+    let clip = folder.join("walk.bvh");
+    symlink(failing, &clip).unwrap();
+    fbcrowd(&["compile", WALK, text(&clip), "-o", text(&output)])
+        .expect_code(3)
+        .says(&["walk.bvh", "No output is complete"]);
     fbcrowd(&["validate", failing]).expect_code(3);
     fbcrowd(&["simulate", failing, "-o", text(&output)]).expect_code(3);
     fbcrowd(&["validate", text(&folder)]).expect_code(2);

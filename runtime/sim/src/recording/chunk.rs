@@ -92,7 +92,8 @@ impl ChunkFile {
         if head[..4] != kind {
             return Err(self.damaged(byte, format!("there is no {} chunk here", kind.escape_ascii())));
         }
-        if u64::from(word(4)) > most {
+        let is_present = byte + CHUNK_HEAD_BYTES + u64::from(word(4)) <= self.length;
+        if u64::from(word(4)) > most && is_present {
             let what = format!("the {} chunk has more than {most} bytes", kind.escape_ascii());
             return Err(self.damaged(byte, what));
         }

@@ -70,7 +70,7 @@ pub(crate) fn numbers(
     Ok(AccessorNumbers { width: element.width, values })
 }
 
-fn accessor<'a>(document: &'a Document, index: usize) -> Result<&'a Accessor, RejectionReason> {
+fn accessor(document: &Document, index: usize) -> Result<&Accessor, RejectionReason> {
     document.root.accessors.get(index).map_or_else(|| missing_bytes(index), Ok)
 }
 

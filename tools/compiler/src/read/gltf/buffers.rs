@@ -13,8 +13,7 @@ use gltf::json;
 use motiondb::files::input_file;
 
 use crate::error::RejectionReason;
-use crate::read::gltf::chunks::{self, BinaryChunk};
-use crate::read::gltf::document::BYTES_MAX;
+use crate::read::gltf::chunks::{self, BYTES_MAX, BinaryChunk};
 use crate::read::malformed::malformed;
 
 /// Base64 with or without padding: some exporters leave it out.

@@ -10,6 +10,8 @@ use crate::read::malformed::malformed;
 
 /// Greatest length of a .gltf file, or of the JSON chunk of a .glb file, bytes.
 const TEXT_MAX_BYTES: u64 = 256 << 20;
+/// Greatest number of bytes of a document's JSON and of the buffers of its animations.
+pub(crate) const BYTES_MAX: usize = 512 << 20;
 /// Greatest length of the JSON outside of strings, bytes: a parsed number takes up to 32 times its text. Data URIs are
 /// strings.
 const STRUCTURE_MAX_BYTES: usize = 32 << 20;

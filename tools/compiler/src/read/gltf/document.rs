@@ -8,14 +8,11 @@ use gltf::json::{Index, Root, buffer::View};
 
 use crate::error::RejectionReason;
 use crate::read::gltf::buffers::{self, Outside};
-use crate::read::gltf::chunks::{self, Chunks};
+use crate::read::gltf::chunks::{self, BYTES_MAX, Chunks};
 use crate::read::gltf::document_json::{self, ParsedDocument};
 use crate::read::gltf::node_channel::moving_channel;
 use crate::read::gltf::node_transform::NodeTransform;
 use crate::read::malformed::malformed;
-
-/// Greatest number of bytes of a document's JSON and of the buffers of its animations.
-pub(crate) const BYTES_MAX: usize = 512 << 20;
 
 /// A document whose nodes and skins are valid. Other parts are checked where they are read: a flaw of meshes does not
 /// matter.
