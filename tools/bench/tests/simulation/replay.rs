@@ -35,7 +35,7 @@ fn recorded(db: &Arc<MotionDb>, scenario: Scenario) -> Recording {
         simulation.step(&mut |_| {});
         recorder.push(simulation.frames()).unwrap();
     }
-    recorder.finish().unwrap();
+    recorder.finish(simulation.population()).unwrap();
     Recording::open(&path).unwrap()
 }
 
