@@ -240,9 +240,22 @@ fn header_without_later_keys_is_read() {
     assert_eq!(recording.header(), &expected);
 }
 
+/// A recording that an earlier program wrote.
+fn golden(version: u32) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/version_{version}.fbrec"))
+}
+
+/// The file stays as the first program of version 2 wrote it, so that no key without a default is added.
+#[test]
+fn version_2_is_read() {
+    let recording = Recording::open(&golden(2)).unwrap();
+    assert_eq!((recording.header(), recording.population()), (&wide_header(), &population(&wide_header())));
+    assert_eq!(read_all(&golden(2)).unwrap().len(), PRESENT.len());
+}
+
 #[test]
 fn version_1_is_read() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/version_1.fbrec");
+    let path = golden(1);
     let recording = Recording::open(&path).unwrap();
     let header = recording.header();
     assert_eq!((header.scenario.name.as_str(), header.scenario.agents.len()), ("walkers", 7));
@@ -258,8 +271,7 @@ fn version_1_is_read() {
 
 #[test]
 fn every_cut_or_altered_version_1_is_rejected() {
-    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/version_1.fbrec");
-    let (bytes, path) = (fs::read(golden).unwrap(), folder("old").join("a.fbrec"));
+    let (bytes, path) = (fs::read(golden(1)).unwrap(), folder("old").join("a.fbrec"));
     for at in (0..bytes.len()).step_by(37) {
         fs::write(&path, &bytes[..at]).unwrap();
         assert!(read_all(&path).is_err(), "cut at {at}");
