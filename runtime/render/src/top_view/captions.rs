@@ -1,6 +1,7 @@
 //! Captions over a picture: scale bar, time, and agents' numbers. They are drawn on the rows of a picture that begin at
 //! `top_px`.
 
+use fbcrowd_sim::AgentId;
 use fbcrowd_sim::recording::AgentFrame;
 use glam::Vec2;
 use tiny_skia::Pixmap;
@@ -64,17 +65,17 @@ impl Captions {
         self.face.draw_with_halo(pixmap, top_px, &format!("{time_s:.2} s"), corner, TextAnchor::Right, [INK, GROUND]);
     }
 
-    /// Draws each agent's index beside it.
+    /// Draws each agent's id beside it.
     pub(crate) fn draw_labels(&self, pixmap: &mut Pixmap, top_px: u32, agents: &[AgentFrame]) {
-        for (index, agent) in agents.iter().enumerate() {
-            self.draw_label(pixmap, top_px, index, agent.root.position_m);
+        for agent in agents {
+            self.draw_label(pixmap, top_px, agent.id, agent.root.position_m);
         }
     }
 
-    /// Draws one agent's index beside it.
-    pub(crate) fn draw_label(&self, pixmap: &mut Pixmap, top_px: u32, index: usize, position_m: Vec2) {
+    /// Draws one agent's id beside it.
+    pub(crate) fn draw_label(&self, pixmap: &mut Pixmap, top_px: u32, id: AgentId, position_m: Vec2) {
         let beside = self.framing.to_px(position_m + LABEL_OFFSET_M);
-        self.label_face.draw_with_halo(pixmap, top_px, &index.to_string(), beside, TextAnchor::Left, [INK, GROUND]);
+        self.label_face.draw_with_halo(pixmap, top_px, &id.0.to_string(), beside, TextAnchor::Left, [INK, GROUND]);
     }
 }
 
