@@ -13,11 +13,11 @@ use std::f32::consts::{PI, TAU};
 
 use fbcrowd_sim::planning::mcn::MotionConstraints;
 use fbcrowd_sim::planning::{CrowdPlanningMemory, Stance, plan_all, ranking_horizon_s};
-use fbcrowd_sim::route::{Braking, CrowdRoutes, PathProgress, RouteMemory, RouteView, preferred_mps};
+use fbcrowd_sim::route::{Braking, CrowdRoutes, KeepSide, PathProgress, RouteMemory, RouteView, preferred_mps};
 use fbcrowd_sim::scenario::WALL_RADIUS_M;
 use fbcrowd_sim::world::neighbours::NeighbourSearch;
 use fbcrowd_sim::world::obstacles::Obstacles;
-use fbcrowd_sim::{AgentSpec, Params, Plan, Planner, WorldView};
+use fbcrowd_sim::{AgentSpec, Params, Plan, Planner, Scenario, WorldView};
 use glam::Vec2;
 use motiondb::motion::Parameters;
 use motiondb::velocity_sets::velocity_hull::{self, Construction};
@@ -47,8 +47,10 @@ fn main() {
     let pillar_m = vec![Vec2::new(-0.4, 0.0), Vec2::new(0.0, -0.4), Vec2::new(0.4, 0.0), Vec2::new(0.0, 0.4)];
     let obstacles = Obstacles::new(std::slice::from_ref(&pillar_m));
     let agents: Vec<AgentSpec> = (0..AGENTS).map(on_circle).collect();
-    let routes = CrowdRoutes::new(&agents, &[pillar_m]).expect("all coordinates are small");
-    let view = RouteView { routes: &routes, obstacles: &obstacles, braking: Braking::Within(DT_S) };
+    let routes = CrowdRoutes::new(&Scenario { obstacles_m: vec![pillar_m], ..Scenario::of(agents.clone()) })
+        .expect("all coordinates are small");
+    let view =
+        RouteView { routes: &routes, obstacles: &obstacles, keep: KeepSide::Right, braking: Braking::Within(DT_S) };
     let mut positions_m: Vec<Vec2> = agents.iter().map(|agent| agent.position_m).collect();
     let mut velocities_mps = vec![Vec2::ZERO; AGENTS];
     let mut facings_rad: Vec<f32> = agents.iter().map(|agent| agent.facing_rad).collect();
@@ -108,6 +110,7 @@ fn on_circle(index: usize) -> AgentSpec {
         radius_m: RADIUS_M,
         wall_radius_m: WALL_RADIUS_M,
         preferred_speed_mps: 1.33,
+        ..AgentSpec::default()
     }
 }
 

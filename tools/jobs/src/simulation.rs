@@ -4,17 +4,26 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fbcrowd_sim::planning::Planner;
-use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
-use fbcrowd_sim::route::{BlockedPaths, blocked_paths};
+use fbcrowd_sim::population::{Population, SourceCount};
+use fbcrowd_sim::recording::{Header, Recorder};
+use fbcrowd_sim::route::mesh::ClosedPassage;
+use fbcrowd_sim::route::{ClosedToAgents, closed_to_agents};
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::simulation::Simulation;
 use fbcrowd_sim::synthesis::library::{self, HybridData};
+use motiondb::memory;
 use motiondb::motion::MotionDb;
 use motiondb::quality::coverage;
 
 use crate::error::JobError;
 use crate::observer::{JobEvent, Observer, Work};
 use crate::timings::{StepStopwatch, Timings};
+
+/// Memory of each agent in a simulation, bytes; measured: 2,700.
+const AGENT_BYTES: usize = 3_000;
+
+/// Greatest number of closed passages that are noted one by one.
+const PASSAGES_NOTED: usize = 5;
 
 /// What is simulated.
 pub struct SimulationInput {
@@ -43,12 +52,20 @@ pub struct PreparedSimulation {
 /// Prepares a simulation; writes nothing.
 ///
 /// # Errors
-/// Where the planner looks less far ahead than a change of synthesis takes.
+/// Where the planner looks less far ahead than a change of synthesis takes, or the system has too little memory.
 pub fn prepare(db: Arc<MotionDb>, scenario: Scenario, observer: &Observer) -> Result<PreparedSimulation, JobError> {
+    check_memory(scenario.agents.len())?;
     let simulation = Simulation::new(Arc::clone(&db), &scenario);
     note_missing_motions(&db, simulation.database(), observer);
+    note_closed_passages(&scenario, observer);
     check_horizon(simulation.database(), &scenario)?;
     Ok(PreparedSimulation { scenario, simulation })
+}
+
+/// Checks that the system gives the memory that a crowd needs.
+fn check_memory(agents: usize) -> Result<(), JobError> {
+    let bytes = agents * AGENT_BYTES;
+    if memory::has_room(bytes) { Ok(()) } else { Err(JobError::OutOfMemory { agents, mib: bytes >> 20 }) }
 }
 
 impl PreparedSimulation {
@@ -62,18 +79,19 @@ impl PreparedSimulation {
         let header = Header::new(simulation.database(), database_checksum, scenario);
         let mut recorder = Recorder::create(recording, &header)?;
         recorder.push(simulation.frames())?;
-        let mut stopwatch = StepStopwatch::default();
+        let (mut stopwatch, mut agent_steps) = (StepStopwatch::default(), 0);
         let work = Work::begin(observer, "steps", steps);
         for _ in 0..steps {
             stopwatch.start();
             simulation.step(&mut |stage| stopwatch.lap(stage));
             recorder.push(simulation.frames())?;
+            agent_steps += simulation.frames().len();
             work.advance();
         }
         work.end();
-        recorder.finish()?;
-        note_walls(&header.scenario, simulation.frames(), observer);
-        Ok(stopwatch.timings(header.scenario.agents.len(), steps, header.scenario.dt_s))
+        recorder.finish(simulation.population())?;
+        note_waiting(simulation.population(), observer);
+        Ok(stopwatch.timings(agent_steps, steps, header.scenario.dt_s))
     }
 }
 
@@ -89,14 +107,31 @@ fn note_missing_motions(db: &MotionDb, complete: &MotionDb, observer: &Observer)
     }
 }
 
-/// Notes agents that have not arrived because of a wall.
-fn note_walls(scenario: &Scenario, frames: &[AgentFrame], observer: &Observer) {
-    let ends_m = frames.iter().map(|frame| frame.root.position_m);
-    let Some(BlockedPaths { agent, waypoint, agents }) = blocked_paths(scenario, ends_m) else { return };
-    let [x, y] = scenario.agents[agent].goals_m[waypoint].to_array();
-    let all = if agents == 1 { String::new() } else { format!(" ({agents} agents in all)") };
-    let remedy = "agents walk straight to their next waypoint: add a waypoint beside the wall";
-    observer(JobEvent::Note(&format!("a wall is across the path of agent {agent} to [{x}, {y}]{all}; {remedy}")));
+/// Notes the passages that are too narrow for agents: those that separate parts of the ground, and how many there are.
+fn note_closed_passages(scenario: &Scenario, observer: &Observer) {
+    for ClosedToAgents { wall_radius_m, passages } in closed_to_agents(scenario) {
+        let count = passages.len();
+        for ClosedPassage { at_m, width_m, separates } in passages.into_iter().take(PASSAGES_NOTED) {
+            let detour = if separates { "" } else { ", with a detour around it" };
+            let (at, closed) = (format!("[{:.2}, {:.2}]", at_m.x, at_m.y), "is closed to agents with a wall radius of");
+            observer(JobEvent::Note(&format!(
+                "the passage at {at}, {width_m:.2} m wide, {closed} {wall_radius_m:.2} m{detour}"
+            )));
+        }
+        if count > PASSAGES_NOTED {
+            observer(JobEvent::Note(&format!("{} more passages are closed", count - PASSAGES_NOTED)));
+        }
+    }
+}
+
+/// Notes sources whose agents had no room.
+fn note_waiting(population: &Population, observer: &Observer) {
+    for (index, SourceCount { born, waiting, blocked_frames }) in population.sources.iter().enumerate() {
+        if *waiting > 0 {
+            let counts = format!("{born} agents came, {waiting} still wait, no room in {blocked_frames} frames");
+            observer(JobEvent::Note(&format!("source {index} is blocked: {counts}; widen its area or lower its rate")));
+        }
+    }
 }
 
 /// The planner must look further ahead than a change of synthesis takes (§3.4.1).

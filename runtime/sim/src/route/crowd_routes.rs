@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use glam::{DVec2, Vec2};
 
 use crate::route::field::{RouteField, RouteGoal, RoutePosition, shortest_route};
-use crate::route::mesh::{Ground, RouteError, RouteMesh};
-use crate::scenario::AgentSpec;
+use crate::route::mesh::{RouteError, RouteMesh};
+use crate::scenario::{AgentSpec, Scenario};
 
 /// Agents from which on a waypoint has a field.
 const SHARED_MIN: usize = 4;
@@ -67,29 +67,29 @@ pub struct NextCorner {
 }
 
 impl CrowdRoutes {
-    /// Routes for agents among obstacles.
+    /// Routes for the agents and sources of a scenario, around its walls.
     ///
     /// # Errors
     /// If a coordinate is out of range.
-    pub fn new(agents: &[AgentSpec], obstacles_m: &[Vec<Vec2>]) -> Result<Self, RouteError> {
+    pub fn new(scenario: &Scenario) -> Result<Self, RouteError> {
         let mut routes = Self::default();
-        if obstacles_m.is_empty() {
+        if scenario.is_open() {
             return Ok(routes);
         }
-        let points_m: Vec<Vec2> = agents
-            .iter()
-            .flat_map(|agent| [agent.position_m].into_iter().chain(agent.goals_m.iter().copied()))
-            .collect();
-        let ground = Ground { obstacles_m, points_m: &points_m, ..Ground::default() };
+        let points_m = scenario.points_m();
+        let ground = scenario.ground(&points_m);
         let mut shared: BTreeMap<WaypointKey, usize> = BTreeMap::new();
-        for agent in agents {
-            let class = class(agent.wall_radius_m);
+        let agents = scenario.agents.iter().map(|agent| (agent.wall_radius_m, &agent.goals_m, 1));
+        // The agents of a source share its waypoints.
+        let sources = scenario.sources.iter().map(|source| (source.wall_radius_m, &source.goals_m, SHARED_MIN));
+        for (wall_radius_m, goals_m, count) in agents.chain(sources) {
+            let class = class(wall_radius_m);
             if routes.mesh(class).is_none() {
-                let mesh = RouteMesh::new(&ground, class as f32 * RADIUS_STEP_M)?;
+                let mesh = RouteMesh::new(&ground, class_radius_m(class))?;
                 routes.meshes.push((class, mesh.with_clearance(CLEARANCE_M)));
             }
-            for &goal_m in &agent.goals_m {
-                *shared.entry(key(class, goal_m)).or_default() += 1;
+            for &goal_m in goals_m {
+                *shared.entry(key(class, goal_m)).or_default() += count;
             }
         }
         let mut most: Vec<(usize, WaypointKey)> = shared.into_iter().map(|(key, agents)| (agents, key)).collect();
@@ -155,9 +155,14 @@ impl RouteMemory {
 }
 
 /// Class of a wall radius: the number of steps up to it.
-fn class(wall_radius_m: f32) -> u32 {
+pub(crate) fn class(wall_radius_m: f32) -> u32 {
     // Without the tolerance 0.2 m would be more than four steps of 0.05 m.
     (wall_radius_m / RADIUS_STEP_M - 1e-3).ceil() as u32
+}
+
+/// The wall radius for which the mesh of a class is made, m.
+pub(crate) fn class_radius_m(class: u32) -> f32 {
+    class as f32 * RADIUS_STEP_M
 }
 
 fn key(class: u32, waypoint_m: Vec2) -> WaypointKey {

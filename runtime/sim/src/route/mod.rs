@@ -2,9 +2,9 @@
 //!
 //! Enters: an agent's waypoints, the walls, the agent's position. Leaves: v_pref, and whether the agent has arrived.
 //!
-//! Read `path` (v_pref along waypoints), then `arrival` (when an agent has arrived), then `blocked_paths` (straight
-//! paths that a wall crosses, for reports). Shortest routes around obstacles are a library beside them, which a step
-//! does not use yet: [`mesh`] (free space as triangles), then [`field`] (routes over it).
+//! Read [`mesh`] (free space as triangles) and [`field`] (shortest routes over it); then `crowd_routes` (the routes of all
+//! agents), `steering` (direction before a corner), `path` (v_pref along waypoints) and `arrival` (when an agent has
+//! arrived); `reach` finds unreachable goals and closed passages before a simulation.
 //!
 //! ```
 //! use fbcrowd_sim::route::field::{RouteField, RouteGoal, RoutePosition};
@@ -25,13 +25,15 @@
 //! ```
 
 pub(crate) mod arrival;
-pub(crate) mod blocked_paths;
 pub mod crowd_routes;
 pub mod field;
 pub mod mesh;
+pub(crate) mod params;
 pub(crate) mod path;
+pub(crate) mod reach;
 pub(crate) mod steering;
 
-pub use blocked_paths::{BlockedPaths, blocked_paths};
 pub use crowd_routes::{CrowdRoutes, NextCorner, RouteMemory};
+pub use params::{KeepSide, RouteParams};
 pub use path::{Braking, PathProgress, RouteView, preferred_mps};
+pub use reach::{ClosedToAgents, closed_to_agents};

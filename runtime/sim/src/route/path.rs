@@ -7,6 +7,7 @@
 use glam::Vec2;
 
 use crate::route::crowd_routes::{CrowdRoutes, NextCorner, RouteMemory};
+use crate::route::params::KeepSide;
 use crate::route::steering;
 use crate::scenario::AgentSpec;
 use crate::world::obstacles::Obstacles;
@@ -44,6 +45,8 @@ pub enum Braking {
     /// As a disc can, which stops at once: at full speed until the goal lies within this time, s; it never rests. The
     /// protocol under which RVO2 is measured (`fbcrowd bench table1 --discs`).
     Within(f32),
+    /// Not at all: the agent walks through its goal, where it leaves the scene.
+    Not,
 }
 
 /// How far an agent has come along its waypoints.
@@ -73,6 +76,8 @@ pub struct RouteView<'a> {
     pub routes: &'a CrowdRoutes,
     /// The walls.
     pub obstacles: &'a Obstacles,
+    /// The side on which agents keep at corners.
+    pub keep: KeepSide,
     /// How agents slow down before their last goals.
     pub braking: Braking,
 }
@@ -100,8 +105,8 @@ pub fn preferred_mps(
     let corner = view.routes.next(agent, position_m, goal_m, memory);
     let can_rest = corner.is_none_or(|corner| corner.after_m.is_none() && !leans_on_wall(position_m, goal_m, &corner));
     progress.arrived = to_last && can_rest && to_goal_m.length() < arrival_radius_m(progress.arrived);
-    if let Some(direction) =
-        corner.and_then(|corner| steering::direction(position_m, &corner, agent.wall_radius_m, view.obstacles))
+    if let Some(direction) = corner
+        .and_then(|corner| steering::direction(position_m, &corner, view.keep, agent.wall_radius_m, view.obstacles))
     {
         return direction * agent.preferred_speed_mps;
     }
@@ -112,6 +117,7 @@ pub fn preferred_mps(
         Braking::Evenly if progress.arrived => 0.0,
         Braking::Evenly => braking_speed_mps(to_goal_m.length()),
         Braking::Within(time_s) => to_goal_m.length() / time_s,
+        Braking::Not => agent.preferred_speed_mps,
     };
     to_goal_m.normalize_or_zero() * speed_mps.min(agent.preferred_speed_mps)
 }
@@ -181,6 +187,7 @@ fn braking_speed_mps(distance_m: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scenario::Scenario;
 
     const DT_S: f32 = 1.0 / 30.0;
 
@@ -192,13 +199,15 @@ mod tests {
             radius_m: 0.25,
             wall_radius_m: 0.2,
             preferred_speed_mps: 1.3,
+            ..AgentSpec::default()
         }
     }
 
     /// v_pref on open ground, braking evenly.
     fn on_open_ground_mps(agent: &AgentSpec, position_m: Vec2, progress: &mut PathProgress) -> Vec2 {
         let (routes, obstacles) = (CrowdRoutes::default(), Obstacles::default());
-        let view = RouteView { routes: &routes, obstacles: &obstacles, braking: Braking::Evenly };
+        let view =
+            RouteView { routes: &routes, obstacles: &obstacles, keep: KeepSide::Right, braking: Braking::Evenly };
         preferred_mps(agent, position_m, &view, progress, &mut RouteMemory::default())
     }
 
@@ -277,8 +286,10 @@ mod tests {
         let post_m = [(0.0, 0.5), (0.4, 0.5), (0.4, 5.0), (0.0, 5.0)].map(Vec2::from).to_vec();
         let agent = agent(&[Vec2::new(-0.4, 0.0), Vec2::new(60.0, 0.0)]);
         let obstacles = Obstacles::new(std::slice::from_ref(&post_m));
-        let routes = CrowdRoutes::new(std::slice::from_ref(&agent), &[post_m]).unwrap();
-        let view = RouteView { routes: &routes, obstacles: &obstacles, braking: Braking::Evenly };
+        let routes =
+            CrowdRoutes::new(&Scenario { obstacles_m: vec![post_m], ..Scenario::of(vec![agent.clone()]) }).unwrap();
+        let view =
+            RouteView { routes: &routes, obstacles: &obstacles, keep: KeepSide::Right, braking: Braking::Evenly };
         let mut progress = PathProgress { next: 1, arrived: false };
         let mut direction = |x_m, y_m| {
             let memory = &mut RouteMemory::default();

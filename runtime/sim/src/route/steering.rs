@@ -8,6 +8,7 @@
 use glam::Vec2;
 
 use crate::route::crowd_routes::NextCorner;
+use crate::route::params::KeepSide;
 use crate::world::obstacles::Obstacles;
 
 /// Share of the direction after a corner by which the direction to it is reduced.
@@ -30,12 +31,15 @@ const NEAR_M: f32 = 1.0;
 pub(crate) fn direction(
     position_m: Vec2,
     next: &NextCorner,
+    keep: KeepSide,
     wall_radius_m: f32,
     obstacles: &Obstacles,
 ) -> Option<Vec2> {
     let from_m = next.entry_m.unwrap_or(position_m);
     let onwards = match next.after_m {
-        Some(after_m) => turning(from_m, RouteCorner { corner_m: next.corner_m, after_m }, wall_radius_m, obstacles),
+        Some(after_m) => {
+            turning(from_m, RouteCorner { corner_m: next.corner_m, after_m }, keep, wall_radius_m, obstacles)
+        }
         None if next.entry_m.is_none() || next.distance_m < NEAR_M => return None,
         None => (next.corner_m - from_m).normalize_or_zero(),
     };
@@ -53,24 +57,36 @@ struct RouteCorner {
 }
 
 /// Unit direction of v_pref of an agent before a corner.
-fn turning(position_m: Vec2, corner: RouteCorner, wall_radius_m: f32, obstacles: &Obstacles) -> Vec2 {
-    let aim_m = corner.corner_m + keep_right_m(position_m, corner, wall_radius_m, obstacles);
+fn turning(position_m: Vec2, corner: RouteCorner, keep: KeepSide, wall_radius_m: f32, obstacles: &Obstacles) -> Vec2 {
+    let aim_m = corner.corner_m + keep_side_m(position_m, corner, keep, wall_radius_m, obstacles);
     let [to_aim_m, to_after_m] = [aim_m - position_m, corner.after_m - position_m];
     let anticipating_m = to_aim_m - ANTICIPATION * to_aim_m.length() * to_after_m.normalize_or_zero();
     anticipating_m.try_normalize().unwrap_or_else(|| to_aim_m.normalize_or_zero())
 }
 
-/// Displacement from a left turn's corner to the right, m; zero at a right turn. The aim stays in sight.
-fn keep_right_m(position_m: Vec2, corner: RouteCorner, wall_radius_m: f32, obstacles: &Obstacles) -> Vec2 {
+/// Displacement from the corner of a turn to the left to the right side, m, or the mirror image of it; zero at other
+/// turns. The aim stays in sight.
+fn keep_side_m(
+    position_m: Vec2,
+    corner: RouteCorner,
+    keep: KeepSide,
+    wall_radius_m: f32,
+    obstacles: &Obstacles,
+) -> Vec2 {
     let to = (corner.corner_m - position_m).normalize_or_zero();
     let onwards = (corner.after_m - corner.corner_m).normalize_or_zero();
-    if to.perp_dot(onwards) <= 0.0 {
+    let right = match keep {
+        KeepSide::Right => 1.0,
+        KeepSide::Left => -1.0,
+        KeepSide::None => return Vec2::ZERO,
+    };
+    if right * to.perp_dot(onwards) <= 0.0 {
         return Vec2::ZERO;
     }
     let free_m =
         |right: Vec2| obstacles.free_length_m(corner.corner_m, corner.corner_m + PASSAGE_MAX_M * right, wall_radius_m);
     // A door is narrow across the path beyond it, wherever an agent comes from.
-    let across = [to, (to + onwards).normalize_or_zero(), onwards].map(|along| -along.perp());
+    let across = [to, (to + onwards).normalize_or_zero(), onwards].map(|along| -right * along.perp());
     let width_m = across.into_iter().map(free_m).fold(PASSAGE_MAX_M, f32::min);
     let mut displacements_m = SHARES.into_iter().map(|share| share * KEEP_RIGHT_SHARE * width_m * across[1]);
     let in_sight = |aside_m: &Vec2| obstacles.is_free(position_m, corner.corner_m + *aside_m);
@@ -90,8 +106,12 @@ mod tests {
     }
 
     fn direction_at(position_m: [f32; 2], after_m: [f32; 2], width_m: f32) -> Vec2 {
+        direction_keeping(KeepSide::Right, position_m, after_m, width_m)
+    }
+
+    fn direction_keeping(keep: KeepSide, position_m: [f32; 2], after_m: [f32; 2], width_m: f32) -> Vec2 {
         let corner = RouteCorner { corner_m: Vec2::new(0.2, 0.2), after_m: Vec2::from(after_m) };
-        turning(Vec2::from(position_m), corner, 0.2, &turn(width_m))
+        turning(Vec2::from(position_m), corner, keep, 0.2, &turn(width_m))
     }
 
     #[test]
@@ -101,6 +121,13 @@ mod tests {
         assert!(left.x > 0.3, "{left}");
         // A right turn still swings wide, as anticipation has it, but not beyond.
         assert!(right.y > 0.0 && right.y < left.x, "{right}");
+    }
+
+    #[test]
+    fn agents_keep_on_the_side_that_is_set() {
+        let at = |keep| direction_keeping(keep, [0.5, -5.0], [-5.0, 0.3], 4.0).x;
+        assert!(at(KeepSide::Right) > at(KeepSide::None) + 0.1);
+        assert_eq!(at(KeepSide::Left), at(KeepSide::None));
     }
 
     #[test]

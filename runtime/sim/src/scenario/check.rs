@@ -4,18 +4,16 @@
 
 use glam::{DVec2, Vec2};
 
-use crate::maths::polygon::{closest_distance_m, contains, is_simple, signed_area_m2};
+use crate::maths::polygon::{closest_distance_m, contains};
 use crate::maths::sweep::sort_along_longer_side;
 use crate::route::arrival::ARRIVAL_M;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
+use crate::scenario::ground_check::{check_ground, check_ground_ranges};
 use crate::scenario::ranges::check_ranges;
 use crate::scenario::resolved::Scenario;
+use crate::scenario::source_check::{check_source_ranges, check_sources_clear_of_obstacles};
 
-/// Greatest number of corners of an obstacle: the test for self-intersection compares every pair of edges.
-const CORNERS_MAX: usize = 1_000;
-/// Least area of an obstacle, m²: thinner slivers have no inside.
-const AREA_MIN_M2: f64 = 1e-4;
 /// Distance from an obstacle's box beyond which no disc touches the obstacle, m.
 const NEAR_M: f32 = 1.0;
 /// Rounding of positions that are meant to touch, m.
@@ -26,33 +24,21 @@ const TOUCH_M: f64 = 1e-4;
 /// # Errors
 /// The first broken rule.
 pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
-    check_ranges(scenario)?;
-    check_obstacles(&scenario.obstacles_m)?;
+    check_numbers(scenario)?;
+    check_ground(scenario)?;
     check_agents_clear_of_obstacles(scenario)?;
-    check_agents_apart(&scenario.agents)
+    check_agents_apart(&scenario.agents)?;
+    check_sources_clear_of_obstacles(scenario)
 }
 
-fn check_obstacles(obstacles_m: &[Vec<Vec2>]) -> Result<(), ScenarioFault> {
-    for (index, polygon_m) in obstacles_m.iter().enumerate() {
-        let wrong = |what: String, help| ScenarioPart::Obstacle(index).fault(format!("obstacle {index} {what}"), help);
-        let corners = polygon_m.len();
-        if !(3..=CORNERS_MAX).contains(&corners) {
-            return wrong(
-                format!("has {corners} corners"),
-                "give 3 to 1000 corners; do not repeat the first one at the end",
-            );
-        }
-        if !is_simple(polygon_m) {
-            return wrong(
-                "crosses or touches itself".into(),
-                "list each corner once, in order around the obstacle, and give walls a thickness",
-            );
-        }
-        if signed_area_m2(polygon_m).abs() < AREA_MIN_M2 {
-            return wrong("has no area".into(), "give walls a thickness");
-        }
-    }
-    Ok(())
+/// Checks that every number is in range, and how many agents there are.
+///
+/// # Errors
+/// The first number that is not.
+pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
+    check_ranges(scenario)?;
+    check_ground_ranges(scenario)?;
+    check_source_ranges(scenario)
 }
 
 fn check_agents_clear_of_obstacles(scenario: &Scenario) -> Result<(), ScenarioFault> {

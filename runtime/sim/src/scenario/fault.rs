@@ -30,6 +30,12 @@ pub enum ScenarioPart {
     Agent(usize),
     /// An obstacle, by index.
     Obstacle(usize),
+    /// An enclosure, by index.
+    Enclosure(usize),
+    /// A walkable polygon, by index.
+    Walkable(usize),
+    /// A source of agents, by index.
+    Source(usize),
     /// All agents together.
     Agents,
 }

@@ -19,7 +19,6 @@ use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::simulation::Simulation;
 use fbcrowd_sim::synthesis::{Mode, Modes, Transition};
-use glam::Vec2;
 use motiondb::body::Skeleton;
 use motiondb::motion::MotionDb;
 use schemars::JsonSchema;
@@ -106,13 +105,14 @@ pub struct CourseWalk {
 /// # Errors
 /// If the database cannot be read, or the picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
+    let picture = args.picture.path("course");
+    args.database.check_file(&picture)?;
     let db = Arc::new(database(&args.database)?);
     let scenario = scenario(COURSE)?;
     let speeds = SPEEDS_MPS.len();
     let walks = run_each_on_one_thread(SYNTHESES.len() * speeds, observer, |index| {
         walk(&db, &scenario, SYNTHESES[index / speeds], SPEEDS_MPS[index % speeds])
     })?;
-    let picture = args.picture.path("course");
     draw(&picture, &scenario, &walks)?;
     let details = Details { picture, walks };
     Ok(BenchReport { text: text(&details), goals: Vec::new(), criteria: criteria(&details.walks), details })
@@ -129,17 +129,17 @@ fn walk(
     scenario.agents[0].preferred_speed_mps = preferred_mps;
     (scenario.params.synthesis.modes, scenario.params.synthesis.transition) = (modes, transition);
     let mut simulation = Simulation::new(Arc::clone(db), &scenario);
-    let mut measuring = Measuring::new(&db.skeleton, &scenario, simulation.frames());
-    let root_m = |simulation: &Simulation| simulation.frames()[0].root.position_m;
-    let mut positions_m: Vec<Vec2> = vec![root_m(&simulation)];
+    let mut measuring = Measuring::new(&db.skeleton, &scenario, simulation.population(), simulation.frames());
+    let mut tracks = Tracks::new(scenario.dt_s);
+    tracks.push_frame(simulation.frames());
     let mut poses = PoseDistances::to_examples_of(db);
-    while positions_m.len() <= step_count(&scenario) && !measuring.all_are_at_goals() {
+    while tracks.frame_count <= step_count(&scenario) && !measuring.all_are_at_goals() {
         simulation.step(&mut |_| {});
-        measuring.push(simulation.frames());
-        positions_m.push(root_m(&simulation));
+        measuring.push(simulation.population(), simulation.frames());
+        tracks.push_frame(simulation.frames());
         poses.push(&simulation.frames()[0], &db.skeleton);
     }
-    let measures: Measures = measuring.finish();
+    let measures: Measures = measuring.finish(simulation.population());
     let steps = measures.steps.max(1) as f64;
     CourseWalk {
         synthesis,
@@ -153,7 +153,7 @@ fn walk(
         semi_procedural_share: poses.semi_procedural as f64 / steps,
         acceleration_mps2: measures.mean_acceleration_before_arrival_mps2,
         planted_slide_cm_s: measures.planted_slide_cm_s,
-        tracks: Tracks { agent_count: 1, dt_s: scenario.dt_s, positions_m },
+        tracks,
     }
 }
 
@@ -175,7 +175,8 @@ impl PoseDistances {
     fn push(&mut self, frame: &AgentFrame, skeleton: &Skeleton) {
         let joints = frame.pose.forward_kinematics(skeleton);
         let to_example_deg = self.examples.iter().map(|example| example.distance_to_pose_deg(&joints));
-        self.squared_deg2 += f64::from(to_example_deg.fold(f32::INFINITY, f32::min)).powi(2);
+        let nearest_deg = f64::from(to_example_deg.fold(f32::INFINITY, f32::min));
+        self.squared_deg2 += nearest_deg * nearest_deg;
         self.semi_procedural += usize::from(frame.mode == Mode::SemiProcedural);
     }
 }
@@ -184,7 +185,7 @@ impl PoseDistances {
 fn draw(path: &Path, scenario: &Scenario, walks: &[CourseWalk]) -> Result<(), BenchError> {
     create_parent(path)?;
     let ways: Vec<PathPanel> = walks.iter().filter(|walk| walk.preferred_mps == WALK_MPS).map(drawn_path).collect();
-    let sheet = side_by_side("The obstacle course by each synthesis", &scenario.agents, &scenario.obstacles_m, &ways);
+    let sheet = side_by_side("The obstacle course by each synthesis", scenario, &ways);
     Ok(png_frame::write(path, &sheet)?)
 }
 
@@ -205,7 +206,7 @@ fn criteria(walks: &[CourseWalk]) -> Vec<Criterion> {
     let mean = |synthesis, of: fn(&CourseWalk) -> f64| by(synthesis).map(of).sum::<f64>() / SPEEDS_MPS.len() as f64;
     let disc = |synthesis| mean(synthesis, |walk| walk.wall_disc_share);
     let body = |synthesis| mean(synthesis, |walk| walk.wall_body_share);
-    let poses_deg = |synthesis| mean(synthesis, |walk| walk.pose_distance_deg.powi(2)).sqrt();
+    let poses_deg = |synthesis| mean(synthesis, |walk| walk.pose_distance_deg * walk.pose_distance_deg).sqrt();
     let (hybrid, semi_procedural) = ("hybrid", "semi_procedural");
     vec![
         Criterion::at_least("hybrid arrives, share", 1.0, mean(hybrid, |walk| f64::from(u8::from(walk.arrived)))),

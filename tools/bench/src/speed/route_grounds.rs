@@ -15,7 +15,12 @@ pub(crate) struct RouteGround {
 
 impl RouteGround {
     pub(crate) fn ground(&self) -> Ground<'_> {
-        Ground { obstacles_m: &self.obstacles_m, walkable_m: &self.walkable_m, points_m: &self.area_m }
+        Ground {
+            obstacles_m: &self.obstacles_m,
+            enclosures_m: &[],
+            walkable_m: &self.walkable_m,
+            points_m: &self.area_m,
+        }
     }
 }
 

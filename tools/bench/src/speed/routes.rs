@@ -170,7 +170,7 @@ fn position(ground: &RouteGround, mesh: &RouteMesh, random: &mut SplitMix64) -> 
 }
 
 /// Figures of agents that walk.
-struct Walk {
+struct WalkFigures {
     query_us: f32,
     without_route: usize,
 }
@@ -182,7 +182,7 @@ struct Walker {
 }
 
 /// Agents that walk to goals, then to the next ones.
-fn walk(ground: &RouteGround, mesh: &RouteMesh, fields: &[RouteField], random: &mut SplitMix64) -> Walk {
+fn walk(ground: &RouteGround, mesh: &RouteMesh, fields: &[RouteField], random: &mut SplitMix64) -> WalkFigures {
     let mut walker = |index: usize| Walker {
         position_m: position(ground, mesh, random),
         remembered: RoutePosition::default(),
@@ -210,16 +210,16 @@ fn walk(ground: &RouteGround, mesh: &RouteMesh, fields: &[RouteField], random: &
         }
     }
     // The first step finds every agent on the mesh.
-    Walk { query_us: median(durations_us.into_iter().skip(1)).unwrap_or_default(), without_route }
+    WalkFigures { query_us: median(durations_us.into_iter().skip(1)).unwrap_or_default(), without_route }
 }
 
 /// Figures of routes that are found in three ways.
-struct Pairs {
+struct PairFigures {
     single_us: f32,
     greatest_difference: f64,
 }
 
-fn compare(ground: &RouteGround, mesh: &RouteMesh, fields: &[RouteField], random: &mut SplitMix64) -> Pairs {
+fn compare(ground: &RouteGround, mesh: &RouteMesh, fields: &[RouteField], random: &mut SplitMix64) -> PairFigures {
     let (mut durations_us, mut greatest_difference) = (Vec::new(), 0.0_f64);
     for field in fields.iter().cycle().take(PAIRS) {
         let from_m = position(ground, mesh, random);
@@ -237,7 +237,7 @@ fn compare(ground: &RouteGround, mesh: &RouteMesh, fields: &[RouteField], random
             greatest_difference = greatest_difference.max(difference);
         }
     }
-    Pairs { single_us: median(durations_us.into_iter()).unwrap_or_default(), greatest_difference }
+    PairFigures { single_us: median(durations_us.into_iter()).unwrap_or_default(), greatest_difference }
 }
 
 fn criteria(grounds: &[GroundFigures]) -> Vec<Criterion> {
@@ -268,7 +268,8 @@ fn goals(grounds: &[GroundFigures]) -> Vec<Goal> {
 }
 
 fn text(details: &Details) -> String {
-    let head = "    ground       obstacles  vertices  triangles  union ms  mesh ms    kB  passages (ms)  field ms     kB  query µs  single µs\n";
+    let head = "    ground       obstacles  vertices  triangles  union ms  mesh ms    kB  passages (ms)  field ms     kB  \
+                query µs  single µs\n";
     let line = |ground: &GroundFigures| {
         format!(
             "    {:<13}{:9}{:10}{:11}{:10.2}{:9.2}{:6.0}{:6} {:>8}{:10.2}{:7.0}{:10.3}{:11.1}\n",

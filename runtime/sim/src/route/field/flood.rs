@@ -8,7 +8,7 @@
 //! 2. a *corner*: a vertex whose distance is final. It becomes the root of what the last stretch of its own route does
 //!    not see: between that stretch, continued, and the border behind the corner.
 //!
-//! A window is dropped where a vertex of its triangle is known to offer shorter routes ([`Span::is_dominated`]). All
+//! A window is dropped where an end of its edge is known to offer shorter routes ([`Span::is_dominated`]). All
 //! decisions about sides are exact; lengths are f64. With a target, lengths to it are added (A*), and the search ends
 //! when the target's distance is final. World, metres.
 
@@ -28,7 +28,7 @@ const CORNER: u32 = 1 << 31;
 
 /// A point from which the search starts.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Source {
+pub(crate) struct FloodSource {
     /// Its position on the mesh.
     pub(crate) at: MeshPoint,
     /// Distance from the goal itself, which may lie off the mesh, m.
@@ -46,31 +46,38 @@ pub(crate) struct RootLabel {
     is_final: bool,
 }
 
-/// A cone in a triangle.
+/// What a root sees of a triangle.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Window {
+pub(crate) struct FoundCone {
     pub(crate) cone: Cone,
     pub(crate) triangle: u32,
-    /// Edge through which the root sees the triangle; [`NONE`] where the root is a corner of it or lies in it.
-    pub(crate) edge: u32,
-    /// Least length of the routes to points of the triangle within the cone, m.
+    /// Lower bound of the lengths of routes to points of the triangle within the cone, m.
     pub(crate) least_m: f64,
+}
+
+/// What a root sees of a triangle through one of its edges.
+#[derive(Clone, Copy, Debug)]
+struct Window {
+    found: FoundCone,
+    edge: u32,
 }
 
 /// The search: its state, and after it its result.
 pub(crate) struct Flood<'a> {
     mesh: &'a RouteMesh,
-    sources: &'a [Source],
     target: Option<MeshPoint>,
+    /// Positions of the vertices, then of the sources, m.
+    points_m: Vec<DVec2>,
     /// Length of the shortest route to the target so far, m; infinite before the first.
     pub(crate) target_m: f64,
     /// The last root on that route; [`NONE`] before the first.
     pub(crate) target_root: u32,
     /// Labels of the vertices, then of the sources.
     pub(crate) labels: Vec<RootLabel>,
-    /// Windows that were not dropped, in the order of distance; none with a target.
-    pub(crate) found: Vec<Window>,
+    /// Cones in the order of their lengths, save for those of the triangles in which sources lie; none with a target.
+    pub(crate) found: Vec<FoundCone>,
     windows: Vec<Window>,
+    /// Slots of `windows` that can be used again.
     unused: Vec<u32>,
     /// Events as bits of their lengths, which sort like the lengths, and indices.
     queue: BinaryHeap<Reverse<(u64, u32)>>,
@@ -78,14 +85,15 @@ pub(crate) struct Flood<'a> {
 
 impl<'a> Flood<'a> {
     /// Searches from sources, everywhere or until the distance of a target is final.
-    pub(crate) fn run(mesh: &'a RouteMesh, sources: &'a [Source], target: Option<MeshPoint>) -> Self {
+    pub(crate) fn run(mesh: &'a RouteMesh, sources: &[FloodSource], target: Option<MeshPoint>) -> Self {
         let unknown = RootLabel { distance_m: f64::INFINITY, parent: NONE, is_final: false };
-        let of_source = |source: &Source| RootLabel { distance_m: source.distance_m, parent: NONE, is_final: true };
+        let of_source =
+            |source: &FloodSource| RootLabel { distance_m: source.distance_m, parent: NONE, is_final: true };
         let labels = std::iter::repeat_n(unknown, mesh.vertex_count()).chain(sources.iter().map(of_source)).collect();
         let mut flood = Self {
             mesh,
-            sources,
             target,
+            points_m: mesh.vertices_m.iter().copied().chain(sources.iter().map(|source| source.at.point_m)).collect(),
             target_m: f64::INFINITY,
             target_root: NONE,
             labels,
@@ -94,7 +102,9 @@ impl<'a> Flood<'a> {
             unused: Vec::new(),
             queue: BinaryHeap::new(),
         };
-        (0..sources.len()).for_each(|source| flood.start(source));
+        for (index, source) in sources.iter().enumerate() {
+            flood.start(source.at, (mesh.vertex_count() + index) as u32);
+        }
         while let Some(Reverse((length, event))) = flood.queue.pop() {
             if f64::from_bits(length) >= flood.target_m {
                 break;
@@ -112,20 +122,11 @@ impl<'a> Flood<'a> {
 
     /// Position of a vertex or source, m.
     pub(crate) fn point_m(&self, root: u32) -> DVec2 {
-        let vertices = self.mesh.vertices_m.len();
-        let index = root as usize;
-        if index < vertices { self.mesh.vertices_m[index] } else { self.sources[index - vertices].at.point_m }
-    }
-
-    /// Whether a final window offers no shortest route.
-    pub(crate) fn is_dropped(&self, window: &Window) -> bool {
-        window.edge != NONE && self.is_dominated(window, &self.span(window))
+        self.points_m[root as usize]
     }
 
     /// Starts at a source: it sees all triangles that hold it, and through their other edges.
-    fn start(&mut self, source: usize) {
-        let MeshPoint { triangle, point_m } = self.sources[source].at;
-        let root = (self.mesh.vertices_m.len() + source) as u32;
+    fn start(&mut self, MeshPoint { triangle, point_m }: MeshPoint, root: u32) {
         let mut holding = vec![triangle];
         let mut at = 0;
         while let Some(&triangle) = holding.get(at) {
@@ -153,13 +154,9 @@ impl<'a> Flood<'a> {
     }
 
     /// Event 1: a window's cone passes through its triangle.
-    fn pass(&mut self, window: Window) {
-        let span = self.span(&window);
-        if self.is_dominated(&window, &span) {
-            return;
-        }
-        self.keep(window);
-        let Window { cone, triangle, edge, .. } = window;
+    fn pass(&mut self, Window { found, edge }: Window) {
+        self.keep(found);
+        let FoundCone { cone, triangle, .. } = found;
         let apex = self.mesh.triangles[triangle as usize][(edge as usize + 2) % 3];
         let apex_m = self.point_m(apex);
         let [from_left, from_right] = [cone.left, cone.right].map(|ray| self.side_of_ray(cone.root, ray, apex_m));
@@ -217,7 +214,7 @@ impl<'a> Flood<'a> {
         let limit = |ray| if ray == corner { corner } else { NO_RAY };
         let inside = Cone { left: limit(cone.left), right: limit(cone.right), ..cone };
         let least_m = self.labels[corner as usize].distance_m;
-        self.keep(Window { cone: inside, triangle, edge: NONE, least_m });
+        self.keep(FoundCone { cone: inside, triangle, least_m });
         for vertex in [cone.left, cone.right].into_iter().filter(|&ray| ray != corner) {
             self.reach(vertex, corner);
         }
@@ -226,7 +223,7 @@ impl<'a> Flood<'a> {
 
     fn see_whole(&mut self, triangle: u32, root: u32) {
         let cone = Cone { root, left: NO_RAY, right: NO_RAY };
-        self.keep(Window { cone, triangle, edge: NONE, least_m: self.labels[root as usize].distance_m });
+        self.keep(FoundCone { cone, triangle, least_m: self.labels[root as usize].distance_m });
     }
 
     /// Finds a route to a vertex that a root sees.
@@ -250,14 +247,16 @@ impl<'a> Flood<'a> {
         if beyond == NONE {
             return;
         }
-        let mut window =
-            Window { cone, triangle: beyond, edge: self.mesh.edge_to(beyond, triangle) as u32, least_m: 0.0 };
-        let span = self.span(&window);
-        if self.is_dominated(&window, &span) {
+        let edge = self.mesh.edge_to(beyond, triangle);
+        let vertices = self.mesh.triangles[beyond as usize];
+        let ends = [vertices[edge], vertices[(edge + 1) % 3]];
+        let span = self.span(cone, ends);
+        if span.is_dominated(ends.map(|end| self.labels[end as usize].distance_m)) {
             return;
         }
-        window.least_m = span.least_m();
-        let length_m = self.target.map_or(window.least_m, |target| span.least_to_m(target.point_m));
+        let least_m = span.least_m();
+        let length_m = self.target.map_or(least_m, |target| span.least_to_m(target.point_m));
+        let window = Window { found: FoundCone { cone, triangle: beyond, least_m }, edge: edge as u32 };
         let slot = self.unused.pop().unwrap_or(self.windows.len() as u32);
         if slot as usize == self.windows.len() {
             self.windows.push(window);
@@ -267,11 +266,11 @@ impl<'a> Flood<'a> {
         self.queue.push(Reverse((length_m.to_bits(), slot)));
     }
 
-    /// Keeps a window that was not dropped. With a target, only the shortest route to that is kept.
-    fn keep(&mut self, window: Window) {
-        let Some(target) = self.target else { return self.found.push(window) };
-        let Cone { root, left, right } = window.cone;
-        let is_seen = window.triangle == target.triangle
+    /// Keeps what a root sees. With a target, only the shortest route to that is kept.
+    fn keep(&mut self, found: FoundCone) {
+        let Some(target) = self.target else { return self.found.push(found) };
+        let Cone { root, left, right } = found.cone;
+        let is_seen = found.triangle == target.triangle
             && (left == NO_RAY || self.side_of_ray(root, left, target.point_m) <= OUTSIDE_M2)
             && (right == NO_RAY || self.side_of_ray(root, right, target.point_m) >= -OUTSIDE_M2);
         if is_seen {
@@ -282,29 +281,17 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// The stretch of its edge that a window covers.
-    fn span(&self, window: &Window) -> Span {
-        let (vertices, edge) = (self.mesh.triangles[window.triangle as usize], window.edge as usize);
-        let [left, right] = [vertices[edge], vertices[(edge + 1) % 3]];
-        let edge_m = [left, right].map(|vertex| self.mesh.vertices_m[vertex as usize]);
-        let Cone { root, left: left_ray, right: right_ray } = window.cone;
-        let root_m = self.point_m(root);
-        let meet = |ray: u32, end: u32, end_m: DVec2| {
-            if ray == end {
-                return end_m;
+    /// The stretch of an edge that a cone covers, given the ends of the edge, the left one first.
+    fn span(&self, Cone { root, left, right }: Cone, ends: [u32; 2]) -> Span {
+        let (root_m, edge_m) = (self.point_m(root), ends.map(|end| self.point_m(end)));
+        let meet = |ray: u32, end: usize| {
+            if ray == ends[end] {
+                return edge_m[end];
             }
             meeting_point_m(root_m, self.direction_m(root, ray), edge_m)
         };
-        let ends_m = [meet(left_ray, left, edge_m[0]), meet(right_ray, right, edge_m[1])];
+        let ends_m = [meet(left, 0), meet(right, 1)];
         Span { root_m, distance_m: self.labels[root as usize].distance_m, edge_m, ends_m }
-    }
-
-    fn is_dominated(&self, window: &Window, span: &Span) -> bool {
-        let (vertices, edge) = (self.mesh.triangles[window.triangle as usize], window.edge as usize);
-        span.is_dominated([edge, (edge + 1) % 3, (edge + 2) % 3].map(|corner| {
-            let vertex = vertices[corner] as usize;
-            (self.mesh.vertices_m[vertex], self.labels[vertex].distance_m)
-        }))
     }
 
     /// Positive where a point lies left of a ray of a root. The sign is exact.

@@ -1,4 +1,4 @@
-//! What a root sees through an edge, and whether another vertex offers a route that is always shorter.
+//! What a root sees through an edge, and whether an end of the edge offers shorter routes.
 //!
 //! A *root* is a point at which routes turn, or from which they start: a vertex of the mesh, or a source. A *cone* is
 //! the set of points that a root sees between two rays. Each ray is kept as a pair of points, never as a computed
@@ -68,19 +68,17 @@ impl Span {
         self.distance_m + beyond_m
     }
 
-    /// Whether every point of the stretch has a shorter route over an end of the edge, or over the opposite corner of
-    /// the triangle behind the edge. Given are the position of each and the length of a route to it.
+    /// Whether every point of the stretch has a shorter route over the left or the right end of the edge, given lengths
+    /// of routes to these ends, m.
     ///
     /// Along the edge, away from an end, the detour over that end never becomes longer. So the far end of the stretch
     /// decides (the filter of Xin and Wang 2009 for geodesics).
-    pub(crate) fn is_dominated(&self, corners_m: [(DVec2, f64); 3]) -> bool {
-        let [ends, [left_m, right_m]] = [self.edge_m, self.ends_m];
-        let over = |(corner_m, distance_m): (DVec2, f64), point_m: DVec2| distance_m + corner_m.distance(point_m);
-        let direct = |point_m: DVec2| self.distance_m + self.root_m.distance(point_m) - LONGER_M;
-        debug_assert!(ends == [corners_m[0].0, corners_m[1].0]);
-        over(corners_m[0], right_m) < direct(right_m)
-            || over(corners_m[1], left_m) < direct(left_m)
-            || over(corners_m[2], left_m).max(over(corners_m[2], right_m)) < self.least_m() - LONGER_M
+    pub(crate) fn is_dominated(&self, lengths_m: [f64; 2]) -> bool {
+        let detours = [(0, self.ends_m[1]), (1, self.ends_m[0])];
+        detours.into_iter().any(|(end, far_m)| {
+            let direct_m = self.distance_m + self.root_m.distance(far_m) - LONGER_M;
+            lengths_m[end] < direct_m && lengths_m[end] + self.edge_m[end].distance(far_m) < direct_m
+        })
     }
 }
 
@@ -131,14 +129,12 @@ mod tests {
         let (mut random, mut dominated) = (SplitMix64::new(5, 0), 0);
         for _ in 0..2000 {
             let span = span(&mut random);
-            let apex_m = DVec2::new(random.within(2.0), 2.0);
-            let corners_m = [span.edge_m[0], span.edge_m[1], apex_m].map(|at_m| (at_m, 2.0 + random.within(2.0)));
-            if span.is_dominated(corners_m) {
+            let lengths_m = [2.0 + random.within(2.0), 2.0 + random.within(2.0)];
+            if span.is_dominated(lengths_m) {
                 dominated += 1;
                 for point_m in stretch(span) {
-                    let over = |(corner_m, distance_m): (DVec2, f64)| distance_m + corner_m.distance(point_m);
-                    let shorter_m = corners_m.map(over).into_iter().fold(f64::INFINITY, f64::min);
-                    assert!(shorter_m < span.distance_m + span.root_m.distance(point_m));
+                    let over = |end: usize| lengths_m[end] + span.edge_m[end].distance(point_m);
+                    assert!(over(0).min(over(1)) < span.distance_m + span.root_m.distance(point_m));
                 }
             }
         }

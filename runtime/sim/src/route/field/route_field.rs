@@ -6,7 +6,7 @@
 
 use glam::{DVec2, Vec2};
 
-use crate::route::field::flood::{Flood, Source, Window};
+use crate::route::field::flood::{Flood, FloodSource, FoundCone};
 use crate::route::field::interval::{NO_RAY, OUTSIDE_M2};
 use crate::route::field::route_goal::RouteGoal;
 use crate::route::mesh::RouteMesh;
@@ -37,7 +37,7 @@ pub struct RouteField {
 /// A source of a field.
 #[derive(Clone, Copy, Debug)]
 struct GoalSource {
-    source: Source,
+    source: FloodSource,
     /// The point of the goal, where it lies off the mesh, m.
     off_mesh_m: Option<DVec2>,
 }
@@ -95,23 +95,16 @@ impl RouteField {
     /// of an area only if all of them lie off it.
     pub fn new(mesh: &RouteMesh, goal: RouteGoal) -> Self {
         let goal_sources = sources(mesh, &goal);
-        let sources: Vec<Source> = goal_sources.iter().map(|source| source.source).collect();
+        let sources: Vec<FloodSource> = goal_sources.iter().map(|source| source.source).collect();
         let mut flood = Flood::run(mesh, &sources, None);
         let mut found = std::mem::take(&mut flood.found);
-        found.retain(|window| !flood.is_dropped(window));
-        found.sort_by(|a, b| a.triangle.cmp(&b.triangle).then(a.least_m.total_cmp(&b.least_m)));
+        if !found.is_sorted_by(|a, b| a.least_m <= b.least_m) {
+            found.sort_by(|a, b| a.least_m.total_cmp(&b.least_m));
+        }
         let (roots, slots) = roots(mesh, &flood, &found, &goal_sources);
         let off_mesh = goal_sources.iter().filter(|source| source.off_mesh_m.is_some()).count();
-        let first_off_mesh = (roots.len() - off_mesh) as u32;
-        let interval = |window: &Window| {
-            let ray = |ray| if ray == window.cone.root { PARENT_RAY } else { ray };
-            let (left, right) = (ray(window.cone.left), ray(window.cone.right));
-            let least_m = (window.least_m as f32).next_down();
-            FieldInterval { root: slots[window.cone.root as usize], left, right, least_m }
-        };
-        let first = |triangle: u32| found.partition_point(|window| window.triangle < triangle) as u32;
-        let starts = (0..=mesh.triangle_count() as u32).map(first).collect();
-        Self { goal, starts, intervals: found.iter().map(interval).collect(), roots, first_off_mesh }
+        let (starts, intervals) = intervals(mesh, &found, &slots);
+        Self { goal, starts, intervals, first_off_mesh: (roots.len() - off_mesh) as u32, roots }
     }
 
     /// The goal of the field.
@@ -241,12 +234,12 @@ fn sources(mesh: &RouteMesh, goal: &RouteGoal) -> Vec<GoalSource> {
     let points_m = goal.flooded_points_m();
     let on_mesh = |&point_m: &DVec2| {
         let at = MeshPoint { triangle: mesh.triangle_at(point_m)?, point_m };
-        Some(GoalSource { source: Source { at, distance_m: 0.0 }, off_mesh_m: None })
+        Some(GoalSource { source: FloodSource { at, distance_m: 0.0 }, off_mesh_m: None })
     };
     let beside = |point_m: DVec2| {
         let at = mesh.nearest(point_m, None, None)?;
         let distance_m = at.point_m.distance(point_m);
-        Some(GoalSource { source: Source { at, distance_m }, off_mesh_m: Some(point_m) })
+        Some(GoalSource { source: FloodSource { at, distance_m }, off_mesh_m: Some(point_m) })
     };
     let is_area = !matches!(goal, RouteGoal::Points(_));
     let inside: Vec<GoalSource> = if is_area { points_m.iter().filter_map(on_mesh).collect() } else { Vec::new() };
@@ -256,11 +249,33 @@ fn sources(mesh: &RouteMesh, goal: &RouteGoal) -> Vec<GoalSource> {
     points_m.into_iter().filter_map(|point_m| on_mesh(&point_m).or_else(|| beside(point_m))).collect()
 }
 
+/// The cones by triangle, each triangle's in the order in which they were found; before them the index of each
+/// triangle's first one, and their number.
+fn intervals(mesh: &RouteMesh, found: &[FoundCone], slots: &[u32]) -> (Vec<u32>, Vec<FieldInterval>) {
+    let mut starts = vec![0; mesh.triangle_count() + 1];
+    for found in found {
+        starts[found.triangle as usize + 1] += 1;
+    }
+    for triangle in 0..mesh.triangle_count() {
+        starts[triangle + 1] += starts[triangle];
+    }
+    let mut next = starts.clone();
+    let mut intervals = vec![FieldInterval { root: NONE, left: NO_RAY, right: NO_RAY, least_m: 0.0 }; found.len()];
+    for &FoundCone { cone, triangle, least_m } in found {
+        let ray = |ray| if ray == cone.root { PARENT_RAY } else { ray };
+        let (left, right, least_m) = (ray(cone.left), ray(cone.right), (least_m as f32).next_down());
+        let slot = &mut next[triangle as usize];
+        intervals[*slot as usize] = FieldInterval { root: slots[cone.root as usize], left, right, least_m };
+        *slot += 1;
+    }
+    (starts, intervals)
+}
+
 /// The roots that intervals use and those on their routes, and the slot of each root of the search.
-fn roots(mesh: &RouteMesh, flood: &Flood, found: &[Window], sources: &[GoalSource]) -> (Vec<FieldRoot>, Vec<u32>) {
+fn roots(mesh: &RouteMesh, flood: &Flood, found: &[FoundCone], sources: &[GoalSource]) -> (Vec<FieldRoot>, Vec<u32>) {
     let (vertices, mut slots) = (mesh.vertex_count(), vec![NONE; flood.labels.len()]);
-    for window in found {
-        let mut root = window.cone.root;
+    for found in found {
+        let mut root = found.cone.root;
         while root != NONE && std::mem::replace(&mut slots[root as usize], 0) == NONE {
             root = flood.labels[root as usize].parent;
         }

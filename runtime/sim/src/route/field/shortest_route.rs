@@ -4,7 +4,7 @@
 
 use glam::{DVec2, Vec2};
 
-use crate::route::field::flood::{Flood, Source};
+use crate::route::field::flood::{Flood, FloodSource};
 use crate::route::mesh::RouteMesh;
 use crate::route::mesh::triangulation::NONE;
 
@@ -25,7 +25,7 @@ pub fn shortest_route(mesh: &RouteMesh, from_m: Vec2, to_m: Vec2) -> Option<Shor
     if mesh.parts[from.triangle as usize] != mesh.parts[to.triangle as usize] {
         return None;
     }
-    let sources = [Source { at: to, distance_m: 0.0 }];
+    let sources = [FloodSource { at: to, distance_m: 0.0 }];
     let flood = Flood::run(mesh, &sources, Some(from));
     if flood.target_root == NONE {
         return None;

@@ -6,7 +6,7 @@
 //! **Open ground** ends [`MARGIN_M`] beyond all obstacles and points. A shortest path stays within the convex hull of
 //! its ends and of the grown obstacles that it rounds, so no shortest path between points of the box touches its edge.
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::{Overlay, ShapeType};
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -49,6 +49,9 @@ impl FreeSpace {
             walkable.iter().for_each(|contour| add_bands_and_fans(&reversed(contour), distance, &mut walls));
         }
         outlines.iter().for_each(|outline| grow(outline, distance, &mut walls));
+        for polygon_m in ground.enclosures_m {
+            grow(&Outline::wall_around(polygon_m)?, distance, &mut walls);
+        }
         Ok(Self { contours: difference(&walkable, &walls) })
     }
 
@@ -69,6 +72,21 @@ impl FreeSpace {
     }
 }
 
+/// The contours of the union of walkable polygons, with the ground on the left, m.
+///
+/// # Errors
+/// If a coordinate is out of range.
+pub fn walkable_contours_m(polygons: &[WalkablePolygon]) -> Result<Vec<Vec<Vec2>>, RouteError> {
+    let contours = united_walkable(polygons)?;
+    let in_metres = |contour: &Contour| contour.iter().map(|corner| metres(*corner).as_vec2()).collect();
+    Ok(contours.iter().map(in_metres).collect())
+}
+
+fn united_walkable(polygons: &[WalkablePolygon]) -> Result<Vec<Contour>, RouteError> {
+    let polygons = polygons.iter().map(without_holes).collect::<Result<Vec<_>, _>>()?;
+    Ok(united(&polygons.iter().flatten().collect::<Vec<_>>(), FillRule::NonZero))
+}
+
 fn outlines(ground: &Ground) -> Result<Vec<Outline>, RouteError> {
     ground.obstacles_m.iter().map(|polygon_m| Outline::new(polygon_m)).collect()
 }
@@ -78,8 +96,7 @@ fn walkable(ground: &Ground, distance: f64) -> Result<Vec<Contour>, RouteError> 
     if ground.walkable_m.is_empty() {
         return Ok(vec![open_ground(ground, distance)?]);
     }
-    let polygons = ground.walkable_m.iter().map(without_holes).collect::<Result<Vec<_>, _>>()?;
-    Ok(united(&polygons.iter().flatten().collect::<Vec<_>>(), FillRule::NonZero))
+    united_walkable(ground.walkable_m)
 }
 
 fn without_holes(polygon: &WalkablePolygon) -> Result<Vec<Contour>, RouteError> {
@@ -93,7 +110,13 @@ fn without_holes(polygon: &WalkablePolygon) -> Result<Vec<Contour>, RouteError> 
 
 /// The box of open ground, counter-clockwise.
 fn open_ground(ground: &Ground, distance: f64) -> Result<Contour, RouteError> {
-    let points = ground.obstacles_m.iter().flatten().chain(ground.points_m).map(|point_m| grid_point(*point_m));
+    let points = ground
+        .obstacles_m
+        .iter()
+        .chain(ground.enclosures_m)
+        .flatten()
+        .chain(ground.points_m)
+        .map(|point_m| grid_point(*point_m));
     let points = points.collect::<Result<Vec<_>, _>>()?;
     let bound = |of: fn(&GridPoint) -> i32, better: fn(i32, i32) -> i32| {
         f64::from(points.iter().map(of).reduce(better).unwrap_or_default())

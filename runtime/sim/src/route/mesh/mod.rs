@@ -21,7 +21,7 @@ pub(crate) mod route_mesh;
 pub(crate) mod triangulation;
 
 pub use error::RouteError;
-pub use free_space::FreeSpace;
+pub use free_space::{FreeSpace, walkable_contours_m};
 pub use ground::{Ground, WalkablePolygon};
 pub use passages::{ClosedPassage, closed_passages};
 pub use route_mesh::RouteMesh;

@@ -57,6 +57,17 @@ impl Outline {
         Ok(Self { convex: None, contours, walls: vec![corners, reversed] })
     }
 
+    /// The outline of a wall without thickness around a polygon.
+    ///
+    /// # Errors
+    /// If a corner does not fit the grid.
+    pub(crate) fn wall_around(polygon_m: &[Vec2]) -> Result<Self, RouteError> {
+        let Self { convex, contours, .. } = Self::new(polygon_m)?;
+        let both = |contour: Contour| [contour.iter().rev().copied().collect(), contour];
+        let walls = convex.into_iter().chain(contours).flat_map(both).collect();
+        Ok(Self { walls, ..Self::default() })
+    }
+
     fn of_convex(contour: Contour) -> Self {
         Self { convex: Some(contour), ..Self::default() }
     }

@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::Path;
 
-use motiondb::files::{Invalid, SourceText};
+use motiondb::files::{Invalid, SourceText, input_file};
 use toml::Spanned;
 
 use crate::maths::random::SplitMix64;
@@ -12,7 +12,8 @@ use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_groups::{AgentGroup, AgentGroups, AgentLayout, GroupFault, Journey, check_size};
-use crate::scenario::file::agent_lines::{is_agent_file, line_span, parse_lines};
+use crate::scenario::file::agent_lines::{AgentLines, LineRoom, is_agent_file, line_span, parse_lines};
+use crate::scenario::ranges::AGENTS_MAX;
 
 /// All agents of a scenario file, and the tables that describe them.
 #[derive(Default)]
@@ -20,6 +21,8 @@ pub(crate) struct PlacedAgents {
     pub(crate) agents: Vec<AgentSpec>,
     tables: Vec<AgentTable>,
     waypoints: usize,
+    /// Length of all agent files, bytes.
+    line_bytes: usize,
 }
 
 /// One table of agents.
@@ -39,17 +42,23 @@ impl PlacedAgents {
         for (stream, (span, group)) in groups.get_ref().0.iter().enumerate() {
             let span = span.clone().unwrap_or_else(|| groups.span());
             let random = SplitMix64::new(seed, stream as u64);
-            let (journeys, lines) = journeys(source, group, &span, random)?;
+            let (journeys, lines) = journeys(source, group, &span, random, placed.line_room())?;
             let agents = group.agents(journeys);
             placed.waypoints += agents.iter().map(|agent| agent.goals_m.len()).sum::<usize>();
             // After each table, so that many of them do not fill the memory first.
             if let Err((message, help)) = check_size(placed.agents.len() + agents.len(), placed.waypoints) {
                 return Err(source.invalid(span, message, help).into());
             }
+            placed.line_bytes += lines.as_ref().map_or(0, |lines| lines.text.len());
             placed.tables.push(AgentTable { span, lines, first: placed.agents.len() });
             placed.agents.extend(agents);
         }
         Ok(placed)
+    }
+
+    /// What the agent files of further tables may hold.
+    fn line_room(&self) -> LineRoom {
+        LineRoom { agents: AGENTS_MAX - self.agents.len(), used_bytes: self.line_bytes }
     }
 
     /// The table of an agent.
@@ -65,6 +74,7 @@ fn journeys(
     group: &AgentGroup,
     span: &Range<usize>,
     random: SplitMix64,
+    room: LineRoom,
 ) -> Result<(Vec<Journey>, Option<SourceText>), ScenarioError> {
     let at_table = |(message, help): GroupFault| ScenarioError::from(source.invalid(span.clone(), message, help));
     let journeys = match group.layout().map_err(at_table)? {
@@ -72,16 +82,19 @@ fn journeys(
         AgentLayout::Circle(circle) => circle.journeys(),
         AgentLayout::Grid(grid) => group.grid_journeys(grid, random),
         AgentLayout::File(name) => {
-            let lines = read_lines(source, name)?;
-            return Ok((journeys_of_lines(&lines)?, Some(lines)));
+            let AgentLines { source: lines, journeys } = read_lines(source, name, room)?;
+            return Ok((journeys.map_err(|fault| wrong_line(&lines, fault))?, Some(lines)));
         }
     };
     Ok((journeys.map_err(at_table)?, None))
 }
 
-fn read_lines(source: &SourceText, name: &Spanned<String>) -> Result<SourceText, ScenarioError> {
+fn read_lines(source: &SourceText, name: &Spanned<String>, room: LineRoom) -> Result<AgentLines, ScenarioError> {
     let path = source.beside(Path::new(name.get_ref()));
-    SourceText::read(&path).map_err(|error| {
+    AgentLines::read(&path, room).map_err(|error| {
+        if input_file::is_of_machine(&error) {
+            return ScenarioError::Unreadable { path: path.clone(), source: error };
+        }
         let message = match error.kind() {
             ErrorKind::NotFound => format!("{} does not exist", path.display()),
             _ => format!("{} cannot be read: {error}", path.display()),
@@ -90,12 +103,11 @@ fn read_lines(source: &SourceText, name: &Spanned<String>) -> Result<SourceText,
     })
 }
 
-fn journeys_of_lines(lines: &SourceText) -> Result<Vec<Journey>, ScenarioError> {
-    parse_lines(&lines.text).map_err(|(span, message)| {
-        let is_quotable = is_agent_file(&lines.text);
-        let message = if is_quotable { message } else { "this is not an agent's line".to_owned() };
-        Invalid { is_quotable, ..lines.invalid(span, message, "write `x y goal_x goal_y`, in metres") }.into()
-    })
+/// The error of a line that is not an agent's, or has no room.
+fn wrong_line(lines: &SourceText, (span, message): (Range<usize>, String)) -> ScenarioError {
+    let is_quotable = is_agent_file(&lines.text);
+    let message = if is_quotable { message } else { "this is not an agent's line".to_owned() };
+    Invalid { is_quotable, ..lines.invalid(span, message, "write `x y goal_x goal_y`, in metres") }.into()
 }
 
 /// The agents of lines `x y goal_x goal_y`, with the default disc and speed, each facing its goal.
@@ -103,7 +115,8 @@ fn journeys_of_lines(lines: &SourceText) -> Result<Vec<Journey>, ScenarioError> 
 /// # Errors
 /// Where a line is not valid.
 pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioError> {
-    Ok(AgentGroup::default().agents(journeys_of_lines(lines)?))
+    let journeys = parse_lines(&lines.text).map_err(|fault| wrong_line(lines, fault))?;
+    Ok(AgentGroup::default().agents(journeys))
 }
 
 /// The error that agents of lines break a rule, at the line of the agent.

@@ -9,18 +9,18 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use glam::Vec2;
 use motiondb::files::SourceText;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::maths::polygon::signed_area_m2;
+use crate::route::reach::check_reach;
 use crate::scenario::check::check;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, fault_of_lines};
+use crate::scenario::file::ground_tables::{ObstacleKind, PlacedGround, polygons_m, tables_of};
 use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
-use crate::scenario::point::Point;
+use crate::scenario::file::source_tables::sources;
 use crate::scenario::resolved::{SEED, Scenario};
 
 /// Reads a scenario file and the agent files that it names. The source of its motion is a result of its own: a caller
@@ -40,7 +40,11 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
     let file = ScenarioFile::parse(source)?;
     let motion = file.motion_source(source)?;
     let seed = file.seed.unwrap_or(SEED);
-    let mut placed = PlacedAgents::new(source, &file.agents, seed)?;
+    let mut placed = match file.agents() {
+        Some(groups) => PlacedAgents::new(source, groups, seed)?,
+        None => PlacedAgents::default(),
+    };
+    let mut ground = PlacedGround::new(source, &file.walkable)?;
     let defaults = Scenario::of(std::mem::take(&mut placed.agents));
     let scenario = Scenario {
         name: file.name.as_ref().map_or_else(|| stem(&source.path), |name| name.get_ref().clone()),
@@ -49,24 +53,31 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         seed,
         planner: file.planner,
         coupling: file.coupling,
-        obstacles_m: file.obstacles.iter().map(|obstacle| counter_clockwise(&obstacle.get_ref().polygon_m)).collect(),
+        sources: sources(source, &file.sources, *file.duration_s.get_ref())?,
+        obstacles_m: polygons_m(&file.obstacles, ObstacleKind::Solid),
+        enclosures_m: polygons_m(&file.obstacles, ObstacleKind::Enclosure),
+        walkable_m: std::mem::take(&mut ground.polygons),
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
         ..defaults
     };
-    check(&scenario).map_err(|fault| at_its_text(source, &file, &placed, fault))?;
+    check(&scenario)
+        .and_then(|()| check_reach(&scenario))
+        .map_err(|fault| at_its_text(source, &file, &placed, &ground.tables, fault))?;
     Ok((scenario, motion))
 }
 
-/// The agent files that a scenario file names, which no output may replace.
+/// The agent files and WKT files that a scenario file names, which no output may replace.
 ///
 /// # Errors
 /// Where it cannot be read or is no scenario file.
 pub fn agent_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
     let source = read_text(path)?;
     let file = ScenarioFile::parse(&source)?;
-    let named = file.agents.get_ref().0.iter().filter_map(|(_, group)| group.file.as_ref());
-    Ok(named.map(|name| source.beside(Path::new(name.get_ref()))).collect())
+    let groups = file.agents().into_iter().flat_map(|groups| &groups.get_ref().0);
+    let named = groups.filter_map(|(_, group)| group.file.as_ref());
+    let grounds = file.walkable.iter().filter_map(|table| table.get_ref().file(&source));
+    Ok(named.map(|name| source.beside(Path::new(name.get_ref()))).chain(grounds).collect())
 }
 
 fn read_text(path: &Path) -> Result<SourceText, ScenarioError> {
@@ -77,21 +88,20 @@ fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {
-    let mut corners_m: Vec<Vec2> = polygon_m.iter().map(|&Point(corner_m)| corner_m).collect();
-    if signed_area_m2(&corners_m) < 0.0 {
-        corners_m.reverse();
-    }
-    corners_m
-}
-
 /// A broken rule, shown at the text of the part that breaks it.
-fn at_its_text(source: &SourceText, file: &ScenarioFile, placed: &PlacedAgents, fault: ScenarioFault) -> ScenarioError {
+fn at_its_text(
+    source: &SourceText,
+    file: &ScenarioFile,
+    placed: &PlacedAgents,
+    walkable_tables: &[usize],
+    fault: ScenarioFault,
+) -> ScenarioError {
     if let ScenarioPart::Journey(agent) = fault.part
         && let AgentTable { lines: Some(lines), first, .. } = placed.table(agent)
     {
         return fault_of_lines(lines, ScenarioFault { part: ScenarioPart::Journey(agent - first), ..fault });
     }
+    let obstacle_span = |kind, index| tables_of(&file.obstacles, kind).nth(index).map_or(0..0, Spanned::span);
     let span = match fault.part {
         ScenarioPart::Name => file.name.as_ref().map_or(0..0, Spanned::span),
         ScenarioPart::Duration => file.duration_s.span(),
@@ -99,8 +109,11 @@ fn at_its_text(source: &SourceText, file: &ScenarioFile, placed: &PlacedAgents, 
         ScenarioPart::View => file.view.as_ref().map_or(0..0, Spanned::span),
         ScenarioPart::Parameter(section, key) => parameter_span(source, &section, &key),
         ScenarioPart::Journey(agent) | ScenarioPart::Agent(agent) => placed.table(agent).span.clone(),
-        ScenarioPart::Obstacle(index) => file.obstacles[index].span(),
-        ScenarioPart::Agents => file.agents.span(),
+        ScenarioPart::Obstacle(index) => obstacle_span(ObstacleKind::Solid, index),
+        ScenarioPart::Enclosure(index) => obstacle_span(ObstacleKind::Enclosure, index),
+        ScenarioPart::Walkable(index) => file.walkable[walkable_tables[index]].span(),
+        ScenarioPart::Source(index) => file.sources.get(index).map_or(0..0, Spanned::span),
+        ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),
     };
     source.invalid(span, fault.message, fault.help).into()
 }

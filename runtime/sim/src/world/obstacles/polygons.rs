@@ -10,6 +10,9 @@ use crate::maths::polygon::signed_area_m2;
 use crate::world::obstacles::edge_grid::EdgeGrid;
 use crate::world::segment::{nearest_on_segment, side_of_line};
 
+/// Number of edges from which those across a ray are looked up in the grid.
+const EDGES_MANY: usize = 64;
+
 /// A corner of a polygon and the edge that leaves it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObstacleCorner {
@@ -42,37 +45,55 @@ pub struct Obstacles {
     pub(super) first_corners: Vec<usize>,
     /// Index of each corner's polygon.
     pub(super) polygon_of: Vec<u32>,
+    /// Index of the polygon that is solid outside of its contours: the walkable ground's complement.
+    pub(super) inside_out: Option<u32>,
     pub(super) grid: EdgeGrid,
 }
 
 impl Obstacles {
     /// Takes simple polygons of three corners or more, in either direction; repeated corners are dropped.
     pub fn new(polygons_m: &[Vec<Vec2>]) -> Self {
+        Self::with_ground(polygons_m, &[], &[])
+    }
+
+    /// As [`new`](Self::new), with a wall without thickness around each enclosure, and with the edges of the walkable
+    /// ground, which lies on the left of its contours; none of them: the ground is open.
+    pub fn with_ground(polygons_m: &[Vec<Vec2>], enclosures_m: &[Vec<Vec2>], ground_m: &[Vec<Vec2>]) -> Self {
         let mut obstacles = Self { first_corners: vec![0], ..Self::default() };
+        let turned = |points_m: &Vec<Vec2>| points_m.iter().rev().copied().collect::<Vec<Vec2>>();
         for points_m in polygons_m {
-            obstacles.add(points_m);
+            let is_clockwise = signed_area_m2(points_m) < 0.0;
+            obstacles.add(&[if is_clockwise { turned(points_m) } else { points_m.clone() }]);
+        }
+        for points_m in enclosures_m {
+            obstacles.add(&[points_m.clone(), turned(points_m)]);
+        }
+        if !ground_m.is_empty() {
+            obstacles.inside_out = Some(obstacles.first_corners.len() as u32 - 1);
+            obstacles.add(&ground_m.iter().map(turned).collect::<Vec<_>>());
         }
         let ends_m: Vec<[Vec2; 2]> = (0..obstacles.corners.len()).map(|edge| obstacles.ends_m(edge as u32)).collect();
         obstacles.grid = EdgeGrid::new(&ends_m);
         obstacles
     }
 
-    fn add(&mut self, points_m: &[Vec2]) {
-        let mut points_m = points_m.to_vec();
-        points_m.dedup();
-        while points_m.len() > 1 && points_m.first() == points_m.last() {
-            points_m.pop();
+    /// Adds a polygon of contours with its inside on their left.
+    fn add(&mut self, contours_m: &[Vec<Vec2>]) {
+        for points_m in contours_m {
+            let mut points_m = points_m.clone();
+            points_m.dedup();
+            while points_m.len() > 1 && points_m.first() == points_m.last() {
+                points_m.pop();
+            }
+            if points_m.len() >= 3 {
+                let (first, count) = (self.corners.len(), points_m.len());
+                self.corners.extend((0..count).map(|index| corner(&points_m, index, first)));
+            }
         }
-        if points_m.len() < 3 {
-            return;
+        if self.corners.len() > self.polygon_of.len() {
+            self.polygon_of.resize(self.corners.len(), self.first_corners.len() as u32 - 1);
+            self.first_corners.push(self.corners.len());
         }
-        if signed_area_m2(&points_m) < 0.0 {
-            points_m.reverse();
-        }
-        let (first, count) = (self.corners.len(), points_m.len());
-        self.corners.extend((0..count).map(|index| corner(&points_m, index, first)));
-        self.polygon_of.resize(self.corners.len(), self.first_corners.len() as u32 - 1);
-        self.first_corners.push(self.corners.len());
     }
 
     /// Every corner; an edge has the index of the corner that it leaves.
@@ -107,18 +128,34 @@ impl Obstacles {
         if self.corners.is_empty() {
             return false;
         }
-        let mut crossed: Vec<u32> = self.grid.beyond(point_m).filter(|&edge| self.is_right_of(edge, point_m)).collect();
-        crossed.sort_unstable();
-        crossed.dedup();
-        let polygon_of = |edge: &u32| self.polygon_of[*edge as usize];
-        crossed.chunk_by(|a, b| polygon_of(a) == polygon_of(b)).any(|edges| edges.len() % 2 == 1)
+        let crossed = self.crossed_by_ray(point_m);
+        let polygon_of = |edge: &u32| Some(self.polygon_of[*edge as usize]);
+        let mut polygons = crossed.chunk_by(|a, b| polygon_of(a) == polygon_of(b));
+        let is_off_ground = self
+            .inside_out
+            .is_some_and(|_| crossed.iter().filter(|edge| polygon_of(edge) == self.inside_out).count() % 2 == 0);
+        is_off_ground || polygons.any(|edges| edges.len() % 2 == 1 && polygon_of(&edges[0]) != self.inside_out)
     }
 
     /// Whether the polygon of an edge holds a point, by the even-odd rule along a ray in +x.
     pub(super) fn surrounds(&self, edge: u32, point_m: Vec2) -> bool {
-        let polygon = self.polygon_of[edge as usize] as usize;
-        let edges = self.first_corners[polygon] as u32..self.first_corners[polygon + 1] as u32;
-        edges.filter(|&edge| self.is_right_of(edge, point_m)).count() % 2 == 1
+        let polygon = self.polygon_of[edge as usize];
+        let edges = self.first_corners[polygon as usize] as u32..self.first_corners[polygon as usize + 1] as u32;
+        let crossed = if edges.len() > EDGES_MANY {
+            let crossed = self.crossed_by_ray(point_m);
+            crossed.iter().filter(|edge| edges.contains(edge)).count()
+        } else {
+            edges.filter(|&edge| self.is_right_of(edge, point_m)).count()
+        };
+        (crossed % 2 == 1) != (self.inside_out == Some(polygon))
+    }
+
+    /// The edges that a ray in +x from a point crosses, rising.
+    fn crossed_by_ray(&self, point_m: Vec2) -> Vec<u32> {
+        let mut crossed: Vec<u32> = self.grid.beyond(point_m).filter(|&edge| self.is_right_of(edge, point_m)).collect();
+        crossed.sort_unstable();
+        crossed.dedup();
+        crossed
     }
 
     /// Whether a ray in +x from a point crosses an edge.

@@ -106,6 +106,24 @@ fn nothing_to_walk_on_gives_no_route() {
 }
 
 #[test]
+fn far_from_the_origin_routes_are_the_same() {
+    let far_m = Vec2::new(9_984.0, -9_984.0);
+    let lengths_m = [Vec2::ZERO, far_m].map(|shift_m| {
+        let wall_m = block(0.0, -5.0, 0.125, 10.0).iter().map(|corner_m| *corner_m + shift_m).collect::<Vec<_>>();
+        let ground = Ground { obstacles_m: &[wall_m], ..Ground::default() };
+        let mesh = RouteMesh::new(&ground, WALL_RADIUS_M).expect("within 16 km");
+        let [start_m, goal_m] = [Vec2::new(-3.0, 4.0), Vec2::new(3.0, 4.0)].map(|at_m| at_m + shift_m);
+        let field = RouteField::new(&mesh, RouteGoal::Points(vec![goal_m]));
+        field.step(&mesh, start_m, &mut RoutePosition::default()).map(|step| step.distance_m)
+    });
+    assert!(lengths_m[0].is_some() && lengths_m[0] == lengths_m[1], "{lengths_m:?}");
+    let mesh = wall();
+    assert!(RouteMesh::new(&Ground { points_m: &[Vec2::splat(f32::MAX)], ..Ground::default() }, 0.2).is_err());
+    assert!(RouteMesh::new(&Ground::default(), f32::NAN).is_err());
+    assert!(step(&mesh, point(1e30, 0.0), [3.0, 0.0]).is_some_and(|step| step.distance_m > 1e29));
+}
+
+#[test]
 fn memory_changes_no_answer() {
     for seed in [7, 8, 9, 12] {
         let (wild, mut random) = (WildGround::new(seed), SplitMix64::new(seed, 3));

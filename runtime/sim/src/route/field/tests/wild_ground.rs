@@ -30,7 +30,7 @@ impl WildGround {
     }
 
     pub(super) fn ground(&self) -> Ground<'_> {
-        Ground { obstacles_m: &self.obstacles_m, walkable_m: &self.walkable_m, points_m: &[] }
+        Ground { obstacles_m: &self.obstacles_m, enclosures_m: &[], walkable_m: &self.walkable_m, points_m: &[] }
     }
 
     pub(super) fn point(&self, random: &mut SplitMix64) -> Vec2 {
@@ -55,7 +55,7 @@ fn obstacle(kind: u64, random: &mut SplitMix64) -> Vec<Vec2> {
         0 | 6 => {
             let (long_m, wide_m) = (vector(random, 2.0), 0.1 + random.within(1.0).abs() as f32);
             let across_m = long_m.perp().normalize_or(Vec2::X) * wide_m;
-            let corners_m = vec![at_m, at_m + long_m, at_m + long_m + across_m, at_m + across_m];
+            let corners_m = [at_m, at_m + long_m, at_m + long_m + across_m, at_m + across_m];
             corners_m[..3 + (random.next_u64() % 2) as usize].to_vec()
         }
         // Blocks on half metres: they touch, overlap and nest.
@@ -64,7 +64,7 @@ fn obstacle(kind: u64, random: &mut SplitMix64) -> Vec<Vec2> {
         2 => block((at_m / 1.5).round() * 1.5, Vec2::splat(0.5)),
         // Walls of a millimetre, and walls without thickness.
         3 => {
-            let (along, length_m) = (random.next_u64() % 2 == 0, random.within(4.0) as f32);
+            let (along, length_m) = (random.next_u64().is_multiple_of(2), random.within(4.0) as f32);
             let thickness_m = if random.next_u64().is_multiple_of(4) { 0.0 } else { 0.001 };
             let size_m = if along { Vec2::new(length_m, thickness_m) } else { Vec2::new(thickness_m, length_m) };
             block(at_m.round(), size_m)
@@ -77,7 +77,7 @@ fn obstacle(kind: u64, random: &mut SplitMix64) -> Vec<Vec2> {
         }
         // Long walls on whole metres: a maze.
         _ => {
-            let (along, length_m) = (random.next_u64() % 2 == 0, 2.0 + random.within(6.0).abs() as f32);
+            let (along, length_m) = (random.next_u64().is_multiple_of(2), 2.0 + random.within(6.0).abs() as f32);
             let size_m = if along { Vec2::new(length_m.round(), 0.25) } else { Vec2::new(0.25, length_m.round()) };
             block((at_m / 1.25).round() * 1.25, size_m)
         }

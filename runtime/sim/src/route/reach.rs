@@ -1,0 +1,194 @@
+//! What walls keep agents from, found before a simulation: goals without a route, and passages that are too narrow.
+//!
+//! An agent can reach a goal if the part of the mesh in which it starts comes within an arrival's distance of it. The
+//! mesh keeps the wall radius alone here; clearance opens and closes nothing. World, metres.
+
+use glam::{DVec2, Vec2};
+
+use crate::route::arrival::ARRIVAL_M;
+use crate::route::crowd_routes::{class, class_radius_m};
+use crate::route::mesh::{ClosedPassage, RouteMesh, closed_passages};
+use crate::scenario::{AgentSpec, Scenario, ScenarioFault, ScenarioPart};
+use crate::world::obstacles::Obstacles;
+
+/// Overlap of a start and a wall that is taken for rounding, m: the grid of walkable ground.
+const TOUCH_M: f32 = 2e-3;
+/// Distance from the mesh from which a start counts as off it, m: two steps of the classes of wall radii.
+const OFF_MESH_M: f64 = 0.1;
+
+/// The passages of a scene that are closed to agents of a wall radius.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClosedToAgents {
+    /// The wall radius, m.
+    pub wall_radius_m: f32,
+    /// The passages: those that separate first, the widest first.
+    pub passages: Vec<ClosedPassage>,
+}
+
+/// Checks that every agent starts on free ground, and that routes lead to its goals.
+///
+/// # Errors
+/// The first agent or source without a start or a route.
+pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
+    if scenario.is_open() {
+        return Ok(());
+    }
+    let (walls, points_m) = (scenario.walls(), scenario.points_m());
+    let mut meshes: Vec<(u32, RouteMesh)> = Vec::new();
+    let agents = scenario.agents.iter().enumerate().map(|(index, agent)| (ScenarioPart::Journey(index), agent.clone()));
+    let sources = scenario.sources.iter().enumerate().map(|(index, source)| {
+        let middle_m = source.low_m.midpoint(source.high_m);
+        (ScenarioPart::Source(index), source.agent(middle_m))
+    });
+    for (part, agent) in agents.chain(sources) {
+        let class = class(agent.wall_radius_m);
+        if !meshes.iter().any(|(of, _)| *of == class) {
+            meshes.push((class, mesh(scenario, &points_m, class)?));
+        }
+        let mesh = meshes.iter().find(|(of, _)| *of == class).map(|(_, mesh)| mesh);
+        let Some(mesh) = mesh else { continue };
+        check_start(&part, &agent, &walls)?;
+        check_goals(&part, &agent, mesh, scenario)?;
+    }
+    Ok(())
+}
+
+/// The passages that are closed, for every class of wall radii among the agents; none without walls.
+pub fn closed_to_agents(scenario: &Scenario) -> Vec<ClosedToAgents> {
+    let discs = scenario.agents.iter().map(|agent| agent.wall_radius_m);
+    let discs = discs.chain(scenario.sources.iter().map(|source| source.wall_radius_m));
+    let mut classes: Vec<u32> = if scenario.is_open() { Vec::new() } else { discs.map(class).collect() };
+    classes.sort_unstable();
+    classes.dedup();
+    let closed =
+        |class: u32| ClosedToAgents { wall_radius_m: class_radius_m(class), passages: closed(scenario, class) };
+    classes.into_iter().map(closed).filter(|closed| !closed.passages.is_empty()).collect()
+}
+
+fn closed(scenario: &Scenario, class: u32) -> Vec<ClosedPassage> {
+    let points_m = scenario.points_m();
+    let Ok(mesh) = mesh(scenario, &points_m, class) else { return Vec::new() };
+    closed_passages(&scenario.ground(&points_m), class_radius_m(class), &mesh).unwrap_or_default()
+}
+
+fn mesh(scenario: &Scenario, points_m: &[Vec2], class: u32) -> Result<RouteMesh, ScenarioFault> {
+    RouteMesh::new(&scenario.ground(points_m), class_radius_m(class))
+        .or_else(|error| ScenarioPart::Obstacle(0).fault(error.to_string(), "look for walls that nearly touch"))
+}
+
+/// Obstacles are checked one by one before; here enclosures and the edge of walkable ground count too.
+fn check_start(part: &ScenarioPart, agent: &AgentSpec, walls: &Obstacles) -> Result<(), ScenarioFault> {
+    let [x, y] = agent.position_m.to_array();
+    let is_at_source = matches!(part, ScenarioPart::Source(_));
+    if is_at_source || walls.depth_m(agent.position_m, agent.wall_radius_m) <= TOUCH_M {
+        return Ok(());
+    }
+    part.fault(
+        format!("{} starts at [{x}, {y}], in a wall or off the walkable ground", name(part)),
+        "move it until it is at least `wall_radius_m` from every wall",
+    )
+}
+
+fn check_goals(
+    part: &ScenarioPart,
+    agent: &AgentSpec,
+    mesh: &RouteMesh,
+    scenario: &Scenario,
+) -> Result<(), ScenarioFault> {
+    let off_m = |point_m: Vec2, part: Option<u32>| {
+        let at = mesh.nearest(DVec2::from(point_m), part, None)?;
+        Some((mesh.parts[at.triangle as usize], at.point_m.distance(DVec2::from(point_m))))
+    };
+    let Some((start, start_off_m)) = off_m(agent.position_m, None) else { return Ok(()) };
+    if start_off_m > OFF_MESH_M {
+        return Ok(());
+    }
+    for &goal_m in &agent.goals_m {
+        let is_near = |part| off_m(goal_m, part).is_some_and(|(_, off_m)| off_m < ARRIVAL_M);
+        let ([x, y], name) = (goal_m.to_array(), name(part));
+        if !is_near(None) {
+            let message = format!("the goal [{x}, {y}] of {name} lies inside a wall or off the walkable ground");
+            return part.fault(message, "move the goal to free ground");
+        }
+        if !is_near(Some(start)) {
+            let closed = closed(scenario, class(agent.wall_radius_m)).into_iter().find(|passage| passage.separates);
+            let widest = closed.map_or_else(String::new, |ClosedPassage { at_m, width_m, .. }| {
+                format!("; the widest closed passage is {width_m:.2} m wide, at [{:.2}, {:.2}]", at_m.x, at_m.y)
+            });
+            return part.fault(
+                format!("no route leads {name} to the goal [{x}, {y}]{widest}"),
+                "move the goal, or give a passage more than twice `wall_radius_m` of width",
+            );
+        }
+    }
+    Ok(())
+}
+
+fn name(part: &ScenarioPart) -> String {
+    match part {
+        ScenarioPart::Source(index) => format!("source {index}"),
+        ScenarioPart::Journey(index) => format!("agent {index}"),
+        _ => "an agent".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn block(low: [f32; 2], high: [f32; 2]) -> Vec<Vec2> {
+        [low, [high[0], low[1]], high, [low[0], high[1]]].map(Vec2::from).to_vec()
+    }
+
+    /// An agent at the origin with a goal, and the walls of a room about the goal with a door.
+    fn room(goal_m: [f32; 2], door_m: f32) -> Scenario {
+        let obstacles_m = vec![
+            block([5.0, -2.0], [5.2, -0.5 * door_m]),
+            block([5.0, 0.5 * door_m], [5.2, 2.0]),
+            block([5.0, 2.0], [9.2, 2.2]),
+            block([5.0, -2.2], [9.2, -2.0]),
+            block([9.0, -2.2], [9.2, 2.2]),
+        ];
+        let agent = AgentSpec { goals_m: vec![Vec2::from(goal_m)], ..AgentSpec::default() };
+        Scenario { obstacles_m, ..Scenario::of(vec![agent]) }
+    }
+
+    fn message(scenario: &Scenario) -> Option<String> {
+        check_reach(scenario).err().map(|fault| fault.message)
+    }
+
+    #[test]
+    fn goals_behind_narrow_doors_are_unreachable() {
+        assert_eq!(message(&room([7.0, 0.0], 0.5)), None);
+        let closed = message(&room([7.0, 0.0], 0.3)).unwrap_or_default();
+        assert!(
+            closed.contains("to the goal [7, 0]; the widest closed passage is 0.30 m wide, at [5.10, 0.00]"),
+            "{closed}"
+        );
+        let passages = closed_to_agents(&room([7.0, 0.0], 0.3));
+        assert!(passages.len() == 1 && passages[0].passages[0].separates, "{passages:?}");
+        assert!(closed_to_agents(&room([7.0, 0.0], 0.5)).is_empty());
+    }
+
+    #[test]
+    fn goals_deep_in_walls_are_found() {
+        let mut scenario = room([20.0, 0.0], 1.0);
+        scenario.obstacles_m.push(block([18.0, -2.0], [22.0, 2.0]));
+        assert!(message(&scenario).unwrap_or_default().contains("lies inside a wall"));
+        // An arrival's distance from free ground is near enough.
+        scenario.agents[0].goals_m[0].x = 18.0;
+        assert_eq!(message(&scenario), None);
+    }
+
+    #[test]
+    fn starts_off_the_walkable_ground_are_found() {
+        let mut scenario = room([3.0, 0.0], 1.0);
+        scenario.obstacles_m.clear();
+        scenario.enclosures_m = vec![block([-1.0, -1.0], [4.0, 1.0])];
+        assert_eq!(message(&scenario), None);
+        scenario.agents[0].position_m = Vec2::new(-0.95, 0.0);
+        assert!(message(&scenario).unwrap_or_default().contains("in a wall"));
+        scenario.agents[0].position_m = Vec2::new(-3.0, 0.0);
+        assert!(message(&scenario).unwrap_or_default().contains("no route leads agent 0"));
+    }
+}

@@ -1,0 +1,120 @@
+//! The `[[obstacles]]` and `[[walkable]]` tables of a scenario file. World, metres.
+
+use std::path::{Path, PathBuf};
+
+use glam::Vec2;
+use motiondb::files::SourceText;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::maths::polygon::signed_area_m2;
+use crate::route::mesh::WalkablePolygon;
+use crate::scenario::error::ScenarioError;
+use crate::scenario::file::wkt_polygons::wkt_polygons;
+use crate::scenario::point::Point;
+
+/// One `[[obstacles]]` table.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ObstacleTable {
+    pub(crate) polygon_m: Vec<Point>,
+    #[serde(default)]
+    pub(crate) kind: ObstacleKind,
+}
+
+/// What the polygon of an obstacle bounds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum ObstacleKind {
+    /// A solid.
+    #[default]
+    Solid,
+    /// Ground with a wall around.
+    Enclosure,
+}
+
+/// One `[[walkable]]` table: a polygon with holes, or a WKT file of polygons.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WalkableTable {
+    polygon_m: Option<Vec<Point>>,
+    #[serde(default)]
+    holes_m: Vec<Vec<Point>>,
+    file: Option<Spanned<String>>,
+}
+
+/// The walkable polygons of a scenario file.
+#[derive(Debug, Default)]
+pub(crate) struct PlacedGround {
+    pub(crate) polygons: Vec<WalkablePolygon>,
+    /// Index of the table of each polygon.
+    pub(crate) tables: Vec<usize>,
+}
+
+impl PlacedGround {
+    /// The polygons of all tables.
+    pub(crate) fn new(source: &SourceText, tables: &[Spanned<WalkableTable>]) -> Result<Self, ScenarioError> {
+        let mut placed = Self::default();
+        for (index, table) in tables.iter().enumerate() {
+            let polygons = table.get_ref().polygons(source, table)?;
+            placed.tables.extend(polygons.iter().map(|_| index));
+            placed.polygons.extend(polygons);
+        }
+        Ok(placed)
+    }
+}
+
+impl WalkableTable {
+    /// The file that the table names.
+    pub(crate) fn file(&self, source: &SourceText) -> Option<PathBuf> {
+        self.file.as_ref().map(|name| source.beside(Path::new(name.get_ref())))
+    }
+
+    fn polygons(&self, source: &SourceText, table: &Spanned<Self>) -> Result<Vec<WalkablePolygon>, ScenarioError> {
+        match (&self.polygon_m, &self.file) {
+            (Some(outline_m), None) => {
+                let holes_m = self.holes_m.iter().map(|hole_m| positions_m(hole_m)).collect();
+                Ok(vec![WalkablePolygon { outline_m: positions_m(outline_m), holes_m }])
+            }
+            (None, Some(name)) if self.holes_m.is_empty() => {
+                let path = source.beside(Path::new(name.get_ref()));
+                let wrong = |message: String, help| source.invalid(name.span(), message, help).into();
+                let text = SourceText::read(&path).map_err(|error| {
+                    wrong(format!("{} cannot be read: {error}", path.display()), "give a path relative to this file")
+                })?;
+                wkt_polygons(&text.text)
+                    .map_err(|(message, help)| wrong(format!("{}: {message}", path.display()), help))
+            }
+            _ => {
+                let message = "a walkable area needs either `polygon_m` or `file`";
+                let help = "write `polygon_m = [[x, y], …]`, with `holes_m` where there are any, or `file = \"x.wkt\"`";
+                Err(source.invalid(table.span(), message, help).into())
+            }
+        }
+    }
+}
+
+/// The polygons of the obstacles of a kind, counter-clockwise.
+pub(crate) fn polygons_m(tables: &[Spanned<ObstacleTable>], kind: ObstacleKind) -> Vec<Vec<Vec2>> {
+    tables_of(tables, kind).map(|table| counter_clockwise(&table.get_ref().polygon_m)).collect()
+}
+
+/// The tables of the obstacles of a kind.
+pub(crate) fn tables_of(
+    tables: &[Spanned<ObstacleTable>],
+    kind: ObstacleKind,
+) -> impl Iterator<Item = &Spanned<ObstacleTable>> {
+    tables.iter().filter(move |table| table.get_ref().kind == kind)
+}
+
+fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {
+    let mut corners_m = positions_m(polygon_m);
+    if signed_area_m2(&corners_m) < 0.0 {
+        corners_m.reverse();
+    }
+    corners_m
+}
+
+fn positions_m(points: &[Point]) -> Vec<Vec2> {
+    points.iter().map(|&Point(position_m)| position_m).collect()
+}

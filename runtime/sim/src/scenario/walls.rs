@@ -1,0 +1,54 @@
+//! The walls of a scenario, for discs that they hold and for routes between them. World, metres.
+
+use glam::Vec2;
+
+use crate::route::mesh::{Ground, walkable_contours_m};
+use crate::scenario::resolved::Scenario;
+use crate::world::obstacles::Obstacles;
+
+impl Scenario {
+    /// The walls that hold discs: obstacles, enclosures, and the edges of the walkable ground.
+    pub fn walls(&self) -> Obstacles {
+        // Coordinates are in range in every checked scenario.
+        let contours_m = walkable_contours_m(&self.walkable_m).unwrap_or_default();
+        Obstacles::with_ground(&self.obstacles_m, &self.enclosures_m, &contours_m)
+    }
+
+    /// Whether there are no walls: the ground is open everywhere.
+    pub fn is_open(&self) -> bool {
+        self.obstacles_m.is_empty() && self.enclosures_m.is_empty() && self.walkable_m.is_empty()
+    }
+
+    /// Starts, goals and corners of the sources' areas, which open ground must contain, m.
+    pub(crate) fn points_m(&self) -> Vec<Vec2> {
+        let agents = self.agents.iter().flat_map(|agent| [agent.position_m].into_iter().chain(agent.goals_m.clone()));
+        let sources = self.sources.iter().flat_map(|source| {
+            let corners_m = [source.low_m, source.high_m];
+            let own_m =
+                source.goal_offset_m.into_iter().flat_map(move |offset_m| corners_m.map(|at_m| at_m + offset_m));
+            corners_m.into_iter().chain(source.goals_m.clone()).chain(own_m)
+        });
+        agents.chain(sources).collect()
+    }
+
+    /// The ground that routes lead over.
+    pub(crate) fn ground<'a>(&'a self, points_m: &'a [Vec2]) -> Ground<'a> {
+        Ground {
+            obstacles_m: &self.obstacles_m,
+            enclosures_m: &self.enclosures_m,
+            walkable_m: &self.walkable_m,
+            points_m,
+        }
+    }
+
+    /// Corners of all polygons of the scene, for pictures, m.
+    pub fn corners_m(&self) -> impl Iterator<Item = Vec2> + '_ {
+        let walkable = self.walkable_m.iter().flat_map(|polygon| &polygon.outline_m);
+        self.obstacles_m.iter().chain(&self.enclosures_m).flatten().chain(walkable).copied()
+    }
+
+    /// Closed lines of the walls that are no obstacle: enclosures and the edges of the walkable ground, m.
+    pub fn wall_lines_m(&self) -> Vec<Vec<Vec2>> {
+        [self.enclosures_m.clone(), walkable_contours_m(&self.walkable_m).unwrap_or_default()].concat()
+    }
+}
