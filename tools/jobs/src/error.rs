@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use fbcrowd_render::error::RenderError;
 use fbcrowd_sim::recording::RecordingError;
+use fbcrowd_sim::route::mesh::RouteError;
 use fbcrowd_sim::scenario::ScenarioError;
 use motiondb::files::Invalid;
 use motiondb::files::database_file::FileError;
@@ -118,6 +119,9 @@ pub enum JobError {
     /// A scenario cannot be read.
     #[error(transparent)]
     Scenario(ScenarioError),
+    /// No routes can be found on a scenario's ground.
+    #[error(transparent)]
+    Route(#[from] RouteError),
     /// The clips cannot be read, or give no valid database.
     #[error(transparent)]
     Compile(CompileError),

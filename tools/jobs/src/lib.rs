@@ -32,7 +32,7 @@
 //!
 //! Read in this order: what a job reports ([`observer`], [`stages`]) and how it fails ([`error`]); paths
 //! ([`clip_paths`], [`output_path`]); the jobs ([`compiling`], [`leave_one_out`], [`simulation`] with [`timings`],
-//! [`rendering`]); [`wording`] for texts that count things; [`json_schema`] for the schemas of reports.
+//! [`rendering`]); [`scene_check`] looks at a scenario beforehand; [`wording`] for texts that count things; [`json_schema`] for the schemas of reports.
 
 pub mod clip_paths;
 pub mod compiling;
@@ -42,6 +42,7 @@ pub mod leave_one_out;
 pub mod observer;
 pub mod output_path;
 pub mod rendering;
+pub mod scene_check;
 pub mod simulation;
 pub mod stages;
 pub mod timings;

@@ -20,7 +20,7 @@ use crate::observer::{JobEvent, Observer, Work};
 use crate::timings::{StepStopwatch, Timings};
 
 /// Memory of each agent in a simulation, bytes; measured: 2,700.
-const AGENT_BYTES: usize = 3_000;
+pub(crate) const AGENT_BYTES: usize = 3_000;
 
 /// Greatest number of closed passages that are noted one by one.
 const PASSAGES_NOTED: usize = 5;
@@ -75,7 +75,7 @@ impl PreparedSimulation {
     /// Where the recording cannot be written.
     pub fn record(self, database_checksum: u32, recording: &Path, observer: &Observer) -> Result<Timings, JobError> {
         let Self { scenario, mut simulation } = self;
-        let steps = (scenario.duration_s / scenario.dt_s).round() as usize;
+        let steps = scenario.steps();
         let header = Header::new(simulation.database(), database_checksum, scenario);
         let mut recorder = Recorder::create(recording, &header)?;
         recorder.push(simulation.frames())?;

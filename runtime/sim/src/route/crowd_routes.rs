@@ -120,6 +120,31 @@ impl CrowdRoutes {
         Some(NextCorner { distance_m: step.distance_m, corner_m: step.next_m, after_m, entry_m: step.entry_m })
     }
 
+    /// The mesh of each class of wall radii, with the radius that it keeps from walls, m.
+    pub fn meshes(&self) -> impl Iterator<Item = (f32, &RouteMesh)> {
+        self.meshes.iter().map(|(class, mesh)| (class_radius_m(*class), mesh))
+    }
+
+    /// The route of an agent from its start along all its waypoints, m; none where no route leads to one of them. On
+    /// open ground the route is straight.
+    pub fn route_m(&self, agent: &AgentSpec) -> Option<Vec<Vec2>> {
+        let mut route_m = vec![agent.position_m];
+        for &goal_m in &agent.goals_m {
+            let from_m = *route_m.last()?;
+            match self.mesh(class(agent.wall_radius_m)) {
+                Some(mesh) => route_m.extend(shortest_route(mesh, from_m, goal_m)?.corners_m),
+                None => route_m.push(goal_m),
+            }
+        }
+        Some(route_m)
+    }
+
+    /// Size in memory, bytes.
+    pub fn bytes(&self) -> usize {
+        let meshes: usize = self.meshes.iter().map(|(_, mesh)| mesh.bytes()).sum();
+        meshes + self.fields.iter().map(RouteField::bytes).sum::<usize>()
+    }
+
     fn mesh(&self, class: u32) -> Option<&RouteMesh> {
         self.meshes.iter().find(|(of, _)| *of == class).map(|(_, mesh)| mesh)
     }

@@ -74,6 +74,11 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// Number of time steps.
+    pub fn steps(&self) -> usize {
+        (self.duration_s / self.dt_s).round() as usize
+    }
+
     /// Agents on open ground, with everything else at its default.
     ///
     /// ```

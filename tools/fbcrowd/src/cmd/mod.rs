@@ -4,6 +4,7 @@
 //! share [`outside_arg`] and [`rejected`].
 
 pub(crate) mod bench;
+pub(crate) mod check;
 pub(crate) mod clips;
 pub(crate) mod compile;
 pub(crate) mod completions;

@@ -3,6 +3,7 @@
 use fbcrowd_bench::Bench;
 use fbcrowd_jobs::json_schema::document;
 use fbcrowd_jobs::json_schema::measures::MeasuresMirror;
+use fbcrowd_jobs::scene_check::SceneFigures;
 use fbcrowd_jobs::timings::Timings;
 use schemars::JsonSchema;
 use serde_json::Value;
@@ -37,6 +38,7 @@ pub(super) fn schemas() -> Vec<OutputSchema> {
         ("compile", document::<CompileReport>("fbcrowd compile --json")),
         ("validate", document::<ValidationReport>("fbcrowd validate --json")),
         ("inspect", document::<InspectReport>("fbcrowd inspect --json")),
+        ("check", document::<SceneFigures>("fbcrowd check --json")),
         ("simulate", document::<Timings>("fbcrowd simulate --report")),
         ("measure", document::<MeasuresMirror>("fbcrowd measure --json")),
     ];

@@ -86,8 +86,11 @@ impl<'a> PathScene<'a> {
         let Scenario { agents, sources, .. } = scenario;
         let paths_m = tracks.iter().flat_map(|tracks| tracks.positions_m());
         let goals_m = agents.iter().flat_map(|agent| agent.goals_m.iter());
+        let starts_m = agents.iter().map(|agent| agent.position_m);
+        let areas_m = sources.iter().flat_map(|source| [source.low_m, source.high_m]);
         let goals_m = goals_m.chain(sources.iter().flat_map(|source| source.goals_m.iter()));
-        let [low_m, high_m] = bounds_m(paths_m.chain(goals_m.copied()).chain(scenario.corners_m()));
+        let [low_m, high_m] =
+            bounds_m(paths_m.chain(goals_m.copied()).chain(scenario.corners_m()).chain(starts_m).chain(areas_m));
         Self { scenario, bounds_m: [low_m - MARGIN_M, high_m + MARGIN_M] }
     }
 
@@ -97,8 +100,14 @@ impl<'a> PathScene<'a> {
         (width_px * (high.y - low.y) / (high.x - low.x)).round().clamp(least_px, greatest_px)
     }
 
-    /// Draws a panel with obstacles and paths at left, top, width, height.
+    /// Draws a panel with walls and paths at left, top, width, height.
     pub(crate) fn draw(&self, figure: &mut PlotFigure, rect_px: [f32; 4], tracks: &Tracks) {
+        let panel = self.draw_place(figure, rect_px);
+        self.draw_paths(figure, &panel, tracks);
+    }
+
+    /// Draws a panel with walls at left, top, width, height.
+    pub(crate) fn draw_place(&self, figure: &mut PlotFigure, rect_px: [f32; 4]) -> PlotPanel {
         let [low, high] = self.bounds_m;
         let axes = [PlotAxis::new("x, m", [low.x, high.x]), PlotAxis::new("y, m", [low.y, high.y])];
         let panel = figure.panel(rect_px, equal_units(rect_px, axes));
@@ -111,7 +120,7 @@ impl<'a> PathScene<'a> {
             let closed = line_m.iter().chain(line_m.first()).copied();
             figure.polyline(&panel, closed, LineStyle::solid(OBSTACLE_RIM, 3.0));
         }
-        self.draw_paths(figure, &panel, tracks);
+        panel
     }
 
     /// Draws paths, then marks, so that no path crosses a mark.

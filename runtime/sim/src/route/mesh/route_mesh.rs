@@ -85,6 +85,18 @@ impl RouteMesh {
         part.is_some_and(|part| part == self.largest_part)
     }
 
+    /// Ends of every edge, m, and whether it is a border of free space; inner edges are here once.
+    pub fn edges_m(&self) -> impl Iterator<Item = ([Vec2; 2], bool)> + '_ {
+        (0..self.triangles.len()).flat_map(move |triangle| {
+            let corners_m = self.corners_m(triangle as u32).map(DVec2::as_vec2);
+            (0..3).filter_map(move |edge| {
+                let beyond = self.neighbours[triangle][edge];
+                let is_first = beyond == NONE || triangle < beyond as usize;
+                is_first.then_some(([corners_m[edge], corners_m[(edge + 1) % 3]], beyond == NONE))
+            })
+        })
+    }
+
     /// Size in memory, bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.vertices_m[..])
