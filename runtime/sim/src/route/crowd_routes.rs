@@ -18,7 +18,7 @@ const FIELDS_MAX: usize = 64;
 /// Step of wall radii that share a mesh, m; radii are rounded up.
 const RADIUS_STEP_M: f32 = 0.05;
 /// Distance within which a corner of an own route is passed, m.
-const PASSED_M: f32 = 0.3;
+const PASSED_M: f32 = 0.01;
 /// Distance of a waypoint from the mesh at which agents come near it, m: an arrival.
 const BESIDE_M: f32 = 0.5;
 /// Distance that routes keep from walls beyond the wall radius, where there is room, m (docs/tuning.md).

@@ -46,6 +46,9 @@ pub(crate) fn direction(
     Some((RETURN_M * onwards + (from_m - position_m)).normalize_or(onwards))
 }
 
+/// Distance from a corner within which an agent turns along the route beyond, m: one that a crowd holds beside the
+/// corner would otherwise turn back to it.
+const ROUNDED_M: f32 = 0.3;
 /// Shares of the displacement to the right that are tried until the aim is in sight.
 const SHARES: [f32; 3] = [1.0, 0.5, 0.25];
 
@@ -61,7 +64,10 @@ fn turning(position_m: Vec2, corner: RouteCorner, keep: KeepSide, wall_radius_m:
     let aim_m = corner.corner_m + keep_side_m(position_m, corner, keep, wall_radius_m, obstacles);
     let [to_aim_m, to_after_m] = [aim_m - position_m, corner.after_m - position_m];
     let anticipating_m = to_aim_m - ANTICIPATION * to_aim_m.length() * to_after_m.normalize_or_zero();
-    anticipating_m.try_normalize().unwrap_or_else(|| to_aim_m.normalize_or_zero())
+    let before = anticipating_m.try_normalize().unwrap_or_else(|| to_aim_m.normalize_or_zero());
+    let near = 1.0 - (corner.corner_m.distance(position_m) / ROUNDED_M).min(1.0);
+    let onwards = (corner.after_m - corner.corner_m).normalize_or(before);
+    before.lerp(onwards, near).normalize_or(onwards)
 }
 
 /// Displacement from the corner of a turn to the left to the right side, m, or the mirror image of it; zero at other

@@ -7,7 +7,7 @@ use fbcrowd_sim::measures::Collisions;
 use fbcrowd_sim::params::Params;
 use fbcrowd_sim::planning::mcn::MotionConstraints;
 use fbcrowd_sim::planning::{Plan, Planner, PlannerMemory, Stance, WorldView, plan, ranking_horizon_s};
-use fbcrowd_sim::route::{Braking, CrowdRoutes, PathProgress, RouteMemory, RouteView, preferred_mps};
+use fbcrowd_sim::route::{Braking, CrowdRoutes, KeepSide, PathProgress, RouteMemory, RouteView, preferred_mps};
 use fbcrowd_sim::scenario::AgentSpec;
 use fbcrowd_sim::world::neighbours::NeighbourSearch;
 use fbcrowd_sim::world::obstacles::Obstacles;
@@ -171,7 +171,8 @@ impl DiscCrowd {
             DiscResponse::Immediate => Braking::Within(setting.dt_s),
             DiscResponse::Lagging(..) => Braking::Evenly,
         };
-        let view = RouteView { routes: &CrowdRoutes::default(), obstacles: setting.walls, braking };
+        let view =
+            RouteView { routes: &CrowdRoutes::default(), obstacles: setting.walls, keep: KeepSide::Right, braking };
         let agents = self.agents.iter().zip(&self.positions_m).zip(&mut self.progress);
         agents
             .map(|((agent, &position_m), progress)| {

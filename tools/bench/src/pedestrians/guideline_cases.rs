@@ -5,7 +5,6 @@
 //! are not the guideline's are in [`crate::pedestrians::further_cases`]. World, metres, seconds.
 
 use fbcrowd_sim::measures::{Gate, WaitingCrowd};
-use fbcrowd_sim::world::obstacles::Obstacles;
 use glam::Vec2;
 
 use crate::kit::report::Criterion;
