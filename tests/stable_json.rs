@@ -119,6 +119,30 @@ fn measure_and_simulate_follow_their_schemas() {
 }
 
 #[test]
+fn check_states_agents_passages_and_sizes() {
+    let folder = folder("check_schema");
+    let (scene, plot) = (folder.join("scene.toml"), folder.join("scene.png"));
+    let agents = "[[agents]]\nat_m = [0, 0]\ngoals_m = [[8, 0]]\n[[sources]]\nat_m = [0, 3]\nrate_per_s = 2\ngoals_m = [[8, 3]]\n";
+    let wall = |low: f32, high: f32| {
+        format!("[[obstacles]]\npolygon_m = [[4, {low}], [4.2, {low}], [4.2, {high}], [4, {high}]]\n")
+    };
+    let walls = [wall(-9.0, -0.15), wall(0.15, 9.0)].concat();
+    let content = format!("database = 'none.fbdb'\nduration_s = 10\n{agents}{walls}");
+    fs::write(&scene, content).unwrap();
+    let checked = fbcrowd(&["check", text(&scene), "--json", "--plot", text(&plot)]).expect_code(0).json();
+    check_schema("check", &checked);
+    assert_eq!((&checked["agents"], &checked["steps"], &checked["obstacles"]), (&1.into(), &300.into(), &2.into()));
+    assert!((5..40).contains(&checked["due_agents"].as_u64().unwrap()), "{checked}");
+    let passages = checked["closed_passages"].as_array().unwrap();
+    assert_eq!((passages.len(), &passages[0]["separates"]), (1, &false.into()), "{checked}");
+    assert!((passages[0]["width_m"].as_f64().unwrap() - 0.3).abs() < 0.01, "{checked}");
+    assert!(fs::read(&plot).unwrap().starts_with(b"\x89PNG"));
+    let printed = fbcrowd(&["check", text(&scene)]).expect_code(0).stdout;
+    assert!(printed.contains("closed passage   [4.10, 0.00], 0.30 m wide"), "{printed}");
+    fbcrowd(&["check", text(&scene), "--plot", text(&scene)]).expect_code(2).says(&["is also an input"]);
+}
+
+#[test]
 fn compile_follows_its_schema_and_lists_every_clip_once() {
     let folder = folder("compile_schema");
     let broken = folder.join("broken.bvh");

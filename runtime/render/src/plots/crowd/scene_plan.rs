@@ -9,7 +9,7 @@ use tiny_skia::Pixmap;
 use crate::plots::chart::figure::{LegendEntry, LineStyle, PlotFigure, PlotPanel};
 use crate::plots::chart::mark::PlotMark;
 use crate::plots::crowd::trajectories::PathScene;
-use crate::raster::palette::{GRID_COARSE, INK, Rgb, SHARP_TURN_EDGES, TURNING_SET, line_colour};
+use crate::raster::palette::{INK, OBSTACLE, Rgb, SHARP_TURN_EDGES, TURNING_SET, line_colour};
 use crate::raster::text::TextAnchor;
 
 /// Width of the figure, pixels.
@@ -89,7 +89,7 @@ fn legend(scenario: &Scenario, closed: &[ClosedToAgents]) -> Vec<LegendEntry<'st
         entries.push((PlotMark::Dashes, TURNING_SET, "source"));
     }
     if !scenario.is_open() {
-        entries.push((PlotMark::Bar, GRID_COARSE, "mesh for routes"));
+        entries.push((PlotMark::Bar, OBSTACLE, "mesh for routes"));
     }
     if !closed.is_empty() {
         entries.push((PlotMark::Ring, SHARP_TURN_EDGES, "closed passage, m"));
@@ -103,7 +103,7 @@ fn draw_mesh(figure: &mut PlotFigure, panel: &PlotPanel, routes: &CrowdRoutes) {
         && 3 * mesh.triangle_count() <= EDGES_DRAWN
     {
         let inner = mesh.edges_m().filter(|(_, is_border)| !is_border).map(|(ends_m, _)| ends_m);
-        figure.hatching(panel, inner, LineStyle { opacity: 0.6, ..LineStyle::solid(GRID_COARSE, 1.0) });
+        figure.hatching(panel, inner, LineStyle { opacity: 0.8, ..LineStyle::solid(OBSTACLE, 1.0) });
     }
     for (_, mesh) in routes.meshes() {
         let border = mesh.edges_m().filter(|(_, is_border)| *is_border).map(|(ends_m, _)| ends_m);
