@@ -18,11 +18,15 @@ impl SplitMix64 {
         mixed ^ (mixed >> 31)
     }
 
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        // 53 bits, the mantissa of an f64: every value is exact.
+        (self.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
     /// Uniform in [−range, range).
     pub fn within(&mut self, range: f64) -> f64 {
-        // 53 bits, the mantissa of an f64: every value is exact.
-        let unit = (self.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-        (2.0 * unit - 1.0) * range
+        (2.0 * self.unit() - 1.0) * range
     }
 }
 
