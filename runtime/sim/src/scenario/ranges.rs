@@ -21,9 +21,9 @@ pub const STEP_RANGE_S: RangeInclusive<f32> = 1e-3..=0.25;
 /// Greatest coordinate, m: beyond it f32 positions resolve no millimetre.
 pub(crate) const COORDINATE_MAX_M: f32 = 10_000.0;
 /// Radius of a disc, m: from a child to a person with luggage.
-const RADIUS_M: RangeInclusive<f32> = 0.1..=1.0;
+pub(crate) const RADIUS_M: RangeInclusive<f32> = 0.1..=1.0;
 /// Preferred speed, m/s: from the slowest shuffle to a sprint.
-const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
+pub(crate) const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
 /// Facing, degrees: up to ten turns either way.
 const FACING_DEG: RangeInclusive<f32> = -3_600.0..=3_600.0;
 /// Greatest number of agents: ten times the largest crowd that other simulators show.

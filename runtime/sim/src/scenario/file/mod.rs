@@ -10,6 +10,7 @@
 mod agent_groups;
 mod agent_lines;
 mod agent_placement;
+pub(crate) mod behaviour;
 mod reading;
 mod scenario_file;
 
