@@ -166,5 +166,5 @@ fn a_simulation_completes_a_set_once() {
     std::fs::write(&scene, one).unwrap();
     let simulated = fbcrowd(&["simulate", text(&scene), "-o", text(&recording)]).expect_code(0);
     simulated.says(&[&format!("is deformed to {once_count} of them")]);
-    assert_eq!(Recording::open(&recording).unwrap().header().velocity_hull, once.velocity_hull);
+    assert_eq!(*Recording::open(&recording).unwrap().header().velocity_hull(), once.velocity_hull);
 }

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use support::{compile, fbcrowd, files, folder, repository, text};
 
-/// 1,000 agents for a few steps: enough for every thread to plan, synthesise and draw.
-const CROWD: &str = "duration_s = 0.5\nclips = \"CLIPS\"\nagents = { grid = { columns = 40, rows = 25, spacing_m = 1.5, jitter_m = 0.2 }, goal_offset_m = [30, 0] }\n\n[view]\nwidth = 480\nheight = 270\n";
+/// 1,000 agents, and some that come and go, for a few steps: enough for every thread to plan, synthesise and draw.
+const CROWD: &str = "duration_s = 0.5\nclips = \"CLIPS\"\nagents = { grid = { columns = 40, rows = 25, spacing_m = 1.5, jitter_m = 0.2 }, goal_offset_m = [30, 0] }\n\n[[sources]]\nrect_m = [-40, -20, -35, 20]\nrate_per_s = 60.0\ngoal_offset_m = [0.3, 0]\nat_goal = \"leave_at_once\"\n\n[view]\nwidth = 480\nheight = 270\n";
 
 fn run_all(threads: &str, folder: &Path) -> Vec<(String, Vec<u8>)> {
     let scene = folder.join("crowd.toml");

@@ -6,10 +6,9 @@ use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use fbcrowd_sim::scenario::{AgentSpec, Coupling, Scenario, View};
-use fbcrowd_sim::params::Params;
-use fbcrowd_sim::planning::Planner;
-use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
+use fbcrowd_sim::population::{AgentId, AgentLife, Population};
+use fbcrowd_sim::recording::{AgentFrame, Header, Recorder, unzip_text, write_chunk};
+use fbcrowd_sim::scenario::{AgentSpec, AtGoal, Scenario, SourceSpec};
 use glam::Vec2;
 
 #[path = "../../motiondb/tests/support/mod.rs"]
@@ -30,7 +29,11 @@ fn main() {
     write("gltf/limb.gltf", json.replace("@", &data).as_bytes());
     write("gltf/limb.glb", &glb(json.replace("@", "").into_bytes(), &buffer));
     write("database/small.fbdb", &motiondb::files::database_file::to_bytes(&support::small_db()));
-    record(&corpus.join("recording/two.fbrec"));
+    let recording = corpus.join("recording/two.fbrec");
+    record(&recording);
+    unzip(&recording, &corpus.join("recording/texts.fbrec"));
+    let version_1 = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/sim/tests/golden/version_1.fbrec");
+    write("recording/version_1.fbrec", &fs::read(version_1).expect("the golden recording can be read"));
 }
 
 /// The first rows of a bundled clip.
@@ -82,32 +85,59 @@ fn glb(mut json: Vec<u8>, buffer: &[u8]) -> Vec<u8> {
     parts.concat()
 }
 
-/// Two agents in three frames.
+/// Two agents in three frames; one is removed, a third one comes from a source.
 fn record(path: &Path) {
-    let agent = |y: f32| AgentSpec {
-        position_m: Vec2::new(0.0, y),
-        facing_rad: 0.0,
-        goals_m: vec![Vec2::new(5.0, y)],
+    let agent =
+        |y: f32| AgentSpec { position_m: Vec2::new(0.0, y), goals_m: vec![Vec2::new(5.0, y)], ..AgentSpec::default() };
+    let source = SourceSpec {
+        low_m: Vec2::ZERO,
+        high_m: Vec2::ONE,
+        rate_per_s: 1.0,
+        from_s: 0.0,
+        to_s: 1.0,
+        count: Some(2),
+        facing_rad: Some(0.5),
+        goals_m: Vec::new(),
+        goal_offset_m: Some(Vec2::X),
         radius_m: 0.25,
         wall_radius_m: 0.2,
         preferred_speed_mps: 1.33,
+        at_goal: AtGoal::Leave,
     };
     let scenario = Scenario {
         name: "two".to_owned(),
         duration_s: 1.0,
         dt_s: 0.25,
-        seed: 1,
-        planner: Planner::default(),
-        coupling: Coupling::default(),
-        agents: vec![agent(0.0), agent(2.0)],
+        sources: vec![source],
         obstacles_m: vec![vec![Vec2::new(9.0, 9.0), Vec2::new(10.0, 9.0), Vec2::new(9.0, 10.0)]],
-        params: Params::default(),
-        view: View::default(),
+        ..Scenario::of(vec![agent(0.0), agent(2.0)])
     };
     let header = Header::new(&support::small_db(), 7, scenario);
+    let mut population = Population::of(&header.scenario);
+    population.agents.push(AgentLife::new(header.scenario.sources[0].agent(Vec2::ONE), Some(0), 1));
     let mut recorder = Recorder::create(path, &header).expect("the corpus can be written");
-    for _ in 0..3 {
-        recorder.push(&[AgentFrame::default(), AgentFrame::default()]).expect("finite agents");
+    for ids in [&[0, 1][..], &[0, 1, 2], &[0, 2]] {
+        let agents = ids.iter().map(|&id: &u32| AgentFrame { id: AgentId(id), ..AgentFrame::default() });
+        recorder.push(&agents.collect::<Vec<_>>()).expect("finite agents");
     }
-    recorder.finish().expect("the corpus can be written");
+    recorder.finish(&population).expect("the corpus can be written");
+}
+
+/// The recording with the texts of header and agents as they are, for the target that compresses them.
+fn unzip(path: &Path, unzipped: &Path) {
+    let bytes = fs::read(path).expect("it was written just now");
+    let (start, mut rest) = bytes.split_at(12);
+    let mut file = start.to_vec();
+    while let Some((head, after)) = rest.split_first_chunk::<12>() {
+        let kind = [head[0], head[1], head[2], head[3]];
+        let length = u32::from_le_bytes([head[4], head[5], head[6], head[7]]) as usize;
+        let (payload, after) = after.split_at(length);
+        rest = after;
+        let payload = match &kind {
+            b"HEAD" | b"AGNT" => unzip_text(payload).expect("it was zipped just now"),
+            _ => payload.to_vec(),
+        };
+        write_chunk(&mut file, kind, &payload).expect("memory holds it");
+    }
+    fs::write(unzipped, file).expect("the corpus can be written");
 }

@@ -106,6 +106,7 @@ fn on_circle(index: usize) -> AgentSpec {
         radius_m: RADIUS_M,
         wall_radius_m: WALL_RADIUS_M,
         preferred_speed_mps: 1.33,
+        ..AgentSpec::default()
     }
 }
 

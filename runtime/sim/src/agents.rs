@@ -1,8 +1,9 @@
-//! The state of all agents, in index order. What planners read of other agents is a structure of arrays; bodies, plans
+//! The state of all present agents, in the order of their ids. What planners read of other agents is a structure of arrays; bodies, plans
 //! and frames, which only the synthesis of their own agent reads or changes, are arrays of structures.
 //!
 //! What planners read changes only after all have planned: the stance foot during synthesis, all else in
-//! `coupling::body_to_disc`.
+//! `coupling::body_to_disc`. Agents come and go between steps only: a new one has the greatest id, so it is appended, and
+//! where agents are removed, the others close up.
 //!
 //! World frame; metres, seconds, radians.
 
@@ -11,18 +12,35 @@ use motiondb::body::Root;
 
 use crate::maths::random::SplitMix64;
 use crate::planning::plan::{Plan, Stance};
+use crate::population::AgentId;
 use crate::recording::frame::AgentFrame;
 use crate::route::path::PathProgress;
-use crate::scenario::Scenario;
+use crate::scenario::AgentSpec;
 use crate::scenario::coupling::Coupling;
 use crate::synthesis::{Body, SynthesisContext};
 
 /// First random stream of the starting phases; the scenario uses those below.
 const START_PHASE_STREAM: u64 = 1 << 32;
 
-/// All agents; all arrays have the same length.
+/// When an agent is removed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Removal {
+    /// Before the next step.
+    AtOnce,
+    /// Between two steps of its feet: as soon as both feet are planted or a foot has just landed. A body of
+    /// `coupling = "discs"` plants no foot; it is removed before the next step.
+    BetweenSteps,
+}
+
+/// All present agents; all arrays have the same length.
 #[derive(Clone, Debug, Default)]
 pub struct Agents {
+    /// Ids, rising.
+    pub ids: Vec<AgentId>,
+    /// When the agent is to be removed; none of an agent that stays.
+    pub removals: Vec<Option<Removal>>,
+    /// Whether the body is between two steps of its feet.
+    pub are_between_steps: Vec<bool>,
     /// Centre of the disc: position of the synthesised root, m.
     pub positions_m: Vec<Vec2>,
     /// Velocity of the root in the last step, or the velocity to which the body is committed, m/s.
@@ -51,58 +69,88 @@ pub struct Agents {
     pub frames: Vec<AgentFrame>,
 }
 
+/// Calls a macro with every array of [`Agents`], so that none is forgotten where agents come and go.
+macro_rules! for_each_array {
+    ($each:ident) => {
+        $each!(
+            ids,
+            removals,
+            are_between_steps,
+            positions_m,
+            velocities_mps,
+            facings_rad,
+            radii_m,
+            wall_radii_m,
+            progress,
+            preferred_mps,
+            plans,
+            strafing_s,
+            stepping_back_s,
+            bodies,
+            stances,
+            frames
+        )
+    };
+}
+
 impl Agents {
-    /// Agents that stand at the start positions of a scenario, each at another phase of its cycle, so that a crowd does
-    /// not march in step.
-    pub fn new(scenario: &Scenario, context: &SynthesisContext) -> Self {
-        let count = scenario.agents.len();
-        let mut agents = Self {
-            positions_m: scenario.agents.iter().map(|agent| agent.position_m).collect(),
-            velocities_mps: vec![Vec2::ZERO; count],
-            facings_rad: scenario.agents.iter().map(|agent| agent.facing_rad).collect(),
-            radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
-            wall_radii_m: scenario.agents.iter().map(|agent| agent.wall_radius_m).collect(),
-            progress: vec![PathProgress::default(); count],
-            preferred_mps: vec![Vec2::ZERO; count],
-            plans: vec![Plan::default(); count],
-            strafing_s: vec![0.0; count],
-            stepping_back_s: vec![0.0; count],
-            frames: vec![AgentFrame::default(); count],
-            ..Self::default()
-        };
-        for (index, agent) in scenario.agents.iter().enumerate() {
-            let root = Root { position_m: agent.position_m, facing_rad: agent.facing_rad };
-            let (body, mut output) = Body::standing(context, root, start_phase(scenario.seed, index as u64));
-            if scenario.coupling == Coupling::Discs {
-                output.contacts = [0.0; 2];
-            }
-            agents.bodies.push(body);
-            agents.stances.push(output.stance);
-            agents.frames[index].show(&output);
+    /// Number of present agents.
+    pub fn count(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// Appends an agent that stands at its start, with its cycle at a phase of its own, so that a crowd does not march
+    /// in step. Its id must be greater than all others.
+    pub fn push(&mut self, id: AgentId, spec: &AgentSpec, seed: u64, coupling: Coupling, context: &SynthesisContext) {
+        let root = Root { position_m: spec.position_m, facing_rad: spec.facing_rad };
+        let (body, mut output) = Body::standing(context, root, start_phase(seed, id));
+        if coupling == Coupling::Discs {
+            output.contacts = [0.0; 2];
         }
-        agents
+        let mut frame = AgentFrame { id, ..AgentFrame::default() };
+        frame.show(&output);
+        self.ids.push(id);
+        self.removals.push(None);
+        self.are_between_steps.push(true);
+        self.positions_m.push(spec.position_m);
+        self.velocities_mps.push(Vec2::ZERO);
+        self.facings_rad.push(spec.facing_rad);
+        self.radii_m.push(spec.radius_m);
+        self.wall_radii_m.push(spec.wall_radius_m);
+        self.progress.push(PathProgress::default());
+        self.preferred_mps.push(Vec2::ZERO);
+        self.plans.push(Plan::default());
+        self.strafing_s.push(0.0);
+        self.stepping_back_s.push(0.0);
+        self.bodies.push(body);
+        self.stances.push(output.stance);
+        self.frames.push(frame);
+    }
+
+    /// Keeps the agents that `keeps` marks, by index.
+    pub fn retain(&mut self, keeps: &[bool]) {
+        macro_rules! retain {
+            ($($array:ident),*) => { $(retain_marked(&mut self.$array, keeps);)* };
+        }
+        for_each_array!(retain);
     }
 
     /// Memory of all arrays, bytes; their elements hold no pointers.
     pub fn size_bytes(&self) -> usize {
-        let Self { positions_m, velocities_mps, facings_rad, radii_m, progress, preferred_mps, plans, .. } = self;
-        let Self { wall_radii_m, strafing_s, stepping_back_s, bodies, stances, frames, .. } = self;
-        let of_planning = size_of_val(&**positions_m)
-            + size_of_val(&**velocities_mps)
-            + size_of_val(&**facings_rad)
-            + size_of_val(&**radii_m)
-            + size_of_val(&**wall_radii_m)
-            + size_of_val(&**progress)
-            + size_of_val(&**preferred_mps)
-            + size_of_val(&**plans)
-            + size_of_val(&**strafing_s)
-            + size_of_val(&**stepping_back_s)
-            + size_of_val(&**stances);
-        of_planning + size_of_val(&**bodies) + size_of_val(&**frames)
+        macro_rules! size {
+            ($($array:ident),*) => { [$(size_of_val(&*self.$array)),*] };
+        }
+        for_each_array!(size).iter().sum()
     }
 }
 
+/// Keeps the values that `keeps` marks, by index.
+fn retain_marked<T>(values: &mut Vec<T>, keeps: &[bool]) {
+    let mut keeps = keeps.iter();
+    values.retain(|_| keeps.next().copied().unwrap_or(true));
+}
+
 /// A phase in [0, 1) from 24 random bits, the mantissa of an f32.
-fn start_phase(seed: u64, agent: u64) -> f32 {
-    (SplitMix64::new(seed, START_PHASE_STREAM + agent).next_u64() >> 40) as f32 / (1 << 24) as f32
+fn start_phase(seed: u64, id: AgentId) -> f32 {
+    (SplitMix64::new(seed, START_PHASE_STREAM + u64::from(id.0)).next_u64() >> 40) as f32 / (1 << 24) as f32
 }

@@ -21,6 +21,7 @@
 //!     radius_m: 0.25,
 //!     wall_radius_m: 0.2,
 //!     preferred_speed_mps: 1.33,
+//!     ..AgentSpec::default()
 //! };
 //! let (west_m, east_m) = (Vec2::new(-4.0, 0.0), Vec2::new(4.0, 0.0));
 //! let scenario = Scenario::of(vec![agent(west_m, east_m), agent(east_m, west_m)]);
@@ -77,7 +78,7 @@
 //!
 //! Chapters, in reading order: [`simulation`] (one step, the paper's Fig. 2), then along that step [`scenario`],
 //! [`route`], [`world`], [`planning`] (§4), [`synthesis`] (§5), [`coupling`] (§3.4), [`recording`] and [`measures`];
-//! [`agents`] is the state of all agents, [`params`] their tunables, [`maths`] what several chapters share.
+//! [`agents`] is the state of all agents, [`population`] all that ever were, [`params`] the tunables, [`maths`] what several chapters share.
 //!
 //! World axes: x and y on the ground, z up, right-handed. Agent frame: x forward, y left. Metres, seconds, radians;
 //! angles counter-clockwise from above.
@@ -89,6 +90,7 @@ pub mod maths;
 pub mod measures;
 pub mod params;
 pub mod planning;
+pub mod population;
 pub mod recording;
 pub mod route;
 pub mod scenario;
@@ -99,9 +101,11 @@ pub mod world;
 #[cfg(test)]
 mod test_db;
 
+pub use agents::Removal;
 pub use measures::Measures;
 pub use params::Params;
 pub use planning::{Plan, PlanExplanation, Planner, WorldView};
+pub use population::{AgentId, Population};
 pub use recording::{AgentFrame, Header, Recorder, Recording};
 pub use scenario::{AgentSpec, Scenario};
 pub use simulation::{Simulation, Stage};

@@ -10,6 +10,9 @@
 //! order of agents nor the number of threads changes a bit. The simulation reads no clock; an observer receives the end
 //! of each stage.
 //!
+//! Agents come and go between steps (`simulation/turnover.rs`): a step begins with the removal of agents that leave, and
+//! ends with the birth of agents that are due, which stand at their starts in the frame of that step.
+//!
 //! World frame; metres, seconds, radians.
 
 use std::sync::Arc;
@@ -20,16 +23,22 @@ use rayon::prelude::*;
 use crate::agents::Agents;
 use crate::coupling::{body_to_disc, decoupled};
 use crate::planning::mcn::motion_constraints::MotionConstraints;
+use crate::planning::plan::PLANTED_CONTACT;
 use crate::planning::plan_all::{self, plan_all};
 use crate::planning::planner::ranking_horizon_s;
 use crate::planning::world_view::WorldView;
+use crate::population::Population;
 use crate::recording::frame::AgentFrame;
 use crate::route::path::{self, Braking};
-use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
+use crate::scenario::{AtGoal, Scenario};
+use crate::simulation::source_state::SourceState;
 use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
+
+mod source_state;
+mod turnover;
 
 /// Bodies that one thread takes at a time, at least: enough to outweigh the hand-over, few enough to share out 100.
 const BODIES_PER_TASK_MIN: usize = 16;
@@ -63,6 +72,11 @@ pub struct Simulation {
     neighbours: NeighbourSearch,
     planning: plan_all::CrowdPlanningMemory,
     agents: Agents,
+    population: Population,
+    /// The state of every source, by index.
+    sources: Vec<SourceState>,
+    /// Number of steps so far: the index of the present frame.
+    steps: u32,
 }
 
 impl Simulation {
@@ -70,16 +84,23 @@ impl Simulation {
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
         let params = HmsParams { modes: scenario.modes(), ..scenario.params.synthesis.clone() };
         let context = SynthesisContext::new(db, params);
-        let agents = Agents::new(scenario, &context);
+        let mut agents = Agents::default();
+        for (index, spec) in scenario.agents.iter().enumerate() {
+            agents.push(index.into(), spec, scenario.seed, scenario.coupling, &context);
+        }
         let mut simulation = Self {
             obstacles: Obstacles::new(&scenario.obstacles_m),
             constraints: MotionConstraints::new(&context.db.velocity_hull),
             neighbours: NeighbourSearch::default(),
             planning: plan_all::CrowdPlanningMemory::default(),
+            population: Population::of(scenario),
+            sources: SourceState::all(scenario),
             scenario: scenario.clone(),
             agents,
             context,
+            steps: 0,
         };
+        simulation.bear_due_agents();
         simulation.record();
         simulation
     }
@@ -89,21 +110,27 @@ impl Simulation {
         &self.context.db
     }
 
-    /// The recorded frame of each agent at the present time.
+    /// All agents so far, and the counts of the sources.
+    pub fn population(&self) -> &Population {
+        &self.population
+    }
+
+    /// The recorded frame of each present agent at the present time, in the order of their ids.
     pub fn frames(&self) -> &[AgentFrame] {
         &self.agents.frames
     }
 
-    /// Memory per agent, bytes: its elements in all arrays, its start and its waypoints.
+    /// Memory per present agent, bytes: its elements in all arrays, its start and its waypoints.
     pub fn bytes_per_agent(&self) -> usize {
-        let specs = &self.scenario.agents;
-        let goals: usize = specs.iter().map(|agent| size_of_val(&*agent.goals_m)).sum();
-        let held = self.agents.size_bytes() + self.planning.size_bytes() + size_of_val(&**specs) + goals;
-        held / specs.len().max(1) + GRID_BYTES
+        let lives = &self.population.agents;
+        let goals: usize = lives.iter().map(|life| size_of_val(&*life.spec.goals_m)).sum();
+        let held = self.agents.size_bytes() + self.planning.size_bytes() + size_of_val(&**lives) + goals;
+        held / self.agents.count().max(1) + GRID_BYTES
     }
 
     /// Advances by the scenario's dt; `finished` receives each stage at its end.
     pub fn step(&mut self, finished: &mut dyn FnMut(Stage)) {
+        self.remove_leaving_agents();
         self.follow_paths();
         finished(Stage::Route);
         let Agents { positions_m, velocities_mps, radii_m, .. } = &self.agents;
@@ -115,6 +142,8 @@ impl Simulation {
         self.synthesize();
         finished(Stage::Synthesis);
         body_to_disc::synchronize(&mut self.agents, &self.context, self.scenario.dt_s);
+        self.steps += 1;
+        self.bear_due_agents();
         self.record();
         finished(Stage::Coupling);
     }
@@ -124,14 +153,24 @@ impl Simulation {
             Coupling::TwoWay | Coupling::Decoupled => Braking::Evenly,
             Coupling::Discs => Braking::Within(self.scenario.dt_s),
         };
-        for (index, spec) in self.scenario.agents.iter().enumerate() {
-            let position_m = self.agents.positions_m[index];
-            self.agents.preferred_mps[index] =
-                path::preferred_mps(spec, position_m, &self.obstacles, braking, &mut self.agents.progress[index]);
+        let Self { agents, population, obstacles, .. } = self;
+        for (index, &id) in agents.ids.iter().enumerate() {
+            // An agent that leaves goes on as it went: it may have passed its goal.
+            if agents.removals[index].is_some() {
+                continue;
+            }
+            let (spec, position_m) = (population.spec(id), agents.positions_m[index]);
+            let braking = match spec.at_goal {
+                AtGoal::Stay => braking,
+                AtGoal::Leave | AtGoal::LeaveAtOnce => Braking::Not,
+            };
+            agents.preferred_mps[index] =
+                path::preferred_mps(spec, position_m, obstacles, braking, &mut agents.progress[index]);
         }
     }
 
-    /// The view of the world that planners read. The neighbours are those of the last step's beginning.
+    /// The view of the world that planners read. The neighbours are those of the last step's beginning, so they lack
+    /// agents that were born since.
     pub fn world(&self) -> WorldView<'_> {
         let agents = &self.agents;
         WorldView {
@@ -165,9 +204,9 @@ impl Simulation {
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let time_step = TimeStep::new(dt_s);
         let bodies = agents.bodies.par_iter_mut().with_min_len(BODIES_PER_TASK_MIN);
-        let bodies = bodies.zip(&mut agents.stances).zip(&mut agents.frames);
+        let bodies = bodies.zip(&mut agents.stances).zip(&mut agents.frames).zip(&mut agents.are_between_steps);
         bodies.zip(&agents.plans).zip(&agents.wall_radii_m).for_each(
-            |((((body, stance), frame), plan), &wall_radius_m)| {
+            |(((((body, stance), frame), is_between_steps), plan), &wall_radius_m)| {
                 let from = body.root;
                 match coupling {
                     Coupling::TwoWay => body.advance(context, plan, &time_step),
@@ -181,157 +220,42 @@ impl Simulation {
                     Coupling::Discs => return,
                 };
                 *stance = output.stance;
+                *is_between_steps = are_between_steps(frame.contacts, output.contacts);
                 frame.show(&output);
             },
         );
     }
 
     fn record(&mut self) {
-        let agents = &mut self.agents;
-        for (index, frame) in agents.frames.iter_mut().enumerate() {
-            let (body, plan) = (&agents.bodies[index], &agents.plans[index]);
-            *frame = AgentFrame {
-                root: body.root,
-                preferred_mps: agents.preferred_mps[index],
-                planned_mps: plan.velocity_mps,
-                phase: body.motion.phase,
-                mode: body.motion.mode,
-                set: plan.set,
-                strafing_s: plan.strafing_s,
-                stepping_back_s: plan.stepping_back_s,
-                ..*frame
-            };
-        }
+        (0..self.agents.count()).for_each(|index| self.record_agent(index));
     }
+
+    fn record_agent(&mut self, index: usize) {
+        let agents = &mut self.agents;
+        let (body, plan, frame) = (&agents.bodies[index], &agents.plans[index], &mut agents.frames[index]);
+        *frame = AgentFrame {
+            root: body.root,
+            preferred_mps: agents.preferred_mps[index],
+            planned_mps: plan.velocity_mps,
+            phase: body.motion.phase,
+            mode: body.motion.mode,
+            set: plan.set,
+            strafing_s: plan.strafing_s,
+            stepping_back_s: plan.stepping_back_s,
+            ..*frame
+        };
+    }
+}
+
+/// Whether a body is between two steps of its feet, given the contacts before and after a step of time: both feet are
+/// planted, or a foot has just landed.
+fn are_between_steps(before: [f32; 2], after: [f32; 2]) -> bool {
+    let [was_planted, is_planted] = [before, after].map(|contacts| contacts.map(|contact| contact >= PLANTED_CONTACT));
+    let has_landed = (0..2).any(|side| is_planted[side] && !was_planted[side]);
+    has_landed || is_planted == [true; 2]
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
-    use glam::Vec2;
-
-    use super::*;
-    use crate::maths::angle::wrap_rad;
-    use crate::planning::planner::Planner;
-    use crate::scenario::AgentSpec;
-    use crate::synthesis::Mode;
-    use crate::synthesis::blending::BlendDomain;
-    use crate::test_db::test_db;
-
-    /// Agents on a circle; the goal of each is the opposite point.
-    pub(crate) fn antipodal(count: usize, radius_m: f32) -> Scenario {
-        let agent = |index: usize| {
-            let angle_rad = std::f32::consts::TAU * index as f32 / count as f32;
-            let position_m = Vec2::from_angle(angle_rad) * radius_m;
-            AgentSpec {
-                position_m,
-                facing_rad: angle_rad + std::f32::consts::PI,
-                goals_m: vec![-position_m],
-                radius_m: 0.25,
-                wall_radius_m: 0.2,
-                preferred_speed_mps: 1.3,
-            }
-        };
-        Scenario { name: "antipodal".into(), duration_s: 30.0, ..Scenario::of((0..count).map(agent).collect()) }
-    }
-
-    fn simulated(scenario: &Scenario, steps: usize) -> Vec<AgentFrame> {
-        let mut simulation = Simulation::new(Arc::new(test_db()), scenario);
-        (0..steps).for_each(|_| simulation.step(&mut |_| {}));
-        simulation.frames().to_vec()
-    }
-
-    #[test]
-    fn one_and_two_threads_give_equal_bits() {
-        let mut scenario = antipodal(100, 14.0);
-        scenario.obstacles_m = vec![[(-3.0, -0.5), (3.0, -0.5), (3.0, 0.5), (-3.0, 0.5)].map(Vec2::from).to_vec()];
-        let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let both = [pool(1), pool(2)];
-        let mut simulations = [0, 1].map(|_| Simulation::new(Arc::new(test_db()), &scenario));
-        for step in 0..300 {
-            for (simulation, pool) in simulations.iter_mut().zip(&both) {
-                pool.install(|| simulation.step(&mut |_| {}));
-            }
-            assert!(simulations[0].frames() == simulations[1].frames(), "step {step}");
-        }
-    }
-
-    #[test]
-    fn all_agents_cross_the_circle_and_stand() {
-        let scenario = antipodal(17, 8.0);
-        let frames = simulated(&scenario, 900);
-        for (frame, agent) in frames.iter().zip(&scenario.agents) {
-            let off_m = frame.root.position_m.distance(agent.goals_m[0]);
-            assert!(off_m < 0.5, "{off_m} m");
-            assert_eq!(frame.contacts, [1.0; 2]);
-        }
-    }
-
-    #[test]
-    fn bodies_start_with_every_planner_and_step() {
-        for planner in [Planner::Mcn, Planner::Orca, Planner::SocialForce] {
-            for dt_s in [1.0 / 120.0, 1.0 / 60.0, 0.1] {
-                let scenario = Scenario { planner, dt_s, ..antipodal(1, 4.0) };
-                let [frame] = simulated(&scenario, (2.0 / dt_s) as usize)[..] else { unreachable!() };
-                let walked_m = frame.root.position_m.distance(scenario.agents[0].position_m);
-                assert!(walked_m > 1.0, "{planner:?} in steps of {dt_s} s: {walked_m} m");
-            }
-        }
-    }
-
-    #[test]
-    fn no_root_enters_a_wall() {
-        let mut scenario = antipodal(1, 4.0);
-        let wall = [(-0.5, -6.0), (0.5, -6.0), (0.5, 6.0), (-0.5, 6.0)];
-        scenario.obstacles_m = vec![wall.map(Vec2::from).to_vec()];
-        let mut simulation = Simulation::new(Arc::new(test_db()), &scenario);
-        for _ in 0..300 {
-            simulation.step(&mut |_| {});
-            assert!(simulation.frames()[0].root.position_m.x >= 0.5 + 0.2);
-        }
-    }
-
-    #[test]
-    fn discs_move_as_planned_outside_walls() {
-        let mut scenario = antipodal(6, 4.0);
-        scenario.coupling = Coupling::Discs;
-        scenario.obstacles_m = vec![[(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(Vec2::from).to_vec()];
-        let mut simulation = Simulation::new(Arc::new(test_db()), &scenario);
-        for _ in 0..300 {
-            let before = simulation.frames().to_vec();
-            simulation.step(&mut |_| {});
-            for (before, after) in before.iter().zip(simulation.frames()) {
-                let planned_m = before.root.position_m + scenario.dt_s * after.planned_mps;
-                let position_m = after.root.position_m;
-                let is_near = planned_m.abs().max_element() < 0.8;
-                assert!(is_near || position_m == planned_m, "{position_m} instead of {planned_m}");
-                let depth_m = simulation.obstacles.depth_m(position_m, 0.2);
-                assert!(depth_m == 0.0, "{position_m} lies {depth_m} m in the wall");
-            }
-        }
-    }
-
-    #[test]
-    fn decoupled_bodies_follow_their_discs_exactly() {
-        let mut scenario = antipodal(17, 4.0);
-        (scenario.planner, scenario.coupling) = (Planner::Orca, Coupling::Decoupled);
-        let db = test_db();
-        let turn_max_rad = BlendDomain::new(&db).turn_rate_max_rad_s * scenario.dt_s;
-        let mut simulation = Simulation::new(Arc::new(db), &scenario);
-        for _ in 0..300 {
-            let before = simulation.frames().to_vec();
-            simulation.step(&mut |_| {});
-            for (before, after) in before.iter().zip(simulation.frames()) {
-                assert_eq!(after.root.position_m, before.root.position_m + scenario.dt_s * after.planned_mps);
-                let turned_rad = wrap_rad(after.root.facing_rad - before.root.facing_rad);
-                assert!(turned_rad.abs() <= 1.001 * turn_max_rad && after.mode == Mode::Blending);
-            }
-        }
-    }
-
-    #[test]
-    fn stages_end_in_the_order_of_the_paper() {
-        let mut stages = Vec::new();
-        Simulation::new(Arc::new(test_db()), &antipodal(2, 3.0)).step(&mut |stage| stages.push(stage));
-        assert_eq!(stages, [Stage::Route, Stage::Neighbours, Stage::Planning, Stage::Synthesis, Stage::Coupling]);
-    }
-}
+pub(crate) mod tests;
+#[cfg(test)]
+mod turnover_tests;

@@ -146,7 +146,7 @@ fn bodies_penetrate_by_their_deepest_overlap() {
     let header = header(vec![agent([0.0, 0.0], [5.0, 0.0]), agent([9.0, 0.0], [5.0, 0.0])], DT_S);
     let pair = |y: f32| vec![standing_at(Vec2::ZERO), standing_at(Vec2::new(0.0, y))];
     // Every bone is 7 cm along x with a radius of 6 cm, so side by side the outermost bones decide.
-    let widest_m = widest_m(&header.skeleton);
+    let widest_m = widest_m(header.skeleton());
     let frames = vec![pair(3.0), pair(2.0 * widest_m + 0.11), pair(2.0 * widest_m + 0.13)];
     let measures = measured("bodies", &header, &frames);
     check(measures.body_penetration_max_mm, 10.0);
@@ -228,11 +228,11 @@ fn without_soles_the_lowest_joint_is_the_contact_point() {
     // Foot flat: ankle and ball are both at their planted heights, and the ankle comes first. Heel up: the ball, which
     // is fixed, takes over.
     let mut header = walker(9.0);
-    let toe_end_m = header.skeleton.segment_ends_m[Joint::LeftToe.index()];
-    let joints_m = [Vec3::ZERO, header.skeleton.offsets_m[Joint::LeftToe.index()], toe_end_m];
-    header.skeleton.feet.iter_mut().for_each(|foot| foot.measured_m = joints_m);
+    let toe_end_m = header.skeleton().segment_ends_m[Joint::LeftToe.index()];
+    let joints_m = [Vec3::ZERO, header.skeleton().offsets_m[Joint::LeftToe.index()], toe_end_m];
+    header.databases[0].skeleton.feet.iter_mut().for_each(|foot| foot.measured_m = joints_m);
     let ball_m =
-        |frame: &AgentFrame| frame.pose.forward_kinematics(&header.skeleton).positions_m[Joint::LeftToe.index()];
+        |frame: &AgentFrame| frame.pose.forward_kinematics(header.skeleton()).positions_m[Joint::LeftToe.index()];
     let rolling = |step: i32| {
         let mut frame = standing_at(Vec2::ZERO);
         frame.contacts = [1.0, 0.0];

@@ -5,7 +5,8 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{agent, folder, header, record, standing_at};
+use common::{agent, folder, header, numbered, record, standing_at};
+use fbcrowd_sim::population::Population;
 use fbcrowd_sim::recording::{AgentFrame, Recorder, Recording, RecordingError, write_chunk};
 use glam::{Quat, Vec2};
 use motiondb::body::Joints;
@@ -70,7 +71,7 @@ fn two_runs_write_the_same_bytes() {
 fn an_unfinished_recording_leaves_nothing() {
     let folder = folder("unfinished");
     let mut recorder = Recorder::create(&folder.join("a.fbrec"), &two_agents()).unwrap();
-    recorder.push(&frames(1)[0]).unwrap();
+    recorder.push(&numbered(&frames(1)[0])).unwrap();
     drop(recorder);
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
 }
@@ -78,7 +79,7 @@ fn an_unfinished_recording_leaves_nothing() {
 #[test]
 fn nan_or_missing_agents_are_rejected() {
     let mut recorder = Recorder::create(&folder("nan").join("a.fbrec"), &two_agents()).unwrap();
-    let mut frame = frames(1).remove(0);
+    let mut frame = numbered(&frames(1)[0]);
     assert!(matches!(recorder.push(&frame[..1]), Err(RecordingError::AgentCount { found: 1, expected: 2, .. })));
     frame[1].pose.rotations[3].x = f32::NAN;
     assert!(matches!(recorder.push(&frame), Err(RecordingError::NotFinite { agent: 1, frame: 0, .. })));
@@ -103,14 +104,46 @@ fn frames_are_read_from_several_threads() {
 #[test]
 fn empty_or_broken_recording_is_rejected() {
     let path = folder("hollow").join("a.fbrec");
-    Recorder::create(&path, &two_agents()).unwrap().finish().unwrap();
+    Recorder::create(&path, &two_agents()).unwrap().finish(&Population::of(&two_agents().scenario)).unwrap();
     assert!(Recording::open(&path).unwrap_err().to_string().contains("the index is empty"));
     let mut broken = two_agents();
     for bone_m in [f32::INFINITY, f32::NAN, 1e30] {
-        broken.skeleton.offsets_m[4].y = bone_m;
-        Recorder::create(&path, &broken).unwrap().finish().unwrap();
-        assert!(Recording::open(&path).unwrap_err().to_string().contains("the skeleton is out of range"));
+        broken.databases[0].skeleton.offsets_m[4].y = bone_m;
+        let message = Recorder::create(&path, &broken).unwrap_err().to_string();
+        assert!(message.contains("cannot be recorded: the skeleton is out of range"), "{message}");
     }
+}
+
+#[test]
+fn a_header_out_of_range_is_rejected_with_its_byte() {
+    let path = folder("header_range").join("a.fbrec");
+    record(&path, &two_agents(), &frames(2));
+    let bytes = fs::read(&path).unwrap();
+    for (from, to, what) in [
+        ("\"name\":\"test\"", "\"name\":\"a/b\"", "cannot name a file"),
+        ("\"dt_s\":0.033333335", "\"dt_s\":1e-30", "dt_s is"),
+        ("\"offsets_m\":[[0.0", "\"offsets_m\":[[1e30", "the skeleton is out of range"),
+        ("\"offsets_m\":[[0.0", "\"offsets_m\":[[1e39", "cannot be decoded (number out of range"),
+        ("\"checksum\":7", "\"checksum\":null", "cannot be decoded (invalid type: null"),
+        ("\"states\":[\"follow_path\"]", "\"states\":[]", "the header has 0 behaviour states"),
+    ] {
+        let forged = with_text(&bytes, *b"HEAD", |text| {
+            assert!(text.contains(from), "{from} {text}");
+            text.replace(from, to)
+        });
+        fs::write(&path, forged).unwrap();
+        let message = Recording::open(&path).unwrap_err().to_string();
+        assert!(message.contains("byte 12: ") && message.contains(what), "{message}");
+    }
+}
+
+/// A recording in which the text of the first JSON chunk of a kind is changed; its checksum and the index match.
+fn with_text(bytes: &[u8], kind: [u8; 4], change: impl Fn(&str) -> String) -> Vec<u8> {
+    let mut payloads = common::chunks(bytes);
+    let (_, payload) = payloads.iter_mut().find(|(found, _)| *found == kind).unwrap();
+    let text = change(&common::unzipped(payload));
+    *payload = common::zipped(text.as_bytes());
+    common::file_of(&payloads)
 }
 
 #[test]
@@ -119,7 +152,7 @@ fn an_index_that_repeats_a_frame_is_rejected() {
     drop(record(&path, &two_agents(), &frames(3)));
     let bytes = fs::read(&path).unwrap();
     let index_byte = bytes.windows(4).rposition(|window| window == b"INDX").unwrap();
-    let first: [u8; 8] = bytes[index_byte + 12..][..8].try_into().unwrap();
+    let first: [u8; 12] = bytes[index_byte + 12..][..12].try_into().unwrap();
     let mut forged = bytes[..index_byte].to_vec();
     write_chunk(&mut forged, *b"INDX", &first.repeat(1000)).unwrap();
     write_chunk(&mut forged, *b"TAIL", &(index_byte as u64).to_le_bytes()).unwrap();
@@ -130,7 +163,7 @@ fn an_index_that_repeats_a_frame_is_rejected() {
 #[test]
 fn values_beyond_all_scenarios_are_rejected() {
     let mut recorder = Recorder::create(&folder("beyond").join("a.fbrec"), &two_agents()).unwrap();
-    let mut agents = frames(1).remove(0);
+    let mut agents = numbered(&frames(1)[0]);
     agents[1].root.position_m.x = 1e30;
     assert!(recorder.push(&agents).is_err());
 }
@@ -207,6 +240,25 @@ proptest! {
         let path = folder("altered").join("b.fbrec");
         fs::write(&path, &bytes).unwrap();
         prop_assert!(read_all(&path).is_err(), "byte {} was altered unnoticed", at);
+    }
+
+    /// The checksums are made to match, as only an attacker would.
+    #[test]
+    fn forged_texts_neither_panic_nor_exhaust_memory(
+        kind in prop::sample::select(vec![*b"HEAD", *b"AGNT"]),
+        changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+    ) {
+        let forged = with_text(&bytes_of_a_recording("forged_text"), kind, |text| {
+            let mut text = text.as_bytes().to_vec();
+            for (at, value) in &changes {
+                let at = at.index(text.len());
+                text[at] = *value % 128;
+            }
+            String::from_utf8(text).unwrap()
+        });
+        let path = folder("forged_text").join("b.fbrec");
+        fs::write(&path, forged).unwrap();
+        let _ = read_all(&path);
     }
 
     /// The checksum is made to match, as only an attacker would.

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fbcrowd_sim::planning::Planner;
-use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
+use fbcrowd_sim::population::{Population, SourceCount};
+use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::route::{BlockedPaths, blocked_paths};
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::simulation::Simulation;
@@ -62,18 +63,20 @@ impl PreparedSimulation {
         let header = Header::new(simulation.database(), database_checksum, scenario);
         let mut recorder = Recorder::create(recording, &header)?;
         recorder.push(simulation.frames())?;
-        let mut stopwatch = StepStopwatch::default();
+        let (mut stopwatch, mut agent_steps) = (StepStopwatch::default(), 0);
         let work = Work::begin(observer, "steps", steps);
         for _ in 0..steps {
             stopwatch.start();
             simulation.step(&mut |stage| stopwatch.lap(stage));
             recorder.push(simulation.frames())?;
+            agent_steps += simulation.frames().len();
             work.advance();
         }
         work.end();
-        recorder.finish()?;
-        note_walls(&header.scenario, simulation.frames(), observer);
-        Ok(stopwatch.timings(header.scenario.agents.len(), steps, header.scenario.dt_s))
+        recorder.finish(simulation.population())?;
+        note_walls(&header.scenario, &simulation, observer);
+        note_waiting(simulation.population(), observer);
+        Ok(stopwatch.timings(agent_steps, steps, header.scenario.dt_s))
     }
 }
 
@@ -90,13 +93,25 @@ fn note_missing_motions(db: &MotionDb, complete: &MotionDb, observer: &Observer)
 }
 
 /// Notes agents that have not arrived because of a wall.
-fn note_walls(scenario: &Scenario, frames: &[AgentFrame], observer: &Observer) {
-    let ends_m = frames.iter().map(|frame| frame.root.position_m);
-    let Some(BlockedPaths { agent, waypoint, agents }) = blocked_paths(scenario, ends_m) else { return };
-    let [x, y] = scenario.agents[agent].goals_m[waypoint].to_array();
+fn note_walls(scenario: &Scenario, simulation: &Simulation, observer: &Observer) {
+    let ends_m = simulation.frames().iter().map(|frame| (frame.id, frame.root.position_m));
+    let blocked = blocked_paths(simulation.population(), &scenario.obstacles_m, ends_m);
+    let Some(BlockedPaths { agent, waypoint, agents }) = blocked else { return };
+    let [x, y] = simulation.population().spec(agent).goals_m[waypoint].to_array();
+    let agent = agent.0;
     let all = if agents == 1 { String::new() } else { format!(" ({agents} agents in all)") };
     let remedy = "agents walk straight to their next waypoint: add a waypoint beside the wall";
     observer(JobEvent::Note(&format!("a wall is across the path of agent {agent} to [{x}, {y}]{all}; {remedy}")));
+}
+
+/// Notes sources whose agents had no room.
+fn note_waiting(population: &Population, observer: &Observer) {
+    for (index, SourceCount { born, waiting, blocked_frames }) in population.sources.iter().enumerate() {
+        if *waiting > 0 {
+            let counts = format!("{born} agents came, {waiting} still wait, no room in {blocked_frames} frames");
+            observer(JobEvent::Note(&format!("source {index} is blocked: {counts}; widen its area or lower its rate")));
+        }
+    }
 }
 
 /// The planner must look further ahead than a change of synthesis takes (§3.4.1).

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// Durations of a whole simulation. They are not part of a recording.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct Timings {
-    /// Number of agents.
+    /// Number of agents; where agents come and go, the mean number in a step.
     pub agents: usize,
     /// Number of time steps.
     pub steps: usize,
@@ -53,9 +53,10 @@ impl StepStopwatch {
         }
     }
 
-    /// The durations of `steps` steps of `dt_s` seconds with `agents` agents.
-    pub fn timings(&self, agents: usize, steps: usize, dt_s: f32) -> Timings {
-        let agent_steps = (agents * steps).max(1) as f64;
+    /// The durations of `steps` steps of `dt_s` seconds, given the number of agents summed over the steps.
+    pub fn timings(&self, agent_steps: usize, steps: usize, dt_s: f32) -> Timings {
+        let agents = (agent_steps + steps / 2) / steps.max(1);
+        let agent_steps = agent_steps.max(1) as f64;
         let microseconds = |spent: Duration| spent.as_secs_f64() * 1e6 / agent_steps;
         let total = self.planning + self.synthesis + self.coupling;
         let threads = rayon::current_num_threads();

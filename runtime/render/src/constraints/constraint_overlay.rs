@@ -3,6 +3,7 @@
 //! A picture shows the step that begins at its frame; the last frame shows the last step. The step is planned again
 //! from the recording alone ([`Replay`]).
 
+use fbcrowd_sim::AgentId;
 use fbcrowd_sim::recording::{Recording, Replay};
 use tiny_skia::{Pixmap, PixmapPaint, Transform};
 
@@ -43,21 +44,21 @@ const MIN_HEIGHT_PX: u32 = 540;
 #[derive(Debug)]
 pub struct ConstraintOverlay<'a> {
     replay: Replay<'a>,
-    /// Indices of the agents, in the order of their panels.
-    agents: Vec<usize>,
+    /// The agents, in the order of their panels.
+    agents: Vec<AgentId>,
     marks: SceneMarks,
     /// Width and height of the scene, pixels.
     scene_px: [u32; 2],
 }
 
 impl<'a> ConstraintOverlay<'a> {
-    /// The overlay of some agents, given by index; their panels are in this order.
+    /// The overlay of some agents, given by id; their panels are in this order.
     ///
     /// # Errors
     /// If an agent does not exist, no step was recorded, or the panels are too many for one picture.
     pub fn new(recording: &'a Recording, framing: &Framing, agents: &[usize]) -> Result<Self, RenderError> {
         let replay = Replay::new(recording);
-        let count = replay.header().scenario.agents.len();
+        let count = recording.population().agents.len();
         if let Some(&agent) = agents.iter().find(|agent| **agent >= count) {
             return Err(RenderError::NoSuchAgent { agent, count });
         }
@@ -70,7 +71,12 @@ impl<'a> ConstraintOverlay<'a> {
         if agents.len() > room {
             return Err(RenderError::TooManyPanels { requested: agents.len(), room });
         }
-        Ok(Self { replay, agents: agents.to_vec(), marks: SceneMarks::new(framing), scene_px })
+        Ok(Self {
+            replay,
+            agents: agents.iter().map(|&agent| agent.into()).collect(),
+            marks: SceneMarks::new(framing),
+            scene_px,
+        })
     }
 
     /// Picture of a drawn scene with its marks and panels, opaque.
@@ -79,9 +85,10 @@ impl<'a> ConstraintOverlay<'a> {
     /// If the recording is damaged.
     pub fn draw(&self, scene: &Pixmap, time_s: f64) -> Result<Pixmap, RenderError> {
         let step = self.replay.step(self.frame_at(time_s))?;
-        let explained: Vec<ExplainedStep> = self.agents.iter().map(|&agent| ExplainedStep::new(&step, agent)).collect();
+        let explain = |id: &AgentId| Some(ExplainedStep::new(&step, step.index_of(*id)?));
+        let explained: Vec<Option<ExplainedStep>> = self.agents.iter().map(explain).collect();
         let mut marked = scene.clone();
-        for explained in &explained {
+        for explained in explained.iter().flatten() {
             self.marks.draw(&mut marked, explained);
         }
         let [scene_width_px, scene_height_px] = self.scene_px;
@@ -93,7 +100,10 @@ impl<'a> ConstraintOverlay<'a> {
         copy(&mut picture, &marked, 0);
         for (index, explained) in explained.iter().enumerate() {
             let left_px = scene_width_px + panel_px * index as u32;
-            copy(&mut picture, &velocity_panel::draw(explained, height_px), left_px);
+            // The panel of an agent that is not present stays empty.
+            if let Some(explained) = explained {
+                copy(&mut picture, &velocity_panel::draw(explained, height_px), left_px);
+            }
         }
         Ok(picture)
     }

@@ -27,7 +27,7 @@ pub(crate) fn source_colour(source: HalfPlaneSource) -> Rgb {
     }
 }
 
-/// Name of a half-plane or force, by its source; an agent's is its index.
+/// Name of a half-plane or force, by its source; an agent's is its id.
 pub(crate) fn source_name(source: HalfPlaneSource) -> String {
     match source {
         HalfPlaneSource::Obstacle(_) => "wall".to_owned(),

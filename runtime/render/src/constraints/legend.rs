@@ -69,7 +69,7 @@ fn entries(explained: &ExplainedStep) -> Vec<LegendEntry<'static>> {
         entries.push((PlotMark::Ring, INK, "greatest speed"));
     }
     entries.push((PlotMark::Ring, OBSTACLE_RIM, "disc that walls hold"));
-    let other = line_colour(explained.agent + 1);
+    let other = line_colour(explained.id(explained.agent).index() + 1);
     if planner == Planner::SocialForce {
         entries.push((PlotMark::Bar, OBSTACLE_RIM, "force of a wall"));
         entries.push((PlotMark::Bar, other, "force of an agent, its colour"));

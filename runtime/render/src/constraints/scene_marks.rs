@@ -67,7 +67,8 @@ impl SceneMarks {
         let (centre_m, radius_m) = (world.positions_m[explained.agent], world.radii_m[explained.agent]);
         self.draw_walls(scene, explained);
         self.draw_links(scene, explained);
-        let own = MarkPen { colour: line_colour(explained.agent), width_px: LINK_PX, is_dashed: false };
+        let own =
+            MarkPen { colour: line_colour(explained.id(explained.agent).index()), width_px: LINK_PX, is_dashed: false };
         self.draw_circle(scene, centre_m, radius_m, own);
         let at_walls = MarkPen { colour: OBSTACLE_RIM, is_dashed: true, ..own };
         self.draw_circle(scene, centre_m, world.wall_radii_m[explained.agent], at_walls);
@@ -78,7 +79,7 @@ impl SceneMarks {
         if !explained.step.header().scenario.view.labels {
             let neighbours = explained.explanation.neighbours.iter().map(|neighbour| neighbour.agent as usize);
             for index in neighbours.chain([explained.agent]) {
-                self.captions.draw_label(scene, index, world.positions_m[index]);
+                self.captions.draw_label(scene, explained.id(index), world.positions_m[index]);
             }
         }
     }
@@ -103,7 +104,7 @@ impl SceneMarks {
             let other = neighbour.agent as usize;
             let direction = neighbour.offset_m.normalize_or_zero();
             let ends_m = [from_m + radius_m * direction, world.positions_m[other] - world.radii_m[other] * direction];
-            let pen = pen(explained, HalfPlaneSource::Agent(neighbour.agent));
+            let pen = pen(explained, HalfPlaneSource::Agent(explained.id(other).0));
             self.draw_circle(scene, world.positions_m[other], world.radii_m[other], pen);
             if neighbour.distance_m > neighbour.radius_m {
                 self.draw_lines(scene, &[ends_m], pen);

@@ -65,7 +65,7 @@ pub(crate) fn draw(explained: &ExplainedStep, height_px: u32) -> Pixmap {
     let unit_px = height_px as f32 / REFERENCE_HEIGHT;
     let mut figure = PlotFigure::with_letters([width_px(height_px), height_px], LETTERS * unit_px);
     let start_s = explained.step.frame as f32 * explained.step.header().scenario.dt_s;
-    figure.title(&format!("Agent {} at {start_s:.2} s", explained.agent), unit_px * TITLE);
+    figure.title(&format!("Agent {} at {start_s:.2} s", explained.id(explained.agent).0), unit_px * TITLE);
     let reach = explained.axis_limit_mps;
     let axis = |name: &str| PlotAxis::new(&format!("velocity along {name}, m/s"), [-reach, reach]);
     let panel = figure.panel(AXES.map(|side| unit_px * side), [axis("x"), axis("y")]);
@@ -133,7 +133,7 @@ impl VelocitySpace<'_> {
 
     /// Draws turning set, holding set (the active one stronger), sharp-turn edges and the greatest speed.
     fn draw_sets(&mut self) {
-        let hull = &self.explained.step.header().velocity_hull;
+        let hull = self.explained.step.header().velocity_hull();
         let forward = self.forward();
         let sets = [(VelocitySet::Holding, &hull.holding_mps), (VelocitySet::Turning, &hull.turning_mps)];
         for (set, corners_mps) in sets {
@@ -192,7 +192,7 @@ impl VelocitySpace<'_> {
         let ray = LineStyle { opacity: 0.45, ..self.solid(INK, 1.2) };
         self.figure.polyline(&self.panel, [Vec2::ZERO, length * forward], ray);
         self.figure.polyline(&self.panel, [Vec2::ZERO, length * planned], LineStyle { is_dashed: true, ..ray });
-        let outline = self.solid(palette::look(self.explained.agent).shirt, 1.5);
+        let outline = self.solid(palette::look(self.explained.id(self.explained.agent).index()).shirt, 1.5);
         let nose = [Vec2::new(1.7, 0.0), Vec2::new(0.75, 0.65), Vec2::new(0.75, -0.65)];
         self.figure.polygon(&self.panel, nose.map(|corner| forward.rotate(radius * corner)), 1.0, outline);
         self.figure.polygon(&self.panel, disc(radius), 1.0, outline);

@@ -1,5 +1,6 @@
 //! Captions over a picture: scale bar, time, and agents' numbers.
 
+use fbcrowd_sim::AgentId;
 use fbcrowd_sim::recording::AgentFrame;
 use glam::Vec2;
 use tiny_skia::Pixmap;
@@ -62,17 +63,17 @@ impl Captions {
         self.face.draw_with_halo(pixmap, &format!("{time_s:.2} s"), corner, TextAnchor::Right, [INK, GROUND]);
     }
 
-    /// Draws each agent's index beside it.
+    /// Draws each agent's id beside it.
     pub(crate) fn draw_labels(&self, pixmap: &mut Pixmap, agents: &[AgentFrame]) {
-        for (index, agent) in agents.iter().enumerate() {
-            self.draw_label(pixmap, index, agent.root.position_m);
+        for agent in agents {
+            self.draw_label(pixmap, agent.id, agent.root.position_m);
         }
     }
 
-    /// Draws one agent's index beside it.
-    pub(crate) fn draw_label(&self, pixmap: &mut Pixmap, index: usize, position_m: Vec2) {
+    /// Draws one agent's id beside it.
+    pub(crate) fn draw_label(&self, pixmap: &mut Pixmap, id: AgentId, position_m: Vec2) {
         let beside = self.framing.to_px(position_m + LABEL_OFFSET_M);
-        self.label_face.draw_with_halo(pixmap, &index.to_string(), beside, TextAnchor::Left, [INK, GROUND]);
+        self.label_face.draw_with_halo(pixmap, &id.0.to_string(), beside, TextAnchor::Left, [INK, GROUND]);
     }
 }
 

@@ -9,7 +9,7 @@ use tiny_skia::Pixmap;
 
 use crate::error::RenderError;
 use crate::raster::drawn_body::{self, Detail, DrawnPart};
-use crate::raster::palette::{Look, look};
+use crate::raster::palette::look;
 use crate::raster::tapered_capsule::Canvas;
 use crate::top_view::captions::Captions;
 use crate::top_view::framing::{Framing, frame_recording};
@@ -53,8 +53,6 @@ pub struct TopView<'a> {
     tracks: &'a Tracks,
     framing: Framing,
     background: Pixmap,
-    /// Colours of each agent.
-    looks: Vec<Look>,
     captions: Captions,
 }
 
@@ -71,10 +69,9 @@ impl<'a> TopView<'a> {
     /// # Errors
     /// If the view is out of range.
     pub fn new(header: &'a Header, tracks: &'a Tracks) -> Result<Self, RenderError> {
-        let framing = frame_recording(header, &tracks.positions_m)?;
+        let framing = frame_recording(header, tracks.positions_m())?;
         let background = ground::background(header, &framing);
-        let looks = (0..header.scenario.agents.len()).map(look).collect();
-        Ok(Self { header, tracks, framing, background, looks, captions: Captions::new(&framing) })
+        Ok(Self { header, tracks, framing, background, captions: Captions::new(&framing) })
     }
 
     /// Part of the world that is shown.
@@ -103,9 +100,10 @@ impl<'a> TopView<'a> {
     fn parts(&self, agents: &[AgentFrame]) -> Vec<DrawnPart> {
         let detail = Detail::at_scale(self.framing.scale_px_m);
         let mut parts = Vec::new();
-        for (agent, look) in agents.iter().zip(&self.looks) {
+        for agent in agents {
             if self.shows(agent.root.position_m) {
-                drawn_body::append_parts(&mut parts, &self.header.skeleton, agent, *look, detail);
+                let look = look(agent.id.index());
+                drawn_body::append_parts(&mut parts, self.header.skeleton(), agent, look, detail);
             }
         }
         // A stable sort: parts of equal height keep the order of agents.
@@ -124,8 +122,9 @@ impl<'a> TopView<'a> {
         if length_s <= 0.0 {
             return;
         }
-        for (agent, (frame, look)) in agents.iter().zip(&self.looks).enumerate() {
-            let trail = Trail { agent, time_s, position_m: frame.root.position_m, length_s, colour: look.shirt };
+        for frame in agents {
+            let (agent, position_m) = (frame.id.index(), frame.root.position_m);
+            let trail = Trail { agent, time_s, position_m, length_s, colour: look(agent).shirt };
             trails::draw(pixmap, &self.framing, self.tracks, &trail);
         }
     }

@@ -62,14 +62,20 @@ impl Framing {
 ///
 /// # Errors
 /// If the view is out of range; the view of an opened recording is not.
-pub(crate) fn frame_recording(header: &Header, positions_m: &[Vec2]) -> Result<Framing, RenderError> {
+pub(crate) fn frame_recording(
+    header: &Header,
+    positions_m: impl Iterator<Item = Vec2>,
+) -> Result<Framing, RenderError> {
     let view = &header.scenario.view;
     check_view(view).map_err(|ScenarioFault { message, help, .. }| RenderError::View { message, help })?;
     let agents = &header.scenario.agents;
     let starts = agents.iter().map(|agent| agent.position_m);
     let goals = agents.iter().flat_map(|agent| agent.goals_m.iter().copied());
+    let sources = &header.scenario.sources;
+    let areas = sources.iter().flat_map(|source| [source.low_m, source.high_m]);
+    let goals = goals.chain(sources.iter().flat_map(|source| source.goals_m.iter().copied())).chain(areas);
     let corners = header.scenario.obstacles_m.iter().flatten().copied();
-    let shown = positions_m.iter().copied().chain(starts).chain(goals).chain(corners);
+    let shown = positions_m.chain(starts).chain(goals).chain(corners);
     Ok(fit(view, bounds_m(shown)))
 }
 

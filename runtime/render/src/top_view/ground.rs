@@ -1,9 +1,10 @@
 //! The static layer of a top view, drawn once for a whole sequence: ground, metric grid, goals, and obstacles with
-//! their shade. Enters: the recording's scenario, world metres.
+//! their shade; areas and goals of sources. Enters: the recording's scenario, world metres.
 
 use fbcrowd_sim::recording::Header;
+use fbcrowd_sim::scenario::SourceSpec;
 use glam::Vec2;
-use tiny_skia::{LineJoin, Path, Pixmap, Stroke};
+use tiny_skia::{LineJoin, Paint, Path, Pixmap, Stroke, StrokeDash};
 
 use crate::raster::paint::{circle, fill, fill_rect, paint, path_through, stroke, to_color};
 use crate::raster::palette;
@@ -26,6 +27,8 @@ const GOAL_RADIUS_M: [f32; 2] = [0.17, 0.05];
 const MIN_GOAL_RADIUS_PX: f32 = 1.5;
 /// Width of a goal's ring, m.
 const GOAL_RING_M: f32 = 0.045;
+/// Length of a dash of a source's outline, m.
+const DASH_M: f32 = 0.12;
 /// Opacity of goals at full scale, and in small pictures of crowds.
 const GOAL_OPACITY: [f32; 2] = [0.55, 0.22];
 /// Scale from which goals have their full opacity, pixels per metre.
@@ -63,18 +66,46 @@ fn draw_grid(pixmap: &mut Pixmap, framing: &Framing) {
 fn draw_goals(pixmap: &mut Pixmap, header: &Header, framing: &Framing) {
     let opacity = (GOAL_OPACITY[0] * framing.scale_px_m / GOAL_SCALE_PX_M).clamp(GOAL_OPACITY[1], GOAL_OPACITY[0]);
     for (index, agent) in header.scenario.agents.iter().enumerate() {
-        let Some((last, waypoints)) = agent.goals_m.split_last() else { continue };
-        let paint = paint(palette::look(index).shirt, opacity);
-        for waypoint in waypoints {
-            if let Some(dot) = goal_circle(framing, *waypoint, GOAL_RADIUS_M[1]) {
-                fill(pixmap, &dot, &paint, None);
-            }
-        }
-        if let Some(ring) = goal_circle(framing, *last, GOAL_RADIUS_M[0]) {
-            let width = (GOAL_RING_M * framing.scale_px_m).max(1.0);
-            stroke(pixmap, &ring, &paint, &Stroke { width, ..Stroke::default() }, None);
+        draw_goals_of(pixmap, framing, &agent.goals_m, &paint(palette::look(index).shirt, opacity));
+    }
+    for source in &header.scenario.sources {
+        let paint = paint(palette::INK, opacity);
+        draw_area(pixmap, framing, source, &paint);
+        draw_goals_of(pixmap, framing, &source.goals_m, &paint);
+    }
+}
+
+/// Draws a dot on each waypoint and a ring on the last goal.
+fn draw_goals_of(pixmap: &mut Pixmap, framing: &Framing, goals_m: &[Vec2], paint: &Paint<'_>) {
+    let Some((last, waypoints)) = goals_m.split_last() else { return };
+    for waypoint in waypoints {
+        if let Some(dot) = goal_circle(framing, *waypoint, GOAL_RADIUS_M[1]) {
+            fill(pixmap, &dot, paint, None);
         }
     }
+    if let Some(ring) = goal_circle(framing, *last, GOAL_RADIUS_M[0]) {
+        stroke(pixmap, &ring, paint, &goal_line(framing), None);
+    }
+}
+
+/// Draws the outline of the area in which a source places agents: of their discs, not of their centres.
+fn draw_area(pixmap: &mut Pixmap, framing: &Framing, source: &SourceSpec, paint: &Paint<'_>) {
+    let (low_m, high_m) = (source.low_m - source.radius_m, source.high_m + source.radius_m);
+    let corners_m = [low_m, Vec2::new(high_m.x, low_m.y), high_m, Vec2::new(low_m.x, high_m.y)];
+    if let Some(outline) = path_through(corners_m.iter().map(|corner_m| framing.to_px(*corner_m)), true) {
+        let dash = (DASH_M * framing.scale_px_m).max(2.0);
+        stroke(
+            pixmap,
+            &outline,
+            paint,
+            &Stroke { dash: StrokeDash::new(vec![dash; 2], 0.0), ..goal_line(framing) },
+            None,
+        );
+    }
+}
+
+fn goal_line(framing: &Framing) -> Stroke {
+    Stroke { width: (GOAL_RING_M * framing.scale_px_m).max(1.0), ..Stroke::default() }
 }
 
 fn goal_circle(framing: &Framing, centre_m: Vec2, radius_m: f32) -> Option<Path> {

@@ -20,4 +20,4 @@ pub use frame_range::FrameRange;
 pub use framing::Framing;
 pub use playback::{read_tracks, sample};
 pub use sequence::{PictureFormat, SequenceOptions, picture_paths, render_sequence};
-pub use trails::Tracks;
+pub use trails::{Track, Tracks};

@@ -5,7 +5,6 @@
 use std::f32::consts::{PI, TAU};
 
 use fbcrowd_sim::recording::{AgentFrame, Recording, RecordingError};
-use glam::Vec2;
 use motiondb::body::{Pose, Root};
 use rayon::prelude::*;
 
@@ -31,8 +30,11 @@ pub(crate) fn picture_time_s(recording: &Recording, picture: u32) -> f64 {
     f64::from(picture) / f64::from(recording.header().scenario.view.frame_rate_hz)
 }
 
-/// Root positions of all agents over the whole recording. A long recording of many agents is thinned to every n-th
-/// frame, so that the tracks take at most 256 MiB.
+/// Number of frames that are read at once.
+const FRAMES_AT_ONCE: usize = 256;
+
+/// Root positions of all agents over the whole recording, while they are present. A long recording of many agents is
+/// thinned to every n-th frame, so that the tracks take at most 256 MiB.
 ///
 /// # Errors
 /// If the recording has no frame, or one cannot be read.
@@ -40,28 +42,28 @@ pub fn read_tracks(recording: &Recording) -> Result<Tracks, RenderError> {
     if recording.frame_count() == 0 {
         return Err(RenderError::EmptyRecording);
     }
-    let scenario = &recording.header().scenario;
-    let agent_count = scenario.agents.len();
-    let stride = track_stride(recording.frame_count(), agent_count);
-    let kept = recording.frame_count().div_ceil(stride);
-    let mut positions_m = vec![Vec2::ZERO; kept * agent_count];
-    let frames = positions_m.par_chunks_mut(agent_count.max(1)).enumerate();
-    frames.try_for_each_init(Vec::new, |agents, (index, positions_m)| {
-        recording.read_frame(index * stride, agents)?;
-        for (position_m, agent) in positions_m.iter_mut().zip(agents) {
-            *position_m = agent.root.position_m;
-        }
-        Ok::<(), RecordingError>(())
-    })?;
-    Ok(Tracks { agent_count, dt_s: scenario.dt_s * stride as f32, positions_m })
+    let agent_frames = (0..recording.frame_count()).map(|frame| recording.agent_count(frame)).sum();
+    let stride = track_stride(agent_frames);
+    let mut tracks = Tracks::new(recording.header().scenario.dt_s * stride as f32);
+    let kept: Vec<usize> = (0..recording.frame_count()).step_by(stride).collect();
+    for frames in kept.chunks(FRAMES_AT_ONCE) {
+        let roots_m = |agents: &mut Vec<AgentFrame>, frame: &usize| {
+            recording.read_frame(*frame, agents)?;
+            Ok(agents.iter().map(|agent| (agent.id, agent.root.position_m)).collect())
+        };
+        let read: Result<Vec<Vec<_>>, RecordingError> = frames.par_iter().map_init(Vec::new, roots_m).collect();
+        read?.into_iter().for_each(|roots_m| tracks.push(roots_m));
+    }
+    Ok(tracks)
 }
 
 /// Number n such that every n-th frame is kept.
-fn track_stride(frame_count: usize, agent_count: usize) -> usize {
-    frame_count.saturating_mul(agent_count).div_ceil(MAX_TRACK_POINTS).max(1)
+fn track_stride(agent_frames: usize) -> usize {
+    agent_frames.div_ceil(MAX_TRACK_POINTS).max(1)
 }
 
-/// All agents at a time, s; between two recorded frames, a blend of both.
+/// All present agents at a time, s; between two recorded frames, a blend of both. An agent is shown from its frame of
+/// birth up to its removal; one that the later frame lacks is shown as in the earlier one.
 ///
 /// # Errors
 /// If a frame cannot be read.
@@ -78,7 +80,9 @@ pub fn sample(recording: &Recording, time_s: f64) -> Result<Vec<AgentFrame>, Rec
     recording.read_frame(step as usize, &mut agents)?;
     recording.read_frame(step as usize + 1, &mut later)?;
     let share = step.fract() as f32;
-    Ok(agents.iter().zip(&later).map(|(agent, next)| blend(agent, next, share)).collect())
+    let next = |agent: &AgentFrame| later.binary_search_by_key(&agent.id, |next| next.id).ok();
+    let blended = |agent: &AgentFrame| next(agent).map_or(*agent, |next| blend(agent, &later[next], share));
+    Ok(agents.iter().map(blended).collect())
 }
 
 /// A body between two frames. All fields but root and pose are those of the earlier frame.
@@ -106,7 +110,7 @@ mod tests {
     #[test]
     fn tracks_are_thinned_only_beyond_the_limit() {
         for (frames, agents, stride) in [(1, 0, 1), (540, 17, 1), (18_000, 1_000, 1), (18_000, 10_000, 6)] {
-            assert_eq!(track_stride(frames, agents), stride, "{frames} {agents}");
+            assert_eq!(track_stride(frames * agents), stride, "{frames} {agents}");
         }
     }
 

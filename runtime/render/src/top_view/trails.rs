@@ -2,6 +2,8 @@
 //!
 //! Tracks are in world metres, ribbons in pixels.
 
+use fbcrowd_sim::AgentId;
+use fbcrowd_sim::recording::AgentFrame;
 use glam::Vec2;
 use tiny_skia::Pixmap;
 
@@ -20,49 +22,81 @@ const PIECE_PX: f32 = 6.0;
 /// Speed by which [`PIECE_PX`] becomes a number of frames, m/s: a brisk walk.
 const BRISK_MPS: f32 = 1.5;
 
-/// Root positions of all agents at uniform times from 0 on.
+/// Root positions of all agents at uniform times from 0 on, by id.
 ///
 /// ```
 /// use fbcrowd_render::Tracks;
+/// use fbcrowd_sim::AgentId;
 /// use glam::Vec2;
 ///
-/// // Two agents in two frames: the first one walks, the other one stands.
-/// let positions_m = vec![Vec2::ZERO, Vec2::Y, Vec2::new(0.5, 0.0), Vec2::Y];
-/// let tracks = Tracks { agent_count: 2, dt_s: 0.5, positions_m };
-/// assert_eq!((tracks.frame_count(), tracks.frame_m(1)), (2, &[Vec2::new(0.5, 0.0), Vec2::Y][..]));
-/// assert!(tracks.agent_m(1).all(|position_m| position_m == Vec2::Y));
+/// // The first agent walks in two frames; the other one is born in the second frame.
+/// let mut tracks = Tracks::new(0.5);
+/// tracks.push([(AgentId(0), Vec2::ZERO)]);
+/// tracks.push([(AgentId(0), Vec2::new(0.5, 0.0)), (AgentId(1), Vec2::Y)]);
+/// assert_eq!((tracks.frame_count, tracks.agents.len()), (2, 2));
+/// assert_eq!([tracks.position_m(1, 0), tracks.position_m(1, 1)], [None, Some(Vec2::Y)]);
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tracks {
-    /// Number of agents in each frame.
-    pub agent_count: usize,
     /// Time between frames, s.
     pub dt_s: f32,
-    /// Positions in the world, frame by frame, in each by agent, metres.
+    /// Number of frames.
+    pub frame_count: usize,
+    /// The track of each agent, by id.
+    pub agents: Vec<Track>,
+}
+
+/// Root positions of one agent in the frames in which it is present.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Track {
+    /// Index of the first frame.
+    pub first_frame: usize,
+    /// Positions in the world, frame by frame, metres.
     pub positions_m: Vec<Vec2>,
 }
 
 impl Tracks {
-    /// Number of frames.
-    pub fn frame_count(&self) -> usize {
-        self.positions_m.len().checked_div(self.agent_count).unwrap_or(0)
+    /// No frames yet.
+    pub fn new(dt_s: f32) -> Self {
+        Self { dt_s, ..Self::default() }
     }
 
-    /// Positions of all agents in one frame, world, metres.
-    pub fn frame_m(&self, frame: usize) -> &[Vec2] {
-        &self.positions_m[frame * self.agent_count..][..self.agent_count]
+    /// Adds a frame: the root of each present agent, world, metres.
+    pub fn push(&mut self, roots_m: impl IntoIterator<Item = (AgentId, Vec2)>) {
+        for (id, root_m) in roots_m {
+            if id.index() >= self.agents.len() {
+                self.agents.resize(id.index() + 1, Track::default());
+            }
+            let track = &mut self.agents[id.index()];
+            if track.positions_m.is_empty() {
+                track.first_frame = self.frame_count;
+            }
+            track.positions_m.push(root_m);
+        }
+        self.frame_count += 1;
     }
 
-    /// Positions of one agent over all frames, world, metres.
-    pub fn agent_m(&self, agent: usize) -> impl Iterator<Item = Vec2> {
-        self.positions_m.iter().skip(agent).step_by(self.agent_count.max(1)).copied()
+    /// Adds a frame of a recording or simulation.
+    pub fn push_frame(&mut self, agents: &[AgentFrame]) {
+        self.push(agents.iter().map(|agent| (agent.id, agent.root.position_m)));
+    }
+
+    /// Position of an agent in a frame, world, metres; none where it is not present.
+    pub fn position_m(&self, agent: usize, frame: usize) -> Option<Vec2> {
+        let track = self.agents.get(agent)?;
+        track.positions_m.get(frame.checked_sub(track.first_frame)?).copied()
+    }
+
+    /// All positions of all agents, world, metres.
+    pub fn positions_m(&self) -> impl Iterator<Item = Vec2> {
+        self.agents.iter().flat_map(|track| track.positions_m.iter().copied())
     }
 }
 
 /// The trail of one agent at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Trail {
-    /// Index of the agent.
+    /// Id of the agent.
     pub(crate) agent: usize,
     /// Time of the picture, s.
     pub(crate) time_s: f32,
@@ -98,11 +132,12 @@ pub(crate) fn draw(pixmap: &mut Pixmap, framing: &Framing, tracks: &Tracks, trai
 fn corners(framing: &Framing, tracks: &Tracks, trail: &Trail) -> Vec<RibbonCorner> {
     let Trail { agent, time_s, length_s, .. } = *trail;
     let stride = ((PIECE_PX / (BRISK_MPS * tracks.dt_s * framing.scale_px_m)).round() as usize).max(1);
-    let newest = ((time_s / tracks.dt_s) as usize).min(tracks.frame_count().saturating_sub(1));
+    let newest = ((time_s / tracks.dt_s) as usize).min(tracks.frame_count.saturating_sub(1));
     let oldest = ((time_s - length_s).max(0.0) / tracks.dt_s).ceil() as usize;
     let mut corners = vec![RibbonCorner { at_px: framing.to_px(trail.position_m), age: 0.0 }];
     for frame in (oldest..=newest).rev().filter(|frame| frame % stride == 0) {
-        let at_px = framing.to_px(tracks.frame_m(frame)[agent]);
+        let Some(position_m) = tracks.position_m(agent, frame) else { break };
+        let at_px = framing.to_px(position_m);
         let age = (time_s - frame as f32 * tracks.dt_s) / length_s;
         let moved = corners.last().is_none_or(|last| last.at_px.distance_squared(at_px) > 0.01);
         if moved && at_px.is_finite() {

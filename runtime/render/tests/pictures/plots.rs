@@ -37,7 +37,7 @@ fn database(speeds_mps: &[f32]) -> MotionDb {
     let dimension = u32::from(speeds_mps.len() > 1);
     let corners = speeds_mps.iter().map(|speed| Vec2::new(*speed, 0.0)).collect();
     MotionDb {
-        skeleton: header.skeleton,
+        skeleton: header.skeleton().clone(),
         sources: Vec::new(),
         examples: examples.collect(),
         rows,

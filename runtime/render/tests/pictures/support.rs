@@ -3,7 +3,8 @@
 use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::recording::{AgentFrame, Header, Recorder};
+use fbcrowd_sim::population::Population;
+use fbcrowd_sim::recording::{AgentFrame, Header, RecordedDatabase, Recorder};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario, View};
 use glam::{Quat, Vec2, Vec3};
 use motiondb::body::{Foot, JOINT_COUNT, Joint, Pose, Root, Skeleton};
@@ -107,6 +108,7 @@ pub(crate) fn circle(agent_count: usize, radius_m: f32, view: View) -> Header {
             radius_m: 0.3,
             wall_radius_m: 0.2,
             preferred_speed_mps: SPEED_MPS,
+            ..AgentSpec::default()
         })
         .collect();
     header(agents, view)
@@ -127,7 +129,7 @@ fn header(agents: Vec<AgentSpec>, view: View) -> Header {
         view,
         ..Scenario::of(agents)
     };
-    Header { database_checksum: 0, skeleton: skeleton(), velocity_hull: velocity_hull(), scenario }
+    Header::of(RecordedDatabase { checksum: 0, skeleton: skeleton(), velocity_hull: velocity_hull() }, scenario)
 }
 
 /// All agents of a scene at a time: each walks to its goal on an arc to the right of the straight path.
@@ -142,7 +144,7 @@ pub(crate) fn frame(header: &Header, time_s: f32) -> Vec<AgentFrame> {
         let facing_rad = (path_m.normalize() - slope * path_m.normalize().perp()).to_angle();
         let phase = (STRIDE_HZ * time_s + 0.37 * index as f32).fract();
         let preferred_mps = SPEED_MPS * (goal - position_m).normalize_or_zero();
-        AgentFrame { preferred_mps, ..walker(position_m, facing_rad, phase) }
+        AgentFrame { id: index.into(), preferred_mps, ..walker(position_m, facing_rad, phase) }
     };
     header.scenario.agents.iter().enumerate().map(walk).collect()
 }
@@ -164,7 +166,7 @@ pub(crate) fn write_steps(path: &Path, header: &Header, steps: usize) {
     for step in 0..=steps {
         recorder.push(&frame(header, step as f32 * header.scenario.dt_s)).unwrap();
     }
-    recorder.finish().unwrap();
+    recorder.finish(&Population::of(&header.scenario)).unwrap();
 }
 
 /// An empty folder for one test; removed at the end.

@@ -49,6 +49,7 @@ impl Door {
             radius_m: 0.25,
             wall_radius_m: WALL_RADIUS_M,
             preferred_speed_mps: 1.33 + random.within(0.3) as f32,
+            ..AgentSpec::default()
         };
         Self { middle_m, through, posts_m: [post(half_m, HALF_WALL_M), post(-HALF_WALL_M, -half_m)], agent }
     }

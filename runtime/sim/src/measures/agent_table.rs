@@ -1,4 +1,5 @@
-//! A recording as a table for other programs: a row per frame and agent, frame by frame, agents in index order.
+//! A recording as a table for other programs: a row per frame and present agent, frame by frame, agents in the order of
+//! their ids.
 //!
 //! CSV as in RFC 4180: the first line names columns and units, commas separate fields, lines end with CR LF, decimals
 //! have a point. World, metres, seconds, degrees counter-clockwise from the x axis.
@@ -47,20 +48,23 @@ const COLUMNS: [&str; 21] = [
 /// # Errors
 /// If writing fails or, as the source of the error, a frame cannot be read.
 pub fn write_table(recording: &Recording, out: &mut impl Write) -> io::Result<()> {
-    let scenario = &recording.header().scenario;
-    let mut arrivals = vec![Arrival::default(); scenario.agents.len()];
+    let (scenario, population) = (&recording.header().scenario, recording.population());
+    let mut arrivals = vec![Arrival::default(); population.agents.len()];
     let (mut agents, mut before) = (Vec::new(), Vec::new());
     write!(out, "{}\r\n", COLUMNS.join(","))?;
     for step in 0..recording.frame_count() {
         std::mem::swap(&mut agents, &mut before);
         recording.read_frame(step, &mut agents).map_err(io::Error::other)?;
         let time_s = step as f64 * f64::from(scenario.dt_s);
-        for (index, (frame, arrival)) in agents.iter().zip(&mut arrivals).enumerate() {
-            arrival.follow(&scenario.agents[index], frame.root.position_m, time_s);
+        let mut earlier = before.iter().peekable();
+        for frame in &agents {
+            let arrival = &mut arrivals[frame.id.index()];
+            arrival.follow(population.spec(frame.id), frame.root.position_m, time_s);
+            while earlier.next_if(|before: &&AgentFrame| before.id < frame.id).is_some() {}
             // Agents start from rest.
-            let from_m = before.get(index).map_or(frame, |before: &AgentFrame| before).root.position_m;
+            let from_m = earlier.next_if(|before| before.id == frame.id).unwrap_or(frame).root.position_m;
             let velocity_mps = (frame.root.position_m - from_m) / scenario.dt_s;
-            write!(out, "{step},{time_s:.6},{index},")?;
+            write!(out, "{step},{time_s:.6},{},", frame.id.0)?;
             write_row(frame, velocity_mps, arrival.at_s.is_some(), out)?;
         }
     }

@@ -56,11 +56,11 @@ struct CapsuleBody {
 
 impl BodyPenetration {
     /// No frames yet.
-    pub(crate) fn new(skeleton: &Skeleton, agent_count: usize) -> Self {
+    pub(crate) fn new(skeleton: &Skeleton) -> Self {
         Self {
             skeleton: skeleton.clone(),
-            order: (0..agent_count).collect(),
-            bodies: Vec::with_capacity(agent_count),
+            order: Vec::new(),
+            bodies: Vec::new(),
             touches: Vec::new(),
             agent_frames: 0,
             touching_agent_frames: 0,
@@ -70,10 +70,13 @@ impl BodyPenetration {
         }
     }
 
-    /// Adds one frame: every agent's root, and its joints in the root's frame, in index order.
+    /// Adds one frame: every present agent's root, and its joints in the root's frame.
     pub(crate) fn push<'a>(&mut self, agents: impl Iterator<Item = (&'a Root, &'a Joints)>) {
         self.bodies.clear();
         self.bodies.extend(agents.map(|(root, joints)| CapsuleBody::new(&self.skeleton, root, joints)));
+        if self.order.len() != self.bodies.len() {
+            self.order = (0..self.bodies.len()).collect();
+        }
         let positions_m = self.bodies.iter().map(|body| body.position_m);
         let low_m = |index: usize, axis: usize| self.bodies[index].low_m(axis).into();
         let axis = sort_along_longer_side(&mut self.order, positions_m, low_m);
@@ -192,7 +195,7 @@ mod tests {
             let skeleton = test_db().skeleton;
             let posed: Vec<(Root, Joints)> =
                 bodies.iter().map(|(root, pose)| (*root, pose.forward_kinematics(&skeleton))).collect();
-            let mut found = BodyPenetration::new(&skeleton, posed.len());
+            let mut found = BodyPenetration::new(&skeleton);
             found.push(posed.iter().map(|(root, joints)| (root, joints)));
             let pairs = (0..posed.len()).flat_map(|i| (i + 1..posed.len()).map(move |j| (i, j)));
             let depths_m: Vec<f32> = pairs.map(|(i, j)| brute_m(&skeleton, [&posed[i], &posed[j]])).collect();

@@ -8,11 +8,19 @@ use crate::maths::sweep::sort_along_longer_side;
 /// Sums the penetration depths of all pairs, step by step.
 #[derive(Debug)]
 pub struct Collisions {
-    radii_m: Vec<f64>,
     /// Agents sorted along the crowd's longer side; hardly changes from step to step, so sorting stays cheap.
     order: Vec<usize>,
     penetration: f64,
+    /// Sum of the numbers of agents over all steps.
+    agent_steps: usize,
     least_distance_m: f64,
+}
+
+impl Default for Collisions {
+    /// No steps yet.
+    fn default() -> Self {
+        Self { order: Vec::new(), penetration: 0.0, agent_steps: 0, least_distance_m: f64::INFINITY }
+    }
 }
 
 /// The area that a disc sweeps in one step, world, m.
@@ -24,20 +32,19 @@ struct SweptDisc {
 }
 
 impl Collisions {
-    /// No steps yet; radii in index order, metres.
-    pub fn new(radii_m: impl Iterator<Item = f32>) -> Self {
-        let radii_m: Vec<f64> = radii_m.map(f64::from).collect();
-        Self { order: (0..radii_m.len()).collect(), radii_m, penetration: 0.0, least_distance_m: f64::INFINITY }
-    }
-
-    /// Adds one step, given every root before and after it, world, metres.
-    pub fn push(&mut self, before_m: &[Vec2], after_m: &[Vec2]) {
-        let sweep = |(i, &radius_m): (usize, &f64)| SweptDisc {
+    /// Adds one step, given the radius and the roots before and after it of every agent that is present in both frames,
+    /// world, metres.
+    pub fn push(&mut self, radii_m: &[f32], before_m: &[Vec2], after_m: &[Vec2]) {
+        let sweep = |(i, &radius_m): (usize, &f32)| SweptDisc {
             start_m: DVec2::from(before_m[i]),
             displacement_m: DVec2::from(after_m[i]) - DVec2::from(before_m[i]),
-            radius_m,
+            radius_m: radius_m.into(),
         };
-        let sweeps: Vec<SweptDisc> = self.radii_m.iter().enumerate().map(sweep).collect();
+        let sweeps: Vec<SweptDisc> = radii_m.iter().enumerate().map(sweep).collect();
+        self.agent_steps += sweeps.len();
+        if self.order.len() != sweeps.len() {
+            self.order = (0..sweeps.len()).collect();
+        }
         let low_m = |index: usize, axis: usize| sweeps[index].low_m(axis);
         let axis = sort_along_longer_side(&mut self.order, before_m.iter().copied(), low_m);
         for (rank, &a) in self.order.iter().enumerate() {
@@ -59,9 +66,9 @@ impl Collisions {
         self.least_distance_m.is_finite().then_some(self.least_distance_m)
     }
 
-    /// Eq. 17: C, the mean over T steps and N agents of the pairs' penetration depths.
-    pub fn rate(&self, steps: usize) -> f64 {
-        self.penetration / (steps * self.radii_m.len()).max(1) as f64
+    /// Eq. 17: C, the mean over all steps and their agents of the pairs' penetration depths.
+    pub fn rate(&self) -> f64 {
+        self.penetration / self.agent_steps.max(1) as f64
     }
 }
 
@@ -92,9 +99,9 @@ mod tests {
     use super::*;
 
     fn rate(radii_m: &[f32], before_m: &[Vec2], after_m: &[Vec2]) -> f64 {
-        let mut collisions = Collisions::new(radii_m.iter().copied());
-        collisions.push(before_m, after_m);
-        collisions.rate(1)
+        let mut collisions = Collisions::default();
+        collisions.push(radii_m, before_m, after_m);
+        collisions.rate()
     }
 
     #[test]
@@ -109,14 +116,27 @@ mod tests {
 
     #[test]
     fn the_least_distance_counts_within_steps() {
-        let mut collisions = Collisions::new([0.1; 3].into_iter());
+        let mut collisions = Collisions::default();
         assert_eq!(collisions.least_distance_m(), None);
         let far = Vec2::new(50.0, 50.0);
-        collisions
-            .push(&[Vec2::new(-1.0, 0.0), Vec2::new(0.0, 3.0), far], &[Vec2::new(1.0, 0.0), Vec2::new(0.0, 3.0), far]);
-        assert_eq!(collisions.least_distance_m(), Some(3.0));
-        collisions.push(&[Vec2::ZERO, Vec2::new(0.0, 4.0), far], &[Vec2::ZERO, Vec2::new(0.0, 4.0), far]);
-        assert_eq!(collisions.least_distance_m(), Some(3.0));
+        let mut push = |before_m: [Vec2; 3], after_m: [Vec2; 3]| {
+            collisions.push(&[0.1; 3], &before_m, &after_m);
+            assert_eq!(collisions.least_distance_m(), Some(3.0));
+        };
+        let aside = Vec2::new(0.0, 3.0);
+        push([Vec2::new(-1.0, 0.0), aside, far], [Vec2::new(1.0, 0.0), aside, far]);
+        push([Vec2::ZERO, Vec2::new(0.0, 4.0), far], [Vec2::ZERO, Vec2::new(0.0, 4.0), far]);
+    }
+
+    #[test]
+    fn the_rate_counts_present_agents_only() {
+        let mut collisions = Collisions::default();
+        let near = [Vec2::ZERO, Vec2::new(0.25, 0.0)];
+        collisions.push(&[0.25; 2], &near, &near);
+        collisions.push(&[0.25], &near[..1], &near[..1]);
+        collisions.push(&[], &[], &[]);
+        // Half a depth in three agent-steps.
+        assert_eq!(collisions.rate(), 0.5 / 3.0);
     }
 
     #[test]
@@ -146,9 +166,9 @@ mod tests {
                     brute_m = brute_m.min(least);
                 }
             }
-            let mut collisions = Collisions::new(radii.into_iter());
-            collisions.push(&before, &after);
-            let found = collisions.rate(1) * agents.len() as f64;
+            let mut collisions = Collisions::default();
+            collisions.push(&radii, &before, &after);
+            let found = collisions.rate() * agents.len() as f64;
             prop_assert!((found - brute).abs() < 1e-3 * (1.0 + brute), "{found} against {brute}");
             let found_m = collisions.least_distance_m().map_or(f32::INFINITY, |found_m| found_m as f32);
             prop_assert!(found_m == brute_m || (found_m - brute_m).abs() < 1e-3, "{found_m} m against {brute_m} m");

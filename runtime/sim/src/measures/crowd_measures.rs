@@ -9,9 +9,11 @@ use serde::Serialize;
 
 use crate::measures::body_penetration::BodyPenetration;
 use crate::measures::collision_rate::Collisions;
+use crate::measures::frame_pairs::FramePairs;
 use crate::measures::planted_slide::PlantedSlide;
 use crate::measures::root_measures::RootMeasures;
 use crate::measures::wall_contact::WallContact;
+use crate::population::Population;
 use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
 use crate::recording::reader::Recording;
@@ -31,8 +33,16 @@ use crate::scenario::Scenario;
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measures {
-    /// N: number of agents.
+    /// N: number of agents that were present at any time.
     pub agents: usize,
+    /// Number of agents that were born after the start, or came from a source.
+    pub born: usize,
+    /// Number of agents that were removed.
+    pub removed: usize,
+    /// Number of agents that were due at a source at the end and had had no room.
+    pub waiting: usize,
+    /// Time during which sources had no room for an agent that was due, summed over sources, s.
+    pub source_blocked_s: f64,
     /// T: number of steps, frames less one.
     pub steps: usize,
     /// Time step, s.
@@ -49,7 +59,7 @@ pub struct Measures {
     pub arrived: usize,
     /// Number of agents that stayed below 0.1 m/s for 5 s before arriving.
     pub stalled: usize,
-    /// Mean time to arrival over the agents that arrived, s; none where no agent did.
+    /// Mean time from birth to arrival over the agents that arrived, s; none where no agent did.
     pub mean_time_to_goal_s: Option<f64>,
     /// Length of the path until the arrival, divided by that of the straight path through the waypoints; mean over the
     /// agents that arrived.
@@ -107,35 +117,41 @@ pub struct Measuring {
 }
 
 impl Measuring {
-    /// Begins with the start of a scenario: every agent in index order.
-    pub fn new(skeleton: &Skeleton, scenario: &Scenario, start: &[AgentFrame]) -> Self {
-        let (agents, dt_s) = (&scenario.agents, scenario.dt_s);
+    /// Begins with the start of a scenario. The population must list every agent of the frame; it may list later ones.
+    pub fn new(skeleton: &Skeleton, scenario: &Scenario, population: &Population, start: &[AgentFrame]) -> Self {
+        let dt_s = scenario.dt_s;
         let mut measuring = Self {
             skeleton: skeleton.clone(),
             dt_s,
             steps: 0,
             before: start.to_vec(),
-            joints: Vec::with_capacity(agents.len()),
-            collisions: Collisions::new(agents.iter().map(|agent| agent.radius_m)),
-            roots: RootMeasures::new(agents, start, dt_s),
-            slide: PlantedSlide::new(skeleton, agents.len(), dt_s),
-            bodies: BodyPenetration::new(skeleton, agents.len()),
+            joints: Vec::with_capacity(start.len()),
+            collisions: Collisions::default(),
+            roots: RootMeasures::new(population, start, dt_s),
+            slide: PlantedSlide::new(skeleton, start.len(), dt_s),
+            bodies: BodyPenetration::new(skeleton),
             walls: WallContact::new(skeleton, scenario),
         };
         measuring.pose(start);
-        measuring.follow_feet(start);
+        follow_feet(&mut measuring.slide, &measuring.roots, start, &measuring.joints);
         measuring
     }
 
-    /// Adds one step, given every agent after it, in index order.
-    pub fn push(&mut self, after: &[AgentFrame]) {
+    /// Adds one step, given every present agent after it, in the order of ids, and a population that lists them.
+    pub fn push(&mut self, population: &Population, after: &[AgentFrame]) {
         self.steps += 1;
         self.pose(after);
-        self.collisions.push(&roots_m(&self.before), &roots_m(after));
-        self.follow_feet(after);
-        self.roots.push(&self.before, after);
+        let pairs = FramePairs::new(&self.before, after);
+        let (before_m, after_m): (Vec<Vec2>, Vec<Vec2>) =
+            pairs.common.iter().map(|(before, after)| (before.root.position_m, after.root.position_m)).unzip();
+        let spec = |agent: &AgentFrame| population.spec(agent.id);
+        let radii_m: Vec<f32> = pairs.common.iter().map(|(_, after)| spec(after).radius_m).collect();
+        self.collisions.push(&radii_m, &before_m, &after_m);
+        follow_feet(&mut self.slide, &self.roots, after, &self.joints);
+        self.roots.push(population, &pairs);
         self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
-        self.walls.push(after, &self.joints);
+        let wall_radii_m: Vec<f32> = after.iter().map(|agent| spec(agent).wall_radius_m).collect();
+        self.walls.push(after, &self.joints, &wall_radii_m);
         self.before.clear();
         self.before.extend_from_slice(after);
     }
@@ -145,14 +161,20 @@ impl Measuring {
         self.roots.all_are_at_goals()
     }
 
-    /// The measures after the last frame.
-    pub fn finish(self) -> Measures {
+    /// The measures after the last frame, of the population at that time.
+    pub fn finish(self, population: &Population) -> Measures {
+        let Population { agents, sources } = population;
+        let blocked_frames: u64 = sources.iter().map(|source| u64::from(source.blocked_frames)).sum();
         let (slide, bodies, walls) = (self.slide.finish(), self.bodies.finish(), self.walls.finish());
         Measures {
-            agents: self.before.len(),
+            agents: agents.len(),
+            born: agents.iter().filter(|life| life.born > 0 || life.source.is_some()).count(),
+            removed: agents.iter().filter(|life| life.removed.is_some()).count(),
+            waiting: sources.iter().map(|source| source.waiting as usize).sum(),
+            source_blocked_s: blocked_frames as f64 * f64::from(self.dt_s),
             steps: self.steps,
             dt_s: self.dt_s,
-            collision_rate: self.collisions.rate(self.steps),
+            collision_rate: self.collisions.rate(),
             minimum_separation_m: self.collisions.least_distance_m(),
             mean_acceleration_mps2: self.roots.acceleration_mps2.value(),
             mean_acceleration_before_arrival_mps2: self.roots.acceleration_before_arrival_mps2.value(),
@@ -179,15 +201,6 @@ impl Measuring {
         }
     }
 
-    /// Measures the feet of agents that had not arrived before: waiting at the goal does not dilute the slide.
-    fn follow_feet(&mut self, agents: &[AgentFrame]) {
-        for (index, (agent, joints)) in agents.iter().zip(&self.joints).enumerate() {
-            if !self.roots.has_arrived(index) {
-                self.slide.push_one(index, agent, joints);
-            }
-        }
-    }
-
     fn pose(&mut self, agents: &[AgentFrame]) {
         self.joints.clear();
         self.joints.extend(agents.iter().map(|agent| agent.pose.forward_kinematics(&self.skeleton)));
@@ -202,14 +215,20 @@ pub fn measure(recording: &Recording) -> Result<Measures, RecordingError> {
     let header = recording.header();
     let mut agents = Vec::new();
     recording.read_frame(0, &mut agents)?;
-    let mut measuring = Measuring::new(&header.skeleton, &header.scenario, &agents);
+    let population = recording.population();
+    let mut measuring = Measuring::new(header.skeleton(), &header.scenario, population, &agents);
     for frame in 1..recording.frame_count() {
         recording.read_frame(frame, &mut agents)?;
-        measuring.push(&agents);
+        measuring.push(population, &agents);
     }
-    Ok(measuring.finish())
+    Ok(measuring.finish(population))
 }
 
-fn roots_m(agents: &[AgentFrame]) -> Vec<Vec2> {
-    agents.iter().map(|agent| agent.root.position_m).collect()
+/// Measures the feet of agents that had not arrived before: waiting at the goal does not dilute the slide.
+fn follow_feet(slide: &mut PlantedSlide, roots: &RootMeasures, agents: &[AgentFrame], joints: &[Joints]) {
+    for (agent, joints) in agents.iter().zip(joints) {
+        if !roots.has_arrived(agent.id) {
+            slide.push_one(agent.id.index(), agent, joints);
+        }
+    }
 }

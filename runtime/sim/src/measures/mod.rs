@@ -5,7 +5,7 @@
 //!
 //! Read `crowd_measures`, which collects the measures of `fbcrowd measure` from its parts: `collision_rate` (Eqs. 16,
 //! 17), `root_measures` (Eq. 18, arrival, tracking), `planted_slide`, `body_penetration` and `wall_contact` (both by
-//! the capsules of `bone_capsule`). `pedestrian_studies` holds flow, lanes, density and waiting crowds; `agent_table`
+//! the capsules of `bone_capsule`); `frame_pairs` pairs the agents of two frames. `pedestrian_studies` holds flow, lanes, density and waiting crowds; `agent_table`
 //! and `trajectories` write a recording as text.
 
 pub(crate) mod agent_table;
@@ -13,6 +13,7 @@ pub(crate) mod body_penetration;
 pub(crate) mod bone_capsule;
 pub(crate) mod collision_rate;
 pub(crate) mod crowd_measures;
+pub(crate) mod frame_pairs;
 pub(crate) mod pedestrian_studies;
 pub(crate) mod planted_slide;
 pub(crate) mod root_measures;

@@ -21,7 +21,7 @@ const CONTACT_MIN_S: f64 = 0.08;
 pub struct PlantedSlide {
     skeleton: Skeleton,
     dt_s: f64,
-    /// `[left, right]` of each agent.
+    /// `[left, right]` of each agent, by id.
     feet: Vec<[FootTrack; 2]>,
     samples: usize,
     slide_cm_s: f64,
@@ -70,7 +70,7 @@ struct SlideSample {
 }
 
 impl PlantedSlide {
-    /// No frames yet.
+    /// No frames yet; more agents may come.
     pub fn new(skeleton: &Skeleton, agent_count: usize, dt_s: f32) -> Self {
         Self {
             skeleton: skeleton.clone(),
@@ -93,6 +93,9 @@ impl PlantedSlide {
 
     /// Adds one frame of one agent. An agent that is no longer added counts up to its last frame.
     pub fn push_one(&mut self, index: usize, agent: &AgentFrame, joints: &Joints) {
+        if index >= self.feet.len() {
+            self.feet.resize(index + 1, Default::default());
+        }
         for (side, foot) in foot_frames(&self.skeleton, agent, joints).into_iter().enumerate() {
             self.foot_frames += 1;
             self.planted_foot_frames += usize::from(foot.planted);

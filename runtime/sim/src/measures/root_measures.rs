@@ -7,7 +7,9 @@
 use glam::DVec2;
 use motiondb::statistics::mean;
 
+use crate::measures::frame_pairs::FramePairs;
 use crate::planning::plan::VelocitySet;
+use crate::population::{AgentId, Population};
 use crate::recording::frame::AgentFrame;
 use crate::route::arrival::Arrival;
 use crate::scenario::AgentSpec;
@@ -17,11 +19,12 @@ const STALL_SPEED_MPS: f64 = 0.1;
 /// Time of standing that counts as stalling, s.
 const STALL_S: f64 = 5.0;
 
-/// Measures every root, step by step. Means over steps are over those before each agent's arrival unless stated.
+/// Measures every root, step by step, while its agent is present. Means over steps are over those before each agent's arrival unless stated.
 #[derive(Debug)]
 pub(crate) struct RootMeasures {
     dt_s: f64,
     steps: usize,
+    /// By id.
     tracks: Vec<RootTrack>,
     /// A: acceleration over all steps, m/s².
     pub(crate) acceleration_mps2: RunningMean,
@@ -52,6 +55,10 @@ pub(crate) struct RunningMean {
 #[derive(Debug)]
 struct RootTrack {
     agent: AgentSpec,
+    /// Time at which the agent was born, s.
+    born_s: f64,
+    /// Whether the agent was removed.
+    is_gone: bool,
     arrival: Arrival,
     velocity_mps: DVec2,
     /// Length of the path until the arrival, m.
@@ -83,15 +90,11 @@ impl RunningMean {
 
 impl RootMeasures {
     /// The agents at their start.
-    pub(crate) fn new(agents: &[AgentSpec], start: &[AgentFrame], dt_s: f32) -> Self {
-        let mut tracks: Vec<RootTrack> = agents.iter().map(RootTrack::new).collect();
-        for (track, frame) in tracks.iter_mut().zip(start) {
-            track.arrive(frame, 0.0);
-        }
-        Self {
+    pub(crate) fn new(population: &Population, start: &[AgentFrame], dt_s: f32) -> Self {
+        let mut measures = Self {
             dt_s: dt_s.into(),
             steps: 0,
-            tracks,
+            tracks: Vec::new(),
             acceleration_mps2: RunningMean::default(),
             acceleration_before_arrival_mps2: RunningMean::default(),
             tracking_error_m: RunningMean::default(),
@@ -100,13 +103,25 @@ impl RootMeasures {
             walking_heading_error_deg: RunningMean::default(),
             strafing: RunningMean::default(),
             stepping_back: RunningMean::default(),
-        }
+        };
+        start.iter().for_each(|frame| measures.begin(population, frame));
+        measures
     }
 
-    /// Adds one step, given every agent before and after it.
-    pub(crate) fn push(&mut self, before: &[AgentFrame], after: &[AgentFrame]) {
+    /// Begins with an agent that is born in the present frame.
+    fn begin(&mut self, population: &Population, frame: &AgentFrame) {
+        let now_s = self.steps as f64 * self.dt_s;
+        let mut track = RootTrack::new(population.spec(frame.id), now_s);
+        track.arrive(frame, now_s);
+        self.tracks.push(track);
+    }
+
+    /// Adds one step, given the agents that are present before and after it, and those that were removed or born.
+    pub(crate) fn push(&mut self, population: &Population, pairs: &FramePairs<'_>) {
         self.steps += 1;
-        for (track, (before, after)) in self.tracks.iter_mut().zip(before.iter().zip(after)) {
+        pairs.removed.iter().for_each(|agent| self.tracks[agent.id.index()].is_gone = true);
+        for &(before, after) in &pairs.common {
+            let track = &mut self.tracks[after.id.index()];
             let displacement_m = position_m(after) - position_m(before);
             let velocity_mps = displacement_m / self.dt_s;
             let acceleration_mps2 = (velocity_mps - track.velocity_mps).length() / self.dt_s;
@@ -132,21 +147,22 @@ impl RootMeasures {
             self.tracking_worst_m = self.tracking_worst_m.max(tracking_error_m);
             track.arrive(after, self.steps as f64 * self.dt_s);
         }
+        pairs.born.iter().for_each(|frame| self.begin(population, frame));
     }
 
-    /// Whether every agent has passed its waypoints and is near its last goal now.
+    /// Whether every present agent has passed its waypoints and is near its last goal now.
     pub(crate) fn all_are_at_goals(&self) -> bool {
-        self.tracks.iter().all(|track| track.arrival.is_at_goal)
+        self.tracks.iter().all(|track| track.arrival.is_at_goal || track.is_gone)
     }
 
     /// Whether an agent has arrived at its last goal so far.
-    pub(crate) fn has_arrived(&self, agent: usize) -> bool {
-        self.tracks[agent].arrival.at_s.is_some()
+    pub(crate) fn has_arrived(&self, id: AgentId) -> bool {
+        self.tracks.get(id.index()).is_some_and(|track| track.arrival.at_s.is_some())
     }
 
-    /// Number of agents that have arrived.
+    /// Number of agents that have arrived, whether they are still present or not.
     pub(crate) fn arrived(&self) -> usize {
-        (0..self.tracks.len()).filter(|&agent| self.has_arrived(agent)).count()
+        self.tracks.iter().filter(|track| track.arrival.at_s.is_some()).count()
     }
 
     /// Number of agents that stalled before they arrived.
@@ -154,9 +170,9 @@ impl RootMeasures {
         self.tracks.iter().filter(|track| track.stalled).count()
     }
 
-    /// Mean time to arrival, s; none where no agent arrived.
+    /// Mean time from birth to arrival, s; none where no agent arrived.
     pub(crate) fn mean_time_to_goal_s(&self) -> Option<f64> {
-        mean(self.tracks.iter().filter_map(|track| track.arrival.at_s))
+        mean(self.tracks.iter().filter_map(|track| Some(track.arrival.at_s? - track.born_s)))
     }
 
     /// Mean length of the paths until arrival, divided by that of the straight paths; none where no agent had to move.
@@ -166,9 +182,11 @@ impl RootMeasures {
 }
 
 impl RootTrack {
-    fn new(agent: &AgentSpec) -> Self {
+    fn new(agent: &AgentSpec, born_s: f64) -> Self {
         Self {
             agent: agent.clone(),
+            born_s,
+            is_gone: false,
             arrival: Arrival::default(),
             velocity_mps: DVec2::ZERO,
             path_m: 0.0,

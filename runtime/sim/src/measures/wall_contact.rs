@@ -23,7 +23,6 @@ const REACH_M: f32 = 1.2;
 pub(crate) struct WallContact {
     skeleton: Skeleton,
     obstacles: Obstacles,
-    wall_radii_m: Vec<f32>,
     agent_frames: usize,
     touching_discs: usize,
     touching_bodies: usize,
@@ -47,7 +46,6 @@ impl WallContact {
         Self {
             skeleton: skeleton.clone(),
             obstacles: Obstacles::new(&scenario.obstacles_m),
-            wall_radii_m: scenario.agents.iter().map(|agent| agent.wall_radius_m).collect(),
             agent_frames: 0,
             touching_discs: 0,
             touching_bodies: 0,
@@ -55,11 +53,11 @@ impl WallContact {
         }
     }
 
-    /// Adds one frame: every agent, and its joints in its root's frame, in index order.
-    pub(crate) fn push(&mut self, agents: &[AgentFrame], joints: &[Joints]) {
+    /// Adds one frame: every present agent, its joints in its root's frame, and the radius of the disc that walls hold.
+    pub(crate) fn push(&mut self, agents: &[AgentFrame], joints: &[Joints], wall_radii_m: &[f32]) {
         self.agent_frames += agents.len();
         let mut near = Vec::new();
-        for ((agent, joints), &radius_m) in agents.iter().zip(joints).zip(&self.wall_radii_m) {
+        for ((agent, joints), &radius_m) in agents.iter().zip(joints).zip(wall_radii_m) {
             self.obstacles.near(agent.root.position_m, REACH_M.max(radius_m + TOUCH_M), &mut near);
             let Some(nearest) = near.first() else { continue };
             self.touching_discs += usize::from(nearest.distance_m < radius_m + TOUCH_M);
@@ -116,7 +114,7 @@ mod tests {
         let root = Root { position_m: Vec2::new(-clear_m, 0.0), facing_rad: 0.0 };
         let frame = AgentFrame { root, pose: db.rows.pose(0, 0), ..AgentFrame::default() };
         let mut contact = WallContact::new(&db.skeleton, &scenario);
-        contact.push(&[frame], &[frame.pose.forward_kinematics(&db.skeleton)]);
+        contact.push(&[frame], &[frame.pose.forward_kinematics(&db.skeleton)], &[0.2]);
         contact.finish()
     }
 

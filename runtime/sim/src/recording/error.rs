@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use crate::recording::format::FORMAT_VERSION;
+use crate::recording::format::{FORMAT_VERSION, FORMAT_VERSION_1};
 use crate::recording::frame_packing::FrameFault;
 
 /// Why a recording cannot be written or read.
@@ -33,7 +33,7 @@ pub enum RecordingError {
     },
     /// Another version of the program wrote the file.
     #[error(
-        "{}: byte 8: format version {found}, but this program reads version {FORMAT_VERSION}; simulate the scenario again",
+        "{}: byte 8: format version {found}, but this program reads versions {FORMAT_VERSION_1} and {FORMAT_VERSION}; simulate the scenario again",
         path.display()
     )]
     Version {
@@ -53,13 +53,18 @@ pub enum RecordingError {
         what: String,
     },
     /// The bytes of an agent in a frame are not valid.
-    #[error("{}: frame {frame}, agent {agent}: {fault}; the file was altered: simulate the scenario again", path.display())]
+    #[error(
+        "{}: byte {byte}: frame {frame}, agent {agent}: {fault}; the file was altered: simulate the scenario again",
+        path.display()
+    )]
     Frame {
         /// The recording.
         path: PathBuf,
+        /// The byte at which the frame's chunk begins.
+        byte: u64,
         /// Index of the frame.
         frame: usize,
-        /// Index of the agent.
+        /// Number of agents before it in the frame.
         agent: usize,
         /// What is wrong with its bytes.
         fault: FrameFault,
@@ -74,17 +79,33 @@ pub enum RecordingError {
         /// Number of frames in the recording.
         count: usize,
     },
-    /// A frame to be recorded has another number of agents than the header.
-    #[error("{}: frame {frame} holds {found} agents, but the scenario has {expected}", path.display())]
+    /// A header to be recorded is not valid.
+    #[error("{}: cannot be recorded: {what}", path.display())]
+    Header {
+        /// The recording.
+        path: PathBuf,
+        /// What is wrong with the header.
+        what: String,
+    },
+    /// The first frame lacks agents of the scenario, or the frames show another number of agents than the population.
+    #[error("{}: the frames hold {found} agents, but there are {expected}", path.display())]
     AgentCount {
+        /// The recording.
+        path: PathBuf,
+        /// Number of agents in the frames.
+        found: usize,
+        /// Number of agents that there must be.
+        expected: usize,
+    },
+    /// The ids of a frame to be recorded do not rise, leave one out, or bring a removed agent back.
+    #[error("{}: frame {frame}: agent {agent} is not the next one: ids count births", path.display())]
+    AgentId {
         /// The recording.
         path: PathBuf,
         /// Index of the frame.
         frame: usize,
-        /// Number of agents in the frame.
-        found: usize,
-        /// Number of agents in the header's scenario.
-        expected: usize,
+        /// Id of the agent.
+        agent: usize,
     },
     /// A frame to be recorded holds a value that is not finite, or beyond all scenarios.
     #[error("{}: frame {frame}: agent {agent} is not finite: the simulation is broken, not its input", path.display())]
@@ -93,7 +114,7 @@ pub enum RecordingError {
         path: PathBuf,
         /// Index of the frame.
         frame: usize,
-        /// Index of the agent.
+        /// Id of the agent.
         agent: usize,
     },
 }

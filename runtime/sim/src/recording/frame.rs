@@ -4,12 +4,17 @@ use glam::{Quat, Vec2, Vec3};
 use motiondb::body::{JOINT_COUNT, Pose, Root};
 
 use crate::planning::plan::VelocitySet;
+use crate::population::AgentId;
 use crate::synthesis::BodyOutput;
 use crate::synthesis::Mode;
 
 /// One agent in one frame, decoded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AgentFrame {
+    /// The agent.
+    pub id: AgentId,
+    /// Behaviour state: index into the header's state names.
+    pub state: u16,
     /// The synthesised root.
     pub root: Root,
     /// v_pref, world, m/s.
@@ -51,6 +56,8 @@ impl Default for AgentFrame {
     /// A body at the origin that stands on both feet, every joint at rest.
     fn default() -> Self {
         Self {
+            id: AgentId::default(),
+            state: 0,
             root: Root::default(),
             preferred_mps: Vec2::ZERO,
             planned_mps: Vec2::ZERO,

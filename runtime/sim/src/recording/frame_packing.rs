@@ -49,6 +49,9 @@ pub enum FrameFault {
     /// The time to landing is not finite, or beyond all scenarios.
     #[error("the time to landing is not finite, or beyond all scenarios")]
     TimeToLandingOutOfRange,
+    /// The id of the agent is beyond all ids.
+    #[error("the id is beyond all ids")]
+    IdOutOfRange,
     /// The code of the active mode is not known.
     #[error("the synthesis mode {0} is unknown")]
     UnknownMode(u8),
@@ -84,7 +87,7 @@ pub(crate) fn pack(frame: &AgentFrame, bytes: &mut Vec<u8>) -> Option<()> {
     Some(())
 }
 
-/// The inverse of `pack`.
+/// The inverse of `pack`; id and state, which are not packed, are 0.
 ///
 /// # Errors
 /// If the bytes are not a frame of an agent.
@@ -114,6 +117,7 @@ pub fn unpack(bytes: &[u8]) -> Result<AgentFrame, FrameFault> {
         stepping_back_s,
         examples_slide_cm_s,
         pose,
+        ..AgentFrame::default()
     })
 }
 

@@ -9,60 +9,126 @@ use serde::{Deserialize, Serialize};
 use crate::recording::chunk::ChunkFile;
 use crate::recording::error::RecordingError;
 use crate::recording::format::{HEAD, HEAD_BYTE};
+use crate::recording::zipped_json;
 use crate::scenario::Scenario;
-use crate::scenario::ranges::check_ranges;
+use crate::scenario::check::check_numbers;
 
 /// Greatest velocity of a set, m/s; none of a body comes near.
 const SPEED_MAX_MPS: f32 = 100.0;
-/// Size beyond which no header is decoded, bytes; none of a million agents with waypoints comes near.
-const HEADER_LIMIT_BYTES: usize = 1 << 30;
+/// Greatest number of databases and of characters.
+const DATABASES_MAX: usize = 10_000;
+/// Greatest number of behaviour states: a frame names them by a u16.
+const STATES_MAX: usize = 1 << 16;
+/// Greatest length of the name of a character or state, bytes.
+const NAME_MAX_BYTES: usize = 200;
+/// Name of the behaviour state of an agent that follows its waypoints.
+pub const FOLLOWS_PATH: &str = "follow_path";
 
 /// What holds for all frames of a recording. No timings, no dates, no paths.
+///
+/// A header is JSON, so that later versions of the program can add keys: a key that is added must have a default that
+/// means what the program did before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
-    /// CRC-32 of the database that the bodies came from.
-    pub database_checksum: u32,
-    /// The bodies: bones, soles, capsules.
-    pub skeleton: Skeleton,
-    /// Velocity sets of the database: with them, any step can be planned again.
-    pub velocity_hull: VelocityHull,
-    /// The whole scenario: agents, obstacles, tunables, time step, view.
+    /// The databases that the bodies came from; at least one.
+    pub databases: Vec<RecordedDatabase>,
+    /// The characters that bodies are drawn as.
+    #[serde(default)]
+    pub characters: Vec<RecordedCharacter>,
+    /// Names of the behaviour states; at least one.
+    #[serde(default = "default_states")]
+    pub states: Vec<String>,
+    /// The whole scenario: agents at the start, sources, obstacles, tunables, time step, view.
     pub scenario: Scenario,
 }
 
+/// What a recording keeps of a database: with it, bodies can be drawn and any step can be planned again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecordedDatabase {
+    /// CRC-32 of the database.
+    pub checksum: u32,
+    /// The bodies: bones, soles, capsules.
+    pub skeleton: Skeleton,
+    /// Velocity sets of the database.
+    pub velocity_hull: VelocityHull,
+}
+
+/// A character that bodies are drawn as.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecordedCharacter {
+    /// Name of the character.
+    pub name: String,
+    /// CRC-32 of the character's file.
+    pub checksum: u32,
+}
+
+fn default_states() -> Vec<String> {
+    vec![FOLLOWS_PATH.to_owned()]
+}
+
 impl Header {
-    /// The header of a scenario with bodies from a database.
+    /// The header of a scenario with bodies from one database.
     pub fn new(db: &MotionDb, database_checksum: u32, scenario: Scenario) -> Self {
         let (skeleton, velocity_hull) = (db.skeleton.clone(), db.velocity_hull.clone());
-        Self { database_checksum, skeleton, velocity_hull, scenario }
+        Self::of(RecordedDatabase { checksum: database_checksum, skeleton, velocity_hull }, scenario)
     }
 
-    /// The payload of the `HEAD` chunk.
-    pub(crate) fn encode(&self) -> Result<Vec<u8>, bincode::error::EncodeError> {
-        bincode::serde::encode_to_vec(self, bincode_config())
+    /// The header of a scenario with bodies from one recorded database.
+    pub fn of(database: RecordedDatabase, scenario: Scenario) -> Self {
+        Self { databases: vec![database], characters: Vec::new(), states: default_states(), scenario }
+    }
+
+    /// The bodies of the first database, by which all agents move today.
+    ///
+    /// # Panics
+    /// If the header has no database; that of an opened recording has one.
+    pub fn skeleton(&self) -> &Skeleton {
+        &self.databases[0].skeleton
+    }
+
+    /// The velocity sets of the first database.
+    ///
+    /// # Panics
+    /// If the header has no database; that of an opened recording has one.
+    pub fn velocity_hull(&self) -> &VelocityHull {
+        &self.databases[0].velocity_hull
     }
 
     /// Decodes and checks the `HEAD` chunk of a file.
-    pub(crate) fn decode(file: &ChunkFile) -> Result<Self, RecordingError> {
+    pub(crate) fn read(file: &ChunkFile) -> Result<Self, RecordingError> {
         let payload = file.read_chunk(HEAD_BYTE, HEAD)?;
-        let (header, used) = bincode::serde::decode_from_slice::<Self, _>(&payload, bincode_config())
-            .map_err(|error| file.damaged(HEAD_BYTE, format!("the header cannot be decoded ({error})")))?;
-        if used != payload.len() {
-            return Err(file.damaged(HEAD_BYTE, "the header is longer than its content"));
-        }
-        check_ranges(&header.scenario).map_err(|fault| file.damaged(HEAD_BYTE, fault.message))?;
-        if !is_in_range(&header.skeleton) {
-            return Err(file.damaged(HEAD_BYTE, "the skeleton is out of range"));
-        }
-        if !is_reachable(&header.velocity_hull) {
-            return Err(file.damaged(HEAD_BYTE, "the velocity sets are out of range"));
-        }
+        let header: Self = zipped_json::decode(&payload)
+            .map_err(|what| file.damaged(HEAD_BYTE, format!("the header cannot be decoded ({what})")))?;
+        header.check().map_err(|what| file.damaged(HEAD_BYTE, what))?;
         Ok(header)
     }
-}
 
-fn bincode_config() -> impl bincode::config::Config {
-    bincode::config::standard().with_fixed_int_encoding().with_limit::<HEADER_LIMIT_BYTES>()
+    /// Checks every number and name.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        check_numbers(&self.scenario).map_err(|fault| fault.message)?;
+        let counts = [
+            ("databases", self.databases.len(), 1..=DATABASES_MAX),
+            ("characters", self.characters.len(), 0..=DATABASES_MAX),
+            ("behaviour states", self.states.len(), 1..=STATES_MAX),
+        ];
+        if let Some((what, count, _)) = counts.iter().find(|(_, count, range)| !range.contains(count)) {
+            return Err(format!("the header has {count} {what}"));
+        }
+        let mut names = self.states.iter().chain(self.characters.iter().map(|character| &character.name));
+        if names.any(|name| name.len() > NAME_MAX_BYTES) {
+            return Err("the name of a state or character is longer than 200 bytes".into());
+        }
+        if !self.databases.iter().all(|database| is_in_range(&database.skeleton)) {
+            return Err("the skeleton is out of range".into());
+        }
+        if !self.databases.iter().all(|database| is_reachable(&database.velocity_hull)) {
+            return Err("the velocity sets are out of range".into());
+        }
+        Ok(())
+    }
 }
 
 /// Whether every bone, point and limit of a skeleton is finite and within [`BONE_MAX_M`] and [`LIMIT_MAX_RAD`]. Every

@@ -1,14 +1,18 @@
-//! The reader of a recording: header and index on opening, frames on demand.
+//! The reader of a recording: header, agents and index on opening, frames on demand.
 
 use std::path::Path;
 
+use crate::population::Population;
 use crate::recording::chunk::ChunkFile;
-use crate::recording::compression::decompress;
 use crate::recording::error::RecordingError;
-use crate::recording::format::{FORMAT_VERSION, FRAME, INDEX, MAGIC, TAIL, TAIL_BYTES};
+use crate::recording::format::{
+    AGENTS, FORMAT_VERSION, FORMAT_VERSION_1, FRAME, INDEX, INDEX_ENTRY_BYTES, MAGIC, TAIL, TAIL_BYTES,
+};
 use crate::recording::frame::AgentFrame;
+use crate::recording::frame_chunk::{FrameStart, ROW_BYTES, decompress};
 use crate::recording::frame_packing::{PACKED_BYTES, unpack};
 use crate::recording::header::Header;
+use crate::recording::{agents_chunk, frame_chunk, version_1};
 
 /// An open recording; frames are read on demand, from any thread.
 ///
@@ -23,7 +27,7 @@ use crate::recording::header::Header;
 /// let mut agents = Vec::new();
 /// recording.read_frame(0, &mut agents)?;
 /// for agent in &agents {
-///     let joints = agent.pose.forward_kinematics(&recording.header().skeleton);
+///     let joints = agent.pose.forward_kinematics(recording.header().skeleton());
 ///     // From the root's frame to the world, metres.
 ///     println!("{}", agent.root.to_world(joints.positions_m[Joint::Head.index()]));
 /// }
@@ -34,21 +38,42 @@ use crate::recording::header::Header;
 pub struct Recording {
     file: ChunkFile,
     header: Header,
+    population: Population,
+    frames: FrameIndex,
+}
+
+/// Where the frames of a file are.
+#[derive(Debug)]
+struct FrameIndex {
+    /// Format version of the file.
+    version: u32,
     /// Byte at which each frame's chunk begins.
-    frame_bytes: Vec<u64>,
+    bytes: Vec<u64>,
+    /// Number of agents in each frame.
+    agent_counts: Vec<u32>,
 }
 
 impl Recording {
-    /// Reads header and index, and checks them; each frame is checked when it is read.
+    /// Reads header, index and agents, and checks them; each frame is checked when it is read.
     ///
     /// # Errors
-    /// If the file is not a recording, of another version, cut short or altered.
+    /// If the file is not a recording, of an unknown version, cut short or altered.
     pub fn open(path: &Path) -> Result<Self, RecordingError> {
         let file = ChunkFile::open(path)?;
-        check_magic(&file)?;
-        let header = Header::decode(&file)?;
-        let frame_bytes = read_index(&file)?;
-        Ok(Self { file, header, frame_bytes })
+        let version = read_version(&file)?;
+        let (header, population, bytes) = if version == FORMAT_VERSION_1 {
+            let header = version_1::read_header(&file)?;
+            let bytes = version_1::read_index(&file, index_byte(&file)?)?;
+            let population = Population::of(&header.scenario);
+            (header, population, bytes)
+        } else {
+            let header = Header::read(&file)?;
+            let (bytes, agents_byte) = read_index(&file)?;
+            let population = read_population(&file, &header, agents_byte, bytes.len())?;
+            (header, population, bytes)
+        };
+        let agent_counts = agent_counts(&population, bytes.len());
+        Ok(Self { file, header, population, frames: FrameIndex { version, bytes, agent_counts } })
     }
 
     /// What holds for all frames.
@@ -56,12 +81,22 @@ impl Recording {
         &self.header
     }
 
-    /// Number of frames, the start included: steps + 1, so at least one.
-    pub fn frame_count(&self) -> usize {
-        self.frame_bytes.len()
+    /// All agents, from birth to removal, and the counts of the sources.
+    pub fn population(&self) -> &Population {
+        &self.population
     }
 
-    /// Replaces `agents` by those of one frame, in index order.
+    /// Number of frames, the start included: steps + 1, so at least one.
+    pub fn frame_count(&self) -> usize {
+        self.frames.bytes.len()
+    }
+
+    /// Number of agents in a frame; 0 of a frame that there is not.
+    pub fn agent_count(&self, frame: usize) -> usize {
+        self.frames.agent_counts.get(frame).map_or(0, |count| *count as usize)
+    }
+
+    /// Replaces `agents` by those of one frame, in the order of ids.
     ///
     /// # Errors
     /// If there is no such frame or its bytes are altered.
@@ -69,44 +104,138 @@ impl Recording {
         let path = || self.file.path().to_owned();
         let count = self.frame_count();
         let no_such_frame = || RecordingError::NoSuchFrame { path: path(), index, count };
-        let byte = *self.frame_bytes.get(index).ok_or_else(no_such_frame)?;
+        let byte = *self.frames.bytes.get(index).ok_or_else(no_such_frame)?;
         let payload = self.file.read_chunk(byte, FRAME)?;
-        let packed = decompress(&payload, self.header.scenario.agents.len())
-            .ok_or_else(|| self.file.damaged(byte, "the frame does not hold the scenario's agents"))?;
         agents.clear();
-        for (agent, bytes) in packed.chunks_exact(PACKED_BYTES).enumerate() {
-            let at_agent = |fault| RecordingError::Frame { path: path(), frame: index, agent, fault };
-            agents.push(unpack(bytes).map_err(at_agent)?);
+        if self.frames.version == FORMAT_VERSION_1 {
+            return self.read_frame_of_version_1(index, byte, &payload, agents);
+        }
+        let expected = self.agent_count(index);
+        let damaged = || self.file.damaged(byte, format!("this is not frame {index} with {expected} agents"));
+        let (start, compressed) = frame_chunk::start(&payload).ok_or_else(damaged)?;
+        if start != (FrameStart { number: index as u32, agent_count: expected }) {
+            return Err(damaged());
+        }
+        let rows = decompress(compressed, ROW_BYTES, expected).ok_or_else(damaged)?;
+        for row in rows.chunks_exact(ROW_BYTES) {
+            let agent = agents.len();
+            let at_agent = |fault| RecordingError::Frame { path: path(), byte, frame: index, agent, fault };
+            let frame = frame_chunk::read_row(row, agents.last().map(|before: &AgentFrame| before.id));
+            agents.push(frame.map_err(at_agent)?);
+        }
+        self.check_agents(index, byte, agents)
+    }
+
+    /// Checks that the agents of a frame are those that are present in it, in known states.
+    fn check_agents(&self, index: usize, byte: u64, agents: &[AgentFrame]) -> Result<(), RecordingError> {
+        for agent in agents {
+            let life = self.population.agents.get(agent.id.index());
+            if !life.is_some_and(|life| life.is_present(index as u32)) {
+                let what = format!("agent {} is not present in frame {index}", agent.id.0);
+                return Err(self.file.damaged(byte, what));
+            }
+            if usize::from(agent.state) >= self.header.states.len() {
+                let what = format!("the state of agent {} in frame {index} has no name", agent.id.0);
+                return Err(self.file.damaged(byte, what));
+            }
+        }
+        Ok(())
+    }
+
+    /// As [`Self::read_frame`], from a payload of version 1.
+    fn read_frame_of_version_1(
+        &self,
+        index: usize,
+        byte: u64,
+        payload: &[u8],
+        agents: &mut Vec<AgentFrame>,
+    ) -> Result<(), RecordingError> {
+        let rows = decompress(payload, PACKED_BYTES, self.agent_count(index))
+            .ok_or_else(|| self.file.damaged(byte, "the frame does not hold the scenario's agents"))?;
+        for (agent, packed) in rows.chunks_exact(PACKED_BYTES).enumerate() {
+            let path = self.file.path().to_owned();
+            let at_agent = |fault| RecordingError::Frame { path, byte, frame: index, agent, fault };
+            agents.push(AgentFrame { id: agent.into(), ..unpack(packed).map_err(at_agent)? });
         }
         Ok(())
     }
 }
 
-fn check_magic(file: &ChunkFile) -> Result<(), RecordingError> {
+/// The format version, if the file is a recording of a known one.
+fn read_version(file: &ChunkFile) -> Result<u32, RecordingError> {
     let foreign = || RecordingError::Foreign { path: file.path().to_owned() };
     if file.length() < MAGIC.len() as u64 || file.read(0, MAGIC.len() as u64)? != MAGIC {
         return Err(foreign());
     }
     let version = file.read(MAGIC.len() as u64, 4)?;
-    let found = u32::from_le_bytes(version.try_into().map_err(|_| foreign())?);
-    if found == FORMAT_VERSION { Ok(()) } else { Err(RecordingError::Version { path: file.path().to_owned(), found }) }
+    match u32::from_le_bytes(version.try_into().map_err(|_| foreign())?) {
+        known @ (FORMAT_VERSION_1 | FORMAT_VERSION) => Ok(known),
+        found => Err(RecordingError::Version { path: file.path().to_owned(), found }),
+    }
 }
 
-/// The byte at which each frame's chunk begins.
-fn read_index(file: &ChunkFile) -> Result<Vec<u64>, RecordingError> {
+/// The byte at which the index begins.
+fn index_byte(file: &ChunkFile) -> Result<u64, RecordingError> {
     let tail_byte = file.length().saturating_sub(TAIL_BYTES);
-    let index_byte = match file.read_chunk(tail_byte, TAIL)?.try_into() {
-        Ok(bytes) => u64::from_le_bytes(bytes),
-        Err(_) => return Err(file.damaged(tail_byte, "the last chunk names no index")),
-    };
-    let index = file.read_chunk(index_byte, INDEX)?;
-    let (bytes @ [_, ..], []) = index.as_chunks::<8>() else {
-        return Err(file.damaged(index_byte, "the index is empty or not whole"));
-    };
-    let frame_bytes: Vec<u64> = bytes.iter().map(|byte| u64::from_le_bytes(*byte)).collect();
-    // So that a short file cannot claim many frames.
-    if !frame_bytes.is_sorted_by(|a, b| a < b) {
-        return Err(file.damaged(index_byte, "the index does not rise"));
+    match file.read_chunk(tail_byte, TAIL)?.try_into() {
+        Ok(bytes) => Ok(u64::from_le_bytes(bytes)),
+        Err(_) => Err(file.damaged(tail_byte, "the last chunk names no index")),
     }
-    Ok(frame_bytes)
+}
+
+/// The byte at which each frame's chunk begins, and that of the agents' chunk.
+fn read_index(file: &ChunkFile) -> Result<(Vec<u64>, u64), RecordingError> {
+    let index_byte = index_byte(file)?;
+    let index = file.read_chunk(index_byte, INDEX)?;
+    let (entries, []) = index.as_chunks::<INDEX_ENTRY_BYTES>() else {
+        return Err(file.damaged(index_byte, "the index is not whole"));
+    };
+    let (mut frame_bytes, mut agents_bytes, mut before) = (Vec::new(), Vec::new(), 0);
+    for entry in entries {
+        let [k0, k1, k2, k3, byte @ ..] = *entry;
+        let byte = u64::from_le_bytes(byte);
+        // So that a short file cannot claim many frames.
+        if byte <= before {
+            return Err(file.damaged(index_byte, "the index does not rise"));
+        }
+        before = byte;
+        match [k0, k1, k2, k3] {
+            FRAME => frame_bytes.push(byte),
+            AGENTS => agents_bytes.push(byte),
+            _ => {}
+        }
+    }
+    match agents_bytes[..] {
+        _ if frame_bytes.is_empty() => Err(file.damaged(index_byte, "the index is empty: it names no frame")),
+        [agents_byte] => Ok((frame_bytes, agents_byte)),
+        _ => Err(file.damaged(index_byte, "the index does not name one list of agents")),
+    }
+}
+
+fn read_population(
+    file: &ChunkFile,
+    header: &Header,
+    agents_byte: u64,
+    frame_count: usize,
+) -> Result<Population, RecordingError> {
+    let payload = file.read_chunk(agents_byte, AGENTS)?;
+    agents_chunk::read(&payload, header, frame_count)
+        .map_err(|what| file.damaged(agents_byte, format!("the list of agents is not valid ({what})")))
+}
+
+/// Number of agents in each frame.
+fn agent_counts(population: &Population, frame_count: usize) -> Vec<u32> {
+    let mut changes = vec![0_i64; frame_count];
+    for life in &population.agents {
+        changes[life.born as usize] += 1;
+        if let Some(removed) = life.removed {
+            changes[removed as usize] -= 1;
+        }
+    }
+    let mut present = 0;
+    let count = |change: i64| {
+        present += change;
+        present as u32
+    };
+    changes.into_iter().map(count).collect()
 }

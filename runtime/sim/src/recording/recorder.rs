@@ -1,21 +1,23 @@
 //! The writer of a recording, frame by frame.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use motiondb::files::atomic_file::AtomicFile;
 
+use crate::population::{AgentId, Population};
+use crate::recording::agents_chunk;
 use crate::recording::chunk::write_chunk;
-use crate::recording::compression::compress;
 use crate::recording::error::RecordingError;
 use crate::recording::format::{
-    CHUNK_HEAD_BYTES, ChunkKind, FORMAT_VERSION, FRAME, HEAD, HEAD_BYTE, INDEX, MAGIC, TAIL,
+    AGENTS, CHUNK_HEAD_BYTES, ChunkKind, FORMAT_VERSION, FRAME, HEAD, HEAD_BYTE, INDEX, MAGIC, TAIL,
 };
 use crate::recording::frame::AgentFrame;
-use crate::recording::frame_packing::pack;
+use crate::recording::frame_chunk::{append_row, compress};
 use crate::recording::header::Header;
+use crate::recording::zipped_json;
 
 /// Writes a recording. Without [`Recorder::finish`] no file is left.
 ///
@@ -37,7 +39,7 @@ use crate::recording::header::Header;
 ///     simulation.step(&mut |_stage| {});
 ///     recorder.push(simulation.frames())?;
 /// }
-/// recorder.finish()?;
+/// recorder.finish(simulation.population())?;
 /// # Ok(())
 /// # }
 /// ```
@@ -45,13 +47,18 @@ use crate::recording::header::Header;
 pub struct Recorder {
     path: PathBuf,
     file: AtomicFile,
-    agent_count: usize,
+    header: Header,
     /// Byte at which the next chunk begins.
     byte: u64,
-    /// Byte at which each frame's chunk begins.
-    frame_bytes: Vec<u64>,
-    /// Packed agents of one frame: working memory.
-    packed: Vec<u8>,
+    /// Entries of the index so far.
+    index: Vec<u8>,
+    frame_count: u32,
+    /// Frames of birth and of removal of every agent so far, by id.
+    lives: Vec<(u32, Option<u32>)>,
+    /// Ids of the last frame.
+    present: Vec<AgentId>,
+    /// Rows of one frame: working memory.
+    rows: Vec<u8>,
     /// Kept from frame to frame, because its tables are larger than a small crowd's frame.
     zlib: ZlibEncoder<Vec<u8>>,
 }
@@ -60,58 +67,112 @@ impl Recorder {
     /// Begins a recording under a temporary name beside `path`.
     ///
     /// # Errors
-    /// If the folder cannot be written.
+    /// If the header is not valid or the folder cannot be written.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordingError> {
         let fail = |source| RecordingError::Unwritable { path: path.to_owned(), source };
-        let payload = header.encode().map_err(|error| fail(io::Error::other(error)))?;
+        header.check().map_err(|what| RecordingError::Header { path: path.to_owned(), what })?;
+        let payload = zipped_json::encode(header).map_err(fail)?;
         let mut file = AtomicFile::create(path).map_err(fail)?;
         file.writer().write_all(&MAGIC).map_err(fail)?;
         file.writer().write_all(&FORMAT_VERSION.to_le_bytes()).map_err(fail)?;
         let mut recorder = Self {
             path: path.to_owned(),
             file,
-            agent_count: header.scenario.agents.len(),
+            header: header.clone(),
             byte: HEAD_BYTE,
-            frame_bytes: Vec::new(),
-            packed: Vec::new(),
+            index: Vec::new(),
+            frame_count: 0,
+            lives: Vec::new(),
+            present: Vec::new(),
+            rows: Vec::new(),
             zlib: ZlibEncoder::new(Vec::new(), Compression::fast()),
         };
         recorder.write(HEAD, &payload)?;
         Ok(recorder)
     }
 
-    /// Appends one frame: every agent of the scenario, in index order.
+    /// Appends one frame: every present agent, in the order of ids.
     ///
     /// # Errors
-    /// If the disk is full, the number of agents is wrong or a value is not finite.
+    /// If the disk is full, an agent is missing from the start, an id is not the next one, or a value is not finite.
     pub fn push(&mut self, agents: &[AgentFrame]) -> Result<(), RecordingError> {
-        let (path, frame) = (&self.path, self.frame_bytes.len());
-        if agents.len() != self.agent_count {
-            let (found, expected) = (agents.len(), self.agent_count);
-            return Err(RecordingError::AgentCount { path: path.clone(), frame, found, expected });
+        let (path, frame) = (&self.path, self.frame_count as usize);
+        let listed = self.header.scenario.agents.len();
+        if frame == 0 && agents.len() < listed {
+            return Err(RecordingError::AgentCount { path: path.clone(), found: agents.len(), expected: listed });
         }
-        self.packed.clear();
-        for (agent, values) in agents.iter().enumerate() {
+        self.rows.clear();
+        let mut before = None;
+        for values in agents {
+            let agent = values.id.index();
+            let is_state = usize::from(values.state) < self.header.states.len();
+            if before.is_some_and(|before| before >= values.id) || !is_state {
+                return Err(RecordingError::AgentId { path: path.clone(), frame, agent });
+            }
             let not_finite = || RecordingError::NotFinite { path: path.clone(), frame, agent };
-            pack(values, &mut self.packed).ok_or_else(not_finite)?;
+            append_row(values, before, &mut self.rows).ok_or_else(not_finite)?;
+            before = Some(values.id);
         }
-        let payload = compress(&mut self.zlib, &self.packed)
-            .map_err(|source| RecordingError::Unwritable { path: path.clone(), source })?;
-        self.frame_bytes.push(self.byte);
-        self.write(FRAME, &payload)
+        self.follow_lives(agents)?;
+        let payload = compress(self.frame_count, &mut self.zlib, &self.rows)
+            .map_err(|source| RecordingError::Unwritable { path: self.path.clone(), source })?;
+        self.frame_count += 1;
+        self.write_indexed(FRAME, &payload)
     }
 
-    /// Writes the index and gives the recording its name.
+    /// Notes the agents that are born and removed in a frame.
+    fn follow_lives(&mut self, agents: &[AgentFrame]) -> Result<(), RecordingError> {
+        let frame = self.frame_count;
+        let mut ids = agents.iter().map(|agent| agent.id).peekable();
+        for &id in &self.present {
+            match ids.peek() {
+                Some(next) if *next == id => drop(ids.next()),
+                _ => self.lives[id.index()].1 = Some(frame),
+            }
+        }
+        for id in ids {
+            if id.index() != self.lives.len() {
+                let (path, frame, agent) = (self.path.clone(), frame as usize, id.index());
+                return Err(RecordingError::AgentId { path, frame, agent });
+            }
+            self.lives.push((frame, None));
+        }
+        self.present.clear();
+        self.present.extend(agents.iter().map(|agent| agent.id));
+        Ok(())
+    }
+
+    /// Writes the agents and the index, and gives the recording its name. Births and removals are as the frames show
+    /// them; all else of an agent is as the population states it.
     ///
     /// # Errors
-    /// If the disk is full or the file cannot be renamed.
-    pub fn finish(mut self) -> Result<(), RecordingError> {
+    /// If the population lists another number of agents than the frames, the disk is full, or the file cannot be
+    /// renamed.
+    pub fn finish(mut self, population: &Population) -> Result<(), RecordingError> {
+        let (found, expected) = (self.lives.len(), population.agents.len());
+        if found != expected && self.frame_count > 0 {
+            return Err(RecordingError::AgentCount { path: self.path, found, expected });
+        }
+        let mut population = population.clone();
+        for (life, &(born, removed)) in population.agents.iter_mut().zip(&self.lives) {
+            (life.born, life.removed) = (born, removed);
+        }
+        let payload = zipped_json::encode(&agents_chunk::stored(&population, &self.header))
+            .map_err(|source| RecordingError::Unwritable { path: self.path.clone(), source })?;
+        self.write_indexed(AGENTS, &payload)?;
         let index_byte = self.byte;
-        let index: Vec<u8> = self.frame_bytes.iter().flat_map(|byte| byte.to_le_bytes()).collect();
+        let index = std::mem::take(&mut self.index);
         self.write(INDEX, &index)?;
         self.write(TAIL, &index_byte.to_le_bytes())?;
         let Self { path, file, .. } = self;
         file.commit().map_err(|source| RecordingError::Unwritable { path, source })
+    }
+
+    /// Writes a chunk that the index names.
+    fn write_indexed(&mut self, kind: ChunkKind, payload: &[u8]) -> Result<(), RecordingError> {
+        self.index.extend(kind);
+        self.index.extend(self.byte.to_le_bytes());
+        self.write(kind, payload)
     }
 
     fn write(&mut self, kind: ChunkKind, payload: &[u8]) -> Result<(), RecordingError> {

@@ -13,11 +13,12 @@ use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan::Stance;
 use crate::planning::planner::ranking_horizon_s;
 use crate::planning::world_view::WorldView;
+use crate::population::AgentId;
 use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
 use crate::recording::header::Header;
 use crate::recording::reader::Recording;
-use crate::scenario::Scenario;
+use crate::scenario::{AgentSpec, Scenario};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
 
@@ -27,20 +28,21 @@ pub struct Replay<'a> {
     recording: &'a Recording,
     obstacles: Obstacles,
     constraints: MotionConstraints,
-    radii_m: Vec<f32>,
-    wall_radii_m: Vec<f32>,
 }
 
-/// One recorded step, with everything that its planner read.
+/// One recorded step, with everything that its planner read: the agents that are present before and after it. Slices
+/// are by index among them.
 #[derive(Debug)]
 pub struct RecordedStep<'a> {
     replay: &'a Replay<'a>,
     /// Index of the frame in which the step begins.
     pub frame: usize,
-    /// Every agent at the beginning of the step.
+    /// Every agent of the step at its beginning.
     pub before: Vec<AgentFrame>,
-    /// Every agent at the end of the step.
+    /// The same agents at its end.
     pub after: Vec<AgentFrame>,
+    radii_m: Vec<f32>,
+    wall_radii_m: Vec<f32>,
     positions_m: Vec<Vec2>,
     velocities_mps: Vec<Vec2>,
     facings_rad: Vec<f32>,
@@ -57,10 +59,8 @@ impl<'a> Replay<'a> {
         let scenario = &recording.header().scenario;
         Self {
             recording,
-            constraints: MotionConstraints::new(&recording.header().velocity_hull),
+            constraints: MotionConstraints::new(recording.header().velocity_hull()),
             obstacles: Obstacles::new(&scenario.obstacles_m),
-            radii_m: scenario.agents.iter().map(|agent| agent.radius_m).collect(),
-            wall_radii_m: scenario.agents.iter().map(|agent| agent.wall_radius_m).collect(),
         }
     }
 
@@ -83,15 +83,22 @@ impl<'a> Replay<'a> {
             let mut agents = Vec::new();
             self.recording.read_frame(index, &mut agents).map(|()| agents)
         };
-        let (earlier, before, after) = (read(frame.saturating_sub(1))?, read(frame)?, read(frame + 1)?);
+        let (earlier, mut before, mut after) = (read(frame.saturating_sub(1))?, read(frame)?, read(frame + 1)?);
+        // Agents that are removed leave before the step is planned, those that are born come after it.
+        keep_common(&mut before, &after);
+        keep_common(&mut after, &before);
+        let spec = |agent: &AgentFrame| self.recording.population().spec(agent.id);
+        let radii_m: Vec<f32> = before.iter().map(|agent| spec(agent).radius_m).collect();
         let positions_m: Vec<Vec2> = before.iter().map(|agent| agent.root.position_m).collect();
         let velocities_mps = self.velocities_mps(&earlier, &before);
         let mut neighbours = NeighbourSearch::default();
         let Scenario { planner, params, .. } = &self.header().scenario;
-        neighbours.rebuild(&positions_m, &velocities_mps, &self.radii_m, ranking_horizon_s(*planner, params));
+        neighbours.rebuild(&positions_m, &velocities_mps, &radii_m, ranking_horizon_s(*planner, params));
         Ok(RecordedStep {
             replay: self,
             frame,
+            radii_m,
+            wall_radii_m: before.iter().map(|agent| spec(agent).wall_radius_m).collect(),
             positions_m,
             velocities_mps,
             facings_rad: before.iter().map(|agent| agent.root.facing_rad).collect(),
@@ -108,11 +115,12 @@ impl<'a> Replay<'a> {
     /// Velocities between two frames, as `coupling::body_to_disc` computes them, m/s; all agents start at rest.
     fn velocities_mps(&self, from: &[AgentFrame], to: &[AgentFrame]) -> Vec<Vec2> {
         let dt_s = self.header().scenario.dt_s;
-        from.iter().zip(to).map(|(from, to)| (to.root.position_m - from.root.position_m) / dt_s).collect()
+        let moved_m = |to: &AgentFrame| to.root.position_m - of_id(from, to.id).unwrap_or(to).root.position_m;
+        to.iter().map(|to| moved_m(to) / dt_s).collect()
     }
 
     fn stance(&self, agent: &AgentFrame) -> Stance {
-        let skeleton = &self.header().skeleton;
+        let skeleton = self.header().skeleton();
         let joints = agent.pose.forward_kinematics(skeleton);
         let soles_m = [0, 1].map(|side| joints.sole_points_m(skeleton, side));
         Stance::on_soles(&soles_m, agent.root.forward(), agent.contacts, |_| agent.time_to_landing_s)
@@ -125,6 +133,16 @@ impl RecordedStep<'_> {
         self.replay.header()
     }
 
+    /// Index of an agent among those of the step; none of one that is not present before and after it.
+    pub fn index_of(&self, id: AgentId) -> Option<usize> {
+        self.before.binary_search_by_key(&id, |agent| agent.id).ok()
+    }
+
+    /// The start of an agent, by index.
+    pub fn spec(&self, agent: usize) -> &AgentSpec {
+        self.replay.recording.population().spec(self.before[agent].id)
+    }
+
     /// The view that the planner read.
     pub fn world(&self) -> WorldView<'_> {
         let Scenario { coupling, dt_s, .. } = self.header().scenario;
@@ -132,8 +150,8 @@ impl RecordedStep<'_> {
             positions_m: &self.positions_m,
             velocities_mps: &self.velocities_mps,
             facings_rad: &self.facings_rad,
-            radii_m: &self.replay.radii_m,
-            wall_radii_m: &self.replay.wall_radii_m,
+            radii_m: &self.radii_m,
+            wall_radii_m: &self.wall_radii_m,
             preferred_mps: &self.preferred_mps,
             stances: &self.stances,
             strafing_s: &self.strafing_s,
@@ -151,4 +169,14 @@ impl RecordedStep<'_> {
         let moved_m = self.after[agent].root.position_m - self.before[agent].root.position_m;
         moved_m / self.header().scenario.dt_s
     }
+}
+
+/// Keeps the agents that are in both frames.
+fn keep_common(agents: &mut Vec<AgentFrame>, others: &[AgentFrame]) {
+    agents.retain(|agent| of_id(others, agent.id).is_some());
+}
+
+/// The agent with an id in a frame.
+fn of_id(agents: &[AgentFrame], id: AgentId) -> Option<&AgentFrame> {
+    Some(&agents[agents.binary_search_by_key(&id, |agent| agent.id).ok()?])
 }

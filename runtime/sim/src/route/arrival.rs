@@ -22,13 +22,18 @@ pub(crate) struct Arrival {
 impl Arrival {
     /// Follows the agent's root to its present position. Returns whether the agent arrives now for the first time.
     pub(crate) fn follow(&mut self, agent: &AgentSpec, position_m: Vec2, now_s: f64) -> bool {
-        let to_last = self.progress.pass(agent, position_m);
-        let goal_m = agent.goals_m.last().copied().unwrap_or(agent.position_m);
-        self.is_at_goal = to_last && DVec2::from(position_m).distance(goal_m.into()) < ARRIVAL_M;
+        self.is_at_goal = is_at_goal(agent, position_m, &mut self.progress);
         let arrives = self.is_at_goal && self.at_s.is_none();
         if arrives {
             self.at_s = Some(now_s);
         }
         arrives
     }
+}
+
+/// Whether an agent has passed its waypoints and is near its last goal.
+pub(crate) fn is_at_goal(agent: &AgentSpec, position_m: Vec2, progress: &mut PathProgress) -> bool {
+    let to_last = progress.pass(agent, position_m);
+    let goal_m = agent.goals_m.last().copied().unwrap_or(agent.position_m);
+    to_last && DVec2::from(position_m).distance(goal_m.into()) < ARRIVAL_M
 }

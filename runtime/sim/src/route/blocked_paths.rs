@@ -5,28 +5,33 @@
 
 use glam::Vec2;
 
+use crate::population::{AgentId, Population};
 use crate::route::arrival::ARRIVAL_M;
-use crate::scenario::{AgentSpec, Scenario};
+use crate::scenario::AgentSpec;
 use crate::world::obstacles::Obstacles;
 
 /// Agents with blocked paths that are not at their goals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlockedPaths {
-    /// Index of the first such agent.
-    pub agent: usize,
+    /// The first such agent.
+    pub agent: AgentId,
     /// Index of its first waypoint that lies behind a wall.
     pub waypoint: usize,
     /// Number of such agents.
     pub agents: usize,
 }
 
-/// The agents with blocked paths, given the position at which every agent ended; none where no wall can be the reason.
-pub fn blocked_paths(scenario: &Scenario, ends_m: impl Iterator<Item = Vec2>) -> Option<BlockedPaths> {
-    let obstacles = Obstacles::new(&scenario.obstacles_m);
-    let agents = scenario.agents.iter().zip(ends_m).enumerate();
-    let mut blocked = agents
-        .filter(|(_, (agent, end_m))| !is_at_goal(agent, *end_m))
-        .filter_map(|(index, (agent, _))| Some((index, blocked_waypoint(agent, &obstacles)?)));
+/// The agents with blocked paths, given the position at which every present agent ended; none where no wall can be the
+/// reason.
+pub fn blocked_paths(
+    population: &Population,
+    obstacles_m: &[Vec<Vec2>],
+    ends_m: impl Iterator<Item = (AgentId, Vec2)>,
+) -> Option<BlockedPaths> {
+    let obstacles = Obstacles::new(obstacles_m);
+    let mut blocked = ends_m
+        .filter(|(id, end_m)| !is_at_goal(population.spec(*id), *end_m))
+        .filter_map(|(id, _)| Some((id, blocked_waypoint(population.spec(id), &obstacles)?)));
     let (agent, waypoint) = blocked.next()?;
     Some(BlockedPaths { agent, waypoint, agents: 1 + blocked.count() })
 }
@@ -47,16 +52,17 @@ mod tests {
     use glam::Vec2;
 
     use super::*;
+    use crate::scenario::Scenario;
     use crate::simulation::tests::antipodal;
 
     /// The first blocked agent, its waypoint and the number of blocked agents, where only agent 3 ends at its goal.
     fn check(scenario: &Scenario, expected: Option<[usize; 3]>) {
         let ends_m = scenario.agents.iter().enumerate().map(|(index, agent)| match index {
-            3 => agent.goals_m[agent.goals_m.len() - 1],
-            _ => agent.position_m,
+            3 => (index.into(), agent.goals_m[agent.goals_m.len() - 1]),
+            _ => (index.into(), agent.position_m),
         });
-        let found = blocked_paths(scenario, ends_m);
-        assert_eq!(found.map(|BlockedPaths { agent, waypoint, agents }| [agent, waypoint, agents]), expected);
+        let found = blocked_paths(&Population::of(scenario), &scenario.obstacles_m, ends_m);
+        assert_eq!(found.map(|BlockedPaths { agent, waypoint, agents }| [agent.index(), waypoint, agents]), expected);
     }
 
     #[test]

@@ -40,6 +40,8 @@ pub enum Braking {
     /// As a disc can, which stops at once: at full speed until the goal lies within this time, s; it never rests. The
     /// protocol under which RVO2 is measured (`fbcrowd bench table1 --discs`).
     Within(f32),
+    /// Not at all: the agent walks through its goal, where it leaves the scene.
+    Not,
 }
 
 /// How far an agent has come along its waypoints.
@@ -92,6 +94,7 @@ pub fn preferred_mps(
         Braking::Evenly if progress.arrived => 0.0,
         Braking::Evenly => braking_speed_mps(to_goal_m.length()),
         Braking::Within(time_s) => to_goal_m.length() / time_s,
+        Braking::Not => agent.preferred_speed_mps,
     };
     to_goal_m.normalize_or_zero() * speed_mps.min(agent.preferred_speed_mps)
 }
@@ -174,6 +177,7 @@ mod tests {
             radius_m: 0.25,
             wall_radius_m: 0.2,
             preferred_speed_mps: 1.3,
+            ..AgentSpec::default()
         }
     }
 

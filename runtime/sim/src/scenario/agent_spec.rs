@@ -3,9 +3,14 @@
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+/// Default radius of a disc, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected
+/// trunk; also the radius in the protocol of Table 1's scenes (`assets/scenarios/table1`).
+pub(crate) const RADIUS_M: f32 = 0.25;
 /// Default radius of the disc that walls hold, m: people pass a door of 0.5 m in single file, within 0.23 m of its
 /// middle (Wuppertal 2018), which a disc of 0.25 m could not.
 pub const WALL_RADIUS_M: f32 = 0.2;
+/// Default preferred speed, m/s: that of the protocol of Table 1's scenes.
+pub(crate) const PREFERRED_SPEED_MPS: f32 = 1.33;
 
 /// One agent at its start: position, goals, disc and preferred speed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,4 +27,35 @@ pub struct AgentSpec {
     pub wall_radius_m: f32,
     /// Speed of v_pref, m/s.
     pub preferred_speed_mps: f32,
+    /// What the agent does when it arrives at its goal.
+    #[serde(default)]
+    pub at_goal: AtGoal,
+}
+
+/// What an agent does when it arrives at its last goal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AtGoal {
+    /// It brakes, and stands at its goal.
+    #[default]
+    Stay,
+    /// It walks through its goal and is removed between two steps of its feet.
+    Leave,
+    /// It walks up to its goal and is removed at once.
+    LeaveAtOnce,
+}
+
+impl Default for AgentSpec {
+    /// An adult that walks, at the origin, without a goal.
+    fn default() -> Self {
+        Self {
+            position_m: Vec2::ZERO,
+            facing_rad: 0.0,
+            goals_m: Vec::new(),
+            radius_m: RADIUS_M,
+            wall_radius_m: WALL_RADIUS_M,
+            preferred_speed_mps: PREFERRED_SPEED_MPS,
+            at_goal: AtGoal::Stay,
+        }
+    }
 }

@@ -11,6 +11,7 @@ use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::ranges::check_ranges;
 use crate::scenario::resolved::Scenario;
+use crate::scenario::source_check::{check_source_ranges, check_sources_clear_of_obstacles};
 
 /// Greatest number of corners of an obstacle: the test for self-intersection compares every pair of edges.
 const CORNERS_MAX: usize = 1_000;
@@ -26,10 +27,20 @@ const TOUCH_M: f64 = 1e-4;
 /// # Errors
 /// The first broken rule.
 pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
-    check_ranges(scenario)?;
+    check_numbers(scenario)?;
     check_obstacles(&scenario.obstacles_m)?;
     check_agents_clear_of_obstacles(scenario)?;
-    check_agents_apart(&scenario.agents)
+    check_agents_apart(&scenario.agents)?;
+    check_sources_clear_of_obstacles(scenario)
+}
+
+/// Checks that every number is in range, and how many agents there are.
+///
+/// # Errors
+/// The first number that is not.
+pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
+    check_ranges(scenario)?;
+    check_source_ranges(scenario)
 }
 
 fn check_obstacles(obstacles_m: &[Vec<Vec2>]) -> Result<(), ScenarioFault> {

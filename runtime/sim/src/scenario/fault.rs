@@ -30,6 +30,8 @@ pub enum ScenarioPart {
     Agent(usize),
     /// An obstacle, by index.
     Obstacle(usize),
+    /// A source of agents, by index.
+    Source(usize),
     /// All agents together.
     Agents,
 }

@@ -3,7 +3,7 @@
 //! Enters: a scenario file ([`file`](mod@file)), or agents made in code. Leaves: a [`Scenario`] in which every agent is
 //! explicit, every number is in range and no path occurs.
 //!
-//! Read `resolved` (the scenario), `agent_spec`, `coupling` and `view`; then `check` and `ranges` (the rules), `fault`
+//! Read `resolved` (the scenario), `agent_spec`, `source_spec`, `coupling` and `view`; then `check`, `ranges` and `source_check` (the rules), `fault`
 //! and `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
@@ -15,9 +15,11 @@ pub mod file;
 mod point;
 pub(crate) mod ranges;
 pub(crate) mod resolved;
+pub(crate) mod source_check;
+pub(crate) mod source_spec;
 pub(crate) mod view;
 
-pub use agent_spec::{AgentSpec, WALL_RADIUS_M};
+pub use agent_spec::{AgentSpec, AtGoal, WALL_RADIUS_M};
 pub use check::check;
 pub use coupling::Coupling;
 pub use error::{Invalid, ScenarioError};
@@ -25,4 +27,5 @@ pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};
 pub use ranges::{STEP_RANGE_S, check_view};
 pub use resolved::Scenario;
+pub use source_spec::{DueTimes, SourceSpec};
 pub use view::View;

@@ -14,7 +14,7 @@ use crate::scenario::view::View;
 /// Greatest length of a name, bytes: with a frame number and an ending it still names a file.
 const NAME_MAX_BYTES: usize = 200;
 /// Simulated time, s: up to a day; a longer one is a slip of the unit.
-const DURATION_S: RangeInclusive<f32> = 1e-3..=86_400.0;
+pub(crate) const DURATION_S: RangeInclusive<f32> = 1e-3..=86_400.0;
 /// Time step, s. In coarser steps agents meet before they react and planted feet slide (ten agents on a circle: 0.1
 /// cm/s at 0.2 s, 23 cm/s at 0.5 s).
 pub const STEP_RANGE_S: RangeInclusive<f32> = 1e-3..=0.25;
@@ -29,7 +29,9 @@ const FACING_DEG: RangeInclusive<f32> = -3_600.0..=3_600.0;
 /// Greatest number of agents: ten times the largest crowd that other simulators show.
 pub(crate) const AGENTS_MAX: usize = 1_000_000;
 /// Greatest number of goals of an agent.
-const GOALS_MAX: usize = 10_000;
+pub(crate) const GOALS_MAX: usize = 10_000;
+/// Greatest number of waypoints of all agents: ten for each of the largest crowd, 80 MB.
+pub(crate) const WAYPOINTS_MAX: usize = 10 * AGENTS_MAX;
 /// Greatest number of obstacles.
 const OBSTACLES_MAX: usize = 10_000;
 /// Greatest value of a tunable, in any unit; none of a human body comes near.
@@ -45,7 +47,7 @@ const PICTURE_WIDTH_M: RangeInclusive<f32> = 0.01..=2.0 * COORDINATE_MAX_M;
 /// Frame rate of a sequence, Hz.
 const FRAME_RATE_HZ: RangeInclusive<f32> = 0.1..=1_000.0;
 /// How to mend an optional key.
-const REMOVE: &str = "remove the key to use its default";
+pub(crate) const REMOVE: &str = "remove the key to use its default";
 
 /// Checks that every number is in range.
 ///
@@ -63,7 +65,8 @@ pub(crate) fn check_ranges(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_params(&scenario.params)?;
     let (agents, obstacles_m) = (&scenario.agents, &scenario.obstacles_m);
     let help = "give at least one, at most a million";
-    within(&ScenarioPart::Agents, "the number of agents", agents.len(), &(1..=AGENTS_MAX), help)?;
+    let least = usize::from(scenario.sources.is_empty());
+    within(&ScenarioPart::Agents, "the number of agents", agents.len(), &(least..=AGENTS_MAX), help)?;
     let obstacle = &ScenarioPart::Obstacle(0);
     within(obstacle, "the number of obstacles", obstacles_m.len(), &(0..=OBSTACLES_MAX), "give fewer")?;
     for (index, agent) in agents.iter().enumerate() {
@@ -74,7 +77,7 @@ pub(crate) fn check_ranges(scenario: &Scenario) -> Result<(), ScenarioFault> {
 }
 
 /// Checks one number; NaN is in no range.
-fn within<T: PartialOrd + Display>(
+pub(crate) fn within<T: PartialOrd + Display>(
     part: &ScenarioPart,
     name: &str,
     value: T,
@@ -136,24 +139,36 @@ fn check_params(params: &Params) -> Result<(), ScenarioFault> {
     within(&substeps, "substeps", params.social_force.substeps, &SUBSTEPS, REMOVE)
 }
 
-fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), ScenarioFault> {
+pub(crate) fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), ScenarioFault> {
     let (journey, part) = (&ScenarioPart::Journey(index), &ScenarioPart::Agent(index));
     check_points(journey, &[agent.position_m])?;
     check_points(journey, &agent.goals_m)?;
     let help = "give the goal, and waypoints before it";
     within(journey, "the number of goals", agent.goals_m.len(), &(1..=GOALS_MAX), help)?;
-    // In degrees as in the file: radians are rounded.
-    let facing_deg = (10.0 * agent.facing_rad.to_degrees()).round() / 10.0;
-    within(part, "facing_deg", facing_deg, &FACING_DEG, "remove the key to face the first goal")?;
-    within(part, "radius_m", agent.radius_m, &RADIUS_M, "give the radius of the agent's disc in metres")?;
-    let help = "give at most radius_m, or remove the key; a door narrower than twice this is closed";
-    let wall_radius = *RADIUS_M.start()..=agent.radius_m;
-    within(part, "wall_radius_m", agent.wall_radius_m, &wall_radius, help)?;
-    let help = "people walk at about 1.3 m/s; an agent that stands has its start as its goal";
-    within(part, "preferred_speed_mps", agent.preferred_speed_mps, &SPEED_MPS, help)
+    check_facing(part, agent.facing_rad)?;
+    check_disc_and_speed(part, agent.radius_m, agent.wall_radius_m, agent.preferred_speed_mps)
 }
 
-fn check_points(part: &ScenarioPart, points_m: &[Vec2]) -> Result<(), ScenarioFault> {
+pub(crate) fn check_facing(part: &ScenarioPart, facing_rad: f32) -> Result<(), ScenarioFault> {
+    // In degrees as in the file: radians are rounded.
+    let facing_deg = (10.0 * facing_rad.to_degrees()).round() / 10.0;
+    within(part, "facing_deg", facing_deg, &FACING_DEG, "remove the key to face the first goal")
+}
+
+pub(crate) fn check_disc_and_speed(
+    part: &ScenarioPart,
+    radius_m: f32,
+    wall_radius_m: f32,
+    preferred_speed_mps: f32,
+) -> Result<(), ScenarioFault> {
+    within(part, "radius_m", radius_m, &RADIUS_M, "give the radius of the agent's disc in metres")?;
+    let help = "give at most radius_m, or remove the key; a door narrower than twice this is closed";
+    within(part, "wall_radius_m", wall_radius_m, &(*RADIUS_M.start()..=radius_m), help)?;
+    let help = "people walk at about 1.3 m/s; an agent that stands has its start as its goal";
+    within(part, "preferred_speed_mps", preferred_speed_mps, &SPEED_MPS, help)
+}
+
+pub(crate) fn check_points(part: &ScenarioPart, points_m: &[Vec2]) -> Result<(), ScenarioFault> {
     match points_m.iter().find(|point_m| !is_in_range(**point_m)) {
         None => Ok(()),
         Some(point_m) => part.fault(

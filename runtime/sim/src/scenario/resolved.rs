@@ -7,6 +7,7 @@ use crate::params::Params;
 use crate::planning::planner::Planner;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::coupling::Coupling;
+use crate::scenario::source_spec::SourceSpec;
 use crate::scenario::view::View;
 use crate::synthesis::Modes;
 
@@ -52,8 +53,11 @@ pub struct Scenario {
     pub planner: Planner,
     /// What moves the discs.
     pub coupling: Coupling,
-    /// The agents, in index order.
+    /// The agents at the start, in index order.
     pub agents: Vec<AgentSpec>,
+    /// Sources of further agents.
+    #[serde(default)]
+    pub sources: Vec<SourceSpec>,
     /// Simple polygons, corners counter-clockwise, world, m; agents stay outside.
     pub obstacles_m: Vec<Vec<Vec2>>,
     /// Tunables.
@@ -76,6 +80,7 @@ impl Scenario {
     ///     radius_m: 0.25,
     ///     wall_radius_m: 0.2,
     ///     preferred_speed_mps: 1.33,
+    ///     ..AgentSpec::default()
     /// };
     /// let scenario = Scenario { duration_s: 10.0, ..Scenario::of(vec![agent]) };
     /// assert_eq!(scenario.dt_s, 1.0 / 30.0);
@@ -89,6 +94,7 @@ impl Scenario {
             planner: Planner::default(),
             coupling: Coupling::default(),
             agents,
+            sources: Vec::new(),
             obstacles_m: Vec::new(),
             params: Params::default(),
             view: View::default(),

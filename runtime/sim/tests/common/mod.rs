@@ -1,9 +1,11 @@
 //! A body, a scenario and frames for the tests of recordings and measures.
 #![allow(dead_code, unreachable_pub, reason = "each test target uses its own part")]
 
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
-use fbcrowd_sim::recording::{AgentFrame, Header, Recorder, Recording};
+use fbcrowd_sim::population::Population;
+use fbcrowd_sim::recording::{AgentFrame, Header, RecordedDatabase, Recorder, Recording, write_chunk};
 use fbcrowd_sim::scenario::{AgentSpec, Scenario};
 use glam::{Vec2, Vec3};
 use motiondb::body::{Foot, JOINT_COUNT, Joint, Skeleton};
@@ -42,6 +44,7 @@ pub fn agent(from: [f32; 2], to: [f32; 2]) -> AgentSpec {
         radius_m: 0.25,
         wall_radius_m: 0.2,
         preferred_speed_mps: 1.33,
+        ..AgentSpec::default()
     }
 }
 
@@ -54,7 +57,7 @@ pub fn header(agents: Vec<AgentSpec>, dt_s: f32) -> Header {
         obstacles_m: vec![vec![Vec2::new(9.0, 9.0), Vec2::new(10.0, 9.0), Vec2::new(9.0, 10.0)]],
         ..Scenario::of(agents)
     };
-    Header { database_checksum: 7, skeleton: skeleton(), velocity_hull: VelocityHull::default(), scenario }
+    Header::of(RecordedDatabase { checksum: 7, skeleton: skeleton(), velocity_hull: VelocityHull::default() }, scenario)
 }
 
 /// A body that stands upright at a position.
@@ -73,12 +76,62 @@ pub fn folder(test: &str) -> PathBuf {
     folder
 }
 
-/// Records frames and opens the recording.
+/// Records frames, in each of which every agent of the scenario is present, and opens the recording.
 pub fn record(path: &Path, header: &Header, frames: &[Vec<AgentFrame>]) -> Recording {
     let mut recorder = Recorder::create(path, header).unwrap();
     for frame in frames {
-        recorder.push(frame).unwrap();
+        recorder.push(&numbered(frame)).unwrap();
     }
-    recorder.finish().unwrap();
+    recorder.finish(&Population::of(&header.scenario)).unwrap();
     Recording::open(path).unwrap()
+}
+
+/// The agents of a frame with their indices as ids.
+pub fn numbered(frame: &[AgentFrame]) -> Vec<AgentFrame> {
+    frame.iter().enumerate().map(|(index, agent)| AgentFrame { id: index.into(), ..*agent }).collect()
+}
+
+/// Kind and payload of every chunk of a recording, without index and tail.
+pub fn chunks(bytes: &[u8]) -> Vec<([u8; 4], Vec<u8>)> {
+    let (mut rest, mut found) = (&bytes[12..], Vec::new());
+    while let Some((head, after)) = rest.split_first_chunk::<12>() {
+        let (kind, length) = head.split_first_chunk::<4>().unwrap();
+        let (payload, after) = after.split_at(u32::from_le_bytes(*length.first_chunk().unwrap()) as usize);
+        rest = after;
+        if ![*b"INDX", *b"TAIL"].contains(kind) {
+            found.push((*kind, payload.to_vec()));
+        }
+    }
+    found
+}
+
+/// A recording of these chunks, with right checksums, index and tail.
+pub fn file_of(chunks: &[([u8; 4], Vec<u8>)]) -> Vec<u8> {
+    let (mut file, mut index) = (b"FBREC\r\n\x1a\x02\0\0\0".to_vec(), Vec::new());
+    for (kind, payload) in chunks {
+        if kind != b"HEAD" {
+            index.extend(kind);
+            index.extend((file.len() as u64).to_le_bytes());
+        }
+        write_chunk(&mut file, *kind, payload).unwrap();
+    }
+    let index_byte = file.len() as u64;
+    write_chunk(&mut file, *b"INDX", &index).unwrap();
+    write_chunk(&mut file, *b"TAIL", &index_byte.to_le_bytes()).unwrap();
+    file
+}
+
+/// The text of a payload of zipped JSON.
+pub fn unzipped(payload: &[u8]) -> String {
+    let mut text = String::new();
+    flate2::read::ZlibDecoder::new(&payload[4..]).read_to_string(&mut text).unwrap();
+    text
+}
+
+/// The payload of a text.
+pub fn zipped(text: &[u8]) -> Vec<u8> {
+    let start = (text.len() as u32).to_le_bytes().to_vec();
+    let mut payload = flate2::write::ZlibEncoder::new(start, flate2::Compression::none());
+    payload.write_all(text).unwrap();
+    payload.finish().unwrap()
 }

@@ -93,6 +93,7 @@ impl DiscCrowd {
             radius_m: RADIUS_M,
             wall_radius_m: RADIUS_M,
             preferred_speed_mps: SPEED_MPS,
+            ..AgentSpec::default()
         };
         let agents: Vec<AgentSpec> = agents.iter().map(spec).collect();
         Self {
@@ -119,18 +120,18 @@ impl DiscCrowd {
     pub(crate) fn run(&mut self, setting: &CrowdSetting, duration_s: f32) -> CrowdFigures {
         let dt_s = setting.dt_s;
         let mut figures = CrowdFigures::default();
-        let mut collisions = Collisions::new(self.radii_m.iter().copied());
+        let mut collisions = Collisions::default();
         let mut steps = 0;
         while steps as f32 * dt_s < duration_s && !(0..self.agents.len()).all(|agent| self.is_at_goal(agent)) {
             self.plan(setting);
             let before_m = self.positions_m.clone();
             figures.acceleration_mps2 += self.advance(setting.response, dt_s);
-            collisions.push(&before_m, &self.positions_m);
+            collisions.push(&self.radii_m, &before_m, &self.positions_m);
             figures.trails_m.push(self.positions_m.clone());
             steps += 1;
             self.note_arrivals_and_stalls(steps as f32 * dt_s, dt_s);
         }
-        figures.collisions = collisions.rate(steps) as f32;
+        figures.collisions = collisions.rate() as f32;
         figures.acceleration_mps2 /= (steps * self.positions_m.len()) as f32;
         figures.arrived = self.arrivals_s.iter().flatten().count();
         figures.stalled = self.slow_s.iter().filter(|&&slow_s| slow_s >= STALL_S).count();

@@ -39,5 +39,6 @@ pub(crate) fn agent_across(position_m: Vec2) -> AgentSpec {
         radius_m: RADIUS_M,
         wall_radius_m: WALL_RADIUS_M,
         preferred_speed_mps: SPEED_MPS,
+        ..AgentSpec::default()
     }
 }

@@ -14,7 +14,6 @@ use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario::{Coupling, Scenario};
 use fbcrowd_sim::simulation::{Simulation, Stage};
 use fbcrowd_sim::synthesis::Modes;
-use glam::Vec2;
 use motiondb::files::atomic_file::AtomicFile;
 use motiondb::motion::MotionDb;
 
@@ -119,20 +118,20 @@ fn run(
     let mut simulation = Simulation::new(Arc::clone(db), &scenario);
     let mut positions = Positions::create(scene, planner, protocol)?;
     positions.push(simulation.frames())?;
-    let mut measuring = Measuring::new(&db.skeleton, &scenario, simulation.frames());
+    let mut measuring = Measuring::new(&db.skeleton, &scenario, simulation.population(), simulation.frames());
     let (mut planning, mut steps) = (Duration::ZERO, 0);
     while steps < step_count(&scenario) && !(protocol.until_all_are_at_goals && measuring.all_are_at_goals()) {
         planning += timed_step(&mut simulation);
         steps += 1;
-        measuring.push(simulation.frames());
+        measuring.push(simulation.population(), simulation.frames());
         positions.push(simulation.frames())?;
     }
     let agent_steps = (steps * scene.agents.len()).max(1) as f64;
     Ok(ComparisonRun {
         seed: scene.seed,
-        measures: measuring.finish(),
+        measures: measuring.finish(simulation.population()),
         plan_microseconds_per_agent_step: planning.as_secs_f64() * 1e6 / agent_steps,
-        tracks: positions.finish(scenario.dt_s)?,
+        tracks: positions.finish()?,
     })
 }
 
@@ -149,8 +148,7 @@ fn timed_step(simulation: &mut Simulation) -> Duration {
 
 /// Root positions of a run, kept or written as the protocol demands.
 struct Positions {
-    agent_count: usize,
-    positions_m: Option<Vec<Vec2>>,
+    tracks: Option<Tracks>,
     file: Option<(PathBuf, AtomicFile)>,
 }
 
@@ -163,15 +161,14 @@ impl Positions {
             Ok::<_, BenchError>((path, file))
         };
         Ok(Self {
-            agent_count: scene.agents.len(),
-            positions_m: protocol.keeps_tracks.then(Vec::new),
+            tracks: protocol.keeps_tracks.then(|| Tracks::new(protocol.dt_s)),
             file: protocol.trajectories.as_ref().map(create_in).transpose()?,
         })
     }
 
     fn push(&mut self, agents: &[AgentFrame]) -> Result<(), BenchError> {
-        if let Some(positions_m) = &mut self.positions_m {
-            positions_m.extend(agents.iter().map(|agent| agent.root.position_m));
+        if let Some(tracks) = &mut self.tracks {
+            tracks.push_frame(agents);
         }
         match &mut self.file {
             Some((path, file)) => write_roots(agents, file.writer()).map_err(|error| unwritable(path, error)),
@@ -179,11 +176,11 @@ impl Positions {
         }
     }
 
-    fn finish(self, dt_s: f32) -> Result<Tracks, BenchError> {
+    fn finish(self) -> Result<Tracks, BenchError> {
         if let Some((path, file)) = self.file {
             file.commit().map_err(|error| unwritable(&path, error))?;
         }
-        Ok(Tracks { agent_count: self.agent_count, dt_s, positions_m: self.positions_m.unwrap_or_default() })
+        Ok(self.tracks.unwrap_or_default())
     }
 }
 

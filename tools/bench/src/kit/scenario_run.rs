@@ -43,25 +43,36 @@ pub(crate) struct ScenarioRun {
     pub(crate) tracks: Tracks,
 }
 
-/// The roots of all agents before and after one step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct StepRoots<'a> {
+/// The roots of all agents before and after one step, by id; NaN where an agent is not present.
+#[derive(Clone, Debug)]
+pub(crate) struct StepRoots {
     /// Positions before the step, m.
-    pub(crate) before_m: &'a [Vec2],
+    pub(crate) before_m: Vec<Vec2>,
     /// Positions after the step, m.
-    pub(crate) after_m: &'a [Vec2],
+    pub(crate) after_m: Vec<Vec2>,
     /// Time at the end of the step, s.
     pub(crate) end_s: f64,
 }
 
 impl ScenarioRun {
     /// All steps in order.
-    pub(crate) fn steps(&self) -> impl Iterator<Item = StepRoots<'_>> {
-        (1..self.tracks.frame_count()).map(|frame| StepRoots {
-            before_m: self.tracks.frame_m(frame - 1),
-            after_m: self.tracks.frame_m(frame),
+    pub(crate) fn steps(&self) -> impl Iterator<Item = StepRoots> {
+        (1..self.tracks.frame_count).map(|frame| StepRoots {
+            before_m: self.roots_m(frame - 1),
+            after_m: self.roots_m(frame),
             end_s: frame as f64 * self.dt_s(),
         })
+    }
+
+    /// The roots of all agents in a frame, by id, m; NaN where an agent is not present.
+    pub(crate) fn roots_m(&self, frame: usize) -> Vec<Vec2> {
+        let agents = 0..self.agent_count();
+        agents.map(|agent| self.tracks.position_m(agent, frame).unwrap_or(Vec2::NAN)).collect()
+    }
+
+    /// Number of agents that were present at any time.
+    pub(crate) fn agent_count(&self) -> usize {
+        self.tracks.agents.len()
     }
 
     /// Time step, s.
@@ -112,16 +123,15 @@ pub(crate) fn run_scenarios(
 
 fn simulate(db: &Arc<MotionDb>, scenario: &Scenario) -> (Measures, Tracks) {
     let mut simulation = Simulation::new(Arc::clone(db), scenario);
-    let mut measuring = Measuring::new(&db.skeleton, scenario, simulation.frames());
-    let roots_m = |simulation: &Simulation| simulation.frames().iter().map(|agent| agent.root.position_m).collect();
-    let mut positions_m: Vec<Vec2> = roots_m(&simulation);
+    let mut measuring = Measuring::new(&db.skeleton, scenario, simulation.population(), simulation.frames());
+    let mut tracks = Tracks::new(scenario.dt_s);
+    tracks.push_frame(simulation.frames());
     for _ in 0..step_count(scenario) {
         simulation.step(&mut |_| {});
-        measuring.push(simulation.frames());
-        positions_m.extend::<Vec<Vec2>>(roots_m(&simulation));
+        measuring.push(simulation.population(), simulation.frames());
+        tracks.push_frame(simulation.frames());
     }
-    let tracks = Tracks { agent_count: scenario.agents.len(), dt_s: scenario.dt_s, positions_m };
-    (measuring.finish(), tracks)
+    (measuring.finish(simulation.population()), tracks)
 }
 
 /// Draws the paths of all agents.

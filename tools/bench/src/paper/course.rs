@@ -19,7 +19,6 @@ use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::simulation::Simulation;
 use fbcrowd_sim::synthesis::{Mode, Modes, Transition};
-use glam::Vec2;
 use motiondb::body::Skeleton;
 use motiondb::motion::MotionDb;
 use schemars::JsonSchema;
@@ -129,17 +128,17 @@ fn walk(
     scenario.agents[0].preferred_speed_mps = preferred_mps;
     (scenario.params.synthesis.modes, scenario.params.synthesis.transition) = (modes, transition);
     let mut simulation = Simulation::new(Arc::clone(db), &scenario);
-    let mut measuring = Measuring::new(&db.skeleton, &scenario, simulation.frames());
-    let root_m = |simulation: &Simulation| simulation.frames()[0].root.position_m;
-    let mut positions_m: Vec<Vec2> = vec![root_m(&simulation)];
+    let mut measuring = Measuring::new(&db.skeleton, &scenario, simulation.population(), simulation.frames());
+    let mut tracks = Tracks::new(scenario.dt_s);
+    tracks.push_frame(simulation.frames());
     let mut poses = PoseDistances::to_examples_of(db);
-    while positions_m.len() <= step_count(&scenario) && !measuring.all_are_at_goals() {
+    while tracks.frame_count <= step_count(&scenario) && !measuring.all_are_at_goals() {
         simulation.step(&mut |_| {});
-        measuring.push(simulation.frames());
-        positions_m.push(root_m(&simulation));
+        measuring.push(simulation.population(), simulation.frames());
+        tracks.push_frame(simulation.frames());
         poses.push(&simulation.frames()[0], &db.skeleton);
     }
-    let measures: Measures = measuring.finish();
+    let measures: Measures = measuring.finish(simulation.population());
     let steps = measures.steps.max(1) as f64;
     CourseWalk {
         synthesis,
@@ -153,7 +152,7 @@ fn walk(
         semi_procedural_share: poses.semi_procedural as f64 / steps,
         acceleration_mps2: measures.mean_acceleration_before_arrival_mps2,
         planted_slide_cm_s: measures.planted_slide_cm_s,
-        tracks: Tracks { agent_count: 1, dt_s: scenario.dt_s, positions_m },
+        tracks,
     }
 }
 
@@ -184,7 +183,7 @@ impl PoseDistances {
 fn draw(path: &Path, scenario: &Scenario, walks: &[CourseWalk]) -> Result<(), BenchError> {
     create_parent(path)?;
     let ways: Vec<PathPanel> = walks.iter().filter(|walk| walk.preferred_mps == WALK_MPS).map(drawn_path).collect();
-    let sheet = side_by_side("The obstacle course by each synthesis", &scenario.agents, &scenario.obstacles_m, &ways);
+    let sheet = side_by_side("The obstacle course by each synthesis", scenario, &ways);
     Ok(png_frame::write(path, &sheet)?)
 }
 

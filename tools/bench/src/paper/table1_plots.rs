@@ -8,6 +8,8 @@ use fbcrowd_render::plots::crowd::{ComparedMeasure, Comparison, PathPanel, compa
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_sim::measures::Measures;
 
+use fbcrowd_sim::scenario::Scenario;
+
 use crate::error::BenchError;
 use crate::kit::planner_comparison::{ComparedPlanner, ComparisonRun};
 use crate::kit::scenes::Scene;
@@ -44,7 +46,7 @@ pub(crate) fn draw_paths(
     let seconds = runs.first().map_or(0.0, |run| run.measures.steps as f32 * run.measures.dt_s);
     let Scene { name, seed, agents } = scene;
     let title = format!("{name}, seed {seed}: paths of {} agents in {seconds:.0} s", agents.len());
-    Ok(png_frame::write(path, &side_by_side(&title, agents, &[], &ways))?)
+    Ok(png_frame::write(path, &side_by_side(&title, &Scenario::of(agents.clone()), &ways))?)
 }
 
 fn drawn_paths<'a>(planner: &ComparedPlanner, run: &'a ComparisonRun) -> PathPanel<'a> {

@@ -78,13 +78,13 @@ impl DoorFigures {
 }
 
 fn door_of_seed(run: &ScenarioRun) -> DoorOfSeed {
-    let mut gate = Gate::new([Vec2::new(0.0, DOOR_HALF_M), Vec2::new(0.0, -DOOR_HALF_M)], run.tracks.agent_count);
+    let mut gate = Gate::new([Vec2::new(0.0, DOOR_HALF_M), Vec2::new(0.0, -DOOR_HALF_M)], run.agent_count());
     let mut crowd = WaitingCrowd::new(ROOM_END_M, Vec2::NEG_X);
-    let until = (ARCH_UNTIL_SHARE * run.tracks.agent_count as f64) as usize;
+    let until = (ARCH_UNTIL_SHARE * run.agent_count() as f64) as usize;
     for step in run.steps() {
-        gate.push(step.before_m, step.after_m, step.end_s, run.dt_s());
+        gate.push(&step.before_m, &step.after_m, step.end_s, run.dt_s());
         if step.end_s >= ARCH_FROM_S && gate.passages_s().len() < until {
-            crowd.push(step.before_m, step.after_m, run.scenario.dt_s);
+            crowd.push(&step.before_m, &step.after_m, run.scenario.dt_s);
         }
     }
     let measures = &run.measures;

@@ -50,9 +50,9 @@ pub(crate) fn figure(name: impl Into<String>, value: impl Into<Option<f64>>) -> 
 
 /// The gate at x, from one y to another, with all passages in the direction of +x.
 pub(crate) fn gate(run: &ScenarioRun, x_m: f32, [low_m, high_m]: [f32; 2]) -> Gate {
-    let mut gate = Gate::new([Vec2::new(x_m, high_m), Vec2::new(x_m, low_m)], run.tracks.agent_count);
+    let mut gate = Gate::new([Vec2::new(x_m, high_m), Vec2::new(x_m, low_m)], run.agent_count());
     for step in run.steps() {
-        gate.push(step.before_m, step.after_m, step.end_s, run.dt_s());
+        gate.push(&step.before_m, &step.after_m, step.end_s, run.dt_s());
     }
     gate
 }

@@ -54,7 +54,7 @@ pub(crate) fn diagram_points(run: &ScenarioRun) -> Vec<DiagramPoint> {
     let mut sections: Vec<MeasuredSection> = sections.collect();
     let [from_s, to_s] = SECTION_TIME_S;
     for step in run.steps().filter(|step| (from_s..=to_s).contains(&step.end_s)) {
-        sections.iter_mut().for_each(|section| section.push(step.before_m, step.after_m, run.dt_s()));
+        sections.iter_mut().for_each(|section| section.push(&step.before_m, &step.after_m, run.dt_s()));
     }
     let measured = sections.iter().filter_map(MeasuredSection::means);
     let point = measured.map(|measured| DiagramPoint {

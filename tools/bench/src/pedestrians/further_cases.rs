@@ -31,7 +31,7 @@ pub(crate) fn overtaking(runs: &[ScenarioRun]) -> CaseOutcome {
         walked_m += f64::from(step.before_m[0].distance(step.after_m[0]));
         pushed_m = pushed_m.max(step.after_m[1].distance(stood_m).into());
     }
-    let ends_m = [0, run.tracks.frame_count() - 1].map(|frame| run.tracks.frame_m(frame)[0]);
+    let ends_m = [0, run.tracks.frame_count - 1].map(|frame| run.roots_m(frame)[0]);
     let detour = walked_m / f64::from(ends_m[0].distance(ends_m[1]));
     CaseOutcome {
         figures: vec![
@@ -65,7 +65,7 @@ pub(crate) fn turned(runs: &[ScenarioRun]) -> CaseOutcome {
     let positions_m = |(run, turn_deg): (&ScenarioRun, &f32)| -> Vec<Vec2> {
         let back = Vec2::from_angle(-turn_deg.to_radians());
         let frame = (TURNED_AT_S / run.dt_s()).round() as usize;
-        run.tracks.frame_m(frame).iter().map(|root_m| back.rotate(*root_m)).collect()
+        run.roots_m(frame).iter().map(|root_m| back.rotate(*root_m)).collect()
     };
     let all_m: Vec<Vec<Vec2>> = runs.iter().zip(TURNED_DEG).map(positions_m).collect();
     let off_m = |positions_m: &Vec<Vec2>| {

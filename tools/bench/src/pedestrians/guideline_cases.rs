@@ -117,11 +117,11 @@ fn corridor(runs: &[ScenarioRun]) -> CaseOutcome {
 fn corner(runs: &[ScenarioRun]) -> CaseOutcome {
     let run = &runs[0];
     let obstacles = Obstacles::new(&run.scenario.obstacles_m);
-    let mut gate = Gate::new([Vec2::new(10.0, 12.0), Vec2::new(12.0, 12.0)], run.tracks.agent_count);
+    let mut gate = Gate::new([Vec2::new(10.0, 12.0), Vec2::new(12.0, 12.0)], run.agent_count());
     let (mut crossed, mut nearest_m, mut near) = (0, f32::INFINITY, Vec::new());
     for step in run.steps() {
-        gate.push(step.before_m, step.after_m, step.end_s, run.dt_s());
-        for &root_m in step.after_m {
+        gate.push(&step.before_m, &step.after_m, step.end_s, run.dt_s());
+        for &root_m in &step.after_m {
             crossed += usize::from(obstacles.contains(root_m));
             obstacles.near(root_m, 1.0, &mut near);
             nearest_m = near.first().map_or(nearest_m, |edge| nearest_m.min(edge.distance_m));
@@ -149,8 +149,8 @@ fn speed_distribution(runs: &[ScenarioRun]) -> CaseOutcome {
     let gates = LANE_GATES_M.map(|x_m| gate(run, x_m, [-1.0, 1000.0]));
     let apart_m = f64::from(LANE_GATES_M[1] - LANE_GATES_M[0]);
     let set_mps = run.scenario.agents.iter().map(|agent| f64::from(agent.preferred_speed_mps));
-    let walked: Vec<f64> = (0..run.tracks.agent_count).filter_map(|agent| speed_mps(agent, &gates, apart_m)).collect();
-    let all_walked = walked.len() == run.tracks.agent_count;
+    let walked: Vec<f64> = (0..run.agent_count()).filter_map(|agent| speed_mps(agent, &gates, apart_m)).collect();
+    let all_walked = walked.len() == run.agent_count();
     let (set, of_walked) = (spread(set_mps.clone()), spread(walked.iter().copied()));
     let ratio = |of: fn(Spread) -> f64| Some((of(of_walked?) / of(set?) - 1.0).abs());
     let worst = set_mps.zip(&walked).map(|(set_mps, walked_mps)| (walked_mps / set_mps - 1.0).abs()).reduce(f64::max);
@@ -206,7 +206,7 @@ fn waiting(run: &ScenarioRun, x_m: f32, gate: &Gate) -> f64 {
     let passages_s = gate.passages_s();
     let passed = |at_s: &f64| passages_s.first().is_some_and(|first| first <= at_s) && passages_s.last() >= Some(at_s);
     for step in run.steps().filter(|step| passed(&step.end_s)) {
-        crowd.push(step.before_m, step.after_m, run.scenario.dt_s);
+        crowd.push(&step.before_m, &step.after_m, run.scenario.dt_s);
     }
     crowd.shape().waiting
 }

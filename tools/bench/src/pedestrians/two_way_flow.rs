@@ -67,7 +67,7 @@ fn flow_of_seed(run: &ScenarioRun) -> Option<FlowOfSeed> {
     let (mut orders, mut speeds_mps) = (Vec::new(), Vec::new());
     let [from_s, to_s] = LANES_STEADY_S;
     for step in run.steps().filter(|step| (from_s..=to_s).contains(&step.end_s)) {
-        orders.extend(order(step.after_m));
+        orders.extend(order(&step.after_m));
         for (agent, (before_m, after_m)) in step.before_m.iter().zip(step.after_m).enumerate() {
             if after_m.x.abs() <= LANES_WITHIN_M {
                 let speed_mps = f64::from(after_m.x - before_m.x) / run.dt_s();
@@ -76,7 +76,7 @@ fn flow_of_seed(run: &ScenarioRun) -> Option<FlowOfSeed> {
         }
     }
     Some(FlowOfSeed {
-        start: order(run.tracks.frame_m(0))?,
+        start: order(&run.roots_m(0))?,
         order: mean(orders.iter().map(|order| order.order))?,
         reduced: mean(orders.iter().filter_map(|order| order.reduced()))?,
         speed_mps: mean(speeds_mps.into_iter())?,

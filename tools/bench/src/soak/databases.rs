@@ -80,6 +80,7 @@ pub(crate) fn crossing() -> Scenario {
         radius_m: 0.25,
         wall_radius_m: 0.2,
         preferred_speed_mps: 1.33,
+        ..AgentSpec::default()
     };
     let agents = [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y].map(|side| agent(2.0 * side)).to_vec();
     Scenario { name: "crossing".to_owned(), duration_s: 1.0, ..Scenario::of(agents) }

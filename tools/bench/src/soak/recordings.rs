@@ -38,7 +38,7 @@ fn record(db: &Arc<MotionDb>, path: &Path) -> Result<(), RecordingError> {
         recorder.push(simulation.frames())?;
         simulation.step(&mut |_| ());
     }
-    recorder.finish()
+    recorder.finish(simulation.population())
 }
 
 /// Mutates a recording and measures it.

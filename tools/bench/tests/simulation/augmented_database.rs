@@ -35,6 +35,7 @@ fn antipodal() -> Scenario {
             radius_m: 0.25,
             wall_radius_m: 0.2,
             preferred_speed_mps: 1.3,
+            ..AgentSpec::default()
         }
     };
     Scenario { duration_s: DURATION_S, dt_s: DT_S, ..Scenario::of((0..AGENTS).map(agent).collect()) }

@@ -35,7 +35,7 @@ fn recorded(db: &Arc<MotionDb>, scenario: Scenario) -> Recording {
         simulation.step(&mut |_| {});
         recorder.push(simulation.frames()).unwrap();
     }
-    recorder.finish().unwrap();
+    recorder.finish(simulation.population()).unwrap();
     Recording::open(&path).unwrap()
 }
 
@@ -81,8 +81,11 @@ fn every_recorded_step_is_planned_again_alike() {
         ("antipodal", Planner::Orca, 10.0),
         ("bottleneck", Planner::Orca, 10.0),
         ("bottleneck", Planner::SocialForce, 6.0),
+        ("two_exits", Planner::Mcn, 20.0),
     ] {
-        check(&recorded(&db, scenario(name, planner, duration_s)));
+        let recording = recorded(&db, scenario(name, planner, duration_s));
+        assert_eq!(recording.population().agents.iter().any(|life| life.removed.is_some()), name == "two_exits");
+        check(&recording);
     }
 }
 

@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
             FormatArg::Exr => PictureFormat::Exr,
         },
         frames: args.frames.clone(),
-        constraints_of: constraints_of(args, recording.header().scenario.agents.len())?,
+        constraints_of: constraints_of(args, recording.population().agents.len())?,
     };
     rendering::check_frames(&recording, &options, std::slice::from_ref(&args.recording))?;
     let _lock = LockedFolder::shared(&args.output)?;

@@ -5,7 +5,7 @@ use fbcrowd_sim::measures::Measures;
 /// One figure a line.
 pub(crate) fn text(measures: &Measures) -> String {
     [
-        ("agents", format!("{}", measures.agents)),
+        ("agents", agents(measures)),
         ("steps", format!("{} of {:.4} s", measures.steps, measures.dt_s)),
         ("collisions C", collisions(measures)),
         ("bodies", bodies(measures)),
@@ -20,6 +20,14 @@ pub(crate) fn text(measures: &Measures) -> String {
     ]
     .map(|(name, value)| format!("{name:<25}{value}\n"))
     .concat()
+}
+
+fn agents(measures: &Measures) -> String {
+    let Measures { agents, born, removed, waiting, source_blocked_s, .. } = measures;
+    if born + removed + waiting == 0 {
+        return format!("{agents}");
+    }
+    format!("{agents}, {born} of them born, {removed} removed, {waiting} wait, sources blocked {source_blocked_s:.1} s")
 }
 
 fn optional(value: Option<f64>, unit: &str) -> String {

@@ -9,17 +9,25 @@ use schemars::JsonSchema;
 #[derive(JsonSchema)]
 #[schemars(rename = "Measures", description = "The measures of one recording.")]
 pub struct MeasuresMirror {
-    /// Number of agents, N.
+    /// Number of agents that were present at any time, N.
     agents: usize,
+    /// Number of agents that were born after the start or came from a source.
+    born: usize,
+    /// Number of agents that were removed; they do not count from then on.
+    removed: usize,
+    /// Number of agents that were due at sources at the end and had had no room.
+    waiting: usize,
+    /// Time during which a source had no room for an agent that was due, summed over sources, s.
+    source_blocked_s: f64,
     /// Number of time steps, T.
     steps: usize,
     /// Time step, s.
     dt_s: f32,
-    /// C (Eq. 17): overlap of discs as a share of both radii, summed over pairs, per agent and step.
+    /// C (Eq. 17): overlap of discs as a share of both radii, summed over pairs, per step and present agent.
     collision_rate: f64,
     /// Least distance between the centres of two discs, between frames too (Eq. 16), m; null with a single agent.
     minimum_separation_m: Option<f64>,
-    /// A (Eq. 18): mean acceleration of the roots over all agents and steps, from rest at the start, m/s².
+    /// A (Eq. 18): mean acceleration of the roots over all steps and present agents, from rest at their starts, m/s².
     mean_acceleration_mps2: f64,
     /// Mean acceleration of the roots over the steps before each agent's arrival, m/s².
     mean_acceleration_before_arrival_mps2: f64,
@@ -27,7 +35,7 @@ pub struct MeasuresMirror {
     arrived: usize,
     /// Number of agents that stayed under 0.1 m/s for 5 s before arrival.
     stalled: usize,
-    /// Mean time until arrival, s; null where no agent arrived.
+    /// Mean time from birth until arrival, s; null where no agent arrived.
     mean_time_to_goal_s: Option<f64>,
     /// Length of the path until arrival, divided by that of the straight line along the waypoints; mean over the agents
     /// that arrived; null where no agent arrived.

@@ -1,7 +1,7 @@
 //! Paths of the same agents in several simulations, side by side, as in the paper's Fig. 7. One colour per agent, the
 //! same in every panel; measures below each panel. World axes, metres.
 
-use fbcrowd_sim::scenario::AgentSpec;
+use fbcrowd_sim::scenario::Scenario;
 use glam::Vec2;
 use tiny_skia::Pixmap;
 
@@ -32,11 +32,15 @@ const LEGEND_PX: Vec2 = Vec2::new(LEFT_PX + 10.0, 118.0);
 /// ```
 /// use fbcrowd_render::Tracks;
 /// use fbcrowd_render::plots::crowd::{PathPanel, side_by_side};
+/// use fbcrowd_sim::{AgentId, AgentSpec, Scenario};
 /// use glam::Vec2;
 ///
-/// let tracks = Tracks { agent_count: 1, dt_s: 1.0, positions_m: vec![Vec2::ZERO, Vec2::new(4.0, 0.0)] };
+/// let scenario = Scenario::of(vec![AgentSpec { goals_m: vec![Vec2::new(4.0, 0.0)], ..AgentSpec::default() }]);
+/// let mut tracks = Tracks::new(1.0);
+/// tracks.push([(AgentId(0), Vec2::ZERO)]);
+/// tracks.push([(AgentId(0), Vec2::new(4.0, 0.0))]);
 /// let panel = |heading: &str| PathPanel { heading: heading.to_owned(), notes: Vec::new(), tracks: &tracks };
-/// let picture = side_by_side("One agent, two planners", &[], &[], &[panel("MCN"), panel("ORCA")]);
+/// let picture = side_by_side("One agent, two planners", &scenario, &[panel("MCN"), panel("ORCA")]);
 /// assert!(picture.width() > picture.height());
 /// ```
 #[derive(Clone, Debug)]
@@ -50,9 +54,9 @@ pub struct PathPanel<'a> {
 }
 
 /// The figure of several panels; all show the same part of the world.
-pub fn side_by_side(title: &str, agents: &[AgentSpec], obstacles_m: &[Vec<Vec2>], panels: &[PathPanel<'_>]) -> Pixmap {
+pub fn side_by_side(title: &str, scenario: &Scenario, panels: &[PathPanel<'_>]) -> Pixmap {
     let tracks: Vec<&Tracks> = panels.iter().map(|panel| panel.tracks).collect();
-    let scene = PathScene::new(agents, obstacles_m, &tracks);
+    let scene = PathScene::new(scenario, &tracks);
     let height = scene.height_px(PANEL_PX, PANEL_HEIGHTS_PX);
     let lines = panels.iter().map(|panel| panel.notes.len()).max().unwrap_or(0) as f32;
     let width = LEFT_PX + panels.len() as f32 * (LEFT_PX + PANEL_PX);

@@ -2,7 +2,7 @@
 //! at its goal. World axes, metres.
 
 use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::scenario::AgentSpec;
+use fbcrowd_sim::scenario::Scenario;
 use glam::Vec2;
 use tiny_skia::Pixmap;
 
@@ -54,7 +54,7 @@ pub(crate) const PATH_LEGEND: [LegendEntry<'static>; 2] =
 /// # Ok::<(), RenderError>(())
 /// ```
 pub fn trajectories(header: &Header, tracks: &Tracks) -> Pixmap {
-    let scene = PathScene::new(&header.scenario.agents, &header.scenario.obstacles_m, &[tracks]);
+    let scene = PathScene::new(&header.scenario, &[tracks]);
     let [left, top, width] = PANEL_LEFT_TOP_WIDTH_PX;
     let height = scene.height_px(width, PANEL_HEIGHTS_PX);
     let mut figure = PlotFigure::new([WIDTH_PX, (top + height + BELOW_PX) as u32]);
@@ -65,8 +65,8 @@ pub fn trajectories(header: &Header, tracks: &Tracks) -> Pixmap {
 }
 
 fn title(header: &Header, tracks: &Tracks) -> String {
-    let duration_s = tracks.frame_count().saturating_sub(1) as f32 * tracks.dt_s;
-    let paths = match tracks.agent_count {
+    let duration_s = tracks.frame_count.saturating_sub(1) as f32 * tracks.dt_s;
+    let paths = match tracks.agents.len() {
         1 => "path of 1 agent".to_owned(),
         count => format!("paths of {count} agents"),
     };
@@ -75,19 +75,20 @@ fn title(header: &Header, tracks: &Tracks) -> String {
 
 /// Agents, obstacles, and the box of the world that panels with their paths show.
 pub(crate) struct PathScene<'a> {
-    agents: &'a [AgentSpec],
-    obstacles_m: &'a [Vec<Vec2>],
+    scenario: &'a Scenario,
     /// Least and greatest corner, world, m.
     bounds_m: [Vec2; 2],
 }
 
 impl<'a> PathScene<'a> {
     /// A scene whose box holds all tracks, obstacles and goals, with a margin.
-    pub(crate) fn new(agents: &'a [AgentSpec], obstacles_m: &'a [Vec<Vec2>], tracks: &[&Tracks]) -> Self {
-        let paths_m = tracks.iter().flat_map(|tracks| tracks.positions_m.iter());
+    pub(crate) fn new(scenario: &'a Scenario, tracks: &[&Tracks]) -> Self {
+        let Scenario { agents, sources, obstacles_m, .. } = scenario;
+        let paths_m = tracks.iter().flat_map(|tracks| tracks.positions_m());
         let goals_m = agents.iter().flat_map(|agent| agent.goals_m.iter());
-        let [low_m, high_m] = bounds_m(paths_m.chain(obstacles_m.iter().flatten()).chain(goals_m).copied());
-        Self { agents, obstacles_m, bounds_m: [low_m - MARGIN_M, high_m + MARGIN_M] }
+        let goals_m = goals_m.chain(sources.iter().flat_map(|source| source.goals_m.iter()));
+        let [low_m, high_m] = bounds_m(paths_m.chain(obstacles_m.iter().flatten().chain(goals_m).copied()));
+        Self { scenario, bounds_m: [low_m - MARGIN_M, high_m + MARGIN_M] }
     }
 
     /// Height of the axes for a width, within limits, pixels.
@@ -101,7 +102,7 @@ impl<'a> PathScene<'a> {
         let [low, high] = self.bounds_m;
         let axes = [PlotAxis::new("x, m", [low.x, high.x]), PlotAxis::new("y, m", [low.y, high.y])];
         let panel = figure.panel(rect_px, equal_units(rect_px, axes));
-        for corners in self.obstacles_m {
+        for corners in &self.scenario.obstacles_m {
             figure.polygon(&panel, corners.iter().copied(), 1.0, LineStyle::solid(GRID_COARSE, 1.0));
             let closed = corners.iter().chain(corners.first()).copied();
             figure.polyline(&panel, closed, LineStyle::solid(OBSTACLE_RIM, 3.0));
@@ -111,18 +112,24 @@ impl<'a> PathScene<'a> {
 
     /// Draws paths, then marks, so that no path crosses a mark.
     fn draw_paths(&self, figure: &mut PlotFigure, panel: &PlotPanel, tracks: &Tracks) {
-        let many = usize::from(tracks.agent_count > FEW_AGENTS);
-        for agent in 0..tracks.agent_count {
+        let many = usize::from(tracks.agents.len() > FEW_AGENTS);
+        for (agent, track) in tracks.agents.iter().enumerate() {
             let style = LineStyle { opacity: 0.85, ..LineStyle::solid(line_colour(agent), PATH_PX[many]) };
-            figure.polyline(panel, tracks.agent_m(agent), style);
+            figure.polyline(panel, track.positions_m.iter().copied(), style);
         }
-        for (agent, spec) in self.agents.iter().enumerate() {
-            let colour = line_colour(agent);
-            if let Some(goal_m) = spec.goals_m.last() {
+        for goal_m in self.scenario.sources.iter().filter_map(|source| source.goals_m.last()) {
+            figure.mark(panel, *goal_m, PlotMark::Cross, MARK_PX[many], INK);
+        }
+        let agents = &self.scenario.agents;
+        for agent in 0..agents.len().max(tracks.agents.len()) {
+            let (colour, spec) = (line_colour(agent), agents.get(agent));
+            if let Some(goal_m) = spec.and_then(|spec| spec.goals_m.last()) {
                 figure.mark(panel, *goal_m, PlotMark::Cross, MARK_PX[many], colour);
             }
-            let start_m = tracks.agent_m(agent).next().unwrap_or(spec.position_m);
-            figure.mark(panel, start_m, PlotMark::Disc, 0.8 * MARK_PX[many], colour);
+            let start_m = tracks.agents.get(agent).and_then(|track| track.positions_m.first().copied());
+            if let Some(start_m) = start_m.or(spec.map(|spec| spec.position_m)) {
+                figure.mark(panel, start_m, PlotMark::Disc, 0.8 * MARK_PX[many], colour);
+            }
         }
     }
 }

@@ -19,17 +19,9 @@ use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use crate::maths::random::SplitMix64;
-use crate::scenario::agent_spec::{AgentSpec, WALL_RADIUS_M};
+use crate::scenario::agent_spec::{AgentSpec, AtGoal, PREFERRED_SPEED_MPS, RADIUS_M, WALL_RADIUS_M};
 use crate::scenario::point::Point;
-use crate::scenario::ranges::AGENTS_MAX;
-
-/// Default radius of a disc, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected
-/// trunk; also the radius in the protocol of Table 1's scenes (`assets/scenarios/table1`).
-const RADIUS_M: f32 = 0.25;
-/// Default preferred speed, m/s: that of the same protocol.
-const PREFERRED_SPEED_MPS: f32 = 1.33;
-/// Greatest number of waypoints of all agents: ten for each of the largest crowd, 80 MB.
-const WAYPOINTS_MAX: usize = 10 * AGENTS_MAX;
+use crate::scenario::ranges::{AGENTS_MAX, WAYPOINTS_MAX};
 
 /// The value of `agents`: each table and, in a list, its bytes in the text.
 #[derive(Debug)]
@@ -49,6 +41,7 @@ pub(crate) struct AgentGroup {
     radius_m: f32,
     wall_radius_m: Option<f32>,
     preferred_speed_mps: f32,
+    at_goal: AtGoal,
 }
 
 /// Agents on a circle, each bound for the opposite position.
@@ -105,6 +98,7 @@ impl Default for AgentGroup {
             radius_m: RADIUS_M,
             wall_radius_m: None,
             preferred_speed_mps: PREFERRED_SPEED_MPS,
+            at_goal: AtGoal::default(),
         }
     }
 }
@@ -163,9 +157,9 @@ impl AgentGroup {
     fn agent(&self, position_m: Vec2, goals_m: Vec<Vec2>) -> AgentSpec {
         let towards_goal = goals_m.first().map_or(Vec2::ZERO, |goal_m| goal_m - position_m);
         let facing_rad = self.facing_deg.map_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x), f32::to_radians);
-        let &Self { radius_m, preferred_speed_mps, .. } = self;
+        let &Self { radius_m, preferred_speed_mps, at_goal, .. } = self;
         let wall_radius_m = self.wall_radius_m.unwrap_or(WALL_RADIUS_M.min(radius_m));
-        AgentSpec { position_m, facing_rad, goals_m, radius_m, wall_radius_m, preferred_speed_mps }
+        AgentSpec { position_m, facing_rad, goals_m, radius_m, wall_radius_m, preferred_speed_mps, at_goal }
     }
 }
 

@@ -5,7 +5,7 @@
 //! apart from it the source of its motion.
 //!
 //! Read `reading` (the steps from text to scenario), then `scenario_file` (the keys), `agent_groups` and `agent_lines`
-//! (tables and lines of agents), `agent_placement` (from them to agents).
+//! (tables and lines of agents), `agent_placement` (from them to agents), `source_tables` (sources of agents).
 
 mod agent_groups;
 mod agent_lines;
@@ -13,6 +13,7 @@ mod agent_placement;
 pub(crate) mod behaviour;
 mod reading;
 mod scenario_file;
+mod source_tables;
 
 pub use agent_placement::{agents_of_lines, fault_of_lines};
 pub use reading::{agent_files, parse, read};

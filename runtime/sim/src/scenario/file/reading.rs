@@ -20,6 +20,7 @@ use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, fault_of_lines};
 use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
+use crate::scenario::file::source_tables::sources;
 use crate::scenario::point::Point;
 use crate::scenario::resolved::{SEED, Scenario};
 
@@ -40,7 +41,10 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
     let file = ScenarioFile::parse(source)?;
     let motion = file.motion_source(source)?;
     let seed = file.seed.unwrap_or(SEED);
-    let mut placed = PlacedAgents::new(source, &file.agents, seed)?;
+    let mut placed = match file.agents() {
+        Some(groups) => PlacedAgents::new(source, groups, seed)?,
+        None => PlacedAgents::default(),
+    };
     let defaults = Scenario::of(std::mem::take(&mut placed.agents));
     let scenario = Scenario {
         name: file.name.as_ref().map_or_else(|| stem(&source.path), |name| name.get_ref().clone()),
@@ -49,6 +53,7 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         seed,
         planner: file.planner,
         coupling: file.coupling,
+        sources: sources(source, &file.sources, *file.duration_s.get_ref())?,
         obstacles_m: file.obstacles.iter().map(|obstacle| counter_clockwise(&obstacle.get_ref().polygon_m)).collect(),
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
@@ -65,7 +70,8 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
 pub fn agent_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
     let source = read_text(path)?;
     let file = ScenarioFile::parse(&source)?;
-    let named = file.agents.get_ref().0.iter().filter_map(|(_, group)| group.file.as_ref());
+    let groups = file.agents().into_iter().flat_map(|groups| &groups.get_ref().0);
+    let named = groups.filter_map(|(_, group)| group.file.as_ref());
     Ok(named.map(|name| source.beside(Path::new(name.get_ref()))).collect())
 }
 
@@ -100,7 +106,8 @@ fn at_its_text(source: &SourceText, file: &ScenarioFile, placed: &PlacedAgents, 
         ScenarioPart::Parameter(section, key) => parameter_span(source, &section, &key),
         ScenarioPart::Journey(agent) | ScenarioPart::Agent(agent) => placed.table(agent).span.clone(),
         ScenarioPart::Obstacle(index) => file.obstacles[index].span(),
-        ScenarioPart::Agents => file.agents.span(),
+        ScenarioPart::Source(index) => file.sources.get(index).map_or(0..0, Spanned::span),
+        ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),
     };
     source.invalid(span, fault.message, fault.help).into()
 }

@@ -4,7 +4,8 @@
 //! clips = "../clips"                  # or database = "x.fbdb"; a folder, file or manifest, relative to this file;
 //!                                     # neither where the reader brings a database
 //! duration_s = 30.0
-//! agents = { circle = { count = 17, radius_m = 4.0 } }    # or [[agents]] tables: see `agent_groups.rs`
+//! agents = { circle = { count = 17, radius_m = 4.0 } }    # or [[agents]] tables: see `agent_groups.rs`; may be left
+//!                                     # out where there are sources
 //!
 //! # All keys below are optional.
 //! name = "antipodal"                  # default: the file's stem
@@ -12,6 +13,7 @@
 //! seed = 1                            # of everything random
 //! planner = "mcn"                     # or "orca", "social_force": see `planner.rs`
 //! coupling = "two_way"                # or "decoupled", "discs": see `coupling.rs`
+//! [[sources]]                         # agents that come later: see `source_tables.rs`
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
 //! [params.planner]                    # MCN's tunables; all sections: see `params.rs`
@@ -30,11 +32,12 @@ use crate::planning::planner::Planner;
 use crate::scenario::coupling::Coupling;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::file::agent_groups::AgentGroups;
+use crate::scenario::file::source_tables::SourceTable;
 use crate::scenario::point::Point;
 use crate::scenario::view::View;
 
 /// Keys by one of which a scenario file is recognised.
-const KEYS: [&str; 6] = ["duration_s", "agents", "clips", "dt_s", "obstacles", "planner"];
+const KEYS: [&str; 7] = ["duration_s", "agents", "clips", "dt_s", "obstacles", "planner", "sources"];
 /// How to mend a scenario without motion.
 const NO_MOTION: &str = "add `clips = \"FOLDER\"` or `database = \"FILE.fbdb\"`, relative to this file, or give a database with `fbcrowd simulate --db`";
 
@@ -62,7 +65,9 @@ pub(crate) struct ScenarioFile {
     pub(crate) planner: Planner,
     #[serde(default)]
     pub(crate) coupling: Coupling,
-    pub(crate) agents: Spanned<AgentGroups>,
+    agents: Option<Spanned<AgentGroups>>,
+    #[serde(default)]
+    pub(crate) sources: Vec<Spanned<SourceTable>>,
     #[serde(default)]
     pub(crate) obstacles: Vec<Spanned<ObstacleTable>>,
     #[serde(default)]
@@ -79,7 +84,17 @@ pub(crate) struct ObstacleTable {
 
 impl ScenarioFile {
     pub(crate) fn parse(source: &SourceText) -> Result<Self, ScenarioError> {
-        Ok(toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message(), &KEYS))?)
+        let file: Self =
+            toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message(), &KEYS))?;
+        if file.agents.is_none() && file.sources.is_empty() {
+            return Err(source.unparsed(None, "missing field `agents`", &KEYS).into());
+        }
+        Ok(file)
+    }
+
+    /// The tables of agents, and their bytes in the text; none where all agents come from sources.
+    pub(crate) fn agents(&self) -> Option<&Spanned<AgentGroups>> {
+        self.agents.as_ref()
     }
 
     /// The motion that the file names. The inner error: it names none, or one that is missing. The outer error: the

@@ -1,0 +1,102 @@
+//! All agents that ever were in a simulation or recording, by id.
+//!
+//! Ids count births: the agents of the scenario have the first ids, in index order; each later agent has the next one.
+//! No id is used twice, so an id is an index into [`Population::agents`]. Frame k is the state after k steps. An agent is
+//! present from its frame of birth, in which it stands at its start, up to the frame before its removal.
+
+use serde::{Deserialize, Serialize};
+
+use crate::scenario::{AgentSpec, Scenario};
+
+/// The id of an agent: the number of agents that were born before it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct AgentId(pub u32);
+
+impl AgentId {
+    /// Index of the agent in [`Population::agents`].
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl From<usize> for AgentId {
+    /// The id at an index; scenarios have at most a million agents.
+    fn from(index: usize) -> Self {
+        Self(index as u32)
+    }
+}
+
+/// One agent from its birth to its removal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AgentLife {
+    /// The agent at its start.
+    pub spec: AgentSpec,
+    /// Index of the source that the agent came from; none of an agent of the scenario's start, or added by a program.
+    pub source: Option<u32>,
+    /// The first frame with the agent.
+    pub born: u32,
+    /// The first frame without it; none of an agent that is present to the end.
+    pub removed: Option<u32>,
+    /// Index of the database by which the body moves.
+    pub database: u32,
+    /// Index of the character that the body is drawn as; none of the plain body.
+    pub character: Option<u32>,
+    /// Size of the body, relative to the database's skeleton.
+    pub stature: f32,
+    /// Number of the group that the agent belongs to.
+    pub group: Option<u32>,
+}
+
+impl AgentLife {
+    /// A life that begins in a frame, with the first database and the plain body.
+    pub fn new(spec: AgentSpec, source: Option<u32>, born: u32) -> Self {
+        Self { spec, source, born, removed: None, database: 0, character: None, stature: 1.0, group: None }
+    }
+
+    /// Whether the agent is present in a frame.
+    pub fn is_present(&self, frame: u32) -> bool {
+        self.born <= frame && self.removed.is_none_or(|removed| frame < removed)
+    }
+}
+
+/// What a source did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct SourceCount {
+    /// Agents that came from the source.
+    pub born: u32,
+    /// Agents that are due and wait until there is room.
+    pub waiting: u32,
+    /// Frames in which an agent was due and had no room.
+    pub blocked_frames: u32,
+}
+
+/// All agents, past and present, and the counts of the sources.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Population {
+    /// Every agent, by id.
+    pub agents: Vec<AgentLife>,
+    /// The counts of every source, by index.
+    pub sources: Vec<SourceCount>,
+}
+
+impl Population {
+    /// The population of a scenario at its start.
+    pub fn of(scenario: &Scenario) -> Self {
+        Self {
+            agents: scenario.agents.iter().map(|spec| AgentLife::new(spec.clone(), None, 0)).collect(),
+            sources: vec![SourceCount::default(); scenario.sources.len()],
+        }
+    }
+
+    /// The agent with an id at its start.
+    pub fn spec(&self, id: AgentId) -> &AgentSpec {
+        &self.agents[id.index()].spec
+    }
+
+    /// Whether agents are born or removed after the start.
+    pub fn changes(&self) -> bool {
+        self.agents.iter().any(|life| life.born > 0 || life.removed.is_some())
+    }
+}

@@ -1,0 +1,84 @@
+//! The `[[sources]]` tables of a scenario file. World, metres, seconds.
+//!
+//! A table has exactly one of `at_m = [x, y]` and `rect_m = [least x, least y, greatest x, greatest y]`, the rate and
+//! the times of its agents, and the keys that `[[agents]]` has for goals, discs and speed.
+
+use glam::Vec2;
+use motiondb::files::SourceText;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::scenario::agent_spec::{AtGoal, PREFERRED_SPEED_MPS, RADIUS_M, WALL_RADIUS_M};
+use crate::scenario::error::ScenarioError;
+use crate::scenario::point::Point;
+use crate::scenario::source_spec::SourceSpec;
+
+/// One `[[sources]]` table, as written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SourceTable {
+    at_m: Option<Point>,
+    rect_m: Option<[f32; 4]>,
+    rate_per_s: f32,
+    #[serde(default)]
+    from_s: f32,
+    to_s: Option<f32>,
+    count: Option<u32>,
+    #[serde(default)]
+    goals_m: Vec<Point>,
+    goal_offset_m: Option<Point>,
+    facing_deg: Option<f32>,
+    radius_m: Option<f32>,
+    wall_radius_m: Option<f32>,
+    preferred_speed_mps: Option<f32>,
+    #[serde(default)]
+    at_goal: AtGoal,
+}
+
+/// The sources of all tables; they end with the scenario at the latest.
+pub(crate) fn sources(
+    source: &SourceText,
+    tables: &[Spanned<SourceTable>],
+    duration_s: f32,
+) -> Result<Vec<SourceSpec>, ScenarioError> {
+    let resolve = |table: &Spanned<SourceTable>| {
+        let at_table = |(message, help): (&str, &str)| source.invalid(table.span(), message, help).into();
+        table.get_ref().source(duration_s).map_err(at_table)
+    };
+    tables.iter().map(resolve).collect()
+}
+
+impl SourceTable {
+    fn source(&self, duration_s: f32) -> Result<SourceSpec, (&'static str, &'static str)> {
+        let (low_m, high_m) = match (self.at_m, self.rect_m) {
+            (Some(Point(at_m)), None) => (at_m, at_m),
+            (None, Some([left, low, right, high])) => (Vec2::new(left, low), Vec2::new(right, high)),
+            _ => {
+                return Err((
+                    "a source needs exactly one of `at_m` and `rect_m`",
+                    "write `at_m = [x, y]`, or `rect_m = [least x, least y, greatest x, greatest y]`",
+                ));
+            }
+        };
+        if self.goals_m.is_empty() && self.goal_offset_m.is_none() {
+            let help = "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both";
+            return Err(("the agents of a source need a goal", help));
+        }
+        let radius_m = self.radius_m.unwrap_or(RADIUS_M);
+        Ok(SourceSpec {
+            low_m,
+            high_m,
+            rate_per_s: self.rate_per_s,
+            from_s: self.from_s,
+            to_s: self.to_s.unwrap_or(duration_s.max(self.from_s)),
+            count: self.count,
+            facing_rad: self.facing_deg.map(f32::to_radians),
+            goals_m: self.goals_m.iter().map(|&Point(goal_m)| goal_m).collect(),
+            goal_offset_m: self.goal_offset_m.map(|Point(offset_m)| offset_m),
+            radius_m,
+            wall_radius_m: self.wall_radius_m.unwrap_or(WALL_RADIUS_M.min(radius_m)),
+            preferred_speed_mps: self.preferred_speed_mps.unwrap_or(PREFERRED_SPEED_MPS),
+            at_goal: self.at_goal,
+        })
+    }
+}

@@ -1,0 +1,152 @@
+//! A source of agents: an area in which agents appear one after the other. World, metres, seconds.
+//!
+//! The times at which agents are due are a Poisson process: independent gaps with an exponential distribution. They
+//! depend on the scenario's seed and the source's index alone. So the number of agents is known before the simulation.
+
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+use crate::maths::random::SplitMix64;
+use crate::scenario::agent_spec::{AgentSpec, AtGoal};
+
+/// First random stream of the sources' due times; the scenario and the starting phases use those below.
+const DUE_STREAM: u64 = 1 << 34;
+/// First random stream of the positions at which sources place agents.
+const POSITION_STREAM: u64 = 1 << 35;
+
+/// A source of agents.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SourceSpec {
+    /// Least corner of the rectangle in which agents appear, world, m.
+    pub low_m: Vec2,
+    /// Greatest corner of the rectangle, world, m; equal to the least one for a source at a position.
+    pub high_m: Vec2,
+    /// Mean number of agents per second.
+    pub rate_per_s: f32,
+    /// Time from which agents are due, s.
+    pub from_s: f32,
+    /// Time until which agents are due, s.
+    pub to_s: f32,
+    /// Greatest number of agents; none where time alone ends the source.
+    pub count: Option<u32>,
+    /// Facing of each agent when it appears, rad; towards its first goal where none is given.
+    pub facing_rad: Option<f32>,
+    /// Waypoints of all agents in order, world, m.
+    pub goals_m: Vec<Vec2>,
+    /// Goal after the waypoints, relative to each agent's own start, m.
+    pub goal_offset_m: Option<Vec2>,
+    /// Radius of the disc that other agents see, m.
+    pub radius_m: f32,
+    /// Radius of the disc that walls hold, m.
+    pub wall_radius_m: f32,
+    /// Speed of v_pref, m/s.
+    pub preferred_speed_mps: f32,
+    /// What the agents do when they arrive at their goals.
+    pub at_goal: AtGoal,
+}
+
+impl SourceSpec {
+    /// The agent that appears at a position.
+    pub fn agent(&self, position_m: Vec2) -> AgentSpec {
+        let own_m = self.goal_offset_m.map(|offset_m| position_m + offset_m);
+        let goals_m: Vec<Vec2> = self.goals_m.iter().copied().chain(own_m).collect();
+        let ahead_m = goals_m.first().map_or(Vec2::ZERO, |goal_m| goal_m - position_m);
+        AgentSpec {
+            position_m,
+            facing_rad: self.facing_rad.unwrap_or_else(|| libm::atan2f(ahead_m.y, ahead_m.x)),
+            goals_m,
+            radius_m: self.radius_m,
+            wall_radius_m: self.wall_radius_m,
+            preferred_speed_mps: self.preferred_speed_mps,
+            at_goal: self.at_goal,
+        }
+    }
+
+    /// The times at which agents of the source with this index are due, in order, s.
+    pub fn due_times(&self, seed: u64, index: usize) -> DueTimes {
+        DueTimes {
+            random: SplitMix64::new(seed, DUE_STREAM + index as u64),
+            rate_per_s: self.rate_per_s.into(),
+            now_s: self.from_s.into(),
+            to_s: self.to_s.into(),
+            remaining: self.count.unwrap_or(u32::MAX),
+        }
+    }
+
+    /// The generator of the positions at which the source with this index places its agents.
+    pub(crate) fn positions(seed: u64, index: usize) -> SplitMix64 {
+        SplitMix64::new(seed, POSITION_STREAM + index as u64)
+    }
+
+    /// A position in the area, uniformly distributed, world, m.
+    pub(crate) fn position_m(&self, random: &mut SplitMix64) -> Vec2 {
+        let [x, y] = [random.unit(), random.unit()].map(|share| share as f32);
+        self.low_m + Vec2::new(x, y) * (self.high_m - self.low_m)
+    }
+}
+
+/// The times at which the agents of one source are due, s.
+#[derive(Clone, Debug)]
+pub struct DueTimes {
+    random: SplitMix64,
+    rate_per_s: f64,
+    now_s: f64,
+    to_s: f64,
+    remaining: u32,
+}
+
+impl Iterator for DueTimes {
+    type Item = f64;
+
+    fn next(&mut self) -> Option<f64> {
+        self.remaining = self.remaining.checked_sub(1)?;
+        self.now_s -= libm::log(1.0 - self.random.unit()) / self.rate_per_s;
+        if self.now_s > self.to_s {
+            self.remaining = 0;
+            return None;
+        }
+        Some(self.now_s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(rate_per_s: f32, count: Option<u32>) -> SourceSpec {
+        let AgentSpec { radius_m, wall_radius_m, preferred_speed_mps, at_goal, .. } = AgentSpec::default();
+        SourceSpec {
+            low_m: Vec2::ZERO,
+            high_m: Vec2::ONE,
+            rate_per_s,
+            from_s: 10.0,
+            to_s: 1_010.0,
+            count,
+            facing_rad: None,
+            goals_m: vec![Vec2::new(5.0, 0.0)],
+            goal_offset_m: None,
+            radius_m,
+            wall_radius_m,
+            preferred_speed_mps,
+            at_goal,
+        }
+    }
+
+    #[test]
+    fn due_times_are_a_poisson_process() {
+        let times_s: Vec<f64> = source(2.0, None).due_times(1, 0).collect();
+        assert!(times_s.is_sorted() && times_s[0] > 10.0 && times_s[times_s.len() - 1] <= 1_010.0);
+        // 2000 ± 45 agents, and gaps whose deviation is their mean.
+        assert!(times_s.len().abs_diff(2_000) < 150, "{}", times_s.len());
+        let gaps_s: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let deviation_s = motiondb::statistics::standard_deviation(gaps_s.iter().copied()).unwrap();
+        assert!((deviation_s - 0.5).abs() < 0.05, "{deviation_s}");
+    }
+
+    #[test]
+    fn count_ends_the_source_and_seeds_differ() {
+        assert_eq!(source(2.0, Some(7)).due_times(1, 0).count(), 7);
+        let first_s = |seed, index| source(2.0, None).due_times(seed, index).next();
+        assert!(first_s(1, 0) == first_s(1, 0) && first_s(1, 0) != first_s(2, 0) && first_s(1, 0) != first_s(1, 1));
+    }
+}

@@ -1,0 +1,127 @@
+//! Agents that come and go between two steps. Removals come first in a step, births last, so the frames before and after
+//! a step both show exactly the agents that were planned in it. World, metres, seconds.
+
+use glam::Vec2;
+
+use crate::agents::Removal;
+use crate::population::{AgentId, AgentLife};
+use crate::route::arrival::is_at_goal;
+use crate::scenario::ranges::{AGENTS_MAX, check_agent};
+use crate::scenario::{AgentSpec, AtGoal};
+use crate::simulation::Simulation;
+
+/// Rounding of discs that are meant to touch, m.
+const TOUCH_M: f32 = 1e-4;
+/// Positions that a source with an area tries in a frame before it counts as blocked.
+const TRIES: usize = 10;
+
+impl Simulation {
+    /// Adds an agent, which stands at its start and takes part from the next step on. None where it has no room: its
+    /// disc overlaps another or a wall. None, too, where it is no valid agent of a scenario, or a million have been.
+    pub fn add(&mut self, spec: AgentSpec) -> Option<AgentId> {
+        let is_valid = check_agent(0, &spec).is_ok() && self.population.agents.len() < AGENTS_MAX;
+        let has_room = is_valid && self.has_room(spec.position_m, spec.radius_m, spec.wall_radius_m);
+        has_room.then(|| self.bear(spec, None))
+    }
+
+    /// Removes an agent: the next step begins without it, or a later one. Until then it goes on as it went. Returns
+    /// whether the agent is present.
+    pub fn remove(&mut self, id: AgentId, removal: Removal) -> bool {
+        let Ok(index) = self.agents.ids.binary_search(&id) else { return false };
+        let pending = &mut self.agents.removals[index];
+        if *pending != Some(Removal::AtOnce) {
+            *pending = Some(removal);
+        }
+        true
+    }
+
+    /// Removes the agents whose time has come; those that have arrived at a goal where they leave are among them.
+    pub(super) fn remove_leaving_agents(&mut self) {
+        self.note_arrivals();
+        let agents = &mut self.agents;
+        if agents.removals.iter().all(Option::is_none) {
+            return;
+        }
+        let stays = |(removal, is_between_steps): (&Option<Removal>, &bool)| match removal {
+            None => true,
+            Some(Removal::AtOnce) => false,
+            Some(Removal::BetweenSteps) => !is_between_steps,
+        };
+        let keeps: Vec<bool> = agents.removals.iter().zip(&agents.are_between_steps).map(stays).collect();
+        for (id, _) in agents.ids.iter().zip(&keeps).filter(|(_, keep)| !**keep) {
+            self.population.agents[id.index()].removed = Some(self.steps + 1);
+        }
+        agents.retain(&keeps);
+    }
+
+    /// Marks the agents that have arrived at a goal where they leave.
+    fn note_arrivals(&mut self) {
+        let (agents, population) = (&mut self.agents, &self.population);
+        for (index, &id) in agents.ids.iter().enumerate() {
+            let spec = population.spec(id);
+            let removal = match spec.at_goal {
+                AtGoal::Stay => continue,
+                AtGoal::Leave => Removal::BetweenSteps,
+                AtGoal::LeaveAtOnce => Removal::AtOnce,
+            };
+            let has_arrived = is_at_goal(spec, agents.positions_m[index], &mut agents.progress[index]);
+            if agents.removals[index].is_none() && has_arrived {
+                agents.removals[index] = Some(removal);
+            }
+        }
+    }
+
+    /// Lets the sources place the agents that are due, as far as there is room.
+    pub(super) fn bear_due_agents(&mut self) {
+        let now_s = f64::from(self.steps) * f64::from(self.scenario.dt_s);
+        for source in 0..self.sources.len() {
+            let due = self.sources[source].due_until(now_s);
+            self.population.sources[source].waiting += due;
+            while self.population.sources[source].waiting > 0 {
+                let is_placed = self.place_agent_of(source);
+                let count = &mut self.population.sources[source];
+                if !is_placed {
+                    count.blocked_frames += 1;
+                    break;
+                }
+                count.waiting -= 1;
+                count.born += 1;
+            }
+        }
+    }
+
+    /// Places one agent of a source where there is room. Returns whether there is.
+    fn place_agent_of(&mut self, source: usize) -> bool {
+        let spec = &self.scenario.sources[source];
+        let tries = if spec.low_m == spec.high_m { 1 } else { TRIES };
+        for _ in 0..tries {
+            let position_m = spec.position_m(&mut self.sources[source].positions);
+            if self.has_room(position_m, spec.radius_m, spec.wall_radius_m) {
+                let agent = spec.agent(position_m);
+                self.bear(agent, Some(source as u32));
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether a disc overlaps neither a present agent nor a wall.
+    fn has_room(&self, position_m: Vec2, radius_m: f32, wall_radius_m: f32) -> bool {
+        let agents = &self.agents;
+        let mut discs = agents.positions_m.iter().zip(&agents.radii_m);
+        let overlaps = discs.any(|(other_m, other_radius_m)| {
+            let apart_m = (radius_m + other_radius_m - TOUCH_M).max(0.0);
+            position_m.distance_squared(*other_m) < apart_m * apart_m
+        });
+        !overlaps && self.obstacles.depth_m(position_m, wall_radius_m) <= TOUCH_M
+    }
+
+    /// Appends an agent with the next id.
+    fn bear(&mut self, spec: AgentSpec, source: Option<u32>) -> AgentId {
+        let id = AgentId::from(self.population.agents.len());
+        self.agents.push(id, &spec, self.scenario.seed, self.scenario.coupling, &self.context);
+        self.population.agents.push(AgentLife::new(spec, source, self.steps));
+        self.record_agent(self.agents.count() - 1);
+        id
+    }
+}
