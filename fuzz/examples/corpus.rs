@@ -103,6 +103,7 @@ fn record(path: &Path) {
         wall_radius_m: 0.2,
         preferred_speed_mps: 1.33,
         at_goal: AtGoal::Leave,
+        state: 0,
     };
     let scenario = Scenario {
         name: "two".to_owned(),

@@ -1,5 +1,6 @@
 //! One step of the simulation, in the order of the paper's Fig. 2 (`FbCrowd` §3).
 //!
+//! 0. behaviour (BFSM, §6): what each agent wants, where the scenario has states (`simulation/crowd_behaviour.rs`);
 //! 1. route: the preferred velocity of each agent, v_pref;
 //! 2. neighbours: the agents near each agent;
 //! 3. planning (MCN, §4): v_pref becomes a velocity that satisfies the constraints of body, stance foot and crowd;
@@ -21,6 +22,7 @@ use motiondb::motion::MotionDb;
 use rayon::prelude::*;
 
 use crate::agents::Agents;
+use crate::behaviour::{CrowdBehaviour, EndlessTransitions};
 use crate::coupling::{body_to_disc, decoupled};
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan::PLANTED_CONTACT;
@@ -37,6 +39,7 @@ use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
 
+mod crowd_behaviour;
 mod source_state;
 mod turnover;
 
@@ -72,6 +75,8 @@ pub struct Simulation {
     neighbours: NeighbourSearch,
     planning: plan_all::CrowdPlanningMemory,
     agents: Agents,
+    /// State of every present agent, by index; empty without states in the scenario.
+    crowd: CrowdBehaviour,
     population: Population,
     /// The state of every source, by index.
     sources: Vec<SourceState>,
@@ -84,8 +89,9 @@ impl Simulation {
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
         let params = HmsParams { modes: scenario.modes(), ..scenario.params.synthesis.clone() };
         let context = SynthesisContext::new(db, params);
-        let mut agents = Agents::default();
+        let (mut agents, mut crowd) = (Agents::default(), CrowdBehaviour::new(&scenario.behaviour));
         for (index, spec) in scenario.agents.iter().enumerate() {
+            Self::add_behaviour(&mut crowd, scenario, spec);
             agents.push(index.into(), spec, scenario.seed, scenario.coupling, &context);
         }
         let mut simulation = Self {
@@ -97,6 +103,7 @@ impl Simulation {
             sources: SourceState::all(scenario),
             scenario: scenario.clone(),
             agents,
+            crowd,
             context,
             steps: 0,
         };
@@ -115,6 +122,11 @@ impl Simulation {
         &self.population
     }
 
+    /// Transitions between states that did not end within a step, the first that there were: the scenario is wrong.
+    pub fn endless_transitions(&self) -> Option<&EndlessTransitions> {
+        self.crowd.endless.as_ref()
+    }
+
     /// The recorded frame of each present agent at the present time, in the order of their ids.
     pub fn frames(&self) -> &[AgentFrame] {
         &self.agents.frames
@@ -130,6 +142,7 @@ impl Simulation {
 
     /// Advances by the scenario's dt; `finished` receives each stage at its end.
     pub fn step(&mut self, finished: &mut dyn FnMut(Stage)) {
+        self.decide();
         self.remove_leaving_agents();
         self.follow_paths();
         finished(Stage::Route);
@@ -138,11 +151,13 @@ impl Simulation {
         self.neighbours.rebuild(positions_m, velocities_mps, radii_m, ranking_horizon_s(*planner, params));
         finished(Stage::Neighbours);
         self.plan();
+        self.face_as_wanted();
         finished(Stage::Planning);
         self.synthesize();
         finished(Stage::Synthesis);
         body_to_disc::synchronize(&mut self.agents, &self.context, self.scenario.dt_s);
         self.steps += 1;
+        self.teleport();
         self.bear_due_agents();
         self.record();
         finished(Stage::Coupling);
@@ -153,19 +168,27 @@ impl Simulation {
             Coupling::TwoWay | Coupling::Decoupled => Braking::Evenly,
             Coupling::Discs => Braking::Within(self.scenario.dt_s),
         };
-        let Self { agents, population, obstacles, .. } = self;
+        let Self { agents, population, obstacles, crowd, .. } = self;
         for (index, &id) in agents.ids.iter().enumerate() {
             // An agent that leaves goes on as it went: it may have passed its goal.
             if agents.removals[index].is_some() {
                 continue;
             }
-            let (spec, position_m) = (population.spec(id), agents.positions_m[index]);
+            let (mut spec, position_m) = (population.spec(id), agents.positions_m[index]);
+            let (state, progress) = (crowd.agents.get(index), &mut agents.progress[index]);
+            let wanted_mps =
+                state.and_then(|state| Self::wanted_mps(state, position_m, braking, &mut progress.arrived));
+            if let Some(wanted_mps) = wanted_mps {
+                agents.preferred_mps[index] = wanted_mps;
+                continue;
+            }
+            let at_speed = state.and_then(|state| Self::at_speed(spec, state));
+            spec = at_speed.as_ref().unwrap_or(spec);
             let braking = match spec.at_goal {
                 AtGoal::Stay => braking,
                 AtGoal::Leave | AtGoal::LeaveAtOnce => Braking::Not,
             };
-            agents.preferred_mps[index] =
-                path::preferred_mps(spec, position_m, obstacles, braking, &mut agents.progress[index]);
+            agents.preferred_mps[index] = path::preferred_mps(spec, position_m, obstacles, braking, progress);
         }
     }
 
@@ -234,6 +257,7 @@ impl Simulation {
         let agents = &mut self.agents;
         let (body, plan, frame) = (&agents.bodies[index], &agents.plans[index], &mut agents.frames[index]);
         *frame = AgentFrame {
+            state: self.crowd.agents.get(index).map_or(0, |agent| agent.state as u16),
             root: body.root,
             preferred_mps: agents.preferred_mps[index],
             planned_mps: plan.velocity_mps,
@@ -255,6 +279,8 @@ fn are_between_steps(before: [f32; 2], after: [f32; 2]) -> bool {
     has_landed || is_planted == [true; 2]
 }
 
+#[cfg(test)]
+mod behaviour_tests;
 #[cfg(test)]
 pub(crate) mod tests;
 #[cfg(test)]

@@ -39,6 +39,7 @@ fn wide_header() -> Header {
         wall_radius_m: 0.2,
         preferred_speed_mps: 1.2,
         at_goal: AtGoal::Leave,
+        state: 0,
     });
     header
 }

@@ -36,7 +36,28 @@ pub enum Aim {
         facing_rad: Option<f32>,
     },
     /// To leave the scene.
-    Leave,
+    Leave {
+        /// Before the next step, not between two steps of its feet.
+        at_once: bool,
+    },
+}
+
+impl Aim {
+    /// The position to which the agent walks, m.
+    pub fn position_m(&self) -> Option<Vec2> {
+        match *self {
+            Self::Goal { position_m, .. } | Self::Position(position_m) => Some(position_m),
+            Self::OwnPath | Self::Velocity(_) | Self::Stay { .. } | Self::Leave { .. } => None,
+        }
+    }
+
+    /// Facing of the agent once it stands, rad; none: as it is.
+    pub fn facing_rad(&self) -> Option<f32> {
+        match *self {
+            Self::Goal { facing_rad, .. } | Self::Stay { facing_rad } => facing_rad,
+            Self::OwnPath | Self::Position(_) | Self::Velocity(_) | Self::Leave { .. } => None,
+        }
+    }
 }
 
 /// What settings change of an agent.
@@ -80,13 +101,17 @@ pub struct AgentState {
     pub(crate) lasting: Traits,
     /// Present traits.
     pub traits: Traits,
+    /// Its start, world, m.
+    pub(crate) start_m: Vec2,
     /// What it wants.
     pub aim: Aim,
+    /// Whether it wants to walk to another position than in the last step.
+    pub has_new_aim: bool,
 }
 
 impl AgentState {
     /// An agent that is about to enter a state for the first time.
-    pub(crate) fn new(state: u32, traits: Traits) -> Self {
+    pub(crate) fn new(state: u32, traits: Traits, start_m: Vec2) -> Self {
         Self {
             state,
             before: None,
@@ -98,7 +123,9 @@ impl AgentState {
             remembered: Vec::new(),
             lasting: traits,
             traits,
+            start_m,
             aim: Aim::OwnPath,
+            has_new_aim: true,
         }
     }
 }

@@ -65,6 +65,26 @@ impl Area {
         }
     }
 
+    /// Least and greatest corner of its box, m.
+    pub fn bounds_m(&self) -> [Vec2; 2] {
+        match self {
+            Self::Disc { centre_m, radius_m } => [*centre_m - *radius_m, *centre_m + *radius_m],
+            Self::Polygon(corners_m) => {
+                let low_m = corners_m.iter().copied().fold(Vec2::INFINITY, Vec2::min);
+                [low_m, corners_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max)]
+            }
+        }
+    }
+
+    /// The centre, and the positions in the area of a lattice over its box with this number of rows and columns.
+    pub(crate) fn lattice_m(&self, count: u16) -> impl Iterator<Item = Vec2> {
+        let [low_m, high_m] = self.bounds_m();
+        let share = move |index: u16| (f32::from(index) + 0.5) / f32::from(count);
+        let cells = (0..count).flat_map(move |row| (0..count).map(move |column| Vec2::new(share(column), share(row))));
+        let positions_m = cells.map(move |cell| low_m + cell * (high_m - low_m));
+        [self.nearest_m(self.centre_m())].into_iter().chain(positions_m.filter(|&position_m| self.holds(position_m)))
+    }
+
     /// Greatest extent along one of its edges, m: the width of an exit. A disc's is its diameter.
     pub fn width_m(&self) -> f32 {
         match self {
@@ -84,8 +104,7 @@ impl Area {
                 *centre_m + *radius_m * libm::sqrtf(random.unit() as f32) * Vec2::new(cos, sin)
             }
             Self::Polygon(corners_m) => {
-                let low_m = corners_m.iter().copied().fold(Vec2::INFINITY, Vec2::min);
-                let high_m = corners_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max);
+                let [low_m, high_m] = self.bounds_m();
                 let mut in_box_m = || {
                     let shares = Vec2::new(random.unit() as f32, random.unit() as f32);
                     low_m + shares * (high_m - low_m)

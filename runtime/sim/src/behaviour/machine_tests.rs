@@ -3,11 +3,13 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::behaviour::agent_state::Aim;
+use crate::behaviour::choice::Choice;
 use crate::behaviour::condition::{Bound, Condition};
 use crate::behaviour::distribution::Distribution;
-use crate::behaviour::goals::GoalSet;
+use crate::behaviour::goals::{GoalArea, GoalSet};
 use crate::behaviour::signal::Signal;
-use crate::behaviour::state::{Settings, State, Transition};
+use crate::behaviour::state::{Facing, Settings, State, Target, Transition};
 
 const STEP_S: f64 = 0.1;
 
@@ -16,17 +18,17 @@ struct Points {
     behaviour: Behaviour,
     crowd: CrowdBehaviour,
     positions_m: Vec<Vec2>,
-    starts_m: Vec<Vec2>,
-    ids: Vec<u32>,
+    ids: Vec<AgentId>,
     steps: u32,
 }
 
 impl Points {
     fn new(behaviour: Behaviour, starts_m: Vec<Vec2>, state: u32) -> Self {
         let mut crowd = CrowdBehaviour::new(&behaviour);
-        starts_m.iter().for_each(|_| crowd.add(state, Traits { preferred_speed_mps: 1.0, radius_m: 0.25 }));
-        let ids = (0..starts_m.len() as u32).collect();
-        Self { behaviour, crowd, positions_m: starts_m.clone(), starts_m, ids, steps: 0 }
+        let traits = Traits { preferred_speed_mps: 1.0, radius_m: 0.25 };
+        starts_m.iter().for_each(|&start_m| crowd.add(state, traits, start_m));
+        let ids = (0..starts_m.len()).map(AgentId::from).collect();
+        Self { behaviour, crowd, positions_m: starts_m, ids, steps: 0 }
     }
 
     fn time_s(&self) -> f64 {
@@ -43,8 +45,9 @@ impl Points {
             seed: 1,
             ids: &self.ids,
             positions_m: &self.positions_m,
-            starts_m: &self.starts_m,
             route_m: &route_m,
+            path_end_m: &|_| None,
+            is_clear: &|_| true,
         };
         self.crowd.decide(&self.behaviour, &view);
         for (position_m, agent) in self.positions_m.iter_mut().zip(&self.crowd.agents) {
@@ -52,11 +55,11 @@ impl Points {
             *position_m += match agent.aim {
                 Aim::Goal { position_m: to_m, .. } | Aim::Position(to_m) => towards(to_m),
                 Aim::Velocity(velocity_mps) => velocity_mps * 0.1,
-                Aim::OwnPath | Aim::Stay { .. } | Aim::Leave => Vec2::ZERO,
+                Aim::OwnPath | Aim::Stay { .. } | Aim::Leave { .. } => Vec2::ZERO,
             };
         }
-        for &(index, position_m) in &self.crowd.teleports {
-            self.positions_m[index] = position_m;
+        for (id, position_m) in &self.crowd.teleports {
+            self.positions_m[id.index()] = *position_m;
         }
         self.steps += 1;
         self.check_occupancy();
@@ -129,7 +132,7 @@ fn a_visit_goes_through_its_states() {
     let states = vec![
         go("walk", 0, Choice::Nearest, vec![when(Condition::Reached(0.0), &[1])]),
         stand("look", vec![when(after(2.0), &[2])]),
-        State { movement: Movement::Leave, ..stand("gone", vec![]) },
+        State { movement: Movement::Leave { at_once: false }, ..stand("gone", vec![]) },
     ];
     let mut points =
         Points::new(Behaviour { states, goals: vec![places(1, None, false)], ..<_>::default() }, row(1), 0);
@@ -140,7 +143,7 @@ fn a_visit_goes_through_its_states() {
     let agent = &points.crowd.agents[0];
     assert!(matches!(agent.aim, Aim::Goal { facing_rad: Some(0.5), .. }), "{:?}", agent.aim);
     points.run(12.5);
-    assert_eq!((points.states(), points.crowd.agents[0].aim), (vec!["gone"], Aim::Leave));
+    assert_eq!((points.states(), points.crowd.agents[0].aim), (vec!["gone"], Aim::Leave { at_once: false }));
     assert_eq!(points.crowd.occupancy.of_set(0), [0]);
 }
 
@@ -154,10 +157,10 @@ fn agents_without_a_free_goal_wait_for_one() {
     let behaviour = Behaviour { states, goals: vec![places(2, Some(1), false)], ..Behaviour::default() };
     let mut points = Points::new(behaviour, row(3), 0);
     points.step();
-    assert_eq!(points.crowd.waiting, 1);
+    assert_eq!(points.crowd.waiting, [1]);
     assert_eq!(points.crowd.agents[2].aim, Aim::Stay { facing_rad: None });
     points.run(60.0);
-    assert_eq!((points.states(), points.crowd.waiting), (vec!["off"; 3], 0));
+    assert_eq!((points.states(), &*points.crowd.waiting), (vec!["off"; 3], &[0][..]));
 }
 
 #[test]
@@ -188,12 +191,12 @@ fn a_queue_serves_in_order_of_arrival() {
 fn a_full_queue_serves_everyone() {
     let states = vec![
         go("line", 0, Choice::Nearest, vec![when(Condition::Served(Distribution::Constant(0.5)), &[1])]),
-        State { movement: Movement::Leave, ..stand("served", vec![]) },
+        State { movement: Movement::Leave { at_once: false }, ..stand("served", vec![]) },
     ];
     let behaviour = Behaviour { states, goals: vec![places(2, None, true)], ..Behaviour::default() };
     let mut points = Points::new(behaviour, row(9), 0);
     points.step();
-    assert_eq!(points.crowd.waiting, 0);
+    assert_eq!(points.crowd.waiting, [0]);
     points.run(40.0);
     assert_eq!(points.states(), ["served"; 9]);
 }
@@ -272,11 +275,27 @@ fn a_teleport_moves_the_agent_at_once() {
 }
 
 #[test]
-fn no_state_is_entered_twice_in_a_step() {
-    let states = vec![stand("a", vec![when(Condition::Always, &[1])]), stand("b", vec![when(Condition::Always, &[0])])];
-    let mut points = Points::new(Behaviour { states, ..Behaviour::default() }, row(1), 0);
+fn transitions_without_end_are_stopped_and_named() {
+    let states = vec![
+        stand("wait", vec![when(after(1.0), &[1])]),
+        stand("a", vec![when(Condition::Always, &[2])]),
+        stand("b", vec![when(Condition::Always, &[1])]),
+    ];
+    let mut points = Points::new(Behaviour { states, ..Behaviour::default() }, row(2), 0);
+    points.run(0.95);
+    assert_eq!(points.crowd.endless, None);
+    points.run(2.0);
+    assert_eq!(points.crowd.endless, Some(EndlessTransitions { agent: AgentId(0), time_s: 1.0, states: vec![1, 2] }));
+}
+
+#[test]
+fn states_may_be_entered_twice_in_a_step() {
+    let mut states = vec![stand("a", vec![when(Condition::Always, &[0, 1])]), stand("b", vec![])];
+    states[0].transitions[0].target = Target::States(vec![(0, 1.0), (1, 1.0)]);
+    let mut points = Points::new(Behaviour { states, ..Behaviour::default() }, row(40), 0);
     points.step();
-    assert_eq!((points.states(), points.crowd.agents[0].entries), (vec!["b"], 2));
+    assert_eq!((points.states(), &points.crowd.endless), (vec!["b"; 40], &None));
+    assert!(points.crowd.agents.iter().any(|agent| agent.entries > 3));
 }
 
 fn any_condition() -> impl Strategy<Value = Condition> {
@@ -343,9 +362,7 @@ proptest! {
         points.run(15.0);
         let kept: Vec<bool> = (0..6).map(|index| index != removed).collect();
         points.crowd.retain(&kept);
-        for list in [&mut points.positions_m, &mut points.starts_m] {
-            list.remove(removed);
-        }
+        points.positions_m.remove(removed);
         points.ids.remove(removed);
         points.run(30.0);
         points.crowd.retain(&[false; 5]);

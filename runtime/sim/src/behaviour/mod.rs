@@ -8,27 +8,30 @@
 //! the order of agents nor the number of threads changes it.
 //!
 //! Read `state` (what a state is), `condition`, `goals` and `choice` (where an agent may go, and how it chooses); then
-//! `machine` (one step of all agents) with `agent_state` and `occupancy` (what it remembers); then the nouns below:
+//! `machine` (one step of all agents), `deciding` and `goal_keeping` (one agent in it), with `agent_state` and
+//! `occupancy` (what it remembers); then the nouns below:
 //! `area`, `distribution`, `signal`, `draw`. World, metres, seconds, radians.
 
 pub mod agent_state;
 pub mod area;
 pub mod choice;
 pub mod condition;
+mod deciding;
 pub mod distribution;
 pub(crate) mod draw;
+mod goal_keeping;
 pub mod goals;
 pub mod machine;
 pub mod occupancy;
 pub mod signal;
 pub mod state;
 
-pub use agent_state::{AgentState, Aim, GoalRef};
+pub use agent_state::{AgentState, Aim, GoalRef, Traits};
 pub use area::Area;
 pub use choice::Choice;
 pub use condition::{Bound, Condition};
 pub use distribution::Distribution;
 pub use goals::{GoalArea, GoalSet};
-pub use machine::{CrowdBehaviour, CrowdView};
+pub use machine::{CrowdBehaviour, CrowdView, EndlessTransitions};
 pub use signal::Signal;
-pub use state::{Behaviour, Facing, Movement, Settings, State, Target, Transition};
+pub use state::{Behaviour, FOLLOWS_PATH, Facing, Movement, Settings, State, Target, Transition};

@@ -7,13 +7,16 @@ use crate::behaviour::area::Area;
 use crate::behaviour::choice::Choice;
 use crate::behaviour::condition::Condition;
 use crate::behaviour::distribution::Distribution;
-use crate::behaviour::goals::GoalSet;
+use crate::behaviour::goals::{GoalArea, GoalSet};
 use crate::behaviour::signal::Signal;
 
-/// All that a scenario says about behaviour. Without states, every agent walks its own waypoints and stays.
+/// Name of the state of an agent that follows its waypoints: the first state of every behaviour that has any.
+pub const FOLLOWS_PATH: &str = "follow_path";
+
+/// All that a scenario states about behaviour. Without states, every agent follows its own waypoints.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Behaviour {
-    /// The states.
+    /// The states; the first is [`FOLLOWS_PATH`], or there are none.
     pub states: Vec<State>,
     /// The sets of goals.
     pub goals: Vec<GoalSet>,
@@ -73,7 +76,10 @@ pub enum Movement {
         facing: Facing,
     },
     /// It leaves the scene.
-    Leave,
+    Leave {
+        /// Before the next step, not between two steps of its feet.
+        at_once: bool,
+    },
 }
 
 /// Facing of an agent that stands.
@@ -123,7 +129,50 @@ pub enum Target {
     Back,
 }
 
+impl State {
+    /// The state of agents that follow their waypoints.
+    pub fn follow_path() -> Self {
+        Self {
+            name: FOLLOWS_PATH.to_owned(),
+            movement: Movement::OwnPath,
+            settings: Settings::default(),
+            transitions: Vec::new(),
+        }
+    }
+}
+
 impl Behaviour {
+    /// Whether nothing is stated.
+    pub fn is_empty(&self) -> bool {
+        self.states.is_empty() && self.goals.is_empty() && self.signals.is_empty() && self.areas.is_empty()
+    }
+
+    /// Names of all states, as a recording's header lists them.
+    pub fn state_names(&self) -> Vec<String> {
+        match self.states.is_empty() {
+            true => vec![FOLLOWS_PATH.to_owned()],
+            false => self.states.iter().map(|state| state.name.clone()).collect(),
+        }
+    }
+
+    /// Facing of an agent that starts in a state at a position, rad; none where the state does not decide it.
+    pub fn start_facing_rad(&self, state: u32, position_m: Vec2) -> Option<f32> {
+        let towards = |to_m: Vec2| (to_m - position_m).try_normalize().map(|to| libm::atan2f(to.y, to.x));
+        match self.states.get(state as usize)?.movement {
+            Movement::Goals { set, .. } => {
+                let distance_m = |area: &&GoalArea| area.area.distance_m(position_m);
+                let areas = self.goals.get(set)?.areas.iter();
+                towards(areas.min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)))?.area.centre_m())
+            }
+            Movement::Mirrored { centre_m } => towards(centre_m),
+            Movement::Offset { by_m } => towards(position_m + by_m),
+            Movement::Walk { velocity_mps } => towards(position_m + velocity_mps),
+            Movement::Stand { facing: Facing::Towards(facing_rad) } => Some(facing_rad),
+            Movement::Stand { facing: Facing::At(at_m) } => towards(at_m),
+            Movement::OwnPath | Movement::Stand { .. } | Movement::Leave { .. } => None,
+        }
+    }
+
     /// Index of a state by name.
     pub fn state(&self, name: &str) -> Option<usize> {
         self.states.iter().position(|state| state.name == name)

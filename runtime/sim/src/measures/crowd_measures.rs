@@ -141,16 +141,18 @@ impl Measuring {
     pub fn push(&mut self, population: &Population, after: &[AgentFrame]) {
         self.steps += 1;
         self.pose(after);
-        let pairs = FramePairs::new(&self.before, after);
+        let frame = self.steps as u32;
+        let life = |agent: &AgentFrame| &population.agents[agent.id.index()];
+        let mut pairs = FramePairs::new(&self.before, after);
+        pairs.common.retain(|(_, after)| !life(after).is_teleported(frame));
         let (before_m, after_m): (Vec<Vec2>, Vec<Vec2>) =
             pairs.common.iter().map(|(before, after)| (before.root.position_m, after.root.position_m)).unzip();
-        let spec = |agent: &AgentFrame| population.spec(agent.id);
-        let radii_m: Vec<f32> = pairs.common.iter().map(|(_, after)| spec(after).radius_m).collect();
+        let radii_m: Vec<f32> = pairs.common.iter().map(|(_, after)| life(after).radius_m(frame)).collect();
         self.collisions.push(&radii_m, &before_m, &after_m);
         follow_feet(&mut self.slide, &self.roots, after, &self.joints);
         self.roots.push(population, &pairs);
         self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
-        let wall_radii_m: Vec<f32> = after.iter().map(|agent| spec(agent).wall_radius_m).collect();
+        let wall_radii_m: Vec<f32> = after.iter().map(|agent| life(agent).wall_radius_m(frame)).collect();
         self.walls.push(after, &self.joints, &wall_radii_m);
         self.before.clear();
         self.before.extend_from_slice(after);
@@ -163,7 +165,7 @@ impl Measuring {
 
     /// The measures after the last frame, of the population at that time.
     pub fn finish(self, population: &Population) -> Measures {
-        let Population { agents, sources } = population;
+        let Population { agents, sources, .. } = population;
         let blocked_frames: u64 = sources.iter().map(|source| u64::from(source.blocked_frames)).sum();
         let (slide, bodies, walls) = (self.slide.finish(), self.bodies.finish(), self.walls.finish());
         Measures {

@@ -119,7 +119,8 @@ impl RootMeasures {
     /// Adds one step, given the agents that are present before and after it, and those that were removed or born.
     pub(crate) fn push(&mut self, population: &Population, pairs: &FramePairs<'_>) {
         self.steps += 1;
-        pairs.removed.iter().for_each(|agent| self.tracks[agent.id.index()].is_gone = true);
+        let now_s = self.steps as f64 * self.dt_s;
+        pairs.removed.iter().for_each(|agent| self.tracks[agent.id.index()].leave(now_s));
         for &(before, after) in &pairs.common {
             let track = &mut self.tracks[after.id.index()];
             let displacement_m = position_m(after) - position_m(before);
@@ -145,7 +146,7 @@ impl RootMeasures {
             let tracking_error_m = displacement_m.distance(DVec2::from(after.planned_mps) * self.dt_s);
             self.tracking_error_m.add(tracking_error_m);
             self.tracking_worst_m = self.tracking_worst_m.max(tracking_error_m);
-            track.arrive(after, self.steps as f64 * self.dt_s);
+            track.arrive(after, now_s);
         }
         pairs.born.iter().for_each(|frame| self.begin(population, frame));
     }
@@ -193,6 +194,14 @@ impl RootTrack {
             path_over_straight: None,
             slow_steps: 0,
             stalled: false,
+        }
+    }
+
+    /// Notes that the agent was removed; one that begins in a state of the behaviour arrives by that.
+    fn leave(&mut self, now_s: f64) {
+        self.is_gone = true;
+        if self.agent.state != 0 {
+            self.arrival.at_s = self.arrival.at_s.or(Some(now_s));
         }
     }
 

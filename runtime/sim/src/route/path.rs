@@ -90,13 +90,8 @@ pub fn preferred_mps(
     if !to_last {
         return RoundedWaypoint::new(agent, next).direction(position_m) * agent.preferred_speed_mps;
     }
-    let speed_mps = match braking {
-        Braking::Evenly if progress.arrived => 0.0,
-        Braking::Evenly => braking_speed_mps(to_goal_m.length()),
-        Braking::Within(time_s) => to_goal_m.length() / time_s,
-        Braking::Not => agent.preferred_speed_mps,
-    };
-    to_goal_m.normalize_or_zero() * speed_mps.min(agent.preferred_speed_mps)
+    let speed_mps = goal_speed_mps(to_goal_m.length(), agent.preferred_speed_mps, braking, progress.arrived);
+    to_goal_m.normalize_or_zero() * speed_mps
 }
 
 /// A waypoint that is not the last one, and how it is rounded.
@@ -148,6 +143,23 @@ fn waypoint_to_go_back_to_m(agent: &AgentSpec, next: usize, position_m: Vec2, ob
     let sees = |from_m, to_m| obstacles.is_free(from_m, to_m);
     let pushed = position_m.distance(passed_m) < PUSHED_M && !sees(position_m, next_m);
     (pushed && sees(position_m, passed_m) && sees(passed_m, next_m)).then_some(passed_m)
+}
+
+/// v_pref of an agent that walks straight to a goal without waypoints, m/s; `arrived` states whether it stands there.
+pub(crate) fn straight_mps(to_goal_m: Vec2, speed_mps: f32, braking: Braking, arrived: &mut bool) -> Vec2 {
+    *arrived = to_goal_m.length() < arrival_radius_m(*arrived);
+    to_goal_m.normalize_or_zero() * goal_speed_mps(to_goal_m.length(), speed_mps, braking, *arrived)
+}
+
+/// Speed before the last goal, m/s.
+fn goal_speed_mps(distance_m: f32, preferred_speed_mps: f32, braking: Braking, arrived: bool) -> f32 {
+    let speed_mps = match braking {
+        Braking::Evenly if arrived => 0.0,
+        Braking::Evenly => braking_speed_mps(distance_m),
+        Braking::Within(time_s) => distance_m / time_s,
+        Braking::Not => preferred_speed_mps,
+    };
+    speed_mps.min(preferred_speed_mps)
 }
 
 fn arrival_radius_m(arrived: bool) -> f32 {

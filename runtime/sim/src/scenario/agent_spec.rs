@@ -30,6 +30,15 @@ pub struct AgentSpec {
     /// What the agent does when it arrives at its goal.
     #[serde(default)]
     pub at_goal: AtGoal,
+    /// State of the behaviour in which the agent begins, by index; 0: it follows its waypoints, without behaviour.
+    #[serde(default, skip_serializing_if = "follows_path")]
+    pub state: u32,
+}
+
+/// Whether a state is that of agents that follow their waypoints; recordings leave it out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+pub(crate) fn follows_path(state: &u32) -> bool {
+    *state == 0
 }
 
 /// What an agent does when it arrives at its last goal.
@@ -56,6 +65,7 @@ impl Default for AgentSpec {
             wall_radius_m: WALL_RADIUS_M,
             preferred_speed_mps: PREFERRED_SPEED_MPS,
             at_goal: AtGoal::Stay,
+            state: 0,
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::maths::polygon::{closest_distance_m, contains, is_simple, signed_area
 use crate::maths::sweep::sort_along_longer_side;
 use crate::route::arrival::ARRIVAL_M;
 use crate::scenario::agent_spec::AgentSpec;
+use crate::scenario::behaviour_check::{check_behaviour_ranges, check_goals_clear_of_obstacles};
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::ranges::check_ranges;
 use crate::scenario::resolved::Scenario;
@@ -31,7 +32,8 @@ pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_obstacles(&scenario.obstacles_m)?;
     check_agents_clear_of_obstacles(scenario)?;
     check_agents_apart(&scenario.agents)?;
-    check_sources_clear_of_obstacles(scenario)
+    check_sources_clear_of_obstacles(scenario)?;
+    check_goals_clear_of_obstacles(scenario)
 }
 
 /// Checks that every number is in range, and how many agents there are.
@@ -40,6 +42,7 @@ pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
 /// The first number that is not.
 pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_ranges(scenario)?;
+    check_behaviour_ranges(scenario)?;
     check_source_ranges(scenario)
 }
 

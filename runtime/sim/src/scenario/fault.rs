@@ -32,6 +32,14 @@ pub enum ScenarioPart {
     Obstacle(usize),
     /// A source of agents, by index.
     Source(usize),
+    /// A state of the behaviour, by index.
+    State(usize),
+    /// A set of goals, by index.
+    Goals(usize),
+    /// An area that conditions name, by index.
+    Area(usize),
+    /// A signal, by index.
+    Signal(usize),
     /// All agents together.
     Agents,
 }

@@ -3,10 +3,12 @@
 //! Enters: a scenario file ([`file`](mod@file)), or agents made in code. Leaves: a [`Scenario`] in which every agent is
 //! explicit, every number is in range and no path occurs.
 //!
-//! Read `resolved` (the scenario), `agent_spec`, `source_spec`, `coupling` and `view`; then `check`, `ranges` and `source_check` (the rules), `fault`
+//! Read `resolved` (the scenario), `agent_spec`, `source_spec`, `coupling` and `view`; then `check`, `ranges`,
+//! `source_check` and `behaviour_check` (the rules), `fault`
 //! and `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
+pub(crate) mod behaviour_check;
 pub(crate) mod check;
 pub(crate) mod coupling;
 pub(crate) mod error;

@@ -3,6 +3,7 @@
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+use crate::behaviour::Behaviour;
 use crate::params::Params;
 use crate::planning::planner::Planner;
 use crate::scenario::agent_spec::AgentSpec;
@@ -58,6 +59,9 @@ pub struct Scenario {
     /// Sources of further agents.
     #[serde(default)]
     pub sources: Vec<SourceSpec>,
+    /// Goals, states and signals.
+    #[serde(default, skip_serializing_if = "Behaviour::is_empty")]
+    pub behaviour: Behaviour,
     /// Simple polygons, corners counter-clockwise, world, m; agents stay outside.
     pub obstacles_m: Vec<Vec<Vec2>>,
     /// Tunables.
@@ -95,6 +99,7 @@ impl Scenario {
             coupling: Coupling::default(),
             agents,
             sources: Vec::new(),
+            behaviour: Behaviour::default(),
             obstacles_m: Vec::new(),
             params: Params::default(),
             view: View::default(),

@@ -47,7 +47,8 @@ fn check_numbers(part: &ScenarioPart, source: &SourceSpec) -> Result<(), Scenari
     let count = source.count.map_or(1, |count| count as usize);
     within(part, "count", count, &(1..=AGENTS_MAX), REMOVE)?;
     let goals = source.goals_m.len() + usize::from(source.goal_offset_m.is_some());
-    within(part, "the number of goals", goals, &(1..=GOALS_MAX), "give the goal, and waypoints before it")?;
+    let least = usize::from(source.state == 0);
+    within(part, "the number of goals", goals, &(least..=GOALS_MAX), "give the goal, and waypoints before it")?;
     check_facing(part, source.facing_rad.unwrap_or(0.0))?;
     check_disc_and_speed(part, source.radius_m, source.wall_radius_m, source.preferred_speed_mps)
 }

@@ -7,7 +7,7 @@ use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 use crate::maths::random::SplitMix64;
-use crate::scenario::agent_spec::{AgentSpec, AtGoal};
+use crate::scenario::agent_spec::{AgentSpec, AtGoal, follows_path};
 
 /// First random stream of the sources' due times; the scenario and the starting phases use those below.
 const DUE_STREAM: u64 = 1 << 34;
@@ -43,6 +43,9 @@ pub struct SourceSpec {
     pub preferred_speed_mps: f32,
     /// What the agents do when they arrive at their goals.
     pub at_goal: AtGoal,
+    /// State of the behaviour in which the agents begin, by index; 0: they follow their waypoints.
+    #[serde(default, skip_serializing_if = "follows_path")]
+    pub state: u32,
 }
 
 impl SourceSpec {
@@ -59,6 +62,7 @@ impl SourceSpec {
             wall_radius_m: self.wall_radius_m,
             preferred_speed_mps: self.preferred_speed_mps,
             at_goal: self.at_goal,
+            state: self.state,
         }
     }
 
@@ -129,6 +133,7 @@ mod tests {
             wall_radius_m,
             preferred_speed_mps,
             at_goal,
+            state: 0,
         }
     }
 

@@ -3,7 +3,7 @@
 //!
 //! | layout | its goals |
 //! |---|---|
-//! | `at_m = [x, y]` | `goals_m`, waypoints in order; then, if set, the start plus `goal_offset_m` |
+//! | `at_m = [x, y]` | `goals_m`, waypoints in order; then, if set, the start plus `goal_offset_m`; none with `state` |
 //! | `circle = { count, radius_m, centre_m }` | the opposite position on the circle, exactly |
 //! | `grid = { columns, rows, spacing_m, centre_m, jitter_m }` | as of `at_m`; `goal_offset_m` counts from each agent's own start |
 //! | `file = "x.txt"` | lines `x y goal_x goal_y`, `#` begins a comment |
@@ -18,6 +18,7 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
+use crate::behaviour::Behaviour;
 use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::{AgentSpec, AtGoal, PREFERRED_SPEED_MPS, RADIUS_M, WALL_RADIUS_M};
 use crate::scenario::point::Point;
@@ -42,6 +43,7 @@ pub(crate) struct AgentGroup {
     wall_radius_m: Option<f32>,
     preferred_speed_mps: f32,
     at_goal: AtGoal,
+    pub(crate) state: Option<Spanned<String>>,
 }
 
 /// Agents on a circle, each bound for the opposite position.
@@ -99,6 +101,7 @@ impl Default for AgentGroup {
             wall_radius_m: None,
             preferred_speed_mps: PREFERRED_SPEED_MPS,
             at_goal: AtGoal::default(),
+            state: None,
         }
     }
 }
@@ -119,11 +122,14 @@ impl AgentGroup {
     }
 
     fn with_goals<'a>(&self, layout: AgentLayout<'a>) -> Result<AgentLayout<'a>, GroupFault> {
-        if self.goal_offset_m.is_some() || self.goals_m.as_ref().is_some_and(|goals_m| !goals_m.is_empty()) {
+        if self.state.is_some()
+            || self.goal_offset_m.is_some()
+            || self.goals_m.as_ref().is_some_and(|goals_m| !goals_m.is_empty())
+        {
             return Ok(layout);
         }
         let message = "agents of `at_m` or `grid` need a goal";
-        Err((message.into(), "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both"))
+        Err((message.into(), "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both, or `state = \"NAME\"`"))
     }
 
     fn without_goals<'a>(&self, layout: AgentLayout<'a>) -> Result<AgentLayout<'a>, GroupFault> {
@@ -149,17 +155,20 @@ impl AgentGroup {
         Ok(starts_m.into_iter().map(|start_m| self.journey(start_m)).collect())
     }
 
-    /// The agents of these journeys, with the table's facing, disc and speed.
-    pub(crate) fn agents(&self, journeys: Vec<Journey>) -> Vec<AgentSpec> {
-        journeys.into_iter().map(|(position_m, goals_m)| self.agent(position_m, goals_m)).collect()
+    /// The agents of these journeys, with the table's facing, disc and speed, in a state of the behaviour.
+    pub(crate) fn agents(&self, journeys: Vec<Journey>, behaviour: &Behaviour, state: u32) -> Vec<AgentSpec> {
+        let agent = |(position_m, goals_m)| self.agent(position_m, goals_m, behaviour, state);
+        journeys.into_iter().map(agent).collect()
     }
 
-    fn agent(&self, position_m: Vec2, goals_m: Vec<Vec2>) -> AgentSpec {
+    fn agent(&self, position_m: Vec2, goals_m: Vec<Vec2>, behaviour: &Behaviour, state: u32) -> AgentSpec {
         let towards_goal = goals_m.first().map_or(Vec2::ZERO, |goal_m| goal_m - position_m);
-        let facing_rad = self.facing_deg.map_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x), f32::to_radians);
+        let of_state = || behaviour.start_facing_rad(state, position_m);
+        let ahead = || of_state().unwrap_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x));
+        let facing_rad = self.facing_deg.map_or_else(ahead, f32::to_radians);
         let &Self { radius_m, preferred_speed_mps, at_goal, .. } = self;
         let wall_radius_m = self.wall_radius_m.unwrap_or(WALL_RADIUS_M.min(radius_m));
-        AgentSpec { position_m, facing_rad, goals_m, radius_m, wall_radius_m, preferred_speed_mps, at_goal }
+        AgentSpec { position_m, facing_rad, goals_m, radius_m, wall_radius_m, preferred_speed_mps, at_goal, state }
     }
 }
 

@@ -7,12 +7,14 @@ use std::path::Path;
 use motiondb::files::{Invalid, SourceText};
 use toml::Spanned;
 
+use crate::behaviour::Behaviour;
 use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_groups::{AgentGroup, AgentGroups, AgentLayout, GroupFault, Journey, check_size};
 use crate::scenario::file::agent_lines::{is_agent_file, line_span, parse_lines};
+use crate::scenario::file::behaviour::StateNames;
 
 /// All agents of a scenario file, and the tables that describe them.
 #[derive(Default)]
@@ -34,13 +36,19 @@ pub(crate) struct AgentTable {
 
 impl PlacedAgents {
     /// Places the agents of all tables; each table draws its random numbers from a stream of its own.
-    pub(crate) fn new(source: &SourceText, groups: &Spanned<AgentGroups>, seed: u64) -> Result<Self, ScenarioError> {
+    pub(crate) fn new(
+        source: &SourceText,
+        groups: &Spanned<AgentGroups>,
+        states: &StateNames,
+        seed: u64,
+    ) -> Result<Self, ScenarioError> {
         let mut placed = Self::default();
         for (stream, (span, group)) in groups.get_ref().0.iter().enumerate() {
             let span = span.clone().unwrap_or_else(|| groups.span());
             let random = SplitMix64::new(seed, stream as u64);
             let (journeys, lines) = journeys(source, group, &span, random)?;
-            let agents = group.agents(journeys);
+            let state = states.index(group.state.as_ref(), source)?;
+            let agents = group.agents(journeys, states.behaviour, state);
             placed.waypoints += agents.iter().map(|agent| agent.goals_m.len()).sum::<usize>();
             // After each table, so that many of them do not fill the memory first.
             if let Err((message, help)) = check_size(placed.agents.len() + agents.len(), placed.waypoints) {
@@ -103,7 +111,7 @@ fn journeys_of_lines(lines: &SourceText) -> Result<Vec<Journey>, ScenarioError> 
 /// # Errors
 /// Where a line is not valid.
 pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioError> {
-    Ok(AgentGroup::default().agents(journeys_of_lines(lines)?))
+    Ok(AgentGroup::default().agents(journeys_of_lines(lines)?, &Behaviour::default(), 0))
 }
 
 /// The error that agents of lines break a rule, at the line of the agent.

@@ -2,7 +2,7 @@
 //!
 //! 1. parse the keys (`scenario_file`);
 //! 2. find the source of the motion;
-//! 3. place the agents (`agent_placement`);
+//! 3. resolve the behaviour (`behaviour`), place the agents (`agent_placement`);
 //! 4. check all rules (`check`), and show a broken one at its part of the text.
 
 use std::collections::BTreeMap;
@@ -19,6 +19,7 @@ use crate::scenario::check::check;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, fault_of_lines};
+use crate::scenario::file::behaviour::{BehaviourTables, StateNames};
 use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
 use crate::scenario::file::source_tables::sources;
 use crate::scenario::point::Point;
@@ -38,11 +39,14 @@ pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError
 /// # Errors
 /// Where it describes something that cannot be simulated, or a file that it names cannot be read.
 pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
-    let file = ScenarioFile::parse(source)?;
+    let mut file = ScenarioFile::parse(source)?;
+    let tables = file.take_behaviour();
+    let behaviour = tables.resolve(source)?;
+    let states = StateNames { tables: &tables, behaviour: &behaviour };
     let motion = file.motion_source(source)?;
     let seed = file.seed.unwrap_or(SEED);
     let mut placed = match file.agents() {
-        Some(groups) => PlacedAgents::new(source, groups, seed)?,
+        Some(groups) => PlacedAgents::new(source, groups, &states, seed)?,
         None => PlacedAgents::default(),
     };
     let defaults = Scenario::of(std::mem::take(&mut placed.agents));
@@ -53,13 +57,14 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         seed,
         planner: file.planner,
         coupling: file.coupling,
-        sources: sources(source, &file.sources, *file.duration_s.get_ref())?,
+        sources: sources(source, &file.sources, &states, *file.duration_s.get_ref())?,
+        behaviour: behaviour.clone(),
         obstacles_m: file.obstacles.iter().map(|obstacle| counter_clockwise(&obstacle.get_ref().polygon_m)).collect(),
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
         ..defaults
     };
-    check(&scenario).map_err(|fault| at_its_text(source, &file, &placed, fault))?;
+    check(&scenario).map_err(|fault| at_its_text(source, &file, &tables, &placed, fault))?;
     Ok((scenario, motion))
 }
 
@@ -92,7 +97,13 @@ fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {
 }
 
 /// A broken rule, shown at the text of the part that breaks it.
-fn at_its_text(source: &SourceText, file: &ScenarioFile, placed: &PlacedAgents, fault: ScenarioFault) -> ScenarioError {
+fn at_its_text(
+    source: &SourceText,
+    file: &ScenarioFile,
+    tables: &BehaviourTables,
+    placed: &PlacedAgents,
+    fault: ScenarioFault,
+) -> ScenarioError {
     if let ScenarioPart::Journey(agent) = fault.part
         && let AgentTable { lines: Some(lines), first, .. } = placed.table(agent)
     {
@@ -107,6 +118,9 @@ fn at_its_text(source: &SourceText, file: &ScenarioFile, placed: &PlacedAgents, 
         ScenarioPart::Journey(agent) | ScenarioPart::Agent(agent) => placed.table(agent).span.clone(),
         ScenarioPart::Obstacle(index) => file.obstacles[index].span(),
         ScenarioPart::Source(index) => file.sources.get(index).map_or(0..0, Spanned::span),
+        ScenarioPart::State(_) | ScenarioPart::Goals(_) | ScenarioPart::Area(_) | ScenarioPart::Signal(_) => {
+            tables.span(&fault.part)
+        }
         ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),
     };
     source.invalid(span, fault.message, fault.help).into()

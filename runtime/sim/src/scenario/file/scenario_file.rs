@@ -14,6 +14,10 @@
 //! planner = "mcn"                     # or "orca", "social_force": see `planner.rs`
 //! coupling = "two_way"                # or "decoupled", "discs": see `coupling.rs`
 //! [[sources]]                         # agents that come later: see `source_tables.rs`
+//! [goals.NAME]                        # what agents want: see `behaviour/mod.rs`
+//! [states.NAME]
+//! [signals.NAME]
+//! [areas.NAME]
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
 //! [params.planner]                    # MCN's tunables; all sections: see `params.rs`
@@ -21,6 +25,7 @@
 //! [view]
 //! ```
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use motiondb::files::SourceText;
@@ -32,6 +37,7 @@ use crate::planning::planner::Planner;
 use crate::scenario::coupling::Coupling;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::file::agent_groups::AgentGroups;
+use crate::scenario::file::behaviour::{AreaTable, BehaviourTables, GoalsTable, SignalTable, StateTable};
 use crate::scenario::file::source_tables::SourceTable;
 use crate::scenario::point::Point;
 use crate::scenario::view::View;
@@ -69,6 +75,14 @@ pub(crate) struct ScenarioFile {
     #[serde(default)]
     pub(crate) sources: Vec<Spanned<SourceTable>>,
     #[serde(default)]
+    signals: BTreeMap<String, Spanned<SignalTable>>,
+    #[serde(default)]
+    areas: BTreeMap<String, Spanned<AreaTable>>,
+    #[serde(default)]
+    goals: BTreeMap<String, Spanned<GoalsTable>>,
+    #[serde(default)]
+    states: BTreeMap<String, Spanned<StateTable>>,
+    #[serde(default)]
     pub(crate) obstacles: Vec<Spanned<ObstacleTable>>,
     #[serde(default)]
     pub(crate) params: Params,
@@ -95,6 +109,17 @@ impl ScenarioFile {
     /// The tables of agents, and their bytes in the text; none where all agents come from sources.
     pub(crate) fn agents(&self) -> Option<&Spanned<AgentGroups>> {
         self.agents.as_ref()
+    }
+
+    /// Takes the tables of behaviour out of the file.
+    pub(crate) fn take_behaviour(&mut self) -> BehaviourTables {
+        let Self { signals, areas, goals, states, .. } = self;
+        BehaviourTables {
+            signals: std::mem::take(signals),
+            areas: std::mem::take(areas),
+            goals: std::mem::take(goals),
+            states: std::mem::take(states),
+        }
     }
 
     /// The motion that the file names. The inner error: it names none, or one that is missing. The outer error: the

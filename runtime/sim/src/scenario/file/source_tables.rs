@@ -10,6 +10,7 @@ use toml::Spanned;
 
 use crate::scenario::agent_spec::{AtGoal, PREFERRED_SPEED_MPS, RADIUS_M, WALL_RADIUS_M};
 use crate::scenario::error::ScenarioError;
+use crate::scenario::file::behaviour::StateNames;
 use crate::scenario::point::Point;
 use crate::scenario::source_spec::SourceSpec;
 
@@ -33,17 +34,20 @@ pub(crate) struct SourceTable {
     preferred_speed_mps: Option<f32>,
     #[serde(default)]
     at_goal: AtGoal,
+    state: Option<Spanned<String>>,
 }
 
 /// The sources of all tables; they end with the scenario at the latest.
 pub(crate) fn sources(
     source: &SourceText,
     tables: &[Spanned<SourceTable>],
+    states: &StateNames,
     duration_s: f32,
 ) -> Result<Vec<SourceSpec>, ScenarioError> {
     let resolve = |table: &Spanned<SourceTable>| {
-        let at_table = |(message, help): (&str, &str)| source.invalid(table.span(), message, help).into();
-        table.get_ref().source(duration_s).map_err(at_table)
+        let at_table = |(message, help): (&str, &str)| ScenarioError::from(source.invalid(table.span(), message, help));
+        let resolved = table.get_ref().source(duration_s).map_err(at_table)?;
+        Ok(SourceSpec { state: states.index(table.get_ref().state.as_ref(), source)?, ..resolved })
     };
     tables.iter().map(resolve).collect()
 }
@@ -60,8 +64,8 @@ impl SourceTable {
                 ));
             }
         };
-        if self.goals_m.is_empty() && self.goal_offset_m.is_none() {
-            let help = "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both";
+        if self.goals_m.is_empty() && self.goal_offset_m.is_none() && self.state.is_none() {
+            let help = "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both, or `state = \"NAME\"`";
             return Err(("the agents of a source need a goal", help));
         }
         let radius_m = self.radius_m.unwrap_or(RADIUS_M);
@@ -79,6 +83,7 @@ impl SourceTable {
             wall_radius_m: self.wall_radius_m.unwrap_or(WALL_RADIUS_M.min(radius_m)),
             preferred_speed_mps: self.preferred_speed_mps.unwrap_or(PREFERRED_SPEED_MPS),
             at_goal: self.at_goal,
+            state: 0,
         })
     }
 }

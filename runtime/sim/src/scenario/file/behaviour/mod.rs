@@ -32,13 +32,20 @@
 //! [states.look]
 //! stand = { facing = "goal" }         # or {}, { facing_deg = 90 }, { facing_m = [0, 0] }
 //! then = [{ when = { after_s = { normal = [5, 2], min = 1, max = 9 } }, to = "back" }]
-//! [states.leave]
-//! leave = true                        # or walk_mps = [1, 0]
+//! [states.gone]
+//! remove = true                       # between two steps of the feet; or "at_once"
+//! [states.stroll]
+//! walk_mps = [1, 0]
 //! ```
 
 mod area_table;
+mod goal_tables;
 mod names;
 mod numbers;
+mod placed_fault;
 mod tables;
+mod transitions;
 
-pub(crate) use tables::BehaviourTables;
+pub(crate) use area_table::AreaTable;
+pub(crate) use names::StateNames;
+pub(crate) use tables::{BehaviourTables, GoalsTable, SignalTable, StateTable};

@@ -55,6 +55,11 @@ pub(crate) struct GoalAreaTable {
 }
 
 impl GoalAreaTable {
+    /// Number of corners of its polygon.
+    pub(crate) fn corner_count(&self) -> usize {
+        self.polygon_m.as_ref().map_or(4, Vec::len)
+    }
+
     /// The keys of its area.
     pub(crate) fn keys(&self) -> AreaKeys<'_> {
         let Self { point_m, circle_m, rect_m, .. } = *self;
@@ -95,7 +100,7 @@ impl Default for ChooseValue {
     }
 }
 
-/// `[states.NAME]`; exactly one of `go`, `stand`, `walk_mps` and `leave`.
+/// `[states.NAME]`; exactly one of `go`, `stand`, `walk_mps` and `remove`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StateTable {
@@ -103,7 +108,7 @@ pub(crate) struct StateTable {
     pub(crate) remember: Option<Spanned<RememberValue>>,
     pub(crate) stand: Option<StandTable>,
     pub(crate) walk_mps: Option<Point>,
-    pub(crate) leave: Option<bool>,
+    pub(crate) remove: Option<RemoveValue>,
     #[serde(default)]
     pub(crate) set: Option<Spanned<SetTable>>,
     #[serde(default)]
@@ -152,6 +157,21 @@ pub(crate) struct StandTable {
 #[serde(rename_all = "snake_case")]
 pub(crate) enum FacingName {
     Goal,
+}
+
+/// `remove` of `[states.NAME]`.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(untagged, expecting = "`true`, \"between_steps\" or \"at_once\"")]
+pub(crate) enum RemoveValue {
+    Flag(bool),
+    Named(RemoveName),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum RemoveName {
+    BetweenSteps,
+    AtOnce,
 }
 
 /// `set` of `[states.NAME]`.
