@@ -104,6 +104,8 @@ fn record(path: &Path) {
         preferred_speed_mps: 1.33,
         at_goal: AtGoal::Leave,
         state: 0,
+        pre_movement_s: 0.0,
+        profiles: Vec::new(),
     };
     let scenario = Scenario {
         name: "two".to_owned(),

@@ -78,6 +78,11 @@ impl AgentLife {
         }
     }
 
+    /// The first frame after which the agent does not stand but begins, where steps last `dt_s`.
+    pub fn begins_at(&self, dt_s: f32) -> u32 {
+        self.born + (self.spec.pre_movement_s / dt_s).ceil() as u32
+    }
+
     /// Radius of the disc that other agents see in a frame, m.
     pub fn radius_m(&self, frame: u32) -> f32 {
         let later = self.radii_m.partition_point(|change| change.frame <= frame);

@@ -18,6 +18,7 @@
 
 use std::sync::Arc;
 
+use glam::Vec2;
 use motiondb::motion::MotionDb;
 use rayon::prelude::*;
 
@@ -172,6 +173,10 @@ impl Simulation {
         for (index, &id) in agents.ids.iter().enumerate() {
             // An agent that leaves goes on as it went: it may have passed its goal.
             if agents.removals[index].is_some() {
+                continue;
+            }
+            if population.agents[id.index()].begins_at(self.scenario.dt_s) > self.steps {
+                agents.preferred_mps[index] = Vec2::ZERO;
                 continue;
             }
             let (mut spec, position_m) = (population.spec(id), agents.positions_m[index]);

@@ -40,6 +40,8 @@ fn wide_header() -> Header {
         preferred_speed_mps: 1.2,
         at_goal: AtGoal::Leave,
         state: 0,
+        pre_movement_s: 0.0,
+        profiles: Vec::new(),
     });
     header
 }

@@ -38,6 +38,8 @@ pub struct CrowdView<'a> {
     pub route_m: &'a (dyn Fn(Vec2, GoalRef) -> Option<f32> + Sync),
     /// Distance of an agent, by index, to the end of its own waypoints, m; none before it has passed all others.
     pub path_end_m: &'a (dyn Fn(usize) -> Option<f32> + Sync),
+    /// Whether an agent, by index, has begun; before, it enters no state.
+    pub has_begun: &'a (dyn Fn(usize) -> bool + Sync),
     /// Whether no wall covers a position.
     pub is_clear: &'a (dyn Fn(Vec2) -> bool + Sync),
 }
@@ -129,7 +131,7 @@ impl CrowdBehaviour {
         let mut agents = std::mem::take(&mut self.agents);
         self.waiting = vec![0; behaviour.goals.len()];
         self.teleports.clear();
-        for (index, agent) in agents.iter_mut().enumerate() {
+        for (index, agent) in agents.iter_mut().enumerate().filter(|(index, _)| (view.has_begun)(*index)) {
             let mut deciding = Deciding { behaviour, view, index, agent, occupancy: &mut self.occupancy };
             let transitions = deciding.follow_transitions(&moment);
             self.teleports.extend(transitions.teleported_m.map(|position_m| (view.ids[index], position_m)));

@@ -48,6 +48,7 @@ impl Points {
             route_m: &route_m,
             path_end_m: &|_| None,
             is_clear: &|_| true,
+            has_begun: &|_| true,
         };
         self.crowd.decide(&self.behaviour, &view);
         for (position_m, agent) in self.positions_m.iter_mut().zip(&self.crowd.agents) {

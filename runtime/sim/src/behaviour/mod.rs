@@ -14,7 +14,7 @@
 
 pub mod agent_state;
 pub mod area;
-pub mod choice;
+pub(crate) mod choice;
 pub mod condition;
 mod deciding;
 pub mod distribution;

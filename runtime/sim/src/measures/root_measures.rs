@@ -4,7 +4,7 @@
 //! Velocities are differences of the synthesised root, whose path is ripple-free. Agents start from rest, so T steps
 //! have T accelerations. World, metres, seconds.
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 use motiondb::statistics::mean;
 
 use crate::measures::frame_pairs::FramePairs;
@@ -141,7 +141,7 @@ impl RootMeasures {
                     }
                 }
                 track.path_m += displacement_m.length();
-                track.watch_for_stall(self.dt_s);
+                track.watch_for_stall(after, self.dt_s);
             }
             let tracking_error_m = displacement_m.distance(DVec2::from(after.planned_mps) * self.dt_s);
             self.tracking_error_m.add(tracking_error_m);
@@ -231,8 +231,9 @@ impl RootTrack {
         }
     }
 
-    fn watch_for_stall(&mut self, dt_s: f64) {
-        let slow = self.velocity_mps.length() < STALL_SPEED_MPS;
+    /// Counts steps in which the agent wants to walk and stands; one that waits for a signal does not stall.
+    fn watch_for_stall(&mut self, after: &AgentFrame, dt_s: f64) {
+        let slow = self.velocity_mps.length() < STALL_SPEED_MPS && after.preferred_mps != Vec2::ZERO;
         self.slow_steps = if slow { self.slow_steps + 1 } else { 0 };
         // Half a step of tolerance, since dt is not exact in binary.
         self.stalled |= (self.slow_steps as f64 + 0.5) * dt_s >= STALL_S;

@@ -33,6 +33,15 @@ pub struct AgentSpec {
     /// State of the behaviour in which the agent begins, by index; 0: it follows its waypoints, without behaviour.
     #[serde(default, skip_serializing_if = "follows_path")]
     pub state: u32,
+    /// Time for which the agent stands after its birth before it begins, s.
+    #[serde(default, skip_serializing_if = "is_0")]
+    pub pre_movement_s: f32,
+}
+
+/// Whether a time is 0; recordings leave it out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+pub(crate) fn is_0(time_s: &f32) -> bool {
+    *time_s == 0.0
 }
 
 /// Whether a state is that of agents that follow their waypoints; recordings leave it out.
@@ -66,6 +75,7 @@ impl Default for AgentSpec {
             preferred_speed_mps: PREFERRED_SPEED_MPS,
             at_goal: AtGoal::Stay,
             state: 0,
+            pre_movement_s: 0.0,
         }
     }
 }

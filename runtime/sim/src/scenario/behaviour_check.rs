@@ -147,7 +147,8 @@ fn check_settings(part: &ScenarioPart, settings: &Settings) -> Result<(), Scenar
     teleport.as_ref().map_or(Ok(()), |area| check_area(part, area))
 }
 
-fn check_distribution(
+/// Checks that all draws lie in a range.
+pub(crate) fn check_distribution(
     part: &ScenarioPart,
     name: &str,
     distribution: &Distribution,

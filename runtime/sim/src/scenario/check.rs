@@ -46,7 +46,8 @@ pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_source_ranges(scenario)
 }
 
-fn check_obstacles(obstacles_m: &[Vec<Vec2>]) -> Result<(), ScenarioFault> {
+/// Checks that every obstacle is a simple polygon within range.
+pub(crate) fn check_obstacles(obstacles_m: &[Vec<Vec2>]) -> Result<(), ScenarioFault> {
     for (index, polygon_m) in obstacles_m.iter().enumerate() {
         let wrong = |what: String, help| ScenarioPart::Obstacle(index).fault(format!("obstacle {index} {what}"), help);
         let corners = polygon_m.len();

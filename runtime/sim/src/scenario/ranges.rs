@@ -24,6 +24,8 @@ pub(crate) const COORDINATE_MAX_M: f32 = 10_000.0;
 pub(crate) const RADIUS_M: RangeInclusive<f32> = 0.1..=1.0;
 /// Preferred speed, m/s: from the slowest shuffle to a sprint.
 pub(crate) const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
+/// Time for which an agent stands before it begins, s: up to a day.
+pub(crate) const PRE_MOVEMENT_S: RangeInclusive<f32> = 0.0..=86_400.0;
 /// Facing, degrees: up to ten turns either way.
 const FACING_DEG: RangeInclusive<f32> = -3_600.0..=3_600.0;
 /// Greatest number of agents: ten times the largest crowd that other simulators show.
@@ -147,6 +149,7 @@ pub(crate) fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), Scenari
     let least = usize::from(agent.state == 0);
     within(journey, "the number of goals", agent.goals_m.len(), &(least..=GOALS_MAX), help)?;
     check_facing(part, agent.facing_rad)?;
+    within(part, "pre_movement_s", agent.pre_movement_s, &PRE_MOVEMENT_S, REMOVE)?;
     check_disc_and_speed(part, agent.radius_m, agent.wall_radius_m, agent.preferred_speed_mps)
 }
 

@@ -42,6 +42,7 @@ impl Simulation {
                 route_m(from_m, &behaviour.goals[set as usize].areas[area as usize].area)
             },
             path_end_m: &|index| path_end_m(agents, population, index),
+            has_begun: &|index| population.agents[agents.ids[index].index()].begins_at(scenario.dt_s) <= *steps,
             is_clear: &|position_m| obstacles.depth_m(position_m, WALL_RADIUS_M) <= TOUCH_M,
         };
         crowd.decide(behaviour, &view);

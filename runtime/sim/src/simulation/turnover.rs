@@ -98,7 +98,8 @@ impl Simulation {
 
     /// Places one agent of a source where there is room. Returns whether there is.
     fn place_agent_of(&mut self, source: usize) -> bool {
-        let spec = &self.scenario.sources[source];
+        let born = self.population.sources[source].born;
+        let spec = self.scenario.sources[source].drawn(self.scenario.seed, source, born);
         let tries = if spec.low_m == spec.high_m { 1 } else { TRIES };
         for _ in 0..tries {
             let position_m = spec.position_m(&mut self.sources[source].positions);

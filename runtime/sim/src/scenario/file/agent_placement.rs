@@ -4,6 +4,7 @@ use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::Path;
 
+use glam::Vec2;
 use motiondb::files::{Invalid, SourceText};
 use toml::Spanned;
 
@@ -12,16 +13,22 @@ use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
+use crate::scenario::file::agent_area::{AgentArea, AreaDisc, TakenGround};
 use crate::scenario::file::agent_groups::{AgentGroup, AgentGroups, AgentLayout, GroupFault, Journey, check_size};
 use crate::scenario::file::agent_lines::{is_agent_file, line_span, parse_lines};
 use crate::scenario::file::behaviour::StateNames;
+use crate::scenario::file::profile_tables::Profiles;
+use crate::scenario::profile::DrawnNumbers;
+use crate::world::obstacles::Obstacles;
+
+/// First random stream of the numbers of agents, one for each table.
+const NUMBER_STREAM: u64 = 1 << 36;
 
 /// All agents of a scenario file, and the tables that describe them.
 #[derive(Default)]
 pub(crate) struct PlacedAgents {
     pub(crate) agents: Vec<AgentSpec>,
     tables: Vec<AgentTable>,
-    waypoints: usize,
 }
 
 /// One table of agents.
@@ -34,36 +41,148 @@ pub(crate) struct AgentTable {
     pub(crate) first: usize,
 }
 
+/// What tables of agents refer to.
+pub(crate) struct PlacementInput<'a> {
+    pub(crate) source: &'a SourceText,
+    pub(crate) states: &'a StateNames<'a>,
+    pub(crate) profiles: &'a Profiles<'a>,
+    /// The walls, from which agents of areas keep apart.
+    pub(crate) obstacles_m: &'a [Vec<Vec2>],
+    pub(crate) seed: u64,
+}
+
 impl PlacedAgents {
-    /// Places the agents of all tables; each table draws its random numbers from a stream of its own.
-    pub(crate) fn new(
-        source: &SourceText,
-        groups: &Spanned<AgentGroups>,
-        states: &StateNames,
-        seed: u64,
-    ) -> Result<Self, ScenarioError> {
-        let mut placed = Self::default();
-        for (stream, (span, group)) in groups.get_ref().0.iter().enumerate() {
-            let span = span.clone().unwrap_or_else(|| groups.span());
-            let random = SplitMix64::new(seed, stream as u64);
-            let (journeys, lines) = journeys(source, group, &span, random)?;
-            let state = states.index(group.state.as_ref(), source)?;
-            let agents = group.agents(journeys, states.behaviour, state);
-            placed.waypoints += agents.iter().map(|agent| agent.goals_m.len()).sum::<usize>();
-            // After each table, so that many of them do not fill the memory first.
-            if let Err((message, help)) = check_size(placed.agents.len() + agents.len(), placed.waypoints) {
-                return Err(source.invalid(span, message, help).into());
-            }
-            placed.tables.push(AgentTable { span, lines, first: placed.agents.len() });
-            placed.agents.extend(agents);
+    /// Places the agents of all tables; each table draws its random numbers from streams of its own. Areas come last,
+    /// since their agents keep apart from all others.
+    pub(crate) fn new(input: &PlacementInput<'_>, groups: &Spanned<AgentGroups>) -> Result<Self, ScenarioError> {
+        let mut placing = Placing { input, agents: 0, waypoints: 0 };
+        let tables: Vec<(Range<usize>, &AgentGroup)> = groups
+            .get_ref()
+            .0
+            .iter()
+            .map(|(span, group)| (span.clone().unwrap_or_else(|| groups.span()), group))
+            .collect();
+        let mut placed: Vec<TableAgents> = Vec::with_capacity(tables.len());
+        for (stream, (span, group)) in tables.iter().enumerate() {
+            placed.push(placing.explicit(stream, span, group)?);
         }
-        Ok(placed)
+        let area_of = |group: &'_ AgentGroup| match group.layout() {
+            Ok(AgentLayout::Area(area)) => Some(area.clone()),
+            _ => None,
+        };
+        let areas: Vec<Option<AgentArea>> = tables.iter().map(|(_, group)| area_of(group)).collect();
+        let apart_m = areas.iter().flatten().map(AgentArea::apart_m).reduce(f32::max);
+        if let Some(apart_m) = apart_m {
+            let obstacles = Obstacles::new(input.obstacles_m);
+            let mut taken = TakenGround::new(&obstacles, apart_m);
+            placed
+                .iter()
+                .flat_map(|table| &table.agents)
+                .for_each(|agent| taken.take(agent.position_m, agent.radius_m));
+            for (stream, (span, group)) in tables.iter().enumerate() {
+                if let Some(area) = &areas[stream] {
+                    placed[stream].agents = placing.spread(stream, span, group, area, &mut taken)?;
+                }
+            }
+        }
+        let mut all = Self::default();
+        for ((span, _), TableAgents { agents, lines }) in tables.into_iter().zip(placed) {
+            all.tables.push(AgentTable { span, lines, first: all.agents.len() });
+            all.agents.extend(agents);
+        }
+        Ok(all)
     }
 
     /// The table of an agent.
     pub(crate) fn table(&self, agent: usize) -> &AgentTable {
         // A table may have no agents; the last that begins no later than an agent holds it.
         &self.tables[self.tables.partition_point(|table| table.first <= agent) - 1]
+    }
+}
+
+/// The agents of one table, and the agent file that it names.
+struct TableAgents {
+    agents: Vec<AgentSpec>,
+    lines: Option<SourceText>,
+}
+
+/// The placement under way.
+struct Placing<'a> {
+    input: &'a PlacementInput<'a>,
+    /// Number of agents so far.
+    agents: usize,
+    /// Number of their waypoints.
+    waypoints: usize,
+}
+
+impl Placing<'_> {
+    /// The agents of a table with explicit positions; none of an area.
+    fn explicit(
+        &mut self,
+        stream: usize,
+        span: &Range<usize>,
+        group: &AgentGroup,
+    ) -> Result<TableAgents, ScenarioError> {
+        let (journeys, lines) =
+            journeys(self.input.source, group, span, SplitMix64::new(self.input.seed, stream as u64))?;
+        let numbers = self.numbers(stream, span, group, journeys.len())?;
+        Ok(TableAgents { agents: self.agents(span, group, journeys, &numbers)?, lines })
+    }
+
+    /// The agents of an area.
+    fn spread(
+        &mut self,
+        stream: usize,
+        span: &Range<usize>,
+        group: &AgentGroup,
+        area: &AgentArea,
+        taken: &mut TakenGround<'_>,
+    ) -> Result<Vec<AgentSpec>, ScenarioError> {
+        let (ground, count) = area.resolve().map_err(|fault| self.at_table(span, fault))?;
+        let size = check_size(self.agents + count, self.waypoints + count * group.goal_count());
+        size.map_err(|fault| self.at_table(span, fault))?;
+        let numbers = self.numbers(stream, span, group, count)?;
+        let disc = |numbers: &DrawnNumbers| {
+            let radius_m = numbers.radius_m;
+            AreaDisc { radius_m, wall_radius_m: group.wall_radius_m(radius_m) }
+        };
+        let discs: Vec<AreaDisc> = numbers.iter().map(disc).collect();
+        let random = SplitMix64::new(self.input.seed, stream as u64);
+        let starts_m = area.positions_m(&ground, &discs, taken, random).map_err(|fault| self.at_table(span, fault))?;
+        let journeys = starts_m.into_iter().map(|start_m| group.journey(start_m)).collect();
+        self.agents(span, group, journeys, &numbers)
+    }
+
+    fn numbers(
+        &self,
+        stream: usize,
+        span: &Range<usize>,
+        group: &AgentGroup,
+        count: usize,
+    ) -> Result<Vec<DrawnNumbers>, ScenarioError> {
+        let random = SplitMix64::new(self.input.seed, NUMBER_STREAM + stream as u64);
+        group.numbers(count, self.input.profiles, random).map_err(|fault| self.at_table(span, fault))
+    }
+
+    fn agents(
+        &mut self,
+        span: &Range<usize>,
+        group: &AgentGroup,
+        journeys: Vec<Journey>,
+        numbers: &[DrawnNumbers],
+    ) -> Result<Vec<AgentSpec>, ScenarioError> {
+        let StateNames { behaviour, .. } = *self.input.states;
+        let state = self.input.states.index(group.state.as_ref(), self.input.source)?;
+        self.agents += journeys.len();
+        self.waypoints += journeys.iter().map(|(_, goals_m)| goals_m.len()).sum::<usize>();
+        // After each table, so that many of them do not fill the memory first.
+        check_size(self.agents, self.waypoints).map_err(|fault| self.at_table(span, fault))?;
+        let journeys = journeys.into_iter().zip(numbers);
+        Ok(journeys.map(|(journey, &numbers)| group.agent(journey, numbers, behaviour, state)).collect())
+    }
+
+    fn at_table(&self, span: &Range<usize>, (message, help): GroupFault) -> ScenarioError {
+        self.input.source.invalid(span.clone(), message, help).into()
     }
 }
 
@@ -79,6 +198,7 @@ fn journeys(
         AgentLayout::Single(at_m) => Ok(vec![group.journey(at_m)]),
         AgentLayout::Circle(circle) => circle.journeys(),
         AgentLayout::Grid(grid) => group.grid_journeys(grid, random),
+        AgentLayout::Area(_) => Ok(Vec::new()),
         AgentLayout::File(name) => {
             let lines = read_lines(source, name)?;
             return Ok((journeys_of_lines(&lines)?, Some(lines)));
@@ -111,7 +231,10 @@ fn journeys_of_lines(lines: &SourceText) -> Result<Vec<Journey>, ScenarioError> 
 /// # Errors
 /// Where a line is not valid.
 pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioError> {
-    Ok(AgentGroup::default().agents(journeys_of_lines(lines)?, &Behaviour::default(), 0))
+    let (group, behaviour) = (AgentGroup::default(), Behaviour::default());
+    let AgentSpec { preferred_speed_mps, radius_m, pre_movement_s, .. } = AgentSpec::default();
+    let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s };
+    Ok(journeys_of_lines(lines)?.into_iter().map(|journey| group.agent(journey, numbers, &behaviour, 0)).collect())
 }
 
 /// The error that agents of lines break a rule, at the line of the agent.

@@ -15,11 +15,12 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::maths::polygon::signed_area_m2;
-use crate::scenario::check::check;
+use crate::scenario::check::{check, check_obstacles};
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, fault_of_lines};
+use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, PlacementInput, fault_of_lines};
 use crate::scenario::file::behaviour::{BehaviourTables, StateNames};
+use crate::scenario::file::profile_tables::Profiles;
 use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
 use crate::scenario::file::source_tables::sources;
 use crate::scenario::point::Point;
@@ -45,8 +46,14 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
     let states = StateNames { tables: &tables, behaviour: &behaviour };
     let motion = file.motion_source(source)?;
     let seed = file.seed.unwrap_or(SEED);
+    let profiles = Profiles::new(&file.profiles, source)?;
+    let obstacles_m: Vec<Vec<Vec2>> =
+        file.obstacles.iter().map(|obstacle| counter_clockwise(&obstacle.get_ref().polygon_m)).collect();
+    check_obstacles(&obstacles_m)
+        .map_err(|fault| at_its_text(source, &file, &tables, &PlacedAgents::default(), fault))?;
+    let input = PlacementInput { source, states: &states, profiles: &profiles, obstacles_m: &obstacles_m, seed };
     let mut placed = match file.agents() {
-        Some(groups) => PlacedAgents::new(source, groups, &states, seed)?,
+        Some(groups) => PlacedAgents::new(&input, groups)?,
         None => PlacedAgents::default(),
     };
     let defaults = Scenario::of(std::mem::take(&mut placed.agents));
@@ -57,9 +64,9 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         seed,
         planner: file.planner,
         coupling: file.coupling,
-        sources: sources(source, &file.sources, &states, *file.duration_s.get_ref())?,
+        sources: sources(&input, &file.sources, *file.duration_s.get_ref())?,
         behaviour: behaviour.clone(),
-        obstacles_m: file.obstacles.iter().map(|obstacle| counter_clockwise(&obstacle.get_ref().polygon_m)).collect(),
+        obstacles_m,
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
         ..defaults

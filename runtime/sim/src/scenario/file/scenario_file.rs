@@ -17,6 +17,7 @@
 //! [goals.NAME]                        # what agents want: see `behaviour/mod.rs`
 //! [states.NAME]
 //! [signals.NAME]
+//! [profiles.NAME]                     # numbers that are drawn: see `profile_tables.rs`
 //! [areas.NAME]
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
@@ -38,6 +39,7 @@ use crate::scenario::coupling::Coupling;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::file::agent_groups::AgentGroups;
 use crate::scenario::file::behaviour::{AreaTable, BehaviourTables, GoalsTable, SignalTable, StateTable};
+use crate::scenario::file::profile_tables::ProfileTable;
 use crate::scenario::file::source_tables::SourceTable;
 use crate::scenario::point::Point;
 use crate::scenario::view::View;
@@ -82,6 +84,8 @@ pub(crate) struct ScenarioFile {
     goals: BTreeMap<String, Spanned<GoalsTable>>,
     #[serde(default)]
     states: BTreeMap<String, Spanned<StateTable>>,
+    #[serde(default)]
+    pub(crate) profiles: BTreeMap<String, Spanned<ProfileTable>>,
     #[serde(default)]
     pub(crate) obstacles: Vec<Spanned<ObstacleTable>>,
     #[serde(default)]

@@ -46,6 +46,8 @@ mod placed_fault;
 mod tables;
 mod transitions;
 
-pub(crate) use area_table::AreaTable;
+pub(crate) use area_table::{AreaKeys, AreaTable, TableFault};
 pub(crate) use names::StateNames;
+pub(crate) use numbers::DistributionValue;
+pub(crate) use placed_fault::Names;
 pub(crate) use tables::{BehaviourTables, GoalsTable, SignalTable, StateTable};
