@@ -131,6 +131,14 @@ fn plan_times_mcn_orca_and_its_query() {
 }
 
 #[test]
+fn routes_agree_on_small_grounds() {
+    let found = check_bench("routes", &["--largest", "30"]);
+    let grounds = found["grounds"].as_array().unwrap();
+    assert_eq!(grounds.iter().map(|ground| ground["ground"].as_str().unwrap()).collect::<Vec<_>>(), ["room", "door"]);
+    assert!(found["bars"].as_array().unwrap().iter().all(|criterion| criterion["met"] == true), "{found}");
+}
+
+#[test]
 fn course_is_walked_by_every_synthesis() {
     let picture = folder("bench_course").join("course.png");
     let found = check_bench("course", &["-o", text(&picture)]);

@@ -265,7 +265,8 @@ mod tests {
         check(&grid(6, 1, 1), 1);
         check(&grid(1, 4, 1), 1);
         check(&[[1.0, 2.0, 3.0]; 3], 0);
-        let circle = (0..12).map(|k| (k as f32).to_radians() * 30.0).map(|angle| [angle.cos(), 0.0, angle.sin()]);
+        let circle =
+            (0..12).map(|k| (k as f32).to_radians() * 30.0).map(|angle| [libm::cosf(angle), 0.0, libm::sinf(angle)]);
         check(&circle.collect::<Vec<_>>(), 2);
         // A plane that is tilted against all three axes.
         let tilted = grid(3, 3, 1).into_iter().map(|[x, y, _]| [x, y, x + y]);
@@ -278,7 +279,8 @@ mod tests {
 
     #[test]
     fn strafes_within_noise_leave_a_flat_set() {
-        let walks = grid(3, 3, 1).into_iter().enumerate().map(|(k, [x, y, _])| [x, y, 0.02 * (k as f32 * 0.7).sin()]);
+        let walks =
+            grid(3, 3, 1).into_iter().enumerate().map(|(k, [x, y, _])| [x, y, 0.02 * libm::sinf(k as f32 * 0.7)]);
         check(&walks.collect::<Vec<_>>(), 2);
     }
 

@@ -74,9 +74,32 @@ pub fn seal(magic: [u8; 8], version: u32, payload: &[u8]) -> Vec<u8> {
 /// # Errors
 /// If magic, version, length or checksum is wrong; the first of them that is.
 pub fn open(magic: [u8; 8], version: u32, bytes: &[u8]) -> Result<(&[u8], u32), ContainerError> {
-    let Some((header, payload)) = bytes.split_first_chunk::<HEADER_LENGTH>() else {
-        return Err(if bytes.starts_with(&magic) {
-            ContainerError::HeaderCut { present: bytes.len() }
+    let (header, payload) = checked_header(magic, version, bytes, bytes.len() as u64)?;
+    let (found, computed) = (u32_at(header, CHECKED_LENGTH), checksum(&header[..CHECKED_LENGTH], payload));
+    if found != computed {
+        return Err(ContainerError::Checksum { found, computed });
+    }
+    Ok((payload, computed))
+}
+
+/// Checks the header of a container of which only the beginning is read; `length` is that of the whole.
+///
+/// # Errors
+/// If magic, version or length is wrong; the first of them that is.
+pub fn check_header(magic: [u8; 8], version: u32, beginning: &[u8], length: u64) -> Result<(), ContainerError> {
+    checked_header(magic, version, beginning, length).map(|_| ())
+}
+
+/// The header, and what is read of the payload.
+fn checked_header(
+    magic: [u8; 8],
+    version: u32,
+    beginning: &[u8],
+    length: u64,
+) -> Result<(&[u8; HEADER_LENGTH], &[u8]), ContainerError> {
+    let Some((header, payload)) = beginning.split_first_chunk::<HEADER_LENGTH>() else {
+        return Err(if beginning.starts_with(&magic) {
+            ContainerError::HeaderCut { present: beginning.len() }
         } else {
             ContainerError::Magic
         });
@@ -89,15 +112,11 @@ pub fn open(magic: [u8; 8], version: u32, bytes: &[u8]) -> Result<(&[u8], u32), 
         return Err(ContainerError::Version { found, supported: version });
     }
     let stated = u64::from(u32_at(header, 12)) | u64::from(u32_at(header, 16)) << 32;
-    let present = payload.len() as u64;
+    let present = length.saturating_sub(HEADER_LENGTH as u64);
     if stated != present {
         return Err(ContainerError::Length { stated, present });
     }
-    let (found, computed) = (u32_at(header, CHECKED_LENGTH), checksum(&header[..CHECKED_LENGTH], payload));
-    if found != computed {
-        return Err(ContainerError::Checksum { found, computed });
-    }
-    Ok((payload, computed))
+    Ok((header, payload))
 }
 
 fn u32_at(header: &[u8; HEADER_LENGTH], start: usize) -> u32 {

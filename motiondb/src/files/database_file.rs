@@ -1,10 +1,10 @@
 //! `.fbdb`: a motion database on disk, in a [`container`]. The same clips give the same bytes: it holds no paths, no
 //! dates and no order of a hash map.
 
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::files::container::{self, ContainerError};
+use crate::files::container::{self, ContainerError, HEADER_LENGTH};
 use crate::files::{atomic_file, input_file};
 use crate::motion::motion_db::MotionDb;
 use crate::validate;
@@ -14,7 +14,7 @@ pub const MAGIC: [u8; 8] = *b"FBCROWDB";
 /// Format version; a file of any other version is rejected.
 pub const VERSION: u32 = 2;
 /// Greatest length of a payload that is decoded, bytes: 4096 examples of 64 rows take 100 MB.
-const PAYLOAD_LIMIT: usize = 1 << 30;
+const PAYLOAD_LIMIT: usize = 256 << 20;
 
 /// Reason why a database cannot be read or written. Each message names the file and the remedy.
 ///
@@ -117,8 +117,24 @@ pub fn write(path: &Path, db: &MotionDb) -> Result<u32, FileError> {
 /// # Errors
 /// All but [`FileError::Invariant`] and [`FileError::Unwritable`].
 pub fn read(path: &Path) -> Result<(MotionDb, u32), FileError> {
-    let bytes = input_file::read(path).map_err(|source| FileError::Unreadable { path: path.to_owned(), source })?;
-    from_bytes(path, &bytes)
+    from_bytes(path, &container_bytes(path)?)
+}
+
+/// The bytes of a file, if its header is that of a database and states no more than [`PAYLOAD_LIMIT`].
+fn container_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+    let unreadable = |source| FileError::Unreadable { path: path.to_owned(), source };
+    let mut file = input_file::open(path).map_err(unreadable)?;
+    let length = file.metadata().map_err(unreadable)?.len();
+    let mut bytes = Vec::new();
+    file.by_ref().take(HEADER_LENGTH as u64).read_to_end(&mut bytes).map_err(unreadable)?;
+    container::check_header(MAGIC, VERSION, &bytes, length)
+        .map_err(|source| FileError::Container { path: path.to_owned(), source })?;
+    if length > (HEADER_LENGTH + PAYLOAD_LIMIT) as u64 {
+        let reason = format!("it is longer than {} MiB", PAYLOAD_LIMIT >> 20);
+        return Err(FileError::Decode { path: path.to_owned(), reason });
+    }
+    file.take(PAYLOAD_LIMIT as u64 + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    Ok(bytes)
 }
 
 /// Loads a database and the checksum of its file. All invariants hold: the runtime relies on them.

@@ -1,16 +1,16 @@
 //! A text that a user wrote (a scenario, a manifest), and a mistake in it with its position, so that a report can point
 //! at it.
 
-use std::fs;
-use std::io;
+use std::io::{self, ErrorKind, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::files::input_file;
 use crate::files::parser_words::in_plain_words;
 
-/// Greatest length of a text, bytes; a million agents take a tenth of it.
-const TEXT_MAX_BYTES: u64 = 1 << 30;
+/// Greatest length of a text, bytes: ten thousand obstacles of a hundred corners. The TOML parser takes up to 80 times
+/// the text's length in memory.
+const TEXT_MAX_BYTES: u64 = 16 << 20;
 /// Greatest length of a message, characters; longer ones are cut.
 const MESSAGE_MAX_LETTERS: usize = 1_000;
 
@@ -64,10 +64,16 @@ impl SourceText {
     /// # Errors
     /// If the system cannot read the file, or the file is not UTF-8 or too long.
     pub fn read(path: &Path) -> io::Result<Self> {
-        if fs::metadata(path)?.len() > TEXT_MAX_BYTES {
-            return Err(io::Error::other("the text is longer than 1 GiB"));
+        let file = input_file::open(path)?;
+        let invalid = |message: String| io::Error::new(ErrorKind::InvalidData, message);
+        let mut bytes = Vec::new();
+        // A file may become longer while it is read.
+        if file.metadata()?.len() > TEXT_MAX_BYTES
+            || file.take(TEXT_MAX_BYTES + 1).read_to_end(&mut bytes)? as u64 > TEXT_MAX_BYTES
+        {
+            return Err(invalid(format!("the text is longer than {} MiB", TEXT_MAX_BYTES >> 20)));
         }
-        let text = in_utf8(input_file::read(path)?).map_err(io::Error::other)?;
+        let text = in_utf8(bytes).map_err(invalid)?;
         // Some editors begin a text with a byte order mark.
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
         Ok(Self { path: path.to_owned(), text })
@@ -110,10 +116,14 @@ impl SourceText {
     }
 }
 
-/// The text of some bytes; an error that names another encoding, or the line that is not UTF-8.
+/// The text of some bytes; an error that names another encoding, or the line that is not text in UTF-8.
 fn in_utf8(bytes: Vec<u8>) -> Result<String, String> {
     if input_file::is_utf16(&bytes) {
         return Err("the text is UTF-16, two bytes a letter".into());
+    }
+    let line_of = |byte: usize| 1 + bytes[..byte].iter().filter(|&&byte| byte == b'\n').count();
+    if let Some(zero) = bytes.iter().position(|&byte| byte == 0) {
+        return Err(format!("line {} holds a zero byte, so this is no text", line_of(zero)));
     }
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
@@ -124,6 +134,8 @@ fn in_utf8(bytes: Vec<u8>) -> Result<String, String> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]
@@ -141,6 +153,18 @@ mod tests {
     }
 
     #[test]
+    fn a_longer_text_is_not_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("long.toml");
+        fs::File::create(&path).unwrap().set_len(1 << 40).unwrap();
+        let error = SourceText::read(&path).unwrap_err();
+        assert_eq!(
+            (error.kind(), error.to_string()),
+            (ErrorKind::InvalidData, "the text is longer than 16 MiB".into())
+        );
+    }
+
+    #[test]
     fn another_encoding_is_named_with_its_line() {
         let wide = |bytes: fn(u16) -> [u8; 2]| "# a\n".encode_utf16().flat_map(bytes).collect::<Vec<u8>>();
         for bytes in
@@ -149,6 +173,7 @@ mod tests {
             assert!(in_utf8(bytes).unwrap_err().contains("UTF-16"));
         }
         assert_eq!(in_utf8(b"a\n# caf\xe9\n".to_vec()), Err("line 2 is not UTF-8".to_owned()));
+        assert_eq!(in_utf8(b"a\nb\0".to_vec()), Err("line 2 holds a zero byte, so this is no text".to_owned()));
         assert_eq!(in_utf8("é".into()), Ok("é".to_owned()));
     }
 }

@@ -307,7 +307,8 @@ mod tests {
 
     #[test]
     fn a_cycle_corresponds_to_itself_at_equal_times() {
-        let apart = |row: usize, other_row: usize| (TAU * (row as f32 - other_row as f32) / PHASE_COUNT as f32).cos();
+        let apart =
+            |row: usize, other_row: usize| libm::cosf(TAU * (row as f32 - other_row as f32) / PHASE_COUNT as f32);
         let ring: Distances =
             (0..PHASE_COUNT).map(|row| std::array::from_fn(|other_row| 1.0 - apart(row, other_row))).collect();
         let found = best_row_pairs(&ring);

@@ -3,6 +3,8 @@
 //! Poses are in the root frame (x forward, y left, z up, on the ground), metres and seconds. Velocities of joints are
 //! derived, not stored.
 
+use std::array;
+
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -172,16 +174,16 @@ impl Rows {
 
     /// Weighted sum of rows (example, phase, weight). The weights must sum to 1.
     pub fn blended(&self, rows: impl IntoIterator<Item = (usize, usize, f32)>) -> Pose {
-        let mut pose = Pose { pelvis_m: Vec3::ZERO, rotations: [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); JOINT_COUNT] };
-        for (example, phase, weight) in rows {
-            pose.pelvis_m += weight * self.pelvis_m[example * PHASE_COUNT + phase];
-            for (sum, rotation) in pose.rotations.iter_mut().zip(self.rotations(example, phase)) {
-                *sum += *rotation * weight;
-            }
-        }
+        let row = |(example, phase, weight)| {
+            (self.pelvis_m[example * PHASE_COUNT + phase], self.rotations(example, phase), weight)
+        };
+        let rows: Vec<(Vec3, &[Quat; JOINT_COUNT], f32)> = rows.into_iter().map(row).collect();
+        let pelvis_m = rows.iter().fold(Vec3::ZERO, |sum, &(pelvis_m, _, weight)| sum + weight * pelvis_m);
+        // Joint by joint: each sum stays in a register.
+        let zero = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+        let sum = |joint: usize| rows.iter().fold(zero, |sum, &(_, rotations, weight)| sum + rotations[joint] * weight);
         // All rows share a hemisphere, so no sum is near zero.
-        pose.rotations.iter_mut().for_each(|rotation| *rotation = rotation.normalize());
-        pose
+        Pose { pelvis_m, rotations: array::from_fn(|joint| sum(joint).normalize()) }
     }
 
     /// Mean pose of an example over its cycle.

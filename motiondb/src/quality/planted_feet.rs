@@ -27,6 +27,9 @@ pub const PLANTED_CONTACT: f64 = 0.5;
 const TRIMMED_SHARE: f64 = 0.1;
 /// Percentile of a point's heights over a cycle that is its planted height.
 const PLANTED_PERCENTILE: f64 = 0.05;
+/// Difference of two heights that counts as none, m: some rounding errors of a posed point. Two points are level in the
+/// row that gives both their planted heights; rounding must not choose between them.
+const SAME_HEIGHT_M: f64 = 1e-6;
 
 /// The feet of one cycle at [`PHASE_COUNT`] uniform phases.
 #[derive(Clone, Debug)]
@@ -233,7 +236,8 @@ fn lowest_points(feet: &[[DVec3; 3]]) -> Vec<usize> {
     let planted_m = [0, 1, 2]
         .map(|point: usize| percentile(feet.iter().map(|foot| foot[point].z), PLANTED_PERCENTILE).unwrap_or_default());
     let height_m = |foot: &[DVec3; 3], point: usize| foot[point].z - planted_m[point];
-    let lowest = |foot: &[DVec3; 3]| (1..3).fold(0, |a, b| if height_m(foot, b) < height_m(foot, a) { b } else { a });
+    let is_lower = |foot: &[DVec3; 3], b: usize, a: usize| height_m(foot, b) < height_m(foot, a) - SAME_HEIGHT_M;
+    let lowest = |foot: &[DVec3; 3]| (1..3).fold(0, |a, b| if is_lower(foot, b, a) { b } else { a });
     feet.iter().map(lowest).collect()
 }
 

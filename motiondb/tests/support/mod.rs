@@ -152,7 +152,7 @@ fn planted_ankle_m(example: &MotionExample, time_s: f32, side: usize) -> Vec2 {
     let hip_m = Vec2::new(0.0, if side == 0 { 0.1 } else { -0.1 });
     let Parameters { speed_mps, turn_rate_rad_s, strafe_mps } = example.parameters;
     let half_rad = 0.5 * turn_rate_rad_s * time_s;
-    let chord = if half_rad == 0.0 { 1.0 } else { half_rad.sin() / half_rad };
+    let chord = if half_rad == 0.0 { 1.0 } else { libm::sinf(half_rad) / half_rad };
     let root_m = Vec2::from_angle(half_rad).rotate(Vec2::new(speed_mps, strafe_mps)) * time_s * chord;
     Vec2::from_angle(-2.0 * half_rad).rotate(hip_m - root_m) - hip_m
 }

@@ -31,6 +31,12 @@ pub enum RenderError {
         /// The system's error.
         source: io::Error,
     },
+    /// The system has too little memory for the frames.
+    #[error("the frames need {mib} MiB of memory, more than the system gives; use fewer threads or a smaller picture")]
+    OutOfMemory {
+        /// Memory that was not given, MiB.
+        mib: usize,
+    },
     /// The scenario's view is out of range.
     #[error("the scenario's [view]: {message}; {help}")]
     View {

@@ -138,7 +138,7 @@ fn stance(example: &MotionExample, time_s: f32, side: usize, pitch_rad: f32) -> 
 /// Where the root gets in a time.
 fn arc_m(parameters: &Parameters, time_s: f32) -> Vec2 {
     let half = 0.5 * parameters.turn_rate_rad_s * time_s;
-    let chord = if half.abs() > 1e-4 { half.sin() / half } else { 1.0 };
+    let chord = if half.abs() > 1e-4 { libm::sinf(half) / half } else { 1.0 };
     Vec2::from_angle(half).rotate(Vec2::new(parameters.speed_mps, parameters.strafe_mps)) * time_s * chord
 }
 
@@ -150,7 +150,7 @@ fn swing(example: &MotionExample, middle: f32, share: f32, side: usize) -> (Foot
     let from_speed = (from.ankle_m - end(1.0, 0.5 * DUTY - small).ankle_m) / small * (1.0 - DUTY);
     let to_speed = (end(-1.0, small - 0.5 * DUTY).ankle_m - to.ankle_m) / small * (1.0 - DUTY);
     let (s2, s3) = (share * share, share * share * share);
-    let lift = Vec3::new(0.0, 0.0, 0.08 * (0.5 - 0.5 * (TAU * share).cos()));
+    let lift = Vec3::new(0.0, 0.0, 0.08 * (0.5 - 0.5 * libm::cosf(TAU * share)));
     let ankle_m = from.ankle_m * (2.0 * s3 - 3.0 * s2 + 1.0)
         + to.ankle_m * (3.0 * s2 - 2.0 * s3)
         + from_speed * (s3 - 2.0 * s2 + share)

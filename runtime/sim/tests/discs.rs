@@ -196,7 +196,8 @@ fn baseline_figures(scene: &str, planner: Planner, params: &Params) -> [f32; 3] 
     let runs: Vec<CrowdFigures> = (1..=5).map(|seed| DiscCrowd::new(&agents(seed), None).run(&setting, 60.0)).collect();
     let mean = |value: &dyn Fn(&CrowdFigures) -> f32| runs.iter().map(value).sum::<f32>() / runs.len() as f32;
     let acceleration_mps2 = mean(&|figures| figures.acceleration_mps2);
-    let variance = mean(&|figures| (figures.acceleration_mps2 - acceleration_mps2).powi(2));
+    let deviation_mps2 = |figures: &CrowdFigures| figures.acceleration_mps2 - acceleration_mps2;
+    let variance = mean(&|figures| deviation_mps2(figures) * deviation_mps2(figures));
     let collisions = mean(&|figures| figures.collisions);
     [collisions, acceleration_mps2, variance.sqrt()]
 }

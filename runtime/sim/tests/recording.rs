@@ -286,7 +286,7 @@ fn packing_noise_cm_s(soles: impl Fn(&AgentFrame) -> [glam::Vec3; 3]) -> f64 {
     for index in 0..2000 {
         let mut frame = standing_at(Vec2::ZERO);
         for (joint, rotation) in frame.pose.rotations.iter_mut().enumerate() {
-            let angle = |seed: f32| 0.8 * (seed * (index * 22 + joint) as f32).sin();
+            let angle = |seed: f32| 0.8 * libm::sinf(seed * (index * 22 + joint) as f32);
             *rotation = Quat::from_euler(glam::EulerRot::XYZ, angle(1.3), angle(2.7), angle(3.1));
         }
         frames.push(vec![frame]);

@@ -338,6 +338,39 @@ fn huge_crowd_is_rejected_early() {
     check_rejected("goals", &format!("{HEAD}agents = {table}"), &table, "4000000000 waypoints");
 }
 
+/// Fails unless an agent file is rejected at a line of it.
+#[track_caller]
+fn check_lines_rejected(test: &str, agents: &str, lines: &str, line: usize, message: &str) {
+    let path = write(test, &format!("{HEAD}agents = {agents}"));
+    fs::write(path.with_file_name("a.txt"), lines).unwrap();
+    let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
+    assert_eq!(invalid.path.file_name().unwrap(), "a.txt", "{invalid}");
+    assert_eq!(invalid.line(), line, "{}", invalid.message);
+    assert!(invalid.message.contains(message), "{}", invalid.message);
+}
+
+#[test]
+fn an_agent_file_is_read_up_to_its_limit() {
+    let file = "{ file = \"a.txt\" }";
+    let crowd = format!("# crowd\n{}wrong", "0 0 1 1\n".repeat(1_000_001));
+    check_lines_rejected("crowd_lines", file, &crowd, 1_000_002, "more than 1000000 agents");
+    let two = format!("[{{ circle = {{ count = 999_999, radius_m = 9 }} }}, {file}]");
+    check_lines_rejected("crowd_rest", &two, "0 0 1 1\n0 9 9 9\nwrong", 2, "more than 1000000 agents");
+    let long = format!("0 0 1 1\n0 9 9 9 # {}\n", "é".repeat(1 << 20));
+    check_lines_rejected("long_line", file, &long, 2, "longer than 4096 bytes");
+    let comments = format!("0 0 1 1\n{}", format!("#{}\n", "x".repeat(4_000)).repeat(1_000));
+    let many = format!("[{}]", [file; 20].join(", "));
+    check_lines_rejected("many_lines", &many, &comments, 770, "longer than 64 MiB");
+}
+
+#[test]
+fn a_file_of_zeros_is_no_agent_file() {
+    let path = write("zeros", &format!("{HEAD}agents = {{ file = \"zeros.txt\" }}"));
+    fs::File::create(path.with_file_name("zeros.txt")).unwrap().set_len(1 << 40).unwrap();
+    let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
+    check_points_at(&invalid, "\"zeros.txt\"", "line 1 holds a zero byte");
+}
+
 #[test]
 fn missing_files_are_named() {
     check_rejected("no_clips", &format!("clips = \"gone\"\nduration_s = 1\n{ONE}"), "\"gone\"", "gone");
@@ -379,7 +412,7 @@ fn a_source_has_the_keys_and_defaults_of_agents() {
     assert_eq!((sources[1].wall_radius_m, sources[1].at_goal), (0.15, AtGoal::Leave));
     let agent = sources[1].agent(at_m);
     assert_eq!(agent.goals_m, [Vec2::new(9.0, 9.0), Vec2::new(2.0, 2.0)]);
-    assert_eq!(agent.facing_rad, 7.0_f32.atan2(8.0));
+    assert_eq!(agent.facing_rad, libm::atan2f(7.0, 8.0));
 }
 
 #[test]

@@ -48,7 +48,7 @@ pub use crate::error::BenchError;
 use crate::kit::report::{BenchReport, PrintableReport};
 use crate::paper::{coupled, course, figure6, figure7, table1};
 use crate::pedestrians::{emergence, rimea};
-use crate::speed::{blend_space, bodies, plan};
+use crate::speed::{blend_space, bodies, plan, routes};
 use crate::synthesis::{blend, quality, reach, tracking};
 
 /// Makes [`Bench`] from the table of benches: variant, name on the command line, module.
@@ -92,6 +92,7 @@ benches! {
     BlendSpace, "blend-space" => blend_space;
     Plan, "plan" => plan;
     Bodies, "bodies" => bodies;
+    Routes, "routes" => routes;
     Figure6, "figure6" => figure6;
     Blend, "blend" => blend;
     Tracking, "tracking" => tracking;

@@ -9,6 +9,7 @@
 //! 6. checks of size, gait and ground (`plausibility`, `level_ground`)
 //! 7. canonical humanoid (`to_humanoid`), check of its body → `HumanClip`
 
+use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use motiondb::body::Joint;
@@ -29,6 +30,8 @@ use crate::retarget::{stated_facing, to_humanoid, trim_t_poses, units};
 use crate::rig::find_roles;
 use crate::rig::roles::Roles;
 
+/// Number of bytes that are read of a file at once.
+const READ_BYTES: usize = 1 << 16;
 /// Least number of frames of a clip: two positions make one velocity.
 const MIN_FRAMES: usize = 2;
 /// Cosine of half the least angle by which a joint rotates (0.05°).
@@ -60,9 +63,9 @@ pub fn import_file(path: &Path) -> Result<Vec<ImportedClip>, Rejection> {
 /// # Errors
 /// As [`import_file`].
 pub fn import_with_settings(settings: &ClipSettings) -> Result<Vec<ImportedClip>, Rejection> {
-    let imported = input_file::read(&settings.path)
-        .map_err(|error| RejectionReason::Unreadable { problem: error.to_string() })
-        .and_then(|bytes| imported_clips(settings, &bytes));
+    let imported = input_file::open(&settings.path)
+        .map_err(|error| RejectionReason::unreadable(&error))
+        .and_then(|file| imported_clips(settings, BufReader::with_capacity(READ_BYTES, file)));
     imported.map_err(|reason| rejected_file(&settings.path, reason))
 }
 
@@ -86,18 +89,19 @@ pub fn import_with_settings(settings: &ClipSettings) -> Result<Vec<ImportedClip>
 /// # Errors
 /// As [`import_file`].
 pub fn import_bytes(path: &Path, bytes: &[u8]) -> Result<Vec<ImportedClip>, Rejection> {
-    imported_clips(&ClipSettings::from(path.to_owned()), bytes).map_err(|reason| rejected_file(path, reason))
+    imported_clips(&ClipSettings::from(path.to_owned()), Cursor::new(bytes))
+        .map_err(|reason| rejected_file(path, reason))
 }
 
 fn rejected_file(path: &Path, reason: RejectionReason) -> Rejection {
     Rejection { file: path.display().to_string(), clip: String::new(), reason }
 }
 
-fn imported_clips(settings: &ClipSettings, bytes: &[u8]) -> Result<Vec<ImportedClip>, RejectionReason> {
+fn imported_clips(settings: &ClipSettings, file: impl BufRead + Seek) -> Result<Vec<ImportedClip>, RejectionReason> {
     let path = settings.path.as_path();
     match ClipFormat::of(path).ok_or(RejectionReason::UnknownFormat)? {
-        ClipFormat::Bvh => bvh::read(path, bytes).map(|clip| vec![bvh_clip(settings, clip)]),
-        ClipFormat::Gltf => gltf_clips(settings, &GltfFile::open(path, bytes, settings.outside)?),
+        ClipFormat::Bvh => bvh::read(path, file).map(|clip| vec![bvh_clip(settings, clip)]),
+        ClipFormat::Gltf => gltf_clips(settings, &GltfFile::open(path, file, settings.outside)?),
     }
 }
 
@@ -190,7 +194,7 @@ fn to_human(mut clip: SourceClip, settings: &ClipSettings, name: String) -> Resu
         plausibility::inhuman_gait(&clip, &roles, &parameters)
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
-    let mut human = to_humanoid::to_human(&clip, &roles, &units, parameters, name);
+    let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, name);
     human.unfit = unfit;
     human.choices.mirror = settings.mirror;
     human.choices.is_cut = settings.frames.is_some();

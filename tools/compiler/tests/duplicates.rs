@@ -134,7 +134,7 @@ fn moved(text: &str, travels: f64, climbs: f64) -> String {
     let (hierarchy, frame_time_s, mut rows) = taken_apart(text);
     let last = rows.len() - 1;
     let way = [0, 2].map(|channel| rows[last][channel] - rows[0][channel]);
-    let length = way[0].hypot(way[1]);
+    let length = libm::hypot(way[0], way[1]);
     for (frame, row) in rows.iter_mut().enumerate() {
         let along = frame as f64 / last as f64;
         row[0] -= (1.0 - travels) * along * way[0];

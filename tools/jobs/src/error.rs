@@ -8,6 +8,7 @@ use fbcrowd_sim::recording::RecordingError;
 use fbcrowd_sim::scenario::ScenarioError;
 use motiondb::files::Invalid;
 use motiondb::files::database_file::FileError;
+use motiondb::files::input_file::is_of_machine;
 use motiondb::motion::SourceRecord;
 use motiondb_compiler::{CompileError, Rejection};
 
@@ -94,6 +95,14 @@ pub enum JobError {
         /// The system's reason.
         source: io::Error,
     },
+    /// The system has too little memory for the crowd.
+    #[error("{agents} agents need {mib} MiB of memory, more than the system gives; simulate fewer")]
+    OutOfMemory {
+        /// Number of agents.
+        agents: usize,
+        /// Memory that was not given, MiB.
+        mib: usize,
+    },
     /// The planner looks no further ahead than a change of synthesis takes (§3.4.1).
     #[error(
         "the planner looks {horizon_s} s ahead, but with this database a change of synthesis takes up to \
@@ -149,10 +158,22 @@ impl JobError {
     /// command or its input is wrong.
     pub fn is_of_machine(&self) -> bool {
         match self {
-            Self::Unwritable { .. } | Self::FolderInUse { .. } => true,
+            Self::Unwritable { .. } | Self::FolderInUse { .. } | Self::OutOfMemory { .. } => true,
+            Self::Database(FileError::Unreadable { source, .. }) => is_of_machine(source),
             Self::Database(error) => matches!(error, FileError::Unwritable { .. }),
-            Self::Recording(error) => matches!(error, RecordingError::Unwritable { .. }),
-            Self::Render(error) => matches!(error, RenderError::Folder { .. } | RenderError::Write { .. }),
+            Self::Recording(error) | Self::Render(RenderError::Recording(error)) => match error {
+                RecordingError::Unwritable { .. } => true,
+                RecordingError::Unreadable { source, .. } => is_of_machine(source),
+                _ => false,
+            },
+            Self::Render(error) => {
+                use RenderError::{Folder, OutOfMemory, Write};
+
+                matches!(error, Folder { .. } | Write { .. } | OutOfMemory { .. })
+            }
+            Self::Scenario(ScenarioError::Unreadable { source, .. }) => is_of_machine(source),
+            Self::Compile(error) => error.is_of_machine(),
+            Self::Clip(rejection) => rejection.reason.is_of_machine(),
             _ => false,
         }
     }

@@ -11,12 +11,16 @@ use fbcrowd_sim::route::{BlockedPaths, blocked_paths};
 use fbcrowd_sim::scenario::Scenario;
 use fbcrowd_sim::simulation::Simulation;
 use fbcrowd_sim::synthesis::library::{self, HybridData};
+use motiondb::memory;
 use motiondb::motion::MotionDb;
 use motiondb::quality::coverage;
 
 use crate::error::JobError;
 use crate::observer::{JobEvent, Observer, Work};
 use crate::timings::{StepStopwatch, Timings};
+
+/// Memory of each agent in a simulation, bytes; measured: 2,700.
+const AGENT_BYTES: usize = 3_000;
 
 /// What is simulated.
 pub struct SimulationInput {
@@ -45,12 +49,19 @@ pub struct PreparedSimulation {
 /// Prepares a simulation; writes nothing.
 ///
 /// # Errors
-/// Where the planner looks less far ahead than a change of synthesis takes.
+/// Where the planner looks less far ahead than a change of synthesis takes, or the system has too little memory.
 pub fn prepare(db: Arc<MotionDb>, scenario: Scenario, observer: &Observer) -> Result<PreparedSimulation, JobError> {
+    check_memory(scenario.agents.len())?;
     let simulation = Simulation::new(Arc::clone(&db), &scenario);
     note_missing_motions(&db, simulation.database(), observer);
     check_horizon(simulation.database(), &scenario)?;
     Ok(PreparedSimulation { scenario, simulation })
+}
+
+/// Checks that the system gives the memory that a crowd needs.
+fn check_memory(agents: usize) -> Result<(), JobError> {
+    let bytes = agents * AGENT_BYTES;
+    if memory::has_room(bytes) { Ok(()) } else { Err(JobError::OutOfMemory { agents, mib: bytes >> 20 }) }
 }
 
 impl PreparedSimulation {

@@ -79,6 +79,13 @@ impl<'a> ConstraintOverlay<'a> {
         })
     }
 
+    /// Number of pixels of a picture.
+    pub(crate) fn pixel_count(&self) -> usize {
+        let height_px = self.scene_px[1].max(MIN_HEIGHT_PX);
+        let width_px = self.scene_px[0] + velocity_panel::width_px(height_px) * self.agents.len() as u32;
+        width_px as usize * height_px as usize
+    }
+
     /// Picture of a drawn scene with its marks and panels, opaque.
     ///
     /// # Errors

@@ -79,7 +79,7 @@ impl SceneMarks {
         if !explained.step.header().scenario.view.labels {
             let neighbours = explained.explanation.neighbours.iter().map(|neighbour| neighbour.agent as usize);
             for index in neighbours.chain([explained.agent]) {
-                self.captions.draw_label(scene, explained.id(index), world.positions_m[index]);
+                self.captions.draw_label(scene, 0, explained.id(index), world.positions_m[index]);
             }
         }
     }

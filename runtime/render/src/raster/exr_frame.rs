@@ -3,18 +3,22 @@
 //! Only attributes with a named field in the `exr` crate are written: it stores others in a hash map, whose order
 //! changes from run to run. Lines are written in increasing order by one thread. No date is written.
 
-use std::io::{self, Cursor};
+use std::io::{self, Seek, Write};
 use std::path::Path;
 
+use exr::block::writer::ChunksWriter;
+use exr::image::write::channels::{ChannelsWriter, WritableChannels};
+use exr::meta::Headers;
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
     Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, SpecificChannels, Text, Vec2, WritableImage, f16,
 };
-use motiondb::files::atomic_file;
-use tiny_skia::{Pixmap, PremultipliedColorU8};
+use motiondb::files::atomic_file::AtomicFile;
+use tiny_skia::PremultipliedColorU8;
 
 use crate::error::RenderError;
 use crate::raster::palette::decode_srgb;
+use crate::raster::strips::PictureStrips;
 
 /// Primaries and white point of Rec. 709, the same as sRGB's.
 const REC_709: Chromaticities = Chromaticities {
@@ -23,38 +27,67 @@ const REC_709: Chromaticities = Chromaticities {
     blue: Vec2(0.15, 0.06),
     white: Vec2(0.3127, 0.3290),
 };
-/// Encoding: scan lines, 16 in one compressed block.
+/// Number of lines in one compressed block.
+const BLOCK_LINES: usize = 16;
+/// Encoding: scan lines in blocks of [`BLOCK_LINES`].
 const ENCODING: Encoding = Encoding {
     compression: Compression::ZIP16,
     blocks: exr::image::Blocks::ScanLines,
     line_order: LineOrder::Increasing,
 };
 
-/// Writes a picture, complete or not at all.
+/// Writes a picture that is drawn strip by strip, complete or not at all.
 ///
 /// # Errors
 /// If the file cannot be written.
-pub(crate) fn write(path: &Path, pixmap: &Pixmap, frame_rate_hz: f32) -> Result<(), RenderError> {
-    let written = encode(pixmap, frame_rate_hz).and_then(|bytes| atomic_file::write(path, &bytes));
+pub(crate) fn write(path: &Path, picture: &mut impl PictureStrips, frame_rate_hz: f32) -> Result<(), RenderError> {
+    let written = AtomicFile::create(path).and_then(|mut file| {
+        encode(file.writer(), picture, frame_rate_hz)?;
+        file.commit()
+    });
     written.map_err(|source| RenderError::Write { path: path.to_owned(), source })
 }
 
-fn encode(pixmap: &Pixmap, frame_rate_hz: f32) -> io::Result<Vec<u8>> {
+/// Encodes a picture block by block. Frames are drawn in parallel already, so a single thread encodes each.
+fn encode(out: impl Write + Seek, picture: &mut impl PictureStrips, frame_rate_hz: f32) -> io::Result<()> {
     let linear = Linearizer::new();
-    let (width, pixels) = (pixmap.width() as usize, pixmap.pixels());
-    let channels = SpecificChannels::rgba(|at: Vec2<usize>| linear.premultiplied(pixels[at.y() * width + at.x()]));
+    let [width, height] = picture.size_px().map(|side| side as usize);
+    let strip_rows = picture.strip_rows() as usize;
+    // Blocks of lines do not extend over two strips.
+    debug_assert!(strip_rows.is_multiple_of(BLOCK_LINES) || strip_rows >= height);
+    let mut next_strip = 0;
+    let written = exr::block::write(out, headers((width, height), frame_rate_hz), true, |meta, chunks| {
+        let blocks = meta.collect_ordered_block_data(|block| {
+            if block.pixel_position.y() >= next_strip {
+                picture.draw(next_strip as u32);
+                next_strip += strip_rows;
+            }
+            let (pixels, top) = (picture.pixels(), next_strip - strip_rows);
+            let pixel = |at: Vec2<usize>| linear.premultiplied(pixels[(at.y() - top) * width + at.x()]);
+            let channels = SpecificChannels::rgba(pixel);
+            channels.create_writer(&meta.headers[0]).extract_uncompressed_block(&meta.headers[0], block)
+        });
+        let mut compressor = chunks.sequential_blocks_compressor(&meta);
+        for (index, block) in blocks {
+            compressor.compress_block(index, block)?;
+        }
+        Ok(())
+    });
+    written.map_err(io::Error::other)
+}
+
+/// The header of a file of one layer.
+fn headers((width, height): (usize, usize), frame_rate_hz: f32) -> Headers {
     let attributes = LayerAttributes {
         frames_per_second: Some(frame_rate_fraction(frame_rate_hz)),
         software_name: Some(Text::from("FbCrowd")),
         ..LayerAttributes::default()
     };
-    let layer = Layer::new((width, pixmap.height() as usize), attributes, ENCODING, channels);
-    let mut image = Image::from_layer(layer);
+    // The header depends on the types of the channels alone.
+    let channels = SpecificChannels::rgba(|_: Vec2<usize>| (f16::ZERO, f16::ZERO, f16::ZERO, f16::ZERO));
+    let mut image = Image::from_layer(Layer::new((width, height), attributes, ENCODING, channels));
     image.attributes.chromaticities = Some(REC_709);
-    let mut bytes = Cursor::new(Vec::new());
-    // Frames are drawn in parallel already, so a single thread writes each.
-    image.write().non_parallel().to_buffered(&mut bytes).map_err(io::Error::other)?;
-    Ok(bytes.into_inner())
+    image.write().infer_meta_data()
 }
 
 /// Conversion of code values to linear light, with a table for opaque pixels.

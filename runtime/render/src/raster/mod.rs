@@ -2,8 +2,8 @@
 //!
 //! Enters: bodies in world metres, shapes and texts in pixels. Leaves: opaque sRGB pictures, PNG and EXR files.
 //!
-//! Read `drawn_body` and `tapered_capsule` (bodies), then `palette`, `paint`, `pixels` and `text`, then `png_frame` and
-//! `exr_frame`.
+//! Read `drawn_body` and `tapered_capsule` (bodies), then `palette`, `paint`, `pixels` and `text`, then `strips`, `png_frame`
+//! and `exr_frame`.
 
 pub(crate) mod drawn_body;
 pub(crate) mod exr_frame;
@@ -11,6 +11,7 @@ pub(crate) mod paint;
 pub(crate) mod palette;
 pub(crate) mod pixels;
 pub mod png_frame;
+pub(crate) mod strips;
 pub(crate) mod tapered_capsule;
 pub(crate) mod text;
 

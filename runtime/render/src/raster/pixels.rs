@@ -35,20 +35,49 @@ pub(crate) fn blend(pixel: &mut Pixel, colour: Vec3, opacity: f32) {
     *pixel = to_pixel(to_vec(*pixel).lerp(colour, opacity));
 }
 
-/// The pixels that a shape can touch, clipped to the picture.
+/// Rows of a picture that a buffer of pixels holds. Positions stay those of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Strip {
+    /// Width of the picture, pixels.
+    pub(crate) width_px: u32,
+    /// First row.
+    pub(crate) top_px: u32,
+    /// Number of rows.
+    pub(crate) rows: u32,
+}
+
+impl Strip {
+    /// All rows of a picture.
+    pub(crate) fn whole(width_px: u32, height_px: u32) -> Self {
+        Self { width_px, top_px: 0, rows: height_px }
+    }
+
+    /// Number of pixels.
+    pub(crate) fn pixel_count(&self) -> usize {
+        self.width_px as usize * self.rows as usize
+    }
+
+    /// Index of the first pixel of one of its rows.
+    pub(crate) fn row_start(&self, row: usize) -> usize {
+        (row - self.top_px as usize) * self.width_px as usize
+    }
+}
+
+/// The pixels that a shape can touch, clipped to a strip.
 pub(crate) struct PixelWindow {
     low: [usize; 2],
     high: [usize; 2],
 }
 
 impl PixelWindow {
-    /// The window between two corners in a picture of this width and height, pixels.
-    pub(crate) fn between(low: Vec2, high: Vec2, width: u32, height: u32) -> Self {
+    /// The window between two corners, pixels.
+    pub(crate) fn between(low: Vec2, high: Vec2, strip: &Strip) -> Self {
+        let &Strip { width_px, top_px, rows } = strip;
         // Casts saturate: left of or above the picture becomes 0, and a corner that is not finite an empty window.
-        let clip = |value: f32, side: u32| (value.max(0.0) as usize).min(side as usize);
+        let clip = |value: f32, first: u32, end: u32| (value.max(0.0) as usize).clamp(first as usize, end as usize);
         Self {
-            low: [clip(low.x.floor(), width), clip(low.y.floor(), height)],
-            high: [clip(high.x.ceil(), width), clip(high.y.ceil(), height)],
+            low: [clip(low.x.floor(), 0, width_px), clip(low.y.floor(), top_px, top_px + rows)],
+            high: [clip(high.x.ceil(), 0, width_px), clip(high.y.ceil(), top_px, top_px + rows)],
         }
     }
 

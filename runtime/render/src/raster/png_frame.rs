@@ -1,34 +1,57 @@
 //! A picture as PNG: eight bits, sRGB, fast compression.
 
+use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
-use motiondb::files::atomic_file;
-use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
-use tiny_skia::Pixmap;
+use motiondb::files::atomic_file::AtomicFile;
+use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent};
+use tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use crate::error::RenderError;
+use crate::raster::strips::PictureStrips;
 
 /// Writes an opaque picture, complete or not at all.
 ///
 /// # Errors
 /// If the file cannot be written.
 pub fn write(path: &Path, pixmap: &Pixmap) -> Result<(), RenderError> {
-    let written = encode(pixmap).map_err(Into::into).and_then(|bytes| atomic_file::write(path, &bytes));
+    write_strips(path, &mut &*pixmap)
+}
+
+/// As [`write`], of a picture that is drawn strip by strip.
+pub(crate) fn write_strips(path: &Path, picture: &mut impl PictureStrips) -> Result<(), RenderError> {
+    let written = AtomicFile::create(path).and_then(|mut file| {
+        encode(file.writer(), picture)?;
+        file.commit()
+    });
     written.map_err(|source| RenderError::Write { path: path.to_owned(), source })
 }
 
-/// Bytes of the file, without an alpha channel.
-fn encode(pixmap: &Pixmap) -> Result<Vec<u8>, EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
+/// Encodes a picture without an alpha channel. The crate compresses all rows at once: only its streaming writer, which
+/// gives other bytes, takes them one by one.
+fn encode(out: &mut impl Write, picture: &mut impl PictureStrips) -> io::Result<()> {
+    let [width, height] = picture.size_px();
+    let rows = rgb_rows(picture)?;
+    let mut encoder = Encoder::new(out, width, height);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Fast);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    let pixels: Vec<[u8; 3]> =
-        pixmap.data().as_chunks().0.iter().map(|&[red, green, blue, _]| [red, green, blue]).collect();
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels.as_flattened())?;
-    writer.finish()?;
-    Ok(bytes)
+    writer.write_image_data(rows.as_flattened())?;
+    Ok(writer.finish()?)
+}
+
+/// Red, green and blue of all pixels.
+fn rgb_rows(picture: &mut impl PictureStrips) -> io::Result<Vec<[u8; 3]>> {
+    let [width, height] = picture.size_px().map(|side| side as usize);
+    let mut rows = Vec::new();
+    rows.try_reserve_exact(width * height).map_err(|_| io::Error::from(ErrorKind::OutOfMemory))?;
+    for top_px in (0..height as u32).step_by(picture.strip_rows() as usize) {
+        picture.draw(top_px);
+        let left = width * height - rows.len();
+        let shown = picture.pixels().iter().take(left);
+        rows.extend(shown.map(|pixel: &PremultipliedColorU8| [pixel.red(), pixel.green(), pixel.blue()]));
+    }
+    Ok(rows)
 }

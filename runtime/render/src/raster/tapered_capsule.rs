@@ -12,7 +12,7 @@ use glam::{Vec2, Vec3};
 use tiny_skia::Pixmap;
 
 use crate::raster::palette::Rgb;
-use crate::raster::pixels::{Pixel, PixelWindow, pixels_mut, to_pixel, to_vec};
+use crate::raster::pixels::{Pixel, PixelWindow, Strip, pixels_mut, to_pixel, to_vec};
 
 /// Unit vector towards the light: upper left, above the eye, so that tops are bright.
 const LIGHT: Vec3 = Vec3::new(-0.424, -0.530, 0.734);
@@ -37,8 +37,10 @@ pub(crate) struct TaperedCapsule {
 /// A picture that is being painted, with the height of each pixel's surface.
 #[derive(Clone, Debug)]
 pub(crate) struct Canvas {
-    /// The picture, opaque.
+    /// Rows of the picture, opaque.
     pub(crate) pixmap: Pixmap,
+    /// Position of these rows in the picture.
+    pub(crate) strip: Strip,
     /// Height of each pixel's surface above the ground, pixels.
     heights_px: Vec<f32>,
 }
@@ -47,12 +49,19 @@ impl Canvas {
     /// A canvas over a background: every height is 0.
     pub(crate) fn new(pixmap: Pixmap) -> Self {
         let heights_px = vec![0.0; pixmap.pixels().len()];
-        Self { pixmap, heights_px }
+        let strip = Strip::whole(pixmap.width(), pixmap.height());
+        Self { pixmap, strip, heights_px }
     }
 
-    /// Clears the canvas to a background of the same size.
-    pub(crate) fn reset(&mut self, background: &Pixmap) {
-        self.pixmap.data_mut().copy_from_slice(background.data());
+    /// Clears the canvas to the rows of a background that begin at `top_px`. The last strip of a picture may end before
+    /// the canvas does.
+    pub(crate) fn reset(&mut self, background: &Pixmap, top_px: u32) {
+        self.strip.top_px = top_px;
+        let row_bytes = 4 * self.strip.width_px as usize;
+        let rows = &background.data()[top_px as usize * row_bytes..];
+        let data = self.pixmap.data_mut();
+        let shown = rows.len().min(data.len());
+        data[..shown].copy_from_slice(&rows[..shown]);
         self.heights_px.fill(0.0);
     }
 
@@ -60,11 +69,10 @@ impl Canvas {
     /// surfaces get a dark rim: an arm stands out from the trunk, but upper arm and forearm merge.
     pub(crate) fn paint(&mut self, capsule: &TaperedCapsule, colour: Rgb, rim_px: f32) {
         let field = CapsuleField::new(capsule);
-        let (width, height) = (self.pixmap.width(), self.pixmap.height());
-        let window = window_around(capsule, 0.5 + rim_px, width, height);
+        let window = window_around(capsule, 0.5 + rim_px, &self.strip);
         let pixels = pixels_mut(&mut self.pixmap);
         for y in window.rows() {
-            let row = y * width as usize;
+            let row = self.strip.row_start(y);
             for x in field.columns(&window, y, 0.5 + rim_px) {
                 let centre = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
                 let distance = field.distance(centre);
@@ -96,11 +104,11 @@ fn paint_pixel(pixel: &mut Pixel, below_px: &mut f32, surface: &LitSurface, dist
 }
 
 /// Adds a capsule's outline to a mask of shade, as the maximum of both, with an edge of width `softness_px`.
-pub(crate) fn shade(mask: &mut [u8], [width, height]: [u32; 2], capsule: &TaperedCapsule, softness_px: f32) {
+pub(crate) fn shade(mask: &mut [u8], strip: &Strip, capsule: &TaperedCapsule, softness_px: f32) {
     let field = CapsuleField::new(capsule);
-    let window = window_around(capsule, softness_px, width, height);
+    let window = window_around(capsule, softness_px, strip);
     for y in window.rows() {
-        let row = &mut mask[y * width as usize..][..width as usize];
+        let row = &mut mask[strip.row_start(y)..][..strip.width_px as usize];
         for x in field.columns(&window, y, softness_px) {
             let distance = field.distance(Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
             let depth = (0.5 - 0.5 * distance / softness_px).clamp(0.0, 1.0);
@@ -210,10 +218,10 @@ impl CapsuleField {
 }
 
 /// The pixels within a margin of a capsule.
-fn window_around(capsule: &TaperedCapsule, margin_px: f32, width: u32, height: u32) -> PixelWindow {
+fn window_around(capsule: &TaperedCapsule, margin_px: f32, strip: &Strip) -> PixelWindow {
     let [start, end] = capsule.ends_px.map(Vec3::truncate);
     let [from, to] = capsule.radii_px.map(|radius| Vec2::splat(radius + margin_px));
-    PixelWindow::between((start - from).min(end - to), (start + from).max(end + to), width, height)
+    PixelWindow::between((start - from).min(end - to), (start + from).max(end + to), strip)
 }
 
 #[cfg(test)]

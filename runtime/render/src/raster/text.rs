@@ -79,6 +79,11 @@ impl Typeface {
 
     /// Draws a text with its baseline at `at_px`.
     pub(crate) fn draw(&self, pixmap: &mut Pixmap, text: &str, at_px: Vec2, anchor: TextAnchor, colour: Rgb) {
+        self.draw_below(pixmap, 0, text, at_px, anchor, colour);
+    }
+
+    /// As [`Self::draw`], on the rows of a picture that begin at `top_px`.
+    fn draw_below(&self, pixmap: &mut Pixmap, top_px: u32, text: &str, at_px: Vec2, anchor: TextAnchor, colour: Rgb) {
         let share = match anchor {
             TextAnchor::Left => 0.0,
             TextAnchor::Centre => 0.5,
@@ -86,24 +91,28 @@ impl Typeface {
         };
         let mut pen_px = at_px.x - share * self.width_px(text);
         for glyph in self.glyphs_of(text) {
-            glyph.draw(pixmap, [pen_px.round() as i32, at_px.y.round() as i32], colour);
+            // Rounded in the picture, so that all strips agree.
+            let base_px = (at_px.y.round() as i32).saturating_sub_unsigned(top_px);
+            glyph.draw(pixmap, [pen_px.round() as i32, base_px], colour);
             pen_px += glyph.advance_px;
         }
     }
 
-    /// Draws a text with a halo of one pixel, so that it is readable over bodies and lines.
+    /// Draws a text with a halo of one pixel, so that it is readable over bodies and lines, on the rows of a picture
+    /// that begin at `top_px`.
     pub(crate) fn draw_with_halo(
         &self,
         pixmap: &mut Pixmap,
+        top_px: u32,
         text: &str,
         at_px: Vec2,
         anchor: TextAnchor,
         [ink, halo]: [Rgb; 2],
     ) {
         for shift in [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y, Vec2::ONE, Vec2::NEG_ONE] {
-            self.draw(pixmap, text, at_px + shift, anchor, halo);
+            self.draw_below(pixmap, top_px, text, at_px + shift, anchor, halo);
         }
-        self.draw(pixmap, text, at_px, anchor, ink);
+        self.draw_below(pixmap, top_px, text, at_px, anchor, ink);
     }
 
     fn glyphs_of<'a>(&'a self, text: &'a str) -> impl Iterator<Item = &'a Glyph> {

@@ -1,4 +1,5 @@
-//! Captions over a picture: scale bar, time, and agents' numbers.
+//! Captions over a picture: scale bar, time, and agents' numbers. They are drawn on the rows of a picture that begin at
+//! `top_px`.
 
 use fbcrowd_sim::AgentId;
 use fbcrowd_sim::recording::AgentFrame;
@@ -42,38 +43,39 @@ impl Captions {
     }
 
     /// Draws the scale bar at the lower left: a line with two ticks, and its length.
-    pub(crate) fn draw_scale_bar(&self, pixmap: &mut Pixmap) {
+    pub(crate) fn draw_scale_bar(&self, pixmap: &mut Pixmap, top_px: u32) {
         let size = self.face.size_px;
         let length_m = bar_length_m(BAR_SHARE * self.framing.width_px as f32 / self.framing.scale_px_m);
         let (length, line) = ((length_m as f32 * self.framing.scale_px_m).round(), (size / 10.0).round().max(1.0));
         let [left, base] = [size, self.framing.height_px as f32 - size].map(f32::round);
         let tick = (0.4 * size).round();
-        fill_rect(pixmap, [left, base - line, length, line], INK, 1.0);
+        let top = top_px as f32;
+        fill_rect(pixmap, [left, base - line - top, length, line], INK, 1.0);
         for x in [left, left + length - line] {
-            fill_rect(pixmap, [x, base - tick, line, tick], INK, 1.0);
+            fill_rect(pixmap, [x, base - tick - top, line, tick], INK, 1.0);
         }
         let middle = Vec2::new(left + 0.5 * length, base - 0.55 * size);
-        self.face.draw_with_halo(pixmap, &format!("{length_m} m"), middle, TextAnchor::Centre, [INK, GROUND]);
+        self.face.draw_with_halo(pixmap, top_px, &format!("{length_m} m"), middle, TextAnchor::Centre, [INK, GROUND]);
     }
 
     /// Draws the simulated time at the lower right.
-    pub(crate) fn draw_time(&self, pixmap: &mut Pixmap, time_s: f32) {
+    pub(crate) fn draw_time(&self, pixmap: &mut Pixmap, top_px: u32, time_s: f32) {
         let size = self.face.size_px;
         let corner = self.framing.size_px() - Vec2::splat(size);
-        self.face.draw_with_halo(pixmap, &format!("{time_s:.2} s"), corner, TextAnchor::Right, [INK, GROUND]);
+        self.face.draw_with_halo(pixmap, top_px, &format!("{time_s:.2} s"), corner, TextAnchor::Right, [INK, GROUND]);
     }
 
     /// Draws each agent's id beside it.
-    pub(crate) fn draw_labels(&self, pixmap: &mut Pixmap, agents: &[AgentFrame]) {
+    pub(crate) fn draw_labels(&self, pixmap: &mut Pixmap, top_px: u32, agents: &[AgentFrame]) {
         for agent in agents {
-            self.draw_label(pixmap, agent.id, agent.root.position_m);
+            self.draw_label(pixmap, top_px, agent.id, agent.root.position_m);
         }
     }
 
     /// Draws one agent's id beside it.
-    pub(crate) fn draw_label(&self, pixmap: &mut Pixmap, id: AgentId, position_m: Vec2) {
+    pub(crate) fn draw_label(&self, pixmap: &mut Pixmap, top_px: u32, id: AgentId, position_m: Vec2) {
         let beside = self.framing.to_px(position_m + LABEL_OFFSET_M);
-        self.label_face.draw_with_halo(pixmap, &id.0.to_string(), beside, TextAnchor::Left, [INK, GROUND]);
+        self.label_face.draw_with_halo(pixmap, top_px, &id.0.to_string(), beside, TextAnchor::Left, [INK, GROUND]);
     }
 }
 

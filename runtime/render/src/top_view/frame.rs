@@ -5,11 +5,13 @@
 
 use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::{Vec2, Vec3};
-use tiny_skia::Pixmap;
+use tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use crate::error::RenderError;
 use crate::raster::drawn_body::{self, Detail, DrawnPart};
 use crate::raster::palette::look;
+use crate::raster::pixels::Strip;
+use crate::raster::strips::PictureStrips;
 use crate::raster::tapered_capsule::Canvas;
 use crate::top_view::captions::Captions;
 use crate::top_view::framing::{Framing, frame_recording};
@@ -17,6 +19,10 @@ use crate::top_view::ground;
 use crate::top_view::shade::ShadeMask;
 use crate::top_view::trails::{self, Tracks, Trail};
 
+/// Greatest number of pixels of a strip, which take 9 bytes each: a frame of up to 2560 × 1440 is one strip.
+pub(crate) const STRIP_PIXELS: u32 = 4 << 20;
+/// Number of rows by which strips begin: EXR files compress so many together.
+const BLOCK_ROWS: u32 = 16;
 /// Reach of a body and its shade from its root, m: bodies farther outside the picture are left out.
 const REACH_M: f32 = 2.0;
 /// Depth below the ground at which a canvas has height 0, m: a toe slightly below the ground is not hidden.
@@ -56,7 +62,8 @@ pub struct TopView<'a> {
     captions: Captions,
 }
 
-/// Memory that consecutive frames share: to allocate a megapixel takes longer than to draw on it.
+/// Memory for one strip of a frame, which strips and consecutive frames share: to allocate a megapixel takes longer than
+/// to draw on it.
 #[derive(Clone, Debug)]
 pub struct FrameBuffers {
     canvas: Canvas,
@@ -79,21 +86,52 @@ impl<'a> TopView<'a> {
         &self.framing
     }
 
-    /// Memory for drawing frames one after the other.
+    /// Memory for drawing whole frames one after the other.
     pub fn buffers(&self) -> FrameBuffers {
-        FrameBuffers { canvas: Canvas::new(self.background.clone()), shade: ShadeMask::new(&self.framing) }
+        self.buffers_of(self.framing.height_px)
+    }
+
+    /// Memory for drawing frames strip by strip.
+    pub(crate) fn strip_buffers(&self) -> FrameBuffers {
+        self.buffers_of(strip_rows(&self.framing))
+    }
+
+    fn buffers_of(&self, rows: u32) -> FrameBuffers {
+        let width_px = self.framing.width_px;
+        let pixmap = Pixmap::new(width_px, rows).expect("the framing's sides are checked");
+        FrameBuffers { canvas: Canvas::new(pixmap), shade: ShadeMask::new(Strip::whole(width_px, rows)) }
     }
 
     /// Picture of all agents at a time, opaque. The former content of the buffers has no influence.
     pub fn draw<'b>(&self, buffers: &'b mut FrameBuffers, time_s: f32, agents: &[AgentFrame]) -> &'b Pixmap {
+        self.draw_strip(buffers, 0, time_s, agents, &self.parts(agents));
+        &buffers.canvas.pixmap
+    }
+
+    /// The same picture, strip by strip.
+    pub(crate) fn strips<'b>(
+        &'b self,
+        buffers: &'b mut FrameBuffers,
+        time_s: f32,
+        agents: &'b [AgentFrame],
+    ) -> FrameStrips<'b> {
+        FrameStrips { view: self, buffers, time_s, agents, parts: self.parts(agents) }
+    }
+
+    fn draw_strip(
+        &self,
+        buffers: &mut FrameBuffers,
+        top_px: u32,
+        time_s: f32,
+        agents: &[AgentFrame],
+        parts: &[DrawnPart],
+    ) {
         let FrameBuffers { canvas, shade } = buffers;
-        canvas.reset(&self.background);
-        let parts = self.parts(agents);
-        self.draw_trails(&mut canvas.pixmap, time_s, agents);
-        self.draw_shade(&mut canvas.pixmap, shade, &parts);
-        self.draw_bodies(canvas, &parts);
-        self.draw_captions(&mut canvas.pixmap, time_s, agents);
-        &canvas.pixmap
+        canvas.reset(&self.background, top_px);
+        self.draw_trails(canvas, time_s, agents);
+        self.draw_shade(canvas, shade, parts);
+        self.draw_bodies(canvas, parts);
+        self.draw_captions(canvas, time_s, agents);
     }
 
     /// Parts of every body in the picture, from the lowest to the highest.
@@ -117,7 +155,7 @@ impl<'a> TopView<'a> {
         (px + reach).cmpge(Vec2::ZERO).all() && (px - reach).cmple(self.framing.size_px()).all()
     }
 
-    fn draw_trails(&self, pixmap: &mut Pixmap, time_s: f32, agents: &[AgentFrame]) {
+    fn draw_trails(&self, canvas: &mut Canvas, time_s: f32, agents: &[AgentFrame]) {
         let length_s = self.header.scenario.view.trail_s;
         if length_s <= 0.0 {
             return;
@@ -125,16 +163,16 @@ impl<'a> TopView<'a> {
         for frame in agents {
             let (agent, position_m) = (frame.id.index(), frame.root.position_m);
             let trail = Trail { agent, time_s, position_m, length_s, colour: look(agent).shirt };
-            trails::draw(pixmap, &self.framing, self.tracks, &trail);
+            trails::draw(&mut canvas.pixmap, &canvas.strip, &self.framing, self.tracks, &trail);
         }
     }
 
-    fn draw_shade(&self, pixmap: &mut Pixmap, shade: &mut ShadeMask, parts: &[DrawnPart]) {
-        shade.clear();
+    fn draw_shade(&self, canvas: &mut Canvas, shade: &mut ShadeMask, parts: &[DrawnPart]) {
+        shade.clear(canvas.strip.top_px);
         for part in parts.iter().filter(|part| part.radii_m[0] * self.framing.scale_px_m >= MIN_SHADE_RADIUS_PX) {
             shade.add_part(&self.framing, part);
         }
-        shade.apply(pixmap);
+        shade.apply(&mut canvas.pixmap);
     }
 
     fn draw_bodies(&self, canvas: &mut Canvas, parts: &[DrawnPart]) {
@@ -146,11 +184,48 @@ impl<'a> TopView<'a> {
         }
     }
 
-    fn draw_captions(&self, pixmap: &mut Pixmap, time_s: f32, agents: &[AgentFrame]) {
+    fn draw_captions(&self, canvas: &mut Canvas, time_s: f32, agents: &[AgentFrame]) {
+        let (pixmap, top_px) = (&mut canvas.pixmap, canvas.strip.top_px);
         if self.header.scenario.view.labels {
-            self.captions.draw_labels(pixmap, agents);
+            self.captions.draw_labels(pixmap, top_px, agents);
         }
-        self.captions.draw_scale_bar(pixmap);
-        self.captions.draw_time(pixmap, time_s);
+        self.captions.draw_scale_bar(pixmap, top_px);
+        self.captions.draw_time(pixmap, top_px, time_s);
+    }
+}
+
+/// Number of rows of a strip: as many as have at most [`STRIP_PIXELS`], in whole blocks.
+fn strip_rows(framing: &Framing) -> u32 {
+    if framing.width_px * framing.height_px <= STRIP_PIXELS {
+        return framing.height_px;
+    }
+    (STRIP_PIXELS / framing.width_px / BLOCK_ROWS).max(1) * BLOCK_ROWS
+}
+
+/// A frame that is drawn strip by strip.
+pub(crate) struct FrameStrips<'a> {
+    view: &'a TopView<'a>,
+    buffers: &'a mut FrameBuffers,
+    time_s: f32,
+    agents: &'a [AgentFrame],
+    /// Parts of every body in the picture, from the lowest to the highest.
+    parts: Vec<DrawnPart>,
+}
+
+impl PictureStrips for FrameStrips<'_> {
+    fn size_px(&self) -> [u32; 2] {
+        [self.view.framing.width_px, self.view.framing.height_px]
+    }
+
+    fn strip_rows(&self) -> u32 {
+        self.buffers.canvas.strip.rows
+    }
+
+    fn draw(&mut self, top_px: u32) {
+        self.view.draw_strip(self.buffers, top_px, self.time_s, self.agents, &self.parts);
+    }
+
+    fn pixels(&self) -> &[PremultipliedColorU8] {
+        self.buffers.canvas.pixmap.pixels()
     }
 }

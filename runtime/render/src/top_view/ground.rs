@@ -8,6 +8,7 @@ use tiny_skia::{LineJoin, Paint, Path, Pixmap, Stroke, StrokeDash};
 
 use crate::raster::paint::{circle, fill, fill_rect, paint, path_through, stroke, to_color};
 use crate::raster::palette;
+use crate::raster::pixels::Strip;
 use crate::top_view::framing::Framing;
 use crate::top_view::shade::ShadeMask;
 
@@ -118,7 +119,7 @@ fn draw_obstacles(pixmap: &mut Pixmap, header: &Header, framing: &Framing) {
     if outlines.is_empty() {
         return;
     }
-    let mut shade = ShadeMask::new(framing);
+    let mut shade = ShadeMask::new(Strip::whole(framing.width_px, framing.height_px));
     for outline in &outlines {
         shade.add_block(framing, outline, OBSTACLE_HEIGHT_M);
     }

@@ -8,15 +8,31 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use fbcrowd_sim::recording::Recording;
+use motiondb::memory;
 use rayon::prelude::*;
+use tiny_skia::Pixmap;
 
 use crate::constraints::constraint_overlay::ConstraintOverlay;
 use crate::error::RenderError;
+use crate::raster::strips::PictureStrips;
 use crate::raster::{exr_frame, png_frame};
-use crate::top_view::frame::{FrameBuffers, TopView};
+use crate::top_view::frame::{FrameBuffers, STRIP_PIXELS, TopView};
 use crate::top_view::frame_range::{FIRST_FRAME, FrameRange};
 use crate::top_view::playback::{picture_count, picture_time_s, read_tracks, sample};
 use crate::top_view::trails::Tracks;
+
+/// Bytes of the background for each pixel, while the shade of obstacles is drawn on it.
+const BACKGROUND_BYTES: usize = 6;
+/// Bytes of a frame for each pixel as it is encoded: its colours.
+const COLOUR_BYTES: usize = 3;
+/// Bytes of a strip for each pixel: colours, height and shade.
+const STRIP_PIXEL_BYTES: usize = 9;
+/// Greatest number of bytes of a strip.
+const STRIP_BYTES: usize = STRIP_PIXEL_BYTES * STRIP_PIXELS as usize;
+/// Bytes that a whole frame takes for each of its pixels: the scene, the scene with marks, the picture, its colours.
+const WHOLE_FRAME_BYTES: usize = 16;
+/// Greatest number of bytes of all whole frames that are drawn at once.
+const WHOLE_FRAMES_BYTES: usize = 1 << 30;
 
 /// File format of pictures.
 ///
@@ -87,21 +103,37 @@ pub fn render_sequence(
     observer: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<PathBuf>, RenderError> {
     let numbers = frame_numbers(recording, options.frames.as_ref())?;
+    check_memory(recording, &numbers, !options.constraints_of.is_empty())?;
     let tracks = read_tracks(recording)?;
     let views = SequenceViews::new(recording, &tracks, &options.constraints_of)?;
     make_folder(&options.folder)?;
     let done = AtomicUsize::new(0);
-    numbers
-        .par_iter()
-        .map_init(
-            || views.top.buffers(),
-            |buffers, number| {
-                let path = render_frame(recording, &views, buffers, options, *number)?;
-                observer(done.fetch_add(1, Ordering::Relaxed) + 1, numbers.len());
-                Ok(path)
-            },
-        )
-        .collect()
+    let render = |buffers: &mut FrameBuffers, number: &u32| {
+        let path = render_frame(recording, &views, buffers, options, *number)?;
+        observer(done.fetch_add(1, Ordering::Relaxed) + 1, numbers.len());
+        Ok(path)
+    };
+    let mut paths = Vec::new();
+    for numbers in numbers.chunks(views.most_at_once().unwrap_or(numbers.len())) {
+        let rendered = numbers.par_iter().map_init(|| views.top.strip_buffers(), render);
+        paths.extend(rendered.collect::<Result<Vec<PathBuf>, RenderError>>()?);
+    }
+    Ok(paths)
+}
+
+/// Checks that the system gives the memory that the frames need: the background and the shade of obstacles once; for
+/// each thread a strip and the colours of a frame, or whole frames.
+fn check_memory(recording: &Recording, numbers: &[u32], has_overlay: bool) -> Result<(), RenderError> {
+    let view = &recording.header().scenario.view;
+    let pixels = view.width as usize * view.height as usize;
+    let threads = rayon::current_num_threads().min(numbers.len());
+    let at_once = if has_overlay {
+        WHOLE_FRAMES_BYTES.min(threads * WHOLE_FRAME_BYTES * pixels).max(WHOLE_FRAME_BYTES * pixels)
+    } else {
+        threads * (COLOUR_BYTES * pixels + STRIP_BYTES.min(STRIP_PIXEL_BYTES * pixels))
+    };
+    let bytes = BACKGROUND_BYTES * pixels + at_once;
+    if memory::has_room(bytes) { Ok(()) } else { Err(RenderError::OutOfMemory { mib: bytes >> 20 }) }
 }
 
 impl<'a> SequenceViews<'a> {
@@ -112,6 +144,14 @@ impl<'a> SequenceViews<'a> {
             agents => Some(ConstraintOverlay::new(recording, top.framing(), agents)?),
         };
         Ok(Self { top, overlay })
+    }
+
+    /// Greatest number of frames that are drawn at once; none where any number may be. A frame with an overlay is drawn
+    /// as a whole.
+    fn most_at_once(&self) -> Option<usize> {
+        let frame_bytes = WHOLE_FRAME_BYTES * self.overlay.as_ref()?.pixel_count();
+        let at_once = (WHOLE_FRAMES_BYTES / frame_bytes.max(1)).max(1);
+        (at_once < rayon::current_num_threads()).then_some(at_once)
     }
 }
 
@@ -136,13 +176,40 @@ fn render_frame(
 ) -> Result<PathBuf, RenderError> {
     let time_s = picture_time_s(recording, number - FIRST_FRAME);
     let agents = sample(recording, time_s)?;
-    let scene = views.top.draw(buffers, time_s as f32, &agents);
-    let overlaid = views.overlay.as_ref().map(|overlay| overlay.draw(scene, time_s)).transpose()?;
-    let pixmap = overlaid.as_ref().unwrap_or(scene);
+    let frame_rate_hz = recording.header().scenario.view.frame_rate_hz;
     let path = picture_path(options, number);
-    match options.format {
-        PictureFormat::Png => png_frame::write(&path, pixmap)?,
-        PictureFormat::Exr => exr_frame::write(&path, pixmap, recording.header().scenario.view.frame_rate_hz)?,
+    let mut strips = views.top.strips(buffers, time_s as f32, &agents);
+    match &views.overlay {
+        None => write(&path, &mut strips, options.format, frame_rate_hz)?,
+        Some(overlay) => {
+            let picture = overlay.draw(&whole(&mut strips), time_s)?;
+            write(&path, &mut &picture, options.format, frame_rate_hz)?;
+        }
     }
     Ok(path)
+}
+
+fn write(
+    path: &Path,
+    picture: &mut impl PictureStrips,
+    format: PictureFormat,
+    frame_rate_hz: f32,
+) -> Result<(), RenderError> {
+    match format {
+        PictureFormat::Png => png_frame::write_strips(path, picture),
+        PictureFormat::Exr => exr_frame::write(path, picture, frame_rate_hz),
+    }
+}
+
+/// All strips as one picture.
+fn whole(strips: &mut impl PictureStrips) -> Pixmap {
+    let [width, height] = strips.size_px();
+    let mut picture = Pixmap::new(width, height).expect("the framing's sides are checked");
+    for top_px in (0..height).step_by(strips.strip_rows() as usize) {
+        strips.draw(top_px);
+        let left = &mut picture.pixels_mut()[(top_px * width) as usize..];
+        let shown = left.len().min(strips.pixels().len());
+        left[..shown].copy_from_slice(&strips.pixels()[..shown]);
+    }
+    picture
 }

@@ -9,7 +9,7 @@ use tiny_skia::{FillRule, Mask, Path, Pixmap, Transform};
 
 use crate::raster::drawn_body::DrawnPart;
 use crate::raster::palette::SHADE;
-use crate::raster::pixels::{blend, pixels_mut};
+use crate::raster::pixels::{Strip, blend, pixels_mut};
 use crate::raster::tapered_capsule;
 use crate::top_view::framing::Framing;
 
@@ -22,23 +22,23 @@ const SOFTNESS_M: [f32; 2] = [0.03, 0.07];
 /// Least width of the soft edge, pixels: anti-aliasing of small shapes.
 const MIN_SOFTNESS_PX: f32 = 0.75;
 
-/// Shade of each pixel, 0 to 255.
+/// Shade of each pixel of a strip, 0 to 255.
 #[derive(Clone, Debug)]
 pub(crate) struct ShadeMask {
-    size_px: [u32; 2],
+    strip: Strip,
     /// Shade, row by row.
     depths: Vec<u8>,
 }
 
 impl ShadeMask {
     /// A mask without shade.
-    pub(crate) fn new(framing: &Framing) -> Self {
-        let size_px = [framing.width_px, framing.height_px];
-        Self { size_px, depths: vec![0; framing.width_px as usize * framing.height_px as usize] }
+    pub(crate) fn new(strip: Strip) -> Self {
+        Self { strip, depths: vec![0; strip.pixel_count()] }
     }
 
-    /// Removes all shade.
-    pub(crate) fn clear(&mut self) {
+    /// Removes all shade; the mask is then that of the rows from `top_px` on.
+    pub(crate) fn clear(&mut self, top_px: u32) {
+        self.strip.top_px = top_px;
         self.depths.fill(0);
     }
 
@@ -48,12 +48,13 @@ impl ShadeMask {
         let on_ground = |end: Vec3| (framing.to_px(end.truncate()) + SUN_SLOPE * end.z.max(0.0) * scale).extend(0.0);
         let height_m = 0.5 * (part.ends_m[0].z + part.ends_m[1].z);
         let softness_px = (scale * (SOFTNESS_M[0] + SOFTNESS_M[1] * height_m.max(0.0))).max(MIN_SOFTNESS_PX);
-        tapered_capsule::shade(&mut self.depths, self.size_px, &part.to_capsule(on_ground, scale), softness_px);
+        tapered_capsule::shade(&mut self.depths, &self.strip, &part.to_capsule(on_ground, scale), softness_px);
     }
 
-    /// Adds the shade of a block with this outline (pixels) and height: the outline, swept along the sun's slope.
+    /// Adds the shade of a block with this outline (pixels) and height: the outline, swept along the sun's slope. The
+    /// mask must be that of a whole picture.
     pub(crate) fn add_block(&mut self, framing: &Framing, outline: &Path, height_m: f32) {
-        let Some(mut mask) = Mask::new(self.size_px[0], self.size_px[1]) else { return };
+        let Some(mut mask) = Mask::new(self.strip.width_px, self.strip.rows) else { return };
         let sweep_px = SUN_SLOPE * height_m * framing.scale_px_m;
         // One copy per pixel of the sweep: no steps are visible.
         let copies = (sweep_px.length() as usize).clamp(1, 256);
@@ -66,10 +67,10 @@ impl ShadeMask {
         }
     }
 
-    /// Blurs all shade: two box blurs in each direction.
+    /// Blurs all shade of a whole picture: two box blurs in each direction.
     pub(crate) fn blur(&mut self, radius_px: f32) {
         let radius = (radius_px as usize).clamp(1, 64);
-        let [width, height] = self.size_px.map(|side| side as usize);
+        let [width, height] = [self.strip.width_px, self.strip.rows].map(|side| side as usize);
         for _ in 0..2 {
             for y in 0..height {
                 box_blur(&mut self.depths, y * width, 1, width, radius);

@@ -8,7 +8,7 @@ use glam::Vec2;
 use tiny_skia::Pixmap;
 
 use crate::raster::palette::Rgb;
-use crate::raster::pixels::{PixelWindow, blend, pixels_mut};
+use crate::raster::pixels::{PixelWindow, Strip, blend, pixels_mut};
 use crate::top_view::framing::Framing;
 
 /// Width of a trail at the body and at its end, m.
@@ -116,14 +116,14 @@ struct RibbonCorner {
     age: f32,
 }
 
-/// Draws a trail over an opaque picture.
-pub(crate) fn draw(pixmap: &mut Pixmap, framing: &Framing, tracks: &Tracks, trail: &Trail) {
+/// Draws a trail over a strip of an opaque picture.
+pub(crate) fn draw(pixmap: &mut Pixmap, strip: &Strip, framing: &Framing, tracks: &Tracks, trail: &Trail) {
     let corners = corners(framing, tracks, trail);
     for index in 1..corners.len() {
         let before = index.checked_sub(2).map(|before| corners[before].at_px);
         let after = corners.get(index + 1).map(|corner| corner.at_px);
         let piece = RibbonPiece::new(framing, [corners[index - 1], corners[index]], [before, after]);
-        piece.paint(pixmap, trail.colour);
+        piece.paint(pixmap, strip, trail.colour);
     }
 }
 
@@ -179,18 +179,18 @@ impl RibbonPiece {
         }
     }
 
-    fn paint(&self, pixmap: &mut Pixmap, colour: Rgb) {
+    fn paint(&self, pixmap: &mut Pixmap, strip: &Strip, colour: Rgb) {
         let [start, end] = self.ends.map(|corner| corner.at_px);
         let reach = Vec2::splat(self.half_px[0] + 1.0);
         let [low, high] = [start.min(end) - reach, start.max(end) + reach];
-        let window = PixelWindow::between(low, high, pixmap.width(), pixmap.height());
-        let width = pixmap.width() as usize;
+        let window = PixelWindow::between(low, high, strip);
         let pixels = pixels_mut(pixmap);
         for y in window.rows() {
+            let row = strip.row_start(y);
             for x in window.columns() {
                 let opacity = self.opacity(Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
                 if opacity > 0.0 {
-                    blend(&mut pixels[y * width + x], colour, opacity);
+                    blend(&mut pixels[row + x], colour, opacity);
                 }
             }
         }

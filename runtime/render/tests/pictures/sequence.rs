@@ -9,8 +9,9 @@ use std::sync::Mutex;
 use exr::prelude::{ReadChannels, ReadLayers, f16, read};
 use fbcrowd_render::error::RenderError;
 use fbcrowd_render::raster::decode_srgb;
-use fbcrowd_render::top_view::{PictureFormat, SequenceOptions, render_sequence};
+use fbcrowd_render::top_view::{PictureFormat, SequenceOptions, TopView, read_tracks, render_sequence, sample};
 use fbcrowd_sim::recording::Recording;
+use fbcrowd_sim::scenario::View;
 
 use crate::support::{self, Scratch};
 
@@ -61,6 +62,39 @@ fn files_do_not_depend_on_threads_or_ranges() {
     }
 }
 
+/// Width of a picture, and red, green and blue of its pixels.
+fn decoded(png: &[u8]) -> (usize, Vec<u8>) {
+    let mut reader = png::Decoder::new(Cursor::new(png)).read_info().unwrap();
+    let mut codes = vec![0; reader.output_buffer_size().unwrap()];
+    let width = reader.next_frame(&mut codes).unwrap().width as usize;
+    (width, codes)
+}
+
+#[test]
+fn strips_of_a_large_picture_are_the_whole() {
+    let scratch = Scratch::new("strips");
+    let folder = scratch.path();
+    // The first strip has 1360 rows.
+    let view = View { width: 3072, height: 2051, frame_rate_hz: 20.0, trail_s: 1.0, labels: true, ..View::default() };
+    let header = support::circle(40, 3.4, view);
+    let path = folder.join("walkers.fbrec");
+    support::write_steps(&path, &header, 16);
+    let recording = Recording::open(&path).unwrap();
+    let tracks = read_tracks(&recording).unwrap();
+    let top_view = TopView::new(recording.header(), &tracks).unwrap();
+    let bodies = sample(&recording, 0.8).unwrap();
+    let mut buffers = top_view.buffers();
+    let whole = top_view.draw(&mut buffers, 0.8, &bodies);
+    let files = [PictureFormat::Png, PictureFormat::Exr].map(|format| {
+        let written = render_sequence(&recording, &options(folder, format, Some("1017")), &|_, _| ()).unwrap();
+        fs::read(&written[0]).unwrap()
+    });
+    let (_, codes) = decoded(&files[0]);
+    let pixels = whole.data().chunks(4).zip(codes.chunks(3));
+    assert_eq!(pixels.filter(|(whole, strip)| whole[..3] != **strip).count(), 0);
+    assert_linear(&files[1], 3072, &codes);
+}
+
 #[test]
 fn exr_is_the_png_in_linear_light() {
     let scratch = Scratch::new("linear");
@@ -70,9 +104,13 @@ fn exr_is_the_png_in_linear_light() {
         let written = render_sequence(&recording, &options(folder, format, Some("1020")), &|_, _| ()).unwrap();
         fs::read(&written[0]).unwrap()
     });
-    let mut reader = png::Decoder::new(Cursor::new(png)).read_info().unwrap();
-    let mut codes = vec![0; reader.output_buffer_size().unwrap()];
-    let width = reader.next_frame(&mut codes).unwrap().width as usize;
+    let (width, codes) = decoded(&png);
+    assert_linear(&exr, width, &codes);
+}
+
+/// Fails unless an EXR holds these colours in linear light.
+#[track_caller]
+fn assert_linear(exr: &[u8], width: usize, codes: &[u8]) {
     let pixels = read()
         .no_deep_data()
         .largest_resolution_level()

@@ -53,8 +53,8 @@ fn skeleton() -> Skeleton {
 fn walking(phase: f32) -> Pose {
     let mut rotations = [Quat::IDENTITY; JOINT_COUNT];
     for side in 0..2 {
-        let swing = (TAU * (phase + 0.5 * side as f32)).sin();
-        let lift = (TAU * (phase + 0.5 * side as f32)).cos().max(0.0);
+        let swing = libm::sinf(TAU * (phase + 0.5 * side as f32));
+        let lift = libm::cosf(TAU * (phase + 0.5 * side as f32)).max(0.0);
         let down = Quat::from_rotation_x(if side == 0 { -1.38 } else { 1.38 });
         rotations[Joint::THIGHS[side].index()] = Quat::from_rotation_y(-0.42 * swing - 0.25 * lift);
         rotations[Joint::SHANKS[side].index()] = Quat::from_rotation_y(0.12 + 0.95 * lift);
@@ -64,11 +64,11 @@ fn walking(phase: f32) -> Pose {
         let bend = if side == 0 { -1.0 } else { 1.0 };
         rotations[forearm.index()] = Quat::from_rotation_z(bend * (0.45 - 0.25 * swing));
     }
-    let yaw = 0.12 * (TAU * phase).sin();
+    let yaw = 0.12 * libm::sinf(TAU * phase);
     rotations[Joint::Pelvis.index()] = Quat::from_rotation_z(-yaw);
     rotations[Joint::SpineMiddle.index()] = Quat::from_rotation_z(2.0 * yaw);
     rotations[Joint::Neck.index()] = Quat::from_rotation_z(-yaw);
-    Pose { pelvis_m: Vec3::new(0.0, 0.02 * (TAU * phase).cos(), 0.9), rotations }
+    Pose { pelvis_m: Vec3::new(0.0, 0.02 * libm::cosf(TAU * phase), 0.9), rotations }
 }
 
 /// A walker at a position, on one foot.
@@ -138,8 +138,8 @@ pub(crate) fn frame(header: &Header, time_s: f32) -> Vec<AgentFrame> {
         let goal = agent.goals_m[0];
         let path_m = goal - agent.position_m;
         let share = (SPEED_MPS * time_s / path_m.length()).min(1.0);
-        let bulge = 0.22 * path_m.length() * (TAU * 0.5 * share).sin();
-        let slope = 0.22 * 0.5 * TAU * (TAU * 0.5 * share).cos();
+        let bulge = 0.22 * path_m.length() * libm::sinf(TAU * 0.5 * share);
+        let slope = 0.22 * 0.5 * TAU * libm::cosf(TAU * 0.5 * share);
         let position_m = agent.position_m + path_m * share - bulge * path_m.normalize().perp();
         let facing_rad = (path_m.normalize() - slope * path_m.normalize().perp()).to_angle();
         let phase = (STRIDE_HZ * time_s + 0.37 * index as f32).fract();

@@ -3,7 +3,7 @@
 //! Every length that a chunk claims is checked against the size of the file before anything is allocated.
 
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -71,7 +71,10 @@ impl ChunkFile {
         if byte.checked_add(count).is_none_or(|end| end > self.length) {
             return Err(self.damaged(byte, format!("{count} bytes are missing")));
         }
-        let mut bytes = vec![0; usize::try_from(count).map_err(|_| self.damaged(byte, "too long for this machine"))?];
+        let mut bytes = Vec::new();
+        let length = usize::try_from(count).map_err(|_| self.damaged(byte, "too long for this machine"))?;
+        bytes.try_reserve_exact(length).map_err(|_| self.out_of_memory())?;
+        bytes.resize(length, 0);
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.seek(SeekFrom::Start(byte))
             .and_then(|_| file.read_exact(&mut bytes))
@@ -79,21 +82,31 @@ impl ChunkFile {
         Ok(bytes)
     }
 
-    /// The payload of the chunk at `byte`, which must be of a kind.
+    /// The payload of the chunk at `byte`, which must be of a kind and have at most `most` bytes.
     ///
     /// # Errors
-    /// As [`Self::read`]; if the kind is another or the checksum is wrong.
-    pub(crate) fn read_chunk(&self, byte: u64, kind: ChunkKind) -> Result<Vec<u8>, RecordingError> {
+    /// As [`Self::read`]; if the kind is another, the payload is longer or the checksum is wrong.
+    pub(crate) fn read_chunk(&self, byte: u64, kind: ChunkKind, most: u64) -> Result<Vec<u8>, RecordingError> {
         let head = self.read(byte, CHUNK_HEAD_BYTES)?;
         let word = |at: usize| u32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);
         if head[..4] != kind {
             return Err(self.damaged(byte, format!("there is no {} chunk here", kind.escape_ascii())));
+        }
+        let is_present = byte + CHUNK_HEAD_BYTES + u64::from(word(4)) <= self.length;
+        if u64::from(word(4)) > most && is_present {
+            let what = format!("the {} chunk has more than {most} bytes", kind.escape_ascii());
+            return Err(self.damaged(byte, what));
         }
         let payload = self.read(byte + CHUNK_HEAD_BYTES, u64::from(word(4)))?;
         if checksum(kind, word(4), &payload) != word(8) {
             return Err(self.damaged(byte, format!("the checksum of the {} chunk is wrong", kind.escape_ascii())));
         }
         Ok(payload)
+    }
+
+    /// The error that the system has too little memory for the file.
+    pub(crate) fn out_of_memory(&self) -> RecordingError {
+        RecordingError::Unreadable { path: self.path.clone(), source: ErrorKind::OutOfMemory.into() }
     }
 
     /// The error that the file is damaged at a byte.

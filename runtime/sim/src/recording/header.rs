@@ -96,7 +96,7 @@ impl Header {
 
     /// Decodes and checks the `HEAD` chunk of a file.
     pub(crate) fn read(file: &ChunkFile) -> Result<Self, RecordingError> {
-        let payload = file.read_chunk(HEAD_BYTE, HEAD)?;
+        let payload = file.read_chunk(HEAD_BYTE, HEAD, zipped_json::PAYLOAD_MAX_BYTES)?;
         let header: Self = zipped_json::decode(&payload)
             .map_err(|what| file.damaged(HEAD_BYTE, format!("the header cannot be decoded ({what})")))?;
         header.check().map_err(|what| file.damaged(HEAD_BYTE, what))?;

@@ -12,7 +12,10 @@ use crate::recording::frame::AgentFrame;
 use crate::recording::frame_chunk::{FrameStart, ROW_BYTES, decompress};
 use crate::recording::frame_packing::{PACKED_BYTES, unpack};
 use crate::recording::header::Header;
-use crate::recording::{agents_chunk, frame_chunk, version_1};
+use crate::recording::{agents_chunk, frame_chunk, version_1, zipped_json};
+
+/// Greatest length of an index, bytes: that of a day in steps of a millisecond.
+pub(crate) const INDEX_LIMIT_BYTES: u64 = INDEX_ENTRY_BYTES as u64 * 86_400_002;
 
 /// An open recording; frames are read on demand, from any thread.
 ///
@@ -105,12 +108,13 @@ impl Recording {
         let count = self.frame_count();
         let no_such_frame = || RecordingError::NoSuchFrame { path: path(), index, count };
         let byte = *self.frames.bytes.get(index).ok_or_else(no_such_frame)?;
-        let payload = self.file.read_chunk(byte, FRAME)?;
+        let expected = self.agent_count(index);
+        let payload = self.file.read_chunk(byte, FRAME, most_frame_bytes(expected))?;
         agents.clear();
+        agents.try_reserve(expected).map_err(|_| self.file.out_of_memory())?;
         if self.frames.version == FORMAT_VERSION_1 {
             return self.read_frame_of_version_1(index, byte, &payload, agents);
         }
-        let expected = self.agent_count(index);
         let damaged = || self.file.damaged(byte, format!("this is not frame {index} with {expected} agents"));
         let (start, compressed) = frame_chunk::start(&payload).ok_or_else(damaged)?;
         if start != (FrameStart { number: index as u32, agent_count: expected }) {
@@ -161,6 +165,11 @@ impl Recording {
     }
 }
 
+/// Greatest length of a frame's payload: zlib makes nothing that is hard to compress much longer.
+fn most_frame_bytes(agent_count: usize) -> u64 {
+    (2 * agent_count * ROW_BYTES) as u64 + 1024
+}
+
 /// The format version, if the file is a recording of a known one.
 fn read_version(file: &ChunkFile) -> Result<u32, RecordingError> {
     let foreign = || RecordingError::Foreign { path: file.path().to_owned() };
@@ -177,7 +186,7 @@ fn read_version(file: &ChunkFile) -> Result<u32, RecordingError> {
 /// The byte at which the index begins.
 fn index_byte(file: &ChunkFile) -> Result<u64, RecordingError> {
     let tail_byte = file.length().saturating_sub(TAIL_BYTES);
-    match file.read_chunk(tail_byte, TAIL)?.try_into() {
+    match file.read_chunk(tail_byte, TAIL, TAIL_BYTES)?.try_into() {
         Ok(bytes) => Ok(u64::from_le_bytes(bytes)),
         Err(_) => Err(file.damaged(tail_byte, "the last chunk names no index")),
     }
@@ -186,7 +195,7 @@ fn index_byte(file: &ChunkFile) -> Result<u64, RecordingError> {
 /// The byte at which each frame's chunk begins, and that of the agents' chunk.
 fn read_index(file: &ChunkFile) -> Result<(Vec<u64>, u64), RecordingError> {
     let index_byte = index_byte(file)?;
-    let index = file.read_chunk(index_byte, INDEX)?;
+    let index = file.read_chunk(index_byte, INDEX, INDEX_LIMIT_BYTES)?;
     let (entries, []) = index.as_chunks::<INDEX_ENTRY_BYTES>() else {
         return Err(file.damaged(index_byte, "the index is not whole"));
     };
@@ -218,7 +227,7 @@ fn read_population(
     agents_byte: u64,
     frame_count: usize,
 ) -> Result<Population, RecordingError> {
-    let payload = file.read_chunk(agents_byte, AGENTS)?;
+    let payload = file.read_chunk(agents_byte, AGENTS, zipped_json::PAYLOAD_MAX_BYTES)?;
     agents_chunk::read(&payload, header, frame_count)
         .map_err(|what| file.damaged(agents_byte, format!("the list of agents is not valid ({what})")))
 }

@@ -14,6 +14,8 @@ use serde::de::DeserializeOwned;
 
 /// Greatest length of a text, bytes; a million agents with ten waypoints each take 400 MB.
 const TEXT_MAX_BYTES: usize = 512 << 20;
+/// Greatest length of a payload, bytes: that of a text that is stored as it is, with what zlib adds.
+pub(crate) const PAYLOAD_MAX_BYTES: u64 = TEXT_MAX_BYTES as u64 + (1 << 20);
 /// Greatest length of a text, relative to its compressed bytes; measured on headers: 2 to 15.
 const RATIO_MAX: usize = 64;
 
@@ -61,7 +63,8 @@ pub fn unzip_text(payload: &[u8]) -> Result<Vec<u8>, String> {
     if length > TEXT_MAX_BYTES || length / RATIO_MAX > compressed.len() {
         return Err(format!("{} bytes cannot hold a text of {length}", compressed.len()));
     }
-    let mut text = Vec::with_capacity(length);
+    let mut text = Vec::new();
+    text.try_reserve_exact(length).map_err(|_| format!("there is no memory for a text of {length} bytes"))?;
     // One byte more than stated, to detect a text that is too long.
     let read = ZlibDecoder::new(compressed).take(length as u64 + 1).read_to_end(&mut text);
     if read.is_err() || text.len() != length {

@@ -3,10 +3,31 @@
 //! Enters: an agent's waypoints, the walls, the agent's position. Leaves: v_pref, and whether the agent has arrived.
 //!
 //! Read `path` (v_pref along waypoints), then `arrival` (when an agent has arrived), then `blocked_paths` (straight
-//! paths that a wall crosses, for reports).
+//! paths that a wall crosses, for reports). Shortest routes around obstacles are a library beside them, which a step
+//! does not use yet: [`mesh`] (free space as triangles), then [`field`] (routes over it).
+//!
+//! ```
+//! use fbcrowd_sim::route::field::{RouteField, RouteGoal, RoutePosition};
+//! use fbcrowd_sim::route::mesh::{Ground, RouteMesh};
+//! use glam::Vec2;
+//!
+//! # fn main() -> Result<(), fbcrowd_sim::route::mesh::RouteError> {
+//! let wall_m = [[0.0, -5.0], [0.1, -5.0], [0.1, 5.0], [0.0, 5.0]].map(Vec2::from).to_vec();
+//! let (start_m, goal_m) = (Vec2::new(-3.0, 4.0), Vec2::new(3.0, 4.0));
+//! let ground = Ground { obstacles_m: &[wall_m], points_m: &[start_m, goal_m], ..Ground::default() };
+//! let mesh = RouteMesh::new(&ground, 0.2)?;
+//! let field = RouteField::new(&mesh, RouteGoal::Points(vec![goal_m]));
+//! let mut remembered = RoutePosition::default();
+//! let step = field.step(&mesh, start_m, &mut remembered).expect("both lie outside the wall");
+//! assert!(step.distance_m > 6.4 && step.next_m.y > 5.1);
+//! # Ok(())
+//! # }
+//! ```
 
 pub(crate) mod arrival;
 pub(crate) mod blocked_paths;
+pub mod field;
+pub mod mesh;
 pub(crate) mod path;
 
 pub use blocked_paths::{BlockedPaths, blocked_paths};

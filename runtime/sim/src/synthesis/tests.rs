@@ -180,7 +180,7 @@ fn the_head_leads_the_body_into_a_turn() {
             let halfway = |(root, output): &(Root, BodyOutput)| {
                 let joints = output.pose.forward_kinematics(&walk.db.skeleton);
                 let ahead = joints.orientations[Joint::Head.index()] * Vec3::X;
-                let head_rad = ahead.y.atan2(ahead.x) * of_head as f32;
+                let head_rad = libm::atan2f(ahead.y, ahead.x) * of_head as f32;
                 (root.facing_rad + head_rad) / angle_rad > 0.5
             };
             walk.steps.iter().position(halfway).unwrap() as f32 * dt_s
@@ -202,7 +202,7 @@ fn a_circle_closes() {
     let dt_s = TAU / turn_rate_rad_s / steps as f32;
     let lead_rad = turn_rate_rad_s * HmsParams::default().turn_time_s;
     // At a constant angle α ahead of the facing, the request is cos α of the planned speed.
-    let plan = |_: f32, root: &Root| towards(root.facing_rad + lead_rad, speed_mps / lead_rad.cos());
+    let plan = |_: f32, root: &Root| towards(root.facing_rad + lead_rad, speed_mps / libm::cosf(lead_rad));
     let walk = walk(12.0, dt_s, plan);
     let (from, to) = (walk.steps[walk.steps.len() - 1 - steps].0, walk.steps[walk.steps.len() - 1].0);
     assert!(from.position_m.distance(to.position_m) < 0.01, "{from:?} {to:?}");

@@ -44,7 +44,7 @@ impl GaitFigures {
         let parameters = &example.parameters;
         Some(Self {
             cadence_steps_per_min: 120.0 / period_s,
-            stride_m: f64::from(parameters.speed_mps.hypot(parameters.strafe_mps)) * period_s,
+            stride_m: f64::from(libm::hypotf(parameters.speed_mps, parameters.strafe_mps)) * period_s,
             stance_shares,
             double_support_share: overlap.max(0.0),
             flight_share: (-overlap).max(0.0),
@@ -92,7 +92,8 @@ pub(crate) fn off_published_walk_deg(db: &MotionDb, index: usize) -> Option<[f64
 /// Angles of a leg in the vertical plane of the root's facing.
 fn leg_angles(db: &MotionDb, joints: &Joints, side: usize) -> LegFlexion {
     let at = |joint: Joint| joints.positions_m[joint.index()];
-    let pitch_deg = |from: glam::Vec3, to: glam::Vec3| f64::from((to.x - from.x).atan2(from.z - to.z)).to_degrees();
+    let pitch_deg =
+        |from: glam::Vec3, to: glam::Vec3| f64::from(libm::atan2f(to.x - from.x, from.z - to.z)).to_degrees();
     let thigh_deg = pitch_deg(at(Joint::THIGHS[side]), at(Joint::SHANKS[side]));
     let shank_deg = pitch_deg(at(Joint::SHANKS[side]), at(Joint::FEET[side]));
     let [heel_m, ball_m, _] = joints.sole_points_m(&db.skeleton, side);

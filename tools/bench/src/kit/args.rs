@@ -1,6 +1,10 @@
-//! Arguments that several benches share.
+//! Arguments that several benches share, and the checks of their outputs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use fbcrowd_jobs::output_path::check_files;
+
+use crate::error::BenchError;
 
 use fbcrowd_sim::scenario::STEP_RANGE_S;
 
@@ -10,6 +14,24 @@ pub struct DatabaseArg {
     /// Motion database; default: compiled from the bundled clips.
     #[arg(long = "db", value_name = "FILE.fbdb")]
     pub database: Option<PathBuf>,
+}
+
+impl DatabaseArg {
+    /// Checks, before work begins, that files can be written into a folder, which need not exist.
+    pub(crate) fn check_folder(&self, folder: Option<&PathBuf>) -> Result<(), BenchError> {
+        folder.map_or(Ok(()), |folder| self.check(folder, &[]))
+    }
+
+    /// Checks, before work begins, that a file can be written and is not the database. Its folder need not exist.
+    pub(crate) fn check_file(&self, file: &Path) -> Result<(), BenchError> {
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        self.check(folder, &[file.to_owned()])
+    }
+
+    fn check(&self, folder: &Path, files: &[PathBuf]) -> Result<(), BenchError> {
+        let inputs: Vec<PathBuf> = self.database.iter().cloned().collect();
+        Ok(check_files(folder, files, &inputs)?)
+    }
 }
 
 /// The clips of a bench of the compiler.

@@ -105,13 +105,14 @@ pub struct CourseWalk {
 /// # Errors
 /// If the database cannot be read, or the picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
+    let picture = args.picture.path("course");
+    args.database.check_file(&picture)?;
     let db = Arc::new(database(&args.database)?);
     let scenario = scenario(COURSE)?;
     let speeds = SPEEDS_MPS.len();
     let walks = run_each_on_one_thread(SYNTHESES.len() * speeds, observer, |index| {
         walk(&db, &scenario, SYNTHESES[index / speeds], SPEEDS_MPS[index % speeds])
     })?;
-    let picture = args.picture.path("course");
     draw(&picture, &scenario, &walks)?;
     let details = Details { picture, walks };
     Ok(BenchReport { text: text(&details), goals: Vec::new(), criteria: criteria(&details.walks), details })
@@ -174,7 +175,8 @@ impl PoseDistances {
     fn push(&mut self, frame: &AgentFrame, skeleton: &Skeleton) {
         let joints = frame.pose.forward_kinematics(skeleton);
         let to_example_deg = self.examples.iter().map(|example| example.distance_to_pose_deg(&joints));
-        self.squared_deg2 += f64::from(to_example_deg.fold(f32::INFINITY, f32::min)).powi(2);
+        let nearest_deg = f64::from(to_example_deg.fold(f32::INFINITY, f32::min));
+        self.squared_deg2 += nearest_deg * nearest_deg;
         self.semi_procedural += usize::from(frame.mode == Mode::SemiProcedural);
     }
 }
@@ -204,7 +206,7 @@ fn criteria(walks: &[CourseWalk]) -> Vec<Criterion> {
     let mean = |synthesis, of: fn(&CourseWalk) -> f64| by(synthesis).map(of).sum::<f64>() / SPEEDS_MPS.len() as f64;
     let disc = |synthesis| mean(synthesis, |walk| walk.wall_disc_share);
     let body = |synthesis| mean(synthesis, |walk| walk.wall_body_share);
-    let poses_deg = |synthesis| mean(synthesis, |walk| walk.pose_distance_deg.powi(2)).sqrt();
+    let poses_deg = |synthesis| mean(synthesis, |walk| walk.pose_distance_deg * walk.pose_distance_deg).sqrt();
     let (hybrid, semi_procedural) = ("hybrid", "semi_procedural");
     vec![
         Criterion::at_least("hybrid arrives, share", 1.0, mean(hybrid, |walk| f64::from(u8::from(walk.arrived)))),

@@ -82,6 +82,7 @@ pub struct Details {
 /// # Errors
 /// If the database cannot be read, the system starts no threads, or the picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
+    args.output.as_ref().map_or(Ok(()), |output| args.database.check_file(output))?;
     let db = Arc::new(database(&args.database)?);
     let pools = [pool(1)?, pool(2)?];
     let timed_sizes = |sizes: &[usize]| sizes.iter().copied().filter(|&size| size <= args.largest).collect::<Vec<_>>();

@@ -50,6 +50,7 @@ pub struct Details {
 /// If the database cannot be read, or the picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let picture = args.picture.path("figure7");
+    args.database.check_file(&picture)?;
     create_parent(&picture)?;
     let db = Arc::new(database(&args.database)?);
     let scenes: Vec<Scene> = scenes::bundled(&[SEED])?.into_iter().filter(|scene| scene.name == SCENE).collect();

@@ -60,6 +60,8 @@ pub struct Args {
 /// # Errors
 /// If scenes or the database cannot be read, or an output cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
+    args.database.check_folder(args.plots.plots.as_ref())?;
+    args.database.check_folder(args.trajectories.as_ref())?;
     let db = Arc::new(database(&args.database)?);
     let protocol = Protocol {
         dt_s: args.step.dt_s,

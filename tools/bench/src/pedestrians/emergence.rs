@@ -77,6 +77,7 @@ pub struct PlannerPatterns {
 /// # Errors
 /// If the database cannot be read, or a picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
+    args.database.check_folder(args.plots.plots.as_ref())?;
     let db = Arc::new(database(&args.database)?);
     let seeds = if args.seeds.seeds.is_empty() { &SEEDS } else { args.seeds.seeds.as_slice() };
     let mut scenarios = Vec::new();

@@ -58,6 +58,7 @@ pub struct CaseReport {
 /// # Errors
 /// If the database cannot be read, or a picture cannot be written.
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
+    args.database.check_folder(args.plots.plots.as_ref())?;
     let db = Arc::new(database(&args.database)?);
     let mut scenarios = Vec::new();
     for case in &CASES {

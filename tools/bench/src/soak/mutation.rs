@@ -71,8 +71,16 @@ impl Edit {
             6 => bytes.insert(at, PUNCTUATION[self.value as usize % PUNCTUATION.len()]),
             7 => bytes.truncate(at),
             // Most files that are read to the end are valid except for their numbers.
-            8..12 => replace_number(bytes, at, &(self.value % 1000).to_string()),
-            _ => replace_number(bytes, at, NUMBERS[self.value as usize % NUMBERS.len()]),
+            _ => self.replace_number(bytes),
+        }
+    }
+
+    /// Replaces the number at the position of a text, or after it.
+    pub fn replace_number(self, text: &mut Vec<u8>) {
+        let Some(at) = self.at(text) else { return };
+        match self.kind % 8 {
+            0..4 => replace_number(text, at, &(self.value % 1000).to_string()),
+            _ => replace_number(text, at, NUMBERS[self.value as usize % NUMBERS.len()]),
         }
     }
 

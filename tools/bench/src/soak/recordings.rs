@@ -2,11 +2,14 @@
 //! measured.
 
 use std::fs;
+use std::mem;
 use std::path::Path;
 use std::sync::Arc;
 
 use fbcrowd_sim::measures::measure;
-use fbcrowd_sim::recording::{CHUNK_HEAD_BYTES, ChunkKind, Header, Recorder, Recording, RecordingError, write_chunk};
+use fbcrowd_sim::recording::{
+    CHUNK_HEAD_BYTES, ChunkKind, Header, Recorder, Recording, RecordingError, unzip_text, write_chunk, zip_text,
+};
 use fbcrowd_sim::simulation::Simulation;
 use motiondb::motion::MotionDb;
 
@@ -48,19 +51,48 @@ pub(crate) fn read(recording: &[u8], scratch: &Scratch, draw: &mut Draw) -> Copy
     measured.map_or(CopyOutcome::Rejected, |_| CopyOutcome::Used)
 }
 
-/// Alters the payload of one chunk and gives it a right checksum.
+/// Alters one chunk, that of zipped JSON in its text, and gives it a right checksum; the index names the new bytes.
 fn forged(recording: &[u8], draw: &mut Draw) -> Vec<u8> {
     let chunks = chunks(&recording[HEAD_BYTES..]);
     let chosen = draw.below(chunks.len());
-    let mut file = recording[..HEAD_BYTES].to_vec();
-    for (index, (kind, payload)) in chunks.into_iter().enumerate() {
-        let mut payload = payload.to_vec();
-        if index == chosen {
-            draw.edits(payload.len().max(1)).into_iter().for_each(|edit| edit.alter(&mut payload));
+    let (mut file, mut index) = (recording[..HEAD_BYTES].to_vec(), Vec::new());
+    let mut index_byte = 0;
+    for (number, (kind, payload)) in chunks.into_iter().enumerate() {
+        let byte = file.len() as u64;
+        let mut content = match &kind {
+            b"HEAD" | b"AGNT" => unzip_text(payload).expect("the recording is valid"),
+            b"INDX" => mem::take(&mut index),
+            b"TAIL" => u64::to_le_bytes(index_byte).to_vec(),
+            _ => payload.to_vec(),
+        };
+        if number == chosen {
+            alter(kind, &mut content, draw);
         }
-        write_chunk(&mut file, kind, &payload).expect("memory takes a payload as short as it was");
+        match &kind {
+            b"HEAD" => content = zip_text(&content).expect("memory takes a short text"),
+            b"AGNT" => {
+                content = zip_text(&content).expect("memory takes a short text");
+                append_entry(&mut index, kind, byte);
+            }
+            b"FRAM" => append_entry(&mut index, kind, byte),
+            b"INDX" => index_byte = byte,
+            _ => {}
+        }
+        write_chunk(&mut file, kind, &content).expect("memory takes a short payload");
     }
     file
+}
+
+/// Replaces numbers of a text, or alters bytes.
+fn alter(kind: ChunkKind, content: &mut Vec<u8>, draw: &mut Draw) {
+    for edit in draw.edits(content.len().max(1)) {
+        if matches!(&kind, b"HEAD" | b"AGNT") { edit.replace_number(content) } else { edit.alter(content) }
+    }
+}
+
+fn append_entry(index: &mut Vec<u8>, kind: ChunkKind, byte: u64) {
+    index.extend(kind);
+    index.extend(byte.to_le_bytes());
 }
 
 /// Types and payloads of the chunks of a valid recording.

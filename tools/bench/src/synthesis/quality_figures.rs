@@ -258,11 +258,11 @@ fn sparc(steps: &[BodyStep], dt_s: f32) -> f64 {
     let speeds_mps: Vec<f64> = steps.iter().map(|step| f64::from(step.speed_mps)).collect();
     let magnitude = |hz: f64| {
         let terms = speeds_mps.iter().enumerate().map(|(step, speed_mps)| {
-            let (sin, cos) = (TAU * hz * step as f64 * dt_s).sin_cos();
+            let (sin, cos) = libm::sincos(TAU * hz * step as f64 * dt_s);
             (speed_mps * cos, speed_mps * sin)
         });
         let (re, im) = terms.fold((0.0, 0.0), |sum, term| (sum.0 + term.0, sum.1 + term.1));
-        re.hypot(im)
+        libm::hypot(re, im)
     };
     let mean = speeds_mps.iter().sum::<f64>().max(f64::MIN_POSITIVE);
     let top_hz = SPARC_MAX_HZ.min(0.5 / dt_s);
@@ -270,5 +270,5 @@ fn sparc(steps: &[BodyStep], dt_s: f32) -> f64 {
         (0..=(top_hz / SPARC_STEP_HZ) as usize).map(|bin| magnitude(bin as f64 * SPARC_STEP_HZ) / mean).collect();
     let last = spectrum.iter().rposition(|&share| share >= SPARC_LEAST).unwrap_or(0).max(1);
     let step = 1.0 / last as f64;
-    -spectrum[..=last].windows(2).map(|pair| step.hypot(pair[1] - pair[0])).sum::<f64>()
+    -spectrum[..=last].windows(2).map(|pair| libm::hypot(step, pair[1] - pair[0])).sum::<f64>()
 }

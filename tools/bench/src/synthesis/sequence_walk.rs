@@ -105,5 +105,5 @@ fn correction_mps(db: &MotionDb, before: &Body, after: &Body, dt_s: f32) -> f32 
     let passed = (after.motion.phase - before.motion.phase).rem_euclid(1.0);
     let Parameters { speed_mps, strafe_mps, .. } = after.motion.smoothed[0].mix.parameters(db);
     let played = if walked_mps > 0.0 && due > 0.0 { passed / due } else { 1.0 };
-    speed_mps.hypot(strafe_mps) * played - walked_mps
+    libm::hypotf(speed_mps, strafe_mps) * played - walked_mps
 }

@@ -27,8 +27,8 @@ fn imported(folder: &Path, row: &GroundTruth) -> HumanClip {
 pub(super) fn source(path: &Path, clip: &str) -> SourceClip {
     let bytes = std::fs::read(path).unwrap();
     let clips = match path.extension().unwrap().to_str().unwrap() {
-        "bvh" => vec![bvh::read(path, &bytes).unwrap()],
-        _ => gltf::read(path, &bytes).unwrap(),
+        "bvh" => vec![bvh::read(path, &bytes[..]).unwrap()],
+        _ => gltf::read(path, std::io::Cursor::new(&bytes)).unwrap(),
     };
     clips.into_iter().find(|source| source.clip == clip).unwrap()
 }

@@ -79,7 +79,7 @@ fn bundled_clips_in_place_keep_their_speed() {
         let whole = source_parameters(&clip, &roles);
         let found = [whole.speed_mps, whole.strafe_mps];
         let off = (0..2).map(|axis| (found[axis] - wanted[axis]).abs()).fold(0.0, f64::max);
-        let limit = 0.03 * f64::hypot(wanted[0], wanted[1]);
+        let limit = 0.03 * libm::hypot(wanted[0], wanted[1]);
         if !whole.is_in_place || off > limit {
             bad.push(format!("{name}: {found:.3?}, not {wanted:?}"));
         }
@@ -93,7 +93,7 @@ fn is_steady(row: &GroundTruth) -> bool {
     const UNSTEADY: [&str; 8] = ["_To", "_Step", "Turn90", "Turn180", "Turn360", "ezgi", "pfnn", "lafan1"];
     let [forward_mps, _, left_mps] = row.measured;
     row.duration_s >= 1.0
-        && f64::hypot(forward_mps, left_mps) > 0.4
+        && libm::hypot(forward_mps, left_mps) > 0.4
         && !UNSTEADY.iter().any(|part| row.file.contains(part))
 }
 

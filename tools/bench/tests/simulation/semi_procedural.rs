@@ -68,7 +68,7 @@ fn cycles(db: &MotionDb) -> Vec<Cycle> {
 /// Share of the travel to the side. There a foot's roll and its reverse are averaged: the foot hold removes the slip as
 /// the contact passes from heel to ball.
 fn aside(parameters: Parameters) -> f32 {
-    let travel_mps = parameters.speed_mps.hypot(parameters.strafe_mps);
+    let travel_mps = libm::hypotf(parameters.speed_mps, parameters.strafe_mps);
     parameters.strafe_mps.abs() / travel_mps.max(f32::MIN_POSITIVE)
 }
 
@@ -157,9 +157,10 @@ fn hips_mps2(cycle: &Cycle) -> f32 {
 #[test]
 fn hips_accelerate_no_more_than_the_stride_does() {
     for cycle in cycles(&bundled()).into_iter().filter(|cycle| cycle.parameters.speed_mps < 2.0) {
-        // Acceleration of a swing by this amplitude twice a stride, m; people's hips swing by 2 to 3 cm.
-        let swing_m = 0.06 * (cycle.parameters.speed_mps / 1.4).max(1.0).powi(2);
-        let limit_mps2 = swing_m * (TAU * 2.0 / cycle.feet.phase_map.period_s).powi(2);
+        let (speed, swing_rad_s) = (cycle.parameters.speed_mps / 1.4, 2.0 * TAU / cycle.feet.phase_map.period_s);
+        // Amplitude of a swing twice a stride, m; people's hips swing by 2 to 3 cm.
+        let swing_m = 0.06 * (speed * speed).max(1.0);
+        let limit_mps2 = swing_m * swing_rad_s * swing_rad_s;
         assert!(hips_mps2(&cycle) < limit_mps2, "{:?}: {} of {limit_mps2}", cycle.parameters, hips_mps2(&cycle));
     }
 }

@@ -40,7 +40,9 @@ pub(crate) struct LeftOutWindows {
 impl AnalyzedClip {
     /// Analyses one clip.
     pub(crate) fn of(clip: &HumanClip, body: &HumanBody) -> Self {
-        let performer = PerformerGait::of(clip);
+        let mut performer = PerformerGait::of(clip);
+        // Only the gait is needed from here on; the poses of an hour take a tenth of a gigabyte.
+        performer.clip.poses = Vec::new();
         let grounded = performer.clip_on(clip, body);
         let found = clip.unfit.clone().map_or_else(|| performer.windows_on(&grounded, body), Err);
         let (mut windows, mut reasons) = (Vec::new(), Vec::new());

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use motiondb::files::Invalid;
+use motiondb::files::{Invalid, input_file};
 use motiondb::motion::SourceRecord;
 
 use crate::error::Rejection;
@@ -30,6 +30,17 @@ pub enum CompileError {
     /// A manifest breaks its format, or a clip contradicts it.
     #[error(transparent)]
     InvalidManifest(Box<Invalid>),
+    /// The machine failed to read a clip: without it the database would be another one.
+    #[error(transparent)]
+    ClipUnread(Box<Rejection>),
+    /// The system has too little memory for the analysis of all clips.
+    #[error(
+        "the analysis of the clips needs {mib} MiB of memory, more than the system gives; use fewer threads or clips"
+    )]
+    OutOfMemory {
+        /// Memory that was not given, MiB.
+        mib: usize,
+    },
     /// No clip is given.
     #[error("no clips; name *.bvh, *.glb or *.gltf files or a folder that holds some")]
     NoClips,
@@ -65,6 +76,19 @@ pub enum CompileError {
         /// Where and how the invariant is broken.
         detail: String,
     },
+}
+
+impl CompileError {
+    /// Whether the machine failed (disk, memory). Otherwise the clips or the manifest are wrong.
+    pub fn is_of_machine(&self) -> bool {
+        match self {
+            Self::UnreadableFolder { source, .. } | Self::UnreadableManifest { source, .. } => {
+                input_file::is_of_machine(source)
+            }
+            Self::ClipUnread(_) | Self::OutOfMemory { .. } => true,
+            _ => false,
+        }
+    }
 }
 
 impl From<Invalid> for CompileError {

@@ -1,8 +1,10 @@
 //! Rejections: files and clips that cannot be used, each with a typed reason.
 
 use std::fmt;
+use std::io;
 
 use motiondb::body::Joint;
+use motiondb::files::input_file;
 
 /// A file that cannot be read as motion, or a clip of it that is not human.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +36,18 @@ pub enum RejectionReason {
     Unreadable {
         /// The system's reason.
         problem: String,
+    },
+    /// The system fails to read the file: a retry may help.
+    #[error("{problem}; check the disk, and try again")]
+    ReadFailed {
+        /// The system's reason.
+        problem: String,
+    },
+    /// The system has too little memory for the clip.
+    #[error("its motion needs {mib} MiB of memory, more than the system gives; cut the clip into shorter ones")]
+    OutOfMemory {
+        /// Memory that was not given, MiB.
+        mib: usize,
     },
     /// The file's name ends in none of `.bvh`, `.glb` and `.gltf`.
     #[error("not a motion clip; clips are *.bvh, *.glb and *.gltf")]
@@ -144,6 +158,19 @@ pub enum RejectionReason {
          human skeleton"
     )]
     MovesLengthwise,
+}
+
+impl RejectionReason {
+    /// The system does not let us read the file, or fails to.
+    pub(crate) fn unreadable(error: &io::Error) -> Self {
+        let problem = error.to_string();
+        if input_file::is_of_machine(error) { Self::ReadFailed { problem } } else { Self::Unreadable { problem } }
+    }
+
+    /// Whether the machine failed (disk, memory). Otherwise the file is wrong.
+    pub fn is_of_machine(&self) -> bool {
+        matches!(self, Self::ReadFailed { .. } | Self::OutOfMemory { .. })
+    }
 }
 
 /// `` `Hips` to `Foot` and `Hips` to `Foot` ``.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use motiondb::files::input_file;
 
 use crate::error::CompileError;
-use crate::read::gltf::{buffers, document_json};
+use crate::read::gltf::{buffers, chunks, document_json};
 
 /// A format of clips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,6 +60,7 @@ pub fn linked_files(path: &Path) -> Vec<PathBuf> {
     if ClipFormat::of(path) != Some(ClipFormat::Gltf) {
         return Vec::new();
     }
-    let uris = input_file::read(path).map(|bytes| document_json::uris(&bytes)).unwrap_or_default();
+    let Ok(mut file) = input_file::open(path) else { return Vec::new() };
+    let uris = chunks::read(&mut file).map(|chunks| document_json::uris(&chunks.json)).unwrap_or_default();
     buffers::linked_paths(path, &uris)
 }

@@ -19,10 +19,21 @@ pub struct ClipSet {
     pub rejected: Vec<Rejection>,
 }
 
+impl ClipSet {
+    /// Adds a rejection, unless the machine failed.
+    fn reject(&mut self, rejection: Rejection) -> Result<(), CompileError> {
+        if rejection.reason.is_of_machine() {
+            return Err(CompileError::ClipUnread(Box::new(rejection)));
+        }
+        self.rejected.push(rejection);
+        Ok(())
+    }
+}
+
 /// Imports all clips of a manifest. A file that cannot be used is rejected and does not stop the others.
 ///
 /// # Errors
-/// [`CompileError::InvalidManifest`] if a clip contradicts the manifest.
+/// [`CompileError::InvalidManifest`] if a clip contradicts the manifest; [`CompileError::ClipUnread`].
 pub fn import_clip_set(manifest: &Manifest, observer: &Observer) -> Result<ClipSet, CompileError> {
     observer(CompileEvent::Stage("import"));
     let import = |settings: &ClipSettings| {
@@ -33,16 +44,19 @@ pub fn import_clip_set(manifest: &Manifest, observer: &Observer) -> Result<ClipS
     let imports: Vec<Result<Vec<ImportedClip>, Rejection>> = manifest.clips.par_iter().map(import).collect();
     let mut set = ClipSet::default();
     for (settings, imported) in manifest.clips.iter().zip(imports) {
-        let imported = imported.unwrap_or_else(|rejection| {
-            set.rejected.push(rejection);
-            Vec::new()
-        });
+        let imported = match imported {
+            Ok(imported) => imported,
+            Err(rejection) => {
+                set.reject(rejection)?;
+                continue;
+            }
+        };
         for ImportedClip { clip, outcome, .. } in imported {
             match outcome {
                 Ok(human) => set.clips.push(human),
                 Err(reason) => {
                     manifest.check_reason(settings, &reason)?;
-                    set.rejected.push(Rejection { file: settings.path.display().to_string(), clip, reason });
+                    set.reject(Rejection { file: settings.path.display().to_string(), clip, reason })?;
                 }
             }
         }

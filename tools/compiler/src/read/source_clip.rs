@@ -8,10 +8,25 @@ use std::ops::Range;
 use glam::{DQuat, DVec3};
 use motiondb::diagnostic::Diagnostic;
 
+use crate::error::RejectionReason;
 use crate::read::axis::Axis;
 
 /// Greatest number of joints of a clip; the largest rig of the development set, with face and fingers, has 165.
 pub(crate) const MAX_JOINTS: usize = 4096;
+
+/// Greatest number of frames of a clip: two hours at 30 Hz, 34 minutes at 120 Hz. The analysis of its gait takes up to
+/// 9 KB a frame.
+pub(crate) const MAX_FRAMES: usize = 250_000;
+/// Greatest number of joint-frames of a clip, 1.1 GB: 80 joints in each of the most frames.
+pub(crate) const MAX_JOINT_FRAMES: usize = 20_000_000;
+
+/// An empty list with room for a number of values.
+pub(crate) fn with_room<T>(count: usize) -> Result<Vec<T>, RejectionReason> {
+    let mut values = Vec::new();
+    let out_of_memory = |_| RejectionReason::OutOfMemory { mib: (count * size_of::<T>()) >> 20 };
+    values.try_reserve_exact(count).map_err(out_of_memory)?;
+    Ok(values)
+}
 
 /// One joint of a source skeleton.
 #[derive(Clone, Debug, PartialEq)]

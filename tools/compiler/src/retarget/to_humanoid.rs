@@ -27,34 +27,38 @@ const CROWN_OVER_LEG: f64 = 0.24;
 /// Distance of the fingertips from the wrist where the source has no such joint, over leg length, as adults have it.
 const HAND_OVER_LEG: f64 = 0.21;
 
-/// The clip on the canonical humanoid.
+/// The clip on the canonical humanoid. The source is freed before the poses are made: a clip of an hour has gigabytes.
 pub(crate) fn to_human(
-    clip: &SourceClip,
+    clip: SourceClip,
     roles: &Roles,
     units: &SourceUnits,
     parameters: SourceParameters,
     name: String,
 ) -> HumanClip {
-    let leg_m = leg_length(clip, roles);
-    let forward = forward(clip, roles);
-    let anchors = anchors(clip, roles, &forward, leg_m);
+    let leg_m = leg_length(&clip, roles);
+    let forward = forward(&clip, roles);
+    let anchors = anchors(&clip, roles, &forward, leg_m);
     let positions_m: Vec<[DVec3; JOINT_COUNT]> =
-        (0..clip.frame_count()).map(|frame| positions(clip, roles, &anchors, frame)).collect();
-    let tracks = JointTracks { clip, roles, anchors: &anchors, positions_m: &positions_m, forward: &forward };
+        (0..clip.frame_count()).map(|frame| positions(&clip, roles, &anchors, frame)).collect();
+    let tracks = JointTracks { clip: &clip, roles, anchors: &anchors, positions_m: &positions_m, forward: &forward };
     let mut orientations = calibrated(&tracks);
     for (turns, positions) in orientations.iter_mut().zip(&positions_m) {
         aim_pelvis(turns, positions);
     }
     let offsets_m = mean_offsets(&positions_m, &orientations);
     let soles = soles(&tracks, &orientations, leg_m);
-    let frames = poses(&offsets_m, &positions_m, &orientations, soles.ground_m);
+    let ground_m = soles.ground_m;
+    let body = body(&tracks, &orientations, offsets_m, soles, leg_m);
+    let source = record(&clip, units, parameters);
+    let (first_frame, frame_rate_hz) = (clip.first_frame, clip.frame_rate_hz);
+    drop(clip);
     HumanClip {
         name,
-        source: record(clip, units, parameters),
-        first_frame: clip.first_frame,
-        frame_rate_hz: clip.frame_rate_hz,
-        body: body(&tracks, &orientations, offsets_m, soles, leg_m),
-        frames,
+        source,
+        first_frame,
+        frame_rate_hz,
+        body,
+        frames: poses(&offsets_m, &positions_m, &orientations, ground_m),
         in_place_mps: parameters.is_in_place.then(|| DVec2::new(parameters.speed_mps, parameters.strafe_mps)),
         unfit: None,
         choices: Choices::default(),

@@ -175,7 +175,10 @@ fn reach_mps(ground: DVec2, scale: f64) -> f64 {
 fn densest(votes: &[SlideVote], scale: f64) -> DVec2 {
     let density = |at: DVec2| {
         let reach = reach_mps(at, scale);
-        let near = |vote: &SlideVote| vote.weight * (1.0 - (vote.velocity.distance(at) / reach).powi(2)).max(0.0);
+        let near = |vote: &SlideVote| {
+            let share = vote.velocity.distance(at) / reach;
+            vote.weight * (1.0 - share * share).max(0.0)
+        };
         votes.iter().map(near).sum::<f64>()
     };
     let starts =

@@ -129,8 +129,8 @@ fn standing_weight(rig: &SourceRig, pair: &LimbPair) -> f64 {
     let length = pair.limbs[0].length.max(1e-12);
     let height_over_others = |own: &[usize]| rig.mean(|frame| (lowest(frame, own) - lowest(frame, &others)).max(0.0));
     let gap = f64::max(height_over_others(&own[0]), height_over_others(&own[1])) / length;
-    let from_fork = rig.mean_distance(pair.fork, pair.limbs[0].joints[0]) / length;
-    (1.0 - gap).max(HANGING_WEIGHT) * libm::exp(-0.5 * (from_fork / HIP_FROM_FORK).powi(2)) * bending_weight(rig, pair)
+    let from_fork = rig.mean_distance(pair.fork, pair.limbs[0].joints[0]) / length / HIP_FROM_FORK;
+    (1.0 - gap).max(HANGING_WEIGHT) * libm::exp(-0.5 * (from_fork * from_fork)) * bending_weight(rig, pair)
 }
 
 /// Weight of arms: 1 where they are as long as arms, begin at the height of shoulders, and bend.
@@ -173,7 +173,8 @@ pub(crate) fn lengthwise_share(rig: &SourceRig, legs: &LimbPair, arms: &LimbPair
     let length = rig.mean_vector(|frame| middle(rig, frame, arms, 0) - middle(rig, frame, legs, 2));
     let length = length.normalize_or_zero();
     let travel = rig.mean(|frame| (hips(frame) - centre).length_squared()).sqrt();
-    let along = rig.mean(|frame| (hips(frame) - centre).dot(length).powi(2)).sqrt();
+    let ahead = |frame| (hips(frame) - centre).dot(length);
+    let along = rig.mean(|frame| ahead(frame) * ahead(frame)).sqrt();
     if travel > TRAVEL_MIN * legs.limbs[0].length { along / travel } else { 0.0 }
 }
 

@@ -36,17 +36,17 @@ const FLOAT: u32 = 5126;
 pub(crate) fn rotation(joint: usize, frame: usize) -> [f32; 4] {
     let phase = std::f64::consts::TAU * frame as f64 / 30.0;
     let degrees = match joint {
-        1 => -25.0 * phase.sin(),
-        5 => 25.0 * phase.sin(),
-        2 => 20.0 - 18.0 * phase.cos(),
-        6 => 20.0 + 18.0 * phase.cos(),
-        11 => 20.0 * phase.sin(),
-        14 => -20.0 * phase.sin(),
+        1 => -25.0 * libm::sin(phase),
+        5 => 25.0 * libm::sin(phase),
+        2 => 20.0 - 18.0 * libm::cos(phase),
+        6 => 20.0 + 18.0 * libm::cos(phase),
+        11 => 20.0 * libm::sin(phase),
+        14 => -20.0 * libm::sin(phase),
         12 | 15 => -15.0,
         _ => 0.0,
     };
     let half = degrees.to_radians() / 2.0;
-    [half.sin() as f32, 0.0, 0.0, half.cos() as f32]
+    [libm::sin(half) as f32, 0.0, 0.0, libm::cos(half) as f32]
 }
 
 /// 1.2 m/s along +Z.

@@ -66,7 +66,7 @@ fn bodies_not_carried_by_level_ground_are_reported() {
     let jumped = |frame: usize, row: &mut Vec<f64>| {
         still(row);
         row[2] = 0.0;
-        row[1] += 40.0 * (0.3 * frame as f64).sin().max(0.0);
+        row[1] += 40.0 * libm::sin(0.3 * frame as f64).max(0.0);
     };
     let jump = warning(&rows(jumped));
     assert!(matches!(jump, Warning::Jump { lift_cm } if (39.0..=41.0).contains(&lift_cm)), "{jump:?}");

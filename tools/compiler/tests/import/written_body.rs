@@ -34,12 +34,12 @@ pub const FRAMES: usize = 40;
 fn flexion(joint: usize, frame: usize) -> f64 {
     let phase = std::f64::consts::TAU * frame as f64 / 30.0;
     match joint {
-        1 => -25.0 * phase.sin(),
-        5 => 25.0 * phase.sin(),
-        2 => 20.0 - 18.0 * phase.cos(),
-        6 => 20.0 + 18.0 * phase.cos(),
-        11 => 20.0 * phase.sin(),
-        14 => -20.0 * phase.sin(),
+        1 => -25.0 * libm::sin(phase),
+        5 => 25.0 * libm::sin(phase),
+        2 => 20.0 - 18.0 * libm::cos(phase),
+        6 => 20.0 + 18.0 * libm::cos(phase),
+        11 => 20.0 * libm::sin(phase),
+        14 => -20.0 * libm::sin(phase),
         12 | 15 => -15.0,
         _ => 0.0,
     }
@@ -84,7 +84,7 @@ pub fn bvh_text() -> String {
 pub fn gltf_text(interpolation: &str) -> String {
     let quaternion = |joint, frame| {
         let half = flexion(joint, frame).to_radians() / 2.0;
-        [half.sin(), 0.0, 0.0, half.cos()]
+        [libm::sin(half), 0.0, 0.0, libm::cos(half)]
     };
     let cubic = interpolation == "CUBICSPLINE";
     let mut floats: Vec<f32> = (0..FRAMES).map(|frame| frame as f32 / 30.0 + 1.0 / 30.0).collect();

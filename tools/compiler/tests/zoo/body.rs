@@ -62,7 +62,7 @@ impl Performance {
     /// `walk_110` …, at 30 frames a second.
     pub(crate) fn read(clip: &str) -> Self {
         let path = Path::new(CLIPS).join(format!("{clip}.bvh"));
-        let source = bvh::read(&path, &std::fs::read(&path).unwrap()).unwrap();
+        let source = bvh::read(&path, &std::fs::read(&path).unwrap()[..]).unwrap();
         let joints = PARTS.map(|name| source.joints.iter().position(|joint| joint.name == name).unwrap());
         let pose = |frame: usize| Pose {
             hips_m: 0.01 * source.position(frame, joints[0]),
@@ -142,7 +142,7 @@ impl Performance {
     pub(crate) fn stand_after(&mut self, stand_s: f64, blend_s: f64) {
         let last = self.poses[self.poses.len() - 1].clone();
         let facing = last.turns[0] * DVec3::Z;
-        let turn = DQuat::from_rotation_y(facing.x.atan2(facing.z));
+        let turn = DQuat::from_rotation_y(libm::atan2(facing.x, facing.z));
         let stand = Pose { hips_m: last.hips_m.with_y(0.93), turns: [turn; 22] };
         let mut poses = self.transition(&stand, &last, stand_s, blend_s);
         poses.reverse();
@@ -169,7 +169,7 @@ impl Performance {
         let frames = (blend_s * self.frame_rate_hz).ceil();
         for (frame, pose) in self.poses.iter_mut().enumerate().take(frames as usize) {
             let facing = pose.turns[0] * DVec3::Z;
-            let turn = DQuat::from_rotation_y(facing.x.atan2(facing.z));
+            let turn = DQuat::from_rotation_y(libm::atan2(facing.x, facing.z));
             let stand = Pose { hips_m: pose.hips_m, turns: [turn; 22] };
             *pose = stand.lerp(pose, frame as f64 / frames);
         }
@@ -199,7 +199,7 @@ impl Performance {
     pub(crate) fn t_pose(&self) -> Pose {
         let hips_m = self.poses[0].hips_m;
         let facing = self.poses[0].turns[0] * DVec3::Z;
-        let turn = DQuat::from_rotation_y(facing.x.atan2(facing.z));
+        let turn = DQuat::from_rotation_y(libm::atan2(facing.x, facing.z));
         Pose { hips_m: hips_m.with_y(0.93), turns: [turn; 22] }
     }
 }

@@ -66,7 +66,7 @@ impl Creature {
 
     fn numbers(&self, text: &mut String, joint: usize, frame: i32) {
         let phase = f64::from(frame) * 0.2 + 2.4 * joint as f64;
-        let swing = if joint == 0 { 0.0 } else { 12.0 * phase.sin() };
+        let swing = if joint == 0 { 0.0 } else { 12.0 * libm::sin(phase) };
         let _ = write!(text, " 0 {swing:.4} 0");
         self.children(joint).for_each(|child| self.numbers(text, child, frame));
     }

@@ -25,8 +25,9 @@ pub(crate) fn title(file: &str, clip: &str) -> String {
 }
 
 /// 0 without sign for a value that is printed as 0 with this number of decimals.
-pub(crate) fn unsigned_zero(value: f32, decimals: i32) -> f32 {
-    if value.abs() <= 0.5 * 10.0_f32.powi(-decimals) { 0.0 } else { value }
+pub(crate) fn unsigned_zero(value: f32, decimals: usize) -> f32 {
+    let last_digits = (0..decimals).fold(value.abs(), |digits, _| 10.0 * digits);
+    if last_digits <= 0.5 { 0.0 } else { value }
 }
 
 #[cfg(test)]

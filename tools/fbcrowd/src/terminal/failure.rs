@@ -12,6 +12,7 @@ use fbcrowd_sim::scenario::ScenarioError;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use motiondb::files::Invalid;
 use motiondb::files::database_file::FileError;
+use motiondb::files::input_file::is_of_machine;
 use motiondb::files::temporary_files::{self, CompletedOutputs};
 use motiondb::motion::SourceRecord;
 use motiondb_compiler::Rejection;
@@ -166,6 +167,8 @@ impl From<BenchError> for Failure {
     fn from(error: BenchError) -> Self {
         match error {
             BenchError::Job(error) => Self::of_job(error),
+            BenchError::Unreadable { ref source, .. } if is_of_machine(source) => Self::of_machine(error.to_string()),
+            BenchError::Threads { .. } => Self::of_machine(error.to_string()),
             other => Self::bad(other.to_string()),
         }
     }

@@ -129,7 +129,7 @@ impl PlotFigure {
 
     /// Writes a small note.
     pub(crate) fn note(&mut self, text: &str, at_px: Vec2, anchor: TextAnchor, colour: Rgb) {
-        self.note_face.draw_with_halo(&mut self.pixmap, text, at_px, anchor, [colour, PAPER]);
+        self.note_face.draw_with_halo(&mut self.pixmap, 0, text, at_px, anchor, [colour, PAPER]);
     }
 
     /// Writes the names of points beside them; names of points at one position share a line. Points with an empty name

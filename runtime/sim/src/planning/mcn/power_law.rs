@@ -72,7 +72,7 @@ mod tests {
     /// E(τ) = k τ⁻² e^(−τ/τ_0), in f64 from here on, so that its differences mean something.
     fn energy(time_s: f32) -> f64 {
         let time_s = f64::from(time_s);
-        f64::from(LAW.strength) / (time_s * time_s) * (-time_s / f64::from(LAW.horizon_s)).exp()
+        f64::from(LAW.strength) / (time_s * time_s) * libm::exp(-time_s / f64::from(LAW.horizon_s))
     }
 
     /// −∇E by the own position, by central differences.

@@ -8,12 +8,13 @@ use crate::recording::chunk::ChunkFile;
 use crate::recording::error::RecordingError;
 use crate::recording::format::{HEAD, HEAD_BYTE, INDEX};
 use crate::recording::header::{Header, RecordedDatabase};
+use crate::recording::reader::INDEX_LIMIT_BYTES;
 use crate::recording::version_1::body::{SkeletonV1, VelocityHullV1};
 use crate::recording::version_1::params::ParamsV1;
 use crate::scenario::{AgentSpec, Coupling, Scenario, View};
 
-/// Size beyond which no header is decoded, bytes; none of a million agents with waypoints comes near.
-const HEADER_LIMIT_BYTES: usize = 1 << 30;
+/// Size beyond which no header is decoded, bytes; that of a million agents with ten waypoints each has 150 MB.
+const HEADER_LIMIT_BYTES: usize = 256 << 20;
 
 /// The header as version 1 wrote it.
 #[derive(Deserialize)]
@@ -74,7 +75,7 @@ struct ViewV1 {
 
 /// Decodes and checks the `HEAD` chunk of a file of version 1.
 pub(crate) fn read_header(file: &ChunkFile) -> Result<Header, RecordingError> {
-    let payload = file.read_chunk(HEAD_BYTE, HEAD)?;
+    let payload = file.read_chunk(HEAD_BYTE, HEAD, HEADER_LIMIT_BYTES as u64)?;
     let config = bincode::config::standard().with_fixed_int_encoding().with_limit::<HEADER_LIMIT_BYTES>();
     let (header, used) = bincode::serde::decode_from_slice::<HeaderV1, _>(&payload, config)
         .map_err(|error| file.damaged(HEAD_BYTE, format!("the header cannot be decoded ({error})")))?;
@@ -88,7 +89,7 @@ pub(crate) fn read_header(file: &ChunkFile) -> Result<Header, RecordingError> {
 
 /// The byte at which each frame's chunk begins, from an index of version 1.
 pub(crate) fn read_index(file: &ChunkFile, index_byte: u64) -> Result<Vec<u64>, RecordingError> {
-    let index = file.read_chunk(index_byte, INDEX)?;
+    let index = file.read_chunk(index_byte, INDEX, INDEX_LIMIT_BYTES)?;
     let (bytes @ [_, ..], []) = index.as_chunks::<8>() else {
         return Err(file.damaged(index_byte, "the index is empty or not whole"));
     };

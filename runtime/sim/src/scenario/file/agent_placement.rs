@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use glam::Vec2;
-use motiondb::files::{Invalid, SourceText};
+use motiondb::files::{Invalid, SourceText, input_file};
 use toml::Spanned;
 
 use crate::behaviour::Behaviour;
@@ -15,10 +15,11 @@ use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_area::{AgentArea, AreaDisc, TakenGround};
 use crate::scenario::file::agent_groups::{AgentGroup, AgentGroups, AgentLayout, GroupFault, Journey, check_size};
-use crate::scenario::file::agent_lines::{is_agent_file, line_span, parse_lines};
+use crate::scenario::file::agent_lines::{AgentLines, LineRoom, is_agent_file, line_span, parse_lines};
 use crate::scenario::file::behaviour::StateNames;
 use crate::scenario::file::profile_tables::Profiles;
 use crate::scenario::profile::DrawnNumbers;
+use crate::scenario::ranges::AGENTS_MAX;
 use crate::world::obstacles::Obstacles;
 
 /// First random stream of the numbers of agents, one for each table.
@@ -55,7 +56,7 @@ impl PlacedAgents {
     /// Places the agents of all tables; each table draws its random numbers from streams of its own. Areas come last,
     /// since their agents keep apart from all others.
     pub(crate) fn new(input: &PlacementInput<'_>, groups: &Spanned<AgentGroups>) -> Result<Self, ScenarioError> {
-        let mut placing = Placing { input, agents: 0, waypoints: 0 };
+        let mut placing = Placing { input, agents: 0, waypoints: 0, line_bytes: 0 };
         let tables: Vec<(Range<usize>, &AgentGroup)> = groups
             .get_ref()
             .0
@@ -113,9 +114,16 @@ struct Placing<'a> {
     agents: usize,
     /// Number of their waypoints.
     waypoints: usize,
+    /// Length of all agent files, bytes.
+    line_bytes: usize,
 }
 
 impl Placing<'_> {
+    /// What the agent files of further tables may hold.
+    fn line_room(&self) -> LineRoom {
+        LineRoom { agents: AGENTS_MAX - self.agents, used_bytes: self.line_bytes }
+    }
+
     /// The agents of a table with explicit positions; none of an area.
     fn explicit(
         &mut self,
@@ -123,8 +131,9 @@ impl Placing<'_> {
         span: &Range<usize>,
         group: &AgentGroup,
     ) -> Result<TableAgents, ScenarioError> {
-        let (journeys, lines) =
-            journeys(self.input.source, group, span, SplitMix64::new(self.input.seed, stream as u64))?;
+        let random = SplitMix64::new(self.input.seed, stream as u64);
+        let (journeys, lines) = journeys(self.input.source, group, span, random, self.line_room())?;
+        self.line_bytes += lines.as_ref().map_or(0, |lines| lines.text.len());
         let numbers = self.numbers(stream, span, group, journeys.len())?;
         Ok(TableAgents { agents: self.agents(span, group, journeys, &numbers)?, lines })
     }
@@ -192,6 +201,7 @@ fn journeys(
     group: &AgentGroup,
     span: &Range<usize>,
     random: SplitMix64,
+    room: LineRoom,
 ) -> Result<(Vec<Journey>, Option<SourceText>), ScenarioError> {
     let at_table = |(message, help): GroupFault| ScenarioError::from(source.invalid(span.clone(), message, help));
     let journeys = match group.layout().map_err(at_table)? {
@@ -200,16 +210,19 @@ fn journeys(
         AgentLayout::Grid(grid) => group.grid_journeys(grid, random),
         AgentLayout::Area(_) => Ok(Vec::new()),
         AgentLayout::File(name) => {
-            let lines = read_lines(source, name)?;
-            return Ok((journeys_of_lines(&lines)?, Some(lines)));
+            let AgentLines { source: lines, journeys } = read_lines(source, name, room)?;
+            return Ok((journeys.map_err(|fault| wrong_line(&lines, fault))?, Some(lines)));
         }
     };
     Ok((journeys.map_err(at_table)?, None))
 }
 
-fn read_lines(source: &SourceText, name: &Spanned<String>) -> Result<SourceText, ScenarioError> {
+fn read_lines(source: &SourceText, name: &Spanned<String>, room: LineRoom) -> Result<AgentLines, ScenarioError> {
     let path = source.beside(Path::new(name.get_ref()));
-    SourceText::read(&path).map_err(|error| {
+    AgentLines::read(&path, room).map_err(|error| {
+        if input_file::is_of_machine(&error) {
+            return ScenarioError::Unreadable { path: path.clone(), source: error };
+        }
         let message = match error.kind() {
             ErrorKind::NotFound => format!("{} does not exist", path.display()),
             _ => format!("{} cannot be read: {error}", path.display()),
@@ -218,12 +231,11 @@ fn read_lines(source: &SourceText, name: &Spanned<String>) -> Result<SourceText,
     })
 }
 
-fn journeys_of_lines(lines: &SourceText) -> Result<Vec<Journey>, ScenarioError> {
-    parse_lines(&lines.text).map_err(|(span, message)| {
-        let is_quotable = is_agent_file(&lines.text);
-        let message = if is_quotable { message } else { "this is not an agent's line".to_owned() };
-        Invalid { is_quotable, ..lines.invalid(span, message, "write `x y goal_x goal_y`, in metres") }.into()
-    })
+/// The error of a line that is not an agent's, or has no room.
+fn wrong_line(lines: &SourceText, (span, message): (Range<usize>, String)) -> ScenarioError {
+    let is_quotable = is_agent_file(&lines.text);
+    let message = if is_quotable { message } else { "this is not an agent's line".to_owned() };
+    Invalid { is_quotable, ..lines.invalid(span, message, "write `x y goal_x goal_y`, in metres") }.into()
 }
 
 /// The agents of lines `x y goal_x goal_y`, with the default disc and speed, each facing its goal.
@@ -234,7 +246,8 @@ pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioErr
     let (group, behaviour) = (AgentGroup::default(), Behaviour::default());
     let AgentSpec { preferred_speed_mps, radius_m, pre_movement_s, .. } = AgentSpec::default();
     let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s };
-    Ok(journeys_of_lines(lines)?.into_iter().map(|journey| group.agent(journey, numbers, &behaviour, 0)).collect())
+    let journeys = parse_lines(&lines.text).map_err(|fault| wrong_line(lines, fault))?;
+    Ok(journeys.into_iter().map(|journey| group.agent(journey, numbers, &behaviour, 0)).collect())
 }
 
 /// The error that agents of lines break a rule, at the line of the agent.

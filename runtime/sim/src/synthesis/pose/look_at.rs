@@ -132,7 +132,7 @@ mod tests {
         LookAt { angle_rad: 0.5, rate_rad_s: 0.0 }.turn(&mut pose, &skeleton);
         let (before, after) = (STANDING.forward_kinematics(&skeleton), pose.forward_kinematics(&skeleton));
         let ahead = after.orientations[Joint::Head.index()] * Vec3::X;
-        assert!((ahead.y.atan2(ahead.x) - 0.5).abs() < 1e-4);
+        assert!((libm::atan2f(ahead.y, ahead.x) - 0.5).abs() < 1e-4);
         let legs = Joint::LeftThigh.index()..;
         assert_eq!(before.positions_m[legs.clone()], after.positions_m[legs]);
     }

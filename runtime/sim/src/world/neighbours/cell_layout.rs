@@ -255,7 +255,7 @@ mod tests {
             |agent: usize| within(&mut random, 30.0) + Vec2::splat(if agent.is_multiple_of(2) { 0.0 } else { 1e4 });
         check(&(0..COUNT).map(two_crowds).collect::<Vec<_>>());
         let mut stragglers = crowd.clone();
-        (0..12).for_each(|power| stragglers[power] = Vec2::splat(200.0 * 2.0_f32.powi(power as i32)));
+        (0..12).for_each(|power| stragglers[power] = Vec2::splat(200.0 * (1 << power) as f32));
         check(&stragglers);
         let pile = |agent: usize| within(&mut random, if agent.is_multiple_of(2) { 1e-3 } else { 100.0 });
         check(&(0..COUNT).map(pile).collect::<Vec<_>>());

@@ -11,11 +11,11 @@ use crate::read::bvh::prepass::CheckedBvh;
 impl CheckedBvh {
     /// The canonical text with at most `frames` frames. Joint `j<N>` is the N-th of `joints`.
     pub(crate) fn text(&self, frames: usize) -> String {
-        let MotionSection { frame_time_s, values, rows } = &self.motion;
-        let frames = frames.min(*rows);
+        let MotionSection { frame_time_s, row_count, .. } = &self.motion;
+        let frames = frames.min(*row_count);
         let mut text = canonical_hierarchy(&self.joints);
         let _ = write!(text, "MOTION\nFrames: {frames}\nFrame Time: {frame_time_s}\n");
-        for row in values.chunks(values.len() / rows).take(frames) {
+        for row in self.motion.rows().take(frames) {
             for value in row {
                 let _ = write!(text, "{value} ");
             }

@@ -1,14 +1,18 @@
 //! The HIERARCHY section of a BVH text → checked joints. Each statement is checked against the joints that are open.
 
+use std::io::BufRead;
+
 use glam::DVec3;
 
 use crate::error::RejectionReason;
-use crate::read::bvh::lines::{number, quoted};
+use crate::read::bvh::lines::{TextLines, number, quoted};
 use crate::read::malformed::malformed_line;
 use crate::read::source_clip::MAX_JOINTS;
 
 /// Greatest nesting of joints; the deepest rig of the development set, with face and fingers, has 24.
 const MAX_DEPTH: usize = 256;
+/// Greatest length of a line of the hierarchy, bytes.
+const LINE_MAX_BYTES: usize = 4096;
 /// Names of all channels.
 const CHANNELS: [&str; 6] = ["Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"];
 
@@ -28,12 +32,14 @@ pub(crate) struct CheckedJoint {
 }
 
 /// The joints in file order, and the number of the line that holds `MOTION`.
-pub(crate) fn checked_hierarchy<'a>(
-    lines: impl Iterator<Item = (usize, &'a str)>,
+pub(crate) fn checked_hierarchy<R: BufRead>(
+    lines: &mut TextLines<R>,
 ) -> Result<(Vec<CheckedJoint>, usize), RejectionReason> {
     let mut reader = HierarchyReader::default();
     let mut last_line = 1;
-    for (line, text) in lines {
+    while let Some(line) = lines.next()? {
+        line.check_length(LINE_MAX_BYTES)?;
+        let (line, text) = (line.number, line.text());
         if text.eq_ignore_ascii_case("MOTION") {
             reader.finish(line)?;
             return Ok((reader.joints, line));

@@ -10,10 +10,11 @@ use std::path::Path;
 use bvh_anim::{Axis, Bvh, Channel};
 use glam::{DQuat, DVec3};
 
+use crate::error::RejectionReason;
 use crate::read::bvh::hierarchy::CheckedJoint;
 use crate::read::bvh::motion_section::MotionSection;
 use crate::read::bvh::prepass::CheckedBvh;
-use crate::read::source_clip::{SourceClip, SourceJoint};
+use crate::read::source_clip::{SourceClip, SourceJoint, with_room};
 
 /// How one joint moves in its parent's frame.
 struct JointMotion {
@@ -33,42 +34,61 @@ struct ChannelColumn {
 }
 
 /// The clip of a checked BVH; `bvh` gives the channels of its joints.
-pub(crate) fn posed_clip(file: &Path, checked: CheckedBvh, bvh: &Bvh) -> SourceClip {
-    let MotionSection { frame_time_s, values, rows } = &checked.motion;
+pub(crate) fn posed_clip(file: &Path, checked: CheckedBvh, bvh: &Bvh) -> Result<SourceClip, RejectionReason> {
     let motions = joint_motions(&checked, bvh);
-    let mut positions = Vec::with_capacity(rows * motions.len());
-    let mut orientations: Vec<DQuat> = Vec::with_capacity(rows * motions.len());
-    for row in values.chunks(values.len() / rows) {
-        let start = positions.len();
-        for (motion, joint) in motions.iter().zip(&checked.joints) {
+    let CheckedBvh { joints, motion: MotionSection { frame_time_s, blocks, channels, row_count }, diagnostics } =
+        checked;
+    let mut poses = GlobalPoses::with_room(row_count * joints.len())?;
+    // Each block is freed before the next one is posed: both forms of a clip are never held at once.
+    for block in blocks {
+        block.chunks_exact(channels).for_each(|row| poses.push(row, &motions, &joints));
+    }
+    Ok(SourceClip {
+        file: file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+        clip: String::new(),
+        joints: joints.into_iter().map(source_joint).collect(),
+        first_frame: 0,
+        frame_rate_hz: 1.0 / frame_time_s,
+        positions: poses.positions,
+        orientations: poses.orientations,
+        up_axis: None,
+        metres_per_unit: None,
+        diagnostics,
+    })
+}
+
+/// Global positions and orientations of the frames so far.
+struct GlobalPoses {
+    positions: Vec<DVec3>,
+    orientations: Vec<DQuat>,
+}
+
+impl GlobalPoses {
+    /// Room for a number of joint-frames.
+    fn with_room(joint_frames: usize) -> Result<Self, RejectionReason> {
+        Ok(Self { positions: with_room(joint_frames)?, orientations: with_room(joint_frames)? })
+    }
+
+    /// Appends one frame.
+    fn push(&mut self, row: &[f64], motions: &[JointMotion], joints: &[CheckedJoint]) {
+        let start = self.positions.len();
+        for (motion, joint) in motions.iter().zip(joints) {
             let (offset, rotation) = motion.local(row);
             let (position, orientation) = match joint.parent.map(|parent| start + parent) {
                 Some(parent) => {
-                    let turn = orientations[parent];
-                    (positions[parent] + turn * offset, if joint.is_end { turn } else { turn * rotation })
+                    let turn = self.orientations[parent];
+                    (self.positions[parent] + turn * offset, if joint.is_end { turn } else { turn * rotation })
                 }
                 None => (offset, rotation),
             };
-            positions.push(position);
-            orientations.push(orientation.normalize());
+            self.positions.push(position);
+            self.orientations.push(orientation.normalize());
         }
-    }
-    SourceClip {
-        file: file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
-        clip: String::new(),
-        joints: checked.joints.iter().map(source_joint).collect(),
-        first_frame: 0,
-        frame_rate_hz: 1.0 / frame_time_s,
-        positions,
-        orientations,
-        up_axis: None,
-        metres_per_unit: None,
-        diagnostics: checked.diagnostics,
     }
 }
 
-fn source_joint(joint: &CheckedJoint) -> SourceJoint {
-    SourceJoint { name: joint.name.clone(), parent: joint.parent, is_end: joint.is_end }
+fn source_joint(joint: CheckedJoint) -> SourceJoint {
+    SourceJoint { name: joint.name, parent: joint.parent, is_end: joint.is_end }
 }
 
 impl JointMotion {
@@ -118,8 +138,7 @@ fn carrier_count(joints: &[CheckedJoint]) -> usize {
 fn is_relative(offset: DVec3, channels: &[ChannelColumn], motion: &MotionSection) -> bool {
     let mut mean = offset;
     for channel in channels.iter().filter(|channel| channel.is_position) {
-        let values = motion.values.iter().skip(channel.column).step_by(motion.values.len() / motion.rows);
-        mean[channel.axis] = values.sum::<f64>() / motion.rows as f64;
+        mean[channel.axis] = motion.rows().map(|row| row[channel.column]).sum::<f64>() / motion.row_count as f64;
     }
     mean.length() < (mean - offset).length()
 }

@@ -8,7 +8,8 @@
 //! `prepass` reads the text first. It checks every statement of the hierarchy (`hierarchy`) and every number of the
 //! motion (`motion_section`, as `f64`), and names the line of each mistake. It accepts files as other tools write them:
 //! a byte order mark, CR or CRLF, any case of keywords, a brace beside a keyword, leaves without an End Site, a wrong
-//! `Frames:`, text after the last row. No allocation is larger than the file's bytes justify.
+//! `Frames:`, text after the last row. It reads line by line and limits the length of lines, the number of joints and the
+//! number of frames.
 //!
 //! # Why both
 //! `bvh_anim` alone cannot read files as other tools write them. It panics on a byte order mark, a joint without a
@@ -29,6 +30,7 @@ mod lines;
 mod motion_section;
 pub(crate) mod prepass;
 
+use std::io::BufRead;
 use std::path::Path;
 
 use crate::error::RejectionReason;
@@ -40,13 +42,14 @@ pub fn canonical_text(bytes: &[u8]) -> Option<String> {
     prepass::check(bytes).ok().map(|checked| checked.text(usize::MAX))
 }
 
-/// The clip of a BVH file's bytes; `file` gives the clip's file name.
+/// The clip of a BVH file, which is read piece by piece; `file` gives the clip's file name.
 ///
 /// # Errors
-/// [`RejectionReason::Malformed`] at the line that breaks the format.
-pub fn read(file: &Path, bytes: &[u8]) -> Result<SourceClip, RejectionReason> {
-    let checked = prepass::check(bytes)?;
+/// [`RejectionReason::Malformed`] at the line that breaks the format; [`RejectionReason::Unreadable`] and
+/// [`RejectionReason::OutOfMemory`].
+pub fn read(file: &Path, reader: impl BufRead) -> Result<SourceClip, RejectionReason> {
+    let checked = prepass::check(reader)?;
     let channels = bvh_anim::from_str(&checked.text(0))
         .or_else(|error| malformed_line(1, error.to_string(), "export the clip again"))?;
-    Ok(kinematics::posed_clip(file, checked, &channels))
+    kinematics::posed_clip(file, checked, &channels)
 }

@@ -31,8 +31,14 @@ impl ElementType {
     }
 }
 
+/// Count of the numbers of an accessor. Fails where its bytes do not exist.
+pub(crate) fn number_count(document: &Document, index: usize) -> Result<usize, RejectionReason> {
+    let width = element_type(index, accessor(document, index)?, false)?.width;
+    Ok(count(document, index)?.saturating_mul(width))
+}
+
 /// Number of elements of an accessor. Fails where its bytes do not exist.
-pub(crate) fn count(document: &Document, index: usize) -> Result<usize, RejectionReason> {
+fn count(document: &Document, index: usize) -> Result<usize, RejectionReason> {
     let accessor = accessor(document, index)?;
     let count = usize::try_from(accessor.count.0).unwrap_or(usize::MAX);
     let has_bytes = match accessor.buffer_view {
@@ -64,7 +70,7 @@ pub(crate) fn numbers(
     Ok(AccessorNumbers { width: element.width, values })
 }
 
-fn accessor<'a>(document: &'a Document, index: usize) -> Result<&'a Accessor, RejectionReason> {
+fn accessor(document: &Document, index: usize) -> Result<&Accessor, RejectionReason> {
     document.root.accessors.get(index).map_or_else(|| missing_bytes(index), Ok)
 }
 

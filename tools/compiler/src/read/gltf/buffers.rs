@@ -3,8 +3,7 @@
 //! Never more bytes than exist, and nothing outside the document's folder unless the user allows it: neither a path nor
 //! a link of a clip makes us read other files.
 
-use std::borrow::Cow;
-use std::io::Read;
+use std::io::{Read, Seek, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 
 use base64::Engine;
@@ -14,6 +13,7 @@ use gltf::json;
 use motiondb::files::input_file;
 
 use crate::error::RejectionReason;
+use crate::read::gltf::chunks::{self, BYTES_MAX, BinaryChunk};
 use crate::read::malformed::malformed;
 
 /// Base64 with or without padding: some exporters leave it out.
@@ -26,30 +26,37 @@ const MOVE_OR_ALLOW: &str = "move the .bin file beside the .gltf file, or allow 
 /// Remedy for a buffer in a file that cannot be read.
 const KEEP_BESIDE: &str = "keep the .bin file beside the .gltf file, or export a .glb";
 
-/// Bytes of one buffer. `chunk` is the binary chunk of a GLB file, which belongs to the first buffer.
-pub(crate) fn read<'a>(
-    file: &Path,
+/// Bytes of one buffer, as many as the document states. `chunk` is the file and its binary chunk, which belongs to the
+/// first buffer.
+pub(crate) fn read<F: Read + Seek>(
+    path: &Path,
     index: usize,
     buffer: &json::Buffer,
-    chunk: Option<&Cow<'a, [u8]>>,
+    chunk: Option<(&mut F, BinaryChunk)>,
     outside: Outside,
-) -> Result<Cow<'a, [u8]>, RejectionReason> {
+) -> Result<Vec<u8>, RejectionReason> {
     let position = format!("buffer {index}");
     let length = usize::try_from(buffer.byte_length.0).unwrap_or(usize::MAX);
     let bytes = match (buffer.uri.as_deref(), chunk) {
-        (Some(uri), _) => Cow::Owned(from_uri(file, &position, uri, length, outside)?),
-        (None, Some(chunk)) if index == 0 => chunk.clone(),
+        (Some(uri), _) => from_uri(path, &position, uri, length, outside)?,
+        (None, Some((file, chunk))) if index == 0 => from_chunk(file, chunk, length)?,
         // Such are the buffers that EXT_meshopt_compression replaces.
         (None, _) => {
             let problem = "it has no bytes: its animations are compressed";
             return malformed(position, problem, "export the animations uncompressed");
         }
     };
-    if bytes.len() < length {
+    if bytes.len() < length.min(BYTES_MAX) {
         let problem = format!("{} bytes where the document states {length}", bytes.len());
         return malformed(position, problem, "the file is cut short: copy or export it again");
     }
     Ok(bytes)
+}
+
+/// The beginning of a binary chunk. One byte more than a document may have shows that it has more.
+fn from_chunk(file: &mut (impl Read + Seek), chunk: BinaryChunk, length: usize) -> Result<Vec<u8>, RejectionReason> {
+    file.seek(SeekFrom::Start(chunk.start)).map_err(|error| RejectionReason::unreadable(&error))?;
+    chunks::read_up_to(file, chunk.length.min(length as u64).min(BYTES_MAX as u64 + 1))
 }
 
 /// Whether a document's buffers may lie outside its folder.
@@ -77,7 +84,11 @@ fn from_uri(
 ) -> Result<Vec<u8>, RejectionReason> {
     if let Some(data) = uri.strip_prefix("data:") {
         let decoded = data.split_once(";base64,").and_then(|(_, text)| BASE64.decode(text).ok());
-        return decoded.map_or_else(|| malformed(position, "its data URI is not base64", "export it as .glb"), Ok);
+        let Some(mut bytes) = decoded else {
+            return malformed(position, "its data URI is not base64", "export it as .glb");
+        };
+        bytes.truncate(length);
+        return Ok(bytes);
     }
     let Some(name) = percent_decoded(uri) else {
         return malformed(position, "its URI is not percent-encoded text", "export it as .glb");
@@ -86,9 +97,11 @@ fn from_uri(
     let Some(path) = named_path(file, &name).filter(is_readable) else {
         return malformed(position, format!("`{name}` lies outside the document's folder"), MOVE_OR_ALLOW);
     };
+    let most = (length as u64).min(BYTES_MAX as u64 + 1);
     let mut bytes = Vec::new();
-    match input_file::open(&path).and_then(|open| open.take(length as u64).read_to_end(&mut bytes)) {
+    match input_file::open(&path).and_then(|open| open.take(most).read_to_end(&mut bytes)) {
         Ok(_) => Ok(bytes),
+        Err(error) if input_file::is_of_machine(&error) => Err(RejectionReason::unreadable(&error)),
         Err(error) => malformed(position, format!("`{name}` cannot be read: {error}"), KEEP_BESIDE),
     }
 }

@@ -11,6 +11,7 @@ use crate::read::gltf::document::Document;
 use crate::read::gltf::node_channel::moving_channels;
 use crate::read::gltf::node_tree::{BodyNodes, NodeTree};
 use crate::read::malformed::malformed;
+use crate::read::source_clip::{MAX_FRAMES, MAX_JOINT_FRAMES};
 
 /// Sampling rate, Hz: that of most recorded clips. Keys of animated characters are not denser.
 pub(crate) const FRAME_RATE_HZ: f64 = 30.0;
@@ -73,7 +74,7 @@ fn moves(animation: &Animation, is_member: &[bool]) -> bool {
 
 /// Lengths of clips, as long as the file has bytes for their frames.
 struct SpanBudget<'a> {
-    document: &'a Document<'a>,
+    document: &'a Document,
     /// First and last key time of each accessor that was read, s.
     ends_of_input: BTreeMap<usize, [f64; 2]>,
     /// Node-frames of all clips so far.
@@ -95,6 +96,10 @@ impl SpanBudget<'_> {
             self.node_frames -= frames.saturating_mul(nodes).min(self.node_frames);
             let problem = "it lasts longer than the file's bytes justify";
             return malformed(format!("animation {animation}"), problem, "repair its key times, or split the file");
+        }
+        if frames > MAX_FRAMES || frames.saturating_mul(nodes) > MAX_JOINT_FRAMES {
+            let problem = format!("it lasts {frames} frames of {nodes} nodes, longer than any clip that is read");
+            return malformed(format!("animation {animation}"), problem, "cut it into shorter ones");
         }
         Ok(ClipSpan { start_s, frames })
     }

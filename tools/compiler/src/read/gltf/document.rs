@@ -1,40 +1,48 @@
 //! A glTF document and the buffers of its animations.
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::io::{Read, Seek};
 use std::path::Path;
 
 use gltf::json::{Index, Root, buffer::View};
 
 use crate::error::RejectionReason;
 use crate::read::gltf::buffers::{self, Outside};
+use crate::read::gltf::chunks::{self, BYTES_MAX, Chunks};
 use crate::read::gltf::document_json::{self, ParsedDocument};
 use crate::read::gltf::node_channel::moving_channel;
 use crate::read::gltf::node_transform::NodeTransform;
+use crate::read::malformed::malformed;
 
 /// A document whose nodes and skins are valid. Other parts are checked where they are read: a flaw of meshes does not
 /// matter.
-pub(crate) struct Document<'a> {
+pub(crate) struct Document {
     pub root: Root,
     /// Bytes of the buffers that animations use.
-    buffers: Vec<Option<Cow<'a, [u8]>>>,
-    /// Bytes of the file and of all buffers outside it.
+    buffers: Vec<Option<Vec<u8>>>,
+    /// Number of bytes that were read: of the JSON and of these buffers.
     pub byte_count: usize,
     /// Whether channels without a node were left out.
     pub has_nodeless_channels: bool,
 }
 
-impl<'a> Document<'a> {
-    /// Reads a file's bytes and the buffers outside it.
-    pub(crate) fn open(file: &Path, bytes: &'a [u8], outside: Outside) -> Result<Self, RejectionReason> {
-        let ParsedDocument { root, chunk, has_nodeless_channels } = document_json::parse(bytes)?;
+impl Document {
+    /// Reads a file and the buffers outside it; `path` is the file's.
+    pub(crate) fn open(path: &Path, file: &mut (impl Read + Seek), outside: Outside) -> Result<Self, RejectionReason> {
+        let Chunks { json, binary } = chunks::read(file)?;
+        let ParsedDocument { root, has_nodeless_channels } = document_json::parse(&json)?;
         let buffers = vec![None; root.buffers.len()];
-        let mut document = Self { root, buffers, byte_count: bytes.len(), has_nodeless_channels };
+        let mut document = Self { root, buffers, byte_count: json.len(), has_nodeless_channels };
+        drop(json);
         for index in document.animation_buffers() {
             let Some(buffer) = document.root.buffers.get(index) else { continue };
-            let read = buffers::read(file, index, buffer, chunk.as_ref(), outside)?;
-            document.byte_count += if let Cow::Owned(read) = &read { read.len() } else { 0 };
-            document.buffers[index] = Some(read);
+            let bytes = buffers::read(path, index, buffer, binary.map(|chunk| (&mut *file, chunk)), outside)?;
+            document.byte_count += bytes.len();
+            if document.byte_count > BYTES_MAX {
+                let problem = format!("its animations take more than {} MiB", BYTES_MAX >> 20);
+                return malformed(format!("buffer {index}"), problem, "export its clips to several files");
+            }
+            document.buffers[index] = Some(bytes);
         }
         Ok(document)
     }

@@ -1,10 +1,7 @@
-//! Bytes of a glTF or GLB file → the parsed document and the binary chunk.
-
-use std::borrow::Cow;
+//! JSON of a glTF or GLB file → the parsed document.
 
 use gltf::json::validation::{Error, Validate};
 use gltf::json::{self, Root};
-use motiondb::files::input_file;
 use serde::Deserialize;
 
 use crate::error::RejectionReason;
@@ -20,80 +17,54 @@ const CHECKED_PARTS: [&str; 2] = ["nodes", "skins"];
 /// Remedy for a document that cannot be parsed.
 const VALIDATE_OR_EXPORT: &str = "check it with the glTF validator, or export it again";
 
-/// The content of a file's own bytes.
-pub(crate) struct ParsedDocument<'a> {
+/// A parsed document.
+pub(crate) struct ParsedDocument {
     pub root: Root,
-    /// Binary chunk of a GLB file.
-    pub chunk: Option<Cow<'a, [u8]>>,
     /// Whether channels without a node were left out.
     pub has_nodeless_channels: bool,
 }
 
-/// Parses a file and checks its version, its nodes and its skins.
-pub(crate) fn parse(bytes: &[u8]) -> Result<ParsedDocument<'_>, RejectionReason> {
-    check_is_gltf(bytes)?;
+/// Parses the JSON of a file and checks its version, its nodes and its skins.
+pub(crate) fn parse(json: &[u8]) -> Result<ParsedDocument, RejectionReason> {
     let panicked = || malformed("document", "the document contradicts itself", "check it with the glTF validator");
-    catch_panic::catch(|| parse_unguarded(bytes)).unwrap_or_else(panicked)
+    catch_panic::catch(|| parse_unguarded(json)).unwrap_or_else(panicked)
 }
 
-/// Addresses of the buffers and pictures that lie outside a file; empty if the file is not a document.
-pub(crate) fn uris(bytes: &[u8]) -> Vec<String> {
-    let json = catch_panic::catch(|| chunks(bytes)).and_then(Result::ok);
-    let document: json::Value =
-        json.and_then(|(json, _)| json::deserialize::from_slice(&json).ok()).unwrap_or_default();
-    let parts = ["buffers", "images"].iter().filter_map(|part| document.get(part)?.as_array()).flatten();
-    parts.filter_map(|part| Some(part.get("uri")?.as_str()?.to_owned())).collect()
+/// The buffers and pictures of a document.
+#[derive(Default, Deserialize)]
+struct LinkedDocument {
+    #[serde(default)]
+    buffers: Vec<Link>,
+    #[serde(default)]
+    images: Vec<Link>,
 }
 
-/// Rejects, by the first bytes, files that are not glTF: cut short, packed, or in another encoding.
-fn check_is_gltf(bytes: &[u8]) -> Result<(), RejectionReason> {
-    if bytes.is_empty() {
-        return malformed("byte 0", "the file is empty", "export the clip again");
-    }
-    if let [b'g', b'l', b'T', b'F', _, _, _, _, length @ ..] = bytes
-        && let Some(&length) = length.first_chunk()
-        && u32::from_le_bytes(length) as usize > bytes.len()
-    {
-        let problem = format!("the file is cut short: {} of {} bytes", bytes.len(), u32::from_le_bytes(length));
-        return malformed(format!("byte {}", bytes.len()), problem, "copy or export it again");
-    }
-    if bytes.starts_with(b"PK\x03\x04") {
-        return malformed("byte 0", "the file is a zip archive", "unpack it");
-    }
-    if input_file::is_utf16(bytes) {
-        return malformed("byte 0", "the text is UTF-16, two bytes a letter", "save it as UTF-8");
-    }
-    if bytes.starts_with(b"\xef\xbb\xbf") {
-        return malformed("byte 0", "the text begins with a byte order mark", "save it as UTF-8 without one");
-    }
-    Ok(())
+/// A buffer or a picture.
+#[derive(Deserialize)]
+struct Link {
+    uri: Option<String>,
 }
 
-fn parse_unguarded(bytes: &[u8]) -> Result<ParsedDocument<'_>, RejectionReason> {
-    let (json, chunk) = chunks(bytes).or_else(|error| unparsed(&error))?;
-    check_version(&json)?;
-    let (root, has_nodeless_channels) = match json::deserialize::from_slice::<Root>(&json) {
+/// Addresses of the buffers and pictures that lie outside a file; empty if the JSON is not a document.
+pub(crate) fn uris(json: &[u8]) -> Vec<String> {
+    let LinkedDocument { buffers, images } = json::deserialize::from_slice(json).unwrap_or_default();
+    buffers.into_iter().chain(images).filter_map(|link| link.uri).collect()
+}
+
+fn parse_unguarded(json: &[u8]) -> Result<ParsedDocument, RejectionReason> {
+    check_version(json)?;
+    let (root, has_nodeless_channels) = match json::deserialize::from_slice::<Root>(json) {
         Ok(root) => (root, false),
-        Err(error) => (without_nodeless_channels(&json).map_or_else(|| unparsed(&error), Ok)?, true),
+        Err(error) => (without_nodeless_channels(json).map_or_else(|| unparsed(&error), Ok)?, true),
     };
     check_structure(&root)?;
-    Ok(ParsedDocument { root, chunk, has_nodeless_channels })
+    Ok(ParsedDocument { root, has_nodeless_channels })
 }
 
 /// Fails with the beginning of the parser's message.
-fn unparsed<T>(error: &dyn std::error::Error) -> Result<T, RejectionReason> {
+pub(crate) fn unparsed<T>(error: &dyn std::error::Error) -> Result<T, RejectionReason> {
     let problem: String = error.to_string().trim_end_matches([';', ' ']).chars().take(QUOTED_LETTERS).collect();
     malformed("document", problem, VALIDATE_OR_EXPORT)
-}
-
-/// JSON of a file, and the binary chunk of a GLB file.
-type Chunks<'a> = (Cow<'a, [u8]>, Option<Cow<'a, [u8]>>);
-
-fn chunks(bytes: &[u8]) -> Result<Chunks<'_>, gltf::Error> {
-    if !bytes.starts_with(b"glTF") {
-        return Ok((Cow::Borrowed(bytes), None));
-    }
-    gltf::Glb::from_slice(bytes).map(|glb| (glb.json, glb.bin))
 }
 
 /// The part of a document that states its version.

@@ -1,5 +1,6 @@
 //! An open glTF file and its clips.
 
+use std::io::{Read, Seek};
 use std::path::Path;
 
 use motiondb::diagnostic::{Diagnostic, Note};
@@ -14,19 +15,19 @@ use crate::read::source_clip::{SourceClip, SourceJoint};
 
 /// A glTF or GLB file, open for reading its clips.
 pub struct GltfFile<'a> {
-    file: &'a Path,
-    document: Document<'a>,
+    path: &'a Path,
+    document: Document,
     tree: NodeTree,
     bodies: Vec<BodyNodes>,
     plans: Vec<ClipPlan>,
 }
 
-/// All clips of a glTF or GLB file's bytes; `file` gives the clips' file name and the folder of its buffers.
+/// All clips of a glTF or GLB file; `path` gives the clips' file name and the folder of its buffers.
 ///
 /// # Errors
 /// [`RejectionReason::Malformed`] at the part of the document that breaks the format.
-pub fn read(file: &Path, bytes: &[u8]) -> Result<Vec<SourceClip>, RejectionReason> {
-    let open = GltfFile::open(file, bytes, Outside::Refused)?;
+pub fn read(path: &Path, file: impl Read + Seek) -> Result<Vec<SourceClip>, RejectionReason> {
+    let open = GltfFile::open(path, file, Outside::Refused)?;
     (0..open.len()).map(|index| open.clip(index)).collect()
 }
 
@@ -35,12 +36,12 @@ impl<'a> GltfFile<'a> {
     ///
     /// # Errors
     /// [`RejectionReason::Malformed`] where the document breaks the format or holds no animation.
-    pub fn open(file: &'a Path, bytes: &'a [u8], outside: Outside) -> Result<Self, RejectionReason> {
-        let document = Document::open(file, bytes, outside)?;
+    pub fn open(path: &'a Path, mut file: impl Read + Seek, outside: Outside) -> Result<Self, RejectionReason> {
+        let document = Document::open(path, &mut file, outside)?;
         let tree = NodeTree::new(&document.root)?;
         let bodies = tree.bodies(&document.root);
         let plans = clip_plans(&document, &tree, &bodies)?;
-        Ok(Self { file, document, tree, bodies, plans })
+        Ok(Self { path, document, tree, bodies, plans })
     }
 
     /// Number of clips.
@@ -65,7 +66,7 @@ impl<'a> GltfFile<'a> {
         let tracks = key_tracks(&self.document, plan.animation, &body.is_member(&self.tree))?;
         let parents = body.parents(&self.tree);
         let sampler = PoseSampler { tree: &self.tree, body, parents: &parents, tracks: &tracks };
-        let (positions, orientations) = sampler.sample(self.document.rest_transforms(), &span);
+        let (positions, orientations) = sampler.sample(self.document.rest_transforms(), &span)?;
         let joint = |(slot, &parent): (&usize, &Option<usize>)| SourceJoint {
             name: self.document.root.nodes[self.tree.order[*slot]].name.clone().unwrap_or_default(),
             parent,
@@ -73,7 +74,7 @@ impl<'a> GltfFile<'a> {
         };
         let pointers = self.document.has_nodeless_channels.then_some(Diagnostic::Note(Note::PointersNotRead));
         Ok(SourceClip {
-            file: self.file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+            file: self.path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
             clip: plan.name.clone(),
             joints: body.slots.iter().zip(&parents).map(joint).collect(),
             first_frame: 0,

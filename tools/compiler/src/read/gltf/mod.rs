@@ -5,9 +5,10 @@
 //! JSON into typed structs ([`gltf::json::Root`]) and validates them: required properties, indices, enumerations.
 //!
 //! # What is read here
-//! - `document_json` rejects other formats and versions, drops channels without a node, and catches the crate's panics.
-//! - `buffers` reads GLB chunks, data URIs and files beside the document, never more bytes than exist and nothing
-//!   outside the document's folder. The crate's own importer is not built in.
+//! - `chunks` reads a file's JSON and finds its binary chunk; it rejects other formats and documents without measure.
+//! - `document_json` rejects other versions, drops channels without a node, and catches the crate's panics.
+//! - `buffers` reads the binary chunk, data URIs and files beside the document, never more bytes than the document
+//!   states and nothing outside the document's folder. The crate's own importer is not built in.
 //! - `accessor` reads plain, sparse and normalised numbers by index. The crate's wrappers search each accessor from the
 //!   first one on and panic on an index out of range.
 //! - `node_tree` orders nodes and finds bodies, `key_track` interpolates keys (glTF 2.0 specification, Appendix C),
@@ -20,11 +21,12 @@
 //!
 //! Clips are read one by one from the open file, so a file of thousands of animations is never held as clips at once.
 //!
-//! Read `document_json`, `document`, `node_tree`, `node_channel`, `accessor`, `key_track`, `clip_plan`, `sampling`, and
+//! Read `chunks`, `document_json`, `document`, `node_tree`, `node_channel`, `accessor`, `key_track`, `clip_plan`, `sampling`, and
 //! last `gltf_file`, which is the entry.
 
 mod accessor;
 pub(crate) mod buffers;
+pub(crate) mod chunks;
 mod clip_plan;
 mod document;
 pub(crate) mod document_json;

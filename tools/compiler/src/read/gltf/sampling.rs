@@ -11,11 +11,12 @@ use crate::read::gltf::node_channel::moving_channels;
 use crate::read::gltf::node_transform::NodeTransform;
 use crate::read::gltf::node_tree::{BodyNodes, NodeTree};
 use crate::read::malformed::malformed;
+use crate::read::source_clip::with_room;
 
-/// Greatest number of keys of one clip, beside [`KEYS_PER_BYTE`]; tracks may share their keys.
-const FREE_KEYS: usize = 4_000_000;
-/// Further keys of one clip for each byte of the file.
-const KEYS_PER_BYTE: usize = 8;
+/// Greatest count of numbers in the keys of one clip, beside [`NUMBERS_PER_BYTE`]; tracks may share their keys.
+const FREE_NUMBERS: usize = 16_000_000;
+/// Further numbers in the keys of one clip for each byte that was read.
+const NUMBERS_PER_BYTE: usize = 2;
 
 /// The tracks of the nodes that `is_member` marks, unless they have far more keys than the file has bytes.
 pub(crate) fn key_tracks(
@@ -24,12 +25,13 @@ pub(crate) fn key_tracks(
     is_member: &[bool],
 ) -> Result<Vec<KeyTrack>, RejectionReason> {
     let channels = moving_channels(&document.root.animations[animation], is_member)?;
-    let mut keys = 0_usize;
+    let mut numbers = 0_usize;
     for channel in &channels {
-        keys = keys.saturating_add(accessor::count(document, channel.input)?);
-        keys = keys.saturating_add(accessor::count(document, channel.output)?);
+        for accessor in [channel.input, channel.output] {
+            numbers = numbers.saturating_add(accessor::number_count(document, accessor)?);
+        }
     }
-    if keys > FREE_KEYS.saturating_add(KEYS_PER_BYTE.saturating_mul(document.byte_count)) {
+    if numbers > FREE_NUMBERS.saturating_add(NUMBERS_PER_BYTE.saturating_mul(document.byte_count)) {
         let position = format!("animation {animation}");
         return malformed(position, "its tracks share their keys beyond measure", "export it with keys of their own");
     }
@@ -48,10 +50,13 @@ pub(crate) struct PoseSampler<'a> {
 impl PoseSampler<'_> {
     /// Global positions (metres) and orientations at index frame · joint count + joint. `locals` are the transforms of
     /// all nodes at rest.
-    pub(crate) fn sample(&self, mut locals: Vec<NodeTransform>, span: &ClipSpan) -> (Vec<DVec3>, Vec<DQuat>) {
-        let (mut positions, mut orientations) = (Vec::new(), Vec::new());
-        positions.reserve_exact(span.frames * self.parents.len());
-        orientations.reserve_exact(span.frames * self.parents.len());
+    pub(crate) fn sample(
+        &self,
+        mut locals: Vec<NodeTransform>,
+        span: &ClipSpan,
+    ) -> Result<(Vec<DVec3>, Vec<DQuat>), RejectionReason> {
+        let node_frames = span.frames * self.parents.len();
+        let (mut positions, mut orientations) = (with_room(node_frames)?, with_room(node_frames)?);
         for frame in 0..span.frames {
             let time_s = span.start_s + frame as f64 / FRAME_RATE_HZ;
             self.tracks.iter().for_each(|track| track.apply(time_s, &mut locals[track.node]));
@@ -60,7 +65,7 @@ impl PoseSampler<'_> {
                 orientations.push(orientation(DMat3::from_mat4(global)));
             }
         }
-        (positions, orientations)
+        Ok((positions, orientations))
     }
 
     /// Global matrices of the body's nodes, in its order.
