@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::measures::body_penetration::BodyPenetration;
 use crate::measures::collision_rate::Collisions;
 use crate::measures::frame_pairs::FramePairs;
+use crate::measures::places::{MeasuredPlaces, PlaceMeasures};
 use crate::measures::planted_slide::PlantedSlide;
 use crate::measures::root_measures::RootMeasures;
 use crate::measures::wall_contact::WallContact;
@@ -98,6 +99,9 @@ pub struct Measures {
     /// Mean angle between facing and displacement, degrees, over all steps before each agent's arrival in which it
     /// walks.
     pub walking_heading_error_deg: f64,
+    /// The scenario's `[[measure]]` tables, in their order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub places: Vec<PlaceMeasures>,
 }
 
 /// Computes [`Measures`] from frames that come one by one, so that a crowd is measured while it runs.
@@ -114,6 +118,7 @@ pub struct Measuring {
     slide: PlantedSlide,
     bodies: BodyPenetration,
     walls: WallContact,
+    places: MeasuredPlaces,
 }
 
 impl Measuring {
@@ -131,6 +136,7 @@ impl Measuring {
             slide: PlantedSlide::new(skeleton, start.len(), dt_s),
             bodies: BodyPenetration::new(skeleton),
             walls: WallContact::new(skeleton, scenario),
+            places: MeasuredPlaces::new(scenario, start),
         };
         measuring.pose(start);
         follow_feet(&mut measuring.slide, &measuring.roots, start, &measuring.joints);
@@ -151,6 +157,7 @@ impl Measuring {
         self.collisions.push(&radii_m, &before_m, &after_m);
         follow_feet(&mut self.slide, &self.roots, after, &self.joints);
         self.roots.push(population, &pairs);
+        self.places.push(frame, &pairs, after);
         self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
         let wall_radii_m: Vec<f32> = after.iter().map(|agent| life(agent).wall_radius_m(frame)).collect();
         self.walls.push(after, &self.joints, &wall_radii_m);
@@ -200,6 +207,7 @@ impl Measuring {
             root_tracking_worst_m: self.roots.tracking_worst_m,
             heading_error_deg: self.roots.heading_error_deg.value(),
             walking_heading_error_deg: self.roots.walking_heading_error_deg.value(),
+            places: self.places.finish(population),
         }
     }
 

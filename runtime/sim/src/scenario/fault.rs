@@ -40,6 +40,8 @@ pub enum ScenarioPart {
     Area(usize),
     /// A signal, by index.
     Signal(usize),
+    /// A `[[measure]]` table, by index.
+    Measure(usize),
     /// All agents together.
     Agents,
 }

@@ -3,7 +3,7 @@
 //! Enters: a scenario file ([`file`](mod@file)), or agents made in code. Leaves: a [`Scenario`] in which every agent is
 //! explicit, every number is in range and no path occurs.
 //!
-//! Read `resolved` (the scenario), `agent_spec`, `source_spec`, `profile`, `coupling` and `view`; then `check`, `ranges`,
+//! Read `resolved` (the scenario), `agent_spec`, `source_spec`, `profile`, `measure_spec`, `coupling` and `view`; then `check`, `ranges`,
 //! `source_check` and `behaviour_check` (the rules), `fault`
 //! and `error` (how a broken rule is shown); then [`file`](mod@file).
 
@@ -14,6 +14,7 @@ pub(crate) mod coupling;
 pub(crate) mod error;
 pub(crate) mod fault;
 pub mod file;
+pub(crate) mod measure_spec;
 mod point;
 pub(crate) mod profile;
 pub(crate) mod ranges;
@@ -28,6 +29,7 @@ pub use coupling::Coupling;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};
+pub use measure_spec::{MeasureSpec, MeasuredPlace};
 pub use profile::{DrawnNumbers, Profile};
 pub use ranges::{STEP_RANGE_S, check_view};
 pub use resolved::Scenario;

@@ -93,7 +93,7 @@ pub(crate) fn within<T: PartialOrd + Display>(
 }
 
 /// Checks that a name can name files, which must stay in their folder.
-fn check_name(name: &str) -> Result<(), ScenarioFault> {
+pub(crate) fn check_name(name: &str) -> Result<(), ScenarioFault> {
     let is_plain = |letter: char| !letter.is_control() && !['/', '\\'].contains(&letter);
     if (1..=NAME_MAX_BYTES).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_plain) {
         return Ok(());

@@ -8,6 +8,7 @@ use crate::params::Params;
 use crate::planning::planner::Planner;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::coupling::Coupling;
+use crate::scenario::measure_spec::MeasureSpec;
 use crate::scenario::source_spec::SourceSpec;
 use crate::scenario::view::View;
 use crate::synthesis::Modes;
@@ -62,6 +63,9 @@ pub struct Scenario {
     /// Goals, states and signals.
     #[serde(default, skip_serializing_if = "Behaviour::is_empty")]
     pub behaviour: Behaviour,
+    /// What is measured besides the figures of every recording.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub measures: Vec<MeasureSpec>,
     /// Simple polygons, corners counter-clockwise, world, m; agents stay outside.
     pub obstacles_m: Vec<Vec<Vec2>>,
     /// Tunables.
@@ -100,6 +104,7 @@ impl Scenario {
             agents,
             sources: Vec::new(),
             behaviour: Behaviour::default(),
+            measures: Vec::new(),
             obstacles_m: Vec::new(),
             params: Params::default(),
             view: View::default(),

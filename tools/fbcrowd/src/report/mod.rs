@@ -18,6 +18,7 @@ pub(crate) mod json_diagnostic;
 pub(crate) mod leave_one_out_text;
 pub(crate) mod measures_text;
 pub(crate) mod next_steps;
+pub(crate) mod places_text;
 pub(crate) mod plain_text;
 pub(crate) mod sentence_groups;
 pub(crate) mod timings_text;

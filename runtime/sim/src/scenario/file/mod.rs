@@ -6,13 +6,14 @@
 //!
 //! Read `reading` (the steps from text to scenario), then `scenario_file` (the keys), `agent_groups` and `agent_lines`
 //! (tables and lines of agents), `agent_area`
-//! (agents spread over an area), `profile_tables` (numbers that are drawn), `agent_placement` (from them to agents), `source_tables` (sources of agents).
+//! (agents spread over an area), `profile_tables` (numbers that are drawn), `measure_tables` (lines and areas), `agent_placement` (from them to agents), `source_tables` (sources of agents).
 
 mod agent_area;
 mod agent_groups;
 mod agent_lines;
 mod agent_placement;
 pub(crate) mod behaviour;
+mod measure_tables;
 mod profile_tables;
 mod reading;
 mod scenario_file;

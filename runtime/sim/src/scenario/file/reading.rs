@@ -20,6 +20,7 @@ use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, PlacementInput, fault_of_lines};
 use crate::scenario::file::behaviour::{BehaviourTables, StateNames};
+use crate::scenario::file::measure_tables::measures;
 use crate::scenario::file::profile_tables::Profiles;
 use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
 use crate::scenario::file::source_tables::sources;
@@ -66,6 +67,7 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         coupling: file.coupling,
         sources: sources(&input, &file.sources, *file.duration_s.get_ref())?,
         behaviour: behaviour.clone(),
+        measures: measures(source, &file.measure)?,
         obstacles_m,
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
@@ -128,6 +130,7 @@ fn at_its_text(
         ScenarioPart::State(_) | ScenarioPart::Goals(_) | ScenarioPart::Area(_) | ScenarioPart::Signal(_) => {
             tables.span(&fault.part)
         }
+        ScenarioPart::Measure(index) => file.measure.get(index).map_or(0..0, Spanned::span),
         ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),
     };
     source.invalid(span, fault.message, fault.help).into()

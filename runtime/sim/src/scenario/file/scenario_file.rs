@@ -19,6 +19,7 @@
 //! [signals.NAME]
 //! [profiles.NAME]                     # numbers that are drawn: see `profile_tables.rs`
 //! [areas.NAME]
+//! [[measure]]                         # lines and areas: see `measure_tables.rs`
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
 //! [params.planner]                    # MCN's tunables; all sections: see `params.rs`
@@ -39,6 +40,7 @@ use crate::scenario::coupling::Coupling;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::file::agent_groups::AgentGroups;
 use crate::scenario::file::behaviour::{AreaTable, BehaviourTables, GoalsTable, SignalTable, StateTable};
+use crate::scenario::file::measure_tables::MeasureTable;
 use crate::scenario::file::profile_tables::ProfileTable;
 use crate::scenario::file::source_tables::SourceTable;
 use crate::scenario::point::Point;
@@ -84,6 +86,8 @@ pub(crate) struct ScenarioFile {
     goals: BTreeMap<String, Spanned<GoalsTable>>,
     #[serde(default)]
     states: BTreeMap<String, Spanned<StateTable>>,
+    #[serde(default)]
+    pub(crate) measure: Vec<Spanned<MeasureTable>>,
     #[serde(default)]
     pub(crate) profiles: BTreeMap<String, Spanned<ProfileTable>>,
     #[serde(default)]
