@@ -43,6 +43,7 @@ use crate::world::obstacles::Obstacles;
 mod crowd_behaviour;
 mod source_state;
 mod turnover;
+mod zones;
 
 /// Bodies that one thread takes at a time, at least: enough to outweigh the hand-over, few enough to share out 100.
 const BODIES_PER_TASK_MIN: usize = 16;
@@ -146,6 +147,7 @@ impl Simulation {
         self.decide();
         self.remove_leaving_agents();
         self.follow_paths();
+        self.apply_zones();
         finished(Stage::Route);
         let Agents { positions_m, velocities_mps, radii_m, .. } = &self.agents;
         let Scenario { planner, params, .. } = &self.scenario;
@@ -290,3 +292,5 @@ mod behaviour_tests;
 pub(crate) mod tests;
 #[cfg(test)]
 mod turnover_tests;
+#[cfg(test)]
+mod wild_behaviour_tests;

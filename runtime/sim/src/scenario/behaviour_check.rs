@@ -1,4 +1,4 @@
-//! The rules of behaviour and measures: every index names something, every number is in range, every goal has free ground. World,
+//! The rules of behaviour: every index names something, every number is in range, every goal has free ground. World,
 //! metres, seconds.
 //!
 //! A scenario file resolves names to indices, so these rules hold for it but for coordinates. A recording's header and a
@@ -15,8 +15,7 @@ use crate::behaviour::{
 use crate::maths::polygon::{closest_distance_m, contains};
 use crate::scenario::agent_spec::WALL_RADIUS_M;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::measure_spec::MeasuredPlace;
-use crate::scenario::ranges::{COORDINATE_MAX_M, RADIUS_M, SPEED_MPS, check_name, check_points, within};
+use crate::scenario::ranges::{COORDINATE_MAX_M, RADIUS_M, SPEED_MPS, check_points, within};
 use crate::scenario::resolved::Scenario;
 
 /// Greatest number of states; the limit of the recording is higher.
@@ -24,11 +23,9 @@ const STATES_MAX: usize = 4_001;
 /// Greatest duration, s: a day.
 const DURATION_S: RangeInclusive<f32> = 0.0..=86_400.0;
 /// Factor of a speed.
-const FACTOR: RangeInclusive<f32> = 1e-3..=10.0;
+pub(crate) const FACTOR: RangeInclusive<f32> = 1e-3..=10.0;
 /// Weight of an area.
 const WEIGHT: RangeInclusive<f32> = 0.0..=1e6;
-/// Greatest number of `[[measure]]` tables: each takes time in every frame.
-const MEASURES_MAX: usize = 1_000;
 /// Deepest nesting of conditions.
 const DEPTH_MAX: usize = 64;
 /// How to mend what a scenario file cannot state.
@@ -40,7 +37,6 @@ const TOUCH_M: f64 = 1e-4;
 
 /// Checks indices and numbers of the behaviour, and the states of agents and sources.
 pub(crate) fn check_behaviour_ranges(scenario: &Scenario) -> Result<(), ScenarioFault> {
-    check_measures(scenario)?;
     let behaviour = &scenario.behaviour;
     let Behaviour { states, goals, signals, areas } = behaviour;
     within(&ScenarioPart::State(0), "the number of states", states.len(), &(0..=STATES_MAX), "give fewer")?;
@@ -68,35 +64,6 @@ pub(crate) fn check_behaviour_ranges(scenario: &Scenario) -> Result<(), Scenario
     states.iter().enumerate().try_for_each(|(index, state)| check_state(&ScenarioPart::State(index), state, behaviour))
 }
 
-/// Checks lines and areas that are measured, and their names.
-fn check_measures(scenario: &Scenario) -> Result<(), ScenarioFault> {
-    let measures = &scenario.measures;
-    let first = &ScenarioPart::Measure(0);
-    within(first, "the number of measures", measures.len(), &(0..=MEASURES_MAX), "give fewer")?;
-    for (index, spec) in measures.iter().enumerate() {
-        let part = &ScenarioPart::Measure(index);
-        check_name(&spec.name).map_err(|fault| ScenarioFault { part: part.clone(), ..fault })?;
-        if measures[..index].iter().any(|other| other.name == spec.name) {
-            return part.fault(format!("two measures have the name `{}`", spec.name), "choose another name");
-        }
-        match &spec.place {
-            MeasuredPlace::Line(ends_m) => {
-                check_points(part, ends_m)?;
-                let length_m = ends_m[0].distance(ends_m[1]);
-                within(part, "the length of the line", length_m, &(0.01..=f32::MAX), "give two ends, in metres")?;
-            }
-            MeasuredPlace::Area(area) => {
-                check_area(part, area)?;
-                let size_m = area.bounds_m();
-                let least_m = (size_m[1] - size_m[0]).min_element();
-                within(part, "the extent of the area", least_m, &(0.01..=f32::MAX), "give an area, in metres")?;
-            }
-            MeasuredPlace::Egress => {}
-        }
-    }
-    Ok(())
-}
-
 fn check_index(part: &ScenarioPart, what: &str, index: usize, count: usize) -> Result<(), ScenarioFault> {
     if index < count {
         return Ok(());
@@ -112,7 +79,8 @@ fn check_goal_area(part: &ScenarioPart, area: &GoalArea) -> Result<(), ScenarioF
     check_finite(part, "facing_deg", area.facing_rad.unwrap_or(0.0))
 }
 
-fn check_area(part: &ScenarioPart, area: &Area) -> Result<(), ScenarioFault> {
+/// Checks that an area lies within range.
+pub(crate) fn check_area(part: &ScenarioPart, area: &Area) -> Result<(), ScenarioFault> {
     match area {
         Area::Disc { centre_m, radius_m } => {
             check_points(part, &[*centre_m])?;

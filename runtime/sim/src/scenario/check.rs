@@ -10,6 +10,7 @@ use crate::route::arrival::ARRIVAL_M;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::behaviour_check::{check_behaviour_ranges, check_goals_clear_of_obstacles};
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
+use crate::scenario::measure_check::{check_measures, check_zones};
 use crate::scenario::ranges::check_ranges;
 use crate::scenario::resolved::Scenario;
 use crate::scenario::source_check::{check_source_ranges, check_sources_clear_of_obstacles};
@@ -43,6 +44,8 @@ pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
 pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_ranges(scenario)?;
     check_behaviour_ranges(scenario)?;
+    check_measures(scenario)?;
+    check_zones(scenario)?;
     check_source_ranges(scenario)
 }
 

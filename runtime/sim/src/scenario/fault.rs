@@ -42,6 +42,8 @@ pub enum ScenarioPart {
     Signal(usize),
     /// A `[[measure]]` table, by index.
     Measure(usize),
+    /// A zone, by index.
+    Zone(usize),
     /// All agents together.
     Agents,
 }

@@ -3,8 +3,8 @@
 //! Enters: a scenario file ([`file`](mod@file)), or agents made in code. Leaves: a [`Scenario`] in which every agent is
 //! explicit, every number is in range and no path occurs.
 //!
-//! Read `resolved` (the scenario), `agent_spec`, `source_spec`, `profile`, `measure_spec`, `coupling` and `view`; then `check`, `ranges`,
-//! `source_check` and `behaviour_check` (the rules), `fault`
+//! Read `resolved` (the scenario), `agent_spec`, `source_spec`, `profile`, `measure_spec`, `zone_spec`, `coupling` and `view`; then `check`, `ranges`,
+//! `source_check`, `behaviour_check` and `measure_check` (the rules), `fault`
 //! and `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
@@ -14,6 +14,7 @@ pub(crate) mod coupling;
 pub(crate) mod error;
 pub(crate) mod fault;
 pub mod file;
+pub(crate) mod measure_check;
 pub(crate) mod measure_spec;
 mod point;
 pub(crate) mod profile;
@@ -22,6 +23,7 @@ pub(crate) mod resolved;
 pub(crate) mod source_check;
 pub(crate) mod source_spec;
 pub(crate) mod view;
+pub(crate) mod zone_spec;
 
 pub use agent_spec::{AgentSpec, AtGoal, WALL_RADIUS_M};
 pub use check::check;
@@ -35,3 +37,4 @@ pub use ranges::{STEP_RANGE_S, check_view};
 pub use resolved::Scenario;
 pub use source_spec::{DueTimes, SourceSpec};
 pub use view::View;
+pub use zone_spec::ZoneSpec;

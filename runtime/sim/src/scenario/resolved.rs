@@ -11,6 +11,7 @@ use crate::scenario::coupling::Coupling;
 use crate::scenario::measure_spec::MeasureSpec;
 use crate::scenario::source_spec::SourceSpec;
 use crate::scenario::view::View;
+use crate::scenario::zone_spec::ZoneSpec;
 use crate::synthesis::Modes;
 
 /// Default time step, s: a film's.
@@ -63,6 +64,9 @@ pub struct Scenario {
     /// Goals, states and signals.
     #[serde(default, skip_serializing_if = "Behaviour::is_empty")]
     pub behaviour: Behaviour,
+    /// Ground on which agents walk slower or faster.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub zones: Vec<ZoneSpec>,
     /// What is measured besides the figures of every recording.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub measures: Vec<MeasureSpec>,
@@ -104,6 +108,7 @@ impl Scenario {
             agents,
             sources: Vec::new(),
             behaviour: Behaviour::default(),
+            zones: Vec::new(),
             measures: Vec::new(),
             obstacles_m: Vec::new(),
             params: Params::default(),

@@ -6,7 +6,8 @@
 //!
 //! Read `reading` (the steps from text to scenario), then `scenario_file` (the keys), `agent_groups` and `agent_lines`
 //! (tables and lines of agents), `agent_area`
-//! (agents spread over an area), `profile_tables` (numbers that are drawn), `measure_tables` (lines and areas), `agent_placement` (from them to agents), `source_tables` (sources of agents).
+//! (agents spread over an area), `profile_tables` (numbers that are drawn), `measure_tables` and
+//! `zone_tables` (lines and areas), `agent_placement` (from them to agents), `source_tables` (sources of agents).
 
 mod agent_area;
 mod agent_groups;
@@ -18,6 +19,7 @@ mod profile_tables;
 mod reading;
 mod scenario_file;
 mod source_tables;
+mod zone_tables;
 
 pub use agent_placement::{agents_of_lines, fault_of_lines};
 pub use reading::{agent_files, parse, read};

@@ -24,6 +24,7 @@ use crate::scenario::file::measure_tables::measures;
 use crate::scenario::file::profile_tables::Profiles;
 use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
 use crate::scenario::file::source_tables::sources;
+use crate::scenario::file::zone_tables::zones;
 use crate::scenario::point::Point;
 use crate::scenario::resolved::{SEED, Scenario};
 
@@ -67,6 +68,7 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         coupling: file.coupling,
         sources: sources(&input, &file.sources, *file.duration_s.get_ref())?,
         behaviour: behaviour.clone(),
+        zones: zones(source, &file.zones)?,
         measures: measures(source, &file.measure)?,
         obstacles_m,
         params: file.params.clone(),
@@ -130,6 +132,7 @@ fn at_its_text(
         ScenarioPart::State(_) | ScenarioPart::Goals(_) | ScenarioPart::Area(_) | ScenarioPart::Signal(_) => {
             tables.span(&fault.part)
         }
+        ScenarioPart::Zone(index) => file.zones.get(index).map_or(0..0, Spanned::span),
         ScenarioPart::Measure(index) => file.measure.get(index).map_or(0..0, Spanned::span),
         ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),
     };

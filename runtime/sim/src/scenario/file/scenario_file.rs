@@ -19,6 +19,7 @@
 //! [signals.NAME]
 //! [profiles.NAME]                     # numbers that are drawn: see `profile_tables.rs`
 //! [areas.NAME]
+//! [[zones]]                           # ground on which agents are slower: see `zone_tables.rs`
 //! [[measure]]                         # lines and areas: see `measure_tables.rs`
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
@@ -43,6 +44,7 @@ use crate::scenario::file::behaviour::{AreaTable, BehaviourTables, GoalsTable, S
 use crate::scenario::file::measure_tables::MeasureTable;
 use crate::scenario::file::profile_tables::ProfileTable;
 use crate::scenario::file::source_tables::SourceTable;
+use crate::scenario::file::zone_tables::ZoneTable;
 use crate::scenario::point::Point;
 use crate::scenario::view::View;
 
@@ -86,6 +88,8 @@ pub(crate) struct ScenarioFile {
     goals: BTreeMap<String, Spanned<GoalsTable>>,
     #[serde(default)]
     states: BTreeMap<String, Spanned<StateTable>>,
+    #[serde(default)]
+    pub(crate) zones: Vec<Spanned<ZoneTable>>,
     #[serde(default)]
     pub(crate) measure: Vec<Spanned<MeasureTable>>,
     #[serde(default)]
