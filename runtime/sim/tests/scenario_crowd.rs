@@ -133,7 +133,7 @@ fn states_of_agents_and_sources_are_found() {
     let agents = "[[agents]]\nat_m = [0, 0]\nstate = 'go'\n[[sources]]\nat_m = [3, 0]\nrate_per_s = 1\nstate = 'go'";
     let scenario = parsed(&format!("{states}{agents}")).unwrap();
     assert_eq!((scenario.agents[0].state, scenario.sources[0].state), (1, 1));
-    assert!((scenario.agents[0].facing_rad - 1.5708).abs() < 1e-3);
+    assert!((scenario.agents[0].facing_rad - std::f32::consts::FRAC_PI_2).abs() < 1e-3);
     check_refused(&format!("{states}[[agents]]\nat_m = [0, 0]\nstate = 'stay'"), 7, &["no state `stay`", "`go`"]);
     check_refused("[[agents]]\nat_m = [0, 0]", 1, &["need a goal", "state"]);
 }

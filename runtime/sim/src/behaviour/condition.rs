@@ -75,8 +75,8 @@ impl Condition {
             Self::Green(signal) => facts.green[*signal],
             Self::Number(area, bound) => bound.holds(facts.numbers[*area]),
             Self::Population(state, bound) => bound.holds(facts.populations[*state]),
-            Self::All(parts) => parts.iter().fold(true, |all, part| part.holds(facts, random) && all),
-            Self::Any(parts) => parts.iter().fold(false, |any, part| part.holds(facts, random) || any),
+            Self::All(parts) => holding(parts, facts, random) == parts.len(),
+            Self::Any(parts) => holding(parts, facts, random) > 0,
             Self::Not(part) => !part.holds(facts, random),
         }
     }
@@ -91,6 +91,11 @@ impl Condition {
             _ => false,
         }
     }
+}
+
+/// Number of conditions that hold; every one is evaluated.
+fn holding(parts: &[Condition], facts: &Facts, random: &mut SplitMix64) -> usize {
+    parts.iter().filter(|part| part.holds(facts, random)).count()
 }
 
 impl Bound {

@@ -77,7 +77,7 @@ mod tests {
         let mut random = SplitMix64::new(5, 1);
         let drawn: Vec<f32> = (0..50_000).map(|_| distribution.draw(&mut random)).collect();
         let mean = drawn.iter().sum::<f32>() / drawn.len() as f32;
-        let variance = drawn.iter().map(|value| (value - mean).powi(2)).sum::<f32>() / drawn.len() as f32;
+        let variance = drawn.iter().map(|value| (value - mean) * (value - mean)).sum::<f32>() / drawn.len() as f32;
         let [least, greatest] = [f32::min, f32::max].map(|pick| drawn.iter().copied().reduce(pick).unwrap());
         [mean, variance.sqrt(), least, greatest]
     }

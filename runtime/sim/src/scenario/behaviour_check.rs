@@ -197,7 +197,7 @@ fn check_finite(part: &ScenarioPart, name: &str, value: f32) -> Result<(), Scena
 /// Checks that agents can stand somewhere in each area of the goals.
 pub(crate) fn check_goals_clear_of_obstacles(scenario: &Scenario) -> Result<(), ScenarioFault> {
     const HELP: &str = "move it away from the obstacles";
-    let boxed: Vec<BoxedObstacle<'_>> = scenario.obstacles_m.iter().map(boxed).collect();
+    let boxed: Vec<BoxedObstacle<'_>> = scenario.obstacles_m.iter().map(|polygon_m| boxed(polygon_m)).collect();
     for (index, set) in scenario.behaviour.goals.iter().enumerate() {
         for area in &set.areas {
             if !has_free_ground(&area.area, &boxed) {
@@ -219,7 +219,7 @@ pub(crate) fn check_goals_clear_of_obstacles(scenario: &Scenario) -> Result<(), 
 /// Least and greatest corner of an obstacle, m, and its corners.
 type BoxedObstacle<'a> = ([Vec2; 2], &'a [Vec2]);
 
-fn boxed(polygon_m: &Vec<Vec2>) -> BoxedObstacle<'_> {
+fn boxed(polygon_m: &[Vec2]) -> BoxedObstacle<'_> {
     let low_m = polygon_m.iter().copied().fold(Vec2::INFINITY, Vec2::min);
     ([low_m, polygon_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max)], polygon_m)
 }

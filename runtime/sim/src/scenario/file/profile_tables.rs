@@ -86,7 +86,8 @@ impl<'a> Profiles<'a> {
             }
         };
         let sum: f32 = profiles.iter().map(|profile| profile.weight).sum();
-        if !profiles.iter().all(|profile| profile.weight >= 0.0) || !(sum > 0.0 && sum.is_finite()) {
+        let are_shares = profiles.iter().all(|profile| profile.weight >= 0.0) && sum > 0.0 && sum.is_finite();
+        if !are_shares {
             return Err((format!("the shares add up to {sum}, or one is negative"), "give shares of 0 or more"));
         }
         let pre_movement_s = pre_movement_s.map(pre_movement).transpose()?;

@@ -25,7 +25,8 @@ impl Resolving<'_> {
                 let weighted = |(name, &weight): (&String, &f32)| Ok((self.state_index(name)?, weight));
                 let states: Vec<(u32, f32)> = weights.iter().map(weighted).collect::<Result<_, _>>().at(&to)?;
                 let sum: f32 = states.iter().map(|(_, weight)| weight).sum();
-                if !states.iter().all(|(_, weight)| *weight >= 0.0) || !(sum > 0.0 && sum.is_finite()) {
+                let are_weights = states.iter().all(|(_, weight)| *weight >= 0.0) && sum > 0.0 && sum.is_finite();
+                if !are_weights {
                     let message = format!("the weights add up to {sum}, or one is negative");
                     return Err(fault(&to, message, "give weights of 0 or more, one of them above 0"));
                 }
