@@ -138,7 +138,7 @@ fn check_states_agents_passages_and_sizes() {
     assert!((passages[0]["width_m"].as_f64().unwrap() - 0.3).abs() < 0.01, "{checked}");
     assert!(fs::read(&plot).unwrap().starts_with(b"\x89PNG"));
     let printed = fbcrowd(&["check", text(&scene)]).expect_code(0).stdout;
-    assert!(printed.contains("closed passage   [4.10, 0.00], 0.30 m wide"), "{printed}");
+    assert!(printed.contains("closed passage   [4.00, 0.00], 0.30 m wide"), "{printed}");
     fbcrowd(&["check", text(&scene), "--plot", text(&scene)]).expect_code(2).says(&["is also an input"]);
 }
 

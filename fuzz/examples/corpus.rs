@@ -103,6 +103,9 @@ fn record(path: &Path) {
         wall_radius_m: 0.2,
         preferred_speed_mps: 1.33,
         at_goal: AtGoal::Leave,
+        state: 0,
+        pre_movement_s: 0.0,
+        profiles: Vec::new(),
     };
     let scenario = Scenario {
         name: "two".to_owned(),

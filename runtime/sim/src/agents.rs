@@ -132,6 +132,28 @@ impl Agents {
         self.frames.push(frame);
     }
 
+    /// Lets an agent stand at another position, with a body that has not moved yet.
+    pub(crate) fn stand_at(
+        &mut self,
+        index: usize,
+        position_m: Vec2,
+        seed: u64,
+        coupling: Coupling,
+        context: &SynthesisContext,
+    ) {
+        let root = Root { position_m, facing_rad: self.facings_rad[index] };
+        let (body, mut output) = Body::standing(context, root, start_phase(seed, self.ids[index]));
+        if coupling == Coupling::Discs {
+            output.contacts = [0.0; 2];
+        }
+        self.frames[index].show(&output);
+        self.are_between_steps[index] = true;
+        self.positions_m[index] = position_m;
+        self.velocities_mps[index] = Vec2::ZERO;
+        self.bodies[index] = body;
+        self.stances[index] = output.stance;
+    }
+
     /// Keeps the agents that `keeps` marks, by index.
     pub fn retain(&mut self, keeps: &[bool]) {
         macro_rules! retain {

@@ -84,6 +84,7 @@
 //! angles counter-clockwise from above.
 
 pub mod agents;
+pub mod behaviour;
 pub mod coupling;
 pub mod maths;
 pub mod measures;

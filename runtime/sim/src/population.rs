@@ -46,12 +46,57 @@ pub struct AgentLife {
     pub stature: f32,
     /// Number of the group that the agent belongs to.
     pub group: Option<u32>,
+    /// Changes of the radius of the disc that other agents see, in the order of frames.
+    pub radii_m: Vec<RadiusChange>,
+    /// Frames in which the agent appears where its state has moved it at once, rising.
+    pub teleports: Vec<u32>,
+}
+
+/// A change of an agent's radius.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RadiusChange {
+    /// The first frame with the radius.
+    pub frame: u32,
+    /// Radius of the disc that other agents see, m.
+    pub radius_m: f32,
 }
 
 impl AgentLife {
     /// A life that begins in a frame, with the first database and the plain body.
     pub fn new(spec: AgentSpec, source: Option<u32>, born: u32) -> Self {
-        Self { spec, source, born, removed: None, database: 0, character: None, stature: 1.0, group: None }
+        Self {
+            spec,
+            source,
+            born,
+            removed: None,
+            database: 0,
+            character: None,
+            stature: 1.0,
+            group: None,
+            radii_m: Vec::new(),
+            teleports: Vec::new(),
+        }
+    }
+
+    /// The first frame after which the agent does not stand but begins, where steps last `dt_s`.
+    pub fn begins_at(&self, dt_s: f32) -> u32 {
+        self.born + (self.spec.pre_movement_s / dt_s).ceil() as u32
+    }
+
+    /// Radius of the disc that other agents see in a frame, m.
+    pub fn radius_m(&self, frame: u32) -> f32 {
+        let later = self.radii_m.partition_point(|change| change.frame <= frame);
+        later.checked_sub(1).map_or(self.spec.radius_m, |last| self.radii_m[last].radius_m)
+    }
+
+    /// Radius of the disc that walls hold in a frame, m: at most that of the other disc.
+    pub fn wall_radius_m(&self, frame: u32) -> f32 {
+        self.spec.wall_radius_m.min(self.radius_m(frame))
+    }
+
+    /// Whether a state has moved the agent at once between a frame and the one before.
+    pub fn is_teleported(&self, frame: u32) -> bool {
+        self.teleports.binary_search(&frame).is_ok()
     }
 
     /// Whether the agent is present in a frame.
@@ -72,13 +117,36 @@ pub struct SourceCount {
     pub blocked_frames: u32,
 }
 
-/// All agents, past and present, and the counts of the sources.
+/// What became of the agents that wanted one of a set of goals and found none with room.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct GoalCount {
+    /// Agents that wait until there is room.
+    pub waiting: u32,
+    /// Greatest number of agents that waited at once.
+    pub waiting_max: u32,
+    /// Steps in which an agent waited.
+    pub waiting_steps: u32,
+}
+
+impl GoalCount {
+    /// Adds a step.
+    pub(crate) fn add(&mut self, waiting: u32) {
+        self.waiting = waiting;
+        self.waiting_max = self.waiting_max.max(waiting);
+        self.waiting_steps += u32::from(waiting > 0);
+    }
+}
+
+/// All agents, past and present, and the counts of sources and goals.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Population {
     /// Every agent, by id.
     pub agents: Vec<AgentLife>,
     /// The counts of every source, by index.
     pub sources: Vec<SourceCount>,
+    /// The counts of every set of goals, by index.
+    pub goals: Vec<GoalCount>,
 }
 
 impl Population {
@@ -87,6 +155,7 @@ impl Population {
         Self {
             agents: scenario.agents.iter().map(|spec| AgentLife::new(spec.clone(), None, 0)).collect(),
             sources: vec![SourceCount::default(); scenario.sources.len()],
+            goals: vec![GoalCount::default(); scenario.behaviour.goals.len()],
         }
     }
 

@@ -1,5 +1,6 @@
 //! One step of the simulation, in the order of the paper's Fig. 2 (`FbCrowd` §3).
 //!
+//! 0. behaviour (BFSM, §6): what each agent wants, where the scenario has states (`simulation/crowd_behaviour.rs`);
 //! 1. route: the preferred velocity of each agent, v_pref;
 //! 2. neighbours: the agents near each agent;
 //! 3. planning (MCN, §4): v_pref becomes a velocity that satisfies the constraints of body, stance foot and crowd;
@@ -17,10 +18,12 @@
 
 use std::sync::Arc;
 
+use glam::Vec2;
 use motiondb::motion::MotionDb;
 use rayon::prelude::*;
 
 use crate::agents::Agents;
+use crate::behaviour::{CrowdBehaviour, EndlessTransitions};
 use crate::coupling::{body_to_disc, decoupled};
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan::PLANTED_CONTACT;
@@ -30,16 +33,20 @@ use crate::planning::world_view::WorldView;
 use crate::population::Population;
 use crate::recording::frame::AgentFrame;
 use crate::route::crowd_routes::CrowdRoutes;
-use crate::route::path::{self, Braking, RouteView};
+use crate::route::path::{Braking, RouteView};
+use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
-use crate::scenario::{AtGoal, Scenario};
+use crate::simulation::path_walker::PathWalker;
 use crate::simulation::source_state::SourceState;
 use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
 
+mod crowd_behaviour;
+mod path_walker;
 mod source_state;
 mod turnover;
+mod zones;
 
 /// Bodies that one thread takes at a time, at least: enough to outweigh the hand-over, few enough to share out 100.
 const BODIES_PER_TASK_MIN: usize = 16;
@@ -77,6 +84,8 @@ pub struct Simulation {
     neighbours: NeighbourSearch,
     planning: plan_all::CrowdPlanningMemory,
     agents: Agents,
+    /// State of every present agent, by index; empty without states in the scenario.
+    crowd: CrowdBehaviour,
     population: Population,
     /// The state of every source, by index.
     sources: Vec<SourceState>,
@@ -89,8 +98,9 @@ impl Simulation {
     pub fn new(db: Arc<MotionDb>, scenario: &Scenario) -> Self {
         let params = HmsParams { modes: scenario.modes(), ..scenario.params.synthesis.clone() };
         let context = SynthesisContext::new(db, params);
-        let mut agents = Agents::default();
+        let (mut agents, mut crowd) = (Agents::default(), CrowdBehaviour::new(&scenario.behaviour));
         for (index, spec) in scenario.agents.iter().enumerate() {
+            Self::add_behaviour(&mut crowd, scenario, spec);
             agents.push(index.into(), spec, scenario.seed, scenario.coupling, &context);
         }
         let mut simulation = Self {
@@ -104,6 +114,7 @@ impl Simulation {
             sources: SourceState::all(scenario),
             scenario: scenario.clone(),
             agents,
+            crowd,
             context,
             steps: 0,
         };
@@ -122,6 +133,11 @@ impl Simulation {
         &self.population
     }
 
+    /// Transitions between states that did not end within a step, the first that there were: the scenario is wrong.
+    pub fn endless_transitions(&self) -> Option<&EndlessTransitions> {
+        self.crowd.endless.as_ref()
+    }
+
     /// The recorded frame of each present agent at the present time, in the order of their ids.
     pub fn frames(&self) -> &[AgentFrame] {
         &self.agents.frames
@@ -137,19 +153,23 @@ impl Simulation {
 
     /// Advances by the scenario's dt; `finished` receives each stage at its end.
     pub fn step(&mut self, finished: &mut dyn FnMut(Stage)) {
+        self.decide();
         self.remove_leaving_agents();
         self.follow_paths();
+        self.apply_zones();
         finished(Stage::Route);
         let Agents { positions_m, velocities_mps, radii_m, .. } = &self.agents;
         let Scenario { planner, params, .. } = &self.scenario;
         self.neighbours.rebuild(positions_m, velocities_mps, radii_m, ranking_horizon_s(*planner, params));
         finished(Stage::Neighbours);
         self.plan();
+        self.face_as_wanted();
         finished(Stage::Planning);
         self.synthesize();
         finished(Stage::Synthesis);
         body_to_disc::synchronize(&mut self.agents, &self.context, self.scenario.dt_s);
         self.steps += 1;
+        self.teleport();
         self.bear_due_agents();
         self.record();
         finished(Stage::Coupling);
@@ -160,23 +180,24 @@ impl Simulation {
             Coupling::TwoWay | Coupling::Decoupled => Braking::Evenly,
             Coupling::Discs => Braking::Within(self.scenario.dt_s),
         };
-        let keep = self.scenario.params.route.keep;
-        let Self { agents, population, obstacles, routes, .. } = self;
+        let (keep, dt_s) = (self.scenario.params.route.keep, self.scenario.dt_s);
+        let Self { agents, population, obstacles, routes, crowd, steps, .. } = self;
+        let view = RouteView { routes, obstacles, keep, braking };
         let Agents { ids, removals, positions_m, progress, route_memory, preferred_mps, .. } = agents;
         let remembered = progress.par_iter_mut().zip(route_memory).with_min_len(ROUTES_PER_TASK_MIN);
-        let present = ids.par_iter().zip(removals).zip(positions_m).zip(preferred_mps);
-        present.zip(remembered).for_each(|((((id, removal), position_m), preferred_mps), (progress, memory))| {
-            let spec = population.spec(*id);
-            let braking = match spec.at_goal {
-                AtGoal::Stay => braking,
-                AtGoal::Leave | AtGoal::LeaveAtOnce => Braking::Not,
-            };
-            // An agent that leaves goes on as it went: it may have passed its goal.
-            if removal.is_none() {
-                let view = RouteView { routes, obstacles, keep, braking };
-                *preferred_mps = path::preferred_mps(spec, *position_m, &view, progress, memory);
-            }
-        });
+        let present = ids.par_iter().zip(removals).zip(positions_m).zip(preferred_mps).enumerate();
+        present.zip(remembered).for_each(
+            |((index, (((id, removal), position_m), preferred_mps)), (progress, memory))| {
+                // An agent that leaves goes on as it went: it may have passed its goal.
+                if removal.is_some() {
+                    return;
+                }
+                let life = &population.agents[id.index()];
+                let walker = PathWalker { spec: &life.spec, state: crowd.agents.get(index), position_m: *position_m };
+                let has_begun = life.begins_at(dt_s) <= *steps;
+                *preferred_mps = if has_begun { walker.preferred_mps(&view, progress, memory) } else { Vec2::ZERO };
+            },
+        );
     }
 
     /// The view of the world that planners read. The neighbours are those of the last step's beginning, so they lack
@@ -244,6 +265,7 @@ impl Simulation {
         let agents = &mut self.agents;
         let (body, plan, frame) = (&agents.bodies[index], &agents.plans[index], &mut agents.frames[index]);
         *frame = AgentFrame {
+            state: self.crowd.agents.get(index).map_or(0, |agent| agent.state as u16),
             root: body.root,
             preferred_mps: agents.preferred_mps[index],
             planned_mps: plan.velocity_mps,
@@ -266,6 +288,10 @@ fn are_between_steps(before: [f32; 2], after: [f32; 2]) -> bool {
 }
 
 #[cfg(test)]
+mod behaviour_tests;
+#[cfg(test)]
 pub(crate) mod tests;
 #[cfg(test)]
 mod turnover_tests;
+#[cfg(test)]
+mod wild_behaviour_tests;

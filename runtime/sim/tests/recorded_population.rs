@@ -39,6 +39,9 @@ fn wide_header() -> Header {
         wall_radius_m: 0.2,
         preferred_speed_mps: 1.2,
         at_goal: AtGoal::Leave,
+        state: 0,
+        pre_movement_s: 0.0,
+        profiles: Vec::new(),
     });
     header
 }

@@ -184,6 +184,12 @@ fn a_stated_facing_decides_left_and_right() {
 }
 
 #[test]
+fn a_scenario_in_place_of_a_manifest_is_recognised() {
+    let scenario = "clips = '../clips'\nduration_s = 3\n[[agents]]\nat_m = [0, 0]\n";
+    check_rejected("scenario", scenario, "agents", &["this is a scenario"]);
+}
+
+#[test]
 fn mistakes_are_shown_at_their_position() {
     let one = "[[clips]]\npath = 'walk_110.bvh'\n";
     let check = |test, text: &str, part, words: &[&str]| check_rejected(test, &format!("{one}{text}"), part, words);

@@ -116,6 +116,19 @@ pub enum JobError {
         /// Longest duration of a change between blending and semi-procedural locomotion, s.
         transition_s: f32,
     },
+    /// An agent changes its state again and again within one step.
+    #[error(
+        "after {time_s:.2} s agent {agent} changes between states `{states}` without end within one step; \
+         add a condition to one of their transitions, as in `when = {{ after_s = 1 }}`"
+    )]
+    EndlessTransitions {
+        /// The agent.
+        agent: u32,
+        /// Time of the step, s.
+        time_s: f64,
+        /// Names of the states.
+        states: String,
+    },
     /// A scenario cannot be read.
     #[error(transparent)]
     Scenario(ScenarioError),

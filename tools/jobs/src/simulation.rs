@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use fbcrowd_sim::behaviour::EndlessTransitions;
 use fbcrowd_sim::planning::Planner;
-use fbcrowd_sim::population::{Population, SourceCount};
+use fbcrowd_sim::population::{GoalCount, Population, SourceCount};
 use fbcrowd_sim::recording::{Header, Recorder};
 use fbcrowd_sim::route::mesh::ClosedPassage;
 use fbcrowd_sim::route::{ClosedToAgents, closed_to_agents};
@@ -84,6 +85,7 @@ impl PreparedSimulation {
         for _ in 0..steps {
             stopwatch.start();
             simulation.step(&mut |stage| stopwatch.lap(stage));
+            check_transitions(&simulation, &header)?;
             recorder.push(simulation.frames())?;
             agent_steps += simulation.frames().len();
             work.advance();
@@ -91,6 +93,7 @@ impl PreparedSimulation {
         work.end();
         recorder.finish(simulation.population())?;
         note_waiting(simulation.population(), observer);
+        note_full_goals(simulation.population(), &header.scenario, observer);
         Ok(stopwatch.timings(agent_steps, steps, header.scenario.dt_s))
     }
 }
@@ -132,6 +135,27 @@ fn note_waiting(population: &Population, observer: &Observer) {
             observer(JobEvent::Note(&format!("source {index} is blocked: {counts}; widen its area or lower its rate")));
         }
     }
+}
+
+/// Notes goals that had no room for all agents.
+fn note_full_goals(population: &Population, scenario: &Scenario, observer: &Observer) {
+    for (count, set) in population.goals.iter().zip(&scenario.behaviour.goals) {
+        let &GoalCount { waiting, waiting_max, waiting_steps } = count;
+        if waiting_steps > 0 {
+            let time_s = waiting_steps as f32 * scenario.dt_s;
+            let name = &set.name;
+            let counts = format!("up to {waiting_max} agents waited during {time_s:.1} s, {waiting} still wait");
+            let remedy = "add areas or capacity, or a transition with `after_s`";
+            observer(JobEvent::Note(&format!("goals `{name}` were full: {counts}; {remedy}")));
+        }
+    }
+}
+
+/// Checks that the transitions of the last step ended.
+fn check_transitions(simulation: &Simulation, header: &Header) -> Result<(), JobError> {
+    let Some(EndlessTransitions { agent, time_s, states }) = simulation.endless_transitions() else { return Ok(()) };
+    let states: Vec<&str> = states.iter().map(|state| header.states[*state as usize].as_str()).collect();
+    Err(JobError::EndlessTransitions { agent: agent.0, time_s: *time_s, states: states.join("`, `") })
 }
 
 /// The planner must look further ahead than a change of synthesis takes (§3.4.1).

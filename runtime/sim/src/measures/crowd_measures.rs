@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::measures::body_penetration::BodyPenetration;
 use crate::measures::collision_rate::Collisions;
 use crate::measures::frame_pairs::FramePairs;
+use crate::measures::places::{MeasuredPlaces, PlaceMeasures};
 use crate::measures::planted_slide::PlantedSlide;
 use crate::measures::root_measures::RootMeasures;
 use crate::measures::wall_contact::WallContact;
@@ -100,6 +101,9 @@ pub struct Measures {
     /// Mean angle between facing and displacement, degrees, over all steps before each agent's arrival in which it
     /// walks.
     pub walking_heading_error_deg: f64,
+    /// The scenario's `[[measure]]` tables, in their order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub places: Vec<PlaceMeasures>,
 }
 
 /// Computes [`Measures`] from frames that come one by one, so that a crowd is measured while it runs.
@@ -116,6 +120,7 @@ pub struct Measuring {
     slide: PlantedSlide,
     bodies: BodyPenetration,
     walls: WallContact,
+    places: MeasuredPlaces,
 }
 
 impl Measuring {
@@ -133,6 +138,7 @@ impl Measuring {
             slide: PlantedSlide::new(skeleton, start.len(), dt_s),
             bodies: BodyPenetration::new(skeleton),
             walls: WallContact::new(skeleton, scenario),
+            places: MeasuredPlaces::new(scenario, start),
         };
         measuring.pose(start);
         follow_feet(&mut measuring.slide, &measuring.roots, start, &measuring.joints);
@@ -143,16 +149,19 @@ impl Measuring {
     pub fn push(&mut self, population: &Population, after: &[AgentFrame]) {
         self.steps += 1;
         self.pose(after);
-        let pairs = FramePairs::new(&self.before, after);
+        let frame = self.steps as u32;
+        let life = |agent: &AgentFrame| &population.agents[agent.id.index()];
+        let mut pairs = FramePairs::new(&self.before, after);
+        pairs.common.retain(|(_, after)| !life(after).is_teleported(frame));
         let (before_m, after_m): (Vec<Vec2>, Vec<Vec2>) =
             pairs.common.iter().map(|(before, after)| (before.root.position_m, after.root.position_m)).unzip();
-        let spec = |agent: &AgentFrame| population.spec(agent.id);
-        let radii_m: Vec<f32> = pairs.common.iter().map(|(_, after)| spec(after).radius_m).collect();
+        let radii_m: Vec<f32> = pairs.common.iter().map(|(_, after)| life(after).radius_m(frame)).collect();
         self.collisions.push(&radii_m, &before_m, &after_m);
         follow_feet(&mut self.slide, &self.roots, after, &self.joints);
         self.roots.push(population, &pairs);
+        self.places.push(frame, &pairs, after);
         self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
-        let wall_radii_m: Vec<f32> = after.iter().map(|agent| spec(agent).wall_radius_m).collect();
+        let wall_radii_m: Vec<f32> = after.iter().map(|agent| life(agent).wall_radius_m(frame)).collect();
         self.walls.push(after, &self.joints, &wall_radii_m);
         self.before.clear();
         self.before.extend_from_slice(after);
@@ -165,7 +174,7 @@ impl Measuring {
 
     /// The measures after the last frame, of the population at that time.
     pub fn finish(self, population: &Population) -> Measures {
-        let Population { agents, sources } = population;
+        let Population { agents, sources, .. } = population;
         let blocked_frames: u64 = sources.iter().map(|source| u64::from(source.blocked_frames)).sum();
         let (slide, bodies, walls) = (self.slide.finish(), self.bodies.finish(), self.walls.finish());
         Measures {
@@ -201,6 +210,7 @@ impl Measuring {
             root_tracking_worst_m: self.roots.tracking_worst_m,
             heading_error_deg: self.roots.heading_error_deg.value(),
             walking_heading_error_deg: self.roots.walking_heading_error_deg.value(),
+            places: self.places.finish(population),
         }
     }
 

@@ -5,7 +5,8 @@
 //!
 //! Read `crowd_measures`, which collects the measures of `fbcrowd measure` from its parts: `collision_rate` (Eqs. 16,
 //! 17), `root_measures` (Eq. 18, arrival, tracking), `planted_slide`, `body_penetration` and `wall_contact` (both by
-//! the capsules of `bone_capsule`); `frame_pairs` pairs the agents of two frames. `pedestrian_studies` holds flow, lanes, density and waiting crowds; `agent_table`
+//! the capsules of `bone_capsule`); `frame_pairs` pairs the agents of two frames. `places` holds the scenario's own lines and
+//! areas, `pedestrian_studies` flow, lanes, density and waiting crowds; `agent_table`
 //! and `trajectories` write a recording as text.
 
 pub(crate) mod agent_table;
@@ -15,6 +16,7 @@ pub(crate) mod collision_rate;
 pub(crate) mod crowd_measures;
 pub(crate) mod frame_pairs;
 pub(crate) mod pedestrian_studies;
+pub(crate) mod places;
 pub(crate) mod planted_slide;
 pub(crate) mod root_measures;
 pub(crate) mod trajectories;
@@ -27,5 +29,6 @@ pub use pedestrian_studies::{
     Gate, LaneOrder, LaneWalker, MeasuredSection, SECTORS, SectionMeans, WaitingCrowd, WaitingShape, lane_order,
     weidmann_mps,
 };
+pub use places::{AreaMeasures, AreaMoment, EgressMeasures, LEVELS_OF_SERVICE, LineMeasures, Passages, PlaceMeasures};
 pub use planted_slide::{FootSlide, PlantedSlide};
 pub use trajectories::{write_roots, write_trajectories};

@@ -4,7 +4,7 @@
 //! Velocities are differences of the synthesised root, whose path is ripple-free. Agents start from rest, so T steps
 //! have T accelerations. World, metres, seconds.
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 use motiondb::statistics::mean;
 
 use crate::measures::frame_pairs::FramePairs;
@@ -119,7 +119,8 @@ impl RootMeasures {
     /// Adds one step, given the agents that are present before and after it, and those that were removed or born.
     pub(crate) fn push(&mut self, population: &Population, pairs: &FramePairs<'_>) {
         self.steps += 1;
-        pairs.removed.iter().for_each(|agent| self.tracks[agent.id.index()].is_gone = true);
+        let now_s = self.steps as f64 * self.dt_s;
+        pairs.removed.iter().for_each(|agent| self.tracks[agent.id.index()].leave(now_s));
         for &(before, after) in &pairs.common {
             let track = &mut self.tracks[after.id.index()];
             let displacement_m = position_m(after) - position_m(before);
@@ -140,12 +141,12 @@ impl RootMeasures {
                     }
                 }
                 track.path_m += displacement_m.length();
-                track.watch_for_stall(self.dt_s);
+                track.watch_for_stall(after, self.dt_s);
             }
             let tracking_error_m = displacement_m.distance(DVec2::from(after.planned_mps) * self.dt_s);
             self.tracking_error_m.add(tracking_error_m);
             self.tracking_worst_m = self.tracking_worst_m.max(tracking_error_m);
-            track.arrive(after, self.steps as f64 * self.dt_s);
+            track.arrive(after, now_s);
         }
         pairs.born.iter().for_each(|frame| self.begin(population, frame));
     }
@@ -196,6 +197,14 @@ impl RootTrack {
         }
     }
 
+    /// Notes that the agent was removed; one that begins in a state of the behaviour arrives by that.
+    fn leave(&mut self, now_s: f64) {
+        self.is_gone = true;
+        if self.agent.state != 0 {
+            self.arrival.at_s = self.arrival.at_s.or(Some(now_s));
+        }
+    }
+
     fn arrive(&mut self, frame: &AgentFrame, now_s: f64) {
         if self.arrival.follow(&self.agent, frame.root.position_m, now_s) {
             let straight_m = self.straight_path_m(position_m(frame));
@@ -222,8 +231,9 @@ impl RootTrack {
         }
     }
 
-    fn watch_for_stall(&mut self, dt_s: f64) {
-        let slow = self.velocity_mps.length() < STALL_SPEED_MPS;
+    /// Counts steps in which the agent wants to walk and stands; one that waits for a signal does not stall.
+    fn watch_for_stall(&mut self, after: &AgentFrame, dt_s: f64) {
+        let slow = self.velocity_mps.length() < STALL_SPEED_MPS && after.preferred_mps != Vec2::ZERO;
         self.slow_steps = if slow { self.slow_steps + 1 } else { 0 };
         // Half a step of tolerance, since dt is not exact in binary.
         self.stalled |= (self.slow_steps as f64 + 0.5) * dt_s >= STALL_S;

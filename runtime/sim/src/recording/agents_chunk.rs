@@ -9,10 +9,10 @@ use std::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::population::{AgentLife, Population, SourceCount};
+use crate::population::{AgentLife, GoalCount, Population, RadiusChange, SourceCount};
 use crate::recording::header::Header;
 use crate::scenario::AgentSpec;
-use crate::scenario::ranges::{AGENTS_MAX, check_agent};
+use crate::scenario::ranges::{AGENTS_MAX, RADIUS_M, check_agent};
 
 /// Statures, relative to the database's skeleton: from an infant to a giant.
 const STATURE: std::ops::RangeInclusive<f32> = 0.1..=10.0;
@@ -23,6 +23,8 @@ struct StoredPopulation<'a> {
     agents: Vec<StoredLife<'a>>,
     #[serde(default)]
     sources: Cow<'a, [SourceCount]>,
+    #[serde(default, skip_serializing_if = "<[GoalCount]>::is_empty")]
+    goals: Cow<'a, [GoalCount]>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -44,6 +46,10 @@ struct StoredLife<'a> {
     stature: f32,
     #[serde(skip_serializing_if = "Option::is_none")]
     group: Option<u32>,
+    #[serde(skip_serializing_if = "<[RadiusChange]>::is_empty")]
+    radii_m: Cow<'a, [RadiusChange]>,
+    #[serde(skip_serializing_if = "<[u32]>::is_empty")]
+    teleports: Cow<'a, [u32]>,
 }
 
 impl Default for StoredLife<'_> {
@@ -58,6 +64,8 @@ impl Default for StoredLife<'_> {
             character: None,
             stature: 1.0,
             group: None,
+            radii_m: Cow::Borrowed(&[]),
+            teleports: Cow::Borrowed(&[]),
         }
     }
 }
@@ -84,9 +92,12 @@ pub(crate) fn stored<'a>(population: &'a Population, header: &Header) -> impl Se
         character: life.character,
         stature: life.stature,
         group: life.group,
+        radii_m: Cow::Borrowed(&life.radii_m),
+        teleports: Cow::Borrowed(&life.teleports),
     };
     let agents = population.agents.iter().enumerate().map(life).collect();
-    StoredPopulation { agents, sources: Cow::Borrowed(&population.sources) }
+    let Population { sources, goals, .. } = population;
+    StoredPopulation { agents, sources: Cow::Borrowed(sources), goals: Cow::Borrowed(goals) }
 }
 
 /// The population of a recording with this header and number of frames.
@@ -111,17 +122,25 @@ fn population(stored: StoredPopulation<'_>, header: &Header) -> Result<Populatio
             (None, Some(spec)) => spec.into_owned(),
             _ => return Err(format!("agent {id} has no start, or two")),
         };
-        let StoredLife { source, born, removed, database, character, stature, group, .. } = stored;
-        Ok(AgentLife { spec, source, born, removed, database, character, stature, group })
+        let StoredLife { source, born, removed, database, character, stature, group, radii_m, teleports, .. } = stored;
+        let (radii_m, teleports) = (radii_m.into_owned(), teleports.into_owned());
+        Ok(AgentLife { spec, source, born, removed, database, character, stature, group, radii_m, teleports })
     };
     let agents = stored.agents.into_iter().enumerate().map(life).collect::<Result<_, String>>()?;
-    Ok(Population { agents, sources: stored.sources.into_owned() })
+    let mut goals = stored.goals.into_owned();
+    if goals.is_empty() {
+        goals = vec![GoalCount::default(); header.scenario.behaviour.goals.len()];
+    }
+    Ok(Population { agents, sources: stored.sources.into_owned(), goals })
 }
 
 fn check(population: &Population, header: &Header, frame_count: usize) -> Result<(), String> {
-    let Population { agents, sources } = population;
+    let Population { agents, sources, goals } = population;
     if sources.len() != header.scenario.sources.len() {
         return Err(format!("it counts {} sources, but the scenario has another number", sources.len()));
+    }
+    if goals.len() != header.scenario.behaviour.goals.len() {
+        return Err(format!("it counts {} sets of goals, but the scenario has another number", goals.len()));
     }
     if !agents.is_sorted_by_key(|life| life.born) {
         return Err("ids do not count births".into());
@@ -134,7 +153,13 @@ fn check(population: &Population, header: &Header, frame_count: usize) -> Result
         let is_known = is_in(life.source, sources.len())
             && is_in(Some(life.database), header.databases.len())
             && is_in(life.character, header.characters.len());
-        if !(is_born && is_gone && is_known && STATURE.contains(&life.stature)) {
+        let is_frame = |frame: u32| frame > life.born && (frame as usize) < frame_count;
+        let changes = life.radii_m.iter();
+        let is_traced = changes.clone().all(|change| is_frame(change.frame) && RADIUS_M.contains(&change.radius_m))
+            && changes.is_sorted_by(|a, b| a.frame < b.frame)
+            && life.teleports.iter().all(|&frame| is_frame(frame))
+            && life.teleports.is_sorted_by(|a, b| a < b);
+        if !(is_born && is_gone && is_known && is_traced && STATURE.contains(&life.stature)) {
             return Err(format!("agent {id}: a frame, an index or the stature is out of range"));
         }
     }

@@ -6,12 +6,13 @@ use motiondb::motion::MotionDb;
 use motiondb::velocity_sets::velocity_hull::VelocityHull;
 use serde::{Deserialize, Serialize};
 
+use crate::behaviour::Behaviour;
 use crate::recording::chunk::ChunkFile;
 use crate::recording::error::RecordingError;
 use crate::recording::format::{HEAD, HEAD_BYTE};
 use crate::recording::zipped_json;
 use crate::scenario::Scenario;
-use crate::scenario::check::check_numbers;
+use crate::scenario::rules::check::check_numbers;
 
 /// Greatest velocity of a set, m/s; none of a body comes near.
 const SPEED_MAX_MPS: f32 = 100.0;
@@ -21,8 +22,6 @@ const DATABASES_MAX: usize = 10_000;
 const STATES_MAX: usize = 1 << 16;
 /// Greatest length of the name of a character or state, bytes.
 const NAME_MAX_BYTES: usize = 200;
-/// Name of the behaviour state of an agent that follows its waypoints.
-pub const FOLLOWS_PATH: &str = "follow_path";
 
 /// What holds for all frames of a recording. No timings, no dates, no paths.
 ///
@@ -63,7 +62,7 @@ pub struct RecordedCharacter {
 }
 
 fn default_states() -> Vec<String> {
-    vec![FOLLOWS_PATH.to_owned()]
+    Behaviour::default().state_names()
 }
 
 impl Header {
@@ -75,7 +74,8 @@ impl Header {
 
     /// The header of a scenario with bodies from one recorded database.
     pub fn of(database: RecordedDatabase, scenario: Scenario) -> Self {
-        Self { databases: vec![database], characters: Vec::new(), states: default_states(), scenario }
+        let states = scenario.behaviour.state_names();
+        Self { databases: vec![database], characters: Vec::new(), states, scenario }
     }
 
     /// The bodies of the first database, by which all agents move today.

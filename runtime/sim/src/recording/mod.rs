@@ -40,7 +40,7 @@ pub use error::RecordingError;
 pub use format::{CHUNK_HEAD_BYTES, ChunkKind, FORMAT_VERSION, FORMAT_VERSION_1};
 pub use frame::AgentFrame;
 pub use frame_packing::{FrameFault, PACKED_BYTES, unpack};
-pub use header::{FOLLOWS_PATH, Header, RecordedCharacter, RecordedDatabase};
+pub use header::{Header, RecordedCharacter, RecordedDatabase};
 pub use reader::Recording;
 pub use recorder::Recorder;
 pub use replay::{RecordedStep, Replay};

@@ -87,10 +87,11 @@ impl<'a> Replay<'a> {
         // Agents that are removed leave before the step is planned, those that are born come after it.
         keep_common(&mut before, &after);
         keep_common(&mut after, &before);
-        let spec = |agent: &AgentFrame| self.recording.population().spec(agent.id);
-        let radii_m: Vec<f32> = before.iter().map(|agent| spec(agent).radius_m).collect();
+        let (population, number) = (self.recording.population(), frame as u32);
+        let life = |agent: &AgentFrame| &population.agents[agent.id.index()];
+        let radii_m: Vec<f32> = before.iter().map(|agent| life(agent).radius_m(number + 1)).collect();
         let positions_m: Vec<Vec2> = before.iter().map(|agent| agent.root.position_m).collect();
-        let velocities_mps = self.velocities_mps(&earlier, &before);
+        let velocities_mps = self.velocities_mps(&earlier, &before, number);
         let mut neighbours = NeighbourSearch::default();
         let Scenario { planner, params, .. } = &self.header().scenario;
         neighbours.rebuild(&positions_m, &velocities_mps, &radii_m, ranking_horizon_s(*planner, params));
@@ -98,7 +99,7 @@ impl<'a> Replay<'a> {
             replay: self,
             frame,
             radii_m,
-            wall_radii_m: before.iter().map(|agent| spec(agent).wall_radius_m).collect(),
+            wall_radii_m: before.iter().map(|agent| life(agent).wall_radius_m(number + 1)).collect(),
             positions_m,
             velocities_mps,
             facings_rad: before.iter().map(|agent| agent.root.facing_rad).collect(),
@@ -112,10 +113,12 @@ impl<'a> Replay<'a> {
         })
     }
 
-    /// Velocities between two frames, as `coupling::body_to_disc` computes them, m/s; all agents start at rest.
-    fn velocities_mps(&self, from: &[AgentFrame], to: &[AgentFrame]) -> Vec<Vec2> {
-        let dt_s = self.header().scenario.dt_s;
-        let moved_m = |to: &AgentFrame| to.root.position_m - of_id(from, to.id).unwrap_or(to).root.position_m;
+    /// Velocities between two frames, as `coupling::body_to_disc` computes them, m/s; all agents start at rest, also
+    /// where a state has moved them at once.
+    fn velocities_mps(&self, from: &[AgentFrame], to: &[AgentFrame], number: u32) -> Vec<Vec2> {
+        let (dt_s, agents) = (self.header().scenario.dt_s, &self.recording.population().agents);
+        let before = |to: &AgentFrame| of_id(from, to.id).filter(|_| !agents[to.id.index()].is_teleported(number));
+        let moved_m = |to: &AgentFrame| to.root.position_m - before(to).copied().unwrap_or(*to).root.position_m;
         to.iter().map(|to| moved_m(to) / dt_s).collect()
     }
 

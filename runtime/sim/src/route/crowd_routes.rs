@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, Vec2};
 
-use crate::route::field::{RouteField, RouteGoal, RoutePosition, shortest_route};
+use crate::behaviour::{Area, GoalRef};
+use crate::route::field::{RouteField, RouteGoal, RoutePosition, RouteStep, shortest_route};
 use crate::route::mesh::{RouteError, RouteMesh};
 use crate::scenario::{AgentSpec, Scenario};
 
@@ -15,6 +16,8 @@ use crate::scenario::{AgentSpec, Scenario};
 const SHARED_MIN: usize = 4;
 /// Greatest number of fields; the waypoints that most agents share have them. A field of a town takes 3 MB.
 const FIELDS_MAX: usize = 64;
+/// Memory of the fields of areas from which on further areas have none, bytes.
+const AREA_FIELDS_MAX_BYTES: usize = 256 << 20;
 /// Step of wall radii that share a mesh, m; radii are rounded up.
 const RADIUS_STEP_M: f32 = 0.05;
 /// Distance within which a corner of an own route is passed, m.
@@ -32,6 +35,8 @@ pub struct CrowdRoutes {
     fields: Vec<RouteField>,
     /// Index of the field of a waypoint, by class and coordinates.
     field_of: BTreeMap<WaypointKey, usize>,
+    /// Index of the field of an area of a goal, by class.
+    area_field_of: BTreeMap<(u32, GoalRef), usize>,
 }
 
 /// Class of the wall radius, and the bits of the coordinates.
@@ -53,6 +58,15 @@ struct OwnRoute {
     corners_m: Vec<Vec2>,
 }
 
+/// The end of a route that is not a waypoint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RouteEnd {
+    /// The position, m.
+    pub position_m: Vec2,
+    /// The area of a goal in which it lies; none of a position alone.
+    pub area: Option<GoalRef>,
+}
+
 /// The next part of an agent's route.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NextCorner {
@@ -64,6 +78,13 @@ pub struct NextCorner {
     pub after_m: Option<Vec2>,
     /// The nearest point of the mesh, m, where the agent is nearer to a wall than the mesh.
     pub entry_m: Option<Vec2>,
+}
+
+impl NextCorner {
+    fn of(step: RouteStep) -> Self {
+        let RouteStep { distance_m, next_m, after_m, entry_m, .. } = step;
+        Self { distance_m, corner_m: next_m, after_m, entry_m }
+    }
 }
 
 impl CrowdRoutes {
@@ -102,7 +123,61 @@ impl CrowdRoutes {
             routes.field_of.insert(waypoint, routes.fields.len());
             routes.fields.push(field);
         }
+        routes.add_area_fields(scenario);
         Ok(routes)
+    }
+
+    /// Adds a field for each area of the goals of the behaviour, as many as memory allows.
+    fn add_area_fields(&mut self, scenario: &Scenario) {
+        let areas = scenario.behaviour.goals.iter().enumerate().flat_map(|(set, goals)| {
+            let at = move |area: usize| GoalRef { set: set as u32, area: area as u32 };
+            goals.areas.iter().enumerate().map(move |(area, goal)| (at(area), &goal.area))
+        });
+        let mut bytes = 0;
+        for (at, area) in areas {
+            for (class, mesh) in &self.meshes {
+                if bytes > AREA_FIELDS_MAX_BYTES {
+                    return;
+                }
+                let field = RouteField::new(mesh, route_goal(area));
+                bytes += field.bytes();
+                self.area_field_of.insert((*class, at), self.fields.len());
+                self.fields.push(field);
+            }
+        }
+    }
+
+    /// Length of the route from a position to an area of a goal, m; none where no route leads there. Straight where
+    /// there are no walls, or the area has no field.
+    pub fn to_area_m(&self, wall_radius_m: f32, from_m: Vec2, at: GoalRef, area: &Area) -> Option<f32> {
+        let class = class(wall_radius_m);
+        match (self.mesh(class), self.area_field_of.get(&(class, at))) {
+            (Some(mesh), Some(&field)) => {
+                let step = self.fields[field].step(mesh, from_m, &mut RoutePosition::default())?;
+                Some(step.distance_m)
+            }
+            _ => Some(area.distance_m(from_m)),
+        }
+    }
+
+    /// As [`Self::next`], to an end that is not a waypoint: by the field of its area up to where the area is in sight,
+    /// then by a route of the agent's own.
+    pub(crate) fn next_to_end(
+        &self,
+        wall_radius_m: f32,
+        from_m: Vec2,
+        end: &RouteEnd,
+        memory: &mut RouteMemory,
+    ) -> Option<NextCorner> {
+        let class = class(wall_radius_m);
+        let mesh = self.mesh(class)?;
+        if let Some(&field) = end.area.and_then(|area| self.area_field_of.get(&(class, area))) {
+            let step = self.fields[field].step(mesh, from_m, &mut memory.position)?;
+            if step.after_m.is_some() {
+                return Some(NextCorner::of(step));
+            }
+        }
+        memory.next_of_own(mesh, from_m, end.position_m)
     }
 
     /// The next corner of an agent's route from a position to a waypoint; none where no route leads there, or there are
@@ -117,7 +192,7 @@ impl CrowdRoutes {
         // From the mesh beside a waypoint that lies off it, no corner is left.
         let is_beside = |after_m: &Vec2| *after_m == to_m && step.next_m.distance(to_m) < BESIDE_M;
         let after_m = step.after_m.filter(|after_m| !is_beside(after_m));
-        Some(NextCorner { distance_m: step.distance_m, corner_m: step.next_m, after_m, entry_m: step.entry_m })
+        Some(NextCorner { after_m, ..NextCorner::of(step) })
     }
 
     /// The mesh of each class of wall radii, with the radius that it keeps from walls, m.
@@ -176,6 +251,14 @@ impl RouteMemory {
         let onwards = corners_m.windows(2).map(|ends_m| ends_m[0].distance(ends_m[1]));
         let distance_m = from_m.distance(corner_m) + onwards.sum::<f32>();
         Some(NextCorner { distance_m, corner_m, after_m, entry_m: entry_m.map(DVec2::as_vec2) })
+    }
+}
+
+fn route_goal(area: &Area) -> RouteGoal {
+    match area {
+        Area::Disc { centre_m, radius_m: 0.0 } => RouteGoal::Points(vec![*centre_m]),
+        Area::Disc { centre_m, radius_m } => RouteGoal::Disc { centre_m: *centre_m, radius_m: *radius_m },
+        Area::Polygon(corners_m) => RouteGoal::Polygon(corners_m.clone()),
     }
 }
 

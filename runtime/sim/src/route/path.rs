@@ -6,7 +6,7 @@
 
 use glam::Vec2;
 
-use crate::route::crowd_routes::{CrowdRoutes, NextCorner, RouteMemory};
+use crate::route::crowd_routes::{CrowdRoutes, NextCorner, RouteEnd, RouteMemory};
 use crate::route::params::KeepSide;
 use crate::route::steering;
 use crate::scenario::AgentSpec;
@@ -82,6 +82,17 @@ pub struct RouteView<'a> {
     pub braking: Braking,
 }
 
+/// An agent that walks to a goal that is not a waypoint.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Walker {
+    /// Its position, m.
+    pub(crate) position_m: Vec2,
+    /// Its preferred speed, m/s.
+    pub(crate) speed_mps: f32,
+    /// Radius of the disc that walls hold, m.
+    pub(crate) wall_radius_m: f32,
+}
+
 /// v_pref at a position, m/s. Cases, in order:
 ///
 /// 1. no goals, or the last one reached: stay;
@@ -113,13 +124,8 @@ pub fn preferred_mps(
     if !to_last {
         return RoundedWaypoint::new(agent, next).direction(position_m) * agent.preferred_speed_mps;
     }
-    let speed_mps = match view.braking {
-        Braking::Evenly if progress.arrived => 0.0,
-        Braking::Evenly => braking_speed_mps(to_goal_m.length()),
-        Braking::Within(time_s) => to_goal_m.length() / time_s,
-        Braking::Not => agent.preferred_speed_mps,
-    };
-    to_goal_m.normalize_or_zero() * speed_mps.min(agent.preferred_speed_mps)
+    let speed_mps = goal_speed_mps(to_goal_m.length(), agent.preferred_speed_mps, view.braking, progress.arrived);
+    to_goal_m.normalize_or_zero() * speed_mps
 }
 
 /// A waypoint that is not the last one, and how it is rounded.
@@ -169,6 +175,39 @@ fn leans_on_wall(position_m: Vec2, goal_m: Vec2, corner: &NextCorner) -> bool {
     let off_mesh_m = corner.entry_m.map_or(0.0, |entry_m| entry_m.distance(position_m));
     let is_goal_on_mesh = corner.corner_m.distance(goal_m) < ON_MESH_M;
     is_goal_on_mesh && off_mesh_m > LEANS_M
+}
+
+/// v_pref towards a goal that is not a waypoint, around walls, m/s; `arrived` states whether the agent stands there.
+pub(crate) fn towards_mps(
+    agent: &Walker,
+    goal: &RouteEnd,
+    view: &RouteView,
+    arrived: &mut bool,
+    memory: &mut RouteMemory,
+) -> Vec2 {
+    let &Walker { position_m, speed_mps, wall_radius_m } = agent;
+    let to_goal_m = goal.position_m - position_m;
+    let corner = view.routes.next_to_end(wall_radius_m, position_m, goal, memory);
+    let can_rest =
+        corner.is_none_or(|corner| corner.after_m.is_none() && !leans_on_wall(position_m, goal.position_m, &corner));
+    *arrived = can_rest && to_goal_m.length() < arrival_radius_m(*arrived);
+    let around =
+        corner.and_then(|corner| steering::direction(position_m, &corner, view.keep, wall_radius_m, view.obstacles));
+    match around {
+        Some(direction) => direction * speed_mps,
+        None => to_goal_m.normalize_or_zero() * goal_speed_mps(to_goal_m.length(), speed_mps, view.braking, *arrived),
+    }
+}
+
+/// Speed before the last goal, m/s.
+fn goal_speed_mps(distance_m: f32, preferred_speed_mps: f32, braking: Braking, arrived: bool) -> f32 {
+    let speed_mps = match braking {
+        Braking::Evenly if arrived => 0.0,
+        Braking::Evenly => braking_speed_mps(distance_m),
+        Braking::Within(time_s) => distance_m / time_s,
+        Braking::Not => preferred_speed_mps,
+    };
+    speed_mps.min(preferred_speed_mps)
 }
 
 fn arrival_radius_m(arrived: bool) -> f32 {

@@ -30,6 +30,24 @@ pub struct AgentSpec {
     /// What the agent does when it arrives at its goal.
     #[serde(default)]
     pub at_goal: AtGoal,
+    /// State of the behaviour in which the agent begins, by index; 0: it follows its waypoints, without behaviour.
+    #[serde(default, skip_serializing_if = "follows_path")]
+    pub state: u32,
+    /// Time for which the agent stands after its birth before it begins, s.
+    #[serde(default, skip_serializing_if = "is_0")]
+    pub pre_movement_s: f32,
+}
+
+/// Whether a time is 0; recordings leave it out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+pub(crate) fn is_0(time_s: &f32) -> bool {
+    *time_s == 0.0
+}
+
+/// Whether a state is that of agents that follow their waypoints; recordings leave it out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+pub(crate) fn follows_path(state: &u32) -> bool {
+    *state == 0
 }
 
 /// What an agent does when it arrives at its last goal.
@@ -56,6 +74,8 @@ impl Default for AgentSpec {
             wall_radius_m: WALL_RADIUS_M,
             preferred_speed_mps: PREFERRED_SPEED_MPS,
             at_goal: AtGoal::Stay,
+            state: 0,
+            pre_movement_s: 0.0,
         }
     }
 }

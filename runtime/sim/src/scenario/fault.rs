@@ -1,5 +1,8 @@
 //! A rule that a scenario breaks, and the part of the scenario that breaks it.
 
+/// What is wrong with a table, and how to mend it.
+pub(crate) type TableFault = (String, &'static str);
+
 /// A rule that a scenario breaks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScenarioFault {
@@ -36,6 +39,18 @@ pub enum ScenarioPart {
     Walkable(usize),
     /// A source of agents, by index.
     Source(usize),
+    /// A state of the behaviour, by index.
+    State(usize),
+    /// A set of goals, by index.
+    Goals(usize),
+    /// An area that conditions name, by index.
+    Area(usize),
+    /// A signal, by index.
+    Signal(usize),
+    /// A `[[measure]]` table, by index.
+    Measure(usize),
+    /// A zone, by index.
+    Zone(usize),
     /// All agents together.
     Agents,
 }

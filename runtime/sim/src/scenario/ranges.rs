@@ -21,9 +21,11 @@ pub const STEP_RANGE_S: RangeInclusive<f32> = 1e-3..=0.25;
 /// Greatest coordinate, m: beyond it f32 positions resolve no millimetre.
 pub(crate) const COORDINATE_MAX_M: f32 = 10_000.0;
 /// Radius of a disc, m: from a child to a person with luggage.
-const RADIUS_M: RangeInclusive<f32> = 0.1..=1.0;
+pub(crate) const RADIUS_M: RangeInclusive<f32> = 0.1..=1.0;
 /// Preferred speed, m/s: from the slowest shuffle to a sprint.
-const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
+pub(crate) const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
+/// Time for which an agent stands before it begins, s: up to a day.
+pub(crate) const PRE_MOVEMENT_S: RangeInclusive<f32> = 0.0..=86_400.0;
 /// Facing, degrees: up to ten turns either way.
 const FACING_DEG: RangeInclusive<f32> = -3_600.0..=3_600.0;
 /// Greatest number of agents: ten times the largest crowd that other simulators show.
@@ -32,8 +34,6 @@ pub(crate) const AGENTS_MAX: usize = 1_000_000;
 pub(crate) const GOALS_MAX: usize = 10_000;
 /// Greatest number of waypoints of all agents: ten for each of the largest crowd, 80 MB.
 pub(crate) const WAYPOINTS_MAX: usize = 10 * AGENTS_MAX;
-/// Greatest number of obstacles.
-const OBSTACLES_MAX: usize = 10_000;
 /// Greatest value of a tunable, in any unit; none of a human body comes near.
 const TUNABLE_MAX: f64 = 1e6;
 /// Least time among the tunables, s: the shortest step.
@@ -63,17 +63,11 @@ pub(crate) fn check_ranges(scenario: &Scenario) -> Result<(), ScenarioFault> {
     }
     check_view(&scenario.view)?;
     check_params(&scenario.params)?;
-    let (agents, obstacles_m) = (&scenario.agents, &scenario.obstacles_m);
+    let agents = &scenario.agents;
     let help = "give at least one, at most a million";
     let least = usize::from(scenario.sources.is_empty());
     within(&ScenarioPart::Agents, "the number of agents", agents.len(), &(least..=AGENTS_MAX), help)?;
-    let obstacle = &ScenarioPart::Obstacle(0);
-    within(obstacle, "the number of obstacles", obstacles_m.len(), &(0..=OBSTACLES_MAX), "give fewer")?;
-    for (index, agent) in agents.iter().enumerate() {
-        check_agent(index, agent)?;
-    }
-    let mut polygons_m = obstacles_m.iter().enumerate();
-    polygons_m.try_for_each(|(index, polygon_m)| check_points(&ScenarioPart::Obstacle(index), polygon_m))
+    agents.iter().enumerate().try_for_each(|(index, agent)| check_agent(index, agent))
 }
 
 /// Checks one number; NaN is in no range.
@@ -91,7 +85,7 @@ pub(crate) fn within<T: PartialOrd + Display>(
 }
 
 /// Checks that a name can name files, which must stay in their folder.
-fn check_name(name: &str) -> Result<(), ScenarioFault> {
+pub(crate) fn check_name(name: &str) -> Result<(), ScenarioFault> {
     let is_plain = |letter: char| !letter.is_control() && !['/', '\\'].contains(&letter);
     if (1..=NAME_MAX_BYTES).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_plain) {
         return Ok(());
@@ -144,8 +138,10 @@ pub(crate) fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), Scenari
     check_points(journey, &[agent.position_m])?;
     check_points(journey, &agent.goals_m)?;
     let help = "give the goal, and waypoints before it";
-    within(journey, "the number of goals", agent.goals_m.len(), &(1..=GOALS_MAX), help)?;
+    let least = usize::from(agent.state == 0);
+    within(journey, "the number of goals", agent.goals_m.len(), &(least..=GOALS_MAX), help)?;
     check_facing(part, agent.facing_rad)?;
+    within(part, "pre_movement_s", agent.pre_movement_s, &PRE_MOVEMENT_S, REMOVE)?;
     check_disc_and_speed(part, agent.radius_m, agent.wall_radius_m, agent.preferred_speed_mps)
 }
 

@@ -3,13 +3,16 @@
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+use crate::behaviour::Behaviour;
 use crate::params::Params;
 use crate::planning::planner::Planner;
 use crate::route::mesh::WalkablePolygon;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::coupling::Coupling;
+use crate::scenario::measure_spec::MeasureSpec;
 use crate::scenario::source_spec::SourceSpec;
 use crate::scenario::view::View;
+use crate::scenario::zone_spec::ZoneSpec;
 use crate::synthesis::Modes;
 
 /// Default time step, s: a film's.
@@ -59,6 +62,15 @@ pub struct Scenario {
     /// Sources of further agents.
     #[serde(default)]
     pub sources: Vec<SourceSpec>,
+    /// Goals, states and signals.
+    #[serde(default, skip_serializing_if = "Behaviour::is_empty")]
+    pub behaviour: Behaviour,
+    /// Ground on which agents walk slower or faster.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub zones: Vec<ZoneSpec>,
+    /// What is measured besides the figures of every recording.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub measures: Vec<MeasureSpec>,
     /// Simple polygons, corners counter-clockwise, world, m; agents stay outside.
     pub obstacles_m: Vec<Vec<Vec2>>,
     /// Simple polygons with a wall without thickness around each, which agents cross in neither direction.
@@ -107,6 +119,9 @@ impl Scenario {
             coupling: Coupling::default(),
             agents,
             sources: Vec::new(),
+            behaviour: Behaviour::default(),
+            zones: Vec::new(),
+            measures: Vec::new(),
             obstacles_m: Vec::new(),
             enclosures_m: Vec::new(),
             walkable_m: Vec::new(),

@@ -7,12 +7,15 @@ use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 use crate::maths::random::SplitMix64;
-use crate::scenario::agent_spec::{AgentSpec, AtGoal};
+use crate::scenario::agent_spec::{AgentSpec, AtGoal, follows_path, is_0};
+use crate::scenario::profile::{DrawnNumbers, Profile};
 
 /// First random stream of the sources' due times; the scenario and the starting phases use those below.
 const DUE_STREAM: u64 = 1 << 34;
 /// First random stream of the positions at which sources place agents.
 const POSITION_STREAM: u64 = 1 << 35;
+/// First random stream of the numbers of agents; a source takes 2^20, a stream for each agent.
+const NUMBER_STREAM: u64 = 1 << 37;
 
 /// A source of agents.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,6 +46,15 @@ pub struct SourceSpec {
     pub preferred_speed_mps: f32,
     /// What the agents do when they arrive at their goals.
     pub at_goal: AtGoal,
+    /// State of the behaviour in which the agents begin, by index; 0: they follow their waypoints.
+    #[serde(default, skip_serializing_if = "follows_path")]
+    pub state: u32,
+    /// Time for which an agent stands after its birth before it begins, s.
+    #[serde(default, skip_serializing_if = "is_0")]
+    pub pre_movement_s: f32,
+    /// Numbers that are drawn for each agent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub profiles: Vec<Profile>,
 }
 
 impl SourceSpec {
@@ -59,6 +71,23 @@ impl SourceSpec {
             wall_radius_m: self.wall_radius_m,
             preferred_speed_mps: self.preferred_speed_mps,
             at_goal: self.at_goal,
+            state: self.state,
+            pre_movement_s: self.pre_movement_s,
+        }
+    }
+
+    /// The source with the numbers of one agent: those of the source with this index after a number of births.
+    pub fn drawn(&self, seed: u64, index: usize, born: u32) -> Self {
+        let stream = NUMBER_STREAM + ((index as u64) << 20) + u64::from(born);
+        let &Self { preferred_speed_mps, radius_m, pre_movement_s, .. } = self;
+        let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s };
+        let numbers = numbers.draw(&self.profiles, &mut SplitMix64::new(seed, stream));
+        Self {
+            preferred_speed_mps: numbers.preferred_speed_mps,
+            radius_m: numbers.radius_m,
+            wall_radius_m: self.wall_radius_m.min(numbers.radius_m),
+            pre_movement_s: numbers.pre_movement_s,
+            ..self.clone()
         }
     }
 
@@ -129,6 +158,9 @@ mod tests {
             wall_radius_m,
             preferred_speed_mps,
             at_goal,
+            state: 0,
+            pre_movement_s: 0.0,
+            profiles: Vec::new(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use glam::Vec2;
 
+use crate::behaviour::Area;
 use crate::route::mesh::{Ground, walkable_contours_m};
 use crate::scenario::resolved::Scenario;
 use crate::world::obstacles::Obstacles;
@@ -19,7 +20,7 @@ impl Scenario {
         self.obstacles_m.is_empty() && self.enclosures_m.is_empty() && self.walkable_m.is_empty()
     }
 
-    /// Starts, goals and corners of the sources' areas, which open ground must contain, m.
+    /// Starts, goals and corners of areas, which open ground must contain, m.
     pub(crate) fn points_m(&self) -> Vec<Vec2> {
         let agents = self.agents.iter().flat_map(|agent| [agent.position_m].into_iter().chain(agent.goals_m.clone()));
         let sources = self.sources.iter().flat_map(|source| {
@@ -28,7 +29,9 @@ impl Scenario {
                 source.goal_offset_m.into_iter().flat_map(move |offset_m| corners_m.map(|at_m| at_m + offset_m));
             corners_m.into_iter().chain(source.goals_m.clone()).chain(own_m)
         });
-        agents.chain(sources).collect()
+        let sets = self.behaviour.goals.iter().flat_map(|set| &set.areas).flat_map(|goal| goal.area.bounds_m());
+        let teleports = self.behaviour.states.iter().filter_map(|state| state.settings.teleport.as_ref());
+        agents.chain(sources).chain(sets).chain(teleports.flat_map(Area::bounds_m)).collect()
     }
 
     /// The ground that routes lead over.

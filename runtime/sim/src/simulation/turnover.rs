@@ -19,7 +19,8 @@ impl Simulation {
     /// Adds an agent, which stands at its start and takes part from the next step on. None where it has no room: its
     /// disc overlaps another or a wall. None, too, where it is no valid agent of a scenario, or a million have been.
     pub fn add(&mut self, spec: AgentSpec) -> Option<AgentId> {
-        let is_valid = check_agent(0, &spec).is_ok() && self.population.agents.len() < AGENTS_MAX;
+        let is_state = spec.state == 0 || (spec.state as usize) < self.scenario.behaviour.states.len();
+        let is_valid = is_state && check_agent(0, &spec).is_ok() && self.population.agents.len() < AGENTS_MAX;
         let has_room = is_valid && self.has_room(spec.position_m, spec.radius_m, spec.wall_radius_m);
         has_room.then(|| self.bear(spec, None))
     }
@@ -52,12 +53,17 @@ impl Simulation {
             self.population.agents[id.index()].removed = Some(self.steps + 1);
         }
         agents.retain(&keeps);
+        self.crowd.retain(&keeps);
     }
 
     /// Marks the agents that have arrived at a goal where they leave.
     fn note_arrivals(&mut self) {
-        let (agents, population) = (&mut self.agents, &self.population);
-        for (index, &id) in agents.ids.iter().enumerate() {
+        for index in 0..self.agents.count() {
+            if !self.follows_path(index) {
+                continue;
+            }
+            let (agents, population) = (&mut self.agents, &self.population);
+            let id = agents.ids[index];
             let spec = population.spec(id);
             let removal = match spec.at_goal {
                 AtGoal::Stay => continue,
@@ -92,7 +98,8 @@ impl Simulation {
 
     /// Places one agent of a source where there is room. Returns whether there is.
     fn place_agent_of(&mut self, source: usize) -> bool {
-        let spec = &self.scenario.sources[source];
+        let born = self.population.sources[source].born;
+        let spec = self.scenario.sources[source].drawn(self.scenario.seed, source, born);
         let tries = if spec.low_m == spec.high_m { 1 } else { TRIES };
         for _ in 0..tries {
             let position_m = spec.position_m(&mut self.sources[source].positions);
@@ -119,6 +126,7 @@ impl Simulation {
     /// Appends an agent with the next id.
     fn bear(&mut self, spec: AgentSpec, source: Option<u32>) -> AgentId {
         let id = AgentId::from(self.population.agents.len());
+        Self::add_behaviour(&mut self.crowd, &self.scenario, &spec);
         self.agents.push(id, &spec, self.scenario.seed, self.scenario.coupling, &self.context);
         self.population.agents.push(AgentLife::new(spec, source, self.steps));
         self.record_agent(self.agents.count() - 1);

@@ -39,6 +39,9 @@ fn source(low_m: Vec2, high_m: Vec2, rate_per_s: f32, ahead_m: f32) -> SourceSpe
         wall_radius_m,
         preferred_speed_mps,
         at_goal: AtGoal::Leave,
+        state: 0,
+        pre_movement_s: 0.0,
+        profiles: Vec::new(),
     }
 }
 

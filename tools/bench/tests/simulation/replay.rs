@@ -10,6 +10,7 @@ use fbcrowd_sim::recording::Replay;
 use fbcrowd_sim::recording::{Header, Recorder, Recording};
 use fbcrowd_sim::scenario::{self, Scenario};
 use fbcrowd_sim::simulation::Simulation;
+use motiondb::files::SourceText;
 use motiondb::motion::MotionDb;
 
 use super::clips::{bundled, marine};
@@ -82,11 +83,40 @@ fn every_recorded_step_is_planned_again_alike() {
         ("bottleneck", Planner::Orca, 10.0),
         ("bottleneck", Planner::SocialForce, 6.0),
         ("two_exits", Planner::Mcn, 20.0),
+        ("signal_crossing", Planner::Mcn, 30.0),
     ] {
         let recording = recorded(&db, scenario(name, planner, duration_s));
-        assert_eq!(recording.population().agents.iter().any(|life| life.removed.is_some()), name == "two_exits");
+        let leaves = ["two_exits", "signal_crossing"].contains(&name);
+        assert_eq!(recording.population().agents.iter().any(|life| life.removed.is_some()), leaves);
         check(&recording);
     }
+}
+
+#[test]
+fn radii_and_teleports_of_states_are_planned_again_alike() {
+    const CHANGES: &str = "
+        duration_s = 12
+        [goals.ends]
+        choose = 'farthest'
+        areas = [{ circle_m = [-5, 0, 1] }, { circle_m = [5, 0, 1] }]
+        [states.walk]
+        go = 'ends'
+        set = { speed_factor = { uniform = [0.7, 1.2] }, radius_m = { uniform = [0.15, 0.3] } }
+        then = [{ when = { reached_m = 0 }, to = 'jump' }, { when = { after_s = 4 }, to = 'walk' }]
+        [states.jump]
+        stand = { facing_deg = 90 }
+        set = { teleport = { rect_m = [-3, 3, 3, 6] } }
+        then = [{ when = { after_s = 1 }, to = 'walk' }]
+        [[agents]]
+        grid = { columns = 5, rows = 4, spacing_m = 0.9 }
+        state = 'walk'
+    ";
+    let source = SourceText { path: "changes.toml".into(), text: CHANGES.to_owned() };
+    let (scenario, _) = scenario::parse(&source).unwrap();
+    let recording = recorded(&Arc::new(bundled()), scenario);
+    let agents = &recording.population().agents;
+    assert!(agents.iter().any(|life| !life.teleports.is_empty()) && agents.iter().all(|life| !life.radii_m.is_empty()));
+    check(&recording);
 }
 
 #[test]

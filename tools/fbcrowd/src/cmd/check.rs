@@ -6,7 +6,7 @@ use fbcrowd_jobs::output_path::{check_file, check_is_no_input};
 use fbcrowd_jobs::scene_check::check_scene;
 use fbcrowd_sim::scenario;
 
-use crate::report::scene_text;
+use crate::report::crowd::scene_text;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 

@@ -5,12 +5,13 @@ use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 use fbcrowd_jobs::JobError;
-use fbcrowd_jobs::output_path::{check_file, check_is_no_input, is_same_file};
+use fbcrowd_jobs::output_path::{check_file, check_files, check_is_no_input, is_same_file};
+use fbcrowd_render::plots::crowd::{place_plot_path, write_place_plots};
 use fbcrowd_sim::measures;
 use fbcrowd_sim::recording::Recording;
 use motiondb::files::atomic_file::AtomicFile;
 
-use crate::report::measures_text;
+use crate::report::crowd::measures_text;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 
@@ -32,17 +33,23 @@ pub(crate) struct Args {
     /// Write a table, a row per step and agent, as CSV; docs/json.md describes the columns.
     #[arg(long, value_name = "OUT.csv")]
     table: Option<PathBuf>,
+    /// Draw each `[[measure]]` table of the scenario: N–t of lines and of the egress, density in areas.
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let recording = Recording::open(&args.recording)?;
-    check_outputs(args)?;
+    check_outputs(args, &recording)?;
     let measures = measures::measure(&recording)?;
     if let Some(path) = &args.trajectories {
         write(path, |out| measures::write_trajectories(&recording, out))?;
     }
     if let Some(path) = &args.table {
         write(path, |out| measures::write_table(&recording, out))?;
+    }
+    if let Some(folder) = &args.plots {
+        write_place_plots(&measures.places, folder)?;
     }
     if args.json {
         output::print_json(&measures)?;
@@ -53,10 +60,15 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 /// Checks that every output can be written, and replaces neither the recording nor another output.
-fn check_outputs(args: &Args) -> Result<(), Failure> {
+fn check_outputs(args: &Args, recording: &Recording) -> Result<(), Failure> {
     for path in [&args.trajectories, &args.table].into_iter().flatten() {
         check_is_no_input(path, [&args.recording])?;
         check_file(path)?;
+    }
+    if let Some(folder) = &args.plots {
+        let names = recording.header().scenario.measures.iter().map(|spec| spec.name.as_str());
+        let plots: Vec<PathBuf> = names.map(|name| place_plot_path(name, folder)).collect();
+        check_files(folder, &plots, std::slice::from_ref(&args.recording))?;
     }
     match (&args.trajectories, &args.table) {
         (Some(one), Some(other)) if is_same_file(one, other) => {

@@ -18,7 +18,7 @@ use motiondb::motion::MotionDb;
 
 use crate::cmd::outside_arg::OutsideArg;
 use crate::cmd::rejected;
-use crate::report::{measures_text, timings_text};
+use crate::report::crowd::{measures_text, timings_text};
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;

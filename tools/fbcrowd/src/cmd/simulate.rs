@@ -11,7 +11,7 @@ use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::atomic_file::AtomicFile;
 use motiondb::files::database_file;
 
-use crate::report::timings_text;
+use crate::report::crowd::timings_text;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;

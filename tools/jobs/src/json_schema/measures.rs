@@ -75,6 +75,114 @@ pub struct MeasuresMirror {
     heading_error_deg: f64,
     /// Mean angle between facing and travel before arrival, wherever an agent walks, degrees.
     walking_heading_error_deg: f64,
+    /// The scenario's `[[measure]]` tables, in their order; left out where there are none.
+    #[serde(default)]
+    places: Vec<PlaceMeasuresMirror>,
+}
+
+/// Mirror of [`fbcrowd_sim::measures::PlaceMeasures`].
+#[derive(JsonSchema)]
+#[schemars(rename = "PlaceMeasures", description = "One `[[measure]]` table: a line, an area or the egress.")]
+pub struct PlaceMeasuresMirror {
+    /// Name of the table.
+    name: String,
+    /// Passages over a line.
+    #[serde(default)]
+    line: Option<LineMeasuresMirror>,
+    /// Density and speed in an area.
+    #[serde(default)]
+    area: Option<AreaMeasuresMirror>,
+    /// Times of removal.
+    #[serde(default)]
+    egress: Option<EgressMeasuresMirror>,
+}
+
+/// Mirror of [`fbcrowd_sim::measures::LineMeasures`].
+#[derive(JsonSchema)]
+#[schemars(rename = "LineMeasures", description = "Passages over a line, seen from its first end to its second.")]
+pub struct LineMeasuresMirror {
+    /// Length of the line, m.
+    width_m: f64,
+    /// Passages from the right of the line to its left.
+    forward: PassagesMirror,
+    /// Passages from the left of the line to its right.
+    backward: PassagesMirror,
+}
+
+/// Mirror of [`fbcrowd_sim::measures::Passages`].
+#[derive(JsonSchema)]
+#[schemars(rename = "Passages", description = "Passages over a line in one direction.")]
+pub struct PassagesMirror {
+    /// Number of passages.
+    count: usize,
+    /// Passages per second between the first and the last; null of fewer than two.
+    flow_per_s: Option<f64>,
+    /// Flow over the length of the line, 1/(m s); null of fewer than two passages.
+    specific_flow_per_m_s: Option<f64>,
+    /// Times of all passages, ascending, s.
+    times_s: Vec<f64>,
+}
+
+/// Mirror of [`fbcrowd_sim::measures::AreaMeasures`].
+#[derive(JsonSchema)]
+#[schemars(rename = "AreaMeasures", description = "Density, speed and level of service in an area.")]
+pub struct AreaMeasuresMirror {
+    /// Size, m².
+    size_m2: f64,
+    /// Mean number of agents inside.
+    mean_number: f64,
+    /// Mean number of agents inside over the size, 1/m².
+    mean_density_per_m2: f64,
+    /// Greatest number of agents inside over the size, 1/m².
+    greatest_density_per_m2: f64,
+    /// Mean Voronoi density, 1/m².
+    mean_voronoi_density_per_m2: f64,
+    /// Greatest Voronoi density, 1/m².
+    greatest_voronoi_density_per_m2: f64,
+    /// Mean speed of the agents inside, over agents and moments, m/s; null where no agent was inside.
+    mean_speed_mps: Option<f64>,
+    /// Share of the moments at each of Fruin's levels of service for walkways, A to F, 0 to 1.
+    level_of_service_shares: [f64; 6],
+    /// The moments, half a second apart.
+    moments: Vec<AreaMomentMirror>,
+}
+
+/// Mirror of [`fbcrowd_sim::measures::AreaMoment`].
+#[derive(JsonSchema)]
+#[schemars(rename = "AreaMoment", description = "An area at one moment.")]
+pub struct AreaMomentMirror {
+    /// Time, s.
+    time_s: f64,
+    /// Number of agents inside.
+    number: usize,
+    /// Number of agents inside over the size, 1/m².
+    density_per_m2: f64,
+    /// Voronoi density, 1/m².
+    voronoi_density_per_m2: f64,
+    /// Mean speed of the agents inside in the step before, m/s; null where no agent is inside.
+    mean_speed_mps: Option<f64>,
+}
+
+/// Mirror of [`fbcrowd_sim::measures::EgressMeasures`].
+#[derive(JsonSchema)]
+#[schemars(rename = "EgressMeasures", description = "Times at which agents were removed, nearest rank.")]
+pub struct EgressMeasuresMirror {
+    /// Number of agents that left.
+    left: usize,
+    /// Number of agents that are still there at the end.
+    remaining: usize,
+    /// Time by which 10 % of those that left have left, s; null where none left.
+    percentile_10_s: Option<f64>,
+    /// Time by which half of them have left, s; null where none left.
+    percentile_50_s: Option<f64>,
+    /// Time by which 90 % of them have left, s; null where none left.
+    percentile_90_s: Option<f64>,
+    /// Time by which 95 % of them have left, s; null where none left.
+    percentile_95_s: Option<f64>,
+    /// Time at which the last of them left, s; null where none left.
+    last_s: Option<f64>,
+    /// Times of all removals, ascending, s.
+    times_s: Vec<f64>,
 }
 
 /// Kinds of synthesis that a body may use. Mirror of [`fbcrowd_sim::synthesis::Modes`].

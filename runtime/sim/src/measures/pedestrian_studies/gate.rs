@@ -54,7 +54,7 @@ impl Gate {
 }
 
 /// Share of a displacement at which it crosses the line to its left, 0 to 1.
-fn crossing_share([first_m, second_m]: [Vec2; 2], from_m: Vec2, to_m: Vec2) -> Option<f32> {
+pub(crate) fn crossing_share([first_m, second_m]: [Vec2; 2], from_m: Vec2, to_m: Vec2) -> Option<f32> {
     let along_m = second_m - first_m;
     let [from, to] = [from_m, to_m].map(|point_m| along_m.perp_dot(point_m - first_m));
     if from > 0.0 || to <= 0.0 {

@@ -3,9 +3,10 @@
 //!
 //! | layout | its goals |
 //! |---|---|
-//! | `at_m = [x, y]` | `goals_m`, waypoints in order; then, if set, the start plus `goal_offset_m` |
+//! | `at_m = [x, y]` | `goals_m`, waypoints in order; then, if set, the start plus `goal_offset_m`; none with `state` |
 //! | `circle = { count, radius_m, centre_m }` | the opposite position on the circle, exactly |
 //! | `grid = { columns, rows, spacing_m, centre_m, jitter_m }` | as of `at_m`; `goal_offset_m` counts from each agent's own start |
+//! | `area = { rect_m, count, apart_m }` | as of `at_m`; see `agent_area.rs` |
 //! | `file = "x.txt"` | lines `x y goal_x goal_y`, `#` begins a comment |
 
 use std::f64::consts::TAU;
@@ -18,9 +19,15 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
+use crate::behaviour::Behaviour;
 use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::{AgentSpec, AtGoal, PREFERRED_SPEED_MPS, RADIUS_M, WALL_RADIUS_M};
+use crate::scenario::fault::TableFault;
+use crate::scenario::file::agent_area::AgentArea;
+use crate::scenario::file::behaviour::DistributionValue;
+use crate::scenario::file::profile_tables::{ProfileValue, Profiles};
 use crate::scenario::point::Point;
+use crate::scenario::profile::DrawnNumbers;
 use crate::scenario::ranges::{AGENTS_MAX, WAYPOINTS_MAX};
 
 /// The value of `agents`: each table and, in a list, its bytes in the text.
@@ -34,14 +41,18 @@ pub(crate) struct AgentGroup {
     at_m: Option<Point>,
     circle: Option<AgentCircle>,
     grid: Option<AgentGrid>,
+    area: Option<AgentArea>,
     pub(crate) file: Option<Spanned<String>>,
     goals_m: Option<Vec<Point>>,
     goal_offset_m: Option<Point>,
     facing_deg: Option<f32>,
-    radius_m: f32,
+    radius_m: Option<f32>,
     wall_radius_m: Option<f32>,
-    preferred_speed_mps: f32,
+    preferred_speed_mps: Option<f32>,
+    pre_movement_s: Option<DistributionValue>,
+    profile: Option<Spanned<ProfileValue>>,
     at_goal: AtGoal,
+    pub(crate) state: Option<Spanned<String>>,
 }
 
 /// Agents on a circle, each bound for the opposite position.
@@ -74,15 +85,13 @@ pub(crate) enum AgentLayout<'a> {
     Single(Vec2),
     Circle(&'a AgentCircle),
     Grid(&'a AgentGrid),
+    Area(&'a AgentArea),
     /// The name of a file of lines.
     File(&'a Spanned<String>),
 }
 
 /// Start and goals of an agent, m.
 pub(crate) type Journey = (Vec2, Vec<Vec2>);
-
-/// What is wrong with a table, and how to mend it.
-pub(crate) type GroupFault = (String, &'static str);
 
 impl Default for AgentGroup {
     /// A table without keys.
@@ -91,42 +100,50 @@ impl Default for AgentGroup {
             at_m: None,
             circle: None,
             grid: None,
+            area: None,
             file: None,
             goals_m: None,
             goal_offset_m: None,
             facing_deg: None,
-            radius_m: RADIUS_M,
+            radius_m: None,
             wall_radius_m: None,
-            preferred_speed_mps: PREFERRED_SPEED_MPS,
+            preferred_speed_mps: None,
+            pre_movement_s: None,
+            profile: None,
             at_goal: AtGoal::default(),
+            state: None,
         }
     }
 }
 
 impl AgentGroup {
     /// The layout of the table, if it has exactly one, and goals as that layout needs them.
-    pub(crate) fn layout(&self) -> Result<AgentLayout<'_>, GroupFault> {
-        match (self.at_m, &self.circle, &self.grid, &self.file) {
-            (Some(Point(at_m)), None, None, None) => self.with_goals(AgentLayout::Single(at_m)),
-            (None, Some(circle), None, None) => self.without_goals(AgentLayout::Circle(circle)),
-            (None, None, Some(grid), None) => self.with_goals(AgentLayout::Grid(grid)),
-            (None, None, None, Some(file)) => self.without_goals(AgentLayout::File(file)),
+    pub(crate) fn layout(&self) -> Result<AgentLayout<'_>, TableFault> {
+        match (self.at_m, &self.circle, &self.grid, &self.area, &self.file) {
+            (Some(Point(at_m)), None, None, None, None) => self.with_goals(AgentLayout::Single(at_m)),
+            (None, Some(circle), None, None, None) => self.without_goals(AgentLayout::Circle(circle)),
+            (None, None, Some(grid), None, None) => self.with_goals(AgentLayout::Grid(grid)),
+            (None, None, None, Some(area), None) => self.with_goals(AgentLayout::Area(area)),
+            (None, None, None, None, Some(file)) => self.without_goals(AgentLayout::File(file)),
             _ => {
-                let message = "agents need exactly one of `at_m`, `circle`, `grid` and `file`";
+                let message = "agents need exactly one of `at_m`, `circle`, `grid`, `area` and `file`";
                 Err((message.into(), "use several `[[agents]]` tables, one for each layout"))
             }
         }
     }
 
-    fn with_goals<'a>(&self, layout: AgentLayout<'a>) -> Result<AgentLayout<'a>, GroupFault> {
-        if self.goal_offset_m.is_some() || self.goals_m.as_ref().is_some_and(|goals_m| !goals_m.is_empty()) {
+    fn with_goals<'a>(&self, layout: AgentLayout<'a>) -> Result<AgentLayout<'a>, TableFault> {
+        if self.state.is_some()
+            || self.goal_offset_m.is_some()
+            || self.goals_m.as_ref().is_some_and(|goals_m| !goals_m.is_empty())
+        {
             return Ok(layout);
         }
-        let message = "agents of `at_m` or `grid` need a goal";
-        Err((message.into(), "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both"))
+        let message = "agents of `at_m`, `grid` or `area` need a goal";
+        Err((message.into(), "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both, or `state = \"NAME\"`"))
     }
 
-    fn without_goals<'a>(&self, layout: AgentLayout<'a>) -> Result<AgentLayout<'a>, GroupFault> {
+    fn without_goals<'a>(&self, layout: AgentLayout<'a>) -> Result<AgentLayout<'a>, TableFault> {
         if self.goals_m.is_none() && self.goal_offset_m.is_none() {
             return Ok(layout);
         }
@@ -142,30 +159,75 @@ impl AgentGroup {
     }
 
     /// From each position of a grid to the goals of the table.
-    pub(crate) fn grid_journeys(&self, grid: &AgentGrid, random: SplitMix64) -> Result<Vec<Journey>, GroupFault> {
+    pub(crate) fn grid_journeys(&self, grid: &AgentGrid, random: SplitMix64) -> Result<Vec<Journey>, TableFault> {
         let starts_m = grid.positions_m(random)?;
-        let goals = self.goals_m.as_ref().map_or(0, Vec::len) + usize::from(self.goal_offset_m.is_some());
-        check_size(starts_m.len(), starts_m.len() * goals)?;
+        check_size(starts_m.len(), starts_m.len() * self.goal_count())?;
         Ok(starts_m.into_iter().map(|start_m| self.journey(start_m)).collect())
     }
 
-    /// The agents of these journeys, with the table's facing, disc and speed.
-    pub(crate) fn agents(&self, journeys: Vec<Journey>) -> Vec<AgentSpec> {
-        journeys.into_iter().map(|(position_m, goals_m)| self.agent(position_m, goals_m)).collect()
+    /// Number of goals of each agent of a grid or area.
+    pub(crate) fn goal_count(&self) -> usize {
+        self.goals_m.as_ref().map_or(0, Vec::len) + usize::from(self.goal_offset_m.is_some())
     }
 
-    fn agent(&self, position_m: Vec2, goals_m: Vec<Vec2>) -> AgentSpec {
+    /// The numbers of a number of agents, drawn from their profiles; without profiles, those of the table.
+    pub(crate) fn numbers(
+        &self,
+        count: usize,
+        profiles: &Profiles<'_>,
+        mut random: SplitMix64,
+    ) -> Result<Vec<DrawnNumbers>, TableFault> {
+        let &Self { preferred_speed_mps, radius_m, pre_movement_s, .. } = self;
+        let [states_speed, states_radius] = [preferred_speed_mps, radius_m].map(|number| number.is_some());
+        let profiles = profiles.of_table(self.profile.as_ref(), pre_movement_s, states_speed, states_radius)?;
+        let of_table = DrawnNumbers {
+            preferred_speed_mps: preferred_speed_mps.unwrap_or(PREFERRED_SPEED_MPS),
+            radius_m: radius_m.unwrap_or(RADIUS_M),
+            pre_movement_s: 0.0,
+        };
+        Ok((0..count).map(|_| of_table.draw(&profiles, &mut random)).collect())
+    }
+
+    /// Radius of the disc that walls hold of an agent with a radius, m.
+    pub(crate) fn wall_radius_m(&self, radius_m: f32) -> f32 {
+        match (self.wall_radius_m, self.radius_m) {
+            // A radius that is drawn may be smaller.
+            (Some(wall_radius_m), None) => wall_radius_m.min(radius_m),
+            (Some(wall_radius_m), Some(_)) => wall_radius_m,
+            (None, _) => WALL_RADIUS_M.min(radius_m),
+        }
+    }
+
+    /// The agent of a journey, with the table's facing, in a state of the behaviour.
+    pub(crate) fn agent(
+        &self,
+        (position_m, goals_m): Journey,
+        numbers: DrawnNumbers,
+        behaviour: &Behaviour,
+        state: u32,
+    ) -> AgentSpec {
         let towards_goal = goals_m.first().map_or(Vec2::ZERO, |goal_m| goal_m - position_m);
-        let facing_rad = self.facing_deg.map_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x), f32::to_radians);
-        let &Self { radius_m, preferred_speed_mps, at_goal, .. } = self;
-        let wall_radius_m = self.wall_radius_m.unwrap_or(WALL_RADIUS_M.min(radius_m));
-        AgentSpec { position_m, facing_rad, goals_m, radius_m, wall_radius_m, preferred_speed_mps, at_goal }
+        let of_state = || behaviour.start_facing_rad(state, position_m);
+        let ahead = || of_state().unwrap_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x));
+        let facing_rad = self.facing_deg.map_or_else(ahead, f32::to_radians);
+        let DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s } = numbers;
+        AgentSpec {
+            position_m,
+            facing_rad,
+            goals_m,
+            radius_m,
+            wall_radius_m: self.wall_radius_m(radius_m),
+            preferred_speed_mps,
+            at_goal: self.at_goal,
+            state,
+            pre_movement_s,
+        }
     }
 }
 
 impl AgentCircle {
     /// The journeys, counter-clockwise from +x.
-    pub(crate) fn journeys(&self) -> Result<Vec<Journey>, GroupFault> {
+    pub(crate) fn journeys(&self) -> Result<Vec<Journey>, TableFault> {
         check_count(Some(self.count))?;
         let centre_m = DVec2::from(self.centre_m.0);
         let journey = |index: usize| {
@@ -179,7 +241,7 @@ impl AgentCircle {
 
 impl AgentGrid {
     /// The positions row by row from the lower left, m; the jitter is uniform in a square of ± `jitter_m`.
-    fn positions_m(&self, mut random: SplitMix64) -> Result<Vec<Vec2>, GroupFault> {
+    fn positions_m(&self, mut random: SplitMix64) -> Result<Vec<Vec2>, TableFault> {
         let count = check_count(self.columns.checked_mul(self.rows))?;
         let corner_m = DVec2::from(self.centre_m.0)
             - 0.5 * self.spacing_m * DVec2::new(self.columns as f64 - 1.0, self.rows as f64 - 1.0);
@@ -193,7 +255,7 @@ impl AgentGrid {
 }
 
 /// The number of agents of a table, checked before anything is allocated for them.
-fn check_count(count: Option<usize>) -> Result<usize, GroupFault> {
+fn check_count(count: Option<usize>) -> Result<usize, TableFault> {
     match count {
         Some(count) if (1..=AGENTS_MAX).contains(&count) => Ok(count),
         _ => {
@@ -204,7 +266,7 @@ fn check_count(count: Option<usize>) -> Result<usize, GroupFault> {
 }
 
 /// Checks the size of a crowd: a few lines of text may describe more agents than fit into any memory.
-pub(crate) fn check_size(agents: usize, waypoints: usize) -> Result<(), GroupFault> {
+pub(crate) fn check_size(agents: usize, waypoints: usize) -> Result<(), TableFault> {
     if agents > AGENTS_MAX {
         let message = format!("with this table the scenario has {agents} agents, more than {AGENTS_MAX}");
         return Err((message, "reduce the number of agents"));

@@ -7,22 +7,28 @@ use std::path::Path;
 use motiondb::files::{Invalid, SourceText, input_file};
 use toml::Spanned;
 
+use crate::behaviour::Behaviour;
 use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::error::ScenarioError;
-use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::file::agent_groups::{AgentGroup, AgentGroups, AgentLayout, GroupFault, Journey, check_size};
+use crate::scenario::fault::{ScenarioFault, ScenarioPart, TableFault};
+use crate::scenario::file::agent_area::{AgentArea, AreaDisc, TakenGround};
+use crate::scenario::file::agent_groups::{AgentGroup, AgentGroups, AgentLayout, Journey, check_size};
 use crate::scenario::file::agent_lines::{AgentLines, LineRoom, is_agent_file, line_span, parse_lines};
+use crate::scenario::file::behaviour::StateNames;
+use crate::scenario::file::profile_tables::Profiles;
+use crate::scenario::profile::DrawnNumbers;
 use crate::scenario::ranges::AGENTS_MAX;
+use crate::scenario::resolved::Scenario;
+
+/// First random stream of the numbers of agents, one for each table.
+const NUMBER_STREAM: u64 = 1 << 36;
 
 /// All agents of a scenario file, and the tables that describe them.
 #[derive(Default)]
 pub(crate) struct PlacedAgents {
     pub(crate) agents: Vec<AgentSpec>,
     tables: Vec<AgentTable>,
-    waypoints: usize,
-    /// Length of all agent files, bytes.
-    line_bytes: usize,
 }
 
 /// One table of agents.
@@ -35,36 +41,156 @@ pub(crate) struct AgentTable {
     pub(crate) first: usize,
 }
 
-impl PlacedAgents {
-    /// Places the agents of all tables; each table draws its random numbers from a stream of its own.
-    pub(crate) fn new(source: &SourceText, groups: &Spanned<AgentGroups>, seed: u64) -> Result<Self, ScenarioError> {
-        let mut placed = Self::default();
-        for (stream, (span, group)) in groups.get_ref().0.iter().enumerate() {
-            let span = span.clone().unwrap_or_else(|| groups.span());
-            let random = SplitMix64::new(seed, stream as u64);
-            let (journeys, lines) = journeys(source, group, &span, random, placed.line_room())?;
-            let agents = group.agents(journeys);
-            placed.waypoints += agents.iter().map(|agent| agent.goals_m.len()).sum::<usize>();
-            // After each table, so that many of them do not fill the memory first.
-            if let Err((message, help)) = check_size(placed.agents.len() + agents.len(), placed.waypoints) {
-                return Err(source.invalid(span, message, help).into());
-            }
-            placed.line_bytes += lines.as_ref().map_or(0, |lines| lines.text.len());
-            placed.tables.push(AgentTable { span, lines, first: placed.agents.len() });
-            placed.agents.extend(agents);
-        }
-        Ok(placed)
-    }
+/// What tables of agents refer to.
+pub(crate) struct PlacementInput<'a> {
+    pub(crate) source: &'a SourceText,
+    pub(crate) states: &'a StateNames<'a>,
+    pub(crate) profiles: &'a Profiles<'a>,
+    /// A scenario with the walls, from which agents of areas keep apart.
+    pub(crate) ground: &'a Scenario,
+    pub(crate) seed: u64,
+}
 
-    /// What the agent files of further tables may hold.
-    fn line_room(&self) -> LineRoom {
-        LineRoom { agents: AGENTS_MAX - self.agents.len(), used_bytes: self.line_bytes }
+impl PlacedAgents {
+    /// Places the agents of all tables; each table draws its random numbers from streams of its own. Areas come last,
+    /// since their agents keep apart from all others.
+    pub(crate) fn new(input: &PlacementInput<'_>, groups: &Spanned<AgentGroups>) -> Result<Self, ScenarioError> {
+        let mut placing = Placing { input, agents: 0, waypoints: 0, line_bytes: 0 };
+        let tables: Vec<(Range<usize>, &AgentGroup)> = groups
+            .get_ref()
+            .0
+            .iter()
+            .map(|(span, group)| (span.clone().unwrap_or_else(|| groups.span()), group))
+            .collect();
+        let mut placed: Vec<TableAgents> = Vec::with_capacity(tables.len());
+        for (stream, (span, group)) in tables.iter().enumerate() {
+            placed.push(placing.explicit(stream, span, group)?);
+        }
+        let area_of = |group: &'_ AgentGroup| match group.layout() {
+            Ok(AgentLayout::Area(area)) => Some(area.clone()),
+            _ => None,
+        };
+        let areas: Vec<Option<AgentArea>> = tables.iter().map(|(_, group)| area_of(group)).collect();
+        let apart_m = areas.iter().flatten().map(AgentArea::apart_m).reduce(f32::max);
+        if let Some(apart_m) = apart_m {
+            let walls = input.ground.walls();
+            let mut taken = TakenGround::new(&walls, apart_m);
+            placed
+                .iter()
+                .flat_map(|table| &table.agents)
+                .for_each(|agent| taken.take(agent.position_m, agent.radius_m));
+            for (stream, (span, group)) in tables.iter().enumerate() {
+                if let Some(area) = &areas[stream] {
+                    placed[stream].agents = placing.spread(stream, span, group, area, &mut taken)?;
+                }
+            }
+        }
+        let mut all = Self::default();
+        for ((span, _), TableAgents { agents, lines }) in tables.into_iter().zip(placed) {
+            all.tables.push(AgentTable { span, lines, first: all.agents.len() });
+            all.agents.extend(agents);
+        }
+        Ok(all)
     }
 
     /// The table of an agent.
     pub(crate) fn table(&self, agent: usize) -> &AgentTable {
         // A table may have no agents; the last that begins no later than an agent holds it.
         &self.tables[self.tables.partition_point(|table| table.first <= agent) - 1]
+    }
+}
+
+/// The agents of one table, and the agent file that it names.
+struct TableAgents {
+    agents: Vec<AgentSpec>,
+    lines: Option<SourceText>,
+}
+
+/// The placement under way.
+struct Placing<'a> {
+    input: &'a PlacementInput<'a>,
+    /// Number of agents so far.
+    agents: usize,
+    /// Number of their waypoints.
+    waypoints: usize,
+    /// Length of all agent files, bytes.
+    line_bytes: usize,
+}
+
+impl Placing<'_> {
+    /// What the agent files of further tables may hold.
+    fn line_room(&self) -> LineRoom {
+        LineRoom { agents: AGENTS_MAX - self.agents, used_bytes: self.line_bytes }
+    }
+
+    /// The agents of a table with explicit positions; none of an area.
+    fn explicit(
+        &mut self,
+        stream: usize,
+        span: &Range<usize>,
+        group: &AgentGroup,
+    ) -> Result<TableAgents, ScenarioError> {
+        let random = SplitMix64::new(self.input.seed, stream as u64);
+        let (journeys, lines) = journeys(self.input.source, group, span, random, self.line_room())?;
+        self.line_bytes += lines.as_ref().map_or(0, |lines| lines.text.len());
+        let numbers = self.numbers(stream, span, group, journeys.len())?;
+        Ok(TableAgents { agents: self.agents(span, group, journeys, &numbers)?, lines })
+    }
+
+    /// The agents of an area.
+    fn spread(
+        &mut self,
+        stream: usize,
+        span: &Range<usize>,
+        group: &AgentGroup,
+        area: &AgentArea,
+        taken: &mut TakenGround<'_>,
+    ) -> Result<Vec<AgentSpec>, ScenarioError> {
+        let (ground, count) = area.resolve().map_err(|fault| self.at_table(span, fault))?;
+        let size = check_size(self.agents + count, self.waypoints + count * group.goal_count());
+        size.map_err(|fault| self.at_table(span, fault))?;
+        let numbers = self.numbers(stream, span, group, count)?;
+        let disc = |numbers: &DrawnNumbers| {
+            let radius_m = numbers.radius_m;
+            AreaDisc { radius_m, wall_radius_m: group.wall_radius_m(radius_m) }
+        };
+        let discs: Vec<AreaDisc> = numbers.iter().map(disc).collect();
+        let random = SplitMix64::new(self.input.seed, stream as u64);
+        let starts_m = area.positions_m(&ground, &discs, taken, random).map_err(|fault| self.at_table(span, fault))?;
+        let journeys = starts_m.into_iter().map(|start_m| group.journey(start_m)).collect();
+        self.agents(span, group, journeys, &numbers)
+    }
+
+    fn numbers(
+        &self,
+        stream: usize,
+        span: &Range<usize>,
+        group: &AgentGroup,
+        count: usize,
+    ) -> Result<Vec<DrawnNumbers>, ScenarioError> {
+        let random = SplitMix64::new(self.input.seed, NUMBER_STREAM + stream as u64);
+        group.numbers(count, self.input.profiles, random).map_err(|fault| self.at_table(span, fault))
+    }
+
+    fn agents(
+        &mut self,
+        span: &Range<usize>,
+        group: &AgentGroup,
+        journeys: Vec<Journey>,
+        numbers: &[DrawnNumbers],
+    ) -> Result<Vec<AgentSpec>, ScenarioError> {
+        let StateNames { behaviour, .. } = *self.input.states;
+        let state = self.input.states.index(group.state.as_ref(), self.input.source)?;
+        self.agents += journeys.len();
+        self.waypoints += journeys.iter().map(|(_, goals_m)| goals_m.len()).sum::<usize>();
+        // After each table, so that many of them do not fill the memory first.
+        check_size(self.agents, self.waypoints).map_err(|fault| self.at_table(span, fault))?;
+        let journeys = journeys.into_iter().zip(numbers);
+        Ok(journeys.map(|(journey, &numbers)| group.agent(journey, numbers, behaviour, state)).collect())
+    }
+
+    fn at_table(&self, span: &Range<usize>, (message, help): TableFault) -> ScenarioError {
+        self.input.source.invalid(span.clone(), message, help).into()
     }
 }
 
@@ -76,11 +202,12 @@ fn journeys(
     random: SplitMix64,
     room: LineRoom,
 ) -> Result<(Vec<Journey>, Option<SourceText>), ScenarioError> {
-    let at_table = |(message, help): GroupFault| ScenarioError::from(source.invalid(span.clone(), message, help));
+    let at_table = |(message, help): TableFault| ScenarioError::from(source.invalid(span.clone(), message, help));
     let journeys = match group.layout().map_err(at_table)? {
         AgentLayout::Single(at_m) => Ok(vec![group.journey(at_m)]),
         AgentLayout::Circle(circle) => circle.journeys(),
         AgentLayout::Grid(grid) => group.grid_journeys(grid, random),
+        AgentLayout::Area(_) => Ok(Vec::new()),
         AgentLayout::File(name) => {
             let AgentLines { source: lines, journeys } = read_lines(source, name, room)?;
             return Ok((journeys.map_err(|fault| wrong_line(&lines, fault))?, Some(lines)));
@@ -115,8 +242,11 @@ fn wrong_line(lines: &SourceText, (span, message): (Range<usize>, String)) -> Sc
 /// # Errors
 /// Where a line is not valid.
 pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioError> {
+    let (group, behaviour) = (AgentGroup::default(), Behaviour::default());
+    let AgentSpec { preferred_speed_mps, radius_m, pre_movement_s, .. } = AgentSpec::default();
+    let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s };
     let journeys = parse_lines(&lines.text).map_err(|fault| wrong_line(lines, fault))?;
-    Ok(AgentGroup::default().agents(journeys))
+    Ok(journeys.into_iter().map(|journey| group.agent(journey, numbers, &behaviour, 0)).collect())
 }
 
 /// The error that agents of lines break a rule, at the line of the agent.

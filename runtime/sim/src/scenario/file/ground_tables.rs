@@ -12,6 +12,7 @@ use crate::route::mesh::WalkablePolygon;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::file::wkt_polygons::wkt_polygons;
 use crate::scenario::point::Point;
+use crate::scenario::resolved::Scenario;
 
 /// One `[[obstacles]]` table.
 #[derive(Debug, Deserialize)]
@@ -43,24 +44,32 @@ pub(crate) struct WalkableTable {
     file: Option<Spanned<String>>,
 }
 
-/// The walkable polygons of a scenario file.
-#[derive(Debug, Default)]
+/// The ground of a scenario file.
+#[derive(Debug)]
 pub(crate) struct PlacedGround {
-    pub(crate) polygons: Vec<WalkablePolygon>,
-    /// Index of the table of each polygon.
+    /// A scenario with this ground and no agents.
+    pub(crate) scenario: Scenario,
+    /// Index of the table of each walkable polygon.
     pub(crate) tables: Vec<usize>,
 }
 
 impl PlacedGround {
     /// The polygons of all tables.
-    pub(crate) fn new(source: &SourceText, tables: &[Spanned<WalkableTable>]) -> Result<Self, ScenarioError> {
-        let mut placed = Self::default();
-        for (index, table) in tables.iter().enumerate() {
+    pub(crate) fn new(
+        source: &SourceText,
+        obstacles: &[Spanned<ObstacleTable>],
+        walkable: &[Spanned<WalkableTable>],
+    ) -> Result<Self, ScenarioError> {
+        let (mut walkable_m, mut tables) = (Vec::new(), Vec::new());
+        for (index, table) in walkable.iter().enumerate() {
             let polygons = table.get_ref().polygons(source, table)?;
-            placed.tables.extend(polygons.iter().map(|_| index));
-            placed.polygons.extend(polygons);
+            tables.extend(polygons.iter().map(|_| index));
+            walkable_m.extend(polygons);
         }
-        Ok(placed)
+        let obstacles_m = polygons_m(obstacles, ObstacleKind::Solid);
+        let enclosures_m = polygons_m(obstacles, ObstacleKind::Enclosure);
+        let scenario = Scenario { obstacles_m, enclosures_m, walkable_m, ..Scenario::of(Vec::new()) };
+        Ok(Self { scenario, tables })
     }
 }
 
@@ -95,7 +104,7 @@ impl WalkableTable {
 }
 
 /// The polygons of the obstacles of a kind, counter-clockwise.
-pub(crate) fn polygons_m(tables: &[Spanned<ObstacleTable>], kind: ObstacleKind) -> Vec<Vec<Vec2>> {
+fn polygons_m(tables: &[Spanned<ObstacleTable>], kind: ObstacleKind) -> Vec<Vec<Vec2>> {
     tables_of(tables, kind).map(|table| counter_clockwise(&table.get_ref().polygon_m)).collect()
 }
 

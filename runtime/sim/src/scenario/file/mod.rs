@@ -5,16 +5,23 @@
 //! apart from it the source of its motion.
 //!
 //! Read `reading` (the steps from text to scenario), then `scenario_file` (the keys), `agent_groups` and `agent_lines`
-//! (tables and lines of agents), `agent_placement` (from them to agents), `source_tables` (sources of agents).
+//! (tables and lines of agents), `agent_area`
+//! (agents spread over an area), `profile_tables` (numbers that are drawn), `measure_tables` and
+//! `zone_tables` (lines and areas), `agent_placement` (from them to agents), `source_tables` (sources of agents).
 
+mod agent_area;
 mod agent_groups;
 mod agent_lines;
 mod agent_placement;
+pub(crate) mod behaviour;
 mod ground_tables;
+mod measure_tables;
+mod profile_tables;
 mod reading;
 mod scenario_file;
 mod source_tables;
 mod wkt_polygons;
+mod zone_tables;
 
 pub use agent_placement::{agents_of_lines, fault_of_lines};
 pub use reading::{agent_files, parse, read};

@@ -2,7 +2,7 @@
 //!
 //! 1. parse the keys (`scenario_file`);
 //! 2. find the source of the motion;
-//! 3. place the agents (`agent_placement`);
+//! 3. resolve the behaviour (`behaviour`), place the agents (`agent_placement`);
 //! 4. check all rules (`check`), and show a broken one at its part of the text.
 
 use std::collections::BTreeMap;
@@ -14,14 +14,19 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::route::reach::check_reach;
-use crate::scenario::check::check;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, fault_of_lines};
-use crate::scenario::file::ground_tables::{ObstacleKind, PlacedGround, polygons_m, tables_of};
+use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, PlacementInput, fault_of_lines};
+use crate::scenario::file::behaviour::{BehaviourTables, StateNames};
+use crate::scenario::file::ground_tables::{ObstacleKind, PlacedGround, tables_of};
+use crate::scenario::file::measure_tables::measures;
+use crate::scenario::file::profile_tables::Profiles;
 use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
 use crate::scenario::file::source_tables::sources;
+use crate::scenario::file::zone_tables::zones;
 use crate::scenario::resolved::{SEED, Scenario};
+use crate::scenario::rules::check::check;
+use crate::scenario::rules::ground_check::{check_ground, check_ground_ranges};
 
 /// Reads a scenario file and the agent files that it names. The source of its motion is a result of its own: a caller
 /// that brings a database does not need the one that the file names.
@@ -37,15 +42,24 @@ pub fn read(path: &Path) -> Result<(Scenario, Result<MotionSource, ScenarioError
 /// # Errors
 /// Where it describes something that cannot be simulated, or a file that it names cannot be read.
 pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, ScenarioError>), ScenarioError> {
-    let file = ScenarioFile::parse(source)?;
+    let mut file = ScenarioFile::parse(source)?;
+    let tables = file.take_behaviour();
+    let behaviour = tables.resolve(source)?;
+    let states = StateNames { tables: &tables, behaviour: &behaviour };
     let motion = file.motion_source(source)?;
     let seed = file.seed.unwrap_or(SEED);
+    let profiles = Profiles::new(&file.profiles, source)?;
+    let ground = PlacedGround::new(source, &file.obstacles, &file.walkable)?;
+    let texts = ScenarioTexts { source, file: &file, behaviour: &tables, walkable: &ground.tables };
+    check_ground_ranges(&ground.scenario)
+        .and_then(|()| check_ground(&ground.scenario))
+        .map_err(|fault| texts.point_at(&PlacedAgents::default(), fault))?;
+    let input = PlacementInput { source, states: &states, profiles: &profiles, ground: &ground.scenario, seed };
     let mut placed = match file.agents() {
-        Some(groups) => PlacedAgents::new(source, groups, seed)?,
+        Some(groups) => PlacedAgents::new(&input, groups)?,
         None => PlacedAgents::default(),
     };
-    let mut ground = PlacedGround::new(source, &file.walkable)?;
-    let defaults = Scenario::of(std::mem::take(&mut placed.agents));
+    let defaults = Scenario { agents: std::mem::take(&mut placed.agents), ..ground.scenario.clone() };
     let scenario = Scenario {
         name: file.name.as_ref().map_or_else(|| stem(&source.path), |name| name.get_ref().clone()),
         duration_s: *file.duration_s.get_ref(),
@@ -53,17 +67,15 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         seed,
         planner: file.planner,
         coupling: file.coupling,
-        sources: sources(source, &file.sources, *file.duration_s.get_ref())?,
-        obstacles_m: polygons_m(&file.obstacles, ObstacleKind::Solid),
-        enclosures_m: polygons_m(&file.obstacles, ObstacleKind::Enclosure),
-        walkable_m: std::mem::take(&mut ground.polygons),
+        sources: sources(&input, &file.sources, *file.duration_s.get_ref())?,
+        behaviour: behaviour.clone(),
+        zones: zones(source, &file.zones)?,
+        measures: measures(source, &file.measure)?,
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
         ..defaults
     };
-    check(&scenario)
-        .and_then(|()| check_reach(&scenario))
-        .map_err(|fault| at_its_text(source, &file, &placed, &ground.tables, fault))?;
+    check(&scenario).and_then(|()| check_reach(&scenario)).map_err(|fault| texts.point_at(&placed, fault))?;
     Ok((scenario, motion))
 }
 
@@ -88,34 +100,49 @@ fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// A broken rule, shown at the text of the part that breaks it.
-fn at_its_text(
-    source: &SourceText,
-    file: &ScenarioFile,
-    placed: &PlacedAgents,
-    walkable_tables: &[usize],
-    fault: ScenarioFault,
-) -> ScenarioError {
-    if let ScenarioPart::Journey(agent) = fault.part
-        && let AgentTable { lines: Some(lines), first, .. } = placed.table(agent)
-    {
-        return fault_of_lines(lines, ScenarioFault { part: ScenarioPart::Journey(agent - first), ..fault });
+/// The texts of a scenario's parts.
+struct ScenarioTexts<'a> {
+    source: &'a SourceText,
+    file: &'a ScenarioFile,
+    behaviour: &'a BehaviourTables,
+    /// Index of the table of each walkable polygon.
+    walkable: &'a [usize],
+}
+
+impl ScenarioTexts<'_> {
+    /// A broken rule, shown at the text of the part that breaks it.
+    fn point_at(&self, placed: &PlacedAgents, fault: ScenarioFault) -> ScenarioError {
+        if let ScenarioPart::Journey(agent) = fault.part
+            && let AgentTable { lines: Some(lines), first, .. } = placed.table(agent)
+        {
+            return fault_of_lines(lines, ScenarioFault { part: ScenarioPart::Journey(agent - first), ..fault });
+        }
+        let span = self.span(placed, &fault.part);
+        self.source.invalid(span, fault.message, fault.help).into()
     }
-    let obstacle_span = |kind, index| tables_of(&file.obstacles, kind).nth(index).map_or(0..0, Spanned::span);
-    let span = match fault.part {
-        ScenarioPart::Name => file.name.as_ref().map_or(0..0, Spanned::span),
-        ScenarioPart::Duration => file.duration_s.span(),
-        ScenarioPart::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
-        ScenarioPart::View => file.view.as_ref().map_or(0..0, Spanned::span),
-        ScenarioPart::Parameter(section, key) => parameter_span(source, &section, &key),
-        ScenarioPart::Journey(agent) | ScenarioPart::Agent(agent) => placed.table(agent).span.clone(),
-        ScenarioPart::Obstacle(index) => obstacle_span(ObstacleKind::Solid, index),
-        ScenarioPart::Enclosure(index) => obstacle_span(ObstacleKind::Enclosure, index),
-        ScenarioPart::Walkable(index) => file.walkable[walkable_tables[index]].span(),
-        ScenarioPart::Source(index) => file.sources.get(index).map_or(0..0, Spanned::span),
-        ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),
-    };
-    source.invalid(span, fault.message, fault.help).into()
+
+    fn span(&self, placed: &PlacedAgents, part: &ScenarioPart) -> Range<usize> {
+        let Self { source, file, behaviour, walkable } = *self;
+        let obstacle_span = |kind, index| tables_of(&file.obstacles, kind).nth(index).map_or(0..0, Spanned::span);
+        match *part {
+            ScenarioPart::Name => file.name.as_ref().map_or(0..0, Spanned::span),
+            ScenarioPart::Duration => file.duration_s.span(),
+            ScenarioPart::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
+            ScenarioPart::View => file.view.as_ref().map_or(0..0, Spanned::span),
+            ScenarioPart::Parameter(ref section, ref key) => parameter_span(source, section, key),
+            ScenarioPart::Journey(agent) | ScenarioPart::Agent(agent) => placed.table(agent).span.clone(),
+            ScenarioPart::Obstacle(index) => obstacle_span(ObstacleKind::Solid, index),
+            ScenarioPart::Enclosure(index) => obstacle_span(ObstacleKind::Enclosure, index),
+            ScenarioPart::Walkable(index) => walkable.get(index).map_or(0..0, |&table| file.walkable[table].span()),
+            ScenarioPart::Source(index) => file.sources.get(index).map_or(0..0, Spanned::span),
+            ScenarioPart::State(_) | ScenarioPart::Goals(_) | ScenarioPart::Area(_) | ScenarioPart::Signal(_) => {
+                behaviour.span(part)
+            }
+            ScenarioPart::Zone(index) => file.zones.get(index).map_or(0..0, Spanned::span),
+            ScenarioPart::Measure(index) => file.measure.get(index).map_or(0..0, Spanned::span),
+            ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),
+        }
+    }
 }
 
 /// The bytes of a tunable. Parses the text once more, since [`Params`](crate::params::Params) keeps no positions.

@@ -15,6 +15,13 @@
 //! coupling = "two_way"                # or "decoupled", "discs": see `coupling.rs`
 //! [[sources]]                         # agents that come later: see `source_tables.rs`
 //! [[walkable]]                        # the ground that agents can walk on; else it is open: see `ground_tables.rs`
+//! [goals.NAME]                        # what agents want: see `behaviour/mod.rs`
+//! [states.NAME]
+//! [signals.NAME]
+//! [profiles.NAME]                     # numbers that are drawn: see `profile_tables.rs`
+//! [areas.NAME]
+//! [[zones]]                           # ground on which agents are slower: see `zone_tables.rs`
+//! [[measure]]                         # lines and areas: see `measure_tables.rs`
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
 //! [params.planner]                    # MCN's tunables; all sections: see `params.rs`
@@ -22,6 +29,7 @@
 //! [view]
 //! ```
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use motiondb::files::SourceText;
@@ -33,8 +41,12 @@ use crate::planning::planner::Planner;
 use crate::scenario::coupling::Coupling;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::file::agent_groups::AgentGroups;
+use crate::scenario::file::behaviour::{AreaTable, BehaviourTables, GoalsTable, SignalTable, StateTable};
 use crate::scenario::file::ground_tables::{ObstacleTable, WalkableTable};
+use crate::scenario::file::measure_tables::MeasureTable;
+use crate::scenario::file::profile_tables::ProfileTable;
 use crate::scenario::file::source_tables::SourceTable;
+use crate::scenario::file::zone_tables::ZoneTable;
 use crate::scenario::view::View;
 
 /// Keys by one of which a scenario file is recognised.
@@ -70,6 +82,20 @@ pub(crate) struct ScenarioFile {
     #[serde(default)]
     pub(crate) sources: Vec<Spanned<SourceTable>>,
     #[serde(default)]
+    signals: BTreeMap<String, Spanned<SignalTable>>,
+    #[serde(default)]
+    areas: BTreeMap<String, Spanned<AreaTable>>,
+    #[serde(default)]
+    goals: BTreeMap<String, Spanned<GoalsTable>>,
+    #[serde(default)]
+    states: BTreeMap<String, Spanned<StateTable>>,
+    #[serde(default)]
+    pub(crate) zones: Vec<Spanned<ZoneTable>>,
+    #[serde(default)]
+    pub(crate) measure: Vec<Spanned<MeasureTable>>,
+    #[serde(default)]
+    pub(crate) profiles: BTreeMap<String, Spanned<ProfileTable>>,
+    #[serde(default)]
     pub(crate) obstacles: Vec<Spanned<ObstacleTable>>,
     #[serde(default)]
     pub(crate) walkable: Vec<Spanned<WalkableTable>>,
@@ -91,6 +117,17 @@ impl ScenarioFile {
     /// The tables of agents, and their bytes in the text; none where all agents come from sources.
     pub(crate) fn agents(&self) -> Option<&Spanned<AgentGroups>> {
         self.agents.as_ref()
+    }
+
+    /// Takes the tables of behaviour out of the file.
+    pub(crate) fn take_behaviour(&mut self) -> BehaviourTables {
+        let Self { signals, areas, goals, states, .. } = self;
+        BehaviourTables {
+            signals: std::mem::take(signals),
+            areas: std::mem::take(areas),
+            goals: std::mem::take(goals),
+            states: std::mem::take(states),
+        }
     }
 
     /// The motion that the file names. The inner error: it names none, or one that is missing. The outer error: the

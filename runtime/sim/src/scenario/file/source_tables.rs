@@ -4,12 +4,15 @@
 //! the times of its agents, and the keys that `[[agents]]` has for goals, discs and speed.
 
 use glam::Vec2;
-use motiondb::files::SourceText;
 use serde::Deserialize;
 use toml::Spanned;
 
 use crate::scenario::agent_spec::{AtGoal, PREFERRED_SPEED_MPS, RADIUS_M, WALL_RADIUS_M};
 use crate::scenario::error::ScenarioError;
+use crate::scenario::fault::TableFault;
+use crate::scenario::file::agent_placement::PlacementInput;
+use crate::scenario::file::behaviour::DistributionValue;
+use crate::scenario::file::profile_tables::ProfileValue;
 use crate::scenario::point::Point;
 use crate::scenario::source_spec::SourceSpec;
 
@@ -33,17 +36,27 @@ pub(crate) struct SourceTable {
     preferred_speed_mps: Option<f32>,
     #[serde(default)]
     at_goal: AtGoal,
+    state: Option<Spanned<String>>,
+    pre_movement_s: Option<DistributionValue>,
+    profile: Option<Spanned<ProfileValue>>,
 }
 
 /// The sources of all tables; they end with the scenario at the latest.
 pub(crate) fn sources(
-    source: &SourceText,
+    input: &PlacementInput<'_>,
     tables: &[Spanned<SourceTable>],
     duration_s: f32,
 ) -> Result<Vec<SourceSpec>, ScenarioError> {
+    let PlacementInput { source, states, profiles, .. } = *input;
     let resolve = |table: &Spanned<SourceTable>| {
-        let at_table = |(message, help): (&str, &str)| source.invalid(table.span(), message, help).into();
-        table.get_ref().source(duration_s).map_err(at_table)
+        let at_table = |(message, help): TableFault| ScenarioError::from(source.invalid(table.span(), message, help));
+        let SourceTable { state, profile, pre_movement_s, preferred_speed_mps, radius_m, .. } = table.get_ref();
+        let [states_speed, states_radius] = [preferred_speed_mps, radius_m].map(Option::is_some);
+        let resolved =
+            table.get_ref().source(duration_s).map_err(|(message, help)| at_table((message.into(), help)))?;
+        let profiles = profiles.of_table(profile.as_ref(), *pre_movement_s, states_speed, states_radius);
+        let profiles = profiles.map_err(at_table)?;
+        Ok(SourceSpec { state: states.index(state.as_ref(), source)?, profiles, ..resolved })
     };
     tables.iter().map(resolve).collect()
 }
@@ -60,8 +73,8 @@ impl SourceTable {
                 ));
             }
         };
-        if self.goals_m.is_empty() && self.goal_offset_m.is_none() {
-            let help = "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both";
+        if self.goals_m.is_empty() && self.goal_offset_m.is_none() && self.state.is_none() {
+            let help = "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both, or `state = \"NAME\"`";
             return Err(("the agents of a source need a goal", help));
         }
         let radius_m = self.radius_m.unwrap_or(RADIUS_M);
@@ -79,6 +92,9 @@ impl SourceTable {
             wall_radius_m: self.wall_radius_m.unwrap_or(WALL_RADIUS_M.min(radius_m)),
             preferred_speed_mps: self.preferred_speed_mps.unwrap_or(PREFERRED_SPEED_MPS),
             at_goal: self.at_goal,
+            state: 0,
+            pre_movement_s: 0.0,
+            profiles: Vec::new(),
         })
     }
 }

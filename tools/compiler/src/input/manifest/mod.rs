@@ -83,6 +83,8 @@ pub struct Manifest {
 
 /// Keys by one of which a manifest is recognised.
 const KEYS: [&str; 5] = ["clips", "semi_procedural", "target_skeleton", "max_examples", "velocity_hull"];
+/// The key that every scenario has and no manifest.
+const SCENARIO_KEY: &str = "duration_s";
 
 /// The keys of the file.
 #[derive(Debug, Deserialize)]
@@ -113,8 +115,7 @@ impl Manifest {
     /// [`CompileError::InvalidManifest`] if the text breaks the format or names a clip that does not exist;
     /// [`CompileError::UnreadableFolder`].
     pub fn parse(source: SourceText) -> Result<Self, CompileError> {
-        let file: ManifestFile =
-            toml::from_str(&source.text).map_err(|error| source.unparsed(error.span(), error.message(), &KEYS))?;
+        let file: ManifestFile = toml::from_str(&source.text).map_err(|error| no_manifest(&source, &error))?;
         for table in &file.clips {
             table.get_ref().check(&source)?;
         }
@@ -194,4 +195,14 @@ impl Manifest {
         let span = settings.spans.values.get(key).unwrap_or(&settings.spans.table);
         Err(self.source.invalid(span.clone(), problem.as_str(), remedy))
     }
+}
+
+/// The error that a text is not a manifest.
+fn no_manifest(source: &SourceText, error: &toml::de::Error) -> Invalid {
+    let mistake = source.unparsed(error.span(), error.message(), &KEYS);
+    if !source.text.lines().any(|line| line.trim_start().starts_with(SCENARIO_KEY)) {
+        return mistake;
+    }
+    let message = "this is a scenario, not a manifest of clips".to_owned();
+    Invalid { message, help: "simulate it with `fbcrowd run`, or give its clips here".to_owned(), ..mistake }
 }

@@ -9,10 +9,12 @@ use crate::maths::sweep::sort_along_longer_side;
 use crate::route::arrival::ARRIVAL_M;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::ground_check::{check_ground, check_ground_ranges};
 use crate::scenario::ranges::check_ranges;
 use crate::scenario::resolved::Scenario;
-use crate::scenario::source_check::{check_source_ranges, check_sources_clear_of_obstacles};
+use crate::scenario::rules::behaviour_check::{check_behaviour_ranges, check_goals_clear_of_obstacles};
+use crate::scenario::rules::ground_check::{check_ground, check_ground_ranges};
+use crate::scenario::rules::measure_check::{check_measures, check_zones};
+use crate::scenario::rules::source_check::{check_source_ranges, check_sources_clear_of_obstacles};
 
 /// Distance from an obstacle's box beyond which no disc touches the obstacle, m.
 const NEAR_M: f32 = 1.0;
@@ -28,7 +30,8 @@ pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_ground(scenario)?;
     check_agents_clear_of_obstacles(scenario)?;
     check_agents_apart(&scenario.agents)?;
-    check_sources_clear_of_obstacles(scenario)
+    check_sources_clear_of_obstacles(scenario)?;
+    check_goals_clear_of_obstacles(scenario)
 }
 
 /// Checks that every number is in range, and how many agents there are.
@@ -38,6 +41,9 @@ pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
 pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_ranges(scenario)?;
     check_ground_ranges(scenario)?;
+    check_behaviour_ranges(scenario)?;
+    check_measures(scenario)?;
+    check_zones(scenario)?;
     check_source_ranges(scenario)
 }
 

@@ -2,6 +2,8 @@
 
 use fbcrowd_sim::measures::Measures;
 
+use crate::report::crowd::places_text;
+
 /// One figure a line.
 pub(crate) fn text(measures: &Measures) -> String {
     [
@@ -20,6 +22,7 @@ pub(crate) fn text(measures: &Measures) -> String {
     ]
     .map(|(name, value)| format!("{name:<25}{value}\n"))
     .concat()
+        + &places_text::text(&measures.places)
 }
 
 fn agents(measures: &Measures) -> String {

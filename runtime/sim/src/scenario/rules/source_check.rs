@@ -8,10 +8,13 @@ use glam::Vec2;
 use crate::maths::polygon::{closest_distance_m, contains};
 use crate::route::arrival::ARRIVAL_M;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
+use crate::scenario::profile::Profile;
 use crate::scenario::ranges::{
-    AGENTS_MAX, DURATION_S, GOALS_MAX, REMOVE, WAYPOINTS_MAX, check_disc_and_speed, check_facing, check_points, within,
+    AGENTS_MAX, DURATION_S, GOALS_MAX, PRE_MOVEMENT_S, RADIUS_M, REMOVE, SPEED_MPS, WAYPOINTS_MAX,
+    check_disc_and_speed, check_facing, check_points, within,
 };
 use crate::scenario::resolved::Scenario;
+use crate::scenario::rules::behaviour_check::check_distribution;
 use crate::scenario::source_spec::SourceSpec;
 
 /// Greatest number of sources.
@@ -47,9 +50,23 @@ fn check_numbers(part: &ScenarioPart, source: &SourceSpec) -> Result<(), Scenari
     let count = source.count.map_or(1, |count| count as usize);
     within(part, "count", count, &(1..=AGENTS_MAX), REMOVE)?;
     let goals = source.goals_m.len() + usize::from(source.goal_offset_m.is_some());
-    within(part, "the number of goals", goals, &(1..=GOALS_MAX), "give the goal, and waypoints before it")?;
+    let least = usize::from(source.state == 0);
+    within(part, "the number of goals", goals, &(least..=GOALS_MAX), "give the goal, and waypoints before it")?;
+    within(part, "pre_movement_s", source.pre_movement_s, &PRE_MOVEMENT_S, REMOVE)?;
+    source.profiles.iter().try_for_each(|profile| check_profile(part, profile))?;
     check_facing(part, source.facing_rad.unwrap_or(0.0))?;
     check_disc_and_speed(part, source.radius_m, source.wall_radius_m, source.preferred_speed_mps)
+}
+
+fn check_profile(part: &ScenarioPart, profile: &Profile) -> Result<(), ScenarioFault> {
+    within(part, "weight", profile.weight, &(0.0..=f32::MAX), "give shares of 0 or more")?;
+    let numbers = [
+        ("preferred_speed_mps", &profile.preferred_speed_mps, &SPEED_MPS),
+        ("radius_m", &profile.radius_m, &RADIUS_M),
+        ("pre_movement_s", &profile.pre_movement_s, &PRE_MOVEMENT_S),
+    ];
+    let mut drawn = numbers.into_iter().filter_map(|(name, number, range)| Some((name, number.as_ref()?, range)));
+    drawn.try_for_each(|(name, number, range)| check_distribution(part, name, number, range))
 }
 
 /// Checks that the agents of all sources, and their waypoints, are no more than a scenario may have.

@@ -1,0 +1,126 @@
+//! The goal of one agent in its step: it chooses one, moves up in a queue, leaves a busy exit for another. World,
+//! metres, seconds.
+
+use crate::behaviour::agent_state::{ChosenGoal, GoalRef};
+use crate::behaviour::choice::{Choice, Options};
+use crate::behaviour::crowd_view::Moment;
+use crate::behaviour::deciding::Deciding;
+use crate::behaviour::draw::Purpose;
+use crate::behaviour::goals::GoalArea;
+use crate::behaviour::state::Movement;
+
+/// Distance from the head of a queue within which an agent is served, m.
+const AT_HEAD_M: f32 = 0.4;
+/// Time between two choices among busy exits, s: sooner, agents would oscillate.
+const CHOOSES_AGAIN_S: f64 = 1.5;
+/// Share of the time that another exit must save.
+const SAVES_SHARE: f32 = 0.1;
+
+impl Deciding<'_> {
+    /// Chooses a goal where the agent wants one and has none; moves up in a queue; changes between busy exits.
+    pub(crate) fn update_goal(&mut self, moment: &Moment) {
+        let &Movement::Goals { set, choice, memory } = self.movement() else { return };
+        let memory = memory.filter(|_| !self.behaviour.goals[set].queue);
+        if self.agent.goal.is_none()
+            && let Some(memory) = memory
+            && let Some((_, goal)) = self.agent.remembered.iter().find(|(of, _)| *of == memory)
+        {
+            self.agent.goal = Some(*goal);
+        }
+        if self.behaviour.goals[set].queue {
+            self.update_place(set, moment.joining[set] == Some(self.index));
+        } else if self.agent.goal.is_none() {
+            self.choose(set, choice);
+        } else if choice == Choice::LeastBusy && self.view.time_s - self.agent.chosen_s >= CHOOSES_AGAIN_S {
+            self.choose_again(set);
+        }
+        let goal = self.agent.goal.filter(|goal| goal.is_taken);
+        if let (Some(memory), Some(goal)) = (memory, goal) {
+            match self.agent.remembered.iter_mut().find(|(of, _)| *of == memory) {
+                Some((_, remembered)) => *remembered = goal,
+                None => self.agent.remembered.push((memory, goal)),
+            }
+        }
+    }
+
+    fn choose(&mut self, set: usize, choice: Choice) {
+        let free = self.occupancy.free(set, &self.behaviour.goals[set]);
+        let random = &mut self.drawer().random(Purpose::Goal);
+        let Some(area) = choice.choose(&self.options(set, &free, &|area| self.route_m(set, area)), random) else {
+            return;
+        };
+        self.take(GoalRef { set: set as u32, area: area as u32 });
+    }
+
+    /// Leaves the chosen exit for another that saves enough time.
+    fn choose_again(&mut self, set: usize) {
+        self.agent.chosen_s = self.view.time_s;
+        let Some(goal) = self.agent.goal else { return };
+        let free = self.occupancy.free(set, &self.behaviour.goals[set]);
+        let route_m = |area| self.route_m(set, area);
+        let options = self.options(set, &free, &route_m);
+        let Some(area) = Choice::LeastBusy.choose(&options, &mut self.drawer().random(Purpose::Goal)) else { return };
+        let [now_s, other_s] = [goal.at.area as usize, area].map(|area| options.time_s(area));
+        if other_s < now_s.map(|now_s| (1.0 - SAVES_SHARE) * now_s) {
+            self.agent.remembered.retain(|(_, remembered)| remembered.at != goal.at);
+            self.occupancy.leave(self.agent);
+            self.take(GoalRef { set: set as u32, area: area as u32 });
+        }
+    }
+
+    fn options<'b>(&'b self, set: usize, free: &'b [usize], route_m: &'b dyn Fn(usize) -> Option<f32>) -> Options<'b> {
+        let (goals, taken) = (&self.behaviour.goals[set], self.occupancy.of_set(set));
+        Options { set: goals, free, taken, route_m, speed_mps: self.agent.traits.preferred_speed_mps }
+    }
+
+    fn route_m(&self, set: usize, area: usize) -> Option<f32> {
+        (self.view.route_m)(self.index, GoalRef { set: set as u32, area: area as u32 })
+    }
+
+    fn take(&mut self, at: GoalRef) {
+        let random = &mut self.drawer().random(Purpose::Position);
+        let position_m = self.view.draw_clear_m(&self.area(at).area, random);
+        if self.agent.remembered.iter().all(|(_, remembered)| remembered.at != at) {
+            self.occupancy.take(at);
+        }
+        self.agent.goal = Some(ChosenGoal { at, position_m, is_taken: true });
+        self.agent.chosen_s = self.view.time_s;
+    }
+
+    /// Walks to the end of a queue, joins it, moves up, and stands at its head.
+    fn update_place(&mut self, set: usize, may_join: bool) {
+        let place = |area: usize| GoalRef { set: set as u32, area: area as u32 };
+        match self.agent.goal.filter(|goal| goal.is_taken) {
+            None => {
+                let end = self.occupancy.end_of_queue(set).map(place);
+                self.agent.goal = end.map(|at| self.place(at, false));
+                if let Some(goal) = self.agent.goal
+                    && may_join
+                {
+                    self.occupancy.take(goal.at);
+                    self.agent.goal = Some(ChosenGoal { is_taken: true, ..goal });
+                }
+            }
+            Some(goal) if goal.at.area > 0 => {
+                let ahead = goal.at.area as usize - 1;
+                if self.occupancy.of_set(set)[ahead] == 0 {
+                    self.occupancy.release(goal.at);
+                    self.occupancy.take(place(ahead));
+                    self.agent.goal = Some(self.place(place(ahead), true));
+                }
+            }
+            Some(goal) => {
+                let is_there = self.area(goal.at).area.distance_m(self.position_m()) <= AT_HEAD_M;
+                self.agent.at_head_s = self.agent.at_head_s.or_else(|| is_there.then_some(self.view.time_s));
+            }
+        }
+    }
+
+    fn place(&self, at: GoalRef, is_taken: bool) -> ChosenGoal {
+        ChosenGoal { at, position_m: self.area(at).area.centre_m(), is_taken }
+    }
+
+    pub(crate) fn area(&self, at: GoalRef) -> &GoalArea {
+        &self.behaviour.goals[at.set as usize].areas[at.area as usize]
+    }
+}

@@ -1,0 +1,59 @@
+//! Numbers that are fixed or drawn, as written: `1.3`, `{ uniform = [1, 2] }`, `{ normal = [1.3, 0.2], min = 0.5, max = 2 }`.
+
+use serde::Deserialize;
+
+use crate::behaviour::Distribution;
+use crate::scenario::fault::TableFault;
+
+/// Standard deviations about the mean that a normal distribution has without `min` and `max`: 99.7 % of all draws.
+const DEVIATIONS: f32 = 3.0;
+
+/// A number that is fixed or drawn, as written.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(untagged, expecting = "a number, `{ uniform = [a, b] }` or `{ normal = [mean, deviation], min = a, max = b }`")]
+pub(crate) enum DistributionValue {
+    Constant(f32),
+    Uniform(UniformTable),
+    Normal(NormalTable),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct UniformTable {
+    uniform: [f32; 2],
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct NormalTable {
+    normal: [f32; 2],
+    min: Option<f32>,
+    max: Option<f32>,
+}
+
+impl DistributionValue {
+    /// The distribution, all of whose draws must lie within bounds.
+    pub(crate) fn resolve(self, name: &str, [least, greatest]: [f32; 2]) -> Result<Distribution, TableFault> {
+        let distribution = match self {
+            Self::Constant(value) => Distribution::Constant(value),
+            Self::Uniform(UniformTable { uniform: [from, to] }) => Distribution::Uniform { from, to },
+            Self::Normal(NormalTable { normal: [mean, deviation], min, max }) => Distribution::Normal {
+                mean,
+                deviation,
+                min: min.unwrap_or((mean - DEVIATIONS * deviation).max(least)),
+                max: max.unwrap_or((mean + DEVIATIONS * deviation).min(greatest)),
+            },
+        };
+        if let Distribution::Normal { deviation, .. } = distribution
+            && !(0.0..=f32::MAX).contains(&deviation)
+        {
+            return Err((format!("the deviation of {name} is {deviation}"), "write `normal = [mean, deviation]`"));
+        }
+        let [min, max] = distribution.bounds();
+        if least <= min && min <= max && max <= greatest {
+            return Ok(distribution);
+        }
+        let message = format!("{name} lies between {min} and {max}; it must rise, within {least} and {greatest}");
+        Err((message, "write the lower number first"))
+    }
+}

@@ -1,0 +1,144 @@
+//! `[profiles.NAME]`: numbers of agents that are drawn, and `profile` of agents and sources.
+//!
+//! ```toml
+//! [profiles.adult]
+//! preferred_speed_mps = { normal = [1.34, 0.26], min = 0.8, max = 1.9 }
+//! radius_m = { uniform = [0.22, 0.28] }
+//! [profiles.elderly]
+//! inherits = "adult"                  # all numbers that it does not state itself
+//! preferred_speed_mps = { uniform = [0.6, 0.9] }
+//! pre_movement_s = { uniform = [5, 20] }
+//! ```
+
+use std::collections::BTreeMap;
+
+use motiondb::files::SourceText;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::behaviour::Distribution;
+use crate::scenario::error::ScenarioError;
+use crate::scenario::fault::TableFault;
+use crate::scenario::file::behaviour::{DistributionValue, Names};
+use crate::scenario::profile::Profile;
+use crate::scenario::ranges::{PRE_MOVEMENT_S, RADIUS_M, SPEED_MPS};
+
+/// Greatest number of profiles.
+const PROFILES_MAX: usize = 1_000;
+
+/// `[profiles.NAME]`
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct ProfileTable {
+    inherits: Option<String>,
+    preferred_speed_mps: Option<DistributionValue>,
+    radius_m: Option<DistributionValue>,
+    pre_movement_s: Option<DistributionValue>,
+}
+
+/// `profile` of agents and sources.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "the name of a profile, or profiles with shares as in `{ adult = 3, elderly = 1 }`")]
+pub(crate) enum ProfileValue {
+    One(String),
+    Shares(BTreeMap<String, f32>),
+}
+
+/// All profiles, by the order of their names.
+pub(crate) struct Profiles<'a> {
+    names: Names<'a>,
+    resolved: Vec<Profile>,
+}
+
+impl<'a> Profiles<'a> {
+    /// Resolves all tables: what a profile inherits, and its ranges.
+    pub(crate) fn new(
+        tables: &'a BTreeMap<String, Spanned<ProfileTable>>,
+        source: &SourceText,
+    ) -> Result<Self, ScenarioError> {
+        let names = Names::new("profile", tables);
+        let tables: Vec<&Spanned<ProfileTable>> = tables.values().collect();
+        if let Some(table) = tables.get(PROFILES_MAX) {
+            let message = format!("the scenario has more than {PROFILES_MAX} profiles");
+            return Err(source.invalid(table.span(), message, "give fewer").into());
+        }
+        let resolve = |table: &&Spanned<ProfileTable>| {
+            profile(table.get_ref(), &names, &tables)
+                .map_err(|(message, help)| source.invalid(table.span(), message, help).into())
+        };
+        let resolved = tables.iter().map(resolve).collect::<Result<_, ScenarioError>>()?;
+        Ok(Self { names, resolved })
+    }
+
+    /// The profiles of a table of agents; numbers that the table states itself are taken out of them.
+    pub(crate) fn of_table(
+        &self,
+        value: Option<&Spanned<ProfileValue>>,
+        pre_movement_s: Option<DistributionValue>,
+        states_speed: bool,
+        states_radius: bool,
+    ) -> Result<Vec<Profile>, TableFault> {
+        let mut profiles = match value.map(Spanned::get_ref) {
+            None => vec![Profile { weight: 1.0, ..Profile::default() }],
+            Some(ProfileValue::One(name)) => vec![self.with_weight(name, 1.0)?],
+            Some(ProfileValue::Shares(shares)) => {
+                let profiles = shares.iter().map(|(name, &weight)| self.with_weight(name, weight));
+                profiles.collect::<Result<_, _>>()?
+            }
+        };
+        let sum: f32 = profiles.iter().map(|profile| profile.weight).sum();
+        let are_shares = profiles.iter().all(|profile| profile.weight >= 0.0) && sum > 0.0 && sum.is_finite();
+        if !are_shares {
+            return Err((format!("the shares add up to {sum}, or one is negative"), "give shares of 0 or more"));
+        }
+        let pre_movement_s = pre_movement_s.map(pre_movement).transpose()?;
+        for profile in &mut profiles {
+            profile.pre_movement_s = pre_movement_s.or(profile.pre_movement_s);
+            profile.preferred_speed_mps = profile.preferred_speed_mps.filter(|_| !states_speed);
+            profile.radius_m = profile.radius_m.filter(|_| !states_radius);
+        }
+        let states_nothing = |profile: &Profile| *profile == Profile { weight: profile.weight, ..Profile::default() };
+        if profiles.iter().all(states_nothing) {
+            profiles.clear();
+        }
+        Ok(profiles)
+    }
+
+    fn with_weight(&self, name: &str, weight: f32) -> Result<Profile, TableFault> {
+        Ok(Profile { weight, ..self.resolved[self.names.index(name)?].clone() })
+    }
+}
+
+/// One profile with all that it inherits.
+fn profile(table: &ProfileTable, names: &Names<'_>, tables: &[&Spanned<ProfileTable>]) -> Result<Profile, TableFault> {
+    let mut merged = table.clone();
+    let mut ancestors = Vec::new();
+    while let Some(name) = merged.inherits.take() {
+        let index = names.index(&name)?;
+        if ancestors.contains(&index) {
+            return Err((format!("profile `{name}` inherits from itself"), "remove one `inherits`"));
+        }
+        ancestors.push(index);
+        let parent = tables[index].get_ref();
+        merged = ProfileTable {
+            inherits: parent.inherits.clone(),
+            preferred_speed_mps: merged.preferred_speed_mps.or(parent.preferred_speed_mps),
+            radius_m: merged.radius_m.or(parent.radius_m),
+            pre_movement_s: merged.pre_movement_s.or(parent.pre_movement_s),
+        };
+    }
+    let speeds = [*SPEED_MPS.start(), *SPEED_MPS.end()];
+    let radii = [*RADIUS_M.start(), *RADIUS_M.end()];
+    let number =
+        |name, value: Option<DistributionValue>, bounds| value.map(|value| value.resolve(name, bounds)).transpose();
+    Ok(Profile {
+        weight: 1.0,
+        preferred_speed_mps: number("`preferred_speed_mps`", merged.preferred_speed_mps, speeds)?,
+        radius_m: number("`radius_m`", merged.radius_m, radii)?,
+        pre_movement_s: merged.pre_movement_s.map(pre_movement).transpose()?,
+    })
+}
+
+fn pre_movement(value: DistributionValue) -> Result<Distribution, TableFault> {
+    value.resolve("`pre_movement_s`", [*PRE_MOVEMENT_S.start(), *PRE_MOVEMENT_S.end()])
+}

@@ -1,0 +1,51 @@
+//! Profiles: the numbers of an agent that are drawn when it is born. Metres, seconds.
+
+use serde::{Deserialize, Serialize};
+
+use crate::behaviour::Distribution;
+use crate::behaviour::choice::draw;
+use crate::maths::random::SplitMix64;
+
+/// A kind of agents, and its share among those of a table.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Profile {
+    /// Share of the agents, relative to those of the table's other profiles.
+    pub weight: f32,
+    /// Preferred speed, m/s; none: that of the table.
+    pub preferred_speed_mps: Option<Distribution>,
+    /// Radius of the disc that other agents see, m; none: that of the table.
+    pub radius_m: Option<Distribution>,
+    /// Time for which an agent stands before it begins, s; none: that of the table.
+    pub pre_movement_s: Option<Distribution>,
+}
+
+/// The numbers of one agent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrawnNumbers {
+    /// Preferred speed, m/s.
+    pub preferred_speed_mps: f32,
+    /// Radius of the disc that other agents see, m.
+    pub radius_m: f32,
+    /// Time for which the agent stands before it begins, s.
+    pub pre_movement_s: f32,
+}
+
+impl DrawnNumbers {
+    /// Draws a profile by its weight, and its numbers; the others stay as they are. Without profiles it draws nothing.
+    pub(crate) fn draw(self, profiles: &[Profile], random: &mut SplitMix64) -> Self {
+        let indices: Vec<usize> = (0..profiles.len()).collect();
+        let Some(index) = draw(&indices, |index| profiles[index].weight, random) else { return self };
+        let Profile { preferred_speed_mps, radius_m, pre_movement_s, .. } = profiles[index];
+        // Every number takes a generator of its own, so that a profile without one changes no other.
+        let mut number = |drawn: Option<Distribution>, otherwise: f32| {
+            let random = &mut SplitMix64::new(random.next_u64(), 0);
+            drawn.map_or(otherwise, |drawn| drawn.draw(random))
+        };
+        Self {
+            preferred_speed_mps: number(preferred_speed_mps, self.preferred_speed_mps),
+            radius_m: number(radius_m, self.radius_m),
+            pre_movement_s: number(pre_movement_s, self.pre_movement_s),
+        }
+    }
+}

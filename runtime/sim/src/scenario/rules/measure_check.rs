@@ -1,0 +1,51 @@
+//! The rules of lines and areas that are measured, and of zones. World, metres.
+
+use crate::scenario::fault::{ScenarioFault, ScenarioPart};
+use crate::scenario::measure_spec::MeasuredPlace;
+use crate::scenario::ranges::{check_name, check_points, within};
+use crate::scenario::resolved::Scenario;
+use crate::scenario::rules::behaviour_check::{FACTOR, check_area};
+
+/// Greatest number of `[[measure]]` tables, and of zones: each takes time in every frame.
+const TABLES_MAX: usize = 1_000;
+
+/// Checks lines and areas that are measured, and their names.
+pub(crate) fn check_measures(scenario: &Scenario) -> Result<(), ScenarioFault> {
+    let measures = &scenario.measures;
+    let first = &ScenarioPart::Measure(0);
+    within(first, "the number of measures", measures.len(), &(0..=TABLES_MAX), "give fewer")?;
+    for (index, spec) in measures.iter().enumerate() {
+        let part = &ScenarioPart::Measure(index);
+        check_name(&spec.name).map_err(|fault| ScenarioFault { part: part.clone(), ..fault })?;
+        if measures[..index].iter().any(|other| other.name == spec.name) {
+            return part.fault(format!("two measures have the name `{}`", spec.name), "choose another name");
+        }
+        match &spec.place {
+            MeasuredPlace::Line(ends_m) => {
+                check_points(part, ends_m)?;
+                let length_m = ends_m[0].distance(ends_m[1]);
+                within(part, "the length of the line", length_m, &(0.01..=f32::MAX), "give two ends, in metres")?;
+            }
+            MeasuredPlace::Area(area) => {
+                check_area(part, area)?;
+                let size_m = area.bounds_m();
+                let least_m = (size_m[1] - size_m[0]).min_element();
+                within(part, "the extent of the area", least_m, &(0.01..=f32::MAX), "give an area, in metres")?;
+            }
+            MeasuredPlace::Egress => {}
+        }
+    }
+    Ok(())
+}
+
+/// Checks areas and factors of zones.
+pub(crate) fn check_zones(scenario: &Scenario) -> Result<(), ScenarioFault> {
+    let zones = &scenario.zones;
+    within(&ScenarioPart::Zone(0), "the number of zones", zones.len(), &(0..=TABLES_MAX), "give fewer")?;
+    for (index, zone) in zones.iter().enumerate() {
+        let part = &ScenarioPart::Zone(index);
+        check_area(part, &zone.area)?;
+        within(part, "speed_factor", zone.speed_factor, &FACTOR, "1 changes nothing, 0.5 is half the speed")?;
+    }
+    Ok(())
+}

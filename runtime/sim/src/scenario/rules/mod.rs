@@ -1,0 +1,14 @@
+//! The rules of every scenario, whether read or made in code.
+//!
+//! Enters: a scenario. Leaves: nothing, or the first broken rule with the part that breaks it.
+//!
+//! Read `check` (all rules, cheapest first); then `ground_check` (walls), `behaviour_check` (goals, states, signals),
+//! `source_check` and `measure_check` (lines, areas, zones).
+
+pub(crate) mod behaviour_check;
+pub(crate) mod check;
+pub(crate) mod ground_check;
+mod measure_check;
+mod source_check;
+
+pub use check::check;

@@ -1,0 +1,315 @@
+//! Claims about crowds with behaviour: small scenarios from text to their last step.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::Vec2;
+use motiondb::files::SourceText;
+
+use crate::maths::angle::wrap_rad;
+use crate::population::AgentLife;
+use crate::scenario::{Scenario, parse};
+use crate::simulation::Simulation;
+use crate::test_db::test_db;
+
+fn scenario(text: &str) -> Scenario {
+    let text = format!("duration_s = 60\ndt_s = 0.05\n{text}");
+    parse(&SourceText { path: PathBuf::from("test.toml"), text }).unwrap().0
+}
+
+pub(super) fn started(scenario: &Scenario) -> Simulation {
+    Simulation::new(Arc::new(test_db()), scenario)
+}
+
+/// Runs a scenario to its end; `watch` sees every step and the time after it, s.
+fn run(text: &str, mut watch: impl FnMut(&Simulation, f64)) -> Simulation {
+    let scenario = scenario(text);
+    let mut simulation = started(&scenario);
+    for step in 1..=(scenario.duration_s / scenario.dt_s) as usize {
+        simulation.step(&mut |_| {});
+        watch(&simulation, step as f64 * f64::from(scenario.dt_s));
+    }
+    assert_eq!(simulation.endless_transitions(), None);
+    simulation
+}
+
+/// Name of the state of each present agent.
+fn states(simulation: &Simulation) -> Vec<&str> {
+    let names = &simulation.scenario.behaviour.states;
+    simulation.frames().iter().map(|frame| names[usize::from(frame.state)].name.as_str()).collect()
+}
+
+const CROSSING: &str = "
+    [signals.crossing]
+    green_s = 8
+    red_s = 12
+    offset_s = 6
+    [goals.far_side]
+    areas = [{ rect_m = [5, -4, 7, 4] }]
+    [states.wait]
+    stand = { facing_deg = 0 }
+    then = [{ when = { green = 'crossing' }, to = 'cross' }]
+    [states.cross]
+    go = 'far_side'
+    then = [{ when = { reached_m = 0 }, to = 'gone' }]
+    [states.gone]
+    remove = true
+    [[agents]]
+    grid = { columns = 2, rows = 4, spacing_m = 1.0, centre_m = [-4, 0] }
+    state = 'wait'
+    [[sources]]
+    rect_m = [-8, -2, -6, 2]
+    rate_per_s = 0.4
+    state = 'wait'
+";
+
+#[test]
+fn no_agent_enters_on_red() {
+    let mut before: Vec<(u32, u16)> = Vec::new();
+    let mut crossings = 0;
+    let simulation = run(CROSSING, |simulation, time_s| {
+        let wait = simulation.scenario.behaviour.state("wait").unwrap() as u16;
+        let signal = &simulation.scenario.behaviour.signals[0];
+        for frame in simulation.frames() {
+            let starts = frame.state != wait && before.contains(&(frame.id.0, wait));
+            crossings += usize::from(starts);
+            assert!(!starts || signal.is_green(time_s - 0.05), "agent {} at {time_s} s", frame.id.0);
+        }
+        before = simulation.frames().iter().map(|frame| (frame.id.0, frame.state)).collect();
+    });
+    let removed = simulation.population().agents.iter().filter(|life| life.removed.is_some()).count();
+    assert!(crossings >= 15 && removed >= 12, "{crossings} crossings, {removed} removed");
+}
+
+#[test]
+fn a_till_serves_one_after_the_other() {
+    const TILL: &str = "
+        [goals.till]
+        queue = true
+        areas = [{ point_m = [6, 0] }, { point_m = [5.2, 0] }, { point_m = [4.4, 0] }, { point_m = [3.6, 0] }]
+        [goals.exit]
+        areas = [{ rect_m = [5.5, 7, 6.5, 8] }]
+        [states.line_up]
+        go = 'till'
+        then = [{ when = { served_s = 3 }, to = 'leave' }]
+        [states.leave]
+        go = 'exit'
+        then = [{ when = { reached_m = 0 }, to = 'gone' }]
+        [states.gone]
+        remove = 'at_once'
+        [[agents]]
+        grid = { columns = 4, rows = 1, spacing_m = 1.2, centre_m = [-1, -1] }
+        state = 'line_up'
+    ";
+    let mut served: Vec<(u32, f64)> = Vec::new();
+    let simulation = run(TILL, |simulation, time_s| {
+        for (frame, state) in simulation.frames().iter().zip(states(simulation)) {
+            if state == "leave" && served.iter().all(|(id, _)| *id != frame.id.0) {
+                served.push((frame.id.0, time_s));
+            }
+        }
+    });
+    // The agent that starts nearest comes first.
+    assert_eq!(served.iter().map(|(id, _)| *id).collect::<Vec<_>>(), [3, 2, 1, 0]);
+    assert!(served.windows(2).all(|pair| pair[1].1 - pair[0].1 >= 3.0), "{served:?}");
+    assert!(simulation.frames().is_empty(), "{:?}", states(&simulation));
+}
+
+#[test]
+fn a_visitor_faces_its_booths_and_goes() {
+    const BOOTHS: &str = "
+        [goals.booths]
+        choose = 'random'
+        capacity = 1
+        areas = [
+            { rect_m = [-1, 4, 1, 5], facing_deg = 90 },
+            { rect_m = [-1, -5, 1, -4], facing_deg = -90 },
+            { rect_m = [4, -1, 5, 1], facing_deg = 180 },
+        ]
+        [states.walk]
+        go = 'booths'
+        then = [{ when = { reached_m = 0 }, to = 'look' }]
+        [states.look]
+        stand = { facing = 'goal' }
+        then = [{ when = { after_s = 5 }, to = { walk = 3, gone = 1 } }]
+        [states.gone]
+        remove = true
+        [[agents]]
+        grid = { columns = 3, rows = 1, spacing_m = 1.2 }
+        state = 'walk'
+    ";
+    let (mut looks, mut faced, mut before) = (0, 0, vec![String::new(); 3]);
+    let simulation = run(BOOTHS, |simulation, _| {
+        for (index, (frame, state)) in simulation.frames().iter().zip(states(simulation)).enumerate() {
+            let id = frame.id.index();
+            if state != "look" && before[id] == "look" {
+                looks += 1;
+                let behaviour = &simulation.scenario.behaviour;
+                let areas = &behaviour.goals[0].areas;
+                let place = areas.iter().find(|area| area.area.distance_m(frame.root.position_m) < 0.3).unwrap();
+                let off_rad = wrap_rad(frame.root.facing_rad - place.facing_rad.unwrap()).abs();
+                faced += usize::from(off_rad < 0.35);
+            }
+            before[id] = state.to_owned();
+            assert!(simulation.crowd.occupancy.of_set(0).iter().all(|&taken| taken <= 1), "agent {index}");
+        }
+    });
+    assert!(looks >= 5 && faced * 10 >= looks * 9, "{faced} of {looks}; {:?}", states(&simulation));
+}
+
+#[test]
+fn a_full_goal_makes_agents_wait() {
+    const ONE_SEAT: &str = "
+        [goals.seat]
+        capacity = 1
+        areas = [{ circle_m = [4, 0, 0.4] }]
+        [states.walk]
+        go = 'seat'
+        then = [{ when = { reached_m = 0 }, to = 'sit' }]
+        [states.sit]
+        stand = {}
+        then = [{ when = { after_s = 4 }, to = 'gone' }]
+        [states.gone]
+        remove = 'at_once'
+        [[agents]]
+        grid = { columns = 1, rows = 3, spacing_m = 1.2 }
+        state = 'walk'
+    ";
+    let simulation = run(ONE_SEAT, |simulation, _| {
+        let count = states(simulation).iter().filter(|state| **state == "sit").count();
+        assert!(count <= 1, "{count} sit");
+    });
+    let count = simulation.population().goals[0];
+    assert_eq!((count.waiting, count.waiting_max), (0, 2));
+    assert!(count.waiting_steps > 100 && simulation.frames().is_empty(), "{count:?}");
+}
+
+const CHANGES: &str = "
+    [areas.middle]
+    circle_m = [0, 0, 1]
+    [goals.ends]
+    choose = 'farthest'
+    areas = [{ circle_m = [-6, 0, 1] }, { circle_m = [6, 0, 1] }]
+    [states.to_and_fro]
+    go = 'ends'
+    set = { speed_factor = { uniform = [0.7, 1.2] }, radius_m = { uniform = [0.15, 0.3] } }
+    then = [{ when = { reached_m = 0 }, to = { to_and_fro = 1, jump = 1, turn = 1 } }]
+    [states.turn]
+    stand = { facing_m = [0, 0] }
+    then = [{ when = { after_s = { normal = [2, 1], min = 0.5 } }, to = 'back' }]
+    [states.jump]
+    stand = {}
+    set = { teleport = { rect_m = [-3, 4, 3, 8] } }
+    then = [{ when = { after_s = 1 }, to = { to_and_fro = 3, follow_path = 1 } }]
+    [[agents]]
+    grid = { columns = 8, rows = 5, spacing_m = 1.0 }
+    goal_offset_m = [0, 10]
+    state = 'to_and_fro'
+    [[agents]]
+    circle = { count = 6, radius_m = 9 }
+    [[sources]]
+    rect_m = [-9, -6, 9, -4]
+    rate_per_s = 0.5
+    goal_offset_m = [0, 12]
+    at_goal = 'leave'
+";
+
+#[test]
+fn one_two_and_four_threads_give_equal_bits() {
+    let scenario = scenario(CHANGES);
+    let pools = [1, 2, 4].map(|threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap());
+    let mut simulations = pools.each_ref().map(|_| started(&scenario));
+    for step in 0..500 {
+        for (simulation, pool) in simulations.iter_mut().zip(&pools) {
+            pool.install(|| simulation.step(&mut |_| {}));
+        }
+        assert!(simulations[1..].iter().all(|other| other.frames() == simulations[0].frames()), "step {step}");
+    }
+    let agents = &simulations[0].population().agents;
+    assert!(simulations[1..].iter().all(|other| other.population().agents == *agents));
+    let changed = |has: fn(&AgentLife) -> bool| agents.iter().filter(|life| has(life)).count();
+    assert!(changed(|life| !life.radii_m.is_empty()) >= 40 && changed(|life| !life.teleports.is_empty()) > 5);
+    assert!(changed(|life| life.removed.is_some()) > 0);
+}
+
+#[test]
+fn a_teleported_body_stands_where_it_was_moved() {
+    let mut jumps = 0;
+    run(CHANGES, |simulation, time_s| {
+        let step = (time_s / 0.05).round() as u32;
+        for frame in simulation.frames() {
+            let life = &simulation.population().agents[frame.id.index()];
+            if life.is_teleported(step) {
+                jumps += 1;
+                let position_m = frame.root.position_m;
+                assert!(position_m.y >= 4.0 && position_m.x.abs() <= 3.0, "{position_m}");
+                assert_eq!(frame.contacts, [1.0; 2]);
+            }
+        }
+    });
+    assert!(jumps > 10);
+}
+
+#[test]
+fn endless_transitions_are_kept_as_a_fault() {
+    let text = "
+        [areas.trap]
+        rect_m = [3, -2, 6, 2]
+        [states.walk]
+        walk_mps = [1.2, 0]
+        then = [{ when = { inside = 'trap' }, to = 'turn' }]
+        [states.turn]
+        stand = {}
+        then = [{ when = { inside = 'trap' }, to = 'walk' }]
+        [[agents]]
+        at_m = [0, 0]
+        state = 'walk'
+    ";
+    let mut simulation = started(&scenario(text));
+    (0..100).for_each(|_| simulation.step(&mut |_| {}));
+    let fault = simulation.endless_transitions().unwrap();
+    assert_eq!((fault.agent.0, &*fault.states), (0, &[1, 2][..]));
+    assert!(fault.time_s > 1.0 && fault.time_s < 5.0, "{}", fault.time_s);
+}
+
+#[test]
+fn agents_without_a_state_move_as_without_behaviour() {
+    let agents = "[[agents]]\ncircle = { count = 9, radius_m = 4 }\n";
+    let with = format!("{agents}[states.idle]\nstand = {{}}\n");
+    let mut simulations = [agents, &with].map(|text| started(&scenario(text)));
+    for _ in 0..300 {
+        simulations.iter_mut().for_each(|simulation| simulation.step(&mut |_| {}));
+        assert_eq!(simulations[0].frames(), simulations[1].frames());
+    }
+    assert!(simulations[0].frames()[0].root.position_m.distance(Vec2::new(-4.0, 0.0)) < 1.0);
+}
+
+#[test]
+fn agents_walk_slower_in_a_zone() {
+    let text = "
+        [[zones]]
+        rect_m = [3, -2, 6, 2]
+        speed_factor = 0.5
+        [[agents]]
+        at_m = [0, 0]
+        goals_m = [[12, 0]]
+        preferred_speed_mps = 1.2
+        at_goal = 'leave'
+        [[agents]]
+        at_m = [0, 4]
+        goals_m = [[12, 4]]
+        preferred_speed_mps = 1.2
+        at_goal = 'leave'
+    ";
+    let mut slow = 0;
+    let simulation = run(text, |simulation, _| {
+        for frame in simulation.frames() {
+            let position_m = frame.root.position_m;
+            let is_inside = frame.id.0 == 0 && position_m.x > 3.2 && position_m.x < 5.8;
+            slow += usize::from(is_inside && (frame.preferred_mps.length() - 0.6).abs() < 1e-5);
+        }
+    });
+    let removed = [0, 1].map(|id| simulation.population().agents[id].removed.unwrap());
+    // 3 m at half the speed take 2.5 s longer: 50 steps.
+    assert!(slow > 60 && removed[0].abs_diff(removed[1] + 50) < 16, "{slow}, {removed:?}");
+}

@@ -1,0 +1,106 @@
+//! Stage 0 of a step: the state machine decides what each agent wants, and the simulation takes it over. World, metres,
+//! seconds.
+//!
+//! Without states in the scenario nothing here acts, and every agent follows its waypoints.
+
+use glam::Vec2;
+
+use crate::agents::{Agents, Removal};
+use crate::behaviour::{Aim, CrowdBehaviour, CrowdView, GoalRef, Movement, Traits};
+use crate::planning::mcn::orientation;
+use crate::population::{Population, RadiusChange};
+use crate::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
+use crate::simulation::Simulation;
+
+/// Rounding of discs that are meant to touch a wall, m.
+const TOUCH_M: f32 = 1e-4;
+
+impl Simulation {
+    /// The behaviour of an agent that is born.
+    pub(super) fn add_behaviour(crowd: &mut CrowdBehaviour, scenario: &Scenario, spec: &AgentSpec) {
+        if !scenario.behaviour.states.is_empty() {
+            let &AgentSpec { preferred_speed_mps, radius_m, position_m, state, .. } = spec;
+            crowd.add(state, Traits { preferred_speed_mps, radius_m }, position_m);
+        }
+    }
+
+    /// Lets every agent decide what it wants, from positions as the last step left them.
+    pub(super) fn decide(&mut self) {
+        let Self { scenario, agents, population, obstacles, routes, crowd, steps, .. } = self;
+        let behaviour = &scenario.behaviour;
+        if behaviour.states.is_empty() {
+            return;
+        }
+        let view = CrowdView {
+            time_s: f64::from(*steps) * f64::from(scenario.dt_s),
+            seed: scenario.seed,
+            ids: &agents.ids,
+            positions_m: &agents.positions_m,
+            route_m: &|index, at| {
+                let GoalRef { set, area } = at;
+                let area = &behaviour.goals[set as usize].areas[area as usize].area;
+                let wall_radius_m = population.spec(agents.ids[index]).wall_radius_m;
+                routes.to_area_m(wall_radius_m, agents.positions_m[index], at, area)
+            },
+            path_end_m: &|index| path_end_m(agents, population, index),
+            has_begun: &|index| population.agents[agents.ids[index].index()].begins_at(scenario.dt_s) <= *steps,
+            is_clear: &|position_m| obstacles.depth_m(position_m, WALL_RADIUS_M) <= TOUCH_M,
+        };
+        crowd.decide(behaviour, &view);
+        population.goals.iter_mut().zip(&crowd.waiting).for_each(|(count, &waiting)| count.add(waiting));
+        self.take_over_states();
+    }
+
+    /// Takes over radii and removals from the states.
+    fn take_over_states(&mut self) {
+        let Self { agents, population, crowd, steps, .. } = self;
+        for (index, state) in crowd.agents.iter().enumerate() {
+            let life = &mut population.agents[agents.ids[index].index()];
+            if agents.radii_m[index] != state.traits.radius_m {
+                life.radii_m.push(RadiusChange { frame: *steps + 1, radius_m: state.traits.radius_m });
+                agents.radii_m[index] = state.traits.radius_m;
+                agents.wall_radii_m[index] = life.wall_radius_m(*steps + 1);
+            }
+            if let Aim::Leave { at_once } = state.aim
+                && agents.removals[index].is_none()
+            {
+                agents.removals[index] = Some(if at_once { Removal::AtOnce } else { Removal::BetweenSteps });
+            }
+        }
+    }
+
+    /// Whether an agent, by index, follows its own waypoints.
+    pub(super) fn follows_path(&self, index: usize) -> bool {
+        let states = &self.scenario.behaviour.states;
+        self.crowd.agents.get(index).is_none_or(|agent| states[agent.state as usize].movement == Movement::OwnPath)
+    }
+
+    /// Turns agents that stand to the facing that their states want. The planner lets them keep theirs (§4.5).
+    pub(super) fn face_as_wanted(&mut self) {
+        let agents = &mut self.agents;
+        for (index, state) in self.crowd.agents.iter().enumerate() {
+            let Some(facing_rad) = state.aim.facing_rad() else { continue };
+            let plan = &mut agents.plans[index];
+            if agents.preferred_mps[index] == Vec2::ZERO && orientation::stands(plan.velocity_mps) {
+                plan.facing_rad = facing_rad;
+            }
+        }
+    }
+
+    /// Moves agents to where their states want them at once; there they stand.
+    pub(super) fn teleport(&mut self) {
+        let Self { agents, population, crowd, scenario, context, steps, .. } = self;
+        for &(id, position_m) in &crowd.teleports {
+            let Ok(index) = agents.ids.binary_search(&id) else { continue };
+            agents.stand_at(index, position_m, scenario.seed, scenario.coupling, context);
+            population.agents[id.index()].teleports.push(*steps);
+        }
+    }
+}
+
+/// Distance of an agent to the end of its own waypoints, m; none before it has passed all others.
+fn path_end_m(agents: &Agents, population: &Population, index: usize) -> Option<f32> {
+    let goals_m = &population.spec(agents.ids[index]).goals_m;
+    let is_last = agents.progress[index].next as usize + 1 == goals_m.len();
+    goals_m.last().filter(|_| is_last).map(|goal_m| goal_m.distance(agents.positions_m[index]))
+}

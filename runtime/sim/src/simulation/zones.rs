@@ -1,0 +1,20 @@
+//! Zones change the preferred velocities of the agents in them, after the route. World, metres, m/s.
+
+use crate::simulation::Simulation;
+
+impl Simulation {
+    /// Multiplies v_pref of every agent by the factors of the zones that hold it. An agent that leaves goes on as it
+    /// went, so its v_pref has its factors already.
+    pub(super) fn apply_zones(&mut self) {
+        let agents = &mut self.agents;
+        for zone in &self.scenario.zones {
+            let [low_m, high_m] = zone.area.bounds_m();
+            for (index, position_m) in agents.positions_m.iter().enumerate() {
+                let is_beside = position_m.cmpge(low_m).all() && position_m.cmple(high_m).all();
+                if is_beside && agents.removals[index].is_none() && zone.area.holds(*position_m) {
+                    agents.preferred_mps[index] *= zone.speed_factor;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Texts of scenarios, simulations and recordings.
+//!
+//! Read [`scene_text`] (before a simulation), [`timings_text`] (its durations), [`measures_text`] and [`places_text`] (its
+//! recording).
+
+pub(crate) mod measures_text;
+pub(crate) mod places_text;
+pub(crate) mod scene_text;
+pub(crate) mod timings_text;
