@@ -290,6 +290,8 @@ fn are_between_steps(before: [f32; 2], after: [f32; 2]) -> bool {
 #[cfg(test)]
 mod behaviour_tests;
 #[cfg(test)]
+mod route_tests;
+#[cfg(test)]
 pub(crate) mod tests;
 #[cfg(test)]
 mod turnover_tests;

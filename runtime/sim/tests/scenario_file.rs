@@ -471,3 +471,40 @@ fn sources_give_no_more_agents_than_a_scenario_may_have() {
     assert!(read(&write("enough", &format!("{long}{}", source(2.0).repeat(5)))).is_ok());
     assert!(begun.elapsed().as_secs() < 10);
 }
+
+#[test]
+fn walkable_ground_is_read_from_tables_and_wkt() {
+    let ground =
+        "[[walkable]]\npolygon_m = [[-2, -2], [9, -2], [9, 2], [-2, 2]]\nholes_m = [[[2, -1], [3, -1], [3, 1]]]\n";
+    let enclosure = "[[obstacles]]\nkind = \"enclosure\"\npolygon_m = [[7, 1], [8, 1], [8, 1.5]]\n";
+    let inline = scenario("ground", &format!("{ONE}{ground}{enclosure}"));
+    assert_eq!((inline.walkable_m.len(), inline.obstacles_m.len(), inline.enclosures_m.len()), (1, 0, 1));
+    let path = write("wkt", &format!("{HEAD}{ONE}[[walkable]]\nfile = \"a.wkt\"\n"));
+    let wkt = "POLYGON ((-2 -2, 9 -2, 9 2, -2 2, -2 -2), (2 -1, 3 -1, 3 1, 2 -1))";
+    fs::write(path.with_file_name("a.wkt"), wkt).unwrap();
+    assert_eq!(read(&path).unwrap().0.walkable_m, inline.walkable_m);
+}
+
+#[test]
+fn mistakes_of_the_ground_are_shown_at_their_table() {
+    let walkable = |polygon: &str| format!("{HEAD}{ONE}[[walkable]]\npolygon_m = {polygon}\n");
+    let part = "[[walkable]]";
+    check_rejected("bow", &walkable("[[-9, -9], [9, 9], [9, -9], [-9, 9]]"), part, "crosses or touches itself");
+    check_rejected("far", &walkable("[[-9, -9], [1e9, -9], [9, 9]]"), part, "not within 10 km");
+    check_rejected("short", &walkable("[[-9, -9], [9, 9]]"), part, "has 2 corners");
+    check_rejected("empty", &format!("{HEAD}{ONE}[[walkable]]\nholes_m = []\n"), part, "either `polygon_m` or `file`");
+    let file = format!("{HEAD}{ONE}[[walkable]]\nfile = \"none.wkt\"\n");
+    check_rejected("none", &file, "\"none.wkt\"", "cannot be read");
+}
+
+#[test]
+fn goals_without_a_route_are_errors_at_their_agents() {
+    let agents = "{ at_m = [0, 0], goals_m = [[5, 0]] }";
+    let scene = |walls: &str| format!("{HEAD}agents = [{agents}]\n{walls}");
+    let around = "[[obstacles]]\nkind = \"enclosure\"\npolygon_m = [[4, -2], [7, -2], [7, 2], [4, 2]]\n";
+    check_rejected("unreachable", &scene(around), agents, "no route leads agent 0 to the goal [5, 0]");
+    let small = "[[walkable]]\npolygon_m = [[-1, -1], [3, -1], [3, 1], [-1, 1]]\n";
+    check_rejected("off", &scene(small), agents, "lies inside a wall or off the walkable ground");
+    let beside = "[[walkable]]\npolygon_m = [[1, -1], [9, -1], [9, 1], [1, 1]]\n";
+    check_rejected("start", &scene(beside), agents, "agent 0 starts at [0, 0], in a wall or off the walkable ground");
+}

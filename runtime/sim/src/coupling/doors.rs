@@ -20,6 +20,8 @@ const FILM_STEP_S: f32 = 1.0 / 30.0;
 const TABLE_STEP_S: f32 = 0.1;
 /// Half the length of the wall about a door, m.
 const HALF_WALL_M: f32 = 9.0;
+/// Depth of the closed room in which an agent starts, m: no route leads around the wall.
+const ROOM_M: f32 = 4.0;
 
 /// A door in a wall, and the agent before it.
 #[derive(Clone, Debug)]
@@ -27,7 +29,8 @@ struct Door {
     middle_m: Vec2,
     /// Unit vector through the door.
     through: Vec2,
-    posts_m: [Vec<Vec2>; 2],
+    /// The wall on both sides of the door, and the other walls of a room before it.
+    walls_m: Vec<Vec<Vec2>>,
     agent: AgentSpec,
 }
 
@@ -38,9 +41,11 @@ impl Door {
         let through = Vec2::from_angle(random.within(3.1) as f32);
         let at = |ahead_m: f32, left_m: f32| middle_m + through.rotate(Vec2::new(ahead_m, left_m));
         let (thick_m, half_m) = (0.02 + random.within(0.2).abs() as f32, 0.5 * width_m);
-        let post = |from_m: f32, to_m: f32| {
-            vec![at(-thick_m, from_m), at(thick_m, from_m), at(thick_m, to_m), at(-thick_m, to_m)]
+        let wall = |[back_m, ahead_m]: [f32; 2], [right_m, left_m]: [f32; 2]| {
+            vec![at(back_m, right_m), at(ahead_m, right_m), at(ahead_m, left_m), at(back_m, left_m)]
         };
+        let walls_m =
+            vec![wall([-thick_m, thick_m], [half_m, HALF_WALL_M]), wall([-thick_m, thick_m], [-HALF_WALL_M, -half_m])];
         let position_m = at(-1.5 - random.within(0.5).abs() as f32, random.within(aside_m) as f32);
         let agent = AgentSpec {
             position_m,
@@ -51,7 +56,22 @@ impl Door {
             preferred_speed_mps: 1.33 + random.within(0.3) as f32,
             ..AgentSpec::default()
         };
-        Self { middle_m, through, posts_m: [post(half_m, HALF_WALL_M), post(-HALF_WALL_M, -half_m)], agent }
+        Self { middle_m, through, walls_m, agent }
+    }
+
+    /// The same in a closed room, so that no route leads around the wall.
+    fn in_a_room(mut self) -> Self {
+        let at = |ahead_m: f32, left_m: f32| self.middle_m + self.through.rotate(Vec2::new(ahead_m, left_m));
+        let wall = |[back_m, ahead_m]: [f32; 2], [right_m, left_m]: [f32; 2]| {
+            vec![at(back_m, right_m), at(ahead_m, right_m), at(ahead_m, left_m), at(back_m, left_m)]
+        };
+        let others_m = [
+            wall([-ROOM_M, 0.0], [HALF_WALL_M, HALF_WALL_M + 0.2]),
+            wall([-ROOM_M, 0.0], [-HALF_WALL_M - 0.2, -HALF_WALL_M]),
+            wall([-ROOM_M - 0.2, -ROOM_M], [-HALF_WALL_M - 0.2, HALF_WALL_M + 0.2]),
+        ];
+        self.walls_m.extend(others_m);
+        self
     }
 
     fn is_behind(&self, position_m: Vec2) -> bool {
@@ -65,7 +85,7 @@ fn passed(doors: &[Door], planner: Planner, coupling: Coupling, dt_s: f32, durat
         planner,
         coupling,
         dt_s,
-        obstacles_m: doors.iter().flat_map(|door| door.posts_m.clone()).collect(),
+        obstacles_m: doors.iter().flat_map(|door| door.walls_m.clone()).collect(),
         ..Scenario::of(doors.iter().map(|door| door.agent.clone()).collect())
     };
     let mut simulation = Simulation::new(Arc::new(test_db()), &scenario);
@@ -100,7 +120,7 @@ fn no_body_passes_a_door_that_is_too_narrow() {
     let mut random = SplitMix64::new(7, 0);
     let narrow = |index| {
         let width_m = 2.0 * WALL_RADIUS_M * (1.0 - 0.6 * random.within(1.0).abs() as f32);
-        Door::new(index, width_m, 1.0, &mut random)
+        Door::new(index, width_m, 1.0, &mut random).in_a_room()
     };
     let planners = [Planner::Mcn, Planner::Orca, Planner::SocialForce];
     let planners = planners.map(|planner| [(planner, FILM_STEP_S), (planner, TABLE_STEP_S)]);

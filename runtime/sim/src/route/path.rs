@@ -335,11 +335,6 @@ mod tests {
             preferred_mps(&agent, Vec2::new(x_m, y_m), &view, &mut progress, memory).normalize()
         };
         assert!(direction(-0.5, 1.5).y < -0.5, "{}", direction(-0.5, 1.5));
-        assert!(
-            direction(-0.5, 0.2).x > 0.97 && direction(0.75, 1.5).x > 0.99,
-            "{} {}",
-            direction(-0.5, 0.2),
-            direction(0.75, 1.5)
-        );
+        assert!(direction(-0.5, 0.1).x > 0.99 && direction(0.75, 1.5).x > 0.99);
     }
 }

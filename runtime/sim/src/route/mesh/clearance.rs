@@ -3,7 +3,8 @@
 //! A body is wider than the disc that walls hold, so routes along walls at that disc's radius lead shoulders and arms
 //! through them. A mesh grown by more would close narrow doors. Instead each vertex on a border moves away from its
 //! walls, by the miter of both border edges; the triangles stay as they are. Where a triangle would lose more than
-//! [`LEAST_SHARE`] leaves of its height, or turn over, its corners move by half, and by half again. So wide ground gets
+//! [`LEAST_SHARE`] leaves of its height, or turn over, or where a border would leave the mesh, the corners move by half, and
+//! by half again. So wide ground gets
 //! the whole clearance, and in a narrow passage the borders come together about its middle, and leave it open.
 //!
 //! World, metres; vertices stay on the grid.
@@ -19,44 +20,69 @@ use crate::route::mesh::triangulation::NONE;
 const LEAST_SHARE: f64 = 0.25;
 /// Number of times that a vertex moves by half as much; after these it stays.
 const HALVINGS_MAX: u8 = 6;
+/// Shares along a moved border at which it must lie on the mesh.
+const BORDER_SHARES: [f64; 3] = [0.0, 0.5, 1.0];
 /// Greatest length of a miter over the clearance: borders meet at less than 60° only in corners without a route.
 const MITER_MAX: f64 = 2.0;
 
 impl RouteMesh {
     /// The mesh with its borders moved away from the walls, by a clearance where there is room.
     #[must_use]
-    pub fn with_clearance(mut self, clearance_m: f64) -> Self {
-        let from_m = std::mem::take(&mut self.vertices_m);
+    pub fn with_clearance(self, clearance_m: f64) -> Self {
         let push_m: Vec<DVec2> =
-            (0..from_m.len() as u32).map(|vertex| clearance_m * self.miter(&from_m, vertex)).collect();
-        let mut halvings = vec![0_u8; from_m.len()];
+            (0..self.vertices_m.len() as u32).map(|vertex| clearance_m * self.miter(vertex)).collect();
         let moved_m = |vertex: usize, halvings: u8| {
             if halvings > HALVINGS_MAX {
-                return from_m[vertex];
+                return self.vertices_m[vertex];
             }
             let push_m = push_m[vertex] / f64::from(1_u16 << halvings);
-            metres(rounded((from_m[vertex] + push_m) * LINES_PER_M))
+            metres(rounded((self.vertices_m[vertex] + push_m) * LINES_PER_M))
         };
-        let mut to_m: Vec<DVec2> = (0..from_m.len()).map(|vertex| moved_m(vertex, 0)).collect();
+        let mut halvings = vec![0_u8; push_m.len()];
+        let mut to_m: Vec<DVec2> = (0..push_m.len()).map(|vertex| moved_m(vertex, 0)).collect();
+        let mut has_changed = vec![true; push_m.len()];
         // Each round halves at least one move, and each move is halved a few times.
         loop {
-            let is_tight = |corners: &&[u32; 3]| is_tight(corners.map(|at| [&from_m, &to_m].map(|m| m[at as usize])));
-            let mut tight: Vec<u32> = self.triangles.iter().filter(is_tight).flatten().copied().collect();
+            let is_new = |corners: &[u32; 3]| corners.iter().any(|&corner| has_changed[corner as usize]);
+            let triangles = (0..self.triangles.len()).filter(|&triangle| is_new(&self.triangles[triangle]));
+            let mut tight: Vec<u32> = triangles.flat_map(|triangle| self.tight_corners(triangle, &to_m)).collect();
+            tight.retain(|&vertex| halvings[vertex as usize] <= HALVINGS_MAX);
             tight.sort_unstable();
             tight.dedup();
-            tight.retain(|&vertex| halvings[vertex as usize] <= HALVINGS_MAX);
             if tight.is_empty() {
                 break;
             }
+            has_changed.fill(false);
             for vertex in tight.into_iter().map(|vertex| vertex as usize) {
                 halvings[vertex] += 1;
                 to_m[vertex] = moved_m(vertex, halvings[vertex]);
+                has_changed[vertex] = true;
             }
         }
-        self.vertices_m = to_m;
+        self.with_vertices(to_m)
+    }
+
+    fn with_vertices(mut self, vertices_m: Vec<DVec2>) -> Self {
+        self.vertices_m = vertices_m;
         self.boxes = BoxTree::new((0..self.triangles.len() as u32).map(|triangle| self.corners_m(triangle)));
         self.is_corner = (0..self.vertices_m.len() as u32).map(|vertex| self.turns_at(vertex)).collect();
         self
+    }
+
+    /// The corners of a triangle that move too far: all where it is tight, those of a border that leaves the mesh.
+    fn tight_corners(&self, triangle: usize, to_m: &[DVec2]) -> Vec<u32> {
+        let corners = self.triangles[triangle];
+        if is_tight(corners.map(|at| [self.vertices_m[at as usize], to_m[at as usize]])) {
+            return corners.to_vec();
+        }
+        let leaves = |edge: &usize| {
+            let ends = [corners[*edge], corners[(edge + 1) % 3]];
+            let [from_m, end_m] = ends.map(|end| to_m[end as usize]);
+            let has_moved = ends.iter().any(|&end| self.vertices_m[end as usize] != to_m[end as usize]);
+            let is_off = |share: &f64| self.triangle_at(from_m.lerp(end_m, *share)).is_none();
+            has_moved && self.neighbours[triangle][*edge] == NONE && BORDER_SHARES.iter().any(is_off)
+        };
+        (0..3).filter(leaves).flat_map(|edge| [corners[edge], corners[(edge + 1) % 3]]).collect()
     }
 
     /// The vertices before and after a vertex on its border, which has free space on its left; none off borders.
@@ -71,10 +97,10 @@ impl RouteMesh {
     }
 
     /// The vector by which a vertex moves for its border edges to move by one.
-    fn miter(&self, vertices_m: &[DVec2], vertex: u32) -> DVec2 {
+    fn miter(&self, vertex: u32) -> DVec2 {
         let Some(ends) = self.border_ends(vertex) else { return DVec2::ZERO };
-        let at_m = vertices_m[vertex as usize];
-        let [before_m, after_m] = ends.map(|end| vertices_m[end as usize]);
+        let at_m = self.vertices_m[vertex as usize];
+        let [before_m, after_m] = ends.map(|end| self.vertices_m[end as usize]);
         let [a, b] = [at_m - before_m, after_m - at_m].map(|along_m| along_m.perp().normalize_or_zero());
         ((a + b) / (1.0 + a.dot(b)).max(1e-6)).clamp_length_max(MITER_MAX)
     }

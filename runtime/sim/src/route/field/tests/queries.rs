@@ -152,3 +152,23 @@ fn fields_are_the_same_on_any_thread() {
     let alone: Vec<String> = goals_m.iter().map(field).collect();
     assert_eq!(goals_m.par_iter().map(field).collect::<Vec<String>>(), alone);
 }
+
+#[test]
+fn clearance_keeps_wild_meshes_whole() {
+    for seed in 0..300 {
+        let wild = WildGround::new(seed);
+        let before = RouteMesh::new(&wild.ground(), wild.wall_radius_m).expect("coordinates are small");
+        let mesh = before.clone().with_clearance(0.15);
+        assert_eq!(mesh.part_count(), before.part_count());
+        for triangle in 0..mesh.triangle_count() as u32 {
+            let corners_m = mesh.corners_m(triangle);
+            let [a_m, b_m, c_m] = corners_m;
+            assert!((b_m - a_m).perp_dot(c_m - a_m) > 0.0, "ground {seed}: {corners_m:?}");
+            let points_m = [a_m, b_m, c_m, (a_m + b_m + c_m) / 3.0, a_m.midpoint(b_m)];
+            for point_m in points_m {
+                let near = before.nearest(point_m, None, None).expect("triangles");
+                assert!(near.point_m.distance(point_m) < 2e-3, "ground {seed}: {point_m} is too near to a wall");
+            }
+        }
+    }
+}
