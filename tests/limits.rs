@@ -13,7 +13,7 @@ use std::process::Command;
 use support::{WALK, compile, fbcrowd, folder, repository, scenario, text};
 
 /// Address space of a command beside its data, MB: code, stacks, and the room that the allocator reserves for threads.
-const OVERHEAD_MB: usize = 250;
+const OVERHEAD_MB: usize = 350;
 
 /// Runs the built binary with two threads in so much address space, MB, and checks exit code and message.
 #[track_caller]
