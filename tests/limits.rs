@@ -5,11 +5,15 @@
 mod support;
 
 use std::fs::{self, File};
+use std::io::{BufWriter, Write as _};
 use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::Command;
 
 use support::{WALK, compile, fbcrowd, folder, repository, scenario, text};
+
+/// Address space of a command beside its data, MB: code, stacks, and the room that the allocator reserves for threads.
+const OVERHEAD_MB: usize = 350;
 
 /// Runs the built binary with two threads in so much address space, MB, and checks exit code and message.
 #[track_caller]
@@ -25,6 +29,21 @@ fn check_within(megabytes: usize, arguments: &[&str], code: i32, words: &str) {
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{arguments:?}\n{stderr}");
     assert!(stderr.contains(words), "{arguments:?}: `{words}` is missing from\n{stderr}");
+}
+
+/// A loop of so many frames: the rows of the bundled walk again and again.
+fn long_loop(path: &Path, frames: usize) {
+    let walk = fs::read_to_string(repository().join(WALK)).unwrap();
+    let (hierarchy, motion) = walk.split_once("MOTION").unwrap();
+    let mut lines = motion.trim().lines();
+    let (_, time) = (lines.next(), lines.next().unwrap());
+    let rows: Vec<&str> = lines.collect();
+    let mut file = BufWriter::new(File::create(path).unwrap());
+    writeln!(file, "{hierarchy}MOTION\nFrames: {frames}\n{time}").unwrap();
+    for frame in 0..frames - 1 {
+        writeln!(file, "{}", rows[frame % rows.len()]).unwrap();
+    }
+    writeln!(file, "{}", rows[0]).unwrap();
 }
 
 /// Appends zeros that take no room on the disk.
@@ -58,6 +77,17 @@ fn padding_of_a_glb_is_not_read() {
     fs::copy(repository().join("assets/clips/walk_140.glb"), &clip).unwrap();
     lengthen(&clip, 3 << 30);
     check_within(600, &["compile", text(&clip), "-o", text(&folder.join("motion.fbdb"))], 0, "");
+}
+
+#[test]
+fn a_large_bvh_takes_three_times_its_size() {
+    let folder = folder("large_bvh");
+    let clip = folder.join("walk.bvh");
+    long_loop(&clip, 80_000);
+    let megabytes = fs::metadata(&clip).unwrap().len() as usize / 1_000_000;
+    assert!(megabytes > 40, "{megabytes} MB");
+    let output = folder.join("motion.fbdb");
+    check_within(OVERHEAD_MB + 3 * megabytes, &["compile", text(&clip), "-o", text(&output)], 0, "");
 }
 
 #[test]

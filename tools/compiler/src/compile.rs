@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::database::assembly::assemble;
+use crate::dedup::comparison::ComparedClip;
 use crate::dedup::duplicates;
 use crate::error::{CompileError, Rejection};
 use crate::ground::target_body::target_body;
@@ -25,10 +26,10 @@ use crate::select::limited_set::limited_set;
 use crate::select::mirror::with_mirrors;
 use crate::select::named_cycles::named_cycles;
 
-/// Memory of each frame of an analysed clip, bytes: its pose on the target body.
-const ANALYZED_FRAME_BYTES: usize = 730;
-/// Memory of each frame of a clip while it is analysed, bytes; measured: 6,700 for a loop, which is unrolled.
-const ANALYSIS_FRAME_BYTES: usize = 7_000;
+/// Memory of each frame of an analysed clip beside its pose, bytes: its signatures, at 30 frames a second.
+const ANALYZED_FRAME_BYTES: usize = 300;
+/// Memory of each frame of a clip while it is analysed, beside its pose, bytes: 200 for each round of a loop.
+const ANALYSIS_FRAME_BYTES: usize = 700;
 
 /// A database, and the input that it could not use.
 #[derive(Clone, Debug)]
@@ -100,11 +101,12 @@ pub fn compile_manifest(manifest: &Manifest, observer: &Observer) -> Result<Comp
 /// ```
 pub fn compile(clips: Vec<HumanClip>, options: &Options, observer: &Observer) -> Result<MotionDb, CompileError> {
     check_memory(&clips)?;
-    let set = TargetedClips::of(clips).ok_or(CompileError::NoClips)?;
+    let mut set = TargetedClips::of(clips).ok_or(CompileError::NoClips)?;
     observer(CompileEvent::Stage("analysis of gaits"));
+    let compared = set.compared();
     let analyzed = set.analyzed();
     observer(CompileEvent::Stage("selection"));
-    let unique = set.without_duplicates(analyzed);
+    let unique = set.without_duplicates(&compared, analyzed);
     let adding = windows_that_add(unique);
     let named = named_cycles(&set.clips, adding, &set.body)?;
     let selected = with_mirrors(limited_set(named, options.max_examples)).sorted()?;
@@ -137,14 +139,23 @@ impl TargetedClips {
         Some(Self { clips, body })
     }
 
-    /// The analysis of each clip, its windows reduced to the best.
-    pub(crate) fn analyzed(&self) -> Vec<AnalyzedClip> {
-        self.clips.par_iter().map(|clip| best_windows(AnalyzedClip::of(clip, &self.body))).collect()
+    /// Each clip in the form in which clips are compared.
+    pub(crate) fn compared(&self) -> Vec<ComparedClip> {
+        self.clips.par_iter().map(ComparedClip::of).collect()
+    }
+
+    /// The analysis of each clip, its windows reduced to the best. The clips have no frames afterwards.
+    pub(crate) fn analyzed(&mut self) -> Vec<AnalyzedClip> {
+        self.clips.par_iter_mut().map(|clip| best_windows(AnalyzedClip::of(clip, &self.body))).collect()
     }
 
     /// Drops the windows of which another clip has a better copy.
-    pub(crate) fn without_duplicates(&self, mut analyzed: Vec<AnalyzedClip>) -> Vec<AnalyzedClip> {
-        duplicates::drop_duplicates(&self.clips, &mut analyzed, &self.body);
+    pub(crate) fn without_duplicates(
+        &self,
+        compared: &[ComparedClip],
+        mut analyzed: Vec<AnalyzedClip>,
+    ) -> Vec<AnalyzedClip> {
+        duplicates::drop_duplicates(&self.clips, compared, &mut analyzed, &self.body);
         analyzed
     }
 }

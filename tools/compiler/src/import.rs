@@ -1,9 +1,10 @@
 //! Import: the clips of one file, from bytes to [`HumanClip`]s.
 //!
 //! # Steps
-//! 1. read ([`crate::read::bvh`], [`crate::read::gltf`]) → `SourceClip` in source units and axes
+//! 1. read ([`crate::read::bvh`], [`crate::read::gltf`]) → `SourceMotion` in source units and axes
 //! 2. settings of a manifest (`clip_settings`)
-//! 3. roles of joints ([`crate::rig`]), the stated facing (`stated_facing`)
+//! 3. roles of joints ([`crate::rig`]) in a few frames → `SourceClip`: all frames of the joints that have roles; the
+//!    stated facing (`stated_facing`)
 //! 4. metres, z up ([`crate::retarget::units`])
 //! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses
 //! 6. checks of size, gait and ground (`plausibility`, `level_ground`)
@@ -24,11 +25,11 @@ use crate::input::clip_settings::ClipSettings;
 use crate::read::bvh;
 use crate::read::gltf::GltfFile;
 use crate::read::source_clip::SourceClip;
+use crate::read::source_motion::SourceMotion;
 use crate::retarget::human_clip::{HumanClip, HumanPose};
 use crate::retarget::source_parameters::{SourceParameters, source_parameters};
 use crate::retarget::{stated_facing, to_humanoid, trim_t_poses, units};
-use crate::rig::find_roles;
-use crate::rig::roles::Roles;
+use crate::rig::{self, roles::Roles};
 
 /// Number of bytes that are read of a file at once.
 const READ_BYTES: usize = 1 << 16;
@@ -100,15 +101,15 @@ fn rejected_file(path: &Path, reason: RejectionReason) -> Rejection {
 fn imported_clips(settings: &ClipSettings, file: impl BufRead + Seek) -> Result<Vec<ImportedClip>, RejectionReason> {
     let path = settings.path.as_path();
     match ClipFormat::of(path).ok_or(RejectionReason::UnknownFormat)? {
-        ClipFormat::Bvh => bvh::read(path, file).map(|clip| vec![bvh_clip(settings, clip)]),
+        ClipFormat::Bvh => bvh::open(path, file).map(|motion| vec![bvh_clip(settings, motion)]),
         ClipFormat::Gltf => gltf_clips(settings, &GltfFile::open(path, file, settings.outside)?),
     }
 }
 
-fn bvh_clip(settings: &ClipSettings, clip: SourceClip) -> ImportedClip {
+fn bvh_clip(settings: &ClipSettings, motion: SourceMotion) -> ImportedClip {
     match &settings.animation {
         Some(animation) => no_animation(settings, animation, "a motion without name"),
-        None => imported_clip(clip, settings, false),
+        None => imported_clip(motion, settings, false),
     }
 }
 
@@ -122,9 +123,9 @@ fn gltf_clips(settings: &ClipSettings, file: &GltfFile) -> Result<Vec<ImportedCl
             let names = if names == [""] { "a motion without name".to_owned() } else { names.join(", ") };
             return Ok(vec![no_animation(settings, animation, &names)]);
         };
-        return Ok(vec![imported_clip(file.clip(index)?, settings, has_several && settings.name.is_none())]);
+        return Ok(vec![imported_clip(file.motion(index)?, settings, has_several && settings.name.is_none())]);
     }
-    let read = |index| file.clip(index).map(|clip| imported_clip(clip, settings, has_several));
+    let read = |index| file.motion(index).map(|motion| imported_clip(motion, settings, has_several));
     let mut imports: Vec<_> = (0..file.len()).into_par_iter().map(read).collect();
     if let Some(first) = imports.iter().position(Result::is_err).filter(|_| imports.iter().all(Result::is_err)) {
         return imports.swap_remove(first).map(|import| vec![import]);
@@ -153,25 +154,29 @@ fn file_name(path: &Path) -> String {
 }
 
 /// One clip; its name has the clip's name appended where `has_several`.
-fn imported_clip(clip: SourceClip, settings: &ClipSettings, has_several: bool) -> ImportedClip {
+fn imported_clip(motion: SourceMotion, settings: &ClipSettings, has_several: bool) -> ImportedClip {
     let stem = settings.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let label = settings.name.clone().unwrap_or(stem);
-    let name = if has_several { format!("{label} {}", clip.clip) } else { label };
+    let name = if has_several { format!("{label} {}", motion.head.clip) } else { label };
     // Names head the lines of tables.
     let name = name.replace(char::is_control, "_");
-    ImportedClip { file: clip.file.clone(), clip: clip.clip.clone(), outcome: to_human(clip, settings, name) }
+    ImportedClip {
+        file: motion.head.file.clone(),
+        clip: motion.head.clip.clone(),
+        outcome: to_human(motion, settings, name),
+    }
 }
 
 /// Steps 2 to 7 for one clip.
-fn to_human(mut clip: SourceClip, settings: &ClipSettings, name: String) -> Result<HumanClip, RejectionReason> {
-    if clip.frame_count() == 0 {
+fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> Result<HumanClip, RejectionReason> {
+    if motion.frame_count() == 0 {
         return Err(RejectionReason::Motionless);
     }
-    settings.apply_to(&mut clip)?;
-    if clip.frame_count() < MIN_FRAMES {
+    settings.apply_to(&mut motion)?;
+    if motion.frame_count() < MIN_FRAMES {
         return Err(RejectionReason::TooShort);
     }
-    let mut roles = find_roles(&clip, &settings.joint_map(&clip)?)?;
+    let (mut clip, mut roles) = clip_with_roles(motion, settings)?;
     if lacks_rotations(&clip, &roles) {
         return Err(RejectionReason::NoRotations);
     }
@@ -194,7 +199,7 @@ fn to_human(mut clip: SourceClip, settings: &ClipSettings, name: String) -> Resu
         plausibility::inhuman_gait(&clip, &roles, &parameters)
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
-    let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, name);
+    let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, name)?;
     human.unfit = unfit;
     human.choices.mirror = settings.mirror;
     human.choices.is_cut = settings.frames.is_some();
@@ -202,6 +207,22 @@ fn to_human(mut clip: SourceClip, settings: &ClipSettings, name: String) -> Resu
         return Err(RejectionReason::Degenerate);
     }
     plausibility::impossible_body(&human.body).map_or(Ok(human), Err)
+}
+
+/// The joints that have roles, in all frames, and their roles. Memory: the poses of all joints never exist at once.
+fn clip_with_roles(mut motion: SourceMotion, settings: &ClipSettings) -> Result<(SourceClip, Roles), RejectionReason> {
+    let known = settings.joint_map(&motion.head)?;
+    rig::check_size(&motion.head)?;
+    let mut sample = motion.sample(&rig::sampled_frames(motion.frame_count()))?;
+    let mut roles = rig::find_roles(&sample, &known)?;
+    let kept = roles.source_joints();
+    roles.renumber(&kept);
+    if sample.frame_count() == motion.frame_count() {
+        sample.keep_joints(&kept);
+        return Ok((sample, roles));
+    }
+    drop(sample);
+    Ok((motion.into_clip(&kept)?, roles))
 }
 
 /// Removes poses that are not part of the motion, unless a manifest selects the frames, and returns the whole-clip

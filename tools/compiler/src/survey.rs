@@ -15,7 +15,6 @@ use crate::cycle::analyzed_clip::AnalyzedClip;
 use crate::gait::foot_stance::FootStance;
 use crate::gait::performer_gait::PerformerGait;
 use crate::gait::windows::{GaitWindow, WindowGait};
-use crate::ground::root_motion::GroundedClip;
 use crate::retarget::human_clip::HumanClip;
 
 /// The record of a clip, and what its feet do.
@@ -90,13 +89,16 @@ impl SourceGait {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn survey(clips: Vec<HumanClip>) -> Vec<SurveyedSource> {
-    let Some(set) = TargetedClips::of(clips) else { return Vec::new() };
-    let analyzed = set.without_duplicates(set.analyzed());
-    let surveyed = |(clip, found): (&HumanClip, &AnalyzedClip)| SurveyedSource {
+    let Some(mut set) = TargetedClips::of(clips) else { return Vec::new() };
+    let gaits: Vec<SourceGait> = set.clips.par_iter().map(source_gait).collect();
+    let compared = set.compared();
+    let analyzed = set.analyzed();
+    let analyzed = set.without_duplicates(&compared, analyzed);
+    let surveyed = |((clip, found), gait): ((&HumanClip, &AnalyzedClip), SourceGait)| SurveyedSource {
         source: found.record(clip),
-        gait: source_gait(clip),
+        gait,
     };
-    set.clips.par_iter().zip(&analyzed).map(surveyed).collect()
+    set.clips.iter().zip(&analyzed).zip(gaits).map(surveyed).collect()
 }
 
 fn sentence<S: Serializer>(reason: &Unfit, serializer: S) -> Result<S::Ok, S::Error> {
@@ -104,14 +106,15 @@ fn sentence<S: Serializer>(reason: &Unfit, serializer: S) -> Result<S::Ok, S::Er
 }
 
 fn source_gait(clip: &HumanClip) -> SourceGait {
-    let PerformerGait { clip: grounded, gait, .. } = PerformerGait::of(clip);
+    let performer = PerformerGait::of(clip);
+    let gait = &performer.gait;
     let steps = |window: &GaitWindow| matches!(window.gait, WindowGait::Steps(_));
     let kind = match &gait.windows {
         Ok(windows) if windows.iter().any(steps) => GaitKind::Steps,
         Ok(_) => GaitKind::Stands,
         Err(reason) => GaitKind::Unsteady { reason: reason.clone() },
     };
-    let frames = FileFrames::of(&grounded, clip.first_frame);
+    let frames = FileFrames::of(&performer, clip);
     let stances = gait.clearest_stances();
     let [left_share, right_share] = stances.each_ref().map(|stances| frames.planted_share(stances));
     let [left, right] = stances.each_ref().map(|stances| frames.contact_times(stances));
@@ -130,10 +133,10 @@ struct FileFrames {
 }
 
 impl FileFrames {
-    fn of(clip: &GroundedClip, first_frame: usize) -> Self {
-        let frames = clip.loop_frames.map_or([0, clip.poses.len() - 1], |round| [round, 2 * round]);
+    fn of(performer: &PerformerGait, clip: &HumanClip) -> Self {
+        let frames = performer.loop_frames.map_or([0, performer.frame_count - 1], |round| [round, 2 * round]);
         let [start, end] = frames.map(|frame| frame as f64);
-        Self { start, end, first_frame, frame_rate_hz: clip.frame_rate_hz }
+        Self { start, end, first_frame: clip.first_frame, frame_rate_hz: clip.frame_rate_hz }
     }
 
     fn contact_times(&self, stances: &[FootStance]) -> Vec<ContactTimes> {

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use motiondb::motion::{PHASE_COUNT, PhaseMap};
 use motiondb_compiler::cycle::{GaitCycle, mean_stride};
-use motiondb_compiler::gait::{PerformerGait, WindowGait};
+use motiondb_compiler::gait::{PerformerGait, WindowGait, own_clip};
 use motiondb_compiler::ground::grounded_clip;
 use motiondb_compiler::retarget::HumanClip;
 use motiondb_compiler::survey::{ContactTimes, SourceGait, survey};
@@ -162,8 +162,9 @@ fn strikes_and_toe_offs_have_no_bias() {
 
 /// Frames of the clip at which the events of its mean cycle lie in each of its strides, by kind of event.
 fn key_frames(clip: &HumanClip) -> BTreeMap<(&'static str, &'static str), Vec<f64>> {
-    let PerformerGait { body, clip: grounded, gait: analysis } = PerformerGait::of(clip);
-    let shown = grounded.loop_frames.unwrap_or(0) as f64;
+    let (body, grounded) = own_clip(clip);
+    let analysis = PerformerGait::of(clip).gait;
+    let shown = grounded.loop_frames().unwrap_or(0) as f64;
     let mut frames: BTreeMap<_, Vec<f64>> = BTreeMap::new();
     for window in analysis.windows.iter().flatten() {
         let WindowGait::Steps(strides) = &window.gait else { continue };

@@ -13,13 +13,15 @@ use crate::cycle::steady_cycle::SteadyCycle;
 use crate::gait::foot_stance::FootStance;
 use crate::gait::performer_gait::PerformerGait;
 use crate::gait::windows::{GaitWindow, WindowGait};
-use crate::ground::root_motion::GroundedClip;
+use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 
 /// A clip on the target body, and its steady windows that may become examples.
 pub(crate) struct AnalyzedClip {
     /// The clip on the target body.
-    pub(crate) grounded: GroundedClip,
+    pub(crate) grounded: GroundedClip<'static>,
+    /// Number of frames of the clip, one round of a loop.
+    pub(crate) frame_count: usize,
     /// Steady windows, the longest first.
     pub(crate) windows: Vec<SteadyCycle>,
     /// Diagnostics of the clip as a whole.
@@ -38,18 +40,19 @@ pub(crate) struct LeftOutWindows {
 }
 
 impl AnalyzedClip {
-    /// Analyses one clip.
-    pub(crate) fn of(clip: &HumanClip, body: &HumanBody) -> Self {
-        let mut performer = PerformerGait::of(clip);
-        // Only the gait is needed from here on; the poses of an hour take a tenth of a gigabyte.
-        performer.clip.poses = Vec::new();
+    /// Analyses one clip. It has no frames afterwards: its poses are changed in place, so that the poses of an hour are
+    /// held once.
+    pub(crate) fn of(clip: &mut HumanClip, body: &HumanBody) -> Self {
+        let frame_count = clip.frames.len();
+        let performer = PerformerGait::of(clip);
         let grounded = performer.clip_on(clip, body);
         let found = clip.unfit.clone().map_or_else(|| performer.windows_on(&grounded, body), Err);
+        let times = ClipTimes { first_frame: clip.first_frame, frame_count, frame_rate_hz: clip.frame_rate_hz };
         let (mut windows, mut reasons) = (Vec::new(), Vec::new());
         match found {
             Ok(found) => {
                 for window in found {
-                    match steady_cycle(clip, &grounded, body, &performer.gait.stances[window.reading], &window) {
+                    match steady_cycle(&times, &grounded, body, &performer.gait.stances[window.reading], &window) {
                         Ok(steady) => windows.push(steady),
                         Err(unfit) => reasons.push(unfit),
                     }
@@ -59,11 +62,18 @@ impl AnalyzedClip {
         }
         if windows.is_empty() {
             let diagnostics = reasons.into_iter().take(1).map(Diagnostic::NoExample).collect();
-            return Self { grounded, windows, diagnostics, left_out: LeftOutWindows::default() };
+            let left_out = LeftOutWindows::default();
+            return Self { grounded, frame_count, windows, diagnostics, left_out };
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Diagnostic::Note(Note::OnlyRestUsed { reason }));
         let left_out = LeftOutWindows { doubtful: reasons.len(), near_equal: 0 };
-        Self { grounded, windows, diagnostics: lost_steps.into_iter().collect(), left_out }
+        let diagnostics = lost_steps.into_iter().collect();
+        Self { grounded, frame_count, windows, diagnostics, left_out }
+    }
+
+    /// Duration from the first frame to the last, s.
+    pub(crate) fn duration_s(&self) -> f64 {
+        (self.frame_count - 1) as f64 / self.grounded.frame_rate_hz
     }
 
     /// The record of the clip, with all diagnostics: of import, of the clip as a whole, of its first window, of each
@@ -89,17 +99,32 @@ impl LeftOutWindows {
     }
 }
 
+/// The frames of a clip in its file.
+struct ClipTimes {
+    /// Number of the file's frames before the first frame of the clip.
+    first_frame: usize,
+    /// Number of frames.
+    frame_count: usize,
+    frame_rate_hz: f64,
+}
+
+impl ClipTimes {
+    /// Time of a frame of the clip, s from the file's first frame.
+    fn in_file_s(&self, frame: f64) -> f64 {
+        let last_frame = (self.frame_count - 1) as f64;
+        (self.first_frame as f64 + frame.clamp(0.0, last_frame)) / self.frame_rate_hz
+    }
+}
+
 /// The steady cycle of a window, or why it is unfit. `stances` are those of both feet, `[left, right]`.
 fn steady_cycle(
-    clip: &HumanClip,
+    times: &ClipTimes,
     grounded: &GroundedClip,
     body: &HumanBody,
     stances: &[Vec<FootStance>; 2],
     window: &GaitWindow,
 ) -> Result<SteadyCycle, Unfit> {
-    let last_frame = (clip.frames.len() - 1) as f64;
-    let time_s = |frame: f64| (clip.first_frame as f64 + frame.clamp(0.0, last_frame)) / clip.frame_rate_hz;
-    let window_s = window.frames.map(time_s);
+    let window_s = window.frames.map(|frame| times.in_file_s(frame));
     match &window.gait {
         WindowGait::Stands(frames) => SteadyCycle::of_rest(grounded, frames, body, window_s),
         WindowGait::Steps(strides) => {

@@ -16,9 +16,9 @@ use crate::cycle::loop_closure::StrideGap;
 use crate::gait::foot_stance::FootStance;
 use crate::gait::stride::Stride;
 use crate::ground::foot_grounding;
+use crate::ground::grounded_clip::GroundedClip;
 use crate::ground::pose_mean::pose_mean;
 use crate::ground::root_arc::Rates;
-use crate::ground::root_motion::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanPose};
 
 /// Rows over which each end of a stride fades, where the clip reaches that far: an eighth of a cycle.
@@ -65,7 +65,7 @@ fn contact(depth_s: f64) -> f64 {
 
 /// Reads one stride of a clip by phase.
 struct StrideReader<'a> {
-    clip: &'a GroundedClip,
+    clip: &'a GroundedClip<'a>,
     body: &'a HumanBody,
     stances: &'a [Vec<FootStance>; 2],
     stride: &'a Stride,
@@ -102,7 +102,7 @@ impl StrideReader<'_> {
 
     /// Share of the cycle by which the fades reach beyond both ends.
     fn fade_share(&self) -> f64 {
-        let (start, last) = (self.stride.start_phase, (self.clip.poses.len() - 1) as f64);
+        let (start, last) = (self.stride.start_phase, (self.clip.frame_count() - 1) as f64);
         let fits = |rows: usize| {
             let fade = rows as f64 / PHASE_COUNT as f64;
             self.frame(start - fade) >= 0.0 && self.frame(start + 1.0 + fade) <= last

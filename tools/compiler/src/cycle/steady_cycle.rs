@@ -14,8 +14,8 @@ use crate::cycle::foot_slide::{foot_slide, foot_warnings, unfit_feet};
 use crate::cycle::gait_cycle::GaitCycle;
 use crate::cycle::rate_snapping::snap_rates;
 use crate::gait::stride::Stride;
+use crate::ground::grounded_clip::GroundedClip;
 use crate::ground::root_arc::Rates;
-use crate::ground::root_motion::GroundedClip;
 use crate::retarget::human_clip::HumanBody;
 
 /// Least height of the pelvis of a body that walks, crouched or on hands, m.
@@ -83,7 +83,7 @@ impl SteadyCycle {
         body: &HumanBody,
         window_s: [f64; 2],
     ) -> Result<Self, Unfit> {
-        let heights_m = clip.poses[frames.clone()].iter().map(|pose| DVec3::Z * pose.pelvis_m.z);
+        let heights_m = frames.clone().map(|frame| DVec3::Z * clip.pose(frame).pelvis_m.z);
         if leaves_root(heights_m, body) {
             return Err(Unfit::PelvisOutOfReach);
         }

@@ -32,18 +32,21 @@ pub struct Pair {
 /// Drops from each clip the windows that a better copy of its take gives, and reports it.
 ///
 /// # Steps
-/// 1. Compute the motion signature of each clip.
-/// 2. Find the groups of one take, the longest clips first.
-/// 3. Choose the windows of each group that give examples.
-/// 4. Drop the others, with a diagnostic for each clip.
-pub(crate) fn drop_duplicates(clips: &[HumanClip], analyzed: &mut [AnalyzedClip], body: &HumanBody) {
+/// 1. Find the groups of one take by motion signatures, the longest clips first.
+/// 2. Choose the windows of each group that give examples.
+/// 3. Drop the others, with a diagnostic for each clip.
+pub(crate) fn drop_duplicates(
+    clips: &[HumanClip],
+    compared: &[ComparedClip],
+    analyzed: &mut [AnalyzedClip],
+    body: &HumanBody,
+) {
     let gives_example = |clip: usize| !analyzed[clip].windows.is_empty();
     let may_pair = |a: usize, b: usize| !are_parts_of_one_file(&clips[a], &clips[b]);
-    let compared: Vec<ComparedClip> = clips.par_iter().map(ComparedClip::of).collect();
     let compare = |leader: usize, clip: usize| {
         if may_pair(leader, clip) { compare(&compared[leader], &compared[clip]) } else { None }
     };
-    let groups = Groups::find(&order(clips, gives_example), gives_example, compare);
+    let groups = Groups::find(&order(analyzed), gives_example, compare);
     let givers = shared_windows::choose(clips, analyzed, &groups, body, may_pair);
     for (clip, found) in analyzed.iter_mut().enumerate() {
         found.diagnostics.extend(diagnostics(clips, &givers, clip));
@@ -73,11 +76,11 @@ pub fn pairs(clips: &[HumanClip]) -> Vec<Pair> {
 }
 
 /// The clips, the longest first; those without examples last.
-fn order(clips: &[HumanClip], gives_example: impl Fn(usize) -> bool) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..clips.len()).collect();
+fn order(analyzed: &[AnalyzedClip]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..analyzed.len()).collect();
     // The bits of positive numbers have the numbers' order.
-    let duration_bits = |clip: usize| shared_windows::duration_s(&clips[clip]).to_bits();
-    order.sort_by_cached_key(|&clip| (!gives_example(clip), Reverse(duration_bits(clip))));
+    let key = |found: &AnalyzedClip| (found.windows.is_empty(), Reverse(found.duration_s().to_bits()));
+    order.sort_by_cached_key(|&clip| key(&analyzed[clip]));
     order
 }
 
@@ -204,8 +207,10 @@ mod tests {
     /// Begin of each window that is left of each clip, s, and the clip's diagnostics.
     fn left(clips: &[HumanClip]) -> Vec<(Vec<f64>, Vec<Diagnostic>)> {
         let body = target_body(clips).unwrap();
-        let mut analyzed: Vec<AnalyzedClip> = clips.par_iter().map(|clip| AnalyzedClip::of(clip, &body)).collect();
-        drop_duplicates(clips, &mut analyzed, &body);
+        let mut analyzed: Vec<AnalyzedClip> =
+            clips.to_vec().par_iter_mut().map(|clip| AnalyzedClip::of(clip, &body)).collect();
+        let compared: Vec<ComparedClip> = clips.iter().map(ComparedClip::of).collect();
+        drop_duplicates(clips, &compared, &mut analyzed, &body);
         let start_s = |found: &AnalyzedClip| found.windows.iter().map(|window| window.window_s[0]).collect();
         analyzed.iter().map(|found| (start_s(found), found.diagnostics.clone())).collect()
     }

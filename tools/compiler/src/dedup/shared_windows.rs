@@ -93,7 +93,7 @@ pub(crate) fn choose(
         }
     }
     let of_clip = |clip: usize| {
-        let whole_s = [0.0, duration_s(&clips[clip])];
+        let whole_s = [0.0, analyzed[clip].duration_s()];
         groups_of[clip].iter().find_map(|(group, on_leader)| {
             let shows = |given: &&AlignedWindow| are_same(given.window_s, on_leader.at(whole_s));
             giving[*group].iter().find(shows).map(|given| given.giver(on_leader))
@@ -122,7 +122,7 @@ fn best_first(
             clip.in_place_mps.is_some(),
             window.is_doubtful,
             in_steps(flaws, FLAWS_STEP),
-            Reverse(in_steps(duration_s(clip), DURATION_STEP_S)),
+            Reverse(in_steps(analyzed[index].duration_s(), DURATION_STEP_S)),
             Reverse(clip.frame_rate_hz.to_bits()),
         )
     };
@@ -142,9 +142,4 @@ fn are_same(a: [f64; 2], b: [f64; 2]) -> bool {
 /// First and last time of a window, s from its clip's beginning, which may lie within the file.
 fn in_clip_s(clip: &HumanClip, window: &SteadyCycle) -> [f64; 2] {
     window.window_s.map(|time_s| time_s - clip.first_frame as f64 / clip.frame_rate_hz)
-}
-
-/// Duration from the first frame to the last, s.
-pub(crate) fn duration_s(clip: &HumanClip) -> f64 {
-    (clip.frames.len() - 1) as f64 / clip.frame_rate_hz
 }

@@ -6,32 +6,58 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
+use crate::ground::grounded_clip::GroundedClip;
 use crate::ground::root_arc::RootSample;
-use crate::retarget::human_clip::HumanJoints;
+use crate::retarget::human_clip::{HumanBody, HumanJoints};
 
 /// Positions of a body over a clip.
-#[derive(Clone, Debug)]
-pub(crate) struct BodyTrack {
+pub(crate) struct BodyTrack<'a> {
+    clip: &'a GroundedClip<'a>,
+    body: &'a HumanBody,
     /// Frames per second.
     pub(crate) frame_rate_hz: f64,
-    /// Every joint in the world, at each frame.
-    pub(crate) joints: Vec<HumanJoints>,
+    /// Length of the joints' paths up to each frame, mean over the joints, m.
+    pub(crate) joint_path_m: Vec<f64>,
     /// Midpoint of the hips on the ground at each frame, m.
     pub(crate) hips_m: Vec<DVec2>,
     /// Facing at each frame, without jumps of 2π, rad.
     pub(crate) facing_rad: Vec<f64>,
 }
 
-impl BodyTrack {
-    /// The track of a clip's joints.
-    pub(crate) fn of(joints: Vec<HumanJoints>, frame_rate_hz: f64) -> Self {
-        let mut facing_rad: Vec<f64> = joints.iter().map(HumanJoints::facing_rad).collect();
-        for frame in 1..facing_rad.len() {
-            let step_rad = facing_rad[frame] - facing_rad[frame - 1];
-            facing_rad[frame] -= TAU * libm::round(step_rad / TAU);
+impl<'a> BodyTrack<'a> {
+    /// The track of a clip. `see` gets the joints of each frame; they are not kept.
+    pub(crate) fn of(clip: &'a GroundedClip<'a>, body: &'a HumanBody, mut see: impl FnMut(&HumanJoints)) -> Self {
+        let frame_rate_hz = clip.frame_rate_hz;
+        let (joint_path_m, hips_m, facing_rad) = (Vec::new(), Vec::new(), Vec::new());
+        let mut track = Self { clip, body, frame_rate_hz, joint_path_m, hips_m, facing_rad };
+        let mut before: Option<HumanJoints> = None;
+        for frame in 0..clip.frame_count() {
+            let joints = track.joints(frame);
+            see(&joints);
+            track.push(&joints, before.as_ref());
+            before = Some(joints);
         }
-        let hips_m = joints.iter().map(|joints| joints.hips_m().truncate()).collect();
-        Self { frame_rate_hz, joints, hips_m, facing_rad }
+        track
+    }
+
+    /// Appends a frame; `before` are the joints of the frame before.
+    fn push(&mut self, joints: &HumanJoints, before: Option<&HumanJoints>) {
+        let step_m = before.map_or(0.0, |before| before.mean_distance_m(joints));
+        let facing_rad = joints.facing_rad();
+        let jump_rad = self.facing_rad.last().map_or(0.0, |last_rad| facing_rad - last_rad);
+        self.joint_path_m.push(self.joint_path_m.last().map_or(0.0, |path_m| path_m + step_m));
+        self.hips_m.push(joints.hips_m().truncate());
+        self.facing_rad.push(facing_rad - TAU * libm::round(jump_rad / TAU));
+    }
+
+    /// Number of frames.
+    pub(crate) fn frame_count(&self) -> usize {
+        self.hips_m.len()
+    }
+
+    /// Every joint in the world at a frame.
+    pub(crate) fn joints(&self, frame: usize) -> HumanJoints {
+        self.clip.pose(frame).forward_kinematics(self.body)
     }
 
     /// Mean speed of the hips along their path, m/s.
@@ -42,8 +68,8 @@ impl BodyTrack {
 
     /// Mean speed of all joints along their paths, m/s.
     pub(crate) fn mean_joint_speed_mps(&self) -> f64 {
-        let path_m: f64 = self.joints.windows(2).map(|pair| pair[0].mean_distance_m(&pair[1])).sum();
-        path_m * self.frame_rate_hz / (self.joints.len().max(2) - 1) as f64
+        let path_m = self.joint_path_m.last().copied().unwrap_or_default();
+        path_m * self.frame_rate_hz / (self.joint_path_m.len().max(2) - 1) as f64
     }
 
     /// Speed of the hips in a straight line from the first frame to the last, m/s.

@@ -37,47 +37,55 @@ pub(crate) struct ContactFrames {
     pub(crate) stepping: Vec<bool>,
 }
 
-/// The contacts of one foot. `lenience` multiplies both limits: 1 is the definition, more finds the steps of noisy
-/// clips.
-pub(crate) fn contact_frames(
+/// The contacts of one foot, by reading. Its lenience multiplies both limits: 1 is the definition, more finds the steps
+/// of noisy clips.
+pub(crate) fn contact_readings<const N: usize>(
     feet: &[[DVec3; 3]],
     frame_rate_hz: f64,
     body_speed_mps: f64,
-    lenience: f64,
-) -> ContactFrames {
-    let speed_max_mps = lenience * (SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps);
-    let window = (FLOOR_WINDOW_S * frame_rate_hz) as usize;
+    leniences: [f64; N],
+) -> [ContactFrames; N] {
+    let lowest = lowest_points(feet, (FLOOR_WINDOW_S * frame_rate_hz) as usize);
     let span = ((SPEED_SPAN_S * frame_rate_hz + 0.5) as usize).max(1);
-    let mut stepping: Vec<bool> = lowest_points(feet, window)
-        .iter()
-        .enumerate()
-        .map(|(frame, &(point, height_m))| {
+    leniences.map(|lenience| {
+        let speed_max_mps = lenience * (SPEED_MAX_MPS + SPEED_MAX_SHARE * body_speed_mps);
+        let touches = |(frame, &(point, height_m)): (usize, &(usize, f64))| {
             let (before, after) = (frame.saturating_sub(span), (frame + span).min(feet.len() - 1));
             let moved_m = (feet[after][point] - feet[before][point]).truncate().length();
             height_m < lenience * HEIGHT_MAX_M && moved_m * frame_rate_hz < speed_max_mps * (after - before) as f64
-        })
-        .collect();
-    let mut planted = stepping.clone();
-    flip_short_runs(&mut planted, true, TOUCH_MIN_S * frame_rate_hz);
-    for contacts in [&mut planted, &mut stepping] {
-        flip_short_runs(contacts, false, LIFT_MIN_S * frame_rate_hz);
-        flip_short_runs(contacts, true, CONTACT_MIN_S * frame_rate_hz);
+        };
+        ContactFrames::of(lowest.iter().enumerate().map(touches).collect(), frame_rate_hz)
+    })
+}
+
+impl ContactFrames {
+    /// The contacts of a foot that touches the ground in some frames.
+    fn of(mut stepping: Vec<bool>, frame_rate_hz: f64) -> Self {
+        let mut planted = stepping.clone();
+        flip_short_runs(&mut planted, true, TOUCH_MIN_S * frame_rate_hz);
+        for contacts in [&mut planted, &mut stepping] {
+            flip_short_runs(contacts, false, LIFT_MIN_S * frame_rate_hz);
+            flip_short_runs(contacts, true, CONTACT_MIN_S * frame_rate_hz);
+        }
+        Self { planted, stepping }
     }
-    ContactFrames { planted, stepping }
 }
 
 /// Index of the lowest of a foot's three points above its planted height, and its height above that (m), at each frame.
 ///
 /// Planted heights are taken over `window` frames about each frame: the floor of a capture may slope.
 fn lowest_points(feet: &[[DVec3; 3]], window: usize) -> Vec<(usize, f64)> {
-    let planted_m = [0, 1, 2].map(|point| planted_heights_m(feet, point, window));
-    let lower = |a: (usize, f64), b: (usize, f64)| if b.1 < a.1 { b } else { a };
-    (0..feet.len())
-        .map(|frame| {
-            let height_m = |point: usize| (point, feet[frame][point].z - planted_m[point][frame]);
-            lower(lower(height_m(0), height_m(1)), height_m(2))
-        })
-        .collect()
+    let mut lowest = vec![(0, f64::INFINITY); feet.len()];
+    for point in 0..3 {
+        let planted_m = planted_heights_m(feet, point, window);
+        for ((lowest, foot), planted_m) in lowest.iter_mut().zip(feet).zip(planted_m) {
+            let height_m = foot[point].z - planted_m;
+            if point == 0 || height_m < lowest.1 {
+                *lowest = (point, height_m);
+            }
+        }
+    }
+    lowest
 }
 
 /// Planted height of a point about each frame, m: a percentile of a sliding window, kept sorted, so that a frame costs

@@ -81,7 +81,7 @@ fn joined(stances: impl Iterator<Item = FootStance>, lift_frames: f64) -> Vec<Fo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gait::contacts::contact_frames;
+    use crate::gait::contacts::contact_readings;
     use crate::retarget::human_clip::HumanPose;
     use crate::synthetic::{self, SyntheticWalk};
 
@@ -103,7 +103,7 @@ mod tests {
             [0, 1, 2].map(|point| points[point] + jitter_m(frame, point, amplitude_m))
         };
         let feet: Vec<[DVec3; 3]> = clip.frames.iter().enumerate().map(foot).collect();
-        let contacts = contact_frames(&feet, frame_rate_hz, 1.2, 1.0);
+        let [contacts] = contact_readings(&feet, frame_rate_hz, 1.2, [1.0]);
         let stances = foot_stances(&feet, &contacts.planted, frame_rate_hz, 1.2);
         assert_eq!(stances.len(), 4, "{stances:?}");
         for (step, stance) in stances.iter().enumerate() {
@@ -146,7 +146,7 @@ mod tests {
         for frame_rate_hz in [30.0, 60.0, 120.0] {
             let feet: Vec<[DVec3; 3]> =
                 (0..(1.6 * frame_rate_hz) as usize).map(|frame| creeping_foot(frame as f64 / frame_rate_hz)).collect();
-            let contacts = contact_frames(&feet, frame_rate_hz, 1.2, 1.0);
+            let [contacts] = contact_readings(&feet, frame_rate_hz, 1.2, [1.0]);
             let off_s = foot_stances(&feet, &contacts.planted, frame_rate_hz, 1.2)[0].off_frame / frame_rate_hz;
             assert!((off_s - 0.5).abs() < 1.0 / 30.0, "at {frame_rate_hz} Hz: {off_s} s");
         }

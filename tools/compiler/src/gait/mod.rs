@@ -21,6 +21,6 @@ pub(crate) mod stride_spread;
 pub(crate) mod windows;
 
 pub use foot_stance::FootStance;
-pub use performer_gait::PerformerGait;
+pub use performer_gait::{PerformerGait, own_clip};
 pub use stride::{Landmark, Stride};
 pub use windows::{GaitAnalysis, GaitWindow, WindowGait};

@@ -12,20 +12,23 @@ use crate::gait::body_track::BodyTrack;
 use crate::gait::foot_stance;
 use crate::gait::stride::Stride;
 use crate::gait::windows::{GaitAnalysis, GaitWindow, WindowGait, analyze_gait};
-use crate::ground::root_motion::{GroundedClip, grounded_clip};
+use crate::ground::grounded_clip::{GroundedClip, GroundedPoses};
+use crate::ground::root_motion::{grounded_clip, grounded_in_place};
 use crate::ground::{foot_grounding, loop_unrolling};
 use crate::retarget::human_clip::{HumanBody, HumanClip};
 
 /// Thigh plus shank of every body whose gait is analysed, m: that of the captures whose events are labelled by hand.
 const LEG_M: f64 = 0.8;
 
-/// A clip on its performer's own body, and its gait there.
+/// The gait of a clip on its performer's own body.
 #[derive(Clone, Debug)]
 pub struct PerformerGait {
     /// The performer's proportions, scaled to a leg of 0.8 m.
     pub body: HumanBody,
-    /// The clip on that body; a loop is unrolled.
-    pub clip: GroundedClip,
+    /// Frames of the clip on that body; a loop is unrolled.
+    pub frame_count: usize,
+    /// Frames of one round of a clip that is a loop.
+    pub loop_frames: Option<usize>,
     /// The gait of the clip.
     pub gait: GaitAnalysis,
 }
@@ -33,22 +36,24 @@ pub struct PerformerGait {
 impl PerformerGait {
     /// Analyses the gait of a clip.
     pub fn of(clip: &HumanClip) -> Self {
-        let body = clip.body.scaled(LEG_M / clip.body.leg_length_m());
-        let grounded = loop_unrolling::unrolled(grounded_clip(clip, &body), &body);
+        let (body, grounded) = own_clip(clip);
         let gait = analyze_gait(&grounded, &body);
-        Self { body, clip: grounded, gait }
+        Self { frame_count: grounded.frame_count(), loop_frames: grounded.loop_frames(), gait, body }
     }
 
-    /// The same clip on another body: soles do not sink, a loop is unrolled.
-    pub fn clip_on(&self, clip: &HumanClip, body: &HumanBody) -> GroundedClip {
-        let mut grounded = grounded_clip(clip, body);
-        let first_frame = self.clip.loop_frames.unwrap_or(0);
+    /// The same clip on another body: soles do not sink, a loop is unrolled. The clip has no frames afterwards: its
+    /// poses are changed in place.
+    pub fn clip_on(&self, clip: &mut HumanClip, body: &HumanBody) -> GroundedClip<'static> {
+        let mut grounded = grounded_in_place(clip, body);
+        let first_frame = self.loop_frames.unwrap_or(0);
         let stances = self.gait.clearest_stances();
-        foot_grounding::shift_to_ground(&mut grounded.poses, body, |side, frame| {
-            foot_stance::stands_at(&stances[side], (first_frame + frame) as f64)
-        });
-        foot_grounding::keep_soles_above_ground(&mut grounded.poses, body);
-        match self.clip.loop_frames {
+        if let GroundedPoses::Own(poses) = &mut grounded.poses {
+            foot_grounding::shift_to_ground(poses, body, |side, frame| {
+                foot_stance::stands_at(&stances[side], (first_frame + frame) as f64)
+            });
+            foot_grounding::keep_soles_above_ground(poses, body);
+        }
+        match self.loop_frames {
             Some(round) => loop_unrolling::repeated(grounded, body, round),
             None => grounded,
         }
@@ -57,8 +62,7 @@ impl PerformerGait {
     /// The steady windows on another body: landmarks and contacts are the performer's, the root's arcs are that body's.
     pub fn windows_on(&self, grounded: &GroundedClip, body: &HumanBody) -> Result<Vec<GaitWindow>, Unfit> {
         let windows = self.gait.windows.as_ref().map_err(Clone::clone)?;
-        let joints = grounded.poses.iter().map(|pose| pose.forward_kinematics(body)).collect();
-        let track = BodyTrack::of(joints, grounded.frame_rate_hz);
+        let track = BodyTrack::of(grounded, body, |_| ());
         let carried = |stride: &Stride| Stride::over(&stride.landmarks(), &track);
         let on_body = |window: &GaitWindow| match &window.gait {
             WindowGait::Steps(strides) => {
@@ -68,6 +72,13 @@ impl PerformerGait {
         };
         Ok(windows.iter().map(on_body).collect())
     }
+}
+
+/// A clip on its performer's own body, scaled to a leg of 0.8 m; a loop is unrolled.
+pub fn own_clip(clip: &HumanClip) -> (HumanBody, GroundedClip<'_>) {
+    let body = clip.body.scaled(LEG_M / clip.body.leg_length_m());
+    let grounded = loop_unrolling::unrolled(grounded_clip(clip, &body), &body);
+    (body, grounded)
 }
 
 #[cfg(test)]
@@ -98,7 +109,7 @@ mod tests {
         let clip = synthetic::walk("walk", SyntheticWalk::default());
         let performer = PerformerGait::of(&clip);
         let body = synthetic::body(0.5);
-        let grounded = performer.clip_on(&clip, &body);
+        let grounded = performer.clip_on(&mut clip.clone(), &body);
         let own = performer.gait.windows.as_ref().unwrap();
         for (window, own) in performer.windows_on(&grounded, &body).unwrap().iter().zip(own) {
             let (WindowGait::Steps(strides), WindowGait::Steps(own)) = (&window.gait, &own.gait) else {

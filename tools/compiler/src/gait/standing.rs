@@ -23,7 +23,7 @@ const REST_MIN_S: f64 = 1.5;
 /// Whether the whole clip stands. `planted` holds the flags of both feet.
 pub(crate) fn stands(planted: &[Vec<bool>; 2], track: &BodyTrack) -> bool {
     let share = |side: &Vec<bool>| side.iter().filter(|planted| **planted).count() as f64 / side.len() as f64;
-    track.joints.len() as f64 >= STANDING_MIN_S * track.frame_rate_hz
+    track.frame_count() as f64 >= STANDING_MIN_S * track.frame_rate_hz
         && track.net_speed_mps() < STANDING_SPEED_MPS
         && track.mean_joint_speed_mps() < STANDING_JOINT_SPEED_MPS
         && planted.iter().all(|side| share(side) >= STANDING_SHARE_MIN)
@@ -45,10 +45,7 @@ pub(crate) fn longest_rest(planted: &[Vec<bool>; 2], track: &BodyTrack, frames: 
 
 /// Whether hips and joints are at rest about each frame.
 fn still_frames(track: &BodyTrack) -> Vec<bool> {
-    let mut path_m = vec![0.0];
-    for pair in track.joints.windows(2) {
-        path_m.push(path_m[path_m.len() - 1] + pair[0].mean_distance_m(&pair[1]));
-    }
+    let path_m = &track.joint_path_m;
     let half = ((0.5 * REST_SPAN_S * track.frame_rate_hz) as usize).max(1);
     let is_still = |frame: usize| {
         let (before, after) = (frame.saturating_sub(half), (frame + half).min(path_m.len() - 1));

@@ -147,10 +147,10 @@ fn root_arc(body: &BodyTrack, first_frame: f64, period_frames: f64) -> RootArc {
 fn gap_m(stride: &Stride, body: &BodyTrack) -> f64 {
     let first_frame = stride.first_frame();
     let local = |frame: f64| {
-        let index = ((frame + 0.5) as usize).min(body.joints.len() - 1);
+        let index = ((frame + 0.5) as usize).min(body.frame_count() - 1);
         let (position_m, facing_rad) = stride.arc.at((index as f64 - stride.zero_frame) / body.frame_rate_hz);
         let turn = DQuat::from_rotation_z(-facing_rad);
-        body.joints[index].positions_m.map(|joint| turn * (joint - position_m.extend(0.0)))
+        body.joints(index).positions_m.map(|joint| turn * (joint - position_m.extend(0.0)))
     };
     let (first, last) = (local(first_frame), local(first_frame + stride.period_frames));
     let squares: f64 = first.iter().zip(&last).map(|(a, b)| a.distance_squared(*b)).sum();

@@ -38,7 +38,7 @@ fn aligned_frames(frames: &[f64], body: &BodyTrack) -> Vec<f64> {
     // The frame before the first landmark, not the nearest: as far from the last landmark is then still within the
     // clip.
     let first = frames[0] as usize;
-    let reference = local_joints(body, first as f64);
+    let reference = LocalJoints::between(first as f64, first as f64, body).at(first as f64);
     let moved: Vec<f64> = frames
         .iter()
         .map(|frame| nearest_frame(&reference, first as f64 + frame - frames[0], body) - first as f64 + frames[0])
@@ -50,8 +50,10 @@ fn aligned_frames(frames: &[f64], body: &BodyTrack) -> Vec<f64> {
 /// The frame near `frame` whose pose is nearest to a reference; of several the one that moves least.
 fn nearest_frame(reference: &[DVec3; JOINT_COUNT], frame: f64, body: &BodyTrack) -> f64 {
     let step = (MOVE_MAX_S * body.frame_rate_hz).max(1.0) / f64::from(MOVE_STEPS);
+    let reach = step * f64::from(MOVE_STEPS);
+    let near = LocalJoints::between(frame - reach, frame + reach, body);
     let distance = |frame: f64| {
-        let joints = local_joints(body, frame);
+        let joints = near.at(frame);
         reference.iter().zip(&joints).map(|(a, b)| a.distance_squared(*b)).sum::<f64>()
     };
     let candidates =
@@ -60,16 +62,32 @@ fn nearest_frame(reference: &[DVec3; JOINT_COUNT], frame: f64, body: &BodyTrack)
     best.map_or(frame, |(_, frame)| frame)
 }
 
-/// Every joint relative to hips and facing, linearly between frames, m.
-fn local_joints(body: &BodyTrack, frame: f64) -> [DVec3; JOINT_COUNT] {
-    let base = (frame.max(0.0) as usize).min(body.joints.len() - 2);
-    let share = (frame - base as f64).clamp(0.0, 1.0);
-    let local = |frame: usize| {
-        let turn = DQuat::from_rotation_z(-body.facing_rad[frame]);
-        body.joints[frame].positions_m.map(|joint| turn * (joint - body.hips_m[frame].extend(0.0)))
-    };
-    let (before, after) = (local(base), local(base + 1));
-    std::array::from_fn(|joint| before[joint].lerp(after[joint], share))
+/// Every joint relative to hips and facing in successive frames, m.
+struct LocalJoints {
+    /// The first of these frames.
+    first: usize,
+    joints_m: Vec<[DVec3; JOINT_COUNT]>,
+}
+
+impl LocalJoints {
+    /// The joints in the frames about an interval of fractional frames.
+    fn between(from: f64, to: f64, body: &BodyTrack) -> Self {
+        let last_base = body.frame_count() - 2;
+        let [first, last] = [from, to].map(|frame| (frame.max(0.0) as usize).min(last_base));
+        let local = |frame: usize| {
+            let turn = DQuat::from_rotation_z(-body.facing_rad[frame]);
+            body.joints(frame).positions_m.map(|joint| turn * (joint - body.hips_m[frame].extend(0.0)))
+        };
+        Self { first, joints_m: (first..last + 2).map(local).collect() }
+    }
+
+    /// The joints at a fractional frame of the interval, linearly between frames.
+    fn at(&self, frame: f64) -> [DVec3; JOINT_COUNT] {
+        let base = (frame.max(0.0) as usize).clamp(self.first, self.first + self.joints_m.len() - 2);
+        let share = (frame - base as f64).clamp(0.0, 1.0);
+        let [before, after] = [0, 1].map(|next| &self.joints_m[base - self.first + next]);
+        std::array::from_fn(|joint| before[joint].lerp(after[joint], share))
+    }
 }
 
 #[cfg(test)]

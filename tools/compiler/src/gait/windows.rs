@@ -14,17 +14,19 @@ use motiondb::statistics::percentile;
 
 use crate::frame_runs::frame_runs;
 use crate::gait::body_track::BodyTrack;
-use crate::gait::contacts::contact_frames;
+use crate::gait::contacts::{ContactFrames, contact_readings};
 use crate::gait::foot_stance::{FootStance, foot_stances};
 use crate::gait::standing;
 use crate::gait::steady_strides::{ClipSteps, round_of_strides, steady_windows};
 use crate::gait::stride::{Landmark, Stride, valid_stride};
 use crate::gait::stride_alignment::aligned_strides;
-use crate::ground::root_motion::GroundedClip;
-use crate::retarget::human_clip::HumanBody;
+use crate::ground::grounded_clip::GroundedClip;
+use crate::retarget::human_clip::{HumanBody, HumanJoints};
 
 /// Lenience of each reading: multiples of the contact limits of the definition.
 const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
+/// Index of each reading.
+const READINGS: [usize; LENIENCES.len()] = [0, 1, 2];
 
 /// Steps from which a clip that only rests is taken to walk too; fewer shift the weight.
 const LOST_STEPS_MIN: usize = 3;
@@ -65,23 +67,55 @@ pub struct GaitAnalysis {
 /// The reading that shows the most strides counts, of several the strictest: the feet of noisy captures may slide and
 /// lift more, as little as it takes.
 pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysis {
-    let joints = clip.poses.iter().map(|pose| pose.forward_kinematics(body)).collect();
-    let track = BodyTrack::of(joints, clip.frame_rate_hz);
-    let feet = [0, 1].map(|side| {
-        track.joints.iter().map(|joints| joints.measured_points_m(body, side)).collect::<Vec<[DVec3; 3]>>()
+    let mut left = FootPoints::default();
+    let track = BodyTrack::of(clip, body, |joints| left.push(joints, body, 0));
+    // One foot after the other: the points of a long clip take much memory.
+    let left = left.readings(&track);
+    let mut right = FootPoints::default();
+    (0..track.frame_count()).for_each(|frame| right.push(&track.joints(frame), body, 1));
+    let mut sides = [left, right.readings(&track)];
+    let steps = READINGS.map(|reading| {
+        clip_steps(&sides.each_mut().map(|side| std::mem::take(&mut side.contacts[reading].stepping)), &track)
     });
-    let speed_mps = track.mean_speed_mps();
-    let contacts = LENIENCES
-        .map(|lenience| [0, 1].map(|side| contact_frames(&feet[side], clip.frame_rate_hz, speed_mps, lenience)));
-    let planted = contacts.each_ref().map(|feet| feet.each_ref().map(|contacts| contacts.planted.clone()));
-    let steps = contacts.map(|feet| clip_steps(&feet.map(|contacts| contacts.stepping), &track));
-    let windows = gait_windows(&planted, &steps, &track, clip.loop_frames);
-    let feet = [0, 1]
-        .map(|side| track.joints.iter().map(|joints| joints.landing_points_m(body, side)).collect::<Vec<[DVec3; 3]>>());
-    let stances = planted
-        .map(|planted| [0, 1].map(|side| foot_stances(&feet[side], &planted[side], clip.frame_rate_hz, speed_mps)));
+    let planted =
+        READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.contacts[reading].planted)));
+    let windows = gait_windows(&planted, &steps, &track, clip.loop_frames());
+    let stances = READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.stances[reading])));
     let lost_steps = lost_steps(&windows, &steps[0]);
     GaitAnalysis { stances, windows, lost_steps }
+}
+
+/// Points of one foot at each frame, world, m.
+#[derive(Default)]
+struct FootPoints {
+    /// Heel, ball and toe tip where slide is measured.
+    measured_m: Vec<[DVec3; 3]>,
+    /// Heel on the sole.
+    heels_m: Vec<DVec3>,
+}
+
+/// What one foot does, by reading.
+struct FootReadings {
+    contacts: [ContactFrames; LENIENCES.len()],
+    stances: [Vec<FootStance>; LENIENCES.len()],
+}
+
+impl FootPoints {
+    fn push(&mut self, joints: &HumanJoints, body: &HumanBody, side: usize) {
+        self.measured_m.push(joints.measured_points_m(body, side));
+        self.heels_m.push(joints.landing_points_m(body, side)[0]);
+    }
+
+    fn readings(mut self, track: &BodyTrack) -> FootReadings {
+        let (frame_rate_hz, speed_mps) = (track.frame_rate_hz, track.mean_speed_mps());
+        let contacts = contact_readings(&self.measured_m, frame_rate_hz, speed_mps, LENIENCES);
+        // A foot lands and leaves with the heel of the sole, and with ball and toe tip where slide is measured.
+        self.measured_m.iter_mut().zip(&self.heels_m).for_each(|([heel_m, ..], landing_m)| *heel_m = *landing_m);
+        let stances = contacts
+            .each_ref()
+            .map(|contacts| foot_stances(&self.measured_m, &contacts.planted, frame_rate_hz, speed_mps));
+        FootReadings { contacts, stances }
+    }
 }
 
 impl GaitAnalysis {
@@ -102,7 +136,7 @@ fn gait_windows(
     track: &BodyTrack,
     loop_frames: Option<usize>,
 ) -> Result<Vec<GaitWindow>, Unfit> {
-    let frames = 0..track.joints.len();
+    let frames = 0..track.frame_count();
     if let Some(reading) = planted.iter().position(|planted| standing::stands(planted, track)) {
         return Ok(vec![GaitWindow::standing(frames, reading, 0)]);
     }
@@ -287,7 +321,7 @@ mod tests {
         }
         both.frames.truncate(2 * 264 + 1);
         let rounds = unrolled(grounded_clip(&both, &both.body), &both.body);
-        assert!(rounds.loop_frames.is_some());
+        assert!(rounds.loop_frames().is_some());
         let windows = analyze_gait(&rounds, &both.body).windows.unwrap();
         let speeds_mps = windows.iter().filter_map(|window| match &window.gait {
             WindowGait::Steps(strides) => Some(strides[0].arc.rates.speed_mps),
@@ -304,7 +338,7 @@ mod tests {
         let rates = Rates { speed_mps: 0.7, turn_rate_rad_s: 0.8, strafe_mps: 0.0 };
         let clip = synthetic::walk("loop", SyntheticWalk { rates, duration_s: 2.2, ..SyntheticWalk::default() });
         let rounds = unrolled(grounded_clip(&clip, &clip.body), &clip.body);
-        assert_eq!(rounds.loop_frames, Some(132));
+        assert_eq!(rounds.loop_frames(), Some(132));
         let windows = analyze_gait(&rounds, &clip.body).windows.unwrap();
         let [GaitWindow { gait: WindowGait::Steps(strides), .. }] = &windows[..] else { panic!("{windows:?}") };
         assert_eq!(strides.len(), 2);

@@ -1,14 +1,15 @@
 //! Loops: a clip whose last pose is its first is repeated three times, so that every stride has neighbours and counts.
 //!
 //! The gap between the last pose and the first is spread evenly over the round, so that the seam is like any other
-//! frame. World frame: metres, radians, Z up; times in frames of the clip.
+//! frame. One round is stored; the poses of the others are computed from it, so that a loop of an hour takes no more
+//! memory than another clip. World frame: metres, radians, Z up; times in frames of the clip.
 
 use glam::{DQuat, DVec3};
 use motiondb::body::JOINT_COUNT;
 use motiondb::statistics::median;
 
-use crate::ground::root_motion::GroundedClip;
-use crate::ground::rotations::{align_successive, ground_rotation, rotation_vector};
+use crate::ground::grounded_clip::{GroundedClip, GroundedPoses};
+use crate::ground::rotations::{align_hemispheres, flip, ground_rotation, rotation_vector};
 use crate::retarget::human_clip::{HumanBody, HumanPose};
 
 /// Greatest distance of any joint between last pose and first, relative to the root, of a loop, m.
@@ -23,7 +24,7 @@ const ROUNDS: usize = 3;
 const ROUND_MIN_S: f64 = 0.3;
 
 /// Three rounds of a clip that is a loop; any other clip unchanged.
-pub(crate) fn unrolled(clip: GroundedClip, body: &HumanBody) -> GroundedClip {
+pub(crate) fn unrolled<'a>(clip: GroundedClip<'a>, body: &HumanBody) -> GroundedClip<'a> {
     match round_frames(&clip, body) {
         Some(round) => repeated(clip, body, round),
         None => clip,
@@ -32,12 +33,20 @@ pub(crate) fn unrolled(clip: GroundedClip, body: &HumanBody) -> GroundedClip {
 
 /// Frames of one round of a clip that is a loop. Some loops end one frame before they would repeat their first pose.
 fn round_frames(clip: &GroundedClip, body: &HumanBody) -> Option<usize> {
-    let [first, .., before, last] = clip.poses.as_slice() else { return None };
-    let next_gap_m = loop_gap_m(first, &next_pose(before, last), body);
-    let last_gap_m = loop_gap_m(first, last, body);
+    let count = clip.poses.len();
+    let [before, last] = [count.checked_sub(2).filter(|&before| before > 0)?, count - 1];
+    let local_m = |pose: &HumanPose| local_positions_m(pose, body);
+    let [first_m, last_m] = [0, last].map(|frame| local_m(&clip.poses.pose(frame)));
+    let next_m = local_m(&next_pose(&clip.poses.pose(before), &clip.poses.pose(last)));
+    let [next_gap_m, last_gap_m] = [next_m, last_m].map(|end_m| loop_gap_m(&first_m, &end_m));
     let is_left_out = next_gap_m < LEFT_OUT_RATIO * last_gap_m;
-    let round = clip.poses.len() - usize::from(!is_left_out);
-    let usual_step_m = median(clip.poses.windows(2).map(|pair| loop_gap_m(&pair[0], &pair[1], body)))?;
+    let round = count - usize::from(!is_left_out);
+    let mut before_m = first_m;
+    let step_m = |frame: usize| {
+        let at_m = local_m(&clip.poses.pose(frame));
+        loop_gap_m(&std::mem::replace(&mut before_m, at_m), &at_m)
+    };
+    let usual_step_m = median((1..count).map(step_m))?;
     let gap_max_m = LOOP_GAP_M.max(LOOP_GAP_STEPS * usual_step_m);
     let is_loop = last_gap_m.min(next_gap_m) <= gap_max_m && round as f64 >= ROUND_MIN_S * clip.frame_rate_hz;
     is_loop.then_some(round)
@@ -45,20 +54,67 @@ fn round_frames(clip: &GroundedClip, body: &HumanBody) -> Option<usize> {
 
 /// Three rounds of a clip that is known to be a loop of `round` frames. Where the clip has no more frames than that,
 /// the pose that would follow closes it.
-pub(crate) fn repeated(mut clip: GroundedClip, body: &HumanBody, round: usize) -> GroundedClip {
-    if let ([.., before, last], true) = (clip.poses.as_slice(), round == clip.poses.len()) {
-        clip.poses.push(next_pose(before, last));
+pub(crate) fn repeated<'a>(mut clip: GroundedClip<'a>, body: &HumanBody, round: usize) -> GroundedClip<'a> {
+    let pose = |frame: usize| clip.poses.pose(frame);
+    let end = if round < clip.poses.len() { pose(round) } else { next_pose(&pose(round - 2), &pose(round - 1)) };
+    let seam = LoopSeam::between(&pose(0), &end, body);
+    let mut rounds = LoopRounds { round, seam, flipped: Vec::new() };
+    if let GroundedPoses::Own(poses) = &mut clip.poses {
+        poses.truncate(round);
+        poses.iter_mut().enumerate().for_each(|(frame, pose)| rounds.close(pose, frame));
+        rounds.align_successive(&clip.poses);
     }
-    let seam = LoopSeam::between(&clip.poses[0], &clip.poses[round], body);
-    let closed: Vec<HumanPose> =
-        (0..round).map(|frame| seam.close(&clip.poses[frame], frame as f64 / round as f64)).collect();
-    let mut poses = Vec::with_capacity(ROUNDS * round + 1);
-    for copy in 0..ROUNDS {
-        poses.extend(closed.iter().map(|pose| seam.carry(pose, copy)));
+    GroundedClip { rounds: Some(rounds), ..clip }
+}
+
+/// How the poses of three rounds follow from those of one.
+#[derive(Clone, Debug)]
+pub(crate) struct LoopRounds {
+    /// Frames of one round.
+    pub(crate) round: usize,
+    seam: LoopSeam,
+    /// The joints, one bit each, whose quaternion is negated in each frame, so that successive poses lie in one
+    /// hemisphere; empty where the poses are not the clip's own.
+    flipped: Vec<u32>,
+}
+
+impl LoopRounds {
+    /// Number of frames: three rounds and the frame after them.
+    pub(crate) fn frame_count(&self) -> usize {
+        ROUNDS * self.round + 1
     }
-    poses.push(seam.carry(&closed[0], ROUNDS));
-    align_successive(&mut poses);
-    GroundedClip { poses, loop_frames: Some(round), ..clip }
+
+    /// The pose of a frame. `poses` are those of one round, closed where they are its own.
+    pub(crate) fn pose(&self, poses: &GroundedPoses, frame: usize) -> HumanPose {
+        let mut pose = self.carried(poses, frame);
+        self.flipped.get(frame).into_iter().for_each(|&joints| flip(&mut pose.rotations, joints));
+        pose
+    }
+
+    /// The pose of a frame, in any hemisphere.
+    fn carried(&self, poses: &GroundedPoses, frame: usize) -> HumanPose {
+        let mut pose = poses.pose(frame % self.round);
+        if matches!(poses, GroundedPoses::Moved { .. }) {
+            self.close(&mut pose, frame % self.round);
+        }
+        self.seam.carry(&mut pose, frame / self.round);
+        pose
+    }
+
+    /// Closes a pose of the round.
+    fn close(&self, pose: &mut HumanPose, frame: usize) {
+        self.seam.close(pose, frame as f64 / self.round as f64);
+    }
+
+    /// Finds the quaternions to negate.
+    fn align_successive(&mut self, poses: &GroundedPoses) {
+        let mut before: Option<[DQuat; JOINT_COUNT]> = None;
+        for frame in 0..self.frame_count() {
+            let mut rotations = self.carried(poses, frame).rotations;
+            self.flipped.push(before.map_or(0, |before| align_hemispheres(&mut rotations, &before)));
+            before = Some(rotations);
+        }
+    }
 }
 
 /// The pose after two successive ones at constant velocity.
@@ -68,18 +124,21 @@ fn next_pose(before: &HumanPose, last: &HumanPose) -> HumanPose {
     HumanPose { pelvis_m: 2.0 * last.pelvis_m - before.pelvis_m, rotations }
 }
 
+/// Positions of the joints relative to hips and facing, m.
+fn local_positions_m(pose: &HumanPose, body: &HumanBody) -> [DVec3; JOINT_COUNT] {
+    let joints = pose.forward_kinematics(body);
+    let turn = DQuat::from_rotation_z(-joints.facing_rad());
+    let ground = joints.hips_m().with_z(0.0);
+    joints.positions_m.map(|position| turn * (position - ground))
+}
+
 /// The greatest distance between a joint's positions in two poses, each relative to hips and facing, m.
-fn loop_gap_m(first: &HumanPose, last: &HumanPose, body: &HumanBody) -> f64 {
-    let local = |pose: &HumanPose| {
-        let joints = pose.forward_kinematics(body);
-        let turn = DQuat::from_rotation_z(-joints.facing_rad());
-        let ground = joints.hips_m().with_z(0.0);
-        joints.positions_m.map(|position| turn * (position - ground))
-    };
-    local(first).iter().zip(&local(last)).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+fn loop_gap_m(first: &[DVec3; JOINT_COUNT], last: &[DVec3; JOINT_COUNT]) -> f64 {
+    first.iter().zip(last).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
 }
 
 /// Displacement of the body by one round of a loop, and the gap that the round leaves.
+#[derive(Clone, Debug)]
 struct LoopSeam {
     /// Pelvis of the first pose on the ground, m.
     start_m: DVec3,
@@ -107,25 +166,21 @@ impl LoopSeam {
         Self { start_m: first.pelvis_m.with_z(0.0), travelled_m, turned_rad, height_gap_m, rotation_gaps }
     }
 
-    /// A pose of the round with its part of the gap added: none at the first pose, all at the last.
-    fn close(&self, pose: &HumanPose, share: f64) -> HumanPose {
-        let mut closed = pose.clone();
-        closed.pelvis_m.z += self.height_gap_m * share;
-        for (rotation, gap) in closed.rotations.iter_mut().zip(&self.rotation_gaps) {
+    /// Adds its part of the gap to a pose of the round: none at the first pose, all at the last.
+    fn close(&self, pose: &mut HumanPose, share: f64) {
+        pose.pelvis_m.z += self.height_gap_m * share;
+        for (rotation, gap) in pose.rotations.iter_mut().zip(&self.rotation_gaps) {
             *rotation = DQuat::from_scaled_axis(*gap * share) * *rotation;
         }
-        closed
     }
 
-    /// A pose some rounds later.
-    fn carry(&self, pose: &HumanPose, rounds: usize) -> HumanPose {
-        let mut carried = pose.clone();
+    /// Moves a pose some rounds on.
+    fn carry(&self, pose: &mut HumanPose, rounds: usize) {
         for _ in 0..rounds {
-            let from_start_m = ground_rotation(self.turned_rad) * (carried.pelvis_m - self.start_m).truncate();
-            carried.pelvis_m = self.start_m + self.travelled_m + from_start_m.extend(carried.pelvis_m.z);
-            carried.rotations[0] = DQuat::from_rotation_z(self.turned_rad) * carried.rotations[0];
+            let from_start_m = ground_rotation(self.turned_rad) * (pose.pelvis_m - self.start_m).truncate();
+            pose.pelvis_m = self.start_m + self.travelled_m + from_start_m.extend(pose.pelvis_m.z);
+            pose.rotations[0] = DQuat::from_rotation_z(self.turned_rad) * pose.rotations[0];
         }
-        carried
     }
 }
 
@@ -146,8 +201,9 @@ mod tests {
     fn rounds_join_without_a_jump() {
         let clip = synthetic::walk("loop", whole(1.0));
         let clip_in_rounds = unrolled(grounded_clip(&clip, &clip.body), &clip.body);
-        let positions_m: Vec<_> =
-            clip_in_rounds.poses.iter().map(|p| p.forward_kinematics(&clip.body).positions_m).collect();
+        let positions_m: Vec<_> = (0..clip_in_rounds.frame_count())
+            .map(|frame| clip_in_rounds.pose(frame).forward_kinematics(&clip.body).positions_m)
+            .collect();
         let step = |frame: usize| {
             let pairs = positions_m[frame].iter().zip(&positions_m[frame + 1]);
             pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
@@ -160,7 +216,7 @@ mod tests {
     fn loops_may_leave_out_their_repeated_frame() {
         let mut clip = synthetic::walk("loop", whole(2.0));
         clip.frames.pop();
-        assert_eq!(unrolled(grounded_clip(&clip, &clip.body), &clip.body).loop_frames, Some(132));
+        assert_eq!(unrolled(grounded_clip(&clip, &clip.body), &clip.body).loop_frames(), Some(132));
     }
 
     #[test]
@@ -175,13 +231,14 @@ mod tests {
         };
         let clip = synthetic::walk("loop", run);
         let grounded = grounded_clip(&clip, &clip.body);
-        assert!(loop_gap_m(&grounded.poses[0], &grounded.poses[13], &clip.body) > LOOP_GAP_M);
-        assert_eq!(unrolled(grounded, &clip.body).loop_frames, Some(13));
+        let [first_m, last_m] = [0, 13].map(|frame| local_positions_m(&grounded.pose(frame), &clip.body));
+        assert!(loop_gap_m(&first_m, &last_m) > LOOP_GAP_M);
+        assert_eq!(unrolled(grounded, &clip.body).loop_frames(), Some(13));
     }
 
     #[test]
     fn clips_that_end_in_another_pose_are_no_loops() {
         let clip = synthetic::walk("part", whole(1.4));
-        assert_eq!(unrolled(grounded_clip(&clip, &clip.body), &clip.body).loop_frames, None);
+        assert_eq!(unrolled(grounded_clip(&clip, &clip.body), &clip.body).loop_frames(), None);
     }
 }

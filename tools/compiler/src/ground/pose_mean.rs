@@ -30,9 +30,9 @@ pub(crate) fn pose_mean(parts: &[(f64, HumanPose)], body: &HumanBody) -> HumanPo
 /// The pose between the second and the third of four successive poses: joints by Catmull–Rom, feet by a monotone cubic.
 ///
 /// With the monotone cubic a foot that stands in both poses does not move because it is about to leave.
-pub(crate) fn pose_between(poses: [&HumanPose; 4], share: f64, body: &HumanBody) -> HumanPose {
+pub(crate) fn pose_between(poses: [HumanPose; 4], share: f64, body: &HumanBody) -> HumanPose {
     let weights = catmull_rom(share);
-    let parts: Vec<(f64, HumanPose)> = weights.into_iter().zip(poses).map(|(w, pose)| (w, pose.clone())).collect();
+    let parts: Vec<(f64, HumanPose)> = weights.into_iter().zip(poses).collect();
     let feet = |joints: &[(f64, HumanJoints)], side: usize| {
         let points_m: Vec<[DVec3; 3]> = joints.iter().map(|(_, joints)| joints.measured_points_m(body, side)).collect();
         std::array::from_fn(|point| {
@@ -122,7 +122,7 @@ mod tests {
             |pose: &HumanPose, side: usize| pose.forward_kinematics(&clip.body).sole_points_m(&clip.body, side);
         let mut planted = 0;
         for poses in clip.frames.windows(4) {
-            let between = pose_between([&poses[0], &poses[1], &poses[2], &poses[3]], 0.4, &clip.body);
+            let between = pose_between([0, 1, 2, 3].map(|pose| poses[pose].clone()), 0.4, &clip.body);
             for side in 0..2 {
                 let [from, to] = [&poses[1], &poses[2]].map(|pose| points_m(pose, side)[0]);
                 if from.distance(to) < 1e-6 {

@@ -12,8 +12,8 @@ use motiondb::body::Joint;
 use motiondb::statistics::percentile;
 
 use crate::ground::foot_grounding::lowest_sole_m;
+use crate::ground::grounded_clip::{GroundedClip, GroundedPoses};
 use crate::ground::leg_ik;
-use crate::ground::pose_mean::pose_between;
 use crate::ground::rotations::align_successive;
 use crate::retarget::human_clip::{HumanBody, HumanClip, HumanPose};
 
@@ -26,33 +26,46 @@ const FACING_SPAN_S: f64 = 1.0;
 /// Share of frames whose lowest sole lies below the floor: flight lifts many soles, noise drops a few.
 const FLOOR_PERCENTILE: f64 = 0.1;
 
-/// A clip on the target body.
-#[derive(Clone, Debug)]
-pub struct GroundedClip {
-    /// Frames per second.
-    pub frame_rate_hz: f64,
-    /// One pose a frame in the world; the rotations of successive poses lie in one hemisphere.
-    pub poses: Vec<HumanPose>,
-    /// Frames of one round of a clip that is a loop. `poses` then holds three rounds; frames
-    /// `loop_frames..2·loop_frames` are the middle one.
-    pub loop_frames: Option<usize>,
+/// A clip on a target body and on the ground; loops are not unrolled yet.
+pub fn grounded_clip<'a>(clip: &'a HumanClip, body: &HumanBody) -> GroundedClip<'a> {
+    let scale = body.leg_length_m() / clip.body.leg_length_m();
+    let poses = match has_bones_of(&clip.body, body, scale) {
+        true => GroundedPoses::Moved {
+            poses: &clip.frames,
+            pelvis_m: clip.frames.iter().map(|pose| pose.pelvis_m * scale).collect(),
+        },
+        false => GroundedPoses::Own(clip.frames.iter().map(|pose| on_target(pose, &clip.body, body, scale)).collect()),
+    };
+    on_ground(poses, clip, body, scale)
 }
 
-/// A clip on a target body and on the ground; loops are not unrolled yet.
-pub fn grounded_clip(clip: &HumanClip, body: &HumanBody) -> GroundedClip {
+/// As [`grounded_clip`], with poses of its own, which take the memory of the clip's: the clip has none afterwards.
+pub(crate) fn grounded_in_place(clip: &mut HumanClip, body: &HumanBody) -> GroundedClip<'static> {
     let scale = body.leg_length_m() / clip.body.leg_length_m();
+    let has_same_bones = has_bones_of(&clip.body, body, scale);
+    let mut poses = std::mem::take(&mut clip.frames);
+    for pose in &mut poses {
+        *pose = if has_same_bones { pose.scaled(scale) } else { on_target(pose, &clip.body, body, scale) };
+    }
+    on_ground(GroundedPoses::Own(poses), clip, body, scale)
+}
+
+/// Whether the bones of a body, scaled, are the target's.
+fn has_bones_of(source: &HumanBody, target: &HumanBody, scale: f64) -> bool {
     let is_same = |(own, other): (&DVec3, &DVec3)| (*own * scale - *other).length() <= SAME_BONE_M;
-    let same_bones = clip.body.offsets_m.iter().zip(&body.offsets_m).all(is_same);
-    let posed = |pose: &HumanPose| {
-        if same_bones { pose.scaled(scale) } else { on_target(pose, &clip.body, body, scale) }
-    };
-    let mut poses: Vec<HumanPose> = clip.frames.iter().map(posed).collect();
+    source.offsets_m.iter().zip(&target.offsets_m).all(is_same)
+}
+
+/// Puts poses of a clip, `scale` times as large, on the ground.
+fn on_ground<'a>(mut poses: GroundedPoses<'a>, clip: &HumanClip, body: &HumanBody, scale: f64) -> GroundedClip<'a> {
     lower_to_floor(&mut poses, body);
     if let Some(ground_speed) = clip.in_place_mps {
         travel(&mut poses, body, ground_speed * scale, clip.frame_rate_hz);
     }
-    align_successive(&mut poses);
-    GroundedClip { frame_rate_hz: clip.frame_rate_hz, poses, loop_frames: None }
+    if let GroundedPoses::Own(poses) = &mut poses {
+        align_successive(poses);
+    }
+    GroundedClip { frame_rate_hz: clip.frame_rate_hz, poses, rounds: None }
 }
 
 /// The pose with the target's bones: scaled, rotations kept, ankles at their scaled positions over the target's soles.
@@ -92,39 +105,27 @@ fn align_foot(pose: &mut HumanPose, source: &HumanBody, target: &HumanBody, side
 }
 
 /// Shifts the clip so that the lowest soles of most frames lie at z = 0.
-fn lower_to_floor(poses: &mut [HumanPose], body: &HumanBody) {
-    let lowest_m = poses.iter().map(|pose| {
-        let joints = pose.forward_kinematics(body);
+fn lower_to_floor(poses: &mut GroundedPoses, body: &HumanBody) {
+    let lowest_m = (0..poses.len()).map(|frame| {
+        let joints = poses.pose(frame).forward_kinematics(body);
         lowest_sole_m(&joints, body, 0).min(lowest_sole_m(&joints, body, 1))
     });
     let floor_m = percentile(lowest_m, FLOOR_PERCENTILE).unwrap_or(0.0);
-    for pose in poses {
-        pose.pelvis_m.z -= floor_m;
-    }
+    poses.pelvis_mut().for_each(|pelvis_m| pelvis_m.z -= floor_m);
 }
 
 /// Adds the ground speed of a clip in place (forward, left, m/s), along the facing of each moment without its sway.
-fn travel(poses: &mut [HumanPose], body: &HumanBody, ground_speed_mps: DVec2, frame_rate_hz: f64) {
-    let facing = |pose: &HumanPose| DVec2::from_angle(pose.forward_kinematics(body).facing_rad());
-    let facings: Vec<DVec2> = poses.iter().map(facing).collect();
+fn travel(poses: &mut GroundedPoses, body: &HumanBody, ground_speed_mps: DVec2, frame_rate_hz: f64) {
+    let facing = |frame: usize| DVec2::from_angle(poses.pose(frame).forward_kinematics(body).facing_rad());
+    let facings: Vec<DVec2> = (0..poses.len()).map(facing).collect();
     let half = (0.5 * FACING_SPAN_S * frame_rate_hz) as usize;
     let mut travelled_m = DVec2::ZERO;
-    for (frame, pose) in poses.iter_mut().enumerate() {
-        pose.pelvis_m += travelled_m.extend(0.0);
+    for (frame, pelvis_m) in poses.pelvis_mut().enumerate() {
+        *pelvis_m += travelled_m.extend(0.0);
         // The same span before and after the frame, or a turn would be late at one end and early at the other.
         let half = half.min(frame).min(facings.len() - 1 - frame);
         let forward = facings[frame - half..=frame + half].iter().sum::<DVec2>().normalize_or(facings[frame]);
         travelled_m += forward.rotate(ground_speed_mps) / frame_rate_hz;
-    }
-}
-
-impl GroundedClip {
-    /// The pose at a fractional frame, clamped to the clip.
-    pub fn pose_at(&self, frame: f64, body: &HumanBody) -> HumanPose {
-        let last = self.poses.len() - 1;
-        let base = (frame.max(0.0) as usize).min(last.saturating_sub(1));
-        let neighbours = [base.saturating_sub(1), base, (base + 1).min(last), (base + 2).min(last)];
-        pose_between(neighbours.map(|frame| &self.poses[frame]), (frame - base as f64).clamp(0.0, 1.0), body)
     }
 }
 
@@ -133,6 +134,27 @@ mod tests {
     use super::*;
     use crate::ground::root_arc::{Rates, RootArc};
     use crate::synthetic::{self, SyntheticWalk, cycle_of};
+
+    fn poses(clip: &GroundedClip) -> Vec<HumanPose> {
+        (0..clip.frame_count()).map(|frame| clip.pose(frame)).collect()
+    }
+
+    #[test]
+    fn a_clip_grounded_in_place_has_the_same_poses() {
+        let mut clip = synthetic::walk("walk", SyntheticWalk::default());
+        clip.in_place_mps = Some(DVec2::new(1.0, 0.0));
+        let mut other = synthetic::body(0.9);
+        other.offsets_m[Joint::LeftThigh.index()].y += 0.03;
+        for body in [clip.body.scaled(0.7), other] {
+            let grounded = grounded_clip(&clip, &body);
+            let is_moved = matches!(grounded.poses, GroundedPoses::Moved { .. });
+            assert_eq!(is_moved, body != synthetic::body(0.9) && body.leg_length_m() < 0.7);
+            let in_place = grounded_in_place(&mut clip.clone(), &body);
+            for (found, wanted) in poses(&in_place).iter().zip(poses(&grounded)) {
+                assert_eq!(found.forward_kinematics(&body).positions_m, wanted.forward_kinematics(&body).positions_m);
+            }
+        }
+    }
 
     #[test]
     fn clips_in_place_travel_at_their_ground_speed() {
@@ -158,7 +180,7 @@ mod tests {
                 let joints = pose.forward_kinematics(body);
                 joints.positions_m[Joint::THIGHS[0].index()].distance(joints.positions_m[Joint::FEET[0].index()])
             };
-            grounded_clip(&clip, body).poses.iter().map(reach_m).collect()
+            poses(&grounded_clip(&clip, body)).iter().map(reach_m).collect()
         };
         let errors_m =
             reaches_m(&clip.body).into_iter().zip(reaches_m(&target)).map(|(own, found)| (own - found).abs());
@@ -174,7 +196,7 @@ mod tests {
             let joints = pose.forward_kinematics(&clip.body);
             lowest_sole_m(&joints, &clip.body, 0).min(lowest_sole_m(&joints, &clip.body, 1))
         };
-        assert!(grounded.poses.iter().all(|pose| lowest_m(pose).abs() < 0.005));
+        assert!(poses(&grounded).iter().all(|pose| lowest_m(pose).abs() < 0.005));
     }
 
     #[test]
@@ -183,7 +205,7 @@ mod tests {
         let mut body = synthetic::body(0.9);
         body.offsets_m[Joint::LeftThigh.index()].y += 0.03;
         body.offsets_m[Joint::RightThigh.index()].y -= 0.03;
-        for (pose, source) in grounded_clip(&clip, &body).poses.iter().zip(&clip.frames) {
+        for (pose, source) in poses(&grounded_clip(&clip, &body)).iter().zip(&clip.frames) {
             let (placed, recorded) = (pose.forward_kinematics(&body), source.forward_kinematics(&clip.body));
             for foot in Joint::FEET.map(Joint::index) {
                 let error_m = placed.positions_m[foot] - recorded.positions_m[foot] * 0.9;

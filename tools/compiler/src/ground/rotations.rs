@@ -20,10 +20,22 @@ pub(crate) fn rotation_vector(rotation: DQuat) -> DVec3 {
     (if rotation.w < 0.0 { -rotation } else { rotation }).to_scaled_axis()
 }
 
-/// Flips quaternions into the hemispheres of a reference.
-pub(crate) fn align_hemispheres(rotations: &mut [DQuat; JOINT_COUNT], reference: &[DQuat; JOINT_COUNT]) {
-    for (rotation, reference) in rotations.iter_mut().zip(reference) {
+/// Flips quaternions into the hemispheres of a reference; returns the flipped joints, one bit each.
+pub(crate) fn align_hemispheres(rotations: &mut [DQuat; JOINT_COUNT], reference: &[DQuat; JOINT_COUNT]) -> u32 {
+    let mut flipped = 0;
+    for (joint, (rotation, reference)) in rotations.iter_mut().zip(reference).enumerate() {
         if rotation.dot(*reference) < 0.0 {
+            *rotation = -*rotation;
+            flipped |= 1 << joint;
+        }
+    }
+    flipped
+}
+
+/// Negates the quaternions of some joints, one bit each.
+pub(crate) fn flip(rotations: &mut [DQuat; JOINT_COUNT], joints: u32) {
+    for (joint, rotation) in rotations.iter_mut().enumerate() {
+        if joints >> joint & 1 == 1 {
             *rotation = -*rotation;
         }
     }

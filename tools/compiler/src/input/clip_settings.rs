@@ -12,6 +12,7 @@ use crate::input::name_suggestions::nearest_first;
 use crate::read::axis::Axis;
 use crate::read::gltf::Outside;
 use crate::read::source_clip::SourceClip;
+use crate::read::source_motion::SourceMotion;
 use crate::rig::roles::JointMap;
 
 /// One clip to import. The default of every field but `path` lets the compiler find the value.
@@ -75,20 +76,21 @@ impl ClipSettings {
     ///
     /// # Errors
     /// [`RejectionReason::ManifestContradicted`] if the clip has fewer frames than are stated.
-    pub(crate) fn apply_to(&self, clip: &mut SourceClip) -> Result<(), RejectionReason> {
+    pub(crate) fn apply_to(&self, motion: &mut SourceMotion) -> Result<(), RejectionReason> {
+        let clip = &mut motion.head;
         clip.frame_rate_hz = self.frame_rate_hz.unwrap_or(clip.frame_rate_hz);
         clip.metres_per_unit = self.metres_per_unit.or(clip.metres_per_unit);
         clip.up_axis = self.up.or(clip.up_axis);
         let Some([first, last]) = self.frames else { return Ok(()) };
-        let count = clip.frame_count();
+        let count = motion.frame_count();
         if last > count {
             return Err(RejectionReason::ManifestContradicted {
                 key: ManifestKey::Frames,
-                problem: format!("{} has no frame {last}: its frames are 1 to {count}", title(clip)),
+                problem: format!("{} has no frame {last}: its frames are 1 to {count}", title(&motion.head)),
                 remedy: "end the range earlier",
             });
         }
-        clip.keep_frames(first - 1..last);
+        motion.keep_frames(first - 1..last);
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Enters: bytes of a BVH or glTF file. Leaves: its clips, in the file's own unit and axes.
 //!
-//! Read `axis` and `source_clip`, then [`bvh`], then [`gltf`]. `decimal` reads numbers, `malformed` makes the errors
+//! Read `axis`, `source_clip` and `source_motion`, then [`bvh`], then [`gltf`]. `decimal` reads numbers, `malformed` makes the errors
 //! for broken files, `catch_panic` guards other crates' parsers.
 
 pub(crate) mod axis;
@@ -12,6 +12,7 @@ pub(crate) mod decimal;
 pub mod gltf;
 pub(crate) mod malformed;
 pub(crate) mod source_clip;
+pub(crate) mod source_motion;
 
 pub use axis::Axis;
 pub use source_clip::{SourceClip, SourceJoint};

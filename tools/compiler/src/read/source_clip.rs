@@ -14,8 +14,8 @@ use crate::read::axis::Axis;
 /// Greatest number of joints of a clip; the largest rig of the development set, with face and fingers, has 165.
 pub(crate) const MAX_JOINTS: usize = 4096;
 
-/// Greatest number of frames of a clip: two hours at 30 Hz, 34 minutes at 120 Hz. The analysis of its gait takes up to
-/// 9 KB a frame.
+/// Greatest number of frames of a clip: two hours at 30 Hz, 34 minutes at 120 Hz. Import and
+/// analysis take up to 2 KB a frame.
 pub(crate) const MAX_FRAMES: usize = 250_000;
 /// Greatest number of joint-frames of a clip, 1.1 GB: 80 joints in each of the most frames.
 pub(crate) const MAX_JOINT_FRAMES: usize = 20_000_000;
@@ -46,7 +46,7 @@ pub struct SourceClip {
     pub file: String,
     /// Clip within the file; empty where the file holds one clip without a name.
     pub clip: String,
-    /// All joints; each parent comes before its children.
+    /// The joints; each parent comes before its children.
     pub joints: Vec<SourceJoint>,
     /// Number of the file's frames before the first frame of this clip.
     pub first_frame: usize,
@@ -54,7 +54,9 @@ pub struct SourceClip {
     pub frame_rate_hz: f64,
     /// Global positions, source units, at index frame · joint count + joint.
     pub positions: Vec<DVec3>,
-    /// Global orientations, in the order of `positions`.
+    /// Number of joints, first ones, that have orientations: all of a whole clip.
+    pub oriented: usize,
+    /// Global orientations at index frame · `oriented` + joint.
     pub orientations: Vec<DQuat>,
     /// Metres of one source unit, where the format (glTF: 1) or the manifest states it.
     pub metres_per_unit: Option<f64>,
@@ -62,6 +64,31 @@ pub struct SourceClip {
     pub up_axis: Option<Axis>,
     /// What the stages so far report of the clip.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Joints that a clip keeps, in their new order.
+pub(crate) struct KeptJoints {
+    /// Joints with position and orientation.
+    pub oriented: Vec<usize>,
+    /// Joints with a position alone.
+    pub points: Vec<usize>,
+}
+
+impl KeptJoints {
+    /// All of so many joints.
+    pub(crate) fn all(count: usize) -> Self {
+        Self { oriented: (0..count).collect(), points: Vec::new() }
+    }
+
+    /// All joints in their new order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = usize> + '_ {
+        self.oriented.iter().chain(&self.points).copied()
+    }
+
+    /// Number of joints.
+    pub(crate) fn len(&self) -> usize {
+        self.oriented.len() + self.points.len()
+    }
 }
 
 impl SourceClip {
@@ -77,7 +104,40 @@ impl SourceClip {
 
     /// Global orientation of a joint.
     pub fn orientation(&self, frame: usize, joint: usize) -> DQuat {
-        self.orientations[frame * self.joints.len() + joint]
+        self.orientations[frame * self.oriented + joint]
+    }
+
+    /// Keeps some joints in all frames. A joint whose parent is left out, or comes later now, becomes a root.
+    pub(crate) fn keep_joints(&mut self, kept: &KeptJoints) {
+        let (count, oriented) = (self.joints.len(), self.oriented);
+        let mut slots = vec![None; count];
+        kept.iter().enumerate().for_each(|(slot, joint)| slots[joint] = Some(slot));
+        let joint = |(slot, index): (usize, usize)| {
+            let joint = &self.joints[index];
+            let parent = joint.parent.and_then(|parent| slots[parent]).filter(|&parent| parent < slot);
+            SourceJoint { parent, ..joint.clone() }
+        };
+        let frames = 0..self.frame_count();
+        let of_frame = |frame: usize| kept.iter().map(move |joint| frame * count + joint);
+        let positions = frames.clone().flat_map(of_frame).map(|index| self.positions[index]).collect();
+        let of_frame = |frame: usize| kept.oriented.iter().map(move |&joint| frame * oriented + joint);
+        let orientations = frames.flat_map(of_frame).map(|index| self.orientations[index]).collect();
+        self.joints = kept.iter().enumerate().map(joint).collect();
+        self.oriented = kept.oriented.len();
+        (self.positions, self.orientations) = (positions, orientations);
+    }
+
+    /// Whether each joint is one of `joints` or above one.
+    pub(crate) fn with_ancestors(&self, joints: impl Iterator<Item = usize>) -> Vec<bool> {
+        let mut is_marked = vec![false; self.joints.len()];
+        joints.for_each(|joint| is_marked[joint] = true);
+        // A parent comes before its children.
+        for (joint, SourceJoint { parent, .. }) in self.joints.iter().enumerate().rev() {
+            if let (true, Some(parent)) = (is_marked[joint], *parent) {
+                is_marked[parent] = true;
+            }
+        }
+        is_marked
     }
 
     /// Removes all frames outside a range.
@@ -85,8 +145,17 @@ impl SourceClip {
         self.first_frame += frames.start;
         let (first, last) = (frames.start * self.joints.len(), frames.end * self.joints.len());
         self.positions.truncate(last);
-        self.orientations.truncate(last);
         self.positions.drain(..first);
+        let (first, last) = (frames.start * self.oriented, frames.end * self.oriented);
+        self.orientations.truncate(last);
         self.orientations.drain(..first);
+    }
+
+    /// Removes the frames from one on, and gives their memory back.
+    pub(crate) fn free_from(&mut self, frame: usize) {
+        self.positions.truncate(frame * self.joints.len());
+        self.positions.shrink_to_fit();
+        self.orientations.truncate(frame * self.oriented);
+        self.orientations.shrink_to_fit();
     }
 }

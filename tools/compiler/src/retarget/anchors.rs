@@ -33,7 +33,11 @@ const ANKLE_OVER_LEG: f64 = 0.07;
 impl JointAnchor {
     /// Global position in one frame, m.
     pub(crate) fn position_m(&self, clip: &SourceClip, frame: usize) -> DVec3 {
-        clip.position(frame, self.joint) + clip.orientation(frame, self.joint) * self.offset_m
+        let position_m = clip.position(frame, self.joint);
+        if self.offset_m == DVec3::ZERO {
+            return position_m;
+        }
+        position_m + clip.orientation(frame, self.joint) * self.offset_m
     }
 }
 

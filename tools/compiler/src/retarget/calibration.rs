@@ -28,20 +28,16 @@ const STRAIGHT_HINGE: f64 = 0.05;
 /// Least mean bend of a knee whose hinge counts, as a sine (5°): standing knees bend back and aside by as much.
 const LEAST_KNEE_BEND: f64 = 0.087;
 
-/// Orientations of all canonical joints in all frames: R_j(t) = G_j(t)·K_j.
-pub(crate) fn calibrated(tracks: &JointTracks) -> Vec<[DQuat; JOINT_COUNT]> {
-    let mut orientations = vec![[DQuat::IDENTITY; JOINT_COUNT]; tracks.positions_m.len()];
+/// The constant rotation K_j of each canonical joint.
+pub(crate) fn calibration(tracks: &JointTracks) -> [DQuat; JOINT_COUNT] {
+    let mut constants = [DQuat::IDENTITY; JOINT_COUNT];
     for joint in Joint::ALL {
-        let index = joint.index();
-        let [first, second] = matched_directions(tracks, joint, &orientations);
+        let [first, second] = matched_directions(tracks, joint, &constants);
         let source = basis(first.source, second.source);
         let rest = basis(first.rest, second.rest);
-        let constant = DQuat::from_mat3(&(source * rest.transpose()));
-        for (frame, orientation) in orientations.iter_mut().enumerate() {
-            orientation[index] = (tracks.source_orientation(joint, frame) * constant).normalize();
-        }
+        constants[joint.index()] = DQuat::from_mat3(&(source * rest.transpose()));
     }
-    orientations
+    constants
 }
 
 /// A direction in the source joint's frame and in the rest pose.
@@ -57,16 +53,13 @@ fn basis(first: DVec3, second: DVec3) -> DMat3 {
     DMat3::from_cols(first, second, first.cross(second))
 }
 
-/// Both directions of a joint; `orientations` holds its ancestors already.
-fn matched_directions(
-    tracks: &JointTracks,
-    joint: Joint,
-    orientations: &[[DQuat; JOINT_COUNT]],
-) -> [MatchedDirection; 2] {
+/// Both directions of a joint; `constants` holds those of its ancestors already.
+fn matched_directions(tracks: &JointTracks, joint: Joint, constants: &[DQuat; JOINT_COUNT]) -> [MatchedDirection; 2] {
     let side = side(joint);
     let [first_rest, second_rest] = rest_directions(joint, side);
-    let like_parent =
-        |frame: usize, rest: DVec3| joint.parent().map_or(rest, |parent| orientations[frame][parent.index()] * rest);
+    let like_parent = |frame: usize, rest: DVec3| {
+        joint.parent().map_or(rest, |parent| tracks.orientation(parent, frame, constants) * rest)
+    };
     let first = |frame: usize| first_direction(tracks, joint, frame).unwrap_or_else(|| like_parent(frame, first_rest));
     let is_leg = matches!(joint, Joint::LeftThigh | Joint::RightThigh | Joint::LeftShank | Joint::RightShank);
     let is_straight = is_leg && is_knee_straight(tracks, side);
@@ -137,7 +130,7 @@ fn second_direction(tracks: &JointTracks, joint: Joint, frame: usize) -> Option<
 /// Whether a knee hardly bends in the whole clip.
 fn is_knee_straight(tracks: &JointTracks, side: Side) -> bool {
     let bend = |frame: usize| tracks.knee_hinge(side.index(), frame).map_or(0.0, |hinge| hinge.dot(tracks.left(frame)));
-    let frames = tracks.positions_m.len();
+    let frames = tracks.frame_count();
     (0..frames).map(bend).sum::<f64>() < LEAST_KNEE_BEND * frames as f64
 }
 
@@ -149,7 +142,7 @@ fn measured_frames(tracks: &JointTracks, joint: Joint) -> Vec<usize> {
         Joint::LeftFoot | Joint::RightFoot | Joint::LeftToe | Joint::RightToe => {
             tracks.flat_frames(&[Joint::FEET[side], Joint::TOES[side]])
         }
-        _ => (0..tracks.positions_m.len()).collect(),
+        _ => (0..tracks.frame_count()).collect(),
     }
 }
 

@@ -7,11 +7,11 @@
 //!
 //! Heel and ball are in the canonical foot's frame, the toe tip in the toe's; metres.
 
-use glam::{DQuat, DVec3};
-use motiondb::body::{JOINT_COUNT, Joint};
+use glam::DVec3;
+use motiondb::body::Joint;
 use motiondb::statistics::lower_quantile;
 
-use crate::retarget::joint_tracks::JointTracks;
+use crate::retarget::joint_tracks::{CalibratedTracks, JointTracks};
 
 /// Distance of the heel behind the ankle, divided by the distance from ankle to ball: 5 cm of 13.
 const HEEL_BEHIND: f64 = 0.4;
@@ -37,41 +37,38 @@ pub(crate) struct Soles {
     pub ground_m: f64,
 }
 
-/// The soles of a clip; `orientations` are those after calibration.
-pub(crate) fn soles(tracks: &JointTracks, orientations: &[[DQuat; JOINT_COUNT]], leg_m: f64) -> Soles {
+/// The soles of a clip.
+pub(crate) fn soles(calibrated: &CalibratedTracks, leg_m: f64) -> Soles {
+    let tracks = &calibrated.tracks;
     if let [Some(left), Some(right)] = tracks.roles.soles {
-        let points_m = [sole_joints(tracks, orientations, 0, left), sole_joints(tracks, orientations, 1, right)];
+        let points_m = [sole_joints(calibrated, 0, left), sole_joints(calibrated, 1, right)];
         let height = |joint| planted_height_m(tracks, |frame| tracks.clip.position(frame, joint).z);
         let ground_m = left.into_iter().chain(right).map(height).fold(f64::INFINITY, f64::min);
         return Soles { points_m, measured_m: points_m, ground_m };
     }
     let ground_m = ground_height_m(tracks, leg_m);
-    let measured_m = [0, 1].map(|side| foot_joints(tracks, orientations, side, leg_m));
+    let measured_m = [0, 1].map(|side| foot_joints(calibrated, side, leg_m));
     let points_m = [0, 1].map(|side| under_joints(tracks, side, measured_m[side], ground_m));
     Soles { points_m, measured_m, ground_m }
 }
 
 /// The `…Sole` joints of a foot.
-fn sole_joints(
-    tracks: &JointTracks,
-    orientations: &[[DQuat; JOINT_COUNT]],
-    side: usize,
-    joints: [usize; 3],
-) -> [DVec3; 3] {
+fn sole_joints(calibrated: &CalibratedTracks, side: usize, joints: [usize; 3]) -> [DVec3; 3] {
     let carriers = [Joint::FEET[side], Joint::FEET[side], Joint::TOES[side]];
     [0, 1, 2].map(|point| {
-        tracks.mean_in_frame_of(carriers[point], orientations, |frame| tracks.clip.position(frame, joints[point]))
+        let point_m = |frame| calibrated.tracks.clip.position(frame, joints[point]);
+        calibrated.mean_in_frame_of(carriers[point], point_m)
     })
 }
 
 /// Height at which a point is planted: a low quantile of its heights.
 fn planted_height_m(tracks: &JointTracks, height_m: impl Fn(usize) -> f64) -> f64 {
-    lower_quantile((0..tracks.positions_m.len()).map(height_m), PLANTED_QUANTILE).unwrap_or_default()
+    lower_quantile((0..tracks.frame_count()).map(height_m), PLANTED_QUANTILE).unwrap_or_default()
 }
 
 /// Height of the ground under joints without soles.
 fn ground_height_m(tracks: &JointTracks, leg_m: f64) -> f64 {
-    let joint_height = |joint: Joint| planted_height_m(tracks, |frame| tracks.positions_m[frame][joint.index()].z);
+    let joint_height = |joint: Joint| planted_height_m(tracks, |frame| tracks.position_m(joint, frame).z);
     let end_height = |joint: Joint| {
         let end = tracks.roles.ends[joint.index()];
         end.map_or(f64::INFINITY, |end| planted_height_m(tracks, |frame| tracks.clip.position(frame, end).z))
@@ -82,13 +79,14 @@ fn ground_height_m(tracks: &JointTracks, leg_m: f64) -> f64 {
 }
 
 /// Joint of the heel (the ankle where there is none), ball, and end of the toe.
-fn foot_joints(tracks: &JointTracks, orientations: &[[DQuat; JOINT_COUNT]], side: usize, leg_m: f64) -> [DVec3; 3] {
+fn foot_joints(calibrated: &CalibratedTracks, side: usize, leg_m: f64) -> [DVec3; 3] {
+    let tracks = &calibrated.tracks;
     let (foot, toe) = (Joint::FEET[side], Joint::TOES[side]);
     let heel = tracks.roles.heels[side]
-        .map(|joint| tracks.mean_in_frame_of(foot, orientations, |frame| tracks.clip.position(frame, joint)))
+        .map(|joint| calibrated.mean_in_frame_of(foot, |frame| tracks.clip.position(frame, joint)))
         .filter(|heel| heel.z < 0.0);
-    let ball = tracks.mean_in_frame_of(foot, orientations, |frame| tracks.positions_m[frame][toe.index()]);
-    let end = tracks.mean_end(toe, orientations).filter(|end| end.length() > TIP_MIN_OVER_LEG * leg_m);
+    let ball = calibrated.mean_in_frame_of(foot, |frame| tracks.position_m(toe, frame));
+    let end = calibrated.mean_end(toe).filter(|end| end.length() > TIP_MIN_OVER_LEG * leg_m);
     [heel.unwrap_or(DVec3::ZERO), ball, end.unwrap_or(TIP_OVER_LEG * leg_m * DVec3::X)]
 }
 
@@ -97,7 +95,7 @@ fn under_joints(tracks: &JointTracks, side: usize, [heel, ball, end]: [DVec3; 3]
     let (foot, toe) = (Joint::FEET[side], Joint::TOES[side]);
     let flat = tracks.flat_frames(&[foot, toe]);
     let over_ground_m = |joint: Joint| {
-        let sum: f64 = flat.iter().map(|&frame| tracks.positions_m[frame][joint.index()].z).sum();
+        let sum: f64 = flat.iter().map(|&frame| tracks.position_m(joint, frame).z).sum();
         (sum / flat.len() as f64 - ground_m).max(0.0)
     };
     let (ankle_m, ball_m) = (over_ground_m(foot), over_ground_m(toe));

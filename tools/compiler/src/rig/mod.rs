@@ -16,15 +16,17 @@ mod source_rig;
 mod two_bodies;
 
 use crate::error::RejectionReason;
-use crate::read::source_clip::SourceClip;
+use crate::read::source_clip::{MAX_JOINTS, SourceClip};
 
 pub use roles::{JointMap, Roles};
+pub(crate) use source_rig::sampled_frames;
 
 /// The roles of a clip's joints. `known` states some of them: all joints of legs and arms, or none of them.
 ///
 /// # Errors
 /// Why the skeleton is not human, or why `known` cannot be true.
 pub fn find_roles(clip: &SourceClip, known: &JointMap) -> Result<Roles, RejectionReason> {
+    check_size(clip)?;
     if known.iter().all(Option::is_none) {
         two_bodies::check_is_one_body(clip)?;
     }
@@ -34,6 +36,17 @@ pub fn find_roles(clip: &SourceClip, known: &JointMap) -> Result<Roles, Rejectio
         return role_search::search(&without_names(clip), known).or(found);
     }
     found
+}
+
+/// Checks that a skeleton is no larger than the search for roles, which compares many pairs of joints, can handle.
+///
+/// # Errors
+/// [`RejectionReason::TooManyJoints`].
+pub(crate) fn check_size(clip: &SourceClip) -> Result<(), RejectionReason> {
+    match clip.joints.len() {
+        count if count > MAX_JOINTS => Err(RejectionReason::TooManyJoints { count }),
+        _ => Ok(()),
+    }
 }
 
 fn has_repeated_names(clip: &SourceClip) -> bool {
@@ -47,4 +60,45 @@ fn without_names(clip: &SourceClip) -> SourceClip {
     let mut clip = clip.clone();
     clip.joints.iter_mut().for_each(|joint| joint.name.clear());
     clip
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DQuat, DVec3};
+    use motiondb::body::JOINT_COUNT;
+
+    use super::*;
+    use crate::read::source_clip::SourceJoint;
+
+    /// A skeleton of so many joints in two frames.
+    fn skeleton(count: usize, parent: impl Fn(usize) -> usize) -> SourceClip {
+        let joint = |joint: usize| SourceJoint {
+            name: format!("joint {joint}"),
+            parent: (joint > 0).then(|| parent(joint)),
+            is_end: false,
+        };
+        SourceClip {
+            file: "heap.glb".into(),
+            clip: String::new(),
+            joints: (0..count).map(joint).collect(),
+            first_frame: 0,
+            frame_rate_hz: 30.0,
+            positions: (0..2 * count).map(|index| DVec3::new(index as f64, 0.0, 0.0)).collect(),
+            oriented: count,
+            orientations: vec![DQuat::IDENTITY; 2 * count],
+            metres_per_unit: None,
+            up_axis: None,
+            diagnostics: Vec::new(),
+        }
+    }
+
+    /// Without the limit each of these takes minutes.
+    #[test]
+    fn skeletons_of_200000_joints_are_refused_at_once() {
+        let too_many = Err(RejectionReason::TooManyJoints { count: 200_000 });
+        let shapes: [fn(usize) -> usize; 3] = [|joint| joint - 1, |_| 0, |joint| (joint - 1) / 2];
+        for parent in shapes {
+            assert_eq!(find_roles(&skeleton(200_000, parent), &[None; JOINT_COUNT]), too_many);
+        }
+    }
 }

@@ -7,7 +7,7 @@
 use motiondb::body::Joint;
 
 use crate::error::{ManifestKey, RejectionReason};
-use crate::read::source_clip::{MAX_JOINTS, SourceClip};
+use crate::read::source_clip::SourceClip;
 use crate::rig::body_plan;
 use crate::rig::limb::LimbPair;
 use crate::rig::role_assignment::assigned_roles;
@@ -29,9 +29,6 @@ const LOOSE_BONE: f64 = 0.15;
 /// # Errors
 /// As [`crate::rig::find_roles`].
 pub(crate) fn search(clip: &SourceClip, known: &JointMap) -> Result<Roles, RejectionReason> {
-    if clip.joints.len() > MAX_JOINTS {
-        return Err(RejectionReason::TooManyJoints { count: clip.joints.len() });
-    }
     let rig = SourceRig::new(clip);
     let (known_legs, known_arms) = (known_pair(&rig, known, LEGS)?, known_pair(&rig, known, ARMS)?);
     let [mut legs, mut arms] = body_plan::legs_and_arms(&rig, known_legs.clone(), known_arms.clone())?;

@@ -2,6 +2,8 @@
 
 use motiondb::body::{JOINT_COUNT, Joint};
 
+use crate::read::source_clip::KeptJoints;
+
 /// Source joint of each role; none where the role is open.
 pub type JointMap = [Option<usize>; JOINT_COUNT];
 
@@ -33,6 +35,27 @@ impl Roles {
     /// The source joint of a role that every clip has: pelvis, thigh, shank, foot, upper arm, forearm or hand.
     pub fn required(&self, joint: Joint) -> usize {
         self.joints[joint.index()].expect("find_roles assigns this role or rejects the clip")
+    }
+
+    /// The source joints that roles name. Only joints that rotate as a canonical joint need an orientation.
+    pub(crate) fn source_joints(&self) -> KeptJoints {
+        let mut oriented: Vec<usize> = self.joints.iter().flatten().copied().collect();
+        let of_feet = self.soles.iter().flatten().flatten().chain(self.heels.iter().flatten());
+        let points = self.ends.iter().flatten().chain(of_feet).copied();
+        let mut points: Vec<usize> = points.filter(|joint| !oriented.contains(joint)).collect();
+        for joints in [&mut oriented, &mut points] {
+            joints.sort_unstable();
+            joints.dedup();
+        }
+        KeptJoints { oriented, points }
+    }
+
+    /// The same roles in a clip that has only `kept`, which are those of [`Roles::source_joints`].
+    pub(crate) fn renumber(&mut self, kept: &KeptJoints) {
+        let of_feet = self.soles.iter_mut().flatten().flatten().chain(self.heels.iter_mut().flatten());
+        for joint in self.joints.iter_mut().chain(&mut self.ends).flatten().chain(of_feet) {
+            *joint = kept.iter().take_while(|kept| kept != joint).count();
+        }
     }
 
     /// Exchanges left and right.

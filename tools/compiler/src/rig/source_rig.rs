@@ -11,6 +11,11 @@ use crate::rig::joint_names::{self, BodyPart, NameHints};
 /// Greatest number of frames on which geometry is measured.
 const SAMPLES: usize = 48;
 
+/// The frames, of so many, on which geometry is measured.
+pub(crate) fn sampled_frames(count: usize) -> Vec<usize> {
+    (0..count).step_by(count.div_ceil(SAMPLES).max(1)).collect()
+}
+
 /// A source skeleton and what role search computes of it once.
 pub(crate) struct SourceRig<'a> {
     pub clip: &'a SourceClip,
@@ -32,12 +37,11 @@ impl<'a> SourceRig<'a> {
                 children[parent].push(index);
             }
         }
-        let step = clip.frame_count().div_ceil(SAMPLES).max(1);
         let mut rig = Self {
             clip,
             hints: clip.joints.iter().map(|joint| joint_names::hints(&joint.name)).collect(),
             children,
-            frames: (0..clip.frame_count()).step_by(step).collect(),
+            frames: sampled_frames(clip.frame_count()),
             reach: vec![0.0; clip.joints.len()],
         };
         for child in (0..clip.joints.len()).rev() {

@@ -6,7 +6,7 @@
 use motiondb::body::JOINT_COUNT;
 
 use crate::error::RejectionReason;
-use crate::read::source_clip::{SourceClip, SourceJoint};
+use crate::read::source_clip::{KeptJoints, SourceClip};
 use crate::rig::role_search;
 
 /// Least number of joints of a body: two legs and two arms of three joints each, and one from which they hang.
@@ -55,23 +55,7 @@ fn subtree(clip: &SourceClip, top: usize) -> Vec<usize> {
 
 /// The clip of some joints only. A joint whose parent is left out becomes a root.
 fn part(clip: &SourceClip, joints: &[usize]) -> SourceClip {
-    let frames = 0..clip.frame_count();
-    let joint = |&index: &usize| {
-        let parent = clip.joints[index].parent.and_then(|parent| joints.binary_search(&parent).ok());
-        SourceJoint { parent, ..clip.joints[index].clone() }
-    };
-    SourceClip {
-        file: clip.file.clone(),
-        clip: clip.clip.clone(),
-        joints: joints.iter().map(joint).collect(),
-        positions: frames
-            .clone()
-            .flat_map(|frame| joints.iter().map(move |&index| clip.position(frame, index)))
-            .collect(),
-        orientations: frames
-            .flat_map(|frame| joints.iter().map(move |&index| clip.orientation(frame, index)))
-            .collect(),
-        diagnostics: Vec::new(),
-        ..*clip
-    }
+    let mut part = SourceClip { diagnostics: Vec::new(), ..clip.clone() };
+    part.keep_joints(&KeptJoints { oriented: joints.to_vec(), points: Vec::new() });
+    part
 }

@@ -72,13 +72,13 @@ pub(crate) fn named_cycles(
     let period_s = standing_period_s(chosen_cycle(clips, &analyzed)?, &analyzed);
     let mut cycles = Vec::new();
     for (source, (clip, found)) in clips.iter().zip(analyzed).enumerate() {
-        let AnalyzedClip { grounded, windows, .. } = found;
+        let AnalyzedClip { grounded, frame_count, windows, .. } = found;
         for (index, SteadyCycle { window_s, motion, flaws, .. }) in windows.into_iter().enumerate() {
             let cycle = match motion {
                 SteadyMotion::Steps(cycle) => *cycle,
                 SteadyMotion::Stands(frames) => standing_cycle(&grounded, body, frames, period_s),
             };
-            let name = window_name(clip, index, window_s);
+            let name = window_name(clip, frame_count, index, window_s);
             let is_semi_procedural = is_chosen(clip, index, window_s);
             let choices = Choices { is_semi_procedural, ..clip.choices };
             cycles.push(NamedCycle { name, source: source as u32, window_s, mirrored: false, choices, flaws, cycle });
@@ -89,11 +89,11 @@ pub(crate) fn named_cycles(
 }
 
 /// The name of a clip's window: the first has the clip's own.
-fn window_name(clip: &HumanClip, index: usize, window_s: [f64; 2]) -> String {
+fn window_name(clip: &HumanClip, frame_count: usize, index: usize, window_s: [f64; 2]) -> String {
     if index == 0 {
         return clip.name.clone();
     }
-    let last_s = (clip.first_frame + clip.frames.len()) as f64 / clip.frame_rate_hz;
+    let last_s = (clip.first_frame + frame_count) as f64 / clip.frame_rate_hz;
     let width = format!("{last_s:.1}").len();
     format!("{}@{:0width$.1}s", clip.name, window_s[0])
 }
@@ -115,7 +115,8 @@ fn chosen_cycle<'a>(clips: &[HumanClip], analyzed: &'a [AnalyzedClip]) -> Result
     let named = windows().find(|(index, window)| is_chosen(clip, *index, window.window_s));
     named.and_then(|(_, window)| window.stepping()).map(Some).ok_or_else(|| {
         let stepping = windows().filter(|(_, window)| window.stepping().is_some());
-        let names = stepping.map(|(index, window)| window_name(clip, index, window.window_s)).collect();
+        let names =
+            stepping.map(|(index, window)| window_name(clip, found.frame_count, index, window.window_s)).collect();
         CompileError::NotStepping { name: clip.name.clone(), stepping: names }
     })
 }

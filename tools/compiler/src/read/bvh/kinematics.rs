@@ -1,4 +1,4 @@
-//! Channels and numbers of a BVH → global positions and orientations of all joints.
+//! Channels and numbers of a BVH → global positions and orientations of its joints, frame by frame.
 //!
 //! Position channels may replace OFFSET (Bandai, LaFAN1) or be relative to it (iClone). For the joints that carry the
 //! whole body, from the root to the first fork, the two differ by a constant displacement of everything, which
@@ -10,11 +10,11 @@ use std::path::Path;
 use bvh_anim::{Axis, Bvh, Channel};
 use glam::{DQuat, DVec3};
 
-use crate::error::RejectionReason;
 use crate::read::bvh::hierarchy::CheckedJoint;
 use crate::read::bvh::motion_section::MotionSection;
 use crate::read::bvh::prepass::CheckedBvh;
-use crate::read::source_clip::{SourceClip, SourceJoint, with_room};
+use crate::read::source_clip::{SourceClip, SourceJoint};
+use crate::read::source_motion::{FramePoser, JointPoses, SourceMotion};
 
 /// How one joint moves in its parent's frame.
 struct JointMotion {
@@ -23,6 +23,8 @@ struct JointMotion {
     channels: Vec<ChannelColumn>,
     /// Whether position channels are added to the offset instead of replacing it.
     is_relative: bool,
+    /// Whether the joint is an end site.
+    is_end: bool,
 }
 
 /// One channel, and the column of a row that holds its values.
@@ -33,57 +35,55 @@ struct ChannelColumn {
     axis: usize,
 }
 
-/// The clip of a checked BVH; `bvh` gives the channels of its joints.
-pub(crate) fn posed_clip(file: &Path, checked: CheckedBvh, bvh: &Bvh) -> Result<SourceClip, RejectionReason> {
+/// The motion of a checked BVH; `bvh` gives the channels of its joints.
+pub(crate) fn source_motion(file: &Path, checked: CheckedBvh, bvh: &Bvh) -> SourceMotion<'static> {
     let motions = joint_motions(&checked, bvh);
-    let CheckedBvh { joints, motion: MotionSection { frame_time_s, blocks, channels, row_count }, diagnostics } =
-        checked;
-    let mut poses = GlobalPoses::with_room(row_count * joints.len())?;
-    // Each block is freed before the next one is posed: both forms of a clip are never held at once.
-    for block in blocks {
-        block.chunks_exact(channels).for_each(|row| poses.push(row, &motions, &joints));
-    }
-    Ok(SourceClip {
+    let CheckedBvh { joints, motion, diagnostics } = checked;
+    let parents = joints.iter().map(|joint| joint.parent).collect();
+    let head = SourceClip {
         file: file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
         clip: String::new(),
         joints: joints.into_iter().map(source_joint).collect(),
         first_frame: 0,
-        frame_rate_hz: 1.0 / frame_time_s,
-        positions: poses.positions,
-        orientations: poses.orientations,
+        frame_rate_hz: 1.0 / motion.frame_time_s,
+        positions: Vec::new(),
+        oriented: 0,
+        orientations: Vec::new(),
         up_axis: None,
         metres_per_unit: None,
         diagnostics,
-    })
+    };
+    SourceMotion::new(head, motion.row_count, RowPoser { motions, parents, motion })
 }
 
-/// Global positions and orientations of the frames so far.
-struct GlobalPoses {
-    positions: Vec<DVec3>,
-    orientations: Vec<DQuat>,
+/// Poses rows of numbers.
+struct RowPoser {
+    motions: Vec<JointMotion>,
+    /// Parent of each joint.
+    parents: Vec<Option<usize>>,
+    motion: MotionSection,
 }
 
-impl GlobalPoses {
-    /// Room for a number of joint-frames.
-    fn with_room(joint_frames: usize) -> Result<Self, RejectionReason> {
-        Ok(Self { positions: with_room(joint_frames)?, orientations: with_room(joint_frames)? })
-    }
-
-    /// Appends one frame.
-    fn push(&mut self, row: &[f64], motions: &[JointMotion], joints: &[CheckedJoint]) {
-        let start = self.positions.len();
-        for (motion, joint) in motions.iter().zip(joints) {
-            let (offset, rotation) = motion.local(row);
-            let (position, orientation) = match joint.parent.map(|parent| start + parent) {
+impl FramePoser for RowPoser {
+    fn pose(&mut self, frame: usize, is_needed: &[bool], poses: &mut JointPoses) {
+        let row = self.motion.row(frame);
+        for joint in (0..self.motions.len()).filter(|&joint| is_needed[joint]) {
+            let (offset, rotation) = self.motions[joint].local(row);
+            let (position, orientation) = match self.parents[joint] {
                 Some(parent) => {
-                    let turn = self.orientations[parent];
-                    (self.positions[parent] + turn * offset, if joint.is_end { turn } else { turn * rotation })
+                    let turn = poses.orientations[parent];
+                    let is_end = self.motions[joint].is_end;
+                    (poses.positions[parent] + turn * offset, if is_end { turn } else { turn * rotation })
                 }
                 None => (offset, rotation),
             };
-            self.positions.push(position);
-            self.orientations.push(orientation.normalize());
+            poses.positions[joint] = position;
+            poses.orientations[joint] = orientation.normalize();
         }
+    }
+
+    fn free_before(&mut self, frame: usize) {
+        self.motion.free_before(frame);
     }
 }
 
@@ -123,7 +123,7 @@ fn joint_motions(checked: &CheckedBvh, bvh: &Bvh) -> Vec<JointMotion> {
     let motion = |(index, joint): (usize, &CheckedJoint)| {
         let channels = if joint.is_end { Vec::new() } else { channels_of_joints.next().unwrap_or_default() };
         let is_relative = index >= carriers && is_relative(joint.offset, &channels, &checked.motion);
-        JointMotion { offset: joint.offset, channels, is_relative }
+        JointMotion { offset: joint.offset, channels, is_relative, is_end: joint.is_end }
     };
     checked.joints.iter().enumerate().map(motion).collect()
 }

@@ -36,6 +36,7 @@ use std::path::Path;
 use crate::error::RejectionReason;
 use crate::read::malformed::malformed_line;
 use crate::read::source_clip::SourceClip;
+use crate::read::source_motion::SourceMotion;
 
 /// The text of a BVH file that `bvh_anim` can read, with all frames; none if the file is not BVH.
 pub fn canonical_text(bytes: &[u8]) -> Option<String> {
@@ -48,8 +49,13 @@ pub fn canonical_text(bytes: &[u8]) -> Option<String> {
 /// [`RejectionReason::Malformed`] at the line that breaks the format; [`RejectionReason::Unreadable`] and
 /// [`RejectionReason::OutOfMemory`].
 pub fn read(file: &Path, reader: impl BufRead) -> Result<SourceClip, RejectionReason> {
+    open(file, reader)?.into_whole_clip()
+}
+
+/// The motion of a BVH file, as [`read`], before its frames are posed.
+pub(crate) fn open(file: &Path, reader: impl BufRead) -> Result<SourceMotion<'static>, RejectionReason> {
     let checked = prepass::check(reader)?;
     let channels = bvh_anim::from_str(&checked.text(0))
         .or_else(|error| malformed_line(1, error.to_string(), "export the clip again"))?;
-    kinematics::posed_clip(file, checked, &channels)
+    Ok(kinematics::source_motion(file, checked, &channels))
 }

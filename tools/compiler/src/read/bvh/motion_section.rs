@@ -27,9 +27,9 @@ const FRAME_TIME_S: RangeInclusive<f64> = 1e-3..=1.0;
 pub(crate) struct MotionSection {
     /// Time between two frames, s.
     pub frame_time_s: f64,
-    /// All rows, one after the other, in blocks of whole rows, so that the clip's poses can replace them one by one. A
+    /// All rows, one after the other, in blocks of equally many, so that the clip's poses can replace them one by one. A
     /// row holds the joints' channels in the order of the hierarchy.
-    pub blocks: Vec<Vec<f64>>,
+    blocks: Vec<Vec<f64>>,
     /// Number of values in a row.
     pub channels: usize,
     /// Number of rows, at least one.
@@ -40,6 +40,21 @@ impl MotionSection {
     /// All rows in order.
     pub(crate) fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.blocks.iter().flat_map(|block| block.chunks_exact(self.channels))
+    }
+
+    /// One row.
+    pub(crate) fn row(&self, row: usize) -> &[f64] {
+        let rows = rows_per_block(self.channels);
+        let start = row % rows * self.channels;
+        &self.blocks[row / rows][start..start + self.channels]
+    }
+
+    /// Frees the blocks that hold only rows before this one.
+    pub(crate) fn free_before(&mut self, row: usize) {
+        let rows = rows_per_block(self.channels);
+        if row.is_multiple_of(rows) {
+            self.blocks[..row / rows].iter_mut().for_each(|block| *block = Vec::new());
+        }
     }
 }
 
@@ -72,6 +87,11 @@ pub(crate) fn checked_motion<R: BufRead>(
         diagnostics.push(Diagnostic::Warning(wrong));
     }
     Ok(MotionSection { frame_time_s, blocks: rows.blocks, channels, row_count })
+}
+
+/// Number of rows in a block.
+fn rows_per_block(channels: usize) -> usize {
+    (BLOCK_VALUES / channels.max(1)).max(1)
 }
 
 /// Greatest number of rows.
@@ -150,7 +170,8 @@ impl RowReader {
 
     /// Appends the values of a line; returns their number.
     fn push_row(&mut self, line: &TextLine) -> Result<usize, RejectionReason> {
-        if self.blocks.last().is_none_or(|block| block.len() + self.channels > BLOCK_VALUES) {
+        let most = rows_per_block(self.channels) * self.channels;
+        if self.blocks.last().is_none_or(|block| block.len() >= most) {
             self.blocks.push(Vec::new());
         }
         let Some(block) = self.blocks.last_mut() else { return Ok(0) };

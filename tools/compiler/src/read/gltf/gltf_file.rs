@@ -7,11 +7,12 @@ use motiondb::diagnostic::{Diagnostic, Note};
 
 use crate::error::RejectionReason;
 use crate::read::gltf::buffers::Outside;
-use crate::read::gltf::clip_plan::{ClipPlan, FRAME_RATE_HZ, clip_plans};
+use crate::read::gltf::clip_plan::{ClipPlan, ClipSpan, FRAME_RATE_HZ, clip_plans};
 use crate::read::gltf::document::Document;
 use crate::read::gltf::node_tree::{BodyNodes, NodeTree};
-use crate::read::gltf::sampling::{PoseSampler, key_tracks};
+use crate::read::gltf::sampling::{KeyPoser, key_tracks};
 use crate::read::source_clip::{SourceClip, SourceJoint};
+use crate::read::source_motion::SourceMotion;
 
 /// A glTF or GLB file, open for reading its clips.
 pub struct GltfFile<'a> {
@@ -60,30 +61,35 @@ impl<'a> GltfFile<'a> {
     /// # Errors
     /// [`RejectionReason::Malformed`] if the clip's part of the file breaks the format.
     pub fn clip(&self, index: usize) -> Result<SourceClip, RejectionReason> {
+        self.motion(index)?.into_whole_clip()
+    }
+
+    /// The motion of one clip, as [`GltfFile::clip`], before its frames are posed.
+    pub(crate) fn motion(&self, index: usize) -> Result<SourceMotion<'_>, RejectionReason> {
         let plan = &self.plans[index];
-        let span = plan.span.clone()?;
+        let ClipSpan { start_s, frames } = plan.span.clone()?;
         let body = &self.bodies[plan.body];
         let tracks = key_tracks(&self.document, plan.animation, &body.is_member(&self.tree))?;
-        let parents = body.parents(&self.tree);
-        let sampler = PoseSampler { tree: &self.tree, body, parents: &parents, tracks: &tracks };
-        let (positions, orientations) = sampler.sample(self.document.rest_transforms(), &span)?;
-        let joint = |(slot, &parent): (&usize, &Option<usize>)| SourceJoint {
+        let joint = |(slot, parent): (&usize, Option<usize>)| SourceJoint {
             name: self.document.root.nodes[self.tree.order[*slot]].name.clone().unwrap_or_default(),
             parent,
             is_end: false,
         };
         let pointers = self.document.has_nodeless_channels.then_some(Diagnostic::Note(Note::PointersNotRead));
-        Ok(SourceClip {
+        let head = SourceClip {
             file: self.path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
             clip: plan.name.clone(),
-            joints: body.slots.iter().zip(&parents).map(joint).collect(),
+            joints: body.slots.iter().zip(body.parents(&self.tree)).map(joint).collect(),
             first_frame: 0,
             frame_rate_hz: FRAME_RATE_HZ,
-            positions,
-            orientations,
+            positions: Vec::new(),
+            oriented: 0,
+            orientations: Vec::new(),
             up_axis: None,
             metres_per_unit: Some(1.0),
             diagnostics: pointers.into_iter().collect(),
-        })
+        };
+        let poser = KeyPoser::new(&self.tree, body, tracks, start_s, self.document.rest_transforms());
+        Ok(SourceMotion::new(head, frames, poser))
     }
 }

@@ -1,17 +1,17 @@
-//! Key tracks → global positions and orientations of a body's joints in every frame.
+//! Key tracks → global positions and orientations of a body's joints, frame by frame.
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use crate::error::RejectionReason;
 use crate::read::gltf::accessor;
-use crate::read::gltf::clip_plan::{ClipSpan, FRAME_RATE_HZ};
+use crate::read::gltf::clip_plan::FRAME_RATE_HZ;
 use crate::read::gltf::document::Document;
 use crate::read::gltf::key_track::{self, KeyTrack};
 use crate::read::gltf::node_channel::moving_channels;
 use crate::read::gltf::node_transform::NodeTransform;
 use crate::read::gltf::node_tree::{BodyNodes, NodeTree};
 use crate::read::malformed::malformed;
-use crate::read::source_clip::with_room;
+use crate::read::source_motion::{FramePoser, JointPoses};
 
 /// Greatest count of numbers in the keys of one clip, beside [`NUMBERS_PER_BYTE`]; tracks may share their keys.
 const FREE_NUMBERS: usize = 16_000_000;
@@ -38,45 +38,49 @@ pub(crate) fn key_tracks(
     channels.iter().map(|channel| key_track::read(document, channel)).collect()
 }
 
-/// All that the poses of one clip depend on.
-pub(crate) struct PoseSampler<'a> {
-    pub tree: &'a NodeTree,
-    pub body: &'a BodyNodes,
+/// Poses the nodes of one body at the frames of one clip.
+pub(crate) struct KeyPoser<'a> {
+    tree: &'a NodeTree,
+    body: &'a BodyNodes,
     /// Parent of each node of the body, as an index into the body.
-    pub parents: &'a [Option<usize>],
-    pub tracks: &'a [KeyTrack],
+    parents: Vec<Option<usize>>,
+    tracks: Vec<KeyTrack>,
+    /// Time of the first frame, s.
+    start_s: f64,
+    /// Transforms of all nodes of the document in their parents' frames.
+    locals: Vec<NodeTransform>,
+    /// Global matrices of the body's nodes.
+    globals: Vec<DMat4>,
 }
 
-impl PoseSampler<'_> {
-    /// Global positions (metres) and orientations at index frame · joint count + joint. `locals` are the transforms of
-    /// all nodes at rest.
-    pub(crate) fn sample(
-        &self,
-        mut locals: Vec<NodeTransform>,
-        span: &ClipSpan,
-    ) -> Result<(Vec<DVec3>, Vec<DQuat>), RejectionReason> {
-        let node_frames = span.frames * self.parents.len();
-        let (mut positions, mut orientations) = (with_room(node_frames)?, with_room(node_frames)?);
-        for frame in 0..span.frames {
-            let time_s = span.start_s + frame as f64 / FRAME_RATE_HZ;
-            self.tracks.iter().for_each(|track| track.apply(time_s, &mut locals[track.node]));
-            for global in self.global_matrices(&locals) {
-                positions.push(global.w_axis.truncate());
-                orientations.push(orientation(DMat3::from_mat4(global)));
-            }
-        }
-        Ok((positions, orientations))
+impl<'a> KeyPoser<'a> {
+    /// `rest` holds the transforms of all nodes at rest.
+    pub(crate) fn new(
+        tree: &'a NodeTree,
+        body: &'a BodyNodes,
+        tracks: Vec<KeyTrack>,
+        start_s: f64,
+        rest: Vec<NodeTransform>,
+    ) -> Self {
+        let parents = body.parents(tree);
+        let globals = vec![DMat4::IDENTITY; parents.len()];
+        Self { tree, body, parents, tracks, start_s, locals: rest, globals }
     }
+}
 
-    /// Global matrices of the body's nodes, in its order.
-    fn global_matrices(&self, locals: &[NodeTransform]) -> Vec<DMat4> {
-        let mut globals: Vec<DMat4> = Vec::with_capacity(self.parents.len());
-        for (&slot, &parent) in self.body.slots.iter().zip(self.parents) {
-            let NodeTransform { translation, rotation, scale } = locals[self.tree.order[slot]];
+impl FramePoser for KeyPoser<'_> {
+    fn pose(&mut self, frame: usize, is_needed: &[bool], poses: &mut JointPoses) {
+        let time_s = self.start_s + frame as f64 / FRAME_RATE_HZ;
+        self.tracks.iter().for_each(|track| track.apply(time_s, &mut self.locals[track.node]));
+        for (joint, &parent) in self.parents.iter().enumerate().filter(|(joint, _)| is_needed[*joint]) {
+            let node = self.tree.order[self.body.slots[joint]];
+            let NodeTransform { translation, rotation, scale } = self.locals[node];
             let local = DMat4::from_scale_rotation_translation(scale, rotation, translation);
-            globals.push(parent.map_or(local, |parent| globals[parent] * local));
+            let global = parent.map_or(local, |parent| self.globals[parent] * local);
+            self.globals[joint] = global;
+            poses.positions[joint] = global.w_axis.truncate();
+            poses.orientations[joint] = orientation(DMat3::from_mat4(global));
         }
-        globals
     }
 }
 

@@ -1,0 +1,88 @@
+//! A clip on a target body: its poses, stored once.
+//!
+//! Poses that differ from those of the imported clip by their position alone are not stored again, nor are the rounds of
+//! a loop: an hour of capture takes a tenth of a gigabyte. World frame: metres, radians, Z up.
+
+use glam::DVec3;
+
+use crate::ground::loop_unrolling::LoopRounds;
+use crate::ground::pose_mean::pose_between;
+use crate::retarget::human_clip::{HumanBody, HumanPose};
+
+/// A clip on a target body. Where it has poses of its own, the rotations of successive poses lie in one hemisphere.
+#[derive(Clone, Debug)]
+pub struct GroundedClip<'a> {
+    /// Frames per second.
+    pub frame_rate_hz: f64,
+    /// One pose a frame in the world; of a loop those of one round.
+    pub(crate) poses: GroundedPoses<'a>,
+    /// The three rounds of a clip that is a loop.
+    pub(crate) rounds: Option<LoopRounds>,
+}
+
+/// Poses of successive frames.
+#[derive(Clone, Debug)]
+pub(crate) enum GroundedPoses<'a> {
+    /// Poses of their own.
+    Own(Vec<HumanPose>),
+    /// The poses of a clip at other positions.
+    Moved {
+        poses: &'a [HumanPose],
+        /// World position of the pelvis in each frame, m.
+        pelvis_m: Vec<DVec3>,
+    },
+}
+
+impl GroundedPoses<'_> {
+    /// Number of poses.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Own(poses) => poses.len(),
+            Self::Moved { pelvis_m, .. } => pelvis_m.len(),
+        }
+    }
+
+    /// The pose of a frame.
+    pub(crate) fn pose(&self, frame: usize) -> HumanPose {
+        match self {
+            Self::Own(poses) => poses[frame].clone(),
+            Self::Moved { poses, pelvis_m } => {
+                HumanPose { pelvis_m: pelvis_m[frame], rotations: poses[frame].rotations }
+            }
+        }
+    }
+
+    /// Position of the pelvis in each frame, m.
+    pub(crate) fn pelvis_mut(&mut self) -> impl Iterator<Item = &mut DVec3> {
+        let (own, moved) = match self {
+            Self::Own(poses) => (&mut poses[..], &mut [][..]),
+            Self::Moved { pelvis_m, .. } => (&mut [][..], &mut pelvis_m[..]),
+        };
+        own.iter_mut().map(|pose| &mut pose.pelvis_m).chain(moved)
+    }
+}
+
+impl GroundedClip<'_> {
+    /// Number of frames; of a loop those of three rounds and the frame after them.
+    pub fn frame_count(&self) -> usize {
+        self.rounds.as_ref().map_or(self.poses.len(), LoopRounds::frame_count)
+    }
+
+    /// Frames of one round of a clip that is a loop. Frames `loop_frames..2·loop_frames` are the middle round.
+    pub fn loop_frames(&self) -> Option<usize> {
+        self.rounds.as_ref().map(|rounds| rounds.round)
+    }
+
+    /// The pose of a frame in the world.
+    pub fn pose(&self, frame: usize) -> HumanPose {
+        self.rounds.as_ref().map_or_else(|| self.poses.pose(frame), |rounds| rounds.pose(&self.poses, frame))
+    }
+
+    /// The pose at a fractional frame, clamped to the clip.
+    pub fn pose_at(&self, frame: f64, body: &HumanBody) -> HumanPose {
+        let last = self.frame_count() - 1;
+        let base = (frame.max(0.0) as usize).min(last.saturating_sub(1));
+        let neighbours = [base.saturating_sub(1), base, (base + 1).min(last), (base + 2).min(last)];
+        pose_between(neighbours.map(|frame| self.pose(frame)), (frame - base as f64).clamp(0.0, 1.0), body)
+    }
+}
