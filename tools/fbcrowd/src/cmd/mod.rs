@@ -7,6 +7,7 @@ pub(crate) mod bench;
 pub(crate) mod clips;
 pub(crate) mod compile;
 pub(crate) mod completions;
+pub(crate) mod convert;
 pub(crate) mod inspect;
 pub(crate) mod measure;
 mod outside_arg;

@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde_json::Value;
 
 use crate::report::compile_report::CompileReport;
+use crate::report::convert_report::ConvertReport;
 use crate::report::inspect_report::{BrokenReport, ClipsReport, DatabaseReport};
 use crate::report::validation_report::ValidationReport;
 
@@ -37,6 +38,7 @@ pub(super) fn schemas() -> Vec<OutputSchema> {
         ("compile", document::<CompileReport>("fbcrowd compile --json")),
         ("validate", document::<ValidationReport>("fbcrowd validate --json")),
         ("inspect", document::<InspectReport>("fbcrowd inspect --json")),
+        ("convert", document::<ConvertReport>("fbcrowd convert --json")),
         ("simulate", document::<Timings>("fbcrowd simulate --report")),
         ("measure", document::<MeasuresMirror>("fbcrowd measure --json")),
     ];

@@ -6,10 +6,11 @@
 //! Read in this order: [`plain_text`]; the report of a compilation ([`compile_report`], [`compile_text`] with
 //! [`example_table`] and [`sentence_groups`], [`next_steps`]); of an inspection ([`inspect_report`], [`inspect_text`],
 //! [`correspondence_table`], [`leave_one_out_text`]; [`json_diagnostic`] is a part of both); of a validation
-//! ([`validation_report`]); of a recording ([`measures_text`], [`timings_text`]).
+//! ([`validation_report`]); of a converted scene ([`convert_report`]); of a recording ([`measures_text`], [`timings_text`]).
 
 pub(crate) mod compile_report;
 pub(crate) mod compile_text;
+pub(crate) mod convert_report;
 pub(crate) mod correspondence_table;
 pub(crate) mod example_table;
 pub(crate) mod inspect_report;

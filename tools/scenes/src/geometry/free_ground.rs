@@ -203,7 +203,8 @@ impl<'a> FreeGround<'a> {
         if !moved.is_empty() {
             let dots = if moved.len() > LISTED { ", …" } else { "" };
             let listed = moved[..moved.len().min(LISTED)].join(", ");
-            let what = format!("{} agents that start in walls or in each other move: {listed}{dots}", moved.len());
+            let counts = format!("{} of {}", moved.len(), agents.starts.count() + left_out);
+            let what = format!("{counts} agents start in walls or in each other and move: {listed}{dots}");
             notes.add(file, line, what, far);
         }
         if left_out > 0 {

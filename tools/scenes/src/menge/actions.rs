@@ -6,7 +6,7 @@ use crate::error::SceneError;
 use crate::menge::profiles::MengeProfile;
 use crate::menge::transitions::States;
 use crate::menge::xml::Element;
-use crate::scene::{DrawnNumber, Notes, Scene, SceneMovement, SceneSettings, SceneState, Shape};
+use crate::scene::{DrawnNumber, Notes, Scene, SceneMovement, SceneSettings, SceneState, Shape, round_to_mm};
 
 /// Preferred speeds that a scenario takes, m/s.
 const SPEEDS_MPS: [f64; 2] = [0.1, 10.0];
@@ -68,7 +68,7 @@ fn walk_at_preferred_speed(
         let what = format!("all agents of state `{}` walk at the mean speed {mean_mps:.2} m/s", state.name);
         notes.add(&element.file.shown, element.line(), what, true);
     }
-    (*x, *y) = (*x * mean_mps, *y * mean_mps);
+    (*x, *y) = (round_to_mm(*x * mean_mps), round_to_mm(*y * mean_mps));
 }
 
 /// Reads one action. Returns whether it may be undone on leaving the state.

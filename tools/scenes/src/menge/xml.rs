@@ -8,8 +8,8 @@ use crate::scene::DrawnNumber;
 
 /// Greatest number of nodes of a file: a million agents, each between two texts.
 const NODES_MAX: u32 = 4_000_000;
-/// Greatest count: whole numbers up to it are exact in f64.
-const COUNT_MAX: f64 = 9e15;
+/// Greatest number: whole numbers up to it are exact in f64 and TOML.
+const NUMBER_MAX: f64 = 1e15;
 /// Greatest coordinate, m; that of scenario files.
 const COORDINATE_MAX_M: f64 = 10_000.0;
 
@@ -112,9 +112,9 @@ impl<'a> Element<'a> {
     pub(crate) fn number(&self, attribute: &str) -> Result<Option<f64>, SceneError> {
         let Some(text) = self.text(attribute) else { return Ok(None) };
         match text.trim().parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(Some(number)),
+            Ok(number) if number.abs() <= NUMBER_MAX => Ok(Some(number)),
             _ => {
-                let message = format!("`{attribute}` of <{}> is no finite number", self.name());
+                let message = format!("`{attribute}` of <{}> is no finite number, or too great", self.name());
                 Err(self.attribute_fault(attribute, message, "write a decimal number"))
             }
         }
@@ -142,7 +142,7 @@ impl<'a> Element<'a> {
 
     pub(crate) fn count(&self, attribute: &str) -> Result<Option<u64>, SceneError> {
         let Some(number) = self.number(attribute)? else { return Ok(None) };
-        if number >= 0.0 && number.fract() == 0.0 && number < COUNT_MAX {
+        if number >= 0.0 && number.fract() == 0.0 {
             return Ok(Some(number as u64));
         }
         let message = format!("`{attribute}` of <{}> is {number}, no count", self.name());

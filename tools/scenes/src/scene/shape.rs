@@ -24,9 +24,7 @@ impl Shape {
             return Self::rect(pivot_m, [pivot_m[0] + width_m, pivot_m[1] + height_m]);
         }
         let (sin, cos) = libm::sincos(angle_deg.to_radians());
-        let corner = |x: f64, y: f64| {
-            [pivot_m[0] + cos * x - sin * y, pivot_m[1] + sin * x + cos * y].map(round_to_mm)
-        };
+        let corner = |x: f64, y: f64| [pivot_m[0] + cos * x - sin * y, pivot_m[1] + sin * x + cos * y].map(round_to_mm);
         Self::Polygon(vec![corner(0.0, 0.0), corner(width_m, 0.0), corner(width_m, height_m), corner(0.0, height_m)])
     }
 

@@ -4,6 +4,8 @@ use crate::scene::{DrawnNumber, Point, Shape};
 
 /// Greatest length of a line, characters.
 pub(crate) const LINE_MAX: usize = 120;
+/// Greatest number that is written without a point.
+const WHOLE_MAX: f64 = 1e15;
 /// Decimals of a number: micrometres.
 const DECIMALS: usize = 6;
 
@@ -11,7 +13,12 @@ const DECIMALS: usize = 6;
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.DECIMALS$}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" { "0".to_owned() } else { short.to_owned() }
+    match short {
+        "-0" => "0".to_owned(),
+        // Whole numbers of TOML have 64 bits.
+        short if value.abs() > WHOLE_MAX => format!("{short}.0"),
+        short => short.to_owned(),
+    }
 }
 
 pub(crate) fn point([x, y]: Point) -> String {
