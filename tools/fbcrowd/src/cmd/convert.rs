@@ -7,7 +7,7 @@ use fbcrowd_scenes::write::{WriteOptions, WrittenScene, write};
 use fbcrowd_scenes::{ReadOptions, Units, read};
 use motiondb::files::atomic_file;
 
-use crate::report::convert_report::ConvertReport;
+use crate::report::scenes::ConvertReport;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 
@@ -57,7 +57,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let clips = args.clips.as_deref().map(|clips| relative_to(folder, clips)).transpose()?;
     let stem = args.output.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let written = write(&scene.scene, &WriteOptions { stem, clips, duration_s: args.duration });
-    let agent_files: Vec<PathBuf> = written.agent_files.iter().map(|file| folder.join(&file.name)).collect();
+    let agent_files: Vec<PathBuf> =
+        written.agent_files.iter().map(|file| args.output.with_file_name(&file.name)).collect();
     check_files(folder, &[&agent_files[..], &[args.output.clone()]].concat(), &scene.inputs)?;
     write_files(&args.output, &agent_files, &written)?;
     let report = ConvertReport::new(&scene.scene, &args.output, &agent_files);

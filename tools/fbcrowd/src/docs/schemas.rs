@@ -8,8 +8,8 @@ use schemars::JsonSchema;
 use serde_json::Value;
 
 use crate::report::compile_report::CompileReport;
-use crate::report::convert_report::ConvertReport;
 use crate::report::inspect_report::{BrokenReport, ClipsReport, DatabaseReport};
+use crate::report::scenes::ConvertReport;
 use crate::report::validation_report::ValidationReport;
 
 /// The schema of one JSON output.

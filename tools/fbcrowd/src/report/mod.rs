@@ -6,11 +6,10 @@
 //! Read in this order: [`plain_text`]; the report of a compilation ([`compile_report`], [`compile_text`] with
 //! [`example_table`] and [`sentence_groups`], [`next_steps`]); of an inspection ([`inspect_report`], [`inspect_text`],
 //! [`correspondence_table`], [`leave_one_out_text`]; [`json_diagnostic`] is a part of both); of a validation
-//! ([`validation_report`]); of a converted scene ([`convert_report`]); of a recording ([`measures_text`], [`timings_text`]).
+//! ([`validation_report`]); of a converted scene ([`scenes`]); of a recording ([`measures_text`], [`timings_text`]).
 
 pub(crate) mod compile_report;
 pub(crate) mod compile_text;
-pub(crate) mod convert_report;
 pub(crate) mod correspondence_table;
 pub(crate) mod example_table;
 pub(crate) mod inspect_report;
@@ -20,6 +19,7 @@ pub(crate) mod leave_one_out_text;
 pub(crate) mod measures_text;
 pub(crate) mod next_steps;
 pub(crate) mod plain_text;
+pub(crate) mod scenes;
 pub(crate) mod sentence_groups;
 pub(crate) mod timings_text;
 pub(crate) mod validation_report;

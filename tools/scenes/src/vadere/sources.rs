@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::scene::{Point, Scene, SceneAgents, SceneSource, Shape, Starts};
+use crate::vadere::shapes::{PROFILE, VadereFault, box_m, check_shape};
 use crate::vadere::targets::{Targets, drawn};
-use crate::vadere::topography::{PROFILE, VadereFault, box_m, check_shape};
 use crate::vadere::vadere_file::{VadereSource, VadereTopography};
 
 /// Greatest number of agents; that of scenario files.

@@ -6,7 +6,7 @@ use crate::scene::{
     Choose, DrawnNumber, GoalPlace, Scene, SceneCondition, SceneGoals, SceneMovement, SceneSettings, SceneState,
     SceneTarget, SceneTransition, Shape,
 };
-use crate::vadere::topography::{VadereFault, check_shape};
+use crate::vadere::shapes::{VadereFault, check_shape};
 use crate::vadere::vadere_file::{VadereDistribution, VadereTarget};
 
 /// Greatest number of targets that agents visit in order.

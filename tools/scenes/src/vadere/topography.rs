@@ -8,23 +8,15 @@ use crate::error::{SceneError, read_text};
 use crate::geometry::polygon::{CORNERS_MAX, is_simple, without_repeats};
 use crate::geometry::walls::of_line;
 use crate::scene::{DrawnNumber, Point, Scene, SceneObstacle, SceneProfile, Shape, Walkable};
+use crate::vadere::shapes::{PROFILE, VadereFault, check_points, corners_m};
 use crate::vadere::sources::read_sources;
 use crate::vadere::targets::Targets;
 use crate::vadere::vadere_file::{VadereFile, VadereTopography};
 
-/// Greatest coordinate, m; that of scenario files.
-const COORDINATE_MAX_M: f64 = 10_000.0;
 /// Greatest number of obstacles, of targets and of sources.
 const ITEMS_MAX: usize = 10_000;
-/// Corners of the polygon that stands for a circle.
-const CIRCLE_CORNERS: usize = 16;
-/// Name of the profile of all agents.
-pub(crate) const PROFILE: &str = "pedestrian";
 /// Releases whose files are tested.
 const TESTED: [&str; 2] = ["2.4", "3.0"];
-
-/// A mistake in the file, without a line: JSON keeps none.
-pub(crate) type VadereFault = (String, &'static str);
 
 /// Reads a scenario.
 pub(crate) fn read(path: &Path) -> Result<Scene, SceneError> {
@@ -113,45 +105,6 @@ fn add_obstacle(shape: &Shape, origin: &str, scene: &mut Scene) -> Result<(), Va
         scene.obstacles.extend(of_line(&corners_m, true).into_iter().map(add));
     }
     Ok(())
-}
-
-/// The corners of a shape, those of a circle on a polygon about it.
-fn corners_m(shape: &Shape) -> Vec<Point> {
-    match shape {
-        Shape::Point(at_m) => vec![*at_m],
-        Shape::Rect([left, low], [right, high]) => vec![[*left, *low], [*right, *low], [*right, *high], [*left, *high]],
-        Shape::Polygon(corners_m) => corners_m.clone(),
-        Shape::Circle([x, y], radius_m) => {
-            let corner = |index: usize| {
-                let (sin, cos) = libm::sincos(std::f64::consts::TAU * index as f64 / CIRCLE_CORNERS as f64);
-                [x + radius_m * cos, y + radius_m * sin].map(|metres| (metres * 1e3).round() / 1e3)
-            };
-            (0..CIRCLE_CORNERS).map(corner).collect()
-        }
-    }
-}
-
-/// Least and greatest corner of a shape, m.
-pub(crate) fn box_m(shape: &Shape) -> [Point; 2] {
-    crate::geometry::polygon::bounds_m(&corners_m(shape))
-}
-
-/// Checks that all points of a shape are near the origin.
-pub(crate) fn check_shape(shape: &Shape) -> Result<(), VadereFault> {
-    check_points(&corners_m(shape))?;
-    match shape {
-        Shape::Polygon(corners_m) if !is_simple(&without_repeats(corners_m)) => {
-            Err(("the polygon of a target or source crosses itself".into(), "list its corners in order"))
-        }
-        _ => Ok(()),
-    }
-}
-
-fn check_points(points_m: &[Point]) -> Result<(), VadereFault> {
-    match points_m.iter().flatten().find(|metres| metres.is_nan() || metres.abs() > COORDINATE_MAX_M) {
-        None => Ok(()),
-        Some(metres) => Err((format!("{metres} m is not within 10 km of the origin"), "move the scene to the origin")),
-    }
 }
 
 fn note_unsupported(topography: &VadereTopography, scene: &mut Scene) {

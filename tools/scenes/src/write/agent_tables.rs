@@ -1,7 +1,7 @@
 //! The tables of profiles, agents and sources.
 
 use crate::scene::{Grid, Scene, SceneAgents, SceneSource, Starts};
-use crate::write::scenario_text::TextFile;
+use crate::write::text_file::TextFile;
 use crate::write::words::{commented, drawn, key, number, plain, point, quoted, shape};
 
 /// Agents of a group that are written as tables of their own; more become an agent file.

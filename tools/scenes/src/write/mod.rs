@@ -7,6 +7,8 @@ mod agent_tables;
 mod behaviour_tables;
 mod ground_tables;
 mod scenario_text;
+mod text_file;
 mod words;
 
-pub use scenario_text::{TextFile, WriteOptions, WrittenScene, write};
+pub use scenario_text::{WriteOptions, WrittenScene, write};
+pub use text_file::TextFile;

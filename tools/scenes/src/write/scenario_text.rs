@@ -1,6 +1,7 @@
 //! The scenario file: header, duration, profiles, goals, states, agents, ground, picture.
 
 use crate::scene::Scene;
+use crate::write::text_file::TextFile;
 use crate::write::words::{number, plain, quoted};
 use crate::write::{agent_tables, behaviour_tables, ground_tables};
 
@@ -18,15 +19,6 @@ pub struct WriteOptions {
     pub clips: Option<String>,
     /// Simulated time, s; default: the scene's, or 120 s.
     pub duration_s: Option<f64>,
-}
-
-/// A text beside the scenario file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TextFile {
-    /// Name of the file.
-    pub name: String,
-    /// Its content.
-    pub text: String,
 }
 
 /// A scene as a scenario file.
