@@ -59,7 +59,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let written = write(&scene.scene, &WriteOptions { stem, clips, duration_s: args.duration });
     let agent_files: Vec<PathBuf> =
         written.agent_files.iter().map(|file| args.output.with_file_name(&file.name)).collect();
-    check_files(folder, &[&agent_files[..], &[args.output.clone()]].concat(), &scene.inputs)?;
+    let outputs = [&agent_files[..], std::slice::from_ref(&args.output)].concat();
+    check_files(folder, &outputs, &scene.inputs)?;
     write_files(&args.output, &agent_files, &written)?;
     let report = ConvertReport::new(&scene.scene, &args.output, &agent_files);
     if args.json {
