@@ -10,9 +10,19 @@ use support::{WALK, compile, fbcrowd, files, folder, mocap, scenario, text};
 
 #[test]
 fn every_command_has_help_with_an_example() {
-    for command in
-        ["run", "compile", "validate", "inspect", "clips", "simulate", "measure", "render", "bench", "completions"]
-    {
+    for command in [
+        "run",
+        "compile",
+        "validate",
+        "inspect",
+        "clips",
+        "convert",
+        "simulate",
+        "measure",
+        "render",
+        "bench",
+        "completions",
+    ] {
         let help = fbcrowd(&[command, "--help"]).expect_code(0);
         assert!(help.stdout.contains("Example"), "{command}:\n{}", help.stdout);
     }

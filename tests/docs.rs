@@ -56,8 +56,15 @@ fn links_of_all_pages_lead_to_files() {
 
 #[test]
 fn source_files_that_pages_name_exist() {
-    let crates =
-        ["", "motiondb/src", "tools/compiler/src", "runtime/sim/src", "runtime/render/src", "tools/clipgen/src"];
+    let crates = [
+        "",
+        "motiondb/src",
+        "tools/compiler/src",
+        "runtime/sim/src",
+        "runtime/render/src",
+        "tools/clipgen/src",
+        "tools/scenes/src",
+    ];
     let mut missing = Vec::new();
     for (page, text) in pages() {
         let is_path = |span: &&str| span.contains('/') && span.ends_with(".rs") && !span.contains(['*', ' ', '…']);

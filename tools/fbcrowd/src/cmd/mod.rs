@@ -8,6 +8,7 @@ pub(crate) mod check;
 pub(crate) mod clips;
 pub(crate) mod compile;
 pub(crate) mod completions;
+pub(crate) mod convert;
 pub(crate) mod inspect;
 pub(crate) mod measure;
 mod outside_arg;

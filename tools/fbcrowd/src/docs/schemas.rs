@@ -10,6 +10,7 @@ use serde_json::Value;
 
 use crate::report::compile_report::CompileReport;
 use crate::report::inspect_report::{BrokenReport, ClipsReport, DatabaseReport};
+use crate::report::scenes::ConvertReport;
 use crate::report::validation_report::ValidationReport;
 
 /// The schema of one JSON output.
@@ -39,6 +40,7 @@ pub(super) fn schemas() -> Vec<OutputSchema> {
         ("validate", document::<ValidationReport>("fbcrowd validate --json")),
         ("inspect", document::<InspectReport>("fbcrowd inspect --json")),
         ("check", document::<SceneFigures>("fbcrowd check --json")),
+        ("convert", document::<ConvertReport>("fbcrowd convert --json")),
         ("simulate", document::<Timings>("fbcrowd simulate --report")),
         ("measure", document::<MeasuresMirror>("fbcrowd measure --json")),
     ];

@@ -6,7 +6,7 @@
 //! Read in this order: [`plain_text`]; the report of a compilation ([`compile_report`], [`compile_text`] with
 //! [`example_table`] and [`sentence_groups`], [`next_steps`]); of an inspection ([`inspect_report`], [`inspect_text`],
 //! [`correspondence_table`], [`leave_one_out_text`]; [`json_diagnostic`] is a part of both); of a validation
-//! ([`validation_report`]); of scenarios, simulations and recordings ([`crowd`]).
+//! ([`validation_report`]); of a converted scene ([`scenes`]); of scenarios, simulations and recordings ([`crowd`]).
 
 pub(crate) mod compile_report;
 pub(crate) mod compile_text;
@@ -19,5 +19,6 @@ pub(crate) mod json_diagnostic;
 pub(crate) mod leave_one_out_text;
 pub(crate) mod next_steps;
 pub(crate) mod plain_text;
+pub(crate) mod scenes;
 pub(crate) mod sentence_groups;
 pub(crate) mod validation_report;

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use fbcrowd_bench::BenchError;
 use fbcrowd_jobs::JobError;
 use fbcrowd_render::error::RenderError;
+use fbcrowd_scenes::SceneError;
 use fbcrowd_sim::recording::RecordingError;
 use fbcrowd_sim::scenario::ScenarioError;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
@@ -169,6 +170,16 @@ impl From<BenchError> for Failure {
             BenchError::Job(error) => Self::of_job(error),
             BenchError::Unreadable { ref source, .. } if is_of_machine(source) => Self::of_machine(error.to_string()),
             BenchError::Threads { .. } => Self::of_machine(error.to_string()),
+            other => Self::bad(other.to_string()),
+        }
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        match error {
+            SceneError::Mistake(invalid) => Self::mistake(*invalid),
+            error if error.is_of_machine() => Self::of_machine(error.to_string()),
             other => Self::bad(other.to_string()),
         }
     }

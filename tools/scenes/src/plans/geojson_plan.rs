@@ -1,0 +1,92 @@
+//! GeoJSON (RFC 7946): Polygon, MultiPolygon, collections and features of them. Coordinates are taken as metres.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use geojson::{GeoJson, Geometry, GeometryValue, Position};
+
+use crate::error::{SceneError, read_text};
+use crate::geometry::polygon::bounds_m;
+use crate::plans::rings_of_plan::{PlanFault, move_near_origin, walkable};
+use crate::scene::{Point, Scene};
+
+/// Extent below which a plan is surely in degrees, m: smaller than a room.
+const DEGREES_M: f64 = 0.5;
+/// Deepest nesting of collections.
+const DEPTH_MAX: usize = 16;
+
+/// Reads a plan.
+pub(crate) fn read(path: &Path) -> Result<Scene, SceneError> {
+    let source = read_text(path)?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let mut scene = Scene { kind: "GeoJSON plan", source: name, ..Scene::default() };
+    let fault = |(message, help): PlanFault| {
+        let invalid = source.invalid(0..0, message, help);
+        SceneError::from(motiondb::files::Invalid { is_quotable: false, ..invalid })
+    };
+    let help = "give a Polygon, MultiPolygon, or a collection or features of them";
+    let json =
+        GeoJson::from_str(&source.text).map_err(|error| fault((format!("this is no GeoJSON: {error}"), help)))?;
+    let geometries: Vec<&Geometry> = match &json {
+        GeoJson::Geometry(geometry) => vec![geometry],
+        GeoJson::Feature(feature) => feature.geometry.iter().collect(),
+        GeoJson::FeatureCollection(all) => {
+            all.features.iter().filter_map(|feature| feature.geometry.as_ref()).collect()
+        }
+    };
+    for geometry in geometries {
+        add(&geometry.value, &mut scene, DEPTH_MAX).map_err(fault)?;
+    }
+    if scene.walkable.is_empty() {
+        return Err(fault(("there is no polygon".into(), help)));
+    }
+    check_metres(&mut scene).map_err(fault)?;
+    move_near_origin(&mut scene).map_err(fault)?;
+    Ok(scene)
+}
+
+/// GeoJSON states degrees; plans of rooms are drawn in metres all the same.
+fn check_metres(scene: &mut Scene) -> Result<(), PlanFault> {
+    let corners_m: Vec<Point> = scene.walkable.iter().flat_map(|walkable| walkable.polygon_m.clone()).collect();
+    let [low_m, high_m] = bounds_m(&corners_m);
+    if (0..2).all(|axis| high_m[axis] - low_m[axis] < DEGREES_M) {
+        return Err((
+            "the plan is less than 0.5 m across, so its coordinates are degrees".into(),
+            "project it to metres, for instance to the UTM zone of the place",
+        ));
+    }
+    let source = scene.source.clone();
+    scene.notes.add(&source, 0, "coordinates are taken as metres", false);
+    Ok(())
+}
+
+fn add(geometry: &GeometryValue, scene: &mut Scene, depth: usize) -> Result<(), PlanFault> {
+    if depth == 0 {
+        return Err((format!("collections are nested deeper than {DEPTH_MAX}"), "nest them less"));
+    }
+    match geometry {
+        GeometryValue::Polygon { coordinates } => add_polygon(coordinates, scene),
+        GeometryValue::MultiPolygon { coordinates } => {
+            coordinates.iter().try_for_each(|polygon| add_polygon(polygon, scene))
+        }
+        GeometryValue::GeometryCollection { geometries } => {
+            geometries.iter().try_for_each(|geometry| add(&geometry.value, scene, depth - 1))
+        }
+        _ => {
+            let source = scene.source.clone();
+            scene.notes.add(&source, 0, "points and lines are left out; polygons are the ground", true);
+            Ok(())
+        }
+    }
+}
+
+fn add_polygon(rings: &[Vec<Position>], scene: &mut Scene) -> Result<(), PlanFault> {
+    let position_m = |position: &Position| match *position.as_slice() {
+        [x, y] => Ok([x, y]),
+        _ => Err(("a position has a third coordinate".to_owned(), "give x and y alone; the ground is flat")),
+    };
+    let ring_m = |ring: &Vec<Position>| ring.iter().map(position_m).collect::<Result<Vec<Point>, PlanFault>>();
+    let rings_m: Vec<Vec<Point>> = rings.iter().map(ring_m).collect::<Result<_, _>>()?;
+    scene.walkable.extend(walkable(&rings_m, "")?);
+    Ok(())
+}

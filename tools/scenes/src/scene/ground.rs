@@ -1,0 +1,25 @@
+//! The ground of a scene: walkable polygons and obstacles. World, metres.
+
+use crate::scene::shape::Point;
+
+/// A polygon on which agents walk, with holes; all of a scene are united.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Walkable {
+    /// The outline.
+    pub polygon_m: Vec<Point>,
+    /// Outlines of its holes.
+    pub holes_m: Vec<Vec<Point>>,
+    /// Position in the source, "file:line" or a name.
+    pub origin: String,
+}
+
+/// An obstacle: a simple polygon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneObstacle {
+    /// Its corners in order.
+    pub polygon_m: Vec<Point>,
+    /// Whether it is a wall around the agents, and its inside is free.
+    pub is_enclosure: bool,
+    /// Position in the source, "file:line" or a name; empty where it is that of the obstacle before.
+    pub origin: String,
+}

@@ -1,0 +1,157 @@
+//! Sources of agents, and agents that are there at the start.
+
+use std::collections::BTreeMap;
+
+use crate::scene::{Point, Scene, SceneAgents, SceneSource, Shape, Starts};
+use crate::vadere::shapes::{PROFILE, VadereFault, box_m, check_shape};
+use crate::vadere::targets::{Targets, drawn};
+use crate::vadere::vadere_file::{VadereSource, VadereTopography};
+
+/// Greatest number of agents; that of scenario files.
+const AGENTS_MAX: f64 = 1e6;
+/// Rates that a scenario takes, agents per second.
+const RATES_PER_S: [f64; 2] = [1e-5, 1e3];
+/// Duration over which agents of one moment come, s.
+const MOMENT_S: f64 = 1.0;
+
+/// When a source makes agents, in one form for all releases.
+struct Spawning {
+    from_s: f64,
+    to_s: f64,
+    /// Agents of each event.
+    count: f64,
+    /// Duration between events, s.
+    every_s: f64,
+    most: Option<u64>,
+}
+
+/// Reads sources and single agents.
+pub(crate) fn read_sources(
+    topography: &VadereTopography,
+    radius_m: f64,
+    targets: &mut Targets,
+    scene: &mut Scene,
+) -> Result<(), VadereFault> {
+    for source in &topography.sources {
+        read_source(source, radius_m, targets, scene)?;
+    }
+    let mut by_targets: BTreeMap<&[i64], Vec<Point>> = BTreeMap::new();
+    for agent in &topography.dynamic_elements {
+        let at_m = agent.position.position_m();
+        check_shape(&Shape::Point(at_m))?;
+        by_targets.entry(&agent.target_ids).or_default().push(at_m);
+    }
+    for (list, starts_m) in by_targets {
+        let state = targets.state(list, "an agent")?;
+        let starts = Starts::Points(starts_m);
+        scene.agents.push(agents(starts, state, radius_m, "dynamicElements"));
+    }
+    Ok(())
+}
+
+fn agents(starts: Starts, state: Option<String>, radius_m: f64, origin: &str) -> SceneAgents {
+    SceneAgents {
+        starts,
+        profiles: vec![(PROFILE.to_owned(), 1.0)],
+        state,
+        radius_max_m: radius_m,
+        wall_radius_m: None,
+        own_goal_mirrors: None,
+        origin: origin.to_owned(),
+    }
+}
+
+fn read_source(
+    source: &VadereSource,
+    radius_m: f64,
+    targets: &mut Targets,
+    scene: &mut Scene,
+) -> Result<(), VadereFault> {
+    let name = format!("source {}", source.id);
+    let file = scene.source.clone();
+    let Some(state) = targets.state(&source.target_ids, &name)? else {
+        scene.notes.add(&file, 0, format!("{name} has no target and is left out"), true);
+        return Ok(());
+    };
+    let shape = source.shape.shape();
+    check_shape(&shape)?;
+    if source.group_size_distribution.len() > 1 {
+        scene.notes.add(&file, 0, format!("{name}: agents walk alone, not in groups"), true);
+    }
+    let spawning = spawning(source, &name, scene)?;
+    let of_moment = spawning.most.map_or(spawning.count, |most| spawning.count.min(most as f64));
+    if spawning.to_s <= spawning.from_s && spawning.from_s <= 0.0 {
+        if of_moment >= 1.0 {
+            let starts = Starts::Spread { shape, count: of_moment as usize };
+            scene.agents.push(agents(starts, Some(state), radius_m, &name));
+        }
+        return Ok(());
+    }
+    if !matches!(shape, Shape::Rect(..)) {
+        let what = format!("{name}: agents appear in the rectangle about its shape");
+        scene.notes.add(&file, 0, what, true);
+    }
+    let is_moment = spawning.to_s <= spawning.from_s;
+    let rate_per_s = if is_moment { of_moment / MOMENT_S } else { spawning.count / spawning.every_s };
+    scene.notes.add(
+        &file,
+        0,
+        "agents of a source come at random times with the stated rate, not in a fixed beat",
+        false,
+    );
+    scene.sources.push(SceneSource {
+        rect_m: box_m(&shape),
+        rate_per_s: rate_per_s.clamp(RATES_PER_S[0], RATES_PER_S[1]),
+        from_s: spawning.from_s,
+        to_s: (!is_moment).then_some(spawning.to_s),
+        count: if is_moment { Some(of_moment as u64) } else { spawning.most },
+        state: Some(state),
+        profile: Some(PROFILE.to_owned()),
+        origin: name,
+    });
+    Ok(())
+}
+
+fn spawning(source: &VadereSource, name: &str, scene: &mut Scene) -> Result<Spawning, VadereFault> {
+    let limit = |most: i64| u64::try_from(most).ok();
+    let spawning = match &source.spawner {
+        Some(spawner) => {
+            let every_s = drawn(&spawner.distribution).map(|drawn| drawn.mean());
+            if every_s.is_none() {
+                let what = format!("{name}: its distribution is unknown; an agent comes each second");
+                let file = scene.source.clone();
+                scene.notes.add(&file, 0, what, true);
+            }
+            Spawning {
+                from_s: spawner.constraints_time_start,
+                to_s: spawner.constraints_time_end,
+                count: spawner.event_element_count,
+                every_s: every_s.unwrap_or(1.0),
+                most: limit(spawner.constraints_elements_max),
+            }
+        }
+        None => Spawning {
+            from_s: source.start_time,
+            to_s: source.end_time,
+            count: source.spawn_number.unwrap_or(1.0),
+            every_s: first_number(&source.distribution_parameters).unwrap_or(1.0),
+            most: source.max_spawn_number_total.and_then(limit),
+        },
+    };
+    let is_time = |time_s: f64| (0.0..=86_400.0).contains(&time_s);
+    // Files without an end state the greatest number of Java.
+    let spawning = Spawning { to_s: spawning.to_s.min(86_400.0), ..spawning };
+    if !is_time(spawning.from_s) || !is_time(spawning.to_s) || !(0.0..=AGENTS_MAX).contains(&spawning.count) {
+        return Err((
+            format!("{name} has times or numbers out of range"),
+            "give times within a day, and a million agents",
+        ));
+    }
+    Ok(Spawning { every_s: spawning.every_s.max(1e-3), ..spawning })
+}
+
+/// The first number of a list, or of the values of an object.
+fn first_number(value: &serde_json::Value) -> Option<f64> {
+    let list = value.as_array().and_then(|list| list.first());
+    list.or_else(|| value.as_object().and_then(|object| object.values().next())).and_then(serde_json::Value::as_f64)
+}
