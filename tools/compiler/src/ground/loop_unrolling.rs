@@ -8,8 +8,9 @@ use glam::{DQuat, DVec3};
 use motiondb::body::JOINT_COUNT;
 use motiondb::statistics::median;
 
-use crate::ground::grounded_clip::{GroundedClip, GroundedPoses};
-use crate::ground::rotations::{align_hemispheres, flip, ground_rotation, rotation_vector};
+use crate::ground::grounded_clip::GroundedClip;
+use crate::ground::grounded_poses::GroundedPoses;
+use crate::ground::loop_rounds::{LoopRounds, LoopSeam};
 use crate::retarget::human_clip::{HumanBody, HumanPose};
 
 /// Greatest distance of any joint between last pose and first, relative to the root, of a loop, m.
@@ -18,8 +19,6 @@ const LOOP_GAP_M: f64 = 0.04;
 const LOOP_GAP_STEPS: f64 = 0.5;
 /// A loop leaves out its repeated frame where the pose that would follow is nearer to the first by this ratio.
 const LEFT_OUT_RATIO: f64 = 0.5;
-/// Copies of a loop: one before and one after the copy that is analysed.
-const ROUNDS: usize = 3;
 /// Least duration of a loop, s; shorter clips are poses.
 const ROUND_MIN_S: f64 = 0.3;
 
@@ -67,56 +66,6 @@ pub(crate) fn repeated<'a>(mut clip: GroundedClip<'a>, body: &HumanBody, round: 
     GroundedClip { rounds: Some(rounds), ..clip }
 }
 
-/// How the poses of three rounds follow from those of one.
-#[derive(Clone, Debug)]
-pub(crate) struct LoopRounds {
-    /// Frames of one round.
-    pub(crate) round: usize,
-    seam: LoopSeam,
-    /// The joints, one bit each, whose quaternion is negated in each frame, so that successive poses lie in one
-    /// hemisphere; empty where the poses are not the clip's own.
-    flipped: Vec<u32>,
-}
-
-impl LoopRounds {
-    /// Number of frames: three rounds and the frame after them.
-    pub(crate) fn frame_count(&self) -> usize {
-        ROUNDS * self.round + 1
-    }
-
-    /// The pose of a frame. `poses` are those of one round, closed where they are its own.
-    pub(crate) fn pose(&self, poses: &GroundedPoses, frame: usize) -> HumanPose {
-        let mut pose = self.carried(poses, frame);
-        self.flipped.get(frame).into_iter().for_each(|&joints| flip(&mut pose.rotations, joints));
-        pose
-    }
-
-    /// The pose of a frame, in any hemisphere.
-    fn carried(&self, poses: &GroundedPoses, frame: usize) -> HumanPose {
-        let mut pose = poses.pose(frame % self.round);
-        if matches!(poses, GroundedPoses::Moved { .. }) {
-            self.close(&mut pose, frame % self.round);
-        }
-        self.seam.carry(&mut pose, frame / self.round);
-        pose
-    }
-
-    /// Closes a pose of the round.
-    fn close(&self, pose: &mut HumanPose, frame: usize) {
-        self.seam.close(pose, frame as f64 / self.round as f64);
-    }
-
-    /// Finds the quaternions to negate.
-    fn align_successive(&mut self, poses: &GroundedPoses) {
-        let mut before: Option<[DQuat; JOINT_COUNT]> = None;
-        for frame in 0..self.frame_count() {
-            let mut rotations = self.carried(poses, frame).rotations;
-            self.flipped.push(before.map_or(0, |before| align_hemispheres(&mut rotations, &before)));
-            before = Some(rotations);
-        }
-    }
-}
-
 /// The pose after two successive ones at constant velocity.
 fn next_pose(before: &HumanPose, last: &HumanPose) -> HumanPose {
     let rotations =
@@ -135,53 +84,6 @@ fn local_positions_m(pose: &HumanPose, body: &HumanBody) -> [DVec3; JOINT_COUNT]
 /// The greatest distance between a joint's positions in two poses, each relative to hips and facing, m.
 fn loop_gap_m(first: &[DVec3; JOINT_COUNT], last: &[DVec3; JOINT_COUNT]) -> f64 {
     first.iter().zip(last).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
-}
-
-/// Displacement of the body by one round of a loop, and the gap that the round leaves.
-#[derive(Clone, Debug)]
-struct LoopSeam {
-    /// Pelvis of the first pose on the ground, m.
-    start_m: DVec3,
-    /// Displacement of the pelvis on the ground by one round, m.
-    travelled_m: DVec3,
-    /// Change of the facing by one round, rad.
-    turned_rad: f64,
-    /// Height of the first pelvis above the last, m.
-    height_gap_m: f64,
-    /// Rotations from the last pose's joints back to the first's, as rotation vectors, rad.
-    rotation_gaps: [DVec3; JOINT_COUNT],
-}
-
-impl LoopSeam {
-    fn between(first: &HumanPose, last: &HumanPose, body: &HumanBody) -> Self {
-        let (from, to) = (first.forward_kinematics(body), last.forward_kinematics(body));
-        let turned_rad = to.facing_rad() - from.facing_rad();
-        let turn = DQuat::from_rotation_z(turned_rad);
-        let rotation_gaps = std::array::from_fn(|joint| {
-            let closing = if joint == 0 { turn * first.rotations[0] } else { first.rotations[joint] };
-            rotation_vector(closing * last.rotations[joint].inverse())
-        });
-        let travelled_m = (last.pelvis_m - first.pelvis_m).with_z(0.0);
-        let height_gap_m = first.pelvis_m.z - last.pelvis_m.z;
-        Self { start_m: first.pelvis_m.with_z(0.0), travelled_m, turned_rad, height_gap_m, rotation_gaps }
-    }
-
-    /// Adds its part of the gap to a pose of the round: none at the first pose, all at the last.
-    fn close(&self, pose: &mut HumanPose, share: f64) {
-        pose.pelvis_m.z += self.height_gap_m * share;
-        for (rotation, gap) in pose.rotations.iter_mut().zip(&self.rotation_gaps) {
-            *rotation = DQuat::from_scaled_axis(*gap * share) * *rotation;
-        }
-    }
-
-    /// Moves a pose some rounds on.
-    fn carry(&self, pose: &mut HumanPose, rounds: usize) {
-        for _ in 0..rounds {
-            let from_start_m = ground_rotation(self.turned_rad) * (pose.pelvis_m - self.start_m).truncate();
-            pose.pelvis_m = self.start_m + self.travelled_m + from_start_m.extend(pose.pelvis_m.z);
-            pose.rotations[0] = DQuat::from_rotation_z(self.turned_rad) * pose.rotations[0];
-        }
-    }
 }
 
 #[cfg(test)]

@@ -12,7 +12,8 @@ use motiondb::body::Joint;
 use motiondb::statistics::percentile;
 
 use crate::ground::foot_grounding::lowest_sole_m;
-use crate::ground::grounded_clip::{GroundedClip, GroundedPoses};
+use crate::ground::grounded_clip::GroundedClip;
+use crate::ground::grounded_poses::GroundedPoses;
 use crate::ground::leg_ik;
 use crate::ground::rotations::align_successive;
 use crate::retarget::human_clip::{HumanBody, HumanClip, HumanPose};
