@@ -206,18 +206,26 @@ fn clips_and_databases_exchanged_are_recognised() {
 }
 
 #[test]
-fn an_agent_behind_a_wall_is_noted() {
+fn closed_passages_are_noted_and_goals_behind_walls_rejected() {
     let folder = folder("before_a_wall");
     compile(&[WALK.to_owned()], &folder);
-    let head = "database = \"motion.fbdb\"\nduration_s = 3\n";
-    let wall = "[[obstacles]]\npolygon_m = [[1, -3], [2, -3], [2, 3], [1, 3]]\n";
-    let notes = |agents: &str| {
-        let scene = scenario(&folder, &format!("{head}{agents}\n{wall}"));
-        let simulated = fbcrowd(&["simulate", &scene, "-o", text(&folder.join("scene.fbrec"))]).expect_code(0);
-        simulated.stderr.matches("a wall is across the path of agent 0 to [4, 0]").count()
+    let head = "database = \"motion.fbdb\"\nduration_s = 1\nagents = { at_m = [0, 0], goals_m = [[4, 0]] }\n";
+    let wall = |corners: &str| format!("[[obstacles]]\npolygon_m = [{corners}]\n");
+    let simulate = |walls: &[&str]| {
+        let walls: String = walls.iter().map(|corners| wall(corners)).collect();
+        let scene = scenario(&folder, &format!("{head}{walls}"));
+        fbcrowd(&["simulate", &scene, "-o", text(&folder.join("scene.fbrec"))])
     };
-    let goals = ["[[4, 0]]", "[[0, 4], [4, 4], [4, 0]]"];
-    assert_eq!(goals.map(|goals| notes(&format!("agents = {{ at_m = [0, 0], goals_m = {goals} }}"))), [1, 0]);
+    let around = "[1, -3], [2, -3], [2, 3], [1, 3]";
+    assert!(!simulate(&[around]).expect_code(0).stderr.contains("passage"));
+    let halves = ["[1, -3], [2, -3], [2, -0.15], [1, -0.15]", "[1, 0.15], [2, 0.15], [2, 3], [1, 3]"];
+    simulate(&halves).expect_code(0).says(&["0.30 m wide, is closed", "with a detour around it"]);
+    let ring = "[3, -1], [5, -1], [5, 1], [3, 1], [3, 0.9], [4.9, 0.9], [4.9, -0.9], [3.1, -0.9], [3.1, 0.8], [3, 0.8]";
+    simulate(&[ring]).expect_code(2).says(&[
+        "scene.toml:3",
+        "no route leads agent 0 to the goal [4, 0]",
+        "0.10 m wide",
+    ]);
 }
 
 #[test]

@@ -231,9 +231,10 @@ impl RootTrack {
         }
     }
 
-    /// Counts steps in which the agent wants to walk and stands; one that waits for a signal does not stall.
+    /// Counts steps in which the agent stands. An agent whose state lets it wait, at a signal, does not stall.
     fn watch_for_stall(&mut self, after: &AgentFrame, dt_s: f64) {
-        let slow = self.velocity_mps.length() < STALL_SPEED_MPS && after.preferred_mps != Vec2::ZERO;
+        let waits = after.state != 0 && after.preferred_mps == Vec2::ZERO;
+        let slow = self.velocity_mps.length() < STALL_SPEED_MPS && !waits;
         self.slow_steps = if slow { self.slow_steps + 1 } else { 0 };
         // Half a step of tolerance, since dt is not exact in binary.
         self.stalled |= (self.slow_steps as f64 + 0.5) * dt_s >= STALL_S;

@@ -190,11 +190,11 @@ impl AgentGroup {
 
     /// Radius of the disc that walls hold of an agent with a radius, m.
     pub(crate) fn wall_radius_m(&self, radius_m: f32) -> f32 {
-        match (self.wall_radius_m, self.radius_m) {
+        match self.wall_radius_m {
             // A radius that is drawn may be smaller.
-            (Some(wall_radius_m), None) => wall_radius_m.min(radius_m),
-            (Some(wall_radius_m), Some(_)) => wall_radius_m,
-            (None, _) => WALL_RADIUS_M.min(radius_m),
+            Some(wall_radius_m) if self.profile.is_some() && self.radius_m.is_none() => wall_radius_m.min(radius_m),
+            Some(wall_radius_m) => wall_radius_m,
+            None => WALL_RADIUS_M.min(radius_m),
         }
     }
 
