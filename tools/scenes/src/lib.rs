@@ -1,6 +1,6 @@
 //! Scenes of other programs become scenario files that read as if a person had written them.
 //!
-//! Every format is read into one neutral model, a [`Scene`](scene::Scene); one writer turns it into TOML. What a
+//! Every format is read into one neutral model, a [`Scene`]; one writer turns it into TOML. What a
 //! scenario cannot say becomes a note: file, line, what, and whether it changes what happens.
 //!
 //! ```

@@ -1,4 +1,4 @@
-//! From a [`Scene`] to the text of a scenario file that reads as if a person had written it.
+//! From a [`Scene`](crate::scene::Scene) to the text of a scenario file that reads as if a person had written it.
 //!
 //! Enters: a scene. Leaves: the scenario, and the agent files that it names. Read `scenario_text` (the order of the
 //! tables), `words` (numbers, names, lists), then `agent_tables`, `behaviour_tables`, `ground_tables`.
