@@ -102,7 +102,6 @@ pub struct Measures {
     /// walks.
     pub walking_heading_error_deg: f64,
     /// The scenario's `[[measure]]` tables, in their order.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub places: Vec<PlaceMeasures>,
 }
 

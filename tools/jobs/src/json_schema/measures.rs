@@ -75,8 +75,7 @@ pub struct MeasuresMirror {
     heading_error_deg: f64,
     /// Mean angle between facing and travel before arrival, wherever an agent walks, degrees.
     walking_heading_error_deg: f64,
-    /// The scenario's `[[measure]]` tables, in their order; left out where there are none.
-    #[serde(default)]
+    /// The scenario's `[[measure]]` tables, in their order.
     places: Vec<PlaceMeasuresMirror>,
 }
 
@@ -87,13 +86,10 @@ pub struct PlaceMeasuresMirror {
     /// Name of the table.
     name: String,
     /// Passages over a line.
-    #[serde(default)]
     line: Option<LineMeasuresMirror>,
     /// Density and speed in an area.
-    #[serde(default)]
     area: Option<AreaMeasuresMirror>,
     /// Times of removal.
-    #[serde(default)]
     egress: Option<EgressMeasuresMirror>,
 }
 

@@ -29,13 +29,10 @@ pub struct PlaceMeasures {
     /// Name of the table.
     pub name: String,
     /// Passages over a line.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<LineMeasures>,
     /// Density and speed in an area.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub area: Option<AreaMeasures>,
     /// Times of removal.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub egress: Option<EgressMeasures>,
 }
 
