@@ -85,8 +85,15 @@ impl Deciding<'_> {
         }
     }
 
-    /// Distance to the goal of the present state, m; none without a goal.
-    pub(crate) fn to_goal_m(&self) -> Option<f32> {
+    /// Distance to the goal of the present state, m; none without a goal. An agent that stands at its goal has reached
+    /// it, however small the goal is.
+    fn to_goal_m(&self) -> Option<f32> {
+        let is_of_this_state = self.agent.entered_s < self.view.time_s;
+        let distance_m = self.goal_distance_m()?;
+        Some(if is_of_this_state && (self.view.stands_at_goal)(self.index) { 0.0 } else { distance_m })
+    }
+
+    fn goal_distance_m(&self) -> Option<f32> {
         let (position_m, start_m) = (self.position_m(), self.agent.start_m);
         match *self.movement() {
             Movement::OwnPath => (self.view.path_end_m)(self.index),

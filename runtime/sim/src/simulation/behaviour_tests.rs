@@ -82,6 +82,38 @@ fn no_agent_enters_on_red() {
 }
 
 #[test]
+fn an_agent_that_stands_at_its_goal_has_reached_it() {
+    // A body stops up to half a step before its goal; the goals are points, reached within 1 cm.
+    const THERE_AND_BACK: &str = "
+        [goals.points]
+        areas = [{ point_m = [3, 0.4] }, { point_m = [3, 1.9] }, { point_m = [3, 3.4] }]
+        capacity = 1
+        [states.there]
+        go = 'points'
+        then = [{ when = { reached_m = 0.01 }, to = 'return' }]
+        [states.return]
+        go = { offset_m = [0, 0] }
+        then = [{ when = { reached_m = 0.01 }, to = 'home' }]
+        [states.home]
+        stand = {}
+        [[agents]]
+        grid = { columns = 1, rows = 3, spacing_m = 1.5, centre_m = [0, 1.5] }
+        state = 'there'
+    ";
+    let mut turned_m: [Option<f32>; 3] = [None; 3];
+    let simulation = run(THERE_AND_BACK, |simulation, _| {
+        for (frame, state) in simulation.frames().iter().zip(states(simulation)) {
+            if state == "return" {
+                turned_m[frame.id.index()].get_or_insert(frame.root.position_m.x);
+            }
+        }
+    });
+    assert_eq!(states(&simulation), ["home"; 3]);
+    // None turns back before it has stood near its goal.
+    assert!(turned_m.iter().flatten().all(|x_m| (x_m - 3.0).abs() < 0.6), "{turned_m:?}");
+}
+
+#[test]
 fn a_till_serves_one_after_the_other() {
     const TILL: &str = "
         [goals.till]

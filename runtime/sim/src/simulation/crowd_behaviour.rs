@@ -43,6 +43,7 @@ impl Simulation {
                 routes.to_area_m(wall_radius_m, agents.positions_m[index], at, area)
             },
             path_end_m: &|index| path_end_m(agents, population, index),
+            stands_at_goal: &|index| agents.progress[index].arrived,
             has_begun: &|index| population.agents[agents.ids[index].index()].begins_at(scenario.dt_s) <= *steps,
             is_clear: &|position_m| obstacles.depth_m(position_m, WALL_RADIUS_M) <= TOUCH_M,
         };

@@ -49,6 +49,7 @@ impl Points {
             positions_m: &self.positions_m,
             route_m: &route_m,
             path_end_m: &|_| None,
+            stands_at_goal: &|_| false,
             is_clear: &|_| true,
             has_begun: &|_| true,
         };
