@@ -74,7 +74,7 @@ impl Deciding<'_> {
     }
 
     fn route_m(&self, set: usize, area: usize) -> Option<f32> {
-        (self.view.route_m)(self.index, GoalRef { set: set as u32, area: area as u32 })
+        (self.view.route_m)(self.index, self.position_m(), GoalRef { set: set as u32, area: area as u32 })
     }
 
     fn take(&mut self, at: GoalRef) {

@@ -181,7 +181,7 @@ impl Behaviour {
     /// Whether an agent that has entered a state, by index, stands there for good or leaves the scene.
     pub fn is_final(&self, state: usize) -> bool {
         self.states.get(state).is_some_and(|state| match state.movement {
-            Movement::Stand { .. } => state.transitions.is_empty(),
+            Movement::Stand { .. } | Movement::Walk { velocity_mps: Vec2::ZERO } => state.transitions.is_empty(),
             Movement::Leave { .. } => true,
             _ => false,
         })

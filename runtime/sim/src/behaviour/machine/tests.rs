@@ -38,9 +38,8 @@ impl Points {
 
     fn step(&mut self) {
         let goals = &self.behaviour.goals;
-        let positions_m = &self.positions_m;
-        let route_m = |index: usize, goal: GoalRef| {
-            Some(goals[goal.set as usize].areas[goal.area as usize].area.distance_m(positions_m[index]))
+        let route_m = |_: usize, from_m: Vec2, goal: GoalRef| {
+            Some(goals[goal.set as usize].areas[goal.area as usize].area.distance_m(from_m))
         };
         let view = CrowdView {
             time_s: f64::from(self.steps) * STEP_S,
@@ -276,6 +275,19 @@ fn a_teleport_moves_the_agent_at_once() {
     let mut points = Points::new(Behaviour { states, ..Behaviour::default() }, row(1), 0);
     points.run(1.2);
     assert_eq!(points.positions_m, [Vec2::new(5.0, 5.0)]);
+}
+
+#[test]
+fn a_teleported_agent_leaves_the_area_at_once() {
+    // As in a periodic corridor: the state after the teleport asks for the area that the agent has just left.
+    let settings = Settings { teleport: Some(Area::point(Vec2::new(5.0, 5.0))), ..Settings::default() };
+    let jump = State { settings, ..stand("jump", vec![when(Condition::Always, &[0])]) };
+    let states = vec![stand("wait", vec![when(Condition::Inside(0), &[1])]), jump];
+    let areas = vec![Area::Disc { centre_m: Vec2::ZERO, radius_m: 1.0 }];
+    let mut points = Points::new(Behaviour { states, areas, ..Behaviour::default() }, row(1), 0);
+    points.run(0.3);
+    assert_eq!(points.crowd.endless, None);
+    assert_eq!((points.states()[0], points.positions_m[0]), ("wait", Vec2::new(5.0, 5.0)));
 }
 
 #[test]
