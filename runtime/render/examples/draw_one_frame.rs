@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let recording = Recording::open(Path::new(&recording))?;
     // Tracks give the trails, and the part of the world that all frames show.
     let tracks = read_tracks(&recording)?;
-    let top_view = TopView::new(recording.header(), &tracks)?;
+    let top_view = TopView::new(recording.header(), &tracks)?.with_doors(recording.population());
 
     // Buffers can be used for any number of frames.
     let mut buffers = top_view.buffers();

@@ -49,8 +49,13 @@ fn main() {
     let agents: Vec<AgentSpec> = (0..AGENTS).map(on_circle).collect();
     let routes = CrowdRoutes::new(&Scenario { obstacles_m: vec![pillar_m], ..Scenario::of(agents.clone()) })
         .expect("all coordinates are small");
-    let view =
-        RouteView { routes: &routes, obstacles: &obstacles, keep: KeepSide::Right, braking: Braking::Within(DT_S) };
+    let view = RouteView {
+        routes: &routes,
+        doors: None,
+        obstacles: &obstacles,
+        keep: KeepSide::Right,
+        braking: Braking::Within(DT_S),
+    };
     let mut positions_m: Vec<Vec2> = agents.iter().map(|agent| agent.position_m).collect();
     let mut velocities_mps = vec![Vec2::ZERO; AGENTS];
     let mut facings_rad: Vec<f32> = agents.iter().map(|agent| agent.facing_rad).collect();

@@ -138,7 +138,25 @@ impl GoalCount {
     }
 }
 
-/// All agents, past and present, and the counts of sources and goals.
+/// When a door was open and closed.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct DoorPhases {
+    /// Whether the door is closed in the first frame.
+    pub is_closed_at_start: bool,
+    /// Frames from which on the door is closed where it was open, or open where it was closed, rising.
+    pub changes: Vec<u32>,
+}
+
+impl DoorPhases {
+    /// Whether the door is closed in a frame, and in the step that leads to it.
+    pub fn is_closed(&self, frame: u32) -> bool {
+        let changes = self.changes.partition_point(|change| *change <= frame);
+        self.is_closed_at_start != (changes % 2 == 1)
+    }
+}
+
+/// All agents, past and present, the counts of sources and goals, and the phases of doors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Population {
     /// Every agent, by id.
@@ -147,16 +165,25 @@ pub struct Population {
     pub sources: Vec<SourceCount>,
     /// The counts of every set of goals, by index.
     pub goals: Vec<GoalCount>,
+    /// The phases of every door, by index.
+    pub doors: Vec<DoorPhases>,
 }
 
 impl Population {
     /// The population of a scenario at its start.
     pub fn of(scenario: &Scenario) -> Self {
+        let door = |is_closed_at_start| DoorPhases { is_closed_at_start, changes: Vec::new() };
         Self {
+            doors: scenario.doors_closed_at_start().into_iter().map(door).collect(),
             agents: scenario.agents.iter().map(|spec| AgentLife::new(spec.clone(), None, 0)).collect(),
             sources: vec![SourceCount::default(); scenario.sources.len()],
             goals: vec![GoalCount::default(); scenario.behaviour.goals.len()],
         }
+    }
+
+    /// Whether each door, by index, is closed in a frame, and in the step that leads to it.
+    pub fn closed_doors(&self, frame: u32) -> Vec<bool> {
+        self.doors.iter().map(|door| door.is_closed(frame)).collect()
     }
 
     /// The agent with an id at its start.

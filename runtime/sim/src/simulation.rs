@@ -1,7 +1,7 @@
 //! One step of the simulation, in the order of the paper's Fig. 2 (`FbCrowd` §3).
 //!
 //! 0. behaviour (BFSM, §6): what each agent wants, where the scenario has states (`simulation/crowd_behaviour.rs`);
-//! 1. route: the preferred velocity of each agent, v_pref;
+//! 1. route: the preferred velocity of each agent, v_pref; before it, doors open and close (`simulation/moving_doors.rs`);
 //! 2. neighbours: the agents near each agent;
 //! 3. planning (MCN, §4): v_pref becomes a velocity that satisfies the constraints of body, stance foot and crowd;
 //! 4. synthesis (HMS, §5): the body follows its plan;
@@ -32,10 +32,11 @@ use crate::planning::planner::ranking_horizon_s;
 use crate::planning::world_view::WorldView;
 use crate::population::Population;
 use crate::recording::frame::AgentFrame;
-use crate::route::crowd_routes::CrowdRoutes;
+use crate::route::door_routes::{ClosedDoors, DoorRoutes};
 use crate::route::path::{Braking, RouteView};
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
+use crate::simulation::doors::Doors;
 use crate::simulation::path_walker::PathWalker;
 use crate::simulation::source_state::SourceState;
 use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
@@ -43,6 +44,9 @@ use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::Obstacles;
 
 mod crowd_behaviour;
+mod door_waiting;
+mod doors;
+mod moving_doors;
 mod path_walker;
 mod source_state;
 mod turnover;
@@ -78,8 +82,10 @@ pub enum Stage {
 pub struct Simulation {
     context: SynthesisContext,
     scenario: Scenario,
+    /// The walls, with the doors that are closed now.
     obstacles: Obstacles,
-    routes: CrowdRoutes,
+    routes: DoorRoutes,
+    doors: Doors,
     constraints: MotionConstraints,
     neighbours: NeighbourSearch,
     planning: plan_all::CrowdPlanningMemory,
@@ -105,8 +111,8 @@ impl Simulation {
         }
         let mut simulation = Self {
             obstacles: scenario.walls(),
-            // Coordinates are in range in every checked scenario; without a mesh, agents walk straight.
-            routes: CrowdRoutes::new(scenario).unwrap_or_default(),
+            routes: DoorRoutes::new(scenario),
+            doors: Doors::new(scenario),
             constraints: MotionConstraints::new(&context.db.velocity_hull),
             neighbours: NeighbourSearch::default(),
             planning: plan_all::CrowdPlanningMemory::default(),
@@ -118,6 +124,7 @@ impl Simulation {
             context,
             steps: 0,
         };
+        simulation.close_doors_at_start();
         simulation.bear_due_agents();
         simulation.record();
         simulation
@@ -153,9 +160,11 @@ impl Simulation {
 
     /// Advances by the scenario's dt; `finished` receives each stage at its end.
     pub fn step(&mut self, finished: &mut dyn FnMut(Stage)) {
+        self.move_doors();
         self.decide();
         self.remove_leaving_agents();
         self.follow_paths();
+        self.wait_before_doors();
         self.apply_zones();
         finished(Stage::Route);
         let Agents { positions_m, velocities_mps, radii_m, .. } = &self.agents;
@@ -181,8 +190,12 @@ impl Simulation {
             Coupling::Discs => Braking::Within(self.scenario.dt_s),
         };
         let (keep, dt_s) = (self.scenario.params.route.keep, self.scenario.dt_s);
-        let Self { agents, population, obstacles, routes, crowd, steps, .. } = self;
-        let view = RouteView { routes, obstacles, keep, braking };
+        let Self { agents, population, obstacles, routes, doors, crowd, steps, .. } = self;
+        let red = ClosedDoors { open_routes: routes.all_open(), leaves: &doors.red_leaves };
+        let red = doors.is_any_red().then_some(red);
+        let view = RouteView { routes: routes.present(), doors: red, obstacles, keep, braking };
+        let passing = doors.passing(agents);
+        let view_passing = RouteView { routes: routes.all_open(), doors: None, ..view };
         let Agents { ids, removals, positions_m, progress, route_memory, preferred_mps, .. } = agents;
         let remembered = progress.par_iter_mut().zip(route_memory).with_min_len(ROUTES_PER_TASK_MIN);
         let present = ids.par_iter().zip(removals).zip(positions_m).zip(preferred_mps).enumerate();
@@ -195,7 +208,8 @@ impl Simulation {
                 let life = &population.agents[id.index()];
                 let walker = PathWalker { spec: &life.spec, state: crowd.agents.get(index), position_m: *position_m };
                 let has_begun = life.begins_at(dt_s) <= *steps;
-                *preferred_mps = if has_begun { walker.preferred_mps(&view, progress, memory) } else { Vec2::ZERO };
+                let view = if passing.get(index) == Some(&true) { &view_passing } else { &view };
+                *preferred_mps = if has_begun { walker.preferred_mps(view, progress, memory) } else { Vec2::ZERO };
             },
         );
     }
@@ -289,6 +303,8 @@ fn are_between_steps(before: [f32; 2], after: [f32; 2]) -> bool {
 
 #[cfg(test)]
 mod behaviour_tests;
+#[cfg(test)]
+mod door_tests;
 #[cfg(test)]
 mod route_tests;
 #[cfg(test)]

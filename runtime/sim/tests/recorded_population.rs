@@ -7,10 +7,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use common::{agent, chunks, file_of, folder, header, standing_at, unzipped, zipped};
+use fbcrowd_sim::behaviour::Signal;
 use fbcrowd_sim::measures::{Measures, measure, write_table, write_trajectories};
-use fbcrowd_sim::population::{AgentId, AgentLife, Population, SourceCount};
+use fbcrowd_sim::population::{AgentId, AgentLife, DoorPhases, Population, SourceCount};
 use fbcrowd_sim::recording::{AgentFrame, Header, RecordedCharacter, Recorder, Recording, RecordingError};
-use fbcrowd_sim::scenario::{AtGoal, SourceSpec};
+use fbcrowd_sim::scenario::{AtGoal, DoorSpec, SourceSpec};
 use glam::Vec2;
 
 const DT_S: f32 = 0.25;
@@ -345,4 +346,43 @@ fn tables_have_rows_of_present_agents() {
     assert_eq!(ids, PRESENT.concat());
     // Agent 2 starts from rest in frame 1 and walks in frame 2.
     assert_eq!([rows[4][6], rows[6][6]], ["0.000000", "1.000000"]);
+}
+
+/// A header with an agent that stands at the origin, and a door of 2 m by 2 m beside it that is open at the start.
+fn header_with_door() -> Header {
+    let mut header = header(vec![agent([0.0, 0.0], [5.0, 0.0])], DT_S);
+    let polygon_m = [[0.1, -1.0], [2.1, -1.0], [2.1, 1.0], [0.1, 1.0]].map(Vec2::from).to_vec();
+    header.scenario.doors = vec![DoorSpec { polygon_m, signal: 0 }];
+    header.scenario.behaviour.signals = vec![Signal { name: "gate".into(), green_s: 0.5, red_s: 9.0, offset_s: 0.0 }];
+    header
+}
+
+/// Records five frames in which the agent stands, with these phases of the door.
+fn record_door(test: &str, changes: &[u32]) -> Result<Recording, RecordingError> {
+    let (path, header) = (folder(test).join("a.fbrec"), header_with_door());
+    let mut recorder = Recorder::create(&path, &header)?;
+    (0..5).try_for_each(|_| recorder.push(&[standing_at(Vec2::ZERO)]))?;
+    let mut population = Population::of(&header.scenario);
+    population.doors[0].changes = changes.to_vec();
+    recorder.finish(&population)?;
+    Recording::open(&path)
+}
+
+#[test]
+fn doors_come_back_and_walls_are_measured_while_they_are_closed() {
+    let recording = record_door("doors", &[2, 4]).unwrap();
+    let doors = [DoorPhases { is_closed_at_start: false, changes: vec![2, 4] }];
+    assert_eq!(recording.population().doors, doors);
+    let closed: Vec<bool> = (0..5).map(|frame| doors[0].is_closed(frame)).collect();
+    assert_eq!(closed, [false, false, true, true, false]);
+    // Two of four frames after the start.
+    assert_eq!(measure(&recording).unwrap().wall_disc_share, 0.5);
+}
+
+#[test]
+fn forged_phases_of_doors_are_rejected() {
+    for (index, changes) in [&[0][..], &[5], &[3, 2], &[2, 2]].into_iter().enumerate() {
+        let error = record_door(&format!("forged_doors_{index}"), changes).unwrap_err();
+        assert!(error.to_string().contains("door 0: a frame is out of range"), "{error}");
+    }
 }

@@ -125,7 +125,7 @@ fn figures(scenario: &Scenario, routes: &CrowdRoutes, closed: &[ClosedToAgents])
         agents,
         due_agents: due.len(),
         sources: scenario.sources.len(),
-        obstacles: scenario.obstacles_m.len() + scenario.enclosures_m.len(),
+        obstacles: scenario.obstacles_m.len() + scenario.enclosures_m.len() + scenario.doors.len(),
         walkable: scenario.walkable_m.len(),
         duration_s: scenario.duration_s,
         dt_s: scenario.dt_s,

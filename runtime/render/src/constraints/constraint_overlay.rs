@@ -33,7 +33,7 @@ const MIN_HEIGHT_PX: u32 = 540;
 /// fn main() -> Result<(), RenderError> {
 ///     let recording = Recording::open(Path::new("crossing.fbrec"))?;
 ///     let tracks = read_tracks(&recording)?;
-///     let top_view = TopView::new(recording.header(), &tracks)?;
+///     let top_view = TopView::new(recording.header(), &tracks)?.with_doors(recording.population());
 ///     let overlay = ConstraintOverlay::new(&recording, top_view.framing(), &[0, 1])?;
 ///     let agents = sample(&recording, 2.0)?;
 ///     let mut buffers = top_view.buffers();

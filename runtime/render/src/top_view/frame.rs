@@ -1,8 +1,9 @@
-//! One frame, seen from straight above, in layers from bottom to top: ground, trails, shade, bodies, captions.
+//! One frame, seen from straight above, in layers from bottom to top: ground, doors, trails, shade, bodies, captions.
 //!
 //! Enters: recorded roots and poses, world metres. Leaves: an opaque sRGB picture. [`TopView::new`] prepares what all
 //! frames share. [`TopView::draw`] depends only on time and bodies, so frames can be drawn in any order and thread.
 
+use fbcrowd_sim::Population;
 use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::{Vec2, Vec3};
 use tiny_skia::{Pixmap, PremultipliedColorU8};
@@ -14,6 +15,7 @@ use crate::raster::pixels::Strip;
 use crate::raster::strips::PictureStrips;
 use crate::raster::tapered_capsule::Canvas;
 use crate::top_view::captions::Captions;
+use crate::top_view::doors::DrawnDoors;
 use crate::top_view::framing::{Framing, frame_recording};
 use crate::top_view::ground;
 use crate::top_view::shade::ShadeMask;
@@ -47,7 +49,7 @@ const MIN_SHADE_RADIUS_PX: f32 = 0.9;
 ///
 /// let recording = Recording::open(Path::new("crossing.fbrec"))?;
 /// let tracks = read_tracks(&recording)?;
-/// let top_view = TopView::new(recording.header(), &tracks)?;
+/// let top_view = TopView::new(recording.header(), &tracks)?.with_doors(recording.population());
 /// let mut buffers = top_view.buffers();
 /// let agents = sample(&recording, 2.0)?;
 /// png_frame::write(Path::new("at_2_s.png"), top_view.draw(&mut buffers, 2.0, &agents))?;
@@ -59,6 +61,7 @@ pub struct TopView<'a> {
     tracks: &'a Tracks,
     framing: Framing,
     background: Pixmap,
+    doors: DrawnDoors<'a>,
     captions: Captions,
 }
 
@@ -78,7 +81,14 @@ impl<'a> TopView<'a> {
     pub fn new(header: &'a Header, tracks: &'a Tracks) -> Result<Self, RenderError> {
         let framing = frame_recording(header, tracks.positions_m())?;
         let background = ground::background(header, &framing);
-        Ok(Self { header, tracks, framing, background, captions: Captions::new(&framing) })
+        let (doors, captions) = (DrawnDoors::default(), Captions::new(&framing));
+        Ok(Self { header, tracks, framing, background, doors, captions })
+    }
+
+    /// The same with the doors of the recording, as they open and close.
+    pub fn with_doors(self, population: &'a Population) -> Self {
+        let doors = DrawnDoors::new(&self.header.scenario, &population.doors, &self.framing);
+        Self { doors, ..self }
     }
 
     /// Part of the world that is shown.
@@ -128,6 +138,7 @@ impl<'a> TopView<'a> {
     ) {
         let FrameBuffers { canvas, shade } = buffers;
         canvas.reset(&self.background, top_px);
+        self.doors.draw(&mut canvas.pixmap, &canvas.strip, time_s);
         self.draw_trails(canvas, time_s, agents);
         self.draw_shade(canvas, shade, parts);
         self.draw_bodies(canvas, parts);

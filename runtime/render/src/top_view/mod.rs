@@ -3,9 +3,10 @@
 //! Enters: a recording, which holds its view. Leaves: pictures, or PNG or EXR files.
 //!
 //! Read `sequence`, then `playback` (poses between steps), `framing` and `frame`. The layers of a frame are `ground`,
-//! `trails`, `shade` and `captions`. `frame_range` reads `--frames`.
+//! `doors`, `trails`, `shade` and `captions`. `frame_range` reads `--frames`.
 
 pub(crate) mod captions;
+pub(crate) mod doors;
 pub(crate) mod frame;
 pub(crate) mod frame_range;
 pub(crate) mod framing;

@@ -138,7 +138,7 @@ fn check_memory(recording: &Recording, numbers: &[u32], has_overlay: bool) -> Re
 
 impl<'a> SequenceViews<'a> {
     fn new(recording: &'a Recording, tracks: &'a Tracks, constraints_of: &[usize]) -> Result<Self, RenderError> {
-        let top = TopView::new(recording.header(), tracks)?;
+        let top = TopView::new(recording.header(), tracks)?.with_doors(recording.population());
         let overlay = match constraints_of {
             [] => None,
             agents => Some(ConstraintOverlay::new(recording, top.framing(), agents)?),

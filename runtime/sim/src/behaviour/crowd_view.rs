@@ -22,6 +22,8 @@ pub struct CrowdView<'a> {
     pub positions_m: &'a [Vec2],
     /// Length of the route of an agent, by index, from a position to an area, m; none where there is no route.
     pub route_m: &'a (dyn Fn(usize, Vec2, GoalRef) -> Option<f32> + Sync),
+    /// The same as with all doors open; none where no door is closed.
+    pub open_route_m: Option<&'a (dyn Fn(usize, Vec2, GoalRef) -> Option<f32> + Sync)>,
     /// Distance of an agent, by index, to the end of its own waypoints, m; none before it has passed all others.
     pub path_end_m: &'a (dyn Fn(usize) -> Option<f32> + Sync),
     /// Whether an agent, by index, stands at the goal that it had in the last step: its body has stopped there, or it

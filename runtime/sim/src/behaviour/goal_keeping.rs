@@ -1,6 +1,8 @@
 //! The goal of one agent in its step: it chooses one, moves up in a queue, leaves a busy exit for another. World,
 //! metres, seconds.
 
+use glam::Vec2;
+
 use crate::behaviour::agent_state::{ChosenGoal, GoalRef};
 use crate::behaviour::choice::{Choice, Options};
 use crate::behaviour::crowd_view::Moment;
@@ -46,7 +48,15 @@ impl Deciding<'_> {
     fn choose(&mut self, set: usize, choice: Choice) {
         let free = self.occupancy.free(set, &self.behaviour.goals[set]);
         let random = &mut self.drawer().random(Purpose::Goal);
-        let Some(area) = choice.choose(&self.options(set, &free, &|area| self.route_m(set, area)), random) else {
+        let chosen = choice.choose(&self.options(set, &free, &|area| self.route_m(set, area)), random);
+        // Where only closed doors lead to a goal, the agent waits before one.
+        let behind_doors = |open_route_m: &dyn Fn(usize, Vec2, GoalRef) -> Option<f32>| {
+            let route_m =
+                |area| open_route_m(self.index, self.position_m(), GoalRef { set: set as u32, area: area as u32 });
+            choice.choose(&self.options(set, &free, &route_m), &mut self.drawer().random(Purpose::Goal))
+        };
+        let Some(area) = chosen.or_else(|| self.view.open_route_m.and_then(|open_route_m| behind_doors(open_route_m)))
+        else {
             return;
         };
         self.take(GoalRef { set: set as u32, area: area as u32 });
@@ -61,7 +71,8 @@ impl Deciding<'_> {
         let options = self.options(set, &free, &route_m);
         let Some(area) = Choice::LeastBusy.choose(&options, &mut self.drawer().random(Purpose::Goal)) else { return };
         let [now_s, other_s] = [goal.at.area as usize, area].map(|area| options.time_s(area));
-        if other_s < now_s.map(|now_s| (1.0 - SAVES_SHARE) * now_s) {
+        // A door that has closed may have cut off the present exit.
+        if now_s.is_none_or(|now_s| other_s < Some((1.0 - SAVES_SHARE) * now_s)) {
             self.agent.remembered.retain(|(_, remembered)| remembered.at != goal.at);
             self.occupancy.leave(self.agent);
             self.take(GoalRef { set: set as u32, area: area as u32 });

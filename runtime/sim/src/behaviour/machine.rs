@@ -76,6 +76,11 @@ impl CrowdBehaviour {
         });
     }
 
+    /// Whether a signal, by index, is green at a time, s: for conditions and doors.
+    pub fn is_green(&self, behaviour: &Behaviour, signal: usize, time_s: f64) -> bool {
+        behaviour.is_green(signal, time_s)
+    }
+
     /// One step.
     pub fn decide(&mut self, behaviour: &Behaviour, view: &CrowdView) {
         let moment = self.moment(behaviour, view);
@@ -110,7 +115,7 @@ impl CrowdBehaviour {
         }
         let number = |area: &Area| view.positions_m.iter().filter(|&&position_m| area.holds(position_m)).count() as u32;
         Moment {
-            green: behaviour.signals.iter().map(|signal| signal.is_green(view.time_s)).collect(),
+            green: (0..behaviour.signals.len()).map(|signal| self.is_green(behaviour, signal, view.time_s)).collect(),
             numbers: behaviour.areas.iter().map(number).collect(),
             populations,
             joining: self.joining(behaviour, view),

@@ -147,6 +147,11 @@ impl Behaviour {
         self.states.is_empty() && self.goals.is_empty() && self.signals.is_empty() && self.areas.is_empty()
     }
 
+    /// Whether a signal, by index, is green at a time, s. One that there is not is always green.
+    pub fn is_green(&self, signal: usize, time_s: f64) -> bool {
+        self.signals.get(signal).is_none_or(|signal| signal.is_green(time_s))
+    }
+
     /// Names of all states, as a recording's header lists them.
     pub fn state_names(&self) -> Vec<String> {
         match self.states.is_empty() {

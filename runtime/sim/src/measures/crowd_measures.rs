@@ -168,6 +168,7 @@ impl Measuring {
         self.places.push(frame, &pairs, after);
         self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
         let wall_radii_m: Vec<f32> = after.iter().map(|agent| life(agent).wall_radius_m(frame)).collect();
+        self.walls.set_doors(population.closed_doors(frame));
         self.walls.push(after, &self.joints, &wall_radii_m);
         self.before.clear();
         self.before.extend_from_slice(after);

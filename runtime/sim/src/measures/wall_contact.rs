@@ -24,6 +24,11 @@ const DEEP_M: f32 = 0.01;
 #[derive(Debug)]
 pub(crate) struct WallContact {
     skeleton: Skeleton,
+    /// The scenario, where it has doors.
+    with_doors: Option<Scenario>,
+    /// Whether each door is closed in the present frame, by index.
+    closed: Vec<bool>,
+    /// The walls of the present frame.
     obstacles: Obstacles,
     agent_frames: usize,
     touching_discs: usize,
@@ -50,12 +55,24 @@ impl WallContact {
     pub(crate) fn new(skeleton: &Skeleton, scenario: &Scenario) -> Self {
         Self {
             skeleton: skeleton.clone(),
+            with_doors: (!scenario.doors.is_empty()).then(|| scenario.clone()),
+            closed: Vec::new(),
             obstacles: scenario.walls(),
             agent_frames: 0,
             touching_discs: 0,
             touching_bodies: 0,
             deep_bodies: 0,
             greatest_depth_m: 0.0,
+        }
+    }
+
+    /// Takes the walls of the next frame, given whether each door is closed in it, by index.
+    pub(crate) fn set_doors(&mut self, closed: Vec<bool>) {
+        if let Some(scenario) = &self.with_doors
+            && self.closed != closed
+        {
+            self.obstacles = scenario.walls_with(&closed);
+            self.closed = closed;
         }
     }
 

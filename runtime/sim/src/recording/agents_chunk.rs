@@ -9,7 +9,7 @@ use std::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::population::{AgentLife, GoalCount, Population, RadiusChange, SourceCount};
+use crate::population::{AgentLife, DoorPhases, GoalCount, Population, RadiusChange, SourceCount};
 use crate::recording::header::Header;
 use crate::scenario::AgentSpec;
 use crate::scenario::ranges::{AGENTS_MAX, RADIUS_M, check_agent};
@@ -25,6 +25,8 @@ struct StoredPopulation<'a> {
     sources: Cow<'a, [SourceCount]>,
     #[serde(default, skip_serializing_if = "<[GoalCount]>::is_empty")]
     goals: Cow<'a, [GoalCount]>,
+    #[serde(default, skip_serializing_if = "<[DoorPhases]>::is_empty")]
+    doors: Cow<'a, [DoorPhases]>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -96,8 +98,13 @@ pub(crate) fn stored<'a>(population: &'a Population, header: &Header) -> impl Se
         teleports: Cow::Borrowed(&life.teleports),
     };
     let agents = population.agents.iter().enumerate().map(life).collect();
-    let Population { sources, goals, .. } = population;
-    StoredPopulation { agents, sources: Cow::Borrowed(sources), goals: Cow::Borrowed(goals) }
+    let Population { sources, goals, doors, .. } = population;
+    StoredPopulation {
+        agents,
+        sources: Cow::Borrowed(sources),
+        goals: Cow::Borrowed(goals),
+        doors: Cow::Borrowed(doors),
+    }
 }
 
 /// The population of a recording with this header and number of frames.
@@ -131,16 +138,25 @@ fn population(stored: StoredPopulation<'_>, header: &Header) -> Result<Populatio
     if goals.is_empty() {
         goals = vec![GoalCount::default(); header.scenario.behaviour.goals.len()];
     }
-    Ok(Population { agents, sources: stored.sources.into_owned(), goals })
+    Ok(Population { agents, sources: stored.sources.into_owned(), goals, doors: stored.doors.into_owned() })
 }
 
 fn check(population: &Population, header: &Header, frame_count: usize) -> Result<(), String> {
-    let Population { agents, sources, goals } = population;
+    let Population { agents, sources, goals, doors } = population;
     if sources.len() != header.scenario.sources.len() {
         return Err(format!("it counts {} sources, but the scenario has another number", sources.len()));
     }
     if goals.len() != header.scenario.behaviour.goals.len() {
         return Err(format!("it counts {} sets of goals, but the scenario has another number", goals.len()));
+    }
+    if doors.len() != header.scenario.doors.len() {
+        return Err(format!("it lists {} doors, but the scenario has another number", doors.len()));
+    }
+    for (index, door) in doors.iter().enumerate() {
+        let is_frame = |frame: &u32| *frame > 0 && (*frame as usize) < frame_count;
+        if !door.changes.iter().all(is_frame) || !door.changes.is_sorted_by(|a, b| a < b) {
+            return Err(format!("door {index}: a frame is out of range"));
+        }
     }
     if !agents.is_sorted_by_key(|life| life.born) {
         return Err("ids do not count births".into());

@@ -7,6 +7,8 @@
 //! is committed on the paper's transition between syntheses (`transition = "through_m_mb"`) is not recorded; the actual
 //! velocity stands in for it. World axes, metres, seconds, radians.
 
+use std::sync::Arc;
+
 use glam::Vec2;
 
 use crate::planning::mcn::motion_constraints::MotionConstraints;
@@ -26,7 +28,8 @@ use crate::world::obstacles::Obstacles;
 #[derive(Debug)]
 pub struct Replay<'a> {
     recording: &'a Recording,
-    obstacles: Obstacles,
+    /// The walls with all doors open.
+    obstacles: Arc<Obstacles>,
     constraints: MotionConstraints,
 }
 
@@ -51,6 +54,8 @@ pub struct RecordedStep<'a> {
     strafing_s: Vec<f32>,
     stepping_back_s: Vec<f32>,
     neighbours: NeighbourSearch,
+    /// The walls of the step.
+    obstacles: Arc<Obstacles>,
 }
 
 impl<'a> Replay<'a> {
@@ -60,7 +65,7 @@ impl<'a> Replay<'a> {
         Self {
             recording,
             constraints: MotionConstraints::new(recording.header().velocity_hull()),
-            obstacles: scenario.walls(),
+            obstacles: Arc::new(scenario.walls()),
         }
     }
 
@@ -108,9 +113,19 @@ impl<'a> Replay<'a> {
             strafing_s: before.iter().map(|agent| agent.strafing_s).collect(),
             stepping_back_s: before.iter().map(|agent| agent.stepping_back_s).collect(),
             neighbours,
+            obstacles: self.walls(number + 1),
             before,
             after,
         })
+    }
+
+    /// The walls of the step that leads to a frame.
+    fn walls(&self, frame: u32) -> Arc<Obstacles> {
+        let closed = self.recording.population().closed_doors(frame);
+        match closed.contains(&true) {
+            true => Arc::new(self.header().scenario.walls_with(&closed)),
+            false => self.obstacles.clone(),
+        }
     }
 
     /// Velocities between two frames, as `coupling::body_to_disc` computes them, m/s; all agents start at rest, also
@@ -160,7 +175,7 @@ impl RecordedStep<'_> {
             strafing_s: &self.strafing_s,
             stepping_back_s: &self.stepping_back_s,
             neighbours: &self.neighbours,
-            obstacles: &self.replay.obstacles,
+            obstacles: &self.obstacles,
             constraints: &self.replay.constraints,
             dt_s,
             bodies: coupling.plans_for_bodies(),

@@ -30,6 +30,8 @@ const CLEARANCE_M: f64 = 0.15;
 /// Meshes and fields of a scene with walls.
 #[derive(Clone, Debug, Default)]
 pub struct CrowdRoutes {
+    /// Number that tells these routes from those with other doors closed; 0 with all doors open.
+    id: u32,
     /// Mesh of each class of wall radii.
     meshes: Vec<(u32, RouteMesh)>,
     fields: Vec<RouteField>,
@@ -45,9 +47,23 @@ type WaypointKey = (u32, [u32; 2]);
 /// What an agent remembers of its route.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RouteMemory {
+    /// The routes to which the memory belongs, by id.
+    of: u32,
     position: RoutePosition,
     /// Its own route, where its waypoint has no field.
     own: Option<OwnRoute>,
+    /// The closed door on its route, where no route leads through the doors that are open.
+    pub(crate) door: Option<Box<DoorAhead>>,
+}
+
+/// A closed door before which an agent waits, and its route there: as with all doors open.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct DoorAhead {
+    pub(crate) memory: RouteMemory,
+    /// Free path until the door, m; set by each query of the route.
+    pub(crate) free_m: Option<f32>,
+    /// Number of agents that wait one behind the other up to the door, this one included; 0: it does not wait.
+    pub(crate) rank: u32,
 }
 
 /// A route to a waypoint of few agents.
@@ -88,17 +104,23 @@ impl NextCorner {
 }
 
 impl CrowdRoutes {
-    /// Routes for the agents and sources of a scenario, around its walls.
+    /// Routes for the agents and sources of a scenario, around its walls; all doors are open.
     ///
     /// # Errors
     /// If a coordinate is out of range.
     pub fn new(scenario: &Scenario) -> Result<Self, RouteError> {
-        let mut routes = Self::default();
+        Self::with_closed(scenario, &[], 0)
+    }
+
+    /// As [`new`](Self::new), with the doors that are closed, by index. The id is that of no other routes.
+    pub(crate) fn with_closed(scenario: &Scenario, closed: &[bool], id: u32) -> Result<Self, RouteError> {
+        let mut routes = Self { id, ..Self::default() };
         if scenario.is_open() {
             return Ok(routes);
         }
         let points_m = scenario.points_m();
-        let ground = scenario.ground(&points_m);
+        let obstacles_m = scenario.solids_m(closed);
+        let ground = scenario.ground(&obstacles_m, &points_m);
         let mut shared: BTreeMap<WaypointKey, usize> = BTreeMap::new();
         let agents = scenario.agents.iter().map(|agent| (agent.wall_radius_m, &agent.goals_m, 1));
         // The agents of a source share its waypoints.
@@ -171,6 +193,7 @@ impl CrowdRoutes {
     ) -> Option<NextCorner> {
         let class = class(wall_radius_m);
         let mesh = self.mesh(class)?;
+        memory.belong_to(self.id);
         if let Some(&field) = end.area.and_then(|area| self.area_field_of.get(&(class, area))) {
             let step = self.fields[field].step(mesh, from_m, &mut memory.position)?;
             if step.after_m.is_some() {
@@ -185,6 +208,7 @@ impl CrowdRoutes {
     pub fn next(&self, agent: &AgentSpec, from_m: Vec2, to_m: Vec2, memory: &mut RouteMemory) -> Option<NextCorner> {
         let class = class(agent.wall_radius_m);
         let mesh = self.mesh(class)?;
+        memory.belong_to(self.id);
         let Some(&field) = self.field_of.get(&key(class, to_m)) else {
             return memory.next_of_own(mesh, from_m, to_m);
         };
@@ -226,6 +250,13 @@ impl CrowdRoutes {
 }
 
 impl RouteMemory {
+    /// Forgets what belongs to other routes.
+    fn belong_to(&mut self, id: u32) {
+        if self.of != id {
+            (self.of, self.position, self.own) = (id, RoutePosition::default(), None);
+        }
+    }
+
     fn next_of_own(&mut self, mesh: &RouteMesh, from_m: Vec2, to_m: Vec2) -> Option<NextCorner> {
         let (at, entry_m) = self.position.find(mesh, DVec2::from(from_m))?;
         let sees = |point_m: Vec2| mesh.is_straight_free(at, DVec2::from(point_m));

@@ -3,7 +3,7 @@
 //! Enters: an agent's waypoints, the walls, the agent's position. Leaves: v_pref, and whether the agent has arrived.
 //!
 //! Read [`mesh`] (free space as triangles) and [`field`] (shortest routes over it); then `crowd_routes` (the routes of all
-//! agents), `steering` (direction before a corner), `path` (v_pref along waypoints) and `arrival` (when an agent has
+//! agents), `door_routes` (while doors are closed), `steering` (direction before a corner), `path` (v_pref along waypoints) and `arrival` (when an agent has
 //! arrived); `reach` finds unreachable goals and closed passages before a simulation.
 //!
 //! ```
@@ -26,6 +26,7 @@
 
 pub(crate) mod arrival;
 pub mod crowd_routes;
+pub(crate) mod door_routes;
 pub mod field;
 pub mod mesh;
 pub(crate) mod params;
@@ -34,6 +35,7 @@ pub(crate) mod reach;
 pub(crate) mod steering;
 
 pub use crowd_routes::{CrowdRoutes, NextCorner, RouteMemory};
+pub use door_routes::ClosedDoors;
 pub use params::{KeepSide, RouteParams};
 pub use path::{Braking, PathProgress, RouteView, preferred_mps};
 pub use reach::{ClosedToAgents, closed_to_agents};

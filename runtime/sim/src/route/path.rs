@@ -7,6 +7,7 @@
 use glam::Vec2;
 
 use crate::route::crowd_routes::{CrowdRoutes, NextCorner, RouteEnd, RouteMemory};
+use crate::route::door_routes::ClosedDoors;
 use crate::route::params::KeepSide;
 use crate::route::steering;
 use crate::scenario::AgentSpec;
@@ -72,14 +73,36 @@ impl PathProgress {
 /// What the route of an agent depends on, apart from the agent.
 #[derive(Clone, Copy, Debug)]
 pub struct RouteView<'a> {
-    /// Routes around the walls.
+    /// Routes around the walls, through the doors that are open.
     pub routes: &'a CrowdRoutes,
+    /// The doors that are closed; none where all are open.
+    pub doors: Option<ClosedDoors<'a>>,
     /// The walls.
     pub obstacles: &'a Obstacles,
     /// The side on which agents keep at corners.
     pub keep: KeepSide,
     /// How agents slow down before their last goals.
     pub braking: Braking,
+}
+
+impl RouteView<'_> {
+    /// The next corner on the way to a goal: through doors that are open, or else up to a closed one.
+    fn next(
+        &self,
+        [position_m, goal_m]: [Vec2; 2],
+        wall_radius_m: f32,
+        memory: &mut RouteMemory,
+        query: impl Fn(&CrowdRoutes, &mut RouteMemory) -> Option<NextCorner>,
+    ) -> Option<NextCorner> {
+        let next = query(self.routes, memory);
+        match self.doors {
+            Some(doors) if next.is_none() => doors.next_before_door([position_m, goal_m], wall_radius_m, memory, query),
+            _ => {
+                memory.door = None;
+                next
+            }
+        }
+    }
 }
 
 /// An agent that walks to a goal that is not a waypoint.
@@ -113,7 +136,8 @@ pub fn preferred_mps(
     let next = progress.next as usize;
     let goal_m = agent.goals_m[next];
     let to_goal_m = goal_m - position_m;
-    let corner = view.routes.next(agent, position_m, goal_m, memory);
+    let query = |routes: &CrowdRoutes, memory: &mut RouteMemory| routes.next(agent, position_m, goal_m, memory);
+    let corner = view.next([position_m, goal_m], agent.wall_radius_m, memory, query);
     let can_rest = corner.is_none_or(|corner| corner.after_m.is_none() && !leans_on_wall(position_m, goal_m, &corner));
     progress.arrived = to_last && can_rest && to_goal_m.length() < arrival_radius_m(progress.arrived);
     if let Some(direction) = corner
@@ -187,7 +211,9 @@ pub(crate) fn towards_mps(
 ) -> Vec2 {
     let &Walker { position_m, speed_mps, wall_radius_m } = agent;
     let to_goal_m = goal.position_m - position_m;
-    let corner = view.routes.next_to_end(wall_radius_m, position_m, goal, memory);
+    let query =
+        |routes: &CrowdRoutes, memory: &mut RouteMemory| routes.next_to_end(wall_radius_m, position_m, goal, memory);
+    let corner = view.next([position_m, goal.position_m], wall_radius_m, memory, query);
     let can_rest =
         corner.is_none_or(|corner| corner.after_m.is_none() && !leans_on_wall(position_m, goal.position_m, &corner));
     *arrived = can_rest && to_goal_m.length() < arrival_radius_m(*arrived);
@@ -215,7 +241,7 @@ fn arrival_radius_m(arrived: bool) -> f32 {
 }
 
 /// The speed from which even braking, then the last stretch, stop at the goal; both meet with the same slope.
-fn braking_speed_mps(distance_m: f32) -> f32 {
+pub(crate) fn braking_speed_mps(distance_m: f32) -> f32 {
     let last_stretch_m = BRAKING_MPS2 * STOPPING_TIME_S * STOPPING_TIME_S;
     if distance_m < last_stretch_m {
         return distance_m / STOPPING_TIME_S;
@@ -245,8 +271,13 @@ mod tests {
     /// v_pref on open ground, braking evenly.
     fn on_open_ground_mps(agent: &AgentSpec, position_m: Vec2, progress: &mut PathProgress) -> Vec2 {
         let (routes, obstacles) = (CrowdRoutes::default(), Obstacles::default());
-        let view =
-            RouteView { routes: &routes, obstacles: &obstacles, keep: KeepSide::Right, braking: Braking::Evenly };
+        let view = RouteView {
+            routes: &routes,
+            doors: None,
+            obstacles: &obstacles,
+            keep: KeepSide::Right,
+            braking: Braking::Evenly,
+        };
         preferred_mps(agent, position_m, &view, progress, &mut RouteMemory::default())
     }
 
@@ -327,8 +358,13 @@ mod tests {
         let obstacles = Obstacles::new(std::slice::from_ref(&post_m));
         let routes =
             CrowdRoutes::new(&Scenario { obstacles_m: vec![post_m], ..Scenario::of(vec![agent.clone()]) }).unwrap();
-        let view =
-            RouteView { routes: &routes, obstacles: &obstacles, keep: KeepSide::Right, braking: Braking::Evenly };
+        let view = RouteView {
+            routes: &routes,
+            doors: None,
+            obstacles: &obstacles,
+            keep: KeepSide::Right,
+            braking: Braking::Evenly,
+        };
         let mut progress = PathProgress { next: 1, arrived: false };
         let mut direction = |x_m, y_m| {
             let memory = &mut RouteMemory::default();

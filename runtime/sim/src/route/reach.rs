@@ -68,11 +68,12 @@ pub fn closed_to_agents(scenario: &Scenario) -> Vec<ClosedToAgents> {
 fn closed(scenario: &Scenario, class: u32) -> Vec<ClosedPassage> {
     let points_m = scenario.points_m();
     let Ok(mesh) = mesh(scenario, &points_m, class) else { return Vec::new() };
-    closed_passages(&scenario.ground(&points_m), class_radius_m(class), &mesh).unwrap_or_default()
+    let ground = scenario.ground(&scenario.obstacles_m, &points_m);
+    closed_passages(&ground, class_radius_m(class), &mesh).unwrap_or_default()
 }
 
 fn mesh(scenario: &Scenario, points_m: &[Vec2], class: u32) -> Result<RouteMesh, ScenarioFault> {
-    RouteMesh::new(&scenario.ground(points_m), class_radius_m(class))
+    RouteMesh::new(&scenario.ground(&scenario.obstacles_m, points_m), class_radius_m(class))
         .or_else(|error| ScenarioPart::Obstacle(0).fault(error.to_string(), "look for walls that nearly touch"))
 }
 

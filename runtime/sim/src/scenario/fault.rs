@@ -33,6 +33,8 @@ pub enum ScenarioPart {
     Agent(usize),
     /// An obstacle, by index.
     Obstacle(usize),
+    /// A door, by index.
+    Door(usize),
     /// An enclosure, by index.
     Enclosure(usize),
     /// A walkable polygon, by index.

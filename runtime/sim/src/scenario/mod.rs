@@ -3,12 +3,13 @@
 //! Enters: a scenario file ([`file`](mod@file)), or agents made in code. Leaves: a [`Scenario`] in which every agent is
 //! explicit, every number is in range and no path occurs.
 //!
-//! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `profile`, `measure_spec`, `zone_spec`,
-//! `coupling` and `view`; then `rules` and `ranges`, `fault` and `error` (how a broken rule is shown); then
+//! Read `resolved` (the scenario) with `walls`, `door`, `agent_spec`, `source_spec`, `profile`, `measure_spec`,
+//! `zone_spec`, `coupling` and `view`; then `rules` and `ranges`, `fault` and `error` (how a broken rule is shown); then
 //! [`file`](mod@file).
 
 pub(crate) mod agent_spec;
 pub(crate) mod coupling;
+pub(crate) mod door;
 pub(crate) mod error;
 pub(crate) mod fault;
 pub mod file;
@@ -25,6 +26,7 @@ pub(crate) mod zone_spec;
 
 pub use agent_spec::{AgentSpec, AtGoal, WALL_RADIUS_M};
 pub use coupling::Coupling;
+pub use door::DoorSpec;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};

@@ -9,6 +9,7 @@ use crate::planning::planner::Planner;
 use crate::route::mesh::WalkablePolygon;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::coupling::Coupling;
+use crate::scenario::door::DoorSpec;
 use crate::scenario::measure_spec::MeasureSpec;
 use crate::scenario::source_spec::SourceSpec;
 use crate::scenario::view::View;
@@ -73,6 +74,9 @@ pub struct Scenario {
     pub measures: Vec<MeasureSpec>,
     /// Simple polygons, corners counter-clockwise, world, m; agents stay outside.
     pub obstacles_m: Vec<Vec<Vec2>>,
+    /// Obstacles that are absent while a signal is green.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub doors: Vec<DoorSpec>,
     /// Simple polygons with a wall without thickness around each, which agents cross in neither direction.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub enclosures_m: Vec<Vec<Vec2>>,
@@ -123,6 +127,7 @@ impl Scenario {
             zones: Vec::new(),
             measures: Vec::new(),
             obstacles_m: Vec::new(),
+            doors: Vec::new(),
             enclosures_m: Vec::new(),
             walkable_m: Vec::new(),
             params: Params::default(),

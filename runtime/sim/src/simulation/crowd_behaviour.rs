@@ -9,6 +9,7 @@ use crate::agents::{Agents, Removal};
 use crate::behaviour::{Aim, CrowdBehaviour, CrowdView, GoalRef, Movement, Traits};
 use crate::planning::mcn::orientation;
 use crate::population::{Population, RadiusChange};
+use crate::route::CrowdRoutes;
 use crate::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
 use crate::simulation::Simulation;
 
@@ -26,22 +27,25 @@ impl Simulation {
 
     /// Lets every agent decide what it wants, from positions as the last step left them.
     pub(super) fn decide(&mut self) {
-        let Self { scenario, agents, population, obstacles, routes, crowd, steps, .. } = self;
+        let Self { scenario, agents, population, obstacles, routes, doors, crowd, steps, .. } = self;
         let behaviour = &scenario.behaviour;
         if behaviour.states.is_empty() {
             return;
         }
+        let to_area_m = |routes: &CrowdRoutes, index: usize, from_m: Vec2, at: GoalRef| {
+            let GoalRef { set, area } = at;
+            let area = &behaviour.goals[set as usize].areas[area as usize].area;
+            let wall_radius_m = population.spec(agents.ids[index]).wall_radius_m;
+            routes.to_area_m(wall_radius_m, from_m, at, area)
+        };
+        let open_route_m = |index: usize, from_m: Vec2, at: GoalRef| to_area_m(routes.all_open(), index, from_m, at);
         let view = CrowdView {
             time_s: f64::from(*steps) * f64::from(scenario.dt_s),
             seed: scenario.seed,
             ids: &agents.ids,
             positions_m: &agents.positions_m,
-            route_m: &|index, from_m, at| {
-                let GoalRef { set, area } = at;
-                let area = &behaviour.goals[set as usize].areas[area as usize].area;
-                let wall_radius_m = population.spec(agents.ids[index]).wall_radius_m;
-                routes.to_area_m(wall_radius_m, from_m, at, area)
-            },
+            route_m: &|index, from_m, at| to_area_m(routes.present(), index, from_m, at),
+            open_route_m: doors.is_any_red().then_some(&open_route_m),
             path_end_m: &|index| path_end_m(agents, population, index),
             stands_at_goal: &|index| agents.progress[index].arrived,
             has_begun: &|index| population.agents[agents.ids[index].index()].begins_at(scenario.dt_s) <= *steps,

@@ -171,8 +171,13 @@ impl DiscCrowd {
             DiscResponse::Immediate => Braking::Within(setting.dt_s),
             DiscResponse::Lagging(..) => Braking::Evenly,
         };
-        let view =
-            RouteView { routes: &CrowdRoutes::default(), obstacles: setting.walls, keep: KeepSide::Right, braking };
+        let view = RouteView {
+            routes: &CrowdRoutes::default(),
+            doors: None,
+            obstacles: setting.walls,
+            keep: KeepSide::Right,
+            braking,
+        };
         let agents = self.agents.iter().zip(&self.positions_m).zip(&mut self.progress);
         agents
             .map(|((agent, &position_m), progress)| {

@@ -9,7 +9,7 @@ use tiny_skia::Pixmap;
 use crate::plots::chart::figure::{LegendEntry, LineStyle, PlotFigure, PlotPanel};
 use crate::plots::chart::mark::PlotMark;
 use crate::plots::crowd::trajectories::PathScene;
-use crate::raster::palette::{INK, OBSTACLE, Rgb, SHARP_TURN_EDGES, TURNING_SET, line_colour};
+use crate::raster::palette::{INK, OBSTACLE, OBSTACLE_RIM, Rgb, SHARP_TURN_EDGES, TURNING_SET, line_colour};
 use crate::raster::text::TextAnchor;
 
 /// Width of the figure, pixels.
@@ -90,6 +90,9 @@ fn legend(scenario: &Scenario, closed: &[ClosedToAgents]) -> Vec<LegendEntry<'st
     }
     if !scenario.is_open() {
         entries.push((PlotMark::Bar, OBSTACLE, "mesh for routes"));
+    }
+    if !scenario.doors.is_empty() {
+        entries.push((PlotMark::Dashes, OBSTACLE_RIM, "door"));
     }
     if !closed.is_empty() {
         entries.push((PlotMark::Ring, SHARP_TURN_EDGES, "closed passage, m"));

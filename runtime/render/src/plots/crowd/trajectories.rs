@@ -116,6 +116,11 @@ impl<'a> PathScene<'a> {
             let closed = corners.iter().chain(corners.first()).copied();
             figure.polyline(&panel, closed, LineStyle::solid(OBSTACLE_RIM, 3.0));
         }
+        for door in &self.scenario.doors {
+            let closed = door.polygon_m.iter().chain(door.polygon_m.first()).copied();
+            let line = LineStyle { is_dashed: true, ..LineStyle::solid(OBSTACLE_RIM, 2.0) };
+            figure.polyline(&panel, closed, line);
+        }
         for line_m in self.scenario.wall_lines_m() {
             let closed = line_m.iter().chain(line_m.first()).copied();
             figure.polyline(&panel, closed, LineStyle::solid(OBSTACLE_RIM, 3.0));

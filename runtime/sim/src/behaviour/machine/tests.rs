@@ -47,6 +47,7 @@ impl Points {
             ids: &self.ids,
             positions_m: &self.positions_m,
             route_m: &route_m,
+            open_route_m: None,
             path_end_m: &|_| None,
             stands_at_goal: &|_| false,
             is_clear: &|_| true,

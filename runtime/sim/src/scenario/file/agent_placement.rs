@@ -73,7 +73,7 @@ impl PlacedAgents {
         let areas: Vec<Option<AgentArea>> = tables.iter().map(|(_, group)| area_of(group)).collect();
         let apart_m = areas.iter().flatten().map(AgentArea::apart_m).reduce(f32::max);
         if let Some(apart_m) = apart_m {
-            let walls = input.ground.walls();
+            let walls = input.ground.walls_with(&input.ground.doors_closed_at_start());
             let mut taken = TakenGround::new(&walls, apart_m);
             placed
                 .iter()

@@ -7,9 +7,13 @@ use motiondb::files::SourceText;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::behaviour::Behaviour;
 use crate::maths::polygon::signed_area_m2;
 use crate::route::mesh::WalkablePolygon;
+use crate::scenario::door::DoorSpec;
 use crate::scenario::error::ScenarioError;
+use crate::scenario::fault::TableFault;
+use crate::scenario::file::behaviour::Names;
 use crate::scenario::file::wkt_polygons::wkt_polygons;
 use crate::scenario::point::Point;
 use crate::scenario::resolved::Scenario;
@@ -20,18 +24,39 @@ use crate::scenario::resolved::Scenario;
 pub(crate) struct ObstacleTable {
     pub(crate) polygon_m: Vec<Point>,
     #[serde(default)]
-    pub(crate) kind: ObstacleKind,
+    kind: KindName,
+    /// Name of the signal that opens the obstacle while it is green.
+    open: Option<Spanned<String>>,
 }
 
-/// What the polygon of an obstacle bounds.
+/// The value of `kind`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
+enum KindName {
+    #[default]
+    Solid,
+    Enclosure,
+}
+
+/// What the polygon of an obstacle is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ObstacleKind {
     /// A solid.
-    #[default]
     Solid,
     /// Ground with a wall around.
     Enclosure,
+    /// A solid that is absent while a signal is green.
+    Door,
+}
+
+impl ObstacleTable {
+    fn kind(&self) -> ObstacleKind {
+        match (self.kind, &self.open) {
+            (KindName::Enclosure, _) => ObstacleKind::Enclosure,
+            (KindName::Solid, Some(_)) => ObstacleKind::Door,
+            (KindName::Solid, None) => ObstacleKind::Solid,
+        }
+    }
 }
 
 /// One `[[walkable]]` table: a polygon with holes, or a WKT file of polygons.
@@ -47,7 +72,7 @@ pub(crate) struct WalkableTable {
 /// The ground of a scenario file.
 #[derive(Debug)]
 pub(crate) struct PlacedGround {
-    /// A scenario with this ground and no agents.
+    /// A scenario with this ground and its behaviour, without agents.
     pub(crate) scenario: Scenario,
     /// Index of the table of each walkable polygon.
     pub(crate) tables: Vec<usize>,
@@ -59,6 +84,8 @@ impl PlacedGround {
         source: &SourceText,
         obstacles: &[Spanned<ObstacleTable>],
         walkable: &[Spanned<WalkableTable>],
+        behaviour: &Behaviour,
+        signals: &Names<'_>,
     ) -> Result<Self, ScenarioError> {
         let (mut walkable_m, mut tables) = (Vec::new(), Vec::new());
         for (index, table) in walkable.iter().enumerate() {
@@ -68,7 +95,9 @@ impl PlacedGround {
         }
         let obstacles_m = polygons_m(obstacles, ObstacleKind::Solid);
         let enclosures_m = polygons_m(obstacles, ObstacleKind::Enclosure);
-        let scenario = Scenario { obstacles_m, enclosures_m, walkable_m, ..Scenario::of(Vec::new()) };
+        let doors = doors(source, obstacles, signals)?;
+        let behaviour = behaviour.clone();
+        let scenario = Scenario { obstacles_m, doors, enclosures_m, walkable_m, behaviour, ..Scenario::of(Vec::new()) };
         Ok(Self { scenario, tables })
     }
 }
@@ -108,12 +137,32 @@ fn polygons_m(tables: &[Spanned<ObstacleTable>], kind: ObstacleKind) -> Vec<Vec<
     tables_of(tables, kind).map(|table| counter_clockwise(&table.get_ref().polygon_m)).collect()
 }
 
+/// The doors.
+fn doors(
+    source: &SourceText,
+    tables: &[Spanned<ObstacleTable>],
+    signals: &Names<'_>,
+) -> Result<Vec<DoorSpec>, ScenarioError> {
+    let mut doors = Vec::new();
+    for table in tables.iter().map(Spanned::get_ref) {
+        let Some(open) = &table.open else { continue };
+        let wrong = |(message, help): TableFault| ScenarioError::from(source.invalid(open.span(), message, help));
+        if table.kind() != ObstacleKind::Door {
+            let message = "an enclosure cannot open: its wall has no thickness".to_owned();
+            return Err(wrong((message, "remove `open`, or write obstacles with thickness around the polygon")));
+        }
+        let signal = signals.index(open.get_ref()).map_err(wrong)? as u32;
+        doors.push(DoorSpec { polygon_m: counter_clockwise(&table.polygon_m), signal });
+    }
+    Ok(doors)
+}
+
 /// The tables of the obstacles of a kind.
 pub(crate) fn tables_of(
     tables: &[Spanned<ObstacleTable>],
     kind: ObstacleKind,
 ) -> impl Iterator<Item = &Spanned<ObstacleTable>> {
-    tables.iter().filter(move |table| table.get_ref().kind == kind)
+    tables.iter().filter(move |table| table.get_ref().kind() == kind)
 }
 
 fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {

@@ -17,7 +17,7 @@ use crate::route::reach::check_reach;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, PlacementInput, fault_of_lines};
-use crate::scenario::file::behaviour::{BehaviourTables, StateNames};
+use crate::scenario::file::behaviour::{BehaviourTables, Names, StateNames};
 use crate::scenario::file::ground_tables::{ObstacleKind, PlacedGround, tables_of};
 use crate::scenario::file::measure_tables::measures;
 use crate::scenario::file::profile_tables::Profiles;
@@ -49,7 +49,8 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
     let motion = file.motion_source(source)?;
     let seed = file.seed.unwrap_or(SEED);
     let profiles = Profiles::new(&file.profiles, source)?;
-    let ground = PlacedGround::new(source, &file.obstacles, &file.walkable)?;
+    let signals = Names::new("signal", &tables.signals);
+    let ground = PlacedGround::new(source, &file.obstacles, &file.walkable, &behaviour, &signals)?;
     let texts = ScenarioTexts { source, file: &file, behaviour: &tables, walkable: &ground.tables };
     check_ground_ranges(&ground.scenario)
         .and_then(|()| check_ground(&ground.scenario))
@@ -68,7 +69,6 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         planner: file.planner,
         coupling: file.coupling,
         sources: sources(&input, &file.sources, *file.duration_s.get_ref())?,
-        behaviour: behaviour.clone(),
         zones: zones(source, &file.zones)?,
         measures: measures(source, &file.measure)?,
         params: file.params.clone(),
@@ -133,6 +133,7 @@ impl ScenarioTexts<'_> {
             ScenarioPart::Journey(agent) | ScenarioPart::Agent(agent) => placed.table(agent).span.clone(),
             ScenarioPart::Obstacle(index) => obstacle_span(ObstacleKind::Solid, index),
             ScenarioPart::Enclosure(index) => obstacle_span(ObstacleKind::Enclosure, index),
+            ScenarioPart::Door(index) => obstacle_span(ObstacleKind::Door, index),
             ScenarioPart::Walkable(index) => walkable.get(index).map_or(0..0, |&table| file.walkable[table].span()),
             ScenarioPart::Source(index) => file.sources.get(index).map_or(0..0, Spanned::span),
             ScenarioPart::State(_) | ScenarioPart::Goals(_) | ScenarioPart::Area(_) | ScenarioPart::Signal(_) => {

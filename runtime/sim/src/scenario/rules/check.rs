@@ -18,6 +18,8 @@ use crate::scenario::rules::source_check::{check_source_ranges, check_sources_cl
 
 /// Distance from an obstacle's box beyond which no disc touches the obstacle, m.
 const NEAR_M: f32 = 1.0;
+/// How to mend a goal in a door.
+const OUT_OF_DOORS: &str = "move the goal to ground that is free while the door is closed";
 /// Rounding of positions that are meant to touch, m.
 const TOUCH_M: f64 = 1e-4;
 
@@ -29,6 +31,7 @@ pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_numbers(scenario)?;
     check_ground(scenario)?;
     check_agents_clear_of_obstacles(scenario)?;
+    check_agents_clear_of_doors(scenario)?;
     check_agents_apart(&scenario.agents)?;
     check_sources_clear_of_obstacles(scenario)?;
     check_goals_clear_of_obstacles(scenario)
@@ -45,6 +48,39 @@ pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_measures(scenario)?;
     check_zones(scenario)?;
     check_source_ranges(scenario)
+}
+
+/// Checks that agents start outside the doors that are closed then, and that no goal lies in a door.
+fn check_agents_clear_of_doors(scenario: &Scenario) -> Result<(), ScenarioFault> {
+    if scenario.doors.is_empty() {
+        return Ok(());
+    }
+    let (agents, closed) = (SortedAgents::new(&scenario.agents), scenario.doors_closed_at_start());
+    for (door, is_closed) in scenario.doors.iter().zip(closed) {
+        let low_m = door.polygon_m.iter().copied().fold(Vec2::INFINITY, Vec2::min) - NEAR_M;
+        let high_m = door.polygon_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max) + NEAR_M;
+        let signal = &scenario.behaviour.signals[door.signal as usize].name;
+        for (index, source) in scenario.sources.iter().enumerate() {
+            if source.goals_m.iter().any(|goal_m| contains(&door.polygon_m, *goal_m)) {
+                let message = format!("a goal of source {index} lies in the door of signal `{signal}`");
+                return ScenarioPart::Source(index).fault(message, OUT_OF_DOORS);
+            }
+        }
+        for index in agents.between(low_m, high_m) {
+            let (part, agent) = (ScenarioPart::Journey(index), &scenario.agents[index]);
+            let clear_m = closest_distance_m(&door.polygon_m, agent.position_m);
+            let is_inside = contains(&door.polygon_m, agent.position_m);
+            if is_closed && (is_inside || f64::from(agent.wall_radius_m) - clear_m > TOUCH_M) {
+                let message = format!("agent {index} starts in a door that is closed at 0 s: signal `{signal}` is red");
+                return part.fault(message, "move it, or let a green phase of the signal begin at 0 s by `offset_s`");
+            }
+            if agent.goals_m.iter().any(|goal_m| contains(&door.polygon_m, *goal_m)) {
+                let message = format!("a goal of agent {index} lies in the door of signal `{signal}`");
+                return part.fault(message, OUT_OF_DOORS);
+            }
+        }
+    }
+    Ok(())
 }
 
 fn check_agents_clear_of_obstacles(scenario: &Scenario) -> Result<(), ScenarioFault> {

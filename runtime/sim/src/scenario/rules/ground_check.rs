@@ -9,6 +9,8 @@ use crate::scenario::resolved::Scenario;
 
 /// Greatest number of obstacles.
 const OBSTACLES_MAX: usize = 10_000;
+/// Greatest number of doors: each asks in every step in which it closes whether an agent stands in it.
+const DOORS_MAX: usize = 1_000;
 /// Greatest number of corners of an obstacle: the test for self-intersection compares every pair of edges.
 const OBSTACLE_CORNERS_MAX: usize = 1_000;
 /// Greatest number of corners of an outline or hole of walkable ground: plans of whole buildings have hundreds.
@@ -27,6 +29,9 @@ const IN_ORDER: &str = "list each corner once, in order around the polygon, and 
 pub(crate) fn check_ground(scenario: &Scenario) -> Result<(), ScenarioFault> {
     for (index, polygon_m) in scenario.obstacles_m.iter().enumerate() {
         check_polygon(&ScenarioPart::Obstacle(index), &format!("obstacle {index}"), polygon_m, OBSTACLE_CORNERS_MAX)?;
+    }
+    for (index, door) in scenario.doors.iter().enumerate() {
+        check_polygon(&ScenarioPart::Door(index), "the door", &door.polygon_m, OBSTACLE_CORNERS_MAX)?;
     }
     for (index, polygon_m) in scenario.enclosures_m.iter().enumerate() {
         check_polygon(&ScenarioPart::Enclosure(index), &format!("enclosure {index}"), polygon_m, OBSTACLE_CORNERS_MAX)?;
@@ -50,6 +55,15 @@ pub(crate) fn check_ground_ranges(scenario: &Scenario) -> Result<(), ScenarioFau
     within(obstacle, "the number of obstacles", obstacles, &(0..=OBSTACLES_MAX), "give fewer")?;
     for (index, polygon_m) in scenario.obstacles_m.iter().enumerate() {
         check_points(&ScenarioPart::Obstacle(index), polygon_m)?;
+    }
+    let (door, doors) = (&ScenarioPart::Door(0), scenario.doors.len());
+    within(door, "the number of doors", doors, &(0..=DOORS_MAX), "give fewer")?;
+    for (index, door) in scenario.doors.iter().enumerate() {
+        let (part, signals) = (ScenarioPart::Door(index), scenario.behaviour.signals.len());
+        check_points(&part, &door.polygon_m)?;
+        if door.signal as usize >= signals {
+            return part.fault("the door has a signal that there is not".into(), "name one of the signals");
+        }
     }
     for (index, polygon_m) in scenario.enclosures_m.iter().enumerate() {
         check_points(&ScenarioPart::Enclosure(index), polygon_m)?;
