@@ -106,6 +106,7 @@ fn record(path: &Path) {
         state: 0,
         pre_movement_s: 0.0,
         profiles: Vec::new(),
+        closed_zones: 0,
     };
     let scenario = Scenario {
         name: "two".to_owned(),

@@ -85,6 +85,7 @@ fn main() {
             stepping_back_s: &plans.iter().map(|plan| plan.stepping_back_s).collect::<Vec<f32>>(),
             neighbours: &neighbours,
             obstacles: &obstacles,
+            own_walls: None,
             constraints: &constraints,
             dt_s: DT_S,
             bodies: false,

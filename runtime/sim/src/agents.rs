@@ -52,6 +52,8 @@ pub struct Agents {
     pub radii_m: Vec<f32>,
     /// Radius of the disc that walls hold, m.
     pub wall_radii_m: Vec<f32>,
+    /// Zones that the agent does not enter, by bits.
+    pub closed_zones: Vec<u32>,
     /// How far each has got on its way.
     pub progress: Vec<PathProgress>,
     /// What each remembers of its route around walls.
@@ -84,6 +86,7 @@ macro_rules! for_each_array {
             facings_rad,
             radii_m,
             wall_radii_m,
+            closed_zones,
             progress,
             route_memory,
             preferred_mps,
@@ -121,6 +124,7 @@ impl Agents {
         self.facings_rad.push(spec.facing_rad);
         self.radii_m.push(spec.radius_m);
         self.wall_radii_m.push(spec.wall_radius_m);
+        self.closed_zones.push(spec.closed_zones);
         self.progress.push(PathProgress::default());
         self.route_memory.push(RouteMemory::default());
         self.preferred_mps.push(Vec2::ZERO);

@@ -65,6 +65,7 @@
 //!     stepping_back_s: &[0.0; 2],
 //!     neighbours: &neighbours,
 //!     obstacles: &Obstacles::default(),
+//!     own_walls: None,
 //!     constraints: &MotionConstraints::new(&VelocityHull::default()),
 //!     dt_s: 0.1,
 //!     bodies: false,

@@ -29,7 +29,7 @@ use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::planning::plan_all::{self, plan_all};
 use crate::planning::planner::ranking_horizon_s;
-use crate::planning::world_view::WorldView;
+use crate::planning::world_view::{OwnWalls, WorldView};
 use crate::population::Population;
 use crate::recording::frame::AgentFrame;
 use crate::route::door_routes::{ClosedDoors, DoorRoutes};
@@ -41,7 +41,7 @@ use crate::simulation::path_walker::PathWalker;
 use crate::simulation::source_state::SourceState;
 use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
 use crate::world::neighbours::NeighbourSearch;
-use crate::world::obstacles::Obstacles;
+use crate::world::obstacles::{Obstacles, ZoneWalls};
 
 mod crowd_behaviour;
 mod door_waiting;
@@ -84,6 +84,8 @@ pub struct Simulation {
     scenario: Scenario,
     /// The walls, with the doors that are closed now.
     obstacles: Obstacles,
+    /// The walls of agents that do not enter some zones.
+    zone_walls: ZoneWalls,
     routes: DoorRoutes,
     doors: Doors,
     constraints: MotionConstraints,
@@ -111,6 +113,7 @@ impl Simulation {
         }
         let mut simulation = Self {
             obstacles: scenario.walls(),
+            zone_walls: scenario.zone_walls(&[]),
             routes: DoorRoutes::new(scenario),
             doors: Doors::new(scenario),
             constraints: MotionConstraints::new(&context.db.velocity_hull),
@@ -190,13 +193,13 @@ impl Simulation {
             Coupling::Discs => Braking::Within(self.scenario.dt_s),
         };
         let (keep, dt_s) = (self.scenario.params.route.keep, self.scenario.dt_s);
-        let Self { agents, population, obstacles, routes, doors, crowd, steps, .. } = self;
+        let Self { agents, population, obstacles, zone_walls, routes, doors, crowd, steps, .. } = self;
         let red = ClosedDoors { open_routes: routes.all_open(), leaves: &doors.red_leaves };
         let red = doors.is_any_red().then_some(red);
         let view = RouteView { routes: routes.present(), doors: red, obstacles, keep, braking };
         let passing = doors.passing(agents);
         let view_passing = RouteView { routes: routes.all_open(), doors: None, ..view };
-        let Agents { ids, removals, positions_m, progress, route_memory, preferred_mps, .. } = agents;
+        let Agents { ids, removals, positions_m, closed_zones, progress, route_memory, preferred_mps, .. } = agents;
         let remembered = progress.par_iter_mut().zip(route_memory).with_min_len(ROUTES_PER_TASK_MIN);
         let present = ids.par_iter().zip(removals).zip(positions_m).zip(preferred_mps).enumerate();
         present.zip(remembered).for_each(
@@ -209,6 +212,8 @@ impl Simulation {
                 let walker = PathWalker { spec: &life.spec, state: crowd.agents.get(index), position_m: *position_m };
                 let has_begun = life.begins_at(dt_s) <= *steps;
                 let view = if passing.get(index) == Some(&true) { &view_passing } else { &view };
+                let obstacles = zone_walls.of(closed_zones[index]).unwrap_or(view.obstacles);
+                let view = &RouteView { obstacles, ..*view };
                 *preferred_mps = if has_begun { walker.preferred_mps(view, progress, memory) } else { Vec2::ZERO };
             },
         );
@@ -230,6 +235,8 @@ impl Simulation {
             stepping_back_s: &agents.stepping_back_s,
             neighbours: &self.neighbours,
             obstacles: &self.obstacles,
+            own_walls: (!self.zone_walls.sets.is_empty())
+                .then_some(OwnWalls { closed_zones: &agents.closed_zones, zone_walls: &self.zone_walls }),
             constraints: &self.constraints,
             dt_s: self.scenario.dt_s,
             bodies: self.scenario.coupling.plans_for_bodies(),
@@ -246,12 +253,14 @@ impl Simulation {
 
     fn synthesize(&mut self) {
         let (context, agents, obstacles) = (&self.context, &mut self.agents, &self.obstacles);
+        let zone_walls = &self.zone_walls;
         let Scenario { coupling, dt_s, .. } = self.scenario;
         let time_step = TimeStep::new(dt_s);
         let bodies = agents.bodies.par_iter_mut().with_min_len(BODIES_PER_TASK_MIN);
         let bodies = bodies.zip(&mut agents.stances).zip(&mut agents.frames).zip(&mut agents.are_between_steps);
-        bodies.zip(&agents.plans).zip(&agents.wall_radii_m).for_each(
-            |(((((body, stance), frame), is_between_steps), plan), &wall_radius_m)| {
+        bodies.zip(&agents.plans).zip(&agents.wall_radii_m).zip(&agents.closed_zones).for_each(
+            |((((((body, stance), frame), is_between_steps), plan), &wall_radius_m), &closed_zones)| {
+                let obstacles = zone_walls.of(closed_zones).unwrap_or(obstacles);
                 let from = body.root;
                 match coupling {
                     Coupling::TwoWay => body.advance(context, plan, &time_step),

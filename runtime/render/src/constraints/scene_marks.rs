@@ -91,7 +91,7 @@ impl SceneMarks {
         for source in of_half_planes.chain(of_forces) {
             if let HalfPlaneSource::Obstacle(edge) = source {
                 let pen = MarkPen { colour: INK, ..pen(explained, source) };
-                self.draw_lines(scene, &[explained.step.world().obstacles.ends_m(edge)], pen);
+                self.draw_lines(scene, &[explained.step.world().walls_of(explained.agent).ends_m(edge)], pen);
             }
         }
     }

@@ -10,6 +10,9 @@ use crate::world::segment::nearest_on_segment;
 /// Positions drawn in the bounding box of a polygon before the nearest position in the polygon is taken.
 const DRAWS_MAX: usize = 64;
 
+/// Corners of the polygon around a disc: it reaches 1 % farther.
+const DISC_CORNERS: u32 = 24;
+
 /// An area on the ground.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Area {
@@ -33,6 +36,23 @@ impl Area {
     /// A rectangle along the axes, from its lower left to its upper right corner.
     pub fn rectangle(low_m: Vec2, high_m: Vec2) -> Self {
         Self::Polygon(vec![low_m, Vec2::new(high_m.x, low_m.y), high_m, Vec2::new(low_m.x, high_m.y)])
+    }
+
+    /// The corners of its outline, counter-clockwise, m; of a disc those of a polygon around it.
+    pub fn outline_m(&self) -> Vec<Vec2> {
+        match self {
+            Self::Disc { centre_m, radius_m } => {
+                let angle_rad = |corner: u32| std::f32::consts::TAU * corner as f32 / DISC_CORNERS as f32;
+                let reach_m = radius_m / libm::cosf(0.5 * angle_rad(1));
+                let corner_m = |corner: u32| {
+                    let (sin, cos) = libm::sincosf(angle_rad(corner));
+                    *centre_m + reach_m * Vec2::new(cos, sin)
+                };
+                (0..DISC_CORNERS).map(corner_m).collect()
+            }
+            Self::Polygon(corners_m) if signed_area_m2(corners_m) < 0.0 => corners_m.iter().rev().copied().collect(),
+            Self::Polygon(corners_m) => corners_m.clone(),
+        }
     }
 
     /// Distance from a position to the area, m; 0 inside.

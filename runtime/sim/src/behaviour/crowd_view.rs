@@ -31,16 +31,16 @@ pub struct CrowdView<'a> {
     pub stands_at_goal: &'a (dyn Fn(usize) -> bool + Sync),
     /// Whether an agent, by index, has begun; before, it enters no state.
     pub has_begun: &'a (dyn Fn(usize) -> bool + Sync),
-    /// Whether no wall covers a position.
-    pub is_clear: &'a (dyn Fn(Vec2) -> bool + Sync),
+    /// Whether no wall of an agent, by index, covers a position.
+    pub is_clear: &'a (dyn Fn(usize, Vec2) -> bool + Sync),
 }
 
 impl CrowdView<'_> {
-    /// A position drawn from an area, on free ground where a few draws find some, m.
-    pub(crate) fn draw_clear_m(&self, area: &Area, random: &mut SplitMix64) -> Vec2 {
+    /// A position drawn from an area for an agent, on free ground where a few draws find some, m.
+    pub(crate) fn draw_clear_m(&self, index: usize, area: &Area, random: &mut SplitMix64) -> Vec2 {
         let mut position_m = area.draw_m(random);
         for _ in 1..CLEAR_DRAWS_MAX {
-            if (self.is_clear)(position_m) {
+            if (self.is_clear)(index, position_m) {
                 break;
             }
             position_m = area.draw_m(random);

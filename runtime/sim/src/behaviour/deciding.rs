@@ -133,7 +133,7 @@ impl Deciding<'_> {
             self.agent.lasting = traits;
         }
         if let Some(area) = &settings.teleport {
-            self.teleported_m = Some(self.view.draw_clear_m(area, &mut drawer.random(Purpose::Setting(3))));
+            self.teleported_m = Some(self.view.draw_clear_m(self.index, area, &mut drawer.random(Purpose::Setting(3))));
         }
     }
 

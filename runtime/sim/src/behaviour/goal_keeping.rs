@@ -90,7 +90,7 @@ impl Deciding<'_> {
 
     fn take(&mut self, at: GoalRef) {
         let random = &mut self.drawer().random(Purpose::Position);
-        let position_m = self.view.draw_clear_m(&self.area(at).area, random);
+        let position_m = self.view.draw_clear_m(self.index, &self.area(at).area, random);
         if self.agent.remembered.iter().all(|(_, remembered)| remembered.at != at) {
             self.occupancy.take(at);
         }

@@ -26,7 +26,7 @@ impl Surroundings {
             range_m,
         };
         world.neighbours.nearest(&query, &mut self.neighbours);
-        world.obstacles.near(own.position_m, world.wall_radii_m[agent] + wall_range_m, &mut self.edges);
+        world.walls_of(agent).near(own.position_m, world.wall_radii_m[agent] + wall_range_m, &mut self.edges);
     }
 
     /// Least time to collision with a neighbour or an edge at the present velocities, s.

@@ -9,7 +9,7 @@ use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan::Stance;
 use crate::world::disc::Disc;
 use crate::world::neighbours::NeighbourSearch;
-use crate::world::obstacles::Obstacles;
+use crate::world::obstacles::{Obstacles, ZoneWalls};
 
 /// Everything that a plan depends on, besides the planner's tunables.
 ///
@@ -42,6 +42,7 @@ use crate::world::obstacles::Obstacles;
 ///     stepping_back_s: &[0.0],
 ///     neighbours: &neighbours,
 ///     obstacles: &Obstacles::default(),
+///     own_walls: None,
 ///     constraints: &MotionConstraints::new(&hull),
 ///     dt_s: 0.1,
 ///     bodies: true,
@@ -72,8 +73,10 @@ pub struct WorldView<'a> {
     /// The same positions, velocities and radii, sorted for the planner's
     /// [`ranking_horizon_s`](crate::planning::ranking_horizon_s).
     pub neighbours: &'a NeighbourSearch,
-    /// The walls.
+    /// The walls of agents that enter all zones.
     pub obstacles: &'a Obstacles,
+    /// The walls of the other agents, and which agents these are; none where there are no such agents.
+    pub own_walls: Option<OwnWalls<'a>>,
     /// Constraints of the database's velocity sets.
     pub constraints: &'a MotionConstraints,
     /// Time step, s.
@@ -82,7 +85,22 @@ pub struct WorldView<'a> {
     pub bodies: bool,
 }
 
-impl WorldView<'_> {
+/// The walls of agents that do not enter some zones.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnWalls<'a> {
+    /// The zones that each agent does not enter, by bits.
+    pub closed_zones: &'a [u32],
+    /// The walls for each set of zones.
+    pub zone_walls: &'a ZoneWalls,
+}
+
+impl<'a> WorldView<'a> {
+    /// The walls of an agent.
+    pub fn walls_of(&self, agent: usize) -> &'a Obstacles {
+        let own = self.own_walls.and_then(|own| own.zone_walls.of(own.closed_zones[agent]));
+        own.unwrap_or(self.obstacles)
+    }
+
     /// The disc of an agent that other agents see.
     pub fn disc(&self, agent: usize) -> Disc {
         Disc {
@@ -113,6 +131,6 @@ impl WorldView<'_> {
 
     /// The ends of a wall's edge, relative to an agent's centre, m.
     pub fn edge_m(&self, agent: usize, edge: u32) -> [Vec2; 2] {
-        self.obstacles.ends_m(edge).map(|end_m| end_m - self.positions_m[agent])
+        self.walls_of(agent).ends_m(edge).map(|end_m| end_m - self.positions_m[agent])
     }
 }

@@ -14,7 +14,7 @@ use glam::Vec2;
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::plan::Stance;
 use crate::planning::planner::ranking_horizon_s;
-use crate::planning::world_view::WorldView;
+use crate::planning::world_view::{OwnWalls, WorldView};
 use crate::population::AgentId;
 use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
@@ -22,15 +22,23 @@ use crate::recording::header::Header;
 use crate::recording::reader::Recording;
 use crate::scenario::{AgentSpec, Scenario};
 use crate::world::neighbours::NeighbourSearch;
-use crate::world::obstacles::Obstacles;
+use crate::world::obstacles::{Obstacles, ZoneWalls};
 
 /// A recording whose steps are planned again.
 #[derive(Debug)]
 pub struct Replay<'a> {
     recording: &'a Recording,
     /// The walls with all doors open.
-    obstacles: Arc<Obstacles>,
+    obstacles: Arc<Walls>,
     constraints: MotionConstraints,
+}
+
+/// The walls of a step.
+#[derive(Debug)]
+struct Walls {
+    obstacles: Obstacles,
+    /// The walls of agents that do not enter some zones.
+    zone_walls: ZoneWalls,
 }
 
 /// One recorded step, with everything that its planner read: the agents that are present before and after it. Slices
@@ -54,8 +62,14 @@ pub struct RecordedStep<'a> {
     strafing_s: Vec<f32>,
     stepping_back_s: Vec<f32>,
     neighbours: NeighbourSearch,
-    /// The walls of the step.
-    obstacles: Arc<Obstacles>,
+    closed_zones: Vec<u32>,
+    walls: Arc<Walls>,
+}
+
+impl Walls {
+    fn new(scenario: &Scenario, closed: &[bool]) -> Self {
+        Self { obstacles: scenario.walls_with(closed), zone_walls: scenario.zone_walls(closed) }
+    }
 }
 
 impl<'a> Replay<'a> {
@@ -65,7 +79,7 @@ impl<'a> Replay<'a> {
         Self {
             recording,
             constraints: MotionConstraints::new(recording.header().velocity_hull()),
-            obstacles: Arc::new(scenario.walls()),
+            obstacles: Arc::new(Walls::new(scenario, &[])),
         }
     }
 
@@ -113,17 +127,18 @@ impl<'a> Replay<'a> {
             strafing_s: before.iter().map(|agent| agent.strafing_s).collect(),
             stepping_back_s: before.iter().map(|agent| agent.stepping_back_s).collect(),
             neighbours,
-            obstacles: self.walls(number + 1),
+            closed_zones: before.iter().map(|agent| life(agent).spec.closed_zones).collect(),
+            walls: self.walls(number + 1),
             before,
             after,
         })
     }
 
     /// The walls of the step that leads to a frame.
-    fn walls(&self, frame: u32) -> Arc<Obstacles> {
+    fn walls(&self, frame: u32) -> Arc<Walls> {
         let closed = self.recording.population().closed_doors(frame);
         match closed.contains(&true) {
-            true => Arc::new(self.header().scenario.walls_with(&closed)),
+            true => Arc::new(Walls::new(&self.header().scenario, &closed)),
             false => self.obstacles.clone(),
         }
     }
@@ -175,7 +190,9 @@ impl RecordedStep<'_> {
             strafing_s: &self.strafing_s,
             stepping_back_s: &self.stepping_back_s,
             neighbours: &self.neighbours,
-            obstacles: &self.obstacles,
+            obstacles: &self.walls.obstacles,
+            own_walls: (!self.walls.zone_walls.sets.is_empty())
+                .then_some(OwnWalls { closed_zones: &self.closed_zones, zone_walls: &self.walls.zone_walls }),
             constraints: &self.replay.constraints,
             dt_s,
             bodies: coupling.plans_for_bodies(),

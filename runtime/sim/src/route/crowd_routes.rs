@@ -32,17 +32,26 @@ const CLEARANCE_M: f64 = 0.15;
 pub struct CrowdRoutes {
     /// Number that tells these routes from those with other doors closed; 0 with all doors open.
     id: u32,
-    /// Mesh of each class of wall radii.
-    meshes: Vec<(u32, RouteMesh)>,
+    /// Mesh of each class of agents.
+    meshes: Vec<(MeshClass, RouteMesh)>,
     fields: Vec<RouteField>,
     /// Index of the field of a waypoint, by class and coordinates.
     field_of: BTreeMap<WaypointKey, usize>,
     /// Index of the field of an area of a goal, by class.
-    area_field_of: BTreeMap<(u32, GoalRef), usize>,
+    area_field_of: BTreeMap<(MeshClass, GoalRef), usize>,
 }
 
-/// Class of the wall radius, and the bits of the coordinates.
-type WaypointKey = (u32, [u32; 2]);
+/// Agents that share a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct MeshClass {
+    /// Number of steps up to the wall radius.
+    steps: u32,
+    /// Zones that the agents do not enter, by bits.
+    pub(crate) closed_zones: u32,
+}
+
+/// Class, and the bits of the coordinates.
+type WaypointKey = (MeshClass, [u32; 2]);
 
 /// What an agent remembers of its route.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -119,16 +128,18 @@ impl CrowdRoutes {
             return Ok(routes);
         }
         let points_m = scenario.points_m();
-        let obstacles_m = scenario.solids_m(closed);
-        let ground = scenario.ground(&obstacles_m, &points_m);
         let mut shared: BTreeMap<WaypointKey, usize> = BTreeMap::new();
-        let agents = scenario.agents.iter().map(|agent| (agent.wall_radius_m, &agent.goals_m, 1));
+        let agents = scenario.agents.iter().map(|agent| (MeshClass::of(agent), &agent.goals_m, 1));
         // The agents of a source share its waypoints.
-        let sources = scenario.sources.iter().map(|source| (source.wall_radius_m, &source.goals_m, SHARED_MIN));
-        for (wall_radius_m, goals_m, count) in agents.chain(sources) {
-            let class = class(wall_radius_m);
+        let sources = scenario.sources.iter().flat_map(|source| {
+            let class = |set| MeshClass::new(source.wall_radius_m, set);
+            source.closed_zone_sets().into_iter().map(move |set| (class(set), &source.goals_m, SHARED_MIN))
+        });
+        for (class, goals_m, count) in agents.chain(sources) {
             if routes.mesh(class).is_none() {
-                let mesh = RouteMesh::new(&ground, class_radius_m(class))?;
+                let obstacles_m = scenario.solids_m(closed, class.closed_zones);
+                let ground = scenario.ground(&obstacles_m, &points_m);
+                let mesh = RouteMesh::new(&ground, class.radius_m())?;
                 routes.meshes.push((class, mesh.with_clearance(CLEARANCE_M)));
             }
             for &goal_m in goals_m {
@@ -171,8 +182,7 @@ impl CrowdRoutes {
 
     /// Length of the route from a position to an area of a goal, m; none where no route leads there. Straight where
     /// there are no walls, or the area has no field.
-    pub fn to_area_m(&self, wall_radius_m: f32, from_m: Vec2, at: GoalRef, area: &Area) -> Option<f32> {
-        let class = class(wall_radius_m);
+    pub(crate) fn to_area_m(&self, class: MeshClass, from_m: Vec2, at: GoalRef, area: &Area) -> Option<f32> {
         match (self.mesh(class), self.area_field_of.get(&(class, at))) {
             (Some(mesh), Some(&field)) => {
                 let step = self.fields[field].step(mesh, from_m, &mut RoutePosition::default())?;
@@ -186,12 +196,11 @@ impl CrowdRoutes {
     /// then by a route of the agent's own.
     pub(crate) fn next_to_end(
         &self,
-        wall_radius_m: f32,
+        class: MeshClass,
         from_m: Vec2,
         end: &RouteEnd,
         memory: &mut RouteMemory,
     ) -> Option<NextCorner> {
-        let class = class(wall_radius_m);
         let mesh = self.mesh(class)?;
         memory.belong_to(self.id);
         if let Some(&field) = end.area.and_then(|area| self.area_field_of.get(&(class, area))) {
@@ -206,7 +215,7 @@ impl CrowdRoutes {
     /// The next corner of an agent's route from a position to a waypoint; none where no route leads there, or there are
     /// no walls.
     pub fn next(&self, agent: &AgentSpec, from_m: Vec2, to_m: Vec2, memory: &mut RouteMemory) -> Option<NextCorner> {
-        let class = class(agent.wall_radius_m);
+        let class = MeshClass::of(agent);
         let mesh = self.mesh(class)?;
         memory.belong_to(self.id);
         let Some(&field) = self.field_of.get(&key(class, to_m)) else {
@@ -221,7 +230,7 @@ impl CrowdRoutes {
 
     /// The mesh of each class of wall radii, with the radius that it keeps from walls, m.
     pub fn meshes(&self) -> impl Iterator<Item = (f32, &RouteMesh)> {
-        self.meshes.iter().map(|(class, mesh)| (class_radius_m(*class), mesh))
+        self.meshes.iter().map(|(class, mesh)| (class.radius_m(), mesh))
     }
 
     /// The route of an agent from its start along all its waypoints, m; none where no route leads to one of them. On
@@ -230,7 +239,7 @@ impl CrowdRoutes {
         let mut route_m = vec![agent.position_m];
         for &goal_m in &agent.goals_m {
             let from_m = *route_m.last()?;
-            match self.mesh(class(agent.wall_radius_m)) {
+            match self.mesh(MeshClass::of(agent)) {
                 Some(mesh) => route_m.extend(shortest_route(mesh, from_m, goal_m)?.corners_m),
                 None => route_m.push(goal_m),
             }
@@ -244,7 +253,7 @@ impl CrowdRoutes {
         meshes + self.fields.iter().map(RouteField::bytes).sum::<usize>()
     }
 
-    fn mesh(&self, class: u32) -> Option<&RouteMesh> {
+    fn mesh(&self, class: MeshClass) -> Option<&RouteMesh> {
         self.meshes.iter().find(|(of, _)| *of == class).map(|(_, mesh)| mesh)
     }
 }
@@ -293,17 +302,24 @@ fn route_goal(area: &Area) -> RouteGoal {
     }
 }
 
-/// Class of a wall radius: the number of steps up to it.
-pub(crate) fn class(wall_radius_m: f32) -> u32 {
-    // Without the tolerance 0.2 m would be more than four steps of 0.05 m.
-    (wall_radius_m / RADIUS_STEP_M - 1e-3).ceil() as u32
+impl MeshClass {
+    /// The class of agents with a wall radius that do not enter some zones, by bits.
+    pub(crate) fn new(wall_radius_m: f32, closed_zones: u32) -> Self {
+        // Without the tolerance 0.2 m would be more than four steps of 0.05 m.
+        Self { steps: (wall_radius_m / RADIUS_STEP_M - 1e-3).ceil() as u32, closed_zones }
+    }
+
+    /// The class of an agent.
+    pub(crate) fn of(agent: &AgentSpec) -> Self {
+        Self::new(agent.wall_radius_m, agent.closed_zones)
+    }
+
+    /// The wall radius for which the mesh of the class is made, m.
+    pub(crate) fn radius_m(self) -> f32 {
+        self.steps as f32 * RADIUS_STEP_M
+    }
 }
 
-/// The wall radius for which the mesh of a class is made, m.
-pub(crate) fn class_radius_m(class: u32) -> f32 {
-    class as f32 * RADIUS_STEP_M
-}
-
-fn key(class: u32, waypoint_m: Vec2) -> WaypointKey {
+fn key(class: MeshClass, waypoint_m: Vec2) -> WaypointKey {
     (class, waypoint_m.to_array().map(f32::to_bits))
 }

@@ -6,7 +6,7 @@
 
 use glam::Vec2;
 
-use crate::route::crowd_routes::{CrowdRoutes, NextCorner, RouteEnd, RouteMemory};
+use crate::route::crowd_routes::{CrowdRoutes, MeshClass, NextCorner, RouteEnd, RouteMemory};
 use crate::route::door_routes::ClosedDoors;
 use crate::route::params::KeepSide;
 use crate::route::steering;
@@ -114,6 +114,8 @@ pub(crate) struct Walker {
     pub(crate) speed_mps: f32,
     /// Radius of the disc that walls hold, m.
     pub(crate) wall_radius_m: f32,
+    /// Agents that share its mesh.
+    pub(crate) class: MeshClass,
 }
 
 /// v_pref at a position, m/s. Cases, in order:
@@ -209,10 +211,9 @@ pub(crate) fn towards_mps(
     arrived: &mut bool,
     memory: &mut RouteMemory,
 ) -> Vec2 {
-    let &Walker { position_m, speed_mps, wall_radius_m } = agent;
+    let &Walker { position_m, speed_mps, wall_radius_m, class } = agent;
     let to_goal_m = goal.position_m - position_m;
-    let query =
-        |routes: &CrowdRoutes, memory: &mut RouteMemory| routes.next_to_end(wall_radius_m, position_m, goal, memory);
+    let query = |routes: &CrowdRoutes, memory: &mut RouteMemory| routes.next_to_end(class, position_m, goal, memory);
     let corner = view.next([position_m, goal.position_m], wall_radius_m, memory, query);
     let can_rest =
         corner.is_none_or(|corner| corner.after_m.is_none() && !leans_on_wall(position_m, goal.position_m, &corner));

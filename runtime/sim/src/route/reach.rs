@@ -6,9 +6,9 @@
 use glam::{DVec2, Vec2};
 
 use crate::route::arrival::ARRIVAL_M;
-use crate::route::crowd_routes::{class, class_radius_m};
+use crate::route::crowd_routes::MeshClass;
 use crate::route::mesh::{ClosedPassage, RouteMesh, closed_passages};
-use crate::scenario::{AgentSpec, Scenario, ScenarioFault, ScenarioPart};
+use crate::scenario::{AgentSpec, Scenario, ScenarioFault, ScenarioPart, SourceSpec};
 use crate::world::obstacles::Obstacles;
 
 /// Overlap of a start and a wall that is taken for rounding, m: the grid of walkable ground.
@@ -34,14 +34,15 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
         return Ok(());
     }
     let (walls, points_m) = (scenario.walls(), scenario.points_m());
-    let mut meshes: Vec<(u32, RouteMesh)> = Vec::new();
+    let mut meshes: Vec<(MeshClass, RouteMesh)> = Vec::new();
     let agents = scenario.agents.iter().enumerate().map(|(index, agent)| (ScenarioPart::Journey(index), agent.clone()));
-    let sources = scenario.sources.iter().enumerate().map(|(index, source)| {
-        let middle_m = source.low_m.midpoint(source.high_m);
-        (ScenarioPart::Source(index), source.agent(middle_m))
+    let sources = scenario.sources.iter().enumerate().flat_map(|(index, source)| {
+        let agent = source.agent(source.low_m.midpoint(source.high_m));
+        let of_set = move |closed_zones| (ScenarioPart::Source(index), AgentSpec { closed_zones, ..agent.clone() });
+        source.closed_zone_sets().into_iter().map(of_set)
     });
     for (part, agent) in agents.chain(sources) {
-        let class = class(agent.wall_radius_m);
+        let class = MeshClass::of(&agent);
         if !meshes.iter().any(|(of, _)| *of == class) {
             meshes.push((class, mesh(scenario, &points_m, class)?));
         }
@@ -55,25 +56,29 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
 
 /// The passages that are closed, for every class of wall radii among the agents; none without walls.
 pub fn closed_to_agents(scenario: &Scenario) -> Vec<ClosedToAgents> {
-    let discs = scenario.agents.iter().map(|agent| agent.wall_radius_m);
-    let discs = discs.chain(scenario.sources.iter().map(|source| source.wall_radius_m));
-    let mut classes: Vec<u32> = if scenario.is_open() { Vec::new() } else { discs.map(class).collect() };
+    let of_source = |source: &SourceSpec| {
+        let class = |set| MeshClass::new(source.wall_radius_m, set);
+        source.closed_zone_sets().into_iter().map(class).collect::<Vec<_>>()
+    };
+    let found = scenario.agents.iter().map(MeshClass::of).chain(scenario.sources.iter().flat_map(of_source));
+    let mut classes: Vec<MeshClass> = if scenario.is_open() { Vec::new() } else { found.collect() };
     classes.sort_unstable();
     classes.dedup();
     let closed =
-        |class: u32| ClosedToAgents { wall_radius_m: class_radius_m(class), passages: closed(scenario, class) };
+        |class: MeshClass| ClosedToAgents { wall_radius_m: class.radius_m(), passages: closed(scenario, class) };
     classes.into_iter().map(closed).filter(|closed| !closed.passages.is_empty()).collect()
 }
 
-fn closed(scenario: &Scenario, class: u32) -> Vec<ClosedPassage> {
+fn closed(scenario: &Scenario, class: MeshClass) -> Vec<ClosedPassage> {
     let points_m = scenario.points_m();
     let Ok(mesh) = mesh(scenario, &points_m, class) else { return Vec::new() };
-    let ground = scenario.ground(&scenario.obstacles_m, &points_m);
-    closed_passages(&ground, class_radius_m(class), &mesh).unwrap_or_default()
+    let obstacles_m = scenario.solids_m(&[], class.closed_zones);
+    closed_passages(&scenario.ground(&obstacles_m, &points_m), class.radius_m(), &mesh).unwrap_or_default()
 }
 
-fn mesh(scenario: &Scenario, points_m: &[Vec2], class: u32) -> Result<RouteMesh, ScenarioFault> {
-    RouteMesh::new(&scenario.ground(&scenario.obstacles_m, points_m), class_radius_m(class))
+fn mesh(scenario: &Scenario, points_m: &[Vec2], class: MeshClass) -> Result<RouteMesh, ScenarioFault> {
+    let obstacles_m = scenario.solids_m(&[], class.closed_zones);
+    RouteMesh::new(&scenario.ground(&obstacles_m, points_m), class.radius_m())
         .or_else(|error| ScenarioPart::Obstacle(0).fault(error.to_string(), "look for walls that nearly touch"))
 }
 
@@ -112,7 +117,7 @@ fn check_goals(
             return part.fault(message, "move the goal to free ground");
         }
         if !is_near(Some(start)) {
-            let closed = closed(scenario, class(agent.wall_radius_m)).into_iter().find(|passage| passage.separates);
+            let closed = closed(scenario, MeshClass::of(agent)).into_iter().find(|passage| passage.separates);
             let widest = closed.map_or_else(String::new, |ClosedPassage { at_m, width_m, .. }| {
                 format!("; the widest closed passage is {width_m:.2} m wide, at [{:.2}, {:.2}]", at_m.x, at_m.y)
             });

@@ -36,6 +36,15 @@ pub struct AgentSpec {
     /// Time for which the agent stands after its birth before it begins, s.
     #[serde(default, skip_serializing_if = "is_0")]
     pub pre_movement_s: f32,
+    /// The zones that the agent does not enter: bit k stands for the k-th zone that is closed to some agents.
+    #[serde(default, skip_serializing_if = "enters_all")]
+    pub closed_zones: u32,
+}
+
+/// Whether no zone is closed to an agent; recordings leave it out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+pub(crate) fn enters_all(closed_zones: &u32) -> bool {
+    *closed_zones == 0
 }
 
 /// Whether a time is 0; recordings leave it out.
@@ -76,6 +85,7 @@ impl Default for AgentSpec {
             at_goal: AtGoal::Stay,
             state: 0,
             pre_movement_s: 0.0,
+            closed_zones: 0,
         }
     }
 }

@@ -7,7 +7,7 @@ use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 use crate::maths::random::SplitMix64;
-use crate::scenario::agent_spec::{AgentSpec, AtGoal, follows_path, is_0};
+use crate::scenario::agent_spec::{AgentSpec, AtGoal, enters_all, follows_path, is_0};
 use crate::scenario::profile::{DrawnNumbers, Profile};
 
 /// First random stream of the sources' due times; the scenario and the starting phases use those below.
@@ -55,6 +55,9 @@ pub struct SourceSpec {
     /// Numbers that are drawn for each agent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub profiles: Vec<Profile>,
+    /// Zones that the agents do not enter, by bits as in [`AgentSpec`].
+    #[serde(default, skip_serializing_if = "enters_all")]
+    pub closed_zones: u32,
 }
 
 impl SourceSpec {
@@ -73,22 +76,31 @@ impl SourceSpec {
             at_goal: self.at_goal,
             state: self.state,
             pre_movement_s: self.pre_movement_s,
+            closed_zones: self.closed_zones,
         }
     }
 
     /// The source with the numbers of one agent: those of the source with this index after a number of births.
     pub fn drawn(&self, seed: u64, index: usize, born: u32) -> Self {
         let stream = NUMBER_STREAM + ((index as u64) << 20) + u64::from(born);
-        let &Self { preferred_speed_mps, radius_m, pre_movement_s, .. } = self;
-        let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s };
+        let &Self { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, .. } = self;
+        let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones };
         let numbers = numbers.draw(&self.profiles, &mut SplitMix64::new(seed, stream));
         Self {
             preferred_speed_mps: numbers.preferred_speed_mps,
             radius_m: numbers.radius_m,
             wall_radius_m: self.wall_radius_m.min(numbers.radius_m),
             pre_movement_s: numbers.pre_movement_s,
+            closed_zones: numbers.closed_zones,
             ..self.clone()
         }
+    }
+
+    /// The sets of zones that agents of the source do not enter, by bits; each once or more.
+    pub(crate) fn closed_zone_sets(&self) -> Vec<u32> {
+        let of_profiles = self.profiles.iter().filter(|profile| profile.weight > 0.0);
+        let sets: Vec<u32> = of_profiles.map(|profile| profile.closed_zones).collect();
+        if sets.is_empty() { vec![self.closed_zones] } else { sets }
     }
 
     /// The times at which agents of the source with this index are due, in order, s.
@@ -161,6 +173,7 @@ mod tests {
             state: 0,
             pre_movement_s: 0.0,
             profiles: Vec::new(),
+            closed_zones: 0,
         }
     }
 

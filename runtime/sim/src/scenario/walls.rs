@@ -7,7 +7,9 @@ use glam::Vec2;
 use crate::behaviour::Area;
 use crate::route::mesh::{Ground, walkable_contours_m};
 use crate::scenario::resolved::Scenario;
-use crate::world::obstacles::Obstacles;
+use crate::scenario::source_spec::SourceSpec;
+use crate::scenario::zone_spec::ZoneSpec;
+use crate::world::obstacles::{Obstacles, ZoneWalls};
 
 impl Scenario {
     /// The walls that hold discs, with all doors open: obstacles, enclosures, and the edges of the walkable ground.
@@ -17,17 +19,45 @@ impl Scenario {
 
     /// As [`walls`](Self::walls), with the doors that are closed, by index.
     pub fn walls_with(&self, closed: &[bool]) -> Obstacles {
-        // Coordinates are in range in every checked scenario.
-        let contours_m = walkable_contours_m(&self.walkable_m).unwrap_or_default();
-        Obstacles::with_ground(&self.solids_m(closed), &self.enclosures_m, &contours_m)
+        self.walls_of(closed, 0)
     }
 
-    /// The obstacles, and the doors that are closed, by index, m.
-    pub(crate) fn solids_m(&self, closed: &[bool]) -> Cow<'_, [Vec<Vec2>]> {
-        if !closed.contains(&true) {
+    /// As [`walls_with`](Self::walls_with), for agents that do not enter some zones, by bits.
+    pub(crate) fn walls_of(&self, closed: &[bool], closed_zones: u32) -> Obstacles {
+        // Coordinates are in range in every checked scenario.
+        let contours_m = walkable_contours_m(&self.walkable_m).unwrap_or_default();
+        Obstacles::with_ground(&self.solids_m(closed, closed_zones), &self.enclosures_m, &contours_m)
+    }
+
+    /// The walls of agents that do not enter some zones, with the doors that are closed, by index.
+    pub fn zone_walls(&self, closed: &[bool]) -> ZoneWalls {
+        let sets = self.closed_zone_sets().into_iter().map(|set| (set, self.walls_of(closed, set)));
+        ZoneWalls { sets: sets.collect() }
+    }
+
+    /// The obstacles, the doors that are closed, by index, and the zones that agents do not enter, by bits, m.
+    pub(crate) fn solids_m(&self, closed: &[bool], closed_zones: u32) -> Cow<'_, [Vec<Vec2>]> {
+        if !closed.contains(&true) && closed_zones == 0 {
             return Cow::Borrowed(&self.obstacles_m);
         }
-        Cow::Owned(self.obstacles_m.iter().cloned().chain(self.doors_m(closed)).collect())
+        let zones_m = self.closed_zones(closed_zones).map(|(_, zone)| zone.area.outline_m());
+        Cow::Owned(self.obstacles_m.iter().cloned().chain(self.doors_m(closed)).chain(zones_m).collect())
+    }
+
+    /// The zones that agents do not enter, by bits, with their indices.
+    pub(crate) fn closed_zones(&self, closed_zones: u32) -> impl Iterator<Item = (usize, &ZoneSpec)> {
+        let closed = self.zones.iter().enumerate().filter(|(_, zone)| zone.is_closed).zip(0..u32::BITS);
+        closed.filter(move |(_, bit)| closed_zones >> bit & 1 == 1).map(|(zone, _)| zone)
+    }
+
+    /// The sets of zones that some agents do not enter, by bits, each once, rising.
+    pub(crate) fn closed_zone_sets(&self) -> Vec<u32> {
+        let sources = self.sources.iter().flat_map(SourceSpec::closed_zone_sets);
+        let mut sets: Vec<u32> = self.agents.iter().map(|agent| agent.closed_zones).chain(sources).collect();
+        sets.sort_unstable();
+        sets.dedup();
+        sets.retain(|set| *set != 0);
+        sets
     }
 
     /// The polygons of the doors that are closed, by index, m.
@@ -43,7 +73,7 @@ impl Scenario {
     /// Whether there are no walls: the ground is open everywhere and always.
     pub fn is_open(&self) -> bool {
         let has_walls = !self.obstacles_m.is_empty() || !self.enclosures_m.is_empty() || !self.walkable_m.is_empty();
-        !has_walls && self.doors.is_empty()
+        !has_walls && self.doors.is_empty() && !self.zones.iter().any(|zone| zone.is_closed)
     }
 
     /// Starts, goals and corners of areas, which open ground must contain, m.
@@ -58,6 +88,8 @@ impl Scenario {
         let sets = self.behaviour.goals.iter().flat_map(|set| &set.areas).flat_map(|goal| goal.area.bounds_m());
         let teleports = self.behaviour.states.iter().filter_map(|state| state.settings.teleport.as_ref());
         let doors = self.doors.iter().flat_map(|door| door.polygon_m.clone());
+        let zones = self.zones.iter().filter(|zone| zone.is_closed).flat_map(|zone| zone.area.bounds_m());
+        let doors = doors.chain(zones);
         agents.chain(sources).chain(sets).chain(teleports.flat_map(Area::bounds_m)).chain(doors).collect()
     }
 

@@ -9,7 +9,7 @@ use crate::agents::{Agents, Removal};
 use crate::behaviour::{Aim, CrowdBehaviour, CrowdView, GoalRef, Movement, Traits};
 use crate::planning::mcn::orientation;
 use crate::population::{Population, RadiusChange};
-use crate::route::CrowdRoutes;
+use crate::route::crowd_routes::{CrowdRoutes, MeshClass};
 use crate::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
 use crate::simulation::Simulation;
 
@@ -27,7 +27,7 @@ impl Simulation {
 
     /// Lets every agent decide what it wants, from positions as the last step left them.
     pub(super) fn decide(&mut self) {
-        let Self { scenario, agents, population, obstacles, routes, doors, crowd, steps, .. } = self;
+        let Self { scenario, agents, population, obstacles, zone_walls, routes, doors, crowd, steps, .. } = self;
         let behaviour = &scenario.behaviour;
         if behaviour.states.is_empty() {
             return;
@@ -35,8 +35,7 @@ impl Simulation {
         let to_area_m = |routes: &CrowdRoutes, index: usize, from_m: Vec2, at: GoalRef| {
             let GoalRef { set, area } = at;
             let area = &behaviour.goals[set as usize].areas[area as usize].area;
-            let wall_radius_m = population.spec(agents.ids[index]).wall_radius_m;
-            routes.to_area_m(wall_radius_m, from_m, at, area)
+            routes.to_area_m(MeshClass::of(population.spec(agents.ids[index])), from_m, at, area)
         };
         let open_route_m = |index: usize, from_m: Vec2, at: GoalRef| to_area_m(routes.all_open(), index, from_m, at);
         let view = CrowdView {
@@ -49,7 +48,10 @@ impl Simulation {
             path_end_m: &|index| path_end_m(agents, population, index),
             stands_at_goal: &|index| agents.progress[index].arrived,
             has_begun: &|index| population.agents[agents.ids[index].index()].begins_at(scenario.dt_s) <= *steps,
-            is_clear: &|position_m| obstacles.depth_m(position_m, WALL_RADIUS_M) <= TOUCH_M,
+            is_clear: &|index, position_m| {
+                let walls = zone_walls.of(agents.closed_zones[index]).unwrap_or(obstacles);
+                walls.depth_m(position_m, WALL_RADIUS_M) <= TOUCH_M
+            },
         };
         crowd.decide(behaviour, &view);
         population.goals.iter_mut().zip(&crowd.waiting).for_each(|(count, &waiting)| count.add(waiting));

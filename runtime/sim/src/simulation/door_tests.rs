@@ -209,6 +209,7 @@ fn a_source_has_no_room_in_a_closed_door() {
         state: 0,
         pre_movement_s: 0.0,
         profiles: Vec::new(),
+        closed_zones: 0,
     };
     let scenario = Scenario { sources: vec![source], ..rooms(&[([-0.6, 0.6], opens_at(10.0))], Vec::new()) };
     let simulation = walk(&scenario, 15.0, &mut |_| {});

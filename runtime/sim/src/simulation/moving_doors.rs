@@ -11,7 +11,7 @@ use crate::world::obstacles::Obstacles;
 impl Simulation {
     /// Opens and closes doors as their signals are now. Walls follow the doors that are closed, routes the signals.
     pub(super) fn move_doors(&mut self) {
-        let Self { scenario, agents, population, doors, crowd, steps, obstacles, routes, .. } = self;
+        let Self { scenario, agents, population, doors, crowd, steps, obstacles, zone_walls, routes, .. } = self;
         let time_s = f64::from(*steps) * f64::from(scenario.dt_s);
         let (mut has_signal_changed, mut has_moved) = (false, false);
         for (index, door) in scenario.doors.iter().enumerate() {
@@ -25,6 +25,7 @@ impl Simulation {
         }
         if has_moved {
             *obstacles = scenario.walls_with(&doors.closed);
+            *zone_walls = scenario.zone_walls(&doors.closed);
         }
         if has_signal_changed {
             doors.red_leaves = Obstacles::new(&scenario.doors_m(&doors.red).collect::<Vec<_>>());

@@ -3,7 +3,7 @@
 use glam::Vec2;
 
 use crate::behaviour::{AgentState, Aim};
-use crate::route::crowd_routes::{RouteEnd, RouteMemory};
+use crate::route::crowd_routes::{MeshClass, RouteEnd, RouteMemory};
 use crate::route::path::{self, Braking, PathProgress, RouteView, Walker};
 use crate::scenario::ranges::COORDINATE_MAX_M;
 use crate::scenario::{AgentSpec, AtGoal};
@@ -41,7 +41,8 @@ impl PathWalker<'_> {
 
     fn walker(&self, state: &AgentState) -> Walker {
         let (position_m, wall_radius_m) = (self.position_m, self.spec.wall_radius_m);
-        Walker { position_m, speed_mps: state.traits.preferred_speed_mps, wall_radius_m }
+        let class = MeshClass::of(self.spec);
+        Walker { position_m, speed_mps: state.traits.preferred_speed_mps, wall_radius_m, class }
     }
 
     /// v_pref along its own waypoints, at the speed of its state, m/s.

@@ -1,12 +1,14 @@
 //! Agents that find their way: around corners, walls and holes, and back when they are pushed.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::Vec2;
+use motiondb::files::SourceText;
 
 use crate::route::KeepSide;
 use crate::route::mesh::WalkablePolygon;
-use crate::scenario::{AgentSpec, Scenario};
+use crate::scenario::{AgentSpec, Coupling, Scenario, parse};
 use crate::simulation::Simulation;
 use crate::test_db::test_db;
 
@@ -101,4 +103,60 @@ fn a_pushed_agent_finds_back() {
     }
     scenario.agents = vec![carried];
     check_all_arrive(&scenario, 25.0);
+}
+
+/// A hall with a zone that is closed to visitors, who have as many starts before it as staff.
+const CLOSED_ZONE: &str = "
+    duration_s = 30
+    walkable = [{ polygon_m = [[-3, -4], [10, -4], [10, 4], [-3, 4]] }]
+    [profiles.visitor]
+    [profiles.staff]
+    preferred_speed_mps = 1.2
+    [[zones]]
+    circle_m = [4, 0, 1.5]
+    closed_to = ['visitor']
+    [[agents]]
+    grid = { columns = 2, rows = 4, spacing_m = 0.8, centre_m = [0, -0.4] }
+    goal_offset_m = [8, 0]
+    profile = 'visitor'
+    [[agents]]
+    grid = { columns = 1, rows = 4, spacing_m = 0.8, centre_m = [-1.5, 0] }
+    goal_offset_m = [9.5, 0]
+    at_goal = 'leave_at_once'
+    profile = 'staff'
+    [[sources]]
+    rect_m = [8.5, -1, 9, 1]
+    rate_per_s = 0.5
+    goals_m = [[-2, 0]]
+    at_goal = 'leave'
+    profile = { visitor = 1, staff = 1 }
+";
+
+#[test]
+fn agents_stay_outside_zones_that_are_closed_to_them() {
+    for coupling in [Coupling::TwoWay, Coupling::Decoupled, Coupling::Discs] {
+        let text = SourceText { path: PathBuf::from("zone.toml"), text: CLOSED_ZONE.into() };
+        let scenario = Scenario { coupling, ..parse(&text).unwrap().0 };
+        let mut simulation = Simulation::new(Arc::new(test_db()), &scenario);
+        let (zone, mut staff_inside) = (&scenario.zones[0].area, [0; 2]);
+        for _ in 0..scenario.steps() {
+            simulation.step(&mut |_| {});
+            for frame in simulation.frames() {
+                let (at_m, spec) = (frame.root.position_m, simulation.population().spec(frame.id));
+                let is_from_source = usize::from(frame.id.index() >= scenario.agents.len());
+                if spec.closed_zones == 0 {
+                    staff_inside[is_from_source] += usize::from(zone.holds(at_m));
+                } else {
+                    assert!(zone.distance_m(at_m) > spec.wall_radius_m - 1e-3, "{coupling:?}: {at_m}");
+                }
+            }
+        }
+        assert!(staff_inside[0] > 20 && staff_inside[1] > 20, "{coupling:?}: {staff_inside:?}");
+        let visitors = simulation.population().agents.iter().filter(|life| life.spec.closed_zones == 1);
+        assert!(visitors.clone().skip(8).any(|life| life.removed.is_some()));
+        for frame in simulation.frames().iter().filter(|frame| frame.id.index() < 8) {
+            let goal_m = scenario.agents[frame.id.index()].goals_m[0];
+            assert!(frame.root.position_m.distance(goal_m) < 1.5, "{coupling:?}: {}", frame.root.position_m);
+        }
+    }
 }

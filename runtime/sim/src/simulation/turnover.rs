@@ -1,8 +1,6 @@
 //! Agents that come and go between two steps. Removals come first in a step, births last, so the frames before and after
 //! a step both show exactly the agents that were planned in it. World, metres, seconds.
 
-use glam::Vec2;
-
 use crate::agents::Removal;
 use crate::population::{AgentId, AgentLife};
 use crate::route::arrival::is_at_goal;
@@ -21,7 +19,7 @@ impl Simulation {
     pub fn add(&mut self, spec: AgentSpec) -> Option<AgentId> {
         let is_state = spec.state == 0 || (spec.state as usize) < self.scenario.behaviour.states.len();
         let is_valid = is_state && check_agent(0, &spec).is_ok() && self.population.agents.len() < AGENTS_MAX;
-        let has_room = is_valid && self.has_room(spec.position_m, spec.radius_m, spec.wall_radius_m);
+        let has_room = is_valid && self.has_room(&spec);
         has_room.then(|| self.bear(spec, None))
     }
 
@@ -103,8 +101,8 @@ impl Simulation {
         let tries = if spec.low_m == spec.high_m { 1 } else { TRIES };
         for _ in 0..tries {
             let position_m = spec.position_m(&mut self.sources[source].positions);
-            if self.has_room(position_m, spec.radius_m, spec.wall_radius_m) {
-                let agent = spec.agent(position_m);
+            let agent = spec.agent(position_m);
+            if self.has_room(&agent) {
                 self.bear(agent, Some(source as u32));
                 return true;
             }
@@ -112,15 +110,17 @@ impl Simulation {
         false
     }
 
-    /// Whether a disc overlaps neither a present agent nor a wall.
-    fn has_room(&self, position_m: Vec2, radius_m: f32, wall_radius_m: f32) -> bool {
+    /// Whether the discs of an agent overlap neither a present agent nor a wall.
+    fn has_room(&self, spec: &AgentSpec) -> bool {
+        let &AgentSpec { position_m, radius_m, wall_radius_m, closed_zones, .. } = spec;
+        let walls = self.zone_walls.of(closed_zones).unwrap_or(&self.obstacles);
         let agents = &self.agents;
         let mut discs = agents.positions_m.iter().zip(&agents.radii_m);
         let overlaps = discs.any(|(other_m, other_radius_m)| {
             let apart_m = (radius_m + other_radius_m - TOUCH_M).max(0.0);
             position_m.distance_squared(*other_m) < apart_m * apart_m
         });
-        !overlaps && self.obstacles.depth_m(position_m, wall_radius_m) <= TOUCH_M
+        !overlaps && walls.depth_m(position_m, wall_radius_m) <= TOUCH_M
     }
 
     /// Appends an agent with the next id.

@@ -7,7 +7,7 @@ impl Simulation {
     /// went, so its v_pref has its factors already.
     pub(super) fn apply_zones(&mut self) {
         let agents = &mut self.agents;
-        for zone in &self.scenario.zones {
+        for zone in self.scenario.zones.iter().filter(|zone| zone.speed_factor != 1.0) {
             let [low_m, high_m] = zone.area.bounds_m();
             for (index, position_m) in agents.positions_m.iter().enumerate() {
                 let is_beside = position_m.cmpge(low_m).all() && position_m.cmple(high_m).all();

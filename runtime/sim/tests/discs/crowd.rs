@@ -157,6 +157,7 @@ impl DiscCrowd {
             stepping_back_s: &stepping_back_s,
             neighbours: &self.neighbours,
             obstacles: setting.walls,
+            own_walls: None,
             constraints: &MotionConstraints::new(setting.hull),
             dt_s: setting.dt_s,
             bodies: matches!(setting.response, DiscResponse::Lagging(..)),

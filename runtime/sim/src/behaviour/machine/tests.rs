@@ -50,7 +50,7 @@ impl Points {
             open_route_m: None,
             path_end_m: &|_| None,
             stands_at_goal: &|_| false,
-            is_clear: &|_| true,
+            is_clear: &|_, _| true,
             has_begun: &|_| true,
         };
         self.crowd.decide(&self.behaviour, &view);

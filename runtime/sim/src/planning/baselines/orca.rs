@@ -68,7 +68,7 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &OrcaParams, memory:
     let own = world.disc(agent);
     half_planes.clear();
     let held = world.wall_disc(agent);
-    wall_half_planes(world.obstacles, &surroundings.edges, &held, params.obstacle_time_horizon_s, half_planes);
+    wall_half_planes(world.walls_of(agent), &surroundings.edges, &held, params.obstacle_time_horizon_s, half_planes);
     let wall_count = half_planes.len();
     half_planes.extend(surroundings.neighbours.as_slice().iter().map(|neighbour| {
         agent_half_plane(own.velocity_mps, neighbour, EQUAL_SHARE, params.time_horizon_s, world.dt_s)

@@ -34,7 +34,7 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
     memory.of_walls.clear();
     let (edges, horizon_s) = (&memory.surroundings.edges, params.obstacle_time_horizon_s);
     let wider = Disc { radius_m: world.wall_radii_m[agent] + WALL_MARGIN_M, ..own };
-    wall_half_planes(world.obstacles, edges, &wider, horizon_s, &mut memory.of_walls); // ∪_W C_iW
+    wall_half_planes(world.walls_of(agent), edges, &wider, horizon_s, &mut memory.of_walls); // ∪_W C_iW
     // Shares, weights and horizons are computed for all neighbours at once.
     let neighbours = &memory.surroundings.neighbours;
     let lanes = neighbours.lanes();

@@ -88,6 +88,7 @@ impl Scene {
             stepping_back_s: &vec![0.0; count],
             neighbours: &neighbours,
             obstacles: &self.obstacles,
+            own_walls: None,
             constraints: &MotionConstraints::new(&hull),
             dt_s: self.dt_s,
             bodies: self.bodies,

@@ -144,6 +144,8 @@ pub(crate) struct AreaDisc {
 /// Ground that walls and agents cover.
 pub(crate) struct TakenGround<'a> {
     obstacles: &'a Obstacles,
+    /// The walls of the agents of the present table, where zones are closed to some.
+    pub(crate) with_zones: Option<Obstacles>,
     /// Side of a cell, m: no less than any distance that centres keep.
     cell_m: f32,
     /// Discs of agents, sorted into the cells of their centres.
@@ -155,7 +157,7 @@ pub(crate) struct TakenGround<'a> {
 impl<'a> TakenGround<'a> {
     /// Ground with walls alone; no two centres are kept farther apart than `apart_max_m`.
     pub(crate) fn new(obstacles: &'a Obstacles, apart_max_m: f32) -> Self {
-        Self { obstacles, cell_m: apart_max_m.max(2.0), cells: BTreeMap::new(), order: Vec::new() }
+        Self { obstacles, with_zones: None, cell_m: apart_max_m.max(2.0), cells: BTreeMap::new(), order: Vec::new() }
     }
 
     fn cell(&self, position_m: Vec2) -> (i32, i32) {
@@ -191,7 +193,8 @@ impl<'a> TakenGround<'a> {
         let is_apart = others.all(|&(other_m, radius_m)| {
             position_m.distance(other_m) >= apart_m.max(disc.radius_m + radius_m) - TOUCH_M
         });
-        is_apart && self.obstacles.depth_m(position_m, disc.wall_radius_m) <= 0.0
+        let walls = self.with_zones.as_ref().unwrap_or(self.obstacles);
+        is_apart && walls.depth_m(position_m, disc.wall_radius_m) <= 0.0
     }
 }
 

@@ -184,6 +184,7 @@ impl AgentGroup {
             preferred_speed_mps: preferred_speed_mps.unwrap_or(PREFERRED_SPEED_MPS),
             radius_m: radius_m.unwrap_or(RADIUS_M),
             pre_movement_s: 0.0,
+            closed_zones: 0,
         };
         Ok((0..count).map(|_| of_table.draw(&profiles, &mut random)).collect())
     }
@@ -210,7 +211,7 @@ impl AgentGroup {
         let of_state = || behaviour.start_facing_rad(state, position_m);
         let ahead = || of_state().unwrap_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x));
         let facing_rad = self.facing_deg.map_or_else(ahead, f32::to_radians);
-        let DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s } = numbers;
+        let DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones } = numbers;
         AgentSpec {
             position_m,
             facing_rad,
@@ -221,6 +222,7 @@ impl AgentGroup {
             at_goal: self.at_goal,
             state,
             pre_movement_s,
+            closed_zones,
         }
     }
 }

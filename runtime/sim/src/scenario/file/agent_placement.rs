@@ -155,6 +155,10 @@ impl Placing<'_> {
             AreaDisc { radius_m, wall_radius_m: group.wall_radius_m(radius_m) }
         };
         let discs: Vec<AreaDisc> = numbers.iter().map(disc).collect();
+        let closed_zones = numbers.iter().fold(0, |all, numbers| all | numbers.closed_zones);
+        let ground_of = self.input.ground;
+        let with_zones = || ground_of.walls_of(&ground_of.doors_closed_at_start(), closed_zones);
+        taken.with_zones = (closed_zones != 0).then(with_zones);
         let random = SplitMix64::new(self.input.seed, stream as u64);
         let starts_m = area.positions_m(&ground, &discs, taken, random).map_err(|fault| self.at_table(span, fault))?;
         let journeys = starts_m.into_iter().map(|start_m| group.journey(start_m)).collect();
@@ -244,7 +248,7 @@ fn wrong_line(lines: &SourceText, (span, message): (Range<usize>, String)) -> Sc
 pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioError> {
     let (group, behaviour) = (AgentGroup::default(), Behaviour::default());
     let AgentSpec { preferred_speed_mps, radius_m, pre_movement_s, .. } = AgentSpec::default();
-    let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s };
+    let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones: 0 };
     let journeys = parse_lines(&lines.text).map_err(|fault| wrong_line(lines, fault))?;
     Ok(journeys.into_iter().map(|journey| group.agent(journey, numbers, &behaviour, 0)).collect())
 }

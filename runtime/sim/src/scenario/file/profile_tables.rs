@@ -70,6 +70,13 @@ impl<'a> Profiles<'a> {
         Ok(Self { names, resolved })
     }
 
+    /// Closes a zone to the agents of a profile, by the zone's bit.
+    pub(crate) fn close_zone(&mut self, name: &str, bit: u32) -> Result<(), TableFault> {
+        let index = self.names.index(name)?;
+        self.resolved[index].closed_zones |= 1 << bit;
+        Ok(())
+    }
+
     /// The profiles of a table of agents; numbers that the table states itself are taken out of them.
     pub(crate) fn of_table(
         &self,
@@ -136,6 +143,7 @@ fn profile(table: &ProfileTable, names: &Names<'_>, tables: &[&Spanned<ProfileTa
         preferred_speed_mps: number("`preferred_speed_mps`", merged.preferred_speed_mps, speeds)?,
         radius_m: number("`radius_m`", merged.radius_m, radii)?,
         pre_movement_s: merged.pre_movement_s.map(pre_movement).transpose()?,
+        closed_zones: 0,
     })
 }
 

@@ -27,6 +27,7 @@ use crate::scenario::file::zone_tables::zones;
 use crate::scenario::resolved::{SEED, Scenario};
 use crate::scenario::rules::check::check;
 use crate::scenario::rules::ground_check::{check_ground, check_ground_ranges};
+use crate::scenario::rules::measure_check::check_zones;
 
 /// Reads a scenario file and the agent files that it names. The source of its motion is a result of its own: a caller
 /// that brings a database does not need the one that the file names.
@@ -48,11 +49,14 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
     let states = StateNames { tables: &tables, behaviour: &behaviour };
     let motion = file.motion_source(source)?;
     let seed = file.seed.unwrap_or(SEED);
-    let profiles = Profiles::new(&file.profiles, source)?;
+    let mut profiles = Profiles::new(&file.profiles, source)?;
+    let zones = zones(source, &file.zones, &mut profiles)?;
     let signals = Names::new("signal", &tables.signals);
-    let ground = PlacedGround::new(source, &file.obstacles, &file.walkable, &behaviour, &signals)?;
+    let mut ground = PlacedGround::new(source, &file.obstacles, &file.walkable, &behaviour, &signals)?;
+    ground.scenario.zones = zones;
     let texts = ScenarioTexts { source, file: &file, behaviour: &tables, walkable: &ground.tables };
     check_ground_ranges(&ground.scenario)
+        .and_then(|()| check_zones(&ground.scenario))
         .and_then(|()| check_ground(&ground.scenario))
         .map_err(|fault| texts.point_at(&PlacedAgents::default(), fault))?;
     let input = PlacementInput { source, states: &states, profiles: &profiles, ground: &ground.scenario, seed };
@@ -69,7 +73,6 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         planner: file.planner,
         coupling: file.coupling,
         sources: sources(&input, &file.sources, *file.duration_s.get_ref())?,
-        zones: zones(source, &file.zones)?,
         measures: measures(source, &file.measure)?,
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),

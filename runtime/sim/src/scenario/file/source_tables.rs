@@ -95,6 +95,7 @@ impl SourceTable {
             state: 0,
             pre_movement_s: 0.0,
             profiles: Vec::new(),
+            closed_zones: 0,
         })
     }
 }

@@ -1,4 +1,5 @@
-//! The `[[zones]]` tables: an area (`rect_m`, `circle_m`, `polygon_m`) and its `speed_factor`. World, metres.
+//! The `[[zones]]` tables: an area (`rect_m`, `circle_m`, `polygon_m`), its `speed_factor`, and the profiles of agents
+//! that do not enter it (`closed_to`). World, metres.
 
 use motiondb::files::SourceText;
 use serde::Deserialize;
@@ -7,8 +8,12 @@ use toml::Spanned;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::behaviour::AreaKeys;
+use crate::scenario::file::profile_tables::Profiles;
 use crate::scenario::point::Point;
 use crate::scenario::zone_spec::ZoneSpec;
+
+/// Greatest number of zones that are closed to some agents: the bits of a u32.
+const CLOSED_MAX: u32 = u32::BITS;
 
 /// One `[[zones]]` table, as written.
 #[derive(Debug, Deserialize)]
@@ -17,17 +22,60 @@ pub(crate) struct ZoneTable {
     circle_m: Option<[f32; 3]>,
     rect_m: Option<[f32; 4]>,
     polygon_m: Option<Vec<Point>>,
-    speed_factor: f32,
+    speed_factor: Option<f32>,
+    closed_to: Option<Spanned<ClosedTo>>,
 }
 
-/// The zones of all tables.
-pub(crate) fn zones(source: &SourceText, tables: &[Spanned<ZoneTable>]) -> Result<Vec<ZoneSpec>, ScenarioError> {
-    let resolve = |table: &Spanned<ZoneTable>| {
-        let &ZoneTable { circle_m, rect_m, speed_factor, .. } = table.get_ref();
+/// The value of `closed_to`.
+#[derive(Debug, Deserialize)]
+#[serde(untagged, expecting = "a list of profiles as in `[\"visitor\"]`")]
+enum ClosedTo {
+    Word(String),
+    Profiles(Vec<String>),
+}
+
+/// The zones of all tables. Notes in each profile which zones are closed to it.
+pub(crate) fn zones(
+    source: &SourceText,
+    tables: &[Spanned<ZoneTable>],
+    profiles: &mut Profiles<'_>,
+) -> Result<Vec<ZoneSpec>, ScenarioError> {
+    let (mut zones, mut closed) = (Vec::new(), 0);
+    for table in tables {
+        let wrong = |span, (message, help): TableFault| ScenarioError::from(source.invalid(span, message, help));
+        let at_table = |fault: TableFault| wrong(table.span(), fault);
+        let &ZoneTable { circle_m, rect_m, speed_factor, ref closed_to, .. } = table.get_ref();
         let polygon_m = table.get_ref().polygon_m.as_deref();
-        let at_table = |(message, help): TableFault| ScenarioError::from(source.invalid(table.span(), message, help));
         let area = AreaKeys { point_m: None, circle_m, rect_m, polygon_m }.area().map_err(at_table)?;
-        Ok(ZoneSpec { area, speed_factor })
-    };
-    tables.iter().map(resolve).collect()
+        if speed_factor.is_none() && closed_to.is_none() {
+            let message = "a zone needs `speed_factor`, `closed_to` or both".to_owned();
+            return Err(at_table((message, "write `speed_factor = 0.5`, or `closed_to = [\"PROFILE\"]`")));
+        }
+        if let Some(closed_to) = closed_to {
+            let at_key = |fault: TableFault| wrong(closed_to.span(), fault);
+            if closed == CLOSED_MAX {
+                return Err(at_key((format!("more than {CLOSED_MAX} zones are closed"), "give fewer")));
+            }
+            profiles_of(closed_to.get_ref())
+                .and_then(|names| names.iter().try_for_each(|name| profiles.close_zone(name, closed)))
+                .map_err(at_key)?;
+            closed += 1;
+        }
+        zones.push(ZoneSpec { area, speed_factor: speed_factor.unwrap_or(1.0), is_closed: closed_to.is_some() });
+    }
+    Ok(zones)
+}
+
+fn profiles_of(closed_to: &ClosedTo) -> Result<&[String], TableFault> {
+    match closed_to {
+        ClosedTo::Profiles(names) if !names.is_empty() => Ok(names),
+        ClosedTo::Profiles(_) => Err(("`closed_to` names no profile".into(), "name one, or remove the key")),
+        ClosedTo::Word(word) if word == "all" => {
+            let message = "a zone that is closed to all agents is an obstacle".to_owned();
+            Err((message, "write its polygon as `[[obstacles]]` with `polygon_m`"))
+        }
+        ClosedTo::Word(word) => {
+            Err((format!("`closed_to` is `{word}`, not a list"), "write a list of profiles: `[\"NAME\"]`"))
+        }
+    }
 }

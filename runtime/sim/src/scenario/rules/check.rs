@@ -15,6 +15,7 @@ use crate::scenario::rules::behaviour_check::{check_behaviour_ranges, check_goal
 use crate::scenario::rules::ground_check::{check_ground, check_ground_ranges};
 use crate::scenario::rules::measure_check::{check_measures, check_zones};
 use crate::scenario::rules::source_check::{check_source_ranges, check_sources_clear_of_obstacles};
+use crate::scenario::rules::zone_check::check_closed_zones;
 
 /// Distance from an obstacle's box beyond which no disc touches the obstacle, m.
 const NEAR_M: f32 = 1.0;
@@ -32,6 +33,7 @@ pub fn check(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_ground(scenario)?;
     check_agents_clear_of_obstacles(scenario)?;
     check_agents_clear_of_doors(scenario)?;
+    check_closed_zones(scenario)?;
     check_agents_apart(&scenario.agents)?;
     check_sources_clear_of_obstacles(scenario)?;
     check_goals_clear_of_obstacles(scenario)

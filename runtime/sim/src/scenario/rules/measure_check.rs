@@ -1,5 +1,6 @@
 //! The rules of lines and areas that are measured, and of zones. World, metres.
 
+use crate::maths::polygon::signed_area_m2;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::measure_spec::MeasuredPlace;
 use crate::scenario::ranges::{check_name, check_points, within};
@@ -8,6 +9,10 @@ use crate::scenario::rules::behaviour_check::{FACTOR, check_area};
 
 /// Greatest number of `[[measure]]` tables, and of zones: each takes time in every frame.
 const TABLES_MAX: usize = 1_000;
+/// Greatest number of different sets of zones that agents do not enter: each has walls and meshes of its own.
+const SETS_MAX: usize = 16;
+/// Least area of a zone that is closed to some agents, m².
+const AREA_MIN_M2: f64 = 1e-4;
 
 /// Checks lines and areas that are measured, and their names.
 pub(crate) fn check_measures(scenario: &Scenario) -> Result<(), ScenarioFault> {
@@ -46,6 +51,10 @@ pub(crate) fn check_zones(scenario: &Scenario) -> Result<(), ScenarioFault> {
         let part = &ScenarioPart::Zone(index);
         check_area(part, &zone.area)?;
         within(part, "speed_factor", zone.speed_factor, &FACTOR, "1 changes nothing, 0.5 is half the speed")?;
+        if zone.is_closed && signed_area_m2(&zone.area.outline_m()) < AREA_MIN_M2 {
+            return part.fault("the zone has no area".into(), "give a zone with an inside");
+        }
     }
-    Ok(())
+    let sets = scenario.closed_zone_sets().len();
+    within(&ScenarioPart::Zone(0), "the number of sets of closed zones", sets, &(0..=SETS_MAX), "close fewer zones")
 }

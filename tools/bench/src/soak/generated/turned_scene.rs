@@ -100,6 +100,7 @@ impl Scene {
             stepping_back_s: &self.held_s[1],
             neighbours: &neighbours,
             obstacles: &obstacles,
+            own_walls: None,
             constraints: &constraints,
             dt_s: 0.1,
             bodies: true,

@@ -108,6 +108,7 @@ impl GeneratedWorld {
             stepping_back_s: &self.stepping_back_s,
             neighbours,
             obstacles,
+            own_walls: None,
             constraints,
             dt_s: self.dt_s,
             bodies: true,
