@@ -269,6 +269,25 @@ fn signals_and_numbers_let_agents_go() {
 }
 
 #[test]
+fn positions_in_an_area_are_apart() {
+    let mut apart_m: Vec<f32> = Vec::new();
+    for shift in 0..20 {
+        let area = Area::rectangle(Vec2::new(10.0, shift as f32), Vec2::new(12.0, 2.0 + shift as f32));
+        let area = GoalArea { area, facing_rad: None, capacity: None, weight: 1.0 };
+        let goals = vec![GoalSet { name: "booth".into(), areas: vec![area], queue: false }];
+        let states = vec![go("go", 0, Choice::Nearest, vec![])];
+        let mut points = Points::new(Behaviour { states, goals, ..Behaviour::default() }, row(5), 0);
+        points.step();
+        let held_m: Vec<Vec2> = points.crowd.agents.iter().filter_map(|agent| agent.aim.position_m()).collect();
+        let pairs =
+            held_m.iter().enumerate().flat_map(|(index, a)| held_m[..index].iter().map(move |b| a.distance(*b)));
+        apart_m.push(pairs.fold(f32::INFINITY, f32::min));
+    }
+    // Five agents have 4 m²: drawn anywhere, every second booth has two within 0.4 m of each other.
+    assert!(apart_m.iter().all(|&apart_m| apart_m > 0.45), "{apart_m:?}");
+}
+
+#[test]
 fn a_teleport_moves_the_agent_at_once() {
     let settings = Settings { teleport: Some(Area::point(Vec2::new(5.0, 5.0))), ..Settings::default() };
     let states = vec![stand("here", vec![when(after(1.0), &[1])]), State { settings, ..stand("there", vec![]) }];
