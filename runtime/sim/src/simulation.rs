@@ -46,6 +46,7 @@ mod crowd_behaviour;
 mod path_walker;
 mod source_state;
 mod turnover;
+mod walking_groups;
 mod zones;
 
 /// Bodies that one thread takes at a time, at least: enough to outweigh the hand-over, few enough to share out 100.
@@ -89,6 +90,8 @@ pub struct Simulation {
     population: Population,
     /// The state of every source, by index.
     sources: Vec<SourceState>,
+    /// Whether any agent is, or a source's may be, in a group.
+    has_groups: bool,
     /// Number of steps so far: the index of the present frame.
     steps: u32,
 }
@@ -116,6 +119,7 @@ impl Simulation {
             agents,
             crowd,
             context,
+            has_groups: scenario.has_groups(),
             steps: 0,
         };
         simulation.bear_due_agents();
@@ -156,6 +160,7 @@ impl Simulation {
         self.decide();
         self.remove_leaving_agents();
         self.follow_paths();
+        self.walk_together();
         self.apply_zones();
         finished(Stage::Route);
         let Agents { positions_m, velocities_mps, radii_m, .. } = &self.agents;
@@ -289,6 +294,8 @@ fn are_between_steps(before: [f32; 2], after: [f32; 2]) -> bool {
 
 #[cfg(test)]
 mod behaviour_tests;
+#[cfg(test)]
+mod group_tests;
 #[cfg(test)]
 mod route_tests;
 #[cfg(test)]

@@ -42,6 +42,7 @@ fn wide_header() -> Header {
         state: 0,
         pre_movement_s: 0.0,
         profiles: Vec::new(),
+        groups: None,
     });
     header
 }

@@ -508,3 +508,33 @@ fn goals_without_a_route_are_errors_at_their_agents() {
     let beside = "[[walkable]]\npolygon_m = [[1, -1], [9, -1], [9, 1], [1, 1]]\n";
     check_rejected("start", &scene(beside), agents, "agent 0 starts at [0, 0], in a wall or off the walkable ground");
 }
+
+#[test]
+fn wrong_groups_are_shown_at_their_table() {
+    let agents = |keys: &str| {
+        format!("{HEAD}agents = {{ grid = {{ columns = 2, rows = 2, spacing_m = 1 }}, goals_m = [[9, 9]], {keys} }}\n")
+    };
+    let cases = [
+        ("groups = { 0 = 1 }", "`0` in `groups` is no size of a group"),
+        ("groups = { 5 = 1 }", "`5` in `groups` is no size of a group"),
+        ("groups = { pairs = 1 }", "`pairs` in `groups` is no size of a group"),
+        ("groups = { 1 = 0, 2 = 0 }", "the sum of the shares in `groups` is 0"),
+        ("groups = { 1 = -1, 2 = 3 }", "a share in `groups` is -1"),
+        ("groups = { 2 = nan }", "the sum of the shares in `groups` is NaN"),
+        ("groups = { 2 = inf }", "the sum of the shares in `groups` is inf"),
+        ("groups = { 2 = 1 }, group_spacing_m = 0.1", "group_spacing_m is 0.1"),
+        ("group_spacing_m = 1", "`group_spacing_m` needs `groups`"),
+    ];
+    for (keys, message) in cases {
+        match read(&write("groups", &agents(keys))) {
+            Err(ScenarioError::Invalid(invalid)) => assert!(invalid.message.contains(message), "{keys}: {invalid}"),
+            other => panic!("{keys} gave {other:?}"),
+        }
+        let source = format!("{HEAD}[[sources]]\nat_m = [0, 0]\nrate_per_s = 1\ngoals_m = [[9, 9]]\n");
+        let text = source + &keys.replace("}, group", "}\ngroup") + "\n";
+        match read(&write("groups", &text)) {
+            Err(ScenarioError::Invalid(invalid)) => assert!(invalid.message.contains(message), "{keys}: {invalid}"),
+            other => panic!("{text} gave {other:?}"),
+        }
+    }
+}

@@ -5,6 +5,8 @@
 //!    that takes a hundred in one step ends them there, and the fault is kept.
 //! 3. Keep its goal up to date: move up in a queue, leave a busy exit for another, look again for a goal with room.
 //!
+//! Members of a group that are in the state of its first member do as that one does (`group_leads`).
+//!
 //! Rooms of goals change at once, so the order of ids decides which agent gets the last place. All else is read as it
 //! was when the step began.
 
@@ -13,10 +15,15 @@ use glam::Vec2;
 use crate::behaviour::agent_state::{AgentState, Traits};
 use crate::behaviour::area::Area;
 use crate::behaviour::crowd_view::{CrowdView, Moment};
-use crate::behaviour::deciding::Deciding;
+use crate::behaviour::machine::deciding::{Deciding, TRANSITIONS_MAX};
+use crate::behaviour::machine::group_leads::GroupLeads;
 use crate::behaviour::occupancy::Occupancy;
 use crate::behaviour::state::{Behaviour, Movement};
 use crate::population::AgentId;
+
+mod deciding;
+mod goal_keeping;
+mod group_leads;
 
 /// Distance from the end of a queue within which an agent joins it, m.
 const JOINS_QUEUE_M: f32 = 1.5;
@@ -30,6 +37,14 @@ pub struct EndlessTransitions {
     pub time_s: f64,
     /// The states that the agent entered again and again, by index, each once.
     pub states: Vec<u32>,
+}
+
+impl EndlessTransitions {
+    fn new(agent: AgentId, time_s: f64, mut states: Vec<u32>) -> Self {
+        states.sort_unstable();
+        states.dedup();
+        Self { agent, time_s, states }
+    }
 }
 
 /// The state machine of all agents.
@@ -82,15 +97,29 @@ impl CrowdBehaviour {
         let mut agents = std::mem::take(&mut self.agents);
         self.waiting = vec![0; behaviour.goals.len()];
         self.teleports.clear();
-        for (index, agent) in agents.iter_mut().enumerate().filter(|(index, _)| (view.has_begun)(*index)) {
+        let mut leads = GroupLeads::new(behaviour, view, &agents);
+        for index in (0..agents.len()).filter(|index| (view.has_begun)(*index)) {
+            let (before, agent) = agents.split_at_mut(index);
+            let agent = &mut agent[0];
+            let followers = leads.followers(index);
             let occupancy = &mut self.occupancy;
-            let mut deciding = Deciding { behaviour, view, index, agent, occupancy, teleported_m: None };
-            let states = deciding.follow_transitions(&moment);
+            let mut deciding = Deciding { behaviour, view, index, agent, occupancy, teleported_m: None, followers };
+            let lead_goal = match leads.followed_by(index) {
+                Some((lead, entered)) => {
+                    deciding.follow_lead(entered);
+                    before[lead].goal_at()
+                }
+                None => {
+                    let entered = deciding.follow_transitions(&moment);
+                    if self.endless.is_none() && entered.len() == TRANSITIONS_MAX {
+                        self.endless = Some(EndlessTransitions::new(view.ids[index], view.time_s, entered.clone()));
+                    }
+                    leads.note(index, entered);
+                    None
+                }
+            };
             self.teleports.extend(deciding.teleported_m.map(|position_m| (view.ids[index], position_m)));
-            if self.endless.is_none() && !states.is_empty() {
-                self.endless = Some(EndlessTransitions { agent: view.ids[index], time_s: view.time_s, states });
-            }
-            deciding.update_goal(&moment);
+            deciding.update_goal(&moment, lead_goal);
             let aim = deciding.aim();
             agent.has_new_aim = aim.position_m() != agent.aim.position_m();
             agent.aim = aim;

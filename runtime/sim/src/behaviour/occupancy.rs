@@ -46,10 +46,15 @@ impl Occupancy {
         }
     }
 
-    /// Indices of the areas of a set that have room, ascending.
-    pub(crate) fn free(&self, set: usize, goals: &GoalSet) -> Vec<usize> {
-        let taken = self.of_set(set);
-        (0..taken.len()).filter(|&area| taken[area] < goals.capacity(area)).collect()
+    /// Indices of the areas of a set that have room for a number of agents, ascending.
+    pub(crate) fn free(&self, set: usize, goals: &GoalSet, agents: u32) -> Vec<usize> {
+        let at = |area: usize| GoalRef { set: set as u32, area: area as u32 };
+        (0..goals.areas.len()).filter(|&area| self.has_room(goals, at(area), agents)).collect()
+    }
+
+    /// Whether an area of a set has room for a number of agents.
+    pub(crate) fn has_room(&self, goals: &GoalSet, at: GoalRef, agents: u32) -> bool {
+        self.of_set(at.set as usize)[at.area as usize].saturating_add(agents) <= goals.capacity(at.area as usize)
     }
 
     /// The place at the end of a queue: behind the last one taken. None where the queue is full.

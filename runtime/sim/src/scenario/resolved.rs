@@ -130,6 +130,12 @@ impl Scenario {
         }
     }
 
+    /// Whether any agent is in a group, or any source's may be.
+    pub(crate) fn has_groups(&self) -> bool {
+        self.agents.iter().any(|agent| agent.group.is_some())
+            || self.sources.iter().any(|source| source.groups.is_some())
+    }
+
     /// The syntheses that bodies may use. Bodies that follow a path planned before them only blend.
     pub fn modes(&self) -> Modes {
         match self.coupling {

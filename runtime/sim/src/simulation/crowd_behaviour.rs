@@ -26,6 +26,7 @@ impl Simulation {
 
     /// Lets every agent decide what it wants, from positions as the last step left them.
     pub(super) fn decide(&mut self) {
+        let leads = if self.has_groups { self.walking_groups().leads(self.agents.count()) } else { Vec::new() };
         let Self { scenario, agents, population, obstacles, routes, crowd, steps, .. } = self;
         let behaviour = &scenario.behaviour;
         if behaviour.states.is_empty() {
@@ -36,6 +37,7 @@ impl Simulation {
             seed: scenario.seed,
             ids: &agents.ids,
             positions_m: &agents.positions_m,
+            leads: &leads,
             route_m: &|index, from_m, at| {
                 let GoalRef { set, area } = at;
                 let area = &behaviour.goals[set as usize].areas[area as usize].area;

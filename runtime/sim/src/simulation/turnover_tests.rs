@@ -42,6 +42,7 @@ fn source(low_m: Vec2, high_m: Vec2, rate_per_s: f32, ahead_m: f32) -> SourceSpe
         state: 0,
         pre_movement_s: 0.0,
         profiles: Vec::new(),
+        groups: None,
     }
 }
 

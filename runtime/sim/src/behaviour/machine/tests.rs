@@ -46,6 +46,7 @@ impl Points {
             seed: 1,
             ids: &self.ids,
             positions_m: &self.positions_m,
+            leads: &[],
             route_m: &route_m,
             path_end_m: &|_| None,
             stands_at_goal: &|_| false,

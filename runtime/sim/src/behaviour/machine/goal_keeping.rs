@@ -6,9 +6,9 @@ use glam::Vec2;
 use crate::behaviour::agent_state::{ChosenGoal, GoalRef};
 use crate::behaviour::choice::{Choice, Options};
 use crate::behaviour::crowd_view::Moment;
-use crate::behaviour::deciding::Deciding;
 use crate::behaviour::draw::Purpose;
 use crate::behaviour::goals::GoalArea;
+use crate::behaviour::machine::deciding::Deciding;
 use crate::behaviour::state::Movement;
 
 /// Distance from the head of a queue within which an agent is served, m.
@@ -26,7 +26,8 @@ const CROWDED: usize = 64;
 
 impl Deciding<'_> {
     /// Chooses a goal where the agent wants one and has none; moves up in a queue; changes between busy exits.
-    pub(crate) fn update_goal(&mut self, moment: &Moment) {
+    /// A member of a group takes the area of its lead where there is room.
+    pub(crate) fn update_goal(&mut self, moment: &Moment, lead_goal: Option<GoalRef>) {
         let &Movement::Goals { set, choice, memory } = self.movement() else { return };
         let memory = memory.filter(|_| !self.behaviour.goals[set].queue);
         if self.agent.goal.is_none()
@@ -35,8 +36,12 @@ impl Deciding<'_> {
         {
             self.agent.goal = Some(*goal);
         }
+        let wanted = lead_goal.filter(|at| at.set as usize == set && self.agent.goal_at() != Some(*at));
         if self.behaviour.goals[set].queue {
             self.update_place(set, moment.joining[set] == Some(self.index));
+        } else if let Some(at) = wanted.filter(|at| self.occupancy.has_room(&self.behaviour.goals[set], *at, 1)) {
+            self.occupancy.leave(self.agent);
+            self.take(at);
         } else if self.agent.goal.is_none() {
             self.choose(set, choice);
         } else if choice == Choice::LeastBusy && self.view.time_s - self.agent.chosen_s >= CHOOSES_AGAIN_S {
@@ -52,7 +57,11 @@ impl Deciding<'_> {
     }
 
     fn choose(&mut self, set: usize, choice: Choice) {
-        let free = self.occupancy.free(set, &self.behaviour.goals[set]);
+        let goals = &self.behaviour.goals[set];
+        let mut free = self.occupancy.free(set, goals, 1 + self.followers.count);
+        if free.is_empty() {
+            free = self.occupancy.free(set, goals, 1);
+        }
         let random = &mut self.drawer().random(Purpose::Goal);
         let Some(area) = choice.choose(&self.options(set, &free, &|area| self.route_m(set, area)), random) else {
             return;
@@ -64,7 +73,7 @@ impl Deciding<'_> {
     fn choose_again(&mut self, set: usize) {
         self.agent.chosen_s = self.view.time_s;
         let Some(goal) = self.agent.goal else { return };
-        let free = self.occupancy.free(set, &self.behaviour.goals[set]);
+        let free = self.occupancy.free(set, &self.behaviour.goals[set], 1 + self.followers.count);
         let route_m = |area| self.route_m(set, area);
         let options = self.options(set, &free, &route_m);
         let Some(area) = Choice::LeastBusy.choose(&options, &mut self.drawer().random(Purpose::Goal)) else { return };
