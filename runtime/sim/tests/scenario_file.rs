@@ -538,3 +538,25 @@ fn wrong_groups_are_shown_at_their_table() {
         }
     }
 }
+
+#[test]
+fn wrong_events_are_shown_at_their_line() {
+    const STATE: &str = "[states.sit]\nstand = {}\n[signals.door]\ngreen_s = 1\nred_s = 1\n";
+    let cases = [
+        ("when = { reached_m = 1 }\nto = \"sit\"", "`when` of event `alarm` speaks of one agent"),
+        ("when = { not = { inside = \"hall\" } }\nto = \"sit\"", "there is no area `hall`"),
+        ("when = { after_s = 1 }", "event `alarm` changes nothing"),
+        ("when = { after_s = -1 }\nto = \"sit\"", "after_s"),
+        ("when = { after_s = 1 }\nto = \"flee\"", "there is no state `flee`"),
+        ("when = { after_s = 1 }\nto = \"sit\"\nfrom = [\"run\"]", "there is no state `run`"),
+        ("when = { after_s = 1 }\nsignals = { gate = \"red\" }", "there is no signal `gate`"),
+        ("when = { after_s = 1 }\nsignals = { door = \"blue\" }", "unknown value `blue`"),
+        ("to = \"sit\"", "missing field `when`"),
+    ];
+    for (keys, message) in cases {
+        match read(&write("events", &format!("{HEAD}{ONE}{STATE}[events.alarm]\n{keys}\n"))) {
+            Err(ScenarioError::Invalid(invalid)) => assert!(invalid.message.contains(message), "{keys}: {invalid}"),
+            other => panic!("{keys} gave {other:?}"),
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! One step of the state machine of all agents: transitions, goals, aims. World, metres, seconds.
 //!
-//! 1. Count the agents in states and areas, and look at the signals, as the last step left them.
-//! 2. For each agent in the order of ids: take the first transition whose condition holds, until none holds. An agent
+//! 1. Count the agents in states and areas, and look at the signals, as the last step left them; let events happen.
+//! 2. For each agent in the order of ids: enter the state to which an event moves it; take the first transition whose condition holds, until none holds. An agent
 //!    that takes a hundred in one step ends them there, and the fault is kept.
 //! 3. Keep its goal up to date: move up in a queue, leave a busy exit for another, look again for a goal with room.
 //!
@@ -14,7 +14,10 @@ use glam::Vec2;
 
 use crate::behaviour::agent_state::{AgentState, Traits};
 use crate::behaviour::area::Area;
+use crate::behaviour::condition::Facts;
 use crate::behaviour::crowd_view::{CrowdView, Moment};
+use crate::behaviour::draw::event_random;
+use crate::behaviour::event::{Event, SignalOrder};
 use crate::behaviour::machine::deciding::{Deciding, TRANSITIONS_MAX};
 use crate::behaviour::machine::group_leads::GroupLeads;
 use crate::behaviour::occupancy::Occupancy;
@@ -58,6 +61,10 @@ pub struct CrowdBehaviour {
     pub waiting: Vec<u32>,
     /// The first transitions without end.
     pub endless: Option<EndlessTransitions>,
+    /// Whether each event has happened.
+    happened: Vec<bool>,
+    /// What events have made of each signal; empty before the first step.
+    orders: Vec<SignalOrder>,
     /// Teleports of the last step: the agent, and where it is afterwards, m.
     pub teleports: Vec<(AgentId, Vec2)>,
 }
@@ -93,6 +100,7 @@ impl CrowdBehaviour {
 
     /// One step.
     pub fn decide(&mut self, behaviour: &Behaviour, view: &CrowdView) {
+        let moved = self.happen(behaviour, view);
         let moment = self.moment(behaviour, view);
         let mut agents = std::mem::take(&mut self.agents);
         self.waiting = vec![0; behaviour.goals.len()];
@@ -104,6 +112,9 @@ impl CrowdBehaviour {
             let followers = leads.followers(index);
             let occupancy = &mut self.occupancy;
             let mut deciding = Deciding { behaviour, view, index, agent, occupancy, teleported_m: None, followers };
+            for event in &moved {
+                deciding.be_moved(event);
+            }
             let lead_goal = match leads.followed_by(index) {
                 Some((lead, entered)) => {
                     deciding.follow_lead(entered);
@@ -132,6 +143,44 @@ impl CrowdBehaviour {
         self.agents = agents;
     }
 
+    /// Whether a signal, by index, is green at a time: as events have ordered, else by its phases.
+    pub fn is_green(&self, behaviour: &Behaviour, signal: usize, time_s: f64) -> bool {
+        match self.orders.get(signal) {
+            Some(SignalOrder::Green) => true,
+            Some(SignalOrder::Red) => false,
+            Some(SignalOrder::Phases) | None => behaviour.signals[signal].is_green(time_s),
+        }
+    }
+
+    /// Lets the events happen whose conditions hold now for the first time. Returns those that move agents.
+    fn happen<'a>(&mut self, behaviour: &'a Behaviour, view: &CrowdView) -> Vec<&'a Event> {
+        self.happened.resize(behaviour.events.len(), false);
+        self.orders.resize(behaviour.signals.len(), SignalOrder::Phases);
+        if self.happened.iter().all(|happened| *happened) {
+            return Vec::new();
+        }
+        let moment = self.moment(behaviour, view);
+        let facts = Facts {
+            to_goal_m: None,
+            in_state_s: view.time_s,
+            at_head_s: None,
+            is_inside: &|_| false,
+            green: &moment.green,
+            numbers: &moment.numbers,
+            populations: &moment.populations,
+        };
+        let mut moved = Vec::new();
+        for (index, event) in behaviour.events.iter().enumerate() {
+            let random = &mut event_random(view.seed, index);
+            if !self.happened[index] && event.condition.holds(&facts, random) {
+                self.happened[index] = true;
+                event.signals.iter().for_each(|&(signal, order)| self.orders[signal] = order);
+                moved.extend(event.to.map(|_| event));
+            }
+        }
+        moved
+    }
+
     fn moment(&self, behaviour: &Behaviour, view: &CrowdView) -> Moment {
         let mut populations = vec![0; behaviour.states.len()];
         for agent in self.agents.iter().filter(|agent| agent.entries > 0) {
@@ -139,7 +188,7 @@ impl CrowdBehaviour {
         }
         let number = |area: &Area| view.positions_m.iter().filter(|&&position_m| area.holds(position_m)).count() as u32;
         Moment {
-            green: behaviour.signals.iter().map(|signal| signal.is_green(view.time_s)).collect(),
+            green: (0..behaviour.signals.len()).map(|index| self.is_green(behaviour, index, view.time_s)).collect(),
             numbers: behaviour.areas.iter().map(number).collect(),
             populations,
             joining: self.joining(behaviour, view),

@@ -47,6 +47,8 @@ pub enum ScenarioPart {
     Area(usize),
     /// A signal, by index.
     Signal(usize),
+    /// An event, by index.
+    Event(usize),
     /// A `[[measure]]` table, by index.
     Measure(usize),
     /// A zone, by index.

@@ -29,7 +29,7 @@ impl Simulation {
         let leads = if self.has_groups { self.walking_groups().leads(self.agents.count()) } else { Vec::new() };
         let Self { scenario, agents, population, obstacles, routes, crowd, steps, .. } = self;
         let behaviour = &scenario.behaviour;
-        if behaviour.states.is_empty() {
+        if behaviour.states.is_empty() && behaviour.events.is_empty() {
             return;
         }
         let view = CrowdView {

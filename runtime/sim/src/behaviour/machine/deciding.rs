@@ -8,6 +8,7 @@ use crate::behaviour::choice::draw;
 use crate::behaviour::condition::Facts;
 use crate::behaviour::crowd_view::{CrowdView, Moment};
 use crate::behaviour::draw::{Drawer, Purpose};
+use crate::behaviour::event::Event;
 use crate::behaviour::occupancy::Occupancy;
 use crate::behaviour::state::{Behaviour, Facing, Movement, Target};
 
@@ -63,6 +64,14 @@ impl Deciding<'_> {
             self.enter(target);
         }
         entered
+    }
+
+    /// Enters the state to which an event moves the agent; an agent that leaves the scene goes on.
+    pub(crate) fn be_moved(&mut self, event: &Event) {
+        let stays = self.agent.entries == 0 || matches!(self.movement(), Movement::Leave { .. });
+        if let Some(state) = event.moves(self.agent.state).filter(|_| !stays) {
+            self.enter(state);
+        }
     }
 
     /// Takes the transitions that the first member of its group has taken.

@@ -8,6 +8,7 @@ use crate::behaviour::agent_state::GoalRef;
 use crate::behaviour::choice::Choice;
 use crate::behaviour::condition::{Bound, Condition};
 use crate::behaviour::distribution::Distribution;
+use crate::behaviour::event::{Event, SignalOrder};
 use crate::behaviour::goals::{GoalArea, GoalSet};
 use crate::behaviour::signal::Signal;
 use crate::behaviour::state::{Facing, Settings, State, Target, Transition};
@@ -311,6 +312,31 @@ fn a_teleported_agent_leaves_the_area_at_once() {
 }
 
 #[test]
+fn an_event_moves_agents_of_its_states_once() {
+    let signals = vec![Signal { name: "door".into(), green_s: 0.0, red_s: 1.0, offset_s: 0.0 }];
+    let states = vec![
+        stand("sit", vec![when(Condition::Green(0), &[2])]),
+        stand("flee", vec![when(after(1.0), &[0])]),
+        stand("out", vec![]),
+    ];
+    let event = |condition, to, signals| Event { name: "event".into(), condition, from: Some(vec![0]), to, signals };
+    let events = vec![
+        event(after(1.0), Some(1), vec![]),
+        event(Condition::Population(1, Bound { at_least: 0, at_most: 0 }), None, vec![]),
+        event(after(3.0), None, vec![(0, SignalOrder::Green)]),
+    ];
+    let mut two = Points::new(Behaviour { states, signals, events, ..Behaviour::default() }, row(2), 0);
+    two.run(0.95);
+    assert_eq!(two.states(), ["sit"; 2]);
+    two.run(1.15);
+    assert_eq!(two.states(), ["flee"; 2]);
+    two.run(2.5);
+    assert_eq!(two.states(), ["sit"; 2], "the event happens once");
+    two.run(3.15);
+    assert_eq!(two.states(), ["out"; 2]);
+}
+
+#[test]
 fn transitions_without_end_are_stopped_and_named() {
     let states = vec![
         stand("wait", vec![when(after(1.0), &[1])]),
@@ -393,6 +419,7 @@ proptest! {
             goals: vec![places(3, Some(2), false), places(4, None, true)],
             signals: vec![Signal { name: "light".into(), green_s: 2.0, red_s: 1.0, offset_s: 0.0 }],
             areas: vec![Area::Disc { centre_m: Vec2::new(8.0, 0.0), radius_m: 2.0 }],
+            events: Vec::new(),
         };
         let mut points = Points::new(behaviour, row(6), 0);
         points.run(15.0);

@@ -135,9 +135,11 @@ impl ScenarioTexts<'_> {
             ScenarioPart::Enclosure(index) => obstacle_span(ObstacleKind::Enclosure, index),
             ScenarioPart::Walkable(index) => walkable.get(index).map_or(0..0, |&table| file.walkable[table].span()),
             ScenarioPart::Source(index) => file.sources.get(index).map_or(0..0, Spanned::span),
-            ScenarioPart::State(_) | ScenarioPart::Goals(_) | ScenarioPart::Area(_) | ScenarioPart::Signal(_) => {
-                behaviour.span(part)
-            }
+            ScenarioPart::State(_)
+            | ScenarioPart::Goals(_)
+            | ScenarioPart::Area(_)
+            | ScenarioPart::Signal(_)
+            | ScenarioPart::Event(_) => behaviour.span(part),
             ScenarioPart::Zone(index) => file.zones.get(index).map_or(0..0, Spanned::span),
             ScenarioPart::Measure(index) => file.measure.get(index).map_or(0..0, Spanned::span),
             ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),

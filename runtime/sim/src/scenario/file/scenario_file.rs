@@ -41,7 +41,7 @@ use crate::planning::planner::Planner;
 use crate::scenario::coupling::Coupling;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::file::agent_groups::AgentGroups;
-use crate::scenario::file::behaviour::{AreaTable, BehaviourTables, GoalsTable, SignalTable, StateTable};
+use crate::scenario::file::behaviour::{AreaTable, BehaviourTables, EventTable, GoalsTable, SignalTable, StateTable};
 use crate::scenario::file::ground_tables::{ObstacleTable, WalkableTable};
 use crate::scenario::file::measure_tables::MeasureTable;
 use crate::scenario::file::profile_tables::ProfileTable;
@@ -84,6 +84,8 @@ pub(crate) struct ScenarioFile {
     #[serde(default)]
     signals: BTreeMap<String, Spanned<SignalTable>>,
     #[serde(default)]
+    events: BTreeMap<String, Spanned<EventTable>>,
+    #[serde(default)]
     areas: BTreeMap<String, Spanned<AreaTable>>,
     #[serde(default)]
     goals: BTreeMap<String, Spanned<GoalsTable>>,
@@ -121,9 +123,10 @@ impl ScenarioFile {
 
     /// Takes the tables of behaviour out of the file.
     pub(crate) fn take_behaviour(&mut self) -> BehaviourTables {
-        let Self { signals, areas, goals, states, .. } = self;
+        let Self { signals, areas, goals, states, events, .. } = self;
         BehaviourTables {
             signals: std::mem::take(signals),
+            events: std::mem::take(events),
             areas: std::mem::take(areas),
             goals: std::mem::take(goals),
             states: std::mem::take(states),
