@@ -20,10 +20,13 @@ pub struct CrowdView<'a> {
     pub ids: &'a [AgentId],
     /// Present positions, m.
     pub positions_m: &'a [Vec2],
-    /// Length of the route of an agent, by index, to an area, m; none where there is no route.
-    pub route_m: &'a (dyn Fn(usize, GoalRef) -> Option<f32> + Sync),
+    /// Length of the route of an agent, by index, from a position to an area, m; none where there is no route.
+    pub route_m: &'a (dyn Fn(usize, Vec2, GoalRef) -> Option<f32> + Sync),
     /// Distance of an agent, by index, to the end of its own waypoints, m; none before it has passed all others.
     pub path_end_m: &'a (dyn Fn(usize) -> Option<f32> + Sync),
+    /// Whether an agent, by index, stands at the goal that it had in the last step: its body has stopped there, or it
+    /// was pushed no farther than a step away.
+    pub stands_at_goal: &'a (dyn Fn(usize) -> bool + Sync),
     /// Whether an agent, by index, has begun; before, it enters no state.
     pub has_begun: &'a (dyn Fn(usize) -> bool + Sync),
     /// Whether no wall covers a position.

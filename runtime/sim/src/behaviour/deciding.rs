@@ -22,11 +22,13 @@ pub(crate) struct Deciding<'a> {
     pub(crate) index: usize,
     pub(crate) agent: &'a mut AgentState,
     pub(crate) occupancy: &'a mut Occupancy,
+    /// Position to which a state has moved the agent in this step, m.
+    pub(crate) teleported_m: Option<Vec2>,
 }
 
 impl Deciding<'_> {
     pub(crate) fn position_m(&self) -> Vec2 {
-        self.view.positions_m[self.index]
+        self.teleported_m.unwrap_or(self.view.positions_m[self.index])
     }
 
     pub(crate) fn drawer(&self) -> Drawer {
@@ -37,24 +39,22 @@ impl Deciding<'_> {
         &self.behaviour.states[self.agent.state as usize].movement
     }
 
-    /// Takes transitions until none is due.
-    pub(crate) fn follow_transitions(&mut self, moment: &Moment) -> TransitionsTaken {
-        let mut taken = TransitionsTaken::default();
+    /// Takes transitions until none is due. Returns the states entered where the transitions do not end, each once.
+    pub(crate) fn follow_transitions(&mut self, moment: &Moment) -> Vec<u32> {
         if self.agent.entries == 0 {
-            taken.teleported_m = self.enter(self.agent.state);
+            self.enter(self.agent.state);
         }
         let mut entered = Vec::new();
         while let Some(target) = self.next_state(moment) {
             if entered.len() == TRANSITIONS_MAX {
                 entered.sort_unstable();
                 entered.dedup();
-                taken.endless = entered;
-                break;
+                return entered;
             }
             entered.push(target);
-            taken.teleported_m = self.enter(target).or(taken.teleported_m);
+            self.enter(target);
         }
-        taken
+        Vec::new()
     }
 
     /// The state to which the first transition leads whose condition holds.
@@ -85,8 +85,15 @@ impl Deciding<'_> {
         }
     }
 
-    /// Distance to the goal of the present state, m; none without a goal.
-    pub(crate) fn to_goal_m(&self) -> Option<f32> {
+    /// Distance to the goal of the present state, m; none without a goal. An agent that stands at its goal has reached
+    /// it, however small the goal is.
+    fn to_goal_m(&self) -> Option<f32> {
+        let is_of_this_state = self.agent.entered_s < self.view.time_s;
+        let distance_m = self.goal_distance_m()?;
+        Some(if is_of_this_state && (self.view.stands_at_goal)(self.index) { 0.0 } else { distance_m })
+    }
+
+    fn goal_distance_m(&self) -> Option<f32> {
         let (position_m, start_m) = (self.position_m(), self.agent.start_m);
         match *self.movement() {
             Movement::OwnPath => (self.view.path_end_m)(self.index),
@@ -98,9 +105,8 @@ impl Deciding<'_> {
         }
     }
 
-    /// Enters a state: leaves the old goal unless it stands there now, applies the settings. Returns the position to
-    /// which the state moves the agent.
-    fn enter(&mut self, state: u32) -> Option<Vec2> {
+    /// Enters a state: leaves the old goal unless it stands there now, applies the settings.
+    fn enter(&mut self, state: u32) {
         let behaviour = self.behaviour;
         let entered = &behaviour.states[state as usize];
         self.agent.before = (self.agent.entries > 0).then_some(self.agent.state);
@@ -126,7 +132,9 @@ impl Deciding<'_> {
         if settings.remain {
             self.agent.lasting = traits;
         }
-        settings.teleport.as_ref().map(|area| self.view.draw_clear_m(area, &mut drawer.random(Purpose::Setting(3))))
+        if let Some(area) = &settings.teleport {
+            self.teleported_m = Some(self.view.draw_clear_m(area, &mut drawer.random(Purpose::Setting(3))));
+        }
     }
 
     /// What the agent wants now.
@@ -158,13 +166,4 @@ impl Deciding<'_> {
             None => Aim::Stay { facing_rad },
         }
     }
-}
-
-/// What the transitions of an agent in a step did.
-#[derive(Default)]
-pub(crate) struct TransitionsTaken {
-    /// Position to which a state has moved the agent, m.
-    pub(crate) teleported_m: Option<Vec2>,
-    /// The states entered, where the transitions do not end.
-    pub(crate) endless: Vec<u32>,
 }

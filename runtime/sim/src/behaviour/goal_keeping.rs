@@ -1,6 +1,8 @@
 //! The goal of one agent in its step: it chooses one, moves up in a queue, leaves a busy exit for another. World,
 //! metres, seconds.
 
+use glam::Vec2;
+
 use crate::behaviour::agent_state::{ChosenGoal, GoalRef};
 use crate::behaviour::choice::{Choice, Options};
 use crate::behaviour::crowd_view::Moment;
@@ -15,6 +17,12 @@ const AT_HEAD_M: f32 = 0.4;
 const CHOOSES_AGAIN_S: f64 = 1.5;
 /// Share of the time that another exit must save.
 const SAVES_SHARE: f32 = 0.1;
+/// Distance between two positions at which bodies do not touch, m: two discs and a hand's breadth.
+const APART_M: f32 = 0.6;
+/// Positions that are drawn in an area before the best one is taken.
+const APART_DRAWS: usize = 16;
+/// Number of agents in an area above which no position is sought apart from theirs: an exit, which they pass.
+const CROWDED: usize = 64;
 
 impl Deciding<'_> {
     /// Chooses a goal where the agent wants one and has none; moves up in a queue; changes between busy exits.
@@ -74,17 +82,39 @@ impl Deciding<'_> {
     }
 
     fn route_m(&self, set: usize, area: usize) -> Option<f32> {
-        (self.view.route_m)(self.index, GoalRef { set: set as u32, area: area as u32 })
+        (self.view.route_m)(self.index, self.position_m(), GoalRef { set: set as u32, area: area as u32 })
     }
 
+    /// Takes an area: the position remembered there, or a new one.
     fn take(&mut self, at: GoalRef) {
-        let random = &mut self.drawer().random(Purpose::Position);
-        let position_m = self.view.draw_clear_m(&self.area(at).area, random);
-        if self.agent.remembered.iter().all(|(_, remembered)| remembered.at != at) {
-            self.occupancy.take(at);
+        let remembered = self.agent.remembered.iter().map(|(_, goal)| *goal).find(|goal| goal.at == at);
+        let goal =
+            remembered.unwrap_or_else(|| ChosenGoal { at, position_m: self.draw_position_m(at), is_taken: true });
+        if remembered.is_none() {
+            self.occupancy.take(&goal);
         }
-        self.agent.goal = Some(ChosenGoal { at, position_m, is_taken: true });
+        self.agent.goal = Some(goal);
         self.agent.chosen_s = self.view.time_s;
+    }
+
+    /// A position in an area apart from those of other agents; of a few draws the one farthest from them, where all are
+    /// near to one.
+    fn draw_position_m(&self, at: GoalRef) -> Vec2 {
+        let random = &mut self.drawer().random(Purpose::Position);
+        let held_m = self.occupancy.positions_m(at);
+        let draws = if held_m.len() > CROWDED { 1 } else { APART_DRAWS };
+        let mut best = (f32::NEG_INFINITY, Vec2::ZERO);
+        for _ in 0..draws {
+            let drawn_m = self.view.draw_clear_m(&self.area(at).area, random);
+            let apart_m = held_m.iter().map(|held_m| held_m.distance(drawn_m)).fold(f32::INFINITY, f32::min);
+            if apart_m > best.0 {
+                best = (apart_m, drawn_m);
+            }
+            if apart_m >= APART_M {
+                break;
+            }
+        }
+        best.1
     }
 
     /// Walks to the end of a queue, joins it, moves up, and stands at its head.
@@ -97,16 +127,18 @@ impl Deciding<'_> {
                 if let Some(goal) = self.agent.goal
                     && may_join
                 {
-                    self.occupancy.take(goal.at);
-                    self.agent.goal = Some(ChosenGoal { is_taken: true, ..goal });
+                    let goal = ChosenGoal { is_taken: true, ..goal };
+                    self.occupancy.take(&goal);
+                    self.agent.goal = Some(goal);
                 }
             }
             Some(goal) if goal.at.area > 0 => {
                 let ahead = goal.at.area as usize - 1;
                 if self.occupancy.of_set(set)[ahead] == 0 {
-                    self.occupancy.release(goal.at);
-                    self.occupancy.take(place(ahead));
-                    self.agent.goal = Some(self.place(place(ahead), true));
+                    let moved_up = self.place(place(ahead), true);
+                    self.occupancy.release(&goal);
+                    self.occupancy.take(&moved_up);
+                    self.agent.goal = Some(moved_up);
                 }
             }
             Some(goal) => {

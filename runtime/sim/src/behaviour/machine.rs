@@ -83,12 +83,12 @@ impl CrowdBehaviour {
         self.waiting = vec![0; behaviour.goals.len()];
         self.teleports.clear();
         for (index, agent) in agents.iter_mut().enumerate().filter(|(index, _)| (view.has_begun)(*index)) {
-            let mut deciding = Deciding { behaviour, view, index, agent, occupancy: &mut self.occupancy };
-            let transitions = deciding.follow_transitions(&moment);
-            self.teleports.extend(transitions.teleported_m.map(|position_m| (view.ids[index], position_m)));
-            if self.endless.is_none() && !transitions.endless.is_empty() {
-                let (agent, time_s) = (view.ids[index], view.time_s);
-                self.endless = Some(EndlessTransitions { agent, time_s, states: transitions.endless });
+            let occupancy = &mut self.occupancy;
+            let mut deciding = Deciding { behaviour, view, index, agent, occupancy, teleported_m: None };
+            let states = deciding.follow_transitions(&moment);
+            self.teleports.extend(deciding.teleported_m.map(|position_m| (view.ids[index], position_m)));
+            if self.endless.is_none() && !states.is_empty() {
+                self.endless = Some(EndlessTransitions { agent: view.ids[index], time_s: view.time_s, states });
             }
             deciding.update_goal(&moment);
             let aim = deciding.aim();

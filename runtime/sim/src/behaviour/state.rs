@@ -173,6 +173,20 @@ impl Behaviour {
         }
     }
 
+    /// Name of a state, by index.
+    pub fn state_name(&self, state: usize) -> &str {
+        self.states.get(state).map_or(FOLLOWS_PATH, |state| &state.name)
+    }
+
+    /// Whether an agent that has entered a state, by index, stands there for good or leaves the scene.
+    pub fn is_final(&self, state: usize) -> bool {
+        self.states.get(state).is_some_and(|state| match state.movement {
+            Movement::Stand { .. } | Movement::Walk { velocity_mps: Vec2::ZERO } => state.transitions.is_empty(),
+            Movement::Leave { .. } => true,
+            _ => false,
+        })
+    }
+
     /// Index of a state by name.
     pub fn state(&self, name: &str) -> Option<usize> {
         self.states.iter().position(|state| state.name == name)

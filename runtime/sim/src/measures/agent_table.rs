@@ -6,8 +6,9 @@
 //!
 //! Two columns are derived as in `root_measures`, all others are as recorded. The velocity is the root's displacement
 //! in the step that led to the frame, over dt. `arrived` is 1 from the frame on in which an agent that has passed its
-//! waypoints first comes within 0.5 m of its last goal.
+//! waypoints first comes within 0.5 m of its last goal, or one that begins in a state enters a final state.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 use glam::Vec2;
@@ -19,7 +20,7 @@ use crate::route::arrival::Arrival;
 use crate::synthesis::Mode;
 
 /// Names of the columns, in the order of the fields.
-const COLUMNS: [&str; 21] = [
+const COLUMNS: [&str; 22] = [
     "step",
     "time_s",
     "agent",
@@ -41,6 +42,7 @@ const COLUMNS: [&str; 21] = [
     "right_contact",
     "time_to_landing_s",
     "arrived",
+    "state",
 ];
 
 /// Writes the table of a recording; holds two frames in memory.
@@ -59,19 +61,21 @@ pub fn write_table(recording: &Recording, out: &mut impl Write) -> io::Result<()
         let mut earlier = before.iter().peekable();
         for frame in &agents {
             let arrival = &mut arrivals[frame.id.index()];
-            arrival.follow(population.spec(frame.id), frame.root.position_m, time_s);
+            let is_in_final_state = scenario.behaviour.is_final(frame.state.into());
+            arrival.follow(population.spec(frame.id), frame.root.position_m, is_in_final_state, time_s);
             while earlier.next_if(|before: &&AgentFrame| before.id < frame.id).is_some() {}
             // Agents start from rest.
             let from_m = earlier.next_if(|before| before.id == frame.id).unwrap_or(frame).root.position_m;
             let velocity_mps = (frame.root.position_m - from_m) / scenario.dt_s;
             write!(out, "{step},{time_s:.6},{},", frame.id.0)?;
             write_row(frame, velocity_mps, arrival.at_s.is_some(), out)?;
+            write!(out, "{}\r\n", quoted(scenario.behaviour.state_name(frame.state.into())))?;
         }
     }
     Ok(())
 }
 
-/// Writes the fields after the agent's index.
+/// Writes the fields between the agent's index and its state.
 fn write_row(frame: &AgentFrame, velocity_mps: Vec2, has_arrived: bool, out: &mut impl Write) -> io::Result<()> {
     let facing_deg = f64::from(frame.root.facing_rad).to_degrees();
     write!(out, "{},{facing_deg:.4},", pair(frame.root.position_m))?;
@@ -79,7 +83,15 @@ fn write_row(frame: &AgentFrame, velocity_mps: Vec2, has_arrived: bool, out: &mu
     write!(out, "{},{},{:.6},{:.6},", mode(frame.mode), set(frame.set), frame.strafing_s, frame.stepping_back_s)?;
     let [left, right] = frame.contacts;
     let landing_s = frame.time_to_landing_s;
-    write!(out, "{:.6},{left:.6},{right:.6},{landing_s:.6},{}\r\n", frame.phase, u8::from(has_arrived))
+    write!(out, "{:.6},{left:.6},{right:.6},{landing_s:.6},{},", frame.phase, u8::from(has_arrived))
+}
+
+/// A field of text: in quotes where commas, quotes or line breaks would end it.
+fn quoted(text: &str) -> Cow<'_, str> {
+    if text.contains([',', '"', '\r', '\n']) {
+        return Cow::Owned(format!("\"{}\"", text.replace('"', "\"\"")));
+    }
+    Cow::Borrowed(text)
 }
 
 /// x and y to the micrometre, or µm/s.

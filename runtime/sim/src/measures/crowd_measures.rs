@@ -13,6 +13,7 @@ use crate::measures::frame_pairs::FramePairs;
 use crate::measures::places::{MeasuredPlaces, PlaceMeasures};
 use crate::measures::planted_slide::PlantedSlide;
 use crate::measures::root_measures::RootMeasures;
+use crate::measures::state_visits::{StateMeasures, StateVisits};
 use crate::measures::wall_contact::WallContact;
 use crate::population::Population;
 use crate::recording::error::RecordingError;
@@ -56,7 +57,8 @@ pub struct Measures {
     pub mean_acceleration_mps2: f64,
     /// Mean acceleration over the steps before each agent's arrival, m/s²: waiting at the goal does not dilute it.
     pub mean_acceleration_before_arrival_mps2: f64,
-    /// Number of agents that came within 0.5 m of their last goal.
+    /// Number of agents that came within 0.5 m of their last goal; those that begin in a state: that entered a final
+    /// state, or were removed.
     pub arrived: usize,
     /// Number of agents that stayed below 0.1 m/s for 5 s before arriving.
     pub stalled: usize,
@@ -101,6 +103,8 @@ pub struct Measures {
     /// Mean angle between facing and displacement, degrees, over all steps before each agent's arrival in which it
     /// walks.
     pub walking_heading_error_deg: f64,
+    /// The scenario's states, in their order; none where it has no states.
+    pub states: Vec<StateMeasures>,
     /// The scenario's `[[measure]]` tables, in their order.
     pub places: Vec<PlaceMeasures>,
 }
@@ -119,6 +123,7 @@ pub struct Measuring {
     slide: PlantedSlide,
     bodies: BodyPenetration,
     walls: WallContact,
+    states: StateVisits,
     places: MeasuredPlaces,
 }
 
@@ -133,7 +138,8 @@ impl Measuring {
             before: start.to_vec(),
             joints: Vec::with_capacity(start.len()),
             collisions: Collisions::default(),
-            roots: RootMeasures::new(population, start, dt_s),
+            roots: RootMeasures::new(scenario, population, start),
+            states: StateVisits::new(scenario, start),
             slide: PlantedSlide::new(skeleton, start.len(), dt_s),
             bodies: BodyPenetration::new(skeleton),
             walls: WallContact::new(skeleton, scenario),
@@ -158,6 +164,7 @@ impl Measuring {
         self.collisions.push(&radii_m, &before_m, &after_m);
         follow_feet(&mut self.slide, &self.roots, after, &self.joints);
         self.roots.push(population, &pairs);
+        self.states.push(after);
         self.places.push(frame, &pairs, after);
         self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
         let wall_radii_m: Vec<f32> = after.iter().map(|agent| life(agent).wall_radius_m(frame)).collect();
@@ -209,6 +216,7 @@ impl Measuring {
             root_tracking_worst_m: self.roots.tracking_worst_m,
             heading_error_deg: self.roots.heading_error_deg.value(),
             walking_heading_error_deg: self.roots.walking_heading_error_deg.value(),
+            states: self.states.finish(&self.before),
             places: self.places.finish(population),
         }
     }

@@ -5,7 +5,7 @@
 //!
 //! Read `crowd_measures`, which collects the measures of `fbcrowd measure` from its parts: `collision_rate` (Eqs. 16,
 //! 17), `root_measures` (Eq. 18, arrival, tracking), `planted_slide`, `body_penetration` and `wall_contact` (both by
-//! the capsules of `bone_capsule`); `frame_pairs` pairs the agents of two frames. `places` holds the scenario's own lines and
+//! the capsules of `bone_capsule`); `frame_pairs` pairs the agents of two frames. `state_visits` counts agents in states, `places` holds the scenario's own lines and
 //! areas, `pedestrian_studies` flow, lanes, density and waiting crowds; `agent_table`
 //! and `trajectories` write a recording as text.
 
@@ -19,6 +19,7 @@ pub(crate) mod pedestrian_studies;
 pub(crate) mod places;
 pub(crate) mod planted_slide;
 pub(crate) mod root_measures;
+pub(crate) mod state_visits;
 pub(crate) mod trajectories;
 pub(crate) mod wall_contact;
 
@@ -31,4 +32,5 @@ pub use pedestrian_studies::{
 };
 pub use places::{AreaMeasures, AreaMoment, EgressMeasures, LEVELS_OF_SERVICE, LineMeasures, Passages, PlaceMeasures};
 pub use planted_slide::{FootSlide, PlantedSlide};
+pub use state_visits::StateMeasures;
 pub use trajectories::{write_roots, write_trajectories};

@@ -7,12 +7,13 @@
 use glam::{DVec2, Vec2};
 use motiondb::statistics::mean;
 
+use crate::behaviour::Behaviour;
 use crate::measures::frame_pairs::FramePairs;
 use crate::planning::plan::VelocitySet;
 use crate::population::{AgentId, Population};
 use crate::recording::frame::AgentFrame;
 use crate::route::arrival::Arrival;
-use crate::scenario::AgentSpec;
+use crate::scenario::{AgentSpec, Scenario};
 
 /// Speed below which an agent stands: it stalls if it does so for [`STALL_S`] before it arrives, m/s.
 const STALL_SPEED_MPS: f64 = 0.1;
@@ -24,6 +25,7 @@ const STALL_S: f64 = 5.0;
 pub(crate) struct RootMeasures {
     dt_s: f64,
     steps: usize,
+    behaviour: Behaviour,
     /// By id.
     tracks: Vec<RootTrack>,
     /// A: acceleration over all steps, m/s².
@@ -90,10 +92,11 @@ impl RunningMean {
 
 impl RootMeasures {
     /// The agents at their start.
-    pub(crate) fn new(population: &Population, start: &[AgentFrame], dt_s: f32) -> Self {
+    pub(crate) fn new(scenario: &Scenario, population: &Population, start: &[AgentFrame]) -> Self {
         let mut measures = Self {
-            dt_s: dt_s.into(),
+            dt_s: scenario.dt_s.into(),
             steps: 0,
+            behaviour: scenario.behaviour.clone(),
             tracks: Vec::new(),
             acceleration_mps2: RunningMean::default(),
             acceleration_before_arrival_mps2: RunningMean::default(),
@@ -112,7 +115,7 @@ impl RootMeasures {
     fn begin(&mut self, population: &Population, frame: &AgentFrame) {
         let now_s = self.steps as f64 * self.dt_s;
         let mut track = RootTrack::new(population.spec(frame.id), now_s);
-        track.arrive(frame, now_s);
+        track.arrive(frame, &self.behaviour, now_s);
         self.tracks.push(track);
     }
 
@@ -146,7 +149,7 @@ impl RootMeasures {
             let tracking_error_m = displacement_m.distance(DVec2::from(after.planned_mps) * self.dt_s);
             self.tracking_error_m.add(tracking_error_m);
             self.tracking_worst_m = self.tracking_worst_m.max(tracking_error_m);
-            track.arrive(after, now_s);
+            track.arrive(after, &self.behaviour, now_s);
         }
         pairs.born.iter().for_each(|frame| self.begin(population, frame));
     }
@@ -205,8 +208,9 @@ impl RootTrack {
         }
     }
 
-    fn arrive(&mut self, frame: &AgentFrame, now_s: f64) {
-        if self.arrival.follow(&self.agent, frame.root.position_m, now_s) {
+    fn arrive(&mut self, frame: &AgentFrame, behaviour: &Behaviour, now_s: f64) {
+        let is_in_final_state = behaviour.is_final(frame.state.into());
+        if self.arrival.follow(&self.agent, frame.root.position_m, is_in_final_state, now_s) {
             let straight_m = self.straight_path_m(position_m(frame));
             self.path_over_straight = (straight_m > 0.0).then(|| self.path_m / straight_m);
         }

@@ -21,9 +21,12 @@ pub(crate) struct Arrival {
 
 impl Arrival {
     /// Follows the agent's root to its present position. Returns whether the agent arrives now for the first time. An
-    /// agent that begins in a state of the behaviour arrives when it is removed, not here.
-    pub(crate) fn follow(&mut self, agent: &AgentSpec, position_m: Vec2, now_s: f64) -> bool {
-        self.is_at_goal = agent.state == 0 && is_at_goal(agent, position_m, &mut self.progress);
+    /// agent that begins in a state of the behaviour arrives when it enters a final state, or is removed.
+    pub(crate) fn follow(&mut self, agent: &AgentSpec, position_m: Vec2, is_in_final_state: bool, now_s: f64) -> bool {
+        self.is_at_goal = match agent.state {
+            0 => is_at_goal(agent, position_m, &mut self.progress),
+            _ => is_in_final_state,
+        };
         let arrives = self.is_at_goal && self.at_s.is_none();
         if arrives {
             self.at_s = Some(now_s);

@@ -7,6 +7,7 @@ use glam::Vec2;
 use motiondb::files::SourceText;
 
 use crate::maths::angle::wrap_rad;
+use crate::measures::Measuring;
 use crate::population::AgentLife;
 use crate::scenario::{Scenario, parse};
 use crate::simulation::Simulation;
@@ -79,6 +80,72 @@ fn no_agent_enters_on_red() {
     });
     let removed = simulation.population().agents.iter().filter(|life| life.removed.is_some()).count();
     assert!(crossings >= 15 && removed >= 12, "{crossings} crossings, {removed} removed");
+}
+
+#[test]
+fn an_agent_that_stands_at_its_goal_has_reached_it() {
+    // A body stops up to half a step before its goal; the goals are points, reached within 1 cm.
+    const THERE_AND_BACK: &str = "
+        [goals.points]
+        areas = [{ point_m = [3, 0.4] }, { point_m = [3, 1.9] }, { point_m = [3, 3.4] }]
+        capacity = 1
+        [states.there]
+        go = 'points'
+        then = [{ when = { reached_m = 0.01 }, to = 'return' }]
+        [states.return]
+        go = { offset_m = [0, 0] }
+        then = [{ when = { reached_m = 0.01 }, to = 'home' }]
+        [states.home]
+        stand = {}
+        [[agents]]
+        grid = { columns = 1, rows = 3, spacing_m = 1.5, centre_m = [0, 1.5] }
+        state = 'there'
+    ";
+    let mut turned_m: [Option<f32>; 3] = [None; 3];
+    let simulation = run(THERE_AND_BACK, |simulation, _| {
+        for (frame, state) in simulation.frames().iter().zip(states(simulation)) {
+            if state == "return" {
+                turned_m[frame.id.index()].get_or_insert(frame.root.position_m.x);
+            }
+        }
+    });
+    assert_eq!(states(&simulation), ["home"; 3]);
+    // None turns back before it has stood near its goal.
+    assert!(turned_m.iter().flatten().all(|x_m| (x_m - 3.0).abs() < 0.6), "{turned_m:?}");
+}
+
+#[test]
+fn measures_count_the_visits_of_states() {
+    const ONE_STANDS: &str = "
+        [goals.point]
+        areas = [{ point_m = [3, 0] }]
+        [states.walk]
+        go = 'point'
+        then = [{ when = { reached_m = 0 }, to = 'stand' }]
+        [states.stand]
+        stand = {}
+        [[agents]]
+        at_m = [0, 0]
+        state = 'walk'
+        [[agents]]
+        at_m = [0, 5]
+        goals_m = [[2, 5]]
+    ";
+    let scenario = scenario(ONE_STANDS);
+    let mut simulation = started(&scenario);
+    let skeleton = simulation.database().skeleton.clone();
+    let mut measuring = Measuring::new(&skeleton, &scenario, simulation.population(), simulation.frames());
+    for _ in 0..200 {
+        simulation.step(&mut |_| {});
+        measuring.push(simulation.population(), simulation.frames());
+    }
+    let measures = measuring.finish(simulation.population());
+    let visits: Vec<(&str, usize, usize)> =
+        measures.states.iter().map(|state| (state.state.as_str(), state.visited, state.at_end)).collect();
+    assert_eq!(visits, [("follow_path", 1, 1), ("stand", 1, 1), ("walk", 1, 0)]);
+    let times_s: f64 = measures.states.iter().filter_map(|state| state.mean_time_s).sum();
+    assert!((times_s - 2.0 * 201.0 * 0.05).abs() < 1e-4, "{times_s}");
+    assert_eq!((measures.arrived, measures.stalled), (2, 0));
 }
 
 #[test]

@@ -36,13 +36,14 @@ impl Simulation {
             seed: scenario.seed,
             ids: &agents.ids,
             positions_m: &agents.positions_m,
-            route_m: &|index, at| {
+            route_m: &|index, from_m, at| {
                 let GoalRef { set, area } = at;
                 let area = &behaviour.goals[set as usize].areas[area as usize].area;
                 let wall_radius_m = population.spec(agents.ids[index]).wall_radius_m;
-                routes.to_area_m(wall_radius_m, agents.positions_m[index], at, area)
+                routes.to_area_m(wall_radius_m, from_m, at, area)
             },
             path_end_m: &|index| path_end_m(agents, population, index),
+            stands_at_goal: &|index| agents.progress[index].arrived,
             has_begun: &|index| population.agents[agents.ids[index].index()].begins_at(scenario.dt_s) <= *steps,
             is_clear: &|position_m| obstacles.depth_m(position_m, WALL_RADIUS_M) <= TOUCH_M,
         };

@@ -31,7 +31,8 @@ pub struct MeasuresMirror {
     mean_acceleration_mps2: f64,
     /// Mean acceleration of the roots over the steps before each agent's arrival, m/s².
     mean_acceleration_before_arrival_mps2: f64,
-    /// Number of agents that came within 0.5 m of their last goal after their waypoints.
+    /// Number of agents that came within 0.5 m of their last goal after their waypoints; those that begin in a state:
+    /// that entered a final state, or were removed.
     arrived: usize,
     /// Number of agents that stayed under 0.1 m/s for 5 s before arrival.
     stalled: usize,
@@ -75,8 +76,24 @@ pub struct MeasuresMirror {
     heading_error_deg: f64,
     /// Mean angle between facing and travel before arrival, wherever an agent walks, degrees.
     walking_heading_error_deg: f64,
+    /// The scenario's states, in their order.
+    states: Vec<StateMeasuresMirror>,
     /// The scenario's `[[measure]]` tables, in their order.
     places: Vec<PlaceMeasuresMirror>,
+}
+
+/// Mirror of [`fbcrowd_sim::measures::StateMeasures`].
+#[derive(JsonSchema)]
+#[schemars(rename = "StateMeasures", description = "Visits of one state.")]
+pub struct StateMeasuresMirror {
+    /// Name of the state.
+    state: String,
+    /// Number of agents that were in the state in any frame.
+    visited: usize,
+    /// Number of agents that are in the state in the last frame.
+    at_end: usize,
+    /// Mean time that an agent which was in the state spent there in all, s; null where no agent was.
+    mean_time_s: Option<f64>,
 }
 
 /// Mirror of [`fbcrowd_sim::measures::PlaceMeasures`].

@@ -18,7 +18,7 @@ const RINGS: usize = 100;
 /// Points that are searched for one scene at most.
 const TRIED_MAX: usize = 2_000_000;
 /// Tests of a point against an obstacle or corner for one scene at most; a minute.
-const TESTS_MAX: usize = 5_000_000_000;
+const TESTS_MAX: u64 = 5_000_000_000;
 /// Displacement that changes what happens, m.
 const FAR_M: f64 = 0.5;
 /// Positions of an area, along each side, that are searched for free ground; as when a scenario is read.
@@ -31,7 +31,7 @@ pub(crate) fn move_to_free_ground(scene: &mut Scene) {
     let Scene { obstacles, walkable, agents, goals, states, notes, .. } = scene;
     let mut ground = FreeGround::new(obstacles, walkable);
     let count: usize = agents.iter().map(|agents| agents.starts.count()).sum();
-    if count.saturating_mul(ground.tests_a_point()) > TESTS_MAX {
+    if (count as u64).saturating_mul(ground.tests_a_point() as u64) > TESTS_MAX {
         notes.add("", 0, "the scene is too large to compare starts with walls", false);
         return;
     }

@@ -38,9 +38,8 @@ impl Points {
 
     fn step(&mut self) {
         let goals = &self.behaviour.goals;
-        let positions_m = &self.positions_m;
-        let route_m = |index: usize, goal: GoalRef| {
-            Some(goals[goal.set as usize].areas[goal.area as usize].area.distance_m(positions_m[index]))
+        let route_m = |_: usize, from_m: Vec2, goal: GoalRef| {
+            Some(goals[goal.set as usize].areas[goal.area as usize].area.distance_m(from_m))
         };
         let view = CrowdView {
             time_s: f64::from(self.steps) * STEP_S,
@@ -49,6 +48,7 @@ impl Points {
             positions_m: &self.positions_m,
             route_m: &route_m,
             path_end_m: &|_| None,
+            stands_at_goal: &|_| false,
             is_clear: &|_| true,
             has_begun: &|_| true,
         };
@@ -269,12 +269,44 @@ fn signals_and_numbers_let_agents_go() {
 }
 
 #[test]
+fn positions_in_an_area_are_apart() {
+    let mut apart_m: Vec<f32> = Vec::new();
+    for shift in 0..20 {
+        let area = Area::rectangle(Vec2::new(10.0, shift as f32), Vec2::new(12.0, 2.0 + shift as f32));
+        let area = GoalArea { area, facing_rad: None, capacity: None, weight: 1.0 };
+        let goals = vec![GoalSet { name: "booth".into(), areas: vec![area], queue: false }];
+        let states = vec![go("go", 0, Choice::Nearest, vec![])];
+        let mut points = Points::new(Behaviour { states, goals, ..Behaviour::default() }, row(5), 0);
+        points.step();
+        let held_m: Vec<Vec2> = points.crowd.agents.iter().filter_map(|agent| agent.aim.position_m()).collect();
+        let pairs =
+            held_m.iter().enumerate().flat_map(|(index, a)| held_m[..index].iter().map(move |b| a.distance(*b)));
+        apart_m.push(pairs.fold(f32::INFINITY, f32::min));
+    }
+    // Five agents have 4 m²: drawn anywhere, every second booth has two within 0.4 m of each other.
+    assert!(apart_m.iter().all(|&apart_m| apart_m > 0.45), "{apart_m:?}");
+}
+
+#[test]
 fn a_teleport_moves_the_agent_at_once() {
     let settings = Settings { teleport: Some(Area::point(Vec2::new(5.0, 5.0))), ..Settings::default() };
     let states = vec![stand("here", vec![when(after(1.0), &[1])]), State { settings, ..stand("there", vec![]) }];
     let mut points = Points::new(Behaviour { states, ..Behaviour::default() }, row(1), 0);
     points.run(1.2);
     assert_eq!(points.positions_m, [Vec2::new(5.0, 5.0)]);
+}
+
+#[test]
+fn a_teleported_agent_leaves_the_area_at_once() {
+    // As in a periodic corridor: the state after the teleport asks for the area that the agent has just left.
+    let settings = Settings { teleport: Some(Area::point(Vec2::new(5.0, 5.0))), ..Settings::default() };
+    let jump = State { settings, ..stand("jump", vec![when(Condition::Always, &[0])]) };
+    let states = vec![stand("wait", vec![when(Condition::Inside(0), &[1])]), jump];
+    let areas = vec![Area::Disc { centre_m: Vec2::ZERO, radius_m: 1.0 }];
+    let mut points = Points::new(Behaviour { states, areas, ..Behaviour::default() }, row(1), 0);
+    points.run(0.3);
+    assert_eq!(points.crowd.endless, None);
+    assert_eq!((points.states()[0], points.positions_m[0]), ("wait", Vec2::new(5.0, 5.0)));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The text of `fbcrowd measure`.
 
-use fbcrowd_sim::measures::Measures;
+use fbcrowd_sim::measures::{Measures, StateMeasures};
 
 use crate::report::crowd::places_text;
 
@@ -22,7 +22,19 @@ pub(crate) fn text(measures: &Measures) -> String {
     ]
     .map(|(name, value)| format!("{name:<25}{value}\n"))
     .concat()
+        + &states(&measures.states)
         + &places_text::text(&measures.places)
+}
+
+/// A line for each state that any agent was in.
+fn states(states: &[StateMeasures]) -> String {
+    let visited = states.iter().filter(|state| state.visited > 0);
+    let line = |state: &StateMeasures| {
+        let time = optional(state.mean_time_s, "s");
+        let name = format!("state `{}`", state.state);
+        format!("{name:<24} {} agents visited it for {time} in the mean, {} at the end\n", state.visited, state.at_end)
+    };
+    visited.map(line).collect()
 }
 
 fn agents(measures: &Measures) -> String {
