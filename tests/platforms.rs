@@ -18,16 +18,8 @@ const FRAMES: &str = "1001-1301x150";
 /// Scenarios that an emulator simulates for minutes.
 const LONG: [&str; 1] = ["rimea/12_c_two_bottlenecks"];
 /// Beginnings of the names of scenarios that take this build too long; `fbcrowd bench rimea` simulates them.
-const LARGE: [&str; 8] = [
-    "rimea/04",
-    "rimea/09",
-    "rimea/11",
-    "rimea/12_a",
-    "rimea/12_b",
-    "rimea/12_d",
-    "rimea/12_passage",
-    "rimea/15",
-];
+const LARGE: [&str; 8] =
+    ["rimea/04", "rimea/09", "rimea/11", "rimea/12_a", "rimea/12_b", "rimea/12_d", "rimea/12_passage", "rimea/15"];
 /// Command that writes the sums.
 const REWRITE: &str = "cargo test -p fbcrowd --test platforms -- --ignored rewrite";
 

@@ -52,7 +52,8 @@ pub(crate) fn pre_movement(runs: &[ScenarioRun]) -> CaseOutcome {
     let run = &runs[0];
     let begun_s = |agent: usize| {
         let least_m = BEGUN_SPEED * f64::from(run.scenario.agents[agent].preferred_speed_mps) * run.dt_s();
-        let mut steps_m = run.tracks.agents[agent].positions_m.windows(2).map(|pair| f64::from(pair[0].distance(pair[1])));
+        let mut steps_m =
+            run.tracks.agents[agent].positions_m.windows(2).map(|pair| f64::from(pair[0].distance(pair[1])));
         Some(steps_m.position(|step_m| step_m > least_m)? as f64 * run.dt_s())
     };
     let own_s = |agent: usize| f64::from(run.scenario.agents[agent].pre_movement_s);
