@@ -16,7 +16,7 @@ use crate::world::obstacles::Obstacles;
 const LATTICE: u16 = 16;
 /// Overlap of a disc and a wall that is taken for rounding, m: the grid of walkable ground.
 const TOUCH_M: f32 = 2e-3;
-/// Least weight of a position beside the mesh, m: nearer, the mesh is rounded.
+/// Distance from the mesh within which a position counts as on it, m: the step of the classes of wall radii.
 const BESIDE_M: f64 = 0.05;
 
 /// Checks the areas of sources, teleports and goals; `meshes` are those of all agents, by class of wall radii.
@@ -61,7 +61,7 @@ fn check_goals(scenario: &Scenario, walls: &Obstacles, meshes: &[(u32, RouteMesh
             let from = meshes[mesh].1.nearest(DVec2::from(at_m), Some(part), None);
             from.is_some_and(|from| {
                 let beside_m = from.point_m.distance(DVec2::from(at_m));
-                beside_m < BESIDE_M || beside_m < f64::from(ARRIVAL_M) && walls.is_free(from.point_m.as_vec2(), at_m)
+                beside_m < BESIDE_M || beside_m < ARRIVAL_M && walls.is_free(from.point_m.as_vec2(), at_m)
             })
         })
     };
