@@ -224,7 +224,14 @@ fn quality_follows_its_schema() {
 
 #[test]
 fn rimea_follows_its_schema() {
-    assert_eq!(check_bench("rimea", &[])["tests"].as_array().unwrap().len(), 8);
+    let found = check_bench("rimea", &["--tests", "1,6,10,turned"]);
+    assert_eq!(found["tests"].as_array().unwrap().len(), 4);
+    assert!(found["bars"].as_array().unwrap().iter().all(|criterion| criterion["met"] == true), "{found}");
+}
+
+#[test]
+fn rimea_names_its_tests() {
+    fbcrowd(&["bench", "rimea", "--tests", "1,13"]).expect_code(2).says(&["no test `13`", "9, 10, 11, 12, 15, 16"]);
 }
 
 #[test]

@@ -33,6 +33,7 @@ use crate::planning::world_view::WorldView;
 use crate::population::Population;
 use crate::recording::frame::AgentFrame;
 use crate::route::crowd_routes::CrowdRoutes;
+use crate::route::mesh::RouteError;
 use crate::route::path::{Braking, RouteView};
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
@@ -81,6 +82,8 @@ pub struct Simulation {
     scenario: Scenario,
     obstacles: Obstacles,
     routes: CrowdRoutes,
+    /// Why there are no routes; none of a checked scenario.
+    route_error: Option<RouteError>,
     constraints: MotionConstraints,
     neighbours: NeighbourSearch,
     planning: plan_all::CrowdPlanningMemory,
@@ -106,10 +109,14 @@ impl Simulation {
             Self::add_behaviour(&mut crowd, scenario, spec);
             agents.push(index.into(), spec, scenario.seed, scenario.coupling, &context);
         }
+        let (routes, route_error) = match CrowdRoutes::new(scenario) {
+            Ok(routes) => (routes, None),
+            Err(error) => (CrowdRoutes::default(), Some(error)),
+        };
         let mut simulation = Self {
             obstacles: scenario.walls(),
-            // Coordinates are in range in every checked scenario; without a mesh, agents walk straight.
-            routes: CrowdRoutes::new(scenario).unwrap_or_default(),
+            routes,
+            route_error,
             constraints: MotionConstraints::new(&context.db.velocity_hull),
             neighbours: NeighbourSearch::default(),
             planning: plan_all::CrowdPlanningMemory::default(),
@@ -135,6 +142,12 @@ impl Simulation {
     /// All agents so far, and the counts of the sources.
     pub fn population(&self) -> &Population {
         &self.population
+    }
+
+    /// Why no routes were found, where walls allow no mesh: the agents walk straight. None where the scenario was read from
+    /// a file, which makes the same meshes.
+    pub fn route_error(&self) -> Option<&RouteError> {
+        self.route_error.as_ref()
     }
 
     /// Transitions between states that did not end within a step, the first that there were: the scenario is wrong.

@@ -14,6 +14,8 @@ use crate::behaviour::state::{Behaviour, Facing, Movement, Target};
 
 /// Transitions of one agent in one step from which on they count as endless.
 pub(crate) const TRANSITIONS_MAX: usize = 100;
+/// Greatest preferred speed, m/s, that of a scenario's `preferred_speed_mps`: factors that remain multiply.
+const SPEED_MAX_MPS: f32 = 10.0;
 
 /// An agent in its step.
 pub(crate) struct Deciding<'a> {
@@ -132,7 +134,8 @@ impl Deciding<'_> {
             traits.preferred_speed_mps = speed_mps.draw(&mut drawer.random(Purpose::Setting(0)));
         }
         if let Some(factor) = settings.speed_factor {
-            traits.preferred_speed_mps *= factor.draw(&mut drawer.random(Purpose::Setting(1)));
+            let speed_mps = traits.preferred_speed_mps * factor.draw(&mut drawer.random(Purpose::Setting(1)));
+            traits.preferred_speed_mps = speed_mps.min(SPEED_MAX_MPS);
         }
         if let Some(radius_m) = settings.radius_m {
             traits.radius_m = radius_m.draw(&mut drawer.random(Purpose::Setting(2)));
@@ -142,7 +145,8 @@ impl Deciding<'_> {
             self.agent.lasting = traits;
         }
         if let Some(area) = &settings.teleport {
-            self.teleported_m = Some(self.view.draw_clear_m(area, &mut drawer.random(Purpose::Setting(3))));
+            let position_m = self.view.draw_clear_m(area, &mut drawer.random(Purpose::Setting(3)));
+            self.teleported_m = Some(position_m).filter(|&position_m| (self.view.is_clear)(position_m));
         }
     }
 

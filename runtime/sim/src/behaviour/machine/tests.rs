@@ -249,6 +249,15 @@ fn settings_end_with_their_state_or_remain() {
 }
 
 #[test]
+fn speed_factors_that_remain_have_a_bound() {
+    let settings = Settings { speed_factor: Some(Distribution::Constant(9.0)), remain: true, ..Settings::default() };
+    let states = vec![State { settings, ..stand("hurry", vec![when(after(0.1), &[0])]) }];
+    let mut points = Points::new(Behaviour { states, ..Behaviour::default() }, row(1), 0);
+    points.run(9.0);
+    assert_eq!(points.crowd.agents[0].traits.preferred_speed_mps, 10.0);
+}
+
+#[test]
 fn signals_and_numbers_let_agents_go() {
     let bound = Bound { at_least: 0, at_most: 2 };
     let cross = Condition::All(vec![Condition::Green(0), Condition::Number(0, bound)]);

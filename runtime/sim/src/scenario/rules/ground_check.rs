@@ -7,7 +7,7 @@ use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::ranges::{check_points, within};
 use crate::scenario::resolved::Scenario;
 
-/// Greatest number of obstacles.
+/// Greatest number of obstacles, enclosures among them.
 const OBSTACLES_MAX: usize = 10_000;
 /// Greatest number of corners of an obstacle: the test for self-intersection compares every pair of edges.
 const OBSTACLE_CORNERS_MAX: usize = 1_000;
@@ -46,7 +46,7 @@ pub(crate) fn check_ground(scenario: &Scenario) -> Result<(), ScenarioFault> {
 /// # Errors
 /// The first number that is out of range.
 pub(crate) fn check_ground_ranges(scenario: &Scenario) -> Result<(), ScenarioFault> {
-    let (obstacle, obstacles) = (&ScenarioPart::Obstacle(0), scenario.obstacles_m.len());
+    let (obstacle, obstacles) = (&ScenarioPart::Obstacle(0), scenario.obstacles_m.len() + scenario.enclosures_m.len());
     within(obstacle, "the number of obstacles", obstacles, &(0..=OBSTACLES_MAX), "give fewer")?;
     for (index, polygon_m) in scenario.obstacles_m.iter().enumerate() {
         check_points(&ScenarioPart::Obstacle(index), polygon_m)?;
