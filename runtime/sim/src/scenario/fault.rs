@@ -49,6 +49,10 @@ pub enum ScenarioPart {
     Signal(usize),
     /// A `[[measure]]` table, by index.
     Measure(usize),
+    /// A marking, by index.
+    Marking(usize),
+    /// A label, by index.
+    Label(usize),
     /// A zone, by index.
     Zone(usize),
     /// All agents together.

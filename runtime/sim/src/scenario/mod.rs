@@ -4,7 +4,7 @@
 //! explicit, every number is in range and no path occurs.
 //!
 //! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `profile`, `measure_spec`, `zone_spec`,
-//! `coupling` and `view`; then `rules` and `ranges`, `fault` and `error` (how a broken rule is shown); then
+//! `marking`, `coupling` and `view`; then `rules` and `ranges`, `fault` and `error` (how a broken rule is shown); then
 //! [`file`](mod@file).
 
 pub(crate) mod agent_spec;
@@ -12,6 +12,7 @@ pub(crate) mod coupling;
 pub(crate) mod error;
 pub(crate) mod fault;
 pub mod file;
+pub(crate) mod marking;
 pub(crate) mod measure_spec;
 mod point;
 pub(crate) mod profile;
@@ -28,6 +29,7 @@ pub use coupling::Coupling;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};
+pub use marking::{Marking, MarkingColour, MarkingShape, PlaceLabel};
 pub use measure_spec::{MeasureSpec, MeasuredPlace};
 pub use profile::{DrawnNumbers, Profile};
 pub use ranges::{STEP_RANGE_S, check_view};
