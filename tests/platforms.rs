@@ -72,13 +72,18 @@ fn assets() -> PathBuf {
     repository().join("assets")
 }
 
-/// Names of all bundled scenarios.
+/// End of the names of scenarios with hundreds of agents: they take ten times as long as the others, and nothing in them
+/// is new.
+const LARGE: &str = "_large";
+
+/// Names of all bundled scenarios but the large ones.
 fn bundled() -> Vec<String> {
     let names = |folder: &str| {
         let files = files(&assets().join("scenarios").join(folder));
         let stems: Vec<String> =
             files.iter().filter_map(|file| file.strip_suffix(".toml").map(str::to_owned)).collect();
-        stems.into_iter().map(|stem| format!("{folder}{stem}")).collect::<Vec<String>>()
+        let stems = stems.into_iter().filter(|stem| !stem.ends_with(LARGE));
+        stems.map(|stem| format!("{folder}{stem}")).collect::<Vec<String>>()
     };
     [names(""), names("rimea/")].concat()
 }
