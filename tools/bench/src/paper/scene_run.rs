@@ -1,5 +1,5 @@
-//! One scene of [`crate::paper::scenes`], simulated and measured: figures of the crowd, visits of states, agents that get
-//! stuck, the time of a step, and frames at three moments. World, metres, seconds.
+//! One scene of [`crate::paper::scenes`], simulated and measured: figures of the crowd, visits of states, agents that are
+//! blocked, the time of a step, and frames at three moments. World, metres, seconds.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -18,10 +18,12 @@ use serde::Serialize;
 use crate::error::BenchError;
 use crate::kit::scenario_run::{create_parent, step_count};
 
-/// Speed below which an agent that wants to walk does not get on, m/s; an agent that wants less stands by itself.
-const STUCK_MPS: f32 = 0.1;
-/// Time after which it is stuck, s.
-const STUCK_S: f32 = 5.0;
+/// Preferred speed from which an agent wants to walk, m/s.
+const WANTS_MPS: f32 = 0.1;
+/// An agent is blocked where it wants to walk for this time, s, and gets no farther than this distance, m: the net stall
+/// of `docs/definitions.md`, which shuffling does not hide.
+const BLOCKED_S: f32 = 5.0;
+const BLOCKED_M: f32 = 0.5;
 /// Moments of the pictures, as shares of the duration.
 const MOMENTS: [f32; 3] = [0.15, 0.5, 0.85];
 
@@ -58,10 +60,10 @@ pub struct SceneFigures {
     pub body_penetration_mm: f64,
     /// Share of agent-steps in which a body touches another.
     pub body_touching_share: f64,
-    /// Number of times that an agent that wants to walk stayed below 0.1 m/s for 5 s.
-    pub stuck: usize,
-    /// The same per hundred agents and minute.
-    pub stuck_per_100_min: f64,
+    /// Number of times that an agent wanted to walk for 5 s and came no farther than 0.5 m.
+    pub blocked: usize,
+    /// The same per agent that is present and minute.
+    pub blocked_per_agent_min: f64,
     /// Entries into each state of the behaviour.
     pub states: Vec<StateVisits>,
     /// Time of a step on one thread, divided by the number of agents, µs.
@@ -77,6 +79,8 @@ pub struct StateVisits {
     pub entered: usize,
     /// Entries per agent that is present and minute.
     pub per_agent_min: f64,
+    /// Number of times that an agent in this state was blocked.
+    pub blocked: usize,
 }
 
 /// The roots of all agents, and the frames of the pictures with their times, s.
@@ -85,11 +89,14 @@ pub(crate) struct SceneMoments {
     frames: Vec<(f32, Vec<AgentFrame>)>,
 }
 
-/// Agents that want to walk and do not get on: number of steps so far, by id.
-#[derive(Default)]
-struct StuckAgents {
-    slow_steps: Vec<usize>,
-    count: usize,
+/// Agents that want to walk and are blocked.
+struct BlockedAgents {
+    /// Number of steps in which each agent has wanted to walk, by id.
+    wanting_steps: Vec<usize>,
+    /// Number of times that agents were blocked, by state.
+    by_state: Vec<usize>,
+    /// Number of steps after which an agent is blocked.
+    limit_steps: usize,
 }
 
 /// Simulates a scene from start to end.
@@ -102,7 +109,7 @@ pub(crate) fn simulate(db: &Arc<MotionDb>, scenario: &Scenario) -> (SceneFigures
     let pictures = MOMENTS.map(|share| (share * steps as f32) as usize);
     let (mut stepping, mut agent_steps, mut most_at_once) = (Duration::ZERO, 0, simulation.frames().len());
     let mut entered = vec![0; scenario.behaviour.states.len()];
-    let (mut before, mut stuck) = (simulation.frames().to_vec(), StuckAgents::default());
+    let (mut before, mut blocked) = (simulation.frames().to_vec(), BlockedAgents::new(scenario));
     for step in 1..=steps {
         let start = Instant::now();
         simulation.step(&mut |_| {});
@@ -116,8 +123,8 @@ pub(crate) fn simulate(db: &Arc<MotionDb>, scenario: &Scenario) -> (SceneFigures
             if before.state != after.state {
                 entered[usize::from(after.state)] += 1;
             }
-            stuck.push(before, after, scenario.dt_s);
         }
+        blocked.push(step, frames, &moments.tracks);
         if pictures.contains(&step) {
             moments.frames.push((step as f32 * scenario.dt_s, frames.to_vec()));
         }
@@ -128,16 +135,19 @@ pub(crate) fn simulate(db: &Arc<MotionDb>, scenario: &Scenario) -> (SceneFigures
     let left_of_first = first.iter().filter(|life| life.removed.is_some()).count() as f64 / first.len() as f64;
     let measures = measuring.finish(simulation.population());
     let agent_min = agent_steps as f64 * f64::from(scenario.dt_s) / 60.0;
-    let states = scenario.behaviour.states.iter().zip(&entered).skip(1).map(|(state, &entered)| StateVisits {
+    let states = scenario.behaviour.states.iter().zip(entered.iter().zip(&blocked.by_state)).skip(1);
+    let states = states.map(|(state, (&entered, &blocked))| StateVisits {
         state: state.name.clone(),
         entered,
         per_agent_min: entered as f64 / agent_min,
+        blocked,
     });
+    let blocked = blocked.by_state.iter().sum();
     let figures = SceneFigures {
         most_at_once,
         left_of_first,
-        stuck: stuck.count,
-        stuck_per_100_min: 100.0 * stuck.count as f64 / agent_min,
+        blocked,
+        blocked_per_agent_min: blocked as f64 / agent_min,
         states: states.collect(),
         agent_step_us: 1e6 * stepping.as_secs_f64() / agent_steps.max(1) as f64,
         ..measured(scenario, &measures)
@@ -162,8 +172,8 @@ fn measured(scenario: &Scenario, measures: &Measures) -> SceneFigures {
         wall_body_max_mm: measures.wall_body_max_mm,
         body_penetration_mm: measures.body_penetration_mm,
         body_touching_share: measures.body_touching_share,
-        stuck: 0,
-        stuck_per_100_min: 0.0,
+        blocked: 0,
+        blocked_per_agent_min: 0.0,
         states: Vec::new(),
         agent_step_us: 0.0,
     }
@@ -178,16 +188,28 @@ fn pairs<'a>(before: &'a [AgentFrame], after: &'a [AgentFrame]) -> impl Iterator
     })
 }
 
-impl StuckAgents {
-    fn push(&mut self, before: &AgentFrame, after: &AgentFrame, dt_s: f32) {
-        let index = after.id.index();
-        if index >= self.slow_steps.len() {
-            self.slow_steps.resize(index + 1, 0);
+impl BlockedAgents {
+    fn new(scenario: &Scenario) -> Self {
+        let limit_steps = (BLOCKED_S / scenario.dt_s).round() as usize;
+        Self { wanting_steps: Vec::new(), by_state: vec![0; scenario.behaviour.states.len().max(1)], limit_steps }
+    }
+
+    /// Adds a frame, which the tracks hold already.
+    fn push(&mut self, frame: usize, agents: &[AgentFrame], tracks: &Tracks) {
+        self.wanting_steps.resize(tracks.agents.len(), 0);
+        for agent in agents {
+            let index = agent.id.index();
+            let wanting_steps = &mut self.wanting_steps[index];
+            *wanting_steps = if agent.preferred_mps.length() >= WANTS_MPS { *wanting_steps + 1 } else { 0 };
+            if *wanting_steps < self.limit_steps {
+                continue;
+            }
+            let before_m = tracks.position_m(index, frame.saturating_sub(self.limit_steps));
+            if before_m.is_some_and(|before_m| before_m.distance(agent.root.position_m) < BLOCKED_M) {
+                self.by_state[usize::from(agent.state)] += 1;
+                *wanting_steps = 0;
+            }
         }
-        let speed_mps = after.root.position_m.distance(before.root.position_m) / dt_s;
-        let is_slow = after.preferred_mps.length() > STUCK_MPS && speed_mps < STUCK_MPS;
-        self.slow_steps[index] = if is_slow { self.slow_steps[index] + 1 } else { 0 };
-        self.count += usize::from(self.slow_steps[index] == (STUCK_S / dt_s).round() as usize);
     }
 }
 
