@@ -115,7 +115,7 @@ fn broken_markings_are_shown_at_their_table() {
         (line.to_owned(), "a line needs `width_m`"),
         (format!("{line}\nwidth_m = 0.0"), "width_m is 0"),
         (format!("{line}\nwidth_m = 1\ndash_m = [0, 1]"), "dash_m is 0"),
-        (format!("line_m = [[0, 0], [9000, 0]]\nwidth_m = 1\ndash_m = [0.01, 0.01]"), "dashes and areas of all"),
+        ("line_m = [[0, 0], [9000, 0]]\nwidth_m = 1\ndash_m = [0.01, 0.01]".into(), "dashes and areas of all"),
         (format!("{line}\nwidth_m = 1\nrect_m = [0, 0, 1, 1]"), "either a line or an area"),
         ("rect_m = [0, 0, 1, 1]\nwidth_m = 1".into(), "belong to `line_m`"),
         ("colour = 'white'".into(), "exactly one of"),
