@@ -81,7 +81,8 @@ fn bundled() -> Vec<String> {
         let files = files(&assets().join("scenarios").join(folder));
         let stems: Vec<String> =
             files.iter().filter_map(|file| file.strip_suffix(".toml").map(str::to_owned)).collect();
-        stems.into_iter().map(|stem| format!("{folder}{stem}")).collect::<Vec<String>>()
+        let stems = stems.into_iter().filter(|stem| !stem.ends_with("_large"));
+        stems.map(|stem| format!("{folder}{stem}")).collect::<Vec<String>>()
     };
     let all = [names(""), names("rimea/")].concat();
     all.into_iter().filter(|name| !LARGE.iter().any(|large| name.starts_with(large))).collect()

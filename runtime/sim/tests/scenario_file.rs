@@ -2,6 +2,7 @@
 
 mod common;
 
+use std::collections::BTreeMap;
 use std::f32::consts::FRAC_PI_2;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -387,13 +388,22 @@ fn missing_files_are_named() {
 
 #[test]
 fn the_bundled_scenarios_are_valid() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenarios");
-    let agents = ["antipodal", "crossing", "bottleneck", "counterflow", "course", "two_exits"].map(|name| {
-        let (scenario, _) = read(&folder.join(name).with_extension("toml")).unwrap();
-        assert_eq!(scenario.name, name);
-        scenario.agents.len()
-    });
-    assert_eq!(agents, [17, 30, 72, 180, 1, 0]);
+    let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenarios");
+    let mut agents = BTreeMap::new();
+    for folder in [scenarios.clone(), scenarios.join("rimea")] {
+        let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        for path in files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")) {
+            let (scenario, motion) = read(&path).unwrap();
+            assert_eq!(scenario.name, path.file_stem().unwrap().to_str().unwrap());
+            assert!(matches!(motion, Ok(MotionSource::Clips(_))), "{}", path.display());
+            agents.insert(scenario.name.clone(), scenario.agents.len());
+        }
+    }
+    assert!(agents.len() >= 20, "{agents:?}");
+    let scenes = ["shibuya", "shibuya_large", "tradeshow", "tradeshow_large", "mall", "mall_large", "obstacle_course"];
+    assert_eq!(scenes.map(|name| agents[name]), [32, 320, 50, 500, 15, 200, 1]);
+    let others = ["antipodal", "crossing", "bottleneck", "counterflow", "two_exits"];
+    assert_eq!(others.map(|name| agents[name]), [17, 30, 72, 180, 0]);
 }
 
 /// Keys that every source needs beside its position.

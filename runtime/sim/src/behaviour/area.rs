@@ -35,6 +35,14 @@ impl Area {
         Self::Polygon(vec![low_m, Vec2::new(high_m.x, low_m.y), high_m, Vec2::new(low_m.x, high_m.y)])
     }
 
+    /// The area at an offset.
+    pub(crate) fn moved(&self, by_m: Vec2) -> Self {
+        match self {
+            Self::Disc { centre_m, radius_m } => Self::Disc { centre_m: *centre_m + by_m, radius_m: *radius_m },
+            Self::Polygon(corners_m) => Self::Polygon(corners_m.iter().map(|&corner_m| corner_m + by_m).collect()),
+        }
+    }
+
     /// Distance from a position to the area, m; 0 inside.
     pub fn distance_m(&self, position_m: Vec2) -> f32 {
         position_m.distance(self.nearest_m(position_m))

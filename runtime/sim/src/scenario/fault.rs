@@ -51,6 +51,10 @@ pub enum ScenarioPart {
     Event(usize),
     /// A `[[measure]]` table, by index.
     Measure(usize),
+    /// A marking, by index.
+    Marking(usize),
+    /// A label, by index.
+    Label(usize),
     /// A zone, by index.
     Zone(usize),
     /// All agents together.

@@ -10,9 +10,7 @@ use crate::world::obstacles::Obstacles;
 impl Scenario {
     /// The walls that hold discs: obstacles, enclosures, and the edges of the walkable ground.
     pub fn walls(&self) -> Obstacles {
-        // Coordinates are in range in every checked scenario.
-        let contours_m = walkable_contours_m(&self.walkable_m).unwrap_or_default();
-        Obstacles::with_ground(&self.obstacles_m, &self.enclosures_m, &contours_m)
+        Obstacles::with_ground(&self.obstacles_m, &self.enclosures_m, &self.ground_lines_m())
     }
 
     /// Whether there are no walls: the ground is open everywhere.
@@ -44,14 +42,20 @@ impl Scenario {
         }
     }
 
-    /// Corners of all polygons of the scene, for pictures, m.
+    /// Corners of all walls of the scene, for pictures, m.
     pub fn corners_m(&self) -> impl Iterator<Item = Vec2> + '_ {
         let walkable = self.walkable_m.iter().flat_map(|polygon| &polygon.outline_m);
         self.obstacles_m.iter().chain(&self.enclosures_m).flatten().chain(walkable).copied()
     }
 
-    /// Closed lines of the walls that are no obstacle: enclosures and the edges of the walkable ground, m.
-    pub fn wall_lines_m(&self) -> Vec<Vec<Vec2>> {
-        [self.enclosures_m.clone(), walkable_contours_m(&self.walkable_m).unwrap_or_default()].concat()
+    /// Closed lines around the walkable ground and its holes, m; none where the ground is open.
+    pub fn ground_lines_m(&self) -> Vec<Vec<Vec2>> {
+        // Coordinates are in range in every checked scenario.
+        walkable_contours_m(&self.walkable_m).unwrap_or_default()
+    }
+
+    /// Areas of the sets of goals, for pictures.
+    pub fn goal_areas(&self) -> impl Iterator<Item = &Area> {
+        self.behaviour.goals.iter().flat_map(|set| &set.areas).map(|goal| &goal.area)
     }
 }

@@ -1,4 +1,4 @@
-//! The `[[obstacles]]` and `[[walkable]]` tables of a scenario file. World, metres.
+//! The `[[obstacles]]` and `[[walkable]]` tables of a scenario file, with their copies and labels. World, metres.
 
 use std::path::{Path, PathBuf};
 
@@ -10,17 +10,22 @@ use toml::Spanned;
 use crate::maths::polygon::signed_area_m2;
 use crate::route::mesh::WalkablePolygon;
 use crate::scenario::error::ScenarioError;
+use crate::scenario::fault::TableFault;
+use crate::scenario::file::marking_tables::{LabelValue, PlacedLabels, middle_m, offsets_m};
 use crate::scenario::file::wkt_polygons::wkt_polygons;
 use crate::scenario::point::Point;
 use crate::scenario::resolved::Scenario;
+use crate::scenario::rules::ground_check::{CORNERS_MAX as WALKABLE_CORNERS_MAX, OBSTACLE_CORNERS_MAX, OBSTACLES_MAX};
 
 /// One `[[obstacles]]` table.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ObstacleTable {
-    pub(crate) polygon_m: Vec<Point>,
+    polygon_m: Vec<Point>,
     #[serde(default)]
-    pub(crate) kind: ObstacleKind,
+    kind: ObstacleKind,
+    copies_m: Option<Vec<Point>>,
+    label: Option<LabelValue>,
 }
 
 /// What the polygon of an obstacle bounds.
@@ -42,6 +47,8 @@ pub(crate) struct WalkableTable {
     #[serde(default)]
     holes_m: Vec<Vec<Point>>,
     file: Option<Spanned<String>>,
+    copies_m: Option<Vec<Point>>,
+    label: Option<LabelValue>,
 }
 
 /// The ground of a scenario file.
@@ -49,8 +56,14 @@ pub(crate) struct WalkableTable {
 pub(crate) struct PlacedGround {
     /// A scenario with this ground and no agents.
     pub(crate) scenario: Scenario,
+    /// Index of the table of each solid.
+    pub(crate) solids: Vec<usize>,
+    /// Index of the table of each enclosure.
+    pub(crate) enclosures: Vec<usize>,
     /// Index of the table of each walkable polygon.
-    pub(crate) tables: Vec<usize>,
+    pub(crate) walkable: Vec<usize>,
+    /// Labels of these tables; the scenario has none yet.
+    pub(crate) labels: PlacedLabels,
 }
 
 impl PlacedGround {
@@ -60,17 +73,77 @@ impl PlacedGround {
         obstacles: &[Spanned<ObstacleTable>],
         walkable: &[Spanned<WalkableTable>],
     ) -> Result<Self, ScenarioError> {
-        let (mut walkable_m, mut tables) = (Vec::new(), Vec::new());
-        for (index, table) in walkable.iter().enumerate() {
-            let polygons = table.get_ref().polygons(source, table)?;
-            tables.extend(polygons.iter().map(|_| index));
-            walkable_m.extend(polygons);
+        let mut placed = Self {
+            scenario: Scenario::of(Vec::new()),
+            solids: Vec::new(),
+            enclosures: Vec::new(),
+            walkable: Vec::new(),
+            labels: PlacedLabels::default(),
+        };
+        for (index, table) in obstacles.iter().enumerate() {
+            let at_table = |(message, help): TableFault| source.invalid(table.span(), message, help);
+            placed.add_obstacle(index, table).map_err(at_table)?;
         }
-        let obstacles_m = polygons_m(obstacles, ObstacleKind::Solid);
-        let enclosures_m = polygons_m(obstacles, ObstacleKind::Enclosure);
-        let scenario = Scenario { obstacles_m, enclosures_m, walkable_m, ..Scenario::of(Vec::new()) };
-        Ok(Self { scenario, tables })
+        let mut corners = 0;
+        for (index, table) in walkable.iter().enumerate() {
+            placed.add_walkable(source, index, table, &mut corners)?;
+        }
+        Ok(placed)
     }
+
+    fn add_obstacle(&mut self, index: usize, table: &Spanned<ObstacleTable>) -> Result<(), TableFault> {
+        let (span, ObstacleTable { polygon_m, kind, copies_m, label }) = (table.span(), table.get_ref());
+        let (corners_m, offsets_m) = (counter_clockwise(polygon_m), offsets_m(copies_m.as_ref()));
+        let count = self.solids.len() + self.enclosures.len() + offsets_m.len();
+        if count > OBSTACLES_MAX || (offsets_m.len() > 1 && corners_m.len() > OBSTACLE_CORNERS_MAX) {
+            let message =
+                format!("with this table there are {count} obstacles; this one has {} corners", corners_m.len());
+            return Err((message, "give at most 10,000 obstacles, of 3 to 1000 corners"));
+        }
+        self.labels.add(label.as_ref(), middle_m(&corners_m), &offsets_m, &span)?;
+        let Scenario { obstacles_m, enclosures_m, .. } = &mut self.scenario;
+        let (polygons_m, tables) = match kind {
+            ObstacleKind::Solid => (obstacles_m, &mut self.solids),
+            ObstacleKind::Enclosure => (enclosures_m, &mut self.enclosures),
+        };
+        for offset_m in offsets_m {
+            polygons_m.push(moved(&corners_m, offset_m));
+            tables.push(index);
+        }
+        Ok(())
+    }
+
+    fn add_walkable(
+        &mut self,
+        source: &SourceText,
+        index: usize,
+        table: &Spanned<WalkableTable>,
+        corners: &mut usize,
+    ) -> Result<(), ScenarioError> {
+        let polygons = table.get_ref().polygons(source, table)?;
+        let at_table = |(message, help): TableFault| ScenarioError::from(source.invalid(table.span(), message, help));
+        let offsets_m = offsets_m(table.get_ref().copies_m.as_ref());
+        let of_table = polygons.iter().map(|polygon| polygon.outline_m.len() + polygon.holes_m.concat().len());
+        *corners = corners.saturating_add(of_table.sum::<usize>().saturating_mul(offsets_m.len()));
+        if *corners > WALKABLE_CORNERS_MAX {
+            let message = format!("with this table the walkable polygons have {corners} corners");
+            return Err(at_table((message, "give at most 200,000 corners, with all copies")));
+        }
+        let middle_m = polygons.first().map_or(Vec2::ZERO, |polygon| middle_m(&polygon.outline_m));
+        self.labels.add(table.get_ref().label.as_ref(), middle_m, &offsets_m, &table.span()).map_err(at_table)?;
+        for offset_m in offsets_m {
+            for WalkablePolygon { outline_m, holes_m } in &polygons {
+                let holes_m = holes_m.iter().map(|hole_m| moved(hole_m, offset_m)).collect();
+                self.scenario.walkable_m.push(WalkablePolygon { outline_m: moved(outline_m, offset_m), holes_m });
+                self.walkable.push(index);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn moved(corners_m: &[Vec2], by_m: Vec2) -> Vec<Vec2> {
+    corners_m.iter().map(|&corner_m| corner_m + by_m).collect()
 }
 
 impl WalkableTable {
@@ -101,19 +174,6 @@ impl WalkableTable {
             }
         }
     }
-}
-
-/// The polygons of the obstacles of a kind, counter-clockwise.
-fn polygons_m(tables: &[Spanned<ObstacleTable>], kind: ObstacleKind) -> Vec<Vec<Vec2>> {
-    tables_of(tables, kind).map(|table| counter_clockwise(&table.get_ref().polygon_m)).collect()
-}
-
-/// The tables of the obstacles of a kind.
-pub(crate) fn tables_of(
-    tables: &[Spanned<ObstacleTable>],
-    kind: ObstacleKind,
-) -> impl Iterator<Item = &Spanned<ObstacleTable>> {
-    tables.iter().filter(move |table| table.get_ref().kind == kind)
 }
 
 fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {

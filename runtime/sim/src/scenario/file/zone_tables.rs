@@ -7,8 +7,8 @@ use toml::Spanned;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::behaviour::AreaKeys;
+use crate::scenario::places::zone_spec::ZoneSpec;
 use crate::scenario::point::Point;
-use crate::scenario::zone_spec::ZoneSpec;
 
 /// One `[[zones]]` table, as written.
 #[derive(Debug, Deserialize)]

@@ -8,13 +8,13 @@ use crate::scenario::ranges::{check_points, within};
 use crate::scenario::resolved::Scenario;
 
 /// Greatest number of obstacles, enclosures among them.
-const OBSTACLES_MAX: usize = 10_000;
+pub(crate) const OBSTACLES_MAX: usize = 10_000;
 /// Greatest number of corners of an obstacle: the test for self-intersection compares every pair of edges.
-const OBSTACLE_CORNERS_MAX: usize = 1_000;
+pub(crate) const OBSTACLE_CORNERS_MAX: usize = 1_000;
 /// Greatest number of corners of an outline or hole of walkable ground: plans of whole buildings have hundreds.
 const WALKABLE_CORNERS_MAX: usize = 5_000;
 /// Greatest number of corners of all walkable polygons.
-const CORNERS_MAX: usize = 200_000;
+pub(crate) const CORNERS_MAX: usize = 200_000;
 /// Least area of a polygon, m²: thinner slivers have no inside.
 const AREA_MIN_M2: f64 = 1e-4;
 /// How to mend a polygon that crosses itself.

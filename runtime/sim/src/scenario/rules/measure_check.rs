@@ -1,7 +1,7 @@
 //! The rules of lines and areas that are measured, and of zones. World, metres.
 
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::measure_spec::MeasuredPlace;
+use crate::scenario::places::measure_spec::MeasuredPlace;
 use crate::scenario::ranges::{check_name, check_points, within};
 use crate::scenario::resolved::Scenario;
 use crate::scenario::rules::behaviour_check::{FACTOR, check_area};

@@ -3,11 +3,12 @@
 //! Enters: a scenario. Leaves: nothing, or the first broken rule with the part that breaks it.
 //!
 //! Read `check` (all rules, cheapest first); then `ground_check` (walls), `behaviour_check` (goals, states, signals),
-//! `source_check` and `measure_check` (lines, areas, zones).
+//! `source_check`, `measure_check` (lines, areas, zones) and `marking_check` (markings, labels).
 
 pub(crate) mod behaviour_check;
 pub(crate) mod check;
 pub(crate) mod ground_check;
+pub(crate) mod marking_check;
 mod measure_check;
 mod source_check;
 
