@@ -18,12 +18,14 @@ use crate::behaviour::condition::Facts;
 use crate::behaviour::crowd_view::{CrowdView, Moment};
 use crate::behaviour::draw::event_random;
 use crate::behaviour::event::{Event, SignalOrder};
+use crate::behaviour::machine::approach::Approach;
 use crate::behaviour::machine::deciding::{Deciding, TRANSITIONS_MAX};
 use crate::behaviour::machine::group_leads::GroupLeads;
 use crate::behaviour::occupancy::Occupancy;
 use crate::behaviour::state::{Behaviour, Movement};
 use crate::population::AgentId;
 
+mod approach;
 mod deciding;
 mod goal_keeping;
 mod group_leads;
@@ -106,12 +108,20 @@ impl CrowdBehaviour {
         self.waiting = vec![0; behaviour.goals.len()];
         self.teleports.clear();
         let mut leads = GroupLeads::new(behaviour, view, &agents);
+        let approach = &mut Approach::new(behaviour, view, &agents);
         for index in (0..agents.len()).filter(|index| (view.has_begun)(*index)) {
             let (before, agent) = agents.split_at_mut(index);
             let agent = &mut agent[0];
-            let followers = leads.followers(index);
-            let occupancy = &mut self.occupancy;
-            let mut deciding = Deciding { behaviour, view, index, agent, occupancy, teleported_m: None, followers };
+            let mut deciding = Deciding {
+                behaviour,
+                view,
+                index,
+                agent,
+                occupancy: &mut self.occupancy,
+                approach,
+                teleported_m: None,
+                followers: leads.followers(index),
+            };
             for event in &moved {
                 deciding.be_moved(event);
             }

@@ -150,3 +150,29 @@ fn a_source_sends_whole_groups() {
     let delays = lives.iter().filter_map(|life| Some(lives[life.group? as usize].born.abs_diff(life.born)));
     assert!(delays.max().unwrap() <= 30);
 }
+
+#[test]
+fn members_take_neighbouring_seats() {
+    const SEATS: &str = "
+        [goals.seats]
+        choose = 'random'
+        capacity = 1
+        areas = [{ point_m = [6, 5] }, { point_m = [6, -5] }, { point_m = [7, 5] }, { point_m = [7, -5] }]
+        [states.sit_down]
+        go = 'seats'
+        then = [{ when = { reached_m = 0 }, to = 'sit' }]
+        [states.sit]
+        stand = {}
+        [[agents]]
+        grid = { columns = 2, rows = 2, spacing_m = 1.2 }
+        state = 'sit_down'
+        groups = { 2 = 1 }
+    ";
+    let simulation = run(SEATS, |_| {});
+    let roots_m = positions_m(&simulation);
+    for group in &simulation.walking_groups().members {
+        let apart_m = roots_m[group[0]].distance(roots_m[group[1]]);
+        assert!((0.6..1.4).contains(&apart_m), "{roots_m:?}");
+    }
+    assert!(simulation.frames().iter().all(|frame| frame.state == 1), "all sit");
+}

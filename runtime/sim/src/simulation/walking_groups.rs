@@ -11,7 +11,6 @@ use std::collections::BTreeMap;
 
 use glam::Vec2;
 
-use crate::behaviour::GoalRef;
 use crate::simulation::Simulation;
 use crate::world::obstacles::Obstacles;
 
@@ -27,6 +26,8 @@ const HURRY_SHARE: f32 = 0.3;
 const BEND_M: f32 = 0.3;
 /// Distance between members in a file, m.
 const FILE_SPACING_M: f32 = 0.9;
+/// Distance between the goals of two members below which they walk together, m.
+const GOALS_NEAR_M: f32 = 5.0;
 /// Distances ahead of the places abreast at which walls are looked for, m.
 const LOOK_AHEAD_M: [f32; 3] = [0.0, 0.75, 1.5];
 /// Mean of the unit directions of the members below which they walk apart, as in a hairpin.
@@ -79,19 +80,25 @@ impl Simulation {
     /// Turns v_pref of the members of each group so that they walk together.
     pub(super) fn walk_together(&mut self) {
         for members in self.walking_groups().members {
-            let mut parts: BTreeMap<(u32, Option<GoalRef>), Vec<usize>> = BTreeMap::new();
-            for index in members {
-                if self.agents.removals[index].is_none() {
-                    parts.entry(self.purpose(index)).or_default().push(index);
+            let mut parts: Vec<Vec<usize>> = Vec::new();
+            for index in members.into_iter().filter(|&index| self.agents.removals[index].is_none()) {
+                match parts.iter_mut().find(|part| self.have_one_purpose(part[0], index)) {
+                    Some(part) => part.push(index),
+                    None => parts.push(vec![index]),
                 }
             }
-            parts.into_values().for_each(|part| self.walk_abreast(&part));
+            parts.iter().for_each(|part| self.walk_abreast(part));
         }
     }
 
-    /// What an agent wants: members that want different things walk apart.
-    fn purpose(&self, index: usize) -> (u32, Option<GoalRef>) {
-        self.crowd.agents.get(index).map_or((0, None), |agent| (agent.state, agent.goal_at()))
+    /// Whether two members walk together: they are in one state and their goals are near to each other.
+    fn have_one_purpose(&self, a: usize, b: usize) -> bool {
+        let (Some(a), Some(b)) = (self.crowd.agents.get(a), self.crowd.agents.get(b)) else { return true };
+        let are_near = match (a.aim.position_m(), b.aim.position_m()) {
+            (Some(a_m), Some(b_m)) => a_m.distance(b_m) < GOALS_NEAR_M,
+            _ => true,
+        };
+        a.state == b.state && are_near
     }
 
     fn walk_abreast(&mut self, members: &[usize]) {

@@ -9,6 +9,7 @@ use crate::behaviour::condition::Facts;
 use crate::behaviour::crowd_view::{CrowdView, Moment};
 use crate::behaviour::draw::{Drawer, Purpose};
 use crate::behaviour::event::Event;
+use crate::behaviour::machine::approach::Approach;
 use crate::behaviour::occupancy::Occupancy;
 use crate::behaviour::state::{Behaviour, Facing, Movement, Target};
 
@@ -25,6 +26,7 @@ pub(crate) struct Deciding<'a> {
     pub(crate) index: usize,
     pub(crate) agent: &'a mut AgentState,
     pub(crate) occupancy: &'a mut Occupancy,
+    pub(crate) approach: &'a mut Approach,
     /// Position to which a state has moved the agent in this step, m.
     pub(crate) teleported_m: Option<Vec2>,
     /// The members of its group that do as it does.

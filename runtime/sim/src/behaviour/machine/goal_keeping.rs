@@ -26,7 +26,7 @@ const CROWDED: usize = 64;
 
 impl Deciding<'_> {
     /// Chooses a goal where the agent wants one and has none; moves up in a queue; changes between busy exits.
-    /// A member of a group takes the area of its lead where there is room.
+    /// A member of a group takes the area of its lead, or the nearest to it that has room.
     pub(crate) fn update_goal(&mut self, moment: &Moment, lead_goal: Option<GoalRef>) {
         let &Movement::Goals { set, choice, memory } = self.movement() else { return };
         let memory = memory.filter(|_| !self.behaviour.goals[set].queue);
@@ -43,7 +43,10 @@ impl Deciding<'_> {
             self.occupancy.leave(self.agent);
             self.take(at);
         } else if self.agent.goal.is_none() {
-            self.choose(set, choice);
+            match wanted {
+                Some(lead) => self.choose_beside(lead),
+                None => self.choose(set, choice),
+            }
         } else if choice == Choice::LeastBusy && self.view.time_s - self.agent.chosen_s >= CHOOSES_AGAIN_S {
             self.choose_again(set);
         }
@@ -62,11 +65,22 @@ impl Deciding<'_> {
         if free.is_empty() {
             free = self.occupancy.free(set, goals, 1);
         }
-        let random = &mut self.drawer().random(Purpose::Goal);
-        let Some(area) = choice.choose(&self.options(set, &free, &|area| self.route_m(set, area)), random) else {
-            return;
-        };
-        self.take(GoalRef { set: set as u32, area: area as u32 });
+        if let Some(area) = self.chosen(set, choice, &free) {
+            self.take(GoalRef { set: set as u32, area: area as u32 });
+        }
+    }
+
+    /// Takes the area with room that is the nearest to that of its lead.
+    fn choose_beside(&mut self, lead: GoalRef) {
+        let set = lead.set as usize;
+        let beside_m = self.area(lead).area.centre_m();
+        let away_m = |area: &usize| self.behaviour.goals[set].areas[*area].area.centre_m().distance(beside_m);
+        let free = self.occupancy.free(set, &self.behaviour.goals[set], 1);
+        let reachable = free.into_iter().filter(|&area| self.route_m(set, area).is_some());
+        let nearest = reachable.min_by(|a, b| away_m(a).total_cmp(&away_m(b)));
+        if let Some(area) = nearest {
+            self.take(GoalRef { set: set as u32, area: area as u32 });
+        }
     }
 
     /// Leaves the chosen exit for another that saves enough time.
@@ -74,20 +88,31 @@ impl Deciding<'_> {
         self.agent.chosen_s = self.view.time_s;
         let Some(goal) = self.agent.goal else { return };
         let free = self.occupancy.free(set, &self.behaviour.goals[set], 1 + self.followers.count);
-        let route_m = |area| self.route_m(set, area);
-        let options = self.options(set, &free, &route_m);
-        let Some(area) = Choice::LeastBusy.choose(&options, &mut self.drawer().random(Purpose::Goal)) else { return };
-        let [now_s, other_s] = [goal.at.area as usize, area].map(|area| options.time_s(area));
+        let Some(area) = self.chosen(set, Choice::LeastBusy, &free) else { return };
+        let [now_s, other_s] =
+            self.with_options(set, &free, |options| [goal.at.area as usize, area].map(|area| options.time_s(area)));
         if other_s < now_s.map(|now_s| (1.0 - SAVES_SHARE) * now_s) {
             self.agent.remembered.retain(|(_, remembered)| remembered.at != goal.at);
+            if let Some(route_m) = self.route_m(set, goal.at.area as usize) {
+                self.approach.leave(goal.at, route_m);
+            }
             self.occupancy.leave(self.agent);
             self.take(GoalRef { set: set as u32, area: area as u32 });
         }
     }
 
-    fn options<'b>(&'b self, set: usize, free: &'b [usize], route_m: &'b dyn Fn(usize) -> Option<f32>) -> Options<'b> {
-        let (goals, taken) = (&self.behaviour.goals[set], self.occupancy.of_set(set));
-        Options { set: goals, free, taken, route_m, speed_mps: self.agent.traits.preferred_speed_mps }
+    /// Index of the area that a choice gives.
+    fn chosen(&self, set: usize, choice: Choice, free: &[usize]) -> Option<usize> {
+        let random = &mut self.drawer().random(Purpose::Goal);
+        self.with_options(set, free, |options| choice.choose(options, random))
+    }
+
+    fn with_options<T>(&self, set: usize, free: &[usize], read: impl FnOnce(&Options) -> T) -> T {
+        let ahead =
+            |area: usize, route_m: f32| self.approach.ahead(GoalRef { set: set as u32, area: area as u32 }, route_m);
+        let route_m = |area: usize| self.route_m(set, area);
+        let speed_mps = self.agent.traits.preferred_speed_mps;
+        read(&Options { set: &self.behaviour.goals[set], free, ahead: &ahead, route_m: &route_m, speed_mps })
     }
 
     fn route_m(&self, set: usize, area: usize) -> Option<f32> {
@@ -104,6 +129,9 @@ impl Deciding<'_> {
         }
         self.agent.goal = Some(goal);
         self.agent.chosen_s = self.view.time_s;
+        if let Some(route_m) = self.route_m(at.set as usize, at.area as usize) {
+            self.approach.join(at, route_m);
+        }
     }
 
     /// A position in an area apart from those of other agents; of a few draws the one farthest from them, where all are
