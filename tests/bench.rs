@@ -151,6 +151,22 @@ fn course_is_walked_by_every_synthesis() {
 }
 
 #[test]
+fn scenes_of_the_paper_go_on() {
+    let plots = folder("bench_scenes");
+    let found = check_bench("scenes", &["--largest", "50", "--plots", text(&plots)]);
+    let runs = found["runs"].as_array().unwrap();
+    let names: Vec<&str> = runs.iter().map(|run| run["scene"].as_str().unwrap()).collect();
+    assert_eq!(names, ["shibuya", "tradeshow", "mall", "obstacle_course"]);
+    for criterion in found["bars"].as_array().unwrap() {
+        let is_crowding = criterion["name"].as_str().unwrap().contains("blocked");
+        assert!(is_crowding || criterion["met"] == true, "{criterion}");
+    }
+    let served = runs[2]["states"].as_array().unwrap().iter().find(|state| state["state"] == "pay_market").unwrap();
+    assert!(served["entered"].as_u64().unwrap() > 0, "{served}");
+    assert_eq!(fs::read_dir(&plots).unwrap().count(), 3 * runs.len());
+}
+
+#[test]
 fn coupled_bodies_overlap_and_slide_less() {
     let found = check_bench("coupled", &[]);
     for criterion in found["bars"].as_array().unwrap() {
@@ -224,7 +240,14 @@ fn quality_follows_its_schema() {
 
 #[test]
 fn rimea_follows_its_schema() {
-    assert_eq!(check_bench("rimea", &[])["tests"].as_array().unwrap().len(), 8);
+    let found = check_bench("rimea", &["--tests", "1,6,10,turned"]);
+    assert_eq!(found["tests"].as_array().unwrap().len(), 4);
+    assert!(found["bars"].as_array().unwrap().iter().all(|criterion| criterion["met"] == true), "{found}");
+}
+
+#[test]
+fn rimea_names_its_tests() {
+    fbcrowd(&["bench", "rimea", "--tests", "1,13"]).expect_code(2).says(&["no test `13`", "9, 10, 11, 12, 15, 16"]);
 }
 
 #[test]

@@ -44,7 +44,7 @@ pub struct AgentLife {
     pub character: Option<u32>,
     /// Size of the body, relative to the database's skeleton.
     pub stature: f32,
-    /// Number of the group that the agent belongs to.
+    /// The group that the agent belongs to: id of its first member.
     pub group: Option<u32>,
     /// Changes of the radius of the disc that other agents see, in the order of frames.
     pub radii_m: Vec<RadiusChange>,
@@ -65,6 +65,7 @@ impl AgentLife {
     /// A life that begins in a frame, with the first database and the plain body.
     pub fn new(spec: AgentSpec, source: Option<u32>, born: u32) -> Self {
         Self {
+            group: spec.group.map(|group| group.first),
             spec,
             source,
             born,
@@ -72,7 +73,6 @@ impl AgentLife {
             database: 0,
             character: None,
             stature: 1.0,
-            group: None,
             radii_m: Vec::new(),
             teleports: Vec::new(),
         }

@@ -33,6 +33,7 @@ use crate::planning::world_view::{OwnWalls, WorldView};
 use crate::population::Population;
 use crate::recording::frame::AgentFrame;
 use crate::route::door_routes::{ClosedDoors, DoorRoutes};
+use crate::route::mesh::RouteError;
 use crate::route::path::{Braking, RouteView};
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
@@ -50,6 +51,7 @@ mod moving_doors;
 mod path_walker;
 mod source_state;
 mod turnover;
+mod walking_groups;
 mod zones;
 
 /// Bodies that one thread takes at a time, at least: enough to outweigh the hand-over, few enough to share out 100.
@@ -88,6 +90,8 @@ pub struct Simulation {
     zone_walls: ZoneWalls,
     routes: DoorRoutes,
     doors: Doors,
+    /// Why there are no routes; none of a checked scenario.
+    route_error: Option<RouteError>,
     constraints: MotionConstraints,
     neighbours: NeighbourSearch,
     planning: plan_all::CrowdPlanningMemory,
@@ -97,6 +101,8 @@ pub struct Simulation {
     population: Population,
     /// The state of every source, by index.
     sources: Vec<SourceState>,
+    /// Whether any agent is, or a source's may be, in a group.
+    has_groups: bool,
     /// Number of steps so far: the index of the present frame.
     steps: u32,
 }
@@ -111,11 +117,16 @@ impl Simulation {
             Self::add_behaviour(&mut crowd, scenario, spec);
             agents.push(index.into(), spec, scenario.seed, scenario.coupling, &context);
         }
+        let (routes, route_error) = match DoorRoutes::new(scenario) {
+            Ok(routes) => (routes, None),
+            Err(error) => (DoorRoutes::default(), Some(error)),
+        };
         let mut simulation = Self {
             obstacles: scenario.walls(),
             zone_walls: scenario.zone_walls(&[]),
-            routes: DoorRoutes::new(scenario),
             doors: Doors::new(scenario),
+            routes,
+            route_error,
             constraints: MotionConstraints::new(&context.db.velocity_hull),
             neighbours: NeighbourSearch::default(),
             planning: plan_all::CrowdPlanningMemory::default(),
@@ -125,6 +136,7 @@ impl Simulation {
             agents,
             crowd,
             context,
+            has_groups: scenario.has_groups(),
             steps: 0,
         };
         simulation.close_doors_at_start();
@@ -141,6 +153,12 @@ impl Simulation {
     /// All agents so far, and the counts of the sources.
     pub fn population(&self) -> &Population {
         &self.population
+    }
+
+    /// Why no routes were found, where walls allow no mesh: the agents walk straight. None where the scenario was read from
+    /// a file, which makes the same meshes.
+    pub fn route_error(&self) -> Option<&RouteError> {
+        self.route_error.as_ref()
     }
 
     /// Transitions between states that did not end within a step, the first that there were: the scenario is wrong.
@@ -167,6 +185,7 @@ impl Simulation {
         self.decide();
         self.remove_leaving_agents();
         self.follow_paths();
+        self.walk_together();
         self.wait_before_doors();
         self.apply_zones();
         finished(Stage::Route);
@@ -314,6 +333,8 @@ fn are_between_steps(before: [f32; 2], after: [f32; 2]) -> bool {
 mod behaviour_tests;
 #[cfg(test)]
 mod door_tests;
+#[cfg(test)]
+mod group_tests;
 #[cfg(test)]
 mod route_tests;
 #[cfg(test)]

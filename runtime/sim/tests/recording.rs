@@ -6,8 +6,10 @@ use std::fs;
 use std::path::Path;
 
 use common::{agent, folder, header, numbered, record, standing_at};
+use fbcrowd_sim::behaviour::Area;
 use fbcrowd_sim::population::Population;
 use fbcrowd_sim::recording::{AgentFrame, Recorder, Recording, RecordingError, write_chunk};
+use fbcrowd_sim::scenario::{Marking, MarkingColour, MarkingShape};
 use glam::{Quat, Vec2};
 use motiondb::body::Joints;
 use proptest::prelude::*;
@@ -117,9 +119,14 @@ fn empty_or_broken_recording_is_rejected() {
 #[test]
 fn a_header_out_of_range_is_rejected_with_its_byte() {
     let path = folder("header_range").join("a.fbrec");
-    record(&path, &two_agents(), &frames(2));
+    let mut header = two_agents();
+    let shape = MarkingShape::Area(Area::point(Vec2::new(77.0, 0.0)));
+    header.scenario.markings = vec![Marking { shape, colour: MarkingColour::Fixed([1, 2, 3]) }];
+    record(&path, &header, &frames(2));
     let bytes = fs::read(&path).unwrap();
     for (from, to, what) in [
+        ("\"fixed\":[1,2,3]", "\"signal\":0", "there is no signal 0"),
+        ("[77.0,0.0]", "[77e9,0.0]", "is not within 10 km"),
         ("\"name\":\"test\"", "\"name\":\"a/b\"", "cannot name a file"),
         ("\"dt_s\":0.033333335", "\"dt_s\":1e-30", "dt_s is"),
         ("\"offsets_m\":[[0.0", "\"offsets_m\":[[1e30", "the skeleton is out of range"),

@@ -2,6 +2,7 @@
 
 mod common;
 
+use std::collections::BTreeMap;
 use std::f32::consts::FRAC_PI_2;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -387,13 +388,22 @@ fn missing_files_are_named() {
 
 #[test]
 fn the_bundled_scenarios_are_valid() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenarios");
-    let agents = ["antipodal", "crossing", "bottleneck", "counterflow", "course", "two_exits"].map(|name| {
-        let (scenario, _) = read(&folder.join(name).with_extension("toml")).unwrap();
-        assert_eq!(scenario.name, name);
-        scenario.agents.len()
-    });
-    assert_eq!(agents, [17, 30, 72, 180, 1, 0]);
+    let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenarios");
+    let mut agents = BTreeMap::new();
+    for folder in [scenarios.clone(), scenarios.join("rimea")] {
+        let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        for path in files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")) {
+            let (scenario, motion) = read(&path).unwrap();
+            assert_eq!(scenario.name, path.file_stem().unwrap().to_str().unwrap());
+            assert!(matches!(motion, Ok(MotionSource::Clips(_))), "{}", path.display());
+            agents.insert(scenario.name.clone(), scenario.agents.len());
+        }
+    }
+    assert!(agents.len() >= 20, "{agents:?}");
+    let scenes = ["shibuya", "shibuya_large", "tradeshow", "tradeshow_large", "mall", "mall_large", "obstacle_course"];
+    assert_eq!(scenes.map(|name| agents[name]), [32, 320, 50, 500, 15, 200, 1]);
+    let others = ["antipodal", "crossing", "bottleneck", "counterflow", "two_exits"];
+    assert_eq!(others.map(|name| agents[name]), [17, 30, 72, 180, 0]);
 }
 
 /// Keys that every source needs beside its position.
@@ -507,4 +517,56 @@ fn goals_without_a_route_are_errors_at_their_agents() {
     check_rejected("off", &scene(small), agents, "lies inside a wall or off the walkable ground");
     let beside = "[[walkable]]\npolygon_m = [[1, -1], [9, -1], [9, 1], [1, 1]]\n";
     check_rejected("start", &scene(beside), agents, "agent 0 starts at [0, 0], in a wall or off the walkable ground");
+}
+
+#[test]
+fn wrong_groups_are_shown_at_their_table() {
+    let agents = |keys: &str| {
+        format!("{HEAD}agents = {{ grid = {{ columns = 2, rows = 2, spacing_m = 1 }}, goals_m = [[9, 9]], {keys} }}\n")
+    };
+    let cases = [
+        ("groups = { 0 = 1 }", "`0` in `groups` is no size of a group"),
+        ("groups = { 5 = 1 }", "`5` in `groups` is no size of a group"),
+        ("groups = { pairs = 1 }", "`pairs` in `groups` is no size of a group"),
+        ("groups = { 1 = 0, 2 = 0 }", "the sum of the shares in `groups` is 0"),
+        ("groups = { 1 = -1, 2 = 3 }", "a share in `groups` is -1"),
+        ("groups = { 2 = nan }", "the sum of the shares in `groups` is NaN"),
+        ("groups = { 2 = inf }", "the sum of the shares in `groups` is inf"),
+        ("groups = { 2 = 1 }, group_spacing_m = 0.1", "group_spacing_m is 0.1"),
+        ("group_spacing_m = 1", "`group_spacing_m` needs `groups`"),
+    ];
+    for (keys, message) in cases {
+        match read(&write("groups", &agents(keys))) {
+            Err(ScenarioError::Invalid(invalid)) => assert!(invalid.message.contains(message), "{keys}: {invalid}"),
+            other => panic!("{keys} gave {other:?}"),
+        }
+        let source = format!("{HEAD}[[sources]]\nat_m = [0, 0]\nrate_per_s = 1\ngoals_m = [[9, 9]]\n");
+        let text = source + &keys.replace("}, group", "}\ngroup") + "\n";
+        match read(&write("groups", &text)) {
+            Err(ScenarioError::Invalid(invalid)) => assert!(invalid.message.contains(message), "{keys}: {invalid}"),
+            other => panic!("{text} gave {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn wrong_events_are_shown_at_their_line() {
+    const STATE: &str = "[states.sit]\nstand = {}\n[signals.door]\ngreen_s = 1\nred_s = 1\n";
+    let cases = [
+        ("when = { reached_m = 1 }\nto = \"sit\"", "`when` of event `alarm` speaks of one agent"),
+        ("when = { not = { inside = \"hall\" } }\nto = \"sit\"", "there is no area `hall`"),
+        ("when = { after_s = 1 }", "event `alarm` changes nothing"),
+        ("when = { after_s = -1 }\nto = \"sit\"", "after_s"),
+        ("when = { after_s = 1 }\nto = \"flee\"", "there is no state `flee`"),
+        ("when = { after_s = 1 }\nto = \"sit\"\nfrom = [\"run\"]", "there is no state `run`"),
+        ("when = { after_s = 1 }\nsignals = { gate = \"red\" }", "there is no signal `gate`"),
+        ("when = { after_s = 1 }\nsignals = { door = \"blue\" }", "unknown value `blue`"),
+        ("to = \"sit\"", "missing field `when`"),
+    ];
+    for (keys, message) in cases {
+        match read(&write("events", &format!("{HEAD}{ONE}{STATE}[events.alarm]\n{keys}\n"))) {
+            Err(ScenarioError::Invalid(invalid)) => assert!(invalid.message.contains(message), "{keys}: {invalid}"),
+            other => panic!("{keys} gave {other:?}"),
+        }
+    }
 }

@@ -42,6 +42,14 @@ pub enum BenchError {
         /// The seeds of the scenes.
         seeds: Vec<u64>,
     },
+    /// A bench has no test of a name that was requested.
+    #[error("--tests: there is no test `{test}`; the tests are {tests}")]
+    NoSuchTest {
+        /// The name.
+        test: String,
+        /// The names of all tests.
+        tests: String,
+    },
     /// A line of labels is malformed.
     #[error("{}:{line}: not a label; write file,clip,fps,set,side,event,frame,pm", path.display())]
     Label {

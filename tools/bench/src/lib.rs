@@ -46,7 +46,7 @@ use fbcrowd_jobs::json_schema::document;
 use crate::compiler::{clips, compile, gait, import, leave_one_out};
 pub use crate::error::BenchError;
 use crate::kit::report::{BenchReport, PrintableReport};
-use crate::paper::{coupled, course, figure6, figure7, table1};
+use crate::paper::{coupled, course, figure6, figure7, scenes, table1};
 use crate::pedestrians::{emergence, rimea};
 use crate::speed::{blend_space, bodies, plan, routes};
 use crate::synthesis::{blend, quality, reach, tracking};
@@ -101,6 +101,7 @@ benches! {
     Table1, "table1" => table1;
     Figure7, "figure7" => figure7;
     Course, "course" => course;
+    Scenes, "scenes" => scenes;
     Coupled, "coupled" => coupled;
     Rimea, "rimea" => rimea;
     Emergence, "emergence" => emergence;

@@ -57,6 +57,9 @@ pub struct PreparedSimulation {
 pub fn prepare(db: Arc<MotionDb>, scenario: Scenario, observer: &Observer) -> Result<PreparedSimulation, JobError> {
     check_memory(scenario.agents.len())?;
     let simulation = Simulation::new(Arc::clone(&db), &scenario);
+    if let Some(error) = simulation.route_error() {
+        return Err(error.clone().into());
+    }
     note_missing_motions(&db, simulation.database(), observer);
     note_closed_passages(&scenario, observer);
     check_horizon(simulation.database(), &scenario)?;

@@ -16,6 +16,10 @@ pub(crate) const GROUND: Rgb = Rgb::new(0.925, 0.918, 0.902);
 pub(crate) const GRID_FINE: Rgb = Rgb::new(0.885, 0.876, 0.857);
 /// Coarse grid lines.
 pub(crate) const GRID_COARSE: Rgb = Rgb::new(0.828, 0.816, 0.793);
+/// Ground that is not walkable: asphalt, or the mass of a building.
+pub(crate) const OUTSIDE: Rgb = Rgb::new(0.674, 0.671, 0.671);
+/// A signal that is red, and one that is green.
+pub(crate) const SIGNAL: [Rgb; 2] = [Rgb::new(0.82, 0.20, 0.16), Rgb::new(0.16, 0.66, 0.32)];
 /// Tops of obstacles.
 pub(crate) const OBSTACLE: Rgb = Rgb::new(0.690, 0.678, 0.655);
 /// Rims of obstacles.
@@ -148,6 +152,11 @@ pub(crate) fn encode_srgb(linear: f32) -> f32 {
 /// Inverse transfer function of sRGB (IEC 61966-2-1): code value to linear light, both 0 to 1.
 pub fn decode_srgb(code: f32) -> f32 {
     if code <= 0.040_45 { code / 12.92 } else { libm::powf((code + 0.055) / 1.055, 2.4) }
+}
+
+/// The colour of eight-bit code values.
+pub(crate) fn from_bytes(bytes: [u8; 3]) -> Rgb {
+    Rgb::from_array(bytes.map(|byte| f32::from(byte) / 255.0))
 }
 
 /// Eight-bit code values of a colour.

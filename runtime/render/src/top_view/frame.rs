@@ -1,4 +1,5 @@
-//! One frame, seen from straight above, in layers from bottom to top: ground, doors, trails, shade, bodies, captions.
+//! One frame, seen from straight above, in layers from bottom to top: ground, doors, signals, trails, shade, bodies,
+//! captions.
 //!
 //! Enters: recorded roots and poses, world metres. Leaves: an opaque sRGB picture. [`TopView::new`] prepares what all
 //! frames share. [`TopView::draw`] depends only on time and bodies, so frames can be drawn in any order and thread.
@@ -19,6 +20,7 @@ use crate::top_view::doors::DrawnDoors;
 use crate::top_view::framing::{Framing, frame_recording};
 use crate::top_view::ground;
 use crate::top_view::shade::ShadeMask;
+use crate::top_view::signals::draw_signals;
 use crate::top_view::trails::{self, Tracks, Trail};
 
 /// Greatest number of pixels of a strip, which take 9 bytes each: a frame of up to 2560 × 1440 is one strip.
@@ -139,6 +141,7 @@ impl<'a> TopView<'a> {
         let FrameBuffers { canvas, shade } = buffers;
         canvas.reset(&self.background, top_px);
         self.doors.draw(&mut canvas.pixmap, &canvas.strip, time_s);
+        draw_signals(&mut canvas.pixmap, &canvas.strip, &self.header.scenario, &self.framing, time_s);
         self.draw_trails(canvas, time_s, agents);
         self.draw_shade(canvas, shade, parts);
         self.draw_bodies(canvas, parts);

@@ -1,5 +1,5 @@
-//! The static layer of a top view, drawn once for a whole sequence: ground, metric grid, goals, and obstacles with
-//! their shade; areas and goals of sources. Enters: the recording's scenario, world metres.
+//! The static layer of a top view, drawn once for a whole sequence: ground, metric grid, markings, goals, and obstacles
+//! with their shade; areas and goals of sources; labels. Enters: the recording's scenario, world metres.
 
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::scenario::SourceSpec;
@@ -10,6 +10,7 @@ use crate::raster::paint::{circle, fill, fill_rect, paint, path_through, stroke,
 use crate::raster::palette;
 use crate::raster::pixels::Strip;
 use crate::top_view::framing::Framing;
+use crate::top_view::markings;
 use crate::top_view::shade::ShadeMask;
 
 /// Steps of fine and coarse grid lines to choose from, m.
@@ -40,8 +41,12 @@ pub(crate) fn background(header: &Header, framing: &Framing) -> Pixmap {
     let mut pixmap = Pixmap::new(framing.width_px, framing.height_px).expect("the framing's sides are checked");
     pixmap.fill(to_color(palette::GROUND, 1.0));
     draw_grid(&mut pixmap, framing);
+    markings::draw_outside(&mut pixmap, &header.scenario, framing);
+    markings::draw_markings(&mut pixmap, &header.scenario, framing);
+    markings::draw_goal_areas(&mut pixmap, &header.scenario, framing);
     draw_goals(&mut pixmap, header, framing);
     draw_obstacles(&mut pixmap, header, framing);
+    markings::draw_labels(&mut pixmap, &header.scenario, framing);
     pixmap
 }
 
@@ -117,9 +122,11 @@ fn draw_obstacles(pixmap: &mut Pixmap, header: &Header, framing: &Framing) {
     let outline = |corners: &Vec<Vec2>| path_through(corners.iter().map(|corner| framing.to_px(*corner)), true);
     let width = (RIM_M * framing.scale_px_m).clamp(1.0, 4.0);
     let rim = Stroke { width, line_join: LineJoin::Round, ..Stroke::default() };
-    for line in header.scenario.wall_lines_m().iter().filter_map(outline) {
-        let thick = Stroke { width: 2.0 * width, ..rim.clone() };
-        stroke(pixmap, &line, &paint(palette::OBSTACLE_RIM, 1.0), &thick, None);
+    let scenario = &header.scenario;
+    for (lines_m, width) in [(scenario.ground_lines_m(), width), (scenario.enclosures_m.clone(), 2.0 * width)] {
+        for line in lines_m.iter().filter_map(outline) {
+            stroke(pixmap, &line, &paint(palette::OBSTACLE_RIM, 1.0), &Stroke { width, ..rim.clone() }, None);
+        }
     }
     let outlines: Vec<Path> = header.scenario.obstacles_m.iter().filter_map(outline).collect();
     if outlines.is_empty() {

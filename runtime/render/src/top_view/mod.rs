@@ -2,8 +2,8 @@
 //!
 //! Enters: a recording, which holds its view. Leaves: pictures, or PNG or EXR files.
 //!
-//! Read `sequence`, then `playback` (poses between steps), `framing` and `frame`. The layers of a frame are `ground`,
-//! `doors`, `trails`, `shade` and `captions`. `frame_range` reads `--frames`.
+//! Read `sequence`, then `playback` (poses between steps), `framing` and `frame`. The layers of a frame are `ground`
+//! with `markings`, `doors`, `signals`, `trails`, `shade` and `captions`. `frame_range` reads `--frames`.
 
 pub(crate) mod captions;
 pub(crate) mod doors;
@@ -11,9 +11,11 @@ pub(crate) mod frame;
 pub(crate) mod frame_range;
 pub(crate) mod framing;
 pub(crate) mod ground;
+pub(crate) mod markings;
 pub(crate) mod playback;
 pub(crate) mod sequence;
 pub(crate) mod shade;
+pub(crate) mod signals;
 pub(crate) mod trails;
 
 pub use frame::{FrameBuffers, TopView};

@@ -3,5 +3,6 @@
 mod golden;
 mod overlay;
 mod plots;
+mod scene_ground;
 mod sequence;
 mod support;

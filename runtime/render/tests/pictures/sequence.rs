@@ -13,6 +13,7 @@ use fbcrowd_render::top_view::{PictureFormat, SequenceOptions, TopView, read_tra
 use fbcrowd_sim::recording::Recording;
 use fbcrowd_sim::scenario::View;
 
+use crate::scene_ground::marked;
 use crate::support::{self, Scratch};
 
 pub(crate) fn options(folder: &Path, format: PictureFormat, frames: Option<&str>) -> SequenceOptions {
@@ -76,7 +77,7 @@ fn strips_of_a_large_picture_are_the_whole() {
     let folder = scratch.path();
     // The first strip has 1360 rows.
     let view = View { width: 3072, height: 2051, frame_rate_hz: 20.0, trail_s: 1.0, labels: true, ..View::default() };
-    let header = support::circle(40, 3.4, view);
+    let header = marked(support::circle(40, 3.4, view));
     let path = folder.join("walkers.fbrec");
     support::write_steps(&path, &header, 16);
     let recording = Recording::open(&path).unwrap();

@@ -110,6 +110,11 @@ pub struct AgentState {
 }
 
 impl AgentState {
+    /// The area that it has for a goal.
+    pub fn goal_at(&self) -> Option<GoalRef> {
+        self.goal.map(|goal| goal.at)
+    }
+
     /// An agent that is about to enter a state for the first time.
     pub(crate) fn new(state: u32, traits: Traits, start_m: Vec2) -> Self {
         Self {

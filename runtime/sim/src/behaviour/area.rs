@@ -38,6 +38,14 @@ impl Area {
         Self::Polygon(vec![low_m, Vec2::new(high_m.x, low_m.y), high_m, Vec2::new(low_m.x, high_m.y)])
     }
 
+    /// The area at an offset.
+    pub(crate) fn moved(&self, by_m: Vec2) -> Self {
+        match self {
+            Self::Disc { centre_m, radius_m } => Self::Disc { centre_m: *centre_m + by_m, radius_m: *radius_m },
+            Self::Polygon(corners_m) => Self::Polygon(corners_m.iter().map(|&corner_m| corner_m + by_m).collect()),
+        }
+    }
+
     /// The corners of its outline, counter-clockwise, m; of a disc those of a polygon around it.
     pub fn outline_m(&self) -> Vec<Vec2> {
         match self {

@@ -24,7 +24,7 @@ pub enum Choice {
     Weighted,
     /// The nearest of a number of areas drawn by weight.
     NearestOf(u32),
-    /// The area with the least time to reach and pass it: route over speed, and agents before it over its width.
+    /// The area with the least time to reach and pass it: route over speed, and agents ahead over its width.
     LeastBusy,
 }
 
@@ -33,8 +33,8 @@ pub(crate) struct Options<'a> {
     pub(crate) set: &'a GoalSet,
     /// Indices of the areas with room, ascending.
     pub(crate) free: &'a [usize],
-    /// Number of agents that go or stand in each area of the set.
-    pub(crate) taken: &'a [u32],
+    /// Number of agents on a shorter route to an area, given the length of this agent's, m.
+    pub(crate) ahead: &'a dyn Fn(usize, f32) -> usize,
     /// Length of the route to an area, m; none where there is no route.
     pub(crate) route_m: &'a dyn Fn(usize) -> Option<f32>,
     /// Speed of the agent, m/s.
@@ -76,8 +76,9 @@ impl Options<'_> {
     /// Time until an agent that goes to an area has passed it, s; none where there is no route.
     pub(crate) fn time_s(&self, area: usize) -> Option<f32> {
         let width_m = self.set.areas[area].area.width_m().max(EXIT_WIDTH_MIN_M);
-        let waiting_s = self.taken[area] as f32 / (PASSING_PER_M_S * width_m);
-        Some((self.route_m)(area)? / self.speed_mps.max(f32::MIN_POSITIVE) + waiting_s)
+        let route_m = (self.route_m)(area)?;
+        let waiting_s = (self.ahead)(area, route_m) as f32 / (PASSING_PER_M_S * width_m);
+        Some(route_m / self.speed_mps.max(f32::MIN_POSITIVE) + waiting_s)
     }
 }
 
@@ -112,7 +113,7 @@ mod tests {
     use crate::behaviour::goals::GoalArea;
 
     /// Four exits of 1 m at 10, 20, 30 and 40 m; there is no route to the last.
-    fn chosen(choice: Choice, taken: [u32; 4], seed: u64) -> Option<usize> {
+    fn chosen(choice: Choice, ahead: [usize; 4], seed: u64) -> Option<usize> {
         let exit = |index: usize| GoalArea {
             area: Area::rectangle(Vec2::new(index as f32, 0.0), Vec2::new(index as f32 + 1.0, 0.2)),
             facing_rad: None,
@@ -121,7 +122,8 @@ mod tests {
         };
         let set = GoalSet { name: "exits".into(), areas: (0..4).map(exit).collect(), queue: false };
         let route_m = |area: usize| (area < 3).then_some(10.0 * (area + 1) as f32);
-        let options = Options { set: &set, free: &[0, 1, 2, 3], taken: &taken, route_m: &route_m, speed_mps: 1.0 };
+        let ahead = |area: usize, _| ahead[area];
+        let options = Options { set: &set, free: &[0, 1, 2, 3], ahead: &ahead, route_m: &route_m, speed_mps: 1.0 };
         choice.choose(&options, &mut SplitMix64::new(seed, 0))
     }
 

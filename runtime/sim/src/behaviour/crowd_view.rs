@@ -20,6 +20,9 @@ pub struct CrowdView<'a> {
     pub ids: &'a [AgentId],
     /// Present positions, m.
     pub positions_m: &'a [Vec2],
+    /// For each agent the index of the first present member of its group, its own of an agent without a group; empty
+    /// where no agent has a group.
+    pub leads: &'a [usize],
     /// Length of the route of an agent, by index, from a position to an area, m; none where there is no route.
     pub route_m: &'a (dyn Fn(usize, Vec2, GoalRef) -> Option<f32> + Sync),
     /// The same as with all doors open; none where no door is closed.

@@ -5,6 +5,9 @@ use crate::maths::random::SplitMix64;
 /// Streams of the behaviour in a seed; the scenario's agents and their starting phases use those below.
 const BEHAVIOUR_STREAMS: u64 = 1 << 40;
 
+/// Streams of the events in a seed.
+const EVENT_STREAMS: u64 = 1 << 41;
+
 /// What a number is drawn for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
@@ -18,6 +21,11 @@ pub(crate) enum Purpose {
     Duration(u32),
     /// The value of a setting, by its index in the state.
     Setting(u32),
+}
+
+/// The generator of the durations of an event, by index.
+pub(crate) fn event_random(seed: u64, event: usize) -> SplitMix64 {
+    SplitMix64::new(seed, EVENT_STREAMS + event as u64)
 }
 
 /// Who draws, and when.

@@ -1,9 +1,11 @@
 //! One step of the state machine of all agents: transitions, goals, aims. World, metres, seconds.
 //!
-//! 1. Count the agents in states and areas, and look at the signals, as the last step left them.
-//! 2. For each agent in the order of ids: take the first transition whose condition holds, until none holds. An agent
+//! 1. Count the agents in states and areas, and look at the signals, as the last step left them; let events happen.
+//! 2. For each agent in the order of ids: enter the state to which an event moves it; take the first transition whose condition holds, until none holds. An agent
 //!    that takes a hundred in one step ends them there, and the fault is kept.
 //! 3. Keep its goal up to date: move up in a queue, leave a busy exit for another, look again for a goal with room.
+//!
+//! Members of a group that are in the state of its first member do as that one does (`group_leads`).
 //!
 //! Rooms of goals change at once, so the order of ids decides which agent gets the last place. All else is read as it
 //! was when the step began.
@@ -12,11 +14,21 @@ use glam::Vec2;
 
 use crate::behaviour::agent_state::{AgentState, Traits};
 use crate::behaviour::area::Area;
+use crate::behaviour::condition::Facts;
 use crate::behaviour::crowd_view::{CrowdView, Moment};
-use crate::behaviour::deciding::Deciding;
+use crate::behaviour::draw::event_random;
+use crate::behaviour::event::{Event, SignalOrder};
+use crate::behaviour::machine::approach::Approach;
+use crate::behaviour::machine::deciding::{Deciding, TRANSITIONS_MAX};
+use crate::behaviour::machine::group_leads::GroupLeads;
 use crate::behaviour::occupancy::Occupancy;
 use crate::behaviour::state::{Behaviour, Movement};
 use crate::population::AgentId;
+
+mod approach;
+mod deciding;
+mod goal_keeping;
+mod group_leads;
 
 /// Distance from the end of a queue within which an agent joins it, m.
 const JOINS_QUEUE_M: f32 = 1.5;
@@ -32,6 +44,14 @@ pub struct EndlessTransitions {
     pub states: Vec<u32>,
 }
 
+impl EndlessTransitions {
+    fn new(agent: AgentId, time_s: f64, mut states: Vec<u32>) -> Self {
+        states.sort_unstable();
+        states.dedup();
+        Self { agent, time_s, states }
+    }
+}
+
 /// The state machine of all agents.
 #[derive(Clone, Debug, Default)]
 pub struct CrowdBehaviour {
@@ -43,6 +63,10 @@ pub struct CrowdBehaviour {
     pub waiting: Vec<u32>,
     /// The first transitions without end.
     pub endless: Option<EndlessTransitions>,
+    /// Whether each event has happened.
+    happened: Vec<bool>,
+    /// What events have made of each signal; empty before the first step.
+    orders: Vec<SignalOrder>,
     /// Teleports of the last step: the agent, and where it is afterwards, m.
     pub teleports: Vec<(AgentId, Vec2)>,
 }
@@ -76,26 +100,47 @@ impl CrowdBehaviour {
         });
     }
 
-    /// Whether a signal, by index, is green at a time, s: for conditions and doors.
-    pub fn is_green(&self, behaviour: &Behaviour, signal: usize, time_s: f64) -> bool {
-        behaviour.is_green(signal, time_s)
-    }
-
     /// One step.
     pub fn decide(&mut self, behaviour: &Behaviour, view: &CrowdView) {
+        let moved = self.happen(behaviour, view);
         let moment = self.moment(behaviour, view);
         let mut agents = std::mem::take(&mut self.agents);
         self.waiting = vec![0; behaviour.goals.len()];
         self.teleports.clear();
-        for (index, agent) in agents.iter_mut().enumerate().filter(|(index, _)| (view.has_begun)(*index)) {
-            let occupancy = &mut self.occupancy;
-            let mut deciding = Deciding { behaviour, view, index, agent, occupancy, teleported_m: None };
-            let states = deciding.follow_transitions(&moment);
-            self.teleports.extend(deciding.teleported_m.map(|position_m| (view.ids[index], position_m)));
-            if self.endless.is_none() && !states.is_empty() {
-                self.endless = Some(EndlessTransitions { agent: view.ids[index], time_s: view.time_s, states });
+        let mut leads = GroupLeads::new(behaviour, view, &agents);
+        let approach = &mut Approach::new(behaviour, view, &agents);
+        for index in (0..agents.len()).filter(|index| (view.has_begun)(*index)) {
+            let (before, agent) = agents.split_at_mut(index);
+            let agent = &mut agent[0];
+            let mut deciding = Deciding {
+                behaviour,
+                view,
+                index,
+                agent,
+                occupancy: &mut self.occupancy,
+                approach,
+                teleported_m: None,
+                followers: leads.followers(index),
+            };
+            for event in &moved {
+                deciding.be_moved(event);
             }
-            deciding.update_goal(&moment);
+            let lead_goal = match leads.followed_by(index) {
+                Some((lead, entered)) => {
+                    deciding.follow_lead(entered);
+                    before[lead].goal_at()
+                }
+                None => {
+                    let entered = deciding.follow_transitions(&moment);
+                    if self.endless.is_none() && entered.len() == TRANSITIONS_MAX {
+                        self.endless = Some(EndlessTransitions::new(view.ids[index], view.time_s, entered.clone()));
+                    }
+                    leads.note(index, entered);
+                    None
+                }
+            };
+            self.teleports.extend(deciding.teleported_m.map(|position_m| (view.ids[index], position_m)));
+            deciding.update_goal(&moment, lead_goal);
             let aim = deciding.aim();
             agent.has_new_aim = aim.position_m() != agent.aim.position_m();
             agent.aim = aim;
@@ -108,6 +153,44 @@ impl CrowdBehaviour {
         self.agents = agents;
     }
 
+    /// Whether a signal, by index, is green at a time: as events have ordered, else by its phases.
+    pub fn is_green(&self, behaviour: &Behaviour, signal: usize, time_s: f64) -> bool {
+        match self.orders.get(signal) {
+            Some(SignalOrder::Green) => true,
+            Some(SignalOrder::Red) => false,
+            Some(SignalOrder::Phases) | None => behaviour.signals[signal].is_green(time_s),
+        }
+    }
+
+    /// Lets the events happen whose conditions hold now for the first time. Returns those that move agents.
+    fn happen<'a>(&mut self, behaviour: &'a Behaviour, view: &CrowdView) -> Vec<&'a Event> {
+        self.happened.resize(behaviour.events.len(), false);
+        self.orders.resize(behaviour.signals.len(), SignalOrder::Phases);
+        if self.happened.iter().all(|happened| *happened) {
+            return Vec::new();
+        }
+        let moment = self.moment(behaviour, view);
+        let facts = Facts {
+            to_goal_m: None,
+            in_state_s: view.time_s,
+            at_head_s: None,
+            is_inside: &|_| false,
+            green: &moment.green,
+            numbers: &moment.numbers,
+            populations: &moment.populations,
+        };
+        let mut moved = Vec::new();
+        for (index, event) in behaviour.events.iter().enumerate() {
+            let random = &mut event_random(view.seed, index);
+            if !self.happened[index] && event.condition.holds(&facts, random) {
+                self.happened[index] = true;
+                event.signals.iter().for_each(|&(signal, order)| self.orders[signal] = order);
+                moved.extend(event.to.map(|_| event));
+            }
+        }
+        moved
+    }
+
     fn moment(&self, behaviour: &Behaviour, view: &CrowdView) -> Moment {
         let mut populations = vec![0; behaviour.states.len()];
         for agent in self.agents.iter().filter(|agent| agent.entries > 0) {
@@ -115,7 +198,7 @@ impl CrowdBehaviour {
         }
         let number = |area: &Area| view.positions_m.iter().filter(|&&position_m| area.holds(position_m)).count() as u32;
         Moment {
-            green: (0..behaviour.signals.len()).map(|signal| self.is_green(behaviour, signal, view.time_s)).collect(),
+            green: (0..behaviour.signals.len()).map(|index| self.is_green(behaviour, index, view.time_s)).collect(),
             numbers: behaviour.areas.iter().map(number).collect(),
             populations,
             joining: self.joining(behaviour, view),

@@ -8,19 +8,18 @@
 //! the order of agents nor the number of threads changes it.
 //!
 //! Read `state` (what a state is), `condition`, `goals` and `choice` (where an agent may go, and how it chooses); then
-//! `machine` (one step of all agents) with `crowd_view`, `deciding` and `goal_keeping` (one agent in it), `agent_state` and
-//! `occupancy` (what it remembers); then the nouns below: `area`, `distribution`, `signal`, `draw`. World, metres, seconds,
-//! radians.
+//! `machine` (one step of all agents) with `crowd_view`, `machine::deciding` and `machine::goal_keeping` (one agent in it),
+//! `machine::group_leads` (groups in it), `agent_state` and `occupancy` (what it remembers); then the nouns below: `area`,
+//! `distribution`, `signal`, `event`, `draw`. World, metres, seconds, radians.
 
 pub mod agent_state;
 pub mod area;
 pub(crate) mod choice;
 pub mod condition;
 pub mod crowd_view;
-mod deciding;
 pub mod distribution;
 pub(crate) mod draw;
-mod goal_keeping;
+pub mod event;
 pub mod goals;
 pub mod machine;
 pub mod occupancy;
@@ -33,6 +32,7 @@ pub use choice::Choice;
 pub use condition::{Bound, Condition};
 pub use crowd_view::CrowdView;
 pub use distribution::Distribution;
+pub use event::{Event, SignalOrder};
 pub use goals::{GoalArea, GoalSet};
 pub use machine::{CrowdBehaviour, EndlessTransitions};
 pub use signal::Signal;

@@ -7,6 +7,7 @@ use crate::behaviour::area::Area;
 use crate::behaviour::choice::Choice;
 use crate::behaviour::condition::Condition;
 use crate::behaviour::distribution::Distribution;
+use crate::behaviour::event::Event;
 use crate::behaviour::goals::{GoalArea, GoalSet};
 use crate::behaviour::signal::Signal;
 
@@ -24,6 +25,9 @@ pub struct Behaviour {
     pub signals: Vec<Signal>,
     /// The areas that conditions name.
     pub areas: Vec<Area>,
+    /// What happens once to many agents and signals.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<Event>,
 }
 
 /// A state.
@@ -144,7 +148,8 @@ impl State {
 impl Behaviour {
     /// Whether nothing is stated.
     pub fn is_empty(&self) -> bool {
-        self.states.is_empty() && self.goals.is_empty() && self.signals.is_empty() && self.areas.is_empty()
+        let Self { states, goals, signals, areas, events } = self;
+        states.is_empty() && goals.is_empty() && signals.is_empty() && areas.is_empty() && events.is_empty()
     }
 
     /// Whether a signal, by index, is green at a time, s. One that there is not is always green.

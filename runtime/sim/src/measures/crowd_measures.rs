@@ -162,6 +162,8 @@ impl Measuring {
             pairs.common.iter().map(|(before, after)| (before.root.position_m, after.root.position_m)).unzip();
         let radii_m: Vec<f32> = pairs.common.iter().map(|(_, after)| life(after).radius_m(frame)).collect();
         self.collisions.push(&radii_m, &before_m, &after_m);
+        let teleported = after.iter().filter(|agent| life(agent).is_teleported(frame));
+        teleported.for_each(|agent| self.slide.lift(agent.id.index()));
         follow_feet(&mut self.slide, &self.roots, after, &self.joints);
         self.roots.push(population, &pairs);
         self.states.push(after);

@@ -104,6 +104,13 @@ impl PlantedSlide {
         }
     }
 
+    /// Ends the contacts of an agent that is moved at once before its next frame.
+    pub fn lift(&mut self, index: usize) {
+        for track in self.feet.get_mut(index).map(std::mem::take).into_iter().flatten() {
+            self.count(&track.finish(self.dt_s));
+        }
+    }
+
     /// The measures after the last frame.
     pub fn finish(mut self) -> FootSlide {
         for track in std::mem::take(&mut self.feet).into_iter().flatten() {

@@ -4,6 +4,7 @@
 use glam::Vec2;
 
 use crate::route::crowd_routes::{CrowdRoutes, NextCorner, RouteMemory};
+use crate::route::mesh::RouteError;
 use crate::scenario::Scenario;
 use crate::world::obstacles::Obstacles;
 
@@ -45,9 +46,11 @@ pub struct ClosedDoors<'a> {
 
 impl DoorRoutes {
     /// Routes with all doors open.
-    pub(crate) fn new(scenario: &Scenario) -> Self {
-        // Coordinates are in range in every checked scenario; without a mesh, agents walk straight.
-        Self { all_open: CrowdRoutes::new(scenario).unwrap_or_default(), ..Self::default() }
+    ///
+    /// # Errors
+    /// Where the walls give no mesh.
+    pub(crate) fn new(scenario: &Scenario) -> Result<Self, RouteError> {
+        Ok(Self { all_open: CrowdRoutes::new(scenario)?, ..Self::default() })
     }
 
     /// The routes through the doors that are open now.

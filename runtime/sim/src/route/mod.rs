@@ -24,6 +24,7 @@
 //! # }
 //! ```
 
+pub(crate) mod area_reach;
 pub(crate) mod arrival;
 pub mod crowd_routes;
 pub(crate) mod door_routes;

@@ -5,6 +5,7 @@
 
 use glam::{DVec2, Vec2};
 
+use crate::route::area_reach::check_areas;
 use crate::route::arrival::ARRIVAL_M;
 use crate::route::crowd_routes::MeshClass;
 use crate::route::mesh::{ClosedPassage, RouteMesh, closed_passages};
@@ -25,7 +26,7 @@ pub struct ClosedToAgents {
     pub passages: Vec<ClosedPassage>,
 }
 
-/// Checks that every agent starts on free ground, and that routes lead to its goals.
+/// Checks that every agent starts on free ground, and that routes lead to its goals and to the areas of all goals.
 ///
 /// # Errors
 /// The first agent or source without a start or a route.
@@ -51,7 +52,7 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
         check_start(&part, &agent, &walls)?;
         check_goals(&part, &agent, mesh, scenario)?;
     }
-    Ok(())
+    check_areas(scenario, &walls, &meshes)
 }
 
 /// The passages that are closed, for every class of wall radii among the agents; none without walls.

@@ -3,6 +3,8 @@
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+use crate::scenario::social_group::GroupMember;
+
 /// Default radius of a disc, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected
 /// trunk; also the radius in the protocol of Table 1's scenes (`assets/scenarios/table1`).
 pub(crate) const RADIUS_M: f32 = 0.25;
@@ -36,6 +38,9 @@ pub struct AgentSpec {
     /// Time for which the agent stands after its birth before it begins, s.
     #[serde(default, skip_serializing_if = "is_0")]
     pub pre_movement_s: f32,
+    /// The group with which the agent walks; none: alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<GroupMember>,
     /// The zones that the agent does not enter: bit k stands for the k-th zone that is closed to some agents.
     #[serde(default, skip_serializing_if = "enters_all")]
     pub closed_zones: u32,
@@ -86,6 +91,7 @@ impl Default for AgentSpec {
             state: 0,
             pre_movement_s: 0.0,
             closed_zones: 0,
+            group: None,
         }
     }
 }

@@ -49,8 +49,14 @@ pub enum ScenarioPart {
     Area(usize),
     /// A signal, by index.
     Signal(usize),
+    /// An event, by index.
+    Event(usize),
     /// A `[[measure]]` table, by index.
     Measure(usize),
+    /// A marking, by index.
+    Marking(usize),
+    /// A label, by index.
+    Label(usize),
     /// A zone, by index.
     Zone(usize),
     /// All agents together.

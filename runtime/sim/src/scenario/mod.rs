@@ -3,38 +3,39 @@
 //! Enters: a scenario file ([`file`](mod@file)), or agents made in code. Leaves: a [`Scenario`] in which every agent is
 //! explicit, every number is in range and no path occurs.
 //!
-//! Read `resolved` (the scenario) with `walls`, `door`, `agent_spec`, `source_spec`, `profile`, `measure_spec`,
-//! `zone_spec`, `coupling` and `view`; then `rules` and `ranges`, `fault` and `error` (how a broken rule is shown); then
+//! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `profile`, `social_group`,
+//! `places` (zones, doors, markings, measured lines and areas), `coupling` and `view`; then `rules` and `ranges`, `fault` and `error` (how a broken rule is shown); then
 //! [`file`](mod@file).
 
 pub(crate) mod agent_spec;
 pub(crate) mod coupling;
-pub(crate) mod door;
 pub(crate) mod error;
 pub(crate) mod fault;
 pub mod file;
-pub(crate) mod measure_spec;
+pub(crate) mod places;
 mod point;
 pub(crate) mod profile;
 pub(crate) mod ranges;
 pub(crate) mod resolved;
 pub(crate) mod rules;
+pub(crate) mod social_group;
 pub(crate) mod source_spec;
 pub(crate) mod view;
 pub(crate) mod walls;
-pub(crate) mod zone_spec;
 
 pub use agent_spec::{AgentSpec, AtGoal, WALL_RADIUS_M};
 pub use coupling::Coupling;
-pub use door::DoorSpec;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};
-pub use measure_spec::{MeasureSpec, MeasuredPlace};
+pub use places::door::DoorSpec;
+pub use places::marking::{Marking, MarkingColour, MarkingShape, PlaceLabel};
+pub use places::measure_spec::{MeasureSpec, MeasuredPlace};
+pub use places::zone_spec::ZoneSpec;
 pub use profile::{DrawnNumbers, Profile};
 pub use ranges::{STEP_RANGE_S, check_view};
 pub use resolved::Scenario;
 pub use rules::check;
+pub use social_group::{GroupMember, GroupSizes};
 pub use source_spec::{DueTimes, SourceSpec};
 pub use view::View;
-pub use zone_spec::ZoneSpec;

@@ -9,6 +9,7 @@ use crate::params::Params;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::resolved::Scenario;
+use crate::scenario::social_group::GroupSizes;
 use crate::scenario::view::View;
 
 /// Greatest length of a name, bytes: with a frame number and an ending it still names a file.
@@ -26,6 +27,8 @@ pub(crate) const RADIUS_M: RangeInclusive<f32> = 0.1..=1.0;
 pub(crate) const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
 /// Time for which an agent stands before it begins, s: up to a day.
 pub(crate) const PRE_MOVEMENT_S: RangeInclusive<f32> = 0.0..=86_400.0;
+/// Distance between members of a group that walk abreast, m: from shoulder to shoulder to two arms apart.
+const GROUP_SPACING_M: RangeInclusive<f32> = 0.4..=3.0;
 /// Facing, degrees: up to ten turns either way.
 const FACING_DEG: RangeInclusive<f32> = -3_600.0..=3_600.0;
 /// Greatest number of agents: ten times the largest crowd that other simulators show.
@@ -142,6 +145,7 @@ pub(crate) fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), Scenari
     within(journey, "the number of goals", agent.goals_m.len(), &(least..=GOALS_MAX), help)?;
     check_facing(part, agent.facing_rad)?;
     within(part, "pre_movement_s", agent.pre_movement_s, &PRE_MOVEMENT_S, REMOVE)?;
+    agent.group.map_or(Ok(()), |group| check_spacing(part, group.spacing_m))?;
     check_disc_and_speed(part, agent.radius_m, agent.wall_radius_m, agent.preferred_speed_mps)
 }
 
@@ -162,6 +166,20 @@ pub(crate) fn check_disc_and_speed(
     within(part, "wall_radius_m", wall_radius_m, &(*RADIUS_M.start()..=radius_m), help)?;
     let help = "people walk at about 1.3 m/s; an agent that stands has its start as its goal";
     within(part, "preferred_speed_mps", preferred_speed_mps, &SPEED_MPS, help)
+}
+
+/// Checks the distance between members.
+pub(crate) fn check_spacing(part: &ScenarioPart, spacing_m: f32) -> Result<(), ScenarioFault> {
+    within(part, "group_spacing_m", spacing_m, &GROUP_SPACING_M, "give the distance between two members in metres")
+}
+
+/// Checks the sizes of groups.
+pub(crate) fn check_sizes(part: &ScenarioPart, sizes: &GroupSizes) -> Result<(), ScenarioFault> {
+    const HELP: &str = "give shares of 0 or more, one of them above 0, as in `groups = { 1 = 0.6, 2 = 0.4 }`";
+    let sum: f32 = sizes.shares.iter().sum();
+    within(part, "the sum of the shares in `groups`", sum, &(f32::MIN_POSITIVE..=f32::MAX), HELP)?;
+    sizes.shares.iter().try_for_each(|&share| within(part, "a share in `groups`", share, &(0.0..=f32::MAX), HELP))?;
+    check_spacing(part, sizes.spacing_m)
 }
 
 pub(crate) fn check_points(part: &ScenarioPart, points_m: &[Vec2]) -> Result<(), ScenarioFault> {

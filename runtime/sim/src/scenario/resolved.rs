@@ -9,11 +9,12 @@ use crate::planning::planner::Planner;
 use crate::route::mesh::WalkablePolygon;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::coupling::Coupling;
-use crate::scenario::door::DoorSpec;
-use crate::scenario::measure_spec::MeasureSpec;
+use crate::scenario::places::door::DoorSpec;
+use crate::scenario::places::marking::{Marking, PlaceLabel};
+use crate::scenario::places::measure_spec::MeasureSpec;
+use crate::scenario::places::zone_spec::ZoneSpec;
 use crate::scenario::source_spec::SourceSpec;
 use crate::scenario::view::View;
-use crate::scenario::zone_spec::ZoneSpec;
 use crate::synthesis::Modes;
 
 /// Default time step, s: a film's.
@@ -83,6 +84,12 @@ pub struct Scenario {
     /// Polygons on which agents can walk, united; the ground is open where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub walkable_m: Vec<WalkablePolygon>,
+    /// Markings of the ground, the lowest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub markings: Vec<Marking>,
+    /// Texts at places.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub labels: Vec<PlaceLabel>,
     /// Tunables.
     pub params: Params,
     /// How the top view frames the scene.
@@ -130,9 +137,17 @@ impl Scenario {
             doors: Vec::new(),
             enclosures_m: Vec::new(),
             walkable_m: Vec::new(),
+            markings: Vec::new(),
+            labels: Vec::new(),
             params: Params::default(),
             view: View::default(),
         }
+    }
+
+    /// Whether any agent is in a group, or any source's may be.
+    pub(crate) fn has_groups(&self) -> bool {
+        self.agents.iter().any(|agent| agent.group.is_some())
+            || self.sources.iter().any(|source| source.groups.is_some())
     }
 
     /// The syntheses that bodies may use. Bodies that follow a path planned before them only blend.

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::{AgentSpec, AtGoal, enters_all, follows_path, is_0};
 use crate::scenario::profile::{DrawnNumbers, Profile};
+use crate::scenario::social_group::GroupSizes;
 
 /// First random stream of the sources' due times; the scenario and the starting phases use those below.
 const DUE_STREAM: u64 = 1 << 34;
@@ -16,6 +17,8 @@ const DUE_STREAM: u64 = 1 << 34;
 const POSITION_STREAM: u64 = 1 << 35;
 /// First random stream of the numbers of agents; a source takes 2^20, a stream for each agent.
 const NUMBER_STREAM: u64 = 1 << 37;
+/// First random stream of the sizes of groups.
+const GROUP_STREAM: u64 = 1 << 39;
 
 /// A source of agents.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,6 +61,9 @@ pub struct SourceSpec {
     /// Zones that the agents do not enter, by bits as in [`AgentSpec`].
     #[serde(default, skip_serializing_if = "enters_all")]
     pub closed_zones: u32,
+    /// Sizes of the groups in which agents appear; none: each alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub groups: Option<GroupSizes>,
 }
 
 impl SourceSpec {
@@ -77,6 +83,7 @@ impl SourceSpec {
             state: self.state,
             pre_movement_s: self.pre_movement_s,
             closed_zones: self.closed_zones,
+            group: None,
         }
     }
 
@@ -117,6 +124,11 @@ impl SourceSpec {
     /// The generator of the positions at which the source with this index places its agents.
     pub(crate) fn positions(seed: u64, index: usize) -> SplitMix64 {
         SplitMix64::new(seed, POSITION_STREAM + index as u64)
+    }
+
+    /// The generator of the sizes of the groups of the source with this index.
+    pub(crate) fn group_sizes(seed: u64, index: usize) -> SplitMix64 {
+        SplitMix64::new(seed, GROUP_STREAM + index as u64)
     }
 
     /// A position in the area, uniformly distributed, world, m.
@@ -174,6 +186,7 @@ mod tests {
             pre_movement_s: 0.0,
             profiles: Vec::new(),
             closed_zones: 0,
+            groups: None,
         }
     }
 

@@ -6,9 +6,9 @@ use glam::Vec2;
 
 use crate::behaviour::Area;
 use crate::route::mesh::{Ground, walkable_contours_m};
+use crate::scenario::places::zone_spec::ZoneSpec;
 use crate::scenario::resolved::Scenario;
 use crate::scenario::source_spec::SourceSpec;
-use crate::scenario::zone_spec::ZoneSpec;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
 
 impl Scenario {
@@ -98,15 +98,21 @@ impl Scenario {
         Ground { obstacles_m, enclosures_m: &self.enclosures_m, walkable_m: &self.walkable_m, points_m }
     }
 
-    /// Corners of all polygons of the scene, for pictures, m.
+    /// Corners of all walls of the scene, for pictures, m.
     pub fn corners_m(&self) -> impl Iterator<Item = Vec2> + '_ {
         let walkable = self.walkable_m.iter().flat_map(|polygon| &polygon.outline_m);
         let doors = self.doors.iter().flat_map(|door| &door.polygon_m);
         self.obstacles_m.iter().chain(&self.enclosures_m).flatten().chain(walkable).chain(doors).copied()
     }
 
-    /// Closed lines of the walls that are no obstacle: enclosures and the edges of the walkable ground, m.
-    pub fn wall_lines_m(&self) -> Vec<Vec<Vec2>> {
-        [self.enclosures_m.clone(), walkable_contours_m(&self.walkable_m).unwrap_or_default()].concat()
+    /// Closed lines around the walkable ground and its holes, m; none where the ground is open.
+    pub fn ground_lines_m(&self) -> Vec<Vec<Vec2>> {
+        // Coordinates are in range in every checked scenario.
+        walkable_contours_m(&self.walkable_m).unwrap_or_default()
+    }
+
+    /// Areas of the sets of goals, for pictures.
+    pub fn goal_areas(&self) -> impl Iterator<Item = &Area> {
+        self.behaviour.goals.iter().flat_map(|set| &set.areas).map(|goal| &goal.area)
     }
 }

@@ -300,6 +300,35 @@ fn one_two_and_four_threads_give_equal_bits() {
 }
 
 #[test]
+fn teleports_are_no_slide_of_planted_feet() {
+    const PERIODIC: &str = "
+        [areas.end]
+        rect_m = [4, -1, 9, 1]
+        [states.walk]
+        walk_mps = [1.2, 0]
+        then = [{ when = { inside = 'end' }, to = 'jump' }]
+        [states.jump]
+        stand = {}
+        set = { teleport = { point_m = [-4, 0] } }
+        then = [{ to = 'walk' }]
+        [[agents]]
+        at_m = [0, 0]
+        state = 'walk'
+    ";
+    let scenario = scenario(PERIODIC);
+    let mut simulation = started(&scenario);
+    let skeleton = simulation.database().skeleton.clone();
+    let mut measuring = Measuring::new(&skeleton, &scenario, simulation.population(), simulation.frames());
+    for _ in 0..600 {
+        simulation.step(&mut |_| {});
+        measuring.push(simulation.population(), simulation.frames());
+    }
+    assert!(simulation.population().agents[0].teleports.len() >= 3);
+    let slide_cm_s = measuring.finish(simulation.population()).planted_slide_cm_s;
+    assert!(slide_cm_s.is_some_and(|slide_cm_s| slide_cm_s < 2.0), "{slide_cm_s:?}");
+}
+
+#[test]
 fn a_teleported_body_stands_where_it_was_moved() {
     let mut jumps = 0;
     run(CHANGES, |simulation, time_s| {

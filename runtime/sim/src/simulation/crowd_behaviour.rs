@@ -27,9 +27,10 @@ impl Simulation {
 
     /// Lets every agent decide what it wants, from positions as the last step left them.
     pub(super) fn decide(&mut self) {
+        let leads = if self.has_groups { self.walking_groups().leads(self.agents.count()) } else { Vec::new() };
         let Self { scenario, agents, population, obstacles, zone_walls, routes, doors, crowd, steps, .. } = self;
         let behaviour = &scenario.behaviour;
-        if behaviour.states.is_empty() {
+        if behaviour.states.is_empty() && behaviour.events.is_empty() {
             return;
         }
         let to_area_m = |routes: &CrowdRoutes, index: usize, from_m: Vec2, at: GoalRef| {
@@ -43,6 +44,7 @@ impl Simulation {
             seed: scenario.seed,
             ids: &agents.ids,
             positions_m: &agents.positions_m,
+            leads: &leads,
             route_m: &|index, from_m, at| to_area_m(routes.present(), index, from_m, at),
             open_route_m: doors.is_any_red().then_some(&open_route_m),
             path_end_m: &|index| path_end_m(agents, population, index),

@@ -210,6 +210,7 @@ fn a_source_has_no_room_in_a_closed_door() {
         pre_movement_s: 0.0,
         profiles: Vec::new(),
         closed_zones: 0,
+        groups: None,
     };
     let scenario = Scenario { sources: vec![source], ..rooms(&[([-0.6, 0.6], opens_at(10.0))], Vec::new()) };
     let simulation = walk(&scenario, 15.0, &mut |_| {});
@@ -264,4 +265,41 @@ fn threads_change_nothing() {
     let one = run(1);
     assert!(one == run(2) && one == run(4));
     assert!(one.1.doors.iter().any(|door| door.changes.len() > 2));
+}
+
+#[test]
+fn an_event_opens_a_door() {
+    const ALARM: &str = "duration_s = 20
+        [signals.gate]
+        green_s = 0
+        red_s = 1
+        [events.alarm]
+        when = { after_s = 6 }
+        signals = { gate = 'green' }
+        [[obstacles]]
+        polygon_m = [[0, -9], [0.2, -9], [0.2, -0.6], [0, -0.6]]
+        [[obstacles]]
+        polygon_m = [[0, 0.6], [0.2, 0.6], [0.2, 9], [0, 9]]
+        [[obstacles]]
+        polygon_m = [[0.05, -0.6], [0.15, -0.6], [0.15, 0.6], [0.05, 0.6]]
+        open = 'gate'
+        [[walkable]]
+        polygon_m = [[-6, -5], [6, -5], [6, 5], [-6, 5]]
+        [[agents]]
+        grid = { columns = 2, rows = 2, spacing_m = 1, centre_m = [-3, 0] }
+        goal_offset_m = [6, 0]
+    ";
+    let source = SourceText { path: PathBuf::from("alarm.toml"), text: ALARM.to_owned() };
+    let scenario = parse(&source).unwrap().0;
+    let mut simulation = Simulation::new(Arc::new(test_db()), &scenario);
+    let mut passed_at_6_s = 0;
+    for step in 1..=scenario.steps() {
+        simulation.step(&mut |_| {});
+        let passed = simulation.frames().iter().filter(|frame| frame.root.position_m.x > 0.2).count();
+        if step == 180 {
+            passed_at_6_s = passed;
+        }
+        assert!(step < scenario.steps() || passed == 4, "{passed} passed");
+    }
+    assert_eq!(passed_at_6_s, 0);
 }

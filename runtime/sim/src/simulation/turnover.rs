@@ -1,6 +1,8 @@
 //! Agents that come and go between two steps. Removals come first in a step, births last, so the frames before and after
 //! a step both show exactly the agents that were planned in it. World, metres, seconds.
 
+use glam::Vec2;
+
 use crate::agents::Removal;
 use crate::population::{AgentId, AgentLife};
 use crate::route::arrival::is_at_goal;
@@ -94,20 +96,36 @@ impl Simulation {
         }
     }
 
-    /// Places one agent of a source where there is room. Returns whether there is.
+    /// Places one agent of a source where there is room, near the first member of its group. Returns whether there is.
     fn place_agent_of(&mut self, source: usize) -> bool {
         let born = self.population.sources[source].born;
         let spec = self.scenario.sources[source].drawn(self.scenario.seed, source, born);
         let tries = if spec.low_m == spec.high_m { 1 } else { TRIES };
+        let group = self.sources[source].group_of_next(AgentId::from(self.population.agents.len()));
+        let first = group.and_then(|group| self.population.agents.get(group.first as usize));
+        let (first_m, first_begins_s) = match first {
+            Some(first) => (Some(first.spec.position_m), first.spec.pre_movement_s),
+            None => (None, spec.pre_movement_s),
+        };
+        let mut nearest: Option<Vec2> = None;
         for _ in 0..tries {
             let position_m = spec.position_m(&mut self.sources[source].positions);
-            let agent = spec.agent(position_m);
-            if self.has_room(&agent) {
-                self.bear(agent, Some(source as u32));
-                return true;
+            let is_nearer = match (nearest, first_m) {
+                (Some(nearest_m), Some(first_m)) => first_m.distance(position_m) < first_m.distance(nearest_m),
+                _ => true,
+            };
+            if is_nearer && self.has_room(&spec.agent(position_m)) {
+                nearest = Some(position_m);
+                if first_m.is_none() {
+                    break;
+                }
             }
         }
-        false
+        let Some(position_m) = nearest else { return false };
+        self.sources[source].has_appeared(group);
+        let agent = AgentSpec { group, pre_movement_s: first_begins_s, ..spec.agent(position_m) };
+        self.bear(agent, Some(source as u32));
+        true
     }
 
     /// Whether the discs of an agent overlap neither a present agent nor a wall.
@@ -126,6 +144,7 @@ impl Simulation {
     /// Appends an agent with the next id.
     fn bear(&mut self, spec: AgentSpec, source: Option<u32>) -> AgentId {
         let id = AgentId::from(self.population.agents.len());
+        self.has_groups |= spec.group.is_some();
         Self::add_behaviour(&mut self.crowd, &self.scenario, &spec);
         self.agents.push(id, &spec, self.scenario.seed, self.scenario.coupling, &self.context);
         self.population.agents.push(AgentLife::new(spec, source, self.steps));

@@ -86,8 +86,13 @@ pub(crate) fn scenario((path, text): ScenarioFile) -> Result<Scenario, BenchErro
     scenario_of_text(path, text.to_owned())
 }
 
+/// The scenario of a file that states no seed, with a seed.
+pub(crate) fn seeded((path, text): ScenarioFile, seed: u64) -> Result<Scenario, BenchError> {
+    scenario_of_text(path, format!("seed = {seed}\n{text}"))
+}
+
 /// The scenario of a text; `path` is for messages.
-pub(crate) fn scenario_of_text(path: &str, text: String) -> Result<Scenario, BenchError> {
+fn scenario_of_text(path: &str, text: String) -> Result<Scenario, BenchError> {
     let (scenario, _) = scenario::parse(&SourceText { path: PathBuf::from(path), text })?;
     Ok(scenario)
 }

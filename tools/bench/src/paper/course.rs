@@ -1,5 +1,5 @@
 //! `fbcrowd bench course`: the paper's obstacle course (§7.1), narrow passages with sharp turns, by motion blending
-//! alone, by semi-procedural locomotion alone and by both.
+//! alone, by semi-procedural locomotion alone and by both. The agent finds its way by routes, without waypoints.
 //!
 //! The paper's claim: blending collides in tight corners, semi-procedural locomotion looks mechanical, and hybrid
 //! synthesis does neither. Each walks the course at several speeds, because each meets a corner in another phase of the
@@ -32,7 +32,7 @@ use crate::kit::report::{BenchReport, Criterion};
 use crate::kit::scenario_run::{ScenarioFile, create_parent, scenario, scenario_file, step_count};
 use crate::kit::threads::run_each_on_one_thread;
 
-const COURSE: ScenarioFile = scenario_file!("course.toml");
+const COURSE: ScenarioFile = scenario_file!("obstacle_course.toml");
 
 /// A synthesis by name: its kinds of locomotion, and the transition between them.
 type CourseSynthesis = (&'static str, Modes, Transition);

@@ -1,29 +1,29 @@
-//! A test of a crowd: its scenario, its criterion, and the measures that both have in common. World, metres, seconds.
+//! A test of a crowd: its scenarios, its criterion, and the measures that tests have in common. World, metres, seconds.
 
-use fbcrowd_sim::measures::Gate;
+use fbcrowd_sim::measures::{EgressMeasures, Gate, Passages};
+use fbcrowd_sim::scenario::Scenario;
 use glam::Vec2;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::error::BenchError;
 use crate::kit::report::Criterion;
-use crate::kit::scenario_run::{ScenarioFile, ScenarioRun};
+use crate::kit::scenario_run::{ScenarioFile, ScenarioRun, scenario};
 
 /// A test: what is simulated, and how it is judged.
 pub(crate) struct CrowdCase {
-    /// Name of the test.
+    /// Name of the test among the arguments of the bench.
+    pub(crate) key: &'static str,
+    /// What the test shows.
     pub(crate) test: &'static str,
-    /// The scenario.
-    pub(crate) file: ScenarioFile,
     /// The criterion in words.
     pub(crate) criterion: &'static str,
-    /// Angles by which the scenario is turned about the origin; it is simulated once for each, degrees.
-    pub(crate) turned_deg: &'static [f32],
-    /// Judges the runs, one for each angle.
+    /// The scenarios that are simulated.
+    pub(crate) scenarios: fn() -> Result<Vec<Scenario>, BenchError>,
+    /// Judges the runs of the scenarios, in their order.
     pub(crate) judge: fn(&[ScenarioRun]) -> CaseOutcome,
 }
 
-/// A scenario that is simulated once, without a turn.
-pub(crate) const UNTURNED: &[f32] = &[0.0];
 /// Greatest overlap of two discs, or of a disc and a wall, that touch: rounding of positions, m.
 pub(crate) const TOUCH_M: f64 = 1e-3;
 
@@ -41,6 +41,11 @@ pub struct CaseFigure {
 pub(crate) struct CaseOutcome {
     pub(crate) figures: Vec<CaseFigure>,
     pub(crate) criteria: Vec<Criterion>,
+}
+
+/// Scenarios of files, each once.
+pub(crate) fn of_files(files: &[ScenarioFile]) -> Result<Vec<Scenario>, BenchError> {
+    files.iter().map(|file| scenario(*file)).collect()
 }
 
 /// A measure by name.
@@ -66,4 +71,20 @@ pub(crate) fn speed_mps(agent: usize, gates: &[Gate; 2], apart_m: f64) -> Option
 pub(crate) fn overlap_m(run: &ScenarioRun) -> Option<f64> {
     let reach_m = 2.0 * f64::from(run.scenario.agents[0].radius_m);
     run.measures.minimum_separation_m.map(|separation_m| (reach_m - separation_m).max(0.0))
+}
+
+/// The forward passages over a line that the scenario measures.
+pub(crate) fn passages<'a>(run: &'a ScenarioRun, line: &str) -> Option<&'a Passages> {
+    let place = run.measures.places.iter().find(|place| place.name == line)?;
+    Some(&place.line.as_ref()?.forward)
+}
+
+/// The egress that the scenario measures.
+pub(crate) fn egress(run: &ScenarioRun) -> Option<&EgressMeasures> {
+    run.measures.places.iter().find_map(|place| place.egress.as_ref())
+}
+
+/// Time at which the last agent left; none where one remains.
+pub(crate) fn all_out_s(run: &ScenarioRun) -> Option<f64> {
+    egress(run).filter(|egress| egress.remaining == 0)?.last_s
 }

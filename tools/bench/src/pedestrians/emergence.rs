@@ -19,7 +19,7 @@ use crate::kit::args::{DatabaseArg, PlotsArg, SeedsArg};
 use crate::kit::database::database;
 use crate::kit::planner_comparison::{ComparedPlanner, MCN, ORCA, SOCIAL_FORCE};
 use crate::kit::report::{BenchReport, Criterion};
-use crate::kit::scenario_run::{ScenarioFile, ScenarioRun, draw_paths, run_scenarios, scenario_of_text};
+use crate::kit::scenario_run::{ScenarioRun, draw_paths, run_scenarios, seeded};
 use crate::kit::statistics::Spread;
 use crate::pedestrians::bottleneck::{BOTTLENECK, DoorFigures};
 use crate::pedestrians::two_way_flow::{LaneFigures, TWO_WAY_FLOW};
@@ -84,7 +84,7 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     for planner in &PLANNERS {
         for file in [TWO_WAY_FLOW, BOTTLENECK] {
             for &seed in seeds {
-                scenarios.push(seeded(file, planner, seed)?);
+                scenarios.push(Scenario { planner: planner.planner, ..seeded(file, seed)? });
             }
         }
     }
@@ -99,12 +99,6 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     let criteria = planners.first().map(criteria).unwrap_or_default();
     let details = Details { planners };
     Ok(BenchReport { text: text(&details, seeds.len()), details, goals: Vec::new(), criteria })
-}
-
-/// A scenario file with a planner and a seed.
-fn seeded((path, text): ScenarioFile, planner: &ComparedPlanner, seed: u64) -> Result<Scenario, BenchError> {
-    let scenario = scenario_of_text(path, format!("seed = {seed}\n{text}"))?;
-    Ok(Scenario { planner: planner.planner, ..scenario })
 }
 
 /// Draws the paths of the first seed in both scenes.

@@ -5,6 +5,7 @@ use std::path::Path;
 use fbcrowd_render::plots::crowd::{FundamentalDiagram, fundamental_diagram};
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_sim::measures::{MeasuredSection, weidmann_mps};
+use fbcrowd_sim::scenario::MeasuredPlace;
 use glam::Vec2;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -19,20 +20,14 @@ pub(crate) const DIAGRAM_SCENARIO: &str = "04_fundamental_diagram";
 /// Greatest difference from Weidmann's curve, m/s. Between 0.5 and 3 people/m² the lines of Fruin 1971 (1.43 − 0.35 ρ)
 /// and of the SFPE handbook (1.40 − 0.372 ρ) lie up to 0.12 from it; the short measurement adds a little.
 const TOLERANCE_MPS: f64 = 0.15;
-/// Start and end of the measured section of each corridor, m.
-const SECTION_M: [f32; 2] = [-3.0, 3.0];
 /// Start and end of the measurement, s.
 const SECTION_TIME_S: [f64; 2] = [5.0, 12.0];
-/// Distance between the middles of two corridors, m.
-const CORRIDORS_APART_M: f32 = 15.0;
-/// Widths of the corridors in the file's order, m.
-const CORRIDOR_WIDTHS_M: [f32; 6] = [4.242, 4.0, 4.08, 4.242, 3.792, 4.039];
 /// Densities at which the curve begins and ends in the picture, 1/m².
-const DRAWN_PER_M2: [f64; 2] = [0.2, 3.4];
+const DRAWN_PER_M2: [f64; 2] = [0.2, 3.9];
 /// Number of pieces of the curve in the picture.
 const DRAWN_PIECES: usize = 64;
 
-/// A point of the fundamental diagram: one corridor.
+/// A point of the fundamental diagram: one measured place of a corridor.
 #[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
 pub struct DiagramPoint {
     /// Density, agents per square metre.
@@ -43,15 +38,13 @@ pub struct DiagramPoint {
     pub weidmann_mps: f64,
 }
 
-/// Density and speed in the measured section of each corridor.
+/// Density and speed in each place that the scenario measures.
 pub(crate) fn diagram_points(run: &ScenarioRun) -> Vec<DiagramPoint> {
-    let corridors = CORRIDOR_WIDTHS_M.iter().enumerate();
-    let sections = corridors.map(|(index, width_m)| {
-        let [from_m, to_m] = SECTION_M;
-        let (middle_m, half_m) = (CORRIDORS_APART_M * index as f32, 0.5 * width_m);
-        MeasuredSection::new(Vec2::new(from_m, middle_m - half_m), Vec2::new(to_m, middle_m + half_m))
+    let areas = run.scenario.measures.iter().filter_map(|measure| match &measure.place {
+        MeasuredPlace::Area(area) => Some(area.bounds_m()),
+        _ => None,
     });
-    let mut sections: Vec<MeasuredSection> = sections.collect();
+    let mut sections: Vec<MeasuredSection> = areas.map(|[low_m, high_m]| MeasuredSection::new(low_m, high_m)).collect();
     let [from_s, to_s] = SECTION_TIME_S;
     for step in run.steps().filter(|step| (from_s..=to_s).contains(&step.end_s)) {
         sections.iter_mut().for_each(|section| section.push(&step.before_m, &step.after_m, run.dt_s()));

@@ -1,10 +1,12 @@
 //! Tests beside the guideline's: an agent overtakes another that stands, agents stop one behind the other, and a whole
 //! scene is turned. World, metres, seconds.
 
+use fbcrowd_sim::scenario::Scenario;
 use glam::Vec2;
 
+use crate::error::BenchError;
 use crate::kit::report::Criterion;
-use crate::kit::scenario_run::ScenarioRun;
+use crate::kit::scenario_run::{self, ScenarioRun, scenario, scenario_file};
 use crate::pedestrians::case::{CaseOutcome, TOUCH_M, figure, overlap_m};
 
 /// Overtaking: greatest length of the path, divided by the straight line. A body's width aside over 10 m makes 1.003, a
@@ -20,7 +22,7 @@ const TURNED_M: f64 = 1e-3;
 /// A scene turned: greatest difference of the mean times to goal, as a share.
 const TURNED_TIME: f64 = 0.01;
 /// A scene turned: the angles, the first of which leaves it as it is, degrees.
-pub(crate) const TURNED_DEG: &[f32] = &[0.0, 37.0, 90.0, 211.0];
+const TURNED_DEG: [f32; 4] = [0.0, 37.0, 90.0, 211.0];
 
 /// One agent overtakes another that stands.
 pub(crate) fn overtaking(runs: &[ScenarioRun]) -> CaseOutcome {
@@ -60,6 +62,12 @@ pub(crate) fn queue(runs: &[ScenarioRun]) -> CaseOutcome {
     }
 }
 
+/// The scene with each turn.
+pub(crate) fn turned_scenes() -> Result<Vec<Scenario>, BenchError> {
+    let scenario = scenario(scenario_file!("crossing.toml"))?;
+    Ok(TURNED_DEG.map(|turn_deg| scenario_run::turned(&scenario, turn_deg.to_radians())).to_vec())
+}
+
 /// A scene turned; the first run is the scene as it is.
 pub(crate) fn turned(runs: &[ScenarioRun]) -> CaseOutcome {
     let positions_m = |(run, turn_deg): (&ScenarioRun, &f32)| -> Vec<Vec2> {
@@ -67,7 +75,7 @@ pub(crate) fn turned(runs: &[ScenarioRun]) -> CaseOutcome {
         let frame = (TURNED_AT_S / run.dt_s()).round() as usize;
         run.roots_m(frame).iter().map(|root_m| back.rotate(*root_m)).collect()
     };
-    let all_m: Vec<Vec<Vec2>> = runs.iter().zip(TURNED_DEG).map(positions_m).collect();
+    let all_m: Vec<Vec<Vec2>> = runs.iter().zip(&TURNED_DEG).map(positions_m).collect();
     let off_m = |positions_m: &Vec<Vec2>| {
         all_m[0].iter().zip(positions_m).map(|(one_m, other_m)| one_m.distance(*other_m)).reduce(f32::max)
     };

@@ -18,9 +18,11 @@ pub(crate) mod scratch;
 pub mod tally;
 pub(crate) mod text_files;
 
+use std::fs;
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use fbcrowd_jobs::Observer;
+use fbcrowd_jobs::{JobError, Observer};
 use fbcrowd_sim::params::Params;
 use motiondb::files::database_file;
 use motiondb::motion::MotionDb;
@@ -34,7 +36,7 @@ use crate::kit::database::database;
 use crate::kit::report::{BenchReport, Criterion};
 use crate::soak::draw::Draw;
 use crate::soak::generated::world::GeneratedWorld;
-use crate::soak::generated::{linear_program, turned_scene};
+use crate::soak::generated::{linear_program, scenario, turned_scene};
 use crate::soak::scratch::Scratch;
 use crate::soak::tally::{CopyOutcome, FaultyCopy, InputKind, InputTally, try_all};
 
@@ -48,15 +50,17 @@ const DAMAGED: &str = "damaged databases";
 /// bytes altered, dropped, repeated or inserted, numbers replaced, lengths and checksums set right or not; what is used
 /// must give valid databases and finite bodies. All begin with the bundled clips. Generated worlds: agents and
 /// obstacles piled, far off, fast, tiny, huge, on edges and in walls; each planner must plan numbers, keep its greatest
-/// speed and lead no agent through a wall. Turned scenes: everyday ones, turned and moved; the velocity that MCN or
+/// speed and lead no agent through a wall. Generated scenarios: obstacles, enclosures, ground with holes, sources,
+/// queues, states, signals and zones; what is accepted is simulated: finite numbers, no agent through a wall, none lost
+/// or doubled. Turned scenes: everyday ones, turned and moved; the velocity that MCN or
 /// ORCA plans must turn with them within 1e-4 m/s. Linear programs: feasible or not, opposite, parallel except for
 /// rounding; no velocity of a grid may be better than the solution.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
   fbcrowd bench soak
-  fbcrowd bench soak --db motion.fbdb --count 100000 --forged 10000 --mutated 0 --worlds 0 --turned 0 --programs 0
-  fbcrowd bench soak --seed 4711 --count 1 --forged 1 --mutated 1 --worlds 1 --turned 1 --programs 1    # one copy again")]
+  fbcrowd bench soak --db motion.fbdb --count 100000 --forged 10000 --mutated 0 --worlds 0 --scenarios 0 --turned 0 --programs 0
+  fbcrowd bench soak --seed 4711 --count 1 --forged 1 --mutated 1 --worlds 1 --scenarios 1 --turned 1 --programs 1    # one copy again")]
 pub struct Args {
     #[command(flatten)]
     database: DatabaseArg,
@@ -72,6 +76,12 @@ pub struct Args {
     /// Number of generated worlds.
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     worlds: usize,
+    /// Number of generated scenarios, which are simulated.
+    #[arg(long, value_name = "N", default_value_t = 2_000)]
+    scenarios: usize,
+    /// Write each generated scenario with a fault to this folder.
+    #[arg(long, value_name = "DIR")]
+    faulty: Option<PathBuf>,
     /// Number of turned scenes.
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     turned: usize,
@@ -102,6 +112,9 @@ pub struct Details {
 pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
     let db = database(&args.database)?;
     let scratch = Scratch::new()?;
+    if let Some(folder) = &args.faulty {
+        fs::create_dir_all(folder).map_err(|error| JobError::unwritable(folder, error))?;
+    }
     let (kinds, faulty) = try_all(&input_kinds(args, &Arc::new(db), &scratch)?, args.seed, observer);
     let total = |count: fn(&InputTally) -> usize| kinds.iter().map(count).sum::<usize>() as f64;
     let refused = kinds.iter().find(|kind| kind.name == DAMAGED).map(|kind| kind.refused as f64);
@@ -110,7 +123,7 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
         Criterion::at_most("copies that end the program", 0.0, total(|kind| kind.panics)),
         Criterion::at_most("copies that take longer than 10 s", 0.0, total(|kind| kind.slow)),
         Criterion::at_most(
-            "copies that are used and do harm; worlds, scenes and programs with a fault",
+            "copies that are used and do harm; worlds, scenes, scenarios and programs with a fault",
             0.0,
             total(|kind| kind.harmful),
         ),
@@ -127,6 +140,8 @@ fn input_kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Res
     let recording = recordings::bytes(db, scratch)?;
     text_files::write_clips(scratch)?;
     let (crowd, hull, turned_hull) = (Arc::clone(db), db.velocity_hull.clone(), db.velocity_hull.clone());
+    let (walkers, faulty) = (Arc::clone(db), args.faulty.clone());
+    let generated_scenario = move |draw: &mut Draw| scenario::simulated(&walkers, draw.seed(), faulty.as_deref());
     let turned = move |draw: &mut Draw| outcome(turned_scene::fault(&turned_hull, draw.seed(), 0));
     let program = |draw: &mut Draw| outcome(linear_program::fault(draw.seed(), 0));
     let kind = |name, copies, attempt| InputKind { name, copies, attempt };
@@ -141,6 +156,7 @@ fn input_kinds<'a>(args: &Args, db: &Arc<MotionDb>, scratch: &'a Scratch) -> Res
         kind("generated worlds", args.worlds, Box::new(move |draw: &mut Draw| generated_world(&hull, draw))),
         kind("turned scenes", args.turned, Box::new(turned)),
         kind("linear programs", args.programs, Box::new(program)),
+        kind("generated scenarios", args.scenarios, Box::new(generated_scenario)),
     ])
 }
 
@@ -155,14 +171,14 @@ fn outcome(fault: Option<&'static str>) -> CopyOutcome {
 }
 
 fn text(details: &Details) -> String {
-    let mut text = "                    copies  refused    used  harmful  panics  slowest s\n".to_owned();
+    let mut text = "                      copies  refused    used  harmful  panics  slowest s\n".to_owned();
     for kind in &details.kinds {
         let InputTally { name, copies, refused, used, harmful, panics, slowest_s, .. } = kind;
-        text += &format!("{name:<18}{copies:8}{refused:9}{used:8}{harmful:9}{panics:8}{slowest_s:11.2}\n");
+        text += &format!("{name:<20}{copies:8}{refused:9}{used:8}{harmful:9}{panics:8}{slowest_s:11.2}\n");
     }
     for FaultyCopy { kind, seed, fault } in &details.faulty {
         text += &format!(
-            "{kind}: {fault}; again with --seed {seed} --count 1 --forged 1 --mutated 1 --worlds 1 --turned 1 --programs 1\n"
+            "{kind}: {fault}; again with --seed {seed} --count 1 --forged 1 --mutated 1 --worlds 1 --scenarios 1 --turned 1 --programs 1\n"
         );
     }
     text

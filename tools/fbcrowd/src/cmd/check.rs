@@ -17,7 +17,7 @@ use crate::terminal::output;
 /// Exit code 0: the scenario can be simulated; 2: it has a mistake, which is shown at its line.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd check assets/scenarios/course.toml\n  fbcrowd check my/scene.toml --plot scene.png --json"
+    after_help = "Examples:\n  fbcrowd check assets/scenarios/tradeshow.toml\n  fbcrowd check my/scene.toml --plot scene.png --json"
 )]
 pub(crate) struct Args {
     /// The scenario.

@@ -41,7 +41,7 @@ pub(crate) struct Args {
 }
 
 /// A simulated time that scenario files take.
-fn duration_s(text: &str) -> Result<f64, String> {
+pub(crate) fn duration_s(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(duration_s) if (0.001..=86_400.0).contains(&duration_s) => Ok(duration_s),
         _ => Err("give 0.001 to 86400 seconds".to_owned()),
@@ -49,26 +49,60 @@ fn duration_s(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    check_is_no_input(&args.output, [&args.scene])?;
-    check_file(&args.output)?;
     let units = args.units.as_deref().and_then(Units::of_name);
-    let scene = read(&args.scene, &ReadOptions { allow_outside: args.allow_outside, units })?;
-    let folder = folder_of(&args.output);
-    let clips = args.clips.as_deref().map(|clips| relative_to(folder, clips)).transpose()?;
-    let stem = args.output.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let written = write(&scene.scene, &WriteOptions { stem, clips, duration_s: args.duration });
-    let agent_files: Vec<PathBuf> =
-        written.agent_files.iter().map(|file| args.output.with_file_name(&file.name)).collect();
-    let outputs = [&agent_files[..], std::slice::from_ref(&args.output)].concat();
-    check_files(folder, &outputs, &scene.inputs)?;
-    write_files(&args.output, &agent_files, &written)?;
-    let report = ConvertReport::new(&scene.scene, &args.output, &agent_files);
+    let Args { scene, output, clips, duration, allow_outside, .. } = args;
+    let conversion = Conversion {
+        scene,
+        output,
+        clips: clips.as_deref(),
+        duration_s: *duration,
+        options: ReadOptions { allow_outside: *allow_outside, units },
+    };
+    let Converted { report, .. } = conversion.convert()?;
     if args.json {
         output::print_json(&report)?;
     } else {
         output::print(&report.text())?;
     }
     Ok(Answer::of(!report.changes))
+}
+
+/// A scene of another program, and the scenario file that it becomes.
+pub(crate) struct Conversion<'a> {
+    pub(crate) scene: &'a Path,
+    pub(crate) output: &'a Path,
+    /// Clips or manifest that the scenario names as its motion.
+    pub(crate) clips: Option<&'a Path>,
+    /// Simulated time, s; none: the scene's.
+    pub(crate) duration_s: Option<f64>,
+    pub(crate) options: ReadOptions,
+}
+
+/// What a conversion read and wrote.
+pub(crate) struct Converted {
+    pub(crate) report: ConvertReport,
+    /// Files of the scene.
+    pub(crate) inputs: Vec<PathBuf>,
+}
+
+impl Conversion<'_> {
+    /// Reads the scene and writes the scenario file and its agent files.
+    pub(crate) fn convert(&self) -> Result<Converted, Failure> {
+        let output = self.output.to_owned();
+        check_is_no_input(&output, [self.scene])?;
+        check_file(&output)?;
+        let scene = read(self.scene, &self.options)?;
+        let folder = folder_of(&output);
+        let clips = self.clips.map(|clips| relative_to(folder, clips)).transpose()?;
+        let stem = output.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let written = write(&scene.scene, &WriteOptions { stem, clips, duration_s: self.duration_s });
+        let agent_files: Vec<PathBuf> =
+            written.agent_files.iter().map(|file| output.with_file_name(&file.name)).collect();
+        let outputs = [&agent_files[..], std::slice::from_ref(&output)].concat();
+        check_files(folder, &outputs, &scene.inputs)?;
+        write_files(&output, &agent_files, &written)?;
+        Ok(Converted { report: ConvertReport::new(&scene.scene, &output, &agent_files), inputs: scene.inputs })
+    }
 }
 
 /// Writes the agent files first, so that no scenario names a file that is missing.

@@ -2,12 +2,12 @@
 
 use motiondb_compiler::Outside;
 
-/// Whether buffers of glTF files may lie outside the folder of their .gltf file.
+/// Whether buffers of glTF files, and files of a project, may lie outside its folder.
 #[derive(Clone, Copy, clap::Args)]
 pub(crate) struct OutsideArg {
     /// Also read buffers of glTF files that lie outside the folder of their .gltf file.
     #[arg(long)]
-    allow_outside: bool,
+    pub(crate) allow_outside: bool,
 }
 
 impl From<OutsideArg> for Outside {

@@ -1,5 +1,6 @@
 //! `fbcrowd run`: the main job in one line: compile, simulate, measure, render.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,27 +12,39 @@ use fbcrowd_jobs::simulation;
 use fbcrowd_jobs::wording::counted;
 use fbcrowd_jobs::{JobEvent, Observer};
 use fbcrowd_render::top_view::{PictureFormat, SequenceOptions};
+use fbcrowd_scenes::ReadOptions;
 use fbcrowd_sim::measures;
 use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::database_file;
 use motiondb::motion::MotionDb;
 
+use crate::cmd::convert::{Conversion, Converted, duration_s};
 use crate::cmd::outside_arg::OutsideArg;
 use crate::cmd::rejected;
 use crate::report::crowd::{measures_text, timings_text};
+use crate::report::plain_text::without_control_characters;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
 
 /// Compile the clips of a scenario, then simulate and render the scenario.
 ///
-/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png` and `frames/NAME.####.png`.
+/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png` and `frames/NAME.####.png`. A scene of another program is
+/// converted first: `NAME.toml` is written beside them.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  fbcrowd run assets/scenarios/antipodal.toml")]
+#[command(
+    after_help = "Examples:\n  fbcrowd run assets/scenarios/antipodal.toml\n  fbcrowd run tradeshow.xml --clips assets/clips --duration 60"
+)]
 pub(crate) struct Args {
-    /// The scenario.
+    /// The scenario; or a scene that `fbcrowd convert` reads.
     #[arg(value_name = "SCENARIO.toml")]
     scenario: PathBuf,
+    /// Clips or manifest for the motion of a scene of another program.
+    #[arg(long, value_name = "PATH")]
+    clips: Option<PathBuf>,
+    /// Simulated time of a scene of another program, s; default: the scene's, or 120 s.
+    #[arg(long, value_name = "SECONDS", value_parser = duration_s)]
+    duration: Option<f64>,
     /// The folder to write to; `out/NAME` by default.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -42,10 +55,11 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let progress = ProgressDisplay::default();
     let observer = |event: JobEvent<'_>| progress.observe(event);
-    let (scenario, motion) = scenario::read(&args.scenario)?;
+    let Subject { file, folder, files, answer: converted } = Subject::new(args)?;
+    let (scenario, motion) = scenario::read(&file)?;
     let motion = motion?;
-    let outputs = RunOutputs::new(args, &scenario.name);
-    outputs.check(&inputs(args, &motion)?)?;
+    let outputs = RunOutputs::new(folder, &scenario.name);
+    outputs.check(&inputs(&file, files, &motion)?)?;
 
     // Everything that bad input can end comes before the first output.
     let MotionInput { db, checksum, answer } = MotionInput::new(motion, args, &outputs, &observer)?;
@@ -65,7 +79,46 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 
     let figures = measures_text::text(&measures) + &timings_text::text(&timings);
     output::print(&(figures + &outputs_text(&rendered, &outputs.folder)))?;
-    Ok(answer)
+    Ok(converted.and(answer))
+}
+
+/// The scenario file that is run.
+struct Subject {
+    file: PathBuf,
+    /// The folder to write to, where it is stated.
+    folder: Option<PathBuf>,
+    /// Files of the scene from which it was converted.
+    files: Vec<PathBuf>,
+    /// No where something happens otherwise than in that scene.
+    answer: Answer,
+}
+
+impl Subject {
+    /// The scenario of the arguments; a scene of another program is converted into the output folder first.
+    fn new(args: &Args) -> Result<Self, Failure> {
+        let Args { scenario, output, clips, duration, outside } = args;
+        if scenario.extension().is_none_or(|extension| extension == "toml") {
+            if clips.is_some() || duration.is_some() {
+                let message = "--clips and --duration are for scenes of other programs";
+                return Err(Failure::bad(format!("{message}; set `clips` and `duration_s` in {}", scenario.display())));
+            }
+            return Ok(Self { file: scenario.clone(), folder: output.clone(), files: Vec::new(), answer: Answer::Yes });
+        }
+        let Some(clips) = clips else {
+            let message = format!("{} names no motion; add --clips with clips or a manifest", scenario.display());
+            return Err(Failure::bad(message));
+        };
+        let stem = scenario.file_stem().unwrap_or_default();
+        let folder = output.clone().unwrap_or_else(|| Path::new("out").join(stem));
+        fs::create_dir_all(&folder).map_err(|error| Failure::unwritable(&folder, error))?;
+        let file = folder.join(stem).with_extension("toml");
+        let options = ReadOptions { allow_outside: outside.allow_outside, units: None };
+        let conversion =
+            Conversion { scene: scenario, output: &file, clips: Some(clips), duration_s: *duration, options };
+        let Converted { report, inputs } = conversion.convert()?;
+        output::say_text(without_control_characters(report.text().trim_end()).as_ref());
+        Ok(Self { file, folder: Some(folder), files: inputs, answer: Answer::of(!report.changes) })
+    }
 }
 
 /// Where a run writes.
@@ -79,8 +132,8 @@ struct RunOutputs {
 }
 
 impl RunOutputs {
-    fn new(args: &Args, name: &str) -> Self {
-        let folder = args.output.clone().unwrap_or_else(|| Path::new("out").join(name));
+    fn new(folder: Option<PathBuf>, name: &str) -> Self {
+        let folder = folder.unwrap_or_else(|| Path::new("out").join(name));
         Self {
             database: folder.join("motion.fbdb"),
             recording: folder.join(format!("{name}.fbrec")),
@@ -112,7 +165,7 @@ struct Inputs {
     are_compiled: bool,
 }
 
-fn inputs(args: &Args, motion: &MotionSource) -> Result<Inputs, Failure> {
+fn inputs(scenario: &Path, files: Vec<PathBuf>, motion: &MotionSource) -> Result<Inputs, Failure> {
     let (motion, are_compiled) = match motion {
         MotionSource::Database(path) => (vec![path.clone()], false),
         MotionSource::Clips(clips) => {
@@ -120,7 +173,7 @@ fn inputs(args: &Args, motion: &MotionSource) -> Result<Inputs, Failure> {
             (clip_paths::inputs(&paths, &clip_paths::manifest(&paths)?), true)
         }
     };
-    let files = [vec![args.scenario.clone()], scenario::agent_files(&args.scenario)?, motion].concat();
+    let files = [files, vec![scenario.to_owned()], scenario::agent_files(scenario)?, motion].concat();
     Ok(Inputs { files, are_compiled })
 }
 

@@ -42,6 +42,14 @@ impl Answer {
     pub(crate) fn of(holds: bool) -> Self {
         if holds { Self::Yes } else { Self::No }
     }
+
+    /// Yes where both are.
+    pub(crate) fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Yes, Self::Yes) => Self::Yes,
+            _ => Self::No,
+        }
+    }
 }
 
 /// Exit code of bad usage or input; nothing was written.

@@ -256,6 +256,19 @@ impl PlotFigure {
         }
     }
 
+    /// Fills a panel outside closed lines, of which inner ones bound holes; nothing without lines.
+    pub(crate) fn outside(&mut self, panel: &PlotPanel, lines: &[Vec<Vec2>], colour: Rgb, opacity: f32) {
+        let [left, top, width, height] = panel.rect_px;
+        let Some(frame) = Rect::from_xywh(left, top, width, height).filter(|_| !lines.is_empty()) else { return };
+        let mut path = PathBuilder::new();
+        path.push_rect(frame);
+        for line in lines.iter().filter_map(|line| panel.path(line.iter().copied(), true)) {
+            path.push_path(&line);
+        }
+        let (Some(path), clip) = (path.finish(), panel.clip.as_ref()) else { return };
+        self.pixmap.fill_path(&path, &paint(colour, opacity), FillRule::EvenOdd, Transform::identity(), clip);
+    }
+
     /// Draws a mark; `radius_px` is in pixels.
     pub(crate) fn mark(&mut self, panel: &PlotPanel, at: Vec2, mark: PlotMark, radius_px: f32, colour: Rgb) {
         let centre = panel.to_px(at);

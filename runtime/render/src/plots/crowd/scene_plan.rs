@@ -1,5 +1,5 @@
-//! The plan of a scenario before it is simulated: walls, the mesh that routes use, the routes of agents, sources, goals
-//! and closed passages. World axes, metres.
+//! The plan of a scenario before it is simulated: ground, markings, walls, the mesh that routes use, the routes of
+//! agents, sources, goals and closed passages. World axes, metres.
 
 use fbcrowd_sim::route::{ClosedToAgents, CrowdRoutes};
 use fbcrowd_sim::scenario::{Scenario, SourceSpec};
@@ -65,6 +65,7 @@ pub fn scene_plan(scenario: &Scenario, routes: &CrowdRoutes, closed: &[ClosedToA
     }
     draw_starts_and_goals(&mut figure, &panel, scenario);
     draw_closed(&mut figure, &panel, closed);
+    scene.draw_labels(&mut figure, &panel);
     figure.pixmap
 }
 
@@ -87,6 +88,9 @@ fn legend(scenario: &Scenario, closed: &[ClosedToAgents]) -> Vec<LegendEntry<'st
         vec![(PlotMark::Disc, INK, "start"), (PlotMark::Cross, INK, "goal"), (PlotMark::Bar, INK, "route")];
     if !scenario.sources.is_empty() {
         entries.push((PlotMark::Dashes, TURNING_SET, "source"));
+    }
+    if scenario.goal_areas().next().is_some() {
+        entries.push((PlotMark::Dashes, INK, "goal area"));
     }
     if !scenario.is_open() {
         entries.push((PlotMark::Bar, OBSTACLE, "mesh for routes"));

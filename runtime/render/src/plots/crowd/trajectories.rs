@@ -2,14 +2,15 @@
 //! at its goal. World axes, metres.
 
 use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::scenario::Scenario;
+use fbcrowd_sim::scenario::{Marking, MarkingColour, MarkingShape, PlaceLabel, Scenario};
 use glam::Vec2;
 use tiny_skia::Pixmap;
 
 use crate::plots::chart::axis::{PlotAxis, equal_units};
 use crate::plots::chart::figure::{LegendEntry, LineStyle, PlotFigure, PlotPanel};
 use crate::plots::chart::mark::PlotMark;
-use crate::raster::palette::{GRID_COARSE, INK, OBSTACLE_RIM, line_colour};
+use crate::raster::palette::{GRID_COARSE, INK, OBSTACLE_RIM, OUTSIDE, SIGNAL, from_bytes, line_colour};
+use crate::raster::text::TextAnchor;
 use crate::top_view::framing::bounds_m;
 use crate::top_view::trails::Tracks;
 
@@ -33,6 +34,9 @@ const PATH_PX: [f32; 2] = [4.0, 1.6];
 const MARK_PX: [f32; 2] = [11.0, 4.5];
 /// Greatest number of agents that are few.
 const FEW_AGENTS: usize = 60;
+
+/// Opacity of ground that is not walkable: lighter than on pictures, so that thin lines show.
+const OUTSIDE_OPACITY: f32 = 0.5;
 
 /// Legend of figures with paths.
 pub(crate) const PATH_LEGEND: [LegendEntry<'static>; 2] =
@@ -89,8 +93,15 @@ impl<'a> PathScene<'a> {
         let starts_m = agents.iter().map(|agent| agent.position_m);
         let areas_m = sources.iter().flat_map(|source| [source.low_m, source.high_m]);
         let goals_m = goals_m.chain(sources.iter().flat_map(|source| source.goals_m.iter()));
-        let [low_m, high_m] =
-            bounds_m(paths_m.chain(goals_m.copied()).chain(scenario.corners_m()).chain(starts_m).chain(areas_m));
+        let goal_areas_m = scenario.goal_areas().flat_map(|area| area.bounds_m());
+        let [low_m, high_m] = bounds_m(
+            paths_m
+                .chain(goals_m.copied())
+                .chain(scenario.corners_m())
+                .chain(starts_m)
+                .chain(areas_m)
+                .chain(goal_areas_m),
+        );
         Self { scenario, bounds_m: [low_m - MARGIN_M, high_m + MARGIN_M] }
     }
 
@@ -104,6 +115,7 @@ impl<'a> PathScene<'a> {
     pub(crate) fn draw(&self, figure: &mut PlotFigure, rect_px: [f32; 4], tracks: &Tracks) {
         let panel = self.draw_place(figure, rect_px);
         self.draw_paths(figure, &panel, tracks);
+        self.draw_labels(figure, &panel);
     }
 
     /// Draws a panel with walls at left, top, width, height.
@@ -111,6 +123,7 @@ impl<'a> PathScene<'a> {
         let [low, high] = self.bounds_m;
         let axes = [PlotAxis::new("x, m", [low.x, high.x]), PlotAxis::new("y, m", [low.y, high.y])];
         let panel = figure.panel(rect_px, equal_units(rect_px, axes));
+        self.draw_markings(figure, &panel);
         for corners in &self.scenario.obstacles_m {
             figure.polygon(&panel, corners.iter().copied(), 1.0, LineStyle::solid(GRID_COARSE, 1.0));
             let closed = corners.iter().chain(corners.first()).copied();
@@ -121,11 +134,40 @@ impl<'a> PathScene<'a> {
             let line = LineStyle { is_dashed: true, ..LineStyle::solid(OBSTACLE_RIM, 2.0) };
             figure.polyline(&panel, closed, line);
         }
-        for line_m in self.scenario.wall_lines_m() {
+        for line_m in self.scenario.ground_lines_m().iter().chain(&self.scenario.enclosures_m) {
             let closed = line_m.iter().chain(line_m.first()).copied();
             figure.polyline(&panel, closed, LineStyle::solid(OBSTACLE_RIM, 3.0));
         }
         panel
+    }
+
+    /// Draws the ground that is not walkable, markings and goal areas; signals as they are at the start.
+    fn draw_markings(&self, figure: &mut PlotFigure, panel: &PlotPanel) {
+        figure.outside(panel, &self.scenario.ground_lines_m(), OUTSIDE, OUTSIDE_OPACITY);
+        for Marking { shape, colour } in &self.scenario.markings {
+            let colour = match *colour {
+                MarkingColour::Fixed(rgb) => from_bytes(rgb),
+                MarkingColour::Signal(signal) => {
+                    let signal = self.scenario.behaviour.signals.get(signal as usize);
+                    SIGNAL[usize::from(signal.is_some_and(|signal| signal.is_green(0.0)))]
+                }
+            };
+            for corners_m in shape.polygons_m() {
+                figure.polygon(panel, corners_m, 1.0, LineStyle::solid(colour, 1.0));
+            }
+        }
+        let style = LineStyle { opacity: 0.5, is_dashed: true, ..LineStyle::solid(INK, 1.2) };
+        for corners_m in self.scenario.goal_areas().flat_map(|area| MarkingShape::Area(area.clone()).polygons_m()) {
+            let closed = corners_m.iter().chain(corners_m.first()).copied();
+            figure.polyline(panel, closed, style);
+        }
+    }
+
+    /// Writes the labels of places.
+    pub(crate) fn draw_labels(&self, figure: &mut PlotFigure, panel: &PlotPanel) {
+        for PlaceLabel { text, at_m } in &self.scenario.labels {
+            figure.note(text, panel.to_px(*at_m), TextAnchor::Centre, INK);
+        }
     }
 
     /// Draws paths, then marks, so that no path crosses a mark.

@@ -8,6 +8,7 @@ use crate::behaviour::agent_state::GoalRef;
 use crate::behaviour::choice::Choice;
 use crate::behaviour::condition::{Bound, Condition};
 use crate::behaviour::distribution::Distribution;
+use crate::behaviour::event::{Event, SignalOrder};
 use crate::behaviour::goals::{GoalArea, GoalSet};
 use crate::behaviour::signal::Signal;
 use crate::behaviour::state::{Facing, Settings, State, Target, Transition};
@@ -46,6 +47,7 @@ impl Points {
             seed: 1,
             ids: &self.ids,
             positions_m: &self.positions_m,
+            leads: &[],
             route_m: &route_m,
             open_route_m: None,
             path_end_m: &|_| None,
@@ -248,6 +250,15 @@ fn settings_end_with_their_state_or_remain() {
 }
 
 #[test]
+fn speed_factors_that_remain_have_a_bound() {
+    let settings = Settings { speed_factor: Some(Distribution::Constant(9.0)), remain: true, ..Settings::default() };
+    let states = vec![State { settings, ..stand("hurry", vec![when(after(0.1), &[0])]) }];
+    let mut points = Points::new(Behaviour { states, ..Behaviour::default() }, row(1), 0);
+    points.run(9.0);
+    assert_eq!(points.crowd.agents[0].traits.preferred_speed_mps, 10.0);
+}
+
+#[test]
 fn signals_and_numbers_let_agents_go() {
     let bound = Bound { at_least: 0, at_most: 2 };
     let cross = Condition::All(vec![Condition::Green(0), Condition::Number(0, bound)]);
@@ -270,6 +281,25 @@ fn signals_and_numbers_let_agents_go() {
 }
 
 #[test]
+fn positions_in_an_area_are_apart() {
+    let mut apart_m: Vec<f32> = Vec::new();
+    for shift in 0..20 {
+        let area = Area::rectangle(Vec2::new(10.0, shift as f32), Vec2::new(12.0, 2.0 + shift as f32));
+        let area = GoalArea { area, facing_rad: None, capacity: None, weight: 1.0 };
+        let goals = vec![GoalSet { name: "booth".into(), areas: vec![area], queue: false }];
+        let states = vec![go("go", 0, Choice::Nearest, vec![])];
+        let mut points = Points::new(Behaviour { states, goals, ..Behaviour::default() }, row(5), 0);
+        points.step();
+        let held_m: Vec<Vec2> = points.crowd.agents.iter().filter_map(|agent| agent.aim.position_m()).collect();
+        let pairs =
+            held_m.iter().enumerate().flat_map(|(index, a)| held_m[..index].iter().map(move |b| a.distance(*b)));
+        apart_m.push(pairs.fold(f32::INFINITY, f32::min));
+    }
+    // Five agents have 4 m²: drawn anywhere, every second booth has two within 0.4 m of each other.
+    assert!(apart_m.iter().all(|&apart_m| apart_m > 0.45), "{apart_m:?}");
+}
+
+#[test]
 fn a_teleport_moves_the_agent_at_once() {
     let settings = Settings { teleport: Some(Area::point(Vec2::new(5.0, 5.0))), ..Settings::default() };
     let states = vec![stand("here", vec![when(after(1.0), &[1])]), State { settings, ..stand("there", vec![]) }];
@@ -289,6 +319,31 @@ fn a_teleported_agent_leaves_the_area_at_once() {
     points.run(0.3);
     assert_eq!(points.crowd.endless, None);
     assert_eq!((points.states()[0], points.positions_m[0]), ("wait", Vec2::new(5.0, 5.0)));
+}
+
+#[test]
+fn an_event_moves_agents_of_its_states_once() {
+    let signals = vec![Signal { name: "door".into(), green_s: 0.0, red_s: 1.0, offset_s: 0.0 }];
+    let states = vec![
+        stand("sit", vec![when(Condition::Green(0), &[2])]),
+        stand("flee", vec![when(after(1.0), &[0])]),
+        stand("out", vec![]),
+    ];
+    let event = |condition, to, signals| Event { name: "event".into(), condition, from: Some(vec![0]), to, signals };
+    let events = vec![
+        event(after(1.0), Some(1), vec![]),
+        event(Condition::Population(1, Bound { at_least: 0, at_most: 0 }), None, vec![]),
+        event(after(3.0), None, vec![(0, SignalOrder::Green)]),
+    ];
+    let mut two = Points::new(Behaviour { states, signals, events, ..Behaviour::default() }, row(2), 0);
+    two.run(0.95);
+    assert_eq!(two.states(), ["sit"; 2]);
+    two.run(1.15);
+    assert_eq!(two.states(), ["flee"; 2]);
+    two.run(2.5);
+    assert_eq!(two.states(), ["sit"; 2], "the event happens once");
+    two.run(3.15);
+    assert_eq!(two.states(), ["out"; 2]);
 }
 
 #[test]
@@ -374,6 +429,7 @@ proptest! {
             goals: vec![places(3, Some(2), false), places(4, None, true)],
             signals: vec![Signal { name: "light".into(), green_s: 2.0, red_s: 1.0, offset_s: 0.0 }],
             areas: vec![Area::Disc { centre_m: Vec2::new(8.0, 0.0), radius_m: 2.0 }],
+            events: Vec::new(),
         };
         let mut points = Points::new(behaviour, row(6), 0);
         points.run(15.0);

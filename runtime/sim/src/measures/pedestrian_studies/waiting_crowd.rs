@@ -66,7 +66,7 @@ impl WaitingCrowd {
         Self { door_m, before, frames: 0, sectors: [(0, 0.0); SECTORS], rings: [0; RINGS] }
     }
 
-    /// Adds one step, given every root before and after it.
+    /// Adds one step, given every root before and after it; NaN where an agent is not present.
     pub fn push(&mut self, before_m: &[Vec2], after_m: &[Vec2], dt_s: f32) {
         self.frames += 1;
         for (&from_m, &to_m) in before_m.iter().zip(after_m) {
@@ -74,7 +74,8 @@ impl WaitingCrowd {
             // In the door's frame: x into the crowd.
             let from_door_m = Vec2::new(self.before.dot(offset_m), self.before.perp_dot(offset_m));
             let distance_m = from_door_m.length();
-            if from_door_m.x < 0.0 || distance_m > REACH_M {
+            let is_before = from_door_m.x >= 0.0 && distance_m <= REACH_M;
+            if !is_before {
                 continue;
             }
             if let Some(agents) = self.rings.get_mut((distance_m / RING_M) as usize) {
@@ -134,6 +135,13 @@ mod tests {
         // To an agent that faces the door, +x is on the right.
         let shape = shape(aside, Vec2::ZERO);
         assert!(shape.unevenness().unwrap() > 2.0 && shape.reach_m[0] == 0.0 && shape.reach_m[5] > 2.9, "{shape:?}");
+    }
+
+    #[test]
+    fn an_agent_that_has_left_counts_nowhere() {
+        let mut waiting = WaitingCrowd::new(Vec2::ZERO, Vec2::NEG_Y);
+        waiting.push(&[Vec2::NAN, Vec2::NEG_Y], &[Vec2::NAN, Vec2::NAN], 0.1);
+        assert_eq!(waiting.shape(), WaitingShape::default());
     }
 
     #[test]

@@ -9,6 +9,7 @@
 //! | `area = { rect_m, count, apart_m }` | as of `at_m`; see `agent_area.rs` |
 //! | `file = "x.txt"` | lines `x y goal_x goal_y`, `#` begins a comment |
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fmt;
 use std::ops::Range;
@@ -25,10 +26,12 @@ use crate::scenario::agent_spec::{AgentSpec, AtGoal, PREFERRED_SPEED_MPS, RADIUS
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::agent_area::AgentArea;
 use crate::scenario::file::behaviour::DistributionValue;
+use crate::scenario::file::group_keys::group_sizes;
 use crate::scenario::file::profile_tables::{ProfileValue, Profiles};
 use crate::scenario::point::Point;
 use crate::scenario::profile::DrawnNumbers;
 use crate::scenario::ranges::{AGENTS_MAX, WAYPOINTS_MAX};
+use crate::scenario::social_group::GroupSizes;
 
 /// The value of `agents`: each table and, in a list, its bytes in the text.
 #[derive(Debug)]
@@ -53,6 +56,8 @@ pub(crate) struct AgentGroup {
     profile: Option<Spanned<ProfileValue>>,
     at_goal: AtGoal,
     pub(crate) state: Option<Spanned<String>>,
+    groups: Option<BTreeMap<String, f32>>,
+    group_spacing_m: Option<f32>,
 }
 
 /// Agents on a circle, each bound for the opposite position.
@@ -112,6 +117,8 @@ impl Default for AgentGroup {
             profile: None,
             at_goal: AtGoal::default(),
             state: None,
+            groups: None,
+            group_spacing_m: None,
         }
     }
 }
@@ -189,6 +196,11 @@ impl AgentGroup {
         Ok((0..count).map(|_| of_table.draw(&profiles, &mut random)).collect())
     }
 
+    /// The sizes of the groups that the agents form; none where all walk alone.
+    pub(crate) fn group_sizes(&self) -> Result<Option<GroupSizes>, TableFault> {
+        group_sizes(self.groups.as_ref(), self.group_spacing_m)
+    }
+
     /// Radius of the disc that walls hold of an agent with a radius, m.
     pub(crate) fn wall_radius_m(&self, radius_m: f32) -> f32 {
         match self.wall_radius_m {
@@ -223,6 +235,7 @@ impl AgentGroup {
             state,
             pre_movement_s,
             closed_zones,
+            group: None,
         }
     }
 }

@@ -16,13 +16,16 @@ use crate::scenario::file::agent_area::{AgentArea, AreaDisc, TakenGround};
 use crate::scenario::file::agent_groups::{AgentGroup, AgentGroups, AgentLayout, Journey, check_size};
 use crate::scenario::file::agent_lines::{AgentLines, LineRoom, is_agent_file, line_span, parse_lines};
 use crate::scenario::file::behaviour::StateNames;
+use crate::scenario::file::group_keys::form_groups;
 use crate::scenario::file::profile_tables::Profiles;
 use crate::scenario::profile::DrawnNumbers;
-use crate::scenario::ranges::AGENTS_MAX;
+use crate::scenario::ranges::{AGENTS_MAX, check_sizes};
 use crate::scenario::resolved::Scenario;
 
 /// First random stream of the numbers of agents, one for each table.
 const NUMBER_STREAM: u64 = 1 << 36;
+/// First random stream of the sizes of groups, one for each table.
+const GROUP_STREAM: u64 = 1 << 38;
 
 /// All agents of a scenario file, and the tables that describe them.
 #[derive(Default)]
@@ -86,8 +89,15 @@ impl PlacedAgents {
             }
         }
         let mut all = Self::default();
-        for ((span, _), TableAgents { agents, lines }) in tables.into_iter().zip(placed) {
-            all.tables.push(AgentTable { span, lines, first: all.agents.len() });
+        for (stream, ((span, group), TableAgents { mut agents, lines })) in tables.into_iter().zip(placed).enumerate() {
+            let first = all.agents.len();
+            if let Some(sizes) = group.group_sizes().map_err(|fault| placing.at_table(&span, fault))? {
+                check_sizes(&ScenarioPart::Agents, &sizes)
+                    .map_err(|fault| placing.at_table(&span, (fault.message, fault.help)))?;
+                let mut random = SplitMix64::new(input.seed, GROUP_STREAM + stream as u64);
+                form_groups(&mut agents, first, &sizes, &mut random);
+            }
+            all.tables.push(AgentTable { span, lines, first });
             all.agents.extend(agents);
         }
         Ok(all)

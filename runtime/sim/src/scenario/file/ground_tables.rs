@@ -1,4 +1,4 @@
-//! The `[[obstacles]]` and `[[walkable]]` tables of a scenario file. World, metres.
+//! The `[[obstacles]]` and `[[walkable]]` tables of a scenario file, with their copies and labels. World, metres.
 
 use std::path::{Path, PathBuf};
 
@@ -10,52 +10,50 @@ use toml::Spanned;
 use crate::behaviour::Behaviour;
 use crate::maths::polygon::signed_area_m2;
 use crate::route::mesh::WalkablePolygon;
-use crate::scenario::door::DoorSpec;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::behaviour::Names;
+use crate::scenario::file::marking_tables::{LabelValue, PlacedLabels, middle_m, offsets_m};
 use crate::scenario::file::wkt_polygons::wkt_polygons;
+use crate::scenario::places::door::DoorSpec;
 use crate::scenario::point::Point;
 use crate::scenario::resolved::Scenario;
+use crate::scenario::rules::ground_check::{CORNERS_MAX as WALKABLE_CORNERS_MAX, OBSTACLE_CORNERS_MAX, OBSTACLES_MAX};
 
 /// One `[[obstacles]]` table.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ObstacleTable {
-    pub(crate) polygon_m: Vec<Point>,
+    polygon_m: Vec<Point>,
     #[serde(default)]
-    kind: KindName,
+    kind: ObstacleKind,
+    copies_m: Option<Vec<Point>>,
+    label: Option<LabelValue>,
     /// Name of the signal that opens the obstacle while it is green.
     open: Option<Spanned<String>>,
 }
 
-/// The value of `kind`.
+/// What the polygon of an obstacle bounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum KindName {
-    #[default]
-    Solid,
-    Enclosure,
-}
-
-/// What the polygon of an obstacle is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ObstacleKind {
+enum ObstacleKind {
     /// A solid.
+    #[default]
     Solid,
     /// Ground with a wall around.
     Enclosure,
-    /// A solid that is absent while a signal is green.
-    Door,
 }
 
 impl ObstacleTable {
-    fn kind(&self) -> ObstacleKind {
-        match (self.kind, &self.open) {
-            (KindName::Enclosure, _) => ObstacleKind::Enclosure,
-            (KindName::Solid, Some(_)) => ObstacleKind::Door,
-            (KindName::Solid, None) => ObstacleKind::Solid,
+    /// Index of the signal that opens the obstacle; none where it is always there.
+    fn signal(&self, source: &SourceText, signals: &Names<'_>) -> Result<Option<u32>, ScenarioError> {
+        let Some(open) = &self.open else { return Ok(None) };
+        let wrong = |(message, help): TableFault| ScenarioError::from(source.invalid(open.span(), message, help));
+        if self.kind == ObstacleKind::Enclosure {
+            let message = "an enclosure cannot open: its wall has no thickness".to_owned();
+            return Err(wrong((message, "remove `open`, or write obstacles with thickness around the polygon")));
         }
+        signals.index(open.get_ref()).map(|signal| Some(signal as u32)).map_err(wrong)
     }
 }
 
@@ -67,6 +65,8 @@ pub(crate) struct WalkableTable {
     #[serde(default)]
     holes_m: Vec<Vec<Point>>,
     file: Option<Spanned<String>>,
+    copies_m: Option<Vec<Point>>,
+    label: Option<LabelValue>,
 }
 
 /// The ground of a scenario file.
@@ -74,8 +74,16 @@ pub(crate) struct WalkableTable {
 pub(crate) struct PlacedGround {
     /// A scenario with this ground and its behaviour, without agents.
     pub(crate) scenario: Scenario,
+    /// Index of the table of each solid.
+    pub(crate) solids: Vec<usize>,
+    /// Index of the table of each enclosure.
+    pub(crate) enclosures: Vec<usize>,
+    /// Index of the table of each door.
+    pub(crate) doors: Vec<usize>,
     /// Index of the table of each walkable polygon.
-    pub(crate) tables: Vec<usize>,
+    pub(crate) walkable: Vec<usize>,
+    /// Labels of these tables; the scenario has none yet.
+    pub(crate) labels: PlacedLabels,
 }
 
 impl PlacedGround {
@@ -87,19 +95,94 @@ impl PlacedGround {
         behaviour: &Behaviour,
         signals: &Names<'_>,
     ) -> Result<Self, ScenarioError> {
-        let (mut walkable_m, mut tables) = (Vec::new(), Vec::new());
-        for (index, table) in walkable.iter().enumerate() {
-            let polygons = table.get_ref().polygons(source, table)?;
-            tables.extend(polygons.iter().map(|_| index));
-            walkable_m.extend(polygons);
+        let mut placed = Self {
+            scenario: Scenario { behaviour: behaviour.clone(), ..Scenario::of(Vec::new()) },
+            solids: Vec::new(),
+            enclosures: Vec::new(),
+            doors: Vec::new(),
+            walkable: Vec::new(),
+            labels: PlacedLabels::default(),
+        };
+        for (index, table) in obstacles.iter().enumerate() {
+            let signal = table.get_ref().signal(source, signals)?;
+            let at_table = |(message, help): TableFault| source.invalid(table.span(), message, help);
+            placed.add_obstacle(index, table, signal).map_err(at_table)?;
         }
-        let obstacles_m = polygons_m(obstacles, ObstacleKind::Solid);
-        let enclosures_m = polygons_m(obstacles, ObstacleKind::Enclosure);
-        let doors = doors(source, obstacles, signals)?;
-        let behaviour = behaviour.clone();
-        let scenario = Scenario { obstacles_m, doors, enclosures_m, walkable_m, behaviour, ..Scenario::of(Vec::new()) };
-        Ok(Self { scenario, tables })
+        let mut corners = 0;
+        for (index, table) in walkable.iter().enumerate() {
+            placed.add_walkable(source, index, table, &mut corners)?;
+        }
+        Ok(placed)
     }
+
+    /// Adds an obstacle and its copies; doors where a signal opens it.
+    fn add_obstacle(
+        &mut self,
+        index: usize,
+        table: &Spanned<ObstacleTable>,
+        signal: Option<u32>,
+    ) -> Result<(), TableFault> {
+        let (span, ObstacleTable { polygon_m, copies_m, label, .. }) = (table.span(), table.get_ref());
+        let (corners_m, offsets_m) = (counter_clockwise(polygon_m), offsets_m(copies_m.as_ref()));
+        let count = self.solids.len() + self.enclosures.len() + self.doors.len() + offsets_m.len();
+        if count > OBSTACLES_MAX || (offsets_m.len() > 1 && corners_m.len() > OBSTACLE_CORNERS_MAX) {
+            let message =
+                format!("with this table there are {count} obstacles; this one has {} corners", corners_m.len());
+            return Err((message, "give at most 10,000 obstacles, of 3 to 1000 corners"));
+        }
+        self.labels.add(label.as_ref(), middle_m(&corners_m), &offsets_m, &span)?;
+        let Scenario { obstacles_m, enclosures_m, doors, .. } = &mut self.scenario;
+        for offset_m in offsets_m {
+            let polygon_m = moved(&corners_m, offset_m);
+            match (signal, table.get_ref().kind) {
+                (Some(signal), _) => {
+                    doors.push(DoorSpec { polygon_m, signal });
+                    self.doors.push(index);
+                }
+                (None, ObstacleKind::Solid) => {
+                    obstacles_m.push(polygon_m);
+                    self.solids.push(index);
+                }
+                (None, ObstacleKind::Enclosure) => {
+                    enclosures_m.push(polygon_m);
+                    self.enclosures.push(index);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn add_walkable(
+        &mut self,
+        source: &SourceText,
+        index: usize,
+        table: &Spanned<WalkableTable>,
+        corners: &mut usize,
+    ) -> Result<(), ScenarioError> {
+        let polygons = table.get_ref().polygons(source, table)?;
+        let at_table = |(message, help): TableFault| ScenarioError::from(source.invalid(table.span(), message, help));
+        let offsets_m = offsets_m(table.get_ref().copies_m.as_ref());
+        let of_table = polygons.iter().map(|polygon| polygon.outline_m.len() + polygon.holes_m.concat().len());
+        *corners = corners.saturating_add(of_table.sum::<usize>().saturating_mul(offsets_m.len()));
+        if *corners > WALKABLE_CORNERS_MAX {
+            let message = format!("with this table the walkable polygons have {corners} corners");
+            return Err(at_table((message, "give at most 200,000 corners, with all copies")));
+        }
+        let middle_m = polygons.first().map_or(Vec2::ZERO, |polygon| middle_m(&polygon.outline_m));
+        self.labels.add(table.get_ref().label.as_ref(), middle_m, &offsets_m, &table.span()).map_err(at_table)?;
+        for offset_m in offsets_m {
+            for WalkablePolygon { outline_m, holes_m } in &polygons {
+                let holes_m = holes_m.iter().map(|hole_m| moved(hole_m, offset_m)).collect();
+                self.scenario.walkable_m.push(WalkablePolygon { outline_m: moved(outline_m, offset_m), holes_m });
+                self.walkable.push(index);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn moved(corners_m: &[Vec2], by_m: Vec2) -> Vec<Vec2> {
+    corners_m.iter().map(|&corner_m| corner_m + by_m).collect()
 }
 
 impl WalkableTable {
@@ -130,39 +213,6 @@ impl WalkableTable {
             }
         }
     }
-}
-
-/// The polygons of the obstacles of a kind, counter-clockwise.
-fn polygons_m(tables: &[Spanned<ObstacleTable>], kind: ObstacleKind) -> Vec<Vec<Vec2>> {
-    tables_of(tables, kind).map(|table| counter_clockwise(&table.get_ref().polygon_m)).collect()
-}
-
-/// The doors.
-fn doors(
-    source: &SourceText,
-    tables: &[Spanned<ObstacleTable>],
-    signals: &Names<'_>,
-) -> Result<Vec<DoorSpec>, ScenarioError> {
-    let mut doors = Vec::new();
-    for table in tables.iter().map(Spanned::get_ref) {
-        let Some(open) = &table.open else { continue };
-        let wrong = |(message, help): TableFault| ScenarioError::from(source.invalid(open.span(), message, help));
-        if table.kind() != ObstacleKind::Door {
-            let message = "an enclosure cannot open: its wall has no thickness".to_owned();
-            return Err(wrong((message, "remove `open`, or write obstacles with thickness around the polygon")));
-        }
-        let signal = signals.index(open.get_ref()).map_err(wrong)? as u32;
-        doors.push(DoorSpec { polygon_m: counter_clockwise(&table.polygon_m), signal });
-    }
-    Ok(doors)
-}
-
-/// The tables of the obstacles of a kind.
-pub(crate) fn tables_of(
-    tables: &[Spanned<ObstacleTable>],
-    kind: ObstacleKind,
-) -> impl Iterator<Item = &Spanned<ObstacleTable>> {
-    tables.iter().filter(move |table| table.get_ref().kind() == kind)
 }
 
 fn counter_clockwise(polygon_m: &[Point]) -> Vec<Vec2> {

@@ -8,7 +8,7 @@ use toml::Spanned;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::behaviour::AreaKeys;
-use crate::scenario::measure_spec::{MeasureSpec, MeasuredPlace};
+use crate::scenario::places::measure_spec::{MeasureSpec, MeasuredPlace};
 use crate::scenario::point::Point;
 
 /// One `[[measure]]` table, as written.

@@ -5,9 +5,10 @@
 //! apart from it the source of its motion.
 //!
 //! Read `reading` (the steps from text to scenario), then `scenario_file` (the keys), `agent_groups` and `agent_lines`
-//! (tables and lines of agents), `agent_area`
-//! (agents spread over an area), `profile_tables` (numbers that are drawn), `measure_tables` and
-//! `zone_tables` (lines and areas), `agent_placement` (from them to agents), `source_tables` (sources of agents).
+//! (tables and lines of agents), `agent_area` (agents spread over an area), `profile_tables` (numbers that are drawn),
+//! `agent_placement` (from them to agents), `group_keys` (agents that walk together), `source_tables` (sources of
+//! agents), `ground_tables` and `marking_tables`
+//! (walls, what is painted on the ground), `measure_tables` and `zone_tables` (lines and areas).
 
 mod agent_area;
 mod agent_groups;
@@ -15,6 +16,8 @@ mod agent_lines;
 mod agent_placement;
 pub(crate) mod behaviour;
 mod ground_tables;
+mod group_keys;
+mod marking_tables;
 mod measure_tables;
 mod profile_tables;
 mod reading;

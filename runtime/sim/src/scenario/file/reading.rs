@@ -18,7 +18,8 @@ use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, PlacementInput, fault_of_lines};
 use crate::scenario::file::behaviour::{BehaviourTables, Names, StateNames};
-use crate::scenario::file::ground_tables::{ObstacleKind, PlacedGround, tables_of};
+use crate::scenario::file::ground_tables::PlacedGround;
+use crate::scenario::file::marking_tables::PlacedMarkings;
 use crate::scenario::file::measure_tables::measures;
 use crate::scenario::file::profile_tables::Profiles;
 use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
@@ -54,7 +55,8 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
     let signals = Names::new("signal", &tables.signals);
     let mut ground = PlacedGround::new(source, &file.obstacles, &file.walkable, &behaviour, &signals)?;
     ground.scenario.zones = zones;
-    let texts = ScenarioTexts { source, file: &file, behaviour: &tables, walkable: &ground.tables };
+    let markings = PlacedMarkings::new(source, &file.markings, &behaviour, &mut ground.labels)?;
+    let texts = ScenarioTexts { source, file: &file, behaviour: &tables, ground: &ground, markings: &markings };
     check_ground_ranges(&ground.scenario)
         .and_then(|()| check_zones(&ground.scenario))
         .and_then(|()| check_ground(&ground.scenario))
@@ -74,6 +76,8 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         coupling: file.coupling,
         sources: sources(&input, &file.sources, *file.duration_s.get_ref())?,
         measures: measures(source, &file.measure)?,
+        markings: markings.markings.clone(),
+        labels: ground.labels.labels.clone(),
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
         ..defaults
@@ -108,8 +112,8 @@ struct ScenarioTexts<'a> {
     source: &'a SourceText,
     file: &'a ScenarioFile,
     behaviour: &'a BehaviourTables,
-    /// Index of the table of each walkable polygon.
-    walkable: &'a [usize],
+    ground: &'a PlacedGround,
+    markings: &'a PlacedMarkings,
 }
 
 impl ScenarioTexts<'_> {
@@ -125,8 +129,11 @@ impl ScenarioTexts<'_> {
     }
 
     fn span(&self, placed: &PlacedAgents, part: &ScenarioPart) -> Range<usize> {
-        let Self { source, file, behaviour, walkable } = *self;
-        let obstacle_span = |kind, index| tables_of(&file.obstacles, kind).nth(index).map_or(0..0, Spanned::span);
+        let Self { source, file, behaviour, ground, markings } = *self;
+        /// The bytes of the table that an item comes from.
+        fn of<T>(tables: &[Spanned<T>], table_of: &[usize], item: usize) -> Range<usize> {
+            table_of.get(item).map_or(0..0, |&table| tables[table].span())
+        }
         match *part {
             ScenarioPart::Name => file.name.as_ref().map_or(0..0, Spanned::span),
             ScenarioPart::Duration => file.duration_s.span(),
@@ -134,14 +141,18 @@ impl ScenarioTexts<'_> {
             ScenarioPart::View => file.view.as_ref().map_or(0..0, Spanned::span),
             ScenarioPart::Parameter(ref section, ref key) => parameter_span(source, section, key),
             ScenarioPart::Journey(agent) | ScenarioPart::Agent(agent) => placed.table(agent).span.clone(),
-            ScenarioPart::Obstacle(index) => obstacle_span(ObstacleKind::Solid, index),
-            ScenarioPart::Enclosure(index) => obstacle_span(ObstacleKind::Enclosure, index),
-            ScenarioPart::Door(index) => obstacle_span(ObstacleKind::Door, index),
-            ScenarioPart::Walkable(index) => walkable.get(index).map_or(0..0, |&table| file.walkable[table].span()),
+            ScenarioPart::Obstacle(index) => of(&file.obstacles, &ground.solids, index),
+            ScenarioPart::Enclosure(index) => of(&file.obstacles, &ground.enclosures, index),
+            ScenarioPart::Door(index) => of(&file.obstacles, &ground.doors, index),
+            ScenarioPart::Walkable(index) => of(&file.walkable, &ground.walkable, index),
+            ScenarioPart::Marking(index) => of(&file.markings, &markings.tables, index),
+            ScenarioPart::Label(index) => ground.labels.spans.get(index).cloned().unwrap_or(0..0),
             ScenarioPart::Source(index) => file.sources.get(index).map_or(0..0, Spanned::span),
-            ScenarioPart::State(_) | ScenarioPart::Goals(_) | ScenarioPart::Area(_) | ScenarioPart::Signal(_) => {
-                behaviour.span(part)
-            }
+            ScenarioPart::State(_)
+            | ScenarioPart::Goals(_)
+            | ScenarioPart::Area(_)
+            | ScenarioPart::Signal(_)
+            | ScenarioPart::Event(_) => behaviour.span(part),
             ScenarioPart::Zone(index) => file.zones.get(index).map_or(0..0, Spanned::span),
             ScenarioPart::Measure(index) => file.measure.get(index).map_or(0..0, Spanned::span),
             ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),

@@ -22,6 +22,7 @@
 //! [areas.NAME]
 //! [[zones]]                           # ground on which agents are slower: see `zone_tables.rs`
 //! [[measure]]                         # lines and areas: see `measure_tables.rs`
+//! [[markings]]                        # what is painted on the ground: see `marking_tables.rs`
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
 //! [params.planner]                    # MCN's tunables; all sections: see `params.rs`
@@ -41,8 +42,9 @@ use crate::planning::planner::Planner;
 use crate::scenario::coupling::Coupling;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::file::agent_groups::AgentGroups;
-use crate::scenario::file::behaviour::{AreaTable, BehaviourTables, GoalsTable, SignalTable, StateTable};
+use crate::scenario::file::behaviour::{AreaTable, BehaviourTables, EventTable, GoalsTable, SignalTable, StateTable};
 use crate::scenario::file::ground_tables::{ObstacleTable, WalkableTable};
+use crate::scenario::file::marking_tables::MarkingTable;
 use crate::scenario::file::measure_tables::MeasureTable;
 use crate::scenario::file::profile_tables::ProfileTable;
 use crate::scenario::file::source_tables::SourceTable;
@@ -84,6 +86,8 @@ pub(crate) struct ScenarioFile {
     #[serde(default)]
     signals: BTreeMap<String, Spanned<SignalTable>>,
     #[serde(default)]
+    events: BTreeMap<String, Spanned<EventTable>>,
+    #[serde(default)]
     areas: BTreeMap<String, Spanned<AreaTable>>,
     #[serde(default)]
     goals: BTreeMap<String, Spanned<GoalsTable>>,
@@ -99,6 +103,8 @@ pub(crate) struct ScenarioFile {
     pub(crate) obstacles: Vec<Spanned<ObstacleTable>>,
     #[serde(default)]
     pub(crate) walkable: Vec<Spanned<WalkableTable>>,
+    #[serde(default)]
+    pub(crate) markings: Vec<Spanned<MarkingTable>>,
     #[serde(default)]
     pub(crate) params: Params,
     pub(crate) view: Option<Spanned<View>>,
@@ -121,9 +127,10 @@ impl ScenarioFile {
 
     /// Takes the tables of behaviour out of the file.
     pub(crate) fn take_behaviour(&mut self) -> BehaviourTables {
-        let Self { signals, areas, goals, states, .. } = self;
+        let Self { signals, areas, goals, states, events, .. } = self;
         BehaviourTables {
             signals: std::mem::take(signals),
+            events: std::mem::take(events),
             areas: std::mem::take(areas),
             goals: std::mem::take(goals),
             states: std::mem::take(states),

@@ -3,6 +3,8 @@
 //! A table has exactly one of `at_m = [x, y]` and `rect_m = [least x, least y, greatest x, greatest y]`, the rate and
 //! the times of its agents, and the keys that `[[agents]]` has for goals, discs and speed.
 
+use std::collections::BTreeMap;
+
 use glam::Vec2;
 use serde::Deserialize;
 use toml::Spanned;
@@ -12,6 +14,7 @@ use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::agent_placement::PlacementInput;
 use crate::scenario::file::behaviour::DistributionValue;
+use crate::scenario::file::group_keys::group_sizes;
 use crate::scenario::file::profile_tables::ProfileValue;
 use crate::scenario::point::Point;
 use crate::scenario::source_spec::SourceSpec;
@@ -39,6 +42,8 @@ pub(crate) struct SourceTable {
     state: Option<Spanned<String>>,
     pre_movement_s: Option<DistributionValue>,
     profile: Option<Spanned<ProfileValue>>,
+    groups: Option<BTreeMap<String, f32>>,
+    group_spacing_m: Option<f32>,
 }
 
 /// The sources of all tables; they end with the scenario at the latest.
@@ -51,12 +56,14 @@ pub(crate) fn sources(
     let resolve = |table: &Spanned<SourceTable>| {
         let at_table = |(message, help): TableFault| ScenarioError::from(source.invalid(table.span(), message, help));
         let SourceTable { state, profile, pre_movement_s, preferred_speed_mps, radius_m, .. } = table.get_ref();
+        let SourceTable { groups, group_spacing_m, .. } = table.get_ref();
         let [states_speed, states_radius] = [preferred_speed_mps, radius_m].map(Option::is_some);
         let resolved =
             table.get_ref().source(duration_s).map_err(|(message, help)| at_table((message.into(), help)))?;
         let profiles = profiles.of_table(profile.as_ref(), *pre_movement_s, states_speed, states_radius);
         let profiles = profiles.map_err(at_table)?;
-        Ok(SourceSpec { state: states.index(state.as_ref(), source)?, profiles, ..resolved })
+        let groups = group_sizes(groups.as_ref(), *group_spacing_m).map_err(at_table)?;
+        Ok(SourceSpec { state: states.index(state.as_ref(), source)?, profiles, groups, ..resolved })
     };
     tables.iter().map(resolve).collect()
 }
@@ -96,6 +103,7 @@ impl SourceTable {
             pre_movement_s: 0.0,
             profiles: Vec::new(),
             closed_zones: 0,
+            groups: None,
         })
     }
 }

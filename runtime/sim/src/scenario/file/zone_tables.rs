@@ -9,8 +9,8 @@ use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::behaviour::AreaKeys;
 use crate::scenario::file::profile_tables::Profiles;
+use crate::scenario::places::zone_spec::ZoneSpec;
 use crate::scenario::point::Point;
-use crate::scenario::zone_spec::ZoneSpec;
 
 /// Greatest number of zones that are closed to some agents: the bits of a u32.
 const CLOSED_MAX: u32 = u32::BITS;

@@ -9,8 +9,8 @@ use std::ops::RangeInclusive;
 use glam::Vec2;
 
 use crate::behaviour::{
-    Area, Behaviour, Choice, Condition, Distribution, FOLLOWS_PATH, Facing, GoalArea, Movement, Settings, Signal,
-    State, Target,
+    Area, Behaviour, Choice, Condition, Distribution, Event, FOLLOWS_PATH, Facing, GoalArea, Movement, Settings,
+    Signal, State, Target,
 };
 use crate::maths::polygon::{closest_distance_m, contains};
 use crate::scenario::agent_spec::WALL_RADIUS_M;
@@ -38,7 +38,7 @@ const TOUCH_M: f64 = 1e-4;
 /// Checks indices and numbers of the behaviour, and the states of agents and sources.
 pub(crate) fn check_behaviour_ranges(scenario: &Scenario) -> Result<(), ScenarioFault> {
     let behaviour = &scenario.behaviour;
-    let Behaviour { states, goals, signals, areas } = behaviour;
+    let Behaviour { states, goals, signals, areas, events } = behaviour;
     within(&ScenarioPart::State(0), "the number of states", states.len(), &(0..=STATES_MAX), "give fewer")?;
     if states.first().is_some_and(|first| *first != State::follow_path()) {
         return ScenarioPart::State(0).fault(format!("the first state is not {FOLLOWS_PATH}"), RESOLVE);
@@ -60,6 +60,9 @@ pub(crate) fn check_behaviour_ranges(scenario: &Scenario) -> Result<(), Scenario
     }
     for (index, area) in areas.iter().enumerate() {
         check_area(&ScenarioPart::Area(index), area)?;
+    }
+    for (index, event) in events.iter().enumerate() {
+        check_event(&ScenarioPart::Event(index), event, behaviour)?;
     }
     states.iter().enumerate().try_for_each(|(index, state)| check_state(&ScenarioPart::State(index), state, behaviour))
 }
@@ -99,6 +102,17 @@ fn check_signal(part: &ScenarioPart, signal: &Signal) -> Result<(), ScenarioFaul
     within(part, "red_s", signal.red_s, &DURATION_S, help)?;
     within(part, "offset_s", signal.offset_s, &(-*DURATION_S.end()..=*DURATION_S.end()), help)?;
     within(part, "green_s + red_s", signal.green_s + signal.red_s, &(f32::MIN_POSITIVE..=f32::MAX), help)
+}
+
+fn check_event(part: &ScenarioPart, event: &Event, behaviour: &Behaviour) -> Result<(), ScenarioFault> {
+    check_condition(part, &event.condition, behaviour, DEPTH_MAX)?;
+    if !event.condition.is_of_crowd() {
+        return part.fault(format!("the condition of event `{}` speaks of one agent", event.name), RESOLVE);
+    }
+    for state in event.from.iter().flatten().chain(&event.to) {
+        check_index(part, "state", *state as usize, behaviour.states.len())?;
+    }
+    event.signals.iter().try_for_each(|(signal, _)| check_index(part, "signal", *signal, behaviour.signals.len()))
 }
 
 fn check_state(part: &ScenarioPart, state: &State, behaviour: &Behaviour) -> Result<(), ScenarioFault> {

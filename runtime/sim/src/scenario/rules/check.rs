@@ -13,6 +13,7 @@ use crate::scenario::ranges::check_ranges;
 use crate::scenario::resolved::Scenario;
 use crate::scenario::rules::behaviour_check::{check_behaviour_ranges, check_goals_clear_of_obstacles};
 use crate::scenario::rules::ground_check::{check_ground, check_ground_ranges};
+use crate::scenario::rules::marking_check::check_markings;
 use crate::scenario::rules::measure_check::{check_measures, check_zones};
 use crate::scenario::rules::source_check::{check_source_ranges, check_sources_clear_of_obstacles};
 use crate::scenario::rules::zone_check::check_closed_zones;
@@ -49,6 +50,7 @@ pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_behaviour_ranges(scenario)?;
     check_measures(scenario)?;
     check_zones(scenario)?;
+    check_markings(scenario)?;
     check_source_ranges(scenario)
 }
 

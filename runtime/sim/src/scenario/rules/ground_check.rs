@@ -7,16 +7,16 @@ use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::ranges::{check_points, within};
 use crate::scenario::resolved::Scenario;
 
-/// Greatest number of obstacles.
-const OBSTACLES_MAX: usize = 10_000;
+/// Greatest number of obstacles, enclosures among them.
+pub(crate) const OBSTACLES_MAX: usize = 10_000;
 /// Greatest number of doors: each asks in every step in which it closes whether an agent stands in it.
 const DOORS_MAX: usize = 1_000;
 /// Greatest number of corners of an obstacle: the test for self-intersection compares every pair of edges.
-const OBSTACLE_CORNERS_MAX: usize = 1_000;
+pub(crate) const OBSTACLE_CORNERS_MAX: usize = 1_000;
 /// Greatest number of corners of an outline or hole of walkable ground: plans of whole buildings have hundreds.
 const WALKABLE_CORNERS_MAX: usize = 5_000;
 /// Greatest number of corners of all walkable polygons.
-const CORNERS_MAX: usize = 200_000;
+pub(crate) const CORNERS_MAX: usize = 200_000;
 /// Least area of a polygon, m²: thinner slivers have no inside.
 const AREA_MIN_M2: f64 = 1e-4;
 /// How to mend a polygon that crosses itself.
@@ -51,7 +51,7 @@ pub(crate) fn check_ground(scenario: &Scenario) -> Result<(), ScenarioFault> {
 /// # Errors
 /// The first number that is out of range.
 pub(crate) fn check_ground_ranges(scenario: &Scenario) -> Result<(), ScenarioFault> {
-    let (obstacle, obstacles) = (&ScenarioPart::Obstacle(0), scenario.obstacles_m.len());
+    let (obstacle, obstacles) = (&ScenarioPart::Obstacle(0), scenario.obstacles_m.len() + scenario.enclosures_m.len());
     within(obstacle, "the number of obstacles", obstacles, &(0..=OBSTACLES_MAX), "give fewer")?;
     for (index, polygon_m) in scenario.obstacles_m.iter().enumerate() {
         check_points(&ScenarioPart::Obstacle(index), polygon_m)?;

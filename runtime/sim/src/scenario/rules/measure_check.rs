@@ -2,7 +2,7 @@
 
 use crate::maths::polygon::signed_area_m2;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::measure_spec::MeasuredPlace;
+use crate::scenario::places::measure_spec::MeasuredPlace;
 use crate::scenario::ranges::{check_name, check_points, within};
 use crate::scenario::resolved::Scenario;
 use crate::scenario::rules::behaviour_check::{FACTOR, check_area};

@@ -11,7 +11,7 @@ use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::profile::Profile;
 use crate::scenario::ranges::{
     AGENTS_MAX, DURATION_S, GOALS_MAX, PRE_MOVEMENT_S, RADIUS_M, REMOVE, SPEED_MPS, WAYPOINTS_MAX,
-    check_disc_and_speed, check_facing, check_points, within,
+    check_disc_and_speed, check_facing, check_points, check_sizes, within,
 };
 use crate::scenario::resolved::Scenario;
 use crate::scenario::rules::behaviour_check::check_distribution;
@@ -53,6 +53,7 @@ fn check_numbers(part: &ScenarioPart, source: &SourceSpec) -> Result<(), Scenari
     let least = usize::from(source.state == 0);
     within(part, "the number of goals", goals, &(least..=GOALS_MAX), "give the goal, and waypoints before it")?;
     within(part, "pre_movement_s", source.pre_movement_s, &PRE_MOVEMENT_S, REMOVE)?;
+    source.groups.as_ref().map_or(Ok(()), |sizes| check_sizes(part, sizes))?;
     source.profiles.iter().try_for_each(|profile| check_profile(part, profile))?;
     check_facing(part, source.facing_rad.unwrap_or(0.0))?;
     check_disc_and_speed(part, source.radius_m, source.wall_radius_m, source.preferred_speed_mps)

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::Vec2;
 use toml::Spanned;
 
-use crate::behaviour::{Area, Choice, GoalArea, GoalSet, Signal};
+use crate::behaviour::{Choice, GoalArea, GoalSet, Signal};
 use crate::scenario::file::behaviour::placed_fault::{At, DURATION_MAX_S, PlacedFault, fault};
 use crate::scenario::file::behaviour::tables::{ChooseName, ChooseValue, GoalAreaTable, GoalsTable, SignalTable};
 use crate::scenario::point::Point;
@@ -80,10 +80,7 @@ fn goal_area(goals: &GoalsTable, table: &Spanned<GoalAreaTable>, offset_m: Vec2)
     if facing_rad.is_some_and(|facing_rad| !facing_rad.is_finite()) {
         return Err(fault(&span, "the facing is no number".into(), "give degrees, counter-clockwise from +x"));
     }
-    let moved = match area.keys().area().at(&span)? {
-        Area::Disc { centre_m, radius_m } => Area::Disc { centre_m: centre_m + offset_m, radius_m },
-        Area::Polygon(corners_m) => Area::Polygon(corners_m.iter().map(|&corner_m| corner_m + offset_m).collect()),
-    };
+    let moved = area.keys().area().at(&span)?.moved(offset_m);
     Ok(GoalArea { area: moved, facing_rad, capacity, weight })
 }
 

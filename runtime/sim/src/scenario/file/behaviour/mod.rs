@@ -36,9 +36,16 @@
 //! remove = true                       # between two steps of the feet; or "at_once"
 //! [states.stroll]
 //! walk_mps = [1, 0]
+//!
+//! [events.alarm]                      # once
+//! when = { after_s = 60 }
+//! from = ["walk", "look"]             # default: agents of all states
+//! to = "gone"
+//! signals = { crossing = "red" }      # or "green", "phases"
 //! ```
 
 mod area_table;
+mod event_tables;
 mod goal_tables;
 mod names;
 mod numbers;
@@ -47,6 +54,7 @@ mod tables;
 mod transitions;
 
 pub(crate) use area_table::{AreaKeys, AreaTable};
+pub(crate) use event_tables::EventTable;
 pub(crate) use names::StateNames;
 pub(crate) use numbers::DistributionValue;
 pub(crate) use placed_fault::Names;

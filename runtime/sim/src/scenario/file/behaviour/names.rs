@@ -43,16 +43,18 @@ impl BehaviourTables {
             ScenarioPart::Goals(set) => nth(&self.goals, set),
             ScenarioPart::Area(area) => nth(&self.areas, area),
             ScenarioPart::Signal(signal) => nth(&self.signals, signal),
+            ScenarioPart::Event(event) => nth(&self.events, event),
             _ => 0..0,
         }
     }
 
     fn behaviour(&self) -> Result<Behaviour, PlacedFault> {
-        let Self { signals, areas, goals, states } = self;
+        let Self { signals, areas, goals, states, events } = self;
         check_count("states", states)?;
         check_count("signals", signals)?;
         check_count("areas", areas)?;
         check_count("goals", goals)?;
+        check_count("events", events)?;
         let goals = goal_sets(goals)?;
         let mut resolving = Resolving {
             goals: &goals,
@@ -70,8 +72,10 @@ impl BehaviourTables {
         for (name, table) in states {
             resolved.push(resolving.state(name, table)?);
         }
+        let events = events.iter().map(|(name, table)| resolving.event(name, table)).collect::<Result<_, _>>()?;
         let behaviour = Behaviour {
             states: resolved,
+            events,
             signals: signals.iter().map(|(name, table)| signal(name, table)).collect::<Result<_, _>>()?,
             areas: areas.values().map(|table| table.get_ref().area().at(&table.span())).collect::<Result<_, _>>()?,
             goals,

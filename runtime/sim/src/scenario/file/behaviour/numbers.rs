@@ -44,10 +44,11 @@ impl DistributionValue {
                 max: max.unwrap_or((mean + DEVIATIONS * deviation).min(greatest)),
             },
         };
-        if let Distribution::Normal { deviation, .. } = distribution
-            && !(0.0..=f32::MAX).contains(&deviation)
+        if let Distribution::Normal { mean, deviation, .. } = distribution
+            && !(mean.is_finite() && (0.0..=f32::MAX).contains(&deviation))
         {
-            return Err((format!("the deviation of {name} is {deviation}"), "write `normal = [mean, deviation]`"));
+            let message = format!("the mean of {name} is {mean}, its deviation {deviation}");
+            return Err((message, "write `normal = [mean, deviation]`, with finite numbers"));
         }
         let [min, max] = distribution.bounds();
         if least <= min && min <= max && max <= greatest {

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::scenario::file::behaviour::area_table::{AreaKeys, AreaTable};
+use crate::scenario::file::behaviour::event_tables::EventTable;
 use crate::scenario::file::behaviour::numbers::DistributionValue;
 use crate::scenario::point::Point;
 
@@ -19,6 +20,7 @@ pub(crate) struct BehaviourTables {
     pub(crate) areas: BTreeMap<String, Spanned<AreaTable>>,
     pub(crate) goals: BTreeMap<String, Spanned<GoalsTable>>,
     pub(crate) states: BTreeMap<String, Spanned<StateTable>>,
+    pub(crate) events: BTreeMap<String, Spanned<EventTable>>,
 }
 
 /// `[signals.NAME]`

@@ -25,7 +25,8 @@ fn resolved(text: &str) -> Result<Behaviour, String> {
     let source = SourceText { path: PathBuf::from("x.toml"), text: text.to_owned() };
     let file: File = toml::from_str(text).map_err(|error| error.to_string())?;
     let File { signals, areas, goals, states } = file;
-    BehaviourTables { signals, areas, goals, states }.resolve(&source).map_err(|error| error.to_string())
+    let events = BTreeMap::new();
+    BehaviourTables { signals, areas, goals, states, events }.resolve(&source).map_err(|error| error.to_string())
 }
 
 fn check_refused(text: &str, line: usize, part: &str) {

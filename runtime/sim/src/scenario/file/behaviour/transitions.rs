@@ -34,7 +34,7 @@ impl Resolving<'_> {
     }
 
     /// All keys of a table together.
-    fn condition(&mut self, when: &WhenTable) -> Result<Condition, TableFault> {
+    pub(crate) fn condition(&mut self, when: &WhenTable) -> Result<Condition, TableFault> {
         let too_many = || (format!("the scenario has more than {TRANSITIONS_MAX} conditions"), "give fewer");
         self.left = self.left.checked_sub(1).ok_or_else(too_many)?;
         let mut parts = Vec::new();

@@ -8,11 +8,15 @@ use crate::behaviour::choice::draw;
 use crate::behaviour::condition::Facts;
 use crate::behaviour::crowd_view::{CrowdView, Moment};
 use crate::behaviour::draw::{Drawer, Purpose};
+use crate::behaviour::event::Event;
+use crate::behaviour::machine::approach::Approach;
 use crate::behaviour::occupancy::Occupancy;
 use crate::behaviour::state::{Behaviour, Facing, Movement, Target};
 
 /// Transitions of one agent in one step from which on they count as endless.
-const TRANSITIONS_MAX: usize = 100;
+pub(crate) const TRANSITIONS_MAX: usize = 100;
+/// Greatest preferred speed, m/s, that of a scenario's `preferred_speed_mps`: factors that remain multiply.
+const SPEED_MAX_MPS: f32 = 10.0;
 
 /// An agent in its step.
 pub(crate) struct Deciding<'a> {
@@ -22,8 +26,20 @@ pub(crate) struct Deciding<'a> {
     pub(crate) index: usize,
     pub(crate) agent: &'a mut AgentState,
     pub(crate) occupancy: &'a mut Occupancy,
+    pub(crate) approach: &'a mut Approach,
     /// Position to which a state has moved the agent in this step, m.
     pub(crate) teleported_m: Option<Vec2>,
+    /// The members of its group that do as it does.
+    pub(crate) followers: Followers,
+}
+
+/// The members of a group that do as its first member does: those in the same state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Followers {
+    /// Number of them.
+    pub(crate) count: u32,
+    /// Greatest distance of one to its goal, m.
+    pub(crate) to_goal_m: f32,
 }
 
 impl Deciding<'_> {
@@ -39,22 +55,35 @@ impl Deciding<'_> {
         &self.behaviour.states[self.agent.state as usize].movement
     }
 
-    /// Takes transitions until none is due. Returns the states entered where the transitions do not end, each once.
+    /// Takes transitions until none is due, or until they count as endless. Returns the states entered.
     pub(crate) fn follow_transitions(&mut self, moment: &Moment) -> Vec<u32> {
         if self.agent.entries == 0 {
             self.enter(self.agent.state);
         }
         let mut entered = Vec::new();
-        while let Some(target) = self.next_state(moment) {
-            if entered.len() == TRANSITIONS_MAX {
-                entered.sort_unstable();
-                entered.dedup();
-                return entered;
-            }
+        while entered.len() < TRANSITIONS_MAX
+            && let Some(target) = self.next_state(moment)
+        {
             entered.push(target);
             self.enter(target);
         }
-        Vec::new()
+        entered
+    }
+
+    /// Enters the state to which an event moves the agent; an agent that leaves the scene goes on.
+    pub(crate) fn be_moved(&mut self, event: &Event) {
+        let stays = self.agent.entries == 0 || matches!(self.movement(), Movement::Leave { .. });
+        if let Some(state) = event.moves(self.agent.state).filter(|_| !stays) {
+            self.enter(state);
+        }
+    }
+
+    /// Takes the transitions that the first member of its group has taken.
+    pub(crate) fn follow_lead(&mut self, entered: &[u32]) {
+        if self.agent.entries == 0 {
+            self.enter(self.agent.state);
+        }
+        entered.iter().for_each(|&state| self.enter(state));
     }
 
     /// The state to which the first transition leads whose condition holds.
@@ -62,7 +91,7 @@ impl Deciding<'_> {
         let position_m = self.position_m();
         let is_inside = |area: usize| self.behaviour.areas[area].holds(position_m);
         let facts = Facts {
-            to_goal_m: self.to_goal_m(),
+            to_goal_m: self.to_goal_m().map(|to_goal_m| to_goal_m.max(self.followers.to_goal_m)),
             in_state_s: self.view.time_s - self.agent.entered_s,
             at_head_s: self.agent.at_head_s.map(|at_head_s| self.view.time_s - at_head_s),
             is_inside: &is_inside,
@@ -85,24 +114,8 @@ impl Deciding<'_> {
         }
     }
 
-    /// Distance to the goal of the present state, m; none without a goal. An agent that stands at its goal has reached
-    /// it, however small the goal is.
     fn to_goal_m(&self) -> Option<f32> {
-        let is_of_this_state = self.agent.entered_s < self.view.time_s;
-        let distance_m = self.goal_distance_m()?;
-        Some(if is_of_this_state && (self.view.stands_at_goal)(self.index) { 0.0 } else { distance_m })
-    }
-
-    fn goal_distance_m(&self) -> Option<f32> {
-        let (position_m, start_m) = (self.position_m(), self.agent.start_m);
-        match *self.movement() {
-            Movement::OwnPath => (self.view.path_end_m)(self.index),
-            Movement::Mirrored { centre_m } => Some(position_m.distance(2.0 * centre_m - start_m)),
-            Movement::Offset { by_m } => Some(position_m.distance(start_m + by_m)),
-            Movement::Goals { .. } | Movement::Walk { .. } | Movement::Stand { .. } | Movement::Leave { .. } => {
-                self.agent.goal.map(|goal| self.area(goal.at).area.distance_m(position_m))
-            }
-        }
+        to_goal_m(self.behaviour, self.view, self.index, self.agent, self.position_m())
     }
 
     /// Enters a state: leaves the old goal unless it stands there now, applies the settings.
@@ -123,7 +136,8 @@ impl Deciding<'_> {
             traits.preferred_speed_mps = speed_mps.draw(&mut drawer.random(Purpose::Setting(0)));
         }
         if let Some(factor) = settings.speed_factor {
-            traits.preferred_speed_mps *= factor.draw(&mut drawer.random(Purpose::Setting(1)));
+            let speed_mps = traits.preferred_speed_mps * factor.draw(&mut drawer.random(Purpose::Setting(1)));
+            traits.preferred_speed_mps = speed_mps.min(SPEED_MAX_MPS);
         }
         if let Some(radius_m) = settings.radius_m {
             traits.radius_m = radius_m.draw(&mut drawer.random(Purpose::Setting(2)));
@@ -133,7 +147,8 @@ impl Deciding<'_> {
             self.agent.lasting = traits;
         }
         if let Some(area) = &settings.teleport {
-            self.teleported_m = Some(self.view.draw_clear_m(self.index, area, &mut drawer.random(Purpose::Setting(3))));
+            let position_m = self.view.draw_clear_m(self.index, area, &mut drawer.random(Purpose::Setting(3)));
+            self.teleported_m = Some(position_m).filter(|&position_m| (self.view.is_clear)(self.index, position_m));
         }
     }
 
@@ -166,4 +181,27 @@ impl Deciding<'_> {
             None => Aim::Stay { facing_rad },
         }
     }
+}
+
+/// Distance of an agent at a position to the goal of its present state, m; none without a goal. An agent that stands at
+/// its goal has reached it, however small the goal is.
+pub(crate) fn to_goal_m(
+    behaviour: &Behaviour,
+    view: &CrowdView,
+    index: usize,
+    agent: &AgentState,
+    position_m: Vec2,
+) -> Option<f32> {
+    let start_m = agent.start_m;
+    let distance_m = match behaviour.states[agent.state as usize].movement {
+        Movement::OwnPath => (view.path_end_m)(index)?,
+        Movement::Mirrored { centre_m } => position_m.distance(2.0 * centre_m - start_m),
+        Movement::Offset { by_m } => position_m.distance(start_m + by_m),
+        Movement::Goals { .. } | Movement::Walk { .. } | Movement::Stand { .. } | Movement::Leave { .. } => {
+            let goal = agent.goal?.at;
+            behaviour.goals[goal.set as usize].areas[goal.area as usize].area.distance_m(position_m)
+        }
+    };
+    let is_of_this_state = agent.entered_s < view.time_s;
+    Some(if is_of_this_state && (view.stands_at_goal)(index) { 0.0 } else { distance_m })
 }

@@ -1,0 +1,154 @@
+//! Areas that walls make useless, found before a simulation: goals without a route, ground apart from all walls to which
+//! a state moves agents, sources in walls or off the walkable ground. World, metres.
+
+use std::collections::BTreeSet;
+
+use glam::{DVec2, Vec2};
+
+use crate::behaviour::{Area, Movement};
+use crate::route::arrival::ARRIVAL_M;
+use crate::route::crowd_routes::MeshClass;
+use crate::route::mesh::RouteMesh;
+use crate::scenario::{Scenario, ScenarioFault, ScenarioPart, WALL_RADIUS_M};
+use crate::world::obstacles::Obstacles;
+
+/// Rows and columns of the positions that are tried in an area.
+const LATTICE: u16 = 16;
+/// Overlap of a disc and a wall that is taken for rounding, m: the grid of walkable ground.
+const TOUCH_M: f32 = 2e-3;
+/// Distance from the mesh within which a position counts as on it, m: the step of the classes of wall radii.
+const BESIDE_M: f64 = 0.05;
+
+/// Checks the areas of sources, teleports and goals; `meshes` are those of all agents, by class.
+///
+/// # Errors
+/// The first area that is of no use.
+pub(crate) fn check_areas(
+    scenario: &Scenario,
+    walls: &Obstacles,
+    meshes: &[(MeshClass, RouteMesh)],
+) -> Result<(), ScenarioFault> {
+    for index in 0..scenario.sources.len() {
+        if source_starts_m(scenario, index, walls).next().is_none() {
+            let message = format!("source {index} has no free ground: it lies in a wall or off the walkable ground");
+            return ScenarioPart::Source(index)
+                .fault(message, "move it until it is at least `wall_radius_m` from walls");
+        }
+    }
+    for (index, state) in scenario.behaviour.states.iter().enumerate() {
+        if state.settings.teleport.as_ref().is_some_and(|area| clear_m(area, WALL_RADIUS_M, walls).next().is_none()) {
+            let message = format!("the area to which state `{}` teleports lies in walls", state.name);
+            return ScenarioPart::State(index).fault(message, "move it to free ground");
+        }
+    }
+    check_goals(scenario, walls, meshes)
+}
+
+/// Checks that an agent with states can reach each area of the goals that states go to.
+fn check_goals(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, RouteMesh)]) -> Result<(), ScenarioFault> {
+    let starts = starts(scenario, walls, meshes);
+    let sets: BTreeSet<usize> = scenario
+        .behaviour
+        .states
+        .iter()
+        .filter_map(|state| match state.movement {
+            Movement::Goals { set, .. } => Some(set),
+            _ => None,
+        })
+        .collect();
+    let is_reached = |at_m: Vec2| {
+        starts.iter().any(|&(mesh, part)| {
+            let from = meshes[mesh].1.nearest(DVec2::from(at_m), Some(part), None);
+            from.is_some_and(|from| {
+                let beside_m = from.point_m.distance(DVec2::from(at_m));
+                beside_m < BESIDE_M || beside_m < ARRIVAL_M && walls.is_free(from.point_m.as_vec2(), at_m)
+            })
+        })
+    };
+    for &index in sets.iter().filter(|_| !starts.is_empty()) {
+        let set = &scenario.behaviour.goals[index];
+        if let Some(goal) = set.areas.iter().find(|goal| !goal.area.lattice_m(LATTICE).any(is_reached)) {
+            let [x, y] = goal.area.centre_m().to_array();
+            let message = format!("no route leads an agent to the area of goals `{}` at [{x}, {y}]", set.name);
+            let help = "move it to ground that agents can reach, or widen a passage";
+            return ScenarioPart::Goals(index).fault(message, help);
+        }
+    }
+    Ok(())
+}
+
+/// Meshes, by index, and their parts on which agents with states begin.
+fn starts(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, RouteMesh)]) -> Vec<(usize, u32)> {
+    let mut starts = BTreeSet::new();
+    let mut add = |mesh: usize, at_m: Vec2| {
+        let mesh_at = &meshes[mesh].1;
+        let part = mesh_at.nearest(DVec2::from(at_m), None, None).map(|at| mesh_at.parts[at.triangle as usize]);
+        starts.extend(part.map(|part| (mesh, part)));
+    };
+    let mesh_of = |class: MeshClass| meshes.iter().position(|(of, _)| *of == class);
+    for agent in scenario.agents.iter().filter(|agent| agent.state != 0) {
+        mesh_of(MeshClass::of(agent)).into_iter().for_each(|mesh| add(mesh, agent.position_m));
+    }
+    for (index, source) in scenario.sources.iter().enumerate().filter(|(_, source)| source.state != 0) {
+        let class = |closed_zones| MeshClass::new(source.wall_radius_m, closed_zones);
+        for mesh in source.closed_zone_sets().into_iter().filter_map(|set| mesh_of(class(set))) {
+            source_starts_m(scenario, index, walls).for_each(|at_m| add(mesh, at_m));
+        }
+    }
+    for area in scenario.behaviour.states.iter().filter_map(|state| state.settings.teleport.as_ref()) {
+        (0..meshes.len()).for_each(|mesh| clear_m(area, WALL_RADIUS_M, walls).for_each(|at_m| add(mesh, at_m)));
+    }
+    starts.into_iter().collect()
+}
+
+/// Positions in a source's area at which agents can appear, m.
+fn source_starts_m<'a>(scenario: &Scenario, index: usize, walls: &'a Obstacles) -> impl Iterator<Item = Vec2> + 'a {
+    let source = &scenario.sources[index];
+    clear_m(&Area::rectangle(source.low_m, source.high_m), source.wall_radius_m, walls)
+}
+
+/// Positions in an area at which a disc overlaps no wall, m.
+fn clear_m<'a>(area: &Area, radius_m: f32, walls: &'a Obstacles) -> impl Iterator<Item = Vec2> + use<'a> {
+    let positions_m: Vec<Vec2> = area.lattice_m(LATTICE).collect();
+    positions_m.into_iter().filter(move |&at_m| walls.depth_m(at_m, radius_m) <= TOUCH_M)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use motiondb::files::SourceText;
+
+    use crate::scenario::parse;
+
+    #[test]
+    fn areas_that_no_agent_can_use_are_errors_at_their_table() {
+        const ROOM: &str = "[[walkable]]\npolygon_m = [[-5, -5], [15, -5], [15, 5], [-5, 5]]\n\
+            [[obstacles]]\nkind = 'enclosure'\npolygon_m = [[8, -2], [12, -2], [12, 2], [8, 2]]\n";
+        let check = |goal: &str, set: &str, source: &str, line_and_part: Option<(usize, &str)>| {
+            let text = format!(
+                "duration_s = 5\n[goals.till]\nqueue = true\nareas = [{{ point_m = [3, 0] }}, {{ {goal} }}]\n\
+                 [states.queue]\ngo = 'till'\n{set}\n[[agents]]\nat_m = [0, 0]\nstate = 'queue'\n\
+                 [[sources]]\n{source}\nrate_per_s = 1\nstate = 'queue'\n{ROOM}"
+            );
+            let found = parse(&SourceText { path: PathBuf::from("x.toml"), text });
+            match (found, line_and_part) {
+                (Ok(_), None) => {}
+                (Err(error), Some((line, part))) => {
+                    let message = error.to_string();
+                    assert!(message.contains(part) && message.contains(&format!(":{line}:")), "{message}");
+                }
+                (found, _) => panic!("{goal} {set} {source}: {:?}", found.map(|_| ())),
+            }
+        };
+        let (near, here) = ("point_m = [4, 0]", "at_m = [0, 3]");
+        check(near, "", here, None);
+        check("rect_m = [5, 4.9, 6, 5]", "", here, None);
+        for goal in ["point_m = [10, 0]", "point_m = [8.4, 0]", "circle_m = [0, 30, 2]", "rect_m = [20, 0, 30, 1]"] {
+            check(goal, "", here, Some((2, "no route leads an agent to the area of goals `till`")));
+        }
+        check("point_m = [10, 0]", "set = { teleport = { point_m = [11, 0] } }", here, None);
+        check(near, "set = { teleport = { rect_m = [30, 0, 33, 3] } }", here, Some((5, "`queue` teleports")));
+        check(near, "", "rect_m = [30, 0, 33, 3]", Some((11, "source 0 has no free ground")));
+    }
+}

@@ -1,0 +1,6 @@
+//! What lies on the ground besides walls: zones, doors, markings, measured lines and areas. World, metres.
+
+pub(crate) mod door;
+pub(crate) mod marking;
+pub(crate) mod measure_spec;
+pub(crate) mod zone_spec;
