@@ -45,7 +45,7 @@
 //! ```
 
 mod area_table;
-mod event_tables;
+mod events;
 mod goal_tables;
 mod names;
 mod numbers;
@@ -54,8 +54,7 @@ mod tables;
 mod transitions;
 
 pub(crate) use area_table::{AreaKeys, AreaTable};
-pub(crate) use event_tables::EventTable;
 pub(crate) use names::StateNames;
 pub(crate) use numbers::DistributionValue;
 pub(crate) use placed_fault::Names;
-pub(crate) use tables::{BehaviourTables, GoalsTable, SignalTable, StateTable};
+pub(crate) use tables::{BehaviourTables, EventTable, GoalsTable, SignalTable, StateTable};

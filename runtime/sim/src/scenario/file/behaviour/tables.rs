@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::behaviour::event::SignalOrder;
 use crate::scenario::file::behaviour::area_table::{AreaKeys, AreaTable};
-use crate::scenario::file::behaviour::event_tables::EventTable;
 use crate::scenario::file::behaviour::numbers::DistributionValue;
 use crate::scenario::point::Point;
 
@@ -222,6 +222,17 @@ pub(crate) struct WhenTable {
     pub(crate) all: Option<Vec<WhenTable>>,
     pub(crate) any: Option<Vec<WhenTable>>,
     pub(crate) not: Option<Box<WhenTable>>,
+}
+
+/// `[events.NAME]`
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct EventTable {
+    pub(crate) when: WhenTable,
+    pub(crate) from: Option<Spanned<Vec<String>>>,
+    pub(crate) to: Option<Spanned<String>>,
+    #[serde(default)]
+    pub(crate) signals: BTreeMap<String, SignalOrder>,
 }
 
 /// Number of agents inside an area.

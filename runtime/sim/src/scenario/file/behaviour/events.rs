@@ -1,25 +1,11 @@
-//! The `[events.NAME]` tables of a scenario file.
+//! From the tables of events to [`Event`].
 
-use std::collections::BTreeMap;
-
-use serde::Deserialize;
 use toml::Spanned;
 
-use crate::behaviour::event::{Event, SignalOrder};
+use crate::behaviour::event::Event;
 use crate::scenario::file::behaviour::names::Resolving;
 use crate::scenario::file::behaviour::placed_fault::{At, PlacedFault, fault};
-use crate::scenario::file::behaviour::tables::WhenTable;
-
-/// `[events.NAME]`
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct EventTable {
-    when: WhenTable,
-    from: Option<Spanned<Vec<String>>>,
-    to: Option<Spanned<String>>,
-    #[serde(default)]
-    signals: BTreeMap<String, SignalOrder>,
-}
+use crate::scenario::file::behaviour::tables::EventTable;
 
 impl Resolving<'_> {
     /// One event.
