@@ -53,7 +53,7 @@ fn sizes_have_bounds() {
         state(&format!("{{ when = {}{{ after_s = 1 }}{}, to = 's' }}", "{ not = ".repeat(depth), " }".repeat(depth)))
     };
     let cases = [
-        (enclosure.repeat(10_001), "the number of obstacles is 10001"),
+        (enclosure.repeat(10_001), "with this table there are 10001 obstacles"),
         ("[[obstacles]]\nkind = 'enclosure'\npolygon_m = [[3, 3], [5, 5], [5, 3], [3, 5]]\n".into(), ":5: enclosure 0"),
         ("[[walkable]]\npolygon_m = [[-9, -9], [1e9, -9], [-9, 1e9]]\n".into(), ":5: [1000000000, -9] is not within"),
         (many(4_001, &|index| format!("[states.s{index}]\nwalk_mps = [1, 0]\n")), "4001 states, more than 4000"),

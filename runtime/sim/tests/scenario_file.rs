@@ -561,7 +561,7 @@ fn wrong_events_are_shown_at_their_line() {
         ("when = { after_s = 1 }\nto = \"sit\"\nfrom = [\"run\"]", "there is no state `run`"),
         ("when = { after_s = 1 }\nsignals = { gate = \"red\" }", "there is no signal `gate`"),
         ("when = { after_s = 1 }\nsignals = { door = \"blue\" }", "unknown value `blue`"),
-        ("to = \"sit\"", "missing field `when`"),
+        ("to = \"sit\"", "the key `when` is missing"),
     ];
     for (keys, message) in cases {
         match read(&write("events", &format!("{HEAD}{ONE}{STATE}[events.alarm]\n{keys}\n"))) {

@@ -59,6 +59,13 @@ fn is_vadere(path: &Path) -> Result<bool, SceneError> {
     Ok(error::read_text(path)?.text.contains("\"topography\""))
 }
 
+/// Whether the extension of a name is that of a scene of another program.
+pub fn is_scene(path: &Path) -> bool {
+    const EXTENSIONS: [&str; 6] = ["xml", "wkt", "geojson", "json", "scenario", "dxf"];
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    EXTENSIONS.contains(&extension.as_str())
+}
+
 /// Reads a scene; the extension of its name states the format.
 ///
 /// # Errors

@@ -12,7 +12,7 @@ use fbcrowd_jobs::simulation;
 use fbcrowd_jobs::wording::counted;
 use fbcrowd_jobs::{JobEvent, Observer};
 use fbcrowd_render::top_view::{PictureFormat, SequenceOptions};
-use fbcrowd_scenes::ReadOptions;
+use fbcrowd_scenes::{ReadOptions, is_scene};
 use fbcrowd_sim::measures;
 use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::database_file;
@@ -97,7 +97,7 @@ impl Subject {
     /// The scenario of the arguments; a scene of another program is converted into the output folder first.
     fn new(args: &Args) -> Result<Self, Failure> {
         let Args { scenario, output, clips, duration, outside } = args;
-        if scenario.extension().is_none_or(|extension| extension == "toml") {
+        if !is_scene(scenario) {
             if clips.is_some() || duration.is_some() {
                 let message = "--clips and --duration are for scenes of other programs";
                 return Err(Failure::bad(format!("{message}; set `clips` and `duration_s` in {}", scenario.display())));
