@@ -47,7 +47,10 @@ impl Deciding<'_> {
                 Some(lead) => self.choose_beside(lead),
                 None => self.choose(set, choice),
             }
-        } else if choice == Choice::LeastBusy && self.view.time_s - self.agent.chosen_s >= CHOOSES_AGAIN_S {
+        } else if choice == Choice::LeastBusy
+            && lead_goal.is_none()
+            && self.view.time_s - self.agent.chosen_s >= CHOOSES_AGAIN_S
+        {
             self.choose_again(set);
         }
         let goal = self.agent.goal.filter(|goal| goal.is_taken);
