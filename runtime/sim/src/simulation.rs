@@ -330,16 +330,4 @@ fn are_between_steps(before: [f32; 2], after: [f32; 2]) -> bool {
 }
 
 #[cfg(test)]
-mod behaviour_tests;
-#[cfg(test)]
-mod door_tests;
-#[cfg(test)]
-mod group_tests;
-#[cfg(test)]
-mod route_tests;
-#[cfg(test)]
 pub(crate) mod tests;
-#[cfg(test)]
-mod turnover_tests;
-#[cfg(test)]
-mod wild_behaviour_tests;

@@ -1,8 +1,8 @@
 //! One step of the state machine of all agents: transitions, goals, aims. World, metres, seconds.
 //!
 //! 1. Count the agents in states and areas, and look at the signals, as the last step left them; let events happen.
-//! 2. For each agent in the order of ids: enter the state to which an event moves it; take the first transition whose condition holds, until none holds. An agent
-//!    that takes a hundred in one step ends them there, and the fault is kept.
+//! 2. For each agent in the order of ids: enter the state to which an event moves it; take the first transition whose
+//!    condition holds, until none holds. An agent that takes a hundred in one step ends them there, and the fault is kept.
 //! 3. Keep its goal up to date: move up in a queue, leave a busy exit for another, look again for a goal with room.
 //!
 //! Members of a group that are in the state of its first member do as that one does (`group_leads`).

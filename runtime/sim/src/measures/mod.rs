@@ -5,9 +5,9 @@
 //!
 //! Read `crowd_measures`, which collects the measures of `fbcrowd measure` from its parts: `collision_rate` (Eqs. 16,
 //! 17), `root_measures` (Eq. 18, arrival, tracking), `planted_slide`, `body_penetration` and `wall_contact` (both by
-//! the capsules of `bone_capsule`); `frame_pairs` pairs the agents of two frames. `state_visits` counts agents in states, `places` holds the scenario's own lines and
-//! areas, `pedestrian_studies` flow, lanes, density and waiting crowds; `agent_table`
-//! and `trajectories` write a recording as text.
+//! the capsules of `bone_capsule`); `frame_pairs` pairs the agents of two frames. `state_visits` counts agents in
+//! states, `places` holds the scenario's own lines and areas, `pedestrian_studies` flow, lanes, density and waiting
+//! crowds; `agent_table` and `trajectories` write a recording as text.
 
 pub(crate) mod agent_table;
 pub(crate) mod body_penetration;

@@ -3,9 +3,9 @@
 //! Enters: a scenario file ([`file`](mod@file)), or agents made in code. Leaves: a [`Scenario`] in which every agent is
 //! explicit, every number is in range and no path occurs.
 //!
-//! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `profile`, `social_group`,
-//! `places` (zones, doors, markings, measured lines and areas), `coupling` and `view`; then `rules` and `ranges`, `fault` and `error` (how a broken rule is shown); then
-//! [`file`](mod@file).
+//! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `profile`, `social_group`, `places`
+//! (zones, doors, markings, measured lines and areas), `coupling` and `view`; then `rules` and `ranges`, `fault` and
+//! `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
 pub(crate) mod coupling;

@@ -1,25 +1,12 @@
 //! Claims about groups that walk together.
 
-use std::path::PathBuf;
-use std::sync::Arc;
-
 use glam::Vec2;
-use motiondb::files::SourceText;
 
-use crate::scenario::parse;
 use crate::simulation::Simulation;
-use crate::test_db::test_db;
+use crate::simulation::tests::{self, scenario_of};
 
-/// Runs a scenario to its end; `watch` sees every step.
 fn run(text: &str, mut watch: impl FnMut(&Simulation)) -> Simulation {
-    let text = format!("duration_s = 40\n{text}");
-    let scenario = parse(&SourceText { path: PathBuf::from("test.toml"), text }).unwrap().0;
-    let mut simulation = Simulation::new(Arc::new(test_db()), &scenario);
-    for _ in 0..scenario.steps() {
-        simulation.step(&mut |_| {});
-        watch(&simulation);
-    }
-    simulation
+    tests::run(&scenario_of(&format!("duration_s = 40\n{text}")), |simulation, _| watch(simulation))
 }
 
 fn positions_m(simulation: &Simulation) -> Vec<Vec2> {

@@ -6,7 +6,7 @@ use motiondb::files::SourceText;
 use proptest::prelude::*;
 
 use crate::scenario::parse;
-use crate::simulation::behaviour_tests::started;
+use crate::simulation::tests::started;
 
 /// Any condition of a wild machine, as text.
 fn any_when() -> impl Strategy<Value = String> {

@@ -1,14 +1,25 @@
-//! Claims about whole steps: determinism, arrival, walls, couplings.
+//! Claims about whole steps: determinism, arrival, walls, couplings; and about agents that behave, come and go, find their
+//! routes, wait before doors, and walk in groups.
+
+use std::path::PathBuf;
 
 use glam::Vec2;
+use motiondb::files::SourceText;
 
 use super::*;
 use crate::maths::angle::wrap_rad;
 use crate::planning::planner::Planner;
-use crate::scenario::AgentSpec;
+use crate::scenario::{AgentSpec, parse};
 use crate::synthesis::Mode;
 use crate::synthesis::blending::BlendDomain;
 use crate::test_db::test_db;
+
+mod behaviour;
+mod door;
+mod group;
+mod route;
+mod turnover;
+mod wild_behaviour;
 
 /// Agents on a circle; the goal of each is the opposite point.
 pub(crate) fn antipodal(count: usize, radius_m: f32) -> Scenario {
@@ -26,6 +37,26 @@ pub(crate) fn antipodal(count: usize, radius_m: f32) -> Scenario {
         }
     };
     Scenario { name: "antipodal".into(), duration_s: 30.0, ..Scenario::of((0..count).map(agent).collect()) }
+}
+
+/// The scenario of a text.
+fn scenario_of(text: &str) -> Scenario {
+    parse(&SourceText { path: PathBuf::from("test.toml"), text: text.to_owned() }).unwrap().0
+}
+
+fn started(scenario: &Scenario) -> Simulation {
+    Simulation::new(Arc::new(test_db()), scenario)
+}
+
+/// Runs a scenario to its end; `watch` sees every step and the time after it, s.
+fn run(scenario: &Scenario, mut watch: impl FnMut(&Simulation, f64)) -> Simulation {
+    let mut simulation = started(scenario);
+    for step in 1..=scenario.steps() {
+        simulation.step(&mut |_| {});
+        watch(&simulation, step as f64 * f64::from(scenario.dt_s));
+    }
+    assert_eq!(simulation.endless_transitions(), None);
+    simulation
 }
 
 fn simulated(scenario: &Scenario, steps: usize) -> Vec<AgentFrame> {

@@ -1,37 +1,20 @@
 //! Claims about crowds with behaviour: small scenarios from text to their last step.
 
-use std::path::PathBuf;
-use std::sync::Arc;
-
 use glam::Vec2;
-use motiondb::files::SourceText;
 
 use crate::maths::angle::wrap_rad;
 use crate::measures::Measuring;
 use crate::population::AgentLife;
-use crate::scenario::{Scenario, parse};
+use crate::scenario::Scenario;
 use crate::simulation::Simulation;
-use crate::test_db::test_db;
+use crate::simulation::tests::{self, scenario_of, started};
 
 fn scenario(text: &str) -> Scenario {
-    let text = format!("duration_s = 60\ndt_s = 0.05\n{text}");
-    parse(&SourceText { path: PathBuf::from("test.toml"), text }).unwrap().0
+    scenario_of(&format!("duration_s = 60\ndt_s = 0.05\n{text}"))
 }
 
-pub(super) fn started(scenario: &Scenario) -> Simulation {
-    Simulation::new(Arc::new(test_db()), scenario)
-}
-
-/// Runs a scenario to its end; `watch` sees every step and the time after it, s.
-fn run(text: &str, mut watch: impl FnMut(&Simulation, f64)) -> Simulation {
-    let scenario = scenario(text);
-    let mut simulation = started(&scenario);
-    for step in 1..=(scenario.duration_s / scenario.dt_s) as usize {
-        simulation.step(&mut |_| {});
-        watch(&simulation, step as f64 * f64::from(scenario.dt_s));
-    }
-    assert_eq!(simulation.endless_transitions(), None);
-    simulation
+fn run(text: &str, watch: impl FnMut(&Simulation, f64)) -> Simulation {
+    tests::run(&scenario(text), watch)
 }
 
 /// Name of the state of each present agent.
