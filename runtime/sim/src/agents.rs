@@ -54,6 +54,8 @@ pub struct Agents {
     pub wall_radii_m: Vec<f32>,
     /// Zones that the agent does not enter, by bits.
     pub closed_zones: Vec<u32>,
+    /// Right of way in the present state.
+    pub priorities: Vec<f32>,
     /// How far each has got on its way.
     pub progress: Vec<PathProgress>,
     /// What each remembers of its route around walls.
@@ -87,6 +89,7 @@ macro_rules! for_each_array {
             radii_m,
             wall_radii_m,
             closed_zones,
+            priorities,
             progress,
             route_memory,
             preferred_mps,
@@ -125,6 +128,7 @@ impl Agents {
         self.radii_m.push(spec.radius_m);
         self.wall_radii_m.push(spec.wall_radius_m);
         self.closed_zones.push(spec.closed_zones);
+        self.priorities.push(spec.priority);
         self.progress.push(PathProgress::default());
         self.route_memory.push(RouteMemory::default());
         self.preferred_mps.push(Vec2::ZERO);

@@ -66,6 +66,7 @@
 //!     neighbours: &neighbours,
 //!     obstacles: &Obstacles::default(),
 //!     own_walls: None,
+//!     priorities: None,
 //!     constraints: &MotionConstraints::new(&VelocityHull::default()),
 //!     dt_s: 0.1,
 //!     bodies: false,

@@ -103,6 +103,8 @@ pub struct Simulation {
     sources: Vec<SourceState>,
     /// Whether any agent is, or a source's may be, in a group.
     has_groups: bool,
+    /// Whether agents may have different priorities.
+    has_priorities: bool,
     /// Number of steps so far: the index of the present frame.
     steps: u32,
 }
@@ -137,6 +139,7 @@ impl Simulation {
             crowd,
             context,
             has_groups: scenario.has_groups(),
+            has_priorities: scenario.has_priorities(),
             steps: 0,
         };
         simulation.close_doors_at_start();
@@ -256,6 +259,7 @@ impl Simulation {
             obstacles: &self.obstacles,
             own_walls: (!self.zone_walls.sets.is_empty())
                 .then_some(OwnWalls { closed_zones: &agents.closed_zones, zone_walls: &self.zone_walls }),
+            priorities: self.has_priorities.then_some(&agents.priorities[..]),
             constraints: &self.constraints,
             dt_s: self.scenario.dt_s,
             bodies: self.scenario.coupling.plans_for_bodies(),

@@ -109,6 +109,9 @@ pub struct Settings {
     pub speed_factor: Option<Distribution>,
     /// Radius of the disc that other agents see, m.
     pub radius_m: Option<Distribution>,
+    /// Priority while the agent is in the state; none: its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub priority: Option<f32>,
     /// Position to which the agent is moved at once.
     pub teleport: Option<Area>,
     /// Whether speed and radius stay changed when the agent leaves the state.
@@ -181,6 +184,11 @@ impl Behaviour {
             Movement::Stand { facing: Facing::At(at_m) } => towards(at_m),
             Movement::OwnPath | Movement::Stand { .. } | Movement::Leave { .. } => None,
         }
+    }
+
+    /// Priority of an agent in a state, by index; `own` where the state sets none.
+    pub(crate) fn priority(&self, state: usize, own: f32) -> f32 {
+        self.states.get(state).and_then(|state| state.settings.priority).unwrap_or(own)
     }
 
     /// Name of a state, by index.

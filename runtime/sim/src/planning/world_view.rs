@@ -6,9 +6,11 @@
 use glam::Vec2;
 
 use crate::planning::mcn::motion_constraints::MotionConstraints;
+use crate::planning::orca::agent_half_planes::EQUAL_SHARE;
 use crate::planning::plan::Stance;
 use crate::world::disc::Disc;
-use crate::world::neighbours::NeighbourSearch;
+use crate::world::neighbours::neighbour_lanes::{LANES, Lanes};
+use crate::world::neighbours::{Neighbour, NeighbourSearch};
 use crate::world::obstacles::{Obstacles, ZoneWalls};
 
 /// Everything that a plan depends on, besides the planner's tunables.
@@ -43,6 +45,7 @@ use crate::world::obstacles::{Obstacles, ZoneWalls};
 ///     neighbours: &neighbours,
 ///     obstacles: &Obstacles::default(),
 ///     own_walls: None,
+///     priorities: None,
 ///     constraints: &MotionConstraints::new(&hull),
 ///     dt_s: 0.1,
 ///     bodies: true,
@@ -77,6 +80,8 @@ pub struct WorldView<'a> {
     pub obstacles: &'a Obstacles,
     /// The walls of the other agents, and which agents these are; none where there are no such agents.
     pub own_walls: Option<OwnWalls<'a>>,
+    /// Priority of each agent: an agent leaves more of the avoiding to one of a lower priority. None: all are equal.
+    pub priorities: Option<&'a [f32]>,
     /// Constraints of the database's velocity sets.
     pub constraints: &'a MotionConstraints,
     /// Time step, s.
@@ -99,6 +104,20 @@ impl<'a> WorldView<'a> {
     pub fn walls_of(&self, agent: usize) -> &'a Obstacles {
         let own = self.own_walls.and_then(|own| own.zone_walls.of(own.closed_zones[agent]));
         own.unwrap_or(self.obstacles)
+    }
+
+    /// How much of the avoiding an agent does against each of some neighbours: ½ among equals, all of it against a
+    /// priority that is higher by 1, nothing against one that is lower by 1 (Curtis, Zafar, Gutub, Manocha 2013, "Right
+    /// of way"). The shares of two agents add up to 1.
+    pub(crate) fn shares(&self, agent: usize, neighbours: &[Neighbour]) -> Lanes {
+        let mut shares = [EQUAL_SHARE; LANES];
+        if let Some(priorities) = self.priorities {
+            for (share, neighbour) in shares.iter_mut().zip(neighbours) {
+                let above = priorities[neighbour.agent as usize] - priorities[agent];
+                *share += EQUAL_SHARE * above.clamp(-1.0, 1.0);
+            }
+        }
+        shares
     }
 
     /// The disc of an agent that other agents see.

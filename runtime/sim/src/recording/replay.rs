@@ -63,6 +63,7 @@ pub struct RecordedStep<'a> {
     stepping_back_s: Vec<f32>,
     neighbours: NeighbourSearch,
     closed_zones: Vec<u32>,
+    priorities: Option<Vec<f32>>,
     walls: Arc<Walls>,
 }
 
@@ -114,6 +115,11 @@ impl<'a> Replay<'a> {
         let mut neighbours = NeighbourSearch::default();
         let Scenario { planner, params, .. } = &self.header().scenario;
         neighbours.rebuild(&positions_m, &velocities_mps, &radii_m, ranking_horizon_s(*planner, params));
+        let scenario = &self.header().scenario;
+        // The agents were planned in the states that the step recorded.
+        let priority =
+            |agent: &AgentFrame| scenario.behaviour.priority(usize::from(agent.state), life(agent).spec.priority);
+        let priorities = scenario.has_priorities().then(|| after.iter().map(priority).collect());
         Ok(RecordedStep {
             replay: self,
             frame,
@@ -128,6 +134,7 @@ impl<'a> Replay<'a> {
             stepping_back_s: before.iter().map(|agent| agent.stepping_back_s).collect(),
             neighbours,
             closed_zones: before.iter().map(|agent| life(agent).spec.closed_zones).collect(),
+            priorities,
             walls: self.walls(number + 1),
             before,
             after,
@@ -193,6 +200,7 @@ impl RecordedStep<'_> {
             obstacles: &self.walls.obstacles,
             own_walls: (!self.walls.zone_walls.sets.is_empty())
                 .then_some(OwnWalls { closed_zones: &self.closed_zones, zone_walls: &self.walls.zone_walls }),
+            priorities: self.priorities.as_deref(),
             constraints: &self.replay.constraints,
             dt_s,
             bodies: coupling.plans_for_bodies(),

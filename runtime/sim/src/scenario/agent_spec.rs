@@ -44,6 +44,9 @@ pub struct AgentSpec {
     /// The zones that the agent does not enter: bit k stands for the k-th zone that is closed to some agents.
     #[serde(default, skip_serializing_if = "enters_all")]
     pub closed_zones: u32,
+    /// Right of way: an agent leaves more of the avoiding to one of a lower priority, all of it from a difference of 1.
+    #[serde(default, skip_serializing_if = "is_0")]
+    pub priority: f32,
 }
 
 /// Whether no zone is closed to an agent; recordings leave it out.
@@ -52,10 +55,10 @@ pub(crate) fn enters_all(closed_zones: &u32) -> bool {
     *closed_zones == 0
 }
 
-/// Whether a time is 0; recordings leave it out.
+/// Whether a number is 0; recordings leave it out.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
-pub(crate) fn is_0(time_s: &f32) -> bool {
-    *time_s == 0.0
+pub(crate) fn is_0(number: &f32) -> bool {
+    *number == 0.0
 }
 
 /// Whether a state is that of agents that follow their waypoints; recordings leave it out.
@@ -91,6 +94,7 @@ impl Default for AgentSpec {
             state: 0,
             pre_movement_s: 0.0,
             closed_zones: 0,
+            priority: 0.0,
             group: None,
         }
     }

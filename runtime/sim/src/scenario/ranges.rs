@@ -27,6 +27,8 @@ pub(crate) const RADIUS_M: RangeInclusive<f32> = 0.1..=1.0;
 pub(crate) const SPEED_MPS: RangeInclusive<f32> = 0.1..=10.0;
 /// Time for which an agent stands before it begins, s: up to a day.
 pub(crate) const PRE_MOVEMENT_S: RangeInclusive<f32> = 0.0..=86_400.0;
+/// Right of way; only differences count, up to 1.
+pub(crate) const PRIORITY: RangeInclusive<f32> = -100.0..=100.0;
 /// Distance between members of a group that walk abreast, m: from shoulder to shoulder to two arms apart.
 const GROUP_SPACING_M: RangeInclusive<f32> = 0.4..=3.0;
 /// Facing, degrees: up to ten turns either way.
@@ -145,6 +147,7 @@ pub(crate) fn check_agent(index: usize, agent: &AgentSpec) -> Result<(), Scenari
     within(journey, "the number of goals", agent.goals_m.len(), &(least..=GOALS_MAX), help)?;
     check_facing(part, agent.facing_rad)?;
     within(part, "pre_movement_s", agent.pre_movement_s, &PRE_MOVEMENT_S, REMOVE)?;
+    within(part, "priority", agent.priority, &PRIORITY, REMOVE)?;
     agent.group.map_or(Ok(()), |group| check_spacing(part, group.spacing_m))?;
     check_disc_and_speed(part, agent.radius_m, agent.wall_radius_m, agent.preferred_speed_mps)
 }

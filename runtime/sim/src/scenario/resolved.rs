@@ -150,6 +150,16 @@ impl Scenario {
             || self.sources.iter().any(|source| source.groups.is_some())
     }
 
+    /// Whether any agent has a priority of its own, or may have it in a state.
+    pub(crate) fn has_priorities(&self) -> bool {
+        let of_sources = |source: &SourceSpec| {
+            source.priority != 0.0 || source.profiles.iter().any(|profile| profile.priority != 0.0)
+        };
+        self.agents.iter().any(|agent| agent.priority != 0.0)
+            || self.sources.iter().any(of_sources)
+            || self.behaviour.states.iter().any(|state| state.settings.priority.is_some())
+    }
+
     /// The syntheses that bodies may use. Bodies that follow a path planned before them only blend.
     pub fn modes(&self) -> Modes {
         match self.coupling {

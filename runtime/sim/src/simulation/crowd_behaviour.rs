@@ -62,9 +62,10 @@ impl Simulation {
 
     /// Takes over radii and removals from the states.
     fn take_over_states(&mut self) {
-        let Self { agents, population, crowd, steps, .. } = self;
+        let Self { scenario, agents, population, crowd, steps, .. } = self;
         for (index, state) in crowd.agents.iter().enumerate() {
             let life = &mut population.agents[agents.ids[index].index()];
+            agents.priorities[index] = scenario.behaviour.priority(state.state as usize, life.spec.priority);
             if agents.radii_m[index] != state.traits.radius_m {
                 life.radii_m.push(RadiusChange { frame: *steps + 1, radius_m: state.traits.radius_m });
                 agents.radii_m[index] = state.traits.radius_m;

@@ -145,6 +145,7 @@ impl Simulation {
     fn bear(&mut self, spec: AgentSpec, source: Option<u32>) -> AgentId {
         let id = AgentId::from(self.population.agents.len());
         self.has_groups |= spec.group.is_some();
+        self.has_priorities |= spec.priority != 0.0;
         Self::add_behaviour(&mut self.crowd, &self.scenario, &spec);
         self.agents.push(id, &spec, self.scenario.seed, self.scenario.coupling, &self.context);
         self.population.agents.push(AgentLife::new(spec, source, self.steps));

@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::planning::baselines::facing::facing_along;
-use crate::planning::orca::agent_half_planes::{EQUAL_SHARE, agent_half_plane};
+use crate::planning::orca::agent_half_planes::agent_half_plane;
 use crate::planning::orca::half_plane::HalfPlane;
 use crate::planning::orca::linear_program::solve;
 use crate::planning::orca::wall_half_planes::wall_half_planes;
@@ -70,8 +70,10 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &OrcaParams, memory:
     let held = world.wall_disc(agent);
     wall_half_planes(world.walls_of(agent), &surroundings.edges, &held, params.obstacle_time_horizon_s, half_planes);
     let wall_count = half_planes.len();
-    half_planes.extend(surroundings.neighbours.as_slice().iter().map(|neighbour| {
-        agent_half_plane(own.velocity_mps, neighbour, EQUAL_SHARE, params.time_horizon_s, world.dt_s)
+    let neighbours = surroundings.neighbours.as_slice();
+    let shares = world.shares(agent, neighbours);
+    half_planes.extend(neighbours.iter().zip(shares).map(|(neighbour, share)| {
+        agent_half_plane(own.velocity_mps, neighbour, share, params.time_horizon_s, world.dt_s)
     }));
     let preferred_mps = world.preferred_mps[agent];
     let solution = solve(half_planes, wall_count, preferred_mps, params.speed_max_mps, projected);

@@ -10,6 +10,7 @@ use crate::planning::mcn::params::McnParams;
 use crate::planning::mcn::{density_filter, keep_right, power_law};
 use crate::planning::world_view::WorldView;
 use crate::world::neighbours::Neighbour;
+use crate::world::neighbours::neighbour_lanes::Lanes;
 
 /// Computes v_op into the memory. Returns the density ahead, 1/m.
 ///
@@ -20,11 +21,12 @@ pub(crate) fn adapt(world: &WorldView, agent: usize, params: &McnParams, memory:
     let (velocity_mps, mut adapted_mps) = (world.velocities_mps[agent], world.preferred_mps[agent]);
     let lead_s = world.lead_s(params.response_s);
     let neighbours = memory.surroundings.neighbours.lanes();
+    let shares = world.shares(agent, memory.surroundings.neighbours.as_slice());
     if params.parts.keep_right {
-        adapted_mps = keep_right::kept_right(adapted_mps, velocity_mps, neighbours, params);
+        adapted_mps = keep_right::kept_right(adapted_mps, velocity_mps, neighbours, &shares, params);
     }
     if params.parts.adaptation {
-        let forces_mps2 = forces_mps2(world, agent, params, memory);
+        let forces_mps2 = forces_mps2(world, agent, &shares, params, memory);
         adapted_mps = pushed_mps(velocity_mps, adapted_mps, forces_mps2, lead_s, params);
     }
     let filtered = density_filter::filter(adapted_mps, velocity_mps, neighbours, lead_s, params);
@@ -40,12 +42,13 @@ fn pushed_mps(velocity_mps: Vec2, preferred_mps: Vec2, forces_mps2: Vec2, lead_s
     velocity_mps + lead_s * acceleration_mps2 // Eq. 9
 }
 
-/// Σ f_ij + Σ f_iW.
-fn forces_mps2(world: &WorldView, agent: usize, params: &McnParams, memory: &McnMemory) -> Vec2 {
+/// Σ f_ij + Σ f_iW; f_ij by the agent's share of the avoiding.
+fn forces_mps2(world: &WorldView, agent: usize, shares: &Lanes, params: &McnParams, memory: &McnMemory) -> Vec2 {
     let (own, law) = (world.wall_disc(agent), params.power_law());
-    let meets = |neighbour: &&Neighbour| neighbour.time_to_collision_s.is_finite();
-    let of_agents = memory.surroundings.neighbours.as_slice().iter().filter(meets).map(|neighbour| {
-        power_law::agent_force_mps2(neighbour.offset_m, neighbour.relative_mps, neighbour.radius_m, &law)
+    let meets = |(neighbour, _): &(&Neighbour, _)| neighbour.time_to_collision_s.is_finite();
+    let neighbours = memory.surroundings.neighbours.as_slice().iter().zip(shares);
+    let of_agents = neighbours.filter(meets).map(|(&Neighbour { offset_m, relative_mps, radius_m, .. }, &share)| {
+        2.0 * share * power_law::agent_force_mps2(offset_m, relative_mps, radius_m, &law)
     });
     let of_walls =
         memory.surroundings.edges.iter().map(|near| {

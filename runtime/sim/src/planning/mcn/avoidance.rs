@@ -39,12 +39,14 @@ pub(crate) fn avoid(world: &WorldView, agent: usize, params: &McnParams, memory:
     let neighbours = &memory.surroundings.neighbours;
     let lanes = neighbours.lanes();
     let shares = if params.parts.keep_right { shares(own.velocity_mps, lanes) } else { [EQUAL_SHARE; LANES] };
+    let of_priority = world.shares(agent, neighbours.as_slice());
     let weights = if params.parts.order { urgencies(lanes) } else { [1.0; LANES] };
     let horizons_s = horizons_s(own.velocity_mps, lanes, params);
     let parting_s = world.dt_s.max(PARTING_MIN_S);
     memory.of_agents.clear();
     memory.of_agents.extend(neighbours.as_slice().iter().enumerate().map(|(lane, neighbour)| {
-        let (share, horizon_s) = (shares[lane], horizons_s[lane]);
+        let (share, horizon_s) = (shares[lane] + (of_priority[lane] - EQUAL_SHARE), horizons_s[lane]);
+        let share = share.clamp(0.0, 1.0);
         let half_plane = agent_half_plane(own.velocity_mps, neighbour, share, horizon_s, parting_s); // ∪_j C_ij
         HalfPlane { weight: weights[lane], ..half_plane }
     }));

@@ -11,17 +11,20 @@ use glam::Vec2;
 use crate::planning::mcn::params::McnParams;
 use crate::world::neighbours::neighbour_lanes::{Lanes, NeighbourLanes};
 
-/// v_pref, turned to the right, m/s.
+/// v_pref, turned to the right, m/s. `shares` states how much of the avoiding the agent does against each neighbour, ½
+/// among equals.
 pub(crate) fn kept_right(
     preferred_mps: Vec2,
     velocity_mps: Vec2,
     neighbours: &NeighbourLanes,
+    shares: &Lanes,
     params: &McnParams,
 ) -> Vec2 {
     let change_mps = preferred_mps - velocity_mps;
     let times_s = neighbours.times_to_collision_s(change_mps);
     let squareness = squareness(neighbours, change_mps);
-    let urgency = |lane: usize| squareness[lane] * (1.0 - times_s[lane] / params.time_horizon_s).max(0.0);
+    let urgency =
+        |lane: usize| 2.0 * shares[lane] * squareness[lane] * (1.0 - times_s[lane] / params.time_horizon_s).max(0.0);
     let urgency = (0..times_s.len()).map(urgency).sum::<f32>().min(1.0);
     let (sin, cos) = libm::sincosf(-params.keep_right_rad * urgency);
     Vec2::new(cos, sin).rotate(preferred_mps)
@@ -39,12 +42,13 @@ fn squareness(neighbours: &NeighbourLanes, change_mps: Vec2) -> Lanes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::world::neighbours::neighbour_lanes::LANES;
 
     /// The turn of an agent that walks along +x towards one that stands at an offset, rad.
     fn turn_rad(offset: [f32; 2]) -> f32 {
         let mut neighbours = NeighbourLanes::default();
         neighbours.set(0, Vec2::from(offset), Vec2::X, 0.5);
-        kept_right(Vec2::X, Vec2::X, &neighbours, &McnParams::default()).to_angle()
+        kept_right(Vec2::X, Vec2::X, &neighbours, &[0.5; LANES], &McnParams::default()).to_angle()
     }
 
     #[test]

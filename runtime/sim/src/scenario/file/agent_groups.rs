@@ -192,6 +192,7 @@ impl AgentGroup {
             radius_m: radius_m.unwrap_or(RADIUS_M),
             pre_movement_s: 0.0,
             closed_zones: 0,
+            priority: 0.0,
         };
         Ok((0..count).map(|_| of_table.draw(&profiles, &mut random)).collect())
     }
@@ -223,7 +224,7 @@ impl AgentGroup {
         let of_state = || behaviour.start_facing_rad(state, position_m);
         let ahead = || of_state().unwrap_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x));
         let facing_rad = self.facing_deg.map_or_else(ahead, f32::to_radians);
-        let DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones } = numbers;
+        let DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority } = numbers;
         AgentSpec {
             position_m,
             facing_rad,
@@ -235,6 +236,7 @@ impl AgentGroup {
             state,
             pre_movement_s,
             closed_zones,
+            priority,
             group: None,
         }
     }

@@ -19,7 +19,7 @@ use toml::Spanned;
 use crate::behaviour::Distribution;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
-use crate::scenario::file::behaviour::{DistributionValue, Names};
+use crate::scenario::file::behaviour::{DistributionValue, Names, priority};
 use crate::scenario::profile::Profile;
 use crate::scenario::ranges::{PRE_MOVEMENT_S, RADIUS_M, SPEED_MPS};
 
@@ -34,6 +34,7 @@ pub(crate) struct ProfileTable {
     preferred_speed_mps: Option<DistributionValue>,
     radius_m: Option<DistributionValue>,
     pre_movement_s: Option<DistributionValue>,
+    priority: Option<f32>,
 }
 
 /// `profile` of agents and sources.
@@ -132,6 +133,7 @@ fn profile(table: &ProfileTable, names: &Names<'_>, tables: &[&Spanned<ProfileTa
             preferred_speed_mps: merged.preferred_speed_mps.or(parent.preferred_speed_mps),
             radius_m: merged.radius_m.or(parent.radius_m),
             pre_movement_s: merged.pre_movement_s.or(parent.pre_movement_s),
+            priority: merged.priority.or(parent.priority),
         };
     }
     let speeds = [*SPEED_MPS.start(), *SPEED_MPS.end()];
@@ -144,6 +146,7 @@ fn profile(table: &ProfileTable, names: &Names<'_>, tables: &[&Spanned<ProfileTa
         radius_m: number("`radius_m`", merged.radius_m, radii)?,
         pre_movement_s: merged.pre_movement_s.map(pre_movement).transpose()?,
         closed_zones: 0,
+        priority: merged.priority.map_or(Ok(0.0), priority)?,
     })
 }
 

@@ -103,6 +103,7 @@ impl SourceTable {
             pre_movement_s: 0.0,
             profiles: Vec::new(),
             closed_zones: 0,
+            priority: 0.0,
             groups: None,
         })
     }

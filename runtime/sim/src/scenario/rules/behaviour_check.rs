@@ -15,7 +15,7 @@ use crate::behaviour::{
 use crate::maths::polygon::{closest_distance_m, contains};
 use crate::scenario::agent_spec::WALL_RADIUS_M;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::ranges::{COORDINATE_MAX_M, RADIUS_M, SPEED_MPS, check_points, within};
+use crate::scenario::ranges::{COORDINATE_MAX_M, PRIORITY, RADIUS_M, REMOVE, SPEED_MPS, check_points, within};
 use crate::scenario::resolved::Scenario;
 
 /// Greatest number of states; the limit of the recording is higher.
@@ -150,7 +150,8 @@ fn check_movement(part: &ScenarioPart, movement: &Movement, behaviour: &Behaviou
 }
 
 fn check_settings(part: &ScenarioPart, settings: &Settings) -> Result<(), ScenarioFault> {
-    let Settings { preferred_speed_mps, speed_factor, radius_m, teleport, remain: _ } = settings;
+    let Settings { preferred_speed_mps, speed_factor, radius_m, priority, teleport, remain: _ } = settings;
+    within(part, "priority", priority.unwrap_or(0.0), &PRIORITY, REMOVE)?;
     let drawn = [
         ("preferred_speed_mps", preferred_speed_mps, &SPEED_MPS),
         ("speed_factor", speed_factor, &FACTOR),

@@ -10,7 +10,7 @@ use crate::route::arrival::ARRIVAL_M;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::profile::Profile;
 use crate::scenario::ranges::{
-    AGENTS_MAX, DURATION_S, GOALS_MAX, PRE_MOVEMENT_S, RADIUS_M, REMOVE, SPEED_MPS, WAYPOINTS_MAX,
+    AGENTS_MAX, DURATION_S, GOALS_MAX, PRE_MOVEMENT_S, PRIORITY, RADIUS_M, REMOVE, SPEED_MPS, WAYPOINTS_MAX,
     check_disc_and_speed, check_facing, check_points, check_sizes, within,
 };
 use crate::scenario::resolved::Scenario;
@@ -53,6 +53,7 @@ fn check_numbers(part: &ScenarioPart, source: &SourceSpec) -> Result<(), Scenari
     let least = usize::from(source.state == 0);
     within(part, "the number of goals", goals, &(least..=GOALS_MAX), "give the goal, and waypoints before it")?;
     within(part, "pre_movement_s", source.pre_movement_s, &PRE_MOVEMENT_S, REMOVE)?;
+    within(part, "priority", source.priority, &PRIORITY, REMOVE)?;
     source.groups.as_ref().map_or(Ok(()), |sizes| check_sizes(part, sizes))?;
     source.profiles.iter().try_for_each(|profile| check_profile(part, profile))?;
     check_facing(part, source.facing_rad.unwrap_or(0.0))?;
@@ -61,6 +62,7 @@ fn check_numbers(part: &ScenarioPart, source: &SourceSpec) -> Result<(), Scenari
 
 fn check_profile(part: &ScenarioPart, profile: &Profile) -> Result<(), ScenarioFault> {
     within(part, "weight", profile.weight, &(0.0..=f32::MAX), "give shares of 0 or more")?;
+    within(part, "priority", profile.priority, &PRIORITY, REMOVE)?;
     let numbers = [
         ("preferred_speed_mps", &profile.preferred_speed_mps, &SPEED_MPS),
         ("radius_m", &profile.radius_m, &RADIUS_M),

@@ -1,5 +1,5 @@
 //! Claims about whole steps: determinism, arrival, walls, couplings; and about agents that behave, come and go, find their
-//! routes, wait before doors, and walk in groups.
+//! routes, wait before doors, walk in groups, and have priorities.
 
 use std::path::PathBuf;
 
@@ -17,6 +17,7 @@ use crate::test_db::test_db;
 mod behaviour;
 mod door;
 mod group;
+mod priority;
 mod route;
 mod turnover;
 mod wild_behaviour;

@@ -11,7 +11,7 @@ use crate::behaviour::{Behaviour, Choice, FOLLOWS_PATH, Facing, GoalSet, Movemen
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioPart, TableFault};
 use crate::scenario::file::behaviour::goal_tables::{choice, goal_sets, signal};
-use crate::scenario::file::behaviour::numbers::DistributionValue;
+use crate::scenario::file::behaviour::numbers::{DistributionValue, priority};
 use crate::scenario::file::behaviour::placed_fault::{At, Names, PlacedFault, check_count, fault};
 use crate::scenario::file::behaviour::tables::{
     BACK, BehaviourTables, FacingName, GoValue, RememberValue, RemoveName, RemoveValue, SetTable, StandTable,
@@ -228,6 +228,7 @@ fn settings(table: &Spanned<SetTable>) -> Result<Settings, PlacedFault> {
         preferred_speed_mps: drawn("`preferred_speed_mps`", set.preferred_speed_mps, bounds(&SPEED_MPS))?,
         speed_factor: drawn("`speed_factor`", set.speed_factor, [1e-3, FACTOR_MAX])?,
         radius_m: drawn("`radius_m`", set.radius_m, bounds(&RADIUS_M))?,
+        priority: set.priority.map(priority).transpose().at(&span)?,
         teleport: set.teleport.as_ref().map(|area| area.area()).transpose().at(&span)?,
         remain: set.remain,
     })

@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use crate::behaviour::Distribution;
 use crate::scenario::fault::TableFault;
+use crate::scenario::ranges::PRIORITY;
 
 /// Standard deviations about the mean that a normal distribution has without `min` and `max`: 99.7 % of all draws.
 const DEVIATIONS: f32 = 3.0;
@@ -57,4 +58,12 @@ impl DistributionValue {
         let message = format!("{name} lies between {min} and {max}; it must rise, within {least} and {greatest}");
         Err((message, "write the lower number first"))
     }
+}
+
+/// A priority within its range.
+pub(crate) fn priority(value: f32) -> Result<f32, TableFault> {
+    let within = PRIORITY.contains(&value).then_some(value);
+    within.ok_or_else(|| {
+        (format!("`priority` is {value}"), "give a number within -100 and 100; 0 is that of most agents")
+    })
 }

@@ -186,6 +186,7 @@ pub(crate) struct SetTable {
     pub(crate) preferred_speed_mps: Option<DistributionValue>,
     pub(crate) speed_factor: Option<DistributionValue>,
     pub(crate) radius_m: Option<DistributionValue>,
+    pub(crate) priority: Option<f32>,
     pub(crate) teleport: Option<AreaTable>,
     #[serde(default)]
     pub(crate) remain: bool,
