@@ -195,9 +195,11 @@ fn a_source_has_no_room_in_a_closed_door() {
     let source = SourceSpec {
         low_m: Vec2::ZERO,
         high_m: Vec2::ZERO,
+        area: None,
         rate_per_s: 1.0,
         from_s: 0.0,
         to_s: 12.0,
+        schedule: None,
         count: Some(1),
         facing_rad: None,
         goals_m: vec![Vec2::new(6.0, 0.0)],

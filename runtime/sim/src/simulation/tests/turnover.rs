@@ -28,9 +28,11 @@ fn source(low_m: Vec2, high_m: Vec2, rate_per_s: f32, ahead_m: f32) -> SourceSpe
     SourceSpec {
         low_m,
         high_m,
+        area: None,
         rate_per_s,
         from_s: 0.0,
         to_s: 1_000.0,
+        schedule: None,
         count: None,
         facing_rad: None,
         goals_m: Vec::new(),
