@@ -1,6 +1,6 @@
 //! Shapes of a Vadere scenario, checked: corners, boxes, range. World, metres.
 
-use crate::geometry::polygon::{bounds_m, is_simple, without_repeats};
+use crate::geometry::polygon::{is_simple, without_repeats};
 use crate::scene::{Point, Shape};
 
 /// Greatest coordinate, m; that of scenario files.
@@ -27,11 +27,6 @@ pub(crate) fn corners_m(shape: &Shape) -> Vec<Point> {
             (0..CIRCLE_CORNERS).map(corner).collect()
         }
     }
-}
-
-/// Least and greatest corner of a shape, m.
-pub(crate) fn box_m(shape: &Shape) -> [Point; 2] {
-    bounds_m(&corners_m(shape))
 }
 
 /// Checks that all points of a shape are near the origin.
