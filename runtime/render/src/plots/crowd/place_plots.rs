@@ -20,7 +20,7 @@ use crate::raster::text::TextAnchor;
 /// Size of the figure, pixels.
 const SIZE_PX: [u32; 2] = [1600, 1000];
 /// Left, top, width, height of the axes, pixels.
-const PANEL_PX: [f32; 4] = [130.0, 210.0, 1410.0, 660.0];
+const PANEL_PX: [f32; 4] = [130.0, 200.0, 1410.0, 650.0];
 /// Left end of the title's baseline, pixels.
 const TITLE_PX: Vec2 = Vec2::new(130.0, 70.0);
 /// Left end of the legend's baseline, pixels.
@@ -29,7 +29,7 @@ const LEGEND_PX: Vec2 = Vec2::new(140.0, 124.0);
 const CURVE_PX: f32 = 3.0;
 
 /// Height of the strip of levels of service below the axes, pixels, and its distance from them.
-const STRIP_PX: [f32; 2] = [22.0, 84.0];
+const STRIP_PX: [f32; 2] = [22.0, 80.0];
 /// Opacity of the bands of levels of service behind the curves.
 const BAND_OPACITY: f32 = 0.22;
 /// Least height of a band with a letter, pixels.
