@@ -304,4 +304,7 @@ fn an_event_opens_a_door() {
         assert!(step < scenario.steps() || passed == 4, "{passed} passed");
     }
     assert_eq!(passed_at_6_s, 0);
+    // Lamps in pictures follow the event too.
+    let is_green = |time_s| simulation.population().is_green(&scenario, 0, time_s);
+    assert_eq!([0.0, 5.9, 6.1, 19.0].map(is_green), [false, false, true, true]);
 }
