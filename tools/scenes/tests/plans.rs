@@ -165,6 +165,48 @@ fn a_scenario_of_vadere_keeps_targets_and_sources() {
     check_refused("hall.scenario", "{}", "no scenario of Vadere");
 }
 
+/// The error's whole text, without the folder.
+fn check_error(name: &str, text: &str, expected: &str) {
+    let error = read_text(name, text).expect_err(text).to_string();
+    assert_eq!(&error[error.find(name).unwrap_or(0)..], expected);
+}
+
+#[test]
+fn mistakes_are_shown_at_the_line_of_their_item() {
+    let wkt = "GEOMETRYCOLLECTION (\n POINT (1 2),\n POLYGON ((0 0, 9 0, 9 9, 0 9),\n  (1 1, 2 1, 2 2)),\n MULTIPOLYGON (((20 0, 21 0, 21 1)),\n  ((30 0, 31 1, 31 0, 30 1))))";
+    check_error(
+        "hall.wkt",
+        wkt,
+        "hall.wkt:6: the ring that begins at [30, 0] crosses or touches itself, or has no area; list its corners in order, each once",
+    );
+    check_error(
+        "hall.wkt",
+        "GEOMETRYCOLLECTION (POLYGON ((0 0, 9 0, 9 9)),\n POLYGON Z (\n (0 0 1, 1 0 1, 1 1 1)))",
+        "hall.wkt:3: a position has a third coordinate; give x and y alone; the ground is flat",
+    );
+    let feature =
+        |geometry: &str| format!("{{\"type\": \"Feature\", \"properties\": {{\"]\": 1}}, \"geometry\":\n{geometry}}}");
+    let square = "{\"type\": \"Polygon\", \"coordinates\":\n[[[0, 0], [9, 0], [9, 9], [0, 0]]]}";
+    let several = "{\"type\": \"GeometryCollection\", \"geometries\": [\n{\"type\": \"MultiPolygon\", \"coordinates\": [\n[[[0, 0], [1, 0], [1, 1], [0, 0]]],\n[[[0, 0], [1, 0, 7], [1, 1], [0, 0]]]]}]}";
+    let collection =
+        format!("{{\"type\": \"FeatureCollection\", \"features\": [\n{},\n{}]}}", feature(square), feature(several));
+    check_error(
+        "hall.geojson",
+        &collection,
+        "hall.geojson:9: features[1].geometry.geometries[0].coordinates[1][0][1]: a position has a third coordinate; give x and y alone; the ground is flat",
+    );
+    check_error(
+        "hall.scenario",
+        &VADERE.replace("[ 2, 1 ]", "[ 2, 9 ]"),
+        "hall.scenario:16: scenario.topography.sources[0]: source 3 names target 9, which does not exist; correct its `targetIds`",
+    );
+    check_error(
+        "hall.scenario",
+        &VADERE.replace("\"width\": 20.0", "\"width\": 0.5"),
+        "hall.scenario:6: scenario.topography.attributes.bounds: the bounds hold no ground; give them a width and a height",
+    );
+}
+
 #[test]
 fn an_unknown_extension_is_refused() {
     check_refused("hall.txt", HALL, "states no format");

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::scene::{DrawnNumber, Point, Scene, SceneAgents, SceneSource, Shape, SourceTimes, Starts};
-use crate::vadere::shapes::{PROFILE, VadereFault, check_shape};
+use crate::vadere::shapes::{PROFILE, PlacedFault, VadereFault, at_item, check_shape};
 use crate::vadere::targets::{Targets, drawn};
 use crate::vadere::vadere_file::{VadereSource, VadereTopography};
 
@@ -33,18 +33,19 @@ pub(crate) fn read_sources(
     radius_m: f64,
     targets: &mut Targets,
     scene: &mut Scene,
-) -> Result<(), VadereFault> {
-    for source in &topography.sources {
-        read_source(source, radius_m, targets, scene)?;
+) -> Result<(), PlacedFault> {
+    for (index, source) in topography.sources.iter().enumerate() {
+        read_source(source, radius_m, targets, scene).map_err(at_item("sources", index))?;
     }
-    let mut by_targets: BTreeMap<&[i64], Vec<Point>> = BTreeMap::new();
-    for agent in &topography.dynamic_elements {
+    // The first agent with a list of targets, and the starts of all.
+    let mut by_targets: BTreeMap<&[i64], (usize, Vec<Point>)> = BTreeMap::new();
+    for (index, agent) in topography.dynamic_elements.iter().enumerate() {
         let at_m = agent.position.position_m();
-        check_shape(&Shape::Point(at_m))?;
-        by_targets.entry(&agent.target_ids).or_default().push(at_m);
+        check_shape(&Shape::Point(at_m)).map_err(at_item("dynamicElements", index))?;
+        by_targets.entry(&agent.target_ids).or_insert((index, Vec::new())).1.push(at_m);
     }
-    for (list, starts_m) in by_targets {
-        let state = targets.state(list, "an agent")?;
+    for (list, (first, starts_m)) in by_targets {
+        let state = targets.state(list, "an agent").map_err(at_item("dynamicElements", first))?;
         let starts = Starts::Points(starts_m);
         scene.agents.push(agents(starts, state, radius_m, "dynamicElements"));
     }
