@@ -82,3 +82,18 @@ fn a_file_of_zeros_is_no_agent_file() {
     let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
     check_points_at(&invalid, "\"zeros.txt\"", "line 1 holds a zero byte");
 }
+
+#[test]
+fn lines_without_goals_need_a_state() {
+    let body = |state: &str| {
+        format!("{HEAD}[[agents]]\nfile = \"starts.txt\"\n{state}[states.wait]\nstand = {{ facing_deg = 90 }}\n")
+    };
+    let path = write("starts", &body("state = \"wait\"\n"));
+    fs::write(path.with_file_name("starts.txt"), "# x y\n1 2\n3 4 5 6 # and a goal\n").unwrap();
+    let agents = read(&path).unwrap().0.agents;
+    assert_eq!((agents.len(), agents[0].goals_m.len(), agents[1].goals_m.len()), (2, 0, 1));
+    fs::write(&path, body("")).unwrap();
+    let message = read(&path).unwrap_err().to_string();
+    let expected = "starts.txt:2: the line states no goal, and the agents have no `state`; write `x y goal_x goal_y`, in metres; with a `state`, `x y` is enough";
+    assert!(message.ends_with(expected), "{message}");
+}

@@ -56,16 +56,12 @@ pub(crate) fn agents(scene: &Scene, stem: &str, files: &mut Vec<TextFile>) -> St
                     1 => format!("{stem}_agents.txt"),
                     _ => format!("{stem}_agents_{}.txt", files.len() + 1),
                 };
-                // The start stands in for a goal where the state sets it.
-                let line = |&[x, y]: &[f64; 2]| {
-                    let [goal_x, goal_y] = group.own_goal_m([x, y]).unwrap_or([x, y]);
-                    [x, y, goal_x, goal_y].map(number).join(" ") + "\n"
+                let line = |&start_m: &[f64; 2]| {
+                    let goal_m = group.own_goal_m(start_m);
+                    let numbers = start_m.into_iter().chain(goal_m.into_iter().flatten()).map(number);
+                    numbers.collect::<Vec<_>>().join(" ") + "\n"
                 };
-                let what = if group.own_goal_mirrors.is_some() {
-                    "x y goal_x goal_y"
-                } else {
-                    "x y x y; the state sets the goal"
-                };
+                let what = if group.own_goal_mirrors.is_some() { "x y goal_x goal_y" } else { "x y" };
                 let head = format!("# {}: {what}\n", plain(&group.origin));
                 text += &table(&format!("file = {}", quoted(&name)), group, &group.origin);
                 files.push(TextFile { name, text: head + &starts_m.iter().map(line).collect::<String>() });
