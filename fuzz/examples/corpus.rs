@@ -92,9 +92,11 @@ fn record(path: &Path) {
     let source = SourceSpec {
         low_m: Vec2::ZERO,
         high_m: Vec2::ONE,
+        area: None,
         rate_per_s: 1.0,
         from_s: 0.0,
         to_s: 1.0,
+        schedule: None,
         count: Some(2),
         facing_rad: Some(0.5),
         goals_m: Vec::new(),

@@ -6,6 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::behaviour::SignalOrder;
 use crate::scenario::{AgentSpec, Scenario};
 
 /// The id of an agent: the number of agents that were born before it.
@@ -156,6 +157,17 @@ impl DoorPhases {
     }
 }
 
+/// What an event has made of a signal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SignalChange {
+    /// The first frame in which the signal shows it.
+    pub frame: u32,
+    /// Index of the signal.
+    pub signal: u32,
+    /// What it shows.
+    pub order: SignalOrder,
+}
+
 /// All agents, past and present, the counts of sources and goals, and the phases of doors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Population {
@@ -167,6 +179,8 @@ pub struct Population {
     pub goals: Vec<GoalCount>,
     /// The phases of every door, by index.
     pub doors: Vec<DoorPhases>,
+    /// What events have made of signals, in the order of frames.
+    pub signals: Vec<SignalChange>,
 }
 
 impl Population {
@@ -178,6 +192,19 @@ impl Population {
             agents: scenario.agents.iter().map(|spec| AgentLife::new(spec.clone(), None, 0)).collect(),
             sources: vec![SourceCount::default(); scenario.sources.len()],
             goals: vec![GoalCount::default(); scenario.behaviour.goals.len()],
+            signals: Vec::new(),
+        }
+    }
+
+    /// Whether a signal of a scenario, by index, is green at a time: as events have ordered, else by its phases.
+    pub fn is_green(&self, scenario: &Scenario, signal: usize, time_s: f64) -> bool {
+        // A frame that is shown unchanged has its signals.
+        let frame = (time_s / f64::from(scenario.dt_s) + 1e-3) as u32;
+        let changes = self.signals.iter().rev().filter(|change| change.signal as usize == signal);
+        match changes.into_iter().find(|change| change.frame <= frame).map(|change| change.order) {
+            Some(SignalOrder::Green) => true,
+            Some(SignalOrder::Red) => false,
+            Some(SignalOrder::Phases) | None => scenario.behaviour.is_green(signal, time_s),
         }
     }
 

@@ -158,10 +158,10 @@ impl Simulation {
         &self.population
     }
 
-    /// Why no routes were found, where walls allow no mesh: the agents walk straight. None where the scenario was read from
-    /// a file, which makes the same meshes.
+    /// Why no routes were found, where walls allow no mesh: the agents walk straight; or, with closed doors, wait. None
+    /// where the scenario was read from a file, which makes the same meshes.
     pub fn route_error(&self) -> Option<&RouteError> {
-        self.route_error.as_ref()
+        self.route_error.as_ref().or(self.routes.error())
     }
 
     /// Transitions between states that did not end within a step, the first that there were: the scenario is wrong.

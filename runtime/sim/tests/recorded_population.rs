@@ -29,9 +29,11 @@ fn wide_header() -> Header {
     header.scenario.sources.push(SourceSpec {
         low_m: Vec2::new(-1.0, -1.0),
         high_m: Vec2::new(1.0, 0.1),
+        area: None,
         rate_per_s: 0.3,
         from_s: 0.0,
         to_s: 9.0,
+        schedule: None,
         count: Some(3),
         facing_rad: None,
         goals_m: vec![Vec2::new(7.0, 0.0)],

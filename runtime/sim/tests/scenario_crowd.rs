@@ -150,3 +150,59 @@ fn goals_inside_obstacles_are_refused() {
         &["10 km"],
     );
 }
+
+#[test]
+fn agents_of_a_source_appear_in_its_polygon() {
+    let text = "[[sources]]\npolygon_m = [[0, 0], [8, 0], [8, 1], [1, 1], [1, 8], [0, 8]]\nrate_per_s = 1\ngoals_m = [[20, 0]]\n";
+    let scenario = parsed(text).unwrap();
+    let source = &scenario.sources[0];
+    assert_eq!([source.low_m, source.high_m], [Vec2::ZERO, Vec2::splat(8.0)]);
+    assert!(source.area.as_ref().unwrap().holds(source.middle_m() + Vec2::splat(-1e-3)), "{}", source.middle_m());
+    let round = text.replace("polygon_m = [[0, 0], [8, 0], [8, 1], [1, 1], [1, 8], [0, 8]]", "circle_m = [4, 4, 2]");
+    assert_eq!(parsed(&round).unwrap().sources[0].middle_m(), Vec2::splat(4.0));
+}
+
+#[test]
+fn a_schedule_states_when_agents_come() {
+    let source = |schedule: &str| {
+        let text = format!("[[sources]]\nat_m = [0, 0]\nschedule = {schedule}\ngoals_m = [[20, 0]]\n");
+        parsed(&text).map(|scenario| scenario.sources[0].due_times(1, 0).collect::<Vec<f64>>())
+    };
+    assert_eq!(source("[[0, 1], [2.5, 2], [7, 1]]").unwrap(), [0.0, 2.5, 2.5, 7.0]);
+    let times_s = source("[[1, 2, 5], [2, 3, 0], [6, 9, 2.5]]").unwrap();
+    assert!(
+        times_s.len() > 5 && times_s.iter().all(|due_s| (1.0..=2.0).contains(due_s) || (6.0..=9.0).contains(due_s))
+    );
+}
+
+#[test]
+fn a_mistake_in_a_schedule_is_shown_at_its_row() {
+    let text = |rows: &str| format!("[[sources]]\nat_m = [0, 0]\ngoals_m = [[20, 0]]\nschedule = [\n{rows}\n]\n");
+    for (rows, line, message) in [
+        ("[0, 2, 1],\n[1, 3, 1],", 6, "the row begins at 1 s, before the row above ends at 2 s"),
+        ("[5, 1],\n[7, 1],\n[6, 1],", 7, "the row is at 6 s, after one at 7 s"),
+        ("[0, 5, inf],", 5, "the rate is inf agents per second, not within 0 and 1000"),
+        ("[5, 5, 1],", 5, "the row lasts from 5 s to 5 s"),
+        ("[0, 5, 1],\n[6, 1],", 6, "the row has 2 numbers, but the first row has 3"),
+        ("[0, 1.5],", 5, "1.5 is no number of agents"),
+        ("[nan, 1],", 5, "the time is NaN s"),
+        ("[1, 2, 3, 4],", 5, "the row has 4 numbers"),
+        ("[0, 2000000],", 5, "the number of agents is 2000000, not between 1 and 1000000"),
+        ("", 4, "a schedule has 1 to 10000 rows, this one has 0"),
+    ] {
+        check_refused(&text(rows), line, &[message]);
+    }
+    check_refused(
+        &text("[0, 600000],\n[1, 600000],"),
+        1,
+        &["with this source the scenario has more than 1000000 agents"],
+    );
+    let both = "[[sources]]\nat_m = [0, 0]\ngoals_m = [[20, 0]]\nrate_per_s = 1\nschedule = [[0, 1]]";
+    check_refused(both, 1, &["exactly one of `rate_per_s` and `schedule`"]);
+    check_refused(&both.replace("rate_per_s", "to_s"), 1, &["remove `from_s` and `to_s`"]);
+    check_refused(
+        "[[sources]]\nrate_per_s = 1\ngoals_m = [[20, 0]]\npolygon_m = [[0, 0], [1, 1], [1, 0], [0, 1]]",
+        1,
+        &["crosses or touches itself"],
+    );
+}

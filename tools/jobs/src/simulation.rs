@@ -94,6 +94,9 @@ impl PreparedSimulation {
             work.advance();
         }
         work.end();
+        if let Some(error) = simulation.route_error() {
+            return Err(error.clone().into());
+        }
         recorder.finish(simulation.population())?;
         note_waiting(simulation.population(), observer);
         note_full_goals(simulation.population(), &header.scenario, observer);

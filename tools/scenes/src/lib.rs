@@ -21,6 +21,7 @@
 
 mod error;
 mod geometry;
+mod json_place;
 mod menge;
 mod plans;
 mod random;

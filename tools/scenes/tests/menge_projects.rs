@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use fbcrowd_scenes::{ReadOptions, read};
-use support::{Project, projects, written};
+use support::{Project, SCENE, projects, written};
 
 fn check_contains(text: &str, parts: &[&str]) {
     for part in parts {
@@ -73,6 +73,51 @@ fn what_is_not_supported_is_noted_with_its_line() {
     );
 }
 
+/// Scene of the project with a mesh as its obstacles, and a second generator in a group.
+fn with_mesh(mesh: &str) -> Project {
+    let scene = SCENE.replace("</Experiment>", "<ObstacleSet type=\"nav_mesh\" file_name=\"m.nav\"/></Experiment>");
+    let scene = scene.replace(
+        "<Generator type=\"explicit\">",
+        "<Generator type=\"explicit\"><Agent p_x=\"-5\" p_y=\"-5\"/></Generator>\n    <Generator type=\"explicit\">",
+    );
+    Project::new(&[("fair/scene.xml", &scene), ("fair/m.nav", mesh)])
+}
+
+#[test]
+fn rows_beside_a_stair_are_ground_and_every_generator_adds_agents() {
+    // A floor, a stair that ends beside it, and a row of seats along a part of the stair's side.
+    let mesh = "12  -20 -20  20 -20  20 0  -20 0   -1 0  1 0  1 8  -1 8   1 3  9 3  9 4  1 4
+        2  4 5 0 1  8 11 1 2
+        3  0 1 0 1  1 2 0 2  2 3 0 0
+        stadium 3
+        0 -10  4 0 1 2 3  0 0 0  1 0  3 0 1 2
+        0 4  4 4 5 6 7  0 1 0  2 0 1  0
+        5 3.5  4 8 9 10 11  0 0 3  1 1  0";
+    let (written, _) = with_mesh(mesh).converted();
+    let scenario: toml::Value = toml::from_str(&written.scenario).unwrap();
+    let number = |value: &toml::Value| value.as_float().or(value.as_integer().map(|whole| whole as f64)).unwrap();
+    let walkable = scenario["walkable"].as_array().unwrap();
+    let corner = |corner: &toml::Value| [number(&corner[0]), number(&corner[1])];
+    let mut corners: Vec<[f64; 2]> = walkable[0]["polygon_m"].as_array().unwrap().iter().map(corner).collect();
+    corners.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    let low = [[-20.0, -20.0], [-20.0, 0.0], [-1.0, 0.0], [-1.0, 8.0], [1.0, 0.0], [1.0, 3.0], [1.0, 4.0], [1.0, 8.0]];
+    let high = [[9.0, 3.0], [9.0, 4.0], [20.0, -20.0], [20.0, 0.0]];
+    assert_eq!((walkable.len(), corners), (1, [&low[..], &high].concat()));
+    check_contains(&written.scenario, &["at_m = [-5, -5]\n", "at_m = [5, 3.8]\n"]);
+}
+
+#[test]
+fn a_wall_within_a_mesh_is_thin_and_stands() {
+    let mesh = "6  -20 -20  0 -20  20 -20  20 20  0 20  -20 20  0  7
+        0 1 0 0  1 2 1 0  2 3 1 0  3 4 1 0  4 5 0 0  5 0 0 0  1 4 0 -1
+        hall 2
+        -10 0  4 0 1 4 5  0 0 0  0  4 0 4 5 6
+        10 0  4 1 2 3 4  0 0 0  0  4 1 2 3 6";
+    let (written, notes) = with_mesh(mesh).converted();
+    check_contains(&written.scenario, &["[[0.01, -20.01], [0.01, 20.01], [-0.01, 20.01], [-0.01, -20.01]]"]);
+    check_contains(&notes.join("\n"), &["walls within the mesh become 2 cm thick"]);
+}
+
 #[test]
 fn long_lists_of_agents_become_a_file() {
     let agents: String = (0..30).map(|index| format!("<Agent p_x=\"{index}.50\" p_y=\"-4\"/>")).collect();
@@ -81,7 +126,7 @@ fn long_lists_of_agents_become_a_file() {
     check_contains(&written.scenario, &["file = \"fair_agents.txt\"\n"]);
     let file = &written.agent_files[0];
     assert_eq!((file.name.as_str(), file.text.lines().count()), ("fair_agents.txt", 32));
-    check_contains(&file.text, &["\n0.5 -4 0.5 -4\n"]);
+    check_contains(&file.text, &["\n0.5 -4\n"]);
 }
 
 #[test]

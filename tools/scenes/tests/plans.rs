@@ -122,6 +122,12 @@ const VADERE: &str = r#"{
             "distribution": { "type": "a.AttributesConstantDistribution", "updateFrequency": 1.0 } } },
         { "id": 4, "shape": { "type": "RECTANGLE", "x": 1.0, "y": 1.0, "width": 1.0, "height": 8.0 }, "targetIds": [ 1 ],
           "spawner": { "constraintsElementsMax": 40, "constraintsTimeStart": 10.0, "constraintsTimeEnd": 110.0, "eventElementCount": 1,
+            "distribution": { "type": "a.AttributesConstantDistribution", "updateFrequency": 2.0 } } },
+        { "id": 5, "shape": { "type": "CIRCLE", "center": { "x": 3.0, "y": 4.0 }, "radius": 1.0 }, "targetIds": [ 1 ],
+          "spawner": { "constraintsElementsMax": -1, "constraintsTimeStart": 5.0, "constraintsTimeEnd": 180.0, "eventElementCount": 1,
+            "distribution": { "type": "a.AttributesNegativeExponentialDistribution", "mean": 2.0 } } },
+        { "id": 6, "shape": { "type": "RECTANGLE", "x": 1.0, "y": 1.0, "width": 1.0, "height": 8.0 }, "targetIds": [ 1 ],
+          "spawner": { "constraintsElementsMax": -1, "constraintsTimeStart": 30.0, "constraintsTimeEnd": 30.0, "eventElementCount": 7,
             "distribution": { "type": "a.AttributesConstantDistribution", "updateFrequency": 2.0 } } }
       ],
       "dynamicElements": [ { "position": { "x": 12.0, "y": 5.0 }, "targetIds": [ 1 ] } ],
@@ -141,7 +147,10 @@ fn a_scenario_of_vadere_keeps_targets_and_sources() {
                 "polygon_m = [[0.5, 0.5], [19.5, 0.5], [19.5, 9.5], [0.5, 9.5]]\n",
                 "polygon_m = [[9, 4], [10.1, 4], [10.1, 6], [9, 6]]\n",
                 "area = { rect_m = [1, 1, 4, 9], count = 12 }\nprofile = \"pedestrian\"\nstate = \"to_2_then_1\"\n",
-                "rate_per_s = 0.5\nfrom_s = 10\nto_s = 110\ncount = 40\n",
+                "rect_m = [1, 1, 2, 9]\nschedule = [\n    [10, 1], [12, 1], [14, 1], [16, 1], [18, 1], [20, 1], [22, 1], [24, 1],\n    [26, 1],",
+                "[84, 1], [86, 1], [88, 1],\n]\nprofile",
+                "circle_m = [3, 4, 1]\nrate_per_s = 0.5\nfrom_s = 5\nto_s = 180\n",
+                "schedule = [[30, 7]]\n",
                 "at_m = [12, 5]\n",
                 "[states.to_2_then_1]\ngo = \"target_2\"\nthen = [{ when = { reached_m = 0.1 }, to = \"wait_2_then_1\" }]\n",
                 "[states.wait_2_then_1]\nstand = {}\nthen = [{ when = { after_s = 4 }, to = \"to_1\" }]\n",
@@ -154,6 +163,48 @@ fn a_scenario_of_vadere_keeps_targets_and_sources() {
     check_refused("hall.scenario", &VADERE.replace("[ 2, 1 ]", "[ 2, 9 ]"), "target 9");
     check_refused("hall.scenario", &VADERE.replace("\"bounds\"", "\"bonds\""), "hall.scenario:6");
     check_refused("hall.scenario", "{}", "no scenario of Vadere");
+}
+
+/// The error's whole text, without the folder.
+fn check_error(name: &str, text: &str, expected: &str) {
+    let error = read_text(name, text).expect_err(text).to_string();
+    assert_eq!(&error[error.find(name).unwrap_or(0)..], expected);
+}
+
+#[test]
+fn mistakes_are_shown_at_the_line_of_their_item() {
+    let wkt = "GEOMETRYCOLLECTION (\n POINT (1 2),\n POLYGON ((0 0, 9 0, 9 9, 0 9),\n  (1 1, 2 1, 2 2)),\n MULTIPOLYGON (((20 0, 21 0, 21 1)),\n  ((30 0, 31 1, 31 0, 30 1))))";
+    check_error(
+        "hall.wkt",
+        wkt,
+        "hall.wkt:6: the ring that begins at [30, 0] crosses or touches itself, or has no area; list its corners in order, each once",
+    );
+    check_error(
+        "hall.wkt",
+        "GEOMETRYCOLLECTION (POLYGON ((0 0, 9 0, 9 9)),\n POLYGON Z (\n (0 0 1, 1 0 1, 1 1 1)))",
+        "hall.wkt:3: a position has a third coordinate; give x and y alone; the ground is flat",
+    );
+    let feature =
+        |geometry: &str| format!("{{\"type\": \"Feature\", \"properties\": {{\"]\": 1}}, \"geometry\":\n{geometry}}}");
+    let square = "{\"type\": \"Polygon\", \"coordinates\":\n[[[0, 0], [9, 0], [9, 9], [0, 0]]]}";
+    let several = "{\"type\": \"GeometryCollection\", \"geometries\": [\n{\"type\": \"MultiPolygon\", \"coordinates\": [\n[[[0, 0], [1, 0], [1, 1], [0, 0]]],\n[[[0, 0], [1, 0, 7], [1, 1], [0, 0]]]]}]}";
+    let collection =
+        format!("{{\"type\": \"FeatureCollection\", \"features\": [\n{},\n{}]}}", feature(square), feature(several));
+    check_error(
+        "hall.geojson",
+        &collection,
+        "hall.geojson:9: features[1].geometry.geometries[0].coordinates[1][0][1]: a position has a third coordinate; give x and y alone; the ground is flat",
+    );
+    check_error(
+        "hall.scenario",
+        &VADERE.replace("[ 2, 1 ]", "[ 2, 9 ]"),
+        "hall.scenario:16: scenario.topography.sources[0]: source 3 names target 9, which does not exist; correct its `targetIds`",
+    );
+    check_error(
+        "hall.scenario",
+        &VADERE.replace("\"width\": 20.0", "\"width\": 0.5"),
+        "hall.scenario:6: scenario.topography.attributes.bounds: the bounds hold no ground; give them a width and a height",
+    );
 }
 
 #[test]

@@ -41,6 +41,17 @@ pub(crate) const HOLDING_SET: Rgb = Rgb::new(0.78, 0.52, 0.10);
 /// Sharp-turn edges: a red, as in the paper.
 pub(crate) const SHARP_TURN_EDGES: Rgb = Rgb::new(0.80, 0.16, 0.16);
 
+/// Levels of service A to F, from free to jammed: blue, cyan, green, yellow, orange, red, as pedestrian programs show
+/// Fruin's levels.
+pub(crate) const LEVELS_OF_SERVICE: [Rgb; 6] = [
+    Rgb::new(0.27, 0.47, 0.84),
+    Rgb::new(0.36, 0.76, 0.84),
+    Rgb::new(0.42, 0.74, 0.38),
+    Rgb::new(0.95, 0.85, 0.32),
+    Rgb::new(0.95, 0.60, 0.22),
+    Rgb::new(0.84, 0.25, 0.20),
+];
+
 /// Heat scale from good to bad, light enough for dark marks on it.
 const HEAT: [Rgb; 3] = [Rgb::new(0.62, 0.82, 0.66), Rgb::new(0.98, 0.90, 0.60), Rgb::new(0.86, 0.36, 0.22)];
 

@@ -64,6 +64,8 @@ pub struct TopView<'a> {
     framing: Framing,
     background: Pixmap,
     doors: DrawnDoors<'a>,
+    /// What events have made of signals; none where only their phases are known.
+    population: Option<&'a Population>,
     captions: Captions,
 }
 
@@ -84,13 +86,13 @@ impl<'a> TopView<'a> {
         let framing = frame_recording(header, tracks.positions_m())?;
         let background = ground::background(header, &framing);
         let (doors, captions) = (DrawnDoors::default(), Captions::new(&framing));
-        Ok(Self { header, tracks, framing, background, doors, captions })
+        Ok(Self { header, tracks, framing, background, doors, population: None, captions })
     }
 
-    /// The same with the doors of the recording, as they open and close.
+    /// The same with the doors of the recording, as they open and close, and its signals, as events change them.
     pub fn with_doors(self, population: &'a Population) -> Self {
         let doors = DrawnDoors::new(&self.header.scenario, &population.doors, &self.framing);
-        Self { doors, ..self }
+        Self { doors, population: Some(population), ..self }
     }
 
     /// Part of the world that is shown.
@@ -141,7 +143,11 @@ impl<'a> TopView<'a> {
         let FrameBuffers { canvas, shade } = buffers;
         canvas.reset(&self.background, top_px);
         self.doors.draw(&mut canvas.pixmap, &canvas.strip, time_s);
-        draw_signals(&mut canvas.pixmap, &canvas.strip, &self.header.scenario, &self.framing, time_s);
+        let is_green = |signal: usize| match self.population {
+            Some(population) => population.is_green(&self.header.scenario, signal, time_s.into()),
+            None => self.header.scenario.behaviour.is_green(signal, time_s.into()),
+        };
+        draw_signals(&mut canvas.pixmap, &canvas.strip, &self.header.scenario, &self.framing, is_green);
         self.draw_trails(canvas, time_s, agents);
         self.draw_shade(canvas, shade, parts);
         self.draw_bodies(canvas, parts);

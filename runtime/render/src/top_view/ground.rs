@@ -94,11 +94,9 @@ fn draw_goals_of(pixmap: &mut Pixmap, framing: &Framing, goals_m: &[Vec2], paint
     }
 }
 
-/// Draws the outline of the area in which a source places agents: of their discs, not of their centres.
+/// Draws the outline of the area in which a source places agents.
 fn draw_area(pixmap: &mut Pixmap, framing: &Framing, source: &SourceSpec, paint: &Paint<'_>) {
-    let (low_m, high_m) = (source.low_m - source.radius_m, source.high_m + source.radius_m);
-    let corners_m = [low_m, Vec2::new(high_m.x, low_m.y), high_m, Vec2::new(low_m.x, high_m.y)];
-    if let Some(outline) = path_through(corners_m.iter().map(|corner_m| framing.to_px(*corner_m)), true) {
+    if let Some(outline) = path_through(source.outline_m().iter().map(|corner_m| framing.to_px(*corner_m)), true) {
         let dash = (DASH_M * framing.scale_px_m).max(2.0);
         stroke(
             pixmap,

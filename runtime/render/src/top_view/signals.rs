@@ -16,13 +16,21 @@ const RIM_M: f32 = 0.06;
 /// Least and greatest width of the rim, pixels.
 const RIM_PX: [f32; 2] = [1.0, 4.0];
 
-/// Draws the markings in the colours that signals have at a time, on a strip of a picture.
-pub(crate) fn draw_signals(pixmap: &mut Pixmap, strip: &Strip, scenario: &Scenario, framing: &Framing, time_s: f32) {
+/// Draws the markings in the colours of their signals, by index, on a strip of a picture.
+pub(crate) fn draw_signals(
+    pixmap: &mut Pixmap,
+    strip: &Strip,
+    scenario: &Scenario,
+    framing: &Framing,
+    is_green: impl Fn(usize) -> bool,
+) {
     let half_rim_px = 0.5 * (RIM_M * framing.scale_px_m).clamp(RIM_PX[0], RIM_PX[1]);
     for Marking { shape, colour } in &scenario.markings {
         let MarkingColour::Signal(signal) = *colour else { continue };
-        let Some(signal) = scenario.behaviour.signals.get(signal as usize) else { continue };
-        let colour = SIGNAL[usize::from(signal.is_green(time_s.into()))];
+        if signal as usize >= scenario.behaviour.signals.len() {
+            continue;
+        }
+        let colour = SIGNAL[usize::from(is_green(signal as usize))];
         for corners_m in shape.polygons_m() {
             let corners_px: Vec<Vec2> = corners_m.iter().map(|corner_m| framing.to_px(*corner_m)).collect();
             let reach = Vec2::splat(half_rim_px + 1.0);

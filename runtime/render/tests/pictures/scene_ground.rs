@@ -2,7 +2,8 @@
 
 use fbcrowd_render::plots::crowd::trajectories;
 use fbcrowd_render::top_view::{TopView, Tracks};
-use fbcrowd_sim::behaviour::{Area, Signal};
+use fbcrowd_sim::behaviour::{Area, Signal, SignalOrder};
+use fbcrowd_sim::population::{Population, SignalChange};
 use fbcrowd_sim::recording::Header;
 use fbcrowd_sim::route::mesh::WalkablePolygon;
 use fbcrowd_sim::scenario::{Marking, MarkingColour, MarkingShape, PlaceLabel, View};
@@ -42,8 +43,13 @@ fn hall() -> Header {
 
 /// Colours of the hall at a time, by position, m.
 fn colours(header: &Header, time_s: f32) -> impl Fn([f32; 2]) -> [u8; 3] + use<> {
+    colours_after(header, &Population::default(), time_s)
+}
+
+/// As [`colours`], after what happened to signals.
+fn colours_after(header: &Header, population: &Population, time_s: f32) -> impl Fn([f32; 2]) -> [u8; 3] + use<> {
     let tracks = Tracks::new(0.1);
-    let top_view = TopView::new(header, &tracks).unwrap();
+    let top_view = TopView::new(header, &tracks).unwrap().with_doors(population);
     let (framing, picture) = (*top_view.framing(), top_view.draw(&mut top_view.buffers(), time_s, &[]).clone());
     move |at_m| {
         let at_px = framing.to_px(Vec2::from(at_m));
@@ -75,6 +81,21 @@ fn a_lamp_changes_with_its_signal() {
         green > red
     };
     assert_eq!([0.0, 9.9, 10.0, 14.9, 15.1, 36.0].map(is_green), [false, false, true, true, false, true]);
+}
+
+#[test]
+fn a_lamp_shows_what_events_have_ordered() {
+    let header = hall();
+    let frame = |time_s: f32| (time_s / header.scenario.dt_s).round() as u32;
+    let change = |time_s, order| SignalChange { frame: frame(time_s), signal: 0, order };
+    let signals =
+        vec![change(2.0, SignalOrder::Green), change(12.0, SignalOrder::Red), change(30.0, SignalOrder::Phases)];
+    let population = Population { signals, ..Population::default() };
+    let is_green = |time_s: f32| {
+        let [red, green, _] = colours_after(&header, &population, time_s)([-3.0, -3.0]);
+        green > red
+    };
+    assert_eq!([1.9, 2.0, 11.9, 12.0, 14.0, 36.0, 41.0].map(is_green), [false, true, true, false, false, true, false]);
 }
 
 #[test]

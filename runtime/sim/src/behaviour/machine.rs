@@ -67,6 +67,8 @@ pub struct CrowdBehaviour {
     happened: Vec<bool>,
     /// What events have made of each signal; empty before the first step.
     orders: Vec<SignalOrder>,
+    /// What events have made of signals in the last step: the signal, by index, and what it shows.
+    pub ordered: Vec<(usize, SignalOrder)>,
     /// Teleports of the last step: the agent, and where it is afterwards, m.
     pub teleports: Vec<(AgentId, Vec2)>,
 }
@@ -164,6 +166,7 @@ impl CrowdBehaviour {
 
     /// Lets the events happen whose conditions hold now for the first time. Returns those that move agents.
     fn happen<'a>(&mut self, behaviour: &'a Behaviour, view: &CrowdView) -> Vec<&'a Event> {
+        self.ordered.clear();
         self.happened.resize(behaviour.events.len(), false);
         self.orders.resize(behaviour.signals.len(), SignalOrder::Phases);
         if self.happened.iter().all(|happened| *happened) {
@@ -185,6 +188,7 @@ impl CrowdBehaviour {
             if !self.happened[index] && event.condition.holds(&facts, random) {
                 self.happened[index] = true;
                 event.signals.iter().for_each(|&(signal, order)| self.orders[signal] = order);
+                self.ordered.extend(&event.signals);
                 moved.extend(event.to.map(|_| event));
             }
         }

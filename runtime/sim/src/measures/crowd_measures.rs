@@ -14,7 +14,7 @@ use crate::measures::places::{MeasuredPlaces, PlaceMeasures};
 use crate::measures::planted_slide::PlantedSlide;
 use crate::measures::root_measures::RootMeasures;
 use crate::measures::state_visits::{StateMeasures, StateVisits};
-use crate::measures::wall_contact::WallContact;
+use crate::measures::wall_contact::{HeldDisc, WallContact};
 use crate::population::Population;
 use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
@@ -143,7 +143,7 @@ impl Measuring {
             slide: PlantedSlide::new(skeleton, start.len(), dt_s),
             bodies: BodyPenetration::new(skeleton),
             walls: WallContact::new(skeleton, scenario),
-            places: MeasuredPlaces::new(scenario, start),
+            places: MeasuredPlaces::new(scenario, start, population.closed_doors(0)),
         };
         measuring.pose(start);
         follow_feet(&mut measuring.slide, &measuring.roots, start, &measuring.joints);
@@ -167,11 +167,17 @@ impl Measuring {
         follow_feet(&mut self.slide, &self.roots, after, &self.joints);
         self.roots.push(population, &pairs);
         self.states.push(after);
+        let closed = population.closed_doors(frame);
+        self.places.set_doors(&closed);
         self.places.push(frame, &pairs, after);
         self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
-        let wall_radii_m: Vec<f32> = after.iter().map(|agent| life(agent).wall_radius_m(frame)).collect();
-        self.walls.set_doors(population.closed_doors(frame));
-        self.walls.push(after, &self.joints, &wall_radii_m);
+        let held = after
+            .iter()
+            .map(life)
+            .map(|life| HeldDisc { radius_m: life.wall_radius_m(frame), closed_zones: life.spec.closed_zones });
+        let held: Vec<HeldDisc> = held.collect();
+        self.walls.set_doors(closed);
+        self.walls.push(after, &self.joints, &held);
         self.before.clear();
         self.before.extend_from_slice(after);
     }

@@ -11,7 +11,7 @@ use crate::maths::segment_distance::{Segment, distance_m};
 use crate::measures::bone_capsule::bone;
 use crate::recording::frame::AgentFrame;
 use crate::scenario::Scenario;
-use crate::world::obstacles::{NearEdge, Obstacles};
+use crate::world::obstacles::{NearEdge, Obstacles, ZoneWalls};
 
 /// Distance of a disc that a wall holds, beyond its wall radius, m: the skin that the clamp keeps, and rounding.
 const TOUCH_M: f32 = 1.5e-4;
@@ -19,6 +19,15 @@ const TOUCH_M: f32 = 1.5e-4;
 const REACH_M: f32 = 1.2;
 /// Depth from which a body in a wall shows, m.
 const DEEP_M: f32 = 0.01;
+
+/// How walls hold an agent.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HeldDisc {
+    /// Radius of the disc that walls hold, m.
+    pub(crate) radius_m: f32,
+    /// Zones that the agent does not enter, by bits.
+    pub(crate) closed_zones: u32,
+}
 
 /// Counts contacts, frame by frame.
 #[derive(Debug)]
@@ -30,6 +39,8 @@ pub(crate) struct WallContact {
     closed: Vec<bool>,
     /// The walls of the present frame.
     obstacles: Obstacles,
+    /// The walls of agents that do not enter some zones.
+    zone_walls: ZoneWalls,
     agent_frames: usize,
     touching_discs: usize,
     touching_bodies: usize,
@@ -58,6 +69,7 @@ impl WallContact {
             with_doors: (!scenario.doors.is_empty()).then(|| scenario.clone()),
             closed: Vec::new(),
             obstacles: scenario.walls(),
+            zone_walls: scenario.zone_walls(&[]),
             agent_frames: 0,
             touching_discs: 0,
             touching_bodies: 0,
@@ -72,19 +84,22 @@ impl WallContact {
             && self.closed != closed
         {
             self.obstacles = scenario.walls_with(&closed);
+            self.zone_walls = scenario.zone_walls(&closed);
             self.closed = closed;
         }
     }
 
-    /// Adds one frame: every present agent, its joints in its root's frame, and the radius of the disc that walls hold.
-    pub(crate) fn push(&mut self, agents: &[AgentFrame], joints: &[Joints], wall_radii_m: &[f32]) {
+    /// Adds one frame: every present agent, its joints in its root's frame, the radius of the disc that walls hold, and
+    /// the zones that it does not enter, by bits.
+    pub(crate) fn push(&mut self, agents: &[AgentFrame], joints: &[Joints], held: &[HeldDisc]) {
         self.agent_frames += agents.len();
         let mut near = Vec::new();
-        for ((agent, joints), &radius_m) in agents.iter().zip(joints).zip(wall_radii_m) {
-            self.obstacles.near(agent.root.position_m, REACH_M.max(radius_m + TOUCH_M), &mut near);
+        for ((agent, joints), &HeldDisc { radius_m, closed_zones }) in agents.iter().zip(joints).zip(held) {
+            let walls = self.zone_walls.of(closed_zones).unwrap_or(&self.obstacles);
+            walls.near(agent.root.position_m, REACH_M.max(radius_m + TOUCH_M), &mut near);
             let Some(nearest) = near.first() else { continue };
             self.touching_discs += usize::from(nearest.distance_m < radius_m + TOUCH_M);
-            let depth_m = self.depth_m(&agent.root, joints, &near);
+            let depth_m = depth_m(&self.skeleton, walls, &agent.root, joints, &near);
             self.touching_bodies += usize::from(depth_m > 0.0);
             self.deep_bodies += usize::from(depth_m > DEEP_M);
             self.greatest_depth_m = self.greatest_depth_m.max(depth_m);
@@ -101,28 +116,28 @@ impl WallContact {
             greatest_depth_mm: 1e3 * f64::from(self.greatest_depth_m),
         }
     }
+}
 
-    /// Depth of the deepest capsule in a wall, m.
-    fn depth_m(&self, root: &Root, joints: &Joints, near: &[NearEdge]) -> f32 {
-        let depths_m = Joint::ALL.iter().map(|joint| {
-            let bone = bone(&self.skeleton, joints, joint.index());
-            let on_ground = |point_m: Vec3| root.to_world(point_m).truncate().extend(0.0);
-            let bone = Segment { from_m: on_ground(bone.from_m), to_m: on_ground(bone.to_m) };
-            let radius_m = self.skeleton.segment_radii_m[joint.index()];
-            let to_wall_m = |part: &Segment| {
-                let to_edge_m = near.iter().map(|near| {
-                    let [from_m, to_m] = self.obstacles.ends_m(near.edge).map(|end_m| end_m.extend(0.0));
-                    distance_m(part, &Segment { from_m, to_m })
-                });
-                to_edge_m.fold(f32::INFINITY, f32::min)
-            };
-            let ends_m = [bone.from_m, bone.to_m].into_iter();
-            let inside = ends_m.filter(|end_m| self.obstacles.contains(end_m.truncate()));
-            let depths_m = inside.map(|end_m| to_wall_m(&Segment { from_m: end_m, to_m: end_m }));
-            radius_m + depths_m.reduce(f32::max).unwrap_or_else(|| -to_wall_m(&bone))
-        });
-        depths_m.fold(0.0, f32::max)
-    }
+/// Depth of the deepest capsule in a wall, m.
+fn depth_m(skeleton: &Skeleton, walls: &Obstacles, root: &Root, joints: &Joints, near: &[NearEdge]) -> f32 {
+    let depths_m = Joint::ALL.iter().map(|joint| {
+        let bone = bone(skeleton, joints, joint.index());
+        let on_ground = |point_m: Vec3| root.to_world(point_m).truncate().extend(0.0);
+        let bone = Segment { from_m: on_ground(bone.from_m), to_m: on_ground(bone.to_m) };
+        let radius_m = skeleton.segment_radii_m[joint.index()];
+        let to_wall_m = |part: &Segment| {
+            let to_edge_m = near.iter().map(|near| {
+                let [from_m, to_m] = walls.ends_m(near.edge).map(|end_m| end_m.extend(0.0));
+                distance_m(part, &Segment { from_m, to_m })
+            });
+            to_edge_m.fold(f32::INFINITY, f32::min)
+        };
+        let ends_m = [bone.from_m, bone.to_m].into_iter();
+        let inside = ends_m.filter(|end_m| walls.contains(end_m.truncate()));
+        let depths_m = inside.map(|end_m| to_wall_m(&Segment { from_m: end_m, to_m: end_m }));
+        radius_m + depths_m.reduce(f32::max).unwrap_or_else(|| -to_wall_m(&bone))
+    });
+    depths_m.fold(0.0, f32::max)
 }
 
 #[cfg(test)]
@@ -130,6 +145,8 @@ mod tests {
     use glam::Vec2;
 
     use super::*;
+    use crate::behaviour::Area;
+    use crate::scenario::ZoneSpec;
     use crate::test_db::test_db;
 
     /// Contacts of one standing body beside a wall that begins at x = 0, its root at x = −`clear_m`.
@@ -139,7 +156,11 @@ mod tests {
         let root = Root { position_m: Vec2::new(-clear_m, 0.0), facing_rad: 0.0 };
         let frame = AgentFrame { root, pose: db.rows.pose(0, 0), ..AgentFrame::default() };
         let mut contact = WallContact::new(&db.skeleton, &scenario);
-        contact.push(&[frame], &[frame.pose.forward_kinematics(&db.skeleton)], &[0.2]);
+        contact.push(
+            &[frame],
+            &[frame.pose.forward_kinematics(&db.skeleton)],
+            &[HeldDisc { radius_m: 0.2, closed_zones: 0 }],
+        );
         contact.finish()
     }
 
@@ -152,6 +173,23 @@ mod tests {
             from_m.x.max(to_m.x) + db.skeleton.segment_radii_m[joint.index()]
         };
         Joint::ALL.iter().map(reach_m).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn a_closed_zone_is_a_wall_of_those_that_do_not_enter_it() {
+        let (db, mut scenario) = (test_db(), crate::simulation::tests::antipodal(2, 4.0));
+        let area = Area::rectangle(Vec2::new(-1.0, -1.0), Vec2::ONE);
+        scenario.zones = vec![ZoneSpec { area, speed_factor: 1.0, is_closed: true }];
+        scenario.agents[1].closed_zones = 1;
+        let root = Root { position_m: Vec2::new(-1.05, 0.0), facing_rad: 0.0 };
+        let frame = AgentFrame { root, pose: db.rows.pose(0, 0), ..AgentFrame::default() };
+        let shares = [0, 1].map(|closed_zones| {
+            let mut contact = WallContact::new(&db.skeleton, &scenario);
+            let joints = frame.pose.forward_kinematics(&db.skeleton);
+            contact.push(&[frame], &[joints], &[HeldDisc { radius_m: 0.2, closed_zones }]);
+            contact.finish().deep_body_share
+        });
+        assert_eq!(shares, [0.0, 1.0]);
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::population::{AgentLife, DoorPhases, GoalCount, Population, RadiusChange, SourceCount};
+use crate::population::{AgentLife, DoorPhases, GoalCount, Population, RadiusChange, SignalChange, SourceCount};
 use crate::recording::header::Header;
 use crate::scenario::AgentSpec;
 use crate::scenario::ranges::{AGENTS_MAX, RADIUS_M, check_agent};
@@ -27,6 +27,8 @@ struct StoredPopulation<'a> {
     goals: Cow<'a, [GoalCount]>,
     #[serde(default, skip_serializing_if = "<[DoorPhases]>::is_empty")]
     doors: Cow<'a, [DoorPhases]>,
+    #[serde(default, skip_serializing_if = "<[SignalChange]>::is_empty")]
+    signals: Cow<'a, [SignalChange]>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -98,12 +100,13 @@ pub(crate) fn stored<'a>(population: &'a Population, header: &Header) -> impl Se
         teleports: Cow::Borrowed(&life.teleports),
     };
     let agents = population.agents.iter().enumerate().map(life).collect();
-    let Population { sources, goals, doors, .. } = population;
+    let Population { sources, goals, doors, signals, .. } = population;
     StoredPopulation {
         agents,
         sources: Cow::Borrowed(sources),
         goals: Cow::Borrowed(goals),
         doors: Cow::Borrowed(doors),
+        signals: Cow::Borrowed(signals),
     }
 }
 
@@ -138,11 +141,13 @@ fn population(stored: StoredPopulation<'_>, header: &Header) -> Result<Populatio
     if goals.is_empty() {
         goals = vec![GoalCount::default(); header.scenario.behaviour.goals.len()];
     }
-    Ok(Population { agents, sources: stored.sources.into_owned(), goals, doors: stored.doors.into_owned() })
+    let StoredPopulation { sources, doors, signals, .. } = stored;
+    let (sources, doors, signals) = (sources.into_owned(), doors.into_owned(), signals.into_owned());
+    Ok(Population { agents, sources, goals, doors, signals })
 }
 
 fn check(population: &Population, header: &Header, frame_count: usize) -> Result<(), String> {
-    let Population { agents, sources, goals, doors } = population;
+    let Population { agents, sources, goals, doors, signals } = population;
     if sources.len() != header.scenario.sources.len() {
         return Err(format!("it counts {} sources, but the scenario has another number", sources.len()));
     }
@@ -157,6 +162,11 @@ fn check(population: &Population, header: &Header, frame_count: usize) -> Result
         if !door.changes.iter().all(is_frame) || !door.changes.is_sorted_by(|a, b| a < b) {
             return Err(format!("door {index}: a frame is out of range"));
         }
+    }
+    let known = header.scenario.behaviour.signals.len();
+    let is_change = |change: &SignalChange| (change.frame as usize) < frame_count && (change.signal as usize) < known;
+    if !signals.iter().all(is_change) || !signals.is_sorted_by_key(|change| change.frame) {
+        return Err("a change of a signal is out of range".into());
     }
     if !agents.is_sorted_by_key(|life| life.born) {
         return Err("ids do not count births".into());

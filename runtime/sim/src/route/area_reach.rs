@@ -104,7 +104,8 @@ fn starts(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, RouteMes
 /// Positions in a source's area at which agents can appear, m.
 fn source_starts_m<'a>(scenario: &Scenario, index: usize, walls: &'a Obstacles) -> impl Iterator<Item = Vec2> + 'a {
     let source = &scenario.sources[index];
-    clear_m(&Area::rectangle(source.low_m, source.high_m), source.wall_radius_m, walls)
+    let area = source.area.clone().unwrap_or_else(|| Area::rectangle(source.low_m, source.high_m));
+    clear_m(&area, source.wall_radius_m, walls)
 }
 
 /// Positions in an area at which a disc overlaps no wall, m.

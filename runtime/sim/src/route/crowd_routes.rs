@@ -3,7 +3,7 @@
 //! Agents with one wall radius share a mesh. Agents with one waypoint share a field, which answers from everywhere;
 //! a waypoint of few agents is searched for each of them, and searched again when the next corner is out of sight.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, Vec2};
 
@@ -39,6 +39,8 @@ pub struct CrowdRoutes {
     field_of: BTreeMap<WaypointKey, usize>,
     /// Index of the field of an area of a goal, by class.
     area_field_of: BTreeMap<(MeshClass, GoalRef), usize>,
+    /// Areas of goals that lie wholly in zones that agents do not enter, by bits.
+    barred: BTreeSet<(u32, GoalRef)>,
 }
 
 /// Agents that share a mesh.
@@ -169,6 +171,10 @@ impl CrowdRoutes {
         let mut bytes = 0;
         for (at, area) in areas {
             for (class, mesh) in &self.meshes {
+                if scenario.is_barred(area, class.closed_zones) {
+                    self.barred.insert((class.closed_zones, at));
+                    continue;
+                }
                 if bytes > AREA_FIELDS_MAX_BYTES {
                     return;
                 }
@@ -180,9 +186,13 @@ impl CrowdRoutes {
         }
     }
 
-    /// Length of the route from a position to an area of a goal, m; none where no route leads there. Straight where
+    /// Length of the route from a position to an area of a goal, m; none where no route leads there, or it lies wholly in
+    /// zones that the agents do not enter. Straight where
     /// there are no walls, or the area has no field.
     pub(crate) fn to_area_m(&self, class: MeshClass, from_m: Vec2, at: GoalRef, area: &Area) -> Option<f32> {
+        if self.barred.contains(&(class.closed_zones, at)) {
+            return None;
+        }
         match (self.mesh(class), self.area_field_of.get(&(class, at))) {
             (Some(mesh), Some(&field)) => {
                 let step = self.fields[field].step(mesh, from_m, &mut RoutePosition::default())?;

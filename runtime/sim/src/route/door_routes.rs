@@ -24,6 +24,8 @@ pub(crate) struct DoorRoutes {
     made: u32,
     /// Number of changes of the present set.
     changes: u64,
+    /// Why the routes of a set could not be made, the first time.
+    error: Option<RouteError>,
 }
 
 /// The routes while a set of doors is closed.
@@ -63,6 +65,11 @@ impl DoorRoutes {
         &self.all_open
     }
 
+    /// Why agents have no routes around doors that closed: they take those with all doors open, and wait.
+    pub(crate) fn error(&self) -> Option<&RouteError> {
+        self.error.as_ref()
+    }
+
     /// Takes the routes while these doors are closed, by index; makes them where they are not kept. The set that was
     /// not present for the longest time makes room.
     pub(crate) fn close(&mut self, scenario: &Scenario, closed: &[bool]) {
@@ -80,7 +87,10 @@ impl DoorRoutes {
     /// Makes the routes of a set. Returns its index.
     fn make(&mut self, scenario: &Scenario, closed: &[bool]) -> usize {
         self.made += 1;
-        let routes = CrowdRoutes::with_closed(scenario, closed, self.made).unwrap_or_default();
+        let routes = CrowdRoutes::with_closed(scenario, closed, self.made).unwrap_or_else(|error| {
+            self.error.get_or_insert(error);
+            self.all_open.clone()
+        });
         let set = ClosedSet { closed: closed.to_vec(), routes, used: 0 };
         if self.kept.len() < SETS_MAX {
             self.kept.push(set);

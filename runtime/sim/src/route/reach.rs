@@ -38,7 +38,7 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
     let mut meshes: Vec<(MeshClass, RouteMesh)> = Vec::new();
     let agents = scenario.agents.iter().enumerate().map(|(index, agent)| (ScenarioPart::Journey(index), agent.clone()));
     let sources = scenario.sources.iter().enumerate().flat_map(|(index, source)| {
-        let agent = source.agent(source.low_m.midpoint(source.high_m));
+        let agent = source.agent(source.middle_m());
         let of_set = move |closed_zones| (ScenarioPart::Source(index), AgentSpec { closed_zones, ..agent.clone() });
         source.closed_zone_sets().into_iter().map(of_set)
     });

@@ -3,12 +3,13 @@
 //! Enters: a scenario file ([`file`](mod@file)), or agents made in code. Leaves: a [`Scenario`] in which every agent is
 //! explicit, every number is in range and no path occurs.
 //!
-//! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `profile`, `social_group`, `places`
+//! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `schedule`, `due_times`, `profile`, `social_group`, `places`
 //! (zones, doors, markings, measured lines and areas), `coupling` and `view`; then `rules` and `ranges`, `fault` and
 //! `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
 pub(crate) mod coupling;
+pub(crate) mod due_times;
 pub(crate) mod error;
 pub(crate) mod fault;
 pub mod file;
@@ -18,6 +19,7 @@ pub(crate) mod profile;
 pub(crate) mod ranges;
 pub(crate) mod resolved;
 pub(crate) mod rules;
+pub(crate) mod schedule;
 pub(crate) mod social_group;
 pub(crate) mod source_spec;
 pub(crate) mod view;
@@ -25,6 +27,7 @@ pub(crate) mod walls;
 
 pub use agent_spec::{AgentSpec, AtGoal, WALL_RADIUS_M};
 pub use coupling::Coupling;
+pub use due_times::DueTimes;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};
@@ -36,6 +39,7 @@ pub use profile::{DrawnNumbers, Profile};
 pub use ranges::{STEP_RANGE_S, check_view};
 pub use resolved::Scenario;
 pub use rules::check;
+pub use schedule::{RateRow, Schedule, TimeRow};
 pub use social_group::{GroupMember, GroupSizes};
-pub use source_spec::{DueTimes, SourceSpec};
+pub use source_spec::SourceSpec;
 pub use view::View;

@@ -1,14 +1,17 @@
 //! A source of agents: an area in which agents appear one after the other. World, metres, seconds.
 //!
-//! The times at which agents are due are a Poisson process: independent gaps with an exponential distribution. They
-//! depend on the scenario's seed and the source's index alone. So the number of agents is known before the simulation.
+//! The times at which agents are due (`due_times`) depend on the scenario's seed and the source's index alone. So the
+//! number of agents is known before the simulation.
 
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+use crate::behaviour::Area;
 use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::{AgentSpec, AtGoal, enters_all, follows_path, is_0};
+use crate::scenario::due_times::DueTimes;
 use crate::scenario::profile::{DrawnNumbers, Profile};
+use crate::scenario::schedule::{RateRow, Schedule};
 use crate::scenario::social_group::GroupSizes;
 
 /// First random stream of the sources' due times; the scenario and the starting phases use those below.
@@ -27,12 +30,18 @@ pub struct SourceSpec {
     pub low_m: Vec2,
     /// Greatest corner of the rectangle, world, m; equal to the least one for a source at a position.
     pub high_m: Vec2,
-    /// Mean number of agents per second.
+    /// The part of the rectangle in which agents appear; none of a source that fills it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area: Option<Area>,
+    /// Mean number of agents per second, without a schedule.
     pub rate_per_s: f32,
-    /// Time from which agents are due, s.
+    /// Time from which agents are due, without a schedule, s.
     pub from_s: f32,
-    /// Time until which agents are due, s.
+    /// Time until which agents are due, without a schedule, s.
     pub to_s: f32,
+    /// When agents are due, instead of one rate.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub schedule: Option<Schedule>,
     /// Greatest number of agents; none where time alone ends the source.
     pub count: Option<u32>,
     /// Facing of each agent when it appears, rad; towards its first goal where none is given.
@@ -117,13 +126,11 @@ impl SourceSpec {
 
     /// The times at which agents of the source with this index are due, in order, s.
     pub fn due_times(&self, seed: u64, index: usize) -> DueTimes {
-        DueTimes {
-            random: SplitMix64::new(seed, DUE_STREAM + index as u64),
-            rate_per_s: self.rate_per_s.into(),
-            now_s: self.from_s.into(),
-            to_s: self.to_s.into(),
-            remaining: self.count.unwrap_or(u32::MAX),
-        }
+        let &Self { from_s, to_s, rate_per_s, .. } = self;
+        let one_rate = || Schedule::Rates(vec![RateRow { from_s, to_s, rate_per_s }]);
+        let schedule = self.schedule.clone().unwrap_or_else(one_rate);
+        let random = SplitMix64::new(seed, DUE_STREAM + index as u64);
+        DueTimes::new(&schedule, self.count.unwrap_or(u32::MAX), random)
     }
 
     /// The generator of the positions at which the source with this index places its agents.
@@ -138,79 +145,28 @@ impl SourceSpec {
 
     /// A position in the area, uniformly distributed, world, m.
     pub(crate) fn position_m(&self, random: &mut SplitMix64) -> Vec2 {
+        if let Some(area) = &self.area {
+            return area.draw_m(random);
+        }
         let [x, y] = [random.unit(), random.unit()].map(|share| share as f32);
         self.low_m + Vec2::new(x, y) * (self.high_m - self.low_m)
     }
-}
 
-/// The times at which the agents of one source are due, s.
-#[derive(Clone, Debug)]
-pub struct DueTimes {
-    random: SplitMix64,
-    rate_per_s: f64,
-    now_s: f64,
-    to_s: f64,
-    remaining: u32,
-}
-
-impl Iterator for DueTimes {
-    type Item = f64;
-
-    fn next(&mut self) -> Option<f64> {
-        self.remaining = self.remaining.checked_sub(1)?;
-        self.now_s -= libm::log(1.0 - self.random.unit()) / self.rate_per_s;
-        if self.now_s > self.to_s {
-            self.remaining = 0;
-            return None;
-        }
-        Some(self.now_s)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn source(rate_per_s: f32, count: Option<u32>) -> SourceSpec {
-        let AgentSpec { radius_m, wall_radius_m, preferred_speed_mps, at_goal, .. } = AgentSpec::default();
-        SourceSpec {
-            low_m: Vec2::ZERO,
-            high_m: Vec2::ONE,
-            rate_per_s,
-            from_s: 10.0,
-            to_s: 1_010.0,
-            count,
-            facing_rad: None,
-            goals_m: vec![Vec2::new(5.0, 0.0)],
-            goal_offset_m: None,
-            radius_m,
-            wall_radius_m,
-            preferred_speed_mps,
-            at_goal,
-            state: 0,
-            pre_movement_s: 0.0,
-            profiles: Vec::new(),
-            closed_zones: 0,
-            priority: 0.0,
-            groups: None,
-        }
+    /// The middle of the area, world, m; of an area whose middle lies outside it the position nearest to that.
+    pub fn middle_m(&self) -> Vec2 {
+        let middle_m = self.low_m.midpoint(self.high_m);
+        self.area.as_ref().map_or(middle_m, |area| area.nearest_m(area.centre_m()))
     }
 
-    #[test]
-    fn due_times_are_a_poisson_process() {
-        let times_s: Vec<f64> = source(2.0, None).due_times(1, 0).collect();
-        assert!(times_s.is_sorted() && times_s[0] > 10.0 && times_s[times_s.len() - 1] <= 1_010.0);
-        // 2000 ± 45 agents, and gaps whose deviation is their mean.
-        assert!(times_s.len().abs_diff(2_000) < 150, "{}", times_s.len());
-        let gaps_s: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let deviation_s = motiondb::statistics::standard_deviation(gaps_s.iter().copied()).unwrap();
-        assert!((deviation_s - 0.5).abs() < 0.05, "{deviation_s}");
+    /// Whether a position lies in the area.
+    pub(crate) fn holds(&self, position_m: Vec2) -> bool {
+        let is_in_box = position_m.cmpge(self.low_m).all() && position_m.cmple(self.high_m).all();
+        is_in_box && self.area.as_ref().is_none_or(|area| area.holds(position_m))
     }
 
-    #[test]
-    fn count_ends_the_source_and_seeds_differ() {
-        assert_eq!(source(2.0, Some(7)).due_times(1, 0).count(), 7);
-        let first_s = |seed, index| source(2.0, None).due_times(seed, index).next();
-        assert!(first_s(1, 0) == first_s(1, 0) && first_s(1, 0) != first_s(2, 0) && first_s(1, 0) != first_s(1, 1));
+    /// Corners of the outline of the area, counter-clockwise, world, m; of a rectangle that of the discs in it.
+    pub fn outline_m(&self) -> Vec<Vec2> {
+        let of_discs = || Area::rectangle(self.low_m - self.radius_m, self.high_m + self.radius_m);
+        self.area.clone().unwrap_or_else(of_discs).outline_m()
     }
 }

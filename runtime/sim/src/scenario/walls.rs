@@ -11,6 +11,9 @@ use crate::scenario::resolved::Scenario;
 use crate::scenario::source_spec::SourceSpec;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
 
+/// Rows and columns of the positions of an area that are compared with closed zones.
+const BARRED_LATTICE: u16 = 16;
+
 impl Scenario {
     /// The walls that hold discs, with all doors open: obstacles, enclosures, and the edges of the walkable ground.
     pub fn walls(&self) -> Obstacles {
@@ -48,6 +51,14 @@ impl Scenario {
     pub(crate) fn closed_zones(&self, closed_zones: u32) -> impl Iterator<Item = (usize, &ZoneSpec)> {
         let closed = self.zones.iter().enumerate().filter(|(_, zone)| zone.is_closed).zip(0..u32::BITS);
         closed.filter(move |(_, bit)| closed_zones >> bit & 1 == 1).map(|(zone, _)| zone)
+    }
+
+    /// Whether an area lies wholly in zones that agents do not enter, by bits.
+    pub(crate) fn is_barred(&self, area: &Area, closed_zones: u32) -> bool {
+        closed_zones != 0
+            && area
+                .lattice_m(BARRED_LATTICE)
+                .all(|at_m| self.closed_zones(closed_zones).any(|(_, zone)| zone.area.holds(at_m)))
     }
 
     /// The sets of zones that some agents do not enter, by bits, each once, rising.

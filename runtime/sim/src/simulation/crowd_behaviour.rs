@@ -8,7 +8,7 @@ use glam::Vec2;
 use crate::agents::{Agents, Removal};
 use crate::behaviour::{Aim, CrowdBehaviour, CrowdView, GoalRef, Movement, Traits};
 use crate::planning::mcn::orientation;
-use crate::population::{Population, RadiusChange};
+use crate::population::{Population, RadiusChange, SignalChange};
 use crate::route::crowd_routes::{CrowdRoutes, MeshClass};
 use crate::scenario::{AgentSpec, Scenario, WALL_RADIUS_M};
 use crate::simulation::Simulation;
@@ -57,6 +57,8 @@ impl Simulation {
         };
         crowd.decide(behaviour, &view);
         population.goals.iter_mut().zip(&crowd.waiting).for_each(|(count, &waiting)| count.add(waiting));
+        let change = |&(signal, order): &(usize, _)| SignalChange { frame: *steps, signal: signal as u32, order };
+        population.signals.extend(crowd.ordered.iter().map(change));
         self.take_over_states();
     }
 

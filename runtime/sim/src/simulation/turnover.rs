@@ -17,11 +17,14 @@ const TRIES: usize = 10;
 
 impl Simulation {
     /// Adds an agent, which stands at its start and takes part from the next step on. None where it has no room: its
-    /// disc overlaps another or a wall. None, too, where it is no valid agent of a scenario, or a million have been.
+    /// disc overlaps another or a wall. None, too, where it is no valid agent of a scenario, where it stays out of a set
+    /// of zones that no agent or source of the scenario stays out of, or a million have been.
     pub fn add(&mut self, spec: AgentSpec) -> Option<AgentId> {
         let is_state = spec.state == 0 || (spec.state as usize) < self.scenario.behaviour.states.len();
         let is_valid = is_state && check_agent(0, &spec).is_ok() && self.population.agents.len() < AGENTS_MAX;
-        let has_room = is_valid && self.has_room(&spec);
+        // Walls and meshes are made for the sets of the scenario.
+        let has_walls = spec.closed_zones == 0 || self.zone_walls.of(spec.closed_zones).is_some();
+        let has_room = is_valid && has_walls && self.has_room(&spec);
         has_room.then(|| self.bear(spec, None))
     }
 

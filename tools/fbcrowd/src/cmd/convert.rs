@@ -83,6 +83,8 @@ pub(crate) struct Converted {
     pub(crate) report: ConvertReport,
     /// Files of the scene.
     pub(crate) inputs: Vec<PathBuf>,
+    /// Files that were written.
+    pub(crate) outputs: Vec<PathBuf>,
 }
 
 impl Conversion<'_> {
@@ -101,7 +103,8 @@ impl Conversion<'_> {
         let outputs = [&agent_files[..], std::slice::from_ref(&output)].concat();
         check_files(folder, &outputs, &scene.inputs)?;
         write_files(&output, &agent_files, &written)?;
-        Ok(Converted { report: ConvertReport::new(&scene.scene, &output, &agent_files), inputs: scene.inputs })
+        let report = ConvertReport::new(&scene.scene, &output, &agent_files);
+        Ok(Converted { report, inputs: scene.inputs, outputs })
     }
 }
 

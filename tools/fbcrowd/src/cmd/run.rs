@@ -55,8 +55,13 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let progress = ProgressDisplay::default();
     let observer = |event: JobEvent<'_>| progress.observe(event);
-    let Subject { file, folder, files, answer: converted } = Subject::new(args)?;
-    let (scenario, motion) = scenario::read(&file)?;
+    let subject = Subject::new(args)?;
+    let read = scenario::read(&subject.file);
+    if read.is_err() {
+        subject.remove_written();
+    }
+    let Subject { file, folder, files, answer: converted, .. } = subject;
+    let (scenario, motion) = read?;
     let motion = motion?;
     let outputs = RunOutputs::new(folder, &scenario.name);
     outputs.check(&inputs(&file, files, &motion)?)?;
@@ -89,6 +94,8 @@ struct Subject {
     folder: Option<PathBuf>,
     /// Files of the scene from which it was converted.
     files: Vec<PathBuf>,
+    /// Files that the conversion wrote.
+    written: Vec<PathBuf>,
     /// No where something happens otherwise than in that scene.
     answer: Answer,
 }
@@ -102,7 +109,13 @@ impl Subject {
                 let message = "--clips and --duration are for scenes of other programs";
                 return Err(Failure::bad(format!("{message}; set `clips` and `duration_s` in {}", scenario.display())));
             }
-            return Ok(Self { file: scenario.clone(), folder: output.clone(), files: Vec::new(), answer: Answer::Yes });
+            return Ok(Self {
+                file: scenario.clone(),
+                folder: output.clone(),
+                files: Vec::new(),
+                written: Vec::new(),
+                answer: Answer::Yes,
+            });
         }
         let Some(clips) = clips else {
             let message = format!("{} names no motion; add --clips with clips or a manifest", scenario.display());
@@ -115,9 +128,22 @@ impl Subject {
         let options = ReadOptions { allow_outside: outside.allow_outside, units: None };
         let conversion =
             Conversion { scene: scenario, output: &file, clips: Some(clips), duration_s: *duration, options };
-        let Converted { report, inputs } = conversion.convert()?;
+        let Converted { report, inputs, outputs } = conversion.convert()?;
         output::say_text(without_control_characters(report.text().trim_end()).as_ref());
-        Ok(Self { file, folder: Some(folder), files: inputs, answer: Answer::of(!report.changes) })
+        let answer = Answer::of(!report.changes);
+        Ok(Self { file, folder: Some(folder), files: inputs, written: outputs, answer })
+    }
+
+    /// Removes what the conversion wrote, since the scenario cannot be run.
+    fn remove_written(&self) {
+        // What cannot be removed stays; the error of the scenario is the one that matters.
+        for file in &self.written {
+            let _ = fs::remove_file(file);
+        }
+        if let (Some(folder), [_, ..]) = (&self.folder, &self.written[..]) {
+            let _ = fs::remove_dir(folder);
+            output::say_text("the converted scenario is not kept; `fbcrowd convert` writes it");
+        }
     }
 }
 

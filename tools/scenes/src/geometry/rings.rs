@@ -2,8 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay::{Overlay, ShapeType};
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::i_float::int::point::IntPoint;
+
 use crate::geometry::polygon::{contains, cross, signed_area_m2, sub};
 use crate::scene::{Point, Walkable};
+
+/// Lines per metre of the grid on which polygons are united: 10 km fit into 32 bits.
+const LINES_PER_M: f64 = 1e5;
 
 /// Closed outlines of directed edges between numbered vertices; edges that do not close are left out.
 ///
@@ -48,6 +56,38 @@ fn sharpest_left(vertices_m: &[Point], targets: &[usize], at: usize, ahead: Poin
     targets.iter().copied().max_by(|a, b| turn(*a).total_cmp(&turn(*b)))
 }
 
+/// The outlines of all ground that convex polygons cover, to 10 µm; clockwise ones are holes.
+pub(crate) fn united(polygons_m: &[Vec<Point>]) -> Vec<Vec<Point>> {
+    let to_grid = |metres: f64| (metres * LINES_PER_M).round() as i32;
+    let mut overlay = Overlay::<i32>::new(polygons_m.iter().map(Vec::len).sum());
+    for polygon_m in polygons_m {
+        let is_clockwise = signed_area_m2(polygon_m) < 0.0;
+        let mut contour: Vec<_> = polygon_m.iter().map(|&[x, y]| IntPoint::new(to_grid(x), to_grid(y))).collect();
+        if is_clockwise {
+            contour.reverse();
+        }
+        overlay.add_contour(&contour, ShapeType::Subject);
+    }
+    let contours = overlay.overlay(OverlayRule::Subject, FillRule::NonZero).into_iter().flatten();
+    let metres = |line: i32| f64::from(line) / LINES_PER_M;
+    let ring_m = |contour: Vec<IntPoint<i32>>| contour.iter().map(|at| [metres(at.x), metres(at.y)]).collect();
+    contours.map(ring_m).flat_map(|ring_m: Vec<Point>| parted(&ring_m)).collect()
+}
+
+/// The loops of a ring that touches itself in corners.
+fn parted(ring_m: &[Point]) -> Vec<Vec<Point>> {
+    let (mut loops, mut open_m) = (Vec::new(), Vec::<Point>::new());
+    for &corner_m in ring_m {
+        if let Some(begin) = open_m.iter().position(|other_m| *other_m == corner_m) {
+            loops.push(open_m.split_off(begin));
+        }
+        open_m.push(corner_m);
+    }
+    loops.push(open_m);
+    loops.retain(|ring_m| ring_m.len() > 2);
+    loops
+}
+
 /// Outlines that run counter-clockwise, each with the clockwise ones that lie inside.
 pub(crate) fn with_holes(rings: Vec<Vec<Point>>, origin: &str) -> Vec<Walkable> {
     let (outer, holes): (Vec<_>, Vec<_>) = rings.into_iter().partition(|ring| signed_area_m2(ring) > 0.0);
@@ -88,6 +128,18 @@ mod tests {
         let edges = [(0, 1), (1, 2), (2, 0), (0, 3), (3, 4), (4, 0)];
         let rings = closed_rings(&vertices_m, &edges);
         assert_eq!(rings.iter().map(Vec::len).collect::<Vec<_>>(), [3, 3]);
+    }
+
+    #[test]
+    fn united_polygons_keep_their_corners_and_part_where_they_touch() {
+        let rect = |x: f64, y: f64| vec![[x, y], [x + 2.0, y], [x + 2.0, y + 1.0], [x, y + 1.0]];
+        // Two overlap, the second clockwise; a third touches in a corner.
+        let clockwise: Vec<Point> = rect(1.00001, 0.5).into_iter().rev().collect();
+        let rings = united(&[rect(0.0, 0.0), clockwise, rect(-2.0, -1.0)]);
+        let areas_m2: f64 = rings.iter().map(|ring| signed_area_m2(ring)).sum();
+        assert!((areas_m2 - (6.0 - 0.99999 * 0.5)).abs() < 1e-9, "{areas_m2}");
+        assert!(rings.iter().all(|ring| crate::geometry::polygon::is_simple(ring)), "{rings:?}");
+        assert!(rings.iter().flatten().any(|corner_m| *corner_m == [1.00001, 1.5]), "{rings:?}");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::SceneError;
-use crate::geometry::polygon::{contains, without_repeats};
+use crate::geometry::polygon::contains;
 use crate::geometry::rings::with_holes;
 use crate::menge::events::read_events;
 use crate::menge::files::ProjectFiles;
@@ -122,8 +122,7 @@ fn read_outline(
     let mut outlines: Vec<Walkable> = Vec::new();
     for path in meshes {
         let text = crate::error::read_text(path)?;
-        let rings = NavMesh::parse(&text)?.outlines_m();
-        let mut walkable = with_holes(rings.iter().map(|ring| without_repeats(ring)).collect(), &files.shown(path));
+        let mut walkable = with_holes(NavMesh::parse(&text)?.outlines_m(), &files.shown(path));
         // Obstacles stand in the holes.
         walkable.iter_mut().for_each(|walkable| walkable.holes_m.clear());
         outlines.append(&mut walkable);

@@ -14,8 +14,8 @@ use std::str::SplitAsciiWhitespace;
 use motiondb::files::SourceText;
 
 use crate::error::SceneError;
-use crate::geometry::polygon::signed_area_m2;
-use crate::geometry::rings::closed_rings;
+use crate::geometry::polygon::{is_simple, signed_area_m2, without_repeats};
+use crate::geometry::rings::{closed_rings, united};
 use crate::scene::Point;
 
 /// Slope below which a node is flat: 1 mm over 1 m.
@@ -83,19 +83,51 @@ impl NavMesh {
     }
 
     /// Outlines of the mesh: counter-clockwise about walkable ground, clockwise about holes.
+    ///
+    /// They are the boundary edges, where these close and nodes do not overlap. Else, as where a stair ends beside rows
+    /// of seats or below a floor, they are the outlines of all nodes together.
     pub(crate) fn outlines_m(&self) -> Vec<Vec<Point>> {
+        let walls = self.walls();
         let mut edges = Vec::new();
+        let mut nodes_m: Vec<Vec<Point>> = Vec::new();
         for node in &self.nodes {
             let corners_m: Vec<Point> = node.iter().map(|&vertex| self.vertices_m[vertex]).collect();
             let is_clockwise = signed_area_m2(&corners_m) < 0.0;
-            for (&a, &b) in node.iter().zip(node.iter().cycle().skip(1)) {
-                if a != b && !self.shared.contains(&(a.min(b), a.max(b))) {
+            nodes_m.push(corners_m);
+            for (a, b) in edges_of(node) {
+                let edge = (a.min(b), a.max(b));
+                if a != b && !self.shared.contains(&edge) && !walls.contains(&edge) {
                     edges.push(if is_clockwise { (b, a) } else { (a, b) });
                 }
             }
         }
-        closed_rings(&self.vertices_m, &edges)
+        let rings: Vec<Vec<Point>> =
+            closed_rings(&self.vertices_m, &edges).iter().map(|ring_m| without_repeats(ring_m)).collect();
+        let united = united(&nodes_m);
+        let area_m2 = |rings: &[Vec<Point>]| rings.iter().map(|ring_m| signed_area_m2(ring_m)).sum::<f64>();
+        let is_whole = (area_m2(&rings) - area_m2(&united)).abs() < 1e-3 * area_m2(&united);
+        if is_whole && rings.iter().all(|ring_m| is_simple(ring_m)) { rings } else { united }
     }
+
+    /// Edges between two nodes that the mesh does not share: walls without thickness.
+    pub(crate) fn walls_m(&self) -> Vec<[Point; 2]> {
+        self.walls().into_iter().map(|(a, b)| [self.vertices_m[a], self.vertices_m[b]]).collect()
+    }
+
+    fn walls(&self) -> BTreeSet<(usize, usize)> {
+        let (mut once, mut twice) = (BTreeSet::new(), BTreeSet::new());
+        for (a, b) in self.nodes.iter().flat_map(|node| edges_of(node)) {
+            let edge = (a.min(b), a.max(b));
+            if a != b && !once.insert(edge) && !self.shared.contains(&edge) {
+                twice.insert(edge);
+            }
+        }
+        twice
+    }
+}
+
+fn edges_of(node: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    node.iter().copied().zip(node.iter().copied().cycle().skip(1))
 }
 
 /// The words of a file, with the position of the last one.

@@ -39,8 +39,15 @@ pub(crate) fn read_obstacle_set(
         "nav_mesh" => {
             let text = files.text(set, "file_name")?;
             let mesh = NavMesh::parse(&text)?;
-            let outlines_m = mesh.outlines_m().iter().map(|outline_m| without_repeats(outline_m)).collect();
-            scene.walkable.extend(with_holes(outlines_m, &files.shown(&text.path)));
+            let origin = files.shown(&text.path);
+            scene.walkable.extend(with_holes(mesh.outlines_m(), &origin));
+            let walls_m = mesh.walls_m();
+            if !walls_m.is_empty() {
+                scene.notes.add(&origin, 0, "walls within the mesh become 2 cm thick", false);
+            }
+            for polygon_m in walls_m.iter().flat_map(|ends_m| of_line(ends_m, false)) {
+                scene.obstacles.push(SceneObstacle { polygon_m, is_enclosure: false, origin: origin.clone() });
+            }
             Ok(())
         }
         kind => {

@@ -63,8 +63,7 @@ fn read_group(
     };
     let selected = selected_profiles(&part("ProfileSelector")?, scene)?;
     let states = selected_states(&part("StateSelector")?, scene)?;
-    let room = AGENTS_MAX - scene.agent_count();
-    let starts = read_starts(files, &part("Generator")?, room, scene)?;
+    part("Generator")?;
     let mut shares: Vec<(String, f64)> = Vec::new();
     let (mut radius_max_m, mut radii_m) = (0.0_f64, Vec::new());
     for (name, weight, selector) in &selected {
@@ -80,15 +79,21 @@ fn read_group(
     profiles.begin_in(&state, &selected);
     // The discs of the source hold walls too.
     let wall_radius_m = radii_m[0].filter(|radius_m| radii_m.iter().all(|other_m| *other_m == Some(*radius_m)));
-    scene.agents.push(SceneAgents {
-        starts,
-        profiles: shares,
-        state: Some(state),
-        radius_max_m,
-        wall_radius_m: wall_radius_m.filter(|radius_m| *radius_m > WALL_RADIUS_M),
-        own_goal_mirrors: None,
-        origin: group.origin(),
-    });
+    // Each generator adds its agents.
+    let has_several = group.named("Generator").count() > 1;
+    for generator in group.named("Generator") {
+        let room = AGENTS_MAX - scene.agent_count();
+        let starts = read_starts(files, &generator, room, scene)?;
+        scene.agents.push(SceneAgents {
+            starts,
+            profiles: shares.clone(),
+            state: Some(state.clone()),
+            radius_max_m,
+            wall_radius_m: wall_radius_m.filter(|radius_m| *radius_m > WALL_RADIUS_M),
+            own_goal_mirrors: None,
+            origin: if has_several { generator.origin() } else { group.origin() },
+        });
+    }
     Ok(())
 }
 

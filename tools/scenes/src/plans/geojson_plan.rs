@@ -7,7 +7,8 @@ use geojson::{GeoJson, Geometry, GeometryValue, Position};
 
 use crate::error::{SceneError, read_text};
 use crate::geometry::polygon::bounds_m;
-use crate::plans::rings_of_plan::{PlanFault, move_near_origin, walkable};
+use crate::json_place::{JsonStep, place, shown};
+use crate::plans::rings_of_plan::{PlanFault, move_near_origin, ring, walkable};
 use crate::scene::{Point, Scene};
 
 /// Extent below which a plan is surely in degrees, m: smaller than a room.
@@ -27,15 +28,23 @@ pub(crate) fn read(path: &Path) -> Result<Scene, SceneError> {
     let help = "give a Polygon, MultiPolygon, or a collection or features of them";
     let json =
         GeoJson::from_str(&source.text).map_err(|error| fault((format!("this is no GeoJSON: {error}"), help)))?;
-    let geometries: Vec<&Geometry> = match &json {
-        GeoJson::Geometry(geometry) => vec![geometry],
-        GeoJson::Feature(feature) => feature.geometry.iter().collect(),
+    let geometries: Vec<(Vec<JsonStep>, &Geometry)> = match &json {
+        GeoJson::Geometry(geometry) => vec![(Vec::new(), geometry)],
+        GeoJson::Feature(feature) => {
+            feature.geometry.iter().map(|geometry| (vec![JsonStep::Key("geometry")], geometry)).collect()
+        }
         GeoJson::FeatureCollection(all) => {
-            all.features.iter().filter_map(|feature| feature.geometry.as_ref()).collect()
+            let path = |index| vec![JsonStep::Key("features"), JsonStep::Item(index), JsonStep::Key("geometry")];
+            let features = all.features.iter().enumerate();
+            features.filter_map(|(index, feature)| Some((path(index), feature.geometry.as_ref()?))).collect()
         }
     };
-    for geometry in geometries {
-        add(&geometry.value, &mut scene, DEPTH_MAX).map_err(fault)?;
+    for (mut path, geometry) in geometries {
+        add(&geometry.value, &mut scene, &mut path, DEPTH_MAX).map_err(|(message, help)| {
+            let message = if path.is_empty() { message } else { format!("{}: {message}", shown(&path)) };
+            let invalid = source.invalid(place(&source.text, &path), message, help);
+            SceneError::from(motiondb::files::Invalid { is_quotable: false, ..invalid })
+        })?;
     }
     if scene.walkable.is_empty() {
         return Err(fault(("there is no polygon".into(), help)));
@@ -60,33 +69,56 @@ fn check_metres(scene: &mut Scene) -> Result<(), PlanFault> {
     Ok(())
 }
 
-fn add(geometry: &GeometryValue, scene: &mut Scene, depth: usize) -> Result<(), PlanFault> {
+/// Adds a geometry; on a mistake, the path leads to it.
+fn add(geometry: &GeometryValue, scene: &mut Scene, path: &mut Vec<JsonStep>, depth: usize) -> Result<(), PlanFault> {
     if depth == 0 {
         return Err((format!("collections are nested deeper than {DEPTH_MAX}"), "nest them less"));
     }
+    let before = path.len();
     match geometry {
-        GeometryValue::Polygon { coordinates } => add_polygon(coordinates, scene),
+        GeometryValue::Polygon { coordinates } => {
+            path.push(JsonStep::Key("coordinates"));
+            add_polygon(coordinates, scene, path)?;
+        }
         GeometryValue::MultiPolygon { coordinates } => {
-            coordinates.iter().try_for_each(|polygon| add_polygon(polygon, scene))
+            for (index, polygon) in coordinates.iter().enumerate() {
+                path.truncate(before);
+                path.extend([JsonStep::Key("coordinates"), JsonStep::Item(index)]);
+                add_polygon(polygon, scene, path)?;
+            }
         }
         GeometryValue::GeometryCollection { geometries } => {
-            geometries.iter().try_for_each(|geometry| add(&geometry.value, scene, depth - 1))
+            for (index, geometry) in geometries.iter().enumerate() {
+                path.truncate(before);
+                path.extend([JsonStep::Key("geometries"), JsonStep::Item(index)]);
+                add(&geometry.value, scene, path, depth - 1)?;
+            }
         }
         _ => {
             let source = scene.source.clone();
             scene.notes.add(&source, 0, "points and lines are left out; polygons are the ground", true);
-            Ok(())
         }
     }
+    path.truncate(before);
+    Ok(())
 }
 
-fn add_polygon(rings: &[Vec<Position>], scene: &mut Scene) -> Result<(), PlanFault> {
-    let position_m = |position: &Position| match *position.as_slice() {
-        [x, y] => Ok([x, y]),
-        _ => Err(("a position has a third coordinate".to_owned(), "give x and y alone; the ground is flat")),
-    };
-    let ring_m = |ring: &Vec<Position>| ring.iter().map(position_m).collect::<Result<Vec<Point>, PlanFault>>();
-    let rings_m: Vec<Vec<Point>> = rings.iter().map(ring_m).collect::<Result<_, _>>()?;
+fn add_polygon(rings: &[Vec<Position>], scene: &mut Scene, path: &mut Vec<JsonStep>) -> Result<(), PlanFault> {
+    let mut rings_m: Vec<Vec<Point>> = Vec::new();
+    for (index, positions) in rings.iter().enumerate() {
+        path.push(JsonStep::Item(index));
+        let mut ring_m = Vec::new();
+        for (index, position) in positions.iter().enumerate() {
+            let [x, y] = *position.as_slice() else {
+                path.push(JsonStep::Item(index));
+                return Err(("a position has a third coordinate".to_owned(), "give x and y alone; the ground is flat"));
+            };
+            ring_m.push([x, y]);
+        }
+        ring(&ring_m)?;
+        rings_m.push(ring_m);
+        path.pop();
+    }
     scene.walkable.extend(walkable(&rings_m, "")?);
     Ok(())
 }

@@ -72,22 +72,34 @@ pub struct Grid {
 /// Agents that come later.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSource {
-    /// Rectangle in which they appear: least corner, greatest corner, m.
-    pub rect_m: [Point; 2],
-    /// Mean number of agents per second.
-    pub rate_per_s: f64,
-    /// Time from which agents are due, s.
-    pub from_s: f64,
-    /// Time until which agents are due, s, where it is limited.
-    pub to_s: Option<f64>,
-    /// Greatest number of agents.
-    pub count: Option<u64>,
+    /// Shape in which they appear.
+    pub shape: Shape,
+    /// When they are due.
+    pub times: SourceTimes,
     /// State in which they begin.
     pub state: Option<String>,
     /// Profile of the agents.
     pub profile: Option<String>,
     /// Position in the source file, "file:line" or a name.
     pub origin: String,
+}
+
+/// When the agents of a source are due.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SourceTimes {
+    /// Random times at a rate.
+    Rate {
+        /// Mean number of agents per second.
+        rate_per_s: f64,
+        /// Time from which agents are due, s.
+        from_s: f64,
+        /// Time until which agents are due, s.
+        to_s: f64,
+        /// Greatest number of agents.
+        count: Option<u64>,
+    },
+    /// Times, s, in order, and the number of agents at each.
+    Stated(Vec<(f64, u64)>),
 }
 
 impl SceneAgents {

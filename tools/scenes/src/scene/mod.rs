@@ -11,7 +11,7 @@ mod ground;
 mod note;
 mod shape;
 
-pub use agents::{Grid, SceneAgents, SceneProfile, SceneSource, Starts};
+pub use agents::{Grid, SceneAgents, SceneProfile, SceneSource, SourceTimes, Starts};
 pub use behaviour::{
     Choose, GoalPlace, Remember, SceneArea, SceneCondition, SceneGoals, SceneMovement, SceneSettings, SceneState,
     SceneTarget, SceneTransition,

@@ -1,6 +1,7 @@
 //! Shapes of a Vadere scenario, checked: corners, boxes, range. World, metres.
 
-use crate::geometry::polygon::{bounds_m, is_simple, without_repeats};
+use crate::geometry::polygon::{is_simple, without_repeats};
+use crate::json_place::JsonStep;
 use crate::scene::{Point, Shape};
 
 /// Greatest coordinate, m; that of scenario files.
@@ -10,8 +11,16 @@ const CIRCLE_CORNERS: usize = 16;
 /// Name of the profile of all agents.
 pub(crate) const PROFILE: &str = "pedestrian";
 
-/// A mistake in the file, without a line: JSON keeps none.
+/// A mistake in an item of the file, and how to mend it.
 pub(crate) type VadereFault = (String, &'static str);
+
+/// A mistake, and the steps from the topography to its item.
+pub(crate) type PlacedFault = (Vec<JsonStep>, VadereFault);
+
+/// The mistake of an item of a list of the topography.
+pub(crate) fn at_item(list: &'static str, index: usize) -> impl Fn(VadereFault) -> PlacedFault {
+    move |fault| (vec![JsonStep::Key(list), JsonStep::Item(index)], fault)
+}
 
 /// The corners of a shape, those of a circle on a polygon about it.
 pub(crate) fn corners_m(shape: &Shape) -> Vec<Point> {
@@ -27,11 +36,6 @@ pub(crate) fn corners_m(shape: &Shape) -> Vec<Point> {
             (0..CIRCLE_CORNERS).map(corner).collect()
         }
     }
-}
-
-/// Least and greatest corner of a shape, m.
-pub(crate) fn box_m(shape: &Shape) -> [Point; 2] {
-    bounds_m(&corners_m(shape))
 }
 
 /// Checks that all points of a shape are near the origin.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::scene::{Point, Scene, SceneAgents, SceneSource, Shape, Starts};
-use crate::vadere::shapes::{PROFILE, VadereFault, box_m, check_shape};
+use crate::scene::{DrawnNumber, Point, Scene, SceneAgents, SceneSource, Shape, SourceTimes, Starts};
+use crate::vadere::shapes::{PROFILE, PlacedFault, VadereFault, at_item, check_shape};
 use crate::vadere::targets::{Targets, drawn};
 use crate::vadere::vadere_file::{VadereSource, VadereTopography};
 
@@ -11,8 +11,8 @@ use crate::vadere::vadere_file::{VadereSource, VadereTopography};
 const AGENTS_MAX: f64 = 1e6;
 /// Rates that a scenario takes, agents per second.
 const RATES_PER_S: [f64; 2] = [1e-5, 1e3];
-/// Duration over which agents of one moment come, s.
-const MOMENT_S: f64 = 1.0;
+/// Greatest number of times that are written one by one.
+const BEATS_MAX: usize = 120;
 
 /// When a source makes agents, in one form for all releases.
 struct Spawning {
@@ -23,6 +23,8 @@ struct Spawning {
     /// Duration between events, s.
     every_s: f64,
     most: Option<u64>,
+    /// Whether the duration between events is always the same.
+    has_beat: bool,
 }
 
 /// Reads sources and single agents.
@@ -31,18 +33,19 @@ pub(crate) fn read_sources(
     radius_m: f64,
     targets: &mut Targets,
     scene: &mut Scene,
-) -> Result<(), VadereFault> {
-    for source in &topography.sources {
-        read_source(source, radius_m, targets, scene)?;
+) -> Result<(), PlacedFault> {
+    for (index, source) in topography.sources.iter().enumerate() {
+        read_source(source, radius_m, targets, scene).map_err(at_item("sources", index))?;
     }
-    let mut by_targets: BTreeMap<&[i64], Vec<Point>> = BTreeMap::new();
-    for agent in &topography.dynamic_elements {
+    // The first agent with a list of targets, and the starts of all.
+    let mut by_targets: BTreeMap<&[i64], (usize, Vec<Point>)> = BTreeMap::new();
+    for (index, agent) in topography.dynamic_elements.iter().enumerate() {
         let at_m = agent.position.position_m();
-        check_shape(&Shape::Point(at_m))?;
-        by_targets.entry(&agent.target_ids).or_default().push(at_m);
+        check_shape(&Shape::Point(at_m)).map_err(at_item("dynamicElements", index))?;
+        by_targets.entry(&agent.target_ids).or_insert((index, Vec::new())).1.push(at_m);
     }
-    for (list, starts_m) in by_targets {
-        let state = targets.state(list, "an agent")?;
+    for (list, (first, starts_m)) in by_targets {
+        let state = targets.state(list, "an agent").map_err(at_item("dynamicElements", first))?;
         let starts = Starts::Points(starts_m);
         scene.agents.push(agents(starts, state, radius_m, "dynamicElements"));
     }
@@ -87,24 +90,10 @@ fn read_source(
         }
         return Ok(());
     }
-    if !matches!(shape, Shape::Rect(..)) {
-        let what = format!("{name}: agents appear in the rectangle about its shape");
-        scene.notes.add(&file, 0, what, true);
-    }
-    let is_moment = spawning.to_s <= spawning.from_s;
-    let rate_per_s = if is_moment { of_moment / MOMENT_S } else { spawning.count / spawning.every_s };
-    scene.notes.add(
-        &file,
-        0,
-        "agents of a source come at random times with the stated rate, not in a fixed beat",
-        false,
-    );
+    let times = times(&spawning, of_moment as u64, scene);
     scene.sources.push(SceneSource {
-        rect_m: box_m(&shape),
-        rate_per_s: rate_per_s.clamp(RATES_PER_S[0], RATES_PER_S[1]),
-        from_s: spawning.from_s,
-        to_s: (!is_moment).then_some(spawning.to_s),
-        count: if is_moment { Some(of_moment as u64) } else { spawning.most },
+        shape,
+        times,
         state: Some(state),
         profile: Some(PROFILE.to_owned()),
         origin: name,
@@ -112,11 +101,40 @@ fn read_source(
     Ok(())
 }
 
+/// When the agents are due: at stated times where these are few, else at a rate.
+fn times(spawning: &Spawning, of_moment: u64, scene: &mut Scene) -> SourceTimes {
+    let &Spawning { from_s, to_s, count, every_s, most, has_beat } = spawning;
+    if to_s <= from_s {
+        return SourceTimes::Stated(vec![(from_s, of_moment)]);
+    }
+    let until_s = scene.duration_s.map_or(to_s, |duration_s| to_s.min(duration_s));
+    let mut rows: Vec<(f64, u64)> = Vec::new();
+    let mut left = most.unwrap_or(u64::MAX);
+    let beats = (0..=BEATS_MAX).map(|beat| from_s + beat as f64 * every_s);
+    for due_s in beats.take_while(|due_s| *due_s <= until_s) {
+        let number = left.min(count as u64);
+        left -= number;
+        if number > 0 {
+            rows.push(((due_s * 1e3).round() / 1e3, number));
+        }
+    }
+    if has_beat && count.fract() == 0.0 && (1..=BEATS_MAX).contains(&rows.len()) {
+        return SourceTimes::Stated(rows);
+    }
+    let file = scene.source.clone();
+    let what = "agents of a source come at random times with the stated rate, not in a fixed beat";
+    scene.notes.add(&file, 0, what, false);
+    let rate_per_s = (count / every_s).clamp(RATES_PER_S[0], RATES_PER_S[1]);
+    SourceTimes::Rate { rate_per_s, from_s, to_s, count: most }
+}
+
 fn spawning(source: &VadereSource, name: &str, scene: &mut Scene) -> Result<Spawning, VadereFault> {
     let limit = |most: i64| u64::try_from(most).ok();
     let spawning = match &source.spawner {
         Some(spawner) => {
-            let every_s = drawn(&spawner.distribution).map(|drawn| drawn.mean());
+            let drawn = drawn(&spawner.distribution);
+            let is_constant = spawner.distribution.kind.ends_with("ConstantDistribution");
+            let every_s = drawn.map(DrawnNumber::mean);
             if every_s.is_none() {
                 let what = format!("{name}: its distribution is unknown; an agent comes each second");
                 let file = scene.source.clone();
@@ -128,6 +146,7 @@ fn spawning(source: &VadereSource, name: &str, scene: &mut Scene) -> Result<Spaw
                 count: spawner.event_element_count,
                 every_s: every_s.unwrap_or(1.0),
                 most: limit(spawner.constraints_elements_max),
+                has_beat: is_constant && every_s.is_some(),
             }
         }
         None => Spawning {
@@ -136,6 +155,7 @@ fn spawning(source: &VadereSource, name: &str, scene: &mut Scene) -> Result<Spaw
             count: source.spawn_number.unwrap_or(1.0),
             every_s: first_number(&source.distribution_parameters).unwrap_or(1.0),
             most: source.max_spawn_number_total.and_then(limit),
+            has_beat: source.inter_spawn_time_distribution.as_deref().is_none_or(|kind| kind.contains("Constant")),
         },
     };
     let is_time = |time_s: f64| (0.0..=86_400.0).contains(&time_s);

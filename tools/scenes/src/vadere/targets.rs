@@ -6,7 +6,7 @@ use crate::scene::{
     Choose, DrawnNumber, GoalPlace, Scene, SceneCondition, SceneGoals, SceneMovement, SceneSettings, SceneState,
     SceneTarget, SceneTransition, Shape,
 };
-use crate::vadere::shapes::{VadereFault, check_shape};
+use crate::vadere::shapes::{PlacedFault, VadereFault, at_item, check_shape};
 use crate::vadere::vadere_file::{VadereDistribution, VadereTarget};
 
 /// Greatest number of targets that agents visit in order.
@@ -33,12 +33,12 @@ pub(crate) struct Targets {
 
 impl Targets {
     /// Reads the targets.
-    pub(crate) fn read(targets: &[VadereTarget], scene: &mut Scene) -> Result<Self, VadereFault> {
+    pub(crate) fn read(targets: &[VadereTarget], scene: &mut Scene) -> Result<Self, PlacedFault> {
         let source = scene.source.clone();
         let mut places = BTreeMap::new();
-        for target in targets {
+        for (index, target) in targets.iter().enumerate() {
             let shape = target.shape.shape();
-            check_shape(&shape)?;
+            check_shape(&shape).map_err(at_item("targets", index))?;
             if target.parallel_waiters > 0 || target.parallel_events > 0 {
                 let what = format!("target {}: all agents wait at once, not one after the other", target.id);
                 scene.notes.add(&source, 0, what, true);

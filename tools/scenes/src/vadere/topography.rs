@@ -7,8 +7,9 @@ use motiondb::files::{Invalid, SourceText};
 use crate::error::{SceneError, read_text};
 use crate::geometry::polygon::{CORNERS_MAX, is_simple, without_repeats};
 use crate::geometry::walls::of_line;
+use crate::json_place::{JsonStep, place, shown};
 use crate::scene::{DrawnNumber, Point, Scene, SceneObstacle, SceneProfile, Shape, Walkable};
-use crate::vadere::shapes::{PROFILE, VadereFault, check_points, corners_m};
+use crate::vadere::shapes::{PROFILE, PlacedFault, VadereFault, at_item, check_points, corners_m};
 use crate::vadere::sources::read_sources;
 use crate::vadere::targets::Targets;
 use crate::vadere::vadere_file::{VadereFile, VadereTopography};
@@ -31,12 +32,16 @@ pub(crate) fn read(path: &Path) -> Result<Scene, SceneError> {
     let finish_s = file.scenario.attributes_simulation.finish_time;
     scene.duration_s = finish_s.filter(|finish_s| (0.1..=86_400.0).contains(finish_s));
     let topography = &file.scenario.topography;
-    read_topography(topography, &mut scene).map_err(|(message, help)| {
-        let invalid = source.invalid(0..0, message, help);
-        SceneError::from(Invalid { is_quotable: false, ..invalid })
-    })?;
+    read_topography(topography, &mut scene).map_err(|fault| misplaced(&source, fault))?;
     note_unsupported(topography, &mut scene);
     Ok(scene)
+}
+
+/// A mistake at the line of its item.
+fn misplaced(source: &SourceText, (steps, (message, help)): PlacedFault) -> SceneError {
+    let path = [&[JsonStep::Key("scenario"), JsonStep::Key("topography")], &steps[..]].concat();
+    let invalid = source.invalid(place(&source.text, &path), format!("{}: {message}", shown(&path)), help);
+    Invalid { is_quotable: false, ..invalid }.into()
 }
 
 fn unparsed(source: &SourceText, error: &serde_json::Error) -> SceneError {
@@ -46,25 +51,27 @@ fn unparsed(source: &SourceText, error: &serde_json::Error) -> SceneError {
     Invalid { is_quotable: false, ..source.invalid(begin..begin, message, "name a file of Vadere 2.4 or 3.0") }.into()
 }
 
-fn read_topography(topography: &VadereTopography, scene: &mut Scene) -> Result<(), VadereFault> {
+fn read_topography(topography: &VadereTopography, scene: &mut Scene) -> Result<(), PlacedFault> {
     let VadereTopography { obstacles, targets, sources, .. } = topography;
     if [obstacles.len(), targets.len(), sources.len()].iter().any(|count| *count > ITEMS_MAX) {
-        return Err(("there are more than 10,000 obstacles, targets or sources".into(), "give fewer"));
+        return Err((Vec::new(), ("there are more than 10,000 obstacles, targets or sources".into(), "give fewer")));
     }
     let bounds = &topography.attributes;
     let [low_m, high_m] = bounds.bounds.corners_m();
-    check_points(&[low_m, high_m])?;
+    let at_bounds = |fault| (vec![JsonStep::Key("attributes"), JsonStep::Key("bounds")], fault);
+    check_points(&[low_m, high_m]).map_err(at_bounds)?;
     if bounds.bounded {
         let wall_m = bounds.bounding_box_width.max(0.0);
         let [[left, low], [right, high]] = [low_m.map(|metres| metres + wall_m), high_m.map(|metres| metres - wall_m)];
         if !(left < right && low < high) {
-            return Err(("the bounds hold no ground".into(), "give them a width and a height"));
+            return Err(at_bounds(("the bounds hold no ground".into(), "give them a width and a height")));
         }
         let polygon_m = vec![[left, low], [right, low], [right, high], [left, high]];
         scene.walkable.push(Walkable { polygon_m, holes_m: Vec::new(), origin: "bounds".to_owned() });
     }
-    for obstacle in obstacles {
-        add_obstacle(&obstacle.shape.shape(), &format!("obstacle {}", obstacle.id), scene)?;
+    for (index, obstacle) in obstacles.iter().enumerate() {
+        let origin = format!("obstacle {}", obstacle.id);
+        add_obstacle(&obstacle.shape.shape(), &origin, scene).map_err(at_item("obstacles", index))?;
     }
     let pedestrian = &topography.attributes_pedestrian;
     let within = |number: f64, least: f64, greatest: f64| number.clamp(least, greatest);

@@ -164,6 +164,8 @@ pub(crate) struct VadereSource {
     #[serde(default)]
     pub(crate) end_time: f64,
     #[serde(default)]
+    pub(crate) inter_spawn_time_distribution: Option<String>,
+    #[serde(default)]
     pub(crate) distribution_parameters: Value,
 }
 

@@ -1,11 +1,13 @@
 //! The tables of profiles, agents and sources.
 
-use crate::scene::{Grid, Scene, SceneAgents, SceneSource, Starts};
+use crate::scene::{Grid, Scene, SceneAgents, SceneSource, Shape, SourceTimes, Starts};
 use crate::write::text_file::TextFile;
 use crate::write::words::{commented, drawn, key, number, plain, point, quoted, shape};
 
 /// Agents of a group that are written as tables of their own; more become an agent file.
 const TABLES_MAX: usize = 6;
+/// Rows of a schedule in a line.
+const ROWS_IN_LINE: usize = 8;
 
 /// The tables `[profiles.NAME]`.
 pub(crate) fn profiles(scene: &Scene) -> String {
@@ -54,16 +56,12 @@ pub(crate) fn agents(scene: &Scene, stem: &str, files: &mut Vec<TextFile>) -> St
                     1 => format!("{stem}_agents.txt"),
                     _ => format!("{stem}_agents_{}.txt", files.len() + 1),
                 };
-                // The start stands in for a goal where the state sets it.
-                let line = |&[x, y]: &[f64; 2]| {
-                    let [goal_x, goal_y] = group.own_goal_m([x, y]).unwrap_or([x, y]);
-                    [x, y, goal_x, goal_y].map(number).join(" ") + "\n"
+                let line = |&start_m: &[f64; 2]| {
+                    let goal_m = group.own_goal_m(start_m);
+                    let numbers = start_m.into_iter().chain(goal_m.into_iter().flatten()).map(number);
+                    numbers.collect::<Vec<_>>().join(" ") + "\n"
                 };
-                let what = if group.own_goal_mirrors.is_some() {
-                    "x y goal_x goal_y"
-                } else {
-                    "x y x y; the state sets the goal"
-                };
+                let what = if group.own_goal_mirrors.is_some() { "x y goal_x goal_y" } else { "x y" };
                 let head = format!("# {}: {what}\n", plain(&group.origin));
                 text += &table(&format!("file = {}", quoted(&name)), group, &group.origin);
                 files.push(TextFile { name, text: head + &starts_m.iter().map(line).collect::<String>() });
@@ -118,18 +116,11 @@ pub(crate) fn sources(scene: &Scene) -> String {
 }
 
 fn source(source: &SceneSource) -> String {
-    let [[left, low], [right, high]] = source.rect_m.map(|corner_m| corner_m.map(number));
-    let mut text = commented("[[sources]]", &source.origin);
-    text += &format!("rect_m = [{left}, {low}, {right}, {high}]\nrate_per_s = {}\n", number(source.rate_per_s));
-    if source.from_s > 0.0 {
-        text += &format!("from_s = {}\n", number(source.from_s));
-    }
-    if let Some(to_s) = source.to_s {
-        text += &format!("to_s = {}\n", number(to_s));
-    }
-    if let Some(count) = source.count {
-        text += &format!("count = {count}\n");
-    }
+    let area = match &source.shape {
+        Shape::Point(at_m) => format!("at_m = {}", point(*at_m)),
+        area => shape(area),
+    };
+    let mut text = commented("[[sources]]", &source.origin) + &area + "\n" + &times(&source.times);
     if let Some(profile) = &source.profile {
         text += &format!("profile = {}\n", quoted(profile));
     }
@@ -137,4 +128,23 @@ fn source(source: &SceneSource) -> String {
         text += &format!("state = {}\n", quoted(state));
     }
     text + "\n"
+}
+
+fn times(times: &SourceTimes) -> String {
+    match times {
+        SourceTimes::Rate { rate_per_s, from_s, to_s, count } => {
+            let from = if *from_s > 0.0 { format!("from_s = {}\n", number(*from_s)) } else { String::new() };
+            let count = count.map_or_else(String::new, |count| format!("count = {count}\n"));
+            format!("rate_per_s = {}\n{from}to_s = {}\n{count}", number(*rate_per_s), number(*to_s))
+        }
+        SourceTimes::Stated(rows) => {
+            let row = |(time_s, count): &(f64, u64)| format!("[{}, {count}]", number(*time_s));
+            let line = |rows: &[(f64, u64)]| rows.iter().map(row).collect::<Vec<_>>().join(", ");
+            let lines: Vec<String> = rows.chunks(ROWS_IN_LINE).map(line).collect();
+            match &lines[..] {
+                [only] => format!("schedule = [{only}]\n"),
+                _ => format!("schedule = [\n    {},\n]\n", lines.join(",\n    ")),
+            }
+        }
+    }
 }

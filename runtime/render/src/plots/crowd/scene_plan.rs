@@ -136,10 +136,13 @@ fn draw_route(figure: &mut PlotFigure, panel: &PlotPanel, route_m: Option<Vec<Ve
 
 /// Draws the area in which a source places agents, and the route from its middle.
 fn draw_source(figure: &mut PlotFigure, panel: &PlotPanel, source: &SourceSpec, routes: &CrowdRoutes) {
-    let (low_m, high_m) = (source.low_m - source.radius_m, source.high_m + source.radius_m);
-    let corners_m = [low_m, Vec2::new(high_m.x, low_m.y), high_m, Vec2::new(low_m.x, high_m.y), low_m];
-    figure.polyline(panel, corners_m, LineStyle { is_dashed: true, ..LineStyle::solid(TURNING_SET, 2.0) });
-    draw_route(figure, panel, routes.route_m(&source.agent(source.low_m.midpoint(source.high_m))), TURNING_SET);
+    let outline_m = source.outline_m();
+    figure.polyline(
+        panel,
+        outline_m.iter().chain(outline_m.first()).copied(),
+        LineStyle { is_dashed: true, ..LineStyle::solid(TURNING_SET, 2.0) },
+    );
+    draw_route(figure, panel, routes.route_m(&source.agent(source.middle_m())), TURNING_SET);
     if let Some(&goal_m) = source.goals_m.last() {
         figure.mark(panel, goal_m, PlotMark::Cross, MARKS_PX[1], TURNING_SET);
     }

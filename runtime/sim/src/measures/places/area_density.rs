@@ -1,7 +1,8 @@
 //! Density, speed and level of service in an area.
 //!
 //! Classical density: agents inside over the size of the area. Voronoi density (Steffen and Seyfried 2010): the mean over
-//! the area of 1/A_i, where A_i is the size of the cell (`voronoi_cell`) that holds the ground; 0 where no cell does. The
+//! the area of 1/A_i, where A_i is the size of the cell (`voronoi_cell`, cut by walls in `cell_part`) that holds the
+//! ground; 0 where no cell does. The
 //! level of service is Fruin's for walkways (1971), by the classical density. World, metres, seconds.
 
 use glam::Vec2;
@@ -10,6 +11,7 @@ use serde::Serialize;
 use crate::behaviour::Area;
 use crate::maths::polygon::signed_area_m2;
 use crate::measures::frame_pairs::FramePairs;
+use crate::measures::places::cell_part::CellWalls;
 use crate::measures::places::voronoi_cell::{CELL_RADIUS_M, VoronoiCell, disc_m};
 use crate::recording::frame::AgentFrame;
 
@@ -60,6 +62,14 @@ pub struct AreaMoment {
     pub mean_speed_mps: Option<f64>,
 }
 
+impl AreaMoment {
+    /// Index of the level of service in [`LEVELS_OF_SERVICE`], by the classical density.
+    pub fn level_of_service(&self) -> usize {
+        let level = LEVELS_OF_SERVICE.iter().position(|(_, most)| self.density_per_m2 <= *most);
+        level.unwrap_or(LEVELS_OF_SERVICE.len() - 1)
+    }
+}
+
 /// An area while frames come.
 #[derive(Debug)]
 pub(crate) struct MeasuredArea {
@@ -67,22 +77,28 @@ pub(crate) struct MeasuredArea {
     area: Area,
     size_m2: f64,
     dt_s: f64,
+    walls: CellWalls,
     /// Frames between two moments.
     stride: u32,
     moments: Vec<AreaMoment>,
 }
 
 impl MeasuredArea {
-    pub(crate) fn new(area: &Area, dt_s: f64, start: &[AgentFrame]) -> Self {
+    pub(crate) fn new(area: &Area, dt_s: f64, walls: CellWalls, start: &[AgentFrame]) -> Self {
         let polygon_m = match area {
             Area::Disc { centre_m, radius_m } => disc_m(*centre_m, *radius_m, DISC_CORNERS),
             Area::Polygon(corners_m) => corners_m.clone(),
         };
         let size_m2 = signed_area_m2(&polygon_m).abs();
         let stride = (MOMENT_S / dt_s).round().max(1.0) as u32;
-        let mut measured = Self { polygon_m, area: area.clone(), size_m2, dt_s, stride, moments: Vec::new() };
+        let mut measured = Self { polygon_m, area: area.clone(), size_m2, dt_s, walls, stride, moments: Vec::new() };
         measured.add(0, start, |_| 0.0);
         measured
+    }
+
+    /// Takes the walls of the frames to come.
+    pub(crate) fn set_walls(&mut self, walls: &CellWalls) {
+        self.walls = walls.clone();
     }
 
     pub(crate) fn push(&mut self, frame: u32, pairs: &FramePairs<'_>, after: &[AgentFrame]) {
@@ -130,8 +146,12 @@ impl MeasuredArea {
             let others = (from..to).filter(|&other| other != index).map(|other| near_m[other]);
             let mut others_m: Vec<Vec2> = others.filter(|other_m| other_m.distance(position_m) < range_m).collect();
             let cell = VoronoiCell::new(position_m, &mut others_m);
-            if cell.size_m2 > 0.0 {
-                agents_within += cell.size_within_m2(&self.polygon_m) / cell.size_m2;
+            let [size_m2, within_m2] = match self.walls.part_of(position_m, cell.corners_m()) {
+                Some(part) => [part.size_m2, part.size_within_m2(&self.polygon_m)],
+                None => [cell.size_m2, cell.size_within_m2(&self.polygon_m)],
+            };
+            if size_m2 > 0.0 {
+                agents_within += within_m2 / size_m2;
             }
         }
         agents_within / self.size_m2
@@ -147,8 +167,7 @@ impl MeasuredArea {
             weighted.fold((0.0, 0.0), |(sum, all), (speed, number)| (sum + speed * number, all + number));
         let mut level_of_service_shares = [0.0; 6];
         for moment in &moments {
-            let level = LEVELS_OF_SERVICE.iter().position(|(_, most)| moment.density_per_m2 <= *most).unwrap_or(5);
-            level_of_service_shares[level] += 1.0 / count;
+            level_of_service_shares[moment.level_of_service()] += 1.0 / count;
         }
         AreaMeasures {
             size_m2,
@@ -182,7 +201,7 @@ mod tests {
     #[test]
     fn an_even_crowd_has_its_density_and_speed() {
         let area = Area::rectangle(Vec2::splat(-2.0), Vec2::splat(2.0));
-        let mut measured = MeasuredArea::new(&area, 0.5, &crowd(0.8, 0.0));
+        let mut measured = MeasuredArea::new(&area, 0.5, CellWalls::default(), &crowd(0.8, 0.0));
         let (before, after) = (crowd(0.8, 0.0), crowd(0.8, 0.1));
         measured.push(1, &FramePairs::new(&before, &after), &after);
         let measures = measured.finish();
@@ -196,7 +215,7 @@ mod tests {
     #[test]
     fn an_empty_area_has_level_a() {
         let disc = Area::Disc { centre_m: Vec2::new(50.0, 50.0), radius_m: 2.0 };
-        let measures = MeasuredArea::new(&disc, 0.1, &crowd(1.0, 0.0)).finish();
+        let measures = MeasuredArea::new(&disc, 0.1, CellWalls::default(), &crowd(1.0, 0.0)).finish();
         assert_eq!((measures.mean_number, measures.mean_speed_mps), (0.0, None));
         assert_eq!((measures.mean_voronoi_density_per_m2, measures.level_of_service_shares[0]), (0.0, 1.0));
         assert!((measures.size_m2 - 4.0 * std::f64::consts::PI).abs() < 1e-3);

@@ -2,10 +2,12 @@
 //!
 //! Enters: the frames of a recording. Leaves: a [`PlaceMeasures`] for each table.
 //!
-//! Read `line_flow` (passages, N–t, flow), `area_density` (density, speed, level of service) with `voronoi_cell`, then
+//! Read `line_flow` (passages, N–t, flow), `area_density` (density, speed, level of service) with `voronoi_cell` and
+//! `cell_part`, then
 //! `egress`. World, metres, seconds.
 
 pub(crate) mod area_density;
+pub(crate) mod cell_part;
 pub(crate) mod egress;
 pub(crate) mod line_flow;
 pub(crate) mod voronoi_cell;
@@ -18,6 +20,7 @@ pub use line_flow::{LineMeasures, Passages};
 
 use crate::measures::frame_pairs::FramePairs;
 use crate::measures::places::area_density::MeasuredArea;
+use crate::measures::places::cell_part::CellWalls;
 use crate::measures::places::line_flow::MeasuredLine;
 use crate::population::Population;
 use crate::recording::frame::AgentFrame;
@@ -41,6 +44,10 @@ pub struct PlaceMeasures {
 pub(crate) struct MeasuredPlaces {
     dt_s: f64,
     places: Vec<(String, PlaceState)>,
+    /// The scenario, where it has doors.
+    with_doors: Option<Scenario>,
+    /// Whether each door is closed in the present frame, by index.
+    closed: Vec<bool>,
 }
 
 #[derive(Debug)]
@@ -51,15 +58,33 @@ enum PlaceState {
 }
 
 impl MeasuredPlaces {
-    /// The tables of a scenario, and the agents at their start.
-    pub(crate) fn new(scenario: &Scenario, start: &[AgentFrame]) -> Self {
+    /// The tables of a scenario, the agents at their start, and whether each door is closed then, by index.
+    pub(crate) fn new(scenario: &Scenario, start: &[AgentFrame], closed: Vec<bool>) -> Self {
         let dt_s = f64::from(scenario.dt_s);
+        let walls = CellWalls::new(scenario, &closed);
         let state = |place: &MeasuredPlace| match place {
             MeasuredPlace::Line(ends_m) => PlaceState::Line(MeasuredLine::new(*ends_m)),
-            MeasuredPlace::Area(area) => PlaceState::Area(MeasuredArea::new(area, dt_s, start)),
+            MeasuredPlace::Area(area) => PlaceState::Area(MeasuredArea::new(area, dt_s, walls.clone(), start)),
             MeasuredPlace::Egress => PlaceState::Egress,
         };
-        Self { dt_s, places: scenario.measures.iter().map(|spec| (spec.name.clone(), state(&spec.place))).collect() }
+        Self {
+            dt_s,
+            places: scenario.measures.iter().map(|spec| (spec.name.clone(), state(&spec.place))).collect(),
+            with_doors: (!scenario.doors.is_empty()).then(|| scenario.clone()),
+            closed,
+        }
+    }
+
+    /// Takes whether each door is closed in the next frame, by index.
+    pub(crate) fn set_doors(&mut self, closed: &[bool]) {
+        let Some(scenario) = self.with_doors.as_ref().filter(|_| self.closed != closed) else { return };
+        let walls = CellWalls::new(scenario, closed);
+        self.closed = closed.to_vec();
+        for (_, place) in &mut self.places {
+            if let PlaceState::Area(area) = place {
+                area.set_walls(&walls);
+            }
+        }
     }
 
     /// Adds the step that ends in a frame, given the agents before and after it.

@@ -1,7 +1,7 @@
 //! Voronoi cells of agents, cut to a greatest radius: the ground that is nearer to an agent than to any other.
 //!
 //! Each cell begins as a disc and is cut by the bisector to one neighbour after the other, the nearest first, until no
-//! neighbour is near enough to reach it. Walls do not cut cells. World, metres.
+//! neighbour is near enough to reach it. Walls cut cells afterwards (`cell_part`). World, metres.
 
 use glam::Vec2;
 
@@ -50,6 +50,11 @@ impl VoronoiCell {
         let size_m2 = signed_area_m2(&corners_m);
         corners_m.iter_mut().for_each(|corner_m| *corner_m += position_m);
         Self { corners_m, size_m2 }
+    }
+
+    /// Corners, counter-clockwise, world, m.
+    pub(crate) fn corners_m(&self) -> &[Vec2] {
+        &self.corners_m
     }
 
     /// Size of the part of the cell that lies in a simple polygon, m².

@@ -1,4 +1,5 @@
-//! Agent files: lines `x y goal_x goal_y` in metres, one agent each; `#` begins a comment.
+//! Agent files: lines `x y goal_x goal_y` in metres, one agent each; `#` begins a comment. Where agents have a state,
+//! lines `x y` are enough.
 //!
 //! A file is read line by line. Its length, the length of its lines and the number of its agents are limited, so the
 //! memory that a file takes is limited too.
@@ -25,6 +26,8 @@ pub(crate) struct LineRoom {
     pub(crate) agents: usize,
     /// Bytes that the files before took.
     pub(crate) used_bytes: usize,
+    /// Whether lines may state no goal.
+    pub(crate) without_goals: bool,
 }
 
 /// An agent file as far as it was read.
@@ -57,7 +60,7 @@ impl AgentLines {
             } else if text.len() > TEXT_MAX_BYTES.saturating_sub(room.used_bytes) {
                 Some(format!("up to here the agent files are longer than {} MiB", TEXT_MAX_BYTES >> 20))
             } else {
-                push_journey(&mut journeys, content(&text[begin..]), room.agents).err()
+                push_journey(&mut journeys, content(&text[begin..]), room).err()
             };
             if let Some(wrong) = wrong {
                 let source = SourceText { path: path.to_owned(), text };
@@ -88,12 +91,12 @@ fn line_text(bytes: &[u8], number: usize) -> io::Result<&str> {
     Ok(if number == 1 { text.strip_prefix('\u{feff}').unwrap_or(text) } else { text })
 }
 
-fn push_journey(journeys: &mut Vec<Journey>, content: &str, most: usize) -> Result<(), String> {
+fn push_journey(journeys: &mut Vec<Journey>, content: &str, room: LineRoom) -> Result<(), String> {
     if content.is_empty() {
         return Ok(());
     }
-    journeys.push(parse_line(content)?);
-    if journeys.len() > most {
+    journeys.push(parse_line(content, room.without_goals)?);
+    if journeys.len() > room.agents {
         return Err(format!("with this line the scenario has more than {AGENTS_MAX} agents"));
     }
     Ok(())
@@ -104,12 +107,12 @@ fn push_journey(journeys: &mut Vec<Journey>, content: &str, most: usize) -> Resu
 /// # Errors
 /// The bytes of the first line that is not valid, and what is wrong with it.
 pub(crate) fn parse_lines(text: &str) -> Result<Vec<Journey>, (Range<usize>, String)> {
-    lines(text).map(|(span, content)| parse_line(content).map_err(|message| (span, message))).collect()
+    lines(text).map(|(span, content)| parse_line(content, false).map_err(|message| (span, message))).collect()
 }
 
 /// Whether the first line is an agent's. Any other text is no agent file, and no message quotes it.
 pub(crate) fn is_agent_file(text: &str) -> bool {
-    lines(text).next().is_some_and(|(_, content)| parse_line(content).is_ok())
+    lines(text).next().is_some_and(|(_, content)| parse_line(content, true).is_ok())
 }
 
 /// The bytes of an agent's line.
@@ -133,7 +136,7 @@ fn content(line: &str) -> &str {
     line.split('#').next().unwrap_or_default().trim()
 }
 
-fn parse_line(content: &str) -> Result<Journey, String> {
+fn parse_line(content: &str, without_goals: bool) -> Result<Journey, String> {
     let number = |word: &str| match word.parse::<f32>() {
         Ok(metres) if metres.abs() <= COORDINATE_MAX_M => Ok(metres),
         Ok(_) => Err(format!("`{word}` is not within 10 km of the origin")),
@@ -142,6 +145,8 @@ fn parse_line(content: &str) -> Result<Journey, String> {
     let numbers = content.split_whitespace().map(number).collect::<Result<Vec<f32>, String>>()?;
     match numbers[..] {
         [x, y, goal_x, goal_y] => Ok((Vec2::new(x, y), vec![Vec2::new(goal_x, goal_y)])),
+        [x, y] if without_goals => Ok((Vec2::new(x, y), Vec::new())),
+        [_, _] => Err("the line states no goal, and the agents have no `state`".to_owned()),
         _ => Err(format!("the line has {} numbers, not the four of `x y goal_x goal_y`", numbers.len())),
     }
 }

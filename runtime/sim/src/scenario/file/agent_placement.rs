@@ -130,7 +130,7 @@ struct Placing<'a> {
 impl Placing<'_> {
     /// What the agent files of further tables may hold.
     fn line_room(&self) -> LineRoom {
-        LineRoom { agents: AGENTS_MAX - self.agents, used_bytes: self.line_bytes }
+        LineRoom { agents: AGENTS_MAX - self.agents, used_bytes: self.line_bytes, without_goals: false }
     }
 
     /// The agents of a table with explicit positions; none of an area.
@@ -223,6 +223,7 @@ fn journeys(
         AgentLayout::Grid(grid) => group.grid_journeys(grid, random),
         AgentLayout::Area(_) => Ok(Vec::new()),
         AgentLayout::File(name) => {
+            let room = LineRoom { without_goals: group.state.is_some(), ..room };
             let AgentLines { source: lines, journeys } = read_lines(source, name, room)?;
             return Ok((journeys.map_err(|fault| wrong_line(&lines, fault))?, Some(lines)));
         }
@@ -248,7 +249,11 @@ fn read_lines(source: &SourceText, name: &Spanned<String>, room: LineRoom) -> Re
 fn wrong_line(lines: &SourceText, (span, message): (Range<usize>, String)) -> ScenarioError {
     let is_quotable = is_agent_file(&lines.text);
     let message = if is_quotable { message } else { "this is not an agent's line".to_owned() };
-    Invalid { is_quotable, ..lines.invalid(span, message, "write `x y goal_x goal_y`, in metres") }.into()
+    Invalid {
+        is_quotable,
+        ..lines.invalid(span, message, "write `x y goal_x goal_y`, in metres; with a `state`, `x y` is enough")
+    }
+    .into()
 }
 
 /// The agents of lines `x y goal_x goal_y`, with the default disc and speed, each facing its goal.

@@ -6,8 +6,8 @@
 //!
 //! Read `reading` (the steps from text to scenario), then `scenario_file` (the keys), `agent_groups` and `agent_lines`
 //! (tables and lines of agents), `agent_area` (agents spread over an area), `profile_tables` (numbers that are drawn),
-//! `agent_placement` (from them to agents), `group_keys` (agents that walk together), `source_tables` (sources of
-//! agents), `ground_tables` and `marking_tables`
+//! `agent_placement` (from them to agents), `group_keys` (agents that walk together), `sources` (agents that come
+//! later), `ground_tables` and `marking_tables`
 //! (walls, what is painted on the ground), `measure_tables` and `zone_tables` (lines and areas).
 
 mod agent_area;
@@ -22,7 +22,7 @@ mod measure_tables;
 mod profile_tables;
 mod reading;
 mod scenario_file;
-mod source_tables;
+mod sources;
 mod wkt_polygons;
 mod zone_tables;
 

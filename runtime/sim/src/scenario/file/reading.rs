@@ -23,7 +23,7 @@ use crate::scenario::file::marking_tables::PlacedMarkings;
 use crate::scenario::file::measure_tables::measures;
 use crate::scenario::file::profile_tables::Profiles;
 use crate::scenario::file::scenario_file::{MotionSource, ScenarioFile};
-use crate::scenario::file::source_tables::sources;
+use crate::scenario::file::sources::sources;
 use crate::scenario::file::zone_tables::zones;
 use crate::scenario::resolved::{SEED, Scenario};
 use crate::scenario::rules::check::check;

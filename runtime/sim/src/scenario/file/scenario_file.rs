@@ -13,7 +13,7 @@
 //! seed = 1                            # of everything random
 //! planner = "mcn"                     # or "orca", "social_force": see `planner.rs`
 //! coupling = "two_way"                # or "decoupled", "discs": see `coupling.rs`
-//! [[sources]]                         # agents that come later: see `source_tables.rs`
+//! [[sources]]                         # agents that come later: see `sources/mod.rs`
 //! [[walkable]]                        # the ground that agents can walk on; else it is open: see `ground_tables.rs`
 //! [goals.NAME]                        # what agents want: see `behaviour/mod.rs`
 //! [states.NAME]
@@ -47,7 +47,7 @@ use crate::scenario::file::ground_tables::{ObstacleTable, WalkableTable};
 use crate::scenario::file::marking_tables::MarkingTable;
 use crate::scenario::file::measure_tables::MeasureTable;
 use crate::scenario::file::profile_tables::ProfileTable;
-use crate::scenario::file::source_tables::SourceTable;
+use crate::scenario::file::sources::SourceTable;
 use crate::scenario::file::zone_tables::ZoneTable;
 use crate::scenario::view::View;
 

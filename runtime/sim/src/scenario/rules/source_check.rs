@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 
 use glam::Vec2;
 
+use crate::behaviour::Area;
 use crate::maths::polygon::{closest_distance_m, contains};
 use crate::route::arrival::ARRIVAL_M;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
@@ -15,12 +16,13 @@ use crate::scenario::ranges::{
 };
 use crate::scenario::resolved::Scenario;
 use crate::scenario::rules::behaviour_check::check_distribution;
+use crate::scenario::schedule::RATE_MAX_PER_S;
 use crate::scenario::source_spec::SourceSpec;
 
 /// Greatest number of sources.
 const SOURCES_MAX: usize = 1_000;
-/// Agents per second of a source: from one in a day to the flow through a gate of 500 m.
-const RATE_PER_S: RangeInclusive<f32> = 1e-5..=1_000.0;
+/// Agents per second of a source, from one in a day.
+const RATE_PER_S: RangeInclusive<f32> = 1e-5..=RATE_MAX_PER_S;
 /// Positions on either side of an area's lattice that is searched for free ground.
 const LATTICE: u32 = 16;
 /// Rounding of positions that are meant to touch, m.
@@ -38,15 +40,13 @@ pub(crate) fn check_source_ranges(scenario: &Scenario) -> Result<(), ScenarioFau
 
 fn check_numbers(part: &ScenarioPart, source: &SourceSpec) -> Result<(), ScenarioFault> {
     check_points(part, &[source.low_m, source.high_m])?;
+    check_points(part, &source.area.as_ref().map(Area::outline_m).unwrap_or_default())?;
     check_points(part, &source.goals_m)?;
     check_points(part, source.goal_offset_m.as_slice())?;
     if source.low_m.cmpgt(source.high_m).any() {
         return part.fault("rect_m has no inside".into(), "write [least x, least y, greatest x, greatest y]");
     }
-    within(part, "rate_per_s", source.rate_per_s, &RATE_PER_S, "give the mean number of agents per second")?;
-    within(part, "from_s", source.from_s, &(0.0..=*DURATION_S.end()), "remove the key to begin at the start")?;
-    let until = source.from_s..=*DURATION_S.end();
-    within(part, "to_s", source.to_s, &until, "give a time after from_s, or remove the key")?;
+    check_times(part, source)?;
     let count = source.count.map_or(1, |count| count as usize);
     within(part, "count", count, &(1..=AGENTS_MAX), REMOVE)?;
     let goals = source.goals_m.len() + usize::from(source.goal_offset_m.is_some());
@@ -58,6 +58,16 @@ fn check_numbers(part: &ScenarioPart, source: &SourceSpec) -> Result<(), Scenari
     source.profiles.iter().try_for_each(|profile| check_profile(part, profile))?;
     check_facing(part, source.facing_rad.unwrap_or(0.0))?;
     check_disc_and_speed(part, source.radius_m, source.wall_radius_m, source.preferred_speed_mps)
+}
+
+fn check_times(part: &ScenarioPart, source: &SourceSpec) -> Result<(), ScenarioFault> {
+    if let Some(schedule) = &source.schedule {
+        return schedule.check().or_else(|(_, (message, help))| part.fault(message, help));
+    }
+    within(part, "rate_per_s", source.rate_per_s, &RATE_PER_S, "give the mean number of agents per second")?;
+    within(part, "from_s", source.from_s, &(0.0..=*DURATION_S.end()), "remove the key to begin at the start")?;
+    let until = source.from_s..=*DURATION_S.end();
+    within(part, "to_s", source.to_s, &until, "give a time after from_s, or remove the key")
 }
 
 fn check_profile(part: &ScenarioPart, profile: &Profile) -> Result<(), ScenarioFault> {
@@ -85,7 +95,8 @@ fn check_crowd(scenario: &Scenario) -> Result<(), ScenarioFault> {
         let part = ScenarioPart::Source(index);
         if agents > AGENTS_MAX {
             let message = format!("with this source the scenario has more than {AGENTS_MAX} agents");
-            return part.fault(message, "lower rate_per_s, or set `count` or an earlier to_s");
+            return part
+                .fault(message, "lower rate_per_s or the numbers of its schedule, or set `count` or an earlier to_s");
         }
         if waypoints > WAYPOINTS_MAX {
             let message = format!("with this source the scenario has more than {WAYPOINTS_MAX} waypoints");
@@ -142,7 +153,8 @@ fn check_area(scenario: &Scenario, index: usize) -> Result<(), ScenarioFault> {
             !contains(polygon_m, *position_m) && clear_m >= f64::from(source.wall_radius_m) - TOUCH_M
         })
     };
-    let mut clear_m = lattice_m(source).filter(is_clear).peekable();
+    let middle_m = std::iter::once(source.middle_m());
+    let mut clear_m = middle_m.chain(lattice_m(source)).filter(is_clear).peekable();
     if clear_m.peek().is_none() {
         return ScenarioPart::Source(index).fault(
             format!("source {index} has no free ground: obstacles leave no room for a disc"),
@@ -160,11 +172,11 @@ fn is_beside(polygon_m: &[Vec2], source: &SourceSpec) -> bool {
     source.high_m.cmpge(low_m).all() && source.low_m.cmple(high_m).all()
 }
 
-/// Positions in the area, from corner to corner; a single one of an area without extent.
+/// Positions in the area on a lattice over its box, from corner to corner; a single one of an area without extent.
 fn lattice_m(source: &SourceSpec) -> impl Iterator<Item = Vec2> {
     let (low_m, size_m) = (source.low_m, source.high_m - source.low_m);
     let [columns, rows] = [size_m.x, size_m.y].map(|side_m| if side_m > 0.0 { LATTICE } else { 0 });
-    (0..=rows).flat_map(move |row| {
-        (0..=columns).map(move |column| low_m + size_m * Vec2::new(column as f32, row as f32) / LATTICE as f32)
-    })
+    let cells = (0..=rows).flat_map(move |row| (0..=columns).map(move |column| Vec2::new(column as f32, row as f32)));
+    let positions_m = cells.map(move |cell| low_m + size_m * cell / LATTICE as f32);
+    positions_m.filter(|position_m| source.area.is_none() || source.holds(*position_m))
 }

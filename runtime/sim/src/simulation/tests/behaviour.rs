@@ -392,3 +392,33 @@ fn agents_walk_slower_in_a_zone() {
     // 3 m at half the speed take 2.5 s longer: 50 steps.
     assert!(slow > 60 && removed[0].abs_diff(removed[1] + 50) < 16, "{slow}, {removed:?}");
 }
+
+#[test]
+fn an_area_in_a_zone_that_is_closed_to_an_agent_is_not_chosen() {
+    let text = "
+        [profiles.visitor]
+        preferred_speed_mps = 1.3
+        [[zones]]
+        rect_m = [2, -3, 8, 3]
+        closed_to = ['visitor']
+        [goals.rooms]
+        choose = 'random'
+        areas = [{ rect_m = [4, -1, 6, 1] }, { rect_m = [-6, -1, -4, 1] }]
+        [states.go]
+        go = 'rooms'
+        [[agents]]
+        grid = { columns = 2, rows = 6, spacing_m = 1, centre_m = [0, 0] }
+        profile = 'visitor'
+        state = 'go'
+        [[agents]]
+        grid = { columns = 2, rows = 3, spacing_m = 1, centre_m = [0, 7] }
+        state = 'go'
+    ";
+    let simulation = run(&format!("coupling = 'discs'\n{text}"), |_, _| {});
+    let right_of = |agents: std::ops::Range<usize>| {
+        simulation.frames()[agents].iter().filter(|frame| frame.root.position_m.x > 1.0).count()
+    };
+    assert_eq!((right_of(0..12), right_of(12..18) > 0), (0, true));
+    let waits = simulation.population().goals[0].waiting_steps;
+    assert_eq!(waits, 0, "every visitor has a goal");
+}

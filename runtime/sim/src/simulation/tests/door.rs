@@ -195,9 +195,11 @@ fn a_source_has_no_room_in_a_closed_door() {
     let source = SourceSpec {
         low_m: Vec2::ZERO,
         high_m: Vec2::ZERO,
+        area: None,
         rate_per_s: 1.0,
         from_s: 0.0,
         to_s: 12.0,
+        schedule: None,
         count: Some(1),
         facing_rad: None,
         goals_m: vec![Vec2::new(6.0, 0.0)],
@@ -303,4 +305,7 @@ fn an_event_opens_a_door() {
         assert!(step < scenario.steps() || passed == 4, "{passed} passed");
     }
     assert_eq!(passed_at_6_s, 0);
+    // Lamps in pictures follow the event too.
+    let is_green = |time_s| simulation.population().is_green(&scenario, 0, time_s);
+    assert_eq!([0.0, 5.9, 6.1, 19.0].map(is_green), [false, false, true, true]);
 }

@@ -6,12 +6,13 @@ use glam::Vec2;
 use proptest::prelude::*;
 
 use crate::agents::Removal;
+use crate::behaviour::Area;
 use crate::maths::random::SplitMix64;
 use crate::planning::plan::PLANTED_CONTACT;
 use crate::population::{AgentId, SourceCount};
 use crate::recording::frame::AgentFrame;
 use crate::scenario::coupling::Coupling;
-use crate::scenario::{AgentSpec, AtGoal, Scenario, SourceSpec};
+use crate::scenario::{AgentSpec, AtGoal, Scenario, SourceSpec, ZoneSpec};
 use crate::simulation::Simulation;
 use crate::simulation::tests::antipodal;
 use crate::test_db::test_db;
@@ -28,9 +29,11 @@ fn source(low_m: Vec2, high_m: Vec2, rate_per_s: f32, ahead_m: f32) -> SourceSpe
     SourceSpec {
         low_m,
         high_m,
+        area: None,
         rate_per_s,
         from_s: 0.0,
         to_s: 1_000.0,
+        schedule: None,
         count: None,
         facing_rad: None,
         goals_m: Vec::new(),
@@ -215,6 +218,17 @@ fn a_blocked_source_waits_and_counts() {
     let count = simulation.population().sources[0];
     assert_eq!(count.born + count.waiting, due_by(500.0 * f64::from(scenario.dt_s)));
     assert!(count.born > 5, "{count:?}");
+}
+
+#[test]
+fn an_agent_of_zones_without_walls_is_not_added() {
+    let area = Area::rectangle(Vec2::new(40.0, 40.0), Vec2::new(42.0, 42.0));
+    let mut scenario = antipodal(4, 4.0);
+    scenario.zones = vec![ZoneSpec { area, speed_factor: 1.0, is_closed: true }];
+    let outsider = AgentSpec { closed_zones: 1, ..walker(0.0, 20.0) };
+    assert_eq!(started(&scenario).add(outsider.clone()), None);
+    scenario.agents[0].closed_zones = 1;
+    assert!(started(&scenario).add(outsider).is_some());
 }
 
 #[test]

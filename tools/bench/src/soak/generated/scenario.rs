@@ -11,7 +11,7 @@ use fbcrowd_sim::measures::Measuring;
 use fbcrowd_sim::recording::AgentFrame;
 use fbcrowd_sim::scenario::{self, Scenario};
 use fbcrowd_sim::simulation::Simulation;
-use fbcrowd_sim::world::obstacles::Obstacles;
+use fbcrowd_sim::world::obstacles::{Obstacles, ZoneWalls};
 use motiondb::files::SourceText;
 use motiondb::motion::MotionDb;
 
@@ -42,12 +42,16 @@ pub(crate) fn simulated(db: &Arc<MotionDb>, seed: u64, faulty: Option<&Path>) ->
 /// # Errors
 /// The first fault; none where the simulation itself reports transitions without end, and is stopped.
 fn fault(db: &Arc<MotionDb>, scenario: &Scenario) -> Result<(), Option<&'static str>> {
-    let walls = scenario.walls();
+    let mut walls = FrameWalls::new(scenario, Vec::new());
     let mut simulation = Simulation::new(Arc::clone(db), scenario);
     let mut measuring = Measuring::new(&db.skeleton, scenario, simulation.population(), simulation.frames());
     let mut before = simulation.frames().to_vec();
     for frame in 1..=STEPS {
         simulation.step(&mut |_| ());
+        let closed = simulation.population().closed_doors(frame);
+        if walls.closed != closed {
+            walls = FrameWalls::new(scenario, closed);
+        }
         let fault = fault_of_frame(&simulation, frame).or_else(|| fault_of_step(&simulation, &before, frame, &walls));
         if simulation.endless_transitions().is_some() {
             return Err(None);
@@ -61,6 +65,21 @@ fn fault(db: &Arc<MotionDb>, scenario: &Scenario) -> Result<(), Option<&'static 
     let measures = measuring.finish(simulation.population());
     let kept = measures.agents - measures.removed == simulation.frames().len();
     if kept { Ok(()) } else { Err(Some("counts other agents than came and left")) }
+}
+
+/// The walls of a frame.
+struct FrameWalls {
+    /// Whether each door is closed, by index.
+    closed: Vec<bool>,
+    of_all: Obstacles,
+    /// The walls of agents that do not enter some zones.
+    of_zones: ZoneWalls,
+}
+
+impl FrameWalls {
+    fn new(scenario: &Scenario, closed: Vec<bool>) -> Self {
+        Self { of_all: scenario.walls_with(&closed), of_zones: scenario.zone_walls(&closed), closed }
+    }
 }
 
 /// What is wrong with the agents of a frame.
@@ -89,11 +108,13 @@ fn fault_of_step(
     simulation: &Simulation,
     before: &[AgentFrame],
     frame: u32,
-    walls: &Obstacles,
+    walls: &FrameWalls,
 ) -> Option<&'static str> {
     let lives = &simulation.population().agents;
     simulation.frames().iter().find_map(|agent| {
         let to_m = agent.root.position_m;
+        let closed_zones = lives[agent.id.index()].spec.closed_zones;
+        let walls = walls.of_zones.of(closed_zones).unwrap_or(&walls.of_all);
         if walls.contains(to_m) {
             return Some("leads an agent into a wall");
         }

@@ -1,5 +1,5 @@
-//! Random scenario files: obstacles, enclosures, walkable ground with holes, sources, goals, queues, state machines,
-//! signals, zones and measures, in any combination. Many are rejected: a goal may lie in an obstacle, or have no route.
+//! Random scenario files: obstacles, doors, enclosures, walkable ground with holes, sources, groups, goals, queues, state
+//! machines, signals, events, zones that are slow or closed, and measures, in any combination. Many are rejected: a goal may lie in an obstacle, or have no route.
 //! World, metres, seconds.
 
 use std::fmt::Write;
@@ -27,6 +27,13 @@ const CONDITIONS: [&str; 9] = [
     "{ number = { inside = 'hall', at_most = 3 } }",
     "{ population = { state = 's0', at_least = 2 } }",
     "{ any = [{ not = { green = 'light' } }, { all = [{ inside = 'hall' }, { after_s = 0.4 }] }] }",
+];
+/// Conditions of events.
+const EVENTS: [&str; 4] = [
+    "{ after_s = 1.3 }",
+    "{ number = { inside = 'hall', at_least = 1 } }",
+    "{ population = { state = 'gone', at_most = 0 } }",
+    "{ all = [{ after_s = 0.5 }, { not = { green = 'light' } }] }",
 ];
 /// What agents do in a state, beside going to a set of goals.
 const MOVEMENTS: [&str; 7] = [
@@ -57,6 +64,7 @@ pub(crate) fn scenario_text(seed: u64) -> String {
     draw.behaviour();
     draw.agents();
     draw.sources();
+    draw.events();
     draw.zones_and_measures();
     draw.text
 }
@@ -121,11 +129,33 @@ impl TextDraw {
             let polygon = self.polygon(size_m);
             self.line(format!("[[obstacles]]\npolygon_m = {polygon}"));
         }
+        if self.flip() {
+            self.doors();
+        }
         if self.below(3) == 0 {
             let size_m = self.one(&[2.0, 5.0, 14.0]);
             let polygon = self.polygon(size_m);
             self.line(format!("[[obstacles]]\nkind = 'enclosure'\npolygon_m = {polygon}"));
         }
+    }
+
+    /// A wall across the square with a gap, and in it a door of one leaf or of two that open apart.
+    fn doors(&mut self) {
+        let (at, low) = (self.between(-6.0, 6.0), self.between(-5.0, 3.0));
+        let high = low + self.between(0.5, 3.0);
+        let (is_upright, half_m) = (self.flip(), self.one(&[0.05, 0.15]));
+        let leaf = |from: f64, to: f64| {
+            let corners = [[at - half_m, from], [at + half_m, from], [at + half_m, to], [at - half_m, to]];
+            let corners = corners.map(|[x, y]| if is_upright { [x, y] } else { [y, x] });
+            let corners: Vec<String> = corners.iter().map(|[x, y]| format!("[{x:.2}, {y:.2}]")).collect();
+            format!("[[obstacles]]\npolygon_m = [{}]", corners.join(", "))
+        };
+        self.line(leaf(-1.2 * SQUARE_M, low));
+        self.line(leaf(high, 1.2 * SQUARE_M));
+        let middle = 0.5 * (low + high);
+        let signals = self.one(&[["gate", "gate"], ["gate", "light"]]);
+        self.line(leaf(low, middle) + &format!("\nopen = '{}'", signals[0]));
+        self.line(leaf(middle, high) + &format!("\nopen = '{}'", signals[1]));
     }
 
     /// A star of three to eight corners about a point: blocks, splinters, and niches.
@@ -155,6 +185,8 @@ impl TextDraw {
 
     fn behaviour(&mut self) {
         self.line("[signals.light]\ngreen_s = 2\nred_s = 1.5\noffset_s = 0.5\n[areas.hall]\nrect_m = [-3, -3, 3, 3]");
+        let offset_s = self.one(&[0.0, 0.7]);
+        self.line(format!("[signals.gate]\ngreen_s = 0.8\nred_s = 0.7\noffset_s = {offset_s}"));
         for set in 0..SETS {
             self.goals(set);
         }
@@ -215,7 +247,9 @@ impl TextDraw {
         let leaves = self.one(&["stay", "leave", "leave_at_once"]);
         let speed = self.one(&["preferred_speed_mps = 0.6", "profile = 'any'", "profile = { any = 1, slow = 2 }"]);
         let wait = self.one(&["", "pre_movement_s = { uniform = [0, 2] }"]);
-        self.line(format!("at_goal = '{leaves}'\n{speed}\n{wait}"));
+        let groups =
+            self.one(&["", "", "groups = { 1 = 1, 2 = 2, 3 = 1 }", "groups = { 4 = 1 }\ngroup_spacing_m = 0.5"]);
+        self.line(format!("at_goal = '{leaves}'\n{speed}\n{wait}\n{groups}"));
     }
 
     fn agents(&mut self) {
@@ -237,17 +271,42 @@ impl TextDraw {
         for _ in 0..self.below(3) {
             let ([x, y], rate_per_s) = (self.point(), self.between(0.1, 2.0));
             let (right, top) = (x + self.between(0.0, 2.0), y + self.between(0.0, 2.0));
-            let place = if self.flip() {
-                format!("at_m = [{x:.2}, {y:.2}]")
-            } else {
-                format!("rect_m = [{x:.2}, {y:.2}, {right:.2}, {top:.2}]")
+            let place = match self.below(4) {
+                0 => format!("at_m = [{x:.2}, {y:.2}]"),
+                1 => format!("rect_m = [{x:.2}, {y:.2}, {right:.2}, {top:.2}]"),
+                2 => format!("circle_m = [{x:.2}, {y:.2}, {:.2}]", right - x),
+                _ => format!("polygon_m = {}", self.polygon(3.0)),
             };
-            self.line(format!("[[sources]]\n{place}\nrate_per_s = {rate_per_s:.2}\ncount = 15"));
+            let times = match self.below(3) {
+                0 => format!("schedule = [[0, 1, {rate_per_s:.2}], [1, 1.5, 0], [2, 60, {:.2}]]", 4.0 * rate_per_s),
+                1 => "schedule = [[0, 2], [0.5, 1], [0.5, 3], [2, 9]]".to_owned(),
+                _ => format!("rate_per_s = {rate_per_s:.2}"),
+            };
+            self.line(format!("[[sources]]\n{place}\n{times}\ncount = 15"));
             self.journey();
         }
     }
 
+    fn events(&mut self) {
+        for event in 0..self.below(3) {
+            let when = self.one(&EVENTS);
+            let change = self.one(&[
+                "to = 's0'",
+                "from = ['s0', 'follow_path']\nto = 'gone'",
+                "signals = { gate = 'green' }",
+                "signals = { gate = 'red', light = 'phases' }",
+                "to = 's0'\nsignals = { gate = 'phases' }",
+            ]);
+            self.line(format!("[events.e{event}]\nwhen = {when}\n{change}"));
+        }
+    }
+
     fn zones_and_measures(&mut self) {
+        if self.flip() {
+            let polygon = self.polygon(2.5);
+            let closed = self.one(&["'any'", "'slow'", "'any', 'slow'"]);
+            self.line(format!("[[zones]]\npolygon_m = {polygon}\nclosed_to = [{closed}]"));
+        }
         for _ in 0..self.below(3) {
             let ([x, y], size_m, factor) = (self.point(), self.between(0.5, 3.0), self.one(&[0.01, 0.5, 2.0]));
             self.line(format!("[[zones]]\ncircle_m = [{x:.2}, {y:.2}, {size_m:.2}]\nspeed_factor = {factor}"));

@@ -1,7 +1,7 @@
 //! The `[[sources]]` tables of a scenario file. World, metres, seconds.
 //!
-//! A table has exactly one of `at_m = [x, y]` and `rect_m = [least x, least y, greatest x, greatest y]`, the rate and
-//! the times of its agents, and the keys that `[[agents]]` has for goals, discs and speed.
+//! A table has exactly one of `at_m = [x, y]`, `rect_m = [least x, least y, greatest x, greatest y]`, `circle_m` and
+//! `polygon_m`; a rate and its times, or a `schedule`; and the keys that `[[agents]]` has for goals, discs and speed.
 
 use std::collections::BTreeMap;
 
@@ -9,13 +9,15 @@ use glam::Vec2;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::behaviour::Area;
 use crate::scenario::agent_spec::{AtGoal, PREFERRED_SPEED_MPS, RADIUS_M, WALL_RADIUS_M};
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::agent_placement::PlacementInput;
-use crate::scenario::file::behaviour::DistributionValue;
+use crate::scenario::file::behaviour::{AreaKeys, DistributionValue};
 use crate::scenario::file::group_keys::group_sizes;
 use crate::scenario::file::profile_tables::ProfileValue;
+use crate::scenario::file::sources::schedule_value::ScheduleValue;
 use crate::scenario::point::Point;
 use crate::scenario::source_spec::SourceSpec;
 
@@ -25,9 +27,11 @@ use crate::scenario::source_spec::SourceSpec;
 pub(crate) struct SourceTable {
     at_m: Option<Point>,
     rect_m: Option<[f32; 4]>,
-    rate_per_s: f32,
-    #[serde(default)]
-    from_s: f32,
+    circle_m: Option<[f32; 3]>,
+    polygon_m: Option<Vec<Point>>,
+    rate_per_s: Option<f32>,
+    schedule: Option<Spanned<ScheduleValue>>,
+    from_s: Option<f32>,
     to_s: Option<f32>,
     count: Option<u32>,
     #[serde(default)]
@@ -58,39 +62,34 @@ pub(crate) fn sources(
         let SourceTable { state, profile, pre_movement_s, preferred_speed_mps, radius_m, .. } = table.get_ref();
         let SourceTable { groups, group_spacing_m, .. } = table.get_ref();
         let [states_speed, states_radius] = [preferred_speed_mps, radius_m].map(Option::is_some);
-        let resolved =
-            table.get_ref().source(duration_s).map_err(|(message, help)| at_table((message.into(), help)))?;
+        let resolved = table.get_ref().source(duration_s).map_err(at_table)?;
+        let schedule = table.get_ref().schedule.as_ref().map(|schedule| ScheduleValue::resolve(schedule, source));
         let profiles = profiles.of_table(profile.as_ref(), *pre_movement_s, states_speed, states_radius);
         let profiles = profiles.map_err(at_table)?;
         let groups = group_sizes(groups.as_ref(), *group_spacing_m).map_err(at_table)?;
-        Ok(SourceSpec { state: states.index(state.as_ref(), source)?, profiles, groups, ..resolved })
+        let (state, schedule) = (states.index(state.as_ref(), source)?, schedule.transpose()?);
+        Ok(SourceSpec { state, schedule, profiles, groups, ..resolved })
     };
     tables.iter().map(resolve).collect()
 }
 
 impl SourceTable {
-    fn source(&self, duration_s: f32) -> Result<SourceSpec, (&'static str, &'static str)> {
-        let (low_m, high_m) = match (self.at_m, self.rect_m) {
-            (Some(Point(at_m)), None) => (at_m, at_m),
-            (None, Some([left, low, right, high])) => (Vec2::new(left, low), Vec2::new(right, high)),
-            _ => {
-                return Err((
-                    "a source needs exactly one of `at_m` and `rect_m`",
-                    "write `at_m = [x, y]`, or `rect_m = [least x, least y, greatest x, greatest y]`",
-                ));
-            }
-        };
+    fn source(&self, duration_s: f32) -> Result<SourceSpec, TableFault> {
+        let ([low_m, high_m], area) = self.place()?;
+        let (rate_per_s, from_s) = (self.rate()?, self.from_s.unwrap_or(0.0));
         if self.goals_m.is_empty() && self.goal_offset_m.is_none() && self.state.is_none() {
             let help = "add `goals_m = [[x, y]]`, `goal_offset_m = [x, y]` or both, or `state = \"NAME\"`";
-            return Err(("the agents of a source need a goal", help));
+            return Err(("the agents of a source need a goal".into(), help));
         }
         let radius_m = self.radius_m.unwrap_or(RADIUS_M);
         Ok(SourceSpec {
             low_m,
             high_m,
-            rate_per_s: self.rate_per_s,
-            from_s: self.from_s,
-            to_s: self.to_s.unwrap_or(duration_s.max(self.from_s)),
+            area,
+            rate_per_s,
+            from_s,
+            to_s: self.to_s.unwrap_or(duration_s.max(from_s)),
+            schedule: None,
             count: self.count,
             facing_rad: self.facing_deg.map(f32::to_radians),
             goals_m: self.goals_m.iter().map(|&Point(goal_m)| goal_m).collect(),
@@ -106,5 +105,41 @@ impl SourceTable {
             priority: 0.0,
             groups: None,
         })
+    }
+
+    /// Least and greatest corner of the box in which agents appear, and their area where that is no box, m.
+    fn place(&self) -> Result<([Vec2; 2], Option<Area>), TableFault> {
+        match (self.at_m, self.rect_m, self.circle_m, self.polygon_m.as_deref()) {
+            (Some(Point(at_m)), None, None, None) => Ok(([at_m, at_m], None)),
+            (None, Some([left, low, right, high]), None, None) => {
+                Ok(([Vec2::new(left, low), Vec2::new(right, high)], None))
+            }
+            (None, None, circle_m, polygon_m) if circle_m.is_some() != polygon_m.is_some() => {
+                let area = AreaKeys { point_m: None, circle_m, rect_m: None, polygon_m }.area()?;
+                Ok((area.bounds_m(), Some(area)))
+            }
+            _ => {
+                let message = "a source needs exactly one of `at_m`, `rect_m`, `circle_m` and `polygon_m`";
+                let help = "write `at_m = [x, y]`, or `rect_m = [least x, least y, greatest x, greatest y]`";
+                Err((message.into(), help))
+            }
+        }
+    }
+
+    /// Mean number of agents per second; 0 where a schedule states the times.
+    fn rate(&self) -> Result<f32, TableFault> {
+        match (self.rate_per_s, &self.schedule) {
+            (Some(rate_per_s), None) => Ok(rate_per_s),
+            (None, Some(_)) if self.from_s.is_none() && self.to_s.is_none() => Ok(0.0),
+            (None, Some(_)) => {
+                let help = "remove `from_s` and `to_s`";
+                Err(("the rows of the `schedule` state the times of this source".into(), help))
+            }
+            _ => {
+                let message = "a source needs exactly one of `rate_per_s` and `schedule`";
+                let help = "write `rate_per_s = 0.5`, or `schedule = [[from_s, to_s, rate_per_s], …]`";
+                Err((message.into(), help))
+            }
+        }
     }
 }

@@ -1,27 +1,9 @@
 //! Copies of the ground's tables, markings and labels of a scenario file; every mistake is shown at its table.
 
-mod common;
-
-use std::fs;
-use std::path::PathBuf;
-
-use common::folder;
-use fbcrowd_sim::scenario::{MarkingColour, MarkingShape, Scenario, ScenarioError, read};
+use fbcrowd_sim::scenario::{MarkingColour, MarkingShape, ScenarioError, read};
 use glam::Vec2;
 
-const HEAD: &str = "clips = \".\"\nduration_s = 10\n";
-const BLOCK: &str = "[[20, 20], [22, 20], [22, 22], [20, 22]]";
-const ONE: &str = "agents = { at_m = [0, 0], goals_m = [[5, 0]] }\n";
-
-fn write(test: &str, text: &str) -> PathBuf {
-    let path = folder(test).join("scene.toml");
-    fs::write(&path, text).unwrap();
-    path
-}
-
-fn scenario(test: &str, body: &str) -> Scenario {
-    read(&write(test, &format!("{HEAD}{body}"))).unwrap().0
-}
+use crate::support::{BLOCK, HEAD, ONE, scenario, write};
 
 /// Checks that reading fails at a line, with a message that contains these words.
 fn check_rejected(test: &str, text: &str, line: usize, message: &str) {

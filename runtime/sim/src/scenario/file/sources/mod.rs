@@ -1,0 +1,8 @@
+//! The `[[sources]]` tables of a scenario file: agents that come during the simulation.
+//!
+//! Read `source_tables` (the keys), then `schedule_value` (rows of times).
+
+mod schedule_value;
+mod source_tables;
+
+pub(crate) use source_tables::{SourceTable, sources};
