@@ -109,6 +109,8 @@ fn record(path: &Path) {
         pre_movement_s: 0.0,
         profiles: Vec::new(),
         closed_zones: 0,
+        priority: 0.0,
+        groups: None,
     };
     let scenario = Scenario {
         name: "two".to_owned(),
