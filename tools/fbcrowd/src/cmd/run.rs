@@ -74,7 +74,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let recording = rendering::open(&outputs.recording)?;
     let measures = measures::measure(&recording)?;
     rendering::plot_trajectories(&recording, &outputs.trajectories)?;
-    rendering::remove_frames(&outputs.frames)?;
+    rendering::remove_frames(&outputs.frames.folder, &outputs.frames.name)?;
     let rendered = rendering::render(&recording, &outputs.frames, &observer)?;
 
     let figures = measures_text::text(&measures) + &timings_text::text(&timings);
@@ -154,7 +154,7 @@ impl RunOutputs {
         let database = inputs.are_compiled.then_some(&self.database);
         let files: Vec<PathBuf> = [&self.recording, &self.trajectories].into_iter().chain(database).cloned().collect();
         check_files(&self.folder, &files, &inputs.files)?;
-        Ok(rendering::check_old_frames(&self.frames, &inputs.files)?)
+        Ok(rendering::check_old_frames(&self.frames.folder, &self.frames.name, &inputs.files)?)
     }
 }
 
