@@ -2,10 +2,9 @@
 
 use fbcrowd_sim::recording::AgentFrame;
 use glam::Vec3;
-use motiondb::body::Skeleton;
 use rayon::prelude::*;
 
-use crate::figure::append_figure;
+use crate::figure::Figures;
 use crate::raster::palette::Look;
 use crate::visibility::{Lens, SceneParts};
 
@@ -20,7 +19,7 @@ const AGENTS_AT_ONCE: usize = 32;
 
 /// The bodies that a lens sees, or that throw shadows into its picture. `hidden` is the id of an agent that is left out.
 pub(crate) fn body_parts(
-    skeleton: &Skeleton,
+    figures: &Figures,
     agents: &[AgentFrame],
     looks: &[Look],
     lens: &Lens,
@@ -33,7 +32,7 @@ pub(crate) fn body_parts(
             let mut parts = SceneParts::default();
             for (agent, look) in agents.iter().zip(looks) {
                 if Some(agent.id.0) != hidden && is_near_picture(lens, agent) {
-                    append_figure(&mut parts, skeleton, agent, look, height_px(lens, agent));
+                    figures.append(&mut parts, agent, look, height_px(lens, agent));
                 }
             }
             parts
@@ -42,6 +41,7 @@ pub(crate) fn body_parts(
     let mut scene = SceneParts::default();
     for parts in chunks {
         scene.cones.extend(parts.cones);
+        scene.occluders.extend(parts.occluders);
         scene.meshes.extend(&parts.meshes);
     }
     scene

@@ -18,4 +18,4 @@ pub(crate) mod view;
 pub use colour_by::ColourBy;
 pub use options::{CameraOptions, Quality};
 pub use sequence::{camera_picture_paths, render_camera_sequence};
-pub use view::CameraView;
+pub use view::{CameraView, Shot};

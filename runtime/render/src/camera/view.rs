@@ -11,6 +11,7 @@ use crate::camera::blocks::{append_doors, still_blocks};
 use crate::camera::bodies::body_parts;
 use crate::camera::colour_by::{ColourBy, looks};
 use crate::camera::options::Quality;
+use crate::figure::Figures;
 use crate::shading::ground_plan::GroundPlan;
 use crate::shading::linear_picture::LinearPicture;
 use crate::shading::occlusion::{Occlusion, OcclusionGrid};
@@ -26,6 +27,7 @@ const WALL_SHADOW_M: f32 = 45.0;
 pub struct CameraView<'a> {
     header: &'a Header,
     population: &'a Population,
+    figures: Figures,
     blocks: Meshes,
     ground: GroundPlan,
     quality: Quality,
@@ -50,13 +52,14 @@ impl<'a> CameraView<'a> {
     pub fn new(recording: &'a Recording, quality: Quality, colour_by: ColourBy) -> Self {
         let header = recording.header();
         let (blocks, ground) = (still_blocks(&header.scenario), GroundPlan::new(&header.scenario));
-        Self { header, population: recording.population(), blocks, ground, quality, colour_by }
+        let figures = Figures::new(header.skeleton());
+        Self { header, figures, population: recording.population(), blocks, ground, quality, colour_by }
     }
 
     /// The cones and triangles of a frame.
     pub fn scene(&self, shot: &Shot, agents: &[AgentFrame]) -> SceneParts {
         let looks = looks(self.colour_by, agents, self.population);
-        let mut scene = body_parts(self.header.skeleton(), agents, &looks, &shot.lens, shot.eyes_of);
+        let mut scene = body_parts(&self.figures, agents, &looks, &shot.lens, shot.eyes_of);
         scene.meshes.extend(&self.blocks);
         let frame = (shot.time_s / f64::from(self.header.scenario.dt_s) + 1e-3) as u32;
         append_doors(&mut scene.meshes, &self.header.scenario, self.population, frame);

@@ -1,31 +1,24 @@
-//! The figure: one posed skeleton as parts that read as a person at eye height.
+//! The figure: one posed skeleton as surfaces that read as a person at eye height.
 //!
-//! Enters: a recorded root and pose, the skeleton, a look. Leaves: rounded cones, and where they serve surfaces, world,
-//! metres.
+//! Enters: a recorded root and pose, the skeleton, a look. Leaves: a skinned mesh of lofted sections, or at crowd distance
+//! rounded cones; and always the rounded cones by which occlusion is computed. World, metres.
+//!
+//! Sections are stated in the rest pose of a body 1.775 m high (x forward, y left, z up, arms straight out), and scaled
+//! to the skeleton. Read `style` (sex, hair, sleeves of an agent), `loft` (sections to a mesh), `template` (a mesh and its
+//! joints), `build` (the frame of reference), then `trunk`, `limbs`, `hand`, `foot`, `head` and `hair`, `cone_figure` (the
+//! crowd's), and `figures` (all of it).
 
-use fbcrowd_sim::recording::AgentFrame;
-use glam::Vec3;
-use motiondb::body::Skeleton;
+pub(crate) mod build;
+pub(crate) mod cone_figure;
+pub(crate) mod figures;
+mod foot;
+mod hair;
+mod hand;
+mod head;
+mod limbs;
+mod loft;
+pub(crate) mod style;
+mod template;
+mod trunk;
 
-use crate::raster::drawn_body::{self, Detail};
-use crate::raster::palette::{Look, decode_srgb};
-use crate::visibility::{Cone, Owner, SceneParts};
-
-/// Appends the parts of one agent's body, which is `height_px` high in the picture.
-pub(crate) fn append_figure(
-    parts: &mut SceneParts,
-    skeleton: &Skeleton,
-    frame: &AgentFrame,
-    look: &Look,
-    _height_px: f32,
-) {
-    let mut drawn = Vec::new();
-    drawn_body::append_parts(&mut drawn, skeleton, frame, *look, Detail::Full);
-    let owner = Owner { agent: frame.id.0, material: 1 };
-    parts.cones.extend(drawn.iter().map(|part| Cone {
-        ends_m: part.ends_m,
-        radii_m: part.radii_m,
-        colour: part.colour.map(decode_srgb).min(Vec3::ONE),
-        owner,
-    }));
-}
+pub(crate) use figures::Figures;

@@ -53,8 +53,8 @@ pub(crate) struct OcclusionGrid {
     rows: usize,
     starts: Vec<u32>,
     entries: Vec<u32>,
-    /// First and last cone (exclusive) of the agent of each cone.
-    ranges: Vec<[u32; 2]>,
+    /// First and last occluder (exclusive) of each agent, by rising agent.
+    ranges: Vec<(u32, [u32; 2])>,
 }
 
 impl Occluder {
@@ -93,7 +93,7 @@ impl Occluder {
 
 impl OcclusionGrid {
     pub(crate) fn new(scene: &SceneParts) -> Self {
-        let occluders: Vec<Occluder> = scene.cones.iter().map(Occluder::new).collect();
+        let occluders: Vec<Occluder> = scene.occluders.iter().map(Occluder::new).collect();
         let bounds = |occluder: &Occluder| {
             let (reach, to) = (occluder.reach_m(), occluder.from + occluder.axis);
             let (low, high) = (occluder.from.min(to).truncate(), occluder.from.max(to).truncate());
@@ -126,7 +126,7 @@ impl OcclusionGrid {
                 next[cell] += 1;
             }
         }
-        Self { ranges: agent_ranges(&scene.cones), occluders, low_m, cell_m, columns, rows, starts, entries }
+        Self { ranges: agent_ranges(&scene.occluders), occluders, low_m, cell_m, columns, rows, starts, entries }
     }
 
     /// Share of the sky's light that reaches a point of the ground.
@@ -144,29 +144,26 @@ impl OcclusionGrid {
         (1.0 - STRENGTH[0] * (1.0 - left)).max(LEAST)
     }
 
-    /// Share of the sky's light that reaches a point of a body, given by one of its cones; its own parts hide the rest.
-    pub(crate) fn on_body(&self, cone: usize, point_m: Vec3, normal: Vec3) -> f32 {
-        let [from, to] = self.ranges[cone];
+    /// Share of the sky's light that reaches a point of an agent's body; its own parts hide the rest.
+    pub(crate) fn on_body(&self, agent: u32, point_m: Vec3, normal: Vec3) -> f32 {
+        let Ok(range) = self.ranges.binary_search_by_key(&agent, |(agent, _)| *agent) else { return 1.0 };
+        let [from, to] = self.ranges[range].1;
         let mut left = 1.0;
         for occluder in &self.occluders[from as usize..to as usize] {
             left *= 1.0 - 0.8 * occluder.hidden(point_m, normal).min(1.0);
         }
         (1.0 - STRENGTH[1] * (1.0 - left)).max(LEAST)
     }
-
-    /// The first cone of each agent among the cones, by agent.
-    pub(crate) fn first_cone(&self, cones: &[Cone], agent: u32) -> Option<usize> {
-        let first = cones.partition_point(|cone| cone.owner.agent < agent);
-        (cones.get(first)?.owner.agent == agent).then_some(first)
-    }
 }
 
-/// For each cone, the run of cones of the same agent.
-fn agent_ranges(cones: &[Cone]) -> Vec<[u32; 2]> {
-    let mut ranges = Vec::with_capacity(cones.len());
-    for run in cones.chunk_by(|one, other| one.owner.agent == other.owner.agent) {
-        let from = ranges.len() as u32;
-        ranges.resize(ranges.len() + run.len(), [from, from + run.len() as u32]);
-    }
-    ranges
+/// First and last cone (exclusive) of each agent, by rising agent.
+fn agent_ranges(cones: &[Cone]) -> Vec<(u32, [u32; 2])> {
+    let mut from = 0;
+    let runs = cones.chunk_by(|one, other| one.owner.agent == other.owner.agent);
+    runs.map(|run| {
+        let range = [from, from + run.len() as u32];
+        from = range[1];
+        (run[0].owner.agent, range)
+    })
+    .collect()
 }

@@ -98,17 +98,14 @@ impl Shader<'_> {
     fn part_colour(&self, fragment: &Fragment, point_m: Vec3) -> Vec3 {
         let cones = self.scene.cones.len();
         let index = fragment.part.0 as usize;
-        let (surface, cone) = if index < cones {
-            (self.cone_point(index, fragment, point_m), Some(index))
+        let (surface, owner) = if index < cones {
+            (self.cone_point(index, fragment, point_m), self.scene.cones[index].owner)
         } else {
-            let owner = self.scene.meshes.owners[index - cones];
-            let occluders = self.occluders.filter(|_| owner.agent != Owner::NO_AGENT);
-            let first = occluders.and_then(|occluders| occluders.first_cone(&self.scene.cones, owner.agent));
-            (self.triangle_point(index - cones, point_m), first)
+            (self.triangle_point(index - cones, point_m), self.scene.meshes.owners[index - cones])
         };
-        let open = match (self.occluders, cone) {
-            (Some(occluders), Some(cone)) if self.occlusion == Occlusion::Full => {
-                occluders.on_body(cone, surface.point_m, surface.normal)
+        let open = match self.occluders {
+            Some(occluders) if self.occlusion == Occlusion::Full && owner.agent != Owner::NO_AGENT => {
+                occluders.on_body(owner.agent, surface.point_m, surface.normal)
             }
             _ => 1.0,
         };

@@ -38,7 +38,7 @@ impl ShadowMap {
     /// points that the map holds.
     pub(crate) fn new(scene: &SceneParts, extra_m: &[Vec3]) -> Option<Self> {
         let flat = Lens::orthographic([1, 1], Vec3::ZERO, -TO_SUN, 1.0);
-        let cones = scene.cones.iter().flat_map(|cone| cone.ends_m);
+        let cones = scene.cones.iter().chain(&scene.occluders).flat_map(|cone| cone.ends_m);
         // The top of a body throws its shadow on the ground beside its feet.
         let points =
             cones.chain(extra_m.iter().copied()).flat_map(|point| [point, point - TO_SUN * (point.z / TO_SUN.z)]);

@@ -49,10 +49,12 @@ pub struct Meshes {
 /// All cones and triangles of a frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneParts {
-    /// Rounded cones; those of an agent follow each other.
+    /// Rounded cones, by rising agent.
     pub cones: Vec<Cone>,
     /// Triangles.
     pub meshes: Meshes,
+    /// Rounded cones that are not drawn, by which occlusion is computed; by rising agent.
+    pub occluders: Vec<Cone>,
 }
 
 impl Meshes {

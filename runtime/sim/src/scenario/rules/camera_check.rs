@@ -186,7 +186,7 @@ mod tests {
             (format!("[camera]\n{still}\nfocal_mm = 35\nfov_deg = 40"), 3, "several lenses"),
             ("[camera]\nfov_deg = 40".to_owned(), 3, "no position"),
             (format!("[camera]\n{still}\neyes_of = 0\nfov_deg = 40"), 3, "several positions"),
-            (format!("[camera]\n{still}\nfov_deg = 40\nzoom = 2"), 6, "zoom"),
+            (format!("[camera]\n{still}\nfov_deg = 40\nzoom = 2"), 7, "zoom"),
             ("[camera]\neye_m = [0, 0, 1]\nlook_at_m = [0, 0, 1]\nfov_deg = 40".to_owned(), 3, "its own position"),
             (
                 format!(
