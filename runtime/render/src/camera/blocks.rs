@@ -15,7 +15,7 @@ const DOOR_M: f32 = 2.1;
 /// Height of an enclosure, m: a fence.
 const FENCE_M: f32 = 1.05;
 /// Light that walls reflect, of their colour in the top view.
-const WALL_SHARE: f32 = 0.62;
+const WALL_SHARE: f32 = 0.80;
 /// Material of walls.
 const WALL: Owner = Owner::SCENE;
 

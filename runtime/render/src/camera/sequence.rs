@@ -73,7 +73,7 @@ pub fn render_camera_sequence(
     let sequence = CameraSequence {
         recording,
         options,
-        view: CameraView::new(recording, options.quality, options.colour_by),
+        view: CameraView::new(recording.header(), recording.population(), options.quality, options.colour_by),
         captions: CameraCaptions::new(size_px),
         camera,
         size_px,

@@ -4,7 +4,7 @@
 //! all frames share; [`CameraView::draw`] depends only on time, lens and agents, so frames can be drawn in any order.
 
 use fbcrowd_sim::Population;
-use fbcrowd_sim::recording::{AgentFrame, Header, Recording};
+use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::Vec3;
 
 use crate::camera::blocks::{append_doors, still_blocks};
@@ -15,7 +15,7 @@ use crate::figure::Figures;
 use crate::shading::ground_plan::GroundPlan;
 use crate::shading::linear_picture::LinearPicture;
 use crate::shading::occlusion::{Occlusion, OcclusionGrid};
-use crate::shading::shader::{Shader, ground_depth_m};
+use crate::shading::shader::Shader;
 use crate::shading::shadow_map::ShadowMap;
 use crate::visibility::{Lens, Meshes, SceneParts, for_each_tile};
 
@@ -49,11 +49,10 @@ pub struct Shot {
 
 impl<'a> CameraView<'a> {
     /// The view of a recording.
-    pub fn new(recording: &'a Recording, quality: Quality, colour_by: ColourBy) -> Self {
-        let header = recording.header();
+    pub fn new(header: &'a Header, population: &'a Population, quality: Quality, colour_by: ColourBy) -> Self {
         let (blocks, ground) = (still_blocks(&header.scenario), GroundPlan::new(&header.scenario));
         let figures = Figures::new(header.skeleton());
-        Self { header, figures, population: recording.population(), blocks, ground, quality, colour_by }
+        Self { header, figures, population, blocks, ground, quality, colour_by }
     }
 
     /// The cones and triangles of a frame.
@@ -87,8 +86,7 @@ impl<'a> CameraView<'a> {
             occlusion: self.quality.occlusion,
             fog_m: *fog_m,
         };
-        let background = |uv| ground_depth_m(lens, uv);
-        let tiles = for_each_tile(scene, lens, self.quality.samples, background, |tile| shader.tile(tile));
+        let tiles = for_each_tile(scene, lens, self.quality.samples, Some(lens.ground()), |tile| shader.tile(tile));
         LinearPicture::from_tiles(lens.size_px, &tiles)
     }
 

@@ -3,7 +3,7 @@
 //! World, metres; linear Rec. 709.
 
 use exr::prelude::f16;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
 use crate::shading::grid_lines::{footprint_m, grid_share};
 use crate::shading::ground_plan::GroundPlan;
@@ -142,13 +142,4 @@ impl Shader<'_> {
     fn sun_at(&self, point_m: Vec3, normal: Vec3) -> f32 {
         self.shadow.map_or(1.0, |shadow| shadow.light_at(point_m, normal))
     }
-}
-
-/// Depth at which the ray through (u, v) meets the ground, m; infinite where it does not.
-pub(crate) fn ground_depth_m(lens: &Lens, uv: Vec2) -> f32 {
-    let from = lens.at_depth(uv, 0.0);
-    let height_m = lens.to_world(from).z;
-    let slope = lens.direction_to_world(lens.at_depth(uv, 1.0) - from).z;
-    let depth_m = -height_m / slope;
-    if slope < 0.0 && depth_m > 0.0 && depth_m.is_finite() { depth_m } else { f32::INFINITY }
 }

@@ -55,7 +55,7 @@ impl ShadowMap {
             scene,
             &lens,
             SamplePattern::One,
-            |_| f32::INFINITY,
+            None,
             |tile| std::mem::take(&mut tile.depths_m),
         );
         Some(Self { lens, tiles, columns })

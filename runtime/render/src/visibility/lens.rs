@@ -92,6 +92,12 @@ impl Lens {
         if self.is_perspective { (uv * depth_m).extend(depth_m) } else { uv.extend(depth_m) }
     }
 
+    /// Depths at which rays meet the ground, z = 0.
+    pub(crate) fn ground(&self) -> GroundDepth {
+        let slope = Vec3::new(self.right.z, self.down.z, self.forward.z);
+        GroundDepth { height_m: self.eye_m.z, slope, is_perspective: self.is_perspective }
+    }
+
     /// Unit vector of the ray through (u, v), world.
     pub fn ray(&self, uv: Vec2) -> Vec3 {
         let direction = if self.is_perspective { uv.extend(1.0) } else { Vec3::Z };
@@ -106,5 +112,28 @@ impl Lens {
     /// Width and height of the picture, pixels.
     pub fn size(&self) -> Vec2 {
         Vec2::new(self.size_px[0] as f32, self.size_px[1] as f32)
+    }
+}
+
+/// Depth of the ground behind everything.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GroundDepth {
+    height_m: f32,
+    /// Height that is gained along right, down and forward.
+    slope: Vec3,
+    is_perspective: bool,
+}
+
+impl GroundDepth {
+    /// Depth at which the ray through (u, v) meets the ground, m; infinite where it does not.
+    #[inline]
+    pub(crate) fn depth_m(&self, uv: Vec2) -> f32 {
+        let across = self.slope.x * uv.x + self.slope.y * uv.y;
+        let depth_m = if self.is_perspective {
+            -self.height_m / (across + self.slope.z)
+        } else {
+            -(self.height_m + across) / self.slope.z
+        };
+        if depth_m > NEAR_M { depth_m } else { f32::INFINITY }
     }
 }

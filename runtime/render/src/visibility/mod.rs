@@ -22,4 +22,4 @@ pub use lens::Lens;
 pub use sample_pattern::SamplePattern;
 pub use scene_parts::{Cone, Meshes, Owner, SceneParts};
 pub use tile_samples::{Fragment, PartId, TileSamples};
-pub use tiles::{TILE_PX, for_each_tile};
+pub(crate) use tiles::{TILE_PX, for_each_tile};

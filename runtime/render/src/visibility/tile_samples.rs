@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::visibility::lens::Lens;
+use crate::visibility::lens::{GroundDepth, Lens};
 use crate::visibility::rounded_cone::PreparedCone;
 use crate::visibility::sample_pattern::{SamplePattern, UNITS};
 use crate::visibility::triangle::ScreenTriangle;
@@ -81,6 +81,22 @@ impl<'a> TileSamples<'a> {
         let pixel = pixel as u32;
         let corner = [self.corner_px[0] + pixel % self.size_px[0], self.corner_px[1] + pixel / self.size_px[0]];
         self.lens.to_uv(Vec2::new(corner[0] as f32, corner[1] as f32))
+    }
+
+    /// Draws the ground behind everything.
+    pub(crate) fn put_ground(&mut self, ground: &GroundDepth) {
+        let (count, width, pixel) = (self.pattern.count(), self.size_px[0], self.lens.pixel);
+        for (sample, first_uv) in self.first_uvs().enumerate() {
+            for row in 0..self.size_px[1] {
+                let v = first_uv.y + row as f32 * pixel;
+                for column in 0..width {
+                    let depth_m = ground.depth_m(Vec2::new(first_uv.x + column as f32 * pixel, v));
+                    let at = (row * width + column) as usize * count + sample;
+                    self.depths_m[at] = depth_m;
+                    self.parts[at] = if depth_m < f32::INFINITY { PartId::GROUND } else { PartId::SKY };
+                }
+            }
+        }
     }
 
     /// Columns and rows, in the tile, that lie within bounds of the picture.

@@ -1,10 +1,9 @@
 //! All tiles of a picture, in parallel. Each tile depends only on the scene and the lens, and the parts of a tile are
 //! drawn in their order, so that any number of threads gives the same bits.
 
-use glam::Vec2;
 use rayon::prelude::*;
 
-use crate::visibility::lens::Lens;
+use crate::visibility::lens::{GroundDepth, Lens};
 use crate::visibility::rounded_cone::PreparedCone;
 use crate::visibility::sample_pattern::SamplePattern;
 use crate::visibility::scene_parts::SceneParts;
@@ -13,7 +12,7 @@ use crate::visibility::tile_samples::{PartId, TileSamples};
 use crate::visibility::triangle::{ScreenTriangle, append_visible};
 
 /// Side of a tile, pixels: its samples fit the first cache.
-pub const TILE_PX: u32 = 32;
+pub(crate) const TILE_PX: u32 = 32;
 /// Number of triangles that are projected at once.
 const TRIANGLES_AT_ONCE: usize = 4096;
 
@@ -31,13 +30,13 @@ struct TileLists {
     entries: Vec<u32>,
 }
 
-/// Calls a function for each tile, in parallel, and returns the results row by row. `background` gives the depth (m) and
-/// the part behind everything, at (u, v); infinite depth is the sky. Parts are numbered cones first, then triangles.
-pub fn for_each_tile<T: Send>(
+/// Calls a function for each tile, in parallel, and returns the results row by row. The ground is drawn where there is
+/// one. Parts are numbered cones first, then triangles.
+pub(crate) fn for_each_tile<T: Send>(
     scene: &SceneParts,
     lens: &Lens,
     pattern: SamplePattern,
-    background: impl Fn(Vec2) -> f32 + Sync,
+    ground: Option<GroundDepth>,
     function: impl Fn(&mut TileSamples<'_>) -> T + Sync,
 ) -> Vec<T> {
     let cones = visible_cones(scene, lens);
@@ -48,7 +47,9 @@ pub fn for_each_tile<T: Send>(
     let draw = |tile: u32| {
         let corner_px = [tile % tiles[0] * TILE_PX, tile / tiles[0] * TILE_PX];
         let mut samples = TileSamples::new(lens, pattern, corner_px, TILE_PX);
-        samples.put_background(&background);
+        if let Some(ground) = &ground {
+            samples.put_ground(ground);
+        }
         for cone in cone_lists.of(tile).map(|index| &cones[index]) {
             samples.draw_cone(&cone.shape, cone.part, cone.bounds);
         }
@@ -119,23 +120,10 @@ impl TileLists {
     }
 }
 
-impl TileSamples<'_> {
-    /// Draws the ground behind everything.
-    fn put_background(&mut self, depth_m: &impl Fn(Vec2) -> f32) {
-        for sample in 0..self.parts.len() {
-            let depth_m = depth_m(self.uv(sample));
-            if depth_m < f32::INFINITY {
-                self.depths_m[sample] = depth_m;
-                self.parts[sample] = PartId::GROUND;
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use fbcrowd_sim::maths::SplitMix64;
-    use glam::Vec3;
+    use glam::{Vec2, Vec3};
 
     use super::*;
     use crate::visibility::scene_parts::{Cone, Owner};
@@ -196,7 +184,7 @@ mod tests {
                     &scene,
                     lens,
                     SamplePattern::Four,
-                    |_| f32::INFINITY,
+                    None,
                     |tile| {
                         let samples = 0..tile.parts.len();
                         samples.map(|sample| (tile.uv(sample), tile.depths_m[sample])).collect::<Vec<_>>()
@@ -234,7 +222,7 @@ mod tests {
             &scene,
             &lenses()[0],
             SamplePattern::Sixteen,
-            |_| f32::INFINITY,
+            None,
             |tile| tile.parts.iter().filter(|part| **part == PartId::SKY).count(),
         );
         assert_eq!(tiles.iter().sum::<usize>(), 0);
@@ -251,7 +239,7 @@ mod tests {
                     &scene,
                     &lens,
                     SamplePattern::Four,
-                    |_| 9.0,
+                    Some(lens.ground()),
                     |tile| {
                         (tile.depths_m.iter().map(|depth_m| depth_m.to_bits()).collect::<Vec<_>>(), tile.parts.clone())
                     },
@@ -273,7 +261,7 @@ mod tests {
                 &scene,
                 lens,
                 SamplePattern::Four,
-                |_| f32::INFINITY,
+                None,
                 |tile| {
                     for sample in 0..tile.parts.len() {
                         let uv = tile.uv(sample);
