@@ -34,6 +34,7 @@ pub mod camera;
 pub mod constraints;
 pub mod error;
 pub(crate) mod figure;
+pub mod passes;
 pub mod plots;
 pub mod raster;
 pub mod shading;

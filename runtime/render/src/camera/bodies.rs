@@ -17,22 +17,26 @@ const HEIGHT_M: f32 = 1.75;
 /// Number of agents that are posed at once.
 const AGENTS_AT_ONCE: usize = 32;
 
-/// The bodies that a lens sees, or that throw shadows into its picture. `hidden` is the id of an agent that is left out.
+/// The bodies that a lens sees, or that throw shadows into its picture. `agents` decide which bodies are there and how
+/// fine they are, `posed` where their parts are: the same agents at the same time, or at another one. `hidden` is the id
+/// of an agent that is left out.
 pub(crate) fn body_parts(
     figures: &Figures,
     agents: &[AgentFrame],
+    posed: &[AgentFrame],
     looks: &[Look],
     lens: &Lens,
     hidden: Option<u32>,
 ) -> SceneParts {
     let chunks: Vec<SceneParts> = agents
         .par_chunks(AGENTS_AT_ONCE)
+        .zip(posed.par_chunks(AGENTS_AT_ONCE))
         .zip(looks.par_chunks(AGENTS_AT_ONCE))
-        .map(|(agents, looks)| {
+        .map(|((agents, posed), looks)| {
             let mut parts = SceneParts::default();
-            for (agent, look) in agents.iter().zip(looks) {
+            for ((agent, posed), look) in agents.iter().zip(posed).zip(looks) {
                 if Some(agent.id.0) != hidden && is_near_picture(lens, agent) {
-                    figures.append(&mut parts, agent, look, height_px(lens, agent));
+                    figures.append(&mut parts, posed, look, height_px(lens, agent));
                 }
             }
             parts

@@ -10,6 +10,7 @@ pub(crate) mod bodies;
 pub(crate) mod captions;
 pub(crate) mod colour_by;
 pub(crate) mod default_camera;
+pub(crate) mod exr_passes;
 pub(crate) mod options;
 pub(crate) mod placement;
 pub(crate) mod sequence;

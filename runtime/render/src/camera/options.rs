@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use fbcrowd_sim::scenario::CameraSpec;
 
 use crate::camera::colour_by::ColourBy;
+use crate::passes::{ColourSpace, ExrCompression, PassSet};
 use crate::shading::Occlusion;
 use crate::top_view::{FrameRange, PictureFormat};
 use crate::visibility::SamplePattern;
@@ -47,6 +48,12 @@ pub struct CameraOptions {
     pub quality: Quality,
     /// What the colours of clothes show.
     pub colour_by: ColourBy,
+    /// Passes beside the picture; EXR only.
+    pub passes: PassSet,
+    /// Compression of EXR files.
+    pub compression: ExrCompression,
+    /// Colour space of EXR files.
+    pub colour_space: ColourSpace,
     /// Whether a strip with frame, time and camera is drawn below; PNG only.
     pub burn_in: bool,
     /// Whether each agent's id is written over it; PNG only. The view's `labels` turn it on, too.

@@ -14,11 +14,13 @@ use rayon::prelude::*;
 
 use crate::camera::captions::CameraCaptions;
 use crate::camera::default_camera::{DEFAULT_NAME, default_camera};
+use crate::camera::exr_passes;
 use crate::camera::options::CameraOptions;
 use crate::camera::placement::lens_at;
 use crate::camera::view::{CameraView, Shot};
 use crate::error::RenderError;
-use crate::raster::{exr_frame, png_frame};
+use crate::passes::tile_passes::channels;
+use crate::raster::png_frame;
 use crate::shading::LinearPicture;
 use crate::top_view::frame_range::FIRST_FRAME;
 use crate::top_view::playback::{picture_time_s, sample};
@@ -26,6 +28,8 @@ use crate::top_view::sequence::{PictureFormat, frame_numbers, make_folder};
 
 /// Bytes of a frame for each pixel while it is drawn and encoded.
 const PIXEL_BYTES: usize = 24;
+/// Bytes of each channel of a pass, for each pixel: values of tiles, of the frame, and in the file.
+const PASS_BYTES: usize = 12;
 /// Bytes of a frame for its parts and its shadow map.
 const FRAME_BYTES: usize = 160 << 20;
 /// Greatest number of bytes of all frames that are drawn at once.
@@ -65,7 +69,9 @@ pub fn render_camera_sequence(
     };
     let view = &recording.header().scenario.view;
     let size_px = options.size_px.unwrap_or([view.width, view.height]);
-    let frame_bytes = FRAME_BYTES + PIXEL_BYTES * size_px[0] as usize * size_px[1] as usize;
+    let passes = channels(&options.passes, options.quality.samples.count()).len();
+    let pixel_bytes = PIXEL_BYTES + PASS_BYTES * passes;
+    let frame_bytes = FRAME_BYTES + pixel_bytes * size_px[0] as usize * size_px[1] as usize;
     let at_once = (AT_ONCE_BYTES / frame_bytes).clamp(1, rayon::current_num_threads()).min(numbers.len());
     if !memory::has_room(at_once * frame_bytes) {
         return Err(RenderError::OutOfMemory { mib: (at_once * frame_bytes) >> 20 });
@@ -127,9 +133,14 @@ impl CameraSequence<'_> {
         let lens = lens_at(self.recording, &self.camera, self.size_px, time_s)?;
         let shot = Shot { lens, time_s, eyes_of: self.camera.eyes_of, fog_m: self.camera.fog_m };
         let agents = self.outside_eye(agents, lens.eye_m, number)?;
-        let picture = self.view.draw(&shot, &agents);
         let path = picture_path(self.options, number);
-        self.write(&path, &picture, &shot, &agents, number)?;
+        match self.options.format {
+            PictureFormat::Exr => {
+                let lens_at = |time_s| lens_at(self.recording, &self.camera, self.size_px, time_s);
+                exr_passes::write(&path, self.recording, &self.view, self.options, (&shot, &agents, number), lens_at)?;
+            }
+            PictureFormat::Png => self.write_png(&path, &self.view.draw(&shot, &agents), &shot, &agents, number)?,
+        }
         Ok(path)
     }
 
@@ -149,7 +160,7 @@ impl CameraSequence<'_> {
         }
     }
 
-    fn write(
+    fn write_png(
         &self,
         path: &std::path::Path,
         picture: &LinearPicture,
@@ -158,9 +169,6 @@ impl CameraSequence<'_> {
         number: u32,
     ) -> Result<(), RenderError> {
         let scenario = &self.recording.header().scenario;
-        if self.options.format == PictureFormat::Exr {
-            return exr_frame::write_linear(path, picture.size_px, &picture.pixels, scenario.view.frame_rate_hz);
-        }
         let mut pixmap = picture.to_display();
         if self.options.labels || scenario.view.labels {
             self.captions.draw_labels(&mut pixmap, &shot.lens, agents);

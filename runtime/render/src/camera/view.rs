@@ -17,7 +17,7 @@ use crate::shading::linear_picture::LinearPicture;
 use crate::shading::occlusion::{Occlusion, OcclusionGrid};
 use crate::shading::shader::Shader;
 use crate::shading::shadow_map::ShadowMap;
-use crate::visibility::{Lens, Meshes, SceneParts, for_each_tile};
+use crate::visibility::{Lens, Meshes, SceneParts, TileSamples, for_each_tile};
 
 /// Distance from the eye up to which walls throw shadows, m.
 const WALL_SHADOW_M: f32 = 45.0;
@@ -57,8 +57,13 @@ impl<'a> CameraView<'a> {
 
     /// The cones and triangles of a frame.
     pub fn scene(&self, shot: &Shot, agents: &[AgentFrame]) -> SceneParts {
+        self.posed_scene(shot, agents, agents)
+    }
+
+    /// The same parts, where they are at another time: `posed` holds the agents of `agents` then.
+    pub(crate) fn posed_scene(&self, shot: &Shot, agents: &[AgentFrame], posed: &[AgentFrame]) -> SceneParts {
         let looks = looks(self.colour_by, agents, self.population);
-        let mut scene = body_parts(&self.figures, agents, &looks, &shot.lens, shot.eyes_of);
+        let mut scene = body_parts(&self.figures, agents, posed, &looks, &shot.lens, shot.eyes_of);
         scene.meshes.extend(&self.blocks);
         let frame = (shot.time_s / f64::from(self.header.scenario.dt_s) + 1e-3) as u32;
         append_doors(&mut scene.meshes, &self.header.scenario, self.population, frame);
@@ -72,6 +77,16 @@ impl<'a> CameraView<'a> {
 
     /// Picture of a scene that is made already.
     pub fn draw_scene(&self, shot: &Shot, scene: &SceneParts) -> LinearPicture {
+        self.draw_with(shot, scene, |_| ()).0
+    }
+
+    /// Picture of a scene, and the results of a function of each tile, row by row.
+    pub(crate) fn draw_with<T: Send>(
+        &self,
+        shot: &Shot,
+        scene: &SceneParts,
+        of_tile: impl Fn(&TileSamples<'_>) -> T + Sync,
+    ) -> (LinearPicture, Vec<T>) {
         let Shot { lens, time_s, fog_m, .. } = shot;
         let shadow = if self.quality.shadow { ShadowMap::new(scene, &self.shaded_walls_m(lens)) } else { None };
         let occluders = (self.quality.occlusion > Occlusion::None).then(|| OcclusionGrid::new(scene));
@@ -86,8 +101,21 @@ impl<'a> CameraView<'a> {
             occlusion: self.quality.occlusion,
             fog_m: *fog_m,
         };
-        let tiles = for_each_tile(scene, lens, self.quality.samples, Some(lens.ground()), |tile| shader.tile(tile));
-        LinearPicture::from_tiles(lens.size_px, &tiles)
+        let tiles = for_each_tile(scene, lens, self.quality.samples, Some(lens.ground()), |tile| {
+            (shader.tile(tile), of_tile(tile))
+        });
+        let (tiles, results): (Vec<_>, Vec<T>) = tiles.into_iter().unzip();
+        (LinearPicture::from_tiles(lens.size_px, &tiles), results)
+    }
+
+    /// The recorded agents.
+    pub(crate) fn population(&self) -> &'a Population {
+        self.population
+    }
+
+    /// Number of samples of a pixel.
+    pub(crate) fn samples(&self) -> usize {
+        self.quality.samples.count()
     }
 
     /// Corners of walls near the eye, whose shadows are seen.

@@ -51,13 +51,7 @@ impl ShadowMap {
         let eye_m = flat.to_world(middle.extend(0.0)) + TO_SUN * EYE_DISTANCE_M;
         let lens = Lens::orthographic(size_px, eye_m, -TO_SUN, texel_m * size_px[0] as f32);
         let columns = size_px[0].div_ceil(TILE_PX);
-        let tiles = for_each_tile(
-            scene,
-            &lens,
-            SamplePattern::One,
-            None,
-            |tile| std::mem::take(&mut tile.depths_m),
-        );
+        let tiles = for_each_tile(scene, &lens, SamplePattern::One, None, |tile| std::mem::take(&mut tile.depths_m));
         Some(Self { lens, tiles, columns })
     }
 

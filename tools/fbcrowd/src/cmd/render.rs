@@ -8,6 +8,7 @@ use fbcrowd_jobs::output_path::LockedFolder;
 use fbcrowd_jobs::rendering::{self, RenderedSequence};
 use fbcrowd_jobs::wording::counted;
 use fbcrowd_render::camera::{CameraOptions, ColourBy, Quality};
+use fbcrowd_render::passes::{ColourSpace, ExrCompression, PassSet};
 use fbcrowd_render::shading::Occlusion;
 use fbcrowd_render::top_view::{FrameRange, PictureFormat, SequenceOptions};
 use fbcrowd_render::visibility::SamplePattern;
@@ -50,6 +51,45 @@ pub(crate) struct Args {
     agent: Vec<usize>,
     #[command(flatten)]
     camera: CameraArgs,
+    #[command(flatten)]
+    exr: ExrArgs,
+}
+
+/// Options of `--view camera --format exr`.
+#[derive(clap::Args)]
+#[command(next_help_heading = "EXR of the camera view")]
+struct ExrArgs {
+    /// Passes, with commas between them: z, n, p, motion, agent, group, material (Cryptomattes), id; or all.
+    #[arg(long, value_name = "PASSES")]
+    passes: Option<PassSet>,
+    /// Compression; all are lossless.
+    #[arg(long, value_enum)]
+    compression: Option<CompressionArg>,
+    /// Colour space of the scene-linear picture.
+    #[arg(long, value_enum)]
+    colour_space: Option<ColourSpaceArg>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum CompressionArg {
+    /// Deflate, sixteen lines at once: the default.
+    Zip16,
+    /// Deflate, line by line.
+    Zip1,
+    /// Runs of equal bytes: fast, about twice as large.
+    Rle,
+    /// Wavelets.
+    Piz,
+    None,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ColourSpaceArg {
+    /// Primaries of Rec. 709 and sRGB: the default.
+    Rec709,
+    /// ACEScg, primaries AP1.
+    #[value(name = "acescg")]
+    AcesCg,
 }
 
 /// Options of `--view camera`.
@@ -128,6 +168,27 @@ enum ColourByArg {
     Density,
 }
 
+impl From<CompressionArg> for ExrCompression {
+    fn from(arg: CompressionArg) -> Self {
+        match arg {
+            CompressionArg::Zip16 => Self::Zip16,
+            CompressionArg::Zip1 => Self::Zip1,
+            CompressionArg::Rle => Self::Rle,
+            CompressionArg::Piz => Self::Piz,
+            CompressionArg::None => Self::Uncompressed,
+        }
+    }
+}
+
+impl From<ColourSpaceArg> for ColourSpace {
+    fn from(arg: ColourSpaceArg) -> Self {
+        match arg {
+            ColourSpaceArg::Rec709 => Self::Rec709,
+            ColourSpaceArg::AcesCg => Self::AcesCg,
+        }
+    }
+}
+
 /// Reads a picture's size, such as `1920x1080`.
 fn size_px(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse().ok().filter(|side| SIDE_PX.contains(side));
@@ -156,6 +217,9 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 }
 
 fn render_top(args: &Args, recording: &Recording) -> Result<RenderedSequence, Failure> {
+    if args.exr.passes.is_some() || args.exr.compression.is_some() || args.exr.colour_space.is_some() {
+        return Err(Failure::bad("--passes, --compression and --colour-space need --view camera".to_owned()));
+    }
     if args.camera.camera.is_some() || args.camera.cameras.is_some() {
         return Err(Failure::bad("--camera and --cameras choose a camera; add --view camera".to_owned()));
     }
@@ -177,6 +241,12 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
     if args.overlay.is_some() {
         return Err(Failure::bad("--overlay is drawn in the view from above; remove --view camera".to_owned()));
     }
+    let ExrArgs { passes, compression, colour_space } = &args.exr;
+    if !matches!(args.format, FormatArg::Exr) && (passes.is_some() || compression.is_some() || colour_space.is_some()) {
+        return Err(Failure::bad(
+            "--passes, --compression and --colour-space belong to EXR; add --format exr".to_owned(),
+        ));
+    }
     let mut inputs = vec![args.recording.clone()];
     let (mut size_px, mut other_cameras) = (*size, None);
     if let Some(path) = cameras {
@@ -195,6 +265,9 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
         camera: camera.clone(),
         quality: Quality { samples: *samples, shadow: !no_shadow, occlusion: (*occlusion).into() },
         colour_by: (*colour_by).into(),
+        passes: args.exr.passes.clone().unwrap_or_default(),
+        compression: args.exr.compression.map_or_else(ExrCompression::default, Into::into),
+        colour_space: args.exr.colour_space.map_or_else(ColourSpace::default, Into::into),
         burn_in: *burn_in,
         labels: *labels,
     };
