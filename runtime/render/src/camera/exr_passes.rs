@@ -66,7 +66,7 @@ pub(crate) fn write(
 fn posed_then(agents: &[AgentFrame], then: &[AgentFrame]) -> Vec<AgentFrame> {
     let posed = |agent: &AgentFrame| {
         let found = then.binary_search_by_key(&agent.id, |other| other.id);
-        found.map_or_else(|_| agent.clone(), |index| then[index].clone())
+        found.map_or(*agent, |index| then[index])
     };
     agents.iter().map(posed).collect()
 }

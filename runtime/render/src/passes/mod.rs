@@ -6,8 +6,8 @@
 //! | pass | channels | type | meaning |
 //! |---|---|---|---|
 //! | `z` | `Z` | float | distance from the camera's plane, m, of the nearest sample; 1e10 where there is only sky |
-//! | `n` | `N.X N.Y N.Z` | half | unit normal, world, of the nearest part; 0 for the sky |
-//! | `p` | `P.X P.Y P.Z` | float | position, world, m, of the nearest part; 0 for the sky |
+//! | `n` | `N.X N.Y N.Z` | half | unit normal, world, at the nearest sample; 0 for the sky |
+//! | `p` | `P.X P.Y P.Z` | float | position, world, m, of the nearest sample; 0 for the sky |
 //! | `motion` | `forward.u forward.v backward.u backward.v` | half | pixels to where the same point is one frame later and earlier; u right, v up |
 //! | `agent`, `group`, `material` | `CryptoAsset00.R` … | float | Cryptomatte 1.2 by agent, by group of agents, by material |
 //! | `id` | `agent.id` | uint | id of the nearest agent plus 1; 0 for all else |

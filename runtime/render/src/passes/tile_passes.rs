@@ -39,6 +39,16 @@ pub(crate) struct FramePasses<'a> {
     pub(crate) others: Option<&'a [OtherFrame; 2]>,
 }
 
+/// The nearest sample of a pixel as a fragment of its own: the mean of samples would lie between near and far.
+fn nearest_sample(tile: &TileSamples<'_>, pixel: usize) -> Fragment {
+    let samples = pixel * tile.pattern.count()..(pixel + 1) * tile.pattern.count();
+    let nearer = |a: usize, b: usize| if tile.depths_m[b] < tile.depths_m[a] { b } else { a };
+    let nearest = samples.clone().reduce(nearer).unwrap_or(samples.start);
+    let (part, depth_m, uv) = (tile.parts[nearest], tile.depths_m[nearest], tile.uv(nearest));
+    let point_m = if part == PartId::SKY { uv.extend(1.0) } else { tile.lens.at_depth(uv, depth_m) };
+    Fragment { part, samples: 1, depth_m, point_m }
+}
+
 /// Name of an agent in mattes.
 pub(crate) fn agent_name(agent: u32) -> String {
     format!("agent_{agent:04}")
@@ -109,8 +119,7 @@ impl FramePasses<'_> {
         let (mut fragments, mut coverage, mut values) = (Vec::new(), Coverage::default(), Vec::new());
         for pixel in 0..(tile.size_px[0] * tile.size_px[1]) as usize {
             tile.fragments(pixel, &mut fragments);
-            let nearest = fragments.iter().min_by(|a, b| a.depth_m.total_cmp(&b.depth_m));
-            let Some(nearest) = nearest else { continue };
+            let nearest = &nearest_sample(tile, pixel);
             for pass in Pass::ALL.into_iter().filter(|pass| self.passes.holds(*pass)) {
                 match pass {
                     Pass::Depth if nearest.part == PartId::SKY => values.push(SKY_DEPTH_M),
