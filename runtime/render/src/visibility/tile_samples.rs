@@ -47,6 +47,8 @@ pub struct TileSamples<'a> {
     pub corner_px: [u32; 2],
     /// Number of columns and rows.
     pub size_px: [u32; 2],
+    /// Whether any cone or triangle can touch the tile.
+    pub has_parts: bool,
     /// Depth of each sample, pixel by pixel, m; infinite where there is only the sky.
     pub depths_m: Vec<f32>,
     /// Part of each sample, pixel by pixel.
@@ -59,7 +61,7 @@ impl<'a> TileSamples<'a> {
         let size_px = [0, 1].map(|axis| side_px.min(lens.size_px[axis] - corner_px[axis]));
         let count = (size_px[0] * size_px[1]) as usize * pattern.count();
         let (depths_m, parts) = (vec![f32::INFINITY; count], vec![PartId::SKY; count]);
-        Self { lens, pattern, corner_px, size_px, depths_m, parts }
+        Self { lens, pattern, corner_px, size_px, has_parts: false, depths_m, parts }
     }
 
     /// (u, v) of the samples of the pixel in the upper left corner.
@@ -110,6 +112,7 @@ impl<'a> TileSamples<'a> {
 
     /// Draws a cone where it is nearest.
     pub(crate) fn draw_cone(&mut self, cone: &PreparedCone, part: PartId, bounds: [[u32; 2]; 2]) {
+        self.has_parts = true;
         let [columns, rows] = self.window(bounds);
         let count = self.pattern.count();
         let width = self.size_px[0];
@@ -130,6 +133,7 @@ impl<'a> TileSamples<'a> {
 
     /// Draws a triangle where it is nearest.
     pub(crate) fn draw_triangle(&mut self, triangle: &ScreenTriangle, part: PartId, bounds: [[u32; 2]; 2]) {
+        self.has_parts = true;
         let [columns, rows] = self.window(bounds);
         let (count, width) = (self.pattern.count(), self.size_px[0]);
         let edges = triangle.edges();

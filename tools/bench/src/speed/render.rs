@@ -195,7 +195,9 @@ fn thread_cpu_s() -> Option<f64> {
 fn text(details: &Details) -> String {
     let line = |case: &Case| {
         let Case { agents, tallest_px, light, parts_s, frame_s } = case;
-        format!("{agents:>7} agents up to {tallest_px:>3.0} px  {light:<28} {frame_s:.3} s a frame, parts {parts_s:.3} s\n")
+        format!(
+            "{agents:>7} agents up to {tallest_px:>3.0} px  {light:<28} {frame_s:.3} s a frame, parts {parts_s:.3} s\n"
+        )
     };
     details.cases.iter().map(line).collect()
 }
