@@ -139,21 +139,21 @@ impl<'a> TileSamples<'a> {
         let edges = triangle.edges();
         let (offsets, pixel) = (self.pattern.offsets(), self.lens.pixel);
         let first_uv = self.lens.to_uv(Vec2::new(self.corner_px[0] as f32, self.corner_px[1] as f32));
+        let steps = edges.map(|edge| edge.step(UNITS));
+        let first_x = (self.corner_px[0] + columns.start) as i32 * UNITS;
         for row in rows {
             let y = (self.corner_px[1] + row) as i32 * UNITS;
-            for column in columns.clone() {
-                let x = (self.corner_px[0] + column) as i32 * UNITS;
-                for (sample, offset) in offsets.iter().enumerate() {
-                    let position = [x + offset[0], y + offset[1]];
-                    if edges.iter().any(|edge| edge.at(position) < 0) {
-                        continue;
+            for (sample, offset) in offsets.iter().enumerate() {
+                let mut values = edges.map(|edge| edge.at([first_x + offset[0], y + offset[1]]));
+                let v = first_uv.y + (row as f32 + offset[1] as f32 / UNITS as f32) * pixel;
+                for column in columns.clone() {
+                    // No value is negative.
+                    if values[0] | values[1] | values[2] >= 0 {
+                        let u = first_uv.x + (column as f32 + offset[0] as f32 / UNITS as f32) * pixel;
+                        let at = (row * width + column) as usize * count + sample;
+                        self.put(at, triangle.depth_m(Vec2::new(u, v)), part);
                     }
-                    let within = Vec2::new(
-                        column as f32 + offset[0] as f32 / UNITS as f32,
-                        row as f32 + offset[1] as f32 / UNITS as f32,
-                    );
-                    let at = (row * width + column) as usize * count + sample;
-                    self.put(at, triangle.depth_m(first_uv + within * pixel), part);
+                    values = [values[0] + steps[0], values[1] + steps[1], values[2] + steps[2]];
                 }
             }
         }
