@@ -24,11 +24,18 @@ pub(crate) fn grid_share(point_m: Vec2, footprint_m: Vec2) -> Vec3 {
 /// Share of an interval around a coordinate that lines of a period and width cover.
 fn line_share(at_m: f32, footprint_m: f32, period_m: f32, width_m: f32) -> f32 {
     let mean = width_m / period_m;
+    if footprint_m >= period_m {
+        return mean;
+    }
     let half_m = 0.5 * footprint_m.max(1e-4);
+    let per_m = 1.0 / period_m;
     // The integral of the lines, which lie about the multiples of the period.
     let before = |end_m: f32| {
         let shifted_m = end_m + 0.5 * width_m;
-        let whole = (shifted_m / period_m).floor();
+        // Without a call of the system's library.
+        let cells = shifted_m * per_m;
+        let near = cells as i32 as f32;
+        let whole = if near > cells { near - 1.0 } else { near };
         whole * width_m + (shifted_m - whole * period_m).min(width_m)
     };
     let covered = (before(at_m + half_m) - before(at_m - half_m)) / (2.0 * half_m);

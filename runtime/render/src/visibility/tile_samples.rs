@@ -47,6 +47,8 @@ pub struct TileSamples<'a> {
     pub corner_px: [u32; 2],
     /// Number of columns and rows.
     pub size_px: [u32; 2],
+    /// Whether any cone or triangle can touch the tile.
+    pub has_parts: bool,
     /// Depth of each sample, pixel by pixel, m; infinite where there is only the sky.
     pub depths_m: Vec<f32>,
     /// Part of each sample, pixel by pixel.
@@ -59,7 +61,7 @@ impl<'a> TileSamples<'a> {
         let size_px = [0, 1].map(|axis| side_px.min(lens.size_px[axis] - corner_px[axis]));
         let count = (size_px[0] * size_px[1]) as usize * pattern.count();
         let (depths_m, parts) = (vec![f32::INFINITY; count], vec![PartId::SKY; count]);
-        Self { lens, pattern, corner_px, size_px, depths_m, parts }
+        Self { lens, pattern, corner_px, size_px, has_parts: false, depths_m, parts }
     }
 
     /// (u, v) of the samples of the pixel in the upper left corner.
@@ -110,6 +112,7 @@ impl<'a> TileSamples<'a> {
 
     /// Draws a cone where it is nearest.
     pub(crate) fn draw_cone(&mut self, cone: &PreparedCone, part: PartId, bounds: [[u32; 2]; 2]) {
+        self.has_parts = true;
         let [columns, rows] = self.window(bounds);
         let count = self.pattern.count();
         let width = self.size_px[0];
@@ -130,26 +133,27 @@ impl<'a> TileSamples<'a> {
 
     /// Draws a triangle where it is nearest.
     pub(crate) fn draw_triangle(&mut self, triangle: &ScreenTriangle, part: PartId, bounds: [[u32; 2]; 2]) {
+        self.has_parts = true;
         let [columns, rows] = self.window(bounds);
         let (count, width) = (self.pattern.count(), self.size_px[0]);
         let edges = triangle.edges();
         let (offsets, pixel) = (self.pattern.offsets(), self.lens.pixel);
         let first_uv = self.lens.to_uv(Vec2::new(self.corner_px[0] as f32, self.corner_px[1] as f32));
+        let steps = edges.map(|edge| edge.step(UNITS));
+        let first_x = (self.corner_px[0] + columns.start) as i32 * UNITS;
         for row in rows {
             let y = (self.corner_px[1] + row) as i32 * UNITS;
-            for column in columns.clone() {
-                let x = (self.corner_px[0] + column) as i32 * UNITS;
-                for (sample, offset) in offsets.iter().enumerate() {
-                    let position = [x + offset[0], y + offset[1]];
-                    if edges.iter().any(|edge| edge.at(position) < 0) {
-                        continue;
+            for (sample, offset) in offsets.iter().enumerate() {
+                let mut values = edges.map(|edge| edge.at([first_x + offset[0], y + offset[1]]));
+                let v = first_uv.y + (row as f32 + offset[1] as f32 / UNITS as f32) * pixel;
+                for column in columns.clone() {
+                    // No value is negative.
+                    if values[0] | values[1] | values[2] >= 0 {
+                        let u = first_uv.x + (column as f32 + offset[0] as f32 / UNITS as f32) * pixel;
+                        let at = (row * width + column) as usize * count + sample;
+                        self.put(at, triangle.depth_m(Vec2::new(u, v)), part);
                     }
-                    let within = Vec2::new(
-                        column as f32 + offset[0] as f32 / UNITS as f32,
-                        row as f32 + offset[1] as f32 / UNITS as f32,
-                    );
-                    let at = (row * width + column) as usize * count + sample;
-                    self.put(at, triangle.depth_m(first_uv + within * pixel), part);
+                    values = [values[0] + steps[0], values[1] + steps[1], values[2] + steps[2]];
                 }
             }
         }
