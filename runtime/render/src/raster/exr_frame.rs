@@ -115,7 +115,7 @@ impl Linearizer {
 }
 
 /// A frame rate as a fraction: a whole number, a broadcast rate n·1000/1001, or thousandths.
-fn frame_rate_fraction(frame_rate_hz: f32) -> (i32, u32) {
+pub(crate) fn frame_rate_fraction(frame_rate_hz: f32) -> (i32, u32) {
     let (whole, broadcast) = (frame_rate_hz.round(), (frame_rate_hz * 1.001).round());
     if (frame_rate_hz - whole).abs() < 1e-4 {
         (whole as i32, 1)

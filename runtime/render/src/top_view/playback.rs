@@ -19,10 +19,13 @@ const MAX_TRACK_POINTS: usize = 1 << 25;
 
 /// Number of pictures of a recording at its view's frame rate; the first is at time 0.
 pub(crate) fn picture_count(recording: &Recording) -> u32 {
-    let steps = recording.frame_count().saturating_sub(1);
-    let scenario = &recording.header().scenario;
-    let duration_s = steps as f64 * f64::from(scenario.dt_s);
-    (duration_s * f64::from(scenario.view.frame_rate_hz) + SAME_FRAME_STEPS) as u32 + 1
+    let frame_rate_hz = recording.header().scenario.view.frame_rate_hz;
+    (duration_s(recording) * f64::from(frame_rate_hz) + SAME_FRAME_STEPS) as u32 + 1
+}
+
+/// Time of a recording's last frame, s.
+pub(crate) fn duration_s(recording: &Recording) -> f64 {
+    recording.frame_count().saturating_sub(1) as f64 * f64::from(recording.header().scenario.dt_s)
 }
 
 /// Time of a picture, given by its index from 0, s.

@@ -3,8 +3,9 @@
 //! Enters: a scenario file ([`file`](mod@file)), or agents made in code. Leaves: a [`Scenario`] in which every agent is
 //! explicit, every number is in range and no path occurs.
 //!
-//! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `schedule`, `due_times`, `profile`, `social_group`, `places`
-//! (zones, doors, markings, measured lines and areas), `coupling` and `view`; then `rules` and `ranges`, `fault` and
+//! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `schedule`, `due_times`, `profile`,
+//! `social_group`, `places` (zones, doors, markings, measured lines and areas, cameras), `coupling` and `view`; then
+//! `rules` and `ranges`, `fault` and
 //! `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
@@ -31,6 +32,7 @@ pub use due_times::DueTimes;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};
+pub use places::camera_spec::{CameraFollow, CameraKey, CameraOrbit, CameraSpec};
 pub use places::door::DoorSpec;
 pub use places::marking::{Marking, MarkingColour, MarkingShape, PlaceLabel};
 pub use places::measure_spec::{MeasureSpec, MeasuredPlace};

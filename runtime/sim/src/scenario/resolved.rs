@@ -9,6 +9,7 @@ use crate::planning::planner::Planner;
 use crate::route::mesh::WalkablePolygon;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::coupling::Coupling;
+use crate::scenario::places::camera_spec::CameraSpec;
 use crate::scenario::places::door::DoorSpec;
 use crate::scenario::places::marking::{Marking, PlaceLabel};
 use crate::scenario::places::measure_spec::MeasureSpec;
@@ -75,6 +76,9 @@ pub struct Scenario {
     pub measures: Vec<MeasureSpec>,
     /// Simple polygons, corners counter-clockwise, world, m; agents stay outside.
     pub obstacles_m: Vec<Vec<Vec2>>,
+    /// Height of each obstacle in pictures, by index, m; none where the file states none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub obstacle_heights_m: Vec<Option<f32>>,
     /// Obstacles that are absent while a signal is green.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub doors: Vec<DoorSpec>,
@@ -90,6 +94,9 @@ pub struct Scenario {
     /// Texts at places.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub labels: Vec<PlaceLabel>,
+    /// Cameras, by which pictures at eye height are taken.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cameras: Vec<CameraSpec>,
     /// Tunables.
     pub params: Params,
     /// How the top view frames the scene.
@@ -134,11 +141,13 @@ impl Scenario {
             zones: Vec::new(),
             measures: Vec::new(),
             obstacles_m: Vec::new(),
+            obstacle_heights_m: Vec::new(),
             doors: Vec::new(),
             enclosures_m: Vec::new(),
             walkable_m: Vec::new(),
             markings: Vec::new(),
             labels: Vec::new(),
+            cameras: Vec::new(),
             params: Params::default(),
             view: View::default(),
         }

@@ -11,10 +11,11 @@ use fbcrowd_jobs::rendering::{self, RenderedSequence};
 use fbcrowd_jobs::simulation;
 use fbcrowd_jobs::wording::counted;
 use fbcrowd_jobs::{JobEvent, Observer};
+use fbcrowd_render::camera::CameraOptions;
 use fbcrowd_render::top_view::{PictureFormat, SequenceOptions};
 use fbcrowd_scenes::{ReadOptions, is_scene};
 use fbcrowd_sim::measures;
-use fbcrowd_sim::scenario::{self, MotionSource};
+use fbcrowd_sim::scenario::{self, MotionSource, Scenario};
 use motiondb::files::database_file;
 use motiondb::motion::MotionDb;
 
@@ -29,7 +30,8 @@ use crate::terminal::progress::ProgressDisplay;
 
 /// Compile the clips of a scenario, then simulate and render the scenario.
 ///
-/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png` and `frames/NAME.####.png`. A scene of another program is
+/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png` and `frames/NAME.####.png`; and, where the scenario has a
+/// camera, its first one's frames to `camera/NAME.####.png`. A scene of another program is
 /// converted first: `NAME.toml` is written beside them.
 #[derive(clap::Args)]
 #[command(
@@ -63,14 +65,17 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let Subject { file, folder, files, answer: converted, .. } = subject;
     let (scenario, motion) = read?;
     let motion = motion?;
-    let outputs = RunOutputs::new(folder, &scenario.name);
+    let outputs = RunOutputs::new(folder, &scenario);
     outputs.check(&inputs(&file, files, &motion)?)?;
 
     // Everything that bad input can end comes before the first output.
     let MotionInput { db, checksum, answer } = MotionInput::new(motion, args, &outputs, &observer)?;
     let db = Arc::new(db);
     let prepared = simulation::prepare(Arc::clone(&db), scenario, &observer)?;
-    let _locks = [LockedFolder::exclusive(&outputs.folder)?, LockedFolder::exclusive(&outputs.frames.folder)?];
+    let folders =
+        [Some(&outputs.folder), Some(&outputs.frames.folder), outputs.camera.as_ref().map(|camera| &camera.folder)];
+    let _locks =
+        folders.into_iter().flatten().map(|folder| LockedFolder::exclusive(folder)).collect::<Result<Vec<_>, _>>()?;
     let checksum = match checksum {
         Some(checksum) => checksum,
         None => compiling::write_database(&outputs.database, &db, &observer)?,
@@ -79,8 +84,12 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let recording = rendering::open(&outputs.recording)?;
     let measures = measures::measure(&recording)?;
     rendering::plot_trajectories(&recording, &outputs.trajectories)?;
-    rendering::remove_frames(&outputs.frames)?;
-    let rendered = rendering::render(&recording, &outputs.frames, &observer)?;
+    rendering::remove_frames(&outputs.frames.folder, &outputs.frames.name)?;
+    let mut rendered = rendering::render(&recording, &outputs.frames, &observer)?;
+    if let Some(camera) = &outputs.camera {
+        rendering::remove_frames(&camera.folder, &camera.name)?;
+        rendered = rendered.and(rendering::render_camera(&recording, camera, &observer)?);
+    }
 
     let figures = measures_text::text(&measures) + &timings_text::text(&timings);
     output::print(&(figures + &outputs_text(&rendered, &outputs.folder)))?;
@@ -155,22 +164,31 @@ struct RunOutputs {
     recording: PathBuf,
     trajectories: PathBuf,
     frames: SequenceOptions,
+    /// Frames of the scenario's first camera.
+    camera: Option<CameraOptions>,
 }
 
 impl RunOutputs {
-    fn new(folder: Option<PathBuf>, name: &str) -> Self {
+    fn new(folder: Option<PathBuf>, scenario: &Scenario) -> Self {
+        let name = &scenario.name;
         let folder = folder.unwrap_or_else(|| Path::new("out").join(name));
+        let camera = (!scenario.cameras.is_empty()).then(|| CameraOptions {
+            folder: folder.join("camera"),
+            name: name.clone(),
+            ..CameraOptions::default()
+        });
         Self {
             database: folder.join("motion.fbdb"),
             recording: folder.join(format!("{name}.fbrec")),
             trajectories: folder.join("trajectories.png"),
             frames: SequenceOptions {
                 folder: folder.join("frames"),
-                name: name.to_owned(),
+                name: name.clone(),
                 format: PictureFormat::Png,
                 frames: None,
                 constraints_of: Vec::new(),
             },
+            camera,
             folder,
         }
     }
@@ -180,7 +198,10 @@ impl RunOutputs {
         let database = inputs.are_compiled.then_some(&self.database);
         let files: Vec<PathBuf> = [&self.recording, &self.trajectories].into_iter().chain(database).cloned().collect();
         check_files(&self.folder, &files, &inputs.files)?;
-        Ok(rendering::check_old_frames(&self.frames, &inputs.files)?)
+        if let Some(camera) = &self.camera {
+            rendering::check_old_frames(&camera.folder, &camera.name, &inputs.files)?;
+        }
+        Ok(rendering::check_old_frames(&self.frames.folder, &self.frames.name, &inputs.files)?)
     }
 }
 

@@ -1,0 +1,198 @@
+//! The passes of one tile, pixel by pixel, from its samples. World, metres.
+
+use fbcrowd_sim::Population;
+use glam::Vec3;
+
+use crate::passes::cryptomatte::{Coverage, id_bits, ranks};
+use crate::passes::motion::{OtherFrame, displacement_px};
+use crate::passes::pass::{Pass, PassSet};
+use crate::visibility::rounded_cone::PreparedCone;
+use crate::visibility::triangle::weights;
+use crate::visibility::{Fragment, Lens, Owner, PartId, SceneParts, TileSamples};
+
+/// Depth where there is only sky, m: a large finite number, as in Blender.
+const SKY_DEPTH_M: f32 = 1e10;
+
+/// Type of a channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ChannelKind {
+    Half,
+    Float,
+    Uint,
+}
+
+/// A channel of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Channel {
+    pub(crate) name: String,
+    pub(crate) kind: ChannelKind,
+}
+
+/// What the passes of a frame depend on, besides the samples.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FramePasses<'a> {
+    pub(crate) passes: &'a PassSet,
+    pub(crate) scene: &'a SceneParts,
+    pub(crate) lens: &'a Lens,
+    pub(crate) population: &'a Population,
+    /// The frame after this one, and the one before; only for motion.
+    pub(crate) others: Option<&'a [OtherFrame; 2]>,
+}
+
+/// The nearest sample of a pixel as a fragment of its own: the mean of samples would lie between near and far.
+fn nearest_sample(tile: &TileSamples<'_>, pixel: usize) -> Fragment {
+    let samples = pixel * tile.pattern.count()..(pixel + 1) * tile.pattern.count();
+    let nearer = |a: usize, b: usize| if tile.depths_m[b] < tile.depths_m[a] { b } else { a };
+    let nearest = samples.clone().reduce(nearer).unwrap_or(samples.start);
+    let (part, depth_m, uv) = (tile.parts[nearest], tile.depths_m[nearest], tile.uv(nearest));
+    let point_m = if part == PartId::SKY { uv.extend(1.0) } else { tile.lens.at_depth(uv, depth_m) };
+    Fragment { part, samples: 1, depth_m, point_m }
+}
+
+/// Name of an agent in mattes.
+pub(crate) fn agent_name(agent: u32) -> String {
+    format!("agent_{agent:04}")
+}
+
+/// Name of a group in mattes.
+pub(crate) fn group_name(group: u32) -> String {
+    format!("group_{group:04}")
+}
+
+/// Name of a material in mattes.
+pub(crate) fn material_name(material: u32) -> String {
+    match material {
+        0 => "walls".to_owned(),
+        1 => "bodies".to_owned(),
+        GROUND_MATERIAL => "ground".to_owned(),
+        other => format!("material_{other:04}"),
+    }
+}
+
+/// Material of the ground, which has no part of its own.
+pub(crate) const GROUND_MATERIAL: u32 = u32::MAX;
+
+/// Name of a Cryptomatte layer.
+pub(crate) fn matte_layer(pass: Pass) -> Option<&'static str> {
+    match pass {
+        Pass::Agent => Some("CryptoAsset"),
+        Pass::Group => Some("CryptoGroup"),
+        Pass::Material => Some("CryptoMaterial"),
+        _ => None,
+    }
+}
+
+/// The channels of passes, in the order in which [`FramePasses::tile`] appends their values.
+pub(crate) fn channels(passes: &PassSet, samples: usize) -> Vec<Channel> {
+    use ChannelKind::{Float, Half, Uint};
+    let mut channels = Vec::new();
+    let mut add = |kind, names: &[&str]| {
+        channels.extend(names.iter().map(|&name| Channel { name: name.to_owned(), kind }));
+    };
+    for pass in Pass::ALL.into_iter().filter(|pass| passes.holds(*pass)) {
+        match pass {
+            Pass::Depth => add(Float, &["Z"]),
+            Pass::Normal => add(Half, &["N.X", "N.Y", "N.Z"]),
+            Pass::Position => add(Float, &["P.X", "P.Y", "P.Z"]),
+            Pass::Motion => add(Half, &["forward.u", "forward.v", "backward.u", "backward.v"]),
+            Pass::Id => add(Uint, &["agent.id"]),
+            Pass::Agent | Pass::Group | Pass::Material => {
+                let layer = matte_layer(pass).unwrap_or_default();
+                for pair in 0..ranks(samples) / 2 {
+                    add(
+                        Float,
+                        &["R", "G", "B", "A"]
+                            .map(|side| format!("{layer}{pair:02}.{side}"))
+                            .each_ref()
+                            .map(String::as_str),
+                    );
+                }
+            }
+        }
+    }
+    channels
+}
+
+impl FramePasses<'_> {
+    /// Values of all channels of a tile's pixels, pixel by pixel. Whole numbers and ids are stored as bits.
+    pub(crate) fn tile(&self, tile: &TileSamples<'_>) -> Vec<f32> {
+        let (mut fragments, mut coverage, mut values) = (Vec::new(), Coverage::default(), Vec::new());
+        for pixel in 0..(tile.size_px[0] * tile.size_px[1]) as usize {
+            tile.fragments(pixel, &mut fragments);
+            let nearest = &nearest_sample(tile, pixel);
+            for pass in Pass::ALL.into_iter().filter(|pass| self.passes.holds(*pass)) {
+                match pass {
+                    Pass::Depth if nearest.part == PartId::SKY => values.push(SKY_DEPTH_M),
+                    Pass::Depth => values.push(nearest.depth_m),
+                    Pass::Normal => values.extend(self.normal(nearest).to_array()),
+                    Pass::Position if nearest.part == PartId::SKY => values.extend([0.0; 3]),
+                    Pass::Position => values.extend(self.lens.to_world(nearest.point_m).to_array()),
+                    Pass::Motion => self.append_motion(nearest, &mut values),
+                    Pass::Id => values.push(f32::from_bits(self.agent(nearest).map_or(0, |agent| agent + 1))),
+                    Pass::Agent | Pass::Group | Pass::Material => {
+                        coverage.clear();
+                        for fragment in &fragments {
+                            let name = self.matte_name(pass, fragment);
+                            name.into_iter().for_each(|name| coverage.add(id_bits(&name), fragment.samples));
+                        }
+                        coverage.append_ranks(tile.pattern.count(), &mut values);
+                    }
+                }
+            }
+        }
+        values
+    }
+
+    fn append_motion(&self, fragment: &Fragment, values: &mut Vec<f32>) {
+        match self.others {
+            Some(others) => others.iter().for_each(|other| {
+                values.extend(displacement_px(fragment, self.scene, self.lens, other).to_array());
+            }),
+            None => values.extend([0.0; 4]),
+        }
+    }
+
+    /// What a part of the scene belongs to; none of ground and sky.
+    fn owner(&self, fragment: &Fragment) -> Option<Owner> {
+        let (cones, index) = (self.scene.cones.len(), fragment.part.0 as usize);
+        let of_parts =
+            || if index < cones { self.scene.cones[index].owner } else { self.scene.meshes.owners[index - cones] };
+        (fragment.part < PartId::GROUND).then(of_parts)
+    }
+
+    fn agent(&self, fragment: &Fragment) -> Option<u32> {
+        self.owner(fragment).map(|owner| owner.agent).filter(|agent| *agent != Owner::NO_AGENT)
+    }
+
+    /// Name in a matte; none of what the matte does not hold.
+    fn matte_name(&self, pass: Pass, fragment: &Fragment) -> Option<String> {
+        match pass {
+            Pass::Agent => self.agent(fragment).map(agent_name),
+            Pass::Group => {
+                let life = self.population.agents.get(self.agent(fragment)? as usize)?;
+                life.group.map(group_name)
+            }
+            _ if fragment.part == PartId::SKY => None,
+            _ => Some(material_name(self.owner(fragment).map_or(GROUND_MATERIAL, |owner| owner.material))),
+        }
+    }
+
+    /// Unit normal of a fragment, world, towards the eye; 0 of the sky.
+    fn normal(&self, fragment: &Fragment) -> Vec3 {
+        let (cones, index) = (self.scene.cones.len(), fragment.part.0 as usize);
+        if fragment.part >= PartId::GROUND {
+            return if fragment.part == PartId::SKY { Vec3::ZERO } else { Vec3::Z };
+        }
+        if index < cones {
+            let normal = PreparedCone::new(&self.scene.cones[index], self.lens).normal(fragment.point_m);
+            return self.lens.direction_to_world(normal);
+        }
+        let meshes = &self.scene.meshes;
+        let point_m = self.lens.to_world(fragment.point_m);
+        let weights = weights(meshes.corners_m(index - cones), point_m);
+        let [a, b, c] = meshes.triangles[index - cones].map(|corner| meshes.normals[corner as usize]);
+        let normal = (a * weights.x + b * weights.y + c * weights.z).try_normalize().unwrap_or(Vec3::Z);
+        let is_away = normal.dot(point_m - self.lens.eye_m) > 0.0 && self.lens.is_perspective;
+        if is_away { -normal } else { normal }
+    }
+}
