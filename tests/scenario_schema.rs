@@ -50,7 +50,7 @@ fn keys_of_reader(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn schema_and_reader_know_the_same_keys() {
-    const TABLES: [(&str, &str); 38] = [
+    const TABLES: [(&str, &str); 39] = [
         ("zzz = 1", "/properties"),
         ("[[agents]]\nzzz = 1", "/$defs/agents/properties"),
         ("[[agents]]\ncircle = { zzz = 1 }", "/$defs/agents/properties/circle/properties"),
@@ -89,6 +89,7 @@ fn schema_and_reader_know_the_same_keys() {
         ("[[obstacles]]\nzzz = 1", "/properties/obstacles/items/properties"),
         ("[[walkable]]\nzzz = 1", "/properties/walkable/items/properties"),
         ("[[markings]]\nzzz = 1", "/properties/markings/items/properties"),
+        ("[[characters]]\nzzz = 1", "/properties/characters/items/properties"),
         ("[view]\nzzz = 1", "/properties/view/properties"),
         ("[params]\nzzz = 1", "/properties/params/properties"),
         ("[params.route]\nzzz = 1", "/properties/params/properties/route/properties"),

@@ -61,8 +61,8 @@ pub enum CharacterFileError {
 
 /// The bytes of the file of a character.
 pub fn to_bytes(character: &Character) -> Vec<u8> {
-    let payload =
-        bincode::serde::encode_to_vec(character, encoding()).expect("plain data encodes; writing to memory cannot fail");
+    let payload = bincode::serde::encode_to_vec(character, encoding())
+        .expect("plain data encodes; writing to memory cannot fail");
     container::seal(MAGIC, VERSION, &payload)
 }
 
@@ -99,7 +99,8 @@ fn opened<'a>(path: &Path, bytes: &'a [u8]) -> Result<(&'a [u8], u32), Character
 /// [`CharacterFileError::Unwritable`].
 pub fn write(path: &Path, character: &Character) -> Result<u32, CharacterFileError> {
     let bytes = to_bytes(character);
-    atomic_file::write(path, &bytes).map_err(|source| CharacterFileError::Unwritable { path: path.to_owned(), source })?;
+    atomic_file::write(path, &bytes)
+        .map_err(|source| CharacterFileError::Unwritable { path: path.to_owned(), source })?;
     Ok(opened(path, &bytes)?.1)
 }
 

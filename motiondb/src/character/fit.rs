@@ -82,9 +82,8 @@ fn turns(character: &Character, skeleton: &Skeleton, rest_m: &[Vec3; JOINT_COUNT
         (own_m.length() > least_m && rest_m.length() > 0.0)
             .then(|| shortest_arc(own_m, rest_m, own_m.length() * rest_m.length()).normalize())
     };
-    let trunk = turn(Joint::Pelvis, Joint::Neck)
-        .or_else(|| turn(Joint::Pelvis, Joint::SpineUpper))
-        .unwrap_or(Quat::IDENTITY);
+    let trunk =
+        turn(Joint::Pelvis, Joint::Neck).or_else(|| turn(Joint::Pelvis, Joint::SpineUpper)).unwrap_or(Quat::IDENTITY);
     for spine in [Joint::SpineLower, Joint::SpineMiddle, Joint::SpineUpper] {
         turns[spine.index()] = trunk;
     }

@@ -60,13 +60,7 @@ struct FootTarget {
 impl CharacterFit<'_> {
     /// Transforms of all joints, from bind space to the world; `joints` are those of the canonical body in its root
     /// frame, `frame` is the root's.
-    pub fn pose(
-        &self,
-        skeleton: &Skeleton,
-        joints: &Joints,
-        frame: RootFrame,
-        transforms: &mut Vec<JointTransform>,
-    ) {
+    pub fn pose(&self, skeleton: &Skeleton, joints: &Joints, frame: RootFrame, transforms: &mut Vec<JointTransform>) {
         let mut posed = self.oriented(joints);
         self.place(&mut posed, joints);
         let targets = [0, 1].map(|side| self.foot_target(&posed, skeleton, joints, side));
@@ -144,7 +138,8 @@ impl CharacterFit<'_> {
             None => turned(rotation, ankle_m, toe_tip_m),
         };
         let own_m = [turned(rotation, ankle_m, heel_m), turned(rotation, ankle_m, ball_m), tip_m];
-        let lowest_m = |points_m: [Vec3; 3]| points_m.into_iter().map(|point_m| point_m.z).fold(f32::INFINITY, f32::min);
+        let lowest_m =
+            |points_m: [Vec3; 3]| points_m.into_iter().map(|point_m| point_m.z).fold(f32::INFINITY, f32::min);
         let height_m = lowest_m(soles_m);
         target_m.z += height_m - (target_m.z + lowest_m(own_m));
         target_m += self.stance_shift_m(skeleton, joints.orientations[toe.index()], side);
@@ -171,9 +166,8 @@ impl CharacterFit<'_> {
         let mut sink_m = 0.0_f32;
         for (target, thigh) in targets.iter().zip(Joint::THIGHS) {
             let to_hip_m = posed.positions_m[thigh.index()] - target.ankle_m;
-            let height_m = libm::sqrtf(
-                (target.reach_m * target.reach_m - to_hip_m.truncate().length_squared()).max(0.0),
-            );
+            let height_m =
+                libm::sqrtf((target.reach_m * target.reach_m - to_hip_m.truncate().length_squared()).max(0.0));
             sink_m = sink_m.max(target.planted * (to_hip_m.z - height_m));
         }
         let sink_m = sink_m.min(SINK_MAX * self.hips_over_soles_m);

@@ -44,6 +44,7 @@ fn wide_header() -> Header {
         pre_movement_s: 0.0,
         profiles: Vec::new(),
         closed_zones: 0,
+        characters: 0,
         groups: None,
     });
     header

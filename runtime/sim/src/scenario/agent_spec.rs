@@ -3,6 +3,7 @@
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+use crate::scenario::characters::character_spec::wears_any;
 use crate::scenario::social_group::GroupMember;
 
 /// Default radius of a disc, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected
@@ -44,6 +45,9 @@ pub struct AgentSpec {
     /// The zones that the agent does not enter: bit k stands for the k-th zone that is closed to some agents.
     #[serde(default, skip_serializing_if = "enters_all")]
     pub closed_zones: u32,
+    /// The characters that the agent may wear: bit k stands for the k-th of the scenario; 0: all.
+    #[serde(default, skip_serializing_if = "wears_any")]
+    pub characters: u64,
 }
 
 /// Whether no zone is closed to an agent; recordings leave it out.
@@ -91,6 +95,7 @@ impl Default for AgentSpec {
             state: 0,
             pre_movement_s: 0.0,
             closed_zones: 0,
+            characters: 0,
             group: None,
         }
     }

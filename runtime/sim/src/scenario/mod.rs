@@ -4,10 +4,11 @@
 //! explicit, every number is in range and no path occurs.
 //!
 //! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `profile`, `social_group`, `places`
-//! (zones, doors, markings, measured lines and areas), `coupling` and `view`; then `rules` and `ranges`, `fault` and
+//! (zones, doors, markings, measured lines and areas), `coupling` and `view`; `characters`; then `rules` and `ranges`, `fault` and
 //! `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
+pub(crate) mod characters;
 pub(crate) mod coupling;
 pub(crate) mod error;
 pub(crate) mod fault;
@@ -24,10 +25,11 @@ pub(crate) mod view;
 pub(crate) mod walls;
 
 pub use agent_spec::{AgentSpec, AtGoal, WALL_RADIUS_M};
+pub use characters::character_spec::{CHARACTERS_MAX, CharacterSpec};
 pub use coupling::Coupling;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
-pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};
+pub use file::{MotionSource, agent_files, agents_of_lines, character_files, fault_of_lines, parse, read};
 pub use places::door::DoorSpec;
 pub use places::marking::{Marking, MarkingColour, MarkingShape, PlaceLabel};
 pub use places::measure_spec::{MeasureSpec, MeasuredPlace};

@@ -8,6 +8,7 @@ use crate::params::Params;
 use crate::planning::planner::Planner;
 use crate::route::mesh::WalkablePolygon;
 use crate::scenario::agent_spec::AgentSpec;
+use crate::scenario::characters::character_spec::CharacterSpec;
 use crate::scenario::coupling::Coupling;
 use crate::scenario::places::door::DoorSpec;
 use crate::scenario::places::marking::{Marking, PlaceLabel};
@@ -90,6 +91,9 @@ pub struct Scenario {
     /// Texts at places.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub labels: Vec<PlaceLabel>,
+    /// Characters that bodies are drawn as; plain bodies where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub characters: Vec<CharacterSpec>,
     /// Tunables.
     pub params: Params,
     /// How the top view frames the scene.
@@ -139,6 +143,7 @@ impl Scenario {
             walkable_m: Vec::new(),
             markings: Vec::new(),
             labels: Vec::new(),
+            characters: Vec::new(),
             params: Params::default(),
             view: View::default(),
         }

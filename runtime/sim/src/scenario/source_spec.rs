@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::{AgentSpec, AtGoal, enters_all, follows_path, is_0};
+use crate::scenario::characters::character_spec::wears_any;
 use crate::scenario::profile::{DrawnNumbers, Profile};
 use crate::scenario::social_group::GroupSizes;
 
@@ -61,6 +62,9 @@ pub struct SourceSpec {
     /// Zones that the agents do not enter, by bits as in [`AgentSpec`].
     #[serde(default, skip_serializing_if = "enters_all")]
     pub closed_zones: u32,
+    /// Characters that the agents may wear, by bits as in [`AgentSpec`].
+    #[serde(default, skip_serializing_if = "wears_any")]
+    pub characters: u64,
     /// Sizes of the groups in which agents appear; none: each alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub groups: Option<GroupSizes>,
@@ -83,6 +87,7 @@ impl SourceSpec {
             state: self.state,
             pre_movement_s: self.pre_movement_s,
             closed_zones: self.closed_zones,
+            characters: self.characters,
             group: None,
         }
     }
@@ -90,8 +95,8 @@ impl SourceSpec {
     /// The source with the numbers of one agent: those of the source with this index after a number of births.
     pub fn drawn(&self, seed: u64, index: usize, born: u32) -> Self {
         let stream = NUMBER_STREAM + ((index as u64) << 20) + u64::from(born);
-        let &Self { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, .. } = self;
-        let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones };
+        let &Self { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, characters, .. } = self;
+        let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, characters };
         let numbers = numbers.draw(&self.profiles, &mut SplitMix64::new(seed, stream));
         Self {
             preferred_speed_mps: numbers.preferred_speed_mps,
@@ -99,6 +104,7 @@ impl SourceSpec {
             wall_radius_m: self.wall_radius_m.min(numbers.radius_m),
             pre_movement_s: numbers.pre_movement_s,
             closed_zones: numbers.closed_zones,
+            characters: numbers.characters,
             ..self.clone()
         }
     }
@@ -186,6 +192,7 @@ mod tests {
             pre_movement_s: 0.0,
             profiles: Vec::new(),
             closed_zones: 0,
+            characters: 0,
             groups: None,
         }
     }

@@ -14,6 +14,8 @@ use crate::read::gltf::accessor;
 use crate::read::gltf::document::Document;
 use crate::read::gltf::node_tree::NodeTree;
 
+/// Greatest number of inverse bind matrices of all skins.
+const MATRICES_MAX: usize = 1 << 20;
 /// Least absolute determinant of a matrix that is inverted.
 const DETERMINANT_MIN: f64 = 1e-24;
 
@@ -119,6 +121,12 @@ fn is_in_scene(root: &Root, tree: &NodeTree, slot_of: &[usize]) -> Vec<bool> {
 }
 
 fn skins(document: &Document, slot_of: &[usize]) -> Result<Vec<Skin>, CharacterReason> {
+    let matrices = document.root.skins.iter().filter_map(|skin| skin.inverse_bind_matrices);
+    let accessors = matrices.filter_map(|index| document.root.accessors.get(index.value()));
+    let count = accessors.fold(0_u64, |sum, accessor| sum.saturating_add(accessor.count.0));
+    if count > MATRICES_MAX as u64 {
+        return Err(CharacterReason::TooLarge { count, what: "inverse bind matrices", most: MATRICES_MAX });
+    }
     let skin = |(index, skin): (usize, &gltf::json::Skin)| {
         let slots: Vec<usize> = skin.joints.iter().map(|joint| slot_of[joint.value()]).collect();
         let Some(matrices) = skin.inverse_bind_matrices else {

@@ -68,6 +68,7 @@ impl<'a> MeshBuilder<'a> {
 
     /// Adds all parts, textures one at a time: a material's parts come together.
     pub(crate) fn add_all(&mut self, parts: Vec<(Instance<'a>, Part)>) -> Result<(), CharacterReason> {
+        let mut room = texture::PIXELS_MAX;
         let texture_of = |instance: &Instance| self.material(instance).and_then(base_texture).map(|(index, _)| index);
         let mut by_texture: BTreeMap<Option<usize>, Vec<(Instance<'a>, Part)>> = BTreeMap::new();
         for (instance, part) in parts {
@@ -76,7 +77,7 @@ impl<'a> MeshBuilder<'a> {
         for (index, parts) in by_texture {
             let texture = match index {
                 Some(index) => {
-                    let texture = texture::read(self.document, self.path, self.outside, index)?;
+                    let texture = texture::read(self.document, self.path, self.outside, index, &mut room)?;
                     if texture.is_none() {
                         self.unread.push(texture::name(&self.document.root, index));
                     }

@@ -191,10 +191,15 @@ fn assembled(
 
 /// Slots of the nodes that have a role or move a vertex, and of those above them.
 fn kept_slots(pose: &BindPose, slots: &SlotMap, mesh: &BodyMesh) -> Vec<usize> {
+    let mut is_kept = vec![false; pose.parents.len()];
     let moving = mesh.weights.as_flattened().iter().filter(|(_, weight)| *weight > 0.0).map(|(slot, _)| *slot);
-    let needed: BTreeSet<usize> = moving.chain(slots.iter().flatten().copied()).collect();
-    let with_ancestors: BTreeSet<usize> = needed.iter().flat_map(|&slot| pose.with_ancestors(slot)).collect();
-    with_ancestors.into_iter().collect()
+    moving.chain(slots.iter().flatten().copied()).for_each(|slot| is_kept[slot] = true);
+    for slot in (0..is_kept.len()).rev() {
+        if let (true, Some(parent)) = (is_kept[slot], pose.parents[slot]) {
+            is_kept[parent] = true;
+        }
+    }
+    (0..is_kept.len()).filter(|&slot| is_kept[slot]).collect()
 }
 
 fn place(kept: &[usize], slot: usize) -> Option<usize> {

@@ -4,6 +4,7 @@
 
 use glam::DVec3;
 use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::character::JOINTS_MAX;
 
 use crate::character::bind_pose::BindPose;
 use crate::character::extensions::{BoneTable, nodes_of_roles};
@@ -35,13 +36,16 @@ pub(crate) fn slots_of_roles(
     notes: &mut Vec<CharacterNote>,
 ) -> Result<(SlotMap, RolesFrom), CharacterReason> {
     let mut slots = [None; JOINT_COUNT];
+    let kept = joints(pose, is_mesh);
+    if kept.len() > JOINTS_MAX {
+        return Err(RejectionReason::TooManyJoints { count: kept.len() }.into());
+    }
     if let Some(table) = table {
         for (role, node) in nodes_of_roles(table, pose.slot_of.len())? {
             slots[role.index()] = Some(pose.slot_of[node]);
         }
         return Ok((slots, RolesFrom::Vrm));
     }
-    let kept = joints(pose, is_mesh);
     let clip = clip(pose, &kept);
     let roles = rig::find_roles_by_name(&clip).map_err(of_character)?;
     if roles.are_names_mirrored {

@@ -1,7 +1,5 @@
 //! The meshes that are drawn: nodes of the scene with a mesh, skinned or hanging from a joint; and their sizes.
 
-use std::collections::BTreeSet;
-
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 use motiondb::body::Joint;
@@ -50,7 +48,7 @@ pub(crate) fn instances<'a>(
     notes: &mut Vec<CharacterNote>,
 ) -> Result<Vec<Instance<'a>>, CharacterReason> {
     let root = &document.root;
-    let moving = moving_slots(pose, slots);
+    let is_moving = is_moving(pose, slots);
     let (mut instances, mut loose) = (Vec::new(), Vec::new());
     let (mut triangles, mut vertices) = (0_u64, 0_u64);
     let mut morph_targets = 0;
@@ -59,7 +57,7 @@ pub(crate) fn instances<'a>(
         let Some(mesh) = node.mesh.and_then(|mesh| root.meshes.get(mesh.value())) else { continue };
         let name = mesh.name.clone().filter(|name| !name.is_empty()).unwrap_or_else(|| pose.names[slot].clone());
         let skin = node.skin.map(|skin| skin.value()).filter(|skin| *skin < pose.skins.len());
-        if skin.is_none() && !pose.with_ancestors(slot).any(|above| moving.contains(&above)) {
+        if skin.is_none() && !is_moving[slot] {
             loose.push(name);
             continue;
         }
@@ -100,10 +98,16 @@ pub(crate) fn draws_triangles(primitive: &Primitive) -> bool {
     matches!(primitive.mode, Checked::Valid(mode) if triangles.contains(&mode))
 }
 
-/// Nodes with which rigid meshes move: joints of skins, roles, and what the pelvis hangs from below the scene's root.
-fn moving_slots(pose: &BindPose, slots: &SlotMap) -> BTreeSet<usize> {
+/// Whether a rigid mesh at each node moves with the body: it hangs from a joint of a skin, from a role, or from what the
+/// pelvis hangs from below the scene's root.
+fn is_moving(pose: &BindPose, slots: &SlotMap) -> Vec<bool> {
+    let mut is_moving = pose.is_skin_joint.clone();
     let above = slots[Joint::Pelvis.index()].into_iter().flat_map(|pelvis| pose.with_ancestors(pelvis));
     let above = above.filter(|&slot| pose.parents[slot].is_some());
-    let joints = (0..pose.is_skin_joint.len()).filter(|&slot| pose.is_skin_joint[slot]);
-    above.chain(joints).chain(slots.iter().flatten().copied()).collect()
+    above.chain(slots.iter().flatten().copied()).for_each(|slot| is_moving[slot] = true);
+    // A parent comes before its children.
+    for slot in 0..is_moving.len() {
+        is_moving[slot] |= pose.parents[slot].is_some_and(|parent| is_moving[parent]);
+    }
+    is_moving
 }

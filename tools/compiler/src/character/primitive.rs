@@ -40,8 +40,17 @@ pub(crate) fn attribute(
     semantic: Semantic,
     as_fractions: bool,
 ) -> Result<Option<AccessorNumbers>, CharacterReason> {
-    let Some(index) = primitive.attributes.get(&Checked::Valid(semantic)) else { return Ok(None) };
-    Ok(Some(accessor::numbers(document, index.value(), as_fractions)?))
+    let of = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).map(|index| index.value());
+    let count = |index: Option<usize>| Some(document.root.accessors.get(index?)?.count.0);
+    let (index, positions) = (of(semantic.clone()), of(Semantic::Positions));
+    let Some(index) = index else { return Ok(None) };
+    // A small file may name one long list for many short meshes.
+    if count(Some(index)) != count(positions) {
+        let problem = "it has another number of elements than the positions".to_owned();
+        let remedy = "check it with the glTF validator, or export it again";
+        return Err(RejectionReason::Malformed { position: format!("accessor {index}"), problem, remedy }.into());
+    }
+    Ok(Some(accessor::numbers(document, index, as_fractions)?))
 }
 
 /// Reads a primitive; `to_body` turns bind space into body axes, `pelvis` is the pelvis's slot.

@@ -41,12 +41,12 @@ pub enum CharacterReason {
     /// The file has no triangles to draw.
     #[error("it has no triangles on a skeleton; export the figure's meshes together with its armature")]
     NoMesh,
-    /// The meshes have more parts than can be drawn for every agent.
-    #[error("its meshes have {count} {what}, more than {most}; reduce them (decimate) before the export")]
+    /// The file has more of something than can be drawn for every agent.
+    #[error("it has {count} {what}, more than {most}; reduce them before the export")]
     TooLarge {
         /// Number of them.
         count: u64,
-        /// `triangles` or `vertices`.
+        /// `triangles`, `vertices`, …
         what: &'static str,
         /// Greatest number of them.
         most: usize,

@@ -19,6 +19,8 @@ use crate::read::gltf::document::Document;
 
 /// Greatest width and height, pixels.
 const SIDE_MAX: usize = 8192;
+/// Greatest number of pixels of all textures that are read: six of 8K; they take seconds.
+pub(crate) const PIXELS_MAX: usize = 400 << 20;
 /// Greatest length of an encoded image, bytes.
 const ENCODED_MAX_BYTES: usize = 128 << 20;
 /// Greatest memory of a decoder beside its output, bytes.
@@ -34,7 +36,8 @@ pub(crate) struct Texture {
     wraps: [WrappingMode; 2],
 }
 
-/// The texture of a document by index; none where its format is not read.
+/// The texture of a document by index; none where its format is not read. `room` is the number of pixels that may still
+/// be read.
 ///
 /// # Errors
 /// Where the image is missing, damaged, outside the folder or too large.
@@ -43,6 +46,7 @@ pub(crate) fn read(
     path: &Path,
     outside: Outside,
     index: usize,
+    room: &mut usize,
 ) -> Result<Option<Texture>, CharacterReason> {
     let root = &document.root;
     let Some(texture) = root.textures.get(index) else { return Ok(None) };
@@ -54,13 +58,18 @@ pub(crate) fn read(
     };
     let sampler = texture.sampler.and_then(|sampler| root.samplers.get(sampler.value()));
     let wraps = sampler.map_or([WrappingMode::Repeat; 2], |sampler| [wrap(&sampler.wrap_s), wrap(&sampler.wrap_t)]);
-    if bytes.starts_with(b"\x89PNG") {
-        return decoded(image, || png_texture(image, &bytes, wraps)).map(Some);
+    let texture = match bytes.as_slice() {
+        [0x89, b'P', b'N', b'G', ..] => decoded(image, || png_texture(image, &bytes, wraps))?,
+        [0xff, 0xd8, ..] => decoded(image, || jpeg_texture(image, &bytes, wraps))?,
+        _ => return Ok(None),
+    };
+    let pixels = texture.width * texture.height;
+    let count = (PIXELS_MAX - *room + pixels) as u64;
+    match room.checked_sub(pixels) {
+        Some(left) => *room = left,
+        None => return Err(CharacterReason::TooLarge { count, what: "pixels in textures", most: PIXELS_MAX }),
     }
-    if bytes.starts_with(&[0xff, 0xd8]) {
-        return decoded(image, || jpeg_texture(image, &bytes, wraps)).map(Some);
-    }
-    Ok(None)
+    Ok(Some(texture))
 }
 
 /// Bytes of an image; none of one that the document does not have.

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use fbcrowd_jobs::character::ScenarioCharacters;
 use fbcrowd_jobs::clip_paths;
 use fbcrowd_jobs::compiling::{self, Overrides};
 use fbcrowd_jobs::output_path::{LockedFolder, check_files};
@@ -29,7 +30,8 @@ use crate::terminal::progress::ProgressDisplay;
 
 /// Compile the clips of a scenario, then simulate and render the scenario.
 ///
-/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png` and `frames/NAME.####.png`. A scene of another program is
+/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png`, `frames/NAME.####.png`, and `characters/` where the scenario
+/// has characters. A scene of another program is
 /// converted first: `NAME.toml` is written beside them.
 #[derive(clap::Args)]
 #[command(
@@ -59,17 +61,22 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let (scenario, motion) = scenario::read(&file)?;
     let motion = motion?;
     let outputs = RunOutputs::new(folder, &scenario.name);
-    outputs.check(&inputs(&file, files, &motion)?)?;
+    let characters = ScenarioCharacters::load(&file, &scenario, args.outside.into(), &observer)?;
+    let files = [files, characters.files.clone()].concat();
+    outputs.check(&inputs(&file, files, &motion)?, &characters)?;
 
     // Everything that bad input can end comes before the first output.
     let MotionInput { db, checksum, answer } = MotionInput::new(motion, args, &outputs, &observer)?;
     let db = Arc::new(db);
-    let prepared = simulation::prepare(Arc::clone(&db), scenario, &observer)?;
+    let mut prepared = simulation::prepare(Arc::clone(&db), scenario, &observer)?;
+    prepared.character_checksums = characters.checksums();
+    characters.note(&db.skeleton, &observer);
     let _locks = [LockedFolder::exclusive(&outputs.folder)?, LockedFolder::exclusive(&outputs.frames.folder)?];
     let checksum = match checksum {
         Some(checksum) => checksum,
         None => compiling::write_database(&outputs.database, &db, &observer)?,
     };
+    characters.write(&outputs.recording)?;
     let timings = prepared.record(checksum, &outputs.recording, &observer)?;
     let recording = rendering::open(&outputs.recording)?;
     let measures = measures::measure(&recording)?;
@@ -150,10 +157,14 @@ impl RunOutputs {
     }
 
     /// Checks that every output can be written, and replaces none of the inputs.
-    fn check(&self, inputs: &Inputs) -> Result<(), Failure> {
+    fn check(&self, inputs: &Inputs, characters: &ScenarioCharacters) -> Result<(), Failure> {
         let database = inputs.are_compiled.then_some(&self.database);
         let files: Vec<PathBuf> = [&self.recording, &self.trajectories].into_iter().chain(database).cloned().collect();
         check_files(&self.folder, &files, &inputs.files)?;
+        let worn = characters.outputs(&self.recording);
+        if let Some(folder) = worn.first().and_then(|path| path.parent()) {
+            check_files(folder, &worn, &inputs.files)?;
+        }
         Ok(rendering::check_old_frames(&self.frames, &inputs.files)?)
     }
 }

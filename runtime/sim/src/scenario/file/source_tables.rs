@@ -44,6 +44,7 @@ pub(crate) struct SourceTable {
     profile: Option<Spanned<ProfileValue>>,
     groups: Option<BTreeMap<String, f32>>,
     group_spacing_m: Option<f32>,
+    characters: Option<Vec<String>>,
 }
 
 /// The sources of all tables; they end with the scenario at the latest.
@@ -56,14 +57,15 @@ pub(crate) fn sources(
     let resolve = |table: &Spanned<SourceTable>| {
         let at_table = |(message, help): TableFault| ScenarioError::from(source.invalid(table.span(), message, help));
         let SourceTable { state, profile, pre_movement_s, preferred_speed_mps, radius_m, .. } = table.get_ref();
-        let SourceTable { groups, group_spacing_m, .. } = table.get_ref();
+        let SourceTable { groups, group_spacing_m, characters, .. } = table.get_ref();
         let [states_speed, states_radius] = [preferred_speed_mps, radius_m].map(Option::is_some);
         let resolved =
             table.get_ref().source(duration_s).map_err(|(message, help)| at_table((message.into(), help)))?;
         let profiles = profiles.of_table(profile.as_ref(), *pre_movement_s, states_speed, states_radius);
         let profiles = profiles.map_err(at_table)?;
         let groups = group_sizes(groups.as_ref(), *group_spacing_m).map_err(at_table)?;
-        Ok(SourceSpec { state: states.index(state.as_ref(), source)?, profiles, groups, ..resolved })
+        let (profiles, characters) = input.profiles.with_characters(profiles, characters.as_ref()).map_err(at_table)?;
+        Ok(SourceSpec { characters, state: states.index(state.as_ref(), source)?, profiles, groups, ..resolved })
     };
     tables.iter().map(resolve).collect()
 }
@@ -103,6 +105,7 @@ impl SourceTable {
             pre_movement_s: 0.0,
             profiles: Vec::new(),
             closed_zones: 0,
+            characters: 0,
             groups: None,
         })
     }

@@ -210,6 +210,7 @@ fn a_source_has_no_room_in_a_closed_door() {
         pre_movement_s: 0.0,
         profiles: Vec::new(),
         closed_zones: 0,
+        characters: 0,
         groups: None,
     };
     let scenario = Scenario { sources: vec![source], ..rooms(&[([-0.6, 0.6], opens_at(10.0))], Vec::new()) };

@@ -43,6 +43,7 @@ fn source(low_m: Vec2, high_m: Vec2, rate_per_s: f32, ahead_m: f32) -> SourceSpe
         pre_movement_s: 0.0,
         profiles: Vec::new(),
         closed_zones: 0,
+        characters: 0,
         groups: None,
     }
 }

@@ -12,8 +12,7 @@ use crate::synthesis::pose::leg::{FootPose, PosedLeg};
 pub(crate) fn reach(pose: &mut Pose, leg: &mut PosedLeg, skeleton: &Skeleton, side: usize, target: &FootPose) {
     let [thigh, shank, foot, _] = PosedLeg::joints(side);
     let [old_thigh, old_shank, ..] = leg.orientations;
-    let bones =
-        TwoBones { positions_m: leg.positions_m, orientations: [old_thigh, old_shank], lengths_m: leg.bones_m };
+    let bones = TwoBones { positions_m: leg.positions_m, orientations: [old_thigh, old_shank], lengths_m: leg.bones_m };
     let [new_thigh, new_shank] = two_bone_reach::reach(&bones, target.ankle_m);
 
     pose.rotations[thigh] = pose.rotations[Joint::Pelvis.index()].conjugate() * new_thigh;
