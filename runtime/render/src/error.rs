@@ -86,6 +86,38 @@ pub enum RenderError {
     /// The recording of an overlay has no step, so nothing was planned.
     #[error("the recording holds no step, so nothing was planned; simulate for at least one step")]
     NoStep,
+    /// The scenario has no camera of this name.
+    #[error("there is no camera {name:?}; choose one of: {cameras}")]
+    NoSuchCamera {
+        /// The requested name.
+        name: String,
+        /// The cameras that exist.
+        cameras: String,
+    },
+    /// The eye of a camera is inside a body.
+    #[error(
+        "camera {camera:?}: its eye is inside agent {agent} in frame {frame}; move the camera, or leave the frame out by --frames"
+    )]
+    EyeInside {
+        /// Name of the camera.
+        camera: String,
+        /// Id of the agent.
+        agent: u32,
+        /// Number of the frame.
+        frame: u32,
+    },
+    /// The agent of a camera is not present.
+    #[error(
+        "camera {camera:?}: agent {agent} is not present at {time_s} s; name another agent, or choose frames in which it is present by --frames"
+    )]
+    CameraAgent {
+        /// Name of the camera.
+        camera: String,
+        /// Id of the agent.
+        agent: u32,
+        /// Time, s.
+        time_s: f64,
+    },
     /// The recording has no frame.
     #[error("the recording holds no frame; simulate for at least one step")]
     EmptyRecording,

@@ -30,11 +30,15 @@
 //!
 //! Conventions: world in metres, x right, y up; pixels x right, y down. Colours are sRGB, 0 to 1.
 
+pub mod camera;
 pub mod constraints;
 pub mod error;
+pub(crate) mod figure;
 pub mod plots;
 pub mod raster;
+pub mod shading;
 pub mod top_view;
+pub mod visibility;
 
 pub use constraints::ConstraintOverlay;
 pub use error::RenderError;

@@ -48,7 +48,7 @@ pub use crate::error::BenchError;
 use crate::kit::report::{BenchReport, PrintableReport};
 use crate::paper::{coupled, course, figure6, figure7, scenes, table1};
 use crate::pedestrians::{emergence, rimea};
-use crate::speed::{blend_space, bodies, plan, routes};
+use crate::speed::{blend_space, bodies, plan, render, routes};
 use crate::synthesis::{blend, quality, reach, tracking};
 
 /// Makes [`Bench`] from the table of benches: variant, name on the command line, module.
@@ -93,6 +93,7 @@ benches! {
     Plan, "plan" => plan;
     Bodies, "bodies" => bodies;
     Routes, "routes" => routes;
+    Render, "render" => render;
     Figure6, "figure6" => figure6;
     Blend, "blend" => blend;
     Tracking, "tracking" => tracking;

@@ -5,6 +5,8 @@ use std::sync::OnceLock;
 use std::time::Instant;
 use std::{fs, io};
 
+use fbcrowd_render::camera::{CameraOptions, camera_picture_paths, render_camera_sequence};
+use fbcrowd_render::error::RenderError;
 use fbcrowd_render::plots::crowd::trajectories;
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_render::top_view::{SequenceOptions, picture_paths, read_tracks, render_sequence};
@@ -43,8 +45,8 @@ pub fn check_frames(recording: &Recording, options: &SequenceOptions, inputs: &[
 ///
 /// # Errors
 /// As [`check_frames`].
-pub fn check_old_frames(options: &SequenceOptions, inputs: &[PathBuf]) -> Result<(), JobError> {
-    check_files(&options.folder, &numbered_frames(options)?, inputs)
+pub fn check_old_frames(folder: &Path, name: &str, inputs: &[PathBuf]) -> Result<(), JobError> {
+    check_files(folder, &numbered_frames(folder, name)?, inputs)
 }
 
 /// Renders a sequence of frames.
@@ -56,10 +58,38 @@ pub fn render(
     options: &SequenceOptions,
     observer: &Observer,
 ) -> Result<RenderedSequence, JobError> {
+    watched(observer, |progress| render_sequence(recording, options, progress))
+}
+
+/// As [`check_frames`], for frames of a camera.
+///
+/// # Errors
+/// As [`check_frames`]; and where the camera does not exist.
+pub fn check_camera_frames(recording: &Recording, options: &CameraOptions, inputs: &[PathBuf]) -> Result<(), JobError> {
+    check_files(&options.folder, &camera_picture_paths(recording, options)?, inputs)
+}
+
+/// Renders a sequence of frames from a camera.
+///
+/// # Errors
+/// As [`render`]; and where the camera is inside a body, or its agent is not present.
+pub fn render_camera(
+    recording: &Recording,
+    options: &CameraOptions,
+    observer: &Observer,
+) -> Result<RenderedSequence, JobError> {
+    watched(observer, |progress| render_camera_sequence(recording, options, progress))
+}
+
+/// Renders a sequence, with its progress and duration.
+fn watched(
+    observer: &Observer,
+    render: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> Result<Vec<PathBuf>, RenderError>,
+) -> Result<RenderedSequence, JobError> {
     // The number of frames is known with the first one.
     let work = OnceLock::new();
     let start = Instant::now();
-    let files = render_sequence(recording, options, &|_, total| {
+    let files = render(&|_, total| {
         work.get_or_init(|| Work::begin(observer, "frames", total)).advance();
     })?;
     let elapsed_ms = start.elapsed().as_secs_f64() * 1000.0;
@@ -73,20 +103,20 @@ pub fn render(
 ///
 /// # Errors
 /// If the system does not allow it.
-pub fn remove_frames(options: &SequenceOptions) -> Result<(), JobError> {
+pub fn remove_frames(folder: &Path, name: &str) -> Result<(), JobError> {
     let remove = |path: &PathBuf| fs::remove_file(path).map_err(|error| JobError::unwritable(path, error));
-    numbered_frames(options)?.iter().try_for_each(remove)
+    numbered_frames(folder, name)?.iter().try_for_each(remove)
 }
 
 /// Every `NAME.####.png` of a folder; none where the folder does not exist.
-fn numbered_frames(options: &SequenceOptions) -> Result<Vec<PathBuf>, JobError> {
+fn numbered_frames(folder: &Path, name: &str) -> Result<Vec<PathBuf>, JobError> {
     let is_frame = |file: &str| {
-        let number = file.strip_prefix(&format!("{}.", options.name)).and_then(|rest| rest.strip_suffix(".png"));
+        let number = file.strip_prefix(&format!("{name}.")).and_then(|rest| rest.strip_suffix(".png"));
         number.is_some_and(|number| number.len() >= 4 && number.bytes().all(|byte| byte.is_ascii_digit()))
     };
-    let Ok(entries) = fs::read_dir(&options.folder) else { return Ok(Vec::new()) };
+    let Ok(entries) = fs::read_dir(folder) else { return Ok(Vec::new()) };
     let entries = entries.collect::<io::Result<Vec<_>>>();
-    let entries = entries.map_err(|error| JobError::unwritable(&options.folder, error))?;
+    let entries = entries.map_err(|error| JobError::unwritable(folder, error))?;
     let frames = entries.into_iter().filter(|entry| entry.file_name().to_str().is_some_and(is_frame));
     Ok(frames.map(|entry| entry.path()).collect())
 }

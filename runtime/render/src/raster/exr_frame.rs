@@ -76,6 +76,44 @@ fn encode(out: impl Write + Seek, picture: &mut impl PictureStrips, frame_rate_h
     written.map_err(io::Error::other)
 }
 
+/// Writes a picture in scene-linear light, complete or not at all.
+///
+/// # Errors
+/// If the file cannot be written.
+pub(crate) fn write_linear(
+    path: &Path,
+    [width, height]: [u32; 2],
+    pixels: &[[f16; 4]],
+    frame_rate_hz: f32,
+) -> Result<(), RenderError> {
+    let written = AtomicFile::create(path).and_then(|mut file| {
+        encode_linear(file.writer(), [width as usize, height as usize], pixels, frame_rate_hz)?;
+        file.commit()
+    });
+    written.map_err(|source| RenderError::Write { path: path.to_owned(), source })
+}
+
+fn encode_linear(
+    out: impl Write + Seek,
+    [width, height]: [usize; 2],
+    pixels: &[[f16; 4]],
+    frame_rate_hz: f32,
+) -> io::Result<()> {
+    let pixel = |at: Vec2<usize>| <(f16, f16, f16, f16)>::from(pixels[at.y() * width + at.x()]);
+    let channels = SpecificChannels::rgba(pixel);
+    let written = exr::block::write(out, headers((width, height), frame_rate_hz), true, |meta, chunks| {
+        let blocks = meta.collect_ordered_block_data(|block| {
+            channels.create_writer(&meta.headers[0]).extract_uncompressed_block(&meta.headers[0], block)
+        });
+        let mut compressor = chunks.sequential_blocks_compressor(&meta);
+        for (index, block) in blocks {
+            compressor.compress_block(index, block)?;
+        }
+        Ok(())
+    });
+    written.map_err(io::Error::other)
+}
+
 /// The header of a file of one layer.
 fn headers((width, height): (usize, usize), frame_rate_hz: f32) -> Headers {
     let attributes = LayerAttributes {

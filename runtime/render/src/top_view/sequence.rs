@@ -155,7 +155,7 @@ impl<'a> SequenceViews<'a> {
     }
 }
 
-fn frame_numbers(recording: &Recording, frames: Option<&FrameRange>) -> Result<Vec<u32>, RenderError> {
+pub(crate) fn frame_numbers(recording: &Recording, frames: Option<&FrameRange>) -> Result<Vec<u32>, RenderError> {
     if recording.frame_count() == 0 {
         return Err(RenderError::EmptyRecording);
     }
@@ -163,7 +163,7 @@ fn frame_numbers(recording: &Recording, frames: Option<&FrameRange>) -> Result<V
     frames.map_or_else(|| Ok((FIRST_FRAME..FIRST_FRAME + count).collect()), |frames| frames.clip(count))
 }
 
-fn make_folder(folder: &Path) -> Result<(), RenderError> {
+pub(crate) fn make_folder(folder: &Path) -> Result<(), RenderError> {
     fs::create_dir_all(folder).map_err(|source| RenderError::Folder { folder: folder.to_owned(), source })
 }
 

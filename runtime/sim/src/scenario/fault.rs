@@ -59,6 +59,8 @@ pub enum ScenarioPart {
     Label(usize),
     /// A zone, by index.
     Zone(usize),
+    /// A camera, by index.
+    Camera(usize),
     /// All agents together.
     Agents,
 }

@@ -4,7 +4,7 @@
 //! explicit, every number is in range and no path occurs.
 //!
 //! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `profile`, `social_group`, `places`
-//! (zones, doors, markings, measured lines and areas), `coupling` and `view`; `characters`; then `rules` and `ranges`, `fault` and
+//! (zones, doors, markings, measured lines and areas, cameras), `coupling` and `view`; then `rules` and `ranges`, `fault` and
 //! `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
@@ -30,6 +30,7 @@ pub use coupling::Coupling;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, character_files, fault_of_lines, parse, read};
+pub use places::camera_spec::{CameraFollow, CameraKey, CameraOrbit, CameraSpec};
 pub use places::door::DoorSpec;
 pub use places::marking::{Marking, MarkingColour, MarkingShape, PlaceLabel};
 pub use places::measure_spec::{MeasureSpec, MeasuredPlace};

@@ -10,6 +10,7 @@ use crate::route::mesh::WalkablePolygon;
 use crate::scenario::agent_spec::AgentSpec;
 use crate::scenario::characters::character_spec::CharacterSpec;
 use crate::scenario::coupling::Coupling;
+use crate::scenario::places::camera_spec::CameraSpec;
 use crate::scenario::places::door::DoorSpec;
 use crate::scenario::places::marking::{Marking, PlaceLabel};
 use crate::scenario::places::measure_spec::MeasureSpec;
@@ -76,6 +77,9 @@ pub struct Scenario {
     pub measures: Vec<MeasureSpec>,
     /// Simple polygons, corners counter-clockwise, world, m; agents stay outside.
     pub obstacles_m: Vec<Vec<Vec2>>,
+    /// Height of each obstacle in pictures, by index, m; none where the file states none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub obstacle_heights_m: Vec<Option<f32>>,
     /// Obstacles that are absent while a signal is green.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub doors: Vec<DoorSpec>,
@@ -94,6 +98,9 @@ pub struct Scenario {
     /// Characters that bodies are drawn as; plain bodies where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub characters: Vec<CharacterSpec>,
+    /// Cameras, by which pictures at eye height are taken.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cameras: Vec<CameraSpec>,
     /// Tunables.
     pub params: Params,
     /// How the top view frames the scene.
@@ -138,12 +145,14 @@ impl Scenario {
             zones: Vec::new(),
             measures: Vec::new(),
             obstacles_m: Vec::new(),
+            obstacle_heights_m: Vec::new(),
             doors: Vec::new(),
             enclosures_m: Vec::new(),
             walkable_m: Vec::new(),
             markings: Vec::new(),
             labels: Vec::new(),
             characters: Vec::new(),
+            cameras: Vec::new(),
             params: Params::default(),
             view: View::default(),
         }

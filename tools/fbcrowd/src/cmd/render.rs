@@ -1,21 +1,30 @@
-//! `fbcrowd render`: a recording to a frame sequence.
+//! `fbcrowd render`: a recording to a frame sequence, from above or from a camera.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
 use fbcrowd_jobs::output_path::LockedFolder;
-use fbcrowd_jobs::rendering;
+use fbcrowd_jobs::rendering::{self, RenderedSequence};
 use fbcrowd_jobs::wording::counted;
+use fbcrowd_render::camera::{CameraOptions, ColourBy, Quality};
+use fbcrowd_render::shading::Occlusion;
 use fbcrowd_render::top_view::{FrameRange, PictureFormat, SequenceOptions};
+use fbcrowd_render::visibility::SamplePattern;
+use fbcrowd_sim::recording::Recording;
+use fbcrowd_sim::scenario;
 
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
 
-/// Render a recording to a frame sequence.
+/// Sides of a picture, pixels, as in `[view]`.
+const SIDE_PX: RangeInclusive<u32> = 16..=8_192;
+
+/// Render a recording to a frame sequence, from above or from a camera.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd render crossing.fbrec -o frames\n  fbcrowd render crossing.fbrec -o frames --format exr --frames 1001-1100x2\n  fbcrowd render crossing.fbrec -o overlay --overlay constraints --agent 3 --frames 1090-1120"
+    after_help = "Examples:\n  fbcrowd render crossing.fbrec -o frames\n  fbcrowd render crossing.fbrec -o frames --view camera --samples 16 --format exr\n  fbcrowd render mall.fbrec -o atrium --view camera --camera atrium --frames 1001-1100x2 --burn-in\n  fbcrowd render crossing.fbrec -o overlay --overlay constraints --agent 3 --frames 1090-1120"
 )]
 pub(crate) struct Args {
     /// The recording.
@@ -24,7 +33,7 @@ pub(crate) struct Args {
     /// Folder for `NAME.1001.png` and the frames after it.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// The view.
+    /// The view: from above, or from a camera.
     #[arg(long, value_enum, default_value_t = ViewArg::Top)]
     view: ViewArg,
     /// File format: PNG (sRGB) or EXR (scene-linear, half).
@@ -39,11 +48,49 @@ pub(crate) struct Args {
     /// An agent of the overlay, counted from 0; repeat it, or write 3,7, for several panels.
     #[arg(long, value_name = "N", value_delimiter = ',', requires = "overlay")]
     agent: Vec<usize>,
+    #[command(flatten)]
+    camera: CameraArgs,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+/// Options of `--view camera`.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Camera view")]
+struct CameraArgs {
+    /// The camera; by default the scenario's first, else `default`, which frames the crowd at eye height.
+    #[arg(long, value_name = "NAME")]
+    camera: Option<String>,
+    /// Take cameras and picture size from a scenario file, instead of from the recording.
+    #[arg(long, value_name = "SCENARIO.toml")]
+    cameras: Option<PathBuf>,
+    /// Width and height of the pictures, pixels; default: the scenario's `[view]`.
+    #[arg(long, value_name = "WxH", value_parser = size_px)]
+    size: Option<[u32; 2]>,
+    /// Samples of a pixel: 4 for previews, 16 for finals.
+    #[arg(long, value_name = "N", default_value = "4", value_parser = sample_pattern)]
+    samples: SamplePattern,
+    /// What is darkened where little sky is seen.
+    #[arg(long, value_enum, default_value_t = OcclusionArg::Full)]
+    occlusion: OcclusionArg,
+    /// Draw no shadows of the sun.
+    #[arg(long)]
+    no_shadow: bool,
+    /// What the colours of clothes show.
+    #[arg(long, value_enum, default_value_t = ColourByArg::Agent)]
+    colour_by: ColourByArg,
+    /// Draw a strip with frame, time and camera; PNG only.
+    #[arg(long)]
+    burn_in: bool,
+    /// Write each agent's number over it; PNG only.
+    #[arg(long)]
+    labels: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum ViewArg {
+    /// From straight above.
     Top,
+    /// From a camera in the scene.
+    Camera,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -58,23 +105,47 @@ enum OverlayArg {
     Constraints,
 }
 
+#[derive(Clone, Copy, ValueEnum)]
+enum OcclusionArg {
+    None,
+    /// The ground at the feet.
+    Ground,
+    /// The ground and the bodies.
+    Full,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ColourByArg {
+    /// Each agent has its own hue.
+    Agent,
+    /// Each group has its own hue.
+    Group,
+    /// Planned speed: red stands, green walks briskly.
+    Speed,
+    /// Blue blends examples, ochre deforms the base walk.
+    Synthesis,
+    /// Agents around: green is free, red is crowded.
+    Density,
+}
+
+/// Reads a picture's size, such as `1920x1080`.
+fn size_px(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse().ok().filter(|side| SIDE_PX.contains(side));
+    let sides = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
+    sides.ok_or_else(|| "give a size such as 1920x1080, of 16 to 8192 pixels a side".to_owned())
+}
+
+fn sample_pattern(text: &str) -> Result<SamplePattern, String> {
+    let count = text.parse().ok();
+    count.and_then(SamplePattern::of).ok_or_else(|| "give 1, 4 or 16".to_owned())
+}
+
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let ViewArg::Top = args.view;
     let recording = rendering::open(&args.recording)?;
-    let options = SequenceOptions {
-        folder: args.output.clone(),
-        name: recording.header().scenario.name.clone(),
-        format: match args.format {
-            FormatArg::Png => PictureFormat::Png,
-            FormatArg::Exr => PictureFormat::Exr,
-        },
-        frames: args.frames.clone(),
-        constraints_of: constraints_of(args, recording.population().agents.len())?,
+    let rendered = match args.view {
+        ViewArg::Top => render_top(args, &recording)?,
+        ViewArg::Camera => render_camera(args, &recording)?,
     };
-    rendering::check_frames(&recording, &options, std::slice::from_ref(&args.recording))?;
-    let _lock = LockedFolder::shared(&args.output)?;
-    let progress = ProgressDisplay::default();
-    let rendered = rendering::render(&recording, &options, &|event| progress.observe(event))?;
     output::print(&format!(
         "{} in {}, {:.1} ms a frame",
         counted(rendered.frames, "frame", "frames"),
@@ -84,6 +155,55 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     Ok(Answer::Yes)
 }
 
+fn render_top(args: &Args, recording: &Recording) -> Result<RenderedSequence, Failure> {
+    if args.camera.camera.is_some() || args.camera.cameras.is_some() {
+        return Err(Failure::bad("--camera and --cameras choose a camera; add --view camera".to_owned()));
+    }
+    let options = SequenceOptions {
+        folder: args.output.clone(),
+        name: recording.header().scenario.name.clone(),
+        format: args.format.into(),
+        frames: args.frames.clone(),
+        constraints_of: constraints_of(args, recording.population().agents.len())?,
+    };
+    rendering::check_frames(recording, &options, std::slice::from_ref(&args.recording))?;
+    let _lock = LockedFolder::shared(&args.output)?;
+    let progress = ProgressDisplay::default();
+    Ok(rendering::render(recording, &options, &|event| progress.observe(event))?)
+}
+
+fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence, Failure> {
+    let CameraArgs { camera, cameras, size, samples, occlusion, no_shadow, colour_by, burn_in, labels } = &args.camera;
+    if args.overlay.is_some() {
+        return Err(Failure::bad("--overlay is drawn in the view from above; remove --view camera".to_owned()));
+    }
+    let mut inputs = vec![args.recording.clone()];
+    let (mut size_px, mut other_cameras) = (*size, None);
+    if let Some(path) = cameras {
+        let (scenario, _) = scenario::read(path)?;
+        size_px = size_px.or(Some([scenario.view.width, scenario.view.height]));
+        other_cameras = Some(scenario.cameras);
+        inputs.push(path.clone());
+    }
+    let options = CameraOptions {
+        folder: args.output.clone(),
+        name: recording.header().scenario.name.clone(),
+        format: args.format.into(),
+        frames: args.frames.clone(),
+        cameras: other_cameras,
+        size_px,
+        camera: camera.clone(),
+        quality: Quality { samples: *samples, shadow: !no_shadow, occlusion: (*occlusion).into() },
+        colour_by: (*colour_by).into(),
+        burn_in: *burn_in,
+        labels: *labels,
+    };
+    rendering::check_camera_frames(recording, &options, &inputs)?;
+    let _lock = LockedFolder::shared(&args.output)?;
+    let progress = ProgressDisplay::default();
+    Ok(rendering::render_camera(recording, &options, &|event| progress.observe(event))?)
+}
+
 fn constraints_of(args: &Args, count: usize) -> Result<Vec<usize>, Failure> {
     match args.overlay {
         Some(OverlayArg::Constraints) if args.agent.is_empty() => Err(Failure::bad(format!(
@@ -91,5 +211,36 @@ fn constraints_of(args: &Args, count: usize) -> Result<Vec<usize>, Failure> {
             count.saturating_sub(1)
         ))),
         Some(OverlayArg::Constraints) | None => Ok(args.agent.clone()),
+    }
+}
+
+impl From<FormatArg> for PictureFormat {
+    fn from(format: FormatArg) -> Self {
+        match format {
+            FormatArg::Png => Self::Png,
+            FormatArg::Exr => Self::Exr,
+        }
+    }
+}
+
+impl From<OcclusionArg> for Occlusion {
+    fn from(occlusion: OcclusionArg) -> Self {
+        match occlusion {
+            OcclusionArg::None => Self::None,
+            OcclusionArg::Ground => Self::Ground,
+            OcclusionArg::Full => Self::Full,
+        }
+    }
+}
+
+impl From<ColourByArg> for ColourBy {
+    fn from(colour_by: ColourByArg) -> Self {
+        match colour_by {
+            ColourByArg::Agent => Self::Agent,
+            ColourByArg::Group => Self::Group,
+            ColourByArg::Speed => Self::Speed,
+            ColourByArg::Synthesis => Self::Synthesis,
+            ColourByArg::Density => Self::Density,
+        }
     }
 }

@@ -81,7 +81,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let recording = rendering::open(&outputs.recording)?;
     let measures = measures::measure(&recording)?;
     rendering::plot_trajectories(&recording, &outputs.trajectories)?;
-    rendering::remove_frames(&outputs.frames)?;
+    rendering::remove_frames(&outputs.frames.folder, &outputs.frames.name)?;
     let rendered = rendering::render(&recording, &outputs.frames, &observer)?;
 
     let figures = measures_text::text(&measures) + &timings_text::text(&timings);
@@ -165,7 +165,7 @@ impl RunOutputs {
         if let Some(folder) = worn.first().and_then(|path| path.parent()) {
             check_files(folder, &worn, &inputs.files)?;
         }
-        Ok(rendering::check_old_frames(&self.frames, &inputs.files)?)
+        Ok(rendering::check_old_frames(&self.frames.folder, &self.frames.name, &inputs.files)?)
     }
 }
 

@@ -29,6 +29,8 @@ pub(crate) struct ObstacleTable {
     kind: ObstacleKind,
     copies_m: Option<Vec<Point>>,
     label: Option<LabelValue>,
+    /// Height in pictures, m.
+    height_m: Option<f32>,
     /// Name of the signal that opens the obstacle while it is green.
     open: Option<Spanned<String>>,
 }
@@ -122,7 +124,7 @@ impl PlacedGround {
         table: &Spanned<ObstacleTable>,
         signal: Option<u32>,
     ) -> Result<(), TableFault> {
-        let (span, ObstacleTable { polygon_m, copies_m, label, .. }) = (table.span(), table.get_ref());
+        let (span, ObstacleTable { polygon_m, copies_m, label, height_m, .. }) = (table.span(), table.get_ref());
         let (corners_m, offsets_m) = (counter_clockwise(polygon_m), offsets_m(copies_m.as_ref()));
         let count = self.solids.len() + self.enclosures.len() + self.doors.len() + offsets_m.len();
         if count > OBSTACLES_MAX || (offsets_m.len() > 1 && corners_m.len() > OBSTACLE_CORNERS_MAX) {
@@ -131,7 +133,7 @@ impl PlacedGround {
             return Err((message, "give at most 10,000 obstacles, of 3 to 1000 corners"));
         }
         self.labels.add(label.as_ref(), middle_m(&corners_m), &offsets_m, &span)?;
-        let Scenario { obstacles_m, enclosures_m, doors, .. } = &mut self.scenario;
+        let Scenario { obstacles_m, obstacle_heights_m, enclosures_m, doors, .. } = &mut self.scenario;
         for offset_m in offsets_m {
             let polygon_m = moved(&corners_m, offset_m);
             match (signal, table.get_ref().kind) {
@@ -140,6 +142,10 @@ impl PlacedGround {
                     self.doors.push(index);
                 }
                 (None, ObstacleKind::Solid) => {
+                    if height_m.is_some() {
+                        obstacle_heights_m.resize(obstacles_m.len(), None);
+                        obstacle_heights_m.push(*height_m);
+                    }
                     obstacles_m.push(polygon_m);
                     self.solids.push(index);
                 }

@@ -81,6 +81,7 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         markings: markings.markings.clone(),
         labels: ground.labels.labels.clone(),
         characters: characters.clone(),
+        cameras: file.cameras().map(|camera| camera.get_ref().clone()).collect(),
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
         ..defaults
@@ -167,6 +168,7 @@ impl ScenarioTexts<'_> {
             | ScenarioPart::Signal(_)
             | ScenarioPart::Event(_) => behaviour.span(part),
             ScenarioPart::Zone(index) => file.zones.get(index).map_or(0..0, Spanned::span),
+            ScenarioPart::Camera(index) => file.cameras().nth(index).map_or(0..0, Spanned::span),
             ScenarioPart::Measure(index) => file.measure.get(index).map_or(0..0, Spanned::span),
             ScenarioPart::Agents => file.agents().map_or(0..0, Spanned::span),
         }

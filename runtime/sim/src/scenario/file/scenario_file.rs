@@ -29,6 +29,7 @@
 //! [params.planner]                    # MCN's tunables; all sections: see `params.rs`
 //! [params.synthesis]
 //! [view]
+//! [camera]                            # or several [[cameras]]: see `camera_spec.rs`
 //! ```
 
 use std::collections::BTreeMap;
@@ -51,6 +52,7 @@ use crate::scenario::file::measure_tables::MeasureTable;
 use crate::scenario::file::profile_tables::ProfileTable;
 use crate::scenario::file::source_tables::SourceTable;
 use crate::scenario::file::zone_tables::ZoneTable;
+use crate::scenario::places::camera_spec::CameraSpec;
 use crate::scenario::view::View;
 
 /// Keys by one of which a scenario file is recognised.
@@ -112,6 +114,9 @@ pub(crate) struct ScenarioFile {
     #[serde(default)]
     pub(crate) params: Params,
     pub(crate) view: Option<Spanned<View>>,
+    camera: Option<Spanned<CameraSpec>>,
+    #[serde(default)]
+    cameras: Vec<Spanned<CameraSpec>>,
 }
 
 impl ScenarioFile {
@@ -127,6 +132,11 @@ impl ScenarioFile {
     /// The tables of agents, and their bytes in the text; none where all agents come from sources.
     pub(crate) fn agents(&self) -> Option<&Spanned<AgentGroups>> {
         self.agents.as_ref()
+    }
+
+    /// The tables of cameras, `[camera]` first.
+    pub(crate) fn cameras(&self) -> impl Iterator<Item = &Spanned<CameraSpec>> {
+        self.camera.iter().chain(&self.cameras)
     }
 
     /// Takes the tables of behaviour out of the file.

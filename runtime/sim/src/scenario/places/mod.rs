@@ -1,5 +1,7 @@
-//! What lies on the ground besides walls: zones, doors, markings, measured lines and areas. World, metres.
+//! What lies on the ground besides walls: zones, doors, markings, measured lines and areas; and
+//! cameras. World, metres.
 
+pub(crate) mod camera_spec;
 pub(crate) mod door;
 pub(crate) mod marking;
 pub(crate) mod measure_spec;

@@ -13,6 +13,7 @@ use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::ranges::check_ranges;
 use crate::scenario::resolved::Scenario;
 use crate::scenario::rules::behaviour_check::{check_behaviour_ranges, check_goals_clear_of_obstacles};
+use crate::scenario::rules::camera_check::{check_cameras, check_heights};
 use crate::scenario::rules::ground_check::{check_ground, check_ground_ranges};
 use crate::scenario::rules::marking_check::check_markings;
 use crate::scenario::rules::measure_check::{check_measures, check_zones};
@@ -53,6 +54,8 @@ pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_zones(scenario)?;
     check_markings(scenario)?;
     check_characters(&scenario.characters).map_err(|(_, fault)| fault)?;
+    check_heights(&scenario.obstacle_heights_m)?;
+    check_cameras(&scenario.cameras)?;
     check_source_ranges(scenario)
 }
 

@@ -1,0 +1,72 @@
+//! Agents of a frame as parts of the scene. World, metres.
+
+use fbcrowd_sim::recording::AgentFrame;
+use glam::Vec3;
+use rayon::prelude::*;
+
+use crate::figure::Figures;
+use crate::raster::palette::Look;
+use crate::visibility::{Lens, SceneParts};
+
+/// Middle of a body above the ground, and its reach from there, m.
+const BODY_M: [f32; 2] = [0.9, 1.2];
+/// Distance beside the picture up to which bodies are kept, m: they throw shadows into it.
+const SHADOW_REACH_M: f32 = 2.5;
+/// Height of a body, m.
+const HEIGHT_M: f32 = 1.75;
+/// Number of agents that are posed at once.
+const AGENTS_AT_ONCE: usize = 32;
+
+/// The bodies that a lens sees, or that throw shadows into its picture. `hidden` is the id of an agent that is left out.
+pub(crate) fn body_parts(
+    figures: &Figures,
+    agents: &[AgentFrame],
+    looks: &[Look],
+    lens: &Lens,
+    hidden: Option<u32>,
+) -> SceneParts {
+    let chunks: Vec<SceneParts> = agents
+        .par_chunks(AGENTS_AT_ONCE)
+        .zip(looks.par_chunks(AGENTS_AT_ONCE))
+        .map(|(agents, looks)| {
+            let mut parts = SceneParts::default();
+            for (agent, look) in agents.iter().zip(looks) {
+                if Some(agent.id.0) != hidden && is_near_picture(lens, agent) {
+                    figures.append(&mut parts, agent, look, height_px(lens, agent));
+                }
+            }
+            parts
+        })
+        .collect();
+    let mut scene = SceneParts::default();
+    for parts in chunks {
+        scene.cones.extend(parts.cones);
+        scene.occluders.extend(parts.occluders);
+        scene.meshes.extend(&parts.meshes);
+    }
+    scene
+}
+
+fn middle_m(agent: &AgentFrame) -> Vec3 {
+    agent.root.position_m.extend(BODY_M[0])
+}
+
+/// Height of a body in the picture, pixels.
+fn height_px(lens: &Lens, agent: &AgentFrame) -> f32 {
+    let depth_m = lens.to_camera(middle_m(agent)).z;
+    HEIGHT_M / lens.pixel_m(depth_m.max(0.3))
+}
+
+/// Whether a body, or its shadow, can touch the picture.
+fn is_near_picture(lens: &Lens, agent: &AgentFrame) -> bool {
+    let at = lens.to_camera(middle_m(agent));
+    let reach_m = BODY_M[1] + SHADOW_REACH_M;
+    if at.z < -reach_m {
+        return false;
+    }
+    let half = 0.5 * lens.size() * lens.pixel;
+    (0..2).all(|axis| {
+        let (edge, slope) = if lens.is_perspective { (half[axis] * at.z, half[axis]) } else { (half[axis], 0.0) };
+        at[axis].abs() - edge < reach_m * (1.0 + slope * slope).sqrt()
+    })
+}

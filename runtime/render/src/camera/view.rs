@@ -1,0 +1,98 @@
+//! One frame of a camera: bodies, walls and ground in scene-linear light.
+//!
+//! Enters: agents of a frame and a lens, world metres. Leaves: a [`LinearPicture`]. [`CameraView::new`] prepares what
+//! all frames share; [`CameraView::draw`] depends only on time, lens and agents, so frames can be drawn in any order.
+
+use fbcrowd_sim::Population;
+use fbcrowd_sim::recording::{AgentFrame, Header};
+use glam::Vec3;
+
+use crate::camera::blocks::{append_doors, still_blocks};
+use crate::camera::bodies::body_parts;
+use crate::camera::colour_by::{ColourBy, looks};
+use crate::camera::options::Quality;
+use crate::figure::Figures;
+use crate::shading::ground_plan::GroundPlan;
+use crate::shading::linear_picture::LinearPicture;
+use crate::shading::occlusion::{Occlusion, OcclusionGrid};
+use crate::shading::shader::Shader;
+use crate::shading::shadow_map::ShadowMap;
+use crate::visibility::{Lens, Meshes, SceneParts, for_each_tile};
+
+/// Distance from the eye up to which walls throw shadows, m.
+const WALL_SHADOW_M: f32 = 45.0;
+
+/// What all frames of a camera sequence share.
+#[derive(Clone, Debug)]
+pub struct CameraView<'a> {
+    header: &'a Header,
+    population: &'a Population,
+    figures: Figures,
+    blocks: Meshes,
+    ground: GroundPlan,
+    quality: Quality,
+    colour_by: ColourBy,
+}
+
+/// The moment and conditions of a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shot {
+    /// The lens.
+    pub lens: Lens,
+    /// Time, s.
+    pub time_s: f64,
+    /// Id of the agent whose eyes are the camera: its body is not drawn.
+    pub eyes_of: Option<u32>,
+    /// Distance at which fog leaves a third of the light, m.
+    pub fog_m: Option<f32>,
+}
+
+impl<'a> CameraView<'a> {
+    /// The view of a recording.
+    pub fn new(header: &'a Header, population: &'a Population, quality: Quality, colour_by: ColourBy) -> Self {
+        let (blocks, ground) = (still_blocks(&header.scenario), GroundPlan::new(&header.scenario));
+        let figures = Figures::new(header.skeleton());
+        Self { header, figures, population, blocks, ground, quality, colour_by }
+    }
+
+    /// The cones and triangles of a frame.
+    pub fn scene(&self, shot: &Shot, agents: &[AgentFrame]) -> SceneParts {
+        let looks = looks(self.colour_by, agents, self.population);
+        let mut scene = body_parts(&self.figures, agents, &looks, &shot.lens, shot.eyes_of);
+        scene.meshes.extend(&self.blocks);
+        let frame = (shot.time_s / f64::from(self.header.scenario.dt_s) + 1e-3) as u32;
+        append_doors(&mut scene.meshes, &self.header.scenario, self.population, frame);
+        scene
+    }
+
+    /// Picture of all agents at a time.
+    pub fn draw(&self, shot: &Shot, agents: &[AgentFrame]) -> LinearPicture {
+        self.draw_scene(shot, &self.scene(shot, agents))
+    }
+
+    /// Picture of a scene that is made already.
+    pub fn draw_scene(&self, shot: &Shot, scene: &SceneParts) -> LinearPicture {
+        let Shot { lens, time_s, fog_m, .. } = shot;
+        let shadow = if self.quality.shadow { ShadowMap::new(scene, &self.shaded_walls_m(lens)) } else { None };
+        let occluders = (self.quality.occlusion > Occlusion::None).then(|| OcclusionGrid::new(scene));
+        let layer_colours = self.ground.colours(&self.header.scenario, *time_s);
+        let shader = Shader {
+            scene,
+            lens,
+            ground: &self.ground,
+            layer_colours: &layer_colours,
+            shadow: shadow.as_ref(),
+            occluders: occluders.as_ref(),
+            occlusion: self.quality.occlusion,
+            fog_m: *fog_m,
+        };
+        let tiles = for_each_tile(scene, lens, self.quality.samples, Some(lens.ground()), |tile| shader.tile(tile));
+        LinearPicture::from_tiles(lens.size_px, &tiles)
+    }
+
+    /// Corners of walls near the eye, whose shadows are seen.
+    fn shaded_walls_m(&self, lens: &Lens) -> Vec<Vec3> {
+        let near = |position_m: &&Vec3| position_m.truncate().distance(lens.eye_m.truncate()) < WALL_SHADOW_M;
+        self.blocks.positions_m.iter().filter(near).copied().collect()
+    }
+}

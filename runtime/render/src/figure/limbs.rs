@@ -1,0 +1,121 @@
+//! Arms and legs. Rest pose, metres.
+
+use glam::Vec3;
+use motiondb::body::{Joint, Side};
+
+use crate::figure::build::{Build, arm};
+use crate::figure::loft::Section;
+use crate::figure::style::Cloth;
+use crate::figure::template::Template;
+
+/// Sections of an arm from shoulder (0) over elbow (1) to wrist (2): place, half width fore and aft, half height.
+const ARM: [[f32; 3]; 15] = [
+    [-0.064, 0.016, 0.016],
+    [-0.055, 0.034, 0.034],
+    [-0.022, 0.049, 0.049],
+    [0.040, 0.059, 0.056],
+    [0.150, 0.063, 0.058],
+    [0.350, 0.057, 0.052],
+    [0.600, 0.048, 0.047],
+    [0.850, 0.043, 0.043],
+    [1.000, 0.042, 0.042],
+    [1.150, 0.044, 0.042],
+    [1.320, 0.043, 0.039],
+    [1.600, 0.036, 0.033],
+    [1.850, 0.031, 0.026],
+    [2.000, 0.029, 0.023],
+    [2.060, 0.026, 0.019],
+];
+/// Place on the arm at which short sleeves end.
+const SLEEVE_END: f32 = 0.72;
+/// Half of the stretch over which a limb bends around its middle joint, share of a bone.
+const BEND: f32 = 0.17;
+/// Sections of a leg from hip (0) over knee (1) to ankle (2): place, half depth, half width, shift forward.
+const LEG: [[f32; 4]; 14] = [
+    [-0.060, 0.080, 0.070, -0.010],
+    [0.030, 0.094, 0.081, -0.008],
+    [0.150, 0.093, 0.081, -0.002],
+    [0.350, 0.085, 0.075, 0.004],
+    [0.600, 0.073, 0.066, 0.006],
+    [0.850, 0.062, 0.058, 0.006],
+    [1.000, 0.059, 0.055, 0.004],
+    [1.120, 0.057, 0.053, -0.004],
+    [1.300, 0.060, 0.054, -0.013],
+    [1.500, 0.054, 0.049, -0.012],
+    [1.720, 0.047, 0.044, -0.006],
+    [1.880, 0.047, 0.044, -0.002],
+    [1.945, 0.049, 0.045, 0.000],
+    [1.948, 0.036, 0.033, 0.000],
+];
+
+impl Template {
+    pub(crate) fn add_arm(&mut self, build: &Build, side: Side) {
+        let joints = arm(side);
+        let [shoulder, elbow, wrist] = joints.map(|joint| build.joint(joint));
+        let slim = build.by_sex(1.0, 0.84) * build.scale;
+        let place = |at: f32| if at < 1.0 { shoulder.lerp(elbow, at) } else { elbow.lerp(wrist, at - 1.0) };
+        let section = |[at, depth, height]: [f32; 3], cloth: Cloth| {
+            let (index, share) = bend(at);
+            let size = slim * loose(cloth, at);
+            Section {
+                joints: [joints[index].index(), joints[index + 1].index()],
+                share,
+                ..Section::round(place(at), Vec3::Z * height * size, Vec3::X * depth * size, joints[0].index(), cloth)
+            }
+        };
+        let points = build.fineness.points(8);
+        // Skin or sleeve below, a sleeve above that ends with a hem.
+        let is_below = |row: &&[f32; 3]| row[0] > SLEEVE_END - 0.2;
+        let below: Vec<Section> = ARM.iter().filter(is_below).map(|row| section(*row, Cloth::Sleeve)).collect();
+        let sleeve = ARM.iter().take_while(|row| row[0] < SLEEVE_END).copied();
+        let hem = [[SLEEVE_END, 0.0462, 0.0462], [SLEEVE_END + 0.004, 0.040, 0.040]];
+        let above: Vec<Section> = sleeve.chain(hem).map(|row| section(row, Cloth::Shirt)).collect();
+        self.loft_limb(&below, points, side);
+        self.loft_limb(&above, points, side);
+    }
+
+    pub(crate) fn add_leg(&mut self, build: &Build, side: Side) {
+        let index = side.index();
+        let joints = [Joint::THIGHS[index], Joint::SHANKS[index], Joint::FEET[index]];
+        let [hip, knee, ankle] = joints.map(|joint| build.joint(joint));
+        let place = |at: f32| if at < 1.0 { hip.lerp(knee, at) } else { knee.lerp(ankle, at - 1.0) };
+        let section = |[at, depth, width, shift]: [f32; 4]| {
+            let size = build.by_sex(1.0, if at < 0.7 { 1.0 } else { 0.9 }) * build.scale;
+            let (from, share) = bend(at);
+            let at_m = place(at) + Vec3::X * shift * build.scale;
+            let (side_m, front_m) = (Vec3::Y * width * size, Vec3::X * depth * size);
+            let round = Section::round(at_m, side_m, front_m, joints[0].index(), Cloth::Trousers);
+            // The top of a thigh follows the pelvis a little.
+            if at < 0.1 {
+                let share = 0.35 * (1.0 - at / 0.1).clamp(0.0, 1.0);
+                return Section { joints: [joints[0].index(), Joint::Pelvis.index()], share, ..round };
+            }
+            // Trousers end at the shank; the foot does not pull them.
+            let last = if from == 1 { joints[1] } else { joints[from + 1] };
+            Section { joints: [joints[from].index(), last.index()], share, ..round }
+        };
+        let sections: Vec<Section> = LEG.iter().rev().map(|row| section(*row)).collect();
+        self.loft(&sections, build.fineness.points(8));
+    }
+
+    /// A loft along +y or −y, facing outward on both sides.
+    pub(crate) fn loft_limb(&mut self, sections: &[Section], points: u32, side: Side) {
+        let turned: Vec<Section> = match side {
+            // Front × side × direction: x, z and −y are right-handed.
+            Side::Right => sections.to_vec(),
+            Side::Left => sections.iter().map(|section| Section { side: -section.side, ..*section }).collect(),
+        };
+        self.loft(&turned, points);
+    }
+}
+
+/// Factor of a cloth's size: a sleeve hangs about the arm.
+fn loose(cloth: Cloth, at: f32) -> f32 {
+    if cloth == Cloth::Shirt && at > 0.1 { 1.0 + 0.035 * ((at - 0.1) / 0.4).min(1.0) } else { 1.0 }
+}
+
+/// The first of the two joints that a place on a limb follows, and the share of the second.
+fn bend(at: f32) -> (usize, f32) {
+    let around = |joint: f32| ((at - joint + BEND) / (2.0 * BEND)).clamp(0.0, 1.0);
+    if at < 1.0 + BEND { (0, around(1.0)) } else { (1, around(2.0)) }
+}

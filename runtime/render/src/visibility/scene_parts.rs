@@ -1,0 +1,107 @@
+//! What is drawn besides the ground: rounded cones and meshes of triangles, in the world. Metres, z up, linear colours.
+
+use glam::Vec3;
+
+/// What a part belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Owner {
+    /// Id of the agent; [`Owner::NO_AGENT`] for a part of the scene.
+    pub agent: u32,
+    /// Material, by index: what a matte by material separates.
+    pub material: u32,
+}
+
+impl Owner {
+    /// The agent of parts that belong to none.
+    pub const NO_AGENT: u32 = u32::MAX;
+    /// A part of the scene: walls, blocks.
+    pub const SCENE: Self = Self { agent: Self::NO_AGENT, material: 0 };
+}
+
+/// A ball that is swept along a segment while its radius changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// Centre of the ball at both ends, world, m.
+    pub ends_m: [Vec3; 2],
+    /// Radius at both ends, m.
+    pub radii_m: [f32; 2],
+    /// Colour, linear Rec. 709.
+    pub colour: Vec3,
+    /// What it belongs to.
+    pub owner: Owner,
+}
+
+/// Triangles of all meshes of a scene. A mesh is appended as plain slices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Meshes {
+    /// Position of each vertex, world, m.
+    pub positions_m: Vec<Vec3>,
+    /// Normal of each vertex, world.
+    pub normals: Vec<Vec3>,
+    /// Colour of each vertex, linear Rec. 709.
+    pub colours: Vec<Vec3>,
+    /// Vertices of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+    /// What each triangle belongs to.
+    pub owners: Vec<Owner>,
+}
+
+/// All cones and triangles of a frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneParts {
+    /// Rounded cones, by rising agent.
+    pub cones: Vec<Cone>,
+    /// Triangles.
+    pub meshes: Meshes,
+    /// Rounded cones that are not drawn, by which occlusion is computed; by rising agent.
+    pub occluders: Vec<Cone>,
+}
+
+impl Meshes {
+    /// Appends a mesh: as many normals and colours as positions, and triangles of its own indices. Triangles with an
+    /// index beyond the positions are left out.
+    ///
+    /// ```
+    /// use fbcrowd_render::visibility::{Meshes, Owner};
+    /// use glam::Vec3;
+    ///
+    /// let mut meshes = Meshes::default();
+    /// let corners_m = [Vec3::ZERO, Vec3::X, Vec3::Y];
+    /// for _ in 0..2 {
+    ///     meshes.append(&corners_m, &[Vec3::Z; 3], &[Vec3::ONE; 3], &[[0, 1, 2]], Owner::SCENE);
+    /// }
+    /// assert_eq!(meshes.triangles, [[0, 1, 2], [3, 4, 5]]);
+    /// ```
+    pub fn append(
+        &mut self,
+        positions_m: &[Vec3],
+        normals: &[Vec3],
+        colours: &[Vec3],
+        triangles: &[[u32; 3]],
+        owner: Owner,
+    ) {
+        let first = self.positions_m.len() as u32;
+        let count = positions_m.len().min(normals.len()).min(colours.len());
+        self.positions_m.extend_from_slice(&positions_m[..count]);
+        self.normals.extend_from_slice(&normals[..count]);
+        self.colours.extend_from_slice(&colours[..count]);
+        let valid = triangles.iter().filter(|corners| corners.iter().all(|&corner| (corner as usize) < count));
+        self.triangles.extend(valid.map(|corners| corners.map(|corner| first + corner)));
+        self.owners.resize(self.triangles.len(), owner);
+    }
+
+    /// Appends all triangles of other meshes.
+    pub(crate) fn extend(&mut self, other: &Self) {
+        let first = self.positions_m.len() as u32;
+        self.positions_m.extend_from_slice(&other.positions_m);
+        self.normals.extend_from_slice(&other.normals);
+        self.colours.extend_from_slice(&other.colours);
+        self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
+        self.owners.extend_from_slice(&other.owners);
+    }
+
+    /// Corners of a triangle, world, m.
+    pub(crate) fn corners_m(&self, triangle: usize) -> [Vec3; 3] {
+        self.triangles[triangle].map(|corner| self.positions_m[corner as usize])
+    }
+}

@@ -1,0 +1,256 @@
+//! All tiles of a picture, in parallel. Each tile depends only on the scene and the lens, and the parts of a tile are
+//! drawn in their order, so that any number of threads gives the same bits.
+
+use rayon::prelude::*;
+
+use crate::visibility::lens::{GroundDepth, Lens};
+use crate::visibility::rounded_cone::PreparedCone;
+use crate::visibility::sample_pattern::SamplePattern;
+use crate::visibility::scene_parts::SceneParts;
+use crate::visibility::screen_bounds::cone_bounds;
+use crate::visibility::tile_samples::{PartId, TileSamples};
+use crate::visibility::triangle::{ScreenTriangle, append_visible};
+
+/// Side of a tile, pixels: its samples fit the first cache.
+pub(crate) const TILE_PX: u32 = 32;
+/// Number of triangles that are projected at once.
+const TRIANGLES_AT_ONCE: usize = 4096;
+
+/// A cone or triangle, and the pixels that it can touch.
+struct Visible<T> {
+    shape: T,
+    part: PartId,
+    bounds: [[u32; 2]; 2],
+}
+
+/// The parts that can touch each tile, in their order.
+struct TileLists {
+    /// Index of the first entry of each tile, and the number of entries.
+    starts: Vec<u32>,
+    entries: Vec<u32>,
+}
+
+/// Calls a function for each tile, in parallel, and returns the results row by row. The ground is drawn where there is
+/// one. Parts are numbered cones first, then triangles.
+pub(crate) fn for_each_tile<T: Send>(
+    scene: &SceneParts,
+    lens: &Lens,
+    pattern: SamplePattern,
+    ground: Option<GroundDepth>,
+    function: impl Fn(&mut TileSamples<'_>) -> T + Sync,
+) -> Vec<T> {
+    let cones = visible_cones(scene, lens);
+    let triangles = visible_triangles(scene, lens);
+    let tiles = lens.size_px.map(|side| side.div_ceil(TILE_PX));
+    let cone_lists = TileLists::new(tiles, &cones);
+    let triangle_lists = TileLists::new(tiles, &triangles);
+    let draw = |tile: u32| {
+        let corner_px = [tile % tiles[0] * TILE_PX, tile / tiles[0] * TILE_PX];
+        let mut samples = TileSamples::new(lens, pattern, corner_px, TILE_PX);
+        if let Some(ground) = &ground {
+            samples.put_ground(ground);
+        }
+        for cone in cone_lists.of(tile).map(|index| &cones[index]) {
+            samples.draw_cone(&cone.shape, cone.part, cone.bounds);
+        }
+        for triangle in triangle_lists.of(tile).map(|index| &triangles[index]) {
+            samples.draw_triangle(&triangle.shape, triangle.part, triangle.bounds);
+        }
+        function(&mut samples)
+    };
+    (0..tiles[0] * tiles[1]).into_par_iter().map(draw).collect()
+}
+
+fn visible_cones(scene: &SceneParts, lens: &Lens) -> Vec<Visible<PreparedCone>> {
+    let prepare = |(index, cone)| {
+        let shape = PreparedCone::new(cone, lens);
+        let bounds = cone_bounds(&shape, lens)?;
+        Some(Visible { shape, part: PartId(index as u32), bounds })
+    };
+    scene.cones.par_iter().enumerate().filter_map(prepare).collect()
+}
+
+fn visible_triangles(scene: &SceneParts, lens: &Lens) -> Vec<Visible<ScreenTriangle>> {
+    let meshes = &scene.meshes;
+    let vertices: Vec<_> = meshes.positions_m.par_iter().map(|position_m| lens.to_camera(*position_m)).collect();
+    let project = |(chunk, triangles): (usize, &[[u32; 3]])| {
+        let mut shapes = Vec::new();
+        for (offset, corners) in triangles.iter().enumerate() {
+            let index = (chunk * TRIANGLES_AT_ONCE + offset) as u32;
+            append_visible(&mut shapes, index, corners.map(|corner| vertices[corner as usize]), lens);
+        }
+        let to_visible = |shape: ScreenTriangle| {
+            let bounds = shape.bounds(lens.size_px)?;
+            Some(Visible { part: PartId(scene.cones.len() as u32 + shape.index), shape, bounds })
+        };
+        shapes.into_iter().filter_map(to_visible).collect::<Vec<_>>()
+    };
+    let chunks: Vec<_> = meshes.triangles.par_chunks(TRIANGLES_AT_ONCE).enumerate().map(project).collect();
+    chunks.into_iter().flatten().collect()
+}
+
+impl TileLists {
+    /// A counting sort of shapes by tile.
+    fn new<T>(tiles: [u32; 2], shapes: &[Visible<T>]) -> Self {
+        let tiles_of = |bounds: [[u32; 2]; 2]| {
+            let [first, last] = bounds.map(|corner| corner.map(|at| at / TILE_PX));
+            (first[1]..=last[1]).flat_map(move |row| (first[0]..=last[0]).map(move |column| row * tiles[0] + column))
+        };
+        let mut starts = vec![0; (tiles[0] * tiles[1]) as usize + 1];
+        for tile in shapes.iter().flat_map(|shape| tiles_of(shape.bounds)) {
+            starts[tile as usize + 1] += 1;
+        }
+        for tile in 1..starts.len() {
+            starts[tile] += starts[tile - 1];
+        }
+        let mut next = starts.clone();
+        let mut entries = vec![0; starts[starts.len() - 1] as usize];
+        for (index, shape) in shapes.iter().enumerate() {
+            for tile in tiles_of(shape.bounds) {
+                entries[next[tile as usize] as usize] = index as u32;
+                next[tile as usize] += 1;
+            }
+        }
+        Self { starts, entries }
+    }
+
+    fn of(&self, tile: u32) -> impl Iterator<Item = usize> {
+        let (from, to) = (self.starts[tile as usize] as usize, self.starts[tile as usize + 1] as usize);
+        self.entries[from..to].iter().map(|index| *index as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fbcrowd_sim::maths::SplitMix64;
+    use glam::{Vec2, Vec3};
+
+    use super::*;
+    use crate::visibility::scene_parts::{Cone, Owner};
+
+    fn random_scene(random: &mut SplitMix64, cones: usize, triangles: usize) -> SceneParts {
+        let mut scene = SceneParts::default();
+        let mut within = |range: f64| random.within(range) as f32;
+        for _ in 0..cones {
+            let from = Vec3::new(within(4.0), within(6.0), within(2.0));
+            let ends_m = [from, from + Vec3::new(within(0.7), within(0.7), within(0.7))];
+            let radii_m = [0.2 + within(0.15), 0.2 + within(0.15)];
+            scene.cones.push(Cone { ends_m, radii_m, colour: Vec3::ONE, owner: Owner::SCENE });
+        }
+        for _ in 0..triangles {
+            let centre = Vec3::new(within(4.0), within(6.0), within(2.0));
+            let corners_m = [0; 3].map(|_| centre + Vec3::new(within(1.5), within(1.5), within(1.5)));
+            scene.meshes.append(&corners_m, &[Vec3::Z; 3], &[Vec3::ONE; 3], &[[0, 1, 2]], Owner::SCENE);
+        }
+        scene
+    }
+
+    fn lenses() -> [Lens; 2] {
+        // Parts lie behind the eye, before it and across its plane.
+        let size_px = [90, 70];
+        let eye_m = Vec3::new(0.1, -1.5, 0.3);
+        [
+            Lens::perspective(size_px, eye_m, Vec3::new(0.4, 4.0, 0.1), 1.3),
+            Lens::orthographic(size_px, eye_m, Vec3::new(0.2, 1.0, -0.3), 7.0),
+        ]
+    }
+
+    /// Depth at which a ray meets a triangle (Möller and Trumbore 1997), in f64; none near an edge is decided.
+    fn cast(lens: &Lens, uv: Vec2, corners_m: [Vec3; 3]) -> (Option<f64>, bool) {
+        let near = lens.at_depth(uv, 0.0).as_dvec3();
+        let direction = lens.at_depth(uv, 1.0).as_dvec3() - near;
+        let [a, b, c] = corners_m.map(|corner| lens.to_camera(corner).as_dvec3());
+        let (first, second) = (b - a, c - a);
+        let across = direction.cross(second);
+        let scale = first.dot(across);
+        let offset = near - a;
+        let u = offset.dot(across) / scale;
+        let around = offset.cross(first);
+        let v = direction.dot(around) / scale;
+        let least = u.min(v).min(1.0 - u - v);
+        let depth_m = second.dot(around) / scale;
+        ((least >= 0.0 && depth_m >= 0.1).then_some(depth_m), least.abs() < 2e-2 || (depth_m - 0.1).abs() < 1e-2)
+    }
+
+    #[test]
+    fn triangles_are_where_rays_meet_them() {
+        let mut random = SplitMix64::new(5, 8);
+        let (mut hits, mut wrong) = (0, 0);
+        for lens in &lenses() {
+            for _ in 0..30 {
+                let scene = random_scene(&mut random, 0, 1);
+                let corners_m = scene.meshes.corners_m(0);
+                let tiles = for_each_tile(&scene, lens, SamplePattern::Four, None, |tile| {
+                    let samples = 0..tile.parts.len();
+                    samples.map(|sample| (tile.uv(sample), tile.depths_m[sample])).collect::<Vec<_>>()
+                });
+                for (uv, depth_m) in tiles.into_iter().flatten() {
+                    let (expected_m, is_edge) = cast(lens, uv, corners_m);
+                    hits += usize::from(depth_m.is_finite());
+                    if !is_edge && depth_m.is_finite() != expected_m.is_some() {
+                        wrong += 1;
+                    } else if let (true, Some(expected_m)) = (depth_m.is_finite(), expected_m) {
+                        assert!((f64::from(depth_m) - expected_m).abs() < 2e-3 * expected_m.max(1.0));
+                    }
+                }
+            }
+        }
+        assert!(hits > 10_000 && wrong == 0, "{hits} hits, {wrong} wrong");
+    }
+
+    #[test]
+    fn triangles_with_a_common_edge_leave_no_gap() {
+        // A fan around a point, through which no sample may look.
+        let mut scene = SceneParts::default();
+        let mut random = SplitMix64::new(4, 4);
+        let centre = Vec3::new(random.within(0.3) as f32, 2.0, random.within(0.3) as f32);
+        let rim = |index: usize| {
+            let (sin, cos) = libm::sincosf(index as f32 * std::f32::consts::TAU / 23.0);
+            Vec3::new(40.0 * cos, 2.0, 40.0 * sin)
+        };
+        for index in 0..23 {
+            let corners_m = [centre, rim(index), rim(index + 1)];
+            scene.meshes.append(&corners_m, &[Vec3::Y; 3], &[Vec3::ONE; 3], &[[0, 1, 2]], Owner::SCENE);
+        }
+        let tiles = for_each_tile(&scene, &lenses()[0], SamplePattern::Sixteen, None, |tile| {
+            tile.parts.iter().filter(|part| **part == PartId::SKY).count()
+        });
+        assert_eq!(tiles.iter().sum::<usize>(), 0);
+    }
+
+    #[test]
+    fn tiles_are_the_same_for_any_number_of_threads() {
+        let scene = random_scene(&mut SplitMix64::new(1, 1), 60, 60);
+        let draw = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let lens = lenses()[0];
+            pool.install(|| {
+                for_each_tile(&scene, &lens, SamplePattern::Four, Some(lens.ground()), |tile| {
+                    (tile.depths_m.iter().map(|depth_m| depth_m.to_bits()).collect::<Vec<_>>(), tile.parts.clone())
+                })
+            })
+        };
+        let once = draw(1);
+        assert!(once == draw(3));
+        let parts: std::collections::BTreeSet<_> = once.iter().flat_map(|(_, parts)| parts).collect();
+        assert!(parts.len() > 15, "{} parts are visible", parts.len());
+    }
+
+    #[test]
+    fn the_nearest_cone_is_that_of_each_sample() {
+        let scene = random_scene(&mut SplitMix64::new(7, 7), 40, 0);
+        for lens in &lenses() {
+            let prepared: Vec<PreparedCone> = scene.cones.iter().map(|cone| PreparedCone::new(cone, lens)).collect();
+            for_each_tile(&scene, lens, SamplePattern::Four, None, |tile| {
+                for sample in 0..tile.parts.len() {
+                    let uv = tile.uv(sample);
+                    let nearest_m =
+                        prepared.iter().filter_map(|cone| cone.depth_m(uv)).filter(|depth_m| *depth_m > 0.0);
+                    let nearest_m = nearest_m.fold(f32::INFINITY, f32::min);
+                    let found_m = tile.depths_m[sample];
+                    assert!(found_m == nearest_m || (found_m - nearest_m).abs() < 1e-3, "{found_m} {nearest_m}");
+                }
+            });
+        }
+    }
+}

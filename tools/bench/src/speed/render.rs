@@ -1,0 +1,203 @@
+//! `fbcrowd bench render`: the duration of a frame of the camera view.
+//!
+//! A crowd walks across a disc; a camera above it sees all bodies. Frames of 1920 × 1080 pixels with four samples are drawn
+//! on one thread, with more and more light: shadow of the sun, occlusion of the ground, occlusion of bodies. The larger
+//! crowd is ten copies of the smaller one. The least duration counts: other work of the machine only lengthens it.
+
+use std::fs;
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::Instant;
+
+use fbcrowd_jobs::Observer;
+use fbcrowd_jobs::observer::Work;
+use fbcrowd_render::camera::{CameraView, ColourBy, Quality, Shot};
+use fbcrowd_render::shading::Occlusion;
+use fbcrowd_render::visibility::{Lens, SamplePattern};
+use fbcrowd_sim::AgentId;
+use fbcrowd_sim::recording::{AgentFrame, Header};
+use fbcrowd_sim::simulation::Simulation;
+use glam::{Vec2, Vec3};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::error::BenchError;
+use crate::kit::crowd::disc;
+use crate::kit::database::bundled;
+use crate::kit::report::{BenchReport, Goal};
+use crate::kit::threads::pool;
+
+/// Agents of the smaller crowd.
+const AGENTS: usize = 1_000;
+/// Steps of the simulation, until all agents walk.
+const STEPS: usize = 30;
+/// Copies along and across of the larger crowd.
+const COPIES: [usize; 2] = [5, 2];
+/// Distance of copies, m.
+const COPY_M: f32 = 68.0;
+/// Size of the picture, pixels.
+const SIZE_PX: [u32; 2] = [1920, 1080];
+/// Height of a body, m.
+const BODY_M: f32 = 1.75;
+
+/// Time a frame of the camera view.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  fbcrowd bench render --json")]
+pub struct Args {
+    /// Number of frames of which the quickest counts.
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub turns: u32,
+}
+
+/// What was measured.
+#[derive(JsonSchema, Serialize)]
+pub struct Details {
+    /// Durations, in the order in which they were measured.
+    pub cases: Vec<Case>,
+}
+
+/// One kind of frame.
+#[derive(JsonSchema, Serialize)]
+pub struct Case {
+    /// Number of agents in view.
+    pub agents: usize,
+    /// Height of the nearest body in the picture, pixels.
+    pub tallest_px: f32,
+    /// Light that is computed.
+    pub light: &'static str,
+    /// Duration of making the parts of all bodies on one thread, s.
+    pub parts_s: f64,
+    /// Duration of the whole frame on one thread, s.
+    pub frame_s: f64,
+}
+
+/// Name of a light, its quality, and its goal for a thousand agents, s.
+const LIGHTS: [(&str, bool, Occlusion, f64); 4] = [
+    ("no shadow", false, Occlusion::None, 0.5),
+    ("shadow", true, Occlusion::None, 0.6),
+    ("shadow and ground occlusion", true, Occlusion::Ground, 0.8),
+    ("shadow and full occlusion", true, Occlusion::Full, 1.2),
+];
+/// Goal for ten thousand agents with shadow, s.
+const LARGE_GOAL_S: f64 = 0.8;
+
+/// Runs the bench.
+///
+/// # Errors
+/// If the bundled clips give no database, or the system gives no thread.
+pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, BenchError> {
+    let db = Arc::new(bundled()?);
+    let mut simulation = Simulation::new(Arc::clone(&db), &disc(AGENTS));
+    (0..STEPS).for_each(|_| simulation.step(&mut |_| {}));
+    let header = Header::new(&db, 0, disc(AGENTS));
+    let small = simulation.frames().to_vec();
+    let large = copies(&small);
+    let work = Work::begin(observer, "frames", (LIGHTS.len() + 1) * args.turns as usize);
+    let one_thread = pool(1)?;
+    let time = |agents: &[AgentFrame], lens: Lens, light: usize| {
+        let (name, shadow, occlusion, _) = LIGHTS[light];
+        let quality = Quality { samples: SamplePattern::Four, shadow, occlusion };
+        let view = CameraView::new(&header, simulation.population(), quality, ColourBy::Agent);
+        let shot = Shot { lens, time_s: 0.0, eyes_of: None, fog_m: None };
+        let (mut parts_s, mut frame_s) = (f64::INFINITY, f64::INFINITY);
+        for _ in 0..args.turns {
+            one_thread.install(|| {
+                let stopwatch = Stopwatch::start();
+                let scene = view.scene(&shot, agents);
+                parts_s = parts_s.min(stopwatch.elapsed_s());
+                black_box(view.draw_scene(&shot, &scene));
+                frame_s = frame_s.min(stopwatch.elapsed_s());
+            });
+            work.advance();
+        }
+        Case { agents: agents.len(), tallest_px: tallest_px(&lens, agents), light: name, parts_s, frame_s }
+    };
+    let mut cases: Vec<Case> = (0..LIGHTS.len()).map(|light| time(&small, wide_lens(34.0), light)).collect();
+    cases.push(time(&large, wide_lens(150.0), 1));
+    work.end();
+    let mut goals: Vec<Goal> = cases
+        .iter()
+        .zip(LIGHTS)
+        .map(|(case, (name, .., goal))| Goal { name: goal_name(name), measured: Some(case.frame_s), goal })
+        .collect();
+    goals.push(Goal {
+        name: "10,000 agents, shadow, CPU-s a frame",
+        measured: cases.last().map(|case| case.frame_s),
+        goal: LARGE_GOAL_S,
+    });
+    let details = Details { cases };
+    Ok(BenchReport { text: text(&details), details, goals, criteria: Vec::new() })
+}
+
+fn goal_name(light: &str) -> &'static str {
+    match light {
+        "shadow" => "1,000 agents, shadow, CPU-s a frame",
+        "shadow and ground occlusion" => "1,000 agents, shadow and ground occlusion, CPU-s a frame",
+        "shadow and full occlusion" => "1,000 agents, shadow and full occlusion, CPU-s a frame",
+        _ => "1,000 agents, no shadow, CPU-s a frame",
+    }
+}
+
+/// The crowd several times, side by side.
+fn copies(agents: &[AgentFrame]) -> Vec<AgentFrame> {
+    let mut all = Vec::with_capacity(agents.len() * COPIES[0] * COPIES[1]);
+    for copy in 0..COPIES[0] * COPIES[1] {
+        let [column, row] = [copy % COPIES[0], copy / COPIES[0]];
+        let middle = Vec2::new(0.5 * (COPIES[0] - 1) as f32, 0.5 * (COPIES[1] - 1) as f32);
+        let shift_m = COPY_M * (Vec2::new(column as f32, row as f32) - middle);
+        all.extend(agents.iter().map(|agent| {
+            let mut moved = *agent;
+            moved.id = AgentId((copy * agents.len()) as u32 + agent.id.0);
+            moved.root.position_m += shift_m;
+            moved
+        }));
+    }
+    all
+}
+
+/// A lens that sees a crowd with this half width from the south, above its heads.
+fn wide_lens(half_width_m: f32) -> Lens {
+    let eye_m = Vec3::new(0.0, -1.55 * half_width_m, 0.55 * half_width_m);
+    Lens::perspective(SIZE_PX, eye_m, Vec3::new(0.0, -0.25 * half_width_m, 0.0), 1.9)
+}
+
+fn tallest_px(lens: &Lens, agents: &[AgentFrame]) -> f32 {
+    let depth_m = |agent: &AgentFrame| lens.to_camera(agent.root.position_m.extend(0.9)).z;
+    let nearest_m = agents.iter().map(depth_m).filter(|depth_m| *depth_m > 1.0).fold(f32::INFINITY, f32::min);
+    BODY_M / lens.pixel_m(nearest_m)
+}
+
+/// Measures the processor time of its thread; where the system does not report it, the time of day.
+struct Stopwatch {
+    start: Instant,
+    cpu_s: Option<f64>,
+}
+
+impl Stopwatch {
+    fn start() -> Self {
+        Self { start: Instant::now(), cpu_s: thread_cpu_s() }
+    }
+
+    fn elapsed_s(&self) -> f64 {
+        match (self.cpu_s, thread_cpu_s()) {
+            (Some(before_s), Some(after_s)) => after_s - before_s,
+            _ => self.start.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+/// Processor time of this thread so far, s; none where the system does not report it.
+fn thread_cpu_s() -> Option<f64> {
+    let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    Some(1e-9 * text.split_whitespace().next()?.parse::<f64>().ok()?)
+}
+
+fn text(details: &Details) -> String {
+    let line = |case: &Case| {
+        let Case { agents, tallest_px, light, parts_s, frame_s } = case;
+        format!(
+            "{agents:>7} agents up to {tallest_px:>3.0} px  {light:<28} {frame_s:.3} s a frame, parts {parts_s:.3} s\n"
+        )
+    };
+    details.cases.iter().map(line).collect()
+}
