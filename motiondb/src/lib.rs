@@ -35,13 +35,15 @@
 //!
 //! Chapters, in reading order: [`body`] (skeleton, poses, forward kinematics), [`diagnostic`] (what the compiler
 //! reports about clips), [`motion`] (parameters, examples, the database, switching times), [`velocity_sets`] (`FbCrowd`
-//! §4.1), [`blend_space`] (§5), [`quality`], [`validate`] (the invariants), [`files`], [`memory`] and [`statistics`].
+//! §4.1), [`blend_space`] (§5), [`quality`], [`validate`] (the invariants), [`character`]
+//! (meshes that bodies wear), [`files`], [`memory`] and [`statistics`].
 //!
 //! Conventions: metres, seconds, radians; x and y on the ground, z up, right-handed. A body's frame: x forward, y left.
 //! Angles are counter-clockwise seen from above. Pairs of sides are `[left, right]`.
 
 pub mod blend_space;
 pub mod body;
+pub mod character;
 pub mod diagnostic;
 pub mod files;
 pub mod memory;

@@ -2,11 +2,12 @@
 //!
 //! Enters: bones and rotations. Leaves: positions and orientations of joints and soles, root frame or world.
 //!
-//! Read `skeleton`, then `pose`, then `joint_ranges`.
+//! Read `skeleton`, then `pose`, then `joint_ranges`, then `two_bone_reach` (inverse kinematics of a leg).
 
 pub(crate) mod joint_ranges;
 pub(crate) mod pose;
 pub(crate) mod skeleton;
+pub mod two_bone_reach;
 
 pub use joint_ranges::JOINT_RANGES_DEG;
 pub use pose::{Joints, Pose, Root, RootFrame};

@@ -186,10 +186,14 @@ pub struct Population {
 impl Population {
     /// The population of a scenario at its start.
     pub fn of(scenario: &Scenario) -> Self {
+        let life = |(index, spec): (usize, &AgentSpec)| {
+            let character = scenario.character_of(AgentId::from(index), spec);
+            AgentLife { character, ..AgentLife::new(spec.clone(), None, 0) }
+        };
         let door = |is_closed_at_start| DoorPhases { is_closed_at_start, changes: Vec::new() };
         Self {
             doors: scenario.doors_closed_at_start().into_iter().map(door).collect(),
-            agents: scenario.agents.iter().map(|spec| AgentLife::new(spec.clone(), None, 0)).collect(),
+            agents: scenario.agents.iter().enumerate().map(life).collect(),
             sources: vec![SourceCount::default(); scenario.sources.len()],
             goals: vec![GoalCount::default(); scenario.behaviour.goals.len()],
             signals: Vec::new(),

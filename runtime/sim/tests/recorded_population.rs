@@ -47,6 +47,7 @@ fn wide_header() -> Header {
         profiles: Vec::new(),
         closed_zones: 0,
         priority: 0.0,
+        characters: 0,
         groups: None,
     });
     header

@@ -32,11 +32,14 @@
 //! [`mod@compile`] lists the stages, one line each. In their order: [`input`] → [`read`] → [`rig`] → [`retarget`] with
 //! `checks` (together [`mod@import`]) → [`ground`] → [`gait`] → [`cycle`] → [`dedup`], [`select`] → [`database`].
 //!
+//! Apart from them, [`character`] compiles the skinned figures that bodies wear.
+//!
 //! # Conventions
 //! Source clips have their file's unit and axes until `retarget`. From there on: metres, seconds, radians; x and y on
 //! the ground, z up, right-handed; angles counter-clockwise seen from above. A body's frame: x forward, y left. Pairs
 //! of sides are `[left, right]`. (v_f, ω_t, ω_s) are forward speed, turn rate and speed to the left.
 
+pub mod character;
 mod checks;
 pub mod compile;
 pub mod cycle;

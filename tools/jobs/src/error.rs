@@ -7,10 +7,12 @@ use fbcrowd_render::error::RenderError;
 use fbcrowd_sim::recording::RecordingError;
 use fbcrowd_sim::route::mesh::RouteError;
 use fbcrowd_sim::scenario::ScenarioError;
+use motiondb::character::CharacterFileError;
 use motiondb::files::Invalid;
 use motiondb::files::database_file::FileError;
 use motiondb::files::input_file::is_of_machine;
 use motiondb::motion::SourceRecord;
+use motiondb_compiler::character::CharacterRejection;
 use motiondb_compiler::{CompileError, Rejection};
 
 /// Why a job fails.
@@ -141,6 +143,20 @@ pub enum JobError {
     /// A file of clips cannot be used.
     #[error(transparent)]
     Clip(#[from] Rejection),
+    /// A file gives no character.
+    #[error(transparent)]
+    CharacterSource(#[from] CharacterRejection),
+    /// A compiled character cannot be read or written.
+    #[error(transparent)]
+    Character(#[from] CharacterFileError),
+    /// A character beside a recording is not that of the simulation.
+    #[error("{} is not the character of {}; simulate again, or restore the file", path.display(), recording.display())]
+    OtherCharacter {
+        /// The character's file.
+        path: PathBuf,
+        /// The recording.
+        recording: PathBuf,
+    },
     /// A database cannot be read or written.
     #[error(transparent)]
     Database(#[from] FileError),
@@ -178,6 +194,9 @@ impl JobError {
             Self::Scenario(ScenarioError::Unreadable { source, .. }) => is_of_machine(source),
             Self::Compile(error) => error.is_of_machine(),
             Self::Clip(rejection) => rejection.reason.is_of_machine(),
+            Self::CharacterSource(rejection) => rejection.reason.is_of_machine(),
+            Self::Character(CharacterFileError::Unreadable { source, .. }) => is_of_machine(source),
+            Self::Character(error) => matches!(error, CharacterFileError::Unwritable { .. }),
             _ => false,
         }
     }

@@ -22,7 +22,7 @@
 //! let compiled = compile(&["assets/clips".into()], database, &Overrides::default(), &observer)?;
 //! let database_checksum = write_database(database, &compiled.db, &observer)?;
 //! let (scenario, _) = scenario::read(Path::new("assets/scenarios/crossing.toml"))?;
-//! let input = SimulationInput { db: compiled.db, database_checksum, scenario };
+//! let input = SimulationInput { db: compiled.db, database_checksum, scenario, character_checksums: Vec::new() };
 //! let timings = simulate(input, recording, &observer)?;
 //! println!("{:.0} × real time", timings.times_real_time);
 //! plot_trajectories(&open(recording)?, Path::new("trajectories.png"))?;
@@ -32,8 +32,9 @@
 //!
 //! Read in this order: what a job reports ([`observer`], [`stages`]) and how it fails ([`error`]); paths
 //! ([`clip_paths`], [`output_path`]); the jobs ([`compiling`], [`leave_one_out`], [`simulation`] with [`timings`],
-//! [`rendering`]); [`scene_check`] looks at a scenario beforehand; [`wording`] for texts that count things; [`json_schema`] for the schemas of reports.
+//! [`rendering`]); [`character`]; [`scene_check`] looks at a scenario beforehand; [`wording`] for texts that count things; [`json_schema`] for the schemas of reports.
 
+pub mod character;
 pub mod clip_paths;
 pub mod compiling;
 pub mod error;

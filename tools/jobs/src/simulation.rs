@@ -34,6 +34,8 @@ pub struct SimulationInput {
     pub database_checksum: u32,
     /// The scenario.
     pub scenario: Scenario,
+    /// Checksums of the files of the scenario's characters, in their order; the recording keeps them.
+    pub character_checksums: Vec<u32>,
 }
 
 /// Simulates a scenario into a recording.
@@ -41,13 +43,17 @@ pub struct SimulationInput {
 /// # Errors
 /// If the planner's time horizon is shorter than a switch of synthesis, or the recording cannot be written.
 pub fn simulate(input: SimulationInput, recording: &Path, observer: &Observer) -> Result<Timings, JobError> {
-    prepare(Arc::new(input.db), input.scenario, observer)?.record(input.database_checksum, recording, observer)
+    let mut prepared = prepare(Arc::new(input.db), input.scenario, observer)?;
+    prepared.character_checksums = input.character_checksums;
+    prepared.record(input.database_checksum, recording, observer)
 }
 
 /// A simulation at its start: nothing can fail any more but the writing of its recording.
 pub struct PreparedSimulation {
     scenario: Scenario,
     simulation: Simulation,
+    /// Checksums of the files of the scenario's characters, in their order.
+    pub character_checksums: Vec<u32>,
 }
 
 /// Prepares a simulation; writes nothing.
@@ -63,7 +69,7 @@ pub fn prepare(db: Arc<MotionDb>, scenario: Scenario, observer: &Observer) -> Re
     note_missing_motions(&db, simulation.database(), observer);
     note_closed_passages(&scenario, observer);
     check_horizon(simulation.database(), &scenario)?;
-    Ok(PreparedSimulation { scenario, simulation })
+    Ok(PreparedSimulation { scenario, simulation, character_checksums: Vec::new() })
 }
 
 /// Checks that the system gives the memory that a crowd needs.
@@ -78,9 +84,12 @@ impl PreparedSimulation {
     /// # Errors
     /// Where the recording cannot be written.
     pub fn record(self, database_checksum: u32, recording: &Path, observer: &Observer) -> Result<Timings, JobError> {
-        let Self { scenario, mut simulation } = self;
+        let Self { scenario, mut simulation, character_checksums } = self;
         let steps = scenario.steps();
-        let header = Header::new(simulation.database(), database_checksum, scenario);
+        let mut header = Header::new(simulation.database(), database_checksum, scenario);
+        for (character, checksum) in header.characters.iter_mut().zip(character_checksums) {
+            character.checksum = checksum;
+        }
         let mut recorder = Recorder::create(recording, &header)?;
         recorder.push(simulation.frames())?;
         let (mut stopwatch, mut agent_steps) = (StepStopwatch::default(), 0);

@@ -8,10 +8,12 @@
 //! the capsules of `bone_capsule`); `frame_pairs` pairs the agents of two frames. `state_visits` counts agents in
 //! states, `places` holds the scenario's own lines and areas, `pedestrian_studies` flow, lanes, density and waiting
 //! crowds; `agent_table` and `trajectories` write a recording as text.
+//! `character_soles` measures the feet of a character that wears a recording's poses.
 
 pub(crate) mod agent_table;
 pub(crate) mod body_penetration;
 pub(crate) mod bone_capsule;
+pub(crate) mod character_soles;
 pub(crate) mod collision_rate;
 pub(crate) mod crowd_measures;
 pub(crate) mod frame_pairs;
@@ -24,6 +26,7 @@ pub(crate) mod trajectories;
 pub(crate) mod wall_contact;
 
 pub use agent_table::write_table;
+pub use character_soles::{CharacterSoles, character_soles};
 pub use collision_rate::Collisions;
 pub use crowd_measures::{Measures, Measuring, measure};
 pub use pedestrian_studies::{

@@ -104,6 +104,21 @@ impl PlantedSlide {
         }
     }
 
+    /// Adds one frame of one agent whose feet are not the skeleton's: heel, ball and toe tip of each foot in the root's
+    /// frame, m; planted, they are on the ground.
+    pub fn push_feet(&mut self, index: usize, agent: &AgentFrame, feet_m: [[Vec3; 3]; 2]) {
+        if index >= self.feet.len() {
+            self.feet.resize(index + 1, Default::default());
+        }
+        for (side, points_m) in feet_m.into_iter().enumerate() {
+            let foot = foot_frame(agent, side, points_m, [0.0; 3]);
+            self.foot_frames += 1;
+            self.planted_foot_frames += usize::from(foot.planted);
+            let ended = self.feet[index][side].push(foot, self.dt_s);
+            self.count(&ended);
+        }
+    }
+
     /// Ends the contacts of an agent that is moved at once before its next frame.
     pub fn lift(&mut self, index: usize) {
         for track in self.feet.get_mut(index).map(std::mem::take).into_iter().flatten() {
@@ -174,15 +189,20 @@ fn sample(earlier: Option<FootFrame>, at: FootFrame, next: Option<FootFrame>, dt
 fn foot_frames(skeleton: &Skeleton, agent: &AgentFrame, joints: &Joints) -> [FootFrame; 2] {
     [0, 1].map(|side| {
         let (points_m, planted_heights_m) = contact_points_m(skeleton, joints, side);
-        let height_m = |point: usize| points_m[point].z - planted_heights_m[point];
-        let lowest = (1..3).fold(0, |best, point| if height_m(point) < height_m(best) { point } else { best });
-        FootFrame {
-            points_m: points_m.map(|point_m| to_ground_m(&agent.root, point_m)),
-            lowest,
-            planted: agent.contacts[side] >= PLANTED_CONTACT,
-            examples_slide_cm_s: agent.examples_slide_cm_s,
-        }
+        foot_frame(agent, side, points_m, planted_heights_m)
     })
+}
+
+/// A foot whose heel, ball and toe are at these points of the root's frame, m.
+fn foot_frame(agent: &AgentFrame, side: usize, points_m: [Vec3; 3], planted_heights_m: [f32; 3]) -> FootFrame {
+    let height_m = |point: usize| points_m[point].z - planted_heights_m[point];
+    let lowest = (1..3).fold(0, |best, point| if height_m(point) < height_m(best) { point } else { best });
+    FootFrame {
+        points_m: points_m.map(|point_m| to_ground_m(&agent.root, point_m)),
+        lowest,
+        planted: agent.contacts[side] >= PLANTED_CONTACT,
+        examples_slide_cm_s: agent.examples_slide_cm_s,
+    }
 }
 
 /// Heel, ball and toe in the root's frame, and their heights above the sole, at which they are when planted, m.

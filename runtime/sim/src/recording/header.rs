@@ -11,8 +11,8 @@ use crate::recording::chunk::ChunkFile;
 use crate::recording::error::RecordingError;
 use crate::recording::format::{HEAD, HEAD_BYTE};
 use crate::recording::zipped_json;
-use crate::scenario::Scenario;
 use crate::scenario::rules::check::check_numbers;
+use crate::scenario::{CharacterSpec, Scenario};
 
 /// Greatest velocity of a set, m/s; none of a body comes near.
 const SPEED_MAX_MPS: f32 = 100.0;
@@ -57,7 +57,7 @@ pub struct RecordedDatabase {
 pub struct RecordedCharacter {
     /// Name of the character.
     pub name: String,
-    /// CRC-32 of the character's file.
+    /// CRC-32 of the character's file; 0 where the simulation had none.
     pub checksum: u32,
 }
 
@@ -72,10 +72,12 @@ impl Header {
         Self::of(RecordedDatabase { checksum: database_checksum, skeleton, velocity_hull }, scenario)
     }
 
-    /// The header of a scenario with bodies from one recorded database.
+    /// The header of a scenario with bodies from one recorded database. The checksums of its characters are 0.
     pub fn of(database: RecordedDatabase, scenario: Scenario) -> Self {
         let states = scenario.behaviour.state_names();
-        Self { databases: vec![database], characters: Vec::new(), states, scenario }
+        let character = |spec: &CharacterSpec| RecordedCharacter { name: spec.name.clone(), checksum: 0 };
+        let characters = scenario.characters.iter().map(character).collect();
+        Self { databases: vec![database], characters, states, scenario }
     }
 
     /// The bodies of the first database, by which all agents move today.

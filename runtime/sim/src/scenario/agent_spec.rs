@@ -3,6 +3,7 @@
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+use crate::scenario::characters::character_spec::wears_any;
 use crate::scenario::social_group::GroupMember;
 
 /// Default radius of a disc, m: half an adult's bideltoid breadth (0.48 m), the tightest circle about the projected
@@ -47,6 +48,9 @@ pub struct AgentSpec {
     /// Right of way: an agent leaves more of the avoiding to one of a lower priority, all of it from a difference of 1.
     #[serde(default, skip_serializing_if = "is_0")]
     pub priority: f32,
+    /// The characters that the agent may wear: bit k stands for the k-th of the scenario; 0: all.
+    #[serde(default, skip_serializing_if = "wears_any")]
+    pub characters: u64,
 }
 
 /// Whether no zone is closed to an agent; recordings leave it out.
@@ -95,6 +99,7 @@ impl Default for AgentSpec {
             pre_movement_s: 0.0,
             closed_zones: 0,
             priority: 0.0,
+            characters: 0,
             group: None,
         }
     }

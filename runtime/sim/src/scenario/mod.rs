@@ -9,6 +9,7 @@
 //! `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
+pub(crate) mod characters;
 pub(crate) mod coupling;
 pub(crate) mod due_times;
 pub(crate) mod error;
@@ -27,11 +28,12 @@ pub(crate) mod view;
 pub(crate) mod walls;
 
 pub use agent_spec::{AgentSpec, AtGoal, WALL_RADIUS_M};
+pub use characters::character_spec::{CHARACTERS_MAX, CharacterSpec};
 pub use coupling::Coupling;
 pub use due_times::DueTimes;
 pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
-pub use file::{MotionSource, agent_files, agents_of_lines, fault_of_lines, parse, read};
+pub use file::{MotionSource, agent_files, agents_of_lines, character_files, fault_of_lines, parse, read};
 pub use places::camera_spec::{CameraFollow, CameraKey, CameraOrbit, CameraSpec};
 pub use places::door::DoorSpec;
 pub use places::marking::{Marking, MarkingColour, MarkingShape, PlaceLabel};

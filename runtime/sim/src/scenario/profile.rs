@@ -6,6 +6,7 @@ use crate::behaviour::Distribution;
 use crate::behaviour::choice::draw;
 use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::{enters_all, is_0};
+use crate::scenario::characters::character_spec::wears_any;
 
 /// A kind of agents, and its share among those of a table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -25,6 +26,9 @@ pub struct Profile {
     /// Right of way of the agents, as in [`AgentSpec`](crate::AgentSpec).
     #[serde(skip_serializing_if = "is_0")]
     pub priority: f32,
+    /// Characters that the agents may wear, by bits as in [`AgentSpec`](crate::AgentSpec).
+    #[serde(skip_serializing_if = "wears_any")]
+    pub characters: u64,
 }
 
 /// The numbers of one agent.
@@ -40,6 +44,8 @@ pub struct DrawnNumbers {
     pub closed_zones: u32,
     /// Right of way of the agent.
     pub priority: f32,
+    /// Characters that the agent may wear, by bits.
+    pub characters: u64,
 }
 
 impl DrawnNumbers {
@@ -47,7 +53,8 @@ impl DrawnNumbers {
     pub(crate) fn draw(self, profiles: &[Profile], random: &mut SplitMix64) -> Self {
         let indices: Vec<usize> = (0..profiles.len()).collect();
         let Some(index) = draw(&indices, |index| profiles[index].weight, random) else { return self };
-        let Profile { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, .. } = profiles[index];
+        let Profile { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, characters, .. } =
+            profiles[index];
         // Every number takes a generator of its own, so that a profile without one changes no other.
         let mut number = |drawn: Option<Distribution>, otherwise: f32| {
             let random = &mut SplitMix64::new(random.next_u64(), 0);
@@ -59,6 +66,7 @@ impl DrawnNumbers {
             pre_movement_s: number(pre_movement_s, self.pre_movement_s),
             closed_zones,
             priority,
+            characters,
         }
     }
 }

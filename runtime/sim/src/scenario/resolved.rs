@@ -8,6 +8,7 @@ use crate::params::Params;
 use crate::planning::planner::Planner;
 use crate::route::mesh::WalkablePolygon;
 use crate::scenario::agent_spec::AgentSpec;
+use crate::scenario::characters::character_spec::CharacterSpec;
 use crate::scenario::coupling::Coupling;
 use crate::scenario::places::camera_spec::CameraSpec;
 use crate::scenario::places::door::DoorSpec;
@@ -94,6 +95,9 @@ pub struct Scenario {
     /// Texts at places.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub labels: Vec<PlaceLabel>,
+    /// Characters that bodies are drawn as; plain bodies where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub characters: Vec<CharacterSpec>,
     /// Cameras, by which pictures at eye height are taken.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cameras: Vec<CameraSpec>,
@@ -147,6 +151,7 @@ impl Scenario {
             walkable_m: Vec::new(),
             markings: Vec::new(),
             labels: Vec::new(),
+            characters: Vec::new(),
             cameras: Vec::new(),
             params: Params::default(),
             view: View::default(),

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::behaviour::Area;
 use crate::maths::random::SplitMix64;
 use crate::scenario::agent_spec::{AgentSpec, AtGoal, enters_all, follows_path, is_0};
+use crate::scenario::characters::character_spec::wears_any;
 use crate::scenario::due_times::DueTimes;
 use crate::scenario::profile::{DrawnNumbers, Profile};
 use crate::scenario::schedule::{RateRow, Schedule};
@@ -73,6 +74,9 @@ pub struct SourceSpec {
     /// Right of way of the agents, as in [`AgentSpec`].
     #[serde(default, skip_serializing_if = "is_0")]
     pub priority: f32,
+    /// Characters that the agents may wear, by bits as in [`AgentSpec`].
+    #[serde(default, skip_serializing_if = "wears_any")]
+    pub characters: u64,
     /// Sizes of the groups in which agents appear; none: each alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub groups: Option<GroupSizes>,
@@ -96,6 +100,7 @@ impl SourceSpec {
             pre_movement_s: self.pre_movement_s,
             closed_zones: self.closed_zones,
             priority: self.priority,
+            characters: self.characters,
             group: None,
         }
     }
@@ -103,8 +108,9 @@ impl SourceSpec {
     /// The source with the numbers of one agent: those of the source with this index after a number of births.
     pub fn drawn(&self, seed: u64, index: usize, born: u32) -> Self {
         let stream = NUMBER_STREAM + ((index as u64) << 20) + u64::from(born);
-        let &Self { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, .. } = self;
-        let numbers = DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority };
+        let &Self { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, characters, .. } = self;
+        let numbers =
+            DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, characters };
         let numbers = numbers.draw(&self.profiles, &mut SplitMix64::new(seed, stream));
         Self {
             preferred_speed_mps: numbers.preferred_speed_mps,
@@ -113,6 +119,7 @@ impl SourceSpec {
             pre_movement_s: numbers.pre_movement_s,
             closed_zones: numbers.closed_zones,
             priority: numbers.priority,
+            characters: numbers.characters,
             ..self.clone()
         }
     }

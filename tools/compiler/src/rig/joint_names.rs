@@ -20,7 +20,7 @@ pub(crate) enum BodyPart {
     Finger,
     Neck,
     Head,
-    /// A joint without a role: twist, share, roll and IK bones, parts of the face.
+    /// A joint without a role: twist, share, roll and IK bones, parts of the face, ears, tails.
     Helper,
 }
 
@@ -39,7 +39,7 @@ const RIGHT_WORDS: [&str; 5] = ["r", "right", "rt", "rgt", "rght"];
 
 /// Parts by words. The first row with a word that occurs in a name's joined words counts, so compounds come first.
 /// Japanese words are those of MikuMikuDance's models.
-const PARTS: [(&[&str], &[BodyPart]); 29] = [
+const PARTS: [(&[&str], &[BodyPart]); 30] = [
     (&["twist", "share", "roll", "pole", "target", "helper", "slot"], &[BodyPart::Helper]),
     (&["upleg", "upperleg", "thigh", "buttock", "femur"], &[BodyPart::Thigh]),
     (&["lowerleg", "lowleg", "loleg", "knee", "shin", "calf", "tibia", "shank"], &[BodyPart::Shank]),
@@ -69,6 +69,7 @@ const PARTS: [(&[&str], &[BodyPart]); 29] = [
     (&["肩"], &[BodyPart::Clavicle]),
     (&["首"], &[BodyPart::Neck]),
     (&["頭"], &[BodyPart::Head]),
+    (&["ear", "tail", "wing"], &[BodyPart::Helper]),
 ];
 
 /// The hints of a name; a namespace before a colon does not count.

@@ -16,8 +16,6 @@ const BONE_RATIO: std::ops::RangeInclusive<f64> = 0.45..=2.6;
 const SKIPPED_OFF_BONE: f64 = 0.08;
 /// Greatest difference of the two sides' bones, divided by the longer one; captured legs differ by 0.04.
 const SIDES_DIFFER: f64 = 0.15;
-/// Weights of a joint's name: the part that is sought, another part, a helper.
-const NAME_WEIGHTS: [f64; 3] = [1.25, 0.6, 0.4];
 /// Greatest standard deviation of the distance from the knee to a foot outside the leg's chain, divided by its mean.
 const DETACHED_FOOT_LOOSENESS: f64 = 0.12;
 /// Greatest number of joints from a fork to the end of its limb; the busiest rig of the development set has 9.
@@ -197,7 +195,7 @@ fn limb_with_detached_foot(rig: &SourceRig, thigh: usize, parts: [BodyPart; 3]) 
 
 /// Product of the weights of three joints' names.
 fn name_weight(rig: &SourceRig, joints: [usize; 3], parts: [BodyPart; 3]) -> f64 {
-    let [agrees, differs, helper] = NAME_WEIGHTS;
+    let [agrees, differs, helper] = rig.name_weights;
     let weight = |(joint, part): (usize, BodyPart)| match &rig.hints[joint].parts {
         parts if parts.contains(&BodyPart::Helper) => helper,
         parts if parts.contains(&part) => agrees,

@@ -7,7 +7,7 @@
 //! characters).
 
 mod body_plan;
-mod joint_names;
+pub(crate) mod joint_names;
 mod limb;
 mod role_assignment;
 mod role_search;
@@ -36,6 +36,16 @@ pub fn find_roles(clip: &SourceClip, known: &JointMap) -> Result<Roles, Rejectio
         return role_search::search(&without_names(clip), known).or(found);
     }
     found
+}
+
+/// The roles of a bind pose, a clip of one frame, in which names weigh more than shape.
+///
+/// # Errors
+/// As [`find_roles`].
+pub(crate) fn find_roles_by_name(clip: &SourceClip) -> Result<Roles, RejectionReason> {
+    check_size(clip)?;
+    two_bodies::check_is_one_body(clip)?;
+    role_search::search_by_name(clip)
 }
 
 /// Checks that a skeleton is no larger than the search for roles, which compares many pairs of joints, can handle.

@@ -4,7 +4,7 @@
 //! toes and knees contradict them; without names, from the direction of the toes. A body is human when its trunk stands
 //! over its legs, unlike a quadruped's, and its path does not lie along its own length.
 
-use motiondb::body::Joint;
+use motiondb::body::{JOINT_COUNT, Joint};
 
 use crate::error::{ManifestKey, RejectionReason};
 use crate::read::source_clip::SourceClip;
@@ -20,6 +20,8 @@ const UPRIGHT_COSINE: f64 = 0.45;
 /// Greatest share of a body's path along the line from feet to shoulders (cosine of 37°). On stairs 0.6, bent double
 /// 0.65.
 const LENGTHWISE_MAX: f64 = 0.8;
+/// Weights of names where there is no motion: the part that is sought, another part, a helper.
+const NAME_WEIGHTS_WITHOUT_MOTION: [f64; 3] = [2.0, 0.4, 0.2];
 /// Greatest standard deviation of a leg bone's length, divided by its mean. Knees of one hand-keyed walk translate by
 /// 0.05.
 const LOOSE_BONE: f64 = 0.15;
@@ -29,21 +31,35 @@ const LOOSE_BONE: f64 = 0.15;
 /// # Errors
 /// As [`crate::rig::find_roles`].
 pub(crate) fn search(clip: &SourceClip, known: &JointMap) -> Result<Roles, RejectionReason> {
-    let rig = SourceRig::new(clip);
-    let (known_legs, known_arms) = (known_pair(&rig, known, LEGS)?, known_pair(&rig, known, ARMS)?);
-    let [mut legs, mut arms] = body_plan::legs_and_arms(&rig, known_legs.clone(), known_arms.clone())?;
+    search_rig(&SourceRig::new(clip), known)
+}
+
+/// The roles of a clip without motion, which cannot show which limbs walk: a named leg beats an ear of twice its
+/// length.
+///
+/// # Errors
+/// As [`crate::rig::find_roles`].
+pub(crate) fn search_by_name(clip: &SourceClip) -> Result<Roles, RejectionReason> {
+    let mut rig = SourceRig::new(clip);
+    rig.name_weights = NAME_WEIGHTS_WITHOUT_MOTION;
+    search_rig(&rig, &[None; JOINT_COUNT])
+}
+
+fn search_rig(rig: &SourceRig, known: &JointMap) -> Result<Roles, RejectionReason> {
+    let (known_legs, known_arms) = (known_pair(rig, known, LEGS)?, known_pair(rig, known, ARMS)?);
+    let [mut legs, mut arms] = body_plan::legs_and_arms(rig, known_legs.clone(), known_arms.clone())?;
     if known_legs.is_none() {
-        check_leg_bones(&rig, &legs)?;
+        check_leg_bones(rig, &legs)?;
     }
-    check_upright(&rig, &legs, &arms)?;
-    let sides = body_plan::leg_sides(&rig, &legs, &arms);
+    check_upright(rig, &legs, &arms)?;
+    let sides = body_plan::leg_sides(rig, &legs, &arms);
     if known_legs.is_none() && sides.are_swapped {
         legs.limbs.swap(0, 1);
     }
-    if known_arms.is_none() && body_plan::are_arms_swapped(&rig, &legs, &arms) {
+    if known_arms.is_none() && body_plan::are_arms_swapped(rig, &legs, &arms) {
         arms.limbs.swap(0, 1);
     }
-    let mut roles = assigned_roles(&rig, &legs, &arms);
+    let mut roles = assigned_roles(rig, &legs, &arms);
     roles.are_names_mirrored = known_legs.is_none() && sides.contradict_names;
     for (role, known) in roles.joints.iter_mut().zip(known) {
         *role = known.or(*role);

@@ -8,6 +8,8 @@ use glam::DVec3;
 use crate::read::source_clip::SourceClip;
 use crate::rig::joint_names::{self, BodyPart, NameHints};
 
+/// Weights of a joint's name: the part that is sought, another part, a helper.
+const NAME_WEIGHTS: [f64; 3] = [1.25, 0.6, 0.4];
 /// Greatest number of frames on which geometry is measured.
 const SAMPLES: usize = 48;
 
@@ -21,6 +23,8 @@ pub(crate) struct SourceRig<'a> {
     pub clip: &'a SourceClip,
     /// Hints of each joint's name.
     pub hints: Vec<NameHints>,
+    /// Weights of a name that is the part sought, another part, a helper.
+    pub name_weights: [f64; 3],
     /// Children of each joint.
     pub children: Vec<Vec<usize>>,
     /// Frames on which geometry is measured.
@@ -40,6 +44,7 @@ impl<'a> SourceRig<'a> {
         let mut rig = Self {
             clip,
             hints: clip.joints.iter().map(|joint| joint_names::hints(&joint.name)).collect(),
+            name_weights: NAME_WEIGHTS,
             children,
             frames: sampled_frames(clip.frame_count()),
             reach: vec![0.0; clip.joints.len()],

@@ -1,9 +1,10 @@
-//! `fbcrowd compile`: clips in, motion database out.
+//! `fbcrowd compile`: clips in, motion database out; or a figure in, character out.
 
 use std::io::{self, IsTerminal};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use fbcrowd_jobs::character::{self, is_compiled};
 use fbcrowd_jobs::compiling::{self, Overrides};
 use fbcrowd_jobs::output_path::check_file;
 use fbcrowd_jobs::stages::Stopwatch;
@@ -13,6 +14,7 @@ use motiondb_compiler::Compiled;
 
 use crate::cmd::outside_arg::OutsideArg;
 use crate::cmd::rejected;
+use crate::report::character_report::{CharacterInspection, CharacterReport};
 use crate::report::compile_report::CompileReport;
 use crate::report::compile_text;
 use crate::report::next_steps::with_next_steps;
@@ -20,21 +22,23 @@ use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
 
-/// Compile motion clips into a database.
+/// Compile motion clips into a database, or a figure into a character.
+///
+/// An output that ends in `.fbchar` is a character, made of one GLB, glTF or VRM file; docs/characters.md describes it.
 ///
 /// The compiler detects units, axes, joints, cycles and parameters; a manifest overrides them. Exit code 0: all clips
 /// were used; 1: the database was written, but some input was rejected; 2: nothing was written.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  fbcrowd compile assets/clips -o motion.fbdb\n  fbcrowd compile walk.bvh run.glb -o motion.fbdb\n  \
-                  fbcrowd compile clips/manifest.toml -o motion.fbdb --strict"
+                  fbcrowd compile clips/manifest.toml -o motion.fbdb --strict\n  fbcrowd compile figure.glb -o figure.fbchar"
 )]
 pub(crate) struct Args {
-    /// BVH, GLB or glTF files, folders of them (with their `manifest.toml`), or one manifest.
+    /// BVH, GLB or glTF files, folders of them (with their `manifest.toml`), or one manifest; or one figure.
     #[arg(required = true, value_name = "CLIPS")]
     clips: Vec<PathBuf>,
-    /// The database to write.
-    #[arg(short, long, value_name = "FILE.fbdb")]
+    /// The database or character to write.
+    #[arg(short, long, value_name = "FILE.fbdb|FILE.fbchar")]
     output: PathBuf,
     /// Write nothing if any input is rejected.
     #[arg(long)]
@@ -76,6 +80,9 @@ impl From<VelocitySets> for Construction {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
+    if is_compiled(&args.output) {
+        return compile_figure(args);
+    }
     let overrides = Overrides {
         velocity_hull: args.velocity_hull.map(Construction::from),
         max_examples: args.max_examples,
@@ -112,4 +119,24 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         output::print(&compile_text::text(&report))?;
     }
     Ok(answer)
+}
+
+/// Compiles a character.
+fn compile_figure(args: &Args) -> Result<Answer, Failure> {
+    let [input] = args.clips.as_slice() else {
+        return Err(Failure::bad("a character is made of one file; name one GLB, glTF or VRM file"));
+    };
+    if args.max_examples.is_some() || args.velocity_hull.is_some() {
+        return Err(Failure::bad("--max-examples and --velocity-hull are options of databases; leave them out"));
+    }
+    let progress = ProgressDisplay::default();
+    check_file(&args.output)?;
+    let loaded = character::compile(input, &args.output, args.outside.into(), &|event| progress.observe(event))?;
+    let report = CharacterReport::new(input, &loaded);
+    if args.json {
+        output::print_json(&CharacterInspection { character: report })?;
+    } else {
+        output::print(&format!("{}{:<20}{}\n", report.text(), "written to", args.output.display()))?;
+    }
+    Ok(Answer::Yes)
 }

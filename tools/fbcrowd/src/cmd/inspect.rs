@@ -1,7 +1,8 @@
-//! `fbcrowd inspect`: the content of a database or of clips, as tables, JSON and pictures.
+//! `fbcrowd inspect`: the content of a database, of clips or of a character, as tables, JSON and pictures.
 
 use std::path::{Path, PathBuf};
 
+use fbcrowd_jobs::character::is_compiled;
 use fbcrowd_jobs::compiling;
 use fbcrowd_jobs::leave_one_out::leave_one_out;
 use fbcrowd_jobs::output_path::check_files;
@@ -11,6 +12,7 @@ use motiondb::motion::MotionDb;
 use motiondb_compiler::ClipSet;
 use motiondb_compiler::survey::survey;
 
+use crate::cmd::inspect_character;
 use crate::cmd::outside_arg::OutsideArg;
 use crate::cmd::rejected;
 use crate::report::correspondence_table::CorrespondenceTable;
@@ -20,26 +22,31 @@ use crate::terminal::failure::{ALL_REJECTED, Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
 
-/// Show the content of a database or of clips.
+/// Show the content of a database, of clips or of a character.
+///
+/// A single GLB, glTF or VRM file with meshes on a human skeleton is shown as a character too.
 ///
 /// Exit code 0: success; 1: an invariant of the database is broken, or a clip was rejected; 2: nothing can be read.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd inspect motion.fbdb --plots out/plots\n  fbcrowd inspect motion.fbdb --leave-one-out\n  fbcrowd inspect motion.fbdb --correspondence walk_110 run_350\n  fbcrowd inspect my/clips --json"
+    after_help = "Examples:\n  fbcrowd inspect motion.fbdb --plots out/plots\n  fbcrowd inspect motion.fbdb --leave-one-out\n  fbcrowd inspect motion.fbdb --correspondence walk_110 run_350\n  fbcrowd inspect my/clips --json\n  fbcrowd inspect figure.glb --recording out/antipodal/antipodal.fbrec"
 )]
 pub(crate) struct Args {
-    /// A database, or clips: files or folders.
-    #[arg(required = true, value_name = "FILE.fbdb|CLIPS")]
+    /// A database; clips: files or folders; or a character: *.fbchar, *.vrm, *.glb or *.gltf.
+    #[arg(required = true, value_name = "FILE.fbdb|CLIPS|CHARACTER")]
     input: Vec<PathBuf>,
     /// Print JSON; docs/json.md describes it.
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
     #[command(flatten)]
-    outside: OutsideArg,
+    pub(super) outside: OutsideArg,
     /// Write pictures of a database: velocity sets, parameters, where the examples are thin, bodies, steps, and how
     /// similar the poses of m_sp and m_mb are.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+    /// Show a character alone, and measure its feet on the bodies of a recording: planted slide, soles under the ground.
+    #[arg(long, value_name = "FILE.fbrec")]
+    pub(super) recording: Option<PathBuf>,
     /// For each recorded example: rebuild the database without it, blend at its parameters, and print the RMS joint
     /// distance to it. The distance to the nearest other example is printed for comparison.
     #[arg(long)]
@@ -52,7 +59,14 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     match args.input.as_slice() {
-        [database] if is_database(database) => inspect_database(args, database),
+        [database] if is_database(database) && args.recording.is_none() => inspect_database(args, database),
+        [path] if is_character(path) || args.recording.is_some() || inspect_character::is_character_alone(path) => {
+            inspect_character::show(path, args)
+        }
+        _ if args.recording.is_some() => Err(Failure::bad("--recording measures one character; name one file")),
+        inputs if inputs.iter().any(|input| is_character(input)) => {
+            Err(Failure::bad("a character is shown alone; inspect characters one by one, and clips without them"))
+        }
         inputs if inputs.iter().any(|input| is_database(input)) => {
             Err(Failure::bad("a database is shown alone; inspect databases one by one, and clips without them"))
         }
@@ -71,13 +85,21 @@ fn check_kind(path: &Path) -> Result<(), Failure> {
     }
     let what = match extension.as_str() {
         "fbrec" => "a recording; `fbcrowd measure` and `fbcrowd render` show it",
-        _ => "neither a database (*.fbdb) nor a clip (*.bvh, *.glb, *.gltf); give one of these, or a folder of clips",
+        _ => {
+            "neither a database (*.fbdb), a clip (*.bvh, *.glb, *.gltf) nor a character (*.fbchar, *.vrm); give one of \
+              these, or a folder of clips"
+        }
     };
     Err(Failure::bad(format!("{}: {what}", path.display())))
 }
 
 fn is_database(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "fbdb")
+}
+
+/// Whether a name is that of a character alone; *.glb and *.gltf may be clips.
+fn is_character(path: &Path) -> bool {
+    is_compiled(path) || path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("vrm"))
 }
 
 fn inspect_database(args: &Args, path: &Path) -> Result<Answer, Failure> {
@@ -135,17 +157,28 @@ fn inspect_clips(args: &Args, paths: &[PathBuf]) -> Result<Answer, Failure> {
     if let Some((_, message)) = of_databases.into_iter().find(|(is_given, _)| *is_given) {
         return Err(Failure::bad(format!("{message}; compile the clips first with `fbcrowd compile`")));
     }
+    let character = match paths {
+        [path] => inspect_character::of_clip(path, args),
+        _ => None,
+    };
     let progress = ProgressDisplay::default();
     let ClipSet { clips, rejected } = compiling::import(paths, args.outside.into(), &|event| progress.observe(event))?;
     rejected::print(&rejected);
+    let has_character = character.is_some();
     let (is_empty, answer) = (clips.is_empty(), rejected::answer(&rejected));
     let surveyed = survey(clips);
     if args.json {
-        output::print_json(&ClipsReport::new(&surveyed, rejected))?;
+        let mut report = ClipsReport::new(&surveyed, rejected);
+        report.character = character;
+        output::print_json(&report)?;
+    } else if let (false, Some(character)) = (is_empty, &character) {
+        output::print(&format!("{}\n{}", inspect_text::clips_text(&surveyed), character.text()))?;
     } else if !is_empty {
         output::print(&inspect_text::clips_text(&surveyed))?;
+    } else if let Some(character) = &character {
+        output::print(&character.text())?;
     }
-    if is_empty {
+    if is_empty && !has_character {
         return Err(Failure::bad(ALL_REJECTED));
     }
     Ok(answer)

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use fbcrowd_jobs::character::ScenarioCharacters;
 use fbcrowd_jobs::clip_paths;
 use fbcrowd_jobs::compiling::{self, Overrides};
 use fbcrowd_jobs::output_path::{LockedFolder, check_files};
@@ -30,8 +31,8 @@ use crate::terminal::progress::ProgressDisplay;
 
 /// Compile the clips of a scenario, then simulate and render the scenario.
 ///
-/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png` and `frames/NAME.####.png`; and, where the scenario has a
-/// camera, its first one's frames to `camera/NAME.####.png`. A scene of another program is
+/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png` and `frames/NAME.####.png`; where the scenario has a camera,
+/// its first one's frames to `camera/NAME.####.png`, and where it has characters, `characters/`. A scene of another program is
 /// converted first: `NAME.toml` is written beside them.
 #[derive(clap::Args)]
 #[command(
@@ -66,12 +67,16 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let (scenario, motion) = read?;
     let motion = motion?;
     let outputs = RunOutputs::new(folder, &scenario);
-    outputs.check(&inputs(&file, files, &motion)?)?;
+    let characters = ScenarioCharacters::load(&file, &scenario, args.outside.into(), &observer)?;
+    let files = [files, characters.files.clone()].concat();
+    outputs.check(&inputs(&file, files, &motion)?, &characters)?;
 
     // Everything that bad input can end comes before the first output.
     let MotionInput { db, checksum, answer } = MotionInput::new(motion, args, &outputs, &observer)?;
     let db = Arc::new(db);
-    let prepared = simulation::prepare(Arc::clone(&db), scenario, &observer)?;
+    let mut prepared = simulation::prepare(Arc::clone(&db), scenario, &observer)?;
+    prepared.character_checksums = characters.checksums();
+    characters.note(&db.skeleton, &observer);
     let folders =
         [Some(&outputs.folder), Some(&outputs.frames.folder), outputs.camera.as_ref().map(|camera| &camera.folder)];
     let _locks =
@@ -80,6 +85,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         Some(checksum) => checksum,
         None => compiling::write_database(&outputs.database, &db, &observer)?,
     };
+    characters.write(&outputs.recording)?;
     let timings = prepared.record(checksum, &outputs.recording, &observer)?;
     let recording = rendering::open(&outputs.recording)?;
     let measures = measures::measure(&recording)?;
@@ -194,12 +200,16 @@ impl RunOutputs {
     }
 
     /// Checks that every output can be written, and replaces none of the inputs.
-    fn check(&self, inputs: &Inputs) -> Result<(), Failure> {
+    fn check(&self, inputs: &Inputs, characters: &ScenarioCharacters) -> Result<(), Failure> {
         let database = inputs.are_compiled.then_some(&self.database);
         let files: Vec<PathBuf> = [&self.recording, &self.trajectories].into_iter().chain(database).cloned().collect();
         check_files(&self.folder, &files, &inputs.files)?;
         if let Some(camera) = &self.camera {
             rendering::check_old_frames(&camera.folder, &camera.name, &inputs.files)?;
+        }
+        let worn = characters.outputs(&self.recording);
+        if let Some(folder) = worn.first().and_then(|path| path.parent()) {
+            check_files(folder, &worn, &inputs.files)?;
         }
         Ok(rendering::check_old_frames(&self.frames.folder, &self.frames.name, &inputs.files)?)
     }

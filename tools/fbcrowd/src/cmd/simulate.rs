@@ -3,13 +3,15 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use fbcrowd_jobs::JobError;
+use fbcrowd_jobs::character::ScenarioCharacters;
 use fbcrowd_jobs::output_path::{check_file, check_is_no_input, is_same_file};
 use fbcrowd_jobs::simulation::{self, SimulationInput};
 use fbcrowd_jobs::timings::Timings;
+use fbcrowd_jobs::{JobError, JobEvent};
 use fbcrowd_sim::scenario::{self, MotionSource};
 use motiondb::files::atomic_file::AtomicFile;
 use motiondb::files::database_file;
+use motiondb_compiler::Outside;
 
 use crate::report::crowd::timings_text;
 use crate::terminal::failure::{Answer, Failure};
@@ -45,17 +47,26 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     if args.report.as_ref().is_some_and(|report| is_same_file(report, &args.output)) {
         return Err(JobError::OneFileTwice { output: args.output.clone(), first: "recording", second: "report" }.into());
     }
-    let inputs = [vec![args.scenario.clone(), database.clone()], scenario::agent_files(&args.scenario)?].concat();
-    for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
+    let progress = ProgressDisplay::default();
+    let observer = |event: JobEvent<'_>| progress.observe(event);
+    let characters = ScenarioCharacters::load(&args.scenario, &scenario, Outside::Refused, &observer)?;
+    let agent_files = scenario::agent_files(&args.scenario)?;
+    let inputs = [vec![args.scenario.clone(), database.clone()], agent_files, characters.files.clone()].concat();
+    let worn = characters.outputs(&args.output);
+    for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten().chain(&worn) {
         check_is_no_input(written, &inputs)?;
-        check_file(written)?;
+        // The folder of characters need not exist.
+        if !worn.contains(written) {
+            check_file(written)?;
+        }
     }
     let (db, database_checksum) = database_file::load(&database)?;
     // Created before the long work, so that a path that cannot be written ends it early.
     let report = args.report.as_deref().map(TimingsFile::create).transpose()?;
-    let progress = ProgressDisplay::default();
-    let input = SimulationInput { db, database_checksum, scenario };
-    let timings = simulation::simulate(input, &args.output, &|event| progress.observe(event))?;
+    characters.note(&db.skeleton, &observer);
+    characters.write(&args.output)?;
+    let input = SimulationInput { db, database_checksum, scenario, character_checksums: characters.checksums() };
+    let timings = simulation::simulate(input, &args.output, &observer)?;
     report.map_or(Ok(()), |report| report.finish(&timings))?;
     output::print(&timings_text::text(&timings))?;
     Ok(Answer::Yes)

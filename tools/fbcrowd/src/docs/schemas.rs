@@ -8,6 +8,7 @@ use fbcrowd_jobs::timings::Timings;
 use schemars::JsonSchema;
 use serde_json::Value;
 
+use crate::report::character_report::CharacterInspection;
 use crate::report::compile_report::CompileReport;
 use crate::report::inspect_report::{BrokenReport, ClipsReport, DatabaseReport};
 use crate::report::scenes::ConvertReport;
@@ -20,7 +21,7 @@ pub(super) struct OutputSchema {
     pub(super) content: Value,
 }
 
-/// One of the three reports of `fbcrowd inspect`.
+/// One of the four reports of `fbcrowd inspect`.
 #[derive(JsonSchema)]
 #[serde(untagged)]
 #[allow(dead_code, reason = "only its schema is used")]
@@ -31,11 +32,14 @@ enum InspectReport {
     Broken(BrokenReport),
     /// Clips.
     Clips(ClipsReport),
+    /// A character.
+    Character(CharacterInspection),
 }
 
 /// All schemas, in the order of the documentation.
 pub(super) fn schemas() -> Vec<OutputSchema> {
     let of_commands = [
+        ("compile-character", document::<CharacterInspection>("fbcrowd compile --json, of a character")),
         ("compile", document::<CompileReport>("fbcrowd compile --json")),
         ("validate", document::<ValidationReport>("fbcrowd validate --json")),
         ("inspect", document::<InspectReport>("fbcrowd inspect --json")),

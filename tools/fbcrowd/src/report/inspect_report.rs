@@ -12,6 +12,7 @@ use motiondb_compiler::survey::{SourceGait, SurveyedSource};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::report::character_report::CharacterReport;
 use crate::report::compile_report::UnusedClip;
 use crate::report::correspondence_table::CorrespondenceTable;
 use crate::report::json_diagnostic::JsonDiagnostic;
@@ -23,6 +24,9 @@ pub(crate) struct ClipsReport {
     sources: Vec<InspectedClip>,
     /// Files and clips that were rejected.
     refused: Vec<UnusedClip>,
+    /// The character of the file, where one file is inspected and it has meshes on a human skeleton.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) character: Option<CharacterReport>,
 }
 
 impl ClipsReport {
@@ -31,6 +35,7 @@ impl ClipsReport {
         Self {
             sources: surveyed.iter().map(clip).collect(),
             refused: rejected.into_iter().map(UnusedClip::from).collect(),
+            character: None,
         }
     }
 }

@@ -58,6 +58,7 @@ pub(crate) struct AgentGroup {
     pub(crate) state: Option<Spanned<String>>,
     groups: Option<BTreeMap<String, f32>>,
     group_spacing_m: Option<f32>,
+    characters: Option<Vec<String>>,
 }
 
 /// Agents on a circle, each bound for the opposite position.
@@ -119,6 +120,7 @@ impl Default for AgentGroup {
             state: None,
             groups: None,
             group_spacing_m: None,
+            characters: None,
         }
     }
 }
@@ -181,18 +183,20 @@ impl AgentGroup {
     pub(crate) fn numbers(
         &self,
         count: usize,
-        profiles: &Profiles<'_>,
+        profiles_of: &Profiles<'_>,
         mut random: SplitMix64,
     ) -> Result<Vec<DrawnNumbers>, TableFault> {
         let &Self { preferred_speed_mps, radius_m, pre_movement_s, .. } = self;
         let [states_speed, states_radius] = [preferred_speed_mps, radius_m].map(|number| number.is_some());
-        let profiles = profiles.of_table(self.profile.as_ref(), pre_movement_s, states_speed, states_radius)?;
+        let profiles = profiles_of.of_table(self.profile.as_ref(), pre_movement_s, states_speed, states_radius)?;
+        let (profiles, characters) = profiles_of.with_characters(profiles, self.characters.as_ref())?;
         let of_table = DrawnNumbers {
             preferred_speed_mps: preferred_speed_mps.unwrap_or(PREFERRED_SPEED_MPS),
             radius_m: radius_m.unwrap_or(RADIUS_M),
             pre_movement_s: 0.0,
             closed_zones: 0,
             priority: 0.0,
+            characters,
         };
         Ok((0..count).map(|_| of_table.draw(&profiles, &mut random)).collect())
     }
@@ -224,7 +228,8 @@ impl AgentGroup {
         let of_state = || behaviour.start_facing_rad(state, position_m);
         let ahead = || of_state().unwrap_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x));
         let facing_rad = self.facing_deg.map_or_else(ahead, f32::to_radians);
-        let DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority } = numbers;
+        let DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, characters } =
+            numbers;
         AgentSpec {
             position_m,
             facing_rad,
@@ -237,6 +242,7 @@ impl AgentGroup {
             pre_movement_s,
             closed_zones,
             priority,
+            characters,
             group: None,
         }
     }

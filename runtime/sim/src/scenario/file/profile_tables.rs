@@ -17,6 +17,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::behaviour::Distribution;
+use crate::scenario::characters::character_spec::CharacterSpec;
+use crate::scenario::characters::character_tables::set_of;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::TableFault;
 use crate::scenario::file::behaviour::{DistributionValue, Names, priority};
@@ -35,6 +37,7 @@ pub(crate) struct ProfileTable {
     radius_m: Option<DistributionValue>,
     pre_movement_s: Option<DistributionValue>,
     priority: Option<f32>,
+    characters: Option<Vec<String>>,
 }
 
 /// `profile` of agents and sources.
@@ -49,12 +52,14 @@ pub(crate) enum ProfileValue {
 pub(crate) struct Profiles<'a> {
     names: Names<'a>,
     resolved: Vec<Profile>,
+    characters: &'a [CharacterSpec],
 }
 
 impl<'a> Profiles<'a> {
     /// Resolves all tables: what a profile inherits, and its ranges.
     pub(crate) fn new(
         tables: &'a BTreeMap<String, Spanned<ProfileTable>>,
+        characters: &'a [CharacterSpec],
         source: &SourceText,
     ) -> Result<Self, ScenarioError> {
         let names = Names::new("profile", tables);
@@ -64,11 +69,11 @@ impl<'a> Profiles<'a> {
             return Err(source.invalid(table.span(), message, "give fewer").into());
         }
         let resolve = |table: &&Spanned<ProfileTable>| {
-            profile(table.get_ref(), &names, &tables)
+            profile(table.get_ref(), &names, &tables, characters)
                 .map_err(|(message, help)| source.invalid(table.span(), message, help).into())
         };
         let resolved = tables.iter().map(resolve).collect::<Result<_, ScenarioError>>()?;
-        Ok(Self { names, resolved })
+        Ok(Self { names, resolved, characters })
     }
 
     /// Closes a zone to the agents of a profile, by the zone's bit.
@@ -112,13 +117,31 @@ impl<'a> Profiles<'a> {
         Ok(profiles)
     }
 
+    /// The profiles of a table that states characters itself: these go before those of the profiles. Beside them the
+    /// characters of agents without profile.
+    pub(crate) fn with_characters(
+        &self,
+        mut profiles: Vec<Profile>,
+        names: Option<&Vec<String>>,
+    ) -> Result<(Vec<Profile>, u64), TableFault> {
+        let Some(names) = names else { return Ok((profiles, 0)) };
+        let characters = set_of(names, self.characters)?;
+        profiles.iter_mut().for_each(|profile| profile.characters = characters);
+        Ok((profiles, characters))
+    }
+
     fn with_weight(&self, name: &str, weight: f32) -> Result<Profile, TableFault> {
         Ok(Profile { weight, ..self.resolved[self.names.index(name)?].clone() })
     }
 }
 
 /// One profile with all that it inherits.
-fn profile(table: &ProfileTable, names: &Names<'_>, tables: &[&Spanned<ProfileTable>]) -> Result<Profile, TableFault> {
+fn profile(
+    table: &ProfileTable,
+    names: &Names<'_>,
+    tables: &[&Spanned<ProfileTable>],
+    characters: &[CharacterSpec],
+) -> Result<Profile, TableFault> {
     let mut merged = table.clone();
     let mut ancestors = Vec::new();
     while let Some(name) = merged.inherits.take() {
@@ -134,6 +157,7 @@ fn profile(table: &ProfileTable, names: &Names<'_>, tables: &[&Spanned<ProfileTa
             radius_m: merged.radius_m.or(parent.radius_m),
             pre_movement_s: merged.pre_movement_s.or(parent.pre_movement_s),
             priority: merged.priority.or(parent.priority),
+            characters: merged.characters.or_else(|| parent.characters.clone()),
         };
     }
     let speeds = [*SPEED_MPS.start(), *SPEED_MPS.end()];
@@ -147,6 +171,7 @@ fn profile(table: &ProfileTable, names: &Names<'_>, tables: &[&Spanned<ProfileTa
         pre_movement_s: merged.pre_movement_s.map(pre_movement).transpose()?,
         closed_zones: 0,
         priority: merged.priority.map_or(Ok(0.0), priority)?,
+        characters: merged.characters.map_or(Ok(0), |names| set_of(&names, characters))?,
     })
 }
 

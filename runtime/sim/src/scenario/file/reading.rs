@@ -14,6 +14,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::route::reach::check_reach;
+use crate::scenario::characters::character_tables::{self, characters};
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, PlacementInput, fault_of_lines};
@@ -50,7 +51,8 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
     let states = StateNames { tables: &tables, behaviour: &behaviour };
     let motion = file.motion_source(source)?;
     let seed = file.seed.unwrap_or(SEED);
-    let mut profiles = Profiles::new(&file.profiles, source)?;
+    let characters = characters(source, &file.characters)?;
+    let mut profiles = Profiles::new(&file.profiles, &characters, source)?;
     let zones = zones(source, &file.zones, &mut profiles)?;
     let signals = Names::new("signal", &tables.signals);
     let mut ground = PlacedGround::new(source, &file.obstacles, &file.walkable, &behaviour, &signals)?;
@@ -78,6 +80,7 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         measures: measures(source, &file.measure)?,
         markings: markings.markings.clone(),
         labels: ground.labels.labels.clone(),
+        characters: characters.clone(),
         cameras: file.cameras().map(|camera| camera.get_ref().clone()).collect(),
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
@@ -98,6 +101,16 @@ pub fn agent_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
     let named = groups.filter_map(|(_, group)| group.file.as_ref());
     let grounds = file.walkable.iter().filter_map(|table| table.get_ref().file(&source));
     Ok(named.map(|name| source.beside(Path::new(name.get_ref()))).chain(grounds).collect())
+}
+
+/// The files of the characters that a scenario file names, in the order of its characters.
+///
+/// # Errors
+/// Where it cannot be read, is no scenario file, or names a character that does not exist.
+pub fn character_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
+    let source = read_text(path)?;
+    let file = ScenarioFile::parse(&source)?;
+    character_tables::files(&source, &file.characters)
 }
 
 fn read_text(path: &Path) -> Result<SourceText, ScenarioError> {

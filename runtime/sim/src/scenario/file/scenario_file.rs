@@ -23,6 +23,7 @@
 //! [[zones]]                           # ground on which agents are slower: see `zone_tables.rs`
 //! [[measure]]                         # lines and areas: see `measure_tables.rs`
 //! [[markings]]                        # what is painted on the ground: see `marking_tables.rs`
+//! [[characters]]                      # figures that bodies are drawn as: see `character_tables.rs`
 //! [[obstacles]]
 //! polygon_m = [[0, 0], [1, 0], [1, 1]]
 //! [params.planner]                    # MCN's tunables; all sections: see `params.rs`
@@ -40,6 +41,7 @@ use toml::Spanned;
 
 use crate::params::Params;
 use crate::planning::planner::Planner;
+use crate::scenario::characters::character_tables::CharacterTable;
 use crate::scenario::coupling::Coupling;
 use crate::scenario::error::ScenarioError;
 use crate::scenario::file::agent_groups::AgentGroups;
@@ -107,6 +109,8 @@ pub(crate) struct ScenarioFile {
     pub(crate) walkable: Vec<Spanned<WalkableTable>>,
     #[serde(default)]
     pub(crate) markings: Vec<Spanned<MarkingTable>>,
+    #[serde(default)]
+    pub(crate) characters: Vec<Spanned<CharacterTable>>,
     #[serde(default)]
     pub(crate) params: Params,
     pub(crate) view: Option<Spanned<View>>,

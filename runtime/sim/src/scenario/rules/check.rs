@@ -8,6 +8,7 @@ use crate::maths::polygon::{closest_distance_m, contains};
 use crate::maths::sweep::sort_along_longer_side;
 use crate::route::arrival::ARRIVAL_M;
 use crate::scenario::agent_spec::AgentSpec;
+use crate::scenario::characters::character_check::check_characters;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::ranges::check_ranges;
 use crate::scenario::resolved::Scenario;
@@ -52,6 +53,7 @@ pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_measures(scenario)?;
     check_zones(scenario)?;
     check_markings(scenario)?;
+    check_characters(&scenario.characters).map_err(|(_, fault)| fault)?;
     check_heights(&scenario.obstacle_heights_m)?;
     check_cameras(&scenario.cameras)?;
     check_source_ranges(scenario)

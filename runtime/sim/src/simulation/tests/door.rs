@@ -213,6 +213,7 @@ fn a_source_has_no_room_in_a_closed_door() {
         profiles: Vec::new(),
         closed_zones: 0,
         priority: 0.0,
+        characters: 0,
         groups: None,
     };
     let scenario = Scenario { sources: vec![source], ..rooms(&[([-0.6, 0.6], opens_at(10.0))], Vec::new()) };

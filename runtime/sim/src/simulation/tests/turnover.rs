@@ -47,6 +47,7 @@ fn source(low_m: Vec2, high_m: Vec2, rate_per_s: f32, ahead_m: f32) -> SourceSpe
         profiles: Vec::new(),
         closed_zones: 0,
         priority: 0.0,
+        characters: 0,
         groups: None,
     }
 }

@@ -22,9 +22,9 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 /// Remedy for a buffer outside the document's folder.
-const MOVE_OR_ALLOW: &str = "move the .bin file beside the .gltf file, or allow it with --allow-outside";
+const MOVE_OR_ALLOW: &str = "move the file beside the .gltf file, or allow it with --allow-outside";
 /// Remedy for a buffer in a file that cannot be read.
-const KEEP_BESIDE: &str = "keep the .bin file beside the .gltf file, or export a .glb";
+const KEEP_BESIDE: &str = "keep the file beside the .gltf file, or export a .glb";
 
 /// Bytes of one buffer, as many as the document states. `chunk` is the file and its binary chunk, which belongs to the
 /// first buffer.
@@ -42,8 +42,8 @@ pub(crate) fn read<F: Read + Seek>(
         (None, Some((file, chunk))) if index == 0 => from_chunk(file, chunk, length)?,
         // Such are the buffers that EXT_meshopt_compression replaces.
         (None, _) => {
-            let problem = "it has no bytes: its animations are compressed";
-            return malformed(position, problem, "export the animations uncompressed");
+            let problem = "it has no bytes: its content is compressed";
+            return malformed(position, problem, "export the file uncompressed");
         }
     };
     if bytes.len() < length.min(BYTES_MAX) {
@@ -75,7 +75,8 @@ pub(crate) fn linked_paths(file: &Path, uris: &[String]) -> Vec<PathBuf> {
     linked.filter_map(|uri| named_path(file, &percent_decoded(uri)?)).collect()
 }
 
-fn from_uri(
+/// Up to `length` bytes of a URI that a part of a document states.
+pub(crate) fn from_uri(
     file: &Path,
     position: &str,
     uri: &str,

@@ -24,17 +24,17 @@
 //! Read `chunks`, `document_json`, `document`, `node_tree`, `node_channel`, `accessor`, `key_track`, `clip_plan`, `sampling`, and
 //! last `gltf_file`, which is the entry.
 
-mod accessor;
+pub(crate) mod accessor;
 pub(crate) mod buffers;
 pub(crate) mod chunks;
 mod clip_plan;
-mod document;
+pub(crate) mod document;
 pub(crate) mod document_json;
 mod gltf_file;
 mod key_track;
 mod node_channel;
-mod node_transform;
-mod node_tree;
+pub(crate) mod node_transform;
+pub(crate) mod node_tree;
 mod sampling;
 
 pub use buffers::Outside;

@@ -48,6 +48,7 @@ pub(crate) struct SourceTable {
     profile: Option<Spanned<ProfileValue>>,
     groups: Option<BTreeMap<String, f32>>,
     group_spacing_m: Option<f32>,
+    characters: Option<Vec<String>>,
 }
 
 /// The sources of all tables; they end with the scenario at the latest.
@@ -60,7 +61,7 @@ pub(crate) fn sources(
     let resolve = |table: &Spanned<SourceTable>| {
         let at_table = |(message, help): TableFault| ScenarioError::from(source.invalid(table.span(), message, help));
         let SourceTable { state, profile, pre_movement_s, preferred_speed_mps, radius_m, .. } = table.get_ref();
-        let SourceTable { groups, group_spacing_m, .. } = table.get_ref();
+        let SourceTable { groups, group_spacing_m, characters, .. } = table.get_ref();
         let [states_speed, states_radius] = [preferred_speed_mps, radius_m].map(Option::is_some);
         let resolved = table.get_ref().source(duration_s).map_err(at_table)?;
         let schedule = table.get_ref().schedule.as_ref().map(|schedule| ScheduleValue::resolve(schedule, source));
@@ -68,7 +69,8 @@ pub(crate) fn sources(
         let profiles = profiles.map_err(at_table)?;
         let groups = group_sizes(groups.as_ref(), *group_spacing_m).map_err(at_table)?;
         let (state, schedule) = (states.index(state.as_ref(), source)?, schedule.transpose()?);
-        Ok(SourceSpec { state, schedule, profiles, groups, ..resolved })
+        let (profiles, characters) = input.profiles.with_characters(profiles, characters.as_ref()).map_err(at_table)?;
+        Ok(SourceSpec { characters, state, schedule, profiles, groups, ..resolved })
     };
     tables.iter().map(resolve).collect()
 }
@@ -103,6 +105,7 @@ impl SourceTable {
             profiles: Vec::new(),
             closed_zones: 0,
             priority: 0.0,
+            characters: 0,
             groups: None,
         })
     }

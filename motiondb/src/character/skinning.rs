@@ -1,0 +1,61 @@
+//! Linear blend skinning: transforms of joints → world positions and normals of all vertices.
+
+use glam::Vec3;
+
+use crate::character::choice::with_turned_hue;
+use crate::character::model::CharacterMesh;
+use crate::character::posing::JointTransform;
+
+impl CharacterMesh {
+    /// Positions (m) and unit normals of all vertices in the world; both lists are cleared first.
+    ///
+    /// # Panics
+    /// If there are fewer transforms than joints.
+    pub fn skin(&self, transforms: &[JointTransform], positions_m: &mut Vec<Vec3>, normals: &mut Vec<Vec3>) {
+        positions_m.clear();
+        normals.clear();
+        let vertices = self.positions_m.iter().zip(&self.normals).zip(self.joints.iter().zip(&self.weights));
+        for ((&bind_m, &bind_normal), (joints, weights)) in vertices {
+            let (mut position_m, mut normal) = (Vec3::ZERO, Vec3::ZERO);
+            for (&joint, &weight) in joints.iter().zip(weights).take_while(|(_, weight)| **weight > 0.0) {
+                let transform = &transforms[usize::from(joint)];
+                position_m += weight * transform.point_m(bind_m);
+                normal += weight * (transform.rotation * bind_normal);
+            }
+            positions_m.push(position_m);
+            normals.push(normal.normalize_or_zero());
+        }
+    }
+
+    /// Colours of all vertices, linear, with their hue turned by a share of the full circle; skin, eyes and hair keep
+    /// theirs. The list is cleared first.
+    pub fn tint(&self, hue_turn: f32, colours: &mut Vec<Vec3>) {
+        colours.clear();
+        colours.extend(self.colours.iter().map(|colour| Vec3::from(*colour)));
+        if hue_turn == 0.0 {
+            return;
+        }
+        let mut first = 0;
+        for material in &self.materials {
+            let last = first + material.triangle_count as usize;
+            if !material.keeps_hue {
+                for &vertex in self.triangles[first..last].as_flattened() {
+                    let vertex = vertex as usize;
+                    colours[vertex] = Vec3::from(with_turned_hue(self.colours[vertex], hue_turn));
+                }
+            }
+            first = last;
+        }
+    }
+
+    /// Position of one vertex in the world, m.
+    ///
+    /// # Panics
+    /// If the mesh has no such vertex, or there are fewer transforms than joints.
+    pub fn position_m(&self, vertex: usize, transforms: &[JointTransform]) -> Vec3 {
+        let influences = self.joints[vertex].iter().zip(&self.weights[vertex]);
+        let moved = influences
+            .map(|(&joint, &weight)| weight * transforms[usize::from(joint)].point_m(self.positions_m[vertex]));
+        moved.sum()
+    }
+}

@@ -1,0 +1,29 @@
+//! The rules of characters: names, weights, hues.
+
+use crate::scenario::characters::character_spec::{CHARACTERS_MAX, CharacterSpec};
+use crate::scenario::fault::{ScenarioFault, ScenarioPart};
+use crate::scenario::ranges::{check_name, within};
+
+/// Greatest weight of a character.
+const WEIGHT_MAX: f32 = 1e6;
+
+/// Checks all characters; an error comes with the index of its character.
+pub(crate) fn check_characters(characters: &[CharacterSpec]) -> Result<(), (usize, ScenarioFault)> {
+    let part = &ScenarioPart::Agents;
+    let count = characters.len();
+    within(part, "the number of characters", count, &(0..=CHARACTERS_MAX), "give fewer").map_err(|fault| (0, fault))?;
+    for (index, spec) in characters.iter().enumerate() {
+        check_character(spec, &characters[..index]).map_err(|fault| (index, fault))?;
+    }
+    Ok(())
+}
+
+fn check_character(spec: &CharacterSpec, before: &[CharacterSpec]) -> Result<(), ScenarioFault> {
+    let part = &ScenarioPart::Agents;
+    check_name(&spec.name)?;
+    if before.iter().any(|other| other.name == spec.name) {
+        return part.fault(format!("two characters have the name `{}`", spec.name), "choose another `name`");
+    }
+    within(part, "weight", spec.weight, &(0.0..=WEIGHT_MAX), "give a share relative to the other characters")?;
+    within(part, "hue_variation_deg", spec.hue_variation_deg, &(0.0..=180.0), "give degrees to either side")
+}

@@ -1,0 +1,52 @@
+//! `fbcrowd inspect` of a character: the joint of each role, sizes, notes, and its feet in a recording.
+
+use std::path::Path;
+
+use fbcrowd_jobs::character::{self, LoadedCharacter};
+use fbcrowd_sim::measures::character_soles;
+use fbcrowd_sim::recording::Recording;
+use motiondb_compiler::character::{FileContent, file_content};
+
+use crate::cmd::inspect::Args;
+use crate::report::character_report::{CharacterInspection, CharacterReport};
+use crate::terminal::failure::{Answer, Failure};
+use crate::terminal::output;
+
+/// Shows a character alone.
+pub(super) fn show(path: &Path, args: &Args) -> Result<Answer, Failure> {
+    let loaded = character::load(path, args.outside.into())?;
+    let mut report = CharacterReport::new(path, &loaded);
+    if let Some(recording) = &args.recording {
+        add_recording(&mut report, &loaded, recording)?;
+    }
+    print(args, report)
+}
+
+fn add_recording(report: &mut CharacterReport, loaded: &LoadedCharacter, path: &Path) -> Result<(), Failure> {
+    let recording = Recording::open(path)?;
+    let soles = character_soles(&recording, &loaded.character)?;
+    report.add_recording(&loaded.character, recording.header().skeleton(), soles);
+    Ok(())
+}
+
+/// Prints a report as JSON or text.
+pub(super) fn print(args: &Args, report: CharacterReport) -> Result<Answer, Failure> {
+    if args.json {
+        output::print_json(&CharacterInspection { character: report })?;
+    } else {
+        output::print(&report.text())?;
+    }
+    Ok(Answer::Yes)
+}
+
+/// The character of a file that may hold clips; none where it has no meshes, or no human that wears them.
+pub(super) fn of_clip(path: &Path, args: &Args) -> Option<CharacterReport> {
+    file_content(path).filter(|content| content.has_meshes)?;
+    let loaded = character::load(path, args.outside.into()).ok()?;
+    Some(CharacterReport::new(path, &loaded))
+}
+
+/// Whether a file is a character and holds no clip.
+pub(super) fn is_character_alone(path: &Path) -> bool {
+    matches!(file_content(path), Some(FileContent { has_meshes: true, has_animations: false }))
+}

@@ -1,0 +1,161 @@
+//! GLB, glTF, VRM or `.fbchar` → a character, and the file of a character.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fbcrowd_sim::recording::Header;
+use fbcrowd_sim::scenario::{self, Scenario};
+use motiondb::body::Skeleton;
+use motiondb::character::{self, Character, CharacterFit};
+use motiondb_compiler::Outside;
+use motiondb_compiler::character::{CharacterNote, CompiledCharacter, RolesFrom, compile_character};
+
+use crate::error::JobError;
+use crate::observer::{JobEvent, Observer};
+use crate::output_path::check_is_no_input;
+
+/// A character from a file.
+pub struct LoadedCharacter {
+    /// The character.
+    pub character: Character,
+    /// Checksum of its `.fbchar`, written or not.
+    pub checksum: u32,
+    /// How its roles were found; none of a `.fbchar`.
+    pub roles_from: Option<RolesFrom>,
+    /// What the compiler reports; none of a `.fbchar`.
+    pub notes: Vec<CharacterNote>,
+}
+
+/// Whether a path names a compiled character.
+pub fn is_compiled(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("fbchar"))
+}
+
+/// Loads a `.fbchar`, or compiles a GLB, glTF or VRM file.
+///
+/// # Errors
+/// Where the file gives no character.
+pub fn load(path: &Path, outside: Outside) -> Result<LoadedCharacter, JobError> {
+    if is_compiled(path) {
+        let (character, checksum) = character::load(path)?;
+        return Ok(LoadedCharacter { character, checksum, roles_from: None, notes: Vec::new() });
+    }
+    let CompiledCharacter { character, roles_from, notes } = compile_character(path, outside)?;
+    let (_, checksum) = character::from_bytes(path, &character::to_bytes(&character))?;
+    Ok(LoadedCharacter { character, checksum, roles_from: Some(roles_from), notes })
+}
+
+/// Compiles a character into a `.fbchar`.
+///
+/// # Errors
+/// Where the file gives no character, `output` is the input, or cannot be written.
+pub fn compile(
+    input: &Path,
+    output: &Path,
+    outside: Outside,
+    observer: &Observer,
+) -> Result<LoadedCharacter, JobError> {
+    check_is_no_input(output, [input])?;
+    observer(JobEvent::Stage("compiling"));
+    let loaded = load(input, outside)?;
+    observer(JobEvent::Stage("writing"));
+    character::write(output, &loaded.character)?;
+    Ok(loaded)
+}
+
+/// Folder of the characters of a recording, beside it.
+const FOLDER: &str = "characters";
+
+/// The characters of a scenario, in its order.
+pub struct ScenarioCharacters {
+    /// Each character's name in the scenario, and itself.
+    pub characters: Vec<(String, LoadedCharacter)>,
+    /// The files that were read.
+    pub files: Vec<PathBuf>,
+}
+
+impl ScenarioCharacters {
+    /// Loads or compiles the characters that a scenario file names; none where it names none.
+    ///
+    /// # Errors
+    /// Where a file is missing or gives no character.
+    pub fn load(file: &Path, scenario: &Scenario, outside: Outside, observer: &Observer) -> Result<Self, JobError> {
+        if scenario.characters.is_empty() {
+            return Ok(Self { characters: Vec::new(), files: Vec::new() });
+        }
+        observer(JobEvent::Stage("characters"));
+        let files = scenario::character_files(file)?;
+        let mut characters = Vec::new();
+        for (path, spec) in files.iter().zip(&scenario.characters) {
+            characters.push((spec.name.clone(), load(path, outside)?));
+        }
+        Ok(Self { characters, files })
+    }
+
+    /// The files that [`ScenarioCharacters::write`] writes for a recording.
+    pub fn outputs(&self, recording: &Path) -> Vec<PathBuf> {
+        self.characters.iter().map(|(name, _)| path_beside(recording, name)).collect()
+    }
+
+    /// Writes each character as `characters/NAME.fbchar` beside a recording, which keeps their names and checksums.
+    ///
+    /// # Errors
+    /// Where the system does not allow it.
+    pub fn write(&self, recording: &Path) -> Result<(), JobError> {
+        for (name, loaded) in &self.characters {
+            let path = path_beside(recording, name);
+            let folder = path.parent().unwrap_or(Path::new(""));
+            fs::create_dir_all(folder).map_err(|error| JobError::unwritable(folder, error))?;
+            character::write(&path, &loaded.character)?;
+        }
+        Ok(())
+    }
+
+    /// Checksums, in the scenario's order.
+    pub fn checksums(&self) -> Vec<u32> {
+        self.characters.iter().map(|(_, loaded)| loaded.checksum).collect()
+    }
+
+    /// Notes what the compiler reports, and characters whose legs differ much from those of the crowd.
+    pub fn note(&self, skeleton: &Skeleton, observer: &Observer) {
+        for (name, loaded) in &self.characters {
+            for note in &loaded.notes {
+                observer(JobEvent::Note(&format!("character {name}: {note}")));
+            }
+            let fit = CharacterFit::new(&loaded.character, skeleton);
+            if fit.is_scaled() {
+                observer(JobEvent::Note(&format!("character {name}: {}", scaled_legs(&fit))));
+            }
+        }
+    }
+}
+
+/// The warning about a character whose legs differ much from the crowd's.
+pub fn scaled_legs(fit: &CharacterFit) -> String {
+    let (own_m, crowd_m) = (fit.character.hips_over_soles_m, fit.hips_over_soles_m);
+    format!(
+        "the hips are {own_m:.2} m over the soles, the crowd's {crowd_m:.2} m: the figure is worn scaled by {:.2}",
+        fit.scale
+    )
+}
+
+/// The characters of a recording, from the folder beside it, in its order.
+///
+/// # Errors
+/// Where a character is missing, damaged or another one than that of the simulation.
+pub fn of_recording(recording: &Path, header: &Header) -> Result<Vec<Character>, JobError> {
+    let load = |recorded: &fbcrowd_sim::recording::RecordedCharacter| {
+        let path = path_beside(recording, &recorded.name);
+        let (character, checksum) = character::load(&path)?;
+        match checksum == recorded.checksum {
+            true => Ok(character),
+            false => Err(JobError::OtherCharacter { path, recording: recording.to_owned() }),
+        }
+    };
+    header.characters.iter().map(load).collect()
+}
+
+/// Path of a character's file beside a recording.
+fn path_beside(recording: &Path, name: &str) -> PathBuf {
+    recording.parent().unwrap_or(Path::new("")).join(FOLDER).join(format!("{name}.fbchar"))
+}
