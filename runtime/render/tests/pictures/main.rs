@@ -3,6 +3,7 @@
 mod camera;
 mod golden;
 mod overlay;
+mod passes;
 mod plots;
 mod scene_ground;
 mod sequence;
