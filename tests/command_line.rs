@@ -192,6 +192,22 @@ fn mistakes_in_a_scenario_are_shown_at_their_line() {
 }
 
 #[test]
+fn run_keeps_no_converted_scenario_that_cannot_be_read() {
+    let folder = folder("converted");
+    let plan = folder.join("plan.wkt");
+    fs::write(&plan, "POLYGON ((0 0, 8 0, 8 5, 0 5))").unwrap();
+    let output = folder.join("output");
+    let arguments = ["run", text(&plan), "--clips", WALK, "-o", text(&output)];
+    fbcrowd(&arguments).expect_code(2).says(&["plan.toml", "agents", "the converted scenario is not kept"]);
+    assert!(!output.exists());
+    // A folder with other files stays.
+    fs::create_dir(&output).unwrap();
+    fs::write(output.join("kept.txt"), "mine").unwrap();
+    fbcrowd(&arguments).expect_code(2);
+    assert_eq!(fs::read_dir(&output).unwrap().count(), 1);
+}
+
+#[test]
 fn clips_and_databases_exchanged_are_recognised() {
     let folder = folder("exchanged");
     let agent = "duration_s = 1\nagents = { at_m = [0, 0], goals_m = [[2, 0]] }\n";

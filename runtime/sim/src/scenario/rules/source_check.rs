@@ -16,7 +16,7 @@ use crate::scenario::ranges::{
 };
 use crate::scenario::resolved::Scenario;
 use crate::scenario::rules::behaviour_check::check_distribution;
-use crate::scenario::schedule::RATE_MAX_PER_S;
+use crate::scenario::rules::schedule_check::{RATE_MAX_PER_S, check_schedule};
 use crate::scenario::source_spec::SourceSpec;
 
 /// Greatest number of sources.
@@ -62,7 +62,7 @@ fn check_numbers(part: &ScenarioPart, source: &SourceSpec) -> Result<(), Scenari
 
 fn check_times(part: &ScenarioPart, source: &SourceSpec) -> Result<(), ScenarioFault> {
     if let Some(schedule) = &source.schedule {
-        return schedule.check().or_else(|(_, (message, help))| part.fault(message, help));
+        return check_schedule(schedule).or_else(|(_, (message, help))| part.fault(message, help));
     }
     within(part, "rate_per_s", source.rate_per_s, &RATE_PER_S, "give the mean number of agents per second")?;
     within(part, "from_s", source.from_s, &(0.0..=*DURATION_S.end()), "remove the key to begin at the start")?;

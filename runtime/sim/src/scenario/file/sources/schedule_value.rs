@@ -5,6 +5,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::scenario::error::ScenarioError;
+use crate::scenario::rules::schedule_check::check_schedule;
 use crate::scenario::schedule::{RateRow, Schedule, TimeRow};
 
 /// How to write a row.
@@ -34,7 +35,7 @@ impl ScheduleValue {
             ),
         };
         let fault = |(row, (message, help))| source.invalid(at_row(row), message, help).into();
-        schedule.check().map(|()| schedule).map_err(fault)
+        check_schedule(&schedule).map(|()| schedule).map_err(fault)
     }
 }
 
