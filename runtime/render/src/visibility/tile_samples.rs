@@ -167,11 +167,30 @@ impl<'a> TileSamples<'a> {
         }
     }
 
+    /// The fragment of a pixel that shows one part.
+    fn whole_pixel(&self, pixel: usize, first_uv: Vec2) -> Fragment {
+        let count = self.pattern.count();
+        let part = self.parts[pixel * count];
+        let depths_m = &self.depths_m[pixel * count..(pixel + 1) * count];
+        let (mut sum_m, mut least_m) = (Vec3::ZERO, f32::INFINITY);
+        for (offset, depth_m) in self.pattern.offsets().iter().zip(depths_m) {
+            let uv = first_uv + Vec2::new(offset[0] as f32, offset[1] as f32) * (self.lens.pixel / UNITS as f32);
+            least_m = least_m.min(*depth_m);
+            sum_m += if part == PartId::SKY { uv.extend(1.0) } else { self.lens.at_depth(uv, *depth_m) };
+        }
+        Fragment { part, samples: count as u32, depth_m: least_m, point_m: sum_m / count as f32 }
+    }
+
     /// The parts of a pixel of the tile, in the order of their first samples.
     pub fn fragments(&self, pixel: usize, fragments: &mut Vec<Fragment>) {
         fragments.clear();
         let count = self.pattern.count();
         let first_uv = self.pixel_uv(pixel);
+        let parts = &self.parts[pixel * count..(pixel + 1) * count];
+        if parts.iter().all(|part| *part == parts[0]) {
+            fragments.push(self.whole_pixel(pixel, first_uv));
+            return;
+        }
         for (index, offset) in self.pattern.offsets().iter().enumerate() {
             let sample = pixel * count + index;
             let (part, depth_m) = (self.parts[sample], self.depths_m[sample]);
