@@ -15,6 +15,8 @@ use crate::behaviour::state::{Behaviour, Facing, Movement, Target};
 
 /// Transitions of one agent in one step from which on they count as endless.
 pub(crate) const TRANSITIONS_MAX: usize = 100;
+/// Distance from its position in a queue within which an agent turns as it stands there, m.
+const IN_QUEUE_M: f32 = 1.0;
 /// Greatest preferred speed, m/s, that of a scenario's `preferred_speed_mps`: factors that remain multiply.
 const SPEED_MAX_MPS: f32 = 10.0;
 
@@ -157,7 +159,7 @@ impl Deciding<'_> {
         let start_m = self.agent.start_m;
         match *self.movement() {
             Movement::OwnPath => Aim::OwnPath,
-            Movement::Goals { .. } => self.aim_at_goal(None),
+            Movement::Goals { .. } => self.aim_at_goal(self.facing_in_queue_rad()),
             Movement::Mirrored { centre_m } => Aim::Position(2.0 * centre_m - start_m),
             Movement::Offset { by_m } => Aim::Position(start_m + by_m),
             Movement::Walk { velocity_mps } => Aim::Velocity(velocity_mps),
@@ -173,6 +175,22 @@ impl Deciding<'_> {
             }
             Movement::Leave { at_once } => Aim::Leave { at_once },
         }
+    }
+
+    /// Facing at a position of a queue, rad: that of the position, or towards the next one; at the head as behind it.
+    fn facing_in_queue_rad(&self) -> Option<f32> {
+        let goal = self.agent.goal?.at;
+        let set = &self.behaviour.goals[goal.set as usize];
+        let place = &set.areas[goal.area as usize];
+        if !set.queue || place.area.distance_m(self.position_m()) > IN_QUEUE_M {
+            return None;
+        }
+        let ahead_of = |from: usize| {
+            let [to_m, from_m] = [from - 1, from].map(|index| set.areas.get(index).map(|place| place.area.centre_m()));
+            let to = (to_m? - from_m?).try_normalize()?;
+            Some(libm::atan2f(to.y, to.x))
+        };
+        place.facing_rad.or_else(|| ahead_of((goal.area as usize).max(1)))
     }
 
     fn aim_at_goal(&self, facing_rad: Option<f32>) -> Aim {

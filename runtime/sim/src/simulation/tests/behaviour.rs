@@ -422,3 +422,31 @@ fn an_area_in_a_zone_that_is_closed_to_an_agent_is_not_chosen() {
     let waits = simulation.population().goals[0].waiting_steps;
     assert_eq!(waits, 0, "every visitor has a goal");
 }
+
+#[test]
+fn agents_in_a_queue_face_its_head() {
+    let text = "
+        [goals.till]
+        queue = true
+        areas = [{ point_m = [0, 0] }, { point_m = [0.9, 0] }, { point_m = [1.8, 0] }, { point_m = [1.8, 0.9] }]
+        [states.pay]
+        go = 'till'
+        then = [{ when = { served_s = 100 }, to = 'gone' }]
+        [states.gone]
+        remove = true
+        [[agents]]
+        grid = { columns = 4, rows = 1, spacing_m = 1.5, centre_m = [1, 6] }
+        state = 'pay'
+    ";
+    let simulation = run(text, |_, _| {});
+    let mut facings: Vec<(f32, f32)> = simulation
+        .frames()
+        .iter()
+        .map(|frame| (frame.root.position_m.x + frame.root.position_m.y, frame.root.facing_rad))
+        .collect();
+    facings.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let expected_rad = [std::f32::consts::PI, std::f32::consts::PI, std::f32::consts::PI, -std::f32::consts::FRAC_PI_2];
+    for ((_, facing_rad), expected_rad) in facings.iter().zip(expected_rad) {
+        assert!(wrap_rad(facing_rad - expected_rad).abs() < 0.15, "{facings:?}");
+    }
+}
