@@ -1,4 +1,5 @@
-//! The same input gives the same bytes on every platform: databases, recordings, PNG and EXR frames.
+//! The same input gives the same bytes on every platform: databases, recordings, PNG and EXR frames, and frames of
+//! cameras.
 //!
 //! `golden/sums.txt` holds the SHA-256 of the outputs of all bundled scenarios. This build must give the same sums, and
 //! so must builds for other platforms, which an emulator runs. `.ci/clients` makes these builds.
@@ -56,6 +57,13 @@ impl Program {
                 self.run(&["render", text(&recording), "-o", text(&frames), "--format", format, "--frames", FRAMES]);
                 let frames: Vec<PathBuf> = files(&frames).iter().map(|file| frames.join(file)).collect();
                 sums.push(sum(&format!("{name}.{format}"), &frames));
+            }
+            if fs::read_to_string(&scenario).unwrap().contains("[camera") {
+                let frames = folder.join(name).join("camera");
+                let to = ["render", text(&recording), "-o", text(&frames), "--view", "camera", "--size", "640x360"];
+                self.run(&[&to[..], &["--frames", FRAMES]].concat());
+                let frames: Vec<PathBuf> = files(&frames).iter().map(|file| frames.join(file)).collect();
+                sums.push(sum(&format!("{name}.camera"), &frames));
             }
             // WASI reports every file as read-only, so no recording replaces another.
             fs::remove_file(&recording).unwrap();

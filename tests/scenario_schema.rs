@@ -50,7 +50,7 @@ fn keys_of_reader(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn schema_and_reader_know_the_same_keys() {
-    const TABLES: [(&str, &str); 39] = [
+    const TABLES: [(&str, &str); 44] = [
         ("zzz = 1", "/properties"),
         ("[[agents]]\nzzz = 1", "/$defs/agents/properties"),
         ("[[agents]]\ncircle = { zzz = 1 }", "/$defs/agents/properties/circle/properties"),
@@ -90,6 +90,11 @@ fn schema_and_reader_know_the_same_keys() {
         ("[[walkable]]\nzzz = 1", "/properties/walkable/items/properties"),
         ("[[markings]]\nzzz = 1", "/properties/markings/items/properties"),
         ("[[characters]]\nzzz = 1", "/properties/characters/items/properties"),
+        ("[camera]\nzzz = 1", "/$defs/camera/properties"),
+        ("[[cameras]]\nzzz = 1", "/$defs/camera/properties"),
+        ("[camera]\nkeys = [{ zzz = 1 }]", "/$defs/camera/properties/keys/items/properties"),
+        ("[camera]\norbit = { zzz = 1 }", "/$defs/camera/properties/orbit/properties"),
+        ("[camera]\nfollow = { zzz = 1 }", "/$defs/camera/properties/follow/properties"),
         ("[view]\nzzz = 1", "/properties/view/properties"),
         ("[params]\nzzz = 1", "/properties/params/properties"),
         ("[params.route]\nzzz = 1", "/properties/params/properties/route/properties"),

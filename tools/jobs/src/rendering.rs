@@ -24,6 +24,15 @@ pub struct RenderedSequence {
     pub ms_per_frame: f64,
 }
 
+impl RenderedSequence {
+    /// Both sequences together.
+    pub fn and(&self, other: Self) -> Self {
+        let frames = self.frames + other.frames;
+        let ms = self.ms_per_frame * self.frames as f64 + other.ms_per_frame * other.frames as f64;
+        Self { frames, ms_per_frame: ms / frames.max(1) as f64 }
+    }
+}
+
 /// Opens a recording.
 ///
 /// # Errors

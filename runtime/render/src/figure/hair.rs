@@ -5,7 +5,7 @@ use motiondb::body::Joint;
 
 use crate::figure::build::Build;
 use crate::figure::head::section;
-use crate::figure::loft::Section;
+use crate::figure::section::Section;
 use crate::figure::style::{Cloth, HairStyle};
 use crate::figure::template::Template;
 

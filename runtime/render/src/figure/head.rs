@@ -4,7 +4,7 @@ use glam::Vec3;
 use motiondb::body::Joint;
 
 use crate::figure::build::{Build, Fineness};
-use crate::figure::loft::Section;
+use crate::figure::section::Section;
 use crate::figure::style::Cloth;
 use crate::figure::template::Template;
 

@@ -4,7 +4,7 @@
 //! rounded cones; and always the rounded cones by which occlusion is computed. World, metres.
 //!
 //! Sections are stated in the rest pose of a body 1.775 m high (x forward, y left, z up, arms straight out), and scaled
-//! to the skeleton. Read `style` (sex, hair, sleeves of an agent), `loft` (sections to a mesh), `template` (a mesh and its
+//! to the skeleton. Read `style` (sex, hair, sleeves of an agent), `section` and `loft` (sections to a mesh), `template` (a mesh and its
 //! joints), `build` (the frame of reference), then `trunk`, `limbs`, `hand`, `foot`, `head` and `hair`, `cone_figure` (the
 //! crowd's), and `figures` (all of it).
 
@@ -17,6 +17,7 @@ mod hand;
 mod head;
 mod limbs;
 mod loft;
+mod section;
 pub(crate) mod style;
 mod template;
 mod trunk;

@@ -2,7 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
-use crate::figure::loft::Section;
+use crate::figure::section::Section;
 use crate::figure::style::{CLOTHS, Cloth};
 use crate::visibility::{Meshes, Owner};
 

@@ -8,6 +8,8 @@ use crate::visibility::Lens;
 
 /// Distance and width of fine and coarse lines, m.
 const LINES_M: [[f32; 2]; 2] = [[1.0, 0.018], [5.0, 0.04]];
+/// Footprints, in periods, from which lines begin to fade into their mean, and at which they are it.
+const FADE: [f32; 2] = [0.35, 1.0];
 /// Factor by which lines are darker than those of the top view, which are for a thin pen.
 const DARKER: f32 = 0.72;
 
@@ -29,6 +31,12 @@ fn line_share(at_m: f32, footprint_m: f32, period_m: f32, width_m: f32) -> f32 {
     }
     let half_m = 0.5 * footprint_m.max(1e-4);
     let per_m = 1.0 / period_m;
+    // Most points lie between lines.
+    let cells = at_m * per_m;
+    let near = (cells + if cells < 0.0 { -0.5 } else { 0.5 }) as i32 as f32;
+    if (cells - near).abs() * period_m > half_m + 0.5 * width_m && footprint_m < FADE[0] * period_m {
+        return 0.0;
+    }
     // The integral of the lines, which lie about the multiples of the period.
     let before = |end_m: f32| {
         let shifted_m = end_m + 0.5 * width_m;
@@ -40,7 +48,7 @@ fn line_share(at_m: f32, footprint_m: f32, period_m: f32, width_m: f32) -> f32 {
     };
     let covered = (before(at_m + half_m) - before(at_m - half_m)) / (2.0 * half_m);
     // A box filter leaves waves where it is hardly wider than a period.
-    let fade = ((footprint_m / period_m - 0.35) / 0.65).clamp(0.0, 1.0);
+    let fade = ((footprint_m * per_m - FADE[0]) / (FADE[1] - FADE[0])).clamp(0.0, 1.0);
     covered + fade * (mean - covered)
 }
 

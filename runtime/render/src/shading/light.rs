@@ -10,10 +10,10 @@ pub(crate) const SUN: Vec3 = Vec3::new(0.86, 0.80, 0.70);
 const SKY_LIGHT: Vec3 = Vec3::new(0.335, 0.365, 0.42);
 /// Light from the ground on a surface that faces down.
 const BOUNCE: Vec3 = Vec3::new(0.17, 0.162, 0.15);
-/// Colour of the sky at the zenith, at mid height and at the horizon.
-const ZENITH: Vec3 = Vec3::new(0.25, 0.41, 0.68);
+/// Colour of the sky at the zenith.
+const ZENITH: Vec3 = Vec3::new(0.22, 0.42, 0.74);
 /// Colour of the sky at the horizon.
-pub(crate) const HORIZON: Vec3 = Vec3::new(0.72, 0.77, 0.81);
+pub(crate) const HORIZON: Vec3 = Vec3::new(0.66, 0.765, 0.86);
 /// Distance at which half of the ground's colour is the horizon's, m: no edge is seen at the horizon.
 const HAZE_M: f32 = 420.0;
 

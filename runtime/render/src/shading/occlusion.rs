@@ -97,7 +97,7 @@ impl OcclusionGrid {
         let bounds = |occluder: &Occluder| {
             let (reach, to) = (occluder.reach_m(), occluder.from + occluder.axis);
             let (low, high) = (occluder.from.min(to).truncate(), occluder.from.max(to).truncate());
-            (reach > 0.0).then(|| [low - reach, high + reach])
+            (reach > 0.0 && low.is_finite() && high.is_finite()).then(|| [low - reach, high + reach])
         };
         let all = occluders.iter().filter_map(bounds);
         let all = all.reduce(|[low, high], [other_low, other_high]| [low.min(other_low), high.max(other_high)]);

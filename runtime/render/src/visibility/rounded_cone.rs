@@ -98,7 +98,7 @@ impl PreparedCone {
         let other_squared = origin_squared - 2.0 * along_origin + axis_squared;
         let second = ball(squared, approach - along, other_squared - radii[1] * radii[1]);
         let depth = first.min(second);
-        (depth < f32::INFINITY).then(|| self.from.z + depth)
+        (depth < f32::INFINITY).then_some(self.from.z + depth)
     }
 
     /// Whether a point in camera space lies within the cone.

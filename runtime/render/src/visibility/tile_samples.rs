@@ -139,21 +139,21 @@ impl<'a> TileSamples<'a> {
         let edges = triangle.edges();
         let (offsets, pixel) = (self.pattern.offsets(), self.lens.pixel);
         let first_uv = self.lens.to_uv(Vec2::new(self.corner_px[0] as f32, self.corner_px[1] as f32));
+        let steps = edges.map(|edge| edge.step(UNITS));
+        let first_x = (self.corner_px[0] + columns.start) as i32 * UNITS;
         for row in rows {
             let y = (self.corner_px[1] + row) as i32 * UNITS;
-            for column in columns.clone() {
-                let x = (self.corner_px[0] + column) as i32 * UNITS;
-                for (sample, offset) in offsets.iter().enumerate() {
-                    let position = [x + offset[0], y + offset[1]];
-                    if edges.iter().any(|edge| edge.at(position) < 0) {
-                        continue;
+            for (sample, offset) in offsets.iter().enumerate() {
+                let mut values = edges.map(|edge| edge.at([first_x + offset[0], y + offset[1]]));
+                let v = first_uv.y + (row as f32 + offset[1] as f32 / UNITS as f32) * pixel;
+                for column in columns.clone() {
+                    // No value is negative.
+                    if values[0] | values[1] | values[2] >= 0 {
+                        let u = first_uv.x + (column as f32 + offset[0] as f32 / UNITS as f32) * pixel;
+                        let at = (row * width + column) as usize * count + sample;
+                        self.put(at, triangle.depth_m(Vec2::new(u, v)), part);
                     }
-                    let within = Vec2::new(
-                        column as f32 + offset[0] as f32 / UNITS as f32,
-                        row as f32 + offset[1] as f32 / UNITS as f32,
-                    );
-                    let at = (row * width + column) as usize * count + sample;
-                    self.put(at, triangle.depth_m(first_uv + within * pixel), part);
+                    values = [values[0] + steps[0], values[1] + steps[1], values[2] + steps[2]];
                 }
             }
         }
@@ -167,11 +167,30 @@ impl<'a> TileSamples<'a> {
         }
     }
 
+    /// The fragment of a pixel that shows one part.
+    fn whole_pixel(&self, pixel: usize, first_uv: Vec2) -> Fragment {
+        let count = self.pattern.count();
+        let part = self.parts[pixel * count];
+        let depths_m = &self.depths_m[pixel * count..(pixel + 1) * count];
+        let (mut sum_m, mut least_m) = (Vec3::ZERO, f32::INFINITY);
+        for (offset, depth_m) in self.pattern.offsets().iter().zip(depths_m) {
+            let uv = first_uv + Vec2::new(offset[0] as f32, offset[1] as f32) * (self.lens.pixel / UNITS as f32);
+            least_m = least_m.min(*depth_m);
+            sum_m += if part == PartId::SKY { uv.extend(1.0) } else { self.lens.at_depth(uv, *depth_m) };
+        }
+        Fragment { part, samples: count as u32, depth_m: least_m, point_m: sum_m / count as f32 }
+    }
+
     /// The parts of a pixel of the tile, in the order of their first samples.
     pub fn fragments(&self, pixel: usize, fragments: &mut Vec<Fragment>) {
         fragments.clear();
         let count = self.pattern.count();
         let first_uv = self.pixel_uv(pixel);
+        let parts = &self.parts[pixel * count..(pixel + 1) * count];
+        if parts.iter().all(|part| *part == parts[0]) {
+            fragments.push(self.whole_pixel(pixel, first_uv));
+            return;
+        }
         for (index, offset) in self.pattern.offsets().iter().enumerate() {
             let sample = pixel * count + index;
             let (part, depth_m) = (self.parts[sample], self.depths_m[sample]);

@@ -150,6 +150,11 @@ impl ScreenTriangle {
 }
 
 impl Edge {
+    /// Change over a number of units along x.
+    pub(crate) fn step(&self, units: i32) -> i64 {
+        self.step[0] * i64::from(units)
+    }
+
     /// Value at a position in units: not negative inside.
     #[inline]
     pub(crate) fn at(&self, position: [i32; 2]) -> i64 {

@@ -15,6 +15,7 @@ use fbcrowd_sim::recording::Recording;
 use fbcrowd_sim::scenario::View;
 use tiny_skia::Pixmap;
 
+use crate::camera::portrait;
 use crate::support;
 
 /// Greatest mean difference of a channel, code values: another machine rounds differently.
@@ -55,6 +56,8 @@ fn pictures() -> Vec<(&'static str, Pixmap)> {
         ("top_near.png", top_view(near, 1.2)),
         ("top_far.png", top_view(far, 1.2)),
         ("top_dots.png", top_view(dots, 1.2)),
+        ("camera_front.png", portrait(&recording, 0.5, [128, 160])),
+        ("camera_side.png", portrait(&recording, 1.6, [128, 160])),
         ("overlay_constraints.png", overlaid(&[2], 1.0)),
         ("trajectories.png", quarter(&trajectories(recording.header(), &tracks))),
     ]

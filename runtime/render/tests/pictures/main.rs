@@ -1,5 +1,6 @@
 //! Pictures as users get them: whole sequences, golden images, plots of databases.
 
+mod camera;
 mod golden;
 mod overlay;
 mod plots;

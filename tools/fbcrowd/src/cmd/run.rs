@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_jobs::character::ScenarioCharacters;
+use fbcrowd_jobs::character::{self, ScenarioCharacters};
 use fbcrowd_jobs::clip_paths;
 use fbcrowd_jobs::compiling::{self, Overrides};
 use fbcrowd_jobs::output_path::{LockedFolder, check_files};
@@ -12,10 +12,11 @@ use fbcrowd_jobs::rendering::{self, RenderedSequence};
 use fbcrowd_jobs::simulation;
 use fbcrowd_jobs::wording::counted;
 use fbcrowd_jobs::{JobEvent, Observer};
+use fbcrowd_render::camera::CameraOptions;
 use fbcrowd_render::top_view::{PictureFormat, SequenceOptions};
 use fbcrowd_scenes::{ReadOptions, is_scene};
 use fbcrowd_sim::measures;
-use fbcrowd_sim::scenario::{self, MotionSource};
+use fbcrowd_sim::scenario::{self, MotionSource, Scenario};
 use motiondb::files::database_file;
 use motiondb::motion::MotionDb;
 
@@ -30,8 +31,8 @@ use crate::terminal::progress::ProgressDisplay;
 
 /// Compile the clips of a scenario, then simulate and render the scenario.
 ///
-/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png`, `frames/NAME.####.png`, and `characters/` where the scenario
-/// has characters. A scene of another program is
+/// Writes `motion.fbdb`, `NAME.fbrec`, `trajectories.png` and `frames/NAME.####.png`; where the scenario has a
+/// camera, its first one's frames to `camera/NAME.####.png`; and its characters to `characters/`. A scene of another program is
 /// converted first: `NAME.toml` is written beside them.
 #[derive(clap::Args)]
 #[command(
@@ -60,7 +61,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let Subject { file, folder, files, answer: converted } = Subject::new(args)?;
     let (scenario, motion) = scenario::read(&file)?;
     let motion = motion?;
-    let outputs = RunOutputs::new(folder, &scenario.name);
+    let outputs = RunOutputs::new(folder, &scenario);
     let characters = ScenarioCharacters::load(&file, &scenario, args.outside.into(), &observer)?;
     let files = [files, characters.files.clone()].concat();
     outputs.check(&inputs(&file, files, &motion)?, &characters)?;
@@ -71,7 +72,10 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let mut prepared = simulation::prepare(Arc::clone(&db), scenario, &observer)?;
     prepared.character_checksums = characters.checksums();
     characters.note(&db.skeleton, &observer);
-    let _locks = [LockedFolder::exclusive(&outputs.folder)?, LockedFolder::exclusive(&outputs.frames.folder)?];
+    let folders =
+        [Some(&outputs.folder), Some(&outputs.frames.folder), outputs.camera.as_ref().map(|camera| &camera.folder)];
+    let _locks =
+        folders.into_iter().flatten().map(|folder| LockedFolder::exclusive(folder)).collect::<Result<Vec<_>, _>>()?;
     let checksum = match checksum {
         Some(checksum) => checksum,
         None => compiling::write_database(&outputs.database, &db, &observer)?,
@@ -82,7 +86,13 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let measures = measures::measure(&recording)?;
     rendering::plot_trajectories(&recording, &outputs.trajectories)?;
     rendering::remove_frames(&outputs.frames.folder, &outputs.frames.name)?;
-    let rendered = rendering::render(&recording, &outputs.frames, &observer)?;
+    let mut rendered = rendering::render(&recording, &outputs.frames, &observer)?;
+    if let Some(camera) = &outputs.camera {
+        rendering::remove_frames(&camera.folder, &camera.name)?;
+        let worn = character::of_recording(&outputs.recording, recording.header())?;
+        let camera = &CameraOptions { characters: worn, ..camera.clone() };
+        rendered = rendered.and(rendering::render_camera(&recording, camera, &observer)?);
+    }
 
     let figures = measures_text::text(&measures) + &timings_text::text(&timings);
     output::print(&(figures + &outputs_text(&rendered, &outputs.folder)))?;
@@ -136,22 +146,31 @@ struct RunOutputs {
     recording: PathBuf,
     trajectories: PathBuf,
     frames: SequenceOptions,
+    /// Frames of the scenario's first camera.
+    camera: Option<CameraOptions>,
 }
 
 impl RunOutputs {
-    fn new(folder: Option<PathBuf>, name: &str) -> Self {
+    fn new(folder: Option<PathBuf>, scenario: &Scenario) -> Self {
+        let name = &scenario.name;
         let folder = folder.unwrap_or_else(|| Path::new("out").join(name));
+        let camera = (!scenario.cameras.is_empty()).then(|| CameraOptions {
+            folder: folder.join("camera"),
+            name: name.clone(),
+            ..CameraOptions::default()
+        });
         Self {
             database: folder.join("motion.fbdb"),
             recording: folder.join(format!("{name}.fbrec")),
             trajectories: folder.join("trajectories.png"),
             frames: SequenceOptions {
                 folder: folder.join("frames"),
-                name: name.to_owned(),
+                name: name.clone(),
                 format: PictureFormat::Png,
                 frames: None,
                 constraints_of: Vec::new(),
             },
+            camera,
             folder,
         }
     }
@@ -164,6 +183,9 @@ impl RunOutputs {
         let worn = characters.outputs(&self.recording);
         if let Some(folder) = worn.first().and_then(|path| path.parent()) {
             check_files(folder, &worn, &inputs.files)?;
+        }
+        if let Some(camera) = &self.camera {
+            rendering::check_old_frames(&camera.folder, &camera.name, &inputs.files)?;
         }
         Ok(rendering::check_old_frames(&self.frames.folder, &self.frames.name, &inputs.files)?)
     }
