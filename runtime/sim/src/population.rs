@@ -187,7 +187,7 @@ impl Population {
     /// The population of a scenario at its start.
     pub fn of(scenario: &Scenario) -> Self {
         let life = |(index, spec): (usize, &AgentSpec)| {
-            let character = scenario.character_of(AgentId::from(index), spec);
+            let character = scenario.character_of(index as u32, spec);
             AgentLife { character, ..AgentLife::new(spec.clone(), None, 0) }
         };
         let door = |is_closed_at_start| DoorPhases { is_closed_at_start, changes: Vec::new() };

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use fbcrowd_sim::population::{AgentId, Population};
+use fbcrowd_sim::population::Population;
 use fbcrowd_sim::scenario::{self, Scenario};
 use motiondb::files::SourceText;
 
@@ -38,10 +38,10 @@ fn weights_share_the_characters_out() {
     assert_eq!(names, ["woman", "guard"]);
     let women = worn(&scenario).iter().filter(|character| **character == Some(0)).count();
     assert!((270..330).contains(&women), "{women} of 400");
-    let turns: Vec<f32> = (0..400).map(|id| scenario.hue_turn_of(AgentId(id), 0)).collect();
+    let turns: Vec<f32> = (0..400).map(|id| scenario.hue_turn_of(id, 0)).collect();
     assert!(turns.iter().all(|turn| turn.abs() <= 30.0 / 360.0));
     assert!(turns.iter().any(|turn| *turn > 0.06) && turns.iter().any(|turn| *turn < -0.06));
-    assert_eq!(scenario.hue_turn_of(AgentId(3), 1), 0.0);
+    assert_eq!(scenario.hue_turn_of(3, 1), 0.0);
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn agents_and_profiles_name_their_characters() {
     let scenario = crowd(1, source);
     assert_eq!(scenario.sources[0].drawn(1, 0, 0).characters, 0b10);
     let spec = scenario.sources[0].drawn(1, 0, 0).agent(glam::Vec2::ZERO);
-    assert_eq!(scenario.character_of(AgentId(77), &spec), Some(1));
+    assert_eq!(scenario.character_of(77, &spec), Some(1));
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! Agents of a frame as parts of the scene. World, metres.
 
+use fbcrowd_sim::Population;
 use fbcrowd_sim::recording::AgentFrame;
 use glam::Vec3;
 use rayon::prelude::*;
 
+use crate::camera::worn::Wardrobe;
 use crate::figure::Figures;
 use crate::raster::palette::Look;
 use crate::visibility::{Lens, SceneParts};
@@ -14,14 +16,17 @@ const BODY_M: [f32; 2] = [0.9, 1.2];
 const SHADOW_REACH_M: f32 = 2.5;
 /// Height of a body, m.
 const HEIGHT_M: f32 = 1.75;
+/// Height of a body in the picture from which on its character is drawn; smaller ones are plain cones, pixels.
+const CHARACTER_PX: f32 = 24.0;
 /// Number of agents that are posed at once.
 const AGENTS_AT_ONCE: usize = 32;
 
-/// The bodies that a lens sees, or that throw shadows into its picture. `agents` decide which bodies are there and how
-/// fine they are, `posed` where their parts are: the same agents at the same time, or at another one. `hidden` is the id
-/// of an agent that is left out.
+/// The bodies that a lens sees, or that throw shadows into its picture, in the characters that they wear. `agents` decide
+/// which bodies are there and how fine they are, `posed` where their parts are: the same agents at the same time, or at
+/// another one. `hidden` is the id of an agent that is left out.
 pub(crate) fn body_parts(
     figures: &Figures,
+    worn: Option<(&Wardrobe, &Population)>,
     agents: &[AgentFrame],
     posed: &[AgentFrame],
     looks: &[Look],
@@ -35,8 +40,13 @@ pub(crate) fn body_parts(
         .map(|((agents, posed), looks)| {
             let mut parts = SceneParts::default();
             for ((agent, posed), look) in agents.iter().zip(posed).zip(looks) {
-                if Some(agent.id.0) != hidden && is_near_picture(lens, agent) {
-                    figures.append(&mut parts, posed, look, height_px(lens, agent));
+                if Some(agent.id.0) == hidden || !is_near_picture(lens, agent) {
+                    continue;
+                }
+                let height_px = height_px(lens, agent);
+                match worn.and_then(|worn| character_of(worn, agent)).filter(|_| height_px >= CHARACTER_PX) {
+                    Some((wardrobe, character)) => wardrobe.append(&mut parts, posed, character),
+                    None => figures.append(&mut parts, posed, look, height_px),
                 }
             }
             parts
@@ -49,6 +59,15 @@ pub(crate) fn body_parts(
         scene.meshes.extend(&parts.meshes);
     }
     scene
+}
+
+/// The character that an agent wears.
+fn character_of<'a>(
+    (wardrobe, population): (&'a Wardrobe<'a>, &Population),
+    agent: &AgentFrame,
+) -> Option<(&'a Wardrobe<'a>, u32)> {
+    let character = population.agents.get(agent.id.index())?.character?;
+    wardrobe.has(character).then_some((wardrobe, character))
 }
 
 fn middle_m(agent: &AgentFrame) -> Vec3 {

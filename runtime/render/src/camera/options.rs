@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use fbcrowd_sim::scenario::CameraSpec;
+use motiondb::character::Character;
 
 use crate::camera::colour_by::ColourBy;
 use crate::passes::{ColourSpace, ExrCompression, PassSet};
@@ -44,6 +45,8 @@ pub struct CameraOptions {
     pub size_px: Option<[u32; 2]>,
     /// Name of a camera; by default the scenario's first, or one that frames the crowd.
     pub camera: Option<String>,
+    /// The recording's characters, in its order; plain bodies where there are none.
+    pub characters: Vec<Character>,
     /// How well frames are drawn.
     pub quality: Quality,
     /// What the colours of clothes show.

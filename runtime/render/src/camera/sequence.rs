@@ -79,7 +79,8 @@ pub fn render_camera_sequence(
     let sequence = CameraSequence {
         recording,
         options,
-        view: CameraView::new(recording.header(), recording.population(), options.quality, options.colour_by),
+        view: CameraView::new(recording.header(), recording.population(), options.quality, options.colour_by)
+            .with_characters(&options.characters),
         captions: CameraCaptions::new(size_px),
         camera,
         size_px,

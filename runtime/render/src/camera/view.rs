@@ -6,11 +6,13 @@
 use fbcrowd_sim::Population;
 use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::Vec3;
+use motiondb::character::Character;
 
 use crate::camera::blocks::{append_doors, still_blocks};
 use crate::camera::bodies::body_parts;
 use crate::camera::colour_by::{ColourBy, looks};
 use crate::camera::options::Quality;
+use crate::camera::worn::Wardrobe;
 use crate::figure::Figures;
 use crate::shading::ground_plan::GroundPlan;
 use crate::shading::linear_picture::LinearPicture;
@@ -28,6 +30,7 @@ pub struct CameraView<'a> {
     header: &'a Header,
     population: &'a Population,
     figures: Figures,
+    wardrobe: Option<Wardrobe<'a>>,
     blocks: Meshes,
     ground: GroundPlan,
     quality: Quality,
@@ -52,7 +55,15 @@ impl<'a> CameraView<'a> {
     pub fn new(header: &'a Header, population: &'a Population, quality: Quality, colour_by: ColourBy) -> Self {
         let (blocks, ground) = (still_blocks(&header.scenario), GroundPlan::new(&header.scenario));
         let figures = Figures::new(header.skeleton());
-        Self { header, figures, population, blocks, ground, quality, colour_by }
+        Self { header, figures, wardrobe: None, population, blocks, ground, quality, colour_by }
+    }
+
+    /// The same with the recording's characters, in its order. Only the agents' own colours show them: other colours are
+    /// those of plain bodies.
+    pub fn with_characters(mut self, characters: &'a [Character]) -> Self {
+        let is_shown = self.colour_by == ColourBy::Agent && !characters.is_empty();
+        self.wardrobe = is_shown.then(|| Wardrobe::new(self.header, characters));
+        self
     }
 
     /// The cones and triangles of a frame.
@@ -63,7 +74,8 @@ impl<'a> CameraView<'a> {
     /// The same parts, where they are at another time: `posed` holds the agents of `agents` then.
     pub(crate) fn posed_scene(&self, shot: &Shot, agents: &[AgentFrame], posed: &[AgentFrame]) -> SceneParts {
         let looks = looks(self.colour_by, agents, self.population);
-        let mut scene = body_parts(&self.figures, agents, posed, &looks, &shot.lens, shot.eyes_of);
+        let worn = self.wardrobe.as_ref().map(|wardrobe| (wardrobe, self.population));
+        let mut scene = body_parts(&self.figures, worn, agents, posed, &looks, &shot.lens, shot.eyes_of);
         scene.meshes.extend(&self.blocks);
         let frame = (shot.time_s / f64::from(self.header.scenario.dt_s) + 1e-3) as u32;
         append_doors(&mut scene.meshes, &self.header.scenario, self.population, frame);

@@ -166,12 +166,13 @@ impl<'a> MeshBuilder<'a> {
         if !self.unread.is_empty() {
             notes.push(CharacterNote::UnreadTextures(self.unread));
         }
-        let counts: [(usize, fn(usize) -> CharacterNote); 3] = [
-            (self.hidden, CharacterNote::MaskedTriangles),
-            (self.uneven, CharacterNote::UnevenWeights),
-            (self.unweighted, CharacterNote::UnweightedVertices),
+        let counted = [
+            CharacterNote::MaskedTriangles(self.hidden),
+            CharacterNote::UnevenWeights(self.uneven),
+            CharacterNote::UnweightedVertices(self.unweighted),
         ];
-        notes.extend(counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, note)| note(count)));
+        let counts = [self.hidden, self.uneven, self.unweighted];
+        notes.extend(counted.into_iter().zip(counts).filter(|(_, count)| *count > 0).map(|(note, _)| note));
         self.mesh
     }
 }

@@ -166,7 +166,7 @@ fn assembled(
     let sole_m = 0.5 * (feet_m[0][0].z + feet_m[1][0].z);
     let hips_over_soles_m = on_joints.hips_over_soles_m(slots, sole_m);
     let leg_length_m = on_joints.leg_length_m(slots);
-    if !(hips_over_soles_m > 0.5 * leg_length_m) {
+    if hips_over_soles_m <= 0.5 * leg_length_m {
         return Err(CharacterReason::HipsAtSoles);
     }
     let radii_m = on_joints.segment_radii_m(slots);

@@ -54,14 +54,14 @@ impl MeshOnJoints<'_> {
             }
             of_toe > TOE_WEIGHT_MIN * (of_foot + of_toe)
         });
-        for side in 0..2 {
+        for (side, is_used) in is_used.iter_mut().enumerate() {
             let (Some(ankle_m), Some(toe_m)) =
                 (self.role_m(slots, Joint::FEET[side]), self.role_m(slots, Joint::TOES[side]))
             else {
                 continue;
             };
             let tip_m = self.foot_vertices(side).map(|point_m| (point_m - ankle_m).x).fold(0.0, f64::max);
-            is_used[side] &= (toe_m - ankle_m).with_z(0.0).length() > TOE_AHEAD_MIN * tip_m;
+            *is_used &= (toe_m - ankle_m).with_z(0.0).length() > TOE_AHEAD_MIN * tip_m;
         }
         // Both feet roll alike.
         if is_used != [true; 2] {
@@ -97,7 +97,7 @@ impl MeshOnJoints<'_> {
             front_m = front_m.max(along(point_m));
             sole_m = sole_m.min(point_m.z);
         }
-        if !(rear_m < front_m) {
+        if rear_m >= front_m {
             // The legs end in a robe, or at the ankles.
             (rear_m, front_m) = (-0.25 * FOOT_LENGTH * leg_m, 0.75 * FOOT_LENGTH * leg_m);
             sole_m = self.mesh.positions_m.iter().map(|point_m| point_m.z).fold(ankle_m.z, f64::min);

@@ -99,6 +99,10 @@ impl Figure {
             ends.iter().fold((start_m, start_m), |(low, high), end| (low.min(*end), high.max(*end)));
         let girth = Vec3::splat(0.04 * self.size);
         (low, high) = (low - girth, high + girth);
+        // Feet end at their toes.
+        if self.bones[joint].0.contains("Foot") && ends[0].z > start_m.z {
+            high.z = ends[0].z;
+        }
         // Soles are level.
         if self.bones[joint].0.contains("Foot") || self.bones[joint].0.contains("Toe") {
             low.y = 0.0;

@@ -10,7 +10,6 @@ pub(crate) mod compile;
 pub(crate) mod completions;
 pub(crate) mod convert;
 pub(crate) mod inspect;
-mod inspect_character;
 pub(crate) mod measure;
 mod outside_arg;
 mod rejected;

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
+use fbcrowd_jobs::character;
 use fbcrowd_jobs::output_path::LockedFolder;
 use fbcrowd_jobs::rendering::{self, RenderedSequence};
 use fbcrowd_jobs::wording::counted;
@@ -263,6 +264,7 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
         cameras: other_cameras,
         size_px,
         camera: camera.clone(),
+        characters: character::of_recording(&args.recording, recording.header())?,
         quality: Quality { samples: *samples, shadow: !no_shadow, occlusion: (*occlusion).into() },
         colour_by: (*colour_by).into(),
         passes: args.exr.passes.clone().unwrap_or_default(),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fbcrowd_jobs::character::ScenarioCharacters;
+use fbcrowd_jobs::character::{self, ScenarioCharacters};
 use fbcrowd_jobs::clip_paths;
 use fbcrowd_jobs::compiling::{self, Overrides};
 use fbcrowd_jobs::output_path::{LockedFolder, check_files};
@@ -94,6 +94,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let mut rendered = rendering::render(&recording, &outputs.frames, &observer)?;
     if let Some(camera) = &outputs.camera {
         rendering::remove_frames(&camera.folder, &camera.name)?;
+        let worn = character::of_recording(&outputs.recording, recording.header())?;
+        let camera = &CameraOptions { characters: worn, ..camera.clone() };
         rendered = rendered.and(rendering::render_camera(&recording, camera, &observer)?);
     }
 

@@ -39,7 +39,6 @@ enum InspectReport {
 /// All schemas, in the order of the documentation.
 pub(super) fn schemas() -> Vec<OutputSchema> {
     let of_commands = [
-        ("compile-character", document::<CharacterInspection>("fbcrowd compile --json, of a character")),
         ("compile", document::<CompileReport>("fbcrowd compile --json")),
         ("validate", document::<ValidationReport>("fbcrowd validate --json")),
         ("inspect", document::<InspectReport>("fbcrowd inspect --json")),

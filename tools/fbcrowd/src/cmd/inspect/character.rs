@@ -5,21 +5,28 @@ use std::path::Path;
 use fbcrowd_jobs::character::{self, LoadedCharacter};
 use fbcrowd_sim::measures::character_soles;
 use fbcrowd_sim::recording::Recording;
+use motiondb_compiler::Outside;
 use motiondb_compiler::character::{FileContent, file_content};
 
-use crate::cmd::inspect::Args;
 use crate::report::character_report::{CharacterInspection, CharacterReport};
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 
+/// What `fbcrowd inspect` says of a character.
+pub(super) struct CharacterOptions<'a> {
+    pub(super) json: bool,
+    pub(super) outside: Outside,
+    pub(super) recording: Option<&'a Path>,
+}
+
 /// Shows a character alone.
-pub(super) fn show(path: &Path, args: &Args) -> Result<Answer, Failure> {
-    let loaded = character::load(path, args.outside.into())?;
+pub(super) fn show(path: &Path, options: &CharacterOptions) -> Result<Answer, Failure> {
+    let loaded = character::load(path, options.outside)?;
     let mut report = CharacterReport::new(path, &loaded);
-    if let Some(recording) = &args.recording {
+    if let Some(recording) = options.recording {
         add_recording(&mut report, &loaded, recording)?;
     }
-    print(args, report)
+    print(options, report)
 }
 
 fn add_recording(report: &mut CharacterReport, loaded: &LoadedCharacter, path: &Path) -> Result<(), Failure> {
@@ -30,8 +37,8 @@ fn add_recording(report: &mut CharacterReport, loaded: &LoadedCharacter, path: &
 }
 
 /// Prints a report as JSON or text.
-pub(super) fn print(args: &Args, report: CharacterReport) -> Result<Answer, Failure> {
-    if args.json {
+pub(super) fn print(options: &CharacterOptions, report: CharacterReport) -> Result<Answer, Failure> {
+    if options.json {
         output::print_json(&CharacterInspection { character: report })?;
     } else {
         output::print(&report.text())?;
@@ -40,9 +47,9 @@ pub(super) fn print(args: &Args, report: CharacterReport) -> Result<Answer, Fail
 }
 
 /// The character of a file that may hold clips; none where it has no meshes, or no human that wears them.
-pub(super) fn of_clip(path: &Path, args: &Args) -> Option<CharacterReport> {
+pub(super) fn of_clip(path: &Path, options: &CharacterOptions) -> Option<CharacterReport> {
     file_content(path).filter(|content| content.has_meshes)?;
-    let loaded = character::load(path, args.outside.into()).ok()?;
+    let loaded = character::load(path, options.outside).ok()?;
     Some(CharacterReport::new(path, &loaded))
 }
 

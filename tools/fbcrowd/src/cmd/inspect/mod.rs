@@ -1,5 +1,7 @@
 //! `fbcrowd inspect`: the content of a database, of clips or of a character, as tables, JSON and pictures.
 
+mod character;
+
 use std::path::{Path, PathBuf};
 
 use fbcrowd_jobs::character::is_compiled;
@@ -12,7 +14,7 @@ use motiondb::motion::MotionDb;
 use motiondb_compiler::ClipSet;
 use motiondb_compiler::survey::survey;
 
-use crate::cmd::inspect_character;
+use self::character::CharacterOptions;
 use crate::cmd::outside_arg::OutsideArg;
 use crate::cmd::rejected;
 use crate::report::correspondence_table::CorrespondenceTable;
@@ -37,16 +39,16 @@ pub(crate) struct Args {
     input: Vec<PathBuf>,
     /// Print JSON; docs/json.md describes it.
     #[arg(long)]
-    pub(super) json: bool,
+    json: bool,
     #[command(flatten)]
-    pub(super) outside: OutsideArg,
+    outside: OutsideArg,
     /// Write pictures of a database: velocity sets, parameters, where the examples are thin, bodies, steps, and how
     /// similar the poses of m_sp and m_mb are.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
     /// Show a character alone, and measure its feet on the bodies of a recording: planted slide, soles under the ground.
     #[arg(long, value_name = "FILE.fbrec")]
-    pub(super) recording: Option<PathBuf>,
+    recording: Option<PathBuf>,
     /// For each recorded example: rebuild the database without it, blend at its parameters, and print the RMS joint
     /// distance to it. The distance to the nearest other example is printed for comparison.
     #[arg(long)]
@@ -60,8 +62,8 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     match args.input.as_slice() {
         [database] if is_database(database) && args.recording.is_none() => inspect_database(args, database),
-        [path] if is_character(path) || args.recording.is_some() || inspect_character::is_character_alone(path) => {
-            inspect_character::show(path, args)
+        [path] if is_character(path) || args.recording.is_some() || character::is_character_alone(path) => {
+            character::show(path, &character_options(args))
         }
         _ if args.recording.is_some() => Err(Failure::bad("--recording measures one character; name one file")),
         inputs if inputs.iter().any(|input| is_character(input)) => {
@@ -75,6 +77,10 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
             inspect_clips(args, clips)
         }
     }
+}
+
+fn character_options(args: &Args) -> CharacterOptions<'_> {
+    CharacterOptions { json: args.json, outside: args.outside.into(), recording: args.recording.as_deref() }
 }
 
 /// Checks by its name that a file may hold clips. Folders and missing files are checked when they are read.
@@ -157,25 +163,25 @@ fn inspect_clips(args: &Args, paths: &[PathBuf]) -> Result<Answer, Failure> {
     if let Some((_, message)) = of_databases.into_iter().find(|(is_given, _)| *is_given) {
         return Err(Failure::bad(format!("{message}; compile the clips first with `fbcrowd compile`")));
     }
-    let character = match paths {
-        [path] => inspect_character::of_clip(path, args),
+    let figure = match paths {
+        [path] => character::of_clip(path, &character_options(args)),
         _ => None,
     };
     let progress = ProgressDisplay::default();
     let ClipSet { clips, rejected } = compiling::import(paths, args.outside.into(), &|event| progress.observe(event))?;
     rejected::print(&rejected);
-    let has_character = character.is_some();
+    let has_character = figure.is_some();
     let (is_empty, answer) = (clips.is_empty(), rejected::answer(&rejected));
     let surveyed = survey(clips);
     if args.json {
         let mut report = ClipsReport::new(&surveyed, rejected);
-        report.character = character;
+        report.character = figure;
         output::print_json(&report)?;
-    } else if let (false, Some(character)) = (is_empty, &character) {
+    } else if let (false, Some(character)) = (is_empty, &figure) {
         output::print(&format!("{}\n{}", inspect_text::clips_text(&surveyed), character.text()))?;
     } else if !is_empty {
         output::print(&inspect_text::clips_text(&surveyed))?;
-    } else if let Some(character) = &character {
+    } else if let Some(character) = &figure {
         output::print(&character.text())?;
     }
     if is_empty && !has_character {

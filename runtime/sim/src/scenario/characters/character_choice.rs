@@ -1,0 +1,24 @@
+//! Which character an agent wears, and in which hue.
+
+use motiondb::character::{chosen, hue_turn};
+
+use crate::scenario::agent_spec::AgentSpec;
+use crate::scenario::characters::character_spec::CharacterSpec;
+use crate::scenario::resolved::Scenario;
+
+impl Scenario {
+    /// Index of the character that an agent wears; none of the plain body. It depends on the seed, the agent's id and
+    /// its set of characters alone, so agents that are added later change nothing.
+    pub fn character_of(&self, id: u32, spec: &AgentSpec) -> Option<u32> {
+        let may_wear = |index: usize| spec.characters == 0 || spec.characters >> index & 1 == 1;
+        let weight = |(index, character): (usize, &CharacterSpec)| if may_wear(index) { character.weight } else { 0.0 };
+        let index = chosen(self.seed, id, self.characters.iter().enumerate().map(weight))?;
+        Some(index as u32)
+    }
+
+    /// Turn of the hue of an agent's character, as a share of the full circle.
+    pub fn hue_turn_of(&self, id: u32, character: u32) -> f32 {
+        let variation_deg = self.characters.get(character as usize).map_or(0.0, |spec| spec.hue_variation_deg);
+        hue_turn(self.seed, id) * variation_deg / 360.0
+    }
+}
