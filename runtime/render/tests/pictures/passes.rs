@@ -57,6 +57,11 @@ fn channels(bytes: &[u8]) -> BTreeMap<String, Vec<f32>> {
     channels.map(|channel| (channel.name.to_string(), values(&channel.sample_data))).collect()
 }
 
+/// The value of a channel, by its name, for each pixel.
+fn pixels(channels: &BTreeMap<String, Vec<f32>>) -> impl Iterator<Item = impl Fn(&str) -> f32> {
+    (0..192 * 108).map(move |pixel| move |name: &str| channels[name][pixel])
+}
+
 #[test]
 fn passes_do_not_depend_on_threads() {
     let scratch = Scratch::new("passes-threads");
@@ -83,8 +88,7 @@ fn mattes_cover_what_ids_show() {
     let scratch = Scratch::new("passes-mattes");
     let channels = channels(&frame(&scratch, &options(scratch.path()), 2));
     let (mut id_of_agent, mut bodies) = (BTreeMap::new(), 0);
-    for pixel in 0..192 * 108 {
-        let of = |name: &str| channels[name][pixel];
+    for of in pixels(&channels) {
         let ranks = ["00.R", "00.B", "01.R", "01.B"].map(|side| of(&format!("CryptoAsset{side}")));
         let covered = ["00.G", "00.A", "01.G", "01.A"].map(|side| of(&format!("CryptoAsset{side}")));
         let sum: f32 = covered.iter().sum();
@@ -107,8 +111,7 @@ fn motion_is_that_of_the_bodies_alone() {
     let scratch = Scratch::new("passes-motion");
     let channels = channels(&frame(&scratch, &options(scratch.path()), 2));
     let (mut forward, mut sum, mut count) = (0.0_f32, 0.0_f32, 0.0_f32);
-    for pixel in 0..192 * 108 {
-        let of = |name: &str| channels[name][pixel];
+    for of in pixels(&channels) {
         let [before, after] = ["backward", "forward"].map(|layer| of(&format!("{layer}.u")));
         if of("agent.id").to_bits() == 0 {
             assert!(before.abs() < 1e-2 && after.abs() < 1e-2, "the camera and the ground stand");
