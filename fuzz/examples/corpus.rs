@@ -90,27 +90,13 @@ fn record(path: &Path) {
     let agent =
         |y: f32| AgentSpec { position_m: Vec2::new(0.0, y), goals_m: vec![Vec2::new(5.0, y)], ..AgentSpec::default() };
     let source = SourceSpec {
-        low_m: Vec2::ZERO,
         high_m: Vec2::ONE,
-        area: None,
-        rate_per_s: 1.0,
-        from_s: 0.0,
         to_s: 1.0,
-        schedule: None,
         count: Some(2),
         facing_rad: Some(0.5),
-        goals_m: Vec::new(),
         goal_offset_m: Some(Vec2::X),
-        radius_m: 0.25,
-        wall_radius_m: 0.2,
-        preferred_speed_mps: 1.33,
         at_goal: AtGoal::Leave,
-        state: 0,
-        pre_movement_s: 0.0,
-        profiles: Vec::new(),
-        closed_zones: 0,
-        priority: 0.0,
-        groups: None,
+        ..SourceSpec::default()
     };
     let scenario = Scenario {
         name: "two".to_owned(),

@@ -29,26 +29,13 @@ fn wide_header() -> Header {
     header.scenario.sources.push(SourceSpec {
         low_m: Vec2::new(-1.0, -1.0),
         high_m: Vec2::new(1.0, 0.1),
-        area: None,
         rate_per_s: 0.3,
-        from_s: 0.0,
         to_s: 9.0,
-        schedule: None,
         count: Some(3),
-        facing_rad: None,
         goals_m: vec![Vec2::new(7.0, 0.0)],
-        goal_offset_m: None,
-        radius_m: 0.25,
-        wall_radius_m: 0.2,
         preferred_speed_mps: 1.2,
         at_goal: AtGoal::Leave,
-        state: 0,
-        pre_movement_s: 0.0,
-        profiles: Vec::new(),
-        closed_zones: 0,
-        priority: 0.0,
-        characters: 0,
-        groups: None,
+        ..SourceSpec::default()
     });
     header
 }

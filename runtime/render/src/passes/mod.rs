@@ -16,7 +16,6 @@
 //! `multi_channel_exr` with `exr_header` (the file).
 
 pub(crate) mod camera_matrices;
-pub(crate) mod colour_space;
 pub(crate) mod cryptomatte;
 pub(crate) mod exr_header;
 pub(crate) mod motion;
@@ -25,6 +24,6 @@ pub(crate) mod pass;
 pub(crate) mod pass_picture;
 pub(crate) mod tile_passes;
 
-pub use colour_space::ColourSpace;
+pub use crate::raster::colour_space::ColourSpace;
 pub use multi_channel_exr::ExrCompression;
 pub use pass::{Pass, PassSet};

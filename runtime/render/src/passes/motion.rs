@@ -5,6 +5,7 @@
 
 use glam::{Quat, Vec2, Vec3};
 
+use crate::visibility::part::Shape;
 use crate::visibility::triangle::weights;
 use crate::visibility::{Cone, Fragment, Lens, PartId, SceneParts};
 
@@ -33,16 +34,14 @@ pub(crate) fn displacement_px(fragment: &Fragment, scene: &SceneParts, lens: &Le
 
 /// The same point of a part in another frame, m.
 fn moved_m(part: PartId, point_m: Vec3, scene: &SceneParts, other: &SceneParts) -> Vec3 {
-    let (cones, index) = (scene.cones.len(), part.0 as usize);
-    if part >= PartId::GROUND {
-        return point_m;
+    match scene.shape(part) {
+        None => point_m,
+        Some(Shape::Cone(cone)) => moved_with_cone_m(point_m, &scene.cones[cone], &other.cones[cone]),
+        Some(Shape::Triangle(triangle)) => {
+            let weights = weights(scene.meshes.corners_m(triangle), point_m);
+            other.meshes.blended(triangle, weights, &other.meshes.positions_m)
+        }
     }
-    if index < cones {
-        return moved_with_cone_m(point_m, &scene.cones[index], &other.cones[index]);
-    }
-    let weights = weights(scene.meshes.corners_m(index - cones), point_m);
-    let [a, b, c] = other.meshes.corners_m(index - cones);
-    a * weights.x + b * weights.y + c * weights.z
 }
 
 fn moved_with_cone_m(point_m: Vec3, from: &Cone, to: &Cone) -> Vec3 {

@@ -12,9 +12,9 @@ use motiondb::files::atomic_file::AtomicFile;
 
 use crate::error::RenderError;
 use crate::passes::camera_matrices::{world_to_camera, world_to_normalized_device};
-use crate::passes::colour_space::ColourSpace;
 use crate::passes::exr_header::sort_attributes;
 use crate::passes::pass_picture::ChannelPicture;
+use crate::raster::colour_space::ColourSpace;
 use crate::raster::exr_frame::frame_rate_fraction;
 use crate::shading::LinearPicture;
 use crate::visibility::Lens;

@@ -6,8 +6,7 @@ use glam::Vec3;
 use crate::passes::cryptomatte::{Coverage, id_bits, ranks};
 use crate::passes::motion::{OtherFrame, displacement_px};
 use crate::passes::pass::{Pass, PassSet};
-use crate::visibility::rounded_cone::PreparedCone;
-use crate::visibility::triangle::weights;
+use crate::shading::surface::SurfacePoint;
 use crate::visibility::{Fragment, Lens, Owner, PartId, SceneParts, TileSamples};
 
 /// Depth where there is only sky, m: a large finite number, as in Blender.
@@ -152,16 +151,8 @@ impl FramePasses<'_> {
         }
     }
 
-    /// What a part of the scene belongs to; none of ground and sky.
-    fn owner(&self, fragment: &Fragment) -> Option<Owner> {
-        let (cones, index) = (self.scene.cones.len(), fragment.part.0 as usize);
-        let of_parts =
-            || if index < cones { self.scene.cones[index].owner } else { self.scene.meshes.owners[index - cones] };
-        (fragment.part < PartId::GROUND).then(of_parts)
-    }
-
     fn agent(&self, fragment: &Fragment) -> Option<u32> {
-        self.owner(fragment).map(|owner| owner.agent).filter(|agent| *agent != Owner::NO_AGENT)
+        self.scene.owner(fragment.part).map(|owner| owner.agent).filter(|agent| *agent != Owner::NO_AGENT)
     }
 
     /// Name in a matte; none of what the matte does not hold.
@@ -173,26 +164,14 @@ impl FramePasses<'_> {
                 life.group.map(group_name)
             }
             _ if fragment.part == PartId::SKY => None,
-            _ => Some(material_name(self.owner(fragment).map_or(GROUND_MATERIAL, |owner| owner.material))),
+            _ => Some(material_name(self.scene.owner(fragment.part).map_or(GROUND_MATERIAL, |owner| owner.material))),
         }
     }
 
-    /// Unit normal of a fragment, world, towards the eye; 0 of the sky.
+    /// Unit normal of a fragment, world; 0 of the sky.
     fn normal(&self, fragment: &Fragment) -> Vec3 {
-        let (cones, index) = (self.scene.cones.len(), fragment.part.0 as usize);
-        if fragment.part >= PartId::GROUND {
-            return if fragment.part == PartId::SKY { Vec3::ZERO } else { Vec3::Z };
-        }
-        if index < cones {
-            let normal = PreparedCone::new(&self.scene.cones[index], self.lens).normal(fragment.point_m);
-            return self.lens.direction_to_world(normal);
-        }
-        let meshes = &self.scene.meshes;
-        let point_m = self.lens.to_world(fragment.point_m);
-        let weights = weights(meshes.corners_m(index - cones), point_m);
-        let [a, b, c] = meshes.triangles[index - cones].map(|corner| meshes.normals[corner as usize]);
-        let normal = (a * weights.x + b * weights.y + c * weights.z).try_normalize().unwrap_or(Vec3::Z);
-        let is_away = normal.dot(point_m - self.lens.eye_m) > 0.0 && self.lens.is_perspective;
-        if is_away { -normal } else { normal }
+        let surface = SurfacePoint::of(fragment, self.scene, self.lens);
+        let otherwise = if fragment.part == PartId::SKY { Vec3::ZERO } else { Vec3::Z };
+        surface.map_or(otherwise, |surface| surface.normal)
     }
 }

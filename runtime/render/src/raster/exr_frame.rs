@@ -9,7 +9,6 @@ use std::path::Path;
 use exr::block::writer::ChunksWriter;
 use exr::image::write::channels::{ChannelsWriter, WritableChannels};
 use exr::meta::Headers;
-use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
     Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, SpecificChannels, Text, Vec2, WritableImage, f16,
 };
@@ -17,16 +16,10 @@ use motiondb::files::atomic_file::AtomicFile;
 use tiny_skia::PremultipliedColorU8;
 
 use crate::error::RenderError;
+use crate::raster::colour_space::ColourSpace;
 use crate::raster::palette::decode_srgb;
 use crate::raster::strips::PictureStrips;
 
-/// Primaries and white point of Rec. 709, the same as sRGB's.
-const REC_709: Chromaticities = Chromaticities {
-    red: Vec2(0.64, 0.33),
-    green: Vec2(0.30, 0.60),
-    blue: Vec2(0.15, 0.06),
-    white: Vec2(0.3127, 0.3290),
-};
 /// Number of lines in one compressed block.
 const BLOCK_LINES: usize = 16;
 /// Encoding: scan lines in blocks of [`BLOCK_LINES`].
@@ -86,7 +79,7 @@ fn headers((width, height): (usize, usize), frame_rate_hz: f32) -> Headers {
     // The header depends on the types of the channels alone.
     let channels = SpecificChannels::rgba(|_: Vec2<usize>| (f16::ZERO, f16::ZERO, f16::ZERO, f16::ZERO));
     let mut image = Image::from_layer(Layer::new((width, height), attributes, ENCODING, channels));
-    image.attributes.chromaticities = Some(REC_709);
+    image.attributes.chromaticities = Some(ColourSpace::Rec709.chromaticities());
     image.write().infer_meta_data()
 }
 

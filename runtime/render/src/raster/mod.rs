@@ -2,9 +2,10 @@
 //!
 //! Enters: bodies in world metres, shapes and texts in pixels. Leaves: opaque sRGB pictures, PNG and EXR files.
 //!
-//! Read `drawn_body` and `tapered_capsule` (bodies), then `palette`, `paint`, `pixels` and `text`, then `strips`, `png_frame`
-//! and `exr_frame`.
+//! Read `drawn_body` and `tapered_capsule` (bodies), then `palette`, `paint`, `pixels` and `text`, then `strips`, `png_frame`,
+//! `exr_frame` and `colour_space`.
 
+pub(crate) mod colour_space;
 pub(crate) mod drawn_body;
 pub(crate) mod exr_frame;
 pub(crate) mod paint;

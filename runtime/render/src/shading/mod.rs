@@ -4,7 +4,7 @@
 //! tone curve sRGB. One shade is computed for each pixel and distinct part.
 //!
 //! Read `light` (sun and sky), `ground_plan` (what is painted on the ground) and `grid_lines`, `shadow_map`, `occlusion`
-//! (where little sky is seen), `shader` (all of it), then `linear_picture` and `tone`.
+//! (where little sky is seen), `surface` (a point of a body or wall), `shader` (all of it), then `linear_picture` and `tone`.
 
 pub(crate) mod grid_lines;
 pub(crate) mod ground_plan;
@@ -13,6 +13,7 @@ pub(crate) mod linear_picture;
 pub(crate) mod occlusion;
 pub(crate) mod shader;
 pub(crate) mod shadow_map;
+pub(crate) mod surface;
 pub(crate) mod tone;
 
 pub use linear_picture::LinearPicture;

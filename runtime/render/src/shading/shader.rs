@@ -11,8 +11,7 @@ use crate::shading::light::{SUN, TO_SUN, ambient, sky, through_air};
 use crate::shading::linear_picture::opaque;
 use crate::shading::occlusion::{Occlusion, OcclusionGrid};
 use crate::shading::shadow_map::ShadowMap;
-use crate::visibility::rounded_cone::PreparedCone;
-use crate::visibility::triangle::weights;
+use crate::shading::surface::SurfacePoint;
 use crate::visibility::{Fragment, Lens, Owner, PartId, SceneParts, TileSamples};
 
 /// Share of the sun's light that comes round the edge of a surface.
@@ -31,13 +30,6 @@ pub(crate) struct Shader<'a> {
     pub(crate) occlusion: Occlusion,
     /// Distance at which fog leaves a third of the light, m.
     pub(crate) fog_m: Option<f32>,
-}
-
-/// A point of a surface.
-struct SurfacePoint {
-    point_m: Vec3,
-    normal: Vec3,
-    colour: Vec3,
 }
 
 impl Shader<'_> {
@@ -69,14 +61,11 @@ impl Shader<'_> {
     }
 
     fn shade(&self, fragment: &Fragment) -> Vec3 {
-        if fragment.part == PartId::SKY {
-            return sky(self.lens.ray(fragment.point_m.truncate()));
-        }
-        let point_m = self.lens.to_world(fragment.point_m);
         let distance_m = fragment.point_m.length();
-        let colour = match fragment.part.ground_layer() {
-            Some(layer) => self.ground_colour(layer, point_m),
-            None => self.part_colour(fragment, point_m),
+        let colour = match (SurfacePoint::of(fragment, self.scene, self.lens), fragment.part.ground_layer()) {
+            (Some(surface), _) => self.surface_colour(&surface),
+            (None, Some(layer)) => self.ground_colour(layer, self.lens.to_world(fragment.point_m)),
+            (None, None) => return sky(self.lens.ray(fragment.point_m.truncate())),
         };
         through_air(colour, distance_m, self.fog_m)
     }
@@ -95,17 +84,10 @@ impl Shader<'_> {
         colour * (sun * SUN + open * ambient(Vec3::Z))
     }
 
-    fn part_colour(&self, fragment: &Fragment, point_m: Vec3) -> Vec3 {
-        let cones = self.scene.cones.len();
-        let index = fragment.part.0 as usize;
-        let (surface, owner) = if index < cones {
-            (self.cone_point(index, fragment, point_m), self.scene.cones[index].owner)
-        } else {
-            (self.triangle_point(index - cones, point_m), self.scene.meshes.owners[index - cones])
-        };
+    fn surface_colour(&self, surface: &SurfacePoint) -> Vec3 {
         let open = match self.occluders {
-            Some(occluders) if self.occlusion == Occlusion::Full && owner.agent != Owner::NO_AGENT => {
-                occluders.on_body(owner.agent, surface.point_m, surface.normal)
+            Some(occluders) if self.occlusion == Occlusion::Full && surface.owner.agent != Owner::NO_AGENT => {
+                occluders.on_body(surface.owner.agent, surface.point_m, surface.normal)
             }
             _ => 1.0,
         };
@@ -113,30 +95,6 @@ impl Shader<'_> {
         let lit = ((facing + WRAP) / (1.0 + WRAP)).max(0.0);
         let sun = if lit > 0.0 { lit * self.sun_at(surface.point_m, surface.normal) } else { 0.0 };
         surface.colour * (sun * SUN + open * ambient(surface.normal))
-    }
-
-    fn cone_point(&self, index: usize, fragment: &Fragment, point_m: Vec3) -> SurfacePoint {
-        let cone = &self.scene.cones[index];
-        let normal = PreparedCone::new(cone, self.lens).normal(fragment.point_m);
-        SurfacePoint { point_m, normal: self.lens.direction_to_world(normal), colour: cone.colour }
-    }
-
-    fn triangle_point(&self, triangle: usize, point_m: Vec3) -> SurfacePoint {
-        let meshes = &self.scene.meshes;
-        let weights = weights(meshes.corners_m(triangle), point_m);
-        let blend = |values: &[Vec3]| {
-            let [a, b, c] = meshes.triangles[triangle].map(|corner| values[corner as usize]);
-            a * weights.x + b * weights.y + c * weights.z
-        };
-        let normal = blend(&meshes.normals).try_normalize().unwrap_or(Vec3::Z);
-        // Both sides of a triangle are drawn.
-        let is_away = normal.dot(self.towards_eye(point_m)) < -0.2;
-        let normal = if is_away { -normal } else { normal };
-        SurfacePoint { point_m, normal, colour: blend(&meshes.colours) }
-    }
-
-    fn towards_eye(&self, point_m: Vec3) -> Vec3 {
-        if self.lens.is_perspective { (self.lens.eye_m - point_m).normalize_or_zero() } else { -self.lens.forward }
     }
 
     fn sun_at(&self, point_m: Vec3, normal: Vec3) -> f32 {

@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use crate::visibility::part::{PartId, Shape};
+
 /// What a part belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Owner {
@@ -57,6 +59,21 @@ pub struct SceneParts {
     pub occluders: Vec<Cone>,
 }
 
+impl SceneParts {
+    /// The shape of a part; none of ground and sky.
+    pub(crate) fn shape(&self, part: PartId) -> Option<Shape> {
+        part.shape(self.cones.len())
+    }
+
+    /// What a part belongs to; none of ground and sky.
+    pub(crate) fn owner(&self, part: PartId) -> Option<Owner> {
+        self.shape(part).map(|shape| match shape {
+            Shape::Cone(cone) => self.cones[cone].owner,
+            Shape::Triangle(triangle) => self.meshes.owners[triangle],
+        })
+    }
+}
+
 impl Meshes {
     /// Appends a mesh: as many normals and colours as positions, and triangles of its own indices. Triangles with an
     /// index beyond the positions are left out.
@@ -98,6 +115,12 @@ impl Meshes {
         self.colours.extend_from_slice(&other.colours);
         self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
         self.owners.extend_from_slice(&other.owners);
+    }
+
+    /// A value of each vertex, blended by the weights of a triangle's corners.
+    pub(crate) fn blended(&self, triangle: usize, weights: Vec3, values: &[Vec3]) -> Vec3 {
+        let [a, b, c] = self.triangles[triangle].map(|corner| values[corner as usize]);
+        a * weights.x + b * weights.y + c * weights.z
     }
 
     /// Corners of a triangle, world, m.

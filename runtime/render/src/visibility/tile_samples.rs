@@ -3,25 +3,10 @@
 use glam::{Vec2, Vec3};
 
 use crate::visibility::lens::{GroundDepth, Lens};
+use crate::visibility::part::PartId;
 use crate::visibility::rounded_cone::PreparedCone;
 use crate::visibility::sample_pattern::{SamplePattern, UNITS};
 use crate::visibility::triangle::ScreenTriangle;
-
-/// A part of a scene: a cone, a triangle, a layer of the ground, or the sky.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct PartId(pub u32);
-
-impl PartId {
-    /// Nothing: the sky.
-    pub const SKY: Self = Self(u32::MAX);
-    /// The ground's lowest layer; further layers follow.
-    pub const GROUND: Self = Self(1 << 31);
-
-    /// The layer of a part of the ground; none of other parts.
-    pub fn ground_layer(self) -> Option<u32> {
-        (self >= Self::GROUND && self != Self::SKY).then(|| self.0 - Self::GROUND.0)
-    }
-}
 
 /// What one part contributes to one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]

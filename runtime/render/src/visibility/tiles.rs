@@ -4,11 +4,12 @@
 use rayon::prelude::*;
 
 use crate::visibility::lens::{GroundDepth, Lens};
+use crate::visibility::part::PartId;
 use crate::visibility::rounded_cone::PreparedCone;
 use crate::visibility::sample_pattern::SamplePattern;
 use crate::visibility::scene_parts::SceneParts;
 use crate::visibility::screen_bounds::cone_bounds;
-use crate::visibility::tile_samples::{PartId, TileSamples};
+use crate::visibility::tile_samples::TileSamples;
 use crate::visibility::triangle::{ScreenTriangle, append_visible};
 
 /// Side of a tile, pixels: its samples fit the first cache.

@@ -5,8 +5,7 @@
 //!
 //! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `schedule`, `due_times`, `profile`,
 //! `social_group`, `places` (zones, doors, markings, measured lines and areas, cameras), `coupling` and `view`; then
-//! `rules` and `ranges`, `fault` and
-//! `error` (how a broken rule is shown); then [`file`](mod@file).
+//! `rules` and `ranges`, `fault` and `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
 pub(crate) mod characters;

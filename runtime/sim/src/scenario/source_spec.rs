@@ -82,6 +82,37 @@ pub struct SourceSpec {
     pub groups: Option<GroupSizes>,
 }
 
+impl Default for SourceSpec {
+    /// At the origin, one adult a second for an hour.
+    fn default() -> Self {
+        let AgentSpec { radius_m, wall_radius_m, preferred_speed_mps, at_goal, .. } = AgentSpec::default();
+        Self {
+            low_m: Vec2::ZERO,
+            high_m: Vec2::ZERO,
+            area: None,
+            rate_per_s: 1.0,
+            from_s: 0.0,
+            to_s: 3_600.0,
+            schedule: None,
+            count: None,
+            facing_rad: None,
+            goals_m: Vec::new(),
+            goal_offset_m: None,
+            radius_m,
+            wall_radius_m,
+            preferred_speed_mps,
+            at_goal,
+            state: 0,
+            pre_movement_s: 0.0,
+            profiles: Vec::new(),
+            closed_zones: 0,
+            priority: 0.0,
+            characters: 0,
+            groups: None,
+        }
+    }
+}
+
 impl SourceSpec {
     /// The agent that appears at a position.
     pub fn agent(&self, position_m: Vec2) -> AgentSpec {

@@ -52,7 +52,7 @@ fn broken_sources_are_shown_at_their_table() {
     check("turned_rect", &format!("rect_m = [1, 0, 0, 1]\n{SOURCE}"), "rect_m has no inside");
     check("no_goal", &format!("{at}\nrate_per_s = 1.0"), "need a goal");
     check("never", &format!("{at}\nfrom_s = 5\nto_s = 4\n{SOURCE}"), "to_s is 4, not between 5");
-    check("nobody", &format!("{at}\ncount = 0\n{SOURCE}"), "count is 0");
+    check("no agent", &format!("{at}\ncount = 0\n{SOURCE}"), "count is 0");
     check("broad", &format!("{at}\nradius_m = 3\n{SOURCE}"), "radius_m is 3");
     check("inside", &format!("at_m = [21, 21]\n{SOURCE}"), "source 0 has no free ground");
     check("beside", &format!("rect_m = [19.9, 20.5, 19.95, 21]\n{SOURCE}"), "source 0 has no free ground");

@@ -9,7 +9,7 @@ use motiondb::files::SourceText;
 use crate::behaviour::{Behaviour, Signal};
 use crate::maths::random::SplitMix64;
 use crate::route::mesh::WalkablePolygon;
-use crate::scenario::{AgentSpec, AtGoal, Coupling, DoorSpec, Scenario, SourceSpec, parse};
+use crate::scenario::{AgentSpec, Coupling, DoorSpec, Scenario, SourceSpec, parse};
 use crate::simulation::Simulation;
 use crate::test_db::test_db;
 
@@ -193,28 +193,11 @@ fn agents_take_the_other_door_while_one_is_closed() {
 #[test]
 fn a_source_has_no_room_in_a_closed_door() {
     let source = SourceSpec {
-        low_m: Vec2::ZERO,
-        high_m: Vec2::ZERO,
-        area: None,
-        rate_per_s: 1.0,
-        from_s: 0.0,
         to_s: 12.0,
-        schedule: None,
         count: Some(1),
-        facing_rad: None,
         goals_m: vec![Vec2::new(6.0, 0.0)],
-        goal_offset_m: None,
-        radius_m: 0.25,
-        wall_radius_m: 0.2,
         preferred_speed_mps: 1.3,
-        at_goal: AtGoal::Stay,
-        state: 0,
-        pre_movement_s: 0.0,
-        profiles: Vec::new(),
-        closed_zones: 0,
-        priority: 0.0,
-        characters: 0,
-        groups: None,
+        ..SourceSpec::default()
     };
     let scenario = Scenario { sources: vec![source], ..rooms(&[([-0.6, 0.6], opens_at(10.0))], Vec::new()) };
     let simulation = walk(&scenario, 15.0, &mut |_| {});

@@ -25,30 +25,14 @@ fn walker(x: f32, y: f32) -> AgentSpec {
 
 /// A source whose agents walk `ahead_m` along x and leave.
 fn source(low_m: Vec2, high_m: Vec2, rate_per_s: f32, ahead_m: f32) -> SourceSpec {
-    let AgentSpec { radius_m, wall_radius_m, preferred_speed_mps, .. } = AgentSpec::default();
     SourceSpec {
         low_m,
         high_m,
-        area: None,
         rate_per_s,
-        from_s: 0.0,
         to_s: 1_000.0,
-        schedule: None,
-        count: None,
-        facing_rad: None,
-        goals_m: Vec::new(),
         goal_offset_m: Some(Vec2::new(ahead_m, 0.0)),
-        radius_m,
-        wall_radius_m,
-        preferred_speed_mps,
         at_goal: AtGoal::Leave,
-        state: 0,
-        pre_movement_s: 0.0,
-        profiles: Vec::new(),
-        closed_zones: 0,
-        priority: 0.0,
-        characters: 0,
-        groups: None,
+        ..SourceSpec::default()
     }
 }
 

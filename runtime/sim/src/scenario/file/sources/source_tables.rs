@@ -91,7 +91,6 @@ impl SourceTable {
             rate_per_s,
             from_s,
             to_s: self.to_s.unwrap_or(duration_s.max(from_s)),
-            schedule: None,
             count: self.count,
             facing_rad: self.facing_deg.map(f32::to_radians),
             goals_m: self.goals_m.iter().map(|&Point(goal_m)| goal_m).collect(),
@@ -100,13 +99,7 @@ impl SourceTable {
             wall_radius_m: self.wall_radius_m.unwrap_or(WALL_RADIUS_M.min(radius_m)),
             preferred_speed_mps: self.preferred_speed_mps.unwrap_or(PREFERRED_SPEED_MPS),
             at_goal: self.at_goal,
-            state: 0,
-            pre_movement_s: 0.0,
-            profiles: Vec::new(),
-            closed_zones: 0,
-            priority: 0.0,
-            characters: 0,
-            groups: None,
+            ..SourceSpec::default()
         })
     }
 
