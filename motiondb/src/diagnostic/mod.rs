@@ -4,9 +4,10 @@
 //! A diagnostic is a value: a database stores its variant and arguments. The sentence states the fault, its position
 //! and the remedy. It does not name the clip: reports print the name before it.
 //!
-//! Read `note`, `warning` and `unfit`: the diagnostics of each severity.
+//! Read `note`, `warning` and `unfit`, the diagnostics of each severity, with `posture`, an argument of two of them.
 
 mod note;
+mod posture;
 mod unfit;
 mod warning;
 
@@ -15,6 +16,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 pub use note::Note;
+pub use posture::Posture;
 pub use unfit::Unfit;
 pub use warning::Warning;
 

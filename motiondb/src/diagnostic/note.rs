@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::diagnostic::{ClipEnd, Unfit, and_left_out, and_mirrored, of_example, steady_windows};
+use crate::diagnostic::{ClipEnd, Posture, Unfit, and_left_out, and_mirrored, of_example, steady_windows};
 
 /// A fact about a clip that is used as intended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,6 +80,17 @@ pub enum Note {
         /// Name of the example that is blended in its place.
         blended: String,
     },
+    /// In parts of the clip the body is not upright. They give no examples.
+    LowPartsLeftOut {
+        /// What the body does in the longest of them.
+        posture: Posture,
+        /// First and last second of the longest.
+        longest_s: [f32; 2],
+        /// Duration of all of them, s.
+        total_s: f32,
+        /// Number of the others.
+        more: u32,
+    },
 }
 
 impl Note {
@@ -98,6 +109,7 @@ impl Note {
             Self::OnlyRestUsed { .. } => "only_rest_used",
             Self::SameTake { .. } => "same_take",
             Self::CoincidentExample { .. } => "coincident_example",
+            Self::LowPartsLeftOut { .. } => "low_parts_left_out",
         }
     }
 }
@@ -146,6 +158,13 @@ impl fmt::Display for Note {
             }
             Self::CoincidentExample { example, blended } => {
                 write!(out, "`{example}` has the parameters of `{blended}`, which is blended in its place")
+            }
+            Self::LowPartsLeftOut { posture, longest_s: [first_s, last_s], total_s, more } => {
+                write!(out, "from {first_s:.1} s to {last_s:.1} s the body {posture}")?;
+                if *more > 0 {
+                    write!(out, ", and in {more} more parts it is not upright ({total_s:.1} s in all)")?;
+                }
+                out.write_str("; this gives no example (state `posture = \"any\"` in a manifest.toml to use it)")
             }
         }
     }

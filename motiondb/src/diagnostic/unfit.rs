@@ -6,7 +6,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::body::skeleton::Side;
-use crate::diagnostic::and_mirrored;
+use crate::diagnostic::{Posture, and_mirrored};
 use crate::motion::parameters::Parameters;
 
 /// Reason why a clip gives no example.
@@ -77,6 +77,11 @@ pub enum Unfit {
         /// Whether the two copies have different frame times: then one of them is wrong.
         frame_times_differ: bool,
     },
+    /// The body is not upright.
+    NotUpright {
+        /// What the body does instead.
+        posture: Posture,
+    },
 }
 
 impl Unfit {
@@ -95,6 +100,7 @@ impl Unfit {
             Self::MidStanceOff { .. } => "mid_stance_off",
             Self::RootContradicted { .. } => "root_contradicted",
             Self::SameTake { .. } => "same_take",
+            Self::NotUpright { .. } => "not_upright",
         }
     }
 }
@@ -154,6 +160,10 @@ impl fmt::Display for Unfit {
                 "the same take as {other}{}, which gives the example, but at another frame time; state the right \
                  `frame_rate_hz` in a manifest.toml",
                 and_mirrored(*mirrored)
+            ),
+            Self::NotUpright { posture } => write!(
+                out,
+                "the body {posture}; use a clip of an upright body, or state `posture = \"any\"` in a manifest.toml"
             ),
         }
     }

@@ -8,7 +8,7 @@
 //! 4. metres, z up ([`crate::retarget::units`])
 //! 5. no separate first pose (`trim_t_poses`), whole-clip parameters (`source_parameters`), no T-poses
 //! 6. checks of size, gait and ground (`plausibility`, `level_ground`)
-//! 7. canonical humanoid (`to_humanoid`), check of its body → `HumanClip`
+//! 7. parts that are not upright (`posture`), canonical humanoid (`to_humanoid`), check of its body → `HumanClip`
 
 use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
@@ -28,7 +28,7 @@ use crate::read::source_clip::SourceClip;
 use crate::read::source_motion::SourceMotion;
 use crate::retarget::human_clip::{HumanClip, HumanPose};
 use crate::retarget::source_parameters::{SourceParameters, source_parameters};
-use crate::retarget::{stated_facing, to_humanoid, trim_t_poses, units};
+use crate::retarget::{posture, stated_facing, to_humanoid, trim_t_poses, units};
 use crate::rig::{self, roles::Roles};
 
 /// Number of bytes that are read of a file at once.
@@ -194,13 +194,16 @@ fn to_human(mut motion: SourceMotion, settings: &ClipSettings, name: String) -> 
     let parameters = parameters_of_trimmed(&mut clip, &roles, settings);
     let mut warnings = vec![plausibility::size_warning(&clip, &roles)];
     // A body that does not stand along the up axis has no feet on the ground.
-    let unfit = contradicted_up.or_else(|| {
+    let unfit = contradicted_up.clone().or_else(|| {
         warnings.push(level_ground::warning(&clip, &roles, &parameters));
         plausibility::inhuman_gait(&clip, &roles, &parameters)
     });
     clip.diagnostics.extend(warnings.into_iter().flatten().map(Diagnostic::Warning));
-    let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, name)?;
+    let is_up_known = contradicted_up.is_none();
+    let low_parts = if is_up_known { posture::low_parts(&clip, &roles, &parameters) } else { Vec::new() };
+    let mut human = to_humanoid::to_human(clip, &roles, &units, parameters, low_parts, name)?;
     human.unfit = unfit;
+    human.choices.takes_any_posture = settings.takes_any_posture;
     human.choices.mirror = settings.mirror;
     human.choices.is_cut = settings.frames.is_some();
     if !human.frames.iter().all(is_finite) {

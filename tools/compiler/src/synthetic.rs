@@ -149,6 +149,7 @@ fn clip(name: &str, body: HumanBody, frames: Vec<HumanPose>, frame_rate_hz: f64)
         body,
         frames,
         in_place_mps: None,
+        low_parts: Vec::new(),
         unfit: None,
         choices: Choices::default(),
     }
@@ -192,7 +193,7 @@ fn place_foot(pose: &mut HumanPose, walk: &SyntheticWalk, body: &HumanBody, arc:
 /// The mean stride of a clip on its own body.
 pub(crate) fn cycle_of(clip: &HumanClip) -> GaitCycle {
     let grounded = grounded_clip(clip, &clip.body);
-    let analysis = analyze_gait(&grounded, &clip.body);
+    let analysis = analyze_gait(&grounded, &clip.body, &[]);
     let first = &analysis.windows.unwrap()[0];
     let WindowGait::Steps(strides) = &first.gait else { panic!("{first:?}") };
     mean_stride(&grounded, &clip.body, &analysis.stances[first.reading], strides)
@@ -200,7 +201,7 @@ pub(crate) fn cycle_of(clip: &HumanClip) -> GaitCycle {
 
 /// The strides of a clip's longest window.
 pub(crate) fn strides_of(clip: &HumanClip) -> Vec<Stride> {
-    let first = analyze_gait(&grounded_clip(clip, &clip.body), &clip.body).windows.unwrap().swap_remove(0);
+    let first = analyze_gait(&grounded_clip(clip, &clip.body), &clip.body, &[]).windows.unwrap().swap_remove(0);
     let WindowGait::Steps(strides) = first.gait else { panic!("{first:?}") };
     strides
 }

@@ -15,6 +15,10 @@ use crate::gait::performer_gait::PerformerGait;
 use crate::gait::windows::{GaitWindow, WindowGait};
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanClip};
+use crate::retarget::posture::LowPart;
+
+/// Least duration of a part that is not upright and is reported, s.
+const LOW_PART_MIN_S: f64 = 0.5;
 
 /// A clip on the target body, and its steady windows that may become examples.
 pub(crate) struct AnalyzedClip {
@@ -47,6 +51,7 @@ impl AnalyzedClip {
         let performer = PerformerGait::of(clip);
         let grounded = performer.clip_on(clip, body);
         let found = clip.unfit.clone().map_or_else(|| performer.windows_on(&grounded, body), Err);
+        let found = found.map_err(|reason| not_upright(clip, frame_count).unwrap_or(reason));
         let times = ClipTimes { first_frame: clip.first_frame, frame_count, frame_rate_hz: clip.frame_rate_hz };
         let (mut windows, mut reasons) = (Vec::new(), Vec::new());
         match found {
@@ -67,7 +72,8 @@ impl AnalyzedClip {
         }
         let lost_steps = performer.gait.lost_steps.map(|reason| Diagnostic::Note(Note::OnlyRestUsed { reason }));
         let left_out = LeftOutWindows { doubtful: reasons.len(), near_equal: 0 };
-        let diagnostics = lost_steps.into_iter().collect();
+        let low_parts = times.low_parts_note(clip.left_out_parts()).map(Diagnostic::Note);
+        let diagnostics = lost_steps.into_iter().chain(low_parts).collect();
         Self { grounded, frame_count, windows, diagnostics, left_out }
     }
 
@@ -99,6 +105,18 @@ impl LeftOutWindows {
     }
 }
 
+/// The reason that the body is not upright for most of a clip, if it is so.
+fn not_upright(clip: &HumanClip, frame_count: usize) -> Option<Unfit> {
+    let low_frames: usize = clip.left_out_parts().iter().map(|part| part.frames.len()).sum();
+    let longest = longest_part(clip.left_out_parts())?;
+    (2 * low_frames > frame_count).then_some(Unfit::NotUpright { posture: longest.posture })
+}
+
+fn longest_part(parts: &[LowPart]) -> Option<&LowPart> {
+    // The first of the longest: `max_by_key` alone would take the last.
+    parts.iter().rev().max_by_key(|part| part.frames.len())
+}
+
 /// The frames of a clip in its file.
 struct ClipTimes {
     /// Number of the file's frames before the first frame of the clip.
@@ -113,6 +131,19 @@ impl ClipTimes {
     fn in_file_s(&self, frame: f64) -> f64 {
         let last_frame = (self.frame_count - 1) as f64;
         (self.first_frame as f64 + frame.clamp(0.0, last_frame)) / self.frame_rate_hz
+    }
+
+    /// The note on parts that are not upright; none of parts that are shorter than a step.
+    fn low_parts_note(&self, parts: &[LowPart]) -> Option<Note> {
+        let duration_s = |part: &LowPart| part.frames.len() as f64 / self.frame_rate_hz;
+        let counted = || parts.iter().filter(|part| duration_s(part) > LOW_PART_MIN_S);
+        let LowPart { frames, posture } = longest_part(parts).filter(|part| duration_s(part) > LOW_PART_MIN_S)?;
+        Some(Note::LowPartsLeftOut {
+            posture: *posture,
+            longest_s: [frames.start, frames.end - 1].map(|frame| self.in_file_s(frame as f64) as f32),
+            total_s: counted().map(duration_s).sum::<f64>() as f32,
+            more: counted().count() as u32 - 1,
+        })
     }
 }
 

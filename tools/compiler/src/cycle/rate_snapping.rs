@@ -18,6 +18,8 @@ use crate::ground::rotations::ground_rotation;
 const SNAPPED_TURN_RAD_S: f64 = 3.0 * PI / 180.0;
 /// Side speed below which it is gait noise of a body that travels, m/s.
 const SNAPPED_STRAFE_MPS: f64 = 0.1;
+/// The same as a share of the speed: a travel 5.7° off the facing. The greater of both limits counts.
+const SNAPPED_STRAFE_SHARE: f64 = 0.1;
 /// Speed from which a body travels, m/s: its direction of travel is then off the facing by 11° at most.
 const TRAVELLING_MPS: f64 = 0.5;
 /// Least snapped turn rate that is reported, rad/s: 1 °/s, 10° over 10 s of walking.
@@ -37,7 +39,8 @@ pub(crate) fn snap_rates(cycle: &mut GaitCycle) -> Vec<Diagnostic> {
         let turn_rate_rad_s = measured.turn_rate_rad_s as f32;
         notes.push(Diagnostic::Note(Note::TurnRateSnapped { turn_rate_rad_s, from_s: None }));
     }
-    if measured.strafe_mps.abs() < SNAPPED_STRAFE_MPS && measured.speed_mps.abs() > TRAVELLING_MPS {
+    let noise_mps = SNAPPED_STRAFE_MPS.max(SNAPPED_STRAFE_SHARE * measured.speed_mps.abs());
+    if measured.strafe_mps.abs() < noise_mps && measured.speed_mps.abs() > TRAVELLING_MPS {
         face_along_travel(cycle);
         if measured.strafe_mps.abs() > REPORTED_STRAFE_MPS {
             let strafe_mps = measured.strafe_mps as f32;

@@ -2,11 +2,10 @@
 //!
 //! Cycles enter in the order of the examples; records are those of all sources. See [`MotionDb`] for units and frames.
 
-use motiondb::motion::{MotionDb, MotionExample, Parameters};
+use motiondb::motion::{Correspondence, MotionDb, MotionExample, Parameters};
 use motiondb::velocity_sets::velocity_hull::{self, Construction};
 
 use crate::database::coincident_examples::{blend_space_of_best, coincident_pairs, note_coincident};
-use crate::database::correspondence::find_correspondence;
 use crate::database::example::motion_example;
 use crate::database::rows::rows;
 use crate::database::skeleton::skeleton;
@@ -46,6 +45,7 @@ pub(crate) fn assemble(
         sources,
     };
     observer(CompileEvent::Stage("correspondence times"));
-    db.correspondence = find_correspondence(&db, cycles.iter().position(|named| named.choices.is_semi_procedural));
+    let base_walk = cycles.iter().position(|named| named.choices.is_semi_procedural);
+    db.correspondence = base_walk.and_then(|example| Correspondence::of(&db, example));
     db
 }

@@ -4,14 +4,11 @@
 //! [`motiondb::motion::MotionDb`].
 //!
 //! Read `assembly` (the chapter's steps), then `example`, `coincident_examples`, `skeleton` with `segment_radii`,
-//! `rows`, `correspondence`.
+//! `rows`.
 
 pub(crate) mod assembly;
 pub(crate) mod coincident_examples;
-pub(crate) mod correspondence;
 pub(crate) mod example;
 pub(crate) mod rows;
 pub(crate) mod segment_radii;
 pub(crate) mod skeleton;
-
-pub use correspondence::find_correspondence;

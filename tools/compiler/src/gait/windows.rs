@@ -22,6 +22,7 @@ use crate::gait::stride::{Landmark, Stride, valid_stride};
 use crate::gait::stride_alignment::aligned_strides;
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
+use crate::retarget::posture::LowPart;
 
 /// Lenience of each reading: multiples of the contact limits of the definition.
 const LENIENCES: [f64; 3] = [1.0, 1.5, 2.25];
@@ -65,8 +66,8 @@ pub struct GaitAnalysis {
 /// Finds contacts, landmarks and steady windows of a clip.
 ///
 /// The reading that shows the most strides counts, of several the strictest: the feet of noisy captures may slide and
-/// lift more, as little as it takes.
-pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysis {
+/// lift more, as little as it takes. Nothing in the parts left out is a stride or a rest.
+pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[LowPart]) -> GaitAnalysis {
     let mut left = FootPoints::default();
     let track = BodyTrack::of(clip, body, |joints| left.push(joints, body, 0));
     // One foot after the other: the points of a long clip take much memory.
@@ -74,15 +75,49 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody) -> GaitAnalysi
     let mut right = FootPoints::default();
     (0..track.frame_count()).for_each(|frame| right.push(&track.joints(frame), body, 1));
     let mut sides = [left, right.readings(&track)];
+    let is_left_out = LeftOutFrames { parts: left_out, loop_frames: clip.loop_frames() };
     let steps = READINGS.map(|reading| {
-        clip_steps(&sides.each_mut().map(|side| std::mem::take(&mut side.contacts[reading].stepping)), &track)
+        let stepping = sides.each_mut().map(|side| std::mem::take(&mut side.contacts[reading].stepping));
+        is_left_out.without_strides(clip_steps(&stepping, &track))
     });
-    let planted =
-        READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.contacts[reading].planted)));
+    let planted = READINGS.map(|reading| {
+        sides.each_mut().map(|side| is_left_out.without_frames(std::mem::take(&mut side.contacts[reading].planted)))
+    });
     let windows = gait_windows(&planted, &steps, &track, clip.loop_frames());
     let stances = READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.stances[reading])));
     let lost_steps = lost_steps(&windows, &steps[0]);
     GaitAnalysis { stances, windows, lost_steps }
+}
+
+/// Frames of a clip of which no window is made.
+struct LeftOutFrames<'a> {
+    parts: &'a [LowPart],
+    /// Frames of a round, of a loop.
+    loop_frames: Option<usize>,
+}
+
+impl LeftOutFrames<'_> {
+    fn contains(&self, frame: usize) -> bool {
+        let frame = self.loop_frames.map_or(frame, |round| frame % round);
+        self.parts.iter().any(|part| part.frames.contains(&frame))
+    }
+
+    fn without_strides(&self, mut steps: ClipSteps) -> ClipSteps {
+        for stride in &mut steps.strides {
+            let is_in = |stride: &Stride| {
+                (stride.first_frame() as usize..=stride.last_frame() as usize).any(|frame| self.contains(frame))
+            };
+            stride.take_if(|stride| is_in(stride));
+        }
+        steps
+    }
+
+    fn without_frames(&self, mut planted: Vec<bool>) -> Vec<bool> {
+        if !self.parts.is_empty() {
+            planted.iter_mut().enumerate().for_each(|(frame, planted)| *planted &= !self.contains(frame));
+        }
+        planted
+    }
 }
 
 /// Points of one foot at each frame, world, m.
@@ -283,7 +318,7 @@ mod tests {
         let mut both = slow;
         both.frames.truncate(240);
         both.frames.extend(fast.frames);
-        let windows = analyze_gait(&grounded_clip(&both, &both.body), &both.body).windows.unwrap();
+        let windows = analyze_gait(&grounded_clip(&both, &both.body), &both.body, &[]).windows.unwrap();
         let [before, after] = &windows[..] else { panic!("{windows:?}") };
         for (window, frames, speed_mps) in [(before, 0.0..=245.0, 0.5), (after, 235.0..=440.0, 1.1)] {
             let WindowGait::Steps(strides) = &window.gait else { panic!("{window:?}") };
@@ -298,7 +333,7 @@ mod tests {
             let mut clip = synthetic::walk("walk", SyntheticWalk { duration_s: walked_s, ..SyntheticWalk::default() });
             let rest = vec![clip.frames[0].clone(); (2.0 * clip.frame_rate_hz) as usize];
             clip.frames.splice(0..0, rest);
-            let found = analyze_gait(&grounded_clip(&clip, &clip.body), &clip.body);
+            let found = analyze_gait(&grounded_clip(&clip, &clip.body), &clip.body, &[]);
             assert!(matches!(found.windows.unwrap().last().unwrap().gait, WindowGait::Stands(_)));
             found.lost_steps
         };
@@ -322,7 +357,7 @@ mod tests {
         both.frames.truncate(2 * 264 + 1);
         let rounds = unrolled(grounded_clip(&both, &both.body), &both.body);
         assert!(rounds.loop_frames().is_some());
-        let windows = analyze_gait(&rounds, &both.body).windows.unwrap();
+        let windows = analyze_gait(&rounds, &both.body, &[]).windows.unwrap();
         let speeds_mps = windows.iter().filter_map(|window| match &window.gait {
             WindowGait::Steps(strides) => Some(strides[0].arc.rates.speed_mps),
             WindowGait::Stands(_) => None,
@@ -339,7 +374,7 @@ mod tests {
         let clip = synthetic::walk("loop", SyntheticWalk { rates, duration_s: 2.2, ..SyntheticWalk::default() });
         let rounds = unrolled(grounded_clip(&clip, &clip.body), &clip.body);
         assert_eq!(rounds.loop_frames(), Some(132));
-        let windows = analyze_gait(&rounds, &clip.body).windows.unwrap();
+        let windows = analyze_gait(&rounds, &clip.body, &[]).windows.unwrap();
         let [GaitWindow { gait: WindowGait::Steps(strides), .. }] = &windows[..] else { panic!("{windows:?}") };
         assert_eq!(strides.len(), 2);
         for stride in strides {
@@ -351,7 +386,7 @@ mod tests {
     #[test]
     fn standing_clips_have_one_window() {
         let clip = synthetic::idle("idle", 3.0);
-        let windows = analyze_gait(&grounded_clip(&clip, &clip.body), &clip.body).windows.unwrap();
+        let windows = analyze_gait(&grounded_clip(&clip, &clip.body), &clip.body, &[]).windows.unwrap();
         assert!(
             matches!(windows[..], [GaitWindow { gait: WindowGait::Stands(_), frames: [0.0, 180.0], .. }]),
             "{windows:?}"

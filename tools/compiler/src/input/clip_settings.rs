@@ -50,6 +50,8 @@ pub struct ClipSettings {
     pub joints: BTreeMap<Joint, String>,
     /// Whether the example is mirrored; where `None`, when its mirror image adds to the set.
     pub mirror: Option<bool>,
+    /// Whether parts in which the body kneels, crawls or crouches give examples, too.
+    pub takes_any_posture: bool,
     /// Whether a glTF file's buffers may lie outside its folder; no manifest can allow it.
     pub outside: Outside,
     /// Positions of these values in the manifest's text, for messages.

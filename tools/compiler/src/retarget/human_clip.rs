@@ -9,6 +9,8 @@ use motiondb::body::{JOINT_COUNT, Joint};
 use motiondb::diagnostic::Unfit;
 use motiondb::motion::SourceRecord;
 
+use crate::retarget::posture::LowPart;
+
 /// A clip after import.
 #[derive(Clone, Debug)]
 pub struct HumanClip {
@@ -27,6 +29,8 @@ pub struct HumanClip {
     /// Velocity (forward, left) of the body over the ground on which its stance feet stand still, m/s, of a clip in
     /// place; none of a clip that travels.
     pub in_place_mps: Option<DVec2>,
+    /// Parts in which the body is not upright, in order of time.
+    pub low_parts: Vec<LowPart>,
     /// Why the clip gives no example, where import finds a reason.
     pub unfit: Option<Unfit>,
     /// What a manifest states about the clip's part in the set.
@@ -46,6 +50,8 @@ pub struct Choices {
     pub is_target_skeleton: bool,
     /// Whether the manifest selects the frames.
     pub is_cut: bool,
+    /// Whether parts in which the body is not upright give examples, too.
+    pub takes_any_posture: bool,
 }
 
 /// Bones of one performer in the canonical rest pose (see [`motiondb::body::Skeleton`]), m.
@@ -82,6 +88,17 @@ pub struct HumanJoints {
 }
 
 impl HumanClip {
+    /// Parts that give no examples: those in which the body is not upright, unless a manifest takes them.
+    pub fn left_out_parts(&self) -> &[LowPart] {
+        if self.choices.takes_any_posture { &[] } else { &self.low_parts }
+    }
+
+    /// Whether the body is upright from one second of the file to another.
+    pub(crate) fn is_upright_in(&self, window_s: [f64; 2]) -> bool {
+        let [first, last] = window_s.map(|time_s| time_s * self.frame_rate_hz - self.first_frame as f64);
+        !self.low_parts.iter().any(|part| first < part.frames.end as f64 && part.frames.start as f64 <= last)
+    }
+
     /// Order of two clips by their content, which names and folders do not change.
     pub(crate) fn compare_content(&self, other: &Self) -> Ordering {
         let heads = [self, other].map(|clip| (clip.frames.len(), clip.first_frame, clip.choices));

@@ -24,6 +24,9 @@ pub(crate) struct JointTracks<'a> {
     pub anchors: &'a [JointAnchor; JOINT_COUNT],
     /// Unit vector of the body's facing on the ground, for each frame.
     pub forward: &'a [DVec3],
+    /// The frames in which the body is upright; all frames where it never is. Feet of a kneeling body lie on their
+    /// insteps.
+    pub upright: &'a [usize],
 }
 
 /// The canonical joints of a source in all frames, after calibration.
@@ -81,10 +84,11 @@ impl JointTracks<'_> {
         (bone.length() > SHORTEST_BONE_M).then(|| bone.normalize())
     }
 
-    /// The frames in which some joints are flat on the ground: the higher one, each over its own lowest, is lowest.
+    /// The upright frames in which some joints are flat on the ground: the higher one, each over its own lowest, is
+    /// lowest.
     pub(crate) fn flat_frames(&self, joints: &[Joint]) -> Vec<usize> {
         let height = |frame: usize, joint: &Joint| self.position_m(*joint, frame).z;
-        let frames = 0..self.frame_count();
+        let frames = self.upright.iter().copied();
         let lowest: Vec<f64> = joints
             .iter()
             .map(|joint| frames.clone().map(|frame| height(frame, joint)).fold(f64::INFINITY, f64::min))

@@ -4,7 +4,7 @@
 //! (metres, z up, soles at z = 0); the mean speed, turn rate and side speed of the clip.
 //!
 //! Read `stated_facing` and `units`; then `facing_frame`, `treadmill_speed` and `source_parameters` (whole-clip
-//! parameters) and `trim_t_poses`; then `anchors`, `joint_tracks`, `calibration` and `soles`; last `to_humanoid`, which
+//! parameters), `trim_t_poses` and `posture`; then `anchors`, `joint_tracks`, `calibration` and `soles`; last `to_humanoid`, which
 //! makes the `human_clip`.
 
 pub(crate) mod anchors;
@@ -12,6 +12,7 @@ pub(crate) mod calibration;
 pub(crate) mod facing_frame;
 pub(crate) mod human_clip;
 pub(crate) mod joint_tracks;
+pub(crate) mod posture;
 pub(crate) mod soles;
 pub(crate) mod source_parameters;
 pub(crate) mod stated_facing;
@@ -21,4 +22,5 @@ pub(crate) mod trim_t_poses;
 pub mod units;
 
 pub use human_clip::{Choices, HumanBody, HumanClip, HumanJoints, HumanPose};
+pub use posture::LowPart;
 pub use source_parameters::{SourceParameters, source_parameters};

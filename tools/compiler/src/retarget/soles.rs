@@ -61,9 +61,9 @@ fn sole_joints(calibrated: &CalibratedTracks, side: usize, joints: [usize; 3]) -
     })
 }
 
-/// Height at which a point is planted: a low quantile of its heights.
+/// Height at which a point is planted: a low quantile of its heights while the body is upright.
 fn planted_height_m(tracks: &JointTracks, height_m: impl Fn(usize) -> f64) -> f64 {
-    lower_quantile((0..tracks.frame_count()).map(height_m), PLANTED_QUANTILE).unwrap_or_default()
+    lower_quantile(tracks.upright.iter().map(|&frame| height_m(frame)), PLANTED_QUANTILE).unwrap_or_default()
 }
 
 /// Height of the ground under joints without soles.

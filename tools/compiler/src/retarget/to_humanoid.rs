@@ -16,6 +16,7 @@ use crate::retarget::calibration::calibration;
 use crate::retarget::facing_frame::facing_rad;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip, HumanPose};
 use crate::retarget::joint_tracks::{CalibratedTracks, JointTracks};
+use crate::retarget::posture::{self, LowPart};
 use crate::retarget::soles::{Soles, soles};
 use crate::retarget::source_parameters::SourceParameters;
 use crate::retarget::units::{SourceUnits, leg_length};
@@ -36,12 +37,14 @@ pub(crate) fn to_human(
     roles: &Roles,
     units: &SourceUnits,
     parameters: SourceParameters,
+    low_parts: Vec<LowPart>,
     name: String,
 ) -> Result<HumanClip, RejectionReason> {
     let leg_m = leg_length(&clip, roles);
     let forward = forward(&clip, roles);
     let anchors = anchors(&clip, roles, &forward, leg_m);
-    let tracks = JointTracks { clip: &clip, roles, anchors: &anchors, forward: &forward };
+    let upright = posture::upright_frames(&clip, &low_parts);
+    let tracks = JointTracks { clip: &clip, roles, anchors: &anchors, forward: &forward, upright: &upright };
     let constants = calibration(&tracks);
     let calibrated = CalibratedTracks { tracks, constants: &constants };
     let offsets_m = mean_offsets(&calibrated);
@@ -52,7 +55,7 @@ pub(crate) fn to_human(
     // From the last frame to the first: a list is cut at its end.
     while clip.frame_count() > 0 {
         let first = clip.frame_count().saturating_sub(FREED_FRAMES);
-        let tracks = JointTracks { clip: &clip, roles, anchors: &anchors, forward: &forward };
+        let tracks = JointTracks { clip: &clip, roles, anchors: &anchors, forward: &forward, upright: &upright };
         let calibrated = CalibratedTracks { tracks, constants: &constants };
         frames.extend((first..clip.frame_count()).rev().map(|frame| pose(&calibrated, &offsets_m, frame, ground_m)));
         clip.free_from(first);
@@ -66,6 +69,7 @@ pub(crate) fn to_human(
         body,
         frames,
         in_place_mps: parameters.is_in_place.then(|| DVec2::new(parameters.speed_mps, parameters.strafe_mps)),
+        low_parts,
         unfit: None,
         choices: Choices::default(),
     })

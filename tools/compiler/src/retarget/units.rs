@@ -6,6 +6,7 @@
 
 use glam::{DQuat, DVec3};
 use motiondb::body::Joint;
+use motiondb::statistics::percentile;
 
 use crate::read::axis::Axis;
 use crate::read::source_clip::SourceClip;
@@ -17,6 +18,11 @@ pub const HUMAN_LEG_M: f64 = 0.84;
 const TOO_LONG_WEIGHT: f64 = 2.0;
 /// Units of sources, m: metre, decimetre, centimetre, millimetre, inch, and 1/0.45 inch of the CMU files.
 const UNITS_M: [f64; 6] = [1.0, 0.1, 0.01, 0.001, 0.0254, 0.0564444];
+
+/// Share of the frames in which feet and shoulders are nearer than those that stand.
+const LONGEST_PERCENTILE: f64 = 0.9;
+/// Distance of feet and shoulders in a body that stands, divided by their distance when it stands straight.
+const LONG_SHARE: f64 = 0.85;
 
 /// Up axis and unit of a source.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,12 +52,13 @@ pub(crate) fn middle(clip: &SourceClip, roles: &Roles, pair: [Joint; 2], frame: 
     0.5 * pair.map(|joint| clip.position(frame, roles.required(joint))).into_iter().sum::<DVec3>()
 }
 
-/// The up axis as the body stands: the axis nearest to the mean direction from feet to shoulders.
+/// The up axis as the body stands: the axis nearest to the mean direction from feet to shoulders, over the frames in
+/// which these are nearly farthest apart. Where the body kneels or crawls they are nearer.
 pub(crate) fn found_up(clip: &SourceClip, roles: &Roles) -> Axis {
-    let body: DVec3 = (0..clip.frame_count())
-        .map(|frame| middle(clip, roles, Joint::UPPER_ARMS, frame) - middle(clip, roles, Joint::FEET, frame))
-        .sum();
-    Axis::nearest(body)
+    let body = |frame| middle(clip, roles, Joint::UPPER_ARMS, frame) - middle(clip, roles, Joint::FEET, frame);
+    let frames = 0..clip.frame_count();
+    let longest = percentile(frames.clone().map(|frame| body(frame).length()), LONGEST_PERCENTILE).unwrap_or_default();
+    Axis::nearest(frames.map(body).filter(|body| body.length() >= LONG_SHARE * longest).sum())
 }
 
 /// Thigh plus shank in the clip's unit, mean of both sides and all frames.

@@ -34,8 +34,8 @@ const STIFF_COSINE: f64 = 1e-4;
 /// Weight of a pair of limbs that do not bend.
 const STIFF_WEIGHT: f64 = 0.4;
 /// Least standard deviation of the hips' position, divided by the leg length, of a body that travels: a straight path
-/// of a leg's length.
-const TRAVEL_MIN: f64 = 0.3;
+/// of two legs' length. Jumps, and bodies that kneel and rise, reach 0.5.
+const TRAVEL_MIN: f64 = 0.6;
 /// Least distance of a toe joint from the ankle, divided by half the leg, and of a foot's end, divided by the whole
 /// leg.
 pub(crate) const TOE_DISTANCE: f64 = 0.12;

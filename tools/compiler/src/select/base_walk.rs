@@ -8,16 +8,29 @@ use crate::ground::root_arc::Rates;
 /// Speed of an unhurried human walk, m/s; m_sp is the straight walk nearest to it.
 const BASE_WALK_MPS: f64 = 1.2;
 
-/// Index of m_sp among cycles that step: the straight walk nearest 1.2 m/s, the nearest of all where none is straight.
-pub(crate) fn base_walk(stepping: &[Rates]) -> Option<usize> {
+/// A cycle that steps, as far as it matters for the choice of m_sp.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BaseWalkCandidate {
+    /// Rates of its root.
+    pub(crate) rates: Rates,
+    /// The body is upright.
+    pub(crate) is_upright: bool,
+    /// The feet deserve a warning.
+    pub(crate) is_doubtful: bool,
+}
+
+/// Index of m_sp among cycles that step: of the upright ones, of these the straight, of these the ones with clean feet,
+/// the one nearest 1.2 m/s. A quality that none of them has does not count.
+pub(crate) fn base_walk(stepping: &[BaseWalkCandidate]) -> Option<usize> {
     let is_bent = |rates: &Rates| {
         rates.turn_rate_rad_s.abs() > f64::from(HOLDING_TURN_MAX_RAD_S)
             || rates.strafe_mps.abs() > f64::from(TURNING_STRAFE_MAX_MPS)
     };
-    let distance_mps = |rates: &Rates| (rates.speed_mps - BASE_WALK_MPS).abs();
+    let faults = |walk: &BaseWalkCandidate| [!walk.is_upright, is_bent(&walk.rates), walk.is_doubtful];
+    let distance_mps = |walk: &BaseWalkCandidate| (walk.rates.speed_mps - BASE_WALK_MPS).abs();
     (0..stepping.len()).min_by(|&a, &b| {
         let (a, b) = (&stepping[a], &stepping[b]);
-        is_bent(a).cmp(&is_bent(b)).then(distance_mps(a).total_cmp(&distance_mps(b)))
+        faults(a).cmp(&faults(b)).then(distance_mps(a).total_cmp(&distance_mps(b)))
     })
 }
 
@@ -25,11 +38,25 @@ pub(crate) fn base_walk(stepping: &[Rates]) -> Option<usize> {
 mod tests {
     use super::*;
 
+    fn candidate(speed_mps: f64, turn_rate_rad_s: f64) -> BaseWalkCandidate {
+        let rates = Rates { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
+        BaseWalkCandidate { rates, is_upright: true, is_doubtful: false }
+    }
+
     #[test]
     fn base_walk_is_nearest_straight_walk() {
-        let rates = |speed_mps, turn_rate_rad_s| Rates { speed_mps, turn_rate_rad_s, strafe_mps: 0.0 };
-        let (run, bend, walk) = (rates(3.0, 0.0), rates(1.2, 0.5), rates(1.0, 0.0));
-        assert_eq!(base_walk(&[run, bend, walk]), Some(2));
+        assert_eq!(base_walk(&[candidate(3.0, 0.0), candidate(1.2, 0.5), candidate(1.0, 0.0)]), Some(2));
         assert_eq!(base_walk(&[]), None);
+    }
+
+    #[test]
+    fn base_walk_is_upright_and_clean() {
+        let (run, walk) = (candidate(3.0, 0.0), candidate(1.2, 0.0));
+        let crawl = BaseWalkCandidate { is_upright: false, ..walk };
+        let sliding = BaseWalkCandidate { is_doubtful: true, ..walk };
+        assert_eq!(base_walk(&[crawl, run]), Some(1));
+        assert_eq!(base_walk(&[sliding, run]), Some(1));
+        assert_eq!(base_walk(&[crawl, sliding]), Some(1));
+        assert_eq!(base_walk(&[crawl]), Some(0));
     }
 }

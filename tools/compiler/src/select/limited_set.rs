@@ -10,8 +10,6 @@ use glam::DVec3;
 use motiondb::diagnostic::{Diagnostic, Note};
 
 use crate::cycle::rate_cells::in_cells;
-use crate::ground::root_arc::Rates;
-use crate::select::base_walk::base_walk;
 use crate::select::named_cycles::{NamedCycle, SelectedCycles};
 
 /// Keeps at most so many cycles, all without a limit; the sources of the others get a note.
@@ -36,7 +34,8 @@ pub(crate) fn limited_set(mut selected: SelectedCycles, max_examples: Option<Non
 fn farthest_reaching(cycles: &[NamedCycle], most: usize) -> Vec<usize> {
     let points = normalised_rates(cycles);
     let ends = ends(&points);
-    let first = [chosen_base_walk(cycles), best_standing(cycles)].into_iter().flatten();
+    let base_walk = cycles.iter().position(|named| named.choices.is_semi_procedural);
+    let first = [base_walk, best_standing(cycles)].into_iter().flatten();
     let mut kept = Vec::new();
     let mut is_kept = vec![false; cycles.len()];
     let mut gaps = vec![f64::INFINITY; cycles.len()];
@@ -56,14 +55,6 @@ fn farthest_reaching(cycles: &[NamedCycle], most: usize) -> Vec<usize> {
         }
     }
     kept
-}
-
-/// Index of the m_sp that a manifest chose, else of the one that the compiler would choose.
-fn chosen_base_walk(cycles: &[NamedCycle]) -> Option<usize> {
-    let stepping: Vec<usize> = (0..cycles.len()).filter(|index| cycles[*index].cycle.steps).collect();
-    let rates: Vec<Rates> = stepping.iter().map(|&index| cycles[index].cycle.rates).collect();
-    let chosen = cycles.iter().position(|named| named.choices.is_semi_procedural);
-    chosen.or_else(|| base_walk(&rates).map(|index| stepping[index]))
 }
 
 /// Index of the cycle that stands with the fewest flaws.

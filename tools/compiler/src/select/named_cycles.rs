@@ -10,10 +10,9 @@ use crate::cycle::gait_cycle::GaitCycle;
 use crate::cycle::standing_cycle::standing_cycle;
 use crate::cycle::steady_cycle::{SteadyCycle, SteadyMotion};
 use crate::error::CompileError;
-use crate::ground::root_arc::Rates;
 use crate::input::unique_names;
 use crate::retarget::human_clip::{Choices, HumanBody, HumanClip};
-use crate::select::base_walk::base_walk;
+use crate::select::base_walk::{BaseWalkCandidate, base_walk};
 
 /// Period of standing clips in a set without steps, s.
 const STANDING_PERIOD_S: f64 = 1.0;
@@ -69,7 +68,9 @@ pub(crate) fn named_cycles(
     body: &HumanBody,
 ) -> Result<SelectedCycles, CompileError> {
     let sources = clips.iter().zip(&analyzed).map(|(clip, found)| found.record(clip)).collect();
-    let period_s = standing_period_s(chosen_cycle(clips, &analyzed)?, &analyzed);
+    let base_walk = base_walk_window(clips, &analyzed)?;
+    let base_cycle = base_walk.and_then(|WindowId { clip, window }| analyzed[clip].windows[window].stepping());
+    let period_s = base_cycle.map_or(STANDING_PERIOD_S, |cycle| f64::from(cycle.phase_map.period_s));
     let mut cycles = Vec::new();
     for (source, (clip, found)) in clips.iter().zip(analyzed).enumerate() {
         let AnalyzedClip { grounded, frame_count, windows, .. } = found;
@@ -79,7 +80,7 @@ pub(crate) fn named_cycles(
                 SteadyMotion::Stands(frames) => standing_cycle(&grounded, body, frames, period_s),
             };
             let name = window_name(clip, frame_count, index, window_s);
-            let is_semi_procedural = is_chosen(clip, index, window_s);
+            let is_semi_procedural = base_walk == Some(WindowId { clip: source, window: index });
             let choices = Choices { is_semi_procedural, ..clip.choices };
             cycles.push(NamedCycle { name, source: source as u32, window_s, mirrored: false, choices, flaws, cycle });
         }
@@ -107,29 +108,48 @@ fn is_chosen(clip: &HumanClip, index: usize, window_s: [f64; 2]) -> bool {
     clip.choices.is_semi_procedural && is_named
 }
 
-/// The cycle that a manifest chose as m_sp, if any.
-fn chosen_cycle<'a>(clips: &[HumanClip], analyzed: &'a [AnalyzedClip]) -> Result<Option<&'a GaitCycle>, CompileError> {
-    let chosen = clips.iter().zip(analyzed).find(|(clip, _)| clip.choices.is_semi_procedural);
-    let Some((clip, found)) = chosen else { return Ok(None) };
-    let windows = || found.windows.iter().enumerate();
-    let named = windows().find(|(index, window)| is_chosen(clip, *index, window.window_s));
-    named.and_then(|(_, window)| window.stepping()).map(Some).ok_or_else(|| {
-        let stepping = windows().filter(|(_, window)| window.stepping().is_some());
-        let names =
-            stepping.map(|(index, window)| window_name(clip, found.frame_count, index, window.window_s)).collect();
-        CompileError::NotStepping { name: clip.name.clone(), stepping: names }
-    })
+/// The window of m_sp: the one that a manifest chose, else the base walk; `None` where no window steps.
+///
+/// # Errors
+/// If the clip that the manifest chose does not step.
+fn base_walk_window(clips: &[HumanClip], analyzed: &[AnalyzedClip]) -> Result<Option<WindowId>, CompileError> {
+    let Some(clip) = clips.iter().position(|clip| clip.choices.is_semi_procedural) else {
+        let (ids, candidates) = base_walk_candidates(clips, analyzed);
+        return Ok(base_walk(&candidates).map(|index| ids[index]));
+    };
+    let (chosen, found) = (&clips[clip], &analyzed[clip]);
+    let steps = |window: &SteadyCycle| window.stepping().is_some();
+    let named = (0..found.windows.len()).find(|&index| is_chosen(chosen, index, found.windows[index].window_s));
+    named.filter(|&window| steps(&found.windows[window])).map(|window| Some(WindowId { clip, window })).ok_or_else(
+        || {
+            let stepping = found.windows.iter().enumerate().filter(|(_, window)| steps(window));
+            let names = stepping
+                .map(|(index, window)| window_name(chosen, found.frame_count, index, window.window_s))
+                .collect();
+            CompileError::NotStepping { name: chosen.name.clone(), stepping: names }
+        },
+    )
 }
 
-/// The period of m_sp, which standing clips take over, s.
-fn standing_period_s(chosen: Option<&GaitCycle>, analyzed: &[AnalyzedClip]) -> f64 {
-    if let Some(cycle) = chosen {
-        return f64::from(cycle.phase_map.period_s);
-    }
-    let windows = analyzed.iter().flat_map(|found| &found.windows);
-    let stepping: Vec<&GaitCycle> = windows.filter_map(SteadyCycle::stepping).collect();
-    let rates: Vec<Rates> = stepping.iter().map(|cycle| cycle.rates).collect();
-    base_walk(&rates).map_or(STANDING_PERIOD_S, |index| f64::from(stepping[index].phase_map.period_s))
+/// The clip and window, by index, that a cycle is made from.
+#[derive(Clone, Copy, PartialEq)]
+struct WindowId {
+    clip: usize,
+    window: usize,
+}
+
+/// The windows that step, as candidates for m_sp.
+fn base_walk_candidates(clips: &[HumanClip], analyzed: &[AnalyzedClip]) -> (Vec<WindowId>, Vec<BaseWalkCandidate>) {
+    let windows = |(clip, found): (usize, &AnalyzedClip)| {
+        let candidate = |(window, steady): (usize, &SteadyCycle)| {
+            let rates = steady.stepping()?.rates;
+            let is_upright = clips[clip].is_upright_in(steady.window_s);
+            let candidate = BaseWalkCandidate { rates, is_upright, is_doubtful: steady.is_doubtful };
+            Some((WindowId { clip, window }, candidate))
+        };
+        found.windows.iter().enumerate().filter_map(candidate).collect::<Vec<_>>()
+    };
+    analyzed.iter().enumerate().flat_map(windows).unzip()
 }
 
 #[cfg(test)]

@@ -37,6 +37,17 @@ pub(crate) struct ClipsTable {
     #[serde(default)]
     joints: BTreeMap<Spanned<String>, Spanned<String>>,
     mirror: Option<bool>,
+    posture: Option<AcceptedPosture>,
+}
+
+/// The postures of which examples are made.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum AcceptedPosture {
+    /// The body walks, runs or stands upright.
+    Upright,
+    /// Any posture.
+    Any,
 }
 
 /// First and last frame, counted from 1. Deserializes from a list of exactly two numbers.
@@ -156,6 +167,9 @@ impl ClipsTable {
         settings.metres_per_unit = value(&self.metres_per_unit).or(settings.metres_per_unit);
         settings.frame_rate_hz = value(&self.frame_rate_hz).or(settings.frame_rate_hz);
         settings.up = self.up.or(settings.up);
+        if let Some(posture) = self.posture {
+            settings.takes_any_posture = posture == AcceptedPosture::Any;
+        }
         settings.mirror = self.mirror.or(settings.mirror);
     }
 }

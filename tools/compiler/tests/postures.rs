@@ -1,0 +1,214 @@
+//! Claims about posture: a body that kneels, crawls or crouches gives no example, and does not spoil its upright walk.
+
+mod zoo {
+    #![allow(dead_code, reason = "shared with the zoo's own tests")]
+    pub(crate) mod body;
+    pub(crate) mod file;
+    pub(crate) mod names;
+    pub(crate) mod rig;
+}
+
+use std::path::Path;
+
+use glam::{DQuat, DVec3};
+use motiondb::body::Joint;
+use motiondb::diagnostic::{Diagnostic, Note, Posture, Unfit};
+use motiondb::motion::MotionDb;
+use motiondb_compiler::{CompileError, HumanClip, Options, compile, import_bytes};
+use zoo::body::{Performance, Pose, part};
+use zoo::file::{self, File, RootOffset};
+use zoo::names::tools;
+use zoo::rig::{self, Rest};
+
+/// Length of a thigh of the performer, m, and of a shank.
+fn bones_m(body: &Performance) -> [f64; 2] {
+    ["LeftLeg", "LeftFoot"].map(|name| body.offsets_m[part(name)].length())
+}
+
+/// The walk with other legs and trunk: `change` gets the pose, the facing and the phase of the stride in cycles.
+fn changed(walk: &Performance, change: impl Fn(&mut Pose, DQuat, f64)) -> Performance {
+    let mut body = walk.clone();
+    for (frame, pose) in body.poses.iter_mut().enumerate() {
+        let facing = pose.turns[0] * DVec3::Z;
+        let turn = DQuat::from_rotation_y(libm::atan2(facing.x, facing.z));
+        change(pose, turn, 0.9 * frame as f64 / walk.frame_rate_hz);
+    }
+    body
+}
+
+/// Turns both legs in the vertical plane of the facing: thigh and shank off the vertical, radians, + to the front.
+fn set_leg(pose: &mut Pose, facing: DQuat, side: &str, [thigh_rad, shank_rad, foot_rad]: [f64; 3]) {
+    let turns = [("UpLeg", thigh_rad), ("Leg", shank_rad), ("Foot", foot_rad), ("ToeBase", foot_rad)];
+    for (name, angle_rad) in turns {
+        pose.turns[part(&format!("{side}{name}"))] = facing * DQuat::from_rotation_x(-angle_rad);
+    }
+}
+
+/// A body that walks on its knees: .4 m/s, the shanks behind it, toes pointed.
+fn knee_walk(walk: &Performance) -> Performance {
+    let [thigh_m, _] = bones_m(walk);
+    let start = walk.poses[0].hips_m;
+    changed(walk, |pose, facing, cycles| {
+        for (side, offset) in [("Left", 0.0), ("Right", 0.5)] {
+            // The thigh swings forward in a quarter of the cycle and back, on the ground, in the rest.
+            let at = (cycles + offset).rem_euclid(1.0);
+            let (swing, is_swing) = if at < 0.3 { (at / 0.3, true) } else { (1.0 - (at - 0.3) / 0.7, false) };
+            let thigh_rad = 0.5 * (swing - 0.5);
+            let lift_rad = if is_swing { 0.2 } else { 0.0 };
+            set_leg(pose, facing, side, [thigh_rad, -1.45 - lift_rad, -2.6]);
+        }
+        let travel_m = (pose.hips_m - start).with_y(0.0) * 0.3;
+        pose.hips_m = start.with_y(thigh_m + 0.05) + travel_m;
+    })
+}
+
+/// A body that goes on hands and knees.
+fn crawl(walk: &Performance) -> Performance {
+    let upper = ["Spine", "Spine1", "Spine2", "Neck", "Head", "Hips"];
+    let mut body = knee_walk(walk);
+    for pose in &mut body.poses {
+        let facing = pose.turns[0] * DVec3::Z;
+        let turn = DQuat::from_rotation_y(libm::atan2(facing.x, facing.z));
+        for name in upper.iter().copied().chain(["LeftShoulder", "RightShoulder"]) {
+            pose.turns[part(name)] = turn * DQuat::from_rotation_x(1.35);
+        }
+        for (side, sign) in [("Left", 1.0), ("Right", -1.0)] {
+            for name in ["Arm", "ForeArm", "Hand"] {
+                pose.turns[part(&format!("{side}{name}"))] = turn * DQuat::from_rotation_z(-sign * 1.5);
+            }
+        }
+    }
+    body
+}
+
+/// A body that walks with its hips 30 cm lower, feet as before.
+fn crouch(walk: &Performance) -> Performance {
+    let [thigh_m, shank_m] = bones_m(walk);
+    let positions: Vec<[DVec3; 22]> = walk.poses.iter().map(|pose| walk.positions_m(pose)).collect();
+    let mut body = walk.clone();
+    for (pose, positions_m) in body.poses.iter_mut().zip(positions) {
+        let facing = pose.turns[0] * DVec3::Z;
+        let turn = DQuat::from_rotation_y(libm::atan2(facing.x, facing.z));
+        pose.hips_m.y -= 0.3;
+        for side in ["Left", "Right"] {
+            let [hip, ankle] = ["UpLeg", "Foot"].map(|name| positions_m[part(&format!("{side}{name}"))]);
+            let leg = turn.inverse() * (ankle - (hip - 0.3 * DVec3::Y));
+            let reach_m = leg.length().min(thigh_m + shank_m - 1e-3);
+            let knee = |a: f64, b: f64| libm::acos((a * a + reach_m * reach_m - b * b) / (2.0 * a * reach_m));
+            let leg_rad = libm::atan2(leg.z, -leg.y);
+            let angles = [leg_rad + knee(thigh_m, shank_m), leg_rad - knee(shank_m, thigh_m)];
+            let foot = pose.turns[part(&format!("{side}Foot"))];
+            let toe = pose.turns[part(&format!("{side}ToeBase"))];
+            set_leg(pose, turn, side, [angles[0], angles[1], 0.0]);
+            pose.turns[part(&format!("{side}Foot"))] = foot;
+            pose.turns[part(&format!("{side}ToeBase"))] = toe;
+        }
+    }
+    body
+}
+
+/// One capture of several parts, each from where the one before ends, with half a second between two.
+fn capture(parts: &[&Performance]) -> Performance {
+    let mut all = parts[0].clone();
+    for part in &parts[1..] {
+        let last = all.poses[all.poses.len() - 1].clone();
+        let shift_m = (last.hips_m - part.poses[0].hips_m).with_y(0.0);
+        let moved = |pose: &Pose| Pose { hips_m: pose.hips_m + shift_m, turns: pose.turns };
+        let first = moved(&part.poses[0]);
+        all.poses.extend((1..15).map(|frame| last.lerp(&first, f64::from(frame) / 15.0)));
+        all.poses.extend(part.poses.iter().map(moved));
+    }
+    all
+}
+
+fn imported(body: &Performance) -> HumanClip {
+    let names = &tools()[0];
+    let rig = rig::build(body, names, &[], Rest::TPose, || DQuat::IDENTITY);
+    let file = File {
+        axes: DQuat::IDENTITY,
+        units_per_m: 100.0,
+        size: 1.0,
+        shift_m: DVec3::ZERO,
+        order: 0,
+        rotations_first: false,
+        positions_everywhere: false,
+        root_offset: RootOffset::Replaced,
+        is_left_handed: false,
+    };
+    let text = file::write(body, &rig, &file);
+    import_bytes(Path::new("capture.bvh"), text.as_bytes()).unwrap().remove(0).outcome.unwrap()
+}
+
+fn compiled(body: &Performance) -> Result<MotionDb, CompileError> {
+    compile(vec![imported(body)], &Options::default(), &|_| ())
+}
+
+fn walk() -> Performance {
+    Performance::read("walk_110")
+}
+
+/// The parts that are not upright: posture, first and last second.
+fn low_parts(clip: &HumanClip) -> Vec<(Posture, [f64; 2])> {
+    let time_s = |frame: usize| frame as f64 / clip.frame_rate_hz;
+    clip.low_parts.iter().map(|part| (part.posture, [time_s(part.frames.start), time_s(part.frames.end)])).collect()
+}
+
+#[track_caller]
+fn check_posture(body: &Performance, posture: Posture) {
+    let clip = imported(body);
+    let found = low_parts(&clip);
+    assert!(found.iter().all(|(found, _)| *found == posture) && !found.is_empty(), "{found:?}");
+    let Err(CompileError::NoExample { sources, .. }) = compiled(body) else { panic!("{:?}", compiled(body)) };
+    let reason = Diagnostic::NoExample(Unfit::NotUpright { posture });
+    assert!(sources[0].diagnostics.contains(&reason), "{:?}", sources[0].diagnostics);
+}
+
+#[test]
+fn bodies_that_are_not_upright_give_no_example() {
+    check_posture(&knee_walk(&walk()), Posture::Kneeling);
+    check_posture(&crouch(&walk()), Posture::Crouching);
+}
+
+#[test]
+fn a_long_crawl_does_not_hide_a_short_walk() {
+    let crawl = crawl(&walk());
+    let clip = imported(&capture(&[&walk(), &crawl, &crawl, &crawl, &crawl]));
+    assert_eq!(clip.source.up_axis, "+Y");
+    let [(Posture::OnHands, [from_s, to_s])] = low_parts(&clip)[..] else { panic!("{:?}", low_parts(&clip)) };
+    assert!((from_s - 5.1).abs() < 0.4 && to_s > 20.0, "{from_s} to {to_s}");
+}
+
+#[test]
+fn every_bundled_clip_is_upright() {
+    for clip in ["walk_050", "walk_180", "jog_240", "run_350", "jog_turn_110_left", "backward_110", "idle"] {
+        assert_eq!(low_parts(&imported(&Performance::read(clip))), [], "{clip}");
+    }
+}
+
+#[test]
+fn an_upright_walk_survives_knees_and_hands() {
+    let alone = compiled(&walk()).unwrap();
+    let all = capture(&[&walk(), &knee_walk(&walk()), &knee_walk(&walk()), &crawl(&walk()), &crawl(&walk())]);
+    let db = compiled(&all).unwrap();
+    let [walk] = &db.examples[..] else { panic!("{:#?}", db.examples) };
+    assert!((walk.parameters.speed_mps - alone.examples[0].parameters.speed_mps).abs() < 0.05, "{walk:?}");
+    let noted = |found: &Diagnostic| matches!(found, Diagnostic::Note(Note::LowPartsLeftOut { .. }));
+    assert!(db.sources[0].diagnostics.iter().any(noted), "{:?}", db.sources[0].diagnostics);
+    // Feet that kneel lie on their insteps: measured there, a sole would be turned by a right angle.
+    for toe in Joint::TOES {
+        let turn = |db: &MotionDb| db.skeleton.offsets_m[toe.index()];
+        assert!(turn(&db).distance(turn(&alone)) < 0.02, "{:?}, not {:?}", turn(&db), turn(&alone));
+    }
+}
+
+#[test]
+fn a_manifest_can_take_any_posture() {
+    let mut clip = imported(&capture(&[&walk(), &knee_walk(&walk()), &knee_walk(&walk()), &knee_walk(&walk())]));
+    clip.choices.takes_any_posture = true;
+    let db = compile(vec![clip], &Options::default(), &|_| ()).unwrap();
+    let [knees, walk] = [0.33, 1.1].map(|speed_mps: f32| {
+        db.examples.iter().position(|example| (example.parameters.speed_mps - speed_mps).abs() < 0.12)
+    });
+    assert!(knees.is_some(), "{:#?}", db.examples);
+    assert_eq!(db.correspondence.map(|found| found.semi_procedural as usize), walk, "{:#?}", db.examples);
+}
