@@ -3,7 +3,7 @@
 use std::f32::consts::FRAC_PI_2;
 
 use motiondb::body::Side;
-use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Severity, Unfit, Warning};
+use motiondb::diagnostic::{ClipEnd, Diagnostic, Note, Posture, Severity, Unfit, Warning};
 use motiondb::motion::Parameters;
 
 /// At least one of every variant, with its sentence.
@@ -46,7 +46,8 @@ fn notes() -> Vec<(Note, &'static str)> {
         (
             Note::OnlyRestUsed { reason: Unfit::NoWholeStride },
             "only the part that stands is used; of the part that steps: no whole stride, a step of each foot, was \
-             found; use a longer part of the motion",
+             found; use at least a stride and a half (1.5 to 2 s of a walk), or a loop whose last pose leads into its \
+             first",
         ),
         (Note::SameTake { other: other(), mirrored: false, windows_left_out: 0 }, "the same take as walk.bvh"),
         (
@@ -60,6 +61,16 @@ fn notes() -> Vec<(Note, &'static str)> {
         (
             Note::CoincidentExample { example: "walk".into(), blended: "stroll".into() },
             "`walk` has the parameters of `stroll`, which is blended in its place",
+        ),
+        (
+            Note::LowPartsLeftOut { posture: Posture::Kneeling, longest_s: [4.0, 11.54], total_s: 7.54, more: 0 },
+            "from 4.0 s to 11.5 s the body kneels; this gives no example (state `posture = \"any\"` in a manifest.toml \
+             to use it)",
+        ),
+        (
+            Note::LowPartsLeftOut { posture: Posture::OnHands, longest_s: [4.0, 11.54], total_s: 12.0, more: 2 },
+            "from 4.0 s to 11.5 s the body goes on its hands, and in 2 more parts it is not upright (12.0 s in all); \
+             this gives no example (state `posture = \"any\"` in a manifest.toml to use it)",
         ),
     ]
 }
@@ -176,7 +187,10 @@ fn unfit() -> Vec<(Unfit, &'static str)> {
             "steps of 60 cm, 480 a minute, are not a human gait; state the right `frame_rate_hz` in a manifest.toml",
         ),
         (Unfit::NoStep, "no foot both lands and leaves, and the body does not stand; use a clip of a steady gait"),
-        (Unfit::NoWholeStride, "no whole stride, a step of each foot, was found; use a longer part of the motion"),
+        (
+            Unfit::NoWholeStride,
+            "no whole stride, a step of each foot, was found; use at least a stride and a half (1.5 to 2 s of a walk), or a loop whose last pose leads into its first",
+        ),
         (
             Unfit::NoSteadyStride,
             "no steady stride was found: each differs from its neighbours; use a clip of a steady gait",
@@ -208,6 +222,11 @@ fn unfit() -> Vec<(Unfit, &'static str)> {
             Unfit::SameTake { other: "walk.bvh".into(), mirrored: true, frame_times_differ: true },
             "the same take as walk.bvh, mirrored, which gives the example, but at another frame time; state the right \
              `frame_rate_hz` in a manifest.toml",
+        ),
+        (Unfit::TPose, "the body stands in a T-pose; use a clip of a body that stands at ease"),
+        (
+            Unfit::NotUpright { posture: Posture::Crouching },
+            "the body crouches; use a clip of an upright body, or state `posture = \"any\"` in a manifest.toml",
         ),
     ]
 }

@@ -82,6 +82,8 @@ pub enum Unfit {
         /// What the body does instead.
         posture: Posture,
     },
+    /// The body stands in a T-pose.
+    TPose,
 }
 
 impl Unfit {
@@ -101,6 +103,7 @@ impl Unfit {
             Self::RootContradicted { .. } => "root_contradicted",
             Self::SameTake { .. } => "same_take",
             Self::NotUpright { .. } => "not_upright",
+            Self::TPose => "t_pose",
         }
     }
 }
@@ -121,7 +124,7 @@ impl fmt::Display for Unfit {
                 out.write_str("no foot both lands and leaves, and the body does not stand; use a clip of a steady gait")
             }
             Self::NoWholeStride => {
-                out.write_str("no whole stride, a step of each foot, was found; use a longer part of the motion")
+                out.write_str("no whole stride, a step of each foot, was found; use at least a stride and a half (1.5 to 2 s of a walk), or a loop whose last pose leads into its first")
             }
             Self::NoSteadyStride => out
                 .write_str("no steady stride was found: each differs from its neighbours; use a clip of a steady gait"),
@@ -165,6 +168,7 @@ impl fmt::Display for Unfit {
                 out,
                 "the body {posture}; use a clip of an upright body, or state `posture = \"any\"` in a manifest.toml"
             ),
+            Self::TPose => out.write_str("the body stands in a T-pose; use a clip of a body that stands at ease"),
         }
     }
 }

@@ -23,6 +23,7 @@ use crate::error::{ManifestKey, Rejection, RejectionReason};
 use crate::input::clip_files::ClipFormat;
 use crate::input::clip_settings::ClipSettings;
 use crate::read::bvh;
+use crate::read::foreign_format::ForeignFormat;
 use crate::read::gltf::GltfFile;
 use crate::read::source_clip::SourceClip;
 use crate::read::source_motion::SourceMotion;
@@ -98,8 +99,16 @@ fn rejected_file(path: &Path, reason: RejectionReason) -> Rejection {
     Rejection { file: path.display().to_string(), clip: String::new(), reason }
 }
 
-fn imported_clips(settings: &ClipSettings, file: impl BufRead + Seek) -> Result<Vec<ImportedClip>, RejectionReason> {
+fn imported_clips(
+    settings: &ClipSettings,
+    mut file: impl BufRead + Seek,
+) -> Result<Vec<ImportedClip>, RejectionReason> {
     let path = settings.path.as_path();
+    let first_bytes = file.fill_buf().map_err(|error| RejectionReason::unreadable(&error))?;
+    let of_name = || ForeignFormat::of_name(path).filter(|_| ClipFormat::of(path).is_none());
+    if let Some(format) = ForeignFormat::of_bytes(first_bytes).or_else(of_name) {
+        return Err(RejectionReason::ForeignFormat { format });
+    }
     match ClipFormat::of(path).ok_or(RejectionReason::UnknownFormat)? {
         ClipFormat::Bvh => bvh::open(path, file).map(|motion| vec![bvh_clip(settings, motion)]),
         ClipFormat::Gltf => gltf_clips(settings, &GltfFile::open(path, file, settings.outside)?),

@@ -63,7 +63,7 @@ mod synthetic;
 pub use compile::{Compiled, compile, compile_files, compile_manifest};
 pub use error::{CompileError, ManifestKey, Rejection, RejectionReason};
 pub use import::{ImportedClip, import_bytes, import_file, import_with_settings};
-pub use input::{ClipSet, ClipSettings, Manifest, Options, clip_files, import_clip_set, linked_files};
+pub use input::{ClipSet, ClipSettings, Manifest, Options, clip_files, foreign_files, import_clip_set, linked_files};
 pub use progress::{CompileEvent, Observer};
 pub use read::Axis;
 pub use read::gltf::Outside;

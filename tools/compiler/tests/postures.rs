@@ -212,3 +212,36 @@ fn a_manifest_can_take_any_posture() {
     assert!(knees.is_some(), "{:#?}", db.examples);
     assert_eq!(db.correspondence.map(|found| found.semi_procedural as usize), walk, "{:#?}", db.examples);
 }
+
+/// The bundled idle with its arms turned up by so many degrees off hanging, about the body's long axis of travel.
+fn idle_with_arms(spread_deg: f64) -> Performance {
+    changed(&Performance::read("idle"), |pose, facing, _| {
+        for (side, sign) in [("Left", 1.0), ("Right", -1.0)] {
+            let arm = facing * DQuat::from_rotation_z(sign * (spread_deg - 90.0).to_radians());
+            for name in ["Arm", "ForeArm", "Hand"] {
+                pose.turns[part(&format!("{side}{name}"))] = arm;
+            }
+        }
+    })
+}
+
+#[test]
+fn a_t_pose_is_no_idle() {
+    let Err(CompileError::NoExample { sources, .. }) = compiled(&idle_with_arms(88.0)) else { panic!("accepted") };
+    assert!(sources[0].diagnostics.contains(&Diagnostic::NoExample(Unfit::TPose)), "{:?}", sources[0].diagnostics);
+    assert_eq!(compiled(&idle_with_arms(10.0)).unwrap().examples.len(), 1);
+}
+
+#[test]
+fn of_idles_the_one_with_hanging_arms_is_blended() {
+    let named = |name: &str, spread_deg: f64| {
+        let mut clip = imported(&idle_with_arms(spread_deg));
+        clip.name = name.to_owned();
+        clip
+    };
+    let clips = vec![named("aims", 60.0), named("hangs", 10.0), imported(&walk())];
+    let db = compile(clips, &Options::default(), &|_| ()).unwrap();
+    let at_rest = db.blend_space.simplices.iter().map(|&corner| db.examples[corner as usize].name.as_str());
+    let names: Vec<&str> = at_rest.collect();
+    assert!(names.contains(&"hangs") && !names.contains(&"aims"), "{names:?}: {:#?}", db.sources);
+}

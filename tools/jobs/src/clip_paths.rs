@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use motiondb_compiler::{Manifest, clip_files, linked_files};
+use motiondb_compiler::{Manifest, clip_files, foreign_files, linked_files};
 
 use crate::error::JobError;
 use crate::output_path::check_is_no_input;
@@ -29,9 +29,18 @@ pub fn manifest(paths: &[PathBuf]) -> Result<Manifest, JobError> {
     match (manifest.clips.is_empty(), &manifests[..], paths) {
         (false, ..) => Ok(manifest),
         (true, [manifest, ..], _) => Err(JobError::AllSkipped { manifest: manifest.clone() }),
-        (true, [], [folder, ..]) => Err(JobError::NoClips { folder: folder.clone() }),
+        (true, [], [folder, ..]) => Err(JobError::NoClips { folder: folder.clone(), instead: instead(folder)? }),
         (true, [], []) => Err(JobError::NoPaths),
     }
+}
+
+/// What a folder without clips holds in their place: `, but 3 files of other formats: walk.fbx, an FBX file …`.
+fn instead(folder: &Path) -> Result<String, JobError> {
+    let others = foreign_files(folder)?;
+    let Some((first, format)) = others.first() else { return Ok(String::new()) };
+    let count = if others.len() == 1 { "a file" } else { &format!("{} files", others.len()) };
+    let name = first.file_name().unwrap_or_default().display();
+    Ok(format!(", but {count} of other formats: `{name}` is {}; {}", format.name, format.remedy))
 }
 
 /// Checks that a database written to `output` replaces neither a clip, nor a file that a clip links to, nor a manifest.

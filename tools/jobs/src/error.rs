@@ -33,10 +33,12 @@ pub enum JobError {
     #[error("no clips are named; name files or folders")]
     NoPaths,
     /// The folder holds no clip.
-    #[error("{}: no *.bvh, *.glb or *.gltf below it; name another folder or the clips themselves", folder.display())]
+    #[error("{}: no *.bvh, *.glb or *.gltf below it{instead}; name another folder or the clips themselves", folder.display())]
     NoClips {
         /// The first path that was given.
         folder: PathBuf,
+        /// What it holds in their place; empty for nothing of motion.
+        instead: String,
     },
     /// The manifest skips every clip.
     #[error("{}: leaves no clip to use; skip fewer", manifest.display())]

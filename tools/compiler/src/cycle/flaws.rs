@@ -6,6 +6,7 @@
 use motiondb::quality::planted_feet::FootSlide;
 use motiondb::statistics::mean;
 
+use crate::cycle::rest::Rest;
 use crate::cycle::{foot_slide, rate_cells};
 use crate::gait::stride::{STRIDE_GAP_M, Stride};
 use crate::ground::root_arc::Rates;
@@ -23,7 +24,8 @@ pub(crate) fn flaws_of_strides(strides: &[Stride], rates: &Rates, slide: &FootSl
         + 1.0 / strides.len() as f64
 }
 
-/// The flaws of a rest: the longer it is, the calmer is its calmest part.
-pub(crate) fn flaws_of_rest(duration_s: f64) -> f64 {
-    REST_S / duration_s
+/// The flaws of a rest: the longer it is, the calmer is its calmest part; arms that hang suit every crowd, an aimed gun
+/// none.
+pub(crate) fn flaws_of_rest(rest: &Rest) -> f64 {
+    REST_S / rest.duration_s + rest.arms_raised
 }

@@ -15,6 +15,7 @@ pub(crate) mod loop_closure;
 pub(crate) mod mean_stride;
 pub(crate) mod rate_cells;
 pub(crate) mod rate_snapping;
+pub(crate) mod rest;
 pub(crate) mod standing_cycle;
 pub(crate) mod steady_cycle;
 

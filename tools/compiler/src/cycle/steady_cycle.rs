@@ -13,6 +13,7 @@ use crate::cycle::flaws::{flaws_of_rest, flaws_of_strides};
 use crate::cycle::foot_slide::{foot_slide, foot_warnings, unfit_feet};
 use crate::cycle::gait_cycle::GaitCycle;
 use crate::cycle::rate_snapping::snap_rates;
+use crate::cycle::rest::Rest;
 use crate::gait::stride::Stride;
 use crate::ground::grounded_clip::GroundedClip;
 use crate::ground::root_arc::Rates;
@@ -76,7 +77,7 @@ impl SteadyCycle {
     /// The steady cycle of frames in which the body stands.
     ///
     /// # Errors
-    /// If the pelvis leaves its legs.
+    /// If the pelvis leaves its legs, or the body stands in a T-pose.
     pub(crate) fn of_rest(
         clip: &GroundedClip,
         frames: &Range<usize>,
@@ -87,7 +88,11 @@ impl SteadyCycle {
         if leaves_root(heights_m, body) {
             return Err(Unfit::PelvisOutOfReach);
         }
-        let flaws = flaws_of_rest(window_s[1] - window_s[0]);
+        let rest = Rest::of(clip, frames, body);
+        if rest.is_t_pose() {
+            return Err(Unfit::TPose);
+        }
+        let flaws = flaws_of_rest(&rest);
         let motion = SteadyMotion::Stands(frames.clone());
         Ok(Self { window_s, motion, flaws, is_doubtful: false, diagnostics: Vec::new() })
     }

@@ -6,6 +6,8 @@ use std::io;
 use motiondb::body::Joint;
 use motiondb::files::input_file;
 
+use crate::read::ForeignFormat;
+
 /// A file that cannot be read as motion, or a clip of it that is not human.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rejection {
@@ -52,6 +54,12 @@ pub enum RejectionReason {
     /// The file's name ends in none of `.bvh`, `.glb` and `.gltf`.
     #[error("not a motion clip; clips are *.bvh, *.glb and *.gltf")]
     UnknownFormat,
+    /// The file is of a known format that is not read.
+    #[error("{}; {}; clips are *.bvh, *.glb and *.gltf", format.name, format.remedy)]
+    ForeignFormat {
+        /// The format.
+        format: ForeignFormat,
+    },
     /// The file, or the clip's part of it, breaks its format.
     #[error("{position}: {problem}; {remedy}")]
     Malformed {

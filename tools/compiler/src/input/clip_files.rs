@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use motiondb::files::input_file;
 
 use crate::error::CompileError;
+use crate::read::foreign_format::ForeignFormat;
 use crate::read::gltf::{buffers, chunks, document_json};
 
 /// A format of clips.
@@ -35,6 +36,21 @@ impl ClipFormat {
 /// # Errors
 /// [`CompileError::UnreadableFolder`].
 pub fn clip_files(folder: &Path) -> Result<Vec<PathBuf>, CompileError> {
+    files_below(folder, &|path| ClipFormat::of(path).is_some())
+}
+
+/// Paths of all files below a folder whose names are those of another format of motion, with the format; sorted.
+///
+/// # Errors
+/// [`CompileError::UnreadableFolder`].
+pub fn foreign_files(folder: &Path) -> Result<Vec<(PathBuf, ForeignFormat)>, CompileError> {
+    let files = files_below(folder, &|path| ForeignFormat::of_name(path).is_some())?;
+    let with_format = |file: PathBuf| ForeignFormat::of_name(&file).map(|format| (file, format));
+    Ok(files.into_iter().filter_map(with_format).collect())
+}
+
+/// Paths of the wanted files below a folder, sorted.
+fn files_below(folder: &Path, is_wanted: &dyn Fn(&Path) -> bool) -> Result<Vec<PathBuf>, CompileError> {
     let unreadable = |source| CompileError::UnreadableFolder { folder: folder.to_owned(), source };
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {
@@ -44,8 +60,8 @@ pub fn clip_files(folder: &Path) -> Result<Vec<PathBuf>, CompileError> {
         }
         // `file_type` does not follow links: a link to a folder may lead back here.
         if entry.file_type().map_err(unreadable)?.is_dir() {
-            files.extend(clip_files(&entry.path())?);
-        } else if ClipFormat::of(&entry.path()).is_some() {
+            files.extend(files_below(&entry.path(), is_wanted)?);
+        } else if is_wanted(&entry.path()) {
             files.push(entry.path());
         }
     }

@@ -14,7 +14,7 @@ pub(crate) mod name_suggestions;
 pub(crate) mod options;
 pub(crate) mod unique_names;
 
-pub use clip_files::{clip_files, linked_files};
+pub use clip_files::{clip_files, foreign_files, linked_files};
 pub use clip_set::{ClipSet, import_clip_set};
 pub use clip_settings::{ClipSettings, ManifestSpans};
 pub use manifest::Manifest;

@@ -23,7 +23,7 @@ const JUMP_MIN_M: f64 = 0.05;
 /// Least number of frames of a clip whose poses are removed: shorter clips have no meaningful median.
 const FRAMES_MIN: usize = 11;
 /// Least cosine between arms and shoulder line in a T-pose (30°).
-const SPREAD_COSINE: f64 = 0.87;
+pub(crate) const SPREAD_COSINE: f64 = 0.87;
 /// Cosine between an arm and the shoulder line below which the pose is not a T-pose (45°).
 const LOWERED_COSINE: f64 = 0.71;
 /// Least duration of moving frames without the T-poses, s: a stride.
