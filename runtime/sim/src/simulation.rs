@@ -43,6 +43,7 @@ use crate::simulation::source_state::SourceState;
 use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
+use crate::world::one_way::OneWayZone;
 
 mod crowd_behaviour;
 mod door_waiting;
@@ -88,6 +89,7 @@ pub struct Simulation {
     obstacles: Obstacles,
     /// The walls of agents that do not enter some zones.
     zone_walls: ZoneWalls,
+    one_way: Vec<OneWayZone>,
     routes: DoorRoutes,
     doors: Doors,
     /// Why there are no routes; none of a checked scenario.
@@ -126,6 +128,7 @@ impl Simulation {
         let mut simulation = Self {
             obstacles: scenario.walls(),
             zone_walls: scenario.zone_walls(&[]),
+            one_way: scenario.one_way_zones(),
             doors: Doors::new(scenario),
             routes,
             route_error,
@@ -259,6 +262,7 @@ impl Simulation {
             obstacles: &self.obstacles,
             own_walls: (!self.zone_walls.sets.is_empty())
                 .then_some(OwnWalls { closed_zones: &agents.closed_zones, zone_walls: &self.zone_walls }),
+            one_way: &self.one_way,
             priorities: self.has_priorities.then_some(&agents.priorities[..]),
             constraints: &self.constraints,
             dt_s: self.scenario.dt_s,

@@ -50,7 +50,7 @@ fn mistakes_of_closed_zones_are_shown_at_their_place() {
     let check = |test: &str, keys: &str, part: &str, message: &str| {
         check_rejected(test, agent, &zone(keys), part, message);
     };
-    check("neither", "", &zone(""), "a zone needs `speed_factor`, `closed_to` or both");
+    check("neither", "", &zone(""), "a zone needs `speed_factor`, `one_way_deg` or `closed_to`");
     check("all", ", closed_to = \"all\"", "\"all\"", "a zone that is closed to all agents is an obstacle");
     check("word", ", closed_to = \"staff\"", "\"staff\"", "`closed_to` is `staff`, not a list");
     check("unknown", ", closed_to = [\"stuff\"]", "[\"stuff\"]", "there is no profile `stuff`");
@@ -59,4 +59,28 @@ fn mistakes_of_closed_zones_are_shown_at_their_place() {
     check_rejected("start", STAFF, &closed, STAFF, "agent 0 starts in zone 0, which is closed to it");
     let goal = "{ at_m = [-9, 0], goals_m = [[2, 0]], profile = \"staff\" }";
     check_rejected("goal", goal, &closed, goal, "a goal of agent 0 lies in zone 0");
+}
+
+#[test]
+fn mistakes_of_one_way_zones_are_shown_at_their_place() {
+    let agent = "{ at_m = [-9, 0], goals_m = [[9, 0]] }";
+    let check = |test: &str, zone: &str, message: &str| check_rejected(test, agent, zone, zone, message);
+    check("slanted", &zone(", one_way_deg = 45"), "two sides along `one_way_deg`; 45° is along none");
+    check("circle", "{ circle_m = [2, 0, 1], one_way_deg = 0 }", "a one-way zone is a rectangle");
+    check("turn", &zone(", one_way_deg = 1e9"), "one_way_deg is 1000000000");
+    let zones = [zone(", one_way_deg = 0"), "{ rect_m = [2, -1, 4, 1], one_way_deg = 0 }".to_owned()];
+    check_rejected("overlap", agent, &zones.join(", "), &zones[1], "the one-way zones 0 and 1 overlap");
+    let room = "{ rect_m = [-20, -2, 20, 2], one_way_deg = 180 }";
+    check_rejected("against", agent, room, agent, "only against the direction of the one-way zone 0");
+}
+
+#[test]
+fn one_way_zones_are_read() {
+    let agent = "{ at_m = [-9, 0], goals_m = [[9, 0]] }";
+    let zones =
+        [zone(", one_way_deg = -90, speed_factor = 0.5"), "{ rect_m = [3, -1, 5, 1], one_way_deg = 0 }".to_owned()];
+    let scenario = scenario("read_one_way", agent, &zones.join(", ")).unwrap();
+    assert_eq!((scenario.zones[0].one_way_deg, scenario.zones[0].speed_factor), (Some(-90.0), 0.5));
+    assert_eq!(scenario.one_way_zones()[0].heading.to_array().map(f32::round), [0.0, -1.0]);
+    assert!(!scenario.is_open());
 }

@@ -23,6 +23,7 @@ use crate::recording::reader::Recording;
 use crate::scenario::{AgentSpec, Scenario};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
+use crate::world::one_way::OneWayZone;
 
 /// A recording whose steps are planned again.
 #[derive(Debug)]
@@ -30,6 +31,7 @@ pub struct Replay<'a> {
     recording: &'a Recording,
     /// The walls with all doors open.
     obstacles: Arc<Walls>,
+    one_way: Vec<OneWayZone>,
     constraints: MotionConstraints,
 }
 
@@ -81,6 +83,7 @@ impl<'a> Replay<'a> {
             recording,
             constraints: MotionConstraints::new(recording.header().velocity_hull()),
             obstacles: Arc::new(Walls::new(scenario, &[])),
+            one_way: scenario.one_way_zones(),
         }
     }
 
@@ -200,6 +203,7 @@ impl RecordedStep<'_> {
             obstacles: &self.walls.obstacles,
             own_walls: (!self.walls.zone_walls.sets.is_empty())
                 .then_some(OwnWalls { closed_zones: &self.closed_zones, zone_walls: &self.walls.zone_walls }),
+            one_way: &self.replay.one_way,
             priorities: self.priorities.as_deref(),
             constraints: &self.replay.constraints,
             dt_s,

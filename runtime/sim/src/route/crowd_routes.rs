@@ -129,7 +129,7 @@ impl CrowdRoutes {
         if scenario.is_open() {
             return Ok(routes);
         }
-        let points_m = scenario.points_m();
+        let (points_m, one_way) = (scenario.points_m(), scenario.one_way_zones());
         let mut shared: BTreeMap<WaypointKey, usize> = BTreeMap::new();
         let agents = scenario.agents.iter().map(|agent| (MeshClass::of(agent), &agent.goals_m, 1));
         // The agents of a source share its waypoints.
@@ -140,9 +140,9 @@ impl CrowdRoutes {
         for (class, goals_m, count) in agents.chain(sources) {
             if routes.mesh(class).is_none() {
                 let obstacles_m = scenario.solids_m(closed, class.closed_zones);
-                let ground = scenario.ground(&obstacles_m, &points_m);
-                let mesh = RouteMesh::new(&ground, class.radius_m())?;
-                routes.meshes.push((class, mesh.with_clearance(CLEARANCE_M)));
+                let ground = scenario.ground(&obstacles_m, &points_m, &one_way);
+                let mesh = RouteMesh::new(&ground, class.radius_m())?.with_clearance(CLEARANCE_M);
+                routes.meshes.push((class, mesh.with_one_way(&one_way)?));
             }
             for &goal_m in goals_m {
                 *shared.entry(key(class, goal_m)).or_default() += count;

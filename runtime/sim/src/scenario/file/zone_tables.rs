@@ -1,5 +1,5 @@
-//! The `[[zones]]` tables: an area (`rect_m`, `circle_m`, `polygon_m`), its `speed_factor`, and the profiles of agents
-//! that do not enter it (`closed_to`). World, metres.
+//! The `[[zones]]` tables: an area (`rect_m`, `circle_m`, `polygon_m`), its `speed_factor`, the direction in which
+//! agents pass it (`one_way_deg`), and the profiles of agents that do not enter it (`closed_to`). World, metres.
 
 use motiondb::files::SourceText;
 use serde::Deserialize;
@@ -23,6 +23,7 @@ pub(crate) struct ZoneTable {
     rect_m: Option<[f32; 4]>,
     polygon_m: Option<Vec<Point>>,
     speed_factor: Option<f32>,
+    one_way_deg: Option<f32>,
     closed_to: Option<Spanned<ClosedTo>>,
 }
 
@@ -44,12 +45,13 @@ pub(crate) fn zones(
     for table in tables {
         let wrong = |span, (message, help): TableFault| ScenarioError::from(source.invalid(span, message, help));
         let at_table = |fault: TableFault| wrong(table.span(), fault);
-        let &ZoneTable { circle_m, rect_m, speed_factor, ref closed_to, .. } = table.get_ref();
+        let &ZoneTable { circle_m, rect_m, speed_factor, one_way_deg, ref closed_to, .. } = table.get_ref();
         let polygon_m = table.get_ref().polygon_m.as_deref();
         let area = AreaKeys { point_m: None, circle_m, rect_m, polygon_m }.area().map_err(at_table)?;
-        if speed_factor.is_none() && closed_to.is_none() {
-            let message = "a zone needs `speed_factor`, `closed_to` or both".to_owned();
-            return Err(at_table((message, "write `speed_factor = 0.5`, or `closed_to = [\"PROFILE\"]`")));
+        if speed_factor.is_none() && one_way_deg.is_none() && closed_to.is_none() {
+            let message = "a zone needs `speed_factor`, `one_way_deg` or `closed_to`".to_owned();
+            let help = "write `speed_factor = 0.5`, `one_way_deg = 90`, or `closed_to = [\"PROFILE\"]`";
+            return Err(at_table((message, help)));
         }
         if let Some(closed_to) = closed_to {
             let at_key = |fault: TableFault| wrong(closed_to.span(), fault);
@@ -61,7 +63,8 @@ pub(crate) fn zones(
                 .map_err(at_key)?;
             closed += 1;
         }
-        zones.push(ZoneSpec { area, speed_factor: speed_factor.unwrap_or(1.0), is_closed: closed_to.is_some() });
+        let (speed_factor, is_closed) = (speed_factor.unwrap_or(1.0), closed_to.is_some());
+        zones.push(ZoneSpec { area, speed_factor, is_closed, one_way_deg });
     }
     Ok(zones)
 }

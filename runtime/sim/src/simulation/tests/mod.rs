@@ -17,6 +17,7 @@ use crate::test_db::test_db;
 mod behaviour;
 mod door;
 mod group;
+mod one_way;
 mod priority;
 mod route;
 mod turnover;
