@@ -37,6 +37,7 @@ use crate::route::mesh::RouteError;
 use crate::route::path::{Braking, RouteView};
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
+use crate::scenario::places::state_zones::StateZones;
 use crate::simulation::doors::Doors;
 use crate::simulation::path_walker::PathWalker;
 use crate::simulation::source_state::SourceState;
@@ -89,6 +90,8 @@ pub struct Simulation {
     obstacles: Obstacles,
     /// The walls of agents that do not enter some zones.
     zone_walls: ZoneWalls,
+    /// The zones that states close.
+    state_zones: StateZones,
     one_way: Vec<OneWayZone>,
     routes: DoorRoutes,
     doors: Doors,
@@ -128,6 +131,7 @@ impl Simulation {
         let mut simulation = Self {
             obstacles: scenario.walls(),
             zone_walls: scenario.zone_walls(&[]),
+            state_zones: StateZones::new(scenario),
             one_way: scenario.one_way_zones(),
             doors: Doors::new(scenario),
             routes,
@@ -218,7 +222,7 @@ impl Simulation {
             Coupling::Discs => Braking::Within(self.scenario.dt_s),
         };
         let (keep, dt_s) = (self.scenario.params.route.keep, self.scenario.dt_s);
-        let Self { agents, population, obstacles, zone_walls, routes, doors, crowd, steps, .. } = self;
+        let Self { agents, population, obstacles, zone_walls, state_zones, routes, doors, crowd, steps, .. } = self;
         let red = ClosedDoors { open_routes: routes.all_open(), leaves: &doors.red_leaves };
         let red = doors.is_any_red().then_some(red);
         let view = RouteView { routes: routes.present(), doors: red, obstacles, keep, braking };
@@ -234,7 +238,7 @@ impl Simulation {
                     return;
                 }
                 let life = &population.agents[id.index()];
-                let walker = PathWalker { spec: &life.spec, state: crowd.agents.get(index), position_m: *position_m };
+                let walker = PathWalker::new(&life.spec, crowd.agents.get(index), *position_m, state_zones);
                 let has_begun = life.begins_at(dt_s) <= *steps;
                 let view = if passing.get(index) == Some(&true) { &view_passing } else { &view };
                 let obstacles = zone_walls.of(closed_zones[index]).unwrap_or(view.obstacles);

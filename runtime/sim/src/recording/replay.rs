@@ -20,6 +20,7 @@ use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
 use crate::recording::header::Header;
 use crate::recording::reader::Recording;
+use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::{AgentSpec, Scenario};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
@@ -31,6 +32,7 @@ pub struct Replay<'a> {
     recording: &'a Recording,
     /// The walls with all doors open.
     obstacles: Arc<Walls>,
+    state_zones: StateZones,
     one_way: Vec<OneWayZone>,
     constraints: MotionConstraints,
 }
@@ -83,6 +85,7 @@ impl<'a> Replay<'a> {
             recording,
             constraints: MotionConstraints::new(recording.header().velocity_hull()),
             obstacles: Arc::new(Walls::new(scenario, &[])),
+            state_zones: StateZones::new(scenario),
             one_way: scenario.one_way_zones(),
         }
     }
@@ -123,6 +126,10 @@ impl<'a> Replay<'a> {
         let priority =
             |agent: &AgentFrame| scenario.behaviour.priority(usize::from(agent.state), life(agent).spec.priority);
         let priorities = scenario.has_priorities().then(|| after.iter().map(priority).collect());
+        let closed_zones = |(before, after): (&AgentFrame, &AgentFrame)| {
+            let (own, radius_m) = (life(before).spec.closed_zones, life(before).wall_radius_m(number + 1));
+            self.state_zones.for_walls(own, usize::from(after.state), before.root.position_m, radius_m)
+        };
         Ok(RecordedStep {
             replay: self,
             frame,
@@ -136,7 +143,7 @@ impl<'a> Replay<'a> {
             strafing_s: before.iter().map(|agent| agent.strafing_s).collect(),
             stepping_back_s: before.iter().map(|agent| agent.stepping_back_s).collect(),
             neighbours,
-            closed_zones: before.iter().map(|agent| life(agent).spec.closed_zones).collect(),
+            closed_zones: before.iter().zip(&after).map(closed_zones).collect(),
             priorities,
             walls: self.walls(number + 1),
             before,

@@ -10,6 +10,7 @@ use crate::route::arrival::ARRIVAL_M;
 use crate::route::crowd_routes::MeshClass;
 use crate::route::mesh::RouteMesh;
 use crate::route::one_way_reach::zone_against;
+use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::{Scenario, ScenarioFault, ScenarioPart, WALL_RADIUS_M};
 use crate::world::obstacles::Obstacles;
 
@@ -105,12 +106,16 @@ fn starts(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, RouteMes
         }
     };
     let mesh_of = |class: MeshClass| meshes.iter().position(|(of, _)| *of == class);
+    let state_zones = StateZones::new(scenario);
     for agent in scenario.agents.iter().filter(|agent| agent.state != 0) {
-        mesh_of(MeshClass::of(agent)).into_iter().for_each(|mesh| add(mesh, agent.position_m));
+        let sets = state_zones.route_sets(agent.closed_zones).into_iter();
+        let classes = sets.map(|set| MeshClass::new(agent.wall_radius_m, set));
+        classes.filter_map(mesh_of).for_each(|mesh| add(mesh, agent.position_m));
     }
     for (index, source) in scenario.sources.iter().enumerate().filter(|(_, source)| source.state != 0) {
         let class = |closed_zones| MeshClass::new(source.wall_radius_m, closed_zones);
-        for mesh in source.closed_zone_sets().into_iter().filter_map(|set| mesh_of(class(set))) {
+        let sets = source.closed_zone_sets().into_iter().flat_map(|own| state_zones.route_sets(own));
+        for mesh in sets.filter_map(|set| mesh_of(class(set))) {
             source_starts_m(scenario, index, walls).for_each(|at_m| add(mesh, at_m));
         }
     }

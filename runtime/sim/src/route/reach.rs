@@ -10,6 +10,7 @@ use crate::route::arrival::ARRIVAL_M;
 use crate::route::crowd_routes::MeshClass;
 use crate::route::mesh::{ClosedPassage, RouteMesh, closed_passages};
 use crate::route::one_way_reach::{SEARCHES_MAX, check_directions};
+use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::{AgentSpec, Scenario, ScenarioFault, ScenarioPart, SourceSpec};
 use crate::world::obstacles::Obstacles;
 
@@ -39,6 +40,7 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
     let mut searches = SEARCHES_MAX;
     let mut meshes: Vec<(MeshClass, RouteMesh)> = Vec::new();
     let agents = scenario.agents.iter().enumerate().map(|(index, agent)| (ScenarioPart::Journey(index), agent.clone()));
+    let state_zones = StateZones::new(scenario);
     let sources = scenario.sources.iter().enumerate().flat_map(|(index, source)| {
         let agent = source.agent(source.middle_m());
         let of_set = move |closed_zones| (ScenarioPart::Source(index), AgentSpec { closed_zones, ..agent.clone() });
@@ -53,6 +55,14 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
         let Some(mesh) = mesh else { continue };
         check_start(&part, &agent, &walls)?;
         check_goals(&part, &agent, mesh, scenario)?;
+        for closed_zones in state_zones.route_sets(agent.closed_zones) {
+            let class = MeshClass::new(agent.wall_radius_m, closed_zones);
+            if !meshes.iter().any(|(of, _)| *of == class) {
+                meshes.push((class, self::mesh(scenario, &points_m, class)?));
+            }
+        }
+        let mesh = meshes.iter().find(|(of, _)| *of == class).map(|(_, mesh)| mesh);
+        let Some(mesh) = mesh else { continue };
         check_directions(&part, &name(&part), &agent, mesh, scenario, &mut searches)?;
     }
     check_areas(scenario, &walls, &meshes)
@@ -60,12 +70,16 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
 
 /// The passages that are closed, for every class of wall radii among the agents; none without walls.
 pub fn closed_to_agents(scenario: &Scenario) -> Vec<ClosedToAgents> {
+    let state_zones = StateZones::new(scenario);
     let of_source = |source: &SourceSpec| {
-        let class = |set| MeshClass::new(source.wall_radius_m, set);
-        source.closed_zone_sets().into_iter().map(class).collect::<Vec<_>>()
+        source.closed_zone_sets().into_iter().map(|set| (source.wall_radius_m, set)).collect::<Vec<_>>()
     };
-    let found = scenario.agents.iter().map(MeshClass::of).chain(scenario.sources.iter().flat_map(of_source));
-    let mut classes: Vec<MeshClass> = if scenario.is_open() { Vec::new() } else { found.collect() };
+    let of_agents = scenario.agents.iter().map(|agent| (agent.wall_radius_m, agent.closed_zones));
+    let found = of_agents.chain(scenario.sources.iter().flat_map(of_source));
+    let in_states = |(wall_radius_m, own): (f32, u32)| {
+        state_zones.route_sets(own).into_iter().map(move |set| MeshClass::new(wall_radius_m, set)).collect::<Vec<_>>()
+    };
+    let mut classes: Vec<MeshClass> = if scenario.is_open() { Vec::new() } else { found.flat_map(in_states).collect() };
     classes.sort_unstable();
     classes.dedup();
     let closed =
@@ -192,6 +206,7 @@ mod tests {
             area: Area::rectangle(Vec2::new(from, 0.0), Vec2::new(to, 4.0)),
             speed_factor: 1.0,
             is_closed: false,
+            closed_in: Vec::new(),
             one_way_deg: Some(one_way_deg),
         };
         let enclosures_m = vec![block([0.0, 0.0], [20.0, 4.0])];

@@ -37,6 +37,7 @@ pub use places::camera_spec::{CameraFollow, CameraKey, CameraOrbit, CameraSpec};
 pub use places::door::DoorSpec;
 pub use places::marking::{Marking, MarkingColour, MarkingShape, PlaceLabel};
 pub use places::measure_spec::{MeasureSpec, MeasuredPlace};
+pub use places::state_zones::StateZones;
 pub use places::zone_spec::ZoneSpec;
 pub use profile::{DrawnNumbers, Profile};
 pub use ranges::{STEP_RANGE_S, check_view};

@@ -6,6 +6,7 @@ use glam::Vec2;
 
 use crate::behaviour::Area;
 use crate::route::mesh::{Ground, walkable_contours_m};
+use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::places::zone_spec::ZoneSpec;
 use crate::scenario::resolved::Scenario;
 use crate::scenario::source_spec::SourceSpec;
@@ -35,8 +36,12 @@ impl Scenario {
 
     /// The walls of agents that do not enter some zones, with the doors that are closed, by index.
     pub fn zone_walls(&self, closed: &[bool]) -> ZoneWalls {
-        let sets = self.closed_zone_sets().into_iter().map(|set| (set, self.walls_of(closed, set)));
-        ZoneWalls { sets: sets.collect() }
+        let state_zones = StateZones::new(self);
+        let mut sets: Vec<u32> = self.own_zone_sets().flat_map(|own| state_zones.wall_sets(own)).collect();
+        sets.sort_unstable();
+        sets.dedup();
+        sets.retain(|set| *set != 0);
+        ZoneWalls { sets: sets.into_iter().map(|set| (set, self.walls_of(closed, set))).collect() }
     }
 
     /// The obstacles, the doors that are closed, by index, and the zones that agents do not enter, by bits, m.
@@ -64,12 +69,21 @@ impl Scenario {
 
     /// The sets of zones that some agents do not enter, by bits, each once, rising.
     pub(crate) fn closed_zone_sets(&self) -> Vec<u32> {
-        let sources = self.sources.iter().flat_map(SourceSpec::closed_zone_sets);
-        let mut sets: Vec<u32> = self.agents.iter().map(|agent| agent.closed_zones).chain(sources).collect();
+        let state_zones = StateZones::new(self);
+        let mut sets: Vec<u32> = self.own_zone_sets().flat_map(|own| state_zones.route_sets(own)).collect();
         sets.sort_unstable();
         sets.dedup();
         sets.retain(|set| *set != 0);
         sets
+    }
+
+    /// The zones that each agent and source keeps out of in all states, by bits.
+    fn own_zone_sets(&self) -> impl Iterator<Item = u32> + '_ {
+        let sources = self.sources.iter().flat_map(SourceSpec::closed_zone_sets);
+        let mut sets: Vec<u32> = self.agents.iter().map(|agent| agent.closed_zones).chain(sources).collect();
+        sets.sort_unstable();
+        sets.dedup();
+        sets.into_iter()
     }
 
     /// The polygons of the doors that are closed, by index, m.

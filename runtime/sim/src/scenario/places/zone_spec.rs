@@ -17,6 +17,9 @@ pub struct ZoneSpec {
     /// stands for the k-th of these zones.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_closed: bool,
+    /// States, by index, in which agents do not enter the zone, which is then closed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub closed_in: Vec<u32>,
     /// Direction in which agents pass the zone, from +x counter-clockwise, degrees; none where they walk as they want.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub one_way_deg: Option<f32>,

@@ -4,8 +4,8 @@ use glam::Vec2;
 
 use super::{run, scenario_of};
 
-/// Distance from its goal within which an agent has arrived, m.
-const ARRIVED_M: f32 = 0.5;
+/// Distance from its goal within which an agent has arrived, beside others that stand there, m.
+const ARRIVED_M: f32 = 0.7;
 /// Distance that an agent may lose against the heading of a zone, m: a body that sways.
 const LOST_MAX_M: f32 = 0.05;
 /// A ring about a block of 4 × 4 m, whose lower side leads to the right.
