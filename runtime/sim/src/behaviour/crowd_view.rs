@@ -10,6 +10,9 @@ use crate::population::AgentId;
 /// Positions in an area that are drawn before one that a wall covers is taken.
 const CLEAR_DRAWS_MAX: usize = 64;
 
+/// Length of the route of an agent in a state, both by index, from a position to an area, m; none where there is no route.
+pub type RouteLength<'a> = dyn Fn((usize, u32), Vec2, GoalRef) -> Option<f32> + Sync + 'a;
+
 /// What the state machine reads of the crowd.
 pub struct CrowdView<'a> {
     /// Time, s.
@@ -23,11 +26,10 @@ pub struct CrowdView<'a> {
     /// For each agent the index of the first present member of its group, its own of an agent without a group; empty
     /// where no agent has a group.
     pub leads: &'a [usize],
-    /// Length of the route of an agent in a state, both by index, from a position to an area, m; none where there is no
-    /// route.
-    pub route_m: &'a (dyn Fn((usize, u32), Vec2, GoalRef) -> Option<f32> + Sync),
+    /// Lengths of routes through the doors that are open.
+    pub route_m: &'a RouteLength<'a>,
     /// The same as with all doors open; none where no door is closed.
-    pub open_route_m: Option<&'a (dyn Fn((usize, u32), Vec2, GoalRef) -> Option<f32> + Sync)>,
+    pub open_route_m: Option<&'a RouteLength<'a>>,
     /// Distance of an agent, by index, to the end of its own waypoints, m; none before it has passed all others.
     pub path_end_m: &'a (dyn Fn(usize) -> Option<f32> + Sync),
     /// Whether an agent, by index, stands at the goal that it had in the last step: its body has stopped there, or it
