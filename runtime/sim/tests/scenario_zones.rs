@@ -142,3 +142,22 @@ fn goals_against_a_one_way_zone_are_shown_at_their_place() {
     );
     check("state = \"go\"", ":8:", "reach the area of goals `end` at [18, 2] only against the one-way zone 0");
 }
+
+#[test]
+fn goals_that_zones_close_to_agents_are_named() {
+    let path = folder("barred").join("scene.toml");
+    let barred = |zones: &str, goal: &str| {
+        let text =
+            "[states.go]\ngo = \"end\"\n[states.rest]\ngo = \"home\"\n[goals.home]\nareas = [{ point_m = [-9, 0] }]\n";
+        let agents = "[[agents]]\nat_m = [-9, 0]\nstate = \"go\"\nprofile = \"staff\"\n[[agents]]\nat_m = [-9, 2]\nstate = \"go\"\n";
+        let goals = format!("[goals.end]\nareas = [{goal}]\n");
+        fs::write(&path, format!("zones = [{zones}]\n{HEAD}{text}{goals}{agents}")).unwrap();
+        read(&path).unwrap().0.barred_goals().iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let inside = "{ rect_m = [1.5, -0.5, 2.5, 0.5] }";
+    let expected = ["agents in state `go` wait: to some, all areas of goals `end` are closed by zone 0"];
+    assert_eq!(barred(&zone(", closed_to = [\"staff\"]"), inside), expected);
+    assert_eq!(barred(&zone(", closed_in = [\"go\"]"), inside), expected);
+    assert!(barred(&zone(", closed_in = [\"rest\"]"), inside).is_empty());
+    assert!(barred(&zone(", closed_to = [\"staff\"]"), &format!("{inside}, {{ point_m = [5, 0] }}")).is_empty());
+}

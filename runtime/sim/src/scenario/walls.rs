@@ -78,7 +78,7 @@ impl Scenario {
     }
 
     /// The zones that each agent and source keeps out of in all states, by bits.
-    fn own_zone_sets(&self) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn own_zone_sets(&self) -> impl Iterator<Item = u32> + '_ {
         let sources = self.sources.iter().flat_map(SourceSpec::closed_zone_sets);
         let mut sets: Vec<u32> = self.agents.iter().map(|agent| agent.closed_zones).chain(sources).collect();
         sets.sort_unstable();
