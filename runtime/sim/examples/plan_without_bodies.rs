@@ -86,6 +86,7 @@ fn main() {
             neighbours: &neighbours,
             obstacles: &obstacles,
             own_walls: None,
+            one_way: &[],
             priorities: None,
             constraints: &constraints,
             dt_s: DT_S,

@@ -66,6 +66,7 @@
 //!     neighbours: &neighbours,
 //!     obstacles: &Obstacles::default(),
 //!     own_walls: None,
+//!     one_way: &[],
 //!     priorities: None,
 //!     constraints: &MotionConstraints::new(&VelocityHull::default()),
 //!     dt_s: 0.1,

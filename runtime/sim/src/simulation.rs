@@ -37,12 +37,14 @@ use crate::route::mesh::RouteError;
 use crate::route::path::{Braking, RouteView};
 use crate::scenario::Scenario;
 use crate::scenario::coupling::Coupling;
+use crate::scenario::places::state_zones::StateZones;
 use crate::simulation::doors::Doors;
 use crate::simulation::path_walker::PathWalker;
 use crate::simulation::source_state::SourceState;
 use crate::synthesis::{HmsParams, SynthesisContext, TimeStep};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
+use crate::world::one_way::OneWayZone;
 
 mod crowd_behaviour;
 mod door_waiting;
@@ -88,6 +90,9 @@ pub struct Simulation {
     obstacles: Obstacles,
     /// The walls of agents that do not enter some zones.
     zone_walls: ZoneWalls,
+    /// The zones that states close.
+    state_zones: StateZones,
+    one_way: Vec<OneWayZone>,
     routes: DoorRoutes,
     doors: Doors,
     /// Why there are no routes; none of a checked scenario.
@@ -126,6 +131,8 @@ impl Simulation {
         let mut simulation = Self {
             obstacles: scenario.walls(),
             zone_walls: scenario.zone_walls(&[]),
+            state_zones: StateZones::new(scenario),
+            one_way: scenario.one_way_zones(),
             doors: Doors::new(scenario),
             routes,
             route_error,
@@ -215,7 +222,7 @@ impl Simulation {
             Coupling::Discs => Braking::Within(self.scenario.dt_s),
         };
         let (keep, dt_s) = (self.scenario.params.route.keep, self.scenario.dt_s);
-        let Self { agents, population, obstacles, zone_walls, routes, doors, crowd, steps, .. } = self;
+        let Self { agents, population, obstacles, zone_walls, state_zones, routes, doors, crowd, steps, .. } = self;
         let red = ClosedDoors { open_routes: routes.all_open(), leaves: &doors.red_leaves };
         let red = doors.is_any_red().then_some(red);
         let view = RouteView { routes: routes.present(), doors: red, obstacles, keep, braking };
@@ -231,7 +238,7 @@ impl Simulation {
                     return;
                 }
                 let life = &population.agents[id.index()];
-                let walker = PathWalker { spec: &life.spec, state: crowd.agents.get(index), position_m: *position_m };
+                let walker = PathWalker::new(&life.spec, crowd.agents.get(index), *position_m, state_zones);
                 let has_begun = life.begins_at(dt_s) <= *steps;
                 let view = if passing.get(index) == Some(&true) { &view_passing } else { &view };
                 let obstacles = zone_walls.of(closed_zones[index]).unwrap_or(view.obstacles);
@@ -259,6 +266,7 @@ impl Simulation {
             obstacles: &self.obstacles,
             own_walls: (!self.zone_walls.sets.is_empty())
                 .then_some(OwnWalls { closed_zones: &agents.closed_zones, zone_walls: &self.zone_walls }),
+            one_way: &self.one_way,
             priorities: self.has_priorities.then_some(&agents.priorities[..]),
             constraints: &self.constraints,
             dt_s: self.scenario.dt_s,

@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 
 use common::folder;
-use fbcrowd_sim::scenario::{Scenario, ScenarioError, read};
+use fbcrowd_sim::scenario::{Scenario, ScenarioError, StateZones, read};
 
 const HEAD: &str = "clips = \".\"\nduration_s = 10\n[profiles.staff]\n[profiles.visitor]\npreferred_speed_mps = 1.2\n";
 const STAFF: &str = "{ at_m = [2, 0], goals_m = [[9, 0]], profile = \"staff\" }";
@@ -50,7 +50,7 @@ fn mistakes_of_closed_zones_are_shown_at_their_place() {
     let check = |test: &str, keys: &str, part: &str, message: &str| {
         check_rejected(test, agent, &zone(keys), part, message);
     };
-    check("neither", "", &zone(""), "a zone needs `speed_factor`, `closed_to` or both");
+    check("neither", "", &zone(""), "a zone needs `speed_factor`, `one_way_deg`, `closed_to` or `closed_in`");
     check("all", ", closed_to = \"all\"", "\"all\"", "a zone that is closed to all agents is an obstacle");
     check("word", ", closed_to = \"staff\"", "\"staff\"", "`closed_to` is `staff`, not a list");
     check("unknown", ", closed_to = [\"stuff\"]", "[\"stuff\"]", "there is no profile `stuff`");
@@ -59,4 +59,105 @@ fn mistakes_of_closed_zones_are_shown_at_their_place() {
     check_rejected("start", STAFF, &closed, STAFF, "agent 0 starts in zone 0, which is closed to it");
     let goal = "{ at_m = [-9, 0], goals_m = [[2, 0]], profile = \"staff\" }";
     check_rejected("goal", goal, &closed, goal, "a goal of agent 0 lies in zone 0");
+}
+
+#[test]
+fn mistakes_of_one_way_zones_are_shown_at_their_place() {
+    let agent = "{ at_m = [-9, 0], goals_m = [[9, 0]] }";
+    let check = |test: &str, zone: &str, message: &str| check_rejected(test, agent, zone, zone, message);
+    check("slanted", &zone(", one_way_deg = 45"), "two sides along `one_way_deg`; 45° is along none");
+    check("circle", "{ circle_m = [2, 0, 1], one_way_deg = 0 }", "a one-way zone is a rectangle");
+    check("turn", &zone(", one_way_deg = 1e9"), "one_way_deg is 1000000000");
+    let zones = [zone(", one_way_deg = 0"), "{ rect_m = [2, -1, 4, 1], one_way_deg = 0 }".to_owned()];
+    check_rejected("overlap", agent, &zones.join(", "), &zones[1], "the one-way zones 0 and 1 overlap");
+}
+
+#[test]
+fn one_way_zones_are_read() {
+    let agent = "{ at_m = [-9, 0], goals_m = [[9, 0]] }";
+    let zones =
+        [zone(", one_way_deg = -90, speed_factor = 0.5"), "{ rect_m = [3, -1, 5, 1], one_way_deg = 0 }".to_owned()];
+    let scenario = scenario("read_one_way", agent, &zones.join(", ")).unwrap();
+    assert_eq!((scenario.zones[0].one_way_deg, scenario.zones[0].speed_factor), (Some(-90.0), 0.5));
+    assert_eq!(scenario.one_way_zones()[0].heading.to_array().map(f32::round), [0.0, -1.0]);
+    assert!(!scenario.is_open());
+}
+
+const STATES: &str = "states = { in = { walk_mps = [1, 0], then = [{ when = { after_s = 3 }, to = \"out\" }] }, \
+     out = { walk_mps = [-1, 0] } }\n";
+
+#[test]
+fn states_close_zones() {
+    let agents = "{ at_m = [-9, 0], state = \"in\", profile = \"staff\" }, { at_m = [-9, 3], goals_m = [[-9, 4]] }";
+    let zones = [zone(", closed_to = [\"staff\"]"), zone(", closed_in = [\"out\", \"in\"]")];
+    let path = folder("closed_in").join("scene.toml");
+    fs::write(&path, format!("zones = [{}]\nagents = [{agents}]\n{STATES}{HEAD}", zones.join(", "))).unwrap();
+    let (scenario, _) = read(&path).unwrap();
+    assert_eq!(scenario.zones[1].closed_in, [2, 1]);
+    let zones = StateZones::new(&scenario);
+    assert_eq!([0, 1, 2].map(|state| zones.for_routes(1, state)), [1, 3, 3]);
+    let sets: Vec<u32> = scenario.zone_walls(&[]).sets.iter().map(|(set, _)| *set).collect();
+    assert_eq!(sets, [1, 2, 3]);
+}
+
+#[test]
+fn mistakes_of_zones_that_states_close_are_shown_at_their_place() {
+    let check = |test: &str, states: &str, keys: &str, part: &str, message: &str| {
+        let path = folder(test).join("scene.toml");
+        let agent = "{ at_m = [-9, 0], goals_m = [[-9, 4]] }";
+        fs::write(&path, format!("zones = [{}]\nagents = [{agent}]\n{states}{HEAD}", zone(keys))).unwrap();
+        match read(&path) {
+            Err(ScenarioError::Invalid(invalid)) => {
+                assert!(invalid.message.contains(message), "{invalid}");
+                assert_eq!(&invalid.text[invalid.span.clone()], part, "{invalid}");
+            }
+            other => panic!("{keys} gave {other:?}"),
+        }
+    };
+    check("in_none", STATES, ", closed_in = []", "[]", "`closed_in` names no state");
+    check("in_unknown", STATES, ", closed_in = [\"inn\"]", "\"inn\"", "there is no state `inn`");
+    check("in_stateless", "", ", closed_in = [\"in\"]", "[\"in\"]", "the scenario has no states");
+}
+
+#[test]
+fn goals_against_a_one_way_zone_are_shown_at_their_place() {
+    let path = folder("against").join("scene.toml");
+    let text = "clips = \".\"\nduration_s = 10\n[[walkable]]\npolygon_m = [[0, 0], [20, 0], [20, 4], [0, 4]]\n\
+        [[zones]]\nrect_m = [8, 0, 12, 4]\none_way_deg = 180\n[goals.end]\nareas = [{ point_m = [18, 2] }]\n\
+        [states.go]\ngo = \"end\"\n[[agents]]\nat_m = [2, 2]\n";
+    let check = |agent: &str, line: &str, message: &str| {
+        fs::write(&path, format!("{text}{agent}\n")).unwrap();
+        match read(&path) {
+            Err(ScenarioError::Invalid(invalid)) => {
+                assert!(invalid.message.contains(message), "{invalid}");
+                assert!(invalid.to_string().contains(line), "{invalid}");
+            }
+            other => panic!("{agent} gave {other:?}"),
+        }
+    };
+    check(
+        "goals_m = [[18, 2]]",
+        ":12:",
+        "agent 0 reaches the goal [18, 2] only against the direction of the one-way zone 0",
+    );
+    check("state = \"go\"", ":8:", "reach the area of goals `end` at [18, 2] only against the one-way zone 0");
+}
+
+#[test]
+fn goals_that_zones_close_to_agents_are_named() {
+    let path = folder("barred").join("scene.toml");
+    let barred = |zones: &str, goal: &str| {
+        let text =
+            "[states.go]\ngo = \"end\"\n[states.rest]\ngo = \"home\"\n[goals.home]\nareas = [{ point_m = [-9, 0] }]\n";
+        let agents = "[[agents]]\nat_m = [-9, 0]\nstate = \"go\"\nprofile = \"staff\"\n[[agents]]\nat_m = [-9, 2]\nstate = \"go\"\n";
+        let goals = format!("[goals.end]\nareas = [{goal}]\n");
+        fs::write(&path, format!("zones = [{zones}]\n{HEAD}{text}{goals}{agents}")).unwrap();
+        read(&path).unwrap().0.barred_goals().iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let inside = "{ rect_m = [1.5, -0.5, 2.5, 0.5] }";
+    let expected = ["agents in state `go` wait: to some, all areas of goals `end` are closed by zone 0"];
+    assert_eq!(barred(&zone(", closed_to = [\"staff\"]"), inside), expected);
+    assert_eq!(barred(&zone(", closed_in = [\"go\"]"), inside), expected);
+    assert!(barred(&zone(", closed_in = [\"rest\"]"), inside).is_empty());
+    assert!(barred(&zone(", closed_to = [\"staff\"]"), &format!("{inside}, {{ point_m = [5, 0] }}")).is_empty());
 }

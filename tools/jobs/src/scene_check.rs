@@ -6,7 +6,7 @@ use fbcrowd_render::plots::crowd::scene_plan;
 use fbcrowd_render::raster::png_frame;
 use fbcrowd_sim::route::mesh::RouteMesh;
 use fbcrowd_sim::route::{ClosedToAgents, CrowdRoutes, closed_to_agents};
-use fbcrowd_sim::scenario::{Scenario, SourceSpec};
+use fbcrowd_sim::scenario::{BarredGoals, Scenario, SourceSpec};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -45,6 +45,8 @@ pub struct SceneFigures {
     pub meshes: Vec<MeshFigures>,
     /// Passages that are too narrow for agents: those that separate parts of the ground first, the widest first.
     pub closed_passages: Vec<ClosedPassageFigures>,
+    /// Goals that some agents never reach, because zones are closed to them.
+    pub barred_goals: Vec<BarredGoalsFigures>,
     /// Memory that the simulation needs beside its database, MiB: an estimate.
     pub memory_mib: f64,
     /// Size of the recording if no agent leaves, MiB: an estimate.
@@ -73,6 +75,19 @@ pub struct ClosedPassageFigures {
     pub wall_radius_m: f32,
     /// Whether it separates parts of the ground; otherwise a detour leads around it.
     pub separates: bool,
+}
+
+/// Goals of a state whose areas all lie in zones that are closed to some of its agents.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct BarredGoalsFigures {
+    /// Name of the state.
+    pub state: String,
+    /// Name of the goals.
+    pub goals: String,
+    /// Indices of the zones.
+    pub zones: Vec<usize>,
+    /// The same as a sentence.
+    pub text: String,
 }
 
 /// A scenario that has been checked.
@@ -115,6 +130,11 @@ fn figures(scenario: &Scenario, routes: &CrowdRoutes, closed: &[ClosedToAgents])
     let agent_frames = agents as u64 * frames(0.0) + due.iter().map(|&due_s| frames(due_s)).sum::<u64>();
     let memory_bytes = routes.bytes() + (agents + due.len()) * AGENT_BYTES;
     let recording_bytes = agent_frames * RECORDED_AGENT_BYTES + frames(0.0) * RECORDED_FRAME_BYTES;
+    let barred = |barred: BarredGoals| {
+        let text = barred.to_string();
+        let BarredGoals { state, goals, zones } = barred;
+        BarredGoalsFigures { state, goals, zones, text }
+    };
     let mesh = |(wall_radius_m, mesh): (f32, &RouteMesh)| MeshFigures {
         wall_radius_m,
         triangles: mesh.triangle_count(),
@@ -132,6 +152,7 @@ fn figures(scenario: &Scenario, routes: &CrowdRoutes, closed: &[ClosedToAgents])
         steps: scenario.steps(),
         meshes: routes.meshes().map(mesh).collect(),
         closed_passages: closed_passages(closed),
+        barred_goals: scenario.barred_goals().into_iter().map(barred).collect(),
         memory_mib: memory_bytes as f64 / MIB,
         recording_mib: recording_bytes as f64 / MIB,
     }

@@ -109,6 +109,7 @@ impl PreparedSimulation {
         recorder.finish(simulation.population())?;
         note_waiting(simulation.population(), observer);
         note_full_goals(simulation.population(), &header.scenario, observer);
+        header.scenario.barred_goals().iter().for_each(|barred| observer(JobEvent::Note(&barred.to_string())));
         Ok(stopwatch.timings(agent_steps, steps, header.scenario.dt_s))
     }
 }

@@ -255,3 +255,34 @@ fn all_projects_of_others_are_converted() {
         }
     }
 }
+
+/// The scenario of the made-up project with actions in the state `Look`, where agents stand, and its notes.
+fn with_actions_in_look(actions: &str) -> (String, String) {
+    let from = "<State name=\"Look\" final=\"0\">";
+    let (written, notes) = Project::with("fair/behaviour.xml", from, &format!("{from}{actions}")).converted();
+    (written.scenario, notes.join("\n"))
+}
+
+#[test]
+fn obstacles_that_agents_see_in_some_states_become_zones() {
+    let solid = "polygon_m = [[8, 8], [9, 8], [9, 9], [8, 9]]";
+    let other = "polygon_m = [[1, -9], [2, -9], [2, -8]]";
+    let (set, notes) = with_actions_in_look("<Action type=\"set_obstacle\" operand=\"2\"/>");
+    check_contains(&set, &[&format!("{solid}\nclosed_in = [\"Visit\", \"Home\", \"End\"]\n")]);
+    check_contains(&set, &[&format!("{other}\nclosed_in = [\"Look\"]\n"), "kind = \"enclosure\""]);
+    check_contains(&notes, &["agents see the walls around them in all states here"]);
+    assert!(!notes.contains("of class"), "{notes}");
+    let (add, _) = with_actions_in_look("<Action type=\"add_obstacle\" operand=\"2\"/>");
+    check_contains(&add, &[&format!("[[obstacles]]                           # fair/scene.xml:26\n{solid}\n")]);
+    check_contains(&add, &[&format!("{other}\nclosed_in = [\"Look\"]\n")]);
+    let (remove, notes) = with_actions_in_look("<Action type=\"remove_obstacle\" operand=\"3\" exit_reset=\"0\"/>");
+    check_contains(&remove, &[&format!("{solid}\nclosed_in = [\"Visit\", \"Home\", \"End\"]\n")]);
+    check_contains(&notes, &["ends with the state here", "no agent sees the obstacles of class 2"]);
+    let actions = "<State name=\"Look\" final=\"0\"><Action type=\"add_obstacle\"/>";
+    check_refused(
+        "fair/behaviour.xml",
+        "<State name=\"Look\" final=\"0\">",
+        actions,
+        &["behaviour.xml:13", "no `operand`"],
+    );
+}

@@ -18,7 +18,7 @@ pub(crate) const STANCE: Rgb = Rgb::new(0.76, 0.08, 0.56);
 /// Colour of a half-plane or force, by its source.
 pub(crate) fn source_colour(source: HalfPlaneSource) -> Rgb {
     match source {
-        HalfPlaneSource::Obstacle(_) => OBSTACLE_RIM,
+        HalfPlaneSource::Obstacle(_) | HalfPlaneSource::OneWay(_) => OBSTACLE_RIM,
         HalfPlaneSource::Stance => STANCE,
         HalfPlaneSource::SharpTurn => SHARP_TURN_EDGES,
         HalfPlaneSource::TurningHull => TURNING_SET,
@@ -31,6 +31,7 @@ pub(crate) fn source_colour(source: HalfPlaneSource) -> Rgb {
 pub(crate) fn source_name(source: HalfPlaneSource) -> String {
     match source {
         HalfPlaneSource::Obstacle(_) => "wall".to_owned(),
+        HalfPlaneSource::OneWay(_) => "one-way zone".to_owned(),
         HalfPlaneSource::Stance => "stance foot".to_owned(),
         HalfPlaneSource::SharpTurn => "sharp turn".to_owned(),
         HalfPlaneSource::TurningHull => "turning set".to_owned(),

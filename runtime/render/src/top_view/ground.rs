@@ -43,6 +43,7 @@ pub(crate) fn background(header: &Header, framing: &Framing) -> Pixmap {
     draw_grid(&mut pixmap, framing);
     markings::draw_outside(&mut pixmap, &header.scenario, framing);
     markings::draw_markings(&mut pixmap, &header.scenario, framing);
+    markings::draw_one_way_zones(&mut pixmap, &header.scenario, framing);
     markings::draw_goal_areas(&mut pixmap, &header.scenario, framing);
     draw_goals(&mut pixmap, header, framing);
     draw_obstacles(&mut pixmap, header, framing);

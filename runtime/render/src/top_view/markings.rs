@@ -23,6 +23,11 @@ const GOAL_OPACITY: f32 = 0.4;
 /// Radius of a goal that is a point, m.
 const GOAL_POINT_M: f32 = 0.08;
 
+/// Width of the sides of a one-way zone, m.
+const ONE_WAY_SIDE_M: f32 = 0.04;
+/// Opacity of the marks of one-way zones.
+const ONE_WAY_OPACITY: f32 = 0.35;
+
 /// Fills the ground outside the walkable polygons.
 pub(crate) fn draw_outside(pixmap: &mut Pixmap, scenario: &Scenario, framing: &Framing) {
     let lines_m = scenario.ground_lines_m();
@@ -48,6 +53,21 @@ pub(crate) fn draw_markings(pixmap: &mut Pixmap, scenario: &Scenario, framing: &
         let MarkingColour::Fixed(rgb) = *colour else { continue };
         for path in shape.polygons_m().iter().filter_map(|corners_m| outline(framing, corners_m)) {
             fill(pixmap, &path, &paint(palette::from_bytes(rgb), 1.0), None);
+        }
+    }
+}
+
+/// Draws the directions of one-way zones, and their sides.
+pub(crate) fn draw_one_way_zones(pixmap: &mut Pixmap, scenario: &Scenario, framing: &Framing) {
+    let pen = Stroke { width: (ONE_WAY_SIDE_M * framing.scale_px_m).clamp(0.8, 3.0), ..Stroke::default() };
+    for zone in scenario.one_way_zones() {
+        for path in zone.chevrons_m().iter().filter_map(|corners_m| outline(framing, corners_m)) {
+            fill(pixmap, &path, &paint(palette::OBSTACLE_RIM, ONE_WAY_OPACITY), None);
+        }
+        for side_m in zone.sides_m() {
+            if let Some(line) = path_through(side_m.map(|end_m| framing.to_px(end_m)), false) {
+                stroke(pixmap, &line, &paint(palette::OBSTACLE_RIM, ONE_WAY_OPACITY), &pen, None);
+            }
         }
     }
 }

@@ -10,6 +10,9 @@ use crate::population::AgentId;
 /// Positions in an area that are drawn before one that a wall covers is taken.
 const CLEAR_DRAWS_MAX: usize = 64;
 
+/// Length of the route of an agent in a state, both by index, from a position to an area, m; none where there is no route.
+pub type RouteLength<'a> = dyn Fn((usize, u32), Vec2, GoalRef) -> Option<f32> + Sync + 'a;
+
 /// What the state machine reads of the crowd.
 pub struct CrowdView<'a> {
     /// Time, s.
@@ -23,10 +26,10 @@ pub struct CrowdView<'a> {
     /// For each agent the index of the first present member of its group, its own of an agent without a group; empty
     /// where no agent has a group.
     pub leads: &'a [usize],
-    /// Length of the route of an agent, by index, from a position to an area, m; none where there is no route.
-    pub route_m: &'a (dyn Fn(usize, Vec2, GoalRef) -> Option<f32> + Sync),
+    /// Lengths of routes through the doors that are open.
+    pub route_m: &'a RouteLength<'a>,
     /// The same as with all doors open; none where no door is closed.
-    pub open_route_m: Option<&'a (dyn Fn(usize, Vec2, GoalRef) -> Option<f32> + Sync)>,
+    pub open_route_m: Option<&'a RouteLength<'a>>,
     /// Distance of an agent, by index, to the end of its own waypoints, m; none before it has passed all others.
     pub path_end_m: &'a (dyn Fn(usize) -> Option<f32> + Sync),
     /// Whether an agent, by index, stands at the goal that it had in the last step: its body has stopped there, or it
@@ -34,16 +37,16 @@ pub struct CrowdView<'a> {
     pub stands_at_goal: &'a (dyn Fn(usize) -> bool + Sync),
     /// Whether an agent, by index, has begun; before, it enters no state.
     pub has_begun: &'a (dyn Fn(usize) -> bool + Sync),
-    /// Whether no wall of an agent, by index, covers a position.
-    pub is_clear: &'a (dyn Fn(usize, Vec2) -> bool + Sync),
+    /// Whether no wall of an agent in a state, both by index, covers a position.
+    pub is_clear: &'a (dyn Fn((usize, u32), Vec2) -> bool + Sync),
 }
 
 impl CrowdView<'_> {
-    /// A position drawn from an area for an agent, on free ground where a few draws find some, m.
-    pub(crate) fn draw_clear_m(&self, index: usize, area: &Area, random: &mut SplitMix64) -> Vec2 {
+    /// A position drawn from an area for an agent in a state, on free ground where a few draws find some, m.
+    pub(crate) fn draw_clear_m(&self, of: (usize, u32), area: &Area, random: &mut SplitMix64) -> Vec2 {
         let mut position_m = area.draw_m(random);
         for _ in 1..CLEAR_DRAWS_MAX {
-            if (self.is_clear)(index, position_m) {
+            if (self.is_clear)(of, position_m) {
                 break;
             }
             position_m = area.draw_m(random);

@@ -20,6 +20,7 @@ use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
 use crate::recording::reader::Recording;
 use crate::scenario::Scenario;
+use crate::scenario::places::state_zones::StateZones;
 
 /// The measures of one simulation, under the keys of `fbcrowd measure --json`.
 ///
@@ -123,6 +124,7 @@ pub struct Measuring {
     slide: PlantedSlide,
     bodies: BodyPenetration,
     walls: WallContact,
+    state_zones: StateZones,
     states: StateVisits,
     places: MeasuredPlaces,
 }
@@ -143,6 +145,7 @@ impl Measuring {
             slide: PlantedSlide::new(skeleton, start.len(), dt_s),
             bodies: BodyPenetration::new(skeleton),
             walls: WallContact::new(skeleton, scenario),
+            state_zones: StateZones::new(scenario),
             places: MeasuredPlaces::new(scenario, start, population.closed_doors(0)),
         };
         measuring.pose(start);
@@ -171,10 +174,12 @@ impl Measuring {
         self.places.set_doors(&closed);
         self.places.push(frame, &pairs, after);
         self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
-        let held = after
-            .iter()
-            .map(life)
-            .map(|life| HeldDisc { radius_m: life.wall_radius_m(frame), closed_zones: life.spec.closed_zones });
+        let held = after.iter().map(|agent| {
+            let (own, radius_m) = (life(agent).spec.closed_zones, life(agent).wall_radius_m(frame));
+            let state = usize::from(agent.state);
+            let closed_zones = self.state_zones.for_walls(own, state, agent.root.position_m, radius_m);
+            HeldDisc { radius_m, closed_zones }
+        });
         let held: Vec<HeldDisc> = held.collect();
         self.walls.set_doors(closed);
         self.walls.push(after, &self.joints, &held);

@@ -179,7 +179,8 @@ mod tests {
     fn a_closed_zone_is_a_wall_of_those_that_do_not_enter_it() {
         let (db, mut scenario) = (test_db(), crate::simulation::tests::antipodal(2, 4.0));
         let area = Area::rectangle(Vec2::new(-1.0, -1.0), Vec2::ONE);
-        scenario.zones = vec![ZoneSpec { area, speed_factor: 1.0, is_closed: true }];
+        scenario.zones =
+            vec![ZoneSpec { area, speed_factor: 1.0, is_closed: true, closed_in: vec![], one_way_deg: None }];
         scenario.agents[1].closed_zones = 1;
         let root = Root { position_m: Vec2::new(-1.05, 0.0), facing_rad: 0.0 };
         let frame = AgentFrame { root, pose: db.rows.pose(0, 0), ..AgentFrame::default() };

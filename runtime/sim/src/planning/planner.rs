@@ -35,8 +35,8 @@ pub struct PlannerMemory {
 }
 
 impl PlannerMemory {
-    /// The half-planes of a planner's last plan. MCN's, by rank: walls, stance, sharp turn, hull, agents; ORCA's:
-    /// walls, agents; none of social forces.
+    /// The half-planes of a planner's last plan. MCN's, by rank: walls, one-way zones, stance, sharp turn, hull, agents;
+    /// ORCA's: walls, one-way zones, agents; none of social forces.
     pub fn half_planes(&self, planner: Planner) -> &[HalfPlane] {
         match planner {
             Planner::Mcn => self.mcn.half_planes(),

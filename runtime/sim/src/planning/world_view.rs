@@ -7,11 +7,13 @@ use glam::Vec2;
 
 use crate::planning::mcn::motion_constraints::MotionConstraints;
 use crate::planning::orca::agent_half_planes::EQUAL_SHARE;
+use crate::planning::orca::half_plane::{HalfPlane, HalfPlaneSource};
 use crate::planning::plan::Stance;
 use crate::world::disc::Disc;
 use crate::world::neighbours::neighbour_lanes::{LANES, Lanes};
 use crate::world::neighbours::{Neighbour, NeighbourSearch};
 use crate::world::obstacles::{Obstacles, ZoneWalls};
+use crate::world::one_way::OneWayZone;
 
 /// Everything that a plan depends on, besides the planner's tunables.
 ///
@@ -45,6 +47,7 @@ use crate::world::obstacles::{Obstacles, ZoneWalls};
 ///     neighbours: &neighbours,
 ///     obstacles: &Obstacles::default(),
 ///     own_walls: None,
+///     one_way: &[],
 ///     priorities: None,
 ///     constraints: &MotionConstraints::new(&hull),
 ///     dt_s: 0.1,
@@ -80,6 +83,8 @@ pub struct WorldView<'a> {
     pub obstacles: &'a Obstacles,
     /// The walls of the other agents, and which agents these are; none where there are no such agents.
     pub own_walls: Option<OwnWalls<'a>>,
+    /// Zones through which agents move one way: a plan within one has no part against its heading.
+    pub one_way: &'a [OneWayZone],
     /// Priority of each agent: an agent leaves more of the avoiding to one of a lower priority. None: all are equal.
     pub priorities: Option<&'a [f32]>,
     /// Constraints of the database's velocity sets.
@@ -104,6 +109,13 @@ impl<'a> WorldView<'a> {
     pub fn walls_of(&self, agent: usize) -> &'a Obstacles {
         let own = self.own_walls.and_then(|own| own.zone_walls.of(own.closed_zones[agent]));
         own.unwrap_or(self.obstacles)
+    }
+
+    /// The half-planes of the one-way zones that hold an agent.
+    pub(crate) fn one_way_half_planes(&self, agent: usize) -> impl Iterator<Item = HalfPlane> + use<'a> {
+        let position_m = self.positions_m[agent];
+        let holding = self.one_way.iter().enumerate().filter(move |(_, zone)| zone.holds(position_m));
+        holding.map(|(index, zone)| HalfPlane::behind(Vec2::ZERO, -zone.heading, HalfPlaneSource::OneWay(index as u32)))
     }
 
     /// How much of the avoiding an agent does against each of some neighbours: ½ among equals, all of it against a

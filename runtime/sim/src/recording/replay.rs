@@ -20,9 +20,11 @@ use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
 use crate::recording::header::Header;
 use crate::recording::reader::Recording;
+use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::{AgentSpec, Scenario};
 use crate::world::neighbours::NeighbourSearch;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
+use crate::world::one_way::OneWayZone;
 
 /// A recording whose steps are planned again.
 #[derive(Debug)]
@@ -30,6 +32,8 @@ pub struct Replay<'a> {
     recording: &'a Recording,
     /// The walls with all doors open.
     obstacles: Arc<Walls>,
+    state_zones: StateZones,
+    one_way: Vec<OneWayZone>,
     constraints: MotionConstraints,
 }
 
@@ -81,6 +85,8 @@ impl<'a> Replay<'a> {
             recording,
             constraints: MotionConstraints::new(recording.header().velocity_hull()),
             obstacles: Arc::new(Walls::new(scenario, &[])),
+            state_zones: StateZones::new(scenario),
+            one_way: scenario.one_way_zones(),
         }
     }
 
@@ -120,6 +126,10 @@ impl<'a> Replay<'a> {
         let priority =
             |agent: &AgentFrame| scenario.behaviour.priority(usize::from(agent.state), life(agent).spec.priority);
         let priorities = scenario.has_priorities().then(|| after.iter().map(priority).collect());
+        let closed_zones = |(before, after): (&AgentFrame, &AgentFrame)| {
+            let (own, radius_m) = (life(before).spec.closed_zones, life(before).wall_radius_m(number + 1));
+            self.state_zones.for_walls(own, usize::from(after.state), before.root.position_m, radius_m)
+        };
         Ok(RecordedStep {
             replay: self,
             frame,
@@ -133,7 +143,7 @@ impl<'a> Replay<'a> {
             strafing_s: before.iter().map(|agent| agent.strafing_s).collect(),
             stepping_back_s: before.iter().map(|agent| agent.stepping_back_s).collect(),
             neighbours,
-            closed_zones: before.iter().map(|agent| life(agent).spec.closed_zones).collect(),
+            closed_zones: before.iter().zip(&after).map(closed_zones).collect(),
             priorities,
             walls: self.walls(number + 1),
             before,
@@ -200,6 +210,7 @@ impl RecordedStep<'_> {
             obstacles: &self.walls.obstacles,
             own_walls: (!self.walls.zone_walls.sets.is_empty())
                 .then_some(OwnWalls { closed_zones: &self.closed_zones, zone_walls: &self.walls.zone_walls }),
+            one_way: &self.replay.one_way,
             priorities: self.priorities.as_deref(),
             constraints: &self.replay.constraints,
             dt_s,

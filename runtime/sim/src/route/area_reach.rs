@@ -1,7 +1,7 @@
 //! Areas that walls make useless, found before a simulation: goals without a route, ground apart from all walls to which
 //! a state moves agents, sources in walls or off the walkable ground. World, metres.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, Vec2};
 
@@ -9,6 +9,8 @@ use crate::behaviour::{Area, Movement};
 use crate::route::arrival::ARRIVAL_M;
 use crate::route::crowd_routes::MeshClass;
 use crate::route::mesh::RouteMesh;
+use crate::route::one_way_reach::zone_against;
+use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::{Scenario, ScenarioFault, ScenarioPart, WALL_RADIUS_M};
 use crate::world::obstacles::Obstacles;
 
@@ -56,19 +58,29 @@ fn check_goals(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, Rou
             _ => None,
         })
         .collect();
-    let is_reached = |at_m: Vec2| {
-        starts.iter().any(|&(mesh, part)| {
-            let from = meshes[mesh].1.nearest(DVec2::from(at_m), Some(part), None);
-            from.is_some_and(|from| {
-                let beside_m = from.point_m.distance(DVec2::from(at_m));
-                beside_m < BESIDE_M || beside_m < ARRIVAL_M && walls.is_free(from.point_m.as_vec2(), at_m)
-            })
+    let is_reached_by = |start: &AreaStart, at_m: Vec2, is_way_on: bool| {
+        let mesh = &meshes[start.mesh].1;
+        let from = mesh.nearest(DVec2::from(at_m), Some(mesh.parts[start.triangle as usize]), None);
+        from.is_some_and(|from| {
+            let beside_m = from.point_m.distance(DVec2::from(at_m));
+            let is_near = beside_m < BESIDE_M || beside_m < ARRIVAL_M && walls.is_free(from.point_m.as_vec2(), at_m);
+            is_near && (!is_way_on || mesh.leads(start.triangle, from.triangle))
         })
     };
+    let is_reached = |at_m: Vec2| starts.iter().any(|start| is_reached_by(start, at_m, true));
     for &index in sets.iter().filter(|_| !starts.is_empty()) {
         let set = &scenario.behaviour.goals[index];
         if let Some(goal) = set.areas.iter().find(|goal| !goal.area.lattice_m(LATTICE).any(is_reached)) {
             let [x, y] = goal.area.centre_m().to_array();
+            let against = starts.iter().find(|start| is_reached_by(start, goal.area.centre_m(), false));
+            if let Some(start) = against {
+                let zone = zone_against(scenario, meshes[start.mesh].0, start.at_m, goal.area.centre_m());
+                let zone = zone.map_or_else(|| "a one-way zone".to_owned(), |zone| format!("the one-way zone {zone}"));
+                let set = &set.name;
+                let message = format!("agents reach the area of goals `{set}` at [{x}, {y}] only against {zone}");
+                let help = "move it, turn `one_way_deg`, or leave another way round the zone";
+                return ScenarioPart::Goals(index).fault(message, help);
+            }
             let message = format!("no route leads an agent to the area of goals `{}` at [{x}, {y}]", set.name);
             let help = "move it to ground that agents can reach, or widen a passage";
             return ScenarioPart::Goals(index).fault(message, help);
@@ -77,28 +89,40 @@ fn check_goals(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, Rou
     Ok(())
 }
 
-/// Meshes, by index, and their parts on which agents with states begin.
-fn starts(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, RouteMesh)]) -> Vec<(usize, u32)> {
-    let mut starts = BTreeSet::new();
+/// A position at which agents with states begin, one for each mesh and each part of it from which routes are alike.
+struct AreaStart {
+    /// Index of the mesh.
+    mesh: usize,
+    triangle: u32,
+    at_m: Vec2,
+}
+
+fn starts(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, RouteMesh)]) -> Vec<AreaStart> {
+    let mut starts: BTreeMap<(usize, u32), AreaStart> = BTreeMap::new();
     let mut add = |mesh: usize, at_m: Vec2| {
-        let mesh_at = &meshes[mesh].1;
-        let part = mesh_at.nearest(DVec2::from(at_m), None, None).map(|at| mesh_at.parts[at.triangle as usize]);
-        starts.extend(part.map(|part| (mesh, part)));
+        if let Some(at) = meshes[mesh].1.nearest(DVec2::from(at_m), None, None) {
+            let start = AreaStart { mesh, triangle: at.triangle, at_m };
+            starts.entry((mesh, meshes[mesh].1.cell(at.triangle))).or_insert(start);
+        }
     };
     let mesh_of = |class: MeshClass| meshes.iter().position(|(of, _)| *of == class);
+    let state_zones = StateZones::new(scenario);
     for agent in scenario.agents.iter().filter(|agent| agent.state != 0) {
-        mesh_of(MeshClass::of(agent)).into_iter().for_each(|mesh| add(mesh, agent.position_m));
+        let sets = state_zones.route_sets(agent.closed_zones).into_iter();
+        let classes = sets.map(|set| MeshClass::new(agent.wall_radius_m, set));
+        classes.filter_map(mesh_of).for_each(|mesh| add(mesh, agent.position_m));
     }
     for (index, source) in scenario.sources.iter().enumerate().filter(|(_, source)| source.state != 0) {
         let class = |closed_zones| MeshClass::new(source.wall_radius_m, closed_zones);
-        for mesh in source.closed_zone_sets().into_iter().filter_map(|set| mesh_of(class(set))) {
+        let sets = source.closed_zone_sets().into_iter().flat_map(|own| state_zones.route_sets(own));
+        for mesh in sets.filter_map(|set| mesh_of(class(set))) {
             source_starts_m(scenario, index, walls).for_each(|at_m| add(mesh, at_m));
         }
     }
     for area in scenario.behaviour.states.iter().filter_map(|state| state.settings.teleport.as_ref()) {
         (0..meshes.len()).for_each(|mesh| clear_m(area, WALL_RADIUS_M, walls).for_each(|at_m| add(mesh, at_m)));
     }
-    starts.into_iter().collect()
+    starts.into_values().collect()
 }
 
 /// Positions in a source's area at which agents can appear, m.

@@ -10,6 +10,7 @@ use glam::{DVec2, Vec2};
 use crate::behaviour::{Area, GoalRef};
 use crate::route::field::{RouteField, RouteGoal, RoutePosition, RouteStep, shortest_route};
 use crate::route::mesh::{RouteError, RouteMesh};
+use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::{AgentSpec, Scenario};
 
 /// Agents from which on a waypoint has a field.
@@ -129,20 +130,25 @@ impl CrowdRoutes {
         if scenario.is_open() {
             return Ok(routes);
         }
-        let points_m = scenario.points_m();
+        let (points_m, one_way) = (scenario.points_m(), scenario.one_way_zones());
         let mut shared: BTreeMap<WaypointKey, usize> = BTreeMap::new();
-        let agents = scenario.agents.iter().map(|agent| (MeshClass::of(agent), &agent.goals_m, 1));
+        let state_zones = StateZones::new(scenario);
+        let agents = scenario.agents.iter().map(|agent| ((agent.wall_radius_m, agent.closed_zones), &agent.goals_m, 1));
         // The agents of a source share its waypoints.
         let sources = scenario.sources.iter().flat_map(|source| {
-            let class = |set| MeshClass::new(source.wall_radius_m, set);
-            source.closed_zone_sets().into_iter().map(move |set| (class(set), &source.goals_m, SHARED_MIN))
+            let sets = source.closed_zone_sets().into_iter();
+            sets.map(move |set| ((source.wall_radius_m, set), &source.goals_m, SHARED_MIN))
         });
-        for (class, goals_m, count) in agents.chain(sources) {
+        let in_states = agents.chain(sources).flat_map(|((wall_radius_m, own), goals_m, count)| {
+            let sets = state_zones.route_sets(own).into_iter();
+            sets.map(move |set| (MeshClass::new(wall_radius_m, set), goals_m, count))
+        });
+        for (class, goals_m, count) in in_states {
             if routes.mesh(class).is_none() {
                 let obstacles_m = scenario.solids_m(closed, class.closed_zones);
-                let ground = scenario.ground(&obstacles_m, &points_m);
-                let mesh = RouteMesh::new(&ground, class.radius_m())?;
-                routes.meshes.push((class, mesh.with_clearance(CLEARANCE_M)));
+                let ground = scenario.ground(&obstacles_m, &points_m, &one_way);
+                let mesh = RouteMesh::new(&ground, class.radius_m())?.with_clearance(CLEARANCE_M);
+                routes.meshes.push((class, mesh.with_one_way(&one_way)?));
             }
             for &goal_m in goals_m {
                 *shared.entry(key(class, goal_m)).or_default() += count;

@@ -5,7 +5,7 @@
 //! Read [`mesh`] (free space as triangles) and [`field`] (shortest routes over it); then `crowd_routes` (the routes of
 //! all agents), `door_routes` (while doors are closed), `steering` (direction before a corner), `path` (v_pref along
 //! waypoints) and `arrival` (when an agent has arrived); `reach` finds unreachable goals and closed passages before a
-//! simulation.
+//! simulation, with `area_reach` (areas) and `one_way_reach` (one-way zones).
 //!
 //! ```
 //! use fbcrowd_sim::route::field::{RouteField, RouteGoal, RoutePosition};
@@ -31,6 +31,7 @@ pub mod crowd_routes;
 pub(crate) mod door_routes;
 pub mod field;
 pub mod mesh;
+pub(crate) mod one_way_reach;
 pub(crate) mod params;
 pub(crate) mod path;
 pub(crate) mod reach;

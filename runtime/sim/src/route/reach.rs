@@ -9,6 +9,8 @@ use crate::route::area_reach::check_areas;
 use crate::route::arrival::ARRIVAL_M;
 use crate::route::crowd_routes::MeshClass;
 use crate::route::mesh::{ClosedPassage, RouteMesh, closed_passages};
+use crate::route::one_way_reach::{SEARCHES_MAX, check_directions};
+use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::{AgentSpec, Scenario, ScenarioFault, ScenarioPart, SourceSpec};
 use crate::world::obstacles::Obstacles;
 
@@ -35,8 +37,10 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
         return Ok(());
     }
     let (walls, points_m) = (scenario.walls(), scenario.points_m());
+    let mut searches = SEARCHES_MAX;
     let mut meshes: Vec<(MeshClass, RouteMesh)> = Vec::new();
     let agents = scenario.agents.iter().enumerate().map(|(index, agent)| (ScenarioPart::Journey(index), agent.clone()));
+    let state_zones = StateZones::new(scenario);
     let sources = scenario.sources.iter().enumerate().flat_map(|(index, source)| {
         let agent = source.agent(source.middle_m());
         let of_set = move |closed_zones| (ScenarioPart::Source(index), AgentSpec { closed_zones, ..agent.clone() });
@@ -51,18 +55,31 @@ pub(crate) fn check_reach(scenario: &Scenario) -> Result<(), ScenarioFault> {
         let Some(mesh) = mesh else { continue };
         check_start(&part, &agent, &walls)?;
         check_goals(&part, &agent, mesh, scenario)?;
+        for closed_zones in state_zones.route_sets(agent.closed_zones) {
+            let class = MeshClass::new(agent.wall_radius_m, closed_zones);
+            if !meshes.iter().any(|(of, _)| *of == class) {
+                meshes.push((class, self::mesh(scenario, &points_m, class)?));
+            }
+        }
+        let mesh = meshes.iter().find(|(of, _)| *of == class).map(|(_, mesh)| mesh);
+        let Some(mesh) = mesh else { continue };
+        check_directions(&part, &name(&part), &agent, mesh, scenario, &mut searches)?;
     }
     check_areas(scenario, &walls, &meshes)
 }
 
 /// The passages that are closed, for every class of wall radii among the agents; none without walls.
 pub fn closed_to_agents(scenario: &Scenario) -> Vec<ClosedToAgents> {
+    let state_zones = StateZones::new(scenario);
     let of_source = |source: &SourceSpec| {
-        let class = |set| MeshClass::new(source.wall_radius_m, set);
-        source.closed_zone_sets().into_iter().map(class).collect::<Vec<_>>()
+        source.closed_zone_sets().into_iter().map(|set| (source.wall_radius_m, set)).collect::<Vec<_>>()
     };
-    let found = scenario.agents.iter().map(MeshClass::of).chain(scenario.sources.iter().flat_map(of_source));
-    let mut classes: Vec<MeshClass> = if scenario.is_open() { Vec::new() } else { found.collect() };
+    let of_agents = scenario.agents.iter().map(|agent| (agent.wall_radius_m, agent.closed_zones));
+    let found = of_agents.chain(scenario.sources.iter().flat_map(of_source));
+    let in_states = |(wall_radius_m, own): (f32, u32)| {
+        state_zones.route_sets(own).into_iter().map(move |set| MeshClass::new(wall_radius_m, set)).collect::<Vec<_>>()
+    };
+    let mut classes: Vec<MeshClass> = if scenario.is_open() { Vec::new() } else { found.flat_map(in_states).collect() };
     classes.sort_unstable();
     classes.dedup();
     let closed =
@@ -71,15 +88,17 @@ pub fn closed_to_agents(scenario: &Scenario) -> Vec<ClosedToAgents> {
 }
 
 fn closed(scenario: &Scenario, class: MeshClass) -> Vec<ClosedPassage> {
-    let points_m = scenario.points_m();
+    let (points_m, one_way) = (scenario.points_m(), scenario.one_way_zones());
     let Ok(mesh) = mesh(scenario, &points_m, class) else { return Vec::new() };
     let obstacles_m = scenario.solids_m(&[], class.closed_zones);
-    closed_passages(&scenario.ground(&obstacles_m, &points_m), class.radius_m(), &mesh).unwrap_or_default()
+    closed_passages(&scenario.ground(&obstacles_m, &points_m, &one_way), class.radius_m(), &mesh).unwrap_or_default()
 }
 
 fn mesh(scenario: &Scenario, points_m: &[Vec2], class: MeshClass) -> Result<RouteMesh, ScenarioFault> {
     let obstacles_m = scenario.solids_m(&[], class.closed_zones);
-    RouteMesh::new(&scenario.ground(&obstacles_m, points_m), class.radius_m())
+    let one_way = scenario.one_way_zones();
+    RouteMesh::new(&scenario.ground(&obstacles_m, points_m, &one_way), class.radius_m())
+        .and_then(|mesh| mesh.with_one_way(&one_way))
         .or_else(|error| ScenarioPart::Obstacle(0).fault(error.to_string(), "look for walls that nearly touch"))
 }
 
@@ -142,6 +161,8 @@ fn name(part: &ScenarioPart) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::behaviour::Area;
+    use crate::scenario::places::zone_spec::ZoneSpec;
 
     fn block(low: [f32; 2], high: [f32; 2]) -> Vec<Vec2> {
         [low, [high[0], low[1]], high, [low[0], high[1]]].map(Vec2::from).to_vec()
@@ -172,6 +193,49 @@ mod tests {
         let passages = closed_to_agents(&room([7.0, 0.0], 0.3));
         assert!(passages.len() == 1 && passages[0].passages[0].separates, "{passages:?}");
         assert!(closed_to_agents(&room([7.0, 0.0], 0.5)).is_empty());
+    }
+
+    /// A corridor of 20 × 4 m with one-way zones, as x from, x to, and degrees.
+    fn corridor(from_m: [f32; 2], goals_m: &[[f32; 2]], zones: &[[f32; 3]]) -> Scenario {
+        let agent = AgentSpec {
+            position_m: Vec2::from(from_m),
+            goals_m: goals_m.iter().copied().map(Vec2::from).collect(),
+            ..AgentSpec::default()
+        };
+        let zone = |&[from, to, one_way_deg]: &[f32; 3]| ZoneSpec {
+            area: Area::rectangle(Vec2::new(from, 0.0), Vec2::new(to, 4.0)),
+            speed_factor: 1.0,
+            is_closed: false,
+            closed_in: Vec::new(),
+            one_way_deg: Some(one_way_deg),
+        };
+        let enclosures_m = vec![block([0.0, 0.0], [20.0, 4.0])];
+        Scenario { enclosures_m, zones: zones.iter().map(zone).collect(), ..Scenario::of(vec![agent]) }
+    }
+
+    #[test]
+    fn goals_against_a_one_way_zone_are_unreachable() {
+        let check = |from_m, goals_m: &[[f32; 2]], zones: &[[f32; 3]], expected: Option<&str>| {
+            let found = message(&corridor(from_m, goals_m, zones));
+            let is_expected = match (&found, expected) {
+                (Some(found), Some(expected)) => found.contains(expected),
+                (found, expected) => found.is_none() && expected.is_none(),
+            };
+            assert!(is_expected, "{from_m:?} {goals_m:?} {zones:?}: {found:?}");
+        };
+        let (left, right) = ([2.0, 2.0], [18.0, 2.0]);
+        let zone = [[8.0, 12.0, 0.0]];
+        check(left, &[right], &zone, None);
+        check(right, &[left], &zone, Some("the goal [2, 2] only against the direction of the one-way zone 0"));
+        check(left, &[right, left], &zone, Some("the goal [2, 2] only against"));
+        check(left, &[right], &[[3.0, 5.0, 0.0], [8.0, 12.0, 180.0]], Some("the one-way zone 1"));
+        // Within the zone.
+        check([9.0, 2.0], &[[11.0, 1.0]], &zone, None);
+        check([11.0, 2.0], &[[9.0, 1.0]], &zone, Some("the goal [9, 1] only against"));
+        check([11.0, 2.0], &[right], &zone, None);
+        check([11.0, 2.0], &[left], &zone, Some("one-way zone 0"));
+        check(left, &[[11.0, 2.0]], &zone, None);
+        check(right, &[[11.0, 2.0]], &zone, Some("one-way zone 0"));
     }
 
     #[test]

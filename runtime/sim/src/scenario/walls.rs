@@ -6,10 +6,12 @@ use glam::Vec2;
 
 use crate::behaviour::Area;
 use crate::route::mesh::{Ground, walkable_contours_m};
+use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::places::zone_spec::ZoneSpec;
 use crate::scenario::resolved::Scenario;
 use crate::scenario::source_spec::SourceSpec;
 use crate::world::obstacles::{Obstacles, ZoneWalls};
+use crate::world::one_way::OneWayZone;
 
 /// Rows and columns of the positions of an area that are compared with closed zones.
 const BARRED_LATTICE: u16 = 16;
@@ -34,8 +36,12 @@ impl Scenario {
 
     /// The walls of agents that do not enter some zones, with the doors that are closed, by index.
     pub fn zone_walls(&self, closed: &[bool]) -> ZoneWalls {
-        let sets = self.closed_zone_sets().into_iter().map(|set| (set, self.walls_of(closed, set)));
-        ZoneWalls { sets: sets.collect() }
+        let state_zones = StateZones::new(self);
+        let mut sets: Vec<u32> = self.own_zone_sets().flat_map(|own| state_zones.wall_sets(own)).collect();
+        sets.sort_unstable();
+        sets.dedup();
+        sets.retain(|set| *set != 0);
+        ZoneWalls { sets: sets.into_iter().map(|set| (set, self.walls_of(closed, set))).collect() }
     }
 
     /// The obstacles, the doors that are closed, by index, and the zones that agents do not enter, by bits, m.
@@ -63,12 +69,21 @@ impl Scenario {
 
     /// The sets of zones that some agents do not enter, by bits, each once, rising.
     pub(crate) fn closed_zone_sets(&self) -> Vec<u32> {
-        let sources = self.sources.iter().flat_map(SourceSpec::closed_zone_sets);
-        let mut sets: Vec<u32> = self.agents.iter().map(|agent| agent.closed_zones).chain(sources).collect();
+        let state_zones = StateZones::new(self);
+        let mut sets: Vec<u32> = self.own_zone_sets().flat_map(|own| state_zones.route_sets(own)).collect();
         sets.sort_unstable();
         sets.dedup();
         sets.retain(|set| *set != 0);
         sets
+    }
+
+    /// The zones that each agent and source keeps out of in all states, by bits.
+    pub(crate) fn own_zone_sets(&self) -> impl Iterator<Item = u32> + '_ {
+        let sources = self.sources.iter().flat_map(SourceSpec::closed_zone_sets);
+        let mut sets: Vec<u32> = self.agents.iter().map(|agent| agent.closed_zones).chain(sources).collect();
+        sets.sort_unstable();
+        sets.dedup();
+        sets.into_iter()
     }
 
     /// The polygons of the doors that are closed, by index, m.
@@ -81,10 +96,17 @@ impl Scenario {
         self.doors.iter().map(|door| !self.behaviour.is_green(door.signal as usize, 0.0)).collect()
     }
 
-    /// Whether there are no walls: the ground is open everywhere and always.
+    /// The zones through which agents move one way.
+    pub fn one_way_zones(&self) -> Vec<OneWayZone> {
+        self.zones.iter().filter_map(ZoneSpec::one_way).collect()
+    }
+
+    /// Whether there are no walls and no one-way zones: the ground is open everywhere and always.
     pub fn is_open(&self) -> bool {
         let has_walls = !self.obstacles_m.is_empty() || !self.enclosures_m.is_empty() || !self.walkable_m.is_empty();
-        !has_walls && self.doors.is_empty() && !self.zones.iter().any(|zone| zone.is_closed)
+        !has_walls
+            && self.doors.is_empty()
+            && !self.zones.iter().any(|zone| zone.is_closed || zone.one_way_deg.is_some())
     }
 
     /// Starts, goals and corners of areas, which open ground must contain, m.
@@ -105,15 +127,21 @@ impl Scenario {
     }
 
     /// The ground that routes lead over, between these obstacles.
-    pub(crate) fn ground<'a>(&'a self, obstacles_m: &'a [Vec<Vec2>], points_m: &'a [Vec2]) -> Ground<'a> {
-        Ground { obstacles_m, enclosures_m: &self.enclosures_m, walkable_m: &self.walkable_m, points_m }
+    pub(crate) fn ground<'a>(
+        &'a self,
+        obstacles_m: &'a [Vec<Vec2>],
+        points_m: &'a [Vec2],
+        one_way: &'a [OneWayZone],
+    ) -> Ground<'a> {
+        Ground { obstacles_m, enclosures_m: &self.enclosures_m, walkable_m: &self.walkable_m, points_m, one_way }
     }
 
-    /// Corners of all walls of the scene, for pictures, m.
+    /// Corners of all walls and one-way zones of the scene, for pictures, m.
     pub fn corners_m(&self) -> impl Iterator<Item = Vec2> + '_ {
         let walkable = self.walkable_m.iter().flat_map(|polygon| &polygon.outline_m);
         let doors = self.doors.iter().flat_map(|door| &door.polygon_m);
-        self.obstacles_m.iter().chain(&self.enclosures_m).flatten().chain(walkable).chain(doors).copied()
+        let zones = self.one_way_zones().into_iter().flat_map(|zone| zone.corners_m);
+        self.obstacles_m.iter().chain(&self.enclosures_m).flatten().chain(walkable).chain(doors).copied().chain(zones)
     }
 
     /// Closed lines around the walkable ground and its holes, m; none where the ground is open.

@@ -28,30 +28,36 @@ impl Simulation {
     /// Lets every agent decide what it wants, from positions as the last step left them.
     pub(super) fn decide(&mut self) {
         let leads = if self.has_groups { self.walking_groups().leads(self.agents.count()) } else { Vec::new() };
-        let Self { scenario, agents, population, obstacles, zone_walls, routes, doors, crowd, steps, .. } = self;
+        let Self {
+            scenario, agents, population, obstacles, zone_walls, state_zones, routes, doors, crowd, steps, ..
+        } = self;
         let behaviour = &scenario.behaviour;
         if behaviour.states.is_empty() && behaviour.events.is_empty() {
             return;
         }
-        let to_area_m = |routes: &CrowdRoutes, index: usize, from_m: Vec2, at: GoalRef| {
+        let closed_zones = |index: usize, state: u32| {
+            state_zones.for_routes(population.spec(agents.ids[index]).closed_zones, state as usize)
+        };
+        let to_area_m = |routes: &CrowdRoutes, (index, state): (usize, u32), from_m: Vec2, at: GoalRef| {
             let GoalRef { set, area } = at;
             let area = &behaviour.goals[set as usize].areas[area as usize].area;
-            routes.to_area_m(MeshClass::of(population.spec(agents.ids[index])), from_m, at, area)
+            let wall_radius_m = population.spec(agents.ids[index]).wall_radius_m;
+            routes.to_area_m(MeshClass::new(wall_radius_m, closed_zones(index, state)), from_m, at, area)
         };
-        let open_route_m = |index: usize, from_m: Vec2, at: GoalRef| to_area_m(routes.all_open(), index, from_m, at);
+        let open_route_m = |of: (usize, u32), from_m: Vec2, at: GoalRef| to_area_m(routes.all_open(), of, from_m, at);
         let view = CrowdView {
             time_s: f64::from(*steps) * f64::from(scenario.dt_s),
             seed: scenario.seed,
             ids: &agents.ids,
             positions_m: &agents.positions_m,
             leads: &leads,
-            route_m: &|index, from_m, at| to_area_m(routes.present(), index, from_m, at),
+            route_m: &|of, from_m, at| to_area_m(routes.present(), of, from_m, at),
             open_route_m: doors.is_any_red().then_some(&open_route_m),
             path_end_m: &|index| path_end_m(agents, population, index),
             stands_at_goal: &|index| agents.progress[index].arrived,
             has_begun: &|index| population.agents[agents.ids[index].index()].begins_at(scenario.dt_s) <= *steps,
-            is_clear: &|index, position_m| {
-                let walls = zone_walls.of(agents.closed_zones[index]).unwrap_or(obstacles);
+            is_clear: &|(index, state), position_m| {
+                let walls = zone_walls.of(closed_zones(index, state)).unwrap_or(obstacles);
                 walls.depth_m(position_m, WALL_RADIUS_M) <= TOUCH_M
             },
         };
@@ -64,7 +70,7 @@ impl Simulation {
 
     /// Takes over radii and removals from the states.
     fn take_over_states(&mut self) {
-        let Self { scenario, agents, population, crowd, steps, .. } = self;
+        let Self { scenario, agents, population, crowd, state_zones, steps, .. } = self;
         for (index, state) in crowd.agents.iter().enumerate() {
             let life = &mut population.agents[agents.ids[index].index()];
             agents.priorities[index] = scenario.behaviour.priority(state.state as usize, life.spec.priority);
@@ -73,6 +79,9 @@ impl Simulation {
                 agents.radii_m[index] = state.traits.radius_m;
                 agents.wall_radii_m[index] = life.wall_radius_m(*steps + 1);
             }
+            let (position_m, wall_radius_m) = (agents.positions_m[index], agents.wall_radii_m[index]);
+            let (own, state_index) = (life.spec.closed_zones, state.state as usize);
+            agents.closed_zones[index] = state_zones.for_walls(own, state_index, position_m, wall_radius_m);
             if let Aim::Leave { at_once } = state.aim
                 && agents.removals[index].is_none()
             {

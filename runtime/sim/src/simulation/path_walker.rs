@@ -5,18 +5,31 @@ use glam::Vec2;
 use crate::behaviour::{AgentState, Aim};
 use crate::route::crowd_routes::{MeshClass, RouteEnd, RouteMemory};
 use crate::route::path::{self, Braking, PathProgress, RouteView, Walker};
+use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::ranges::COORDINATE_MAX_M;
 use crate::scenario::{AgentSpec, AtGoal};
 
 /// An agent that walks.
 pub(super) struct PathWalker<'a> {
-    pub(super) spec: &'a AgentSpec,
+    spec: &'a AgentSpec,
     /// Its state; none in a scenario without states.
-    pub(super) state: Option<&'a AgentState>,
-    pub(super) position_m: Vec2,
+    state: Option<&'a AgentState>,
+    position_m: Vec2,
+    /// The zones that its routes do not enter, by bits.
+    closed_zones: u32,
 }
 
-impl PathWalker<'_> {
+impl<'a> PathWalker<'a> {
+    pub(super) fn new(
+        spec: &'a AgentSpec,
+        state: Option<&'a AgentState>,
+        position_m: Vec2,
+        state_zones: &StateZones,
+    ) -> Self {
+        let closed_zones = state_zones.for_routes(spec.closed_zones, state.map_or(0, |state| state.state as usize));
+        Self { spec, state, position_m, closed_zones }
+    }
+
     /// v_pref, m/s.
     pub(super) fn preferred_mps(
         &self,
@@ -41,7 +54,7 @@ impl PathWalker<'_> {
 
     fn walker(&self, state: &AgentState) -> Walker {
         let (position_m, wall_radius_m) = (self.position_m, self.spec.wall_radius_m);
-        let class = MeshClass::of(self.spec);
+        let class = MeshClass::new(wall_radius_m, self.closed_zones);
         Walker { position_m, speed_mps: state.traits.preferred_speed_mps, wall_radius_m, class }
     }
 
@@ -52,10 +65,11 @@ impl PathWalker<'_> {
             AtGoal::Leave | AtGoal::LeaveAtOnce => RouteView { braking: Braking::Not, ..*view },
         };
         let speed_mps = self.state.map_or(self.spec.preferred_speed_mps, |state| state.traits.preferred_speed_mps);
-        if speed_mps == self.spec.preferred_speed_mps {
+        if speed_mps == self.spec.preferred_speed_mps && self.closed_zones == self.spec.closed_zones {
             return path::preferred_mps(self.spec, self.position_m, &view, progress, memory);
         }
-        let spec = AgentSpec { preferred_speed_mps: speed_mps, ..self.spec.clone() };
+        let closed_zones = self.closed_zones;
+        let spec = AgentSpec { preferred_speed_mps: speed_mps, closed_zones, ..self.spec.clone() };
         path::preferred_mps(&spec, self.position_m, &view, progress, memory)
     }
 }

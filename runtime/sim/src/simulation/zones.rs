@@ -1,10 +1,11 @@
 //! Zones change the preferred velocities of the agents in them, after the route. World, metres, m/s.
 
 use crate::simulation::Simulation;
+use crate::world::one_way::not_against_mps;
 
 impl Simulation {
-    /// Multiplies v_pref of every agent by the factors of the zones that hold it. An agent that leaves goes on as it
-    /// went, so its v_pref has its factors already.
+    /// Multiplies v_pref of every agent by the factors of the zones that hold it, and takes away what leads against a
+    /// one-way zone. An agent that leaves goes on as it went, so its v_pref has its factors already.
     pub(super) fn apply_zones(&mut self) {
         let agents = &mut self.agents;
         for zone in self.scenario.zones.iter().filter(|zone| zone.speed_factor != 1.0) {
@@ -15,6 +16,12 @@ impl Simulation {
                     agents.preferred_mps[index] *= zone.speed_factor;
                 }
             }
+        }
+        if self.one_way.is_empty() {
+            return;
+        }
+        for (preferred_mps, position_m) in agents.preferred_mps.iter_mut().zip(&agents.positions_m) {
+            *preferred_mps = not_against_mps(&self.one_way, *position_m, *preferred_mps);
         }
     }
 }

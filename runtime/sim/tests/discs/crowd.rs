@@ -158,6 +158,7 @@ impl DiscCrowd {
             neighbours: &self.neighbours,
             obstacles: setting.walls,
             own_walls: None,
+            one_way: &[],
             priorities: None,
             constraints: &MotionConstraints::new(setting.hull),
             dt_s: setting.dt_s,

@@ -20,6 +20,7 @@ impl RouteGround {
             enclosures_m: &[],
             walkable_m: &self.walkable_m,
             points_m: &self.area_m,
+            one_way: &[],
         }
     }
 }

@@ -18,7 +18,7 @@ const RADII_M: [f64; 2] = [0.1, 1.0];
 const IDLE: [&str; 5] = ["max_speed", "max_accel", "max_angle_vel", "neighbor_dist", "max_neighbors"];
 
 /// The profiles of agents that may get into each state.
-type ProfilesByState<'a> = BTreeMap<String, Vec<&'a MengeProfile>>;
+pub(crate) type ProfilesByState<'a> = BTreeMap<String, Vec<&'a MengeProfile>>;
 
 /// Reads the actions of all states.
 pub(crate) fn apply_actions(
@@ -103,11 +103,8 @@ fn read_action(
             }
             Ok(true)
         }
-        "set_obstacle" | "add_obstacle" | "remove_obstacle" => {
-            let what = "agents that see other obstacle sets in a state see the same in all states here";
-            notes.add(shown, line, what, true);
-            Ok(false)
-        }
+        // `obstacle_sets` reads them.
+        "set_obstacle" | "add_obstacle" | "remove_obstacle" => Ok(false),
         kind => {
             notes.add(shown, line, format!("the action \"{kind}\" is unknown"), true);
             Ok(false)

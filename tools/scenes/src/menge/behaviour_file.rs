@@ -9,6 +9,7 @@ use crate::menge::events::read_events;
 use crate::menge::files::ProjectFiles;
 use crate::menge::goal_sets::GoalSets;
 use crate::menge::nav_mesh::NavMesh;
+use crate::menge::obstacle_sets::settle_sets;
 use crate::menge::profiles::Profiles;
 use crate::menge::states::{give_own_goals, note_relative_goals, read_state, stop_where_they_are};
 use crate::menge::transitions::read_transition;
@@ -49,6 +50,7 @@ pub(crate) fn read_behaviour(
     check_starts(&elements, scene, &root)?;
     let by_state = profiles.by_state(&scene.states);
     crate::menge::actions::apply_actions(&elements, &by_state, scene)?;
+    settle_sets(profiles, &elements, &by_state, scene)?;
     remember_shared(scene);
     give_own_goals(&elements, scene)?;
     note_relative_goals(&elements, scene);

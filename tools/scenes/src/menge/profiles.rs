@@ -24,9 +24,20 @@ pub(crate) struct MengeProfile {
     pub(crate) shown: String,
     pub(crate) speed_mps: DrawnNumber,
     pub(crate) radius_m: DrawnNumber,
-    obstacle_mask: u64,
+    /// Mask of the obstacle sets that its agents see.
+    pub(crate) obstacle_mask: u64,
     written: SceneProfile,
     is_used: bool,
+}
+
+/// A set of polygons among the obstacles of the scene.
+#[derive(Clone, Debug)]
+pub(crate) struct ExplicitSet {
+    pub(crate) class: u64,
+    /// Indices of its obstacles.
+    pub(crate) obstacles: std::ops::Range<usize>,
+    /// Its file and line.
+    pub(crate) origin: (String, usize),
 }
 
 /// All profiles of a scene.
@@ -37,6 +48,8 @@ pub(crate) struct Profiles {
     order: Vec<String>,
     /// Names of the profiles of agents that begin in a state.
     starts: BTreeMap<String, BTreeSet<String>>,
+    /// Sets of polygons in the scene; what agents see of them, states decide.
+    pub(crate) sets: Vec<ExplicitSet>,
 }
 
 impl Profiles {

@@ -34,7 +34,7 @@ pub(crate) fn read_scene(
     }
     scene.profiles = profiles.used();
     for set in experiment.named("ObstacleSet") {
-        read_obstacle_set(files, &set, &profiles, scene)?;
+        read_obstacle_set(files, &set, &mut profiles, scene)?;
     }
     for elevation in experiment.named("Elevation") {
         read_elevation(files, &elevation, scene)?;

@@ -13,6 +13,17 @@ pub struct Walkable {
     pub origin: String,
 }
 
+/// Ground that agents do not enter in some states: a simple polygon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClosedZone {
+    /// Its corners in order.
+    pub polygon_m: Vec<Point>,
+    /// Names of the states.
+    pub states: Vec<String>,
+    /// Position in the source, "file:line"; empty where it is that of the zone before.
+    pub origin: String,
+}
+
 /// An obstacle: a simple polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneObstacle {

@@ -17,7 +17,7 @@ pub use behaviour::{
     SceneTarget, SceneTransition,
 };
 pub use drawn_number::DrawnNumber;
-pub use ground::{SceneObstacle, Walkable};
+pub use ground::{ClosedZone, SceneObstacle, Walkable};
 pub use note::{Note, Notes};
 pub(crate) use shape::round_to_mm;
 pub use shape::{Point, Shape};
@@ -51,6 +51,8 @@ pub struct Scene {
     pub walkable: Vec<Walkable>,
     /// Obstacles.
     pub obstacles: Vec<SceneObstacle>,
+    /// Ground that agents do not enter in some states.
+    pub closed_zones: Vec<ClosedZone>,
     /// Width and height of pictures, pixels.
     pub picture: Option<[u64; 2]>,
     /// What is not supported.

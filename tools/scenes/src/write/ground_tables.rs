@@ -1,7 +1,7 @@
 //! The tables of walkable ground and obstacles.
 
 use crate::scene::{Point, Scene};
-use crate::write::words::{commented, list, packed, point};
+use crate::write::words::{commented, list, packed, point, quoted};
 
 /// The tables `[[walkable]]`.
 pub(crate) fn walkable(scene: &Scene) -> String {
@@ -29,6 +29,18 @@ pub(crate) fn obstacles(scene: &Scene) -> String {
         }
         text += &polygon("polygon_m", &obstacle.polygon_m);
         text.push('\n');
+    }
+    text
+}
+
+/// The tables `[[zones]]`.
+pub(crate) fn closed_zones(scene: &Scene) -> String {
+    let mut text = String::new();
+    for zone in &scene.closed_zones {
+        text += &commented("[[zones]]", &zone.origin);
+        text += &polygon("polygon_m", &zone.polygon_m);
+        let states: Vec<String> = zone.states.iter().map(|name| quoted(name)).collect();
+        text += &format!("closed_in = [{}]\n\n", states.join(", "));
     }
     text
 }

@@ -43,6 +43,7 @@ pub fn write(scene: &Scene, options: &WriteOptions) -> WrittenScene {
         agent_tables::sources(scene),
         ground_tables::walkable(scene),
         ground_tables::obstacles(scene),
+        ground_tables::closed_zones(scene),
         picture(scene),
     ];
     let filled: Vec<&str> = sections.iter().map(|section| section.trim_end()).filter(|text| !text.is_empty()).collect();

@@ -59,6 +59,7 @@ pub fn scene_plan(scenario: &Scenario, routes: &CrowdRoutes, closed: &[ClosedToA
     figure.legend(LEGEND_PX, &legend(scenario, closed));
     let panel = scene.draw_place(&mut figure, [left, top, width, height]);
     draw_mesh(&mut figure, &panel, routes);
+    draw_one_way_zones(&mut figure, &panel, scenario);
     draw_routes(&mut figure, &panel, scenario, routes);
     for source in &scenario.sources {
         draw_source(&mut figure, &panel, source, routes);
@@ -95,6 +96,9 @@ fn legend(scenario: &Scenario, closed: &[ClosedToAgents]) -> Vec<LegendEntry<'st
     if !scenario.is_open() {
         entries.push((PlotMark::Bar, OBSTACLE, "mesh for routes"));
     }
+    if scenario.zones.iter().any(|zone| zone.one_way_deg.is_some()) {
+        entries.push((PlotMark::Dashes, SHARP_TURN_EDGES, "one-way zone"));
+    }
     if !scenario.doors.is_empty() {
         entries.push((PlotMark::Dashes, OBSTACLE_RIM, "door"));
     }
@@ -115,6 +119,23 @@ fn draw_mesh(figure: &mut PlotFigure, panel: &PlotPanel, routes: &CrowdRoutes) {
     for (_, mesh) in routes.meshes() {
         let border = mesh.edges_m().filter(|(_, is_border)| *is_border).map(|(ends_m, _)| ends_m);
         figure.hatching(panel, border, LineStyle { opacity: 0.7, ..LineStyle::solid(TURNING_SET, 1.0) });
+    }
+}
+
+/// Draws the outlines and directions of one-way zones.
+fn draw_one_way_zones(figure: &mut PlotFigure, panel: &PlotPanel, scenario: &Scenario) {
+    let line = LineStyle { is_dashed: true, ..LineStyle::solid(SHARP_TURN_EDGES, 1.6) };
+    for zone in scenario.one_way_zones() {
+        let [first_m, ..] = zone.corners_m;
+        figure.polyline(panel, zone.corners_m.into_iter().chain([first_m]), line);
+        for corners_m in zone.chevrons_m() {
+            figure.polygon(
+                panel,
+                corners_m,
+                0.3,
+                LineStyle { opacity: 0.3, ..LineStyle::solid(SHARP_TURN_EDGES, 0.5) },
+            );
+        }
     }
 }
 

@@ -27,7 +27,7 @@ impl Approach {
         for (index, agent) in agents.iter().enumerate() {
             let Some(at) = agent.goal_at() else { continue };
             if let Some(areas) = approach.0.get_mut(&(at.set as usize))
-                && let Some(route_m) = (view.route_m)(index, view.positions_m[index], at)
+                && let Some(route_m) = (view.route_m)((index, agent.state), view.positions_m[index], at)
             {
                 areas[at.area as usize].push(route_m);
             }

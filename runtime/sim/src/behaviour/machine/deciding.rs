@@ -49,6 +49,11 @@ impl Deciding<'_> {
         self.teleported_m.unwrap_or(self.view.positions_m[self.index])
     }
 
+    /// The agent and its state, by index.
+    pub(crate) fn of(&self) -> (usize, u32) {
+        (self.index, self.agent.state)
+    }
+
     pub(crate) fn drawer(&self) -> Drawer {
         Drawer { seed: self.view.seed, agent: self.view.ids[self.index].0, entries: self.agent.entries }
     }
@@ -149,8 +154,8 @@ impl Deciding<'_> {
             self.agent.lasting = traits;
         }
         if let Some(area) = &settings.teleport {
-            let position_m = self.view.draw_clear_m(self.index, area, &mut drawer.random(Purpose::Setting(3)));
-            self.teleported_m = Some(position_m).filter(|&position_m| (self.view.is_clear)(self.index, position_m));
+            let position_m = self.view.draw_clear_m(self.of(), area, &mut drawer.random(Purpose::Setting(3)));
+            self.teleported_m = Some(position_m).filter(|&position_m| (self.view.is_clear)(self.of(), position_m));
         }
     }
 

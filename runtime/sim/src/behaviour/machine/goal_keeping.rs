@@ -72,7 +72,7 @@ impl Deciding<'_> {
         let with_doors_open = || {
             let open_route_m = self.view.open_route_m?;
             let route_m =
-                |area| open_route_m(self.index, self.position_m(), GoalRef { set: set as u32, area: area as u32 });
+                |area| open_route_m(self.of(), self.position_m(), GoalRef { set: set as u32, area: area as u32 });
             self.chosen(set, choice, &free, &route_m)
         };
         if let Some(area) = self.chosen(set, choice, &free, &|area| self.route_m(set, area)).or_else(with_doors_open) {
@@ -140,7 +140,7 @@ impl Deciding<'_> {
     }
 
     fn route_m(&self, set: usize, area: usize) -> Option<f32> {
-        (self.view.route_m)(self.index, self.position_m(), GoalRef { set: set as u32, area: area as u32 })
+        (self.view.route_m)(self.of(), self.position_m(), GoalRef { set: set as u32, area: area as u32 })
     }
 
     /// Takes an area: the position remembered there, or a new one.
@@ -166,7 +166,7 @@ impl Deciding<'_> {
         let draws = if held_m.len() > CROWDED { 1 } else { APART_DRAWS };
         let mut best = (f32::NEG_INFINITY, Vec2::ZERO);
         for _ in 0..draws {
-            let drawn_m = self.view.draw_clear_m(self.index, &self.area(at).area, random);
+            let drawn_m = self.view.draw_clear_m(self.of(), &self.area(at).area, random);
             let apart_m = held_m.iter().map(|held_m| held_m.distance(drawn_m)).fold(f32::INFINITY, f32::min);
             if apart_m > best.0 {
                 best = (apart_m, drawn_m);

@@ -39,7 +39,7 @@ impl Points {
 
     fn step(&mut self) {
         let goals = &self.behaviour.goals;
-        let route_m = |_: usize, from_m: Vec2, goal: GoalRef| {
+        let route_m = |_: (usize, u32), from_m: Vec2, goal: GoalRef| {
             Some(goals[goal.set as usize].areas[goal.area as usize].area.distance_m(from_m))
         };
         let view = CrowdView {

@@ -46,7 +46,7 @@ impl Default for OrcaParams {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct OrcaMemory {
     pub(crate) surroundings: Surroundings,
-    /// Half-planes of the last plan: walls, then agents.
+    /// Half-planes of the last plan: walls, one-way zones, agents.
     pub(crate) half_planes: Vec<HalfPlane>,
     /// Working memory of the 3D program.
     projected: Vec<HalfPlane>,
@@ -69,13 +69,14 @@ pub(crate) fn plan(world: &WorldView, agent: usize, params: &OrcaParams, memory:
     half_planes.clear();
     let held = world.wall_disc(agent);
     wall_half_planes(world.walls_of(agent), &surroundings.edges, &held, params.obstacle_time_horizon_s, half_planes);
-    let wall_count = half_planes.len();
+    half_planes.extend(world.one_way_half_planes(agent));
+    let firm_count = half_planes.len();
     let neighbours = surroundings.neighbours.as_slice();
     let shares = world.shares(agent, neighbours);
     half_planes.extend(neighbours.iter().zip(shares).map(|(neighbour, share)| {
         agent_half_plane(own.velocity_mps, neighbour, share, params.time_horizon_s, world.dt_s)
     }));
     let preferred_mps = world.preferred_mps[agent];
-    let solution = solve(half_planes, wall_count, preferred_mps, params.speed_max_mps, projected);
+    let solution = solve(half_planes, firm_count, preferred_mps, params.speed_max_mps, projected);
     facing_along(solution.velocity_mps, world, agent, surroundings)
 }

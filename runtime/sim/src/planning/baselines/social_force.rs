@@ -19,6 +19,7 @@ use crate::planning::plan::Plan;
 use crate::planning::surroundings::Surroundings;
 use crate::planning::world_view::WorldView;
 use crate::world::disc::Disc;
+use crate::world::one_way::not_against_mps;
 
 /// Time in which bodies take up a plan, about, s (`synthesis::command`): the step of the paper's Table 1.
 pub const RESPONSE_S: f32 = 0.1;
@@ -81,7 +82,8 @@ pub(crate) fn plan(
         let forces_mps2: Vec2 = forces.map(|force| force.acceleration_mps2).sum();
         let driving_mps2 = (world.preferred_mps[agent] - own.velocity_mps) / params.relaxation_s;
         let acceleration_mps2 = (driving_mps2 + forces_mps2).clamp_length_max(params.acceleration_max_mps2);
-        own.velocity_mps += substep_s * acceleration_mps2;
+        let velocity_mps = own.velocity_mps + substep_s * acceleration_mps2;
+        own.velocity_mps = not_against_mps(world.one_way, own.position_m, velocity_mps);
         own.position_m += substep_s * own.velocity_mps;
     }
     facing_along(own.velocity_mps, world, agent, surroundings)

@@ -65,6 +65,7 @@ fn solve(world: &WorldView, agent: usize, set: VelocitySet, params: &McnParams, 
     let half_planes = &mut memory.programs[set as usize];
     half_planes.clear();
     half_planes.extend_from_slice(&memory.of_walls); // C_iW
+    half_planes.extend(world.one_way_half_planes(agent));
     half_planes.extend(of_stance(world, agent, params)); // C_bm
     if parts.sharp_turns && set == VelocitySet::Turning {
         half_planes.extend(world.constraints.sharp_turn(forward, world.preferred_mps[agent]));

@@ -89,6 +89,7 @@ impl Scene {
             neighbours: &neighbours,
             obstacles: &self.obstacles,
             own_walls: None,
+            one_way: &[],
             priorities: None,
             constraints: &MotionConstraints::new(&hull),
             dt_s: self.dt_s,

@@ -20,6 +20,8 @@ pub enum HalfPlaneSource {
     TurningHull,
     /// An edge of the holding set, of velocities at held facing ([`motiondb::velocity_sets::velocity_hull`]).
     HoldingHull,
+    /// A one-way zone that holds the agent, by index.
+    OneWay(u32),
     /// Another agent, by index: C_ij (§4.4).
     Agent(u32),
 }

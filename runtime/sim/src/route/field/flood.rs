@@ -10,16 +10,22 @@
 //!
 //! A window is dropped where an end of its edge is known to offer shorter routes ([`Span::is_dominated`]). All
 //! decisions about sides are exact; lengths are f64. With a target, lengths to it are added (A*), and the search ends
-//! when the target's distance is final. World, metres.
+//! when the target's distance is final.
+//!
+//! **One-way zones.** The search runs against the direction of agents, so a window passes a gate from its far end to its
+//! near one. A corner at a gate is one vertex on each side; a route to the one beyond is one to the one before. Within a
+//! zone a root sees only what lies behind it: the line through it across the heading limits its cones ([`LEVEL_RAY`]).
+//! World, metres.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use glam::DVec2;
 
-use crate::route::field::interval::{Cone, NO_RAY, OUTSIDE_M2, Span, meeting_point_m};
+use crate::route::field::interval::{Cone, LEVEL_RAY, NO_RAY, OUTSIDE_M2, Span, level_zone, meeting_point_m};
 use crate::route::mesh::RouteMesh;
-use crate::route::mesh::locate::MeshPoint;
+use crate::route::mesh::gates::LEVEL_M;
+use crate::route::mesh::locate::{MeshPoint, nearest_on_edge};
 use crate::route::mesh::route_mesh::side;
 use crate::route::mesh::triangulation::NONE;
 
@@ -133,21 +139,35 @@ impl<'a> Flood<'a> {
             at += 1;
             let (corners_m, neighbours) = (self.mesh.corners_m(triangle), self.mesh.neighbours[triangle as usize]);
             for edge in 0..3 {
-                let faces = side(corners_m[edge], corners_m[(edge + 1) % 3], point_m) > 0.0;
+                let ends_m = [corners_m[edge], corners_m[(edge + 1) % 3]];
+                let faces = side(ends_m[0], ends_m[1], point_m) > 0.0;
                 if !faces && neighbours[edge] != NONE && !holding.contains(&neighbours[edge]) {
                     holding.push(neighbours[edge]);
+                }
+                // On a gate, within rounding: agents come from before it too.
+                if let Some([before, _]) = self.mesh.gates.as_ref().and_then(|gates| gates.before(triangle, edge))
+                    && nearest_on_edge(point_m, ends_m[0], ends_m[1]).distance(point_m) < LEVEL_M
+                    && !holding.contains(&before)
+                {
+                    holding.push(before);
                 }
             }
         }
         for &triangle in &holding {
-            self.see_whole(triangle, root);
+            let zone_ray = self.level_ray(triangle);
+            let cone = Cone { root, left: zone_ray.unwrap_or(NO_RAY), right: zone_ray.unwrap_or(NO_RAY) };
+            self.keep(FoundCone { cone, triangle, least_m: self.labels[root as usize].distance_m });
             let (vertices, neighbours) =
                 (self.mesh.triangles[triangle as usize], self.mesh.neighbours[triangle as usize]);
             for edge in 0..3 {
-                self.reach(vertices[edge], root);
-                if !holding.contains(&neighbours[edge]) {
-                    let [right, left] = [vertices[edge], vertices[(edge + 1) % 3]];
-                    self.look(Cone { root, left, right }, triangle, edge);
+                let [right, left] = [vertices[edge], vertices[(edge + 1) % 3]];
+                if !self.is_ahead(triangle, root, right) {
+                    self.reach(right, root);
+                }
+                if !holding.contains(&neighbours[edge])
+                    && let Some(cone) = self.behind(Cone { root, left, right }, triangle)
+                {
+                    self.look(cone, triangle, edge);
                 }
             }
         }
@@ -159,7 +179,7 @@ impl<'a> Flood<'a> {
         let FoundCone { cone, triangle, .. } = found;
         let apex = self.mesh.triangles[triangle as usize][(edge as usize + 2) % 3];
         let apex_m = self.point_m(apex);
-        let [from_left, from_right] = [cone.left, cone.right].map(|ray| self.side_of_ray(cone.root, ray, apex_m));
+        let [from_left, from_right] = self.sides_of_rays(cone, apex_m);
         if from_left <= 0.0 && from_right >= 0.0 {
             self.reach(apex, cone.root);
         }
@@ -211,19 +231,39 @@ impl<'a> Flood<'a> {
 
     /// A corner sees a triangle around it, or a part of it beside the ray on which the route came.
     fn see_around(&mut self, corner: u32, triangle: u32, cone: Cone) {
-        let limit = |ray| if ray == corner { corner } else { NO_RAY };
-        let inside = Cone { left: limit(cone.left), right: limit(cone.right), ..cone };
+        let Some(behind) = self.behind(cone, triangle) else { return };
+        let limit = |ray| if ray == corner || level_zone(ray).is_some() { ray } else { NO_RAY };
+        let inside = Cone { left: limit(behind.left), right: limit(behind.right), ..cone };
         let least_m = self.labels[corner as usize].distance_m;
         self.keep(FoundCone { cone: inside, triangle, least_m });
-        for vertex in [cone.left, cone.right].into_iter().filter(|&ray| ray != corner) {
+        for vertex in [behind.left, behind.right].into_iter().filter(|&ray| ray != corner && level_zone(ray).is_none())
+        {
             self.reach(vertex, corner);
         }
-        self.look(cone, triangle, (self.mesh.corner_of(triangle, corner) + 1) % 3);
+        self.look(behind, triangle, (self.mesh.corner_of(triangle, corner) + 1) % 3);
     }
 
-    fn see_whole(&mut self, triangle: u32, root: u32) {
-        let cone = Cone { root, left: NO_RAY, right: NO_RAY };
-        self.keep(FoundCone { cone, triangle, least_m: self.labels[root as usize].distance_m });
+    /// The line across the heading of the zone in which a triangle lies.
+    fn level_ray(&self, triangle: u32) -> Option<u32> {
+        Some(LEVEL_RAY - self.mesh.gates.as_ref()?.zone(triangle)?)
+    }
+
+    /// Whether a vertex lies ahead of a root in the zone of a triangle.
+    fn is_ahead(&self, triangle: u32, root: u32, vertex: u32) -> bool {
+        let ahead_m = self.mesh.gates.as_ref().and_then(|gates| {
+            let zone = gates.zone(triangle)?;
+            Some(gates.ahead_m(zone, self.point_m(root), self.point_m(vertex)))
+        });
+        ahead_m.is_some_and(|ahead_m| ahead_m > LEVEL_M)
+    }
+
+    /// A cone that begins in a triangle, without what lies ahead of its root in a one-way zone.
+    fn behind(&self, cone: Cone, triangle: u32) -> Option<Cone> {
+        let Some(level) = self.level_ray(triangle) else { return Some(cone) };
+        let is_ahead = |ray: u32| ray != cone.root && self.is_ahead(triangle, cone.root, ray);
+        let limit = |ray| if is_ahead(ray) { level } else { ray };
+        let (left, right) = (limit(cone.left), limit(cone.right));
+        (left != level || right != level).then_some(Cone { left, right, ..cone })
     }
 
     /// Finds a route to a vertex that a root sees.
@@ -239,19 +279,25 @@ impl<'a> Flood<'a> {
             let rest_m = self.target.map_or(0.0, |target| target.point_m.distance(vertex_m));
             self.queue.push(Reverse(((distance_m + rest_m).to_bits(), vertex | CORNER)));
         }
+        if let Some(gates) = self.mesh.gates.as_ref() {
+            gates.vertices_before(vertex).for_each(|before| self.reach(before, root));
+        }
     }
 
     /// A cone looks out of a triangle through one of its edges.
     fn look(&mut self, cone: Cone, triangle: u32, edge: usize) {
-        let beyond = self.mesh.neighbours[triangle as usize][edge];
-        if beyond == NONE {
+        let neighbour = self.mesh.neighbours[triangle as usize][edge];
+        let (beyond, edge) = if neighbour != NONE {
+            (neighbour, self.mesh.edge_to(neighbour, triangle))
+        } else if let Some([before, edge]) = self.mesh.gates.as_ref().and_then(|gates| gates.before(triangle, edge)) {
+            (before, edge as usize)
+        } else {
             return;
-        }
-        let edge = self.mesh.edge_to(beyond, triangle);
+        };
         let vertices = self.mesh.triangles[beyond as usize];
         let ends = [vertices[edge], vertices[(edge + 1) % 3]];
         let span = self.span(cone, ends);
-        if span.is_dominated(ends.map(|end| self.labels[end as usize].distance_m)) {
+        if span.is_dominated(self.lengths_along_m(beyond, ends)) {
             return;
         }
         let least_m = span.least_m();
@@ -266,13 +312,32 @@ impl<'a> Flood<'a> {
         self.queue.push(Reverse((length_m.to_bits(), slot)));
     }
 
+    /// Lengths of the routes from the ends of an edge, m; infinite where agents in the triangle do not walk along the edge
+    /// to that end, against the heading of its zone.
+    fn lengths_along_m(&self, triangle: u32, ends: [u32; 2]) -> [f64; 2] {
+        let lengths_m = ends.map(|end| self.labels[end as usize].distance_m);
+        let Some((gates, zone)) = self.mesh.gates.as_ref().and_then(|gates| Some((gates, gates.zone(triangle)?)))
+        else {
+            return lengths_m;
+        };
+        let ahead_m = gates.ahead_m(zone, self.point_m(ends[1]), self.point_m(ends[0]));
+        [
+            if ahead_m < 0.0 { f64::INFINITY } else { lengths_m[0] },
+            if ahead_m > 0.0 { f64::INFINITY } else { lengths_m[1] },
+        ]
+    }
+
     /// Keeps what a root sees. With a target, only the shortest route to that is kept.
     fn keep(&mut self, found: FoundCone) {
         let Some(target) = self.target else { return self.found.push(found) };
         let Cone { root, left, right } = found.cone;
-        let is_seen = found.triangle == target.triangle
-            && (left == NO_RAY || self.side_of_ray(root, left, target.point_m) <= OUTSIDE_M2)
-            && (right == NO_RAY || self.side_of_ray(root, right, target.point_m) >= -OUTSIDE_M2);
+        if found.triangle != target.triangle {
+            return;
+        }
+        let [from_left, from_right] = self.sides_of_rays(found.cone, target.point_m);
+        let outside_m2 = |ray| if level_zone(ray).is_some() { LEVEL_M } else { OUTSIDE_M2 };
+        let is_seen =
+            (left == NO_RAY || from_left <= outside_m2(left)) && (right == NO_RAY || from_right >= -outside_m2(right));
         if is_seen {
             let length_m = self.labels[root as usize].distance_m + self.point_m(root).distance(target.point_m);
             if length_m < self.target_m {
@@ -288,10 +353,24 @@ impl<'a> Flood<'a> {
             if ray == ends[end] {
                 return edge_m[end];
             }
-            meeting_point_m(root_m, self.direction_m(root, ray), edge_m)
+            let direction_m = level_zone(ray).zip(self.mesh.gates.as_ref()).map_or_else(
+                || self.direction_m(root, ray),
+                |(zone, gates)| gates.headings[zone as usize].perp() * if end == 0 { -1.0 } else { 1.0 },
+            );
+            meeting_point_m(root_m, direction_m, edge_m)
         };
         let ends_m = [meet(left, 0), meet(right, 1)];
         Span { root_m, distance_m: self.labels[root as usize].distance_m, edge_m, ends_m }
+    }
+
+    /// For the left and the right ray of a cone: positive where a point lies left of it. The signs are exact, save for
+    /// the line across a zone; there the number is the distance beyond it, m.
+    fn sides_of_rays(&self, Cone { root, left, right }: Cone, point_m: DVec2) -> [f64; 2] {
+        [(left, 1.0), (right, -1.0)].map(|(ray, sign)| match level_zone(ray).zip(self.mesh.gates.as_ref()) {
+            Some((zone, gates)) => sign * gates.ahead_m(zone, self.point_m(root), point_m),
+            None if ray == NO_RAY => 0.0,
+            None => self.side_of_ray(root, ray, point_m),
+        })
     }
 
     /// Positive where a point lies left of a ray of a root. The sign is exact.

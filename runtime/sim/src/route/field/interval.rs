@@ -10,10 +10,21 @@ use crate::route::mesh::locate::nearest_on_edge;
 
 /// A ray that does not limit a cone.
 pub(crate) const NO_RAY: u32 = u32::MAX;
+/// The line across the heading of zone 0 that limits a cone of a root in that zone: agents come to the root from behind
+/// it. Zone k has this number less k.
+pub(crate) const LEVEL_RAY: u32 = u32::MAX - 2;
+/// Greatest number of one-way zones, so that no vertex has the number of a ray.
+const ZONES_MAX: u32 = 1 << 16;
 /// Twice the area by which a point may lie outside a cone and still be seen, m²: rounding of f64 at 16 km.
 pub(crate) const OUTSIDE_M2: f64 = 1e-7;
 /// Length by which a route must be longer than another one to be dropped, m: more than all rounding.
 const LONGER_M: f64 = 1e-9;
+
+/// The zone whose line across limits a cone on a ray; none of other rays.
+pub(crate) fn level_zone(ray: u32) -> Option<u32> {
+    let zone = LEVEL_RAY.wrapping_sub(ray);
+    (zone < ZONES_MAX).then_some(zone)
+}
 
 /// A cone of a root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,9 +7,10 @@
 use glam::{DVec2, Vec2};
 
 use crate::route::field::flood::{Flood, FloodSource, FoundCone};
-use crate::route::field::interval::{NO_RAY, OUTSIDE_M2};
+use crate::route::field::interval::{NO_RAY, OUTSIDE_M2, level_zone};
 use crate::route::field::route_goal::RouteGoal;
 use crate::route::mesh::RouteMesh;
+use crate::route::mesh::gates::LEVEL_M;
 use crate::route::mesh::locate::MeshPoint;
 use crate::route::mesh::triangulation::NONE;
 
@@ -183,6 +184,11 @@ impl RouteField {
     }
 
     fn sees(&self, mesh: &RouteMesh, interval: &FieldInterval, root: &FieldRoot, point_m: DVec2) -> bool {
+        // Whether the line across a zone permits the point.
+        let is_behind = |zone: u32| {
+            let gates = mesh.gates.as_ref();
+            gates.is_none_or(|gates| gates.ahead_m(zone, root.point_m, point_m) <= LEVEL_M)
+        };
         let left_of_ray_m2 = |ray: u32| {
             let along_m = match ray {
                 PARENT_RAY => root.point_m - self.roots[root.parent as usize].point_m,
@@ -190,8 +196,11 @@ impl RouteField {
             };
             along_m.perp_dot(point_m - root.point_m)
         };
-        (interval.left == NO_RAY || left_of_ray_m2(interval.left) <= OUTSIDE_M2)
-            && (interval.right == NO_RAY || left_of_ray_m2(interval.right) >= -OUTSIDE_M2)
+        let permits = |ray: u32, sign: f64| match level_zone(ray) {
+            Some(zone) => is_behind(zone),
+            None => ray == NO_RAY || sign * left_of_ray_m2(ray) <= OUTSIDE_M2,
+        };
+        permits(interval.left, 1.0) && permits(interval.right, -1.0)
     }
 }
 

@@ -22,7 +22,7 @@ pub struct ShortestRoute {
 pub fn shortest_route(mesh: &RouteMesh, from_m: Vec2, to_m: Vec2) -> Option<ShortestRoute> {
     let [from, to] = [from_m, to_m].map(|point_m| mesh.nearest(DVec2::from(point_m), None, None));
     let (from, to) = (from?, to?);
-    if mesh.parts[from.triangle as usize] != mesh.parts[to.triangle as usize] {
+    if !mesh.leads(from.triangle, to.triangle) {
         return None;
     }
     let sources = [FloodSource { at: to, distance_m: 0.0 }];

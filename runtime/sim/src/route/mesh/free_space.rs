@@ -16,6 +16,7 @@ use crate::route::mesh::grid::{GridPoint, LINES_PER_M, grid_point, metres, round
 use crate::route::mesh::ground::{Ground, WalkablePolygon};
 use crate::route::mesh::growth::{add_bands_and_fans, grow};
 use crate::route::mesh::outline::{Contour, Outline, united};
+use crate::world::one_way::OneWayZone;
 
 /// Width of open ground beyond all obstacles and points, m: farther than a crowd pushes an agent outside.
 pub(crate) const MARGIN_M: f64 = 50.0;
@@ -51,6 +52,9 @@ impl FreeSpace {
         outlines.iter().for_each(|outline| grow(outline, distance, &mut walls));
         for polygon_m in ground.enclosures_m {
             grow(&Outline::wall_around(polygon_m)?, distance, &mut walls);
+        }
+        for side_m in ground.one_way.iter().flat_map(OneWayZone::sides_m) {
+            grow(&Outline::new(&side_m)?, distance, &mut walls);
         }
         Ok(Self { contours: difference(&walkable, &walls) })
     }
@@ -116,6 +120,7 @@ fn open_ground(ground: &Ground, distance: f64) -> Result<Contour, RouteError> {
         .chain(ground.enclosures_m)
         .flatten()
         .chain(ground.points_m)
+        .chain(ground.one_way.iter().flat_map(|zone| &zone.corners_m))
         .map(|point_m| grid_point(*point_m));
     let points = points.collect::<Result<Vec<_>, _>>()?;
     let bound = |of: fn(&GridPoint) -> i32, better: fn(i32, i32) -> i32| {

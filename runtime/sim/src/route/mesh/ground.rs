@@ -3,6 +3,8 @@
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
+use crate::world::one_way::OneWayZone;
+
 /// The ground of a scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ground<'a> {
@@ -15,6 +17,8 @@ pub struct Ground<'a> {
     pub walkable_m: &'a [WalkablePolygon],
     /// Positions that open ground must contain: starts and goals of the agents.
     pub points_m: &'a [Vec2],
+    /// One-way zones: routes keep their distance from the sides along the heading as from walls.
+    pub one_way: &'a [OneWayZone],
 }
 
 /// A polygon on which agents can walk.

@@ -4,6 +4,7 @@
 
 use glam::DVec2;
 
+use crate::route::mesh::gates::LEVEL_M;
 use crate::route::mesh::route_mesh::RouteMesh;
 use crate::route::mesh::triangulation::NONE;
 
@@ -66,10 +67,17 @@ impl RouteMesh {
         Some(MeshPoint { triangle, point_m: self.nearest_in(triangle, point_m) })
     }
 
-    /// Whether the straight line between two points stays on the mesh, given the triangle that holds the first.
+    /// Whether the straight line between two points stays on the mesh and leads against no one-way zone, given the
+    /// triangle that holds the first.
     pub(crate) fn is_straight_free(&self, from: MeshPoint, to_m: DVec2) -> bool {
         let (mut triangle, mut entry) = (from.triangle, None);
+        let gates = self.gates.as_deref();
         for _ in 0..self.triangles.len() {
+            if let Some((gates, zone)) = gates.and_then(|gates| Some((gates, gates.zone(triangle)?)))
+                && gates.ahead_m(zone, from.point_m, to_m) < -LEVEL_M
+            {
+                return false;
+            }
             if self.holds(triangle, to_m) {
                 return true;
             }
@@ -82,11 +90,14 @@ impl RouteMesh {
             };
             let Some(edge) = (0..3).find(leaves) else { return false };
             let beyond = self.neighbours[triangle as usize][edge];
-            if beyond == NONE {
+            if beyond != NONE {
+                entry = Some(self.edge_to(beyond, triangle));
+                triangle = beyond;
+            } else if let Some([beyond, edge]) = gates.and_then(|gates| gates.beyond(triangle, edge)) {
+                (triangle, entry) = (beyond, Some(edge as usize));
+            } else {
                 return false;
             }
-            entry = Some(self.edge_to(beyond, triangle));
-            triangle = beyond;
         }
         false
     }

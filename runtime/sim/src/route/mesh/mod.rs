@@ -5,12 +5,14 @@
 //!
 //! Read along the data: `ground` (input), `grid` (1/1024 m), `outline` (one obstacle), `growth` (by the distance),
 //! `free_space` (union and difference), `triangulation`, `route_mesh` (arrays), `clearance` (farther from walls
-//! where there is room), `box_tree` and `locate` (positions on the mesh), `passages`.
+//! where there is room), `gates` and `cut` (one-way zones), `box_tree` and `locate` (positions on the mesh), `passages`.
 
 pub(crate) mod box_tree;
 pub(crate) mod clearance;
+pub(crate) mod cut;
 pub(crate) mod error;
 pub(crate) mod free_space;
+pub(crate) mod gates;
 pub(crate) mod grid;
 pub(crate) mod ground;
 pub(crate) mod growth;

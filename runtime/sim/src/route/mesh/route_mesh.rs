@@ -10,6 +10,7 @@ use robust::{Coord, orient2d};
 use crate::route::mesh::box_tree::{BoxTree, morton_code};
 use crate::route::mesh::error::RouteError;
 use crate::route::mesh::free_space::FreeSpace;
+use crate::route::mesh::gates::Gates;
 use crate::route::mesh::grid::LINES_PER_M;
 use crate::route::mesh::ground::Ground;
 use crate::route::mesh::triangulation::{NONE, TriangleSoup, triangulate};
@@ -35,6 +36,8 @@ pub struct RouteMesh {
     /// Whether free space takes more than a half-turn around the vertex: routes turn there.
     pub(crate) is_corner: Vec<bool>,
     pub(crate) boxes: BoxTree,
+    /// The gates of one-way zones; none without such zones.
+    pub(crate) gates: Option<Box<Gates>>,
 }
 
 impl RouteMesh {
@@ -56,12 +59,17 @@ impl RouteMesh {
 
     /// The mesh of triangles.
     pub(crate) fn of_triangles(soup: TriangleSoup) -> Self {
-        let soup = sorted(soup);
+        Self::of_sorted(soup).0
+    }
+
+    /// The mesh of triangles, and the index in it of each of them.
+    pub(crate) fn of_sorted(soup: TriangleSoup) -> (Self, Vec<u32>) {
+        let (soup, slots) = sorted(soup);
         let mut mesh = Self { neighbours: soup.neighbours, triangles: soup.triangles, ..Self::default() };
         mesh.boxes = BoxTree::new(mesh.triangles.iter().map(|corners| corners.map(|at| soup.points_m[at as usize])));
         mesh.make_fans(&soup.points_m);
         mesh.number_parts();
-        mesh
+        (mesh, slots)
     }
 
     /// Number of triangles.
@@ -77,6 +85,18 @@ impl RouteMesh {
     /// Number of parts: no route leads from one to another.
     pub fn part_count(&self) -> u32 {
         self.part_count
+    }
+
+    /// The part of a triangle, or its cell where one-way zones divide parts: routes from all its triangles lead to the same
+    /// places, save for those within zones.
+    pub(crate) fn cell(&self, triangle: u32) -> u32 {
+        self.gates.as_ref().map_or(&self.parts, |gates| &gates.cells)[triangle as usize]
+    }
+
+    /// Whether triangles lie in one part, and gates of one-way zones lead from one to the other.
+    pub(crate) fn leads(&self, from: u32, to: u32) -> bool {
+        let is_one_part = self.parts[from as usize] == self.parts[to as usize];
+        is_one_part && self.gates.as_ref().is_none_or(|gates| gates.leads(self.cell(from), self.cell(to)))
     }
 
     /// Whether a position lies on the mesh, in its part with the most triangles.
@@ -107,6 +127,7 @@ impl RouteMesh {
             + size_of_val(&self.fans[..])
             + size_of_val(&self.is_corner[..])
             + self.boxes.bytes()
+            + self.gates.as_ref().map_or(0, |gates| gates.bytes())
     }
 
     /// Positions of a triangle's corners, m.
@@ -191,6 +212,36 @@ impl RouteMesh {
             }
             self.part_count += 1;
         }
+        self.find_largest_part();
+    }
+
+    /// Makes one part of parts that one-way zones separate, given pairs of them.
+    pub(crate) fn join_parts(&mut self, pairs: &[[u32; 2]]) {
+        let mut joined: Vec<u32> = (0..self.part_count).collect();
+        let first = |joined: &[u32], mut part: u32| {
+            while joined[part as usize] != part {
+                part = joined[part as usize];
+            }
+            part
+        };
+        for pair in pairs {
+            let [a, b] = pair.map(|part| first(&joined, part));
+            joined[a.max(b) as usize] = a.min(b);
+        }
+        let mut names = vec![NONE; joined.len()];
+        self.part_count = 0;
+        for part in &mut self.parts {
+            let name = &mut names[first(&joined, *part) as usize];
+            if *name == NONE {
+                *name = self.part_count;
+                self.part_count += 1;
+            }
+            *part = *name;
+        }
+        self.find_largest_part();
+    }
+
+    fn find_largest_part(&mut self) {
         let mut sizes = vec![0_u32; self.part_count as usize];
         self.parts.iter().for_each(|&part| sizes[part as usize] += 1);
         self.largest_part = (0..self.part_count).rev().max_by_key(|&part| sizes[part as usize]).unwrap_or_default();
@@ -203,8 +254,8 @@ pub(crate) fn side(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     orient2d(a, b, c)
 }
 
-/// The triangles in the order of their centres along a Morton curve.
-fn sorted(soup: TriangleSoup) -> TriangleSoup {
+/// The triangles in the order of their centres along a Morton curve, and the new index of each.
+fn sorted(soup: TriangleSoup) -> (TriangleSoup, Vec<u32>) {
     let low_m = soup.points_m.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let code = |triangle: usize| {
         let sum_m = soup.triangles[triangle].iter().map(|at| soup.points_m[*at as usize] - low_m).sum::<DVec2>();
@@ -220,7 +271,7 @@ fn sorted(soup: TriangleSoup) -> TriangleSoup {
     let slot = |triangle: u32| if triangle == NONE { NONE } else { slots[triangle as usize] };
     let triangles = order.iter().map(|&(_, triangle)| soup.triangles[triangle as usize]).collect();
     let neighbours = order.iter().map(|&(_, triangle)| soup.neighbours[triangle as usize].map(slot)).collect();
-    TriangleSoup { points_m: soup.points_m, triangles, neighbours }
+    (TriangleSoup { points_m: soup.points_m, triangles, neighbours }, slots)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Constrained Delaunay triangulation of what lies within contours, by `spade`.
 //!
-//! The contours must not cross each other; they may touch. Inside and outside alternate across their edges. Metres.
+//! The contours must not cross each other; they may touch. Inside and outside alternate across their edges; an edge that
+//! two contours share separates two cells. Metres.
 
 use glam::DVec2;
 use spade::handles::{DirectedEdgeHandle, FixedFaceHandle, InnerTag};
@@ -20,6 +21,17 @@ pub(crate) struct TriangleSoup {
     pub(crate) triangles: Vec<[u32; 3]>,
     /// The triangle beyond each edge; edge k runs from corner k to the next one. [`NONE`] at a border.
     pub(crate) neighbours: Vec<[u32; 3]>,
+}
+
+/// Triangles in cells, which the edges of contours separate.
+#[derive(Debug, Default)]
+pub(crate) struct CellSoup {
+    /// The triangles; every edge of a contour is a border.
+    pub(crate) soup: TriangleSoup,
+    /// The triangle beyond each edge, contours not counted. [`NONE`] outside all contours.
+    pub(crate) beyond: Vec<[u32; 3]>,
+    /// Index of the cell of each triangle.
+    pub(crate) cells: Vec<u32>,
 }
 
 type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
@@ -104,6 +116,84 @@ fn inside(delaunay: &Delaunay) -> Vec<bool> {
         open.extend(unknown.map(|(face, is_border)| (face, is_inside != is_border)));
     }
     inside.into_iter().map(|is_inside| is_inside == Some(true)).collect()
+}
+
+/// The triangles within contours, which may share edges: cells on both sides of a cut.
+///
+/// # Errors
+/// If edges cross.
+pub(crate) fn triangulate_cells(contours_m: &[Vec<DVec2>]) -> Result<CellSoup, RouteError> {
+    let points_m = distinct(contours_m);
+    if points_m.len() < 3 {
+        return Ok(CellSoup::default());
+    }
+    let mut ends = edges(contours_m, &points_m);
+    ends.iter_mut().for_each(|ends| ends.sort_unstable());
+    ends.sort_unstable();
+    ends.dedup();
+    let delaunay = delaunay(&points_m, ends)?;
+    let cell_of = cells(&delaunay, contours_m);
+    let (mut slots, mut count) = (vec![NONE; cell_of.len()], 0);
+    for face in delaunay.fixed_inner_faces().filter(|face| cell_of[face.index()] != NONE) {
+        slots[face.index()] = count;
+        count += 1;
+    }
+    let mut found = CellSoup { soup: TriangleSoup { points_m, ..TriangleSoup::default() }, ..CellSoup::default() };
+    for face in delaunay.inner_faces().filter(|face| cell_of[face.fix().index()] != NONE) {
+        let edges = face.adjacent_edges();
+        let beyond = edges.map(|edge| slots[edge.rev().face().fix().index()]);
+        let is_border = edges.map(|edge| delaunay.is_constraint_edge(edge.as_undirected().fix()));
+        found.soup.triangles.push(edges.map(|edge| edge.from().fix().index() as u32));
+        found.soup.neighbours.push([0, 1, 2].map(|edge| if is_border[edge] { NONE } else { beyond[edge] }));
+        found.beyond.push(beyond);
+        found.cells.push(cell_of[face.fix().index()]);
+    }
+    Ok(found)
+}
+
+/// The cell of each face; [`NONE`] outside all contours. A cell ends at the edges of contours; the parity of the edges
+/// beside its largest face decides whether it lies inside.
+fn cells(delaunay: &Delaunay, contours_m: &[Vec<DVec2>]) -> Vec<u32> {
+    let mut cells = vec![NONE; delaunay.num_all_faces()];
+    let mut is_known = vec![false; cells.len()];
+    let mut count = 0;
+    for first in delaunay.inner_faces() {
+        if is_known[first.fix().index()] {
+            continue;
+        }
+        is_known[first.fix().index()] = true;
+        let (mut faces, mut at) = (vec![first], 0);
+        while let Some(&face) = faces.get(at) {
+            at += 1;
+            for edge in face.adjacent_edges() {
+                let beyond = edge.rev().face().as_inner();
+                let free = beyond.filter(|_| !delaunay.is_constraint_edge(edge.as_undirected().fix()));
+                let new = free.filter(|face| !std::mem::replace(&mut is_known[face.fix().index()], true));
+                faces.extend(new);
+            }
+        }
+        let corners_m = |face: usize| faces[face].positions().map(|at| DVec2::new(at.x, at.y));
+        let area_m2 = |face: usize| {
+            let [a_m, b_m, c_m] = corners_m(face);
+            (b_m - a_m).perp_dot(c_m - a_m)
+        };
+        let largest = (0..faces.len()).max_by(|&a, &b| area_m2(a).total_cmp(&area_m2(b))).unwrap_or_default();
+        if is_inside(corners_m(largest).into_iter().sum::<DVec2>() / 3.0, contours_m) {
+            faces.iter().for_each(|face| cells[face.fix().index()] = count);
+            count += 1;
+        }
+    }
+    cells
+}
+
+/// Whether a point lies within an odd number of contours.
+fn is_inside(point_m: DVec2, contours_m: &[Vec<DVec2>]) -> bool {
+    let crosses = |&(a_m, b_m): &(&DVec2, &DVec2)| {
+        let beside_m2 = (*b_m - *a_m).perp_dot(point_m - *a_m);
+        (a_m.y > point_m.y) != (b_m.y > point_m.y) && (beside_m2 > 0.0) == (b_m.y > a_m.y)
+    };
+    let edges_m = contours_m.iter().flat_map(|contour_m| contour_m.iter().zip(contour_m.iter().cycle().skip(1)));
+    edges_m.filter(crosses).count() % 2 == 1
 }
 
 #[cfg(test)]

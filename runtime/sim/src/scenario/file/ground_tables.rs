@@ -205,12 +205,11 @@ impl WalkableTable {
             }
             (None, Some(name)) if self.holes_m.is_empty() => {
                 let path = source.beside(Path::new(name.get_ref()));
-                let wrong = |message: String, help| source.invalid(name.span(), message, help).into();
+                let wrong = |message: String, help| ScenarioError::from(source.invalid(name.span(), message, help));
                 let text = SourceText::read(&path).map_err(|error| {
                     wrong(format!("{} cannot be read: {error}", path.display()), "give a path relative to this file")
                 })?;
-                wkt_polygons(&text.text)
-                    .map_err(|(message, help)| wrong(format!("{}: {message}", path.display()), help))
+                wkt_polygons(&text).map_err(ScenarioError::from)
             }
             _ => {
                 let message = "a walkable area needs either `polygon_m` or `file`";

@@ -53,7 +53,7 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
     let seed = file.seed.unwrap_or(SEED);
     let characters = characters(source, &file.characters)?;
     let mut profiles = Profiles::new(&file.profiles, &characters, source)?;
-    let zones = zones(source, &file.zones, &mut profiles)?;
+    let zones = zones(source, &file.zones, &mut profiles, &states)?;
     let signals = Names::new("signal", &tables.signals);
     let mut ground = PlacedGround::new(source, &file.obstacles, &file.walkable, &behaviour, &signals)?;
     ground.scenario.zones = zones;

@@ -54,7 +54,29 @@ pub(crate) fn check_zones(scenario: &Scenario) -> Result<(), ScenarioFault> {
         if zone.is_closed && signed_area_m2(&zone.area.outline_m()) < AREA_MIN_M2 {
             return part.fault("the zone has no area".into(), "give a zone with an inside");
         }
+        check_one_way(scenario, index)?;
     }
     let sets = scenario.closed_zone_sets().len();
     within(&ScenarioPart::Zone(0), "the number of sets of closed zones", sets, &(0..=SETS_MAX), "close fewer zones")
+}
+
+/// Checks that a one-way zone is a rectangle along its direction, and apart from the other one-way zones.
+fn check_one_way(scenario: &Scenario, index: usize) -> Result<(), ScenarioFault> {
+    let (zone, part) = (&scenario.zones[index], ScenarioPart::Zone(index));
+    let Some(one_way_deg) = zone.one_way_deg else { return Ok(()) };
+    let help = "give a direction from +x, counter-clockwise, in degrees";
+    within(&part, "one_way_deg", one_way_deg, &(-360.0..=360.0), help)?;
+    let Some(one_way) = zone.one_way() else {
+        return part.fault(
+            format!("a one-way zone is a rectangle with two sides along `one_way_deg`; {one_way_deg}° is along none"),
+            "with `rect_m` write 0, 90, 180 or 270; for other directions give four corners in `polygon_m`",
+        );
+    };
+    for (other, spec) in scenario.zones[..index].iter().enumerate() {
+        if spec.one_way().is_some_and(|spec| one_way.overlaps(&spec)) {
+            let message = format!("the one-way zones {other} and {index} overlap");
+            return part.fault(message, "move them apart until they touch at most");
+        }
+    }
+    Ok(())
 }

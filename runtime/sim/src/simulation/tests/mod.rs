@@ -15,8 +15,10 @@ use crate::synthesis::blending::BlendDomain;
 use crate::test_db::test_db;
 
 mod behaviour;
+mod closed_in;
 mod door;
 mod group;
+mod one_way;
 mod priority;
 mod route;
 mod turnover;

@@ -209,7 +209,7 @@ fn a_blocked_source_waits_and_counts() {
 fn an_agent_of_zones_without_walls_is_not_added() {
     let area = Area::rectangle(Vec2::new(40.0, 40.0), Vec2::new(42.0, 42.0));
     let mut scenario = antipodal(4, 4.0);
-    scenario.zones = vec![ZoneSpec { area, speed_factor: 1.0, is_closed: true }];
+    scenario.zones = vec![ZoneSpec { area, speed_factor: 1.0, is_closed: true, closed_in: vec![], one_way_deg: None }];
     let outsider = AgentSpec { closed_zones: 1, ..walker(0.0, 20.0) };
     assert_eq!(started(&scenario).add(outsider.clone()), None);
     scenario.agents[0].closed_zones = 1;

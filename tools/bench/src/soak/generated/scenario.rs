@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use fbcrowd_sim::measures::Measuring;
 use fbcrowd_sim::recording::AgentFrame;
-use fbcrowd_sim::scenario::{self, Scenario};
+use fbcrowd_sim::scenario::{self, Scenario, StateZones};
 use fbcrowd_sim::simulation::Simulation;
 use fbcrowd_sim::world::obstacles::{Obstacles, ZoneWalls};
 use motiondb::files::SourceText;
@@ -74,11 +74,13 @@ struct FrameWalls {
     of_all: Obstacles,
     /// The walls of agents that do not enter some zones.
     of_zones: ZoneWalls,
+    of_states: StateZones,
 }
 
 impl FrameWalls {
     fn new(scenario: &Scenario, closed: Vec<bool>) -> Self {
-        Self { of_all: scenario.walls_with(&closed), of_zones: scenario.zone_walls(&closed), closed }
+        let (of_all, of_zones) = (scenario.walls_with(&closed), scenario.zone_walls(&closed));
+        Self { of_all, of_zones, of_states: StateZones::new(scenario), closed }
     }
 }
 
@@ -113,7 +115,9 @@ fn fault_of_step(
     let lives = &simulation.population().agents;
     simulation.frames().iter().find_map(|agent| {
         let to_m = agent.root.position_m;
-        let closed_zones = lives[agent.id.index()].spec.closed_zones;
+        let life = &lives[agent.id.index()];
+        let (own, state) = (life.spec.closed_zones, usize::from(agent.state));
+        let closed_zones = walls.of_states.for_walls(own, state, to_m, life.wall_radius_m(frame));
         let walls = walls.of_zones.of(closed_zones).unwrap_or(&walls.of_all);
         if walls.contains(to_m) {
             return Some("leads an agent into a wall");

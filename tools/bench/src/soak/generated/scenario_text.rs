@@ -1,5 +1,6 @@
 //! Random scenario files: obstacles, doors, enclosures, walkable ground with holes, sources, groups, goals, queues, state
-//! machines, signals, events, zones that are slow or closed, and measures, in any combination. Many are rejected: a goal may lie in an obstacle, or have no route.
+//! machines, signals, events, zones that are slow, closed or one-way, and
+//! measures, in any combination. Many are rejected: a goal may lie in an obstacle, or have no route.
 //! World, metres, seconds.
 
 use std::fmt::Write;
@@ -301,6 +302,25 @@ impl TextDraw {
         }
     }
 
+    /// A rectangle along the axes, or turned.
+    fn one_way_zone(&mut self) {
+        let ([x, y], length_m, width_m) = (self.point(), self.between(0.2, 4.0), self.between(0.2, 4.0));
+        if self.flip() {
+            let one_way_deg = self.one(&[0, 90, 180, -90]);
+            let (to_x, to_y) = (x + length_m, y + width_m);
+            return self.line(format!(
+                "[[zones]]\nrect_m = [{x:.2}, {y:.2}, {to_x:.2}, {to_y:.2}]\none_way_deg = {one_way_deg}"
+            ));
+        }
+        let one_way_deg = self.between(-180.0, 180.0);
+        let (sin, cos) = libm::sincos(one_way_deg.to_radians());
+        let corner = |[along_m, left_m]: [f64; 2]| {
+            format!("[{:.4}, {:.4}]", x + cos * along_m - sin * left_m, y + sin * along_m + cos * left_m)
+        };
+        let corners = [[0.0, 0.0], [length_m, 0.0], [length_m, width_m], [0.0, width_m]].map(corner).join(", ");
+        self.line(format!("[[zones]]\npolygon_m = [{corners}]\none_way_deg = {one_way_deg:.3}"));
+    }
+
     fn zones_and_measures(&mut self) {
         if self.flip() {
             let polygon = self.polygon(2.5);
@@ -310,6 +330,14 @@ impl TextDraw {
         for _ in 0..self.below(3) {
             let ([x, y], size_m, factor) = (self.point(), self.between(0.5, 3.0), self.one(&[0.01, 0.5, 2.0]));
             self.line(format!("[[zones]]\ncircle_m = [{x:.2}, {y:.2}, {size_m:.2}]\nspeed_factor = {factor}"));
+        }
+        if self.below(3) == 0 {
+            let polygon = self.polygon(2.5);
+            let states = self.one(&["'s0'", "'gone', 's0'", "'follow_path'"]);
+            self.line(format!("[[zones]]\npolygon_m = {polygon}\nclosed_in = [{states}]"));
+        }
+        for _ in 0..self.below(4) {
+            self.one_way_zone();
         }
         let ([x, y], [to_x, to_y]) = (self.point(), self.point());
         self.line(format!("[[measure]]\nname = 'line'\nline_m = [[{x:.2}, {y:.2}], [{to_x:.2}, {to_y:.2}]]"));

@@ -101,6 +101,7 @@ impl Scene {
             neighbours: &neighbours,
             obstacles: &obstacles,
             own_walls: None,
+            one_way: &[],
             priorities: None,
             constraints: &constraints,
             dt_s: 0.1,

@@ -109,6 +109,7 @@ impl GeneratedWorld {
             neighbours,
             obstacles,
             own_walls: None,
+            one_way: &[],
             priorities: None,
             constraints,
             dt_s: self.dt_s,

@@ -17,7 +17,8 @@ pub(crate) fn text(figures: &SceneFigures) -> String {
         ("recording", format!("about {}", size(figures.recording_mib))),
     ];
     let lines = lines.map(|(name, value)| line(name, &value)).concat();
-    lines + &closed_passages(&figures.closed_passages)
+    let barred = figures.barred_goals.iter().map(|barred| line("closed goals", &barred.text));
+    lines + &barred.collect::<String>() + &closed_passages(&figures.closed_passages)
 }
 
 fn line(name: &str, value: &str) -> String {

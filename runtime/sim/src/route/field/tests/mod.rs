@@ -1,5 +1,6 @@
 //! Fields against other people's search, single routes, and the distance to walls.
 
+mod one_way;
 mod queries;
 mod visibility_graph;
 mod wild_ground;

@@ -6,12 +6,16 @@
 use glam::{DVec2, Vec2};
 
 use crate::route::mesh::RouteMesh;
+use crate::route::mesh::gates::LEVEL_M;
 use crate::route::mesh::route_mesh::side;
+use crate::world::one_way::OneWayZone;
 
 /// The corners of free space.
 pub(super) struct VisibilityGraph<'a> {
     edges_m: Vec<[DVec2; 2]>,
     mesh: &'a RouteMesh,
+    /// One-way zones: a straight line through one leads not against its heading.
+    pub(super) zones: &'a [OneWayZone],
 }
 
 impl<'a> VisibilityGraph<'a> {
@@ -19,7 +23,7 @@ impl<'a> VisibilityGraph<'a> {
         let edges = |contour_m: &Vec<DVec2>| -> Vec<[DVec2; 2]> {
             contour_m.iter().zip(contour_m.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]).collect()
         };
-        Self { edges_m: contours_m.iter().flat_map(edges).collect(), mesh }
+        Self { edges_m: contours_m.iter().flat_map(edges).collect(), mesh, zones: &[] }
     }
 
     /// Length of the shortest route, m.
@@ -43,11 +47,36 @@ impl<'a> VisibilityGraph<'a> {
             open[nearest] = false;
             for other in (0..points_m.len()).filter(|&other| open[other]) {
                 let length_m = lengths_m[nearest] + points_m[nearest].distance(points_m[other]);
-                if length_m < lengths_m[other] && self.sees(points_m[nearest], points_m[other]) {
+                if length_m < lengths_m[other]
+                    && self.sees(points_m[nearest], points_m[other])
+                    && self.leads(points_m[nearest], points_m[other])
+                {
                     lengths_m[other] = length_m;
                 }
             }
         }
+    }
+
+    /// Whether a straight line leads through no zone against its heading. Its piece within a zone is what the four sides
+    /// leave of it.
+    fn leads(&self, from_m: DVec2, to_m: DVec2) -> bool {
+        let along_m = to_m - from_m;
+        self.zones.iter().all(|zone| {
+            let corners_m = zone.corners_m.map(DVec2::from);
+            let (mut first, mut last) = (0.0_f64, 1.0_f64);
+            for corner in 0..4 {
+                let inward = (corners_m[(corner + 1) % 4] - corners_m[corner]).perp().normalize();
+                let (offset_m, change_m) = (inward.dot(from_m - corners_m[corner]), inward.dot(along_m));
+                let share = -offset_m / change_m;
+                match change_m {
+                    0.0 if offset_m <= 0.0 => return true,
+                    0.0 => {}
+                    change_m if change_m > 0.0 => first = first.max(share),
+                    _ => last = last.min(share),
+                }
+            }
+            (last - first) * along_m.length() < LEVEL_M || along_m.dot(zone.heading.into()) > -LEVEL_M
+        })
     }
 
     fn sees(&self, from_m: DVec2, to_m: DVec2) -> bool {

@@ -30,7 +30,13 @@ impl WildGround {
     }
 
     pub(super) fn ground(&self) -> Ground<'_> {
-        Ground { obstacles_m: &self.obstacles_m, enclosures_m: &[], walkable_m: &self.walkable_m, points_m: &[] }
+        Ground {
+            obstacles_m: &self.obstacles_m,
+            enclosures_m: &[],
+            walkable_m: &self.walkable_m,
+            points_m: &[],
+            one_way: &[],
+        }
     }
 
     pub(super) fn point(&self, random: &mut SplitMix64) -> Vec2 {
