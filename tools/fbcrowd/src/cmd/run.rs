@@ -194,6 +194,7 @@ impl RunOutputs {
                 name: name.clone(),
                 format: PictureFormat::Png,
                 frames: None,
+                shot: None,
                 constraints_of: Vec::new(),
             },
             camera,

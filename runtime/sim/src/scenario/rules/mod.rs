@@ -8,6 +8,7 @@
 
 pub(crate) mod behaviour_check;
 mod camera_check;
+pub(crate) mod shot_check;
 pub(crate) mod check;
 pub(crate) mod ground_check;
 pub(crate) mod marking_check;
