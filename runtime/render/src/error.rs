@@ -68,7 +68,9 @@ pub enum RenderError {
         last: u32,
     },
     /// The recording ends before the first frame of its shot.
-    #[error("the shot begins after {preroll_s} s, and the recording lasts {duration_s:.2} s; give a shorter `preroll_s` (or --preroll), or simulate longer")]
+    #[error(
+        "the shot begins after {preroll_s} s, and the recording lasts {duration_s:.2} s; give a shorter `preroll_s` (or --preroll), or simulate longer"
+    )]
     NothingAfterPreroll {
         /// Time before the first frame, s.
         preroll_s: f64,
@@ -101,6 +103,12 @@ pub enum RenderError {
         name: String,
         /// The cameras that exist.
         cameras: String,
+    },
+    /// A camera names a file that was not read.
+    #[error("camera {camera:?}: the file that it names was not read; give the file itself by --cameras")]
+    UnreadCamera {
+        /// Name of the camera.
+        camera: String,
     },
     /// The eye of a camera is inside a body.
     #[error(

@@ -82,11 +82,7 @@ impl<'a> PassedFrame<'a> {
     }
 
     /// Mean light and summed mattes of all moments; what they show is added to `matted`.
-    fn exposed(
-        &self,
-        moments_s: &[f64],
-        matted: &mut Matted,
-    ) -> Result<(LinearPicture, Vec<TileMattes>), RenderError> {
+    fn exposed(&self, moments_s: &[f64], matted: &mut Matted) -> Result<(LinearPicture, Vec<TileMattes>), RenderError> {
         let (mut sum, mut mattes) = (LinearSum::default(), Vec::new());
         for time_s in moments_s {
             let Moment { shot, agents } = self.take.moment(*time_s, self.number)?;

@@ -9,7 +9,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use fbcrowd_sim::recording::Recording;
 use motiondb::memory;
 use rayon::prelude::*;
-use tiny_skia::Pixmap;
 
 use crate::camera::exr_passes;
 use crate::camera::options::CameraOptions;
@@ -17,7 +16,7 @@ use crate::camera::take::{Take, find_camera, size_px};
 use crate::error::RenderError;
 use crate::passes::multi_channel_exr::STRIP_PIXELS;
 use crate::passes::tile_passes::channels;
-use crate::raster::png_frame;
+use crate::raster::png_frame::{self, RgbPicture, rgb_picture};
 use crate::top_view::sequence::{PictureFormat, frame_numbers, frame_times, make_folder, shot_of};
 
 /// Bytes of a PNG frame for each pixel while it is drawn and encoded.
@@ -89,18 +88,19 @@ pub fn render_camera_sequence(
 ///
 /// # Errors
 /// As [`render_camera_sequence`]; or where the function fails.
-pub fn draw_camera_sequence(
+pub fn draw_camera_sequence<E: From<RenderError>>(
     recording: &Recording,
     options: &CameraOptions,
     observer: &(dyn Fn(usize, usize) + Sync),
-    mut show: impl FnMut(Pixmap) -> Result<(), RenderError>,
-) -> Result<usize, RenderError> {
+    mut show: impl FnMut(RgbPicture) -> Result<(), E>,
+) -> Result<usize, E> {
     let numbers = numbers(recording, options)?;
     let at_once = at_once(recording, options, numbers.len())?;
     let take = Take::new(recording, options)?;
     let mut done = 0;
     for chunk in numbers.chunks(at_once) {
-        let pictures = chunk.par_iter().map(|number| take.picture(*number)).collect::<Result<Vec<Pixmap>, _>>()?;
+        let draw = |number: &u32| -> Result<RgbPicture, RenderError> { rgb_picture(&mut &take.picture(*number)?) };
+        let pictures = chunk.par_iter().map(draw).collect::<Result<Vec<_>, _>>()?;
         for picture in pictures {
             show(picture)?;
             done += 1;

@@ -46,9 +46,13 @@ impl<'a> Take<'a> {
     /// # Errors
     /// If the camera does not exist, or a frame cannot be read.
     pub(crate) fn new(recording: &'a Recording, options: &'a CameraOptions) -> Result<Self, RenderError> {
+        let times = frame_times(recording, options.shot.as_ref());
         let camera = match find_camera(recording, options)? {
+            Some(camera) if camera.gltf.is_some() => {
+                return Err(RenderError::UnreadCamera { camera: camera.name.clone() });
+            }
             Some(camera) => camera.clone(),
-            None => default_camera(recording)?,
+            None => default_camera(recording, times.start_s)?,
         };
         let view = CameraView::new(recording.header(), recording.population(), options.quality, options.colour_by);
         let size_px = size_px(recording, options);
@@ -56,7 +60,7 @@ impl<'a> Take<'a> {
             recording,
             options,
             view: view.with_characters(&options.characters),
-            times: frame_times(recording, options.shot.as_ref()),
+            times,
             is_shot_stated: is_shot_stated(recording, options.shot.as_ref()),
             shot: shot_of(recording, options.shot.as_ref()),
             captions: CameraCaptions::new(size_px),

@@ -70,9 +70,8 @@ impl PreparedFrame<'_> {
             occlusion: self.quality.occlusion,
             fog_m: *fog_m,
         };
-        self.tiles.draw(lens, self.quality.samples, Some(lens.ground()), rows, |tile| {
-            (shader.tile(tile), of_tile(tile))
-        })
+        self.tiles
+            .draw(lens, self.quality.samples, Some(lens.ground()), rows, |tile| (shader.tile(tile), of_tile(tile)))
     }
 }
 
@@ -151,8 +150,7 @@ impl<'a> CameraView<'a> {
 
     /// A scene with its light, ready to be drawn.
     pub(crate) fn prepare<'s>(&'s self, shot: &'s Shot, scene: &'s SceneParts) -> PreparedFrame<'s> {
-        let shadow =
-            if self.quality.shadow { ShadowMap::new(scene, &self.shaded_walls_m(&shot.lens)) } else { None };
+        let shadow = if self.quality.shadow { ShadowMap::new(scene, &self.shaded_walls_m(&shot.lens)) } else { None };
         let occluders = (self.quality.occlusion > Occlusion::None).then(|| OcclusionGrid::new(scene));
         PreparedFrame {
             layer_colours: self.ground.colours(&self.header.scenario, shot.time_s),

@@ -92,7 +92,8 @@ mod tests {
         sum.add(moment(&[(2, 9, 1), (2, 7, 2), (2, 5, 1)]));
         let (mut coverages, mut values) = (sum.coverages(8), Vec::new());
         (0..3).for_each(|pixel| coverages.append(0, pixel, &mut values));
-        let ranks: Vec<(u32, f32)> = values.as_chunks::<2>().0.iter().map(|[id, share]| (id.to_bits(), *share)).collect();
+        let ranks: Vec<(u32, f32)> =
+            values.as_chunks::<2>().0.iter().map(|[id, share]| (id.to_bits(), *share)).collect();
         assert_eq!(ranks[0], (7, 0.5));
         assert_eq!(ranks[6], (0, 0.0));
         assert_eq!(ranks[12..15], [(9, 0.5), (7, 0.375), (5, 0.125)]);

@@ -19,3 +19,4 @@ pub(crate) mod tapered_capsule;
 pub(crate) mod text;
 
 pub use palette::decode_srgb;
+pub use png_frame::RgbPicture;

@@ -36,7 +36,9 @@ pub(crate) fn write<S: Sync>(
     let written = exr::block::write(&mut *out, headers, true, |meta, chunks| {
         let blocks: Vec<(usize, BlockIndex)> = meta.enumerate_ordered_header_block_indices().collect();
         let height = meta.headers[0].layer_size.height();
-        for strip in blocks.chunk_by(|(_, a), (_, b)| a.pixel_position.y() / strip_lines == b.pixel_position.y() / strip_lines) {
+        for strip in
+            blocks.chunk_by(|(_, a), (_, b)| a.pixel_position.y() / strip_lines == b.pixel_position.y() / strip_lines)
+        {
             let top = strip[0].1.pixel_position.y();
             let drawn = match draw(top..(top + strip_lines).min(height)) {
                 Ok(drawn) => drawn,

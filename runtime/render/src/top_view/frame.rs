@@ -84,7 +84,10 @@ impl<'a> TopView<'a> {
     /// # Errors
     /// If the view is out of range.
     pub fn new(header: &'a Header, tracks: &'a Tracks) -> Result<Self, RenderError> {
-        let framing = frame_recording(header, tracks.positions_m())?;
+        let framing = match tracks.bounds_m {
+            Some(corners_m) => frame_recording(header, corners_m.into_iter())?,
+            None => frame_recording(header, tracks.positions_m())?,
+        };
         let background = ground::background(header, &framing);
         let (doors, captions) = (DrawnDoors::default(), Captions::new(&framing));
         Ok(Self { header, tracks, framing, background, doors, population: None, captions })

@@ -18,10 +18,10 @@ pub(crate) mod shade;
 pub(crate) mod signals;
 pub(crate) mod trails;
 
+pub use fbcrowd_sim::recording::sample;
 pub use frame::{FrameBuffers, TopView};
 pub use frame_range::FrameRange;
 pub use framing::Framing;
-pub use fbcrowd_sim::recording::sample;
 pub use playback::read_tracks;
-pub use sequence::{PictureFormat, SequenceOptions, picture_paths, render_sequence};
+pub use sequence::{PictureFormat, SequenceOptions, draw_sequence, frame_times, picture_paths, render_sequence};
 pub use trails::{Track, Tracks};

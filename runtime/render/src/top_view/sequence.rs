@@ -15,12 +15,13 @@ use tiny_skia::Pixmap;
 
 use crate::constraints::constraint_overlay::ConstraintOverlay;
 use crate::error::RenderError;
+use crate::raster::exr_frame;
 use crate::raster::exr_frame::FrameLabel;
+use crate::raster::png_frame::{self, RgbPicture, rgb_picture};
 use crate::raster::strips::PictureStrips;
-use crate::raster::{exr_frame, png_frame};
 use crate::top_view::frame::{FrameBuffers, STRIP_PIXELS, TopView};
 use crate::top_view::frame_range::FrameRange;
-use crate::top_view::playback::read_tracks;
+use crate::top_view::playback::read_tracks_between;
 use crate::top_view::trails::Tracks;
 
 /// Bytes of the background for each pixel, while the shade of obstacles is drawn on it.
@@ -110,7 +111,7 @@ pub fn render_sequence(
     let times = frame_times(recording, options.shot.as_ref());
     let numbers = frame_numbers(recording, &times, options.frames.as_ref())?;
     check_memory(recording, &numbers, !options.constraints_of.is_empty())?;
-    let tracks = read_tracks(recording)?;
+    let tracks = tracks_of(recording, &times, &numbers)?;
     let views = SequenceViews::new(recording, &tracks, &options.constraints_of)?;
     make_folder(&options.folder)?;
     let done = AtomicUsize::new(0);
@@ -125,6 +126,50 @@ pub fn render_sequence(
         paths.extend(rendered.collect::<Result<Vec<PathBuf>, RenderError>>()?);
     }
     Ok(paths)
+}
+
+/// Draws frames of a recording from above, and passes them to a function in order. Returns their number.
+///
+/// # Errors
+/// As [`render_sequence`]; or where the function fails.
+pub fn draw_sequence<E: From<RenderError>>(
+    recording: &Recording,
+    options: &SequenceOptions,
+    observer: &(dyn Fn(usize, usize) + Sync),
+    mut show: impl FnMut(RgbPicture) -> Result<(), E>,
+) -> Result<usize, E> {
+    let times = frame_times(recording, options.shot.as_ref());
+    let numbers = frame_numbers(recording, &times, options.frames.as_ref())?;
+    check_memory(recording, &numbers, true)?;
+    let tracks = tracks_of(recording, &times, &numbers)?;
+    let views = SequenceViews::new(recording, &tracks, &options.constraints_of)?;
+    let at_once = views.most_at_once().unwrap_or(numbers.len()).min(rayon::current_num_threads());
+    let draw = |buffers: &mut FrameBuffers, number: &u32| -> Result<RgbPicture, RenderError> {
+        let time_s = times.time_s(*number);
+        let agents = sample(recording, time_s)?;
+        let mut strips = views.top.strips(buffers, time_s as f32, &agents);
+        match &views.overlay {
+            None => rgb_picture(&mut strips),
+            Some(overlay) => rgb_picture(&mut &overlay.draw(&whole(&mut strips), time_s)?),
+        }
+    };
+    let mut done = 0;
+    for chunk in numbers.chunks(at_once.max(1)) {
+        let pictures = chunk.par_iter().map_init(|| views.top.strip_buffers(), draw).collect::<Result<Vec<_>, _>>()?;
+        for picture in pictures {
+            show(picture)?;
+            done += 1;
+            observer(done, numbers.len());
+        }
+    }
+    Ok(done)
+}
+
+/// The tracks that frames show, ascending.
+fn tracks_of(recording: &Recording, times: &FrameTimes, numbers: &[u32]) -> Result<Tracks, RenderError> {
+    let [first, last] = [numbers.first(), numbers.last()].map(|number| number.map_or(0.0, |at| times.time_s(*at)));
+    let trail_s = f64::from(recording.header().scenario.view.trail_s);
+    read_tracks_between(recording, [first - trail_s, last])
 }
 
 /// Checks that the system gives the memory that the frames need: the background and the shade of obstacles once; for
@@ -172,7 +217,7 @@ pub(crate) fn is_shot_stated(recording: &Recording, stated: Option<&ShotSpec>) -
 }
 
 /// Times and numbers of all frames of a recording.
-pub(crate) fn frame_times(recording: &Recording, stated: Option<&ShotSpec>) -> FrameTimes {
+pub fn frame_times(recording: &Recording, stated: Option<&ShotSpec>) -> FrameTimes {
     FrameTimes::of(&shot_of(recording, stated), &recording.header().scenario)
 }
 

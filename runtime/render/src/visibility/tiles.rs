@@ -85,7 +85,7 @@ impl PreparedTiles {
             }
             for triangle in self.triangle_lists.of(tile).map(|index| &self.triangles[index]) {
                 samples.draw_triangle(&triangle.shape, triangle.part, triangle.bounds);
-        }
+            }
             function(&mut samples)
         };
         (rows.start * columns..rows.end * columns).into_par_iter().map(draw).collect()

@@ -155,6 +155,11 @@ impl Edge {
         self.step[0] * i64::from(units)
     }
 
+    /// Change over a number of units along y.
+    pub(crate) fn step_down(&self, units: i32) -> i64 {
+        self.step[1] * i64::from(units)
+    }
+
     /// Value at a position in units: not negative inside.
     #[inline]
     pub(crate) fn at(&self, position: [i32; 2]) -> i64 {

@@ -140,8 +140,7 @@ fn hold_foot(body: &mut AgentFrame, frames: [&AgentFrame; 2], share: f32, side: 
     let ankle_m = ankle_m(from.lowest).lerp(ankle_m(to.lowest), share);
     let root = RootFrame { position_m: Vec2::ZERO, ..body.root.frame() };
     let back = yaw(body.root.facing_rad).conjugate();
-    let target =
-        FootPose { ankle_m: root.to_local(ankle_m), orientation: (back * orientation).normalize() };
+    let target = FootPose { ankle_m: root.to_local(ankle_m), orientation: (back * orientation).normalize() };
     let mut leg = PosedLeg::new(&body.pose, skeleton, side);
     ik::reach(&mut body.pose, &mut leg, skeleton, side, &target);
     body.pose.rotations[Joint::TOES[side].index()] = (orientation.conjugate() * toe).normalize();

@@ -4,10 +4,11 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use fbcrowd_jobs::character;
-use fbcrowd_jobs::output_path::LockedFolder;
+use fbcrowd_jobs::output_path::{LockedFolder, check_file, check_is_no_input};
 use fbcrowd_jobs::rendering::{self, RenderedSequence};
+use fbcrowd_jobs::video::{self, VideoOptions};
 use fbcrowd_jobs::wording::counted;
+use fbcrowd_jobs::{camera_file, character};
 use fbcrowd_render::camera::{CameraOptions, ColourBy, Quality};
 use fbcrowd_render::passes::{ColourSpace, ExrCompression, PassSet};
 use fbcrowd_render::shading::Occlusion;
@@ -16,6 +17,7 @@ use fbcrowd_render::visibility::SamplePattern;
 use fbcrowd_sim::recording::Recording;
 use fbcrowd_sim::scenario::{self, ShotSpec, check_shot};
 
+use crate::cmd::outside_arg::OutsideArg;
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
@@ -26,15 +28,24 @@ const SIDE_PX: RangeInclusive<u32> = 16..=8_192;
 /// Render a recording to a frame sequence, from above or from a camera.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd render crossing.fbrec -o frames\n  fbcrowd render crossing.fbrec -o frames --view camera --samples 16 --format exr\n  fbcrowd render mall.fbrec -o atrium --view camera --camera atrium --frames 1001-1100x2 --burn-in\n  fbcrowd render crossing.fbrec -o overlay --overlay constraints --agent 3 --frames 1090-1120"
+    after_help = "Examples:\n  fbcrowd render crossing.fbrec -o frames\n  fbcrowd render crossing.fbrec -o frames --view camera --samples 16 --format exr\n  fbcrowd render mall.fbrec -o atrium --view camera --camera atrium --frames 1001-1100x2 --burn-in\n  fbcrowd render crossing.fbrec --view camera --fps 24 --samples-per-frame 8 --video crossing.mp4\n  fbcrowd render crossing.fbrec -o overlay --overlay constraints --agent 3 --frames 1090-1120"
 )]
 pub(crate) struct Args {
     /// The recording.
     #[arg(value_name = "FILE.fbrec")]
     recording: PathBuf,
     /// Folder for `NAME.1001.png` and the frames after it.
-    #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "DIR", required_unless_present = "video")]
+    output: Option<PathBuf>,
+    /// Write a video (.mp4, .mov, .mkv; H.264) instead of frames; needs ffmpeg.
+    #[arg(long, value_name = "FILE", conflicts_with = "output")]
+    video: Option<PathBuf>,
+    /// The program that writes the video.
+    #[arg(long, value_name = "PATH", default_value = "ffmpeg", requires = "video")]
+    ffmpeg: PathBuf,
+    /// Quality of the video: constant rate factor, less is better and larger.
+    #[arg(long, value_name = "N", default_value_t = video::CRF, requires = "video", value_parser = clap::value_parser!(u8).range(0..=51))]
+    crf: u8,
     /// The view: from above, or from a camera.
     #[arg(long, value_enum, default_value_t = ViewArg::Top)]
     view: ViewArg,
@@ -56,6 +67,8 @@ pub(crate) struct Args {
     camera: CameraArgs,
     #[command(flatten)]
     exr: ExrArgs,
+    #[command(flatten)]
+    outside: OutsideArg,
 }
 
 /// Frames in time. Each option replaces a key of the scenario's `[shot]`.
@@ -150,8 +163,8 @@ struct CameraArgs {
     /// The camera; by default the scenario's first, else `default`, which frames the crowd at eye height.
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
-    /// Take cameras and picture size from a scenario file, instead of from the recording.
-    #[arg(long, value_name = "SCENARIO.toml")]
+    /// Take cameras and picture size from a scenario file, or cameras from a GLB or glTF file, instead of from the recording.
+    #[arg(long, value_name = "FILE")]
     cameras: Option<PathBuf>,
     /// Width and height of the pictures, pixels; default: the scenario's `[view]`.
     #[arg(long, value_name = "WxH", value_parser = size_px)]
@@ -258,13 +271,26 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         ViewArg::Top => render_top(args, &recording)?,
         ViewArg::Camera => render_camera(args, &recording)?,
     };
+    let written = args.video.as_ref().or(args.output.as_ref()).map_or(String::new(), |path| path.display().to_string());
     output::print(&format!(
-        "{} in {}, {:.1} ms a frame",
+        "{} in {written}, {:.1} ms a frame",
         counted(rendered.frames, "frame", "frames"),
-        args.output.display(),
         rendered.ms_per_frame
     ))?;
     Ok(Answer::Yes)
+}
+
+/// The video of the arguments, checked: none where frames are written.
+fn video_options(args: &Args, inputs: &[PathBuf]) -> Result<Option<VideoOptions>, Failure> {
+    let Some(path) = &args.video else { return Ok(None) };
+    if matches!(args.format, FormatArg::Exr) {
+        return Err(Failure::bad("--video is made of sRGB pictures; remove --format exr".to_owned()));
+    }
+    let options = VideoOptions { path: path.clone(), ffmpeg: args.ffmpeg.clone(), crf: args.crf };
+    check_is_no_input(path, inputs)?;
+    check_file(path)?;
+    video::check(&options)?;
+    Ok(Some(options))
 }
 
 fn render_top(args: &Args, recording: &Recording) -> Result<RenderedSequence, Failure> {
@@ -275,16 +301,19 @@ fn render_top(args: &Args, recording: &Recording) -> Result<RenderedSequence, Fa
         return Err(Failure::bad("--camera and --cameras choose a camera; add --view camera".to_owned()));
     }
     let options = SequenceOptions {
-        folder: args.output.clone(),
+        folder: args.output.clone().unwrap_or_default(),
         name: recording.header().scenario.name.clone(),
         format: args.format.into(),
         frames: args.frames.clone(),
         shot: args.shot.shot(recording)?,
         constraints_of: constraints_of(args, recording.population().agents.len())?,
     };
-    rendering::check_frames(recording, &options, std::slice::from_ref(&args.recording))?;
-    let _lock = LockedFolder::shared(&args.output)?;
     let progress = ProgressDisplay::default();
+    if let Some(video) = video_options(args, std::slice::from_ref(&args.recording))? {
+        return Ok(rendering::render_video(recording, &options, &video, &|event| progress.observe(event))?);
+    }
+    rendering::check_frames(recording, &options, std::slice::from_ref(&args.recording))?;
+    let _lock = LockedFolder::shared(&options.folder)?;
     Ok(rendering::render(recording, &options, &|event| progress.observe(event))?)
 }
 
@@ -302,13 +331,20 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
     let mut inputs = vec![args.recording.clone()];
     let (mut size_px, mut other_cameras) = (*size, None);
     if let Some(path) = cameras {
-        let (scenario, _) = scenario::read(path)?;
-        size_px = size_px.or(Some([scenario.view.width, scenario.view.height]));
-        other_cameras = Some(scenario.cameras);
+        if camera_file::is_camera_file(path) {
+            let view = &recording.header().scenario.view;
+            let [width, height] = size_px.unwrap_or([view.width, view.height]).map(f64::from);
+            other_cameras = Some(camera_file::cameras_of(path, width / height, args.outside.into())?);
+        } else {
+            let (mut scenario, _) = scenario::read(path)?;
+            camera_file::resolve(&mut scenario, path, args.outside.into())?;
+            size_px = size_px.or(Some([scenario.view.width, scenario.view.height]));
+            other_cameras = Some(scenario.cameras);
+        }
         inputs.push(path.clone());
     }
     let options = CameraOptions {
-        folder: args.output.clone(),
+        folder: args.output.clone().unwrap_or_default(),
         name: recording.header().scenario.name.clone(),
         format: args.format.into(),
         frames: args.frames.clone(),
@@ -325,9 +361,12 @@ fn render_camera(args: &Args, recording: &Recording) -> Result<RenderedSequence,
         burn_in: *burn_in,
         labels: *labels,
     };
-    rendering::check_camera_frames(recording, &options, &inputs)?;
-    let _lock = LockedFolder::shared(&args.output)?;
     let progress = ProgressDisplay::default();
+    if let Some(video) = video_options(args, &inputs)? {
+        return Ok(rendering::render_camera_video(recording, &options, &video, &|event| progress.observe(event))?);
+    }
+    rendering::check_camera_frames(recording, &options, &inputs)?;
+    let _lock = LockedFolder::shared(&options.folder)?;
     Ok(rendering::render_camera(recording, &options, &|event| progress.observe(event))?)
 }
 

@@ -2,8 +2,8 @@
 //! cameras. World, metres.
 
 pub(crate) mod camera_spec;
-pub(crate) mod shot_spec;
 pub(crate) mod door;
 pub(crate) mod marking;
 pub(crate) mod measure_spec;
+pub(crate) mod shot_spec;
 pub(crate) mod zone_spec;

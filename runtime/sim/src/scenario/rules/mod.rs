@@ -8,12 +8,12 @@
 
 pub(crate) mod behaviour_check;
 mod camera_check;
-pub(crate) mod shot_check;
 pub(crate) mod check;
 pub(crate) mod ground_check;
 pub(crate) mod marking_check;
 pub(crate) mod measure_check;
 pub(crate) mod schedule_check;
+pub(crate) mod shot_check;
 mod source_check;
 mod zone_check;
 
