@@ -291,3 +291,26 @@ fn a_scenario_takes_its_camera_from_a_gltf_file() {
     fs::write(&empty, r#"{ "asset": { "version": "2.0" }, "nodes": [{}] }"#).unwrap();
     render(&["-o", text(&given), "--cameras", text(&empty)]).expect_code(2).says(&["no camera in it"]);
 }
+
+#[test]
+fn a_teleport_is_not_interpolated() {
+    let folder = folder("teleport");
+    compile(&[WALK.to_owned()], &folder);
+    let scene = scenario(
+        &folder,
+        "duration_s = 3\ndatabase = \"motion.fbdb\"\n[areas.door]\nrect_m = [1, -2, 6, 2]\n\
+         [states.walk]\nwalk_mps = [1.2, 0]\nthen = [{ when = { inside = \"door\" }, to = \"jump\" }]\n\
+         [states.jump]\nwalk_mps = [1.2, 0]\nset = { teleport = { point_m = [0, 8] } }\n\
+         [[agents]]\nat_m = [0, 0]\nstate = \"walk\"\n",
+    );
+    let path = folder.join("scene.fbrec");
+    fbcrowd(&["simulate", &scene, "-o", text(&path)]).expect_code(0);
+    let recording = Recording::open(&path).unwrap();
+    let jump = recording.population().agents[0].teleports[0];
+    let dt_s = f64::from(recording.header().scenario.dt_s);
+    let y_at = |step: f64| fbcrowd_sim::recording::sample(&recording, step * dt_s).unwrap()[0].root.position_m.y;
+    for share in [0.2, 0.5, 0.9] {
+        assert!(y_at(f64::from(jump) - 1.0 + share).abs() < 0.5, "{share}");
+    }
+    assert!(y_at(f64::from(jump)) > 7.0);
+}

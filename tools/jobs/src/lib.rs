@@ -32,7 +32,7 @@
 //!
 //! Read in this order: what a job reports ([`observer`], [`stages`]) and how it fails ([`error`]); paths
 //! ([`clip_paths`], [`output_path`]); the jobs ([`compiling`], [`leave_one_out`], [`simulation`] with [`timings`],
-//! [`rendering`] with [`video`]); [`character`] and [`camera_file`]; [`scene_check`] looks at a scenario beforehand; [`wording`] for texts that count things; [`json_schema`] for the schemas of reports.
+//! [`rendering`]); [`character`] and [`camera_file`]; [`scene_check`] looks at a scenario beforehand; [`wording`] for texts that count things; [`json_schema`] for the schemas of reports.
 
 pub mod camera_file;
 pub mod character;
@@ -48,7 +48,6 @@ pub mod scene_check;
 pub mod simulation;
 pub mod stages;
 pub mod timings;
-pub mod video;
 pub mod wording;
 
 pub use crate::error::JobError;

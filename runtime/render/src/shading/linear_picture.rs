@@ -76,7 +76,7 @@ impl LinearPicture {
     /// # Panics
     /// If a side is 0 or beyond what a picture can have; that of a checked view is not.
     pub fn to_display(&self) -> Pixmap {
-        let table = ToneTable::new();
+        let table = ToneTable::shared();
         let mut pixmap = Pixmap::new(self.size_px[0], self.size_px[1]).expect("the view's sides are checked");
         for (pixel, [red, green, blue, _]) in pixmap.pixels_mut().iter_mut().zip(&self.pixels) {
             let [red, green, blue] = [red, green, blue].map(|light| table.code(*light));

@@ -98,6 +98,18 @@ impl<'a> TileSamples<'a> {
     /// Draws a cone where it is nearest.
     pub(crate) fn draw_cone(&mut self, cone: &PreparedCone, part: PartId, bounds: [[u32; 2]; 2]) {
         self.has_parts = true;
+        match self.lens.is_perspective {
+            true => self.draw_cone_along::<true>(cone, part, bounds),
+            false => self.draw_cone_along::<false>(cone, part, bounds),
+        }
+    }
+
+    fn draw_cone_along<const IS_PERSPECTIVE: bool>(
+        &mut self,
+        cone: &PreparedCone,
+        part: PartId,
+        bounds: [[u32; 2]; 2],
+    ) {
         let [columns, rows] = self.window(bounds);
         let count = self.pattern.count();
         let width = self.size_px[0];
@@ -107,7 +119,7 @@ impl<'a> TileSamples<'a> {
                 let v = first_uv.y + row as f32 * pixel;
                 for column in columns.clone() {
                     let uv = Vec2::new(first_uv.x + column as f32 * pixel, v);
-                    if let Some(depth_m) = cone.depth_m(uv) {
+                    if let Some(depth_m) = cone.depth_along_m::<IS_PERSPECTIVE>(uv) {
                         let at = (row * width + column) as usize * count + sample;
                         self.put(at, depth_m, part);
                     }

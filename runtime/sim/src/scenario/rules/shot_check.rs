@@ -48,7 +48,7 @@ mod tests {
             ("fps = 2000", "fps is 2000"),
             ("samples_per_frame = 0", "samples_per_frame is 0"),
             ("shutter_deg = 400", "shutter_deg is 400"),
-            ("first_frame = -1", "first_frame"),
+            ("first_frame = -1", "a whole number from 0 on"),
             ("frames = 3", "unknown field `frames`"),
         ];
         for (line, expected) in cases {

@@ -1,29 +1,30 @@
 //! `fbcrowd render`: a recording to a frame sequence, from above or from a camera.
 
-use std::ops::RangeInclusive;
+mod shot_args;
+mod values;
+
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use fbcrowd_jobs::output_path::{LockedFolder, check_file, check_is_no_input};
+use fbcrowd_jobs::rendering::video::{self, VideoOptions};
 use fbcrowd_jobs::rendering::{self, RenderedSequence};
-use fbcrowd_jobs::video::{self, VideoOptions};
 use fbcrowd_jobs::wording::counted;
 use fbcrowd_jobs::{camera_file, character};
-use fbcrowd_render::camera::{CameraOptions, ColourBy, Quality};
+use fbcrowd_render::camera::{CameraOptions, Quality};
 use fbcrowd_render::passes::{ColourSpace, ExrCompression, PassSet};
-use fbcrowd_render::shading::Occlusion;
-use fbcrowd_render::top_view::{FrameRange, PictureFormat, SequenceOptions};
+use fbcrowd_render::top_view::{FrameRange, SequenceOptions};
 use fbcrowd_render::visibility::SamplePattern;
 use fbcrowd_sim::recording::Recording;
-use fbcrowd_sim::scenario::{self, ShotSpec, check_shot};
+use fbcrowd_sim::scenario;
 
 use crate::cmd::outside_arg::OutsideArg;
+use crate::cmd::render::shot_args::ShotArgs;
+use crate::cmd::render::values::{
+    ColourByArg, ColourSpaceArg, CompressionArg, FormatArg, OcclusionArg, OverlayArg, ViewArg, sample_pattern, size_px,
+};
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
 use crate::terminal::progress::ProgressDisplay;
-
-/// Sides of a picture, pixels, as in `[view]`.
-const SIDE_PX: RangeInclusive<u32> = 16..=8_192;
 
 /// Render a recording to a frame sequence, from above or from a camera.
 #[derive(clap::Args)]
@@ -71,54 +72,6 @@ pub(crate) struct Args {
     outside: OutsideArg,
 }
 
-/// Frames in time. Each option replaces a key of the scenario's `[shot]`.
-#[derive(clap::Args)]
-#[command(next_help_heading = "Shot (default: the scenario's `[shot]`)")]
-pub(crate) struct ShotArgs {
-    /// Frames per second, such as 24 or 23.976; poses between steps are interpolated with planted feet held.
-    #[arg(long, value_name = "RATE")]
-    fps: Option<f32>,
-    /// Simulated time before the first frame, s.
-    #[arg(long, value_name = "SECONDS")]
-    preroll: Option<f32>,
-    /// Number of the first frame; `--frames` counts from it.
-    #[arg(long, value_name = "N")]
-    first_frame: Option<u32>,
-    /// Moments that a frame of a camera blends: motion blur; 1 is sharp.
-    #[arg(long, value_name = "N")]
-    samples_per_frame: Option<u32>,
-    /// Opening of the shutter, degrees; 360 is the time of a frame.
-    #[arg(long, value_name = "DEGREES")]
-    shutter: Option<f32>,
-}
-
-impl ShotArgs {
-    /// The shot of a recording; none where neither options nor scenario state one.
-    pub(crate) fn shot(&self, recording: &Recording) -> Result<Option<ShotSpec>, Failure> {
-        let Self { fps, preroll, first_frame, samples_per_frame, shutter } = *self;
-        let stated = recording.header().scenario.shot.clone();
-        if fps.is_none()
-            && preroll.is_none()
-            && first_frame.is_none()
-            && samples_per_frame.is_none()
-            && shutter.is_none()
-        {
-            return Ok(stated);
-        }
-        let of_file = stated.unwrap_or_default();
-        let shot = ShotSpec {
-            preroll_s: preroll.unwrap_or(of_file.preroll_s),
-            first_frame: first_frame.unwrap_or(of_file.first_frame),
-            fps: fps.or(of_file.fps),
-            samples_per_frame: samples_per_frame.unwrap_or(of_file.samples_per_frame),
-            shutter_deg: shutter.unwrap_or(of_file.shutter_deg),
-        };
-        check_shot(&shot, recording.header().scenario.duration_s)
-            .map_err(|fault| Failure::bad(format!("{}; {}", fault.message, fault.help)))?;
-        Ok(Some(shot))
-    }
-}
-
 /// Options of `--view camera --format exr`.
 #[derive(clap::Args)]
 #[command(next_help_heading = "EXR of the camera view")]
@@ -132,28 +85,6 @@ struct ExrArgs {
     /// Colour space of the scene-linear picture.
     #[arg(long, value_enum)]
     colour_space: Option<ColourSpaceArg>,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum CompressionArg {
-    /// Deflate, sixteen lines at once: the default.
-    Zip16,
-    /// Deflate, line by line.
-    Zip1,
-    /// Runs of equal bytes: fast, about twice as large.
-    Rle,
-    /// Wavelets.
-    Piz,
-    None,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum ColourSpaceArg {
-    /// Primaries of Rec. 709 and sRGB: the default.
-    Rec709,
-    /// ACEScg, primaries AP1.
-    #[value(name = "acescg")]
-    AcesCg,
 }
 
 /// Options of `--view camera`.
@@ -187,82 +118,6 @@ struct CameraArgs {
     /// Write each agent's number over it; PNG only.
     #[arg(long)]
     labels: bool,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ViewArg {
-    /// From straight above.
-    Top,
-    /// From a camera in the scene.
-    Camera,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum FormatArg {
-    Png,
-    Exr,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum OverlayArg {
-    /// Velocity space: every half-plane that limits the plan, and the preferred, planned and actual velocities.
-    Constraints,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum OcclusionArg {
-    None,
-    /// The ground at the feet.
-    Ground,
-    /// The ground and the bodies.
-    Full,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum ColourByArg {
-    /// Each agent has its own hue.
-    Agent,
-    /// Each group has its own hue.
-    Group,
-    /// Planned speed: red stands, green walks briskly.
-    Speed,
-    /// Blue blends examples, ochre deforms the base walk.
-    Synthesis,
-    /// Agents around: green is free, red is crowded.
-    Density,
-}
-
-impl From<CompressionArg> for ExrCompression {
-    fn from(arg: CompressionArg) -> Self {
-        match arg {
-            CompressionArg::Zip16 => Self::Zip16,
-            CompressionArg::Zip1 => Self::Zip1,
-            CompressionArg::Rle => Self::Rle,
-            CompressionArg::Piz => Self::Piz,
-            CompressionArg::None => Self::Uncompressed,
-        }
-    }
-}
-
-impl From<ColourSpaceArg> for ColourSpace {
-    fn from(arg: ColourSpaceArg) -> Self {
-        match arg {
-            ColourSpaceArg::Rec709 => Self::Rec709,
-            ColourSpaceArg::AcesCg => Self::AcesCg,
-        }
-    }
-}
-
-/// Reads a picture's size, such as `1920x1080`.
-fn size_px(text: &str) -> Result<[u32; 2], String> {
-    let side = |text: &str| text.parse().ok().filter(|side| SIDE_PX.contains(side));
-    let sides = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
-    sides.ok_or_else(|| "give a size such as 1920x1080, of 16 to 8192 pixels a side".to_owned())
-}
-
-fn sample_pattern(text: &str) -> Result<SamplePattern, String> {
-    let count = text.parse().ok();
-    count.and_then(SamplePattern::of).ok_or_else(|| "give 1, 4 or 16".to_owned())
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
@@ -377,36 +232,5 @@ fn constraints_of(args: &Args, count: usize) -> Result<Vec<usize>, Failure> {
             count.saturating_sub(1)
         ))),
         Some(OverlayArg::Constraints) | None => Ok(args.agent.clone()),
-    }
-}
-
-impl From<FormatArg> for PictureFormat {
-    fn from(format: FormatArg) -> Self {
-        match format {
-            FormatArg::Png => Self::Png,
-            FormatArg::Exr => Self::Exr,
-        }
-    }
-}
-
-impl From<OcclusionArg> for Occlusion {
-    fn from(occlusion: OcclusionArg) -> Self {
-        match occlusion {
-            OcclusionArg::None => Self::None,
-            OcclusionArg::Ground => Self::Ground,
-            OcclusionArg::Full => Self::Full,
-        }
-    }
-}
-
-impl From<ColourByArg> for ColourBy {
-    fn from(colour_by: ColourByArg) -> Self {
-        match colour_by {
-            ColourByArg::Agent => Self::Agent,
-            ColourByArg::Group => Self::Group,
-            ColourByArg::Speed => Self::Speed,
-            ColourByArg::Synthesis => Self::Synthesis,
-            ColourByArg::Density => Self::Density,
-        }
     }
 }

@@ -1,4 +1,6 @@
-//! A recording → files of pictures, with progress.
+//! A recording → files of pictures, or a [`video`], with progress.
+
+pub mod video;
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -18,7 +20,7 @@ use fbcrowd_sim::scenario::FrameRate;
 use crate::error::JobError;
 use crate::observer::{Observer, Work};
 use crate::output_path::check_files;
-use crate::video::{Video, VideoOptions};
+use crate::rendering::video::{Video, VideoOptions};
 
 /// A sequence that has been rendered.
 pub struct RenderedSequence {
