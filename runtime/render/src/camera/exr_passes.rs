@@ -69,7 +69,7 @@ impl<'a> PassedFrame<'a> {
         let (picture, mattes) = self.exposed(moments_s, &mut matted)?;
         let (lens, ids) = (&self.moment.shot.lens, matted.ids());
         let passes = self.passes(&self.scene, &ids);
-        let tiles = PreparedTiles::new(&self.scene, lens);
+        let tiles = PreparedTiles::new(&self.scene, lens, view.samples());
         let columns = lens.size_px[0].div_ceil(TILE_PX);
         self.write(path, &matted, of_samples, |rows| {
             let ground = Some(lens.ground());

@@ -154,7 +154,7 @@ impl<'a> CameraView<'a> {
         let occluders = (self.quality.occlusion > Occlusion::None).then(|| OcclusionGrid::new(scene));
         PreparedFrame {
             layer_colours: self.ground.colours(&self.header.scenario, shot.time_s),
-            tiles: PreparedTiles::new(scene, &shot.lens),
+            tiles: PreparedTiles::new(scene, &shot.lens, self.quality.samples),
             ground: &self.ground,
             quality: self.quality,
             shadow,

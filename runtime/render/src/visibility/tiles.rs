@@ -42,7 +42,7 @@ pub(crate) fn for_each_tile<T: Send>(
     ground: Option<GroundDepth>,
     function: impl Fn(&mut TileSamples<'_>) -> T + Sync,
 ) -> Vec<T> {
-    let tiles = PreparedTiles::new(scene, lens);
+    let tiles = PreparedTiles::new(scene, lens, pattern);
     tiles.draw(lens, pattern, ground, 0..tiles.sides[1], function)
 }
 
@@ -57,8 +57,8 @@ pub(crate) struct PreparedTiles {
 }
 
 impl PreparedTiles {
-    pub(crate) fn new(scene: &SceneParts, lens: &Lens) -> Self {
-        let (cones, triangles) = (visible_cones(scene, lens), visible_triangles(scene, lens));
+    pub(crate) fn new(scene: &SceneParts, lens: &Lens, pattern: SamplePattern) -> Self {
+        let (cones, triangles) = (visible_cones(scene, lens), visible_triangles(scene, lens, pattern));
         let sides = lens.size_px.map(|side| side.div_ceil(TILE_PX));
         let (cone_lists, triangle_lists) = (TileLists::new(sides, &cones), TileLists::new(sides, &triangles));
         Self { cones, triangles, cone_lists, triangle_lists, sides }
@@ -101,7 +101,7 @@ fn visible_cones(scene: &SceneParts, lens: &Lens) -> Vec<Visible<PreparedCone>> 
     scene.cones.par_iter().enumerate().filter_map(prepare).collect()
 }
 
-fn visible_triangles(scene: &SceneParts, lens: &Lens) -> Vec<Visible<ScreenTriangle>> {
+fn visible_triangles(scene: &SceneParts, lens: &Lens, pattern: SamplePattern) -> Vec<Visible<ScreenTriangle>> {
     let meshes = &scene.meshes;
     let vertices: Vec<_> = meshes.positions_m.par_iter().map(|position_m| lens.to_camera(*position_m)).collect();
     let project = |(chunk, triangles): (usize, &[[u32; 3]])| {
@@ -111,7 +111,7 @@ fn visible_triangles(scene: &SceneParts, lens: &Lens) -> Vec<Visible<ScreenTrian
             append_visible(&mut shapes, index, corners.map(|corner| vertices[corner as usize]), lens);
         }
         let to_visible = |shape: ScreenTriangle| {
-            let bounds = shape.bounds(lens.size_px)?;
+            let bounds = shape.bounds(lens.size_px).filter(|_| shape.may_hold_sample(pattern))?;
             Some(Visible { part: PartId(scene.cones.len() as u32 + shape.index), shape, bounds })
         };
         shapes.into_iter().filter_map(to_visible).collect::<Vec<_>>()
