@@ -50,7 +50,7 @@ fn keys_of_reader(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn schema_and_reader_know_the_same_keys() {
-    const TABLES: [(&str, &str); 44] = [
+    const TABLES: [(&str, &str); 45] = [
         ("zzz = 1", "/properties"),
         ("[[agents]]\nzzz = 1", "/$defs/agents/properties"),
         ("[[agents]]\ncircle = { zzz = 1 }", "/$defs/agents/properties/circle/properties"),
@@ -96,6 +96,7 @@ fn schema_and_reader_know_the_same_keys() {
         ("[camera]\norbit = { zzz = 1 }", "/$defs/camera/properties/orbit/properties"),
         ("[camera]\nfollow = { zzz = 1 }", "/$defs/camera/properties/follow/properties"),
         ("[view]\nzzz = 1", "/properties/view/properties"),
+        ("[shot]\nzzz = 1", "/properties/shot/properties"),
         ("[params]\nzzz = 1", "/properties/params/properties"),
         ("[params.route]\nzzz = 1", "/properties/params/properties/route/properties"),
         ("[params.planner]\nzzz = 1", "/properties/params/properties/planner/properties"),

@@ -76,6 +76,16 @@ impl AtomicFile {
         self.writer.as_mut().expect("taken only by commit, which consumes self")
     }
 
+    /// Path of the temporary file, for a program that writes it.
+    pub fn temporary_path(&self) -> &Path {
+        self.temporary.as_ref().expect("taken only by commit, which consumes self")
+    }
+
+    /// The final path.
+    pub fn target(&self) -> &Path {
+        &self.target
+    }
+
     /// Flushes the file and renames it to its final name.
     ///
     /// # Errors

@@ -58,7 +58,7 @@ pub enum RenderError {
         fault: FrameRangeFault,
     },
     /// The recording has none of the frames of `--frames`.
-    #[error("frames \"{text}\": the recording has only frames {first} to {last}; choose among those")]
+    #[error("frames \"{text}\": the sequence has only frames {first} to {last}; choose among those")]
     NoFrames {
         /// The whole text.
         text: String,
@@ -66,6 +66,16 @@ pub enum RenderError {
         first: u32,
         /// Last frame of the recording.
         last: u32,
+    },
+    /// The recording ends before the first frame of its shot.
+    #[error(
+        "the shot begins after {preroll_s} s, and the recording lasts {duration_s:.2} s; give a shorter `preroll_s` (or --preroll), or simulate longer"
+    )]
+    NothingAfterPreroll {
+        /// Time before the first frame, s.
+        preroll_s: f64,
+        /// Time of the recording, s.
+        duration_s: f64,
     },
     /// The recording does not have the agent of an overlay.
     #[error("agent {agent} does not exist; the recording has agents 0 to {}; choose one of these (a picture with an overlay shows the numbers)", count.saturating_sub(1))]
@@ -93,6 +103,12 @@ pub enum RenderError {
         name: String,
         /// The cameras that exist.
         cameras: String,
+    },
+    /// A camera names a file that was not read.
+    #[error("camera {camera:?}: the file that it names was not read; give the file itself by --cameras")]
+    UnreadCamera {
+        /// Name of the camera.
+        camera: String,
     },
     /// The eye of a camera is inside a body.
     #[error(

@@ -15,6 +15,7 @@
 //!         name: "crossing".to_owned(),
 //!         format: PictureFormat::Png,
 //!         frames: Some("1001-1100x2".parse()?),
+//!         shot: None, // as the scenario states
 //!         constraints_of: vec![3], // explain the velocities of agent 3 beside the scene
 //!     };
 //!     let files = render_sequence(&recording, &options, &|done, all| println!("frame {done} of {all}"))?;

@@ -133,6 +133,49 @@ pub enum JobError {
         /// Names of the states.
         states: String,
     },
+    /// A file has no camera.
+    #[error("{}: there is no camera in it; export one with the scene", path.display())]
+    NoCamera {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file does not have a camera of this name.
+    #[error("{}: there is no camera {name:?} in it; set `node` to one of: {cameras}", path.display())]
+    NoSuchGltfCamera {
+        /// The file.
+        path: PathBuf,
+        /// The requested name.
+        name: String,
+        /// The cameras of the file.
+        cameras: String,
+    },
+    /// A video's file has no extension of a container.
+    #[error("{}: its extension names no kind of video; use .mp4, .mov or .mkv", path.display())]
+    NoContainer {
+        /// The path.
+        path: PathBuf,
+    },
+    /// ffmpeg does not start.
+    #[error(
+        "{} does not start: {source}; a video needs ffmpeg: install it (`apt install ffmpeg`, `brew install ffmpeg`, \
+         `winget install ffmpeg`), or name it by --ffmpeg; or write frames by -o", program.display()
+    )]
+    NoFfmpeg {
+        /// The program.
+        program: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// ffmpeg ended before the video was complete.
+    #[error("{} ended early ({status}): {message}; no video is left: mend the cause, or write frames by -o", program.display())]
+    FfmpegFailed {
+        /// The program.
+        program: PathBuf,
+        /// How it ended.
+        status: String,
+        /// The end of its messages.
+        message: String,
+    },
     /// A scenario cannot be read.
     #[error(transparent)]
     Scenario(ScenarioError),
@@ -181,6 +224,7 @@ impl JobError {
     pub fn is_of_machine(&self) -> bool {
         match self {
             Self::Unwritable { .. } | Self::FolderInUse { .. } | Self::OutOfMemory { .. } => true,
+            Self::NoFfmpeg { .. } | Self::FfmpegFailed { .. } => true,
             Self::Database(FileError::Unreadable { source, .. }) => is_of_machine(source),
             Self::Database(error) => matches!(error, FileError::Unwritable { .. }),
             Self::Recording(error) | Self::Render(RenderError::Recording(error)) => match error {

@@ -32,8 +32,9 @@
 //!
 //! Read in this order: what a job reports ([`observer`], [`stages`]) and how it fails ([`error`]); paths
 //! ([`clip_paths`], [`output_path`]); the jobs ([`compiling`], [`leave_one_out`], [`simulation`] with [`timings`],
-//! [`rendering`]); [`character`]; [`scene_check`] looks at a scenario beforehand; [`wording`] for texts that count things; [`json_schema`] for the schemas of reports.
+//! [`rendering`]); [`character`] and [`camera_file`]; [`scene_check`] looks at a scenario beforehand; [`wording`] for texts that count things; [`json_schema`] for the schemas of reports.
 
+pub mod camera_file;
 pub mod character;
 pub mod clip_paths;
 pub mod compiling;

@@ -3,7 +3,8 @@
 //! Enters: a recording, and a camera of its scenario or none. Leaves: PNG (by the tone curve) and EXR files (scene-linear).
 //!
 //! Read `options`, `placement` (where a camera is at a time), `default_camera` (where no camera is stated), `blocks` (walls
-//! as solids), `bodies` (agents as parts, and their colours), `view` (one frame), `captions`, and `sequence` (all frames).
+//! as solids), `bodies` (agents as parts, and their colours), `view` (one frame), `captions`, `take` (lens
+//! and agents at any time), `exr_passes`, and `sequence` (all frames).
 
 pub(crate) mod blocks;
 pub(crate) mod bodies;
@@ -14,10 +15,11 @@ pub(crate) mod exr_passes;
 pub(crate) mod options;
 pub(crate) mod placement;
 pub(crate) mod sequence;
+pub(crate) mod take;
 pub(crate) mod view;
 mod worn;
 
 pub use colour_by::ColourBy;
 pub use options::{CameraOptions, Quality};
-pub use sequence::{camera_picture_paths, render_camera_sequence};
+pub use sequence::{camera_picture_paths, draw_camera_sequence, render_camera_sequence};
 pub use view::{CameraView, Shot};

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use fbcrowd_sim::scenario::CameraSpec;
+use fbcrowd_sim::scenario::{CameraSpec, ShotSpec};
 use motiondb::character::Character;
 
 use crate::camera::colour_by::ColourBy;
@@ -39,6 +39,8 @@ pub struct CameraOptions {
     pub format: PictureFormat,
     /// Frames to be drawn; `None` for all.
     pub frames: Option<FrameRange>,
+    /// Times and numbers of the frames, instead of the recorded scenario's.
+    pub shot: Option<ShotSpec>,
     /// Cameras to choose from, instead of the recorded scenario's.
     pub cameras: Option<Vec<CameraSpec>>,
     /// Width and height of the pictures, pixels, instead of the view's.

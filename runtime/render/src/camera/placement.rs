@@ -4,7 +4,7 @@ use std::f32::consts::TAU;
 
 use fbcrowd_sim::AgentId;
 use fbcrowd_sim::recording::{AgentFrame, Recording};
-use fbcrowd_sim::scenario::{CameraFollow, CameraKey, CameraOrbit, CameraSpec};
+use fbcrowd_sim::scenario::{CameraFollow, CameraKey, CameraOrbit, CameraSpec, KeyLine};
 use glam::{Vec2, Vec3};
 use motiondb::body::{Joint, Skeleton};
 
@@ -34,10 +34,32 @@ pub(crate) fn lens_at(
     time_s: f64,
 ) -> Result<Lens, RenderError> {
     let [eye_m, target_m] = eye_and_target_m(recording, spec, time_s)?;
-    Ok(match (spec.width_tangent(), spec.width_m) {
+    let lens = match (spec.width_tangent(), spec.width_m) {
         (Some(tangent), _) => Lens::perspective(size_px, eye_m, target_m, tangent),
         (None, width_m) => Lens::orthographic(size_px, eye_m, target_m - eye_m, width_m.unwrap_or(10.0)),
-    })
+    };
+    Ok(up_at(spec, time_s as f32).map_or(lens, |up| lens.with_up(up)))
+}
+
+/// The direction that is up in the picture; none where it is world z all the time.
+fn up_at(spec: &CameraSpec, time_s: f32) -> Option<Vec3> {
+    let up = |key: &CameraKey| key.up.unwrap_or(Vec3::Z);
+    match &spec.keys[..] {
+        [] => spec.up,
+        keys if keys.iter().all(|key| key.up.is_none()) => None,
+        keys => {
+            let (from, to, share) = between(keys, time_s);
+            Some(up(&keys[from]).lerp(up(&keys[to]), share))
+        }
+    }
+}
+
+/// The keys around a time, and the share of the time between them that has passed.
+fn between(keys: &[CameraKey], time_s: f32) -> (usize, usize, f32) {
+    let after = keys.partition_point(|key| key.time_s <= time_s);
+    let (from, to) = (after.saturating_sub(1), after.min(keys.len() - 1));
+    let span_s = keys[to].time_s - keys[from].time_s;
+    (from, to, if span_s > 0.0 { (time_s - keys[from].time_s) / span_s } else { 0.0 })
 }
 
 fn eye_and_target_m(recording: &Recording, spec: &CameraSpec, time_s: f64) -> Result<[Vec3; 2], RenderError> {
@@ -53,7 +75,10 @@ fn eye_and_target_m(recording: &Recording, spec: &CameraSpec, time_s: f64) -> Re
         return Ok(eyes_m(body, recording.header().skeleton()));
     }
     if !spec.keys.is_empty() {
-        return Ok(keyed_m(&spec.keys, time_s as f32));
+        return Ok(match spec.key_line {
+            KeyLine::Smooth => keyed_m(&spec.keys, time_s as f32),
+            KeyLine::Straight => straight_m(&spec.keys, time_s as f32),
+        });
     }
     Ok([spec.eye_m.unwrap_or(Vec3::Z), spec.look_at_m.unwrap_or(Vec3::Y)])
 }
@@ -134,13 +159,21 @@ fn keyed_m(keys: &[CameraKey], time_s: f32) -> [Vec3; 2] {
     })
 }
 
+/// Eye and target at a time, in straight lines from key to key.
+fn straight_m(keys: &[CameraKey], time_s: f32) -> [Vec3; 2] {
+    let (from, to, share) = between(keys, time_s);
+    let (from, to) = (&keys[from], &keys[to]);
+    [from.eye_m.lerp(to.eye_m, share), from.look_at_m.lerp(to.look_at_m, share)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_keyed_camera_passes_its_keys_smoothly() {
-        let key = |time_s: f32, x: f32| CameraKey { time_s, eye_m: Vec3::new(x, x * x, 1.6), look_at_m: Vec3::Y };
+        let key =
+            |time_s: f32, x: f32| CameraKey { time_s, eye_m: Vec3::new(x, x * x, 1.6), look_at_m: Vec3::Y, up: None };
         let keys = [key(0.0, 0.0), key(1.0, 1.0), key(3.0, 2.5), key(4.0, 4.0)];
         for wanted in &keys {
             assert!(keyed_m(&keys, wanted.time_s)[0].distance(wanted.eye_m) < 1e-5);
@@ -150,6 +183,18 @@ mod tests {
         // No jump of the velocity at a key.
         let speed = |time_s: f32| (keyed_m(&keys, time_s + 1e-3)[0] - keyed_m(&keys, time_s)[0]) / 1e-3;
         assert!(speed(0.998).distance(speed(1.001)) < 0.1);
+    }
+
+    #[test]
+    fn straight_keys_turn_about_the_view_between_their_directions() {
+        let key = |time_s: f32, up: Vec3| CameraKey { time_s, eye_m: Vec3::ZERO, look_at_m: Vec3::Y, up: Some(up) };
+        let keys = vec![key(0.0, Vec3::Z), key(2.0, Vec3::X)];
+        let spec = CameraSpec { keys, key_line: KeyLine::Straight, ..CameraSpec::default() };
+        let lens = |time_s: f32| {
+            Lens::orthographic([100, 100], Vec3::ZERO, Vec3::Y, 2.0).with_up(up_at(&spec, time_s).unwrap())
+        };
+        assert!(lens(-1.0).down.distance(-Vec3::Z) < 1e-6 && lens(9.0).down.distance(-Vec3::X) < 1e-6);
+        assert!(lens(1.0).down.distance(-Vec3::new(1.0, 0.0, 1.0).normalize()) < 1e-6);
     }
 
     #[test]

@@ -6,45 +6,46 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fbcrowd_sim::recording::{AgentFrame, Recording};
-use fbcrowd_sim::scenario::CameraSpec;
-use glam::Vec3;
+use fbcrowd_sim::recording::Recording;
 use motiondb::memory;
 use rayon::prelude::*;
 
-use crate::camera::captions::CameraCaptions;
-use crate::camera::default_camera::{DEFAULT_NAME, default_camera};
 use crate::camera::exr_passes;
 use crate::camera::options::CameraOptions;
-use crate::camera::placement::lens_at;
-use crate::camera::view::{CameraView, Shot};
+use crate::camera::take::{Take, find_camera, size_px};
 use crate::error::RenderError;
+use crate::passes::multi_channel_exr::STRIP_PIXELS;
 use crate::passes::tile_passes::channels;
-use crate::raster::png_frame;
-use crate::shading::LinearPicture;
-use crate::top_view::frame_range::FIRST_FRAME;
-use crate::top_view::playback::{picture_time_s, sample};
-use crate::top_view::sequence::{PictureFormat, frame_numbers, make_folder};
+use crate::raster::png_frame::{self, RgbPicture, rgb_picture};
+use crate::top_view::sequence::{PictureFormat, frame_numbers, frame_times, make_folder, shot_of};
 
-/// Bytes of a frame for each pixel while it is drawn and encoded.
+/// Bytes of a PNG frame for each pixel while it is drawn and encoded.
 const PIXEL_BYTES: usize = 24;
-/// Bytes of each channel of a pass, for each pixel: values of tiles, of the frame, and in the file.
-const PASS_BYTES: usize = 12;
+/// Bytes of a blurred frame for each pixel: the sum of light, the picture that is added, its mean.
+const BLUR_BYTES: usize = 28;
+/// Bytes of each matte of a blurred frame, for each pixel.
+const MATTE_BYTES: usize = 20;
+/// Bytes of each pixel and channel of the strip of an EXR frame that is drawn and compressed: values, lines, file.
+const STRIP_BYTES: usize = 12;
 /// Bytes of a frame for its parts and its shadow map.
 const FRAME_BYTES: usize = 160 << 20;
 /// Greatest number of bytes of all frames that are drawn at once.
 const AT_ONCE_BYTES: usize = 1 << 30;
-/// Distance from the middle of a body, on the ground and in height, within which an eye is inside it, m.
-const INSIDE_M: [f32; 2] = [0.22, 1.8];
 
 /// Paths of the pictures that [`render_camera_sequence`] writes with the same options, in order.
 ///
 /// # Errors
 /// If no frame is in the range, or the camera does not exist.
 pub fn camera_picture_paths(recording: &Recording, options: &CameraOptions) -> Result<Vec<PathBuf>, RenderError> {
-    find_camera(recording, options)?;
-    let numbers = frame_numbers(recording, options.frames.as_ref())?;
+    let numbers = numbers(recording, options)?;
     Ok(numbers.into_iter().map(|number| picture_path(options, number)).collect())
+}
+
+/// Numbers of the requested frames.
+fn numbers(recording: &Recording, options: &CameraOptions) -> Result<Vec<u32>, RenderError> {
+    find_camera(recording, options)?;
+    let times = frame_times(recording, options.shot.as_ref());
+    frame_numbers(recording, &times, options.frames.as_ref())
 }
 
 fn picture_path(options: &CameraOptions, number: u32) -> PathBuf {
@@ -62,33 +63,17 @@ pub fn render_camera_sequence(
     options: &CameraOptions,
     observer: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<PathBuf>, RenderError> {
-    let numbers = frame_numbers(recording, options.frames.as_ref())?;
-    let camera = match find_camera(recording, options)? {
-        Some(camera) => camera.clone(),
-        None => default_camera(recording)?,
-    };
-    let view = &recording.header().scenario.view;
-    let size_px = options.size_px.unwrap_or([view.width, view.height]);
-    let passes = channels(&options.passes, options.quality.samples.count()).len();
-    let pixel_bytes = PIXEL_BYTES + PASS_BYTES * passes;
-    let frame_bytes = FRAME_BYTES + pixel_bytes * size_px[0] as usize * size_px[1] as usize;
-    let at_once = (AT_ONCE_BYTES / frame_bytes).clamp(1, rayon::current_num_threads()).min(numbers.len());
-    if !memory::has_room(at_once * frame_bytes) {
-        return Err(RenderError::OutOfMemory { mib: (at_once * frame_bytes) >> 20 });
-    }
-    let sequence = CameraSequence {
-        recording,
-        options,
-        view: CameraView::new(recording.header(), recording.population(), options.quality, options.colour_by)
-            .with_characters(&options.characters),
-        captions: CameraCaptions::new(size_px),
-        camera,
-        size_px,
-    };
+    let numbers = numbers(recording, options)?;
+    let at_once = at_once(recording, options, numbers.len())?;
+    let take = Take::new(recording, options)?;
     make_folder(&options.folder)?;
     let done = AtomicUsize::new(0);
     let render = |number: &u32| {
-        let path = sequence.render(*number)?;
+        let path = picture_path(options, *number);
+        match options.format {
+            PictureFormat::Exr => exr_passes::write(&take, &path, *number)?,
+            PictureFormat::Png => png_frame::write(&path, &take.picture(*number)?)?,
+        }
         observer(done.fetch_add(1, Ordering::Relaxed) + 1, numbers.len());
         Ok(path)
     };
@@ -99,86 +84,52 @@ pub fn render_camera_sequence(
     Ok(paths)
 }
 
-/// The camera of a name; without a name, the scenario's first; none where it is to be made.
-fn find_camera<'a>(
-    recording: &'a Recording,
-    options: &'a CameraOptions,
-) -> Result<Option<&'a CameraSpec>, RenderError> {
-    let cameras = options.cameras.as_ref().unwrap_or(&recording.header().scenario.cameras);
-    let Some(name) = options.camera.as_deref() else { return Ok(cameras.first()) };
-    match cameras.iter().find(|camera| camera.name == name) {
-        Some(camera) => Ok(Some(camera)),
-        None if name == DEFAULT_NAME => Ok(None),
-        None => {
-            let names = cameras.iter().map(|camera| camera.name.as_str()).chain([DEFAULT_NAME]);
-            let cameras = names.collect::<Vec<_>>().join(", ");
-            Err(RenderError::NoSuchCamera { name: name.to_owned(), cameras })
+/// Draws frames of a recording from a camera, and passes them to a function in order. Returns their number.
+///
+/// # Errors
+/// As [`render_camera_sequence`]; or where the function fails.
+pub fn draw_camera_sequence<E: From<RenderError>>(
+    recording: &Recording,
+    options: &CameraOptions,
+    observer: &(dyn Fn(usize, usize) + Sync),
+    mut show: impl FnMut(RgbPicture) -> Result<(), E>,
+) -> Result<usize, E> {
+    let numbers = numbers(recording, options)?;
+    let at_once = at_once(recording, options, numbers.len())?;
+    let take = Take::new(recording, options)?;
+    let mut done = 0;
+    for chunk in numbers.chunks(at_once) {
+        let draw = |number: &u32| -> Result<RgbPicture, RenderError> { rgb_picture(&mut &take.picture(*number)?) };
+        let pictures = chunk.par_iter().map(draw).collect::<Result<Vec<_>, _>>()?;
+        for picture in pictures {
+            show(picture)?;
+            done += 1;
+            observer(done, numbers.len());
         }
     }
+    Ok(done)
 }
 
-/// What all frames of a sequence share.
-struct CameraSequence<'a> {
-    recording: &'a Recording,
-    options: &'a CameraOptions,
-    view: CameraView<'a>,
-    captions: CameraCaptions,
-    camera: CameraSpec,
-    size_px: [u32; 2],
-}
-
-impl CameraSequence<'_> {
-    fn render(&self, number: u32) -> Result<PathBuf, RenderError> {
-        let time_s = picture_time_s(self.recording, number - FIRST_FRAME);
-        let agents = sample(self.recording, time_s)?;
-        let lens = lens_at(self.recording, &self.camera, self.size_px, time_s)?;
-        let shot = Shot { lens, time_s, eyes_of: self.camera.eyes_of, fog_m: self.camera.fog_m };
-        let agents = self.outside_eye(agents, lens.eye_m, number)?;
-        let path = picture_path(self.options, number);
-        match self.options.format {
-            PictureFormat::Exr => {
-                let lens_at = |time_s| lens_at(self.recording, &self.camera, self.size_px, time_s);
-                exr_passes::write(&path, self.recording, &self.view, self.options, (&shot, &agents, number), lens_at)?;
-            }
-            PictureFormat::Png => self.write_png(&path, &self.view.draw(&shot, &agents), &shot, &agents, number)?,
+/// Number of frames that are drawn at once.
+///
+/// # Errors
+/// If the system does not give the memory that they need.
+fn at_once(recording: &Recording, options: &CameraOptions, frames: usize) -> Result<usize, RenderError> {
+    let [width, height] = size_px(recording, options).map(|side| side as usize);
+    let is_blurred = shot_of(recording, options.shot.as_ref()).samples_per_frame > 1;
+    let blur_bytes = if is_blurred { BLUR_BYTES + MATTE_BYTES * options.passes.mattes().count() } else { 0 };
+    let pixels = width * height;
+    let picture_bytes = match options.format {
+        PictureFormat::Png => (PIXEL_BYTES + blur_bytes) * pixels,
+        PictureFormat::Exr => {
+            let channels = 4 + channels(&options.passes, options.quality.samples.count()).len();
+            blur_bytes * pixels + STRIP_BYTES * channels * STRIP_PIXELS.min(pixels)
         }
-        Ok(path)
+    };
+    let frame_bytes = FRAME_BYTES + picture_bytes;
+    let at_once = (AT_ONCE_BYTES / frame_bytes).clamp(1, rayon::current_num_threads()).min(frames);
+    if !memory::has_room(at_once * frame_bytes) {
+        return Err(RenderError::OutOfMemory { mib: (at_once * frame_bytes) >> 20 });
     }
-
-    /// The agents that do not hold the eye. The default camera looks through those that walk into it.
-    fn outside_eye(&self, agents: Vec<AgentFrame>, eye_m: Vec3, frame: u32) -> Result<Vec<AgentFrame>, RenderError> {
-        let holds_eye = |agent: &AgentFrame| {
-            let is_own = Some(agent.id.0) == self.camera.eyes_of;
-            let on_ground_m = agent.root.position_m.distance(eye_m.truncate());
-            !is_own && on_ground_m < INSIDE_M[0] && (0.0..INSIDE_M[1]).contains(&eye_m.z)
-        };
-        if self.camera.name == DEFAULT_NAME || self.camera.eyes_of.is_some() {
-            return Ok(agents.into_iter().filter(|agent| !holds_eye(agent)).collect());
-        }
-        match agents.iter().find(|agent| holds_eye(agent)) {
-            Some(agent) => Err(RenderError::EyeInside { camera: self.camera.name.clone(), agent: agent.id.0, frame }),
-            None => Ok(agents),
-        }
-    }
-
-    fn write_png(
-        &self,
-        path: &std::path::Path,
-        picture: &LinearPicture,
-        shot: &Shot,
-        agents: &[AgentFrame],
-        number: u32,
-    ) -> Result<(), RenderError> {
-        let scenario = &self.recording.header().scenario;
-        let mut pixmap = picture.to_display();
-        if self.options.labels || scenario.view.labels {
-            self.captions.draw_labels(&mut pixmap, &shot.lens, agents);
-        }
-        if self.options.burn_in {
-            let [frame, time] = [format!("{} {number}", scenario.name), format!("{:.2} s", shot.time_s)];
-            let lens = self.camera.focal_mm.map_or(String::new(), |focal_mm| format!(" · {focal_mm} mm"));
-            self.captions.draw_strip(&mut pixmap, [&frame, &time, &format!("{}{lens}", self.camera.name)]);
-        }
-        png_frame::write(path, &pixmap)
-    }
+    Ok(at_once)
 }

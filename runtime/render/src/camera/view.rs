@@ -3,6 +3,9 @@
 //! Enters: agents of a frame and a lens, world metres. Leaves: a [`LinearPicture`]. [`CameraView::new`] prepares what
 //! all frames share; [`CameraView::draw`] depends only on time, lens and agents, so frames can be drawn in any order.
 
+use std::ops::Range;
+
+use exr::prelude::f16;
 use fbcrowd_sim::Population;
 use fbcrowd_sim::recording::{AgentFrame, Header};
 use glam::Vec3;
@@ -19,7 +22,7 @@ use crate::shading::linear_picture::LinearPicture;
 use crate::shading::occlusion::{Occlusion, OcclusionGrid};
 use crate::shading::shader::Shader;
 use crate::shading::shadow_map::ShadowMap;
-use crate::visibility::{Lens, Meshes, SceneParts, TileSamples, for_each_tile};
+use crate::visibility::{Lens, Meshes, PreparedTiles, SamplePattern, SceneParts, TILE_PX, TileSamples};
 
 /// Distance from the eye up to which walls throw shadows, m.
 const WALL_SHADOW_M: f32 = 45.0;
@@ -35,6 +38,46 @@ pub struct CameraView<'a> {
     ground: GroundPlan,
     quality: Quality,
     colour_by: ColourBy,
+}
+
+/// A scene with its light, ready to be drawn tile by tile.
+pub(crate) struct PreparedFrame<'a> {
+    shot: &'a Shot,
+    scene: &'a SceneParts,
+    ground: &'a GroundPlan,
+    quality: Quality,
+    layer_colours: Vec<Vec3>,
+    shadow: Option<ShadowMap>,
+    occluders: Option<OcclusionGrid>,
+    tiles: PreparedTiles,
+}
+
+impl PreparedFrame<'_> {
+    /// Pixels of each tile of some rows of tiles, and the result of a function of it, row by row.
+    pub(crate) fn shaded<T: Send>(
+        &self,
+        rows: Range<u32>,
+        of_tile: impl Fn(&TileSamples<'_>) -> T + Sync,
+    ) -> Vec<(Vec<[f16; 4]>, T)> {
+        let Shot { lens, fog_m, .. } = self.shot;
+        let shader = Shader {
+            scene: self.scene,
+            lens,
+            ground: self.ground,
+            layer_colours: &self.layer_colours,
+            shadow: self.shadow.as_ref(),
+            occluders: self.occluders.as_ref(),
+            occlusion: self.quality.occlusion,
+            fog_m: *fog_m,
+        };
+        self.tiles
+            .draw(lens, self.quality.samples, Some(lens.ground()), rows, |tile| (shader.tile(tile), of_tile(tile)))
+    }
+}
+
+/// Number of rows of tiles in a lens's picture.
+pub(crate) fn tile_rows(lens: &Lens) -> u32 {
+    lens.size_px[1].div_ceil(TILE_PX)
 }
 
 /// The moment and conditions of a frame.
@@ -99,25 +142,26 @@ impl<'a> CameraView<'a> {
         scene: &SceneParts,
         of_tile: impl Fn(&TileSamples<'_>) -> T + Sync,
     ) -> (LinearPicture, Vec<T>) {
-        let Shot { lens, time_s, fog_m, .. } = shot;
-        let shadow = if self.quality.shadow { ShadowMap::new(scene, &self.shaded_walls_m(lens)) } else { None };
-        let occluders = (self.quality.occlusion > Occlusion::None).then(|| OcclusionGrid::new(scene));
-        let layer_colours = self.ground.colours(&self.header.scenario, *time_s);
-        let shader = Shader {
-            scene,
-            lens,
-            ground: &self.ground,
-            layer_colours: &layer_colours,
-            shadow: shadow.as_ref(),
-            occluders: occluders.as_ref(),
-            occlusion: self.quality.occlusion,
-            fog_m: *fog_m,
-        };
-        let tiles = for_each_tile(scene, lens, self.quality.samples, Some(lens.ground()), |tile| {
-            (shader.tile(tile), of_tile(tile))
-        });
+        let lens = &shot.lens;
+        let tiles = self.prepare(shot, scene).shaded(0..tile_rows(lens), of_tile);
         let (tiles, results): (Vec<_>, Vec<T>) = tiles.into_iter().unzip();
         (LinearPicture::from_tiles(lens.size_px, &tiles), results)
+    }
+
+    /// A scene with its light, ready to be drawn.
+    pub(crate) fn prepare<'s>(&'s self, shot: &'s Shot, scene: &'s SceneParts) -> PreparedFrame<'s> {
+        let shadow = if self.quality.shadow { ShadowMap::new(scene, &self.shaded_walls_m(&shot.lens)) } else { None };
+        let occluders = (self.quality.occlusion > Occlusion::None).then(|| OcclusionGrid::new(scene));
+        PreparedFrame {
+            layer_colours: self.ground.colours(&self.header.scenario, shot.time_s),
+            tiles: PreparedTiles::new(scene, &shot.lens, self.quality.samples),
+            ground: &self.ground,
+            quality: self.quality,
+            shadow,
+            occluders,
+            shot,
+            scene,
+        }
     }
 
     /// The recorded agents.
@@ -125,9 +169,9 @@ impl<'a> CameraView<'a> {
         self.population
     }
 
-    /// Number of samples of a pixel.
-    pub(crate) fn samples(&self) -> usize {
-        self.quality.samples.count()
+    /// Samples of a pixel.
+    pub(crate) fn samples(&self) -> SamplePattern {
+        self.quality.samples
     }
 
     /// Corners of walls near the eye, whose shadows are seen.

@@ -1,6 +1,5 @@
 //! Cryptomatte: ids from names, coverage of each id in a pixel, and the manifest (Psyop, Cryptomatte specification 1.2).
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// MurmurHash3, x86, 32 bits, seed 0 (Appleby 2011).
@@ -78,13 +77,13 @@ impl Coverage {
     }
 }
 
-/// Names and ids of a layer as JSON, in the order of the names' keys.
-pub(crate) fn manifest(names: &BTreeMap<u32, String>) -> String {
+/// Names and ids of a layer as JSON, in the order of the names.
+pub(crate) fn manifest(names: impl Iterator<Item = String>) -> String {
     let mut text = String::from("{");
-    for (index, name) in names.values().enumerate() {
+    for (index, name) in names.enumerate() {
         let separator = if index == 0 { "" } else { "," };
         // Names are made here: they hold no character that JSON escapes.
-        let _ = write!(text, "{separator}\"{name}\":\"{:08x}\"", id_bits(name));
+        let _ = write!(text, "{separator}\"{name}\":\"{:08x}\"", id_bits(&name));
     }
     text + "}"
 }
@@ -124,8 +123,7 @@ mod tests {
 
     #[test]
     fn manifests_list_names_in_their_order() {
-        let names = BTreeMap::from([(2, "agent_0002".to_owned()), (0, "agent_0000".to_owned())]);
-        let text = manifest(&names);
+        let text = manifest(["agent_0000", "agent_0002"].map(str::to_owned).into_iter());
         assert!(text.starts_with("{\"agent_0000\":\"") && text.contains(",\"agent_0002\":\""), "{text}");
     }
 }

@@ -12,16 +12,16 @@
 //! | `agent`, `group`, `material` | `CryptoAsset00.R` … | float | Cryptomatte 1.2 by agent, by group of agents, by material |
 //! | `id` | `agent.id` | uint | id of the nearest agent plus 1; 0 for all else |
 //!
-//! Read `pass` (the choice), `cryptomatte`, `motion`, `tile_passes` (one tile), `pass_picture` (a whole frame), and
-//! `multi_channel_exr` with `exr_header` (the file).
+//! Read `pass` (the choice), `cryptomatte`, `mattes` (names), `tile_mattes`, `motion`, `tile_passes` (one tile), and
+//! `multi_channel_exr` (the file).
 
 pub(crate) mod camera_matrices;
 pub(crate) mod cryptomatte;
-pub(crate) mod exr_header;
+pub(crate) mod mattes;
 pub(crate) mod motion;
 pub(crate) mod multi_channel_exr;
 pub(crate) mod pass;
-pub(crate) mod pass_picture;
+pub(crate) mod tile_mattes;
 pub(crate) mod tile_passes;
 
 pub use crate::raster::colour_space::ColourSpace;

@@ -64,6 +64,11 @@ impl PassSet {
         self.0.is_empty()
     }
 
+    /// The Cryptomattes among them.
+    pub(crate) fn mattes(&self) -> impl Iterator<Item = Pass> {
+        self.0.iter().copied().filter(|pass| matches!(pass, Pass::Agent | Pass::Group | Pass::Material))
+    }
+
     /// Whether a pass is requested.
     pub fn holds(&self, pass: Pass) -> bool {
         self.0.contains(&pass)

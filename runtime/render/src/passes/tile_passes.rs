@@ -3,9 +3,11 @@
 use fbcrowd_sim::Population;
 use glam::Vec3;
 
-use crate::passes::cryptomatte::{Coverage, id_bits, ranks};
+use crate::passes::cryptomatte::ranks;
+use crate::passes::mattes::{GROUND_MATERIAL, MatteIds, matte_layer};
 use crate::passes::motion::{OtherFrame, displacement_px};
 use crate::passes::pass::{Pass, PassSet};
+use crate::passes::tile_mattes::TileMattes;
 use crate::shading::surface::SurfacePoint;
 use crate::visibility::{Fragment, Lens, Owner, PartId, SceneParts, TileSamples};
 
@@ -34,6 +36,7 @@ pub(crate) struct FramePasses<'a> {
     pub(crate) scene: &'a SceneParts,
     pub(crate) lens: &'a Lens,
     pub(crate) population: &'a Population,
+    pub(crate) ids: &'a MatteIds,
     /// The frame after this one, and the one before; only for motion.
     pub(crate) others: Option<&'a [OtherFrame; 2]>,
 }
@@ -46,39 +49,6 @@ fn nearest_sample(tile: &TileSamples<'_>, pixel: usize) -> Fragment {
     let (part, depth_m, uv) = (tile.parts[nearest], tile.depths_m[nearest], tile.uv(nearest));
     let point_m = if part == PartId::SKY { uv.extend(1.0) } else { tile.lens.at_depth(uv, depth_m) };
     Fragment { part, samples: 1, depth_m, point_m }
-}
-
-/// Name of an agent in mattes.
-pub(crate) fn agent_name(agent: u32) -> String {
-    format!("agent_{agent:04}")
-}
-
-/// Name of a group in mattes.
-pub(crate) fn group_name(group: u32) -> String {
-    format!("group_{group:04}")
-}
-
-/// Name of a material in mattes.
-pub(crate) fn material_name(material: u32) -> String {
-    match material {
-        0 => "walls".to_owned(),
-        1 => "bodies".to_owned(),
-        GROUND_MATERIAL => "ground".to_owned(),
-        other => format!("material_{other:04}"),
-    }
-}
-
-/// Material of the ground, which has no part of its own.
-pub(crate) const GROUND_MATERIAL: u32 = u32::MAX;
-
-/// Name of a Cryptomatte layer.
-pub(crate) fn matte_layer(pass: Pass) -> Option<&'static str> {
-    match pass {
-        Pass::Agent => Some("CryptoAsset"),
-        Pass::Group => Some("CryptoGroup"),
-        Pass::Material => Some("CryptoMaterial"),
-        _ => None,
-    }
 }
 
 /// The channels of passes, in the order in which [`FramePasses::tile`] appends their values.
@@ -113,12 +83,32 @@ pub(crate) fn channels(passes: &PassSet, samples: usize) -> Vec<Channel> {
 }
 
 impl FramePasses<'_> {
-    /// Values of all channels of a tile's pixels, pixel by pixel. Whole numbers and ids are stored as bits.
-    pub(crate) fn tile(&self, tile: &TileSamples<'_>) -> Vec<f32> {
-        let (mut fragments, mut coverage, mut values) = (Vec::new(), Coverage::default(), Vec::new());
-        for pixel in 0..(tile.size_px[0] * tile.size_px[1]) as usize {
-            tile.fragments(pixel, &mut fragments);
-            let nearest = &nearest_sample(tile, pixel);
+    /// Samples of each id in each pixel of a tile, for each matte.
+    pub(crate) fn mattes(&self, tile: &TileSamples<'_>) -> TileMattes {
+        let mattes: Vec<Pass> = self.passes.mattes().collect();
+        let (mut fragments, mut counted) = (Vec::new(), TileMattes::new(mattes.len()));
+        if mattes.is_empty() {
+            return counted;
+        }
+        for pixel in 0..tile.size_px[0] * tile.size_px[1] {
+            tile.fragments(pixel as usize, &mut fragments);
+            for fragment in &fragments {
+                for (matte, pass) in mattes.iter().enumerate() {
+                    let id = self.matte_id(*pass, fragment);
+                    id.into_iter().for_each(|id| counted.count(matte, pixel, id, fragment.samples));
+                }
+            }
+        }
+        counted.merge();
+        counted
+    }
+
+    /// Values of all channels of a tile's pixels, pixel by pixel; mattes are counted already, in a number of samples a
+    /// pixel. Whole numbers and ids are stored as bits.
+    pub(crate) fn tile(&self, tile: &TileSamples<'_>, mattes: &TileMattes, of_samples: usize) -> Vec<f32> {
+        let (mut values, mut coverage) = (Vec::new(), mattes.coverages(of_samples));
+        for pixel in 0..tile.size_px[0] * tile.size_px[1] {
+            let nearest = &nearest_sample(tile, pixel as usize);
             for pass in Pass::ALL.into_iter().filter(|pass| self.passes.holds(*pass)) {
                 match pass {
                     Pass::Depth if nearest.part == PartId::SKY => values.push(SKY_DEPTH_M),
@@ -129,12 +119,8 @@ impl FramePasses<'_> {
                     Pass::Motion => self.append_motion(nearest, &mut values),
                     Pass::Id => values.push(f32::from_bits(self.agent(nearest).map_or(0, |agent| agent + 1))),
                     Pass::Agent | Pass::Group | Pass::Material => {
-                        coverage.clear();
-                        for fragment in &fragments {
-                            let name = self.matte_name(pass, fragment);
-                            name.into_iter().for_each(|name| coverage.add(id_bits(&name), fragment.samples));
-                        }
-                        coverage.append_ranks(tile.pattern.count(), &mut values);
+                        let matte = self.passes.mattes().take_while(|other| *other != pass).count();
+                        coverage.append(matte, pixel, &mut values);
                     }
                 }
             }
@@ -155,16 +141,19 @@ impl FramePasses<'_> {
         self.scene.owner(fragment.part).map(|owner| owner.agent).filter(|agent| *agent != Owner::NO_AGENT)
     }
 
-    /// Name in a matte; none of what the matte does not hold.
-    fn matte_name(&self, pass: Pass, fragment: &Fragment) -> Option<String> {
+    /// Id in a matte; none of what the matte does not hold.
+    fn matte_id(&self, pass: Pass, fragment: &Fragment) -> Option<u32> {
         match pass {
-            Pass::Agent => self.agent(fragment).map(agent_name),
+            Pass::Agent => self.ids.agent(self.agent(fragment)?),
             Pass::Group => {
                 let life = self.population.agents.get(self.agent(fragment)? as usize)?;
-                life.group.map(group_name)
+                self.ids.group(life.group?)
             }
             _ if fragment.part == PartId::SKY => None,
-            _ => Some(material_name(self.scene.owner(fragment.part).map_or(GROUND_MATERIAL, |owner| owner.material))),
+            _ => {
+                let material = self.scene.owner(fragment.part).map_or(GROUND_MATERIAL, |owner| owner.material);
+                self.ids.material(material)
+            }
         }
     }
 

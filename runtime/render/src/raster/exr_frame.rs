@@ -1,28 +1,27 @@
 //! A picture as EXR: scene-linear Rec. 709, half floats, premultiplied. The same picture gives the same bytes.
 //!
-//! Only attributes with a named field in the `exr` crate are written: it stores others in a hash map, whose order
-//! changes from run to run. Lines are written in increasing order by one thread. No date is written.
+//! No date is written. Number and time of a frame are written where a shot is stated.
 
 use std::io::{self, Seek, Write};
+use std::ops::Range;
 use std::path::Path;
 
-use exr::block::writer::ChunksWriter;
-use exr::image::write::channels::{ChannelsWriter, WritableChannels};
 use exr::meta::Headers;
+use exr::meta::attribute::AttributeValue;
 use exr::prelude::{
     Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, SpecificChannels, Text, Vec2, WritableImage, f16,
 };
+use fbcrowd_sim::scenario::FrameRate;
 use motiondb::files::atomic_file::AtomicFile;
 use tiny_skia::PremultipliedColorU8;
 
 use crate::error::RenderError;
 use crate::raster::colour_space::ColourSpace;
 use crate::raster::palette::decode_srgb;
+use crate::raster::scan_lines::{self, STRIP_STEP};
 use crate::raster::strips::PictureStrips;
 
-/// Number of lines in one compressed block.
-const BLOCK_LINES: usize = 16;
-/// Encoding: scan lines in blocks of [`BLOCK_LINES`].
+/// Encoding: scan lines in blocks of sixteen.
 const ENCODING: Encoding = Encoding {
     compression: Compression::ZIP16,
     blocks: exr::image::Blocks::ScanLines,
@@ -33,54 +32,72 @@ const ENCODING: Encoding = Encoding {
 ///
 /// # Errors
 /// If the file cannot be written.
-pub(crate) fn write(path: &Path, picture: &mut impl PictureStrips, frame_rate_hz: f32) -> Result<(), RenderError> {
+pub(crate) fn write(path: &Path, picture: &mut impl PictureStrips, frame: &FrameLabel) -> Result<(), RenderError> {
     let written = AtomicFile::create(path).and_then(|mut file| {
-        encode(file.writer(), picture, frame_rate_hz)?;
+        encode(file.writer(), picture, frame)?;
         file.commit()
     });
     written.map_err(|source| RenderError::Write { path: path.to_owned(), source })
 }
 
-/// Encodes a picture block by block. Frames are drawn in parallel already, so a single thread encodes each.
-fn encode(out: impl Write + Seek, picture: &mut impl PictureStrips, frame_rate_hz: f32) -> io::Result<()> {
+/// Encodes a picture strip by strip.
+fn encode(out: &mut (impl Write + Seek), picture: &mut impl PictureStrips, frame: &FrameLabel) -> io::Result<()> {
     let linear = Linearizer::new();
     let [width, height] = picture.size_px().map(|side| side as usize);
     let strip_rows = picture.strip_rows() as usize;
-    // Blocks of lines do not extend over two strips.
-    debug_assert!(strip_rows.is_multiple_of(BLOCK_LINES) || strip_rows >= height);
-    let mut next_strip = 0;
-    let written = exr::block::write(out, headers((width, height), frame_rate_hz), true, |meta, chunks| {
-        let blocks = meta.collect_ordered_block_data(|block| {
-            if block.pixel_position.y() >= next_strip {
-                picture.draw(next_strip as u32);
-                next_strip += strip_rows;
-            }
-            let (pixels, top) = (picture.pixels(), next_strip - strip_rows);
-            let pixel = |at: Vec2<usize>| linear.premultiplied(pixels[(at.y() - top) * width + at.x()]);
-            let channels = SpecificChannels::rgba(pixel);
-            channels.create_writer(&meta.headers[0]).extract_uncompressed_block(&meta.headers[0], block)
-        });
-        let mut compressor = chunks.sequential_blocks_compressor(&meta);
-        for (index, block) in blocks {
-            compressor.compress_block(index, block)?;
+    // Strips of a picture in several strips end where blocks of lines do.
+    debug_assert!(strip_rows.is_multiple_of(STRIP_STEP) || strip_rows >= height);
+    let strip = |lines: Range<usize>| {
+        picture.draw(lines.start as u32);
+        Ok((lines.start, picture.pixels()[..lines.len() * width].to_vec()))
+    };
+    let line = |(top, pixels): &(usize, Vec<PremultipliedColorU8>), y: usize, bytes: &mut Vec<u8>| {
+        let pixels = &pixels[(y - top) * width..][..width];
+        let light: Vec<[f16; 4]> = pixels.iter().map(|pixel| linear.premultiplied(*pixel)).collect();
+        // In the order of the channels' names: A, B, G, R.
+        for side in [3, 2, 1, 0] {
+            light.iter().for_each(|light| bytes.extend(light[side].to_ne_bytes()));
         }
-        Ok(())
-    });
-    written.map_err(io::Error::other)
+    };
+    scan_lines::write(out, headers((width, height), frame), strip_rows, strip, line)
 }
 
 /// The header of a file of one layer.
-fn headers((width, height): (usize, usize), frame_rate_hz: f32) -> Headers {
-    let attributes = LayerAttributes {
-        frames_per_second: Some(frame_rate_fraction(frame_rate_hz)),
+fn headers((width, height): (usize, usize), frame: &FrameLabel) -> Headers {
+    let mut attributes = LayerAttributes {
+        frames_per_second: Some(rational(frame.rate)),
         software_name: Some(Text::from("FbCrowd")),
         ..LayerAttributes::default()
     };
+    if let Some((number, time_s)) = frame.moment {
+        append_moment(&mut attributes, number, time_s);
+    }
     // The header depends on the types of the channels alone.
     let channels = SpecificChannels::rgba(|_: Vec2<usize>| (f16::ZERO, f16::ZERO, f16::ZERO, f16::ZERO));
     let mut image = Image::from_layer(Layer::new((width, height), attributes, ENCODING, channels));
     image.attributes.chromaticities = Some(ColourSpace::Rec709.chromaticities());
     image.write().infer_meta_data()
+}
+
+/// What a header states of a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FrameLabel {
+    /// Frame rate.
+    pub(crate) rate: FrameRate,
+    /// Number and simulated time (s) of the frame of a stated shot.
+    pub(crate) moment: Option<(u32, f64)>,
+}
+
+/// Adds number and simulated time (s) of a frame.
+pub(crate) fn append_moment(attributes: &mut LayerAttributes, number: u32, time_s: f64) {
+    let number = i32::try_from(number).unwrap_or(i32::MAX);
+    attributes.other.insert(Text::from("imageCounter"), AttributeValue::I32(number));
+    attributes.other.insert(Text::from("time_s"), AttributeValue::F32(time_s as f32));
+}
+
+/// A frame rate as an attribute.
+pub(crate) fn rational(rate: FrameRate) -> (i32, u32) {
+    (i32::try_from(rate.frames).unwrap_or(i32::MAX), rate.seconds)
 }
 
 /// Conversion of code values to linear light, with a table for opaque pixels.
@@ -95,7 +112,7 @@ impl Linearizer {
     }
 
     /// A pixel in linear light, premultiplied. tiny-skia's pixels are premultiplied code values.
-    fn premultiplied(&self, pixel: PremultipliedColorU8) -> (f16, f16, f16, f16) {
+    fn premultiplied(&self, pixel: PremultipliedColorU8) -> [f16; 4] {
         let alpha = f32::from(pixel.alpha()) / 255.0;
         let linear = |code: u8| match pixel.alpha() {
             u8::MAX => self.opaque[usize::from(code)],
@@ -103,19 +120,7 @@ impl Linearizer {
             covered => decode_srgb(f32::from(code) / f32::from(covered)) * alpha,
         };
         let [red, green, blue] = [pixel.red(), pixel.green(), pixel.blue()].map(linear).map(f16::from_f32);
-        (red, green, blue, f16::from_f32(alpha))
-    }
-}
-
-/// A frame rate as a fraction: a whole number, a broadcast rate n·1000/1001, or thousandths.
-pub(crate) fn frame_rate_fraction(frame_rate_hz: f32) -> (i32, u32) {
-    let (whole, broadcast) = (frame_rate_hz.round(), (frame_rate_hz * 1.001).round());
-    if (frame_rate_hz - whole).abs() < 1e-4 {
-        (whole as i32, 1)
-    } else if (frame_rate_hz * 1.001 - broadcast).abs() < 1e-3 {
-        (broadcast as i32 * 1000, 1001)
-    } else {
-        ((frame_rate_hz * 1000.0).round() as i32, 1000)
+        [red, green, blue, f16::from_f32(alpha)]
     }
 }
 
@@ -124,18 +129,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frame_rates_become_exact_fractions() {
-        for (rate, fraction) in
-            [(30.0, (30, 1)), (29.97, (30_000, 1001)), (23.976, (24_000, 1001)), (12.5, (12_500, 1000))]
-        {
-            assert_eq!(frame_rate_fraction(rate), fraction, "{rate}");
-        }
-    }
-
-    #[test]
     fn half_covered_white_stays_white() {
         let pixel = PremultipliedColorU8::from_rgba(128, 128, 128, 128).unwrap();
-        let (red, _, _, alpha) = Linearizer::new().premultiplied(pixel);
+        let [red, _, _, alpha] = Linearizer::new().premultiplied(pixel);
         assert!((red.to_f32() - alpha.to_f32()).abs() < 1e-3);
     }
 }

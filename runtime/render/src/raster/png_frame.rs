@@ -42,6 +42,26 @@ fn encode(out: &mut impl Write, picture: &mut impl PictureStrips) -> io::Result<
     Ok(writer.finish()?)
 }
 
+/// A picture as rows of red, green and blue, sRGB.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RgbPicture {
+    /// Width and height, pixels.
+    pub size_px: [u32; 2],
+    /// Pixels, row by row.
+    pub pixels: Vec<[u8; 3]>,
+}
+
+/// A picture that is drawn strip by strip, as rows.
+///
+/// # Errors
+/// If the system gives too little memory.
+pub(crate) fn rgb_picture(picture: &mut impl PictureStrips) -> Result<RgbPicture, RenderError> {
+    let size_px = picture.size_px();
+    let mib = (3 * size_px[0] as usize * size_px[1] as usize) >> 20;
+    let pixels = rgb_rows(picture).map_err(|_| RenderError::OutOfMemory { mib })?;
+    Ok(RgbPicture { size_px, pixels })
+}
+
 /// Red, green and blue of all pixels.
 fn rgb_rows(picture: &mut impl PictureStrips) -> io::Result<Vec<[u8; 3]>> {
     let [width, height] = picture.size_px().map(|side| side as usize);

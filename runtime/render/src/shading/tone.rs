@@ -1,6 +1,8 @@
 //! The tone curve: scene-linear light to sRGB code values. Linear up to a knee, then a shoulder that reaches white late,
 //! so that bright ground keeps its lines.
 
+use std::sync::OnceLock;
+
 use exr::prelude::f16;
 
 use crate::raster::palette::encode_srgb;
@@ -14,7 +16,13 @@ pub(crate) struct ToneTable {
 }
 
 impl ToneTable {
-    pub(crate) fn new() -> Self {
+    /// The table, made once.
+    pub(crate) fn shared() -> &'static Self {
+        static TABLE: OnceLock<ToneTable> = OnceLock::new();
+        TABLE.get_or_init(Self::new)
+    }
+
+    fn new() -> Self {
         let code = |bits: u16| {
             let light = f16::from_bits(bits).to_f32();
             // NaN becomes black.

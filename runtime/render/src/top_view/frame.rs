@@ -13,6 +13,7 @@ use crate::error::RenderError;
 use crate::raster::drawn_body::{self, Detail, DrawnPart};
 use crate::raster::palette::look;
 use crate::raster::pixels::Strip;
+use crate::raster::scan_lines::STRIP_STEP;
 use crate::raster::strips::PictureStrips;
 use crate::raster::tapered_capsule::Canvas;
 use crate::top_view::captions::Captions;
@@ -25,8 +26,8 @@ use crate::top_view::trails::{self, Tracks, Trail};
 
 /// Greatest number of pixels of a strip, which take 9 bytes each: a frame of up to 2560 × 1440 is one strip.
 pub(crate) const STRIP_PIXELS: u32 = 4 << 20;
-/// Number of rows by which strips begin: EXR files compress so many together.
-const BLOCK_ROWS: u32 = 16;
+/// Number of rows by which strips begin: those of EXR files do.
+const BLOCK_ROWS: u32 = STRIP_STEP as u32;
 /// Reach of a body and its shade from its root, m: bodies farther outside the picture are left out.
 const REACH_M: f32 = 2.0;
 /// Depth below the ground at which a canvas has height 0, m: a toe slightly below the ground is not hidden.
@@ -83,7 +84,10 @@ impl<'a> TopView<'a> {
     /// # Errors
     /// If the view is out of range.
     pub fn new(header: &'a Header, tracks: &'a Tracks) -> Result<Self, RenderError> {
-        let framing = frame_recording(header, tracks.positions_m())?;
+        let framing = match tracks.bounds_m {
+            Some(corners_m) => frame_recording(header, corners_m.into_iter())?,
+            None => frame_recording(header, tracks.positions_m())?,
+        };
         let background = ground::background(header, &framing);
         let (doors, captions) = (DrawnDoors::default(), Captions::new(&framing));
         Ok(Self { header, tracks, framing, background, doors, population: None, captions })

@@ -6,16 +6,13 @@ use std::str::FromStr;
 
 use crate::error::{FrameRangeFault, RenderError};
 
-/// Number of a sequence's first frame, as film tools expect it.
-pub(crate) const FIRST_FRAME: u32 = 1001;
-
 /// Frame numbers, as a user wrote them.
 ///
 /// ```
 /// use fbcrowd_render::{FrameRange, RenderError};
 ///
 /// let range: FrameRange = "1001-1006x2, 1010".parse()?;
-/// assert_eq!(range.clip(8)?, [1001, 1003, 1005]); // the recording ends at 1008
+/// assert_eq!(range.clip(1001, 8)?, [1001, 1003, 1005]); // the sequence ends at 1008
 /// assert!("1006-1001".parse::<FrameRange>().is_err());
 /// # Ok::<(), RenderError>(())
 /// ```
@@ -46,22 +43,29 @@ impl FromStr for FrameRange {
 }
 
 impl FrameRange {
-    /// The frame numbers that exist in a recording of `frame_count` frames, ascending, each once.
+    /// The frame numbers that exist in a sequence of `frame_count` frames from `first` on, ascending, each once.
     ///
     /// # Errors
     /// If none exists.
-    pub fn clip(&self, frame_count: u32) -> Result<Vec<u32>, RenderError> {
-        let (first, last) = (FIRST_FRAME, FIRST_FRAME + frame_count.saturating_sub(1));
+    pub fn clip(&self, first: u32, frame_count: u32) -> Result<Vec<u32>, RenderError> {
+        let last = first + frame_count.saturating_sub(1);
         let numbers: BTreeSet<u32> = self
             .spans
             .iter()
-            .flat_map(|span| (span.first..=span.last.min(last)).step_by(span.step as usize))
-            .filter(|number| *number >= first)
+            .flat_map(|span| (span.first_from(first)..=span.last.min(last)).step_by(span.step as usize))
             .collect();
         if numbers.is_empty() {
             return Err(RenderError::NoFrames { text: self.text.clone(), first, last });
         }
         Ok(numbers.into_iter().collect())
+    }
+}
+
+impl FrameSpan {
+    /// The first number that is not below `first`.
+    fn first_from(&self, first: u32) -> u32 {
+        let steps = first.saturating_sub(self.first).div_ceil(self.step);
+        self.first.saturating_add(steps.saturating_mul(self.step))
     }
 }
 
@@ -87,7 +91,7 @@ mod tests {
     use super::*;
 
     fn check(text: &str, expected: &[u32]) {
-        assert_eq!(text.parse::<FrameRange>().unwrap().clip(20).unwrap(), expected, "{text}");
+        assert_eq!(text.parse::<FrameRange>().unwrap().clip(1001, 20).unwrap(), expected, "{text}");
     }
 
     #[test]
@@ -120,6 +124,6 @@ mod tests {
             };
             assert_eq!((found_part.as_str(), found), (part, fault), "{text}");
         }
-        assert!(matches!("1-20".parse::<FrameRange>().unwrap().clip(5), Err(RenderError::NoFrames { .. })));
+        assert!(matches!("1-20".parse::<FrameRange>().unwrap().clip(1001, 5), Err(RenderError::NoFrames { .. })));
     }
 }

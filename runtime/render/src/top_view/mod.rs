@@ -2,7 +2,7 @@
 //!
 //! Enters: a recording, which holds its view. Leaves: pictures, or PNG or EXR files.
 //!
-//! Read `sequence`, then `playback` (poses between steps), `framing` and `frame`. The layers of a frame are `ground`
+//! Read `sequence`, then `playback` (tracks), `framing` and `frame`. The layers of a frame are `ground`
 //! with `markings`, `doors`, `signals`, `trails`, `shade` and `captions`. `frame_range` reads `--frames`.
 
 pub(crate) mod captions;
@@ -18,9 +18,10 @@ pub(crate) mod shade;
 pub(crate) mod signals;
 pub(crate) mod trails;
 
+pub use fbcrowd_sim::recording::sample;
 pub use frame::{FrameBuffers, TopView};
 pub use frame_range::FrameRange;
 pub use framing::Framing;
-pub use playback::{read_tracks, sample};
-pub use sequence::{PictureFormat, SequenceOptions, picture_paths, render_sequence};
+pub use playback::read_tracks;
+pub use sequence::{PictureFormat, SequenceOptions, draw_sequence, frame_times, picture_paths, render_sequence};
 pub use trails::{Track, Tracks};

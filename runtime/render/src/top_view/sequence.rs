@@ -7,18 +7,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fbcrowd_sim::recording::Recording;
+use fbcrowd_sim::recording::{FrameTimes, Recording, duration_s, sample};
+use fbcrowd_sim::scenario::ShotSpec;
 use motiondb::memory;
 use rayon::prelude::*;
 use tiny_skia::Pixmap;
 
 use crate::constraints::constraint_overlay::ConstraintOverlay;
 use crate::error::RenderError;
+use crate::raster::exr_frame;
+use crate::raster::exr_frame::FrameLabel;
+use crate::raster::png_frame::{self, RgbPicture, rgb_picture};
 use crate::raster::strips::PictureStrips;
-use crate::raster::{exr_frame, png_frame};
 use crate::top_view::frame::{FrameBuffers, STRIP_PIXELS, TopView};
-use crate::top_view::frame_range::{FIRST_FRAME, FrameRange};
-use crate::top_view::playback::{picture_count, picture_time_s, read_tracks, sample};
+use crate::top_view::frame_range::FrameRange;
+use crate::top_view::playback::read_tracks_between;
 use crate::top_view::trails::Tracks;
 
 /// Bytes of the background for each pixel, while the shade of obstacles is drawn on it.
@@ -69,6 +72,8 @@ pub struct SequenceOptions {
     pub format: PictureFormat,
     /// Frames to be drawn; `None` for all.
     pub frames: Option<FrameRange>,
+    /// Times and numbers of the frames, instead of the recorded scenario's.
+    pub shot: Option<ShotSpec>,
     /// Indices of agents whose constraints are drawn beside the scene.
     pub constraints_of: Vec<usize>,
 }
@@ -84,7 +89,8 @@ struct SequenceViews<'a> {
 /// # Errors
 /// If no frame is in the range.
 pub fn picture_paths(recording: &Recording, options: &SequenceOptions) -> Result<Vec<PathBuf>, RenderError> {
-    let numbers = frame_numbers(recording, options.frames.as_ref())?;
+    let times = frame_times(recording, options.shot.as_ref());
+    let numbers = frame_numbers(recording, &times, options.frames.as_ref())?;
     Ok(numbers.into_iter().map(|number| picture_path(options, number)).collect())
 }
 
@@ -102,14 +108,15 @@ pub fn render_sequence(
     options: &SequenceOptions,
     observer: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<PathBuf>, RenderError> {
-    let numbers = frame_numbers(recording, options.frames.as_ref())?;
+    let times = frame_times(recording, options.shot.as_ref());
+    let numbers = frame_numbers(recording, &times, options.frames.as_ref())?;
     check_memory(recording, &numbers, !options.constraints_of.is_empty())?;
-    let tracks = read_tracks(recording)?;
+    let tracks = tracks_of(recording, &times, &numbers)?;
     let views = SequenceViews::new(recording, &tracks, &options.constraints_of)?;
     make_folder(&options.folder)?;
     let done = AtomicUsize::new(0);
     let render = |buffers: &mut FrameBuffers, number: &u32| {
-        let path = render_frame(recording, &views, buffers, options, *number)?;
+        let path = render_frame(recording, &views, buffers, options, (*number, &times))?;
         observer(done.fetch_add(1, Ordering::Relaxed) + 1, numbers.len());
         Ok(path)
     };
@@ -119,6 +126,50 @@ pub fn render_sequence(
         paths.extend(rendered.collect::<Result<Vec<PathBuf>, RenderError>>()?);
     }
     Ok(paths)
+}
+
+/// Draws frames of a recording from above, and passes them to a function in order. Returns their number.
+///
+/// # Errors
+/// As [`render_sequence`]; or where the function fails.
+pub fn draw_sequence<E: From<RenderError>>(
+    recording: &Recording,
+    options: &SequenceOptions,
+    observer: &(dyn Fn(usize, usize) + Sync),
+    mut show: impl FnMut(RgbPicture) -> Result<(), E>,
+) -> Result<usize, E> {
+    let times = frame_times(recording, options.shot.as_ref());
+    let numbers = frame_numbers(recording, &times, options.frames.as_ref())?;
+    check_memory(recording, &numbers, true)?;
+    let tracks = tracks_of(recording, &times, &numbers)?;
+    let views = SequenceViews::new(recording, &tracks, &options.constraints_of)?;
+    let at_once = views.most_at_once().unwrap_or(numbers.len()).min(rayon::current_num_threads());
+    let draw = |buffers: &mut FrameBuffers, number: &u32| -> Result<RgbPicture, RenderError> {
+        let time_s = times.time_s(*number);
+        let agents = sample(recording, time_s)?;
+        let mut strips = views.top.strips(buffers, time_s as f32, &agents);
+        match &views.overlay {
+            None => rgb_picture(&mut strips),
+            Some(overlay) => rgb_picture(&mut &overlay.draw(&whole(&mut strips), time_s)?),
+        }
+    };
+    let mut done = 0;
+    for chunk in numbers.chunks(at_once.max(1)) {
+        let pictures = chunk.par_iter().map_init(|| views.top.strip_buffers(), draw).collect::<Result<Vec<_>, _>>()?;
+        for picture in pictures {
+            show(picture)?;
+            done += 1;
+            observer(done, numbers.len());
+        }
+    }
+    Ok(done)
+}
+
+/// The tracks that frames show, ascending.
+fn tracks_of(recording: &Recording, times: &FrameTimes, numbers: &[u32]) -> Result<Tracks, RenderError> {
+    let [first, last] = [numbers.first(), numbers.last()].map(|number| number.map_or(0.0, |at| times.time_s(*at)));
+    let trail_s = f64::from(recording.header().scenario.view.trail_s);
+    read_tracks_between(recording, [first - trail_s, last])
 }
 
 /// Checks that the system gives the memory that the frames need: the background and the shade of obstacles once; for
@@ -155,12 +206,35 @@ impl<'a> SequenceViews<'a> {
     }
 }
 
-pub(crate) fn frame_numbers(recording: &Recording, frames: Option<&FrameRange>) -> Result<Vec<u32>, RenderError> {
+/// The shot that options state, else that of the recorded scenario, else one from its start at its view's frame rate.
+pub(crate) fn shot_of(recording: &Recording, stated: Option<&ShotSpec>) -> ShotSpec {
+    stated.or(recording.header().scenario.shot.as_ref()).cloned().unwrap_or_default()
+}
+
+/// Whether options or the recorded scenario state a shot.
+pub(crate) fn is_shot_stated(recording: &Recording, stated: Option<&ShotSpec>) -> bool {
+    stated.is_some() || recording.header().scenario.shot.is_some()
+}
+
+/// Times and numbers of all frames of a recording.
+pub fn frame_times(recording: &Recording, stated: Option<&ShotSpec>) -> FrameTimes {
+    FrameTimes::of(&shot_of(recording, stated), &recording.header().scenario)
+}
+
+pub(crate) fn frame_numbers(
+    recording: &Recording,
+    times: &FrameTimes,
+    frames: Option<&FrameRange>,
+) -> Result<Vec<u32>, RenderError> {
     if recording.frame_count() == 0 {
         return Err(RenderError::EmptyRecording);
     }
-    let count = picture_count(recording);
-    frames.map_or_else(|| Ok((FIRST_FRAME..FIRST_FRAME + count).collect()), |frames| frames.clip(count))
+    let duration_s = duration_s(recording);
+    let (first, count) = (times.first_frame, times.count(duration_s));
+    if count == 0 {
+        return Err(RenderError::NothingAfterPreroll { preroll_s: times.start_s, duration_s });
+    }
+    frames.map_or_else(|| Ok((first..first + count).collect()), |frames| frames.clip(first, count))
 }
 
 pub(crate) fn make_folder(folder: &Path) -> Result<(), RenderError> {
@@ -172,18 +246,19 @@ fn render_frame(
     views: &SequenceViews<'_>,
     buffers: &mut FrameBuffers,
     options: &SequenceOptions,
-    number: u32,
+    (number, times): (u32, &FrameTimes),
 ) -> Result<PathBuf, RenderError> {
-    let time_s = picture_time_s(recording, number - FIRST_FRAME);
+    let time_s = times.time_s(number);
     let agents = sample(recording, time_s)?;
-    let frame_rate_hz = recording.header().scenario.view.frame_rate_hz;
     let path = picture_path(options, number);
+    let is_stated = is_shot_stated(recording, options.shot.as_ref());
+    let label = FrameLabel { rate: times.rate, moment: is_stated.then_some((number, time_s)) };
     let mut strips = views.top.strips(buffers, time_s as f32, &agents);
     match &views.overlay {
-        None => write(&path, &mut strips, options.format, frame_rate_hz)?,
+        None => write(&path, &mut strips, options.format, &label)?,
         Some(overlay) => {
             let picture = overlay.draw(&whole(&mut strips), time_s)?;
-            write(&path, &mut &picture, options.format, frame_rate_hz)?;
+            write(&path, &mut &picture, options.format, &label)?;
         }
     }
     Ok(path)
@@ -193,11 +268,11 @@ fn write(
     path: &Path,
     picture: &mut impl PictureStrips,
     format: PictureFormat,
-    frame_rate_hz: f32,
+    label: &FrameLabel,
 ) -> Result<(), RenderError> {
     match format {
         PictureFormat::Png => png_frame::write_strips(path, picture),
-        PictureFormat::Exr => exr_frame::write(path, picture, frame_rate_hz),
+        PictureFormat::Exr => exr_frame::write(path, picture, label),
     }
 }
 

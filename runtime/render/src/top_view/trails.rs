@@ -44,6 +44,8 @@ pub struct Tracks {
     pub frame_count: usize,
     /// The track of each agent, by id.
     pub agents: Vec<Track>,
+    /// Box of all positions of a recording of which the tracks hold a part; none where they hold all.
+    pub bounds_m: Option<[Vec2; 2]>,
 }
 
 /// Root positions of one agent in the frames in which it is present.
@@ -59,6 +61,11 @@ impl Tracks {
     /// No frames yet.
     pub fn new(dt_s: f32) -> Self {
         Self { dt_s, ..Self::default() }
+    }
+
+    /// No frames yet, the first one of which has an index.
+    pub(crate) fn starting_at(dt_s: f32, first_frame: usize) -> Self {
+        Self { frame_count: first_frame, ..Self::new(dt_s) }
     }
 
     /// Adds a frame: the root of each present agent, world, metres.

@@ -56,6 +56,12 @@ impl Lens {
         Self { size_px, eye_m, right, down, forward, pixel: width / size_px[0] as f32, is_perspective }
     }
 
+    /// The same lens, turned about the view so that a direction is up in the picture.
+    pub fn with_up(self, up: Vec3) -> Self {
+        let right = self.forward.cross(up).try_normalize().unwrap_or(self.right);
+        Self { right, down: self.forward.cross(right), ..self }
+    }
+
     /// A point in camera space, m.
     pub fn to_camera(&self, point_m: Vec3) -> Vec3 {
         let from_eye = point_m - self.eye_m;

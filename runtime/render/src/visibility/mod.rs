@@ -24,4 +24,4 @@ pub use part::PartId;
 pub use sample_pattern::SamplePattern;
 pub use scene_parts::{Cone, Meshes, Owner, SceneParts};
 pub use tile_samples::{Fragment, TileSamples};
-pub(crate) use tiles::{TILE_PX, for_each_tile};
+pub(crate) use tiles::{PreparedTiles, TILE_PX, for_each_tile};

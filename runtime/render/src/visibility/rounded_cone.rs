@@ -55,9 +55,15 @@ impl PreparedCone {
     }
 
     /// Depth at which the ray through (u, v) meets the cone, m. A cone across the near plane is cut there.
-    #[inline]
+    #[cfg(test)]
     pub(crate) fn depth_m(&self, uv: Vec2) -> Option<f32> {
-        let depth_m = self.first_depth_m(uv)?;
+        if self.direction_scale > 0.0 { self.depth_along_m::<true>(uv) } else { self.depth_along_m::<false>(uv) }
+    }
+
+    /// As `depth_m`, for rays through the eye or parallel ones.
+    #[inline]
+    pub(crate) fn depth_along_m<const IS_PERSPECTIVE: bool>(&self, uv: Vec2) -> Option<f32> {
+        let depth_m = self.first_depth_m::<IS_PERSPECTIVE>(uv)?;
         if self.is_cut && depth_m < NEAR_M {
             let at_near = if self.direction_scale > 0.0 { uv * NEAR_M } else { uv }.extend(NEAR_M);
             return self.holds(at_near).then_some(NEAR_M);
@@ -65,12 +71,13 @@ impl PreparedCone {
         Some(depth_m)
     }
 
-    /// As [`depth_m`](Self::depth_m) of the whole line, in front of the eye and behind.
+    /// The depth on the whole line, in front of the eye and behind.
     #[inline]
-    fn first_depth_m(&self, uv: Vec2) -> Option<f32> {
+    fn first_depth_m<const IS_PERSPECTIVE: bool>(&self, uv: Vec2) -> Option<f32> {
         let Self { axis, radii, taper, axis_squared, flank, .. } = *self;
-        let origin = uv * self.origin_scale - self.from.truncate();
-        let across = uv * self.direction_scale;
+        // Parallel rays: s is 1 and p is 0.
+        let origin = if IS_PERSPECTIVE { uv * self.origin_scale } else { uv } - self.from.truncate();
+        let across = if IS_PERSPECTIVE { uv } else { Vec2::ZERO };
         let along_origin = axis.x * origin.x + axis.y * origin.y;
         let along = axis.x * across.x + axis.y * across.y + axis.z;
         let approach = across.x * origin.x + across.y * origin.y;

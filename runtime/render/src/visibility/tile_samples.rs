@@ -98,6 +98,18 @@ impl<'a> TileSamples<'a> {
     /// Draws a cone where it is nearest.
     pub(crate) fn draw_cone(&mut self, cone: &PreparedCone, part: PartId, bounds: [[u32; 2]; 2]) {
         self.has_parts = true;
+        match self.lens.is_perspective {
+            true => self.draw_cone_along::<true>(cone, part, bounds),
+            false => self.draw_cone_along::<false>(cone, part, bounds),
+        }
+    }
+
+    fn draw_cone_along<const IS_PERSPECTIVE: bool>(
+        &mut self,
+        cone: &PreparedCone,
+        part: PartId,
+        bounds: [[u32; 2]; 2],
+    ) {
         let [columns, rows] = self.window(bounds);
         let count = self.pattern.count();
         let width = self.size_px[0];
@@ -107,7 +119,7 @@ impl<'a> TileSamples<'a> {
                 let v = first_uv.y + row as f32 * pixel;
                 for column in columns.clone() {
                     let uv = Vec2::new(first_uv.x + column as f32 * pixel, v);
-                    if let Some(depth_m) = cone.depth_m(uv) {
+                    if let Some(depth_m) = cone.depth_along_m::<IS_PERSPECTIVE>(uv) {
                         let at = (row * width + column) as usize * count + sample;
                         self.put(at, depth_m, part);
                     }
@@ -126,10 +138,14 @@ impl<'a> TileSamples<'a> {
         let first_uv = self.lens.to_uv(Vec2::new(self.corner_px[0] as f32, self.corner_px[1] as f32));
         let steps = edges.map(|edge| edge.step(UNITS));
         let first_x = (self.corner_px[0] + columns.start) as i32 * UNITS;
+        let first_y = (self.corner_px[1] + rows.start) as i32 * UNITS;
+        let mut of_row = edges.map(|edge| edge.at([first_x, first_y]));
+        let row_steps = edges.map(|edge| edge.step_down(UNITS));
         for row in rows {
-            let y = (self.corner_px[1] + row) as i32 * UNITS;
             for (sample, offset) in offsets.iter().enumerate() {
-                let mut values = edges.map(|edge| edge.at([first_x + offset[0], y + offset[1]]));
+                let mut values = [0, 1, 2].map(|index: usize| {
+                    of_row[index] + edges[index].step(offset[0]) + edges[index].step_down(offset[1])
+                });
                 let v = first_uv.y + (row as f32 + offset[1] as f32 / UNITS as f32) * pixel;
                 for column in columns.clone() {
                     // No value is negative.
@@ -141,6 +157,7 @@ impl<'a> TileSamples<'a> {
                     values = [values[0] + steps[0], values[1] + steps[1], values[2] + steps[2]];
                 }
             }
+            of_row = [of_row[0] + row_steps[0], of_row[1] + row_steps[1], of_row[2] + row_steps[2]];
         }
     }
 

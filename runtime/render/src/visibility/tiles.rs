@@ -1,6 +1,8 @@
 //! All tiles of a picture, in parallel. Each tile depends only on the scene and the lens, and the parts of a tile are
 //! drawn in their order, so that any number of threads gives the same bits.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use crate::visibility::lens::{GroundDepth, Lens};
@@ -40,26 +42,54 @@ pub(crate) fn for_each_tile<T: Send>(
     ground: Option<GroundDepth>,
     function: impl Fn(&mut TileSamples<'_>) -> T + Sync,
 ) -> Vec<T> {
-    let cones = visible_cones(scene, lens);
-    let triangles = visible_triangles(scene, lens);
-    let tiles = lens.size_px.map(|side| side.div_ceil(TILE_PX));
-    let cone_lists = TileLists::new(tiles, &cones);
-    let triangle_lists = TileLists::new(tiles, &triangles);
-    let draw = |tile: u32| {
-        let corner_px = [tile % tiles[0] * TILE_PX, tile / tiles[0] * TILE_PX];
-        let mut samples = TileSamples::new(lens, pattern, corner_px, TILE_PX);
-        if let Some(ground) = &ground {
-            samples.put_ground(ground);
-        }
-        for cone in cone_lists.of(tile).map(|index| &cones[index]) {
-            samples.draw_cone(&cone.shape, cone.part, cone.bounds);
-        }
-        for triangle in triangle_lists.of(tile).map(|index| &triangles[index]) {
-            samples.draw_triangle(&triangle.shape, triangle.part, triangle.bounds);
-        }
-        function(&mut samples)
-    };
-    (0..tiles[0] * tiles[1]).into_par_iter().map(draw).collect()
+    let tiles = PreparedTiles::new(scene, lens, pattern);
+    tiles.draw(lens, pattern, ground, 0..tiles.sides[1], function)
+}
+
+/// The parts of a scene that a lens sees, by tiles.
+pub(crate) struct PreparedTiles {
+    cones: Vec<Visible<PreparedCone>>,
+    triangles: Vec<Visible<ScreenTriangle>>,
+    cone_lists: TileLists,
+    triangle_lists: TileLists,
+    /// Number of tiles along width and height.
+    sides: [u32; 2],
+}
+
+impl PreparedTiles {
+    pub(crate) fn new(scene: &SceneParts, lens: &Lens, pattern: SamplePattern) -> Self {
+        let (cones, triangles) = (visible_cones(scene, lens), visible_triangles(scene, lens, pattern));
+        let sides = lens.size_px.map(|side| side.div_ceil(TILE_PX));
+        let (cone_lists, triangle_lists) = (TileLists::new(sides, &cones), TileLists::new(sides, &triangles));
+        Self { cones, triangles, cone_lists, triangle_lists, sides }
+    }
+
+    /// As [`for_each_tile`], for some rows of tiles.
+    pub(crate) fn draw<T: Send>(
+        &self,
+        lens: &Lens,
+        pattern: SamplePattern,
+        ground: Option<GroundDepth>,
+        rows: Range<u32>,
+        function: impl Fn(&mut TileSamples<'_>) -> T + Sync,
+    ) -> Vec<T> {
+        let columns = self.sides[0];
+        let draw = |tile: u32| {
+            let corner_px = [tile % columns * TILE_PX, tile / columns * TILE_PX];
+            let mut samples = TileSamples::new(lens, pattern, corner_px, TILE_PX);
+            if let Some(ground) = &ground {
+                samples.put_ground(ground);
+            }
+            for cone in self.cone_lists.of(tile).map(|index| &self.cones[index]) {
+                samples.draw_cone(&cone.shape, cone.part, cone.bounds);
+            }
+            for triangle in self.triangle_lists.of(tile).map(|index| &self.triangles[index]) {
+                samples.draw_triangle(&triangle.shape, triangle.part, triangle.bounds);
+            }
+            function(&mut samples)
+        };
+        (rows.start * columns..rows.end * columns).into_par_iter().map(draw).collect()
+    }
 }
 
 fn visible_cones(scene: &SceneParts, lens: &Lens) -> Vec<Visible<PreparedCone>> {
@@ -71,7 +101,7 @@ fn visible_cones(scene: &SceneParts, lens: &Lens) -> Vec<Visible<PreparedCone>> 
     scene.cones.par_iter().enumerate().filter_map(prepare).collect()
 }
 
-fn visible_triangles(scene: &SceneParts, lens: &Lens) -> Vec<Visible<ScreenTriangle>> {
+fn visible_triangles(scene: &SceneParts, lens: &Lens, pattern: SamplePattern) -> Vec<Visible<ScreenTriangle>> {
     let meshes = &scene.meshes;
     let vertices: Vec<_> = meshes.positions_m.par_iter().map(|position_m| lens.to_camera(*position_m)).collect();
     let project = |(chunk, triangles): (usize, &[[u32; 3]])| {
@@ -81,7 +111,7 @@ fn visible_triangles(scene: &SceneParts, lens: &Lens) -> Vec<Visible<ScreenTrian
             append_visible(&mut shapes, index, corners.map(|corner| vertices[corner as usize]), lens);
         }
         let to_visible = |shape: ScreenTriangle| {
-            let bounds = shape.bounds(lens.size_px)?;
+            let bounds = shape.bounds(lens.size_px).filter(|_| shape.may_hold_sample(pattern))?;
             Some(Visible { part: PartId(scene.cones.len() as u32 + shape.index), shape, bounds })
         };
         shapes.into_iter().filter_map(to_visible).collect::<Vec<_>>()

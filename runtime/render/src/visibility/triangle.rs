@@ -6,7 +6,7 @@
 use glam::{Vec2, Vec3};
 
 use crate::visibility::lens::{Lens, NEAR_M};
-use crate::visibility::sample_pattern::UNITS;
+use crate::visibility::sample_pattern::{SamplePattern, UNITS};
 
 /// Edges of the picture's frustum are widened by this factor before triangles are cut: then few are, and coordinates
 /// stay small.
@@ -133,6 +133,21 @@ impl ScreenTriangle {
         Some(bounds)
     }
 
+    /// Whether a sample lies in the box around the triangle: most triangles of a distant body hold none.
+    pub(crate) fn may_hold_sample(&self, pattern: SamplePattern) -> bool {
+        let range = |axis: usize| {
+            let along = self.corners.map(|corner| corner[axis]);
+            [along[0].min(along[1]).min(along[2]), along[0].max(along[1]).max(along[2])]
+        };
+        let (columns, rows) = (range(0), range(1));
+        // The first sample that is not before the box is not behind it.
+        let holds = |[low, high]: [i32; 2], offset: i32| {
+            (low - offset - 1).div_euclid(UNITS) < (high - offset).div_euclid(UNITS)
+        };
+        let is_large = columns[1] - columns[0] >= UNITS && rows[1] - rows[0] >= UNITS;
+        is_large || pattern.offsets().iter().any(|offset| holds(columns, offset[0]) && holds(rows, offset[1]))
+    }
+
     /// The three edge functions.
     pub(crate) fn edges(&self) -> [Edge; 3] {
         [0, 1, 2].map(|index| {
@@ -153,6 +168,11 @@ impl Edge {
     /// Change over a number of units along x.
     pub(crate) fn step(&self, units: i32) -> i64 {
         self.step[0] * i64::from(units)
+    }
+
+    /// Change over a number of units along y.
+    pub(crate) fn step_down(&self, units: i32) -> i64 {
+        self.step[1] * i64::from(units)
     }
 
     /// Value at a position in units: not negative inside.

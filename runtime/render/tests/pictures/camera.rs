@@ -25,7 +25,7 @@ fn recording(folder: &Path) -> Recording {
 fn cameras() -> Vec<CameraSpec> {
     let spec = |name: &str| CameraSpec { name: name.to_owned(), focal_mm: Some(30.0), ..CameraSpec::default() };
     let [eye_m, look_at_m] = [Vec3::new(-2.0, -6.0, 1.65), Vec3::new(0.0, 0.0, 1.0)];
-    let key = |time_s: f32, x: f32| CameraKey { time_s, eye_m: eye_m + x * Vec3::X, look_at_m };
+    let key = |time_s: f32, x: f32| CameraKey { time_s, eye_m: eye_m + x * Vec3::X, look_at_m, up: None };
     let follow = |agent: u32| CameraFollow { agent, behind_m: 3.0, left_m: 0.5, height_m: 1.8 };
     vec![
         CameraSpec { eye_m: Some(eye_m), look_at_m: Some(look_at_m), ..spec("still") },

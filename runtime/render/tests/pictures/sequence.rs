@@ -23,6 +23,7 @@ pub(crate) fn options(folder: &Path, format: PictureFormat, frames: Option<&str>
         name: "walkers".to_owned(),
         format,
         frames,
+        shot: None,
         constraints_of: Vec::new(),
     }
 }

@@ -8,7 +8,7 @@
 //! the capsules of `bone_capsule`); `frame_pairs` pairs the agents of two frames. `state_visits` counts agents in
 //! states, `places` holds the scenario's own lines and areas, `pedestrian_studies` flow, lanes, density and waiting
 //! crowds; `agent_table` and `trajectories` write a recording as text.
-//! `character_soles` measures the feet of a character that wears a recording's poses.
+//! `shot_slide` measures feet in the frames of a shot. `character_soles` measures the feet of a character that wears a recording's poses.
 
 pub(crate) mod agent_table;
 pub(crate) mod body_penetration;
@@ -21,6 +21,7 @@ pub(crate) mod pedestrian_studies;
 pub(crate) mod places;
 pub(crate) mod planted_slide;
 pub(crate) mod root_measures;
+pub(crate) mod shot_slide;
 pub(crate) mod state_visits;
 pub(crate) mod trajectories;
 pub(crate) mod wall_contact;
@@ -35,5 +36,6 @@ pub use pedestrian_studies::{
 };
 pub use places::{AreaMeasures, AreaMoment, EgressMeasures, LEVELS_OF_SERVICE, LineMeasures, Passages, PlaceMeasures};
 pub use planted_slide::{FootSlide, PlantedSlide};
+pub use shot_slide::{ShotSlide, shot_slide};
 pub use state_visits::StateMeasures;
 pub use trajectories::{write_roots, write_trajectories};

@@ -18,7 +18,8 @@
 //!
 //! Read `frame` (the recorded state of an agent), `header`, `recorder` and `reader`; then the layers below: `format`
 //! (magic, version, chunk kinds), `chunk`, `frame_chunk`, `frame_packing` with `rotation_packing`, `agents_chunk`,
-//! `zipped_json`, `error`. `version_1` reads older files. `replay` gives the planner's view of a recorded step.
+//! `zipped_json`, `error`. `version_1` reads older files. `replay` gives the planner's view of a recorded step, `playback`
+//! the bodies at any time.
 
 pub(crate) mod agents_chunk;
 pub(crate) mod chunk;
@@ -28,6 +29,7 @@ pub(crate) mod frame;
 pub(crate) mod frame_chunk;
 pub(crate) mod frame_packing;
 pub(crate) mod header;
+pub(crate) mod playback;
 pub(crate) mod reader;
 pub(crate) mod recorder;
 pub(crate) mod replay;
@@ -41,6 +43,7 @@ pub use format::{CHUNK_HEAD_BYTES, ChunkKind, FORMAT_VERSION, FORMAT_VERSION_1};
 pub use frame::AgentFrame;
 pub use frame_packing::{FrameFault, PACKED_BYTES, unpack};
 pub use header::{Header, RecordedCharacter, RecordedDatabase};
+pub use playback::{FrameTimes, duration_s, sample};
 pub use reader::Recording;
 pub use recorder::Recorder;
 pub use replay::{RecordedStep, Replay};

@@ -25,6 +25,8 @@ pub enum ScenarioPart {
     Step,
     /// `[view]`
     View,
+    /// `[shot]`
+    Shot,
     /// A tunable: section and key.
     Parameter(String, String),
     /// Start or goals of an agent, by its index.

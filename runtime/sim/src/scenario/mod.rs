@@ -4,7 +4,7 @@
 //! explicit, every number is in range and no path occurs.
 //!
 //! Read `resolved` (the scenario) with `walls`, `agent_spec`, `source_spec`, `schedule`, `due_times`, `profile`,
-//! `social_group`, `places` (zones, doors, markings, measured lines and areas, cameras), `coupling` and `view`; then
+//! `social_group`, `places` (zones, doors, markings, measured lines and areas, cameras, shots), `coupling` and `view`; then
 //! `rules` and `ranges`, `fault` and `error` (how a broken rule is shown); then [`file`](mod@file).
 
 pub(crate) mod agent_spec;
@@ -34,16 +34,18 @@ pub use error::{Invalid, ScenarioError};
 pub use fault::{ScenarioFault, ScenarioPart};
 pub use file::{MotionSource, agent_files, agents_of_lines, character_files, fault_of_lines, parse, read};
 pub use places::barred_goals::BarredGoals;
-pub use places::camera_spec::{CameraFollow, CameraKey, CameraOrbit, CameraSpec};
+pub use places::camera_spec::{CameraFollow, CameraKey, CameraOrbit, CameraSpec, KeyLine};
 pub use places::door::DoorSpec;
 pub use places::marking::{Marking, MarkingColour, MarkingShape, PlaceLabel};
 pub use places::measure_spec::{MeasureSpec, MeasuredPlace};
+pub use places::shot_spec::{FIRST_FRAME, FrameRate, ShotSpec};
 pub use places::state_zones::StateZones;
 pub use places::zone_spec::ZoneSpec;
 pub use profile::{DrawnNumbers, Profile};
 pub use ranges::{STEP_RANGE_S, check_view};
 pub use resolved::Scenario;
 pub use rules::check;
+pub use rules::shot_check::check_shot;
 pub use schedule::{RateRow, Schedule, TimeRow};
 pub use social_group::{GroupMember, GroupSizes};
 pub use source_spec::SourceSpec;

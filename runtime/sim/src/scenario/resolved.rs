@@ -14,6 +14,7 @@ use crate::scenario::places::camera_spec::CameraSpec;
 use crate::scenario::places::door::DoorSpec;
 use crate::scenario::places::marking::{Marking, PlaceLabel};
 use crate::scenario::places::measure_spec::MeasureSpec;
+use crate::scenario::places::shot_spec::ShotSpec;
 use crate::scenario::places::zone_spec::ZoneSpec;
 use crate::scenario::source_spec::SourceSpec;
 use crate::scenario::view::View;
@@ -101,6 +102,9 @@ pub struct Scenario {
     /// Cameras, by which pictures at eye height are taken.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cameras: Vec<CameraSpec>,
+    /// Which moments become frames; none where the file states none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shot: Option<ShotSpec>,
     /// Tunables.
     pub params: Params,
     /// How the top view frames the scene.
@@ -153,6 +157,7 @@ impl Scenario {
             labels: Vec::new(),
             characters: Vec::new(),
             cameras: Vec::new(),
+            shot: None,
             params: Params::default(),
             view: View::default(),
         }

@@ -2,7 +2,7 @@
 //!
 //! Enters: sets and crowds of growing sizes. Leaves: durations of a query of the blend space ([`blend_space`]), of the
 //! synthesis of a body ([`bodies`]), of planning ([`plan`]), of routes ([`routes`]) and
-//! of frames of the camera view ([`render`]). The times of whole frames are a figure of the paper
+//! of frames of the camera view ([`render`], also with a character of `tube_character`). The times of whole frames are a figure of the paper
 //! ([`crate::paper::figure6`]).
 
 pub mod blend_space;
@@ -11,3 +11,4 @@ pub mod plan;
 pub mod render;
 pub(crate) mod route_grounds;
 pub mod routes;
+pub(crate) mod tube_character;

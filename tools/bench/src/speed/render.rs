@@ -2,22 +2,30 @@
 //!
 //! A crowd walks across a disc; a camera above it sees all bodies. Frames of 1920 × 1080 pixels with four samples are drawn
 //! on one thread, with more and more light: shadow of the sun, occlusion of the ground, occlusion of bodies. The larger
-//! crowd is ten copies of the smaller one. The least duration counts: other work of the machine only lengthens it.
+//! crowd is ten copies of the smaller one; in another case all wear a skinned character. The least duration counts: other
+//! work of the machine only lengthens it. An EXR file with depth, normals, motion and a Cryptomatte is drawn and written on
+//! two threads, compressed and not: the difference is the encoding.
 
 use std::fs;
 use std::hint::black_box;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use fbcrowd_jobs::Observer;
 use fbcrowd_jobs::observer::Work;
-use fbcrowd_render::camera::{CameraView, ColourBy, Quality, Shot};
+use fbcrowd_jobs::{JobError, Observer};
+use fbcrowd_render::camera::{CameraOptions, CameraView, ColourBy, Quality, Shot, render_camera_sequence};
+use fbcrowd_render::passes::ExrCompression;
 use fbcrowd_render::shading::Occlusion;
+use fbcrowd_render::top_view::PictureFormat;
 use fbcrowd_render::visibility::{Lens, SamplePattern};
 use fbcrowd_sim::AgentId;
-use fbcrowd_sim::recording::{AgentFrame, Header};
+use fbcrowd_sim::recording::{AgentFrame, Header, Recorder, Recording};
+use fbcrowd_sim::scenario::{CameraSpec, Scenario};
 use fbcrowd_sim::simulation::Simulation;
 use glam::{Vec2, Vec3};
+use motiondb::character::Character;
+use motiondb::motion::MotionDb;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -26,6 +34,7 @@ use crate::kit::crowd::disc;
 use crate::kit::database::bundled;
 use crate::kit::report::{BenchReport, Goal};
 use crate::kit::threads::pool;
+use crate::speed::tube_character::tube_character;
 
 /// Agents of the smaller crowd.
 const AGENTS: usize = 1_000;
@@ -54,6 +63,21 @@ pub struct Args {
 pub struct Details {
     /// Durations, in the order in which they were measured.
     pub cases: Vec<Case>,
+    /// An EXR file with passes.
+    pub exr: ExrCase,
+}
+
+/// An EXR file of a frame with depth, normals, motion and a Cryptomatte by agent, drawn and written on two threads.
+#[derive(JsonSchema, Serialize)]
+pub struct ExrCase {
+    /// Duration with compression by blocks of sixteen lines, s.
+    pub compressed_s: f64,
+    /// Duration without compression, s.
+    pub uncompressed_s: f64,
+    /// Difference of both: the encoding, s.
+    pub encoding_s: f64,
+    /// Size of the compressed file, bytes.
+    pub bytes: u64,
 }
 
 /// One kind of frame.
@@ -78,6 +102,10 @@ const LIGHTS: [(&str, bool, Occlusion, f64); 4] = [
     ("shadow and ground occlusion", true, Occlusion::Ground, 0.8),
     ("shadow and full occlusion", true, Occlusion::Full, 1.2),
 ];
+/// Goal for a thousand skinned characters with shadow, s.
+const CHARACTER_GOAL_S: f64 = 1.3;
+/// Goal for the encoding of an EXR file on two threads, s.
+const ENCODING_GOAL_S: f64 = 0.7;
 /// Goal for ten thousand agents with shadow, s.
 const LARGE_GOAL_S: f64 = 0.8;
 
@@ -92,12 +120,16 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
     let header = Header::new(&db, 0, disc(AGENTS));
     let small = simulation.frames().to_vec();
     let large = copies(&small);
-    let work = Work::begin(observer, "frames", (LIGHTS.len() + 1) * args.turns as usize);
+    let characters = [tube_character(&db.skeleton)];
+    let mut dressed = simulation.population().clone();
+    dressed.agents.iter_mut().for_each(|life| life.character = Some(0));
+    let work = Work::begin(observer, "frames", (LIGHTS.len() + 4) * args.turns as usize);
     let one_thread = pool(1)?;
-    let time = |agents: &[AgentFrame], lens: Lens, light: usize| {
+    let time = |agents: &[AgentFrame], lens: Lens, light: usize, worn: &[Character]| {
         let (name, shadow, occlusion, _) = LIGHTS[light];
         let quality = Quality { samples: SamplePattern::Four, shadow, occlusion };
-        let view = CameraView::new(&header, simulation.population(), quality, ColourBy::Agent);
+        let view = CameraView::new(&header, &dressed, quality, ColourBy::Agent).with_characters(worn);
+        let name = if worn.is_empty() { name } else { "shadow, skinned characters" };
         let shot = Shot { lens, time_s: 0.0, eyes_of: None, fog_m: None };
         let (mut parts_s, mut frame_s) = (f64::INFINITY, f64::INFINITY);
         for _ in 0..args.turns {
@@ -112,8 +144,10 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
         }
         Case { agents: agents.len(), tallest_px: tallest_px(&lens, agents), light: name, parts_s, frame_s }
     };
-    let mut cases: Vec<Case> = (0..LIGHTS.len()).map(|light| time(&small, wide_lens(34.0), light)).collect();
-    cases.push(time(&large, wide_lens(150.0), 1));
+    let mut cases: Vec<Case> = (0..LIGHTS.len()).map(|light| time(&small, wide_lens(34.0), light, &[])).collect();
+    cases.push(time(&large, wide_lens(150.0), 1, &[]));
+    cases.push(time(&small, wide_lens(34.0), 1, &characters));
+    let exr = exr_case(&db, &simulation, args.turns, &work)?;
     work.end();
     let mut goals: Vec<Goal> = cases
         .iter()
@@ -122,11 +156,73 @@ pub fn run(args: &Args, observer: &Observer) -> Result<BenchReport<Details>, Ben
         .collect();
     goals.push(Goal {
         name: "10,000 agents, shadow, CPU-s a frame",
-        measured: cases.last().map(|case| case.frame_s),
+        measured: cases.get(LIGHTS.len()).map(|case| case.frame_s),
         goal: LARGE_GOAL_S,
     });
-    let details = Details { cases };
+    goals.push(Goal {
+        name: "1,000 skinned characters, shadow, CPU-s a frame",
+        measured: cases.last().map(|case| case.frame_s),
+        goal: CHARACTER_GOAL_S,
+    });
+    let name = "EXR with a Cryptomatte, s to encode on two threads";
+    goals.push(Goal { name, measured: Some(exr.encoding_s), goal: ENCODING_GOAL_S });
+    let details = Details { cases, exr };
     Ok(BenchReport { text: text(&details), details, goals, criteria: Vec::new() })
+}
+
+/// Draws and writes an EXR file of the crowd, compressed and not.
+fn exr_case(db: &MotionDb, simulation: &Simulation, turns: u32, work: &Work<'_>) -> Result<ExrCase, BenchError> {
+    let folder = std::env::temp_dir().join(format!("fbcrowd_bench_render_{}", std::process::id()));
+    fs::create_dir_all(&folder).map_err(|error| JobError::unwritable(&folder, error))?;
+    let measured = timed_exr(db, simulation, turns, work, &folder);
+    // A folder that stays does no harm.
+    let _ = fs::remove_dir_all(&folder);
+    measured
+}
+
+fn timed_exr(
+    db: &MotionDb,
+    simulation: &Simulation,
+    turns: u32,
+    work: &Work<'_>,
+    folder: &Path,
+) -> Result<ExrCase, BenchError> {
+    let path = folder.join("crowd.fbrec");
+    let scenario = Scenario { name: "crowd".to_owned(), ..disc(AGENTS) };
+    let mut recorder = Recorder::create(&path, &Header::new(db, 0, scenario)).map_err(JobError::from)?;
+    recorder.push(simulation.frames()).map_err(JobError::from)?;
+    recorder.finish(simulation.population()).map_err(JobError::from)?;
+    let recording = Recording::open(&path).map_err(JobError::from)?;
+    let lens = wide_lens(34.0);
+    let camera = CameraSpec {
+        eye_m: Some(lens.eye_m),
+        look_at_m: Some(lens.eye_m + lens.forward),
+        fov_deg: Some(87.0),
+        ..CameraSpec::default()
+    };
+    let two_threads = pool(2)?;
+    let mut least_s = [f64::INFINITY; 2];
+    for (least_s, compression) in least_s.iter_mut().zip([ExrCompression::Uncompressed, ExrCompression::Zip16]) {
+        let options = CameraOptions {
+            folder: folder.to_owned(),
+            name: "crowd".to_owned(),
+            format: PictureFormat::Exr,
+            cameras: Some(vec![camera.clone()]),
+            size_px: Some(SIZE_PX),
+            passes: "z,n,motion,agent".parse().unwrap_or_default(),
+            compression,
+            ..CameraOptions::default()
+        };
+        for _ in 0..turns {
+            let start = Instant::now();
+            two_threads.install(|| render_camera_sequence(&recording, &options, &|_, _| ())).map_err(JobError::from)?;
+            *least_s = least_s.min(start.elapsed().as_secs_f64());
+            work.advance();
+        }
+    }
+    let [uncompressed_s, compressed_s] = least_s;
+    let bytes = fs::metadata(folder.join("crowd.1001.exr")).map_or(0, |data| data.len());
+    Ok(ExrCase { compressed_s, uncompressed_s, encoding_s: compressed_s - uncompressed_s, bytes })
 }
 
 fn goal_name(light: &str) -> &'static str {
@@ -199,5 +295,11 @@ fn text(details: &Details) -> String {
             "{agents:>7} agents up to {tallest_px:>3.0} px  {light:<28} {frame_s:.3} s a frame, parts {parts_s:.3} s\n"
         )
     };
-    details.cases.iter().map(line).collect()
+    let ExrCase { compressed_s, uncompressed_s, encoding_s, bytes } = details.exr;
+    let exr = format!(
+        "EXR with passes: {compressed_s:.3} s on two threads, {uncompressed_s:.3} s uncompressed: {encoding_s:.3} s to encode \
+         {:.1} MB\n",
+        bytes as f64 / 1e6
+    );
+    details.cases.iter().map(line).collect::<String>() + &exr
 }

@@ -8,7 +8,8 @@ use fbcrowd_jobs::JobError;
 use fbcrowd_jobs::output_path::{check_file, check_files, check_is_no_input, is_same_file};
 use fbcrowd_render::plots::crowd::{place_plot_path, write_place_plots};
 use fbcrowd_sim::measures;
-use fbcrowd_sim::recording::Recording;
+use fbcrowd_sim::recording::{FrameTimes, Recording};
+use fbcrowd_sim::scenario::{ShotSpec, check_shot};
 use motiondb::files::atomic_file::AtomicFile;
 
 use crate::report::crowd::measures_text;
@@ -36,10 +37,16 @@ pub(crate) struct Args {
     /// Draw each `[[measure]]` table of the scenario: N–t of lines and of the egress, density in areas.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+    /// Measure only the slide of planted feet in frames at this rate, beside that of the recorded frames.
+    #[arg(long, value_name = "RATE", conflicts_with_all = ["json", "trajectories", "table", "plots"])]
+    fps: Option<f32>,
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let recording = Recording::open(&args.recording)?;
+    if let Some(fps) = args.fps {
+        return measure_shot(&recording, fps);
+    }
     check_outputs(args, &recording)?;
     let measures = measures::measure(&recording)?;
     if let Some(path) = &args.trajectories {
@@ -56,6 +63,24 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     } else {
         output::print(&measures_text::text(&measures))?;
     }
+    Ok(Answer::Yes)
+}
+
+/// Prints the slide of planted feet in frames at a rate.
+fn measure_shot(recording: &Recording, fps: f32) -> Result<Answer, Failure> {
+    let scenario = &recording.header().scenario;
+    let shot = ShotSpec { fps: Some(fps), ..scenario.shot.clone().unwrap_or_default() };
+    check_shot(&shot, scenario.duration_s)
+        .map_err(|fault| Failure::bad(format!("{}; {}", fault.message, fault.help)))?;
+    let slide = measures::shot_slide(recording, &FrameTimes::of(&shot, scenario))?;
+    let cm_s = |slide: Option<f64>| slide.map_or_else(|| "–".to_owned(), |slide| format!("{slide:.3} cm/s"));
+    output::print(&format!(
+        "{:<25}{} at {:.3} frames/s, {} recorded\n",
+        "planted-foot slide",
+        cm_s(slide.planted_slide_cm_s),
+        slide.fps,
+        cm_s(slide.recorded_slide_cm_s)
+    ))?;
     Ok(Answer::Yes)
 }
 

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use fbcrowd_jobs::camera_file;
 use fbcrowd_jobs::character::{self, ScenarioCharacters};
 use fbcrowd_jobs::clip_paths;
 use fbcrowd_jobs::compiling::{self, Overrides};
@@ -64,8 +65,10 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         subject.remove_written();
     }
     let Subject { file, folder, files, answer: converted, .. } = subject;
-    let (scenario, motion) = read?;
+    let (mut scenario, motion) = read?;
     let motion = motion?;
+    let files = [files, camera_file::files(&scenario, &file)].concat();
+    camera_file::resolve(&mut scenario, &file, args.outside.into())?;
     let outputs = RunOutputs::new(folder, &scenario);
     let characters = ScenarioCharacters::load(&file, &scenario, args.outside.into(), &observer)?;
     let files = [files, characters.files.clone()].concat();
@@ -194,6 +197,7 @@ impl RunOutputs {
                 name: name.clone(),
                 format: PictureFormat::Png,
                 frames: None,
+                shot: None,
                 constraints_of: Vec::new(),
             },
             camera,

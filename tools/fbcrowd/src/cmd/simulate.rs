@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use fbcrowd_jobs::camera_file;
 use fbcrowd_jobs::character::ScenarioCharacters;
 use fbcrowd_jobs::output_path::{check_file, check_is_no_input, is_same_file};
 use fbcrowd_jobs::simulation::{self, SimulationInput};
@@ -39,7 +40,9 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
-    let (scenario, motion) = scenario::read(&args.scenario)?;
+    let (mut scenario, motion) = scenario::read(&args.scenario)?;
+    let camera_files = camera_file::files(&scenario, &args.scenario);
+    camera_file::resolve(&mut scenario, &args.scenario, Outside::Refused)?;
     let database = match &args.database {
         Some(given) => given.clone(),
         None => own_database(&args.scenario, motion?)?,
@@ -51,7 +54,8 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     let observer = |event: JobEvent<'_>| progress.observe(event);
     let characters = ScenarioCharacters::load(&args.scenario, &scenario, Outside::Refused, &observer)?;
     let agent_files = scenario::agent_files(&args.scenario)?;
-    let inputs = [vec![args.scenario.clone(), database.clone()], agent_files, characters.files.clone()].concat();
+    let inputs =
+        [vec![args.scenario.clone(), database.clone()], agent_files, camera_files, characters.files.clone()].concat();
     let worn = characters.outputs(&args.output);
     for written in [Some(&args.output), args.report.as_ref()].into_iter().flatten().chain(&worn) {
         check_is_no_input(written, &inputs)?;

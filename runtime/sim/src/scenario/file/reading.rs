@@ -82,6 +82,7 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
         labels: ground.labels.labels.clone(),
         characters: characters.clone(),
         cameras: file.cameras().map(|camera| camera.get_ref().clone()).collect(),
+        shot: file.shot.as_ref().map(|shot| shot.get_ref().clone()),
         params: file.params.clone(),
         view: file.view.as_ref().map_or_else(|| defaults.view.clone(), |view| view.get_ref().clone()),
         ..defaults
@@ -153,6 +154,7 @@ impl ScenarioTexts<'_> {
             ScenarioPart::Duration => file.duration_s.span(),
             ScenarioPart::Step => file.dt_s.as_ref().map_or(0..0, Spanned::span),
             ScenarioPart::View => file.view.as_ref().map_or(0..0, Spanned::span),
+            ScenarioPart::Shot => file.shot.as_ref().map_or(0..0, Spanned::span),
             ScenarioPart::Parameter(ref section, ref key) => parameter_span(source, section, key),
             ScenarioPart::Journey(agent) | ScenarioPart::Agent(agent) => placed.table(agent).span.clone(),
             ScenarioPart::Obstacle(index) => of(&file.obstacles, &ground.solids, index),

@@ -29,6 +29,7 @@
 //! [params.planner]                    # MCN's tunables; all sections: see `params.rs`
 //! [params.synthesis]
 //! [view]
+//! [shot]                              # frames in time: see `shot_spec.rs`
 //! [camera]                            # or several [[cameras]]: see `camera_spec.rs`
 //! ```
 
@@ -53,6 +54,7 @@ use crate::scenario::file::profile_tables::ProfileTable;
 use crate::scenario::file::sources::SourceTable;
 use crate::scenario::file::zone_tables::ZoneTable;
 use crate::scenario::places::camera_spec::CameraSpec;
+use crate::scenario::places::shot_spec::ShotSpec;
 use crate::scenario::view::View;
 
 /// Keys by one of which a scenario file is recognised.
@@ -114,6 +116,7 @@ pub(crate) struct ScenarioFile {
     #[serde(default)]
     pub(crate) params: Params,
     pub(crate) view: Option<Spanned<View>>,
+    pub(crate) shot: Option<Spanned<ShotSpec>>,
     camera: Option<Spanned<CameraSpec>>,
     #[serde(default)]
     cameras: Vec<Spanned<CameraSpec>>,

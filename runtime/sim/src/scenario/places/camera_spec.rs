@@ -1,14 +1,16 @@
 //! The `[camera]` and `[[cameras]]` tables: from where pictures at eye height are taken. World, metres, z up, seconds.
 //!
-//! A table states one of five ways in which the camera is placed, and one of three lenses:
+//! A table states one of six ways in which the camera is placed, and one of three lenses:
 //!
 //! ```toml
 //! [[cameras]]
 //! name = "corner"
-//! eye_m = [-8, -6, 1.65]              # still; or `keys`, `orbit`, `follow`, `eyes_of`
+//! eye_m = [-8, -6, 1.65]              # still; or `keys`, `orbit`, `follow`, `eyes_of`, `gltf`
 //! look_at_m = [0, 0, 1.2]
 //! focal_mm = 35                       # with `film_width_mm = 36`; or `fov_deg`, or `width_m` (orthographic)
 //! ```
+
+use std::path::PathBuf;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -30,9 +32,22 @@ pub struct CameraSpec {
     /// What a still camera looks at, world, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub look_at_m: Option<Vec3>,
-    /// Positions over time; the camera moves smoothly through them.
+    /// Direction that is up in the picture of a still camera, world; z where absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub up: Option<Vec3>,
+    /// Positions over time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub keys: Vec<CameraKey>,
+    /// How the camera moves from key to key.
+    #[serde(skip_serializing_if = "KeyLine::is_smooth")]
+    pub key_line: KeyLine,
+    /// GLB or glTF file that holds the camera, relative to the scenario's; what it holds takes its place before work
+    /// begins.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gltf: Option<PathBuf>,
+    /// Name of the camera's node in that file; its first camera where absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub node: Option<String>,
     /// A circle around a point.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orbit: Option<CameraOrbit>,
@@ -69,6 +84,26 @@ pub struct CameraKey {
     pub eye_m: Vec3,
     /// What it looks at, world, m.
     pub look_at_m: Vec3,
+    /// Direction that is up in the picture, world; z where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub up: Option<Vec3>,
+}
+
+/// How a camera moves from key to key.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum KeyLine {
+    /// Without a jump of its velocity.
+    #[default]
+    Smooth,
+    /// In straight lines.
+    Straight,
+}
+
+impl KeyLine {
+    fn is_smooth(&self) -> bool {
+        *self == Self::Smooth
+    }
 }
 
 /// A camera that circles a point, counter-clockwise as seen from above.
@@ -119,7 +154,11 @@ impl Default for CameraSpec {
             name: NAME.to_owned(),
             eye_m: None,
             look_at_m: None,
+            up: None,
             keys: Vec::new(),
+            key_line: KeyLine::Smooth,
+            gltf: None,
+            node: None,
             orbit: None,
             follow: None,
             eyes_of: None,

@@ -6,5 +6,6 @@ pub(crate) mod camera_spec;
 pub(crate) mod door;
 pub(crate) mod marking;
 pub(crate) mod measure_spec;
+pub(crate) mod shot_spec;
 pub(crate) mod state_zones;
 pub(crate) mod zone_spec;

@@ -24,7 +24,7 @@ const OFFSET_M: RangeInclusive<f32> = -100.0..=100.0;
 const HEIGHT_M: RangeInclusive<f32> = 0.01..=1_000.0;
 /// How to state where a camera is.
 const PLACEMENT_HELP: &str =
-    "give `eye_m` with `look_at_m`, or `keys`, or `orbit`, or `follow`, or `eyes_of`: one of them";
+    "give `eye_m` with `look_at_m`, or `keys`, or `orbit`, or `follow`, or `eyes_of`, or `gltf`: one of them";
 /// How to state a lens.
 const LENS_HELP: &str = "give `focal_mm` (with `film_width_mm`, 36 by default), or `fov_deg`, or `width_m` for an orthographic picture: one of them";
 /// How to place the target of a camera.
@@ -62,9 +62,9 @@ pub(crate) fn check_cameras(cameras: &[CameraSpec]) -> Result<(), ScenarioFault>
 }
 
 fn check_placement(part: &ScenarioPart, camera: &CameraSpec) -> Result<(), ScenarioFault> {
-    let CameraSpec { eye_m, look_at_m, keys, orbit, follow, eyes_of, .. } = camera;
+    let CameraSpec { eye_m, look_at_m, up, keys, orbit, follow, eyes_of, gltf, node, .. } = camera;
     let is_still = eye_m.is_some() || look_at_m.is_some();
-    let stated = [is_still, !keys.is_empty(), orbit.is_some(), follow.is_some(), eyes_of.is_some()];
+    let stated = [is_still, !keys.is_empty(), orbit.is_some(), follow.is_some(), eyes_of.is_some(), gltf.is_some()];
     match stated.iter().filter(|is_stated| **is_stated).count() {
         1 => {}
         0 => return part.fault("the camera has no position".into(), PLACEMENT_HELP),
@@ -75,6 +75,12 @@ fn check_placement(part: &ScenarioPart, camera: &CameraSpec) -> Result<(), Scena
             return part.fault("a still camera needs both `eye_m` and `look_at_m`".into(), PLACEMENT_HELP);
         };
         check_view_line(part, *eye_m, *look_at_m)?;
+        check_up(part, *eye_m, *look_at_m, *up)?;
+    } else if up.is_some() {
+        return part.fault("`up` belongs to a still camera".into(), "keys have an `up` of their own");
+    }
+    if node.is_some() && gltf.is_none() {
+        return part.fault("`node` belongs to `gltf`".into(), "name the file by `gltf`, or remove the key");
     }
     check_keys(part, keys)?;
     if let Some(CameraOrbit { centre_m, radius_m, height_m, period_s, start_deg }) = *orbit {
@@ -97,6 +103,7 @@ fn check_keys(part: &ScenarioPart, keys: &[CameraKey]) -> Result<(), ScenarioFau
     for key in keys {
         within(part, "time_s", key.time_s, &(-DURATION_S.end()..=*DURATION_S.end()), "give the time in seconds")?;
         check_view_line(part, key.eye_m, key.look_at_m)?;
+        check_up(part, key.eye_m, key.look_at_m, key.up)?;
     }
     match keys.windows(2).find(|pair| pair[1].time_s <= pair[0].time_s) {
         Some(pair) => {
@@ -116,6 +123,14 @@ fn check_view_line(part: &ScenarioPart, eye_m: Vec3, look_at_m: Vec3) -> Result<
     Ok(())
 }
 
+fn check_up(part: &ScenarioPart, eye_m: Vec3, look_at_m: Vec3, up: Option<Vec3>) -> Result<(), ScenarioFault> {
+    let across = up.map(|up| (look_at_m - eye_m).normalize_or_zero().cross(up.normalize_or_zero()).length());
+    match across.filter(|across| across.is_nan() || *across < 1e-3) {
+        Some(_) => part.fault("`up` is no direction across the view".into(), "give a direction such as [0, 0, 1]"),
+        None => Ok(()),
+    }
+}
+
 fn check_point(part: &ScenarioPart, name: &str, point_m: Vec3) -> Result<(), ScenarioFault> {
     let range = -COORDINATE_MAX_M..=COORDINATE_MAX_M;
     let coordinates = point_m.to_array().into_iter();
@@ -126,6 +141,15 @@ fn check_point(part: &ScenarioPart, name: &str, point_m: Vec3) -> Result<(), Sce
 
 fn check_lens(part: &ScenarioPart, camera: &CameraSpec) -> Result<(), ScenarioFault> {
     let CameraSpec { focal_mm, film_width_mm, fov_deg, width_m, fog_m, eyes_of, .. } = *camera;
+    if camera.gltf.is_some() {
+        return match (focal_mm, film_width_mm, fov_deg, width_m) {
+            (None, None, None, None) => Ok(()),
+            _ => part.fault(
+                "the camera's file states its lens".into(),
+                "remove focal_mm, film_width_mm, fov_deg and width_m",
+            ),
+        };
+    }
     let lenses = [focal_mm.is_some(), fov_deg.is_some(), width_m.is_some()];
     match lenses.iter().filter(|is_stated| **is_stated).count() {
         1 => {}

@@ -17,6 +17,7 @@ use crate::scenario::rules::camera_check::{check_cameras, check_heights};
 use crate::scenario::rules::ground_check::{check_ground, check_ground_ranges};
 use crate::scenario::rules::marking_check::check_markings;
 use crate::scenario::rules::measure_check::{check_measures, check_zones};
+use crate::scenario::rules::shot_check::check_shot;
 use crate::scenario::rules::source_check::{check_source_ranges, check_sources_clear_of_obstacles};
 use crate::scenario::rules::zone_check::check_closed_zones;
 
@@ -56,6 +57,7 @@ pub(crate) fn check_numbers(scenario: &Scenario) -> Result<(), ScenarioFault> {
     check_characters(&scenario.characters).map_err(|(_, fault)| fault)?;
     check_heights(&scenario.obstacle_heights_m)?;
     check_cameras(&scenario.cameras)?;
+    scenario.shot.as_ref().map_or(Ok(()), |shot| check_shot(shot, scenario.duration_s))?;
     check_source_ranges(scenario)
 }
 

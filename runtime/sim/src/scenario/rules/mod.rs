@@ -13,6 +13,7 @@ pub(crate) mod ground_check;
 pub(crate) mod marking_check;
 pub(crate) mod measure_check;
 pub(crate) mod schedule_check;
+pub(crate) mod shot_check;
 mod source_check;
 mod zone_check;
 

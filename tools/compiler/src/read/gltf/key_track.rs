@@ -44,6 +44,16 @@ pub(crate) fn read(document: &Document, channel: &NodeChannel) -> Result<KeyTrac
 }
 
 impl KeyTrack {
+    /// Key times in order, s.
+    pub(crate) fn times_s(&self) -> &[f32] {
+        &self.times_s
+    }
+
+    /// Whether the value stays until the next key.
+    pub(crate) fn is_step(&self) -> bool {
+        self.interpolation == Interpolation::Step
+    }
+
     /// Sets the track's property of its node's transform to the value at a time.
     pub(crate) fn apply(&self, time_s: f64, local: &mut NodeTransform) {
         match self.property {

@@ -22,10 +22,11 @@
 //! Clips are read one by one from the open file, so a file of thousands of animations is never held as clips at once.
 //!
 //! Read `chunks`, `document_json`, `document`, `node_tree`, `node_channel`, `accessor`, `key_track`, `clip_plan`, `sampling`, and
-//! last `gltf_file`, which is the entry.
+//! last `gltf_file`, which is the entry. `camera` reads the file's cameras.
 
 pub(crate) mod accessor;
 pub(crate) mod buffers;
+mod camera;
 pub(crate) mod chunks;
 mod clip_plan;
 pub(crate) mod document;
@@ -38,4 +39,5 @@ pub(crate) mod node_tree;
 mod sampling;
 
 pub use buffers::Outside;
+pub use camera::{GltfCamera, GltfCameraKey, GltfLens, read_cameras};
 pub use gltf_file::{GltfFile, read};

@@ -1,20 +1,26 @@
-//! A recording → files of pictures, with progress.
+//! A recording → files of pictures, or a [`video`], with progress.
+
+pub mod video;
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Instant;
 use std::{fs, io};
 
-use fbcrowd_render::camera::{CameraOptions, camera_picture_paths, render_camera_sequence};
+use fbcrowd_render::camera::{CameraOptions, camera_picture_paths, draw_camera_sequence, render_camera_sequence};
 use fbcrowd_render::error::RenderError;
 use fbcrowd_render::plots::crowd::trajectories;
-use fbcrowd_render::raster::png_frame;
-use fbcrowd_render::top_view::{SequenceOptions, picture_paths, read_tracks, render_sequence};
+use fbcrowd_render::raster::{RgbPicture, png_frame};
+use fbcrowd_render::top_view::{
+    SequenceOptions, draw_sequence, frame_times, picture_paths, read_tracks, render_sequence,
+};
 use fbcrowd_sim::recording::Recording;
+use fbcrowd_sim::scenario::FrameRate;
 
 use crate::error::JobError;
 use crate::observer::{Observer, Work};
 use crate::output_path::check_files;
+use crate::rendering::video::{Video, VideoOptions};
 
 /// A sequence that has been rendered.
 pub struct RenderedSequence {
@@ -67,7 +73,7 @@ pub fn render(
     options: &SequenceOptions,
     observer: &Observer,
 ) -> Result<RenderedSequence, JobError> {
-    watched(observer, |progress| render_sequence(recording, options, progress))
+    watched(observer, |progress| Ok::<_, RenderError>(render_sequence(recording, options, progress)?.len()))
 }
 
 /// As [`check_frames`], for frames of a camera.
@@ -87,25 +93,75 @@ pub fn render_camera(
     options: &CameraOptions,
     observer: &Observer,
 ) -> Result<RenderedSequence, JobError> {
-    watched(observer, |progress| render_camera_sequence(recording, options, progress))
+    watched(observer, |progress| Ok::<_, RenderError>(render_camera_sequence(recording, options, progress)?.len()))
 }
 
-/// Renders a sequence, with its progress and duration.
-fn watched(
+/// Renders a recording from above into a video.
+///
+/// # Errors
+/// As [`render`]; or where ffmpeg is not installed, or fails.
+pub fn render_video(
+    recording: &Recording,
+    options: &SequenceOptions,
+    video: &VideoOptions,
     observer: &Observer,
-    render: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> Result<Vec<PathBuf>, RenderError>,
+) -> Result<RenderedSequence, JobError> {
+    let rate = frame_times(recording, options.shot.as_ref()).rate;
+    watched(observer, |progress| into_video(video, rate, |show| draw_sequence(recording, options, progress, show)))
+}
+
+/// Renders a recording from a camera into a video.
+///
+/// # Errors
+/// As [`render_camera`]; or where ffmpeg is not installed, or fails.
+pub fn render_camera_video(
+    recording: &Recording,
+    options: &CameraOptions,
+    video: &VideoOptions,
+    observer: &Observer,
+) -> Result<RenderedSequence, JobError> {
+    let rate = frame_times(recording, options.shot.as_ref()).rate;
+    watched(observer, |progress| {
+        into_video(video, rate, |show| draw_camera_sequence(recording, options, progress, show))
+    })
+}
+
+/// Passes all pictures that are drawn to a video, and returns their number.
+fn into_video(
+    options: &VideoOptions,
+    rate: FrameRate,
+    draw: impl FnOnce(&mut dyn FnMut(RgbPicture) -> Result<(), JobError>) -> Result<usize, JobError>,
+) -> Result<usize, JobError> {
+    let mut video: Option<Video> = None;
+    let mut show = |picture: RgbPicture| {
+        let begun = match video.take() {
+            Some(begun) => begun,
+            None => Video::begin(options, picture.size_px, rate)?,
+        };
+        video.insert(begun).push(&picture)
+    };
+    let frames = draw(&mut show)?;
+    video.map_or(Ok(()), Video::finish)?;
+    Ok(frames)
+}
+
+/// Renders a sequence and returns its number of frames, with its progress and duration.
+fn watched<E: Into<JobError>>(
+    observer: &Observer,
+    render: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> Result<usize, E>,
 ) -> Result<RenderedSequence, JobError> {
     // The number of frames is known with the first one.
     let work = OnceLock::new();
     let start = Instant::now();
-    let files = render(&|_, total| {
+    let frames = render(&|_, total| {
         work.get_or_init(|| Work::begin(observer, "frames", total)).advance();
-    })?;
+    })
+    .map_err(Into::into)?;
     let elapsed_ms = start.elapsed().as_secs_f64() * 1000.0;
     if let Some(work) = work.into_inner() {
         work.end();
     }
-    Ok(RenderedSequence { frames: files.len(), ms_per_frame: elapsed_ms / files.len().max(1) as f64 })
+    Ok(RenderedSequence { frames, ms_per_frame: elapsed_ms / frames.max(1) as f64 })
 }
 
 /// Removes the PNG frames that an earlier run left under a sequence's name: they would follow the last new frame.

@@ -9,13 +9,16 @@ use std::ops::Range;
 /// Length of the magic number and the version before the header, bytes.
 const START: usize = 8;
 
-/// Sorts the attributes of a file of one part, in place. Nothing changes where the header is cut short.
-pub(crate) fn sort_attributes(file: &mut [u8]) {
-    let Some(ranges) = attributes(file) else { return };
+/// Sorts the attributes of a file of one part, in place, and returns the byte at which they end. Nothing changes where
+/// the header is cut short.
+pub(crate) fn sort_attributes(file: &mut [u8]) -> usize {
+    let Some(ranges) = attributes(file) else { return 0 };
     let mut sorted: Vec<&[u8]> = ranges.iter().map(|range| &file[range.clone()]).collect();
     sorted.sort_unstable();
     let sorted = sorted.concat();
-    file[START..START + sorted.len()].copy_from_slice(&sorted);
+    let end = START + sorted.len();
+    file[START..end].copy_from_slice(&sorted);
+    end
 }
 
 /// The bytes of each attribute.
