@@ -61,6 +61,30 @@ fn figures_are_compiled_inspected_and_worn() {
     assert!(shown.contains("left_thigh          LeftUpLeg"), "{shown}");
 }
 
+/// Number of pixels of a colour in a PNG file.
+fn count_of(path: &Path, colour: [u8; 3]) -> usize {
+    let mut reader = png::Decoder::new(std::io::BufReader::new(fs::File::open(path).unwrap())).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    pixels.chunks_exact(3).filter(|pixel| **pixel == colour).count()
+}
+
+#[test]
+fn a_picture_shows_the_joints_of_a_figure() {
+    let folder = folder("figure_picture");
+    let adult = write(&folder, "adult.glb", &Figure::adult());
+    let picture = folder.join("adult.png");
+    fbcrowd(&["inspect", text(&adult), "-o", text(&picture)]).expect_code(0).says(&["drew"]);
+    // Marks of the left, the right and the middle joints, as the palette has them.
+    for (side, colour) in [("left", [33, 140, 77]), ("right", [133, 69, 173]), ("middle", [51, 50, 48])] {
+        let count = count_of(&picture, colour);
+        assert!(count > 1000, "{side}: {count} pixels");
+    }
+    fbcrowd(&["inspect", text(&adult), "-o", text(&folder), "--plots", "x"]).expect_code(2).says(&["--output PICTURE"]);
+    fbcrowd(&["inspect", text(&adult), "-o", text(&adult)]).expect_code(2).says(&["adult.glb: pictures", "*.png"]);
+    fbcrowd(&["inspect", text(&adult), text(&adult), "-o", text(&picture)]).expect_code(2).says(&["name one file"]);
+}
+
 #[test]
 fn bad_figures_are_named_with_a_remedy() {
     let folder = folder("bad_figures");

@@ -15,7 +15,7 @@ pub(crate) mod options;
 pub(crate) mod placement;
 pub(crate) mod sequence;
 pub(crate) mod view;
-mod worn;
+pub(crate) mod worn;
 
 pub use colour_by::ColourBy;
 pub use options::{CameraOptions, Quality};

@@ -35,14 +35,25 @@ impl<'a> Wardrobe<'a> {
         let joints = agent.pose.forward_kinematics(self.header.skeleton());
         let mut transforms = Vec::new();
         fit.pose(self.header.skeleton(), &joints, agent.root.frame(), &mut transforms);
-        let (mut positions_m, mut normals, mut colours) = (Vec::new(), Vec::new(), Vec::new());
-        let mesh = &fit.character.mesh;
-        mesh.skin(&transforms, &mut positions_m, &mut normals);
-        mesh.tint(self.header.scenario.hue_turn_of(agent.id.0, character), &mut colours);
         let owner = Owner { agent: agent.id.0, material: CHARACTER };
-        parts.meshes.append(&positions_m, &normals, &colours, &mesh.triangles, owner);
-        append_capsules(parts, fit, &transforms, owner);
+        append_posed(parts, fit, &transforms, self.header.scenario.hue_turn_of(agent.id.0, character), owner);
     }
+}
+
+/// Appends the mesh and the capsules of a posed character.
+pub(crate) fn append_posed(
+    parts: &mut SceneParts,
+    fit: &CharacterFit,
+    transforms: &[JointTransform],
+    hue_turn: f32,
+    owner: Owner,
+) {
+    let (mut positions_m, mut normals, mut colours) = (Vec::new(), Vec::new(), Vec::new());
+    let mesh = &fit.character.mesh;
+    mesh.skin(transforms, &mut positions_m, &mut normals);
+    mesh.tint(hue_turn, &mut colours);
+    parts.meshes.append(&positions_m, &normals, &colours, &mesh.triangles, owner);
+    append_capsules(parts, fit, transforms, owner);
 }
 
 /// The capsules of a character's segments; of a last segment a ball.
