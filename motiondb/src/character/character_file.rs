@@ -11,9 +11,9 @@ use crate::files::{atomic_file, input_file};
 /// Magic number with which a character file begins.
 pub const MAGIC: [u8; 8] = *b"FBCROWDC";
 /// Format version; a file of any other version is rejected.
-pub const VERSION: u32 = 1;
-/// Greatest length of a payload that is decoded, bytes: the most vertices and triangles take 90 MB.
-const PAYLOAD_LIMIT: usize = 128 << 20;
+pub const VERSION: u32 = 2;
+/// Greatest length of a payload that is decoded, bytes: the most vertices and triangles take 110 MB, textures 64 MB.
+const PAYLOAD_LIMIT: usize = 192 << 20;
 
 /// Reason why a character cannot be read or written. Each message names the file and the remedy.
 ///

@@ -149,6 +149,12 @@ pub enum JobError {
     /// A compiled character cannot be read or written.
     #[error(transparent)]
     Character(#[from] CharacterFileError),
+    /// Meshes of a compiled character are to be left out.
+    #[error("{}: `hide` leaves out meshes of a GLB, glTF or VRM file; name the file that this one is compiled from", path.display())]
+    CompiledMeshes {
+        /// The compiled character.
+        path: PathBuf,
+    },
     /// A character beside a recording is not that of the simulation.
     #[error("{} is not the character of {}; simulate again, or restore the file", path.display(), recording.display())]
     OtherCharacter {

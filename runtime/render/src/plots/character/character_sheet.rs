@@ -8,10 +8,10 @@ use fbcrowd_sim::recording::{AgentFrame, Header};
 use fbcrowd_sim::scenario::Scenario;
 use glam::{Quat, Vec2, Vec3};
 use motiondb::body::{JOINT_COUNT, Joint, Root};
-use motiondb::character::{Character, CharacterFit, JointTransform};
+use motiondb::character::{Character, CharacterFit, Dye, JointTransform};
 use tiny_skia::Pixmap;
 
-use crate::camera::worn::append_posed;
+use crate::camera::worn::{Textures, Worn};
 use crate::camera::{CameraView, ColourBy, Quality, Shot};
 use crate::plots::character::joint_names::{LETTERS_PX, NAMES_PX, draw_joints, draw_names, draw_text};
 use crate::plots::character::stride::Stride;
@@ -59,10 +59,12 @@ pub fn character_sheet(character: &Character, stride: &Stride) -> Pixmap {
         Posed::new(character, stride_pose(&fit, stride, front)),
     ];
     let layout = Layout::new(&figures);
-    let mut scene = SceneParts::default();
+    let textures = Textures::new(std::slice::from_ref(character)).all;
+    let mut scene = SceneParts { textures, ..SceneParts::default() };
     for (index, (figure, x_m)) in figures.iter().zip(layout.x_m).enumerate() {
         let owner = Owner { agent: index as u32, material: 1 };
-        append_posed(&mut scene, &fit, &figure.moved(x_m), 0.0, owner);
+        let worn = Worn { fit: &fit, first_texture: Some(0), dye: Dye::default(), owner };
+        worn.append(&mut scene, &figure.moved(x_m));
     }
     let header = Header::of(stride.database.clone(), Scenario::of(Vec::new()));
     let (population, quality) =

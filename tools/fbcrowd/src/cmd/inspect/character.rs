@@ -18,6 +18,8 @@ pub(super) struct CharacterOptions<'a> {
     pub(super) json: bool,
     pub(super) outside: Outside,
     pub(super) recording: Option<&'a Path>,
+    /// Meshes that are left out.
+    pub(super) hide: &'a [String],
     /// Where the picture goes.
     pub(super) picture: Option<PathBuf>,
 }
@@ -28,7 +30,7 @@ pub(super) fn show(path: &Path, options: &CharacterOptions) -> Result<Answer, Fa
         let inputs: Vec<&Path> = options.recording.into_iter().chain([path]).collect();
         character_picture::check(picture, &inputs)?;
     }
-    let loaded = character::load(path, options.outside)?;
+    let loaded = character::load(path, options.outside, options.hide)?;
     let mut report = CharacterReport::new(path, &loaded);
     let recording = options.recording.map(Recording::open).transpose()?;
     if let Some(recording) = &recording {
@@ -59,7 +61,7 @@ pub(super) fn print(options: &CharacterOptions, report: CharacterReport) -> Resu
 /// The character of a file that may hold clips; none where it has no meshes, or no human that wears them.
 pub(super) fn of_clip(path: &Path, outside: Outside) -> Option<CharacterReport> {
     file_content(path).filter(|content| content.has_meshes)?;
-    let loaded = character::load(path, outside).ok()?;
+    let loaded = character::load(path, outside, &[]).ok()?;
     Some(CharacterReport::new(path, &loaded))
 }
 

@@ -54,6 +54,9 @@ pub(crate) struct Args {
     /// Show a character alone, and measure its feet on the bodies of a recording: planted slide, soles under the ground.
     #[arg(long, value_name = "FILE.fbrec")]
     recording: Option<PathBuf>,
+    /// Show a character alone, without a mesh, by its name in the list; can be given several times.
+    #[arg(long, value_name = "MESH")]
+    hide: Vec<String>,
     /// For each recorded example: rebuild the database without it, blend at its parameters, and print the RMS joint
     /// distance to it. The distance to the nearest other example is printed for comparison.
     #[arg(long)]
@@ -70,7 +73,9 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         [path] if is_character(path) || is_of_character(args) || character::is_character_alone(path) => {
             character::show(path, &character_options(args)?)
         }
-        _ if is_of_character(args) => Err(Failure::bad("--recording and --output show one character; name one file")),
+        _ if is_of_character(args) => {
+            Err(Failure::bad("--recording, --output and --hide show one character; name one file"))
+        }
         inputs if inputs.iter().any(|input| is_character(input)) => {
             Err(Failure::bad("a character is shown alone; inspect characters one by one, and clips without them"))
         }
@@ -86,7 +91,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
 
 /// Whether an option is given that shows a character alone.
 fn is_of_character(args: &Args) -> bool {
-    args.recording.is_some() || args.output.is_some()
+    args.recording.is_some() || args.output.is_some() || !args.hide.is_empty()
 }
 
 fn character_options(args: &Args) -> Result<CharacterOptions<'_>, Failure> {
@@ -94,6 +99,7 @@ fn character_options(args: &Args) -> Result<CharacterOptions<'_>, Failure> {
         json: args.json,
         outside: args.outside.into(),
         recording: args.recording.as_deref(),
+        hide: &args.hide,
         picture: character_picture::path(args.output.as_deref(), args.plots.as_deref())?,
     })
 }
