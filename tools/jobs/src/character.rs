@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::scenario::{self, Scenario};
+use fbcrowd_sim::scenario::{self, CharacterSize, Scenario};
 use motiondb::body::Skeleton;
 use motiondb::character::{self, Character, CharacterFit};
 use motiondb_compiler::Outside;
@@ -118,6 +118,14 @@ impl ScenarioCharacters {
     /// Checksums, in the scenario's order.
     pub fn checksums(&self) -> Vec<u32> {
         self.characters.iter().map(|(_, loaded)| loaded.checksum).collect()
+    }
+
+    /// Gives the characters their sizes on a skeleton, and agents that wear them their radius, unless one is stated.
+    pub fn wear(&self, scenario: &mut Scenario, skeleton: &Skeleton) {
+        let size = |(_, loaded): &(String, LoadedCharacter)| {
+            CharacterSize::of(&CharacterFit::new(&loaded.character, skeleton), skeleton)
+        };
+        scenario.wear(self.characters.iter().map(size));
     }
 
     /// Notes what the compiler reports, and characters whose legs differ much from those of the crowd.

@@ -64,7 +64,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
         subject.remove_written();
     }
     let Subject { file, folder, files, answer: converted, .. } = subject;
-    let (scenario, motion) = read?;
+    let (mut scenario, motion) = read?;
     let motion = motion?;
     let outputs = RunOutputs::new(folder, &scenario);
     let characters = ScenarioCharacters::load(&file, &scenario, args.outside.into(), &observer)?;
@@ -74,6 +74,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     // Everything that bad input can end comes before the first output.
     let MotionInput { db, checksum, answer } = MotionInput::new(motion, args, &outputs, &observer)?;
     let db = Arc::new(db);
+    characters.wear(&mut scenario, &db.skeleton);
     let mut prepared = simulation::prepare(Arc::clone(&db), scenario, &observer)?;
     prepared.character_checksums = characters.checksums();
     characters.note(&db.skeleton, &observer);

@@ -1,6 +1,6 @@
 //! The rules of characters: names, weights, hues.
 
-use crate::scenario::characters::character_spec::{CHARACTERS_MAX, CharacterSpec};
+use crate::scenario::characters::character_spec::{CHARACTERS_MAX, CharacterSize, CharacterSpec};
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::ranges::{check_name, within};
 
@@ -25,5 +25,8 @@ fn check_character(spec: &CharacterSpec, before: &[CharacterSpec]) -> Result<(),
         return part.fault(format!("two characters have the name `{}`", spec.name), "choose another `name`");
     }
     within(part, "weight", spec.weight, &(0.0..=WEIGHT_MAX), "give a share relative to the other characters")?;
+    if !spec.size.as_ref().is_none_or(CharacterSize::is_sound) {
+        return part.fault(format!("the size of the character `{}` is out of range", spec.name), "compile it again");
+    }
     within(part, "hue_variation_deg", spec.hue_variation_deg, &(0.0..=180.0), "give degrees to either side")
 }

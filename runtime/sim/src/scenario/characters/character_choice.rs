@@ -3,7 +3,7 @@
 use motiondb::character::{chosen, hue_turn};
 
 use crate::scenario::agent_spec::AgentSpec;
-use crate::scenario::characters::character_spec::CharacterSpec;
+use crate::scenario::characters::character_spec::{CharacterSize, CharacterSpec};
 use crate::scenario::resolved::Scenario;
 
 impl Scenario {
@@ -14,6 +14,24 @@ impl Scenario {
         let weight = |(index, character): (usize, &CharacterSpec)| if may_wear(index) { character.weight } else { 0.0 };
         let index = chosen(self.seed, id, self.characters.iter().enumerate().map(weight))?;
         Some(index as u32)
+    }
+
+    /// Gives the characters their sizes, in their order, and agents that wear them their radius, unless one is stated.
+    pub fn wear(&mut self, sizes: impl IntoIterator<Item = CharacterSize>) {
+        for (spec, size) in self.characters.iter_mut().zip(sizes) {
+            spec.size = Some(size);
+        }
+        let mut agents = std::mem::take(&mut self.agents);
+        agents.iter_mut().enumerate().for_each(|(index, agent)| self.dress(index as u32, agent));
+        self.agents = agents;
+    }
+
+    /// Gives an agent the radius of its character, unless the scenario states one.
+    pub(crate) fn dress(&self, id: u32, agent: &mut AgentSpec) {
+        let character = self.character_of(id, agent).filter(|_| agent.wears_radius);
+        let Some(size) = character.and_then(|index| self.characters[index as usize].size.as_ref()) else { return };
+        agent.radius_m = size.radius_m;
+        agent.wall_radius_m = agent.wall_radius_m.min(size.radius_m);
     }
 
     /// Turn of the hue of an agent's character, as a share of the full circle.

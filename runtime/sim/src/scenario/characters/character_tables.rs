@@ -62,6 +62,7 @@ fn spec(table: &CharacterTable) -> CharacterSpec {
         name: table.name.clone().unwrap_or_else(stem),
         weight: table.weight.unwrap_or(1.0),
         hue_variation_deg: table.hue_variation_deg.unwrap_or(0.0),
+        size: None,
     }
 }
 
