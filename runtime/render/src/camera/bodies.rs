@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::camera::colour_by::dressed;
 use crate::camera::worn::{Wardrobe, Wearer};
-use crate::figure::Figures;
+use crate::figure::{Figures, Wanted};
 use crate::raster::palette::{Rgb, decode_srgb};
 use crate::visibility::{Lens, SceneParts};
 
@@ -51,7 +51,8 @@ impl Dresser<'_> {
                 let mut parts = SceneParts::default();
                 for ((agent, posed), shown) in agents.iter().zip(posed).zip(shown) {
                     if Some(agent.id.0) != hidden && is_near_picture(lens, agent) {
-                        self.append(&mut parts, posed, height_px(lens, agent), *shown);
+                        let stature = self.stature(agent);
+                        self.append_sized(&mut parts, posed, stature, stature * height_px(lens, agent), *shown);
                     }
                 }
                 parts
@@ -67,13 +68,44 @@ impl Dresser<'_> {
         scene
     }
 
-    fn append(&self, parts: &mut SceneParts, agent: &AgentFrame, height_px: f32, shown: Option<Rgb>) {
+    /// Size of an agent relative to the crowd's body.
+    fn stature(&self, agent: &AgentFrame) -> f32 {
+        self.population.agents.get(agent.id.index()).map_or(1.0, |life| life.stature)
+    }
+
+    /// Appends an agent, and scales it about its root on the ground.
+    fn append_sized(
+        &self,
+        parts: &mut SceneParts,
+        agent: &AgentFrame,
+        stature: f32,
+        height_px: f32,
+        shown: Option<Rgb>,
+    ) {
+        let [cones, occluders, vertices] = [parts.cones.len(), parts.occluders.len(), parts.meshes.positions_m.len()];
+        self.append(parts, agent, stature, height_px, shown);
+        if stature == 1.0 {
+            return;
+        }
+        let root_m = agent.root.position_m.extend(0.0);
+        let scaled = |point_m: Vec3| root_m + stature * (point_m - root_m);
+        for cone in parts.cones[cones..].iter_mut().chain(&mut parts.occluders[occluders..]) {
+            cone.ends_m = cone.ends_m.map(scaled);
+            cone.radii_m = cone.radii_m.map(|radius_m| stature * radius_m);
+        }
+        parts.meshes.positions_m[vertices..].iter_mut().for_each(|point_m| *point_m = scaled(*point_m));
+    }
+
+    fn append(&self, parts: &mut SceneParts, agent: &AgentFrame, stature: f32, height_px: f32, shown: Option<Rgb>) {
         match self.character_of(agent).filter(|_| height_px >= CHARACTER_PX) {
             Some((wardrobe, character)) => {
                 let shown = shown.map(|rgb| rgb.map(decode_srgb).clamp(Vec3::ZERO, Vec3::ONE));
                 wardrobe.append(parts, &Wearer { agent, character, height_px, shown });
             }
-            None => self.figures.append(parts, agent, &dressed(agent, shown), height_px),
+            None => {
+                let look = dressed(agent, shown);
+                self.figures.append(parts, &Wanted { agent, look, stature, height_px });
+            }
         }
     }
 
