@@ -1,5 +1,5 @@
 //! Sheets of 24 built-in figures, 50, 150 and 600 pixels high, from the front, the side and the back, through the renderer
-//! of the camera view. Every sixth is a child, and all walk.
+//! of the camera view, a row a file. Every sixth is a child, and all walk.
 //!
 //!     cargo run -p fbcrowd-render --example draw_figures -- motion.fbdb figures
 
@@ -38,10 +38,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let quality = Quality { samples: SamplePattern::Sixteen, ..Quality::default() };
     let view = CameraView::new(&header, &population, quality, ColourBy::Agent);
-    for (height_px, columns, figures) in [(50, 24, 24), (150, 12, 24), (600, 3, 12)] {
+    for (height_px, columns, figures) in [(50, 24, 24), (150, 12, 24), (600, 2, 12)] {
         for (name, facing_rad) in [("front", -90.0_f32), ("side", 180.0), ("back", 90.0)] {
-            for first in (0..figures).step_by(if height_px < 600 { 24 } else { columns }) {
-                let ids = first..figures.min(first + if height_px < 600 { 24 } else { columns });
+            for first in (0..figures).step_by(columns) {
+                let ids = first..first + columns;
                 let picture = sheet(&view, &db, ids, columns, height_px, facing_rad.to_radians())?;
                 let path = Path::new(folder).join(format!("figures_{height_px}_{name}_{first:02}.png"));
                 png_frame::write(&path, &picture)?;

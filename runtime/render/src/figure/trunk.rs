@@ -61,7 +61,7 @@ impl Template {
         self.loft(&pelvis, points);
         self.loft(&shirt, points);
         // The collar: a narrow band around the neck.
-        let collar = [[1.483, 0.070, 0.062, 0.070], [1.497, 0.067, 0.059, 0.066], [1.496, 0.058, 0.050, 0.058]];
+        let collar = [[1.478, 0.080, 0.066, 0.076], [1.504, 0.068, 0.062, 0.068], [1.503, 0.057, 0.050, 0.058]];
         let collar = collar.map(|row| section(build, row, Cloth::Collar));
         self.loft(&collar, points);
     }
