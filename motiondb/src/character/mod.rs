@@ -36,7 +36,7 @@ mod posing;
 mod skinning;
 mod texture;
 
-pub use character_file::{CharacterFileError, MAGIC, VERSION, from_bytes, load, to_bytes, write};
+pub use character_file::{MAGIC, VERSION, from_bytes, load, to_bytes, write};
 pub use check::{JOINTS_MAX, TRIANGLES_MAX, VERTICES_MAX, first_fault};
 pub use choice::{chosen, hue_turn, with_turned_hue};
 pub use dye::Dye;

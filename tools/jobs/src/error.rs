@@ -7,9 +7,8 @@ use fbcrowd_render::error::RenderError;
 use fbcrowd_sim::recording::RecordingError;
 use fbcrowd_sim::route::mesh::RouteError;
 use fbcrowd_sim::scenario::ScenarioError;
-use motiondb::character::CharacterFileError;
 use motiondb::files::Invalid;
-use motiondb::files::database_file::FileError;
+use motiondb::files::file_kind::FileError;
 use motiondb::files::input_file::is_of_machine;
 use motiondb::motion::SourceRecord;
 use motiondb_compiler::character::CharacterRejection;
@@ -146,9 +145,6 @@ pub enum JobError {
     /// A file gives no character.
     #[error(transparent)]
     CharacterSource(#[from] CharacterRejection),
-    /// A compiled character cannot be read or written.
-    #[error(transparent)]
-    Character(#[from] CharacterFileError),
     /// Meshes of a compiled character are to be left out.
     #[error("{}: `hide` leaves out meshes of a GLB, glTF or VRM file; name the file that this one is compiled from", path.display())]
     CompiledMeshes {
@@ -163,9 +159,9 @@ pub enum JobError {
         /// The recording.
         recording: PathBuf,
     },
-    /// A database cannot be read or written.
+    /// A database or a character cannot be read or written.
     #[error(transparent)]
-    Database(#[from] FileError),
+    File(#[from] FileError),
     /// A recording cannot be read or written.
     #[error(transparent)]
     Recording(#[from] RecordingError),
@@ -185,8 +181,8 @@ impl JobError {
     pub fn is_of_machine(&self) -> bool {
         match self {
             Self::Unwritable { .. } | Self::FolderInUse { .. } | Self::OutOfMemory { .. } => true,
-            Self::Database(FileError::Unreadable { source, .. }) => is_of_machine(source),
-            Self::Database(error) => matches!(error, FileError::Unwritable { .. }),
+            Self::File(FileError::Unreadable { source, .. }) => is_of_machine(source),
+            Self::File(error) => matches!(error, FileError::Unwritable { .. }),
             Self::Recording(error) | Self::Render(RenderError::Recording(error)) => match error {
                 RecordingError::Unwritable { .. } => true,
                 RecordingError::Unreadable { source, .. } => is_of_machine(source),
@@ -201,8 +197,6 @@ impl JobError {
             Self::Compile(error) => error.is_of_machine(),
             Self::Clip(rejection) => rejection.reason.is_of_machine(),
             Self::CharacterSource(rejection) => rejection.reason.is_of_machine(),
-            Self::Character(CharacterFileError::Unreadable { source, .. }) => is_of_machine(source),
-            Self::Character(error) => matches!(error, CharacterFileError::Unwritable { .. }),
             _ => false,
         }
     }

@@ -1,9 +1,11 @@
 //! Which character an agent wears, and in which hue.
 
-use motiondb::character::{chosen, hue_turn};
+use motiondb::body::Skeleton;
+use motiondb::character::{CharacterFit, chosen, hue_turn};
 
 use crate::scenario::agent_spec::AgentSpec;
-use crate::scenario::characters::character_spec::{CharacterSize, CharacterSpec};
+use crate::scenario::characters::character_spec::{CharacterSize, CharacterSpec, SEGMENT_RADIUS_MAX_M};
+use crate::scenario::ranges::RADIUS_M;
 use crate::scenario::resolved::Scenario;
 
 impl Scenario {
@@ -38,5 +40,18 @@ impl Scenario {
     pub fn hue_turn_of(&self, id: u32, character: u32) -> f32 {
         let variation_deg = self.characters.get(character as usize).map_or(0.0, |spec| spec.hue_variation_deg);
         hue_turn(self.seed, id) * variation_deg / 360.0
+    }
+}
+
+impl CharacterSize {
+    /// The size of a character that is fitted to a skeleton. Segments without a mesh of their own have the skeleton's.
+    pub fn of(fit: &CharacterFit, skeleton: &Skeleton) -> Self {
+        let own_m = fit.character.segment_radii_m.map(|radius_m| fit.scale * radius_m);
+        let radius_m =
+            |(own_m, crowd_m): (f32, f32)| if own_m > 0.0 { own_m.min(SEGMENT_RADIUS_MAX_M) } else { crowd_m };
+        Self {
+            radius_m: (fit.scale * fit.character.radius_m).clamp(*RADIUS_M.start(), *RADIUS_M.end()),
+            segment_radii_m: own_m.into_iter().zip(skeleton.segment_radii_m).map(radius_m).collect(),
+        }
     }
 }

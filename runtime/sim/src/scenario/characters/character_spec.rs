@@ -1,16 +1,12 @@
 //! One character of a scenario.
 
-use motiondb::body::{JOINT_COUNT, Skeleton};
-use motiondb::character::CharacterFit;
 use serde::{Deserialize, Serialize};
-
-use crate::scenario::ranges::RADIUS_M;
 
 /// Greatest number of characters: a set of them is 64 bits.
 pub const CHARACTERS_MAX: usize = 64;
 
 /// Greatest radius of a segment, m: skirts and capes are wide.
-const RADIUS_MAX_M: f32 = 1.0;
+pub(crate) const SEGMENT_RADIUS_MAX_M: f32 = 1.0;
 
 /// A character that bodies are drawn as. Its file is no part of it, so that no path gets into a recording.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,25 +30,6 @@ pub struct CharacterSize {
     pub radius_m: f32,
     /// Radius of the capsule of each joint's segment, m.
     pub segment_radii_m: Vec<f32>,
-}
-
-impl CharacterSize {
-    /// The size of a character that is fitted to a skeleton. Segments without a mesh of their own have the skeleton's.
-    pub fn of(fit: &CharacterFit, skeleton: &Skeleton) -> Self {
-        let own_m = fit.character.segment_radii_m.map(|radius_m| fit.scale * radius_m);
-        let radius_m = |(own_m, crowd_m): (f32, f32)| if own_m > 0.0 { own_m.min(RADIUS_MAX_M) } else { crowd_m };
-        Self {
-            radius_m: (fit.scale * fit.character.radius_m).clamp(*RADIUS_M.start(), *RADIUS_M.end()),
-            segment_radii_m: own_m.into_iter().zip(skeleton.segment_radii_m).map(radius_m).collect(),
-        }
-    }
-
-    /// Whether it can be that of a character.
-    pub(crate) fn is_sound(&self) -> bool {
-        RADIUS_M.contains(&self.radius_m)
-            && self.segment_radii_m.len() == JOINT_COUNT
-            && self.segment_radii_m.iter().all(|radius_m| (0.0..=RADIUS_MAX_M).contains(radius_m))
-    }
 }
 
 /// Whether a set of characters is that of agents that may wear all; recordings leave it out.
