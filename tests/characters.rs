@@ -61,6 +61,75 @@ fn figures_are_compiled_inspected_and_worn() {
     assert!(shown.contains("left_thigh          LeftUpLeg"), "{shown}");
 }
 
+/// Number of pixels of a colour in a PNG file.
+fn count_of(path: &Path, colour: [u8; 3]) -> usize {
+    let mut reader = png::Decoder::new(std::io::BufReader::new(fs::File::open(path).unwrap())).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    pixels.chunks_exact(3).filter(|pixel| **pixel == colour).count()
+}
+
+#[test]
+fn a_picture_shows_the_joints_of_a_figure() {
+    let folder = folder("figure_picture");
+    let adult = write(&folder, "adult.glb", &Figure::adult());
+    let picture = folder.join("adult.png");
+    fbcrowd(&["inspect", text(&adult), "-o", text(&picture)]).expect_code(0).says(&["drew"]);
+    // Marks of the left, the right and the middle joints, as the palette has them.
+    for (side, colour) in [("left", [33, 140, 77]), ("right", [133, 69, 173]), ("middle", [51, 50, 48])] {
+        let count = count_of(&picture, colour);
+        assert!(count > 1000, "{side}: {count} pixels");
+    }
+    fbcrowd(&["inspect", text(&adult), "-o", text(&folder), "--plots", "x"]).expect_code(2).says(&["--output PICTURE"]);
+    fbcrowd(&["inspect", text(&adult), "-o", text(&adult)]).expect_code(2).says(&["adult.glb: pictures", "*.png"]);
+    fbcrowd(&["inspect", text(&adult), text(&adult), "-o", text(&picture)]).expect_code(2).says(&["name one file"]);
+}
+
+/// The adult with its shoulders farther apart.
+fn with_shoulders(factor: f32) -> Figure {
+    let mut figure = Figure::adult();
+    let arms = ["Arm", "Hand", "Shoulder"];
+    for bone in figure.bones.iter_mut().filter(|bone| arms.iter().any(|part| bone.0.contains(part))) {
+        bone.2[0] *= factor;
+    }
+    figure
+}
+
+/// Radius of each agent, and its greatest overlap with another body in mm, where two lines of four walk into each other.
+fn of_two_lines(folder: &Path, figure: &str, keys: &str) -> (Vec<f32>, f64, f64) {
+    let line = |y: f32, x: f32, offset: f32| {
+        format!(
+            "[[agents]]\ngrid = {{ columns = 1, rows = 4, spacing_m = 0.9, centre_m = [{x}, {y}] }}\n\
+             goal_offset_m = [{offset}, 0]\n{keys}"
+        )
+    };
+    let head = format!("duration_s = 8\ndatabase = \"motion.fbdb\"\n[[characters]]\nfile = \"{figure}.glb\"\n");
+    let scene = scenario(folder, &format!("{head}{}{}", line(0.0, -3.0, 7.0), line(0.2, 3.0, -7.0)));
+    let recording = folder.join(format!("{figure}.fbrec"));
+    fbcrowd(&["simulate", &scene, "-o", text(&recording)]).expect_code(0);
+    let measures = fbcrowd(&["measure", text(&recording), "--json"]).expect_code(0).json();
+    let opened = Recording::open(&recording).unwrap();
+    let radii = opened.population().agents.iter().map(|life| life.spec.radius_m).collect();
+    let number = |key: &str| measures[key].as_f64().unwrap_or_else(|| panic!("{key} in {measures}"));
+    (radii, number("minimum_separation_m"), number("body_penetration_max_mm"))
+}
+
+#[test]
+fn a_broad_figure_needs_more_room() {
+    let folder = folder("broad");
+    compile(&[WALK.to_owned()], &folder);
+    for (name, factor) in [("narrow", 0.7), ("broad", 1.9)] {
+        write(&folder, &format!("{name}.glb"), &with_shoulders(factor));
+    }
+    let (narrow, apart_m, _) = of_two_lines(&folder, "narrow", "");
+    let (broad, broad_apart_m, _) = of_two_lines(&folder, "broad", "");
+    assert!(narrow.iter().all(|radius_m| (0.12..0.22).contains(radius_m)), "{narrow:?}");
+    assert!(broad.iter().all(|radius_m| (0.3..0.45).contains(radius_m)), "{broad:?}");
+    assert!(broad_apart_m > apart_m + 0.15, "{apart_m} {broad_apart_m}");
+    // A stated radius stays.
+    assert!(of_two_lines(&folder, "broad", "radius_m = 0.25\n").0.iter().all(|radius_m| *radius_m == 0.25));
+}
+
 #[test]
 fn bad_figures_are_named_with_a_remedy() {
     let folder = folder("bad_figures");

@@ -3,7 +3,8 @@
 use glam::Vec3;
 
 use crate::body::Joint;
-use crate::character::model::{Character, CharacterMesh, WEIGHT_COUNT};
+use crate::character::model::{Character, CharacterMesh, Material, WEIGHT_COUNT};
+use crate::character::texture::{CutOut, TEXTURE_PIXELS_MAX, TEXTURE_SIDE_MAX};
 
 /// Greatest number of joints; an index into them is a u16.
 pub const JOINTS_MAX: usize = 4096;
@@ -15,6 +16,8 @@ pub const TRIANGLES_MAX: usize = 2_000_000;
 const MATERIALS_MAX: usize = 4096;
 /// Greatest coordinate, m: figures of giants and files in millimetres stay below.
 const COORDINATE_MAX_M: f32 = 100_000.0;
+/// Greatest texture coordinate: beyond, 32 bits hold no share of a pixel.
+const UV_MAX: f32 = 1024.0;
 /// Least height of the hips above the soles, m: smaller ones have no direction in 32 bits.
 const HIPS_MIN_M: f32 = 1e-4;
 /// Greatest deviation of a squared length, or of a sum of weights, from 1.
@@ -38,7 +41,10 @@ const REQUIRED: [Joint; 13] = [
 
 /// The first invariant that a character breaks, as a text for people; none of a valid character.
 pub fn first_fault(character: &Character) -> Option<String> {
-    joints_fault(character).or_else(|| sizes_fault(character)).or_else(|| mesh_fault(character))
+    joints_fault(character)
+        .or_else(|| sizes_fault(character))
+        .or_else(|| mesh_fault(character))
+        .or_else(|| textures_fault(character))
 }
 
 fn joints_fault(character: &Character) -> Option<String> {
@@ -76,7 +82,7 @@ fn sizes_fault(character: &Character) -> Option<String> {
 }
 
 fn mesh_fault(character: &Character) -> Option<String> {
-    let CharacterMesh { positions_m, normals, colours, joints, weights, triangles, materials } = &character.mesh;
+    let CharacterMesh { positions_m, normals, colours, joints, weights, triangles, materials, .. } = &character.mesh;
     let count = positions_m.len();
     if count > VERTICES_MAX || triangles.len() > TRIANGLES_MAX || materials.len() > MATERIALS_MAX {
         return Some(format!("its mesh has {count} vertices and {} triangles, too many", triangles.len()));
@@ -99,6 +105,37 @@ fn mesh_fault(character: &Character) -> Option<String> {
             && are_weights(&joints[vertex], &weights[vertex], character.joints.len())
     };
     (0..count).find(|&vertex| !is_vertex(vertex)).map(|vertex| format!("vertex {vertex} is out of range"))
+}
+
+fn textures_fault(character: &Character) -> Option<String> {
+    let Character { mesh, textures, .. } = character;
+    let mut pixels = 0;
+    for (index, texture) in textures.iter().enumerate() {
+        let [width, height] = texture.size_px.map(|side| side as usize);
+        let is_side = |side: usize| (1..=TEXTURE_SIDE_MAX).contains(&side);
+        if !is_side(width) || !is_side(height) || texture.pixels.len() != 4 * width * height {
+            return Some(format!("texture {index} has not as many pixels as its size"));
+        }
+        pixels += width * height;
+    }
+    if pixels > TEXTURE_PIXELS_MAX {
+        return Some(format!("its textures have {pixels} pixels, more than {TEXTURE_PIXELS_MAX}"));
+    }
+    let names_texture = |material: &Material| match (material.texture, material.cut_out) {
+        (_, CutOut::Below(alpha)) if !(0.0..=1.0).contains(&alpha) => false,
+        (texture, _) => texture.is_none_or(|texture| (texture as usize) < textures.len()),
+    };
+    if !mesh.materials.iter().all(names_texture) {
+        return Some("a material names a texture that does not exist, or an alpha that is none".into());
+    }
+    let is_textured = mesh.materials.iter().any(|material| material.texture.is_some());
+    let count = if is_textured { mesh.positions_m.len() } else { 0 };
+    if [mesh.uvs.len(), mesh.tints.len()] != [count; 2] {
+        return Some("the lists of its vertices differ in length".into());
+    }
+    let is_sound = mesh.uvs.as_flattened().iter().all(|part| part.abs() <= UV_MAX)
+        && mesh.tints.as_flattened().iter().all(|part| (0.0..=1.0).contains(part));
+    (!is_sound).then(|| "a texture coordinate is out of range".into())
 }
 
 fn are_weights(joints: &[u16; WEIGHT_COUNT], weights: &[f32; WEIGHT_COUNT], joint_count: usize) -> bool {

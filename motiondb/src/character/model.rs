@@ -4,6 +4,7 @@ use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::body::{JOINT_COUNT, Joint};
+use crate::character::texture::{CharacterTexture, CutOut};
 
 /// Greatest number of joints that move one vertex.
 pub const WEIGHT_COUNT: usize = 4;
@@ -31,6 +32,8 @@ pub struct Character {
     pub segment_radii_m: [f32; JOINT_COUNT],
     /// What is drawn.
     pub mesh: CharacterMesh,
+    /// The textures of its materials.
+    pub textures: Vec<CharacterTexture>,
 }
 
 /// A joint of a character in bind space.
@@ -66,6 +69,10 @@ pub struct CharacterMesh {
     pub normals: Vec<Vec3>,
     /// Colours, linear Rec. 709, from material, vertex colour and texture.
     pub colours: Vec<[f32; 3]>,
+    /// Texture coordinates; empty where no material has a texture.
+    pub uvs: Vec<[f32; 2]>,
+    /// Linear colours by which textures are multiplied, from material and vertex colour; as long as `uvs`.
+    pub tints: Vec<[f32; 3]>,
     /// Indices of the joints that move a vertex; unused ones are 0.
     pub joints: Vec<[u16; WEIGHT_COUNT]>,
     /// Weights of these joints, falling; their sum is 1.
@@ -76,17 +83,23 @@ pub struct CharacterMesh {
     pub materials: Vec<Material>,
 }
 
-/// A run of triangles of one material.
+/// A run of triangles of one material and one mesh of the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// Name in the file.
     pub name: String,
+    /// Name of the mesh in the file: that of the node that draws it.
+    pub mesh: String,
     /// Number of triangles; the runs follow each other.
     pub triangle_count: u32,
     /// Whether the backs of the triangles are seen.
     pub is_double_sided: bool,
     /// Whether hue variation leaves the colours as they are: skin, eyes, hair.
     pub keeps_hue: bool,
+    /// Index of the texture; none of a plain material.
+    pub texture: Option<u32>,
+    /// What the texture's alpha hides.
+    pub cut_out: CutOut,
 }
 
 impl Character {

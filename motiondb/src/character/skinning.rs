@@ -1,9 +1,11 @@
 //! Linear blend skinning: transforms of joints → world positions and normals of all vertices.
 
+use std::ops::Range;
+
 use glam::Vec3;
 
-use crate::character::choice::with_turned_hue;
-use crate::character::model::CharacterMesh;
+use crate::character::dye::Dye;
+use crate::character::model::{CharacterMesh, Material};
 use crate::character::posing::JointTransform;
 
 impl CharacterMesh {
@@ -27,25 +29,34 @@ impl CharacterMesh {
         }
     }
 
-    /// Colours of all vertices, linear, with their hue turned by a share of the full circle; skin, eyes and hair keep
-    /// theirs. The list is cleared first.
-    pub fn tint(&self, hue_turn: f32, colours: &mut Vec<Vec3>) {
+    /// Colours of all vertices, linear and dyed. With `textured`, those of textured materials are the plain tints by which
+    /// textures are multiplied, without dye. The list is cleared first.
+    pub fn dyed(&self, dye: &Dye, textured: bool, colours: &mut Vec<Vec3>) {
         colours.clear();
         colours.extend(self.colours.iter().map(|colour| Vec3::from(*colour)));
-        if hue_turn == 0.0 {
-            return;
-        }
-        let mut first = 0;
-        for material in &self.materials {
-            let last = first + material.triangle_count as usize;
-            if !material.keeps_hue {
-                for &vertex in self.triangles[first..last].as_flattened() {
-                    let vertex = vertex as usize;
-                    colours[vertex] = Vec3::from(with_turned_hue(self.colours[vertex], hue_turn));
-                }
+        for (material, triangles) in self.runs() {
+            let is_textured = textured && material.texture.is_some();
+            if !is_textured && *dye == Dye::default() {
+                continue;
             }
-            first = last;
+            for &vertex in self.triangles[triangles].as_flattened() {
+                let vertex = vertex as usize;
+                colours[vertex] = match is_textured {
+                    true => self.tints[vertex].into(),
+                    false => dye.applied(self.colours[vertex].into(), material.keeps_hue),
+                };
+            }
         }
+    }
+
+    /// The materials, each with its range of triangles.
+    pub fn runs(&self) -> impl Iterator<Item = (&Material, Range<usize>)> {
+        let mut first = 0;
+        self.materials.iter().map(move |material| {
+            let range = first..first + material.triangle_count as usize;
+            first = range.end;
+            (material, range)
+        })
     }
 
     /// Position of one vertex in the world, m.

@@ -2,12 +2,13 @@
 //!
 //! Enters: paths and bytes. Leaves: databases, texts, or an error that names the file and the remedy.
 //!
-//! Read `database_file` (`.fbdb`) with its `container`, then `atomic_file` with `temporary_files`, and `input_file`,
-//! then `source_text` with `parser_words`.
+//! Read `database_file` (`.fbdb`) with its `file_kind` and `container`, then `atomic_file` with `temporary_files`, and
+//! `input_file`, then `source_text` with `parser_words`.
 
 pub mod atomic_file;
 pub mod container;
 pub mod database_file;
+pub mod file_kind;
 pub mod input_file;
 pub(crate) mod parser_words;
 pub(crate) mod source_text;

@@ -110,5 +110,10 @@ fn files_lie_beside_the_scenario() {
     let error = scenario::character_files(&path).unwrap_err().to_string();
     assert!(error.contains("x.toml:4") && error.contains("a.glb is no file"), "{error}");
     fs::write(folder.join("a.glb"), "").unwrap();
-    assert_eq!(scenario::character_files(&path).unwrap(), [folder.join("a.glb")]);
+    let file = scenario::CharacterFile { path: folder.join("a.glb"), hide: Vec::new() };
+    assert_eq!(scenario::character_files(&path).unwrap(), std::slice::from_ref(&file));
+    let hiding = fs::read_to_string(&path).unwrap().replace("'a.glb'", "'a.glb'\nhide = ['Sword', 'Cape']");
+    fs::write(&path, hiding).unwrap();
+    let hide = vec!["Sword".to_owned(), "Cape".to_owned()];
+    assert_eq!(scenario::character_files(&path).unwrap(), [scenario::CharacterFile { hide, ..file }]);
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fbcrowd_sim::recording::Header;
-use fbcrowd_sim::scenario::{self, Scenario};
+use fbcrowd_sim::scenario::{self, CharacterSize, Scenario};
 use motiondb::body::Skeleton;
 use motiondb::character::{self, Character, CharacterFit};
 use motiondb_compiler::Outside;
@@ -31,21 +31,24 @@ pub fn is_compiled(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("fbchar"))
 }
 
-/// Loads a `.fbchar`, or compiles a GLB, glTF or VRM file.
+/// Loads a `.fbchar`, or compiles a GLB, glTF or VRM file without the meshes that `hide` names.
 ///
 /// # Errors
-/// Where the file gives no character.
-pub fn load(path: &Path, outside: Outside) -> Result<LoadedCharacter, JobError> {
+/// Where the file gives no character, or meshes of a `.fbchar` are to be hidden.
+pub fn load(path: &Path, outside: Outside, hide: &[String]) -> Result<LoadedCharacter, JobError> {
     if is_compiled(path) {
+        if !hide.is_empty() {
+            return Err(JobError::CompiledMeshes { path: path.to_owned() });
+        }
         let (character, checksum) = character::load(path)?;
         return Ok(LoadedCharacter { character, checksum, roles_from: None, notes: Vec::new() });
     }
-    let CompiledCharacter { character, roles_from, notes } = compile_character(path, outside)?;
+    let CompiledCharacter { character, roles_from, notes } = compile_character(path, outside, hide)?;
     let (_, checksum) = character::from_bytes(path, &character::to_bytes(&character))?;
     Ok(LoadedCharacter { character, checksum, roles_from: Some(roles_from), notes })
 }
 
-/// Compiles a character into a `.fbchar`.
+/// Compiles a character into a `.fbchar`, without the meshes that `hide` names.
 ///
 /// # Errors
 /// Where the file gives no character, `output` is the input, or cannot be written.
@@ -53,11 +56,12 @@ pub fn compile(
     input: &Path,
     output: &Path,
     outside: Outside,
+    hide: &[String],
     observer: &Observer,
 ) -> Result<LoadedCharacter, JobError> {
     check_is_no_input(output, [input])?;
     observer(JobEvent::Stage("compiling"));
-    let loaded = load(input, outside)?;
+    let loaded = load(input, outside, hide)?;
     observer(JobEvent::Stage("writing"));
     character::write(output, &loaded.character)?;
     Ok(loaded)
@@ -86,10 +90,10 @@ impl ScenarioCharacters {
         observer(JobEvent::Stage("characters"));
         let files = scenario::character_files(file)?;
         let mut characters = Vec::new();
-        for (path, spec) in files.iter().zip(&scenario.characters) {
-            characters.push((spec.name.clone(), load(path, outside)?));
+        for (file, spec) in files.iter().zip(&scenario.characters) {
+            characters.push((spec.name.clone(), load(&file.path, outside, &file.hide)?));
         }
-        Ok(Self { characters, files })
+        Ok(Self { characters, files: files.into_iter().map(|file| file.path).collect() })
     }
 
     /// The files that [`ScenarioCharacters::write`] writes for a recording.
@@ -114,6 +118,14 @@ impl ScenarioCharacters {
     /// Checksums, in the scenario's order.
     pub fn checksums(&self) -> Vec<u32> {
         self.characters.iter().map(|(_, loaded)| loaded.checksum).collect()
+    }
+
+    /// Gives the characters their sizes on a skeleton, and agents that wear them their radius, unless one is stated.
+    pub fn wear(&self, scenario: &mut Scenario, skeleton: &Skeleton) {
+        let size = |(_, loaded): &(String, LoadedCharacter)| {
+            CharacterSize::of(&CharacterFit::new(&loaded.character, skeleton), skeleton)
+        };
+        scenario.wear(self.characters.iter().map(size));
     }
 
     /// Notes what the compiler reports, and characters whose legs differ much from those of the crowd.

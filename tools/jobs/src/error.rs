@@ -7,9 +7,8 @@ use fbcrowd_render::error::RenderError;
 use fbcrowd_sim::recording::RecordingError;
 use fbcrowd_sim::route::mesh::RouteError;
 use fbcrowd_sim::scenario::ScenarioError;
-use motiondb::character::CharacterFileError;
 use motiondb::files::Invalid;
-use motiondb::files::database_file::FileError;
+use motiondb::files::file_kind::FileError;
 use motiondb::files::input_file::is_of_machine;
 use motiondb::motion::SourceRecord;
 use motiondb_compiler::character::CharacterRejection;
@@ -191,9 +190,12 @@ pub enum JobError {
     /// A file gives no character.
     #[error(transparent)]
     CharacterSource(#[from] CharacterRejection),
-    /// A compiled character cannot be read or written.
-    #[error(transparent)]
-    Character(#[from] CharacterFileError),
+    /// Meshes of a compiled character are to be left out.
+    #[error("{}: `hide` leaves out meshes of a GLB, glTF or VRM file; name the file that this one is compiled from", path.display())]
+    CompiledMeshes {
+        /// The compiled character.
+        path: PathBuf,
+    },
     /// A character beside a recording is not that of the simulation.
     #[error("{} is not the character of {}; simulate again, or restore the file", path.display(), recording.display())]
     OtherCharacter {
@@ -202,9 +204,9 @@ pub enum JobError {
         /// The recording.
         recording: PathBuf,
     },
-    /// A database cannot be read or written.
+    /// A database or a character cannot be read or written.
     #[error(transparent)]
-    Database(#[from] FileError),
+    File(#[from] FileError),
     /// A recording cannot be read or written.
     #[error(transparent)]
     Recording(#[from] RecordingError),
@@ -225,8 +227,8 @@ impl JobError {
         match self {
             Self::Unwritable { .. } | Self::FolderInUse { .. } | Self::OutOfMemory { .. } => true,
             Self::NoFfmpeg { .. } | Self::FfmpegFailed { .. } => true,
-            Self::Database(FileError::Unreadable { source, .. }) => is_of_machine(source),
-            Self::Database(error) => matches!(error, FileError::Unwritable { .. }),
+            Self::File(FileError::Unreadable { source, .. }) => is_of_machine(source),
+            Self::File(error) => matches!(error, FileError::Unwritable { .. }),
             Self::Recording(error) | Self::Render(RenderError::Recording(error)) => match error {
                 RecordingError::Unwritable { .. } => true,
                 RecordingError::Unreadable { source, .. } => is_of_machine(source),
@@ -241,8 +243,6 @@ impl JobError {
             Self::Compile(error) => error.is_of_machine(),
             Self::Clip(rejection) => rejection.reason.is_of_machine(),
             Self::CharacterSource(rejection) => rejection.reason.is_of_machine(),
-            Self::Character(CharacterFileError::Unreadable { source, .. }) => is_of_machine(source),
-            Self::Character(error) => matches!(error, CharacterFileError::Unwritable { .. }),
             _ => false,
         }
     }

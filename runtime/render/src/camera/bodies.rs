@@ -5,9 +5,10 @@ use fbcrowd_sim::recording::AgentFrame;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::camera::worn::Wardrobe;
-use crate::figure::Figures;
-use crate::raster::palette::Look;
+use crate::camera::colour_by::dressed;
+use crate::camera::worn::{Wardrobe, Wearer};
+use crate::figure::{Figures, Wanted};
+use crate::raster::palette::{Rgb, decode_srgb};
 use crate::visibility::{Lens, SceneParts};
 
 /// Middle of a body above the ground, and its reach from there, m.
@@ -21,53 +22,99 @@ const CHARACTER_PX: f32 = 24.0;
 /// Number of agents that are posed at once.
 const AGENTS_AT_ONCE: usize = 32;
 
-/// The bodies that a lens sees, or that throw shadows into its picture, in the characters that they wear. `agents` decide
-/// which bodies are there and how fine they are, `posed` where their parts are: the same agents at the same time, or at
-/// another one. `hidden` is the id of an agent that is left out.
-pub(crate) fn body_parts(
-    figures: &Figures,
-    worn: Option<(&Wardrobe, &Population)>,
-    agents: &[AgentFrame],
-    posed: &[AgentFrame],
-    looks: &[Look],
-    lens: &Lens,
-    hidden: Option<u32>,
-) -> SceneParts {
-    let chunks: Vec<SceneParts> = agents
-        .par_chunks(AGENTS_AT_ONCE)
-        .zip(posed.par_chunks(AGENTS_AT_ONCE))
-        .zip(looks.par_chunks(AGENTS_AT_ONCE))
-        .map(|((agents, posed), looks)| {
-            let mut parts = SceneParts::default();
-            for ((agent, posed), look) in agents.iter().zip(posed).zip(looks) {
-                if Some(agent.id.0) == hidden || !is_near_picture(lens, agent) {
-                    continue;
-                }
-                let height_px = height_px(lens, agent);
-                match worn.and_then(|worn| character_of(worn, agent)).filter(|_| height_px >= CHARACTER_PX) {
-                    Some((wardrobe, character)) => wardrobe.append(&mut parts, posed, character),
-                    None => figures.append(&mut parts, posed, look, height_px),
-                }
-            }
-            parts
-        })
-        .collect();
-    let mut scene = SceneParts::default();
-    for parts in chunks {
-        scene.cones.extend(parts.cones);
-        scene.occluders.extend(parts.occluders);
-        scene.meshes.extend(&parts.meshes);
-    }
-    scene
+/// What draws bodies.
+pub(crate) struct Dresser<'a> {
+    pub(crate) figures: &'a Figures,
+    /// The characters; none where all bodies are plain.
+    pub(crate) wardrobe: Option<&'a Wardrobe<'a>>,
+    pub(crate) population: &'a Population,
 }
 
-/// The character that an agent wears.
-fn character_of<'a>(
-    (wardrobe, population): (&'a Wardrobe<'a>, &Population),
-    agent: &AgentFrame,
-) -> Option<(&'a Wardrobe<'a>, u32)> {
-    let character = population.agents.get(agent.id.index())?.character?;
-    wardrobe.has(character).then_some((wardrobe, character))
+impl Dresser<'_> {
+    /// The bodies that a lens sees, or that throw shadows into its picture, in the characters that they wear. `agents`
+    /// decide which bodies are there and how fine they are, `posed` where their parts are: the same agents at the same
+    /// time, or at another one. `shown` are colours that replace the agents' own. `hidden` is the id of an agent that is
+    /// left out.
+    pub(crate) fn body_parts(
+        &self,
+        agents: &[AgentFrame],
+        posed: &[AgentFrame],
+        shown: &[Option<Rgb>],
+        lens: &Lens,
+        hidden: Option<u32>,
+    ) -> SceneParts {
+        let chunks: Vec<SceneParts> = agents
+            .par_chunks(AGENTS_AT_ONCE)
+            .zip(posed.par_chunks(AGENTS_AT_ONCE))
+            .zip(shown.par_chunks(AGENTS_AT_ONCE))
+            .map(|((agents, posed), shown)| {
+                let mut parts = SceneParts::default();
+                for ((agent, posed), shown) in agents.iter().zip(posed).zip(shown) {
+                    if Some(agent.id.0) != hidden && is_near_picture(lens, agent) {
+                        let stature = self.stature(agent);
+                        self.append_sized(&mut parts, posed, stature, stature * height_px(lens, agent), *shown);
+                    }
+                }
+                parts
+            })
+            .collect();
+        let mut scene = SceneParts::default();
+        for parts in chunks {
+            scene.cones.extend(parts.cones);
+            scene.occluders.extend(parts.occluders);
+            scene.meshes.extend(&parts.meshes);
+        }
+        scene.textures = self.wardrobe.map(Wardrobe::textures).unwrap_or_default();
+        scene
+    }
+
+    /// Size of an agent relative to the crowd's body.
+    fn stature(&self, agent: &AgentFrame) -> f32 {
+        self.population.agents.get(agent.id.index()).map_or(1.0, |life| life.stature)
+    }
+
+    /// Appends an agent, and scales it about its root on the ground.
+    fn append_sized(
+        &self,
+        parts: &mut SceneParts,
+        agent: &AgentFrame,
+        stature: f32,
+        height_px: f32,
+        shown: Option<Rgb>,
+    ) {
+        let [cones, occluders, vertices] = [parts.cones.len(), parts.occluders.len(), parts.meshes.positions_m.len()];
+        self.append(parts, agent, stature, height_px, shown);
+        if stature == 1.0 {
+            return;
+        }
+        let root_m = agent.root.position_m.extend(0.0);
+        let scaled = |point_m: Vec3| root_m + stature * (point_m - root_m);
+        for cone in parts.cones[cones..].iter_mut().chain(&mut parts.occluders[occluders..]) {
+            cone.ends_m = cone.ends_m.map(scaled);
+            cone.radii_m = cone.radii_m.map(|radius_m| stature * radius_m);
+        }
+        parts.meshes.positions_m[vertices..].iter_mut().for_each(|point_m| *point_m = scaled(*point_m));
+    }
+
+    fn append(&self, parts: &mut SceneParts, agent: &AgentFrame, stature: f32, height_px: f32, shown: Option<Rgb>) {
+        match self.character_of(agent).filter(|_| height_px >= CHARACTER_PX) {
+            Some((wardrobe, character)) => {
+                let shown = shown.map(|rgb| rgb.map(decode_srgb).clamp(Vec3::ZERO, Vec3::ONE));
+                wardrobe.append(parts, &Wearer { agent, character, height_px, shown });
+            }
+            None => {
+                let look = dressed(agent, shown);
+                self.figures.append(parts, &Wanted { agent, look, stature, height_px });
+            }
+        }
+    }
+
+    /// The character that an agent wears.
+    fn character_of(&self, agent: &AgentFrame) -> Option<(&Wardrobe<'_>, u32)> {
+        let wardrobe = self.wardrobe?;
+        let character = self.population.agents.get(agent.id.index())?.character?;
+        wardrobe.has(character).then_some((wardrobe, character))
+    }
 }
 
 fn middle_m(agent: &AgentFrame) -> Vec3 {

@@ -36,8 +36,8 @@ const ALONE: Rgb = Rgb::new(0.62, 0.62, 0.62);
 /// Share of light that trousers keep of the shown colour.
 const TROUSERS_SHARE: f32 = 0.55;
 
-/// Looks of all agents of a frame.
-pub(crate) fn looks(colour_by: ColourBy, agents: &[AgentFrame], population: &Population) -> Vec<Look> {
+/// Colours of agents that show a quantity, sRGB-encoded; none where each agent has its own.
+pub(crate) fn shown(colour_by: ColourBy, agents: &[AgentFrame], population: &Population) -> Vec<Option<Rgb>> {
     let density = (colour_by == ColourBy::Density).then(|| Densities::new(agents));
     let shown = |agent: &AgentFrame| match colour_by {
         ColourBy::Agent => None,
@@ -52,11 +52,13 @@ pub(crate) fn looks(colour_by: ColourBy, agents: &[AgentFrame], population: &Pop
             Some(heat(per_m2 / CROWDED_PER_M2))
         }
     };
-    let dressed = |agent: &AgentFrame| {
-        let own = look(agent.id.index());
-        shown(agent).map_or(own, |shirt: Vec3| Look { shirt, trousers: TROUSERS_SHARE * shirt, ..own })
-    };
-    agents.iter().map(dressed).collect()
+    agents.iter().map(shown).collect()
+}
+
+/// The look of an agent, in clothes of a shown colour.
+pub(crate) fn dressed(agent: &AgentFrame, shown: Option<Rgb>) -> Look {
+    let own = look(agent.id.index());
+    shown.map_or(own, |shirt: Vec3| Look { shirt, trousers: TROUSERS_SHARE * shirt, ..own })
 }
 
 /// Agents by cells as wide as the radius in which they are counted.

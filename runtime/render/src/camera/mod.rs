@@ -17,7 +17,7 @@ pub(crate) mod placement;
 pub(crate) mod sequence;
 pub(crate) mod take;
 pub(crate) mod view;
-mod worn;
+pub(crate) mod worn;
 
 pub use colour_by::ColourBy;
 pub use options::{CameraOptions, Quality};

@@ -12,8 +12,8 @@ use glam::Vec3;
 use motiondb::character::Character;
 
 use crate::camera::blocks::{append_doors, still_blocks};
-use crate::camera::bodies::body_parts;
-use crate::camera::colour_by::{ColourBy, looks};
+use crate::camera::bodies::Dresser;
+use crate::camera::colour_by::{ColourBy, shown};
 use crate::camera::options::Quality;
 use crate::camera::worn::Wardrobe;
 use crate::figure::Figures;
@@ -49,7 +49,7 @@ pub(crate) struct PreparedFrame<'a> {
     layer_colours: Vec<Vec3>,
     shadow: Option<ShadowMap>,
     occluders: Option<OcclusionGrid>,
-    tiles: PreparedTiles,
+    tiles: PreparedTiles<'a>,
 }
 
 impl PreparedFrame<'_> {
@@ -101,11 +101,9 @@ impl<'a> CameraView<'a> {
         Self { header, figures, wardrobe: None, population, blocks, ground, quality, colour_by }
     }
 
-    /// The same with the recording's characters, in its order. Only the agents' own colours show them: other colours are
-    /// those of plain bodies.
+    /// The same with the recording's characters, in its order. Colours that show a quantity dye them.
     pub fn with_characters(mut self, characters: &'a [Character]) -> Self {
-        let is_shown = self.colour_by == ColourBy::Agent && !characters.is_empty();
-        self.wardrobe = is_shown.then(|| Wardrobe::new(self.header, characters));
+        self.wardrobe = (!characters.is_empty()).then(|| Wardrobe::new(self.header, characters));
         self
     }
 
@@ -116,9 +114,9 @@ impl<'a> CameraView<'a> {
 
     /// The same parts, where they are at another time: `posed` holds the agents of `agents` then.
     pub(crate) fn posed_scene(&self, shot: &Shot, agents: &[AgentFrame], posed: &[AgentFrame]) -> SceneParts {
-        let looks = looks(self.colour_by, agents, self.population);
-        let worn = self.wardrobe.as_ref().map(|wardrobe| (wardrobe, self.population));
-        let mut scene = body_parts(&self.figures, worn, agents, posed, &looks, &shot.lens, shot.eyes_of);
+        let shown = shown(self.colour_by, agents, self.population);
+        let dresser = Dresser { figures: &self.figures, wardrobe: self.wardrobe.as_ref(), population: self.population };
+        let mut scene = dresser.body_parts(agents, posed, &shown, &shot.lens, shot.eyes_of);
         scene.meshes.extend(&self.blocks);
         let frame = (shot.time_s / f64::from(self.header.scenario.dt_s) + 1e-3) as u32;
         append_doors(&mut scene.meshes, &self.header.scenario, self.population, frame);

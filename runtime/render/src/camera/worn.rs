@@ -1,27 +1,47 @@
 //! Agents that wear a character: its skinned mesh, and rounded cones by which occlusion is computed. World, metres.
 
-use fbcrowd_sim::recording::{AgentFrame, Header};
-use glam::Vec3;
-use motiondb::body::{JOINT_COUNT, Joint};
-use motiondb::character::{Character, CharacterFit, JointTransform};
+use std::sync::Arc;
 
-use crate::visibility::{Cone, Owner, SceneParts};
+use fbcrowd_sim::recording::{AgentFrame, Header};
+use glam::{Vec2, Vec3};
+use motiondb::body::{JOINT_COUNT, Joint};
+use motiondb::character::{Character, CharacterFit, CharacterTexture, Dye, JointTransform, Material};
+use rayon::prelude::*;
+
+use crate::visibility::{Cone, Owner, Paint, SceneParts, Texture};
 
 /// Material of characters.
 const CHARACTER: u32 = 1;
+
+/// Height in the picture above which textures are drawn; below, each vertex has one colour, pixels.
+const TEXTURED_PX: f32 = 100.0;
+/// Greatest number of pixels of all textures; larger ones are halved: with their halves they take 700 MB.
+const PIXELS_MAX: usize = 128 << 20;
 
 /// The characters of a recording on its skeleton.
 #[derive(Clone, Debug)]
 pub(crate) struct Wardrobe<'a> {
     header: &'a Header,
     fits: Vec<CharacterFit<'a>>,
+    textures: Textures,
+}
+
+/// An agent that wears a character.
+pub(crate) struct Wearer<'a> {
+    pub(crate) agent: &'a AgentFrame,
+    /// Index of the character.
+    pub(crate) character: u32,
+    /// Height in the picture, pixels.
+    pub(crate) height_px: f32,
+    /// A colour that shows a quantity, linear.
+    pub(crate) shown: Option<Vec3>,
 }
 
 impl<'a> Wardrobe<'a> {
     /// Fits characters, in the recording's order, to its skeleton.
     pub(crate) fn new(header: &'a Header, characters: &'a [Character]) -> Self {
         let fits = characters.iter().map(|character| CharacterFit::new(character, header.skeleton())).collect();
-        Self { header, fits }
+        Self { header, fits, textures: Textures::new(characters) }
     }
 
     /// Whether there is a character of this index.
@@ -29,19 +49,81 @@ impl<'a> Wardrobe<'a> {
         (character as usize) < self.fits.len()
     }
 
-    /// Appends the mesh of an agent that wears a character.
-    pub(crate) fn append(&self, parts: &mut SceneParts, agent: &AgentFrame, character: u32) {
+    /// The textures of all characters.
+    pub(crate) fn textures(&self) -> Arc<Vec<Texture>> {
+        self.textures.all.clone()
+    }
+
+    /// Appends the mesh of an agent.
+    pub(crate) fn append(&self, parts: &mut SceneParts, wearer: &Wearer) {
+        let Wearer { agent, character, height_px, shown } = *wearer;
         let Some(fit) = self.fits.get(character as usize) else { return };
         let joints = agent.pose.forward_kinematics(self.header.skeleton());
         let mut transforms = Vec::new();
         fit.pose(self.header.skeleton(), &joints, agent.root.frame(), &mut transforms);
+        let worn = Worn {
+            fit,
+            first_texture: (height_px > TEXTURED_PX).then(|| self.textures.firsts[character as usize]),
+            dye: Dye { hue_turn: self.header.scenario.hue_turn_of(agent.id.0, character), shown },
+            owner: Owner { agent: agent.id.0, material: CHARACTER },
+        };
+        worn.append(parts, &transforms);
+    }
+}
+
+/// The textures of some characters.
+#[derive(Clone, Debug)]
+pub(crate) struct Textures {
+    pub(crate) all: Arc<Vec<Texture>>,
+    /// Index of the first texture of each character.
+    firsts: Vec<u32>,
+}
+
+impl Textures {
+    pub(crate) fn new(characters: &[Character]) -> Self {
+        let textures: Vec<&CharacterTexture> = characters.iter().flat_map(|character| &character.textures).collect();
+        let mut skipped = vec![0_u32; textures.len()];
+        let pixels = |index: usize, skipped: &[u32]| textures[index].pixel_count() >> (2 * skipped[index]).min(63);
+        while (0..textures.len()).map(|index| pixels(index, &skipped)).sum::<usize>() > PIXELS_MAX {
+            let largest = (0..textures.len()).rev().max_by_key(|index| pixels(*index, &skipped));
+            largest.into_iter().for_each(|index| skipped[index] += 1);
+        }
+        let all = textures.par_iter().zip(&skipped).map(|(texture, skipped)| Texture::new(texture, *skipped)).collect();
+        let counts = characters.iter().scan(0, |count, character| {
+            let first = *count;
+            *count += character.textures.len() as u32;
+            Some(first)
+        });
+        Self { all: Arc::new(all), firsts: counts.collect() }
+    }
+}
+
+/// A character as one agent wears it.
+pub(crate) struct Worn<'a> {
+    pub(crate) fit: &'a CharacterFit<'a>,
+    /// Index of the character's first texture in the scene; none where each vertex has one colour.
+    pub(crate) first_texture: Option<u32>,
+    pub(crate) dye: Dye,
+    pub(crate) owner: Owner,
+}
+
+impl Worn<'_> {
+    /// Appends the mesh and the capsules of a posed character.
+    pub(crate) fn append(&self, parts: &mut SceneParts, transforms: &[JointTransform]) {
         let (mut positions_m, mut normals, mut colours) = (Vec::new(), Vec::new(), Vec::new());
-        let mesh = &fit.character.mesh;
-        mesh.skin(&transforms, &mut positions_m, &mut normals);
-        mesh.tint(self.header.scenario.hue_turn_of(agent.id.0, character), &mut colours);
-        let owner = Owner { agent: agent.id.0, material: CHARACTER };
-        parts.meshes.append(&positions_m, &normals, &colours, &mesh.triangles, owner);
-        append_capsules(parts, fit, &transforms, owner);
+        let mesh = &self.fit.character.mesh;
+        mesh.skin(transforms, &mut positions_m, &mut normals);
+        mesh.dyed(&self.dye, self.first_texture.is_some(), &mut colours);
+        parts.meshes.append(&positions_m, &normals, &colours, &mesh.triangles, self.owner);
+        if let (Some(first), false) = (self.first_texture, mesh.uvs.is_empty()) {
+            let paint = |material: &Material| {
+                let texture = first + material.texture?;
+                Some(Paint { texture, cut_out: material.cut_out, dye: self.dye, keeps_hue: material.keeps_hue })
+            };
+            let runs = mesh.materials.iter().map(|material| (material.triangle_count as usize, paint(material)));
+            parts.meshes.texture(mesh.uvs.iter().map(|uv| Vec2::from(*uv)), runs);
+        }
+        append_capsules(parts, self.fit, transforms, self.owner);
     }
 }
 

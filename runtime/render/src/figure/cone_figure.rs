@@ -5,7 +5,7 @@ use glam::Vec3;
 use motiondb::body::{Joint, Side, Skeleton};
 
 use crate::figure::build::arm;
-use crate::figure::style::{CLOTHS, Cloth};
+use crate::figure::style::{CLOTHS, Cloth, Style};
 use crate::figure::template::PosedJoint;
 use crate::visibility::{Cone, Owner};
 
@@ -15,6 +15,9 @@ pub(crate) struct ConeFigure<'a> {
     pub(crate) joints: &'a [PosedJoint],
     pub(crate) colours: &'a [Vec3; CLOTHS],
     pub(crate) owner: Owner,
+    pub(crate) style: Style,
+    /// Size of the head relative to the body's.
+    pub(crate) head: f32,
 }
 
 impl ConeFigure<'_> {
@@ -23,6 +26,9 @@ impl ConeFigure<'_> {
         for side in Side::BOTH {
             self.append_leg(cones, side);
             self.append_arm(cones, side);
+        }
+        if self.style.has_skirt() {
+            self.append_skirt(cones);
         }
         self.append_trunk(cones);
         self.append_head(cones);
@@ -58,8 +64,16 @@ impl ConeFigure<'_> {
         );
         self.push(cones, [heel, tip], [0.036, 0.028], Cloth::Shoe);
         let (thick, thin) = (self.radius(thigh), self.radius(shank));
-        self.push(cones, [self.at(shank), self.at(foot)], [1.08 * thin, 0.86 * thin], Cloth::Trousers);
+        self.push(cones, [self.at(shank), self.at(foot)], [1.08 * thin, 0.86 * thin], Cloth::Shank);
         self.push(cones, [self.at(thigh), self.at(shank)], [thick, 1.12 * thin], Cloth::Trousers);
+    }
+
+    fn append_skirt(&self, cones: &mut Vec<Cone>) {
+        let middle = self.at(Joint::Pelvis);
+        for index in [0, 1] {
+            let [hip, knee] = [Joint::THIGHS[index], Joint::SHANKS[index]].map(|joint| self.at(joint));
+            self.push(cones, [hip.lerp(middle, 0.3), hip.lerp(knee, 0.75)], [0.115, 0.125], Cloth::Skirt);
+        }
     }
 
     fn append_arm(&self, cones: &mut Vec<Cone>, side: Side) {
@@ -90,7 +104,8 @@ impl ConeFigure<'_> {
         let at = |x: f32, z: f32| self.point(Joint::Head, Vec3::new(x, 0.0, z) * (up / 0.206));
         let neck = self.radius(Joint::Neck);
         self.push(cones, [self.at(Joint::Neck), at(0.0, 0.03)], [0.9 * neck, 0.85 * neck], Cloth::Skin);
-        self.push(cones, [at(0.045, 0.03), at(0.02, 0.11)], [0.052, 0.076], Cloth::Skin);
-        self.push(cones, [at(-0.03, 0.09), at(-0.005, 0.132)], [0.082, 0.084], Cloth::Hair);
+        let [chin, brow, nape, crown] = [0.052, 0.076, 0.082, 0.084].map(|radius| radius * self.head);
+        self.push(cones, [at(0.045, 0.03), at(0.02, 0.11)], [chin, brow], Cloth::Skin);
+        self.push(cones, [at(-0.03, 0.09), at(-0.005, 0.132)], [nape, crown], Cloth::Hair);
     }
 }

@@ -1,12 +1,12 @@
 //! All templates of one skeleton, and the figure of an agent from them. World, metres.
 
 use fbcrowd_sim::recording::AgentFrame;
-use glam::{Mat3, Vec3};
-use motiondb::body::{Side, Skeleton};
+use glam::{Mat3, Quat, Vec3};
+use motiondb::body::{Joint, Side, Skeleton};
 
 use crate::figure::build::{Build, Fineness, rest_positions};
 use crate::figure::cone_figure::ConeFigure;
-use crate::figure::style::{HairStyle, Sex, Style};
+use crate::figure::style::{Age, Clothes, HairStyle, Sex, Style};
 use crate::figure::template::{PosedJoint, Template};
 use crate::raster::palette::Look;
 use crate::visibility::{Owner, SceneParts};
@@ -15,79 +15,160 @@ use crate::visibility::{Owner, SceneParts};
 const CONES_PX: f32 = 46.0;
 /// Heights in the picture up to which surfaces are coarse and middling, pixels.
 const COARSE_PX: [f32; 2] = [110.0, 300.0];
+/// Turns of the joints of an elder, about the axis to the left, rad: the back bends, the head stays level, arms hang.
+const STOOP_RAD: [(Joint, f32); 6] = [
+    (Joint::SpineMiddle, 0.07),
+    (Joint::SpineUpper, 0.08),
+    (Joint::Neck, 0.04),
+    (Joint::Head, -0.17),
+    (Joint::LeftClavicle, -0.10),
+    (Joint::RightClavicle, -0.10),
+];
 /// Material of bodies.
 const BODY: u32 = 1;
 
-/// Templates of a skeleton: bodies by sex and fineness, hair by sex, style and fineness.
+/// A part of a body that some agents have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Piece {
+    /// Trunk, head, arms, hands and shoes.
+    Core,
+    TrouserLegs,
+    BareLegs,
+    ShortLegs,
+    Skirt,
+    Coat,
+    Hair(HairStyle),
+}
+
+impl Piece {
+    const ALL: [Self; 12] = [
+        Self::Core,
+        Self::TrouserLegs,
+        Self::BareLegs,
+        Self::ShortLegs,
+        Self::Skirt,
+        Self::Coat,
+        Self::Hair(HairStyle::Short),
+        Self::Hair(HairStyle::Full),
+        Self::Hair(HairStyle::Receding),
+        Self::Hair(HairStyle::Bob),
+        Self::Hair(HairStyle::Long),
+        Self::Hair(HairStyle::Bun),
+    ];
+
+    /// Whether an agent of a style has it.
+    fn is_of(self, style: &Style) -> bool {
+        match self {
+            Self::Core => true,
+            Self::TrouserLegs => !style.has_bare_legs(),
+            Self::BareLegs => style.has_bare_legs(),
+            Self::ShortLegs => style.clothes == Clothes::Shorts,
+            Self::Skirt => matches!(style.clothes, Clothes::Skirt | Clothes::Dress),
+            Self::Coat => style.clothes == Clothes::Coat,
+            Self::Hair(hair) => style.hair == hair,
+        }
+    }
+
+    fn template(self, build: &Build) -> Template {
+        let mut template = Template::default();
+        match self {
+            Self::Core => template.add_core(build),
+            Self::TrouserLegs => Side::BOTH.into_iter().for_each(|side| template.add_trouser_leg(build, side)),
+            Self::BareLegs => Side::BOTH.into_iter().for_each(|side| template.add_bare_leg(build, side)),
+            Self::ShortLegs => Side::BOTH.into_iter().for_each(|side| template.add_short_leg(build, side)),
+            Self::Skirt => template.add_skirt(build),
+            Self::Coat => template.add_coat(build),
+            Self::Hair(style) => template.add_hair(build, style),
+        }
+        template.finish()
+    }
+}
+
+impl Template {
+    fn add_core(&mut self, build: &Build) {
+        self.add_trunk(build);
+        self.add_head(build);
+        for side in Side::BOTH {
+            self.add_arm(build, side);
+            self.add_hand(build, side);
+            self.add_shoe(build, side);
+        }
+    }
+}
+
+/// Templates of a skeleton: pieces by sex and fineness.
 #[derive(Clone, Debug)]
 pub(crate) struct Figures {
     skeleton: Skeleton,
     rest: Vec<Vec3>,
-    bodies: Vec<Template>,
-    hair: Vec<Template>,
+    pieces: Vec<Template>,
+}
+
+/// One body to draw.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wanted<'a> {
+    pub(crate) agent: &'a AgentFrame,
+    pub(crate) look: Look,
+    /// Size relative to the crowd's body.
+    pub(crate) stature: f32,
+    /// Height in the picture, pixels.
+    pub(crate) height_px: f32,
 }
 
 impl Figures {
     pub(crate) fn new(skeleton: &Skeleton) -> Self {
-        let (mut bodies, mut hair) = (Vec::new(), Vec::new());
+        let mut pieces = Vec::new();
         for sex in [Sex::Male, Sex::Female] {
             for fineness in Fineness::ALL {
                 let build = Build::new(skeleton, sex, fineness);
-                bodies.push(body(&build));
-                for style in HairStyle::ALL {
-                    let mut template = Template::default();
-                    template.add_hair(&build, style);
-                    hair.push(template.finish());
-                }
+                pieces.extend(Piece::ALL.map(|piece| piece.template(&build)));
             }
         }
-        Self { skeleton: skeleton.clone(), rest: rest_positions(skeleton), bodies, hair }
+        Self { skeleton: skeleton.clone(), rest: rest_positions(skeleton), pieces }
     }
 
-    /// Appends the parts of one agent's body, which is `height_px` high in the picture.
-    pub(crate) fn append(&self, parts: &mut SceneParts, frame: &AgentFrame, look: &Look, height_px: f32) {
-        let style = Style::of(frame.id.0);
-        let (joints, colours) = (self.posed(frame), style.colours(look));
-        let owner = Owner { agent: frame.id.0, material: BODY };
-        let cones = ConeFigure { skeleton: &self.skeleton, joints: &joints, colours: &colours, owner };
-        if height_px < CONES_PX {
+    /// Appends the parts of one agent's body, as large as the crowd's.
+    pub(crate) fn append(&self, parts: &mut SceneParts, wanted: &Wanted) {
+        let Wanted { agent, look, stature, height_px } = wanted;
+        let style = Style::of(agent.id.0, *stature);
+        let head = style.head(*stature);
+        let (joints, colours) = (self.posed(agent, style.age, head), style.colours(look));
+        let owner = Owner { agent: agent.id.0, material: BODY };
+        let cones = ConeFigure { skeleton: &self.skeleton, joints: &joints, colours: &colours, owner, style, head };
+        cones.append(&mut parts.occluders);
+        if *height_px < CONES_PX {
             cones.append(&mut parts.cones);
-            cones.append(&mut parts.occluders);
             return;
         }
-        cones.append(&mut parts.occluders);
-        let fineness = COARSE_PX.iter().filter(|limit| height_px > **limit).count();
-        let index = style.sex as usize * Fineness::ALL.len() + fineness;
-        self.bodies[index].append(&mut parts.meshes, &joints, &colours, owner);
-        let hair = index * HairStyle::ALL.len() + style.hair as usize;
-        self.hair[hair].append(&mut parts.meshes, &joints, &colours, owner);
+        let fineness = COARSE_PX.iter().filter(|limit| height_px > *limit).count();
+        let first = (style.build() as usize * Fineness::ALL.len() + fineness) * Piece::ALL.len();
+        for (piece, template) in Piece::ALL.iter().zip(&self.pieces[first..]) {
+            if piece.is_of(&style) {
+                template.append(&mut parts.meshes, &joints, &colours, owner);
+            }
+        }
     }
 
-    /// The joints of a frame, in the world.
-    fn posed(&self, frame: &AgentFrame) -> Vec<PosedJoint> {
-        let joints = frame.pose.forward_kinematics(&self.skeleton);
+    /// The joints of a frame, in the world, with a head of a size. Elders stoop.
+    fn posed(&self, frame: &AgentFrame, age: Age, head: f32) -> Vec<PosedJoint> {
+        let mut pose = frame.pose;
+        if age == Age::Elder {
+            for (joint, angle_rad) in STOOP_RAD {
+                pose.rotations[joint.index()] *= Quat::from_rotation_y(angle_rad);
+            }
+        }
+        let joints = pose.forward_kinematics(&self.skeleton);
         let (root, ahead) = (frame.root.frame(), frame.root.forward());
         let to_world = Mat3::from_cols(ahead.extend(0.0), ahead.perp().extend(0.0), Vec3::Z);
         let posed = joints.positions_m.iter().zip(&joints.orientations).zip(&self.rest);
-        posed
+        let mut posed: Vec<PosedJoint> = posed
             .map(|((position, orientation), rest)| PosedJoint {
                 rotation: to_world * Mat3::from_quat(*orientation),
                 rest: *rest,
                 position: root.to_world(*position),
             })
-            .collect()
+            .collect();
+        posed[Joint::Head.index()].rotation *= head;
+        posed
     }
-}
-
-fn body(build: &Build) -> Template {
-    let mut template = Template::default();
-    template.add_trunk(build);
-    template.add_head(build);
-    for side in Side::BOTH {
-        template.add_arm(build, side);
-        template.add_hand(build, side);
-        template.add_leg(build, side);
-        template.add_shoe(build, side);
-    }
-    template.finish()
 }

@@ -4,8 +4,8 @@
 //! rounded cones; and always the rounded cones by which occlusion is computed. World, metres.
 //!
 //! Sections are stated in the rest pose of a body 1.775 m high (x forward, y left, z up, arms straight out), and scaled
-//! to the skeleton. Read `style` (sex, hair, sleeves of an agent), `section` and `loft` (sections to a mesh), `template` (a mesh and its
-//! joints), `build` (the frame of reference), then `trunk`, `limbs`, `hand`, `foot`, `head` and `hair`, `cone_figure` (the
+//! to the skeleton. Read `style` (sex, age, hair, clothes of an agent), `section` and `loft` (sections to a mesh), `template` (a mesh and its
+//! joints), `build` (the frame of reference), then `trunk`, `limbs`, `hand`, `foot`, `head`, `hair` and `skirt`, `cone_figure` (the
 //! crowd's), and `figures` (all of it).
 
 pub(crate) mod build;
@@ -18,8 +18,9 @@ mod head;
 mod limbs;
 mod loft;
 mod section;
+mod skirt;
 pub(crate) mod style;
 mod template;
 mod trunk;
 
-pub(crate) use figures::Figures;
+pub(crate) use figures::{Figures, Wanted};

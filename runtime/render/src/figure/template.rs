@@ -9,10 +9,10 @@ use crate::visibility::{Meshes, Owner};
 /// A vertex of a template.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
-    position: Vec3,
+    pub(crate) position: Vec3,
     normal: Vec3,
-    joints: [usize; 2],
-    share: f32,
+    /// The joints that it follows, and their shares; a share of 0 is left out.
+    joints: [(usize, f32); 3],
     cloth: Cloth,
 }
 
@@ -41,7 +41,13 @@ impl PosedJoint {
 impl Vertex {
     pub(crate) fn new(position: Vec3, section: &Section) -> Self {
         let Section { joints, share, cloth, .. } = *section;
-        Self { position, normal: Vec3::ZERO, joints, share, cloth }
+        let joints = [(joints[0], 1.0 - share), (joints[1], share), (0, 0.0)];
+        Self { position, normal: Vec3::ZERO, joints, cloth }
+    }
+
+    /// Lets it follow other joints, by shares that add up to 1.
+    pub(crate) fn follow(&mut self, joints: [(usize, f32); 3]) {
+        self.joints = joints;
     }
 }
 
@@ -65,11 +71,10 @@ impl Template {
     pub(crate) fn append(&self, meshes: &mut Meshes, joints: &[PosedJoint], colours: &[Vec3; CLOTHS], owner: Owner) {
         let first = meshes.positions_m.len() as u32;
         for vertex in &self.vertices {
-            let [one, other] = vertex.joints.map(|joint| &joints[joint]);
-            let (mut position, mut normal) = (one.to_world(vertex.position), one.rotation * vertex.normal);
-            if vertex.share > 0.0 {
-                position = position.lerp(other.to_world(vertex.position), vertex.share);
-                normal = normal.lerp(other.rotation * vertex.normal, vertex.share);
+            let (mut position, mut normal) = (Vec3::ZERO, Vec3::ZERO);
+            for (joint, share) in vertex.joints.iter().filter(|(_, share)| *share > 0.0) {
+                position += *share * joints[*joint].to_world(vertex.position);
+                normal += *share * (joints[*joint].rotation * vertex.normal);
             }
             meshes.positions_m.push(position);
             meshes.normals.push(normal);

@@ -20,7 +20,7 @@ const PELVIS: [[f32; 4]; 7] = [
     [1.050, 0.140, 0.096, 0.082],
 ];
 /// Sections of the shirt: height, half width, front, back.
-const SHIRT: [[f32; 4]; 14] = [
+const SHIRT: [[f32; 4]; 15] = [
     [0.925, 0.160, 0.098, 0.112],
     [0.928, 0.174, 0.109, 0.127],
     [0.965, 0.171, 0.111, 0.121],
@@ -30,11 +30,12 @@ const SHIRT: [[f32; 4]; 14] = [
     [1.225, 0.158, 0.116, 0.101],
     [1.295, 0.169, 0.120, 0.112],
     [1.350, 0.177, 0.113, 0.116],
-    [1.395, 0.190, 0.097, 0.112],
-    [1.430, 0.193, 0.074, 0.098],
-    [1.454, 0.162, 0.060, 0.087],
-    [1.475, 0.108, 0.055, 0.077],
-    [1.494, 0.063, 0.055, 0.064],
+    [1.395, 0.198, 0.097, 0.112],
+    [1.422, 0.213, 0.078, 0.098],
+    [1.441, 0.206, 0.064, 0.088],
+    [1.458, 0.178, 0.057, 0.082],
+    [1.478, 0.122, 0.054, 0.075],
+    [1.496, 0.066, 0.055, 0.064],
 ];
 /// Factors of a woman's half width, front and back at the heights of [`FEMALE_HEIGHTS`].
 const FEMALE: [[f32; 3]; 8] = [
@@ -60,7 +61,7 @@ impl Template {
         self.loft(&pelvis, points);
         self.loft(&shirt, points);
         // The collar: a narrow band around the neck.
-        let collar = [[1.483, 0.070, 0.062, 0.070], [1.497, 0.067, 0.059, 0.066], [1.496, 0.058, 0.050, 0.058]];
+        let collar = [[1.478, 0.080, 0.066, 0.076], [1.504, 0.068, 0.062, 0.068], [1.503, 0.057, 0.050, 0.058]];
         let collar = collar.map(|row| section(build, row, Cloth::Collar));
         self.loft(&collar, points);
     }
@@ -83,7 +84,7 @@ fn section(build: &Build, [height, width, front, back]: [f32; 4], cloth: Cloth) 
     }
 }
 
-fn sex_factors(build: &Build, height: f32) -> [f32; 3] {
+pub(crate) fn sex_factors(build: &Build, height: f32) -> [f32; 3] {
     let after = FEMALE_HEIGHTS.partition_point(|known| *known <= height);
     let (low, high) = (after.saturating_sub(1), after.min(FEMALE.len() - 1));
     let span = FEMALE_HEIGHTS[high] - FEMALE_HEIGHTS[low];

@@ -1,6 +1,6 @@
 //! A point of a cone or a triangle: position, normal and colour. World, metres.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 use crate::visibility::part::Shape;
 use crate::visibility::rounded_cone::PreparedCone;
@@ -42,7 +42,14 @@ impl SurfacePoint {
         let to_eye = if lens.is_perspective { (lens.eye_m - point_m).normalize_or_zero() } else { -lens.forward };
         // Both sides of a triangle are drawn.
         let normal = if normal.dot(to_eye) < BACK_COS { -normal } else { normal };
-        let colour = meshes.blended(triangle, weights, &meshes.colours);
+        let mut colour = meshes.blended(triangle, weights, &meshes.colours);
+        if let Some(paint) = meshes.paint(triangle) {
+            // A surface that is seen at an angle has a longer footprint.
+            let facing = normal.dot(to_eye).max(0.1);
+            let footprint_m = lens.pixel_m(lens.to_camera(point_m).z) / facing.sqrt();
+            let texel = scene.texel(triangle, weights, footprint_m).unwrap_or(Vec4::ONE);
+            colour = paint.dye.applied(colour * texel.truncate(), paint.keeps_hue);
+        }
         Self { point_m, normal, colour, owner: meshes.owners[triangle] }
     }
 }

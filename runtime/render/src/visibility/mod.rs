@@ -6,7 +6,7 @@
 //!
 //! World: metres, z up. Camera space: x right, y down, z forward, metres; depth is z.
 //!
-//! Read `lens`, then `scene_parts` (what is drawn) with `part`, `sample_pattern`, `rounded_cone` and `triangle` (the kernels),
+//! Read `lens`, then `scene_parts` (what is drawn) with `part` and `texture`, `sample_pattern`, `rounded_cone` and `triangle` (the kernels),
 //! `screen_bounds`, `tile_samples` (one tile), and `tiles` (all of them, in parallel).
 
 pub(crate) mod lens;
@@ -15,6 +15,7 @@ pub(crate) mod rounded_cone;
 pub(crate) mod sample_pattern;
 pub(crate) mod scene_parts;
 pub(crate) mod screen_bounds;
+pub(crate) mod texture;
 pub(crate) mod tile_samples;
 pub(crate) mod tiles;
 pub(crate) mod triangle;
@@ -22,6 +23,7 @@ pub(crate) mod triangle;
 pub use lens::Lens;
 pub use part::PartId;
 pub use sample_pattern::SamplePattern;
-pub use scene_parts::{Cone, Meshes, Owner, SceneParts};
+pub use scene_parts::{Cone, Meshes, Owner, Paint, SceneParts};
+pub use texture::Texture;
 pub use tile_samples::{Fragment, TileSamples};
 pub(crate) use tiles::{PreparedTiles, TILE_PX, for_each_tile};

@@ -1,8 +1,12 @@
 //! What is drawn besides the ground: rounded cones and meshes of triangles, in the world. Metres, z up, linear colours.
 
-use glam::Vec3;
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3, Vec4};
+use motiondb::character::{CutOut, Dye};
 
 use crate::visibility::part::{PartId, Shape};
+use crate::visibility::texture::Texture;
 
 /// What a part belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +37,19 @@ pub struct Cone {
     pub owner: Owner,
 }
 
+/// A texture on triangles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paint {
+    /// Index of the texture among those of the scene.
+    pub texture: u32,
+    /// What the texture's alpha hides.
+    pub cut_out: CutOut,
+    /// What changes the colours, and whether it leaves their hue.
+    pub dye: Dye,
+    /// Whether the dye leaves hues as they are.
+    pub keeps_hue: bool,
+}
+
 /// Triangles of all meshes of a scene. A mesh is appended as plain slices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Meshes {
@@ -46,6 +63,12 @@ pub struct Meshes {
     pub triangles: Vec<[u32; 3]>,
     /// What each triangle belongs to.
     pub owners: Vec<Owner>,
+    /// Texture coordinates of vertices; those beyond the list's end have none.
+    pub uvs: Vec<Vec2>,
+    /// Textures on triangles.
+    pub paints: Vec<Paint>,
+    /// Index of each triangle's paint plus 1; 0 of one without texture, as of those beyond the list's end.
+    pub paint_numbers: Vec<u32>,
 }
 
 /// All cones and triangles of a frame.
@@ -57,9 +80,26 @@ pub struct SceneParts {
     pub meshes: Meshes,
     /// Rounded cones that are not drawn, by which occlusion is computed; by rising agent.
     pub occluders: Vec<Cone>,
+    /// Textures of the meshes.
+    pub textures: Arc<Vec<Texture>>,
 }
 
 impl SceneParts {
+    /// Colour and alpha of a triangle's texture at a point, by the weights of its corners; none without texture.
+    /// `footprint_m` is the width of a pixel there.
+    pub(crate) fn texel(&self, triangle: usize, weights: Vec3, footprint_m: f32) -> Option<Vec4> {
+        let texture = self.textures.get(self.meshes.paint(triangle)?.texture as usize)?;
+        let uvs = self.meshes.triangles[triangle]
+            .map(|corner| self.meshes.uvs.get(corner as usize).copied().unwrap_or_default());
+        let uv = uvs[0] * weights.x + uvs[1] * weights.y + uvs[2] * weights.z;
+        let corners_m = self.meshes.corners_m(triangle);
+        let area_m2 = (corners_m[1] - corners_m[0]).cross(corners_m[2] - corners_m[0]).length();
+        let size = texture.size_px();
+        let area_px2 = ((uvs[1] - uvs[0]) * size).perp_dot((uvs[2] - uvs[0]) * size).abs();
+        let density = if area_m2 > 0.0 { (area_px2 / area_m2).sqrt() } else { 0.0 };
+        Some(texture.sample(uv, footprint_m * density))
+    }
+
     /// The shape of a part; none of ground and sky.
     pub(crate) fn shape(&self, part: PartId) -> Option<Shape> {
         part.shape(self.cones.len())
@@ -107,9 +147,42 @@ impl Meshes {
         self.owners.resize(self.triangles.len(), owner);
     }
 
+    /// Textures the last triangles of the last vertices: coordinates of these vertices, and runs of so many triangles with
+    /// a paint or none.
+    pub fn texture(
+        &mut self,
+        uvs: impl ExactSizeIterator<Item = Vec2>,
+        runs: impl Iterator<Item = (usize, Option<Paint>)>,
+    ) {
+        self.uvs.resize(self.positions_m.len().saturating_sub(uvs.len()), Vec2::ZERO);
+        self.uvs.extend(uvs);
+        let mut numbers = Vec::new();
+        for (count, paint) in runs {
+            self.paints.extend(paint);
+            numbers.resize(numbers.len() + count, paint.map_or(0, |_| self.paints.len() as u32));
+        }
+        self.paint_numbers.resize(self.triangles.len().saturating_sub(numbers.len()), 0);
+        self.paint_numbers.extend(numbers);
+    }
+
+    /// The texture on a triangle.
+    pub(crate) fn paint(&self, triangle: usize) -> Option<&Paint> {
+        let number = self.paint_numbers.get(triangle).copied().unwrap_or(0);
+        self.paints.get((number as usize).wrapping_sub(1))
+    }
+
     /// Appends all triangles of other meshes.
     pub(crate) fn extend(&mut self, other: &Self) {
         let first = self.positions_m.len() as u32;
+        if !other.paints.is_empty() {
+            self.uvs.resize(first as usize, Vec2::ZERO);
+            self.uvs.extend_from_slice(&other.uvs);
+            self.paint_numbers.resize(self.triangles.len(), 0);
+            let before = self.paints.len() as u32;
+            let moved = other.paint_numbers.iter().map(|number| if *number > 0 { number + before } else { 0 });
+            self.paint_numbers.extend(moved);
+            self.paints.extend_from_slice(&other.paints);
+        }
         self.positions_m.extend_from_slice(&other.positions_m);
         self.normals.extend_from_slice(&other.normals);
         self.colours.extend_from_slice(&other.colours);

@@ -128,8 +128,14 @@ impl<'a> TileSamples<'a> {
         }
     }
 
-    /// Draws a triangle where it is nearest.
-    pub(crate) fn draw_triangle(&mut self, triangle: &ScreenTriangle, part: PartId, bounds: [[u32; 2]; 2]) {
+    /// Draws a triangle where it is nearest, and where `is_solid` holds of (u, v), depth and sample.
+    pub(crate) fn draw_triangle(
+        &mut self,
+        triangle: &ScreenTriangle,
+        part: PartId,
+        bounds: [[u32; 2]; 2],
+        is_solid: impl Fn(Vec2, f32, usize) -> bool,
+    ) {
         self.has_parts = true;
         let [columns, rows] = self.window(bounds);
         let (count, width) = (self.pattern.count(), self.size_px[0]);
@@ -152,7 +158,10 @@ impl<'a> TileSamples<'a> {
                     if values[0] | values[1] | values[2] >= 0 {
                         let u = first_uv.x + (column as f32 + offset[0] as f32 / UNITS as f32) * pixel;
                         let at = (row * width + column) as usize * count + sample;
-                        self.put(at, triangle.depth_m(Vec2::new(u, v)), part);
+                        let depth_m = triangle.depth_m(Vec2::new(u, v));
+                        if is_solid(Vec2::new(u, v), depth_m, sample) {
+                            self.put(at, depth_m, part);
+                        }
                     }
                     values = [values[0] + steps[0], values[1] + steps[1], values[2] + steps[2]];
                 }

@@ -3,6 +3,8 @@
 
 use std::ops::Range;
 
+use glam::Vec3;
+use motiondb::character::CutOut;
 use rayon::prelude::*;
 
 use crate::visibility::lens::{GroundDepth, Lens};
@@ -12,7 +14,7 @@ use crate::visibility::sample_pattern::SamplePattern;
 use crate::visibility::scene_parts::SceneParts;
 use crate::visibility::screen_bounds::cone_bounds;
 use crate::visibility::tile_samples::TileSamples;
-use crate::visibility::triangle::{ScreenTriangle, append_visible};
+use crate::visibility::triangle::{ScreenTriangle, append_visible, weights};
 
 /// Side of a tile, pixels: its samples fit the first cache.
 pub(crate) const TILE_PX: u32 = 32;
@@ -47,7 +49,8 @@ pub(crate) fn for_each_tile<T: Send>(
 }
 
 /// The parts of a scene that a lens sees, by tiles.
-pub(crate) struct PreparedTiles {
+pub(crate) struct PreparedTiles<'a> {
+    scene: &'a SceneParts,
     cones: Vec<Visible<PreparedCone>>,
     triangles: Vec<Visible<ScreenTriangle>>,
     cone_lists: TileLists,
@@ -56,12 +59,12 @@ pub(crate) struct PreparedTiles {
     sides: [u32; 2],
 }
 
-impl PreparedTiles {
-    pub(crate) fn new(scene: &SceneParts, lens: &Lens, pattern: SamplePattern) -> Self {
+impl<'a> PreparedTiles<'a> {
+    pub(crate) fn new(scene: &'a SceneParts, lens: &Lens, pattern: SamplePattern) -> Self {
         let (cones, triangles) = (visible_cones(scene, lens), visible_triangles(scene, lens, pattern));
         let sides = lens.size_px.map(|side| side.div_ceil(TILE_PX));
         let (cone_lists, triangle_lists) = (TileLists::new(sides, &cones), TileLists::new(sides, &triangles));
-        Self { cones, triangles, cone_lists, triangle_lists, sides }
+        Self { scene, cones, triangles, cone_lists, triangle_lists, sides }
     }
 
     /// As [`for_each_tile`], for some rows of tiles.
@@ -84,11 +87,48 @@ impl PreparedTiles {
                 samples.draw_cone(&cone.shape, cone.part, cone.bounds);
             }
             for triangle in self.triangle_lists.of(tile).map(|index| &self.triangles[index]) {
-                samples.draw_triangle(&triangle.shape, triangle.part, triangle.bounds);
+                draw_triangle(&mut samples, self.scene, lens, pattern, triangle);
             }
             function(&mut samples)
         };
         (rows.start * columns..rows.end * columns).into_par_iter().map(draw).collect()
+    }
+}
+
+/// Draws a triangle; where its paint is cut out or blended, only the samples that its alpha covers.
+fn draw_triangle(
+    samples: &mut TileSamples<'_>,
+    scene: &SceneParts,
+    lens: &Lens,
+    pattern: SamplePattern,
+    triangle: &Visible<ScreenTriangle>,
+) {
+    let (shape, index) = (&triangle.shape, triangle.shape.index as usize);
+    match scene.meshes.paint(index).map_or(CutOut::Opaque, |paint| paint.cut_out) {
+        CutOut::Opaque => samples.draw_triangle(shape, triangle.part, triangle.bounds, |_, _, _| true),
+        cut_out => samples.draw_triangle(shape, triangle.part, triangle.bounds, |uv, depth_m, sample| {
+            let threshold = threshold(cut_out, sample, pattern.count());
+            alpha(scene, lens, index, lens.at_depth(uv, depth_m)) >= threshold
+        }),
+    }
+}
+
+/// Alpha of a textured triangle at a point of camera space.
+fn alpha(scene: &SceneParts, lens: &Lens, triangle: usize, point_m: Vec3) -> f32 {
+    let weights = weights(scene.meshes.corners_m(triangle), lens.to_world(point_m));
+    scene.texel(triangle, weights, lens.pixel_m(point_m.z)).map_or(1.0, |texel| texel.w)
+}
+
+/// Alpha from which a sample is covered. Blended surfaces cover as many samples of a pixel as their alpha states.
+fn threshold(cut_out: CutOut, sample: usize, count: usize) -> f32 {
+    match cut_out {
+        CutOut::Opaque => 0.0,
+        CutOut::Below(alpha) => alpha.max(f32::MIN_POSITIVE),
+        // Samples in bit-reversed order, so that those of one share lie apart.
+        CutOut::Blended => {
+            let reversed = (sample as u32).reverse_bits() >> (32 - count.trailing_zeros()).min(31);
+            (if count > 1 { reversed as f32 } else { 0.0 } + 0.5) / count as f32
+        }
     }
 }
 
@@ -154,10 +194,12 @@ impl TileLists {
 #[cfg(test)]
 mod tests {
     use fbcrowd_sim::maths::SplitMix64;
-    use glam::{Vec2, Vec3};
+    use glam::Vec2;
+    use motiondb::character::{CharacterTexture, Dye, Wrap};
 
     use super::*;
-    use crate::visibility::scene_parts::{Cone, Owner};
+    use crate::visibility::scene_parts::{Cone, Owner, Paint};
+    use crate::visibility::texture::Texture;
 
     fn random_scene(random: &mut SplitMix64, cones: usize, triangles: usize) -> SceneParts {
         let mut scene = SceneParts::default();
@@ -283,5 +325,40 @@ mod tests {
                 }
             });
         }
+    }
+
+    /// A square 2 m wide at a depth of 2 m with a texture whose left half has an alpha; returns how many of its samples
+    /// are covered, on the left and on the right.
+    fn covered(alpha: u8, cut_out: CutOut, pattern: SamplePattern) -> [usize; 2] {
+        let pixels = [[255, 0, 0, alpha], [255, 0, 0, 255]].concat();
+        let texture = CharacterTexture { size_px: [2, 1], wraps: [Wrap::Clamp; 2], pixels };
+        let textures = std::sync::Arc::new(vec![Texture::new(&texture, 0)]);
+        let mut scene = SceneParts { textures, ..SceneParts::default() };
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let corners_m = corners.map(|[u, v]| Vec3::new(2.0 * u - 1.0, 2.0, 2.0 * v - 1.0));
+        scene.meshes.append(&corners_m, &[Vec3::Y; 4], &[Vec3::ONE; 4], &[[0, 1, 2], [0, 2, 3]], Owner::SCENE);
+        let paint = Paint { texture: 0, cut_out, dye: Dye::default(), keeps_hue: false };
+        scene.meshes.texture(corners.into_iter().map(Vec2::from), [(2, Some(paint))].into_iter());
+        let lens = Lens::perspective([64, 64], Vec3::ZERO, Vec3::Y, 1.0);
+        let tiles = for_each_tile(&scene, &lens, pattern, None, |tile| {
+            let is_covered = |sample: &usize| tile.depths_m[*sample].is_finite();
+            let samples = (0..tile.parts.len()).filter(is_covered).map(|sample| tile.uv(sample).x);
+            let (left, right): (Vec<f32>, Vec<f32>) = samples.filter(|u| u.abs() > 0.3).partition(|u| *u < 0.0);
+            [left.len(), right.len()]
+        });
+        tiles.iter().fold([0; 2], |sum, tile| [sum[0] + tile[0], sum[1] + tile[1]])
+    }
+
+    #[test]
+    fn alpha_hides_samples() {
+        let [all, right] = covered(255, CutOut::Opaque, SamplePattern::Sixteen);
+        assert!(all > 10_000 && all.abs_diff(right) < all / 50, "{all} {right}");
+        assert_eq!(covered(0, CutOut::Opaque, SamplePattern::Sixteen)[0], all);
+        assert_eq!(covered(120, CutOut::Below(0.5), SamplePattern::Sixteen), [0, right]);
+        let shares = |[left, _]: [usize; 2], expected: usize| left.abs_diff(expected) < expected / 20;
+        assert!(shares(covered(140, CutOut::Below(0.5), SamplePattern::Four), all / 4));
+        // A quarter, and half, of the samples.
+        assert!(shares(covered(64, CutOut::Blended, SamplePattern::Sixteen), all / 4));
+        assert!(shares(covered(128, CutOut::Blended, SamplePattern::Four), all / 8));
     }
 }

@@ -8,9 +8,10 @@ use std::path::{Path, PathBuf};
 use fbcrowd_render::camera::{CameraOptions, CameraView, ColourBy, Quality, Shot, render_camera_sequence};
 use fbcrowd_render::error::RenderError;
 use fbcrowd_render::top_view::{PictureFormat, sample};
-use fbcrowd_render::visibility::{Lens, SamplePattern};
+use fbcrowd_render::visibility::{Lens, Owner, SamplePattern};
+use fbcrowd_sim::Population;
 use fbcrowd_sim::recording::Recording;
-use fbcrowd_sim::scenario::{CameraFollow, CameraKey, CameraSpec};
+use fbcrowd_sim::scenario::{CameraFollow, CameraKey, CameraSpec, View};
 use glam::Vec3;
 use tiny_skia::Pixmap;
 
@@ -117,5 +118,29 @@ fn figures_of_all_sizes_have_no_gap() {
         };
         let (neck, pelvis) = (height * 21 / 100, height * 48 / 100);
         assert!((neck..pelvis).all(differs), "{height} px");
+    }
+}
+
+#[test]
+fn agents_are_drawn_at_their_stature() {
+    let header = support::circle(12, 4.0, View::default());
+    let agents = support::frame(&header, 0.0);
+    let top_m = |stature: f32, distance_m: f32| {
+        let mut population = Population::of(&header.scenario);
+        population.agents.iter_mut().for_each(|life| life.stature = stature);
+        let view = CameraView::new(&header, &population, Quality::default(), ColourBy::Agent);
+        let lens = Lens::perspective([640, 360], Vec3::new(0.0, -distance_m, 1.6), Vec3::Z, 1.0);
+        let scene = view.scene(&Shot { lens, time_s: 0.0, eyes_of: None, fog_m: None }, &agents);
+        let of_cones = scene.cones.iter().flat_map(|cone| cone.ends_m.map(|end_m| end_m.z + cone.radii_m[0]));
+        let meshes = &scene.meshes;
+        let bodies = meshes.triangles.iter().zip(&meshes.owners).filter(|(_, owner)| owner.agent != Owner::NO_AGENT);
+        let corners = bodies.flat_map(|(corners, _)| corners.map(|corner| meshes.positions_m[corner as usize].z));
+        corners.chain(of_cones).fold(0.0, f32::max)
+    };
+    // As surfaces, and far away as cones. The head of a child is large for its body.
+    for distance_m in [6.0, 60.0] {
+        let [adult_m, child_m] = [1.0, 0.6].map(|stature| top_m(stature, distance_m));
+        assert!((1.6..2.0).contains(&adult_m), "{adult_m}");
+        assert!((0.6 * adult_m..0.72 * adult_m).contains(&child_m), "{adult_m} {child_m}");
     }
 }

@@ -70,10 +70,14 @@ impl BodyPenetration {
         }
     }
 
-    /// Adds one frame: every present agent's root, and its joints in the root's frame.
-    pub(crate) fn push<'a>(&mut self, agents: impl Iterator<Item = (&'a Root, &'a Joints)>) {
+    /// Adds one frame: every present agent's root, its joints in the root's frame, and the radii of the character that it
+    /// wears.
+    pub(crate) fn push<'a>(&mut self, agents: impl Iterator<Item = ((&'a Root, &'a Joints), Option<&'a [f32]>)>) {
         self.bodies.clear();
-        self.bodies.extend(agents.map(|(root, joints)| CapsuleBody::new(&self.skeleton, root, joints)));
+        let body = |((root, joints), radii_m): ((&Root, &Joints), Option<&[f32]>)| {
+            CapsuleBody::new(&self.skeleton, radii_m.unwrap_or(&self.skeleton.segment_radii_m), root, joints)
+        };
+        self.bodies.extend(agents.map(body));
         if self.order.len() != self.bodies.len() {
             self.order = (0..self.bodies.len()).collect();
         }
@@ -121,11 +125,11 @@ impl BodyPenetration {
 }
 
 impl CapsuleBody {
-    fn new(skeleton: &Skeleton, root: &Root, joints: &Joints) -> Self {
+    fn new(skeleton: &Skeleton, radii_m: &[f32], root: &Root, joints: &Joints) -> Self {
         let turn = Quat::from_rotation_z(root.facing_rad);
         let capsules = std::array::from_fn(|joint| {
             let Segment { from_m, to_m } = bone(skeleton, joints, joint);
-            BoneCapsule::new(Segment { from_m: turn * from_m, to_m: turn * to_m }, skeleton.segment_radii_m[joint])
+            BoneCapsule::new(Segment { from_m: turn * from_m, to_m: turn * to_m }, radii_m[joint])
         });
         let bounds = capsules.iter().map(|capsule: &BoneCapsule| capsule.bounds).fold(Bounds::EMPTY, Bounds::with);
         Self { position_m: root.position_m, capsules, bounds }
@@ -196,7 +200,7 @@ mod tests {
             let posed: Vec<(Root, Joints)> =
                 bodies.iter().map(|(root, pose)| (*root, pose.forward_kinematics(&skeleton))).collect();
             let mut found = BodyPenetration::new(&skeleton);
-            found.push(posed.iter().map(|(root, joints)| (root, joints)));
+            found.push(posed.iter().map(|(root, joints)| ((root, joints), None)));
             let pairs = (0..posed.len()).flat_map(|i| (i + 1..posed.len()).map(move |j| (i, j)));
             let depths_m: Vec<f32> = pairs.map(|(i, j)| brute_m(&skeleton, [&posed[i], &posed[j]])).collect();
             let (sum_m, greatest_m) = (depths_m.iter().sum::<f32>(), depths_m.iter().copied().fold(0.0, f32::max));

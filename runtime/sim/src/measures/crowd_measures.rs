@@ -19,8 +19,8 @@ use crate::population::Population;
 use crate::recording::error::RecordingError;
 use crate::recording::frame::AgentFrame;
 use crate::recording::reader::Recording;
-use crate::scenario::Scenario;
 use crate::scenario::places::state_zones::StateZones;
+use crate::scenario::{CharacterSpec, Scenario};
 
 /// The measures of one simulation, under the keys of `fbcrowd measure --json`.
 ///
@@ -127,6 +127,8 @@ pub struct Measuring {
     state_zones: StateZones,
     states: StateVisits,
     places: MeasuredPlaces,
+    /// Radii of the segments of each character; none where its size is not known.
+    character_radii_m: Vec<Vec<f32>>,
 }
 
 impl Measuring {
@@ -147,6 +149,7 @@ impl Measuring {
             walls: WallContact::new(skeleton, scenario),
             state_zones: StateZones::new(scenario),
             places: MeasuredPlaces::new(scenario, start, population.closed_doors(0)),
+            character_radii_m: scenario.characters.iter().map(segment_radii_m).collect(),
         };
         measuring.pose(start);
         follow_feet(&mut measuring.slide, &measuring.roots, start, &measuring.joints);
@@ -173,7 +176,11 @@ impl Measuring {
         let closed = population.closed_doors(frame);
         self.places.set_doors(&closed);
         self.places.push(frame, &pairs, after);
-        self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints));
+        let radii_m = after.iter().map(|agent| {
+            let character = life(agent).character?;
+            self.character_radii_m.get(character as usize).filter(|radii_m| !radii_m.is_empty()).map(Vec::as_slice)
+        });
+        self.bodies.push(after.iter().map(|agent| &agent.root).zip(&self.joints).zip(radii_m));
         let held = after.iter().map(|agent| {
             let (own, radius_m) = (life(agent).spec.closed_zones, life(agent).wall_radius_m(frame));
             let state = usize::from(agent.state);
@@ -239,6 +246,10 @@ impl Measuring {
         self.joints.clear();
         self.joints.extend(agents.iter().map(|agent| agent.pose.forward_kinematics(&self.skeleton)));
     }
+}
+
+fn segment_radii_m(character: &CharacterSpec) -> Vec<f32> {
+    character.size.as_ref().map(|size| size.segment_radii_m.clone()).unwrap_or_default()
 }
 
 /// Measures a recording, read once from its first frame to its last.

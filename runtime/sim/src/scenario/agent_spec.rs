@@ -51,6 +51,15 @@ pub struct AgentSpec {
     /// The characters that the agent may wear: bit k stands for the k-th of the scenario; 0: all.
     #[serde(default, skip_serializing_if = "wears_any")]
     pub characters: u64,
+    /// Whether the radius is that of the character that the agent wears, because the scenario states none.
+    #[serde(default, skip_serializing_if = "is_stated")]
+    pub wears_radius: bool,
+}
+
+/// Whether a radius is no character's; recordings leave it out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+pub(crate) fn is_stated(wears_radius: &bool) -> bool {
+    !*wears_radius
 }
 
 /// Whether no zone is closed to an agent; recordings leave it out.
@@ -100,6 +109,7 @@ impl Default for AgentSpec {
             closed_zones: 0,
             priority: 0.0,
             characters: 0,
+            wears_radius: false,
             group: None,
         }
     }

@@ -27,7 +27,8 @@ pub(crate) mod view;
 pub(crate) mod walls;
 
 pub use agent_spec::{AgentSpec, AtGoal, WALL_RADIUS_M};
-pub use characters::character_spec::{CHARACTERS_MAX, CharacterSpec};
+pub use characters::character_spec::{CHARACTERS_MAX, CharacterSize, CharacterSpec};
+pub use characters::character_tables::CharacterFile;
 pub use coupling::Coupling;
 pub use due_times::DueTimes;
 pub use error::{Invalid, ScenarioError};

@@ -46,6 +46,8 @@ pub struct DrawnNumbers {
     pub priority: f32,
     /// Characters that the agent may wear, by bits.
     pub characters: u64,
+    /// Whether the radius is that of the character that the agent wears.
+    pub wears_radius: bool,
 }
 
 impl DrawnNumbers {
@@ -67,6 +69,7 @@ impl DrawnNumbers {
             closed_zones,
             priority,
             characters,
+            wears_radius: self.wears_radius && radius_m.is_none(),
         }
     }
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::behaviour::Area;
 use crate::maths::random::SplitMix64;
-use crate::scenario::agent_spec::{AgentSpec, AtGoal, enters_all, follows_path, is_0};
+use crate::scenario::agent_spec::{AgentSpec, AtGoal, enters_all, follows_path, is_0, is_stated};
 use crate::scenario::characters::character_spec::wears_any;
 use crate::scenario::due_times::DueTimes;
 use crate::scenario::profile::{DrawnNumbers, Profile};
@@ -77,6 +77,9 @@ pub struct SourceSpec {
     /// Characters that the agents may wear, by bits as in [`AgentSpec`].
     #[serde(default, skip_serializing_if = "wears_any")]
     pub characters: u64,
+    /// Whether the radius is that of the character that an agent wears, because the scenario states none.
+    #[serde(default, skip_serializing_if = "is_stated")]
+    pub wears_radius: bool,
     /// Sizes of the groups in which agents appear; none: each alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub groups: Option<GroupSizes>,
@@ -108,6 +111,7 @@ impl Default for SourceSpec {
             closed_zones: 0,
             priority: 0.0,
             characters: 0,
+            wears_radius: false,
             groups: None,
         }
     }
@@ -132,6 +136,7 @@ impl SourceSpec {
             closed_zones: self.closed_zones,
             priority: self.priority,
             characters: self.characters,
+            wears_radius: self.wears_radius,
             group: None,
         }
     }
@@ -139,9 +144,15 @@ impl SourceSpec {
     /// The source with the numbers of one agent: those of the source with this index after a number of births.
     pub fn drawn(&self, seed: u64, index: usize, born: u32) -> Self {
         let stream = NUMBER_STREAM + ((index as u64) << 20) + u64::from(born);
-        let &Self { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, characters, .. } = self;
-        let numbers =
-            DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, characters };
+        let numbers = DrawnNumbers {
+            preferred_speed_mps: self.preferred_speed_mps,
+            radius_m: self.radius_m,
+            pre_movement_s: self.pre_movement_s,
+            closed_zones: self.closed_zones,
+            priority: self.priority,
+            characters: self.characters,
+            wears_radius: self.wears_radius,
+        };
         let numbers = numbers.draw(&self.profiles, &mut SplitMix64::new(seed, stream));
         Self {
             preferred_speed_mps: numbers.preferred_speed_mps,
@@ -151,6 +162,7 @@ impl SourceSpec {
             closed_zones: numbers.closed_zones,
             priority: numbers.priority,
             characters: numbers.characters,
+            wears_radius: numbers.wears_radius,
             ..self.clone()
         }
     }

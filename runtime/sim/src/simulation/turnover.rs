@@ -117,7 +117,7 @@ impl Simulation {
                 (Some(nearest_m), Some(first_m)) => first_m.distance(position_m) < first_m.distance(nearest_m),
                 _ => true,
             };
-            if is_nearer && self.has_room(&spec.agent(position_m)) {
+            if is_nearer && self.has_room(&self.dressed(spec.agent(position_m))) {
                 nearest = Some(position_m);
                 if first_m.is_none() {
                     break;
@@ -144,8 +144,15 @@ impl Simulation {
         !overlaps && walls.depth_m(position_m, wall_radius_m) <= TOUCH_M
     }
 
+    /// The next agent with the radius of its character.
+    fn dressed(&self, mut spec: AgentSpec) -> AgentSpec {
+        self.scenario.dress(self.population.agents.len() as u32, &mut spec);
+        spec
+    }
+
     /// Appends an agent with the next id.
     fn bear(&mut self, spec: AgentSpec, source: Option<u32>) -> AgentId {
+        let spec = self.dressed(spec);
         let id = AgentId::from(self.population.agents.len());
         self.has_groups |= spec.group.is_some();
         self.has_priorities |= spec.priority != 0.0;

@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 
 use glam::{Quat, Vec3};
 use motiondb::body::{JOINT_COUNT, Joint, Skeleton};
-use motiondb::character::{Character, CharacterFoot, CharacterJoint, CharacterMesh, Material};
+use motiondb::character::{Character, CharacterFoot, CharacterJoint, CharacterMesh, CutOut, Material};
 
 /// Sides and rings of a tube: 7,128 triangles in all.
 const TUBE: [usize; 2] = [18, 9];
@@ -40,6 +40,7 @@ pub(crate) fn tube_character(skeleton: &Skeleton) -> Character {
         radius_m: 0.25,
         segment_radii_m: skeleton.segment_radii_m,
         mesh,
+        textures: Vec::new(),
     }
 }
 
@@ -85,7 +86,15 @@ fn mesh(skeleton: &Skeleton, at_m: &[Vec3; JOINT_COUNT]) -> CharacterMesh {
         }
     }
     let triangle_count = mesh.triangles.len() as u32;
-    mesh.materials.push(Material { name: "cloth".into(), triangle_count, is_double_sided: false, keeps_hue: false });
+    mesh.materials.push(Material {
+        name: "cloth".into(),
+        mesh: "body".into(),
+        triangle_count,
+        is_double_sided: false,
+        keeps_hue: false,
+        texture: None,
+        cut_out: CutOut::Opaque,
+    });
     mesh
 }
 

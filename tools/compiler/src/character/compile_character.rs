@@ -20,6 +20,7 @@ use crate::character::mesh_instances::{ATTRIBUTES, draws_triangles, instances};
 use crate::character::primitive;
 use crate::character::reason::{CharacterNote, CharacterReason, CharacterRejection};
 use crate::character::sizes::{self, MeshOnJoints};
+use crate::character::worn_meshes;
 use crate::error::RejectionReason;
 use crate::read::gltf::buffers::Outside;
 use crate::read::gltf::chunks;
@@ -43,11 +44,15 @@ pub fn is_character_file(path: &Path) -> bool {
     ["glb", "gltf", "vrm"].contains(&extension.as_str())
 }
 
-/// Compiles the character of a `.glb`, `.gltf` or `.vrm` file.
+/// Compiles the character of a `.glb`, `.gltf` or `.vrm` file. `hide` names meshes that are left out.
 ///
 /// # Errors
 /// Why the file gives no character.
-pub fn compile_character(path: &Path, outside: Outside) -> Result<CompiledCharacter, CharacterRejection> {
+pub fn compile_character(
+    path: &Path,
+    outside: Outside,
+    hide: &[String],
+) -> Result<CompiledCharacter, CharacterRejection> {
     let rejected = |reason| CharacterRejection { file: path.display().to_string(), reason };
     let open = || -> Result<BufReader<File>, CharacterReason> {
         let file = input_file::open(path).map_err(|error| RejectionReason::unreadable(&error))?;
@@ -56,16 +61,16 @@ pub fn compile_character(path: &Path, outside: Outside) -> Result<CompiledCharac
     if !is_character_file(path) {
         return Err(rejected(CharacterReason::UnknownFormat));
     }
-    open().and_then(|file| compiled(path, file, outside)).map_err(rejected)
+    open().and_then(|file| compiled(path, file, outside, hide)).map_err(rejected)
 }
 
-/// As [`compile_character`], from a file's bytes; `path` gives the name and the folder of buffers and textures.
+/// As [`compile_character`], of all meshes, from a file's bytes; `path` gives the name and the folder of buffers and textures.
 ///
 /// # Errors
 /// As [`compile_character`].
 pub fn compile_character_bytes(path: &Path, bytes: &[u8]) -> Result<CompiledCharacter, CharacterRejection> {
     let rejected = |reason| CharacterRejection { file: path.display().to_string(), reason };
-    compiled(path, Cursor::new(bytes), Outside::Refused).map_err(rejected)
+    compiled(path, Cursor::new(bytes), Outside::Refused, &[]).map_err(rejected)
 }
 
 /// What a glTF file holds.
@@ -88,7 +93,12 @@ pub fn file_content(path: &Path) -> Option<FileContent> {
     Some(FileContent { has_meshes, has_animations: !root.animations.is_empty() })
 }
 
-fn compiled(path: &Path, mut file: impl Read + Seek, outside: Outside) -> Result<CompiledCharacter, CharacterReason> {
+fn compiled(
+    path: &Path,
+    mut file: impl Read + Seek,
+    outside: Outside,
+    hide: &[String],
+) -> Result<CompiledCharacter, CharacterReason> {
     let mut notes = Vec::new();
     let chunks = chunks::read(&mut file)?;
     let table = extensions::bone_table(&chunks.json, &mut notes)?;
@@ -105,6 +115,7 @@ fn compiled(path: &Path, mut file: impl Read + Seek, outside: Outside) -> Result
     let mut builder = MeshBuilder::new(&document, path, outside);
     let pelvis = slots[Joint::Pelvis.index()].ok_or(CharacterReason::NoLegs)?;
     let instances = instances(&document, &tree, &pose, &slots, &mut notes)?;
+    let instances = worn_meshes::worn(instances, hide, &pose, &slots, &mut notes)?;
     let parts = instances.into_iter().map(|instance| {
         let part = primitive::read(&document, &pose, &instance, &to_body, pelvis)?;
         Ok((instance, part))
@@ -153,7 +164,7 @@ fn assembled(
     pose: &BindPose,
     slots: &mut SlotMap,
     to_body: &DMat4,
-    mesh: BodyMesh,
+    mut mesh: BodyMesh,
 ) -> Result<Character, CharacterReason> {
     let positions_m: Vec<DVec3> =
         (0..pose.parents.len()).map(|slot| to_body.transform_point3(pose.position_m(slot))).collect();
@@ -185,6 +196,7 @@ fn assembled(
         height_m: (top_m - sole_m) as f32,
         radius_m: on_joints.radius_m(slots, &radii_m) as f32,
         segment_radii_m: std::array::from_fn::<f32, JOINT_COUNT, _>(|role| radii_m[role] as f32),
+        textures: std::mem::take(&mut mesh.textures),
         mesh: on_kept_joints(mesh, &kept, origin_m),
     })
 }
@@ -227,6 +239,8 @@ fn on_kept_joints(mesh: BodyMesh, kept: &[usize], origin_m: DVec3) -> CharacterM
         positions_m: mesh.positions_m.iter().map(|position_m| (*position_m - origin_m).as_vec3()).collect(),
         normals: mesh.normals.iter().map(|normal| normal.as_vec3()).collect(),
         colours: mesh.colours,
+        uvs: mesh.uvs,
+        tints: mesh.tints,
         joints: joints.collect::<Vec<[u16; WEIGHT_COUNT]>>(),
         weights: weights.collect(),
         triangles: mesh.triangles,

@@ -29,11 +29,20 @@ pub(crate) const ATTRIBUTES: [Semantic; 10] = [
 pub(crate) struct Instance<'a> {
     /// Name of the mesh, for messages.
     pub name: String,
+    /// Name of the node that draws it, by which people know it.
+    pub node: String,
     pub primitive: &'a Primitive,
     /// The node's slot.
     pub slot: usize,
     /// Index of the skin; none of a rigid mesh.
     pub skin: Option<usize>,
+}
+
+impl Instance<'_> {
+    /// Whether a name is that of the mesh or of the node that draws it.
+    pub(crate) fn is_called(&self, name: &str) -> bool {
+        self.node == name || self.name == name
+    }
 }
 
 /// All primitives of the character.
@@ -73,7 +82,7 @@ pub(crate) fn instances<'a>(
             triangles = triangles.saturating_add(corners / per_corner);
             vertices = vertices.saturating_add(of_positions);
             check_sizes(triangles, vertices)?;
-            instances.push(Instance { name: name.clone(), primitive, slot, skin });
+            instances.push(Instance { name: name.clone(), node: pose.names[slot].clone(), primitive, slot, skin });
         }
     }
     if morph_targets > 0 {

@@ -4,7 +4,7 @@
 //! 1. the document with its buffers; VRM's bone table (`extensions`)
 //! 2. every node where the meshes were bound (`bind_pose`)
 //! 3. the role of each node (`joint_roles`), the body's axes (`body_axes`)
-//! 4. the meshes that are drawn (`mesh_instances`), each primitive in bind space (`primitive`), colours from textures
+//! 4. the meshes that are drawn (`mesh_instances`) and worn (`worn_meshes`), each primitive in bind space (`primitive`), colours from textures
 //!    (`texture`), all as one mesh (`body_mesh`)
 //! 5. soles, heights and girths (`sizes`)
 //! 6. the joints that are needed, in metres, with the soles on z = 0
@@ -23,6 +23,7 @@ mod primitive;
 mod reason;
 mod sizes;
 mod texture;
+mod worn_meshes;
 
 pub use compile_character::{
     CompiledCharacter, FileContent, compile_character, compile_character_bytes, file_content, is_character_file,

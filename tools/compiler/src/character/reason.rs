@@ -41,6 +41,14 @@ pub enum CharacterReason {
     /// The file has no triangles to draw.
     #[error("it has no triangles on a skeleton; export the figure's meshes together with its armature")]
     NoMesh,
+    /// A mesh that is to be hidden does not exist.
+    #[error("it has no mesh `{name}` to hide; its meshes are {meshes}")]
+    NoSuchMesh {
+        /// The name that was given.
+        name: String,
+        /// Names of all meshes.
+        meshes: String,
+    },
     /// The file has more of something than can be drawn for every agent.
     #[error("it has {count} {what}, more than {most}; reduce them before the export")]
     TooLarge {
@@ -155,6 +163,8 @@ pub enum CharacterNote {
     MaskedTriangles(usize),
     /// Meshes that hang from no joint of the body.
     LooseMeshes(Vec<String>),
+    /// Meshes that hang from a joint of the hand from which another one hangs.
+    SpareMeshes(Vec<String>),
     /// Weights of so many vertices did not add up to 1.
     UnevenWeights(usize),
     /// Vertices that no joint moves; they move with the pelvis.
@@ -175,6 +185,7 @@ impl CharacterNote {
             Self::UnreadTextures(_) => "unread_textures",
             Self::MaskedTriangles(_) => "masked_triangles",
             Self::LooseMeshes(_) => "loose_meshes",
+            Self::SpareMeshes(_) => "spare_meshes",
             Self::UnevenWeights(_) => "uneven_weights",
             Self::UnweightedVertices(_) => "unweighted_vertices",
             Self::UnreadExtensions(_) => "unread_extensions",
@@ -199,6 +210,11 @@ impl fmt::Display for CharacterNote {
             Self::LooseMeshes(names) => {
                 write!(out, "meshes that hang from no joint of the body are left out: {}", names.join(", "))
             }
+            Self::SpareMeshes(names) => write!(
+                out,
+                "a hand holds one thing, the first; left out are {}; `hide` of a mesh lets the hand hold the next",
+                names.join(", ")
+            ),
             Self::UnevenWeights(count) => {
                 write!(out, "weights of {count} vertices did not add up to 1 and were scaled")
             }

@@ -6,6 +6,7 @@ use std::path::Path;
 use gltf::json::Root;
 use gltf::json::texture::WrappingMode;
 use gltf::json::validation::Checked;
+use motiondb::character::{CharacterTexture, TEXTURE_SIDE_MAX, Wrap};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
@@ -175,15 +176,36 @@ impl Texture {
 
     fn pixel(&self, column: usize, row: usize, linear: &[f32; 256]) -> [f32; 4] {
         let start = (row * self.width + column) * self.channels;
-        let pixel = &self.pixels[start..start + self.channels];
-        let of = |part: u8| linear[usize::from(part)];
-        match *pixel {
-            [grey] => [of(grey), of(grey), of(grey), 1.0],
-            [grey, alpha] => [of(grey), of(grey), of(grey), f32::from(alpha) / 255.0],
-            [red, green, blue] => [of(red), of(green), of(blue), 1.0],
-            [red, green, blue, alpha, ..] => [of(red), of(green), of(blue), f32::from(alpha) / 255.0],
-            [] => [0.0; 4],
+        let [red, green, blue, alpha] = rgba(&self.pixels[start..start + self.channels]);
+        let [red, green, blue] = [red, green, blue].map(|part| linear[usize::from(part)]);
+        [red, green, blue, f32::from(alpha) / 255.0]
+    }
+
+    /// The texture as a character keeps it.
+    pub(crate) fn kept(&self, linear: &[f32; 256]) -> CharacterTexture {
+        let wrap = |mode: WrappingMode| match mode {
+            WrappingMode::ClampToEdge => Wrap::Clamp,
+            WrappingMode::MirroredRepeat => Wrap::Mirror,
+            WrappingMode::Repeat => Wrap::Repeat,
+        };
+        let pixels = self.pixels.chunks_exact(self.channels).take(self.width * self.height).flat_map(rgba).collect();
+        let size_px = [self.width as u32, self.height as u32];
+        let mut kept = CharacterTexture { size_px, wraps: self.wraps.map(wrap), pixels };
+        while kept.size_px.iter().any(|side| *side as usize > TEXTURE_SIDE_MAX) {
+            kept = kept.halved(linear);
         }
+        kept
+    }
+}
+
+/// A pixel of one to four channels.
+fn rgba(pixel: &[u8]) -> [u8; 4] {
+    match *pixel {
+        [grey] => [grey, grey, grey, 255],
+        [grey, alpha] => [grey, grey, grey, alpha],
+        [red, green, blue] => [red, green, blue, 255],
+        [red, green, blue, alpha, ..] => [red, green, blue, alpha],
+        [] => [0; 4],
     }
 }
 
@@ -208,15 +230,6 @@ fn taps((coordinate, count, wrap): (f32, usize, WrappingMode)) -> [(usize, f32);
         }
     };
     [(pixel(first), 1.0 - share), (pixel(first + 1.0), share)]
-}
-
-/// Linear value of each sRGB value (IEC 61966-2-1).
-pub(crate) fn linear_values() -> [f32; 256] {
-    std::array::from_fn(|value| {
-        let value = value as f64 / 255.0;
-        let linear = if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) };
-        linear as f32
-    })
 }
 
 /// Name of an image in messages: its name, its file, or its number.

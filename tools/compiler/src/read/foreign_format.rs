@@ -58,8 +58,6 @@ const EXTENSIONS: [(&str, ForeignFormat); 8] = [
     ),
     ("zip", ForeignFormat { name: "a zip archive", remedy: "unpack it, and name the clips in it" }),
 ];
-/// Bytes that tell every format.
-pub(crate) const SIGNATURE_BYTES: usize = 40;
 
 impl ForeignFormat {
     /// The format that the first bytes of a file show.

@@ -52,6 +52,9 @@ pub(crate) struct Args {
     /// standing example, then the examples with extreme speeds and turn rates.
     #[arg(long, value_name = "N", value_parser = at_least_one)]
     max_examples: Option<NonZeroUsize>,
+    /// Leave out a mesh of a character, by its name as `fbcrowd inspect` lists it; can be given several times.
+    #[arg(long, value_name = "MESH")]
+    hide: Vec<String>,
     /// How velocity limits are computed from the examples; overrides the manifest.
     #[arg(long, value_enum, value_name = "SETS")]
     velocity_hull: Option<VelocitySets>,
@@ -82,6 +85,9 @@ impl From<VelocitySets> for Construction {
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     if is_compiled(&args.output) {
         return compile_figure(args);
+    }
+    if !args.hide.is_empty() {
+        return Err(Failure::bad("--hide is an option of characters; leave it out, or write a *.fbchar"));
     }
     let overrides = Overrides {
         velocity_hull: args.velocity_hull.map(Construction::from),
@@ -131,7 +137,9 @@ fn compile_figure(args: &Args) -> Result<Answer, Failure> {
     }
     let progress = ProgressDisplay::default();
     check_file(&args.output)?;
-    let loaded = character::compile(input, &args.output, args.outside.into(), &|event| progress.observe(event))?;
+    let loaded = character::compile(input, &args.output, args.outside.into(), &args.hide, &|event| {
+        progress.observe(event);
+    })?;
     let report = CharacterReport::new(input, &loaded);
     if args.json {
         output::print_json(&CharacterInspection { character: report })?;

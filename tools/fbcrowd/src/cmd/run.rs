@@ -77,6 +77,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     // Everything that bad input can end comes before the first output.
     let MotionInput { db, checksum, answer } = MotionInput::new(motion, args, &outputs, &observer)?;
     let db = Arc::new(db);
+    characters.wear(&mut scenario, &db.skeleton);
     let mut prepared = simulation::prepare(Arc::clone(&db), scenario, &observer)?;
     prepared.character_checksums = characters.checksums();
     characters.note(&db.skeleton, &observer);

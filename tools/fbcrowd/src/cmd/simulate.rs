@@ -68,6 +68,7 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     // Created before the long work, so that a path that cannot be written ends it early.
     let report = args.report.as_deref().map(TimingsFile::create).transpose()?;
     characters.note(&db.skeleton, &observer);
+    characters.wear(&mut scenario, &db.skeleton);
     characters.write(&args.output)?;
     let input = SimulationInput { db, database_checksum, scenario, character_checksums: characters.checksums() };
     let timings = simulation::simulate(input, &args.output, &observer)?;

@@ -32,6 +32,10 @@ pub(crate) struct CharacterReport {
     roles_from: Option<&'static str>,
     /// Every role of the canonical humanoid and the joint that has it, in order.
     roles: Vec<RoleOfJoint>,
+    /// Meshes that are worn, by the nodes that draw them.
+    meshes: Vec<MeshReport>,
+    /// Width and height of each texture that is kept, pixels.
+    textures_px: Vec<[u32; 2]>,
     /// Number of joints that are kept.
     joints: usize,
     /// Number of vertices.
@@ -65,6 +69,15 @@ struct RoleOfJoint {
     role: &'static str,
     /// Name of the joint in the file; null where no joint has the role.
     joint: Option<String>,
+}
+
+/// A mesh of a character.
+#[derive(JsonSchema, Serialize)]
+struct MeshReport {
+    /// Name of the node that draws it.
+    name: String,
+    /// Number of triangles.
+    triangles: u32,
 }
 
 /// A note about a character.
@@ -138,6 +151,8 @@ impl CharacterReport {
                 RolesFrom::BindPose => "bind_pose",
             }),
             roles: roles(character),
+            meshes: meshes(character),
+            textures_px: character.textures.iter().map(|texture| texture.size_px).collect(),
             joints: character.joints.len(),
             vertices: character.mesh.positions_m.len(),
             triangles: character.mesh.triangles.len(),
@@ -179,6 +194,13 @@ impl CharacterReport {
         text += &row("\ncharacter", format!(" {} ({})", one_line(&self.name), counts.join(", ")));
         let hips = format!("hips {:.3} m over the soles, legs {:.3} m", self.hips_over_soles_m, self.leg_length_m);
         text += &row("sizes", format!("height {:.3} m, {hips}, radius {:.3} m", self.height_m, self.radius_m));
+        let meshes: Vec<String> = self.meshes.iter().map(|mesh| one_line(&mesh.name)).collect();
+        text += &row("meshes", meshes.join(", "));
+        if !self.textures_px.is_empty() {
+            let sizes: Vec<String> =
+                self.textures_px.iter().map(|[width, height]| format!("{width} × {height}")).collect();
+            text += &row("textures", format!("{} pixels", sizes.join(", ")));
+        }
         text += &row("checksum", self.checksum.clone());
         if let Some(FitReport { scale, crowd_hips_over_soles_m, worn_height_m, .. }) = &self.fit {
             let hips = format!("hips of the crowd {crowd_hips_over_soles_m:.3} m");
@@ -197,6 +219,17 @@ impl CharacterReport {
         }
         text
     }
+}
+
+fn meshes(character: &Character) -> Vec<MeshReport> {
+    let mut meshes: Vec<MeshReport> = Vec::new();
+    for material in &character.mesh.materials {
+        match meshes.iter_mut().find(|mesh| mesh.name == material.mesh) {
+            Some(mesh) => mesh.triangles += material.triangle_count,
+            None => meshes.push(MeshReport { name: material.mesh.clone(), triangles: material.triangle_count }),
+        }
+    }
+    meshes
 }
 
 fn roles(character: &Character) -> Vec<RoleOfJoint> {

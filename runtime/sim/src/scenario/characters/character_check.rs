@@ -1,8 +1,10 @@
 //! The rules of characters: names, weights, hues.
 
-use crate::scenario::characters::character_spec::{CHARACTERS_MAX, CharacterSpec};
+use motiondb::body::JOINT_COUNT;
+
+use crate::scenario::characters::character_spec::{CHARACTERS_MAX, CharacterSize, CharacterSpec, SEGMENT_RADIUS_MAX_M};
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
-use crate::scenario::ranges::{check_name, within};
+use crate::scenario::ranges::{RADIUS_M, check_name, within};
 
 /// Greatest weight of a character.
 const WEIGHT_MAX: f32 = 1e6;
@@ -25,5 +27,15 @@ fn check_character(spec: &CharacterSpec, before: &[CharacterSpec]) -> Result<(),
         return part.fault(format!("two characters have the name `{}`", spec.name), "choose another `name`");
     }
     within(part, "weight", spec.weight, &(0.0..=WEIGHT_MAX), "give a share relative to the other characters")?;
+    if !spec.size.as_ref().is_none_or(is_sound) {
+        return part.fault(format!("the size of the character `{}` is out of range", spec.name), "compile it again");
+    }
     within(part, "hue_variation_deg", spec.hue_variation_deg, &(0.0..=180.0), "give degrees to either side")
+}
+
+/// Whether a size can be that of a character.
+fn is_sound(size: &CharacterSize) -> bool {
+    RADIUS_M.contains(&size.radius_m)
+        && size.segment_radii_m.len() == JOINT_COUNT
+        && size.segment_radii_m.iter().all(|radius_m| (0.0..=SEGMENT_RADIUS_MAX_M).contains(radius_m))
 }

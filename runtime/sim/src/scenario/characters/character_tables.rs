@@ -6,6 +6,7 @@
 //! name = "woman"                      # default: the file's stem
 //! weight = 2                          # default 1
 //! hue_variation_deg = 20              # default 0
+//! hide = ["Sword"]                    # meshes that are left out; default none
 //! [profiles.adult]
 //! characters = ["woman"]              # default: all
 //! ```
@@ -29,6 +30,17 @@ pub(crate) struct CharacterTable {
     name: Option<String>,
     weight: Option<f32>,
     hue_variation_deg: Option<f32>,
+    #[serde(default)]
+    hide: Vec<String>,
+}
+
+/// The file of a character, and the meshes of it that are left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CharacterFile {
+    /// The file, relative to the scenario's folder or absolute.
+    pub path: PathBuf,
+    /// Names of the meshes that are left out.
+    pub hide: Vec<String>,
 }
 
 /// The characters of all tables; a broken rule is shown at its table.
@@ -50,6 +62,7 @@ fn spec(table: &CharacterTable) -> CharacterSpec {
         name: table.name.clone().unwrap_or_else(stem),
         weight: table.weight.unwrap_or(1.0),
         hue_variation_deg: table.hue_variation_deg.unwrap_or(0.0),
+        size: None,
     }
 }
 
@@ -57,12 +70,15 @@ fn spec(table: &CharacterTable) -> CharacterSpec {
 ///
 /// # Errors
 /// Where one does not exist.
-pub(crate) fn files(source: &SourceText, tables: &[Spanned<CharacterTable>]) -> Result<Vec<PathBuf>, ScenarioError> {
+pub(crate) fn files(
+    source: &SourceText,
+    tables: &[Spanned<CharacterTable>],
+) -> Result<Vec<CharacterFile>, ScenarioError> {
     let file = |table: &Spanned<CharacterTable>| {
         let named = &table.get_ref().file;
         let path = source.beside(Path::new(named.get_ref()));
         match path.is_file() {
-            true => Ok(path),
+            true => Ok(CharacterFile { path, hide: table.get_ref().hide.clone() }),
             false => {
                 let message = format!("{} is no file", path.display());
                 Err(source.invalid(named.span(), message, "give a path relative to the scenario file").into())

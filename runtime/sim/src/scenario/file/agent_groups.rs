@@ -197,6 +197,7 @@ impl AgentGroup {
             closed_zones: 0,
             priority: 0.0,
             characters,
+            wears_radius: !states_radius && profiles_of.has_characters(),
         };
         Ok((0..count).map(|_| of_table.draw(&profiles, &mut random)).collect())
     }
@@ -228,8 +229,7 @@ impl AgentGroup {
         let of_state = || behaviour.start_facing_rad(state, position_m);
         let ahead = || of_state().unwrap_or_else(|| libm::atan2f(towards_goal.y, towards_goal.x));
         let facing_rad = self.facing_deg.map_or_else(ahead, f32::to_radians);
-        let DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, characters } =
-            numbers;
+        let DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones, priority, .. } = numbers;
         AgentSpec {
             position_m,
             facing_rad,
@@ -242,7 +242,8 @@ impl AgentGroup {
             pre_movement_s,
             closed_zones,
             priority,
-            characters,
+            characters: numbers.characters,
+            wears_radius: numbers.wears_radius,
             group: None,
         }
     }

@@ -263,8 +263,15 @@ fn wrong_line(lines: &SourceText, (span, message): (Range<usize>, String)) -> Sc
 pub fn agents_of_lines(lines: &SourceText) -> Result<Vec<AgentSpec>, ScenarioError> {
     let (group, behaviour) = (AgentGroup::default(), Behaviour::default());
     let AgentSpec { preferred_speed_mps, radius_m, pre_movement_s, .. } = AgentSpec::default();
-    let numbers =
-        DrawnNumbers { preferred_speed_mps, radius_m, pre_movement_s, closed_zones: 0, priority: 0.0, characters: 0 };
+    let numbers = DrawnNumbers {
+        preferred_speed_mps,
+        radius_m,
+        pre_movement_s,
+        closed_zones: 0,
+        priority: 0.0,
+        characters: 0,
+        wears_radius: false,
+    };
     let journeys = parse_lines(&lines.text).map_err(|fault| wrong_line(lines, fault))?;
     Ok(journeys.into_iter().map(|journey| group.agent(journey, numbers, &behaviour, 0)).collect())
 }

@@ -130,6 +130,11 @@ impl<'a> Profiles<'a> {
         Ok((profiles, characters))
     }
 
+    /// Whether agents wear characters.
+    pub(crate) fn has_characters(&self) -> bool {
+        !self.characters.is_empty()
+    }
+
     fn with_weight(&self, name: &str, weight: f32) -> Result<Profile, TableFault> {
         Ok(Profile { weight, ..self.resolved[self.names.index(name)?].clone() })
     }

@@ -14,7 +14,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::route::reach::check_reach;
-use crate::scenario::characters::character_tables::{self, characters};
+use crate::scenario::characters::character_tables::{self, CharacterFile, characters};
 use crate::scenario::error::ScenarioError;
 use crate::scenario::fault::{ScenarioFault, ScenarioPart};
 use crate::scenario::file::agent_placement::{AgentTable, PlacedAgents, PlacementInput, fault_of_lines};
@@ -108,7 +108,7 @@ pub fn agent_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
 ///
 /// # Errors
 /// Where it cannot be read, is no scenario file, or names a character that does not exist.
-pub fn character_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
+pub fn character_files(path: &Path) -> Result<Vec<CharacterFile>, ScenarioError> {
     let source = read_text(path)?;
     let file = ScenarioFile::parse(&source)?;
     character_tables::files(&source, &file.characters)

@@ -1,6 +1,6 @@
 //! `fbcrowd inspect` of a character: the joint of each role, sizes, notes, and its feet in a recording.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fbcrowd_jobs::character::{self, LoadedCharacter};
 use fbcrowd_sim::measures::character_soles;
@@ -8,6 +8,7 @@ use fbcrowd_sim::recording::Recording;
 use motiondb_compiler::Outside;
 use motiondb_compiler::character::{FileContent, file_content};
 
+use crate::cmd::inspect::character_picture;
 use crate::report::character_report::{CharacterInspection, CharacterReport};
 use crate::terminal::failure::{Answer, Failure};
 use crate::terminal::output;
@@ -17,21 +18,32 @@ pub(super) struct CharacterOptions<'a> {
     pub(super) json: bool,
     pub(super) outside: Outside,
     pub(super) recording: Option<&'a Path>,
+    /// Meshes that are left out.
+    pub(super) hide: &'a [String],
+    /// Where the picture goes.
+    pub(super) picture: Option<PathBuf>,
 }
 
 /// Shows a character alone.
 pub(super) fn show(path: &Path, options: &CharacterOptions) -> Result<Answer, Failure> {
-    let loaded = character::load(path, options.outside)?;
+    if let Some(picture) = &options.picture {
+        let inputs: Vec<&Path> = options.recording.into_iter().chain([path]).collect();
+        character_picture::check(picture, &inputs)?;
+    }
+    let loaded = character::load(path, options.outside, options.hide)?;
     let mut report = CharacterReport::new(path, &loaded);
-    if let Some(recording) = options.recording {
+    let recording = options.recording.map(Recording::open).transpose()?;
+    if let Some(recording) = &recording {
         add_recording(&mut report, &loaded, recording)?;
+    }
+    if let Some(picture) = &options.picture {
+        character_picture::write(picture, &loaded.character, recording.as_ref())?;
     }
     print(options, report)
 }
 
-fn add_recording(report: &mut CharacterReport, loaded: &LoadedCharacter, path: &Path) -> Result<(), Failure> {
-    let recording = Recording::open(path)?;
-    let soles = character_soles(&recording, &loaded.character)?;
+fn add_recording(report: &mut CharacterReport, loaded: &LoadedCharacter, recording: &Recording) -> Result<(), Failure> {
+    let soles = character_soles(recording, &loaded.character)?;
     report.add_recording(&loaded.character, recording.header().skeleton(), soles);
     Ok(())
 }
@@ -47,9 +59,9 @@ pub(super) fn print(options: &CharacterOptions, report: CharacterReport) -> Resu
 }
 
 /// The character of a file that may hold clips; none where it has no meshes, or no human that wears them.
-pub(super) fn of_clip(path: &Path, options: &CharacterOptions) -> Option<CharacterReport> {
+pub(super) fn of_clip(path: &Path, outside: Outside) -> Option<CharacterReport> {
     file_content(path).filter(|content| content.has_meshes)?;
-    let loaded = character::load(path, options.outside).ok()?;
+    let loaded = character::load(path, outside, &[]).ok()?;
     Some(CharacterReport::new(path, &loaded))
 }
 

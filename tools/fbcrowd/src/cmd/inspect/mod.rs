@@ -1,6 +1,7 @@
 //! `fbcrowd inspect`: the content of a database, of clips or of a character, as tables, JSON and pictures.
 
 mod character;
+mod character_picture;
 
 use std::path::{Path, PathBuf};
 
@@ -31,7 +32,7 @@ use crate::terminal::progress::ProgressDisplay;
 /// Exit code 0: success; 1: an invariant of the database is broken, or a clip was rejected; 2: nothing can be read.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  fbcrowd inspect motion.fbdb --plots out/plots\n  fbcrowd inspect motion.fbdb --leave-one-out\n  fbcrowd inspect motion.fbdb --correspondence walk_110 run_350\n  fbcrowd inspect my/clips --json\n  fbcrowd inspect figure.glb --recording out/antipodal/antipodal.fbrec"
+    after_help = "Examples:\n  fbcrowd inspect motion.fbdb --plots out/plots\n  fbcrowd inspect motion.fbdb --leave-one-out\n  fbcrowd inspect motion.fbdb --correspondence walk_110 run_350\n  fbcrowd inspect my/clips --json\n  fbcrowd inspect figure.glb -o figure.png\n  fbcrowd inspect figure.glb --recording out/antipodal/antipodal.fbrec"
 )]
 pub(crate) struct Args {
     /// A database; clips: files or folders; or a character: *.fbchar, *.vrm, *.glb or *.gltf.
@@ -46,9 +47,16 @@ pub(crate) struct Args {
     /// similar the poses of m_sp and m_mb are.
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+    /// Draw a character alone: its bind pose with the joint of each role, and a stride, of the recording or of a bundled
+    /// walk.
+    #[arg(short, long, value_name = "PICTURE.png")]
+    output: Option<PathBuf>,
     /// Show a character alone, and measure its feet on the bodies of a recording: planted slide, soles under the ground.
     #[arg(long, value_name = "FILE.fbrec")]
     recording: Option<PathBuf>,
+    /// Show a character alone, without a mesh, by its name in the list; can be given several times.
+    #[arg(long, value_name = "MESH")]
+    hide: Vec<String>,
     /// For each recorded example: rebuild the database without it, blend at its parameters, and print the RMS joint
     /// distance to it. The distance to the nearest other example is printed for comparison.
     #[arg(long)]
@@ -61,11 +69,13 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     match args.input.as_slice() {
-        [database] if is_database(database) && args.recording.is_none() => inspect_database(args, database),
-        [path] if is_character(path) || args.recording.is_some() || character::is_character_alone(path) => {
-            character::show(path, &character_options(args))
+        [database] if is_database(database) && !is_of_character(args) => inspect_database(args, database),
+        [path] if is_character(path) || is_of_character(args) || character::is_character_alone(path) => {
+            character::show(path, &character_options(args)?)
         }
-        _ if args.recording.is_some() => Err(Failure::bad("--recording measures one character; name one file")),
+        _ if is_of_character(args) => {
+            Err(Failure::bad("--recording, --output and --hide show one character; name one file"))
+        }
         inputs if inputs.iter().any(|input| is_character(input)) => {
             Err(Failure::bad("a character is shown alone; inspect characters one by one, and clips without them"))
         }
@@ -79,8 +89,19 @@ pub(crate) fn run(args: &Args) -> Result<Answer, Failure> {
     }
 }
 
-fn character_options(args: &Args) -> CharacterOptions<'_> {
-    CharacterOptions { json: args.json, outside: args.outside.into(), recording: args.recording.as_deref() }
+/// Whether an option is given that shows a character alone.
+fn is_of_character(args: &Args) -> bool {
+    args.recording.is_some() || args.output.is_some() || !args.hide.is_empty()
+}
+
+fn character_options(args: &Args) -> Result<CharacterOptions<'_>, Failure> {
+    Ok(CharacterOptions {
+        json: args.json,
+        outside: args.outside.into(),
+        recording: args.recording.as_deref(),
+        hide: &args.hide,
+        picture: character_picture::path(args.output.as_deref(), args.plots.as_deref())?,
+    })
 }
 
 /// Checks by its name that a file may hold clips. Folders and missing files are checked when they are read.
@@ -164,7 +185,7 @@ fn inspect_clips(args: &Args, paths: &[PathBuf]) -> Result<Answer, Failure> {
         return Err(Failure::bad(format!("{message}; compile the clips first with `fbcrowd compile`")));
     }
     let figure = match paths {
-        [path] => character::of_clip(path, &character_options(args)),
+        [path] => character::of_clip(path, args.outside.into()),
         _ => None,
     };
     let progress = ProgressDisplay::default();

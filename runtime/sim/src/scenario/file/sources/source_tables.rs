@@ -70,7 +70,8 @@ pub(crate) fn sources(
         let groups = group_sizes(groups.as_ref(), *group_spacing_m).map_err(at_table)?;
         let (state, schedule) = (states.index(state.as_ref(), source)?, schedule.transpose()?);
         let (profiles, characters) = input.profiles.with_characters(profiles, characters.as_ref()).map_err(at_table)?;
-        Ok(SourceSpec { characters, state, schedule, profiles, groups, ..resolved })
+        let wears_radius = !states_radius && input.profiles.has_characters();
+        Ok(SourceSpec { characters, wears_radius, state, schedule, profiles, groups, ..resolved })
     };
     tables.iter().map(resolve).collect()
 }
