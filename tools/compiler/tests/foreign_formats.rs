@@ -48,7 +48,7 @@ fn a_folder_of_other_formats_is_listed() {
     for name in ["b.fbx", "a.FBX", "notes.txt"] {
         fs::write(folder.join(name), "anything").unwrap();
     }
-    assert_eq!(clip_files(&folder).unwrap(), [PathBuf::new(); 0]);
+    assert!(clip_files(&folder).unwrap().is_empty());
     let found = foreign_files(&folder).unwrap();
     let names: Vec<_> = found.iter().map(|(path, format)| (path.file_name().unwrap(), format.name)).collect();
     assert_eq!(names, [("a.FBX".as_ref(), "an FBX file"), ("b.fbx".as_ref(), "an FBX file")]);

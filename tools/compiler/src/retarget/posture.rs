@@ -55,7 +55,8 @@ pub(crate) fn low_parts(clip: &SourceClip, roles: &Roles, parameters: &SourcePar
     let half = ((0.5 * SPAN_S * clip.frame_rate_hz) as usize).max(1);
     let leg_shares = moving_mean(frames.clone().map(|frame| legs.straighter_leg(frame)), half);
     let leans = moving_mean(frames.clone().map(|frame| legs.trunk(frame)), half);
-    let ground_mps = if parameters.is_in_place { parameters.speed_mps.hypot(parameters.strafe_mps) } else { 0.0 };
+    let ground_mps =
+        if parameters.is_in_place { libm::hypot(parameters.speed_mps, parameters.strafe_mps) } else { 0.0 };
     let speeds_mps = moving_mean(frames.clone().map(|frame| legs.speed_mps(frame)), half);
     let is_low: Vec<bool> = frames
         .map(|frame| {
