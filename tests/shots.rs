@@ -274,7 +274,7 @@ fn a_scenario_takes_its_camera_from_a_gltf_file() {
     };
     let recording = folder.join("scene.fbrec");
     let simulate = |camera: &str| fbcrowd(&["simulate", &scene(camera), "-o", text(&recording)]);
-    simulate("gltf = \"shot.gltf\"\nnode = \"nobody\"").expect_code(2).says(&["nobody", "dolly, plan"]);
+    simulate("gltf = \"shot.gltf\"\nnode = \"absent\"").expect_code(2).says(&["absent", "dolly, plan"]);
     simulate("gltf = \"none.glb\"").expect_code(2).says(&["none.glb"]);
     simulate("gltf = \"shot.gltf\"\nfocal_mm = 35").expect_code(2).says(&["states its lens"]);
     simulate("gltf = \"shot.gltf\"\nnode = \"plan\"").expect_code(0);

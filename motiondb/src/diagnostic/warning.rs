@@ -142,18 +142,8 @@ impl fmt::Display for Warning {
                  if the names are right, state `joints` in a manifest.toml",
             ),
             Self::Leap { distance_m, frame, more } => leap(out, *distance_m, *frame, *more),
-            Self::Slope { rise_cm } => {
-                let verb = if *rise_cm > 0.0 { "climbs" } else { "descends" };
-                write!(out, "the body {verb} {:.0} cm a step; use a clip on level ground", rise_cm.abs())
-            }
-            Self::Skating { body_mps, slide_mps, steps } => {
-                let feet = if *steps { "stance feet" } else { "feet take no step and" };
-                write!(
-                    out,
-                    "the body moves at {body_mps:.1} m/s, but its {feet} slide over the ground at {slide_mps:.1} m/s; \
-                     correct the root's motion"
-                )
-            }
+            Self::Slope { rise_cm } => slope(out, *rise_cm),
+            Self::Skating { body_mps, slide_mps, steps } => skating(out, *body_mps, *slide_mps, *steps),
             Self::TurnWithoutStep { turn_rate_rad_s } => write!(
                 out,
                 "the body turns at {:.0} °/s without a step, as on a turntable; correct the root's motion",
@@ -179,15 +169,7 @@ impl fmt::Display for Warning {
             }
             Self::TPoseKept { frames, end } => t_pose(out, *frames, *end),
             Self::FrameTimesDiffer { others, more, mirrored, windows_left_out } => {
-                let more = if *more == 0 { String::new() } else { format!(" and {more} more") };
-                write!(
-                    out,
-                    "the same take as {}{more}{}, but at another frame time{}; state the right `frame_rate_hz` in a \
-                     manifest.toml",
-                    others.join(", "),
-                    and_mirrored(*mirrored),
-                    and_left_out(*windows_left_out)
-                )
+                frame_times_differ(out, others, *more, *mirrored, *windows_left_out)
             }
             Self::NotCompared { compared } => write!(
                 out,
@@ -196,6 +178,37 @@ impl fmt::Display for Warning {
             ),
         }
     }
+}
+
+fn slope(out: &mut fmt::Formatter<'_>, rise_cm: f32) -> fmt::Result {
+    let verb = if rise_cm > 0.0 { "climbs" } else { "descends" };
+    write!(out, "the body {verb} {:.0} cm a step; use a clip on level ground", rise_cm.abs())
+}
+
+fn skating(out: &mut fmt::Formatter<'_>, body_mps: f32, slide_mps: f32, steps: bool) -> fmt::Result {
+    let feet = if steps { "stance feet" } else { "feet take no step and" };
+    write!(
+        out,
+        "the body moves at {body_mps:.1} m/s, but its {feet} slide over the ground at {slide_mps:.1} m/s; correct the \
+         root's motion"
+    )
+}
+
+fn frame_times_differ(
+    out: &mut fmt::Formatter<'_>,
+    others: &[String],
+    more: u32,
+    mirrored: bool,
+    windows_left_out: u32,
+) -> fmt::Result {
+    let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+    write!(
+        out,
+        "the same take as {}{more}{}, but at another frame time{}; state the right `frame_rate_hz` in a manifest.toml",
+        others.join(", "),
+        and_mirrored(mirrored),
+        and_left_out(windows_left_out)
+    )
 }
 
 fn leap(out: &mut fmt::Formatter<'_>, distance_m: f32, frame: u32, more: u32) -> fmt::Result {

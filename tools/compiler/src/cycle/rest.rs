@@ -5,13 +5,12 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
 use motiondb::body::Joint;
 use motiondb::statistics::mean;
 
 use crate::ground::grounded_clip::GroundedClip;
 use crate::retarget::human_clip::{HumanBody, HumanJoints};
-use crate::retarget::trim_t_poses::SPREAD_COSINE;
+use crate::retarget::trim_t_poses::{SPREAD_COSINE, arm_spread};
 
 /// Number of frames, spread over a rest, in which it is measured.
 const SAMPLES: usize = 32;
@@ -30,15 +29,14 @@ pub(crate) struct Rest {
 impl Rest {
     /// The figures of some frames of a clip.
     pub(crate) fn of(clip: &GroundedClip, frames: &Range<usize>, body: &HumanBody) -> Self {
-        let joints = || {
-            let step = frames.len().div_ceil(SAMPLES);
-            frames.clone().step_by(step).map(|frame| clip.pose(frame).forward_kinematics(body))
-        };
+        let step = frames.len().div_ceil(SAMPLES);
+        let joints: Vec<HumanJoints> =
+            frames.clone().step_by(step).map(|frame| clip.pose(frame).forward_kinematics(body)).collect();
+        let spread = |joints: &HumanJoints| arm_spread(|joint| joints.positions_m[joint.index()]);
         Self {
             duration_s: (frames.len() - 1) as f64 / clip.frame_rate_hz,
-            arms_raised: 1.0
-                + mean(joints().map(|joints| arms(&joints).map(|arm| arm.z).iter().sum::<f64>() / 2.0)).unwrap_or(0.0),
-            arms_spread: mean(joints().map(|joints| spread(&joints))).unwrap_or(0.0),
+            arms_raised: mean(joints.iter().map(arms_raised)).unwrap_or_default(),
+            arms_spread: mean(joints.iter().map(spread)).unwrap_or_default(),
         }
     }
 
@@ -48,16 +46,12 @@ impl Rest {
     }
 }
 
-/// Unit vectors from the shoulders to the wrists, `[left, right]`.
-fn arms(joints: &HumanJoints) -> [DVec3; 2] {
-    let at = |joint: Joint| joints.positions_m[joint.index()];
-    [[Joint::LeftUpperArm, Joint::LeftHand], [Joint::RightUpperArm, Joint::RightHand]]
-        .map(|[shoulder, wrist]| (at(wrist) - at(shoulder)).normalize_or_zero())
-}
-
-fn spread(joints: &HumanJoints) -> f64 {
-    let [left, right] = Joint::UPPER_ARMS.map(|joint| joints.positions_m[joint.index()]);
-    let across = (left - right).normalize_or_zero();
-    let [left, right] = arms(joints).map(|arm| arm.dot(across));
-    left.min(-right)
+/// Height of the wrists over the shoulders, arm lengths, plus 1; mean of both arms.
+fn arms_raised(joints: &HumanJoints) -> f64 {
+    let height = |[shoulder, wrist]: [Joint; 2]| {
+        let [shoulder_m, wrist_m] = [shoulder, wrist].map(|joint| joints.positions_m[joint.index()]);
+        (wrist_m - shoulder_m).normalize_or_zero().z
+    };
+    let [left, right] = [[Joint::LeftUpperArm, Joint::LeftHand], [Joint::RightUpperArm, Joint::RightHand]].map(height);
+    1.0 + 0.5 * (left + right)
 }

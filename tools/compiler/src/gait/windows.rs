@@ -75,13 +75,13 @@ pub(crate) fn analyze_gait(clip: &GroundedClip, body: &HumanBody, left_out: &[Lo
     let mut right = FootPoints::default();
     (0..track.frame_count()).for_each(|frame| right.push(&track.joints(frame), body, 1));
     let mut sides = [left, right.readings(&track)];
-    let is_left_out = LeftOutFrames { parts: left_out, loop_frames: clip.loop_frames() };
+    let left_out = LeftOutFrames { parts: left_out, loop_frames: clip.loop_frames() };
     let steps = READINGS.map(|reading| {
         let stepping = sides.each_mut().map(|side| std::mem::take(&mut side.contacts[reading].stepping));
-        is_left_out.without_strides(clip_steps(&stepping, &track))
+        left_out.without_strides(clip_steps(&stepping, &track))
     });
     let planted = READINGS.map(|reading| {
-        sides.each_mut().map(|side| is_left_out.without_frames(std::mem::take(&mut side.contacts[reading].planted)))
+        sides.each_mut().map(|side| left_out.without_frames(std::mem::take(&mut side.contacts[reading].planted)))
     });
     let windows = gait_windows(&planted, &steps, &track, clip.loop_frames());
     let stances = READINGS.map(|reading| sides.each_mut().map(|side| std::mem::take(&mut side.stances[reading])));

@@ -87,9 +87,12 @@ fn t_pose_frames(mut spreads: impl Iterator<Item = f64> + Clone) -> Option<usize
     spreads.position(|spread| spread < LOWERED_COSINE && spread <= usual)
 }
 
-/// Cosine between the shoulder line and the arm that is farther off it.
 fn spread_cosine(clip: &SourceClip, roles: &Roles, frame: usize) -> f64 {
-    let position = |joint: Joint| clip.position(frame, roles.required(joint));
+    arm_spread(|joint| clip.position(frame, roles.required(joint)))
+}
+
+/// Cosine between the shoulder line and the arm that is farther off it: 1 in a T-pose.
+pub(crate) fn arm_spread(position: impl Fn(Joint) -> DVec3) -> f64 {
     let across = (position(Joint::LeftUpperArm) - position(Joint::RightUpperArm)).normalize_or_zero();
     let left = (position(Joint::LeftHand) - position(Joint::LeftUpperArm)).normalize_or_zero();
     let right = (position(Joint::RightHand) - position(Joint::RightUpperArm)).normalize_or_zero();

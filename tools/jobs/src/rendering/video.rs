@@ -138,7 +138,7 @@ impl Video {
         let from = text.len().saturating_sub(QUOTED_BYTES);
         let mut message = String::from_utf8_lossy(&text[from..]).trim().to_owned();
         if message.is_empty() {
-            message = error.map_or_else(|| "it said nothing".to_owned(), |error| error.to_string());
+            message = error.map_or_else(|| "it printed nothing".to_owned(), |error| error.to_string());
         }
         JobError::FfmpegFailed { program: self.program.clone(), status, message }
     }

@@ -27,7 +27,9 @@ impl StateZones {
         let mut by_state = vec![0; scenario.behaviour.states.len()];
         for (bit, zone) in closed().enumerate() {
             for &state in &zone.closed_in {
-                by_state.iter_mut().skip(state as usize).take(1).for_each(|zones| *zones |= 1 << bit);
+                if let Some(zones) = by_state.get_mut(state as usize) {
+                    *zones |= 1 << bit;
+                }
             }
         }
         Self { by_state, outlines_m: closed().map(|zone| zone.area.outline_m()).collect() }

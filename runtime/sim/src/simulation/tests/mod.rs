@@ -19,6 +19,7 @@ mod closed_in;
 mod door;
 mod group;
 mod one_way;
+mod places;
 mod priority;
 mod route;
 mod turnover;
