@@ -52,7 +52,7 @@ impl OneWayZone {
         [[a_m, d_m], [b_m, c_m]]
     }
 
-    /// Whether two zones share more than a margin of [`RECTANGLE_M`]: no line along a side separates them.
+    /// Whether two zones share more than a margin of 1 cm: no line along a side separates them.
     pub fn overlaps(&self, other: &Self) -> bool {
         let axes = [self.heading, self.heading.perp(), other.heading, other.heading.perp()];
         axes.into_iter().all(|axis| {
