@@ -125,6 +125,7 @@ fn the_schema_refuses_what_the_reader_refuses() {
         "duration_s = 1\nsources = [{ at_m = [0, 0], goals_m = [[1, 0]] }]",
         "duration_s = 1\nsources = [{ at_m = [0, 0], goals_m = [[1, 0]], rate_per_s = 1, schedule = [[0, 1]] }]",
         "duration_s = 1\nsources = [{ at_m = [0, 0], goals_m = [[1, 0]], from_s = 1, schedule = [[0, 1]] }]",
+        "duration_s = 1\nsources = [{ at_m = [0, 0], goals_m = [[1, 0]], schedule_file = \"a.csv\", schedule = [[0, 1]] }]",
         "duration_s = 1\nsources = [{ at_m = [0, 0], goals_m = [[1, 0]], schedule = [[0, 1], [1, 2, 3]] }]",
         "duration_s = 1\nagents = { at_m = [0, 0], state = \"s\" }\nstates = { s = { stand = {}, remove = true } }",
     ];

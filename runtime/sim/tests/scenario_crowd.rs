@@ -198,7 +198,7 @@ fn a_mistake_in_a_schedule_is_shown_at_its_row() {
         &["with this source the scenario has more than 1000000 agents"],
     );
     let both = "[[sources]]\nat_m = [0, 0]\ngoals_m = [[20, 0]]\nrate_per_s = 1\nschedule = [[0, 1]]";
-    check_refused(both, 1, &["exactly one of `rate_per_s` and `schedule`"]);
+    check_refused(both, 1, &["exactly one of `rate_per_s`, `schedule` and `schedule_file`"]);
     check_refused(&both.replace("rate_per_s", "to_s"), 1, &["remove `from_s` and `to_s`"]);
     check_refused(
         "[[sources]]\nrate_per_s = 1\ngoals_m = [[20, 0]]\npolygon_m = [[0, 0], [1, 1], [1, 0], [0, 1]]",

@@ -1,11 +1,12 @@
 //! Claims about the tables of sources.
 
+use std::fs;
 use std::time::Instant;
 
-use fbcrowd_sim::scenario::{AtGoal, ScenarioError, read};
+use fbcrowd_sim::scenario::{AtGoal, ScenarioError, agent_files, read};
 use glam::Vec2;
 
-use crate::support::{BLOCK, HEAD, ONE, check_rejected, scenario, write};
+use crate::support::{BLOCK, HEAD, ONE, check_points_at, check_rejected, scenario, write};
 
 /// Keys that every source needs beside its position.
 const SOURCE: &str = "rate_per_s = 0.5\ngoals_m = [[9, 9]]\n";
@@ -85,4 +86,33 @@ fn sources_give_no_more_agents_than_a_scenario_may_have() {
     check("too_many", &format!("{long}{}", source(0.0001).repeat(1_001)), "the number of sources is 1001");
     assert!(read(&write("enough", &format!("{long}{}", source(2.0).repeat(5)))).is_ok());
     assert!(begun.elapsed().as_secs() < 10);
+}
+
+#[test]
+fn a_schedule_file_states_when_agents_come() {
+    let body = "[[sources]]\nat_m = [1, 3]\ngoals_m = [[9, 9]]\nschedule_file = 'lists/trains.csv'\n";
+    let path = write("trains", &format!("{HEAD}{body}"));
+    fs::create_dir_all(path.with_file_name("lists")).unwrap();
+    let list = path.with_file_name("lists").join("trains.csv");
+    fs::write(&list, "time_s,count\n1,2\n4.5,1\n").unwrap();
+    let scenario = read(&path).unwrap().0;
+    assert_eq!(scenario.sources[0].due_times(1, 0).collect::<Vec<f64>>(), [1.0, 1.0, 4.5]);
+    assert_eq!(agent_files(&path).unwrap(), [list.clone()]);
+    fs::write(&list, "time_s,count\n4.5,1\n# late\n1,2\n").unwrap();
+    let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
+    check_points_at(&invalid, "1,2", "the row is at 1 s, after one at 4.5 s");
+    assert_eq!((invalid.line(), invalid.path), (4, list));
+}
+
+#[test]
+fn a_schedule_file_lies_in_the_folder() {
+    let body = |name: &str| format!("{HEAD}[[sources]]\nat_m = [1, 3]\ngoals_m = [[9, 9]]\nschedule_file = {name}\n");
+    for name in ["'../trains.csv'", "'/etc/hostname'", "'lists/../../trains.csv'"] {
+        check_rejected("outside", &body(name), name, "leads out of the scenario's folder");
+    }
+    check_rejected("missing", &body("'none.csv'"), "'none.csv'", "none.csv does not exist");
+    check_rejected("folder", &body("'.'"), "'.'", "cannot be read");
+    let with_rate = format!("{}rate_per_s = 1\n", body("'none.csv'"));
+    let Err(ScenarioError::Invalid(invalid)) = read(&write("both", &with_rate)) else { panic!("accepted") };
+    assert!(invalid.message.contains("exactly one of `rate_per_s`, `schedule` and `schedule_file`"), "{invalid}");
 }

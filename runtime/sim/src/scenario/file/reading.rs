@@ -91,7 +91,7 @@ pub fn parse(source: &SourceText) -> Result<(Scenario, Result<MotionSource, Scen
     Ok((scenario, motion))
 }
 
-/// The agent files and WKT files that a scenario file names, which no output may replace.
+/// The agent files, WKT files and schedule files that a scenario file names, which no output may replace.
 ///
 /// # Errors
 /// Where it cannot be read or is no scenario file.
@@ -101,7 +101,8 @@ pub fn agent_files(path: &Path) -> Result<Vec<PathBuf>, ScenarioError> {
     let groups = file.agents().into_iter().flat_map(|groups| &groups.get_ref().0);
     let named = groups.filter_map(|(_, group)| group.file.as_ref());
     let grounds = file.walkable.iter().filter_map(|table| table.get_ref().file(&source));
-    Ok(named.map(|name| source.beside(Path::new(name.get_ref()))).chain(grounds).collect())
+    let schedules = file.sources.iter().filter_map(|table| table.get_ref().file(&source));
+    Ok(named.map(|name| source.beside(Path::new(name.get_ref()))).chain(grounds).chain(schedules).collect())
 }
 
 /// The files of the characters that a scenario file names, in the order of its characters.

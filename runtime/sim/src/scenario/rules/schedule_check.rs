@@ -5,7 +5,7 @@ use crate::scenario::ranges::{AGENTS_MAX, DURATION_S};
 use crate::scenario::schedule::{RateRow, Schedule, TimeRow};
 
 /// Greatest number of rows: one for each 9 s of a day.
-const ROWS_MAX: usize = 10_000;
+pub(crate) const ROWS_MAX: usize = 10_000;
 /// Greatest number of agents per second of a source: the flow through a gate of 500 m.
 pub(crate) const RATE_MAX_PER_S: f32 = 1_000.0;
 

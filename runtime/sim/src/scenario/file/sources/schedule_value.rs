@@ -5,6 +5,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::scenario::error::ScenarioError;
+use crate::scenario::fault::TableFault;
 use crate::scenario::rules::schedule_check::check_schedule;
 use crate::scenario::schedule::{RateRow, Schedule, TimeRow};
 
@@ -21,22 +22,28 @@ impl ScheduleValue {
     pub(crate) fn resolve(value: &Spanned<Self>, source: &SourceText) -> Result<Schedule, ScenarioError> {
         let Self(rows) = value.get_ref();
         let at_row = |row: usize| rows.get(row).map_or_else(|| value.span(), Spanned::span);
-        let length = rows.first().map_or(3, |row| row.get_ref().len());
-        for (row, numbers) in rows.iter().enumerate() {
-            if let Some(message) = row_fault(numbers.get_ref(), length) {
-                return Err(source.invalid(at_row(row), message, ROWS).into());
-            }
-        }
-        let numbers = rows.iter().map(|row| row.get_ref().as_slice());
-        let schedule = match length {
-            2 => Schedule::Times(numbers.map(|row| TimeRow { time_s: row[0], count: row[1] as u32 }).collect()),
-            _ => Schedule::Rates(
-                numbers.map(|row| RateRow { from_s: row[0], to_s: row[1], rate_per_s: row[2] }).collect(),
-            ),
-        };
-        let fault = |(row, (message, help))| source.invalid(at_row(row), message, help).into();
-        check_schedule(&schedule).map(|()| schedule).map_err(fault)
+        let numbers: Vec<&[f32]> = rows.iter().map(|row| row.get_ref().as_slice()).collect();
+        schedule(&numbers).map_err(|(row, (message, help))| source.invalid(at_row(row), message, help).into())
     }
+}
+
+/// The schedule of rows of numbers.
+///
+/// # Errors
+/// The first row that is wrong, by index.
+pub(super) fn schedule(rows: &[&[f32]]) -> Result<Schedule, (usize, TableFault)> {
+    let length = rows.first().map_or(3, |row| row.len());
+    let wrong = |(row, numbers): (usize, &&[f32])| Some((row, (row_fault(numbers, length)?, ROWS)));
+    if let Some(fault) = rows.iter().enumerate().find_map(wrong) {
+        return Err(fault);
+    }
+    let schedule = match length {
+        2 => Schedule::Times(rows.iter().map(|row| TimeRow { time_s: row[0], count: row[1] as u32 }).collect()),
+        _ => Schedule::Rates(
+            rows.iter().map(|row| RateRow { from_s: row[0], to_s: row[1], rate_per_s: row[2] }).collect(),
+        ),
+    };
+    check_schedule(&schedule).map(|()| schedule)
 }
 
 /// What is wrong with the form of a row, where the first row has this many numbers.

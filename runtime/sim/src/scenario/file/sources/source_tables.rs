@@ -1,11 +1,13 @@
 //! The `[[sources]]` tables of a scenario file. World, metres, seconds.
 //!
 //! A table has exactly one of `at_m = [x, y]`, `rect_m = [least x, least y, greatest x, greatest y]`, `circle_m` and
-//! `polygon_m`; a rate and its times, or a `schedule`; and the keys that `[[agents]]` has for goals, discs and speed.
+//! `polygon_m`; a rate and its times, a `schedule`, or a `schedule_file`; and the keys that `[[agents]]` has for goals, discs and speed.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use glam::Vec2;
+use motiondb::files::SourceText;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -17,8 +19,10 @@ use crate::scenario::file::agent_placement::PlacementInput;
 use crate::scenario::file::behaviour::{AreaKeys, DistributionValue};
 use crate::scenario::file::group_keys::group_sizes;
 use crate::scenario::file::profile_tables::ProfileValue;
+use crate::scenario::file::sources::schedule_file::{read_schedule, schedule_path};
 use crate::scenario::file::sources::schedule_value::ScheduleValue;
 use crate::scenario::point::Point;
+use crate::scenario::schedule::Schedule;
 use crate::scenario::source_spec::SourceSpec;
 
 /// One `[[sources]]` table, as written.
@@ -31,6 +35,7 @@ pub(crate) struct SourceTable {
     polygon_m: Option<Vec<Point>>,
     rate_per_s: Option<f32>,
     schedule: Option<Spanned<ScheduleValue>>,
+    schedule_file: Option<Spanned<String>>,
     from_s: Option<f32>,
     to_s: Option<f32>,
     count: Option<u32>,
@@ -64,7 +69,7 @@ pub(crate) fn sources(
         let SourceTable { groups, group_spacing_m, characters, .. } = table.get_ref();
         let [states_speed, states_radius] = [preferred_speed_mps, radius_m].map(Option::is_some);
         let resolved = table.get_ref().source(duration_s).map_err(at_table)?;
-        let schedule = table.get_ref().schedule.as_ref().map(|schedule| ScheduleValue::resolve(schedule, source));
+        let schedule = table.get_ref().schedule(source);
         let profiles = profiles.of_table(profile.as_ref(), *pre_movement_s, states_speed, states_radius);
         let profiles = profiles.map_err(at_table)?;
         let groups = group_sizes(groups.as_ref(), *group_spacing_m).map_err(at_table)?;
@@ -77,6 +82,16 @@ pub(crate) fn sources(
 }
 
 impl SourceTable {
+    /// The schedule file that the table names.
+    pub(crate) fn file(&self, source: &SourceText) -> Option<PathBuf> {
+        schedule_path(source, self.schedule_file.as_ref()?.get_ref())
+    }
+
+    fn schedule(&self, source: &SourceText) -> Option<Result<Schedule, ScenarioError>> {
+        let of_file = || self.schedule_file.as_ref().map(|name| read_schedule(source, name));
+        self.schedule.as_ref().map(|schedule| ScheduleValue::resolve(schedule, source)).or_else(of_file)
+    }
+
     fn source(&self, duration_s: f32) -> Result<SourceSpec, TableFault> {
         let ([low_m, high_m], area) = self.place()?;
         let (rate_per_s, from_s) = (self.rate()?, self.from_s.unwrap_or(0.0));
@@ -123,17 +138,17 @@ impl SourceTable {
         }
     }
 
-    /// Mean number of agents per second; 0 where a schedule states the times.
+    /// Mean number of agents per second; 0 where a schedule, here or in a file, states the times.
     fn rate(&self) -> Result<f32, TableFault> {
-        match (self.rate_per_s, &self.schedule) {
-            (Some(rate_per_s), None) => Ok(rate_per_s),
-            (None, Some(_)) if self.from_s.is_none() && self.to_s.is_none() => Ok(0.0),
-            (None, Some(_)) => {
+        match (self.rate_per_s, self.schedule.is_some(), self.schedule_file.is_some()) {
+            (Some(rate_per_s), false, false) => Ok(rate_per_s),
+            (None, true, false) | (None, false, true) if self.from_s.is_none() && self.to_s.is_none() => Ok(0.0),
+            (None, true, false) | (None, false, true) => {
                 let help = "remove `from_s` and `to_s`";
                 Err(("the rows of the `schedule` state the times of this source".into(), help))
             }
             _ => {
-                let message = "a source needs exactly one of `rate_per_s` and `schedule`";
+                let message = "a source needs exactly one of `rate_per_s`, `schedule` and `schedule_file`";
                 let help = "write `rate_per_s = 0.5`, or `schedule = [[from_s, to_s, rate_per_s], …]`";
                 Err((message.into(), help))
             }
