@@ -7,6 +7,10 @@ use crate::scenario::resolved::Scenario;
 
 /// Overlap of a disc with a zone from which on it is still in the zone, m: more than walls let a disc in.
 const WITHIN_M: f32 = 5e-3;
+/// Distance between zones from which on no disc is in both, m: the diameter of a disc with twice the usual radius.
+const APART_M: f32 = 1.0;
+/// Greatest number of sets of zones in which an agent may be at once.
+const SHARED_MAX: usize = 64;
 
 /// The zones that each state closes.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +19,8 @@ pub struct StateZones {
     by_state: Vec<u32>,
     /// Outline of each closed zone, by bit, m.
     outlines_m: Vec<Vec<Vec2>>,
+    /// Sets of two zones or more, by bits, that a state closes and in which an agent may be at once; sorted.
+    shared: Vec<u32>,
 }
 
 impl StateZones {
@@ -32,7 +38,12 @@ impl StateZones {
                 }
             }
         }
-        Self { by_state, outlines_m: closed().map(|zone| zone.area.outline_m()).collect() }
+        Self::of(by_state, closed().map(|zone| zone.area.outline_m()).collect())
+    }
+
+    fn of(by_state: Vec<u32>, outlines_m: Vec<Vec<Vec2>>) -> Self {
+        let shared = shared_sets(&by_state, &outlines_m);
+        Self { by_state, outlines_m, shared }
     }
 
     /// The zones that are closed to the routes of an agent in a state, given its own, by bits.
@@ -54,8 +65,9 @@ impl StateZones {
             is_closed_by_state && is_within()
         };
         let within = (0..self.outlines_m.len()).filter(|&bit| holds(bit)).fold(0_u32, |zones, bit| zones | 1 << bit);
-        // Walls are made for the sets of `wall_sets`: without one zone, or without all that states close.
-        if within.count_ones() < 2 { closed & !within } else { own }
+        // Walls are made for the sets of `wall_sets`. Where so many zones overlap that there are none, all are open.
+        let has_walls = within.count_ones() < 2 || self.shared.binary_search(&within).is_ok();
+        if has_walls { closed & !within } else { own }
     }
 
     /// The sets of zones that are closed to the routes of an agent in any state, given its own; each once.
@@ -69,12 +81,45 @@ impl StateZones {
 
     /// The sets of zones that are walls for an agent in any state, given its own.
     pub(crate) fn wall_sets(&self, own: u32) -> Vec<u32> {
-        let without_one = |set: u32| {
-            let zones = (0..u32::BITS).map(|bit| 1 << bit).filter(move |zone| set & !own & zone != 0);
-            std::iter::once(set).chain(zones.map(move |zone| set & !zone)).collect::<Vec<_>>()
+        let without = |set: u32| {
+            let by_state = set & !own;
+            let zones = (0..u32::BITS).map(|bit| 1 << bit).chain(self.shared.iter().copied());
+            let left = zones.filter(move |&zones| by_state & zones == zones);
+            std::iter::once(set).chain(left.map(move |zones| set & !zones))
         };
-        self.route_sets(own).into_iter().flat_map(without_one).collect()
+        self.route_sets(own).into_iter().flat_map(without).collect()
     }
+}
+
+/// The sets of two zones or more that a state closes and that are near each other, by bits, sorted; the first of them
+/// where there are too many.
+fn shared_sets(by_state: &[u32], outlines_m: &[Vec<Vec2>]) -> Vec<u32> {
+    let boxes_m: Vec<[Vec2; 2]> = outlines_m.iter().map(|outline_m| bounds_m(outline_m)).collect();
+    let is_near = |set: u32, bit: usize| {
+        (0..boxes_m.len()).all(|member| set >> member & 1 == 0 || gap_m(boxes_m[member], boxes_m[bit]) < APART_M)
+    };
+    let mut sets: Vec<u32> = (0..boxes_m.len()).map(|bit| 1 << bit).collect();
+    let (zones, mut at) = (sets.len(), 0);
+    while at < sets.len() && sets.len() < zones + SHARED_MAX {
+        let set = sets[at];
+        let above = u32::BITS as usize - set.leading_zeros() as usize;
+        let larger = (above..zones).filter(|&bit| is_near(set, bit)).map(|bit| set | 1 << bit);
+        let is_closed = |set: &u32| by_state.iter().any(|closed| closed & set == *set);
+        sets.extend(larger.filter(is_closed));
+        at += 1;
+    }
+    let mut shared: Vec<u32> = sets.into_iter().skip(zones).take(SHARED_MAX).collect();
+    shared.sort_unstable();
+    shared
+}
+
+fn bounds_m(outline_m: &[Vec2]) -> [Vec2; 2] {
+    let low_m = outline_m.iter().copied().fold(Vec2::INFINITY, Vec2::min);
+    [low_m, outline_m.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max)]
+}
+
+fn gap_m([low_m, high_m]: [Vec2; 2], [other_low_m, other_high_m]: [Vec2; 2]) -> f32 {
+    (low_m - other_high_m).max(other_low_m - high_m).max(Vec2::ZERO).length()
 }
 
 #[cfg(test)]
@@ -83,7 +128,31 @@ mod tests {
 
     fn zones() -> StateZones {
         let block = |low: f32| [[low, 0.0], [low + 2.0, 0.0], [low + 2.0, 2.0], [low, 2.0]].map(Vec2::from).to_vec();
-        StateZones { by_state: vec![0, 0b110, 0b010], outlines_m: [0.0, 4.0, 8.0].map(block).to_vec() }
+        StateZones::of(vec![0, 0b110, 0b010], [0.0, 4.0, 8.0].map(block).to_vec())
+    }
+
+    /// Three blocks that overlap, and one apart; state 1 closes all.
+    fn overlapping() -> StateZones {
+        let block = |low: f32| [[low, 0.0], [low + 2.0, 0.0], [low + 2.0, 2.0], [low, 2.0]].map(Vec2::from).to_vec();
+        StateZones::of(vec![0, 0b1111], [0.0, 1.0, 1.5, 8.0].map(block).to_vec())
+    }
+
+    #[test]
+    fn an_agent_in_two_zones_leaves_both_and_enters_no_other() {
+        let for_walls = |x| overlapping().for_walls(0, 1, Vec2::new(x, 1.0), 0.2);
+        let expected = [(-1.0, 0b1111), (0.5, 0b1110), (1.1, 0b1100), (1.7, 0b1000), (2.5, 0b1001), (8.5, 0b0111)];
+        assert_eq!(expected.map(|(x, _)| for_walls(x)), expected.map(|(_, zones)| zones));
+        let sets = overlapping().wall_sets(0);
+        assert!(expected.iter().all(|(_, zones)| sets.contains(zones)), "{sets:?}");
+    }
+
+    #[test]
+    fn thirty_two_zones_on_one_another_take_bounded_memory() {
+        let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(Vec2::from).to_vec();
+        let zones = StateZones::of(vec![0, u32::MAX], vec![square; 32]);
+        assert!(zones.shared.len() == SHARED_MAX && zones.wall_sets(0).len() < 100);
+        // There are no walls for all sets: an agent in all 32 zones leaves them.
+        assert_eq!(zones.for_walls(0, 1, Vec2::ONE, 0.2), 0);
     }
 
     #[test]
