@@ -119,7 +119,9 @@ impl RouteMesh {
         gates.vertices.dedup();
         gates.cell_gates.sort_unstable();
         gates.cell_gates.dedup();
-        let is_before = |vertex: u32| gates.vertices.iter().any(|&[_, before]| before == vertex);
+        let mut before: Vec<u32> = gates.vertices.iter().map(|&[_, before]| before).collect();
+        before.sort_unstable();
+        let is_before = |vertex: u32| before.binary_search(&vertex).is_ok();
         let mut turning = (0..self.vertex_count() as u32).filter(|&vertex| self.is_corner[vertex as usize]);
         gates.have_corners = turning.any(|vertex| gates.zone(self.fan(vertex)[0]).is_some() && !is_before(vertex));
         // A route may turn at the end of a gate, of which the corner lies on both sides.
