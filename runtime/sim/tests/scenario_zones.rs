@@ -144,6 +144,38 @@ fn goals_against_a_one_way_zone_are_shown_at_their_place() {
 }
 
 #[test]
+fn goals_behind_all_starts_in_a_zone_are_shown_at_their_place() {
+    let path = folder("behind").join("scene.toml");
+    let check = |side: u32, goal: &str, starts_m: &[u32], is_reached: bool| {
+        let agents = starts_m.iter().map(|x| format!("[[agents]]\nat_m = [{x}, 2]\nstate = \"go\"\n"));
+        let text = format!(
+            "clips = \".\"\nduration_s = 10\n[[walkable]]\npolygon_m = [[0, 0], [20, 0], [20, {side}], [0, {side}]]\n\
+             [[zones]]\nrect_m = [4, 0, 16, 4]\none_way_deg = 0\n[goals.end]\nareas = [{{ {goal} }}]\n\
+             [states.go]\ngo = \"end\"\n{}",
+            agents.collect::<String>()
+        );
+        fs::write(&path, text).unwrap();
+        match read(&path) {
+            Ok(_) => assert!(is_reached, "{goal} {starts_m:?}"),
+            Err(error) => {
+                let message = error.to_string();
+                assert!(!is_reached && message.contains(":8:"), "{message}");
+                assert!(message.contains("reach the area of goals `end`"), "{message}");
+                assert!(message.contains("only against the one-way zone 0"), "{message}");
+            }
+        }
+    };
+    check(4, "point_m = [8, 2]", &[12], false);
+    check(4, "circle_m = [8, 2, 1]", &[14, 12, 13], false);
+    // Ahead of one start, reached in part, at arm's length, or around the zone.
+    check(4, "point_m = [8, 2]", &[12, 6], true);
+    check(4, "point_m = [8, 2]", &[12, 2], true);
+    check(4, "rect_m = [6, 1, 13, 3]", &[12], true);
+    check(4, "point_m = [11.6, 2]", &[12], true);
+    check(9, "point_m = [8, 2]", &[12], true);
+}
+
+#[test]
 fn goals_that_zones_close_to_agents_are_named() {
     let path = folder("barred").join("scene.toml");
     let barred = |zones: &str, goal: &str| {

@@ -9,6 +9,7 @@ use crate::behaviour::{Area, Movement};
 use crate::route::arrival::ARRIVAL_M;
 use crate::route::crowd_routes::MeshClass;
 use crate::route::mesh::RouteMesh;
+use crate::route::mesh::gates::Gates;
 use crate::route::one_way_reach::zone_against;
 use crate::scenario::places::state_zones::StateZones;
 use crate::scenario::{Scenario, ScenarioFault, ScenarioPart, WALL_RADIUS_M};
@@ -64,7 +65,8 @@ fn check_goals(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, Rou
         from.is_some_and(|from| {
             let beside_m = from.point_m.distance(DVec2::from(at_m));
             let is_near = beside_m < BESIDE_M || beside_m < ARRIVAL_M && walls.is_free(from.point_m.as_vec2(), at_m);
-            is_near && (!is_way_on || mesh.leads(start.triangle, from.triangle))
+            let is_led = || mesh.leads(start.triangle, from.triangle) && !is_behind(mesh, start, from.triangle, at_m);
+            is_near && (!is_way_on || is_led())
         })
     };
     let is_reached = |at_m: Vec2| starts.iter().any(|start| is_reached_by(start, at_m, true));
@@ -89,7 +91,22 @@ fn check_goals(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, Rou
     Ok(())
 }
 
-/// A position at which agents with states begin, one for each mesh and each part of it from which routes are alike.
+/// Whether a position lies behind a start in the same one-way zone, out of reach, and no route leads around into the zone.
+fn is_behind(mesh: &RouteMesh, start: &AreaStart, triangle: u32, at_m: Vec2) -> bool {
+    mesh.gates.as_ref().is_some_and(|gates| {
+        let cell = mesh.cell(triangle);
+        cell == mesh.cell(start.triangle)
+            && gates.zone(triangle).is_some_and(|zone| ahead_m(gates, zone, start.at_m, at_m) < -ARRIVAL_M)
+            && !gates.leads_back(cell)
+    })
+}
+
+fn ahead_m(gates: &Gates, zone: u32, from_m: Vec2, to_m: Vec2) -> f64 {
+    gates.ahead_m(zone, DVec2::from(from_m), DVec2::from(to_m))
+}
+
+/// A position at which agents with states begin, one for each mesh and each part of it from which routes are alike. In
+/// a one-way zone it is the one furthest behind, from which agents reach whatever they reach from the others.
 struct AreaStart {
     /// Index of the mesh.
     mesh: usize,
@@ -101,8 +118,13 @@ fn starts(scenario: &Scenario, walls: &Obstacles, meshes: &[(MeshClass, RouteMes
     let mut starts: BTreeMap<(usize, u32), AreaStart> = BTreeMap::new();
     let mut add = |mesh: usize, at_m: Vec2| {
         if let Some(at) = meshes[mesh].1.nearest(DVec2::from(at_m), None, None) {
-            let start = AreaStart { mesh, triangle: at.triangle, at_m };
-            starts.entry((mesh, meshes[mesh].1.cell(at.triangle))).or_insert(start);
+            let of = &meshes[mesh].1;
+            let start = starts.entry((mesh, of.cell(at.triangle)));
+            let start = start.or_insert(AreaStart { mesh, triangle: at.triangle, at_m });
+            let zone = of.gates.as_ref().and_then(|gates| Some((gates, gates.zone(at.triangle)?)));
+            if zone.is_some_and(|(gates, zone)| ahead_m(gates, zone, start.at_m, at_m) < 0.0) {
+                (start.triangle, start.at_m) = (at.triangle, at_m);
+            }
         }
     };
     let mesh_of = |class: MeshClass| meshes.iter().position(|(of, _)| *of == class);

@@ -70,6 +70,15 @@ impl Gates {
         false
     }
 
+    /// Whether gates lead from a cell out of it and back into it.
+    pub(crate) fn leads_back(&self, cell: u32) -> bool {
+        let first = self.cell_gates.partition_point(|&[before, _]| before < cell);
+        self.cell_gates[first..]
+            .iter()
+            .take_while(|[before, _]| *before == cell)
+            .any(|&[_, beyond]| self.leads(beyond, cell))
+    }
+
     /// The zone of a triangle; none elsewhere.
     pub(crate) fn zone(&self, triangle: u32) -> Option<u32> {
         Some(self.zones[triangle as usize]).filter(|&zone| zone != NONE)
