@@ -51,8 +51,8 @@ const DAMAGED: &str = "damaged databases";
 /// must give valid databases and finite bodies. All begin with the bundled clips. Generated worlds: agents and
 /// obstacles piled, far off, fast, tiny, huge, on edges and in walls; each planner must plan numbers, keep its greatest
 /// speed and lead no agent through a wall. Generated scenarios: obstacles, enclosures, ground with holes, sources,
-/// queues, states, signals and zones; what is accepted is simulated: finite numbers, no agent through a wall, none lost
-/// or doubled. Turned scenes: everyday ones, turned and moved; the velocity that MCN or
+/// queues, states, signals and zones; what is accepted is simulated: finite numbers, no agent through a wall or
+/// from the exit of a one-way zone to its entry, none lost or doubled. Turned scenes: everyday ones, turned and moved; the velocity that MCN or
 /// ORCA plans must turn with them within 1e-4 m/s. Linear programs: feasible or not, opposite, parallel except for
 /// rounding; no velocity of a grid may be better than the solution.
 #[derive(clap::Args)]

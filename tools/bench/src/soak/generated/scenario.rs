@@ -1,7 +1,8 @@
 //! Whether anything is wrong with the simulation of a random scenario file that is accepted.
 //!
 //! Checked in every step: all numbers are finite; ids rise, none comes twice; the agents of a frame are those that the
-//! population has as present, no other; no root is moved through a wall or off the ground. World, metres.
+//! population has as present, no other; no root is moved through a wall or off the ground, and none passes a
+//! one-way zone from its exit to its entry. World, metres.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,6 +16,7 @@ use fbcrowd_sim::world::obstacles::{Obstacles, ZoneWalls};
 use motiondb::files::SourceText;
 use motiondb::motion::MotionDb;
 
+use crate::soak::generated::one_way_passages::OneWayPassages;
 use crate::soak::generated::scenario_text::scenario_text;
 use crate::soak::tally::CopyOutcome;
 
@@ -43,6 +45,7 @@ pub(crate) fn simulated(db: &Arc<MotionDb>, seed: u64, faulty: Option<&Path>) ->
 /// The first fault; none where the simulation itself reports transitions without end, and is stopped.
 fn fault(db: &Arc<MotionDb>, scenario: &Scenario) -> Result<(), Option<&'static str>> {
     let mut walls = FrameWalls::new(scenario, Vec::new());
+    let mut passages = OneWayPassages::new(scenario.one_way_zones());
     let mut simulation = Simulation::new(Arc::clone(db), scenario);
     let mut measuring = Measuring::new(&db.skeleton, scenario, simulation.population(), simulation.frames());
     let mut before = simulation.frames().to_vec();
@@ -52,7 +55,9 @@ fn fault(db: &Arc<MotionDb>, scenario: &Scenario) -> Result<(), Option<&'static 
         if walls.closed != closed {
             walls = FrameWalls::new(scenario, closed);
         }
-        let fault = fault_of_frame(&simulation, frame).or_else(|| fault_of_step(&simulation, &before, frame, &walls));
+        let fault = fault_of_frame(&simulation, frame)
+            .or_else(|| fault_of_step(&simulation, &before, frame, &walls))
+            .or_else(|| fault_of_passages(&simulation, &before, frame, &mut passages));
         if simulation.endless_transitions().is_some() {
             return Err(None);
         }
@@ -126,4 +131,25 @@ fn fault_of_step(
         let is_free = lives[agent.id.index()].is_teleported(frame) || walls.is_free(before[from].root.position_m, to_m);
         (!is_free).then_some("leads an agent through a wall")
     })
+}
+
+/// Whether an agent has passed a one-way zone the wrong way.
+fn fault_of_passages(
+    simulation: &Simulation,
+    before: &[AgentFrame],
+    frame: u32,
+    passages: &mut OneWayPassages,
+) -> Option<&'static str> {
+    let lives = &simulation.population().agents;
+    let is_against = |agent: &AgentFrame| {
+        let index = agent.id.index();
+        if lives[index].is_teleported(frame) {
+            passages.forget(index);
+            return false;
+        }
+        let from = before.binary_search_by_key(&agent.id, |other| other.id);
+        from.is_ok_and(|from| passages.is_against(index, before[from].root.position_m, agent.root.position_m))
+    };
+    let mut frames = simulation.frames().iter();
+    frames.any(is_against).then_some("passes a one-way zone from its exit to its entry")
 }
