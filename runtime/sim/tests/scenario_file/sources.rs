@@ -97,7 +97,7 @@ fn a_schedule_file_states_when_agents_come() {
     fs::write(&list, "time_s,count\n1,2\n4.5,1\n").unwrap();
     let scenario = read(&path).unwrap().0;
     assert_eq!(scenario.sources[0].due_times(1, 0).collect::<Vec<f64>>(), [1.0, 1.0, 4.5]);
-    assert_eq!(agent_files(&path).unwrap(), [list.clone()]);
+    assert_eq!(agent_files(&path).unwrap(), std::slice::from_ref(&list));
     fs::write(&list, "time_s,count\n4.5,1\n# late\n1,2\n").unwrap();
     let Err(ScenarioError::Invalid(invalid)) = read(&path) else { panic!("accepted") };
     check_points_at(&invalid, "1,2", "the row is at 1 s, after one at 4.5 s");
