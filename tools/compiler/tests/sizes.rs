@@ -8,11 +8,15 @@ mod zoo {
     pub(crate) mod rig;
 }
 
+mod support;
+
+use std::fs;
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
 use motiondb::diagnostic::{Diagnostic, Warning};
-use motiondb_compiler::{HumanClip, import_bytes};
+use motiondb_compiler::{HumanClip, import_bytes, import_file};
+use support::mocap;
 use zoo::body::{Performance, part};
 use zoo::file::{self, File, RootOffset};
 use zoo::names::tools;
@@ -69,4 +73,24 @@ fn adults_keep_their_unit() {
         check(0.84, units_per_m, false);
     }
     check(0.90, 1.0 / 0.0254, true);
+}
+
+#[test]
+#[ignore = "needs other people's clips: set FBCROWD_MOCAP"]
+fn clips_of_others_keep_their_unit() {
+    let index = fs::read_to_string(mocap().join("index.csv")).unwrap();
+    let mut compared = 0;
+    for row in index.lines().skip(1) {
+        // Cells before the format may hold commas. A unit that a format states, as glTF does, is not chosen.
+        let cells: Vec<&str> = row.split(',').collect();
+        let Some(format) = cells.iter().position(|cell| *cell == "bvh") else { continue };
+        let (file, Ok(unit_m)) = (cells[0], cells[format + 8].parse::<f32>()) else { continue };
+        let Ok(imports) = import_file(&mocap().join(file)) else { continue };
+        for human in imports.into_iter().filter_map(|import| import.outcome.ok()) {
+            let found_m = human.source.metres_per_unit;
+            assert!((found_m / unit_m - 1.0).abs() < 0.05, "{file}: {found_m} m a unit, not {unit_m}");
+            compared += 1;
+        }
+    }
+    assert!(compared >= 70, "{compared}");
 }
