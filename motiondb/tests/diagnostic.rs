@@ -88,6 +88,11 @@ fn warnings() -> Vec<(Warning, &'static str)> {
              state `metres_per_unit` in a manifest.toml",
         ),
         (
+            Warning::UnitDoubtful { leg_m: 0.4, other_leg_m: 1.016, other_unit_m: 0.0254 },
+            "the unit is doubtful: thigh and shank are taken to be 0.40 m long; if they are 1.02 m long, state \
+             `metres_per_unit = 0.0254` in a manifest.toml",
+        ),
+        (
             Warning::SidesExchanged,
             "toes and knees contradict the joints' names, so left and right are exchanged, as in a left-handed file; \
              if the names are right, state `joints` in a manifest.toml",

@@ -20,6 +20,15 @@ pub enum Warning {
         /// Length of thigh plus shank in the format's unit, m.
         leg_m: f32,
     },
+    /// Another unit is nearly as likely as the one used. If the unit is wrong, so are all speeds.
+    UnitDoubtful {
+        /// Length of thigh plus shank in the unit used, m.
+        leg_m: f32,
+        /// Length of thigh plus shank in the other unit, m.
+        other_leg_m: f32,
+        /// The other unit, m.
+        other_unit_m: f64,
+    },
     /// Toes and knees contradict the sides that the joints' names state: left and right are exchanged.
     SidesExchanged,
     /// The body's position jumps between two frames.
@@ -108,6 +117,7 @@ impl Warning {
         match self {
             Self::InhumanSize { .. } => "inhuman_size",
             Self::UnitRejected { .. } => "unit_rejected",
+            Self::UnitDoubtful { .. } => "unit_doubtful",
             Self::SidesExchanged => "sides_exchanged",
             Self::Leap { .. } => "leap",
             Self::Slope { .. } => "slope",
@@ -136,6 +146,11 @@ impl fmt::Display for Warning {
                 out,
                 "thigh and shank would be {leg_m:.2} m long in the format's unit, so another unit is used; if that is \
                  wrong, state `metres_per_unit` in a manifest.toml"
+            ),
+            Self::UnitDoubtful { leg_m, other_leg_m, other_unit_m } => write!(
+                out,
+                "the unit is doubtful: thigh and shank are taken to be {leg_m:.2} m long; if they are {other_leg_m:.2} m \
+                 long, state `metres_per_unit = {other_unit_m}` in a manifest.toml"
             ),
             Self::SidesExchanged => out.write_str(
                 "toes and knees contradict the joints' names, so left and right are exchanged, as in a left-handed file; \

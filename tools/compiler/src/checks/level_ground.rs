@@ -10,8 +10,8 @@ use motiondb::body::Joint;
 use motiondb::diagnostic::Warning;
 use motiondb::statistics::{lower_quantile, median};
 
-use crate::checks::plausibility::{LEAD_MIN_M, foot_passings};
 use crate::read::source_clip::SourceClip;
+use crate::retarget::foot_passings::{LEAD_MIN_M, foot_passings};
 use crate::retarget::source_parameters::SourceParameters;
 use crate::retarget::treadmill_speed;
 use crate::retarget::units::{HUMAN_LEG_M, leg_length, middle};

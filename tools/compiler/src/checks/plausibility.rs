@@ -14,7 +14,7 @@ use motiondb::statistics::median;
 
 use crate::error::RejectionReason;
 use crate::read::source_clip::SourceClip;
-use crate::retarget::facing_frame::facing_rad;
+use crate::retarget::foot_passings::{LEAD_MIN_M, foot_passings};
 use crate::retarget::human_clip::HumanBody;
 use crate::retarget::source_parameters::SourceParameters;
 use crate::retarget::treadmill_speed;
@@ -30,8 +30,6 @@ const WALK_CADENCE_MAX_PER_MIN: f64 = 215.0;
 /// Share of the time above which the ball of a foot stands as in a walk: 0.48 of the cycle in walks (Perry), 0.4 in
 /// jogs.
 const WALK_PLANTED_SHARE: f64 = 0.45;
-/// Least distance along the facing by which one foot leads the other in a step, m for a person's leg.
-pub(crate) const LEAD_MIN_M: f64 = 0.06;
 /// Least length of steps that are judged, m for a person's leg.
 const STEP_MIN_M: f64 = 0.2;
 /// Least number of steps that are judged.
@@ -116,28 +114,6 @@ fn walks(clip: &SourceClip, roles: &Roles, parameters: &SourceParameters) -> boo
     let velocity = DVec2::new(parameters.speed_mps, parameters.strafe_mps);
     let (ground, body_mps) = if parameters.is_in_place { (velocity, 0.0) } else { (DVec2::ZERO, velocity.length()) };
     treadmill_speed::planted_share(clip, roles, ground, body_mps).is_some_and(|share| share > WALK_PLANTED_SHARE)
-}
-
-/// The frames, one for each step, in which one foot passes the other along the facing and then leads it by at least
-/// `lead_m`.
-pub(crate) fn foot_passings(clip: &SourceClip, roles: &Roles, lead_m: f64) -> Vec<usize> {
-    let mut passings = Vec::new();
-    let (mut leading_m, mut crossed) = (0.0, 0);
-    for frame in 0..clip.frame_count() {
-        let [left, right] = Joint::FEET.map(|foot| clip.position(frame, roles.required(foot)));
-        let facing = facing_rad(clip, roles, frame);
-        let left_lead_m = (left - right).x * libm::cos(facing) + (left - right).y * libm::sin(facing);
-        if left_lead_m * leading_m <= 0.0 && crossed == 0 {
-            crossed = frame;
-        } else if left_lead_m * leading_m > 0.0 {
-            crossed = 0;
-        }
-        if left_lead_m.abs() > lead_m && left_lead_m * leading_m <= 0.0 {
-            passings.extend((leading_m != 0.0).then_some(crossed));
-            (leading_m, crossed) = (left_lead_m, 0);
-        }
-    }
-    passings
 }
 
 #[cfg(test)]

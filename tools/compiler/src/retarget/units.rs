@@ -1,23 +1,38 @@
 //! The source's up axis and unit, from the posed body, and the clip in metres, z up.
 //!
 //! Zero poses and OFFSETs do not show the up axis: LaFAN1's bones all lie along +X, iClone's zero pose along Z. Up is
-//! the axis nearest to the direction from feet to shoulders, averaged over all frames. The unit is the one that brings
-//! thigh plus shank nearest to a person's.
+//! the axis nearest to the direction from feet to shoulders, averaged over all frames.
+//!
+//! The unit is the one of least misfit: of the leg to a person's, of the cadence to that of a pendulum of that length,
+//! and of the unit to those that tools write. Step lengths, in legs, are the same in every unit and tell nothing.
+
+use std::ops::RangeInclusive;
 
 use glam::{DQuat, DVec3};
 use motiondb::body::Joint;
-use motiondb::statistics::percentile;
+use motiondb::diagnostic::{Diagnostic, Warning};
+use motiondb::statistics::{median, percentile};
 
 use crate::read::axis::Axis;
 use crate::read::source_clip::SourceClip;
+use crate::retarget::foot_passings::{LEAD_MIN_M, foot_passings};
 use crate::rig::roles::Roles;
 
 /// Thigh plus shank of a person, m: the median of the recorded performers of the development set.
 pub const HUMAN_LEG_M: f64 = 0.84;
 /// Weight of a leg that is too long, against one that is too short: performers are children more often than giants.
-const TOO_LONG_WEIGHT: f64 = 2.0;
-/// Units of sources, m: metre, decimetre, centimetre, millimetre, inch, and 1/0.45 inch of the CMU files.
-const UNITS_M: [f64; 6] = [1.0, 0.1, 0.01, 0.001, 0.0254, 0.0564444];
+const TOO_LONG_WEIGHT: f64 = 1.6;
+/// Units of sources, m, and what it costs to presume each: metre, decimetre, centimetre, millimetre, inch, and 1/0.45
+/// inch of the CMU files. Costs are logarithms of ratios, as all misfits.
+const UNITS: [(f64, f64); 6] = [(1.0, 0.0), (0.1, 0.5), (0.01, 0.0), (0.001, 0.5), (0.0254, 0.6), (0.0564444, 0.65)];
+/// Strides per second times √(leg length / g), from a slow walk to a sprint (2.4 strides/s on legs of 0.84 m).
+const CADENCE_RANGE: RangeInclusive<f64> = 0.17..=0.7;
+/// Gravity, m/s².
+const GRAVITY_MPS2: f64 = 9.81;
+/// Steps from which a cadence counts.
+const STEPS_MIN: usize = 3;
+/// Difference of misfits below which the second unit may be the right one: a ratio of legs of 1.35.
+const NEAR_MISFIT: f64 = 0.3;
 
 /// Share of the frames in which feet and shoulders are nearer than those that stand.
 const LONGEST_PERCENTILE: f64 = 0.9;
@@ -33,18 +48,39 @@ pub struct SourceUnits {
     pub metres_per_unit: f64,
 }
 
-/// The clip in metres, z up, and the up axis and unit that it had.
+/// The clip in metres, z up, and the up axis and unit that it had. Where two units are nearly as likely, it gets a
+/// warning.
 pub fn to_metres_z_up(mut clip: SourceClip, roles: &Roles) -> (SourceClip, SourceUnits) {
     let up = clip.up_axis.unwrap_or_else(|| found_up(&clip, roles));
-    let metres_per_unit = clip.metres_per_unit.unwrap_or_else(|| nearest_unit_m(leg_length(&clip, roles)));
     let turn = DQuat::from_rotation_arc(up.direction(), DVec3::Z);
     for position in &mut clip.positions {
-        *position = turn * *position * metres_per_unit;
+        *position = turn * *position;
     }
     for orientation in &mut clip.orientations {
         *orientation = turn * *orientation;
     }
+    let metres_per_unit = clip.metres_per_unit.unwrap_or_else(|| found_unit_m(&mut clip, roles));
+    clip.positions.iter_mut().for_each(|position| *position *= metres_per_unit);
     (clip, SourceUnits { up_axis: up.name(), metres_per_unit })
+}
+
+/// The likeliest unit of a clip with z up, m; adds a warning if the second is nearly as likely.
+fn found_unit_m(clip: &mut SourceClip, roles: &Roles) -> f64 {
+    let leg_units = leg_length(clip, roles);
+    let [best, second] = likeliest_units(leg_units, strides_hz(clip, roles, leg_units));
+    if second.misfit - best.misfit < NEAR_MISFIT {
+        let [leg_m, other_leg_m] = [best, second].map(|unit| (leg_units * unit.unit_m) as f32);
+        let other_unit_m = second.unit_m;
+        clip.diagnostics.push(Diagnostic::Warning(Warning::UnitDoubtful { leg_m, other_leg_m, other_unit_m }));
+    }
+    best.unit_m
+}
+
+/// Strides per second; none of a clip of hardly a step.
+fn strides_hz(clip: &SourceClip, roles: &Roles, leg_units: f64) -> Option<f64> {
+    let passings = foot_passings(clip, roles, LEAD_MIN_M / HUMAN_LEG_M * leg_units);
+    let stride_frames = median(passings.windows(3).map(|stride| (stride[2] - stride[0]) as f64))?;
+    (passings.len() >= STEPS_MIN).then(|| clip.frame_rate_hz / stride_frames)
 }
 
 /// Midpoint of a pair of roles in one frame.
@@ -73,29 +109,70 @@ pub(crate) fn leg_length(clip: &SourceClip, roles: &Roles) -> f64 {
     sum / clip.frame_count() as f64
 }
 
-/// The unit, m, that brings a leg of this many units nearest to a person's.
-fn nearest_unit_m(leg_units: f64) -> f64 {
-    let misfit = |unit: f64| {
-        let log = libm::log(leg_units * unit / HUMAN_LEG_M);
-        f64::max(-log, TOO_LONG_WEIGHT * log)
+/// A unit, m, and its misfit.
+#[derive(Clone, Copy)]
+struct UnitMisfit {
+    unit_m: f64,
+    misfit: f64,
+}
+
+/// The two likeliest units of a body whose legs are this many units long, the likelier first.
+fn likeliest_units(leg_units: f64, strides_hz: Option<f64>) -> [UnitMisfit; 2] {
+    let misfit = |(unit_m, cost): (f64, f64)| {
+        let leg_m = leg_units * unit_m;
+        UnitMisfit { unit_m, misfit: leg_misfit(leg_m) + strides_hz.map_or(0.0, |hz| cadence_misfit(leg_m, hz)) + cost }
     };
-    UNITS_M.into_iter().min_by(|&a, &b| misfit(a).total_cmp(&misfit(b))).unwrap_or(1.0)
+    let mut units = UNITS.map(misfit);
+    units.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+    [units[0], units[1]]
+}
+
+/// How unlike a person's a leg is.
+fn leg_misfit(leg_m: f64) -> f64 {
+    let log = libm::log(leg_m / HUMAN_LEG_M);
+    f64::max(-log, TOO_LONG_WEIGHT * log)
+}
+
+/// How far a cadence lies outside those of legs of this length, which swing as pendulums do.
+fn cadence_misfit(leg_m: f64, strides_hz: f64) -> f64 {
+    let cadence = strides_hz * (leg_m / GRAVITY_MPS2).sqrt();
+    let (slow, fast) = (libm::log(CADENCE_RANGE.start() / cadence), libm::log(cadence / CADENCE_RANGE.end()));
+    slow.max(fast).max(0.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    #[track_caller]
+    fn check_unit(leg_m: f64, unit_m: f64, strides_hz: Option<f64>) {
+        let found_m = likeliest_units(leg_m / unit_m, strides_hz)[0].unit_m;
+        assert_eq!(found_m, unit_m, "{leg_m} m in units of {unit_m} m, {strides_hz:?} strides/s");
+    }
+
     #[test]
     fn units_of_adults_and_children_are_found() {
-        for unit in UNITS_M {
+        for (unit_m, _) in UNITS {
             for leg_m in [0.75, 0.84, 0.95] {
-                assert_eq!(nearest_unit_m(leg_m / unit), unit, "{leg_m} m in units of {unit} m");
+                check_unit(leg_m, unit_m, None);
+                check_unit(leg_m, unit_m, Some(0.95));
             }
         }
-        // A child of five. In 1/0.45 inch, the same number would be a leg of 1.14 m.
-        for unit in [1.0, 0.01, 0.001, 0.0254] {
-            assert_eq!(nearest_unit_m(0.515 / unit), unit, "in units of {unit} m");
+        // Children of four and five. In inches, or in 1/0.45 inch, the same numbers would be legs of 1.0 to 1.3 m.
+        for unit_m in [1.0, 0.01, 0.001] {
+            for leg_m in [0.38, 0.40, 0.45, 0.515] {
+                check_unit(leg_m, unit_m, None);
+                check_unit(leg_m, unit_m, Some(0.9));
+            }
         }
+        check_unit(2.4, 1.0, None);
+        check_unit(2.4, 0.01, Some(0.6));
+    }
+
+    #[test]
+    fn a_cadence_tells_an_inch_from_a_centimetre() {
+        // A leg of 36 units: 0.36 m or 0.91 m. No legs of 0.91 m stride at 4 Hz; a clip of 0.36 m that is played fast may.
+        check_unit(0.36, 0.01, Some(4.0));
+        check_unit(0.91, 0.0254, Some(0.9));
     }
 }
